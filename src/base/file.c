@@ -1,0 +1,133 @@
+#include "base/file.h"
+
+#include "base/memory.h"
+
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+sb_status sb_atomic_open(sb_atomic_file *file, const char *path, sb_error *error)
+{
+    file->stream = NULL;
+    if (strlen(path) >= sizeof file->path)
+        return sb_fail(error, SB_BAD_INPUT, "%.64s...: path longer than %d bytes", path,
+                       SB_PATH_MAX);
+    snprintf(file->path, sizeof file->path, "%s", path);
+    snprintf(file->temporary, sizeof file->temporary, "%s.tmp", path);
+    file->stream = fopen(file->temporary, "wb");
+    if (!file->stream)
+        return sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", path, strerror(errno));
+    return SB_OK;
+}
+
+sb_status sb_atomic_commit(sb_atomic_file *file, int durable, sb_error *error)
+{
+    FILE *stream = file->stream;
+    file->stream = NULL;
+    errno = 0;
+    int bad = fflush(stream) != 0 || ferror(stream) || (durable && fsync(fileno(stream)) != 0);
+    int reason = errno;
+    if (fclose(stream) != 0 && !bad) {
+        bad = 1;
+        reason = errno;
+    }
+    if (!bad && rename(file->temporary, file->path) != 0) {
+        bad = 1;
+        reason = errno;
+    }
+    if (!bad)
+        return SB_OK;
+    unlink(file->temporary);
+    return sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", file->path, strerror(reason));
+}
+
+void sb_atomic_abort(sb_atomic_file *file)
+{
+    if (!file->stream)
+        return;
+    fclose(file->stream);
+    file->stream = NULL;
+    unlink(file->temporary);
+}
+
+sb_status sb_make_directories(const char *path, sb_error *error)
+{
+    char part[SB_PATH_MAX];
+    size_t length = strlen(path);
+    if (length == 0 || length >= sizeof part)
+        return sb_fail(error, SB_BAD_INPUT, "%.64s: not a usable directory name", path);
+    memcpy(part, path, length + 1);
+    for (size_t i = 1; i <= length; i++) {
+        if (part[i] != '/' && part[i] != '\0')
+            continue;
+        char kept = part[i];
+        part[i] = '\0';
+        if (mkdir(part, 0777) != 0 && errno != EEXIST)
+            return sb_fail(error, SB_FAILED, "%.500s: cannot make directory: %s", part,
+                           strerror(errno));
+        part[i] = kept;
+    }
+    struct stat status;
+    if (stat(path, &status) != 0 || !S_ISDIR(status.st_mode))
+        return sb_fail(error, SB_FAILED, "%.500s: not a directory", path);
+    return SB_OK;
+}
+
+sb_status sb_path_join(char out[SB_PATH_MAX], const char *base, const char *name, sb_error *error)
+{
+    int length = name[0] == '/' ? snprintf(out, SB_PATH_MAX, "%s", name)
+                                : snprintf(out, SB_PATH_MAX, "%s/%s", base, name);
+    if (length < 0 || length >= SB_PATH_MAX)
+        return sb_fail(error, SB_BAD_INPUT, "%.64s...: path longer than %d bytes", name,
+                       SB_PATH_MAX);
+    return SB_OK;
+}
+
+void sb_path_folder(char out[SB_PATH_MAX], const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    if (!slash)
+        snprintf(out, SB_PATH_MAX, ".");
+    else
+        snprintf(out, SB_PATH_MAX, "%.*s", slash == path ? 1 : (int)(slash - path), path);
+}
+
+sb_status sb_file_read(const char *path, size_t limit, char **text, size_t *length,
+                       sb_error *error)
+{
+    *text = NULL;
+    *length = 0;
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(errno));
+    sb_status status = SB_OK;
+    char *buffer = NULL;
+    size_t capacity = 0, used = 0;
+    for (;;) {
+        if (sb_grow((void **)&buffer, &capacity, used + 65536 + 1, 1) != 0) {
+            status = sb_fail_memory(error, path);
+            break;
+        }
+        size_t got = fread(buffer + used, 1, 65536, file);
+        used += got;
+        if (used > limit) {
+            status = sb_fail(error, SB_BAD_INPUT, "%.500s: larger than the %zu bytes allowed", path,
+                             limit);
+            break;
+        }
+        if (got == 0)
+            break;
+    }
+    if (status == SB_OK && ferror(file))
+        status = sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(errno));
+    fclose(file);
+    if (status != SB_OK) {
+        sb_free(buffer);
+        return status;
+    }
+    buffer[used] = '\0';
+    *text = buffer;
+    *length = used;
+    return SB_OK;
+}

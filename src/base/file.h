@@ -1,0 +1,41 @@
+/* Files that are either whole or absent, and the few path helpers around them. */
+#ifndef SB_BASE_FILE_H
+#define SB_BASE_FILE_H
+
+#include "base/status.h"
+
+#include <stdio.h>
+
+#define SB_PATH_MAX 4096
+
+/* A file written beside its final name and renamed when complete. */
+typedef struct sb_atomic_file {
+    FILE *stream; /* write here; NULL when closed */
+    char path[SB_PATH_MAX];
+    char temporary[SB_PATH_MAX + 8];
+} sb_atomic_file;
+
+/* Opens "<path>.tmp" for writing. SB_FAILED names the path and the system's reason. */
+sb_status sb_atomic_open(sb_atomic_file *file, const char *path, sb_error *error);
+
+/* Flushes, syncs when `durable`, closes and renames to the final name; on any failure removes the
+   temporary and says why. */
+sb_status sb_atomic_commit(sb_atomic_file *file, int durable, sb_error *error);
+
+/* Closes and removes the temporary; fine on a closed file. */
+void sb_atomic_abort(sb_atomic_file *file);
+
+/* Makes the directory and all missing parents. */
+sb_status sb_make_directories(const char *path, sb_error *error);
+
+/* base/name into out; an absolute name stands alone. SB_BAD_INPUT when longer than SB_PATH_MAX. */
+sb_status sb_path_join(char out[SB_PATH_MAX], const char *base, const char *name, sb_error *error);
+
+/* The folder part of path ("." when it has none). */
+void sb_path_folder(char out[SB_PATH_MAX], const char *path);
+
+/* The whole file as a zero-terminated string of *length bytes, at most `limit`; free with sb_free. */
+sb_status sb_file_read(const char *path, size_t limit, char **text, size_t *length,
+                       sb_error *error);
+
+#endif

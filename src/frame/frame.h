@@ -1,0 +1,51 @@
+/* An immutable snapshot of a run, shared by reference among its consumers (files, pictures, stream). */
+#ifndef SB_FRAME_FRAME_H
+#define SB_FRAME_FRAME_H
+
+#include "base/status.h"
+#include "base/vec.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct sb_frame_body {
+    char name[64];
+    sb_vec3 displacement;                 /* m since t = 0 */
+    sb_vec3 force, moment;                /* N, Nm: mean over the last finished interval */
+    bool report;
+} sb_frame_body;
+
+typedef struct sb_frame_status {
+    uint64_t step;
+    double time, duration, time_step;     /* s */
+    int iterations;                       /* of the last pressure solve */
+    double density_error;                 /* mean relative compression after the solve */
+    double max_speed;                     /* m/s */
+    double wall_seconds, eta_seconds;     /* run time so far, and estimated to the end */
+    uint64_t lost_particles;
+} sb_frame_status;
+
+/* Read-only once published. Arrays of `count`: position[3*i] is relative to origin. */
+typedef struct sb_frame {
+    sb_frame_status status;
+    uint64_t index;                       /* 1, 2, ... in the run */
+    sb_vec3 origin;                       /* m, added to every position */
+    double spacing;                       /* m */
+    size_t count;                         /* fluid particles */
+    float *position;                      /* m, 3 per particle */
+    float *velocity;                      /* m/s, 3 per particle */
+    float *pressure;                      /* Pa */
+    uint32_t *id;                         /* stable through the run */
+    size_t body_count;
+    sb_frame_body *bodies;
+    _Atomic int references;
+} sb_frame;
+
+/* A frame with all arrays allocated and one reference, for its maker to fill. NULL without memory. */
+sb_frame *sb_frame_create(size_t count, size_t body_count);
+/* One more holder; returns the frame. Release frees with the last. NULL is fine. */
+const sb_frame *sb_frame_retain(const sb_frame *frame);
+void sb_frame_release(const sb_frame *frame);
+
+#endif

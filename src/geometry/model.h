@@ -1,0 +1,41 @@
+/* What a simulation is made of: bodies sampled into boundary particles, water into fluid particles.
+   Plain data; this header needs no mesh library. */
+#ifndef SB_GEOMETRY_MODEL_H
+#define SB_GEOMETRY_MODEL_H
+
+#include "geometry/mesh.h"
+#include "scene/scene.h"
+
+/* One rigid body, its boundary particles being [begin, begin + count) of the model's. */
+typedef struct sb_model_body {
+    char name[SB_NAME_MAX];
+    size_t begin, count;
+    int wavemaker;        /* index into scene.wavemakers, -1: static */
+    bool report;          /* has rows in forces.csv */
+    sb_role role;
+    sb_vec3 moment_point; /* m */
+    float color[3];
+    sb_mesh mesh;         /* scene coordinates at t = 0; empty for domain sides */
+} sb_model_body;
+
+typedef struct sb_model {
+    sb_vec3 min, max;                 /* m, the domain; min is the origin of stored positions */
+    double still_depth;               /* m, D: the largest still depth of water */
+    size_t fluid_count;
+    sb_vec3 *fluid_position;          /* m */
+    sb_vec3 *fluid_velocity;          /* m/s */
+    double *fluid_pressure;           /* Pa, hydrostatic first guess */
+    size_t wall_count;
+    sb_vec3 *wall_position;           /* m, on the offset sheet, at t = 0 */
+    sb_vec3 *wall_normal;             /* unit, towards the water */
+    size_t body_count;
+    sb_model_body *bodies;
+    size_t warning_count;
+    char **warnings;                  /* one line each: what the user should know before running */
+} sb_model;
+
+/* Imports, samples and fills. On error *model is untouched. Deterministic for any thread count. */
+sb_status sb_model_build(const sb_scene *scene, sb_model *model, sb_error *error);
+void sb_model_free(sb_model *model);
+
+#endif

@@ -1,0 +1,28 @@
+/* Spatial questions to a mesh: distance, inside, rays. Const after creation: ask from any thread. */
+#ifndef SB_GEOMETRY_SOLID_H
+#define SB_GEOMETRY_SOLID_H
+
+#include "geometry/mesh.h"
+
+typedef struct sb_solid sb_solid;
+
+/* Keeps a pointer to the mesh, which must outlive it. role decides what "inside" means. */
+sb_status sb_solid_create(const sb_mesh *mesh, sb_role role, sb_solid **solid, sb_error *error);
+void sb_solid_destroy(sb_solid *solid);
+
+/* Distance to the surface in m, at most `limit` (returned when nothing is nearer); *nearest and
+   *normal (of the nearest triangle) may be NULL. */
+double sb_solid_distance(const sb_solid *solid, sb_vec3 point, double limit, sb_vec3 *nearest,
+                         sb_vec3 *normal);
+
+/* Generalised winding number (Barill et al. 2018): 1 inside, 0 outside, fractions near holes. */
+double sb_solid_winding(const sb_solid *solid, sb_vec3 point);
+
+/* Inside by the winding number (SOLID; flipped meshes are handled by its sign), or below the sheet
+   (TERRAIN). */
+bool sb_solid_contains(const sb_solid *solid, sb_vec3 point);
+
+/* First hit along origin + t direction (unit), 0 < t <= limit: t, or a negative number. */
+double sb_solid_raycast(const sb_solid *solid, sb_vec3 origin, sb_vec3 direction, double limit);
+
+#endif

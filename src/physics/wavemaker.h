@@ -1,0 +1,63 @@
+/* Paddle laws: displacement along the paddle's direction as a function of time, as rows of one table.
+   A new law is one file and one row (docs/adding-a-wavemaker.md). */
+#ifndef SB_PHYSICS_WAVEMAKER_H
+#define SB_PHYSICS_WAVEMAKER_H
+
+#include "base/status.h"
+
+#include <stddef.h>
+
+typedef struct sb_wavemaker sb_wavemaker;
+
+typedef enum sb_after_stroke { SB_AFTER_STAY, SB_AFTER_RETURN } sb_after_stroke;
+
+/* Values out of the scene; each law says which it needs. */
+typedef struct sb_wavemaker_parameters {
+    const sb_wavemaker *kind;
+    double start;        /* s, when the motion begins */
+    double height;       /* m, wave height H */
+    double depth;        /* m, still depth h at the paddle */
+    double stroke;       /* m, full travel */
+    double speed;        /* m/s */
+    double gravity;      /* m/s^2, from the scene */
+    char *file;          /* absolute path of a time-displacement table */
+    sb_after_stroke after;
+    double return_time;  /* s, of the slow way back, when after is RETURN */
+} sb_wavemaker_parameters;
+
+enum { SB_WM_HEIGHT = 1, SB_WM_DEPTH = 2, SB_WM_STROKE = 4, SB_WM_SPEED = 8, SB_WM_FILE = 16 };
+
+struct sb_wavemaker {
+    const char *name, *summary, *reference;
+    unsigned needs; /* SB_WM_* bits: keys that the scene must give; the others are refused */
+    /* Refuses senseless values (one line in *error) and makes *state (may stay NULL). */
+    sb_status (*create)(const sb_wavemaker_parameters *parameters, void **state, sb_error *error);
+    /* Displacement X in m at t seconds after the start; 0 for t <= 0; constant beyond duration. */
+    double (*displacement)(const void *state, double t);
+    /* Seconds the stroke takes. */
+    double (*duration)(const void *state);
+    void (*destroy)(void *state);
+    /* A warning when the theory is out of its range, else NULL (static text). May be NULL. */
+    const char *(*warning)(const sb_wavemaker_parameters *parameters);
+};
+
+/* All laws, ended by NULL. */
+extern const sb_wavemaker *const sb_wavemakers[];
+const sb_wavemaker *sb_wavemaker_find(const char *name);
+
+/* A law at work: created from parameters, start and what follows the stroke included. */
+typedef struct sb_paddle {
+    const sb_wavemaker *kind;
+    void *state;
+    double start, duration, stroke_end; /* s, s, m: displacement at the stroke's end */
+    sb_after_stroke after;
+    double return_time;
+} sb_paddle;
+
+sb_status sb_paddle_create(const sb_wavemaker_parameters *parameters, sb_paddle *paddle,
+                           sb_error *error);
+/* Displacement in m at scene time t; continuous, with continuous speed on the way back. */
+double sb_paddle_displacement(const sb_paddle *paddle, double t);
+void sb_paddle_destroy(sb_paddle *paddle);
+
+#endif

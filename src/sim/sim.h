@@ -1,0 +1,81 @@
+/* The simulation: opaque, made from a scene and its model, advanced step by step, read by snapshots
+   and queries. Same bits for any number of threads. */
+#ifndef SB_SIM_SIM_H
+#define SB_SIM_SIM_H
+
+#include "base/status.h"
+#include "frame/frame.h"
+#include "geometry/model.h"
+#include "scene/scene.h"
+
+typedef struct sb_sim sb_sim;
+
+/* What the last step did. */
+typedef struct sb_step_report {
+    uint64_t step;            /* steps done so far */
+    double time, time_step;   /* s: time reached, and the step that led there */
+    int iterations;
+    bool capped;              /* the solve stopped at max_iterations above its tolerance */
+    double tolerance;         /* relative density error asked for */
+    double error_mean, error_active, error_max; /* relative: over all, over p > 0, worst */
+    double max_speed;         /* m/s */
+    size_t fluid_count;
+    uint64_t left_domain;     /* particles that left through open sides so far */
+} sb_step_report;
+
+/* Impulse and angular impulse on one body since the start: differences over an interval, divided by
+   its length, are the interval's mean force. */
+typedef struct sb_body_impulse {
+    sb_vec3 pressure, friction;               /* N s (N s/m in 2D) */
+    sb_vec3 moment;                           /* N m s about the body's moment point */
+} sb_body_impulse;
+
+/* Copies what it needs; scene and model must outlive it all the same (names, wave makers). */
+sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **sim, sb_error *error);
+void sb_sim_destroy(sb_sim *sim);
+
+/* Damped steps with the paddles at rest until the water is still; time stays 0. */
+sb_status sb_sim_settle(sb_sim *sim, sb_error *error);
+
+/* One step. SB_FAILED when it diverged: step, place and reason in *error; the state stays readable. */
+sb_status sb_sim_step(sb_sim *sim, sb_error *error);
+
+const sb_step_report *sb_sim_report(const sb_sim *sim);
+/* body: index into the model's bodies. */
+const sb_body_impulse *sb_sim_impulse(const sb_sim *sim, size_t body);
+sb_vec3 sb_sim_body_displacement(const sb_sim *sim, size_t body);
+
+/* Kinetic and potential energy (J, potential from z = domain min), momentum (kg m/s), mass (kg). */
+typedef struct sb_energy { double kinetic, potential, mass; sb_vec3 momentum; } sb_energy;
+sb_energy sb_sim_energy(const sb_sim *sim);
+
+/* A hash of the complete state. */
+uint64_t sb_sim_hash(const sb_sim *sim);
+
+/* A frame of positions, velocities and pressures, bodies' displacements filled; NULL without memory. */
+sb_frame *sb_sim_snapshot(const sb_sim *sim);
+
+/* All fluid particles in the box [min, max], in a fixed order, for gauges and probes. Positions in
+   scene metres. At most `capacity` are written; the number found is returned (may be larger). */
+typedef struct sb_fluid_sample {
+    sb_vec3 position, velocity;
+    double pressure, density;
+    uint32_t id;
+} sb_fluid_sample;
+size_t sb_sim_query(const sb_sim *sim, sb_vec3 min, sb_vec3 max, sb_fluid_sample *samples,
+                    size_t capacity);
+
+/* Particle i of sb_sim_report()->fluid_count, storage order; i changes meaning from step to step. */
+sb_fluid_sample sb_sim_particle(const sb_sim *sim, size_t i);
+
+/* Seconds and calls of each stage since the start, for the stage table. */
+typedef struct sb_stage_time { const char *name; double seconds; uint64_t calls; } sb_stage_time;
+size_t sb_sim_stages(const sb_sim *sim, const sb_stage_time **stages);
+
+/* What this scene made the simulation skip, one line each (static text), ended by NULL. */
+const char *const *sb_sim_skipped(const sb_sim *sim);
+
+/* Heap bytes held. */
+size_t sb_sim_bytes(const sb_sim *sim);
+
+#endif
