@@ -30,7 +30,8 @@ enum { SB_WM_HEIGHT = 1, SB_WM_DEPTH = 2, SB_WM_STROKE = 4, SB_WM_SPEED = 8, SB_
 struct sb_wavemaker {
     const char *name, *summary, *reference;
     unsigned needs; /* SB_WM_* bits: keys that the scene must give; the others are refused */
-    /* Refuses senseless values (one line in *error) and makes *state (may stay NULL). */
+    /* Makes *state (may stay NULL) from values that sb_wavemaker_check has passed; refuses what else
+       is senseless, with one line in *error. */
     sb_status (*create)(const sb_wavemaker_parameters *parameters, void **state, sb_error *error);
     /* Displacement X in m at t seconds after the start; 0 for t <= 0; constant beyond duration. */
     double (*displacement)(const void *state, double t);
@@ -44,6 +45,10 @@ struct sb_wavemaker {
 /* All laws, ended by NULL. */
 extern const sb_wavemaker *const sb_wavemakers[];
 const sb_wavemaker *sb_wavemaker_find(const char *name);
+
+/* SB_BAD_INPUT unless every value that the law needs is finite and above 0 (a file: named), the start
+   finite, and return_time above 0 where it is used. sb_paddle_create begins with it. */
+sb_status sb_wavemaker_check(const sb_wavemaker_parameters *parameters, sb_error *error);
 
 /* A law at work: created from parameters, start and what follows the stroke included. */
 typedef struct sb_paddle {

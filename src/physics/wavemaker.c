@@ -1,0 +1,93 @@
+#include "physics/wavemaker.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A new law is one file that defines sb_wavemaker_<name>, and one ROW here. */
+#define ROWS(ROW)                                                                                  \
+    ROW(goring)                                                                                    \
+    ROW(goring_rayleigh)                                                                           \
+    ROW(stroke)                                                                                    \
+    ROW(file)                                                                                      \
+    ROW(gate)
+
+#define DECLARE(name) extern const sb_wavemaker sb_wavemaker_##name;
+#define POINT(name) &sb_wavemaker_##name,
+
+ROWS(DECLARE)
+
+const sb_wavemaker *const sb_wavemakers[] = {ROWS(POINT) NULL};
+
+const sb_wavemaker *sb_wavemaker_find(const char *name)
+{
+    for (const sb_wavemaker *const *row = sb_wavemakers; *row; row++)
+        if (strcmp((*row)->name, name) == 0) return *row;
+    return NULL;
+}
+
+sb_status sb_wavemaker_check(const sb_wavemaker_parameters *parameters, sb_error *error)
+{
+    const struct {
+        unsigned bit;
+        const char *name, *unit;
+        double value;
+    } keys[] = {
+        {SB_WM_HEIGHT, "height", "m", parameters->height},
+        {SB_WM_DEPTH, "depth", "m", parameters->depth},
+        {SB_WM_STROKE, "stroke", "m", parameters->stroke},
+        {SB_WM_SPEED, "speed", "m/s", parameters->speed},
+    };
+    const char *law = parameters->kind->name;
+    unsigned needs = parameters->kind->needs;
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        if (needs & keys[i].bit && !(keys[i].value > 0 && isfinite(keys[i].value)))
+            return sb_fail(error, SB_BAD_INPUT, "wave maker %s: %s is %g %s, expected more than 0",
+                           law, keys[i].name, keys[i].value, keys[i].unit);
+    if (needs & SB_WM_FILE && !(parameters->file && *parameters->file))
+        return sb_fail(error, SB_BAD_INPUT,
+                       "wave maker %s: no file, expected a time-displacement table", law);
+    if (!isfinite(parameters->start))
+        return sb_fail(error, SB_BAD_INPUT, "wave maker %s: start is %g s, expected a time", law,
+                       parameters->start);
+    if (parameters->after == SB_AFTER_RETURN &&
+        !(parameters->return_time > 0 && isfinite(parameters->return_time)))
+        return sb_fail(error, SB_BAD_INPUT,
+                       "wave maker %s: return_time is %g s, expected more than 0", law,
+                       parameters->return_time);
+    return SB_OK;
+}
+
+sb_status sb_paddle_create(const sb_wavemaker_parameters *parameters, sb_paddle *paddle,
+                           sb_error *error)
+{
+    sb_status status = sb_wavemaker_check(parameters, error);
+    if (status != SB_OK) return status;
+    sb_paddle made = {.kind = parameters->kind,
+                      .start = parameters->start,
+                      .after = parameters->after,
+                      .return_time = parameters->return_time};
+    status = made.kind->create(parameters, &made.state, error);
+    if (status != SB_OK) return status;
+    made.duration = made.kind->duration(made.state);
+    made.stroke_end = made.kind->displacement(made.state, made.duration);
+    *paddle = made;
+    return SB_OK;
+}
+
+/* The way back is S (1 - 3s^2 + 2s^3), s the share of return_time that has gone: at rest at both
+   ends, at most 1.5 S/return_time in between. */
+double sb_paddle_displacement(const sb_paddle *paddle, double t)
+{
+    t -= paddle->start;
+    if (t <= 0) return 0;
+    if (t < paddle->duration) return paddle->kind->displacement(paddle->state, t);
+    if (paddle->after == SB_AFTER_STAY) return paddle->stroke_end;
+    double s = (t - paddle->duration) / paddle->return_time;
+    return s < 1 ? paddle->stroke_end * (1 - s * s * (3 - 2 * s)) : 0;
+}
+
+void sb_paddle_destroy(sb_paddle *paddle)
+{
+    if (paddle->kind) paddle->kind->destroy(paddle->state);
+    *paddle = (sb_paddle){0};
+}
