@@ -1,0 +1,51 @@
+#include "frame/frame.h"
+
+#include "base/memory.h"
+
+static void destroy(sb_frame *frame)
+{
+    sb_free(frame->position);
+    sb_free(frame->velocity);
+    sb_free(frame->pressure);
+    sb_free(frame->id);
+    sb_free(frame->bodies);
+    sb_free(frame);
+}
+
+sb_frame *sb_frame_create(size_t count, size_t body_count)
+{
+    /* 3 * count floats must not overflow before the allocator can see it. */
+    if (count > SIZE_MAX / (3 * sizeof(float)))
+        return NULL;
+    sb_frame *frame = sb_alloc(1, sizeof *frame);
+    if (!frame)
+        return NULL;
+    frame->count = count;
+    frame->body_count = body_count;
+    frame->position = sb_alloc_untouched(3 * count, sizeof *frame->position);
+    frame->velocity = sb_alloc_untouched(3 * count, sizeof *frame->velocity);
+    frame->pressure = sb_alloc_untouched(count, sizeof *frame->pressure);
+    frame->id = sb_alloc_untouched(count, sizeof *frame->id);
+    frame->bodies = sb_alloc(body_count, sizeof *frame->bodies);
+    if (!frame->position || !frame->velocity || !frame->pressure || !frame->id || !frame->bodies) {
+        destroy(frame);
+        return NULL;
+    }
+    frame->references = 1;
+    return frame;
+}
+
+/* The count of holders is the one part of a published frame that changes, hence the casts. */
+const sb_frame *sb_frame_retain(const sb_frame *frame)
+{
+    if (frame)
+        ((sb_frame *)frame)->references++;
+    return frame;
+}
+
+void sb_frame_release(const sb_frame *frame)
+{
+    sb_frame *mutable = (sb_frame *)frame;
+    if (mutable && --mutable->references == 0)
+        destroy(mutable);
+}
