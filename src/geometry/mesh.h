@@ -14,8 +14,13 @@ typedef struct sb_mesh {
     sb_vec3 *vertices;
     size_t triangle_count;
     uint32_t (*triangles)[3];
+    bool sheet; /* open on purpose (plane, basin): solid is what lies behind the normals */
 } sb_mesh;
 
+/* Room for so many vertices and triangles, zeroed; *mesh is overwritten, not freed. */
+sb_status sb_mesh_alloc(sb_mesh *mesh, size_t vertices, size_t triangles, sb_error *error);
+
+/* Frees what the mesh owns and zeroes it; fine on a zeroed mesh. */
 void sb_mesh_free(sb_mesh *mesh);
 
 /* What is wrong with a mesh, as counts and the place of the first of each. */
