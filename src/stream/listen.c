@@ -1,0 +1,151 @@
+#include "stream/listen.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "stream/provider.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <poll.h>
+#include <stdlib.h>
+
+/* A frame of 2 M particles in chunks; LCM's stock queue of 30 drops the rest silently. */
+enum { QUEUE_MESSAGES = 1000 };
+
+struct sb_listener {
+    lcm_t *lcm;
+    sb_listener_calls calls;
+    sb_listener_counters count;
+    bool ended;
+    union { /* only one message is alive at a time */
+        sb_status_message status;
+        sb_forces_message forces;
+        sb_particles_message particles;
+    } message;
+};
+
+static void book(sb_listener *listener, const lcm_recv_buf_t *received, sb_status status)
+{
+    listener->count.messages++;
+    listener->count.bytes += received->data_size;
+    listener->count.refused += status != SB_OK;
+}
+
+static void on_status(const lcm_recv_buf_t *received, const char *channel, void *user)
+{
+    (void)channel;
+    sb_listener *listener = user;
+    sb_status_message *message = &listener->message.status;
+    sb_status status = sb_stream_decode_status(received->data, received->data_size, message, NULL);
+    book(listener, received, status);
+    if (status == SB_OK && listener->calls.status)
+        listener->calls.status(listener->calls.user, message);
+}
+
+static void on_forces(const lcm_recv_buf_t *received, const char *channel, void *user)
+{
+    (void)channel;
+    sb_listener *listener = user;
+    sb_forces_message *message = &listener->message.forces;
+    sb_status status = sb_stream_decode_forces(received->data, received->data_size, message, NULL);
+    book(listener, received, status);
+    if (status == SB_OK && listener->calls.forces)
+        listener->calls.forces(listener->calls.user, message);
+}
+
+static void on_particles(const lcm_recv_buf_t *received, const char *channel, void *user)
+{
+    (void)channel;
+    sb_listener *listener = user;
+    sb_particles_message *message = &listener->message.particles;
+    sb_status status =
+        sb_stream_decode_particles(received->data, received->data_size, message, NULL);
+    book(listener, received, status);
+    if (status == SB_OK && listener->calls.particles)
+        listener->calls.particles(listener->calls.user, message);
+}
+
+/* LCM takes channel names as regular expressions: a prefix stands for itself. */
+static void quote(const char *channel, char pattern[2 * sizeof(sb_channel)])
+{
+    for (; *channel; channel++) {
+        if ((unsigned char)*channel < 0x80 && !isalnum((unsigned char)*channel) && *channel != '_')
+            *pattern++ = '\\';
+        *pattern++ = *channel;
+    }
+    *pattern = 0;
+}
+
+static sb_status subscribe(sb_listener *listener, const sb_channel channels[SB_CHANNELS],
+                           sb_error *error)
+{
+    static const lcm_msg_handler_t handlers[SB_CHANNELS] = {on_status, on_forces, on_particles};
+    /* The first subscription starts LCM's receiver and its test of the route. */
+    char complaint[160];
+    sb_stderr_catch hold = sb_stderr_hold();
+    int subscribed = 0;
+    for (; subscribed < SB_CHANNELS; subscribed++) {
+        char pattern[2 * sizeof(sb_channel)];
+        quote(channels[subscribed], pattern);
+        lcm_subscription_t *made =
+            lcm_subscribe(listener->lcm, pattern, handlers[subscribed], listener);
+        if (!made)
+            break;
+        lcm_subscription_set_queue_capacity(made, QUEUE_MESSAGES);
+    }
+    sb_stderr_release(&hold, complaint, sizeof complaint);
+    if (subscribed == SB_CHANNELS)
+        return SB_OK;
+    return sb_fail(error, SB_FAILED, "LCM cannot subscribe to %s (%s)", channels[subscribed],
+                   *complaint ? complaint : "no reason given");
+}
+
+sb_status sb_listener_create(const char *url, const char *prefix, const sb_listener_calls *calls,
+                             sb_listener **listener, sb_error *error)
+{
+    sb_channel channels[SB_CHANNELS];
+    const char *preset = getenv("LCM_DEFAULT_URL");
+    if ((!url || !*url) && (!preset || !*preset))
+        url = "udpm://239.255.76.67:7667?recv_buf_size=4000000";
+    sb_listener *made = sb_alloc(1, sizeof *made);
+    if (!made)
+        return sb_fail_memory(error, "the listener");
+    made->calls = *calls;
+    sb_status status = sb_provider_channels(prefix, channels, error);
+    if (status == SB_OK)
+        status = sb_provider_open(url, &made->lcm, error);
+    if (status == SB_OK)
+        status = subscribe(made, (const sb_channel *)channels, error);
+    if (status != SB_OK) {
+        sb_listener_destroy(made);
+        return status;
+    }
+    *listener = made;
+    return SB_OK;
+}
+
+void sb_listener_destroy(sb_listener *listener)
+{
+    if (listener && listener->lcm)
+        lcm_destroy(listener->lcm);
+    sb_free(listener);
+}
+
+sb_status sb_listener_poll(sb_listener *listener, double seconds)
+{
+    double end = sb_clock() + seconds;
+    for (double left = seconds; left > 0 && !listener->ended; left = end - sb_clock()) {
+        struct pollfd ready = {.fd = lcm_get_fileno(listener->lcm), .events = POLLIN};
+        int count = poll(&ready, 1, left > 1e6 ? 1000000000 : 1 + (int)(left * 1e3));
+        if (count < 0 && errno == EINTR)
+            break;
+        if (count > 0 && lcm_handle(listener->lcm) != 0)
+            listener->ended = true;
+    }
+    return listener->ended ? SB_INTERRUPTED : SB_OK;
+}
+
+sb_listener_counters sb_listener_count(const sb_listener *listener)
+{
+    return listener->count;
+}

@@ -1,0 +1,91 @@
+#include "stream/provider.h"
+
+#include <fcntl.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#define ROUTE_REMEDY                                                                               \
+    "a multicast route is needed: ip link set lo multicast on; ip route add 224.0.0.0/4 dev lo"
+
+sb_status sb_provider_channels(const char *prefix, sb_channel channels[SB_CHANNELS],
+                               sb_error *error)
+{
+    static const char *const names[SB_CHANNELS] = {"status", "forces", "particles"};
+    if (!prefix || !*prefix)
+        prefix = "shorebreak";
+    for (int i = 0; i < SB_CHANNELS; i++) {
+        int length = snprintf(channels[i], sizeof channels[i], "%s_%s", prefix, names[i]);
+        if (length < 0 || (size_t)length >= sizeof channels[i])
+            return sb_fail(error, SB_BAD_INPUT,
+                           "stream prefix \"%s\": the channel %s_%s is longer than LCM's %d bytes",
+                           prefix, prefix, names[i], LCM_MAX_CHANNEL_NAME_LENGTH);
+    }
+    return SB_OK;
+}
+
+sb_stderr_catch sb_stderr_hold(void)
+{
+    sb_stderr_catch hold = {-1, -1};
+    fflush(stderr);
+    int caught = memfd_create("lcm-complaints", MFD_CLOEXEC);
+    int saved = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+    if (caught < 0 || saved < 0 || dup2(caught, STDERR_FILENO) < 0) {
+        if (caught >= 0)
+            close(caught);
+        if (saved >= 0)
+            close(saved);
+        return hold;
+    }
+    hold.saved = saved;
+    hold.caught = caught;
+    return hold;
+}
+
+void sb_stderr_release(sb_stderr_catch *hold, char *line, size_t size)
+{
+    line[0] = 0;
+    if (hold->caught < 0)
+        return;
+    fflush(stderr);
+    dup2(hold->saved, STDERR_FILENO);
+    ssize_t length = pread(hold->caught, line, size - 1, 0);
+    line[length > 0 ? length : 0] = 0;
+    char *end = line;
+    for (char *at = line; *at; at++) { /* runs of white space and controls become one blank */
+        int blank = (unsigned char)*at <= ' ' || *at == 0x7f;
+        if (!blank)
+            *end++ = *at;
+        else if (end > line && end[-1] != ' ')
+            *end++ = ' ';
+    }
+    while (end > line && end[-1] == ' ')
+        end--;
+    *end = 0;
+    close(hold->caught);
+    close(hold->saved);
+    *hold = (sb_stderr_catch){-1, -1};
+}
+
+sb_status sb_provider_open(const char *url, lcm_t **lcm, sb_error *error)
+{
+    const char *named = url && *url ? url : getenv("LCM_DEFAULT_URL");
+    if (!named || !*named)
+        named = "udpm://239.255.76.67:7667";
+    char complaint[160];
+    sb_stderr_catch hold = sb_stderr_hold();
+    lcm_t *opened = lcm_create(named);
+    sb_stderr_release(&hold, complaint, sizeof complaint);
+    if (opened) {
+        *lcm = opened;
+        return SB_OK;
+    }
+    bool multicast = strncmp(named, "udpm://", 7) == 0;
+    return sb_fail(error, SB_FAILED, "LCM cannot open \"%.200s\" (%s); %s", named,
+                   *complaint ? complaint : "no reason given",
+                   multicast ? ROUTE_REMEDY
+                             : "expected udpm://ADDRESS:PORT, file://PATH?mode=w|r, tcpq:// or memq://");
+}
