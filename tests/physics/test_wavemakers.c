@@ -1,0 +1,413 @@
+/* Every row of the table of paddle laws, Goring's check values, and what follows the stroke. */
+#include "../check.h"
+#include "base/memory.h"
+#include "physics/wavemaker.h"
+#include "physics/wavemaker_goring.h"
+
+#include <malloc.h>
+#include <stdio.h>
+#include <string.h>
+
+#define TABLE SB_BINARY_DIR "/wavemaker-table.txt"
+
+static void write_table(const char *text, size_t length)
+{
+    FILE *file = fopen(TABLE, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(text, 1, length, file), length);
+    assert_int_equal(fclose(file), 0);
+}
+
+static int make_good_table(void **state)
+{
+    (void)state;
+    const char text[] = "# paddle of a small flume\r\n\n0.5 2.0\n1 2.1 # first move\n"
+                        "\t1.5 2.5\n2.25\t2.9\n3 3\n4 3\n";
+    write_table(text, strlen(text));
+    return 0;
+}
+
+/* Values that suit every law; each reads those it needs. */
+static sb_wavemaker_parameters good_parameters(const sb_wavemaker *kind)
+{
+    return (sb_wavemaker_parameters){.kind = kind,
+                                     .height = 0.3,
+                                     .depth = 1,
+                                     .stroke = 1.2,
+                                     .speed = 0.8,
+                                     .gravity = 9.81,
+                                     .file = TABLE};
+}
+
+static sb_paddle make_paddle(const sb_wavemaker_parameters *parameters)
+{
+    sb_paddle paddle = {0};
+    sb_error error = {0};
+    if (sb_paddle_create(parameters, &paddle, &error) != SB_OK) fail_msg("%s", error.text);
+    return paddle;
+}
+
+static void names_are_unique_and_found(void **state)
+{
+    (void)state;
+    size_t count = 0;
+    for (const sb_wavemaker *const *row = sb_wavemakers; *row; row++, count++) {
+        assert_true((*row)->name[0] && (*row)->summary[0] && (*row)->reference[0]);
+        assert_ptr_equal(sb_wavemaker_find((*row)->name), *row);
+        assert_true((*row)->needs != 0);
+    }
+    assert_true(count >= 5);
+    assert_null(sb_wavemaker_find("gorin"));
+}
+
+static void every_law_starts_at_zero_and_stays_at_its_end(void **state)
+{
+    (void)state;
+    for (const sb_wavemaker *const *row = sb_wavemakers; *row; row++) {
+        sb_wavemaker_parameters parameters = good_parameters(*row);
+        sb_paddle paddle = make_paddle(&parameters);
+        assert_true((*row)->displacement(paddle.state, -1) == 0);
+        assert_true((*row)->displacement(paddle.state, 0) == 0);
+        assert_true(paddle.duration > 0 && isfinite(paddle.duration));
+        assert_true(paddle.stroke_end > 0);
+        assert_true((*row)->displacement(paddle.state, 10 * paddle.duration) == paddle.stroke_end);
+        sb_paddle_destroy(&paddle);
+    }
+}
+
+/* No jump larger than the law's own top speed allows, at steps far finer than a simulation's; and,
+   but for the gate, no jump in speed either. */
+static void every_law_is_continuous(void **state)
+{
+    (void)state;
+    for (const sb_wavemaker *const *row = sb_wavemakers; *row; row++) {
+        sb_wavemaker_parameters parameters = good_parameters(*row);
+        sb_paddle paddle = make_paddle(&parameters);
+        bool sudden = strcmp((*row)->name, "gate") == 0;
+        double step = paddle.duration / 20000, top = 4 * paddle.stroke_end / paddle.duration;
+        double last = 0, last_speed = 0;
+        for (int i = -100; i <= 20100; i++) {
+            double x = (*row)->displacement(paddle.state, i * step), speed = (x - last) / step;
+            assert_true(x >= last - 1e-12);
+            assert_true(speed <= top);
+            if (!sudden) assert_true(fabs(speed - last_speed) <= 2e-3 * top);
+            last = x;
+            last_speed = speed;
+        }
+        sb_paddle_destroy(&paddle);
+    }
+}
+
+static void every_law_refuses_what_it_needs_and_lacks(void **state)
+{
+    (void)state;
+    const double bad[] = {0, -1, NAN, INFINITY};
+    for (const sb_wavemaker *const *row = sb_wavemakers; *row; row++)
+        for (unsigned bit = SB_WM_HEIGHT; bit <= SB_WM_FILE; bit <<= 1)
+            for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+                if (!((*row)->needs & bit)) continue;
+                sb_wavemaker_parameters parameters = good_parameters(*row);
+                if (bit == SB_WM_HEIGHT) parameters.height = bad[i];
+                if (bit == SB_WM_DEPTH) parameters.depth = bad[i];
+                if (bit == SB_WM_STROKE) parameters.stroke = bad[i];
+                if (bit == SB_WM_SPEED) parameters.speed = bad[i];
+                if (bit == SB_WM_FILE) parameters.file = i ? "/nowhere/table" : NULL;
+                sb_paddle paddle = {.duration = 77};
+                sb_error error = {0};
+                assert_int_equal(sb_paddle_create(&parameters, &paddle, &error), SB_BAD_INPUT);
+                assert_true(error.text[0] && !strchr(error.text, '\n'));
+                assert_true(paddle.duration == 77 && !paddle.kind);
+            }
+}
+
+/* Makes the law once with every allocation failing in turn, then whole, and destroys it. */
+static void make_and_destroy(const sb_wavemaker *kind)
+{
+    sb_wavemaker_parameters parameters = good_parameters(kind);
+    sb_paddle paddle = {0};
+    sb_status status = SB_FAILED;
+    for (long n = 1; status != SB_OK; n++) {
+        assert_true(n < 100);
+        sb_memory_fail_at(n);
+        status = sb_paddle_create(&parameters, &paddle, NULL);
+        assert_true(status == SB_FAILED || (status == SB_OK && n > 1));
+    }
+    sb_memory_fail_at(0);
+    sb_paddle_destroy(&paddle);
+    sb_paddle_destroy(&paddle);
+}
+
+/* The smallest block is 64 bytes: one lost per round would show as 6400. */
+static void every_law_leaks_nothing(void **state)
+{
+    (void)state;
+    for (const sb_wavemaker *const *row = sb_wavemakers; *row; row++) {
+        for (int round = 0; round < 10; round++) make_and_destroy(*row);
+        size_t before = mallinfo2().uordblks;
+        for (int round = 0; round < 100; round++) make_and_destroy(*row);
+        assert_true(mallinfo2().uordblks < before + 3200);
+    }
+}
+
+static void goring_check_values(void **state)
+{
+    (void)state;
+    const struct {
+        double height, depth, kappa, celerity, stroke, period, paddle[5];
+    } cases[] = {
+        {0.3, 1, .47434, 3.57113, 1.26491, 4.84079, {.00063, .03587, .63246, 1.22904, 1.26428}},
+        {.39, .78, .78509, 3.38788, 1.27373, 3.23333, {.00064, .04248, .63687, 1.23125, 1.27310}},
+    };
+    for (size_t c = 0; c < 2; c++) {
+        sb_solitary wave = {.height = cases[c].height, .depth = cases[c].depth, .gravity = 9.81};
+        sb_goring law = sb_goring_of(&wave);
+        assert_near(law.kappa, cases[c].kappa, 5.1e-6);
+        assert_near(law.celerity, cases[c].celerity, 5.1e-6);
+        assert_near(law.stroke, cases[c].stroke, 5.1e-6);
+        assert_near(law.period, cases[c].period, 5.1e-6);
+        for (int i = 0; i <= 4; i++)
+            assert_near(sb_goring_paddle(&law, i * law.period / 4, NULL), cases[c].paddle[i],
+                        5.1e-6);
+        /* The row eases the ends only: exact at T/4, T/2, 3T/4. */
+        sb_wavemaker_parameters parameters = good_parameters(sb_wavemaker_find("goring"));
+        parameters.height = wave.height;
+        parameters.depth = wave.depth;
+        sb_paddle paddle = make_paddle(&parameters);
+        for (int i = 1; i <= 3; i++)
+            assert_near(sb_paddle_displacement(&paddle, i * law.period / 4), cases[c].paddle[i],
+                        5.1e-6);
+        assert_near(paddle.stroke_end, law.stroke, 1e-12);
+        sb_paddle_destroy(&paddle);
+    }
+}
+
+/* X solves Goring's implicit equation, and its speed is C eta/(h + eta). */
+static void goring_solves_its_equation(void **state)
+{
+    (void)state;
+    for (int rayleigh = 0; rayleigh <= 1; rayleigh++)
+        for (double height = 0.01; height <= 1; height += 0.11) {
+            sb_solitary wave = {height, 1, 9.81, rayleigh};
+            sb_goring law = sb_goring_of(&wave);
+            for (double t = -1; t < law.period + 1; t += 0.031) {
+                double speed, before, after;
+                double x = sb_goring_paddle(&law, t, &speed) - law.stroke / 2;
+                double phase = law.kappa * (law.celerity * (t - law.period / 2) - x);
+                assert_near(x, law.stroke / 2 * tanh(phase), 1e-12);
+                before = sb_goring_paddle(&law, t - 1e-5, NULL);
+                after = sb_goring_paddle(&law, t + 1e-5, NULL);
+                assert_near(speed, (after - before) / 2e-5, 1e-7);
+            }
+        }
+}
+
+static void goring_top_speed(void **state)
+{
+    (void)state;
+    const char *names[] = {"goring", "goring-rayleigh"};
+    for (int row = 0; row < 2; row++) {
+        sb_wavemaker_parameters parameters = good_parameters(sb_wavemaker_find(names[row]));
+        sb_paddle paddle = make_paddle(&parameters);
+        double top = 0, step = paddle.duration / 10000;
+        for (int i = 0; i < 10000; i++) {
+            double speed = (sb_paddle_displacement(&paddle, (i + 1) * step) -
+                            sb_paddle_displacement(&paddle, i * step)) /
+                           step;
+            top = speed > top ? speed : top;
+        }
+        assert_near(top, sqrt(9.81 * 1.3) * 0.3 / 1.3, 1e-6);
+        sb_paddle_destroy(&paddle);
+    }
+}
+
+static void goring_knows_its_range(void **state)
+{
+    (void)state;
+    const sb_wavemaker *kind = sb_wavemaker_find("goring");
+    const sb_wavemaker *wide = sb_wavemaker_find("goring-rayleigh");
+    sb_wavemaker_parameters parameters = good_parameters(kind);
+    assert_null(kind->warning(&parameters));
+    parameters.height = 0.5;
+    assert_non_null(strstr(kind->warning(&parameters), "goring-rayleigh"));
+    assert_null(wide->warning(&parameters));
+    parameters.height = 0.9;
+    assert_non_null(strstr(kind->warning(&parameters), "breaks"));
+    assert_non_null(strstr(wide->warning(&parameters), "breaks"));
+    sb_paddle paddle;
+    sb_error error = {0};
+    parameters.height = 1.01;
+    assert_int_equal(sb_paddle_create(&parameters, &paddle, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "1.01 m"));
+    parameters.height = 0.3;
+    parameters.gravity = 0;
+    assert_int_equal(sb_paddle_create(&parameters, &paddle, &error), SB_BAD_INPUT);
+}
+
+static double speed_at(const sb_paddle *paddle, double t)
+{
+    return (sb_paddle_displacement(paddle, t + 1e-6) - sb_paddle_displacement(paddle, t - 1e-6)) /
+           2e-6;
+}
+
+static void stroke_runs_at_its_speed(void **state)
+{
+    (void)state;
+    sb_wavemaker_parameters parameters = good_parameters(sb_wavemaker_find("stroke"));
+    sb_paddle paddle = make_paddle(&parameters);
+    assert_near(paddle.duration, 1.2 * 1.2 / 0.8, 1e-12);
+    assert_near(paddle.stroke_end, 1.2, 1e-15);
+    assert_near(speed_at(&paddle, paddle.duration / 2), 0.8, 1e-8);
+    assert_near(speed_at(&paddle, 0.15), 0.4, 1e-7); /* half way up the ramp */
+    assert_near(speed_at(&paddle, paddle.duration), 0, 1e-5);
+    sb_paddle_destroy(&paddle);
+}
+
+static void gate_is_pulled_at_constant_speed(void **state)
+{
+    (void)state;
+    sb_wavemaker_parameters parameters = good_parameters(sb_wavemaker_find("gate"));
+    sb_paddle paddle = make_paddle(&parameters);
+    assert_near(paddle.duration, 1.5, 1e-15);
+    assert_near(sb_paddle_displacement(&paddle, 0.5), 0.4, 1e-15);
+    assert_near(sb_paddle_displacement(&paddle, 7), 1.2, 1e-15);
+    sb_paddle_destroy(&paddle);
+}
+
+static void file_passes_through_its_rows(void **state)
+{
+    (void)state;
+    const double rows[][2] = {{0.5, 0}, {1, .1}, {1.5, .5}, {2.25, .9}, {3, 1}, {4, 1}, {9, 1}};
+    sb_wavemaker_parameters parameters = good_parameters(sb_wavemaker_find("file"));
+    sb_paddle paddle = make_paddle(&parameters);
+    assert_true(sb_paddle_displacement(&paddle, 0.4) == 0);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        assert_near(sb_paddle_displacement(&paddle, rows[i][0]), rows[i][1], 1e-12);
+    assert_near(sb_paddle_displacement(&paddle, 3.5), 1, 1e-12); /* no overshoot */
+    assert_near(paddle.duration, 4, 0);
+    sb_paddle_destroy(&paddle);
+}
+
+/* Where the table is a smooth motion, the cubic gives its speed. */
+static void file_gives_the_speed_of_a_smooth_table(void **state)
+{
+    (void)state;
+    char text[16384];
+    size_t length = 0;
+    for (int i = 0; i <= 200; i++)
+        length += (size_t)snprintf(text + length, sizeof text - length, "%.17g %.17g\n", i * 0.01,
+                                   0.3 * (1 - cos(M_PI * i * 0.005)));
+    write_table(text, length);
+    sb_wavemaker_parameters parameters = good_parameters(sb_wavemaker_find("file"));
+    sb_paddle paddle = make_paddle(&parameters);
+    make_good_table(NULL);
+    for (double t = 0.103; t < 1.9; t += 0.0171)
+        assert_near(speed_at(&paddle, t), 0.15 * M_PI * sin(M_PI * t / 2), 2e-4);
+    sb_paddle_destroy(&paddle);
+}
+
+static void file_refuses_bad_tables(void **state)
+{
+    (void)state;
+    const struct {
+        const char *text, *place, *expected;
+    } cases[] = {
+        {"", ":1:", "at least 2"},
+        {"# nothing\n", ":2:", "at least 2"},
+        {"0 0\n", ":2:", "at least 2"},
+        {"0 0\n1\n", ":2:", "two numbers"},
+        {"0 0\n1 2 3\n", ":2:", "two numbers"},
+        {"0 0\n1,5 2\n", ":2:", "two numbers"},
+        {"0 0\n1 0.1m\n", ":2:", "two numbers"},
+        {"0 0\n1 nan\n", ":2:", "two numbers"},
+        {"0 0\n1 1e400\n", ":2:", "two numbers"},
+        {"0 0\n1 0x10\n", ":2:", "two numbers"},
+        {"0 0\n1 --1\n", ":2:", "two numbers"},
+        {"0 0\n1 1e10\n", ":2:", "two numbers"},
+        {"t x\n0 0\n1 1\n", ":1:", "two numbers"},
+        {"0 0\n# a\n\n1 1\n1 2\n", ":5:", "increasing"},
+        {"0 0\n2 1\n1 2\n", ":3:", "increasing"},
+        {"-1 0\n2 1\n", ":1:", "before the start"},
+    };
+    sb_wavemaker_parameters parameters = good_parameters(sb_wavemaker_find("file"));
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        write_table(cases[i].text, strlen(cases[i].text));
+        sb_paddle paddle;
+        sb_error error = {0};
+        assert_int_equal(sb_paddle_create(&parameters, &paddle, &error), SB_BAD_INPUT);
+        char place[sizeof TABLE + 16];
+        snprintf(place, sizeof place, "%s%s", TABLE, cases[i].place);
+        if (strncmp(error.text, place, strlen(place)) != 0 ||
+            !strstr(error.text, cases[i].expected))
+            fail_msg("case %zu: %s", i, error.text);
+    }
+    write_table("0 0\n1 1\0\n2 2\n", 14);
+    sb_paddle paddle;
+    sb_error error = {0};
+    assert_int_equal(sb_paddle_create(&parameters, &paddle, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "zero byte"));
+    parameters.file = "/nowhere/table.txt";
+    assert_int_equal(sb_paddle_create(&parameters, &paddle, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "/nowhere/table.txt"));
+    make_good_table(NULL);
+}
+
+static void paddle_waits_for_its_start(void **state)
+{
+    (void)state;
+    sb_wavemaker_parameters parameters = good_parameters(sb_wavemaker_find("gate"));
+    parameters.start = 2;
+    sb_paddle paddle = make_paddle(&parameters);
+    assert_true(sb_paddle_displacement(&paddle, 2) == 0);
+    assert_near(sb_paddle_displacement(&paddle, 2.5), 0.4, 1e-15);
+    assert_near(sb_paddle_displacement(&paddle, 100), 1.2, 1e-15);
+    sb_paddle_destroy(&paddle);
+}
+
+static void paddle_returns_slowly_and_smoothly(void **state)
+{
+    (void)state;
+    for (const sb_wavemaker *const *row = sb_wavemakers; *row; row++) {
+        sb_wavemaker_parameters parameters = good_parameters(*row);
+        parameters.start = 1;
+        parameters.after = SB_AFTER_RETURN;
+        parameters.return_time = 20;
+        sb_paddle paddle = make_paddle(&parameters);
+        double end = 1 + paddle.duration, stroke = paddle.stroke_end;
+        assert_near(sb_paddle_displacement(&paddle, end), stroke, 1e-12);
+        assert_near(sb_paddle_displacement(&paddle, end + 10), stroke / 2, 1e-12);
+        assert_true(sb_paddle_displacement(&paddle, end + 20) == 0);
+        assert_true(sb_paddle_displacement(&paddle, end + 1000) == 0);
+        assert_near(speed_at(&paddle, end + 1e-3), 0, 1e-4);
+        assert_near(speed_at(&paddle, end + 10), -1.5 * stroke / 20, 1e-7);
+        assert_near(speed_at(&paddle, end + 20), 0, 1e-6);
+        sb_paddle_destroy(&paddle);
+        parameters.return_time = 0;
+        assert_int_equal(sb_paddle_create(&parameters, &paddle, NULL), SB_BAD_INPUT);
+        parameters.after = SB_AFTER_STAY;
+        parameters.start = NAN;
+        assert_int_equal(sb_paddle_create(&parameters, &paddle, NULL), SB_BAD_INPUT);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(names_are_unique_and_found),
+        cmocka_unit_test(every_law_starts_at_zero_and_stays_at_its_end),
+        cmocka_unit_test(every_law_is_continuous),
+        cmocka_unit_test(every_law_refuses_what_it_needs_and_lacks),
+        cmocka_unit_test(every_law_leaks_nothing),
+        cmocka_unit_test(goring_check_values),
+        cmocka_unit_test(goring_solves_its_equation),
+        cmocka_unit_test(goring_top_speed),
+        cmocka_unit_test(goring_knows_its_range),
+        cmocka_unit_test(stroke_runs_at_its_speed),
+        cmocka_unit_test(gate_is_pulled_at_constant_speed),
+        cmocka_unit_test(file_passes_through_its_rows),
+        cmocka_unit_test(file_gives_the_speed_of_a_smooth_table),
+        cmocka_unit_test(file_refuses_bad_tables),
+        cmocka_unit_test(paddle_waits_for_its_start),
+        cmocka_unit_test(paddle_returns_slowly_and_smoothly),
+    };
+    return cmocka_run_group_tests(tests, make_good_table, NULL);
+}
