@@ -1,0 +1,76 @@
+# Shared by the programs in tools/: packages, configuring, building. Sourced, not run.
+# shellcheck shell=bash
+
+# The top folder of the source tree.
+sb_root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
+
+# What building, testing and running need; what only plots and films need comes after it.
+sb_packages=(build-essential cmake ninja-build pkg-config git libosmesa6-dev liblcm-dev liblcm-bin
+             libglib2.0-dev libassimp-dev libcglm-dev libpng-dev libyaml-dev libcmocka-dev)
+sb_picture_packages=(gnuplot-nox ffmpeg)
+
+sb_say() { printf '== %s\n' "$*"; }
+
+sb_die() {
+    printf '%s: %s\n' "$(basename -- "$0")" "$*" >&2
+    exit 1
+}
+
+# Prints those of the named packages that are not installed, one per line.
+sb_missing() {
+    local package state
+    for package; do
+        state=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)
+        [[ $state == installed ]] || printf '%s\n' "$package"
+    done
+}
+
+# Installs the named packages where they are missing; says what it does, is quiet when all is there.
+sb_need() {
+    local missing=() as_root=() log
+    if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+        printf '%s: no Debian package tools here; trusting that these are installed: %s\n' \
+            "$(basename -- "$0")" "$*" >&2
+        return 0
+    fi
+    mapfile -t missing < <(sb_missing "$@")
+    ((${#missing[@]})) || return 0
+    sb_say "installing ${missing[*]}"
+    if ((EUID != 0)); then
+        command -v sudo >/dev/null ||
+            sb_die "not root and no sudo; as root run: apt-get install ${missing[*]}"
+        as_root=(sudo)
+    fi
+    log=$(mktemp)
+    if ! { "${as_root[@]}" apt-get update &&
+        "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+            apt-get install --yes --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+        tail -n 20 "$log" >&2
+        rm -f "$log"
+        sb_die "apt-get could not install: ${missing[*]}"
+    fi
+    rm -f "$log"
+}
+
+# Runs a command; shows what it printed only when it fails.
+sb_quietly() {
+    local log status=0
+    log=$(mktemp)
+    "$@" >"$log" 2>&1 || status=$?
+    ((status == 0)) || tail -n 60 "$log" >&2
+    rm -f "$log"
+    return "$status"
+}
+
+# Configures a preset (with further cmake arguments) and builds the targets in SB_TARGETS, or all.
+sb_build() {
+    local preset=$1
+    shift
+    (
+        cd -- "$sb_root"
+        sb_quietly cmake --preset "$preset" "$@" || sb_die "cannot configure the preset $preset"
+        # shellcheck disable=SC2086 # a list of targets
+        sb_quietly cmake --build --preset "$preset" ${SB_TARGETS:+--target $SB_TARGETS} ||
+            sb_die "the preset $preset does not build"
+    )
+}

@@ -1,0 +1,60 @@
+/* A coastal nuclear plant after the pattern of Fukushima Daiichi, made from a few heights.
+   Metres; x from the paddle (0) to the hills, y along the shore, z = 0 is still water. */
+#ifndef SB_TOOLS_PLANT_H
+#define SB_TOOLS_PLANT_H
+
+#include "base/status.h"
+#include "geometry/mesh.h"
+
+#include <stddef.h>
+
+/* Where the terrain ends: the domain's ground plan, the paddle's 20 m behind x = 0 included. */
+#define SB_PLANT_X_MIN (-20.0)
+#define SB_PLANT_X_MAX 1300.0
+#define SB_PLANT_Y_MAX 1150.0
+#define SB_PLANT_SHORE 800.0
+
+/* Heights in m above still water unless said otherwise. */
+typedef struct sb_plant_options {
+    double grade;      /* level that the plant stands on */
+    double quay;       /* deck of the quay in the harbour */
+    double breakwater; /* crest of the breakwaters */
+    double hill;       /* highest ground behind the plant */
+    double reactor;    /* height of a reactor building over the grade */
+    double stack;      /* height of an exhaust stack over the grade */
+    double harbour;    /* depth of the dredged harbour, positive downwards */
+} sb_plant_options;
+
+/* One option as the command line shows it. */
+typedef struct sb_plant_option {
+    const char *name, *summary;
+    size_t offset; /* of the double in sb_plant_options */
+    double value, least, most;
+} sb_plant_option;
+
+/* All options with default and range, ended by a row without a name. */
+extern const sb_plant_option sb_plant_option_table[];
+
+sb_plant_options sb_plant_defaults(void);
+
+/* SB_BAD_INPUT when a height is out of its range or two of them contradict each other. */
+sb_status sb_plant_check(const sb_plant_options *options, sb_error *error);
+
+/* Height of the ground at (x, y), before any building. */
+double sb_plant_ground(const sb_plant_options *options, double x, double y);
+
+/* The ground as a sheet named "terrain", normals up, on the grid that sb_plant_ground is sampled
+ * at. */
+sb_status sb_plant_terrain(const sb_plant_options *options, sb_mesh *mesh, sb_error *error);
+
+/* Terrain first, then each building: a closed mesh with its own name, normals outward. The caller
+   owns *meshes: sb_plant_free. On error nothing is left behind. */
+sb_status sb_plant_build(const sb_plant_options *options, sb_mesh **meshes, size_t *count,
+                         sb_error *error);
+void sb_plant_free(sb_mesh *meshes, size_t count);
+
+/* Writes Wavefront OBJ with one object per mesh, the options in its head; whole or not at all. */
+sb_status sb_plant_write(const sb_plant_options *options, const sb_mesh *meshes, size_t count,
+                         const char *path, sb_error *error);
+
+#endif
