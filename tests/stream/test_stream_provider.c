@@ -123,9 +123,14 @@ static void refused_messages_are_counted(void **state)
     assert_true(file >= 0);
     close(file);
     char url[100];
-    snprintf(url, sizeof url, "file://%s?mode=r", path); /* a log being read takes no messages */
-    sb_stream *stream = fixture_stream(url, 0, 1);
+    snprintf(url, sizeof url, "file://%s?mode=w", path);
     sb_frame *frame = fixture_frame(1, 0, 10, 2);
+    sb_stream *stream = fixture_stream(url, 0, 1);
+    sb_stream_publish(stream, frame);
+    assert_int_equal(sb_stream_count(stream).messages, 3);
+    sb_stream_destroy(stream);
+    snprintf(url, sizeof url, "file://%s?mode=r", path); /* a log being read takes no messages */
+    stream = fixture_stream(url, 0, 1);
     sb_stream_publish(stream, frame);
     sb_stream_counters count = sb_stream_count(stream);
     assert_int_equal(count.errors, 3);
