@@ -1,0 +1,36 @@
+/* The particles in a box at an instant, and the groups they hang together in. Inside src/measure.
+ */
+#ifndef SB_MEASURE_CLOUD_H
+#define SB_MEASURE_CLOUD_H
+
+#include "sim/sim.h"
+
+/* One place of a cell-sorted list. */
+typedef struct sb_cloud_slot {
+    uint64_t key;
+    uint32_t index;
+} sb_cloud_slot;
+
+/* Zero-initialised is empty. Buffers are kept from query to query. */
+typedef struct sb_cloud {
+    size_t count, capacity;
+    sb_fluid_sample *samples;
+    size_t slot_capacity, parent_capacity, size_capacity;
+    sb_cloud_slot *slots;
+    uint32_t *parents, *sizes;
+} sb_cloud;
+
+void sb_cloud_free(sb_cloud *cloud);
+size_t sb_cloud_bytes(const sb_cloud *cloud);
+
+/* Fills the cloud with the particles that were in [min, max] `lag` seconds before the sim's time,
+   lag being within the last step: positions move back along the velocity, which is exact because a
+   step moves each particle by dt times its new velocity. */
+sb_status sb_cloud_query(sb_cloud *cloud, const sb_sim *sim, sb_vec3 min, sb_vec3 max, double lag,
+                         sb_error *error);
+
+/* Keeps the largest group of particles connected by distances < link (m): spray goes, water stays.
+   Order is kept. */
+sb_status sb_cloud_keep_largest(sb_cloud *cloud, double link, sb_error *error);
+
+#endif

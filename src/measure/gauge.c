@@ -1,0 +1,114 @@
+/* Surface elevation from a colour that is exactly 1 in a lattice.
+
+   c(z) = sum_j M((x-x_j)/2s)/2 M((y-y_j)/2s)/2 M((z-z_j)/s), s the spacing, M the cubic B-spline of
+   support 2: it sums to 1 over the integers at any shift, also when stretched by 2. On a lattice
+   whose top layer lies s/2 below the surface, c = 1/2 at the surface wherever the gauge stands; no
+   calibration is needed. Chosen by measurement (tests/measure/test_gauge.c; still water, particles
+   displaced by up to 0.2 s in each direction; worst of 200 gauges in 3D, in 2D, in spacings):
+   horizontal stretch 1: 0.190, 0.219; 1.5: 0.108, 0.155; 2: 0.074, 0.130; the mean is below 0.004
+   in all of them. A solitary wave 10 s high is flattened by 0.003 s at its crest. The threshold is
+   half of what the column reaches, at most 1/2: beside a wall only a part of the kernel sees
+   water. */
+#include "measure/parts.h"
+
+#include <stdlib.h>
+
+#define STRETCH 2.0
+
+static double bspline(double u)
+{
+    u = fabs(u);
+    if (u < 1) return 2.0 / 3 - u * u * (1 - u / 2);
+    return u < 2 ? (2 - u) * (2 - u) * (2 - u) / 6 : 0;
+}
+
+/* The column as a profile: samples sorted by rising z, .density holding the horizontal weight. */
+typedef struct column {
+    const sb_fluid_sample *samples;
+    size_t count;
+    double spacing;
+} column;
+
+static double color_at(const column *c, double z)
+{
+    size_t low = 0, high = c->count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (c->samples[middle].position.z <= z - 2 * c->spacing)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    double sum = 0;
+    for (size_t i = low; i < c->count && c->samples[i].position.z < z + 2 * c->spacing; i++)
+        sum += c->samples[i].density * bspline((z - c->samples[i].position.z) / c->spacing);
+    return sum;
+}
+
+static int compare_heights(const void *left, const void *right)
+{
+    const sb_fluid_sample *a = left, *b = right;
+    if (a->position.z != b->position.z) return a->position.z < b->position.z ? -1 : 1;
+    return (a->id > b->id) - (a->id < b->id);
+}
+
+/* Share of the kernel's footprint that can hold water. A single layer reaches only M(0) = 2/3 in a
+   full footprint, so there the volume above it tells the share. */
+static double coverage_of(double greatest, double integral, double spacing)
+{
+    double share = integral < 1.75 * spacing * greatest ? integral / spacing : greatest;
+    return share < 1 ? share : 1;
+}
+
+static double surface_of(const column *c)
+{
+    enum { PER_SPACING = 4, BISECTIONS = 30 };
+    double step = c->spacing / PER_SPACING;
+    double top = c->samples[c->count - 1].position.z + 2 * c->spacing;
+    double bottom = c->samples[0].position.z - 2 * c->spacing;
+    double greatest = 0, integral = 0;
+    for (double z = top; z > bottom; z -= step) {
+        double color = color_at(c, z);
+        greatest = color > greatest ? color : greatest;
+        integral += color * step;
+    }
+    double coverage = coverage_of(greatest, integral, c->spacing);
+    if (coverage < 0.2) /* a corner of two walls leaves a quarter; less is beside the water */
+        return (double)NAN;
+    double threshold = coverage / 2, low = top;
+    while (color_at(c, low) < threshold) low -= step;
+    double high = low + step;
+    for (int i = 0; i < BISECTIONS; i++) {
+        double middle = 0.5 * (low + high);
+        if (color_at(c, middle) >= threshold)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+sb_status sb_gauge_read(const sb_sight *sight, double x, double y, double *eta, sb_error *error)
+{
+    bool flat = sight->scene->dimensions == 2;
+    double spacing = sight->scene->resolution, reach = 2 * STRETCH * spacing;
+    sb_cloud *cloud = sight->cloud;
+    *eta = (double)NAN;
+    sb_vec3 min = sb_vec(x - reach, flat ? -spacing : y - reach, sight->min.z - spacing);
+    sb_vec3 max = sb_vec(x + reach, flat ? spacing : y + reach, sight->max.z + spacing);
+    sb_status status = sb_cloud_query(cloud, sight->sim, min, max, sight->lag, error);
+    if (status == SB_OK) status = sb_cloud_keep_largest(cloud, SB_LINK * spacing, error);
+    /* One layer has 8 or 64 in the kernel's footprint: so few are drops, not water. */
+    size_t least = flat ? 4 : 12;
+    if (status != SB_OK || cloud->count < least) return status;
+    for (size_t i = 0; i < cloud->count; i++) {
+        sb_fluid_sample *sample = &cloud->samples[i];
+        sample->density =
+            bspline((sample->position.x - x) / (STRETCH * spacing)) *
+            (flat ? 1 : bspline((sample->position.y - y) / (STRETCH * spacing)) / STRETCH) /
+            STRETCH;
+    }
+    qsort(cloud->samples, cloud->count, sizeof *cloud->samples, compare_heights);
+    *eta = surface_of(&(column){cloud->samples, cloud->count, spacing});
+    return SB_OK;
+}

@@ -1,0 +1,175 @@
+/* Maps of greatest depth, speed, momentum flux and of arrival times. Each particle counts as a
+   square of one spacing on the ground, shared among the cells it covers: volume is kept exactly and
+   cells finer than the spacing work too. */
+#include "base/memory.h"
+#include "measure/parts.h"
+
+/* Per cell, gathered in one reading: volume and its moments with the horizontal velocity. */
+typedef struct cell_sum {
+    float volume, x, y, square;
+} cell_sum;
+
+struct sb_map_field {
+    sb_map_record result;
+    float *depth, *speed, *flux, *arrival, *start;
+    cell_sum *sums;
+    double spacing, threshold, pause, next;
+    bool flat;
+};
+
+static size_t cells_between(double min, double max, double cell)
+{
+    double n = ceil((max - min) / cell - 1e-9);
+    return n > 1 ? (size_t)n : 1;
+}
+
+void sb_map_destroy(sb_map_field *map)
+{
+    if (!map) return;
+    sb_free(map->depth);
+    sb_free(map->speed);
+    sb_free(map->flux);
+    sb_free(map->arrival);
+    sb_free(map->start);
+    sb_free(map->sums);
+    sb_free(map);
+}
+
+/* Adds one particle to the cells under its square. */
+static void deposit(sb_map_field *map, const sb_fluid_sample *sample)
+{
+    const sb_map_record *grid = &map->result;
+    double s = map->spacing, cell = grid->cell;
+    double x0 = (sample->position.x - s / 2 - grid->x_min) / cell, x1 = x0 + s / cell;
+    double y0 = (sample->position.y - s / 2 - grid->y_min) / cell, y1 = y0 + s / cell;
+    if (map->flat) {
+        y0 = 0;
+        y1 = 1;
+    }
+    double nx = (double)grid->columns, ny = (double)grid->rows;
+    if (!(x1 > 0 && x0 < nx && y1 > 0 && y0 < ny)) return;
+    double area = (x1 - x0) * (y1 - y0), u = sample->velocity.x, v = sample->velocity.y;
+    double volume = map->flat ? s * s : s * s * s;
+    for (double j = fmax(floor(y0), 0); j < y1 && j < ny; j++)
+        for (double i = fmax(floor(x0), 0); i < x1 && i < nx; i++) {
+            double share = (fmin(x1, i + 1) - fmax(x0, i)) * (fmin(y1, j + 1) - fmax(y0, j)) / area;
+            float part = (float)(share * volume);
+            cell_sum *sum = &map->sums[(size_t)j * grid->columns + (size_t)i];
+            sum->volume += part;
+            sum->x += part * (float)u;
+            sum->y += part * (float)v;
+            sum->square += part * (float)(u * u + v * v);
+        }
+}
+
+static void gather(sb_map_field *map, const sb_sim *sim)
+{
+    size_t cells = map->result.columns * map->result.rows;
+    for (size_t i = 0; i < cells; i++) map->sums[i] = (cell_sum){0};
+    size_t count = sb_sim_report(sim)->fluid_count;
+    for (size_t i = 0; i < count; i++) {
+        sb_fluid_sample sample = sb_sim_particle(sim, i);
+        deposit(map, &sample);
+    }
+}
+
+static float area_of(const sb_map_field *map)
+{
+    return (float)(map->flat ? map->result.cell : map->result.cell * map->result.cell);
+}
+
+static void raise(float *value, float to)
+{
+    if (!(*value >= to)) /* NaN counts as lower */
+        *value = to;
+}
+
+/* Speeds are taken where water is at least half a spacing deep: a single drop is no flow. */
+static void record(sb_map_field *map, double time)
+{
+    size_t cells = map->result.columns * map->result.rows;
+    float area = area_of(map), least = (float)(0.5 * map->spacing);
+    for (size_t i = 0; i < cells; i++) {
+        const cell_sum *sum = &map->sums[i];
+        float depth = sum->volume / area;
+        if (depth > 0) raise(&map->depth[i], depth);
+        if (depth >= least) {
+            raise(&map->speed[i], hypotf(sum->x, sum->y) / sum->volume);
+            raise(&map->flux[i], sum->square / area);
+        }
+        if (isnan(map->arrival[i]) && depth - map->start[i] >= (float)map->threshold)
+            map->arrival[i] = (float)time;
+    }
+}
+
+static sb_status allocate(sb_map_field *map, sb_error *error)
+{
+    size_t cells = map->result.columns * map->result.rows;
+    float **arrays[] = {&map->depth, &map->speed, &map->flux, &map->arrival, &map->start};
+    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) {
+        *arrays[k] = sb_alloc_untouched(cells, sizeof(float));
+        if (!*arrays[k]) return sb_fail_memory(error, "measure.map");
+        for (size_t i = 0; i < cells; i++) (*arrays[k])[i] = NAN;
+    }
+    map->sums = sb_alloc(cells, sizeof *map->sums);
+    return map->sums ? SB_OK : sb_fail_memory(error, "measure.map");
+}
+
+sb_status sb_map_create(const sb_sight *sight, sb_map_field **map, sb_error *error)
+{
+    const sb_scene *scene = sight->scene;
+    const sb_map *wish = &scene->measure.map;
+    sb_map_field *made = sb_alloc(1, sizeof *made);
+    if (!made) return sb_fail_memory(error, "measure.map");
+    made->flat = scene->dimensions == 2;
+    made->spacing = scene->resolution;
+    made->threshold = wish->threshold;
+    made->result = (sb_map_record){
+        .columns = cells_between(wish->x_min, wish->x_max, wish->cell),
+        .rows = made->flat ? 1 : cells_between(wish->y_min, wish->y_max, wish->cell),
+        .x_min = wish->x_min,
+        .y_min = made->flat ? 0 : wish->y_min,
+        .cell = wish->cell};
+    sb_status status = allocate(made, error);
+    if (status != SB_OK) {
+        sb_map_destroy(made);
+        return status;
+    }
+    made->result.depth = made->depth;
+    made->result.speed = made->speed;
+    made->result.flux = made->flux;
+    made->result.arrival = made->arrival;
+    /* No wave here runs faster than sqrt(2 g z) for the height of the domain: half of the time
+       it needs for a cell, so that nothing passes between two readings. */
+    double height = sight->max.z - sight->min.z;
+    double fastest = sqrt(2 * scene->fluid.gravity * (height > 0 ? height : made->spacing));
+    made->pause = fmax(0.5 * wish->cell / fastest, 0);
+    double time = sb_sim_report(sight->sim)->time;
+    gather(made, sight->sim);
+    for (size_t i = 0; i < made->result.columns * made->result.rows; i++)
+        made->start[i] = made->sums[i].volume / area_of(made);
+    record(made, time);
+    made->next = time + made->pause;
+    *map = made;
+    return SB_OK;
+}
+
+void sb_map_step(sb_map_field *map, const sb_sim *sim)
+{
+    double time = sb_sim_report(sim)->time;
+    if (time < map->next) return;
+    gather(map, sim);
+    record(map, time);
+    map->next = time + map->pause;
+}
+
+const sb_map_record *sb_map_result(const sb_map_field *map)
+{
+    return &map->result;
+}
+
+size_t sb_map_bytes(const sb_map_field *map)
+{
+    return sizeof *map +
+           map->result.columns * map->result.rows * (5 * sizeof(float) + sizeof(cell_sum));
+}

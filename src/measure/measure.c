@@ -1,0 +1,370 @@
+#include "measure/measure.h"
+
+#include "base/memory.h"
+#include "measure/parts.h"
+
+/* One growing list of records. */
+typedef struct list {
+    void *items;
+    size_t count, capacity;
+} list;
+
+enum { FORCES, GAUGES, PROBES, FLOWS, RUNUPS, ENERGIES, LISTS };
+
+static const size_t record_size[LISTS] = {sizeof(sb_force_record), sizeof(sb_gauge_record),
+                                          sizeof(sb_probe_record), sizeof(sb_flow_record),
+                                          sizeof(sb_runup_record), sizeof(sb_energy_record)};
+
+/* Impulses at the creation, at the last multiple of the interval and at the last step's end. */
+typedef struct body_state {
+    sb_body_impulse start, boundary, last;
+    sb_footprint footprint;
+    bool faces; /* flow depth is taken */
+} body_state;
+
+typedef struct plane_state {
+    double boundary, last, now;
+} plane_state; /* m^3 passed so far */
+
+enum { MAX_SKIPPED = 8 };
+
+struct sb_measurements {
+    const sb_scene *scene;
+    const sb_model *model;
+    double interval, time; /* s; time: of the last step's end */
+    uint64_t next;         /* the next row lies at next * interval */
+    body_state *states;
+    sb_body_record *bodies;
+    plane_state *planes;
+    sb_gate **gates;
+    sb_map_field *map;
+    sb_cloud cloud;
+    list lists[LISTS];
+    sb_measure_records latest;
+    const char *skipped[MAX_SKIPPED + 1];
+};
+
+static void *append(sb_measure *measure, int kind)
+{
+    list *l = &measure->lists[kind];
+    if (sb_grow(&l->items, &l->capacity, l->count + 1, record_size[kind]) != 0) return NULL;
+    return (char *)l->items + l->count++ * record_size[kind];
+}
+
+static sb_vec3 between(sb_vec3 a, sb_vec3 b, double share)
+{
+    return sb_madd(a, share, sb_sub(b, a));
+}
+
+static sb_body_impulse impulse_at(const sb_body_impulse *a, const sb_body_impulse *b, double share)
+{
+    return (sb_body_impulse){.pressure = between(a->pressure, b->pressure, share),
+                             .friction = between(a->friction, b->friction, share),
+                             .moment = between(a->moment, b->moment, share)};
+}
+
+/* The interval's mean forces, its end lying at `share` of the last step. */
+static sb_status record_forces(sb_measure *measure, const sb_sim *sim, double time, double share,
+                               sb_error *error)
+{
+    double rate = 1 / measure->interval;
+    for (size_t b = 0; b < measure->model->body_count; b++) {
+        sb_body_record *body = &measure->bodies[b];
+        body_state *state = &measure->states[b];
+        if (!body->report) continue;
+        sb_body_impulse end = impulse_at(&state->last, sb_sim_impulse(sim, b), share);
+        sb_force_record *record = append(measure, FORCES);
+        if (!record) return sb_fail_memory(error, "force records");
+        record->body = b;
+        record->time = time;
+        record->pressure = sb_scale(sb_sub(end.pressure, state->boundary.pressure), rate);
+        record->friction = sb_scale(sb_sub(end.friction, state->boundary.friction), rate);
+        record->moment = sb_scale(sb_sub(end.moment, state->boundary.moment), rate);
+        record->force = sb_add(record->pressure, record->friction);
+        state->boundary = end;
+        body->force = record->force;
+        body->torque = record->moment;
+        double size = sb_norm(record->force);
+        if (size > body->peak) {
+            body->peak = size;
+            body->peak_time = time;
+        }
+    }
+    return SB_OK;
+}
+
+static sb_status record_flows(sb_measure *measure, double time, double share, sb_error *error)
+{
+    for (size_t i = 0; i < measure->scene->measure.plane_count; i++) {
+        plane_state *plane = &measure->planes[i];
+        sb_flow_record *record = append(measure, FLOWS);
+        if (!record) return sb_fail_memory(error, "flow records");
+        double volume = plane->last + share * (plane->now - plane->last);
+        *record = (sb_flow_record){i, time, volume, (volume - plane->boundary) / measure->interval};
+        plane->boundary = volume;
+    }
+    return SB_OK;
+}
+
+/* Gauges, probes and run-up lines as they are at one instant. */
+static sb_status record_instants(sb_measure *measure, const sb_sight *sight, double time,
+                                 sb_error *error)
+{
+    const sb_measure_settings *settings = &measure->scene->measure;
+    sb_status status = SB_OK;
+    for (size_t i = 0; status == SB_OK && i < settings->gauge_count; i++) {
+        sb_gauge_record *record = append(measure, GAUGES);
+        if (!record) return sb_fail_memory(error, "gauge records");
+        record->gauge = i;
+        record->time = time;
+        status =
+            sb_gauge_read(sight, settings->gauges[i].x, settings->gauges[i].y, &record->eta, error);
+    }
+    for (size_t i = 0; status == SB_OK && i < settings->probe_count; i++) {
+        sb_probe_record *record = append(measure, PROBES);
+        if (!record) return sb_fail_memory(error, "probe records");
+        record->probe = i;
+        record->time = time;
+        status =
+            sb_probe_read(sight, &settings->probes[i], &record->velocity, &record->pressure, error);
+    }
+    for (size_t i = 0; status == SB_OK && i < settings->runup_count; i++) {
+        sb_runup_record *record = append(measure, RUNUPS);
+        if (!record) return sb_fail_memory(error, "run-up records");
+        record->line = i;
+        record->time = time;
+        status = sb_runup_read(sight, &settings->runups[i], &record->place, error);
+    }
+    return status;
+}
+
+static sb_status record_energy(sb_measure *measure, const sb_sim *sim, sb_error *error)
+{
+    sb_energy_record *record = append(measure, ENERGIES);
+    if (!record) return sb_fail_memory(error, "energy records");
+    sb_energy energy = sb_sim_energy(sim);
+    *record = (sb_energy_record){.time = sb_sim_report(sim)->time,
+                                 .kinetic = energy.kinetic,
+                                 .potential = energy.potential,
+                                 .mass = energy.mass,
+                                 .momentum = energy.momentum};
+    return SB_OK;
+}
+
+static sb_status record_layers(sb_measure *measure, const sb_sight *sight, sb_error *error)
+{
+    for (size_t b = 0; b < measure->model->body_count; b++) {
+        if (!measure->states[b].faces) continue;
+        double layers;
+        sb_status status = sb_face_layers(sight, &measure->states[b].footprint,
+                                          sb_sim_body_displacement(sight->sim, b), &layers, error);
+        if (status != SB_OK) return status;
+        if (layers > measure->bodies[b].layers) measure->bodies[b].layers = layers;
+    }
+    return SB_OK;
+}
+
+static sb_sight sight_of(sb_measure *measure, const sb_sim *sim, double lag)
+{
+    return (sb_sight){measure->scene,      sim, measure->model->min,
+                      measure->model->max, lag, &measure->cloud};
+}
+
+static void publish(sb_measure *measure)
+{
+    const list *lists = measure->lists;
+    measure->latest = (sb_measure_records){.force_count = lists[FORCES].count,
+                                           .forces = lists[FORCES].items,
+                                           .gauge_count = lists[GAUGES].count,
+                                           .gauges = lists[GAUGES].items,
+                                           .probe_count = lists[PROBES].count,
+                                           .probes = lists[PROBES].items,
+                                           .flow_count = lists[FLOWS].count,
+                                           .flows = lists[FLOWS].items,
+                                           .runup_count = lists[RUNUPS].count,
+                                           .runups = lists[RUNUPS].items,
+                                           .energy_count = lists[ENERGIES].count,
+                                           .energies = lists[ENERGIES].items};
+}
+
+static void note_skipped(sb_measure *measure)
+{
+    const sb_measure_settings *settings = &measure->scene->measure;
+    bool reported = false;
+    for (size_t b = 0; b < measure->model->body_count; b++)
+        reported = reported || measure->bodies[b].report;
+    size_t n = 0;
+    if (!reported) measure->skipped[n++] = "forces: no body reports";
+    if (!settings->gauge_count) measure->skipped[n++] = "wave gauges: none";
+    if (!settings->probe_count) measure->skipped[n++] = "probes: none";
+    if (!settings->plane_count) measure->skipped[n++] = "volume through planes: none";
+    if (!settings->runup_count) measure->skipped[n++] = "run-up lines: none";
+    if (!settings->map.present) measure->skipped[n++] = "maps: none";
+}
+
+static sb_status prepare_bodies(sb_measure *measure, const sb_sim *sim, sb_error *error)
+{
+    size_t count = measure->model->body_count;
+    measure->states = sb_alloc(count, sizeof *measure->states);
+    measure->bodies = sb_alloc(count, sizeof *measure->bodies);
+    if (!measure->states || !measure->bodies) return sb_fail_memory(error, "body records");
+    for (size_t b = 0; b < count; b++) {
+        const sb_model_body *body = &measure->model->bodies[b];
+        body_state *state = &measure->states[b];
+        measure->bodies[b].report = body->report;
+        state->start = state->boundary = state->last = *sb_sim_impulse(sim, b);
+        /* A terrain has no faces to stand at. */
+        state->faces = body->report && body->count > 0 && body->role != SB_ROLE_TERRAIN;
+        measure->bodies[b].layers = state->faces ? 0 : (double)NAN;
+        if (state->faces) state->footprint = sb_footprint_of(measure->model, b);
+    }
+    return SB_OK;
+}
+
+static sb_status prepare_fields(sb_measure *measure, const sb_sight *sight, sb_error *error)
+{
+    const sb_measure_settings *settings = &measure->scene->measure;
+    sb_status status = SB_OK;
+    if (settings->plane_count) {
+        measure->planes = sb_alloc(settings->plane_count, sizeof *measure->planes);
+        measure->gates = sb_alloc(settings->plane_count, sizeof(sb_gate *));
+        if (!measure->planes || !measure->gates) return sb_fail_memory(error, "measure.planes");
+    }
+    for (size_t i = 0; status == SB_OK && i < settings->plane_count; i++)
+        status = sb_gate_create(sight, &settings->planes[i], &measure->gates[i], error);
+    if (status == SB_OK && settings->map.present)
+        status = sb_map_create(sight, &measure->map, error);
+    return status;
+}
+
+sb_status sb_measure_create(const sb_scene *scene, const sb_model *model, const sb_sim *sim,
+                            sb_measure **measure, sb_error *error)
+{
+    sb_measure *made = sb_alloc(1, sizeof *made);
+    if (!made) return sb_fail_memory(error, "measurements");
+    made->scene = scene;
+    made->model = model;
+    made->interval = scene->measure.interval;
+    made->time = sb_sim_report(sim)->time;
+    made->next = (uint64_t)floor(made->time / made->interval + 1e-9) + 1;
+    sb_sight sight = sight_of(made, sim, 0);
+    sb_status status = prepare_bodies(made, sim, error);
+    if (status == SB_OK) status = prepare_fields(made, &sight, error);
+    if (status == SB_OK) status = record_instants(made, &sight, made->time, error);
+    if (status == SB_OK) status = record_flows(made, made->time, 0, error);
+    if (status == SB_OK) status = record_layers(made, &sight, error);
+    if (status == SB_OK) status = record_energy(made, sim, error);
+    if (status != SB_OK) {
+        sb_measure_destroy(made);
+        return status;
+    }
+    note_skipped(made);
+    publish(made);
+    *measure = made;
+    return SB_OK;
+}
+
+void sb_measure_destroy(sb_measure *measure)
+{
+    if (!measure) return;
+    for (size_t i = 0; measure->gates && i < measure->scene->measure.plane_count; i++)
+        sb_gate_destroy(measure->gates[i]);
+    for (int k = 0; k < LISTS; k++) sb_free(measure->lists[k].items);
+    sb_free(measure->gates);
+    sb_free(measure->planes);
+    sb_free(measure->states);
+    sb_free(measure->bodies);
+    sb_map_destroy(measure->map);
+    sb_cloud_free(&measure->cloud);
+    sb_free(measure);
+}
+
+/* All that is due at `time`, which lies `lag` seconds before the step's end. */
+static sb_status record_boundary(sb_measure *measure, const sb_sim *sim, double time,
+                                 sb_error *error)
+{
+    double now = sb_sim_report(sim)->time, taken = now - measure->time;
+    double share = taken > 0 ? (time - measure->time) / taken : 1;
+    share = share < 0 ? 0 : share > 1 ? 1 : share;
+    sb_sight sight = sight_of(measure, sim, (1 - share) * taken);
+    sb_status status = record_forces(measure, sim, time, share, error);
+    if (status == SB_OK) status = record_flows(measure, time, share, error);
+    if (status == SB_OK) status = record_instants(measure, &sight, time, error);
+    return status;
+}
+
+/* Closes the step: what is now becomes what was. */
+static void advance(sb_measure *measure, const sb_sim *sim)
+{
+    measure->time = sb_sim_report(sim)->time;
+    for (size_t b = 0; b < measure->model->body_count; b++) {
+        body_state *state = &measure->states[b];
+        state->last = *sb_sim_impulse(sim, b);
+        sb_vec3 end = sb_add(state->last.pressure, state->last.friction);
+        sb_vec3 start = sb_add(state->start.pressure, state->start.friction);
+        measure->bodies[b].impulse = sb_sub(end, start);
+        measure->bodies[b].moment = sb_sub(state->last.moment, state->start.moment);
+    }
+    for (size_t i = 0; i < measure->scene->measure.plane_count; i++)
+        measure->planes[i].last = measure->planes[i].now;
+}
+
+sb_status sb_measure_step(sb_measure *measure, const sb_sim *sim, sb_error *error)
+{
+    double now = sb_sim_report(sim)->time, slack = 1e-9 * measure->interval;
+    sb_status status = SB_OK;
+    for (int k = 0; k < LISTS; k++) measure->lists[k].count = 0;
+    sb_sight sight = sight_of(measure, sim, 0);
+    for (size_t i = 0; status == SB_OK && i < measure->scene->measure.plane_count; i++)
+        status = sb_gate_step(measure->gates[i], &sight, &measure->planes[i].now, error);
+    if (measure->map) sb_map_step(measure->map, sim);
+    bool due = false;
+    for (; status == SB_OK && (double)measure->next * measure->interval <= now + slack;
+         measure->next++) {
+        status = record_boundary(measure, sim, (double)measure->next * measure->interval, error);
+        due = true;
+    }
+    if (status == SB_OK && due) status = record_layers(measure, &sight, error);
+    if (status == SB_OK && due) status = record_energy(measure, sim, error);
+    advance(measure, sim);
+    publish(measure);
+    return status;
+}
+
+const sb_measure_records *sb_measure_latest(const sb_measure *measure)
+{
+    return &measure->latest;
+}
+
+const sb_body_record *sb_measure_bodies(const sb_measure *measure)
+{
+    return measure->bodies;
+}
+
+const sb_map_record *sb_measure_map(const sb_measure *measure)
+{
+    return measure->map ? sb_map_result(measure->map) : NULL;
+}
+
+void sb_measure_fill_frame(const sb_measure *measure, sb_frame *frame)
+{
+    for (size_t b = 0; b < frame->body_count && b < measure->model->body_count; b++) {
+        frame->bodies[b].force = measure->bodies[b].force;
+        frame->bodies[b].moment = measure->bodies[b].torque;
+    }
+}
+
+const char *const *sb_measure_skipped(const sb_measure *measure)
+{
+    return measure->skipped;
+}
+
+size_t sb_measure_bytes(const sb_measure *measure)
+{
+    size_t bytes = sizeof *measure + sb_cloud_bytes(&measure->cloud);
+    bytes += measure->model->body_count * (sizeof *measure->states + sizeof *measure->bodies);
+    for (int k = 0; k < LISTS; k++) bytes += measure->lists[k].capacity * record_size[k];
+    for (size_t i = 0; i < measure->scene->measure.plane_count; i++)
+        bytes += sizeof *measure->planes + sb_gate_bytes(measure->gates[i]);
+    return bytes + (measure->map ? sb_map_bytes(measure->map) : 0);
+}

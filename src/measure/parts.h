@@ -1,0 +1,59 @@
+/* The single measurements behind measure.h. Inside src/measure. */
+#ifndef SB_MEASURE_PARTS_H
+#define SB_MEASURE_PARTS_H
+
+#include "measure/cloud.h"
+#include "measure/records.h"
+
+/* Where and when to look: shared by all of them. */
+typedef struct sb_sight {
+    const sb_scene *scene;
+    const sb_sim *sim;
+    sb_vec3 min, max; /* m, the model's domain */
+    double lag;       /* s that the wanted instant lies before the sim's time */
+    sb_cloud *cloud;  /* scratch */
+} sb_sight;
+
+/* Distance below which particles belong together, in spacings: the diagonal of a lattice face is
+   1.41, the next shell at 1.73 would bridge a missing layer. */
+#define SB_LINK 1.5
+
+/* Elevation of the free surface above (x, y) in m, NaN when dry. See gauge.c for the choice. */
+sb_status sb_gauge_read(const sb_sight *sight, double x, double y, double *eta, sb_error *error);
+
+/* Velocity (m/s) and pressure (Pa) at a point, NaN when dry. radius in m, 0: the support radius. */
+sb_status sb_probe_read(const sb_sight *sight, const sb_probe *probe, sb_vec3 *velocity,
+                        double *pressure, sb_error *error);
+
+/* Highest wet point within one spacing of the line, NaN when dry. */
+sb_status sb_runup_read(const sb_sight *sight, const sb_runup_line *line, sb_vec3 *place,
+                        sb_error *error);
+
+/* A plane that counts particles by the side they were last seen on. */
+typedef struct sb_gate sb_gate;
+sb_status sb_gate_create(const sb_sight *sight, const sb_flow_plane *plane, sb_gate **gate,
+                         sb_error *error);
+void sb_gate_destroy(sb_gate *gate);
+/* Adds the net volume that passed in the last step (m^3; m^2 in 2D) to *volume. */
+sb_status sb_gate_step(sb_gate *gate, const sb_sight *sight, double *volume, sb_error *error);
+size_t sb_gate_bytes(const sb_gate *gate);
+
+/* Greatest depth, speed, flux and first arrival on a grid. */
+typedef struct sb_map_field sb_map_field;
+sb_status sb_map_create(const sb_sight *sight, sb_map_field **map, sb_error *error);
+void sb_map_destroy(sb_map_field *map);
+/* Reads all fluid when half a cell's wave travel time has passed since the last reading. */
+void sb_map_step(sb_map_field *map, const sb_sim *sim);
+const sb_map_record *sb_map_result(const sb_map_field *map);
+size_t sb_map_bytes(const sb_map_field *map);
+
+/* Plan rectangle of a body's wall particles at t = 0 (m). */
+typedef struct sb_footprint {
+    sb_vec3 min, max;
+} sb_footprint;
+sb_footprint sb_footprint_of(const sb_model *model, size_t body);
+/* Deepest water along the rectangle's sides, in spacings; displacement moves the body (m). */
+sb_status sb_face_layers(const sb_sight *sight, const sb_footprint *footprint, sb_vec3 displacement,
+                         double *layers, sb_error *error);
+
+#endif

@@ -1,0 +1,83 @@
+/* What a run measured, as plain records: made by measure.h, written by src/output. */
+#ifndef SB_MEASURE_RECORDS_H
+#define SB_MEASURE_RECORDS_H
+
+#include "base/vec.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Means over the interval that ends at `time`; N and Nm (per metre of width in 2D). */
+typedef struct sb_force_record {
+    size_t body;                               /* index into the model's bodies */
+    double time;                               /* s, a multiple of the interval */
+    sb_vec3 force, moment, pressure, friction; /* force = pressure + friction */
+} sb_force_record;
+
+/* Surface elevation at that instant; NaN when dry. */
+typedef struct sb_gauge_record {
+    size_t gauge;
+    double time, eta; /* s, m */
+} sb_gauge_record;
+
+/* All NaN when dry. */
+typedef struct sb_probe_record {
+    size_t probe;
+    double time;      /* s */
+    sb_vec3 velocity; /* m/s */
+    double pressure;  /* Pa */
+} sb_probe_record;
+
+/* Net volume through a plane since the start, and the mean flux over the interval. */
+typedef struct sb_flow_record {
+    size_t plane;
+    double time, volume, flux; /* s, m^3, m^3/s (m^2, m^2/s in 2D) */
+} sb_flow_record;
+
+/* The highest wet point near a line; NaN when dry. */
+typedef struct sb_runup_record {
+    size_t line;
+    double time;   /* s */
+    sb_vec3 place; /* m; z is the water's upper face */
+} sb_runup_record;
+
+/* At the end of the first step that reached a multiple of the interval. */
+typedef struct sb_energy_record {
+    double time, kinetic, potential, mass; /* s, J, J, kg */
+    sb_vec3 momentum;                      /* kg m/s */
+} sb_energy_record;
+
+/* Everything the last step brought; arrays are valid until the next one. */
+typedef struct sb_measure_records {
+    size_t force_count, gauge_count, probe_count, flow_count, runup_count, energy_count;
+    const sb_force_record *forces;
+    const sb_gauge_record *gauges;
+    const sb_probe_record *probes;
+    const sb_flow_record *flows;
+    const sb_runup_record *runups;
+    const sb_energy_record *energies;
+} sb_measure_records;
+
+/* One body over the whole run. */
+typedef struct sb_body_record {
+    bool report;
+    double peak, peak_time;  /* N, s: greatest |F| among interval means, and that interval's end */
+    sb_vec3 impulse, moment; /* N s, N m s since the start */
+    sb_vec3 force, torque;   /* N, Nm: means of the last finished interval */
+    double layers;           /* greatest flow depth at its faces in spacings; NaN: not assessed */
+} sb_body_record;
+
+/* Spacings of water at a face below which its force is not to be trusted. */
+#define SB_LAYERS_TRUSTED 4.0
+
+/* Greatest values on a horizontal grid, row 0 at y_min. NaN: never wet (arrival: never arrived). */
+typedef struct sb_map_record {
+    size_t columns, rows;
+    double x_min, y_min, cell; /* m */
+    const float *depth;        /* m */
+    const float *speed;        /* m/s, of the depth-averaged horizontal velocity */
+    const float *flux;         /* m^3/s^2, depth times mean square of the horizontal speed */
+    const float *arrival;      /* s, when the rise above the start first met the threshold */
+} sb_map_record;
+
+#endif

@@ -1,0 +1,185 @@
+/* Volume through planes, run-up, maps, and the depth of water at faces. */
+#include "fake_sim.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include <cmocka.h>
+
+static void drift(sb_sim *sim, sb_vec3 velocity)
+{
+    for (size_t i = 0; i < sim->report.fluid_count; i++) sim->samples[i].velocity = velocity;
+    sim->report.max_speed = sb_norm(velocity);
+}
+
+static double passed(fake_world *world, const sb_flow_plane *plane, sb_vec3 velocity, double dt,
+                     int steps)
+{
+    sb_sight sight = fake_sight(world);
+    sb_gate *gate;
+    double volume = 0;
+    drift(&world->sim, velocity);
+    assert_int_equal(sb_gate_create(&sight, plane, &gate, NULL), SB_OK);
+    for (int k = 0; k < steps; k++) {
+        fake_step(&world->sim, dt);
+        assert_int_equal(sb_gate_step(gate, &sight, &volume, NULL), SB_OK);
+    }
+    sb_gate_destroy(gate);
+    return volume;
+}
+
+static void plane_counts_every_particle_once(void **state)
+{
+    (void)state;
+    /* From (5, 2) to (5, 8), heights 1 to 4: +x is to the right. */
+    const sb_flow_plane plane = {"gate", 5, 2, 5, 8, 1, 4};
+    fake_world world;
+    fake_world_make(&world, 3, 0.5, sb_vec(-5, 0, 0), sb_vec(30, 10, 10));
+    fake_fill(&world, sb_vec(0, 0, 0), sb_vec(4, 10, 6), 0, 0, 0, 1);
+    /* The block of 4 x 6 x 3 m in front of the opening passes, whatever the steps. */
+    assert_true(fabs(passed(&world, &plane, sb_vec(3, 0, 0), 0.11, 40) - 72) < 1e-9);
+    assert_true(fabs(passed(&world, &plane, sb_vec(-2, 0, 0), 0.07, 200) + 72) < 1e-9);
+    fake_world_free(&world);
+}
+
+static void slanting_plane_has_the_same_flux(void **state)
+{
+    (void)state;
+    const sb_flow_plane plane = {"gate", 8, 2, 5, 8, -1, 20};
+    const sb_flow_plane turned = {"gate", 5, 8, 8, 2, -1, 20};
+    fake_world world;
+    fake_world_make(&world, 3, 0.5, sb_vec(-5, 0, 0), sb_vec(30, 10, 10));
+    fake_fill(&world, sb_vec(0, 0, 0), sb_vec(4, 10, 6), 0, 0, 0.1, 1);
+    /* The slant passes 6 m of y; jitter decides on particles at its two ends only. */
+    assert_true(fabs(passed(&world, &plane, sb_vec(3, 0, 0), 0.11, 60) - 4 * 6 * 6) < 6);
+    assert_true(fabs(passed(&world, &turned, sb_vec(-3, 0, 0), 0.1, 60) - 4 * 6 * 6) < 6);
+    fake_world_free(&world);
+}
+
+static void plane_in_two_dimensions(void **state)
+{
+    (void)state;
+    const sb_flow_plane plane = {"gate", 5, 0, 5, 1, 0, 3};
+    fake_world world;
+    fake_world_make(&world, 2, 0.25, sb_vec(-5, 0, 0), sb_vec(30, 0, 10));
+    fake_fill(&world, sb_vec(0, 0, 0), sb_vec(4, 0, 4), 0, 0, 0, 1);
+    assert_true(fabs(passed(&world, &plane, sb_vec(2, 0, 0), 0.1, 60) - 12) < 1e-9);
+    fake_world_free(&world);
+}
+
+static void runup_is_the_top_of_connected_water(void **state)
+{
+    (void)state;
+    fake_world world;
+    fake_world_make(&world, 3, 0.5, sb_vec(0, 0, 0), sb_vec(40, 10, 20));
+    /* A sheet two layers thick up a 1:4 slope, until x = 20, and a drop above it. */
+    for (double x = 0.25; x < 20; x += 0.5)
+        for (double y = 0.25; y < 10; y += 0.5)
+            for (int k = 0; k < 2; k++)
+                fake_add(&world.sim, sb_vec(x, y, 0.25 * x + 0.25 + 0.5 * k), sb_vec(0, 0, 0), 0);
+    fake_add(&world.sim, sb_vec(12, 5, 15), sb_vec(0, 0, 0), 0);
+    const sb_runup_line line = {"beach", 0, 5, 40, 5};
+    sb_sight sight = fake_sight(&world);
+    sb_vec3 place;
+    assert_int_equal(sb_runup_read(&sight, &line, &place, NULL), SB_OK);
+    assert_true(fabs(place.x - 19.75) < 1e-9);
+    assert_true(fabs(place.z - (0.25 * 19.75 + 1.0)) < 1e-9);
+    const sb_runup_line away = {"away", 30, 5, 40, 5};
+    assert_int_equal(sb_runup_read(&sight, &away, &place, NULL), SB_OK);
+    assert_true(isnan(place.z));
+    fake_world_free(&world);
+}
+
+/* A block of 4 x 6 x 3 m over the grid: depth 3 inside; volume is kept for any cell size. */
+static void map_keeps_volume(void **state)
+{
+    (void)state;
+    const double cells[] = {0.13, 0.5, 1, 2, 3.3};
+    for (size_t c = 0; c < sizeof cells / sizeof *cells; c++) {
+        fake_world world;
+        fake_world_make(&world, 3, 0.5, sb_vec(0, 0, 0), sb_vec(12, 12, 10));
+        fake_fill(&world, sb_vec(3, 3, 0), sb_vec(7, 9, 3), 0, 0, 0, 1);
+        drift(&world.sim, sb_vec(3, 4, 1));
+        world.scene.measure.map = (sb_map){true, 0, 0, 12, 12, cells[c], 0.5};
+        sb_sight sight = fake_sight(&world);
+        sb_map_field *map;
+        assert_int_equal(sb_map_create(&sight, &map, NULL), SB_OK);
+        const sb_map_record *result = sb_map_result(map);
+        double volume = 0, deepest = 0;
+        for (size_t i = 0; i < result->columns * result->rows; i++) {
+            if (isnan(result->depth[i])) continue;
+            volume += (double)result->depth[i] * cells[c] * cells[c];
+            deepest = fmax(deepest, (double)result->depth[i]);
+            if (!isnan(result->speed[i])) {
+                assert_true(fabs((double)result->speed[i] - 5) < 1e-4);
+                assert_true(fabs((double)(result->flux[i] / result->depth[i]) - 25) < 1e-3);
+            }
+        }
+        assert_true(fabs(volume - 72) < 1e-2);
+        assert_true(deepest < 3.001 && (cells[c] > 2 || deepest > 2.999));
+        sb_map_destroy(map);
+        fake_world_free(&world);
+    }
+}
+
+static void map_tells_arrival(void **state)
+{
+    (void)state;
+    fake_world world;
+    fake_world_make(&world, 3, 0.5, sb_vec(0, 0, 0), sb_vec(20, 4, 10));
+    fake_fill(&world, sb_vec(0, 0, 0), sb_vec(4, 4, 3), 0, 0, 0, 1);
+    drift(&world.sim, sb_vec(2, 0, 0));
+    world.scene.measure.map = (sb_map){true, 0, 0, 20, 4, 1, 1.5};
+    sb_sight sight = fake_sight(&world);
+    sb_map_field *map;
+    assert_int_equal(sb_map_create(&sight, &map, NULL), SB_OK);
+    for (int k = 0; k < 600; k++) {
+        fake_step(&world.sim, 0.01);
+        sb_map_step(map, &world.sim);
+    }
+    const sb_map_record *result = sb_map_result(map);
+    /* Cell 10 is half full (threshold 1.5 of 3 m) when the front reaches x = 10.5. */
+    assert_true(fabs((double)result->arrival[2 * 20 + 10] - (10.5 - 4) / 2) < 0.06);
+    assert_true(isnan(result->arrival[2 * 20 + 19])); /* not reached */
+    assert_true(isnan(result->arrival[2 * 20 + 1]));  /* wet from the start */
+    assert_true(isnan(result->depth[2 * 20 + 19]));
+    sb_map_destroy(map);
+    fake_world_free(&world);
+}
+
+static void faces_tell_the_depth(void **state)
+{
+    (void)state;
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        fake_world world;
+        fake_world_make(&world, dimensions, 0.5, sb_vec(0, 0, 0), sb_vec(20, 20, 10));
+        fake_fill(&world, sb_vec(0, 0, 0), sb_vec(8, 20, 3), 0, 0, 0, 1); /* 6 layers */
+        sb_sight sight = fake_sight(&world);
+        double layers;
+        /* A building whose seaward face is at x = 8: its particles lie half a spacing inside. */
+        const sb_footprint building = {{8.25, 5.25, 0}, {14.75, 14.75, 8}};
+        assert_int_equal(sb_face_layers(&sight, &building, sb_vec(0, 0, 0), &layers, NULL), SB_OK);
+        assert_true(fabs(layers - 6) < 0.7);
+        assert_int_equal(sb_face_layers(&sight, &building, sb_vec(5, 0, 0), &layers, NULL), SB_OK);
+        assert_true(layers == 0);
+        /* The tank around the water sees it from the inside. */
+        const sb_footprint tank = {{-0.25, -0.25, -0.25}, {20.25, 20.25, 9}};
+        assert_int_equal(sb_face_layers(&sight, &tank, sb_vec(0, 0, 0), &layers, NULL), SB_OK);
+        assert_true(fabs(layers - 6) < 0.7);
+        fake_world_free(&world);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(plane_counts_every_particle_once),
+        cmocka_unit_test(slanting_plane_has_the_same_flux),
+        cmocka_unit_test(plane_in_two_dimensions),
+        cmocka_unit_test(runup_is_the_top_of_connected_water),
+        cmocka_unit_test(map_keeps_volume),
+        cmocka_unit_test(map_tells_arrival),
+        cmocka_unit_test(faces_tell_the_depth),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
