@@ -1,0 +1,143 @@
+#include "reference/reference.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+
+void sb_reference_psi(const sb_reference_cloud *cloud, double gamma, double *psi)
+{
+    for (size_t b = 0; b < cloud->wall_count; b++) {
+        double sum = 0;
+        for (size_t k = 0; k < cloud->wall_count; k++) {
+            double r = sb_norm(sb_sub(cloud->wall_position[b], cloud->wall_position[k]));
+            sum += sb_kernel_value(cloud->kernel, cloud->dimension, cloud->h, r);
+        }
+        psi[b] = gamma * cloud->rest_density / sum;
+    }
+}
+
+/* Appends the pair of i with a point x when they are closer than h. */
+static int add_pair(const sb_reference_cloud *cloud, size_t i, size_t other, sb_vec3 x,
+                    sb_reference_pair **pairs, size_t *count, size_t *capacity)
+{
+    sb_vec3 offset = sb_sub(cloud->position[i], x);
+    double r = sb_norm(offset);
+    if (r >= cloud->h) return 0;
+    if (sb_grow((void **)pairs, capacity, *count + 1, sizeof **pairs) != 0) return -1;
+    double slope = sb_kernel_slope(cloud->kernel, cloud->dimension, cloud->h, r);
+    (*pairs)[(*count)++] = (sb_reference_pair){
+        .other = other,
+        .offset = offset,
+        .w = sb_kernel_value(cloud->kernel, cloud->dimension, cloud->h, r),
+        .gradient = sb_scale(offset, r > 0 ? slope / r : 0),
+    };
+    return 0;
+}
+
+int sb_reference_create(const sb_reference_cloud *cloud, sb_reference *reference)
+{
+    sb_reference made = {.cloud = *cloud};
+    size_t n = cloud->fluid_count, fluid = 0, fluid_room = 0, wall = 0, wall_room = 0;
+    made.mass = cloud->rest_density * pow(cloud->spacing, cloud->dimension);
+    made.fluid_start = sb_alloc(n + 1, sizeof(size_t));
+    made.wall_start = sb_alloc(n + 1, sizeof(size_t));
+    int status = made.fluid_start && made.wall_start ? 0 : -1;
+    for (size_t i = 0; i < n && status == 0; i++) {
+        for (size_t j = 0; j < n && status == 0; j++)
+            if (j != i)
+                status =
+                    add_pair(cloud, i, j, cloud->position[j], &made.fluid, &fluid, &fluid_room);
+        for (size_t b = 0; b < cloud->wall_count && status == 0; b++)
+            status = add_pair(cloud, i, b, cloud->wall_position[b], &made.wall, &wall, &wall_room);
+        made.fluid_start[i + 1] = fluid;
+        made.wall_start[i + 1] = wall;
+    }
+    if (status != 0)
+        sb_reference_destroy(&made);
+    else
+        *reference = made;
+    return status;
+}
+
+void sb_reference_destroy(sb_reference *reference)
+{
+    sb_free(reference->fluid);
+    sb_free(reference->wall);
+    sb_free(reference->fluid_start);
+    sb_free(reference->wall_start);
+    *reference = (sb_reference){0};
+}
+
+void sb_reference_density(const sb_reference *reference, double *rho)
+{
+    const sb_reference_cloud *c = &reference->cloud;
+    double self = sb_kernel_value(c->kernel, c->dimension, c->h, 0);
+    for (size_t i = 0; i < c->fluid_count; i++) {
+        rho[i] = reference->mass * self;
+        for (size_t k = reference->fluid_start[i]; k < reference->fluid_start[i + 1]; k++)
+            rho[i] += reference->mass * reference->fluid[k].w;
+        for (size_t k = reference->wall_start[i]; k < reference->wall_start[i + 1]; k++)
+            rho[i] += c->psi[reference->wall[k].other] * reference->wall[k].w;
+    }
+}
+
+/* Pi = -nu min(v.x, 0)/(r^2 + 0.01 h^2): only pairs that approach each other are slowed. */
+static double switched_viscosity(double nu, sb_vec3 velocity, sb_vec3 offset, double h)
+{
+    double approach = sb_dot(velocity, offset);
+    return approach < 0 ? -nu * approach / (sb_dot(offset, offset) + 0.01 * h * h) : 0;
+}
+
+void sb_reference_viscosity(const sb_reference *reference, const double *rho, sb_vec3 *acceleration)
+{
+    const sb_reference_cloud *c = &reference->cloud;
+    for (size_t i = 0; i < c->fluid_count; i++)
+        for (size_t k = reference->fluid_start[i]; k < reference->fluid_start[i + 1]; k++) {
+            const sb_reference_pair *pair = &reference->fluid[k];
+            size_t j = pair->other;
+            double nu = 2 * c->artificial_viscosity * c->h * c->sound_speed / (rho[i] + rho[j]);
+            double pi =
+                switched_viscosity(nu, sb_sub(c->velocity[i], c->velocity[j]), pair->offset, c->h);
+            acceleration[i] = sb_madd(acceleration[i], -reference->mass * pi, pair->gradient);
+        }
+}
+
+static void add_force(const sb_reference *reference, size_t b, double size, sb_vec3 gradient,
+                      const sb_vec3 *center, sb_vec3 *force, sb_vec3 *torque)
+{
+    uint32_t body = reference->cloud.body[b];
+    sb_vec3 arm = sb_sub(reference->cloud.wall_position[b], center[body]);
+    sb_vec3 part = sb_scale(gradient, size);
+    force[body] = sb_add(force[body], part);
+    torque[body] = sb_add(torque[body], sb_cross(arm, part));
+}
+
+void sb_reference_friction(const sb_reference *reference, const double *rho, sb_vec3 *acceleration,
+                           const sb_vec3 *center, sb_vec3 *force, sb_vec3 *torque)
+{
+    const sb_reference_cloud *c = &reference->cloud;
+    for (size_t i = 0; i < c->fluid_count; i++)
+        for (size_t k = reference->wall_start[i]; k < reference->wall_start[i + 1]; k++) {
+            const sb_reference_pair *pair = &reference->wall[k];
+            size_t b = pair->other;
+            double nu = c->wall_friction * c->h * c->sound_speed / (2 * rho[i]);
+            double pi = switched_viscosity(nu, sb_sub(c->velocity[i], c->wall_velocity[b]),
+                                           pair->offset, c->h);
+            acceleration[i] = sb_madd(acceleration[i], -c->psi[b] * pi, pair->gradient);
+            if (force)
+                add_force(reference, b, reference->mass * c->psi[b] * pi, pair->gradient, center,
+                          force, torque);
+        }
+}
+
+void sb_reference_pressure_forces(const sb_reference *reference, const double *q,
+                                  const sb_vec3 *center, sb_vec3 *force, sb_vec3 *torque)
+{
+    const sb_reference_cloud *c = &reference->cloud;
+    for (size_t i = 0; i < c->fluid_count; i++)
+        for (size_t k = reference->wall_start[i]; k < reference->wall_start[i + 1]; k++) {
+            const sb_reference_pair *pair = &reference->wall[k];
+            add_force(reference, pair->other, reference->mass * c->psi[pair->other] * q[i],
+                      pair->gradient, center, force, torque);
+        }
+}

@@ -1,0 +1,101 @@
+/* The simulation's parts in plain double precision and brute force: the oracle for the fast ones.
+   Equations and signs as in docs/method.md; the unknown is q = p/rho^2 in m^5/(kg s^2). */
+#ifndef SB_TESTS_REFERENCE_H
+#define SB_TESTS_REFERENCE_H
+
+#include "base/vec.h"
+#include "physics/kernel.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* What the caller gives and keeps; all SI. In 2D every y is 0. */
+typedef struct sb_reference_cloud {
+    const sb_kernel *kernel;
+    int dimension;
+    double h, spacing;       /* m: support radius, rest distance */
+    double rest_density;     /* kg/m^3 */
+    double time_step;        /* s */
+    size_t fluid_count;
+    const sb_vec3 *position, *velocity;
+    size_t wall_count;       /* boundary particles */
+    const sb_vec3 *wall_position, *wall_velocity;
+    const double *psi;       /* kg, or kg/m in 2D */
+    const uint32_t *body;    /* of each boundary particle */
+    double sound_speed, artificial_viscosity, wall_friction; /* m/s, alpha, sigma */
+} sb_reference_cloud;
+
+/* A neighbour of a fluid particle i: other is j or b. */
+typedef struct sb_reference_pair {
+    size_t other;
+    sb_vec3 offset;   /* x_i - x_other */
+    double w;         /* W */
+    sb_vec3 gradient; /* grad_i W */
+} sb_reference_pair;
+
+/* A cloud with all its pairs closer than h: those of i are [start[i], start[i + 1]), by rising
+   `other`, i itself left out. */
+typedef struct sb_reference {
+    sb_reference_cloud cloud;
+    double mass; /* kg, or kg/m in 2D: rho0 spacing^d */
+    sb_reference_pair *fluid, *wall;
+    size_t *fluid_start, *wall_start;
+} sb_reference;
+
+/* psi_b = gamma rho0 / sum_k W_bk over all boundary particles, b included. Uses the cloud's wall
+   positions, kernel, dimension, h and rest density only. */
+void sb_reference_psi(const sb_reference_cloud *cloud, double gamma, double *psi);
+
+/* Tests all pairs. Returns 0, or -1 without memory. The cloud's arrays must outlive it. */
+int sb_reference_create(const sb_reference_cloud *cloud, sb_reference *reference);
+void sb_reference_destroy(sb_reference *reference);
+
+/* rho_i = m W(0) + sum_j m W_ij + sum_b psi_b W_ib */
+void sb_reference_density(const sb_reference *reference, double *rho);
+
+/* Monaghan's viscosity with its min switch [S16 eq. 14]: adds -sum_j m Pi_ij grad W_ij. */
+void sb_reference_viscosity(const sb_reference *reference, const double *rho,
+                            sb_vec3 *acceleration);
+
+/* Wall friction [S16 eq. 33]: adds -sum_b psi_b Pi_ib grad W_ib to acceleration, and the opposite
+   forces m psi_b Pi_ib grad W_ib in N to force[body] and their torques about center[body] to
+   torque[body]; the last three may be NULL together. */
+void sb_reference_friction(const sb_reference *reference, const double *rho,
+                           sb_vec3 *acceleration, const sb_vec3 *center, sb_vec3 *force,
+                           sb_vec3 *torque);
+
+/* div_i = sum_j m (v_i - v_j).grad W_ij + sum_b psi_b (v_i - v_b).grad W_ib, in kg/(m^3 s); the
+   walls stand still when moving == 0. */
+void sb_reference_divergence(const sb_reference *reference, const sb_vec3 *velocity, int moving,
+                             double *divergence);
+
+/* b_i = beta (rho0 - rho_i) - dt div_i of the predicted velocity v*. */
+void sb_reference_source(const sb_reference *reference, const double *rho,
+                         const sb_vec3 *predicted, double beta, double *source);
+
+/* a = G q: a_i = -[sum_j m (q_i + q_j) grad W_ij + q_i sum_b psi_b grad W_ib] */
+void sb_reference_pressure_acceleration(const sb_reference *reference, const double *q,
+                                        sb_vec3 *acceleration);
+
+/* A q = dt^2 div(G q) with walls at rest; acceleration (fluid_count) is left holding G q. */
+void sb_reference_apply(const sb_reference *reference, const double *q, sb_vec3 *acceleration,
+                        double *product);
+
+/* a_ii = -dt^2 [|S_i|^2 + m sum_j m |grad W_ij|^2], S_i = sum_j m grad W_ij + sum_b psi_b grad W_ib */
+void sb_reference_diagonal(const sb_reference *reference, double *diagonal);
+
+/* a_ii in the middle of a full lattice, where S_i = 0. */
+double sb_reference_lattice_diagonal(const sb_reference_cloud *cloud);
+
+/* Projected Jacobi for q >= 0, e = A q - b <= 0, q e = 0, from the q given, until every particle's
+   |min(q |a_ii|, -e)| <= tolerance rho0. Particles with |a_ii| < 1e-6 of the lattice's keep q = 0.
+   Returns the sweeps done; -1 without memory, -2 when max_sweeps did not suffice. */
+long sb_reference_solve(const sb_reference *reference, const double *source, double omega,
+                        double tolerance, long max_sweeps, double *q);
+
+/* Adds the pressure forces m psi_b q_i grad W_ib in N to force[body], and their torques about
+   center[body] to torque[body]. */
+void sb_reference_pressure_forces(const sb_reference *reference, const double *q,
+                                  const sb_vec3 *center, sb_vec3 *force, sb_vec3 *torque);
+
+#endif
