@@ -1,5 +1,5 @@
 # Shared by the programs in tools/: packages, configuring, building. Sourced, not run.
-# shellcheck shell=bash
+# shellcheck shell=bash disable=SC2034
 
 # The top folder of the source tree.
 sb_root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
@@ -67,7 +67,7 @@ sb_build() {
     local preset=$1
     shift
     (
-        cd -- "$sb_root"
+        cd -- "$sb_root" || exit
         sb_quietly cmake --preset "$preset" "$@" || sb_die "cannot configure the preset $preset"
         # shellcheck disable=SC2086 # a list of targets
         sb_quietly cmake --build --preset "$preset" ${SB_TARGETS:+--target $SB_TARGETS} ||

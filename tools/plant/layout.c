@@ -65,8 +65,8 @@ static void add_unit(plant_site *site, int number, double y)
     add_loft(site, name, reactor, 4);
     sb_ring hall[] = {sb_ring_rectangle(866, 914, y - 33, y + 33, low),
                       sb_ring_rectangle(866, 914, y - 33, y + 33, grade + 13),
-                      sb_ring_rectangle(877, 914, y - 33, y + 33, grade + 13),
-                      sb_ring_rectangle(877, 914, y - 33, y + 33, grade + 24),
+                      sb_ring_rectangle(877, 913, y - 32, y + 32, grade + 13),
+                      sb_ring_rectangle(877, 913, y - 32, y + 32, grade + 24),
                       sb_ring_rectangle(885, 906, y - 25, y + 25, grade + 28)};
     snprintf(name, sizeof name, "turbine-%d", number);
     add_loft(site, name, hall, 5);

@@ -1,0 +1,17 @@
+# What `cmake --install` puts where: programs into bin, the rest below share/shorebreak.
+include(GNUInstallDirs)
+set(share ${CMAKE_INSTALL_DATADIR}/shorebreak)
+
+foreach(program shorebreak shorebreak-monitor shorebreak-make-plant)
+    if(TARGET ${program})
+        install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    endif()
+endforeach()
+# Scenes name their meshes relative to themselves: the two folders stay side by side.
+install(DIRECTORY assets/scenes assets/meshes DESTINATION ${share})
+install(DIRECTORY lcmtypes DESTINATION ${share} FILES_MATCHING PATTERN "*.lcm")
+install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} OPTIONAL FILES_MATCHING PATTERN "*.md"
+        PATTERN "*.png")
+foreach(file README.md CHANGELOG.md LICENSE CITATION.cff)
+    install(FILES ${file} DESTINATION ${CMAKE_INSTALL_DOCDIR} OPTIONAL)
+endforeach()
