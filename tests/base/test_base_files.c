@@ -1,0 +1,227 @@
+/* Files are whole or absent; paths join; directories come with their parents. */
+#include "../check.h"
+#include "base/file.h"
+#include "base/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static char folder[] = "/tmp/shorebreak-files-XXXXXX";
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    return rmdir(folder); /* fails, and so tells, when a test left something behind */
+}
+
+static const char *at(const char *name)
+{
+    static char path[SB_PATH_MAX];
+    assert_int_equal(sb_path_join(path, folder, name, NULL), SB_OK);
+    return path;
+}
+
+static bool exists(const char *name)
+{
+    return access(at(name), F_OK) == 0;
+}
+
+static void write_whole(const char *name, const char *text, int durable)
+{
+    sb_atomic_file file = {0};
+    sb_error error = {0};
+    assert_int_equal(sb_atomic_open(&file, at(name), &error), SB_OK);
+    assert_true(fputs(text, file.stream) >= 0);
+    assert_int_equal(sb_atomic_commit(&file, durable, &error), SB_OK);
+    assert_null(file.stream);
+}
+
+static void check_text(const char *name, const char *expected)
+{
+    char *text;
+    size_t length;
+    assert_int_equal(sb_file_read(at(name), 1000, &text, &length, NULL), SB_OK);
+    assert_int_equal(length, strlen(expected));
+    assert_string_equal(text, expected);
+    sb_free(text);
+}
+
+static void commit_shows_the_file_at_once(void **state)
+{
+    (void)state;
+    for (int durable = 0; durable <= 1; durable++) {
+        sb_atomic_file file = {0};
+        assert_int_equal(sb_atomic_open(&file, at("a"), NULL), SB_OK);
+        fputs("whole", file.stream);
+        fflush(file.stream);
+        assert_false(exists("a"));
+        assert_true(exists("a.tmp"));
+        assert_int_equal(sb_atomic_commit(&file, durable, NULL), SB_OK);
+        assert_false(exists("a.tmp"));
+        check_text("a", "whole");
+        assert_int_equal(unlink(at("a")), 0);
+    }
+}
+
+static void abort_keeps_the_old_file(void **state)
+{
+    (void)state;
+    write_whole("b", "old", 0);
+    sb_atomic_file file = {0};
+    assert_int_equal(sb_atomic_open(&file, at("b"), NULL), SB_OK);
+    fputs("half", file.stream);
+    sb_atomic_abort(&file);
+    assert_null(file.stream);
+    sb_atomic_abort(&file);
+    assert_false(exists("b.tmp"));
+    check_text("b", "old");
+    write_whole("b", "new", 0);
+    check_text("b", "new");
+    assert_int_equal(unlink(at("b")), 0);
+}
+
+static void failures_leave_nothing_and_say_why(void **state)
+{
+    (void)state;
+    sb_atomic_file file = {0};
+    sb_error error = {0};
+    assert_int_equal(sb_atomic_open(&file, at("none/a"), &error), SB_FAILED);
+    assert_null(file.stream);
+    assert_non_null(strstr(error.text, "none/a"));
+    assert_non_null(strstr(error.text, "No such file"));
+
+    /* The final name is a directory that is not empty: the rename must fail. */
+    assert_int_equal(sb_make_directories(at("taken/inner"), NULL), SB_OK);
+    assert_int_equal(sb_atomic_open(&file, at("taken"), &error), SB_OK);
+    fputs("x", file.stream);
+    assert_int_equal(sb_atomic_commit(&file, 0, &error), SB_FAILED);
+    assert_int_equal(error.status, SB_FAILED);
+    assert_false(exists("taken.tmp"));
+    assert_int_equal(rmdir(at("taken/inner")), 0);
+    assert_int_equal(rmdir(at("taken")), 0);
+
+    char long_path[SB_PATH_MAX + 1];
+    memset(long_path, 'x', SB_PATH_MAX);
+    long_path[SB_PATH_MAX] = '\0';
+    assert_int_equal(sb_atomic_open(&file, long_path, &error), SB_BAD_INPUT);
+}
+
+/* A full disk shows only when the buffer is flushed. */
+static void full_disk_is_an_error(void **state)
+{
+    (void)state;
+    if (access("/dev/full", W_OK) != 0) skip();
+    sb_atomic_file file = {0};
+    sb_error error = {0};
+    assert_int_equal(sb_atomic_open(&file, at("c"), NULL), SB_OK);
+    assert_int_equal(fclose(file.stream), 0);
+    file.stream = fopen("/dev/full", "wb");
+    assert_non_null(file.stream);
+    fputs("lost", file.stream);
+    assert_int_equal(sb_atomic_commit(&file, 0, &error), SB_FAILED);
+    assert_non_null(strstr(error.text, "No space left"));
+    assert_false(exists("c"));
+    assert_false(exists("c.tmp"));
+}
+
+static void directories_come_with_their_parents(void **state)
+{
+    (void)state;
+    assert_int_equal(sb_make_directories(at("p/q/r"), NULL), SB_OK);
+    assert_int_equal(sb_make_directories(at("p/q/r"), NULL), SB_OK);
+    assert_true(exists("p/q/r"));
+    write_whole("p/file", "x", 0);
+    sb_error error = {0};
+    assert_int_equal(sb_make_directories(at("p/file"), &error), SB_FAILED);
+    assert_non_null(strstr(error.text, "p/file"));
+    assert_int_equal(sb_make_directories(at("p/file/below"), NULL), SB_FAILED);
+    assert_int_equal(sb_make_directories("", NULL), SB_BAD_INPUT);
+    assert_int_equal(unlink(at("p/file")), 0);
+    assert_int_equal(rmdir(at("p/q/r")), 0);
+    assert_int_equal(rmdir(at("p/q")), 0);
+    assert_int_equal(rmdir(at("p")), 0);
+}
+
+static void paths_join_and_part(void **state)
+{
+    (void)state;
+    char out[SB_PATH_MAX], name[SB_PATH_MAX + 1];
+    assert_int_equal(sb_path_join(out, "a/b", "c.obj", NULL), SB_OK);
+    assert_string_equal(out, "a/b/c.obj");
+    assert_int_equal(sb_path_join(out, "a/b", "/c.obj", NULL), SB_OK);
+    assert_string_equal(out, "/c.obj");
+    memset(name, 'n', SB_PATH_MAX);
+    name[SB_PATH_MAX] = '\0';
+    assert_int_equal(sb_path_join(out, "a", name, NULL), SB_BAD_INPUT);
+    name[SB_PATH_MAX - 3] = '\0'; /* "a/" and 4093 more: exactly full with its zero */
+    assert_int_equal(sb_path_join(out, "a", name, NULL), SB_OK);
+    sb_path_folder(out, "a/b/c.obj");
+    assert_string_equal(out, "a/b");
+    sb_path_folder(out, "c.obj");
+    assert_string_equal(out, ".");
+    sb_path_folder(out, "/c.obj");
+    assert_string_equal(out, "/");
+}
+
+static void reading_has_its_limits(void **state)
+{
+    (void)state;
+    char *text;
+    size_t length;
+    sb_error error = {0};
+    write_whole("d", "0123456789", 0);
+    assert_int_equal(sb_file_read(at("d"), 10, &text, &length, NULL), SB_OK);
+    assert_int_equal(length, 10);
+    sb_free(text);
+    assert_int_equal(sb_file_read(at("d"), 9, &text, &length, &error), SB_BAD_INPUT);
+    assert_null(text);
+    assert_non_null(strstr(error.text, "9 bytes"));
+    assert_int_equal(sb_file_read(at("nothing"), 9, &text, &length, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "nothing"));
+    assert_int_equal(sb_file_read(folder, 9, &text, &length, &error), SB_BAD_INPUT);
+    sb_memory_fail_at(1);
+    assert_int_equal(sb_file_read(at("d"), 10, &text, &length, &error), SB_FAILED);
+    assert_null(text);
+    assert_int_equal(unlink(at("d")), 0);
+}
+
+static void long_files_are_read_whole(void **state)
+{
+    (void)state;
+    enum { LENGTH = 200000 };
+    sb_atomic_file file = {0};
+    assert_int_equal(sb_atomic_open(&file, at("e"), NULL), SB_OK);
+    for (int i = 0; i < LENGTH; i++) putc('a' + i % 26, file.stream);
+    assert_int_equal(sb_atomic_commit(&file, 0, NULL), SB_OK);
+    char *text;
+    size_t length;
+    assert_int_equal(sb_file_read(at("e"), LENGTH, &text, &length, NULL), SB_OK);
+    assert_int_equal(length, LENGTH);
+    assert_int_equal(text[LENGTH], '\0');
+    for (int i = 0; i < LENGTH; i++) assert_true(text[i] == 'a' + i % 26);
+    sb_free(text);
+    assert_int_equal(unlink(at("e")), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(commit_shows_the_file_at_once),
+        cmocka_unit_test(abort_keeps_the_old_file),
+        cmocka_unit_test(failures_leave_nothing_and_say_why),
+        cmocka_unit_test(full_disk_is_an_error),
+        cmocka_unit_test(directories_come_with_their_parents),
+        cmocka_unit_test(paths_join_and_part),
+        cmocka_unit_test(reading_has_its_limits),
+        cmocka_unit_test(long_files_are_read_whole),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
