@@ -52,6 +52,8 @@ static void on_forces(const lcm_recv_buf_t *received, const char *channel, void 
     assert_int_equal(sb_stream_decode_forces(received->data, received->data_size, &all->force, NULL),
                      SB_OK);
     all->forces++;
+    if (all->force.count == 0)
+        return; /* LCM's decoder copies from a null pointer then */
     shorebreak_forces_t other = {0};
     assert_true(shorebreak_forces_t_decode(received->data, 0, (int)received->data_size, &other) > 0);
     assert_int_equal(other.n, all->force.count);

@@ -1,0 +1,198 @@
+/* The monitor program, run as its users run it: on a recorded log, on a terminal, on bad options. */
+#include "stream_fixture.h"
+
+#include "base/clock.h"
+
+#include <poll.h>
+#include <pty.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static char output[1 << 16]; /* stdout and stderr of the last run */
+static char log_path[] = "/tmp/sb-monitor-XXXXXX";
+static char log_url[64];
+
+/* Runs the monitor with these arguments; its exit code, 128 + signal when it was killed. */
+static int monitor(const char *arguments)
+{
+    char command[512];
+    snprintf(command, sizeof command, "exec '%s/shorebreak-monitor' %s 2>&1", SB_BINARY_DIR,
+             arguments);
+    FILE *pipe = popen(command, "r");
+    assert_non_null(pipe);
+    size_t length = fread(output, 1, sizeof output - 1, pipe);
+    output[length] = 0;
+    int status = pclose(pipe);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+static void shows(const char *text)
+{
+    if (!strstr(output, text))
+        fail_msg("\"%s\" is not in:\n%s", text, output);
+}
+
+static void shows_not(const char *text)
+{
+    if (strstr(output, text))
+        fail_msg("\"%s\" is in:\n%s", text, output);
+}
+
+/* Two frames of a run, with trash and a forged message on the same channels. */
+static int record_log(void **state)
+{
+    (void)state;
+    int file = mkstemp(log_path);
+    if (file < 0)
+        return -1;
+    close(file);
+    char url[64];
+    snprintf(url, sizeof url, "file://%s?mode=w", log_path);
+    snprintf(log_url, sizeof log_url, "'file://%s?speed=0'", log_path);
+    sb_stream *stream = fixture_stream(url, 0, 1);
+    lcm_t *lcm = sb_stream_provider(stream);
+    for (uint64_t index = 1; index <= 2; index++) {
+        sb_frame *frame = fixture_frame(index, 22.5 * (double)index, 5000, 5);
+        snprintf(frame->bodies[0].name, sizeof frame->bodies[0].name, "reactor\x1b[31m");
+        frame->bodies[0].force = sb_vec(-3e6 * (double)(3 - index), 4e6 * (double)(3 - index), 7e6);
+        frame->bodies[1].force = frame->bodies[3].force = frame->bodies[4].force = sb_vec(1e6, 0, 0);
+        sb_stream_publish(stream, frame);
+        sb_frame_release(frame);
+        unsigned char trash[300];
+        for (size_t i = 0; i < sizeof trash; i++)
+            trash[i] = (unsigned char)sb_hash_mix(i);
+        lcm_publish(lcm, "test_status", trash, sizeof trash);
+        lcm_publish(lcm, "test_forces", trash, 7);
+        lcm_publish(lcm, "test_particles", trash, 0);
+    }
+    sb_stream_destroy(stream);
+    return 0;
+}
+
+static int remove_log(void **state)
+{
+    (void)state;
+    return unlink(log_path);
+}
+
+static void shows_a_recorded_run(void **state)
+{
+    (void)state;
+    char arguments[200];
+    snprintf(arguments, sizeof arguments, "--prefix test --plain --url %s", log_url);
+    assert_int_equal(monitor(arguments), 0);
+    shows("a run");
+    shows(" 50.0 %  45.00 of 90.00 s  ETA 33 s");
+    shows("step 1236  dt 3.1 ms  iterations 17  density error 0.04 %");
+    shows("max speed 21.25 m/s  particles 5000  lost 3");
+    shows("refused 6");
+    shows("frames  2 complete  0 partial  chunks lost 0");
+    shows("|Fxy| MN");
+    /* |(-3, 4)| = 5 now, half of the peak; the escape sequence in its name is harmless. */
+    shows("reactor?[31m");
+    shows("5.00     10.00     -3.00     +4.00     +7.00");
+    shows("##############.............|");
+    shows("building-4");
+    shows_not("building-2"); /* not reported */
+    shows_not("\x1b");
+}
+
+static void once_shows_the_first_status(void **state)
+{
+    (void)state;
+    char arguments[200];
+    snprintf(arguments, sizeof arguments, "--prefix test --once --url %s", log_url);
+    assert_int_equal(monitor(arguments), 0);
+    shows(" 25.0 %  22.50 of 90.00 s");
+    shows("frames  1 complete");
+    shows("10.00     10.00     -6.00     +8.00     +7.00");
+    snprintf(arguments, sizeof arguments, "--prefix other --once --url %s", log_url);
+    assert_int_equal(monitor(arguments), 1);
+    shows("no status came");
+}
+
+static void options_are_checked(void **state)
+{
+    (void)state;
+    assert_int_equal(monitor("--help"), 0);
+    shows("--duration S");
+    assert_int_equal(monitor("--version"), 0);
+    shows("shorebreak-monitor " SB_VERSION);
+    assert_int_equal(monitor("--duration 3s"), 1);
+    shows("--duration: \"3s\" is not a number");
+    assert_int_equal(monitor("--duration nan"), 1);
+    assert_int_equal(monitor("--url"), 1);
+    shows("--url: a value is missing");
+    assert_int_equal(monitor("--colour"), 1);
+    shows("--colour: no such option");
+    assert_int_equal(monitor("--url udpm://999.1.1.1:7667"), 1);
+    shows("ip link set lo multicast on; ip route add 224.0.0.0/4 dev lo");
+}
+
+static void says_when_nothing_comes(void **state)
+{
+    (void)state;
+    assert_int_equal(monitor("--url memq:// --plain --duration 5.5"), 0);
+    assert_string_equal(output, "no data since 5 s\n");
+}
+
+/* Reads the terminal until `text` is there or 5 s are over. */
+static bool await_text(int terminal, const char *text)
+{
+    size_t length = 0;
+    *output = 0;
+    for (double end = sb_clock() + 5; sb_clock() < end;) {
+        struct pollfd ready = {.fd = terminal, .events = POLLIN};
+        if (poll(&ready, 1, 100) <= 0)
+            continue;
+        ssize_t got = read(terminal, output + length, sizeof output - 1 - length);
+        if (got <= 0)
+            break;
+        length += (size_t)got;
+        output[length] = 0;
+        if (strstr(output, text))
+            return true;
+    }
+    return false;
+}
+
+static void ctrl_c_restores_the_terminal(void **state)
+{
+    (void)state;
+    struct winsize size = {.ws_row = 24, .ws_col = 80};
+    int terminal;
+    pid_t child = forkpty(&terminal, NULL, NULL, &size);
+    if (child == 0) {
+        setenv("TERM", "xterm", 1);
+        execl(SB_BINARY_DIR "/shorebreak-monitor", "shorebreak-monitor", "--url", "memq://",
+              (char *)NULL);
+        _exit(127);
+    }
+    assert_true(child > 0);
+    bool started = await_text(terminal, "waiting for a run");
+    assert_non_null(strstr(output, "\x1b[?1049h\x1b[?25l"));
+    assert_int_equal(write(terminal, "\x03", 1), 1);
+    bool restored = await_text(terminal, "\x1b[?25h\x1b[?1049l");
+    int status = 0;
+    if (!started || !restored)
+        kill(child, SIGKILL);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    close(terminal);
+    assert_true(started && restored);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shows_a_recorded_run),
+        cmocka_unit_test(once_shows_the_first_status),
+        cmocka_unit_test(options_are_checked),
+        cmocka_unit_test(says_when_nothing_comes),
+        cmocka_unit_test(ctrl_c_restores_the_terminal),
+    };
+    return cmocka_run_group_tests(tests, record_log, remove_log);
+}

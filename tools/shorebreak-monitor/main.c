@@ -1,0 +1,212 @@
+/* Watches a run over LCM and shows it as a live table. */
+#include "options.h"
+#include "state.h"
+#include "table.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+
+#include <langinfo.h>
+#include <locale.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#define REDRAW_SECONDS 0.2
+#define LINE_SECONDS 1.0
+#define SILENCE_SECONDS 5.0
+/* Forces and the first chunks follow a status at once. */
+#define ONCE_SECONDS 0.25
+
+#define ENTER_SCREEN "\x1b[?1049h\x1b[?25l\x1b[2J"
+#define LEAVE_SCREEN "\x1b[0m\x1b[?25h\x1b[?1049l"
+
+typedef struct monitor {
+    sb_monitor_options options;
+    sb_monitor_state state;
+    sb_table_style style;
+    bool screen;               /* the terminal is ours */
+    double line_time;          /* of the last plain line, sb_clock() */
+    uint64_t line_statuses;    /* statuses there were at that time */
+    bool told_silence;
+    double first_status;       /* sb_clock(), 0: none yet */
+    bool sated;                /* --once: the second status came; nothing after it counts */
+} monitor;
+
+static volatile sig_atomic_t stopped;
+
+static void stop(int signal_number)
+{
+    (void)signal_number;
+    stopped = 1;
+}
+
+static void on_status(void *user, const sb_status_message *message)
+{
+    monitor *self = user;
+    self->sated |= self->options.once && self->first_status > 0;
+    if (self->sated)
+        return;
+    if (!(self->first_status > 0))
+        self->first_status = sb_clock();
+    sb_monitor_on_status(&self->state, message);
+}
+
+static void on_forces(void *user, const sb_forces_message *message)
+{
+    monitor *self = user;
+    if (!self->sated)
+        sb_monitor_on_forces(&self->state, message);
+}
+
+static void on_particles(void *user, const sb_particles_message *message)
+{
+    monitor *self = user;
+    if (!self->sated)
+        sb_monitor_on_particles(&self->state, message);
+}
+
+static void measure_terminal(sb_table_style *style)
+{
+    struct winsize size;
+    bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    style->width = known ? size.ws_col : 100;
+    style->height = known ? size.ws_row : 0;
+}
+
+/* Whole screens go out in one piece, lest the eye see half of one. */
+static void redraw(monitor *self, double now)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *page = open_memstream(&text, &length);
+    if (!page)
+        return;
+    measure_terminal(&self->style);
+    fputs("\x1b[?7l\x1b[H", page); /* long lines are cut, not wrapped */
+    sb_table_draw(page, &self->state, &self->style, now);
+    fputs("\x1b[J\x1b[?7h", page);
+    if (fclose(page) == 0) {
+        fwrite(text, 1, length, stdout);
+        fflush(stdout);
+    }
+    free(text);
+}
+
+static void print_lines(monitor *self, double now)
+{
+    sb_monitor_state *state = &self->state;
+    double silent = now - state->last_data;
+    if (silent < SILENCE_SECONDS)
+        self->told_silence = false;
+    else if (!self->told_silence) {
+        printf("no data since %.0f s\n", silent);
+        self->told_silence = true;
+    }
+    if (state->has_status && state->statuses != self->line_statuses &&
+        now - self->line_time >= LINE_SECONDS) {
+        sb_table_line(stdout, state);
+        self->line_statuses = state->statuses;
+        self->line_time = now;
+    }
+    fflush(stdout);
+}
+
+static bool finished(const monitor *self, double now)
+{
+    const sb_monitor_options *options = &self->options;
+    return stopped || self->sated ||
+           (options->duration > 0 && now - self->state.started >= options->duration) ||
+           (options->once && self->first_status > 0 && now - self->first_status >= ONCE_SECONDS);
+}
+
+static void watch(monitor *self, sb_listener *listener)
+{
+    bool ended = false;
+    for (double now = sb_clock(); !ended && !finished(self, now); now = sb_clock()) {
+        ended = sb_listener_poll(listener, self->options.once ? 0.05 : REDRAW_SECONDS) != SB_OK;
+        now = sb_clock();
+        sb_monitor_state_sample(&self->state, sb_listener_count(listener), now);
+        if (self->screen)
+            redraw(self, now);
+        else if (!self->options.once)
+            print_lines(self, now);
+    }
+}
+
+static void choose_style(monitor *self)
+{
+    const char *terminal = getenv("TERM");
+    bool live = !self->options.plain && isatty(STDOUT_FILENO) && terminal &&
+                strcmp(terminal, "dumb") != 0;
+    const char *no_colour = getenv("NO_COLOR");
+    self->screen = live && !self->options.once;
+    self->style.colour = live && !(no_colour && *no_colour);
+    self->style.utf8 = live && strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
+    self->style.line_end = self->screen ? "\x1b[K" : "";
+    measure_terminal(&self->style);
+}
+
+static int run(monitor *self)
+{
+    sb_error error = {0};
+    sb_listener *listener = NULL;
+    sb_listener_calls calls = {self, on_status, on_forces, on_particles};
+    if (sb_listener_create(self->options.url, self->options.prefix, &calls, &listener, &error) !=
+        SB_OK) {
+        fprintf(stderr, "shorebreak-monitor: %s\n", error.text);
+        return 1;
+    }
+    struct sigaction action = {.sa_handler = stop};
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    sigaction(SIGHUP, &action, NULL);
+    sb_monitor_state_start(&self->state, sb_clock());
+    choose_style(self);
+    if (self->screen)
+        fputs(ENTER_SCREEN, stdout);
+    watch(self, listener);
+    if (self->screen)
+        fputs(LEAVE_SCREEN, stdout);
+    /* The last table stays to be read. */
+    self->style.line_end = "";
+    self->style.height = 0;
+    if (self->state.has_status)
+        sb_table_draw(stdout, &self->state, &self->style, sb_clock());
+    sb_listener_destroy(listener);
+    sb_monitor_state_free(&self->state);
+    if (self->options.once && !(self->first_status > 0)) {
+        fprintf(stderr, "shorebreak-monitor: no status came\n");
+        return 1;
+    }
+    return 0;
+}
+
+int main(int count, char **words)
+{
+    setlocale(LC_CTYPE, "");
+    char trouble[256];
+    sb_monitor_options options;
+    if (!sb_monitor_options_read(count, words, &options, trouble)) {
+        fprintf(stderr, "shorebreak-monitor: %s\n", trouble);
+        return 1;
+    }
+    if (options.help || options.version) {
+        if (options.help)
+            fputs(sb_monitor_help, stdout);
+        else
+            puts("shorebreak-monitor " SB_VERSION);
+        return fflush(stdout) == 0 ? 0 : 1;
+    }
+    monitor *self = sb_alloc(1, sizeof *self);
+    if (!self) {
+        fprintf(stderr, "shorebreak-monitor: out of memory\n");
+        return 1;
+    }
+    self->options = options;
+    int code = run(self);
+    sb_free(self);
+    return fflush(stdout) == 0 ? code : 1;
+}
