@@ -1,0 +1,60 @@
+#include "render/colormap.h"
+
+#include <math.h>
+
+/* The path in CIELAB: L* is linear by construction; a* and b* bend from navy over cyan to white and
+   stay inside the sRGB gamut, so that nothing is clipped. */
+static const double lightness_low = 21, lightness_high = 97;
+enum { KNOTS = 6 };
+static const double path_a[KNOTS] = {9, 3, -6, -17, -14, -1};
+static const double path_b[KNOTS] = {-34, -38, -34, -24, -12, -1};
+
+static const double white_x = 0.95047, white_z = 1.08883; /* D65, Y = 1 */
+
+static double spline(const double *knots, double t)
+{
+    double at = t * (KNOTS - 1);
+    int k = (int)at;
+    if (k > KNOTS - 2)
+        k = KNOTS - 2;
+    double s = at - k, a = knots[k], b = knots[k + 1];
+    double slope_a = k > 0 ? (b - knots[k - 1]) / 2 : b - a;
+    double slope_b = k < KNOTS - 2 ? (knots[k + 2] - a) / 2 : b - a;
+    return a + (b - a) * s * s * (3 - 2 * s) + slope_a * s * (1 - s) * (1 - s) +
+           slope_b * s * s * (s - 1);
+}
+
+static double from_lab(double f)
+{
+    return f > 6.0 / 29 ? f * f * f : 3 * (6.0 / 29) * (6.0 / 29) * (f - 4.0 / 29);
+}
+
+static float encode(double linear)
+{
+    double value = linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
+    return (float)(value < 0 ? 0 : value > 1 ? 1 : value);
+}
+
+void sb_colormap(double t, float rgb[3])
+{
+    t = t > 0 ? t < 1 ? t : 1 : 0;
+    double f = (lightness_low + (lightness_high - lightness_low) * t + 16) / 116;
+    double x = white_x * from_lab(f + spline(path_a, t) / 500), y = from_lab(f);
+    double z = white_z * from_lab(f - spline(path_b, t) / 200);
+    rgb[0] = encode(3.2404542 * x - 1.5371385 * y - 0.4985314 * z);
+    rgb[1] = encode(-0.9692660 * x + 1.8760108 * y + 0.0415560 * z);
+    rgb[2] = encode(0.0556434 * x - 0.2040259 * y + 1.0572252 * z);
+}
+
+static double decode(double value)
+{
+    return value <= 0.04045 ? value / 12.92 : pow((value + 0.055) / 1.055, 2.4);
+}
+
+double sb_lightness(const float rgb[3])
+{
+    double y = 0.2126729 * decode((double)rgb[0]) + 0.7151522 * decode((double)rgb[1]) +
+               0.0721750 * decode((double)rgb[2]);
+    double cube = 6.0 / 29 * 6.0 / 29 * 6.0 / 29;
+    return 116 * (y > cube ? cbrt(y) : y / (3 * 36.0 / 841) + 4.0 / 29) - 16;
+}

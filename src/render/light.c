@@ -1,0 +1,245 @@
+#include "render/light.h"
+
+#include "base/memory.h"
+#include "render/meshes.h"
+
+#include <string.h>
+
+enum { SHADOW_SIDE = 2048, GROUND_SIDE = 512 };
+
+/* Unit; high from the side, so that waves and walls alike get a bright and a dark face. */
+static const float sun[3] = {0.30f, -0.62f, 0.725f};
+
+const char sb_light_source[] =
+    "uniform vec3 eye, sun, ground_frame;\n"
+    "uniform sampler2DShadow shadow_map;\n"
+    "uniform sampler2D ground_map;\n"
+    "uniform mat4 to_shadow;\n"
+    "uniform float haze;\n"
+    "vec3 sky(vec3 d) {\n"
+    "  float up = clamp(d.z, 0.0, 1.0), down = clamp(-d.z, 0.0, 1.0);\n"
+    "  vec3 c = mix(vec3(0.66, 0.75, 0.82), vec3(0.13, 0.29, 0.56), 1.0 - exp(-3.5 * up));\n"
+    "  float g = max(dot(d, sun), 0.0); g *= g; g *= g;\n"
+    "  c += g * vec3(0.10, 0.08, 0.05);\n"
+    "  return mix(c, vec3(0.42, 0.50, 0.56), 1.0 - exp(-5.0 * down));\n"
+    "}\n"
+    /* How open a place is: on the ground what the map says there, on a wall what the ground before it
+       says, rising to a free view with height over that ground. */
+    "float openness(vec3 p, vec3 n) {\n"
+    "  vec2 out_of_wall = n.xy * (1.5 / (512.0 * ground_frame.z));\n"
+    "  vec2 map = texture(ground_map, (p.xy + out_of_wall - ground_frame.xy) * ground_frame.z).xy;\n"
+    "  return mix(map.y, 1.0, clamp((p.z - map.x) * 0.03, 0.0, 1.0));\n"
+    "}\n"
+    "float sunlit(vec3 p, vec3 n) {\n"
+    "  vec3 s = (to_shadow * vec4(p + n * (0.0015 / ground_frame.z), 1.0)).xyz;\n"
+    "  return texture(shadow_map, s);\n"
+    "}\n"
+    "vec3 lit(vec3 albedo, vec3 p, vec3 n) {\n"
+    "  float direct = max(dot(n, sun), 0.0);\n"
+    "  direct *= sunlit(p, n);\n"
+    "  vec3 dome = mix(vec3(0.30, 0.28, 0.25), vec3(0.44, 0.52, 0.64), 0.5 + 0.5 * n.z);\n"
+    "  return albedo * (direct * vec3(0.92, 0.86, 0.76) + openness(p, n) * dome);\n"
+    "}\n"
+    "vec3 hazed(vec3 color, vec3 p) {\n"
+    "  return mix(vec3(0.62, 0.71, 0.78), color, exp(-haze * distance(p, eye)));\n"
+    "}\n"
+    "vec4 encoded(vec3 color) { return vec4(sqrt(clamp(color, 0.0, 1.0)), 1.0); }\n";
+
+/* An orthographic clip matrix looking along -back that holds the box, in origin-relative metres. */
+static void ortho_clip(sb_vec3 right, sb_vec3 up, sb_vec3 back, sb_vec3 min, sb_vec3 max,
+                       float clip[16])
+{
+    const sb_vec3 axes[3] = {right, up, back};
+    memset(clip, 0, 16 * sizeof *clip);
+    clip[15] = 1;
+    for (int row = 0; row < 3; row++) {
+        double low = INFINITY, high = -INFINITY;
+        for (int corner = 0; corner < 8; corner++) {
+            double at = sb_dot(axes[row], sb_vec(corner & 1 ? max.x : min.x,
+                                                 corner & 2 ? max.y : min.y,
+                                                 corner & 4 ? max.z : min.z));
+            low = at < low ? at : low;
+            high = at > high ? at : high;
+        }
+        double half = 0.505 * (high - low) + 1e-6, middle = 0.5 * (high + low);
+        double sign = row == 2 ? -1 : 1;
+        clip[row] = (float)(sign * axes[row].x / half);
+        clip[4 + row] = (float)(sign * axes[row].y / half);
+        clip[8 + row] = (float)(sign * axes[row].z / half);
+        clip[12 + row] = (float)(-sign * middle / half);
+    }
+}
+
+static sb_status draw_depth_map(const sb_meshes *meshes, GLuint texture, int side,
+                                const float clip[16], sb_error *error)
+{
+    GLuint framebuffer;
+    glGenFramebuffers(1, &framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, texture, 0);
+    glDrawBuffer(GL_NONE);
+    glReadBuffer(GL_NONE);
+    sb_status status = sb_framebuffer_check("shadow", error);
+    if (status == SB_OK) {
+        glViewport(0, 0, side, side);
+        glEnable(GL_DEPTH_TEST);
+        glDepthFunc(GL_LESS);
+        glDepthMask(GL_TRUE);
+        glDisable(GL_CULL_FACE);
+        glClearDepth(1);
+        glClear(GL_DEPTH_BUFFER_BIT);
+        glEnable(GL_POLYGON_OFFSET_FILL);
+        glPolygonOffset(1.5f, 2);
+        sb_meshes_draw_depth(meshes, clip);
+        glDisable(GL_POLYGON_OFFSET_FILL);
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glDeleteFramebuffers(1, &framebuffer);
+    return status;
+}
+
+static float horizon(const float *height, int n, double cell, int x, int y, int dx, int dy)
+{
+    double steepest = 0, length = sqrt((double)(dx * dx + dy * dy)) * cell;
+    /* Steps grow as they leave: near walls matter most. */
+    for (int step = 1; step <= 24; step += 1 + step / 3) {
+        int px = x + step * dx, py = y + step * dy;
+        if (px < 0 || py < 0 || px >= n || py >= n)
+            break;
+        double rise = (double)(height[py * n + px] - height[y * n + x]);
+        double slope = rise / (step * length);
+        steepest = slope > steepest ? slope : steepest;
+    }
+    return (float)(steepest / sqrt(1 + steepest * steepest));
+}
+
+void sb_light_openness(const float *height, int n, double cell, float *openness)
+{
+    static const int directions[12][2] = {{1, 0},  {2, 1},   {1, 2},   {0, 1},  {-1, 2}, {-2, 1},
+                                          {-1, 0}, {-2, -1}, {-1, -2}, {0, -1}, {1, -2}, {2, -1}};
+    for (int y = 0; y < n; y++)
+        for (int x = 0; x < n; x++) {
+            float blocked = 0;
+            for (int d = 0; d < 12; d++)
+                blocked += horizon(height, n, cell, x, y, directions[d][0], directions[d][1]);
+            openness[y * n + x] = 1 - blocked / 12;
+        }
+}
+
+static void soften(const float *in, int n, float *out)
+{
+    for (int y = 0; y < n; y++)
+        for (int x = 0; x < n; x++) {
+            float sum = 0, weight = 0;
+            for (int v = y > 0 ? y - 1 : y; v <= y + 1 && v < n; v++)
+                for (int u = x > 0 ? x - 1 : x; u <= x + 1 && u < n; u++) {
+                    sum += in[v * n + u];
+                    weight += 1;
+                }
+            out[y * n + x] = sum / weight;
+        }
+}
+
+/* Heights of the bodies seen from straight above, then what each spot sees of the sky. */
+static sb_status make_ground(const sb_meshes *meshes, sb_vec3 min, sb_vec3 max, sb_light *light,
+                             sb_error *error)
+{
+    enum { N = GROUND_SIDE, CELLS = N * N };
+    double side = max.x - min.x > max.y - min.y ? max.x - min.x : max.y - min.y;
+    side = side > 0 ? side : 1;
+    max.x = min.x + side;
+    max.y = min.y + side;
+    float clip[16];
+    ortho_clip(sb_vec(1, 0, 0), sb_vec(0, 1, 0), sb_vec(0, 0, 1), min, max, clip);
+    float *height = sb_alloc(CELLS, sizeof *height);
+    float *open = sb_alloc(CELLS, sizeof *open);
+    float *map = sb_alloc(CELLS, 2 * sizeof *map);
+    GLuint depth = 0;
+    sb_status status = SB_OK;
+    if (!height || !open || !map) {
+        status = sb_fail_memory(error, "the ground map");
+        goto done;
+    }
+    depth = sb_texture_create(GL_DEPTH_COMPONENT32F, N, N, GL_DEPTH_COMPONENT, GL_FLOAT, NULL,
+                              GL_NEAREST);
+    status = draw_depth_map(meshes, depth, N, clip, error);
+    if (status != SB_OK)
+        goto done;
+    glBindTexture(GL_TEXTURE_2D, depth);
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT, GL_FLOAT, height);
+    /* clip z = 2 depth - 1 = clip[10] z + clip[14]; where nothing is, the ground is far below. */
+    for (int i = 0; i < CELLS; i++)
+        height[i] = (2 * height[i] - 1 - clip[14]) / clip[10];
+    sb_light_openness(height, N, side / N, map);
+    soften(map, N, open);
+    for (int i = 0; i < CELLS; i++) {
+        map[2 * i] = height[i];
+        map[2 * i + 1] = open[i];
+    }
+    light->ground = sb_texture_create(GL_RG32F, N, N, GL_RG, GL_FLOAT, map, GL_LINEAR);
+    /* ortho_clip leaves a margin of one per cent around. */
+    light->ground_frame[0] = (float)(min.x - 0.005 * side);
+    light->ground_frame[1] = (float)(min.y - 0.005 * side);
+    light->ground_frame[2] = (float)(1 / (1.01 * side));
+done:
+    glDeleteTextures(1, &depth);
+    sb_free(height);
+    sb_free(open);
+    sb_free(map);
+    return status;
+}
+
+static sb_status make_shadow(const sb_meshes *meshes, sb_vec3 min, sb_vec3 max, sb_light *light,
+                             sb_error *error)
+{
+    sb_vec3 back = sb_vec((double)sun[0], (double)sun[1], (double)sun[2]);
+    sb_vec3 right = sb_normalize(sb_cross(sb_vec(0, 0, 1), back)), up = sb_cross(back, right);
+    float clip[16];
+    ortho_clip(right, up, back, min, max, clip);
+    light->shadow = sb_texture_create(GL_DEPTH_COMPONENT32F, SHADOW_SIDE, SHADOW_SIDE,
+                                      GL_DEPTH_COMPONENT, GL_FLOAT, NULL, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+    /* From -1..1 to 0..1. */
+    for (int i = 0; i < 16; i++)
+        light->to_shadow[i] = i % 4 == 3 ? clip[i] : 0.5f * clip[i] + (i >= 12 ? 0.5f : 0);
+    return draw_depth_map(meshes, light->shadow, SHADOW_SIDE, clip, error);
+}
+
+sb_status sb_light_create(const sb_meshes *meshes, sb_vec3 origin, sb_vec3 min, sb_vec3 max,
+                          double sea_level, sb_light *light, sb_error *error)
+{
+    sb_light made = {.origin = origin, .sea_level = sea_level};
+    min = sb_sub(min, origin);
+    max = sb_sub(max, origin);
+    made.size = sb_norm(sb_sub(max, min));
+    made.size = made.size > 0 ? made.size : 1;
+    sb_status status = make_shadow(meshes, min, max, &made, error);
+    if (status == SB_OK)
+        status = make_ground(meshes, min, max, &made, error);
+    if (status == SB_OK)
+        *light = made;
+    else
+        sb_light_destroy(&made);
+    return status;
+}
+
+void sb_light_destroy(sb_light *light)
+{
+    glDeleteTextures(1, &light->shadow);
+    glDeleteTextures(1, &light->ground);
+    *light = (sb_light){0};
+}
+
+void sb_light_bind(const sb_light *light, const sb_view *view, GLuint program)
+{
+    sb_vec3 eye = sb_sub(view->eye, light->origin);
+    const float place[3] = {(float)eye.x, (float)eye.y, (float)eye.z};
+    sb_uniform_vec3(program, "eye", place);
+    sb_uniform_vec3(program, "sun", sun);
+    sb_uniform_vec3(program, "ground_frame", light->ground_frame);
+    sb_uniform_mat4(program, "to_shadow", light->to_shadow);
+    sb_uniform_float(program, "haze", 0.28 / light->size);
+    sb_uniform_texture(program, "shadow_map", 4, light->shadow);
+    sb_uniform_texture(program, "ground_map", 5, light->ground);
+}

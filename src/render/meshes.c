@@ -1,0 +1,364 @@
+#include "render/meshes.h"
+
+#include "base/memory.h"
+#include "render/outline.h"
+
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+/* One corner of a triangle; `kind` in the colour's alpha: 0 plain, 255 coloured as terrain. */
+struct corner {
+    float position[3];
+    signed char normal[4];
+    unsigned char color[4];
+};
+
+struct part {
+    char name[SB_NAME_MAX];
+    size_t body;                  /* index in the model, and so in a frame */
+    bool moves, one_sided;
+    float line_alpha;
+    GLint first_corner, first_line;
+    GLsizei corners, line_ends;
+};
+
+struct sb_meshes {
+    sb_vec3 origin;
+    size_t part_count;
+    struct part *parts;
+    GLuint face_array, face_buffer, line_array, line_buffer;
+    GLuint face_program, depth_program, line_program;
+};
+
+static const double crease = 32; /* degrees */
+
+static const char face_vertex[] =
+    "layout(location = 0) in vec3 position;\n"
+    "layout(location = 1) in vec3 normal;\n"
+    "layout(location = 2) in vec4 color;\n"
+    "uniform mat4 clip;\n"
+    "uniform vec3 shift;\n"
+    "out vec3 place, slope;\n"
+    "out vec4 paint;\n"
+    "void main() {\n"
+    "  place = position + shift;\n"
+    "  slope = normal;\n"
+    "  paint = color;\n"
+    "  gl_Position = clip * vec4(place, 1.0);\n"
+    "}\n";
+
+/* Terrain without a colour of its own: sand around the water line, meadow above it, rock where it is
+   steep, and a coarse noise so that large slopes do not look like plastic. */
+static const char face_fragment[] =
+    "in vec3 place, slope;\n"
+    "in vec4 paint;\n"
+    "out vec4 color;\n"
+    "uniform float sea_level, unit;\n"
+    "float hash(vec2 p) { return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453); }\n"
+    "float noise(vec2 p) {\n"
+    "  vec2 i = floor(p), f = fract(p); f = f * f * (3.0 - 2.0 * f);\n"
+    "  return mix(mix(hash(i), hash(i + vec2(1, 0)), f.x),\n"
+    "             mix(hash(i + vec2(0, 1)), hash(i + vec2(1, 1)), f.x), f.y) - 0.5;\n"
+    "}\n"
+    "vec3 ground(vec3 n) {\n"
+    "  float speckle = noise(place.xy / unit) + 0.5 * noise(place.yx / (0.31 * unit));\n"
+    "  float h = (place.z - sea_level) / unit + 0.15 * speckle;\n"
+    "  vec3 c = mix(vec3(0.30, 0.29, 0.24), vec3(0.60, 0.52, 0.37), smoothstep(-0.9, 0.05, h));\n"
+    "  c = mix(c, vec3(0.235, 0.30, 0.125), smoothstep(0.75, 1.25, h));\n"
+    "  c = mix(c, vec3(0.16, 0.22, 0.09), smoothstep(1.3, 3.0, h));\n"
+    "  c = mix(c, vec3(0.34, 0.31, 0.27), smoothstep(0.72, 0.55, n.z));\n"
+    "  return c * (1.0 + 0.22 * speckle);\n"
+    "}\n"
+    "void main() {\n"
+    "  vec3 n = normalize(slope);\n"
+    "  if (dot(n, eye - place) < 0.0) n = -n;\n"
+    "  vec3 albedo = paint.a > 0.5 ? ground(n) : paint.rgb * paint.rgb;\n"
+    "  color = encoded(hazed(lit(albedo, place, n), place));\n"
+    "}\n";
+
+static const char line_vertex[] =
+    "layout(location = 0) in vec3 position;\n"
+    "uniform mat4 view, projection;\n"
+    "uniform vec3 shift;\n"
+    "out float depth;\n"
+    "void main() {\n"
+    "  vec4 e = view * vec4(position + shift, 1.0);\n"
+    "  depth = -e.z;\n"
+    "  e.xyz *= 0.9985;\n" /* in front of the faces it bounds */
+    "  gl_Position = projection * e;\n"
+    "}\n";
+
+static const char line_fragment[] =
+    "in float depth;\n"
+    "out vec4 color;\n"
+    "uniform float alpha, fade;\n"
+    "void main() { color = vec4(0.05, 0.07, 0.09, alpha * exp(-depth * fade)); }\n";
+
+static const char depth_fragment[] = "void main() {}\n";
+
+static const sb_body *scene_body(const sb_scene *scene, const char *name)
+{
+    for (size_t i = 0; i < scene->body_count; i++)
+        if (strcmp(scene->bodies[i].name, name) == 0)
+            return &scene->bodies[i];
+    return NULL;
+}
+
+static void paint_of(const sb_model_body *body, unsigned char paint[4])
+{
+    static const float concrete[3] = {0.80f, 0.79f, 0.76f}, steel[3] = {0.52f, 0.57f, 0.62f};
+    const float *color = body->color;
+    paint[3] = 0;
+    if (color[0] < 0 || color[1] < 0 || color[2] < 0) {
+        paint[3] = body->role == SB_ROLE_TERRAIN ? 255 : 0;
+        color = body->wavemaker >= 0 ? steel : concrete;
+    }
+    for (int i = 0; i < 3; i++)
+        paint[i] = (unsigned char)(255 * (color[i] < 1 ? color[i] : 1) + 0.5f);
+}
+
+static void relative(float out[3], sb_vec3 at, sb_vec3 origin)
+{
+    out[0] = (float)(at.x - origin.x);
+    out[1] = (float)(at.y - origin.y);
+    out[2] = (float)(at.z - origin.z);
+}
+
+/* Where the vertices of all bodies are gathered before they go to OpenGL. */
+struct upload {
+    struct corner *corners;
+    size_t corner_count, corner_capacity;
+    float (*ends)[3];
+    size_t end_count, end_capacity;
+};
+
+static sb_status gather(const sb_scene *scene, const sb_model_body *body, sb_vec3 origin,
+                        struct upload *upload, struct part *part, sb_error *error)
+{
+    const sb_mesh *mesh = &body->mesh;
+    sb_outline outline;
+    sb_status status = sb_outline_create(mesh, crease, &outline, error);
+    if (status != SB_OK)
+        return status;
+    size_t corners = upload->corner_count + 3 * mesh->triangle_count;
+    size_t ends = upload->end_count + 2 * outline.edge_count;
+    if (sb_grow((void **)&upload->corners, &upload->corner_capacity, corners,
+                sizeof *upload->corners) != 0 ||
+        sb_grow((void **)&upload->ends, &upload->end_capacity, ends, sizeof *upload->ends) != 0) {
+        sb_outline_free(&outline);
+        return sb_fail_memory(error, "meshes to draw");
+    }
+    const sb_body *source = scene_body(scene, body->name);
+    snprintf(part->name, sizeof part->name, "%s", body->name);
+    part->moves = body->wavemaker >= 0;
+    part->one_sided = source && (source->shape == SB_SHAPE_BASIN || source->shape == SB_SHAPE_PLANE);
+    part->line_alpha = body->role == SB_ROLE_TERRAIN ? 0.25f : 0.75f;
+    part->first_corner = (GLint)upload->corner_count;
+    part->first_line = (GLint)upload->end_count;
+    part->corners = (GLsizei)(corners - upload->corner_count);
+    part->line_ends = (GLsizei)(ends - upload->end_count);
+    unsigned char paint[4];
+    paint_of(body, paint);
+    for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
+        struct corner *corner = &upload->corners[upload->corner_count++];
+        relative(corner->position, mesh->vertices[mesh->triangles[i / 3][i % 3]], origin);
+        for (int a = 0; a < 3; a++)
+            corner->normal[a] = (signed char)lrintf(127 * outline.normals[i][a]);
+        corner->normal[3] = 0;
+        memcpy(corner->color, paint, 4);
+    }
+    for (size_t i = 0; i < 2 * outline.edge_count; i++)
+        relative(upload->ends[upload->end_count++],
+                 mesh->vertices[outline.edges[i / 2][i % 2]], origin);
+    sb_outline_free(&outline);
+    return SB_OK;
+}
+
+static void send(sb_meshes *meshes, const struct upload *upload)
+{
+    glGenVertexArrays(1, &meshes->face_array);
+    glGenBuffers(1, &meshes->face_buffer);
+    glBindVertexArray(meshes->face_array);
+    glBindBuffer(GL_ARRAY_BUFFER, meshes->face_buffer);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(upload->corner_count * sizeof *upload->corners),
+                 upload->corners, GL_STATIC_DRAW);
+    const GLsizei stride = sizeof(struct corner);
+    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, stride, NULL);
+    glVertexAttribPointer(1, 3, GL_BYTE, GL_TRUE, stride,
+                          (const void *)offsetof(struct corner, normal));
+    glVertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride,
+                          (const void *)offsetof(struct corner, color));
+    for (GLuint i = 0; i < 3; i++)
+        glEnableVertexAttribArray(i);
+    glGenVertexArrays(1, &meshes->line_array);
+    glGenBuffers(1, &meshes->line_buffer);
+    glBindVertexArray(meshes->line_array);
+    glBindBuffer(GL_ARRAY_BUFFER, meshes->line_buffer);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(upload->end_count * sizeof *upload->ends),
+                 upload->ends, GL_STATIC_DRAW);
+    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, NULL);
+    glEnableVertexAttribArray(0);
+    glBindVertexArray(0);
+}
+
+static sb_status make_programs(sb_meshes *meshes, sb_error *error)
+{
+    sb_status status = sb_program_create("faces", face_vertex, sb_light_source, face_fragment,
+                                         &meshes->face_program, error);
+    if (status == SB_OK)
+        status = sb_program_create("shadow", face_vertex, NULL, depth_fragment,
+                                   &meshes->depth_program, error);
+    if (status == SB_OK)
+        status = sb_program_create("edges", line_vertex, NULL, line_fragment,
+                                   &meshes->line_program, error);
+    return status;
+}
+
+sb_status sb_meshes_create(const sb_scene *scene, const sb_model *model, sb_vec3 origin,
+                           sb_meshes **meshes, sb_error *error)
+{
+    struct upload upload = {0};
+    sb_meshes *made = sb_alloc(1, sizeof *made);
+    sb_status status = SB_OK;
+    if (made)
+        made->parts = sb_alloc(model->body_count, sizeof *made->parts);
+    if (!made || !made->parts) {
+        status = sb_fail_memory(error, "meshes to draw");
+        goto done;
+    }
+    made->origin = origin;
+    for (size_t i = 0; i < model->body_count; i++) {
+        if (model->bodies[i].mesh.triangle_count == 0)
+            continue;
+        struct part *part = &made->parts[made->part_count];
+        part->body = i;
+        status = gather(scene, &model->bodies[i], origin, &upload, part, error);
+        if (status != SB_OK)
+            goto done;
+        made->part_count++;
+    }
+    send(made, &upload);
+    status = make_programs(made, error);
+    if (status != SB_OK)
+        goto done;
+    *meshes = made;
+    made = NULL;
+done:
+    sb_free(upload.corners);
+    sb_free(upload.ends);
+    sb_meshes_destroy(made);
+    return status;
+}
+
+void sb_meshes_destroy(sb_meshes *meshes)
+{
+    if (!meshes)
+        return;
+    glDeleteVertexArrays(1, &meshes->face_array);
+    glDeleteVertexArrays(1, &meshes->line_array);
+    glDeleteBuffers(1, &meshes->face_buffer);
+    glDeleteBuffers(1, &meshes->line_buffer);
+    glDeleteProgram(meshes->face_program);
+    glDeleteProgram(meshes->depth_program);
+    glDeleteProgram(meshes->line_program);
+    sb_free(meshes->parts);
+    sb_free(meshes);
+}
+
+static void set_shift(GLuint program, const struct part *part, const sb_frame *frame)
+{
+    float shift[3] = {0, 0, 0};
+    const sb_frame_body *body = NULL;
+    if (frame && part->body < frame->body_count &&
+        strcmp(frame->bodies[part->body].name, part->name) == 0)
+        body = &frame->bodies[part->body];
+    for (size_t i = 0; frame && !body && i < frame->body_count; i++)
+        if (strcmp(frame->bodies[i].name, part->name) == 0)
+            body = &frame->bodies[i];
+    if (body)
+        relative(shift, body->displacement, sb_vec(0, 0, 0));
+    sb_uniform_vec3(program, "shift", shift);
+}
+
+static void multiply(const float a[16], const float b[16], float out[16])
+{
+    for (int column = 0; column < 4; column++)
+        for (int row = 0; row < 4; row++) {
+            float sum = 0;
+            for (int k = 0; k < 4; k++)
+                sum += a[4 * k + row] * b[4 * column + k];
+            out[4 * column + row] = sum;
+        }
+}
+
+void sb_meshes_draw_depth(const sb_meshes *meshes, const float clip[16])
+{
+    glUseProgram(meshes->depth_program);
+    sb_uniform_mat4(meshes->depth_program, "clip", clip);
+    glBindVertexArray(meshes->face_array);
+    for (size_t i = 0; i < meshes->part_count; i++) {
+        if (meshes->parts[i].moves)
+            continue;
+        set_shift(meshes->depth_program, &meshes->parts[i], NULL);
+        glDrawArrays(GL_TRIANGLES, meshes->parts[i].first_corner, meshes->parts[i].corners);
+    }
+}
+
+void sb_meshes_draw_faces(const sb_meshes *meshes, const sb_light *light, const sb_view *view,
+                          const sb_frame *frame)
+{
+    GLuint program = meshes->face_program;
+    float matrix[16], clip[16];
+    sb_view_matrix(view, meshes->origin, matrix);
+    multiply(view->projection, matrix, clip);
+    glUseProgram(program);
+    sb_light_bind(light, view, program);
+    sb_uniform_mat4(program, "clip", clip);
+    sb_uniform_float(program, "sea_level", light->sea_level - meshes->origin.z);
+    /* The height over which terrain goes from sand to meadow scales with the scene: 10 m at a plant,
+       centimetres in a flume. */
+    sb_uniform_float(program, "unit", light->size / 175);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    glCullFace(GL_BACK);
+    glBindVertexArray(meshes->face_array);
+    for (size_t i = 0; i < meshes->part_count; i++) {
+        const struct part *part = &meshes->parts[i];
+        /* Tanks and walls are seen through from behind, so that their water shows. */
+        if (part->one_sided)
+            glEnable(GL_CULL_FACE);
+        else
+            glDisable(GL_CULL_FACE);
+        set_shift(program, part, frame);
+        glDrawArrays(GL_TRIANGLES, part->first_corner, part->corners);
+    }
+    glDisable(GL_CULL_FACE);
+}
+
+void sb_meshes_draw_edges(const sb_meshes *meshes, const sb_view *view, const sb_frame *frame)
+{
+    GLuint program = meshes->line_program;
+    float matrix[16];
+    sb_view_matrix(view, meshes->origin, matrix);
+    glUseProgram(program);
+    sb_uniform_mat4(program, "view", matrix);
+    sb_uniform_mat4(program, "projection", view->projection);
+    sb_uniform_float(program, "fade", 1.2 / view->far);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LEQUAL);
+    glDepthMask(GL_FALSE);
+    glEnable(GL_LINE_SMOOTH);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    glLineWidth(1.3f);
+    glBindVertexArray(meshes->line_array);
+    for (size_t i = 0; i < meshes->part_count; i++) {
+        sb_uniform_float(program, "alpha", (double)meshes->parts[i].line_alpha);
+        set_shift(program, &meshes->parts[i], frame);
+        glDrawArrays(GL_LINES, meshes->parts[i].first_line, meshes->parts[i].line_ends);
+    }
+    glDisable(GL_BLEND);
+    glDisable(GL_LINE_SMOOTH);
+    glDepthMask(GL_TRUE);
+}

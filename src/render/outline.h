@@ -1,0 +1,19 @@
+/* What a drawn mesh needs beyond its triangles: smooth normals and the edges an eye looks for. */
+#ifndef SB_RENDER_OUTLINE_H
+#define SB_RENDER_OUTLINE_H
+
+#include "geometry/mesh.h"
+
+typedef struct sb_outline {
+    float (*normals)[3];      /* unit, one per triangle corner: 3 * triangle_count; owned */
+    size_t edge_count;
+    uint32_t (*edges)[2];     /* vertex indices of the mesh; owned */
+} sb_outline;
+
+/* Vertices at one place count as one. Faces that meet at less than `crease` degrees share a smooth
+   normal; edges that are sharper, open or shared by more than two faces become lines. */
+sb_status sb_outline_create(const sb_mesh *mesh, double crease, sb_outline *outline,
+                            sb_error *error);
+void sb_outline_free(sb_outline *outline);
+
+#endif

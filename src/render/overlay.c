@@ -1,0 +1,82 @@
+#include "render/overlay.h"
+
+#include "render/colormap.h"
+#include "render/font.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const float ink[3] = {0.97f, 0.98f, 0.99f};
+
+double sb_overlay_tick(double range, int most)
+{
+    double power = pow(10, floor(log10(range / most)));
+    static const double steps[] = {1, 2, 5};
+    for (int i = 0; i < 3; i++)
+        if (range / (steps[i] * power) <= most * (1 + 1e-9))
+            return steps[i] * power;
+    return 10 * power;
+}
+
+static void fill(sb_image *image, double x0, double y0, double x1, double y1, const float rgb[3],
+                 double alpha)
+{
+    for (int y = (int)lround(y0); y < (int)lround(y1); y++)
+        for (int x = (int)lround(x0); x < (int)lround(x1); x++) {
+            if (x < 0 || y < 0 || x >= image->width || y >= image->height)
+                continue;
+            unsigned char *pixel = image->rgb + 3 * ((size_t)y * (size_t)image->width + (size_t)x);
+            for (int c = 0; c < 3; c++)
+                pixel[c] = (unsigned char)(pixel[c] +
+                                           alpha * (255 * (double)rgb[c] - pixel[c]) + 0.5);
+        }
+}
+
+static sb_status color_bar(sb_image *image, double unit, double speed_max, sb_error *error)
+{
+    static const float dark[3] = {0.02f, 0.05f, 0.09f};
+    double width = 300 * unit, thick = 13 * unit;
+    width = width < 0.5 * image->width ? width : 0.5 * image->width;
+    double x = image->width - 34 * unit - width, y = image->height - 58 * unit;
+    fill(image, x - 1.5, y - 1.5, x + width + 1.5, y + thick + 1.5, dark, 0.55);
+    for (int column = 0; column < (int)lround(width); column++) {
+        float rgb[3];
+        sb_colormap((column + 0.5) / width, rgb);
+        fill(image, x + column, y, x + column + 1, y + thick, rgb, 1);
+    }
+    double letters = 11 * unit, step = sb_overlay_tick(speed_max, 5);
+    sb_status status = sb_font_draw(image, x, y - 9 * unit, letters, ink, "speed  m/s", error);
+    for (double value = 0; value <= speed_max * (1 + 1e-9) && status == SB_OK; value += step) {
+        char label[32];
+        snprintf(label, sizeof label, "%.6g", value < 1e-9 * step ? 0 : value);
+        double at = x + width * value / speed_max;
+        fill(image, at - 0.5 * unit, y + thick, at + 0.9 * unit, y + thick + 5 * unit, ink, 0.9);
+        status = sb_font_draw(image, at - 0.5 * sb_font_width(label, letters),
+                              y + thick + 20 * unit, letters, ink, label, error);
+    }
+    return status;
+}
+
+sb_status sb_overlay_draw(sb_image *image, const char *title, double time, double speed_max,
+                          sb_error *error)
+{
+    if (image->height < SB_OVERLAY_HEIGHT_MIN)
+        return SB_OK;
+    double unit = image->height / 720.0;
+    unit = unit < 0.6 ? 0.6 : unit;
+    char clock[64];
+    snprintf(clock, sizeof clock, "t = %.*f s", time < 10 ? 2 : 1, time);
+    double line = 44 * unit;
+    sb_status status = SB_OK;
+    if (title && *title) {
+        /* A long title shrinks until it fits. */
+        double letters = 17 * unit, room = image->width - 60 * unit;
+        double wide = sb_font_width(title, letters);
+        status = sb_font_draw(image, 30 * unit, line, wide > room ? letters * room / wide : letters,
+                              ink, title, error);
+        line += 31 * unit;
+    }
+    if (status == SB_OK)
+        status = sb_font_draw(image, 30 * unit, line, 15 * unit, ink, clock, error);
+    return status == SB_OK ? color_bar(image, unit, speed_max, error) : status;
+}

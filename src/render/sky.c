@@ -1,0 +1,57 @@
+#include "render/sky.h"
+
+static const char fragment[] =
+    "in vec2 screen;\n"
+    "out vec4 color;\n"
+    "uniform vec3 right, up, back;\n"
+    "uniform vec2 lens;\n"
+    "void main() {\n"
+    "  vec3 d = normalize(right * screen.x * lens.x + up * screen.y * lens.y - back);\n"
+    /* Dither by an ordered pattern: a smooth gradient in 8 bits would show bands. */
+    "  ivec2 p = ivec2(gl_FragCoord.xy) & 3;\n"
+    "  float noise = float((p.x * 5 + p.y * 11 + (p.x ^ p.y) * 3) & 15) / 16.0 - 0.47;\n"
+    "  color = encoded(sky(d)) + noise / 255.0;\n"
+    "}\n";
+
+sb_status sb_sky_create(sb_sky *sky, sb_error *error)
+{
+    sb_status status = sb_program_create("sky", sb_fullscreen_vertex, sb_light_source, fragment,
+                                         &sky->program, error);
+    if (status == SB_OK)
+        glGenVertexArrays(1, &sky->empty);
+    return status;
+}
+
+void sb_sky_destroy(sb_sky *sky)
+{
+    glDeleteProgram(sky->program);
+    glDeleteVertexArrays(1, &sky->empty);
+    *sky = (sb_sky){0};
+}
+
+static void set_axis(GLuint program, const char *name, sb_vec3 axis)
+{
+    const float value[3] = {(float)axis.x, (float)axis.y, (float)axis.z};
+    sb_uniform_vec3(program, name, value);
+}
+
+void sb_sky_bind_rays(const sb_view *view, GLuint program)
+{
+    set_axis(program, "right", view->right);
+    set_axis(program, "up", view->up);
+    set_axis(program, "back", view->back);
+    sb_uniform_vec2(program, "lens", view->tangent * view->aspect, view->tangent);
+}
+
+void sb_sky_draw(const sb_sky *sky, const sb_light *light, const sb_view *view)
+{
+    glUseProgram(sky->program);
+    sb_light_bind(light, view, sky->program);
+    sb_sky_bind_rays(view, sky->program);
+    sb_uniform_float(sky->program, "depth", 1);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LEQUAL);
+    glDepthMask(GL_FALSE);
+    sb_fullscreen_draw(sky->empty);
+    glDepthMask(GL_TRUE);
+}

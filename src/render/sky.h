@@ -1,0 +1,21 @@
+/* The background: a clear sky over a soft horizon. */
+#ifndef SB_RENDER_SKY_H
+#define SB_RENDER_SKY_H
+
+#include "render/light.h"
+
+typedef struct sb_sky {
+    GLuint program, empty;
+} sb_sky;
+
+sb_status sb_sky_create(sb_sky *sky, sb_error *error);
+void sb_sky_destroy(sb_sky *sky);
+
+/* Fills what is still at the far end of the depth buffer. */
+void sb_sky_draw(const sb_sky *sky, const sb_light *light, const sb_view *view);
+
+/* Sets the uniforms right, up, back (the camera's axes) and lens (half the picture's width and height
+   at depth 1) that passes over the whole picture need to find a pixel's ray. */
+void sb_sky_bind_rays(const sb_view *view, GLuint program);
+
+#endif

@@ -1,0 +1,270 @@
+#include "render/water.h"
+
+#include "render/colormap.h"
+#include "render/sky.h"
+
+#include <stddef.h>
+
+enum { COLORS = 256 };
+
+/* Spheres overlap, so that a calm surface closes; smoothing takes their bumps away. */
+static const double radius_spacings = 0.72;
+/* Depths farther apart than this belong to different sheets of water. */
+static const double sheet_spacings = 5;
+static const double smooth_spacings = 1.1; /* standard deviation */
+
+static const char sphere_vertex[] =
+    "layout(location = 0) in vec3 position;\n"
+    "layout(location = 1) in vec2 trait;\n" /* share of the top speed, size */
+    "uniform mat4 view, projection;\n"
+    "uniform float radius, pixels;\n" /* pixels: of one metre at one metre */
+    "flat out float depth, speed, bulge;\n"
+    "void main() {\n"
+    "  vec4 e = view * vec4(position, 1.0);\n"
+    "  gl_Position = projection * e;\n"
+    "  depth = -e.z;\n"
+    "  speed = trait.x;\n"
+    "  bulge = radius * trait.y;\n"
+    "  gl_PointSize = clamp(2.0 * bulge * pixels / depth, 1.5, 255.0);\n"
+    "}\n";
+
+static const char sphere_fragment[] =
+    "flat in float depth, speed, bulge;\n"
+    "uniform vec2 clip;\n" /* of the projection: ndc = clip.x + clip.y / depth */
+    "out vec2 surface;\n"
+    "void main() {\n"
+    "  vec2 d = gl_PointCoord * 2.0 - 1.0;\n"
+    "  float q = 1.0 - dot(d, d);\n"
+    "  if (q < 0.0) discard;\n"
+    "  float z = depth - bulge * sqrt(q);\n"
+    "  surface = vec2(z, speed);\n"
+    "  gl_FragDepth = 0.5 + 0.5 * (clip.x + clip.y / z);\n"
+    "}\n";
+
+/* One direction of a Gaussian that stops at jumps in depth [bilateral]; the reach follows the size
+   that a particle has in the picture. */
+static const char smooth_fragment[] =
+    "out vec2 surface;\n"
+    "uniform sampler2D source;\n"
+    "uniform ivec2 step_by;\n"
+    "uniform float spread, sheet, longest;\n" /* px m; m; px */
+    "void main() {\n"
+    "  ivec2 p = ivec2(gl_FragCoord.xy);\n"
+    "  vec2 c = texelFetch(source, p, 0).xy;\n"
+    "  float sigma = min(spread / c.x, longest);\n"
+    "  float stride = max(1.0, sigma * 0.5);\n"
+    "  float fall = -0.5 * stride * stride / (sigma * sigma);\n"
+    "  vec3 sum = vec3(c, 1.0);\n"
+    "  for (int i = 1; i <= 4; i++) {\n"
+    "    ivec2 by = step_by * int(float(i) * stride + 0.5);\n"
+    "    float w = exp(fall * float(i * i));\n"
+    "    vec2 a = texelFetch(source, p + by, 0).xy, b = texelFetch(source, p - by, 0).xy;\n"
+    "    vec2 jump = (vec2(a.x, b.x) - c.x) / sheet;\n"
+    "    vec2 keep = w * max(1.0 - jump * jump, 0.0);\n"
+    "    sum += vec3(a, 1.0) * keep.x + vec3(b, 1.0) * keep.y;\n"
+    "  }\n"
+    "  surface = sum.xy / sum.z;\n"
+    "}\n";
+
+static const char shade_fragment[] =
+    "in vec2 screen;\n"
+    "out vec4 color;\n"
+    "uniform sampler2D source, colors;\n"
+    "uniform vec3 right, up, back;\n"
+    "uniform vec2 lens, pixel;\n" /* pixel: the size of one in `screen` */
+    "vec3 at(vec2 s, float depth) { return vec3(s * lens, -1.0) * depth; }\n"
+    "vec3 slope(vec2 step_by, ivec2 texel, ivec2 p, float depth, vec3 here) {\n"
+    "  float a = texelFetch(source, p + texel, 0).x, b = texelFetch(source, p - texel, 0).x;\n"
+    "  bool after = abs(a - depth) < abs(b - depth);\n"
+    "  return after ? at(screen + step_by, a) - here : here - at(screen - step_by, b);\n"
+    "}\n"
+    "void main() {\n"
+    "  ivec2 p = ivec2(gl_FragCoord.xy);\n"
+    "  vec2 w = texelFetch(source, p, 0).xy;\n"
+    "  vec3 here = at(screen, w.x);\n"
+    "  vec3 dx = slope(vec2(pixel.x, 0.0), ivec2(1, 0), p, w.x, here);\n"
+    "  vec3 dy = slope(vec2(0.0, pixel.y), ivec2(0, 1), p, w.x, here);\n"
+    "  vec3 n = normalize(cross(dx, dy));\n"
+    "  n = right * n.x + up * n.y + back * n.z;\n"
+    "  vec3 away = right * here.x + up * here.y + back * here.z;\n"
+    "  vec3 place = eye + away;\n"
+    "  vec3 to_eye = -normalize(away);\n"
+    "  vec3 albedo = texture(colors, vec2(w.y, 0.5)).rgb;\n"
+    "  albedo *= albedo;\n"
+    "  float facing = clamp(dot(n, to_eye), 0.0, 1.0);\n"
+    "  float f = 1.0 - facing; f *= f; f *= f * (1.0 - facing);\n"
+    "  float gloss = 0.02 + 0.45 * f;\n"
+    "  vec3 mirrored = reflect(-to_eye, n);\n"
+    "  mirrored.z = abs(mirrored.z);\n"
+    "  float spark = pow(max(dot(mirrored, sun), 0.0), 60.0);\n"
+    "  vec3 c = mix(lit(albedo, place, n), sky(mirrored), gloss) + spark * vec3(0.30, 0.28, 0.24);\n"
+    "  color = encoded(hazed(c, place));\n"
+    "}\n";
+
+static void make_colors(sb_water *water)
+{
+    unsigned char texels[COLORS][3];
+    for (int i = 0; i < COLORS; i++) {
+        float rgb[3];
+        sb_colormap(i / (COLORS - 1.0), rgb);
+        for (int c = 0; c < 3; c++)
+            texels[i][c] = (unsigned char)(255 * rgb[c] + 0.5f);
+    }
+    water->colors =
+        sb_texture_create(GL_RGB8, COLORS, 1, GL_RGB, GL_UNSIGNED_BYTE, texels, GL_LINEAR);
+}
+
+static sb_status make_surfaces(sb_water *water, GLuint depth_stencil, sb_error *error)
+{
+    sb_status status = SB_OK;
+    glGenFramebuffers(2, water->framebuffer);
+    for (int i = 0; i < 2 && status == SB_OK; i++) {
+        water->surface[i] = sb_texture_create(GL_RG32F, water->width, water->height, GL_RG,
+                                              GL_FLOAT, NULL, GL_NEAREST);
+        glBindFramebuffer(GL_FRAMEBUFFER, water->framebuffer[i]);
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
+                               water->surface[i], 0);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
+                                  depth_stencil);
+        status = sb_framebuffer_check("water", error);
+    }
+    return status;
+}
+
+static void make_arrays(sb_water *water)
+{
+    glGenVertexArrays(1, &water->empty);
+    glGenVertexArrays(1, &water->points);
+    glGenBuffers(1, &water->buffer);
+    glBindVertexArray(water->points);
+    glBindBuffer(GL_ARRAY_BUFFER, water->buffer);
+    const GLsizei stride = sizeof(sb_visible_point);
+    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, stride, NULL);
+    glVertexAttribPointer(1, 2, GL_UNSIGNED_SHORT, GL_TRUE, stride,
+                          (const void *)offsetof(sb_visible_point, speed));
+    glEnableVertexAttribArray(0);
+    glEnableVertexAttribArray(1);
+    glBindVertexArray(0);
+}
+
+sb_status sb_water_create(int width, int height, GLuint depth_stencil, sb_water *water,
+                          sb_error *error)
+{
+    sb_water made = {.width = width, .height = height};
+    sb_status status = sb_program_create("spheres", sphere_vertex, NULL, sphere_fragment,
+                                         &made.sphere_program, error);
+    if (status == SB_OK)
+        status = sb_program_create("smoothing", sb_fullscreen_vertex, NULL, smooth_fragment,
+                                   &made.smooth_program, error);
+    if (status == SB_OK)
+        status = sb_program_create("water", sb_fullscreen_vertex, sb_light_source, shade_fragment,
+                                   &made.shade_program, error);
+    if (status == SB_OK)
+        status = make_surfaces(&made, depth_stencil, error);
+    if (status != SB_OK) {
+        sb_water_destroy(&made);
+        return status;
+    }
+    make_colors(&made);
+    make_arrays(&made);
+    *water = made;
+    return SB_OK;
+}
+
+void sb_water_destroy(sb_water *water)
+{
+    glDeleteProgram(water->sphere_program);
+    glDeleteProgram(water->smooth_program);
+    glDeleteProgram(water->shade_program);
+    glDeleteVertexArrays(1, &water->points);
+    glDeleteVertexArrays(1, &water->empty);
+    glDeleteBuffers(1, &water->buffer);
+    glDeleteTextures(1, &water->colors);
+    glDeleteTextures(2, water->surface);
+    glDeleteFramebuffers(2, water->framebuffer);
+    sb_visible_free(&water->visible);
+    *water = (sb_water){0};
+}
+
+static void draw_spheres(sb_water *water, const sb_frame *frame, const sb_view *view)
+{
+    GLuint program = water->sphere_program;
+    float matrix[16];
+    sb_view_matrix(view, frame->origin, matrix);
+    glBindFramebuffer(GL_FRAMEBUFFER, water->framebuffer[0]);
+    glClearColor(0, 0, 0, 0);
+    glClearStencil(0);
+    glClear(GL_COLOR_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+    glUseProgram(program);
+    sb_uniform_mat4(program, "view", matrix);
+    sb_uniform_mat4(program, "projection", view->projection);
+    sb_uniform_float(program, "radius", radius_spacings * frame->spacing);
+    sb_uniform_float(program, "pixels", water->height / (2 * view->tangent));
+    sb_uniform_vec2(program, "clip", (double)-view->projection[10],
+                    (double)view->projection[14]);
+    glEnable(GL_PROGRAM_POINT_SIZE);
+    glEnable(GL_STENCIL_TEST);
+    glStencilFunc(GL_ALWAYS, 1, 1);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    glDepthMask(GL_TRUE);
+    glBindVertexArray(water->points);
+    glBindBuffer(GL_ARRAY_BUFFER, water->buffer);
+    glBufferData(GL_ARRAY_BUFFER,
+                 (GLsizeiptr)(water->visible.count * sizeof *water->visible.points),
+                 water->visible.points, GL_STREAM_DRAW);
+    glDrawArrays(GL_POINTS, 0, (GLsizei)water->visible.count);
+    glStencilFunc(GL_EQUAL, 1, 1);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+    glDisable(GL_DEPTH_TEST);
+    glDepthMask(GL_FALSE);
+}
+
+/* Two rounds: the second, with half the reach, takes away what the strides of the first left. */
+static void smooth_surface(const sb_water *water, const sb_frame *frame, const sb_view *view)
+{
+    GLuint program = water->smooth_program;
+    glBindFramebuffer(GL_FRAMEBUFFER, water->framebuffer[1]);
+    glClear(GL_COLOR_BUFFER_BIT);
+    glUseProgram(program);
+    sb_uniform_float(program, "depth", 0);
+    sb_uniform_float(program, "sheet", sheet_spacings * frame->spacing);
+    sb_uniform_float(program, "longest", water->height / 24.0);
+    double spread = smooth_spacings * frame->spacing * water->height / (2 * view->tangent);
+    for (int pass = 0; pass < 4; pass++) {
+        glBindFramebuffer(GL_FRAMEBUFFER, water->framebuffer[1 - pass % 2]);
+        sb_uniform_texture(program, "source", 0, water->surface[pass % 2]);
+        glUniform2i(glGetUniformLocation(program, "step_by"), pass % 2 == 0, pass % 2 == 1);
+        sb_uniform_float(program, "spread", pass < 2 ? spread : 0.5 * spread);
+        sb_fullscreen_draw(water->empty);
+    }
+}
+
+static void shade(const sb_water *water, const sb_light *light, const sb_view *view)
+{
+    GLuint program = water->shade_program;
+    glUseProgram(program);
+    sb_light_bind(light, view, program);
+    sb_sky_bind_rays(view, program);
+    sb_uniform_float(program, "depth", 0);
+    sb_uniform_vec2(program, "pixel", 2.0 / water->width, 2.0 / water->height);
+    sb_uniform_texture(program, "source", 0, water->surface[0]);
+    sb_uniform_texture(program, "colors", 1, water->colors);
+    sb_fullscreen_draw(water->empty);
+}
+
+sb_status sb_water_draw(sb_water *water, const sb_frame *frame, const sb_light *light,
+                        const sb_view *view, double speed_max, GLuint target, sb_error *error)
+{
+    sb_status status = sb_visible_collect(&water->visible, frame, view, speed_max, error);
+    if (status != SB_OK || water->visible.count == 0)
+        return status;
+    draw_spheres(water, frame, view);
+    smooth_surface(water, frame, view);
+    glBindFramebuffer(GL_FRAMEBUFFER, target);
+    shade(water, light, view);
+    glDisable(GL_STENCIL_TEST);
+    glDepthMask(GL_TRUE);
+    return SB_OK;
+}
