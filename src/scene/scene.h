@@ -228,6 +228,20 @@ sb_status sb_scene_read(const char *path, const char *preset_name, const sb_over
 /* Writes the scene with every default, so that reading it gives the same scene. Paths absolute. */
 sb_status sb_scene_write(const sb_scene *scene, const char *path, sb_error *error);
 
+/* One key of a scene, for the reference. Texts are valid during the visit only. */
+typedef struct sb_scene_key {
+    const char *path;     /* "bodies[].scale" */
+    const char *unit;     /* "m"; empty: none */
+    const char *fallback; /* its default, in YAML or in words; empty when there is none */
+    const char *range;    /* "> 0", "wall or open" */
+    const char *doc;      /* a sentence or two */
+    const char *only;     /* "shape cylinder": when it applies; NULL: always */
+    bool required;        /* whenever it applies */
+} sb_scene_key;
+
+/* Visits every key, blocks and lists before what is in them, in the order they are written. */
+void sb_scene_keys(void (*visit)(void *context, const sb_scene_key *key), void *context);
+
 /* Frees all the scene owns and zeroes it; fine on a zeroed scene. */
 void sb_scene_free(sb_scene *scene);
 

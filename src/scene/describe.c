@@ -1,0 +1,73 @@
+#include "scene/key.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct walk {
+    void (*visit)(void *context, const sb_scene_key *key);
+    void *context;
+} walk;
+
+/* The default as the reference shows it. */
+static void say_default(const sb_key *key, char *out, size_t size)
+{
+    const char *usual = sb_key_default(key, SB_PRESET_DEFAULT);
+    const char *paper = sb_key_default(key, SB_PRESET_PAPER);
+    if (key->flags & SB_KEY_REQUIRED_3D)
+        snprintf(out, size, "required in 3D; 2D: %s", key->derived ? key->derived : usual);
+    else if (key->derived)
+        snprintf(out, size, "%s", key->derived);
+    else if (usual && strcmp(usual, paper) != 0)
+        snprintf(out, size, "%s (paper: %s)", usual, paper);
+    else if (usual)
+        snprintf(out, size, "%s", usual);
+    else if (key->type == SB_KEY_LIST)
+        snprintf(out, size, "none");
+    else
+        out[0] = '\0';
+}
+
+static void walk_table(const walk *to, const sb_table *table, const char *prefix);
+
+static void walk_key(const walk *to, const sb_key *key, const char *prefix, const char *only)
+{
+    char path[200], fallback[200], range[300];
+    snprintf(path, sizeof path, "%s%s%s", prefix, *prefix ? "." : "", key->name);
+    say_default(key, fallback, sizeof fallback);
+    sb_key_range(key, range, sizeof range);
+    /* Words of "only" that repeat the block's own purpose are for errors, not for the reference. */
+    const char *condition = key->only ? key->only : only;
+    sb_scene_key row = {
+        .path = path,
+        .unit = key->unit ? key->unit : "",
+        .fallback = fallback,
+        .range = range,
+        .doc = key->doc,
+        .only = key->derived && !(key->flags & (SB_KEY_REQUIRED | SB_KEY_REQUIRED_3D)) ? NULL
+                                                                                      : condition,
+        .required = key->flags & SB_KEY_REQUIRED,
+    };
+    to->visit(to->context, &row);
+    if (key->type != SB_KEY_BLOCK && key->type != SB_KEY_LIST)
+        return;
+    if (key->type == SB_KEY_LIST)
+        strncat(path, "[]", sizeof path - strlen(path) - 1);
+    walk_table(to, key->table, path);
+}
+
+static void walk_table(const walk *to, const sb_table *table, const char *prefix)
+{
+    for (size_t i = 0; i < table->count; i++) {
+        const sb_key *key = &table->keys[i];
+        if (key->name)
+            walk_key(to, key, prefix, NULL);
+        for (size_t j = 0; !key->name && j < key->table->count; j++)
+            walk_key(to, &key->table->keys[j], prefix, key->only);
+    }
+}
+
+void sb_scene_keys(void (*visit)(void *context, const sb_scene_key *key), void *context)
+{
+    const walk to = {.visit = visit, .context = context};
+    walk_table(&to, &sb_scene_table, "");
+}

@@ -1,0 +1,247 @@
+#include "scene/key.h"
+
+#include "base/memory.h"
+#include "scene/presets.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+unsigned sb_table_variant(const sb_table *table, const void *item, const sb_yaml *map)
+{
+    return table->variant ? table->variant(item, map) : ~0u;
+}
+
+bool sb_key_applies(const sb_key *key, unsigned variant)
+{
+    return key->applies == 0 || (key->applies & variant) != 0;
+}
+
+const sb_key *sb_table_find(const sb_table *table, const char *name)
+{
+    for (size_t i = 0; i < table->count; i++) {
+        const sb_key *key = &table->keys[i];
+        if (!key->name)
+            key = sb_table_find(key->table, name);
+        if (key && strcmp(key->name, name) == 0)
+            return key;
+    }
+    return NULL;
+}
+
+/* Levenshtein's distance, or a large number for long words. */
+static size_t distance(const char *a, const char *b)
+{
+    enum { LONGEST = 40 };
+    size_t n = strlen(a), m = strlen(b), row[LONGEST + 1];
+    if (n > LONGEST || m > LONGEST)
+        return SIZE_MAX;
+    for (size_t j = 0; j <= m; j++)
+        row[j] = j;
+    for (size_t i = 1; i <= n; i++) {
+        size_t diagonal = row[0];
+        row[0] = i;
+        for (size_t j = 1; j <= m; j++) {
+            size_t change = diagonal + (a[i - 1] != b[j - 1]);
+            diagonal = row[j];
+            size_t drop = (row[j] < row[j - 1] ? row[j] : row[j - 1]) + 1;
+            row[j] = change < drop ? change : drop;
+        }
+    }
+    return row[m];
+}
+
+static void nearest(const sb_table *table, const char *name, const char **best, size_t *least)
+{
+    for (size_t i = 0; i < table->count; i++) {
+        const sb_key *key = &table->keys[i];
+        if (!key->name) {
+            nearest(key->table, name, best, least);
+            continue;
+        }
+        size_t away = distance(name, key->name);
+        if (away < *least) {
+            *least = away;
+            *best = key->name;
+        }
+    }
+}
+
+const char *sb_table_nearest(const sb_table *table, const char *name)
+{
+    const char *best = NULL;
+    size_t length = strlen(name);
+    size_t least = length < 5 ? 3 : length / 2 + 1;
+    nearest(table, name, &best, &least);
+    return best;
+}
+
+const char *sb_key_default(const sb_key *key, sb_preset preset)
+{
+    return key->flags & SB_KEY_PRESET ? sb_preset_value(preset, key->name) : key->fallback;
+}
+
+typedef struct phrase {
+    char *out;
+    size_t size, used;
+} phrase;
+
+__attribute__((format(printf, 2, 3))) static void say(phrase *text, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    int length = vsnprintf(text->out + text->used, text->size - text->used, format, arguments);
+    va_end(arguments);
+    if (length > 0)
+        text->used += (size_t)length;
+    if (text->used >= text->size)
+        text->used = text->size - 1;
+}
+
+static void say_words(phrase *text, const char *const *words)
+{
+    for (size_t i = 0; words[i]; i++)
+        say(text, "%s%s", i == 0 ? "" : words[i + 1] ? ", " : " or ", words[i]);
+}
+
+static void say_kernels(phrase *text)
+{
+    for (size_t i = 0; sb_kernels[i]; i++)
+        say(text, "%s%s", i == 0 ? "" : sb_kernels[i + 1] ? ", " : " or ", sb_kernels[i]->name);
+}
+
+static void say_laws(phrase *text)
+{
+    for (size_t i = 0; sb_wavemakers[i]; i++)
+        say(text, "%s%s", i == 0 ? "" : sb_wavemakers[i + 1] ? ", " : " or ",
+            sb_wavemakers[i]->name);
+}
+
+static void say_range(phrase *text, const sb_key *key)
+{
+    bool low = key->min > -HUGE_VAL, high = key->max < HUGE_VAL;
+    bool plain = !(key->flags & (SB_KEY_ABOVE | SB_KEY_BELOW));
+    if (low && high && plain) {
+        say(text, "%.10g to %.10g", key->min, key->max);
+        return;
+    }
+    if (low)
+        say(text, "%s %.10g", key->flags & SB_KEY_ABOVE ? ">" : ">=", key->min);
+    if (high)
+        say(text, "%s%s %.10g", low ? " and " : "", key->flags & SB_KEY_BELOW ? "<" : "<=",
+            key->max);
+}
+
+static const char *unit_words(const char *unit)
+{
+    static const struct {
+        const char *unit, *words;
+    } units[] = {{"m", "metres"}, {"s", "seconds"}, {"deg", "degrees"}, {"px", "pixels"}};
+    for (size_t i = 0; i < sizeof units / sizeof *units; i++)
+        if (strcmp(units[i].unit, unit) == 0)
+            return units[i].words;
+    return unit;
+}
+
+static void say_number(phrase *text, const sb_key *key)
+{
+    const char *word = key->type == SB_KEY_NUMBER ? "a number" : "a whole number";
+    if (key->unit)
+        say(text, "%s", unit_words(key->unit));
+    else
+        say(text, "%s", word);
+    if (key->min > -HUGE_VAL || key->max < HUGE_VAL) {
+        say(text, "%s", key->flags & (SB_KEY_ABOVE | SB_KEY_BELOW) || key->max == HUGE_VAL ? " " : " from ");
+        say_range(text, key);
+    }
+}
+
+void sb_key_expectation(const sb_key *key, int dimensions, char *out, size_t size)
+{
+    phrase text = {.out = out, .size = size};
+    out[0] = '\0';
+    bool flat = dimensions == 2 && !(key->flags & SB_KEY_FULL);
+    switch (key->type) {
+    case SB_KEY_NUMBER:
+    case SB_KEY_INTEGER: say_number(&text, key); break;
+    case SB_KEY_SEED: say(&text, "a whole number from 0 to 2^64 - 1"); break;
+    case SB_KEY_SWITCH: say(&text, "true or false"); break;
+    case SB_KEY_TEXT: say(&text, "text"); break;
+    case SB_KEY_NAME:
+        say(&text, "a name of letters, digits, _ . and -, at most %d long", SB_NAME_MAX - 1);
+        break;
+    case SB_KEY_FILE: say(&text, "a file, relative to the scene file"); break;
+    case SB_KEY_VECTOR:
+        say(&text, "%s", flat ? "[x, z]" : "[x, y, z]");
+        if (key->unit)
+            say(&text, " in %s", unit_words(key->unit));
+        break;
+    case SB_KEY_PLACE:
+        say(&text, "%s in metres", dimensions == 2 ? "[x]" : "[x, y]");
+        break;
+    case SB_KEY_COLOR: say(&text, "[red, green, blue], each 0 to 1"); break;
+    case SB_KEY_BLOCK: say(&text, "a block of keys"); break;
+    case SB_KEY_LIST: say(&text, "a list"); break;
+    case SB_KEY_CHOICE:
+    case SB_KEY_LETTER:
+    case SB_KEY_KERNEL:
+    case SB_KEY_LAW: sb_key_range(key, out, size); break;
+    }
+}
+
+void sb_key_range(const sb_key *key, char *out, size_t size)
+{
+    phrase text = {.out = out, .size = size};
+    out[0] = '\0';
+    switch (key->type) {
+    case SB_KEY_NUMBER:
+    case SB_KEY_INTEGER:
+    case SB_KEY_VECTOR:
+    case SB_KEY_PLACE:
+        if (key->min == -HUGE_VAL && key->max == HUGE_VAL)
+            say(&text, "any");
+        else
+            say_range(&text, key);
+        if (key->flags & SB_KEY_UNIT)
+            say(&text, ", not all 0");
+        break;
+    case SB_KEY_SEED: say(&text, "0 to 2^64 - 1"); break;
+    case SB_KEY_CHOICE:
+    case SB_KEY_LETTER: say_words(&text, key->words); break;
+    case SB_KEY_KERNEL: say_kernels(&text); break;
+    case SB_KEY_LAW: say_laws(&text); break;
+    case SB_KEY_COLOR: say(&text, "0 to 1"); break;
+    case SB_KEY_SWITCH:
+    case SB_KEY_TEXT:
+    case SB_KEY_NAME:
+    case SB_KEY_FILE:
+    case SB_KEY_BLOCK:
+    case SB_KEY_LIST: sb_key_expectation(key, 3, out, size); break;
+    }
+}
+
+static void free_key(const sb_key *key, char *field, void *item)
+{
+    if (key->type == SB_KEY_TEXT || key->type == SB_KEY_FILE) {
+        sb_free(*(char **)field);
+        *(char **)field = NULL;
+    } else if (key->type == SB_KEY_BLOCK) {
+        sb_table_free(key->table, field);
+    } else if (key->type == SB_KEY_LIST) {
+        size_t *count = (size_t *)((char *)item + key->count_offset);
+        char *items = *(char **)field;
+        for (size_t i = 0; items && i < *count; i++)
+            sb_table_free(key->table, items + i * key->table->size);
+        sb_free(items);
+        *(char **)field = NULL;
+        *count = 0;
+    }
+}
+
+void sb_table_free(const sb_table *table, void *item)
+{
+    for (size_t i = 0; i < table->count; i++)
+        free_key(&table->keys[i], (char *)item + table->keys[i].offset, item);
+}

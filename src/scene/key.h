@@ -1,0 +1,106 @@
+/* The key tables: one row per scene key drives reading, defaults, checks, writing and the reference
+   in docs/scene.md. */
+#ifndef SB_SCENE_KEY_H
+#define SB_SCENE_KEY_H
+
+#include "scene/scene.h"
+#include "scene/yaml.h"
+
+typedef enum sb_key_type {
+    SB_KEY_NUMBER,  /* double */
+    SB_KEY_INTEGER, /* int */
+    SB_KEY_SEED,    /* uint64_t */
+    SB_KEY_SWITCH,  /* bool */
+    SB_KEY_TEXT,    /* char *, owned */
+    SB_KEY_NAME,    /* char[SB_NAME_MAX] */
+    SB_KEY_FILE,    /* char *, owned: absolute path of a file that exists */
+    SB_KEY_VECTOR,  /* sb_vec3 */
+    SB_KEY_PLACE,   /* two doubles: x, y */
+    SB_KEY_COLOR,   /* float[3] */
+    SB_KEY_CHOICE,  /* an enum, by `words` */
+    SB_KEY_LETTER,  /* char, by `words` */
+    SB_KEY_KERNEL,  /* const sb_kernel * */
+    SB_KEY_LAW,     /* const sb_wavemaker * */
+    SB_KEY_BLOCK,   /* a struct, by `table` */
+    SB_KEY_LIST     /* pointer and count of structs, by `table` */
+} sb_key_type;
+
+enum {
+    SB_KEY_REQUIRED = 1,
+    SB_KEY_REQUIRED_3D = 2, /* required in 3D, its default (or 0) in 2D */
+    SB_KEY_ABOVE = 4,       /* min itself is outside of the range */
+    SB_KEY_BELOW = 8,       /* max itself is outside of the range */
+    SB_KEY_FULL = 16,       /* vector: three components in 2D, too */
+    SB_KEY_ANY_Y = 32,      /* vector: y may differ from 0 in 2D */
+    SB_KEY_UNIT = 64,       /* vector: a direction, made a unit vector */
+    SB_KEY_PRESET = 128     /* default by the numerics preset */
+};
+
+typedef struct sb_table sb_table;
+typedef struct sb_reader sb_reader;
+
+typedef struct sb_key {
+    const char *name; /* NULL: a list of one item whose keys stand directly in the parent */
+    sb_key_type type;
+    size_t offset, count_offset;
+    const char *unit;     /* NULL: none */
+    const char *fallback; /* YAML text of the default; NULL: none */
+    const char *derived;  /* words for a default that table->finish works out */
+    double min, max;      /* of a number and of a vector's components */
+    unsigned flags;
+    unsigned applies; /* bits of table->variant; 0: always */
+    const char *only; /* words for these bits */
+    const char *const *words;
+    const sb_table *table;
+    const char *doc;
+} sb_key;
+
+struct sb_table {
+    const sb_key *keys;
+    size_t count;
+    size_t size; /* of the struct, for lists */
+    /* Bits that say which rows apply, from what is read so far and from the keys present (map;
+       NULL when writing). */
+    unsigned (*variant)(const void *item, const sb_yaml *map);
+    /* Derived defaults and cross checks, when all rows are read. May be NULL. */
+    sb_status (*finish)(sb_reader *reader, const sb_yaml *map, void *item);
+};
+
+#define SB_KEY_ROWS(rows) .keys = (rows), .count = sizeof(rows) / sizeof *(rows)
+#define SB_KEY_AT(type, member) .offset = offsetof(type, member)
+#define SB_KEY_ITEMS(type, member, counter)                                                        \
+    .offset = offsetof(type, member), .count_offset = offsetof(type, counter)
+#define SB_KEY_ANY .min = -HUGE_VAL, .max = HUGE_VAL
+#define SB_KEY_POSITIVE .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE
+#define SB_KEY_NOT_NEGATIVE .min = 0, .max = HUGE_VAL
+
+/* The whole scene, and the tables of its blocks that have a file of their own. */
+extern const sb_table sb_scene_table;
+extern const sb_table sb_numerics_table, sb_water_table, sb_body_table, sb_wavemaker_table;
+extern const sb_table sb_measure_table, sb_render_table, sb_stream_table, sb_output_table;
+
+/* Bits of the rows that apply to this item (all when the table has one variant only). */
+unsigned sb_table_variant(const sb_table *table, const void *item, const sb_yaml *map);
+
+/* Whether the row applies for these bits. */
+bool sb_key_applies(const sb_key *key, unsigned variant);
+
+/* The row of that name, rows of a list of one included; NULL when there is none. */
+const sb_key *sb_table_find(const sb_table *table, const char *name);
+
+/* The name nearest to a misspelt one, or NULL when none is near. */
+const char *sb_table_nearest(const sb_table *table, const char *name);
+
+/* Default as YAML text under that preset; NULL when the row has none. */
+const char *sb_key_default(const sb_key *key, sb_preset preset);
+
+/* "metres > 0", "[x, z] in metres", "one of wall, open": what the key wants, in words. */
+void sb_key_expectation(const sb_key *key, int dimensions, char *out, size_t size);
+
+/* The range alone: "> 0", "2 to 3", "wall or open". */
+void sb_key_range(const sb_key *key, char *out, size_t size);
+
+/* Frees what the rows of one item own and zeroes those pointers and counts. */
+void sb_table_free(const sb_table *table, void *item);
+
+#endif

@@ -1,0 +1,41 @@
+#include "scene/presets.h"
+
+#include <string.h>
+
+/* One row per key of `numerics`; the columns are in the order of sb_preset. After a change here,
+   run test_scene_docs with SB_UPDATE_DOCS=1 to bring docs/scene.md up to date. */
+static const struct {
+    const char *key, *value[2];
+} rows[] = {
+    /* key                     default       paper   */
+    {"kernel",               {"cubic",      "cubic"}},
+    {"support",              {"2",          "2"}},
+    {"solver",               {"cg",         "jacobi"}},
+    {"tolerance_rule",       {"pressure",   "density"}},
+    {"tolerance",            {"0.005",      "0.001"}},
+    {"min_iterations",       {"2",          "3"}},
+    {"max_iterations",       {"500",        "500"}},
+    {"relaxation",           {"0.5",        "0.5"}},
+    {"warm_start",           {"0.9",        "0.6"}},
+    {"source_relaxation",    {"0.3",        "1"}},
+    {"cfl",                  {"0.4",        "0.4"}},
+    {"time_step_rule",       {"depth",      "paper"}},
+    {"time_step_factor",     {"0.1",        "0.075"}},
+    {"time_step_max",        {"0",          "0"}},
+    {"artificial_viscosity", {"0.01",       "0.05"}},
+    {"wall_friction",        {"0",          "0.02"}},
+    {"sound_speed",          {"0",          "0"}},
+    {"wall_gamma",           {"0.7",        "1"}},
+    {"wall_offset",          {"0.5",        "0.6"}},
+    {"jitter",               {"0.01",       "0"}},
+    {"seed",                 {"1",          "1"}},
+    {"settle_steps",         {"200",        "0"}},
+};
+
+const char *sb_preset_value(sb_preset preset, const char *key)
+{
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (strcmp(rows[i].key, key) == 0)
+            return rows[i].value[preset];
+    return NULL;
+}

@@ -1,0 +1,143 @@
+#include "scene/reader.h"
+
+#include <limits.h>
+#include <math.h>
+
+static const sb_key path_keys[] = {
+    {.name = "time", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_camera_key, time), .unit = "s",
+     SB_KEY_NOT_NEGATIVE, .flags = SB_KEY_REQUIRED,
+     .doc = "When the camera is here; later than the entry before."},
+    {.name = "eye", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_camera_key, eye), .unit = "m", SB_KEY_ANY,
+     .flags = SB_KEY_REQUIRED | SB_KEY_FULL, .doc = "Where the camera is."},
+    {.name = "target", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_camera_key, target), .unit = "m",
+     SB_KEY_ANY, .flags = SB_KEY_REQUIRED | SB_KEY_FULL, .doc = "What it looks at."},
+    {.name = "fov", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_camera_key, fov), .unit = "deg", .min = 1,
+     .max = 170, .fallback = "45", .doc = "Vertical angle of view."},
+};
+
+static sb_status finish_view(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    const sb_camera_key *key = item;
+    if (sb_norm(sb_sub(key->target, key->eye)) > 0)
+        return SB_OK;
+    return sb_reader_fail(reader, map, "target", "is the same point as eye, expected another");
+}
+
+static const sb_table path_table = {SB_KEY_ROWS(path_keys), .size = sizeof(sb_camera_key),
+                                    .finish = finish_view};
+/* A fixed camera: the same without its time. */
+static const sb_table view_table = {.keys = path_keys + 1,
+                                    .count = sizeof path_keys / sizeof *path_keys - 1,
+                                    .size = sizeof(sb_camera_key)};
+
+enum { FIXED = 1, PATH = 2 };
+
+static unsigned camera_variant(const void *item, const sb_yaml *map)
+{
+    bool path = map ? sb_yaml_child(map, "path") != NULL
+                    : ((const sb_camera *)item)->key_count > 1;
+    return path ? PATH : FIXED;
+}
+
+static const sb_key camera_keys[] = {
+    {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_camera, name), .flags = SB_KEY_REQUIRED,
+     .doc = "Unlike all other cameras' names; its folder and film bear it."},
+    {.name = "path", .type = SB_KEY_LIST, SB_KEY_ITEMS(sb_camera, keys, key_count),
+     .table = &path_table, .applies = PATH, .only = "a moving camera", .derived = "a fixed camera",
+     .doc = "Two or more places in time, with a smooth path between."},
+    {.type = SB_KEY_LIST, SB_KEY_ITEMS(sb_camera, keys, key_count), .table = &view_table,
+     .applies = FIXED, .only = "a camera without path"},
+};
+
+static sb_status finish_camera(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    const sb_camera *camera = item;
+    if (!(camera_variant(camera, map) & PATH))
+        return finish_view(reader, map, camera->keys);
+    if (camera->key_count < 2)
+        return sb_reader_fail(reader, map, "path",
+                              "has %zu entries, expected at least 2, or eye and target instead",
+                              camera->key_count);
+    for (size_t i = 1; i < camera->key_count; i++)
+        if (!(camera->keys[i].time > camera->keys[i - 1].time))
+            return sb_reader_fail(reader, map, "path",
+                                  "time %g s of entry %zu is not later than %g s before it, "
+                                  "expected times that rise", camera->keys[i].time, i,
+                                  camera->keys[i - 1].time);
+    return SB_OK;
+}
+
+static const sb_table camera_table = {SB_KEY_ROWS(camera_keys), .size = sizeof(sb_camera),
+                                      .variant = camera_variant, .finish = finish_camera};
+
+static const sb_key render_keys[] = {
+    {.name = "interval", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_render_settings, interval),
+     .unit = "s", SB_KEY_NOT_NEGATIVE, .fallback = "0",
+     .doc = "Simulated time between pictures; 0: none are made."},
+    {.name = "width", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_render_settings, width), .unit = "px",
+     .min = 16, .max = 16384, .fallback = "1280", .doc = "Of a picture."},
+    {.name = "height", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_render_settings, height), .unit = "px",
+     .min = 16, .max = 16384, .fallback = "720", .doc = "Of a picture."},
+    {.name = "speed_max", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_render_settings, speed_max),
+     .unit = "m/s", SB_KEY_NOT_NEGATIVE, .fallback = "0",
+     .doc = "Speed at the top of the colour map; 0: 2 sqrt(g D)."},
+    {.name = "video", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_render_settings, video),
+     .fallback = "true", .doc = "Join each camera's pictures to a film where ffmpeg is there."},
+    {.name = "video_rate", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_render_settings, video_rate),
+     .unit = "1/s", .min = 1, .max = 240, .fallback = "30", .doc = "Pictures per second of film."},
+    {.name = "cameras", .type = SB_KEY_LIST,
+     SB_KEY_ITEMS(sb_render_settings, cameras, camera_count), .table = &camera_table,
+     .doc = "Each makes its own pictures and film; give eye and target, or a path."},
+};
+
+static sb_status finish_render(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    const sb_render_settings *render = item;
+    if (render->interval > 0 && render->camera_count == 0)
+        return sb_reader_fail(reader, map, "cameras",
+                              "there is none, expected one as render.interval is not 0");
+    return sb_reader_interval(reader, map, "interval", render->interval);
+}
+
+const sb_table sb_render_table = {SB_KEY_ROWS(render_keys), .size = sizeof(sb_render_settings),
+                                  .finish = finish_render};
+
+static const sb_key stream_keys[] = {
+    {.name = "enabled", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_stream_settings, enabled),
+     .fallback = "false", .doc = "Whether the run is published while it goes."},
+    {.name = "url", .type = SB_KEY_TEXT, SB_KEY_AT(sb_stream_settings, url), .fallback = "\"\"",
+     .doc = "LCM provider, as udpm://239.255.76.67:7667?ttl=0; empty: LCM's default."},
+    {.name = "prefix", .type = SB_KEY_NAME, SB_KEY_AT(sb_stream_settings, prefix),
+     .fallback = "SHOREBREAK", .doc = "What channel names begin with."},
+    {.name = "interval", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_stream_settings, interval),
+     .unit = "s", SB_KEY_POSITIVE, .fallback = "0.1",
+     .doc = "Simulated time between particle messages."},
+    {.name = "decimation", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_stream_settings, decimation),
+     .min = 1, .max = 1000000, .fallback = "1", .doc = "Every n-th particle is sent."},
+};
+
+static sb_status finish_stream(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    return sb_reader_interval(reader, map, "interval",
+                              ((const sb_stream_settings *)item)->interval);
+}
+
+const sb_table sb_stream_table = {SB_KEY_ROWS(stream_keys), .size = sizeof(sb_stream_settings),
+                                  .finish = finish_stream};
+
+static const sb_key output_keys[] = {
+    {.name = "particle_interval", .type = SB_KEY_NUMBER,
+     SB_KEY_AT(sb_output_settings, particle_interval), .unit = "s", SB_KEY_NOT_NEGATIVE,
+     .fallback = "0", .doc = "Simulated time between particle files for ParaView; 0: none."},
+    {.name = "plots", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_output_settings, plots),
+     .fallback = "true", .doc = "Plot forces and gauges at the end where gnuplot is there."},
+};
+
+static sb_status finish_output(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    return sb_reader_interval(reader, map, "particle_interval",
+                              ((const sb_output_settings *)item)->particle_interval);
+}
+
+const sb_table sb_output_table = {SB_KEY_ROWS(output_keys), .size = sizeof(sb_output_settings),
+                                  .finish = finish_output};

@@ -1,0 +1,219 @@
+#include "scene/reader.h"
+
+#include <math.h>
+
+static bool inside(double value, double min, double max)
+{
+    return value >= min && value <= max;
+}
+
+static sb_status refuse_outside(sb_reader *reader, const sb_yaml *map, const char *key)
+{
+    return sb_reader_fail(reader, map, key, "is outside of the domain, expected inside");
+}
+
+static const sb_key gauge_keys[] = {
+    {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_gauge, name), .flags = SB_KEY_REQUIRED,
+     .doc = "Unlike all other gauges' names."},
+    {.name = "x", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_gauge, x), .unit = "m", SB_KEY_ANY,
+     .flags = SB_KEY_REQUIRED, .doc = "Place, inside the domain."},
+    {.name = "y", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_gauge, y), .unit = "m", SB_KEY_ANY,
+     .flags = SB_KEY_REQUIRED_3D, .fallback = "0", .doc = "Place; 0 in 2D."},
+};
+
+static sb_status finish_gauge(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    const sb_gauge *gauge = item;
+    const sb_domain *domain = &reader->scene->domain;
+    if (!inside(gauge->x, domain->min.x, domain->max.x))
+        return refuse_outside(reader, map, "x");
+    if (!inside(gauge->y, domain->min.y, domain->max.y))
+        return refuse_outside(reader, map, "y");
+    return SB_OK;
+}
+
+static const sb_table gauge_table = {SB_KEY_ROWS(gauge_keys), .size = sizeof(sb_gauge),
+                                     .finish = finish_gauge};
+
+static const sb_key probe_keys[] = {
+    {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_probe, name), .flags = SB_KEY_REQUIRED,
+     .doc = "Unlike all other probes' names."},
+    {.name = "at", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_probe, at), .unit = "m", SB_KEY_ANY,
+     .flags = SB_KEY_REQUIRED, .doc = "Place, inside the domain."},
+    {.name = "radius", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_probe, radius), .unit = "m",
+     SB_KEY_NOT_NEGATIVE, .fallback = "0",
+     .doc = "Particles this near count; 0: the support radius."},
+};
+
+static sb_status finish_probe(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    const sb_vec3 at = ((const sb_probe *)item)->at;
+    const sb_domain *domain = &reader->scene->domain;
+    if (inside(at.x, domain->min.x, domain->max.x) && inside(at.y, domain->min.y, domain->max.y) &&
+        inside(at.z, domain->min.z, domain->max.z))
+        return SB_OK;
+    return refuse_outside(reader, map, "at");
+}
+
+static const sb_table probe_table = {SB_KEY_ROWS(probe_keys), .size = sizeof(sb_probe),
+                                     .finish = finish_probe};
+
+static const sb_key plane_keys[] = {
+    {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_flow_plane, name), .flags = SB_KEY_REQUIRED,
+     .doc = "Unlike all other planes' names."},
+    {.name = "from", .type = SB_KEY_PLACE, SB_KEY_AT(sb_flow_plane, ax), .unit = "m", SB_KEY_ANY,
+     .flags = SB_KEY_REQUIRED, .doc = "One end of the plane's footprint, [x, y]; [x] in 2D."},
+    {.name = "to", .type = SB_KEY_PLACE, SB_KEY_AT(sb_flow_plane, bx), .unit = "m", SB_KEY_ANY,
+     .flags = SB_KEY_REQUIRED_3D, .derived = "from",
+     .doc = "The other end; flow to the right, going there, counts positive (+x in 2D)."},
+    {.name = "z_min", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_flow_plane, z_min), .unit = "m",
+     SB_KEY_ANY, .derived = "z of domain.min", .doc = "Lower edge."},
+    {.name = "z_max", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_flow_plane, z_max), .unit = "m",
+     SB_KEY_ANY, .derived = "z of domain.max", .doc = "Upper edge."},
+};
+
+/* In 2D a plane is one metre of the slice's depth, so that volumes are per metre. */
+static void flatten_plane(const sb_yaml *map, sb_flow_plane *plane)
+{
+    if (!sb_yaml_child(map, "to"))
+        plane->bx = plane->ax;
+    if (plane->ay == plane->by) {
+        plane->ay = -0.5;
+        plane->by = 0.5;
+    }
+}
+
+static sb_status finish_plane(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    sb_flow_plane *plane = item;
+    const sb_scene *scene = reader->scene;
+    if (!sb_yaml_child(map, "z_min"))
+        plane->z_min = scene->domain.min.z;
+    if (!sb_yaml_child(map, "z_max"))
+        plane->z_max = scene->domain.max.z;
+    if (!(plane->z_min < plane->z_max))
+        return sb_reader_fail(reader, map, "z_max", "%g m is not above z_min, expected > %g",
+                              plane->z_max, plane->z_min);
+    if (scene->dimensions == 2)
+        flatten_plane(map, plane);
+    if (scene->dimensions == 2 && plane->ax != plane->bx)
+        return sb_reader_fail(reader, map, "to", "x differs from that of from, expected the same "
+                              "in 2D");
+    if (plane->ax == plane->bx && plane->ay == plane->by)
+        return sb_reader_fail(reader, map, "to", "is the same point as from, expected another");
+    return SB_OK;
+}
+
+static const sb_table plane_table = {SB_KEY_ROWS(plane_keys), .size = sizeof(sb_flow_plane),
+                                     .finish = finish_plane};
+
+static const sb_key runup_keys[] = {
+    {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_runup_line, name), .flags = SB_KEY_REQUIRED,
+     .doc = "Unlike all other lines' names."},
+    {.name = "from", .type = SB_KEY_PLACE, SB_KEY_AT(sb_runup_line, ax), .unit = "m", SB_KEY_ANY,
+     .flags = SB_KEY_REQUIRED, .doc = "One end of the line, [x, y]; [x] in 2D."},
+    {.name = "to", .type = SB_KEY_PLACE, SB_KEY_AT(sb_runup_line, bx), .unit = "m", SB_KEY_ANY,
+     .flags = SB_KEY_REQUIRED, .doc = "The other end."},
+};
+
+static sb_status finish_runup(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    const sb_runup_line *line = item;
+    if (line->ax == line->bx && line->ay == line->by)
+        return sb_reader_fail(reader, map, "to", "is the same point as from, expected another");
+    return SB_OK;
+}
+
+static const sb_table runup_table = {SB_KEY_ROWS(runup_keys), .size = sizeof(sb_runup_line),
+                                     .finish = finish_runup};
+
+static const sb_key map_keys[] = {
+    {.name = "min", .type = SB_KEY_PLACE, SB_KEY_AT(sb_map, x_min), .unit = "m", SB_KEY_ANY,
+     .derived = "that of the domain", .doc = "Corner with the smallest x and y; [x] in 2D."},
+    {.name = "max", .type = SB_KEY_PLACE, SB_KEY_AT(sb_map, x_max), .unit = "m", SB_KEY_ANY,
+     .derived = "that of the domain", .doc = "Corner with the largest x and y; [x] in 2D."},
+    {.name = "cell", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_map, cell), .unit = "m", SB_KEY_POSITIVE,
+     .derived = "2 resolution", .doc = "Side of a cell."},
+    {.name = "threshold", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_map, threshold), .unit = "m",
+     SB_KEY_POSITIVE, .derived = "resolution",
+     .doc = "Depth, or rise above the start, that counts as arrival."},
+};
+
+static void fill_map(const sb_scene *scene, const sb_yaml *map, sb_map *grid)
+{
+    if (!sb_yaml_child(map, "min")) {
+        grid->x_min = scene->domain.min.x;
+        grid->y_min = scene->domain.min.y;
+    }
+    if (!sb_yaml_child(map, "max")) {
+        grid->x_max = scene->domain.max.x;
+        grid->y_max = scene->domain.max.y;
+    }
+    if (!sb_yaml_child(map, "cell"))
+        grid->cell = 2 * scene->resolution;
+    if (!sb_yaml_child(map, "threshold"))
+        grid->threshold = scene->resolution;
+    if (scene->dimensions == 2) { /* one row of cells along the slice */
+        grid->y_min = -0.5 * grid->cell;
+        grid->y_max = 0.5 * grid->cell;
+    }
+}
+
+static sb_status finish_map(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    const double most = 2e7;
+    sb_map *grid = item;
+    fill_map(reader->scene, map, grid);
+    grid->present = true;
+    double width = grid->x_max - grid->x_min, height = grid->y_max - grid->y_min;
+    if (!(width > 0 && height > 0))
+        return sb_reader_fail(reader, map, "max", "does not lie above min, expected min < max");
+    if (!(ceil(width / grid->cell) * ceil(height / grid->cell) <= most))
+        return sb_reader_fail(reader, map, "cell",
+                              "%g m would make more than %g cells, expected longer cells",
+                              grid->cell, most);
+    return SB_OK;
+}
+
+static const sb_table map_table = {SB_KEY_ROWS(map_keys), .size = sizeof(sb_map),
+                                   .finish = finish_map};
+
+enum { MAP = 1 };
+
+static unsigned measure_variant(const void *item, const sb_yaml *map)
+{
+    bool present = map ? sb_yaml_child(map, "map") != NULL
+                       : ((const sb_measure_settings *)item)->map.present;
+    return present ? MAP : 0;
+}
+
+static const sb_key measure_keys[] = {
+    {.name = "interval", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_measure_settings, interval),
+     .unit = "s", SB_KEY_POSITIVE, .fallback = "0.1",
+     .doc = "Time between rows of forces, gauges and probes; forces are means over it."},
+    {.name = "gauges", .type = SB_KEY_LIST,
+     SB_KEY_ITEMS(sb_measure_settings, gauges, gauge_count), .table = &gauge_table,
+     .doc = "Heights of the free surface."},
+    {.name = "probes", .type = SB_KEY_LIST,
+     SB_KEY_ITEMS(sb_measure_settings, probes, probe_count), .table = &probe_table,
+     .doc = "Velocity and pressure at a point."},
+    {.name = "planes", .type = SB_KEY_LIST,
+     SB_KEY_ITEMS(sb_measure_settings, planes, plane_count), .table = &plane_table,
+     .doc = "Volume through a vertical plane, as in overtopping."},
+    {.name = "runups", .type = SB_KEY_LIST,
+     SB_KEY_ITEMS(sb_measure_settings, runups, runup_count), .table = &runup_table,
+     .doc = "Highest wet point along a line."},
+    {.name = "map", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_measure_settings, map), .table = &map_table,
+     .applies = MAP, .only = "maps", .derived = "no maps",
+     .doc = "Greatest depth, speed, momentum flux and time of arrival on a horizontal grid; "
+            "`map: {}` takes all defaults."},
+};
+
+static sb_status finish_measure(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    return sb_reader_interval(reader, map, "interval",
+                              ((const sb_measure_settings *)item)->interval);
+}
+
+const sb_table sb_measure_table = {SB_KEY_ROWS(measure_keys), .size = sizeof(sb_measure_settings),
+                                   .variant = measure_variant, .finish = finish_measure};

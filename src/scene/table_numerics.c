@@ -1,0 +1,72 @@
+#include "scene/reader.h"
+
+#include <limits.h>
+#include <math.h>
+
+static const char *const preset_words[] = {"default", "paper", NULL};
+static const char *const solver_words[] = {"jacobi", "chebyshev", "cg", NULL};
+static const char *const tolerance_words[] = {"density", "pressure", NULL};
+static const char *const step_words[] = {"paper", "depth", NULL};
+
+#define NUMBER(key, unit_, min_, max_, flags_, doc_)                                               \
+    {.name = #key, .type = SB_KEY_NUMBER, SB_KEY_AT(sb_numerics, key), .unit = unit_,              \
+     .min = min_, .max = max_, .flags = SB_KEY_PRESET | (flags_), .doc = doc_}
+#define COUNT(key, unit_, min_, max_, doc_)                                                        \
+    {.name = #key, .type = SB_KEY_INTEGER, SB_KEY_AT(sb_numerics, key), .unit = unit_,             \
+     .min = min_, .max = max_, .flags = SB_KEY_PRESET, .doc = doc_}
+#define CHOICE(key, words_, doc_)                                                                  \
+    {.name = #key, .type = SB_KEY_CHOICE, SB_KEY_AT(sb_numerics, key), .words = words_,            \
+     .flags = SB_KEY_PRESET, .doc = doc_}
+
+static const sb_key keys[] = {
+    {.name = "preset", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_numerics, preset),
+     .words = preset_words, .fallback = "default",
+     .doc = "Fills in all that this block does not give: `paper` follows Sampath et al., "
+            "`default` is the best known over several cases."},
+    {.name = "kernel", .type = SB_KEY_KERNEL, SB_KEY_AT(sb_numerics, kernel),
+     .flags = SB_KEY_PRESET, .doc = "Smoothing kernel; `shorebreak list kernels` describes them."},
+    NUMBER(support, "spacings", 1.2, 4, 0, "Radius within which particles see each other."),
+    CHOICE(solver, solver_words, "Method of the pressure solve."),
+    CHOICE(tolerance_rule, tolerance_words,
+           "`density`: tolerance is a relative density error; `pressure`: it is the share of the "
+           "still water's pressure, and the density error follows from the time step."),
+    NUMBER(tolerance, NULL, 0, 1, SB_KEY_ABOVE | SB_KEY_BELOW,
+           "At which mean excess density the solve stops."),
+    COUNT(min_iterations, NULL, 0, 100000, "Fewest iterations of a solve."),
+    COUNT(max_iterations, NULL, 1, 100000, "Most iterations of a solve."),
+    NUMBER(relaxation, NULL, 0, 1, SB_KEY_ABOVE, "Factor omega of the Jacobi solver."),
+    NUMBER(warm_start, NULL, 0, 1, 0, "Share of the last pressure that a solve starts from."),
+    NUMBER(source_relaxation, NULL, 0, 1, SB_KEY_ABOVE,
+           "Share of the density error that one step mends."),
+    NUMBER(cfl, NULL, 0, 1, SB_KEY_ABOVE, "Part of the support that a particle may cross per step."),
+    CHOICE(time_step_rule, step_words,
+           "Longest step: `paper` time_step_factor h/g, `depth` time_step_factor h/sqrt(g D), "
+           "with h the support radius and D the still depth."),
+    NUMBER(time_step_factor, NULL, 0, 10, SB_KEY_ABOVE, "Factor of that rule (under `paper` in m/s)."),
+    NUMBER(time_step_max, "s", 0, HUGE_VAL, 0, "A further bound on the step; 0: none."),
+    NUMBER(artificial_viscosity, NULL, 0, 10, 0,
+           "alpha of Monaghan's viscosity; 0 leaves the term out."),
+    NUMBER(wall_friction, NULL, 0, 10, 0, "sigma of the wall friction; 0 leaves the term out."),
+    NUMBER(sound_speed, "m/s", 0, HUGE_VAL, 0,
+           "Speed in these two viscosities; 0: 10 sqrt(g D)."),
+    NUMBER(wall_gamma, NULL, 0, 5, SB_KEY_ABOVE, "Factor on the volume of boundary particles."),
+    NUMBER(wall_offset, "spacings", 0, 2, 0,
+           "How far boundary particles lie behind the physical wall."),
+    NUMBER(jitter, "spacings", 0, 0.5, 0, "Amplitude of the random displacement at the start."),
+    {.name = "seed", .type = SB_KEY_SEED, SB_KEY_AT(sb_numerics, seed), .max = 0x1p64,
+     .flags = SB_KEY_PRESET, .doc = "Seed of that displacement."},
+    COUNT(settle_steps, "steps", 0, 1000000, "Most damped steps before t = 0; 0: none."),
+};
+
+static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    const sb_numerics *numerics = item;
+    if (numerics->min_iterations <= numerics->max_iterations)
+        return SB_OK;
+    return sb_reader_fail(reader, map, "min_iterations",
+                          "%d is more than max_iterations, expected at most %d",
+                          numerics->min_iterations, numerics->max_iterations);
+}
+
+const sb_table sb_numerics_table = {SB_KEY_ROWS(keys), .size = sizeof(sb_numerics),
+                                    .finish = finish};

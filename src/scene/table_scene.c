@@ -1,0 +1,130 @@
+#include "scene/reader.h"
+
+#include <math.h>
+
+static const char *const side_words[] = {"wall", "open", "periodic", NULL};
+
+#define SIDE(index, side, fallback_, doc_)                                                         \
+    {.name = side, .type = SB_KEY_CHOICE, .offset = (index) * sizeof(sb_side_kind),                \
+     .words = side_words, .fallback = fallback_, .doc = doc_}
+
+static const sb_key side_keys[] = {
+    SIDE(SB_X_MIN, "x_min", "wall", "The side at the smallest x."),
+    SIDE(SB_X_MAX, "x_max", "wall", "The side at the largest x."),
+    SIDE(SB_Y_MIN, "y_min", "wall", "The side at the smallest y; without meaning in 2D."),
+    SIDE(SB_Y_MAX, "y_max", "wall", "The side at the largest y; without meaning in 2D."),
+    SIDE(SB_Z_MIN, "z_min", "wall", "The floor."),
+    SIDE(SB_Z_MAX, "z_max", "open", "The lid."),
+};
+
+static sb_status finish_sides(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    const sb_side_kind *side = item;
+    for (size_t i = 0; i < SB_SIDES; i++)
+        if (side[i] == SB_SIDE_PERIODIC)
+            return sb_reader_fail(reader, map, side_keys[i].name,
+                                  "periodic sides are not supported yet, expected wall or open");
+    return SB_OK;
+}
+
+static const sb_table side_table = {SB_KEY_ROWS(side_keys), .finish = finish_sides};
+
+static const sb_key domain_keys[] = {
+    {.name = "min", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_domain, min), .unit = "m", SB_KEY_ANY,
+     .flags = SB_KEY_REQUIRED, .doc = "Corner with the smallest coordinates."},
+    {.name = "max", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_domain, max), .unit = "m", SB_KEY_ANY,
+     .flags = SB_KEY_REQUIRED, .doc = "Corner with the largest coordinates."},
+    {.name = "sides", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_domain, side), .table = &side_table,
+     .doc = "What each side does: a `wall` holds the water; through an `open` side particles "
+            "leave, and are counted; `periodic` is reserved and refused for now."},
+};
+
+static sb_status finish_domain(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    const sb_domain *domain = item;
+    const sb_scene *scene = reader->scene;
+    sb_vec3 size = sb_sub(domain->max, domain->min);
+    const double extent[] = {size.x, size.y, size.z};
+    for (size_t i = 0; i < 3; i++) {
+        if (i == 1 && scene->dimensions == 2)
+            continue;
+        if (!(extent[i] > 0) || !isfinite(extent[i]))
+            return sb_reader_fail(reader, map, "max",
+                                  "%c does not lie above that of domain.min, expected min < max",
+                                  "xyz"[i]);
+        /* Cell numbers of the neighbour search have 21 bits per axis. */
+        if (extent[i] / scene->resolution > 1e6)
+            return sb_reader_fail(reader, map, "max",
+                                  "%g m in %c are %.3g times the resolution of %g m, expected at "
+                                  "most 1e+06 times", extent[i], "xyz"[i],
+                                  extent[i] / scene->resolution, scene->resolution);
+    }
+    return SB_OK;
+}
+
+static const sb_table domain_table = {SB_KEY_ROWS(domain_keys), .finish = finish_domain};
+
+static const sb_key fluid_keys[] = {
+    {.name = "density", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_fluid_properties, density),
+     .unit = "kg/m3", SB_KEY_POSITIVE, .fallback = "1000", .doc = "Rest density."},
+    {.name = "gravity", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_fluid_properties, gravity),
+     .unit = "m/s2", SB_KEY_POSITIVE, .fallback = "9.81", .doc = "Magnitude; it points to -z."},
+    {.name = "viscosity", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_fluid_properties, viscosity),
+     .unit = "m2/s", SB_KEY_NOT_NEGATIVE, .fallback = "1e-6",
+     .doc = "Kinematic viscosity of the fluid; 0 leaves the term out."},
+};
+
+static const sb_table fluid_table = {SB_KEY_ROWS(fluid_keys)};
+
+static const sb_key scene_keys[] = {
+    {.name = "title", .type = SB_KEY_TEXT, SB_KEY_AT(sb_scene, title), .fallback = "\"\"",
+     .doc = "One line for pictures and reports."},
+    {.name = "dimensions", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_scene, dimensions), .min = 2,
+     .max = 3, .fallback = "3", .doc = "3, or 2 for a vertical slice in x and z."},
+    {.name = "resolution", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_scene, resolution), .unit = "m",
+     .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
+     .doc = "Distance of particles at rest, one spacing: the one knob between speed and detail."},
+    {.name = "duration", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_scene, duration), .unit = "s",
+     .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
+     .doc = "Simulated time of the run."},
+    {.name = "fluid", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, fluid), .table = &fluid_table,
+     .doc = "What flows."},
+    {.name = "domain", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, domain), .table = &domain_table,
+     .flags = SB_KEY_REQUIRED, .doc = "The box in which all happens."},
+    {.name = "numerics", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, numerics),
+     .table = &sb_numerics_table, .doc = "How the equations are solved; a preset fills it."},
+    {.name = "water", .type = SB_KEY_BLOCK, .offset = 0, .table = &sb_water_table,
+     .flags = SB_KEY_REQUIRED, .doc = "Where water is at the start."},
+    {.name = "bodies", .type = SB_KEY_LIST, SB_KEY_ITEMS(sb_scene, bodies, body_count),
+     .table = &sb_body_table, .doc = "Solid things: terrain, buildings, paddles."},
+    {.name = "wavemakers", .type = SB_KEY_LIST,
+     SB_KEY_ITEMS(sb_scene, wavemakers, wavemaker_count), .table = &sb_wavemaker_table,
+     .doc = "Bodies that move by a law."},
+    {.name = "measure", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, measure),
+     .table = &sb_measure_table, .doc = "What is measured, and how often."},
+    {.name = "render", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, render),
+     .table = &sb_render_table, .doc = "Pictures and film."},
+    {.name = "stream", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, stream),
+     .table = &sb_stream_table, .doc = "The live stream over LCM."},
+    {.name = "output", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, output),
+     .table = &sb_output_table, .doc = "Other files of a run."},
+};
+
+static sb_status finish_scene(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    const sb_scene *scene = item;
+    sb_vec3 size = sb_sub(scene->domain.max, scene->domain.min);
+    double least = size.x < size.z ? size.x : size.z;
+    if (scene->dimensions == 3 && size.y < least)
+        least = size.y;
+    double support = scene->numerics.support * scene->resolution;
+    if (support > least)
+        return sb_reader_fail(reader, map, "resolution",
+                              "%g m is too coarse: particles see %g m far and the domain is only "
+                              "%g m across, expected at most %g m", scene->resolution, support,
+                              least, least / scene->numerics.support);
+    return SB_OK;
+}
+
+const sb_table sb_scene_table = {SB_KEY_ROWS(scene_keys), .size = sizeof(sb_scene),
+                                 .finish = finish_scene};

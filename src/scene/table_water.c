@@ -1,0 +1,148 @@
+#include "scene/reader.h"
+
+#include <math.h>
+
+/* Whether min < max in all axes that count; the key at fault is max. */
+static sb_status ordered(sb_reader *reader, const sb_yaml *map, sb_vec3 min, sb_vec3 max)
+{
+    bool flat = reader->scene->dimensions == 2;
+    if (min.x < max.x && min.z < max.z && (flat || min.y < max.y))
+        return SB_OK;
+    return sb_reader_fail(reader, map, "max", "does not lie above min, expected min < max");
+}
+
+/* Whether a point lies in the domain, its walls included. */
+static bool in_domain(const sb_scene *scene, sb_vec3 point)
+{
+    const sb_domain *domain = &scene->domain;
+    return point.x >= domain->min.x && point.x <= domain->max.x && point.y >= domain->min.y &&
+           point.y <= domain->max.y && point.z >= domain->min.z && point.z <= domain->max.z;
+}
+
+static const sb_key box_keys[] = {
+    {.name = "min", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_fluid_box, min), .unit = "m", SB_KEY_ANY,
+     .flags = SB_KEY_REQUIRED, .doc = "Corner with the smallest coordinates."},
+    {.name = "max", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_fluid_box, max), .unit = "m", SB_KEY_ANY,
+     .flags = SB_KEY_REQUIRED, .doc = "Corner with the largest coordinates."},
+    {.name = "level", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_fluid_box, level), .unit = "m",
+     SB_KEY_ANY, .derived = "z of max",
+     .doc = "Free surface in this box, above z of min and at most z of max."},
+    {.name = "velocity", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_fluid_box, velocity), .unit = "m/s",
+     SB_KEY_ANY, .fallback = "[0, 0, 0]", .doc = "Of the water in it at the start."},
+};
+
+static sb_status finish_box(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    sb_fluid_box *box = item;
+    sb_status status = ordered(reader, map, box->min, box->max);
+    if (status != SB_OK)
+        return status;
+    const char *outside = !in_domain(reader->scene, box->min)   ? "min"
+                          : !in_domain(reader->scene, box->max) ? "max"
+                                                                : NULL;
+    if (outside)
+        return sb_reader_fail(reader, map, outside, "is outside of the domain, expected inside");
+    if (!sb_yaml_child(map, "level"))
+        box->level = box->max.z;
+    const sb_key *key = &box_keys[2];
+    if (!(box->level > box->min.z && box->level <= box->max.z))
+        return sb_reader_fail(reader, map, key->name,
+                              "%g m is outside of the box, expected metres > %g and <= %g",
+                              box->level, box->min.z, box->max.z);
+    return SB_OK;
+}
+
+static const sb_table box_table = {SB_KEY_ROWS(box_keys), .size = sizeof(sb_fluid_box),
+                                   .finish = finish_box};
+
+static const char *const wave_words[] = {"none", "solitary", "standing", NULL};
+enum { SOLITARY = 1 << SB_INITIAL_SOLITARY, STANDING = 1 << SB_INITIAL_STANDING };
+
+static unsigned wave_variant(const void *item, const sb_yaml *map)
+{
+    (void)map;
+    return 1u << ((const sb_initial_wave *)item)->kind;
+}
+
+static const sb_key wave_keys[] = {
+    {.name = "kind", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_initial_wave, kind), .words = wave_words,
+     .fallback = "none", .doc = "Which wave is on the water at the start."},
+    {.name = "height", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_wave, height), .unit = "m",
+     .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
+     .applies = SOLITARY | STANDING, .only = "kind solitary or standing",
+     .doc = "Height H of a solitary wave, amplitude of a standing one."},
+    {.name = "depth", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_wave, depth), .unit = "m",
+     .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
+     .applies = SOLITARY | STANDING, .only = "kind solitary or standing",
+     .doc = "Still depth that the theory is taken at."},
+    {.name = "position", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_wave, position), .unit = "m",
+     SB_KEY_ANY, .fallback = "0", .applies = SOLITARY | STANDING,
+     .only = "kind solitary or standing", .doc = "x of the crest."},
+    {.name = "wavelength", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_wave, wavelength),
+     .unit = "m", .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
+     .applies = STANDING, .only = "kind standing", .doc = "Length of the standing wave."},
+    {.name = "direction", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_initial_wave, direction), .min = -1,
+     .max = 1, .fallback = "1", .applies = SOLITARY, .only = "kind solitary",
+     .doc = "1 travels towards +x, -1 towards -x; 0 is refused."},
+};
+
+static sb_status finish_wave(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    const sb_initial_wave *wave = item;
+    if (wave->kind == SB_INITIAL_SOLITARY && wave->direction == 0)
+        return sb_reader_fail(reader, map, "direction", "0 is no direction, expected 1 or -1");
+    if (wave->kind == SB_INITIAL_STANDING && wave->height >= wave->depth)
+        return sb_reader_fail(reader, map, "height",
+                              "%g m would bare the bed, expected less than the depth of %g m",
+                              wave->height, wave->depth);
+    return SB_OK;
+}
+
+static const sb_table wave_table = {SB_KEY_ROWS(wave_keys), .size = sizeof(sb_initial_wave),
+                                    .variant = wave_variant, .finish = finish_wave};
+
+enum { SEA = 1 };
+
+static unsigned water_variant(const void *item, const sb_yaml *map)
+{
+    bool sea = map ? sb_yaml_child(map, "level") != NULL : ((const sb_scene *)item)->sea.present;
+    return sea ? SEA : 0;
+}
+
+static const sb_key water_keys[] = {
+    {.name = "level", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_scene, sea.level), .unit = "m",
+     SB_KEY_ANY, .applies = SEA, .derived = "no sea", .only = "a sea",
+     .doc = "Still-water level of the sea, inside the domain."},
+    {.name = "seed", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_scene, sea.seed), .unit = "m", SB_KEY_ANY,
+     .flags = SB_KEY_REQUIRED, .applies = SEA, .only = "a sea, which needs water.level",
+     .doc = "A point in the sea: all space below the level that can be reached from it is filled."},
+    {.name = "boxes", .type = SB_KEY_LIST, SB_KEY_ITEMS(sb_scene, boxes, box_count),
+     .table = &box_table, .doc = "Boxes of water, each with its own level."},
+    {.name = "wave", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, wave), .table = &wave_table,
+     .doc = "A wave that is there at t = 0, surface and velocities, by its theory."},
+};
+
+static sb_status finish_water(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    sb_scene *scene = item;
+    sb_sea *sea = &scene->sea;
+    const sb_domain *domain = &scene->domain;
+    sea->present = water_variant(scene, map) & SEA;
+    if (!sea->present && scene->box_count == 0)
+        return sb_reader_fail(reader, map, NULL, "holds no water, expected level and seed, or boxes");
+    if (!sea->present)
+        return SB_OK;
+    if (!(sea->level > domain->min.z && sea->level <= domain->max.z))
+        return sb_reader_fail(reader, map, "level",
+                              "%g m is outside of the domain, expected metres > %g and <= %g",
+                              sea->level, domain->min.z, domain->max.z);
+    if (!in_domain(scene, sea->seed))
+        return sb_reader_fail(reader, map, "seed", "is outside of the domain, expected inside");
+    if (!(sea->seed.z < sea->level))
+        return sb_reader_fail(reader, map, "seed", "z %g m is not below the level, expected < %g",
+                              sea->seed.z, sea->level);
+    return SB_OK;
+}
+
+const sb_table sb_water_table = {SB_KEY_ROWS(water_keys), .size = sizeof(sb_scene),
+                                 .variant = water_variant, .finish = finish_water};

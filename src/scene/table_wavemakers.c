@@ -1,0 +1,81 @@
+#include "scene/reader.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char *const after_words[] = {"stay", "return", NULL};
+
+enum { RETURNS = 1 << 16 };
+
+static unsigned variant(const void *item, const sb_yaml *map)
+{
+    (void)map;
+    const sb_wavemaker_parameters *law = &((const sb_wavemaker_use *)item)->law;
+    return (law->kind ? law->kind->needs : 0u) | (law->after == SB_AFTER_RETURN ? RETURNS : 0u);
+}
+
+#define LAW_NUMBER(key, unit_, bit, only_, doc_)                                                   \
+    {.name = #key, .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wavemaker_use, law.key), .unit = unit_,     \
+     .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .applies = bit,           \
+     .only = only_, .doc = doc_}
+
+static const sb_key keys[] = {
+    {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_wavemaker_use, name),
+     .flags = SB_KEY_REQUIRED, .doc = "Unlike all other wave makers' names."},
+    {.name = "body", .type = SB_KEY_NAME, SB_KEY_AT(sb_wavemaker_use, body),
+     .flags = SB_KEY_REQUIRED, .doc = "Name of the body that it moves."},
+    {.name = "kind", .type = SB_KEY_LAW, SB_KEY_AT(sb_wavemaker_use, law.kind),
+     .flags = SB_KEY_REQUIRED, .doc = "The law; `shorebreak list wavemakers` describes them."},
+    {.name = "direction", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_wavemaker_use, direction),
+     SB_KEY_ANY, .flags = SB_KEY_UNIT, .fallback = "[1, 0, 0]",
+     .doc = "Direction of the motion, of any length."},
+    {.name = "start", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wavemaker_use, law.start), .unit = "s",
+     SB_KEY_NOT_NEGATIVE, .fallback = "0", .doc = "When the motion begins."},
+    LAW_NUMBER(height, "m", SB_WM_HEIGHT, "laws that take a wave height", "Wave height H."),
+    LAW_NUMBER(depth, "m", SB_WM_DEPTH, "laws that take a depth", "Still depth at the paddle."),
+    LAW_NUMBER(stroke, "m", SB_WM_STROKE, "laws that take a stroke", "Full travel."),
+    LAW_NUMBER(speed, "m/s", SB_WM_SPEED, "laws that take a speed", "Speed of the stroke."),
+    {.name = "file", .type = SB_KEY_FILE, SB_KEY_AT(sb_wavemaker_use, law.file),
+     .flags = SB_KEY_REQUIRED, .applies = SB_WM_FILE, .only = "laws that take a file",
+     .doc = "Table of times and displacements."},
+    {.name = "after", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_wavemaker_use, law.after),
+     .words = after_words, .fallback = "stay", .doc = "What follows the stroke."},
+    LAW_NUMBER(return_time, "s", RETURNS, "after: return", "Duration of the slow way back."),
+};
+
+/* With a split mesh, bodies' names are known only when its file is read: the model checks them. */
+static bool body_may_exist(const sb_scene *scene, const char *name)
+{
+    for (size_t i = 0; i < scene->body_count; i++)
+        if (scene->bodies[i].split || strcmp(scene->bodies[i].name, name) == 0)
+            return true;
+    return false;
+}
+
+static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    sb_wavemaker_use *use = item;
+    const sb_scene *scene = reader->scene;
+    if (!body_may_exist(scene, use->body))
+        return sb_reader_fail(reader, map, "body", "no body is named %s, expected one of bodies",
+                              use->body);
+    for (const sb_wavemaker_use *other = scene->wavemakers; other < use; other++)
+        if (strcmp(other->body, use->body) == 0)
+            return sb_reader_fail(reader, map, "body",
+                                  "%s is moved by %s already, expected one wave maker per body",
+                                  use->body, other->name);
+    use->law.gravity = scene->fluid.gravity;
+    sb_paddle paddle = {0};
+    sb_error why = {0};
+    sb_status status = sb_paddle_create(&use->law, &paddle, &why);
+    if (status == SB_OK)
+        sb_paddle_destroy(&paddle);
+    else if (status == SB_BAD_INPUT)
+        return sb_reader_fail(reader, map, NULL, "%s", why.text);
+    else
+        return sb_fail(reader->error, status, "%s", why.text);
+    return SB_OK;
+}
+
+const sb_table sb_wavemaker_table = {SB_KEY_ROWS(keys), .size = sizeof(sb_wavemaker_use),
+                                     .variant = variant, .finish = finish};

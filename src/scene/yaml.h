@@ -1,0 +1,52 @@
+/* A YAML text as a tree of nodes that know their place. yaml.c is the only file that knows libyaml. */
+#ifndef SB_SCENE_YAML_H
+#define SB_SCENE_YAML_H
+
+#include "base/status.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef enum sb_yaml_kind { SB_YAML_SCALAR, SB_YAML_LIST, SB_YAML_MAP } sb_yaml_kind;
+
+/* Zero-initialised is an empty scalar. Owns its texts and its items. */
+typedef struct sb_yaml sb_yaml;
+struct sb_yaml {
+    sb_yaml_kind kind;
+    int line, column;         /* from 1; 0: not from a file (--set, a default) */
+    char *key;                /* in a map: its key; else NULL */
+    int key_line, key_column; /* of that key */
+    char *text;               /* scalar: UTF-8 without zero bytes */
+    bool quoted;              /* scalar: written in quotes or as a block, so it is text */
+    size_t count, capacity;
+    sb_yaml *items; /* of a list or a map, in the order written */
+};
+
+/* Where a text comes from, for messages: "name:line:column: " or, not placed, "name: ". */
+typedef struct sb_yaml_source {
+    const char *name;
+    bool placed;
+} sb_yaml_source;
+
+/* Parses one document into *root (untouched on error). Refused: syntax errors, invalid UTF-8, no
+   document or several, duplicate keys, tags, more than 100000 nodes, more than 32 levels. Aliases
+   are copied. SB_BAD_INPUT, or SB_FAILED without memory. */
+sb_status sb_yaml_parse(sb_yaml_source source, const char *text, size_t length, sb_yaml *root,
+                        sb_error *error);
+
+/* Frees what the node owns and zeroes it; fine on a zeroed node. */
+void sb_yaml_free(sb_yaml *node);
+
+/* The map's value of that key, or NULL; NULL for lists and scalars. */
+sb_yaml *sb_yaml_child(const sb_yaml *map, const char *key);
+
+/* Whether a scalar says "no value": nothing, ~ or null. */
+bool sb_yaml_is_null(const sb_yaml *node);
+
+/* Moves *value into *place, whose key stays; what was there is freed and *value zeroed. */
+void sb_yaml_replace(sb_yaml *place, sb_yaml *value);
+
+/* Adds an empty scalar under a new key of a map (key of key_length bytes). NULL without memory. */
+sb_yaml *sb_yaml_append(sb_yaml *map, const char *key, size_t key_length);
+
+#endif
