@@ -14,7 +14,9 @@ typedef struct sb_mesh {
     sb_vec3 *vertices;
     size_t triangle_count;
     uint32_t (*triangles)[3];
-    bool sheet; /* open on purpose (plane, basin): solid is what lies behind the normals */
+    bool sheet;     /* open on purpose (plane, basin): solid is what lies behind the normals */
+    size_t dropped; /* degenerate triangles that the file had, left out */
+    size_t turned;  /* triangles that were turned round to face the water */
 } sb_mesh;
 
 /* Room for so many vertices and triangles, zeroed; *mesh is overwritten, not freed. */
@@ -23,25 +25,43 @@ sb_status sb_mesh_alloc(sb_mesh *mesh, size_t vertices, size_t triangles, sb_err
 /* Frees what the mesh owns and zeroes it; fine on a zeroed mesh. */
 void sb_mesh_free(sb_mesh *mesh);
 
-/* What is wrong with a mesh, as counts and the place of the first of each. */
+/* What is wrong with a mesh, as counts and the place of the first of each. Vertices at the same place
+   are one. */
 typedef struct sb_mesh_report {
-    size_t open_edges, flipped_faces, degenerate_faces, doubled_faces;
-    sb_vec3 first_open_edge, first_flipped_face;
-    bool watertight;
+    size_t open_edges;       /* with a triangle on one side only */
+    size_t flipped_faces;    /* the lesser part of a surface whose neighbours face the other way */
+    size_t degenerate_faces; /* without area; they count for nothing else */
+    size_t doubled_faces;    /* a further triangle on the same three vertices */
+    sb_vec3 first_open_edge, first_flipped_face; /* m, middle of the edge, of the face */
+    bool watertight;         /* every edge is run through as often forth as back */
     double volume, area; /* m^3 (signed), m^2 */
     sb_vec3 min, max;
 } sb_mesh_report;
+/* Without memory for the search of edges, watertight is false and the counts are 0. */
 void sb_mesh_diagnose(const sb_mesh *mesh, sb_mesh_report *report);
 
-/* Reads a mesh file in a child process with limits; named nodes give one mesh each. Raw file units,
-   file axes. *meshes is owned by the caller: sb_mesh_free each, then sb_free. */
+/* Turns triangles that face the other way than most of their surface; then the whole mesh, when a
+   SOLID has a negative volume or a TERRAIN looks down. Adds to mesh->turned. */
+sb_status sb_mesh_orient(sb_mesh *mesh, sb_role role, sb_error *error);
+
+/* Makes vertices at the same place one, drops degenerate triangles (adding to mesh->dropped) and
+   unused vertices. The order of what stays is kept. SB_BAD_INPUT for non-finite vertices or bad
+   indices. */
+sb_status sb_mesh_weld(sb_mesh *mesh, sb_error *error);
+
+/* Reads OBJ, STL, PLY, glTF, GLB or DAE in a child process with limits on memory and time. One mesh,
+   welded, for each node that has triangles, named after it ("" when it has no name); the nodes'
+   transforms are applied. File units and axes, but a DAE is in metres by its own unit. *meshes is
+   owned by the caller: sb_mesh_free each, then sb_free. SB_BAD_INPUT "file: what, expected". */
 sb_status sb_mesh_import(const char *path, sb_mesh **meshes, size_t *count, sb_error *error);
 
 /* Terrain heights as a sheet mesh: ESRI ASCII (.asc; nodata cells are holes) or lines "x y z" on a
-   regular grid (.xyz). */
+   regular grid (.xyz, in any order; missing points are holes). File units; datum is added to the
+   heights. SB_BAD_INPUT "file:line: what, expected". */
 sb_status sb_mesh_import_grid(const char *path, double datum, sb_mesh *mesh, sb_error *error);
 
-/* Analytic shapes, outward normals towards the water; chord error of round ones <= tolerance (m). */
+/* Analytic shapes, outward normals towards the water; chord error of round ones <= tolerance (m).
+   A plane's width is along z x normal (along x when it is level), its length across that. */
 sb_status sb_mesh_box(sb_vec3 min, sb_vec3 max, sb_mesh *mesh, sb_error *error);
 sb_status sb_mesh_cylinder(sb_vec3 base, double radius, double height, double tolerance,
                            sb_mesh *mesh, sb_error *error);
@@ -49,7 +69,9 @@ sb_status sb_mesh_plane(sb_vec3 center, sb_vec3 normal, double width, double len
                         sb_error *error);
 sb_status sb_mesh_basin(sb_vec3 min, sb_vec3 max, sb_mesh *mesh, sb_error *error);
 
-/* All meshes that one scene body stands for, transformed to the scene. */
+/* All meshes that one scene body stands for, transformed to the scene. One, named as the body; or
+   with body->split one per named node of its file, names made unique by "-2", "-3". Round shapes
+   are true to 0.02 spacing. Owned by the caller as from sb_mesh_import. */
 sb_status sb_mesh_from_body(const sb_body *body, double spacing, sb_mesh **meshes, size_t *count,
                             sb_error *error);
 

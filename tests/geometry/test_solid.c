@@ -4,11 +4,14 @@
 #include "base/random.h"
 #include "geometry/solid.h"
 
-#include <cmocka.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 static sb_error error;
 

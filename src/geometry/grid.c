@@ -1,0 +1,114 @@
+/* Terrain grids as sheet meshes. */
+#include "geometry/grid.h"
+
+#include "base/file.h"
+#include "base/memory.h"
+
+#include <string.h>
+#include <strings.h>
+
+static const size_t file_limit = (size_t)4 << 30;
+
+/* Up to two triangles of the square whose lower left node is `node`, counter-clockwise seen from
+   above. The square is cut along the diagonal that climbs less, which keeps ridges and valleys; one
+   hole among its corners leaves one triangle. */
+static size_t cut_square(const sb_grid *grid, size_t node, size_t triangles[2][3])
+{
+    const size_t corner[4] = {node, node + 1, node + 1 + grid->columns, node + grid->columns};
+    double z[4];
+    size_t holes = 0, hole = 0;
+    for (size_t k = 0; k < 4; ++k) {
+        z[k] = grid->heights[corner[k]];
+        if (isnan(z[k])) {
+            ++holes;
+            hole = k;
+        }
+    }
+    if (holes > 1) return 0;
+    /* The cut runs from corner `from` to the one across; a hole must lie off it. */
+    size_t from = holes ? (hole + 1) % 4 : fabs(z[0] - z[2]) <= fabs(z[1] - z[3]) ? 0 : 1;
+    for (size_t k = 0; k < 3; ++k) {
+        triangles[0][k] = corner[(from + k) % 4];
+        triangles[1][k] = corner[(from + 2 + k) % 4];
+    }
+    return holes ? 1 : 2;
+}
+
+static size_t count_triangles(const sb_grid *grid)
+{
+    size_t count = 0, triangles[2][3];
+    for (size_t j = 0; j + 1 < grid->rows; ++j)
+        for (size_t i = 0; i + 1 < grid->columns; ++i)
+            count += cut_square(grid, j * grid->columns + i, triangles);
+    return count;
+}
+
+/* Nodes that a triangle uses get their vertex, in the order of the nodes. */
+static void fill_mesh(const sb_grid *grid, double datum, uint32_t *vertex_of, sb_mesh *mesh)
+{
+    size_t triangle = 0, triangles[2][3];
+    for (size_t j = 0; j + 1 < grid->rows; ++j)
+        for (size_t i = 0; i + 1 < grid->columns; ++i) {
+            size_t count = cut_square(grid, j * grid->columns + i, triangles);
+            for (size_t t = 0; t < count; ++t, ++triangle)
+                for (int k = 0; k < 3; ++k) {
+                    mesh->triangles[triangle][k] = (uint32_t)triangles[t][k];
+                    vertex_of[triangles[t][k]] = 1;
+                }
+        }
+    uint32_t vertices = 0;
+    for (size_t node = 0; node < grid->rows * grid->columns; ++node) {
+        if (!vertex_of[node]) continue;
+        mesh->vertices[vertices] = sb_vec(grid->x + (double)(node % grid->columns) * grid->dx,
+                                          grid->y + (double)(node / grid->columns) * grid->dy,
+                                          grid->heights[node] + datum);
+        vertex_of[node] = vertices++;
+    }
+    for (size_t i = 0; i < mesh->triangle_count; ++i)
+        for (int k = 0; k < 3; ++k) mesh->triangles[i][k] = vertex_of[mesh->triangles[i][k]];
+    mesh->vertex_count = vertices;
+}
+
+static sb_status make_mesh(const char *path, const sb_grid *grid, double datum, sb_mesh *mesh,
+                           sb_error *error)
+{
+    size_t triangles = count_triangles(grid);
+    if (triangles == 0)
+        return sb_fail(error, SB_BAD_INPUT,
+                       "%.500s: no three neighbouring heights in it, expected terrain", path);
+    uint32_t *vertex_of = sb_alloc(grid->rows * grid->columns, sizeof *vertex_of);
+    if (!vertex_of) return sb_fail_memory(error, "a terrain grid");
+    sb_mesh made;
+    sb_status status = sb_mesh_alloc(&made, grid->rows * grid->columns, triangles, error);
+    if (status == SB_OK) {
+        fill_mesh(grid, datum, vertex_of, &made);
+        *mesh = made;
+    }
+    sb_free(vertex_of);
+    return status;
+}
+
+sb_status sb_mesh_import_grid(const char *path, double datum, sb_mesh *mesh, sb_error *error)
+{
+    const char *dot = strrchr(path, '.');
+    bool ascii = dot && strcasecmp(dot, ".asc") == 0;
+    if (!ascii && !(dot && strcasecmp(dot, ".xyz") == 0))
+        return sb_fail(error, SB_BAD_INPUT, "%.500s: unknown grid format, expected .asc or .xyz",
+                       path);
+    char *text = NULL;
+    size_t length = 0;
+    sb_grid grid = {0};
+    sb_status status = sb_file_read(path, file_limit, &text, &length, error);
+    if (status != SB_OK) return status;
+    if (strlen(text) != length)
+        status = sb_fail(error, SB_BAD_INPUT, "%.500s: byte %zu is zero, expected text", path,
+                         strlen(text));
+    else if (ascii)
+        status = sb_grid_read_ascii(path, text, &grid, error);
+    else
+        status = sb_grid_read_points(path, text, &grid, error);
+    sb_free(text);
+    if (status == SB_OK) status = make_mesh(path, &grid, datum, mesh, error);
+    sb_free(grid.heights);
+    return status;
+}

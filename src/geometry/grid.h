@@ -1,0 +1,23 @@
+/* Terrain heights on a regular grid, between their file formats and a mesh. Private to
+   src/geometry/grid*.c. */
+#ifndef SB_GEOMETRY_GRID_H
+#define SB_GEOMETRY_GRID_H
+
+#include "geometry/mesh.h"
+
+/* Heights at (x + i dx, y + j dy), i < columns, j < rows, j = 0 being the southernmost row;
+   NAN: a hole. Owned. */
+typedef struct sb_grid {
+    size_t columns, rows;
+    double x, y, dx, dy; /* file units */
+    double *heights;     /* [j * columns + i] */
+} sb_grid;
+
+/* Both read the zero-terminated text of the file `path`; SB_BAD_INPUT "path:line: ...". */
+sb_status sb_grid_read_ascii(const char *path, const char *text, sb_grid *grid, sb_error *error);
+sb_status sb_grid_read_points(const char *path, const char *text, sb_grid *grid, sb_error *error);
+
+/* Most nodes of a grid: the vertices of its mesh need 32-bit numbers, and memory. */
+enum { SB_GRID_NODES_MAX = 1 << 28 };
+
+#endif

@@ -1,0 +1,170 @@
+/* From a body of the scene to its meshes: shape, units and axes, transform, names. */
+#include "base/memory.h"
+#include "geometry/mesh.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Chord error of round shapes, in spacings: small beside the distance rules of the sampling. */
+static const double chord_error = 0.02;
+
+/* About x, then y, then z, by degrees. */
+static sb_vec3 rotate(sb_vec3 p, const double cosine[3], const double sine[3])
+{
+    p = sb_vec(p.x, cosine[0] * p.y - sine[0] * p.z, sine[0] * p.y + cosine[0] * p.z);
+    p = sb_vec(cosine[1] * p.x + sine[1] * p.z, p.y, cosine[1] * p.z - sine[1] * p.x);
+    return sb_vec(cosine[2] * p.x - sine[2] * p.y, sine[2] * p.x + cosine[2] * p.y, p.z);
+}
+
+/* Exact at whole quarter turns, so that turned boxes keep their faces in the axes' planes. */
+static void turn_of(double degrees, double *cosine, double *sine)
+{
+    double quarters = degrees / 90;
+    if (quarters == floor(quarters)) {
+        static const double cosines[4] = {1, 0, -1, 0}, sines[4] = {0, 1, 0, -1};
+        int i = (int)(quarters - 4 * floor(quarters / 4));
+        *cosine = cosines[i];
+        *sine = sines[i];
+        return;
+    }
+    *cosine = cos(degrees * M_PI / 180);
+    *sine = sin(degrees * M_PI / 180);
+}
+
+static void transform(const sb_body *body, sb_mesh *mesh)
+{
+    const bool from_file = body->shape == SB_SHAPE_MESH || body->shape == SB_SHAPE_GRID;
+    const double scale = from_file ? body->scale : 1;
+    const double raise = body->shape == SB_SHAPE_GRID ? body->datum : 0;
+    const double angles[3] = {body->rotate.x, body->rotate.y, body->rotate.z};
+    double cosine[3], sine[3];
+    for (int axis = 0; axis < 3; ++axis) turn_of(angles[axis], &cosine[axis], &sine[axis]);
+    for (size_t i = 0; i < mesh->vertex_count; ++i) {
+        sb_vec3 p = sb_scale(mesh->vertices[i], scale);
+        if (body->shape == SB_SHAPE_MESH && body->up == 'y') p = sb_vec(p.x, -p.z, p.y);
+        p.z += raise;
+        mesh->vertices[i] = sb_add(rotate(p, cosine, sine), body->translate);
+    }
+}
+
+/* The body's meshes as its shape or file gives them. */
+static sb_status make(const sb_body *body, double spacing, sb_mesh **meshes, size_t *count,
+                      sb_error *error)
+{
+    if (body->shape == SB_SHAPE_MESH) return sb_mesh_import(body->file, meshes, count, error);
+    sb_mesh *one = sb_alloc(1, sizeof *one);
+    if (!one) return sb_fail_memory(error, "a mesh");
+    sb_status status = SB_BAD_INPUT;
+    switch (body->shape) {
+    case SB_SHAPE_MESH:
+        break;
+    case SB_SHAPE_GRID:
+        status = sb_mesh_import_grid(body->file, 0, one, error);
+        break;
+    case SB_SHAPE_BOX:
+        status = sb_mesh_box(body->min, body->max, one, error);
+        break;
+    case SB_SHAPE_CYLINDER:
+        status = sb_mesh_cylinder(body->center, body->radius, body->height, chord_error * spacing,
+                                  one, error);
+        break;
+    case SB_SHAPE_PLANE:
+        status = sb_mesh_plane(body->center, body->normal, body->width, body->length, one, error);
+        break;
+    case SB_SHAPE_BASIN:
+        status = sb_mesh_basin(body->min, body->max, one, error);
+        break;
+    }
+    if (status != SB_OK) {
+        sb_free(one);
+        return status;
+    }
+    *meshes = one;
+    *count = 1;
+    return SB_OK;
+}
+
+/* Puts all meshes into the first. */
+static sb_status merge(sb_mesh *meshes, size_t *count, sb_error *error)
+{
+    if (*count == 1) return SB_OK;
+    sb_mesh whole;
+    size_t vertices = 0, triangles = 0, dropped = 0, turned = 0;
+    for (size_t i = 0; i < *count; ++i) {
+        vertices += meshes[i].vertex_count;
+        triangles += meshes[i].triangle_count;
+        dropped += meshes[i].dropped;
+        turned += meshes[i].turned;
+    }
+    if (vertices >= UINT32_MAX)
+        return sb_fail(error, SB_BAD_INPUT, "%zu vertices, expected fewer than 2^32", vertices);
+    sb_status status = sb_mesh_alloc(&whole, vertices, triangles, error);
+    if (status != SB_OK) return status;
+    whole.dropped = dropped;
+    whole.turned = turned;
+    vertices = triangles = 0;
+    for (size_t i = 0; i < *count; ++i) {
+        sb_mesh *part = &meshes[i];
+        memcpy(whole.vertices + vertices, part->vertices,
+               part->vertex_count * sizeof *part->vertices);
+        for (size_t j = 0; j < part->triangle_count; ++j)
+            for (int k = 0; k < 3; ++k)
+                whole.triangles[triangles + j][k] = (uint32_t)vertices + part->triangles[j][k];
+        vertices += part->vertex_count;
+        triangles += part->triangle_count;
+        sb_mesh_free(part);
+    }
+    meshes[0] = whole;
+    *count = 1;
+    return SB_OK;
+}
+
+static bool taken(const sb_mesh *meshes, size_t count, const char *name)
+{
+    for (size_t i = 0; i < count; ++i)
+        if (strcmp(meshes[i].name, name) == 0) return true;
+    return false;
+}
+
+/* Gives names to meshes without one, and a number to the second of a name. */
+static void set_names(const sb_body *body, sb_mesh *meshes, size_t count)
+{
+    for (size_t i = 0; i < count; ++i) {
+        char wanted[SB_NAME_MAX];
+        memcpy(wanted, body->split && meshes[i].name[0] ? meshes[i].name : body->name,
+               sizeof wanted);
+        memcpy(meshes[i].name, wanted, sizeof wanted);
+        for (size_t number = 2; taken(meshes, i, meshes[i].name); ++number)
+            snprintf(meshes[i].name, sizeof meshes[i].name, "%.*s-%zu", SB_NAME_MAX - 22, wanted,
+                     number);
+    }
+}
+
+sb_status sb_mesh_from_body(const sb_body *body, double spacing, sb_mesh **meshes, size_t *count,
+                            sb_error *error)
+{
+    const bool from_file = body->shape == SB_SHAPE_MESH || body->shape == SB_SHAPE_GRID;
+    sb_error reason = {0};
+    sb_mesh *made = NULL;
+    size_t made_count = 0;
+    sb_status status = SB_OK;
+    if (from_file && !body->file)
+        status = sb_fail(&reason, SB_BAD_INPUT, "no file, expected one");
+    else if (from_file && !(isfinite(body->scale) && body->scale > 0))
+        status = sb_fail(&reason, SB_BAD_INPUT, "scale %g, expected > 0", body->scale);
+    if (status == SB_OK) status = make(body, spacing, &made, &made_count, &reason);
+    if (status == SB_OK && !body->split) status = merge(made, &made_count, &reason);
+    for (size_t i = 0; i < made_count && status == SB_OK; ++i) {
+        transform(body, &made[i]);
+        if (from_file) status = sb_mesh_orient(&made[i], body->role, &reason);
+    }
+    if (status != SB_OK) {
+        for (size_t i = 0; i < made_count; ++i) sb_mesh_free(&made[i]);
+        sb_free(made);
+        return sb_fail(error, status, "body \"%s\": %s", body->name, reason.text);
+    }
+    set_names(body, made, made_count);
+    *meshes = made;
+    *count = made_count;
+    return SB_OK;
+}

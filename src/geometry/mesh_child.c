@@ -1,0 +1,362 @@
+/* Forks the child that reads a mesh file, fences it in, and takes over what it sends. */
+#include "geometry/mesh_child.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/pidfd.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+/* On the clock the child may take longer than on the processor: the disk, and other programs. */
+enum { PATIENCE = 5, MESHES_MAX = 1 << 20, TROUBLE_MAX = 200 };
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+enum { LIMIT_MEMORY = 0 }; /* sanitizers map terabytes, which they never touch */
+#else
+enum { LIMIT_MEMORY = 1 };
+#endif
+
+typedef enum link_end { LINK_OK, LINK_CLOSED, LINK_LATE } link_end;
+
+typedef struct reader {
+    const char *path;
+    pid_t child;
+    int pipe, watch; /* watch becomes readable when the child ends; -1 on old kernels */
+    double deadline; /* s on the clock */
+    uint64_t room;   /* bytes that the child may still send */
+    link_end end;
+} reader;
+
+/* ------------------------------------------------------------------ the child, after the fork */
+
+/* At `most` the kernel says no, or for processor time sends SIGXCPU; a unit later it kills. */
+static void limit(int what, rlim_t most)
+{
+    struct rlimit now;
+    if (getrlimit(what, &now) != 0) return;
+    now.rlim_cur = now.rlim_max < most ? now.rlim_max : most;
+    now.rlim_max = now.rlim_max < most + 1 ? now.rlim_max : most + 1;
+    setrlimit(what, &now);
+}
+
+/* The parent's handlers must not run here; Ctrl-C is the parent's to act on. */
+static void reset_signals(void)
+{
+    for (int number = 1; number < NSIG; ++number)
+        if (number != SIGKILL && number != SIGSTOP)
+            signal(number, number == SIGINT ? SIG_IGN : SIG_DFL);
+    sigset_t none;
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, NULL);
+}
+
+static _Noreturn void run_child(const char *path, int to, const sb_mesh_limits *limits,
+                                uint64_t mapped)
+{
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    prctl(PR_SET_DUMPABLE, 0);
+    reset_signals();
+    int null = open("/dev/null", O_RDWR);
+    if (null < 0 || dup2(null, STDIN_FILENO) < 0 || dup2(null, STDOUT_FILENO) < 0 ||
+        dup2(null, STDERR_FILENO) < 0)
+        _exit(1);
+    /* The pipe is above 2 here: run_reader sees to that. All else the parent had open goes. */
+    enum { OWN_PIPE = 3 };
+    if (to != OWN_PIPE && dup2(to, OWN_PIPE) < 0) _exit(1);
+    close_range(OWN_PIPE + 1, ~0U, 0);
+    limit(RLIMIT_CORE, 0);
+    limit(RLIMIT_FSIZE, 0);
+    limit(RLIMIT_CPU, limits->seconds);
+    if (LIMIT_MEMORY) limit(RLIMIT_AS, mapped + limits->memory);
+    alarm(limits->seconds * PATIENCE);
+    sb_mesh_send_file(path, OWN_PIPE);
+    _exit(0);
+}
+
+/* ----------------------------------------------------------------------------- the parent */
+
+/* Address space of this process in bytes, which a forked child begins with. */
+static uint64_t mapped_bytes(void)
+{
+    unsigned long pages = 0;
+    FILE *file = fopen("/proc/self/statm", "r");
+    if (!file) return 0;
+    if (fscanf(file, "%lu", &pages) != 1) pages = 0;
+    fclose(file);
+    return (uint64_t)pages * (uint64_t)sysconf(_SC_PAGESIZE);
+}
+
+/* Waits for bytes from the child, its end, or the deadline. */
+static void await(reader *from)
+{
+    while (from->end == LINK_OK) {
+        double left = from->deadline - sb_clock();
+        if (left <= 0) {
+            from->end = LINK_LATE;
+            return;
+        }
+        struct pollfd sources[2] = {{from->pipe, POLLIN, 0}, {from->watch, POLLIN, 0}};
+        int ready = poll(sources, 2, (int)(1e3 * left) + 1);
+        if (ready < 0 && errno != EINTR) from->end = LINK_CLOSED;
+        if (ready <= 0) continue;
+        if (!(sources[0].revents & POLLIN))
+            from->end = LINK_CLOSED; /* hung up, or the child ended with nothing left to read */
+        return;
+    }
+}
+
+/* Reads exactly `size` bytes; false when the child ended early, is late or sends too much. */
+static bool receive(reader *from, void *bytes, size_t size)
+{
+    char *at = bytes;
+    while (size > 0) {
+        await(from);
+        if (from->end != LINK_OK) return false;
+        ssize_t got = read(from->pipe, at, size);
+        if (got > 0) {
+            at += got;
+            size -= (size_t)got;
+        } else if (got == 0 || (errno != EINTR && errno != EAGAIN)) {
+            from->end = LINK_CLOSED;
+        }
+    }
+    return true;
+}
+
+/* Bytes of the UTF-8 character that begins at c, 0 when none does. */
+static size_t character_length(const unsigned char *c)
+{
+    size_t length = c[0] < 0x80 ? 1 : c[0] < 0xc2 ? 0 : c[0] < 0xe0 ? 2 : c[0] < 0xf0 ? 3 : 4;
+    if (c[0] > 0xf4) return 0;
+    for (size_t i = 1; i < length; ++i)
+        if ((c[i] & 0xc0) != 0x80) return 0;
+    return length;
+}
+
+/* Makes text fit for a message; a name also for a CSV row, a file name and a channel name. */
+static void clean_text(char *text, bool is_name)
+{
+    for (char *c = text; *c;) {
+        size_t length = character_length((unsigned char *)c);
+        if (length == 0 || iscntrl((unsigned char)*c) || (is_name && strchr(",\"'/\\", *c))) {
+            *c = is_name ? '_' : length == 0 ? '?' : ' ';
+            length = 1;
+        }
+        c += length;
+    }
+    for (size_t n = strlen(text); n > 0 && text[n - 1] == ' '; --n) text[n - 1] = '\0';
+}
+
+static sb_status receive_trouble(reader *from, const sb_mesh_record *record, sb_error *error)
+{
+    char text[TROUBLE_MAX + 1] = "";
+    size_t size = record->vertices < TROUBLE_MAX ? (size_t)record->vertices : TROUBLE_MAX;
+    if (!receive(from, text, size)) text[0] = '\0';
+    clean_text(text, false);
+    return sb_fail(error, SB_BAD_INPUT, "%.500s: not readable as a mesh: %s", from->path,
+                   text[0] ? text : "no reason given");
+}
+
+static sb_status receive_mesh(reader *from, const sb_mesh_record *record, sb_mesh *mesh,
+                              sb_error *error)
+{
+    const uint64_t vertex = sizeof *mesh->vertices, triangle = sizeof *mesh->triangles;
+    if (record->vertices > from->room / vertex || record->triangles > from->room / triangle ||
+        record->vertices * vertex + record->triangles * triangle > from->room)
+        return sb_fail(error, SB_BAD_INPUT,
+                       "%.500s: %llu vertices and %llu triangles, too many to hold", from->path,
+                       (unsigned long long)record->vertices, (unsigned long long)record->triangles);
+    from->room -= record->vertices * vertex + record->triangles * triangle;
+    sb_status status = sb_mesh_alloc(mesh, record->vertices, record->triangles, error);
+    if (status != SB_OK) return status;
+    memcpy(mesh->name, record->name, sizeof mesh->name - 1);
+    clean_text(mesh->name, true);
+    if (!receive(from, mesh->vertices, record->vertices * vertex) ||
+        !receive(from, mesh->triangles, record->triangles * triangle))
+        return SB_FAILED; /* described by how the child ended */
+    sb_error reason = {0};
+    status = sb_mesh_weld(mesh, &reason);
+    if (status == SB_OK) return SB_OK;
+    return sb_fail(error, status, "%.500s: mesh \"%s\": %s", from->path, mesh->name, reason.text);
+}
+
+typedef struct mesh_list {
+    sb_mesh *items;
+    size_t count, capacity;
+} mesh_list;
+
+static void free_list(mesh_list *list)
+{
+    for (size_t i = 0; i < list->count; ++i) sb_mesh_free(&list->items[i]);
+    sb_free(list->items);
+    *list = (mesh_list){0};
+}
+
+/* All records up to END. A failure without a text is the child's end, told by the caller. */
+static sb_status receive_all(reader *from, mesh_list *list, sb_error *error)
+{
+    for (;;) {
+        sb_mesh_record record;
+        if (!receive(from, &record, sizeof record)) return SB_FAILED;
+        if (record.magic != SB_MESH_RECORD_MAGIC || list->count >= MESHES_MAX)
+            return sb_fail(error, SB_BAD_INPUT,
+                           "%.500s: its reader sent what is no mesh, expected one", from->path);
+        if (record.kind == SB_MESH_RECORD_END) return SB_OK;
+        if (record.kind == SB_MESH_RECORD_TROUBLE) return receive_trouble(from, &record, error);
+        if (sb_grow((void **)&list->items, &list->capacity, list->count + 1, sizeof *list->items))
+            return sb_fail_memory(error, "a list of meshes");
+        sb_mesh mesh = {0};
+        sb_status status = receive_mesh(from, &record, &mesh, error);
+        if (status == SB_OK && mesh.triangle_count > 0)
+            list->items[list->count++] = mesh;
+        else
+            sb_mesh_free(&mesh);
+        if (status != SB_OK) return status;
+    }
+}
+
+/* Ends the child if it still runs, and collects it. Someone else may have done that (SIGCHLD
+   ignored, or a handler that waits for all): then how it ended stays unknown, 0. */
+static int finish_child(const reader *from, bool stop)
+{
+    if (stop && (from->watch < 0 || pidfd_send_signal(from->watch, SIGKILL, NULL, 0) != 0))
+        kill(from->child, SIGKILL);
+    int how = 0;
+    while (waitpid(from->child, &how, 0) < 0)
+        if (errno != EINTR) return 0;
+    return how;
+}
+
+static sb_status explain_end(const reader *from, int how, const sb_mesh_limits *limits,
+                             sb_error *error)
+{
+    int by = WIFSIGNALED(how) ? WTERMSIG(how) : 0;
+    if (from->end == LINK_LATE || by == SIGXCPU || by == SIGALRM)
+        return sb_fail(
+            error, SB_BAD_INPUT,
+            "%.500s: not read within %u s, expected a sound mesh file of reasonable size",
+            from->path, limits->seconds);
+    if (by)
+        return sb_fail(error, SB_BAD_INPUT,
+                       "%.500s: reading it crashed (%s), expected a sound mesh file that fits in "
+                       "%.1f GiB",
+                       from->path, strsignal(by), (double)limits->memory / 0x1p30);
+    return sb_fail(error, SB_BAD_INPUT,
+                   "%.500s: reading it ended early, expected a sound mesh file", from->path);
+}
+
+/* Forks with all signals held, so that no handler of the parent runs in the child. */
+static sb_status run_reader(const char *path, const sb_mesh_limits *limits, reader *from,
+                            sb_error *error)
+{
+    int ends[2];
+    uint64_t mapped = mapped_bytes();
+    if (pipe2(ends, O_CLOEXEC) != 0)
+        return sb_fail(error, SB_FAILED, "%.500s: no pipe to its reader: %s", path,
+                       strerror(errno));
+    /* Standard streams may be closed: the child's end must not be taken for one of them. */
+    int high = fcntl(ends[1], F_DUPFD_CLOEXEC, 3);
+    close(ends[1]);
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    pid_t child = high < 0 ? -1 : fork();
+    if (child == 0) run_child(path, high, limits, mapped);
+    int reason = errno;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    if (high >= 0) close(high);
+    if (child < 0) {
+        close(ends[0]);
+        return sb_fail(error, SB_FAILED, "%.500s: no process to read it: %s", path,
+                       strerror(reason));
+    }
+    int watch = pidfd_open(child, 0);
+    *from = (reader){.path = path,
+                     .child = child,
+                     .pipe = ends[0],
+                     .watch = watch,
+                     .deadline = sb_clock() + limits->seconds * PATIENCE + 1,
+                     .room = limits->memory};
+    return SB_OK;
+}
+
+static bool has_known_ending(const char *path)
+{
+    static const char *const known[] = {".obj", ".stl", ".ply", ".gltf", ".glb", ".dae"};
+    const char *dot = strrchr(path, '.');
+    for (size_t i = 0; dot && i < sizeof known / sizeof *known; ++i)
+        if (strcasecmp(dot, known[i]) == 0) return true;
+    return false;
+}
+
+static sb_status check_file(const char *path, uint64_t *size, sb_error *error)
+{
+    struct stat found;
+    if (stat(path, &found) != 0)
+        return sb_fail(error, SB_BAD_INPUT, "%.500s: %s, expected a mesh file", path,
+                       strerror(errno));
+    if (!S_ISREG(found.st_mode))
+        return sb_fail(error, SB_BAD_INPUT, "%.500s: %s, expected a mesh file", path,
+                       S_ISDIR(found.st_mode) ? "is a directory" : "is no regular file");
+    if (access(path, R_OK) != 0)
+        return sb_fail(error, SB_BAD_INPUT, "%.500s: %s, expected a readable file", path,
+                       strerror(errno));
+    if (!has_known_ending(path))
+        return sb_fail(error, SB_BAD_INPUT,
+                       "%.500s: unknown format, expected .obj, .stl, .ply, .gltf, .glb or .dae",
+                       path);
+    if (found.st_size == 0)
+        return sb_fail(error, SB_BAD_INPUT, "%.500s: is empty, expected a mesh", path);
+    *size = (uint64_t)found.st_size;
+    return SB_OK;
+}
+
+sb_status sb_mesh_import_within(const char *path, const sb_mesh_limits *limits, sb_mesh **meshes,
+                                size_t *count, sb_error *error)
+{
+    uint64_t size;
+    reader from;
+    sb_status status = check_file(path, &size, error);
+    if (status == SB_OK) status = run_reader(path, limits, &from, error);
+    if (status != SB_OK) return status;
+    mesh_list list = {0};
+    status = receive_all(&from, &list, error);
+    int how = finish_child(&from, status != SB_OK && from.end != LINK_CLOSED);
+    close(from.pipe);
+    if (from.watch >= 0) close(from.watch);
+    if (from.end != LINK_OK) status = explain_end(&from, how, limits, error);
+    if (status == SB_OK && list.count == 0)
+        status = sb_fail(error, SB_BAD_INPUT, "%.500s: no triangles in it, expected a surface mesh",
+                         path);
+    if (status != SB_OK) {
+        free_list(&list);
+        return status;
+    }
+    *meshes = list.items;
+    *count = list.count;
+    return SB_OK;
+}
+
+sb_status sb_mesh_import(const char *path, sb_mesh **meshes, size_t *count, sb_error *error)
+{
+    uint64_t size;
+    sb_status status = check_file(path, &size, error);
+    if (status != SB_OK) return status;
+    /* A million triangles take 1 to 3 s; a small glTF may name a large buffer file. */
+    const uint64_t megabytes = size >> 20;
+    const sb_mesh_limits limits = {.memory = UINT64_C(4) << 30,
+                                   .seconds = 20 + (megabytes < 600 ? (unsigned)megabytes : 600)};
+    return sb_mesh_import_within(path, &limits, meshes, count, error);
+}
