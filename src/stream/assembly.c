@@ -27,8 +27,7 @@ sb_status sb_assembly_add(sb_assembly *assembly, const sb_particles_message *chu
 {
     if (assembly->chunk_count == 0 || chunk->frame != assembly->frame) {
         sb_status status = begin_frame(assembly, chunk);
-        if (status != SB_OK)
-            return status;
+        if (status != SB_OK) return status;
     }
     if (chunk->chunk_count != assembly->chunk_count || chunk->total != assembly->total ||
         assembly->seen[chunk->chunk]) {
@@ -37,8 +36,7 @@ sb_status sb_assembly_add(sb_assembly *assembly, const sb_particles_message *chu
     }
     assembly->seen[chunk->chunk] = 1;
     assembly->chunks++;
-    if (++assembly->received == assembly->chunk_count)
-        assembly->frames_complete++;
+    if (++assembly->received == assembly->chunk_count) assembly->frames_complete++;
     return SB_OK;
 }
 

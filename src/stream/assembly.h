@@ -12,7 +12,7 @@ typedef struct sb_assembly {
     int64_t frame, total;         /* of the frame in the making */
     double time;                  /* s */
     int32_t chunk_count, received;
-    unsigned char *seen;          /* one flag per chunk of it */
+    unsigned char *seen; /* one flag per chunk of it */
     size_t seen_capacity;
 } sb_assembly;
 

@@ -7,8 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-/* LCM's own decoders allocate and copy by counts they do not check, so a message is read here, field by
-   field, and no byte is touched that is not there. The first trouble sticks; reads after it give 0. */
+/* LCM's own decoders allocate and copy by counts they do not check, so a message is read here,
+   field by field, and no byte is touched that is not there. The first trouble sticks; reads after
+   it give 0. */
 typedef struct reader {
     const unsigned char *at;
     size_t left;
@@ -17,8 +18,7 @@ typedef struct reader {
 
 static void refuse(reader *in, const char *trouble)
 {
-    if (!in->trouble)
-        in->trouble = trouble;
+    if (!in->trouble) in->trouble = trouble;
 }
 
 /* The next `bytes` bytes, or NULL. */
@@ -66,8 +66,7 @@ static void take_doubles(reader *in, double *out, size_t count)
     for (size_t i = 0; at && i < count; i++) {
         uint64_t word = load64(at + 8 * i);
         memcpy(&out[i], &word, sizeof word);
-        if (!isfinite(out[i]))
-            refuse(in, "a number is not finite");
+        if (!isfinite(out[i])) refuse(in, "a number is not finite");
     }
 }
 
@@ -84,8 +83,7 @@ static void take_floats(reader *in, float *out, size_t count)
     for (size_t i = 0; at && i < count; i++) {
         uint32_t word = load32(at + 4 * i);
         memcpy(&out[i], &word, sizeof word);
-        if (!isfinite(out[i]))
-            refuse(in, "a number is not finite");
+        if (!isfinite(out[i])) refuse(in, "a number is not finite");
     }
 }
 
@@ -98,15 +96,14 @@ static void take_name(reader *in, char name[SB_STREAM_NAME])
         return;
     }
     const unsigned char *at = take(in, (size_t)length);
-    if (!at)
-        return;
+    if (!at) return;
     if (memchr(at, 0, (size_t)length) != at + length - 1) {
         refuse(in, "a name is not ended by its zero");
         return;
     }
     /* Names end up on terminals: escape sequences must not. */
     for (int32_t i = 0; i < length - 1; i++)
-        name[i] = at[i] >= 0x20 && at[i] < 0x7f ? (char)at[i] : '?';
+        name[i] = (char)(at[i] >= 0x20 && at[i] < 0x7f ? at[i] : '?');
     name[length - 1] = 0;
 }
 
@@ -123,8 +120,7 @@ static int32_t take_count(reader *in, int32_t most, const char *trouble)
 static reader open_message(const void *buffer, size_t size, int64_t fingerprint)
 {
     reader in = {.at = buffer, .left = size};
-    if (size > SB_STREAM_MESSAGE_MAX)
-        refuse(&in, "it is larger than 60 kB");
+    if (size > SB_STREAM_MESSAGE_MAX) refuse(&in, "it is larger than 60 kB");
     if (take_int64(&in) != fingerprint)
         refuse(&in, "its fingerprint is that of another type or version");
     return in;
@@ -132,8 +128,7 @@ static reader open_message(const void *buffer, size_t size, int64_t fingerprint)
 
 static sb_status close_message(reader *in, const char *type, size_t size, sb_error *error)
 {
-    if (in->left > 0)
-        refuse(in, "bytes are left over");
+    if (in->left > 0) refuse(in, "bytes are left over");
     if (in->trouble)
         return sb_fail(error, SB_BAD_INPUT, "%s message of %zu bytes refused: %s", type, size,
                        in->trouble);
@@ -162,8 +157,7 @@ sb_status sb_stream_decode_status(const void *buffer, size_t size, sb_status_mes
         message.fluid_particles < 0 || message.frame < 0)
         refuse(&in, "a count is negative");
     sb_status status = close_message(&in, "status", size, error);
-    if (status == SB_OK)
-        *out = message;
+    if (status == SB_OK) *out = message;
     return status;
 }
 
@@ -179,20 +173,16 @@ sb_status sb_stream_decode_forces(const void *buffer, size_t size, sb_forces_mes
     int32_t left = message.total - message.first;
     message.count = take_count(&in, left < SB_STREAM_BODIES ? left : SB_STREAM_BODIES,
                                "it has more bodies than there are or than fit");
-    if (take_int32(&in) != 3 * message.count)
-        refuse(&in, "its components are not three per body");
+    if (take_int32(&in) != 3 * message.count) refuse(&in, "its components are not three per body");
     size_t count = in.trouble ? 0 : (size_t)message.count;
-    for (size_t i = 0; i < count; i++)
-        take_name(&in, message.names[i]);
+    for (size_t i = 0; i < count; i++) take_name(&in, message.names[i]);
     const unsigned char *flags = take(&in, count);
-    for (size_t i = 0; flags && i < count; i++)
-        message.reported[i] = flags[i] != 0;
+    for (size_t i = 0; flags && i < count; i++) message.reported[i] = flags[i] != 0;
     take_doubles(&in, message.force, 3 * count);
     take_doubles(&in, message.moment, 3 * count);
     take_doubles(&in, message.displacement, 3 * count);
     sb_status status = close_message(&in, "forces", size, error);
-    if (status == SB_OK)
-        memcpy(out, &message, sizeof message);
+    if (status == SB_OK) memcpy(out, &message, sizeof message);
     return status;
 }
 
@@ -207,8 +197,7 @@ static void check_chunk(reader *in, const sb_particles_message *message)
     if (message->total < 0 || message->first < 0 || message->first > message->total ||
         message->count > message->total - message->first)
         refuse(in, "its particles are not among the frame's");
-    if (in->trouble)
-        return;
+    if (in->trouble) return;
     bool last = message->chunk == message->chunk_count - 1;
     if ((message->chunk == 0) != (message->first == 0) ||
         last != (message->first + message->count == message->total) ||
@@ -239,7 +228,6 @@ sb_status sb_stream_decode_particles(const void *buffer, size_t size, sb_particl
     take_floats(&in, message.velocity, 3 * count);
     take_floats(&in, message.pressure, count);
     sb_status status = close_message(&in, "particles", size, error);
-    if (status == SB_OK)
-        memcpy(out, &message, sizeof message);
+    if (status == SB_OK) memcpy(out, &message, sizeof message);
     return status;
 }

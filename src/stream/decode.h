@@ -13,7 +13,7 @@ enum {
     SB_STREAM_CHUNK = 2139,        /* particles that fit into one message */
     SB_STREAM_BODIES = 400,        /* bodies that fit into one message, with the longest names */
     SB_STREAM_CHUNKS_MAX = 1 << 20,
-    SB_STREAM_NAME = 64            /* bytes of a name with its zero */
+    SB_STREAM_NAME = 64 /* bytes of a name with its zero */
 };
 
 /* SI units; fields as in lcmtypes. Names are printable ASCII, anything else shown as '?'. */
@@ -47,9 +47,9 @@ typedef struct sb_particles_message {
     float position[3 * SB_STREAM_CHUNK], velocity[3 * SB_STREAM_CHUNK], pressure[SB_STREAM_CHUNK];
 } sb_particles_message;
 
-/* Each reads one message of `size` bytes. SB_BAD_INPUT, *out untouched, when the type's fingerprint is
-   another one, a count disagrees with the size or with another count, a name is not terminated, a
-   number is not finite, or bytes are left over. error may be NULL. */
+/* Each reads one message of `size` bytes. SB_BAD_INPUT, *out untouched, when the type's fingerprint
+   is another one, a count disagrees with the size or with another count, a name is not terminated,
+   a number is not finite, or bytes are left over. error may be NULL. */
 sb_status sb_stream_decode_status(const void *buffer, size_t size, sb_status_message *out,
                                   sb_error *error);
 sb_status sb_stream_decode_forces(const void *buffer, size_t size, sb_forces_message *out,

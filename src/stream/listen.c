@@ -89,13 +89,11 @@ static sb_status subscribe(sb_listener *listener, const sb_channel channels[SB_C
         quote(channels[subscribed], pattern);
         lcm_subscription_t *made =
             lcm_subscribe(listener->lcm, pattern, handlers[subscribed], listener);
-        if (!made)
-            break;
+        if (!made) break;
         lcm_subscription_set_queue_capacity(made, QUEUE_MESSAGES);
     }
     sb_stderr_release(&hold, complaint, sizeof complaint);
-    if (subscribed == SB_CHANNELS)
-        return SB_OK;
+    if (subscribed == SB_CHANNELS) return SB_OK;
     return sb_fail(error, SB_FAILED, "LCM cannot subscribe to %s (%s)", channels[subscribed],
                    *complaint ? complaint : "no reason given");
 }
@@ -108,14 +106,11 @@ sb_status sb_listener_create(const char *url, const char *prefix, const sb_liste
     if ((!url || !*url) && (!preset || !*preset))
         url = "udpm://239.255.76.67:7667?recv_buf_size=4000000";
     sb_listener *made = sb_alloc(1, sizeof *made);
-    if (!made)
-        return sb_fail_memory(error, "the listener");
+    if (!made) return sb_fail_memory(error, "the listener");
     made->calls = *calls;
     sb_status status = sb_provider_channels(prefix, channels, error);
-    if (status == SB_OK)
-        status = sb_provider_open(url, &made->lcm, error);
-    if (status == SB_OK)
-        status = subscribe(made, (const sb_channel *)channels, error);
+    if (status == SB_OK) status = sb_provider_open(url, &made->lcm, error);
+    if (status == SB_OK) status = subscribe(made, (const sb_channel *)channels, error);
     if (status != SB_OK) {
         sb_listener_destroy(made);
         return status;
@@ -126,8 +121,7 @@ sb_status sb_listener_create(const char *url, const char *prefix, const sb_liste
 
 void sb_listener_destroy(sb_listener *listener)
 {
-    if (listener && listener->lcm)
-        lcm_destroy(listener->lcm);
+    if (listener && listener->lcm) lcm_destroy(listener->lcm);
     sb_free(listener);
 }
 
@@ -137,10 +131,8 @@ sb_status sb_listener_poll(sb_listener *listener, double seconds)
     for (double left = seconds; left > 0 && !listener->ended; left = end - sb_clock()) {
         struct pollfd ready = {.fd = lcm_get_fileno(listener->lcm), .events = POLLIN};
         int count = poll(&ready, 1, left > 1e6 ? 1000000000 : 1 + (int)(left * 1e3));
-        if (count < 0 && errno == EINTR)
-            break;
-        if (count > 0 && lcm_handle(listener->lcm) != 0)
-            listener->ended = true;
+        if (count < 0 && errno == EINTR) break;
+        if (count > 0 && lcm_handle(listener->lcm) != 0) listener->ended = true;
     }
     return listener->ended ? SB_INTERRUPTED : SB_OK;
 }

@@ -15,8 +15,8 @@ typedef struct sb_listener_calls {
     void (*particles)(void *user, const sb_particles_message *message);
 } sb_listener_calls;
 
-/* url NULL or empty: LCM_DEFAULT_URL, else multicast as the publisher's default with a large receive
-   buffer; "file://LOG" replays what lcm-logger wrote. prefix NULL or empty: "shorebreak".
+/* url NULL or empty: LCM_DEFAULT_URL, else multicast as the publisher's default with a large
+   receive buffer; "file://LOG" replays what lcm-logger wrote. prefix NULL or empty: "shorebreak".
    SB_FAILED with the remedy when there is no provider. */
 sb_status sb_listener_create(const char *url, const char *prefix, const sb_listener_calls *calls,
                              sb_listener **listener, sb_error *error);

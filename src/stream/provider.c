@@ -15,8 +15,7 @@ sb_status sb_provider_channels(const char *prefix, sb_channel channels[SB_CHANNE
                                sb_error *error)
 {
     static const char *const names[SB_CHANNELS] = {"status", "forces", "particles"};
-    if (!prefix || !*prefix)
-        prefix = "shorebreak";
+    if (!prefix || !*prefix) prefix = "shorebreak";
     for (int i = 0; i < SB_CHANNELS; i++) {
         int length = snprintf(channels[i], sizeof channels[i], "%s_%s", prefix, names[i]);
         if (length < 0 || (size_t)length >= sizeof channels[i])
@@ -34,10 +33,8 @@ sb_stderr_catch sb_stderr_hold(void)
     int caught = memfd_create("lcm-complaints", MFD_CLOEXEC);
     int saved = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
     if (caught < 0 || saved < 0 || dup2(caught, STDERR_FILENO) < 0) {
-        if (caught >= 0)
-            close(caught);
-        if (saved >= 0)
-            close(saved);
+        if (caught >= 0) close(caught);
+        if (saved >= 0) close(saved);
         return hold;
     }
     hold.saved = saved;
@@ -48,8 +45,7 @@ sb_stderr_catch sb_stderr_hold(void)
 void sb_stderr_release(sb_stderr_catch *hold, char *line, size_t size)
 {
     line[0] = 0;
-    if (hold->caught < 0)
-        return;
+    if (hold->caught < 0) return;
     fflush(stderr);
     dup2(hold->saved, STDERR_FILENO);
     ssize_t length = pread(hold->caught, line, size - 1, 0);
@@ -62,8 +58,7 @@ void sb_stderr_release(sb_stderr_catch *hold, char *line, size_t size)
         else if (end > line && end[-1] != ' ')
             *end++ = ' ';
     }
-    while (end > line && end[-1] == ' ')
-        end--;
+    while (end > line && end[-1] == ' ') end--;
     *end = 0;
     close(hold->caught);
     close(hold->saved);
@@ -73,8 +68,7 @@ void sb_stderr_release(sb_stderr_catch *hold, char *line, size_t size)
 sb_status sb_provider_open(const char *url, lcm_t **lcm, sb_error *error)
 {
     const char *named = url && *url ? url : getenv("LCM_DEFAULT_URL");
-    if (!named || !*named)
-        named = "udpm://239.255.76.67:7667";
+    if (!named || !*named) named = "udpm://239.255.76.67:7667";
     char complaint[160];
     sb_stderr_catch hold = sb_stderr_hold();
     lcm_t *opened = lcm_create(named);
@@ -86,6 +80,7 @@ sb_status sb_provider_open(const char *url, lcm_t **lcm, sb_error *error)
     bool multicast = strncmp(named, "udpm://", 7) == 0;
     return sb_fail(error, SB_FAILED, "LCM cannot open \"%.200s\" (%s); %s", named,
                    *complaint ? complaint : "no reason given",
-                   multicast ? ROUTE_REMEDY
-                             : "expected udpm://ADDRESS:PORT, file://PATH?mode=w|r, tcpq:// or memq://");
+                   multicast
+                       ? ROUTE_REMEDY
+                       : "expected udpm://ADDRESS:PORT, file://PATH?mode=w|r, tcpq:// or memq://");
 }

@@ -18,8 +18,9 @@ typedef char sb_channel[LCM_MAX_CHANNEL_NAME_LENGTH + 1];
 sb_status sb_provider_channels(const char *prefix, sb_channel channels[SB_CHANNELS],
                                sb_error *error);
 
-/* lcm_create with the reason in *error instead of on stderr: SB_FAILED names the URL, LCM's words and
-   the remedy. url NULL or empty: LCM_DEFAULT_URL, else LCM's default. Destroy with lcm_destroy. */
+/* lcm_create with the reason in *error instead of on stderr: SB_FAILED names the URL, LCM's words
+   and the remedy. url NULL or empty: LCM_DEFAULT_URL, else LCM's default. Destroy with lcm_destroy.
+ */
 sb_status sb_provider_open(const char *url, lcm_t **lcm, sb_error *error);
 
 /* Between these two, what is written to stderr is caught (process-wide). sb_stderr_release gives it

@@ -46,15 +46,13 @@ sb_status sb_stream_create(const sb_stream_settings *settings, const char *run_n
                            sb_stream **stream, sb_error *error)
 {
     sb_stream *made = sb_alloc(1, sizeof *made);
-    if (!made)
-        return sb_fail_memory(error, "the stream");
+    if (!made) return sb_fail_memory(error, "the stream");
     made->interval = settings->interval;
     made->decimation = settings->decimation > 1 ? (uint64_t)settings->decimation : 1;
     made->last_interval = -1;
     snprintf(made->run, sizeof made->run, "%s", run_name ? run_name : "");
     sb_status status = sb_provider_channels(settings->prefix, made->channels, error);
-    if (status == SB_OK)
-        status = sb_provider_open(settings->url, &made->lcm, error);
+    if (status == SB_OK) status = sb_provider_open(settings->url, &made->lcm, error);
     if (status != SB_OK) {
         sb_stream_destroy(made);
         return status;
@@ -65,15 +63,14 @@ sb_status sb_stream_create(const sb_stream_settings *settings, const char *run_n
 
 void sb_stream_destroy(sb_stream *stream)
 {
-    if (stream && stream->lcm)
-        lcm_destroy(stream->lcm);
+    if (stream && stream->lcm) lcm_destroy(stream->lcm);
     sb_free(stream);
 }
 
 sb_stream_counters sb_stream_count(const sb_stream *stream)
 {
-    return (sb_stream_counters){.messages = stream->messages, .bytes = stream->bytes,
-                                .errors = stream->errors};
+    return (sb_stream_counters){
+        .messages = stream->messages, .bytes = stream->bytes, .errors = stream->errors};
 }
 
 /* Sends what an encoder left: `size` bytes, or a negative size when it failed. */
@@ -135,7 +132,7 @@ static void publish_forces(sb_stream *stream, const sb_frame *frame)
         for (size_t i = 0; i < count; i++) {
             sb_frame_body *body = &frame->bodies[first + i];
             stream->names[i] = body->name;
-            stream->reported[i] = body->report;
+            stream->reported[i] = body->report ? 1 : 0;
             store(&stream->force[3 * i], body->force);
             store(&stream->moment[3 * i], body->moment);
             store(&stream->displacement[3 * i], body->displacement);
@@ -153,8 +150,9 @@ static void publish_forces(sb_stream *stream, const sb_frame *frame)
             .moment = stream->moment,
             .displacement = stream->displacement,
         };
-        send_message(stream, SB_CHANNEL_FORCES, stream->buffer,
-                     shorebreak_forces_t_encode(stream->buffer, 0, sizeof stream->buffer, &message));
+        send_message(
+            stream, SB_CHANNEL_FORCES, stream->buffer,
+            shorebreak_forces_t_encode(stream->buffer, 0, sizeof stream->buffer, &message));
         first += count;
     } while (first < frame->body_count);
 }
@@ -171,8 +169,7 @@ static void send_chunk(sb_stream *stream, shorebreak_particles_t *message, int32
     message->count = count;
     message->components = 3 * count;
     int size = shorebreak_particles_t_encode(stream->buffer, 0, sizeof stream->buffer, message);
-    if (message->chunk > 0)
-        nanosleep(&(struct timespec){.tv_nsec = CHUNK_PAUSE_NS}, NULL);
+    if (message->chunk > 0) nanosleep(&(struct timespec){.tv_nsec = CHUNK_PAUSE_NS}, NULL);
     send_message(stream, SB_CHANNEL_PARTICLES, stream->buffer, size);
     message->chunk++;
     message->first += count;
@@ -181,8 +178,7 @@ static void send_chunk(sb_stream *stream, shorebreak_particles_t *message, int32
 static void publish_particles(sb_stream *stream, const sb_frame *frame)
 {
     int64_t total = 0;
-    for (size_t i = 0; i < frame->count; i++)
-        total += streamed(stream, frame, i);
+    for (size_t i = 0; i < frame->count; i++) total += streamed(stream, frame, i);
     int64_t chunks = total > 0 ? (total + SB_STREAM_CHUNK - 1) / SB_STREAM_CHUNK : 1;
     shorebreak_particles_t message = {
         .frame = (int64_t)frame->index,
@@ -196,31 +192,27 @@ static void publish_particles(sb_stream *stream, const sb_frame *frame)
         .pressure = stream->pressure,
     };
     store(message.origin, frame->origin);
-    int32_t filled = 0;
+    size_t filled = 0;
     for (size_t i = 0; i < frame->count; i++) {
-        if (!streamed(stream, frame, i))
-            continue;
+        if (!streamed(stream, frame, i)) continue;
         memcpy(&stream->position[3 * filled], &frame->position[3 * i], 3 * sizeof(float));
         memcpy(&stream->velocity[3 * filled], &frame->velocity[3 * i], 3 * sizeof(float));
         stream->pressure[filled++] = frame->pressure[i];
         if (filled == SB_STREAM_CHUNK) {
-            send_chunk(stream, &message, filled);
+            send_chunk(stream, &message, (int32_t)filled);
             filled = 0;
         }
     }
-    if (filled > 0 || total == 0)
-        send_chunk(stream, &message, filled);
+    if (filled > 0 || total == 0) send_chunk(stream, &message, (int32_t)filled);
 }
 
 /* Whether a new interval has begun since particles went out. Frames may come at any pace. */
 static bool particles_due(sb_stream *stream, double time)
 {
-    if (!(stream->interval > 0))
-        return true;
+    if (!(stream->interval > 0)) return true;
     /* A frame meant for k intervals may be short of it by rounding. */
     double number = floor(time / stream->interval + 1e-6);
-    if (!(number > (double)stream->last_interval) || number > 0x1p62)
-        return false;
+    if (!(number > (double)stream->last_interval) || number > 0x1p62) return false;
     stream->last_interval = (int64_t)number;
     return true;
 }
@@ -231,6 +223,5 @@ void sb_stream_publish(sb_stream *stream, const sb_frame *frame)
     stream->fluid_particles = (int64_t)frame->count;
     sb_stream_status(stream, &frame->status);
     publish_forces(stream, frame);
-    if (particles_due(stream, frame->status.time))
-        publish_particles(stream, frame);
+    if (particles_due(stream, frame->status.time)) publish_particles(stream, frame);
 }

@@ -19,9 +19,9 @@ sb_status sb_stream_create(const sb_stream_settings *settings, const char *run_n
                            sb_stream **stream, sb_error *error);
 void sb_stream_destroy(sb_stream *stream);
 
-/* Sends status and forces of a frame, and its particles when settings->interval has passed since the
-   last ones, in chunks of at most 60 kB, 0.1 ms apart (0.3 s per 2 M particles). For the streamer's
-   own thread: some providers block on a stopped subscriber. */
+/* Sends status and forces of a frame, and its particles when settings->interval has passed since
+   the last ones, in chunks of at most 60 kB, 0.1 ms apart (0.3 s per 2 M particles). For the
+   streamer's own thread: some providers block on a stopped subscriber. */
 void sb_stream_publish(sb_stream *stream, const sb_frame *frame);
 
 /* Sends the status alone, one small message; from any thread. */

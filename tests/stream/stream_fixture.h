@@ -36,10 +36,16 @@ static inline sb_frame *fixture_frame(uint64_t index, double time, size_t partic
     frame->index = index;
     frame->origin = sb_vec(1e6 + 0.125, -2e6, 30.5);
     frame->spacing = 0.75;
-    frame->status = (sb_frame_status){.step = 1234 + index, .time = time, .duration = 90,
-                                      .time_step = 0.0031, .iterations = 17, .density_error = 4e-4,
-                                      .max_speed = 21.25, .wall_seconds = 60.5,
-                                      .eta_seconds = 33.25, .lost_particles = 3};
+    frame->status = (sb_frame_status){.step = 1234 + index,
+                                      .time = time,
+                                      .duration = 90,
+                                      .time_step = 0.0031,
+                                      .iterations = 17,
+                                      .density_error = 4e-4,
+                                      .max_speed = 21.25,
+                                      .wall_seconds = 60.5,
+                                      .eta_seconds = 33.25,
+                                      .lost_particles = 3};
     for (size_t i = 0; i < particles; i++) {
         for (size_t k = 0; k < 3; k++) {
             frame->position[3 * i + k] = (float)fixture_number(6 * i + k, 500);
@@ -62,12 +68,14 @@ static inline sb_stream *fixture_stream(const char *url, double interval, int de
 {
     char copy[512];
     snprintf(copy, sizeof copy, "%s", url);
-    sb_stream_settings settings = {.enabled = true, .url = copy, .prefix = "test",
-                                   .interval = interval, .decimation = decimation};
+    sb_stream_settings settings = {.enabled = true,
+                                   .url = copy,
+                                   .prefix = "test",
+                                   .interval = interval,
+                                   .decimation = decimation};
     sb_stream *stream = NULL;
     sb_error error = {0};
-    if (sb_stream_create(&settings, "a run", &stream, &error) != SB_OK)
-        fail_msg("%s", error.text);
+    if (sb_stream_create(&settings, "a run", &stream, &error) != SB_OK) fail_msg("%s", error.text);
     return stream;
 }
 

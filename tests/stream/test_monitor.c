@@ -1,4 +1,4 @@
-/* The monitor program, run as its users run it: on a recorded log, on a terminal, on bad options. */
+/* The monitor program, run as its users run it: on a log, on a terminal, on bad options. */
 #include "stream_fixture.h"
 
 #include "base/clock.h"
@@ -30,23 +30,20 @@ static int monitor(const char *arguments)
 
 static void shows(const char *text)
 {
-    if (!strstr(output, text))
-        fail_msg("\"%s\" is not in:\n%s", text, output);
+    if (!strstr(output, text)) fail_msg("\"%s\" is not in:\n%s", text, output);
 }
 
 static void shows_not(const char *text)
 {
-    if (strstr(output, text))
-        fail_msg("\"%s\" is in:\n%s", text, output);
+    if (strstr(output, text)) fail_msg("\"%s\" is in:\n%s", text, output);
 }
 
-/* Two frames of a run, with trash and a forged message on the same channels. */
+/* Two frames of a run, with trash on the same channels after each. */
 static int record_log(void **state)
 {
     (void)state;
     int file = mkstemp(log_path);
-    if (file < 0)
-        return -1;
+    if (file < 0) return -1;
     close(file);
     char url[64];
     snprintf(url, sizeof url, "file://%s?mode=w", log_path);
@@ -57,12 +54,12 @@ static int record_log(void **state)
         sb_frame *frame = fixture_frame(index, 22.5 * (double)index, 5000, 5);
         snprintf(frame->bodies[0].name, sizeof frame->bodies[0].name, "reactor\x1b[31m");
         frame->bodies[0].force = sb_vec(-3e6 * (double)(3 - index), 4e6 * (double)(3 - index), 7e6);
-        frame->bodies[1].force = frame->bodies[3].force = frame->bodies[4].force = sb_vec(1e6, 0, 0);
+        frame->bodies[1].force = frame->bodies[3].force = frame->bodies[4].force =
+            sb_vec(1e6, 0, 0);
         sb_stream_publish(stream, frame);
         sb_frame_release(frame);
         unsigned char trash[300];
-        for (size_t i = 0; i < sizeof trash; i++)
-            trash[i] = (unsigned char)sb_hash_mix(i);
+        for (size_t i = 0; i < sizeof trash; i++) trash[i] = (unsigned char)sb_hash_mix(i);
         lcm_publish(lcm, "test_status", trash, sizeof trash);
         lcm_publish(lcm, "test_forces", trash, 7);
         lcm_publish(lcm, "test_particles", trash, 0);
@@ -145,15 +142,12 @@ static bool await_text(int terminal, const char *text)
     *output = 0;
     for (double end = sb_clock() + 5; sb_clock() < end;) {
         struct pollfd ready = {.fd = terminal, .events = POLLIN};
-        if (poll(&ready, 1, 100) <= 0)
-            continue;
+        if (poll(&ready, 1, 100) <= 0) continue;
         ssize_t got = read(terminal, output + length, sizeof output - 1 - length);
-        if (got <= 0)
-            break;
+        if (got <= 0) break;
         length += (size_t)got;
         output[length] = 0;
-        if (strstr(output, text))
-            return true;
+        if (strstr(output, text)) return true;
     }
     return false;
 }
@@ -176,8 +170,7 @@ static void ctrl_c_restores_the_terminal(void **state)
     assert_int_equal(write(terminal, "\x03", 1), 1);
     bool restored = await_text(terminal, "\x1b[?25h\x1b[?1049l");
     int status = 0;
-    if (!started || !restored)
-        kill(child, SIGKILL);
+    if (!started || !restored) kill(child, SIGKILL);
     assert_int_equal(waitpid(child, &status, 0), child);
     close(terminal);
     assert_true(started && restored);

@@ -19,8 +19,7 @@ static void whole_frames(void **state)
     (void)state;
     sb_assembly assembly = {0};
     for (int64_t frame = 1; frame <= 3; frame++)
-        for (int32_t i = 0; i < 5; i++)
-            add(&assembly, frame, i, 5);
+        for (int32_t i = 0; i < 5; i++) add(&assembly, frame, i, 5);
     assert_int_equal(assembly.frames_complete, 3);
     assert_int_equal(assembly.chunks, 15);
     assert_int_equal(assembly.chunks_lost + assembly.frames_partial + assembly.chunks_odd, 0);
@@ -36,7 +35,7 @@ static void gaps(void **state)
     add(&assembly, 1, 3, 4);
     add(&assembly, 1, 0, 4);
     assert_int_equal(assembly.chunks_lost, 0); /* chunk 2 may still come */
-    add(&assembly, 4, 0, 2000); /* frames 2 and 3 were not streamed or all lost */
+    add(&assembly, 4, 0, 2000);                /* frames 2 and 3 were not streamed or all lost */
     assert_int_equal(assembly.frames_partial, 1);
     assert_int_equal(assembly.chunks_lost, 1);
     add(&assembly, 5, 0, 1);

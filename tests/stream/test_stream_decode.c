@@ -1,5 +1,5 @@
-/* Decoders against bytes that nobody vouches for. Under ASan/UBSan every overread is an error, as each
-   message lies in a block of exactly its size. */
+/* Decoders against bytes that nobody vouches for. Under ASan/UBSan every overread is an error, as
+   each message lies in a block of exactly its size. */
 #include "stream_fixture.h"
 
 #include "shorebreak_forces_t.h"
@@ -23,7 +23,7 @@ enum { PARTICLES_CHUNK = 24, PARTICLES_TOTAL = 32, PARTICLES_FIRST = 40, PARTICL
 static void capture(const lcm_recv_buf_t *received, const char *channel, void *user)
 {
     (void)user;
-    message *to = &good[strstr(channel, "status") ? STATUS
+    message *to = &good[strstr(channel, "status")   ? STATUS
                         : strstr(channel, "forces") ? FORCES
                                                     : PARTICLES];
     to->size = received->data_size;
@@ -79,14 +79,12 @@ static void refused(int type, const message *bad, const char *word)
 {
     sb_error error = {0};
     assert_int_equal(decode(type, bad->bytes, bad->size, &error), SB_BAD_INPUT);
-    if (!strstr(error.text, word))
-        fail_msg("\"%s\" does not say \"%s\"", error.text, word);
+    if (!strstr(error.text, word)) fail_msg("\"%s\" does not say \"%s\"", error.text, word);
 }
 
 static void put32(message *to, size_t at, uint32_t value)
 {
-    for (size_t i = 0; i < 4; i++)
-        to->bytes[at + i] = (unsigned char)(value >> (24 - 8 * i));
+    for (size_t i = 0; i < 4; i++) to->bytes[at + i] = (unsigned char)(value >> (24 - 8 * i));
 }
 
 static void good_messages_pass(void **state)
@@ -119,14 +117,20 @@ static void truncated_and_padded(void **state)
 static void hostile_counts(void **state)
 {
     (void)state;
-    static const uint32_t counts[] = {0,          1,          5,          51,        2140,
+    static const uint32_t counts[] = {0,          1,          5,          51,         2140,
                                       0x7fffffff, 0x80000000, 0xffffffff, 0x55555556, 0xaaaaaaaa};
-    static const struct { int type; size_t at; } places[] = {
-        {STATUS, STATUS_RUN},             {FORCES, FORCES_N},
-        {FORCES, FORCES_N + 4},           {FORCES, FORCES_NAME},
-        {PARTICLES, PARTICLES_COUNT},     {PARTICLES, PARTICLES_COUNT + 4},
-        {PARTICLES, PARTICLES_CHUNK + 4}, {PARTICLES, PARTICLES_TOTAL},
-        {PARTICLES, PARTICLES_FIRST + 4}};
+    static const struct {
+        int type;
+        size_t at;
+    } places[] = {{STATUS, STATUS_RUN},
+                  {FORCES, FORCES_N},
+                  {FORCES, FORCES_N + 4},
+                  {FORCES, FORCES_NAME},
+                  {PARTICLES, PARTICLES_COUNT},
+                  {PARTICLES, PARTICLES_COUNT + 4},
+                  {PARTICLES, PARTICLES_CHUNK + 4},
+                  {PARTICLES, PARTICLES_TOTAL},
+                  {PARTICLES, PARTICLES_FIRST + 4}};
     for (size_t p = 0; p < sizeof places / sizeof *places; p++)
         for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
             message bad = good[places[p].type];
@@ -198,8 +202,7 @@ static void mutate(message *victim)
         break;
     default: /* a stretch of it moved, then cut */
         if (victim->size > 80)
-            memmove(victim->bytes + 8 + draw(30), victim->bytes + 8 + draw(30),
-                    victim->size - 80);
+            memmove(victim->bytes + 8 + draw(30), victim->bytes + 8 + draw(30), victim->size - 80);
         victim->size -= draw((uint32_t)victim->size);
     }
 }

@@ -17,16 +17,14 @@ static sb_status create(const char *url, const char *prefix, sb_error *error)
     snprintf(settings.prefix, sizeof settings.prefix, "%s", prefix);
     sb_stream *stream = NULL;
     sb_status status = sb_stream_create(&settings, "run", &stream, error);
-    if (status != SB_OK)
-        assert_null(stream);
+    if (status != SB_OK) assert_null(stream);
     sb_stream_destroy(stream);
     return status;
 }
 
 static void contains(const char *text, const char *word)
 {
-    if (!strstr(text, word))
-        fail_msg("\"%s\" does not say \"%s\"", text, word);
+    if (!strstr(text, word)) fail_msg("\"%s\" does not say \"%s\"", text, word);
 }
 
 static void bad_urls_give_the_remedy(void **state)
@@ -36,7 +34,8 @@ static void bad_urls_give_the_remedy(void **state)
     assert_int_equal(create("udpm://999.1.1.1:7667", "", &error), SB_FAILED);
     contains(error.text, "udpm://999.1.1.1:7667");
     contains(error.text, "ip route add 224.0.0.0/4 dev lo");
-    static const char *const others[] = {"carrier-pigeon://", "nonsense", "file:///no/such/dir/x?mode=w"};
+    static const char *const others[] = {"carrier-pigeon://", "nonsense",
+                                         "file:///no/such/dir/x?mode=w"};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
         error = (sb_error){0};
         assert_int_equal(create(others[i], "", &error), SB_FAILED);
@@ -86,8 +85,7 @@ static void complaints_stay_off_stderr(void **state)
 /* A process in a network of its own, where there is no route at all. 77: not allowed here. */
 static int without_network(void)
 {
-    if (unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0 && unshare(CLONE_NEWNET) != 0)
-        return 77;
+    if (unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0 && unshare(CLONE_NEWNET) != 0) return 77;
     sb_stream_settings settings = {.decimation = 1};
     sb_stream *stream = NULL;
     sb_error error = {0};
@@ -105,13 +103,11 @@ static void no_route_gives_the_remedy(void **state)
 {
     (void)state;
     pid_t child = fork();
-    if (child == 0)
-        _exit(without_network());
+    if (child == 0) _exit(without_network());
     int status = 0;
     assert_int_equal(waitpid(child, &status, 0), child);
     assert_true(WIFEXITED(status));
-    if (WEXITSTATUS(status) == 77)
-        skip();
+    if (WEXITSTATUS(status) == 77) skip();
     assert_int_equal(WEXITSTATUS(status), 0);
 }
 

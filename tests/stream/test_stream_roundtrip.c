@@ -27,7 +27,8 @@ static void on_status(const lcm_recv_buf_t *received, const char *channel, void 
     all->statuses++;
     /* The generated decoder is the second opinion. */
     shorebreak_status_t other = {0};
-    assert_true(shorebreak_status_t_decode(received->data, 0, (int)received->data_size, &other) > 0);
+    assert_true(shorebreak_status_t_decode(received->data, 0, (int)received->data_size, &other) >
+                0);
     assert_string_equal(other.run, all->status.run);
     assert_int_equal(other.step, all->status.step);
     assert_true(other.time == all->status.time && other.duration == all->status.duration);
@@ -47,15 +48,14 @@ static void on_forces(const lcm_recv_buf_t *received, const char *channel, void 
 {
     seen *all = user;
     assert_string_equal(channel, "test_forces");
-    if (received->data_size > all->largest)
-        all->largest = received->data_size;
-    assert_int_equal(sb_stream_decode_forces(received->data, received->data_size, &all->force, NULL),
-                     SB_OK);
+    if (received->data_size > all->largest) all->largest = received->data_size;
+    assert_int_equal(
+        sb_stream_decode_forces(received->data, received->data_size, &all->force, NULL), SB_OK);
     all->forces++;
-    if (all->force.count == 0)
-        return; /* LCM's decoder copies from a null pointer then */
+    if (all->force.count == 0) return; /* LCM's decoder copies from a null pointer then */
     shorebreak_forces_t other = {0};
-    assert_true(shorebreak_forces_t_decode(received->data, 0, (int)received->data_size, &other) > 0);
+    assert_true(shorebreak_forces_t_decode(received->data, 0, (int)received->data_size, &other) >
+                0);
     assert_int_equal(other.n, all->force.count);
     size_t vectors = 3 * sizeof(double) * (size_t)other.n;
     for (int32_t i = 0; i < other.n; i++) {
@@ -74,8 +74,7 @@ static void on_particles(const lcm_recv_buf_t *received, const char *channel, vo
 {
     seen *all = user;
     assert_string_equal(channel, "test_particles");
-    if (received->data_size > all->largest)
-        all->largest = received->data_size;
+    if (received->data_size > all->largest) all->largest = received->data_size;
     sb_particles_message *chunk = &all->chunk;
     assert_int_equal(sb_stream_decode_particles(received->data, received->data_size, chunk, NULL),
                      SB_OK);
@@ -88,8 +87,8 @@ static void on_particles(const lcm_recv_buf_t *received, const char *channel, vo
     memcpy(all->pressure + all->particles, chunk->pressure, 4 * count);
     all->particles += count;
     shorebreak_particles_t other = {0};
-    assert_true(
-        shorebreak_particles_t_decode(received->data, 0, (int)received->data_size, &other) > 0);
+    assert_true(shorebreak_particles_t_decode(received->data, 0, (int)received->data_size, &other) >
+                0);
     assert_int_equal(other.count, chunk->count);
     assert_int_equal(other.total, chunk->total);
     if (count > 0) {
@@ -112,8 +111,7 @@ static seen *watch(sb_stream *stream, size_t capacity)
     lcm_subscription_t *made[] = {lcm_subscribe(lcm, "test_status", on_status, all),
                                   lcm_subscribe(lcm, "test_forces", on_forces, all),
                                   lcm_subscribe(lcm, "test_particles", on_particles, all)};
-    for (size_t i = 0; i < 3; i++)
-        lcm_subscription_set_queue_capacity(made[i], 100000);
+    for (size_t i = 0; i < 3; i++) lcm_subscription_set_queue_capacity(made[i], 100000);
     return all;
 }
 
@@ -251,16 +249,14 @@ static void decimation_keeps_the_same_particles(void **state)
     sb_stream *stream = fixture_stream("memq://", 0, EVERY);
     seen *all = watch(stream, PARTICLES);
     sb_frame *frame = fixture_frame(1, 0, PARTICLES, 0);
-    for (size_t i = 0; i < PARTICLES; i++)
-        frame->position[3 * i] = (float)i;
+    for (size_t i = 0; i < PARTICLES; i++) frame->position[3 * i] = (float)i;
     sb_stream_publish(stream, frame);
     fixture_drain(stream);
     size_t first_count = all->particles;
     assert_int_equal(all->chunk.decimation, EVERY);
     assert_in_range(first_count, 0.95 * PARTICLES / EVERY, 1.05 * PARTICLES / EVERY);
     float *first = sb_alloc(first_count, sizeof *first);
-    for (size_t i = 0; i < first_count; i++)
-        first[i] = all->position[3 * i];
+    for (size_t i = 0; i < first_count; i++) first[i] = all->position[3 * i];
 
     /* The simulation re-sorts its particles: the same ids come from other places. */
     for (size_t i = 0; i < PARTICLES; i++) {
@@ -272,8 +268,7 @@ static void decimation_keeps_the_same_particles(void **state)
     sb_stream_publish(stream, frame);
     fixture_drain(stream);
     assert_int_equal(all->particles, first_count);
-    for (size_t i = 0; i < first_count; i++)
-        all->pressure[i] = all->position[3 * i];
+    for (size_t i = 0; i < first_count; i++) all->pressure[i] = all->position[3 * i];
     qsort(all->pressure, first_count, sizeof(float), by_x);
     assert_memory_equal(all->pressure, first, first_count * sizeof(float));
     sb_free(first);
@@ -285,8 +280,11 @@ static void decimation_keeps_the_same_particles(void **state)
 static void particles_come_once_per_interval(void **state)
 {
     (void)state;
-    static const struct { double time; size_t chunks; } steps[] = {
-        {0, 1}, {0.2, 1}, {0.5 - 1e-9, 2}, {0.5, 2}, {0.9, 2}, {2.75, 3}, {2.9, 3}, {3.01, 4}};
+    static const struct {
+        double time;
+        size_t chunks;
+    } steps[] = {{0, 1},   {0.2, 1},  {0.5 - 1e-9, 2}, {0.5, 2},
+                 {0.9, 2}, {2.75, 3}, {2.9, 3},        {3.01, 4}};
     sb_stream *stream = fixture_stream("memq://", 0.5, 1);
     seen *all = watch(stream, 1000);
     for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {

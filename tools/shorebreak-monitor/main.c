@@ -27,12 +27,12 @@ typedef struct monitor {
     sb_monitor_options options;
     sb_monitor_state state;
     sb_table_style style;
-    bool screen;               /* the terminal is ours */
-    double line_time;          /* of the last plain line, sb_clock() */
-    uint64_t line_statuses;    /* statuses there were at that time */
+    bool screen;            /* the terminal is ours */
+    double line_time;       /* of the last plain line, sb_clock() */
+    uint64_t line_statuses; /* statuses there were at that time */
     bool told_silence;
-    double first_status;       /* sb_clock(), 0: none yet */
-    bool sated;                /* --once: the second status came; nothing after it counts */
+    double first_status; /* sb_clock(), 0: none yet */
+    bool sated;          /* --once: the second status came; nothing after it counts */
 } monitor;
 
 static volatile sig_atomic_t stopped;
@@ -47,25 +47,21 @@ static void on_status(void *user, const sb_status_message *message)
 {
     monitor *self = user;
     self->sated |= self->options.once && self->first_status > 0;
-    if (self->sated)
-        return;
-    if (!(self->first_status > 0))
-        self->first_status = sb_clock();
+    if (self->sated) return;
+    if (!(self->first_status > 0)) self->first_status = sb_clock();
     sb_monitor_on_status(&self->state, message);
 }
 
 static void on_forces(void *user, const sb_forces_message *message)
 {
     monitor *self = user;
-    if (!self->sated)
-        sb_monitor_on_forces(&self->state, message);
+    if (!self->sated) sb_monitor_on_forces(&self->state, message);
 }
 
 static void on_particles(void *user, const sb_particles_message *message)
 {
     monitor *self = user;
-    if (!self->sated)
-        sb_monitor_on_particles(&self->state, message);
+    if (!self->sated) sb_monitor_on_particles(&self->state, message);
 }
 
 static void measure_terminal(sb_table_style *style)
@@ -82,8 +78,7 @@ static void redraw(monitor *self, double now)
     char *text = NULL;
     size_t length = 0;
     FILE *page = open_memstream(&text, &length);
-    if (!page)
-        return;
+    if (!page) return;
     measure_terminal(&self->style);
     fputs("\x1b[?7l\x1b[H", page); /* long lines are cut, not wrapped */
     sb_table_draw(page, &self->state, &self->style, now);
@@ -139,8 +134,8 @@ static void watch(monitor *self, sb_listener *listener)
 static void choose_style(monitor *self)
 {
     const char *terminal = getenv("TERM");
-    bool live = !self->options.plain && isatty(STDOUT_FILENO) && terminal &&
-                strcmp(terminal, "dumb") != 0;
+    bool live =
+        !self->options.plain && isatty(STDOUT_FILENO) && terminal && strcmp(terminal, "dumb") != 0;
     const char *no_colour = getenv("NO_COLOR");
     self->screen = live && !self->options.once;
     self->style.colour = live && !(no_colour && *no_colour);
@@ -165,16 +160,13 @@ static int run(monitor *self)
     sigaction(SIGHUP, &action, NULL);
     sb_monitor_state_start(&self->state, sb_clock());
     choose_style(self);
-    if (self->screen)
-        fputs(ENTER_SCREEN, stdout);
+    if (self->screen) fputs(ENTER_SCREEN, stdout);
     watch(self, listener);
-    if (self->screen)
-        fputs(LEAVE_SCREEN, stdout);
+    if (self->screen) fputs(LEAVE_SCREEN, stdout);
     /* The last table stays to be read. */
     self->style.line_end = "";
     self->style.height = 0;
-    if (self->state.has_status)
-        sb_table_draw(stdout, &self->state, &self->style, sb_clock());
+    if (self->state.has_status) sb_table_draw(stdout, &self->state, &self->style, sb_clock());
     sb_listener_destroy(listener);
     sb_monitor_state_free(&self->state);
     if (self->options.once && !(self->first_status > 0)) {

@@ -32,37 +32,35 @@ bool sb_monitor_options_read(int count, char **words, sb_monitor_options *option
                              char trouble[256])
 {
     *options = (sb_monitor_options){0};
+    const char *duration = NULL;
+    const struct {
+        const char *name, **value;
+        bool *flag;
+    } known[] = {{"--url", &options->url, NULL},        {"--prefix", &options->prefix, NULL},
+                 {"--duration", &duration, NULL},       {"--once", NULL, &options->once},
+                 {"--plain", NULL, &options->plain},    {"--help", NULL, &options->help},
+                 {"--version", NULL, &options->version}};
+    const size_t known_count = sizeof known / sizeof *known;
     for (int i = 1; i < count; i++) {
-        const char *word = words[i], *value = i + 1 < count ? words[i + 1] : NULL;
-        bool takes_value = !strcmp(word, "--url") || !strcmp(word, "--prefix") ||
-                           !strcmp(word, "--duration");
-        if (takes_value && !value) {
-            snprintf(trouble, 256, "%.100s: a value is missing", word);
+        size_t k = 0;
+        while (k < known_count && strcmp(words[i], known[k].name) != 0) k++;
+        if (k == known_count) {
+            snprintf(trouble, 256, "%.100s: no such option; see --help", words[i]);
             return false;
         }
-        i += takes_value;
-        if (!strcmp(word, "--url")) {
-            options->url = value;
-        } else if (!strcmp(word, "--prefix")) {
-            options->prefix = value;
-        } else if (!strcmp(word, "--duration")) {
-            if (!read_duration(value, &options->duration)) {
-                snprintf(trouble, 256, "--duration: \"%.100s\" is not a number of seconds above 0",
-                         value);
-                return false;
-            }
-        } else if (!strcmp(word, "--once")) {
-            options->once = true;
-        } else if (!strcmp(word, "--plain")) {
-            options->plain = true;
-        } else if (!strcmp(word, "--help") || !strcmp(word, "-h")) {
-            options->help = true;
-        } else if (!strcmp(word, "--version")) {
-            options->version = true;
+        if (known[k].flag) {
+            *known[k].flag = true;
+        } else if (i + 1 < count) {
+            *known[k].value = words[++i];
         } else {
-            snprintf(trouble, 256, "%.100s: no such option; see --help", word);
+            snprintf(trouble, 256, "%s: a value is missing", known[k].name);
             return false;
         }
+    }
+    if (duration && !read_duration(duration, &options->duration)) {
+        snprintf(trouble, 256, "--duration: \"%.100s\" is not a number of seconds above 0",
+                 duration);
+        return false;
     }
     return true;
 }

@@ -24,7 +24,7 @@ void sb_monitor_state_free(sb_monitor_state *state)
 static void new_run(sb_monitor_state *state)
 {
     state->body_count = state->bodies_total = 0;
-    state->peak = state->peak_component = state->force_time = 0;
+    state->peak = state->peak_component = 0;
     state->statuses = 0;
     sb_assembly_free(&state->assembly);
 }
@@ -45,18 +45,16 @@ void sb_monitor_on_forces(void *user, const sb_forces_message *message)
 {
     sb_monitor_state *state = user;
     state->last_data = sb_clock();
-    state->force_time = message->time;
     state->bodies_total = (size_t)message->total;
-    for (int32_t i = 0; i < message->count && message->first + i < SB_MONITOR_BODIES; i++) {
-        size_t row = (size_t)(message->first + i);
+    const size_t first = (size_t)message->first, count = (size_t)message->count;
+    for (size_t i = 0; i < count && first + i < SB_MONITOR_BODIES; i++) {
+        size_t row = first + i;
         sb_monitor_body *body = &state->bodies[row];
         if (row >= state->body_count || strcmp(body->name, message->names[i]) != 0)
             *body = (sb_monitor_body){0};
         memcpy(body->name, message->names[i], sizeof body->name);
         body->reported = message->reported[i];
         memcpy(body->force, &message->force[3 * i], sizeof body->force);
-        const double *moved = &message->displacement[3 * i];
-        body->travel = sqrt(moved[0] * moved[0] + moved[1] * moved[1] + moved[2] * moved[2]);
         body->horizontal = hypot(body->force[0], body->force[1]);
         body->peak = fmax(body->peak, body->horizontal);
         if (body->reported) {
@@ -65,10 +63,8 @@ void sb_monitor_on_forces(void *user, const sb_forces_message *message)
                 state->peak_component = fmax(state->peak_component, fabs(body->force[k]));
         }
         /* Rows between are those of a lost message: empty until it comes again. */
-        while (state->body_count < row)
-            state->bodies[state->body_count++] = (sb_monitor_body){0};
-        if (state->body_count == row)
-            state->body_count = row + 1;
+        while (state->body_count < row) state->bodies[state->body_count++] = (sb_monitor_body){0};
+        if (state->body_count == row) state->body_count = row + 1;
     }
 }
 
@@ -76,8 +72,7 @@ void sb_monitor_on_particles(void *user, const sb_particles_message *message)
 {
     sb_monitor_state *state = user;
     state->last_data = sb_clock();
-    if (sb_assembly_add(&state->assembly, message) != SB_OK)
-        state->assembly.chunks_odd++;
+    if (sb_assembly_add(&state->assembly, message) != SB_OK) state->assembly.chunks_odd++;
 }
 
 void sb_monitor_state_sample(sb_monitor_state *state, sb_listener_counters count, double now)
@@ -89,8 +84,7 @@ void sb_monitor_state_sample(sb_monitor_state *state, sb_listener_counters count
         state->message_rate = (double)(count.messages - state->samples[0].count.messages) / span;
         state->byte_rate = (double)(count.bytes - state->samples[0].count.bytes) / span;
     }
-    if (now - state->samples[used - 1].time < SAMPLE_SPACING)
-        return;
+    if (now - state->samples[used - 1].time < SAMPLE_SPACING) return;
     if (used == SB_MONITOR_SAMPLES)
         memmove(&state->samples[0], &state->samples[1], sizeof state->samples[0] * --used);
     state->samples[used].time = now;

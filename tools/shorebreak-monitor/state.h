@@ -13,7 +13,6 @@ typedef struct sb_monitor_body {
     double force[3];   /* N */
     double horizontal; /* N, sqrt(Fx^2 + Fy^2) */
     double peak;       /* N, largest of that so far */
-    double travel;     /* m, |displacement| */
 } sb_monitor_body;
 
 typedef struct sb_monitor_state {
@@ -23,13 +22,15 @@ typedef struct sb_monitor_state {
     size_t body_count;   /* rows in use */
     size_t bodies_total; /* of the run; may be more than there are rows */
     sb_monitor_body bodies[SB_MONITOR_BODIES];
-    double peak;         /* N, largest horizontal force on any reported body so far */
+    double peak; /* N, largest horizontal force on any reported body so far */
     double peak_component;
-    double force_time;   /* s, simulated */
     sb_assembly assembly;
     double started, last_data; /* s, sb_clock() */
     /* Counters at moments of the last seconds, for rates. */
-    struct { double time; sb_listener_counters count; } samples[SB_MONITOR_SAMPLES];
+    struct {
+        double time;
+        sb_listener_counters count;
+    } samples[SB_MONITOR_SAMPLES];
     size_t sample_count;
     double message_rate, byte_rate; /* per second */
     sb_listener_counters count;

@@ -65,8 +65,11 @@ static void draw_status(canvas *to, const sb_status_message *status)
 {
     char bar[BAR_BYTES], eta[40], wall[40], time[40], end[40];
     int cells = to->style->width / 3;
-    sb_text_bar(bar, cells > 60 ? 60 : cells < 10 ? 10 : cells, progress(status), -1,
-                to->style->utf8);
+    sb_text_bar(bar,
+                cells > 60   ? 60
+                : cells < 10 ? 10
+                             : cells,
+                progress(status), -1, to->style->utf8);
     sb_text_duration(eta, sizeof eta, status->eta_seconds);
     sb_text_duration(wall, sizeof wall, status->wall_seconds);
     sb_text_number(time, sizeof time, status->time, false);
@@ -101,8 +104,7 @@ static void draw_stream(canvas *to, const sb_monitor_state *state)
             (unsigned long long)chunks->frames_complete, (unsigned long long)chunks->frames_partial,
             chunks->chunks_lost ? paint(to, RED) : "", (unsigned long long)chunks->chunks_lost,
             plain(to));
-    fprintf(to->out, "  t %.4g s  %lld particles", chunks->time,
-            (long long)chunks->total);
+    fprintf(to->out, "  t %.4g s  %lld particles", chunks->time, (long long)chunks->total);
     end_row(to);
 }
 
@@ -149,11 +151,10 @@ static void draw_forces(canvas *to, const sb_monitor_state *state)
     fprintf(to->out, "%s", plain(to));
     end_row(to);
 
-    size_t hidden = state->bodies_total > state->body_count
-                        ? state->bodies_total - state->body_count : 0;
+    size_t hidden =
+        state->bodies_total > state->body_count ? state->bodies_total - state->body_count : 0;
     for (size_t i = 0; i < state->body_count; i++) {
-        if (!state->bodies[i].reported)
-            continue;
+        if (!state->bodies[i].reported) continue;
         if (to->style->height > 0 && to->rows + 2 >= to->style->height)
             hidden++;
         else
@@ -170,12 +171,10 @@ void sb_table_draw(FILE *out, const sb_monitor_state *state, const sb_table_styl
 {
     canvas to = {out, style, 0};
     draw_title(&to, state, now);
-    if (state->has_status)
-        draw_status(&to, &state->status);
+    if (state->has_status) draw_status(&to, &state->status);
     draw_stream(&to, state);
     bool reported = false;
-    for (size_t i = 0; i < state->body_count; i++)
-        reported |= state->bodies[i].reported;
+    for (size_t i = 0; i < state->body_count; i++) reported |= state->bodies[i].reported;
     if (reported) {
         end_row(&to);
         draw_forces(&to, state);

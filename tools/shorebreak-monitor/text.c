@@ -23,16 +23,14 @@ sb_text_unit sb_text_force_unit(double peak)
 {
     static const sb_text_unit units[] = {{"N", 1}, {"kN", 1e3}, {"MN", 1e6}, {"GN", 1e9}};
     size_t i = 0;
-    while (i < 3 && peak >= 1000 * units[i].size)
-        i++;
+    while (i < 3 && peak >= 1000 * units[i].size) i++;
     return units[i];
 }
 
 void sb_text_number(char *out, size_t size, double value, bool sign)
 {
     double large = fabs(value);
-    if (large < 0.005)
-        value = 0; /* no "-0.00" */
+    if (large < 0.005) value = 0; /* no "-0.00" */
     if (large < 99999)
         snprintf(out, size, sign ? "%+.2f" : "%.2f", value);
     else
@@ -49,15 +47,15 @@ void sb_text_bar(char *out, int cells, double share, double mark, bool utf8)
     static const char *const eighths[] = {" ", "▏", "▎", "▍", "▌", "▋", "▊", "▉", "█"};
     int filled = (int)lround(clamped(share) * 8 * cells);
     int marked = mark >= 0 ? (int)(clamped(mark) * cells) : -1;
-    if (marked == cells)
-        marked = cells - 1;
+    if (marked == cells) marked = cells - 1;
     *out = 0;
     for (int i = 0; i < cells; i++) {
         int part = filled - 8 * i;
-        const char *cell = utf8 ? (part >= 8 ? eighths[8] : part > 0 ? eighths[part] : "·")
+        const char *cell = utf8 ? (part >= 8  ? eighths[8]
+                                   : part > 0 ? eighths[part]
+                                              : "·")
                                 : (part >= 4 ? "#" : ".");
-        if (i == marked && part <= 0)
-            cell = utf8 ? "│" : "|";
+        if (i == marked && part <= 0) cell = utf8 ? "│" : "|";
         out = stpcpy(out, cell);
     }
 }
