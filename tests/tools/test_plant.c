@@ -343,28 +343,36 @@ static int run(const char *arguments)
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-static void test_the_program_writes_the_committed_mesh(void **state)
+static const char *const parts[] = {"terrain",  "breakwaters", "waterfront", "reactors",
+                                    "turbines", "stacks",      "tanks",      "annexes"};
+enum { PARTS = sizeof parts / sizeof *parts };
+
+static void test_the_program_writes_the_committed_meshes(void **state)
 {
     (void)state;
-    sb_error error = {0};
-    char folder[] = "/tmp/sb-plant-XXXXXX", path[64], arguments[128];
+    char folder[] = "/tmp/sb-plant-XXXXXX", path[128];
+    size_t total = 0;
     assert_non_null(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/plant.obj", folder);
-    snprintf(arguments, sizeof arguments, "--out %s", path);
-    assert_int_equal(run(arguments), 0);
-    char *made, *kept;
-    size_t made_length, kept_length;
-    assert_int_equal(sb_file_read(path, 1 << 20, &made, &made_length, &error), SB_OK);
-    assert_int_equal(sb_file_read(SB_SOURCE_DIR "/assets/meshes/plant.obj", 1 << 20, &kept,
-                                  &kept_length, &error),
-                     SB_OK);
-    assert_int_equal(made_length, kept_length);
-    assert_memory_equal(made, kept, kept_length);
-    assert_true(kept_length <= 400000);
-    sb_free(made);
-    sb_free(kept);
-    unlink(path);
-    rmdir(folder);
+    snprintf(path, sizeof path, "--parts %s", folder);
+    assert_int_equal(run(path), 0);
+    for (size_t i = 0; i < PARTS; i++) {
+        sb_error error = {0};
+        char *made = NULL, *kept = NULL, committed[SB_PATH_MAX];
+        size_t made_length, kept_length;
+        snprintf(path, sizeof path, "%s/%s.obj", folder, parts[i]);
+        snprintf(committed, sizeof committed, SB_SOURCE_DIR "/assets/meshes/plant/%s.obj",
+                 parts[i]);
+        assert_int_equal(sb_file_read(path, 1 << 20, &made, &made_length, &error), SB_OK);
+        assert_int_equal(sb_file_read(committed, 1 << 20, &kept, &kept_length, &error), SB_OK);
+        assert_int_equal(made_length, kept_length);
+        assert_memory_equal(made, kept, kept_length);
+        total += kept_length;
+        sb_free(made);
+        sb_free(kept);
+        unlink(path);
+    }
+    assert_int_equal(rmdir(folder), 0);
+    assert_true(total <= 400000);
 }
 
 static void test_the_program_refuses_bad_arguments(void **state)
@@ -380,25 +388,46 @@ static void test_the_program_refuses_bad_arguments(void **state)
     assert_int_equal(run("--out /nonexistent/plant.obj"), 2);
 }
 
-static void test_the_import_gives_the_same_bodies(void **state)
+/* Imports a file and checks its bodies against those that were made; returns how many. */
+static size_t compare(const plant *made, const char *path)
 {
-    const plant *made = *state;
     sb_error error = {0};
     sb_mesh *meshes = NULL;
     size_t count = 0;
-    sb_status status =
-        sb_mesh_import(SB_SOURCE_DIR "/assets/meshes/plant.obj", &meshes, &count, &error);
-    if (status != SB_OK) fail_msg("%s", error.text);
-    assert_int_equal(count, made->count);
+    if (sb_mesh_import(path, &meshes, &count, &error) != SB_OK) fail_msg("%s", error.text);
     for (size_t i = 0; i < count; i++) {
-        sb_mesh_report here, there;
+        sb_mesh_report here, there = diagnosed(made, meshes[i].name);
         sb_mesh_diagnose(&meshes[i], &here);
-        sb_mesh_diagnose(find(made, meshes[i].name), &there);
         assert_int_equal(here.watertight, there.watertight);
+        assert_int_equal(here.degenerate_faces, 0);
         assert_true(fabs(here.area - there.area) < 1e-3 * there.area);
         assert_true(sb_norm(sb_sub(here.max, there.max)) < 0.02);
+        assert_true(sb_norm(sb_sub(here.min, there.min)) < 0.02);
     }
     sb_plant_free(meshes, count);
+    return count;
+}
+
+static void test_the_import_gives_the_same_bodies(void **state)
+{
+    const plant *made = *state;
+    size_t count = 0;
+    for (size_t i = 0; i < PARTS; i++) {
+        char path[SB_PATH_MAX];
+        snprintf(path, sizeof path, SB_SOURCE_DIR "/assets/meshes/plant/%s.obj", parts[i]);
+        count += compare(made, path);
+    }
+    assert_int_equal(count, made->count);
+
+    sb_error error = {0};
+    char folder[] = "/tmp/sb-plant-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/whole.obj", folder);
+    assert_int_equal(sb_plant_write(&made->options, made->meshes, made->count, path, &error),
+                     SB_OK);
+    assert_int_equal(compare(made, path), made->count);
+    unlink(path);
+    rmdir(folder);
 }
 
 int main(void)
@@ -415,7 +444,7 @@ int main(void)
         cmocka_unit_test(test_extreme_heights_still_close),
         cmocka_unit_test(test_senseless_heights_are_refused),
         cmocka_unit_test(test_every_failed_allocation_is_reported),
-        cmocka_unit_test(test_the_program_writes_the_committed_mesh),
+        cmocka_unit_test(test_the_program_writes_the_committed_meshes),
         cmocka_unit_test(test_the_program_refuses_bad_arguments),
         cmocka_unit_test(test_the_import_gives_the_same_bodies),
     };

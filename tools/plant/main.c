@@ -2,16 +2,18 @@
 #include "plant.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 static void usage(FILE *out)
 {
-    fprintf(out, "usage: make-plant [--out FILE] [--HEIGHT METRES]...\n"
+    fprintf(out, "usage: make-plant [--out FILE | --parts FOLDER] [--HEIGHT METRES]...\n"
                  "Writes a coastal nuclear plant as one mesh (Wavefront OBJ), every building an "
                  "object.\n\n"
-                 "  --out FILE          where to write (plant.obj)\n");
+                 "  --out FILE          where to write (plant.obj)\n"
+                 "  --parts FOLDER      a file for each part instead: terrain, reactors, ...\n");
     for (const sb_plant_option *row = sb_plant_option_table; row->name; row++)
         fprintf(out, "  --%-17s %s (%g; %g to %g)\n", row->name, row->summary, row->value,
                 row->least, row->most);
@@ -38,13 +40,14 @@ static const char *set_height(sb_plant_options *options, const char *name, const
     return "no such option";
 }
 
-static int make(const sb_plant_options *options, const char *path)
+static int make(const sb_plant_options *options, const char *path, bool parts)
 {
     sb_error error = {0};
     sb_mesh *meshes = NULL;
     size_t count = 0, triangles = 0;
     sb_status status = sb_plant_build(options, &meshes, &count, &error);
-    if (status == SB_OK) status = sb_plant_write(options, meshes, count, path, &error);
+    if (status == SB_OK) status = parts ? sb_plant_write_parts(options, meshes, count, path, &error)
+                       : sb_plant_write(options, meshes, count, path, &error);
     if (status != SB_OK) fprintf(stderr, "make-plant: %s\n", error.text);
     for (size_t i = 0; i < count; i++) triangles += meshes[i].triangle_count;
     if (status == SB_OK) printf("%s: %zu bodies, %zu triangles\n", path, count, triangles);
@@ -56,6 +59,7 @@ int main(int argc, char **argv)
 {
     sb_plant_options options = sb_plant_defaults();
     const char *path = "plant.obj";
+    bool parts = false;
     for (int i = 1; i < argc; i++) {
         if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0) {
             usage(stdout);
@@ -68,12 +72,13 @@ int main(int argc, char **argv)
         if (strncmp(argv[i], "--", 2) != 0) return bad("not an option", argv[i]);
         if (i + 1 == argc) return bad("a value is missing or there is no such option", argv[i]);
         const char *name = argv[i] + 2, *value = argv[++i];
-        if (strcmp(name, "out") == 0) {
+        if (strcmp(name, "out") == 0 || strcmp(name, "parts") == 0) {
             path = value;
+            parts = *name == 'p';
             continue;
         }
         const char *wrong = set_height(&options, name, value);
         if (wrong) return bad(wrong, argv[i - 1]);
     }
-    return make(&options, path);
+    return make(&options, path, parts);
 }

@@ -57,4 +57,9 @@ void sb_plant_free(sb_mesh *meshes, size_t count);
 sb_status sb_plant_write(const sb_plant_options *options, const sb_mesh *meshes, size_t count,
                          const char *path, sb_error *error);
 
+/* The same bodies, a file for each part of the plant in `folder` (made when missing): terrain,
+   breakwaters, waterfront, reactors, turbines, stacks, tanks, annexes. */
+sb_status sb_plant_write_parts(const sb_plant_options *options, const sb_mesh *meshes, size_t count,
+                               const char *folder, sb_error *error);
+
 #endif
