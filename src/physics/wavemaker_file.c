@@ -110,7 +110,7 @@ static sb_status create(const sb_wavemaker_parameters *parameters, void **state,
     else
         status = read_lines(made, text, path, error);
     sb_free(text);
-    if (status != SB_OK) {
+    if (!made || status != SB_OK) {
         destroy(made);
         return status;
     }
