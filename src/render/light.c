@@ -18,10 +18,10 @@ const char sb_light_source[] =
     "uniform float haze;\n"
     "vec3 sky(vec3 d) {\n"
     "  float up = clamp(d.z, 0.0, 1.0), down = clamp(-d.z, 0.0, 1.0);\n"
-    "  vec3 c = mix(vec3(0.66, 0.75, 0.82), vec3(0.13, 0.29, 0.56), 1.0 - exp(-3.5 * up));\n"
+    "  vec3 c = mix(vec3(0.72, 0.79, 0.84), vec3(0.12, 0.28, 0.56), 1.0 - exp(-3.5 * up));\n"
     "  float g = max(dot(d, sun), 0.0); g *= g; g *= g;\n"
     "  c += g * vec3(0.10, 0.08, 0.05);\n"
-    "  return mix(c, vec3(0.42, 0.50, 0.56), 1.0 - exp(-5.0 * down));\n"
+    "  return mix(c, vec3(0.47, 0.53, 0.58), 1.0 - exp(-3.0 * down));\n"
     "}\n"
     /* How open a place is: on the ground what the map says there, on a wall what the ground before it
        says, rising to a free view with height over that ground. */
@@ -31,17 +31,17 @@ const char sb_light_source[] =
     "  return mix(map.y, 1.0, clamp((p.z - map.x) * 0.03, 0.0, 1.0));\n"
     "}\n"
     "float sunlit(vec3 p, vec3 n) {\n"
-    "  vec3 s = (to_shadow * vec4(p + n * (0.0015 / ground_frame.z), 1.0)).xyz;\n"
+    "  vec3 s = (to_shadow * vec4(p + n * (0.002 / ground_frame.z), 1.0)).xyz;\n"
     "  return texture(shadow_map, s);\n"
     "}\n"
     "vec3 lit(vec3 albedo, vec3 p, vec3 n) {\n"
     "  float direct = max(dot(n, sun), 0.0);\n"
     "  direct *= sunlit(p, n);\n"
-    "  vec3 dome = mix(vec3(0.30, 0.28, 0.25), vec3(0.44, 0.52, 0.64), 0.5 + 0.5 * n.z);\n"
-    "  return albedo * (direct * vec3(0.92, 0.86, 0.76) + openness(p, n) * dome);\n"
+    "  vec3 dome = mix(vec3(0.22, 0.21, 0.19), vec3(0.30, 0.37, 0.47), 0.5 + 0.5 * n.z);\n"
+    "  return albedo * (direct * vec3(1.22, 1.13, 0.98) + openness(p, n) * dome);\n"
     "}\n"
     "vec3 hazed(vec3 color, vec3 p) {\n"
-    "  return mix(vec3(0.62, 0.71, 0.78), color, exp(-haze * distance(p, eye)));\n"
+    "  return mix(vec3(0.70, 0.77, 0.82), color, exp(-haze * distance(p, eye)));\n"
     "}\n"
     "vec4 encoded(vec3 color) { return vec4(sqrt(clamp(color, 0.0, 1.0)), 1.0); }\n";
 
@@ -239,7 +239,7 @@ void sb_light_bind(const sb_light *light, const sb_view *view, GLuint program)
     sb_uniform_vec3(program, "sun", sun);
     sb_uniform_vec3(program, "ground_frame", light->ground_frame);
     sb_uniform_mat4(program, "to_shadow", light->to_shadow);
-    sb_uniform_float(program, "haze", 0.28 / light->size);
+    sb_uniform_float(program, "haze", 0.13 / light->size);
     sb_uniform_texture(program, "shadow_map", 4, light->shadow);
     sb_uniform_texture(program, "ground_map", 5, light->ground);
 }

@@ -8,62 +8,69 @@
 enum { COLORS = 256 };
 
 /* Spheres overlap, so that a calm surface closes; smoothing takes their bumps away. */
-static const double radius_spacings = 0.72;
+static const double radius_spacings = 0.8;
 /* Depths farther apart than this belong to different sheets of water. */
 static const double sheet_spacings = 5;
 static const double smooth_spacings = 1.1; /* standard deviation */
 
 static const char sphere_vertex[] =
     "layout(location = 0) in vec3 position;\n"
-    "layout(location = 1) in vec2 trait;\n" /* share of the top speed, size */
+    "layout(location = 1) in vec2 trait;\n" /* share of the top speed, crowd */
+    "layout(location = 2) in vec3 normal;\n"
     "uniform mat4 view, projection;\n"
     "uniform float radius, pixels;\n" /* pixels: of one metre at one metre */
-    "flat out float depth, speed, bulge;\n"
+    "flat out vec4 drop;\n" /* depth, radius, speed, crowd */
+    "flat out vec3 slope;\n"
     "void main() {\n"
     "  vec4 e = view * vec4(position, 1.0);\n"
     "  gl_Position = projection * e;\n"
-    "  depth = -e.z;\n"
-    "  speed = trait.x;\n"
-    "  bulge = radius * trait.y;\n"
-    "  gl_PointSize = clamp(2.0 * bulge * pixels / depth, 1.5, 255.0);\n"
+    "  drop = vec4(-e.z, radius * (0.45 + 0.55 * trait.y), trait);\n"
+    "  slope = mat3(view) * normal;\n"
+    "  gl_PointSize = clamp(2.0 * drop.y * pixels / drop.x, 1.5, 255.0);\n"
     "}\n";
 
+/* A surface in a crowd has the crowd's normal, a drop by itself that of its own sphere. */
 static const char sphere_fragment[] =
-    "flat in float depth, speed, bulge;\n"
+    "flat in vec4 drop;\n"
+    "flat in vec3 slope;\n"
     "uniform vec2 clip;\n" /* of the projection: ndc = clip.x + clip.y / depth */
-    "out vec2 surface;\n"
+    "out vec4 surface;\n"
     "void main() {\n"
-    "  vec2 d = gl_PointCoord * 2.0 - 1.0;\n"
+    "  vec2 d = vec2(gl_PointCoord.x, 1.0 - gl_PointCoord.y) * 2.0 - 1.0;\n"
     "  float q = 1.0 - dot(d, d);\n"
     "  if (q < 0.0) discard;\n"
-    "  float z = depth - bulge * sqrt(q);\n"
-    "  surface = vec2(z, speed);\n"
+    "  float bulge = sqrt(q), z = drop.x - drop.y * bulge;\n"
+    "  vec3 n = normalize(mix(vec3(d, bulge), vec3(slope.xy, max(slope.z, 0.05)), drop.w));\n"
+    "  surface = vec4(z, drop.z, n.xy);\n"
     "  gl_FragDepth = 0.5 + 0.5 * (clip.x + clip.y / z);\n"
     "}\n";
 
-/* One direction of a Gaussian that stops at jumps in depth [bilateral]; the reach follows the size
-   that a particle has in the picture. */
+/* One direction of a Gaussian that stops at jumps in depth; the reach follows the size that a particle
+   has in the picture, and a surface seen edge on may fall away faster. */
 static const char smooth_fragment[] =
-    "out vec2 surface;\n"
+    "out vec4 surface;\n"
     "uniform sampler2D source;\n"
     "uniform ivec2 step_by;\n"
     "uniform float spread, sheet, longest;\n" /* px m; m; px */
     "void main() {\n"
     "  ivec2 p = ivec2(gl_FragCoord.xy);\n"
-    "  vec2 c = texelFetch(source, p, 0).xy;\n"
+    "  vec4 c = texelFetch(source, p, 0);\n"
     "  float sigma = min(spread / c.x, longest);\n"
-    "  float stride = max(1.0, sigma * 0.5);\n"
+    "  float stride = max(1.0, sigma * 0.6);\n"
     "  float fall = -0.5 * stride * stride / (sigma * sigma);\n"
-    "  vec3 sum = vec3(c, 1.0);\n"
-    "  for (int i = 1; i <= 4; i++) {\n"
+    "  float tilt = sqrt(max(1.0 - dot(c.zw, c.zw), 0.02)) / sheet;\n"
+    "  vec4 sum = c;\n"
+    "  float total = 1.0;\n"
+    "  for (int i = 1; i <= 3; i++) {\n"
     "    ivec2 by = step_by * int(float(i) * stride + 0.5);\n"
     "    float w = exp(fall * float(i * i));\n"
-    "    vec2 a = texelFetch(source, p + by, 0).xy, b = texelFetch(source, p - by, 0).xy;\n"
-    "    vec2 jump = (vec2(a.x, b.x) - c.x) / sheet;\n"
+    "    vec4 a = texelFetch(source, p + by, 0), b = texelFetch(source, p - by, 0);\n"
+    "    vec2 jump = (vec2(a.x, b.x) - c.x) * tilt;\n"
     "    vec2 keep = w * max(1.0 - jump * jump, 0.0);\n"
-    "    sum += vec3(a, 1.0) * keep.x + vec3(b, 1.0) * keep.y;\n"
+    "    sum += a * keep.x + b * keep.y;\n"
+    "    total += keep.x + keep.y;\n"
     "  }\n"
-    "  surface = sum.xy / sum.z;\n"
+    "  surface = sum / total;\n"
     "}\n";
 
 static const char shade_fragment[] =
@@ -71,33 +78,25 @@ static const char shade_fragment[] =
     "out vec4 color;\n"
     "uniform sampler2D source, colors;\n"
     "uniform vec3 right, up, back;\n"
-    "uniform vec2 lens, pixel;\n" /* pixel: the size of one in `screen` */
-    "vec3 at(vec2 s, float depth) { return vec3(s * lens, -1.0) * depth; }\n"
-    "vec3 slope(vec2 step_by, ivec2 texel, ivec2 p, float depth, vec3 here) {\n"
-    "  float a = texelFetch(source, p + texel, 0).x, b = texelFetch(source, p - texel, 0).x;\n"
-    "  bool after = abs(a - depth) < abs(b - depth);\n"
-    "  return after ? at(screen + step_by, a) - here : here - at(screen - step_by, b);\n"
-    "}\n"
+    "uniform vec2 lens;\n"
     "void main() {\n"
-    "  ivec2 p = ivec2(gl_FragCoord.xy);\n"
-    "  vec2 w = texelFetch(source, p, 0).xy;\n"
-    "  vec3 here = at(screen, w.x);\n"
-    "  vec3 dx = slope(vec2(pixel.x, 0.0), ivec2(1, 0), p, w.x, here);\n"
-    "  vec3 dy = slope(vec2(0.0, pixel.y), ivec2(0, 1), p, w.x, here);\n"
-    "  vec3 n = normalize(cross(dx, dy));\n"
+    "  vec4 w = texelFetch(source, ivec2(gl_FragCoord.xy), 0);\n"
+    "  vec3 here = vec3(screen * lens, -1.0) * w.x;\n"
+    "  vec3 n = normalize(vec3(w.zw, sqrt(max(1.0 - dot(w.zw, w.zw), 0.0))));\n"
     "  n = right * n.x + up * n.y + back * n.z;\n"
     "  vec3 away = right * here.x + up * here.y + back * here.z;\n"
+
     "  vec3 place = eye + away;\n"
     "  vec3 to_eye = -normalize(away);\n"
     "  vec3 albedo = texture(colors, vec2(w.y, 0.5)).rgb;\n"
     "  albedo *= albedo;\n"
     "  float facing = clamp(dot(n, to_eye), 0.0, 1.0);\n"
     "  float f = 1.0 - facing; f *= f; f *= f * (1.0 - facing);\n"
-    "  float gloss = 0.02 + 0.45 * f;\n"
+    "  float gloss = 0.02 + 0.30 * f;\n"
     "  vec3 mirrored = reflect(-to_eye, n);\n"
     "  mirrored.z = abs(mirrored.z);\n"
     "  float spark = pow(max(dot(mirrored, sun), 0.0), 60.0);\n"
-    "  vec3 c = mix(lit(albedo, place, n), sky(mirrored), gloss) + spark * vec3(0.30, 0.28, 0.24);\n"
+    "  vec3 c = mix(0.8 * lit(albedo, place, n), sky(mirrored), gloss) + spark * vec3(0.30, 0.28, 0.24);\n"
     "  color = encoded(hazed(c, place));\n"
     "}\n";
 
@@ -119,7 +118,7 @@ static sb_status make_surfaces(sb_water *water, GLuint depth_stencil, sb_error *
     sb_status status = SB_OK;
     glGenFramebuffers(2, water->framebuffer);
     for (int i = 0; i < 2 && status == SB_OK; i++) {
-        water->surface[i] = sb_texture_create(GL_RG32F, water->width, water->height, GL_RG,
+        water->surface[i] = sb_texture_create(GL_RGBA32F, water->width, water->height, GL_RGBA,
                                               GL_FLOAT, NULL, GL_NEAREST);
         glBindFramebuffer(GL_FRAMEBUFFER, water->framebuffer[i]);
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
@@ -142,8 +141,10 @@ static void make_arrays(sb_water *water)
     glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, stride, NULL);
     glVertexAttribPointer(1, 2, GL_UNSIGNED_SHORT, GL_TRUE, stride,
                           (const void *)offsetof(sb_visible_point, speed));
-    glEnableVertexAttribArray(0);
-    glEnableVertexAttribArray(1);
+    glVertexAttribPointer(2, 3, GL_BYTE, GL_TRUE, stride,
+                          (const void *)offsetof(sb_visible_point, normal));
+    for (GLuint i = 0; i < 3; i++)
+        glEnableVertexAttribArray(i);
     glBindVertexArray(0);
 }
 
@@ -221,7 +222,6 @@ static void draw_spheres(sb_water *water, const sb_frame *frame, const sb_view *
     glDepthMask(GL_FALSE);
 }
 
-/* Two rounds: the second, with half the reach, takes away what the strides of the first left. */
 static void smooth_surface(const sb_water *water, const sb_frame *frame, const sb_view *view)
 {
     GLuint program = water->smooth_program;
@@ -232,11 +232,11 @@ static void smooth_surface(const sb_water *water, const sb_frame *frame, const s
     sb_uniform_float(program, "sheet", sheet_spacings * frame->spacing);
     sb_uniform_float(program, "longest", water->height / 24.0);
     double spread = smooth_spacings * frame->spacing * water->height / (2 * view->tangent);
-    for (int pass = 0; pass < 4; pass++) {
+    for (int pass = 0; pass < 2; pass++) {
         glBindFramebuffer(GL_FRAMEBUFFER, water->framebuffer[1 - pass % 2]);
         sb_uniform_texture(program, "source", 0, water->surface[pass % 2]);
         glUniform2i(glGetUniformLocation(program, "step_by"), pass % 2 == 0, pass % 2 == 1);
-        sb_uniform_float(program, "spread", pass < 2 ? spread : 0.5 * spread);
+        sb_uniform_float(program, "spread", spread);
         sb_fullscreen_draw(water->empty);
     }
 }
@@ -248,7 +248,6 @@ static void shade(const sb_water *water, const sb_light *light, const sb_view *v
     sb_light_bind(light, view, program);
     sb_sky_bind_rays(view, program);
     sb_uniform_float(program, "depth", 0);
-    sb_uniform_vec2(program, "pixel", 2.0 / water->width, 2.0 / water->height);
     sb_uniform_texture(program, "source", 0, water->surface[0]);
     sb_uniform_texture(program, "colors", 1, water->colors);
     sb_fullscreen_draw(water->empty);
