@@ -1,0 +1,25 @@
+/* The tables of a run: one row per item and instant, appended and flushed at each interval, so that
+   a stopped run leaves whole files. In 2D the columns of extensive quantities end in _per_m. */
+#ifndef SB_OUTPUT_CSV_H
+#define SB_OUTPUT_CSV_H
+
+#include "base/status.h"
+#include "geometry/model.h"
+#include "measure/records.h"
+#include "scene/scene.h"
+
+typedef struct sb_csv sb_csv;
+
+/* Starts forces.csv, gauges.csv, probes.csv, energy.csv and, when the scene has planes or lines,
+   overtopping.csv and runup.csv in the directory (which exists). scene and model must outlive it.
+   SB_FAILED names the file and the system's reason. */
+sb_status sb_csv_open(const char *directory, const sb_scene *scene, const sb_model *model,
+                      sb_csv **csv, sb_error *error);
+
+/* Appends the rows; flushes when there were any. SB_FAILED when the disk refuses. */
+sb_status sb_csv_write(sb_csv *csv, const sb_measure_records *records, sb_error *error);
+
+/* Closes all files and frees; a late write error is SB_FAILED. NULL is fine. */
+sb_status sb_csv_close(sb_csv *csv, sb_error *error);
+
+#endif

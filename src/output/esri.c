@@ -1,0 +1,43 @@
+#include "output/esri.h"
+
+#include "base/file.h"
+
+sb_status sb_esri_write(const char *path, const sb_map_record *map, const float *values,
+                        sb_error *error)
+{
+    sb_atomic_file out;
+    sb_status status = sb_atomic_open(&out, path, error);
+    if (status != SB_OK) return status;
+    fprintf(out.stream,
+            "ncols %zu\nnrows %zu\nxllcorner %.12g\nyllcorner %.12g\ncellsize %.12g\n"
+            "NODATA_value -9999\n",
+            map->columns, map->rows, map->x_min, map->y_min, map->cell);
+    for (size_t row = map->rows; row-- > 0;) /* the northernmost row comes first */
+        for (size_t i = 0; i < map->columns; i++) {
+            double value = (double)values[row * map->columns + i];
+            fprintf(out.stream, "%.6g%c", isnan(value) ? -9999.0 : value,
+                    i + 1 < map->columns ? ' ' : '\n');
+        }
+    return sb_atomic_commit(&out, 0, error);
+}
+
+sb_status sb_maps_write(const char *directory, const sb_map_record *map, sb_error *error)
+{
+    const struct {
+        const char *name;
+        const float *values;
+    } files[] = {
+        {"maps/max_depth.asc", map->depth},
+        {"maps/max_speed.asc", map->speed},
+        {"maps/max_momentum_flux.asc", map->flux},
+        {"maps/arrival_time.asc", map->arrival},
+    };
+    char path[SB_PATH_MAX];
+    sb_status status = sb_path_join(path, directory, "maps", error);
+    if (status == SB_OK) status = sb_make_directories(path, error);
+    for (size_t i = 0; status == SB_OK && i < sizeof files / sizeof *files; i++) {
+        status = sb_path_join(path, directory, files[i].name, error);
+        if (status == SB_OK) status = sb_esri_write(path, map, files[i].values, error);
+    }
+    return status;
+}

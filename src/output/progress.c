@@ -1,0 +1,86 @@
+#include "output/progress.h"
+
+#include "base/clock.h"
+
+#include <math.h>
+#include <unistd.h>
+
+void sb_progress_duration(char out[32], double seconds)
+{
+    if (!isfinite(seconds) || seconds < 0 || seconds > 1e7) {
+        snprintf(out, 32, "?");
+        return;
+    }
+    long s = lround(seconds);
+    if (s >= 3600)
+        snprintf(out, 32, "%ldh %02ldm", s / 3600, s / 60 % 60);
+    else if (s >= 60)
+        snprintf(out, 32, "%ldm %02lds", s / 60, s % 60);
+    else
+        snprintf(out, 32, "%lds", s);
+}
+
+void sb_progress_begin(sb_progress *progress, FILE *stream, double duration)
+{
+    double now = sb_clock();
+    *progress = (sb_progress){.stream = stream, .duration = duration, .started = now, .shown = now};
+    progress->terminal = stream && isatty(fileno(stream));
+    progress->mark_wall[0] = progress->mark_wall[1] = now;
+}
+
+double sb_progress_wall(const sb_progress *progress)
+{
+    return sb_clock() - progress->started;
+}
+
+double sb_progress_eta(const sb_progress *progress)
+{
+    return progress->eta;
+}
+
+/* The speed of the last 15 to 30 s: a wave ashore runs slower than a calm sea. */
+static void estimate(sb_progress *progress, double now, double time)
+{
+    enum { WINDOW = 15 };
+    if (now - progress->mark_wall[1] > WINDOW) {
+        progress->mark_wall[0] = progress->mark_wall[1];
+        progress->mark_time[0] = progress->mark_time[1];
+        progress->mark_wall[1] = now;
+        progress->mark_time[1] = time;
+    }
+    double advanced = time - progress->mark_time[0], left = progress->duration - time;
+    progress->eta = advanced > 0 && left > 0 ? left * (now - progress->mark_wall[0]) / advanced : 0;
+}
+
+static void print(sb_progress *progress, const sb_step_report *report)
+{
+    char eta[32], wall[32];
+    sb_progress_duration(eta, progress->eta);
+    sb_progress_duration(wall, sb_progress_wall(progress));
+    double percent = progress->duration > 0 ? 100 * report->time / progress->duration : 100;
+    fprintf(progress->stream,
+            "%s%5.1f %%  t %.3f s  dt %.4f s  %d iterations  %.1f m/s  %s so far, %s left%s",
+            progress->terminal ? "\r" : "", percent < 100 ? percent : 100, report->time,
+            report->time_step, report->iterations, report->max_speed, wall, eta,
+            progress->terminal ? "\033[K" : "\n");
+    fflush(progress->stream);
+    progress->open = progress->terminal;
+}
+
+void sb_progress_update(sb_progress *progress, const sb_step_report *report)
+{
+    double now = sb_clock();
+    estimate(progress, now, report->time);
+    if (!progress->stream || now - progress->shown < (progress->terminal ? 0.2 : 10.0)) return;
+    progress->shown = now;
+    print(progress, report);
+}
+
+void sb_progress_end(sb_progress *progress, const sb_step_report *report)
+{
+    if (!progress->stream) return;
+    print(progress, report);
+    if (progress->open) fputc('\n', progress->stream);
+    progress->open = false;
+    fflush(progress->stream);
+}

@@ -1,0 +1,37 @@
+/* How far a run is and when it will end: one rewritten line on a terminal, plain lines elsewhere.
+ */
+#ifndef SB_OUTPUT_PROGRESS_H
+#define SB_OUTPUT_PROGRESS_H
+
+#include "sim/sim.h"
+
+#include <stdio.h>
+
+/* Filled by sb_progress_begin; read nothing but through the functions. */
+typedef struct sb_progress {
+    FILE *stream;        /* NULL: quiet */
+    bool terminal, open; /* open: an unfinished line is on the terminal */
+    double duration;     /* s simulated in all */
+    double started, shown;
+    double mark_wall[2], mark_time[2]; /* an older and a newer point, to tell the recent speed */
+    double eta;
+} sb_progress;
+
+/* stream NULL: quiet, only the ETA is kept. Lines come every 0.2 s on a terminal,
+   every 10 s elsewhere. */
+void sb_progress_begin(sb_progress *progress, FILE *stream, double duration);
+
+/* Call after each step; prints when it is time to. */
+void sb_progress_update(sb_progress *progress, const sb_step_report *report);
+
+/* Seconds of wall time since the start, and estimated to the end (0 when unknown). */
+double sb_progress_wall(const sb_progress *progress);
+double sb_progress_eta(const sb_progress *progress);
+
+/* Prints the last state and ends the line. Also before any other message on a terminal. */
+void sb_progress_end(sb_progress *progress, const sb_step_report *report);
+
+/* "1h 02m", "3m 05s", "12s" into out. */
+void sb_progress_duration(char out[32], double seconds);
+
+#endif

@@ -1,0 +1,235 @@
+#include "output/runlog.h"
+
+#include "base/clock.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "output/json.h"
+
+#include <errno.h>
+#include <pthread.h>
+#include <stdarg.h>
+#include <string.h>
+
+struct sb_runlog {
+    FILE *stream;
+    char path[SB_PATH_MAX];
+    double opened;
+    int reason; /* errno of the first failure, 0: none */
+    pthread_mutex_t mutex;
+};
+
+sb_status sb_runlog_open(const char *path, sb_runlog **log, sb_error *error)
+{
+    sb_runlog *made = sb_alloc(1, sizeof *made);
+    if (!made) return sb_fail_memory(error, path);
+    snprintf(made->path, sizeof made->path, "%s", path);
+    made->stream = fopen(path, "w");
+    if (!made->stream) {
+        sb_free(made);
+        return sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", path, strerror(errno));
+    }
+    made->opened = sb_clock();
+    pthread_mutex_init(&made->mutex, NULL);
+    *log = made;
+    return SB_OK;
+}
+
+static sb_status verdict(const sb_runlog *log, sb_error *error)
+{
+    return log->reason ? sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", log->path,
+                                 strerror(log->reason))
+                       : SB_OK;
+}
+
+sb_status sb_runlog_check(sb_runlog *log, sb_error *error)
+{
+    if (!log) return SB_OK;
+    pthread_mutex_lock(&log->mutex);
+    sb_status status = verdict(log, error);
+    pthread_mutex_unlock(&log->mutex);
+    return status;
+}
+
+sb_status sb_runlog_close(sb_runlog *log, sb_error *error)
+{
+    if (!log) return SB_OK;
+    if (fclose(log->stream) != 0 && !log->reason) log->reason = errno;
+    sb_status status = verdict(log, error);
+    pthread_mutex_destroy(&log->mutex);
+    sb_free(log);
+    return status;
+}
+
+/* Between begin and end the log is locked and *json stands inside the line's object. */
+static void begin(sb_runlog *log, sb_json *json, const char *event)
+{
+    pthread_mutex_lock(&log->mutex);
+    errno = 0;
+    sb_json_begin(json, log->stream, false);
+    sb_json_open(json, NULL, '{');
+    sb_json_text(json, "event", event);
+    sb_json_number(json, "wall_s", sb_clock() - log->opened);
+}
+
+static void end(sb_runlog *log, sb_json *json)
+{
+    sb_json_close(json);
+    if ((fflush(log->stream) != 0 || ferror(log->stream)) && !log->reason)
+        log->reason = errno ? errno : EIO;
+    pthread_mutex_unlock(&log->mutex);
+}
+
+static void put_numerics(sb_json *json, const sb_numerics *n)
+{
+    static const char *const solvers[] = {"jacobi", "chebyshev", "cg"};
+    sb_json_open(json, "numerics", '{');
+    sb_json_text(json, "preset", n->preset == SB_PRESET_PAPER ? "paper" : "default");
+    sb_json_text(json, "kernel", n->kernel ? n->kernel->name : NULL);
+    sb_json_number(json, "support", n->support);
+    sb_json_text(json, "solver", solvers[n->solver]);
+    sb_json_text(json, "tolerance_rule",
+                 n->tolerance_rule == SB_TOLERANCE_DENSITY ? "density" : "pressure");
+    sb_json_number(json, "tolerance", n->tolerance);
+    sb_json_count(json, "min_iterations", (uint64_t)n->min_iterations);
+    sb_json_count(json, "max_iterations", (uint64_t)n->max_iterations);
+    sb_json_number(json, "relaxation", n->relaxation);
+    sb_json_number(json, "warm_start", n->warm_start);
+    sb_json_number(json, "source_relaxation", n->source_relaxation);
+    sb_json_number(json, "cfl", n->cfl);
+    sb_json_text(json, "time_step_rule",
+                 n->time_step_rule == SB_TIME_STEP_PAPER ? "paper" : "depth");
+    sb_json_number(json, "time_step_factor", n->time_step_factor);
+    sb_json_number(json, "time_step_max", n->time_step_max);
+    sb_json_number(json, "artificial_viscosity", n->artificial_viscosity);
+    sb_json_number(json, "wall_friction", n->wall_friction);
+    sb_json_number(json, "sound_speed", n->sound_speed);
+    sb_json_number(json, "wall_gamma", n->wall_gamma);
+    sb_json_number(json, "wall_offset", n->wall_offset);
+    sb_json_number(json, "jitter", n->jitter);
+    sb_json_count(json, "seed", n->seed);
+    sb_json_close(json);
+}
+
+void sb_runlog_start(sb_runlog *log, const sb_scene *scene, const sb_model *model, int threads,
+                     size_t bytes)
+{
+    if (!log) return;
+    sb_json json;
+    begin(log, &json, "start");
+    sb_json_text(&json, "version", SB_VERSION);
+    sb_json_text(&json, "scene", scene->path);
+    sb_json_text(&json, "title", scene->title);
+    sb_json_count(&json, "dimensions", (uint64_t)scene->dimensions);
+    sb_json_number(&json, "resolution", scene->resolution);
+    sb_json_number(&json, "duration", scene->duration);
+    sb_json_count(&json, "threads", (uint64_t)threads);
+    sb_json_count(&json, "fluid_particles", model->fluid_count);
+    sb_json_count(&json, "boundary_particles", model->wall_count);
+    sb_json_number(&json, "still_depth", model->still_depth);
+    sb_json_count(&json, "bytes", bytes);
+    put_numerics(&json, &scene->numerics);
+    sb_json_open(&json, "warnings", '[');
+    for (size_t i = 0; i < model->warning_count; i++) sb_json_text(&json, NULL, model->warnings[i]);
+    sb_json_close(&json);
+    end(log, &json);
+}
+
+static void put_line(sb_runlog *log, const char *event, const char *text)
+{
+    sb_json json;
+    begin(log, &json, event);
+    sb_json_text(&json, "text", text);
+    end(log, &json);
+}
+
+void sb_runlog_skipped(sb_runlog *log, const char *const *lines)
+{
+    for (; log && *lines; lines++) put_line(log, "skipped", *lines);
+}
+
+static void put_formatted(sb_runlog *log, const char *event, const char *format, va_list arguments)
+    __attribute__((format(printf, 3, 0)));
+
+static void put_formatted(sb_runlog *log, const char *event, const char *format, va_list arguments)
+{
+    char text[2048];
+    if (!log) return;
+    vsnprintf(text, sizeof text, format, arguments);
+    put_line(log, event, text);
+}
+
+void sb_runlog_warning(sb_runlog *log, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    put_formatted(log, "warning", format, arguments);
+    va_end(arguments);
+}
+
+void sb_runlog_event(sb_runlog *log, const char *event, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    put_formatted(log, event, format, arguments);
+    va_end(arguments);
+}
+
+void sb_runlog_step(sb_runlog *log, const sb_runlog_state *state)
+{
+    if (!log) return;
+    const sb_step_report *report = state->report;
+    sb_json json;
+    begin(log, &json, "step");
+    sb_json_count(&json, "step", report->step);
+    sb_json_number(&json, "time_s", report->time);
+    sb_json_number(&json, "dt_s", report->time_step);
+    sb_json_count(&json, "iterations", (uint64_t)report->iterations);
+    sb_json_bool(&json, "capped", report->capped);
+    sb_json_number(&json, "tolerance", report->tolerance);
+    sb_json_number(&json, "error_mean", report->error_mean);
+    sb_json_number(&json, "error_active", report->error_active);
+    sb_json_number(&json, "error_max", report->error_max);
+    sb_json_number(&json, "max_speed_m_s", report->max_speed);
+    sb_json_count(&json, "fluid_particles", report->fluid_count);
+    sb_json_count(&json, "left_domain", report->left_domain);
+    sb_json_count(&json, "lost", report->lost);
+    if (state->energy) {
+        sb_json_number(&json, "kinetic_J", state->energy->kinetic);
+        sb_json_number(&json, "potential_J", state->energy->potential);
+    }
+    if (state->stage_count) {
+        sb_json_open(&json, "stages_s", '{');
+        for (size_t i = 0; i < state->stage_count; i++)
+            sb_json_number(&json, state->stages[i].name, state->stages[i].seconds);
+        sb_json_close(&json);
+    }
+    if (state->has_hash) sb_json_hash(&json, "state_hash", state->hash);
+    end(log, &json);
+}
+
+void sb_runlog_bodies(sb_runlog *log, const sb_model *model, const sb_body_record *bodies)
+{
+    for (size_t b = 0; log && b < model->body_count; b++) {
+        if (!bodies[b].report || isnan(bodies[b].layers)) continue;
+        sb_json json;
+        begin(log, &json, "body");
+        sb_json_text(&json, "body", model->bodies[b].name);
+        sb_json_number(&json, "flow_layers", bodies[b].layers);
+        sb_json_bool(&json, "too_coarse",
+                     bodies[b].layers > 0 && bodies[b].layers < SB_LAYERS_TRUSTED);
+        end(log, &json);
+    }
+}
+
+void sb_runlog_end(sb_runlog *log, sb_status status, const char *reason)
+{
+    if (!log) return;
+    sb_json json;
+    begin(log, &json, "end");
+    sb_json_text(&json, "status",
+                 status == SB_OK            ? "done"
+                 : status == SB_INTERRUPTED ? "interrupted"
+                                            : "failed");
+    if (reason && *reason) sb_json_text(&json, "text", reason);
+    end(log, &json);
+}

@@ -1,0 +1,102 @@
+#include "output/summary.h"
+
+#include "base/file.h"
+#include "base/memory.h"
+#include "output/json.h"
+
+static double ratio(double a, double b)
+{
+    return b > 0 ? a / b : 0;
+}
+
+static void put_bodies(sb_json *json, const sb_summary *summary)
+{
+    sb_json_open(json, "bodies", '[');
+    for (size_t b = 0; summary->bodies && b < summary->model->body_count; b++) {
+        const sb_body_record *body = &summary->bodies[b];
+        if (!body->report) continue;
+        sb_json_open(json, NULL, '{');
+        sb_json_text(json, "name", summary->model->bodies[b].name);
+        sb_json_number(json, "peak_N", body->peak);
+        sb_json_number(json, "peak_time_s", body->peak_time);
+        sb_json_number(json, "impulse_Ns", sb_norm(body->impulse));
+        sb_json_vector(json, "impulse_vector_Ns", body->impulse);
+        sb_json_vector(json, "moment_impulse_Nms", body->moment);
+        sb_json_vector(json, "moment_point_m", summary->model->bodies[b].moment_point);
+        sb_json_number(json, "flow_layers", body->layers);
+        sb_json_bool(json, "too_coarse", body->layers > 0 && body->layers < SB_LAYERS_TRUSTED);
+        sb_json_close(json);
+    }
+    sb_json_close(json);
+}
+
+static void put_energy(sb_json *json, const char *key, const sb_energy *energy)
+{
+    sb_json_open(json, key, '{');
+    sb_json_number(json, "kinetic_J", energy->kinetic);
+    sb_json_number(json, "potential_J", energy->potential);
+    sb_json_number(json, "mass_kg", energy->mass);
+    sb_json_vector(json, "momentum_kg_m_s", energy->momentum);
+    sb_json_close(json);
+}
+
+static void put_stages(sb_json *json, const sb_summary *summary)
+{
+    sb_json_open(json, "stages", '[');
+    for (size_t i = 0; i < summary->stage_count; i++) {
+        sb_json_open(json, NULL, '{');
+        sb_json_text(json, "name", summary->stages[i].name);
+        sb_json_number(json, "seconds", summary->stages[i].seconds);
+        sb_json_count(json, "calls", summary->stages[i].calls);
+        sb_json_close(json);
+    }
+    sb_json_close(json);
+}
+
+static void put_all(sb_json *json, const sb_summary *s)
+{
+    sb_json_open(json, NULL, '{');
+    sb_json_text(json, "version", SB_VERSION);
+    sb_json_text(json, "preset",
+                 s->scene->numerics.preset == SB_PRESET_PAPER ? "paper" : "default");
+    sb_json_text(json, "title", s->scene->title);
+    sb_json_text(json, "status",
+                 s->status == SB_OK            ? "done"
+                 : s->status == SB_INTERRUPTED ? "interrupted"
+                                               : "failed");
+    if (s->reason) sb_json_text(json, "reason", s->reason);
+    sb_json_number(json, "wall_s", s->wall);
+    sb_json_number(json, "simulated_s", s->simulated);
+    sb_json_count(json, "steps", s->steps);
+    sb_json_count(json, "threads", (uint64_t)s->threads);
+    sb_json_count(json, "dimensions", (uint64_t)s->scene->dimensions);
+    sb_json_bool(json, "per_metre", s->scene->dimensions == 2);
+    sb_json_number(json, "resolution_m", s->scene->resolution);
+    sb_json_count(json, "fluid_particles", s->fluid_particles);
+    sb_json_count(json, "boundary_particles", s->model->wall_count);
+    sb_json_number(json, "mean_iterations", ratio((double)s->iterations, (double)s->steps));
+    sb_json_count(json, "capped_steps", s->capped_steps);
+    sb_json_number(json, "bytes_per_particle", ratio((double)s->bytes, (double)s->fluid_particles));
+    sb_json_count(json, "peak_memory_bytes", sb_memory_peak());
+    sb_json_count(json, "lost_particles", s->lost);
+    sb_json_count(json, "left_domain", s->left_domain);
+    sb_json_count(json, "particle_files", s->frames);
+    sb_json_count(json, "pictures", s->pictures);
+    sb_json_hash(json, "state_hash", s->hash);
+    put_bodies(json, s);
+    put_energy(json, "energy_start", &s->first);
+    put_energy(json, "energy_end", &s->last);
+    put_stages(json, s);
+    sb_json_close(json);
+}
+
+sb_status sb_summary_write(const char *path, const sb_summary *summary, sb_error *error)
+{
+    sb_atomic_file out;
+    sb_status status = sb_atomic_open(&out, path, error);
+    if (status != SB_OK) return status;
+    sb_json json;
+    sb_json_begin(&json, out.stream, true);
+    put_all(&json, summary);
+    return sb_atomic_commit(&out, 1, error);
+}

@@ -1,0 +1,35 @@
+/* summary.json: one run in one object. */
+#ifndef SB_OUTPUT_SUMMARY_H
+#define SB_OUTPUT_SUMMARY_H
+
+#include "geometry/model.h"
+#include "measure/records.h"
+#include "scene/scene.h"
+#include "sim/sim.h"
+
+/* Zero or NULL where a run never came that far. Pointers are read during the call only. */
+typedef struct sb_summary {
+    const sb_scene *scene;
+    const sb_model *model;
+    sb_status status;           /* how the run ended */
+    const char *reason;         /* NULL unless it failed */
+    double wall, simulated;     /* s */
+    uint64_t steps, iterations; /* iterations: sum over all steps */
+    uint64_t capped_steps;      /* pressure solves that stopped above their tolerance */
+    size_t fluid_particles;     /* at the start */
+    size_t bytes;               /* heap bytes of the simulation */
+    uint64_t lost, left_domain; /* through walls; through open sides */
+    int threads;
+    const sb_body_record *bodies; /* one per body of the model; NULL: none */
+    sb_energy first, last;        /* energies at the start and at the end */
+    const sb_stage_time *stages;
+    size_t stage_count;
+    uint64_t hash;             /* of the final state */
+    uint64_t frames, pictures; /* particle files and pictures written */
+} sb_summary;
+
+/* Writes the file whole or not at all. In 2D forces, impulses and energies are per metre of width
+   and "per_metre" is true. */
+sb_status sb_summary_write(const char *path, const sb_summary *summary, sb_error *error);
+
+#endif

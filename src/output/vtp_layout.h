@@ -1,0 +1,23 @@
+/* What writer and reader of particle files agree on. Inside src/output. */
+#ifndef SB_OUTPUT_VTP_LAYOUT_H
+#define SB_OUTPUT_VTP_LAYOUT_H
+
+/* The "status" field, in order. */
+enum {
+    SB_VTP_STEP,
+    SB_VTP_TIME,
+    SB_VTP_DURATION,
+    SB_VTP_TIME_STEP,
+    SB_VTP_ITERATIONS,
+    SB_VTP_DENSITY_ERROR,
+    SB_VTP_MAX_SPEED,
+    SB_VTP_WALL,
+    SB_VTP_ETA,
+    SB_VTP_LOST,
+    SB_VTP_INDEX,
+    SB_VTP_STATUS_COUNT
+};
+
+#define SB_VTP_APPENDED "<AppendedData encoding=\"raw\">\n_"
+
+#endif

@@ -1,0 +1,147 @@
+/* The tables: headers to the byte, rows, gaps, names that need quoting, full disks. */
+#include "output/csv.h"
+
+#include "folder.h"
+#include "output/series.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include <cmocka.h>
+
+static sb_model_body bodies[2] = {{.name = "reactor1", .report = true},
+                                  {.name = "a \"b\", c", .report = true}};
+static sb_gauge gauges[1] = {{"offshore", 1, 2}};
+static sb_probe probes[1] = {{"inlet", {0, 0, 0}, 0}};
+static sb_flow_plane planes[1] = {{"quay", 0, 0, 0, 1, 0, 1}};
+static sb_runup_line lines[1] = {{"beach", 0, 0, 1, 0}};
+
+static sb_scene make_scene(int dimensions, bool all)
+{
+    sb_scene scene = {.dimensions = dimensions};
+    scene.measure = (sb_measure_settings){.interval = 0.1,
+                                          .gauge_count = 1,
+                                          .gauges = gauges,
+                                          .probe_count = 1,
+                                          .probes = probes,
+                                          .plane_count = all,
+                                          .planes = planes,
+                                          .runup_count = all,
+                                          .runups = lines};
+    return scene;
+}
+
+static const sb_model model = {.body_count = 2, .bodies = bodies};
+
+static void expect(const char *name, const char *text)
+{
+    char *found = text_of(name);
+    assert_non_null(found);
+    assert_string_equal(found, text);
+    sb_free(found);
+}
+
+static void headers_are_the_contract(void **state)
+{
+    (void)state;
+    sb_scene scene = make_scene(3, true);
+    sb_csv *csv;
+    assert_int_equal(sb_csv_open(folder, &scene, &model, &csv, NULL), SB_OK);
+    /* Not closed yet: a stopped run has them too. */
+    expect("forces.csv", "time_s,body,Fx_N,Fy_N,Fz_N,Mx_Nm,My_Nm,Mz_Nm,Fx_pressure_N,Fy_pressure_N,"
+                         "Fz_pressure_N,Fx_friction_N,Fy_friction_N,Fz_friction_N\n");
+    expect("gauges.csv", "time_s,gauge,eta_m\n");
+    expect("probes.csv", "time_s,probe,u_m_s,v_m_s,w_m_s,p_Pa\n");
+    expect("overtopping.csv", "time_s,plane,volume_m3,flux_m3_s\n");
+    expect("runup.csv", "time_s,line,x_m,y_m,z_m\n");
+    expect("energy.csv", "time_s,kinetic_J,potential_J,mass_kg,momentum_x_kg_m_s,"
+                         "momentum_y_kg_m_s,momentum_z_kg_m_s\n");
+    assert_int_equal(sb_csv_close(csv, NULL), SB_OK);
+    scene = make_scene(2, false);
+    unlink(in_folder("runup.csv"));
+    assert_int_equal(sb_csv_open(folder, &scene, &model, &csv, NULL), SB_OK);
+    assert_int_equal(sb_csv_close(csv, NULL), SB_OK);
+    expect("forces.csv",
+           "time_s,body,Fx_N_per_m,Fy_N_per_m,Fz_N_per_m,Mx_Nm_per_m,My_Nm_per_m,Mz_Nm_per_m,"
+           "Fx_pressure_N_per_m,Fy_pressure_N_per_m,Fz_pressure_N_per_m,Fx_friction_N_per_m,"
+           "Fy_friction_N_per_m,Fz_friction_N_per_m\n");
+    assert_true(access(in_folder("runup.csv"), F_OK) != 0);
+}
+
+static void rows_are_there_at_once(void **state)
+{
+    (void)state;
+    sb_scene scene = make_scene(3, true);
+    sb_csv *csv;
+    double nan = (double)NAN;
+    const sb_force_record forces[] = {
+        {0, 0.1, {1, 2, 3}, {4, 5, 6}, {1.5, 2, 3}, {-0.5, 0, -0.0}},
+        {1, 0.1, {1e9 / 3, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}},
+    };
+    const sb_gauge_record levels[] = {{0, 0, 1.25}, {0, 0.1, nan}};
+    const sb_probe_record points[] = {{0, 0.1, {1, 0, -2}, 9810}, {0, 0.2, {nan, nan, nan}, nan}};
+    const sb_flow_record flows[] = {{0, 0.1, 12.5, 3}};
+    const sb_runup_record runups[] = {{0, 0.1, {1, 2, 3}}};
+    const sb_energy_record energies[] = {{0.10123, 5, 6, 7, {8, 9, 10}}};
+    const sb_measure_records records = {2,      2,      2,      1,     1,      1,
+                                        forces, levels, points, flows, runups, energies};
+    assert_int_equal(sb_csv_open(folder, &scene, &model, &csv, NULL), SB_OK);
+    assert_int_equal(sb_csv_write(csv, &records, NULL), SB_OK);
+    char *text = text_of("forces.csv"); /* before closing */
+    assert_string_equal(strchr(text, '\n') + 1,
+                        "0.1,reactor1,1,2,3,4,5,6,1.5,2,3,-0.5,0,0\n"
+                        "0.1,\"a \"\"b\"\", c\",333333333,0,0,0,0,0,0,0,0,0,0,0\n");
+    sb_free(text);
+    expect("gauges.csv", "time_s,gauge,eta_m\n0,offshore,1.25\n0.1,offshore,\n");
+    expect("probes.csv", "time_s,probe,u_m_s,v_m_s,w_m_s,p_Pa\n0.1,inlet,1,0,-2,9810\n"
+                         "0.2,inlet,,,,\n");
+    expect("overtopping.csv", "time_s,plane,volume_m3,flux_m3_s\n0.1,quay,12.5,3\n");
+    expect("runup.csv", "time_s,line,x_m,y_m,z_m\n0.1,beach,1,2,3\n");
+    text = text_of("energy.csv");
+    assert_string_equal(strchr(text, '\n') + 1, "0.10123,5,6,7,8,9,10\n");
+    sb_free(text);
+    assert_int_equal(sb_csv_close(csv, NULL), SB_OK);
+}
+
+static void tables_read_back_as_series(void **state)
+{
+    (void)state;
+    sb_series series;
+    assert_int_equal(sb_series_read(in_folder("forces.csv"), true, &series, NULL), SB_OK);
+    assert_int_equal(series.name_count, 2);
+    assert_string_equal(series.names[1], "a \"b\", c");
+    assert_int_equal(series.row_count, 2);
+    assert_true(series.rows[0].values[7] == 6 && series.rows[1].values[2] == 333333333);
+    sb_series_free(&series);
+    assert_int_equal(sb_series_read(in_folder("gauges.csv"), true, &series, NULL), SB_OK);
+    assert_true(isnan(series.rows[1].values[2]));
+    sb_series_free(&series);
+}
+
+static void a_full_disk_is_a_failed_run(void **state)
+{
+    (void)state;
+    if (access("/dev/full", W_OK) != 0) skip();
+    sb_scene scene = make_scene(3, false);
+    sb_csv *csv = NULL;
+    sb_error error = {0};
+    assert_int_equal(symlink("/dev/full", in_folder("gauges-full")), 0);
+    assert_int_equal(rename(in_folder("gauges-full"), in_folder("gauges.csv")), 0);
+    assert_int_equal(sb_csv_open(folder, &scene, &model, &csv, &error), SB_FAILED);
+    assert_non_null(strstr(error.text, "gauges.csv"));
+    assert_non_null(strstr(error.text, "No space left"));
+    unlink(in_folder("gauges.csv"));
+    assert_int_equal(sb_csv_open("/nonexistent/folder", &scene, &model, &csv, &error), SB_FAILED);
+    assert_non_null(strstr(error.text, "/nonexistent/folder"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(headers_are_the_contract),
+        cmocka_unit_test(rows_are_there_at_once),
+        cmocka_unit_test(tables_read_back_as_series),
+        cmocka_unit_test(a_full_disk_is_a_failed_run),
+    };
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+}

@@ -1,0 +1,183 @@
+/* Plots from made-up tables, and films, where the programs for them are there. */
+#include "output/csv.h"
+#include "output/esri.h"
+#include "output/plots.h"
+#include "output/tool.h"
+#include "output/video.h"
+
+#include "folder.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <sys/stat.h>
+
+#include <cmocka.h>
+
+enum { BODIES = 14 };
+
+static sb_model_body bodies[BODIES];
+static sb_gauge gauges[2] = {{"offshore", 1, 2}, {"it's \"near\", 5 % off", 3, 4}};
+static sb_probe probes[1] = {{"inlet", {0, 0, 0}, 0}};
+static sb_scene scene = {
+    .dimensions = 3,
+    .title = (char *)"Plant's wave \"`touch /tmp/x`\" $(id)",
+    .measure = {
+        .interval = 0.1, .gauge_count = 2, .gauges = gauges, .probe_count = 1, .probes = probes}};
+
+static void write_tables(void)
+{
+    sb_model model = {.body_count = BODIES, .bodies = bodies};
+    for (int b = 0; b < BODIES; b++) {
+        snprintf(bodies[b].name, sizeof bodies[b].name, "reactor_%d", b + 1);
+        bodies[b].report = true;
+    }
+    sb_csv *csv;
+    assert_int_equal(sb_csv_open(folder, &scene, &model, &csv, NULL), SB_OK);
+    for (int k = 0; k <= 900; k++) {
+        double t = 0.1 * k;
+        sb_force_record forces[BODIES];
+        for (int b = 0; b < BODIES; b++) {
+            double size = 1e7 * (b + 1) / (1 + 0.02 * pow(t - 40 - 2 * b, 2));
+            sb_vec3 f = sb_vec(size, 0.2 * size * sin(t), -0.3 * size);
+            forces[b] = (sb_force_record){(size_t)b, t, f, sb_vec(0, 0, 0), f, sb_vec(0, 0, 0)};
+        }
+        const sb_gauge_record levels[] = {
+            {0, t, 25 / pow(cosh((t - 30) / 6), 2)},
+            {1, t, t < 35 || t > 70 ? (double)NAN : 9 * exp(-(t - 35) / 12)}};
+        const sb_probe_record point = {0, t, {10 * sin(t / 9), 1, 0}, 1e5 * (1 + sin(t / 5))};
+        const sb_energy_record energy = {
+            t, 3e11 * exp(-pow(t / 30 - 1, 2)), 5e13 + 1e11 * sin(t / 15), 1.8e10, {0, 0, 0}};
+        const sb_measure_records records = {.force_count = BODIES,
+                                            .forces = forces,
+                                            .gauge_count = 2,
+                                            .gauges = levels,
+                                            .probe_count = 1,
+                                            .probes = &point,
+                                            .energy_count = 1,
+                                            .energies = &energy};
+        assert_int_equal(sb_csv_write(csv, &records, NULL), SB_OK);
+    }
+    assert_int_equal(sb_csv_close(csv, NULL), SB_OK);
+}
+
+static void write_maps(void)
+{
+    enum { COLUMNS = 130, ROWS = 115 };
+    static float values[COLUMNS * ROWS];
+    for (int j = 0; j < ROWS; j++)
+        for (int i = 0; i < COLUMNS; i++)
+            values[j * COLUMNS + i] = i > 100 + j / 10 ? NAN : (float)(38 - 0.3 * i + 0.05 * j);
+    const sb_map_record map = {COLUMNS, ROWS, 0, -575, 10, values, values, values, values};
+    assert_int_equal(sb_maps_write(folder, &map, NULL), SB_OK);
+}
+
+static bool is_png(const char *name)
+{
+    unsigned char start[8] = {0};
+    FILE *stream = fopen(in_folder(name), "rb");
+    if (!stream) return false;
+    size_t got = fread(start, 1, sizeof start, stream);
+    struct stat status;
+    bool large = fstat(fileno(stream), &status) == 0 && status.st_size > 5000;
+    fclose(stream);
+    return got == 8 && large && memcmp(start, "\x89PNG\r\n\x1a\n", 8) == 0;
+}
+
+static void pictures_are_drawn(void **state)
+{
+    (void)state;
+    char program[SB_PATH_MAX];
+    if (!sb_tool_find("gnuplot", program)) skip();
+    write_tables();
+    write_maps();
+    sb_runlog *log;
+    assert_int_equal(sb_runlog_open(in_folder("run.jsonl"), &log, NULL), SB_OK);
+    int drawn = sb_plots_write(folder, &scene, log);
+    assert_int_equal(sb_runlog_close(log, NULL), SB_OK);
+    char *text = text_of("run.jsonl");
+    if (strstr(text, "warning")) fail_msg("%s", text);
+    sb_free(text);
+    assert_int_equal(drawn, 8);
+    const char *const names[] = {"plots/forces.png", "plots/gauges.png",   "plots/probes.png",
+                                 "plots/energy.png", "maps/max_depth.png", "maps/arrival_time.png"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) assert_true(is_png(names[i]));
+    assert_true(access(in_folder("plots/forces.gp"), F_OK) != 0);
+    assert_true(access(in_folder("plots/forces.dat"), F_OK) != 0);
+}
+
+static void absent_programs_are_said(void **state)
+{
+    (void)state;
+    char *path = sb_strdup(getenv("PATH"));
+    sb_runlog *log;
+    assert_int_equal(sb_runlog_open(in_folder("absent.jsonl"), &log, NULL), SB_OK);
+    setenv("PATH", "/nonexistent", 1);
+    assert_int_equal(sb_plots_write(folder, &scene, log), 0);
+    assert_false(sb_video_write(folder, "beach", 30, log));
+    setenv("PATH", path, 1);
+    sb_free(path);
+    assert_int_equal(sb_runlog_close(log, NULL), SB_OK);
+    char *text = text_of("absent.jsonl");
+    assert_non_null(strstr(text, "gnuplot is not there"));
+    assert_non_null(strstr(text, "ffmpeg is not there"));
+    assert_null(strstr(text, "warning"));
+    sb_free(text);
+}
+
+static void failing_programs_are_told(void **state)
+{
+    (void)state;
+    sb_error error = {0};
+    char *const arguments[] = {"sh", "-c", "echo first; echo the reason >&2; exit 3", NULL};
+    assert_int_equal(sb_tool_run("/bin/sh", arguments, folder, &error), SB_FAILED);
+    assert_non_null(strstr(error.text, "status 3: the reason"));
+    char *const good[] = {"sh", "-c", "test \"$(pwd -P)\" = \"$(cd . && pwd -P)\" && touch here",
+                          NULL};
+    assert_int_equal(sb_tool_run("/bin/sh", good, folder, &error), SB_OK);
+    assert_int_equal(access(in_folder("here"), F_OK), 0);
+    assert_int_equal(sb_tool_run("/nonexistent", good, folder, &error), SB_FAILED);
+}
+
+/* A picture from gnuplot, three times, is enough of a film; odd sides and a strange name. */
+static void films_are_joined(void **state)
+{
+    (void)state;
+    char gnuplot[SB_PATH_MAX], ffmpeg[SB_PATH_MAX];
+    if (!sb_tool_find("gnuplot", gnuplot) || !sb_tool_find("ffmpeg", ffmpeg)) skip();
+    assert_int_equal(sb_make_directories(in_folder("frames/50% 'off'"), NULL), SB_OK);
+    for (int i = 1; i <= 3; i++) {
+        char script[256];
+        snprintf(script, sizeof script,
+                 "set terminal pngcairo size 201,151; set output \"frames/50%% 'off'/%06d.png\"; "
+                 "plot %d*x",
+                 i, i);
+        char *const arguments[] = {"gnuplot", "-e", script, NULL};
+        assert_int_equal(sb_tool_run(gnuplot, arguments, folder, NULL), SB_OK);
+    }
+    sb_runlog *log;
+    assert_int_equal(sb_runlog_open(in_folder("film.jsonl"), &log, NULL), SB_OK);
+    bool made = sb_video_write(folder, "50% 'off'", 30, log);
+    assert_false(sb_video_write(folder, "no such camera", 30, log));
+    assert_int_equal(sb_runlog_close(log, NULL), SB_OK);
+    char *text = text_of("film.jsonl");
+    if (!made) fail_msg("%s", text);
+    assert_non_null(strstr(text, "no such camera.mp4"));
+    sb_free(text);
+    struct stat status;
+    assert_int_equal(stat(in_folder("50% 'off'.mp4"), &status), 0);
+    assert_true(status.st_size > 1000);
+    assert_true(access(in_folder("no such camera.mp4"), F_OK) != 0);
+    assert_true(access(in_folder("50% 'off'.part.mp4"), F_OK) != 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pictures_are_drawn),
+        cmocka_unit_test(absent_programs_are_said),
+        cmocka_unit_test(failing_programs_are_told),
+        cmocka_unit_test(films_are_joined),
+    };
+    return cmocka_run_group_tests(tests, folder_make,
+                                  getenv("SB_KEEP_TEST_FILES") ? NULL : folder_remove);
+}

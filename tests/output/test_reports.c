@@ -1,0 +1,234 @@
+/* run.jsonl, summary.json, map grids and progress. */
+#include "output/esri.h"
+#include "output/progress.h"
+#include "output/runlog.h"
+#include "output/summary.h"
+
+#include "folder.h"
+#include "json_check.h"
+
+#include <pthread.h>
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include <cmocka.h>
+
+static sb_model_body bodies[] = {{.name = "sea wall", .report = true},
+                                 {.name = "floor", .report = false},
+                                 {.name = "unit \"1\"", .report = true}};
+static char *warnings[] = {"body sea wall: 0.3 m thick, thinner than the support"};
+static const sb_model model = {.body_count = 3,
+                               .bodies = bodies,
+                               .fluid_count = 1000,
+                               .wall_count = 500,
+                               .warning_count = 1,
+                               .warnings = warnings};
+static const sb_body_record records[] = {
+    {.report = true, .peak = 5e6, .peak_time = 31.2, .impulse = {3, 0, 4}, .layers = 2.5},
+    {.report = false},
+    {.report = true, .peak = 1, .layers = (double)NAN},
+};
+static const sb_stage_time stages[] = {{"neighbours", 1.5, 10}, {"pressure", 3.5, 10}};
+
+static sb_scene make_scene(void)
+{
+    return (sb_scene){.title = (char *)"A \"title\"",
+                      .path = (char *)"plant.yaml",
+                      .dimensions = 3,
+                      .resolution = 6,
+                      .duration = 90,
+                      .numerics = {.preset = SB_PRESET_PAPER, .solver = SB_SOLVER_CG}};
+}
+
+static void summary_has_the_promised_keys(void **state)
+{
+    (void)state;
+    const char *const keys[] = {"wall_s",
+                                "simulated_s",
+                                "steps",
+                                "fluid_particles",
+                                "boundary_particles",
+                                "mean_iterations",
+                                "bytes_per_particle",
+                                "lost_particles",
+                                "bodies",
+                                "name",
+                                "peak_N",
+                                "peak_time_s",
+                                "impulse_Ns",
+                                "version",
+                                "preset",
+                                "stages",
+                                "energy_end"};
+    sb_scene scene = make_scene();
+    const sb_summary summary = {.scene = &scene,
+                                .model = &model,
+                                .wall = 12.5,
+                                .simulated = 90,
+                                .steps = 4,
+                                .iterations = 10,
+                                .fluid_particles = 1000,
+                                .bytes = 250000,
+                                .lost = 2,
+                                .threads = 2,
+                                .bodies = records,
+                                .stages = stages,
+                                .stage_count = 2,
+                                .hash = 7};
+    assert_int_equal(sb_summary_write(in_folder("summary.json"), &summary, NULL), SB_OK);
+    char *text = text_of("summary.json");
+    assert_true(json_valid(text));
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
+        if (!json_find(text, keys[i])) fail_msg("summary.json lacks %s", keys[i]);
+    }
+    assert_true(strtod(json_find(text, "mean_iterations"), NULL) == 2.5);
+    assert_true(strtod(json_find(text, "bytes_per_particle"), NULL) == 250);
+    assert_true(strtod(json_find(text, "boundary_particles"), NULL) == 500);
+    assert_true(strtod(json_find(text, "lost_particles"), NULL) == 2);
+    assert_true(strtod(json_find(text, "impulse_Ns"), NULL) == 5);
+    assert_true(strtod(json_find(text, "peak_time_s"), NULL) == 31.2);
+    assert_true(strncmp(json_find(text, "preset"), "\"paper\"", 7) == 0);
+    assert_true(strncmp(json_find(text, "too_coarse"), "true", 4) == 0);
+    assert_null(strstr(text, "floor")); /* does not report */
+    sb_free(text);
+    sb_error error = {0};
+    assert_int_equal(sb_summary_write("/nonexistent/s.json", &summary, &error), SB_FAILED);
+}
+
+static void a_run_that_never_began_has_a_summary(void **state)
+{
+    (void)state;
+    sb_scene scene = make_scene();
+    const sb_summary summary = {.scene = &scene,
+                                .model = &model,
+                                .status = SB_FAILED,
+                                .reason = "diverged at step 3\nnear (1, 2, 3)"};
+    assert_int_equal(sb_summary_write(in_folder("s.json"), &summary, NULL), SB_OK);
+    char *text = text_of("s.json");
+    assert_true(json_valid(text));
+    assert_non_null(strstr(text, "\"failed\""));
+    sb_free(text);
+}
+
+static void *shout(void *log)
+{
+    for (int i = 0; i < 200; i++) sb_runlog_warning(log, "number %d", i);
+    return NULL;
+}
+
+static void every_line_of_the_log_is_json(void **state)
+{
+    (void)state;
+    static const char *const skipped[] = {"viscosity: 0", "probes: none", NULL};
+    sb_scene scene = make_scene();
+    sb_runlog *log;
+    assert_int_equal(sb_runlog_open(in_folder("run.jsonl"), &log, NULL), SB_OK);
+    sb_runlog_start(log, &scene, &model, 2, 12345);
+    sb_runlog_skipped(log, skipped);
+    pthread_t thread;
+    assert_int_equal(pthread_create(&thread, NULL, shout, log), 0);
+    shout(log);
+    pthread_join(thread, NULL);
+    const sb_step_report report = {.step = 10,
+                                   .time = 0.5,
+                                   .time_step = 0.05,
+                                   .iterations = 3,
+                                   .error_max = (double)NAN,
+                                   .fluid_count = 1000};
+    const sb_energy energy = {.kinetic = 1, .potential = 2};
+    sb_runlog_step(log, &(sb_runlog_state){&report, &energy, stages, 2, true, 0xff});
+    sb_runlog_bodies(log, &model, records);
+    sb_runlog_event(log, "frame", "%s", "line\nbreak");
+    sb_runlog_end(log, SB_INTERRUPTED, NULL);
+    assert_int_equal(sb_runlog_check(log, NULL), SB_OK);
+    assert_int_equal(sb_runlog_close(log, NULL), SB_OK);
+    char *text = text_of("run.jsonl"), *rest = NULL, last[512] = "";
+    size_t lines = 0;
+    bool has_stage = false, has_version = false, has_body = false;
+    for (char *line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
+        assert_true(json_valid(line));
+        assert_true(json_find(line, "event") && json_find(line, "wall_s"));
+        has_version = has_version || (lines == 0 && json_find(line, "version"));
+        has_stage = has_stage || (strstr(line, "\"step\"") && strstr(line, "\"pressure\":3.5"));
+        has_body = has_body || strstr(line, "\"flow_layers\":2.5,\"too_coarse\":true");
+        snprintf(last, sizeof last, "%s", line);
+        lines++;
+    }
+    assert_int_equal(lines, 1 + 2 + 400 + 1 + 1 + 1 + 1);
+    assert_true(has_version && has_stage && has_body);
+    assert_non_null(strstr(last, "interrupted"));
+    sb_free(text);
+    sb_runlog_warning(NULL, "no log, no harm");
+}
+
+static void a_full_disk_shows_in_the_log(void **state)
+{
+    (void)state;
+    if (access("/dev/full", W_OK) != 0) skip();
+    sb_runlog *log;
+    sb_error error = {0};
+    assert_int_equal(sb_runlog_open("/dev/full", &log, NULL), SB_OK);
+    sb_runlog_warning(log, "x");
+    assert_int_equal(sb_runlog_check(log, &error), SB_FAILED);
+    assert_non_null(strstr(error.text, "No space left"));
+    assert_int_equal(sb_runlog_close(log, &error), SB_FAILED);
+}
+
+static void grids_have_north_on_top(void **state)
+{
+    (void)state;
+    const float values[] = {1, 2, 3, 4, 5, NAN};
+    const sb_map_record map = {3, 2, 100, -50, 2.5, values, values, values, values};
+    assert_int_equal(sb_maps_write(folder, &map, NULL), SB_OK);
+    const char *const names[] = {"maps/max_depth.asc", "maps/max_speed.asc",
+                                 "maps/max_momentum_flux.asc", "maps/arrival_time.asc"};
+    for (int i = 0; i < 4; i++) {
+        char *text = text_of(names[i]);
+        assert_string_equal(text, "ncols 3\nnrows 2\nxllcorner 100\nyllcorner -50\ncellsize 2.5\n"
+                                  "NODATA_value -9999\n4 5 -9999\n1 2 3\n");
+        sb_free(text);
+    }
+}
+
+static void progress_speaks_when_asked(void **state)
+{
+    (void)state;
+    FILE *stream = fopen(in_folder("progress"), "w");
+    sb_progress progress;
+    sb_step_report report = {.time = 22.5, .time_step = 0.05, .iterations = 4};
+    sb_progress_begin(&progress, stream, 90);
+    usleep(20000);
+    sb_progress_update(&progress, &report); /* too early for a line */
+    double wall = sb_progress_wall(&progress), eta = sb_progress_eta(&progress);
+    assert_true(wall >= 0.02 && eta > 2.5 * 0.02 && eta <= 3 * wall);
+    report.time = 90;
+    sb_progress_end(&progress, &report);
+    fclose(stream);
+    char *text = text_of("progress");
+    assert_non_null(strstr(text, "100.0 %"));
+    assert_true(strchr(text, '\n') == text + strlen(text) - 1 && !strchr(text, '\r'));
+    sb_free(text);
+    sb_progress_begin(&progress, NULL, 90); /* quiet */
+    sb_progress_update(&progress, &report);
+    sb_progress_end(&progress, &report);
+    char words[32];
+    sb_progress_duration(words, 3725);
+    assert_string_equal(words, "1h 02m");
+    sb_progress_duration(words, 185);
+    assert_string_equal(words, "3m 05s");
+    sb_progress_duration(words, (double)NAN);
+    assert_string_equal(words, "?");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(summary_has_the_promised_keys),
+        cmocka_unit_test(a_run_that_never_began_has_a_summary),
+        cmocka_unit_test(every_line_of_the_log_is_json),
+        cmocka_unit_test(a_full_disk_shows_in_the_log),
+        cmocka_unit_test(grids_have_north_on_top),
+        cmocka_unit_test(progress_speaks_when_asked),
+    };
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+}
