@@ -254,6 +254,35 @@ static void test_terrain_is_solid_below(void **state)
     sb_mesh_free(&mesh);
 }
 
+/* Points in line with corners, edges and faces of a closed mesh, where rays meet many triangles. */
+static void test_aligned_points(void **state)
+{
+    (void)state;
+    sb_mesh box, ball;
+    sb_solid *solid;
+    assert_ok(sb_mesh_box(sb_vec(1, 1, 1), sb_vec(3, 3, 3), &box, &error));
+    assert_ok(sb_solid_create(&box, SB_ROLE_SOLID, &solid, &error));
+    for (int i = 0; i < 9 * 9 * 9; ++i) {
+        sb_vec3 p = sb_vec(i % 9 * 0.5, i / 9 % 9 * 0.5, i / 81 * 0.5);
+        bool inside = p.x > 1 && p.x < 3 && p.y > 1 && p.y < 3 && p.z > 1 && p.z < 3;
+        bool outside = p.x < 1 || p.x > 3 || p.y < 1 || p.y > 3 || p.z < 1 || p.z > 3;
+        if (inside || outside) assert_int_equal(sb_solid_contains(solid, p), inside);
+    }
+    sb_solid_destroy(solid);
+    sb_mesh_free(&box);
+    make_ball(16, &ball);
+    assert_ok(sb_solid_create(&ball, SB_ROLE_SOLID, &solid, &error));
+    for (size_t i = 0; i < ball.vertex_count; ++i)
+        for (int k = -8; k <= 8; ++k) {
+            sb_vec3 p = sb_add(ball.vertices[i], sb_vec(0, 0, 0.21 * k));
+            double winding = exact_winding(&ball, p);
+            if (fabs(winding - round(winding)) < 1e-6)
+                assert_int_equal(sb_solid_contains(solid, p), winding > 0.5);
+        }
+    sb_solid_destroy(solid);
+    sb_mesh_free(&ball);
+}
+
 static void test_flipped_and_broken_boxes(void **state)
 {
     (void)state;
@@ -395,6 +424,7 @@ int main(void)
         cmocka_unit_test(test_distance_is_the_least_of_all),
         cmocka_unit_test(test_rays_hit_the_first_face),
         cmocka_unit_test(test_terrain_is_solid_below),
+        cmocka_unit_test(test_aligned_points),
         cmocka_unit_test(test_flipped_and_broken_boxes),
         cmocka_unit_test(test_sheets_are_solid_behind),
         cmocka_unit_test(test_cylinder_contains),
