@@ -145,11 +145,12 @@ static void write_style(FILE *stream, const char *picture, int panels)
     static const char *const colors[MAX_LINES] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                   "#e69f00", "#56b4e9", "#000000", "#7f3c8d",
                                                   "#80ba5a", "#a5522d", "#666666", "#e73f74"};
-    fprintf(stream,
-            "set terminal pngcairo noenhanced size 1200,%d font 'Sans,11'\nset output '%s'\n"
-            "set grid lc rgb '#dddddd'\nset border 3 lc rgb '#555555'\nset tics nomirror\n"
-            "set key outside right top\nset lmargin 12\nset rmargin 26\n",
-            panels > 1 ? 800 : 500, picture);
+    fprintf(
+        stream,
+        "set terminal pngcairo noenhanced size 1200,%d font 'Sans,11'\nset output '%s'\n"
+        "set grid lt 1 lw 0.5 lc rgb '#dddddd'\nset border 3 lc rgb '#555555'\nset tics nomirror\n"
+        "set key outside right top Left reverse\nset lmargin 12\nset rmargin 26\n",
+        panels > 1 ? 800 : 500, picture);
     for (int i = 0; i < MAX_LINES; i++)
         fprintf(stream, "set linetype %d lc rgb '%s' lw 1.6\n", i + 1, colors[i]);
     fprintf(stream, "set linetype cycle %d\n", MAX_LINES);
@@ -267,14 +268,17 @@ static int draw_plot(const char *program, const char *directory, const plot *wha
     return drawn;
 }
 
+#define FROM_ZERO "set cbrange [0:*]\n"
+
 static const struct {
-    const char *name, *label, *palette;
+    const char *name, *label, *palette, *range;
 } maps[] = {
-    {"max_depth", "greatest depth (m)", "0 '#ffffff', 0.02 '#deebf7', 0.4 '#6baed6', 1 '#08306b'"},
-    {"max_speed", "greatest speed (m/s)", "0 '#ffffe5', 0.5 '#fe9929', 1 '#662506'"},
+    {"max_depth", "greatest depth (m)", "0 '#ffffff', 0.02 '#deebf7', 0.4 '#6baed6', 1 '#08306b'",
+     FROM_ZERO},
+    {"max_speed", "greatest speed (m/s)", "0 '#ffffe5', 0.5 '#fe9929', 1 '#662506'", FROM_ZERO},
     {"max_momentum_flux", "greatest momentum flux (m^3/s^2)",
-     "0 '#fff7f3', 0.5 '#f768a1', 1 '#49006a'"},
-    {"arrival_time", "arrival time (s)", "0 '#440154', 0.5 '#21918c', 1 '#fde725'"},
+     "0 '#fff7f3', 0.5 '#f768a1', 1 '#49006a'", FROM_ZERO},
+    {"arrival_time", "arrival time (s)", "0 '#440154', 0.5 '#21918c', 1 '#fde725'", ""},
 };
 
 static int draw_map(const char *program, const char *directory, size_t k, const sb_scene *scene,
@@ -295,9 +299,9 @@ static int draw_map(const char *program, const char *directory, size_t k, const 
     fprintf(out,
             "set terminal pngcairo noenhanced size 1100,900 font 'Sans,11'\n"
             "set output 'maps/%s.png'\nset size ratio -1\nset xlabel 'x (m)'\nset ylabel 'y (m)'\n"
-            "set palette defined (%s)\nset cblabel '%s'\nset tics out nomirror\nunset key\n"
+            "set palette defined (%s)\nset cblabel '%s'\nset tics out nomirror\nunset key\n%s"
             "set xrange [%.12g:%.12g]\nset yrange [%.12g:%.12g]\nset title ",
-            maps[k].name, maps[k].palette, maps[k].label, x, x + columns * cell, y,
+            maps[k].name, maps[k].palette, maps[k].label, maps[k].range, x, x + columns * cell, y,
             y + rows * cell);
     put_quoted(out, title);
     fprintf(out,

@@ -156,18 +156,22 @@ static void damaged_files_are_refused(void **state)
         assert_null(read);
         assert_non_null(strstr(error.text, "d.vtp"));
     }
+    write_bytes("d.vtp", bytes, length);
+    FILE *stream = fopen(in_folder("d.vtp"), "r+b");
+    assert_non_null(stream);
+    setvbuf(stream, NULL, _IONBF, 0);
     for (size_t i = 0; i < header + 300; i++)
-        for (int k = 0; k < 2; k++) {
+        for (int k = 0; k < 3; k++) { /* twice changed, then as it was */
             sb_frame *read = NULL;
-            char kept = bytes[i];
-            bytes[i] = k ? '9' : (char)(kept ^ 0x81);
-            write_bytes("d.vtp", bytes, length);
-            bytes[i] = kept;
+            fseek(stream, (long)i, SEEK_SET);
+            fputc(k == 0 ? bytes[i] ^ 0x81 : k == 1 ? '9' : bytes[i], stream);
+            if (k == 2) continue;
             if (sb_vtp_read(in_folder("d.vtp"), &read, NULL) != SB_OK)
                 refused++;
             else
                 sb_frame_release(read);
         }
+    fclose(stream);
     assert_true(refused > 500);
     sb_error error = {0};
     sb_frame *read = NULL;
