@@ -44,14 +44,12 @@ static void walk_key(const walk *to, const sb_key *key, const char *prefix, cons
         .range = range,
         .doc = key->doc,
         .only = key->derived && !(key->flags & (SB_KEY_REQUIRED | SB_KEY_REQUIRED_3D)) ? NULL
-                                                                                      : condition,
+                                                                                       : condition,
         .required = key->flags & SB_KEY_REQUIRED,
     };
     to->visit(to->context, &row);
-    if (key->type != SB_KEY_BLOCK && key->type != SB_KEY_LIST)
-        return;
-    if (key->type == SB_KEY_LIST)
-        strncat(path, "[]", sizeof path - strlen(path) - 1);
+    if (key->type != SB_KEY_BLOCK && key->type != SB_KEY_LIST) return;
+    if (key->type == SB_KEY_LIST) strncat(path, "[]", sizeof path - strlen(path) - 1);
     walk_table(to, key->table, path);
 }
 
@@ -59,8 +57,7 @@ static void walk_table(const walk *to, const sb_table *table, const char *prefix
 {
     for (size_t i = 0; i < table->count; i++) {
         const sb_key *key = &table->keys[i];
-        if (key->name)
-            walk_key(to, key, prefix, NULL);
+        if (key->name) walk_key(to, key, prefix, NULL);
         for (size_t j = 0; !key->name && j < key->table->count; j++)
             walk_key(to, &key->table->keys[j], prefix, key->only);
     }

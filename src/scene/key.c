@@ -23,10 +23,8 @@ const sb_key *sb_table_find(const sb_table *table, const char *name)
 {
     for (size_t i = 0; i < table->count; i++) {
         const sb_key *key = &table->keys[i];
-        if (!key->name)
-            key = sb_table_find(key->table, name);
-        if (key && strcmp(key->name, name) == 0)
-            return key;
+        if (!key->name) key = sb_table_find(key->table, name);
+        if (key && strcmp(key->name, name) == 0) return key;
     }
     return NULL;
 }
@@ -36,10 +34,8 @@ static size_t distance(const char *a, const char *b)
 {
     enum { LONGEST = 40 };
     size_t n = strlen(a), m = strlen(b), row[LONGEST + 1];
-    if (n > LONGEST || m > LONGEST)
-        return SIZE_MAX;
-    for (size_t j = 0; j <= m; j++)
-        row[j] = j;
+    if (n > LONGEST || m > LONGEST) return SIZE_MAX;
+    for (size_t j = 0; j <= m; j++) row[j] = j;
     for (size_t i = 1; i <= n; i++) {
         size_t diagonal = row[0];
         row[0] = i;
@@ -94,10 +90,8 @@ __attribute__((format(printf, 2, 3))) static void say(phrase *text, const char *
     va_start(arguments, format);
     int length = vsnprintf(text->out + text->used, text->size - text->used, format, arguments);
     va_end(arguments);
-    if (length > 0)
-        text->used += (size_t)length;
-    if (text->used >= text->size)
-        text->used = text->size - 1;
+    if (length > 0) text->used += (size_t)length;
+    if (text->used >= text->size) text->used = text->size - 1;
 }
 
 static void say_words(phrase *text, const char *const *words)
@@ -115,7 +109,10 @@ static void say_kernels(phrase *text)
 static void say_laws(phrase *text)
 {
     for (size_t i = 0; sb_wavemakers[i]; i++)
-        say(text, "%s%s", i == 0 ? "" : sb_wavemakers[i + 1] ? ", " : " or ",
+        say(text, "%s%s",
+            i == 0                 ? ""
+            : sb_wavemakers[i + 1] ? ", "
+                                   : " or ",
             sb_wavemakers[i]->name);
 }
 
@@ -127,11 +124,10 @@ static void say_range(phrase *text, const sb_key *key)
         say(text, "%.10g to %.10g", key->min, key->max);
         return;
     }
-    if (low)
-        say(text, "%s %.10g", key->flags & SB_KEY_ABOVE ? ">" : ">=", key->min);
+    if (low) say(text, "%s %.10g", key->flags & SB_KEY_ABOVE ? ">" : ">=", key->min);
     if (high)
-        say(text, "%s%s %.10g", low ? " and " : "", key->flags & SB_KEY_BELOW ? "<" : "<=",
-            key->max);
+        say(text, "%s%s %.10g", low ? " and " : "",
+            key->flags & SB_KEY_BELOW ? "<" : "<=", key->max);
 }
 
 static const char *unit_words(const char *unit)
@@ -140,8 +136,7 @@ static const char *unit_words(const char *unit)
         const char *unit, *words;
     } units[] = {{"m", "metres"}, {"s", "seconds"}, {"deg", "degrees"}, {"px", "pixels"}};
     for (size_t i = 0; i < sizeof units / sizeof *units; i++)
-        if (strcmp(units[i].unit, unit) == 0)
-            return units[i].words;
+        if (strcmp(units[i].unit, unit) == 0) return units[i].words;
     return unit;
 }
 
@@ -153,7 +148,8 @@ static void say_number(phrase *text, const sb_key *key)
     else
         say(text, "%s", word);
     if (key->min > -HUGE_VAL || key->max < HUGE_VAL) {
-        say(text, "%s", key->flags & (SB_KEY_ABOVE | SB_KEY_BELOW) || key->max == HUGE_VAL ? " " : " from ");
+        say(text, "%s",
+            key->flags & (SB_KEY_ABOVE | SB_KEY_BELOW) || key->max == HUGE_VAL ? " " : " from ");
         say_range(text, key);
     }
 }
@@ -165,29 +161,46 @@ void sb_key_expectation(const sb_key *key, int dimensions, char *out, size_t siz
     bool flat = dimensions == 2 && !(key->flags & SB_KEY_FULL);
     switch (key->type) {
     case SB_KEY_NUMBER:
-    case SB_KEY_INTEGER: say_number(&text, key); break;
-    case SB_KEY_SEED: say(&text, "a whole number from 0 to 2^64 - 1"); break;
-    case SB_KEY_SWITCH: say(&text, "true or false"); break;
-    case SB_KEY_TEXT: say(&text, "text"); break;
+    case SB_KEY_INTEGER:
+        say_number(&text, key);
+        break;
+    case SB_KEY_SEED:
+        say(&text, "a whole number from 0 to 2^64 - 1");
+        break;
+    case SB_KEY_SWITCH:
+        say(&text, "true or false");
+        break;
+    case SB_KEY_TEXT:
+        say(&text, "text");
+        break;
     case SB_KEY_NAME:
         say(&text, "a name of letters, digits, _ . and -, at most %d long", SB_NAME_MAX - 1);
         break;
-    case SB_KEY_FILE: say(&text, "a file, relative to the scene file"); break;
+    case SB_KEY_FILE:
+        say(&text, "a file, relative to the scene file");
+        break;
     case SB_KEY_VECTOR:
         say(&text, "%s", flat ? "[x, z]" : "[x, y, z]");
-        if (key->unit)
-            say(&text, " in %s", unit_words(key->unit));
+        if (key->unit) say(&text, " in %s", unit_words(key->unit));
         break;
     case SB_KEY_PLACE:
         say(&text, "%s in metres", dimensions == 2 ? "[x]" : "[x, y]");
         break;
-    case SB_KEY_COLOR: say(&text, "[red, green, blue], each 0 to 1"); break;
-    case SB_KEY_BLOCK: say(&text, "a block of keys"); break;
-    case SB_KEY_LIST: say(&text, "a list"); break;
+    case SB_KEY_COLOR:
+        say(&text, "[red, green, blue], each 0 to 1");
+        break;
+    case SB_KEY_BLOCK:
+        say(&text, "a block of keys");
+        break;
+    case SB_KEY_LIST:
+        say(&text, "a list");
+        break;
     case SB_KEY_CHOICE:
     case SB_KEY_LETTER:
     case SB_KEY_KERNEL:
-    case SB_KEY_LAW: sb_key_range(key, out, size); break;
+    case SB_KEY_LAW:
+        sb_key_range(key, out, size);
+        break;
     }
 }
 
@@ -204,21 +217,32 @@ void sb_key_range(const sb_key *key, char *out, size_t size)
             say(&text, "any");
         else
             say_range(&text, key);
-        if (key->flags & SB_KEY_UNIT)
-            say(&text, ", not all 0");
+        if (key->flags & SB_KEY_UNIT) say(&text, ", not all 0");
         break;
-    case SB_KEY_SEED: say(&text, "0 to 2^64 - 1"); break;
+    case SB_KEY_SEED:
+        say(&text, "0 to 2^64 - 1");
+        break;
     case SB_KEY_CHOICE:
-    case SB_KEY_LETTER: say_words(&text, key->words); break;
-    case SB_KEY_KERNEL: say_kernels(&text); break;
-    case SB_KEY_LAW: say_laws(&text); break;
-    case SB_KEY_COLOR: say(&text, "0 to 1"); break;
+    case SB_KEY_LETTER:
+        say_words(&text, key->words);
+        break;
+    case SB_KEY_KERNEL:
+        say_kernels(&text);
+        break;
+    case SB_KEY_LAW:
+        say_laws(&text);
+        break;
+    case SB_KEY_COLOR:
+        say(&text, "0 to 1");
+        break;
     case SB_KEY_SWITCH:
     case SB_KEY_TEXT:
     case SB_KEY_NAME:
     case SB_KEY_FILE:
     case SB_KEY_BLOCK:
-    case SB_KEY_LIST: sb_key_expectation(key, 3, out, size); break;
+    case SB_KEY_LIST:
+        sb_key_expectation(key, 3, out, size);
+        break;
     }
 }
 

@@ -17,11 +17,9 @@ static sb_yaml *item_by_name(const sb_yaml *list, const char *rest, size_t *used
     sb_yaml *found = NULL;
     for (size_t i = 0; i < list->count; i++) {
         const sb_yaml *name = sb_yaml_child(&list->items[i], "name");
-        if (!name || name->kind != SB_YAML_SCALAR)
-            continue;
+        if (!name || name->kind != SB_YAML_SCALAR) continue;
         size_t length = strlen(name->text);
-        if (strncmp(rest, name->text, length) != 0 || !ends_segment(rest[length]))
-            continue;
+        if (strncmp(rest, name->text, length) != 0 || !ends_segment(rest[length])) continue;
         if (length > 0 && (!found || length > *used)) {
             found = &list->items[i];
             *used = length;
@@ -35,14 +33,11 @@ static sb_yaml *item_by_index(const sb_yaml *list, const char *rest, size_t *use
 {
     bool bracket = rest[0] == '[';
     const char *digits = rest + bracket;
-    if (!isdigit((unsigned char)*digits))
-        return NULL;
+    if (!isdigit((unsigned char)*digits)) return NULL;
     char *end;
     unsigned long index = strtoul(digits, &end, 10);
-    if (bracket && *end++ != ']')
-        return NULL;
-    if (!ends_segment(*end) || index >= list->count)
-        return NULL;
+    if (bracket && *end++ != ']') return NULL;
+    if (!ends_segment(*end) || index >= list->count) return NULL;
     *used = (size_t)(end - rest);
     return &list->items[index];
 }
@@ -51,13 +46,12 @@ static sb_status step_list(const sb_yaml *list, const char *key, const char *res
                            sb_yaml **next, sb_error *error)
 {
     *next = item_by_name(list, rest, used);
-    if (!*next)
-        *next = item_by_index(list, rest, used);
-    if (*next)
-        return SB_OK;
+    if (!*next) *next = item_by_index(list, rest, used);
+    if (*next) return SB_OK;
     return sb_fail(error, SB_BAD_INPUT,
                    "--set: %.200s: no such item in a list of %zu, expected an item's name or its "
-                   "index from 0", key, list->count);
+                   "index from 0",
+                   key, list->count);
 }
 
 static sb_status step_map(sb_yaml *map, const char *key, const char *rest, size_t *used,
@@ -76,7 +70,8 @@ static sb_status step_map(sb_yaml *map, const char *key, const char *rest, size_
     if (map->kind != SB_YAML_MAP)
         return sb_fail(error, SB_BAD_INPUT,
                        "--set: %.200s: the part before %.*s is a single value, expected a block "
-                       "or a list", key, (int)length, rest);
+                       "or a list",
+                       key, (int)length, rest);
     for (size_t i = 0; i < map->count; i++)
         if (strncmp(map->items[i].key, rest, length) == 0 && map->items[i].key[length] == '\0') {
             *next = &map->items[i];
@@ -96,8 +91,7 @@ static sb_status find_place(sb_yaml *root, const char *key, sb_yaml **place, sb_
         sb_status status = node->kind == SB_YAML_LIST
                                ? step_list(node, key, rest, &used, &next, error)
                                : step_map(node, key, rest, &used, &next, error);
-        if (status != SB_OK)
-            return status;
+        if (status != SB_OK) return status;
         node = next;
         rest += used;
         if (*rest == '.' && *++rest == '\0')
@@ -116,11 +110,9 @@ sb_status sb_override_apply(sb_yaml *root, const sb_override *override, sb_error
     sb_yaml_source source = {.name = name};
     sb_status status =
         sb_yaml_parse(source, override->value, strlen(override->value), &value, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     status = find_place(root, override->key, &place, error);
-    if (status == SB_OK)
-        sb_yaml_replace(place, &value);
+    if (status == SB_OK) sb_yaml_replace(place, &value);
     sb_yaml_free(&value);
     return status;
 }

@@ -4,6 +4,7 @@
 
 /* One row per key of `numerics`; the columns are in the order of sb_preset. After a change here,
    run test_scene_docs with SB_UPDATE_DOCS=1 to bring docs/scene.md up to date. */
+/* clang-format off */
 static const struct {
     const char *key, *value[2];
 } rows[] = {
@@ -31,11 +32,11 @@ static const struct {
     {"seed",                 {"1",          "1"}},
     {"settle_steps",         {"200",        "0"}},
 };
+/* clang-format on */
 
 const char *sb_preset_value(sb_preset preset, const char *key)
 {
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (strcmp(rows[i].key, key) == 0)
-            return rows[i].value[preset];
+        if (strcmp(rows[i].key, key) == 0) return rows[i].value[preset];
     return NULL;
 }

@@ -13,8 +13,8 @@ enum { FILE_LIMIT = 4 << 20, ITEMS_MAX = 10000 };
 
 _Static_assert(sizeof(sb_shape) == sizeof(unsigned), "choices are read and written as unsigned");
 
-sb_status sb_reader_fail(sb_reader *reader, const sb_yaml *map, const char *key,
-                         const char *format, ...)
+sb_status sb_reader_fail(sb_reader *reader, const sb_yaml *map, const char *key, const char *format,
+                         ...)
 {
     char what[600];
     va_list arguments;
@@ -36,8 +36,7 @@ sb_status sb_reader_interval(sb_reader *reader, const sb_yaml *map, const char *
                              double interval)
 {
     double most = 1e7;
-    if (interval <= 0 || reader->scene->duration / interval <= most)
-        return SB_OK;
+    if (interval <= 0 || reader->scene->duration / interval <= most) return SB_OK;
     return sb_reader_fail(reader, map, key, "%g s fits more than %g times into %g s, expected more",
                           interval, most, reader->scene->duration);
 }
@@ -57,8 +56,7 @@ static sb_status refuse_unknown(sb_reader *reader, const sb_yaml *map, const sb_
 {
     for (size_t i = 0; i < map->count; i++) {
         const sb_yaml *item = &map->items[i];
-        if (sb_table_find(table, item->key))
-            continue;
+        if (sb_table_find(table, item->key)) continue;
         sb_yaml place = {.line = item->line > 0 ? item->key_line : 0, .column = item->key_column};
         const char *near = sb_table_nearest(table, item->key);
         path_push(reader, item->key, 0);
@@ -78,13 +76,11 @@ static sb_status refuse_unknown(sb_reader *reader, const sb_yaml *map, const sb_
 static sb_status refuse_same_name(sb_reader *reader, const sb_yaml *list, const sb_table *table,
                                   const char *items)
 {
-    if (table->keys[0].type != SB_KEY_NAME)
-        return SB_OK;
+    if (table->keys[0].type != SB_KEY_NAME) return SB_OK;
     for (size_t i = 0; i < list->count; i++)
         for (size_t j = 0; j < i; j++) {
             const char *name = items + i * table->size + table->keys[0].offset;
-            if (strcmp(name, items + j * table->size + table->keys[0].offset) != 0)
-                continue;
+            if (strcmp(name, items + j * table->size + table->keys[0].offset) != 0) continue;
             path_push(reader, NULL, i);
             return sb_reader_fail(reader, &list->items[i], table->keys[0].name,
                                   "%s is the name of item %zu already, expected one of its own",
@@ -97,8 +93,7 @@ static sb_status make_items(sb_reader *reader, const sb_key *key, size_t count, 
                             char **items)
 {
     *items = sb_alloc(count, key->table->size);
-    if (!*items)
-        return sb_fail_memory(reader->error, "the scene's lists");
+    if (!*items) return sb_fail_memory(reader->error, "the scene's lists");
     memcpy((char *)item + key->offset, items, sizeof *items);
     memcpy((char *)item + key->count_offset, &count, sizeof count);
     return SB_OK;
@@ -112,18 +107,15 @@ static sb_status read_list(sb_reader *reader, const sb_yaml *list, const sb_key 
                               : sb_yaml_is_null(list)   ? "has no value"
                                                         : "is a single value");
     if (list->count > ITEMS_MAX)
-        return sb_reader_fail(reader, list, NULL, "has %zu items, expected at most %d",
-                              list->count, ITEMS_MAX);
-    if (list->count == 0)
-        return SB_OK;
+        return sb_reader_fail(reader, list, NULL, "has %zu items, expected at most %d", list->count,
+                              ITEMS_MAX);
+    if (list->count == 0) return SB_OK;
     char *items;
     sb_status status = make_items(reader, key, list->count, item, &items);
     for (size_t i = 0; status == SB_OK && i < list->count; i++) {
         size_t length = path_push(reader, NULL, i);
-        status = sb_reader_block(reader, &list->items[i], key->table,
-                                 items + i * key->table->size);
-        if (status == SB_OK)
-            reader->path[length] = '\0';
+        status = sb_reader_block(reader, &list->items[i], key->table, items + i * key->table->size);
+        if (status == SB_OK) reader->path[length] = '\0';
     }
     return status == SB_OK ? refuse_same_name(reader, list, key->table, items) : status;
 }
@@ -132,13 +124,11 @@ static sb_status read_list(sb_reader *reader, const sb_yaml *list, const sb_key 
 static sb_status read_default(sb_reader *reader, const sb_key *key, void *field)
 {
     const char *text = sb_key_default(key, reader->scene->numerics.preset);
-    if (!text)
-        return SB_OK;
+    if (!text) return SB_OK;
     sb_yaml node = {0};
     sb_yaml_source source = {.name = key->name};
     sb_status status = sb_yaml_parse(source, text, strlen(text), &node, reader->error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     status = sb_reader_value(reader, &node, key, field);
     sb_yaml_free(&node);
     return status;
@@ -153,10 +143,8 @@ static sb_status read_missing(sb_reader *reader, const sb_yaml *map, const sb_ke
         sb_key_expectation(key, reader->scene->dimensions, expected, sizeof expected);
         return sb_reader_fail(reader, map, NULL, "missing, expected %s", expected);
     }
-    if (key->type == SB_KEY_LIST)
-        return SB_OK;
-    if (key->type != SB_KEY_BLOCK)
-        return read_default(reader, key, field);
+    if (key->type == SB_KEY_LIST) return SB_OK;
+    if (key->type != SB_KEY_BLOCK) return read_default(reader, key, field);
     const sb_yaml empty = {.kind = SB_YAML_MAP, .line = map->line, .column = map->column};
     return sb_reader_block(reader, &empty, key->table, field);
 }
@@ -169,8 +157,7 @@ static sb_status refuse_row(sb_reader *reader, const sb_yaml *map, const sb_key 
                               only);
     for (size_t i = 0; !key->name && i < key->table->count; i++) {
         sb_status status = refuse_row(reader, map, &key->table->keys[i], only);
-        if (status != SB_OK)
-            return status;
+        if (status != SB_OK) return status;
     }
     return SB_OK;
 }
@@ -196,8 +183,7 @@ static sb_status read_row(sb_reader *reader, const sb_yaml *map, const sb_table 
                        : key->type == SB_KEY_BLOCK
                            ? sb_reader_block(reader, node, key->table, field)
                            : sb_reader_value(reader, node, key, field);
-    if (status == SB_OK)
-        reader->path[length] = '\0';
+    if (status == SB_OK) reader->path[length] = '\0';
     return status;
 }
 
@@ -217,10 +203,8 @@ sb_status sb_reader_block(sb_reader *reader, const sb_yaml *map, const sb_table 
                               : sb_yaml_is_null(map)    ? "has no value"
                                                         : "is a single value");
     sb_status status = refuse_unknown(reader, map, table);
-    if (status == SB_OK)
-        status = read_rows(reader, map, table, item);
-    if (status == SB_OK && table->finish)
-        status = table->finish(reader, map, item);
+    if (status == SB_OK) status = read_rows(reader, map, table, item);
+    if (status == SB_OK && table->finish) status = table->finish(reader, map, item);
     return status;
 }
 
@@ -231,8 +215,7 @@ static sb_status apply_overrides(sb_yaml *root, const char *preset_name,
     if (preset_name) {
         const sb_key *key = sb_table_find(&sb_numerics_table, "preset");
         size_t at = 0;
-        while (key->words[at] && strcmp(key->words[at], preset_name) != 0)
-            at++;
+        while (key->words[at] && strcmp(key->words[at], preset_name) != 0) at++;
         char expected[100];
         sb_key_range(key, expected, sizeof expected);
         if (!key->words[at])
@@ -262,14 +245,15 @@ static sb_status read_tree(const char *path, const char *preset_name, const sb_o
     char *text;
     size_t length;
     sb_status status = sb_file_read(path, FILE_LIMIT, &text, &length, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     sb_yaml_source source = {.name = path, .placed = true};
     status = sb_yaml_parse(source, text, length, root, error);
     sb_free(text);
     if (status == SB_OK && root->kind != SB_YAML_MAP)
-        status = sb_fail(error, SB_BAD_INPUT, "%.500s:%d:%d: the scene is no block of keys, "
-                         "expected lines \"key: value\"", path, root->line, root->column);
+        status = sb_fail(error, SB_BAD_INPUT,
+                         "%.500s:%d:%d: the scene is no block of keys, "
+                         "expected lines \"key: value\"",
+                         path, root->line, root->column);
     if (status == SB_OK)
         status = apply_overrides(root, preset_name, overrides, override_count, error);
     return status;
@@ -279,25 +263,24 @@ static sb_status read_tree(const char *path, const char *preset_name, const sb_o
 static void one_line(sb_error *error)
 {
     for (char *at = error ? error->text : ""; *at; at++)
-        if ((unsigned char)*at < 0x20 || *at == 0x7f)
-            *at = '?';
+        if ((unsigned char)*at < 0x20 || *at == 0x7f) *at = '?';
 }
 
 sb_status sb_scene_read(const char *path, const char *preset_name, const sb_override *overrides,
                         size_t override_count, sb_scene *scene, sb_error *error)
 {
-    sb_scene built = {.dimensions = 3};
+    sb_scene built;
+    memset(&built, 0, sizeof built); /* padding, too: equal scenes have equal bytes */
+    built.dimensions = 3;
     sb_yaml root = {0};
     sb_reader reader = {.file = path, .scene = &built, .error = error};
     sb_status status = absolute_folder(path, reader.folder, error);
     if (status == SB_OK)
         status = read_tree(path, preset_name, overrides, override_count, &root, error);
-    if (status == SB_OK)
-        status = sb_reader_block(&reader, &root, &sb_scene_table, &built);
+    if (status == SB_OK) status = sb_reader_block(&reader, &root, &sb_scene_table, &built);
     if (status == SB_OK) {
         built.path = sb_strdup(path);
-        if (!built.path)
-            status = sb_fail_memory(error, "the scene's path");
+        if (!built.path) status = sb_fail_memory(error, "the scene's path");
     }
     sb_yaml_free(&root);
     if (status == SB_OK) {

@@ -15,16 +15,15 @@ struct sb_reader {
 
 /* Fails with "file:line:column: path.key: ..." ("--set: ..." for an override). The place is that
    of key's value in map, else of map itself; key NULL: the place is map's, the path as it is. */
-sb_status sb_reader_fail(sb_reader *reader, const sb_yaml *map, const char *key,
-                         const char *format, ...) __attribute__((format(printf, 4, 5)));
+sb_status sb_reader_fail(sb_reader *reader, const sb_yaml *map, const char *key, const char *format,
+                         ...) __attribute__((format(printf, 4, 5)));
 
 /* Reads one value into its field; reader->path is at the value. */
 sb_status sb_reader_value(sb_reader *reader, const sb_yaml *node, const sb_key *key, void *field);
 
 /* Reads a map (a node of another kind is an error) into item, zeroed before; reader->path is at
    the block. What is allocated before a failure hangs in item: sb_table_free it. */
-sb_status sb_reader_block(sb_reader *reader, const sb_yaml *map, const sb_table *table,
-                          void *item);
+sb_status sb_reader_block(sb_reader *reader, const sb_yaml *map, const sb_table *table, void *item);
 
 /* Whether the run's duration holds a sane number of intervals; 0 (off) passes. */
 sb_status sb_reader_interval(sb_reader *reader, const sb_yaml *map, const char *key,

@@ -85,7 +85,7 @@ typedef struct sb_numerics {
     double source_relaxation;  /* beta: share of the density error mended in one step */
     double cfl;                /* lambda_CFL */
     sb_time_step_rule time_step_rule;
-    double time_step_factor;   /* lambda_max (s) or C, by the rule */
+    double time_step_factor;   /* lambda_max (1/s) or C, by the rule */
     double time_step_max;      /* s; 0: no further bound */
     double artificial_viscosity; /* alpha of Monaghan's viscosity; 0: term is off */
     double wall_friction;      /* sigma; 0: term is off */

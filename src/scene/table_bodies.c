@@ -3,7 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-static const char *const shape_words[] = {"mesh", "grid", "box", "cylinder", "plane", "basin", NULL};
+static const char *const shape_words[] = {"mesh",  "grid",  "box", "cylinder",
+                                          "plane", "basin", NULL};
 static const char *const role_words[] = {"solid", "terrain", NULL};
 static const char *const up_words[] = {"z", "y", NULL};
 
@@ -26,11 +27,12 @@ static unsigned variant(const void *item, const sb_yaml *map)
     return 1u << body->shape | (moment ? MOMENT : 0u) | (color ? COLOR : 0u);
 }
 
+/* clang-format off */
 static const sb_key keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_body, name), .flags = SB_KEY_REQUIRED,
      .doc = "Unlike all other bodies' names; rows and channels bear it."},
     {.name = "shape", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_body, shape), .words = shape_words,
-     .flags = SB_KEY_REQUIRED, .doc = "What it is made from; see below."},
+     .flags = SB_KEY_REQUIRED, .doc = "What it is made from; see above."},
     {.name = "role", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_body, role), .words = role_words,
      .derived = "terrain for a grid, else solid",
      .doc = "`solid`: a closed surface, solid inside; `terrain`: a sheet, solid all below it "
@@ -88,6 +90,7 @@ static const sb_key keys[] = {
     {.name = "translate", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_body, translate), .unit = "m",
      SB_KEY_ANY, .flags = SB_KEY_ANY_Y, .fallback = "[0, 0, 0]", .doc = "Shift, after the rotation."},
 };
+/* clang-format on */
 
 static bool extents_ordered(const sb_body *body)
 {
@@ -100,8 +103,7 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
     const sb_scene *scene = reader->scene;
     unsigned present = variant(body, map), shape = 1u << body->shape;
     body->has_moment_point = present & MOMENT;
-    if (!(present & COLOR))
-        body->color[0] = body->color[1] = body->color[2] = -1;
+    if (!(present & COLOR)) body->color[0] = body->color[1] = body->color[2] = -1;
     if (!sb_yaml_child(map, "role"))
         body->role = body->shape == SB_SHAPE_GRID ? SB_ROLE_TERRAIN : SB_ROLE_SOLID;
     if (body->role == SB_ROLE_TERRAIN && !(shape & (MESH | GRID | PLANE)))
@@ -109,8 +111,7 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
                               shape_words[body->shape]);
     if (body->role == SB_ROLE_SOLID && body->shape == SB_SHAPE_GRID)
         return sb_reader_fail(reader, map, "role", "a grid is a sheet, expected terrain");
-    if (!sb_yaml_child(map, "report"))
-        body->report = body->role == SB_ROLE_SOLID;
+    if (!sb_yaml_child(map, "report")) body->report = body->role == SB_ROLE_SOLID;
     /* A slice at y = 0 goes through bodies given by x and z only. */
     double reach = 2 * scene->numerics.support * scene->resolution;
     if (scene->dimensions == 2 && shape & (BOX | BASIN) && body->min.y == 0 && body->max.y == 0) {

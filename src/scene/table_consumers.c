@@ -3,6 +3,7 @@
 #include <limits.h>
 #include <math.h>
 
+/* clang-format off */
 static const sb_key path_keys[] = {
     {.name = "time", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_camera_key, time), .unit = "s",
      SB_KEY_NOT_NEGATIVE, .flags = SB_KEY_REQUIRED,
@@ -14,12 +15,12 @@ static const sb_key path_keys[] = {
     {.name = "fov", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_camera_key, fov), .unit = "deg", .min = 1,
      .max = 170, .fallback = "45", .doc = "Vertical angle of view."},
 };
+/* clang-format on */
 
 static sb_status finish_view(sb_reader *reader, const sb_yaml *map, void *item)
 {
     const sb_camera_key *key = item;
-    if (sb_norm(sb_sub(key->target, key->eye)) > 0)
-        return SB_OK;
+    if (sb_norm(sb_sub(key->target, key->eye)) > 0) return SB_OK;
     return sb_reader_fail(reader, map, "target", "is the same point as eye, expected another");
 }
 
@@ -34,11 +35,11 @@ enum { FIXED = 1, PATH = 2 };
 
 static unsigned camera_variant(const void *item, const sb_yaml *map)
 {
-    bool path = map ? sb_yaml_child(map, "path") != NULL
-                    : ((const sb_camera *)item)->key_count > 1;
+    bool path = map ? sb_yaml_child(map, "path") != NULL : ((const sb_camera *)item)->key_count > 1;
     return path ? PATH : FIXED;
 }
 
+/* clang-format off */
 static const sb_key camera_keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_camera, name), .flags = SB_KEY_REQUIRED,
      .doc = "Unlike all other cameras' names; its folder and film bear it."},
@@ -48,12 +49,12 @@ static const sb_key camera_keys[] = {
     {.type = SB_KEY_LIST, SB_KEY_ITEMS(sb_camera, keys, key_count), .table = &view_table,
      .applies = FIXED, .only = "a camera without path"},
 };
+/* clang-format on */
 
 static sb_status finish_camera(sb_reader *reader, const sb_yaml *map, void *item)
 {
     const sb_camera *camera = item;
-    if (!(camera_variant(camera, map) & PATH))
-        return finish_view(reader, map, camera->keys);
+    if (!(camera_variant(camera, map) & PATH)) return finish_view(reader, map, camera->keys);
     if (camera->key_count < 2)
         return sb_reader_fail(reader, map, "path",
                               "has %zu entries, expected at least 2, or eye and target instead",
@@ -62,14 +63,15 @@ static sb_status finish_camera(sb_reader *reader, const sb_yaml *map, void *item
         if (!(camera->keys[i].time > camera->keys[i - 1].time))
             return sb_reader_fail(reader, map, "path",
                                   "time %g s of entry %zu is not later than %g s before it, "
-                                  "expected times that rise", camera->keys[i].time, i,
-                                  camera->keys[i - 1].time);
+                                  "expected times that rise",
+                                  camera->keys[i].time, i, camera->keys[i - 1].time);
     return SB_OK;
 }
 
 static const sb_table camera_table = {SB_KEY_ROWS(camera_keys), .size = sizeof(sb_camera),
                                       .variant = camera_variant, .finish = finish_camera};
 
+/* clang-format off */
 static const sb_key render_keys[] = {
     {.name = "interval", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_render_settings, interval),
      .unit = "s", SB_KEY_NOT_NEGATIVE, .fallback = "0",
@@ -89,6 +91,7 @@ static const sb_key render_keys[] = {
      SB_KEY_ITEMS(sb_render_settings, cameras, camera_count), .table = &camera_table,
      .doc = "Each makes its own pictures and film; give eye and target, or a path."},
 };
+/* clang-format on */
 
 static sb_status finish_render(sb_reader *reader, const sb_yaml *map, void *item)
 {
@@ -102,6 +105,7 @@ static sb_status finish_render(sb_reader *reader, const sb_yaml *map, void *item
 const sb_table sb_render_table = {SB_KEY_ROWS(render_keys), .size = sizeof(sb_render_settings),
                                   .finish = finish_render};
 
+/* clang-format off */
 static const sb_key stream_keys[] = {
     {.name = "enabled", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_stream_settings, enabled),
      .fallback = "false", .doc = "Whether the run is published while it goes."},
@@ -115,6 +119,7 @@ static const sb_key stream_keys[] = {
     {.name = "decimation", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_stream_settings, decimation),
      .min = 1, .max = 1000000, .fallback = "1", .doc = "Every n-th particle is sent."},
 };
+/* clang-format on */
 
 static sb_status finish_stream(sb_reader *reader, const sb_yaml *map, void *item)
 {
@@ -125,6 +130,7 @@ static sb_status finish_stream(sb_reader *reader, const sb_yaml *map, void *item
 const sb_table sb_stream_table = {SB_KEY_ROWS(stream_keys), .size = sizeof(sb_stream_settings),
                                   .finish = finish_stream};
 
+/* clang-format off */
 static const sb_key output_keys[] = {
     {.name = "particle_interval", .type = SB_KEY_NUMBER,
      SB_KEY_AT(sb_output_settings, particle_interval), .unit = "s", SB_KEY_NOT_NEGATIVE,
@@ -132,6 +138,7 @@ static const sb_key output_keys[] = {
     {.name = "plots", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_output_settings, plots),
      .fallback = "true", .doc = "Plot forces and gauges at the end where gnuplot is there."},
 };
+/* clang-format on */
 
 static sb_status finish_output(sb_reader *reader, const sb_yaml *map, void *item)
 {

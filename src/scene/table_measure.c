@@ -12,6 +12,7 @@ static sb_status refuse_outside(sb_reader *reader, const sb_yaml *map, const cha
     return sb_reader_fail(reader, map, key, "is outside of the domain, expected inside");
 }
 
+/* clang-format off */
 static const sb_key gauge_keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_gauge, name), .flags = SB_KEY_REQUIRED,
      .doc = "Unlike all other gauges' names."},
@@ -20,21 +21,21 @@ static const sb_key gauge_keys[] = {
     {.name = "y", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_gauge, y), .unit = "m", SB_KEY_ANY,
      .flags = SB_KEY_REQUIRED_3D, .fallback = "0", .doc = "Place; 0 in 2D."},
 };
+/* clang-format on */
 
 static sb_status finish_gauge(sb_reader *reader, const sb_yaml *map, void *item)
 {
     const sb_gauge *gauge = item;
     const sb_domain *domain = &reader->scene->domain;
-    if (!inside(gauge->x, domain->min.x, domain->max.x))
-        return refuse_outside(reader, map, "x");
-    if (!inside(gauge->y, domain->min.y, domain->max.y))
-        return refuse_outside(reader, map, "y");
+    if (!inside(gauge->x, domain->min.x, domain->max.x)) return refuse_outside(reader, map, "x");
+    if (!inside(gauge->y, domain->min.y, domain->max.y)) return refuse_outside(reader, map, "y");
     return SB_OK;
 }
 
 static const sb_table gauge_table = {SB_KEY_ROWS(gauge_keys), .size = sizeof(sb_gauge),
                                      .finish = finish_gauge};
 
+/* clang-format off */
 static const sb_key probe_keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_probe, name), .flags = SB_KEY_REQUIRED,
      .doc = "Unlike all other probes' names."},
@@ -44,6 +45,7 @@ static const sb_key probe_keys[] = {
      SB_KEY_NOT_NEGATIVE, .fallback = "0",
      .doc = "Particles this near count; 0: the support radius."},
 };
+/* clang-format on */
 
 static sb_status finish_probe(sb_reader *reader, const sb_yaml *map, void *item)
 {
@@ -58,6 +60,7 @@ static sb_status finish_probe(sb_reader *reader, const sb_yaml *map, void *item)
 static const sb_table probe_table = {SB_KEY_ROWS(probe_keys), .size = sizeof(sb_probe),
                                      .finish = finish_probe};
 
+/* clang-format off */
 static const sb_key plane_keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_flow_plane, name), .flags = SB_KEY_REQUIRED,
      .doc = "Unlike all other planes' names."},
@@ -71,12 +74,12 @@ static const sb_key plane_keys[] = {
     {.name = "z_max", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_flow_plane, z_max), .unit = "m",
      SB_KEY_ANY, .derived = "z of domain.max", .doc = "Upper edge."},
 };
+/* clang-format on */
 
 /* In 2D a plane is one metre of the slice's depth, so that volumes are per metre. */
 static void flatten_plane(const sb_yaml *map, sb_flow_plane *plane)
 {
-    if (!sb_yaml_child(map, "to"))
-        plane->bx = plane->ax;
+    if (!sb_yaml_child(map, "to")) plane->bx = plane->ax;
     if (plane->ay == plane->by) {
         plane->ay = -0.5;
         plane->by = 0.5;
@@ -87,17 +90,15 @@ static sb_status finish_plane(sb_reader *reader, const sb_yaml *map, void *item)
 {
     sb_flow_plane *plane = item;
     const sb_scene *scene = reader->scene;
-    if (!sb_yaml_child(map, "z_min"))
-        plane->z_min = scene->domain.min.z;
-    if (!sb_yaml_child(map, "z_max"))
-        plane->z_max = scene->domain.max.z;
+    if (!sb_yaml_child(map, "z_min")) plane->z_min = scene->domain.min.z;
+    if (!sb_yaml_child(map, "z_max")) plane->z_max = scene->domain.max.z;
     if (!(plane->z_min < plane->z_max))
         return sb_reader_fail(reader, map, "z_max", "%g m is not above z_min, expected > %g",
                               plane->z_max, plane->z_min);
-    if (scene->dimensions == 2)
-        flatten_plane(map, plane);
+    if (scene->dimensions == 2) flatten_plane(map, plane);
     if (scene->dimensions == 2 && plane->ax != plane->bx)
-        return sb_reader_fail(reader, map, "to", "x differs from that of from, expected the same "
+        return sb_reader_fail(reader, map, "to",
+                              "x differs from that of from, expected the same "
                               "in 2D");
     if (plane->ax == plane->bx && plane->ay == plane->by)
         return sb_reader_fail(reader, map, "to", "is the same point as from, expected another");
@@ -107,6 +108,7 @@ static sb_status finish_plane(sb_reader *reader, const sb_yaml *map, void *item)
 static const sb_table plane_table = {SB_KEY_ROWS(plane_keys), .size = sizeof(sb_flow_plane),
                                      .finish = finish_plane};
 
+/* clang-format off */
 static const sb_key runup_keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_runup_line, name), .flags = SB_KEY_REQUIRED,
      .doc = "Unlike all other lines' names."},
@@ -115,6 +117,7 @@ static const sb_key runup_keys[] = {
     {.name = "to", .type = SB_KEY_PLACE, SB_KEY_AT(sb_runup_line, bx), .unit = "m", SB_KEY_ANY,
      .flags = SB_KEY_REQUIRED, .doc = "The other end."},
 };
+/* clang-format on */
 
 static sb_status finish_runup(sb_reader *reader, const sb_yaml *map, void *item)
 {
@@ -127,6 +130,7 @@ static sb_status finish_runup(sb_reader *reader, const sb_yaml *map, void *item)
 static const sb_table runup_table = {SB_KEY_ROWS(runup_keys), .size = sizeof(sb_runup_line),
                                      .finish = finish_runup};
 
+/* clang-format off */
 static const sb_key map_keys[] = {
     {.name = "min", .type = SB_KEY_PLACE, SB_KEY_AT(sb_map, x_min), .unit = "m", SB_KEY_ANY,
      .derived = "that of the domain", .doc = "Corner with the smallest x and y; [x] in 2D."},
@@ -138,6 +142,7 @@ static const sb_key map_keys[] = {
      SB_KEY_POSITIVE, .derived = "resolution",
      .doc = "Depth, or rise above the start, that counts as arrival."},
 };
+/* clang-format on */
 
 static void fill_map(const sb_scene *scene, const sb_yaml *map, sb_map *grid)
 {
@@ -149,10 +154,8 @@ static void fill_map(const sb_scene *scene, const sb_yaml *map, sb_map *grid)
         grid->x_max = scene->domain.max.x;
         grid->y_max = scene->domain.max.y;
     }
-    if (!sb_yaml_child(map, "cell"))
-        grid->cell = 2 * scene->resolution;
-    if (!sb_yaml_child(map, "threshold"))
-        grid->threshold = scene->resolution;
+    if (!sb_yaml_child(map, "cell")) grid->cell = 2 * scene->resolution;
+    if (!sb_yaml_child(map, "threshold")) grid->threshold = scene->resolution;
     if (scene->dimensions == 2) { /* one row of cells along the slice */
         grid->y_min = -0.5 * grid->cell;
         grid->y_max = 0.5 * grid->cell;
@@ -182,11 +185,12 @@ enum { MAP = 1 };
 
 static unsigned measure_variant(const void *item, const sb_yaml *map)
 {
-    bool present = map ? sb_yaml_child(map, "map") != NULL
-                       : ((const sb_measure_settings *)item)->map.present;
+    bool present =
+        map ? sb_yaml_child(map, "map") != NULL : ((const sb_measure_settings *)item)->map.present;
     return present ? MAP : 0;
 }
 
+/* clang-format off */
 static const sb_key measure_keys[] = {
     {.name = "interval", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_measure_settings, interval),
      .unit = "s", SB_KEY_POSITIVE, .fallback = "0.1",
@@ -208,6 +212,7 @@ static const sb_key measure_keys[] = {
      .doc = "Greatest depth, speed, momentum flux and time of arrival on a horizontal grid; "
             "`map: {}` takes all defaults."},
 };
+/* clang-format on */
 
 static sb_status finish_measure(sb_reader *reader, const sb_yaml *map, void *item)
 {

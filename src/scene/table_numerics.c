@@ -9,15 +9,22 @@ static const char *const tolerance_words[] = {"density", "pressure", NULL};
 static const char *const step_words[] = {"paper", "depth", NULL};
 
 #define NUMBER(key, unit_, min_, max_, flags_, doc_)                                               \
-    {.name = #key, .type = SB_KEY_NUMBER, SB_KEY_AT(sb_numerics, key), .unit = unit_,              \
-     .min = min_, .max = max_, .flags = SB_KEY_PRESET | (flags_), .doc = doc_}
+    {                                                                                              \
+        .name = #key, .type = SB_KEY_NUMBER, SB_KEY_AT(sb_numerics, key), .unit = unit_,           \
+        .min = min_, .max = max_, .flags = SB_KEY_PRESET | (flags_), .doc = doc_                   \
+    }
 #define COUNT(key, unit_, min_, max_, doc_)                                                        \
-    {.name = #key, .type = SB_KEY_INTEGER, SB_KEY_AT(sb_numerics, key), .unit = unit_,             \
-     .min = min_, .max = max_, .flags = SB_KEY_PRESET, .doc = doc_}
+    {                                                                                              \
+        .name = #key, .type = SB_KEY_INTEGER, SB_KEY_AT(sb_numerics, key), .unit = unit_,          \
+        .min = min_, .max = max_, .flags = SB_KEY_PRESET, .doc = doc_                              \
+    }
 #define CHOICE(key, words_, doc_)                                                                  \
-    {.name = #key, .type = SB_KEY_CHOICE, SB_KEY_AT(sb_numerics, key), .words = words_,            \
-     .flags = SB_KEY_PRESET, .doc = doc_}
+    {                                                                                              \
+        .name = #key, .type = SB_KEY_CHOICE, SB_KEY_AT(sb_numerics, key), .words = words_,         \
+        .flags = SB_KEY_PRESET, .doc = doc_                                                        \
+    }
 
+/* clang-format off */
 static const sb_key keys[] = {
     {.name = "preset", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_numerics, preset),
      .words = preset_words, .fallback = "default",
@@ -42,7 +49,7 @@ static const sb_key keys[] = {
     CHOICE(time_step_rule, step_words,
            "Longest step: `paper` time_step_factor h/g, `depth` time_step_factor h/sqrt(g D), "
            "with h the support radius and D the still depth."),
-    NUMBER(time_step_factor, NULL, 0, 10, SB_KEY_ABOVE, "Factor of that rule (under `paper` in m/s)."),
+    NUMBER(time_step_factor, NULL, 0, 10, SB_KEY_ABOVE, "Factor of that rule (under `paper` in 1/s)."),
     NUMBER(time_step_max, "s", 0, HUGE_VAL, 0, "A further bound on the step; 0: none."),
     NUMBER(artificial_viscosity, NULL, 0, 10, 0,
            "alpha of Monaghan's viscosity; 0 leaves the term out."),
@@ -57,12 +64,12 @@ static const sb_key keys[] = {
      .flags = SB_KEY_PRESET, .doc = "Seed of that displacement."},
     COUNT(settle_steps, "steps", 0, 1000000, "Most damped steps before t = 0; 0: none."),
 };
+/* clang-format on */
 
 static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
 {
     const sb_numerics *numerics = item;
-    if (numerics->min_iterations <= numerics->max_iterations)
-        return SB_OK;
+    if (numerics->min_iterations <= numerics->max_iterations) return SB_OK;
     return sb_reader_fail(reader, map, "min_iterations",
                           "%d is more than max_iterations, expected at most %d",
                           numerics->min_iterations, numerics->max_iterations);

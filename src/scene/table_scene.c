@@ -5,9 +5,12 @@
 static const char *const side_words[] = {"wall", "open", "periodic", NULL};
 
 #define SIDE(index, side, fallback_, doc_)                                                         \
-    {.name = side, .type = SB_KEY_CHOICE, .offset = (index) * sizeof(sb_side_kind),                \
-     .words = side_words, .fallback = fallback_, .doc = doc_}
+    {                                                                                              \
+        .name = side, .type = SB_KEY_CHOICE, .offset = (index) * sizeof(sb_side_kind),             \
+        .words = side_words, .fallback = fallback_, .doc = doc_                                    \
+    }
 
+/* clang-format off */
 static const sb_key side_keys[] = {
     SIDE(SB_X_MIN, "x_min", "wall", "The side at the smallest x."),
     SIDE(SB_X_MAX, "x_max", "wall", "The side at the largest x."),
@@ -16,6 +19,7 @@ static const sb_key side_keys[] = {
     SIDE(SB_Z_MIN, "z_min", "wall", "The floor."),
     SIDE(SB_Z_MAX, "z_max", "open", "The lid."),
 };
+/* clang-format on */
 
 static sb_status finish_sides(sb_reader *reader, const sb_yaml *map, void *item)
 {
@@ -29,6 +33,7 @@ static sb_status finish_sides(sb_reader *reader, const sb_yaml *map, void *item)
 
 static const sb_table side_table = {SB_KEY_ROWS(side_keys), .finish = finish_sides};
 
+/* clang-format off */
 static const sb_key domain_keys[] = {
     {.name = "min", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_domain, min), .unit = "m", SB_KEY_ANY,
      .flags = SB_KEY_REQUIRED, .doc = "Corner with the smallest coordinates."},
@@ -38,6 +43,7 @@ static const sb_key domain_keys[] = {
      .doc = "What each side does: a `wall` holds the water; through an `open` side particles "
             "leave, and are counted; `periodic` is reserved and refused for now."},
 };
+/* clang-format on */
 
 static sb_status finish_domain(sb_reader *reader, const sb_yaml *map, void *item)
 {
@@ -46,8 +52,7 @@ static sb_status finish_domain(sb_reader *reader, const sb_yaml *map, void *item
     sb_vec3 size = sb_sub(domain->max, domain->min);
     const double extent[] = {size.x, size.y, size.z};
     for (size_t i = 0; i < 3; i++) {
-        if (i == 1 && scene->dimensions == 2)
-            continue;
+        if (i == 1 && scene->dimensions == 2) continue;
         if (!(extent[i] > 0) || !isfinite(extent[i]))
             return sb_reader_fail(reader, map, "max",
                                   "%c does not lie above that of domain.min, expected min < max",
@@ -56,14 +61,16 @@ static sb_status finish_domain(sb_reader *reader, const sb_yaml *map, void *item
         if (extent[i] / scene->resolution > 1e6)
             return sb_reader_fail(reader, map, "max",
                                   "%g m in %c are %.3g times the resolution of %g m, expected at "
-                                  "most 1e+06 times", extent[i], "xyz"[i],
-                                  extent[i] / scene->resolution, scene->resolution);
+                                  "most 1e+06 times",
+                                  extent[i], "xyz"[i], extent[i] / scene->resolution,
+                                  scene->resolution);
     }
     return SB_OK;
 }
 
 static const sb_table domain_table = {SB_KEY_ROWS(domain_keys), .finish = finish_domain};
 
+/* clang-format off */
 static const sb_key fluid_keys[] = {
     {.name = "density", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_fluid_properties, density),
      .unit = "kg/m3", SB_KEY_POSITIVE, .fallback = "1000", .doc = "Rest density."},
@@ -73,9 +80,11 @@ static const sb_key fluid_keys[] = {
      .unit = "m2/s", SB_KEY_NOT_NEGATIVE, .fallback = "1e-6",
      .doc = "Kinematic viscosity of the fluid; 0 leaves the term out."},
 };
+/* clang-format on */
 
 static const sb_table fluid_table = {SB_KEY_ROWS(fluid_keys)};
 
+/* clang-format off */
 static const sb_key scene_keys[] = {
     {.name = "title", .type = SB_KEY_TEXT, SB_KEY_AT(sb_scene, title), .fallback = "\"\"",
      .doc = "One line for pictures and reports."},
@@ -109,20 +118,20 @@ static const sb_key scene_keys[] = {
     {.name = "output", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, output),
      .table = &sb_output_table, .doc = "Other files of a run."},
 };
+/* clang-format on */
 
 static sb_status finish_scene(sb_reader *reader, const sb_yaml *map, void *item)
 {
     const sb_scene *scene = item;
     sb_vec3 size = sb_sub(scene->domain.max, scene->domain.min);
     double least = size.x < size.z ? size.x : size.z;
-    if (scene->dimensions == 3 && size.y < least)
-        least = size.y;
+    if (scene->dimensions == 3 && size.y < least) least = size.y;
     double support = scene->numerics.support * scene->resolution;
     if (support > least)
         return sb_reader_fail(reader, map, "resolution",
                               "%g m is too coarse: particles see %g m far and the domain is only "
-                              "%g m across, expected at most %g m", scene->resolution, support,
-                              least, least / scene->numerics.support);
+                              "%g m across, expected at most %g m",
+                              scene->resolution, support, least, least / scene->numerics.support);
     return SB_OK;
 }
 

@@ -6,8 +6,7 @@
 static sb_status ordered(sb_reader *reader, const sb_yaml *map, sb_vec3 min, sb_vec3 max)
 {
     bool flat = reader->scene->dimensions == 2;
-    if (min.x < max.x && min.z < max.z && (flat || min.y < max.y))
-        return SB_OK;
+    if (min.x < max.x && min.z < max.z && (flat || min.y < max.y)) return SB_OK;
     return sb_reader_fail(reader, map, "max", "does not lie above min, expected min < max");
 }
 
@@ -19,6 +18,7 @@ static bool in_domain(const sb_scene *scene, sb_vec3 point)
            point.y <= domain->max.y && point.z >= domain->min.z && point.z <= domain->max.z;
 }
 
+/* clang-format off */
 static const sb_key box_keys[] = {
     {.name = "min", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_fluid_box, min), .unit = "m", SB_KEY_ANY,
      .flags = SB_KEY_REQUIRED, .doc = "Corner with the smallest coordinates."},
@@ -30,20 +30,19 @@ static const sb_key box_keys[] = {
     {.name = "velocity", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_fluid_box, velocity), .unit = "m/s",
      SB_KEY_ANY, .fallback = "[0, 0, 0]", .doc = "Of the water in it at the start."},
 };
+/* clang-format on */
 
 static sb_status finish_box(sb_reader *reader, const sb_yaml *map, void *item)
 {
     sb_fluid_box *box = item;
     sb_status status = ordered(reader, map, box->min, box->max);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     const char *outside = !in_domain(reader->scene, box->min)   ? "min"
                           : !in_domain(reader->scene, box->max) ? "max"
                                                                 : NULL;
     if (outside)
         return sb_reader_fail(reader, map, outside, "is outside of the domain, expected inside");
-    if (!sb_yaml_child(map, "level"))
-        box->level = box->max.z;
+    if (!sb_yaml_child(map, "level")) box->level = box->max.z;
     const sb_key *key = &box_keys[2];
     if (!(box->level > box->min.z && box->level <= box->max.z))
         return sb_reader_fail(reader, map, key->name,
@@ -64,6 +63,7 @@ static unsigned wave_variant(const void *item, const sb_yaml *map)
     return 1u << ((const sb_initial_wave *)item)->kind;
 }
 
+/* clang-format off */
 static const sb_key wave_keys[] = {
     {.name = "kind", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_initial_wave, kind), .words = wave_words,
      .fallback = "none", .doc = "Which wave is on the water at the start."},
@@ -85,6 +85,7 @@ static const sb_key wave_keys[] = {
      .max = 1, .fallback = "1", .applies = SOLITARY, .only = "kind solitary",
      .doc = "1 travels towards +x, -1 towards -x; 0 is refused."},
 };
+/* clang-format on */
 
 static sb_status finish_wave(sb_reader *reader, const sb_yaml *map, void *item)
 {
@@ -109,6 +110,7 @@ static unsigned water_variant(const void *item, const sb_yaml *map)
     return sea ? SEA : 0;
 }
 
+/* clang-format off */
 static const sb_key water_keys[] = {
     {.name = "level", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_scene, sea.level), .unit = "m",
      SB_KEY_ANY, .applies = SEA, .derived = "no sea", .only = "a sea",
@@ -121,6 +123,7 @@ static const sb_key water_keys[] = {
     {.name = "wave", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, wave), .table = &wave_table,
      .doc = "A wave that is there at t = 0, surface and velocities, by its theory."},
 };
+/* clang-format on */
 
 static sb_status finish_water(sb_reader *reader, const sb_yaml *map, void *item)
 {
@@ -129,9 +132,9 @@ static sb_status finish_water(sb_reader *reader, const sb_yaml *map, void *item)
     const sb_domain *domain = &scene->domain;
     sea->present = water_variant(scene, map) & SEA;
     if (!sea->present && scene->box_count == 0)
-        return sb_reader_fail(reader, map, NULL, "holds no water, expected level and seed, or boxes");
-    if (!sea->present)
-        return SB_OK;
+        return sb_reader_fail(reader, map, NULL,
+                              "holds no water, expected level and seed, or boxes");
+    if (!sea->present) return SB_OK;
     if (!(sea->level > domain->min.z && sea->level <= domain->max.z))
         return sb_reader_fail(reader, map, "level",
                               "%g m is outside of the domain, expected metres > %g and <= %g",

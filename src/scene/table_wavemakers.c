@@ -15,10 +15,13 @@ static unsigned variant(const void *item, const sb_yaml *map)
 }
 
 #define LAW_NUMBER(key, unit_, bit, only_, doc_)                                                   \
-    {.name = #key, .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wavemaker_use, law.key), .unit = unit_,     \
-     .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .applies = bit,           \
-     .only = only_, .doc = doc_}
+    {                                                                                              \
+        .name = #key, .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wavemaker_use, law.key), .unit = unit_,  \
+        .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .applies = bit,        \
+        .only = only_, .doc = doc_                                                                 \
+    }
 
+/* clang-format off */
 static const sb_key keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_wavemaker_use, name),
      .flags = SB_KEY_REQUIRED, .doc = "Unlike all other wave makers' names."},
@@ -42,13 +45,13 @@ static const sb_key keys[] = {
      .words = after_words, .fallback = "stay", .doc = "What follows the stroke."},
     LAW_NUMBER(return_time, "s", RETURNS, "after: return", "Duration of the slow way back."),
 };
+/* clang-format on */
 
 /* With a split mesh, bodies' names are known only when its file is read: the model checks them. */
 static bool body_may_exist(const sb_scene *scene, const char *name)
 {
     for (size_t i = 0; i < scene->body_count; i++)
-        if (scene->bodies[i].split || strcmp(scene->bodies[i].name, name) == 0)
-            return true;
+        if (scene->bodies[i].split || strcmp(scene->bodies[i].name, name) == 0) return true;
     return false;
 }
 

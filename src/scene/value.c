@@ -29,17 +29,14 @@ static sb_status refuse_text(sb_reader *reader, const sb_yaml *node, const sb_ke
 
 static sb_status want_scalar(sb_reader *reader, const sb_yaml *node, const sb_key *key)
 {
-    if (node->kind == SB_YAML_LIST)
-        return refuse(reader, node, key, "is a list");
-    if (node->kind == SB_YAML_MAP)
-        return refuse(reader, node, key, "is a block of keys");
+    if (node->kind == SB_YAML_LIST) return refuse(reader, node, key, "is a list");
+    if (node->kind == SB_YAML_MAP) return refuse(reader, node, key, "is a block of keys");
     return sb_yaml_is_null(node) ? refuse(reader, node, key, "has no value") : SB_OK;
 }
 
 static bool in_range(const sb_key *key, double value)
 {
-    if (key->flags & SB_KEY_ABOVE ? !(value > key->min) : !(value >= key->min))
-        return false;
+    if (key->flags & SB_KEY_ABOVE ? !(value > key->min) : !(value >= key->min)) return false;
     return key->flags & SB_KEY_BELOW ? value < key->max : value <= key->max;
 }
 
@@ -48,8 +45,7 @@ static bool says_not_finite(const char *text)
     static const char *const words[] = {"nan", ".nan", "inf", ".inf", "infinity"};
     text += *text == '-' || *text == '+';
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strcasecmp(text, words[i]) == 0)
-            return true;
+        if (strcasecmp(text, words[i]) == 0) return true;
     return false;
 }
 
@@ -58,20 +54,15 @@ static sb_status read_number(sb_reader *reader, const sb_yaml *node, const sb_ke
                              double *value)
 {
     sb_status status = want_scalar(reader, node, key);
-    if (status != SB_OK)
-        return status;
-    if (node->quoted)
-        return refuse_text(reader, node, key, "is quoted text, not a number");
-    if (says_not_finite(node->text))
-        return refuse_text(reader, node, key, "is not finite");
+    if (status != SB_OK) return status;
+    if (node->quoted) return refuse_text(reader, node, key, "is quoted text, not a number");
+    if (says_not_finite(node->text)) return refuse_text(reader, node, key, "is not finite");
     char *end;
     double number = strtod(node->text, &end);
     if (node->text[strspn(node->text, "0123456789+-.eE")] != '\0' || *end != '\0')
         return refuse_text(reader, node, key, "is not a number");
-    if (!isfinite(number))
-        return refuse_text(reader, node, key, "is not finite: too large");
-    if (!in_range(key, number))
-        return refuse_text(reader, node, key, "is out of range");
+    if (!isfinite(number)) return refuse_text(reader, node, key, "is not finite: too large");
+    if (!in_range(key, number)) return refuse_text(reader, node, key, "is out of range");
     *value = number;
     return SB_OK;
 }
@@ -80,8 +71,7 @@ static sb_status read_integer(sb_reader *reader, const sb_yaml *node, const sb_k
 {
     double number;
     sb_status status = read_number(reader, node, key, &number);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     if (number != floor(number) || fabs(number) > INT_MAX)
         return refuse_text(reader, node, key, "is not a whole number");
     *value = (int)number;
@@ -92,14 +82,12 @@ static sb_status read_seed(sb_reader *reader, const sb_yaml *node, const sb_key 
                            uint64_t *value)
 {
     sb_status status = want_scalar(reader, node, key);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     errno = 0;
     if (node->quoted || node->text[strspn(node->text, "0123456789")] != '\0')
         return refuse_text(reader, node, key, "is not a whole number");
     unsigned long long number = strtoull(node->text, NULL, 10);
-    if (errno != 0)
-        return refuse_text(reader, node, key, "is out of range");
+    if (errno != 0) return refuse_text(reader, node, key, "is out of range");
     *value = number;
     return SB_OK;
 }
@@ -107,8 +95,7 @@ static sb_status read_seed(sb_reader *reader, const sb_yaml *node, const sb_key 
 static sb_status read_switch(sb_reader *reader, const sb_yaml *node, const sb_key *key, bool *value)
 {
     sb_status status = want_scalar(reader, node, key);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     bool on = strcmp(node->text, "true") == 0;
     if (node->quoted || (!on && strcmp(node->text, "false") != 0))
         return refuse_text(reader, node, key, "is neither");
@@ -127,13 +114,10 @@ static sb_status read_name(sb_reader *reader, const sb_yaml *node, const sb_key 
     static const char *const letters =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.-";
     sb_status status = want_scalar(reader, node, key);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     size_t length = strlen(node->text);
-    if (length == 0)
-        return refuse(reader, node, key, "is empty");
-    if (length >= SB_NAME_MAX)
-        return refuse_text(reader, node, key, "is too long");
+    if (length == 0) return refuse(reader, node, key, "is empty");
+    if (length >= SB_NAME_MAX) return refuse_text(reader, node, key, "is too long");
     if (strspn(node->text, letters) != length)
         return refuse_text(reader, node, key, "has a character that no file name should have");
     if (node->text[0] == '.' || node->text[0] == '-')
@@ -145,10 +129,8 @@ static sb_status read_name(sb_reader *reader, const sb_yaml *node, const sb_key 
 static sb_status read_file(sb_reader *reader, const sb_yaml *node, const sb_key *key, char **value)
 {
     sb_status status = want_scalar(reader, node, key);
-    if (status != SB_OK)
-        return status;
-    if (node->text[0] == '\0')
-        return refuse(reader, node, key, "is empty");
+    if (status != SB_OK) return status;
+    if (node->text[0] == '\0') return refuse(reader, node, key, "is empty");
     char path[SB_PATH_MAX];
     if (sb_path_join(path, reader->folder, node->text, NULL) != SB_OK)
         return refuse_text(reader, node, key, "is too long");
@@ -184,8 +166,7 @@ static sb_status make_unit(sb_reader *reader, const sb_yaml *node, const sb_key 
     if (!(length > 0) || !isfinite(length))
         return refuse(reader, node, key, "is not a direction: its length must be a number > 0");
     /* What is a unit vector already keeps its bits, so that a written scene reads back equal. */
-    if (fabs(length - 1) > 1e-12)
-        *vector = sb_scale(*vector, 1 / length);
+    if (fabs(length - 1) > 1e-12) *vector = sb_scale(*vector, 1 / length);
     return SB_OK;
 }
 
@@ -193,8 +174,7 @@ static sb_status read_vector(sb_reader *reader, const sb_yaml *node, const sb_ke
                              sb_vec3 *value)
 {
     bool flat = reader->scene->dimensions == 2 && !(key->flags & SB_KEY_FULL);
-    if (node->kind != SB_YAML_LIST)
-        return refuse(reader, node, key, "is not a list of numbers");
+    if (node->kind != SB_YAML_LIST) return refuse(reader, node, key, "is not a list of numbers");
     if (node->count != 3 && !(flat && node->count == 2)) {
         char what[64];
         snprintf(what, sizeof what, "has %zu items", node->count);
@@ -202,16 +182,14 @@ static sb_status read_vector(sb_reader *reader, const sb_yaml *node, const sb_ke
     }
     double numbers[3];
     sb_status status = read_numbers(reader, node, key, numbers + node->count, numbers);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     sb_vec3 vector = node->count == 3 ? sb_vec(numbers[0], numbers[1], numbers[2])
                                       : sb_vec(numbers[0], 0, numbers[1]);
     if (flat && vector.y != 0 && !(key->flags & SB_KEY_ANY_Y))
         return refuse(reader, node, key, "has y other than 0 in a scene of 2 dimensions");
     if (key->flags & SB_KEY_UNIT) {
         status = make_unit(reader, node, key, &vector);
-        if (status != SB_OK)
-            return status;
+        if (status != SB_OK) return status;
     }
     *value = vector;
     return SB_OK;
@@ -221,8 +199,7 @@ static sb_status read_place(sb_reader *reader, const sb_yaml *node, const sb_key
                             double *value)
 {
     bool flat = reader->scene->dimensions == 2;
-    if (node->kind != SB_YAML_LIST)
-        return refuse(reader, node, key, "is not a list of numbers");
+    if (node->kind != SB_YAML_LIST) return refuse(reader, node, key, "is not a list of numbers");
     if (node->count != 2 && !(flat && node->count == 1)) {
         char what[64];
         snprintf(what, sizeof what, "has %zu items", node->count);
@@ -237,16 +214,14 @@ static sb_status read_color(sb_reader *reader, const sb_yaml *node, const sb_key
     if (node->kind != SB_YAML_LIST || node->count != 3)
         return refuse(reader, node, key, "is not a list of three numbers");
     sb_status status = read_numbers(reader, node, key, numbers + 3, numbers);
-    for (size_t i = 0; status == SB_OK && i < 3; i++)
-        value[i] = (float)numbers[i];
+    for (size_t i = 0; status == SB_OK && i < 3; i++) value[i] = (float)numbers[i];
     return status;
 }
 
 static sb_status read_word(sb_reader *reader, const sb_yaml *node, const sb_key *key, void *field)
 {
     sb_status status = want_scalar(reader, node, key);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     if (key->type == SB_KEY_KERNEL) {
         const sb_kernel *kernel = sb_kernel_find(node->text);
         *(const sb_kernel **)field = kernel;
@@ -258,10 +233,8 @@ static sb_status read_word(sb_reader *reader, const sb_yaml *node, const sb_key 
         return law ? SB_OK : refuse_text(reader, node, key, "is not known");
     }
     unsigned at = 0;
-    while (key->words[at] && strcmp(key->words[at], node->text) != 0)
-        at++;
-    if (!key->words[at])
-        return refuse_text(reader, node, key, "is not known");
+    while (key->words[at] && strcmp(key->words[at], node->text) != 0) at++;
+    if (!key->words[at]) return refuse_text(reader, node, key, "is not known");
     if (key->type == SB_KEY_LETTER)
         *(char *)field = key->words[at][0];
     else
@@ -272,25 +245,36 @@ static sb_status read_word(sb_reader *reader, const sb_yaml *node, const sb_key 
 sb_status sb_reader_value(sb_reader *reader, const sb_yaml *node, const sb_key *key, void *field)
 {
     switch (key->type) {
-    case SB_KEY_NUMBER: return read_number(reader, node, key, field);
-    case SB_KEY_INTEGER: return read_integer(reader, node, key, field);
-    case SB_KEY_SEED: return read_seed(reader, node, key, field);
-    case SB_KEY_SWITCH: return read_switch(reader, node, key, field);
-    case SB_KEY_NAME: return read_name(reader, node, key, field);
-    case SB_KEY_FILE: return read_file(reader, node, key, field);
-    case SB_KEY_VECTOR: return read_vector(reader, node, key, field);
-    case SB_KEY_PLACE: return read_place(reader, node, key, field);
-    case SB_KEY_COLOR: return read_color(reader, node, key, field);
+    case SB_KEY_NUMBER:
+        return read_number(reader, node, key, field);
+    case SB_KEY_INTEGER:
+        return read_integer(reader, node, key, field);
+    case SB_KEY_SEED:
+        return read_seed(reader, node, key, field);
+    case SB_KEY_SWITCH:
+        return read_switch(reader, node, key, field);
+    case SB_KEY_NAME:
+        return read_name(reader, node, key, field);
+    case SB_KEY_FILE:
+        return read_file(reader, node, key, field);
+    case SB_KEY_VECTOR:
+        return read_vector(reader, node, key, field);
+    case SB_KEY_PLACE:
+        return read_place(reader, node, key, field);
+    case SB_KEY_COLOR:
+        return read_color(reader, node, key, field);
     case SB_KEY_CHOICE:
     case SB_KEY_LETTER:
     case SB_KEY_KERNEL:
-    case SB_KEY_LAW: return read_word(reader, node, key, field);
+    case SB_KEY_LAW:
+        return read_word(reader, node, key, field);
     case SB_KEY_TEXT: {
         sb_status status = want_scalar(reader, node, key);
         return status == SB_OK ? copy_text(reader, node->text, field) : status;
     }
     case SB_KEY_BLOCK:
-    case SB_KEY_LIST: break;
+    case SB_KEY_LIST:
+        break;
     }
     return sb_reader_fail(reader, node, NULL, "is not a plain value");
 }

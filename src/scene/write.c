@@ -8,8 +8,8 @@
 typedef struct writer {
     FILE *stream;
     int indent;
-    bool dash;        /* the next key is the first of a list item */
-    bool unwritable;  /* a text is not UTF-8 */
+    bool dash;       /* the next key is the first of a list item */
+    bool unwritable; /* a text is not UTF-8 */
 } writer;
 
 /* The shortest of the decimal forms that read back to the same number. */
@@ -18,8 +18,7 @@ static void put_number(FILE *stream, double number)
     char text[40];
     for (int digits = 15; digits <= 17; digits++) {
         snprintf(text, sizeof text, "%.*g", digits, number);
-        if (strtod(text, NULL) == number)
-            break;
+        if (strtod(text, NULL) == number) break;
     }
     fputs(text, stream);
 }
@@ -28,14 +27,16 @@ static void put_number(FILE *stream, double number)
 static long next_code(const char **text)
 {
     const unsigned char *at = (const unsigned char *)*text;
-    int more = at[0] < 0x80 ? 0 : at[0] < 0xc2 ? -1 : at[0] < 0xe0 ? 1 : at[0] < 0xf0 ? 2
-               : at[0] < 0xf5 ? 3 : -1;
-    if (more < 0)
-        return -1;
+    int more = at[0] < 0x80   ? 0
+               : at[0] < 0xc2 ? -1
+               : at[0] < 0xe0 ? 1
+               : at[0] < 0xf0 ? 2
+               : at[0] < 0xf5 ? 3
+                              : -1;
+    if (more < 0) return -1;
     long code = more == 0 ? at[0] : at[0] & (0x3f >> more);
     for (int i = 1; i <= more; i++) {
-        if ((at[i] & 0xc0) != 0x80)
-            return -1;
+        if ((at[i] & 0xc0) != 0x80) return -1;
         code = code << 6 | (at[i] & 0x3f);
     }
     *text += 1 + more;
@@ -58,8 +59,8 @@ static void put_text(writer *out, const char *text)
         }
         if (code == '"' || code == '\\')
             fprintf(out->stream, "\\%c", (char)code);
-        else if (code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x2028 ||
-                 code == 0x2029 || code == 0xfeff || code >= 0xfffe)
+        else if (code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x2028 || code == 0x2029 ||
+                 code == 0xfeff || code >= 0xfffe)
             fprintf(out->stream, "\\U%08lX", (unsigned long)code);
         else
             fwrite(start, 1, (size_t)(text - start), out->stream);
@@ -93,27 +94,50 @@ static void put_value(writer *out, const sb_key *key, const void *field)
     FILE *stream = out->stream;
     unsigned choice;
     switch (key->type) {
-    case SB_KEY_NUMBER: put_number(stream, *(const double *)field); break;
-    case SB_KEY_INTEGER: fprintf(stream, "%d", *(const int *)field); break;
+    case SB_KEY_NUMBER:
+        put_number(stream, *(const double *)field);
+        break;
+    case SB_KEY_INTEGER:
+        fprintf(stream, "%d", *(const int *)field);
+        break;
     case SB_KEY_SEED:
         fprintf(stream, "%llu", (unsigned long long)*(const uint64_t *)field);
         break;
-    case SB_KEY_SWITCH: fputs(*(const bool *)field ? "true" : "false", stream); break;
+    case SB_KEY_SWITCH:
+        fputs(*(const bool *)field ? "true" : "false", stream);
+        break;
     case SB_KEY_TEXT:
-    case SB_KEY_FILE: put_text(out, *(char *const *)field); break;
-    case SB_KEY_NAME: put_text(out, field); break;
-    case SB_KEY_VECTOR: put_vector(stream, field); break;
-    case SB_KEY_PLACE: put_numbers(stream, field, 2); break;
-    case SB_KEY_COLOR: put_color(stream, field); break;
+    case SB_KEY_FILE:
+        put_text(out, *(char *const *)field);
+        break;
+    case SB_KEY_NAME:
+        put_text(out, field);
+        break;
+    case SB_KEY_VECTOR:
+        put_vector(stream, field);
+        break;
+    case SB_KEY_PLACE:
+        put_numbers(stream, field, 2);
+        break;
+    case SB_KEY_COLOR:
+        put_color(stream, field);
+        break;
     case SB_KEY_CHOICE:
         memcpy(&choice, field, sizeof choice);
         fputs(key->words[choice], stream);
         break;
-    case SB_KEY_LETTER: fputc(*(const char *)field, stream); break;
-    case SB_KEY_KERNEL: fputs((*(const sb_kernel *const *)field)->name, stream); break;
-    case SB_KEY_LAW: fputs((*(const sb_wavemaker *const *)field)->name, stream); break;
+    case SB_KEY_LETTER:
+        fputc(*(const char *)field, stream);
+        break;
+    case SB_KEY_KERNEL:
+        fputs((*(const sb_kernel *const *)field)->name, stream);
+        break;
+    case SB_KEY_LAW:
+        fputs((*(const sb_wavemaker *const *)field)->name, stream);
+        break;
     case SB_KEY_BLOCK:
-    case SB_KEY_LIST: break;
+    case SB_KEY_LIST:
+        break;
     }
 }
 
@@ -166,16 +190,14 @@ static void put_rows(writer *out, const sb_table *table, const void *item)
 {
     unsigned variant = sb_table_variant(table, item, NULL);
     for (size_t i = 0; i < table->count; i++)
-        if (sb_key_applies(&table->keys[i], variant))
-            put_row(out, &table->keys[i], item);
+        if (sb_key_applies(&table->keys[i], variant)) put_row(out, &table->keys[i], item);
 }
 
 sb_status sb_scene_write(const sb_scene *scene, const char *path, sb_error *error)
 {
     sb_atomic_file file;
     sb_status status = sb_atomic_open(&file, path, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     writer out = {.stream = file.stream};
     fputs("# A scene as shorebreak " SB_VERSION " understood it, every default written out.\n",
           file.stream);
@@ -184,7 +206,8 @@ sb_status sb_scene_write(const sb_scene *scene, const char *path, sb_error *erro
         sb_atomic_abort(&file);
         return sb_fail(error, SB_BAD_INPUT,
                        "%.300s: a title, file name or address in the scene is not UTF-8, which "
-                       "YAML needs", path);
+                       "YAML needs",
+                       path);
     }
     return sb_atomic_commit(&file, 0, error);
 }

@@ -58,11 +58,9 @@ static sb_status load_scalar(loader *load, const yaml_node_t *node, char **text)
 
 static sb_status room(const loader *load, sb_yaml *out, size_t count)
 {
-    if (count == 0)
-        return SB_OK;
+    if (count == 0) return SB_OK;
     out->items = sb_alloc(count, sizeof *out->items);
-    if (!out->items)
-        return sb_fail_memory(load->error, "the scene's YAML tree");
+    if (!out->items) return sb_fail_memory(load->error, "the scene's YAML tree");
     out->capacity = count;
     return SB_OK;
 }
@@ -92,8 +90,7 @@ static sb_status load_pair(loader *load, const yaml_node_pair_t *pair, int depth
     child->key_line = (int)key->start_mark.line + 1;
     child->key_column = (int)key->start_mark.column + 1;
     sb_status status = load_scalar(load, key, &child->key);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     for (size_t i = 0; i + 1 < map->count; i++)
         if (strcmp(map->items[i].key, child->key) == 0)
             return fail_mark(load, key->start_mark, child->key,
@@ -161,8 +158,7 @@ static yaml_mark_t mark_of(const char *text, size_t length, size_t offset)
 static bool tab_at(const char *text, size_t length, yaml_mark_t mark)
 {
     size_t at = 0;
-    for (size_t line = 0; at < length && line < mark.line; at++)
-        line += text[at] == '\n';
+    for (size_t line = 0; at < length && line < mark.line; at++) line += text[at] == '\n';
     return at + mark.column < length && text[at + mark.column] == '\t';
 }
 
@@ -171,15 +167,14 @@ static sb_status explain(const yaml_parser_t *parser, sb_yaml_source source, con
 {
     const char *problem = parser->problem ? parser->problem : "cannot be parsed";
     yaml_mark_t mark = parser->problem_mark;
-    if (parser->error == YAML_MEMORY_ERROR)
-        return sb_fail_memory(error, "the YAML parser");
+    if (parser->error == YAML_MEMORY_ERROR) return sb_fail_memory(error, "the YAML parser");
     if (parser->error == YAML_READER_ERROR) {
         mark = mark_of(text, length, parser->problem_offset);
         return fail_at(source, mark.line, mark.column, "not UTF-8 text: ", problem, error);
     }
     if (tab_at(text, length, mark))
-        return fail_at(source, mark.line, mark.column, "a tab, expected spaces",
-                       " for indentation", error);
+        return fail_at(source, mark.line, mark.column, "a tab, expected spaces", " for indentation",
+                       error);
     return fail_at(source, mark.line, mark.column, "not valid YAML: ", problem, error);
 }
 
@@ -192,8 +187,7 @@ static sb_status prescan(sb_yaml_source source, const char *text, size_t length,
         else if ((text[i] == ']' || text[i] == '}') && depth > 0)
             depth--;
         anchors += text[i] == '&';
-        if (depth <= BRACKETS_MAX && anchors <= ANCHORS_MAX)
-            continue;
+        if (depth <= BRACKETS_MAX && anchors <= ANCHORS_MAX) continue;
         yaml_mark_t mark = mark_of(text, length, i);
         return fail_at(source, mark.line, mark.column,
                        depth > BRACKETS_MAX ? "nested deeper than 32 levels"
@@ -207,13 +201,11 @@ static sb_status refuse_second(yaml_parser_t *parser, sb_yaml_source source, con
                                size_t length, sb_error *error)
 {
     yaml_document_t next;
-    if (!yaml_parser_load(parser, &next))
-        return explain(parser, source, text, length, error);
+    if (!yaml_parser_load(parser, &next)) return explain(parser, source, text, length, error);
     yaml_mark_t mark = next.start_mark;
     bool more = yaml_document_get_root_node(&next) != NULL;
     yaml_document_delete(&next);
-    if (!more)
-        return SB_OK;
+    if (!more) return SB_OK;
     return fail_at(source, mark.line, mark.column, "a second YAML document", ", expected one",
                    error);
 }
@@ -222,21 +214,18 @@ static sb_status load_document(yaml_parser_t *parser, sb_yaml_source source, con
                                size_t length, sb_yaml *root, sb_error *error)
 {
     yaml_document_t document;
-    if (!yaml_parser_load(parser, &document))
-        return explain(parser, source, text, length, error);
+    if (!yaml_parser_load(parser, &document)) return explain(parser, source, text, length, error);
     loader load = {.document = &document, .source = source, .error = error};
     sb_yaml tree = {0};
     sb_status status = SB_OK;
     if (yaml_document_get_root_node(&document)) {
         status = load_node(&load, 1, 0, &tree);
-        if (status == SB_OK)
-            status = refuse_second(parser, source, text, length, error);
+        if (status == SB_OK) status = refuse_second(parser, source, text, length, error);
     } else if (source.placed) {
         status = fail_at(source, 0, 0, "the file is empty", ", expected a scene", error);
     } else {
         tree.text = sb_strdup("");
-        if (!tree.text)
-            status = sb_fail_memory(error, "a YAML value");
+        if (!tree.text) status = sb_fail_memory(error, "a YAML value");
     }
     yaml_document_delete(&document);
     if (status == SB_OK)
@@ -250,11 +239,9 @@ sb_status sb_yaml_parse(sb_yaml_source source, const char *text, size_t length, 
                         sb_error *error)
 {
     sb_status status = prescan(source, text, length, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     yaml_parser_t parser;
-    if (!yaml_parser_initialize(&parser))
-        return sb_fail_memory(error, "the YAML parser");
+    if (!yaml_parser_initialize(&parser)) return sb_fail_memory(error, "the YAML parser");
     yaml_parser_set_input_string(&parser, (const unsigned char *)text, length);
     yaml_parser_set_encoding(&parser, YAML_UTF8_ENCODING);
     status = load_document(&parser, source, text, length, root, error);
@@ -264,8 +251,7 @@ sb_status sb_yaml_parse(sb_yaml_source source, const char *text, size_t length, 
 
 void sb_yaml_free(sb_yaml *node)
 {
-    for (size_t i = 0; i < node->count; i++)
-        sb_yaml_free(&node->items[i]);
+    for (size_t i = 0; i < node->count; i++) sb_yaml_free(&node->items[i]);
     sb_free(node->items);
     sb_free(node->text);
     sb_free(node->key);
@@ -274,22 +260,18 @@ void sb_yaml_free(sb_yaml *node)
 
 sb_yaml *sb_yaml_child(const sb_yaml *map, const char *key)
 {
-    if (map->kind != SB_YAML_MAP)
-        return NULL;
+    if (map->kind != SB_YAML_MAP) return NULL;
     for (size_t i = 0; i < map->count; i++)
-        if (strcmp(map->items[i].key, key) == 0)
-            return &map->items[i];
+        if (strcmp(map->items[i].key, key) == 0) return &map->items[i];
     return NULL;
 }
 
 bool sb_yaml_is_null(const sb_yaml *node)
 {
     static const char *const nulls[] = {"", "~", "null", "Null", "NULL"};
-    if (node->kind != SB_YAML_SCALAR || node->quoted)
-        return false;
+    if (node->kind != SB_YAML_SCALAR || node->quoted) return false;
     for (size_t i = 0; i < sizeof nulls / sizeof *nulls; i++)
-        if (strcmp(node->text, nulls[i]) == 0)
-            return true;
+        if (strcmp(node->text, nulls[i]) == 0) return true;
     return false;
 }
 

@@ -1,4 +1,5 @@
-/* A YAML text as a tree of nodes that know their place. yaml.c is the only file that knows libyaml. */
+/* A YAML text as a tree of nodes that know their place. yaml.c is the only file that knows libyaml.
+ */
 #ifndef SB_SCENE_YAML_H
 #define SB_SCENE_YAML_H
 
