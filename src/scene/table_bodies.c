@@ -88,7 +88,8 @@ static const sb_key keys[] = {
      .min = -360, .max = 360, .flags = SB_KEY_FULL, .fallback = "[0, 0, 0]",
      .doc = "Angles about x, then y, then z, after scale and upward axis."},
     {.name = "translate", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_body, translate), .unit = "m",
-     SB_KEY_ANY, .flags = SB_KEY_ANY_Y, .fallback = "[0, 0, 0]", .doc = "Shift, after the rotation."},
+     SB_KEY_ANY, .flags = SB_KEY_ANY_Y, .fallback = "[0, 0, 0]",
+     .doc = "Shift, after the rotation."},
 };
 /* clang-format on */
 
