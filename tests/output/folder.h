@@ -37,7 +37,7 @@ static inline const char *in_folder(const char *name)
 }
 
 /* The whole file; free with sb_free. NULL when it cannot be read. */
-static inline char *text_of(const char *name)
+__attribute__((noinline, unused)) static char *text_of(const char *name)
 {
     char *text = NULL;
     size_t length;
