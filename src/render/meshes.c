@@ -97,14 +97,6 @@ static const char line_fragment[] =
 
 static const char depth_fragment[] = "void main() {}\n";
 
-static const sb_body *scene_body(const sb_scene *scene, const char *name)
-{
-    for (size_t i = 0; i < scene->body_count; i++)
-        if (strcmp(scene->bodies[i].name, name) == 0)
-            return &scene->bodies[i];
-    return NULL;
-}
-
 static void paint_of(const sb_model_body *body, unsigned char paint[4])
 {
     static const float concrete[3] = {0.80f, 0.79f, 0.76f}, steel[3] = {0.52f, 0.57f, 0.62f};
@@ -133,7 +125,7 @@ struct upload {
     size_t end_count, end_capacity;
 };
 
-static sb_status gather(const sb_scene *scene, const sb_model_body *body, sb_vec3 origin,
+static sb_status gather(const sb_model_body *body, sb_vec3 origin,
                         struct upload *upload, struct part *part, sb_error *error)
 {
     const sb_mesh *mesh = &body->mesh;
@@ -149,10 +141,9 @@ static sb_status gather(const sb_scene *scene, const sb_model_body *body, sb_vec
         sb_outline_free(&outline);
         return sb_fail_memory(error, "meshes to draw");
     }
-    const sb_body *source = scene_body(scene, body->name);
     snprintf(part->name, sizeof part->name, "%s", body->name);
     part->moves = body->wavemaker >= 0;
-    part->one_sided = source && (source->shape == SB_SHAPE_BASIN || source->shape == SB_SHAPE_PLANE);
+    part->one_sided = mesh->sheet && body->role != SB_ROLE_TERRAIN;
     part->line_alpha = body->role == SB_ROLE_TERRAIN ? 0.25f : 0.75f;
     part->first_corner = (GLint)upload->corner_count;
     part->first_line = (GLint)upload->end_count;
@@ -215,8 +206,8 @@ static sb_status make_programs(sb_meshes *meshes, sb_error *error)
     return status;
 }
 
-sb_status sb_meshes_create(const sb_scene *scene, const sb_model *model, sb_vec3 origin,
-                           sb_meshes **meshes, sb_error *error)
+sb_status sb_meshes_create(const sb_model *model, sb_vec3 origin, sb_meshes **meshes,
+                           sb_error *error)
 {
     struct upload upload = {0};
     sb_meshes *made = sb_alloc(1, sizeof *made);
@@ -233,7 +224,7 @@ sb_status sb_meshes_create(const sb_scene *scene, const sb_model *model, sb_vec3
             continue;
         struct part *part = &made->parts[made->part_count];
         part->body = i;
-        status = gather(scene, &model->bodies[i], origin, &upload, part, error);
+        status = gather(&model->bodies[i], origin, &upload, part, error);
         if (status != SB_OK)
             goto done;
         made->part_count++;
@@ -298,7 +289,8 @@ void sb_meshes_draw_depth(const sb_meshes *meshes, const float clip[16])
     sb_uniform_mat4(meshes->depth_program, "clip", clip);
     glBindVertexArray(meshes->face_array);
     for (size_t i = 0; i < meshes->part_count; i++) {
-        if (meshes->parts[i].moves)
+        /* Light falls through what is seen through. */
+        if (meshes->parts[i].moves || meshes->parts[i].one_sided)
             continue;
         set_shift(meshes->depth_program, &meshes->parts[i], NULL);
         glDrawArrays(GL_TRIANGLES, meshes->parts[i].first_corner, meshes->parts[i].corners);

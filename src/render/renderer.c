@@ -63,7 +63,7 @@ static sb_status make_passes(sb_renderer *r, const sb_model *model, sb_error *er
 {
     sb_status status = make_framebuffer(r, error);
     if (status == SB_OK)
-        status = sb_meshes_create(r->scene, model, model->min, &r->meshes, error);
+        status = sb_meshes_create(model, model->min, &r->meshes, error);
     if (status == SB_OK)
         status = sb_light_create(r->meshes, model->min, r->min, r->max, sea_level(r->scene),
                                  &r->light, error);

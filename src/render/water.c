@@ -94,8 +94,8 @@ static const char shade_fragment[] =
     "  float f = 1.0 - facing; f *= f; f *= f * (1.0 - facing);\n"
     "  float gloss = 0.02 + 0.30 * f;\n"
     "  vec3 mirrored = reflect(-to_eye, n);\n"
-    "  mirrored.z = abs(mirrored.z);\n"
     "  float spark = pow(max(dot(mirrored, sun), 0.0), 60.0);\n"
+    "  mirrored.z = abs(mirrored.z);\n"
     "  vec3 c = mix(0.8 * lit(albedo, place, n), sky(mirrored), gloss) + spark * vec3(0.30, 0.28, 0.24);\n"
     "  color = encoded(hazed(c, place));\n"
     "}\n";
