@@ -119,6 +119,15 @@ static sb_status merge(sb_mesh *meshes, size_t *count, sb_error *error)
     return SB_OK;
 }
 
+/* Only mesh files need it: shapes and grids are made the right way round. */
+static sb_status orient(const sb_body *body, sb_mesh *meshes, size_t count, sb_error *error)
+{
+    sb_status status = SB_OK;
+    for (size_t i = 0; i < count && body->shape == SB_SHAPE_MESH && status == SB_OK; ++i)
+        status = sb_mesh_orient(&meshes[i], body->role, error);
+    return status;
+}
+
 static bool taken(const sb_mesh *meshes, size_t count, const char *name)
 {
     for (size_t i = 0; i < count; ++i)
@@ -153,11 +162,14 @@ sb_status sb_mesh_from_body(const sb_body *body, double spacing, sb_mesh **meshe
     else if (from_file && !(isfinite(body->scale) && body->scale > 0))
         status = sb_fail(&reason, SB_BAD_INPUT, "scale %g, expected > 0", body->scale);
     if (status == SB_OK) status = make(body, spacing, &made, &made_count, &reason);
+    for (size_t i = 0; i < made_count; ++i) transform(body, &made[i]);
+    /* Each solid part for itself, one may be inside out; but the parts of a terrain together, a
+       quay wall alone does not know which way is up. */
+    if (status == SB_OK && body->role == SB_ROLE_SOLID)
+        status = orient(body, made, made_count, &reason);
     if (status == SB_OK && !body->split) status = merge(made, &made_count, &reason);
-    for (size_t i = 0; i < made_count && status == SB_OK; ++i) {
-        transform(body, &made[i]);
-        if (from_file) status = sb_mesh_orient(&made[i], body->role, &reason);
-    }
+    if (status == SB_OK && body->role == SB_ROLE_TERRAIN)
+        status = orient(body, made, made_count, &reason);
     if (status != SB_OK) {
         for (size_t i = 0; i < made_count; ++i) sb_mesh_free(&made[i]);
         sb_free(made);

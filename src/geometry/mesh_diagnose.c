@@ -131,12 +131,12 @@ sb_status sb_mesh_orient(sb_mesh *mesh, sb_role role, sb_error *error)
     sb_vec3 area_vector;
     sb_mesh_report report = {0};
     measure(mesh, &report, &area_vector);
-    /* A closed terrain has no area vector to go by: then its volume tells, as for a solid. A sheet
-       of role SOLID has neither, and keeps what its author gave it. */
-    bool flat = sb_norm(area_vector) > 1e-6 * report.area;
-    bool sheet = mesh->sheet || sb_norm(area_vector) > 0.9 * report.area;
-    bool wrong = role == SB_ROLE_TERRAIN && flat ? area_vector.z < 0 : report.volume < 0;
-    if (wrong && (role == SB_ROLE_TERRAIN || !sheet)) {
+    /* A closed terrain has no area vector to go by: then its volume tells, as for a solid. What
+       stands upright, and a sheet of role SOLID, keep what their author gave them. */
+    double facing = sb_norm(area_vector) / report.area, up = area_vector.z / report.area;
+    bool by_volume = role == SB_ROLE_SOLID ? !mesh->sheet && facing < 0.9 : facing < 1e-6;
+    bool wrong = by_volume ? report.volume < 0 : role == SB_ROLE_TERRAIN && up < -0.05;
+    if (wrong) {
         for (size_t i = 0; i < mesh->triangle_count; ++i) turn(mesh, i);
         turned = mesh->triangle_count - turned;
     }

@@ -148,12 +148,12 @@ static void send_node_mesh(sender *to, const struct aiNode *node, const placemen
     sb_mesh_free(&mesh);
 }
 
-/* A node without a name goes by that of the one above; the file's own name, which assimp gives to
-   the root, and its <placeholders> and $automatic$ names are none. */
+/* A node without a name goes by that of the one above. The file's own name, which assimp gives to
+   the root, and its placeholders are none. */
 static const char *name_of(const struct aiNode *node, const char *above)
 {
     const char *own = node->mName.data;
-    if (own[0] == '\0' || own[0] == '<' || own[0] == '$' ||
+    if (own[0] == '\0' || own[0] == '<' || own[0] == '$' || strcmp(own, "defaultobject") == 0 ||
         (!node->mParent && node->mNumMeshes == 0))
         return above;
     return own;

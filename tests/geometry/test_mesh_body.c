@@ -154,7 +154,8 @@ static void test_mesh_file_body(void **state)
     assert_string_equal(meshes[0].name, "plant");
     assert_int_equal(meshes[0].triangle_count, 8);
     assert_true(near(report.min, sb_vec(0, 9, 0)) && near(report.max, sb_vec(4, 10, 1)));
-    assert_true(report.watertight);
+    assert_true(report.watertight && fabs(report.volume - 2.0 / 6) < 1e-7);
+    assert_int_equal(meshes[0].turned, 4);
     free_all(meshes, 1);
 
     body.split = true;

@@ -353,6 +353,7 @@ static void test_degenerate_triangles_are_counted(void **state)
     assert_int_equal(meshes[0].triangle_count, 1);
     assert_int_equal(meshes[0].vertex_count, 3);
     assert_int_equal(meshes[0].dropped, 2);
+    assert_string_equal(meshes[0].name, "");
     free_meshes(meshes, count);
 }
 
