@@ -21,6 +21,7 @@ typedef struct sb_step_report {
     double max_speed;         /* m/s */
     size_t fluid_count;
     uint64_t left_domain;     /* particles that left through open sides so far */
+    uint64_t lost;            /* particles that passed a wall side of the domain so far */
 } sb_step_report;
 
 /* Impulse and angular impulse on one body since the start: differences over an interval, divided by

@@ -1,0 +1,82 @@
+/* What the water does to bodies over one step: the reaction to every wall term that moved the water
+   [A12, eq. 10], so that the momenta of water and bodies balance to round-off. */
+#include "sim/friction.h"
+
+#include <string.h>
+
+enum { VALUES = 9 }; /* pressure, friction, moment */
+
+/* Forces (N) and moment (Nm) on bodies from one block of particles, into sum[body][VALUES]. */
+static void do_block(const sb_sim *sim, size_t block, double *sum, float friction, float epsilon)
+{
+    const double mass = (double)sim->constant.mass, quantum = sim->space.quantum;
+    const sb_f4 *velocity = sim->scratch; /* at the step's start */
+    for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
+        const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
+        const float *slope = sim->wall_pairs.slope + sim->wall_pairs.first[i];
+        const double q = (double)sim->unknown[i];
+        for (size_t k = 0; k < sim->wall_pairs.count[i]; k++) {
+            if (slope[k] == 0)
+                continue;
+            const sb_wall_set *set = &sim->walls[index[k] >> 31];
+            uint32_t wall = index[k] & 0x7fffffffu, body = set->body[wall];
+            sb_f4 d = sb_offset(sim->position[i], set->record[wall]);
+            double scale = mass * q * (double)slope[k];
+            sb_vec3 pressure = sb_vec(scale * (double)d[0], scale * (double)d[1], scale * (double)d[2]);
+            sb_vec3 drag = {0};
+            if (friction > 0) {
+                sb_f4 f = sb_friction(sim, i, velocity[i], index[k], slope[k], friction, epsilon);
+                drag = sb_scale(sb_vec((double)f[0], (double)f[1], (double)f[2]), -mass / quantum);
+            }
+            sb_vec3 arm = sb_sub(sb_space_position(&sim->space, set->record[wall]),
+                                 sim->model->bodies[body].moment_point);
+            sb_vec3 moment = sb_cross(arm, sb_add(pressure, drag));
+            const double values[VALUES] = {pressure.x, pressure.y, pressure.z, drag.x,  drag.y,
+                                           drag.z,     moment.x,   moment.y,   moment.z};
+            for (int v = 0; v < VALUES; v++)
+                sum[(size_t)VALUES * body + (size_t)v] += values[v];
+        }
+    }
+}
+
+static bool touches_walls(const sb_sim *sim, size_t block)
+{
+    for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++)
+        if (sim->wall_pairs.count[i] > 0)
+            return true;
+    return false;
+}
+
+sb_status sb_stage_impulse(sb_sim *sim, sb_error *error)
+{
+    (void)error;
+    const size_t bodies = sim->model->body_count, blocks = sb_blocks(sim);
+    const sb_numerics *n = &sim->scene->numerics;
+    const float friction = 0.5f * (float)n->wall_friction * sim->constant.support * sim->constant.sound_speed;
+    const double h_quanta = (double)sim->constant.support / sim->space.quantum;
+    const float epsilon = (float)(0.01 * h_quanta * h_quanta);
+#pragma omp parallel for schedule(dynamic, 4)
+    for (size_t b = 0; b < blocks; b++) {
+        sim->block_touched[b] = touches_walls(sim, b);
+        if (!sim->block_touched[b])
+            continue;
+        double *sum = sim->block_impulse + b * bodies * VALUES;
+        memset(sum, 0, bodies * VALUES * sizeof *sum);
+        do_block(sim, b, sum, friction, epsilon);
+    }
+    if (sim->settling)
+        return SB_OK;
+    const double dt = sim->report.time_step;
+    for (size_t b = 0; b < blocks; b++) {
+        if (!sim->block_touched[b])
+            continue;
+        for (size_t body = 0; body < bodies; body++) {
+            const double *s = sim->block_impulse + (b * bodies + body) * VALUES;
+            sb_body_impulse *total = &sim->impulse[body];
+            total->pressure = sb_madd(total->pressure, dt, sb_vec(s[0], s[1], s[2]));
+            total->friction = sb_madd(total->friction, dt, sb_vec(s[3], s[4], s[5]));
+            total->moment = sb_madd(total->moment, dt, sb_vec(s[6], s[7], s[8]));
+        }
+    }
+    return SB_OK;
+}

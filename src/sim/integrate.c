@@ -1,0 +1,128 @@
+/* The time step and the symplectic update [S16, eqs. 10-12, 17, 18]. */
+#include "sim/state.h"
+
+#include <math.h>
+
+/* Without an impulse of its own the water falls from rest: then gravity sets the pace [S16, eq. 11]. */
+static double cfl_step(const sb_sim *sim, double speed)
+{
+    double h = (double)sim->constant.support, g = (double)sim->constant.gravity;
+    double lambda = sim->scene->numerics.cfl;
+    double rest = g > 0 ? sqrt(lambda * h / g) : (double)INFINITY;
+    return speed > 1e-6 * (double)sim->constant.wave_speed ? fmin(lambda * h / speed, rest) : rest;
+}
+
+static double top_speed(const sb_sim *sim)
+{
+    double speed = sim->report.max_speed;
+    double probe = 1e-3 * (double)sim->constant.spacing / (double)sim->constant.wave_speed;
+    for (size_t m = 0; m < sim->moving_count && !sim->settling; m++) {
+        const sb_paddle *paddle = &sim->moving[m].paddle;
+        double moved = sb_paddle_displacement(paddle, sim->report.time + probe) -
+                       sb_paddle_displacement(paddle, sim->report.time);
+        speed = fmax(speed, fabs(moved) / probe);
+    }
+    return speed;
+}
+
+sb_status sb_stage_time_step(sb_sim *sim, sb_error *error)
+{
+    const sb_numerics *n = &sim->scene->numerics;
+    double h = (double)sim->constant.support, g = (double)sim->constant.gravity;
+    double bound = n->time_step_rule == SB_TIME_STEP_PAPER ? n->time_step_factor * h / g
+                                                           : n->time_step_factor * h / (double)sim->constant.wave_speed;
+    double dt = fmin(cfl_step(sim, top_speed(sim)), bound);
+    if (n->time_step_max > 0)
+        dt = fmin(dt, n->time_step_max);
+    if (!(dt > 0) || !isfinite(dt))
+        return sb_fail(error, SB_FAILED, "step %llu, t = %g s: time step is %g s: the run has diverged",
+                       (unsigned long long)sim->report.step, sim->report.time, dt);
+    sim->report.time_step = dt;
+    return SB_OK;
+}
+
+/* Rounds to quanta; a clamped position is outside the domain, and the sort will drop it. */
+SB_INLINE uint32_t moved(uint32_t from, float step)
+{
+    float bound = 1.0e9f;
+    step = step < -bound ? -bound : step > bound ? bound : step;
+    int64_t to = (int64_t)from + (int64_t)rintf(step);
+    return to < 0 ? 0 : to > 0x7fffffff ? 0x7fffffffu : (uint32_t)to;
+}
+
+/* Largest squared speed of the block, NaN when there is one, and the particle. */
+typedef struct fastest {
+    float square;
+    size_t particle;
+} fastest;
+
+/* New velocities into the acceleration's place: nothing is lost yet if they turn out senseless. */
+SB_MULTIVERSION
+static fastest accelerate(sb_sim *sim, size_t block)
+{
+    const sb_f4 dt = sb_splat((float)sim->report.time_step);
+    const sb_f4 damping = sb_splat(sim->settling ? 0.5f : 1.0f);
+    const bool flat = sim->constant.dimension == 2;
+    fastest top = {0, block * SB_BLOCK};
+    for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
+        sb_f4 v = (sim->velocity[i] + sim->acceleration[i] * dt) * damping;
+        v[3] = sim->unknown[i] * sim->density[i] * sim->density[i];
+        if (flat)
+            v[1] = 0;
+        float square = sb_sum3(v * v);
+        if (!(square <= top.square))
+            top = (fastest){square, i};
+        if (isnan(square))
+            return top;
+        sim->acceleration[i] = v;
+    }
+    return top;
+}
+
+SB_MULTIVERSION
+static void move(sb_sim *sim, size_t block)
+{
+    const float step = (float)(sim->report.time_step / sim->space.quantum);
+    for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
+        sb_f4 v = sim->acceleration[i];
+        sim->velocity[i] = v;
+        sim->position[i] = (sb_record){moved(sim->position[i][0], v[0] * step),
+                                       moved(sim->position[i][1], v[1] * step),
+                                       moved(sim->position[i][2], v[2] * step), 0};
+    }
+}
+
+static sb_status diverged(const sb_sim *sim, fastest top, sb_error *error)
+{
+    sb_vec3 at = sb_space_position(&sim->space, sim->position[top.particle]);
+    return sb_fail(error, SB_FAILED,
+                   "step %llu, t = %g s: diverged: particle %u at (%.4g, %.4g, %.4g) m would reach %g m/s, "
+                   "expected below %g (density error %.3g after %d iterations)",
+                   (unsigned long long)sim->report.step + 1, sim->report.time, sim->id[top.particle],
+                   at.x, at.y, at.z, (double)sqrtf(top.square), (double)sim->constant.speed_limit,
+                   sim->report.error_mean, sim->report.iterations);
+}
+
+sb_status sb_stage_integrate(sb_sim *sim, sb_error *error)
+{
+    const size_t blocks = sb_blocks(sim);
+    fastest top = {0, 0};
+#pragma omp parallel for schedule(static)
+    for (size_t b = 0; b < blocks; b++) {
+        fastest found = accelerate(sim, b);
+        sim->partial[2 * b] = (double)found.square;
+        sim->partial[2 * b + 1] = (double)found.particle;
+    }
+    for (size_t b = 0; b < blocks && !isnan(top.square); b++)
+        if (!(sim->partial[2 * b] <= (double)top.square))
+            top = (fastest){(float)sim->partial[2 * b], (size_t)sim->partial[2 * b + 1]};
+    if (!(top.square <= sim->constant.speed_limit * sim->constant.speed_limit))
+        return diverged(sim, top, error);
+#pragma omp parallel for schedule(static)
+    for (size_t b = 0; b < blocks; b++)
+        move(sim, b);
+    sim->report.max_speed = sqrt((double)top.square);
+    sim->report.time += sim->settling ? 0 : sim->report.time_step;
+    sim->report.step += !sim->settling;
+    return SB_OK;
+}

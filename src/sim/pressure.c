@@ -1,0 +1,132 @@
+/* The source of the pressure problem, its first guess, when to stop, and the acceleration that results. */
+#include "sim/pressure.h"
+
+#include <math.h>
+
+const sb_pressure_solver *const sb_pressure_solvers[] = {
+    [SB_SOLVER_JACOBI] = &sb_solver_jacobi,
+    [SB_SOLVER_CHEBYSHEV] = &sb_solver_chebyshev,
+    [SB_SOLVER_CG] = &sb_solver_cg,
+    NULL,
+};
+
+SB_MULTIVERSION
+static void source_block(sb_sim *sim, size_t block, float dt, float beta)
+{
+    const sb_record *position = sim->position;
+    const sb_f4 *velocity = sim->velocity;
+    const float rest = sim->constant.rest_density;
+    for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
+        const uint32_t *index = sim->pairs.index + sim->pairs.first[i];
+        const float *slope = sim->pairs.slope + sim->pairs.first[i];
+        const sb_record self = position[i];
+        const sb_f4 own = velocity[i];
+        sb_f4 sum = {0};
+        for (size_t k = 0; k < sim->pairs.count[i]; k++)
+            sum += sb_offset(self, position[index[k]]) * ((own - velocity[index[k]]) * sb_splat(slope[k]));
+        float divergence = sb_sum3(sum) + sb_sum3(own * sim->wall[i]) - sim->wall[i][3];
+        sim->source[i] = beta * (rest - sim->density[i]) - dt * divergence;
+    }
+}
+
+/* b_i = beta (rho_0 - rho_i) - dt div_i, with the velocities v* and the walls' own. */
+sb_status sb_stage_source(sb_sim *sim, sb_error *error)
+{
+    (void)error;
+    const size_t blocks = sb_blocks(sim);
+    const float dt = (float)sim->report.time_step;
+    const float beta = (float)sim->scene->numerics.source_relaxation;
+#pragma omp parallel for schedule(dynamic, 1)
+    for (size_t b = 0; b < blocks; b++)
+        source_block(sim, b, dt, beta);
+    return SB_OK;
+}
+
+/* q from the last step's pressure in Pa, whatever dt was then; and -a_ii by this step's dt. */
+static void first_guess(sb_sim *sim)
+{
+    const size_t n = sim->n;
+    const float share = (float)sim->scene->numerics.warm_start;
+    const float dt2 = (float)(sim->report.time_step * sim->report.time_step);
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < n; i++) {
+        float p = sim->velocity[i][3], rho = sim->density[i];
+        float q = share * p / (rho * rho);
+        sim->diagonal[i] *= dt2;
+        sim->unknown[i] = sim->diagonal[i] > 0 && q > 0 ? q : 0;
+    }
+}
+
+static double tolerance(const sb_sim *sim)
+{
+    const sb_numerics *n = &sim->scene->numerics;
+    if (n->tolerance_rule == SB_TOLERANCE_DENSITY)
+        return n->tolerance;
+    double courant = sim->report.time_step * (double)sim->constant.wave_speed /
+                     (double)sim->constant.spacing;
+    return n->tolerance * courant * courant;
+}
+
+sb_status sb_stage_pressure(sb_sim *sim, sb_error *error)
+{
+    first_guess(sim);
+    sim->report.iterations = 0;
+    sim->report.capped = false;
+    sim->report.tolerance = tolerance(sim);
+    return sb_pressure_solvers[sim->scene->numerics.solver]->solve(sim, error);
+}
+
+/* Partial sums of one block: positive excess, |e| and count of active particles, worst. */
+static void judge_block(const sb_sim *sim, size_t block, double *partial)
+{
+    double excess = 0, active = 0, count = 0, worst = 0;
+    for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
+        double e = (double)sim->residual[i];
+        if (sim->diagonal[i] == 0)
+            continue;
+        excess += e > 0 ? e : 0;
+        worst = e > worst ? e : worst;
+        active += sim->unknown[i] > 0 ? fabs(e) : 0;
+        count += sim->unknown[i] > 0;
+    }
+    partial[0] = excess;
+    partial[1] = active;
+    partial[2] = count;
+    partial[3] = worst;
+}
+
+sb_pressure_error sb_pressure_judge(sb_sim *sim)
+{
+    const size_t blocks = sb_blocks(sim);
+    const double rest = (double)sim->constant.rest_density;
+    double excess = 0, active = 0, count = 0, worst = 0;
+#pragma omp parallel for schedule(static)
+    for (size_t b = 0; b < blocks; b++)
+        judge_block(sim, b, sim->partial + 4 * b);
+    for (size_t b = 0; b < blocks; b++) {
+        const double *p = sim->partial + 4 * b;
+        excess += p[0];
+        active += p[1];
+        count += p[2];
+        worst = p[3] > worst ? p[3] : worst;
+    }
+    sb_pressure_error error = {
+        .mean = sim->n ? excess / ((double)sim->n * rest) : 0,
+        .active = count > 0 ? active / (count * rest) : 0,
+        .max = worst / rest,
+    };
+    sim->report.iterations++;
+    sim->report.error_mean = error.mean;
+    sim->report.error_active = error.active;
+    sim->report.error_max = error.max;
+    return error;
+}
+
+bool sb_pressure_done(sb_sim *sim, const sb_pressure_error *error)
+{
+    const sb_numerics *n = &sim->scene->numerics;
+    if (error->mean <= sim->report.tolerance && sim->report.iterations >= n->min_iterations)
+        return true;
+    sim->report.capped = sim->report.iterations >= n->max_iterations;
+    return sim->report.capped;
+}

@@ -1,0 +1,40 @@
+/* The pressure problem of one step and the solvers for it.
+   Unknown q = p/rho^2 >= 0; A q = dt^2 div(G q) is symmetric and negative semidefinite; with
+   e = A q - b (predicted excess density) the solution has q >= 0, e <= 0, q e = 0. */
+#ifndef SB_SIM_PRESSURE_H
+#define SB_SIM_PRESSURE_H
+
+#include "sim/state.h"
+
+/* How good the present iterate is. */
+typedef struct sb_pressure_error {
+    double mean;   /* of max(0, e) over all particles, relative to the rest density */
+    double active; /* of |e| over particles with q > 0, relative */
+    double max;    /* of max(0, e), relative */
+} sb_pressure_error;
+
+/* A solver starts from sim->unknown and sim->source, leaves its iterate in sim->unknown, and keeps
+   sim->report.iterations, error_* up to date by sb_pressure_judge. */
+typedef struct sb_pressure_solver {
+    const char *name, *summary, *reference;
+    bool needs_direction;   /* the fields direction and product beyond residual */
+    sb_status (*solve)(sb_sim *sim, sb_error *error);
+} sb_pressure_solver;
+
+/* Rows in the order of enum sb_solver. */
+extern const sb_pressure_solver *const sb_pressure_solvers[];
+extern const sb_pressure_solver sb_solver_jacobi, sb_solver_chebyshev, sb_solver_cg;
+
+/* Puts a field into the records' carried lane: the argument of the next product. */
+void sb_pressure_load(sb_sim *sim, const float *argument);
+/* acceleration = G argument: a_i = -[sum_j m (q_i + q_j) grad W_ij + q_i B_i]. */
+void sb_pressure_accelerate(sb_sim *sim);
+/* out = A argument, both passes: dt^2 [sum_j m (a_i - a_j) . grad W_ij + a_i . B_i]. */
+void sb_pressure_product(sb_sim *sim, float *out);
+
+/* Errors of the residual field; counts one iteration into the report. */
+sb_pressure_error sb_pressure_judge(sb_sim *sim);
+/* Whether the tolerance is met, or the cap reached (then the report says capped). */
+bool sb_pressure_done(sb_sim *sim, const sb_pressure_error *error);
+
+#endif

@@ -1,0 +1,33 @@
+/* Relaxed Jacobi with the clamp q >= 0 [I14; S16, Algorithm 2], in residual form. */
+#include "sim/pressure.h"
+
+static sb_status solve(sb_sim *sim, sb_error *error)
+{
+    (void)error;
+    const float omega = (float)sim->scene->numerics.relaxation;
+    for (;;) {
+        const size_t n = sim->n;
+        sb_pressure_load(sim, sim->unknown);
+        sb_pressure_product(sim, sim->residual);
+#pragma omp parallel for schedule(static)
+        for (size_t i = 0; i < n; i++)
+            sim->residual[i] -= sim->source[i];
+        sb_pressure_error judged = sb_pressure_judge(sim);
+        if (sb_pressure_done(sim, &judged))
+            return SB_OK;
+#pragma omp parallel for schedule(static)
+        for (size_t i = 0; i < n; i++) {
+            if (sim->diagonal[i] == 0)
+                continue;
+            float q = sim->unknown[i] + omega * sim->residual[i] / sim->diagonal[i];
+            sim->unknown[i] = q > 0 ? q : 0;
+        }
+    }
+}
+
+const sb_pressure_solver sb_solver_jacobi = {
+    .name = "jacobi",
+    .summary = "relaxed Jacobi with clamp",
+    .reference = "Ihmsen et al. 2014; Sampath et al. 2016, Algorithm 2",
+    .solve = solve,
+};

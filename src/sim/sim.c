@@ -1,0 +1,262 @@
+/* Making and unmaking a simulation, and the small questions to it. */
+#include "base/hash.h"
+#include "base/memory.h"
+#include "sim/pressure.h"
+
+#include <math.h>
+#include <omp.h>
+#include <string.h>
+
+/* |S|^2 + m sum_j m |grad W|^2 of a full lattice at the rest spacing, where S vanishes. */
+static double lattice_diagonal(const sb_scene *scene, double mass)
+{
+    double sum = 0, dr = scene->resolution, h = scene->numerics.support * dr;
+    int reach = (int)ceil(scene->numerics.support), depth = scene->dimensions == 2 ? 0 : reach;
+    for (int x = -reach; x <= reach; x++)
+        for (int y = -depth; y <= depth; y++)
+            for (int z = -reach; z <= reach; z++) {
+                double r = dr * sqrt((double)(x * x + y * y + z * z));
+                double slope = r > 0 ? sb_kernel_slope(scene->numerics.kernel, scene->dimensions, h, r) : 0;
+                sum += mass * mass * slope * slope;
+            }
+    return sum;
+}
+
+static sb_constants make_constants(const sb_scene *scene, const sb_model *model)
+{
+    double dr = scene->resolution, g = scene->fluid.gravity;
+    double mass = scene->fluid.density * (scene->dimensions == 2 ? dr * dr : dr * dr * dr);
+    double depth = model->still_depth > dr ? model->still_depth : dr;
+    double wave_speed = g > 0 ? sqrt(g * depth) : 1;
+    double sound = scene->numerics.sound_speed > 0 ? scene->numerics.sound_speed : 10 * wave_speed;
+    double height = scene->domain.max.z - scene->domain.min.z;
+    return (sb_constants){
+        .dimension = scene->dimensions,
+        .spacing = (float)dr,
+        .support = (float)(scene->numerics.support * dr),
+        .rest_density = (float)scene->fluid.density,
+        .mass = (float)mass,
+        .gravity = (float)g,
+        .wave_speed = (float)wave_speed,
+        .sound_speed = (float)sound,
+        .viscosity = (float)scene->fluid.viscosity,
+        .full_diagonal = (float)lattice_diagonal(scene, mass),
+        .speed_limit = (float)(100 * fmax(wave_speed, sqrt(g * height))),
+    };
+}
+
+static int allocate(sb_sim *sim, size_t n, size_t bodies)
+{
+    const sb_numerics *numerics = &sim->scene->numerics;
+    size_t blocks = n / SB_BLOCK + 1;
+    bool direction = sb_pressure_solvers[numerics->solver]->needs_direction;
+    struct {
+        void *field;
+        size_t count, size;
+        bool needed;
+    } rows[] = {
+        {&sim->position, n, 16, true},          {&sim->velocity, n, 16, true},
+        {&sim->id, n, 4, true},                 {&sim->acceleration, n, 16, true},
+        {&sim->wall, n, 16, true},              {&sim->density, n, 4, true},
+        {&sim->diagonal, n, 4, true},           {&sim->source, n, 4, true},
+        {&sim->unknown, n, 4, true},            {&sim->residual, n, 4, true},
+        {&sim->direction, n, 4, direction},     {&sim->product, n, 4, direction},
+        {&sim->sort_a, n, 8, true},             {&sim->sort_b, n, 8, true},
+        {&sim->scratch, n, 16, true},           {&sim->scratch_id, n, 4, true},
+        {&sim->pairs.first, n, 4, true},        {&sim->pairs.count, n, 2, true},
+        {&sim->wall_pairs.first, n, 4, true},   {&sim->wall_pairs.count, n, 2, true},
+        {&sim->partial, blocks, 40, true},      {&sim->block_touched, blocks, 1, true},
+        {&sim->block_impulse, blocks * bodies, 72, true},
+        {&sim->impulse, bodies, sizeof *sim->impulse, true},
+    };
+    for (size_t r = 0; r < sizeof rows / sizeof rows[0]; r++) {
+        if (!rows[r].needed)
+            continue;
+        void *memory = sb_alloc(rows[r].count, rows[r].size);
+        if (!memory)
+            return -1;
+        memcpy(rows[r].field, &memory, sizeof memory);
+        sim->bytes_fixed += rows[r].count * rows[r].size;
+    }
+    return 0;
+}
+
+static void fill_particles(sb_sim *sim)
+{
+    const sb_model *model = sim->model;
+    const size_t n = model->fluid_count;
+    sim->n = n;
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < n; i++) {
+        sb_vec3 v = model->fluid_velocity[i];
+        sim->position[i] = sb_space_record(&sim->space, model->fluid_position[i]);
+        sim->velocity[i] = (sb_f4){(float)v.x, (float)v.y, (float)v.z, (float)model->fluid_pressure[i]};
+        sim->id[i] = (uint32_t)i;
+    }
+    double top = 0;
+    for (size_t i = 0; i < n; i++)
+        top = fmax(top, sb_norm(model->fluid_velocity[i]));
+    sim->report.max_speed = top;
+    sim->report.fluid_count = n;
+}
+
+/* What this scene lets the run leave out, said once in the log. */
+static void note_skipped(sb_sim *sim)
+{
+    const sb_numerics *n = &sim->scene->numerics;
+    size_t s = 0;
+    if (!(n->artificial_viscosity > 0) && !(sim->constant.viscosity > 0))
+        sim->skipped[s++] = "viscosity: both coefficients are 0, no pass over pairs";
+    if (!(n->wall_friction > 0))
+        sim->skipped[s++] = "wall friction: coefficient is 0";
+    if (sim->moving_count == 0)
+        sim->skipped[s++] = "moving walls: no body moves";
+    if (sim->constant.dimension == 2)
+        sim->skipped[s++] = "third dimension: 9 cells searched instead of 27";
+    if (!sb_pressure_solvers[n->solver]->needs_direction)
+        sim->skipped[s++] = "search direction: the solver needs no memory for one";
+    sim->skipped[s] = NULL;
+}
+
+sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **sim, sb_error *error)
+{
+    sb_sim *made = sb_alloc(1, sizeof *made);
+    if (!made)
+        return sb_fail_memory(error, "the simulation");
+    made->scene = scene;
+    made->model = model;
+    sb_status status = SB_OK;
+    if (model->fluid_count >= (size_t)1 << 27)
+        status = sb_fail(error, SB_BAD_INPUT, "%zu fluid particles: expected fewer than %d",
+                         model->fluid_count, 1 << 27);
+    if (status == SB_OK) {
+        made->constant = make_constants(scene, model);
+        status = sb_space_create(model->min, model->max, (double)made->constant.support, &made->space, error);
+    }
+    if (status == SB_OK && allocate(made, model->fluid_count, model->body_count) != 0)
+        status = sb_fail_memory(error, "fluid particles");
+    if (status == SB_OK)
+        status = sb_walls_create(made, error);
+    if (status != SB_OK) {
+        sb_sim_destroy(made);
+        return status;
+    }
+    fill_particles(made);
+    note_skipped(made);
+    status = sb_stage_sort(made, error);
+    if (status != SB_OK) {
+        sb_sim_destroy(made);
+        return status;
+    }
+    *sim = made;
+    return SB_OK;
+}
+
+static void free_pairs(sb_pairs *pairs)
+{
+    sb_free(pairs->first);
+    sb_free(pairs->count);
+    sb_free(pairs->index);
+    sb_free(pairs->slope);
+}
+
+void sb_sim_destroy(sb_sim *sim)
+{
+    if (!sim)
+        return;
+    void *fields[] = {sim->position, sim->velocity, sim->id, sim->acceleration, sim->wall, sim->density,
+                      sim->diagonal, sim->source, sim->unknown, sim->residual, sim->direction, sim->product,
+                      sim->sort_a, sim->sort_b, sim->scratch, sim->scratch_id, sim->partial,
+                      sim->block_touched, sim->block_impulse, sim->impulse};
+    for (size_t f = 0; f < sizeof fields / sizeof fields[0]; f++)
+        sb_free(fields[f]);
+    free_pairs(&sim->pairs);
+    free_pairs(&sim->wall_pairs);
+    sb_cells_free(&sim->cells);
+    sb_walls_destroy(sim);
+    sb_free(sim);
+}
+
+const sb_step_report *sb_sim_report(const sb_sim *sim)
+{
+    return &sim->report;
+}
+
+const sb_body_impulse *sb_sim_impulse(const sb_sim *sim, size_t body)
+{
+    return &sim->impulse[body];
+}
+
+sb_vec3 sb_sim_body_displacement(const sb_sim *sim, size_t body)
+{
+    uint32_t m = sim->moving_of_body[body];
+    return m == UINT32_MAX
+               ? (sb_vec3){0}
+               : sb_scale(sim->moving[m].direction, sim->moving[m].next_displacement);
+}
+
+sb_energy sb_sim_energy(const sb_sim *sim)
+{
+    const size_t blocks = sb_blocks(sim);
+    sb_energy e = {0};
+    double *partial = sim->partial;
+#pragma omp parallel for schedule(static)
+    for (size_t b = 0; b < blocks; b++) {
+        double square = 0, height = 0, x = 0, y = 0, z = 0;
+        for (size_t i = b * SB_BLOCK; i < sb_block_end(sim, b); i++) {
+            sb_f4 v = sim->velocity[i];
+            square += (double)sb_sum3(v * v);
+            height += (double)sim->position[i][2];
+            x += (double)v[0];
+            y += (double)v[1];
+            z += (double)v[2];
+        }
+        const double values[5] = {square, height, x, y, z};
+        memcpy(partial + 5 * b, values, sizeof values);
+    }
+    const double mass = (double)sim->constant.mass;
+    for (size_t b = 0; b < blocks; b++) {
+        e.kinetic += 0.5 * mass * partial[5 * b];
+        e.potential += partial[5 * b + 1];
+        e.momentum = sb_madd(e.momentum, mass, sb_vec(partial[5 * b + 2], partial[5 * b + 3], partial[5 * b + 4]));
+    }
+    e.mass = mass * (double)sim->n;
+    double base = sim->model->min.z - sim->space.origin.z;
+    e.potential = mass * (double)sim->constant.gravity *
+                  (e.potential * sim->space.quantum - (double)sim->n * base);
+    return e;
+}
+
+uint64_t sb_sim_hash(const sb_sim *sim)
+{
+    uint64_t hash = sb_hash(0, &sim->n, sizeof sim->n);
+    for (size_t i = 0; i < sim->n; i++) {
+        uint32_t xyz[4] = {sim->position[i][0], sim->position[i][1], sim->position[i][2], sim->id[i]};
+        hash = sb_hash(hash, xyz, sizeof xyz);
+        hash = sb_hash(hash, &sim->velocity[i], sizeof sim->velocity[i]);
+    }
+    hash = sb_hash(hash, sim->impulse, sim->model->body_count * sizeof *sim->impulse);
+    hash = sb_hash(hash, &sim->report.time, sizeof sim->report.time);
+    return sb_hash(hash, &sim->report.step, sizeof sim->report.step);
+}
+
+size_t sb_sim_stages(const sb_sim *sim, const sb_stage_time **stages)
+{
+    *stages = sim->stage;
+    return sim->stage_count;
+}
+
+const char *const *sb_sim_skipped(const sb_sim *sim)
+{
+    return sim->skipped;
+}
+
+size_t sb_sim_bytes(const sb_sim *sim)
+{
+    size_t bytes = sim->bytes_fixed + sb_cells_bytes(&sim->cells);
+    bytes += (sim->pairs.capacity + sim->wall_pairs.capacity) * 8;
+    for (int s = 0; s < SB_WALL_SETS; s++)
+        bytes += sb_cells_bytes(&sim->walls[s].cells) + sim->walls[s].count * 20 +
+                 (sim->walls[s].near_mask + 1) * 8;
+    return bytes + sim->moving_rest_count * 20;
+}

@@ -1,0 +1,59 @@
+/* Four-lane vectors, the 16-byte records built on them, and run-time choice of the instruction set.
+   A record is one 128-bit load per neighbour; gathers of separate arrays are slower (docs/decisions/0002). */
+#ifndef SB_SIM_SIMD_H
+#define SB_SIM_SIMD_H
+
+#include <stdint.h>
+#include <string.h>
+
+typedef float sb_f4 __attribute__((vector_size(16)));
+typedef int32_t sb_i4 __attribute__((vector_size(16)));
+typedef uint32_t sb_u4 __attribute__((vector_size(16)));
+
+/* Position record: x, y, z in quanta, and in the last lane the bits of a float that travels along
+   (the argument of the pressure operator). */
+typedef sb_u4 sb_record;
+
+/* Each function so marked exists once per instruction set; the loader picks. Sanitizers cannot
+   instrument the picking. */
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) &&       \
+    !defined(__SANITIZE_THREAD__)
+#define SB_MULTIVERSION __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define SB_MULTIVERSION
+#endif
+#define SB_INLINE static inline __attribute__((always_inline))
+
+SB_INLINE sb_f4 sb_splat(float value)
+{
+    return (sb_f4){value, value, value, value};
+}
+
+/* a - b in quanta as floats; exact within three cells. The last lane is finite but meaningless. */
+SB_INLINE sb_f4 sb_offset(sb_record a, sb_record b)
+{
+    return __builtin_convertvector((sb_i4)(a - b), sb_f4);
+}
+
+SB_INLINE sb_f4 sb_carried(sb_record record)
+{
+    sb_f4 lanes = (sb_f4)record;
+    return (sb_f4){lanes[3], lanes[3], lanes[3], lanes[3]};
+}
+
+SB_INLINE float sb_carried_value(sb_record record)
+{
+    return ((sb_f4)record)[3];
+}
+
+SB_INLINE void sb_carry(sb_record *record, float value)
+{
+    memcpy((char *)record + 12, &value, 4);
+}
+
+SB_INLINE float sb_sum3(sb_f4 v)
+{
+    return v[0] + v[1] + v[2];
+}
+
+#endif

@@ -1,0 +1,14 @@
+/* Stable parallel sort of packed (key, index) words: the same result for any number of threads. */
+#ifndef SB_SIM_SORT_H
+#define SB_SIM_SORT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum { SB_SORT_DIGIT = 8 };
+
+/* Sorts words by bits [low, high), least significant digit first; `other` is scratch of equal size.
+   Returns the array that holds the result (words or other), NULL without memory. */
+uint64_t *sb_sort(uint64_t *words, uint64_t *other, size_t count, int low, int high);
+
+#endif

@@ -1,0 +1,101 @@
+/* Particles that left the domain are dropped, the others re-ordered along the Z-curve of their cells. */
+#include "base/memory.h"
+#include "sim/sort.h"
+#include "sim/state.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { INDEX_BITS = 27 };
+static const uint64_t INDEX_MASK = ((uint64_t)1 << INDEX_BITS) - 1;
+
+/* Domain bounds in quanta; walls hold water, so beyond a wall side a particle is lost only when it is
+   more than a support radius out. */
+typedef struct bounds {
+    int64_t min[3], max[3];
+} bounds;
+
+static bounds domain_bounds(const sb_sim *sim)
+{
+    bounds b;
+    const sb_domain *domain = &sim->scene->domain;
+    sb_record low = sb_space_record(&sim->space, domain->min);
+    sb_record high = sb_space_record(&sim->space, domain->max);
+    int64_t cell = (int64_t)1 << sim->space.shift;
+    for (int axis = 0; axis < 3; axis++) {
+        b.min[axis] = (int64_t)low[axis] - (domain->side[2 * axis] == SB_SIDE_OPEN ? 0 : cell);
+        b.max[axis] = (int64_t)high[axis] + (domain->side[2 * axis + 1] == SB_SIDE_OPEN ? 0 : cell);
+    }
+    return b;
+}
+
+/* 0 inside, 1 left through an open side, 2 lost through a wall. */
+static int outside(const sb_sim *sim, const bounds *b, sb_record record)
+{
+    int result = 0;
+    for (int axis = 0; axis < 3 - (sim->constant.dimension == 2); axis++) {
+        int a = sim->constant.dimension == 2 && axis == 1 ? 2 : axis;
+        int64_t x = record[a];
+        if (x >= b->min[a] && x <= b->max[a])
+            continue;
+        sb_side_kind side = sim->scene->domain.side[2 * a + (x > b->max[a])];
+        if (side == SB_SIDE_OPEN)
+            return 1;
+        result = 2;
+    }
+    return result;
+}
+
+static void make_words(sb_sim *sim)
+{
+    const bounds b = domain_bounds(sim);
+    const uint64_t gone = ((uint64_t)1 << sim->space.key_bits) - 1;
+    uint64_t left = 0, lost = 0;
+#pragma omp parallel for schedule(static) reduction(+ : left, lost)
+    for (size_t i = 0; i < sim->n; i++) {
+        int way = outside(sim, &b, sim->position[i]);
+        left += way == 1;
+        lost += way == 2;
+        uint64_t key = way ? gone : sb_space_key(&sim->space, sim->position[i]);
+        sim->sort_a[i] = key << INDEX_BITS | i;
+    }
+    sim->left_domain += left;
+    sim->lost += lost;
+    sim->report.left_domain = sim->left_domain;
+    sim->report.lost = sim->lost;
+    sim->report.fluid_count = sim->n - left - lost;
+}
+
+static void permute(sb_sim *sim, const uint64_t *words)
+{
+    sb_f4 *velocity = sim->scratch;
+    sb_record *position = (sb_record *)sim->acceleration;
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < sim->n; i++) {
+        size_t from = words[i] & INDEX_MASK;
+        position[i] = sim->position[from];
+        velocity[i] = sim->velocity[from];
+        sim->scratch_id[i] = sim->id[from];
+    }
+    sim->scratch = sim->velocity;
+    sim->velocity = velocity;
+    sim->acceleration = (sb_f4 *)sim->position;
+    sim->position = position;
+    uint32_t *id = sim->scratch_id;
+    sim->scratch_id = sim->id;
+    sim->id = id;
+}
+
+sb_status sb_stage_sort(sb_sim *sim, sb_error *error)
+{
+    make_words(sim);
+    const uint64_t *sorted = sb_sort(sim->sort_a, sim->sort_b, sim->n, INDEX_BITS,
+                                     INDEX_BITS + sim->space.key_bits);
+    if (!sorted)
+        return sb_fail_memory(error, "sorting");
+    permute(sim, sorted);
+    sim->n = sim->report.fluid_count;
+    if (sb_cells_build(&sim->cells, sim->position, sim->n, sim->space.shift) != 0)
+        return sb_fail_memory(error, "cells");
+    return SB_OK;
+}

@@ -1,0 +1,144 @@
+/* The simulation's insides, seen by the stages of a step only. Data of a step flow top to bottom. */
+#ifndef SB_SIM_STATE_H
+#define SB_SIM_STATE_H
+
+#include "physics/wavemaker.h"
+#include "sim/cells.h"
+#include "sim/sim.h"
+#include "sim/space.h"
+
+enum {
+    SB_BLOCK = 1024,     /* particles per unit of work and of partial sums: fixed, so sums have one order */
+    SB_STAGES_MAX = 12,
+    SB_FIELDS_MAX = 24
+};
+
+/* Constants of the run. */
+typedef struct sb_constants {
+    int dimension;
+    float spacing, support;        /* m: delta r and h */
+    float rest_density, mass;      /* kg/m^3; kg (kg/m in 2D) */
+    float gravity;                 /* m/s^2 */
+    float wave_speed;              /* m/s, sqrt(g D) */
+    float sound_speed;             /* m/s */
+    float viscosity;               /* m^2/s, physical */
+    float full_diagonal;           /* of a full lattice, per dt^2: scale of a_ii */
+    float speed_limit;             /* m/s, above it the run has diverged */
+} sb_constants;
+
+/* Boundary particles that share one search table: all static ones, or all that move. */
+typedef struct sb_wall_set {
+    size_t count;
+    sb_record *record;    /* sorted by cell; last lane: psi_b in kg (kg/m in 2D) */
+    uint32_t *body;       /* model body of each */
+    sb_cells cells;
+    uint64_t *near;       /* hash set of Z-order blocks with walls in or beside them */
+    uint64_t near_mask;
+} sb_wall_set;
+
+enum { SB_STATIC, SB_MOVING, SB_WALL_SETS };
+
+/* A body that moves: its boundary particles at rest, and where its paddle is. */
+typedef struct sb_moving_body {
+    size_t body;              /* of the model */
+    sb_paddle paddle;
+    sb_vec3 direction;
+    double displacement, next_displacement; /* m, at t and t + dt */
+    sb_vec3 velocity;         /* m/s, between them */
+} sb_moving_body;
+
+/* Neighbours of particle i: [first[i], first[i] + padded) of the pair arrays, lists padded to four with
+   the particle itself and slope 0. */
+typedef struct sb_pairs {
+    uint32_t *first;          /* n */
+    uint16_t *count;          /* n, padded to a multiple of 4 */
+    uint32_t *index;          /* neighbour */
+    float *slope;             /* m W'(r)/r times the quantum: slope * offset in quanta = m grad W */
+    size_t used, capacity;
+} sb_pairs;
+
+typedef struct sb_sim {
+    const sb_scene *scene;
+    const sb_model *model;
+    sb_constants constant;
+    sb_space space;
+
+    /* persistent fields, n of capacity each; moved together by the sort */
+    size_t n, capacity;
+    sb_record *position;      /* quanta; last lane: argument of the pressure operator */
+    sb_f4 *velocity;          /* m/s; last lane: pressure in Pa, the next step's warm start */
+    uint32_t *id;
+
+    /* fields of one step */
+    sb_f4 *acceleration;      /* m/s^2, of the pressure argument; last lane 0 */
+    sb_f4 *wall;              /* sum_b psi_b grad W_ib; last lane: sum_b psi_b v_b . grad W_ib */
+    float *density;           /* kg/m^3 */
+    float *diagonal;          /* -a_ii > 0 for q as unknown; 0: no pressure here */
+    float *source;            /* b_i, kg/m^3 */
+    float *unknown;           /* q = p / rho^2 */
+    float *residual;          /* e_i = (A q)_i - b_i */
+    float *direction;         /* of the solver's search; allocated for solvers that need it */
+    float *product;           /* A times the argument */
+
+    sb_cells cells;
+    sb_pairs pairs, wall_pairs; /* wall_pairs.index: set << 31 | boundary particle; slope: psi W'/r quantum */
+    uint64_t *sort_a, *sort_b;
+    void *scratch;            /* 16 bytes per particle, for the permutation */
+    uint32_t *scratch_id;
+    double *partial;          /* per block, 5 values: partial sums */
+
+    sb_wall_set walls[SB_WALL_SETS];
+    sb_record *moving_rest;   /* boundary particles of moving bodies at displacement 0 */
+    uint32_t *moving_rest_body;
+    size_t moving_rest_count;
+    size_t moving_count;
+    sb_moving_body *moving;   /* bodies */
+    uint32_t *moving_of_body; /* model body -> index into moving, UINT32_MAX: static */
+
+    double *block_impulse;    /* per block and body 9 values, of one step */
+    unsigned char *block_touched;
+    sb_body_impulse *impulse; /* per body */
+
+    bool settling;
+    double limit_step;        /* s, dt of the last step, for its slow growth */
+    sb_step_report report;
+    uint64_t left_domain, lost;
+    sb_stage_time stage[SB_STAGES_MAX];
+    size_t stage_count;
+    const char *skipped[12];
+    size_t bytes_fixed;
+} sb_sim;
+
+static inline size_t sb_blocks(const sb_sim *sim)
+{
+    return (sim->n + SB_BLOCK - 1) / SB_BLOCK;
+}
+
+static inline size_t sb_block_end(const sb_sim *sim, size_t block)
+{
+    size_t end = (block + 1) * SB_BLOCK;
+    return end < sim->n ? end : sim->n;
+}
+
+/* sim/sort_stage.c: drops particles outside, sorts the rest along the Z-curve, builds the cells. */
+sb_status sb_stage_sort(sb_sim *sim, sb_error *error);
+/* sim/walls.c */
+sb_status sb_walls_create(sb_sim *sim, sb_error *error);
+void sb_walls_destroy(sb_sim *sim);
+sb_status sb_stage_walls(sb_sim *sim, sb_error *error); /* paddles to t, their table, their velocity */
+/* Whether a cell may have boundary particles of the set in reach. */
+bool sb_walls_near(const sb_wall_set *set, const sb_space *space, sb_record record);
+/* sim/neighbours.c: lists, densities, wall vectors, diagonal, all in one pass. */
+sb_status sb_stage_neighbours(sb_sim *sim, sb_error *error);
+/* sim/viscosity.c: v* = v + dt (g + viscosity + wall friction). */
+sb_status sb_stage_forces(sb_sim *sim, sb_error *error);
+/* sim/pressure.c: source, solve, final acceleration. */
+sb_status sb_stage_source(sb_sim *sim, sb_error *error);
+sb_status sb_stage_pressure(sb_sim *sim, sb_error *error);
+/* sim/impulse.c: forces of the water on bodies over the step. */
+sb_status sb_stage_impulse(sb_sim *sim, sb_error *error);
+/* sim/integrate.c */
+sb_status sb_stage_time_step(sb_sim *sim, sb_error *error);
+sb_status sb_stage_integrate(sb_sim *sim, sb_error *error);
+
+#endif

@@ -1,0 +1,73 @@
+/* The step as a list: one row per stage, one loop that runs and times them. */
+#include "base/clock.h"
+#include "sim/pressure.h"
+#include "sim/state.h"
+
+#include <math.h>
+
+typedef struct stage {
+    const char *name;
+    sb_status (*run)(sb_sim *sim, sb_error *error);
+} stage;
+
+static const stage stages[] = {
+    {"time_step", sb_stage_time_step},   /* dt from the speeds reached */
+    {"walls", sb_stage_walls},           /* paddles at t, their velocity to t + dt */
+    {"sort", sb_stage_sort},             /* Z-order, cells */
+    {"neighbours", sb_stage_neighbours}, /* lists, density, wall vectors, diagonal */
+    {"forces", sb_stage_forces},         /* v* = v + dt (g + viscosity + friction) */
+    {"source", sb_stage_source},         /* b = beta (rho_0 - rho) - dt div v* */
+    {"pressure", sb_stage_pressure},     /* q >= 0, A q <= b, and its acceleration */
+    {"impulse", sb_stage_impulse},       /* reactions on bodies */
+    {"integrate", sb_stage_integrate},   /* v, x at t + dt */
+};
+enum { STAGES = sizeof stages / sizeof stages[0] };
+_Static_assert((int)STAGES <= (int)SB_STAGES_MAX, "stage table");
+
+#ifdef SB_DEBUG
+/* In the debug build every stage leaves finite numbers behind. */
+static sb_status check_finite(const sb_sim *sim, const char *stage_name, sb_error *error)
+{
+    for (size_t i = 0; i < sim->n; i++)
+        for (int axis = 0; axis < 4; axis++)
+            if (!isfinite(sim->velocity[i][axis]))
+                return sb_fail(error, SB_FAILED, "step %llu: stage %s left particle %u without a finite velocity",
+                               (unsigned long long)sim->report.step, stage_name, sim->id[i]);
+    return SB_OK;
+}
+#endif
+
+sb_status sb_sim_step(sb_sim *sim, sb_error *error)
+{
+    sim->stage_count = STAGES;
+    for (size_t s = 0; s < STAGES; s++) {
+        double start = sb_clock();
+        sb_status status = stages[s].run(sim, error);
+        sim->stage[s].name = stages[s].name;
+        sim->stage[s].seconds += sb_clock() - start;
+        sim->stage[s].calls++;
+        if (status != SB_OK)
+            return status;
+#ifdef SB_DEBUG
+        status = check_finite(sim, stages[s].name, error);
+        if (status != SB_OK)
+            return status;
+#endif
+    }
+    return SB_OK;
+}
+
+sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
+{
+    enum { CALM_STEPS = 10 }; /* in a row below the limit: one may be an instant of reversal */
+    const double calm = 0.002 * (double)sim->constant.wave_speed;
+    int steps = sim->scene->numerics.settle_steps, still = 0;
+    sb_status status = SB_OK;
+    sim->settling = true;
+    for (int s = 0; s < steps && still < CALM_STEPS && status == SB_OK; s++) {
+        status = sb_sim_step(sim, error);
+        still = sim->report.max_speed < calm ? still + 1 : 0;
+    }
+    sim->settling = false;
+    return status;
+}

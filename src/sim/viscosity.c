@@ -1,0 +1,86 @@
+/* v* = v + dt (g + Monaghan viscosity [S16, eq. 14] + physical viscosity + wall friction [S16, eq. 33]). */
+#include "sim/friction.h"
+
+/* Factors of one step. */
+typedef struct factors {
+    float artificial; /* 2 alpha h c_s; over (rho_i + rho_j) it is the nu of eq. 14 */
+    float physical;   /* 4 (d + 2) nu; over (rho_i + rho_j), the unswitched part */
+    float friction;   /* sigma h c_s / 2; over rho_i */
+    float epsilon;    /* 0.01 h^2 in quanta^2 */
+    float inverse_quantum;
+} factors;
+
+static factors make_factors(const sb_sim *sim)
+{
+    const sb_numerics *n = &sim->scene->numerics;
+    const sb_constants *c = &sim->constant;
+    double h_quanta = (double)c->support / sim->space.quantum;
+    return (factors){
+        .artificial = 2.0f * (float)n->artificial_viscosity * c->support * c->sound_speed,
+        .physical = 4.0f * (float)(c->dimension + 2) * c->viscosity,
+        .friction = 0.5f * (float)n->wall_friction * c->support * c->sound_speed,
+        .epsilon = (float)(0.01 * h_quanta * h_quanta),
+        .inverse_quantum = (float)(1.0 / sim->space.quantum),
+    };
+}
+
+/* -sum_j m Pi_ij grad W_ij; x . v and r^2 in quanta, their quotient brought back by 1/quantum. */
+SB_INLINE sb_f4 fluid_part(const sb_sim *sim, size_t i, const factors *f)
+{
+    const sb_record self = sim->position[i];
+    const sb_f4 v = sim->velocity[i];
+    const uint32_t *index = sim->pairs.index + sim->pairs.first[i];
+    const float *slope = sim->pairs.slope + sim->pairs.first[i];
+    sb_f4 sum = {0};
+    for (size_t k = 0; k < sim->pairs.count[i]; k++) {
+        uint32_t j = index[k];
+        sb_f4 d = sb_offset(self, sim->position[j]);
+        float approach = sb_sum3((v - sim->velocity[j]) * d);
+        float factor = approach < 0 ? f->artificial + f->physical : f->physical;
+        float r2 = sb_sum3(d * d);
+        float pi = factor * approach / ((r2 + f->epsilon) * (sim->density[i] + sim->density[j]));
+        sum += d * sb_splat(pi * slope[k]);
+    }
+    return sum * sb_splat(f->inverse_quantum);
+}
+
+SB_INLINE sb_f4 wall_part(const sb_sim *sim, size_t i, const factors *f)
+{
+    const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
+    const float *slope = sim->wall_pairs.slope + sim->wall_pairs.first[i];
+    sb_f4 sum = {0};
+    for (size_t k = 0; k < sim->wall_pairs.count[i]; k++)
+        sum += sb_friction(sim, i, sim->velocity[i], index[k], slope[k], f->friction, f->epsilon);
+    return sum * sb_splat(f->inverse_quantum);
+}
+
+SB_MULTIVERSION
+static void do_block(sb_sim *sim, size_t block, const factors *f, bool viscous, bool frictional)
+{
+    const float dt = (float)sim->report.time_step;
+    sb_f4 *next = sim->scratch;
+    for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
+        sb_f4 a = {0, 0, -sim->constant.gravity, 0};
+        if (viscous)
+            a += fluid_part(sim, i, f);
+        if (frictional && sim->wall_pairs.count[i] > 0)
+            a += wall_part(sim, i, f);
+        a[3] = 0;
+        next[i] = sim->velocity[i] + a * sb_splat(dt);
+    }
+}
+
+sb_status sb_stage_forces(sb_sim *sim, sb_error *error)
+{
+    (void)error;
+    const factors f = make_factors(sim);
+    const bool viscous = f.artificial > 0 || f.physical > 0, frictional = f.friction > 0;
+    const size_t blocks = sb_blocks(sim);
+#pragma omp parallel for schedule(dynamic, 1)
+    for (size_t b = 0; b < blocks; b++)
+        do_block(sim, b, &f, viscous, frictional);
+    sb_f4 *old = sim->velocity;
+    sim->velocity = sim->scratch;
+    sim->scratch = old;
+    return SB_OK;
+}
