@@ -46,7 +46,8 @@ static int make(const sb_plant_options *options, const char *path, bool parts)
     sb_mesh *meshes = NULL;
     size_t count = 0, triangles = 0;
     sb_status status = sb_plant_build(options, &meshes, &count, &error);
-    if (status == SB_OK) status = parts ? sb_plant_write_parts(options, meshes, count, path, &error)
+    if (status == SB_OK)
+        status = parts ? sb_plant_write_parts(options, meshes, count, path, &error)
                        : sb_plant_write(options, meshes, count, path, &error);
     if (status != SB_OK) fprintf(stderr, "make-plant: %s\n", error.text);
     for (size_t i = 0; i < count; i++) triangles += meshes[i].triangle_count;
