@@ -1,0 +1,107 @@
+#include "geometry/sample_parts.h"
+
+#include "base/memory.h"
+
+#include <string.h>
+
+/* In spacings: a moving particle this near to a static one is its double. */
+static const double same_place = 1e-3;
+
+void sb_samples_free(sb_samples *samples)
+{
+    if (!samples)
+        return;
+    sb_free(samples->begin);
+    sb_free(samples->position);
+    sb_free(samples->normal);
+    *samples = (sb_samples){0};
+}
+
+/* Samples the present group into sampler->set. */
+static int sample_group(sb_sampler *sampler)
+{
+    return sb_sample_lattices(sampler) || sb_sample_grow(sampler) || sb_sample_voids(sampler);
+}
+
+/* Appends what the group found to `all`, but for doubles of what is there already. */
+static int collect(sb_sampler *sampler, sb_sample_set *all)
+{
+    double near = same_place * sampler->settings.spacing;
+    for (size_t i = 0; i < sampler->set.count; ++i)
+        if (!sb_sample_set_any(all, sampler->set.sample[i].at, near) &&
+            sb_sample_set_add(all, sampler->set.sample + i))
+            return -1;
+    sb_sample_set_free(&sampler->set);
+    return 0;
+}
+
+/* Static surfaces together, then each moving one alone. */
+static int sample_groups(sb_sampler *sampler, sb_sample_set *all)
+{
+    sampler->moving = false;
+    sampler->first = 0;
+    sampler->last = (uint32_t)sampler->surface_count;
+    sampler->set = *all;
+    int failed = sample_group(sampler);
+    *all = sampler->set;
+    sampler->set = (sb_sample_set){.cell = all->cell, .origin = all->origin};
+    sampler->moving = true;
+    for (uint32_t i = 0; i < sampler->surface_count && !failed; ++i) {
+        sampler->first = i;
+        sampler->last = i + 1;
+        if (sb_sampler_takes(sampler, i))
+            failed = sample_group(sampler) || collect(sampler, all);
+    }
+    return failed;
+}
+
+/* Sorts the particles by source, each source's in the order they were found. */
+static int sort_out(const sb_sample_set *all, size_t source_count, sb_samples *out)
+{
+    *out = (sb_samples){.count = all->count, .source_count = source_count};
+    out->begin = sb_alloc(source_count + 2, sizeof *out->begin);
+    out->position = sb_alloc_untouched(all->count, sizeof *out->position);
+    out->normal = sb_alloc_untouched(all->count, sizeof *out->normal);
+    if (!out->begin || !out->position || !out->normal) {
+        sb_samples_free(out);
+        return -1;
+    }
+    for (size_t i = 0; i < all->count; ++i)
+        ++out->begin[all->sample[i].source + 2];
+    for (size_t s = 2; s <= source_count; ++s)
+        out->begin[s] += out->begin[s - 1];
+    for (size_t i = 0; i < all->count; ++i) {
+        size_t at = out->begin[all->sample[i].source + 1]++;
+        out->position[at] = all->sample[i].at;
+        out->normal[at] = all->sample[i].normal;
+    }
+    return 0;
+}
+
+sb_status sb_sample_surfaces(const sb_sample_settings *settings, const sb_sample_source *sources,
+                             size_t count, sb_samples *samples, sb_error *error)
+{
+    sb_sampler sampler = {.settings = *settings};
+    /* Cells of one spacing: questions reach less far, so they look into 27 at most. */
+    sb_sample_set all = {.cell = settings->spacing, .origin = settings->min};
+    sampler.set = all;
+    sb_samples made = {0};
+    sb_status status = SB_OK;
+    sampler.surfaces = sb_alloc(count, sizeof *sampler.surfaces);
+    if (!sampler.surfaces)
+        return sb_fail_memory(error, "the sampling of surfaces");
+    for (size_t i = 0; i < count && status == SB_OK; ++i) {
+        status = sb_surface_build(sources + i, settings, sampler.surfaces + i, error);
+        sampler.surface_count += status == SB_OK;
+    }
+    if (status == SB_OK && (sample_groups(&sampler, &all) || sort_out(&all, count, &made)))
+        status = sb_fail_memory(error, "boundary particles");
+    if (status == SB_OK)
+        *samples = made;
+    for (size_t i = 0; i < sampler.surface_count; ++i)
+        sb_surface_free(sampler.surfaces + i);
+    sb_free(sampler.surfaces);
+    sb_sample_set_free(&sampler.set);
+    sb_sample_set_free(&all);
+    return status;
+}

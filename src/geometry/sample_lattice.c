@@ -1,0 +1,324 @@
+/* Regular points first: the world's lattice on faces that follow the axes, fitted lattices on other
+   large planes, and chains along concave edges; candidates are placed in parallel and accepted in
+   their order. */
+#include "geometry/sample_parts.h"
+
+#include "base/memory.h"
+
+#include <string.h>
+
+/* A lattice projected along an axis stays dense enough up to this tilt (half a cell's diagonal below
+   SB_SAMPLE_FILL). */
+static const double projected_cosine = 0.93;
+/* In spacings: a tilted plane smaller than this has no lattice of its own. */
+static const double fitted_extent = 6;
+/* Normals whose mitre would reach too far have none. */
+static const double mitre_cosine = -0.7;
+
+int sb_candidate_flush(sb_sampler *sampler, sb_candidate_batch *batch)
+{
+#pragma omp parallel for schedule(dynamic, 64)
+    for (size_t i = 0; i < batch->count; ++i) {
+        sb_candidate *c = batch->candidate + i;
+        double margin;
+        sb_vec3 placed;
+        if (c->placed) {
+            batch->good[i] = sb_sample_fits(sampler, c->surface, c->at, c->reach);
+            continue;
+        }
+        batch->good[i] =
+            sb_sample_place(sampler, c->surface, c->at, c->inward, &placed, &margin) == SB_PLACED;
+        if (batch->good[i])
+            c->at = placed;
+    }
+    double least = SB_SAMPLE_LATTICE * sampler->settings.spacing;
+    int failed = 0;
+    for (size_t i = 0; i < batch->count && !failed; ++i) {
+        const sb_candidate *c = batch->candidate + i;
+        if (batch->good[i] && !sb_sample_set_any(&sampler->set, c->at, least))
+            failed = sb_sample_set_add(&sampler->set,
+                                       &(sb_sample){c->at, sb_scale(c->inward, -1), c->surface});
+    }
+    batch->count = 0;
+    return failed;
+}
+
+int sb_candidate_push(sb_sampler *sampler, sb_candidate_batch *batch, sb_candidate candidate)
+{
+    batch->candidate[batch->count++] = candidate;
+    return batch->count == SB_SAMPLE_BATCH ? sb_candidate_flush(sampler, batch) : 0;
+}
+
+/* Lattice lines at origin + (i + 1/2) step along two directions of a plane, or of a projection. */
+typedef struct lattice {
+    sb_vec3 u, v, origin;
+    double step_u, step_v;
+} lattice;
+
+/* Step near the spacing that divides `length` evenly; the spacing itself when none is near. */
+static double fitted_step(double length, double spacing)
+{
+    double pieces = round(length / spacing);
+    double step = pieces > 0 ? length / pieces : spacing;
+    return step > 0.92 * spacing && step < 1.08 * spacing ? step : spacing;
+}
+
+static bool is_axis(sb_vec3 a)
+{
+    return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z))) > 1 - 1e-9;
+}
+
+static sb_vec3 axis_of(int k)
+{
+    return sb_vec(k == 0, k == 1, k == 2);
+}
+
+static int dominant(sb_vec3 n)
+{
+    double x = fabs(n.x), y = fabs(n.y), z = fabs(n.z);
+    return z >= x && z >= y ? 2 : x >= y ? 0 : 1;
+}
+
+/* Bounds of a plane's triangles along u and v. */
+typedef struct extent {
+    sb_vec3 u, v;
+    double min_u, max_u, min_v, max_v;
+} extent;
+
+static void plane_axes(sb_vec3 n, extent *e)
+{
+    sb_vec3 level = sb_cross(sb_vec(0, 0, 1), n);
+    e->u = sb_norm(level) > 1e-9 ? sb_normalize(level) : sb_vec(1, 0, 0);
+    e->v = sb_cross(n, e->u);
+}
+
+/* The lattice for one plane; false: none suits it. */
+static bool choose_lattice(const sb_sampler *sampler, sb_vec3 n, const extent *e, lattice *l)
+{
+    double spacing = sampler->settings.spacing;
+    double c[3] = {fabs(n.x), fabs(n.y), fabs(n.z)};
+    int k = dominant(n);
+    *l = (lattice){axis_of((k + 1) % 3), axis_of((k + 2) % 3), sampler->settings.min, spacing,
+                   spacing};
+    if (c[k] > projected_cosine)
+        return true;
+    double long_u = e->max_u - e->min_u, long_v = e->max_v - e->min_v;
+    if (!(fmin(long_u, long_v) > fitted_extent * spacing))
+        return false;
+    *l = (lattice){.u = e->u, .v = e->v, .step_u = spacing, .step_v = fitted_step(long_v, spacing)};
+    double at_u = sb_dot(sampler->settings.min, e->u), at_v = e->min_v;
+    if (!is_axis(e->u)) {
+        l->step_u = fitted_step(long_u, spacing);
+        at_u = e->min_u;
+    }
+    l->origin = sb_add(sb_scale(e->u, at_u), sb_scale(e->v, at_v));
+    return true;
+}
+
+/* The triangle's corners in lattice steps. */
+static void to_lattice(const lattice *l, const sb_vec3 corner[3], double u[3], double v[3])
+{
+    for (int i = 0; i < 3; ++i) {
+        sb_vec3 arm = sb_sub(corner[i], l->origin);
+        u[i] = sb_dot(arm, l->u) / l->step_u;
+        v[i] = sb_dot(arm, l->v) / l->step_v;
+    }
+}
+
+/* Lattice points within one triangle, row by row. */
+static int scan_triangle(sb_sampler *sampler, sb_candidate_batch *batch, const lattice *l,
+                         const sb_vec3 corner[3], sb_candidate candidate)
+{
+    const double slack = 1e-9;
+    double u[3], v[3];
+    to_lattice(l, corner, u, v);
+    double low = fmin(v[0], fmin(v[1], v[2])), high = fmax(v[0], fmax(v[1], v[2]));
+    double area = (u[1] - u[0]) * (v[2] - v[0]) - (u[2] - u[0]) * (v[1] - v[0]);
+    if (!(fabs(area) > 1e-12))
+        return 0;
+    for (double row = ceil(low - 0.5 - slack) + 0.5; row <= high + slack; row += 1) {
+        double first = INFINITY, last = -INFINITY;
+        for (int i = 0; i < 3; ++i) {
+            int j = (i + 1) % 3;
+            if (fmin(v[i], v[j]) > row + slack || fmax(v[i], v[j]) < row - slack)
+                continue;
+            double t = v[i] != v[j] ? (row - v[i]) / (v[j] - v[i]) : 0;
+            t = t < 0 ? 0 : t > 1 ? 1 : t;
+            double at = u[i] + t * (u[j] - u[i]);
+            first = fmin(first, v[i] != v[j] ? at : fmin(u[i], u[j]));
+            last = fmax(last, v[i] != v[j] ? at : fmax(u[i], u[j]));
+        }
+        for (double at = ceil(first - 0.5 - slack) + 0.5; at <= last + slack; at += 1) {
+            double b = ((at - u[0]) * (v[2] - v[0]) - (u[2] - u[0]) * (row - v[0])) / area;
+            double c = ((u[1] - u[0]) * (row - v[0]) - (at - u[0]) * (v[1] - v[0])) / area;
+            candidate.at = sb_madd(sb_madd(corner[0], b, sb_sub(corner[1], corner[0])), c,
+                                   sb_sub(corner[2], corner[0]));
+            if (sb_candidate_push(sampler, batch, candidate))
+                return -1;
+        }
+    }
+    return 0;
+}
+
+static void corners_of(const sb_mesh *mesh, size_t t, sb_vec3 corner[3])
+{
+    for (int i = 0; i < 3; ++i)
+        corner[i] = mesh->vertices[mesh->triangles[t][i]];
+}
+
+/* Bounds of all planes of a surface, by their first triangle. */
+static void measure_planes(const sb_surface *surface, extent *extents)
+{
+    const sb_mesh *mesh = sb_surface_mesh(surface);
+    for (size_t t = 0; t < mesh->triangle_count; ++t) {
+        extent *e = extents + surface->region[t];
+        if (surface->region[t] == t) {
+            *e = (extent){.min_u = INFINITY, .max_u = -INFINITY, .min_v = INFINITY,
+                          .max_v = -INFINITY};
+            plane_axes(surface->normal[t], e);
+        }
+        sb_vec3 corner[3];
+        corners_of(mesh, t, corner);
+        for (int i = 0; i < 3; ++i) {
+            double u = sb_dot(corner[i], e->u), v = sb_dot(corner[i], e->v);
+            e->min_u = fmin(e->min_u, u);
+            e->max_u = fmax(e->max_u, u);
+            e->min_v = fmin(e->min_v, v);
+            e->max_v = fmax(e->max_v, v);
+        }
+    }
+}
+
+static int scan_faces(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t index)
+{
+    const sb_surface *surface = sampler->surfaces + index;
+    const sb_mesh *mesh = sb_surface_mesh(surface);
+    extent *extents = sb_alloc_untouched(mesh->triangle_count, sizeof *extents);
+    if (!extents)
+        return -1;
+    measure_planes(surface, extents);
+    int failed = 0;
+    for (size_t t = 0; t < mesh->triangle_count && !failed; ++t) {
+        sb_vec3 corner[3], n = surface->normal[t];
+        lattice l;
+        if (sb_dot(n, n) == 0 || !choose_lattice(sampler, n, extents + surface->region[t], &l))
+            continue;
+        corners_of(mesh, t, corner);
+        failed = scan_triangle(sampler, batch, &l, corner,
+                               (sb_candidate){.inward = sb_scale(n, -1), .surface = index});
+    }
+    sb_free(extents);
+    return failed;
+}
+
+/* Evenly along a straight edge, in step with the world's lattice where it follows an axis. */
+static int scan_line(sb_sampler *sampler, sb_candidate_batch *batch, sb_vec3 a, sb_vec3 b,
+                     sb_candidate candidate)
+{
+    double spacing = sampler->settings.spacing, length = sb_norm(sb_sub(b, a)), begin = 0;
+    sb_vec3 along = sb_normalize(sb_sub(b, a));
+    double step = fitted_step(length, spacing);
+    if (is_axis(along)) {
+        double from = sb_dot(sb_sub(a, sampler->settings.min), along);
+        step = spacing;
+        begin = step * (ceil(from / step - 0.5 - 1e-9) + 0.5) - from - 0.5 * step;
+    }
+    for (double at = begin + 0.5 * step; at <= length + 1e-9 * step; at += step) {
+        sb_candidate next = candidate;
+        next.at = sb_add(sb_madd(a, at, along), candidate.at);
+        if (sb_candidate_push(sampler, batch, next))
+            return -1;
+    }
+    return 0;
+}
+
+/* Where the two sheets along a concave edge meet: a chain at the mitre. */
+static int scan_crease(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t index,
+                       const sb_crease *crease)
+{
+    double cosine = sb_dot(crease->normal[0], crease->normal[1]);
+    if (cosine < mitre_cosine || cosine > 0.9)
+        return 0;
+    double offset = sampler->settings.offset;
+    sb_vec3 sum = sb_add(crease->normal[0], crease->normal[1]);
+    sb_candidate candidate = {.at = sb_scale(sum, -offset / (1 + cosine)),
+                              .inward = sb_scale(sb_normalize(sum), -1),
+                              .surface = index,
+                              .placed = true,
+                              .reach = offset};
+    if (sampler->settings.dimensions == 2) {
+        sb_vec3 at = sb_scale(sb_add(crease->a, crease->b), 0.5);
+        candidate.at = sb_add(candidate.at, sb_vec(at.x, 0, at.z));
+        return sb_candidate_push(sampler, batch, candidate);
+    }
+    return scan_line(sampler, batch, crease->a, crease->b, candidate);
+}
+
+/* Where three sheets meet: the point at the offset behind all three planes. */
+static int scan_cap(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t index,
+                    const sb_cap *cap)
+{
+    const sb_vec3 *n = cap->normal;
+    double volume = sb_dot(n[0], sb_cross(n[1], n[2])), offset = sampler->settings.offset;
+    if (sampler->settings.dimensions == 2 || fabs(volume) < 0.3)
+        return 0;
+    sb_vec3 sum = sb_add(sb_cross(n[0], n[1]), sb_add(sb_cross(n[1], n[2]), sb_cross(n[2], n[0])));
+    return sb_candidate_push(sampler, batch,
+                             (sb_candidate){.at = sb_madd(cap->at, -offset / volume, sum),
+                                            .inward = sb_scale(sb_normalize(sum), volume > 0 ? -1 : 1),
+                                            .surface = index,
+                                            .placed = true,
+                                            .reach = offset});
+}
+
+/* The curve in y = 0: each strip of a section is two triangles, its piece lies at half its height. */
+static int scan_strips(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t index)
+{
+    const sb_surface *surface = sampler->surfaces + index;
+    const sb_mesh *mesh = sb_surface_mesh(surface);
+    for (size_t t = 0; t + 1 < mesh->triangle_count; t += 2) {
+        sb_vec3 a = mesh->vertices[mesh->triangles[t][0]], b = mesh->vertices[mesh->triangles[t][1]];
+        a.y = b.y = 0;
+        if (sb_norm(sb_sub(b, a)) < sampler->settings.spacing && !is_axis(surface->normal[t]))
+            continue;
+        sb_candidate candidate = {.inward = sb_scale(surface->normal[t], -1), .surface = index};
+        if (scan_line(sampler, batch, a, b, candidate))
+            return -1;
+    }
+    return 0;
+}
+
+static int scan_surface(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t index)
+{
+    return sampler->settings.dimensions == 2 ? scan_strips(sampler, batch, index)
+                                             : scan_faces(sampler, batch, index);
+}
+
+static int scan_corners(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t index)
+{
+    const sb_surface *surface = sampler->surfaces + index;
+    int failed = 0;
+    for (size_t i = 0; i < surface->crease_count && !failed; ++i)
+        failed = scan_crease(sampler, batch, index, surface->creases + i);
+    for (size_t i = 0; i < surface->cap_count && !failed; ++i)
+        failed = scan_cap(sampler, batch, index, surface->caps + i);
+    return failed;
+}
+
+int sb_sample_lattices(sb_sampler *sampler)
+{
+    sb_candidate_batch batch = {
+        .candidate = sb_alloc_untouched(SB_SAMPLE_BATCH, sizeof *batch.candidate),
+        .good = sb_alloc_untouched(SB_SAMPLE_BATCH, sizeof *batch.good)};
+    int failed = !batch.candidate || !batch.good;
+    for (int stage = 0; stage < 2 && !failed; ++stage) {
+        for (uint32_t i = sampler->first; i < sampler->last && !failed; ++i)
+            if (sb_sampler_takes(sampler, i))
+                failed = stage == 0 ? scan_surface(sampler, &batch, i)
+                                    : scan_corners(sampler, &batch, i);
+        failed = failed || sb_candidate_flush(sampler, &batch);
+    }
+    sb_free(batch.candidate);
+    sb_free(batch.good);
+    return failed;
+}

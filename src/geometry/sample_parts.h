@@ -1,0 +1,98 @@
+/* Inside of the sampling: what its files share. Private to src/geometry/sample*.c. */
+#ifndef SB_GEOMETRY_SAMPLE_PARTS_H
+#define SB_GEOMETRY_SAMPLE_PARTS_H
+
+#include "geometry/sample.h"
+#include "geometry/sample_set.h"
+
+/* In spacings. Lattices stay whole from LATTICE on; what they leave open is filled from FILL on, and
+   is filled when farther than COVER: 0.70 < FILL < COVER < 0.75 leave room for rounding. */
+#define SB_SAMPLE_LATTICE 0.9
+#define SB_SAMPLE_FILL 0.74
+#define SB_SAMPLE_COVER 0.746
+
+/* An edge that is concave from the water: the sheet goes round it from one normal to the other. */
+typedef struct sb_crease {
+    sb_vec3 a, b, normal[2];
+} sb_crease;
+
+/* A corner of the sheet around a concave vertex, between three normals. */
+typedef struct sb_cap {
+    sb_vec3 at, normal[3];
+} sb_cap;
+
+/* What sampling knows of a source. Owned arrays. */
+typedef struct sb_surface {
+    const sb_sample_source *source;
+    sb_vec3 min, max;
+    bool bounded;      /* nothing outside of the box is inside the solid */
+    bool mixed;        /* faces of both orientations: a neighbour's normal says nothing */
+    double sign;       /* of the mesh's normals: -1 for a wholly flipped mesh */
+    sb_vec3 *normal;   /* per triangle, unit, towards the water; zero when degenerate */
+    uint32_t *region;  /* per triangle: first triangle of its plane */
+    uint32_t *part;    /* per triangle: first triangle of its connected part */
+    size_t crease_count, crease_capacity, cap_count, cap_capacity;
+    sb_crease *creases;
+    sb_cap *caps;
+} sb_surface;
+
+typedef struct sb_sampler {
+    sb_sample_settings settings;
+    size_t surface_count;
+    sb_surface *surfaces;
+    bool moving;       /* the present group: one moving surface alone, or all static ones */
+    uint32_t first, last; /* surfaces of the group: those in [first, last) that move or not */
+    sb_sample_set set;
+} sb_sampler;
+
+static inline const sb_mesh *sb_surface_mesh(const sb_surface *surface)
+{
+    return surface->source->mesh;
+}
+
+/* Orientation, planes, parts and creases of a source's mesh. */
+sb_status sb_surface_build(const sb_sample_source *source, const sb_sample_settings *settings,
+                           sb_surface *surface, sb_error *error);
+void sb_surface_free(sb_surface *surface);
+
+/* Whether the present group samples this surface. */
+static inline bool sb_sampler_takes(const sb_sampler *sampler, size_t surface)
+{
+    return surface >= sampler->first && surface < sampler->last &&
+           sampler->surfaces[surface].source->moving == sampler->moving;
+}
+
+/* Where a surface point goes. BURIED and CROWDED: nowhere; then all surface points within *margin of
+   this one share its fate (0: none may). */
+typedef enum sb_placement { SB_PLACED, SB_BURIED, SB_CROWDED } sb_placement;
+sb_placement sb_sample_place(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_vec3 inward,
+                             sb_vec3 *placed, double *margin);
+/* No water comes near any point within `radius` of this one. */
+bool sb_sample_buried(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, double radius);
+/* As sb_sample_place for a point already on the sheet, `reach` from the surface. */
+bool sb_sample_fits(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, double reach);
+/* The sheet's point nearest to `at`, which is near the sheet of this surface. */
+bool sb_sample_project(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_sample *sample);
+
+/* Stages: each adds to sampler->set. -1 without memory. */
+int sb_sample_lattices(sb_sampler *sampler);
+int sb_sample_grow(sb_sampler *sampler);
+int sb_sample_voids(sb_sampler *sampler);
+
+/* Candidates gathered one by one, placed in parallel, accepted in their order. */
+typedef struct sb_candidate {
+    sb_vec3 at, inward; /* on the surface; or on the sheet when `placed` */
+    uint32_t surface;
+    bool placed;
+    double reach;       /* m from the surface, when placed */
+} sb_candidate;
+enum { SB_SAMPLE_BATCH = 32768 };
+typedef struct sb_candidate_batch {
+    size_t count;
+    sb_candidate *candidate; /* SB_SAMPLE_BATCH */
+    bool *good;
+} sb_candidate_batch;
+int sb_candidate_push(sb_sampler *sampler, sb_candidate_batch *batch, sb_candidate candidate);
+int sb_candidate_flush(sb_sampler *sampler, sb_candidate_batch *batch);
+
+#endif

@@ -1,0 +1,152 @@
+/* Where the sheet is: a point of a surface goes behind it by the offset, or to the middle of what is
+   thinner than twice that, or nowhere. */
+#include "geometry/sample_parts.h"
+
+/* In offsets: nearer than this to another face, a point is beyond the sheet's own edge. */
+static const double crowded_share = 0.9;
+/* Cosine between normals: faces that look away from each other bound something thin, others meet. */
+static const double thin_cosine = -0.5;
+enum { THIN_STEPS = 8 };
+
+static bool inside_box(const sb_surface *surface, sb_vec3 at, double margin)
+{
+    return at.x > surface->min.x - margin && at.x < surface->max.x + margin &&
+           at.y > surface->min.y - margin && at.y < surface->max.y + margin &&
+           at.z > surface->min.z - margin && at.z < surface->max.z + margin;
+}
+
+static bool contains(const sb_surface *surface, sb_vec3 at)
+{
+    if (surface->bounded) {
+        /* A terrain reaches down without end. */
+        bool beside = at.x < surface->min.x || at.x > surface->max.x || at.y < surface->min.y ||
+                      at.y > surface->max.y || at.z > surface->max.z;
+        if (beside || (surface->source->role == SB_ROLE_SOLID && at.z < surface->min.z))
+            return false;
+    }
+    return sb_solid_contains(surface->source->solid, at);
+}
+
+/* Other surfaces that may hide a point of this one: static ones, from static ones. */
+static bool may_hide(const sb_sampler *sampler, uint32_t surface, uint32_t other)
+{
+    return other != surface && !sampler->surfaces[surface].source->moving &&
+           !sampler->surfaces[other].source->moving;
+}
+
+bool sb_sample_buried(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, double radius)
+{
+    if (sampler->surfaces[surface].source->moving)
+        return false;
+    const sb_sample_settings *settings = &sampler->settings;
+    double depth = settings->support + radius;
+    sb_vec3 out = sb_max(sb_sub(settings->min, at), sb_sub(at, settings->max));
+    out = sb_max(out, sb_vec(0, 0, 0));
+    if (settings->dimensions == 2)
+        out.y = 0;
+    if (sb_norm(out) > depth)
+        return true;
+    for (uint32_t i = 0; i < sampler->surface_count; ++i) {
+        const sb_surface *other = sampler->surfaces + i;
+        if (may_hide(sampler, surface, i) && contains(other, at) &&
+            sb_solid_distance(other->source->solid, at, depth, NULL, NULL) >= depth)
+            return true;
+    }
+    return false;
+}
+
+/* Water may stand in front of a surface's point: no other solid covers it. */
+static bool is_exposed(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_vec3 normal)
+{
+    sb_vec3 front = sb_madd(at, 0.02 * sampler->settings.spacing, normal);
+    for (uint32_t i = 0; i < sampler->surface_count; ++i)
+        if (may_hide(sampler, surface, i) && contains(sampler->surfaces + i, front))
+            return false;
+    return true;
+}
+
+/* The mesh's normal, turned towards the water. */
+static sb_vec3 water_normal(const sb_surface *surface, sb_vec3 normal)
+{
+    if (surface->source->role == SB_ROLE_TERRAIN)
+        return normal.z < 0 ? sb_scale(normal, -1) : normal;
+    return sb_scale(normal, surface->sign);
+}
+
+/* The distance from a point of the sheet to the nearest exposed surface, at most limit. */
+static double clearance(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, double limit,
+                        sb_vec3 *nearest, sb_vec3 *normal)
+{
+    double best = limit;
+    for (uint32_t i = 0; i < sampler->surface_count; ++i) {
+        const sb_surface *other = sampler->surfaces + i;
+        if ((i != surface && !may_hide(sampler, surface, i)) || !inside_box(other, at, best))
+            continue;
+        sb_vec3 place, facing;
+        double distance = sb_solid_distance(other->source->solid, at, best, &place, &facing);
+        if (distance >= best)
+            continue;
+        facing = water_normal(other, facing);
+        if (other->mixed && sb_dot(facing, sb_sub(place, at)) < 0)
+            facing = sb_scale(facing, -1);
+        if (!is_exposed(sampler, i, place, facing))
+            continue;
+        best = distance;
+        *nearest = place;
+        *normal = facing;
+    }
+    return best;
+}
+
+bool sb_sample_fits(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, double reach)
+{
+    sb_vec3 nearest, normal;
+    double least = crowded_share * reach;
+    return !sb_sample_buried(sampler, surface, at, 0) &&
+           !(clearance(sampler, surface, at, least, &nearest, &normal) < least);
+}
+
+sb_placement sb_sample_place(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_vec3 inward,
+                             sb_vec3 *placed, double *margin)
+{
+    *margin = 0;
+    if (sb_sample_buried(sampler, surface, at, 0))
+        return SB_BURIED;
+    double reach = sampler->settings.offset;
+    for (int step = 0; step < THIN_STEPS; ++step) {
+        *placed = sb_madd(at, reach, inward);
+        sb_vec3 nearest, normal;
+        double limit = reach * (1 - 1e-3);
+        double room = clearance(sampler, surface, *placed, limit, &nearest, &normal);
+        if (!(room < limit))
+            break;
+        sb_vec3 chord = sb_sub(nearest, at);
+        double along = sb_dot(chord, inward);
+        if (-sb_dot(normal, inward) >= thin_cosine || !(along > 0)) {
+            *margin = crowded_share * reach - room;
+            return *margin > 0 ? SB_CROWDED : SB_PLACED;
+        }
+        /* The far side of something thin: the ball through both places lies in its middle. */
+        reach = sb_dot(chord, chord) / (2 * along);
+    }
+    return SB_PLACED;
+}
+
+bool sb_sample_project(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_sample *sample)
+{
+    const sb_surface *on = sampler->surfaces + surface;
+    double limit = sampler->settings.offset + 2 * sampler->settings.spacing;
+    sb_vec3 foot, normal;
+    if (on->mixed || sb_solid_distance(on->source->solid, at, limit, &foot, &normal) >= limit)
+        return false;
+    normal = water_normal(on, normal);
+    sb_vec3 inward = sb_scale(normal, -1);
+    double margin;
+    if (sb_sample_place(sampler, surface, foot, inward, &sample->at, &margin) != SB_PLACED)
+        return false;
+    if (sampler->settings.dimensions == 2)
+        sample->at.y = 0;
+    sample->normal = sb_scale(inward, -1);
+    sample->source = surface;
+    return true;
+}
