@@ -30,26 +30,21 @@ static sb_camera_key from_numbers(double time, const double n[NUMBERS])
 static void slopes(const sb_camera *camera, size_t k, double out[NUMBERS])
 {
     memset(out, 0, NUMBERS * sizeof *out);
-    if (k == 0 || k + 1 == camera->key_count)
-        return;
+    if (k == 0 || k + 1 == camera->key_count) return;
     double before[NUMBERS], after[NUMBERS];
     to_numbers(&camera->keys[k - 1], before);
     to_numbers(&camera->keys[k + 1], after);
     double span = camera->keys[k + 1].time - camera->keys[k - 1].time;
-    for (int i = 0; i < NUMBERS; i++)
-        out[i] = (after[i] - before[i]) / span;
+    for (int i = 0; i < NUMBERS; i++) out[i] = (after[i] - before[i]) / span;
 }
 
 sb_camera_key sb_camera_at(const sb_camera *camera, double time)
 {
     const sb_camera_key *keys = camera->keys;
     size_t last = camera->key_count - 1, k = 0;
-    if (time <= keys[0].time || last == 0)
-        return keys[0];
-    if (time >= keys[last].time)
-        return keys[last];
-    while (keys[k + 1].time <= time)
-        k++;
+    if (time <= keys[0].time || last == 0) return keys[0];
+    if (time >= keys[last].time) return keys[last];
+    while (keys[k + 1].time <= time) k++;
     double span = keys[k + 1].time - keys[k].time, s = (time - keys[k].time) / span;
     double a[NUMBERS], b[NUMBERS], slope_a[NUMBERS], slope_b[NUMBERS], mixed[NUMBERS];
     to_numbers(&keys[k], a);
@@ -76,8 +71,7 @@ static void clip_planes(sb_view *view, sb_vec3 min, sb_vec3 max)
         far = depth > far ? depth : far;
     }
     double size = sb_norm(sb_sub(max, min));
-    if (!(far > 0))
-        far = size > 0 ? size : 1;
+    if (!(far > 0)) far = size > 0 ? size : 1;
     far *= 1.01;
     /* 24 bits of depth resolve far / 2000 well. */
     near *= 0.95;
@@ -90,8 +84,7 @@ sb_view sb_view_create(const sb_camera_key *key, double aspect, sb_vec3 min, sb_
     sb_view view = {.eye = key->eye, .aspect = aspect};
     view.tangent = tan(key->fov * 0.5 * 3.14159265358979323846 / 180);
     view.back = sb_normalize(sb_sub(key->eye, key->target));
-    if (sb_norm(view.back) < 0.5)
-        view.back = sb_vec(0, -1, 0);
+    if (sb_norm(view.back) < 0.5) view.back = sb_vec(0, -1, 0);
     /* Looking straight down, +y is up in the picture. */
     sb_vec3 upward = fabs(view.back.z) > 0.9999 ? sb_vec(0, 1, 0) : sb_vec(0, 0, 1);
     view.right = sb_normalize(sb_cross(upward, view.back));

@@ -15,8 +15,7 @@ static double spline(const double *knots, double t)
 {
     double at = t * (KNOTS - 1);
     int k = (int)at;
-    if (k > KNOTS - 2)
-        k = KNOTS - 2;
+    if (k > KNOTS - 2) k = KNOTS - 2;
     double s = at - k, a = knots[k], b = knots[k + 1];
     double slope_a = k > 0 ? (b - knots[k - 1]) / 2 : b - a;
     double slope_b = k < KNOTS - 2 ? (knots[k + 2] - a) / 2 : b - a;

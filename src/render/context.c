@@ -28,8 +28,7 @@ sb_status sb_context_create(sb_context **context, sb_error *error)
     /* The simulation wants the processors too: two rasteriser threads unless the user says else. */
     setenv("LP_NUM_THREADS", "2", 0);
     sb_context *made = sb_alloc(1, sizeof *made);
-    if (!made)
-        return sb_fail_memory(error, "the drawing context");
+    if (!made) return sb_fail_memory(error, "the drawing context");
     static const int attributes[] = {OSMESA_FORMAT,
                                      OSMESA_RGBA,
                                      OSMESA_DEPTH_BITS,
@@ -66,8 +65,7 @@ void sb_context_leave(sb_context *context)
 
 void sb_context_destroy(sb_context *context)
 {
-    if (!context)
-        return;
+    if (!context) return;
     OSMesaDestroyContext(context->mesa);
     sb_free(context);
 }

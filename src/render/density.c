@@ -6,7 +6,8 @@
 
 static const double cell_spacings = 1.5;
 static const double nodes_max = 2.5e7;
-/* Empty nodes on each side: room for the spreading, the smoothing, and none to run into the next row. */
+/* Empty nodes on each side: room for the spreading, the smoothing, and none to run into the next
+ * row. */
 enum { MARGIN = 3 };
 
 static bool bounds(const sb_frame *frame, float min[3], float max[3])
@@ -17,8 +18,7 @@ static bool bounds(const sb_frame *frame, float min[3], float max[3])
     }
     for (size_t i = 0; i < frame->count; i++) {
         const float *p = frame->position + 3 * i;
-        if (!sb_density_counts(p))
-            continue;
+        if (!sb_density_counts(p)) continue;
         for (int a = 0; a < 3; a++) {
             min[a] = p[a] < min[a] ? p[a] : min[a];
             max[a] = p[a] > max[a] ? p[a] : max[a];
@@ -36,8 +36,7 @@ static sb_status lay_grid(sb_density *density, const float min[3], const float m
         total = 1;
         for (int a = 0; a < 3; a++)
             total *= floor((double)(max[a] - min[a]) / cell) + 2 * MARGIN + 1;
-        if (total <= nodes_max)
-            break;
+        if (total <= nodes_max) break;
     }
     for (int a = 0; a < 3; a++) {
         density->n[a] = (size_t)((double)(max[a] - min[a]) / cell) + 2 * MARGIN + 1;
@@ -60,8 +59,7 @@ static bool locate(const sb_density *density, const float place[3], size_t *node
     *node = 0;
     for (int a = 0; a < 3; a++) {
         float at = (place[a] - density->min[a]) * density->inverse;
-        if (!(at >= 0 && at < (float)(density->n[a] - 1)))
-            return false;
+        if (!(at >= 0 && at < (float)(density->n[a] - 1))) return false;
         size_t below = (size_t)at;
         share[a] = at - (float)below;
         *node += below * stride;
@@ -79,8 +77,7 @@ static void spread(sb_density *density, const sb_frame *frame)
         const float *p = frame->position + 3 * i;
         size_t at;
         float s[3];
-        if (!sb_density_counts(p) || !locate(density, p, &at, s))
-            continue;
+        if (!sb_density_counts(p) || !locate(density, p, &at, s)) continue;
         float *node = density->node + at;
         float low = mass * (1 - s[2]), high = mass * s[2];
         float a = (1 - s[0]) * (1 - s[1]), b = s[0] * (1 - s[1]);
@@ -109,11 +106,9 @@ sb_status sb_density_build(sb_density *density, const sb_frame *frame, sb_error 
 {
     density->n[0] = density->n[1] = density->n[2] = 1;
     float min[3], max[3];
-    if (!bounds(frame, min, max))
-        return SB_OK;
+    if (!bounds(frame, min, max)) return SB_OK;
     sb_status status = lay_grid(density, min, max, frame->spacing, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     spread(density, frame);
     size_t stride = 1, count = density->n[0] * density->n[1] * density->n[2];
     for (int a = 0; a < 3; a++) {
@@ -141,8 +136,7 @@ float sb_density_at(const sb_density *density, float x, float y, float z)
     const float place[3] = {x, y, z};
     size_t at;
     float s[3];
-    if (!locate(density, place, &at, s))
-        return 0;
+    if (!locate(density, place, &at, s)) return 0;
     const float *node = density->node + at;
     size_t up = density->n[0], over = density->n[0] * density->n[1];
     float low = node[0] + s[0] * (node[1] - node[0]);

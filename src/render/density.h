@@ -6,10 +6,10 @@
 
 /* Kept from frame to frame so that its memory is. Zeroed is empty. */
 typedef struct sb_density {
-    float min[3], cell, inverse;   /* m, relative to the frame's origin; 1/m */
-    size_t n[3];                   /* nodes */
+    float min[3], cell, inverse; /* m, relative to the frame's origin; 1/m */
+    size_t n[3];                 /* nodes */
     size_t capacity[2];
-    float *node;                   /* about 1 inside, 0.5 at the surface, 0 outside */
+    float *node; /* about 1 inside, 0.5 at the surface, 0 outside */
     float *spare;
 } sb_density;
 

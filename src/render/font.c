@@ -6,104 +6,104 @@
 #include <string.h>
 
 /* Strokes of ' ' to '~'. A stroke is a row of points, two characters each: x (0..8) and y (0..f;
-   base line 3, small letters up to 9, capitals up to c); strokes are parted by blanks; '~' bends the
-   stroke smoothly through its points. */
+   base line 3, small letters up to 9, capitals up to c); strokes are parted by blanks; '~' bends
+   the stroke smoothly through its points. */
 static const char *const glyphs[] = {
-    "",                                                     /* space */
-    "0c06 0304141303",                                            /* ! */
-    "0c0a 2c2a",                                            /* " */
-    "131c 535c 0a6a 0565",                                  /* # */
-    "~6b4c2c0b09284766644323 ~0423 3d32",                   /* $ */
-    "036c ~1c0b1a2b1c ~5544536455",                         /* % */
-    "~632a3c4a0604133366",                                  /* & */
-    "0c0a",                                                 /* ' */
-    "~2d0a0522",                                            /* ( */
-    "~0d2a2502",                                            /* ) */
-    "0a48 084a 2b27",                                       /* * */
-    "0666 3339",                                            /* + */
-    "1302",                                                 /* , */
-    "0747",                                                 /* - */
-    "0304141303",                                                 /* . */
-    "026c",                                                 /* / */
-    "~2c3c5a553323050a2c",                                  /* 0 */
-    "1a3c33",                                               /* 1 */
-    "~0a1b3c5b6a583603 0363",                               /* 2 */
-    "~0b1c4c6b694828 ~28486765432304",                      /* 3 */
-    "535c0666",                                             /* 4 */
-    "6c0c08 ~08295967654323 ~2304",                         /* 5 */
-    "~5b3c1a0806143354656758391806",                        /* 6 */
-    "0c6c23",                                               /* 7 */
-    "~3c1b1938595b3c ~3807051433546567 ~6738",              /* 8 */
-    "~14335567695b3c1b0a0817365769",                        /* 9 */
-    "0304141303 0809191808",                                            /* : */
-    "0809191808 1301",                                            /* ; */
-    "590653",                                               /* < */
-    "0868 0565",                                            /* = */
-    "095603",                                               /* > */
-    "~0b2c4c6a593736 3334444333",                                 /* ? */
-    "~3c1b090614335466695b3c 3737",                         /* @ */
-    "033c63 1656",                                          /* A */
-    "43030c3c 0848 ~3c5b5948 ~48676543",                    /* B */
-    "~6b4c2c1b090614234364",                                /* C */
-    "33030c3c ~3c5b69665433",                               /* D */
-    "63030c6c 0858",                                        /* E */
-    "030c6c 0858",                                          /* F */
-    "~6b4c2c1b090614234364 646737",                         /* G */
-    "030c 636c 0868",                                       /* H */
-    "030c",                                                 /* I */
-    "5c55 ~5544331304",                                     /* J */
-    "030c 6c07 2963",                                       /* K */
-    "0c0363",                                               /* L */
-    "030c376c63",                                           /* M */
-    "030c636c",                                             /* N */
-    "~3c1b090614335466695b3c",                              /* O */
-    "030c4c ~4c6b6847 4707",                                /* P */
-    "~3c1b090614335466695b3c 4572",                         /* Q */
-    "030c4c ~4c6b6847 4707 3763",                           /* R */
-    "~6b4c2c0b09284766644323 ~2304",                        /* S */
-    "0c6c 3c33",                                            /* T */
-    "0c06 ~0614335466 666c",                                /* U */
-    "0c336c",                                               /* V */
-    "0c234a638c",                                           /* W */
-    "036c 0c63",                                            /* X */
-    "0c376c 3733",                                          /* Y */
-    "0c6c0363",                                             /* Z */
-    "2d0d0222",                                             /* [ */
-    "0c62",                                                 /* \ */
-    "0d2d2202",                                             /* ] */
-    "0a2c4a",                                               /* ^ */
-    "0262",                                                 /* _ */
-    "0c1a",                                                 /* ` */
-    "~5739190705133355 5953",                               /* a */
-    "0c03 ~0729495755432305",                               /* b */
-    "~5839190705133354",                                    /* c */
-    "5c53 ~5739190705133355",                               /* d */
-    "0656 ~564839190705133354",                             /* e */
-    "~4c3c2b29 2923 0939",                                  /* f */
-    "~5739190705133355 5952 ~52402001",                     /* g */
-    "0c03 ~07294957 5753",                                  /* h */
-    "0903 0b0c",                                            /* i */
-    "2922 ~221000 2b2c",                                    /* j */
-    "0c03 4905 1653",                                       /* k */
-    "0c05 ~051323",                                         /* l */
-    "0903 ~07193947 4743 ~47597987 8783",                   /* m */
-    "0903 ~07294957 5753",                                  /* n */
-    "~391806143354665839",                                  /* o */
-    "0900 ~0729495755432305",                               /* p */
-    "5950 ~5739190705133355",                               /* q */
-    "0903 ~07182939",                                       /* r */
-    "~4839190817364544331304",                              /* s */
-    "1b14 ~142333 0939",                                    /* t */
-    "0905 ~05133355 5953",                                  /* u */
-    "093369",                                               /* v */
-    "0923486389",                                           /* w */
-    "0953 0359",                                            /* x */
-    "0933 6910",                                            /* y */
-    "09590353",                                             /* z */
-    "3d2c28172622 2231",                                    /* { */
-    "0d02",                                                 /* | */
-    "0d1c182716 1612 1202",                                 /* } */
-    "~0718364758",                                          /* ~ */
+    "",                                        /* space */
+    "0c06 0304141303",                         /* ! */
+    "0c0a 2c2a",                               /* " */
+    "131c 535c 0a6a 0565",                     /* # */
+    "~6b4c2c0b09284766644323 ~0423 3d32",      /* $ */
+    "036c ~1c0b1a2b1c ~5544536455",            /* % */
+    "~632a3c4a0604133366",                     /* & */
+    "0c0a",                                    /* ' */
+    "~2d0a0522",                               /* ( */
+    "~0d2a2502",                               /* ) */
+    "0a48 084a 2b27",                          /* * */
+    "0666 3339",                               /* + */
+    "1302",                                    /* , */
+    "0747",                                    /* - */
+    "0304141303",                              /* . */
+    "026c",                                    /* / */
+    "~2c3c5a553323050a2c",                     /* 0 */
+    "1a3c33",                                  /* 1 */
+    "~0a1b3c5b6a583603 0363",                  /* 2 */
+    "~0b1c4c6b694828 ~28486765432304",         /* 3 */
+    "535c0666",                                /* 4 */
+    "6c0c08 ~08295967654323 ~2304",            /* 5 */
+    "~5b3c1a0806143354656758391806",           /* 6 */
+    "0c6c23",                                  /* 7 */
+    "~3c1b1938595b3c ~3807051433546567 ~6738", /* 8 */
+    "~14335567695b3c1b0a0817365769",           /* 9 */
+    "0304141303 0809191808",                   /* : */
+    "0809191808 1301",                         /* ; */
+    "590653",                                  /* < */
+    "0868 0565",                               /* = */
+    "095603",                                  /* > */
+    "~0b2c4c6a593736 3334444333",              /* ? */
+    "~3c1b090614335466695b3c 3737",            /* @ */
+    "033c63 1656",                             /* A */
+    "43030c3c 0848 ~3c5b5948 ~48676543",       /* B */
+    "~6b4c2c1b090614234364",                   /* C */
+    "33030c3c ~3c5b69665433",                  /* D */
+    "63030c6c 0858",                           /* E */
+    "030c6c 0858",                             /* F */
+    "~6b4c2c1b090614234364 646737",            /* G */
+    "030c 636c 0868",                          /* H */
+    "030c",                                    /* I */
+    "5c55 ~5544331304",                        /* J */
+    "030c 6c07 2963",                          /* K */
+    "0c0363",                                  /* L */
+    "030c376c63",                              /* M */
+    "030c636c",                                /* N */
+    "~3c1b090614335466695b3c",                 /* O */
+    "030c4c ~4c6b6847 4707",                   /* P */
+    "~3c1b090614335466695b3c 4572",            /* Q */
+    "030c4c ~4c6b6847 4707 3763",              /* R */
+    "~6b4c2c0b09284766644323 ~2304",           /* S */
+    "0c6c 3c33",                               /* T */
+    "0c06 ~0614335466 666c",                   /* U */
+    "0c336c",                                  /* V */
+    "0c234a638c",                              /* W */
+    "036c 0c63",                               /* X */
+    "0c376c 3733",                             /* Y */
+    "0c6c0363",                                /* Z */
+    "2d0d0222",                                /* [ */
+    "0c62",                                    /* \ */
+    "0d2d2202",                                /* ] */
+    "0a2c4a",                                  /* ^ */
+    "0262",                                    /* _ */
+    "0c1a",                                    /* ` */
+    "~5739190705133355 5953",                  /* a */
+    "0c03 ~0729495755432305",                  /* b */
+    "~5839190705133354",                       /* c */
+    "5c53 ~5739190705133355",                  /* d */
+    "0656 ~564839190705133354",                /* e */
+    "~4c3c2b29 2923 0939",                     /* f */
+    "~5739190705133355 5952 ~52402001",        /* g */
+    "0c03 ~07294957 5753",                     /* h */
+    "0903 0b0c",                               /* i */
+    "2922 ~221000 2b2c",                       /* j */
+    "0c03 4905 1653",                          /* k */
+    "0c05 ~051323",                            /* l */
+    "0903 ~07193947 4743 ~47597987 8783",      /* m */
+    "0903 ~07294957 5753",                     /* n */
+    "~391806143354665839",                     /* o */
+    "0900 ~0729495755432305",                  /* p */
+    "5950 ~5739190705133355",                  /* q */
+    "0903 ~07182939",                          /* r */
+    "~4839190817364544331304",                 /* s */
+    "1b14 ~142333 0939",                       /* t */
+    "0905 ~05133355 5953",                     /* u */
+    "093369",                                  /* v */
+    "0923486389",                              /* w */
+    "0953 0359",                               /* x */
+    "0933 6910",                               /* y */
+    "09590353",                                /* z */
+    "3d2c28172622 2231",                       /* { */
+    "0d02",                                    /* | */
+    "0d1c182716 1612 1202",                    /* } */
+    "~0718364758",                             /* ~ */
 };
 
 static const double base = 3, capital = 9; /* units: the base line, and a capital's height */
@@ -116,22 +116,20 @@ static int digit(char c)
     return c <= '9' ? c - '0' : c - 'a' + 10;
 }
 
-/* The next character's glyph, NULL at the end; the bytes that continue a UTF-8 character are skipped. */
+/* The next character's glyph, NULL at the end; the bytes that continue a UTF-8 character are
+ * skipped. */
 static const char *next_glyph(const char **text)
 {
-    while (((unsigned char)**text & 0xC0) == 0x80)
-        ++*text;
+    while (((unsigned char)**text & 0xC0) == 0x80) ++*text;
     unsigned char c = (unsigned char)**text;
-    if (c == 0)
-        return NULL;
+    if (c == 0) return NULL;
     ++*text;
     return glyphs[c >= ' ' && c <= '~' ? c - ' ' : '?' - ' '];
 }
 
 static double glyph_advance(const char *glyph)
 {
-    if (!*glyph)
-        return blank;
+    if (!*glyph) return blank;
     int widest = 0;
     for (const char *at = glyph; *at;) {
         if (*at == ' ' || *at == '~') {
@@ -147,8 +145,7 @@ static double glyph_advance(const char *glyph)
 double sb_font_width(const char *text, double height)
 {
     double units = 0;
-    for (const char *glyph; (glyph = next_glyph(&text)) != NULL;)
-        units += glyph_advance(glyph);
+    for (const char *glyph; (glyph = next_glyph(&text)) != NULL;) units += glyph_advance(glyph);
     return units > 0 ? (units - gap) * height / capital : 0;
 }
 
@@ -235,29 +232,26 @@ sb_status sb_font_draw(sb_image *image, double x, double y, double height, const
     static const float dark[3] = {0.02f, 0.05f, 0.09f};
     double unit = height / capital, pen = 0.55 * unit < 0.6 ? 0.6 : 0.55 * unit;
     double rim = pen + 0.30 * height, reach = rim + 1;
-    struct field field = {.x0 = (int)floor(x - reach), .y0 = (int)floor(y - height - 2 * unit - reach)};
+    struct field field = {.x0 = (int)floor(x - reach),
+                          .y0 = (int)floor(y - height - 2 * unit - reach)};
     int right = (int)ceil(x + sb_font_width(text, height) + reach);
     int bottom = (int)ceil(y + base * unit + reach);
     field.x0 = field.x0 > 0 ? field.x0 : 0;
     field.y0 = field.y0 > 0 ? field.y0 : 0;
     field.width = (right < image->width ? right : image->width) - field.x0;
     field.height = (bottom < image->height ? bottom : image->height) - field.y0;
-    if (field.width <= 0 || field.height <= 0)
-        return SB_OK;
+    if (field.width <= 0 || field.height <= 0) return SB_OK;
     size_t count = (size_t)field.width * (size_t)field.height;
     field.distance = sb_alloc(count, sizeof *field.distance);
-    if (!field.distance)
-        return sb_fail_memory(error, "text in a picture");
-    for (size_t i = 0; i < count; i++)
-        field.distance[i] = (float)(reach + 1);
+    if (!field.distance) return sb_fail_memory(error, "text in a picture");
+    for (size_t i = 0; i < count; i++) field.distance[i] = (float)(reach + 1);
     for (const char *glyph; (glyph = next_glyph(&text)) != NULL;) {
         draw_glyph(&field, glyph, x, y, unit, reach);
         x += unit * glyph_advance(glyph);
     }
     for (size_t i = 0; i < count; i++) {
         double far = (double)field.distance[i];
-        if (far >= rim)
-            continue;
+        if (far >= rim) continue;
         size_t row = (size_t)field.y0 + i / (size_t)field.width;
         size_t column = (size_t)field.x0 + i % (size_t)field.width;
         unsigned char *pixel = image->rgb + 3 * (row * (size_t)image->width + column);

@@ -8,11 +8,12 @@ enum { SB_IMAGE_SIDE_MAX = 16384 }; /* px */
 
 /* 8-bit sRGB, rows from the top down, 3 bytes per pixel without padding. Zeroed is empty. */
 typedef struct sb_image {
-    int width, height; /* px */
+    int width, height;  /* px */
     unsigned char *rgb; /* owned */
 } sb_image;
 
-/* Makes it width x height, keeping the memory when the size is the same; sizes 1..SB_IMAGE_SIDE_MAX. */
+/* Makes it width x height, keeping the memory when the size is the same;
+ * sizes 1..SB_IMAGE_SIDE_MAX. */
 sb_status sb_image_resize(sb_image *image, int width, int height, sb_error *error);
 
 /* Frees the pixels and zeroes it; fine on an empty one. */

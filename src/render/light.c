@@ -23,11 +23,12 @@ const char sb_light_source[] =
     "  c += g * vec3(0.10, 0.08, 0.05);\n"
     "  return mix(c, vec3(0.47, 0.53, 0.58), 1.0 - exp(-3.0 * down));\n"
     "}\n"
-    /* How open a place is: on the ground what the map says there, on a wall what the ground before it
-       says, rising to a free view with height over that ground. */
+    /* How open a place is: on the ground what the map says there, on a wall what the ground before
+       it says, rising to a free view with height over that ground. */
     "float openness(vec3 p, vec3 n) {\n"
     "  vec2 out_of_wall = n.xy * (1.5 / (512.0 * ground_frame.z));\n"
-    "  vec2 map = texture(ground_map, (p.xy + out_of_wall - ground_frame.xy) * ground_frame.z).xy;\n"
+    "  vec2 map = texture(ground_map, (p.xy + out_of_wall - ground_frame.xy) * "
+    "ground_frame.z).xy;\n"
     "  return mix(map.y, 1.0, clamp((p.z - map.x) * 0.03, 0.0, 1.0));\n"
     "}\n"
     "float sunlit(vec3 p, vec3 n) {\n"
@@ -55,9 +56,9 @@ static void ortho_clip(sb_vec3 right, sb_vec3 up, sb_vec3 back, sb_vec3 min, sb_
     for (int row = 0; row < 3; row++) {
         double low = INFINITY, high = -INFINITY;
         for (int corner = 0; corner < 8; corner++) {
-            double at = sb_dot(axes[row], sb_vec(corner & 1 ? max.x : min.x,
-                                                 corner & 2 ? max.y : min.y,
-                                                 corner & 4 ? max.z : min.z));
+            double at =
+                sb_dot(axes[row], sb_vec(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y,
+                                         corner & 4 ? max.z : min.z));
             low = at < low ? at : low;
             high = at > high ? at : high;
         }
@@ -104,8 +105,7 @@ static float horizon(const float *height, int n, double cell, int x, int y, int 
     /* Steps grow as they leave: near walls matter most. */
     for (int step = 1; step <= 24; step += 1 + step / 3) {
         int px = x + step * dx, py = y + step * dy;
-        if (px < 0 || py < 0 || px >= n || py >= n)
-            break;
+        if (px < 0 || py < 0 || px >= n || py >= n) break;
         double rise = (double)(height[py * n + px] - height[y * n + x]);
         double slope = rise / (step * length);
         steepest = slope > steepest ? slope : steepest;
@@ -163,13 +163,11 @@ static sb_status make_ground(const sb_meshes *meshes, sb_vec3 min, sb_vec3 max, 
     depth = sb_texture_create(GL_DEPTH_COMPONENT32F, N, N, GL_DEPTH_COMPONENT, GL_FLOAT, NULL,
                               GL_NEAREST);
     status = draw_depth_map(meshes, depth, N, clip, error);
-    if (status != SB_OK)
-        goto done;
+    if (status != SB_OK) goto done;
     glBindTexture(GL_TEXTURE_2D, depth);
     glGetTexImage(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT, GL_FLOAT, height);
     /* clip z = 2 depth - 1 = clip[10] z + clip[14]; where nothing is, the ground is far below. */
-    for (int i = 0; i < CELLS; i++)
-        height[i] = (2 * height[i] - 1 - clip[14]) / clip[10];
+    for (int i = 0; i < CELLS; i++) height[i] = (2 * height[i] - 1 - clip[14]) / clip[10];
     sb_light_openness(height, N, side / N, map);
     soften(map, N, open);
     for (int i = 0; i < CELLS; i++) {
@@ -215,8 +213,7 @@ sb_status sb_light_create(const sb_meshes *meshes, sb_vec3 origin, sb_vec3 min, 
     made.size = sb_norm(sb_sub(max, min));
     made.size = made.size > 0 ? made.size : 1;
     sb_status status = make_shadow(meshes, min, max, &made, error);
-    if (status == SB_OK)
-        status = make_ground(meshes, min, max, &made, error);
+    if (status == SB_OK) status = make_ground(meshes, min, max, &made, error);
     if (status == SB_OK)
         *light = made;
     else

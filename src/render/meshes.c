@@ -16,7 +16,7 @@ struct corner {
 
 struct part {
     char name[SB_NAME_MAX];
-    size_t body;                  /* index in the model, and so in a frame */
+    size_t body; /* index in the model, and so in a frame */
     bool moves, one_sided;
     float line_alpha;
     GLint first_corner, first_line;
@@ -33,23 +33,22 @@ struct sb_meshes {
 
 static const double crease = 32; /* degrees */
 
-static const char face_vertex[] =
-    "layout(location = 0) in vec3 position;\n"
-    "layout(location = 1) in vec3 normal;\n"
-    "layout(location = 2) in vec4 color;\n"
-    "uniform mat4 clip;\n"
-    "uniform vec3 shift;\n"
-    "out vec3 place, slope;\n"
-    "out vec4 paint;\n"
-    "void main() {\n"
-    "  place = position + shift;\n"
-    "  slope = normal;\n"
-    "  paint = color;\n"
-    "  gl_Position = clip * vec4(place, 1.0);\n"
-    "}\n";
+static const char face_vertex[] = "layout(location = 0) in vec3 position;\n"
+                                  "layout(location = 1) in vec3 normal;\n"
+                                  "layout(location = 2) in vec4 color;\n"
+                                  "uniform mat4 clip;\n"
+                                  "uniform vec3 shift;\n"
+                                  "out vec3 place, slope;\n"
+                                  "out vec4 paint;\n"
+                                  "void main() {\n"
+                                  "  place = position + shift;\n"
+                                  "  slope = normal;\n"
+                                  "  paint = color;\n"
+                                  "  gl_Position = clip * vec4(place, 1.0);\n"
+                                  "}\n";
 
-/* Terrain without a colour of its own: sand around the water line, meadow above it, rock where it is
-   steep, and a coarse noise so that large slopes do not look like plastic. */
+/* Terrain without a colour of its own: sand around the water line, meadow above it, rock where it
+   is steep, and a coarse noise so that large slopes do not look like plastic. */
 static const char face_fragment[] =
     "in vec3 place, slope;\n"
     "in vec4 paint;\n"
@@ -77,17 +76,16 @@ static const char face_fragment[] =
     "  color = encoded(hazed(lit(albedo, place, n), place));\n"
     "}\n";
 
-static const char line_vertex[] =
-    "layout(location = 0) in vec3 position;\n"
-    "uniform mat4 view, projection;\n"
-    "uniform vec3 shift;\n"
-    "out float depth;\n"
-    "void main() {\n"
-    "  vec4 e = view * vec4(position + shift, 1.0);\n"
-    "  depth = -e.z;\n"
-    "  e.xyz *= 0.9985;\n" /* in front of the faces it bounds */
-    "  gl_Position = projection * e;\n"
-    "}\n";
+static const char line_vertex[] = "layout(location = 0) in vec3 position;\n"
+                                  "uniform mat4 view, projection;\n"
+                                  "uniform vec3 shift;\n"
+                                  "out float depth;\n"
+                                  "void main() {\n"
+                                  "  vec4 e = view * vec4(position + shift, 1.0);\n"
+                                  "  depth = -e.z;\n"
+                                  "  e.xyz *= 0.9985;\n" /* in front of the faces it bounds */
+                                  "  gl_Position = projection * e;\n"
+                                  "}\n";
 
 static const char line_fragment[] =
     "in float depth;\n"
@@ -125,14 +123,13 @@ struct upload {
     size_t end_count, end_capacity;
 };
 
-static sb_status gather(const sb_model_body *body, sb_vec3 origin,
-                        struct upload *upload, struct part *part, sb_error *error)
+static sb_status gather(const sb_model_body *body, sb_vec3 origin, struct upload *upload,
+                        struct part *part, sb_error *error)
 {
     const sb_mesh *mesh = &body->mesh;
     sb_outline outline;
     sb_status status = sb_outline_create(mesh, crease, &outline, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     size_t corners = upload->corner_count + 3 * mesh->triangle_count;
     size_t ends = upload->end_count + 2 * outline.edge_count;
     if (sb_grow((void **)&upload->corners, &upload->corner_capacity, corners,
@@ -160,8 +157,8 @@ static sb_status gather(const sb_model_body *body, sb_vec3 origin,
         memcpy(corner->color, paint, 4);
     }
     for (size_t i = 0; i < 2 * outline.edge_count; i++)
-        relative(upload->ends[upload->end_count++],
-                 mesh->vertices[outline.edges[i / 2][i % 2]], origin);
+        relative(upload->ends[upload->end_count++], mesh->vertices[outline.edges[i / 2][i % 2]],
+                 origin);
     sb_outline_free(&outline);
     return SB_OK;
 }
@@ -180,8 +177,7 @@ static void send(sb_meshes *meshes, const struct upload *upload)
                           (const void *)offsetof(struct corner, normal));
     glVertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride,
                           (const void *)offsetof(struct corner, color));
-    for (GLuint i = 0; i < 3; i++)
-        glEnableVertexAttribArray(i);
+    for (GLuint i = 0; i < 3; i++) glEnableVertexAttribArray(i);
     glGenVertexArrays(1, &meshes->line_array);
     glGenBuffers(1, &meshes->line_buffer);
     glBindVertexArray(meshes->line_array);
@@ -201,8 +197,8 @@ static sb_status make_programs(sb_meshes *meshes, sb_error *error)
         status = sb_program_create("shadow", face_vertex, NULL, depth_fragment,
                                    &meshes->depth_program, error);
     if (status == SB_OK)
-        status = sb_program_create("edges", line_vertex, NULL, line_fragment,
-                                   &meshes->line_program, error);
+        status = sb_program_create("edges", line_vertex, NULL, line_fragment, &meshes->line_program,
+                                   error);
     return status;
 }
 
@@ -212,27 +208,23 @@ sb_status sb_meshes_create(const sb_model *model, sb_vec3 origin, sb_meshes **me
     struct upload upload = {0};
     sb_meshes *made = sb_alloc(1, sizeof *made);
     sb_status status = SB_OK;
-    if (made)
-        made->parts = sb_alloc(model->body_count, sizeof *made->parts);
+    if (made) made->parts = sb_alloc(model->body_count, sizeof *made->parts);
     if (!made || !made->parts) {
         status = sb_fail_memory(error, "meshes to draw");
         goto done;
     }
     made->origin = origin;
     for (size_t i = 0; i < model->body_count; i++) {
-        if (model->bodies[i].mesh.triangle_count == 0)
-            continue;
+        if (model->bodies[i].mesh.triangle_count == 0) continue;
         struct part *part = &made->parts[made->part_count];
         part->body = i;
         status = gather(&model->bodies[i], origin, &upload, part, error);
-        if (status != SB_OK)
-            goto done;
+        if (status != SB_OK) goto done;
         made->part_count++;
     }
     send(made, &upload);
     status = make_programs(made, error);
-    if (status != SB_OK)
-        goto done;
+    if (status != SB_OK) goto done;
     *meshes = made;
     made = NULL;
 done:
@@ -244,8 +236,7 @@ done:
 
 void sb_meshes_destroy(sb_meshes *meshes)
 {
-    if (!meshes)
-        return;
+    if (!meshes) return;
     glDeleteVertexArrays(1, &meshes->face_array);
     glDeleteVertexArrays(1, &meshes->line_array);
     glDeleteBuffers(1, &meshes->face_buffer);
@@ -265,10 +256,8 @@ static void set_shift(GLuint program, const struct part *part, const sb_frame *f
         strcmp(frame->bodies[part->body].name, part->name) == 0)
         body = &frame->bodies[part->body];
     for (size_t i = 0; frame && !body && i < frame->body_count; i++)
-        if (strcmp(frame->bodies[i].name, part->name) == 0)
-            body = &frame->bodies[i];
-    if (body)
-        relative(shift, body->displacement, sb_vec(0, 0, 0));
+        if (strcmp(frame->bodies[i].name, part->name) == 0) body = &frame->bodies[i];
+    if (body) relative(shift, body->displacement, sb_vec(0, 0, 0));
     sb_uniform_vec3(program, "shift", shift);
 }
 
@@ -277,8 +266,7 @@ static void multiply(const float a[16], const float b[16], float out[16])
     for (int column = 0; column < 4; column++)
         for (int row = 0; row < 4; row++) {
             float sum = 0;
-            for (int k = 0; k < 4; k++)
-                sum += a[4 * k + row] * b[4 * column + k];
+            for (int k = 0; k < 4; k++) sum += a[4 * k + row] * b[4 * column + k];
             out[4 * column + row] = sum;
         }
 }
@@ -290,8 +278,7 @@ void sb_meshes_draw_depth(const sb_meshes *meshes, const float clip[16])
     glBindVertexArray(meshes->face_array);
     for (size_t i = 0; i < meshes->part_count; i++) {
         /* Light falls through what is seen through. */
-        if (meshes->parts[i].moves || meshes->parts[i].one_sided)
-            continue;
+        if (meshes->parts[i].moves || meshes->parts[i].one_sided) continue;
         set_shift(meshes->depth_program, &meshes->parts[i], NULL);
         glDrawArrays(GL_TRIANGLES, meshes->parts[i].first_corner, meshes->parts[i].corners);
     }
@@ -308,8 +295,8 @@ void sb_meshes_draw_faces(const sb_meshes *meshes, const sb_light *light, const 
     sb_light_bind(light, view, program);
     sb_uniform_mat4(program, "clip", clip);
     sb_uniform_float(program, "sea_level", light->sea_level - meshes->origin.z);
-    /* The height over which terrain goes from sand to meadow scales with the scene: 10 m at a plant,
-       centimetres in a flume. */
+    /* The height over which terrain goes from sand to meadow scales with the scene: 10 m at a
+       plant, centimetres in a flume. */
     sb_uniform_float(program, "unit", light->size / 175);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);

@@ -7,8 +7,8 @@
 
 /* Faces around each welded vertex v: faces[first[v]] .. faces[first[v + 1] - 1]. */
 struct topology {
-    uint32_t *weld;      /* the representative vertex at the same place */
-    sb_vec3 *area;       /* per face: normal times twice the area */
+    uint32_t *weld; /* the representative vertex at the same place */
+    sb_vec3 *area;  /* per face: normal times twice the area */
     size_t *first;
     uint32_t *faces;
 };
@@ -22,8 +22,7 @@ static int compare_places(const void *a, const void *b)
 {
     const struct place *p = a, *q = b;
     for (int i = 0; i < 3; i++)
-        if (p->at[i] != q->at[i])
-            return p->at[i] < q->at[i] ? -1 : 1;
+        if (p->at[i] != q->at[i]) return p->at[i] < q->at[i] ? -1 : 1;
     return p->vertex < q->vertex ? -1 : p->vertex > q->vertex;
 }
 
@@ -32,8 +31,7 @@ static sb_status weld(const sb_mesh *mesh, uint32_t *weld_to, sb_error *error)
 {
     size_t count = mesh->vertex_count;
     struct place *places = sb_alloc(count, sizeof *places);
-    if (!places)
-        return sb_fail_memory(error, "welding a mesh");
+    if (!places) return sb_fail_memory(error, "welding a mesh");
     sb_vec3 min = mesh->vertices[0], max = min;
     for (size_t i = 1; i < count; i++) {
         min = sb_min(min, mesh->vertices[i]);
@@ -46,8 +44,7 @@ static sb_status weld(const sb_mesh *mesh, uint32_t *weld_to, sb_error *error)
     }
     qsort(places, count, sizeof *places, compare_places);
     for (size_t i = 0, lead = 0; i < count; i++) {
-        if (memcmp(places[i].at, places[lead].at, sizeof places[i].at) != 0)
-            lead = i;
+        if (memcmp(places[i].at, places[lead].at, sizeof places[i].at) != 0) lead = i;
         weld_to[places[i].vertex] = places[lead].vertex;
     }
     sb_free(places);
@@ -72,19 +69,16 @@ static sb_status topology_create(const sb_mesh *mesh, struct topology *topology,
     if (!topology->weld || !topology->area || !topology->first || !topology->faces)
         return sb_fail_memory(error, "the edges of a mesh");
     sb_status status = weld(mesh, topology->weld, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     /* Counting sort of corners by vertex; first[] is shifted by one while it is being filled. */
     for (size_t f = 0; f < faces; f++) {
         const uint32_t *t = mesh->triangles[f];
         sb_vec3 a = mesh->vertices[t[0]];
         topology->area[f] =
             sb_cross(sb_sub(mesh->vertices[t[1]], a), sb_sub(mesh->vertices[t[2]], a));
-        for (int c = 0; c < 3; c++)
-            topology->first[topology->weld[t[c]] + 2]++;
+        for (int c = 0; c < 3; c++) topology->first[topology->weld[t[c]] + 2]++;
     }
-    for (size_t v = 2; v < vertices + 2; v++)
-        topology->first[v] += topology->first[v - 1];
+    for (size_t v = 2; v < vertices + 2; v++) topology->first[v] += topology->first[v - 1];
     for (size_t f = 0; f < faces; f++)
         for (int c = 0; c < 3; c++)
             topology->faces[topology->first[topology->weld[mesh->triangles[f][c]] + 1]++] =
@@ -102,8 +96,7 @@ static void corner_normals(const sb_mesh *mesh, const struct topology *topology,
             sb_vec3 sum = sb_vec(0, 0, 0);
             for (size_t k = topology->first[v]; k < topology->first[v + 1]; k++) {
                 sb_vec3 other = topology->area[topology->faces[k]];
-                if (sb_dot(own, other) >= cosine * sb_norm(other))
-                    sum = sb_add(sum, other);
+                if (sb_dot(own, other) >= cosine * sb_norm(other)) sum = sb_add(sum, other);
             }
             sum = sb_normalize(sum);
             normals[3 * f + (size_t)c][0] = (float)sum.x;
@@ -120,18 +113,15 @@ struct edge {
 static int compare_edges(const void *a, const void *b)
 {
     const struct edge *p = a, *q = b;
-    if (p->low != q->low)
-        return p->low < q->low ? -1 : 1;
-    if (p->high != q->high)
-        return p->high < q->high ? -1 : 1;
+    if (p->low != q->low) return p->low < q->low ? -1 : 1;
+    if (p->high != q->high) return p->high < q->high ? -1 : 1;
     return p->face < q->face ? -1 : p->face > q->face;
 }
 
 static int is_feature(const struct topology *topology, const struct edge *edges, size_t count,
                       double cosine)
 {
-    if (count != 2)
-        return 1;
+    if (count != 2) return 1;
     sb_vec3 a = topology->area[edges[0].face], b = topology->area[edges[1].face];
     return sb_dot(a, b) < cosine * sb_norm(a) * sb_norm(b);
 }
@@ -140,23 +130,20 @@ static sb_status feature_edges(const sb_mesh *mesh, const struct topology *topol
                                sb_outline *outline, sb_error *error)
 {
     struct edge *edges = sb_alloc(3 * mesh->triangle_count, sizeof *edges);
-    if (!edges)
-        return sb_fail_memory(error, "the edges of a mesh");
+    if (!edges) return sb_fail_memory(error, "the edges of a mesh");
     size_t count = 0, kept = 0;
     for (size_t f = 0; f < mesh->triangle_count; f++)
         for (int c = 0; c < 3; c++) {
             uint32_t a = topology->weld[mesh->triangles[f][c]];
             uint32_t b = topology->weld[mesh->triangles[f][(c + 1) % 3]];
-            if (a != b)
-                edges[count++] = (struct edge){a < b ? a : b, a < b ? b : a, (uint32_t)f};
+            if (a != b) edges[count++] = (struct edge){a < b ? a : b, a < b ? b : a, (uint32_t)f};
         }
     qsort(edges, count, sizeof *edges, compare_edges);
     for (size_t begin = 0, end; begin < count; begin = end) {
         for (end = begin + 1; end < count && edges[end].low == edges[begin].low &&
                               edges[end].high == edges[begin].high;)
             end++;
-        if (is_feature(topology, edges + begin, end - begin, cosine))
-            edges[kept++] = edges[begin];
+        if (is_feature(topology, edges + begin, end - begin, cosine)) edges[kept++] = edges[begin];
     }
     outline->edges = sb_alloc(kept, sizeof *outline->edges);
     if (!outline->edges) {
@@ -176,14 +163,12 @@ sb_status sb_outline_create(const sb_mesh *mesh, double crease, sb_outline *outl
                             sb_error *error)
 {
     *outline = (sb_outline){0};
-    if (mesh->triangle_count == 0)
-        return SB_OK;
+    if (mesh->triangle_count == 0) return SB_OK;
     struct topology topology = {0};
     sb_outline made = {0};
     double cosine = cos(crease * 3.14159265358979323846 / 180);
     sb_status status = topology_create(mesh, &topology, error);
-    if (status != SB_OK)
-        goto done;
+    if (status != SB_OK) goto done;
     made.normals = sb_alloc(3 * mesh->triangle_count, sizeof *made.normals);
     if (!made.normals) {
         status = sb_fail_memory(error, "the normals of a mesh");
@@ -191,8 +176,7 @@ sb_status sb_outline_create(const sb_mesh *mesh, double crease, sb_outline *outl
     }
     corner_normals(mesh, &topology, cosine, made.normals);
     status = feature_edges(mesh, &topology, cosine, &made, error);
-    if (status != SB_OK)
-        goto done;
+    if (status != SB_OK) goto done;
     *outline = made;
     made = (sb_outline){0};
 done:

@@ -5,9 +5,9 @@
 #include "geometry/mesh.h"
 
 typedef struct sb_outline {
-    float (*normals)[3];      /* unit, one per triangle corner: 3 * triangle_count; owned */
+    float (*normals)[3]; /* unit, one per triangle corner: 3 * triangle_count; owned */
     size_t edge_count;
-    uint32_t (*edges)[2];     /* vertex indices of the mesh; owned */
+    uint32_t (*edges)[2]; /* vertex indices of the mesh; owned */
 } sb_outline;
 
 /* Vertices at one place count as one. Faces that meet at less than `crease` degrees share a smooth

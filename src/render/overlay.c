@@ -13,8 +13,7 @@ double sb_overlay_tick(double range, int most)
     double power = pow(10, floor(log10(range / most)));
     static const double steps[] = {1, 2, 5};
     for (int i = 0; i < 3; i++)
-        if (range / (steps[i] * power) <= most * (1 + 1e-9))
-            return steps[i] * power;
+        if (range / (steps[i] * power) <= most * (1 + 1e-9)) return steps[i] * power;
     return 10 * power;
 }
 
@@ -23,12 +22,11 @@ static void fill(sb_image *image, double x0, double y0, double x1, double y1, co
 {
     for (int y = (int)lround(y0); y < (int)lround(y1); y++)
         for (int x = (int)lround(x0); x < (int)lround(x1); x++) {
-            if (x < 0 || y < 0 || x >= image->width || y >= image->height)
-                continue;
+            if (x < 0 || y < 0 || x >= image->width || y >= image->height) continue;
             unsigned char *pixel = image->rgb + 3 * ((size_t)y * (size_t)image->width + (size_t)x);
             for (int c = 0; c < 3; c++)
-                pixel[c] = (unsigned char)(pixel[c] +
-                                           alpha * (255 * (double)rgb[c] - pixel[c]) + 0.5);
+                pixel[c] =
+                    (unsigned char)(pixel[c] + alpha * (255 * (double)rgb[c] - pixel[c]) + 0.5);
         }
 }
 
@@ -60,8 +58,7 @@ static sb_status color_bar(sb_image *image, double unit, double speed_max, sb_er
 sb_status sb_overlay_draw(sb_image *image, const char *title, double time, double speed_max,
                           sb_error *error)
 {
-    if (image->height < SB_OVERLAY_HEIGHT_MIN)
-        return SB_OK;
+    if (image->height < SB_OVERLAY_HEIGHT_MIN) return SB_OK;
     double unit = image->height / 720.0;
     unit = unit < 0.6 ? 0.6 : unit;
     char clock[64];

@@ -32,8 +32,7 @@ static void on_warning(png_structp png, png_const_charp text)
 static int write_rows(png_structp png, png_infop info, FILE *stream, const sb_image *image,
                       struct reporter *reporter)
 {
-    if (setjmp(reporter->jump))
-        return 0;
+    if (setjmp(reporter->jump)) return 0;
     png_init_io(png, stream);
     png_set_compression_level(png, 3);
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
@@ -42,8 +41,7 @@ static int write_rows(png_structp png, png_infop info, FILE *stream, const sb_im
                  PNG_FILTER_TYPE_DEFAULT);
     png_write_info(png, info);
     size_t stride = 3 * (size_t)image->width;
-    for (int y = 0; y < image->height; y++)
-        png_write_row(png, image->rgb + (size_t)y * stride);
+    for (int y = 0; y < image->height; y++) png_write_row(png, image->rgb + (size_t)y * stride);
     png_write_end(png, NULL);
     return 1;
 }
@@ -54,16 +52,14 @@ sb_status sb_png_write(const char *path, const sb_image *image, sb_error *error)
         return sb_fail(error, SB_BAD_INPUT, "%.500s: an empty picture cannot be written", path);
     sb_atomic_file file;
     sb_status status = sb_atomic_open(&file, path, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     struct reporter reporter = {.text = "out of memory"};
     png_structp png =
         png_create_write_struct(PNG_LIBPNG_VER_STRING, &reporter, on_error, on_warning);
     png_infop info = png ? png_create_info_struct(png) : NULL;
     int written = info && write_rows(png, info, file.stream, image, &reporter);
     png_destroy_write_struct(png ? &png : NULL, info ? &info : NULL);
-    if (written)
-        return sb_atomic_commit(&file, 0, error);
+    if (written) return sb_atomic_commit(&file, 0, error);
     sb_atomic_abort(&file);
     return sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", path, reporter.text);
 }
@@ -71,8 +67,7 @@ sb_status sb_png_write(const char *path, const sb_image *image, sb_error *error)
 static int read_rows(png_structp png, png_infop info, FILE *stream, sb_image *image,
                      sb_error *error, struct reporter *reporter)
 {
-    if (setjmp(reporter->jump))
-        return 0;
+    if (setjmp(reporter->jump)) return 0;
     png_init_io(png, stream);
     png_read_info(png, info);
     png_set_expand(png);

@@ -21,8 +21,7 @@ static sb_status compile(const char *name, GLenum stage, const char *common, con
     glCompileShader(*shader);
     GLint good = 0;
     glGetShaderiv(*shader, GL_COMPILE_STATUS, &good);
-    if (good)
-        return SB_OK;
+    if (good) return SB_OK;
     char text[400] = "";
     glGetShaderInfoLog(*shader, sizeof text, NULL, text);
     return sb_fail(error, SB_FAILED, "shader %s: %s", name, text);
@@ -36,8 +35,7 @@ sb_status sb_program_create(const char *name, const char *vertex, const char *co
     sb_status status = compile(name, GL_VERTEX_SHADER, NULL, vertex, &shaders[0], error);
     if (status == SB_OK)
         status = compile(name, GL_FRAGMENT_SHADER, common, fragment, &shaders[1], error);
-    if (status != SB_OK)
-        goto done;
+    if (status != SB_OK) goto done;
     made = glCreateProgram();
     glAttachShader(made, shaders[0]);
     glAttachShader(made, shaders[1]);
@@ -114,8 +112,7 @@ GLuint sb_texture_create(GLenum internal, int width, int height, GLenum format, 
 sb_status sb_framebuffer_check(const char *name, sb_error *error)
 {
     GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
-    if (status == GL_FRAMEBUFFER_COMPLETE)
-        return SB_OK;
+    if (status == GL_FRAMEBUFFER_COMPLETE) return SB_OK;
     return sb_fail(error, SB_FAILED, "framebuffer %s: OpenGL status 0x%04x, expected complete",
                    name, status);
 }

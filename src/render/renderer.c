@@ -5,22 +5,21 @@
 #include "render/meshes.h"
 #include "render/overlay.h"
 #include "render/sky.h"
+#include "render/soften.h"
 #include "render/water.h"
-
-#include <string.h>
 
 struct sb_renderer {
     const sb_scene *scene;
     int width, height;
-    sb_vec3 min, max;          /* m, scene: domain and meshes */
-    double still_depth;        /* m */
+    sb_vec3 min, max;   /* m, scene: domain and meshes */
+    double still_depth; /* m */
     sb_context *context;
     GLuint framebuffer, color, depth_stencil;
     sb_meshes *meshes;
     sb_light light;
     sb_sky sky;
     sb_water water;
-    unsigned char *pixels;     /* RGBA from the bottom up, as OpenGL gives them */
+    unsigned char *pixels; /* RGBA from the bottom up, as OpenGL gives them */
 };
 
 static sb_status make_framebuffer(sb_renderer *r, sb_error *error)
@@ -62,13 +61,11 @@ static double sea_level(const sb_scene *scene)
 static sb_status make_passes(sb_renderer *r, const sb_model *model, sb_error *error)
 {
     sb_status status = make_framebuffer(r, error);
-    if (status == SB_OK)
-        status = sb_meshes_create(model, model->min, &r->meshes, error);
+    if (status == SB_OK) status = sb_meshes_create(model, model->min, &r->meshes, error);
     if (status == SB_OK)
         status = sb_light_create(r->meshes, model->min, r->min, r->max, sea_level(r->scene),
                                  &r->light, error);
-    if (status == SB_OK)
-        status = sb_sky_create(&r->sky, error);
+    if (status == SB_OK) status = sb_sky_create(&r->sky, error);
     if (status == SB_OK)
         status = sb_water_create(r->width, r->height, r->depth_stencil, &r->water, error);
     return status;
@@ -83,8 +80,7 @@ sb_status sb_renderer_create(const sb_scene *scene, const sb_model *model, sb_re
                        "render: a picture of %d x %d px, expected 1 to %d on each side", width,
                        height, SB_IMAGE_SIDE_MAX);
     sb_renderer *r = sb_alloc(1, sizeof *r);
-    if (!r)
-        return sb_fail_memory(error, "the renderer");
+    if (!r) return sb_fail_memory(error, "the renderer");
     r->scene = scene;
     r->width = width;
     r->height = height;
@@ -92,12 +88,9 @@ sb_status sb_renderer_create(const sb_scene *scene, const sb_model *model, sb_re
     find_bounds(r, model);
     sb_status status = SB_OK;
     r->pixels = sb_alloc((size_t)width * (size_t)height, 4);
-    if (!r->pixels)
-        status = sb_fail_memory(error, "a picture");
-    if (status == SB_OK)
-        status = sb_context_create(&r->context, error);
-    if (status == SB_OK)
-        status = sb_context_enter(r->context, error);
+    if (!r->pixels) status = sb_fail_memory(error, "a picture");
+    if (status == SB_OK) status = sb_context_create(&r->context, error);
+    if (status == SB_OK) status = sb_context_enter(r->context, error);
     if (status == SB_OK) {
         status = make_passes(r, model, error);
         sb_context_leave(r->context);
@@ -112,8 +105,7 @@ sb_status sb_renderer_create(const sb_scene *scene, const sb_model *model, sb_re
 /* m/s at the top of the colour map. */
 static double top_speed(const sb_renderer *r, const sb_frame *frame)
 {
-    if (r->scene->render.speed_max > 0)
-        return r->scene->render.speed_max;
+    if (r->scene->render.speed_max > 0) return r->scene->render.speed_max;
     if (r->still_depth > 0 && r->scene->fluid.gravity > 0)
         return 2 * sqrt(r->scene->fluid.gravity * r->still_depth);
     double fastest = 0;
@@ -137,29 +129,16 @@ static sb_status draw_passes(sb_renderer *r, const sb_frame *frame, const sb_vie
     glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     sb_meshes_draw_faces(r->meshes, &r->light, view, frame);
     sb_sky_draw(&r->sky, &r->light, view);
-    sb_status status = sb_water_draw(&r->water, frame, &r->light, view, speed_max, r->framebuffer,
-                                     error);
-    if (status != SB_OK)
-        return status;
+    sb_status status =
+        sb_water_draw(&r->water, frame, &r->light, view, speed_max, r->framebuffer, error);
+    if (status != SB_OK) return status;
     sb_meshes_draw_edges(r->meshes, view, frame);
     glReadPixels(0, 0, r->width, r->height, GL_RGBA, GL_UNSIGNED_BYTE, r->pixels);
     GLenum trouble = glGetError();
-    if (trouble == GL_OUT_OF_MEMORY)
-        return sb_fail_memory(error, "drawing");
+    if (trouble == GL_OUT_OF_MEMORY) return sb_fail_memory(error, "drawing");
     if (trouble != GL_NO_ERROR)
         return sb_fail(error, SB_FAILED, "OpenGL error 0x%04x while drawing", trouble);
     return SB_OK;
-}
-
-static void copy_rows(const sb_renderer *r, sb_image *image)
-{
-    size_t width = (size_t)r->width, height = (size_t)r->height;
-    for (size_t y = 0; y < height; y++) {
-        const unsigned char *from = r->pixels + 4 * width * (height - 1 - y);
-        unsigned char *to = image->rgb + 3 * width * y;
-        for (size_t x = 0; x < width; x++)
-            memcpy(to + 3 * x, from + 4 * x, 3);
-    }
 }
 
 sb_status sb_renderer_draw(sb_renderer *renderer, const sb_frame *frame, size_t camera,
@@ -172,29 +151,24 @@ sb_status sb_renderer_draw(sb_renderer *renderer, const sb_frame *frame, size_t 
                        camera, settings->camera_count);
     sb_camera_key key = sb_camera_at(&settings->cameras[camera], frame->status.time);
     double margin = 2 * frame->spacing;
-    sb_view view =
-        sb_view_create(&key, (double)r->width / r->height,
-                       sb_sub(r->min, sb_vec(margin, margin, margin)),
-                       sb_add(r->max, sb_vec(margin, margin, margin)));
+    sb_view view = sb_view_create(&key, (double)r->width / r->height,
+                                  sb_sub(r->min, sb_vec(margin, margin, margin)),
+                                  sb_add(r->max, sb_vec(margin, margin, margin)));
     double speed_max = top_speed(r, frame);
     sb_status status = sb_image_resize(image, r->width, r->height, error);
-    if (status == SB_OK)
-        status = sb_context_enter(r->context, error);
-    if (status != SB_OK)
-        return status;
+    if (status == SB_OK) status = sb_context_enter(r->context, error);
+    if (status != SB_OK) return status;
     status = draw_passes(r, frame, &view, speed_max, error);
     sb_context_leave(r->context);
-    if (status != SB_OK)
-        return status;
-    copy_rows(r, image);
+    if (status != SB_OK) return status;
+    sb_soften(r->pixels, image);
     return sb_overlay_draw(image, r->scene->title, frame->status.time, speed_max, error);
 }
 
 void sb_renderer_destroy(sb_renderer *renderer)
 {
     sb_renderer *r = renderer;
-    if (!r)
-        return;
+    if (!r) return;
     if (r->context && sb_context_enter(r->context, NULL) == SB_OK) {
         sb_water_destroy(&r->water);
         sb_sky_destroy(&r->sky);

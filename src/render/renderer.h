@@ -8,9 +8,9 @@
 
 typedef struct sb_renderer sb_renderer;
 
-/* For pictures of scene->render's size from scene->render.cameras. The scene must outlive the renderer;
-   of the model only bodies, min, max and still_depth are read, and only here. Starts its drawing
-   threads (LP_NUM_THREADS, two unless set): they inherit the caller's processor mask. */
+/* For pictures of scene->render's size from scene->render.cameras. The scene must outlive the
+   renderer; of the model only bodies, min, max and still_depth are read, and only here. Starts its
+   drawing threads (LP_NUM_THREADS, two unless set): they inherit the caller's processor mask. */
 sb_status sb_renderer_create(const sb_scene *scene, const sb_model *model, sb_renderer **renderer,
                              sb_error *error);
 

@@ -17,8 +17,7 @@ sb_status sb_sky_create(sb_sky *sky, sb_error *error)
 {
     sb_status status = sb_program_create("sky", sb_fullscreen_vertex, sb_light_source, fragment,
                                          &sky->program, error);
-    if (status == SB_OK)
-        glGenVertexArrays(1, &sky->empty);
+    if (status == SB_OK) glGenVertexArrays(1, &sky->empty);
     return status;
 }
 

@@ -14,8 +14,8 @@ void sb_sky_destroy(sb_sky *sky);
 /* Fills what is still at the far end of the depth buffer. */
 void sb_sky_draw(const sb_sky *sky, const sb_light *light, const sb_view *view);
 
-/* Sets the uniforms right, up, back (the camera's axes) and lens (half the picture's width and height
-   at depth 1) that passes over the whole picture need to find a pixel's ray. */
+/* Sets the uniforms right, up, back (the camera's axes) and lens (half the picture's width and
+   height at depth 1) that passes over the whole picture need to find a pixel's ray. */
 void sb_sky_bind_rays(const sb_view *view, GLuint program);
 
 #endif

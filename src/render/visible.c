@@ -3,7 +3,7 @@
 #include "base/memory.h"
 
 /* Water this dense, this many spacings towards the eye, hides a particle. */
-static const float dense = 0.82f, cover_spacings = 1.6f;
+static const float dense = 0.68f, cover_spacings = 1.6f;
 /* The density from which a particle is no drop by itself. */
 static const float crowd_density = 0.35f;
 
@@ -43,8 +43,8 @@ static bool outside(const struct lens *lens, const float *to_eye)
                half * lens->aspect + lens->margin * (1 + lens->tangent * lens->aspect);
 }
 
-/* Against the gradient of the density a little above the particle: a single layer of water on land has
-   no gradient within itself. */
+/* Against the gradient of the density a little above the particle: a single layer of water on land
+   has no gradient within itself. */
 static void surface_normal(const sb_density *density, const float *p, float spacing,
                            const float *to_eye, signed char normal[4])
 {
@@ -54,12 +54,10 @@ static void surface_normal(const sb_density *density, const float *p, float spac
                   sb_density_at(density, x, y, z - d) - sb_density_at(density, x, y, z + d)};
     float length = sqrtf(dot3(g, g));
     if (length < 1e-4f) {
-        for (int a = 0; a < 3; a++)
-            g[a] = to_eye[a];
+        for (int a = 0; a < 3; a++) g[a] = to_eye[a];
         length = sqrtf(dot3(g, g));
     }
-    for (int a = 0; a < 3; a++)
-        normal[a] = (signed char)lrintf(127 * g[a] / length);
+    for (int a = 0; a < 3; a++) normal[a] = (signed char)lrintf(127 * g[a] / length);
     normal[3] = 0;
 }
 
@@ -72,8 +70,7 @@ static void collect(sb_visible *visible, const sb_frame *frame, const sb_view *v
     for (size_t i = 0; i < frame->count; i++) {
         const float *p = frame->position + 3 * i, *v = frame->velocity + 3 * i;
         float to_eye[3] = {lens.eye[0] - p[0], lens.eye[1] - p[1], lens.eye[2] - p[2]};
-        if (!sb_density_counts(p) || outside(&lens, to_eye))
-            continue;
+        if (!sb_density_counts(p) || outside(&lens, to_eye)) continue;
         float step = cover_spacings * spacing / sqrtf(dot3(to_eye, to_eye));
         if (sb_density_at(density, p[0] + step * to_eye[0], p[1] + step * to_eye[1],
                           p[2] + step * to_eye[2]) > dense)
@@ -95,14 +92,14 @@ sb_status sb_visible_collect(sb_visible *visible, const sb_frame *frame, const s
 {
     visible->count = 0;
     if (!(frame->spacing > 0) || !(speed_max > 0))
-        return sb_fail(error, SB_BAD_INPUT, "frame: spacing %g m and top speed %g m/s, expected > 0",
-                       frame->spacing, speed_max);
+        return sb_fail(error, SB_BAD_INPUT,
+                       "frame: spacing %g m and top speed %g m/s, expected > 0", frame->spacing,
+                       speed_max);
     if (sb_grow((void **)&visible->points, &visible->capacity, frame->count,
                 sizeof *visible->points) != 0)
         return sb_fail_memory(error, "the visible particles");
     sb_status status = sb_density_build(&visible->density, frame, error);
-    if (status == SB_OK)
-        collect(visible, frame, view, speed_max);
+    if (status == SB_OK) collect(visible, frame, view, speed_max);
     return status;
 }
 

@@ -19,7 +19,7 @@ static const char sphere_vertex[] =
     "layout(location = 2) in vec3 normal;\n"
     "uniform mat4 view, projection;\n"
     "uniform float radius, pixels;\n" /* pixels: of one metre at one metre */
-    "flat out vec4 drop;\n" /* depth, radius, speed, crowd */
+    "flat out vec4 drop;\n"           /* depth, radius, speed, crowd */
     "flat out vec3 slope;\n"
     "void main() {\n"
     "  vec4 e = view * vec4(position, 1.0);\n"
@@ -45,8 +45,8 @@ static const char sphere_fragment[] =
     "  gl_FragDepth = 0.5 + 0.5 * (clip.x + clip.y / z);\n"
     "}\n";
 
-/* One direction of a Gaussian that stops at jumps in depth; the reach follows the size that a particle
-   has in the picture, and a surface seen edge on may fall away faster. */
+/* One direction of a Gaussian that stops at jumps in depth; the reach follows the size that a
+   particle has in the picture, and a surface seen edge on may fall away faster. */
 static const char smooth_fragment[] =
     "out vec4 surface;\n"
     "uniform sampler2D source;\n"
@@ -96,7 +96,8 @@ static const char shade_fragment[] =
     "  vec3 mirrored = reflect(-to_eye, n);\n"
     "  float spark = pow(max(dot(mirrored, sun), 0.0), 60.0);\n"
     "  mirrored.z = abs(mirrored.z);\n"
-    "  vec3 c = mix(0.8 * lit(albedo, place, n), sky(mirrored), gloss) + spark * vec3(0.30, 0.28, 0.24);\n"
+    "  vec3 c = mix(0.8 * lit(albedo, place, n), sky(mirrored), gloss) + spark * vec3(0.30, 0.28, "
+    "0.24);\n"
     "  color = encoded(hazed(c, place));\n"
     "}\n";
 
@@ -106,8 +107,7 @@ static void make_colors(sb_water *water)
     for (int i = 0; i < COLORS; i++) {
         float rgb[3];
         sb_colormap(i / (COLORS - 1.0), rgb);
-        for (int c = 0; c < 3; c++)
-            texels[i][c] = (unsigned char)(255 * rgb[c] + 0.5f);
+        for (int c = 0; c < 3; c++) texels[i][c] = (unsigned char)(255 * rgb[c] + 0.5f);
     }
     water->colors =
         sb_texture_create(GL_RGB8, COLORS, 1, GL_RGB, GL_UNSIGNED_BYTE, texels, GL_LINEAR);
@@ -143,8 +143,7 @@ static void make_arrays(sb_water *water)
                           (const void *)offsetof(sb_visible_point, speed));
     glVertexAttribPointer(2, 3, GL_BYTE, GL_TRUE, stride,
                           (const void *)offsetof(sb_visible_point, normal));
-    for (GLuint i = 0; i < 3; i++)
-        glEnableVertexAttribArray(i);
+    for (GLuint i = 0; i < 3; i++) glEnableVertexAttribArray(i);
     glBindVertexArray(0);
 }
 
@@ -160,8 +159,7 @@ sb_status sb_water_create(int width, int height, GLuint depth_stencil, sb_water 
     if (status == SB_OK)
         status = sb_program_create("water", sb_fullscreen_vertex, sb_light_source, shade_fragment,
                                    &made.shade_program, error);
-    if (status == SB_OK)
-        status = make_surfaces(&made, depth_stencil, error);
+    if (status == SB_OK) status = make_surfaces(&made, depth_stencil, error);
     if (status != SB_OK) {
         sb_water_destroy(&made);
         return status;
@@ -201,8 +199,7 @@ static void draw_spheres(sb_water *water, const sb_frame *frame, const sb_view *
     sb_uniform_mat4(program, "projection", view->projection);
     sb_uniform_float(program, "radius", radius_spacings * frame->spacing);
     sb_uniform_float(program, "pixels", water->height / (2 * view->tangent));
-    sb_uniform_vec2(program, "clip", (double)-view->projection[10],
-                    (double)view->projection[14]);
+    sb_uniform_vec2(program, "clip", (double)-view->projection[10], (double)view->projection[14]);
     glEnable(GL_PROGRAM_POINT_SIZE);
     glEnable(GL_STENCIL_TEST);
     glStencilFunc(GL_ALWAYS, 1, 1);
@@ -257,8 +254,7 @@ sb_status sb_water_draw(sb_water *water, const sb_frame *frame, const sb_light *
                         const sb_view *view, double speed_max, GLuint target, sb_error *error)
 {
     sb_status status = sb_visible_collect(&water->visible, frame, view, speed_max, error);
-    if (status != SB_OK || water->visible.count == 0)
-        return status;
+    if (status != SB_OK || water->visible.count == 0) return status;
     draw_spheres(water, frame, view);
     smooth_surface(water, frame, view);
     glBindFramebuffer(GL_FRAMEBUFFER, target);

@@ -9,9 +9,9 @@ typedef struct sb_water {
     int width, height;
     GLuint sphere_program, smooth_program, shade_program;
     GLuint points, buffer, empty;
-    GLuint colors;                       /* the colour map as a texture */
-    GLuint surface[2], framebuffer[2];   /* eye depth in m (0: no water), share of speed_max,
-                                            x and y of the normal along the camera's axes */
+    GLuint colors;                     /* the colour map as a texture */
+    GLuint surface[2], framebuffer[2]; /* eye depth in m (0: no water), share of speed_max,
+                                          x and y of the normal along the camera's axes */
     sb_visible visible;
 } sb_water;
 

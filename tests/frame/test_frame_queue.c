@@ -6,6 +6,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>
+
 #include <cmocka.h>
 
 static sb_frame *numbered(uint64_t index)
@@ -13,8 +14,7 @@ static sb_frame *numbered(uint64_t index)
     sb_frame *frame = sb_frame_create(10, 1);
     assert_non_null(frame);
     frame->index = index;
-    for (size_t i = 0; i < 30; i++)
-        frame->position[i] = (float)index;
+    for (size_t i = 0; i < 30; i++) frame->position[i] = (float)index;
     return frame;
 }
 
@@ -105,11 +105,9 @@ static void *consume(void *argument)
     struct consumer *consumer = argument;
     const sb_frame *frame;
     while ((frame = sb_frame_queue_pop(consumer->queue)) != NULL) {
-        if (frame->index <= consumer->last)
-            consumer->wrong++;
+        if (frame->index <= consumer->last) consumer->wrong++;
         for (size_t i = 0; i < 30; i++)
-            if (frame->position[i] != (float)frame->index)
-                consumer->wrong++;
+            if (frame->position[i] != (float)frame->index) consumer->wrong++;
         consumer->last = frame->index;
         consumer->count++;
         sb_frame_release(frame);

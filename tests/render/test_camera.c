@@ -3,6 +3,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+
 #include <cmocka.h>
 
 static void near_vec(sb_vec3 a, sb_vec3 b, double tolerance)
@@ -41,8 +42,7 @@ static void path_passes_keys_with_continuous_velocity(void **state)
         sb_vec3 in = sb_scale(sb_sub(at.eye, before), 1 / d);
         sb_vec3 out = sb_scale(sb_sub(after, at.eye), 1 / d);
         near_vec(in, out, 1e-2);
-        if (k == 0 || k == 3)
-            near_vec(out, sb_vec(0, 0, 0), 1e-2);
+        if (k == 0 || k == 3) near_vec(out, sb_vec(0, 0, 0), 1e-2);
     }
     /* The central difference over uneven times. */
     sb_vec3 slope = sb_scale(sb_sub(sb_camera_at(&camera, 2 + d).eye, keys[1].eye), 1 / d);
@@ -71,7 +71,8 @@ static sb_vec3 project(const sb_view *view, sb_vec3 origin, sb_vec3 point)
         e[row] = (double)m[row] * p.x + (double)m[4 + row] * p.y + (double)m[8 + row] * p.z +
                  (double)m[12 + row];
     for (int row = 0; row < 4; row++)
-        clip[row] = (double)view->projection[row] * e[0] + (double)view->projection[4 + row] * e[1] +
+        clip[row] = (double)view->projection[row] * e[0] +
+                    (double)view->projection[4 + row] * e[1] +
                     (double)view->projection[8 + row] * e[2] + (double)view->projection[12 + row];
     return sb_scale(sb_vec(clip[0], clip[1], clip[2]), 1 / clip[3]);
 }

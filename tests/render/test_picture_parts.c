@@ -7,13 +7,16 @@
 #include "render/light.h"
 #include "render/outline.h"
 #include "render/overlay.h"
+#include "render/soften.h"
 #include "render/visible.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
 #include <cmocka.h>
 
 static void colormap_rises_evenly_in_lightness(void **state)
@@ -32,8 +35,7 @@ static void colormap_rises_evenly_in_lightness(void **state)
         double rise = sb_lightness(rgb) - last;
         assert_true(rise > 0.9 * mean && rise < 1.1 * mean);
         last += rise;
-        for (int c = 0; c < 3; c++)
-            assert_true(rgb[c] > 0 && rgb[c] < 1); /* nothing clipped */
+        for (int c = 0; c < 3; c++) assert_true(rgb[c] > 0 && rgb[c] < 1); /* nothing clipped */
     }
     float low[3], high[3];
     sb_colormap(-3, low);
@@ -52,8 +54,7 @@ static void png_round_trip(void **state)
     sb_error error = {0};
     sb_image image = {0}, back = {0};
     assert_int_equal(sb_image_resize(&image, 37, 23, &error), SB_OK);
-    for (int i = 0; i < 37 * 23 * 3; i++)
-        image.rgb[i] = (unsigned char)(i * 31 + i / 7);
+    for (int i = 0; i < 37 * 23 * 3; i++) image.rgb[i] = (unsigned char)(i * 31 + i / 7);
     assert_int_equal(sb_png_write(path, &image, &error), SB_OK);
     assert_int_equal(sb_png_read(path, &back, &error), SB_OK);
     assert_int_equal(back.width, 37);
@@ -91,8 +92,7 @@ static int inked(const sb_image *image, int x0, int x1)
 {
     int count = 0;
     for (int y = 0; y < image->height; y++)
-        for (int x = x0; x < x1; x++)
-            count += image->rgb[3 * (y * image->width + x)] > 200;
+        for (int x = x0; x < x1; x++) count += image->rgb[3 * (y * image->width + x)] > 200;
     return count;
 }
 
@@ -141,6 +141,31 @@ static void text_width_is_where_the_ink_ends(void **state)
     sb_image_free(&image);
 }
 
+static void softening_blends_stairs_only(void **state)
+{
+    (void)state;
+    enum { SIDE = 32 };
+    static unsigned char rgba[SIDE * SIDE * 4];
+    sb_image image = {0};
+    sb_error error = {0};
+    assert_int_equal(sb_image_resize(&image, SIDE, SIDE, &error), SB_OK);
+    /* White above a line that rises by one in four; the first row of rgba is the lowest. */
+    for (int y = 0; y < SIDE; y++)
+        for (int x = 0; x < SIDE; x++)
+            memset(rgba + 4 * (y * SIDE + x), y > 12 + x / 4 ? 255 : 0, 4);
+    sb_soften(rgba, &image);
+    int between = 0;
+    for (int y = 0; y < SIDE; y++)
+        for (int x = 0; x < SIDE; x++) {
+            int up = SIDE - 1 - y, value = image.rgb[3 * (y * SIDE + x)];
+            bool near_edge = abs(up - (12 + x / 4)) <= 2;
+            between += value > 10 && value < 245;
+            assert_true(near_edge || value == (up > 12 + x / 4 ? 255 : 0));
+        }
+    assert_true(between >= 12);
+    sb_image_free(&image);
+}
+
 static void ticks_are_round_numbers(void **state)
 {
     (void)state;
@@ -155,15 +180,17 @@ static sb_mesh cube(void)
     /* Corners doubled, as meshes with a normal per face have them. */
     static sb_vec3 vertices[36];
     static uint32_t triangles[12][3];
-    static const int corner[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                                      {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    static const int corner[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
+                                      {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
+                                      {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
     for (int f = 0; f < 12; f++)
         for (int c = 0; c < 3; c++) {
             int at = corner[f][c];
             vertices[3 * f + c] = sb_vec(at & 1 ? 1 : 0, at & 2 ? 1 : 0, at & 4 ? 1 : 0);
             triangles[f][c] = (uint32_t)(3 * f + c);
         }
-    return (sb_mesh){.vertex_count = 36, .vertices = vertices, .triangle_count = 12, .triangles = triangles};
+    return (sb_mesh){
+        .vertex_count = 36, .vertices = vertices, .triangle_count = 12, .triangles = triangles};
 }
 
 static void outline_finds_the_edges_of_a_cube(void **state)
@@ -176,9 +203,11 @@ static void outline_finds_the_edges_of_a_cube(void **state)
     assert_int_equal(outline.edge_count, 12); /* and no diagonals */
     for (size_t i = 0; i < 36; i++)
         assert_true(fabsf(outline.normals[i][0]) + fabsf(outline.normals[i][1]) +
-                        fabsf(outline.normals[i][2]) == 1);
+                        fabsf(outline.normals[i][2]) ==
+                    1);
     sb_outline_free(&outline);
-    /* Without its lid (two triangles) the rim stays; smoother than 100 degrees, only the rim does. */
+    /* Without its lid (two triangles) the rim stays; smoother than 100 degrees, only the rim does.
+     */
     mesh.triangle_count = 10;
     assert_int_equal(sb_outline_create(&mesh, 100, &outline, &error), SB_OK);
     assert_int_equal(outline.edge_count, 4);
@@ -207,8 +236,7 @@ static sb_frame *block(int side, int layers)
                 frame->position[3 * n] = (float)(0.5 * i);
                 frame->position[3 * n + 1] = (float)(0.5 * j);
                 frame->position[3 * n + 2] = (float)(0.5 * k);
-                for (int a = 0; a < 3; a++)
-                    frame->velocity[3 * n + (size_t)a] = 0;
+                for (int a = 0; a < 3; a++) frame->velocity[3 * n + (size_t)a] = 0;
             }
     return frame;
 }
@@ -252,8 +280,7 @@ static void only_the_surface_is_visible(void **state)
         bool side = point->position[0] < 1.6f || point->position[0] > 17.9f ||
                     point->position[1] < 1.6f || point->position[1] > 17.9f;
         assert_true(side || point->position[2] >= 17.5f);
-        if (!side)
-            assert_true(point->normal[2] > 120);
+        if (!side) assert_true(point->normal[2] > 120);
     }
     assert_int_equal(top, 40 * 40);
     /* Turned away, the camera sees nothing. */
@@ -272,11 +299,10 @@ static void walls_take_half_the_sky(void **state)
     (void)state;
     enum { N = 128 };
     static float height[N * N], open[N * N];
-    for (int i = 0; i < N * N; i++)
-        height[i] = i % N >= 96 ? 1000 : 0;
+    for (int i = 0; i < N * N; i++) height[i] = i % N >= 96 ? 1000 : 0;
     sb_light_openness(height, N, 1, open);
-    assert_true(open[32 * N + 40] > 0.99f);  /* beyond the reach of the search */
-    assert_true(open[32 * N + 100] == 1);    /* on the top */
+    assert_true(open[32 * N + 40] > 0.99f); /* beyond the reach of the search */
+    assert_true(open[32 * N + 100] == 1);   /* on the top */
     assert_true(fabsf(open[32 * N + 95] - 0.55f) < 0.06f);
     assert_true(open[32 * N + 88] >= open[32 * N + 95]);
 }
@@ -289,6 +315,7 @@ int main(void)
         cmocka_unit_test(image_sizes_are_checked),
         cmocka_unit_test(every_letter_leaves_its_own_ink),
         cmocka_unit_test(text_width_is_where_the_ink_ends),
+        cmocka_unit_test(softening_blends_stairs_only),
         cmocka_unit_test(ticks_are_round_numbers),
         cmocka_unit_test(outline_finds_the_edges_of_a_cube),
         cmocka_unit_test(density_is_one_inside),
