@@ -15,11 +15,9 @@ static void destroy(sb_frame *frame)
 sb_frame *sb_frame_create(size_t count, size_t body_count)
 {
     /* 3 * count floats must not overflow before the allocator can see it. */
-    if (count > SIZE_MAX / (3 * sizeof(float)))
-        return NULL;
+    if (count > SIZE_MAX / (3 * sizeof(float))) return NULL;
     sb_frame *frame = sb_alloc(1, sizeof *frame);
-    if (!frame)
-        return NULL;
+    if (!frame) return NULL;
     frame->count = count;
     frame->body_count = body_count;
     frame->position = sb_alloc_untouched(3 * count, sizeof *frame->position);
@@ -38,14 +36,12 @@ sb_frame *sb_frame_create(size_t count, size_t body_count)
 /* The count of holders is the one part of a published frame that changes, hence the casts. */
 const sb_frame *sb_frame_retain(const sb_frame *frame)
 {
-    if (frame)
-        ((sb_frame *)frame)->references++;
+    if (frame) ((sb_frame *)frame)->references++;
     return frame;
 }
 
 void sb_frame_release(const sb_frame *frame)
 {
     sb_frame *mutable = (sb_frame *)frame;
-    if (mutable && --mutable->references == 0)
-        destroy(mutable);
+    if (mutable && --mutable->references == 0) destroy(mutable);
 }

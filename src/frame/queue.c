@@ -18,11 +18,9 @@ struct sb_frame_queue {
 
 sb_frame_queue *sb_frame_queue_create(size_t capacity, sb_queue_policy policy)
 {
-    if (capacity == 0)
-        return NULL;
+    if (capacity == 0) return NULL;
     sb_frame_queue *queue = sb_alloc(1, sizeof *queue);
-    if (!queue)
-        return NULL;
+    if (!queue) return NULL;
     queue->ring = sb_alloc(capacity, sizeof *queue->ring);
     if (!queue->ring) {
         sb_free(queue);
@@ -46,10 +44,8 @@ static const sb_frame *take(sb_frame_queue *queue)
 
 void sb_frame_queue_destroy(sb_frame_queue *queue)
 {
-    if (!queue)
-        return;
-    while (queue->count)
-        sb_frame_release(take(queue));
+    if (!queue) return;
+    while (queue->count) sb_frame_release(take(queue));
     pthread_cond_destroy(&queue->has_room);
     pthread_cond_destroy(&queue->has_frame);
     pthread_mutex_destroy(&queue->lock);
@@ -59,8 +55,7 @@ void sb_frame_queue_destroy(sb_frame_queue *queue)
 
 static void wait_for_room(sb_frame_queue *queue)
 {
-    if (queue->closed || queue->count < queue->capacity)
-        return;
+    if (queue->closed || queue->count < queue->capacity) return;
     double start = sb_clock();
     while (!queue->closed && queue->count == queue->capacity)
         pthread_cond_wait(&queue->has_room, &queue->lock);
@@ -71,8 +66,7 @@ bool sb_frame_queue_push(sb_frame_queue *queue, const sb_frame *frame)
 {
     const sb_frame *oldest = NULL;
     pthread_mutex_lock(&queue->lock);
-    if (queue->policy == SB_QUEUE_WAIT)
-        wait_for_room(queue);
+    if (queue->policy == SB_QUEUE_WAIT) wait_for_room(queue);
     bool open = !queue->closed;
     if (open) {
         if (queue->count == queue->capacity) {
@@ -92,8 +86,7 @@ const sb_frame *sb_frame_queue_pop(sb_frame_queue *queue)
 {
     const sb_frame *frame = NULL;
     pthread_mutex_lock(&queue->lock);
-    while (queue->count == 0 && !queue->closed)
-        pthread_cond_wait(&queue->has_frame, &queue->lock);
+    while (queue->count == 0 && !queue->closed) pthread_cond_wait(&queue->has_frame, &queue->lock);
     if (queue->count) {
         frame = take(queue);
         pthread_cond_signal(&queue->has_room);
