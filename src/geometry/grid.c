@@ -57,13 +57,14 @@ static void fill_mesh(const sb_grid *grid, double datum, uint32_t *vertex_of, sb
                 }
         }
     uint32_t vertices = 0;
-    for (size_t node = 0; node < grid->rows * grid->columns; ++node) {
-        if (!vertex_of[node]) continue;
-        mesh->vertices[vertices] = sb_vec(grid->x + (double)(node % grid->columns) * grid->dx,
-                                          grid->y + (double)(node / grid->columns) * grid->dy,
-                                          grid->heights[node] + datum);
-        vertex_of[node] = vertices++;
-    }
+    for (size_t j = 0, node = 0; j < grid->rows; ++j)
+        for (size_t i = 0; i < grid->columns; ++i, ++node) {
+            if (!vertex_of[node]) continue;
+            mesh->vertices[vertices] =
+                sb_vec(grid->x + (double)i * grid->dx, grid->y + (double)j * grid->dy,
+                       grid->heights[node] + datum);
+            vertex_of[node] = vertices++;
+        }
     for (size_t i = 0; i < mesh->triangle_count; ++i)
         for (int k = 0; k < 3; ++k) mesh->triangles[i][k] = vertex_of[mesh->triangles[i][k]];
     mesh->vertex_count = vertices;

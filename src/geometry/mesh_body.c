@@ -87,7 +87,7 @@ static sb_status make(const sb_body *body, double spacing, sb_mesh **meshes, siz
 /* Puts all meshes into the first. */
 static sb_status merge(sb_mesh *meshes, size_t *count, sb_error *error)
 {
-    if (*count == 1) return SB_OK;
+    if (*count <= 1) return SB_OK;
     sb_mesh whole;
     size_t vertices = 0, triangles = 0, dropped = 0, turned = 0;
     for (size_t i = 0; i < *count; ++i) {

@@ -151,7 +151,11 @@ static void clean_text(char *text, bool is_name)
     for (char *c = text; *c;) {
         size_t length = character_length((unsigned char *)c);
         if (length == 0 || iscntrl((unsigned char)*c) || (is_name && strchr(",\"'/\\", *c))) {
-            *c = is_name ? '_' : length == 0 ? '?' : ' ';
+            *c = ' ';
+            if (is_name)
+                *c = '_';
+            else if (length == 0)
+                *c = '?';
             length = 1;
         }
         c += length;
@@ -243,11 +247,13 @@ static sb_status explain_end(const reader *from, int how, const sb_mesh_limits *
                              sb_error *error)
 {
     int by = WIFSIGNALED(how) ? WTERMSIG(how) : 0;
-    if (from->end == LINK_LATE || by == SIGXCPU || by == SIGALRM)
-        return sb_fail(
-            error, SB_BAD_INPUT,
-            "%.500s: not read within %u s, expected a sound mesh file of reasonable size",
-            from->path, limits->seconds);
+    bool late = from->end == LINK_LATE || by == SIGALRM;
+    if (late || by == SIGXCPU)
+        return sb_fail(error, SB_BAD_INPUT,
+                       "%.500s: still not read after %u s%s, expected a sound "
+                       "mesh file",
+                       from->path, late ? limits->seconds * PATIENCE : limits->seconds,
+                       late ? "" : " of processor time");
     if (by)
         return sb_fail(error, SB_BAD_INPUT,
                        "%.500s: reading it crashed (%s), expected a sound mesh file that fits in "
@@ -326,8 +332,8 @@ static sb_status check_file(const char *path, uint64_t *size, sb_error *error)
 sb_status sb_mesh_import_within(const char *path, const sb_mesh_limits *limits, sb_mesh **meshes,
                                 size_t *count, sb_error *error)
 {
-    uint64_t size;
-    reader from;
+    uint64_t size = 0;
+    reader from = {0};
     sb_status status = check_file(path, &size, error);
     if (status == SB_OK) status = run_reader(path, limits, &from, error);
     if (status != SB_OK) return status;
@@ -351,7 +357,7 @@ sb_status sb_mesh_import_within(const char *path, const sb_mesh_limits *limits, 
 
 sb_status sb_mesh_import(const char *path, sb_mesh **meshes, size_t *count, sb_error *error)
 {
-    uint64_t size;
+    uint64_t size = 0;
     sb_status status = check_file(path, &size, error);
     if (status != SB_OK) return status;
     /* A million triangles take 1 to 3 s; a small glTF may name a large buffer file. */

@@ -273,7 +273,7 @@ static void expect_refusal(const char *path, const char *why)
 {
     sb_mesh *meshes = NULL;
     size_t count = 99;
-    const sb_mesh_limits limits = {.memory = 1u << 30, .seconds = 2};
+    const sb_mesh_limits limits = {.memory = 1u << 28, .seconds = 1};
     error.text[0] = '\0';
     sb_status status = sb_mesh_import_within(path, &limits, &meshes, &count, &error);
     if (status != SB_BAD_INPUT)
@@ -382,7 +382,7 @@ static outcome judge(const char *path, sb_status status, sb_mesh *meshes, size_t
 /* Changes up to eight bytes of one format's file and reads that. */
 static outcome read_damaged(size_t which, uint64_t round)
 {
-    const sb_mesh_limits limits = {.memory = 1u << 30, .seconds = 1};
+    const sb_mesh_limits limits = {.memory = 1u << 28, .seconds = 1};
     const uint64_t seed = 1000 * which + round;
     char path[512];
     file_text text = {.length = 0};
