@@ -25,8 +25,8 @@ sb_status sb_mesh_alloc(sb_mesh *mesh, size_t vertices, size_t triangles, sb_err
 /* Frees what the mesh owns and zeroes it; fine on a zeroed mesh. */
 void sb_mesh_free(sb_mesh *mesh);
 
-/* What is wrong with a mesh, as counts and the place of the first of each. Vertices at the same place
-   are one. */
+/* What is wrong with a mesh, as counts and the place of the first of each. Vertices at the same
+   place are one. */
 typedef struct sb_mesh_report {
     size_t open_edges;       /* with a triangle on one side only */
     size_t flipped_faces;    /* the lesser part of a surface whose neighbours face the other way */
@@ -34,8 +34,8 @@ typedef struct sb_mesh_report {
     size_t doubled_faces;    /* a further triangle on the same three vertices */
     sb_vec3 first_open_edge, first_flipped_face; /* m, middle of the edge, of the face */
     bool watertight;         /* every edge is run through as often forth as back */
-    double volume, area; /* m^3 (signed), m^2 */
-    sb_vec3 min, max;
+    double volume, area;     /* m^3 (signed), m^2 */
+    sb_vec3 min, max;        /* m */
 } sb_mesh_report;
 /* Without memory for the search of edges, watertight is false and the counts are 0. */
 void sb_mesh_diagnose(const sb_mesh *mesh, sb_mesh_report *report);
@@ -49,8 +49,9 @@ sb_status sb_mesh_orient(sb_mesh *mesh, sb_role role, sb_error *error);
    indices. */
 sb_status sb_mesh_weld(sb_mesh *mesh, sb_error *error);
 
-/* Reads OBJ, STL, PLY, glTF, GLB or DAE in a child process with limits on memory and time. One mesh,
-   welded, for each node that has triangles, named after it ("" when it has no name); the nodes'
+/* Reads OBJ, STL, PLY, glTF, GLB or DAE in a child process with limits (4 GiB; 20 s of processor
+   time, and 1 s per MB). One mesh, welded, for each node that has triangles, named after it (""
+   when it has no name; letters that a CSV or a path would trip over become _); the nodes'
    transforms are applied. File units and axes, but a DAE is in metres by its own unit. *meshes is
    owned by the caller: sb_mesh_free each, then sb_free. SB_BAD_INPUT "file: what, expected". */
 sb_status sb_mesh_import(const char *path, sb_mesh **meshes, size_t *count, sb_error *error);

@@ -1,4 +1,4 @@
-/* Spatial questions to a mesh: distance, inside, rays. Const after creation: ask from any thread. */
+/* Spatial questions to a mesh: distance, inside, rays. Const once made: ask from any thread. */
 #ifndef SB_GEOMETRY_SOLID_H
 #define SB_GEOMETRY_SOLID_H
 
@@ -6,8 +6,8 @@
 
 typedef struct sb_solid sb_solid;
 
-/* Keeps a pointer to the mesh, which must outlive it. role decides what "inside" means. SB_BAD_INPUT
-   for a mesh without triangles or with an index or a vertex that is out of range. */
+/* Keeps a pointer to the mesh, which must outlive it. role decides what "inside" means.
+   SB_BAD_INPUT for a mesh without triangles or with an index or a vertex out of range. */
 sb_status sb_solid_create(const sb_mesh *mesh, sb_role role, sb_solid **solid, sb_error *error);
 void sb_solid_destroy(sb_solid *solid);
 
@@ -20,8 +20,8 @@ double sb_solid_distance(const sb_solid *solid, sb_vec3 point, double limit, sb_
 double sb_solid_winding(const sb_solid *solid, sb_vec3 point);
 
 /* SOLID: |winding| > 1/2 within the bounding box (a wholly flipped mesh is as good). An open sheet
-   (mesh->sheet, or all its triangles facing much the same way) has no inside: there it is behind the
-   angle-weighted normal at the nearest point. TERRAIN: some triangle lies straight above; beside
+   (mesh->sheet, or all its triangles facing much the same way) has no inside: there it is behind
+   the angle-weighted normal at the nearest point. TERRAIN: some triangle lies straight above; beside
    the terrain's footprint nothing is inside. A point on the surface may be either. */
 bool sb_solid_contains(const sb_solid *solid, sb_vec3 point);
 

@@ -269,6 +269,26 @@ static void test_every_format(void **state)
     }
 }
 
+/* Whatever a DAE says of its up axis, its coordinates stay; its unit makes them metres. */
+static void test_dae_axes_and_unit(void **state)
+{
+    (void)state;
+    static const char *const axes[] = {"X_UP", "Y_UP", "Z_UP"};
+    for (int i = 0; i < 3; ++i) {
+        file_text text = {.length = 0};
+        make_dae(&text);
+        memcpy(strstr(text.bytes, "Z_UP"), axes[i], 4);
+        char *unit = strstr(text.bytes, "meter=\"1\"");
+        memcpy(unit, "meter=\"4\"", 9);
+        sb_mesh *meshes;
+        size_t count;
+        if (sb_mesh_import(save("unit.dae", &text), &meshes, &count, &error) != SB_OK)
+            fail_msg("%s", error.text);
+        check_cube(&meshes[0], sb_vec(0, 0, 28), 512);
+        free_meshes(meshes, count);
+    }
+}
+
 static void expect_refusal(const char *path, const char *why)
 {
     sb_mesh *meshes = NULL;
@@ -555,6 +575,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_every_format),
+        cmocka_unit_test(test_dae_axes_and_unit),
         cmocka_unit_test(test_broken_files),
         cmocka_unit_test(test_cut_and_garbage),
         cmocka_unit_test(test_degenerate_triangles_are_counted),
