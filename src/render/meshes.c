@@ -1,6 +1,7 @@
 #include "render/meshes.h"
 
 #include "base/memory.h"
+#include "base/random.h"
 #include "render/outline.h"
 
 #include <stddef.h>
@@ -29,6 +30,7 @@ struct sb_meshes {
     struct part *parts;
     GLuint face_array, face_buffer, line_array, line_buffer;
     GLuint face_program, depth_program, line_program;
+    GLuint speckles; /* a smooth noise that repeats, 64 periods on a side */
 };
 
 static const double crease = 32; /* degrees */
@@ -54,12 +56,8 @@ static const char face_fragment[] =
     "in vec4 paint;\n"
     "out vec4 color;\n"
     "uniform float sea_level, unit;\n"
-    "float hash(vec2 p) { return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453); }\n"
-    "float noise(vec2 p) {\n"
-    "  vec2 i = floor(p), f = fract(p); f = f * f * (3.0 - 2.0 * f);\n"
-    "  return mix(mix(hash(i), hash(i + vec2(1, 0)), f.x),\n"
-    "             mix(hash(i + vec2(0, 1)), hash(i + vec2(1, 1)), f.x), f.y) - 0.5;\n"
-    "}\n"
+    "uniform sampler2D speckles;\n"
+    "float noise(vec2 p) { return texture(speckles, p / 64.0).x - 0.5; }\n"
     "vec3 ground(vec3 n) {\n"
     "  float speckle = noise(place.xy / unit) + 0.5 * noise(place.yx / (0.31 * unit));\n"
     "  float h = (place.z - sea_level) / unit + 0.15 * speckle;\n"
@@ -189,6 +187,31 @@ static void send(sb_meshes *meshes, const struct upload *upload)
     glBindVertexArray(0);
 }
 
+/* Random values on a lattice that wraps, blended smoothly between. */
+static sb_status make_speckles(sb_meshes *meshes, sb_error *error)
+{
+    enum { LATTICE = 64, FINE = 4, SIDE = LATTICE * FINE };
+    unsigned char *texels = sb_alloc(SIDE * SIDE, 1);
+    if (!texels) return sb_fail_memory(error, "the ground's pattern");
+    for (unsigned y = 0; y < SIDE; y++)
+        for (unsigned x = 0; x < SIDE; x++) {
+            unsigned i = x / FINE, j = y / FINE, right = (i + 1) % LATTICE;
+            unsigned row = j * LATTICE, next = (j + 1) % LATTICE * LATTICE;
+            double s = (double)(x % FINE) / FINE, t = (double)(y % FINE) / FINE;
+            s *= s * (3 - 2 * s);
+            t *= t * (3 - 2 * t);
+            double low = (1 - s) * sb_random(7, row + i) + s * sb_random(7, row + right);
+            double high = (1 - s) * sb_random(7, next + i) + s * sb_random(7, next + right);
+            texels[y * SIDE + x] = (unsigned char)(255 * ((1 - t) * low + t * high) + 0.5);
+        }
+    meshes->speckles =
+        sb_texture_create(GL_R8, SIDE, SIDE, GL_RED, GL_UNSIGNED_BYTE, texels, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
+    sb_free(texels);
+    return SB_OK;
+}
+
 static sb_status make_programs(sb_meshes *meshes, sb_error *error)
 {
     sb_status status = sb_program_create("faces", face_vertex, sb_light_source, face_fragment,
@@ -223,7 +246,8 @@ sb_status sb_meshes_create(const sb_model *model, sb_vec3 origin, sb_meshes **me
         made->part_count++;
     }
     send(made, &upload);
-    status = make_programs(made, error);
+    status = make_speckles(made, error);
+    if (status == SB_OK) status = make_programs(made, error);
     if (status != SB_OK) goto done;
     *meshes = made;
     made = NULL;
@@ -241,6 +265,7 @@ void sb_meshes_destroy(sb_meshes *meshes)
     glDeleteVertexArrays(1, &meshes->line_array);
     glDeleteBuffers(1, &meshes->face_buffer);
     glDeleteBuffers(1, &meshes->line_buffer);
+    glDeleteTextures(1, &meshes->speckles);
     glDeleteProgram(meshes->face_program);
     glDeleteProgram(meshes->depth_program);
     glDeleteProgram(meshes->line_program);
@@ -294,6 +319,7 @@ void sb_meshes_draw_faces(const sb_meshes *meshes, const sb_light *light, const 
     glUseProgram(program);
     sb_light_bind(light, view, program);
     sb_uniform_mat4(program, "clip", clip);
+    sb_uniform_texture(program, "speckles", 0, meshes->speckles);
     sb_uniform_float(program, "sea_level", light->sea_level - meshes->origin.z);
     /* The height over which terrain goes from sand to meadow scales with the scene: 10 m at a
        plant, centimetres in a flume. */
