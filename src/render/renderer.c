@@ -126,12 +126,19 @@ static sb_status draw_passes(sb_renderer *r, const sb_frame *frame, const sb_vie
     glDisable(GL_STENCIL_TEST);
     glDepthMask(GL_TRUE);
     glClearDepth(1);
+    glClearStencil(0);
     glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
-    sb_meshes_draw_faces(r->meshes, &r->light, view, frame);
-    sb_sky_draw(&r->sky, &r->light, view);
-    sb_status status =
-        sb_water_draw(&r->water, frame, &r->light, view, speed_max, r->framebuffer, error);
+    /* Water first: the ground beneath it then costs no shading. */
+    sb_status status = sb_water_lay(&r->water, frame, view, speed_max, error);
     if (status != SB_OK) return status;
+    glBindFramebuffer(GL_FRAMEBUFFER, r->framebuffer);
+    glEnable(GL_STENCIL_TEST);
+    glStencilFunc(GL_ALWAYS, 0, 1);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    sb_meshes_draw_faces(r->meshes, &r->light, view, frame);
+    glDisable(GL_STENCIL_TEST);
+    sb_sky_draw(&r->sky, &r->light, view);
+    sb_water_shade(&r->water, frame, &r->light, view, r->framebuffer);
     sb_meshes_draw_edges(r->meshes, view, frame);
     glReadPixels(0, 0, r->width, r->height, GL_RGBA, GL_UNSIGNED_BYTE, r->pixels);
     GLenum trouble = glGetError();

@@ -192,8 +192,7 @@ static void draw_spheres(sb_water *water, const sb_frame *frame, const sb_view *
     sb_view_matrix(view, frame->origin, matrix);
     glBindFramebuffer(GL_FRAMEBUFFER, water->framebuffer[0]);
     glClearColor(0, 0, 0, 0);
-    glClearStencil(0);
-    glClear(GL_COLOR_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+    glClear(GL_COLOR_BUFFER_BIT);
     glUseProgram(program);
     sb_uniform_mat4(program, "view", matrix);
     sb_uniform_mat4(program, "projection", view->projection);
@@ -213,10 +212,7 @@ static void draw_spheres(sb_water *water, const sb_frame *frame, const sb_view *
                  (GLsizeiptr)(water->visible.count * sizeof *water->visible.points),
                  water->visible.points, GL_STREAM_DRAW);
     glDrawArrays(GL_POINTS, 0, (GLsizei)water->visible.count);
-    glStencilFunc(GL_EQUAL, 1, 1);
-    glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
-    glDisable(GL_DEPTH_TEST);
-    glDepthMask(GL_FALSE);
+    glDisable(GL_STENCIL_TEST);
 }
 
 static void smooth_surface(const sb_water *water, const sb_frame *frame, const sb_view *view)
@@ -250,16 +246,28 @@ static void shade(const sb_water *water, const sb_light *light, const sb_view *v
     sb_fullscreen_draw(water->empty);
 }
 
-sb_status sb_water_draw(sb_water *water, const sb_frame *frame, const sb_light *light,
-                        const sb_view *view, double speed_max, GLuint target, sb_error *error)
+sb_status sb_water_lay(sb_water *water, const sb_frame *frame, const sb_view *view,
+                       double speed_max, sb_error *error)
 {
     sb_status status = sb_visible_collect(&water->visible, frame, view, speed_max, error);
-    if (status != SB_OK || water->visible.count == 0) return status;
-    draw_spheres(water, frame, view);
-    smooth_surface(water, frame, view);
+    if (status == SB_OK && water->visible.count > 0) draw_spheres(water, frame, view);
+    return status;
+}
+
+void sb_water_shade(const sb_water *water, const sb_frame *frame, const sb_light *light,
+                    const sb_view *view, GLuint target)
+{
+    if (water->visible.count > 0) {
+        glEnable(GL_STENCIL_TEST);
+        glStencilFunc(GL_EQUAL, 1, 1);
+        glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+        glDisable(GL_DEPTH_TEST);
+        glDepthMask(GL_FALSE);
+        smooth_surface(water, frame, view);
+        glBindFramebuffer(GL_FRAMEBUFFER, target);
+        shade(water, light, view);
+        glDisable(GL_STENCIL_TEST);
+        glDepthMask(GL_TRUE);
+    }
     glBindFramebuffer(GL_FRAMEBUFFER, target);
-    shade(water, light, view);
-    glDisable(GL_STENCIL_TEST);
-    glDepthMask(GL_TRUE);
-    return SB_OK;
 }

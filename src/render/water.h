@@ -21,8 +21,13 @@ sb_status sb_water_create(int width, int height, GLuint depth_stencil, sb_water 
                           sb_error *error);
 void sb_water_destroy(sb_water *water);
 
-/* Draws the frame's particles over what is in `target` (with the same depths), lit and hazed. */
-sb_status sb_water_draw(sb_water *water, const sb_frame *frame, const sb_light *light,
-                        const sb_view *view, double speed_max, GLuint target, sb_error *error);
+/* Lays the visible particles into the shared depths, which are clear, and marks their pixels with
+   stencil 1. What is drawn nearer afterwards must set the stencil back to 0. */
+sb_status sb_water_lay(sb_water *water, const sb_frame *frame, const sb_view *view,
+                       double speed_max, sb_error *error);
+
+/* Paints the marked pixels of `target`, smoothed, lit and hazed; leaves target bound. */
+void sb_water_shade(const sb_water *water, const sb_frame *frame, const sb_light *light,
+                    const sb_view *view, GLuint target);
 
 #endif
