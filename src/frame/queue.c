@@ -5,13 +5,17 @@
 
 #include <pthread.h>
 
+struct slot {
+    const sb_frame *frame;
+};
+
 struct sb_frame_queue {
     pthread_mutex_t lock;
     pthread_cond_t has_frame, has_room;
     sb_queue_policy policy;
     bool closed;
     size_t capacity, first, count;
-    const sb_frame **ring; /* `count` frames from `first` on, wrapping at `capacity` */
+    struct slot *ring; /* `count` frames from `first` on, wrapping at `capacity` */
     uint64_t dropped;
     double waited; /* s */
 };
@@ -36,7 +40,7 @@ sb_frame_queue *sb_frame_queue_create(size_t capacity, sb_queue_policy policy)
 
 static const sb_frame *take(sb_frame_queue *queue)
 {
-    const sb_frame *frame = queue->ring[queue->first];
+    const sb_frame *frame = queue->ring[queue->first].frame;
     queue->first = (queue->first + 1) % queue->capacity;
     queue->count--;
     return frame;
@@ -73,7 +77,8 @@ bool sb_frame_queue_push(sb_frame_queue *queue, const sb_frame *frame)
             oldest = take(queue);
             queue->dropped++;
         }
-        queue->ring[(queue->first + queue->count++) % queue->capacity] = sb_frame_retain(frame);
+        queue->ring[(queue->first + queue->count++) % queue->capacity].frame =
+            sb_frame_retain(frame);
         pthread_cond_signal(&queue->has_frame);
     }
     pthread_mutex_unlock(&queue->lock);

@@ -39,7 +39,7 @@ static sb_status lay_grid(sb_density *density, const float min[3], const float m
         if (total <= nodes_max) break;
     }
     for (int a = 0; a < 3; a++) {
-        density->n[a] = (size_t)((double)(max[a] - min[a]) / cell) + 2 * MARGIN + 1;
+        density->n[a] = (size_t)((double)(max[a] - min[a]) / cell) + (size_t)2 * MARGIN + 1;
         density->min[a] = (float)((double)min[a] - MARGIN * cell);
     }
     density->cell = (float)cell;

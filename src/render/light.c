@@ -167,10 +167,10 @@ static sb_status make_ground(const sb_meshes *meshes, sb_vec3 min, sb_vec3 max, 
     glBindTexture(GL_TEXTURE_2D, depth);
     glGetTexImage(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT, GL_FLOAT, height);
     /* clip z = 2 depth - 1 = clip[10] z + clip[14]; where nothing is, the ground is far below. */
-    for (int i = 0; i < CELLS; i++) height[i] = (2 * height[i] - 1 - clip[14]) / clip[10];
+    for (size_t i = 0; i < CELLS; i++) height[i] = (2 * height[i] - 1 - clip[14]) / clip[10];
     sb_light_openness(height, N, side / N, map);
     soften(map, N, open);
-    for (int i = 0; i < CELLS; i++) {
+    for (size_t i = 0; i < CELLS; i++) {
         map[2 * i] = height[i];
         map[2 * i + 1] = open[i];
     }

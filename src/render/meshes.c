@@ -170,11 +170,9 @@ static void send(sb_meshes *meshes, const struct upload *upload)
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(upload->corner_count * sizeof *upload->corners),
                  upload->corners, GL_STATIC_DRAW);
     const GLsizei stride = sizeof(struct corner);
-    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, stride, NULL);
-    glVertexAttribPointer(1, 3, GL_BYTE, GL_TRUE, stride,
-                          (const void *)offsetof(struct corner, normal));
-    glVertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride,
-                          (const void *)offsetof(struct corner, color));
+    sb_attribute(0, 3, GL_FLOAT, GL_FALSE, stride, 0);
+    sb_attribute(1, 3, GL_BYTE, GL_TRUE, stride, offsetof(struct corner, normal));
+    sb_attribute(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride, offsetof(struct corner, color));
     for (GLuint i = 0; i < 3; i++) glEnableVertexAttribArray(i);
     glGenVertexArrays(1, &meshes->line_array);
     glGenBuffers(1, &meshes->line_buffer);
@@ -182,8 +180,7 @@ static void send(sb_meshes *meshes, const struct upload *upload)
     glBindBuffer(GL_ARRAY_BUFFER, meshes->line_buffer);
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(upload->end_count * sizeof *upload->ends),
                  upload->ends, GL_STATIC_DRAW);
-    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, NULL);
-    glEnableVertexAttribArray(0);
+    sb_attribute(0, 3, GL_FLOAT, GL_FALSE, 0, 0);
     glBindVertexArray(0);
 }
 
@@ -191,7 +188,7 @@ static void send(sb_meshes *meshes, const struct upload *upload)
 static sb_status make_speckles(sb_meshes *meshes, sb_error *error)
 {
     enum { LATTICE = 64, FINE = 4, SIDE = LATTICE * FINE };
-    unsigned char *texels = sb_alloc(SIDE * SIDE, 1);
+    unsigned char *texels = sb_alloc((size_t)SIDE * SIDE, 1);
     if (!texels) return sb_fail_memory(error, "the ground's pattern");
     for (unsigned y = 0; y < SIDE; y++)
         for (unsigned x = 0; x < SIDE; x++) {

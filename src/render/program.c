@@ -1,7 +1,5 @@
 #include "render/program.h"
 
-#include <stddef.h>
-
 static const char version[] = "#version 330 core\n";
 
 const char sb_fullscreen_vertex[] =
@@ -115,4 +113,12 @@ sb_status sb_framebuffer_check(const char *name, sb_error *error)
     if (status == GL_FRAMEBUFFER_COMPLETE) return SB_OK;
     return sb_fail(error, SB_FAILED, "framebuffer %s: OpenGL status 0x%04x, expected complete",
                    name, status);
+}
+
+void sb_attribute(GLuint slot, GLint size, GLenum type, GLboolean normalized, GLsizei stride,
+                  size_t offset)
+{
+    /* OpenGL passes an offset in a pointer's place. NOLINTNEXTLINE(performance-no-int-to-ptr) */
+    glVertexAttribPointer(slot, size, type, normalized, stride, (const void *)offset);
+    glEnableVertexAttribArray(slot);
 }

@@ -4,6 +4,8 @@
 
 #include "base/status.h"
 
+#include <stddef.h>
+
 #define GL_GLEXT_PROTOTYPES
 #include <GL/glcorearb.h>
 
@@ -26,6 +28,10 @@ void sb_uniform_texture(GLuint program, const char *name, int unit, GLuint textu
 extern const char sb_fullscreen_vertex[];
 /* Draws those three vertices with the program in use; `empty` is a vertex array without arrays. */
 void sb_fullscreen_draw(GLuint empty);
+
+/* Reads attribute `slot` from the bound array buffer, `offset` bytes into each record. */
+void sb_attribute(GLuint slot, GLint size, GLenum type, GLboolean normalized, GLsizei stride,
+                  size_t offset);
 
 /* A texture without mipmaps, clamped at its edge; pixels may be NULL. */
 GLuint sb_texture_create(GLenum internal, int width, int height, GLenum format, GLenum type,

@@ -33,7 +33,7 @@ static int share(int here, int north, int south, int west, int east, int contras
 static void soften_row(const unsigned char *row, ptrdiff_t stride, int width, unsigned char *to)
 {
     for (int x = 1; x < width - 1; x++) {
-        const unsigned char *pixel = row + 4 * x;
+        const unsigned char *pixel = row + 4 * (ptrdiff_t)x;
         int here = luma(pixel), west = luma(pixel - 4), east = luma(pixel + 4);
         int north = luma(pixel + stride), south = luma(pixel - stride);
         int high = larger(larger(north, south), larger(larger(west, east), here));

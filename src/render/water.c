@@ -138,11 +138,9 @@ static void make_arrays(sb_water *water)
     glBindVertexArray(water->points);
     glBindBuffer(GL_ARRAY_BUFFER, water->buffer);
     const GLsizei stride = sizeof(sb_visible_point);
-    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, stride, NULL);
-    glVertexAttribPointer(1, 2, GL_UNSIGNED_SHORT, GL_TRUE, stride,
-                          (const void *)offsetof(sb_visible_point, speed));
-    glVertexAttribPointer(2, 3, GL_BYTE, GL_TRUE, stride,
-                          (const void *)offsetof(sb_visible_point, normal));
+    sb_attribute(0, 3, GL_FLOAT, GL_FALSE, stride, 0);
+    sb_attribute(1, 2, GL_UNSIGNED_SHORT, GL_TRUE, stride, offsetof(sb_visible_point, speed));
+    sb_attribute(2, 3, GL_BYTE, GL_TRUE, stride, offsetof(sb_visible_point, normal));
     for (GLuint i = 0; i < 3; i++) glEnableVertexAttribArray(i);
     glBindVertexArray(0);
 }
