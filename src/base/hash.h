@@ -19,7 +19,7 @@ static inline uint64_t sb_hash_mix(uint64_t x)
 static inline uint64_t sb_hash(uint64_t seed, const void *bytes, size_t length)
 {
     const unsigned char *at = bytes;
-    uint64_t hash = seed ^ (0x9e3779b97f4a7c15u + length);
+    uint64_t hash = sb_hash_mix(seed + 0x9e3779b97f4a7c15u + length);
     for (; length >= 8; length -= 8, at += 8) {
         uint64_t word;
         memcpy(&word, at, 8);

@@ -11,9 +11,9 @@ static const struct {
     /* key                     default       paper   */
     {"kernel",               {"cubic",      "cubic"}},
     {"support",              {"2",          "2"}},
-    {"solver",               {"cg",         "jacobi"}},
+    {"solver",               {"chebyshev",         "jacobi"}},
     {"tolerance_rule",       {"pressure",   "density"}},
-    {"tolerance",            {"0.005",      "0.001"}},
+    {"tolerance",            {"0.002",      "0.001"}},
     {"min_iterations",       {"2",          "3"}},
     {"max_iterations",       {"500",        "500"}},
     {"relaxation",           {"0.5",        "0.5"}},
@@ -26,11 +26,11 @@ static const struct {
     {"artificial_viscosity", {"0.01",       "0.05"}},
     {"wall_friction",        {"0",          "0.02"}},
     {"sound_speed",          {"0",          "0"}},
-    {"wall_gamma",           {"0.7",        "1"}},
+    {"wall_gamma",           {"0.8",        "1"}},
     {"wall_offset",          {"0.5",        "0.6"}},
-    {"jitter",               {"0.01",       "0"}},
+    {"jitter",               {"0.02",       "0"}},
     {"seed",                 {"1",          "1"}},
-    {"settle_steps",         {"200",        "0"}},
+    {"settle_steps",         {"300",        "0"}},
 };
 /* clang-format on */
 

@@ -1,0 +1,158 @@
+#include "app/commands.h"
+#include "app/options.h"
+#include "base/memory.h"
+#include "geometry/model.h"
+#include "output/json.h"
+#include "physics/wavemaker.h"
+
+#include <math.h>
+#include <omp.h>
+#include <stdio.h>
+
+static const char help[] =
+    "usage: shorebreak check SCENE [--json] [--preset NAME] [--set KEY=VALUE]... [--threads N]\n"
+    "Builds what a run would build, without running: particles, memory, steps, time and disk estimated,\n"
+    "and warnings.\n";
+
+/* Costs measured with tools/bench on two cores at 2.5 GHz; they scale an estimate, nothing else. */
+static const double FLUID_BYTES = 430, WALL_BYTES = 60;        /* of a run's heap, per particle */
+static const double SECONDS_PER_STEP = 2.0e-6;                 /* one thread, per fluid particle */
+static const double PARTICLE_FILE_BYTES = 44, PICTURE_BYTES = 7e5;
+
+typedef struct estimate {
+    double steps, time_step, seconds, memory, disk;
+} estimate;
+
+static estimate make_estimate(const sb_scene *scene, const sb_model *model)
+{
+    const sb_numerics *n = &scene->numerics;
+    double g = scene->fluid.gravity > 0 ? scene->fluid.gravity : 9.81;
+    double depth = fmax(model->still_depth, scene->resolution), h = n->support * scene->resolution;
+    double bound = n->time_step_rule == SB_TIME_STEP_PAPER ? n->time_step_factor * h / g
+                                                           : n->time_step_factor * h / sqrt(g * depth);
+    /* Water that falls or rushes on goes at about 2 sqrt(gD): the other bound. */
+    double dt = fmin(bound, n->cfl * h / (2 * sqrt(g * depth)));
+    double fluid = (double)model->fluid_count;
+    double files = scene->output.particle_interval > 0 ? scene->duration / scene->output.particle_interval + 1 : 0;
+    double pictures = scene->render.interval > 0
+                          ? (scene->duration / scene->render.interval + 1) * (double)scene->render.camera_count
+                          : 0;
+    double steps = ceil(scene->duration / dt);
+    return (estimate){
+        .steps = steps,
+        .time_step = dt,
+        .seconds = steps * fluid * SECONDS_PER_STEP / omp_get_max_threads(),
+        .memory = fluid * FLUID_BYTES + (double)model->wall_count * WALL_BYTES,
+        .disk = files * fluid * PARTICLE_FILE_BYTES + pictures * PICTURE_BYTES,
+    };
+}
+
+static void visit_warnings(const sb_scene *scene, const sb_model *model, const estimate *e,
+                           void (*visit)(void *context, const char *text), void *context)
+{
+    char text[256];
+    for (size_t w = 0; w < model->warning_count; w++)
+        visit(context, model->warnings[w]);
+    for (size_t w = 0; w < scene->wavemaker_count; w++) {
+        const sb_wavemaker_parameters *law = &scene->wavemakers[w].law;
+        const char *warning = law->kind->warning ? law->kind->warning(law) : NULL;
+        if (!warning)
+            continue;
+        snprintf(text, sizeof text, "wave maker %s: %s", scene->wavemakers[w].name, warning);
+        visit(context, text);
+    }
+    size_t available = sb_memory_available();
+    if (available > 0 && e->memory > (double)available) {
+        snprintf(text, sizeof text, "needs about %.2g GB of memory, and %.2g GB are free", e->memory / 1e9,
+                 (double)available / 1e9);
+        visit(context, text);
+    }
+}
+
+static void print_line(void *context, const char *text)
+{
+    (void)context;
+    printf("warning: %s\n", text);
+}
+
+static void print_json(void *context, const char *text)
+{
+    sb_json_text(context, NULL, text);
+}
+
+static void report_text(const sb_scene *scene, const sb_model *model, const estimate *e)
+{
+    printf("%s\n", scene->title);
+    printf("  spacing            %g m in %dD\n", scene->resolution, scene->dimensions);
+    printf("  fluid particles    %zu\n", model->fluid_count);
+    printf("  boundary particles %zu on %zu bodies\n", model->wall_count, model->body_count);
+    printf("  still depth        %g m (%.1f particles)\n", model->still_depth,
+           model->still_depth / scene->resolution);
+    printf("  memory             about %.0f MB\n", e->memory / 1e6);
+    printf("  steps              about %.0f of %.3g s\n", e->steps, e->time_step);
+    printf("  run time           about %.0f s on %d threads\n", e->seconds, omp_get_max_threads());
+    printf("  disk               about %.0f MB\n", e->disk / 1e6);
+    visit_warnings(scene, model, e, print_line, NULL);
+}
+
+static void report_json(const sb_scene *scene, const sb_model *model, const estimate *e)
+{
+    sb_json json;
+    sb_json_begin(&json, stdout, true);
+    sb_json_open(&json, NULL, '{');
+    sb_json_text(&json, "scene", scene->path);
+    sb_json_text(&json, "title", scene->title);
+    sb_json_count(&json, "dimensions", (uint64_t)scene->dimensions);
+    sb_json_number(&json, "resolution_m", scene->resolution);
+    sb_json_count(&json, "fluid_particles", model->fluid_count);
+    sb_json_count(&json, "boundary_particles", model->wall_count);
+    sb_json_number(&json, "still_depth_m", model->still_depth);
+    sb_json_number(&json, "memory_bytes", e->memory);
+    sb_json_number(&json, "steps", e->steps);
+    sb_json_number(&json, "time_step_s", e->time_step);
+    sb_json_number(&json, "run_time_s", e->seconds);
+    sb_json_number(&json, "disk_bytes", e->disk);
+    sb_json_open(&json, "bodies", '[');
+    for (size_t b = 0; b < model->body_count; b++) {
+        sb_json_open(&json, NULL, '{');
+        sb_json_text(&json, "name", model->bodies[b].name);
+        sb_json_count(&json, "boundary_particles", model->bodies[b].count);
+        sb_json_bool(&json, "moves", model->bodies[b].wavemaker >= 0);
+        sb_json_close(&json);
+    }
+    sb_json_close(&json);
+    sb_json_open(&json, "warnings", '[');
+    visit_warnings(scene, model, e, print_json, &json);
+    sb_json_close(&json);
+    sb_json_close(&json);
+    putchar('\n');
+}
+
+int sb_command_check(int count, char **arguments)
+{
+    sb_options options;
+    sb_error error = {0};
+    sb_scene scene = {0};
+    sb_model model = {0};
+    sb_status status = sb_options_parse(count, arguments,
+                                        SB_OPT_JSON | SB_OPT_PRESET | SB_OPT_SET | SB_OPT_THREADS, "scene",
+                                        &options, &error);
+    if (status == SB_OK && options.help) {
+        fputs(help, stdout);
+        return 0;
+    }
+    if (status == SB_OK)
+        status = sb_options_scene(&options, options.positional, &scene, &error);
+    if (status == SB_OK)
+        status = sb_model_build(&scene, &model, &error);
+    if (status == SB_OK) {
+        estimate e = make_estimate(&scene, &model);
+        (options.json ? report_json : report_text)(&scene, &model, &e);
+    } else {
+        fprintf(stderr, "shorebreak: %s\n", error.text);
+    }
+    sb_model_free(&model);
+    sb_scene_free(&scene);
+    sb_options_free(&options);
+    return (int)status;
+}

@@ -1,0 +1,63 @@
+#include "app/commands.h"
+#include "app/interrupt.h"
+#include "app/options.h"
+#include "app/run.h"
+#include "base/file.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const char help[] =
+    "usage: shorebreak run SCENE [OPTIONS]\n"
+    "Simulates the scene and writes forces.csv, gauges.csv, probes.csv, pictures, particle files, plots,\n"
+    "run.jsonl and summary.json.\n\n"
+    "  --out DIR            results go here (default: runs/<name of the scene file>)\n"
+    "  --until T            stop at T seconds instead of the scene's duration\n"
+    "  --threads N          of the simulation (default: all cores)\n"
+    "  --preset NAME        numerics: default or paper (default: the scene's)\n"
+    "  --set KEY=VALUE      change a key of the scene, e.g. --set resolution=5; may be repeated\n"
+    "  --quiet              no progress\n";
+
+/* runs/<scene file without folder and .yaml> */
+static void default_out(char out[SB_PATH_MAX], const char *scene)
+{
+    const char *slash = strrchr(scene, '/');
+    const char *name = slash ? slash + 1 : scene;
+    size_t length = strcspn(name, ".");
+    snprintf(out, SB_PATH_MAX, "runs/%.*s", (int)(length ? length : strlen(name)), name);
+}
+
+static int exit_status(sb_status status)
+{
+    if (status == SB_INTERRUPTED)
+        return 128 + sb_interrupt_signal();
+    return (int)status;
+}
+
+int sb_command_run(int count, char **arguments)
+{
+    sb_options options;
+    sb_error error = {0};
+    sb_scene scene = {0};
+    unsigned accepted = SB_OPT_OUT | SB_OPT_UNTIL | SB_OPT_THREADS | SB_OPT_PRESET | SB_OPT_SET | SB_OPT_QUIET;
+    sb_status status = sb_options_parse(count, arguments, accepted, "scene", &options, &error);
+    if (status == SB_OK && options.help) {
+        fputs(help, stdout);
+        return 0;
+    }
+    char out[SB_PATH_MAX];
+    if (status == SB_OK)
+        status = sb_options_scene(&options, options.positional, &scene, &error);
+    if (status == SB_OK) {
+        if (options.out)
+            snprintf(out, sizeof out, "%s", options.out);
+        else
+            default_out(out, options.positional);
+        status = sb_run(&scene, out, options.quiet, &error);
+    }
+    if (status != SB_OK)
+        fprintf(stderr, "shorebreak: %s\n", error.text);
+    sb_scene_free(&scene);
+    sb_options_free(&options);
+    return exit_status(status);
+}

@@ -1,0 +1,72 @@
+#include "app/consumer.h"
+
+#include <math.h>
+#include <signal.h>
+
+static void *serve(void *argument)
+{
+    sb_consumer *consumer = argument;
+    const sb_consumer_work *work = &consumer->work;
+    bool usable = !work->open || work->open(work->state, &consumer->error) == SB_OK;
+    if (!usable)
+        atomic_store(&consumer->failed, true);
+    const sb_frame *frame;
+    while ((frame = sb_frame_queue_pop(consumer->queue))) {
+        if (usable && work->handle(work->state, frame, &consumer->error) != SB_OK) {
+            usable = false;
+            atomic_store(&consumer->failed, true);
+        }
+        consumer->handled += usable;
+        sb_frame_release(frame);
+    }
+    if (work->close)
+        work->close(work->state);
+    return NULL;
+}
+
+sb_status sb_consumer_start(sb_consumer *consumer, const sb_consumer_work *work, double interval,
+                            size_t capacity, sb_queue_policy policy, sb_error *error)
+{
+    *consumer = (sb_consumer){.work = *work, .interval = interval};
+    consumer->queue = sb_frame_queue_create(capacity, policy);
+    if (!consumer->queue)
+        return sb_fail_memory(error, "a frame queue");
+    /* Signals are for the main thread. */
+    sigset_t all, old;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &old);
+    int refused = pthread_create(&consumer->thread, NULL, serve, consumer);
+    pthread_sigmask(SIG_SETMASK, &old, NULL);
+    if (refused) {
+        sb_frame_queue_destroy(consumer->queue);
+        consumer->queue = NULL;
+        return sb_fail(error, SB_FAILED, "%s: the system refuses a thread", work->name);
+    }
+    consumer->started = true;
+    return SB_OK;
+}
+
+bool sb_consumer_due(const sb_consumer *consumer, double time)
+{
+    return consumer->started && !atomic_load(&consumer->failed) && time >= consumer->next;
+}
+
+void sb_consumer_feed(sb_consumer *consumer, const sb_frame *frame)
+{
+    sb_frame_queue_push(consumer->queue, frame);
+    if (consumer->interval > 0)
+        consumer->next = consumer->interval * (floor(frame->status.time / consumer->interval + 1e-9) + 1);
+    else
+        consumer->next = frame->status.time;
+}
+
+void sb_consumer_stop(sb_consumer *consumer)
+{
+    if (!consumer->started)
+        return;
+    sb_frame_queue_close(consumer->queue);
+    pthread_join(consumer->thread, NULL);
+    sb_frame_queue_destroy(consumer->queue);
+    consumer->queue = NULL;
+    consumer->started = false;
+}

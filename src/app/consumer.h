@@ -1,0 +1,45 @@
+/* A consumer of frames: its own thread behind a bounded queue, fed when its time has come. */
+#ifndef SB_APP_CONSUMER_H
+#define SB_APP_CONSUMER_H
+
+#include "frame/queue.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+
+/* What a consumer does, all of it in its own thread. open may fail: the consumer is then out of the run,
+   with the reason kept. handle may fail: it is not called again. */
+typedef struct sb_consumer_work {
+    const char *name;
+    void *state;
+    sb_status (*open)(void *state, sb_error *error);
+    sb_status (*handle)(void *state, const sb_frame *frame, sb_error *error);
+    void (*close)(void *state);
+} sb_consumer_work;
+
+typedef struct sb_consumer {
+    sb_consumer_work work;
+    sb_frame_queue *queue;
+    pthread_t thread;
+    bool started;
+    double interval, next;  /* s simulated between frames; time of the next one */
+    sb_error error;         /* why it stopped; read after sb_consumer_stop */
+    atomic_bool failed;
+    uint64_t handled;
+} sb_consumer;
+
+/* Starts the thread. interval 0: every frame that any consumer asks for. */
+sb_status sb_consumer_start(sb_consumer *consumer, const sb_consumer_work *work, double interval,
+                            size_t capacity, sb_queue_policy policy, sb_error *error);
+
+/* Whether a frame at this time is due. */
+bool sb_consumer_due(const sb_consumer *consumer, double time);
+
+/* Hands the frame over and sets the next due time. */
+void sb_consumer_feed(sb_consumer *consumer, const sb_frame *frame);
+
+/* Lets it finish what it has, and joins. Fine when it never started. */
+void sb_consumer_stop(sb_consumer *consumer);
+
+#endif

@@ -1,0 +1,65 @@
+/* shorebreak: tsunami waves striking coastal plants, by implicit incompressible SPH. */
+#include "app/commands.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const struct {
+    const char *name, *summary;
+    int (*run)(int count, char **arguments);
+} commands[] = {
+    {"run", "simulate a scene, measure forces, draw pictures, stream", sb_command_run},
+    {"check", "say what a scene would build and cost, without running it", sb_command_check},
+    {"sample", "write a scene's boundary and fluid particles for ParaView", sb_command_sample},
+    {"render", "draw pictures from a finished run's particle files", sb_command_render},
+    {"list", "kernels, wave makers, solvers and presets there are", sb_command_list},
+};
+enum { COMMANDS = sizeof commands / sizeof commands[0] };
+
+static void usage(FILE *stream)
+{
+    fprintf(stream, "usage: shorebreak COMMAND [ARGUMENTS]\n\n");
+    for (int c = 0; c < COMMANDS; c++)
+        fprintf(stream, "  %-8s %s\n", commands[c].name, commands[c].summary);
+    fprintf(stream, "\nshorebreak COMMAND --help tells more; --version the version.\n"
+                    "Exit status: 0 all done, 1 bad input, 2 the run failed, 130 or 143 stopped by a signal.\n");
+}
+
+/* OpenMP threads that spin while they wait take the cores that pictures and stream need, and libgomp
+   reads how long they may spin only when the process starts: start once more with a short spin. */
+static void limit_spinning(char **arguments)
+{
+    if (getenv("OMP_WAIT_POLICY") || getenv("GOMP_SPINCOUNT"))
+        return;
+    if (setenv("GOMP_SPINCOUNT", "20000", 1) == 0)
+        execv("/proc/self/exe", arguments);
+}
+
+int main(int count, char **arguments)
+{
+    const char *name = count > 1 ? arguments[1] : "";
+    if (strcmp(name, "--version") == 0) {
+        printf("shorebreak %s\n", SB_VERSION);
+        return 0;
+    }
+    if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0) {
+        usage(stdout);
+        return 0;
+    }
+    for (int c = 0; c < COMMANDS; c++) {
+        if (strcmp(name, commands[c].name) != 0)
+            continue;
+        if (count > 2 && strcmp(arguments[2], "--version") == 0) {
+            printf("shorebreak %s\n", SB_VERSION);
+            return 0;
+        }
+        limit_spinning(arguments);
+        return commands[c].run(count - 2, arguments + 2);
+    }
+    if (*name)
+        fprintf(stderr, "shorebreak: %s: no such command\n", name);
+    usage(stderr);
+    return 1;
+}

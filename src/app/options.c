@@ -1,0 +1,139 @@
+#include "app/options.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct flag {
+    const char *name;
+    unsigned bit;
+    bool takes_value;
+} flag;
+
+static const flag flags[] = {
+    {"--out", SB_OPT_OUT, true},       {"--until", SB_OPT_UNTIL, true}, {"--threads", SB_OPT_THREADS, true},
+    {"--preset", SB_OPT_PRESET, true}, {"--set", SB_OPT_SET, true},     {"--quiet", SB_OPT_QUIET, false},
+    {"--json", SB_OPT_JSON, false},    {"--camera", SB_OPT_CAMERA, true},
+};
+
+static sb_status add_override(sb_options *options, const char *text, sb_error *error)
+{
+    const char *equals = strchr(text, '=');
+    if (!equals || equals == text)
+        return sb_fail(error, SB_BAD_INPUT, "--set %.200s: expected KEY=VALUE", text);
+    if (options->override_count == SB_OVERRIDES_MAX)
+        return sb_fail(error, SB_BAD_INPUT, "--set: more than %d of them", SB_OVERRIDES_MAX);
+    char *copy = sb_strdup(text);
+    if (!copy)
+        return sb_fail_memory(error, "options");
+    copy[equals - text] = '\0';
+    options->texts[options->override_count] = copy;
+    options->overrides[options->override_count++] =
+        (sb_override){.key = copy, .value = copy + (equals - text) + 1};
+    return SB_OK;
+}
+
+static sb_status take(sb_options *options, unsigned bit, const char *value, sb_error *error)
+{
+    char *end = NULL;
+    switch (bit) {
+    case SB_OPT_OUT:
+        options->out = value;
+        break;
+    case SB_OPT_PRESET:
+        options->preset = value;
+        break;
+    case SB_OPT_CAMERA:
+        options->camera = value;
+        break;
+    case SB_OPT_QUIET:
+        options->quiet = true;
+        break;
+    case SB_OPT_JSON:
+        options->json = true;
+        break;
+    case SB_OPT_SET:
+        return add_override(options, value, error);
+    case SB_OPT_UNTIL:
+        options->until = strtod(value, &end);
+        if (end == value || *end || !isfinite(options->until) || options->until < 0)
+            return sb_fail(error, SB_BAD_INPUT, "--until %.100s: expected seconds >= 0", value);
+        break;
+    default: {
+        long threads = strtol(value, &end, 10);
+        if (end == value || *end || threads < 1 || threads > 1024)
+            return sb_fail(error, SB_BAD_INPUT, "--threads %.100s: expected a count from 1 to 1024", value);
+        options->threads = (int)threads;
+    }
+    }
+    return SB_OK;
+}
+
+static const flag *find_flag(const char *argument, unsigned accepted)
+{
+    size_t length = strcspn(argument, "=");
+    for (size_t f = 0; f < sizeof flags / sizeof flags[0]; f++)
+        if (flags[f].bit & accepted && strlen(flags[f].name) == length &&
+            strncmp(flags[f].name, argument, length) == 0)
+            return &flags[f];
+    return NULL;
+}
+
+sb_status sb_options_parse(int count, char **arguments, unsigned accepted, const char *what,
+                           sb_options *options, sb_error *error)
+{
+    *options = (sb_options){.until = -1};
+    for (int i = 0; i < count; i++) {
+        const char *argument = arguments[i];
+        if (strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0) {
+            options->help = true;
+            return SB_OK;
+        }
+        if (argument[0] != '-') {
+            if (options->positional)
+                return sb_fail(error, SB_BAD_INPUT, "%.200s: one %s is enough, and %.200s was given", argument,
+                               what, options->positional);
+            options->positional = argument;
+            continue;
+        }
+        const flag *found = find_flag(argument, accepted);
+        if (!found)
+            return sb_fail(error, SB_BAD_INPUT, "%.200s: no such option here; --help lists them", argument);
+        const char *value = strchr(argument, '=');
+        value = value ? value + 1 : NULL;
+        if (!found->takes_value && value)
+            return sb_fail(error, SB_BAD_INPUT, "%.200s: takes no value", argument);
+        if (found->takes_value && !value) {
+            if (i + 1 == count)
+                return sb_fail(error, SB_BAD_INPUT, "%.200s: needs a value", argument);
+            value = arguments[++i];
+        }
+        sb_status status = take(options, found->bit, value, error);
+        if (status != SB_OK)
+            return status;
+    }
+    if (!options->positional)
+        return sb_fail(error, SB_BAD_INPUT, "no %s given; --help tells how", what);
+    return SB_OK;
+}
+
+void sb_options_free(sb_options *options)
+{
+    for (size_t i = 0; i < options->override_count; i++)
+        sb_free(options->texts[i]);
+    *options = (sb_options){0};
+}
+
+sb_status sb_options_scene(const sb_options *options, const char *path, sb_scene *scene, sb_error *error)
+{
+    if (options->threads > 0)
+        omp_set_num_threads(options->threads);
+    sb_status status = sb_scene_read(path, options->preset, options->overrides, options->override_count,
+                                     scene, error);
+    if (status == SB_OK && options->until >= 0)
+        scene->duration = options->until;
+    return status;
+}

@@ -1,0 +1,45 @@
+/* The command line, common to all commands. */
+#ifndef SB_APP_OPTIONS_H
+#define SB_APP_OPTIONS_H
+
+#include "base/status.h"
+#include "scene/scene.h"
+
+#include <stdbool.h>
+
+enum { SB_OVERRIDES_MAX = 256 };
+
+typedef struct sb_options {
+    const char *positional;   /* scene, run directory or table, by command */
+    const char *out;          /* --out */
+    const char *preset;       /* --preset */
+    const char *camera;       /* --camera */
+    double until;             /* --until, s; < 0: not given */
+    int threads;              /* --threads; 0: as OpenMP has it */
+    bool quiet, json, help;
+    size_t override_count;
+    sb_override overrides[SB_OVERRIDES_MAX];
+    char *texts[SB_OVERRIDES_MAX]; /* owned copies that the overrides' keys live in */
+} sb_options;
+
+/* What a command takes beyond --help, as bits. */
+enum {
+    SB_OPT_OUT = 1,
+    SB_OPT_UNTIL = 2,
+    SB_OPT_THREADS = 4,
+    SB_OPT_PRESET = 8,
+    SB_OPT_SET = 16,
+    SB_OPT_QUIET = 32,
+    SB_OPT_JSON = 64,
+    SB_OPT_CAMERA = 128
+};
+
+/* arguments: those after the command's name. what: the positional's name, for messages. */
+sb_status sb_options_parse(int count, char **arguments, unsigned accepted, const char *what,
+                           sb_options *options, sb_error *error);
+void sb_options_free(sb_options *options);
+
+/* Reads the scene that the options name, with their preset and overrides. */
+sb_status sb_options_scene(const sb_options *options, const char *path, sb_scene *scene, sb_error *error);
+
+#endif

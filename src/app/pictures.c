@@ -1,0 +1,60 @@
+/* Frames into PNG pictures, one folder per camera. */
+#include "app/consumers.h"
+
+static bool wanted(const sb_pictures *pictures, size_t camera)
+{
+    return pictures->camera < 0 || (size_t)pictures->camera == camera;
+}
+
+static sb_status open_pictures(void *state, sb_error *error)
+{
+    sb_pictures *pictures = state;
+    const sb_render_settings *render = &pictures->scene->render;
+    for (size_t c = 0; c < render->camera_count; c++) {
+        char name[128], path[SB_PATH_MAX];
+        if (!wanted(pictures, c))
+            continue;
+        snprintf(name, sizeof name, "frames/%s", render->cameras[c].name);
+        sb_status status = sb_path_join(path, pictures->directory, name, error);
+        if (status == SB_OK)
+            status = sb_make_directories(path, error);
+        if (status != SB_OK)
+            return status;
+    }
+    return sb_renderer_create(pictures->scene, pictures->model, &pictures->renderer, error);
+}
+
+static sb_status draw(void *state, const sb_frame *frame, sb_error *error)
+{
+    sb_pictures *pictures = state;
+    const sb_render_settings *render = &pictures->scene->render;
+    for (size_t c = 0; c < render->camera_count; c++) {
+        char name[128], path[SB_PATH_MAX];
+        if (!wanted(pictures, c))
+            continue;
+        snprintf(name, sizeof name, "frames/%s/%06llu.png", render->cameras[c].name,
+                 (unsigned long long)pictures->count + 1);
+        sb_status status = sb_path_join(path, pictures->directory, name, error);
+        if (status == SB_OK)
+            status = sb_renderer_draw(pictures->renderer, frame, c, &pictures->image, error);
+        if (status == SB_OK)
+            status = sb_png_write(path, &pictures->image, error);
+        if (status != SB_OK)
+            return status;
+    }
+    pictures->count++;
+    return SB_OK;
+}
+
+static void close_pictures(void *state)
+{
+    sb_pictures *pictures = state;
+    sb_renderer_destroy(pictures->renderer);
+    sb_image_free(&pictures->image);
+    pictures->renderer = NULL;
+}
+
+sb_consumer_work sb_pictures_work(sb_pictures *pictures)
+{
+    return (sb_consumer_work){"pictures", pictures, open_pictures, draw, close_pictures};
+}

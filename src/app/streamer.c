@@ -1,0 +1,23 @@
+/* Frames onto LCM channels. */
+#include "app/consumers.h"
+
+static sb_status publish(void *state, const sb_frame *frame, sb_error *error)
+{
+    (void)error;
+    sb_streamer *streamer = state;
+    sb_stream_publish(streamer->stream, frame);
+    streamer->counters = sb_stream_count(streamer->stream);
+    return SB_OK;
+}
+
+static void close_streamer(void *state)
+{
+    sb_streamer *streamer = state;
+    sb_stream_destroy(streamer->stream);
+    streamer->stream = NULL;
+}
+
+sb_consumer_work sb_streamer_work(sb_streamer *streamer)
+{
+    return (sb_consumer_work){"stream", streamer, NULL, publish, close_streamer};
+}
