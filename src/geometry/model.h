@@ -1,5 +1,6 @@
 /* What a simulation is made of: bodies sampled into boundary particles, water into fluid particles.
-   Plain data; this header needs no mesh library. */
+   Plain data; this header needs no mesh library. The domain's wall sides are one last body named
+   "domain" without a mesh. */
 #ifndef SB_GEOMETRY_MODEL_H
 #define SB_GEOMETRY_MODEL_H
 
@@ -20,6 +21,8 @@ typedef struct sb_model_body {
 
 typedef struct sb_model {
     sb_vec3 min, max;                 /* m, the domain; min is the origin of stored positions */
+    int dimensions;
+    double spacing;                   /* m */
     double still_depth;               /* m, D: the largest still depth of water */
     size_t fluid_count;
     sb_vec3 *fluid_position;          /* m */
@@ -37,5 +40,26 @@ typedef struct sb_model {
 /* Imports, samples and fills. On error *model is untouched. Deterministic for any thread count. */
 sb_status sb_model_build(const sb_scene *scene, sb_model *model, sb_error *error);
 void sb_model_free(sb_model *model);
+
+/* The bodies alone, in the same order, with meshes, colours and wavemakers but without particles: what
+   pictures of a finished run need. On error *model is untouched. */
+sb_status sb_model_import_bodies(const sb_scene *scene, sb_model *model, sb_error *error);
+
+/* Adds to model->warnings what is too coarse or too thin to trust; sb_model_build has done so. */
+sb_status sb_model_check(const sb_scene *scene, sb_model *model, sb_error *error);
+
+/* Points found within solids. */
+typedef struct sb_inside_report {
+    size_t count;
+    size_t first, body; /* the first such point and its body; SIZE_MAX: none */
+    double depth;       /* m below the surface, of that point */
+} sb_inside_report;
+
+/* Asks for each point (xyz, relative to origin) whether it lies within a body by more than tolerance
+   (m): a proof that walls held, independent of the boundary particles. displacement: per body, m;
+   NULL: none moved. */
+sb_status sb_model_first_inside(const sb_model *model, const float *position, size_t count,
+                                sb_vec3 origin, const sb_vec3 *displacement, double tolerance,
+                                sb_inside_report *report, sb_error *error);
 
 #endif

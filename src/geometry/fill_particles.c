@@ -1,0 +1,162 @@
+/* From wet runs to particles: each run is divided evenly from its floor to its surface, into as many
+   layers as its volume holds on average. */
+#include "geometry/fill_parts.h"
+
+#include "base/memory.h"
+#include "physics/wave_theory.h"
+
+#include <string.h>
+
+/* In spacings: no particle starts nearer to a surface than this; thinner water has none. */
+static const double clearance = 0.3, film = 0.25;
+
+/* Even over the columns and never in step with them (Roberts's sequence, the golden ratio in 2D), so
+   that the columns that round up are spread over any region like its rounded-off volume. Whole
+   numbers within a hundredth stay whole. */
+static double threshold(const sb_columns *c, int64_t i, int64_t j)
+{
+    double at = c->ny > 1 ? 0.7548776662466927 * (double)i + 0.5698402909980532 * (double)j
+                          : 0.6180339887498949 * (double)i;
+    return 0.01 + 0.98 * (at + 0.5 - floor(at + 0.5));
+}
+
+static size_t layers_of(const sb_columns *c, int64_t i, int64_t j, const sb_run *run)
+{
+    double height = run->high - run->low, s = c->spacing;
+    if (!run->wet || height < film * s)
+        return 0;
+    double particles = c->scene->dimensions == 2 ? height * c->dx / (s * s)
+                                                 : height * c->dx * c->dy / (s * s * s);
+    return (size_t)floor(particles + threshold(c, i, j));
+}
+
+/* The stretch of a run that has open water on all four sides: nothing to keep clear of there. */
+static void open_part(const sb_columns *c, int64_t i, int64_t j, const sb_run *run, double *low,
+                      double *high)
+{
+    *low = run->low;
+    *high = run->surface ? (double)INFINITY : run->high;
+    static const int step[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    for (int32_t k = 0; k < run->count; ++k)
+        if (c->cells[run->cell + (size_t)k])
+            *high = -INFINITY;
+    for (int s = 0; s < (c->ny > 1 ? 4 : 2); ++s) {
+        int64_t ni = i + step[s][0], nj = j + step[s][1];
+        if (ni < 0 || nj < 0 || ni >= c->nx || nj >= c->ny)
+            continue;
+        size_t column = (size_t)(nj * c->nx + ni);
+        double best_low = 0, best_high = 0, best = -INFINITY;
+        for (size_t r = c->begin[column]; r < c->begin[column + 1]; ++r) {
+            const sb_run *other = c->runs + r;
+            double from = fmax(other->low, run->low), to = fmin(other->high, run->high);
+            if (!other->wet || to - from <= best)
+                continue;
+            best = to - from;
+            best_low = other->low;
+            best_high = other->surface ? (double)INFINITY : other->high;
+        }
+        *low = fmax(*low, best_low);
+        *high = best > 0 ? fmin(*high, best_high) : -(double)INFINITY;
+    }
+}
+
+/* Moves a particle off the surfaces it is too near to. */
+static sb_vec3 keep_clear(const sb_columns *c, sb_vec3 at)
+{
+    double least = clearance * c->spacing;
+    for (int round = 0; round < 3; ++round) {
+        sb_vec3 nearest, normal, push = {0};
+        double best = least;
+        for (size_t i = 0; i < c->solid_count; ++i) {
+            double distance = sb_solid_distance(c->solids[i].solid, at, best, &nearest, &normal);
+            if (distance >= best || !(distance > 0))
+                continue;
+            best = distance;
+            push = sb_scale(sb_sub(at, nearest), (least * (1 + 1e-6) - distance) / distance);
+        }
+        if (!(best < least))
+            break;
+        sb_vec3 moved = sb_add(at, push);
+        if (c->scene->dimensions == 2)
+            moved.y = 0;
+        if (!sb_columns_clear(c, at, moved))
+            break;
+        at = moved;
+    }
+    return at;
+}
+
+static sb_vec3 velocity_at(const sb_columns *c, sb_vec3 at)
+{
+    const sb_initial_wave *wave = &c->scene->wave;
+    if (!c->waves || wave->kind != SB_INITIAL_SOLITARY)
+        return c->velocity;
+    const sb_solitary solitary = {wave->height, wave->depth, c->scene->fluid.gravity, 0};
+    double sign = wave->direction < 0 ? -1 : 1, u, w;
+    sb_solitary_velocity(&solitary, sign * (at.x - wave->position),
+                         fmax(at.z - (c->level - wave->depth), 0), &u, &w);
+    return sb_add(c->velocity, sb_vec(sign * u, 0, w));
+}
+
+static void fill_run(const sb_columns *c, int64_t i, int64_t j, const sb_run *run, size_t layers,
+                     size_t at, sb_fluid *fluid)
+{
+    double step = (run->high - run->low) / (double)layers, low, high;
+    double margin = clearance * c->spacing;
+    double weight = c->scene->fluid.density * c->scene->fluid.gravity;
+    open_part(c, i, j, run, &low, &high);
+    for (size_t k = 0; k < layers; ++k, ++at) {
+        sb_vec3 p = sb_columns_center(c, i, j, 0);
+        p.z = run->low + ((double)k + 0.5) * step;
+        if (!(p.z - margin > low && p.z + margin < high))
+            p = keep_clear(c, p);
+        fluid->position[at] = p;
+        fluid->velocity[at] = velocity_at(c, p);
+        fluid->pressure[at] = fmax(weight * (sb_columns_surface(c, p.x) - p.z), 0);
+    }
+}
+
+static int allocate(sb_fluid *fluid)
+{
+    fluid->position = sb_alloc_untouched(fluid->count, sizeof *fluid->position);
+    fluid->velocity = sb_alloc_untouched(fluid->count, sizeof *fluid->velocity);
+    fluid->pressure = sb_alloc_untouched(fluid->count, sizeof *fluid->pressure);
+    return fluid->position && fluid->velocity && fluid->pressure ? 0 : -1;
+}
+
+sb_status sb_columns_particles(const sb_columns *c, sb_fluid *fluid, sb_error *error)
+{
+    sb_fluid made = {0};
+    size_t columns = (size_t)(c->nx * c->ny);
+    size_t *first = sb_alloc_untouched(columns + 1, sizeof *first);
+    if (!first)
+        return sb_fail_memory(error, "water");
+    for (size_t column = 0; column < columns; ++column) {
+        first[column] = made.count;
+        for (size_t r = c->begin[column]; r < c->begin[column + 1]; ++r) {
+            const sb_run *run = c->runs + r;
+            made.count += layers_of(c, (int64_t)column % c->nx, (int64_t)column / c->nx, run);
+            if (run->wet)
+                made.still_depth = fmax(made.still_depth, c->level - run->low);
+        }
+    }
+    if (allocate(&made)) {
+        sb_free(first);
+        sb_fluid_free(&made);
+        return sb_fail_memory(error, "water");
+    }
+#pragma omp parallel for schedule(dynamic, 256)
+    for (size_t column = 0; column < columns; ++column) {
+        int64_t i = (int64_t)column % c->nx, j = (int64_t)column / c->nx;
+        size_t at = first[column];
+        for (size_t r = c->begin[column]; r < c->begin[column + 1]; ++r) {
+            size_t layers = layers_of(c, i, j, c->runs + r);
+            if (layers > 0)
+                fill_run(c, i, j, c->runs + r, layers, at, &made);
+            at += layers;
+        }
+    }
+    sb_free(first);
+    *fluid = made;
+    return SB_OK;
+}

@@ -1,0 +1,135 @@
+/* What a user should know before running: holes in meshes, plates and water too thin for the spacing. */
+#include "geometry/model_parts.h"
+
+enum { RAYS_MAX = 4000, DEPTH_MIN = 4, HEIGHT_MIN = 5 };
+
+/* Share of a body's surface that has to be thin before it counts as a plate; sharp edges do not. */
+static const double thin_share = 0.05;
+
+static sb_status check_mesh(const sb_model_body *body, sb_model *model, sb_error *error)
+{
+    const sb_mesh *mesh = &body->mesh;
+    sb_status status = SB_OK;
+    if (mesh->turned > 0)
+        status = sb_model_warn(model, error,
+                               "body \"%s\": %zu faces looked away from the water and were turned",
+                               body->name, mesh->turned);
+    if (body->role != SB_ROLE_SOLID || mesh->sheet || status != SB_OK)
+        return status;
+    sb_mesh_report report;
+    sb_mesh_diagnose(mesh, &report);
+    if (report.open_edges > 0)
+        status = sb_model_warn(model, error,
+                               "body \"%s\" is not watertight: %zu open edges, the first at (%g, "
+                               "%g, %g); its inside is taken by winding number",
+                               body->name, report.open_edges, report.first_open_edge.x,
+                               report.first_open_edge.y, report.first_open_edge.z);
+    if (report.flipped_faces > 0 && status == SB_OK)
+        status = sb_model_warn(model, error,
+                               "body \"%s\": %zu faces look the other way than their neighbours, "
+                               "the first at (%g, %g, %g)",
+                               body->name, report.flipped_faces, report.first_flipped_face.x,
+                               report.first_flipped_face.y, report.first_flipped_face.z);
+    if (report.doubled_faces > 0 && status == SB_OK)
+        status = sb_model_warn(model, error, "body \"%s\": %zu faces lie twice in the same place",
+                               body->name, report.doubled_faces);
+    return status;
+}
+
+/* The least thickness met straight behind the faces, and the share of area thinner than limit. */
+static double find_thickness(const sb_model *model, const sb_mesh *mesh, const sb_solid *solid,
+                             double limit, double *share)
+{
+    double area = 0, thin = 0, least = limit;
+    size_t step = mesh->triangle_count / RAYS_MAX + 1;
+    for (size_t t = 0; t < mesh->triangle_count; t += step) {
+        sb_vec3 a = mesh->vertices[mesh->triangles[t][0]];
+        sb_vec3 b = mesh->vertices[mesh->triangles[t][1]];
+        sb_vec3 c = mesh->vertices[mesh->triangles[t][2]];
+        sb_vec3 normal = sb_cross(sb_sub(b, a), sb_sub(c, a));
+        double size = sb_norm(normal);
+        sb_vec3 back = sb_scale(sb_normalize(normal), -1);
+        if (!(size > 0) || (model->dimensions == 2 && fabs(back.y) > 0.5))
+            continue;
+        sb_vec3 at = sb_scale(sb_add(a, sb_add(b, c)), 1.0 / 3);
+        double skin = 1e-6 * model->spacing;
+        double depth = sb_solid_raycast(solid, sb_madd(at, skin, back), back, limit);
+        area += size;
+        if (depth > 0 && depth < limit) {
+            thin += size;
+            least = fmin(least, depth + skin);
+        }
+    }
+    *share = area > 0 ? thin / area : 0;
+    return least;
+}
+
+static sb_status check_thickness(const sb_scene *scene, const sb_model_body *body, sb_model *model,
+                                 sb_error *error)
+{
+    if (body->role != SB_ROLE_SOLID || body->mesh.sheet || body->mesh.triangle_count == 0)
+        return SB_OK;
+    double support = scene->numerics.support * scene->resolution, share;
+    sb_solid *solid = NULL;
+    sb_status status = sb_solid_create(&body->mesh, body->role, &solid, error);
+    if (status != SB_OK)
+        return status;
+    double thickness = find_thickness(model, &body->mesh, solid, support, &share);
+    sb_solid_destroy(solid);
+    if (share < thin_share)
+        return SB_OK;
+    return sb_model_warn(model, error,
+                         "body \"%s\" is %.3g m thick, less than the support radius of %.3g m: water "
+                         "on one side pushes water on the other",
+                         body->name, thickness, support);
+}
+
+static sb_status check_height(const sb_model *model, const char *what, const char *name,
+                              double height, sb_model *to, sb_error *error)
+{
+    if (!(height > 0) || height >= HEIGHT_MIN * model->spacing)
+        return SB_OK;
+    return sb_model_warn(to, error,
+                         "%s%s%s%s: a wave height of %g m is %.2g particles: expected %d or more",
+                         what, name ? " \"" : "", name ? name : "", name ? "\"" : "", height,
+                         height / model->spacing, HEIGHT_MIN);
+}
+
+static sb_status check_water(const sb_scene *scene, sb_model *model, sb_error *error)
+{
+    if (model->fluid_count == 0)
+        return sb_model_warn(model, error,
+                             "nothing is wet: expected a sea or a box of water at least half a "
+                             "spacing (%g m) deep",
+                             0.5 * model->spacing);
+    sb_status status = SB_OK;
+    if (model->still_depth < DEPTH_MIN * model->spacing)
+        status = sb_model_warn(model, error,
+                               "the water is at most %g m deep, %.2g particles: expected %d or more",
+                               model->still_depth, model->still_depth / model->spacing, DEPTH_MIN);
+    if (status == SB_OK && scene->wave.kind != SB_INITIAL_NONE)
+        status = check_height(model, "initial wave", NULL, scene->wave.height, model, error);
+    for (size_t i = 0; i < scene->wavemaker_count && status == SB_OK; ++i)
+        status = check_height(model, "wavemaker", scene->wavemakers[i].name,
+                              scene->wavemakers[i].law.height, model, error);
+    return status;
+}
+
+sb_status sb_model_check(const sb_scene *scene, sb_model *model, sb_error *error)
+{
+    sb_status status = SB_OK;
+    for (size_t i = 0; i < model->body_count && status == SB_OK; ++i) {
+        const sb_model_body *body = model->bodies + i;
+        if (body->mesh.triangle_count == 0)
+            continue;
+        status = check_mesh(body, model, error);
+        if (status == SB_OK)
+            status = check_thickness(scene, body, model, error);
+        if (status == SB_OK && body->count == 0)
+            status = sb_model_warn(model, error,
+                                   "body \"%s\" has no surface that water could reach: it is outside "
+                                   "of the domain or within other bodies",
+                                   body->name);
+    }
+    return status == SB_OK ? check_water(scene, model, error) : status;
+}

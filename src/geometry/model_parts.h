@@ -1,0 +1,25 @@
+/* Inside of the model: what its files share. Private to src/geometry/model*.c. */
+#ifndef SB_GEOMETRY_MODEL_PARTS_H
+#define SB_GEOMETRY_MODEL_PARTS_H
+
+#include "geometry/model.h"
+#include "geometry/solid.h"
+
+/* Meshes as the questions of space see them (in 2D cut with y = 0), and their solids; one per body of
+   the model, the domain's included. A body that 2D misses has no solid. */
+typedef struct sb_model_space {
+    size_t count;
+    sb_mesh *section;        /* owned, in 2D and for the domain; else empty */
+    const sb_mesh **mesh;    /* the section or the body's own */
+    sb_solid **solid;
+} sb_model_space;
+
+sb_status sb_model_space_create(const sb_model *model, const sb_scene *domain_of,
+                                sb_model_space *space, sb_error *error);
+void sb_model_space_free(sb_model_space *space);
+
+/* One more line of warning; SB_FAILED without memory. */
+sb_status sb_model_warn(sb_model *model, sb_error *error, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+#endif

@@ -1,0 +1,281 @@
+/* The distance rules of boundary particles, measured on shapes with edges, curves, seams and plates. */
+#include "test_sample.h"
+
+#include <omp.h>
+
+static test_surfaces s;
+
+static int tear_down(void **state)
+{
+    (void)state;
+    test_surfaces_free(&s);
+    return 0;
+}
+
+static void box(size_t k, sb_vec3 min, sb_vec3 max)
+{
+    sb_error error;
+    assert_int_equal(sb_mesh_box(min, max, &s.mesh[k], &error), SB_OK);
+    s.count = k + 1;
+}
+
+/* Checks the rules on the surface itself and half a spacing behind it; at most `density`. */
+static void check_both(const char *name, double density)
+{
+    test_sample(&s, 0);
+    test_rules rules = test_check(&s, name);
+    assert_true(rules.density <= density);
+    test_sample(&s, 0.5);
+    test_check(&s, name);
+}
+
+static void box_keeps_the_lattice(void **state)
+{
+    (void)state;
+    box(0, sb_vec(0, 0, 0), sb_vec(10, 8, 6));
+    check_both("box", 1.06);
+    /* 10 x 8 x 6 cells, half a spacing behind: the shell of the lattice and nothing else. */
+    assert_int_equal(s.samples.count, 10 * 8 * 6 - 8 * 6 * 4);
+    for (size_t i = 0; i < s.samples.count; ++i) {
+        sb_vec3 p = s.samples.position[i];
+        assert_true(fabs(p.x - floor(p.x) - 0.5) < 1e-9 && fabs(p.y - floor(p.y) - 0.5) < 1e-9 &&
+                    fabs(p.z - floor(p.z) - 0.5) < 1e-9);
+    }
+}
+
+static void boxes_off_the_lattice(void **state)
+{
+    (void)state;
+    box(0, sb_vec(0.3, 0.2, 0.1), sb_vec(10, 8.05, 6.6));
+    check_both("box off the lattice", 1.3);
+    test_surfaces_free(&s);
+    box(0, sb_vec(0, 0, 0), sb_vec(14, 12, 9));
+    test_rotate(&s.mesh[0], 0.4, 0.5);
+    check_both("tilted box", 1.15);
+    test_surfaces_free(&s);
+    box(0, sb_vec(0, 0, 0), sb_vec(4, 3, 5));
+    test_rotate(&s.mesh[0], 0.4, 0.5);
+    check_both("small tilted box", 1.4);
+}
+
+static void round_shapes(void **state)
+{
+    (void)state;
+    sb_error error;
+    s.count = 1;
+    assert_int_equal(sb_mesh_cylinder(sb_vec(0, 0, 0), 5, 9, 0.02, &s.mesh[0], &error), SB_OK);
+    check_both("cylinder", 1.3);
+    test_surfaces_free(&s);
+    s.count = 1;
+    assert_int_equal(sb_mesh_cylinder(sb_vec(0, 0, 0), 1.3, 9, 0.02, &s.mesh[0], &error), SB_OK);
+    check_both("slim cylinder", 1.4);
+    test_surfaces_free(&s);
+    s.count = 1;
+    test_ball(7, 24, &s.mesh[0]);
+    check_both("ball", 1.3);
+    test_surfaces_free(&s);
+    s.count = 1;
+    test_ball(7, 70, &s.mesh[0]);
+    check_both("fine ball", 1.3);
+}
+
+static void basins_close_their_corners(void **state)
+{
+    (void)state;
+    sb_error error;
+    s.count = 1;
+    assert_int_equal(sb_mesh_basin(sb_vec(0, 0, 0), sb_vec(12, 8, 6), &s.mesh[0], &error), SB_OK);
+    check_both("basin", 1.1);
+    /* Floor with its rim, and four walls of six rows. */
+    assert_int_equal(s.samples.count, 14 * 10 + 6 * 2 * (14 + 10 - 2));
+    test_surfaces_free(&s);
+    s.count = 1;
+    assert_int_equal(sb_mesh_basin(sb_vec(0.2, 0.1, 0.4), sb_vec(12, 8.3, 6), &s.mesh[0], &error),
+                     SB_OK);
+    test_rotate(&s.mesh[0], 0.4, 0);
+    check_both("turned basin", 1.3);
+}
+
+static void plates_become_one_sheet(void **state)
+{
+    (void)state;
+    box(0, sb_vec(0, 0, 0), sb_vec(1, 10, 8));
+    test_sample(&s, 0.5);
+    test_check(&s, "plate");
+    assert_int_equal(s.samples.count, 80);
+    test_surfaces_free(&s);
+    box(0, sb_vec(0, 0, 0), sb_vec(0.6, 10, 8));
+    test_sample(&s, 0.5);
+    for (size_t i = 0; i < s.samples.count; ++i)
+        assert_true(fabs(s.samples.position[i].x - 0.3) < 1e-3);
+    assert_in_range(s.samples.count, 75, 100);
+    test_surfaces_free(&s);
+    box(0, sb_vec(0, 0, 0), sb_vec(1.4, 10, 8));
+    check_both("thicker plate", 1.3);
+}
+
+static void terrains(void **state)
+{
+    (void)state;
+    s.count = 1;
+    s.role = SB_ROLE_TERRAIN;
+    test_hills(24, 2, 0.3, 0.2, &s.mesh[0]);
+    check_both("hills", 1.3);
+    test_surfaces_free(&s);
+    s.count = 1;
+    s.role = SB_ROLE_TERRAIN;
+    test_hills(20, 0.7, 0.7, 0.3, &s.mesh[0]);
+    check_both("steep hills", 1.3);
+}
+
+static void bodies_share_their_seams(void **state)
+{
+    (void)state;
+    box(0, sb_vec(0, 0, 0), sb_vec(5, 8, 6));
+    box(1, sb_vec(5, 0, 0), sb_vec(9, 8, 6));
+    check_both("abutting boxes", 1.3);
+    test_surfaces_free(&s);
+    box(0, sb_vec(0, 0, 0), sb_vec(5, 8, 6));
+    box(1, sb_vec(4.7, 0.3, -2), sb_vec(9, 5.8, 4.2));
+    check_both("overlapping boxes", 1.3);
+}
+
+static void nothing_where_no_water_comes(void **state)
+{
+    (void)state;
+    box(0, sb_vec(0, 0, 0), sb_vec(20, 20, 20));
+    box(1, sb_vec(6, 6, 6), sb_vec(12, 12, 12));
+    test_sample(&s, 0.5);
+    assert_int_equal(s.samples.begin[1], s.samples.count);
+    test_surfaces_free(&s);
+    /* The same box inside, but moving: what moves may come out. */
+    box(0, sb_vec(0, 0, 0), sb_vec(20, 20, 20));
+    box(1, sb_vec(6, 6, 6), sb_vec(12, 12, 12));
+    s.moving[1] = true;
+    test_sample(&s, 0.5);
+    assert_int_equal(s.samples.count - s.samples.begin[1], 6 * 6 * 6 - 4 * 4 * 4);
+}
+
+static void moving_bodies_are_sampled_alone(void **state)
+{
+    (void)state;
+    box(0, sb_vec(0, 0, 0), sb_vec(5, 8, 6));
+    box(1, sb_vec(5.3, 0, 0), sb_vec(9.3, 8, 6));
+    s.moving[1] = true;
+    test_sample(&s, 0.5);
+    assert_int_equal(s.samples.begin[1], 5 * 8 * 6 - 3 * 6 * 4);
+    size_t alone = s.samples.count - s.samples.begin[1];
+    test_surfaces_free(&s);
+    box(0, sb_vec(5.3, 0, 0), sb_vec(9.3, 8, 6));
+    test_sample(&s, 0.5);
+    assert_int_equal(s.samples.count, alone);
+}
+
+static void normals_look_at_the_water(void **state)
+{
+    (void)state;
+    s.count = 1;
+    test_ball(7, 24, &s.mesh[0]);
+    test_sample(&s, 0.5);
+    for (size_t i = 0; i < s.samples.count; ++i) {
+        assert_true(fabs(sb_norm(s.samples.normal[i]) - 1) < 1e-9);
+        assert_true(sb_dot(s.samples.normal[i], sb_normalize(s.samples.position[i])) > 0.95);
+    }
+    /* The same ball with all its faces turned inside out. */
+    size_t count = s.samples.count;
+    test_surfaces_free(&s);
+    s.count = 1;
+    test_ball(7, 24, &s.mesh[0]);
+    for (size_t t = 0; t < s.mesh[0].triangle_count; ++t) {
+        uint32_t swap = s.mesh[0].triangles[t][0];
+        s.mesh[0].triangles[t][0] = s.mesh[0].triangles[t][1];
+        s.mesh[0].triangles[t][1] = swap;
+    }
+    test_sample(&s, 0.5);
+    assert_in_range(s.samples.count, count - count / 20, count + count / 20);
+    for (size_t i = 0; i < s.samples.count; ++i)
+        assert_true(sb_dot(s.samples.normal[i], sb_normalize(s.samples.position[i])) > 0.95);
+}
+
+static void threads_change_nothing(void **state)
+{
+    (void)state;
+    sb_samples first;
+    int threads = omp_get_max_threads();
+    box(0, sb_vec(0, 0, 0), sb_vec(9, 7, 5));
+    test_rotate(&s.mesh[0], 0.4, 0.5);
+    box(1, sb_vec(-6, 1, 0), sb_vec(2, 6, 6));
+    test_ball(5, 20, &s.mesh[2]);
+    s.count = 3;
+    omp_set_num_threads(1);
+    test_sample(&s, 0.5);
+    first = s.samples;
+    s.samples = (sb_samples){0};
+    for (int n = 2; n <= 3; ++n) {
+        omp_set_num_threads(n);
+        test_sample(&s, 0.5);
+        assert_int_equal(s.samples.count, first.count);
+        assert_memory_equal(s.samples.position, first.position,
+                            first.count * sizeof *first.position);
+        assert_memory_equal(s.samples.normal, first.normal, first.count * sizeof *first.normal);
+        assert_memory_equal(s.samples.begin, first.begin, 4 * sizeof *first.begin);
+    }
+    omp_set_num_threads(threads);
+    sb_samples_free(&first);
+}
+
+static void far_from_the_origin(void **state)
+{
+    (void)state;
+    box(0, sb_vec(1e6, -1e6, 0), sb_vec(1e6 + 10, -1e6 + 8, 6));
+    test_sample(&s, 0.5);
+    assert_int_equal(s.samples.count, 10 * 8 * 6 - 8 * 6 * 4);
+}
+
+static void no_memory_is_an_error(void **state)
+{
+    (void)state;
+    box(0, sb_vec(0, 0, 0), sb_vec(3, 3, 3));
+    test_rotate(&s.mesh[0], 0.4, 0.5);
+    test_sample(&s, 0.5);
+    size_t count = s.samples.count;
+    long failures = 0;
+    for (long n = 1; n < 10000; ++n) {
+        sb_samples samples = {.count = 77};
+        sb_error error = {0};
+        sb_memory_fail_at(n);
+        sb_status status =
+            sb_sample_surfaces(&s.settings, s.source, s.count, &samples, &error);
+        sb_memory_fail_at(0);
+        if (status == SB_OK) {
+            assert_int_equal(samples.count, count);
+            sb_samples_free(&samples);
+            break;
+        }
+        ++failures;
+        assert_int_equal(status, SB_FAILED);
+        assert_true(error.text[0] != 0);
+        assert_int_equal(samples.count, 77);
+    }
+    assert_true(failures > 10);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(box_keeps_the_lattice, tear_down),
+        cmocka_unit_test_teardown(boxes_off_the_lattice, tear_down),
+        cmocka_unit_test_teardown(round_shapes, tear_down),
+        cmocka_unit_test_teardown(basins_close_their_corners, tear_down),
+        cmocka_unit_test_teardown(plates_become_one_sheet, tear_down),
+        cmocka_unit_test_teardown(terrains, tear_down),
+        cmocka_unit_test_teardown(bodies_share_their_seams, tear_down),
+        cmocka_unit_test_teardown(nothing_where_no_water_comes, tear_down),
+        cmocka_unit_test_teardown(moving_bodies_are_sampled_alone, tear_down),
+        cmocka_unit_test_teardown(normals_look_at_the_water, tear_down),
+        cmocka_unit_test_teardown(threads_change_nothing, tear_down),
+        cmocka_unit_test_teardown(far_from_the_origin, tear_down),
+        cmocka_unit_test_teardown(no_memory_is_an_error, tear_down),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
