@@ -1,7 +1,7 @@
 #include "measure/measure.h"
 
 #include "base/memory.h"
-#include "measure/parts.h"
+#include "measure/patch.h"
 
 /* One growing list of records. */
 typedef struct list {
@@ -37,6 +37,7 @@ struct sb_measurements {
     sb_body_record *bodies;
     plane_state *planes;
     sb_gate **gates;
+    sb_patch **patches; /* one per probe */
     sb_map_field *map;
     sb_cloud cloud;
     list lists[LISTS];
@@ -125,8 +126,8 @@ static sb_status record_instants(sb_measure *measure, const sb_sight *sight, dou
         if (!record) return sb_fail_memory(error, "probe records");
         record->probe = i;
         record->time = time;
-        status =
-            sb_probe_read(sight, &settings->probes[i], &record->velocity, &record->pressure, error);
+        status = sb_probe_read(sight, &settings->probes[i], measure->patches[i], &record->velocity,
+                               &record->pressure, error);
     }
     for (size_t i = 0; status == SB_OK && i < settings->runup_count; i++) {
         sb_runup_record *record = append(measure, RUNUPS);
@@ -230,6 +231,13 @@ static sb_status prepare_fields(sb_measure *measure, const sb_sight *sight, sb_e
         measure->gates = sb_alloc(settings->plane_count, sizeof(sb_gate *));
         if (!measure->planes || !measure->gates) return sb_fail_memory(error, "measure.planes");
     }
+    if (settings->probe_count) {
+        measure->patches = sb_alloc(settings->probe_count, sizeof(sb_patch *));
+        if (!measure->patches) return sb_fail_memory(error, "measure.probes");
+    }
+    for (size_t i = 0; status == SB_OK && i < settings->probe_count; i++)
+        status = sb_patch_create(measure->scene, measure->model, &settings->probes[i],
+                                 &measure->patches[i], error);
     for (size_t i = 0; status == SB_OK && i < settings->plane_count; i++)
         status = sb_gate_create(sight, &settings->planes[i], &measure->gates[i], error);
     if (status == SB_OK && settings->map.present)
@@ -270,6 +278,9 @@ void sb_measure_destroy(sb_measure *measure)
     for (size_t i = 0; measure->gates && i < measure->scene->measure.plane_count; i++)
         sb_gate_destroy(measure->gates[i]);
     for (int k = 0; k < LISTS; k++) sb_free(measure->lists[k].items);
+    for (size_t i = 0; measure->patches && i < measure->scene->measure.probe_count; i++)
+        sb_patch_destroy(measure->patches[i]);
+    sb_free(measure->patches);
     sb_free(measure->gates);
     sb_free(measure->planes);
     sb_free(measure->states);
@@ -366,5 +377,7 @@ size_t sb_measure_bytes(const sb_measure *measure)
     for (int k = 0; k < LISTS; k++) bytes += measure->lists[k].capacity * record_size[k];
     for (size_t i = 0; i < measure->scene->measure.plane_count; i++)
         bytes += sizeof *measure->planes + sb_gate_bytes(measure->gates[i]);
+    for (size_t i = 0; i < measure->scene->measure.probe_count; i++)
+        bytes += sizeof(sb_patch *) + sb_patch_bytes(measure->patches[i]);
     return bytes + (measure->map ? sb_map_bytes(measure->map) : 0);
 }

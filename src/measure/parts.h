@@ -21,9 +21,13 @@ typedef struct sb_sight {
 /* Elevation of the free surface above (x, y) in m, NaN when dry. See gauge.c for the choice. */
 sb_status sb_gauge_read(const sb_sight *sight, double x, double y, double *eta, sb_error *error);
 
-/* Velocity (m/s) and pressure (Pa) at a point, NaN when dry. radius in m, 0: the support radius. */
-sb_status sb_probe_read(const sb_sight *sight, const sb_probe *probe, sb_vec3 *velocity,
-                        double *pressure, sb_error *error);
+/* The wall around a probe: see patch.h. */
+typedef struct sb_patch sb_patch;
+
+/* Velocity (m/s) and pressure (Pa) at a point, NaN when dry. probe->radius in m, 0: the support
+   radius. On a wall the pressure is the force on the patch over its area. */
+sb_status sb_probe_read(const sb_sight *sight, const sb_probe *probe, const sb_patch *patch,
+                        sb_vec3 *velocity, double *pressure, sb_error *error);
 
 /* Highest wet point within one spacing of the line, NaN when dry. */
 sb_status sb_runup_read(const sb_sight *sight, const sb_runup_line *line, sb_vec3 *place,

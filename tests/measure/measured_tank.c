@@ -1,0 +1,127 @@
+/* The measures on the real simulation: a small tank at rest, and a column that falls. In 2D. */
+#include "measure/measure.h"
+#include "tank.h"
+
+#include "base/memory.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include <cmocka.h>
+#include <omp.h>
+
+#define SPACING 0.1
+
+static void add_normals(tank *t, sb_vec3 size)
+{
+    t->model.wall_normal = sb_alloc(t->model.wall_count, sizeof(sb_vec3));
+    for (size_t i = 0; i < t->model.wall_count; i++) {
+        sb_vec3 p = t->model.wall_position[i];
+        t->model.wall_normal[i] = p.z < 0        ? sb_vec(0, 0, 1)
+                                  : p.x < 0      ? sb_vec(1, 0, 0)
+                                  : p.x > size.x ? sb_vec(-1, 0, 0)
+                                                 : sb_vec(0, 0, -1);
+    }
+}
+
+typedef struct sums {
+    double force, level, pressure[3];
+    int forces, levels, pressures[3];
+} sums;
+
+static void collect(sums *s, const sb_measure_records *r)
+{
+    for (size_t i = 0; i < r->force_count; i++, s->forces++) s->force += r->forces[i].force.z;
+    for (size_t i = 0; i < r->gauge_count; i++, s->levels++) s->level += r->gauges[i].eta;
+    for (size_t i = 0; i < r->probe_count; i++) {
+        s->pressure[r->probes[i].probe] += r->probes[i].pressure;
+        s->pressures[r->probes[i].probe]++;
+    }
+}
+
+static void a_tank_at_rest_reads_right(void **state)
+{
+    (void)state;
+    tank t;
+    sb_vec3 size = {2, 1, 2};
+    tank_make(&t, 2, SPACING, size, 2, 1, 0);
+    add_normals(&t, size);
+    sb_gauge gauge = {"middle", 1.03, 0};
+    sb_probe probes[] = {
+        {"inside", {1, 0, 0.5}, 0}, {"floor", {0.9, 0, 0}, 0}, {"wall", {0, 0, 0.4}, 0}};
+    t.scene.measure = (sb_measure_settings){
+        .interval = 0.05, .gauge_count = 1, .gauges = &gauge, .probe_count = 3, .probes = probes};
+    sb_sim *sim;
+    sb_measure *measure;
+    sums s = {0};
+    assert_int_equal(sb_sim_create(&t.scene, &t.model, &sim, NULL), SB_OK);
+    assert_int_equal(sb_sim_settle(sim, NULL), SB_OK);
+    assert_int_equal(sb_measure_create(&t.scene, &t.model, sim, &measure, NULL), SB_OK);
+    double weight = sb_sim_energy(sim).mass * 9.81;
+    while (sb_sim_report(sim)->time < 2) {
+        assert_int_equal(sb_sim_step(sim, NULL), SB_OK);
+        assert_int_equal(sb_measure_step(measure, sim, NULL), SB_OK);
+        if (sb_sim_report(sim)->time > 0.5) collect(&s, sb_measure_latest(measure));
+    }
+    double force = s.force / s.forces, level = s.level / s.levels;
+    print_message("force/weight %.4f, level %.4f\n", -force / weight, level);
+    assert_true(fabs(-force / weight - 1) < 0.01);
+    assert_true(fabs(level - 1) < 0.5 * SPACING);
+    for (int k = 0; k < 3; k++) {
+        double expected = 9810 * (level - probes[k].at.z), p = s.pressure[k] / s.pressures[k];
+        print_message("%s: %.0f Pa, hydrostatic %.0f\n", probes[k].name, p, expected);
+        assert_true(fabs(p / expected - 1) < 0.1);
+    }
+    sb_measure_destroy(measure);
+    sb_sim_destroy(sim);
+    sb_free(t.model.wall_normal);
+    tank_free(&t);
+}
+
+static double beyond(const sb_sim *sim, double x)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < sb_sim_report(sim)->fluid_count; i++)
+        count += sb_sim_particle(sim, i).position.x >= x;
+    return (double)count * SPACING * SPACING;
+}
+
+static void a_plane_loses_no_particle(void **state)
+{
+    (void)state;
+    tank t;
+    tank_make(&t, 2, SPACING, sb_vec(4, 1, 2), 1, 1, 0);
+    sb_flow_plane plane = {"gate", 1.5, 0, 1.5, 1, -1, 4};
+    t.scene.measure = (sb_measure_settings){.interval = 0.01, .plane_count = 1, .planes = &plane};
+    sb_sim *sim;
+    sb_measure *measure;
+    double passed = 0, before = 0, after = 0;
+    assert_int_equal(sb_sim_create(&t.scene, &t.model, &sim, NULL), SB_OK);
+    assert_int_equal(sb_measure_create(&t.scene, &t.model, sim, &measure, NULL), SB_OK);
+    while (sb_sim_report(sim)->time < 2) {
+        before = beyond(sim, 1.5);
+        assert_int_equal(sb_sim_step(sim, NULL), SB_OK);
+        assert_int_equal(sb_measure_step(measure, sim, NULL), SB_OK);
+        after = beyond(sim, 1.5);
+        const sb_measure_records *r = sb_measure_latest(measure);
+        for (size_t i = 0; i < r->flow_count; i++) {
+            passed = r->flows[i].volume; /* within the step: between its two ends */
+            assert_true(passed >= fmin(before, after) - 1e-9);
+            assert_true(passed <= fmax(before, after) + 1e-9);
+        }
+    }
+    assert_true(passed > 0.2);
+    sb_measure_destroy(measure);
+    sb_sim_destroy(sim);
+    tank_free(&t);
+}
+
+int main(void)
+{
+    omp_set_num_threads(1); /* a few hundred particles are quicker alone */
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_tank_at_rest_reads_right),
+        cmocka_unit_test(a_plane_loses_no_particle),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
