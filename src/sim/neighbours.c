@@ -44,7 +44,8 @@ typedef struct worker {
     float q_scale;        /* (quantum / h)^2 */
     float value_scale;    /* alpha / h^d */
     float slope_scale;    /* alpha quantum / h^(d+2): W'/r per quantum */
-    bool full;            /* a limit was hit or memory ran out */
+    bool full;            /* a limit was hit */
+    bool starved;         /* memory ran out */
 } worker;
 
 static bool list_reserve(list *l, size_t more)
@@ -117,7 +118,7 @@ SB_INLINE void append(worker *w, list *l, uint32_t filler, uint16_t *count)
     const hits *h = &w->hits;
     size_t padded = (h->count + 3) / 4 * 4;
     if (!list_reserve(l, padded)) {
-        w->full = true;
+        w->starved = true;
         return;
     }
     memcpy(l->index + l->used, h->index, h->count * sizeof *l->index);
@@ -310,6 +311,7 @@ static int attempt(sb_sim *sim, bool *too_small, bool *full)
             small |= !publish(sim, &sim->wall_pairs, &w->wall_pairs, b);
         }
         over |= w && w->full;
+        memory |= w && w->starved;
         free_worker(w);
     }
     *too_small = small;

@@ -30,7 +30,8 @@ static void make_spread(sb_space *space)
 sb_status sb_space_create(sb_vec3 min, sb_vec3 max, double cell, sb_space *space, sb_error *error)
 {
     /* 22 bits within a cell keep three cells' differences exact in float. */
-    enum { MOST_SHIFT = 22, LEAST_SHIFT = 14 };
+    /* Sort words of 64 bits hold a key and an index below 2^27. */
+    enum { MOST_SHIFT = 22, LEAST_SHIFT = 14, MOST_KEY_BITS = 64 - 27 };
     sb_space made = {.cell = cell};
     double extent[3] = {max.x - min.x, max.y - min.y, max.z - min.z};
     int most = 1;
@@ -49,6 +50,10 @@ sb_status sb_space_create(sb_vec3 min, sb_vec3 max, double cell, sb_space *space
     made.origin = sb_sub(min, sb_vec(SB_SPACE_MARGIN * cell, SB_SPACE_MARGIN * cell,
                                      SB_SPACE_MARGIN * cell));
     make_spread(&made);
+    if (made.key_bits > MOST_KEY_BITS)
+        return sb_fail(error, SB_BAD_INPUT,
+                       "domain of %g x %g x %g m holds up to 2^%d cells of %g m: expected at most 2^%d",
+                       extent[0], extent[1], extent[2], made.key_bits, cell, MOST_KEY_BITS);
     *space = made;
     return SB_OK;
 }

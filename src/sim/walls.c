@@ -133,6 +133,17 @@ static void volumes(sb_sim *sim, sb_wall_set *set, bool only_own)
     }
 }
 
+/* Whether a boundary particle lies on the grid of cells; what was clamped to its lower edge does not. */
+static bool on_grid(const sb_space *space, sb_record record)
+{
+    for (int axis = 0; axis < 3; axis++)
+        if (record[axis] == 0 || record[axis] >> space->shift >> space->bits[axis] != 0)
+            return false;
+    return true;
+}
+
+/* What is off the grid is more than two cells outside the domain and meets no water: left out, for
+   keys tell cells apart on the grid only. */
 static int copy_set(sb_sim *sim, bool moving, sb_wall_set *set)
 {
     const sb_model *model = sim->model;
@@ -149,7 +160,10 @@ static int copy_set(sb_sim *sim, bool moving, sb_wall_set *set)
         if ((body->wavemaker >= 0) != moving)
             continue;
         for (size_t i = body->begin; i < body->begin + body->count; i++) {
-            set->record[at] = sb_space_record(&sim->space, model->wall_position[i]);
+            sb_record record = sb_space_record(&sim->space, model->wall_position[i]);
+            if (!on_grid(&sim->space, record))
+                continue;
+            set->record[at] = record;
             set->body[at++] = (uint32_t)b;
         }
     }

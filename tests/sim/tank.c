@@ -1,10 +1,14 @@
-#include "tank.h"
+#include "sim/tank.h"
 
 #include "base/memory.h"
 #include "base/random.h"
 
 #include <assert.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { BODIES_MAX = 4 };
 
 static void set_numerics(sb_numerics *n)
 {
@@ -28,28 +32,57 @@ static void set_numerics(sb_numerics *n)
     };
 }
 
-static void add_wall(sb_model *m, size_t *capacity, sb_vec3 at)
+/* Tests cannot go on without memory, whatever NDEBUG says. */
+static void need(bool there)
 {
-    sb_vec3 *grown = m->wall_position;
-    assert(sb_grow((void **)&grown, capacity, m->wall_count + 1, sizeof *grown) == 0);
-    m->wall_position = grown;
+    if (!there) abort();
+}
+
+static void add_wall(tank *t, sb_vec3 at)
+{
+    sb_model *m = &t->model;
+    need(sb_grow((void **)&m->wall_position, &t->wall_capacity, m->wall_count + 1, sizeof at) == 0);
     m->wall_position[m->wall_count++] = at;
 }
 
-/* All points of the shell of a lattice box whose index is -1 or n along some axis. */
-static void add_shell(sb_model *m, int dimensions, double dr, const long n[3])
+/* A lattice place: the middle of cell (x, y, z); y is 0 in 2D. */
+static sb_vec3 place(const tank *t, double x, double y, double z)
 {
-    size_t capacity = 0;
-    long y0 = dimensions == 2 ? 0 : -1, y1 = dimensions == 2 ? 0 : n[1];
+    sb_vec3 middle = sb_vec(x + 0.5, t->scene.dimensions == 2 ? 0 : y + 0.5, z + 0.5);
+    return sb_scale(middle, t->scene.resolution);
+}
+
+/* All places of the shell of a lattice box whose index is -1 or n along some axis. */
+static void add_shell(tank *t, const long n[3])
+{
+    bool flat = t->scene.dimensions == 2;
+    long y0 = flat ? 0 : -1, y1 = flat ? 0 : n[1];
     for (long x = -1; x <= n[0]; x++)
         for (long y = y0; y <= y1; y++)
-            for (long z = -1; z <= n[2]; z++) {
-                bool shell = x == -1 || x == n[0] || z == -1 || z == n[2] ||
-                             (dimensions == 3 && (y == -1 || y == n[1]));
-                if (shell)
-                    add_wall(m, &capacity, sb_vec(((double)x + 0.5) * dr,
-                                                  dimensions == 2 ? 0 : ((double)y + 0.5) * dr,
-                                                  ((double)z + 0.5) * dr));
+            for (long z = -1; z <= n[2]; z++)
+                if (x == -1 || x == n[0] || z == -1 || z == n[2] ||
+                    (!flat && (y == -1 || y == n[1])))
+                    add_wall(t, place(t, (double)x, (double)y, (double)z));
+}
+
+static void fill_water(tank *t, const long wet[3], double depth, double jitter)
+{
+    sb_model *m = &t->model;
+    size_t count = (size_t)(wet[0] * wet[1] * wet[2]);
+    m->fluid_position = sb_alloc(count, sizeof *m->fluid_position);
+    m->fluid_velocity = sb_alloc(count, sizeof *m->fluid_velocity);
+    m->fluid_pressure = sb_alloc(count, sizeof *m->fluid_pressure);
+    need(m->fluid_position && m->fluid_velocity && m->fluid_pressure);
+    for (long x = 0; x < wet[0]; x++)
+        for (long y = 0; y < wet[1]; y++)
+            for (long z = 0; z < wet[2]; z++) {
+                size_t i = m->fluid_count++;
+                double d[3];
+                for (uint64_t axis = 0; axis < 3; axis++)
+                    d[axis] = jitter * (2 * sb_random(7, 3 * i + axis) - 1);
+                m->fluid_position[i] =
+                    place(t, (double)x + d[0], (double)y + d[1], (double)z + d[2]);
+                m->fluid_pressure[i] = 1000 * 9.81 * (depth - m->fluid_position[i].z);
             }
 }
 
@@ -70,25 +103,11 @@ void tank_make(tank *t, int dimensions, double dr, sb_vec3 size, double wet_leng
     m->still_depth = depth;
     const long n[3] = {lround(size.x / dr), lround(size.y / dr), lround(size.z / dr)};
     const long wet[3] = {lround(wet_length / dr), dimensions == 2 ? 1 : n[1], lround(depth / dr)};
-    size_t count = (size_t)(wet[0] * wet[1] * wet[2]);
-    m->fluid_position = sb_alloc(count, sizeof *m->fluid_position);
-    m->fluid_velocity = sb_alloc(count, sizeof *m->fluid_velocity);
-    m->fluid_pressure = sb_alloc(count, sizeof *m->fluid_pressure);
-    m->bodies = sb_alloc(1, sizeof *m->bodies);
-    assert(m->fluid_position && m->fluid_velocity && m->fluid_pressure && m->bodies);
-    for (long x = 0; x < wet[0]; x++)
-        for (long y = 0; y < wet[1]; y++)
-            for (long z = 0; z < wet[2]; z++) {
-                size_t i = m->fluid_count++;
-                double d[3];
-                for (uint64_t axis = 0; axis < 3; axis++)
-                    d[axis] = jitter * (2 * sb_random(7, 3 * i + axis) - 1);
-                m->fluid_position[i] = sb_vec(((double)x + 0.5 + d[0]) * dr,
-                                              dimensions == 2 ? 0 : ((double)y + 0.5 + d[1]) * dr,
-                                              ((double)z + 0.5 + d[2]) * dr);
-                m->fluid_pressure[i] = 1000 * 9.81 * (depth - m->fluid_position[i].z);
-            }
-    add_shell(m, dimensions, dr, n);
+    m->bodies = sb_alloc(BODIES_MAX, sizeof *m->bodies);
+    s->wavemakers = sb_alloc(BODIES_MAX, sizeof *s->wavemakers);
+    need(m->bodies && s->wavemakers);
+    fill_water(t, wet, depth, jitter);
+    add_shell(t, n);
     m->body_count = 1;
     m->bodies[0] = (sb_model_body){.count = m->wall_count, .wavemaker = -1, .report = true};
     snprintf(m->bodies[0].name, sizeof m->bodies[0].name, "tank");
@@ -101,5 +120,118 @@ void tank_free(tank *t)
     sb_free(t->model.fluid_pressure);
     sb_free(t->model.wall_position);
     sb_free(t->model.bodies);
+    sb_free(t->scene.wavemakers);
     *t = (tank){0};
+}
+
+void tank_shift(tank *t, sb_vec3 by)
+{
+    sb_model *m = &t->model;
+    m->min = sb_add(m->min, by);
+    m->max = sb_add(m->max, by);
+    t->scene.domain.min = sb_add(t->scene.domain.min, by);
+    t->scene.domain.max = sb_add(t->scene.domain.max, by);
+    for (size_t i = 0; i < m->fluid_count; i++)
+        m->fluid_position[i] = sb_add(m->fluid_position[i], by);
+    for (size_t b = 0; b < m->wall_count; b++)
+        m->wall_position[b] = sb_add(m->wall_position[b], by);
+    for (size_t b = 0; b < m->body_count; b++)
+        m->bodies[b].moment_point = sb_add(m->bodies[b].moment_point, by);
+}
+
+void tank_scatter(tank *t, uint64_t seed, double speed)
+{
+    sb_model *m = &t->model;
+    bool flat = t->scene.dimensions == 2;
+    for (size_t i = 0; i < m->fluid_count; i++) {
+        double u[6];
+        for (uint64_t k = 0; k < 6; k++) u[k] = sb_random(seed, 6 * i + k);
+        m->fluid_position[i] = sb_add(m->min, sb_vec(u[0] * (m->max.x - m->min.x),
+                                                     flat ? 0 : u[1] * (m->max.y - m->min.y),
+                                                     u[2] * (m->max.z - m->min.z)));
+        m->fluid_velocity[i] =
+            sb_scale(sb_vec(2 * u[3] - 1, flat ? 0 : 2 * u[4] - 1, 2 * u[5] - 1), speed);
+        m->fluid_pressure[i] = 0;
+    }
+}
+
+void tank_split_floor(tank *t)
+{
+    sb_model *m = &t->model;
+    sb_vec3 *parted = sb_alloc(m->wall_count, sizeof *parted);
+    need(parted != NULL);
+    size_t at = 0, floor_count = 0;
+    for (int sides = 0; sides < 2; sides++) {
+        for (size_t b = 0; b < m->wall_count; b++)
+            if ((m->wall_position[b].z >= 0) == sides) parted[at++] = m->wall_position[b];
+        if (!sides) floor_count = at;
+    }
+    sb_free(m->wall_position);
+    m->wall_position = parted;
+    t->wall_capacity = m->wall_count;
+    m->body_count = 2;
+    m->bodies[1] = m->bodies[0];
+    m->bodies[0].count = floor_count;
+    m->bodies[1].begin = floor_count;
+    m->bodies[1].count = m->wall_count - floor_count;
+    snprintf(m->bodies[0].name, sizeof m->bodies[0].name, "floor");
+    snprintf(m->bodies[1].name, sizeof m->bodies[1].name, "sides");
+}
+
+size_t tank_add_sheet(tank *t, const char *name, double x, double z_min, double z_max,
+                      sb_vec3 direction, const sb_wavemaker_parameters *law)
+{
+    sb_model *m = &t->model;
+    sb_scene *s = &t->scene;
+    need(m->body_count < BODIES_MAX);
+    double dr = s->resolution;
+    sb_model_body *body = &m->bodies[m->body_count];
+    *body = (sb_model_body){.begin = m->wall_count, .wavemaker = -1, .report = true};
+    snprintf(body->name, sizeof body->name, "%s", name);
+    long across = s->dimensions == 2 ? 1 : lround((m->max.y - m->min.y) / dr);
+    long high = lround((z_max - z_min) / dr);
+    for (long y = 0; y < across; y++)
+        for (long z = 0; z < high; z++)
+            add_wall(t, sb_vec(x, s->dimensions == 2 ? 0 : ((double)y + 0.5) * dr,
+                               z_min + ((double)z + 0.5) * dr));
+    body->count = m->wall_count - body->begin;
+    if (law) {
+        body->wavemaker = (int)s->wavemaker_count;
+        sb_wavemaker_use *use = &s->wavemakers[s->wavemaker_count++];
+        *use = (sb_wavemaker_use){.direction = direction, .law = *law};
+        snprintf(use->name, sizeof use->name, "%s", name);
+        snprintf(use->body, sizeof use->body, "%s", name);
+    }
+    return m->body_count++;
+}
+
+sb_sim *tank_sim(const tank *t)
+{
+    sb_error error = {0};
+    sb_sim *sim = NULL;
+    if (sb_sim_create(&t->scene, &t->model, &sim, &error) != SB_OK)
+        fprintf(stderr, "no simulation: %s\n", error.text);
+    return sim;
+}
+
+int tank_prepare(sb_sim *sim, double dt)
+{
+    sb_error error = {0};
+    sim->report.time_step = dt;
+    if (sb_stage_walls(sim, &error) == SB_OK && sb_stage_sort(sim, &error) == SB_OK &&
+        sb_stage_neighbours(sim, &error) == SB_OK)
+        return 0;
+    fprintf(stderr, "no neighbours: %s\n", error.text);
+    return -1;
+}
+
+int tank_steps(sb_sim *sim, int n)
+{
+    sb_error error = {0};
+    for (int s = 0; s < n; s++)
+        if (sb_sim_step(sim, &error) != SB_OK) {
+            fprintf(stderr, "no step: %s\n", error.text);
+            return -1;
+        }
+    return 0;
 }

@@ -4,16 +4,38 @@
 
 #include "geometry/model.h"
 #include "scene/scene.h"
+#include "sim/state.h"
 
 typedef struct tank {
     sb_scene scene;
     sb_model model;
+    size_t wall_capacity;
 } tank;
 
 /* A closed box `size` (m) holding water to `depth` over x in [0, wet_length]; sheets half a spacing
    outside the walls, all one body "tank". dimensions 2: y is ignored. jitter in spacings. */
-void tank_make(tank *t, int dimensions, double spacing, sb_vec3 size, double wet_length, double depth,
-               double jitter);
+void tank_make(tank *t, int dimensions, double spacing, sb_vec3 size, double wet_length,
+               double depth, double jitter);
 void tank_free(tank *t);
+
+/* Carries the whole tank, water and all, elsewhere. */
+void tank_shift(tank *t, sb_vec3 by);
+/* Water anywhere within the box, at velocities up to `speed` along each axis, at pressure 0. */
+void tank_scatter(tank *t, uint64_t seed, double speed);
+/* Parts the body "tank" into "floor" (all below z = 0, corners too) and "sides". */
+void tank_split_floor(tank *t);
+
+/* A new body of boundary particles a spacing apart: an upright sheet across the tank at x from
+   z_min to z_max; moved along `direction` by `law`, or static when that is NULL. Returns the body's
+   index. */
+size_t tank_add_sheet(tank *t, const char *name, double x, double z_min, double z_max,
+                      sb_vec3 direction, const sb_wavemaker_parameters *law);
+
+/* The simulation of the tank; NULL, with the reason on stderr, when there is none. */
+sb_sim *tank_sim(const tank *t);
+/* The stages of a step up to the neighbour lists, for a step of dt. 0, or -1 with the reason. */
+int tank_prepare(sb_sim *sim, double dt);
+/* n whole steps. 0, or -1 with the reason on stderr. */
+int tank_steps(sb_sim *sim, int n);
 
 #endif

@@ -1,0 +1,35 @@
+/* The state of a simulation as the double-precision reference sees it: the oracle of most tests
+ * here. */
+#ifndef SB_TESTS_TWIN_H
+#define SB_TESTS_TWIN_H
+
+#include "reference/reference.h"
+#include "sim/state.h"
+
+/* Particles in the simulation's order; boundary particles: the static set's, then the moving set's.
+ */
+typedef struct twin {
+    sb_reference reference;
+    sb_vec3 *position, *velocity, *wall_position, *wall_velocity;
+    double *psi; /* as the simulation holds them */
+    uint32_t *body;
+    size_t static_count;
+} twin;
+
+/* Of the present positions and velocities. 0, or -1 without memory. */
+int twin_make(const sb_sim *sim, twin *t);
+void twin_free(twin *t);
+
+/* Boundary particle of the twin for an index in the simulation's wall lists. */
+size_t twin_wall(const twin *t, uint32_t listed);
+
+/* Largest |a - b| and largest |b|: what a test's tolerance is relative to. */
+typedef struct twin_gap {
+    double worst, scale;
+    size_t at;
+} twin_gap;
+void twin_compare(twin_gap *gap, size_t at, double a, double b);
+/* worst/scale */
+double twin_relative(const twin_gap *gap);
+
+#endif
