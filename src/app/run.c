@@ -2,6 +2,7 @@
 
 #include "app/consumers.h"
 #include "app/interrupt.h"
+#include "base/memory.h"
 #include "measure/measure.h"
 #include "output/csv.h"
 #include "output/esri.h"
@@ -38,6 +39,8 @@ typedef struct run {
     sb_consumer consumers[3]; /* files, pictures, stream: those the scene asks for are started */
     sb_energy first_energy;
     uint64_t iterations, capped, frames;
+    bool inside_known;
+    uint64_t inside, crossed; /* particles within solids at the end */
 } run;
 
 enum { RECORDER, PICTURES, STREAMER, CONSUMERS };
@@ -62,10 +65,10 @@ static sb_status open_directory(run *r, sb_error *error)
     return status == SB_OK ? sb_runlog_open(path, &r->log, error) : status;
 }
 
-static void say(const run *r, const char *prefix, const char *text)
+static void say(const run *r, const char *text)
 {
     if (r->progress.stream)
-        fprintf(r->progress.stream, "%s%s\n", prefix, text);
+        fprintf(r->progress.stream, "%s\n", text);
 }
 
 static void warn(run *r, const char *text)
@@ -121,7 +124,7 @@ static sb_status start_consumers(run *r, sb_error *error)
 
 static sb_status prepare(run *r, sb_error *error)
 {
-    say(r, "", "sampling surfaces and filling the sea");
+    say(r, "sampling surfaces and filling the sea");
     sb_status status = sb_model_build(r->scene, &r->model, error);
     if (status != SB_OK)
         return status;
@@ -135,9 +138,11 @@ static sb_status prepare(run *r, sb_error *error)
     char text[160];
     snprintf(text, sizeof text, "%zu fluid and %zu boundary particles, %zu bodies", r->model.fluid_count,
              r->model.wall_count, r->model.body_count);
-    say(r, "", text);
+    say(r, text);
     sb_runlog_start(r->log, r->scene, &r->model, omp_get_max_threads(), sb_sim_bytes(r->sim));
     sb_runlog_skipped(r->log, sb_sim_skipped(r->sim));
+    if (r->scene->numerics.settle_steps > 0)
+        say(r, "settling");
     status = sb_sim_settle(r->sim, error);
     if (status != SB_OK)
         return status;
@@ -252,6 +257,47 @@ static void write_last_state(run *r)
     sb_frame_release(frame);
 }
 
+/* An independent look at the walls: winding numbers of the meshes, not boundary particles. */
+static sb_status count_inside(run *r, sb_error *error)
+{
+    sb_frame *frame = sb_sim_snapshot(r->sim);
+    sb_vec3 *displacement = sb_alloc(r->model.body_count, sizeof *displacement);
+    sb_inside_report any = {0}, deep = {0};
+    sb_status status = SB_OK;
+    if (!frame || !displacement) {
+        status = sb_fail_memory(error, "the look at the walls");
+        goto done;
+    }
+    for (size_t b = 0; b < r->model.body_count; b++)
+        displacement[b] = frame->bodies[b].displacement;
+    /* The sheet of boundary particles lies behind the wall by the offset; beyond it water has crossed. */
+    double sheet = fmax(r->scene->numerics.wall_offset, 0.5) * r->scene->resolution;
+    status = sb_model_first_inside(&r->model, frame->position, frame->count, frame->origin, displacement, 0,
+                                   &any, error);
+    if (status == SB_OK)
+        status = sb_model_first_inside(&r->model, frame->position, frame->count, frame->origin, displacement,
+                                       sheet, &deep, error);
+    if (status != SB_OK)
+        goto done;
+    r->inside_known = true;
+    r->inside = any.count;
+    r->crossed = deep.count;
+    sb_runlog_event(r->log, "walls", "%zu particle centres within solids, %zu of them beyond the boundary particles",
+                    any.count, deep.count);
+    if (deep.count > 0) {
+        const float *at = frame->position + 3 * deep.first;
+        char text[256];
+        snprintf(text, sizeof text, "%zu particles passed through walls, the first %.3g m into \"%.63s\" near (%.5g, %.5g, %.5g) m",
+                 deep.count, deep.depth, r->model.bodies[deep.body].name, frame->origin.x + (double)at[0],
+                 frame->origin.y + (double)at[1], frame->origin.z + (double)at[2]);
+        warn(r, text);
+    }
+done:
+    sb_free(displacement);
+    sb_frame_release(frame);
+    return status;
+}
+
 static void stop_consumers(run *r, sb_status *status, sb_error *error)
 {
     for (int c = 0; c < CONSUMERS; c++) {
@@ -292,6 +338,9 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
         .bytes = sb_sim_bytes(r->sim),
         .lost = report->lost,
         .left_domain = report->left_domain,
+        .has_inside = r->inside_known,
+        .inside = r->inside,
+        .crossed = r->crossed,
         .threads = omp_get_max_threads(),
         .bodies = r->measure ? sb_measure_bodies(r->measure) : NULL,
         .first = r->first_energy,
@@ -313,6 +362,8 @@ static void finish(run *r, sb_status *status, sb_error *error)
     if (r->sim && *status == SB_FAILED)
         write_last_state(r);
     stop_consumers(r, status, error);
+    if (r->sim)
+        keep_first(status, error, count_inside(r, &reason), &reason);
     if (r->csv)
         keep_first(status, error, sb_csv_close(r->csv, &reason), &reason);
     if (r->sim) {

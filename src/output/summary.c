@@ -79,6 +79,10 @@ static void put_all(sb_json *json, const sb_summary *s)
     sb_json_number(json, "bytes_per_particle", ratio((double)s->bytes, (double)s->fluid_particles));
     sb_json_count(json, "peak_memory_bytes", sb_memory_peak());
     sb_json_count(json, "lost_particles", s->lost);
+    if (s->has_inside) {
+        sb_json_count(json, "inside_solids", s->inside);
+        sb_json_count(json, "through_walls", s->crossed);
+    }
     sb_json_count(json, "left_domain", s->left_domain);
     sb_json_count(json, "particle_files", s->frames);
     sb_json_count(json, "pictures", s->pictures);

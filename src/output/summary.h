@@ -19,6 +19,9 @@ typedef struct sb_summary {
     size_t fluid_particles;     /* at the start */
     size_t bytes;               /* heap bytes of the simulation */
     uint64_t lost, left_domain; /* through walls; through open sides */
+    bool has_inside;            /* the two below were asked for */
+    uint64_t inside, crossed;   /* particles whose centre lies within a solid at the end: at all; deeper
+                                   than its boundary particles */
     int threads;
     const sb_body_record *bodies; /* one per body of the model; NULL: none */
     sb_energy first, last;        /* energies at the start and at the end */
