@@ -109,12 +109,12 @@ static bool examine_far(const sb_sampler *sampler, const piece *p, corner c, dou
     sb_vec3 at;
     sb_placement placement =
         sb_sample_place(sampler, p->surface, c.at, c.inward, &at, &margin);
-    if (placement != SB_PLACED) {
-        if (radius <= margin ||
-            (placement == SB_BURIED && sb_sample_buried(sampler, p->surface, c.at, radius)))
-            return false;
-        return radius > piece_min * spacing;
-    }
+    /* What is buried need not be so to the last point; what is crowded ends a tenth of the offset
+       beyond the sheet's edge. */
+    if (placement == SB_BURIED)
+        return radius > 0.2 * spacing && !sb_sample_buried(sampler, p->surface, c.at, radius);
+    if (placement == SB_CROWDED)
+        return radius > margin && radius > 0.06 * sampler->settings.offset;
     /* In a thin part the sheet is elsewhere, and no larger than the surface over it. */
     double distance = sb_sample_set_nearest(&sampler->set, at, cover, NULL);
     if (distance + radius <= cover)

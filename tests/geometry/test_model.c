@@ -1,0 +1,317 @@
+/* The whole model of small scenes: bodies, names, warnings, the inside test, no memory. */
+#include "base/memory.h"
+#include "geometry/model.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <stdio.h>
+#include <string.h>
+
+static sb_scene scene;
+static sb_body bodies[6];
+static sb_wavemaker_use wavemaker;
+static sb_model model;
+static sb_error error;
+
+static int set_up(void **state)
+{
+    (void)state;
+    memset(&scene, 0, sizeof scene);
+    memset(bodies, 0, sizeof bodies);
+    memset(&wavemaker, 0, sizeof wavemaker);
+    memset(&error, 0, sizeof error);
+    scene.dimensions = 3;
+    scene.resolution = 0.5;
+    scene.fluid = (sb_fluid_properties){1000, 9.81, 0};
+    scene.domain.min = sb_vec(0, 0, 0);
+    scene.domain.max = sb_vec(10, 6, 5);
+    scene.domain.side[SB_Z_MAX] = SB_SIDE_OPEN;
+    scene.sea = (sb_sea){true, 3, {2, 3, 2}};
+    scene.numerics.support = 2;
+    scene.numerics.wall_offset = 0.5;
+    scene.bodies = bodies;
+    scene.wavemakers = &wavemaker;
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    sb_model_free(&model);
+    return 0;
+}
+
+static sb_body *add_box(const char *name, sb_vec3 min, sb_vec3 max)
+{
+    sb_body *body = &bodies[scene.body_count++];
+    snprintf(body->name, sizeof body->name, "%s", name);
+    body->shape = SB_SHAPE_BOX;
+    body->color[0] = -1;
+    body->min = min;
+    body->max = max;
+    return body;
+}
+
+static void build(void)
+{
+    sb_model_free(&model);
+    sb_status status = sb_model_build(&scene, &model, &error);
+    if (status != SB_OK)
+        print_message("%s\n", error.text);
+    assert_int_equal(status, SB_OK);
+}
+
+static bool warned(const char *first, const char *second)
+{
+    for (size_t i = 0; i < model.warning_count; ++i)
+        if (strstr(model.warnings[i], first) && strstr(model.warnings[i], second))
+            return true;
+    return false;
+}
+
+static void bodies_and_their_particles(void **state)
+{
+    (void)state;
+    add_box("block", sb_vec(5, 2, 0), sb_vec(7, 4, 4))->report = true;
+    add_box("gate", sb_vec(8, 0, 0), sb_vec(8.5, 6, 5));
+    scene.wavemaker_count = 1;
+    snprintf(wavemaker.name, sizeof wavemaker.name, "push");
+    snprintf(wavemaker.body, sizeof wavemaker.body, "gate");
+    wavemaker.direction = sb_vec(1, 0, 0);
+    build();
+    assert_int_equal(model.body_count, 3);
+    const sb_model_body *b = model.bodies;
+    assert_string_equal(b[0].name, "block");
+    assert_true(b[0].report && b[0].wavemaker == -1);
+    assert_true(b[0].moment_point.x == 6 && b[0].moment_point.y == 3 && b[0].moment_point.z == 0);
+    assert_string_equal(b[1].name, "gate");
+    assert_int_equal(b[1].wavemaker, 0);
+    assert_string_equal(b[2].name, "domain");
+    assert_false(b[2].report);
+    assert_int_equal(b[2].mesh.triangle_count, 0);
+    assert_true(b[0].color[0] > 0 && b[0].color[0] != b[1].color[0]);
+    assert_int_equal(b[0].begin, 0);
+    assert_int_equal(b[1].begin, b[0].count);
+    assert_int_equal(b[2].begin, b[1].begin + b[1].count);
+    assert_int_equal(b[2].begin + b[2].count, model.wall_count);
+    /* Floor with its rim and four walls of ten rows, from half a spacing behind. */
+    assert_int_equal(b[2].count, 22 * 14 + 10 * 2 * (22 + 14 - 2));
+    for (size_t i = b[2].begin; i < model.wall_count; ++i) {
+        sb_vec3 p = model.wall_position[i];
+        assert_true(p.x < -0.24 || p.x > 10.24 || p.y < -0.24 || p.y > 6.24 || p.z < -0.24);
+        sb_vec3 in = sb_madd(p, 2, model.wall_normal[i]);
+        assert_true(sb_norm(sb_sub(in, sb_vec(5, 3, 2.5))) < sb_norm(sb_sub(p, sb_vec(5, 3, 2.5))));
+    }
+    sb_model alone;
+    assert_int_equal(sb_model_import_bodies(&scene, &alone, &error), SB_OK);
+    assert_int_equal(alone.body_count, 3);
+    assert_int_equal(alone.wall_count + alone.fluid_count, 0);
+    assert_int_equal(alone.bodies[0].mesh.triangle_count, 12);
+    sb_model_free(&alone);
+}
+
+static void names_are_unique(void **state)
+{
+    (void)state;
+    add_box("house", sb_vec(4, 2, 0), sb_vec(5, 3, 4));
+    add_box("house", sb_vec(7, 2, 0), sb_vec(8, 3, 4));
+    add_box("domain", sb_vec(9, 2, 0), sb_vec(9.5, 3, 4));
+    build();
+    assert_string_equal(model.bodies[1].name, "house-2");
+    assert_string_equal(model.bodies[2].name, "domain");
+    assert_string_equal(model.bodies[3].name, "domain-2");
+}
+
+static void a_wavemaker_needs_its_body(void **state)
+{
+    (void)state;
+    scene.wavemaker_count = 1;
+    snprintf(wavemaker.name, sizeof wavemaker.name, "push");
+    snprintf(wavemaker.body, sizeof wavemaker.body, "nobody");
+    assert_int_equal(sb_model_build(&scene, &model, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "nobody"));
+}
+
+static void open_sides_have_no_wall(void **state)
+{
+    (void)state;
+    add_box("dam", sb_vec(8, -1, -1), sb_vec(9, 7, 6));
+    scene.domain.side[SB_X_MAX] = SB_SIDE_OPEN;
+    build();
+    for (size_t i = model.bodies[1].begin; i < model.wall_count; ++i)
+        assert_true(model.wall_position[i].x < 10);
+    for (int side = 0; side < SB_SIDES; ++side)
+        scene.domain.side[side] = SB_SIDE_OPEN;
+    scene.sea.present = false;
+    build();
+    assert_int_equal(model.body_count, 1);
+}
+
+static void warnings_say_what_is_too_coarse(void **state)
+{
+    (void)state;
+    build();
+    assert_int_equal(model.warning_count, 0);
+    add_box("plate", sb_vec(5, 1, 0), sb_vec(5.4, 5, 4));
+    add_box("block", sb_vec(7, 2, 0), sb_vec(9, 4, 4));
+    add_box("far", sb_vec(70, 2, 0), sb_vec(90, 4, 4));
+    scene.sea.level = 1.5;
+    scene.sea.seed.z = 0.8;
+    scene.wave = (sb_initial_wave){SB_INITIAL_STANDING, 0.3, 1.5, 0, 10, 1};
+    build();
+    assert_true(warned("\"plate\"", "0.4 m thick"));
+    assert_false(warned("\"block\"", "thick"));
+    assert_true(warned("\"far\"", "no surface"));
+    assert_true(warned("1.5 m deep", "3 particles"));
+    assert_true(warned("initial wave", "0.6 particles"));
+    scene.sea.present = false;
+    build();
+    assert_true(warned("nothing is wet", ""));
+}
+
+static void holes_in_a_mesh_are_named(void **state)
+{
+    (void)state;
+    char path[] = SB_BINARY_DIR "/test_model_open.obj";
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    /* A box from (5, 2, 0) to (7, 4, 4) without its lid. */
+    fputs("v 5 2 0\nv 7 2 0\nv 7 4 0\nv 5 4 0\nv 5 2 4\nv 7 2 4\nv 7 4 4\nv 5 4 4\n"
+          "f 4 3 2 1\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n",
+          file);
+    fclose(file);
+    sb_body *body = add_box("lidless", sb_vec(0, 0, 0), sb_vec(0, 0, 0));
+    body->shape = SB_SHAPE_MESH;
+    body->file = path;
+    body->up = 'z';
+    body->scale = 1;
+    build();
+    assert_true(warned("\"lidless\" is not watertight: 4 open edges", ", 4)"));
+    for (size_t i = 0; i < model.fluid_count; ++i) {
+        sb_vec3 p = model.fluid_position[i];
+        assert_false(p.x > 5 && p.x < 7 && p.y > 2 && p.y < 4);
+    }
+    remove(path);
+}
+
+static void points_inside_are_found(void **state)
+{
+    (void)state;
+    add_box("block", sb_vec(5, 2, 0), sb_vec(7, 4, 4));
+    build();
+    size_t n = model.fluid_count;
+    float *at = sb_alloc(3 * n, sizeof *at);
+    sb_vec3 origin = sb_vec(-3, 1, 2);
+    for (size_t i = 0; i < n; ++i) {
+        sb_vec3 p = sb_sub(model.fluid_position[i], origin);
+        at[3 * i] = (float)p.x;
+        at[3 * i + 1] = (float)p.y;
+        at[3 * i + 2] = (float)p.z;
+    }
+    sb_inside_report report;
+    assert_int_equal(
+        sb_model_first_inside(&model, at, n, origin, NULL, 0.1, &report, &error), SB_OK);
+    assert_int_equal(report.count, 0);
+    assert_true(report.first == SIZE_MAX && report.body == SIZE_MAX);
+    /* Two into the block, one of them by less than the tolerance. */
+    const float deep[3] = {9, 2, 0}, shallow[3] = {8.05F, 2, 0};
+    memcpy(at + 3 * 17, shallow, sizeof shallow);
+    memcpy(at + 3 * 40, deep, sizeof deep);
+    assert_int_equal(
+        sb_model_first_inside(&model, at, n, origin, NULL, 0.1, &report, &error), SB_OK);
+    assert_int_equal(report.count, 1);
+    assert_int_equal(report.first, 40);
+    assert_int_equal(report.body, 0);
+    assert_true(fabs(report.depth - 1) < 1e-5);
+    /* The block moved 1.5 m ahead holds other points. */
+    sb_vec3 moved[2] = {{1.5, 0, 0}, {0, 0, 0}};
+    assert_int_equal(
+        sb_model_first_inside(&model, at, n, origin, moved, 0.1, &report, &error), SB_OK);
+    assert_int_equal(report.count, 3 * 4 * 6);
+    sb_free(at);
+}
+
+static void two_dimensions_have_no_side_walls(void **state)
+{
+    (void)state;
+    scene.dimensions = 2;
+    scene.resolution = 0.1;
+    sb_body *block = add_box("block", sb_vec(5, -1, 0), sb_vec(7, 1, 1));
+    build();
+    assert_int_equal(model.bodies[0].count, 2 * 10 + 20 - 2 + 18);
+    size_t count = model.bodies[1].count;
+    assert_int_equal(count, 102 + 2 * 50);
+    for (size_t i = 0; i < model.wall_count; ++i)
+        for (size_t j = i + 1; j < model.wall_count; ++j)
+            assert_true(sb_norm(sb_sub(model.wall_position[i], model.wall_position[j])) > 0.07);
+    /* A turned block, measured along its outline half a spacing within. */
+    block->rotate = sb_vec(0, 30, 0);
+    block->translate = sb_vec(0, 0, 4);
+    build();
+    assert_in_range(model.bodies[0].count, 50, 66);
+    double c = cos(M_PI / 6), s = sin(M_PI / 6);
+    for (int k = 0; k <= 1000; ++k) {
+        double t = k / 1000.0, x = 5.05 + 1.9 * t, z = 0.95;
+        double wx = c * x + s * z, wz = c * z - s * x + 4, best = 1;
+        for (size_t i = 0; i < model.wall_count; ++i)
+            best = fmin(best, hypot(model.wall_position[i].x - wx, model.wall_position[i].z - wz));
+        assert_true(best < 0.075);
+    }
+    block->min.y = 3;
+    block->max.y = 4;
+    build();
+    assert_true(warned("\"block\"", "no surface"));
+}
+
+static void no_memory_is_an_error(void **state)
+{
+    (void)state;
+    scene.resolution = 1;
+    scene.domain.max = sb_vec(4, 3, 4);
+    scene.sea = (sb_sea){true, 2.2, {1, 1.5, 1}};
+    add_box("block", sb_vec(2.2, 1, 0), sb_vec(2.8, 2, 4));
+    build();
+    assert_true(model.warning_count > 0);
+    size_t walls = model.wall_count, water = model.fluid_count;
+    long failures = 0;
+    for (long n = 1; n < 100000; ++n) {
+        sb_model made = {.wall_count = 77};
+        sb_memory_fail_at(n);
+        sb_status status = sb_model_build(&scene, &made, &error);
+        sb_memory_fail_at(0);
+        if (status == SB_OK) {
+            /* The n-th allocation may be one that can be done without: a mesh's diagnosis. */
+            assert_int_equal(made.wall_count, walls);
+            assert_int_equal(made.fluid_count, water);
+            bool complete = made.warning_count == model.warning_count;
+            sb_model_free(&made);
+            if (complete && n > failures + 20)
+                break;
+            continue;
+        }
+        ++failures;
+        assert_int_equal(status, SB_FAILED);
+        assert_int_equal(made.wall_count, 77);
+    }
+    assert_true(failures > 50);
+}
+
+int main(void)
+{
+#define CASE(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
+    const struct CMUnitTest tests[] = {
+        CASE(bodies_and_their_particles),
+        CASE(names_are_unique),
+        CASE(a_wavemaker_needs_its_body),
+        CASE(open_sides_have_no_wall),
+        CASE(warnings_say_what_is_too_coarse),
+        CASE(holes_in_a_mesh_are_named),
+        CASE(points_inside_are_found),
+        CASE(two_dimensions_have_no_side_walls),
+        CASE(no_memory_is_an_error),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
