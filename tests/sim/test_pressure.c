@@ -1,0 +1,307 @@
+/* The pressure problem in float against the double-precision reference: source, operator, solvers.
+ */
+#include "../check.h"
+#include "base/memory.h"
+#include "base/random.h"
+#include "sim/pressure.h"
+#include "sim/tank.h"
+#include "sim/twin.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct setup {
+    tank tank;
+    sb_sim *sim;
+    twin twin; /* with the velocities v* */
+    size_t n;
+    sb_vec3 *acceleration;
+    double *x, *y, *product; /* n each */
+    double *source;          /* the simulation's, in double */
+    double *solution;        /* the reference's answer to it */
+} setup;
+
+/* A dam break some steps after its start, up to the source of the next solve; one particle flies.
+ */
+static void begin(setup *s, int dimensions)
+{
+    *s = (setup){0};
+    /* More than one block of particles, so that sums over blocks are in play. */
+    bool flat = dimensions == 2;
+    sb_vec3 size = flat ? sb_vec(3, 0, 2) : sb_vec(2, 0.8, 1.5);
+    tank_make(&s->tank, dimensions, flat ? 0.05 : 0.1, size, flat ? 2 : 1.4, flat ? 1.4 : 1.2, 0.1);
+    s->tank.scene.numerics.solver = SB_SOLVER_CG;
+    s->tank.scene.numerics.wall_friction = 0.05;
+    s->tank.model.fluid_position[0] = sb_vec(size.x - 0.33, size.y / 2, size.z - 0.3);
+    s->tank.model.fluid_velocity[0] = sb_vec(0.5, 0, 0.5);
+    s->sim = tank_sim(&s->tank);
+    assert_non_null(s->sim);
+    assert_int_equal(tank_steps(s->sim, 12), 0);
+    assert_int_equal(tank_prepare(s->sim, s->sim->report.time_step), 0);
+    sb_error error = {0};
+    assert_int_equal(sb_stage_forces(s->sim, &error), SB_OK);
+    assert_int_equal(sb_stage_source(s->sim, &error), SB_OK);
+    s->n = s->sim->n;
+    assert_int_equal(s->n, s->tank.model.fluid_count);
+    assert_int_equal(twin_make(s->sim, &s->twin), 0);
+    s->acceleration = sb_alloc(s->n, sizeof *s->acceleration);
+    double **fields[] = {&s->x, &s->y, &s->product, &s->source, &s->solution};
+    for (size_t f = 0; f < sizeof fields / sizeof *fields; f++) {
+        *fields[f] = sb_alloc(s->n, sizeof(double));
+        assert_non_null(*fields[f]);
+    }
+    assert_non_null(s->acceleration);
+    for (size_t i = 0; i < s->n; i++) s->source[i] = (double)s->sim->source[i];
+}
+
+static void end(setup *s)
+{
+    double *fields[] = {s->x, s->y, s->product, s->source, s->solution};
+    for (size_t f = 0; f < sizeof fields / sizeof *fields; f++) sb_free(fields[f]);
+    sb_free(s->acceleration);
+    twin_free(&s->twin);
+    sb_sim_destroy(s->sim);
+    tank_free(&s->tank);
+}
+
+/* Random values that float holds exactly. */
+static void fill_random(double *field, size_t n, uint64_t seed)
+{
+    for (size_t i = 0; i < n; i++) field[i] = (double)(float)sb_random(seed, i);
+}
+
+/* out = A argument by the simulation, its acceleration in sim->acceleration. */
+static void fast_product(setup *s, const double *argument, double *out)
+{
+    float *narrow = sb_alloc(s->n, sizeof *narrow), *result = sb_alloc(s->n, sizeof *result);
+    assert_true(narrow && result);
+    for (size_t i = 0; i < s->n; i++) narrow[i] = (float)argument[i];
+    sb_pressure_load(s->sim, narrow);
+    sb_pressure_product(s->sim, result);
+    for (size_t i = 0; i < s->n; i++) out[i] = (double)result[i];
+    sb_free(narrow);
+    sb_free(result);
+}
+
+static double dot(const double *a, const double *b, size_t n)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) sum += a[i] * b[i];
+    return sum;
+}
+
+static void check_source(setup *s)
+{
+    double *rho = s->x, *expected = s->y;
+    sb_reference_density(&s->twin.reference, rho);
+    sb_reference_source(&s->twin.reference, rho, s->twin.velocity,
+                        s->tank.scene.numerics.source_relaxation, expected);
+    twin_gap gap = {0};
+    for (size_t i = 0; i < s->n; i++) twin_compare(&gap, i, s->source[i], expected[i]);
+    printf("source: worst %.2g of the rest density, which spans %.2g\n", gap.worst / 1000,
+           gap.scale / 1000);
+    assert_true(gap.scale > 1e-3 * 1000);
+    assert_true(gap.worst < 1e-6 * 1000);
+}
+
+static void check_operator(setup *s)
+{
+    double *fast = s->solution;
+    fill_random(s->x, s->n, 1);
+    sb_reference_apply(&s->twin.reference, s->x, s->acceleration, s->product);
+    fast_product(s, s->x, fast);
+    twin_gap product = {0}, push = {0};
+    for (size_t i = 0; i < s->n; i++) {
+        sb_f4 a = s->sim->acceleration[i];
+        twin_compare(&product, i, fast[i], s->product[i]);
+        twin_compare(&push, i, (double)a[0], s->acceleration[i].x);
+        twin_compare(&push, i, (double)a[1], s->acceleration[i].y);
+        twin_compare(&push, i, (double)a[2], s->acceleration[i].z);
+    }
+    printf("G q: worst %.2g of the largest, A q: %.2g\n", twin_relative(&push),
+           twin_relative(&product));
+    assert_true(twin_relative(&push) < 1e-6 && twin_relative(&product) < 1e-6);
+    /* x . A y = y . A x and x . A x < 0, in sums that cancel nothing. */
+    double *y = s->y, *ax = fast, *ay = s->product;
+    fill_random(y, s->n, 2);
+    fast_product(s, y, ay);
+    double xay = dot(s->x, ay, s->n), yax = dot(y, ax, s->n);
+    double sizes = sqrt(dot(s->x, s->x, s->n) * dot(ay, ay, s->n));
+    printf("x.Ay %.9g, y.Ax %.9g: differ by %.2g of |x||Ay|\n", xay, yax, fabs(xay - yax) / sizes);
+    assert_true(fabs(xay - yax) < 1e-6 * sizes);
+    assert_true(dot(s->x, ax, s->n) < 0);
+}
+
+/* A e_i at i is what the neighbour pass says, and the reference's diagonal. */
+static void check_diagonal(setup *s)
+{
+    double dt2 = s->sim->report.time_step * s->sim->report.time_step, worst = 0, formula = 0;
+    sb_reference_diagonal(&s->twin.reference, s->y);
+    size_t flying = 0;
+    memset(s->x, 0, s->n * sizeof *s->x);
+    for (size_t i = 0; i < s->n; i++) {
+        s->x[i] = 1;
+        fast_product(s, s->x, s->product);
+        s->x[i] = 0;
+        double held = -(double)s->sim->diagonal[i] * dt2;
+        if (held == 0) {
+            flying++;
+            assert_true(fabs(s->product[i]) <= 1e-6 * (double)s->sim->constant.full_diagonal * dt2);
+            continue;
+        }
+        worst = fmax(worst, fabs(s->product[i] / held - 1));
+        formula = fmax(formula, fabs(held / s->y[i] - 1));
+    }
+    printf(
+        "diagonal: probed against held %.2g of each, held against reference %.2g; %zu on its own\n",
+        worst, formula, flying);
+    assert_int_equal(flying, 1);
+    assert_true(worst < 1e-5 && formula < 1e-5);
+}
+
+/* The simulation's errors of q, made afresh by the reference's operator. */
+static sb_pressure_error true_error(setup *s, const double *q)
+{
+    sb_pressure_error error = {0};
+    double active = 0;
+    sb_reference_apply(&s->twin.reference, q, s->acceleration, s->product);
+    for (size_t i = 0; i < s->n; i++) {
+        if (s->sim->diagonal[i] == 0) continue;
+        double e = s->product[i] - s->source[i];
+        error.mean += fmax(0, e) / ((double)s->n * 1000);
+        error.max = fmax(error.max, e / 1000);
+        error.active += q[i] > 0 ? fabs(e) / 1000 : 0;
+        active += q[i] > 0;
+    }
+    error.active /= active;
+    return error;
+}
+
+/* One solve from `share` of the reference's solution; q in s->x. */
+static void solve(setup *s, sb_solver solver, double tolerance, int most, double share)
+{
+    sb_numerics *n = &s->tank.scene.numerics;
+    n->solver = solver;
+    n->tolerance_rule = SB_TOLERANCE_DENSITY;
+    n->tolerance = tolerance;
+    n->max_iterations = most;
+    n->warm_start = 1;
+    sb_error error = {0};
+    assert_int_equal(tank_prepare(s->sim, s->sim->report.time_step), 0);
+    for (size_t i = 0; i < s->n; i++) {
+        double rho = (double)s->sim->density[i];
+        s->sim->velocity[i][3] = (float)(share * s->solution[i] * rho * rho);
+    }
+    assert_int_equal(sb_stage_pressure(s->sim, &error), SB_OK);
+    for (size_t i = 0; i < s->n; i++) s->x[i] = (double)s->sim->unknown[i];
+}
+
+static const char *name_of(sb_solver solver)
+{
+    return sb_pressure_solvers[solver]->name;
+}
+
+static double gap_to_solution(const setup *s)
+{
+    twin_gap gap = {0};
+    for (size_t i = 0; i < s->n; i++) twin_compare(&gap, i, s->x[i], s->solution[i]);
+    return twin_relative(&gap);
+}
+
+/* A report is true to `relative` and to the float operator's own round-off. */
+static void check_report(setup *s, double relative)
+{
+    const sb_step_report *r = &s->sim->report;
+    sb_pressure_error e = true_error(s, s->x);
+    assert_near(r->error_mean, e.mean, relative * e.mean + 2e-9);
+    assert_near(r->error_active, e.active, relative * e.active + 4e-9);
+    assert_near(r->error_max, e.max, relative * e.max + 4e-7);
+}
+
+/* The solve leaves G q of the q it returns, q >= 0, and none on a particle by itself. */
+static void check_outcome(setup *s)
+{
+    twin_gap push = {0};
+    sb_reference_pressure_acceleration(&s->twin.reference, s->x, s->acceleration);
+    for (size_t i = 0; i < s->n; i++) {
+        sb_f4 a = s->sim->acceleration[i];
+        assert_true(s->x[i] >= 0);
+        assert_true(s->sim->diagonal[i] > 0 || s->x[i] == 0);
+        twin_compare(&push, i, (double)a[0], s->acceleration[i].x);
+        twin_compare(&push, i, (double)a[2], s->acceleration[i].z);
+    }
+    if (!(push.scale > 1 && twin_relative(&push) < 1e-5))
+        fail_msg("acceleration: %g of %g", push.worst, push.scale);
+}
+
+/* Each solver, from nothing, down to where float ends. */
+static void check_solver(setup *s, sb_solver solver)
+{
+    double last = 1;
+    const double tolerances[] = {1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 5e-10};
+    for (size_t t = 0; t < sizeof tolerances / sizeof *tolerances; t++) {
+        double tolerance = tolerances[t];
+        solve(s, solver, tolerance, 5000, 0);
+        const sb_step_report *r = &s->sim->report;
+        assert_false(r->capped);
+        assert_true(r->error_mean <= tolerance);
+        check_report(s, 1e-3);
+        check_outcome(s);
+        last = gap_to_solution(s);
+        printf("%-9s to %.0e: %4d iterations, q within %.2g; mean %.2e, active %.2e, max %.2e\n",
+               name_of(solver), tolerance, r->iterations, last, r->error_mean, r->error_active,
+               r->error_max);
+    }
+    assert_true(last < 1e-5);
+    /* From the answer itself: no more than the least number of iterations, and still the answer. */
+    solve(s, solver, 1e-6, 5000, 1);
+    assert_int_equal(s->sim->report.iterations, s->tank.scene.numerics.min_iterations);
+    assert_true(gap_to_solution(s) < 1e-5);
+    /* A cap is kept and told. */
+    solve(s, solver, 1e-9, 7, 0);
+    assert_true(s->sim->report.capped && s->sim->report.error_mean > 1e-9);
+    assert_in_range(s->sim->report.iterations, 7, 8);
+    check_report(s, 1e-3);
+    check_outcome(s);
+}
+
+static void check_all(int dimensions)
+{
+    setup s;
+    begin(&s, dimensions);
+    printf("%dD, %zu particles:\n", dimensions, s.n);
+    check_source(&s);
+    check_operator(&s);
+    check_diagonal(&s);
+    memset(s.solution, 0, s.n * sizeof *s.solution);
+    long sweeps = sb_reference_solve(&s.twin.reference, s.source, 0.6, 1e-10, 100000, s.solution);
+    assert_true(sweeps > 0);
+    size_t pressed = 0;
+    for (size_t i = 0; i < s.n; i++) pressed += s.solution[i] > 0;
+    printf("reference: %ld sweeps, %zu particles under pressure\n", sweeps, pressed);
+    assert_true(pressed > s.n / 4 && pressed < s.n);
+    for (sb_solver solver = SB_SOLVER_JACOBI; solver <= SB_SOLVER_CG; solver++)
+        check_solver(&s, solver);
+    end(&s);
+}
+
+static void a_flat_dam_break(void **state)
+{
+    (void)state;
+    check_all(2);
+}
+
+static void a_dam_break(void **state)
+{
+    (void)state;
+    check_all(3);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_flat_dam_break),
+        cmocka_unit_test(a_dam_break),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
