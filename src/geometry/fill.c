@@ -12,8 +12,7 @@ static const double double_distance = 0.7;
 
 void sb_fluid_free(sb_fluid *fluid)
 {
-    if (!fluid)
-        return;
+    if (!fluid) return;
     sb_free(fluid->position);
     sb_free(fluid->velocity);
     sb_free(fluid->pressure);
@@ -49,8 +48,7 @@ static int drop_doubles(const sb_columns *waters, size_t water_count, const sb_f
         bool doubled = sb_sample_set_any(&set, more->position[i], double_distance * spacing);
         for (size_t w = 0; w < water_count && !doubled; ++w)
             doubled = sb_columns_hold(waters + w, more->position[i]);
-        if (doubled)
-            continue;
+        if (doubled) continue;
         more->position[kept] = more->position[i];
         more->velocity[kept] = more->velocity[i];
         more->pressure[kept++] = more->pressure[i];
@@ -82,12 +80,12 @@ static int append(sb_fluid *fluid, sb_fluid *more)
         *more = (sb_fluid){0};
         return 0;
     }
-    both.position = join(fluid->position, fluid->count, more->position, more->count,
-                         sizeof *both.position);
-    both.velocity = join(fluid->velocity, fluid->count, more->velocity, more->count,
-                         sizeof *both.velocity);
-    both.pressure = join(fluid->pressure, fluid->count, more->pressure, more->count,
-                         sizeof *both.pressure);
+    both.position =
+        join(fluid->position, fluid->count, more->position, more->count, sizeof *both.position);
+    both.velocity =
+        join(fluid->velocity, fluid->count, more->velocity, more->count, sizeof *both.velocity);
+    both.pressure =
+        join(fluid->pressure, fluid->count, more->pressure, more->count, sizeof *both.pressure);
     if (!both.position || !both.velocity || !both.pressure) {
         sb_fluid_free(&both);
         return -1;
@@ -102,14 +100,12 @@ static void shake(const sb_scene *scene, sb_fluid *fluid)
 {
     double size = scene->numerics.jitter * scene->resolution;
     uint64_t seed = scene->numerics.seed;
-    if (!(size > 0))
-        return;
+    if (!(size > 0)) return;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < fluid->count; ++i) {
         sb_vec3 *p = fluid->position + i;
         p->x += size * (2 * sb_random(seed, 3 * i) - 1);
-        if (scene->dimensions == 3)
-            p->y += size * (2 * sb_random(seed, 3 * i + 1) - 1);
+        if (scene->dimensions == 3) p->y += size * (2 * sb_random(seed, 3 * i + 1) - 1);
         p->z += size * (2 * sb_random(seed, 3 * i + 2) - 1);
     }
 }
@@ -122,15 +118,11 @@ static sb_status add_water(const sb_scene *scene, const sb_fill_solid *solids, s
     sb_columns *c = waters + *water_count;
     sb_fluid more = {0};
     sb_status status = sb_columns_build(scene, solids, count, box, c, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     ++*water_count;
-    for (size_t r = 0; box && r < c->run_count; ++r)
-        c->runs[r].wet = true;
-    if (!box)
-        status = sb_columns_flood(c, error);
-    if (status == SB_OK)
-        status = sb_columns_particles(c, &more, error);
+    for (size_t r = 0; box && r < c->run_count; ++r) c->runs[r].wet = true;
+    if (!box) status = sb_columns_flood(c, error);
+    if (status == SB_OK) status = sb_columns_particles(c, &more, error);
     if (status == SB_OK && ((fluid->count > 0 && drop_doubles(waters, *water_count - 1, fluid,
                                                               scene->resolution, &more)) ||
                             append(fluid, &more)))
@@ -145,16 +137,14 @@ sb_status sb_fill_water(const sb_scene *scene, const sb_fill_solid *solids, size
     sb_fluid made = {0};
     size_t water_count = 0;
     sb_columns *waters = sb_alloc(scene->box_count + 1, sizeof *waters);
-    if (!waters)
-        return sb_fail_memory(error, "water");
+    if (!waters) return sb_fail_memory(error, "water");
     sb_status status = SB_OK;
     if (scene->sea.present)
         status = add_water(scene, solids, count, NULL, waters, &water_count, &made, error);
     for (size_t i = 0; i < scene->box_count && status == SB_OK; ++i)
-        status = add_water(scene, solids, count, scene->boxes + i, waters, &water_count, &made,
-                           error);
-    for (size_t i = 0; i < water_count; ++i)
-        sb_columns_free(waters + i);
+        status =
+            add_water(scene, solids, count, scene->boxes + i, waters, &water_count, &made, error);
+    for (size_t i = 0; i < water_count; ++i) sb_columns_free(waters + i);
     sb_free(waters);
     if (status != SB_OK) {
         sb_fluid_free(&made);

@@ -1,4 +1,5 @@
-/* Water as particles on a lattice of columns: the sea by flood fill, boxes of water, initial waves. */
+/* Water as particles on a lattice of columns: the sea by flood fill, boxes of water, initial waves.
+ */
 #ifndef SB_GEOMETRY_FILL_H
 #define SB_GEOMETRY_FILL_H
 
@@ -14,14 +15,14 @@ typedef struct sb_fill_solid {
 /* Each particle stands for spacing^3 (2D: spacing^2 per metre) of water. Owned. */
 typedef struct sb_fluid {
     size_t count;
-    sb_vec3 *position; /* m */
-    sb_vec3 *velocity; /* m/s */
-    double *pressure;  /* Pa, hydrostatic below the local surface */
+    sb_vec3 *position;  /* m */
+    sb_vec3 *velocity;  /* m/s */
+    double *pressure;   /* Pa, hydrostatic below the local surface */
     double still_depth; /* m, largest still depth of a column */
 } sb_fluid;
 
-/* Fills the scene's sea and boxes. SB_BAD_INPUT names the place where a sea escapes, or what is wrong
-   with its seed. Same result for any number of threads; on error *fluid is untouched. */
+/* Fills the scene's sea and boxes. SB_BAD_INPUT names the place where a sea escapes, or what is
+   wrong with its seed. Same result for any number of threads; on error *fluid is untouched. */
 sb_status sb_fill_water(const sb_scene *scene, const sb_fill_solid *solids, size_t count,
                         sb_fluid *fluid, sb_error *error);
 void sb_fluid_free(sb_fluid *fluid);

@@ -24,8 +24,7 @@ typedef struct chunk {
 double sb_columns_surface(const sb_columns *c, double x)
 {
     const sb_initial_wave *wave = &c->scene->wave;
-    if (!c->waves || wave->kind == SB_INITIAL_NONE)
-        return c->level;
+    if (!c->waves || wave->kind == SB_INITIAL_NONE) return c->level;
     double ahead = x - wave->position;
     if (wave->kind == SB_INITIAL_STANDING)
         return c->level + sb_standing_elevation(wave->height, wave->wavelength, ahead);
@@ -36,8 +35,7 @@ double sb_columns_surface(const sb_columns *c, double x)
 static bool any_contains(const sb_columns *c, sb_vec3 at)
 {
     for (size_t i = 0; i < c->solid_count; ++i)
-        if (sb_solid_contains(c->solids[i].solid, at))
-            return true;
+        if (sb_solid_contains(c->solids[i].solid, at)) return true;
     return false;
 }
 
@@ -61,8 +59,7 @@ static void find_crossings(const sb_columns *c, sb_vec3 from, sb_vec3 direction,
         for (;;) {
             double t = sb_solid_raycast(c->solids[i].solid, sb_madd(from, at, direction), direction,
                                         length - at);
-            if (!(t > 0))
-                break;
+            if (!(t > 0)) break;
             if (sb_grow((void **)&work->hit, &work->hit_capacity, work->hit_count + 1,
                         sizeof *work->hit)) {
                 work->failed = 1;
@@ -75,8 +72,7 @@ static void find_crossings(const sb_columns *c, sb_vec3 from, sb_vec3 direction,
     for (size_t i = 1; i < work->hit_count; ++i) {
         double value = work->hit[i];
         size_t k = i;
-        for (; k > 0 && work->hit[k - 1] > value; --k)
-            work->hit[k] = work->hit[k - 1];
+        for (; k > 0 && work->hit[k - 1] > value; --k) work->hit[k] = work->hit[k - 1];
         work->hit[k] = value;
     }
 }
@@ -135,15 +131,13 @@ static void cut_chunk(const sb_columns *c, size_t begin, size_t end, chunk *work
 static int join_chunks(sb_columns *c, const chunk *chunks, size_t count)
 {
     for (size_t k = 0; k < count; ++k) {
-        if (chunks[k].failed)
-            return -1;
+        if (chunks[k].failed) return -1;
         c->run_count += chunks[k].run_count;
     }
     size_t columns = (size_t)(c->nx * c->ny);
     c->begin = sb_alloc_untouched(columns + 1, sizeof *c->begin);
     c->runs = sb_alloc_untouched(c->run_count, sizeof *c->runs);
-    if (!c->begin || !c->runs)
-        return -1;
+    if (!c->begin || !c->runs) return -1;
     size_t at = 0, column = 0;
     for (size_t k = 0; k < count; ++k) {
         size_t next = 0;
@@ -165,8 +159,7 @@ static int cut_columns(sb_columns *c)
 {
     size_t columns = (size_t)(c->nx * c->ny), count = (columns + CHUNK - 1) / CHUNK;
     chunk *chunks = sb_alloc(count, sizeof *chunks);
-    if (!chunks)
-        return -1;
+    if (!chunks) return -1;
 #pragma omp parallel for schedule(dynamic, 1)
     for (size_t k = 0; k < count; ++k) {
         size_t begin = k * CHUNK, end = begin + CHUNK < columns ? begin + CHUNK : columns;
@@ -193,13 +186,14 @@ static void block(sb_columns *c, int64_t i, int64_t j, int64_t layer, uint8_t bi
     }
 }
 
-/* One row of cell centres along x or y: a crossing blocks the step between the centres beside it. */
+/* One row of cell centres along x or y: a crossing blocks the step between the centres beside it.
+ */
 static void block_row(sb_columns *c, bool along_x, int64_t across, int64_t layer, chunk *work)
 {
     int64_t count = along_x ? c->nx : c->ny;
     double step = along_x ? c->dx : c->dy;
-    sb_vec3 from = along_x ? sb_columns_center(c, 0, across, layer)
-                           : sb_columns_center(c, across, 0, layer);
+    sb_vec3 from =
+        along_x ? sb_columns_center(c, 0, across, layer) : sb_columns_center(c, across, 0, layer);
     sb_vec3 direction = along_x ? sb_vec(1, 0, 0) : sb_vec(0, 1, 0);
     from = sb_madd(from, -0.5 * step, direction);
     find_crossings(c, from, direction, step * (double)count, work);
@@ -220,8 +214,7 @@ static int block_rows(sb_columns *c)
 #pragma omp parallel for schedule(dynamic, 1) reduction(|| : failed)
     for (int32_t layer = 0; layer < c->layers; ++layer) {
         chunk work = {0};
-        for (int64_t j = 0; j < c->ny && !work.failed; ++j)
-            block_row(c, true, j, layer, &work);
+        for (int64_t j = 0; j < c->ny && !work.failed; ++j) block_row(c, true, j, layer, &work);
         for (int64_t i = 0; i < c->nx && c->ny > 1 && !work.failed; ++i)
             block_row(c, false, i, layer, &work);
         failed = failed || work.failed;
@@ -260,8 +253,7 @@ static sb_columns lay_out(const sb_scene *scene, const sb_fluid_box *box)
     c.nx = fit(max.x - min.x, c.spacing, &c.dx);
     c.ny = 1;
     c.dy = c.spacing;
-    if (scene->dimensions == 3)
-        c.ny = fit(max.y - min.y, c.spacing, &c.dy);
+    if (scene->dimensions == 3) c.ny = fit(max.y - min.y, c.spacing, &c.dy);
     c.layers = (int32_t)ceil((c.level - c.bottom) / c.spacing - 1e-9);
     c.base = c.level - c.layers * c.spacing;
     return c;
@@ -291,16 +283,12 @@ void sb_columns_free(sb_columns *columns)
 
 bool sb_columns_hold(const sb_columns *c, sb_vec3 at)
 {
-    if (c->nx == 0)
-        return false;
+    if (c->nx == 0) return false;
     double i = floor((at.x - c->x) / c->dx), j = 0;
-    if (c->scene->dimensions == 3)
-        j = floor((at.y - c->y) / c->dy);
-    if (!(i >= 0 && j >= 0 && i < (double)c->nx && j < (double)c->ny))
-        return false;
+    if (c->scene->dimensions == 3) j = floor((at.y - c->y) / c->dy);
+    if (!(i >= 0 && j >= 0 && i < (double)c->nx && j < (double)c->ny)) return false;
     size_t column = (size_t)j * (size_t)c->nx + (size_t)i;
     for (size_t r = c->begin[column]; r < c->begin[column + 1]; ++r)
-        if (c->runs[r].wet && at.z > c->runs[r].low && at.z < c->runs[r].high)
-            return true;
+        if (c->runs[r].wet && at.z > c->runs[r].low && at.z < c->runs[r].high) return true;
     return false;
 }

@@ -28,8 +28,7 @@ static bool joined(const sb_columns *c, const sb_run *a, const sb_run *b, uint8_
     int32_t high_a = a->first + a->count, high_b = b->first + b->count;
     int32_t high = high_a < high_b ? high_a : high_b;
     for (int32_t layer = low; layer < high; ++layer)
-        if (!(c->cells[a->cell + (size_t)(layer - a->first)] & bit))
-            return true;
+        if (!(c->cells[a->cell + (size_t)(layer - a->first)] & bit)) return true;
     return false;
 }
 
@@ -39,11 +38,9 @@ static int spread(sb_columns *c, front *f, size_t from, size_t to_column, bool a
     for (size_t r = c->begin[to_column]; r < c->begin[to_column + 1]; ++r) {
         sb_run *to = c->runs + r;
         const sb_run *a = c->runs + from;
-        if (to->wet || !(ahead ? joined(c, a, to, bit) : joined(c, to, a, bit)))
-            continue;
+        if (to->wet || !(ahead ? joined(c, a, to, bit) : joined(c, to, a, bit))) continue;
         to->wet = true;
-        if (front_push(f, to_column, r))
-            return -1;
+        if (front_push(f, to_column, r)) return -1;
     }
     return 0;
 }
@@ -67,8 +64,7 @@ static sb_status check_side(const sb_columns *c, const sb_run *run, int64_t i, i
     double half = 0.5 * (side < SB_Y_MIN ? c->dx : c->dy);
     for (int32_t layer = run->first; layer < run->first + run->count; ++layer) {
         sb_vec3 at = sb_columns_center(c, i, j, layer), end = sb_madd(at, half, out[side]);
-        if (sb_columns_clear(c, at, end))
-            return escapes(end, side, error);
+        if (sb_columns_clear(c, at, end)) return escapes(end, side, error);
     }
     return SB_OK;
 }
@@ -91,10 +87,8 @@ static sb_status visit(sb_columns *c, front *f, size_t column, size_t run, sb_er
         if (to < 0 || to >= count) {
             sb_status status =
                 side[s] == SB_SIDE_OPEN ? check_side(c, from, i, j, s, error) : SB_OK;
-            if (status != SB_OK)
-                return status;
-            if (side[s] != SB_SIDE_PERIODIC)
-                continue;
+            if (status != SB_OK) return status;
+            if (side[s] != SB_SIDE_PERIODIC) continue;
             to = (to + count) % count;
         }
         size_t next = (size_t)(along_x ? j * c->nx + to : to * c->nx + i);
@@ -136,8 +130,7 @@ static bool find_start(const sb_columns *c, sb_vec3 seed, size_t *start_column, 
     double best = INFINITY;
     for (int64_t j = sj - 1; j <= sj + 1; ++j)
         for (int64_t i = si - 1; i <= si + 1; ++i) {
-            if (i < 0 || j < 0 || i >= c->nx || j >= c->ny)
-                continue;
+            if (i < 0 || j < 0 || i >= c->nx || j >= c->ny) continue;
             size_t column = (size_t)(j * c->nx + i);
             for (size_t r = c->begin[column]; r < c->begin[column + 1]; ++r)
                 for (int32_t k = 0; k < c->runs[r].count; ++k) {
@@ -157,11 +150,9 @@ static bool find_start(const sb_columns *c, sb_vec3 seed, size_t *start_column, 
 sb_status sb_columns_flood(sb_columns *c, sb_error *error)
 {
     sb_vec3 seed = c->scene->sea.seed;
-    if (c->scene->dimensions == 2)
-        seed.y = 0;
+    if (c->scene->dimensions == 2) seed.y = 0;
     sb_status status = check_seed(c, seed, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     if (c->scene->domain.side[SB_Z_MAX] == SB_SIDE_OPEN && c->scene->sea.level > c->top)
         return sb_fail(error, SB_BAD_INPUT,
                        "sea.level %g is above the domain's open top at %g: expected a level within "
@@ -175,8 +166,7 @@ sb_status sb_columns_flood(sb_columns *c, sb_error *error)
                        seed.x, seed.y, seed.z);
     front f = {0};
     c->runs[run].wet = true;
-    if (front_push(&f, column, run))
-        status = sb_fail_memory(error, "the flood fill of the sea");
+    if (front_push(&f, column, run)) status = sb_fail_memory(error, "the flood fill of the sea");
     while (f.count > 0 && status == SB_OK) {
         --f.count;
         status = visit(c, &f, f.column[f.count], f.run[f.count], error);

@@ -1,5 +1,5 @@
-/* From wet runs to particles: each run is divided evenly from its floor to its surface, into as many
-   layers as its volume holds on average. */
+/* From wet runs to particles: each run is divided evenly from its floor to its surface, into as
+   many layers as its volume holds on average. */
 #include "geometry/fill_parts.h"
 
 #include "base/memory.h"
@@ -10,8 +10,8 @@
 /* In spacings: no particle starts nearer to a surface than this; thinner water has none. */
 static const double clearance = 0.3, film = 0.25;
 
-/* Even over the columns and never in step with them (Roberts's sequence, the golden ratio in 2D), so
-   that the columns that round up are spread over any region like its rounded-off volume. Whole
+/* Even over the columns and never in step with them (Roberts's sequence, the golden ratio in 2D),
+   so that the columns that round up are spread over any region like its rounded-off volume. Whole
    numbers within a hundredth stay whole. */
 static double threshold(const sb_columns *c, int64_t i, int64_t j)
 {
@@ -20,14 +20,49 @@ static double threshold(const sb_columns *c, int64_t i, int64_t j)
     return 0.01 + 0.98 * (at + 0.5 - floor(at + 0.5));
 }
 
+static const int steps[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+
+/* The wet run of a column nearby that shares most of this run's height, or NULL; *outside: there is
+   no such column. */
+static const sb_run *neighbour(const sb_columns *c, int64_t i, int64_t j, const sb_run *run,
+                               bool *outside)
+{
+    *outside = i < 0 || j < 0 || i >= c->nx || j >= c->ny;
+    if (*outside) return NULL;
+    size_t column = (size_t)(j * c->nx + i);
+    const sb_run *found = NULL;
+    double best = 0;
+    for (size_t r = c->begin[column]; r < c->begin[column + 1]; ++r) {
+        const sb_run *other = c->runs + r;
+        double shared = fmin(other->high, run->high) - fmax(other->low, run->low);
+        if (!other->wet || shared <= best) continue;
+        best = shared;
+        found = other;
+    }
+    return found;
+}
+
+/* Where the depth changes gently from column to column its rounding evens out by itself, and the
+   columns are the more regular for it; on a level or a steep floor the threshold has to see to it.
+ */
+static bool evens_out(const sb_columns *c, int64_t i, int64_t j, const sb_run *run)
+{
+    double most = 0, height = run->high - run->low;
+    for (int s = 0; s < (c->ny > 1 ? 4 : 2); ++s) {
+        bool outside;
+        const sb_run *other = neighbour(c, i + steps[s][0], j + steps[s][1], run, &outside);
+        if (other) most = fmax(most, fabs(other->high - other->low - height));
+    }
+    return most > 0.04 * c->spacing && most < 0.26 * c->spacing;
+}
+
 static size_t layers_of(const sb_columns *c, int64_t i, int64_t j, const sb_run *run)
 {
     double height = run->high - run->low, s = c->spacing;
-    if (!run->wet || height < film * s)
-        return 0;
-    double particles = c->scene->dimensions == 2 ? height * c->dx / (s * s)
-                                                 : height * c->dx * c->dy / (s * s * s);
-    return (size_t)floor(particles + threshold(c, i, j));
+    if (!run->wet || height < film * s) return 0;
+    double particles =
+        c->scene->dimensions == 2 ? height * c->dx / (s * s) : height * c->dx * c->dy / (s * s * s);
+    return (size_t)floor(particles + (evens_out(c, i, j, run) ? 0.5 : threshold(c, i, j)));
 }
 
 /* The stretch of a run that has open water on all four sides: nothing to keep clear of there. */
@@ -36,27 +71,14 @@ static void open_part(const sb_columns *c, int64_t i, int64_t j, const sb_run *r
 {
     *low = run->low;
     *high = run->surface ? (double)INFINITY : run->high;
-    static const int step[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     for (int32_t k = 0; k < run->count; ++k)
-        if (c->cells[run->cell + (size_t)k])
-            *high = -INFINITY;
+        if (c->cells[run->cell + (size_t)k]) *high = -(double)INFINITY;
     for (int s = 0; s < (c->ny > 1 ? 4 : 2); ++s) {
-        int64_t ni = i + step[s][0], nj = j + step[s][1];
-        if (ni < 0 || nj < 0 || ni >= c->nx || nj >= c->ny)
-            continue;
-        size_t column = (size_t)(nj * c->nx + ni);
-        double best_low = 0, best_high = 0, best = -INFINITY;
-        for (size_t r = c->begin[column]; r < c->begin[column + 1]; ++r) {
-            const sb_run *other = c->runs + r;
-            double from = fmax(other->low, run->low), to = fmin(other->high, run->high);
-            if (!other->wet || to - from <= best)
-                continue;
-            best = to - from;
-            best_low = other->low;
-            best_high = other->surface ? (double)INFINITY : other->high;
-        }
-        *low = fmax(*low, best_low);
-        *high = best > 0 ? fmin(*high, best_high) : -(double)INFINITY;
+        bool outside;
+        const sb_run *other = neighbour(c, i + steps[s][0], j + steps[s][1], run, &outside);
+        if (outside) continue;
+        *low = other ? fmax(*low, other->low) : *low;
+        *high = !other ? -(double)INFINITY : other->surface ? *high : fmin(*high, other->high);
     }
 }
 
@@ -69,18 +91,14 @@ static sb_vec3 keep_clear(const sb_columns *c, sb_vec3 at)
         double best = least;
         for (size_t i = 0; i < c->solid_count; ++i) {
             double distance = sb_solid_distance(c->solids[i].solid, at, best, &nearest, &normal);
-            if (distance >= best || !(distance > 0))
-                continue;
+            if (distance >= best || !(distance > 0)) continue;
             best = distance;
             push = sb_scale(sb_sub(at, nearest), (least * (1 + 1e-6) - distance) / distance);
         }
-        if (!(best < least))
-            break;
+        if (!(best < least)) break;
         sb_vec3 moved = sb_add(at, push);
-        if (c->scene->dimensions == 2)
-            moved.y = 0;
-        if (!sb_columns_clear(c, at, moved))
-            break;
+        if (c->scene->dimensions == 2) moved.y = 0;
+        if (!sb_columns_clear(c, at, moved)) break;
         at = moved;
     }
     return at;
@@ -89,8 +107,7 @@ static sb_vec3 keep_clear(const sb_columns *c, sb_vec3 at)
 static sb_vec3 velocity_at(const sb_columns *c, sb_vec3 at)
 {
     const sb_initial_wave *wave = &c->scene->wave;
-    if (!c->waves || wave->kind != SB_INITIAL_SOLITARY)
-        return c->velocity;
+    if (!c->waves || wave->kind != SB_INITIAL_SOLITARY) return c->velocity;
     const sb_solitary solitary = {wave->height, wave->depth, c->scene->fluid.gravity, 0};
     double sign = wave->direction < 0 ? -1 : 1, u, w;
     sb_solitary_velocity(&solitary, sign * (at.x - wave->position),
@@ -108,8 +125,7 @@ static void fill_run(const sb_columns *c, int64_t i, int64_t j, const sb_run *ru
     for (size_t k = 0; k < layers; ++k, ++at) {
         sb_vec3 p = sb_columns_center(c, i, j, 0);
         p.z = run->low + ((double)k + 0.5) * step;
-        if (!(p.z - margin > low && p.z + margin < high))
-            p = keep_clear(c, p);
+        if (!(p.z - margin > low && p.z + margin < high)) p = keep_clear(c, p);
         fluid->position[at] = p;
         fluid->velocity[at] = velocity_at(c, p);
         fluid->pressure[at] = fmax(weight * (sb_columns_surface(c, p.x) - p.z), 0);
@@ -129,15 +145,13 @@ sb_status sb_columns_particles(const sb_columns *c, sb_fluid *fluid, sb_error *e
     sb_fluid made = {0};
     size_t columns = (size_t)(c->nx * c->ny);
     size_t *first = sb_alloc_untouched(columns + 1, sizeof *first);
-    if (!first)
-        return sb_fail_memory(error, "water");
+    if (!first) return sb_fail_memory(error, "water");
     for (size_t column = 0; column < columns; ++column) {
         first[column] = made.count;
         for (size_t r = c->begin[column]; r < c->begin[column + 1]; ++r) {
             const sb_run *run = c->runs + r;
             made.count += layers_of(c, (int64_t)column % c->nx, (int64_t)column / c->nx, run);
-            if (run->wet)
-                made.still_depth = fmax(made.still_depth, c->level - run->low);
+            if (run->wet) made.still_depth = fmax(made.still_depth, c->level - run->low);
         }
     }
     if (allocate(&made)) {
@@ -151,8 +165,7 @@ sb_status sb_columns_particles(const sb_columns *c, sb_fluid *fluid, sb_error *e
         size_t at = first[column];
         for (size_t r = c->begin[column]; r < c->begin[column + 1]; ++r) {
             size_t layers = layers_of(c, i, j, c->runs + r);
-            if (layers > 0)
-                fill_run(c, i, j, c->runs + r, layers, at, &made);
+            if (layers > 0) fill_run(c, i, j, c->runs + r, layers, at, &made);
             at += layers;
         }
     }

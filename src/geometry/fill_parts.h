@@ -4,20 +4,21 @@
 
 #include "geometry/fill.h"
 
-/* A stretch of one column that is free of solids. Its cells are the layers whose centres lie in it. */
+/* A stretch of one column that is free of solids. Its cells are the layers whose centres lie in it.
+ */
 typedef struct sb_run {
-    double low, high;      /* m */
-    size_t cell;           /* of its first layer, in sb_columns.cells */
-    int32_t first, count;  /* layers */
-    bool surface;          /* high is the free surface */
+    double low, high;     /* m */
+    size_t cell;          /* of its first layer, in sb_columns.cells */
+    int32_t first, count; /* layers */
+    bool surface;         /* high is the free surface */
     bool wet;
 } sb_run;
 
 /* Bits of a cell: a surface stands between its centre and that of the next column along x or y. */
 enum { SB_CELL_BLOCK_X = 1, SB_CELL_BLOCK_Y = 2 };
 
-/* A rectangle of columns, fitted to its extent: dx, dy are as near to the spacing as whole numbers of
-   columns allow. Layers are counted upwards from `base` and end at the level. Owned arrays. */
+/* A rectangle of columns, fitted to its extent: dx, dy are as near to the spacing as whole numbers
+   of columns allow. Layers are counted upwards from `base` and end at the level. Owned arrays. */
 typedef struct sb_columns {
     const sb_scene *scene;
     const sb_fill_solid *solids;
@@ -26,9 +27,9 @@ typedef struct sb_columns {
     int64_t nx, ny;
     double bottom, base, level, top; /* m; top: nothing is wet above */
     int32_t layers;
-    bool waves;            /* the scene's initial wave shapes this water */
-    sb_vec3 velocity;      /* m/s */
-    size_t *begin;         /* nx * ny + 1: runs of a column, from below */
+    bool waves;       /* the scene's initial wave shapes this water */
+    sb_vec3 velocity; /* m/s */
+    size_t *begin;    /* nx * ny + 1: runs of a column, from below */
     size_t run_count, cell_count;
     sb_run *runs;
     uint8_t *cells;

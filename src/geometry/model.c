@@ -10,12 +10,9 @@
 
 void sb_model_free(sb_model *model)
 {
-    if (!model)
-        return;
-    for (size_t i = 0; i < model->body_count; ++i)
-        sb_mesh_free(&model->bodies[i].mesh);
-    for (size_t i = 0; i < model->warning_count; ++i)
-        sb_free(model->warnings[i]);
+    if (!model) return;
+    for (size_t i = 0; i < model->body_count; ++i) sb_mesh_free(&model->bodies[i].mesh);
+    for (size_t i = 0; i < model->warning_count; ++i) sb_free(model->warnings[i]);
     sb_free(model->bodies);
     sb_free(model->warnings);
     sb_free(model->fluid_position);
@@ -48,33 +45,29 @@ sb_status sb_model_warn(sb_model *model, sb_error *error, const char *format, ..
 static sb_status sample(const sb_scene *scene, const sb_model_space *space, sb_model *model,
                         sb_error *error)
 {
-    const sb_sample_settings settings = {
-        .spacing = scene->resolution,
-        .offset = scene->numerics.wall_offset * scene->resolution,
-        .support = scene->numerics.support * scene->resolution,
-        .dimensions = scene->dimensions,
-        .min = scene->domain.min,
-        .max = scene->domain.max};
+    const sb_sample_settings settings = {.spacing = scene->resolution,
+                                         .offset = scene->numerics.wall_offset * scene->resolution,
+                                         .support = scene->numerics.support * scene->resolution,
+                                         .dimensions = scene->dimensions,
+                                         .min = scene->domain.min,
+                                         .max = scene->domain.max};
     sb_sample_source *sources = sb_alloc(space->count, sizeof *sources);
-    if (!sources)
-        return sb_fail_memory(error, "surfaces");
+    if (!sources) return sb_fail_memory(error, "surfaces");
     size_t count = 0;
     for (size_t i = 0; i < space->count; ++i)
         if (space->solid[i])
-            sources[count++] = (sb_sample_source){space->mesh[i], space->solid[i],
-                                                  model->bodies[i].role,
-                                                  model->bodies[i].wavemaker >= 0};
+            sources[count++] =
+                (sb_sample_source){space->mesh[i], space->solid[i], model->bodies[i].role,
+                                   model->bodies[i].wavemaker >= 0};
     sb_samples samples = {.count = 0};
     sb_status status = sb_sample_surfaces(&settings, sources, count, &samples, error);
     sb_free(sources);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     count = 0;
     for (size_t i = 0; i < space->count; ++i) {
         sb_model_body *body = model->bodies + i;
         body->begin = samples.begin[count];
-        if (space->solid[i])
-            body->count = samples.begin[++count] - body->begin;
+        if (space->solid[i]) body->count = samples.begin[++count] - body->begin;
     }
     model->wall_count = samples.count;
     model->wall_position = samples.position;
@@ -87,8 +80,7 @@ static sb_status fill(const sb_scene *scene, const sb_model_space *space, sb_mod
                       sb_error *error)
 {
     sb_fill_solid *solids = sb_alloc(space->count, sizeof *solids);
-    if (!solids)
-        return sb_fail_memory(error, "solids");
+    if (!solids) return sb_fail_memory(error, "solids");
     size_t count = 0;
     /* Not the domain's own walls: columns end there anyway. */
     for (size_t i = 0; i < space->count; ++i)
@@ -97,8 +89,7 @@ static sb_status fill(const sb_scene *scene, const sb_model_space *space, sb_mod
     sb_fluid fluid = {.count = 0};
     sb_status status = sb_fill_water(scene, solids, count, &fluid, error);
     sb_free(solids);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     model->fluid_count = fluid.count;
     model->fluid_position = fluid.position;
     model->fluid_velocity = fluid.velocity;
@@ -112,16 +103,12 @@ sb_status sb_model_build(const sb_scene *scene, sb_model *model, sb_error *error
     sb_model made = {.dimensions = 0};
     sb_model_space space = {.count = 0};
     sb_status status = sb_model_import_bodies(scene, &made, error);
-    if (status == SB_OK)
-        status = sb_model_space_create(&made, scene, &space, error);
+    if (status == SB_OK) status = sb_model_space_create(&made, scene, &space, error);
     /* The sea first: a scene whose sea escapes need not wait for its walls. */
-    if (status == SB_OK)
-        status = fill(scene, &space, &made, error);
-    if (status == SB_OK)
-        status = sample(scene, &space, &made, error);
+    if (status == SB_OK) status = fill(scene, &space, &made, error);
+    if (status == SB_OK) status = sample(scene, &space, &made, error);
     sb_model_space_free(&space);
-    if (status == SB_OK)
-        status = sb_model_check(scene, &made, error);
+    if (status == SB_OK) status = sb_model_check(scene, &made, error);
     if (status != SB_OK) {
         sb_model_free(&made);
         return status;

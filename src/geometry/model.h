@@ -11,38 +11,38 @@
 typedef struct sb_model_body {
     char name[SB_NAME_MAX];
     size_t begin, count;
-    int wavemaker;        /* index into scene.wavemakers, -1: static */
-    bool report;          /* has rows in forces.csv */
+    int wavemaker; /* index into scene.wavemakers, -1: static */
+    bool report;   /* has rows in forces.csv */
     sb_role role;
     sb_vec3 moment_point; /* m */
     float color[3];
-    sb_mesh mesh;         /* scene coordinates at t = 0; empty for domain sides */
+    sb_mesh mesh; /* scene coordinates at t = 0; empty for domain sides */
 } sb_model_body;
 
 typedef struct sb_model {
-    sb_vec3 min, max;                 /* m, the domain; min is the origin of stored positions */
+    sb_vec3 min, max; /* m, the domain; min is the origin of stored positions */
     int dimensions;
-    double spacing;                   /* m */
-    double still_depth;               /* m, D: the largest still depth of water */
+    double spacing;     /* m */
+    double still_depth; /* m, D: the largest still depth of water */
     size_t fluid_count;
-    sb_vec3 *fluid_position;          /* m */
-    sb_vec3 *fluid_velocity;          /* m/s */
-    double *fluid_pressure;           /* Pa, hydrostatic first guess */
+    sb_vec3 *fluid_position; /* m */
+    sb_vec3 *fluid_velocity; /* m/s */
+    double *fluid_pressure;  /* Pa, hydrostatic first guess */
     size_t wall_count;
-    sb_vec3 *wall_position;           /* m, on the offset sheet, at t = 0 */
-    sb_vec3 *wall_normal;             /* unit, towards the water */
+    sb_vec3 *wall_position; /* m, on the offset sheet, at t = 0 */
+    sb_vec3 *wall_normal;   /* unit, towards the water */
     size_t body_count;
     sb_model_body *bodies;
     size_t warning_count;
-    char **warnings;                  /* one line each: what the user should know before running */
+    char **warnings; /* one line each: what the user should know before running */
 } sb_model;
 
 /* Imports, samples and fills. On error *model is untouched. Deterministic for any thread count. */
 sb_status sb_model_build(const sb_scene *scene, sb_model *model, sb_error *error);
 void sb_model_free(sb_model *model);
 
-/* The bodies alone, in the same order, with meshes, colours and wavemakers but without particles: what
-   pictures of a finished run need. On error *model is untouched. */
+/* The bodies alone, in the same order, with meshes, colours and wavemakers but without particles:
+   what pictures of a finished run need. On error *model is untouched. */
 sb_status sb_model_import_bodies(const sb_scene *scene, sb_model *model, sb_error *error);
 
 /* Adds to model->warnings what is too coarse or too thin to trust; sb_model_build has done so. */
@@ -55,9 +55,9 @@ typedef struct sb_inside_report {
     double depth;       /* m below the surface, of that point */
 } sb_inside_report;
 
-/* Asks for each point (xyz, relative to origin) whether it lies within a body by more than tolerance
-   (m): a proof that walls held, independent of the boundary particles. displacement: per body, m;
-   NULL: none moved. */
+/* Asks for each point (xyz, relative to origin) whether it lies within a body by more than
+   tolerance (m): a proof that walls held, independent of the boundary particles. displacement: per
+   body, m; NULL: none moved. */
 sb_status sb_model_first_inside(const sb_model *model, const float *position, size_t count,
                                 sb_vec3 origin, const sb_vec3 *displacement, double tolerance,
                                 sb_inside_report *report, sb_error *error);

@@ -32,8 +32,7 @@ static sb_vec3 footprint_center(const sb_mesh *mesh)
 static bool name_taken(const sb_model *model, const char *name)
 {
     for (size_t i = 0; i < model->body_count; ++i)
-        if (!strcmp(model->bodies[i].name, name))
-            return true;
+        if (!strcmp(model->bodies[i].name, name)) return true;
     return false;
 }
 
@@ -76,8 +75,7 @@ static sb_status add_meshes(const sb_scene *scene, const sb_body *from, sb_model
     sb_mesh *meshes = NULL;
     size_t count = 0;
     sb_status status = sb_mesh_from_body(from, scene->resolution, &meshes, &count, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     for (size_t i = 0; i < count && status == SB_OK; ++i) {
         if (add_body(model, capacity, meshes[i].name[0] ? meshes[i].name : from->name)) {
             status = sb_fail_memory(error, "bodies");
@@ -88,8 +86,7 @@ static sb_status add_meshes(const sb_scene *scene, const sb_body *from, sb_model
         meshes[i] = (sb_mesh){.sheet = false};
         describe(scene, from, body);
     }
-    for (size_t i = 0; i < count; ++i)
-        sb_mesh_free(meshes + i);
+    for (size_t i = 0; i < count; ++i) sb_mesh_free(meshes + i);
     sb_free(meshes);
     return status;
 }
@@ -128,8 +125,7 @@ sb_status sb_model_import_bodies(const sb_scene *scene, sb_model *model, sb_erro
     sb_status status = SB_OK;
     for (size_t i = 0; i < scene->body_count && status == SB_OK; ++i)
         status = add_meshes(scene, scene->bodies + i, &made, &capacity, error);
-    if (status == SB_OK)
-        status = check_wavemakers(scene, &made, error);
+    if (status == SB_OK) status = check_wavemakers(scene, &made, error);
     if (status == SB_OK && has_walls(scene)) {
         if (add_body(&made, &capacity, "domain")) {
             status = sb_fail_memory(error, "bodies");

@@ -1,10 +1,12 @@
-/* What a user should know before running: holes in meshes, plates and water too thin for the spacing. */
+/* What a user should know before running: holes in meshes, plates and water too thin for the
+ * spacing. */
 #include "geometry/model_parts.h"
 
-enum { RAYS_MAX = 4000, DEPTH_MIN = 4, HEIGHT_MIN = 5 };
+enum { RAYS_MAX = 4000, BINS = 64, DEPTH_MIN = 4, HEIGHT_MIN = 5 };
 
-/* Share of a body's surface that has to be thin before it counts as a plate; sharp edges do not. */
-static const double thin_share = 0.05;
+/* Share of a body's surface that has to be thin before it counts as a plate, and the cosine between
+   its two faces there: sharp edges are none. */
+static const double thin_share = 0.05, opposite = -0.8;
 
 static sb_status check_mesh(const sb_model_body *body, sb_model *model, sb_error *error)
 {
@@ -14,8 +16,7 @@ static sb_status check_mesh(const sb_model_body *body, sb_model *model, sb_error
         status = sb_model_warn(model, error,
                                "body \"%s\": %zu faces looked away from the water and were turned",
                                body->name, mesh->turned);
-    if (body->role != SB_ROLE_SOLID || mesh->sheet || status != SB_OK)
-        return status;
+    if (body->role != SB_ROLE_SOLID || mesh->sheet || status != SB_OK) return status;
     sb_mesh_report report;
     sb_mesh_diagnose(mesh, &report);
     if (report.open_edges > 0)
@@ -36,11 +37,12 @@ static sb_status check_mesh(const sb_model_body *body, sb_model *model, sb_error
     return status;
 }
 
-/* The least thickness met straight behind the faces, and the share of area thinner than limit. */
+/* The thickness straight behind the faces that thin_share of the area stays below, at most limit.
+ */
 static double find_thickness(const sb_model *model, const sb_mesh *mesh, const sb_solid *solid,
-                             double limit, double *share)
+                             double limit)
 {
-    double area = 0, thin = 0, least = limit;
+    double area = 0, thin[BINS] = {0};
     size_t step = mesh->triangle_count / RAYS_MAX + 1;
     for (size_t t = 0; t < mesh->triangle_count; t += step) {
         sb_vec3 a = mesh->vertices[mesh->triangles[t][0]];
@@ -49,19 +51,22 @@ static double find_thickness(const sb_model *model, const sb_mesh *mesh, const s
         sb_vec3 normal = sb_cross(sb_sub(b, a), sb_sub(c, a));
         double size = sb_norm(normal);
         sb_vec3 back = sb_scale(sb_normalize(normal), -1);
-        if (!(size > 0) || (model->dimensions == 2 && fabs(back.y) > 0.5))
-            continue;
+        if (!(size > 0) || (model->dimensions == 2 && fabs(back.y) > 0.5)) continue;
         sb_vec3 at = sb_scale(sb_add(a, sb_add(b, c)), 1.0 / 3);
         double skin = 1e-6 * model->spacing;
         double depth = sb_solid_raycast(solid, sb_madd(at, skin, back), back, limit);
         area += size;
-        if (depth > 0 && depth < limit) {
-            thin += size;
-            least = fmin(least, depth + skin);
-        }
+        if (!(depth > 0 && depth < limit)) continue;
+        sb_vec3 far_face = sb_scale(back, -1), end = sb_madd(at, depth + skin, back);
+        sb_solid_distance(solid, end, skin, NULL, &far_face);
+        if (sb_dot(far_face, back) > -opposite) thin[(int)(BINS * depth / limit)] += size;
     }
-    *share = area > 0 ? thin / area : 0;
-    return least;
+    double sum = 0;
+    for (int i = 0; i < BINS; ++i) {
+        sum += thin[i];
+        if (sum > thin_share * area) return limit * (i + 1) / BINS;
+    }
+    return limit;
 }
 
 static sb_status check_thickness(const sb_scene *scene, const sb_model_body *body, sb_model *model,
@@ -69,26 +74,24 @@ static sb_status check_thickness(const sb_scene *scene, const sb_model_body *bod
 {
     if (body->role != SB_ROLE_SOLID || body->mesh.sheet || body->mesh.triangle_count == 0)
         return SB_OK;
-    double support = scene->numerics.support * scene->resolution, share;
+    double support = scene->numerics.support * scene->resolution;
     sb_solid *solid = NULL;
     sb_status status = sb_solid_create(&body->mesh, body->role, &solid, error);
-    if (status != SB_OK)
-        return status;
-    double thickness = find_thickness(model, &body->mesh, solid, support, &share);
+    if (status != SB_OK) return status;
+    double thickness = find_thickness(model, &body->mesh, solid, support);
     sb_solid_destroy(solid);
-    if (share < thin_share)
-        return SB_OK;
-    return sb_model_warn(model, error,
-                         "body \"%s\" is %.3g m thick, less than the support radius of %.3g m: water "
-                         "on one side pushes water on the other",
-                         body->name, thickness, support);
+    if (thickness >= support) return SB_OK;
+    return sb_model_warn(
+        model, error,
+        "body \"%s\" is about %.2g m thick, less than the support radius of %.3g m: water "
+        "on one side pushes water on the other",
+        body->name, thickness, support);
 }
 
 static sb_status check_height(const sb_model *model, const char *what, const char *name,
                               double height, sb_model *to, sb_error *error)
 {
-    if (!(height > 0) || height >= HEIGHT_MIN * model->spacing)
-        return SB_OK;
+    if (!(height > 0) || height >= HEIGHT_MIN * model->spacing) return SB_OK;
     return sb_model_warn(to, error,
                          "%s%s%s%s: a wave height of %g m is %.2g particles: expected %d or more",
                          what, name ? " \"" : "", name ? name : "", name ? "\"" : "", height,
@@ -104,9 +107,9 @@ static sb_status check_water(const sb_scene *scene, sb_model *model, sb_error *e
                              0.5 * model->spacing);
     sb_status status = SB_OK;
     if (model->still_depth < DEPTH_MIN * model->spacing)
-        status = sb_model_warn(model, error,
-                               "the water is at most %g m deep, %.2g particles: expected %d or more",
-                               model->still_depth, model->still_depth / model->spacing, DEPTH_MIN);
+        status = sb_model_warn(
+            model, error, "the water is at most %g m deep, %.2g particles: expected %d or more",
+            model->still_depth, model->still_depth / model->spacing, DEPTH_MIN);
     if (status == SB_OK && scene->wave.kind != SB_INITIAL_NONE)
         status = check_height(model, "initial wave", NULL, scene->wave.height, model, error);
     for (size_t i = 0; i < scene->wavemaker_count && status == SB_OK; ++i)
@@ -120,16 +123,15 @@ sb_status sb_model_check(const sb_scene *scene, sb_model *model, sb_error *error
     sb_status status = SB_OK;
     for (size_t i = 0; i < model->body_count && status == SB_OK; ++i) {
         const sb_model_body *body = model->bodies + i;
-        if (body->mesh.triangle_count == 0)
-            continue;
+        if (body->mesh.triangle_count == 0) continue;
         status = check_mesh(body, model, error);
-        if (status == SB_OK)
-            status = check_thickness(scene, body, model, error);
+        if (status == SB_OK) status = check_thickness(scene, body, model, error);
         if (status == SB_OK && body->count == 0)
-            status = sb_model_warn(model, error,
-                                   "body \"%s\" has no surface that water could reach: it is outside "
-                                   "of the domain or within other bodies",
-                                   body->name);
+            status =
+                sb_model_warn(model, error,
+                              "body \"%s\" has no surface that water could reach: it is outside "
+                              "of the domain or within other bodies",
+                              body->name);
     }
     return status == SB_OK ? check_water(scene, model, error) : status;
 }

@@ -7,8 +7,7 @@ static size_t holder(const sb_model *model, const sb_model_space *space, sb_vec3
 {
     for (size_t b = 0; b < space->count; ++b) {
         sb_vec3 at = displacement ? sb_sub(point, displacement[b]) : point;
-        if (model->dimensions == 2)
-            at.y = 0;
+        if (model->dimensions == 2) at.y = 0;
         if (space->solid[b] && sb_solid_contains(space->solid[b], at) &&
             sb_solid_distance(space->solid[b], at, tolerance, NULL, NULL) >= tolerance)
             return b;
@@ -28,14 +27,12 @@ sb_status sb_model_first_inside(const sb_model *model, const float *position, si
 {
     sb_model_space space;
     sb_status status = sb_model_space_create(model, NULL, &space, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     size_t found = 0, first = SIZE_MAX;
 #pragma omp parallel for schedule(dynamic, 1024) reduction(+ : found) reduction(min : first)
     for (size_t i = 0; i < count; ++i) {
         size_t body = holder(model, &space, point_at(position, i, origin), displacement, tolerance);
-        if (body == SIZE_MAX)
-            continue;
+        if (body == SIZE_MAX) continue;
         ++found;
         first = i < first ? i : first;
     }
@@ -43,10 +40,8 @@ sb_status sb_model_first_inside(const sb_model *model, const float *position, si
     if (found > 0) {
         sb_vec3 at = point_at(position, first, origin);
         report->body = holder(model, &space, at, displacement, tolerance);
-        if (displacement)
-            at = sb_sub(at, displacement[report->body]);
-        report->depth =
-            sb_solid_distance(space.solid[report->body], at, 1e30, NULL, NULL);
+        if (displacement) at = sb_sub(at, displacement[report->body]);
+        report->depth = sb_solid_distance(space.solid[report->body], at, 1e30, NULL, NULL);
     }
     sb_model_space_free(&space);
     return SB_OK;

@@ -5,12 +5,12 @@
 #include "geometry/model.h"
 #include "geometry/solid.h"
 
-/* Meshes as the questions of space see them (in 2D cut with y = 0), and their solids; one per body of
-   the model, the domain's included. A body that 2D misses has no solid. */
+/* Meshes as the questions of space see them (in 2D cut with y = 0), and their solids; one per body
+   of the model, the domain's included. A body that 2D misses has no solid. */
 typedef struct sb_model_space {
     size_t count;
-    sb_mesh *section;        /* owned, in 2D and for the domain; else empty */
-    const sb_mesh **mesh;    /* the section or the body's own */
+    sb_mesh *section;     /* owned, in 2D and for the domain; else empty */
+    const sb_mesh **mesh; /* the section or the body's own */
     sb_solid **solid;
 } sb_model_space;
 

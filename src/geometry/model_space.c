@@ -6,7 +6,8 @@
 
 #include <string.h>
 
-/* Corners by the bits x, y, z; each side's counter-clockwise from within, in the order of SB_X_MIN. */
+/* Corners by the bits x, y, z; each side's counter-clockwise from within, in the order of SB_X_MIN.
+ */
 static const uint32_t side_corners[SB_SIDES][4] = {{0, 2, 6, 4}, {1, 5, 7, 3}, {0, 4, 5, 1},
                                                    {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 6, 7, 5}};
 
@@ -14,14 +15,13 @@ static sb_status domain_mesh(const sb_scene *scene, sb_mesh *mesh, sb_error *err
 {
     sb_mesh made;
     sb_status status = sb_mesh_alloc(&made, 8, 12, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     bool flat = scene->dimensions == 2;
     sb_vec3 min = scene->domain.min, max = scene->domain.max;
     for (uint32_t i = 0; i < 8; ++i)
-        made.vertices[i] = sb_vec(i & 1 ? max.x : min.x,
-                                  flat ? (i & 2 ? 1 : -1) : (i & 2 ? max.y : min.y),
-                                  i & 4 ? max.z : min.z);
+        made.vertices[i] =
+            sb_vec(i & 1 ? max.x : min.x, flat ? (i & 2 ? 1 : -1) : (i & 2 ? max.y : min.y),
+                   i & 4 ? max.z : min.z);
     made.triangle_count = 0;
     made.sheet = true;
     for (int side = 0; side < SB_SIDES; ++side) {
@@ -37,7 +37,8 @@ static sb_status domain_mesh(const sb_scene *scene, sb_mesh *mesh, sb_error *err
     return SB_OK;
 }
 
-/* Long against anything in the scene, so that a cut's winding number is that of an endless strip. */
+/* Long against anything in the scene, so that a cut's winding number is that of an endless strip.
+ */
 static double strip_width(const sb_model *model)
 {
     return 1e3 * (model->max.x - model->min.x + model->max.z - model->min.z);
@@ -52,8 +53,7 @@ static sb_status add_solid(const sb_model *model, const sb_scene *scene, size_t 
     bool is_domain = body->mesh.triangle_count == 0;
     sb_status status = SB_OK;
     if (is_domain) {
-        if (!scene)
-            return SB_OK;
+        if (!scene) return SB_OK;
         status = domain_mesh(scene, &walls, error);
     }
     const sb_mesh *mesh = is_domain ? &walls : &body->mesh;
@@ -80,8 +80,7 @@ sb_status sb_model_space_create(const sb_model *model, const sb_scene *domain_of
     made.mesh = sb_alloc(made.count, sizeof *made.mesh);
     made.solid = sb_alloc(made.count, sizeof *made.solid);
     sb_status status = SB_OK;
-    if (!made.section || !made.mesh || !made.solid)
-        status = sb_fail_memory(error, "search trees");
+    if (!made.section || !made.mesh || !made.solid) status = sb_fail_memory(error, "search trees");
     for (size_t i = 0; i < made.count && status == SB_OK; ++i)
         status = add_solid(model, domain_of, i, &made, error);
     if (status != SB_OK) {
@@ -95,10 +94,8 @@ sb_status sb_model_space_create(const sb_model *model, const sb_scene *domain_of
 void sb_model_space_free(sb_model_space *space)
 {
     for (size_t i = 0; i < space->count; ++i) {
-        if (space->solid)
-            sb_solid_destroy(space->solid[i]);
-        if (space->section)
-            sb_mesh_free(space->section + i);
+        if (space->solid) sb_solid_destroy(space->solid[i]);
+        if (space->section) sb_mesh_free(space->section + i);
     }
     sb_free(space->section);
     sb_free(space->mesh);

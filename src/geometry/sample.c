@@ -9,8 +9,7 @@ static const double same_place = 1e-3;
 
 void sb_samples_free(sb_samples *samples)
 {
-    if (!samples)
-        return;
+    if (!samples) return;
     sb_free(samples->begin);
     sb_free(samples->position);
     sb_free(samples->normal);
@@ -49,8 +48,7 @@ static int sample_groups(sb_sampler *sampler, sb_sample_set *all)
     for (uint32_t i = 0; i < sampler->surface_count && !failed; ++i) {
         sampler->first = i;
         sampler->last = i + 1;
-        if (sb_sampler_takes(sampler, i))
-            failed = sample_group(sampler) || collect(sampler, all);
+        if (sb_sampler_takes(sampler, i)) failed = sample_group(sampler) || collect(sampler, all);
     }
     return failed;
 }
@@ -66,10 +64,8 @@ static int sort_out(const sb_sample_set *all, size_t source_count, sb_samples *o
         sb_samples_free(out);
         return -1;
     }
-    for (size_t i = 0; i < all->count; ++i)
-        ++out->begin[all->sample[i].source + 2];
-    for (size_t s = 2; s <= source_count; ++s)
-        out->begin[s] += out->begin[s - 1];
+    for (size_t i = 0; i < all->count; ++i) ++out->begin[all->sample[i].source + 2];
+    for (size_t s = 2; s <= source_count; ++s) out->begin[s] += out->begin[s - 1];
     for (size_t i = 0; i < all->count; ++i) {
         size_t at = out->begin[all->sample[i].source + 1]++;
         out->position[at] = all->sample[i].at;
@@ -88,18 +84,15 @@ sb_status sb_sample_surfaces(const sb_sample_settings *settings, const sb_sample
     sb_samples made = {0};
     sb_status status = SB_OK;
     sampler.surfaces = sb_alloc(count, sizeof *sampler.surfaces);
-    if (!sampler.surfaces)
-        return sb_fail_memory(error, "the sampling of surfaces");
+    if (!sampler.surfaces) return sb_fail_memory(error, "the sampling of surfaces");
     for (size_t i = 0; i < count && status == SB_OK; ++i) {
         status = sb_surface_build(sources + i, settings, sampler.surfaces + i, error);
         sampler.surface_count += status == SB_OK;
     }
     if (status == SB_OK && (sample_groups(&sampler, &all) || sort_out(&all, count, &made)))
         status = sb_fail_memory(error, "boundary particles");
-    if (status == SB_OK)
-        *samples = made;
-    for (size_t i = 0; i < sampler.surface_count; ++i)
-        sb_surface_free(sampler.surfaces + i);
+    if (status == SB_OK) *samples = made;
+    for (size_t i = 0; i < sampler.surface_count; ++i) sb_surface_free(sampler.surfaces + i);
     sb_free(sampler.surfaces);
     sb_sample_set_free(&sampler.set);
     sb_sample_set_free(&all);

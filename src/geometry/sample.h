@@ -7,10 +7,10 @@
 #include "geometry/solid.h"
 
 typedef struct sb_sample_settings {
-    double spacing;  /* m */
-    double offset;   /* m that the sheet lies behind the surface */
-    double support;  /* m: what no water can come nearer to than this is left out */
-    int dimensions;  /* 2: the curve in y = 0 */
+    double spacing;   /* m */
+    double offset;    /* m that the sheet lies behind the surface */
+    double support;   /* m: what no water can come nearer to than this is left out */
+    int dimensions;   /* 2: the curve in y = 0 */
     sb_vec3 min, max; /* m, the domain; min is also the origin of the lattices */
 } sb_sample_settings;
 
@@ -38,6 +38,7 @@ void sb_samples_free(sb_samples *samples);
 
 /* The cut of a mesh with the plane y = 0 as strips along y, +-half_width long: two triangles per
    piece of the curve. A mesh that the plane misses gives no triangles. */
-sb_status sb_section_mesh(const sb_mesh *mesh, double half_width, sb_mesh *section, sb_error *error);
+sb_status sb_section_mesh(const sb_mesh *mesh, double half_width, sb_mesh *section,
+                          sb_error *error);
 
 #endif

@@ -11,12 +11,12 @@ typedef struct proposals {
     sb_sample sample[PROPOSALS];
 } proposals;
 
-/* A neighbour's direction within a particle's tangent plane, so that growth carries a lattice on. */
+/* A neighbour's direction within a particle's tangent plane, so that growth carries a lattice on.
+ */
 static sb_vec3 find_axis(const sb_sampler *sampler, size_t index)
 {
     const sb_sample *s = sampler->set.sample + index;
-    if (sampler->settings.dimensions == 2)
-        return sb_vec(s->normal.z, 0, -s->normal.x);
+    if (sampler->settings.dimensions == 2) return sb_vec(s->normal.z, 0, -s->normal.x);
     double spacing = sampler->settings.spacing;
     sb_vec3 side = fabs(s->normal.z) < 0.9 ? sb_vec(0, 0, 1) : sb_vec(1, 0, 0);
     sb_vec3 u = sb_normalize(sb_cross(s->normal, side)), v = sb_cross(s->normal, u);
@@ -26,8 +26,7 @@ static sb_vec3 find_axis(const sb_sampler *sampler, size_t index)
         size_t near = index;
         sb_sample_set_nearest(&sampler->set, sb_madd(at, spacing * sin(angle), v), 0.45 * spacing,
                               &near);
-        if (near == index)
-            continue;
+        if (near == index) continue;
         sb_vec3 arm = sb_sub(sampler->set.sample[near].at, s->at);
         return sb_normalize(sb_madd(arm, -sb_dot(arm, s->normal), s->normal));
     }
@@ -59,20 +58,17 @@ static int plant_seeds(sb_sampler *sampler, uint32_t index)
     bool *done = sb_alloc(mesh->triangle_count, sizeof *done);
     int failed = !done;
     for (size_t t = 0; t < mesh->triangle_count && !failed && !surface->mixed; ++t) {
-        if (done[surface->part[t]])
-            continue;
+        if (done[surface->part[t]]) continue;
         sb_vec3 at = {0}, placed, inward = sb_scale(surface->normal[t], -1);
         for (int i = 0; i < 3; ++i)
             at = sb_madd(at, 1.0 / 3, mesh->vertices[mesh->triangles[t][i]]);
-        if (sampler->settings.dimensions == 2)
-            at.y = 0;
+        if (sampler->settings.dimensions == 2) at.y = 0;
         double margin;
-        if (sb_sample_place(sampler, index, at, inward, &placed, &margin) != SB_PLACED)
-            continue;
+        if (sb_sample_place(sampler, index, at, inward, &placed, &margin) != SB_PLACED) continue;
         done[surface->part[t]] = true;
         if (!sb_sample_set_any(&sampler->set, placed, 2 * sampler->settings.spacing))
-            failed = sb_sample_set_add(&sampler->set,
-                                       &(sb_sample){placed, surface->normal[t], index});
+            failed =
+                sb_sample_set_add(&sampler->set, &(sb_sample){placed, surface->normal[t], index});
     }
     sb_free(done);
     return failed;
@@ -82,17 +78,14 @@ int sb_sample_grow(sb_sampler *sampler)
 {
     double least = SB_SAMPLE_LATTICE * sampler->settings.spacing;
     for (uint32_t i = sampler->first; i < sampler->last; ++i)
-        if (sb_sampler_takes(sampler, i) && plant_seeds(sampler, i))
-            return -1;
+        if (sb_sampler_takes(sampler, i) && plant_seeds(sampler, i)) return -1;
     proposals *block = sb_alloc_untouched(BLOCK, sizeof *block);
-    if (!block)
-        return -1;
+    if (!block) return -1;
     int failed = 0;
     for (size_t begin = 0; begin < sampler->set.count && !failed;) {
         size_t left = sampler->set.count - begin, count = left < BLOCK ? left : BLOCK;
 #pragma omp parallel for schedule(dynamic, 32)
-        for (size_t i = 0; i < count; ++i)
-            propose(sampler, begin + i, block + i);
+        for (size_t i = 0; i < count; ++i) propose(sampler, begin + i, block + i);
         for (size_t i = 0; i < count; ++i)
             for (int k = 0; k < block[i].count && !failed; ++k)
                 if (!sb_sample_set_any(&sampler->set, block[i].sample[k].at, least))

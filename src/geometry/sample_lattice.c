@@ -7,8 +7,8 @@
 
 #include <string.h>
 
-/* A lattice projected along an axis stays dense enough up to this tilt (half a cell's diagonal below
-   SB_SAMPLE_FILL). */
+/* A lattice projected along an axis stays dense enough up to this tilt (half a cell's diagonal
+   below SB_SAMPLE_FILL). */
 static const double projected_cosine = 0.93;
 /* In spacings: a tilted plane smaller than this has no lattice of its own. */
 static const double fitted_extent = 6;
@@ -28,8 +28,7 @@ int sb_candidate_flush(sb_sampler *sampler, sb_candidate_batch *batch)
         }
         batch->good[i] =
             sb_sample_place(sampler, c->surface, c->at, c->inward, &placed, &margin) == SB_PLACED;
-        if (batch->good[i])
-            c->at = placed;
+        if (batch->good[i]) c->at = placed;
     }
     double least = SB_SAMPLE_LATTICE * sampler->settings.spacing;
     int failed = 0;
@@ -100,11 +99,9 @@ static bool choose_lattice(const sb_sampler *sampler, sb_vec3 n, const extent *e
     int k = dominant(n);
     *l = (lattice){axis_of((k + 1) % 3), axis_of((k + 2) % 3), sampler->settings.min, spacing,
                    spacing};
-    if (c[k] > projected_cosine)
-        return true;
+    if (c[k] > projected_cosine) return true;
     double long_u = e->max_u - e->min_u, long_v = e->max_v - e->min_v;
-    if (!(fmin(long_u, long_v) > fitted_extent * spacing))
-        return false;
+    if (!(fmin(long_u, long_v) > fitted_extent * spacing)) return false;
     *l = (lattice){.u = e->u, .v = e->v, .step_u = spacing, .step_v = fitted_step(long_v, spacing)};
     double at_u = sb_dot(sampler->settings.min, e->u), at_v = e->min_v;
     if (!is_axis(e->u)) {
@@ -134,14 +131,12 @@ static int scan_triangle(sb_sampler *sampler, sb_candidate_batch *batch, const l
     to_lattice(l, corner, u, v);
     double low = fmin(v[0], fmin(v[1], v[2])), high = fmax(v[0], fmax(v[1], v[2]));
     double area = (u[1] - u[0]) * (v[2] - v[0]) - (u[2] - u[0]) * (v[1] - v[0]);
-    if (!(fabs(area) > 1e-12))
-        return 0;
+    if (!(fabs(area) > 1e-12)) return 0;
     for (double row = ceil(low - 0.5 - slack) + 0.5; row <= high + slack; row += 1) {
         double first = INFINITY, last = -INFINITY;
         for (int i = 0; i < 3; ++i) {
             int j = (i + 1) % 3;
-            if (fmin(v[i], v[j]) > row + slack || fmax(v[i], v[j]) < row - slack)
-                continue;
+            if (fmin(v[i], v[j]) > row + slack || fmax(v[i], v[j]) < row - slack) continue;
             double t = v[i] != v[j] ? (row - v[i]) / (v[j] - v[i]) : 0;
             t = t < 0 ? 0 : t > 1 ? 1 : t;
             double at = u[i] + t * (u[j] - u[i]);
@@ -153,8 +148,7 @@ static int scan_triangle(sb_sampler *sampler, sb_candidate_batch *batch, const l
             double c = ((u[1] - u[0]) * (row - v[0]) - (at - u[0]) * (v[1] - v[0])) / area;
             candidate.at = sb_madd(sb_madd(corner[0], b, sb_sub(corner[1], corner[0])), c,
                                    sb_sub(corner[2], corner[0]));
-            if (sb_candidate_push(sampler, batch, candidate))
-                return -1;
+            if (sb_candidate_push(sampler, batch, candidate)) return -1;
         }
     }
     return 0;
@@ -162,8 +156,7 @@ static int scan_triangle(sb_sampler *sampler, sb_candidate_batch *batch, const l
 
 static void corners_of(const sb_mesh *mesh, size_t t, sb_vec3 corner[3])
 {
-    for (int i = 0; i < 3; ++i)
-        corner[i] = mesh->vertices[mesh->triangles[t][i]];
+    for (int i = 0; i < 3; ++i) corner[i] = mesh->vertices[mesh->triangles[t][i]];
 }
 
 /* Bounds of all planes of a surface, by their first triangle. */
@@ -173,8 +166,8 @@ static void measure_planes(const sb_surface *surface, extent *extents)
     for (size_t t = 0; t < mesh->triangle_count; ++t) {
         extent *e = extents + surface->region[t];
         if (surface->region[t] == t) {
-            *e = (extent){.min_u = INFINITY, .max_u = -INFINITY, .min_v = INFINITY,
-                          .max_v = -INFINITY};
+            *e = (extent){
+                .min_u = INFINITY, .max_u = -INFINITY, .min_v = INFINITY, .max_v = -INFINITY};
             plane_axes(surface->normal[t], e);
         }
         sb_vec3 corner[3];
@@ -194,8 +187,7 @@ static int scan_faces(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t i
     const sb_surface *surface = sampler->surfaces + index;
     const sb_mesh *mesh = sb_surface_mesh(surface);
     extent *extents = sb_alloc_untouched(mesh->triangle_count, sizeof *extents);
-    if (!extents)
-        return -1;
+    if (!extents) return -1;
     measure_planes(surface, extents);
     int failed = 0;
     for (size_t t = 0; t < mesh->triangle_count && !failed; ++t) {
@@ -226,8 +218,7 @@ static int scan_line(sb_sampler *sampler, sb_candidate_batch *batch, sb_vec3 a, 
     for (double at = begin + 0.5 * step; at <= length + 1e-9 * step; at += step) {
         sb_candidate next = candidate;
         next.at = sb_add(sb_madd(a, at, along), candidate.at);
-        if (sb_candidate_push(sampler, batch, next))
-            return -1;
+        if (sb_candidate_push(sampler, batch, next)) return -1;
     }
     return 0;
 }
@@ -237,8 +228,7 @@ static int scan_crease(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t 
                        const sb_crease *crease)
 {
     double cosine = sb_dot(crease->normal[0], crease->normal[1]);
-    if (cosine < mitre_cosine || cosine > 0.9)
-        return 0;
+    if (cosine < mitre_cosine || cosine > 0.9) return 0;
     double offset = sampler->settings.offset;
     sb_vec3 sum = sb_add(crease->normal[0], crease->normal[1]);
     sb_candidate candidate = {.at = sb_scale(sum, -offset / (1 + cosine)),
@@ -260,30 +250,31 @@ static int scan_cap(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t ind
 {
     const sb_vec3 *n = cap->normal;
     double volume = sb_dot(n[0], sb_cross(n[1], n[2])), offset = sampler->settings.offset;
-    if (sampler->settings.dimensions == 2 || fabs(volume) < 0.3)
-        return 0;
+    if (sampler->settings.dimensions == 2 || fabs(volume) < 0.3) return 0;
     sb_vec3 sum = sb_add(sb_cross(n[0], n[1]), sb_add(sb_cross(n[1], n[2]), sb_cross(n[2], n[0])));
-    return sb_candidate_push(sampler, batch,
-                             (sb_candidate){.at = sb_madd(cap->at, -offset / volume, sum),
-                                            .inward = sb_scale(sb_normalize(sum), volume > 0 ? -1 : 1),
-                                            .surface = index,
-                                            .placed = true,
-                                            .reach = offset});
+    return sb_candidate_push(
+        sampler, batch,
+        (sb_candidate){.at = sb_madd(cap->at, -offset / volume, sum),
+                       .inward = sb_scale(sb_normalize(sum), volume > 0 ? -1 : 1),
+                       .surface = index,
+                       .placed = true,
+                       .reach = offset});
 }
 
-/* The curve in y = 0: each strip of a section is two triangles, its piece lies at half its height. */
+/* The curve in y = 0: each strip of a section is two triangles, its piece lies at half its height.
+ */
 static int scan_strips(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t index)
 {
     const sb_surface *surface = sampler->surfaces + index;
     const sb_mesh *mesh = sb_surface_mesh(surface);
     for (size_t t = 0; t + 1 < mesh->triangle_count; t += 2) {
-        sb_vec3 a = mesh->vertices[mesh->triangles[t][0]], b = mesh->vertices[mesh->triangles[t][1]];
+        sb_vec3 a = mesh->vertices[mesh->triangles[t][0]],
+                b = mesh->vertices[mesh->triangles[t][1]];
         a.y = b.y = 0;
         if (sb_norm(sb_sub(b, a)) < sampler->settings.spacing && !is_axis(surface->normal[t]))
             continue;
         sb_candidate candidate = {.inward = sb_scale(surface->normal[t], -1), .surface = index};
-        if (scan_line(sampler, batch, a, b, candidate))
-            return -1;
+        if (scan_line(sampler, batch, a, b, candidate)) return -1;
     }
     return 0;
 }
@@ -307,9 +298,9 @@ static int scan_corners(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t
 
 int sb_sample_lattices(sb_sampler *sampler)
 {
-    sb_candidate_batch batch = {
-        .candidate = sb_alloc_untouched(SB_SAMPLE_BATCH, sizeof *batch.candidate),
-        .good = sb_alloc_untouched(SB_SAMPLE_BATCH, sizeof *batch.good)};
+    sb_candidate_batch batch = {.candidate =
+                                    sb_alloc_untouched(SB_SAMPLE_BATCH, sizeof *batch.candidate),
+                                .good = sb_alloc_untouched(SB_SAMPLE_BATCH, sizeof *batch.good)};
     int failed = !batch.candidate || !batch.good;
     for (int stage = 0; stage < 2 && !failed; ++stage) {
         for (uint32_t i = sampler->first; i < sampler->last && !failed; ++i)

@@ -5,8 +5,8 @@
 #include "geometry/sample.h"
 #include "geometry/sample_set.h"
 
-/* In spacings. Lattices stay whole from LATTICE on; what they leave open is filled from FILL on, and
-   is filled when farther than COVER: 0.70 < FILL < COVER < 0.75 leave room for rounding. */
+/* In spacings. Lattices stay whole from LATTICE on; what they leave open is filled from FILL on,
+   and is filled when farther than COVER: 0.70 < FILL < COVER < 0.75 leave room for rounding. */
 #define SB_SAMPLE_LATTICE 0.9
 #define SB_SAMPLE_FILL 0.74
 #define SB_SAMPLE_COVER 0.746
@@ -25,12 +25,12 @@ typedef struct sb_cap {
 typedef struct sb_surface {
     const sb_sample_source *source;
     sb_vec3 min, max;
-    bool bounded;      /* nothing outside of the box is inside the solid */
-    bool mixed;        /* faces of both orientations: a neighbour's normal says nothing */
-    double sign;       /* of the mesh's normals: -1 for a wholly flipped mesh */
-    sb_vec3 *normal;   /* per triangle, unit, towards the water; zero when degenerate */
-    uint32_t *region;  /* per triangle: first triangle of its plane */
-    uint32_t *part;    /* per triangle: first triangle of its connected part */
+    bool bounded;     /* nothing outside of the box is inside the solid */
+    bool mixed;       /* faces of both orientations: a neighbour's normal says nothing */
+    double sign;      /* of the mesh's normals: -1 for a wholly flipped mesh */
+    sb_vec3 *normal;  /* per triangle, unit, towards the water; zero when degenerate */
+    uint32_t *region; /* per triangle: first triangle of its plane */
+    uint32_t *part;   /* per triangle: first triangle of its connected part */
     size_t crease_count, crease_capacity, cap_count, cap_capacity;
     sb_crease *creases;
     sb_cap *caps;
@@ -40,7 +40,7 @@ typedef struct sb_sampler {
     sb_sample_settings settings;
     size_t surface_count;
     sb_surface *surfaces;
-    bool moving;       /* the present group: one moving surface alone, or all static ones */
+    bool moving;          /* the present group: one moving surface alone, or all static ones */
     uint32_t first, last; /* surfaces of the group: those in [first, last) that move or not */
     sb_sample_set set;
 } sb_sampler;
@@ -62,11 +62,11 @@ static inline bool sb_sampler_takes(const sb_sampler *sampler, size_t surface)
            sampler->surfaces[surface].source->moving == sampler->moving;
 }
 
-/* Where a surface point goes. BURIED and CROWDED: nowhere; then all surface points within *margin of
-   this one share its fate (0: none may). */
+/* Where a surface point goes. BURIED and CROWDED: nowhere; then all surface points within *margin
+   of this one share its fate (0: none may). */
 typedef enum sb_placement { SB_PLACED, SB_BURIED, SB_CROWDED } sb_placement;
-sb_placement sb_sample_place(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_vec3 inward,
-                             sb_vec3 *placed, double *margin);
+sb_placement sb_sample_place(const sb_sampler *sampler, uint32_t surface, sb_vec3 at,
+                             sb_vec3 inward, sb_vec3 *placed, double *margin);
 /* No water comes near any point within `radius` of this one. */
 bool sb_sample_buried(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, double radius);
 /* As sb_sample_place for a point already on the sheet, `reach` from the surface. */
@@ -84,7 +84,7 @@ typedef struct sb_candidate {
     sb_vec3 at, inward; /* on the surface; or on the sheet when `placed` */
     uint32_t surface;
     bool placed;
-    double reach;       /* m from the surface, when placed */
+    double reach; /* m from the surface, when placed */
 } sb_candidate;
 enum { SB_SAMPLE_BATCH = 32768 };
 typedef struct sb_candidate_batch {

@@ -1,10 +1,11 @@
-/* Where the sheet is: a point of a surface goes behind it by the offset, or to the middle of what is
-   thinner than twice that, or nowhere. */
+/* Where the sheet is: a point of a surface goes behind it by the offset, or to the middle of what
+   is thinner than twice that, or nowhere. */
 #include "geometry/sample_parts.h"
 
 /* In offsets: nearer than this to another face, a point is beyond the sheet's own edge. */
 static const double crowded_share = 0.9;
-/* Cosine between normals: faces that look away from each other bound something thin, others meet. */
+/* Cosine between normals: faces that look away from each other bound something thin, others meet.
+ */
 static const double thin_cosine = -0.5;
 enum { THIN_STEPS = 8 };
 
@@ -36,16 +37,13 @@ static bool may_hide(const sb_sampler *sampler, uint32_t surface, uint32_t other
 
 bool sb_sample_buried(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, double radius)
 {
-    if (sampler->surfaces[surface].source->moving)
-        return false;
+    if (sampler->surfaces[surface].source->moving) return false;
     const sb_sample_settings *settings = &sampler->settings;
     double depth = settings->support + radius;
     sb_vec3 out = sb_max(sb_sub(settings->min, at), sb_sub(at, settings->max));
     out = sb_max(out, sb_vec(0, 0, 0));
-    if (settings->dimensions == 2)
-        out.y = 0;
-    if (sb_norm(out) > depth)
-        return true;
+    if (settings->dimensions == 2) out.y = 0;
+    if (sb_norm(out) > depth) return true;
     for (uint32_t i = 0; i < sampler->surface_count; ++i) {
         const sb_surface *other = sampler->surfaces + i;
         if (may_hide(sampler, surface, i) && contains(other, at) &&
@@ -60,8 +58,7 @@ static bool is_exposed(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, 
 {
     sb_vec3 front = sb_madd(at, 0.02 * sampler->settings.spacing, normal);
     for (uint32_t i = 0; i < sampler->surface_count; ++i)
-        if (may_hide(sampler, surface, i) && contains(sampler->surfaces + i, front))
-            return false;
+        if (may_hide(sampler, surface, i) && contains(sampler->surfaces + i, front)) return false;
     return true;
 }
 
@@ -84,13 +81,10 @@ static double clearance(const sb_sampler *sampler, uint32_t surface, sb_vec3 at,
             continue;
         sb_vec3 place, facing;
         double distance = sb_solid_distance(other->source->solid, at, best, &place, &facing);
-        if (distance >= best)
-            continue;
+        if (distance >= best) continue;
         facing = water_normal(other, facing);
-        if (other->mixed && sb_dot(facing, sb_sub(place, at)) < 0)
-            facing = sb_scale(facing, -1);
-        if (!is_exposed(sampler, i, place, facing))
-            continue;
+        if (other->mixed && sb_dot(facing, sb_sub(place, at)) < 0) facing = sb_scale(facing, -1);
+        if (!is_exposed(sampler, i, place, facing)) continue;
         best = distance;
         *nearest = place;
         *normal = facing;
@@ -106,20 +100,18 @@ bool sb_sample_fits(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, dou
            !(clearance(sampler, surface, at, least, &nearest, &normal) < least);
 }
 
-sb_placement sb_sample_place(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_vec3 inward,
-                             sb_vec3 *placed, double *margin)
+sb_placement sb_sample_place(const sb_sampler *sampler, uint32_t surface, sb_vec3 at,
+                             sb_vec3 inward, sb_vec3 *placed, double *margin)
 {
     *margin = 0;
-    if (sb_sample_buried(sampler, surface, at, 0))
-        return SB_BURIED;
+    if (sb_sample_buried(sampler, surface, at, 0)) return SB_BURIED;
     double reach = sampler->settings.offset;
     for (int step = 0; step < THIN_STEPS; ++step) {
         *placed = sb_madd(at, reach, inward);
         sb_vec3 nearest, normal;
         double limit = reach * (1 - 1e-3);
         double room = clearance(sampler, surface, *placed, limit, &nearest, &normal);
-        if (!(room < limit))
-            break;
+        if (!(room < limit)) break;
         sb_vec3 chord = sb_sub(nearest, at);
         double along = sb_dot(chord, inward);
         if (-sb_dot(normal, inward) >= thin_cosine || !(along > 0)) {
@@ -144,8 +136,7 @@ bool sb_sample_project(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, 
     double margin;
     if (sb_sample_place(sampler, surface, foot, inward, &sample->at, &margin) != SB_PLACED)
         return false;
-    if (sampler->settings.dimensions == 2)
-        sample->at.y = 0;
+    if (sampler->settings.dimensions == 2) sample->at.y = 0;
     sample->normal = sb_scale(inward, -1);
     sample->source = surface;
     return true;

@@ -1,5 +1,5 @@
-/* 2D scenes are the cut of their meshes with the plane y = 0. The cut becomes a mesh of strips across
-   that plane, so that distances, rays and insides are asked for as in 3D. */
+/* 2D scenes are the cut of their meshes with the plane y = 0. The cut becomes a mesh of strips
+   across that plane, so that distances, rays and insides are asked for as in 3D. */
 #include "geometry/sample.h"
 
 #include "base/memory.h"
@@ -28,8 +28,7 @@ static bool cut(const sb_mesh *mesh, size_t t, sb_vec3 piece[2])
         if (side_of(c[i]) * side_of(c[(i + 1) % 3]) < 0 && count < 2)
             piece[count++] = crossing(c[i], c[(i + 1) % 3]);
     sb_vec3 arm = count == 2 ? sb_sub(piece[1], piece[0]) : sb_vec(0, 0, 0);
-    if (!(sb_dot(arm, arm) > 0))
-        return false;
+    if (!(sb_dot(arm, arm) > 0)) return false;
     sb_vec3 n = sb_cross(sb_sub(c[1], c[0]), sb_sub(c[2], c[0]));
     if (arm.z * n.x - arm.x * n.z > 0) {
         sb_vec3 swap = piece[0];
@@ -48,8 +47,7 @@ static void add_strip(sb_mesh *section, const sb_vec3 piece[2], double half_widt
     }
     const uint32_t two[2][3] = {{v, v + 1, v + 2}, {v + 3, v + 2, v + 1}};
     for (int k = 0; k < 2; ++k, ++section->triangle_count)
-        for (int i = 0; i < 3; ++i)
-            section->triangles[section->triangle_count][i] = two[k][i];
+        for (int i = 0; i < 3; ++i) section->triangles[section->triangle_count][i] = two[k][i];
     section->vertex_count += 4;
 }
 
@@ -57,19 +55,15 @@ sb_status sb_section_mesh(const sb_mesh *mesh, double half_width, sb_mesh *secti
 {
     sb_vec3 piece[2];
     size_t count = 0;
-    for (size_t t = 0; t < mesh->triangle_count; ++t)
-        count += cut(mesh, t, piece);
+    for (size_t t = 0; t < mesh->triangle_count; ++t) count += cut(mesh, t, piece);
     sb_mesh made;
     sb_status status = sb_mesh_alloc(&made, 4 * count, 2 * count, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     made.vertex_count = made.triangle_count = 0;
     made.sheet = mesh->sheet;
     for (size_t t = 0; t < mesh->triangle_count; ++t)
-        if (cut(mesh, t, piece))
-            add_strip(&made, piece, half_width);
-    for (int i = 0; i < SB_NAME_MAX; ++i)
-        made.name[i] = mesh->name[i];
+        if (cut(mesh, t, piece)) add_strip(&made, piece, half_width);
+    for (int i = 0; i < SB_NAME_MAX; ++i) made.name[i] = mesh->name[i];
     *section = made;
     return SB_OK;
 }

@@ -16,7 +16,8 @@ static place cell_of(const sb_sample_set *set, sb_vec3 at)
                    (int64_t)floor((at.z - set->origin.z) / set->cell)};
 }
 
-/* 21 bits per axis: blocks more than 2^21 apart share a key, which costs time but no correctness. */
+/* 21 bits per axis: blocks more than 2^21 apart share a key, which costs time but no correctness.
+ */
 static uint64_t key_of(int64_t x, int64_t y, int64_t z)
 {
     const uint64_t mask = (1u << 21) - 1;
@@ -26,8 +27,7 @@ static uint64_t key_of(int64_t x, int64_t y, int64_t z)
 static size_t slot_of(const sb_sample_set *set, uint64_t key)
 {
     size_t slot = sb_hash_mix(key) & (set->table_size - 1);
-    while (set->value[slot] && set->key[slot] != key)
-        slot = (slot + 1) & (set->table_size - 1);
+    while (set->value[slot] && set->key[slot] != key) slot = (slot + 1) & (set->table_size - 1);
     return slot;
 }
 
@@ -55,8 +55,7 @@ void sb_sample_set_free(sb_sample_set *set)
 /* Doubles the table before it is half full. */
 static int make_room(sb_sample_set *set)
 {
-    if (2 * (set->block_count + 1) <= set->table_size)
-        return 0;
+    if (2 * (set->block_count + 1) <= set->table_size) return 0;
     sb_sample_set grown = *set;
     grown.table_size = set->table_size ? 2 * set->table_size : 64;
     grown.key = sb_alloc_untouched(grown.table_size, sizeof *grown.key);
@@ -67,8 +66,7 @@ static int make_room(sb_sample_set *set)
         return -1;
     }
     for (size_t i = 0; i < set->table_size; ++i) {
-        if (!set->value[i])
-            continue;
+        if (!set->value[i]) continue;
         size_t slot = slot_of(&grown, set->key[i]);
         grown.key[slot] = set->key[i];
         grown.value[slot] = set->value[i];
@@ -82,7 +80,8 @@ static int make_room(sb_sample_set *set)
 int sb_sample_set_add(sb_sample_set *set, const sb_sample *sample)
 {
     if (set->count + 1 >= UINT32_MAX || make_room(set) ||
-        sb_grow((void **)&set->sample, &set->sample_capacity, set->count + 1, sizeof *set->sample) ||
+        sb_grow((void **)&set->sample, &set->sample_capacity, set->count + 1,
+                sizeof *set->sample) ||
         sb_grow((void **)&set->next, &set->next_capacity, set->count + 1, sizeof *set->next) ||
         sb_grow((void **)&set->block, &set->block_capacity, set->block_count + 1,
                 sizeof *set->block))
@@ -120,17 +119,16 @@ static double search(const sb_sample_set *set, sb_vec3 at, double limit, bool an
 {
     double best2 = limit * limit;
     *index = SIZE_MAX;
-    if (set->count == 0)
-        return best2;
+    if (set->count == 0) return best2;
     const sb_vec3 reach = {limit, limit, limit};
     const place low = cell_of(set, sb_sub(at, reach)), high = cell_of(set, sb_add(at, reach));
     for (int64_t bz = low.z >> 2; bz <= high.z >> 2; ++bz)
         for (int64_t by = low.y >> 2; by <= high.y >> 2; ++by)
             for (int64_t bx = low.x >> 2; bx <= high.x >> 2; ++bx) {
                 const uint32_t *block = find_block(set, bx, by, bz);
-                if (!block)
-                    continue;
-                const place first = {bx * 4 > low.x ? bx * 4 : low.x, by * 4 > low.y ? by * 4 : low.y,
+                if (!block) continue;
+                const place first = {bx * 4 > low.x ? bx * 4 : low.x,
+                                     by * 4 > low.y ? by * 4 : low.y,
                                      bz * 4 > low.z ? bz * 4 : low.z};
                 const place last = {bx * 4 + 3 < high.x ? bx * 4 + 3 : high.x,
                                     by * 4 + 3 < high.y ? by * 4 + 3 : high.y,
@@ -139,8 +137,7 @@ static double search(const sb_sample_set *set, sb_vec3 at, double limit, bool an
                     for (int64_t y = first.y; y <= last.y; ++y)
                         for (int64_t x = first.x; x <= last.x; ++x)
                             scan_chain(set, block[local_of(x, y, z)], at, &best2, index);
-                if (any && *index != SIZE_MAX)
-                    return best2;
+                if (any && *index != SIZE_MAX) return best2;
             }
     return best2;
 }
@@ -149,8 +146,7 @@ double sb_sample_set_nearest(const sb_sample_set *set, sb_vec3 at, double limit,
 {
     size_t found;
     double best2 = search(set, at, limit, false, &found);
-    if (index && found != SIZE_MAX)
-        *index = found;
+    if (index && found != SIZE_MAX) *index = found;
     return found == SIZE_MAX ? limit : sqrt(best2);
 }
 

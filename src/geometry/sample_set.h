@@ -1,4 +1,5 @@
-/* Accepted boundary particles with a hash of 4 x 4 x 4 blocks of cells for questions of distance. */
+/* Accepted boundary particles with a hash of 4 x 4 x 4 blocks of cells for questions of distance.
+ */
 #ifndef SB_GEOMETRY_SAMPLE_SET_H
 #define SB_GEOMETRY_SAMPLE_SET_H
 

@@ -1,5 +1,5 @@
-/* What a mesh looks like to the sampling: which way its faces look, which of them share a plane, and
-   where the sheet has to go round a concave edge or corner. */
+/* What a mesh looks like to the sampling: which way its faces look, which of them share a plane,
+   and where the sheet has to go round a concave edge or corner. */
 #include "geometry/sample_parts.h"
 
 #include "base/memory.h"
@@ -22,8 +22,7 @@ typedef struct spoke {
 static int compare_spokes(const void *left, const void *right)
 {
     const spoke *a = left, *b = right;
-    if (a->vertex != b->vertex)
-        return a->vertex < b->vertex ? -1 : 1;
+    if (a->vertex != b->vertex) return a->vertex < b->vertex ? -1 : 1;
     return (a->crease > b->crease) - (a->crease < b->crease);
 }
 
@@ -74,8 +73,7 @@ static void orient(sb_surface *surface, const sb_mesh_edges *list, double spacin
     if (surface->source->role == SB_ROLE_TERRAIN) {
         surface->bounded = true;
         for (size_t t = 0; t < mesh->triangle_count; ++t)
-            if (surface->normal[t].z < 0)
-                surface->normal[t] = sb_scale(surface->normal[t], -1);
+            if (surface->normal[t].z < 0) surface->normal[t] = sb_scale(surface->normal[t], -1);
     } else if (!mesh->sheet && (open || surface->mixed)) {
         orient_faces(surface, 1e-3 * spacing);
     } else if (!mesh->sheet) {
@@ -108,8 +106,7 @@ static void unite(uint32_t *parent, uint32_t a, uint32_t b)
 
 /* The corner of triangle t opposite to edge e rises above the other face's plane: water lies in the
    smaller angle between them. */
-static bool is_concave(const sb_surface *surface, const sb_mesh_edge *e,
-                       const sb_mesh_edge *other)
+static bool is_concave(const sb_surface *surface, const sb_mesh_edge *e, const sb_mesh_edge *other)
 {
     const sb_mesh *mesh = sb_surface_mesh(surface);
     sb_vec3 on = mesh->vertices[e->low], n = surface->normal[other->triangle];
@@ -127,14 +124,12 @@ static int join_faces(sb_surface *surface, const sb_mesh_edges *list,
 {
     const sb_mesh *mesh = sb_surface_mesh(surface);
     const sb_mesh_edge *edges = list->edges;
-    for (uint32_t t = 0; t < mesh->triangle_count; ++t)
-        surface->region[t] = surface->part[t] = t;
+    for (uint32_t t = 0; t < mesh->triangle_count; ++t) surface->region[t] = surface->part[t] = t;
     for (size_t i = 0, end; i < list->count; i = end) {
         end = sb_mesh_edge_run(list, i);
         for (size_t k = i + 1; k < end; ++k)
             unite(surface->part, edges[i].triangle, edges[k].triangle);
-        if (end - i != 2)
-            continue;
+        if (end - i != 2) continue;
         sb_vec3 first = surface->normal[edges[i].triangle];
         sb_vec3 second = surface->normal[edges[i + 1].triangle];
         if (sb_dot(first, second) > same_plane)
@@ -172,10 +167,8 @@ static int add_caps(sb_surface *surface, sb_vec3 at, const sb_vec3 *normals, siz
 static size_t add_normal(sb_vec3 *normals, size_t count, sb_vec3 normal)
 {
     for (size_t i = 0; i < count; ++i)
-        if (sb_dot(normals[i], normal) > same_normal)
-            return count;
-    if (count < NORMALS_MAX)
-        normals[count++] = normal;
+        if (sb_dot(normals[i], normal) > same_normal) return count;
+    if (count < NORMALS_MAX) normals[count++] = normal;
     return count;
 }
 
@@ -184,16 +177,14 @@ static int find_caps(sb_surface *surface, const sb_mesh_edges *list)
 {
     const sb_mesh *mesh = sb_surface_mesh(surface);
     spoke *spokes = sb_alloc_untouched(2 * surface->crease_count, sizeof *spokes);
-    if (!spokes)
-        return -1;
+    if (!spokes) return -1;
     /* Creases come in the order of the edges: their welded ends are found by walking both. */
     size_t count = 0, c = 0;
     for (size_t i = 0; i < list->count && c < surface->crease_count; ++i) {
         const sb_mesh_edge *edge = list->edges + i;
         sb_vec3 a = sb_sub(mesh->vertices[edge->low], surface->creases[c].a);
         sb_vec3 b = sb_sub(mesh->vertices[edge->high], surface->creases[c].b);
-        if (sb_dot(a, a) != 0 || sb_dot(b, b) != 0)
-            continue;
+        if (sb_dot(a, a) != 0 || sb_dot(b, b) != 0) continue;
         spokes[count++] = (spoke){edge->low, c};
         spokes[count++] = (spoke){edge->high, c++};
     }

@@ -45,14 +45,13 @@ static bool same(sb_vec3 a, sb_vec3 b)
 static corner between(corner a, corner b)
 {
     sb_vec3 at = sb_scale(sb_add(a.at, b.at), 0.5);
-    return (corner){at, same(a.inward, b.inward) ? a.inward
-                                                 : sb_normalize(sb_add(a.inward, b.inward))};
+    return (corner){at,
+                    same(a.inward, b.inward) ? a.inward : sb_normalize(sb_add(a.inward, b.inward))};
 }
 
 static corner center_of(const piece *p)
 {
-    if (p->corners == 2)
-        return between(p->corner[0], p->corner[1]);
+    if (p->corners == 2) return between(p->corner[0], p->corner[1]);
     const corner *c = p->corner;
     sb_vec3 at = sb_scale(sb_add(c[0].at, sb_add(c[1].at, c[2].at)), 1.0 / 3);
     if (same(c[0].inward, c[1].inward) && same(c[0].inward, c[2].inward))
@@ -85,8 +84,8 @@ static void halve(const sb_sampler *sampler, const piece *p, piece half[2])
     half[1].corner[longest] = middle;
 }
 
-/* One particle's ball holds all corners: then, being convex, it holds the flat piece between them; a
-   round one bulges out of it by no more than its sagitta. */
+/* One particle's ball holds all corners: then, being convex, it holds the flat piece between them;
+   a round one bulges out of it by no more than its sagitta. */
 static bool in_ball(const sb_sampler *sampler, const piece *p, corner center, sb_vec3 particle,
                     double cover)
 {
@@ -94,39 +93,33 @@ static bool in_ball(const sb_sampler *sampler, const piece *p, corner center, sb
         sb_vec3 turn = sb_sub(p->corner[i].inward, center.inward);
         double reach = cover - 0.5 * sampler->settings.offset * sb_dot(turn, turn);
         sb_vec3 arm = sb_sub(sheet_of(sampler, p->corner[i]), particle);
-        if (!(reach > 0 && sb_dot(arm, arm) <= reach * reach))
-            return false;
+        if (!(reach > 0 && sb_dot(arm, arm) <= reach * reach)) return false;
     }
     return true;
 }
 
-/* A piece none of whose sheet may be near a particle: a hole when its centre belongs to the sheet and
-   is far from all; returns true when it has to be halved. */
+/* A piece none of whose sheet may be near a particle: a hole when its centre belongs to the sheet
+   and is far from all; returns true when it has to be halved. */
 static bool examine_far(const sb_sampler *sampler, const piece *p, corner c, double radius,
                         hole_list *list)
 {
     double spacing = sampler->settings.spacing, cover = SB_SAMPLE_COVER * spacing, margin;
     sb_vec3 at;
-    sb_placement placement =
-        sb_sample_place(sampler, p->surface, c.at, c.inward, &at, &margin);
+    sb_placement placement = sb_sample_place(sampler, p->surface, c.at, c.inward, &at, &margin);
     /* What is buried need not be so to the last point; what is crowded ends a tenth of the offset
        beyond the sheet's edge. */
     if (placement == SB_BURIED)
         return radius > 0.2 * spacing && !sb_sample_buried(sampler, p->surface, c.at, radius);
-    if (placement == SB_CROWDED)
-        return radius > margin && radius > 0.06 * sampler->settings.offset;
+    if (placement == SB_CROWDED) return radius > margin && radius > 0.06 * sampler->settings.offset;
     /* In a thin part the sheet is elsewhere, and no larger than the surface over it. */
     double distance = sb_sample_set_nearest(&sampler->set, at, cover, NULL);
-    if (distance + radius <= cover)
-        return false;
-    if (distance < SB_SAMPLE_FILL * spacing)
-        return radius > piece_min * spacing;
+    if (distance + radius <= cover) return false;
+    if (distance < SB_SAMPLE_FILL * spacing) return radius > piece_min * spacing;
     if (sb_grow((void **)&list->hole, &list->capacity, list->count + 1, sizeof *list->hole))
         list->failed = 1;
     else
-        list->hole[list->count++] = (hole){.piece = *p,
-                                           .sample = {at, sb_scale(c.inward, -1), p->surface},
-                                           .distance = distance};
+        list->hole[list->count++] = (hole){
+            .piece = *p, .sample = {at, sb_scale(c.inward, -1), p->surface}, .distance = distance};
     return false;
 }
 
@@ -147,8 +140,7 @@ static bool examine(const sb_sampler *sampler, const piece *p, hole_list *list)
         return radius < 1.5 * spacing || !sb_sample_buried(sampler, p->surface, c.at, radius);
     size_t nearest;
     double distance = sb_sample_set_nearest(&sampler->set, at, cover, &nearest);
-    if (distance >= SB_SAMPLE_FILL * spacing)
-        return examine_far(sampler, p, c, radius, list);
+    if (distance >= SB_SAMPLE_FILL * spacing) return examine_far(sampler, p, c, radius, list);
     if (distance + radius <= cover ||
         in_ball(sampler, p, c, sampler->set.sample[nearest].at, cover))
         return false;
@@ -164,8 +156,7 @@ static void search(const sb_sampler *sampler, const piece *whole, hole_list *lis
     while (count > 0 && !list->failed) {
         piece p = stack[--count];
         int depth = depth_of[count];
-        if (!examine(sampler, &p, list) || depth == DEPTH_MAX)
-            continue;
+        if (!examine(sampler, &p, list) || depth == DEPTH_MAX) continue;
         halve(sampler, &p, stack + count);
         depth_of[count] = depth_of[count + 1] = depth + 1;
         count += 2;
@@ -177,8 +168,8 @@ static sb_vec3 flat(sb_vec3 a)
     return sb_vec(a.x, 0, a.z);
 }
 
-/* Pieces of a surface: its triangles (in 2D every other one, as its strip's line), the rounds of its
-   creases (two each; in 2D one), its caps. */
+/* Pieces of a surface: its triangles (in 2D every other one, as its strip's line), the rounds of
+   its creases (two each; in 2D one), its caps. */
 static size_t piece_count(const sb_sampler *sampler, const sb_surface *surface)
 {
     size_t triangles = sb_surface_mesh(surface)->triangle_count;
@@ -233,8 +224,7 @@ static bool piece_solid(const sb_surface *surface, size_t i, piece *p)
     }
     const sb_cap *cap = surface->caps + (i - 2 * surface->crease_count);
     p->corners = 3;
-    for (int k = 0; k < 3; ++k)
-        p->corner[k] = (corner){cap->at, sb_scale(cap->normal[k], -1)};
+    for (int k = 0; k < 3; ++k) p->corner[k] = (corner){cap->at, sb_scale(cap->normal[k], -1)};
     return true;
 }
 
@@ -248,11 +238,10 @@ typedef struct work {
 
 static int join(hole_list *all, const hole_list *found)
 {
-    if (found->failed || sb_grow((void **)&all->hole, &all->capacity, all->count + found->count,
-                                 sizeof *all->hole))
+    if (found->failed ||
+        sb_grow((void **)&all->hole, &all->capacity, all->count + found->count, sizeof *all->hole))
         return -1;
-    for (size_t k = 0; k < found->count; ++k)
-        all->hole[all->count++] = found->hole[k];
+    for (size_t k = 0; k < found->count; ++k) all->hole[all->count++] = found->hole[k];
     return 0;
 }
 
@@ -267,8 +256,7 @@ static int work_flush(const sb_sampler *sampler, work *w)
     }
     w->count = 0;
     int failed = 0;
-    for (size_t b = 0; b < BLOCKS && !failed; ++b)
-        failed = join(w->all, w->found + b);
+    for (size_t b = 0; b < BLOCKS && !failed; ++b) failed = join(w->all, w->found + b);
     return failed;
 }
 
@@ -296,8 +284,7 @@ static int work_cut(const sb_sampler *sampler, work *w, const piece *whole)
         piece p = stack[--count];
         double size = size_of(&p);
         if (size <= piece_max * sampler->settings.spacing || count == DEPTH_MAX) {
-            if (work_push(sampler, w, &p))
-                return -1;
+            if (work_push(sampler, w, &p)) return -1;
         } else if (!sb_sample_buried(sampler, p.surface, center_of(&p).at, size)) {
             halve(sampler, &p, stack + count);
             count += 2;
@@ -314,8 +301,7 @@ static int search_surface(const sb_sampler *sampler, uint32_t surface, work *w)
     for (size_t i = 0; i < count; ++i) {
         piece p = {.surface = surface};
         bool some = flat_scene ? piece_flat(on, i, &p) : piece_solid(on, i, &p);
-        if (some && work_cut(sampler, w, &p))
-            return -1;
+        if (some && work_cut(sampler, w, &p)) return -1;
     }
     return 0;
 }
@@ -323,8 +309,7 @@ static int search_surface(const sb_sampler *sampler, uint32_t surface, work *w)
 static int compare_holes(const void *left, const void *right)
 {
     const hole *a = left, *b = right;
-    if (a->distance != b->distance)
-        return a->distance > b->distance ? -1 : 1;
+    if (a->distance != b->distance) return a->distance > b->distance ? -1 : 1;
     return (a->order > b->order) - (a->order < b->order);
 }
 
@@ -332,9 +317,8 @@ static int compare_holes(const void *left, const void *right)
 static int fill(sb_sampler *sampler, hole_list *all)
 {
     double least = SB_SAMPLE_FILL * sampler->settings.spacing;
-    for (size_t i = 0; i < all->count; ++i)
-        all->hole[i].order = i;
-    qsort(all->hole, all->count, sizeof *all->hole, compare_holes);
+    for (size_t i = 0; i < all->count; ++i) all->hole[i].order = i;
+    if (all->count > 1) qsort(all->hole, all->count, sizeof *all->hole, compare_holes);
     for (size_t i = 0; i < all->count; ++i)
         if (!sb_sample_set_any(&sampler->set, all->hole[i].sample.at, least) &&
             sb_sample_set_add(&sampler->set, &all->hole[i].sample))
@@ -353,8 +337,7 @@ int sb_sample_voids(sb_sampler *sampler)
         failed = !w->piece;
     }
     for (uint32_t i = sampler->first; i < sampler->last && !failed; ++i)
-        if (sb_sampler_takes(sampler, i))
-            failed = search_surface(sampler, i, w);
+        if (sb_sampler_takes(sampler, i)) failed = search_surface(sampler, i, w);
     failed = failed || work_flush(sampler, w) || fill(sampler, &all);
     /* Filling covers, it uncovers nothing: only pieces with holes are looked at again. */
     while (!failed && all.count > 0) {
@@ -366,10 +349,8 @@ int sb_sample_voids(sb_sampler *sampler)
             failed = work_push(sampler, w, &last.hole[i].piece);
         failed = failed || work_flush(sampler, w) || fill(sampler, &all);
     }
-    for (int b = 0; w && b < BLOCKS; ++b)
-        sb_free(w->found[b].hole);
-    if (w)
-        sb_free(w->piece);
+    for (int b = 0; w && b < BLOCKS; ++b) sb_free(w->found[b].hole);
+    if (w) sb_free(w->piece);
     sb_free(w);
     sb_free(all.hole);
     sb_free(last.hole);

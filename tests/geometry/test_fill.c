@@ -71,8 +71,7 @@ static void build(void)
 {
     sb_model_free(&model);
     sb_status status = sb_model_build(&scene, &model, &error);
-    if (status != SB_OK)
-        print_message("%s\n", error.text);
+    if (status != SB_OK) print_message("%s\n", error.text);
     assert_int_equal(status, SB_OK);
 }
 
@@ -136,8 +135,7 @@ static void odd_levels_keep_volume_and_surface(void **state)
         build();
         volume_within(200 * level, 0.005);
         double top = 0;
-        for (size_t i = 0; i < model.fluid_count; ++i)
-            top = fmax(top, model.fluid_position[i].z);
+        for (size_t i = 0; i < model.fluid_count; ++i) top = fmax(top, model.fluid_position[i].z);
         assert_true(top < level && top > level - 0.75 * scene.resolution);
     }
 }
@@ -210,8 +208,7 @@ static void a_wall_thinner_than_a_cell_holds_the_sea(void **state)
     scene.sea.seed = sb_vec(5, 5, 3);
     build();
     volume_within(9.9 * 10 * 4, 0.02);
-    for (size_t i = 0; i < model.fluid_count; ++i)
-        assert_true(model.fluid_position[i].x < 9.9);
+    for (size_t i = 0; i < model.fluid_count; ++i) assert_true(model.fluid_position[i].x < 9.9);
     /* With a door in it, the sea is on both sides. */
     bodies[0].max.y = 8;
     build();
@@ -284,10 +281,8 @@ static void flumes_in_two_dimensions(void **state)
     add_box("block", sb_vec(12.03, -0.5, -1), sb_vec(14.11, 0.5, 2.22));
     build();
     volume_within(20 * 3.93 - 2.08 * 2.22, 0.01);
-    for (size_t i = 0; i < model.fluid_count; ++i)
-        assert_true(model.fluid_position[i].y == 0);
-    for (size_t i = 0; i < model.wall_count; ++i)
-        assert_true(model.wall_position[i].y == 0);
+    for (size_t i = 0; i < model.fluid_count; ++i) assert_true(model.fluid_position[i].y == 0);
+    for (size_t i = 0; i < model.wall_count; ++i) assert_true(model.wall_position[i].y == 0);
 }
 
 static void a_solitary_wave_stands_on_the_sea(void **state)
@@ -370,8 +365,7 @@ static void threads_change_nothing(void **state)
     assert_int_equal(model.fluid_count, one.fluid_count);
     assert_memory_equal(model.fluid_position, one.fluid_position,
                         one.fluid_count * sizeof(sb_vec3));
-    assert_memory_equal(model.fluid_pressure, one.fluid_pressure,
-                        one.fluid_count * sizeof(double));
+    assert_memory_equal(model.fluid_pressure, one.fluid_pressure, one.fluid_count * sizeof(double));
     assert_int_equal(model.wall_count, one.wall_count);
     assert_memory_equal(model.wall_position, one.wall_position, one.wall_count * sizeof(sb_vec3));
     sb_model_free(&one);

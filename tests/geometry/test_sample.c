@@ -1,4 +1,5 @@
-/* The distance rules of boundary particles, measured on shapes with edges, curves, seams and plates. */
+/* The distance rules of boundary particles, measured on shapes with edges, curves, seams and
+ * plates. */
 #include "test_sample.h"
 
 #include <omp.h>
@@ -169,6 +170,18 @@ static void moving_bodies_are_sampled_alone(void **state)
     box(0, sb_vec(5.3, 0, 0), sb_vec(9.3, 8, 6));
     test_sample(&s, 0.5);
     assert_int_equal(s.samples.count, alone);
+    /* Faces that touch at the start: each place once, the static body's. */
+    test_surfaces_free(&s);
+    box(0, sb_vec(0, 0, 0), sb_vec(5, 8, 6));
+    box(1, sb_vec(5, 0, 0), sb_vec(9, 8, 6));
+    s.moving[1] = true;
+    test_sample(&s, 0);
+    test_rules rules = test_measure(&s, 1);
+    assert_true(rules.nearest > 0.01);
+    size_t touching = 0;
+    for (size_t i = 0; i < s.samples.begin[1]; ++i)
+        touching += fabs(s.samples.position[i].x - 5) < 1e-9;
+    assert_true(touching >= 48);
 }
 
 static void normals_look_at_the_water(void **state)
@@ -244,8 +257,7 @@ static void no_memory_is_an_error(void **state)
         sb_samples samples = {.count = 77};
         sb_error error = {0};
         sb_memory_fail_at(n);
-        sb_status status =
-            sb_sample_surfaces(&s.settings, s.source, s.count, &samples, &error);
+        sb_status status = sb_sample_surfaces(&s.settings, s.source, s.count, &samples, &error);
         sb_memory_fail_at(0);
         if (status == SB_OK) {
             assert_int_equal(samples.count, count);

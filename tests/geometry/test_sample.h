@@ -80,14 +80,14 @@ static inline double test_area(const sb_mesh *mesh, size_t t)
 {
     const uint32_t *c = mesh->triangles[t];
     sb_vec3 a = mesh->vertices[c[0]];
-    return 0.5 * sb_norm(sb_cross(sb_sub(mesh->vertices[c[1]], a), sb_sub(mesh->vertices[c[2]], a)));
+    return 0.5 *
+           sb_norm(sb_cross(sb_sub(mesh->vertices[c[1]], a), sb_sub(mesh->vertices[c[2]], a)));
 }
 
 static inline double test_total_area(const sb_mesh *mesh)
 {
     double sum = 0;
-    for (size_t t = 0; t < mesh->triangle_count; ++t)
-        sum += test_area(mesh, t);
+    for (size_t t = 0; t < mesh->triangle_count; ++t) sum += test_area(mesh, t);
     return sum;
 }
 
@@ -111,23 +111,19 @@ static inline bool test_sheet_point(const test_surfaces *s, size_t k, sb_vec3 on
 {
     double d = s->settings.offset;
     *at = on;
-    if (d <= 0)
-        return true;
+    if (d <= 0) return true;
     sb_vec3 x = sb_madd(on, 1.5 * d, test_random(3, i)), foot, normal;
-    if (!sb_solid_contains(s->solid[k], x))
-        return false;
+    if (!sb_solid_contains(s->solid[k], x)) return false;
     double distance = sb_solid_distance(s->solid[k], x, 9, &foot, &normal);
     sb_vec3 margin = sb_vec(0.01, 0.01, 0.01);
     sb_vec3 low = sb_add(s->settings.min, margin), high = sb_sub(s->settings.max, margin);
-    bool rim = s->role == SB_ROLE_TERRAIN ? foot.x < low.x || foot.y < low.y || foot.x > high.x ||
-                                                foot.y > high.y
-                                          : s->mesh[k].sheet && foot.z > high.z;
-    if (distance < 0.02 * d || rim)
-        return false;
+    bool rim = s->role == SB_ROLE_TERRAIN
+                   ? foot.x < low.x || foot.y < low.y || foot.x > high.x || foot.y > high.y
+                   : s->mesh[k].sheet && foot.z > high.z;
+    if (distance < 0.02 * d || rim) return false;
     *at = sb_madd(foot, d / distance, sb_sub(x, foot));
     for (size_t j = 0; j < s->count; ++j)
-        if (sb_solid_distance(s->solid[j], *at, d, NULL, NULL) < 0.97 * d)
-            return false;
+        if (sb_solid_distance(s->solid[j], *at, d, NULL, NULL) < 0.97 * d) return false;
     return sb_solid_contains(s->solid[k], *at);
 }
 
@@ -149,8 +145,7 @@ static inline test_rules test_measure(const test_surfaces *s, size_t points_per_
             owed += test_area(&s->mesh[k], t) * (double)points_per_area;
             for (; owed > 0; owed -= 1, ++i) {
                 sb_vec3 at;
-                if (!test_sheet_point(s, k, test_on_triangle(&s->mesh[k], t, i), i, &at))
-                    continue;
+                if (!test_sheet_point(s, k, test_on_triangle(&s->mesh[k], t, i), i, &at)) continue;
                 ++rules.tested;
                 rules.farthest = fmax(rules.farthest, sb_sample_set_nearest(&set, at, 3, NULL));
             }
@@ -195,7 +190,8 @@ static inline void test_rotate(sb_mesh *mesh, double about_z, double about_y)
 static inline void test_ball(double radius, uint32_t n, sb_mesh *mesh)
 {
     sb_error error;
-    assert_int_equal(sb_mesh_alloc(mesh, (size_t)(n + 1) * 2 * n, (size_t)4 * n * n, &error), SB_OK);
+    assert_int_equal(sb_mesh_alloc(mesh, (size_t)(n + 1) * 2 * n, (size_t)4 * n * n, &error),
+                     SB_OK);
     size_t t = 0;
     for (uint32_t i = 0; i <= n; ++i)
         for (uint32_t j = 0; j < 2 * n; ++j) {
@@ -206,8 +202,7 @@ static inline void test_ball(double radius, uint32_t n, sb_mesh *mesh)
         for (uint32_t j = 0; j < 2 * n; ++j) {
             uint32_t a = i * 2 * n + j, b = i * 2 * n + (j + 1) % (2 * n), c = a + 2 * n,
                      d = b + 2 * n;
-            if (i > 0)
-                memcpy(mesh->triangles[t++], (uint32_t[3]){a, c, b}, sizeof(uint32_t[3]));
+            if (i > 0) memcpy(mesh->triangles[t++], (uint32_t[3]){a, c, b}, sizeof(uint32_t[3]));
             if (i + 1 < n)
                 memcpy(mesh->triangles[t++], (uint32_t[3]){b, c, d}, sizeof(uint32_t[3]));
         }
