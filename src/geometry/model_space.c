@@ -51,13 +51,11 @@ static sb_status add_solid(const sb_model *model, const sb_scene *scene, size_t 
     const sb_model_body *body = model->bodies + index;
     sb_mesh walls = {.sheet = true};
     bool is_domain = body->mesh.triangle_count == 0;
-    sb_status status = SB_OK;
-    if (is_domain) {
-        if (!scene) return SB_OK;
-        status = domain_mesh(scene, &walls, error);
-    }
+    if (is_domain && !scene) return SB_OK;
+    sb_status status = is_domain ? domain_mesh(scene, &walls, error) : SB_OK;
+    if (status != SB_OK) return status;
     const sb_mesh *mesh = is_domain ? &walls : &body->mesh;
-    if (status == SB_OK && model->dimensions == 2) {
+    if (model->dimensions == 2) {
         status = sb_section_mesh(mesh, strip_width(model), space->section + index, error);
         sb_mesh_free(&walls);
         space->mesh[index] = space->section + index;
@@ -79,8 +77,11 @@ sb_status sb_model_space_create(const sb_model *model, const sb_scene *domain_of
     made.section = sb_alloc(made.count, sizeof *made.section);
     made.mesh = sb_alloc(made.count, sizeof *made.mesh);
     made.solid = sb_alloc(made.count, sizeof *made.solid);
+    if (!made.section || !made.mesh || !made.solid) {
+        sb_model_space_free(&made);
+        return sb_fail_memory(error, "search trees");
+    }
     sb_status status = SB_OK;
-    if (!made.section || !made.mesh || !made.solid) status = sb_fail_memory(error, "search trees");
     for (size_t i = 0; i < made.count && status == SB_OK; ++i)
         status = add_solid(model, domain_of, i, &made, error);
     if (status != SB_OK) {

@@ -122,28 +122,42 @@ static void to_lattice(const lattice *l, const sb_vec3 corner[3], double u[3], d
     }
 }
 
+/* In lattice steps: rounding must not lose a point on an edge. */
+static const double slack = 1e-9;
+
+/* The stretch of u that a row shares with the triangle; it meets at least one edge. */
+static void span_row(const double u[3], const double v[3], double row, double *first, double *last)
+{
+    *first = INFINITY;
+    *last = -INFINITY;
+    for (int i = 0; i < 3; ++i) {
+        int j = (i + 1) % 3;
+        if (fmin(v[i], v[j]) > row + slack || fmax(v[i], v[j]) < row - slack) continue;
+        double t = v[i] != v[j] ? (row - v[i]) / (v[j] - v[i]) : 0;
+        t = t < 0 ? 0 : t > 1 ? 1 : t;
+        double at = u[i] + t * (u[j] - u[i]);
+        *first = fmin(*first, v[i] != v[j] ? at : fmin(u[i], u[j]));
+        *last = fmax(*last, v[i] != v[j] ? at : fmax(u[i], u[j]));
+    }
+}
+
 /* Lattice points within one triangle, row by row. */
 static int scan_triangle(sb_sampler *sampler, sb_candidate_batch *batch, const lattice *l,
                          const sb_vec3 corner[3], sb_candidate candidate)
 {
-    const double slack = 1e-9;
     double u[3], v[3];
     to_lattice(l, corner, u, v);
     double low = fmin(v[0], fmin(v[1], v[2])), high = fmax(v[0], fmax(v[1], v[2]));
     double area = (u[1] - u[0]) * (v[2] - v[0]) - (u[2] - u[0]) * (v[1] - v[0]);
     if (!(fabs(area) > 1e-12)) return 0;
-    for (double row = ceil(low - 0.5 - slack) + 0.5; row <= high + slack; row += 1) {
-        double first = INFINITY, last = -INFINITY;
-        for (int i = 0; i < 3; ++i) {
-            int j = (i + 1) % 3;
-            if (fmin(v[i], v[j]) > row + slack || fmax(v[i], v[j]) < row - slack) continue;
-            double t = v[i] != v[j] ? (row - v[i]) / (v[j] - v[i]) : 0;
-            t = t < 0 ? 0 : t > 1 ? 1 : t;
-            double at = u[i] + t * (u[j] - u[i]);
-            first = fmin(first, v[i] != v[j] ? at : fmin(u[i], u[j]));
-            last = fmax(last, v[i] != v[j] ? at : fmax(u[i], u[j]));
-        }
-        for (double at = ceil(first - 0.5 - slack) + 0.5; at <= last + slack; at += 1) {
+    int64_t end = (int64_t)floor(high - 0.5 + slack);
+    for (int64_t n = (int64_t)ceil(low - 0.5 - slack); n <= end; ++n) {
+        double row = (double)n + 0.5;
+        double first, last;
+        span_row(u, v, row, &first, &last);
+        int64_t stop = (int64_t)floor(last - 0.5 + slack);
+        for (int64_t m = (int64_t)ceil(first - 0.5 - slack); m <= stop; ++m) {
+            double at = (double)m + 0.5;
             double b = ((at - u[0]) * (v[2] - v[0]) - (u[2] - u[0]) * (row - v[0])) / area;
             double c = ((u[1] - u[0]) * (row - v[0]) - (at - u[0]) * (v[1] - v[0])) / area;
             candidate.at = sb_madd(sb_madd(corner[0], b, sb_sub(corner[1], corner[0])), c,
@@ -207,17 +221,18 @@ static int scan_faces(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t i
 static int scan_line(sb_sampler *sampler, sb_candidate_batch *batch, sb_vec3 a, sb_vec3 b,
                      sb_candidate candidate)
 {
-    double spacing = sampler->settings.spacing, length = sb_norm(sb_sub(b, a)), begin = 0;
+    double spacing = sampler->settings.spacing, length = sb_norm(sb_sub(b, a));
     sb_vec3 along = sb_normalize(sb_sub(b, a));
-    double step = fitted_step(length, spacing);
+    double step = fitted_step(length, spacing), begin = 0.5 * step;
     if (is_axis(along)) {
         double from = sb_dot(sb_sub(a, sampler->settings.min), along);
         step = spacing;
-        begin = step * (ceil(from / step - 0.5 - 1e-9) + 0.5) - from - 0.5 * step;
+        begin = step * (ceil(from / step - 0.5 - slack) + 0.5) - from;
     }
-    for (double at = begin + 0.5 * step; at <= length + 1e-9 * step; at += step) {
+    int64_t end = (int64_t)floor((length - begin) / step + 1e-9);
+    for (int64_t n = 0; n <= end; ++n) {
         sb_candidate next = candidate;
-        next.at = sb_add(sb_madd(a, at, along), candidate.at);
+        next.at = sb_add(sb_madd(a, begin + (double)n * step, along), candidate.at);
         if (sb_candidate_push(sampler, batch, next)) return -1;
     }
     return 0;
