@@ -75,8 +75,8 @@ sb_status sb_model_space_create(const sb_model *model, const sb_scene *domain_of
 {
     sb_model_space made = {.count = model->body_count};
     made.section = sb_alloc(made.count, sizeof *made.section);
-    made.mesh = sb_alloc(made.count, sizeof *made.mesh);
-    made.solid = sb_alloc(made.count, sizeof *made.solid);
+    made.mesh = sb_alloc(made.count, sizeof(void *));
+    made.solid = sb_alloc(made.count, sizeof(void *));
     if (!made.section || !made.mesh || !made.solid) {
         sb_model_space_free(&made);
         return sb_fail_memory(error, "search trees");

@@ -155,6 +155,7 @@ static int scan_triangle(sb_sampler *sampler, sb_candidate_batch *batch, const l
         double row = (double)n + 0.5;
         double first, last;
         span_row(u, v, row, &first, &last);
+        if (!(first <= last)) continue;
         int64_t stop = (int64_t)floor(last - 0.5 + slack);
         for (int64_t m = (int64_t)ceil(first - 0.5 - slack); m <= stop; ++m) {
             double at = (double)m + 0.5;
