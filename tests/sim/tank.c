@@ -155,27 +155,30 @@ void tank_scatter(tank *t, uint64_t seed, double speed)
     }
 }
 
-void tank_split_floor(tank *t)
+void tank_split_patch(tank *t, sb_vec3 min, sb_vec3 max)
 {
     sb_model *m = &t->model;
     sb_vec3 *parted = sb_alloc(m->wall_count, sizeof *parted);
     need(parted != NULL);
-    size_t at = 0, floor_count = 0;
-    for (int sides = 0; sides < 2; sides++) {
-        for (size_t b = 0; b < m->wall_count; b++)
-            if ((m->wall_position[b].z >= 0) == sides) parted[at++] = m->wall_position[b];
-        if (!sides) floor_count = at;
+    size_t at = 0, patch_count = 0;
+    for (int rest = 0; rest < 2; rest++) {
+        for (size_t b = 0; b < m->wall_count; b++) {
+            sb_vec3 x = m->wall_position[b];
+            bool in = x.x > min.x && x.y > min.y && x.z > min.z && x.x < max.x && x.y < max.y &&
+                      x.z < max.z;
+            if (in == !rest) parted[at++] = x;
+        }
+        if (!rest) patch_count = at;
     }
     sb_free(m->wall_position);
     m->wall_position = parted;
     t->wall_capacity = m->wall_count;
     m->body_count = 2;
     m->bodies[1] = m->bodies[0];
-    m->bodies[0].count = floor_count;
-    m->bodies[1].begin = floor_count;
-    m->bodies[1].count = m->wall_count - floor_count;
-    snprintf(m->bodies[0].name, sizeof m->bodies[0].name, "floor");
-    snprintf(m->bodies[1].name, sizeof m->bodies[1].name, "sides");
+    m->bodies[0].count = patch_count;
+    m->bodies[1].begin = patch_count;
+    m->bodies[1].count = m->wall_count - patch_count;
+    snprintf(m->bodies[0].name, sizeof m->bodies[0].name, "patch");
 }
 
 size_t tank_add_sheet(tank *t, const char *name, double x, double z_min, double z_max,

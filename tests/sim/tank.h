@@ -22,8 +22,9 @@ void tank_free(tank *t);
 void tank_shift(tank *t, sb_vec3 by);
 /* Water anywhere within the box, at velocities up to `speed` along each axis, at pressure 0. */
 void tank_scatter(tank *t, uint64_t seed, double speed);
-/* Parts the body "tank" into "floor" (all below z = 0, corners too) and "sides". */
-void tank_split_floor(tank *t);
+/* Parts what lies in the box (min, max) off the body "tank", as body 0, "patch"; the rest is
+ * body 1. */
+void tank_split_patch(tank *t, sb_vec3 min, sb_vec3 max);
 
 /* A new body of boundary particles a spacing apart: an upright sheet across the tank at x from
    z_min to z_max; moved along `direction` by `law`, or static when that is NULL. Returns the body's

@@ -1,0 +1,151 @@
+/* What the water gains, bodies and gravity give: linear and angular momentum, step by step. */
+#include "../check.h"
+#include "base/memory.h"
+#include "sim/tank.h"
+
+#include <stdio.h>
+
+/* Of the water, about the scene's origin; by double sums over what the simulation reports. */
+typedef struct account {
+    sb_vec3 momentum, spin, weight_moment; /* kg m/s, kg m^2/s; sum of x times m, kg m */
+    double mass;
+} account;
+
+typedef struct record {
+    sb_vec3 *velocity; /* by id */
+    size_t count;
+} record;
+
+static account take(const sb_sim *sim, record *r, double *pushed)
+{
+    account a = {0};
+    double m = (double)sim->constant.mass;
+    *pushed = 0;
+    for (size_t i = 0; i < sim->n; i++) {
+        sb_fluid_sample s = sb_sim_particle(sim, i);
+        a.momentum = sb_madd(a.momentum, m, s.velocity);
+        a.spin = sb_madd(a.spin, m, sb_cross(s.position, s.velocity));
+        a.weight_moment = sb_madd(a.weight_moment, m, s.position);
+        a.mass += m;
+        *pushed += m * sb_norm(sb_sub(s.velocity, r->velocity[s.id]));
+        r->velocity[s.id] = s.velocity;
+    }
+    return a;
+}
+
+typedef struct impulses {
+    sb_vec3 push, moment, friction;
+} impulses;
+
+/* Of the bodies so far; the moments brought from each body's own point to the origin. */
+static impulses sum_impulses(const sb_sim *sim)
+{
+    impulses sum = {0};
+    for (size_t b = 0; b < sim->model->body_count; b++) {
+        const sb_body_impulse *i = sb_sim_impulse(sim, b);
+        sb_vec3 push = sb_add(i->pressure, i->friction);
+        sum.push = sb_add(sum.push, push);
+        sum.friction = sb_add(sum.friction, i->friction);
+        sum.moment = sb_add(sum.moment,
+                            sb_add(i->moment, sb_cross(sim->model->bodies[b].moment_point, push)));
+    }
+    return sum;
+}
+
+typedef struct balance {
+    double force,
+        moment;      /* worst over the steps, relative to sum |m a| dt, and to that times the arm */
+    double friction; /* N s that bodies felt, for the test to mean something */
+} balance;
+
+static balance follow(const tank *t, int steps, double arm)
+{
+    sb_sim *sim = tank_sim(t);
+    assert_non_null(sim);
+    record r = {sb_alloc(sim->n, sizeof(sb_vec3)), sim->n};
+    assert_non_null(r.velocity);
+    balance worst = {0};
+    double pushed;
+    account before = take(sim, &r, &pushed);
+    impulses given = sum_impulses(sim);
+    for (int s = 0; s < steps; s++) {
+        assert_int_equal(tank_steps(sim, 1), 0);
+        double dt = sim->report.time_step, g = t->scene.fluid.gravity;
+        account after = take(sim, &r, &pushed);
+        impulses now = sum_impulses(sim);
+        sb_vec3 weight = sb_vec(0, 0, -g * dt * after.mass);
+        /* Moments of the weight at where the water was at the step's start. */
+        sb_vec3 turn = sb_cross(before.weight_moment, sb_vec(0, 0, -g * dt));
+        sb_vec3 force = sb_sub(
+            sb_add(sb_sub(after.momentum, before.momentum), sb_sub(now.push, given.push)), weight);
+        sb_vec3 moment =
+            sb_sub(sb_add(sb_sub(after.spin, before.spin), sb_sub(now.moment, given.moment)), turn);
+        assert_true(pushed > 0);
+        worst.force = fmax(worst.force, sb_norm(force) / pushed);
+        worst.moment = fmax(worst.moment, sb_norm(moment) / (pushed * arm));
+        before = after;
+        given = now;
+    }
+    worst.friction = sb_norm(given.friction);
+    assert_int_equal(sim->n, t->model.fluid_count);
+    assert_int_equal(sb_sim_report(sim)->lost + sb_sim_report(sim)->left_domain, 0);
+    assert_true(sb_sim_report(sim)->max_speed > 0.5);
+    sb_free(r.velocity);
+    sb_sim_destroy(sim);
+    return worst;
+}
+
+static void add_terms(tank *t, sb_solver solver)
+{
+    t->scene.numerics.solver = solver;
+    t->scene.numerics.artificial_viscosity = 0.05;
+    t->scene.numerics.wall_friction = 0.1;
+    t->scene.fluid.viscosity = 1e-3;
+}
+
+static void check(const tank *t, double arm, const char *name)
+{
+    balance b = follow(t, 50, arm);
+    printf("%s: force %.2g, moment %.2g of sum |m a| dt; friction %.3g N s\n", name, b.force,
+           b.moment, b.friction);
+    assert_true(b.force < 1e-6 && b.moment < 1e-6 && b.friction > 0);
+}
+
+static void a_flat_dam_break_balances(void **state)
+{
+    (void)state;
+    for (sb_solver solver = SB_SOLVER_JACOBI; solver <= SB_SOLVER_CG; solver++) {
+        tank t;
+        tank_make(&t, 2, 0.05, sb_vec(2, 0, 2), 1, 1, 0.1);
+        add_terms(&t, solver);
+        t.model.bodies[0].moment_point = sb_vec(1, 0, 0.3);
+        check(&t, 1, "2D");
+        tank_free(&t);
+    }
+}
+
+/* With a static sill in its way and a paddle at its back, each with a moment point of its own. */
+static void a_dam_break_with_bodies_balances(void **state)
+{
+    (void)state;
+    const sb_wavemaker_parameters law = {
+        .kind = sb_wavemaker_find("stroke"), .stroke = 0.3, .speed = 1, .gravity = 9.81};
+    tank t;
+    tank_make(&t, 3, 0.1, sb_vec(2, 0.7, 1.5), 1, 1, 0.1);
+    add_terms(&t, SB_SOLVER_CG);
+    size_t sill = tank_add_sheet(&t, "sill", 1.45, 0, 0.4, sb_vec(0, 0, 0), NULL);
+    size_t paddle = tank_add_sheet(&t, "paddle", -0.05, 0, 1.2, sb_vec(1, 0, 0), &law);
+    t.model.bodies[sill].moment_point = sb_vec(1.45, 0.35, 0);
+    t.model.bodies[paddle].moment_point = sb_vec(0, 0.35, -3);
+    check(&t, 1, "3D");
+    tank_free(&t);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_flat_dam_break_balances),
+        cmocka_unit_test(a_dam_break_with_bodies_balances),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

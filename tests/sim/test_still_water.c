@@ -1,0 +1,112 @@
+/* Water at rest stays at rest, weighs what it weighs, and stands where it stood. */
+#include "../check.h"
+#include "sim/pressure.h"
+#include "sim/tank.h"
+
+#include <stdio.h>
+
+enum { QUARTERS = 4, PATCH = 0, TANK = 1 };
+
+typedef struct rest {
+    sb_vec3 force;            /* mean on all walls, over the weight */
+    double patch;             /* N (N/m in 2D), mean on the patch, down */
+    double level;             /* m, mean, from the potential energy */
+    double kinetic[QUARTERS]; /* J, mean of each quarter of the run */
+} rest;
+
+static sb_sim *settle(const tank *t)
+{
+    sb_sim *sim = tank_sim(t);
+    sb_error error = {0};
+    assert_non_null(sim);
+    double height = sb_sim_energy(sim).potential;
+    if (sb_sim_settle(sim, &error) != SB_OK) fail_msg("%s", error.text);
+    assert_true(sb_sim_report(sim)->time == 0 && sb_sim_report(sim)->step == 0);
+    for (int b = PATCH; b <= TANK; b++)
+        assert_true(sb_sim_impulse(sim, (size_t)b)->pressure.z == 0);
+    assert_true(sb_sim_energy(sim).potential != height);
+    return sim;
+}
+
+static rest watch(const tank *t, double duration)
+{
+    sb_sim *sim = settle(t);
+    rest r = {0};
+    double weight = sb_sim_energy(sim).mass * t->scene.fluid.gravity, time[QUARTERS] = {0};
+    while (sb_sim_report(sim)->time < duration) {
+        int quarter = (int)(QUARTERS * sb_sim_report(sim)->time / duration);
+        assert_int_equal(tank_steps(sim, 1), 0);
+        sb_energy e = sb_sim_energy(sim);
+        double dt = sb_sim_report(sim)->time_step;
+        time[quarter] += dt;
+        r.kinetic[quarter] += e.kinetic * dt;
+        r.level += 2 * e.potential / weight * dt;
+    }
+    for (int q = 0; q < QUARTERS; q++) r.kinetic[q] /= time[q];
+    double all = sb_sim_report(sim)->time;
+    sb_vec3 patch = sb_sim_impulse(sim, PATCH)->pressure;
+    r.level /= all;
+    r.patch = -patch.z / all;
+    r.force = sb_scale(sb_add(patch, sb_sim_impulse(sim, TANK)->pressure), 1 / (all * weight));
+    assert_int_equal(sim->n, t->model.fluid_count);
+    assert_int_equal(sb_sim_report(sim)->lost + sb_sim_report(sim)->left_domain, 0);
+    sb_sim_destroy(sim);
+    return r;
+}
+
+/* The patch is the middle of the floor, half as wide as the tank along each axis. Conjugate
+   gradients need a tighter tolerance: at the others' their errors change sign from step to step,
+   and the water is never still. */
+static void check(int dimensions, double spacing, sb_vec3 size, double depth, sb_solver solver)
+{
+    bool flat = dimensions == 2;
+    tank t;
+    tank_make(&t, dimensions, spacing, size, size.x, depth, 0.01);
+    tank_split_patch(&t, sb_vec(size.x / 4, flat ? -1 : size.y / 4, -1),
+                     sb_vec(3 * size.x / 4, flat ? 1 : 3 * size.y / 4, 0));
+    t.scene.numerics.solver = solver;
+    t.scene.numerics.tolerance = solver == SB_SOLVER_CG ? 0.0005 : 0.005;
+    t.scene.numerics.settle_steps = 300;
+    t.scene.numerics.wall_gamma = 0.8;
+    double wave_speed = sqrt(9.81 * depth), area = flat ? size.x : size.x * size.y;
+    double mass = 1000 * depth * area, speed[QUARTERS];
+    rest r = watch(&t, 16 * depth / wave_speed);
+    for (int q = 0; q < QUARTERS; q++) speed[q] = sqrt(2 * r.kinetic[q] / mass) / wave_speed;
+    double patch = r.patch / (1000 * 9.81 * depth * (flat ? area / 2 : area / 4));
+    printf("%dD %s: force %+.5f %+.5f %+.5f of the weight, patch %.5f of its; level %+.3f "
+           "spacings; rms "
+           "speed by quarters %.2g %.2g %.2g %.2g of sqrt(gD)\n",
+           dimensions, sb_pressure_solvers[solver]->name, r.force.x, r.force.y, r.force.z, patch,
+           (r.level - depth) / spacing, speed[0], speed[1], speed[2], speed[3]);
+    assert_near(r.force.x, 0, 0.005);
+    assert_near(r.force.y, 0, 0.005);
+    assert_near(r.force.z, -1, 0.005);
+    assert_near(patch, 1, 0.02);
+    assert_near(r.level, depth, 0.5 * spacing);
+    assert_true(speed[2] < 0.02 && speed[3] < 0.02);
+    assert_true(r.kinetic[3] <= 1.2 * r.kinetic[2]);
+    tank_free(&t);
+}
+
+static void a_flat_tank_rests(void **state)
+{
+    (void)state;
+    for (sb_solver s = SB_SOLVER_JACOBI; s <= SB_SOLVER_CG; s++)
+        check(2, 0.05, sb_vec(1, 0, 1.5), 1, s);
+}
+
+static void a_tank_rests(void **state)
+{
+    (void)state;
+    for (sb_solver s = SB_SOLVER_JACOBI; s <= SB_SOLVER_CG; s++)
+        check(3, 0.1, sb_vec(0.8, 0.8, 1.2), 0.8, s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_flat_tank_rests),
+        cmocka_unit_test(a_tank_rests),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

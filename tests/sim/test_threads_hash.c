@@ -1,0 +1,120 @@
+/* The same bits for any number of threads: the complete state after many steps. */
+#include "../check.h"
+#include "sim/pressure.h"
+#include "sim/tank.h"
+
+#include <omp.h>
+#include <stdio.h>
+
+enum { STEPS = 60 };
+
+static uint64_t run(const tank *t, int threads)
+{
+    omp_set_num_threads(threads);
+    sb_sim *sim = tank_sim(t);
+    assert_non_null(sim);
+    sb_error error = {0};
+    if (sb_sim_settle(sim, &error) != SB_OK) fail_msg("%s", error.text);
+    assert_int_equal(tank_steps(sim, STEPS), 0);
+    assert_int_equal(sb_sim_report(sim)->step, STEPS);
+    assert_true(sim->n > 4 * (size_t)SB_BLOCK);
+    uint64_t hash = sb_sim_hash(sim);
+    sb_sim_destroy(sim);
+    return hash;
+}
+
+static void check(const tank *t, const char *name)
+{
+    const int counts[] = {2, 3, 8};
+    int before = omp_get_max_threads();
+    uint64_t alone = run(t, 1);
+    printf("%s, %s: %016llx\n", name, sb_pressure_solvers[t->scene.numerics.solver]->name,
+           (unsigned long long)alone);
+    for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
+        uint64_t hash = run(t, counts[c]);
+        if (hash != alone)
+            fail_msg("%s: %d threads give %016llx", name, counts[c], (unsigned long long)hash);
+    }
+    assert_true(run(t, 1) == alone);
+    omp_set_num_threads(before);
+}
+
+static void add_terms(tank *t)
+{
+    t->scene.numerics.wall_friction = 0.05;
+    t->scene.fluid.viscosity = 1e-4;
+    t->scene.numerics.settle_steps = 5;
+}
+
+static void a_dam_break(void **state)
+{
+    (void)state;
+    for (sb_solver solver = SB_SOLVER_JACOBI; solver <= SB_SOLVER_CG; solver++) {
+        tank t;
+        tank_make(&t, 2, 1.0 / 64, sb_vec(2, 0, 1.5), 1, 1.1, 0.1);
+        t.scene.numerics.solver = solver;
+        add_terms(&t);
+        check(&t, "dam break");
+        tank_free(&t);
+    }
+}
+
+static void a_paddle(void **state)
+{
+    (void)state;
+    const sb_wavemaker_parameters law = {.kind = sb_wavemaker_find("stroke"),
+                                         .stroke = 0.1,
+                                         .speed = 0.8,
+                                         .gravity = 9.81,
+                                         .after = SB_AFTER_RETURN,
+                                         .return_time = 0.3};
+    tank t;
+    tank_make(&t, 3, 1.0 / 16, sb_vec(1.5, 0.75, 1), 1.5, 0.5, 0.1);
+    t.scene.numerics.solver = SB_SOLVER_CG;
+    tank_add_sheet(&t, "paddle", -1.0 / 32, 0, 0.8, sb_vec(1, 0, 0), &law);
+    add_terms(&t);
+    check(&t, "paddle");
+    tank_free(&t);
+}
+
+/* The hash sees a change of one bit of anything that a run carries on. */
+static void the_hash_sees_all(void **state)
+{
+    (void)state;
+    tank t;
+    tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0.1);
+    sb_sim *sim = tank_sim(&t);
+    assert_non_null(sim);
+    assert_int_equal(tank_steps(sim, 3), 0);
+    uint64_t hash = sb_sim_hash(sim);
+    size_t last = sim->n - 1;
+    struct {
+        void *at;
+        size_t size;
+    } parts[] = {{&sim->position[last], 12},
+                 {&sim->velocity[last], 16},
+                 {&sim->id[0], 4},
+                 {&sim->impulse[0].moment, sizeof(sb_vec3)},
+                 {&sim->report.time, sizeof(double)},
+                 {&sim->report.step, sizeof(uint64_t)}};
+    for (size_t p = 0; p < sizeof parts / sizeof *parts; p++)
+        for (size_t byte = 0; byte < parts[p].size; byte++) {
+            unsigned char *at = (unsigned char *)parts[p].at + byte;
+            *at ^= 1;
+            assert_true(sb_sim_hash(sim) != hash);
+            *at ^= 1;
+        }
+    assert_true(sb_sim_hash(sim) == hash);
+    sb_sim_destroy(sim);
+    tank_free(&t);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_dam_break),
+        cmocka_unit_test(a_paddle),
+        cmocka_unit_test(the_hash_sees_all),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
