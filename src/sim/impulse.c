@@ -1,13 +1,42 @@
 /* What the water does to bodies over one step: the reaction to every wall term that moved the water
    [A12, eq. 10], so that the momenta of water and bodies balance to round-off. */
+#include "sim/contact.h"
 #include "sim/friction.h"
 
 #include <string.h>
 
 enum { VALUES = 9 }; /* pressure, friction, moment */
 
+static void add(const sb_sim *sim, double *sum, uint32_t wall, sb_vec3 pressure, sb_vec3 drag)
+{
+    const sb_wall_set *set = &sim->walls[wall >> 31];
+    wall &= 0x7fffffffu;
+    const uint32_t body = set->body[wall];
+    sb_vec3 arm = sb_sub(sb_space_position(&sim->space, set->record[wall]),
+                         sim->model->bodies[body].moment_point);
+    sb_vec3 moment = sb_cross(arm, sb_add(pressure, drag));
+    const double values[VALUES] = {pressure.x, pressure.y, pressure.z, drag.x,  drag.y,
+                                   drag.z,     moment.x,   moment.y,   moment.z};
+    for (size_t v = 0; v < VALUES; v++)
+        sum[(size_t)VALUES * body + v] += values[v];
+}
+
+/* Mends what would pass a wall; the wall feels it. */
+static void contact(sb_sim *sim, size_t i, double *sum)
+{
+    sb_f4 velocity = sim->acceleration[i];
+    uint32_t wall;
+    if (!sb_contact_mend(sim, i, &velocity, &wall))
+        return;
+    const double scale = (double)sim->constant.mass / sim->report.time_step;
+    sb_f4 change = sim->acceleration[i] - velocity;
+    add(sim, sum, wall, sb_scale(sb_vec((double)change[0], (double)change[1], (double)change[2]), scale), (sb_vec3){0});
+    velocity[3] = sim->acceleration[i][3];
+    sim->acceleration[i] = velocity;
+}
+
 /* Forces (N) and moment (Nm) on bodies from one block of particles, into sum[body][VALUES]. */
-static void do_block(const sb_sim *sim, size_t block, double *sum, float friction, float epsilon)
+static void do_block(sb_sim *sim, size_t block, double *sum, float friction, float epsilon)
 {
     const double mass = (double)sim->constant.mass, quantum = sim->space.quantum;
     const sb_f4 *velocity = sim->scratch; /* at the step's start */
@@ -19,23 +48,18 @@ static void do_block(const sb_sim *sim, size_t block, double *sum, float frictio
             if (slope[k] == 0)
                 continue;
             const sb_wall_set *set = &sim->walls[index[k] >> 31];
-            uint32_t wall = index[k] & 0x7fffffffu, body = set->body[wall];
-            sb_f4 d = sb_offset(sim->position[i], set->record[wall]);
+            sb_f4 d = sb_offset(sim->position[i], set->record[index[k] & 0x7fffffffu]);
             double scale = mass * q * (double)slope[k];
-            sb_vec3 pressure = sb_vec(scale * (double)d[0], scale * (double)d[1], scale * (double)d[2]);
             sb_vec3 drag = {0};
             if (friction > 0) {
                 sb_f4 f = sb_friction(sim, i, velocity[i], index[k], slope[k], friction, epsilon);
                 drag = sb_scale(sb_vec((double)f[0], (double)f[1], (double)f[2]), -mass / quantum);
             }
-            sb_vec3 arm = sb_sub(sb_space_position(&sim->space, set->record[wall]),
-                                 sim->model->bodies[body].moment_point);
-            sb_vec3 moment = sb_cross(arm, sb_add(pressure, drag));
-            const double values[VALUES] = {pressure.x, pressure.y, pressure.z, drag.x,  drag.y,
-                                           drag.z,     moment.x,   moment.y,   moment.z};
-            for (int v = 0; v < VALUES; v++)
-                sum[(size_t)VALUES * body + (size_t)v] += values[v];
+            add(sim, sum, index[k],
+                sb_vec(scale * (double)d[0], scale * (double)d[1], scale * (double)d[2]), drag);
         }
+        if (sim->wall_pairs.count[i] > 0)
+            contact(sim, i, sum);
     }
 }
 

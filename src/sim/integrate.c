@@ -107,7 +107,7 @@ static sb_status diverged(const sb_sim *sim, fastest top, sb_error *error)
                    sim->report.error_mean, sim->report.iterations);
 }
 
-sb_status sb_stage_integrate(sb_sim *sim, sb_error *error)
+sb_status sb_stage_accelerate(sb_sim *sim, sb_error *error)
 {
     const size_t blocks = sb_blocks(sim);
     fastest top = {0, 0};
@@ -122,10 +122,17 @@ sb_status sb_stage_integrate(sb_sim *sim, sb_error *error)
             top = (fastest){(float)sim->partial[2 * b], (size_t)sim->partial[2 * b + 1]};
     if (!(top.square <= sim->constant.speed_limit * sim->constant.speed_limit))
         return diverged(sim, top, error);
+    sim->report.max_speed = sqrt((double)top.square);
+    return SB_OK;
+}
+
+sb_status sb_stage_move(sb_sim *sim, sb_error *error)
+{
+    (void)error;
+    const size_t blocks = sb_blocks(sim);
 #pragma omp parallel for schedule(static)
     for (size_t b = 0; b < blocks; b++)
         move(sim, b);
-    sim->report.max_speed = sqrt((double)top.square);
     sim->report.time += sim->settling ? 0 : sim->report.time_step;
     sim->report.step += !sim->settling;
     return SB_OK;

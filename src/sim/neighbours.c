@@ -4,28 +4,39 @@
 #include "sim/kernel_batch.h"
 #include "sim/state.h"
 
+#include <math.h>
 #include <omp.h>
 #include <string.h>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#define SB_AVX512
+#endif
 
 enum {
     CANDIDATES = 4096,   /* of one cell's surroundings that fit the fast buffer; more are refused */
     LIST_MAX = 1024,     /* neighbours of one particle: 30 are normal */
+    LANES = 8,
+    SPARE = 16,          /* vector stores may run past the end */
 };
 
 /* Particles around one cell as offsets from the cell's corner, in quanta. */
 typedef struct surroundings {
     size_t count;
-    float x[CANDIDATES], y[CANDIDATES], z[CANDIDATES], weight[CANDIDATES];
-    uint32_t index[CANDIDATES];
+    float x[CANDIDATES + SPARE], y[CANDIDATES + SPARE], z[CANDIDATES + SPARE];
+    float weight[CANDIDATES + SPARE];
+    uint32_t index[CANDIDATES + SPARE];
 } surroundings;
 
 /* The hits of one particle. */
 typedef struct hits {
-    size_t count;
-    float x[LIST_MAX], y[LIST_MAX], z[LIST_MAX], q2[LIST_MAX], weight[LIST_MAX];
-    float value[LIST_MAX], slope[LIST_MAX];
-    uint32_t index[LIST_MAX];
+    size_t count, padded; /* padded to LANES by hits at the support radius, where kernels vanish */
+    float x[LIST_MAX + SPARE], y[LIST_MAX + SPARE], z[LIST_MAX + SPARE], q2[LIST_MAX + SPARE];
+    float weight[LIST_MAX + SPARE], value[LIST_MAX + SPARE], slope[LIST_MAX + SPARE];
+    uint32_t index[LIST_MAX + SPARE];
 } hits;
+
+typedef size_t find_hits_form(const surroundings *s, hits *h, sb_f4 self, float scale, uint32_t skip);
 
 /* A list under construction for one block, copied to the shared pool when the block is done. */
 typedef struct list {
@@ -37,10 +48,10 @@ typedef struct list {
 typedef struct worker {
     surroundings fluid, wall;
     hits hits;
-    float r2[CANDIDATES];
     list pairs, wall_pairs;
     const sb_kernel *kernel;
     sb_kernel_batch *batch;
+    find_hits_form *find_hits;
     float q_scale;        /* (quantum / h)^2 */
     float value_scale;    /* alpha / h^d */
     float slope_scale;    /* alpha quantum / h^(d+2): W'/r per quantum */
@@ -85,31 +96,79 @@ SB_INLINE void gather(surroundings *s, const sb_cells *cells, const sb_record *r
             }
 }
 
-/* Candidates within the support radius of `self`, offsets self - candidate; skip: index of self. */
-SB_INLINE void find_hits(worker *w, const surroundings *s, sb_f4 self, uint32_t skip)
+/* Candidates within the support radius of `self`, as offsets self - candidate; skip: index of self.
+   Returns how many; LIST_MAX or more means that some may have been left out. */
+static size_t find_hits_portable(const surroundings *s, hits *h, sb_f4 self, float scale, uint32_t skip)
 {
-    float *r2 = w->r2;
-    size_t count = s->count;
-    float sx = self[0], sy = self[1], sz = self[2], scale = w->q_scale;
-    for (size_t k = 0; k < count; k++) {
-        float x = sx - s->x[k], y = sy - s->y[k], z = sz - s->z[k];
-        r2[k] = (x * x + y * y + z * z) * scale;
-    }
-    hits *h = &w->hits;
     size_t n = 0;
-    for (size_t k = 0; k < count; k++) {
-        if (n >= LIST_MAX - 4)
-            break;
-        h->x[n] = sx - s->x[k];
-        h->y[n] = sy - s->y[k];
-        h->z[n] = sz - s->z[k];
-        h->q2[n] = r2[k];
+    for (size_t k = 0; k < s->count && n < LIST_MAX; k++) {
+        float x = self[0] - s->x[k], y = self[1] - s->y[k], z = self[2] - s->z[k];
+        float q2 = fmaf(x, x, fmaf(y, y, z * z)) * scale;
+        h->x[n] = x;
+        h->y[n] = y;
+        h->z[n] = z;
+        h->q2[n] = q2;
         h->weight[n] = s->weight[k];
         h->index[n] = s->index[k];
-        n += (r2[k] < 1.0f) & (s->index[k] != skip);
+        n += (q2 < 1.0f) & (s->index[k] != skip);
     }
-    w->full |= n >= LIST_MAX - 4;
-    h->count = n;
+    return n;
+}
+
+#ifdef SB_AVX512
+/* The same sixteen at a time; equal to the portable form to the bit. */
+__attribute__((target("avx512f")))
+static size_t find_hits_avx512(const surroundings *s, hits *h, sb_f4 self, float scale, uint32_t skip)
+{
+    const __m512 sx = _mm512_set1_ps(self[0]), sy = _mm512_set1_ps(self[1]), sz = _mm512_set1_ps(self[2]);
+    const __m512 factor = _mm512_set1_ps(scale), one = _mm512_set1_ps(1.0f);
+    const __m512i own = _mm512_set1_epi32((int)skip);
+    size_t n = 0;
+    for (size_t k = 0; k < s->count && n < LIST_MAX; k += 16) {
+        size_t left = s->count - k;
+        __mmask16 valid = (__mmask16)(left < 16 ? (1u << left) - 1 : 0xffffu);
+        __m512 x = _mm512_sub_ps(sx, _mm512_loadu_ps(s->x + k));
+        __m512 y = _mm512_sub_ps(sy, _mm512_loadu_ps(s->y + k));
+        __m512 z = _mm512_sub_ps(sz, _mm512_loadu_ps(s->z + k));
+        __m512 q2 = _mm512_mul_ps(
+            _mm512_fmadd_ps(x, x, _mm512_fmadd_ps(y, y, _mm512_mul_ps(z, z))), factor);
+        __m512i index = _mm512_loadu_si512(s->index + k);
+        __mmask16 near = _mm512_mask_cmp_ps_mask(valid, q2, one, _CMP_LT_OQ);
+        near = _mm512_mask_cmpneq_epi32_mask(near, index, own);
+        if (!near)
+            continue;
+        _mm512_storeu_ps(h->x + n, _mm512_maskz_compress_ps(near, x));
+        _mm512_storeu_ps(h->y + n, _mm512_maskz_compress_ps(near, y));
+        _mm512_storeu_ps(h->z + n, _mm512_maskz_compress_ps(near, z));
+        _mm512_storeu_ps(h->q2 + n, _mm512_maskz_compress_ps(near, q2));
+        _mm512_storeu_ps(h->weight + n, _mm512_maskz_compress_ps(near, _mm512_loadu_ps(s->weight + k)));
+        _mm512_storeu_si512(h->index + n, _mm512_maskz_compress_epi32(near, index));
+        n += (size_t)__builtin_popcount(near);
+    }
+    return n;
+}
+#endif
+
+static find_hits_form *choose_find_hits(void)
+{
+#ifdef SB_AVX512
+    if (__builtin_cpu_supports("avx512f"))
+        return find_hits_avx512;
+#endif
+    return find_hits_portable;
+}
+
+SB_INLINE void find_hits(worker *w, const surroundings *s, sb_f4 self, uint32_t skip)
+{
+    size_t n = w->find_hits(s, &w->hits, self, w->q_scale, skip);
+    w->full |= n >= LIST_MAX;
+    hits *h = &w->hits;
+    h->count = n < LIST_MAX ? n : LIST_MAX;
+    h->padded = (h->count + LANES - 1) / LANES * LANES;
+    for (size_t k = h->count; k < h->padded; k++) {
+        h->x[k] = h->y[k] = h->z[k] = 0;
+        h->q2[k] = 1;
+    }
 }
 
 /* Appends the hits to a list, padded to four with (filler, 0). */
@@ -135,21 +194,21 @@ SB_INLINE void append(worker *w, list *l, uint32_t filler, uint16_t *count)
 SB_INLINE void fluid_sums(worker *w, float mass, float *density, sb_f4 *sum, float *squares)
 {
     hits *h = &w->hits;
-    float scale = mass * w->slope_scale;
-    float value = 0, x = 0, y = 0, z = 0, square = 0;
-    w->batch(w->kernel, h->q2, h->count, h->value, h->slope);
-    for (size_t k = 0; k < h->count; k++) {
-        float slope = h->slope[k] * scale;
-        h->slope[k] = slope;
-        value += h->value[k];
-        x += slope * h->x[k];
-        y += slope * h->y[k];
-        z += slope * h->z[k];
-        square += slope * slope * h->q2[k];
+    const float scale = mass * w->slope_scale;
+    sb_f8 value = {0}, x = {0}, y = {0}, z = {0}, square = {0};
+    w->batch(w->kernel, h->q2, h->padded, h->value, h->slope);
+    for (size_t k = 0; k < h->padded; k += LANES) {
+        sb_f8 slope = *(sb_f8 *)(h->slope + k) * scale;
+        *(sb_f8 *)(h->slope + k) = slope;
+        value += *(const sb_f8 *)(h->value + k);
+        x += slope * *(const sb_f8 *)(h->x + k);
+        y += slope * *(const sb_f8 *)(h->y + k);
+        z += slope * *(const sb_f8 *)(h->z + k);
+        square += slope * slope * *(const sb_f8 *)(h->q2 + k);
     }
-    *density += mass * w->value_scale * value;
-    *sum += (sb_f4){x, y, z, 0};
-    *squares = square / w->q_scale;
+    *density += mass * w->value_scale * sb_sum8(&value);
+    *sum += (sb_f4){sb_sum8(&x), sb_sum8(&y), sb_sum8(&z), 0};
+    *squares = sb_sum8(&square) / w->q_scale;
 }
 
 /* Wall neighbours of particle i: density share and B_i = sum_b psi_b grad W_ib, with the flux
@@ -275,6 +334,7 @@ static worker *make_worker(const sb_sim *sim)
     double h = (double)sim->constant.support, quantum = sim->space.quantum;
     w->kernel = kernel;
     w->batch = sb_kernel_batch_for(kernel);
+    w->find_hits = choose_find_hits();
     w->q_scale = (float)(quantum / h * (quantum / h));
     w->value_scale = (float)(kernel->alpha[d] / pow(h, d));
     w->slope_scale = (float)(kernel->alpha[d] * quantum / pow(h, d + 2));

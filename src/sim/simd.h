@@ -9,6 +9,7 @@
 typedef float sb_f4 __attribute__((vector_size(16)));
 typedef int32_t sb_i4 __attribute__((vector_size(16)));
 typedef uint32_t sb_u4 __attribute__((vector_size(16)));
+typedef float sb_f8 __attribute__((vector_size(32), aligned(4)));
 
 /* Position record: x, y, z in quanta, and in the last lane the bits of a float that travels along
    (the argument of the pressure operator). */
@@ -51,9 +52,38 @@ SB_INLINE void sb_carry(sb_record *record, float value)
     memcpy((char *)record + 12, &value, 4);
 }
 
+SB_INLINE float sb_sum8(const sb_f8 *p)
+{
+    const sb_f8 v = *p;
+    return ((v[0] + v[4]) + (v[1] + v[5])) + ((v[2] + v[6]) + (v[3] + v[7]));
+}
+
 SB_INLINE float sb_sum3(sb_f4 v)
 {
     return v[0] + v[1] + v[2];
+}
+
+/* Lanes of a where the mask is set, of b elsewhere. */
+SB_INLINE sb_f4 sb_select(sb_i4 mask, sb_f4 a, sb_f4 b)
+{
+    return (sb_f4)(((sb_i4)a & mask) | ((sb_i4)b & ~mask));
+}
+
+/* Four records turned into four lanes of x, y, z and w. */
+typedef struct sb_four {
+    sb_f4 x, y, z, w;
+} sb_four;
+
+SB_INLINE sb_four sb_turn(sb_f4 a, sb_f4 b, sb_f4 c, sb_f4 d)
+{
+    sb_f4 xy0 = __builtin_shufflevector(a, b, 0, 4, 1, 5), xy1 = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+    sb_f4 zw0 = __builtin_shufflevector(a, b, 2, 6, 3, 7), zw1 = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+    return (sb_four){
+        .x = __builtin_shufflevector(xy0, xy1, 0, 1, 4, 5),
+        .y = __builtin_shufflevector(xy0, xy1, 2, 3, 6, 7),
+        .z = __builtin_shufflevector(zw0, zw1, 0, 1, 4, 5),
+        .w = __builtin_shufflevector(zw0, zw1, 2, 3, 6, 7),
+    };
 }
 
 #endif

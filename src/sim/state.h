@@ -31,6 +31,7 @@ typedef struct sb_wall_set {
     size_t count;
     sb_record *record;    /* sorted by cell; last lane: psi_b in kg (kg/m in 2D) */
     uint32_t *body;       /* model body of each */
+    sb_f4 *normal;        /* unit, towards the water; 0 0 0 where the model gives none */
     sb_cells cells;
     uint64_t *near;       /* hash set of Z-order blocks with walls in or beside them */
     uint64_t near_mask;
@@ -70,7 +71,8 @@ typedef struct sb_sim {
     uint32_t *id;
 
     /* fields of one step */
-    sb_f4 *acceleration;      /* m/s^2, of the pressure argument; last lane 0 */
+    sb_f4 *acceleration;      /* m/s^2, of the pressure argument; last lane 0. After the stage accelerate:
+                                 the new velocity and pressure */
     sb_f4 *wall;              /* sum_b psi_b grad W_ib; last lane: sum_b psi_b v_b . grad W_ib */
     float *density;           /* kg/m^3 */
     float *diagonal;          /* -a_ii > 0 for q as unknown; 0: no pressure here */
@@ -90,6 +92,7 @@ typedef struct sb_sim {
     sb_wall_set walls[SB_WALL_SETS];
     sb_record *moving_rest;   /* boundary particles of moving bodies at displacement 0 */
     uint32_t *moving_rest_body;
+    sb_f4 *moving_rest_normal;
     size_t moving_rest_count;
     size_t moving_count;
     sb_moving_body *moving;   /* bodies */
@@ -139,6 +142,7 @@ sb_status sb_stage_pressure(sb_sim *sim, sb_error *error);
 sb_status sb_stage_impulse(sb_sim *sim, sb_error *error);
 /* sim/integrate.c */
 sb_status sb_stage_time_step(sb_sim *sim, sb_error *error);
-sb_status sb_stage_integrate(sb_sim *sim, sb_error *error);
+sb_status sb_stage_accelerate(sb_sim *sim, sb_error *error); /* new velocities, in acceleration */
+sb_status sb_stage_move(sb_sim *sim, sb_error *error);
 
 #endif

@@ -18,8 +18,9 @@ static const stage stages[] = {
     {"forces", sb_stage_forces},         /* v* = v + dt (g + viscosity + friction) */
     {"source", sb_stage_source},         /* b = beta (rho_0 - rho) - dt div v* */
     {"pressure", sb_stage_pressure},     /* q >= 0, A q <= b, and its acceleration */
-    {"impulse", sb_stage_impulse},       /* reactions on bodies */
-    {"integrate", sb_stage_integrate},   /* v, x at t + dt */
+    {"accelerate", sb_stage_accelerate}, /* v at t + dt */
+    {"impulse", sb_stage_impulse},       /* contact with walls, reactions on bodies */
+    {"move", sb_stage_move},             /* x at t + dt */
 };
 enum { STAGES = sizeof stages / sizeof stages[0] };
 _Static_assert((int)STAGES <= (int)SB_STAGES_MAX, "stage table");

@@ -1,5 +1,6 @@
 /* v* = v + dt (g + Monaghan viscosity [S16, eq. 14] + physical viscosity + wall friction [S16, eq. 33]). */
 #include "sim/friction.h"
+#include "sim/pressure.h"
 
 /* Factors of one step. */
 typedef struct factors {
@@ -24,24 +25,37 @@ static factors make_factors(const sb_sim *sim)
     };
 }
 
-/* -sum_j m Pi_ij grad W_ij; x . v and r^2 in quanta, their quotient brought back by 1/quantum. */
+/* -sum_j m Pi_ij grad W_ij, four neighbours at a time; the records carry the densities. x . v and r^2 are
+   in quanta, their quotient brought back by 1/quantum. */
 SB_INLINE sb_f4 fluid_part(const sb_sim *sim, size_t i, const factors *f)
 {
-    const sb_record self = sim->position[i];
-    const sb_f4 v = sim->velocity[i];
+    const sb_record *position = sim->position;
+    const sb_f4 *velocity = sim->velocity;
+    const sb_record self = position[i];
+    const sb_f4 v = velocity[i], own_density = sb_carried(self);
     const uint32_t *index = sim->pairs.index + sim->pairs.first[i];
     const float *slope = sim->pairs.slope + sim->pairs.first[i];
-    sb_f4 sum = {0};
-    for (size_t k = 0; k < sim->pairs.count[i]; k++) {
-        uint32_t j = index[k];
-        sb_f4 d = sb_offset(self, sim->position[j]);
-        float approach = sb_sum3((v - sim->velocity[j]) * d);
-        float factor = approach < 0 ? f->artificial + f->physical : f->physical;
-        float r2 = sb_sum3(d * d);
-        float pi = factor * approach / ((r2 + f->epsilon) * (sim->density[i] + sim->density[j]));
-        sum += d * sb_splat(pi * slope[k]);
+    const sb_f4 physical = sb_splat(f->physical), both = sb_splat(f->artificial + f->physical);
+    const sb_f4 epsilon = sb_splat(f->epsilon);
+    sb_f4 x = {0}, y = {0}, z = {0};
+    for (size_t k = 0; k < sim->pairs.count[i]; k += 4) {
+        const uint32_t a = index[k], b = index[k + 1], c = index[k + 2], e = index[k + 3];
+        const sb_four d = sb_turn(sb_offset(self, position[a]), sb_offset(self, position[b]),
+                                  sb_offset(self, position[c]), sb_offset(self, position[e]));
+        const sb_four u = sb_turn(v - velocity[a], v - velocity[b], v - velocity[c], v - velocity[e]);
+        const sb_f4 density = {sb_carried_value(position[a]), sb_carried_value(position[b]),
+                               sb_carried_value(position[c]), sb_carried_value(position[e])};
+        const sb_f4 weight = {slope[k], slope[k + 1], slope[k + 2], slope[k + 3]};
+        sb_f4 approach = u.x * d.x + u.y * d.y + u.z * d.z;
+        sb_f4 r2 = d.x * d.x + d.y * d.y + d.z * d.z;
+        sb_f4 factor = sb_select(approach < (sb_f4){0}, both, physical);
+        sb_f4 pi = factor * approach * weight / ((r2 + epsilon) * (own_density + density));
+        x += d.x * pi;
+        y += d.y * pi;
+        z += d.z * pi;
     }
-    return sum * sb_splat(f->inverse_quantum);
+    const sb_four sum = sb_turn(x, y, z, (sb_f4){0});
+    return (sum.x + sum.y + sum.z + sum.w) * sb_splat(f->inverse_quantum);
 }
 
 SB_INLINE sb_f4 wall_part(const sb_sim *sim, size_t i, const factors *f)
@@ -76,6 +90,8 @@ sb_status sb_stage_forces(sb_sim *sim, sb_error *error)
     const factors f = make_factors(sim);
     const bool viscous = f.artificial > 0 || f.physical > 0, frictional = f.friction > 0;
     const size_t blocks = sb_blocks(sim);
+    if (viscous)
+        sb_pressure_load(sim, sim->density);
 #pragma omp parallel for schedule(dynamic, 1)
     for (size_t b = 0; b < blocks; b++)
         do_block(sim, b, &f, viscous, frictional);

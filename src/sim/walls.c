@@ -75,8 +75,9 @@ static int table_build(sb_wall_set *set, const sb_space *space)
     uint64_t *words = sb_alloc_untouched(n, sizeof *words), *other = sb_alloc_untouched(n, sizeof *words);
     sb_record *record = sb_alloc_untouched(n, sizeof *record);
     uint32_t *body = sb_alloc_untouched(n, sizeof *body);
+    sb_f4 *normal = sb_alloc_untouched(n, sizeof *normal);
     int status = -1;
-    if (!words || !other || !record || !body)
+    if (!words || !other || !record || !body || !normal)
         goto done;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++)
@@ -89,15 +90,18 @@ static int table_build(sb_wall_set *set, const sb_space *space)
         size_t from = sorted[i] & (((uint64_t)1 << 27) - 1);
         record[i] = set->record[from];
         body[i] = set->body[from];
+        normal[i] = set->normal[from];
     }
     memcpy(set->record, record, n * sizeof *record);
     memcpy(set->body, body, n * sizeof *body);
+    memcpy(set->normal, normal, n * sizeof *normal);
     status = sb_cells_build(&set->cells, set->record, n, space->shift);
 done:
     sb_free(words);
     sb_free(other);
     sb_free(record);
     sb_free(body);
+    sb_free(normal);
     return status;
 }
 
@@ -152,7 +156,8 @@ static int copy_set(sb_sim *sim, bool moving, sb_wall_set *set)
             set->count += model->bodies[b].count;
     set->record = sb_alloc_untouched(set->count, sizeof *set->record);
     set->body = sb_alloc_untouched(set->count, sizeof *set->body);
-    if (!set->record || !set->body)
+    set->normal = sb_alloc(set->count, sizeof *set->normal);
+    if (!set->record || !set->body || !set->normal)
         return -1;
     size_t at = 0;
     for (size_t b = 0; b < model->body_count; b++) {
@@ -164,6 +169,10 @@ static int copy_set(sb_sim *sim, bool moving, sb_wall_set *set)
             if (!on_grid(&sim->space, record))
                 continue;
             set->record[at] = record;
+            if (model->wall_normal) {
+                sb_vec3 normal = model->wall_normal[i];
+                set->normal[at] = (sb_f4){(float)normal.x, (float)normal.y, (float)normal.z, 0};
+            }
             set->body[at++] = (uint32_t)b;
         }
     }
@@ -214,11 +223,13 @@ sb_status sb_walls_create(sb_sim *sim, sb_error *error)
     sim->moving_rest_count = set->count;
     sim->moving_rest = sb_alloc_untouched(set->count, sizeof *sim->moving_rest);
     sim->moving_rest_body = sb_alloc_untouched(set->count, sizeof *sim->moving_rest_body);
-    if (!sim->moving_rest || !sim->moving_rest_body)
+    sim->moving_rest_normal = sb_alloc_untouched(set->count, sizeof *sim->moving_rest_normal);
+    if (!sim->moving_rest || !sim->moving_rest_body || !sim->moving_rest_normal)
         return sb_fail_memory(error, "moving boundary particles");
     for (size_t i = 0; i < set->count; i++) {
         sim->moving_rest[i] = set->record[i];
         sim->moving_rest_body[i] = set->body[i];
+        sim->moving_rest_normal[i] = set->normal[i];
     }
     return SB_OK;
 }
@@ -228,6 +239,7 @@ void sb_walls_destroy(sb_sim *sim)
     for (int s = 0; s < SB_WALL_SETS; s++) {
         sb_free(sim->walls[s].record);
         sb_free(sim->walls[s].body);
+        sb_free(sim->walls[s].normal);
         sb_free(sim->walls[s].near);
         sb_cells_free(&sim->walls[s].cells);
     }
@@ -237,6 +249,7 @@ void sb_walls_destroy(sb_sim *sim)
     sb_free(sim->moving_of_body);
     sb_free(sim->moving_rest);
     sb_free(sim->moving_rest_body);
+    sb_free(sim->moving_rest_normal);
 }
 
 /* ---- moving ---- */
@@ -257,6 +270,7 @@ static void place(sb_sim *sim)
             continue;
         sb_carry(&placed, sb_carried_value(sim->moving_rest[i]));
         set->record[set->count] = placed;
+        set->normal[set->count] = sim->moving_rest_normal[i];
         set->body[set->count++] = sim->moving_rest_body[i];
     }
 }
