@@ -7,13 +7,12 @@
 
 enum { VALUES = 9 }; /* pressure, friction, moment */
 
-static void add(const sb_sim *sim, double *sum, uint32_t wall, sb_vec3 pressure, sb_vec3 drag)
+/* at: m, where the forces (N) act. */
+static void add(const sb_sim *sim, double *sum, uint32_t wall, sb_vec3 at, sb_vec3 pressure, sb_vec3 drag)
 {
     const sb_wall_set *set = &sim->walls[wall >> 31];
-    wall &= 0x7fffffffu;
-    const uint32_t body = set->body[wall];
-    sb_vec3 arm = sb_sub(sb_space_position(&sim->space, set->record[wall]),
-                         sim->model->bodies[body].moment_point);
+    const uint32_t body = set->body[wall & 0x7fffffffu];
+    sb_vec3 arm = sb_sub(at, sim->model->bodies[body].moment_point);
     sb_vec3 moment = sb_cross(arm, sb_add(pressure, drag));
     const double values[VALUES] = {pressure.x, pressure.y, pressure.z, drag.x,  drag.y,
                                    drag.z,     moment.x,   moment.y,   moment.z};
@@ -30,7 +29,9 @@ static void contact(sb_sim *sim, size_t i, double *sum)
         return;
     const double scale = (double)sim->constant.mass / sim->report.time_step;
     sb_f4 change = sim->acceleration[i] - velocity;
-    add(sim, sum, wall, sb_scale(sb_vec((double)change[0], (double)change[1], (double)change[2]), scale), (sb_vec3){0});
+    /* The push is along the wall's normal through the particle, so it may be taken to act there. */
+    add(sim, sum, wall, sb_space_position(&sim->space, sim->position[i]),
+        sb_scale(sb_vec((double)change[0], (double)change[1], (double)change[2]), scale), (sb_vec3){0});
     velocity[3] = sim->acceleration[i][3];
     sim->acceleration[i] = velocity;
 }
@@ -48,14 +49,15 @@ static void do_block(sb_sim *sim, size_t block, double *sum, float friction, flo
             if (slope[k] == 0)
                 continue;
             const sb_wall_set *set = &sim->walls[index[k] >> 31];
-            sb_f4 d = sb_offset(sim->position[i], set->record[index[k] & 0x7fffffffu]);
+            const sb_record record = set->record[index[k] & 0x7fffffffu];
+            sb_f4 d = sb_offset(sim->position[i], record);
             double scale = mass * q * (double)slope[k];
             sb_vec3 drag = {0};
             if (friction > 0) {
                 sb_f4 f = sb_friction(sim, i, velocity[i], index[k], slope[k], friction, epsilon);
                 drag = sb_scale(sb_vec((double)f[0], (double)f[1], (double)f[2]), -mass / quantum);
             }
-            add(sim, sum, index[k],
+            add(sim, sum, index[k], sb_space_position(&sim->space, record),
                 sb_vec(scale * (double)d[0], scale * (double)d[1], scale * (double)d[2]), drag);
         }
         if (sim->wall_pairs.count[i] > 0)

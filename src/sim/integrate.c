@@ -83,21 +83,30 @@ static fastest accelerate(sb_sim *sim, size_t block)
     return top;
 }
 
+/* Returns the block's largest squared speed, contact with walls included. */
 SB_MULTIVERSION
-static void move(sb_sim *sim, size_t block)
+static float move(sb_sim *sim, size_t block)
 {
     const float step = (float)(sim->report.time_step / sim->space.quantum);
+    float top = 0;
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
         sb_f4 v = sim->acceleration[i];
         sim->velocity[i] = v;
         sim->position[i] = (sb_record){moved(sim->position[i][0], v[0] * step),
                                        moved(sim->position[i][1], v[1] * step),
                                        moved(sim->position[i][2], v[2] * step), 0};
+        float square = sb_sum3(v * v);
+        top = square > top ? square : top;
     }
+    return top;
 }
 
-static sb_status diverged(const sb_sim *sim, fastest top, sb_error *error)
+/* The state becomes the step's start again: v* is no state, and may be senseless. */
+static sb_status diverged(sb_sim *sim, fastest top, sb_error *error)
 {
+    sb_f4 *start = sim->scratch;
+    sim->scratch = sim->velocity;
+    sim->velocity = start;
     sb_vec3 at = sb_space_position(&sim->space, sim->position[top.particle]);
     return sb_fail(error, SB_FAILED,
                    "step %llu, t = %g s: diverged: particle %u at (%.4g, %.4g, %.4g) m would reach %g m/s, "
@@ -122,7 +131,6 @@ sb_status sb_stage_accelerate(sb_sim *sim, sb_error *error)
             top = (fastest){(float)sim->partial[2 * b], (size_t)sim->partial[2 * b + 1]};
     if (!(top.square <= sim->constant.speed_limit * sim->constant.speed_limit))
         return diverged(sim, top, error);
-    sim->report.max_speed = sqrt((double)top.square);
     return SB_OK;
 }
 
@@ -132,7 +140,11 @@ sb_status sb_stage_move(sb_sim *sim, sb_error *error)
     const size_t blocks = sb_blocks(sim);
 #pragma omp parallel for schedule(static)
     for (size_t b = 0; b < blocks; b++)
-        move(sim, b);
+        sim->partial[b] = (double)move(sim, b);
+    double top = 0;
+    for (size_t b = 0; b < blocks; b++)
+        top = sim->partial[b] > top ? sim->partial[b] : top;
+    sim->report.max_speed = sqrt(top);
     sim->report.time += sim->settling ? 0 : sim->report.time_step;
     sim->report.step += !sim->settling;
     return SB_OK;
