@@ -38,11 +38,20 @@ static void need(bool there)
     if (!there) abort();
 }
 
-static void add_wall(tank *t, sb_vec3 at)
+static void add_wall(tank *t, sb_vec3 at, sb_vec3 normal)
 {
     sb_model *m = &t->model;
-    need(sb_grow((void **)&m->wall_position, &t->wall_capacity, m->wall_count + 1, sizeof at) == 0);
+    size_t needed = m->wall_count + 1;
+    need(sb_grow((void **)&m->wall_position, &t->wall_capacity, needed, sizeof at) == 0);
+    need(sb_grow((void **)&m->wall_normal, &t->normal_capacity, needed, sizeof at) == 0);
+    m->wall_normal[m->wall_count] = sb_normalize(normal);
     m->wall_position[m->wall_count++] = at;
+}
+
+/* Towards the water, of a place of the shell along one axis. */
+static double inward(long index, long n)
+{
+    return (index == -1) - (index == n);
 }
 
 /* A lattice place: the middle of cell (x, y, z); y is 0 in 2D. */
@@ -62,7 +71,8 @@ static void add_shell(tank *t, const long n[3])
             for (long z = -1; z <= n[2]; z++)
                 if (x == -1 || x == n[0] || z == -1 || z == n[2] ||
                     (!flat && (y == -1 || y == n[1])))
-                    add_wall(t, place(t, (double)x, (double)y, (double)z));
+                    add_wall(t, place(t, (double)x, (double)y, (double)z),
+                             sb_vec(inward(x, n[0]), flat ? 0 : inward(y, n[1]), inward(z, n[2])));
 }
 
 static void fill_water(tank *t, const long wet[3], double depth, double jitter)
@@ -119,6 +129,7 @@ void tank_free(tank *t)
     sb_free(t->model.fluid_velocity);
     sb_free(t->model.fluid_pressure);
     sb_free(t->model.wall_position);
+    sb_free(t->model.wall_normal);
     sb_free(t->model.bodies);
     sb_free(t->scene.wavemakers);
     *t = (tank){0};
@@ -159,20 +170,25 @@ void tank_split_patch(tank *t, sb_vec3 min, sb_vec3 max)
 {
     sb_model *m = &t->model;
     sb_vec3 *parted = sb_alloc(m->wall_count, sizeof *parted);
-    need(parted != NULL);
+    sb_vec3 *normal = sb_alloc(m->wall_count, sizeof *normal);
+    need(parted && normal);
     size_t at = 0, patch_count = 0;
     for (int rest = 0; rest < 2; rest++) {
         for (size_t b = 0; b < m->wall_count; b++) {
             sb_vec3 x = m->wall_position[b];
             bool in = x.x > min.x && x.y > min.y && x.z > min.z && x.x < max.x && x.y < max.y &&
                       x.z < max.z;
-            if (in == !rest) parted[at++] = x;
+            if (in != !rest) continue;
+            normal[at] = m->wall_normal[b];
+            parted[at++] = x;
         }
         if (!rest) patch_count = at;
     }
     sb_free(m->wall_position);
     m->wall_position = parted;
-    t->wall_capacity = m->wall_count;
+    sb_free(m->wall_normal);
+    m->wall_normal = normal;
+    t->wall_capacity = t->normal_capacity = m->wall_count;
     m->body_count = 2;
     m->bodies[1] = m->bodies[0];
     m->bodies[0].count = patch_count;
@@ -195,8 +211,10 @@ size_t tank_add_sheet(tank *t, const char *name, double x, double z_min, double 
     long high = lround((z_max - z_min) / dr);
     for (long y = 0; y < across; y++)
         for (long z = 0; z < high; z++)
-            add_wall(t, sb_vec(x, s->dimensions == 2 ? 0 : ((double)y + 0.5) * dr,
-                               z_min + ((double)z + 0.5) * dr));
+            add_wall(t,
+                     sb_vec(x, s->dimensions == 2 ? 0 : ((double)y + 0.5) * dr,
+                            z_min + ((double)z + 0.5) * dr),
+                     sb_vec(1, 0, 0));
     body->count = m->wall_count - body->begin;
     if (law) {
         body->wavemaker = (int)s->wavemaker_count;

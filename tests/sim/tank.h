@@ -9,7 +9,7 @@
 typedef struct tank {
     sb_scene scene;
     sb_model model;
-    size_t wall_capacity;
+    size_t wall_capacity, normal_capacity;
 } tank;
 
 /* A closed box `size` (m) holding water to `depth` over x in [0, wet_length]; sheets half a spacing

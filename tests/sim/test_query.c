@@ -173,12 +173,44 @@ static void in_a_tank_far_away(void **state)
     check_run(3, sb_vec(1e6, -5e5, 300));
 }
 
+/* A paddle that sweeps up a resting drop: the fastest of the water is then what the wall's contact
+ * made it. */
+static void a_drop_swept_away_is_found(void **state)
+{
+    (void)state;
+    const sb_wavemaker_parameters law = {
+        .kind = sb_wavemaker_find("gate"), .stroke = 3, .speed = 6, .gravity = 9.81};
+    tank t;
+    tank_make(&t, 3, 0.1, sb_vec(4, 0.8, 0.8), 0.1, 0.1, 0);
+    t.scene.fluid.gravity = 0;
+    t.model.fluid_count = 1;
+    t.model.fluid_position[0] = sb_vec(0.6, 0.4, 0.4);
+    tank_add_sheet(&t, "paddle", 0.25, 0, 0.8, sb_vec(1, 0, 0), &law);
+    sb_sim *sim = tank_sim(&t);
+    assert_non_null(sim);
+    bool listed[1];
+    while (sb_sim_report(sim)->time < 0.4) {
+        sb_vec3 x = sb_sim_particle(sim, 0).position, thin = sb_vec(1e-6, 1e-6, 1e-6);
+        check_box(sim, sb_sub(x, thin), sb_add(x, thin), listed);
+        assert_int_equal(tank_steps(sim, 1), 0);
+        double speed = sb_norm(sb_sim_particle(sim, 0).velocity);
+        assert_near(sb_sim_report(sim)->max_speed, speed, 1e-5 * speed);
+    }
+    sb_vec3 x = sb_sim_particle(sim, 0).position;
+    printf("the drop is at x = %.2f, the paddle at %.2f\n", x.x,
+           0.25 + sb_sim_body_displacement(sim, 1).x);
+    assert_true(x.x > 0.25 + sb_sim_body_displacement(sim, 1).x);
+    sb_sim_destroy(sim);
+    tank_free(&t);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(in_a_flat_tank),
         cmocka_unit_test(in_a_tank),
         cmocka_unit_test(in_a_tank_far_away),
+        cmocka_unit_test(a_drop_swept_away_is_found),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

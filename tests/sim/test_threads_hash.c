@@ -69,7 +69,7 @@ static void a_paddle(void **state)
                                          .after = SB_AFTER_RETURN,
                                          .return_time = 0.3};
     tank t;
-    tank_make(&t, 3, 1.0 / 16, sb_vec(1.5, 0.75, 1), 1.5, 0.5, 0.1);
+    tank_make(&t, 3, 1.0 / 16, sb_vec(2, 1, 1), 2, 0.625, 0.1);
     t.scene.numerics.solver = SB_SOLVER_CG;
     tank_add_sheet(&t, "paddle", -1.0 / 32, 0, 0.8, sb_vec(1, 0, 0), &law);
     add_terms(&t);

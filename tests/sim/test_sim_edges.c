@@ -1,0 +1,336 @@
+/* The simulation where scenes get odd: one particle, none, two in one place, and runs that fail. */
+#include "../check.h"
+#include "base/memory.h"
+#include "sim/pressure.h"
+#include "sim/tank.h"
+
+#include <omp.h>
+#include <stdio.h>
+#include <string.h>
+
+static sb_sim *make(const tank *t)
+{
+    sb_sim *sim = tank_sim(t);
+    assert_non_null(sim);
+    return sim;
+}
+
+static sb_fluid_sample by_id(const sb_sim *sim, uint32_t id)
+{
+    for (size_t i = 0; i < sim->n; i++)
+        if (sim->id[i] == id) return sb_sim_particle(sim, i);
+    fail_msg("particle %u is gone", id);
+    return (sb_fluid_sample){0};
+}
+
+/* Far from all else a particle knows gravity only: no pressure from its own density of 0.3 rho_0.
+ */
+static void a_lone_particle_flies_a_parabola(void **state)
+{
+    (void)state;
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        bool flat = dimensions == 2;
+        tank t;
+        tank_make(&t, dimensions, 0.1, sb_vec(4, 4, 4), 0.5, 0.5, 0);
+        t.model.fluid_count = 1;
+        sb_vec3 start = sb_vec(1, flat ? 0 : 1, 2), v0 = sb_vec(1.5, flat ? 0 : 1, 2);
+        t.model.fluid_position[0] = start;
+        t.model.fluid_velocity[0] = v0;
+        t.scene.numerics.wall_friction = 0.1;
+        sb_sim *sim = make(&t);
+        double z = start.z, vz = v0.z, worst = 0, longest = 0;
+        while (sb_sim_report(sim)->time < 0.8) {
+            assert_int_equal(tank_steps(sim, 1), 0);
+            const sb_step_report *r = sb_sim_report(sim);
+            vz -= 9.81 * r->time_step;
+            z += vz * r->time_step;
+            longest = fmax(longest, r->time_step);
+            sb_fluid_sample p = sb_sim_particle(sim, 0);
+            worst = fmax(worst, sb_norm(sb_sub(p.position, sb_vec(start.x + v0.x * r->time,
+                                                                  start.y + v0.y * r->time, z))));
+            assert_true(p.pressure == 0 && p.velocity.x == v0.x && p.velocity.y == v0.y);
+            double exact = start.z + v0.z * r->time - 0.5 * 9.81 * r->time * r->time;
+            assert_true(fabs(p.position.z - exact) <= 0.51 * 9.81 * longest * r->time);
+        }
+        printf("%dD: %llu steps, worst %.2g m from the steps in double\n", dimensions,
+               (unsigned long long)sb_sim_report(sim)->step, worst);
+        assert_true(worst < 5e-6);
+        sb_sim_destroy(sim);
+        tank_free(&t);
+    }
+}
+
+static void check_finite(const sb_sim *sim)
+{
+    for (size_t i = 0; i < sim->n; i++) {
+        sb_fluid_sample p = sb_sim_particle(sim, i);
+        assert_true(sb_isfinite(p.position) && sb_isfinite(p.velocity));
+        assert_true(isfinite(p.pressure) && isfinite(p.density));
+    }
+}
+
+static void coincident_particles_do_no_harm(void **state)
+{
+    (void)state;
+    for (sb_solver solver = SB_SOLVER_JACOBI; solver <= SB_SOLVER_CG; solver++) {
+        tank t;
+        tank_make(&t, 3, 0.1, sb_vec(0.6, 0.6, 1), 0.6, 0.6, 0.05);
+        t.scene.numerics.solver = solver;
+        t.scene.numerics.wall_friction = 0.1;
+        t.scene.fluid.viscosity = 1e-4;
+        sb_vec3 *x = t.model.fluid_position;
+        x[1] = x[0]; /* to the bit */
+        x[100] = sb_add(x[101], sb_vec(1e-7, 0, 0));
+        x[50] = t.model.wall_position[40]; /* in a boundary particle's place */
+        x[7] = x[8] = x[9] = sb_vec(0.3, 0.3, 0.9);
+        sb_sim *sim = make(&t);
+        assert_int_equal(tank_steps(sim, 60), 0);
+        check_finite(sim);
+        const sb_step_report *r = sb_sim_report(sim);
+        assert_int_equal(sim->n + r->left_domain + r->lost, t.model.fluid_count);
+        sb_sim_destroy(sim);
+        tank_free(&t);
+    }
+}
+
+static void what_leaves_is_counted(void **state)
+{
+    (void)state;
+    tank t;
+    tank_make(&t, 2, 0.1, sb_vec(2, 0, 1), 1, 0.5, 0);
+    t.scene.domain.side[SB_X_MAX] = SB_SIDE_OPEN;
+    tank_split_patch(&t, sb_vec(-1, -1, 1), sb_vec(3, 1, 2));
+    t.model.bodies[0].count = 0; /* no lid */
+    size_t n = t.model.fluid_count;
+    t.model.fluid_position[3] = sb_vec(1.5, 0, 0.8);
+    t.model.fluid_velocity[3] = sb_vec(0, 0, 3);        /* through the open top */
+    t.model.fluid_position[4] = sb_vec(3, 0, 0.5);      /* beyond the open side from the start */
+    t.model.fluid_position[5] = sb_vec(-0.21, 0, 0.8);  /* beyond a wall by more than the support */
+    t.model.fluid_position[6] = sb_vec(1e12, 0, -1e12); /* beyond all numbers */
+    sb_sim *sim = make(&t);
+    const sb_step_report *r = sb_sim_report(sim);
+    assert_int_equal(r->left_domain, 2);
+    assert_int_equal(r->lost, 1);
+    assert_int_equal(r->fluid_count, n - 3);
+    assert_int_equal(tank_steps(sim, 1), 0);
+    assert_true(by_id(sim, 3).velocity.z > 2);
+    while (r->time < 0.15) assert_int_equal(tank_steps(sim, 1), 0);
+    assert_int_equal(r->left_domain, 3);
+    assert_int_equal(r->lost, 1);
+    assert_int_equal(r->fluid_count, n - 4);
+    assert_int_equal(sim->n, n - 4);
+    for (uint32_t id = 0; id < n; id++)
+        if (id < 3 || id > 6) assert_true(by_id(sim, id).position.z < 1);
+    assert_near(sb_sim_energy(sim).mass, 10.0 * (double)(n - 4), 1e-3);
+    sb_sim_destroy(sim);
+    tank_free(&t);
+}
+
+static void check_empty(const sb_scene *scene, const sb_model *model)
+{
+    sb_error error = {0};
+    sb_sim *sim = NULL;
+    assert_int_equal(sb_sim_create(scene, model, &sim, &error), SB_OK);
+    assert_int_equal(sb_sim_settle(sim, &error), SB_OK);
+    assert_int_equal(tank_steps(sim, 3), 0);
+    assert_true(sb_sim_report(sim)->time > 0);
+    assert_int_equal(sb_sim_report(sim)->fluid_count, 0);
+    sb_energy e = sb_sim_energy(sim);
+    assert_true(e.kinetic == 0 && e.potential == 0 && e.mass == 0);
+    assert_int_equal(sb_sim_query(sim, model->min, model->max, NULL, 0), 0);
+    sb_frame *frame = sb_sim_snapshot(sim);
+    assert_non_null(frame);
+    assert_int_equal(frame->count, 0);
+    assert_int_equal(frame->body_count, model->body_count);
+    sb_frame_release(frame);
+    assert_true(sb_sim_hash(sim) == sb_sim_hash(sim));
+    sb_sim_destroy(sim);
+}
+
+static void no_water_is_fine(void **state)
+{
+    (void)state;
+    for (sb_solver solver = SB_SOLVER_JACOBI; solver <= SB_SOLVER_CG; solver++) {
+        tank t;
+        tank_make(&t, 3, 0.1, sb_vec(0.5, 0.5, 0.5), 0.5, 0.2, 0);
+        t.scene.numerics.solver = solver;
+        t.scene.numerics.settle_steps = 3;
+        t.model.fluid_count = 0;
+        check_empty(&t.scene, &t.model);
+        sb_model bare = {.max = t.model.max}; /* nor walls, nor bodies */
+        check_empty(&t.scene, &bare);
+        tank_free(&t);
+    }
+    sb_sim_destroy(NULL);
+}
+
+/* The step that fails leaves the state of the last good one, to be looked at and written. */
+static void check_divergence(double speed, const char *why)
+{
+    tank t;
+    tank_make(&t, 2, 0.1, sb_vec(2, 0, 1.5), 1, 1, 0.1);
+    sb_sim *sim = make(&t);
+    assert_int_equal(tank_steps(sim, 4), 0);
+    size_t hit = 0;
+    while (sim->id[hit] != 42) hit++;
+    sim->velocity[hit][0] = (float)speed;
+    sb_vec3 at = sb_sim_particle(sim, hit).position, where = {0};
+    sb_vec3 sum_before = {0}, sum_after = {0};
+    for (size_t i = 0; i < sim->n; i++)
+        if (i != hit) sum_before = sb_add(sum_before, sb_sim_particle(sim, i).velocity);
+    double time = sb_sim_report(sim)->time;
+    sb_error error = {0};
+    assert_int_equal(sb_sim_step(sim, &error), SB_FAILED);
+    assert_int_equal(error.status, SB_FAILED);
+    printf("%s: %s\n", why, error.text);
+    assert_non_null(strstr(error.text, "step"));
+    assert_non_null(strstr(error.text, "particle"));
+    const char *place = strstr(error.text, "at (");
+    if (place) {
+        assert_int_equal(sscanf(place, "at (%lf, %lf, %lf)", &where.x, &where.y, &where.z), 3);
+        assert_true(sb_norm(sb_sub(where, at)) < 0.25);
+    }
+    assert_true(sb_sim_report(sim)->time == time && sb_sim_report(sim)->step == 4);
+    assert_int_equal(sim->n, t.model.fluid_count);
+    for (size_t i = 0; i < sim->n; i++) {
+        sb_fluid_sample p = sb_sim_particle(sim, i);
+        assert_true(sb_isfinite(p.position));
+        if (p.id != 42) sum_after = sb_add(sum_after, p.velocity);
+    }
+    assert_near(sb_norm(sb_sub(sum_after, sum_before)), 0, 1e-9);
+    assert_near(sb_norm(sb_sub(by_id(sim, 42).position, at)), 0, 0);
+    sb_frame *frame = sb_sim_snapshot(sim);
+    assert_non_null(frame);
+    assert_int_equal(frame->count, sim->n);
+    sb_frame_release(frame);
+    assert_int_equal(sb_sim_query(sim, t.model.min, t.model.max, NULL, 0), sim->n);
+    sb_sim_destroy(sim);
+    tank_free(&t);
+}
+
+static void divergence_is_told_and_leaves_the_state(void **state)
+{
+    (void)state;
+    check_divergence(1e5, "too fast");
+    check_divergence((double)NAN, "not a number");
+}
+
+static void bad_parts_are_refused(void **state)
+{
+    (void)state;
+    sb_wavemaker_parameters law = {.kind = sb_wavemaker_find("stroke"), .stroke = -1, .speed = 1};
+    tank t;
+    tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0);
+    tank_add_sheet(&t, "paddle", -0.05, 0, 1, sb_vec(1, 0, 0), &law);
+    sb_error error = {0};
+    sb_sim *sim = NULL;
+    assert_int_equal(sb_sim_create(&t.scene, &t.model, &sim, &error), SB_BAD_INPUT);
+    assert_null(sim);
+    assert_non_null(strstr(error.text, "stroke"));
+    t.scene.wavemakers[0].law.stroke = 1;
+    t.model.max.x = 1e9;
+    assert_int_equal(sb_sim_create(&t.scene, &t.model, &sim, &error), SB_BAD_INPUT);
+    assert_null(sim);
+    tank_free(&t);
+}
+
+/* Creation and two steps with the n-th allocation failing. Whether that allocation was reached. */
+static bool lacks_memory(const tank *t, long n)
+{
+    sb_error error = {0};
+    sb_sim *sim = NULL;
+    sb_memory_fail_at(n);
+    sb_status status = sb_sim_create(&t->scene, &t->model, &sim, &error);
+    assert_true((status == SB_OK) == (sim != NULL));
+    for (int s = 0; s < 2 && status == SB_OK; s++) status = sb_sim_step(sim, &error);
+    sb_memory_fail_at(0);
+    if (status != SB_OK) {
+        assert_int_equal(status, SB_FAILED);
+        if (!strstr(error.text, "out of memory")) fail_msg("allocation %ld: %s", n, error.text);
+    }
+    if (sim) { /* readable all the same */
+        check_finite(sim);
+        assert_true(sb_sim_energy(sim).mass > 0);
+        sb_sim_query(sim, t->model.min, t->model.max, NULL, 0);
+        sb_sim_hash(sim);
+        assert_true(sb_sim_bytes(sim) > 0);
+    }
+    sb_sim_destroy(sim);
+    return status != SB_OK;
+}
+
+static void every_lack_of_memory_is_survived(void **state)
+{
+    (void)state;
+    const sb_wavemaker_parameters law = {
+        .kind = sb_wavemaker_find("gate"), .stroke = 2, .speed = 3, .gravity = 9.81};
+    tank t;
+    tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0.1);
+    tank_add_sheet(&t, "gate", 0.55, 0, 1, sb_vec(0, 0, 1), &law);
+    t.scene.numerics.solver = SB_SOLVER_CG;
+    int before = omp_get_max_threads();
+    for (int threads = 1; threads <= 2; threads++) {
+        omp_set_num_threads(threads);
+        long n = 1;
+        while (lacks_memory(&t, n)) n++;
+        printf("%d threads: %ld allocations failed one by one\n", threads, n - 1);
+        assert_true(n > 80);
+    }
+    omp_set_num_threads(before);
+    tank_free(&t);
+}
+
+/* A gate drawn up and out of the domain holds the water until then, and is gone after. */
+static void a_gate_leaves_the_domain(void **state)
+{
+    (void)state;
+    const sb_wavemaker_parameters law = {.kind = sb_wavemaker_find("gate"),
+                                         .start = 0.1,
+                                         .stroke = 1000,
+                                         .speed = 8,
+                                         .gravity = 9.81};
+    tank t;
+    tank_make(&t, 2, 0.05, sb_vec(2, 0, 1), 0.5, 0.6, 0.01);
+    size_t gate = tank_add_sheet(&t, "gate", 0.525, 0, 1, sb_vec(0, 0, 1), &law);
+    sb_sim *sim = make(&t);
+    double front = 0;
+    while (sb_sim_report(sim)->time < 0.1) assert_int_equal(tank_steps(sim, 1), 0);
+    for (size_t i = 0; i < sim->n; i++) front = fmax(front, sb_sim_particle(sim, i).position.x);
+    assert_true(front < 0.56);
+    assert_true(sb_sim_impulse(sim, gate)->pressure.x > 0);
+    size_t count = sim->walls[SB_MOVING].count;
+    assert_int_equal(count, 20);
+    while (sim->walls[SB_MOVING].count > 0) {
+        assert_int_equal(tank_steps(sim, 1), 0);
+        assert_true(sim->walls[SB_MOVING].count <= count);
+        count = sim->walls[SB_MOVING].count;
+        assert_true(sb_sim_report(sim)->time < 0.5);
+    }
+    assert_true(sb_sim_body_displacement(sim, gate).z > 1);
+    sb_vec3 push = sb_sim_impulse(sim, gate)->pressure;
+    while (sb_sim_report(sim)->time < 0.6) assert_int_equal(tank_steps(sim, 1), 0);
+    assert_true(sb_sim_impulse(sim, gate)->pressure.x == push.x);
+    assert_near(sb_sim_body_displacement(sim, gate).z, 8 * (sb_sim_report(sim)->time - 0.1), 1e-9);
+    front = 0;
+    for (size_t i = 0; i < sim->n; i++) front = fmax(front, sb_sim_particle(sim, i).position.x);
+    printf("the front has come to x = %.2f m at %.2f s\n", front, sb_sim_report(sim)->time);
+    assert_true(front > 1.2);
+    assert_int_equal(sb_sim_report(sim)->lost, 0);
+    sb_sim_destroy(sim);
+    tank_free(&t);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_lone_particle_flies_a_parabola),
+        cmocka_unit_test(coincident_particles_do_no_harm),
+        cmocka_unit_test(what_leaves_is_counted),
+        cmocka_unit_test(no_water_is_fine),
+        cmocka_unit_test(divergence_is_told_and_leaves_the_state),
+        cmocka_unit_test(bad_parts_are_refused),
+        cmocka_unit_test(every_lack_of_memory_is_survived),
+        cmocka_unit_test(a_gate_leaves_the_domain),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
