@@ -30,7 +30,7 @@ static const struct {
     {"wall_offset",          {"0.5",        "0.6"}},
     {"jitter",               {"0.02",       "0"}},
     {"seed",                 {"1",          "1"}},
-    {"settle_steps",         {"300",        "0"}},
+    {"settle_steps",         {"500",        "0"}},
 };
 /* clang-format on */
 

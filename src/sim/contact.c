@@ -5,7 +5,7 @@
 enum { SWEEPS = 3 }; /* a corner of three walls asks for one each */
 
 /* In spacings: the nearest a particle comes to the sheet; how fast one that starts nearer is let out. */
-static const float NEAREST = 0.5f, RELEASE = 0.05f;
+static const float NEAREST = 0.6f, RELEASE = 0.005f;
 
 /* The wall as seen from a point: weighted means over the boundary particles in reach. */
 typedef struct view {
