@@ -176,6 +176,9 @@ SB_INLINE void append(worker *w, list *l, uint32_t filler, uint16_t *count)
 {
     const hits *h = &w->hits;
     size_t padded = (h->count + 3) / 4 * 4;
+    *count = 0;
+    if (padded == 0)
+        return;
     if (!list_reserve(l, padded)) {
         w->starved = true;
         return;
