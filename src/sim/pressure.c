@@ -42,7 +42,9 @@ sb_status sb_stage_source(sb_sim *sim, sb_error *error)
     return SB_OK;
 }
 
-/* q from the last step's pressure in Pa, whatever dt was then; and -a_ii by this step's dt. */
+/* q from the last step's pressure in Pa, whatever dt was then; and -a_ii by this step's dt. A drop on its own
+   beside a wall starts from its answer: it moves far against the wall in a step, and an old pressure, which
+   the mean error of all the water does not show, would throw it back faster than it came. */
 static void first_guess(sb_sim *sim)
 {
     const size_t n = sim->n;
@@ -53,6 +55,8 @@ static void first_guess(sb_sim *sim)
         float p = sim->velocity[i][3], rho = sim->density[i];
         float q = share * p / (rho * rho);
         sim->diagonal[i] *= dt2;
+        if (sim->pairs.count[i] == 0)
+            q = -sim->source[i] / sim->diagonal[i];
         sim->unknown[i] = sim->diagonal[i] > 0 && q > 0 ? q : 0;
     }
 }

@@ -32,6 +32,9 @@ void sb_pressure_accelerate(sb_sim *sim);
 /* out = A argument, both passes: dt^2 [sum_j m (a_i - a_j) . grad W_ij + a_i . B_i]. */
 void sb_pressure_product(sb_sim *sim, float *out);
 
+/* residual = A unknown - source, with the acceleration of the unknown left behind. */
+void sb_pressure_residual(sb_sim *sim);
+
 /* Errors of the residual field; counts one iteration into the report. */
 sb_pressure_error sb_pressure_judge(sb_sim *sim);
 /* Whether the tolerance is met, or the cap reached (then the report says capped). */

@@ -55,17 +55,6 @@ static sums sum_all(sb_sim *sim)
     return s;
 }
 
-/* e = A q - b afresh. */
-static void residual(sb_sim *sim)
-{
-    const size_t n = sim->n;
-    sb_pressure_load(sim, sim->unknown);
-    sb_pressure_product(sim, sim->residual);
-#pragma omp parallel for schedule(static)
-    for (size_t i = 0; i < n; i++)
-        sim->residual[i] -= sim->source[i];
-}
-
 /* direction = D^-1 (gradient on the free set, or on the chopped set) + gamma direction. */
 static void aim(sb_sim *sim, bool chopped, float gamma)
 {
@@ -125,7 +114,7 @@ static double conjugation(sb_sim *sim, double curvature)
 static sb_status solve(sb_sim *sim, sb_error *error)
 {
     (void)error;
-    residual(sim);
+    sb_pressure_residual(sim);
     sb_pressure_error judged = sb_pressure_judge(sim);
     aim(sim, false, 0);
     while (!sb_pressure_done(sim, &judged)) {
@@ -145,7 +134,7 @@ static sb_status solve(sb_sim *sim, sb_error *error)
         } else {
             advance(sim, (float)s.feasible);
             project(sim);
-            residual(sim);
+            sb_pressure_residual(sim);
             sim->report.iterations++;
             aim(sim, false, 0);
         }

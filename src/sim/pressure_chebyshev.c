@@ -14,11 +14,7 @@ static sb_status solve(sb_sim *sim, sb_error *error)
     double rho = 1 / sigma;
     for (bool first = true;; first = false) {
         const size_t n = sim->n;
-        sb_pressure_load(sim, sim->unknown);
-        sb_pressure_product(sim, sim->residual);
-#pragma omp parallel for schedule(static)
-        for (size_t i = 0; i < n; i++)
-            sim->residual[i] -= sim->source[i];
+        sb_pressure_residual(sim);
         sb_pressure_error judged = sb_pressure_judge(sim);
         if (sb_pressure_done(sim, &judged))
             return SB_OK;

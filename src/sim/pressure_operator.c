@@ -73,3 +73,13 @@ void sb_pressure_product(sb_sim *sim, float *out)
     for (size_t b = 0; b < blocks; b++)
         diverge_block(sim, b, dt * dt, out);
 }
+
+void sb_pressure_residual(sb_sim *sim)
+{
+    const size_t n = sim->n;
+    sb_pressure_load(sim, sim->unknown);
+    sb_pressure_product(sim, sim->residual);
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < n; i++)
+        sim->residual[i] -= sim->source[i];
+}
