@@ -51,15 +51,17 @@ int main(int count, char **arguments)
     for (int c = 0; c < COMMANDS; c++) {
         if (strcmp(name, commands[c].name) != 0)
             continue;
-        if (count > 2 && strcmp(arguments[2], "--version") == 0) {
-            printf("shorebreak %s\n", SB_VERSION);
-            return 0;
-        }
+        for (int i = 2; i < count; i++)
+            if (strcmp(arguments[i], "--version") == 0) {
+                printf("shorebreak %s\n", SB_VERSION);
+                return 0;
+            }
         limit_spinning(arguments);
         return commands[c].run(count - 2, arguments + 2);
     }
     if (*name)
-        fprintf(stderr, "shorebreak: %s: no such command\n", name);
-    usage(stderr);
+        fprintf(stderr, "shorebreak: %s: no such command; --help lists them\n", name);
+    else
+        usage(stderr);
     return 1;
 }

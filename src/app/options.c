@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <omp.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -38,7 +39,7 @@ static sb_status add_override(sb_options *options, const char *text, sb_error *e
 
 static sb_status take(sb_options *options, unsigned bit, const char *value, sb_error *error)
 {
-    char *end = NULL;
+    char *end = NULL, duration[64];
     switch (bit) {
     case SB_OPT_OUT:
         options->out = value;
@@ -57,11 +58,14 @@ static sb_status take(sb_options *options, unsigned bit, const char *value, sb_e
         break;
     case SB_OPT_SET:
         return add_override(options, value, error);
-    case SB_OPT_UNTIL:
-        options->until = strtod(value, &end);
-        if (end == value || *end || !isfinite(options->until) || options->until < 0)
-            return sb_fail(error, SB_BAD_INPUT, "--until %.100s: expected seconds >= 0", value);
-        break;
+    case SB_OPT_UNTIL: {
+        double until = strtod(value, &end);
+        if (end == value || *end || !isfinite(until) || until <= 0)
+            return sb_fail(error, SB_BAD_INPUT, "--until %.100s: expected seconds > 0", value);
+        /* Through the same checks as the scene's own duration. */
+        snprintf(duration, sizeof duration, "duration=%.17g", until);
+        return add_override(options, duration, error);
+    }
     default: {
         long threads = strtol(value, &end, 10);
         if (end == value || *end || threads < 1 || threads > 1024)
@@ -85,7 +89,7 @@ static const flag *find_flag(const char *argument, unsigned accepted)
 sb_status sb_options_parse(int count, char **arguments, unsigned accepted, const char *what,
                            sb_options *options, sb_error *error)
 {
-    *options = (sb_options){.until = -1};
+    *options = (sb_options){0};
     for (int i = 0; i < count; i++) {
         const char *argument = arguments[i];
         if (strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0) {
@@ -131,9 +135,5 @@ sb_status sb_options_scene(const sb_options *options, const char *path, sb_scene
 {
     if (options->threads > 0)
         omp_set_num_threads(options->threads);
-    sb_status status = sb_scene_read(path, options->preset, options->overrides, options->override_count,
-                                     scene, error);
-    if (status == SB_OK && options->until >= 0)
-        scene->duration = options->until;
-    return status;
+    return sb_scene_read(path, options->preset, options->overrides, options->override_count, scene, error);
 }

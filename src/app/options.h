@@ -14,7 +14,6 @@ typedef struct sb_options {
     const char *out;          /* --out */
     const char *preset;       /* --preset */
     const char *camera;       /* --camera */
-    double until;             /* --until, s; < 0: not given */
     int threads;              /* --threads; 0: as OpenMP has it */
     bool quiet, json, help;
     size_t override_count;

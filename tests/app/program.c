@@ -1,0 +1,235 @@
+#include "program.h"
+
+#include "../output/json_check.h"
+#include "base/clock.h"
+#include "base/file.h"
+#include "base/memory.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <ftw.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static const double PATIENCE = 60; /* s: far more than any run here takes, sanitizers included */
+enum { ARGUMENTS = 32 };
+
+const char tank_2d[] = "title: Tank in 2D\n"
+                       "dimensions: 2\n"
+                       "resolution: 0.04\n"
+                       "duration: 0.3\n"
+                       "domain: {min: [0, 0], max: [2, 1]}\n"
+                       "water:\n"
+                       "  boxes:\n"
+                       "    - {min: [0, 0], max: [0.8, 0.6]}\n"
+                       "bodies:\n"
+                       "  - {name: step, shape: box, min: [0.84, 0], max: [1.2, 0.2]}\n"
+                       "measure:\n"
+                       "  interval: 0.05\n"
+                       "  gauges: [{name: wet, x: 0.4}, {name: dry, x: 1.9}]\n"
+                       "  probes: [{name: deep, at: [0.4, 0.2]}]\n"
+                       "output: {particle_interval: 0.1, plots: false}\n";
+
+const char tank_3d[] =
+    "title: Tank in 3D\n"
+    "resolution: 0.1\n"
+    "duration: 0.3\n"
+    "domain: {min: [0, 0, 0], max: [2, 0.8, 1]}\n"
+    "water:\n"
+    "  boxes:\n"
+    "    - {min: [0, 0, 0], max: [0.8, 0.8, 0.6]}\n"
+    "bodies:\n"
+    "  - {name: post, shape: box, min: [1.0, 0.3, 0], max: [1.3, 0.6, 0.8]}\n"
+    "  - {name: sill, shape: box, min: [1.6, 0, 0], max: [1.9, 0.8, 0.2]}\n"
+    "measure:\n"
+    "  interval: 0.05\n"
+    "  gauges: [{name: wet, x: 0.4, y: 0.4}, {name: dry, x: 1.45, y: 0.4}]\n"
+    "  probes: [{name: deep, at: [0.4, 0.4, 0.2]}]\n"
+    "render:\n"
+    "  interval: 0.1\n"
+    "  width: 160\n"
+    "  height: 90\n"
+    "  video: false\n"
+    "  cameras:\n"
+    "    - {name: side, eye: [1, -3, 1.5], target: [1, 0.4, 0.3]}\n"
+    "    - {name: front, eye: [4, 0.4, 1.5], target: [1, 0.4, 0.3]}\n"
+    "output: {particle_interval: 0.1, plots: false}\n";
+
+static char folder[512];
+
+int program_setup(void **state)
+{
+    (void)state;
+    const char *base = getenv("TMPDIR");
+    snprintf(folder, sizeof folder, "%.400s/shorebreak-app-XXXXXX", base && *base ? base : "/tmp");
+    if (!mkdtemp(folder)) return -1;
+    write_text("tank2.yaml", tank_2d);
+    write_text("tank3.yaml", tank_3d);
+    return 0;
+}
+
+static int remove_one(const char *path, const struct stat *info, int kind, struct FTW *where)
+{
+    (void)info;
+    (void)kind;
+    (void)where;
+    return remove(path);
+}
+
+int program_teardown(void **state)
+{
+    (void)state;
+    return nftw(folder, remove_one, 16, FTW_DEPTH | FTW_PHYS);
+}
+
+const char *in_folder(const char *format, ...)
+{
+    static char paths[8][1024];
+    static unsigned turn;
+    char *path = paths[turn++ % 8];
+    int length = snprintf(path, sizeof paths[0], "%s/", folder);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(path + length, sizeof paths[0] - (size_t)length, format, arguments);
+    va_end(arguments);
+    return path;
+}
+
+void write_text(const char *name, const char *text)
+{
+    FILE *file = fopen(in_folder("%s", name), "w");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+char *text_of(const char *name)
+{
+    char *text = NULL;
+    size_t length;
+    sb_error error = {0};
+    if (sb_file_read(in_folder("%s", name), 1 << 26, &text, &length, &error) != SB_OK)
+        fail_msg("%s", error.text);
+    return text;
+}
+
+bool exists(const char *name)
+{
+    return access(in_folder("%s", name), F_OK) == 0;
+}
+
+static void redirect(const char *name, int descriptor)
+{
+    int file = open(in_folder("%s", name), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    if (file < 0 || dup2(file, descriptor) < 0) _exit(99);
+    close(file);
+}
+
+pid_t program_start(const char *const *arguments)
+{
+    char *list[ARGUMENTS] = {(char *)(uintptr_t) "shorebreak"};
+    size_t count = 1;
+    for (; arguments[count - 1]; count++) {
+        assert_true(count < ARGUMENTS - 1);
+        list[count] = (char *)(uintptr_t)arguments[count - 1];
+    }
+    setenv("OMP_NUM_THREADS", "1", 1);
+    setenv("OMP_WAIT_POLICY", "passive", 1);
+    fflush(NULL);
+    pid_t process = fork();
+    assert_true(process >= 0);
+    if (process == 0) {
+        redirect("stdout.txt", STDOUT_FILENO);
+        redirect("stderr.txt", STDERR_FILENO);
+        if (chdir(folder) == 0) execv(SB_BINARY_DIR "/shorebreak", list);
+        _exit(99);
+    }
+    return process;
+}
+
+outcome program_finish(pid_t process)
+{
+    int how = 0;
+    double deadline = sb_clock() + PATIENCE;
+    pid_t ended = 0;
+    while ((ended = waitpid(process, &how, WNOHANG)) == 0 && sb_clock() < deadline) usleep(2000);
+    if (ended == 0) {
+        kill(process, SIGKILL);
+        waitpid(process, &how, 0);
+        fail_msg("the program did not end within %g s", PATIENCE);
+    }
+    assert_int_equal(ended, process);
+    return (outcome){.status = WIFEXITED(how) ? WEXITSTATUS(how) : 128 + WTERMSIG(how),
+                     .out = text_of("stdout.txt"),
+                     .err = text_of("stderr.txt")};
+}
+
+outcome program_run(const char *const *arguments)
+{
+    return program_finish(program_start(arguments));
+}
+
+void outcome_free(outcome *o)
+{
+    sb_free(o->out);
+    sb_free(o->err);
+    *o = (outcome){0};
+}
+
+outcome program_expect(int status, const char *const *arguments)
+{
+    outcome o = program_run(arguments);
+    if (o.status != status) {
+        print_error("shorebreak");
+        for (size_t i = 0; arguments[i]; i++) print_error(" %s", arguments[i]);
+        fail_msg("exit status %d, expected %d; it said:\n%s%s", o.status, status, o.out, o.err);
+    }
+    return o;
+}
+
+void assert_contains(const char *text, const char *words)
+{
+    if (!strstr(text, words)) fail_msg("\"%s\" is not in:\n%s", words, text);
+}
+
+void assert_one_line(const char *text, const char *words)
+{
+    const char *end = strchr(text, '\n');
+    if (!end || end[1] != '\0') fail_msg("expected one line, not:\n%s", text);
+    if (strncmp(text, "shorebreak: ", 12) != 0) fail_msg("no \"shorebreak: \" before %s", text);
+    assert_contains(text, words);
+}
+
+double json_number_of(const char *name, const char *key)
+{
+    char *text = text_of(name);
+    if (!json_valid(text)) fail_msg("%s is no valid JSON:\n%s", name, text);
+    const char *value = json_find(text, key);
+    if (!value || !json_number_text(value)) fail_msg("%s: %s is no number there", name, key);
+    double number = strtod(value, NULL);
+    sb_free(text);
+    return number;
+}
+
+static const char *wanted;
+static bool found;
+
+static int look(const char *path, const struct stat *info, int kind, struct FTW *where)
+{
+    (void)info;
+    (void)where;
+    size_t length = strlen(path), tail = strlen(wanted);
+    if (kind == FTW_F && length >= tail && strcmp(path + length - tail, wanted) == 0) found = true;
+    return 0;
+}
+
+bool any_ending(const char *name, const char *ending)
+{
+    wanted = ending;
+    found = false;
+    assert_int_equal(nftw(in_folder("%s", name), look, 16, FTW_PHYS), 0);
+    return found;
+}

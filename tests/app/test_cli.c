@@ -1,0 +1,254 @@
+/* Commands and options: what they say, and the status they end with. */
+#include "program.h"
+
+#include "../output/json_check.h"
+#include "base/memory.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const commands[] = {"run", "check", "sample", "render", "list"};
+enum { COMMANDS = sizeof commands / sizeof commands[0] };
+
+static void help_everywhere(void **state)
+{
+    (void)state;
+    outcome o = RUN(0, "--help");
+    for (int c = 0; c < COMMANDS; c++) assert_contains(o.out, commands[c]);
+    assert_string_equal(o.err, "");
+    outcome_free(&o);
+    for (int c = 0; c < COMMANDS; c++) {
+        char begin[64];
+        snprintf(begin, sizeof begin, "usage: shorebreak %s ", commands[c]);
+        o = RUN(0, commands[c], "--help");
+        assert_int_equal(strncmp(o.out, begin, strlen(begin)), 0);
+        assert_string_equal(o.err, "");
+        outcome_free(&o);
+        RUN_AND_FORGET(0, commands[c], "something", "--help");
+    }
+}
+
+static void version_everywhere(void **state)
+{
+    (void)state;
+    outcome o = RUN(0, "--version");
+    assert_string_equal(o.out, "shorebreak " SB_VERSION "\n");
+    outcome_free(&o);
+    for (int c = 0; c < COMMANDS; c++) {
+        o = RUN(0, commands[c], "--version");
+        assert_string_equal(o.out, "shorebreak " SB_VERSION "\n");
+        outcome_free(&o);
+        o = RUN(0, commands[c], "something", "--version");
+        assert_string_equal(o.out, "shorebreak " SB_VERSION "\n");
+        outcome_free(&o);
+    }
+}
+
+static void no_command_is_told_how(void **state)
+{
+    (void)state;
+    outcome o = program_expect(1, (const char *const[]){NULL});
+    assert_string_equal(o.out, "");
+    assert_contains(o.err, "usage: shorebreak COMMAND");
+    outcome_free(&o);
+}
+
+/* Arguments parted by blanks, and words that the one line must have. */
+static const struct {
+    const char *arguments, *words;
+} mistakes[] = {
+    {"frobnicate", "frobnicate: no such command"},
+    {"--frobnicate", "--frobnicate: no such command"},
+    {"run", "no scene given"},
+    {"check", "no scene given"},
+    {"sample --out x.vtp", "no scene given"},
+    {"render", "no run directory given"},
+    {"list", "no table given"},
+    {"run tank2.yaml tank3.yaml", "tank3.yaml: one scene is enough"},
+    {"run tank2.yaml --nope", "--nope: no such option"},
+    {"run tank2.yaml --json", "--json: no such option"},
+    {"check tank2.yaml --quiet", "--quiet: no such option"},
+    {"run tank2.yaml --quiet=yes", "--quiet=yes: takes no value"},
+    {"run tank2.yaml --out", "--out: needs a value"},
+    {"run tank2.yaml --set", "--set: needs a value"},
+    {"render run --camera", "--camera: needs a value"},
+    {"run tank2.yaml --threads 0", "--threads 0: expected"},
+    {"run tank2.yaml --threads two", "--threads two: expected"},
+    {"run tank2.yaml --threads 2.5", "--threads 2.5: expected"},
+    {"run tank2.yaml --threads 99999999999999999999", "expected a count"},
+    {"run tank2.yaml --until 0", "--until 0: expected"},
+    {"run tank2.yaml --until -1", "--until -1: expected"},
+    {"run tank2.yaml --until nan", "--until nan: expected"},
+    {"run tank2.yaml --until inf", "--until inf: expected"},
+    {"run tank2.yaml --until 3s", "--until 3s: expected"},
+    {"run tank2.yaml --until=", "--until : expected"},
+    {"run tank2.yaml --until 1e300", "measure.interval"},
+    {"run tank2.yaml --preset best", "best is not known, expected default or paper"},
+    {"run tank2.yaml --set resolution", "expected KEY=VALUE"},
+    {"run tank2.yaml --set =3", "expected KEY=VALUE"},
+    {"run tank2.yaml --set resolution=-1", "--set: resolution: "},
+    {"run tank2.yaml --set resolution=wide", "--set: resolution: "},
+    {"run tank2.yaml --set nothing.such=1", "--set: nothing"},
+    {"run missing.yaml", "missing.yaml: cannot read"},
+    {"check missing.yaml", "missing.yaml: cannot read"},
+    {"sample tank2.yaml", "no --out FILE.vtp given"},
+    {"render nowhere", "nowhere/scene.yaml: cannot read"},
+    {"list colours", "list colours: expected kernels, wavemakers, solvers or presets"},
+};
+
+static void mistakes_get_one_line(void **state)
+{
+    (void)state;
+    for (size_t m = 0; m < sizeof mistakes / sizeof mistakes[0]; m++) {
+        char text[256];
+        const char *list[16] = {NULL};
+        size_t count = 0;
+        snprintf(text, sizeof text, "%s", mistakes[m].arguments);
+        for (char *word = strtok(text, " "); word; word = strtok(NULL, " ")) list[count++] = word;
+        outcome o = program_expect(1, list);
+        assert_one_line(o.err, mistakes[m].words);
+        assert_string_equal(o.out, "");
+        outcome_free(&o);
+    }
+    assert_false(exists("runs"));
+}
+
+static void lists_name_what_there_is(void **state)
+{
+    (void)state;
+    static const char *const tables[][6] = {
+        {"kernels", "cubic", "wendland-c2", "wendland-c4"},
+        {"wavemakers", "goring", "goring-rayleigh", "stroke", "file", "gate"},
+        {"solvers", "jacobi", "chebyshev", "cg"},
+        {"presets", "default", "paper"},
+    };
+    for (size_t t = 0; t < sizeof tables / sizeof tables[0]; t++) {
+        outcome o = RUN(0, "list", tables[t][0]);
+        assert_string_equal(o.err, "");
+        for (int i = 1; i < 6 && tables[t][i]; i++) {
+            char row[64];
+            snprintf(row, sizeof row, "\n%s ", tables[t][i]);
+            if (strncmp(o.out, row + 1, strlen(row + 1)) != 0) assert_contains(o.out, row);
+        }
+        outcome_free(&o);
+    }
+}
+
+static void check_tells_what_would_be_built(void **state)
+{
+    (void)state;
+    outcome o = RUN(0, "check", "tank3.yaml");
+    assert_contains(o.out, "Tank in 3D\n");
+    assert_contains(o.out, "fluid particles    384\n");
+    assert_contains(o.out, "still depth        0.6 m (6.0 particles)\n");
+    assert_string_equal(o.err, "");
+    outcome_free(&o);
+    RUN_AND_FORGET(0, "check", "tank3.yaml", "--set", "resolution=0.2", "--preset", "paper",
+                   "--threads=2");
+    assert_false(exists("runs"));
+}
+
+static void check_in_json(void **state)
+{
+    (void)state;
+    static const char *const keys[] = {"scene",     "dimensions",       "resolution_m",
+                                       "steps",     "fluid_particles",  "boundary_particles",
+                                       "bodies",    "warnings",         "memory_bytes",
+                                       "run_time_s", "disk_bytes",      "time_step_s"};
+    outcome o = RUN(0, "check", "tank3.yaml", "--json");
+    assert_true(json_valid(o.out));
+    for (size_t k = 0; k < sizeof keys / sizeof keys[0]; k++)
+        if (!json_find(o.out, keys[k])) fail_msg("no %s in %s", keys[k], o.out);
+    assert_near(strtod(json_find(o.out, "fluid_particles"), NULL), 384, 0);
+    assert_true(strtod(json_find(o.out, "memory_bytes"), NULL) > 384 * 100);
+    assert_contains(o.out, "\"post\"");
+    outcome_free(&o);
+    /* One particle deep: too coarse, which is a warning and no error. */
+    o = RUN(0, "check", "tank3.yaml", "--json", "--set", "resolution=0.3");
+    assert_true(json_valid(o.out));
+    assert_true(*json_find(o.out, "warnings") == '[');
+    assert_contains(json_find(o.out, "warnings"), "expected");
+    outcome_free(&o);
+}
+
+/* Particles of each kind in the file's Int32 array "body". */
+static void count_bodies(const char *path, size_t points, size_t *walls, size_t *fluid)
+{
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    static char text[1 << 20];
+    size_t length = fread(text, 1, sizeof text, file);
+    fclose(file);
+    assert_true(length < sizeof text);
+    const char *field = strstr(text, "Name=\"body\"");
+    assert_non_null(field);
+    size_t offset = strtoul(strstr(field, "offset=\"") + 8, NULL, 10);
+    const char *raw = strchr(strstr(text, "<AppendedData"), '_') + 1 + offset;
+    uint64_t bytes;
+    memcpy(&bytes, raw, sizeof bytes);
+    assert_int_equal(bytes, 4 * points);
+    for (size_t i = 0; i < points; i++) {
+        int32_t body;
+        memcpy(&body, raw + 8 + 4 * i, sizeof body);
+        assert_in_range(body + 1, 0, 3); /* water, post, sill, the tank */
+        (*(body < 0 ? fluid : walls))++;
+    }
+}
+
+static void sample_writes_the_particles(void **state)
+{
+    (void)state;
+    outcome o = RUN(0, "sample", "tank3.yaml", "--out", "sample.vtp");
+    size_t walls = 0, fluid = 0, found_walls = 0, found_fluid = 0;
+    assert_int_equal(sscanf(o.out, "%zu boundary and %zu fluid particles", &walls, &fluid), 2);
+    outcome_free(&o);
+    assert_int_equal(fluid, 384);
+    /* 9.2 m2 of tank and bodies: between 0.5 and 1.3 particles per square of a spacing. */
+    assert_in_range(walls, 460, 1200);
+    char *head = text_of("sample.vtp"), points[64];
+    snprintf(points, sizeof points, "NumberOfPoints=\"%zu\"", walls + fluid);
+    assert_contains(head, points);
+    sb_free(head);
+    count_bodies(in_folder("sample.vtp"), walls + fluid, &found_walls, &found_fluid);
+    assert_int_equal(found_walls, walls);
+    assert_int_equal(found_fluid, fluid);
+    o = RUN(2, "sample", "tank3.yaml", "--out", "tank3.yaml/sample.vtp");
+    assert_one_line(o.err, "tank3.yaml/sample.vtp: ");
+    outcome_free(&o);
+}
+
+static void bad_scene_gives_its_place(void **state)
+{
+    (void)state;
+    write_text("bad.yaml", "title: bad\n"
+                           "duration: 1\n"
+                           "resolution:   -0.1\n"
+                           "domain: {min: [0, 0, 0], max: [1, 1, 1]}\n"
+                           "water: {level: 0.5, seed: [0.5, 0.5, 0.2]}\n");
+    static const char *const uses[] = {"run", "check", "sample"};
+    for (int c = 0; c < 3; c++) {
+        outcome o = c == 1 ? RUN(1, uses[c], "bad.yaml") : RUN(1, uses[c], "bad.yaml", "--out", "b");
+        assert_one_line(o.err, "bad.yaml:3:15: resolution: ");
+        assert_contains(o.err, "expected");
+        assert_string_equal(o.out, "");
+        outcome_free(&o);
+    }
+    assert_false(exists("b"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(help_everywhere),
+        cmocka_unit_test(version_everywhere),
+        cmocka_unit_test(no_command_is_told_how),
+        cmocka_unit_test(mistakes_get_one_line),
+        cmocka_unit_test(lists_name_what_there_is),
+        cmocka_unit_test(check_tells_what_would_be_built),
+        cmocka_unit_test(check_in_json),
+        cmocka_unit_test(sample_writes_the_particles),
+        cmocka_unit_test(bad_scene_gives_its_place),
+    };
+    return cmocka_run_group_tests(tests, program_setup, program_teardown);
+}

@@ -1,0 +1,339 @@
+/* The files of a run: that they are there, and that they say what the contract says. */
+#include "program.h"
+
+#include "../output/json_check.h"
+#include "base/memory.h"
+#include "frame/frame.h"
+#include "output/pvd.h"
+#include "output/vtp.h"
+#include "scene/scene.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { NUMBERS = 13 }; /* time and twelve components */
+
+typedef struct force_row {
+    char body[64];
+    double value[NUMBERS];
+} force_row;
+
+static const char forces_3d[] =
+    "time_s,body,Fx_N,Fy_N,Fz_N,Mx_Nm,My_Nm,Mz_Nm,Fx_pressure_N,Fy_pressure_N,Fz_pressure_N,"
+    "Fx_friction_N,Fy_friction_N,Fz_friction_N\n";
+static const char forces_2d[] =
+    "time_s,body,Fx_N_per_m,Fy_N_per_m,Fz_N_per_m,Mx_Nm_per_m,My_Nm_per_m,Mz_Nm_per_m,"
+    "Fx_pressure_N_per_m,Fy_pressure_N_per_m,Fz_pressure_N_per_m,Fx_friction_N_per_m,"
+    "Fy_friction_N_per_m,Fz_friction_N_per_m\n";
+
+/* One run of each tank, looked at by most tests; all steps of 1/200 s, so that 0.3 s end one. */
+static int setup(void **state)
+{
+    if (program_setup(state) != 0) return -1;
+    RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "r3", "--set", "numerics.time_step_max=0.005");
+    RUN_AND_FORGET(0, "run", "tank2.yaml", "--out=r2", "--quiet");
+    return 0;
+}
+
+/* What follows the header, which must be this one. */
+static const char *rows_of(const char *text, const char *header)
+{
+    if (strncmp(text, header, strlen(header)) != 0) fail_msg("not the header expected:\n%s", text);
+    return text + strlen(header);
+}
+
+static const char *next_line(const char *line)
+{
+    const char *end = strchr(line, '\n');
+    if (!end) fail_msg("a line without an end: %s", line);
+    return end + 1;
+}
+
+static size_t read_forces(const char *name, const char *header, force_row *rows, size_t most)
+{
+    char *text = text_of(name);
+    size_t count = 0;
+    for (const char *line = rows_of(text, header); *line; line = next_line(line)) {
+        assert_true(count < most);
+        force_row *row = &rows[count++];
+        char *end;
+        row->value[0] = strtod(line, &end);
+        int length = 0;
+        assert_int_equal(sscanf(end, ",%63[^,]%n", row->body, &length), 1);
+        end += length;
+        for (int k = 1; k < NUMBERS; k++) {
+            assert_int_equal(*end, ',');
+            row->value[k] = strtod(end + 1, &end);
+            assert_true(isfinite(row->value[k]));
+        }
+        assert_int_equal(*end, '\n');
+    }
+    sb_free(text);
+    return count;
+}
+
+static void every_file_is_there(void **state)
+{
+    (void)state;
+    static const char *const names[] = {
+        "scene.yaml",     "run.jsonl",   "forces.csv",           "gauges.csv",
+        "probes.csv",     "energy.csv",  "frames/side/000001.png", "frames/side/000004.png",
+        "frames/front/000001.png", "frames/front/000004.png", "particles/000001.vtp",
+        "particles/000004.vtp", "particles.pvd", "summary.json"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        if (access(in_folder("r3/%s", names[i]), F_OK) != 0) fail_msg("no %s", names[i]);
+    assert_false(exists("r3/particles/000005.vtp"));
+    assert_false(exists("r2/frames"));
+    assert_false(any_ending("r3", ".tmp"));
+}
+
+static void scene_is_written_as_resolved(void **state)
+{
+    (void)state;
+    sb_scene first = {0}, again = {0};
+    sb_error error = {0};
+    assert_int_equal(sb_scene_read(in_folder("r3/scene.yaml"), NULL, NULL, 0, &first, &error), SB_OK);
+    assert_near(first.numerics.time_step_max, 0.005, 0);
+    assert_near(first.fluid.density, 1000, 0);
+    char *text = text_of("r3/scene.yaml");
+    static const char *const defaults[] = {"density:", "viscosity:", "kernel:", "wall_gamma:",
+                                           "sides:",   "decimation:", "video_rate:"};
+    for (size_t d = 0; d < sizeof defaults / sizeof defaults[0]; d++)
+        assert_contains(text, defaults[d]);
+    sb_free(text);
+    /* The same run comes of it. */
+    RUN_AND_FORGET(0, "run", "r3/scene.yaml", "--out", "again", "--quiet");
+    assert_int_equal(sb_scene_read(in_folder("again/scene.yaml"), NULL, NULL, 0, &again, &error),
+                     SB_OK);
+    assert_string_equal(first.title, again.title);
+    char *forces = text_of("r3/forces.csv"), *forces_again = text_of("again/forces.csv");
+    assert_string_equal(forces, forces_again);
+    sb_free(forces);
+    sb_free(forces_again);
+    sb_scene_free(&first);
+    sb_scene_free(&again);
+}
+
+static void log_is_lines_of_objects(void **state)
+{
+    (void)state;
+    char *text = text_of("r3/run.jsonl");
+    static const char *const events[] = {"\"start\"", "\"skipped\"", "\"step\"", "\"end\""};
+    for (size_t e = 0; e < sizeof events / sizeof events[0]; e++) assert_contains(text, events[e]);
+    size_t lines = 0;
+    for (char *line = text, *end; *line; line = end + 1, lines++) {
+        end = strchr(line, '\n');
+        assert_non_null(end);
+        *end = '\0';
+        if (*line != '{' || !json_valid(line)) fail_msg("no JSON object: %s", line);
+    }
+    assert_true(lines >= 6);
+    sb_free(text);
+}
+
+static void forces_have_a_row_per_body_and_interval(void **state)
+{
+    (void)state;
+    force_row rows[64];
+    assert_int_equal(read_forces("r3/forces.csv", forces_3d, rows, 64), 2 * 6);
+    for (size_t i = 0; i < 12; i++) {
+        assert_near(rows[i].value[0], 0.05 * (double)(1 + i / 2), 1e-12);
+        assert_string_equal(rows[i].body, i % 2 ? "sill" : "post");
+        for (int k = 1; k <= 3; k++) /* the whole is pressure and friction */
+            assert_near(rows[i].value[k], rows[i].value[k + 6] + rows[i].value[k + 9],
+                        1e-6 * (1 + fabs(rows[i].value[k])));
+    }
+    assert_true(rows[10].value[1] > 0); /* the water pushes the post ahead */
+    assert_int_equal(read_forces("r2/forces.csv", forces_2d, rows, 64), 6);
+    for (size_t i = 0; i < 6; i++) {
+        assert_near(rows[i].value[0], 0.05 * (double)(1 + i), 1e-12);
+        assert_string_equal(rows[i].body, "step");
+        assert_near(rows[i].value[2], 0, 0);
+    }
+}
+
+/* The three numbers of "impulse_vector_Ns" behind a body's name. */
+static void impulse_of(const char *summary, const char *body, double impulse[3])
+{
+    char name[80];
+    snprintf(name, sizeof name, "\"name\": \"%s\"", body);
+    const char *at = strstr(summary, name);
+    assert_non_null(at);
+    at = json_find(at, "impulse_vector_Ns");
+    assert_non_null(at);
+    assert_int_equal(sscanf(at, "[%lf, %lf, %lf]", &impulse[0], &impulse[1], &impulse[2]), 3);
+}
+
+static void forces_add_up_to_the_impulse(void **state)
+{
+    (void)state;
+    force_row rows[64];
+    size_t count = read_forces("r3/forces.csv", forces_3d, rows, 64);
+    char *summary = text_of("r3/summary.json");
+    assert_near(json_number_of("r3/summary.json", "simulated_s"), 0.3, 1e-9);
+    for (int b = 0; b < 2; b++) {
+        double impulse[3], sum[3] = {0}, size = 0;
+        impulse_of(summary, b ? "sill" : "post", impulse);
+        for (size_t i = (size_t)b; i < count; i += 2)
+            for (int k = 0; k < 3; k++) sum[k] += 0.05 * rows[i].value[1 + k];
+        for (int k = 0; k < 3; k++) size += fabs(impulse[k]);
+        assert_true(size > 1);
+        for (int k = 0; k < 3; k++) assert_near(sum[k], impulse[k], 1e-6 * size);
+    }
+    sb_free(summary);
+}
+
+static void gauges_are_empty_where_dry(void **state)
+{
+    (void)state;
+    char *text = text_of("r3/gauges.csv");
+    size_t wet = 0, dry = 0;
+    for (const char *line = rows_of(text, "time_s,gauge,eta_m\n"); *line; line = next_line(line)) {
+        double time, eta;
+        char name[64];
+        int found = sscanf(line, "%lf,%63[^,],%lf", &time, name, &eta);
+        if (strcmp(name, "dry") == 0) {
+            assert_int_equal(found, 2);
+            assert_non_null(strstr(line, ",dry,\n"));
+            assert_near(time, 0.05 * (double)dry++, 1e-12);
+        } else {
+            assert_int_equal(found, 3);
+            assert_near(time, 0.05 * (double)wet++, 1e-12);
+            assert_near(eta, 0.5, 0.2);
+        }
+    }
+    assert_int_equal(wet, 7);
+    assert_int_equal(dry, 7);
+    sb_free(text);
+}
+
+static void probes_have_all_columns(void **state)
+{
+    (void)state;
+    char *text = text_of("r3/probes.csv");
+    size_t count = 0;
+    for (const char *line = rows_of(text, "time_s,probe,u_m_s,v_m_s,w_m_s,p_Pa\n"); *line;
+         line = next_line(line), count++) {
+        double time, u, v, w, p;
+        assert_int_equal(sscanf(line, "%lf,deep,%lf,%lf,%lf,%lf\n", &time, &u, &v, &w, &p), 5);
+        assert_near(time, 0.05 * (double)count, 1e-12);
+        assert_true(fabs(u) < 3 && fabs(v) < 3 && fabs(w) < 3);
+        assert_true(p >= 0 && p < 1e5);
+    }
+    assert_int_equal(count, 7);
+    sb_free(text);
+}
+
+static void particle_files_and_their_list(void **state)
+{
+    (void)state;
+    sb_pvd list = {0};
+    sb_error error = {0};
+    assert_int_equal(sb_pvd_read(in_folder("r3/particles.pvd"), &list, &error), SB_OK);
+    assert_int_equal(list.count, 4);
+    for (size_t i = 0; i < list.count; i++) {
+        sb_frame *frame = NULL;
+        /* The first state at or after its time: one step late at most. */
+        assert_in_range(1000 * list.entries[i].time + 1e-6, 100 * i, 100 * i + 5);
+        assert_int_equal(sb_vtp_read(in_folder("r3/%s", list.entries[i].file), &frame, &error),
+                         SB_OK);
+        assert_near(frame->status.time, list.entries[i].time, 1e-9);
+        assert_int_equal(frame->count, 384);
+        sb_frame_release(frame);
+    }
+    sb_pvd_free(&list);
+}
+
+static void summary_has_its_keys(void **state)
+{
+    (void)state;
+    static const char *const keys[] = {"wall_s", "simulated_s", "steps", "fluid_particles",
+                                       "boundary_particles", "mean_iterations",
+                                       "bytes_per_particle", "lost_particles", "peak_N",
+                                       "peak_time_s", "impulse_Ns"};
+    for (size_t k = 0; k < sizeof keys / sizeof keys[0]; k++)
+        assert_true(json_number_of("r3/summary.json", keys[k]) >= 0);
+    assert_near(json_number_of("r3/summary.json", "steps"), 60, 0);
+    assert_near(json_number_of("r3/summary.json", "fluid_particles"), 384, 0);
+    assert_near(json_number_of("r3/summary.json", "lost_particles"), 0, 0);
+    assert_near(json_number_of("r3/summary.json", "pictures"), 4, 0);
+    char *text = text_of("r3/summary.json");
+    assert_contains(text, "\"version\": \"" SB_VERSION "\"");
+    assert_contains(text, "\"preset\": \"default\"");
+    assert_contains(text, "\"status\": \"done\"");
+    assert_contains(text, "\"name\": \"post\"");
+    assert_contains(text, "\"name\": \"sill\"");
+    assert_contains(text, "\"per_metre\": false");
+    sb_free(text);
+    text = text_of("r2/summary.json");
+    assert_contains(text, "\"per_metre\": true");
+    sb_free(text);
+}
+
+static void until_set_and_preset_count(void **state)
+{
+    (void)state;
+    outcome o = RUN(0, "run", "tank2.yaml", "--out", "changed", "--until", "0.12", "--preset",
+                    "paper", "--set", "fluid.density=1025", "--set", "resolution=0.05", "--set",
+                    "output.particle_interval=0", "--quiet");
+    assert_string_equal(o.out, "");
+    outcome_free(&o);
+    double simulated = json_number_of("changed/summary.json", "simulated_s");
+    assert_true(simulated >= 0.12 && simulated < 0.13);
+    assert_near(json_number_of("changed/summary.json", "fluid_particles"), 192, 0);
+    assert_near(json_number_of("changed/summary.json", "mass_kg"), 0.48 * 1025, 0.01);
+    assert_false(exists("changed/particles.pvd"));
+    char *text = text_of("changed/summary.json");
+    assert_contains(text, "\"preset\": \"paper\"");
+    sb_free(text);
+    force_row rows[8];
+    assert_int_equal(read_forces("changed/forces.csv", forces_2d, rows, 8), 2);
+    sb_scene scene = {0};
+    sb_error error = {0};
+    assert_int_equal(sb_scene_read(in_folder("changed/scene.yaml"), NULL, NULL, 0, &scene, &error),
+                     SB_OK);
+    assert_near(scene.duration, 0.12, 0);
+    assert_near(scene.fluid.density, 1025, 0);
+    assert_near(scene.resolution, 0.05, 0);
+    assert_int_equal(scene.numerics.preset, SB_PRESET_PAPER);
+    sb_scene_free(&scene);
+}
+
+static void out_has_a_default(void **state)
+{
+    (void)state;
+    outcome o = RUN(0, "run", "tank2.yaml", "--until=0.02");
+    assert_contains(o.out, "300 fluid");
+    outcome_free(&o);
+    assert_true(exists("runs/tank2/summary.json"));
+}
+
+static void unwritable_out_fails(void **state)
+{
+    (void)state;
+    outcome o = RUN(2, "run", "tank2.yaml", "--out", "tank3.yaml/below", "--quiet");
+    assert_one_line(o.err, "tank3.yaml/below: ");
+    assert_string_equal(o.out, "");
+    outcome_free(&o);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_file_is_there),
+        cmocka_unit_test(scene_is_written_as_resolved),
+        cmocka_unit_test(log_is_lines_of_objects),
+        cmocka_unit_test(forces_have_a_row_per_body_and_interval),
+        cmocka_unit_test(forces_add_up_to_the_impulse),
+        cmocka_unit_test(gauges_are_empty_where_dry),
+        cmocka_unit_test(probes_have_all_columns),
+        cmocka_unit_test(particle_files_and_their_list),
+        cmocka_unit_test(summary_has_its_keys),
+        cmocka_unit_test(until_set_and_preset_count),
+        cmocka_unit_test(out_has_a_default),
+        cmocka_unit_test(unwritable_out_fails),
+    };
+    return cmocka_run_group_tests(tests, setup, program_teardown);
+}
