@@ -1,8 +1,6 @@
 /* The measures on the real simulation: a small tank at rest, and a column that falls. In 2D. */
 #include "measure/measure.h"
-#include "tank.h"
-
-#include "base/memory.h"
+#include "sim/tank.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,18 +9,6 @@
 #include <omp.h>
 
 #define SPACING 0.1
-
-static void add_normals(tank *t, sb_vec3 size)
-{
-    t->model.wall_normal = sb_alloc(t->model.wall_count, sizeof(sb_vec3));
-    for (size_t i = 0; i < t->model.wall_count; i++) {
-        sb_vec3 p = t->model.wall_position[i];
-        t->model.wall_normal[i] = p.z < 0        ? sb_vec(0, 0, 1)
-                                  : p.x < 0      ? sb_vec(1, 0, 0)
-                                  : p.x > size.x ? sb_vec(-1, 0, 0)
-                                                 : sb_vec(0, 0, -1);
-    }
-}
 
 typedef struct sums {
     double force, level, pressure[3];
@@ -45,7 +31,6 @@ static void a_tank_at_rest_reads_right(void **state)
     tank t;
     sb_vec3 size = {2, 1, 2};
     tank_make(&t, 2, SPACING, size, 2, 1, 0);
-    add_normals(&t, size);
     sb_gauge gauge = {"middle", 1.03, 0};
     sb_probe probes[] = {
         {"inside", {1, 0, 0.5}, 0}, {"floor", {0.9, 0, 0}, 0}, {"wall", {0, 0, 0.4}, 0}};
@@ -74,7 +59,6 @@ static void a_tank_at_rest_reads_right(void **state)
     }
     sb_measure_destroy(measure);
     sb_sim_destroy(sim);
-    sb_free(t.model.wall_normal);
     tank_free(&t);
 }
 
