@@ -1,0 +1,187 @@
+/* Pictures from the particle files of a run, after it. */
+#include "program.h"
+
+#include "base/file.h"
+#include "base/memory.h"
+
+#include <png.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { WIDTH = 160, HEIGHT = 90, FRAMES = 4, BYTES = 3 * WIDTH * HEIGHT };
+
+typedef unsigned char picture[BYTES];
+
+/* One run with pictures, whose particle files have the same times. */
+static int setup(void **state)
+{
+    if (program_setup(state) != 0) return -1;
+    RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "r", "--quiet");
+    return 0;
+}
+
+static void read_picture(const char *path, picture pixels, int width, int height)
+{
+    png_image image = {.version = PNG_IMAGE_VERSION};
+    if (!png_image_begin_read_from_file(&image, path)) fail_msg("%s: %s", path, image.message);
+    image.format = PNG_FORMAT_RGB;
+    assert_int_equal(image.width, width);
+    assert_int_equal(image.height, height);
+    assert_true(PNG_IMAGE_SIZE(image) <= BYTES);
+    assert_true(png_image_finish_read(&image, NULL, pixels, 0, NULL));
+}
+
+/* Share of the pixels whose colours differ by more than a few steps. */
+static double difference(const picture a, const picture b)
+{
+    size_t unlike = 0;
+    for (size_t p = 0; p < BYTES; p += 3) {
+        int most = 0;
+        for (size_t c = p; c < p + 3; c++)
+            if (abs(a[c] - b[c]) > most) most = abs(a[c] - b[c]);
+        unlike += most > 8;
+    }
+    return (double)unlike / (WIDTH * HEIGHT);
+}
+
+static void one_camera_into_another_folder(void **state)
+{
+    (void)state;
+    static picture drawn, during;
+    outcome o = RUN(0, "render", "r", "--camera", "side", "--out", "one");
+    assert_contains(o.out, "picture 4 of 4\n");
+    assert_string_equal(o.err, "");
+    outcome_free(&o);
+    assert_false(exists("one/frames/front"));
+    assert_false(exists("one/frames/side/000005.png"));
+    for (int i = 1; i <= FRAMES; i++) {
+        read_picture(in_folder("one/frames/side/%06d.png", i), drawn, WIDTH, HEIGHT);
+        read_picture(in_folder("r/frames/side/%06d.png", i), during, WIDTH, HEIGHT);
+        double unlike = difference(drawn, during);
+        if (unlike > 0.01) fail_msg("picture %d: %g of the pixels differ from the run's", i, unlike);
+    }
+    /* Other cameras, other pictures: else the comparison would say nothing. */
+    read_picture(in_folder("r/frames/front/%06d.png", FRAMES), during, WIDTH, HEIGHT);
+    assert_true(difference(drawn, during) > 0.1);
+}
+
+static void all_cameras_without_a_choice(void **state)
+{
+    (void)state;
+    outcome o = RUN(0, "render", "r", "--out", "all", "--quiet", "--set", "render.width=64", "--set",
+                    "render.height=48");
+    assert_string_equal(o.out, "");
+    outcome_free(&o);
+    static picture small;
+    read_picture(in_folder("all/frames/side/000004.png"), small, 64, 48);
+    read_picture(in_folder("all/frames/front/000004.png"), small, 64, 48);
+}
+
+static void a_new_camera(void **state)
+{
+    (void)state;
+    static picture top, side;
+    RUN_AND_FORGET(0, "render", "r", "--out", "new", "--quiet", "--set",
+                   "render.cameras=[{name: top, eye: [1, 0.3, 4], target: [1, 0.4, 0]}]");
+    assert_false(exists("new/frames/side"));
+    read_picture(in_folder("new/frames/top/000002.png"), top, WIDTH, HEIGHT);
+    read_picture(in_folder("r/frames/side/000002.png"), side, WIDTH, HEIGHT);
+    assert_true(difference(top, side) > 0.1);
+    RUN_AND_FORGET(0, "render", "r", "--out", "new", "--quiet", "--camera", "low", "--set",
+                   "render.cameras=[{name: top, eye: [1, 0.3, 4], target: [1, 0.4, 0]}, "
+                   "{name: low, eye: [1, -2, 0.3], target: [1, 0.4, 0.3]}]");
+    assert_true(exists("new/frames/low/000004.png"));
+}
+
+/* Without --out the pictures go to the run itself. */
+static void into_the_run_itself(void **state)
+{
+    (void)state;
+    RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "bare", "--quiet", "--until", "0.02", "--set",
+                   "render.interval=0");
+    assert_false(exists("bare/frames"));
+    RUN_AND_FORGET(0, "render", "bare", "--quiet");
+    assert_true(exists("bare/frames/side/000001.png"));
+}
+
+static void unknown_camera(void **state)
+{
+    (void)state;
+    outcome o = RUN(1, "render", "r", "--camera", "cellar", "--out", "none");
+    assert_one_line(o.err, "cellar");
+    outcome_free(&o);
+    assert_false(exists("none"));
+    o = RUN(1, "render", "r", "--out", "none", "--set", "render.cameras=[{name: x}]");
+    assert_one_line(o.err, "render.cameras");
+    outcome_free(&o);
+}
+
+static void no_particle_files(void **state)
+{
+    (void)state;
+    RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "flat", "--quiet", "--until", "0.02", "--set",
+                   "output.particle_interval=0");
+    outcome o = RUN(1, "render", "flat", "--set",
+                    "render.cameras=[{name: a, eye: [1, -3, 1], target: [1, 0, 0]}]");
+    assert_one_line(o.err, "flat/particles.pvd");
+    outcome_free(&o);
+    o = RUN(1, "render", "flat");
+    assert_one_line(o.err, "no camera");
+    outcome_free(&o);
+}
+
+static void copy_with(const char *from, const char *to, size_t keep, size_t spoil)
+{
+    char *bytes;
+    size_t length;
+    assert_int_equal(sb_file_read(in_folder("%s", from), 1 << 24, &bytes, &length, NULL), SB_OK);
+    assert_true(keep <= length && spoil < length);
+    if (spoil > 0) bytes[spoil] = '#';
+    FILE *file = fopen(in_folder("%s", to), "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, keep > 0 ? keep : length, file), keep > 0 ? keep : length);
+    assert_int_equal(fclose(file), 0);
+    sb_free(bytes);
+}
+
+static void damaged_particle_file(void **state)
+{
+    (void)state;
+    RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "hurt", "--quiet", "--until", "0.2", "--set",
+                   "render.interval=0");
+    static const struct {
+        size_t keep, spoil;
+    } wounds[] = {{4000, 0}, {100, 0}, {0, 35}};
+    for (size_t w = 0; w < sizeof wounds / sizeof wounds[0]; w++) {
+        copy_with("r/particles/000002.vtp", "hurt/particles/000002.vtp", wounds[w].keep,
+                  wounds[w].spoil);
+        outcome o = RUN(1, "render", "hurt", "--out", "worse", "--quiet");
+        assert_one_line(o.err, "hurt/particles/000002.vtp: ");
+        outcome_free(&o);
+    }
+    assert_int_equal(unlink(in_folder("hurt/particles/000002.vtp")), 0);
+    outcome o = RUN(1, "render", "hurt", "--out", "worse", "--quiet");
+    assert_one_line(o.err, "hurt/particles/000002.vtp: ");
+    outcome_free(&o);
+    write_text("hurt/particles.pvd", "<VTKFile");
+    o = RUN(1, "render", "hurt", "--out", "worse", "--quiet");
+    assert_one_line(o.err, "hurt/particles.pvd");
+    outcome_free(&o);
+    assert_false(any_ending("worse", ".tmp"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_camera_into_another_folder),
+        cmocka_unit_test(all_cameras_without_a_choice),
+        cmocka_unit_test(a_new_camera),
+        cmocka_unit_test(into_the_run_itself),
+        cmocka_unit_test(unknown_camera),
+        cmocka_unit_test(no_particle_files),
+        cmocka_unit_test(damaged_particle_file),
+    };
+    return cmocka_run_group_tests(tests, setup, program_teardown);
+}

@@ -1,0 +1,147 @@
+/* Ctrl-C and SIGTERM end a run between two steps, with all of its files complete. */
+#include "program.h"
+
+#include "../output/json_check.h"
+#include "base/clock.h"
+#include "base/memory.h"
+#include "frame/frame.h"
+#include "output/pvd.h"
+#include "output/vtp.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Starts a run without an end and waits until it has written `file`, within it. */
+static pid_t start_endless(const char *scene, const char *run, const char *file)
+{
+    pid_t process = program_start((const char *const[]){
+        "run", scene, "--out", run, "--set", "duration=1000", "--set",
+        "output.particle_interval=0.05", "--set", "measure.interval=0.01", NULL});
+    char name[96];
+    snprintf(name, sizeof name, "%s/%s", run, file);
+    for (double end = sb_clock() + 30; !exists(name) && sb_clock() < end;) usleep(2000);
+    if (!exists(name)) {
+        kill(process, SIGKILL);
+        fail_msg("no %s within 30 s", name);
+    }
+    return process;
+}
+
+/* Every line ends, and all lines have as many commas as the header. */
+static void check_table(const char *name)
+{
+    char *text = text_of(name);
+    size_t length = strlen(text), lines = 0, commas = 0, expected = 0;
+    assert_true(length > 0 && text[length - 1] == '\n');
+    for (const char *c = text; *c; c++) {
+        commas += *c == ',';
+        if (*c != '\n') continue;
+        if (lines++ == 0) expected = commas;
+        assert_int_equal(commas, expected);
+        commas = 0;
+    }
+    assert_true(lines > 3);
+    sb_free(text);
+}
+
+static void check_particles(const char *run, size_t count)
+{
+    sb_pvd list = {0};
+    sb_error error = {0};
+    assert_int_equal(sb_pvd_read(in_folder("%s/particles.pvd", run), &list, &error), SB_OK);
+    assert_true(list.count >= 3);
+    for (size_t i = 0; i < list.count; i++) {
+        sb_frame *frame = NULL;
+        if (sb_vtp_read(in_folder("%s/%s", run, list.entries[i].file), &frame, &error) != SB_OK)
+            fail_msg("%s", error.text);
+        assert_int_equal(frame->count, count);
+        sb_frame_release(frame);
+    }
+    /* And no file that the list does not know. */
+    assert_false(access(in_folder("%s/particles/%06zu.vtp", run, list.count + 1), F_OK) == 0);
+    sb_pvd_free(&list);
+}
+
+static void check_reports(const char *run, const char *last_event)
+{
+    char name[96];
+    snprintf(name, sizeof name, "%s/summary.json", run);
+    double simulated = json_number_of(name, "simulated_s");
+    assert_true(simulated > 0.1 && simulated < 1000);
+    char *text = text_of(name);
+    assert_contains(text, "\"status\": \"interrupted\"");
+    sb_free(text);
+    snprintf(name, sizeof name, "%s/run.jsonl", run);
+    text = text_of(name);
+    size_t length = strlen(text);
+    assert_true(length > 0 && text[length - 1] == '\n');
+    text[length - 1] = '\0';
+    const char *last = strrchr(text, '\n');
+    assert_non_null(last);
+    assert_true(json_valid(last + 1));
+    assert_contains(last, last_event);
+    assert_contains(last, "interrupted");
+    sb_free(text);
+}
+
+static void check_stopped(const char *run, pid_t process, int signal_number, size_t particles)
+{
+    static const char *const tables[] = {"forces.csv", "gauges.csv", "probes.csv", "energy.csv"};
+    assert_int_equal(kill(process, signal_number), 0);
+    outcome o = program_finish(process);
+    if (o.status != 128 + signal_number) fail_msg("exit status %d: %s", o.status, o.err);
+    assert_one_line(o.err, "stopped by a signal at t = ");
+    outcome_free(&o);
+    for (size_t t = 0; t < sizeof tables / sizeof tables[0]; t++) {
+        char name[96];
+        snprintf(name, sizeof name, "%s/%s", run, tables[t]);
+        check_table(name);
+    }
+    check_particles(run, particles);
+    check_reports(run, "\"end\"");
+    assert_false(any_ending(run, ".tmp"));
+}
+
+static void interrupt_ends_with_130(void **state)
+{
+    (void)state;
+    pid_t process = start_endless("tank2.yaml", "stopped", "particles/000003.vtp");
+    check_stopped("stopped", process, SIGINT, 300);
+}
+
+static void terminate_ends_with_143(void **state)
+{
+    (void)state;
+    pid_t process = start_endless("tank3.yaml", "ended", "frames/front/000003.png");
+    check_stopped("ended", process, SIGTERM, 384);
+    /* Each picture is whole: it ends as PNG does. */
+    for (int i = 1; i <= 3; i++) {
+        char tail[12] = {0};
+        FILE *file = fopen(in_folder("ended/frames/side/%06d.png", i), "rb");
+        assert_non_null(file);
+        assert_int_equal(fseek(file, -8, SEEK_END), 0);
+        assert_int_equal(fread(tail, 1, 8, file), 8);
+        fclose(file);
+        assert_memory_equal(tail, "IEND\xae\x42\x60\x82", 8);
+    }
+}
+
+/* A scene that a stopped run leaves behind can be drawn. */
+static void what_is_left_can_be_drawn(void **state)
+{
+    (void)state;
+    RUN_AND_FORGET(0, "render", "ended", "--camera", "side", "--out", "drawn", "--quiet");
+    assert_true(exists("drawn/frames/side/000001.png"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(interrupt_ends_with_130),
+        cmocka_unit_test(terminate_ends_with_143),
+        cmocka_unit_test(what_is_left_can_be_drawn),
+    };
+    return cmocka_run_group_tests(tests, program_setup, program_teardown);
+}
