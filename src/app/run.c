@@ -183,12 +183,21 @@ static sb_status feed(run *r, sb_error *error)
     return SB_OK;
 }
 
+/* Only stages that ran have a name: a first step that fails leaves the later ones without. */
+static size_t stages_run(const run *r, const sb_stage_time **stages)
+{
+    size_t count = sb_sim_stages(r->sim, stages);
+    while (count > 0 && !(*stages)[count - 1].name)
+        count--;
+    return count;
+}
+
 static void log_step(run *r, bool hash)
 {
     const sb_step_report *report = sb_sim_report(r->sim);
     const sb_energy energy = sb_sim_energy(r->sim);
     sb_runlog_state state = {.report = report, .energy = &energy, .has_hash = hash};
-    state.stage_count = sb_sim_stages(r->sim, &state.stages);
+    state.stage_count = stages_run(r, &state.stages);
     state.hash = hash ? sb_sim_hash(r->sim) : 0;
     sb_runlog_step(r->log, &state);
 }
@@ -349,7 +358,7 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
         .frames = r->recorder.count,
         .pictures = r->pictures.count,
     };
-    summary.stage_count = sb_sim_stages(r->sim, &summary.stages);
+    summary.stage_count = stages_run(r, &summary.stages);
     sb_status found = in_directory(path, r, "summary.json", &reason);
     if (found == SB_OK)
         found = sb_summary_write(path, &summary, &reason);

@@ -23,7 +23,7 @@ static double number(const char *json, const char *key)
 
 static void check_and_run(const char *scene, const char *name)
 {
-    char spacing[64], until[64], run[96];
+    char spacing[64], until[64], run[512];
     outcome o = RUN(0, "check", scene, "--json");
     assert_true(json_valid(o.out));
     assert_true(number(o.out, "fluid_particles") > 500);

@@ -75,6 +75,10 @@ static void check_summary(const char *run)
     snprintf(name, sizeof name, "%s/run.jsonl", run);
     text = text_of(name);
     assert_contains(text, "last_good_state");
+    for (char *line = text, *end; (end = strchr(line, '\n')); line = end + 1) {
+        *end = '\0';
+        if (!json_valid(line)) fail_msg("no JSON: %s", line);
+    }
     sb_free(text);
 }
 
