@@ -4,53 +4,61 @@
 
 enum { SWEEPS = 3 }; /* a corner of three walls asks for one each */
 
-/* In spacings: the nearest a particle comes to the sheet; how fast one that starts nearer is let out. */
-static const float NEAREST = 0.6f, RELEASE = 0.005f;
+/* In spacings. PLANE: the nearest a particle comes to the sheet; water at rest nestles between boundary particles
+   down to about there. BALL: the nearest it comes to any one of them, which guards ridges, where a mean plane
+   lies too low. RELEASE: how fast one that starts nearer is let out, per step. */
+static const float PLANE = 0.55f, BALL = 0.7f, RELEASE = 0.005f;
 
-/* The wall as seen from a point: weighted means over the boundary particles in reach. */
+/* The wall as seen from where the step would end, lengths in quanta. */
 typedef struct view {
-    sb_f4 normal;    /* unit, towards the side that the particle is on */
-    float distance;  /* quanta, of the point from the sheet; negative: beyond it */
-    float before;    /* the same for where the particle is now */
-    sb_f4 velocity;  /* m/s, of the wall */
-    uint32_t nearest;
+    sb_f4 normal;            /* unit, towards the side that the particle is on: mean over those in reach */
+    float before, distance;  /* from the sheet along it, now and at the step's end */
+    sb_f4 apart;             /* from the nearest boundary particle, at the step's end */
+    float ball_before, ball; /* that distance, now and at the step's end */
+    uint32_t nearest;        /* as in wall_pairs */
     bool found;
 } view;
 
-static sb_f4 wall_velocity(const sb_sim *sim, uint32_t wall)
+/* How far a wall comes in the step, in quanta. */
+SB_INLINE sb_f4 wall_step(const sb_sim *sim, uint32_t wall, float to_quanta)
 {
     if (!(wall >> 31))
         return (sb_f4){0};
     const sb_wall_set *set = &sim->walls[SB_MOVING];
     sb_vec3 v = sim->moving[sim->moving_of_body[set->body[wall & 0x7fffffffu]]].velocity;
-    return (sb_f4){(float)v.x, (float)v.y, (float)v.z, 0};
+    return (sb_f4){(float)v.x, (float)v.y, (float)v.z, 0} * sb_splat(to_quanta);
 }
 
-/* step: where the point is, relative to the particle, in quanta. Weights fall off steeply, so that in a corner
-   the nearer wall speaks. */
-static view look(const sb_sim *sim, size_t i, sb_f4 step)
+/* Weights fall off steeply, so that in a corner the nearer wall speaks. */
+static view look(const sb_sim *sim, size_t i, sb_f4 velocity, float to_quanta)
 {
     const float reach = sim->constant.support / (float)sim->space.quantum;
+    const float per_reach2 = 1 / (reach * reach);
     const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
     const float *slope = sim->wall_pairs.slope + sim->wall_pairs.first[i];
-    sb_f4 normal = {0}, place = {0};
-    float total = 0, heaviest = 0;
+    const sb_f4 step = velocity * sb_splat(to_quanta);
+    sb_f4 normal = {0}, now = {0}, then = {0}, nearest = {0};
+    float total = 0, least = 1;
     view v = {.found = false};
     for (size_t k = 0; k < sim->wall_pairs.count[i]; k++) {
         const sb_wall_set *set = &sim->walls[index[k] >> 31];
         const uint32_t b = index[k] & 0x7fffffffu;
         sb_f4 here = sb_offset(sim->position[i], set->record[b]);
-        sb_f4 d = here + step;
-        float q2 = sb_sum3(d * d) / (reach * reach);
+        sb_f4 there = here + step - wall_step(sim, index[k], to_quanta);
+        float q2 = sb_sum3(there * there) * per_reach2;
         if (q2 >= 1 || slope[k] == 0)
             continue;
         float weight = (1 - q2) * (1 - q2);
         weight *= weight;
+        weight *= weight;
         normal += set->normal[b] * sb_splat(weight);
-        place += here * sb_splat(weight);
+        now += here * sb_splat(weight);
+        then += there * sb_splat(weight);
         total += weight;
-        if (weight > heaviest) {
-            heaviest = weight;
+        if (q2 < least) {
+            least = q2;
+            nearest = here;
+            v.apart = there;
             v.nearest = index[k];
         }
     }
@@ -58,15 +66,22 @@ static view look(const sb_sim *sim, size_t i, sb_f4 step)
     if (!(length > 0.1f * total))
         return v;
     v.normal = normal / sb_splat(length);
-    v.before = sb_sum3(v.normal * place) / total;
+    v.before = sb_sum3(v.normal * now) / total;
+    v.distance = sb_sum3(v.normal * then) / total;
     if (v.before < 0) { /* a plate's other side */
         v.normal = -v.normal;
         v.before = -v.before;
+        v.distance = -v.distance;
     }
-    v.distance = v.before + sb_sum3(v.normal * step);
-    v.velocity = wall_velocity(sim, v.nearest);
+    v.ball_before = sqrtf(sb_sum3(nearest * nearest));
+    v.ball = sqrtf(sb_sum3(v.apart * v.apart));
     v.found = true;
     return v;
+}
+
+SB_INLINE float smaller(float a, float b)
+{
+    return a < b ? a : b;
 }
 
 bool sb_contact_mend(const sb_sim *sim, size_t i, sb_f4 *velocity, uint32_t *touched)
@@ -75,15 +90,17 @@ bool sb_contact_mend(const sb_sim *sim, size_t i, sb_f4 *velocity, uint32_t *tou
     const float spacing = sim->constant.spacing / (float)sim->space.quantum;
     bool mended = false;
     for (int sweep = 0; sweep < SWEEPS; sweep++) {
-        const view v = look(sim, i, *velocity * sb_splat(to_quanta));
+        const view v = look(sim, i, *velocity, to_quanta);
         if (!v.found)
             return mended;
-        float wall = sb_sum3(v.velocity * v.normal) * to_quanta;
-        float least = v.before + RELEASE * spacing;
-        least = wall + (least < NEAREST * spacing ? least : NEAREST * spacing);
-        if (v.distance >= least)
+        float plane = smaller(PLANE * spacing, v.before + RELEASE * spacing) - v.distance;
+        float ball = smaller(BALL * spacing, v.ball_before + RELEASE * spacing) - v.ball;
+        if (plane > 0)
+            *velocity += v.normal * sb_splat(plane / to_quanta);
+        else if (ball > 0 && v.ball > 0)
+            *velocity += v.apart * sb_splat(ball / (v.ball * to_quanta));
+        else
             return mended;
-        *velocity += v.normal * sb_splat((least - v.distance) / to_quanta);
         *touched = v.nearest;
         mended = true;
     }
