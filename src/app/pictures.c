@@ -18,6 +18,8 @@ static sb_status open_pictures(void *state, sb_error *error)
         sb_status status = sb_path_join(path, pictures->directory, name, error);
         if (status == SB_OK)
             status = sb_make_directories(path, error);
+        if (status == SB_OK)
+            status = sb_remove_numbered(path, ".png", error);
         if (status != SB_OK)
             return status;
     }

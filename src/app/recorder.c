@@ -7,7 +7,9 @@ static sb_status open_recorder(void *state, sb_error *error)
     const sb_recorder *recorder = state;
     char folder[SB_PATH_MAX];
     sb_status status = sb_path_join(folder, recorder->directory, "particles", error);
-    return status == SB_OK ? sb_make_directories(folder, error) : status;
+    if (status == SB_OK)
+        status = sb_make_directories(folder, error);
+    return status == SB_OK ? sb_remove_numbered(folder, ".vtp", error) : status;
 }
 
 static sb_status record(void *state, const sb_frame *frame, sb_error *error)

@@ -25,7 +25,8 @@ enum {
 };
 
 typedef struct run {
-    const sb_scene *scene;
+    sb_scene resolved;     /* a shallow copy of the caller's, with what only the model can tell */
+    const sb_scene *scene; /* it */
     const char *directory;
     sb_model model;
     sb_sim *sim;
@@ -52,17 +53,32 @@ static sb_status in_directory(char path[SB_PATH_MAX], const run *r, const char *
 
 /* ---- before the first step ---- */
 
+static sb_status write_scene(const run *r, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    sb_status status = in_directory(path, r, "scene.yaml", error);
+    return status == SB_OK ? sb_scene_write(r->scene, path, error) : status;
+}
+
 static sb_status open_directory(run *r, sb_error *error)
 {
     char path[SB_PATH_MAX];
     sb_status status = sb_make_directories(r->directory, error);
     if (status == SB_OK)
-        status = in_directory(path, r, "scene.yaml", error);
-    if (status == SB_OK)
-        status = sb_scene_write(r->scene, path, error);
+        status = write_scene(r, error);
     if (status == SB_OK)
         status = in_directory(path, r, "run.jsonl", error);
     return status == SB_OK ? sb_runlog_open(path, &r->log, error) : status;
+}
+
+/* The colour map's top is the scene's, not each picture's: later pictures of this run shall match. */
+static sb_status resolve(run *r, sb_error *error)
+{
+    double depth = fmax(r->model.still_depth, r->scene->resolution);
+    if (r->resolved.render.speed_max > 0)
+        return SB_OK;
+    r->resolved.render.speed_max = 2 * sqrt(fmax(r->scene->fluid.gravity, 1) * depth);
+    return write_scene(r, error);
 }
 
 static void say(const run *r, const char *text)
@@ -128,6 +144,9 @@ static sb_status prepare(run *r, sb_error *error)
     sb_status status = sb_model_build(r->scene, &r->model, error);
     if (status != SB_OK)
         return status;
+    status = resolve(r, error);
+    if (status != SB_OK)
+        return status;
     for (size_t w = 0; w < r->model.warning_count; w++)
         fprintf(stderr, "shorebreak: warning: %s\n", r->model.warnings[w]);
     status = start_consumers(r, error);
@@ -141,7 +160,7 @@ static sb_status prepare(run *r, sb_error *error)
     say(r, text);
     sb_runlog_start(r->log, r->scene, &r->model, omp_get_max_threads(), sb_sim_bytes(r->sim));
     sb_runlog_skipped(r->log, sb_sim_skipped(r->sim));
-    if (r->scene->numerics.settle_steps > 0)
+    if (sb_sim_settles(r->scene))
         say(r, "settling");
     status = sb_sim_settle(r->sim, error);
     if (status != SB_OK)
@@ -183,21 +202,12 @@ static sb_status feed(run *r, sb_error *error)
     return SB_OK;
 }
 
-/* Only stages that ran have a name: a first step that fails leaves the later ones without. */
-static size_t stages_run(const run *r, const sb_stage_time **stages)
-{
-    size_t count = sb_sim_stages(r->sim, stages);
-    while (count > 0 && !(*stages)[count - 1].name)
-        count--;
-    return count;
-}
-
 static void log_step(run *r, bool hash)
 {
     const sb_step_report *report = sb_sim_report(r->sim);
     const sb_energy energy = sb_sim_energy(r->sim);
     sb_runlog_state state = {.report = report, .energy = &energy, .has_hash = hash};
-    state.stage_count = stages_run(r, &state.stages);
+    state.stage_count = sb_sim_stages(r->sim, &state.stages);
     state.hash = hash ? sb_sim_hash(r->sim) : 0;
     sb_runlog_step(r->log, &state);
 }
@@ -358,7 +368,7 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
         .frames = r->recorder.count,
         .pictures = r->pictures.count,
     };
-    summary.stage_count = stages_run(r, &summary.stages);
+    summary.stage_count = sb_sim_stages(r->sim, &summary.stages);
     sb_status found = in_directory(path, r, "summary.json", &reason);
     if (found == SB_OK)
         found = sb_summary_write(path, &summary, &reason);
@@ -397,7 +407,8 @@ static void finish(run *r, sb_status *status, sb_error *error)
 
 sb_status sb_run(const sb_scene *scene, const char *directory, bool quiet, sb_error *error)
 {
-    run r = {.scene = scene, .directory = directory};
+    run r = {.resolved = *scene, .directory = directory};
+    r.scene = &r.resolved;
     sb_error local = {0};
     sb_progress_begin(&r.progress, quiet ? NULL : stdout, scene->duration);
     sb_interrupt_watch();

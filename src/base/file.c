@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -72,6 +73,26 @@ sb_status sb_make_directories(const char *path, sb_error *error)
     if (stat(path, &status) != 0 || !S_ISDIR(status.st_mode))
         return sb_fail(error, SB_FAILED, "%.500s: not a directory", path);
     return SB_OK;
+}
+
+sb_status sb_remove_numbered(const char *folder, const char *suffix, sb_error *error)
+{
+    DIR *directory = opendir(folder);
+    if (!directory)
+        return errno == ENOENT ? SB_OK
+                               : sb_fail(error, SB_FAILED, "%.500s: cannot read: %s", folder, strerror(errno));
+    sb_status status = SB_OK;
+    const struct dirent *entry;
+    while (status == SB_OK && (entry = readdir(directory))) {
+        size_t digits = strspn(entry->d_name, "0123456789");
+        if (digits == 0 || strcmp(entry->d_name + digits, suffix) != 0)
+            continue;
+        if (unlinkat(dirfd(directory), entry->d_name, 0) != 0)
+            status = sb_fail(error, SB_FAILED, "%.500s/%.200s: cannot remove: %s", folder, entry->d_name,
+                             strerror(errno));
+    }
+    closedir(directory);
+    return status;
 }
 
 sb_status sb_path_join(char out[SB_PATH_MAX], const char *base, const char *name, sb_error *error)

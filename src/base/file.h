@@ -28,6 +28,9 @@ void sb_atomic_abort(sb_atomic_file *file);
 /* Makes the directory and all missing parents. */
 sb_status sb_make_directories(const char *path, sb_error *error);
 
+/* Removes the files "<digits><suffix>" of a folder: what a former run numbered. A missing folder is fine. */
+sb_status sb_remove_numbered(const char *folder, const char *suffix, sb_error *error);
+
 /* base/name into out; an absolute name stands alone. SB_BAD_INPUT when longer than SB_PATH_MAX. */
 sb_status sb_path_join(char out[SB_PATH_MAX], const char *base, const char *name, sb_error *error);
 

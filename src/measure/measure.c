@@ -311,10 +311,12 @@ static void advance(sb_measure *measure, const sb_sim *sim)
     for (size_t b = 0; b < measure->model->body_count; b++) {
         body_state *state = &measure->states[b];
         state->last = *sb_sim_impulse(sim, b);
-        sb_vec3 end = sb_add(state->last.pressure, state->last.friction);
+        /* Over the finished intervals, so that it is the sum of the rows times the interval. */
+        const sb_body_impulse *reached = measure->bodies[b].report ? &state->boundary : &state->last;
+        sb_vec3 end = sb_add(reached->pressure, reached->friction);
         sb_vec3 start = sb_add(state->start.pressure, state->start.friction);
         measure->bodies[b].impulse = sb_sub(end, start);
-        measure->bodies[b].moment = sb_sub(state->last.moment, state->start.moment);
+        measure->bodies[b].moment = sb_sub(reached->moment, state->start.moment);
     }
     for (size_t i = 0; i < measure->scene->measure.plane_count; i++)
         measure->planes[i].last = measure->planes[i].now;

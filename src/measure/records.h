@@ -62,7 +62,7 @@ typedef struct sb_measure_records {
 typedef struct sb_body_record {
     bool report;
     double peak, peak_time;  /* N, s: greatest |F| among interval means, and that interval's end */
-    sb_vec3 impulse, moment; /* N s, N m s since the start */
+    sb_vec3 impulse, moment; /* N s, N m s over the finished intervals: rows of force times interval */
     sb_vec3 force, torque;   /* N, Nm: means of the last finished interval */
     double layers;           /* greatest flow depth at its faces in spacings; NaN: not assessed */
 } sb_body_record;

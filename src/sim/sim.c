@@ -115,6 +115,8 @@ static void note_skipped(sb_sim *sim)
         sim->skipped[s++] = "third dimension: 9 cells searched instead of 27";
     if (!sb_pressure_solvers[n->solver]->needs_direction)
         sim->skipped[s++] = "search direction: the solver needs no memory for one";
+    if (n->settle_steps > 0 && !sb_sim_settles(sim->scene))
+        sim->skipped[s++] = "settling: fluid boxes and initial waves start as they are given";
     sim->skipped[s] = NULL;
 }
 

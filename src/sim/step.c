@@ -41,10 +41,11 @@ static sb_status check_finite(const sb_sim *sim, const char *stage_name, sb_erro
 sb_status sb_sim_step(sb_sim *sim, sb_error *error)
 {
     sim->stage_count = STAGES;
+    for (size_t s = 0; s < STAGES; s++)
+        sim->stage[s].name = stages[s].name;
     for (size_t s = 0; s < STAGES; s++) {
         double start = sb_clock();
         sb_status status = stages[s].run(sim, error);
-        sim->stage[s].name = stages[s].name;
         sim->stage[s].seconds += sb_clock() - start;
         sim->stage[s].calls++;
         if (status != SB_OK)
@@ -58,11 +59,16 @@ sb_status sb_sim_step(sb_sim *sim, sb_error *error)
     return SB_OK;
 }
 
+bool sb_sim_settles(const sb_scene *scene)
+{
+    return scene->numerics.settle_steps > 0 && scene->box_count == 0 && scene->wave.kind == SB_INITIAL_NONE;
+}
+
 sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
 {
     enum { CALM_STEPS = 10 }; /* in a row below the limit: one may be an instant of reversal */
     const double calm = 0.002 * (double)sim->constant.wave_speed;
-    int steps = sim->scene->numerics.settle_steps, still = 0;
+    int steps = sb_sim_settles(sim->scene) ? sim->scene->numerics.settle_steps : 0, still = 0;
     sb_status status = SB_OK;
     sim->settling = true;
     for (int s = 0; s < steps && still < CALM_STEPS && status == SB_OK; s++) {

