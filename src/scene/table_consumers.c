@@ -112,7 +112,7 @@ static const sb_key stream_keys[] = {
     {.name = "url", .type = SB_KEY_TEXT, SB_KEY_AT(sb_stream_settings, url), .fallback = "\"\"",
      .doc = "LCM provider, as udpm://239.255.76.67:7667?ttl=0; empty: LCM's default."},
     {.name = "prefix", .type = SB_KEY_NAME, SB_KEY_AT(sb_stream_settings, prefix),
-     .fallback = "SHOREBREAK", .doc = "What channel names begin with."},
+     .fallback = "shorebreak", .doc = "What channel names begin with."},
     {.name = "interval", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_stream_settings, interval),
      .unit = "s", SB_KEY_POSITIVE, .fallback = "0.1",
      .doc = "Simulated time between particle messages."},

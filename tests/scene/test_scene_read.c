@@ -27,7 +27,7 @@ static void test_defaults(void **state)
     assert_int_equal(scene.render.height, 720);
     assert_true(scene.render.video);
     assert_false(scene.stream.enabled);
-    assert_string_equal(scene.stream.prefix, "SHOREBREAK");
+    assert_string_equal(scene.stream.prefix, "shorebreak");
     assert_true(scene.output.plots);
     sb_scene_free(&scene);
     assert_null(scene.title);
