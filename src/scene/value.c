@@ -180,7 +180,7 @@ static sb_status read_vector(sb_reader *reader, const sb_yaml *node, const sb_ke
         snprintf(what, sizeof what, "has %zu items", node->count);
         return refuse(reader, node, key, what);
     }
-    double numbers[3];
+    double numbers[3] = {0};
     sb_status status = read_numbers(reader, node, key, numbers + node->count, numbers);
     if (status != SB_OK) return status;
     sb_vec3 vector = node->count == 3 ? sb_vec(numbers[0], numbers[1], numbers[2])
