@@ -107,8 +107,11 @@ done:
 
 /* psi_b = gamma rho_0 / sum_k W_bk over the boundary particles of `set` in reach, itself included
    [A12, eq. 4; S16, eq. 30]; only_own: those of the same body only. */
-static void volumes(sb_sim *sim, sb_wall_set *set, bool only_own)
+static int volumes(sb_sim *sim, sb_wall_set *set, bool only_own)
 {
+    float *psi = sb_alloc_untouched(set->count, sizeof *psi);
+    if (!psi)
+        return -1;
     const sb_numerics *numerics = &sim->scene->numerics;
     const double h = (double)sim->constant.support, quantum = sim->space.quantum;
     const int layers = sim->constant.dimension == 2 ? 0 : 1;
@@ -132,9 +135,12 @@ static void volumes(sb_sim *sim, sb_wall_set *set, bool only_own)
                                                sqrt(r2) * quantum);
                     }
                 }
-        sb_carry(&set->record[i],
-                 (float)(numerics->wall_gamma * (double)sim->constant.rest_density / sum));
+        psi[i] = (float)(numerics->wall_gamma * (double)sim->constant.rest_density / sum);
     }
+    for (size_t i = 0; i < set->count; i++)
+        sb_carry(&set->record[i], psi[i]);
+    sb_free(psi);
+    return 0;
 }
 
 /* Whether a boundary particle lies on the grid of cells; what was clamped to its lower edge does not. */
@@ -215,8 +221,7 @@ sb_status sb_walls_create(sb_sim *sim, sb_error *error)
         sb_wall_set *set = &sim->walls[s];
         if (copy_set(sim, s == SB_MOVING, set) != 0 || table_build(set, &sim->space) != 0)
             return sb_fail_memory(error, "boundary particles");
-        volumes(sim, set, s == SB_MOVING);
-        if (near_build(set, &sim->space) != 0)
+        if (volumes(sim, set, s == SB_MOVING) != 0 || near_build(set, &sim->space) != 0)
             return sb_fail_memory(error, "boundary particles");
     }
     const sb_wall_set *set = &sim->walls[SB_MOVING];
