@@ -26,7 +26,10 @@ int sb_candidate_flush(sb_sampler *sampler, sb_candidate_batch *batch)
             batch->good[i] = sb_sample_fits(sampler, c->surface, c->at, c->reach);
             continue;
         }
+        /* What another solid covers waits for the filling of voids: a slope that runs on just below a
+           deck would else take the deck's places. */
         batch->good[i] =
+            sb_sample_exposed(sampler, c->surface, c->at, sb_scale(c->inward, -1)) &&
             sb_sample_place(sampler, c->surface, c->at, c->inward, &placed, &margin) == SB_PLACED;
         if (batch->good[i]) c->at = placed;
     }

@@ -69,6 +69,8 @@ sb_placement sb_sample_place(const sb_sampler *sampler, uint32_t surface, sb_vec
                              sb_vec3 inward, sb_vec3 *placed, double *margin);
 /* No water comes near any point within `radius` of this one. */
 bool sb_sample_buried(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, double radius);
+/* Water may stand in front of a surface's point: no other solid covers it. */
+bool sb_sample_exposed(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_vec3 normal);
 /* As sb_sample_place for a point already on the sheet, `reach` from the surface. */
 bool sb_sample_fits(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, double reach);
 /* The sheet's point nearest to `at`, which is near the sheet of this surface. */

@@ -53,8 +53,7 @@ bool sb_sample_buried(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, d
     return false;
 }
 
-/* Water may stand in front of a surface's point: no other solid covers it. */
-static bool is_exposed(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_vec3 normal)
+bool sb_sample_exposed(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_vec3 normal)
 {
     sb_vec3 front = sb_madd(at, 0.02 * sampler->settings.spacing, normal);
     for (uint32_t i = 0; i < sampler->surface_count; ++i)
@@ -84,7 +83,7 @@ static double clearance(const sb_sampler *sampler, uint32_t surface, sb_vec3 at,
         if (distance >= best) continue;
         facing = water_normal(other, facing);
         if (other->mixed && sb_dot(facing, sb_sub(place, at)) < 0) facing = sb_scale(facing, -1);
-        if (!is_exposed(sampler, i, place, facing)) continue;
+        if (!sb_sample_exposed(sampler, i, place, facing)) continue;
         best = distance;
         *nearest = place;
         *normal = facing;
