@@ -38,7 +38,7 @@ typedef struct sb_streamer {
     const char *run_name;
     sb_stream *stream;
     sb_runlog *log;
-    sb_stream_counters counters; /* filled when it closes */
+    sb_stream_counters counters; /* up to the last frame; the first trouble is logged, once */
 } sb_streamer;
 sb_consumer_work sb_streamer_work(sb_streamer *streamer);
 

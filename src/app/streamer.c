@@ -5,8 +5,12 @@ static sb_status publish(void *state, const sb_frame *frame, sb_error *error)
 {
     (void)error;
     sb_streamer *streamer = state;
+    const bool had_trouble = streamer->counters.errors > 0;
     sb_stream_publish(streamer->stream, frame);
     streamer->counters = sb_stream_count(streamer->stream);
+    if (streamer->counters.errors > 0 && !had_trouble)
+        sb_runlog_warning(streamer->log, "stream: the provider refused messages at t = %g s; the run goes on",
+                          frame->status.time);
     return SB_OK;
 }
 

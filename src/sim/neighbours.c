@@ -98,6 +98,7 @@ SB_INLINE void gather(surroundings *s, const sb_cells *cells, const sb_record *r
 
 /* Candidates within the support radius of `self`, as offsets self - candidate; skip: index of self.
    Returns how many; LIST_MAX or more means that some may have been left out. */
+SB_MULTIVERSION
 static size_t find_hits_portable(const surroundings *s, hits *h, sb_f4 self, float scale, uint32_t skip)
 {
     size_t n = 0;

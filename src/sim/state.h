@@ -9,8 +9,7 @@
 
 enum {
     SB_BLOCK = 1024,     /* particles per unit of work and of partial sums: fixed, so sums have one order */
-    SB_STAGES_MAX = 12,
-    SB_FIELDS_MAX = 24
+    SB_STAGES_MAX = 12
 };
 
 /* Constants of the run. */
@@ -103,7 +102,6 @@ typedef struct sb_sim {
     sb_body_impulse *impulse; /* per body */
 
     bool settling;
-    double limit_step;        /* s, dt of the last step, for its slow growth */
     sb_step_report report;
     uint64_t left_domain, lost;
     sb_stage_time stage[SB_STAGES_MAX];
