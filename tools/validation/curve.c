@@ -1,0 +1,160 @@
+#include "curve.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void sb_curve_free(sb_curve *curve)
+{
+    sb_free(curve->x);
+    sb_free(curve->y);
+    *curve = (sb_curve){0};
+}
+
+sb_status sb_curve_add(sb_curve *curve, double x, double y, sb_error *error)
+{
+    size_t needed = curve->count + 1;
+    if (sb_grow((void **)&curve->x, &curve->x_capacity, needed, sizeof(double)) != 0 ||
+        sb_grow((void **)&curve->y, &curve->y_capacity, needed, sizeof(double)) != 0)
+        return sb_fail_memory(error, "a curve");
+    curve->x[curve->count] = x;
+    curve->y[curve->count] = y;
+    curve->count = needed;
+    return SB_OK;
+}
+
+sb_status sb_curve_copy(const sb_curve *from, sb_curve *to, sb_error *error)
+{
+    sb_curve made = {0};
+    sb_status status = SB_OK;
+    for (size_t i = 0; status == SB_OK && i < from->count; i++)
+        status = sb_curve_add(&made, from->x[i], from->y[i], error);
+    if (status != SB_OK)
+        sb_curve_free(&made);
+    else
+        *to = made;
+    return status;
+}
+
+/* By insertion: stable, and quick on the nearly sorted series that there are. */
+void sb_curve_sort(sb_curve *curve)
+{
+    for (size_t i = 1; i < curve->count; i++) {
+        double x = curve->x[i], y = curve->y[i];
+        size_t k = i;
+        for (; k > 0 && curve->x[k - 1] > x; k--) {
+            curve->x[k] = curve->x[k - 1];
+            curve->y[k] = curve->y[k - 1];
+        }
+        curve->x[k] = x;
+        curve->y[k] = y;
+    }
+}
+
+void sb_curve_map(sb_curve *curve, double scale_x, double shift_x, double scale_y, double shift_y)
+{
+    for (size_t i = 0; i < curve->count; i++) {
+        curve->x[i] = scale_x * curve->x[i] + shift_x;
+        curve->y[i] = scale_y * curve->y[i] + shift_y;
+    }
+}
+
+/* Index of the last point at or left of x; the curve has at least one, and x is not left of it. */
+static size_t left_of(const sb_curve *curve, double x)
+{
+    size_t low = 0, high = curve->count;
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        if (curve->x[middle] <= x)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+double sb_curve_at(const sb_curve *curve, double x)
+{
+    if (curve->count == 0 || !(x >= curve->x[0] && x <= curve->x[curve->count - 1]))
+        return (double)NAN;
+    size_t i = left_of(curve, x);
+    if (x <= curve->x[i] || i + 1 == curve->count) return curve->y[i];
+    double share = (x - curve->x[i]) / (curve->x[i + 1] - curve->x[i]);
+    return (1 - share) * curve->y[i] + share * curve->y[i + 1];
+}
+
+sb_status sb_curve_resample(const sb_curve *curve, double first, double last, double step,
+                            sb_curve *made, sb_error *error)
+{
+    sb_curve out = {0};
+    sb_status status = SB_OK;
+    size_t steps = last >= first ? (size_t)floor((last - first) / step * (1 + 1e-12) + 1e-9) : 0;
+    for (size_t i = 0; status == SB_OK && last >= first && i <= steps; i++) {
+        double x = first + (double)i * step;
+        status = sb_curve_add(&out, x, sb_curve_at(curve, x), error);
+    }
+    if (status != SB_OK)
+        sb_curve_free(&out);
+    else
+        *made = out;
+    return status;
+}
+
+static int compare(const void *left, const void *right)
+{
+    double a = *(const double *)left, b = *(const double *)right;
+    return (a > b) - (a < b);
+}
+
+static double median_of(double *values, size_t count)
+{
+    qsort(values, count, sizeof *values, compare);
+    return count % 2 ? values[count / 2] : 0.5 * (values[count / 2 - 1] + values[count / 2]);
+}
+
+static double mean_of(double *values, size_t count)
+{
+    double sum = 0;
+    for (size_t i = 0; i < count; i++) sum += values[i];
+    return sum / (double)count;
+}
+
+/* Each point becomes what `reduce` makes of the known values within window/2; the curve is sorted.
+ */
+static sb_status filter(const sb_curve *curve, double window, double (*reduce)(double *, size_t),
+                        sb_curve *made, sb_error *error)
+{
+    sb_curve out = {0};
+    double *near = sb_alloc(curve->count, sizeof *near), half = 0.5 * window * (1 + 1e-9);
+    sb_status status = near ? SB_OK : sb_fail_memory(error, "a filter");
+    size_t low = 0, high = 0;
+    for (size_t i = 0; status == SB_OK && i < curve->count; i++) {
+        size_t count = 0;
+        while (curve->x[low] < curve->x[i] - half) low++;
+        while (high < curve->count && curve->x[high] <= curve->x[i] + half) high++;
+        for (size_t k = low; k < high; k++)
+            if (!isnan(curve->y[k])) near[count++] = curve->y[k];
+        double y = count && !isnan(curve->y[i]) ? reduce(near, count) : (double)NAN;
+        status = sb_curve_add(&out, curve->x[i], y, error);
+    }
+    sb_free(near);
+    if (status != SB_OK)
+        sb_curve_free(&out);
+    else
+        *made = out;
+    return status;
+}
+
+sb_status sb_curve_mean_filter(const sb_curve *curve, double window, sb_curve *made,
+                               sb_error *error)
+{
+    return filter(curve, window, mean_of, made, error);
+}
+
+sb_status sb_curve_median_filter(const sb_curve *curve, double window, sb_curve *made,
+                                 sb_error *error)
+{
+    return filter(curve, window, median_of, made, error);
+}
