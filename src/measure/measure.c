@@ -134,7 +134,7 @@ static sb_status record_instants(sb_measure *measure, const sb_sight *sight, dou
         if (!record) return sb_fail_memory(error, "run-up records");
         record->line = i;
         record->time = time;
-        status = sb_runup_read(sight, &settings->runups[i], &record->place, error);
+        status = sb_runup_read(sight, &settings->runups[i], record, error);
     }
     return status;
 }
@@ -312,7 +312,8 @@ static void advance(sb_measure *measure, const sb_sim *sim)
         body_state *state = &measure->states[b];
         state->last = *sb_sim_impulse(sim, b);
         /* Over the finished intervals, so that it is the sum of the rows times the interval. */
-        const sb_body_impulse *reached = measure->bodies[b].report ? &state->boundary : &state->last;
+        const sb_body_impulse *reached =
+            measure->bodies[b].report ? &state->boundary : &state->last;
         sb_vec3 end = sb_add(reached->pressure, reached->friction);
         sb_vec3 start = sb_add(state->start.pressure, state->start.friction);
         measure->bodies[b].impulse = sb_sub(end, start);

@@ -34,11 +34,13 @@ typedef struct sb_flow_record {
     double time, volume, flux; /* s, m^3, m^3/s (m^2, m^2/s in 2D) */
 } sb_flow_record;
 
-/* The highest wet point near a line; NaN when dry. */
+/* The highest wet point near a line, and how far water reaches along it; NaN when dry. */
 typedef struct sb_runup_record {
     size_t line;
     double time;   /* s */
     sb_vec3 place; /* m; z is the water's upper face */
+    double
+        front; /* m from the line's first end, of the water's foremost face; at most its length */
 } sb_runup_record;
 
 /* At the end of the first step that reached a multiple of the interval. */
@@ -61,10 +63,11 @@ typedef struct sb_measure_records {
 /* One body over the whole run. */
 typedef struct sb_body_record {
     bool report;
-    double peak, peak_time;  /* N, s: greatest |F| among interval means, and that interval's end */
-    sb_vec3 impulse, moment; /* N s, N m s over the finished intervals: rows of force times interval */
-    sb_vec3 force, torque;   /* N, Nm: means of the last finished interval */
-    double layers;           /* greatest flow depth at its faces in spacings; NaN: not assessed */
+    double peak, peak_time; /* N, s: greatest |F| among interval means, and that interval's end */
+    sb_vec3 impulse,
+        moment; /* N s, N m s over the finished intervals: rows of force times interval */
+    sb_vec3 force, torque; /* N, Nm: means of the last finished interval */
+    double layers;         /* greatest flow depth at its faces in spacings; NaN: not assessed */
 } sb_body_record;
 
 /* Spacings of water at a face below which its force is not to be trusted. */

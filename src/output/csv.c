@@ -39,7 +39,7 @@ static const struct {
                 "momentum_y_kg_m_s_per_m,momentum_z_kg_m_s_per_m"},
     [OVERTOPPING] = {"overtopping.csv", "time_s,plane,volume_m3,flux_m3_s",
                      "time_s,plane,volume_m3_per_m,flux_m3_s_per_m"},
-    [RUNUP] = {"runup.csv", "time_s,line,x_m,y_m,z_m", "time_s,line,x_m,y_m,z_m"},
+    [RUNUP] = {"runup.csv", "time_s,line,x_m,y_m,z_m,front_m", "time_s,line,x_m,y_m,z_m,front_m"},
 };
 
 /* The first failed file's message, or SB_OK. */
@@ -164,6 +164,7 @@ static void write_instants(const sb_csv *csv, const sb_measure_records *records)
     for (size_t i = 0; stream && i < records->runup_count; i++) {
         begin_row(stream, records->runups[i].time, settings->runups[records->runups[i].line].name);
         put_vector(stream, records->runups[i].place);
+        put(stream, records->runups[i].front);
         fputc('\n', stream);
     }
 }

@@ -47,7 +47,11 @@ static const plot plots[] = {
      true,
      {{"volume", "m^3", false, true, true, false, {2}},
       {"flux", "m^3/s", false, true, true, false, {3}}}},
-    {"runup", "Run-up", true, {{"highest wet level", "m", false, false, true, false, {4}}}},
+    {"runup",
+     "Run-up",
+     true,
+     {{"highest wet level", "m", false, false, true, false, {4}},
+      {"front along the line", "m", false, false, true, false, {5}}}},
 };
 
 /* Fewer lines than colours; more could not be told apart. */

@@ -113,7 +113,8 @@ static const sb_key runup_keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_runup_line, name), .flags = SB_KEY_REQUIRED,
      .doc = "Unlike all other lines' names."},
     {.name = "from", .type = SB_KEY_PLACE, SB_KEY_AT(sb_runup_line, ax), .unit = "m", SB_KEY_ANY,
-     .flags = SB_KEY_REQUIRED, .doc = "One end of the line, [x, y]; [x] in 2D."},
+     .flags = SB_KEY_REQUIRED,
+     .doc = "One end of the line, [x, y]; [x] in 2D. The water's front is told as the distance from here."},
     {.name = "to", .type = SB_KEY_PLACE, SB_KEY_AT(sb_runup_line, bx), .unit = "m", SB_KEY_ANY,
      .flags = SB_KEY_REQUIRED, .doc = "The other end."},
 };
@@ -206,7 +207,7 @@ static const sb_key measure_keys[] = {
      .doc = "Volume through a vertical plane, as in overtopping."},
     {.name = "runups", .type = SB_KEY_LIST,
      SB_KEY_ITEMS(sb_measure_settings, runups, runup_count), .table = &runup_table,
-     .doc = "Highest wet point along a line."},
+     .doc = "Highest wet point along a line, and how far along it water reaches."},
     {.name = "map", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_measure_settings, map), .table = &map_table,
      .applies = MAP, .only = "maps", .derived = "no maps",
      .doc = "Greatest depth, speed, momentum flux and time of arrival on a horizontal grid; "

@@ -80,14 +80,42 @@ static void runup_is_the_top_of_connected_water(void **state)
     fake_add(&world.sim, sb_vec(12, 5, 15), sb_vec(0, 0, 0), 0);
     const sb_runup_line line = {"beach", 0, 5, 40, 5};
     sb_sight sight = fake_sight(&world);
-    sb_vec3 place;
-    assert_int_equal(sb_runup_read(&sight, &line, &place, NULL), SB_OK);
-    assert_true(fabs(place.x - 19.75) < 1e-9);
-    assert_true(fabs(place.z - (0.25 * 19.75 + 1.0)) < 1e-9);
+    sb_runup_record record;
+    assert_int_equal(sb_runup_read(&sight, &line, &record, NULL), SB_OK);
+    assert_true(fabs(record.place.x - 19.75) < 1e-9);
+    assert_true(fabs(record.place.z - (0.25 * 19.75 + 1.0)) < 1e-9);
+    assert_true(fabs(record.front - 20) < 1e-9);
     const sb_runup_line away = {"away", 30, 5, 40, 5};
-    assert_int_equal(sb_runup_read(&sight, &away, &place, NULL), SB_OK);
-    assert_true(isnan(place.z));
+    assert_int_equal(sb_runup_read(&sight, &away, &record, NULL), SB_OK);
+    assert_true(isnan(record.place.z) && isnan(record.front));
     fake_world_free(&world);
+}
+
+/* Water of a known extent, particles displaced by up to 0.2 spacings: so near is the front told,
+   whichever way the line runs, and the drop ahead of it does not count. */
+static void front_is_the_reach_of_connected_water(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 40; k++) {
+        int dimensions = 2 + k % 2;
+        double reach = 6 + 0.5 * (k % 10), spacing = 0.5;
+        fake_world world;
+        fake_world_make(&world, dimensions, spacing, sb_vec(-20, 0, 0), sb_vec(20, 10, 20));
+        bool back = k % 4 >= 2; /* the water, too, then lies on the other side */
+        fake_fill(&world, sb_vec(back ? -reach : 0, 0, 0), sb_vec(back ? 0 : reach, 10, 1), 0, 0,
+                  0.2, (uint64_t)k + 1);
+        fake_add(&world.sim, sb_vec(back ? -reach - 2 : reach + 2, dimensions == 2 ? 0 : 5, 0.25),
+                 sb_vec(0, 0, 0), 0);
+        const sb_runup_line line = {"floor", back ? 2 : -2, 5, back ? -20 : 20, 5};
+        const sb_runup_line little = {"little", 0, 5, back ? -5 : 5, 5};
+        sb_sight sight = fake_sight(&world);
+        sb_runup_record record;
+        assert_int_equal(sb_runup_read(&sight, &line, &record, NULL), SB_OK);
+        assert_true(fabs(record.front - (reach + 2)) <= 0.2 * spacing);
+        assert_int_equal(sb_runup_read(&sight, &little, &record, NULL), SB_OK);
+        assert_true(fabs(record.front - 5) < 1e-9);
+        fake_world_free(&world);
+    }
 }
 
 /* A block of 4 x 6 x 3 m over the grid: depth 3 inside; volume is kept for any cell size. */
@@ -177,6 +205,7 @@ int main(void)
         cmocka_unit_test(slanting_plane_has_the_same_flux),
         cmocka_unit_test(plane_in_two_dimensions),
         cmocka_unit_test(runup_is_the_top_of_connected_water),
+        cmocka_unit_test(front_is_the_reach_of_connected_water),
         cmocka_unit_test(map_keeps_volume),
         cmocka_unit_test(map_tells_arrival),
         cmocka_unit_test(faces_tell_the_depth),
