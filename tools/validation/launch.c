@@ -1,0 +1,184 @@
+#include "launch.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { ARGUMENTS = 2 * SB_SETTINGS_MAX + 16 };
+
+typedef struct job {
+    pid_t process; /* 0: the place is free */
+    const sb_request *request;
+    char folder[SB_PATH_MAX];
+    double start;
+} job;
+
+typedef struct crew {
+    const sb_store *store;
+    job *jobs;
+    int size, busy;
+    size_t failed;
+} crew;
+
+static volatile sig_atomic_t stopped_by;
+
+static void stop(int number)
+{
+    stopped_by = number;
+}
+
+static void redirect(const char *path, int flags, int to)
+{
+    int file = open(path, flags, 0644);
+    if (file < 0 || dup2(file, to) < 0) _exit(126);
+    close(file);
+}
+
+static _Noreturn void become(const sb_store *store, const char *scene, const job *j, bool alone)
+{
+    char *arguments[ARGUMENTS], said[SB_PATH_MAX + 16];
+    sb_settings settings;
+    int count = 0;
+    sb_request_settings(j->request, &settings);
+    const char *const first[] = {"shorebreak", "run", scene, "--quiet", "--out", j->folder};
+    for (size_t i = 0; i < sizeof first / sizeof *first; i++)
+        arguments[count++] = (char *)(uintptr_t)first[i];
+    for (size_t i = 0; i < settings.count; i++) {
+        arguments[count++] = "--set";
+        arguments[count++] = (char *)(uintptr_t)settings.list[i];
+    }
+    if (j->request->paper) {
+        arguments[count++] = "--preset";
+        arguments[count++] = "paper";
+    }
+    if (!alone) {
+        arguments[count++] = "--threads";
+        arguments[count++] = "1";
+    }
+    arguments[count] = NULL;
+    snprintf(said, sizeof said, "%s/output.txt", j->folder);
+    redirect("/dev/null", O_RDONLY, STDIN_FILENO);
+    redirect(said, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
+    dup2(STDOUT_FILENO, STDERR_FILENO);
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    execv(store->program, arguments);
+    _exit(127);
+}
+
+static sb_status begin(crew *c, const sb_request *request, job *j, sb_error *error)
+{
+    char scene[SB_PATH_MAX];
+    *j = (job){.request = request, .start = sb_clock()};
+    sb_status status = sb_store_folder(c->store, request, j->folder, error);
+    if (status == SB_OK) status = sb_path_join(scene, c->store->assets, request->of->scene, error);
+    if (status == SB_OK) status = sb_make_directories(j->folder, error);
+    if (status == SB_OK) status = sb_store_forget(j->folder, error);
+    if (status != SB_OK) return status;
+    fflush(NULL);
+    pid_t process = fork();
+    if (process < 0) return sb_fail(error, SB_FAILED, "cannot start a run: %s", strerror(errno));
+    if (process == 0) become(c->store, scene, j, c->size == 1);
+    j->process = process;
+    c->busy++;
+    return SB_OK;
+}
+
+/* The last line a run has said. */
+static void last_words(const job *j, char *line, size_t size)
+{
+    char path[SB_PATH_MAX], buffer[512];
+    snprintf(line, size, "it said nothing");
+    FILE *in = sb_path_join(path, j->folder, "output.txt", NULL) == SB_OK ? fopen(path, "r") : NULL;
+    while (in && fgets(buffer, sizeof buffer, in)) {
+        buffer[strcspn(buffer, "\r\n")] = '\0';
+        if (buffer[0]) snprintf(line, size, "%s", buffer);
+    }
+    if (in) fclose(in);
+}
+
+static sb_status end(crew *c, job *j, int how, sb_error *error)
+{
+    char label[96], said[512], reason[640];
+    sb_request_label(j->request, true, label);
+    j->process = 0;
+    c->busy--;
+    if (WIFEXITED(how) && WEXITSTATUS(how) == 0) {
+        printf("%s: %.1f s\n", label, sb_clock() - j->start);
+        return sb_store_finish(c->store, j->folder, error);
+    }
+    if (stopped_by || (WIFEXITED(how) && WEXITSTATUS(how) > 128)) {
+        if (!stopped_by) stopped_by = SIGINT;
+        return SB_OK;
+    }
+    last_words(j, said, sizeof said);
+    snprintf(reason, sizeof reason, "%s %d: %s", WIFEXITED(how) ? "exit status" : "signal",
+             WIFEXITED(how) ? WEXITSTATUS(how) : WTERMSIG(how), said);
+    printf("%s: failed, %s\n", label, reason);
+    c->failed++;
+    return sb_store_fail(j->folder, reason, error);
+}
+
+/* Waits for one run to end. */
+static sb_status wait_one(crew *c, sb_error *error)
+{
+    int how, told = 0;
+    pid_t process;
+    while ((process = waitpid(-1, &how, 0)) < 0 && errno == EINTR)
+        if (stopped_by && !told++)
+            for (int i = 0; i < c->size; i++)
+                if (c->jobs[i].process) kill(c->jobs[i].process, SIGTERM);
+    for (int i = 0; i < c->size; i++)
+        if (process > 0 && c->jobs[i].process == process) return end(c, &c->jobs[i], how, error);
+    return process < 0 ? sb_fail(error, SB_FAILED, "cannot wait for a run: %s", strerror(errno))
+                       : SB_OK;
+}
+
+static job *free_place(crew *c)
+{
+    for (int i = 0; i < c->size; i++)
+        if (!c->jobs[i].process) return &c->jobs[i];
+    return NULL;
+}
+
+static sb_status work(crew *c, const sb_request *requests, size_t count, sb_error *error)
+{
+    char folder[SB_PATH_MAX];
+    sb_status status = SB_OK;
+    for (size_t i = 0; status == SB_OK && i < count && !stopped_by; i++) {
+        if (sb_store_find(c->store, &requests[i], false, folder)) continue;
+        while (status == SB_OK && !free_place(c)) status = wait_one(c, error);
+        if (status == SB_OK && !stopped_by) status = begin(c, &requests[i], free_place(c), error);
+    }
+    while (c->busy && (status == SB_OK || !stopped_by)) {
+        sb_status ended = wait_one(c, status == SB_OK ? error : NULL);
+        if (status == SB_OK) status = ended;
+        if (ended != SB_OK) break;
+    }
+    return status;
+}
+
+sb_status sb_launch(const sb_store *store, const sb_request *requests, size_t count, int jobs,
+                    size_t *failed, sb_error *error)
+{
+    struct sigaction now = {.sa_handler = stop}, interrupt, terminate;
+    crew c = {.store = store, .size = jobs, .jobs = sb_alloc((size_t)jobs, sizeof(job))};
+    if (!c.jobs) return sb_fail_memory(error, "runs");
+    stopped_by = 0;
+    sigaction(SIGINT, &now, &interrupt);
+    sigaction(SIGTERM, &now, &terminate);
+    sb_status status = work(&c, requests, count, error);
+    sigaction(SIGINT, &interrupt, NULL);
+    sigaction(SIGTERM, &terminate, NULL);
+    sb_free(c.jobs);
+    *failed = c.failed;
+    if (status == SB_OK && stopped_by)
+        status = sb_fail(error, SB_INTERRUPTED, "stopped; started again, it goes on from here");
+    return status;
+}

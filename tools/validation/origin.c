@@ -1,0 +1,50 @@
+#include "origin.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+void sb_origin_commit(const char *source, char commit[64])
+{
+    int ends[2];
+    snprintf(commit, 64, "unknown");
+    if (pipe(ends) != 0) return;
+    char *const arguments[] = {"git",         "-C",          (char *)(uintptr_t)source,
+                               "describe",    "--always",    "--dirty",
+                               "--abbrev=10", "--exclude=*", NULL};
+    pid_t child = fork();
+    if (child == 0) {
+        dup2(ends[1], STDOUT_FILENO);
+        close(ends[0]);
+        close(ends[1]);
+        if (!freopen("/dev/null", "w", stderr)) _exit(126);
+        execvp("git", arguments);
+        _exit(127);
+    }
+    close(ends[1]);
+    FILE *said = fdopen(ends[0], "r");
+    char line[64];
+    if (said && fgets(line, sizeof line, said)) {
+        line[strcspn(line, "\n")] = '\0';
+        if (line[0]) snprintf(commit, 64, "%s", line);
+    }
+    if (said) fclose(said);
+    if (child > 0) waitpid(child, NULL, 0);
+}
+
+void sb_origin_machine(char machine[128])
+{
+    char line[256], model[96] = "unknown processor";
+    FILE *in = fopen("/proc/cpuinfo", "r");
+    while (in && fgets(line, sizeof line, in)) {
+        const char *colon = strchr(line, ':');
+        if (strncmp(line, "model name", 10) != 0 || !colon) continue;
+        line[strcspn(line, "\n")] = '\0';
+        snprintf(model, sizeof model, "%.90s", colon + 2);
+        break;
+    }
+    if (in) fclose(in);
+    snprintf(machine, 128, "%s, %ld cores", model, sysconf(_SC_NPROCESSORS_ONLN));
+}

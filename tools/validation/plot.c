@@ -1,0 +1,263 @@
+#include "plot.h"
+
+#include "base/memory.h"
+#include "output/tool.h"
+#include "plot_draw.h"
+
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+
+enum { COLORS = 8, TEXT = 160 };
+
+typedef enum kind { LINE, REFERENCE, POINTS, BAND } kind;
+
+typedef struct layer {
+    kind kind;
+    char label[TEXT];
+    sb_curve curve, high; /* a band's lower and upper edge */
+} layer;
+
+typedef struct panel {
+    char title[TEXT], x_label[TEXT], y_label[TEXT];
+    double range[4];
+    size_t layer_count, layer_capacity;
+    layer *layers;
+} panel;
+
+struct sb_plot {
+    size_t panel_count, panel_capacity;
+    panel *panels;
+};
+
+sb_plot *sb_plot_create(void)
+{
+    return sb_alloc(1, sizeof(sb_plot));
+}
+
+void sb_plot_destroy(sb_plot *plot)
+{
+    if (!plot) return;
+    for (size_t p = 0; p < plot->panel_count; p++) {
+        for (size_t k = 0; k < plot->panels[p].layer_count; k++) {
+            sb_curve_free(&plot->panels[p].layers[k].curve);
+            sb_curve_free(&plot->panels[p].layers[k].high);
+        }
+        sb_free(plot->panels[p].layers);
+    }
+    sb_free(plot->panels);
+    sb_free(plot);
+}
+
+sb_status sb_plot_panel(sb_plot *plot, const char *title, const char *x_label, const char *y_label,
+                        sb_error *error)
+{
+    if (sb_grow((void **)&plot->panels, &plot->panel_capacity, plot->panel_count + 1,
+                sizeof *plot->panels) != 0)
+        return sb_fail_memory(error, "a plot");
+    panel *made = &plot->panels[plot->panel_count++];
+    *made = (panel){.range = {(double)NAN, (double)NAN, (double)NAN, (double)NAN}};
+    snprintf(made->title, sizeof made->title, "%s", title);
+    snprintf(made->x_label, sizeof made->x_label, "%s", x_label);
+    snprintf(made->y_label, sizeof made->y_label, "%s", y_label);
+    return SB_OK;
+}
+
+void sb_plot_range(sb_plot *plot, double x_min, double x_max, double y_min, double y_max)
+{
+    double *range = plot->panels[plot->panel_count - 1].range;
+    range[0] = x_min;
+    range[1] = x_max;
+    range[2] = y_min;
+    range[3] = y_max;
+}
+
+static sb_status add(sb_plot *plot, kind what, const char *label, const sb_curve *curve,
+                     const sb_curve *high, sb_error *error)
+{
+    panel *p = &plot->panels[plot->panel_count - 1];
+    if (sb_grow((void **)&p->layers, &p->layer_capacity, p->layer_count + 1, sizeof *p->layers) !=
+        0)
+        return sb_fail_memory(error, "a plot");
+    layer *made = &p->layers[p->layer_count];
+    *made = (layer){.kind = what};
+    snprintf(made->label, sizeof made->label, "%s", label);
+    sb_status status = sb_curve_copy(curve, &made->curve, error);
+    if (status == SB_OK && high) status = sb_curve_copy(high, &made->high, error);
+    if (status != SB_OK)
+        sb_curve_free(&made->curve);
+    else
+        p->layer_count++;
+    return status;
+}
+
+sb_status sb_plot_curve(sb_plot *plot, sb_plot_style style, const char *label,
+                        const sb_curve *curve, sb_error *error)
+{
+    static const kind kinds[] = {LINE, REFERENCE, POINTS};
+    return add(plot, kinds[style], label, curve, NULL, error);
+}
+
+sb_status sb_plot_band(sb_plot *plot, const char *label, const sb_curve *low, const sb_curve *high,
+                       sb_error *error)
+{
+    return add(plot, BAND, label, low, high, error);
+}
+
+/* As a single-quoted gnuplot string. */
+static void put_quoted(FILE *out, const char *text)
+{
+    fputc('\'', out);
+    for (; *text; text++) {
+        if (*text == '\'') fputc('\'', out);
+        fputc((unsigned char)*text < 0x20 ? ' ' : *text, out);
+    }
+    fputc('\'', out);
+}
+
+static void put_number(FILE *out, double value)
+{
+    if (isnan(value))
+        fputs("NaN", out);
+    else
+        fprintf(out, "%.9g", value);
+}
+
+static void put_data(FILE *out, const layer *l)
+{
+    size_t count =
+        l->kind == BAND && l->high.count < l->curve.count ? l->high.count : l->curve.count;
+    for (size_t i = 0; i < count; i++) {
+        put_number(out, l->curve.x[i]);
+        fputc(' ', out);
+        put_number(out, l->curve.y[i]);
+        if (l->kind == BAND) {
+            fputc(' ', out);
+            put_number(out, l->high.y[i]);
+        }
+        fputc('\n', out);
+    }
+    fputs("\n\n", out);
+}
+
+static void put_range(FILE *out, char axis, double low, double high)
+{
+    fprintf(out, "set %crange [", axis);
+    if (isnan(low))
+        fputc('*', out);
+    else
+        fprintf(out, "%.9g", low);
+    fputc(':', out);
+    if (isnan(high))
+        fputc('*', out);
+    else
+        fprintf(out, "%.9g", high);
+    fputs("]\n", out);
+}
+
+static void put_layer(FILE *out, const layer *l, const char *data, size_t index, int color)
+{
+    static const char *const colors[COLORS] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                               "#e69f00", "#56b4e9", "#7f3c8d", "#80ba5a"};
+    fprintf(out, "'%s' index %zu using 1:2", data, index);
+    switch (l->kind) {
+    case BAND:
+        fputs(":3 with filledcurves lc rgb '#d0d0d0'", out);
+        break;
+    case POINTS:
+        fputs(" with points pt 7 ps 0.4 lc rgb '#555555'", out);
+        break;
+    case REFERENCE:
+        fputs(" with lines lw 2 lc rgb '#000000'", out);
+        break;
+    case LINE:
+        fprintf(out, " with lines lw 1.5 lc rgb '%s'", colors[color % COLORS]);
+        break;
+    }
+    fputs(" title ", out);
+    put_quoted(out, l->label);
+}
+
+/* Bands lie lowest, then points; what is simulated lies over what is measured. */
+static const kind order[] = {BAND, POINTS, REFERENCE, LINE};
+
+static void put_panel(FILE *out, const panel *p, const char *data, size_t first)
+{
+    fputs("set title ", out);
+    put_quoted(out, p->title);
+    fputs("\nset xlabel ", out);
+    put_quoted(out, p->x_label);
+    fputs("\nset ylabel ", out);
+    put_quoted(out, p->y_label);
+    fputc('\n', out);
+    put_range(out, 'x', p->range[0], p->range[1]);
+    put_range(out, 'y', p->range[2], p->range[3]);
+    const char *before = "plot ";
+    for (size_t turn = 0; turn < sizeof order / sizeof *order; turn++) {
+        int color = 0;
+        for (size_t k = 0; k < p->layer_count; k++) {
+            if (p->layers[k].kind != order[turn]) continue;
+            fputs(before, out);
+            put_layer(out, &p->layers[k], data, first + k, color++);
+            before = ", ";
+        }
+    }
+    fputc('\n', out);
+}
+
+static void put_script(FILE *out, const sb_plot *plot, const char *name, const char *picture)
+{
+    char data[TEXT];
+    size_t first = 0;
+    snprintf(data, sizeof data, "%s.dat", name);
+    fprintf(out, "set terminal pngcairo noenhanced size 900,%zu font 'Sans,10'\nset output ",
+            60 + 300 * plot->panel_count);
+    put_quoted(out, picture);
+    fprintf(out,
+            "\nset grid lt 1 lw 0.5 lc rgb '#dddddd'\nset border 3 lc rgb '#555555'\n"
+            "set tics nomirror\nset key outside right top Left reverse\nset lmargin 10\n"
+            "set rmargin 30\nset multiplot layout %zu,1\n",
+            plot->panel_count);
+    for (size_t p = 0; p < plot->panel_count; p++) {
+        if (plot->panels[p].layer_count) put_panel(out, &plot->panels[p], data, first);
+        first += plot->panels[p].layer_count;
+    }
+    fputs("unset multiplot\n", out);
+}
+
+static FILE *open_in(const char *folder, const char *name, const char *ending, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    int length = snprintf(path, sizeof path, "%s/%s.%s", folder, name, ending);
+    FILE *out = length < SB_PATH_MAX ? fopen(path, "w") : NULL;
+    if (!out) sb_fail(error, SB_FAILED, "%.400s: cannot write: %s", path, strerror(errno));
+    return out;
+}
+
+static sb_status finish(FILE *out, const char *name, sb_error *error)
+{
+    int bad = ferror(out);
+    return fclose(out) == 0 && !bad
+               ? SB_OK
+               : sb_fail(error, SB_FAILED, "%s: cannot write the plot's files", name);
+}
+
+sb_status sb_plot_draw(const sb_plot *plot, const char *folder, const char *name,
+                       const char *picture, sb_error *error)
+{
+    char program[SB_PATH_MAX], script[TEXT];
+    if (!sb_tool_find("gnuplot", program)) return sb_fail(error, SB_FAILED, "gnuplot is not there");
+    FILE *out = open_in(folder, name, "dat", error);
+    if (!out) return SB_FAILED;
+    for (size_t p = 0; p < plot->panel_count; p++)
+        for (size_t k = 0; k < plot->panels[p].layer_count; k++)
+            put_data(out, &plot->panels[p].layers[k]);
+    sb_status status = finish(out, name, error);
+    out = status == SB_OK ? open_in(folder, name, "gp", error) : NULL;
+    if (!out) return SB_FAILED;
+    put_script(out, plot, name, picture);
+    status = finish(out, name, error);
+    snprintf(script, sizeof script, "%s.gp", name);
+    char *const arguments[] = {"gnuplot", script, NULL};
+    return status == SB_OK ? sb_tool_run(program, arguments, folder, error) : status;
+}

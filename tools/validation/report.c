@@ -1,0 +1,131 @@
+#include "report.h"
+
+#include "base/memory.h"
+#include "plot_draw.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The commits that the shown runs were made with; more than one is said. */
+static void put_commits(FILE *out, const sb_report *report)
+{
+    const char *first = NULL;
+    bool several = false;
+    for (size_t c = 0; c < report->count; c++)
+        for (size_t i = 0; i < report->cases[c].count; i++) {
+            const sb_result *r = &report->cases[c].runs[i];
+            if (r->state != SB_RESULT_DONE) continue;
+            if (first && strcmp(first, r->run.commit) != 0) several = true;
+            first = first ? first : r->run.commit;
+        }
+    if (!first)
+        fputs("- commit: nothing has run\n", out);
+    else if (several)
+        fputs("- commit: the runs are of several builds; each names its own\n", out);
+    else
+        fprintf(out, "- commit of all runs: `%s`\n", first);
+}
+
+static void put_machine(FILE *out, const sb_report *report)
+{
+    for (size_t c = 0; c < report->count; c++)
+        for (size_t i = 0; i < report->cases[c].count; i++)
+            if (report->cases[c].runs[i].state == SB_RESULT_DONE) {
+                fprintf(out, "- machine: %s\n", report->cases[c].runs[i].run.machine);
+                return;
+            }
+    fprintf(out, "- machine: %s\n", report->store->machine);
+}
+
+static void put_head(FILE *out, const sb_report *report)
+{
+    size_t limited = 0, passed = 0;
+    for (size_t c = 0; c < report->count; c++) {
+        size_t l, p;
+        sb_results_count(&report->cases[c], &l, &p);
+        limited += l;
+        passed += p;
+    }
+    fprintf(
+        out,
+        "# Validation%s\n\nMade by `tools/validate`; docs/validation.md says how. Every case runs "
+        "with "
+        "the same defaults, but for the columns\n`paper`, which use the preset of that name.\n\n",
+        report->quick ? ", quick forms" : "");
+    fprintf(out, "- command: `%s`\n", report->command);
+    put_machine(out, report);
+    put_commits(out, report);
+    fprintf(out,
+            "- %zu of %zu judged figures are within their reach\n\n"
+            "Errors are signed: ours minus the reference. Where a resolution is run with several "
+            "start seeds, the error is the one\nlargest in magnitude, the figure passes when it "
+            "does with every seed, and spread is the largest value minus the\nsmallest. "
+            "`x (of y)`: at that resolution the reference is y.\n\n"
+            "| case | reach | figure | |\n|---|---|---|---|\n",
+            passed, limited);
+    for (size_t c = 0; c < report->count; c++) sb_report_summary_line(out, &report->cases[c]);
+    fputc('\n', out);
+}
+
+/* Draws what the case has done into `picture`; SB_FAILED says why it could not. */
+static sb_status draw(const sb_report *report, const sb_case_results *results, const char *picture,
+                      sb_error *error)
+{
+    char folder[SB_PATH_MAX];
+    size_t count = 0;
+    sb_case_run *views = sb_alloc(results->count, sizeof *views);
+    sb_plot *plot = sb_plot_create();
+    sb_status status = sb_path_join(folder, report->store->out, "plots", error);
+    if (!views || !plot) status = sb_fail_memory(error, "a plot");
+    for (size_t i = 0; views && i < results->count; i++)
+        if (results->runs[i].state == SB_RESULT_DONE) views[count++] = results->runs[i].run.view;
+    if (status == SB_OK && count == 0) status = sb_fail(error, SB_FAILED, "nothing has run");
+    if (status == SB_OK) status = sb_make_directories(folder, error);
+    if (status == SB_OK) status = results->of->plot(views, count, plot, error);
+    if (status == SB_OK) status = sb_plot_draw(plot, folder, results->of->name, picture, error);
+    sb_plot_destroy(plot);
+    sb_free(views);
+    return status;
+}
+
+static void put_case(FILE *out, const sb_report *report, const sb_case_results *results,
+                     const char *pictures)
+{
+    char name[128], picture[SB_PATH_MAX], relative[160];
+    sb_error why = {0};
+    snprintf(name, sizeof name, "%.100s.png", results->of->name);
+    snprintf(relative, sizeof relative, "validation/%s", name);
+    sb_status status = sb_path_join(picture, pictures, name, &why);
+    if (status == SB_OK) status = draw(report, results, picture, &why);
+    sb_report_case(out, results, status == SB_OK ? relative : NULL);
+    if (status != SB_OK) fprintf(out, "No plot: %s.\n\n", why.text);
+}
+
+static sb_status write_csv(const sb_report *report, const char *folder, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    sb_atomic_file file;
+    sb_status status = sb_path_join(path, folder, "results.csv", error);
+    if (status == SB_OK) status = sb_atomic_open(&file, path, error);
+    if (status != SB_OK) return status;
+    sb_report_csv(file.stream, report);
+    return sb_atomic_commit(&file, 0, error);
+}
+
+sb_status sb_report_write(const sb_report *report, const char *folder, sb_error *error)
+{
+    char pictures[SB_PATH_MAX], real[SB_PATH_MAX], path[SB_PATH_MAX];
+    sb_atomic_file file;
+    sb_status status = sb_path_join(pictures, folder, "validation", error);
+    if (status == SB_OK) status = sb_make_directories(pictures, error);
+    if (status == SB_OK && !realpath(pictures, real))
+        status = sb_fail(error, SB_FAILED, "%.400s: no such folder", pictures);
+    if (status == SB_OK) status = write_csv(report, real, error);
+    if (status == SB_OK) status = sb_path_join(path, folder, "validation.md", error);
+    if (status == SB_OK) status = sb_atomic_open(&file, path, error);
+    if (status != SB_OK) return status;
+    put_head(file.stream, report);
+    for (size_t c = 0; c < report->count; c++)
+        put_case(file.stream, report, &report->cases[c], real);
+    return sb_atomic_commit(&file, 0, error);
+}

@@ -1,0 +1,224 @@
+/* A case in the report: summary line, figures, runs. */
+#include "report.h"
+
+#include <math.h>
+#include <string.h>
+
+void sb_text_number(char text[48], double value)
+{
+    if (isnan(value))
+        snprintf(text, 48, "–");
+    else
+        snprintf(text, 48, "%.4g", value);
+}
+
+void sb_text_error(char text[48], double error, const char *unit)
+{
+    if (isnan(error))
+        snprintf(text, 48, "–");
+    else
+        snprintf(text, 48, "%+.3g%s%s", error, unit[0] ? " " : "", unit);
+}
+
+static void put_cell(FILE *out, const char *text)
+{
+    fputs(" ", out);
+    for (; *text; text++) fputs(*text == '|' ? "\\|" : (char[]){*text, '\0'}, out);
+    fputs(" |", out);
+}
+
+static const char *verdict(const sb_case_results *results, size_t *limited, size_t *passed)
+{
+    bool failed = false;
+    sb_results_count(results, limited, passed);
+    for (size_t i = 0; i < results->count; i++)
+        if (results->runs[i].state == SB_RESULT_FAILED && results->runs[i].request.plan->judged)
+            failed = true;
+    if (failed) return "**FAIL** (run failed)";
+    if (!sb_results_judged(results)) return "not run";
+    return *passed == *limited ? "pass" : "**FAIL**";
+}
+
+/* Names what is short of its reach. */
+static void put_short(FILE *out, const sb_case_results *results)
+{
+    const sb_result *judged = sb_results_judged(results);
+    const char *before = "short: ";
+    char error[48], limit[48];
+    for (size_t i = 0; judged && i < judged->figures.count + results->across.count; i++) {
+        bool single = i < judged->figures.count;
+        const sb_figure *f =
+            single ? &judged->figures.rows[i] : &results->across.rows[i - judged->figures.count];
+        sb_judgement j = {.figure = f, .worst = f->error, .pass = f->pass};
+        if (isnan(f->limit)) continue;
+        if (single) j = sb_results_judge(results, i);
+        if (j.pass) continue;
+        sb_text_error(error, j.worst, f->error_unit);
+        sb_text_number(limit, f->limit);
+        fprintf(out, "%s%s %s (reach %s)", before, f->quantity, error, limit);
+        before = "; ";
+    }
+}
+
+void sb_report_summary_line(FILE *out, const sb_case_results *results)
+{
+    size_t limited, passed;
+    char value[48], error[48];
+    const char *said = verdict(results, &limited, &passed);
+    const sb_result *judged = sb_results_judged(results);
+    fprintf(out, "| [%s](#%s) | %s | ", results->of->title, results->of->name, results->of->reach);
+    for (size_t i = 0; judged && i < judged->figures.count; i++) {
+        if (strcmp(judged->figures.rows[i].quantity, results->of->headline) != 0) continue;
+        sb_judgement j = sb_results_judge(results, i);
+        sb_text_number(value, j.mean);
+        sb_text_error(error, j.worst, j.figure->error_unit);
+        fprintf(out, "%s: %s%s%s, error %s; ", j.figure->quantity, value,
+                j.figure->unit[0] ? " " : "", j.figure->unit, error);
+    }
+    if (judged) fprintf(out, "%zu of %zu within reach", passed, limited);
+    if (judged && passed < limited) {
+        fputs("; ", out);
+        put_short(out, results);
+    }
+    fprintf(out, " | %s |\n", said);
+}
+
+/* Value of a figure in one run; with its reference when that differs from the one judged against.
+ */
+static void put_value(FILE *out, const sb_result *r, const sb_figure *wanted)
+{
+    char text[48], reference[48], cell[128];
+    if (r->state != SB_RESULT_DONE) {
+        put_cell(out, r->state == SB_RESULT_FAILED ? "failed" : "not run");
+        return;
+    }
+    const sb_figure *f = sb_figures_find(&r->figures, wanted->quantity);
+    sb_text_number(text, f ? f->value : (double)NAN);
+    snprintf(cell, sizeof cell, "%s", text);
+    if (f && fabs(f->reference - wanted->reference) > 1e-3 * fabs(wanted->reference)) {
+        sb_text_number(reference, f->reference);
+        snprintf(cell, sizeof cell, "%s (of %s)", text, reference);
+    }
+    put_cell(out, cell);
+}
+
+static bool has_column(const sb_result *r)
+{
+    return r->request.seed == 1;
+}
+
+static void put_judgement(FILE *out, const sb_judgement *j)
+{
+    char text[48];
+    sb_text_error(text, j->worst, j->figure->error_unit);
+    put_cell(out, text);
+    if (isnan(j->figure->limit))
+        snprintf(text, sizeof text, "–");
+    else
+        snprintf(text, sizeof text, "%.4g%s%s", j->figure->limit,
+                 j->figure->error_unit[0] ? " " : "", j->figure->error_unit);
+    put_cell(out, text);
+    sb_text_number(text, j->spread);
+    put_cell(out, text);
+    put_cell(out, isnan(j->figure->limit) ? "reported" : j->pass ? "pass" : "**FAIL**");
+    fputc('\n', out);
+}
+
+static void put_figures(FILE *out, const sb_case_results *results, const sb_result *judged)
+{
+    char text[160];
+    int columns = 0;
+    fputs("| quantity | unit | reference |", out);
+    for (size_t i = 0; i < results->count; i++) {
+        const sb_request *request = &results->runs[i].request;
+        if (!has_column(&results->runs[i])) continue;
+        snprintf(text, sizeof text, "%.6g m%s%s", request->plan->resolution,
+                 request->paper ? ", paper" : "",
+                 request->plan->judged && !request->paper ? " (judged)" : "");
+        put_cell(out, text);
+        columns++;
+    }
+    fputs(" error | reach | spread | |\n|---|---|---|", out);
+    for (int i = 0; i < columns + 4; i++) fputs("---|", out);
+    fputc('\n', out);
+    for (size_t i = 0; i < judged->figures.count; i++) {
+        sb_judgement j = sb_results_judge(results, i);
+        fputc('|', out);
+        put_cell(out, j.figure->quantity);
+        put_cell(out, j.figure->unit);
+        sb_text_number(text, j.figure->reference);
+        put_cell(out, text);
+        for (size_t k = 0; k < results->count; k++)
+            if (has_column(&results->runs[k])) put_value(out, &results->runs[k], j.figure);
+        put_judgement(out, &j);
+    }
+    fputc('\n', out);
+}
+
+static void put_across(FILE *out, const sb_case_results *results)
+{
+    char text[48];
+    if (results->problem[0]) fprintf(out, "Across resolutions: %s.\n\n", results->problem);
+    if (results->across.count == 0) return;
+    fputs("| across resolutions | unit | reference | ours | error | reach | spread | |\n"
+          "|---|---|---|---|---|---|---|---|\n",
+          out);
+    for (size_t i = 0; i < results->across.count; i++) {
+        const sb_figure *f = &results->across.rows[i];
+        sb_judgement j = {
+            .figure = f, .worst = f->error, .spread = (double)NAN, .pass = f->pass, .seeds = 1};
+        fputc('|', out);
+        put_cell(out, f->quantity);
+        put_cell(out, f->unit);
+        sb_text_number(text, f->reference);
+        put_cell(out, text);
+        sb_text_number(text, f->value);
+        put_cell(out, text);
+        put_judgement(out, &j);
+    }
+    fputc('\n', out);
+}
+
+static void put_notes(FILE *out, const sb_figures *figures)
+{
+    for (size_t i = 0; i < figures->count; i++)
+        if (figures->rows[i].note[0])
+            fprintf(out, "- %s: %s\n", figures->rows[i].quantity, figures->rows[i].note);
+}
+
+static void put_runs(FILE *out, const sb_case_results *results)
+{
+    fputs("| spacing (m) | preset | seed | particles | steps | sweeps per step | run time (s) | "
+          "threads | commit |\n|---|---|---|---|---|---|---|---|---|\n",
+          out);
+    for (size_t i = 0; i < results->count; i++) {
+        const sb_result *r = &results->runs[i];
+        fprintf(out, "| %.6g | %s | %d |", r->request.plan->resolution,
+                r->request.paper ? "paper" : "default", r->request.seed);
+        if (r->state == SB_RESULT_DONE)
+            fprintf(out, " %zu | %zu | %.1f | %.1f | %.0f | %s |\n", r->run.view.particles,
+                    r->run.view.steps, r->run.view.iterations, r->run.view.wall,
+                    sb_run_number(&r->run.view, "threads"), r->run.commit);
+        else
+            fprintf(out, " %s%.200s | | | | | |\n",
+                    r->state == SB_RESULT_FAILED ? "**failed**: " : "not run", r->problem);
+    }
+    fputc('\n', out);
+}
+
+void sb_report_case(FILE *out, const sb_case_results *results, const char *picture)
+{
+    const sb_result *judged = sb_results_judged(results);
+    fprintf(out, "<a id=\"%s\"></a>\n\n## %s\n\nCase `%s`. Reach: %s.\n\n%s\n\n", results->of->name,
+            results->of->title, results->of->name, results->of->reach, results->of->method);
+    if (picture) fprintf(out, "![%s](%s)\n\n", results->of->title, picture);
+    if (judged)
+        put_figures(out, results, judged);
+    else
+        fputs("Not run where it is judged.\n\n", out);
+    put_across(out, results);
+    if (judged) put_notes(out, &judged->figures);
+    put_notes(out, &results->across);
+    fputc('\n', out);
+    put_runs(out, results);
+}

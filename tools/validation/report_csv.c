@@ -1,0 +1,64 @@
+/* results.csv: every figure of every run. */
+#include "report.h"
+
+#include <math.h>
+#include <string.h>
+
+static void put_text(FILE *out, const char *text)
+{
+    bool quote = strpbrk(text, ",\"") != NULL;
+    if (quote) fputc('"', out);
+    for (; *text; text++) {
+        if (*text == '"') fputc('"', out);
+        fputc(*text, out);
+    }
+    if (quote) fputc('"', out);
+    fputc(',', out);
+}
+
+static void put_number(FILE *out, double value)
+{
+    if (!isnan(value)) fprintf(out, "%.6g", value);
+    fputc(',', out);
+}
+
+static void put_figure(FILE *out, const sb_figure *f)
+{
+    put_text(out, f->quantity);
+    put_text(out, f->unit);
+    put_number(out, f->reference);
+    put_number(out, f->value);
+    put_number(out, f->error);
+    put_text(out, f->error_unit);
+    put_number(out, f->limit);
+    fprintf(out, "%s,", isnan(f->limit) ? "reported" : f->pass ? "pass" : "FAIL");
+}
+
+static void put_run(FILE *out, const sb_result *r)
+{
+    for (size_t i = 0; i < r->figures.count; i++) {
+        fprintf(out, "%s,%.6g,%s,%d,%s,", r->request.of->name, r->request.plan->resolution,
+                r->request.paper ? "paper" : "default", r->request.seed,
+                r->request.plan->judged && !r->request.paper ? "yes" : "no");
+        put_figure(out, &r->figures.rows[i]);
+        fprintf(out, "%zu,%zu,%.2f,%.1f,%s\n", r->run.view.particles, r->run.view.steps,
+                r->run.view.iterations, r->run.view.wall, r->run.commit);
+    }
+}
+
+void sb_report_csv(FILE *out, const sb_report *report)
+{
+    fputs("case,resolution_m,preset,seed,judged,quantity,unit,reference,value,error,error_unit,"
+          "reach,verdict,particles,steps,sweeps_per_step,run_time_s,commit\n",
+          out);
+    for (size_t c = 0; c < report->count; c++) {
+        const sb_case_results *results = &report->cases[c];
+        for (size_t i = 0; i < results->count; i++)
+            if (results->runs[i].state == SB_RESULT_DONE) put_run(out, &results->runs[i]);
+        for (size_t i = 0; i < results->across.count; i++) {
+            fprintf(out, "%s,,default,1,yes,", results->of->name);
+            put_figure(out, &results->across.rows[i]);
+            fputs(",,,,\n", out);
+        }
+    }
+}

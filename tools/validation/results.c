@@ -1,0 +1,168 @@
+#include "results.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Adds a request to a list with room for it. */
+static void want(sb_request *requests, size_t *count, const sb_case *of, const sb_plan *plan,
+                 bool quick, bool paper, int seed)
+{
+    requests[(*count)++] =
+        (sb_request){.of = of, .plan = plan, .quick = quick, .paper = paper, .seed = seed};
+}
+
+sb_status sb_case_requests(const sb_case *of, bool quick, sb_request **requests, size_t *count,
+                           sb_error *error)
+{
+    const sb_plan *plans = quick ? of->quick : of->full;
+    size_t room = 0, n = 0;
+    for (const sb_plan *plan = plans; plan->resolution > 0; plan++)
+        room += 1 + (size_t)plan->paper + (size_t)(plan->seeds > 1 ? plan->seeds - 1 : 0);
+    sb_request *made = sb_alloc(room, sizeof *made);
+    if (!made) return sb_fail_memory(error, "runs");
+    for (const sb_plan *plan = plans; plan->resolution > 0; plan++)
+        want(made, &n, of, plan, quick, false, 1);
+    for (const sb_plan *plan = plans; plan->resolution > 0; plan++)
+        if (plan->paper) want(made, &n, of, plan, quick, true, 1);
+    for (const sb_plan *plan = plans; plan->resolution > 0; plan++)
+        for (int seed = 2; seed <= plan->seeds; seed++)
+            want(made, &n, of, plan, quick, false, seed);
+    *requests = made;
+    *count = n;
+    return SB_OK;
+}
+
+/* Fills in what only the request and the record know. */
+static void complete(const sb_store *store, sb_result *r)
+{
+    sb_case_run *view = &r->run.view;
+    sb_request_label(&r->request, false, r->run.label);
+    sb_store_recall(r->run.folder, "commit", r->run.commit, sizeof r->run.commit);
+    sb_store_recall(r->run.folder, "machine", r->run.machine, sizeof r->run.machine);
+    view->assets = store->assets;
+    view->preset = r->request.paper ? "paper" : "default";
+    view->seed = r->request.seed;
+    view->quick = r->request.quick;
+    view->judged = r->request.plan->judged;
+}
+
+void sb_result_read(const sb_store *store, bool any_build, sb_result *r)
+{
+    char folder[SB_PATH_MAX];
+    sb_error why = {0};
+    r->state = SB_RESULT_NOT_RUN;
+    if (!sb_store_find(store, &r->request, any_build, folder)) {
+        if (sb_store_failed(store, &r->request, r->problem, sizeof r->problem))
+            r->state = SB_RESULT_FAILED;
+        return;
+    }
+    sb_status status = sb_finished_read(&r->run, folder, &why);
+    if (status == SB_OK) {
+        complete(store, r);
+        status = r->request.of->evaluate(&r->run.view, &r->figures, &why);
+    }
+    r->state = status == SB_OK ? SB_RESULT_DONE : SB_RESULT_FAILED;
+    if (status != SB_OK) snprintf(r->problem, sizeof r->problem, "%.600s", why.text);
+}
+
+static void compare_runs(sb_case_results *results, sb_case_run *runs, sb_figures *figures)
+{
+    sb_error why = {0};
+    size_t count = 0;
+    for (size_t i = 0; i < results->count; i++) {
+        const sb_result *r = &results->runs[i];
+        if (r->state != SB_RESULT_DONE || r->request.paper || r->request.seed != 1) continue;
+        runs[count] = r->run.view;
+        figures[count++] = r->figures;
+    }
+    if (count < 2) return;
+    if (results->of->compare(runs, figures, count, &results->across, &why) != SB_OK)
+        snprintf(results->problem, sizeof results->problem, "%.600s", why.text);
+}
+
+sb_status sb_results_collect(const sb_store *store, const sb_case *of, bool quick, bool any_build,
+                             sb_case_results *results, sb_error *error)
+{
+    sb_request *requests = NULL;
+    size_t count = 0;
+    *results = (sb_case_results){.of = of};
+    sb_status status = sb_case_requests(of, quick, &requests, &count, error);
+    if (status != SB_OK) return status;
+    sb_case_run *views = sb_alloc(count, sizeof *views);
+    sb_figures *figures = sb_alloc(count, sizeof *figures);
+    results->runs = sb_alloc(count, sizeof *results->runs);
+    if (!views || !figures || !results->runs) status = sb_fail_memory(error, "results");
+    for (size_t i = 0; status == SB_OK && i < count; i++) {
+        results->runs[i].request = requests[i];
+        sb_result_read(store, any_build, &results->runs[i]);
+        results->count++;
+    }
+    if (status == SB_OK && of->compare) compare_runs(results, views, figures);
+    sb_free(views);
+    sb_free(figures);
+    sb_free(requests);
+    return status;
+}
+
+void sb_results_free(sb_case_results *results)
+{
+    for (size_t i = 0; i < results->count; i++) {
+        sb_finished_free(&results->runs[i].run);
+        sb_figures_free(&results->runs[i].figures);
+    }
+    sb_figures_free(&results->across);
+    sb_free(results->runs);
+    *results = (sb_case_results){0};
+}
+
+static bool is_judged(const sb_result *r)
+{
+    return r->request.plan->judged && !r->request.paper && r->state == SB_RESULT_DONE;
+}
+
+const sb_result *sb_results_judged(const sb_case_results *results)
+{
+    for (size_t i = 0; i < results->count; i++)
+        if (is_judged(&results->runs[i]) && results->runs[i].request.seed == 1)
+            return &results->runs[i];
+    return NULL;
+}
+
+sb_judgement sb_results_judge(const sb_case_results *results, size_t i)
+{
+    sb_judgement j = {.figure = &sb_results_judged(results)->figures.rows[i], .pass = true};
+    double sum = 0, low = (double)INFINITY, high = -(double)INFINITY;
+    j.worst = j.figure->error;
+    for (size_t k = 0; k < results->count; k++) {
+        if (!is_judged(&results->runs[k])) continue;
+        const sb_figure *f = sb_figures_find(&results->runs[k].figures, j.figure->quantity);
+        if (!f) continue;
+        sum += f->value;
+        low = f->value < low ? f->value : low;
+        high = f->value > high ? f->value : high;
+        if (isnan(f->error) || fabs(f->error) > fabs(j.worst)) j.worst = f->error;
+        j.pass = j.pass && f->pass;
+        j.seeds++;
+    }
+    j.mean = sum / (double)j.seeds;
+    j.spread = j.seeds > 1 ? high - low : (double)NAN;
+    return j;
+}
+
+void sb_results_count(const sb_case_results *results, size_t *limited, size_t *passed)
+{
+    const sb_result *judged = sb_results_judged(results);
+    *limited = *passed = 0;
+    for (size_t i = 0; judged && i < judged->figures.count; i++) {
+        if (isnan(judged->figures.rows[i].limit)) continue;
+        ++*limited;
+        *passed += sb_results_judge(results, i).pass;
+    }
+    for (size_t i = 0; i < results->across.count; i++) {
+        if (isnan(results->across.rows[i].limit)) continue;
+        ++*limited;
+        *passed += results->across.rows[i].pass;
+    }
+}

@@ -1,0 +1,93 @@
+#include "run.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static sb_status curve_of(const char *folder, const char *table, const char *where, const char *x,
+                          const char *y, sb_curve *curve, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    sb_sheet sheet = {0};
+    sb_error why = {0};
+    sb_status status = sb_path_join(path, folder, table, error);
+    if (status == SB_OK) status = sb_sheet_read(path, &sheet, error);
+    if (status != SB_OK) return status;
+    status = sb_sheet_curve(&sheet, where, x, y, curve, &why);
+    if (status != SB_OK) status = sb_fail(error, status, "%.400s: %.400s", path, why.text);
+    sb_sheet_free(&sheet);
+    return status;
+}
+
+sb_status sb_run_curve(const sb_case_run *run, const char *table, const char *where, const char *x,
+                       const char *y, sb_curve *curve, sb_error *error)
+{
+    return curve_of(run->folder, table, where, x, y, curve, error);
+}
+
+sb_status sb_reference_curve(const sb_case_run *run, const char *table, const char *where,
+                             const char *x, const char *y, sb_curve *curve, sb_error *error)
+{
+    return curve_of(run->assets, table, where, x, y, curve, error);
+}
+
+double sb_json_number_in(const char *text, const char *key)
+{
+    size_t length = strlen(key);
+    for (const char *at = strchr(text, '"'); at; at = strchr(at + 1, '"')) {
+        if (strncmp(at + 1, key, length) != 0 || strncmp(at + 1 + length, "\":", 2) != 0) continue;
+        const char *number = at + length + 3;
+        char *end;
+        double value = strtod(number, &end);
+        return end == number ? (double)NAN : value;
+    }
+    return (double)NAN;
+}
+
+static sb_status summary_text(const char *folder, char **text, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    size_t length;
+    sb_status status = sb_path_join(path, folder, "summary.json", error);
+    return status == SB_OK ? sb_file_read(path, (size_t)1 << 26, text, &length, error) : status;
+}
+
+double sb_run_number(const sb_case_run *run, const char *key)
+{
+    char *text = NULL;
+    if (summary_text(run->folder, &text, NULL) != SB_OK) return (double)NAN;
+    double value = sb_json_number_in(text, key);
+    sb_free(text);
+    return value;
+}
+
+sb_status sb_finished_read(sb_finished *run, const char *folder, sb_error *error)
+{
+    char path[SB_PATH_MAX], *text = NULL;
+    *run = (sb_finished){0};
+    snprintf(run->folder, sizeof run->folder, "%s", folder);
+    sb_status status = sb_path_join(path, folder, "scene.yaml", error);
+    if (status == SB_OK) status = sb_scene_read(path, NULL, NULL, 0, &run->scene, error);
+    if (status == SB_OK) status = summary_text(folder, &text, error);
+    if (status != SB_OK) {
+        sb_finished_free(run);
+        return status;
+    }
+    run->view = (sb_case_run){.folder = run->folder,
+                              .scene = &run->scene,
+                              .resolution = run->scene.resolution,
+                              .wall = sb_json_number_in(text, "wall_s"),
+                              .iterations = sb_json_number_in(text, "mean_iterations"),
+                              .particles = (size_t)sb_json_number_in(text, "fluid_particles"),
+                              .steps = (size_t)sb_json_number_in(text, "steps"),
+                              .label = run->label};
+    sb_free(text);
+    return SB_OK;
+}
+
+void sb_finished_free(sb_finished *run)
+{
+    sb_scene_free(&run->scene);
+}

@@ -1,0 +1,23 @@
+/* A finished run as the framework holds it: what sb_case_run points to. */
+#ifndef SB_VALIDATION_RUN_H
+#define SB_VALIDATION_RUN_H
+
+#include "base/file.h"
+#include "case.h"
+
+typedef struct sb_finished {
+    char folder[SB_PATH_MAX];
+    char label[96];
+    char threads[16], commit[64], machine[128]; /* of the run, from its record */
+    sb_scene scene;
+    sb_case_run view; /* points into this struct: copy no sb_finished */
+} sb_finished;
+
+/* Reads the folder's scene.yaml and summary.json; fills scene and the view's numbers. */
+sb_status sb_finished_read(sb_finished *run, const char *folder, sb_error *error);
+void sb_finished_free(sb_finished *run);
+
+/* The number behind the first "key": in a JSON text; NaN when there is none. */
+double sb_json_number_in(const char *text, const char *key);
+
+#endif

@@ -1,0 +1,158 @@
+#include "store.h"
+
+#include "base/memory.h"
+#include "origin.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const char record_name[] = "record.txt", failure_name[] = "failed.txt";
+
+sb_status sb_store_open(sb_store *store, const char *out, const char *program, const char *source,
+                        sb_error *error)
+{
+    sb_store made = {0};
+    char real[SB_PATH_MAX];
+    sb_status status = sb_make_directories(out, error);
+    if (status != SB_OK) return status;
+    if (!realpath(out, made.out))
+        return sb_fail(error, SB_FAILED, "%.400s: %s", out, strerror(errno));
+    if (!realpath(program, made.program) || access(made.program, X_OK) != 0)
+        return sb_fail(error, SB_BAD_INPUT, "%.400s: no such program", program);
+    status = sb_path_join(real, source, "assets/validation", error);
+    if (status != SB_OK) return status;
+    if (!realpath(real, made.assets))
+        return sb_fail(error, SB_BAD_INPUT, "%.400s: %s", real, strerror(errno));
+    status = sb_hash_file(made.program, &made.build, error);
+    if (status != SB_OK) return status;
+    sb_origin_commit(source, made.commit);
+    sb_origin_machine(made.machine);
+    *store = made;
+    return SB_OK;
+}
+
+/* The folder that holds the builds' folders of a request. */
+static sb_status group_folder(const sb_store *store, const sb_request *request,
+                              char folder[SB_PATH_MAX], sb_error *error)
+{
+    char scene[SB_PATH_MAX];
+    uint64_t hash = 0;
+    sb_status status = sb_path_join(scene, store->assets, request->of->scene, error);
+    if (status == SB_OK) status = sb_request_hash(request, scene, &hash, error);
+    if (status != SB_OK) return status;
+    int length = snprintf(folder, SB_PATH_MAX, "%s/runs/%s/%.6g-%s-%d-%016" PRIx64, store->out,
+                          request->of->name, request->plan->resolution,
+                          request->paper ? "paper" : "default", request->seed, hash);
+    return length < SB_PATH_MAX - 32
+               ? SB_OK
+               : sb_fail(error, SB_BAD_INPUT, "%.400s: the path is too long", store->out);
+}
+
+sb_status sb_store_folder(const sb_store *store, const sb_request *request,
+                          char folder[SB_PATH_MAX], sb_error *error)
+{
+    sb_status status = group_folder(store, request, folder, error);
+    if (status != SB_OK) return status;
+    size_t length = strlen(folder);
+    snprintf(folder + length, SB_PATH_MAX - length, "/%016" PRIx64, store->build);
+    return SB_OK;
+}
+
+/* When the record in this folder was written (s); -1 without one. */
+static double recorded(const char *folder)
+{
+    char path[SB_PATH_MAX];
+    struct stat info;
+    if (sb_path_join(path, folder, record_name, NULL) != SB_OK || stat(path, &info) != 0) return -1;
+    return (double)info.st_mtim.tv_sec + 1e-9 * (double)info.st_mtim.tv_nsec;
+}
+
+bool sb_store_find(const sb_store *store, const sb_request *request, bool any_build,
+                   char folder[SB_PATH_MAX])
+{
+    char group[SB_PATH_MAX], path[SB_PATH_MAX];
+    double newest = -1;
+    if (sb_store_folder(store, request, folder, NULL) != SB_OK) return false;
+    if (recorded(folder) >= 0) return true;
+    if (!any_build || group_folder(store, request, group, NULL) != SB_OK) return false;
+    DIR *builds = opendir(group);
+    for (struct dirent *entry; builds && (entry = readdir(builds));) {
+        if (entry->d_name[0] == '.' || sb_path_join(path, group, entry->d_name, NULL) != SB_OK)
+            continue;
+        double time = recorded(path);
+        if (time <= newest) continue;
+        newest = time;
+        snprintf(folder, SB_PATH_MAX, "%s", path);
+    }
+    if (builds) closedir(builds);
+    return newest >= 0;
+}
+
+static sb_status write_text(const char *folder, const char *name, const char *text, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    sb_atomic_file file;
+    sb_status status = sb_path_join(path, folder, name, error);
+    if (status == SB_OK) status = sb_atomic_open(&file, path, error);
+    if (status != SB_OK) return status;
+    fputs(text, file.stream);
+    return sb_atomic_commit(&file, 0, error);
+}
+
+sb_status sb_store_finish(const sb_store *store, const char *folder, sb_error *error)
+{
+    char text[512];
+    snprintf(text, sizeof text, "commit: %s\nmachine: %s\n", store->commit, store->machine);
+    return write_text(folder, record_name, text, error);
+}
+
+void sb_store_recall(const char *folder, const char *key, char *value, size_t size)
+{
+    char path[SB_PATH_MAX], line[512];
+    size_t length = strlen(key);
+    value[0] = '\0';
+    FILE *in = sb_path_join(path, folder, record_name, NULL) == SB_OK ? fopen(path, "r") : NULL;
+    while (in && fgets(line, sizeof line, in)) {
+        if (strncmp(line, key, length) != 0 || strncmp(line + length, ": ", 2) != 0) continue;
+        line[strcspn(line, "\n")] = '\0';
+        snprintf(value, size, "%s", line + length + 2);
+    }
+    if (in) fclose(in);
+}
+
+sb_status sb_store_forget(const char *folder, sb_error *error)
+{
+    static const char *const marks[] = {record_name, failure_name};
+    char path[SB_PATH_MAX];
+    for (int i = 0; i < 2; i++) {
+        sb_status status = sb_path_join(path, folder, marks[i], error);
+        if (status != SB_OK) return status;
+        if (unlink(path) != 0 && errno != ENOENT)
+            return sb_fail(error, SB_FAILED, "%.400s: %s", path, strerror(errno));
+    }
+    return SB_OK;
+}
+
+sb_status sb_store_fail(const char *folder, const char *reason, sb_error *error)
+{
+    return write_text(folder, failure_name, reason, error);
+}
+
+bool sb_store_failed(const sb_store *store, const sb_request *request, char *reason, size_t size)
+{
+    char folder[SB_PATH_MAX], path[SB_PATH_MAX], *text;
+    size_t length;
+    if (sb_store_folder(store, request, folder, NULL) != SB_OK ||
+        sb_path_join(path, folder, failure_name, NULL) != SB_OK ||
+        sb_file_read(path, 4096, &text, &length, NULL) != SB_OK)
+        return false;
+    text[strcspn(text, "\n")] = '\0';
+    snprintf(reason, size, "%s", text);
+    sb_free(text);
+    return true;
+}
