@@ -1,6 +1,11 @@
 /* The table of cases, in the order of the report. */
-#include "case.h"
+#include "cases.h"
 
+/* clang-format off */
 const sb_case *const sb_cases[] = {
+    &sb_case_still_water_flat,
+    &sb_case_still_water_box,
+    &sb_case_still_water_basin,
     NULL,
 };
+/* clang-format on */

@@ -31,7 +31,8 @@ static sb_status add(sb_figures *figures, sb_figure figure, const char *quantity
     snprintf(figure.unit, sizeof figure.unit, "%s", unit);
     snprintf(figure.error_unit, sizeof figure.error_unit, "%s", error_unit);
     vsnprintf(figure.note, sizeof figure.note, note, arguments);
-    figure.pass = isnan(figure.limit) || fabs(figure.error) <= figure.limit;
+    double size = figure.one_sided ? figure.error : fabs(figure.error);
+    figure.pass = isnan(figure.limit) || size <= figure.limit;
     figures->rows[figures->count++] = figure;
     return SB_OK;
 }
@@ -69,7 +70,11 @@ sb_status sb_figure_below(sb_figures *figures, const char *quantity, const char 
 {
     va_list arguments;
     va_start(arguments, note);
-    sb_figure figure = {.reference = (double)NAN, .value = value, .error = value, .limit = limit};
+    sb_figure figure = {.reference = (double)NAN,
+                        .value = value,
+                        .error = value,
+                        .limit = limit,
+                        .one_sided = true};
     sb_status status = add(figures, figure, quantity, unit, unit, error, note, arguments);
     va_end(arguments);
     return status;

@@ -16,7 +16,8 @@ typedef struct sb_figure {
     double value;                  /* NaN: could not be measured, which fails a judged figure */
     double error;                  /* as `error_unit` says; NaN: none */
     char error_unit[16];           /* "%", or the unit of an absolute error */
-    double limit; /* reach: |error| <= limit, in error_unit; NaN: reported, not judged */
+    double limit;   /* reach: |error| <= limit, in error_unit; NaN: reported, not judged */
+    bool one_sided; /* error <= limit is enough, however negative */
     bool pass;
     char note[SB_FIGURE_NOTE]; /* window, filter, lag, how it is counted */
 } sb_figure;
@@ -43,8 +44,8 @@ sb_status sb_figure_share(sb_figures *figures, const char *quantity, const char 
 sb_status sb_figure_difference(sb_figures *figures, const char *quantity, const char *unit,
                                double reference, double value, double limit, sb_error *error,
                                const char *note, ...) __attribute__((format(printf, 8, 9)));
-/* The value is itself an error in `unit` ("%" for percents) and must not exceed the limit; there is
- * no reference. */
+/* The value is itself an error in `unit` ("%" for percents); value <= limit passes, so give a
+   magnitude where both signs count. There is no reference. */
 sb_status sb_figure_below(sb_figures *figures, const char *quantity, const char *unit, double value,
                           double limit, sb_error *error, const char *note, ...)
     __attribute__((format(printf, 7, 8)));

@@ -130,6 +130,12 @@ const sb_result *sb_results_judged(const sb_case_results *results)
     return NULL;
 }
 
+/* By which errors are compared. */
+static double size_of(const sb_figure *figure, double error)
+{
+    return figure->one_sided ? error : fabs(error);
+}
+
 sb_judgement sb_results_judge(const sb_case_results *results, size_t i)
 {
     sb_judgement j = {.figure = &sb_results_judged(results)->figures.rows[i], .pass = true};
@@ -142,7 +148,7 @@ sb_judgement sb_results_judge(const sb_case_results *results, size_t i)
         sum += f->value;
         low = f->value < low ? f->value : low;
         high = f->value > high ? f->value : high;
-        if (isnan(f->error) || fabs(f->error) > fabs(j.worst)) j.worst = f->error;
+        if (isnan(f->error) || size_of(f, f->error) > size_of(f, j.worst)) j.worst = f->error;
         j.pass = j.pass && f->pass;
         j.seeds++;
     }

@@ -1,0 +1,342 @@
+/* Water at rest: a slice, a cube, and a basin with slope, stairs, pillar and pocket. */
+#include "cases.h"
+#include "frames.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* s: means leave out what is before. */
+static const double START = 1;
+
+/* Rate of the water's weight that all bodies bear, -sum Fz / (M g), over time. */
+static sb_status bearing(const sb_case_run *run, sb_curve *share, sb_error *error)
+{
+    const sb_scene *scene = run->scene;
+    sb_curve mass = {0}, total = {0};
+    sb_status status = sb_run_curve(run, "energy.csv", NULL, "time_s", "mass_kg", &mass, error);
+    for (size_t b = 0; status == SB_OK && b < scene->body_count; b++) {
+        sb_curve force = {0};
+        status =
+            sb_run_curve(run, "forces.csv", scene->bodies[b].name, "time_s", "Fz_N", &force, error);
+        for (size_t i = 0; i < force.count && total.count; i++) total.y[i] += force.y[i];
+        if (total.count)
+            sb_curve_free(&force);
+        else
+            total = force;
+    }
+    if (status == SB_OK) {
+        sb_curve_map(&total, 1, 0, -1 / (scene->fluid.gravity * mass.y[0]), 0);
+        *share = total;
+    } else
+        sb_curve_free(&total);
+    sb_curve_free(&mass);
+    return status;
+}
+
+/* Mean over particles and files of p - rho g (level - z), by layers of one spacing. */
+enum { LAYERS = 512 };
+typedef struct profile {
+    const sb_scene *scene;
+    double bottom;
+    double excess[LAYERS], pressure[LAYERS], height[LAYERS], square;
+    size_t count[LAYERS], total;
+} profile;
+
+static void add_frame(void *context, const sb_frame *frame)
+{
+    profile *p = context;
+    double weight = p->scene->fluid.density * p->scene->fluid.gravity;
+    for (size_t i = 0; i < frame->count; i++) {
+        double z = frame->origin.z + (double)frame->position[3 * i + 2];
+        double excess = (double)frame->pressure[i] - weight * (p->scene->sea.level - z);
+        double layer = floor((z - p->bottom) / p->scene->resolution);
+        if (!(layer >= 0 && layer < LAYERS)) continue;
+        size_t k = (size_t)layer;
+        p->excess[k] += excess;
+        p->pressure[k] += (double)frame->pressure[i];
+        p->height[k] += z;
+        p->count[k]++;
+        p->square += excess * excess;
+        p->total++;
+    }
+}
+
+static double still_depth(const sb_scene *scene)
+{
+    return scene->sea.level - scene->bodies[0].min.z;
+}
+
+/* Layers with less than this share of the particles are no layers: single ones above the surface.
+ */
+static int is_layer(const profile *p, size_t k)
+{
+    return p->count[k] > 0.004 * (double)p->total;
+}
+
+static sb_status read_profile(const sb_case_run *run, profile *p, sb_error *error)
+{
+    *p = (profile){.scene = run->scene, .bottom = run->scene->bodies[0].min.z};
+    return sb_run_frames(run, 0.5 * run->scene->duration, HUGE_VAL, add_frame, p, error);
+}
+
+static sb_status figure_pressure(const sb_case_run *run, sb_figures *figures, sb_error *error)
+{
+    profile *p = sb_alloc(1, sizeof *p);
+    if (!p) return sb_fail_memory(error, "a profile");
+    sb_status status = read_profile(run, p, error);
+    double scale = run->scene->fluid.density * run->scene->fluid.gravity * still_depth(run->scene);
+    double worst = 0;
+    size_t at = 0;
+    for (size_t k = 0; k < LAYERS; k++) {
+        if (!is_layer(p, k)) continue;
+        double miss = p->excess[k] / (double)p->count[k];
+        if (fabs(miss) <= fabs(worst)) continue;
+        worst = miss;
+        at = k;
+    }
+    if (status == SB_OK)
+        status = sb_figure_below(figures, "pressure profile, worst layer", "%",
+                                 100 * fabs(worst) / scale, 1, error,
+                                 "of rho g D; means over layers one spacing thick and over the "
+                                 "particle files of the second half; worst in layer %zu from the "
+                                 "floor, %+.1f Pa",
+                                 at + 1, worst);
+    if (status == SB_OK)
+        status = sb_figure_report(figures, "pressure of single particles, RMS error", "%",
+                                  (double)NAN, 100 * sqrt(p->square / (double)p->total) / scale,
+                                  error, "of rho g D, same files");
+    sb_free(p);
+    return status;
+}
+
+static sb_status figure_level(const sb_case_run *run, sb_figures *figures, sb_error *error)
+{
+    const sb_scene *scene = run->scene;
+    double worst = 0;
+    const char *name = "";
+    for (size_t g = 0; g < scene->measure.gauge_count; g++) {
+        sb_curve eta = {0};
+        sb_status status = sb_run_curve(run, "gauges.csv", scene->measure.gauges[g].name, "time_s",
+                                        "eta_m", &eta, error);
+        if (status != SB_OK) return status;
+        double miss = sb_curve_mean(&eta, START, HUGE_VAL) - scene->sea.level;
+        sb_curve_free(&eta);
+        if (!(fabs(miss) <= fabs(worst))) {
+            worst = miss;
+            name = scene->measure.gauges[g].name;
+        }
+    }
+    return sb_figure_below(
+        figures, "level, worst gauge", "spacings", fabs(worst) / scene->resolution, 0.5, error,
+        "mean after %g s minus still-water level: %+.4f m at gauge %s", START, worst, name);
+}
+
+static sb_status figure_energy(const sb_case_run *run, sb_figures *figures, sb_error *error)
+{
+    sb_curve kinetic = {0}, mass = {0};
+    double end = run->scene->duration, half = 0.5 * end;
+    sb_status status =
+        sb_run_curve(run, "energy.csv", NULL, "time_s", "kinetic_J", &kinetic, error);
+    if (status == SB_OK)
+        status = sb_run_curve(run, "energy.csv", NULL, "time_s", "mass_kg", &mass, error);
+    if (status == SB_OK) {
+        double before = sb_curve_mean(&kinetic, START, half);
+        double after = sb_curve_mean(&kinetic, half, HUGE_VAL);
+        double speed = sqrt(2 * after / mass.y[0]);
+        double celerity = sqrt(run->scene->fluid.gravity * still_depth(run->scene));
+        status = sb_figure_below(
+            figures, "kinetic energy, growth", "%", 100 * (after / before - 1), 5, error,
+            "mean of the second half over that of the first after %g s; two means of a steady "
+            "unrest differ by some per cent",
+            START);
+        if (status == SB_OK)
+            status = sb_figure_report(figures, "speed, root mean square", "%", (double)NAN,
+                                      100 * speed / celerity, error, "of sqrt(g D), second half");
+    }
+    sb_curve_free(&kinetic);
+    sb_curve_free(&mass);
+    return status;
+}
+
+static sb_status figure_force(const sb_case_run *run, sb_figures *figures, sb_error *error)
+{
+    sb_curve share = {0};
+    sb_status status = bearing(run, &share, error);
+    if (status != SB_OK) return status;
+    double mean = sb_curve_mean(&share, START, HUGE_VAL);
+    status =
+        sb_figure_share(figures, "force on all bodies, mean", "weights", 1, mean, 1, 0.2, error,
+                        "upward reaction of tank and all that stands in it over the weight of all "
+                        "particles, after %g s",
+                        START);
+    if (status == SB_OK)
+        status = sb_figure_below(figures, "force on all bodies, standard deviation", "%",
+                                 100 * sb_curve_deviation(&share, START, HUGE_VAL), 1, error,
+                                 "of the weight; of means over %g s, no filter",
+                                 run->scene->measure.interval);
+    sb_curve_free(&share);
+    return status;
+}
+
+static sb_status figure_mass(const sb_case_run *run, double volume, sb_figures *figures,
+                             sb_error *error)
+{
+    sb_curve mass = {0};
+    sb_status status = sb_run_curve(run, "energy.csv", NULL, "time_s", "mass_kg", &mass, error);
+    if (status != SB_OK) return status;
+    double expected = run->scene->fluid.density * volume;
+    status = sb_figure_report(figures, "mass of water", run->scene->dimensions == 2 ? "kg/m" : "kg",
+                              expected, mass.y[mass.count - 1], error, "at the end");
+    sb_curve_free(&mass);
+    return status;
+}
+
+static sb_status evaluate(const sb_case_run *run, double volume, sb_figures *figures,
+                          sb_error *error)
+{
+    sb_status status = figure_force(run, figures, error);
+    if (status == SB_OK) status = figure_energy(run, figures, error);
+    if (status == SB_OK) status = figure_pressure(run, figures, error);
+    if (status == SB_OK) status = figure_level(run, figures, error);
+    return status == SB_OK ? figure_mass(run, volume, figures, error) : status;
+}
+
+static sb_status evaluate_tank(const sb_case_run *run, sb_figures *figures, sb_error *error)
+{
+    return evaluate(run, 1, figures, error); /* 1 m x (1 m x) 1 m */
+}
+
+/* Of basin.yaml: the tank less stairs, pillar, pocket's walls and slope. */
+static sb_status evaluate_basin(const sb_case_run *run, sb_figures *figures, sb_error *error)
+{
+    double volume = 3 * 0.6 - 0.2 * (0.45 + 0.3 + 0.15) - M_PI * 0.12 * 0.12 * 0.6 -
+                    2 * 0.2 * 0.4 * 0.45 - (0.75 * 0.6 / 2 + 0.25 * 0.6);
+    return evaluate(run, volume, figures, error);
+}
+
+static sb_status plot_force(const sb_case_run *run, sb_plot *plot, sb_error *error)
+{
+    sb_curve share = {0}, smooth = {0};
+    sb_status status = bearing(run, &share, error);
+    if (status == SB_OK) status = sb_curve_mean_filter(&share, 0.1, &smooth, error);
+    if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, run->label, &smooth, error);
+    sb_curve_free(&share);
+    sb_curve_free(&smooth);
+    return status;
+}
+
+static sb_status plot_energy(const sb_case_run *run, sb_plot *plot, sb_error *error)
+{
+    sb_curve kinetic = {0}, smooth = {0};
+    sb_status status =
+        sb_run_curve(run, "energy.csv", NULL, "time_s", "kinetic_J", &kinetic, error);
+    if (status == SB_OK) status = sb_curve_mean_filter(&kinetic, 0.1, &smooth, error);
+    if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, run->label, &smooth, error);
+    sb_curve_free(&kinetic);
+    sb_curve_free(&smooth);
+    return status;
+}
+
+static sb_status plot_profile(const sb_case_run *run, sb_plot *plot, sb_error *error)
+{
+    sb_curve curve = {0};
+    double scale = run->scene->fluid.density * run->scene->fluid.gravity * still_depth(run->scene);
+    profile *p = sb_alloc(1, sizeof *p);
+    sb_status status = p ? read_profile(run, p, error) : sb_fail_memory(error, "a profile");
+    for (size_t k = 0; status == SB_OK && k < LAYERS; k++) {
+        double n = (double)p->count[k];
+        if (is_layer(p, k))
+            status = sb_curve_add(&curve, p->height[k] / n, p->excess[k] / n / scale * 100, error);
+    }
+    if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, run->label, &curve, error);
+    sb_curve_free(&curve);
+    sb_free(p);
+    return status;
+}
+
+static sb_status plot_line(sb_plot *plot, const char *label, double x0, double x1, double y,
+                           sb_error *error)
+{
+    double x[] = {x0, x1}, values[] = {y, y};
+    return sb_plot_curve(plot, SB_PLOT_REFERENCE, label,
+                         &(sb_curve){.count = 2, .x = x, .y = values}, error);
+}
+
+static sb_status draw(const sb_case_run *runs, size_t count, sb_plot *plot, sb_error *error)
+{
+    double end = runs[0].scene->duration, depth = still_depth(runs[0].scene);
+    sb_status status = sb_plot_panel(plot, "Force on all bodies, 0.1 s running mean", "time (s)",
+                                     "over the weight", error);
+    if (status == SB_OK) status = plot_line(plot, "the weight", 0, end, 1, error);
+    for (size_t i = 0; status == SB_OK && i < count; i++)
+        status = plot_force(&runs[i], plot, error);
+    if (status == SB_OK)
+        status = sb_plot_panel(plot, "Kinetic energy, 0.1 s running mean", "time (s)",
+                               runs[0].scene->dimensions == 2 ? "J/m" : "J", error);
+    for (size_t i = 0; status == SB_OK && i < count; i++)
+        status = plot_energy(&runs[i], plot, error);
+    if (status == SB_OK)
+        status =
+            sb_plot_panel(plot, "Pressure minus hydrostatic, means of layers over the second half",
+                          "height above the floor (m)", "% of rho g D", error);
+    if (status == SB_OK) status = plot_line(plot, "hydrostatic", 0, depth, 0, error);
+    for (size_t i = 0; status == SB_OK && i < count; i++)
+        status = plot_profile(&runs[i], plot, error);
+    return status;
+}
+
+#define REACH                                                                                      \
+    "mean force on floor and bodies = weight within 0.2 %, standard deviation at most 1 %; "       \
+    "kinetic energy does not "                                                                     \
+    "grow; pressure profile within 1 % of rho g D; level within half a spacing"
+#define METHOD                                                                                     \
+    "Reference: statics. 20 s from rest, after the settling that the defaults do. D is the still " \
+    "depth, the weight that "                                                                      \
+    "of the particles\nthere are. Forces are summed over every body that touches water."
+
+static const sb_plan flat_full[] = {{.resolution = 0.1, .paper = true},
+                                    {.resolution = 0.05, .paper = true, .judged = true, .seeds = 3},
+                                    {.resolution = 0.025},
+                                    {.resolution = 0}};
+static const sb_plan flat_quick[] = {{.resolution = 0.05, .judged = true}, {.resolution = 0}};
+static const sb_plan box_quick[] = {{.resolution = 0.1, .judged = true}, {.resolution = 0}};
+static const char *const shorter[] = {"duration=8", NULL};
+static const sb_plan basin_quick[] = {{.resolution = 0.075, .judged = true, .settings = shorter},
+                                      {.resolution = 0}};
+
+const sb_case sb_case_still_water_flat = {.name = "still-water-2d",
+                                          .title = "Still water in a slice of a tank",
+                                          .reach = REACH,
+                                          .method = METHOD,
+                                          .scene = "still-water/flat.yaml",
+                                          .headline = "force on all bodies, standard deviation",
+                                          .full = flat_full,
+                                          .quick = flat_quick,
+                                          .evaluate = evaluate_tank,
+                                          .plot = draw};
+
+const sb_case sb_case_still_water_box = {.name = "still-water-box",
+                                         .title = "Still water in a cube",
+                                         .reach = REACH,
+                                         .method = METHOD,
+                                         .scene = "still-water/box.yaml",
+                                         .headline = "force on all bodies, standard deviation",
+                                         .full = flat_full,
+                                         .quick = box_quick,
+                                         .evaluate = evaluate_tank,
+                                         .plot = draw};
+
+const sb_case sb_case_still_water_basin = {
+    .name = "still-water-basin",
+    .title = "Still water in a basin with slope, stairs, pillar and pocket",
+    .reach = REACH,
+    .method = METHOD,
+    .scene = "still-water/basin.yaml",
+    .headline = "force on all bodies, standard deviation",
+    .full = flat_full,
+    .quick = basin_quick,
+    .evaluate = evaluate_basin,
+    .plot = draw};

@@ -1,0 +1,11 @@
+/* The rows of the table of cases, each in a file case_<name>.c. */
+#ifndef SB_VALIDATION_CASES_H
+#define SB_VALIDATION_CASES_H
+
+#include "case.h"
+
+extern const sb_case sb_case_still_water_flat;
+extern const sb_case sb_case_still_water_box;
+extern const sb_case sb_case_still_water_basin;
+
+#endif
