@@ -118,6 +118,27 @@ static void front_is_the_reach_of_connected_water(void **state)
     }
 }
 
+/* One layer whose particles have drifted 1.8 spacings apart is water still; at 2.1 it is drops. */
+static void front_follows_a_thin_film(void **state)
+{
+    (void)state;
+    for (int torn = 0; torn < 2; torn++) {
+        double spacing = 0.5, gap = torn ? 2.1 * spacing : 1.8 * spacing, last = 5.75;
+        fake_world world;
+        fake_world_make(&world, 2, spacing, sb_vec(0, 0, 0), sb_vec(40, 0, 20));
+        fake_fill(&world, sb_vec(0, 0, 0), sb_vec(6, 0, 1), 0, 0, 0, 1);
+        for (int k = 1; k <= 5; k++)
+            fake_add(&world.sim, sb_vec(last + k * gap, 0, 0.25), sb_vec(0, 0, 0), 0);
+        const sb_runup_line line = {"floor", 0, 0, 40, 0};
+        sb_sight sight = fake_sight(&world);
+        sb_runup_record record;
+        assert_int_equal(sb_runup_read(&sight, &line, &record, NULL), SB_OK);
+        double front = (torn ? last : last + 5 * gap) + spacing / 2;
+        assert_true(fabs(record.front - front) < 1e-9);
+        fake_world_free(&world);
+    }
+}
+
 /* A block of 4 x 6 x 3 m over the grid: depth 3 inside; volume is kept for any cell size. */
 static void map_keeps_volume(void **state)
 {
@@ -206,6 +227,7 @@ int main(void)
         cmocka_unit_test(plane_in_two_dimensions),
         cmocka_unit_test(runup_is_the_top_of_connected_water),
         cmocka_unit_test(front_is_the_reach_of_connected_water),
+        cmocka_unit_test(front_follows_a_thin_film),
         cmocka_unit_test(map_keeps_volume),
         cmocka_unit_test(map_tells_arrival),
         cmocka_unit_test(faces_tell_the_depth),
