@@ -6,6 +6,7 @@ const sb_case *const sb_cases[] = {
     &sb_case_still_water_flat,
     &sb_case_still_water_box,
     &sb_case_still_water_basin,
+    &sb_case_standing_wave,
     NULL,
 };
 /* clang-format on */

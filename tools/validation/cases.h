@@ -7,5 +7,6 @@
 extern const sb_case sb_case_still_water_flat;
 extern const sb_case sb_case_still_water_box;
 extern const sb_case sb_case_still_water_basin;
+extern const sb_case sb_case_standing_wave;
 
 #endif

@@ -72,11 +72,23 @@ static _Noreturn void become(const sb_store *store, const char *scene, const job
     _exit(127);
 }
 
+/* A scene that cannot be read is a failed run; the others go on. */
+static sb_status refuse(crew *c, const sb_request *request, sb_error *error)
+{
+    char label[96];
+    sb_request_label(request, true, label);
+    printf("%s: failed, %s\n", label, error->text);
+    c->failed++;
+    *error = (sb_error){0};
+    return SB_OK;
+}
+
 static sb_status begin(crew *c, const sb_request *request, job *j, sb_error *error)
 {
     char scene[SB_PATH_MAX];
     *j = (job){.request = request, .start = sb_clock()};
     sb_status status = sb_store_folder(c->store, request, j->folder, error);
+    if (status == SB_BAD_INPUT) return refuse(c, request, error);
     if (status == SB_OK) status = sb_path_join(scene, c->store->assets, request->of->scene, error);
     if (status == SB_OK) status = sb_make_directories(j->folder, error);
     if (status == SB_OK) status = sb_store_forget(j->folder, error);

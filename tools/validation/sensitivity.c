@@ -41,37 +41,53 @@ static void want_changes(study *s, const sb_numerics *defaults)
     }
 }
 
-/* Launches what one case wants, from its first to its last result. */
-static sb_status run(const sb_store *store, const study *s, size_t first, size_t last, int jobs,
-                     size_t *failed, sb_error *error)
+/* Launches what the studies want: as it is (first), or all the changes. */
+static sb_status run(const sb_store *store, const study *studies, size_t count, bool first,
+                     int jobs, size_t *failed, sb_error *error)
 {
-    sb_request *requests = sb_alloc(s->count, sizeof *requests);
-    size_t count = 0, bad = 0;
+    size_t room = 0, n = 0, bad = 0;
+    for (size_t c = 0; c < count; c++) room += studies[c].count;
+    sb_request *requests = sb_alloc(room, sizeof *requests);
     if (!requests) return sb_fail_memory(error, "runs");
-    for (size_t i = first; i < last; i++)
-        if (s->results[i].request.of) requests[count++] = s->results[i].request;
-    sb_status status = sb_launch(store, requests, count, jobs, &bad, error);
+    for (size_t c = 0; c < count; c++)
+        for (size_t i = first ? 0 : 1; i < (first ? 1 : studies[c].count); i++)
+            if (studies[c].results[i].request.of) requests[n++] = studies[c].results[i].request;
+    sb_status status = sb_launch(store, requests, n, jobs, &bad, error);
     *failed += bad;
     sb_free(requests);
     return status;
 }
 
-static sb_status study_case(const sb_store *store, const sb_case *of, study *s, int jobs,
-                            bool report_only, size_t *failed, sb_error *error)
+static sb_status begin(study *s, const sb_case *of, sb_error *error)
 {
     s->count = 1 + FACTORS * key_count();
     s->results = sb_alloc(s->count, sizeof *s->results);
     if (!s->results) return sb_fail_memory(error, "a study");
     s->results[0].request =
         (sb_request){.of = of, .plan = judged_plan(of), .quick = true, .seed = 1};
-    sb_status status = report_only ? SB_OK : run(store, s, 0, 1, jobs, failed, error);
-    if (status != SB_OK) return status;
-    sb_result_read(store, report_only, &s->results[0]);
-    if (s->results[0].state != SB_RESULT_DONE) return SB_OK;
-    want_changes(s, &s->results[0].run.scene.numerics);
-    if (!report_only) status = run(store, s, 1, s->count, jobs, failed, error);
-    for (size_t i = 1; status == SB_OK && i < s->count; i++)
-        if (s->results[i].request.of) sb_result_read(store, report_only, &s->results[i]);
+    return SB_OK;
+}
+
+static sb_status study_all(const sb_store *store, study *studies, const sb_case *const *cases,
+                           size_t count, int jobs, bool report_only, size_t *failed,
+                           sb_error *error)
+{
+    sb_status status = SB_OK;
+    for (size_t c = 0; status == SB_OK && c < count; c++)
+        status = begin(&studies[c], cases[c], error);
+    if (status == SB_OK && !report_only)
+        status = run(store, studies, count, true, jobs, failed, error);
+    for (size_t c = 0; status == SB_OK && c < count; c++) {
+        sb_result *base = &studies[c].results[0];
+        sb_result_read(store, report_only, base);
+        if (base->state == SB_RESULT_DONE) want_changes(&studies[c], &base->run.scene.numerics);
+    }
+    if (status == SB_OK && !report_only)
+        status = run(store, studies, count, false, jobs, failed, error);
+    for (size_t c = 0; status == SB_OK && c < count; c++)
+        for (size_t i = 1; i < studies[c].count; i++)
+            if (studies[c].results[i].request.of)
+                sb_result_read(store, report_only, &studies[c].results[i]);
     return status;
 }
 
@@ -174,8 +190,8 @@ sb_status sb_sensitivity(const sb_store *store, const sb_case *const *cases, siz
     study *studies = sb_alloc(count, sizeof *studies);
     sb_status status = studies ? SB_OK : sb_fail_memory(error, "studies");
     *failed = 0;
-    for (size_t c = 0; status == SB_OK && c < count; c++)
-        status = study_case(store, cases[c], &studies[c], jobs, report_only, failed, error);
+    if (status == SB_OK)
+        status = study_all(store, studies, cases, count, jobs, report_only, failed, error);
     if (status == SB_OK) status = write_report(store, studies, cases, count, command, path, error);
     for (size_t c = 0; studies && c < count; c++) {
         for (size_t i = 0; studies[c].results && i < studies[c].count; i++) {
