@@ -7,6 +7,13 @@ const sb_case *const sb_cases[] = {
     &sb_case_still_water_box,
     &sb_case_still_water_basin,
     &sb_case_standing_wave,
+    &sb_case_front_etsin,
+    &sb_case_front_martin_moyce,
+    &sb_case_front_koshizuka,
+    &sb_case_wall_pressure,
+    &sb_case_wall_pressure_3d,
+    &sb_case_column,
+    &sb_case_island,
     NULL,
 };
 /* clang-format on */

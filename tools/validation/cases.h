@@ -8,5 +8,12 @@ extern const sb_case sb_case_still_water_flat;
 extern const sb_case sb_case_still_water_box;
 extern const sb_case sb_case_still_water_basin;
 extern const sb_case sb_case_standing_wave;
+extern const sb_case sb_case_front_etsin;
+extern const sb_case sb_case_front_martin_moyce;
+extern const sb_case sb_case_front_koshizuka;
+extern const sb_case sb_case_wall_pressure;
+extern const sb_case sb_case_wall_pressure_3d;
+extern const sb_case sb_case_column;
+extern const sb_case sb_case_island;
 
 #endif
