@@ -20,6 +20,13 @@ typedef struct sb_plan {
         *settings; /* further KEY=VALUE for `shorebreak run --set`, ended by NULL; NULL: none */
 } sb_plan;
 
+/* The table of a run that was read last, kept because the next curve often comes from the same one.
+ */
+typedef struct sb_sheet_slot {
+    char *path; /* NULL: none */
+    sb_sheet sheet;
+} sb_sheet_slot;
+
 /* A finished run. All of it belongs to the framework. */
 typedef struct sb_case_run {
     const char *folder;    /* its scene.yaml, CSVs and summary.json */
@@ -33,6 +40,7 @@ typedef struct sb_case_run {
     double iterations; /* mean per step */
     size_t particles, steps;
     const char *label; /* for plots: "0.05 m", "0.05 m, paper", "0.05 m, seed 2" */
+    sb_sheet_slot *slot;
 } sb_case_run;
 
 /* A curve of the run's table, for example ("forces.csv", "column", "time_s", "Fx_N"); see sheet.h.

@@ -221,7 +221,7 @@ static sb_status plot_force(const sb_case_run *run, sb_plot *plot, sb_error *err
 {
     sb_curve share = {0}, smooth = {0};
     sb_status status = bearing(run, &share, error);
-    if (status == SB_OK) status = sb_curve_mean_filter(&share, 0.1, &smooth, error);
+    if (status == SB_OK) status = sb_curve_mean_filter(&share, 0.5, &smooth, error);
     if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, run->label, &smooth, error);
     sb_curve_free(&share);
     sb_curve_free(&smooth);
@@ -233,7 +233,7 @@ static sb_status plot_energy(const sb_case_run *run, sb_plot *plot, sb_error *er
     sb_curve kinetic = {0}, smooth = {0};
     sb_status status =
         sb_run_curve(run, "energy.csv", NULL, "time_s", "kinetic_J", &kinetic, error);
-    if (status == SB_OK) status = sb_curve_mean_filter(&kinetic, 0.1, &smooth, error);
+    if (status == SB_OK) status = sb_curve_mean_filter(&kinetic, 0.5, &smooth, error);
     if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, run->label, &smooth, error);
     sb_curve_free(&kinetic);
     sb_curve_free(&smooth);
@@ -268,13 +268,13 @@ static sb_status plot_line(sb_plot *plot, const char *label, double x0, double x
 static sb_status draw(const sb_case_run *runs, size_t count, sb_plot *plot, sb_error *error)
 {
     double end = runs[0].scene->duration, depth = still_depth(runs[0].scene);
-    sb_status status = sb_plot_panel(plot, "Force on all bodies, 0.1 s running mean", "time (s)",
+    sb_status status = sb_plot_panel(plot, "Force on all bodies, 0.5 s running mean", "time (s)",
                                      "over the weight", error);
     if (status == SB_OK) status = plot_line(plot, "the weight", 0, end, 1, error);
     for (size_t i = 0; status == SB_OK && i < count; i++)
         status = plot_force(&runs[i], plot, error);
     if (status == SB_OK)
-        status = sb_plot_panel(plot, "Kinetic energy, 0.1 s running mean", "time (s)",
+        status = sb_plot_panel(plot, "Kinetic energy, 0.5 s running mean", "time (s)",
                                runs[0].scene->dimensions == 2 ? "J/m" : "J", error);
     for (size_t i = 0; status == SB_OK && i < count; i++)
         status = plot_energy(&runs[i], plot, error);

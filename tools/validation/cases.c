@@ -7,6 +7,9 @@ const sb_case *const sb_cases[] = {
     &sb_case_still_water_box,
     &sb_case_still_water_basin,
     &sb_case_standing_wave,
+    &sb_case_solitary_wave,
+    &sb_case_runup_breaking,
+    &sb_case_runup_nonbreaking,
     &sb_case_front_etsin,
     &sb_case_front_martin_moyce,
     &sb_case_front_koshizuka,
@@ -14,6 +17,7 @@ const sb_case *const sb_cases[] = {
     &sb_case_wall_pressure_3d,
     &sb_case_column,
     &sb_case_island,
+    &sb_case_energy,
     NULL,
 };
 /* clang-format on */

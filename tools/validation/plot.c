@@ -215,7 +215,7 @@ static void put_script(FILE *out, const sb_plot *plot, const char *name, const c
     put_quoted(out, picture);
     fprintf(out,
             "\nset grid lt 1 lw 0.5 lc rgb '#dddddd'\nset border 3 lc rgb '#555555'\n"
-            "set tics nomirror\nset key outside right top Left reverse\nset lmargin 10\n"
+            "set tics nomirror\nset key outside right top Left reverse\nset lmargin 12\n"
             "set rmargin 30\nset multiplot layout %zu,1\n",
             plot->panel_count);
     for (size_t p = 0; p < plot->panel_count; p++) {

@@ -53,6 +53,11 @@ void sb_result_read(const sb_store *store, bool any_build, sb_result *r)
     char folder[SB_PATH_MAX];
     sb_error why = {0};
     r->state = SB_RESULT_NOT_RUN;
+    if (sb_store_folder(store, &r->request, folder, &why) != SB_OK) {
+        r->state = SB_RESULT_FAILED;
+        snprintf(r->problem, sizeof r->problem, "%.600s", why.text);
+        return;
+    }
     if (!sb_store_find(store, &r->request, any_build, folder)) {
         if (sb_store_failed(store, &r->request, r->problem, sizeof r->problem))
             r->state = SB_RESULT_FAILED;

@@ -6,31 +6,51 @@
 #include <stdlib.h>
 #include <string.h>
 
-static sb_status curve_of(const char *folder, const char *table, const char *where, const char *x,
-                          const char *y, sb_curve *curve, sb_error *error)
+static void empty(sb_sheet_slot *slot)
+{
+    sb_free(slot->path);
+    sb_sheet_free(&slot->sheet);
+    slot->path = NULL;
+}
+
+/* Has the slot hold this table. */
+static sb_status fill(sb_sheet_slot *slot, const char *path, sb_error *error)
+{
+    if (slot->path && strcmp(slot->path, path) == 0) return SB_OK;
+    empty(slot);
+    sb_status status = sb_sheet_read(path, &slot->sheet, error);
+    if (status != SB_OK) return status;
+    slot->path = sb_strdup(path);
+    return slot->path ? SB_OK : sb_fail_memory(error, path);
+}
+
+static sb_status curve_of(sb_sheet_slot *slot, const char *folder, const char *table,
+                          const char *where, const char *x, const char *y, sb_curve *curve,
+                          sb_error *error)
 {
     char path[SB_PATH_MAX];
-    sb_sheet sheet = {0};
     sb_error why = {0};
     sb_status status = sb_path_join(path, folder, table, error);
-    if (status == SB_OK) status = sb_sheet_read(path, &sheet, error);
+    if (status == SB_OK) status = fill(slot, path, error);
     if (status != SB_OK) return status;
-    status = sb_sheet_curve(&sheet, where, x, y, curve, &why);
-    if (status != SB_OK) status = sb_fail(error, status, "%.400s: %.400s", path, why.text);
-    sb_sheet_free(&sheet);
+    status = sb_sheet_curve(&slot->sheet, where, x, y, curve, &why);
+    if (status != SB_OK) sb_fail(error, status, "%.400s: %.400s", path, why.text);
     return status;
 }
 
 sb_status sb_run_curve(const sb_case_run *run, const char *table, const char *where, const char *x,
                        const char *y, sb_curve *curve, sb_error *error)
 {
-    return curve_of(run->folder, table, where, x, y, curve, error);
+    return curve_of(run->slot, run->folder, table, where, x, y, curve, error);
 }
 
 sb_status sb_reference_curve(const sb_case_run *run, const char *table, const char *where,
                              const char *x, const char *y, sb_curve *curve, sb_error *error)
 {
-    return curve_of(run->assets, table, where, x, y, curve, error);
+    sb_sheet_slot own = {0};
+    sb_status status = curve_of(&own, run->assets, table, where, x, y, curve, error);
+    empty(&own);
+    return status;
 }
 
 double sb_json_number_in(const char *text, const char *key)
@@ -82,12 +102,14 @@ sb_status sb_finished_read(sb_finished *run, const char *folder, sb_error *error
                               .iterations = sb_json_number_in(text, "mean_iterations"),
                               .particles = (size_t)sb_json_number_in(text, "fluid_particles"),
                               .steps = (size_t)sb_json_number_in(text, "steps"),
-                              .label = run->label};
+                              .label = run->label,
+                              .slot = &run->slot};
     sb_free(text);
     return SB_OK;
 }
 
 void sb_finished_free(sb_finished *run)
 {
+    empty(&run->slot);
     sb_scene_free(&run->scene);
 }

@@ -10,6 +10,7 @@ typedef struct sb_finished {
     char label[96];
     char threads[16], commit[64], machine[128]; /* of the run, from its record */
     sb_scene scene;
+    sb_sheet_slot slot;
     sb_case_run view; /* points into this struct: copy no sb_finished */
 } sb_finished;
 
