@@ -1,8 +1,6 @@
 /* Water at rest: a slice, a cube, and a basin with slope, stairs, pillar and pocket. */
 #include "cases.h"
-#include "frames.h"
-
-#include "base/memory.h"
+#include "still_pressure.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -33,82 +31,6 @@ static sb_status bearing(const sb_case_run *run, sb_curve *share, sb_error *erro
     } else
         sb_curve_free(&total);
     sb_curve_free(&mass);
-    return status;
-}
-
-/* Mean over particles and files of p - rho g (level - z), by layers of one spacing. */
-enum { LAYERS = 512 };
-typedef struct profile {
-    const sb_scene *scene;
-    double bottom;
-    double excess[LAYERS], pressure[LAYERS], height[LAYERS], square;
-    size_t count[LAYERS], total;
-} profile;
-
-static void add_frame(void *context, const sb_frame *frame)
-{
-    profile *p = context;
-    double weight = p->scene->fluid.density * p->scene->fluid.gravity;
-    for (size_t i = 0; i < frame->count; i++) {
-        double z = frame->origin.z + (double)frame->position[3 * i + 2];
-        double excess = (double)frame->pressure[i] - weight * (p->scene->sea.level - z);
-        double layer = floor((z - p->bottom) / p->scene->resolution);
-        if (!(layer >= 0 && layer < LAYERS)) continue;
-        size_t k = (size_t)layer;
-        p->excess[k] += excess;
-        p->pressure[k] += (double)frame->pressure[i];
-        p->height[k] += z;
-        p->count[k]++;
-        p->square += excess * excess;
-        p->total++;
-    }
-}
-
-static double still_depth(const sb_scene *scene)
-{
-    return scene->sea.level - scene->bodies[0].min.z;
-}
-
-/* Layers with less than this share of the particles are no layers: single ones above the surface.
- */
-static int is_layer(const profile *p, size_t k)
-{
-    return p->count[k] > 0.004 * (double)p->total;
-}
-
-static sb_status read_profile(const sb_case_run *run, profile *p, sb_error *error)
-{
-    *p = (profile){.scene = run->scene, .bottom = run->scene->bodies[0].min.z};
-    return sb_run_frames(run, 0.5 * run->scene->duration, HUGE_VAL, add_frame, p, error);
-}
-
-static sb_status figure_pressure(const sb_case_run *run, sb_figures *figures, sb_error *error)
-{
-    profile *p = sb_alloc(1, sizeof *p);
-    if (!p) return sb_fail_memory(error, "a profile");
-    sb_status status = read_profile(run, p, error);
-    double scale = run->scene->fluid.density * run->scene->fluid.gravity * still_depth(run->scene);
-    double worst = 0;
-    size_t at = 0;
-    for (size_t k = 0; k < LAYERS; k++) {
-        if (!is_layer(p, k)) continue;
-        double miss = p->excess[k] / (double)p->count[k];
-        if (fabs(miss) <= fabs(worst)) continue;
-        worst = miss;
-        at = k;
-    }
-    if (status == SB_OK)
-        status = sb_figure_below(figures, "pressure profile, worst layer", "%",
-                                 100 * fabs(worst) / scale, 1, error,
-                                 "of rho g D; means over layers one spacing thick and over the "
-                                 "particle files of the second half; worst in layer %zu from the "
-                                 "floor, %+.1f Pa",
-                                 at + 1, worst);
-    if (status == SB_OK)
-        status = sb_figure_report(figures, "pressure of single particles, RMS error", "%",
-                                  (double)NAN, 100 * sqrt(p->square / (double)p->total) / scale,
-                                  error, "of rho g D, same files");
-    sb_free(p);
     return status;
 }
 
@@ -146,7 +68,7 @@ static sb_status figure_energy(const sb_case_run *run, sb_figures *figures, sb_e
         double before = sb_curve_mean(&kinetic, START, half);
         double after = sb_curve_mean(&kinetic, half, HUGE_VAL);
         double speed = sqrt(2 * after / mass.y[0]);
-        double celerity = sqrt(run->scene->fluid.gravity * still_depth(run->scene));
+        double celerity = sqrt(run->scene->fluid.gravity * sb_still_depth(run->scene));
         status = sb_figure_below(
             figures, "kinetic energy, growth", "%", 100 * (after / before - 1), 5, error,
             "mean of the second half over that of the first after %g s; two means of a steady "
@@ -199,7 +121,7 @@ static sb_status evaluate(const sb_case_run *run, double volume, sb_figures *fig
 {
     sb_status status = figure_force(run, figures, error);
     if (status == SB_OK) status = figure_energy(run, figures, error);
-    if (status == SB_OK) status = figure_pressure(run, figures, error);
+    if (status == SB_OK) status = sb_still_figures(run, figures, error);
     if (status == SB_OK) status = figure_level(run, figures, error);
     return status == SB_OK ? figure_mass(run, volume, figures, error) : status;
 }
@@ -240,23 +162,6 @@ static sb_status plot_energy(const sb_case_run *run, sb_plot *plot, sb_error *er
     return status;
 }
 
-static sb_status plot_profile(const sb_case_run *run, sb_plot *plot, sb_error *error)
-{
-    sb_curve curve = {0};
-    double scale = run->scene->fluid.density * run->scene->fluid.gravity * still_depth(run->scene);
-    profile *p = sb_alloc(1, sizeof *p);
-    sb_status status = p ? read_profile(run, p, error) : sb_fail_memory(error, "a profile");
-    for (size_t k = 0; status == SB_OK && k < LAYERS; k++) {
-        double n = (double)p->count[k];
-        if (is_layer(p, k))
-            status = sb_curve_add(&curve, p->height[k] / n, p->excess[k] / n / scale * 100, error);
-    }
-    if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, run->label, &curve, error);
-    sb_curve_free(&curve);
-    sb_free(p);
-    return status;
-}
-
 static sb_status plot_line(sb_plot *plot, const char *label, double x0, double x1, double y,
                            sb_error *error)
 {
@@ -267,7 +172,7 @@ static sb_status plot_line(sb_plot *plot, const char *label, double x0, double x
 
 static sb_status draw(const sb_case_run *runs, size_t count, sb_plot *plot, sb_error *error)
 {
-    double end = runs[0].scene->duration, depth = still_depth(runs[0].scene);
+    double end = runs[0].scene->duration, depth = sb_still_depth(runs[0].scene);
     sb_status status = sb_plot_panel(plot, "Force on all bodies, 0.5 s running mean", "time (s)",
                                      "over the weight", error);
     if (status == SB_OK) status = plot_line(plot, "the weight", 0, end, 1, error);
@@ -284,7 +189,7 @@ static sb_status draw(const sb_case_run *runs, size_t count, sb_plot *plot, sb_e
                           "height above the floor (m)", "% of rho g D", error);
     if (status == SB_OK) status = plot_line(plot, "hydrostatic", 0, depth, 0, error);
     for (size_t i = 0; status == SB_OK && i < count; i++)
-        status = plot_profile(&runs[i], plot, error);
+        status = sb_still_plot(&runs[i], plot, error);
     return status;
 }
 

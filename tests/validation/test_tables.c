@@ -1,0 +1,194 @@
+/* Tables are read strictly; every reference table and every scene of a case is sound. */
+#include "check.h"
+
+#include "base/file.h"
+#include "request.h"
+#include "results.h"
+#include "sensitivity.h"
+#include "sheet.h"
+
+#include "base/memory.h"
+
+#include <ftw.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static char path[] = "/tmp/sb-sheet-XXXXXX";
+
+static const char *written(const char *text)
+{
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    fputs(text, out);
+    assert_int_equal(fclose(out), 0);
+    return path;
+}
+
+static void test_a_sheet_gives_its_columns(void **state)
+{
+    (void)state;
+    sb_sheet sheet;
+    sb_curve curve = {0};
+    assert_int_equal(
+        sb_sheet_read(written("# cited\ntime_s,body,Fx_N_per_m\r\n0,a,1\n0,\"b \"\"q\"\", c\",2\n"
+                              "1,a,\n1,\"b \"\"q\"\", c\",4\n2,a,5"),
+                      &sheet, NULL),
+        SB_OK);
+    assert_int_equal(sheet.rows, 4); /* the last line is not finished */
+    assert_int_equal(sb_sheet_column(&sheet, "Fx_N"), 2);
+    assert_int_equal(sb_sheet_column(&sheet, "F"), (size_t)-1);
+    assert_string_equal(sb_sheet_text(&sheet, 1, 1), "b \"q\", c");
+    assert_int_equal(sb_sheet_curve(&sheet, "a", "time_s", "Fx_N", &curve, NULL), SB_OK);
+    assert_int_equal(curve.count, 2);
+    assert_near(curve.y[0], 1, 0);
+    assert_true(isnan(curve.y[1]));
+    sb_curve_free(&curve);
+    sb_error error = {0};
+    assert_int_equal(sb_sheet_curve(&sheet, "c", "time_s", "Fx_N", &curve, &error), SB_BAD_INPUT);
+    assert_int_equal(sb_sheet_curve(&sheet, "a", "time_s", "Fy_N", &curve, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "Fy_N"));
+    sb_sheet_free(&sheet);
+}
+
+static void test_a_ragged_line_is_named(void **state)
+{
+    (void)state;
+    sb_sheet sheet;
+    sb_error error = {0};
+    assert_int_equal(sb_sheet_read(written("# c\na,b\n1,2\n3\n"), &sheet, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, ":4: 1 fields, expected 2"));
+    assert_int_equal(sb_sheet_read(written(""), &sheet, &error), SB_BAD_INPUT);
+}
+
+static int tables;
+
+/* Cites its source, has numbers in all columns of all rows but names, and is small. */
+static int look(const char *file, const struct stat *info, int kind, struct FTW *where)
+{
+    (void)where;
+    size_t length = strlen(file);
+    if (kind != FTW_F || length < 4 || strcmp(file + length - 4, ".csv") != 0) return 0;
+    sb_sheet sheet;
+    sb_error error = {0};
+    if (sb_sheet_read(file, &sheet, &error) != SB_OK) fail_msg("%s", error.text);
+    if (sheet.text[0] != '#') fail_msg("%s cites no source", file);
+    if (info->st_size > 100000) fail_msg("%s has %ld bytes", file, (long)info->st_size);
+    assert_true(sheet.rows >= 2 && sheet.columns >= 2);
+    for (size_t row = 0; row < sheet.rows; row++)
+        for (size_t k = 0; k < sheet.columns; k++)
+            if (k != 1 && isnan(sb_sheet_number(&sheet, row, k)) && *sb_sheet_text(&sheet, row, k))
+                fail_msg("%s, row %zu: %s is no number", file, row + 1,
+                         sb_sheet_text(&sheet, row, k));
+    sb_sheet_free(&sheet);
+    tables++;
+    return 0;
+}
+
+static void test_reference_tables_are_sound(void **state)
+{
+    (void)state;
+    assert_int_equal(nftw(SB_SOURCE_DIR "/assets/validation", look, 16, FTW_PHYS), 0);
+    assert_true(tables >= 2);
+}
+
+/* Every case has a name of its own, what it needs, one judged line, and scenes that can be read as
+ * they will be run. */
+static void test_cases_are_sound(void **state)
+{
+    (void)state;
+    for (size_t i = 0; sb_cases[i]; i++) {
+        const sb_case *of = sb_cases[i];
+        assert_non_null(of->evaluate);
+        assert_non_null(of->plot);
+        for (size_t k = 0; k < i; k++) assert_string_not_equal(of->name, sb_cases[k]->name);
+        for (int quick = 0; quick < 2; quick++) {
+            sb_request *requests = NULL;
+            sb_error error = {0};
+            size_t count = 0, judged = 0;
+            char scene[SB_PATH_MAX];
+            assert_int_equal(sb_case_requests(of, quick, &requests, &count, NULL), SB_OK);
+            assert_int_equal(
+                sb_path_join(scene, SB_SOURCE_DIR "/assets/validation", of->scene, NULL), SB_OK);
+            for (size_t r = 0; r < count; r++) {
+                uint64_t hash = 0;
+                if (sb_request_hash(&requests[r], scene, &hash, &error) != SB_OK)
+                    fail_msg("%s: %s", of->name, error.text);
+                judged += requests[r].plan->judged && !requests[r].paper && requests[r].seed == 1;
+            }
+            if (judged != 1) fail_msg("%s: %zu judged lines, expected 1", of->name, judged);
+            sb_free(requests);
+        }
+    }
+}
+
+static void test_what_is_asked_decides_the_hash(void **state)
+{
+    (void)state;
+    static const char *const longer[] = {"duration=21", NULL};
+    sb_plan plan = {.resolution = 0.05}, other = {.resolution = 0.05, .settings = longer};
+    const char *scene = SB_SOURCE_DIR "/assets/validation/still-water/flat.yaml";
+    sb_request base = {.of = sb_cases[0], .plan = &plan, .seed = 1}, changed[4];
+    for (int i = 0; i < 4; i++) changed[i] = base;
+    changed[0].seed = 2;
+    changed[1].paper = true;
+    changed[2].plan = &other;
+    snprintf(changed[3].change, sizeof changed[3].change, "numerics.cfl=0.3");
+    uint64_t first = 0, again = 0;
+    assert_int_equal(sb_request_hash(&base, scene, &first, NULL), SB_OK);
+    assert_int_equal(sb_request_hash(&base, scene, &again, NULL), SB_OK);
+    assert_true(first == again);
+    for (int i = 0; i < 4; i++) {
+        uint64_t hash = 0;
+        assert_int_equal(sb_request_hash(&changed[i], scene, &hash, NULL), SB_OK);
+        assert_true(hash != first);
+    }
+}
+
+static void test_changes_of_defaults_stay_within_their_keys(void **state)
+{
+    (void)state;
+    sb_scene scene;
+    char change[64];
+    assert_int_equal(sb_scene_read(SB_SOURCE_DIR "/assets/validation/still-water/flat.yaml", NULL,
+                                   NULL, 0, &scene, NULL),
+                     SB_OK);
+    scene.numerics.warm_start = 0.9;
+    scene.numerics.cfl = 0.4;
+    scene.numerics.wall_friction = 0;
+    for (const sb_sensitivity_key *key = sb_sensitivity_keys; key->key; key++) {
+        sb_sensitivity_change(key, &scene.numerics, 1.25, change);
+        if (strcmp(key->key, "warm_start") == 0)
+            assert_string_equal(change, "numerics.warm_start=1");
+        if (strcmp(key->key, "cfl") == 0) assert_string_equal(change, "numerics.cfl=0.5");
+        if (strcmp(key->key, "wall_friction") == 0) assert_string_equal(change, "");
+    }
+    sb_scene_free(&scene);
+}
+
+static int set_up(void **state)
+{
+    (void)state;
+    int file = mkstemp(path);
+    return file < 0 ? -1 : close(file);
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    return unlink(path);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_a_sheet_gives_its_columns),
+        cmocka_unit_test(test_a_ragged_line_is_named),
+        cmocka_unit_test(test_reference_tables_are_sound),
+        cmocka_unit_test(test_cases_are_sound),
+        cmocka_unit_test(test_what_is_asked_decides_the_hash),
+        cmocka_unit_test(test_changes_of_defaults_stay_within_their_keys),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}

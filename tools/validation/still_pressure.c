@@ -1,0 +1,134 @@
+#include "still_pressure.h"
+
+#include "base/memory.h"
+#include "frames.h"
+
+#include <math.h>
+
+double sb_still_depth(const sb_scene *scene)
+{
+    return scene->sea.level - scene->bodies[0].min.z;
+}
+
+/* Mean over particles and files of p - rho g (level - z), by layers of one spacing. */
+enum { LAYERS = 512 };
+typedef struct profile {
+    const sb_scene *scene;
+    double bottom;
+    double excess[LAYERS], pressure[LAYERS], height[LAYERS], square;
+    size_t count[LAYERS], total;
+} profile;
+
+static void add_frame(void *context, const sb_frame *frame)
+{
+    profile *p = context;
+    double weight = p->scene->fluid.density * p->scene->fluid.gravity;
+    for (size_t i = 0; i < frame->count; i++) {
+        double z = frame->origin.z + (double)frame->position[3 * i + 2];
+        double excess = (double)frame->pressure[i] - weight * (p->scene->sea.level - z);
+        double layer = floor((z - p->bottom) / p->scene->resolution);
+        if (!(layer >= 0 && layer < LAYERS)) continue;
+        size_t k = (size_t)layer;
+        p->excess[k] += excess;
+        p->pressure[k] += (double)frame->pressure[i];
+        p->height[k] += z;
+        p->count[k]++;
+        p->square += excess * excess;
+        p->total++;
+    }
+}
+
+/* Layers with less than this share of the particles are no layers: single ones above the surface.
+ */
+static int is_layer(const profile *p, size_t k)
+{
+    return p->count[k] > 0.004 * (double)p->total;
+}
+
+static sb_status read_profile(const sb_case_run *run, profile *p, sb_error *error)
+{
+    *p = (profile){.scene = run->scene, .bottom = run->scene->bodies[0].min.z};
+    return sb_run_frames(run, 0.5 * run->scene->duration, HUGE_VAL, add_frame, p, error);
+}
+
+static sb_status figure_layers(const sb_case_run *run, sb_figures *figures, sb_error *error)
+{
+    profile *p = sb_alloc(1, sizeof *p);
+    if (!p) return sb_fail_memory(error, "a profile");
+    sb_status status = read_profile(run, p, error);
+    double scale =
+        run->scene->fluid.density * run->scene->fluid.gravity * sb_still_depth(run->scene);
+    double worst = 0;
+    size_t at = 0;
+    for (size_t k = 0; k < LAYERS; k++) {
+        if (!is_layer(p, k)) continue;
+        double miss = p->excess[k] / (double)p->count[k];
+        if (fabs(miss) <= fabs(worst)) continue;
+        worst = miss;
+        at = k;
+    }
+    if (status == SB_OK)
+        status = sb_figure_below(figures, "pressure profile, worst layer", "%",
+                                 100 * fabs(worst) / scale, 1, error,
+                                 "of rho g D; means over layers one spacing thick and over the "
+                                 "particle files of the second half; worst in layer %zu from the "
+                                 "floor, %+.1f Pa",
+                                 at + 1, worst);
+    if (status == SB_OK)
+        status = sb_figure_report(figures, "pressure of single particles, RMS error", "%",
+                                  (double)NAN, 100 * sqrt(p->square / (double)p->total) / scale,
+                                  error, "of rho g D, same files");
+    sb_free(p);
+    return status;
+}
+
+/* What the scene's probes read, on walls and within. */
+static sb_status figure_probes(const sb_case_run *run, sb_figures *figures, sb_error *error)
+{
+    const sb_scene *scene = run->scene;
+    double weight = scene->fluid.density * scene->fluid.gravity, worst = 0;
+    const char *name = "none";
+    for (size_t i = 0; i < scene->measure.probe_count; i++) {
+        const sb_probe *probe = &scene->measure.probes[i];
+        sb_curve pressure = {0};
+        sb_status status =
+            sb_run_curve(run, "probes.csv", probe->name, "time_s", "p_Pa", &pressure, error);
+        if (status != SB_OK) return status;
+        double miss = sb_curve_mean(&pressure, 0.5 * scene->duration, HUGE_VAL) -
+                      weight * (scene->sea.level - probe->at.z);
+        sb_curve_free(&pressure);
+        if (!(fabs(miss) <= fabs(worst))) {
+            worst = miss;
+            name = probe->name;
+        }
+    }
+    return sb_figure_below(
+        figures, "pressure at probes, worst", "%",
+        100 * fabs(worst) / (weight * sb_still_depth(scene)), 1, error,
+        "of rho g D; mean of the second half, %zu probes on walls and within; %+.1f Pa at %s",
+        scene->measure.probe_count, worst, name);
+}
+
+sb_status sb_still_figures(const sb_case_run *run, sb_figures *figures, sb_error *error)
+{
+    sb_status status = figure_probes(run, figures, error);
+    return status == SB_OK ? figure_layers(run, figures, error) : status;
+}
+
+sb_status sb_still_plot(const sb_case_run *run, sb_plot *plot, sb_error *error)
+{
+    sb_curve curve = {0};
+    double scale =
+        run->scene->fluid.density * run->scene->fluid.gravity * sb_still_depth(run->scene);
+    profile *p = sb_alloc(1, sizeof *p);
+    sb_status status = p ? read_profile(run, p, error) : sb_fail_memory(error, "a profile");
+    for (size_t k = 0; status == SB_OK && k < LAYERS; k++) {
+        double n = (double)p->count[k];
+        if (is_layer(p, k))
+            status = sb_curve_add(&curve, p->height[k] / n, p->excess[k] / n / scale * 100, error);
+    }
+    if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, run->label, &curve, error);
+    sb_curve_free(&curve);
+    sb_free(p);
+    return status;
+}
