@@ -66,14 +66,17 @@ void sb_report_summary_line(FILE *out, const sb_case_results *results)
     char value[48], error[48];
     const char *said = verdict(results, &limited, &passed);
     const sb_result *judged = sb_results_judged(results);
-    fprintf(out, "| [%s](#%s) | %s | ", results->of->title, results->of->name, results->of->reach);
+    fprintf(out, "| [%s](#%s) |", results->of->title, results->of->name);
+    put_cell(out, results->of->reach);
+    fputc(' ', out);
     for (size_t i = 0; judged && i < judged->figures.count; i++) {
         if (strcmp(judged->figures.rows[i].quantity, results->of->headline) != 0) continue;
         sb_judgement j = sb_results_judge(results, i);
         sb_text_number(value, j.mean);
         sb_text_error(error, j.worst, j.figure->error_unit);
-        fprintf(out, "%s: %s%s%s, error %s; ", j.figure->quantity, value,
-                j.figure->unit[0] ? " " : "", j.figure->unit, error);
+        fprintf(out, "%s: %s%s%s", j.figure->quantity, value, j.figure->unit[0] ? " " : "",
+                j.figure->unit);
+        fprintf(out, isnan(j.worst) ? "; " : ", error %s; ", error);
     }
     if (judged) fprintf(out, "%zu of %zu within reach", passed, limited);
     if (judged && passed < limited) {

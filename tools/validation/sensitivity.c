@@ -162,7 +162,10 @@ static void put_all(FILE *out, const sb_store *store, const study *studies,
         const sb_figure *f =
             r->state == SB_RESULT_DONE ? sb_figures_find(&r->figures, cases[c]->headline) : NULL;
         fprintf(out, "- %s: %s", cases[c]->name, cases[c]->headline);
-        if (f) fprintf(out, ", error in %s, reach %.4g", f->error_unit, f->limit);
+        if (f && isnan(f->error)) fprintf(out, ", value in %s", f->unit);
+        if (f && !isnan(f->error))
+            fprintf(out, ", error%s%s, reach %.4g", f->error_unit[0] ? " in " : "", f->error_unit,
+                    f->limit);
         fprintf(out, ", at %.6g m\n", r->request.plan->resolution);
     }
     fputs("\n## Run times (s)\n\n", out);
