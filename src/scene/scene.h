@@ -25,7 +25,7 @@ typedef struct sb_fluid_properties {
 
 typedef struct sb_domain {
     sb_vec3 min, max;              /* m */
-    sb_side_kind side[SB_SIDES];   /* periodic sides come in pairs */
+    sb_side_kind side[SB_SIDES];   /* periodic: pairs along x or y */
 } sb_domain;
 
 /* The sea: all space below `level` reachable from `seed`. */
@@ -214,6 +214,12 @@ typedef struct sb_scene {
     sb_stream_settings stream;
     sb_output_settings output;
 } sb_scene;
+
+/* Whether the domain repeats along an axis (0, 1, 2); never across a 2D slice. */
+static inline bool sb_scene_repeats(const sb_scene *scene, int axis)
+{
+    return scene->domain.side[2 * axis] == SB_SIDE_PERIODIC && !(scene->dimensions == 2 && axis == 1);
+}
 
 /* One --set KEY=VALUE. key: dotted path, list items by index or name: "bodies.reactor1.scale".
    value: YAML text. */

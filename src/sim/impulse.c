@@ -7,11 +7,20 @@
 
 enum { VALUES = 9 }; /* pressure, friction, moment */
 
-/* at: m, where the forces (N) act. */
+/* From an image of a boundary particle to itself: what pushes across a periodic side acts over there. */
+static sb_vec3 way_home(const sb_space *space, sb_record image)
+{
+    if (!space->repeats)
+        return (sb_vec3){0};
+    return sb_sub(sb_space_position(space, sb_space_wrap(space, image)), sb_space_position(space, image));
+}
+
+/* at: m, where the forces (N) act, as seen from the water. */
 static void add(const sb_sim *sim, double *sum, uint32_t wall, sb_vec3 at, sb_vec3 pressure, sb_vec3 drag)
 {
     const sb_wall_set *set = &sim->walls[wall >> 31];
     const uint32_t body = set->body[wall & 0x7fffffffu];
+    at = sb_add(at, way_home(&sim->space, set->record[wall & 0x7fffffffu]));
     sb_vec3 arm = sb_sub(at, sim->model->bodies[body].moment_point);
     sb_vec3 moment = sb_cross(arm, sb_add(pressure, drag));
     const double values[VALUES] = {pressure.x, pressure.y, pressure.z, drag.x,  drag.y,

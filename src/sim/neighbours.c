@@ -67,7 +67,7 @@ static bool list_reserve(list *l, size_t more)
 }
 
 SB_INLINE void gather_cell(surroundings *s, const sb_record *record, uint32_t begin, uint32_t end,
-                           sb_record corner, uint32_t mark)
+                           sb_record corner, uint32_t base)
 {
     if (s->count + (end - begin) > CANDIDATES) {
         s->count = CANDIDATES + 1;
@@ -79,20 +79,20 @@ SB_INLINE void gather_cell(surroundings *s, const sb_record *record, uint32_t be
         s->y[s->count] = d[1];
         s->z[s->count] = d[2];
         s->weight[s->count] = sb_carried_value(record[k]);
-        s->index[s->count++] = k | mark;
+        s->index[s->count++] = base + k;
     }
 }
 
-/* All records of `cells` in the 27 (2D: 9) cells around `code`, in a fixed order. */
+/* All records of `cells` in the 27 (2D: 9) cells around `code`, in a fixed order, numbered from `base`. */
 SB_INLINE void gather(surroundings *s, const sb_cells *cells, const sb_record *record, uint64_t code,
-                      sb_record corner, int layers, uint32_t mark)
+                      sb_record corner, int layers, uint32_t base)
 {
     for (int dz = -1; dz <= 1; dz++)
         for (int dy = -layers; dy <= layers; dy++)
             for (int dx = -1; dx <= 1; dx++) {
                 int64_t cell = sb_cells_find(cells, code + sb_cell_step(dx, dy, dz));
                 if (cell >= 0 && s->count <= CANDIDATES)
-                    gather_cell(s, record, cells->begin[cell], cells->begin[cell + 1], corner, mark);
+                    gather_cell(s, record, cells->begin[cell], cells->begin[cell + 1], corner, base);
             }
 }
 
@@ -275,6 +275,8 @@ SB_INLINE bool around(sb_sim *sim, worker *w, size_t i, sb_record *corner)
                           sim->position[i][2] >> shift << shift, 0};
     w->fluid.count = w->wall.count = 0;
     gather(&w->fluid, &sim->cells, sim->position, code, *corner, layers, 0);
+    if (sim->ghosts.count > 0 && sb_space_at_edge(&sim->space, sim->position[i]))
+        gather(&w->fluid, &sim->ghosts.cells, sim->position + sim->n, code, *corner, layers, (uint32_t)sim->n);
     for (uint32_t s = 0; s < SB_WALL_SETS; s++)
         if (sb_walls_near(&sim->walls[s], &sim->space, sim->position[i]))
             gather(&w->wall, &sim->walls[s].cells, sim->walls[s].record, code, *corner, layers, s << 31);

@@ -9,6 +9,13 @@ void sb_pressure_load(sb_sim *sim, const float *argument)
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++)
         sb_carry(&position[i], argument[i]);
+    const size_t ghosts = sim->ghosts.count;
+    const uint32_t *of = sim->ghosts.of;
+    if (ghosts == 0)
+        return;
+#pragma omp parallel for schedule(static)
+    for (size_t g = 0; g < ghosts; g++)
+        sb_carry(&position[n + g], argument[of[g]]);
 }
 
 SB_MULTIVERSION
@@ -69,6 +76,7 @@ void sb_pressure_product(sb_sim *sim, float *out)
     const size_t blocks = sb_blocks(sim);
     const float dt = (float)sim->report.time_step;
     sb_pressure_accelerate(sim);
+    sb_ghosts_refresh(sim, sim->acceleration);
 #pragma omp parallel for schedule(dynamic, 1)
     for (size_t b = 0; b < blocks; b++)
         diverge_block(sim, b, dt * dt, out);

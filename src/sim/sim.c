@@ -78,7 +78,21 @@ static int allocate(sb_sim *sim, size_t n, size_t bodies)
         memcpy(rows[r].field, &memory, sizeof memory);
         sim->bytes_fixed += rows[r].count * rows[r].size;
     }
+    sim->capacity = n;
     return 0;
+}
+
+/* Positions in quanta, and where the domain repeats. */
+static sb_status create_space(sb_sim *sim, sb_error *error)
+{
+    const sb_vec3 size = sb_sub(sim->model->max, sim->model->min);
+    const double length[3] = {size.x, size.y, size.z};
+    sb_status status =
+        sb_space_create(sim->model->min, sim->model->max, (double)sim->constant.support, &sim->space, error);
+    for (int axis = 0; axis < 3 && status == SB_OK; axis++)
+        if (sb_scene_repeats(sim->scene, axis))
+            sb_space_repeat(&sim->space, axis, length[axis]);
+    return status;
 }
 
 static void fill_particles(sb_sim *sim)
@@ -109,6 +123,8 @@ static void note_skipped(sb_sim *sim)
         sim->skipped[s++] = "viscosity: both coefficients are 0, no pass over pairs";
     if (!(n->wall_friction > 0))
         sim->skipped[s++] = "wall friction: coefficient is 0";
+    if (!sim->space.repeats)
+        sim->skipped[s++] = "periodic sides: none, no ghosts";
     if (sim->moving_count == 0)
         sim->skipped[s++] = "moving walls: no body moves";
     if (sim->constant.dimension == 2)
@@ -133,7 +149,7 @@ sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **s
                          model->fluid_count, 1 << 27);
     if (status == SB_OK) {
         made->constant = make_constants(scene, model);
-        status = sb_space_create(model->min, model->max, (double)made->constant.support, &made->space, error);
+        status = create_space(made, error);
     }
     if (status == SB_OK && allocate(made, model->fluid_count, model->body_count) != 0)
         status = sb_fail_memory(error, "fluid particles");
@@ -175,6 +191,7 @@ void sb_sim_destroy(sb_sim *sim)
     free_pairs(&sim->pairs);
     free_pairs(&sim->wall_pairs);
     sb_cells_free(&sim->cells);
+    sb_ghosts_destroy(sim);
     sb_walls_destroy(sim);
     sb_free(sim);
 }
@@ -255,7 +272,8 @@ const char *const *sb_sim_skipped(const sb_sim *sim)
 
 size_t sb_sim_bytes(const sb_sim *sim)
 {
-    size_t bytes = sim->bytes_fixed + sb_cells_bytes(&sim->cells);
+    size_t bytes = sim->bytes_fixed + sb_cells_bytes(&sim->cells) + sb_cells_bytes(&sim->ghosts.cells);
+    bytes += sim->ghosts.of_capacity * 4 + (sim->ghosts.words_capacity + sim->ghosts.other_capacity) * 8;
     bytes += (sim->pairs.capacity + sim->wall_pairs.capacity) * 8;
     for (int s = 0; s < SB_WALL_SETS; s++)
         bytes += sb_cells_bytes(&sim->walls[s].cells) + sim->walls[s].count * 20 +

@@ -61,7 +61,8 @@ uint64_t sb_sim_hash(const sb_sim *sim);
 sb_frame *sb_sim_snapshot(const sb_sim *sim);
 
 /* All fluid particles in the box [min, max], in a fixed order, for gauges and probes. Positions in
-   scene metres. At most `capacity` are written; the number found is returned (may be larger). */
+   scene metres. Beyond periodic sides there are images, with the id of their particle, up to a domain's length
+   away and to eight spacings at least. At most `capacity` are written; the number found is returned (may be larger). */
 typedef struct sb_fluid_sample {
     sb_vec3 position, velocity;
     double pressure, density;

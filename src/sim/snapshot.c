@@ -16,7 +16,7 @@ sb_frame *sb_sim_snapshot(const sb_sim *sim)
     frame->spacing = sim->scene->resolution;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < sim->n; i++) {
-        sb_record x = sim->position[i];
+        sb_record x = sb_space_wrap(&sim->space, sim->position[i]);
         frame->position[3 * i] = (float)(x[0] * quantum + shift.x);
         frame->position[3 * i + 1] = (float)(x[1] * quantum + shift.y);
         frame->position[3 * i + 2] = (float)(x[2] * quantum + shift.z);
@@ -44,16 +44,22 @@ sb_frame *sb_sim_snapshot(const sb_sim *sim)
     return frame;
 }
 
-sb_fluid_sample sb_sim_particle(const sb_sim *sim, size_t i)
+static sb_fluid_sample sample_at(const sb_sim *sim, size_t i, sb_vec3 position)
 {
     sb_f4 v = sim->velocity[i];
     return (sb_fluid_sample){
-        .position = sb_space_position(&sim->space, sim->position[i]),
+        .position = position,
         .velocity = sb_vec((double)v[0], (double)v[1], (double)v[2]),
         .pressure = (double)v[3],
         .density = (double)sim->density[i],
         .id = sim->id[i],
     };
+}
+
+sb_fluid_sample sb_sim_particle(const sb_sim *sim, size_t i)
+{
+    sb_record place = sb_space_wrap(&sim->space, sim->position[i]);
+    return sample_at(sim, i, sb_space_position(&sim->space, place));
 }
 
 /* Cell index of a coordinate, kept on the grid. */
@@ -64,21 +70,47 @@ static int64_t cell_index(const sb_space *space, double distance, int axis)
     return (int64_t)(index < 0 ? 0 : index > most ? most : index);
 }
 
-size_t sb_sim_query(const sb_sim *sim, sb_vec3 min, sb_vec3 max, sb_fluid_sample *samples,
-                    size_t capacity)
+/* In spacings beyond a periodic side: gauges look four far, and each step adds what particles moved. */
+static const double IMAGES_REACH = 8;
+
+typedef struct query {
+    sb_vec3 min, max;
+    sb_fluid_sample *samples;
+    size_t capacity, found;
+} query;
+
+static bool within(const query *q, sb_vec3 p)
+{
+    return p.x >= q->min.x && p.y >= q->min.y && p.z >= q->min.z && p.x <= q->max.x && p.y <= q->max.y &&
+           p.z <= q->max.z;
+}
+
+/* The place of a particle's image, `away` quanta from it. */
+static sb_vec3 image_place(const sb_space *space, sb_record record, const int64_t away[3])
+{
+    return sb_vec(space->origin.x + (double)(record[0] + away[0]) * space->quantum,
+                  space->origin.y + (double)(record[1] + away[1]) * space->quantum,
+                  space->origin.z + (double)(record[2] + away[2]) * space->quantum);
+}
+
+/* The particles whose images, `away` quanta from them, are in the box. */
+static void query_images(const sb_sim *sim, query *q, const int64_t away[3])
 {
     const sb_space *space = &sim->space;
     /* The cells are those of the step's start: look as far around as a particle can have come. */
-    double reach = sim->report.max_speed * sim->report.time_step + space->quantum;
-    sb_vec3 pad = sb_vec(reach, reach, reach);
-    sb_vec3 low = sb_sub(sb_sub(min, pad), space->origin), high = sb_sub(sb_add(max, pad), space->origin);
+    const double reach = sim->report.max_speed * sim->report.time_step + space->quantum;
+    const sb_vec3 low = sb_sub(q->min, space->origin), high = sb_sub(q->max, space->origin);
     const double from[3] = {low.x, low.y, low.z}, to[3] = {high.x, high.y, high.z};
     int64_t a[3], b[3];
     for (int axis = 0; axis < 3; axis++) {
-        a[axis] = cell_index(space, from[axis], axis);
-        b[axis] = cell_index(space, to[axis], axis);
+        const double shift = (double)away[axis] * space->quantum;
+        const double least = from[axis] - shift - reach, most = to[axis] - shift + reach;
+        const double side = sb_space_low(space) * space->quantum, length = space->period[axis] * space->quantum;
+        if (length > 0 && (most < side || least > side + length))
+            return;
+        a[axis] = cell_index(space, least, axis);
+        b[axis] = cell_index(space, most, axis);
     }
-    size_t found = 0;
     for (int64_t z = a[2]; z <= b[2]; z++)
         for (int64_t y = a[1]; y <= b[1]; y++)
             for (int64_t x = a[0]; x <= b[0]; x++) {
@@ -87,14 +119,33 @@ size_t sb_sim_query(const sb_sim *sim, sb_vec3 min, sb_vec3 max, sb_fluid_sample
                 if (cell < 0)
                     continue;
                 for (uint32_t i = sim->cells.begin[cell]; i < sim->cells.begin[cell + 1]; i++) {
-                    sb_vec3 p = sb_space_position(space, sim->position[i]);
-                    if (p.x < min.x || p.y < min.y || p.z < min.z || p.x > max.x || p.y > max.y ||
-                        p.z > max.z)
+                    sb_vec3 p = image_place(space, sim->position[i], away);
+                    if (!within(q, p))
                         continue;
-                    if (found < capacity)
-                        samples[found] = sb_sim_particle(sim, i);
-                    found++;
+                    if (q->found < q->capacity)
+                        q->samples[q->found] = sample_at(sim, i, p);
+                    q->found++;
                 }
             }
-    return found;
+}
+
+size_t sb_sim_query(const sb_sim *sim, sb_vec3 min, sb_vec3 max, sb_fluid_sample *samples,
+                    size_t capacity)
+{
+    query q = {min, max, samples, capacity, 0};
+    int64_t period[3], most[3], away[3];
+    for (int axis = 0; axis < 3; axis++) {
+        period[axis] = sim->space.period[axis];
+        double length = (double)period[axis] * sim->space.quantum;
+        most[axis] = length > 0 ? 1 + (int64_t)ceil(IMAGES_REACH * sim->scene->resolution / length) : 0;
+    }
+    for (int64_t z = -most[2]; z <= most[2]; z++)
+        for (int64_t y = -most[1]; y <= most[1]; y++)
+            for (int64_t x = -most[0]; x <= most[0]; x++) {
+                away[0] = x * period[0];
+                away[1] = y * period[1];
+                away[2] = z * period[2];
+                query_images(sim, &q, away);
+            }
+    return q.found;
 }

@@ -1,4 +1,5 @@
-/* Particles that left the domain are dropped, the others re-ordered along the Z-curve of their cells. */
+/* Particles that left the domain come back through periodic sides or are dropped; the others are re-ordered along
+   the Z-curve of their cells. */
 #include "base/memory.h"
 #include "sim/sort.h"
 #include "sim/state.h"
@@ -10,7 +11,7 @@ enum { INDEX_BITS = 27 };
 static const uint64_t INDEX_MASK = ((uint64_t)1 << INDEX_BITS) - 1;
 
 /* Domain bounds in quanta; walls hold water, so beyond a wall side a particle is lost only when it is
-   more than a support radius out. */
+   more than a support radius out. None is beyond a periodic side. */
 typedef struct bounds {
     int64_t min[3], max[3];
 } bounds;
@@ -50,9 +51,12 @@ static void make_words(sb_sim *sim)
 {
     const bounds b = domain_bounds(sim);
     const uint64_t gone = ((uint64_t)1 << sim->space.key_bits) - 1;
+    const bool repeats = sim->space.repeats;
     uint64_t left = 0, lost = 0;
 #pragma omp parallel for schedule(static) reduction(+ : left, lost)
     for (size_t i = 0; i < sim->n; i++) {
+        if (repeats)
+            sim->position[i] = sb_space_wrap(&sim->space, sim->position[i]);
         int way = outside(sim, &b, sim->position[i]);
         left += way == 1;
         lost += way == 2;

@@ -58,6 +58,34 @@ sb_status sb_space_create(sb_vec3 min, sb_vec3 max, double cell, sb_space *space
     return SB_OK;
 }
 
+void sb_space_repeat(sb_space *space, int axis, double length)
+{
+    space->period[axis] = (uint32_t)nearbyint(length / space->quantum);
+    space->repeats = true;
+}
+
+int sb_space_images(const sb_space *space, sb_record record, sb_record image[SB_IMAGES_MAX])
+{
+    const uint32_t low = sb_space_low(space);
+    const int32_t reach = (int32_t)1 << space->shift;
+    int count = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        const uint32_t period = space->period[axis];
+        const bool ahead = period > 0 && (int32_t)(record[axis] - low) < reach;
+        const bool behind = period > 0 && (int32_t)(low + period - record[axis]) < reach;
+        const int before = count;
+        for (int k = -1; k < before; k++) {
+            sb_record from = k < 0 ? record : image[k];
+            sb_record step = {axis == 0 ? period : 0, axis == 1 ? period : 0, axis == 2 ? period : 0, 0};
+            if (ahead)
+                image[count++] = from + step;
+            if (behind)
+                image[count++] = from - step;
+        }
+    }
+    return count;
+}
+
 static uint32_t quanta(double distance, double quantum)
 {
     double value = nearbyint(distance / quantum);

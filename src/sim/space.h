@@ -7,7 +7,12 @@
 #include "base/vec.h"
 #include "sim/simd.h"
 
-enum { SB_SPACE_MARGIN = 2 }; /* cells around the domain */
+#include <stdbool.h>
+
+enum {
+    SB_SPACE_MARGIN = 2, /* cells around the domain */
+    SB_IMAGES_MAX = 26   /* of one record: two along each axis, in all combinations */
+};
 
 typedef struct sb_space {
     sb_vec3 origin;   /* m, where the integers are zero */
@@ -16,11 +21,21 @@ typedef struct sb_space {
     int shift;        /* cell index = position >> shift */
     int bits[3];      /* of the cell index along each axis */
     int key_bits;     /* of the Z-order key */
+    bool repeats;     /* along one axis at least */
+    uint32_t period[3]; /* quanta after which the domain repeats along an axis; 0: it does not */
     uint64_t spread[3][3][256]; /* key bits of each byte of an index, by axis and byte */
 } sb_space;
 
 /* SB_BAD_INPUT when the domain has more cells than positions can tell apart. */
 sb_status sb_space_create(sb_vec3 min, sb_vec3 max, double cell, sb_space *space, sb_error *error);
+
+/* Makes the domain repeat along an axis after `length` (m), its extent there and at least a cell; rounded to
+   whole quanta, so off by half a quantum at most. */
+void sb_space_repeat(sb_space *space, int axis, double length);
+
+/* The images of a record of the domain, whole periods away along one axis or several, that are within a
+   cell's edge of the domain. Returns how many; always in one order. */
+int sb_space_images(const sb_space *space, sb_record record, sb_record image[SB_IMAGES_MAX]);
 
 /* Nearest quanta; clamped to the representable range. */
 sb_record sb_space_record(const sb_space *space, sb_vec3 position);
@@ -47,6 +62,37 @@ SB_INLINE int sb_space_inside(const sb_space *space, sb_record record)
             return 0;
     }
     return 1;
+}
+
+/* The domain's lower corner in quanta, the same along each axis. */
+SB_INLINE uint32_t sb_space_low(const sb_space *space)
+{
+    return (uint32_t)SB_SPACE_MARGIN << space->shift;
+}
+
+/* The image that is in the domain, along the axes that repeat; the last lane is kept. */
+SB_INLINE sb_record sb_space_wrap(const sb_space *space, sb_record record)
+{
+    const uint32_t low = sb_space_low(space);
+    for (int axis = 0; axis < 3; axis++) {
+        const int64_t period = space->period[axis], at = (int64_t)record[axis] - low;
+        if (period > 0 && (at < 0 || at >= period))
+            record[axis] = low + (uint32_t)((at % period + period) % period);
+    }
+    return record;
+}
+
+/* Whether the cells around the record's reach beyond a side at which the domain repeats. */
+SB_INLINE bool sb_space_at_edge(const sb_space *space, sb_record record)
+{
+    const uint32_t low = sb_space_low(space);
+    for (int axis = 0; axis < 3; axis++) {
+        uint32_t index = record[axis] >> space->shift;
+        if (space->period[axis] > 0 &&
+            (index <= SB_SPACE_MARGIN || index + 1 >= (low + space->period[axis]) >> space->shift))
+            return true;
+    }
+    return false;
 }
 
 /* Place along the Z-curve: the bits of the three indices interleaved, an axis ending with its last bit. */

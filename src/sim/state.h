@@ -25,7 +25,18 @@ typedef struct sb_constants {
     float speed_limit;             /* m/s, above it the run has diverged */
 } sb_constants;
 
-/* Boundary particles that share one search table: all static ones, or all that move. */
+/* Images of owned particles beyond the periodic sides: entries n to n + count of the arrays that neighbours
+   are read from. */
+typedef struct sb_ghosts {
+    size_t count;
+    uint32_t *of;             /* the owned particle that each copies */
+    sb_cells cells;           /* over their records */
+    uint64_t *words, *other;  /* for their sort */
+    size_t of_capacity, words_capacity, other_capacity;
+} sb_ghosts;
+
+/* Boundary particles that share one search table: all static ones, or all that move; images beyond periodic
+   sides included. */
 typedef struct sb_wall_set {
     size_t count;
     sb_record *record;    /* sorted by cell; last lane: psi_b in kg (kg/m in 2D) */
@@ -63,8 +74,9 @@ typedef struct sb_sim {
     sb_constants constant;
     sb_space space;
 
-    /* persistent fields, n of capacity each; moved together by the sort */
-    size_t n, capacity;
+    /* persistent fields, n each; moved together by the sort */
+    size_t n;
+    size_t capacity;          /* of position, velocity, acceleration and scratch: n and the ghosts */
     sb_record *position;      /* quanta; last lane: argument of the pressure operator */
     sb_f4 *velocity;          /* m/s; last lane: pressure in Pa, the next step's warm start */
     uint32_t *id;
@@ -82,6 +94,7 @@ typedef struct sb_sim {
     float *product;           /* A times the argument */
 
     sb_cells cells;
+    sb_ghosts ghosts;
     sb_pairs pairs, wall_pairs; /* wall_pairs.index: set << 31 | boundary particle; slope: psi W'/r quantum */
     uint64_t *sort_a, *sort_b;
     void *scratch;            /* 16 bytes per particle, for the permutation */
@@ -121,11 +134,21 @@ static inline size_t sb_block_end(const sb_sim *sim, size_t block)
     return end < sim->n ? end : sim->n;
 }
 
-/* sim/sort_stage.c: drops particles outside, sorts the rest along the Z-curve, builds the cells. */
+/* sim/sort_stage.c: wraps or drops particles outside, sorts the rest along the Z-curve, builds the cells. */
 sb_status sb_stage_sort(sb_sim *sim, sb_error *error);
+/* sim/ghosts.c: images of what is near periodic sides, their places and velocities as after the sort. */
+sb_status sb_stage_ghosts(sb_sim *sim, sb_error *error);
+/* Gives the ghosts the values of a field whose owned part has changed. */
+void sb_ghosts_refresh(const sb_sim *sim, sb_f4 *field);
+void sb_ghosts_destroy(sb_sim *sim);
 /* sim/walls.c */
 sb_status sb_walls_create(sb_sim *sim, sb_error *error);
 void sb_walls_destroy(sb_sim *sim);
+/* sim/wall_volumes.c: psi_b = gamma rho_0 / sum_k W_bk over the boundary particles of `set` in reach, itself
+   included [A12, eq. 4; S16, eq. 30]; only_own: those of the same body only. The set holds no images. */
+int sb_wall_volumes(const sb_sim *sim, sb_wall_set *set, bool only_own);
+/* Adds the images beyond periodic sides, with the volume, body and normal of their own. */
+int sb_wall_images(sb_wall_set *set, const sb_space *space);
 sb_status sb_stage_walls(sb_sim *sim, sb_error *error); /* paddles to t, their table, their velocity */
 /* Whether a cell may have boundary particles of the set in reach. */
 bool sb_walls_near(const sb_wall_set *set, const sb_space *space, sb_record record);

@@ -13,7 +13,8 @@ typedef struct stage {
 static const stage stages[] = {
     {"time_step", sb_stage_time_step},   /* dt from the speeds reached */
     {"walls", sb_stage_walls},           /* paddles at t, their velocity to t + dt */
-    {"sort", sb_stage_sort},             /* Z-order, cells */
+    {"sort", sb_stage_sort},             /* back through periodic sides; Z-order, cells */
+    {"ghosts", sb_stage_ghosts},         /* images beyond periodic sides */
     {"neighbours", sb_stage_neighbours}, /* lists, density, wall vectors, diagonal */
     {"forces", sb_stage_forces},         /* v* = v + dt (g + viscosity + friction) */
     {"source", sb_stage_source},         /* b = beta (rho_0 - rho) - dt div v* */

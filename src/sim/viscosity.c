@@ -98,5 +98,6 @@ sb_status sb_stage_forces(sb_sim *sim, sb_error *error)
     sb_f4 *old = sim->velocity;
     sim->velocity = sim->scratch;
     sim->scratch = old;
+    sb_ghosts_refresh(sim, sim->velocity);
     return SB_OK;
 }

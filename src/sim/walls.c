@@ -1,5 +1,5 @@
-/* Boundary particles [A12]: their volumes psi_b, a search table built once for the static ones and made
-   anew for the moving ones only while they move. */
+/* Boundary particles [A12]: a search table built once for the static ones and made anew for the moving ones
+   only while they move. */
 #include "base/hash.h"
 #include "base/memory.h"
 #include "sim/sort.h"
@@ -105,44 +105,6 @@ done:
     return status;
 }
 
-/* psi_b = gamma rho_0 / sum_k W_bk over the boundary particles of `set` in reach, itself included
-   [A12, eq. 4; S16, eq. 30]; only_own: those of the same body only. */
-static int volumes(sb_sim *sim, sb_wall_set *set, bool only_own)
-{
-    float *psi = sb_alloc_untouched(set->count, sizeof *psi);
-    if (!psi)
-        return -1;
-    const sb_numerics *numerics = &sim->scene->numerics;
-    const double h = (double)sim->constant.support, quantum = sim->space.quantum;
-    const int layers = sim->constant.dimension == 2 ? 0 : 1;
-#pragma omp parallel for schedule(dynamic, 64)
-    for (size_t i = 0; i < set->count; i++) {
-        double sum = 0;
-        uint64_t code = sb_cell_code(set->record[i], sim->space.shift);
-        for (int dz = -1; dz <= 1; dz++)
-            for (int dy = -layers; dy <= layers; dy++)
-                for (int dx = -1; dx <= 1; dx++) {
-                    int64_t cell = sb_cells_find(&set->cells, code + sb_cell_step(dx, dy, dz));
-                    if (cell < 0)
-                        continue;
-                    for (uint32_t k = set->cells.begin[cell]; k < set->cells.begin[cell + 1]; k++) {
-                        if (only_own && set->body[k] != set->body[i])
-                            continue;
-                        sb_f4 d = sb_offset(set->record[i], set->record[k]);
-                        double r2 = (double)d[0] * (double)d[0] + (double)d[1] * (double)d[1] +
-                                    (double)d[2] * (double)d[2];
-                        sum += sb_kernel_value(numerics->kernel, sim->constant.dimension, h,
-                                               sqrt(r2) * quantum);
-                    }
-                }
-        psi[i] = (float)(numerics->wall_gamma * (double)sim->constant.rest_density / sum);
-    }
-    for (size_t i = 0; i < set->count; i++)
-        sb_carry(&set->record[i], psi[i]);
-    sb_free(psi);
-    return 0;
-}
-
 /* Whether a boundary particle lies on the grid of cells; what was clamped to its lower edge does not. */
 static bool on_grid(const sb_space *space, sb_record record)
 {
@@ -219,9 +181,13 @@ sb_status sb_walls_create(sb_sim *sim, sb_error *error)
                        sim->model->wall_count, 1 << 27);
     for (int s = 0; s < SB_WALL_SETS; s++) {
         sb_wall_set *set = &sim->walls[s];
-        if (copy_set(sim, s == SB_MOVING, set) != 0 || table_build(set, &sim->space) != 0)
+        if (copy_set(sim, s == SB_MOVING, set) != 0 || table_build(set, &sim->space) != 0 ||
+            sb_wall_volumes(sim, set, s == SB_MOVING) != 0)
             return sb_fail_memory(error, "boundary particles");
-        if (volumes(sim, set, s == SB_MOVING) != 0 || near_build(set, &sim->space) != 0)
+        if (sim->space.repeats &&
+            (sb_wall_images(set, &sim->space) != 0 || table_build(set, &sim->space) != 0))
+            return sb_fail_memory(error, "images of boundary particles");
+        if (near_build(set, &sim->space) != 0)
             return sb_fail_memory(error, "boundary particles");
     }
     const sb_wall_set *set = &sim->walls[SB_MOVING];

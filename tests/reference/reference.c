@@ -4,13 +4,37 @@
 
 #include <math.h>
 
+enum { IMAGES = 27 };
+
+/* The place itself first, then its images one period away along each axis that repeats. */
+static int find_images(const sb_reference_cloud *cloud, sb_vec3 at, sb_vec3 image[IMAGES])
+{
+    int count = 0;
+    image[count++] = at;
+    const double period[3] = {cloud->period.x, cloud->period.y, cloud->period.z};
+    for (int axis = 0; axis < 3; axis++) {
+        int before = count;
+        for (int k = 0; k < before && period[axis] > 0; k++)
+            for (int way = -1; way <= 1; way += 2) {
+                double by = way * period[axis];
+                image[count++] = sb_add(
+                    image[k], sb_vec(axis == 0 ? by : 0, axis == 1 ? by : 0, axis == 2 ? by : 0));
+            }
+    }
+    return count;
+}
+
 void sb_reference_psi(const sb_reference_cloud *cloud, double gamma, double *psi)
 {
     for (size_t b = 0; b < cloud->wall_count; b++) {
         double sum = 0;
         for (size_t k = 0; k < cloud->wall_count; k++) {
-            double r = sb_norm(sb_sub(cloud->wall_position[b], cloud->wall_position[k]));
-            sum += sb_kernel_value(cloud->kernel, cloud->dimension, cloud->h, r);
+            sb_vec3 image[IMAGES];
+            int images = find_images(cloud, cloud->wall_position[k], image);
+            for (int m = 0; m < images; m++) {
+                double r = sb_norm(sb_sub(cloud->wall_position[b], image[m]));
+                sum += sb_kernel_value(cloud->kernel, cloud->dimension, cloud->h, r);
+            }
         }
         psi[b] = gamma * cloud->rest_density / sum;
     }
@@ -42,13 +66,18 @@ int sb_reference_create(const sb_reference_cloud *cloud, sb_reference *reference
     made.fluid_start = sb_alloc(n + 1, sizeof(size_t));
     made.wall_start = sb_alloc(n + 1, sizeof(size_t));
     int status = made.fluid_start && made.wall_start ? 0 : -1;
+    sb_vec3 image[IMAGES];
     for (size_t i = 0; i < n && status == 0; i++) {
-        for (size_t j = 0; j < n && status == 0; j++)
-            if (j != i)
-                status =
-                    add_pair(cloud, i, j, cloud->position[j], &made.fluid, &fluid, &fluid_room);
-        for (size_t b = 0; b < cloud->wall_count && status == 0; b++)
-            status = add_pair(cloud, i, b, cloud->wall_position[b], &made.wall, &wall, &wall_room);
+        for (size_t j = 0; j < n && status == 0; j++) {
+            int images = find_images(cloud, cloud->position[j], image);
+            for (int m = j == i; m < images && status == 0; m++)
+                status = add_pair(cloud, i, j, image[m], &made.fluid, &fluid, &fluid_room);
+        }
+        for (size_t b = 0; b < cloud->wall_count && status == 0; b++) {
+            int images = find_images(cloud, cloud->wall_position[b], image);
+            for (int m = 0; m < images && status == 0; m++)
+                status = add_pair(cloud, i, b, image[m], &made.wall, &wall, &wall_room);
+        }
         made.fluid_start[i + 1] = fluid;
         made.wall_start[i + 1] = wall;
     }

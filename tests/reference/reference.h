@@ -23,9 +23,10 @@ typedef struct sb_reference_cloud {
     const double *psi;       /* kg, or kg/m in 2D */
     const uint32_t *body;    /* of each boundary particle */
     double sound_speed, artificial_viscosity, wall_friction; /* m/s, alpha, sigma */
+    sb_vec3 period;          /* m after which all repeats along each axis, at least h; 0: it does not */
 } sb_reference_cloud;
 
-/* A neighbour of a fluid particle i: other is j or b. */
+/* A neighbour of a fluid particle i: other is j or b, or one of its images. */
 typedef struct sb_reference_pair {
     size_t other;
     sb_vec3 offset;   /* x_i - x_other */
@@ -43,7 +44,7 @@ typedef struct sb_reference {
 } sb_reference;
 
 /* psi_b = gamma rho0 / sum_k W_bk over all boundary particles, b included. Uses the cloud's wall
-   positions, kernel, dimension, h and rest density only. */
+   positions, period, kernel, dimension, h and rest density only. */
 void sb_reference_psi(const sb_reference_cloud *cloud, double gamma, double *psi);
 
 /* Tests all pairs. Returns 0, or -1 without memory. The cloud's arrays must outlive it. */

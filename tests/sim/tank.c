@@ -135,6 +135,48 @@ void tank_free(tank *t)
     *t = (tank){0};
 }
 
+static double along(sb_vec3 v, int axis)
+{
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
+void tank_repeat(tank *t, int axis)
+{
+    sb_model *m = &t->model;
+    size_t kept = 0;
+    t->scene.domain.side[2 * axis] = t->scene.domain.side[2 * axis + 1] = SB_SIDE_PERIODIC;
+    for (size_t b = 0; b < m->wall_count; b++) {
+        double at = along(m->wall_position[b], axis);
+        if (at < along(m->min, axis) || at >= along(m->max, axis)) continue;
+        m->wall_normal[kept] = m->wall_normal[b];
+        m->wall_position[kept++] = m->wall_position[b];
+    }
+    m->wall_count = m->bodies[0].count = kept;
+}
+
+static double rolled(double at, double by, double min, double max)
+{
+    double length = max - min, place = fmod(at + by - min, length);
+    return min + (place < 0 ? place + length : place);
+}
+
+static sb_vec3 roll(const tank *t, sb_vec3 at, sb_vec3 by)
+{
+    const sb_model *m = &t->model;
+    if (sb_scene_repeats(&t->scene, 0)) at.x = rolled(at.x, by.x, m->min.x, m->max.x);
+    if (sb_scene_repeats(&t->scene, 1)) at.y = rolled(at.y, by.y, m->min.y, m->max.y);
+    return at;
+}
+
+void tank_roll(tank *t, sb_vec3 by)
+{
+    sb_model *m = &t->model;
+    for (size_t i = 0; i < m->fluid_count; i++)
+        m->fluid_position[i] = roll(t, m->fluid_position[i], by);
+    for (size_t b = 0; b < m->wall_count; b++)
+        m->wall_position[b] = roll(t, m->wall_position[b], by);
+}
+
 void tank_shift(tank *t, sb_vec3 by)
 {
     sb_model *m = &t->model;
@@ -240,7 +282,7 @@ int tank_prepare(sb_sim *sim, double dt)
     sb_error error = {0};
     sim->report.time_step = dt;
     if (sb_stage_walls(sim, &error) == SB_OK && sb_stage_sort(sim, &error) == SB_OK &&
-        sb_stage_neighbours(sim, &error) == SB_OK)
+        sb_stage_ghosts(sim, &error) == SB_OK && sb_stage_neighbours(sim, &error) == SB_OK)
         return 0;
     fprintf(stderr, "no neighbours: %s\n", error.text);
     return -1;

@@ -18,6 +18,13 @@ void tank_make(tank *t, int dimensions, double spacing, sb_vec3 size, double wet
                double depth, double jitter);
 void tank_free(tank *t);
 
+/* Makes the sides across an axis (0: x, 1: y) periodic, without the walls there. Before bodies are
+   added or split. */
+void tank_repeat(tank *t, int axis);
+/* Carries water and boundary particles along within a periodic tank: what leaves at a side comes
+   back at the other. */
+void tank_roll(tank *t, sb_vec3 by);
+
 /* Carries the whole tank, water and all, elsewhere. */
 void tank_shift(tank *t, sb_vec3 by);
 /* Water anywhere within the box, at velocities up to `speed` along each axis, at pressure 0. */

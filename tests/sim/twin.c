@@ -3,27 +3,39 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <string.h>
 
-static void copy_walls(const sb_sim *sim, twin *t)
+static bool is_image(const sb_sim *sim, sb_record record)
+{
+    sb_record home = sb_space_wrap(&sim->space, record);
+    return memcmp(&home, &record, sizeof home) != 0;
+}
+
+/* Returns how many there are. */
+static size_t copy_walls(const sb_sim *sim, twin *t)
 {
     size_t at = 0;
     for (int s = 0; s < SB_WALL_SETS; s++) {
         const sb_wall_set *set = &sim->walls[s];
-        for (size_t b = 0; b < set->count; b++, at++) {
+        for (size_t b = 0; b < set->count; b++) {
+            if (is_image(sim, set->record[b])) continue;
             t->wall_position[at] = sb_space_position(&sim->space, set->record[b]);
             t->psi[at] = (double)sb_carried_value(set->record[b]);
             t->body[at] = set->body[b];
             if (s == SB_MOVING)
                 t->wall_velocity[at] = sim->moving[sim->moving_of_body[set->body[b]]].velocity;
+            at++;
         }
+        if (s == SB_STATIC) t->static_count = at;
     }
+    return at;
 }
 
 int twin_make(const sb_sim *sim, twin *t)
 {
     const sb_numerics *numerics = &sim->scene->numerics;
     size_t n = sim->n, walls = sim->walls[SB_STATIC].count + sim->walls[SB_MOVING].count;
-    twin made = {.static_count = sim->walls[SB_STATIC].count};
+    twin made = {0};
     made.position = sb_alloc(n, sizeof(sb_vec3));
     made.velocity = sb_alloc(n, sizeof(sb_vec3));
     made.wall_position = sb_alloc(walls, sizeof(sb_vec3));
@@ -35,7 +47,9 @@ int twin_make(const sb_sim *sim, twin *t)
                      ? 0
                      : -1;
     if (status == 0) {
-        copy_walls(sim, &made);
+        walls = copy_walls(sim, &made);
+        double quantum = sim->space.quantum;
+        const uint32_t *period = sim->space.period;
         for (size_t i = 0; i < n; i++) {
             sb_f4 v = sim->velocity[i];
             made.position[i] = sb_space_position(&sim->space, sim->position[i]);
@@ -59,6 +73,7 @@ int twin_make(const sb_sim *sim, twin *t)
             .sound_speed = (double)sim->constant.sound_speed,
             .artificial_viscosity = numerics->artificial_viscosity,
             .wall_friction = numerics->wall_friction,
+            .period = sb_vec(period[0] * quantum, period[1] * quantum, period[2] * quantum),
         };
         status = sb_reference_create(&cloud, &made.reference);
     }

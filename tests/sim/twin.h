@@ -6,8 +6,8 @@
 #include "reference/reference.h"
 #include "sim/state.h"
 
-/* Particles in the simulation's order; boundary particles: the static set's, then the moving set's.
- */
+/* Particles in the simulation's order; boundary particles: the static set's, then the moving set's,
+   without the images beyond periodic sides, which the reference makes itself. */
 typedef struct twin {
     sb_reference reference;
     sb_vec3 *position, *velocity, *wall_position, *wall_velocity;
@@ -20,7 +20,8 @@ typedef struct twin {
 int twin_make(const sb_sim *sim, twin *t);
 void twin_free(twin *t);
 
-/* Boundary particle of the twin for an index in the simulation's wall lists. */
+/* Boundary particle of the twin for an index in the simulation's wall lists, where no side is
+   periodic. */
 size_t twin_wall(const twin *t, uint32_t listed);
 
 /* Largest |a - b| and largest |b|: what a test's tolerance is relative to. */

@@ -1,0 +1,149 @@
+/* Periodic sides: images of the particles within a support radius of such a side, a domain's length away, for
+   all that reads neighbours. They have cells of their own, so that the owned particles' order and cells are
+   what they would be without. */
+#include "base/memory.h"
+#include "sim/sort.h"
+#include "sim/state.h"
+
+#include <string.h>
+
+enum { INDEX_BITS = 27 };
+static const uint64_t INDEX_MASK = ((uint64_t)1 << INDEX_BITS) - 1;
+
+/* Moves a field of 16 bytes per particle, n of them in use, into a longer array. */
+static int lengthen(void **field, size_t n, size_t capacity)
+{
+    void *longer = sb_alloc_untouched(capacity, 16);
+    if (!longer)
+        return -1;
+    memcpy(longer, *field, n * 16);
+    sb_free(*field);
+    *field = longer;
+    return 0;
+}
+
+static int reserve(sb_sim *sim, size_t ghosts)
+{
+    sb_ghosts *g = &sim->ghosts;
+    if (sb_grow((void **)&g->of, &g->of_capacity, ghosts, sizeof *g->of) != 0 ||
+        sb_grow((void **)&g->words, &g->words_capacity, ghosts, sizeof *g->words) != 0 ||
+        sb_grow((void **)&g->other, &g->other_capacity, ghosts, sizeof *g->other) != 0)
+        return -1;
+    if (sim->n + ghosts <= sim->capacity)
+        return 0;
+    size_t capacity = sim->n + ghosts + ghosts / 8 + 64;
+    if (lengthen((void **)&sim->position, sim->n, capacity) != 0 ||
+        lengthen((void **)&sim->velocity, sim->n, capacity) != 0 ||
+        lengthen((void **)&sim->acceleration, sim->n, capacity) != 0 ||
+        lengthen(&sim->scratch, sim->n, capacity) != 0)
+        return -1;
+    sim->bytes_fixed += 4 * 16 * (capacity - sim->capacity);
+    sim->capacity = capacity;
+    return 0;
+}
+
+/* first[b]: ghosts of the blocks before b. Returns how many there are. */
+static size_t count_images(const sb_sim *sim, size_t *first)
+{
+    const size_t blocks = sb_blocks(sim);
+#pragma omp parallel for schedule(static)
+    for (size_t b = 0; b < blocks; b++) {
+        sb_record image[SB_IMAGES_MAX];
+        size_t found = 0;
+        for (size_t i = b * SB_BLOCK; i < sb_block_end(sim, b); i++)
+            found += (size_t)sb_space_images(&sim->space, sim->position[i], image);
+        first[b + 1] = found;
+    }
+    for (size_t b = 0; b < blocks; b++)
+        first[b + 1] += first[b];
+    return first[blocks];
+}
+
+/* The images in the order of their owners, each with its owner in the last lane, and words to sort them by. */
+static void make_images(sb_sim *sim, const size_t *first, sb_record *made)
+{
+    const size_t blocks = sb_blocks(sim);
+#pragma omp parallel for schedule(static)
+    for (size_t b = 0; b < blocks; b++) {
+        sb_record image[SB_IMAGES_MAX];
+        size_t at = first[b];
+        for (size_t i = b * SB_BLOCK; i < sb_block_end(sim, b); i++) {
+            int images = sb_space_images(&sim->space, sim->position[i], image);
+            for (int k = 0; k < images; k++, at++) {
+                made[at] = image[k];
+                made[at][3] = (uint32_t)i;
+                sim->ghosts.words[at] = sb_space_key(&sim->space, image[k]) << INDEX_BITS | at;
+            }
+        }
+    }
+}
+
+static void place(sb_sim *sim, const uint64_t *sorted, const sb_record *made)
+{
+    const size_t count = sim->ghosts.count;
+    sb_record *position = sim->position + sim->n;
+#pragma omp parallel for schedule(static)
+    for (size_t g = 0; g < count; g++) {
+        sb_record ghost = made[sorted[g] & INDEX_MASK];
+        sim->ghosts.of[g] = ghost[3];
+        ghost[3] = 0;
+        position[g] = ghost;
+    }
+}
+
+/* 0, or -1 without memory. */
+static int build(sb_sim *sim, const size_t *first, size_t count)
+{
+    sb_ghosts *g = &sim->ghosts;
+    if (reserve(sim, count) != 0)
+        return -1;
+    sb_record *made = (sb_record *)sim->acceleration + sim->n; /* free until the pressure is solved */
+    make_images(sim, first, made);
+    const uint64_t *sorted =
+        sb_sort(g->words, g->other, count, INDEX_BITS, INDEX_BITS + sim->space.key_bits);
+    if (!sorted)
+        return -1;
+    g->count = count;
+    place(sim, sorted, made);
+    sb_ghosts_refresh(sim, sim->velocity);
+    return sb_cells_build(&g->cells, sim->position + sim->n, count, sim->space.shift);
+}
+
+sb_status sb_stage_ghosts(sb_sim *sim, sb_error *error)
+{
+    if (!sim->space.repeats)
+        return SB_OK;
+    sim->ghosts.count = 0;
+    size_t *first = sb_alloc(sb_blocks(sim) + 1, sizeof *first);
+    if (!first)
+        return sb_fail_memory(error, "ghosts");
+    const size_t count = count_images(sim, first);
+    sb_status status = SB_OK;
+    if (count >= (size_t)1 << INDEX_BITS)
+        status = sb_fail(error, SB_FAILED, "%zu images beyond periodic sides: expected fewer than 2^%d", count,
+                         INDEX_BITS);
+    else if (count > 0 && build(sim, first, count) != 0)
+        status = sb_fail_memory(error, "ghosts");
+    sb_free(first);
+    return status;
+}
+
+void sb_ghosts_refresh(const sb_sim *sim, sb_f4 *field)
+{
+    const size_t count = sim->ghosts.count;
+    const uint32_t *of = sim->ghosts.of;
+    sb_f4 *ghost = field + sim->n;
+    if (count == 0)
+        return;
+#pragma omp parallel for schedule(static)
+    for (size_t g = 0; g < count; g++)
+        ghost[g] = field[of[g]];
+}
+
+void sb_ghosts_destroy(sb_sim *sim)
+{
+    sb_free(sim->ghosts.of);
+    sb_free(sim->ghosts.words);
+    sb_free(sim->ghosts.other);
+    sb_cells_free(&sim->ghosts.cells);
+}

@@ -1,0 +1,223 @@
+/* Periodic sides against the reference, which sums over all images, and against themselves moved
+   along. */
+#include "../check.h"
+#include "base/memory.h"
+#include "base/random.h"
+#include "sim/pressure.h"
+#include "sim/tank.h"
+#include "sim/twin.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct setup {
+    tank tank;
+    sb_sim *sim;
+    twin twin;
+    size_t n;
+    double *rho, *x, *product, *source; /* n each */
+    sb_vec3 *acceleration;
+} setup;
+
+static void allocate(setup *s)
+{
+    s->n = s->sim->n;
+    double **fields[] = {&s->rho, &s->x, &s->product, &s->source};
+    for (size_t f = 0; f < sizeof fields / sizeof *fields; f++) {
+        *fields[f] = sb_alloc(s->n, sizeof(double));
+        assert_non_null(*fields[f]);
+    }
+    s->acceleration = sb_alloc(s->n, sizeof *s->acceleration);
+    assert_non_null(s->acceleration);
+}
+
+/* Water scattered through a tank with a sheet of a static body beside the side in x, and a paddle
+   under way where only y repeats. Lengths are no multiples of anything. */
+static void begin(setup *s, int dimensions, bool x, bool y, sb_vec3 size)
+{
+    const sb_wavemaker_parameters law = {
+        .kind = sb_wavemaker_find("stroke"), .stroke = 0.5, .speed = 0.8, .gravity = 9.81};
+    *s = (setup){0};
+    tank_make(&s->tank, dimensions, 0.1, size, size.x, 0.8 * size.z, 0);
+    if (x) tank_repeat(&s->tank, 0);
+    if (y) tank_repeat(&s->tank, 1);
+    tank_scatter(&s->tank, 5, 1);
+    tank_add_sheet(&s->tank, "sill", 0.04, 0, 0.5, sb_vec(0, 0, 0), NULL);
+    if (!x) tank_add_sheet(&s->tank, "paddle", 0.3, 0, 0.7, sb_vec(1, 0, 0), &law);
+    s->tank.scene.numerics.artificial_viscosity = 0.5;
+    s->tank.scene.numerics.wall_friction = 1;
+    s->sim = tank_sim(&s->tank);
+    assert_non_null(s->sim);
+    s->sim->report.time = 0.4;
+    assert_int_equal(tank_prepare(s->sim, 1), 0);
+    assert_int_equal(s->sim->n, s->tank.model.fluid_count);
+    assert_int_equal(twin_make(s->sim, &s->twin), 0);
+    assert_int_equal(s->twin.reference.cloud.wall_count, s->tank.model.wall_count);
+    allocate(s);
+}
+
+static void end(setup *s)
+{
+    sb_free(s->rho);
+    sb_free(s->x);
+    sb_free(s->product);
+    sb_free(s->source);
+    sb_free(s->acceleration);
+    twin_free(&s->twin);
+    sb_sim_destroy(s->sim);
+    tank_free(&s->tank);
+}
+
+static size_t pairs_listed(const sb_sim *sim, const sb_pairs *pairs)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < sim->n; i++)
+        for (size_t k = 0; k < pairs->count[i]; k++)
+            count += pairs->slope[pairs->first[i] + k] != 0;
+    return count;
+}
+
+static void check_sums(setup *s)
+{
+    const sb_reference *r = &s->twin.reference;
+    const sb_sim *sim = s->sim;
+    size_t pairs = pairs_listed(sim, &sim->pairs), walls = pairs_listed(sim, &sim->wall_pairs);
+    twin_gap density = {0}, vector = {0}, flux = {0};
+    double diagonal = 0;
+    sb_reference_density(r, s->rho);
+    sb_reference_diagonal(r, s->product);
+    for (size_t i = 0; i < s->n; i++) {
+        sb_vec3 b = {0, 0, 0};
+        double flow = 0;
+        for (size_t k = r->wall_start[i]; k < r->wall_start[i + 1]; k++) {
+            const sb_reference_pair *pair = &r->wall[k];
+            b = sb_madd(b, s->twin.psi[pair->other], pair->gradient);
+            flow += s->twin.psi[pair->other] *
+                    sb_dot(s->twin.wall_velocity[pair->other], pair->gradient);
+        }
+        twin_compare(&density, i, (double)sim->density[i], s->rho[i]);
+        twin_compare(&vector, i, (double)sim->wall[i][0], b.x);
+        twin_compare(&vector, i, (double)sim->wall[i][1], b.y);
+        twin_compare(&vector, i, (double)sim->wall[i][2], b.z);
+        twin_compare(&flux, i, (double)sim->wall[i][3], flow);
+        if (sim->diagonal[i] > 0)
+            diagonal = fmax(diagonal, fabs((double)sim->diagonal[i] / -s->product[i] - 1));
+    }
+    printf("%zu particles, %zu ghosts, %zu pairs, %zu with walls; density %.2g, B %.2g, flux %.2g, "
+           "diagonal %.2g\n",
+           s->n, sim->ghosts.count, pairs, walls, twin_relative(&density), twin_relative(&vector),
+           twin_relative(&flux), diagonal);
+    /* But for pairs at the very edge of the support. */
+    assert_near((double)pairs, (double)r->fluid_start[s->n], 4);
+    assert_near((double)walls, (double)r->wall_start[s->n], 4);
+    assert_true(sim->ghosts.count > 0 && pairs > 5 * s->n && walls > 0);
+    assert_true(flux.scale > 0 || sim->moving_count == 0);
+    assert_true(twin_relative(&density) < 1e-6 && twin_relative(&vector) < 1e-6);
+    assert_true(twin_relative(&flux) < 1e-6 && diagonal < 1e-5);
+}
+
+/* psi_b counts images on the far side. */
+static void check_volumes(const setup *s)
+{
+    const twin *t = &s->twin;
+    sb_reference_cloud set = t->reference.cloud;
+    size_t all = set.wall_count;
+    double gamma = s->sim->scene->numerics.wall_gamma, worst = 0;
+    double *psi = sb_alloc(all, sizeof *psi);
+    assert_non_null(psi);
+    set.wall_count = t->static_count;
+    sb_reference_psi(&set, gamma, psi);
+    set.wall_count = all - t->static_count;
+    set.wall_position += t->static_count;
+    sb_reference_psi(&set, gamma, psi + t->static_count);
+    for (size_t b = 0; b < all; b++) worst = fmax(worst, fabs(t->psi[b] / psi[b] - 1));
+    assert_true(worst < 1e-6);
+    sb_free(psi);
+}
+
+/* Viscosity and wall friction, and the source that their velocities make. */
+static void check_forces(setup *s)
+{
+    sb_error error = {0};
+    sb_sim *sim = s->sim;
+    memset(s->acceleration, 0, s->n * sizeof *s->acceleration);
+    sb_reference_viscosity(&s->twin.reference, s->rho, s->acceleration);
+    sb_reference_friction(&s->twin.reference, s->rho, s->acceleration, NULL, NULL, NULL);
+    assert_int_equal(sb_stage_forces(sim, &error), SB_OK);
+    twin_gap push = {0}, source = {0};
+    for (size_t i = 0; i < s->n; i++) {
+        sb_vec3 v = s->twin.velocity[i], a = s->acceleration[i];
+        sb_vec3 expected = sb_add(v, sb_add(a, sb_vec(0, 0, -9.81)));
+        twin_compare(&push, i, (double)sim->velocity[i][0] - v.x, a.x);
+        twin_compare(&push, i, (double)sim->velocity[i][1] - v.y, a.y);
+        twin_compare(&push, i, (double)sim->velocity[i][2] - v.z, a.z - 9.81);
+        s->twin.velocity[i] = expected;
+    }
+    assert_int_equal(sb_stage_source(sim, &error), SB_OK);
+    sb_reference_source(&s->twin.reference, s->rho, s->twin.velocity,
+                        sim->scene->numerics.source_relaxation, s->source);
+    for (size_t i = 0; i < s->n; i++)
+        twin_compare(&source, i, (double)sim->source[i], s->source[i]);
+    printf("  forces %.2g, source %.2g\n", twin_relative(&push), twin_relative(&source));
+    assert_true(twin_relative(&push) < 1e-6 && twin_relative(&source) < 2e-6);
+}
+
+static void check_operator(setup *s)
+{
+    float *argument = sb_alloc(s->n, sizeof *argument), *fast = sb_alloc(s->n, sizeof *fast);
+    assert_true(argument && fast);
+    for (size_t i = 0; i < s->n; i++) {
+        argument[i] = (float)sb_random(1, i);
+        s->x[i] = (double)argument[i];
+    }
+    sb_reference_apply(&s->twin.reference, s->x, s->acceleration, s->product);
+    sb_pressure_load(s->sim, argument);
+    sb_pressure_product(s->sim, fast);
+    twin_gap push = {0}, product = {0};
+    for (size_t i = 0; i < s->n; i++) {
+        sb_f4 a = s->sim->acceleration[i];
+        twin_compare(&push, i, (double)a[0], s->acceleration[i].x);
+        twin_compare(&push, i, (double)a[1], s->acceleration[i].y);
+        twin_compare(&push, i, (double)a[2], s->acceleration[i].z);
+        twin_compare(&product, i, (double)fast[i], s->product[i]);
+    }
+    printf("  G q %.2g, A q %.2g\n", twin_relative(&push), twin_relative(&product));
+    assert_true(twin_relative(&push) < 1e-6 && twin_relative(&product) < 1e-6);
+    sb_free(argument);
+    sb_free(fast);
+}
+
+static void check(int dimensions, bool x, bool y, sb_vec3 size)
+{
+    setup s;
+    begin(&s, dimensions, x, y, size);
+    printf("%dD, periodic in%s%s, %g x %g m: ", dimensions, x ? " x" : "", y ? " y" : "", size.x,
+           size.y);
+    check_sums(&s);
+    check_volumes(&s);
+    check_forces(&s);
+    check_operator(&s);
+    end(&s);
+}
+
+/* Down to a domain of one support radius, in which neighbours are met on both sides. */
+static void a_cloud_meets_its_images(void **state)
+{
+    (void)state;
+    check(2, true, false, sb_vec(2.037, 0, 1.5));
+    check(2, true, false, sb_vec(0.2, 0, 1.5));
+    check(3, true, false, sb_vec(1.237, 0.8, 0.8));
+    check(3, false, true, sb_vec(1.2, 0.671, 0.8));
+    check(3, false, true, sb_vec(1.2, 0.4, 0.8));
+    check(3, false, true, sb_vec(1.2, 0.29, 0.8));
+    check(3, true, true, sb_vec(1.013, 0.671, 0.8));
+    check(3, true, true, sb_vec(0.27, 0.2, 0.8));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_cloud_meets_its_images),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
