@@ -1,0 +1,320 @@
+/* What runs with periodic sides do: streams, slabs, drops, samples across a side; the same bits for any
+   number of threads. */
+#include "../check.h"
+#include "base/memory.h"
+#include "base/random.h"
+#include "sim/pressure.h"
+#include "sim/tank.h"
+
+#include <omp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Water at one speed over a smooth floor goes round and round: no particle is lost, none is
+   counted as gone. */
+static void a_stream_goes_round(void **state)
+{
+    (void)state;
+    tank t;
+    tank_make(&t, 2, 0.05, sb_vec(1, 0, 1), 1, 0.6, 0.02);
+    tank_repeat(&t, 0);
+    for (size_t i = 0; i < t.model.fluid_count; i++) t.model.fluid_velocity[i].x = 1.5;
+    sb_sim *sim = tank_sim(&t);
+    assert_non_null(sim);
+    double before = sb_sim_energy(sim).momentum.x / sb_sim_energy(sim).mass;
+    while (sb_sim_report(sim)->time < 2) {
+        assert_int_equal(tank_steps(sim, 1), 0);
+        for (size_t i = 0; i < sim->n; i++) {
+            double x = sb_sim_particle(sim, i).position.x;
+            assert_true(x >= 0 && x < 1);
+        }
+    }
+    double after = sb_sim_energy(sim).momentum.x / sb_sim_energy(sim).mass;
+    printf("mean speed %.6f, after three rounds %.6f m/s\n", before, after);
+    assert_int_equal(sim->n, t.model.fluid_count);
+    assert_int_equal(sb_sim_report(sim)->lost + sb_sim_report(sim)->left_domain, 0);
+    assert_near(after, before, 0.01 * before);
+    sb_sim_destroy(sim);
+    tank_free(&t);
+}
+
+typedef struct flow {
+    double front, middle; /* m: of the particle farthest ahead, mean of all */
+} flow;
+
+static flow flow_at(sb_sim *sim, double time)
+{
+    while (sb_sim_report(sim)->time < time) assert_int_equal(tank_steps(sim, 1), 0);
+    flow f = {0};
+    for (size_t i = 0; i < sim->n; i++) {
+        double x = sb_sim_particle(sim, i).position.x;
+        f.front = fmax(f.front, x);
+        f.middle += x / (double)sim->n;
+    }
+    return f;
+}
+
+/* A metre of water, in two dimensions (width 0) or in a slab without side walls. */
+static sb_sim *make_flume(tank *t, double width, double length)
+{
+    tank_make(t, width > 0 ? 3 : 2, 0.05, sb_vec(length, width, 1.5), 1, 1, 0.02);
+    if (width > 0) tank_repeat(t, 1);
+    t->scene.numerics.wall_gamma = 0.8;
+    t->scene.numerics.settle_steps = 100;
+    sb_sim *sim = tank_sim(t);
+    assert_non_null(sim);
+    return sim;
+}
+
+enum { TIMES = 2 };
+static const double times[TIMES] = {0.3, 0.35};
+
+static void break_dam(double width, flow flows[TIMES])
+{
+    tank t;
+    sb_sim *sim = make_flume(&t, width, 2.5);
+    for (int k = 0; k < TIMES; k++) {
+        flows[k] = flow_at(sim, times[k]);
+        printf("width %g at %.2f s: front %.3f, mean %.4f m\n", width, times[k], flows[k].front,
+               flows[k].middle);
+    }
+    assert_int_equal(sim->n, t.model.fluid_count);
+    sb_sim_destroy(sim);
+    tank_free(&t);
+}
+
+/* A slab of four spacings is a flume of any width. Its dam breaks as that in two dimensions does,
+   once the start is over: the lattices there push off their walls with forces of their own. The
+   front is one particle, so it is known to a spacing or two. */
+static void a_slab_is_a_flume(void **state)
+{
+    (void)state;
+    flow flat[TIMES], slab[TIMES], wide[TIMES];
+    break_dam(0, flat);
+    break_dam(0.2, slab);
+    break_dam(0.4, wide);
+    for (int k = 0; k < TIMES; k++) {
+        assert_near(wide[k].middle, slab[k].middle, 0.01 * (slab[k].middle - 0.5));
+        assert_near(wide[k].front, slab[k].front, 0.05);
+        assert_near(slab[k].middle, flat[k].middle, 0.03 * (flat[k].middle - 0.5));
+        assert_near(slab[k].front, flat[k].front, 2 * 0.05);
+    }
+}
+
+/* The floor bears the same per metre of width. */
+static void a_slab_weighs_what_its_width_weighs(void **state)
+{
+    (void)state;
+    for (int slab = 0; slab <= 1; slab++) {
+        tank t;
+        sb_sim *sim = make_flume(&t, slab ? 0.2 : 0, 1);
+        sb_error error = {0};
+        assert_int_equal(sb_sim_settle(sim, &error), SB_OK);
+        flow_at(sim, 0.4);
+        double push = -sb_sim_impulse(sim, 0)->pressure.z;
+        double force = push / (sb_sim_report(sim)->time * (slab ? 0.2 : 1));
+        printf("floor at rest, %s: %.1f N per m\n", slab ? "slab" : "2D", force);
+        assert_near(force, 9810, 0.01 * 9810);
+        sb_sim_destroy(sim);
+        tank_free(&t);
+    }
+}
+
+static uint64_t run(const tank *t, int threads)
+{
+    omp_set_num_threads(threads);
+    sb_sim *sim = tank_sim(t);
+    assert_non_null(sim);
+    assert_int_equal(tank_steps(sim, 40), 0);
+    assert_true(sim->n > (size_t)SB_BLOCK && sim->ghosts.count > (size_t)SB_BLOCK);
+    uint64_t hash = sb_sim_hash(sim);
+    sb_sim_destroy(sim);
+    return hash;
+}
+
+static void threads_make_no_difference(void **state)
+{
+    (void)state;
+    const int counts[] = {2, 3, 8};
+    int before = omp_get_max_threads();
+    tank t;
+    tank_make(&t, 3, 1.0 / 16, sb_vec(1.5, 0.3, 1.2), 1.5, 0.8, 0.1);
+    tank_repeat(&t, 0);
+    tank_repeat(&t, 1);
+    t.scene.numerics.wall_friction = 0.05;
+    t.scene.numerics.solver = SB_SOLVER_CG;
+    for (size_t i = 0; i < t.model.fluid_count; i++)
+        t.model.fluid_velocity[i] = sb_vec(1, 2 * sb_random(1, i), 0);
+    uint64_t alone = run(&t, 1);
+    printf("1 thread: %016llx\n", (unsigned long long)alone);
+    for (size_t c = 0; c < sizeof counts / sizeof *counts; c++)
+        assert_true(run(&t, counts[c]) == alone);
+    omp_set_num_threads(before);
+    tank_free(&t);
+}
+
+/* A drop leaves at a side, comes back at the other and meets a wall beyond it: contact stops it,
+   the wall feels it. */
+static void a_drop_meets_a_wall_beyond_the_side(void **state)
+{
+    (void)state;
+    for (int way = -1; way <= 1; way += 2)
+        for (int dimensions = 2; dimensions <= 3; dimensions++) {
+            tank t;
+            tank_make(&t, dimensions, 0.1, sb_vec(2, 0.8, 2), 0.1, 0.1, 0);
+            tank_repeat(&t, 0);
+            t.scene.fluid.gravity = 0;
+            double sheet = way > 0 ? 0.03 : 1.97;
+            size_t wall = tank_add_sheet(&t, "sheet", sheet, 0, 2, sb_vec(0, 0, 0), NULL);
+            t.model.bodies[wall].moment_point = sb_vec(sheet, 0, 0);
+            t.model.fluid_count = 1;
+            t.model.fluid_position[0] =
+                sb_vec(way > 0 ? 1.42 : 0.58, dimensions == 2 ? 0 : 0.4, 1.01);
+            t.model.fluid_velocity[0] = sb_vec(9 * way, 0, 0);
+            sb_sim *sim = tank_sim(&t);
+            assert_non_null(sim);
+            double mass = sb_sim_energy(sim).mass;
+            while (sb_sim_report(sim)->time < 0.3) assert_int_equal(tank_steps(sim, 1), 0);
+            double x = sb_sim_particle(sim, 0).position.x;
+            const sb_body_impulse *push = sb_sim_impulse(sim, wall);
+            assert_int_equal(sim->n, 1);
+            assert_true(way > 0 ? x > 1.9 || x < sheet : x < 0.1 || x > sheet);
+            double lost = 9 * way - sb_sim_particle(sim, 0).velocity.x;
+            assert_near(push->pressure.x, mass * lost, 1e-4 * mass * 9);
+            assert_true(fabs(lost) > 4);
+            /* Where it is, not where its image is: the moment is that of a push at z = 1. */
+            assert_near(push->moment.y, 1.01 * push->pressure.x, 0.05 * fabs(push->pressure.x));
+            sb_sim_destroy(sim);
+            tank_free(&t);
+        }
+}
+
+/* The moment of a force on a body beside a side, the water that pushes it being beyond. */
+static void a_push_across_acts_at_the_body(void **state)
+{
+    (void)state;
+    sb_body_impulse given[2];
+    for (int beside = 0; beside <= 1; beside++) {
+        tank t;
+        tank_make(&t, 3, 0.1, sb_vec(2, 0.4, 1), 2, 0.6, 0.1);
+        tank_repeat(&t, 0);
+        tank_repeat(&t, 1);
+        size_t wall = tank_add_sheet(&t, "sheet", 1, 0, 1, sb_vec(0, 0, 0), NULL);
+        t.model.bodies[wall].moment_point = sb_vec(1, 0, 0);
+        if (beside) {
+            tank_roll(&t, sb_vec(1.01, 0, 0));
+            t.model.bodies[wall].moment_point = sb_vec(0.01, 0, 0);
+        }
+        sb_sim *sim = tank_sim(&t);
+        assert_non_null(sim);
+        assert_int_equal(tank_steps(sim, 1), 0);
+        given[beside] = *sb_sim_impulse(sim, wall);
+        sb_sim_destroy(sim);
+        tank_free(&t);
+    }
+    double push = sb_norm(sb_sub(given[1].pressure, given[0].pressure));
+    double moment = sb_norm(sb_sub(given[1].moment, given[0].moment));
+    printf("push differs by %.2g, moment by %.2g of each\n", push / sb_norm(given[0].pressure),
+           moment / sb_norm(given[0].moment));
+    assert_true(push < 1e-4 * sb_norm(given[0].pressure));
+    assert_true(moment < 1e-4 * sb_norm(given[0].moment));
+}
+
+static sb_fluid_sample found[16384];
+
+static bool in_box(sb_vec3 x, sb_vec3 min, sb_vec3 max)
+{
+    return x.x >= min.x && x.y >= min.y && x.z >= min.z && x.x <= max.x && x.y <= max.y &&
+           x.z <= max.z;
+}
+
+/* Every image in the box once, within a domain's length of it. */
+static void check_box(const sb_sim *sim, sb_vec3 min, sb_vec3 max)
+{
+    /* The domain's length, rounded to quanta. */
+    double quantum = sim->space.quantum;
+    sb_vec3 size = sb_vec(sim->space.period[0] * quantum, sim->space.period[1] * quantum, 0);
+    size_t expected = 0, count = sb_sim_query(sim, min, max, found, 16384);
+    double sum = 0, reached = 0;
+    for (size_t i = 0; i < sim->n; i++)
+        for (int x = -2; x <= 2; x++)
+            for (int y = -2; y <= 2; y++) {
+                sb_fluid_sample s = sb_sim_particle(sim, i);
+                s.position = sb_add(s.position, sb_vec(x * size.x, y * size.y, 0));
+                if (!in_box(s.position, min, max)) continue;
+                expected++;
+                sum += (1 + s.position.x + 3 * s.position.y) * (1 + s.id % 17);
+            }
+    assert_int_equal(count, expected);
+    assert_true(count <= 16384);
+    for (size_t k = 0; k < count; k++) {
+        assert_true(in_box(found[k].position, min, max));
+        reached += (1 + found[k].position.x + 3 * found[k].position.y) * (1 + found[k].id % 17);
+    }
+    assert_near(reached, sum, 1e-9 * fabs(sum));
+}
+
+static void samples_are_seen_across_sides(void **state)
+{
+    (void)state;
+    tank t;
+    tank_make(&t, 3, 0.1, sb_vec(1.2, 0.4, 1), 1.2, 0.6, 0.1);
+    tank_repeat(&t, 0);
+    tank_repeat(&t, 1);
+    for (size_t i = 0; i < t.model.fluid_count; i++)
+        t.model.fluid_velocity[i] = sb_vec(3, -2, 0);
+    sb_sim *sim = tank_sim(&t);
+    assert_non_null(sim);
+    for (int part = 0; part < 5; part++) {
+        for (uint64_t b = 0; b < 100; b++) {
+            double u[6];
+            for (uint64_t k = 0; k < 6; k++) u[k] = sb_random(b, k);
+            sb_vec3 a = sb_vec(-1 + 3 * u[0], -0.4 + 1.2 * u[1], u[2]);
+            sb_vec3 c = sb_vec(-1 + 3 * u[3], -0.4 + 1.2 * u[4], u[5]);
+            check_box(sim, sb_min(a, c), sb_max(a, c));
+        }
+        assert_int_equal(tank_steps(sim, 5), 0);
+    }
+    sb_sim_destroy(sim);
+    tank_free(&t);
+}
+
+static void no_memory_is_told(void **state)
+{
+    (void)state;
+    tank t;
+    tank_make(&t, 3, 0.1, sb_vec(1.2, 0.4, 1), 1.2, 0.6, 0.1);
+    tank_repeat(&t, 1);
+    bool done = false;
+    int told = 0;
+    for (long n = 1; !done; n++) {
+        sb_error error = {0};
+        sb_sim *sim = NULL;
+        sb_memory_fail_at(n);
+        sb_status status = sb_sim_create(&t.scene, &t.model, &sim, &error);
+        if (status == SB_OK) status = sb_sim_step(sim, &error);
+        sb_memory_fail_at(0);
+        done = status == SB_OK;
+        if (!done) assert_non_null(strstr(error.text, "memory"));
+        told += !done && (strstr(error.text, "ghosts") || strstr(error.text, "images"));
+        sb_sim_destroy(sim);
+    }
+    assert_true(told >= 8);
+    tank_free(&t);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_stream_goes_round),
+        cmocka_unit_test(a_slab_is_a_flume),
+        cmocka_unit_test(a_slab_weighs_what_its_width_weighs),
+        cmocka_unit_test(threads_make_no_difference),
+        cmocka_unit_test(a_drop_meets_a_wall_beyond_the_side),
+        cmocka_unit_test(a_push_across_acts_at_the_body),
+        cmocka_unit_test(samples_are_seen_across_sides),
+        cmocka_unit_test(no_memory_is_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
