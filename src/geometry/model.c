@@ -50,7 +50,10 @@ static sb_status sample(const sb_scene *scene, const sb_model_space *space, sb_m
                                          .support = scene->numerics.support * scene->resolution,
                                          .dimensions = scene->dimensions,
                                          .min = scene->domain.min,
-                                         .max = scene->domain.max};
+                                         .max = scene->domain.max,
+                                         .repeats = {sb_scene_repeats(scene, 0),
+                                                     sb_scene_repeats(scene, 1),
+                                                     sb_scene_repeats(scene, 2)}};
     sb_sample_source *sources = sb_alloc(space->count, sizeof *sources);
     if (!sources) return sb_fail_memory(error, "surfaces");
     size_t count = 0;
@@ -107,6 +110,7 @@ sb_status sb_model_build(const sb_scene *scene, sb_model *model, sb_error *error
     /* The sea first: a scene whose sea escapes need not wait for its walls. */
     if (status == SB_OK) status = fill(scene, &space, &made, error);
     if (status == SB_OK) status = sample(scene, &space, &made, error);
+    if (status == SB_OK) status = sb_model_check_sides(scene, &space, &made, error);
     sb_model_space_free(&space);
     if (status == SB_OK) status = sb_model_check(scene, &made, error);
     if (status != SB_OK) {

@@ -18,6 +18,10 @@ sb_status sb_model_space_create(const sb_model *model, const sb_scene *domain_of
                                 sb_model_space *space, sb_error *error);
 void sb_model_space_free(sb_model_space *space);
 
+/* Warns where solids at one periodic side have nothing to go on as at the other. */
+sb_status sb_model_check_sides(const sb_scene *scene, const sb_model_space *space, sb_model *model,
+                               sb_error *error);
+
 /* One more line of warning; SB_FAILED without memory. */
 sb_status sb_model_warn(sb_model *model, sb_error *error, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

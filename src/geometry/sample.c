@@ -53,6 +53,24 @@ static int sample_groups(sb_sampler *sampler, sb_sample_set *all)
     return failed;
 }
 
+/* Whether a particle belongs to the domain: what is beyond a side at which that repeats is the
+   image of what is before the other. */
+static bool belongs(const sb_sample_settings *settings, sb_vec3 at)
+{
+    for (int axis = 0; axis < 3; ++axis)
+        if (settings->repeats[axis] && !(sb_sample_beyond(settings, at, axis) < 0)) return false;
+    return true;
+}
+
+/* Drops what does not belong. */
+static void clip(const sb_sample_settings *settings, sb_sample_set *all)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < all->count; ++i)
+        if (belongs(settings, all->sample[i].at)) all->sample[kept++] = all->sample[i];
+    all->count = kept;
+}
+
 /* Sorts the particles by source, each source's in the order they were found. */
 static int sort_out(const sb_sample_set *all, size_t source_count, sb_samples *out)
 {
@@ -89,8 +107,12 @@ sb_status sb_sample_surfaces(const sb_sample_settings *settings, const sb_sample
         status = sb_surface_build(sources + i, settings, sampler.surfaces + i, error);
         sampler.surface_count += status == SB_OK;
     }
-    if (status == SB_OK && (sample_groups(&sampler, &all) || sort_out(&all, count, &made)))
-        status = sb_fail_memory(error, "boundary particles");
+    int failed = status == SB_OK && sample_groups(&sampler, &all);
+    if (status == SB_OK && !failed) {
+        clip(settings, &all); /* its questions of distance are over */
+        failed = sort_out(&all, count, &made);
+    }
+    if (failed) status = sb_fail_memory(error, "boundary particles");
     if (status == SB_OK) *samples = made;
     for (size_t i = 0; i < sampler.surface_count; ++i) sb_surface_free(sampler.surfaces + i);
     sb_free(sampler.surfaces);

@@ -12,6 +12,8 @@ typedef struct sb_sample_settings {
     double support;   /* m: what no water can come nearer to than this is left out */
     int dimensions;   /* 2: the curve in y = 0 */
     sb_vec3 min, max; /* m, the domain; min is also the origin of the lattices */
+    bool repeats[3]; /* the domain does, along each axis: nothing is sampled beyond those sides, nor
+                        faces in their planes; lattices fit between them where they can */
 } sb_sample_settings;
 
 /* One surface. In 2D mesh and solid are those of sb_section_mesh. */

@@ -58,7 +58,7 @@ static int plant_seeds(sb_sampler *sampler, uint32_t index)
     bool *done = sb_alloc(mesh->triangle_count, sizeof *done);
     int failed = !done;
     for (size_t t = 0; t < mesh->triangle_count && !failed && !surface->mixed; ++t) {
-        if (done[surface->part[t]]) continue;
+        if (done[surface->part[t]] || sb_dot(surface->normal[t], surface->normal[t]) == 0) continue;
         sb_vec3 at = {0}, placed, inward = sb_scale(surface->normal[t], -1);
         for (int i = 0; i < 3; ++i)
             at = sb_madd(at, 1.0 / 3, mesh->vertices[mesh->triangles[t][i]]);

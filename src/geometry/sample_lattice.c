@@ -26,8 +26,8 @@ int sb_candidate_flush(sb_sampler *sampler, sb_candidate_batch *batch)
             batch->good[i] = sb_sample_fits(sampler, c->surface, c->at, c->reach);
             continue;
         }
-        /* What another solid covers waits for the filling of voids: a slope that runs on just below a
-           deck would else take the deck's places. */
+        /* What another solid covers waits for the filling of voids: a slope that runs on just below
+           a deck would else take the deck's places. */
         batch->good[i] =
             sb_sample_exposed(sampler, c->surface, c->at, sb_scale(c->inward, -1)) &&
             sb_sample_place(sampler, c->surface, c->at, c->inward, &placed, &margin) == SB_PLACED;
@@ -65,6 +65,13 @@ static double fitted_step(double length, double spacing)
     return step > 0.92 * spacing && step < 1.08 * spacing ? step : spacing;
 }
 
+/* Of the world's lattice along an axis: between sides at which the domain repeats it fits. */
+static double axis_step(const sb_sample_settings *settings, int axis)
+{
+    double length = sb_sample_along(sb_sub(settings->max, settings->min), axis);
+    return settings->repeats[axis] ? fitted_step(length, settings->spacing) : settings->spacing;
+}
+
 static bool is_axis(sb_vec3 a)
 {
     return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z))) > 1 - 1e-9;
@@ -100,14 +107,17 @@ static bool choose_lattice(const sb_sampler *sampler, sb_vec3 n, const extent *e
     double spacing = sampler->settings.spacing;
     double c[3] = {fabs(n.x), fabs(n.y), fabs(n.z)};
     int k = dominant(n);
-    *l = (lattice){axis_of((k + 1) % 3), axis_of((k + 2) % 3), sampler->settings.min, spacing,
-                   spacing};
+    *l = (lattice){axis_of((k + 1) % 3), axis_of((k + 2) % 3), sampler->settings.min,
+                   axis_step(&sampler->settings, (k + 1) % 3),
+                   axis_step(&sampler->settings, (k + 2) % 3)};
     if (c[k] > projected_cosine) return true;
     double long_u = e->max_u - e->min_u, long_v = e->max_v - e->min_v;
     if (!(fmin(long_u, long_v) > fitted_extent * spacing)) return false;
-    *l = (lattice){.u = e->u, .v = e->v, .step_u = spacing, .step_v = fitted_step(long_v, spacing)};
+    *l = (lattice){.u = e->u, .v = e->v, .step_v = fitted_step(long_v, spacing)};
     double at_u = sb_dot(sampler->settings.min, e->u), at_v = e->min_v;
-    if (!is_axis(e->u)) {
+    if (is_axis(e->u)) {
+        l->step_u = axis_step(&sampler->settings, dominant(e->u));
+    } else {
         l->step_u = fitted_step(long_u, spacing);
         at_u = e->min_u;
     }
@@ -230,7 +240,7 @@ static int scan_line(sb_sampler *sampler, sb_candidate_batch *batch, sb_vec3 a, 
     double step = fitted_step(length, spacing), begin = 0.5 * step;
     if (is_axis(along)) {
         double from = sb_dot(sb_sub(a, sampler->settings.min), along);
-        step = spacing;
+        step = axis_step(&sampler->settings, dominant(along));
         begin = step * (ceil(from / step - 0.5 - slack) + 0.5) - from;
     }
     int64_t end = (int64_t)floor((length - begin) / step + 1e-9);
@@ -290,9 +300,10 @@ static int scan_strips(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t 
         sb_vec3 a = mesh->vertices[mesh->triangles[t][0]],
                 b = mesh->vertices[mesh->triangles[t][1]];
         a.y = b.y = 0;
-        if (sb_norm(sb_sub(b, a)) < sampler->settings.spacing && !is_axis(surface->normal[t]))
+        sb_vec3 n = surface->normal[t];
+        if (sb_dot(n, n) == 0 || (sb_norm(sb_sub(b, a)) < sampler->settings.spacing && !is_axis(n)))
             continue;
-        sb_candidate candidate = {.inward = sb_scale(surface->normal[t], -1), .surface = index};
+        sb_candidate candidate = {.inward = sb_scale(n, -1), .surface = index};
         if (scan_line(sampler, batch, a, b, candidate)) return -1;
     }
     return 0;

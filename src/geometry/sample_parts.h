@@ -11,6 +11,9 @@
 #define SB_SAMPLE_FILL 0.74
 #define SB_SAMPLE_COVER 0.746
 
+/* In spacings: what is this near to a side lies in it. */
+#define SB_SAMPLE_SIDE 1e-6
+
 /* An edge that is concave from the water: the sheet goes round it from one normal to the other. */
 typedef struct sb_crease {
     sb_vec3 a, b, normal[2];
@@ -25,10 +28,11 @@ typedef struct sb_cap {
 typedef struct sb_surface {
     const sb_sample_source *source;
     sb_vec3 min, max;
-    bool bounded;     /* nothing outside of the box is inside the solid */
-    bool mixed;       /* faces of both orientations: a neighbour's normal says nothing */
-    double sign;      /* of the mesh's normals: -1 for a wholly flipped mesh */
-    sb_vec3 *normal;  /* per triangle, unit, towards the water; zero when degenerate */
+    bool bounded;    /* nothing outside of the box is inside the solid */
+    bool mixed;      /* faces of both orientations: a neighbour's normal says nothing */
+    double sign;     /* of the mesh's normals: -1 for a wholly flipped mesh */
+    sb_vec3 *normal; /* per triangle, unit, towards the water; zero when degenerate, or when it lies
+                        in a side at which the domain repeats: then it is no surface */
     uint32_t *region; /* per triangle: first triangle of its plane */
     uint32_t *part;   /* per triangle: first triangle of its connected part */
     size_t crease_count, crease_capacity, cap_count, cap_capacity;
@@ -44,6 +48,18 @@ typedef struct sb_sampler {
     uint32_t first, last; /* surfaces of the group: those in [first, last) that move or not */
     sb_sample_set set;
 } sb_sampler;
+
+static inline double sb_sample_along(sb_vec3 a, int axis)
+{
+    return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
+}
+
+/* m along an axis that a place is beyond the domain: negative within. */
+static inline double sb_sample_beyond(const sb_sample_settings *settings, sb_vec3 at, int axis)
+{
+    return fmax(sb_sample_along(settings->min, axis) - sb_sample_along(at, axis),
+                sb_sample_along(at, axis) - sb_sample_along(settings->max, axis));
+}
 
 static inline const sb_mesh *sb_surface_mesh(const sb_surface *surface)
 {

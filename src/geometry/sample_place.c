@@ -44,6 +44,10 @@ bool sb_sample_buried(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, d
     out = sb_max(out, sb_vec(0, 0, 0));
     if (settings->dimensions == 2) out.y = 0;
     if (sb_norm(out) > depth) return true;
+    for (int axis = 0; axis < 3; ++axis)
+        if (settings->repeats[axis] &&
+            sb_sample_beyond(settings, at, axis) > settings->offset + radius)
+            return true;
     for (uint32_t i = 0; i < sampler->surface_count; ++i) {
         const sb_surface *other = sampler->surfaces + i;
         if (may_hide(sampler, surface, i) && contains(other, at) &&
@@ -69,6 +73,42 @@ static sb_vec3 water_normal(const sb_surface *surface, sb_vec3 normal)
     return sb_scale(normal, surface->sign);
 }
 
+/* Whether a place lies in a side at which the domain repeats. */
+static bool in_side(const sb_sample_settings *settings, sb_vec3 at)
+{
+    bool in = false;
+    for (int axis = 0; axis < 3; ++axis)
+        in = in || (settings->repeats[axis] && fabs(sb_sample_beyond(settings, at, axis)) <
+                                                   SB_SAMPLE_SIDE * settings->spacing);
+    return in;
+}
+
+/* The step that takes a place at least `distance` into the domain, where this repeats. */
+static sb_vec3 way_in(const sb_sample_settings *settings, sb_vec3 at, double distance)
+{
+    double step[3] = {0};
+    for (int axis = 0; axis < 3; ++axis) {
+        double lack = distance + sb_sample_beyond(settings, at, axis);
+        double low = sb_sample_along(at, axis) - sb_sample_along(settings->min, axis);
+        double high = sb_sample_along(settings->max, axis) - sb_sample_along(at, axis);
+        if (settings->repeats[axis] && lack > 0) step[axis] = low < high ? lack : -lack;
+    }
+    return sb_vec(step[0], step[1], step[2]);
+}
+
+/* The distance to a surface. The end of a solid in a side at which the domain repeats is none, for
+   the solid goes on at the other side: beside it the answer is that of a place further in. */
+static double distance_to(const sb_sample_settings *settings, const sb_solid *solid, sb_vec3 at,
+                          double limit, sb_vec3 *nearest, sb_vec3 *normal)
+{
+    double distance = sb_solid_distance(solid, at, limit, nearest, normal);
+    if (distance >= limit || !in_side(settings, *nearest)) return distance;
+    sb_vec3 step = way_in(settings, at, limit);
+    distance = sb_solid_distance(solid, sb_add(at, step), limit, nearest, normal);
+    *nearest = sb_sub(*nearest, step);
+    return distance;
+}
+
 /* The distance from a point of the sheet to the nearest exposed surface, at most limit. */
 static double clearance(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, double limit,
                         sb_vec3 *nearest, sb_vec3 *normal)
@@ -79,7 +119,8 @@ static double clearance(const sb_sampler *sampler, uint32_t surface, sb_vec3 at,
         if ((i != surface && !may_hide(sampler, surface, i)) || !inside_box(other, at, best))
             continue;
         sb_vec3 place, facing;
-        double distance = sb_solid_distance(other->source->solid, at, best, &place, &facing);
+        double distance =
+            distance_to(&sampler->settings, other->source->solid, at, best, &place, &facing);
         if (distance >= best) continue;
         facing = water_normal(other, facing);
         if (other->mixed && sb_dot(facing, sb_sub(place, at)) < 0) facing = sb_scale(facing, -1);
@@ -128,7 +169,8 @@ bool sb_sample_project(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, 
     const sb_surface *on = sampler->surfaces + surface;
     double limit = sampler->settings.offset + 2 * sampler->settings.spacing;
     sb_vec3 foot, normal;
-    if (on->mixed || sb_solid_distance(on->source->solid, at, limit, &foot, &normal) >= limit)
+    if (on->mixed || sb_solid_distance(on->source->solid, at, limit, &foot, &normal) >= limit ||
+        in_side(&sampler->settings, foot))
         return false;
     normal = water_normal(on, normal);
     sb_vec3 inward = sb_scale(normal, -1);

@@ -134,7 +134,8 @@ static int join_faces(sb_surface *surface, const sb_mesh_edges *list,
         sb_vec3 second = surface->normal[edges[i + 1].triangle];
         if (sb_dot(first, second) > same_plane)
             unite(surface->region, edges[i].triangle, edges[i + 1].triangle);
-        if (settings->offset * sb_norm(sb_sub(first, second)) < arc_min * settings->spacing ||
+        if (sb_dot(first, first) == 0 || sb_dot(second, second) == 0 ||
+            settings->offset * sb_norm(sb_sub(first, second)) < arc_min * settings->spacing ||
             !is_concave(surface, edges + i, edges + i + 1))
             continue;
         if (sb_grow((void **)&surface->creases, &surface->crease_capacity,
@@ -213,14 +214,32 @@ void sb_surface_free(sb_surface *surface)
     *surface = (sb_surface){0};
 }
 
-static void measure(sb_surface *surface)
+/* A face in a side at which the domain repeats: the solid goes on behind it, at the other side. */
+static bool on_side(const sb_sample_settings *settings, const sb_vec3 corners[3])
+{
+    const double slack = SB_SAMPLE_SIDE * settings->spacing;
+    for (int axis = 0; axis < 3; ++axis) {
+        bool low = settings->repeats[axis], high = low;
+        for (int i = 0; i < 3; ++i) {
+            double at = sb_sample_along(corners[i], axis);
+            low = low && fabs(at - sb_sample_along(settings->min, axis)) < slack;
+            high = high && fabs(at - sb_sample_along(settings->max, axis)) < slack;
+        }
+        if (low || high) return true;
+    }
+    return false;
+}
+
+static void measure(sb_surface *surface, const sb_sample_settings *settings)
 {
     const sb_mesh *mesh = sb_surface_mesh(surface);
     surface->min = sb_vec(INFINITY, INFINITY, INFINITY);
     surface->max = sb_scale(surface->min, -1);
     for (size_t t = 0; t < mesh->triangle_count; ++t) {
         sb_vec3 a = corner(mesh, t, 0), b = corner(mesh, t, 1), c = corner(mesh, t, 2);
-        surface->normal[t] = sb_normalize(sb_cross(sb_sub(b, a), sb_sub(c, a)));
+        surface->normal[t] = on_side(settings, (const sb_vec3[3]){a, b, c})
+                                 ? sb_vec(0, 0, 0)
+                                 : sb_normalize(sb_cross(sb_sub(b, a), sb_sub(c, a)));
         surface->min = sb_min(surface->min, sb_min(a, sb_min(b, c)));
         surface->max = sb_max(surface->max, sb_max(a, sb_max(b, c)));
     }
@@ -237,7 +256,7 @@ sb_status sb_surface_build(const sb_sample_source *source, const sb_sample_setti
     sb_mesh_edges edges = {0};
     int failed = !made.normal || !made.region || !made.part || sb_mesh_find_edges(mesh, &edges);
     if (!failed) {
-        measure(&made);
+        measure(&made, settings);
         orient(&made, &edges, settings->spacing);
         failed = join_faces(&made, &edges, settings) || find_caps(&made, &edges);
     }

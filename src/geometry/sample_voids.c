@@ -197,7 +197,7 @@ static bool piece_flat(const sb_surface *surface, size_t i, piece *p)
         sb_vec3 inward = sb_scale(surface->normal[2 * i], -1);
         for (int k = 0; k < 2; ++k)
             p->corner[k] = (corner){flat(mesh->vertices[mesh->triangles[2 * i][k]]), inward};
-        return true;
+        return sb_dot(inward, inward) > 0;
     }
     const sb_crease *crease = surface->creases + (i - mesh->triangle_count / 2);
     for (int k = 0; k < 2; ++k)

@@ -24,10 +24,20 @@ static const sb_key side_keys[] = {
 static sb_status finish_sides(sb_reader *reader, const sb_yaml *map, void *item)
 {
     const sb_side_kind *side = item;
-    for (size_t i = 0; i < SB_SIDES; i++)
-        if (side[i] == SB_SIDE_PERIODIC)
+    for (size_t i = 0; i < SB_SIDES; i++) {
+        const size_t other = i ^ 1;
+        if (side[i] != SB_SIDE_PERIODIC ||
+            (reader->scene->dimensions == 2 && (i == SB_Y_MIN || i == SB_Y_MAX)))
+            continue;
+        if (i == SB_Z_MIN || i == SB_Z_MAX)
             return sb_reader_fail(reader, map, side_keys[i].name,
-                                  "periodic sides are not supported yet, expected wall or open");
+                                  "water would fall through floor and lid for ever, expected wall "
+                                  "or open; only x and y may be periodic");
+        if (side[other] != SB_SIDE_PERIODIC)
+            return sb_reader_fail(reader, map, side_keys[i].name,
+                                  "periodic, but %s is %s, expected both periodic or neither",
+                                  side_keys[other].name, side_words[side[other]]);
+    }
     return SB_OK;
 }
 
@@ -41,7 +51,8 @@ static const sb_key domain_keys[] = {
      .flags = SB_KEY_REQUIRED, .doc = "Corner with the largest coordinates."},
     {.name = "sides", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_domain, side), .table = &side_table,
      .doc = "What each side does: a `wall` holds the water; through an `open` side particles "
-            "leave, and are counted; `periodic` is reserved and refused for now."},
+            "leave, and are counted; what leaves through a `periodic` side comes in at the "
+            "opposite one (x and y only, both sides or neither)."},
 };
 /* clang-format on */
 

@@ -55,6 +55,19 @@ static bool body_may_exist(const sb_scene *scene, const char *name)
     return false;
 }
 
+/* A paddle would have to come back in at the other side, and push its own wake. */
+static sb_status check_direction(sb_reader *reader, const sb_yaml *map, const sb_wavemaker_use *use)
+{
+    const double along[] = {use->direction.x, use->direction.y};
+    for (int axis = 0; axis < 2; axis++)
+        if (sb_scene_repeats(reader->scene, axis) && fabs(along[axis]) > 1e-9)
+            return sb_reader_fail(reader, map, "direction",
+                                  "leads through the periodic sides in %c, expected no motion "
+                                  "along %c, or walls there",
+                                  "xy"[axis], "xy"[axis]);
+    return SB_OK;
+}
+
 static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
 {
     sb_wavemaker_use *use = item;
@@ -67,10 +80,12 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
             return sb_reader_fail(reader, map, "body",
                                   "%s is moved by %s already, expected one wave maker per body",
                                   use->body, other->name);
+    sb_status status = check_direction(reader, map, use);
+    if (status != SB_OK) return status;
     use->law.gravity = scene->fluid.gravity;
     sb_paddle paddle = {0};
     sb_error why = {0};
-    sb_status status = sb_paddle_create(&use->law, &paddle, &why);
+    status = sb_paddle_create(&use->law, &paddle, &why);
     if (status == SB_OK)
         sb_paddle_destroy(&paddle);
     else if (status == SB_BAD_INPUT)

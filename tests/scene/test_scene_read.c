@@ -34,6 +34,30 @@ static void test_defaults(void **state)
     sb_scene_free(&scene);
 }
 
+static void test_periodic_sides(void **state)
+{
+    (void)state;
+    sb_scene scene;
+    scene_must_read("resolution: 0.1\nduration: 1\n"
+                    "domain: {min: [0, 0, 0], max: [2, 1, 1], sides: {y_max: periodic, "
+                    "y_min: periodic}}\n"
+                    "water: {level: 0.5, seed: [1, 0.5, 0.2]}\n"
+                    "bodies: [{name: b, shape: box, min: [0, 0, 0], max: [0.3, 1, 1]}]\n"
+                    "wavemakers: [{name: w, body: b, kind: stroke, stroke: 1, speed: 2}]\n",
+                    NULL, NULL, 0, &scene);
+    assert_true(!sb_scene_repeats(&scene, 0) && sb_scene_repeats(&scene, 1));
+    assert_false(sb_scene_repeats(&scene, 2));
+    sb_scene_free(&scene);
+    /* Across a slice sides mean nothing, alone or not. */
+    scene_must_read("dimensions: 2\nresolution: 0.1\nduration: 1\n"
+                    "domain: {min: [0, 0], max: [2, 1], sides: {y_max: periodic, "
+                    "x_min: periodic, x_max: periodic}}\n"
+                    "water: {level: 0.5, seed: [1, 0.2]}\n",
+                    NULL, NULL, 0, &scene);
+    assert_true(sb_scene_repeats(&scene, 0) && !sb_scene_repeats(&scene, 1));
+    sb_scene_free(&scene);
+}
+
 static void test_boxes(void **state)
 {
     (void)state;
@@ -209,10 +233,15 @@ static void test_presets(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_defaults),       cmocka_unit_test(test_boxes),
-        cmocka_unit_test(test_bodies),         cmocka_unit_test(test_files),
-        cmocka_unit_test(test_two_dimensions), cmocka_unit_test(test_measure_and_cameras),
-        cmocka_unit_test(test_aliases),        cmocka_unit_test(test_presets),
+        cmocka_unit_test(test_defaults),
+        cmocka_unit_test(test_periodic_sides),
+        cmocka_unit_test(test_boxes),
+        cmocka_unit_test(test_bodies),
+        cmocka_unit_test(test_files),
+        cmocka_unit_test(test_two_dimensions),
+        cmocka_unit_test(test_measure_and_cameras),
+        cmocka_unit_test(test_aliases),
+        cmocka_unit_test(test_presets),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -237,8 +237,7 @@ static outcome solve_once(const tank *t)
         uint32_t id = sim->id[i];
         o.density[id] = (double)sim->density[i];
         o.pressure[id] = (double)sim->velocity[i][3];
-        for (int axis = 0; axis < 3; axis++)
-            o.speed[axis][id] = (double)sim->velocity[i][axis];
+        for (int axis = 0; axis < 3; axis++) o.speed[axis][id] = (double)sim->velocity[i][axis];
     }
     o.impulse = *sb_sim_impulse(sim, 0);
     sb_sim_destroy(sim);
@@ -346,7 +345,8 @@ static void momentum_is_kept_across_sides(void **state)
         for (int bodies = 0; bodies <= 1; bodies++) {
             bool flat = dimensions == 2;
             tank t;
-            tank_make(&t, dimensions, 0.1, sb_vec(1.2, flat ? 0 : 0.4, bodies ? 2 : 4), 1.2, 1, 0.1);
+            tank_make(&t, dimensions, 0.1, sb_vec(1.2, flat ? 0 : 0.4, bodies ? 2 : 4), 1.2, 1,
+                      0.1);
             tank_repeat(&t, 0);
             if (!flat) tank_repeat(&t, 1);
             t.scene.numerics.artificial_viscosity = 0.05;

@@ -1,5 +1,5 @@
-/* What runs with periodic sides do: streams, slabs, drops, samples across a side; the same bits for any
-   number of threads. */
+/* What runs with periodic sides do: streams, slabs, drops, samples across a side; the same bits for
+   any number of threads. */
 #include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
@@ -262,8 +262,7 @@ static void samples_are_seen_across_sides(void **state)
     tank_make(&t, 3, 0.1, sb_vec(1.2, 0.4, 1), 1.2, 0.6, 0.1);
     tank_repeat(&t, 0);
     tank_repeat(&t, 1);
-    for (size_t i = 0; i < t.model.fluid_count; i++)
-        t.model.fluid_velocity[i] = sb_vec(3, -2, 0);
+    for (size_t i = 0; i < t.model.fluid_count; i++) t.model.fluid_velocity[i] = sb_vec(3, -2, 0);
     sb_sim *sim = tank_sim(&t);
     assert_non_null(sim);
     for (int part = 0; part < 5; part++) {
