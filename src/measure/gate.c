@@ -1,6 +1,7 @@
 /* Volume through a vertical plane. Each particle near the plane is remembered with its place, so a
    passage is a change of side between two sightings of the same particle: whatever goes through is
-   counted once and with its sign, to the last bit, and what comes back is taken off again. */
+   counted once and with its sign, to the last bit, and what comes back is taken off again. Beside a
+   periodic side a particle may be seen more than once; a sighting goes on from the nearest one. */
 #include "base/memory.h"
 #include "measure/parts.h"
 
@@ -15,6 +16,7 @@ struct sb_gate {
     const sb_flow_plane *plane;
     double ax, ay, tx, ty, nx, ny, length; /* start, unit tangent, unit normal to the right, m */
     double margin, particle_volume;
+    double stride; /* m: two sightings farther apart are of two images */
     bool flat;
     size_t count, capacity, next_capacity;
     sighting *seen, *next; /* sorted by id */
@@ -77,6 +79,11 @@ sb_status sb_gate_create(const sb_sight *sight, const sb_flow_plane *plane, sb_g
     made->particle_volume = made->flat ? spacing * spacing : spacing * spacing * spacing;
     /* Far more than a step moves a particle (CFL): whoever passes was seen before. */
     made->margin = 2 * spacing;
+    made->stride = INFINITY;
+    for (int axis = 0; axis < 2; axis++) {
+        double length = sb_repeat_length(sight->scene, sight->min, sight->max, axis);
+        if (length > 0) made->stride = fmin(made->stride, 0.5 * length);
+    }
     made->ax = plane->ax;
     if (made->flat) {
         made->nx = plane->by < plane->ay ? -1 : 1;
@@ -128,8 +135,9 @@ sb_status sb_gate_step(sb_gate *gate, const sb_sight *sight, double *volume, sb_
     long net = 0;
     for (size_t i = 0, j = 0; i < count; i++) {
         while (j < gate->count && gate->seen[j].id < gate->next[i].id) j++;
-        if (j < gate->count && gate->seen[j].id == gate->next[i].id)
-            net += passage(gate, gate->seen[j].position, gate->next[i].position);
+        for (size_t k = j; k < gate->count && gate->seen[k].id == gate->next[i].id; k++)
+            if (sb_norm(sb_sub(gate->seen[k].position, gate->next[i].position)) < gate->stride)
+                net += passage(gate, gate->seen[k].position, gate->next[i].position);
     }
     keep(gate, count);
     *volume += (double)net * gate->particle_volume;

@@ -14,6 +14,8 @@ struct sb_map_field {
     float *depth, *speed, *flux, *arrival, *start;
     cell_sum *sums;
     double spacing, threshold, pause, next;
+    double low[2],
+        length[2]; /* m along x and y: of the domain, which repeats after length; 0: it does not */
     bool flat;
 };
 
@@ -62,15 +64,34 @@ static void deposit(sb_map_field *map, const sb_fluid_sample *sample)
         }
 }
 
+/* The way to a particle's image whose square is partly in the domain, as its own is; 0: none is. */
+static double way_to_image(const sb_map_field *map, int axis, double at)
+{
+    double length = map->length[axis], half = map->spacing / 2;
+    if (!(length > 0)) return 0;
+    return at - half < map->low[axis] ? length : at + half > map->low[axis] + length ? -length : 0;
+}
+
+/* Adds one particle, and what of it lies beyond a periodic side at the other. */
+static void deposit_all(sb_map_field *map, sb_fluid_sample sample)
+{
+    double dx = way_to_image(map, 0, sample.position.x);
+    double dy = way_to_image(map, 1, sample.position.y);
+    deposit(map, &sample);
+    sample.position.x += dx;
+    if (dx != 0) deposit(map, &sample);
+    sample.position.y += dy;
+    if (dy != 0) deposit(map, &sample);
+    sample.position.x -= dx;
+    if (dx != 0 && dy != 0) deposit(map, &sample);
+}
+
 static void gather(sb_map_field *map, const sb_sim *sim)
 {
     size_t cells = map->result.columns * map->result.rows;
     for (size_t i = 0; i < cells; i++) map->sums[i] = (cell_sum){0};
     size_t count = sb_sim_report(sim)->fluid_count;
-    for (size_t i = 0; i < count; i++) {
-        sb_fluid_sample sample = sb_sim_particle(sim, i);
-        deposit(map, &sample);
-    }
+    for (size_t i = 0; i < count; i++) deposit_all(map, sb_sim_particle(sim, i));
 }
 
 static float area_of(const sb_map_field *map)
@@ -130,6 +151,10 @@ sb_status sb_map_create(const sb_sight *sight, sb_map_field **map, sb_error *err
         .x_min = wish->x_min,
         .y_min = made->flat ? 0 : wish->y_min,
         .cell = wish->cell};
+    made->low[0] = sight->min.x;
+    made->low[1] = sight->min.y;
+    for (int axis = 0; axis < 2; axis++)
+        made->length[axis] = sb_repeat_length(scene, sight->min, sight->max, axis);
     sb_status status = allocate(made, error);
     if (status != SB_OK) {
         sb_map_destroy(made);

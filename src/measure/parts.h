@@ -14,6 +14,13 @@ typedef struct sb_sight {
     sb_cloud *cloud;  /* scratch */
 } sb_sight;
 
+/* Length after which the domain [min, max] repeats along x (axis 0) or y (1), m; 0: it does not. */
+static inline double sb_repeat_length(const sb_scene *scene, sb_vec3 min, sb_vec3 max, int axis)
+{
+    double length = axis == 0 ? max.x - min.x : max.y - min.y;
+    return sb_scene_repeats(scene, axis) ? length : 0;
+}
+
 /* Distance below which particles belong together, in spacings: the diagonal of a lattice face is
    1.41, the next shell at 1.73 would bridge a missing layer. */
 #define SB_LINK 1.5

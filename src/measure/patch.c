@@ -57,22 +57,47 @@ bool sb_patch_first_layer(const sb_patch *patch, sb_vec3 position)
     return false;
 }
 
-static sb_status collect(sb_patch *patch, const sb_model *model, sb_vec3 at, double reach,
-                         sb_error *error)
+static sb_status add_wall(sb_patch *patch, sb_vec3 position, sb_vec3 normal, sb_error *error)
 {
+    if (sb_grow((void **)&patch->walls, &patch->capacity, patch->count + 1, sizeof *patch->walls) !=
+        0)
+        return sb_fail_memory(error, "wall around a probe");
+    patch->walls[patch->count++] = (patch_wall){.position = position, .normal = normal};
+    return SB_OK;
+}
+
+/* Those of a boundary particle and of its images beyond periodic sides that are near enough. */
+static sb_status add_near(sb_patch *patch, sb_vec3 position, sb_vec3 normal, sb_vec3 at,
+                          double reach, const double length[2], sb_error *error)
+{
+    int most[2];
+    for (int axis = 0; axis < 2; axis++)
+        most[axis] = length[axis] > 0 ? 1 + (int)ceil(reach / length[axis]) : 0;
+    for (int j = -most[1]; j <= most[1]; j++)
+        for (int i = -most[0]; i <= most[0]; i++) {
+            sb_vec3 image = sb_add(position, sb_vec(i * length[0], j * length[1], 0));
+            sb_vec3 d = sb_sub(image, at);
+            if (sb_dot(d, d) >= reach * reach) continue;
+            sb_status status = add_wall(patch, image, normal, error);
+            if (status != SB_OK) return status;
+        }
+    return SB_OK;
+}
+
+static sb_status collect(sb_patch *patch, const sb_scene *scene, const sb_model *model, sb_vec3 at,
+                         double reach, sb_error *error)
+{
+    const double length[2] = {sb_repeat_length(scene, model->min, model->max, 0),
+                              sb_repeat_length(scene, model->min, model->max, 1)};
     for (size_t b = 0; b < model->body_count; b++) {
         const sb_model_body *body = &model->bodies[b];
         if (body->wavemaker >= 0) /* goes away from the probe */
             continue;
         for (size_t i = body->begin; i < body->begin + body->count; i++) {
-            sb_vec3 d = sb_sub(model->wall_position[i], at);
-            if (sb_dot(d, d) >= reach * reach) continue;
-            if (sb_grow((void **)&patch->walls, &patch->capacity, patch->count + 1,
-                        sizeof *patch->walls) != 0)
-                return sb_fail_memory(error, "wall around a probe");
-            patch->walls[patch->count++] = (patch_wall){
-                .position = model->wall_position[i],
-                .normal = model->wall_normal ? model->wall_normal[i] : sb_vec(0, 0, 0)};
+            sb_vec3 normal = model->wall_normal ? model->wall_normal[i] : sb_vec(0, 0, 0);
+            sb_status status =
+                add_near(patch, model->wall_position[i], normal, at, reach, length, error);
+            if (status != SB_OK) return status;
         }
     }
     return SB_OK;
@@ -162,7 +187,7 @@ sb_status sb_patch_create(const sb_scene *scene, const sb_model *model, const sb
     double support = scene->numerics.support * scene->resolution;
     double radius = probe->radius > 0 ? probe->radius : PATCH_RADIUS * scene->resolution;
     made->spacing = scene->resolution;
-    sb_status status = collect(made, model, probe->at,
+    sb_status status = collect(made, scene, model, probe->at,
                                1.5 * fmax(radius, support) + support + scene->resolution, error);
     if (status != SB_OK) {
         sb_patch_destroy(made);
