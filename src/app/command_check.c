@@ -16,12 +16,25 @@ static const char help[] =
 
 /* Costs measured with tools/bench on two cores at 2.5 GHz; they scale an estimate, nothing else. */
 static const double FLUID_BYTES = 430, WALL_BYTES = 60;        /* of a run's heap, per particle */
+static const double GHOST_BYTES = 90;                          /* per image beyond periodic sides: its fields */
 static const double SECONDS_PER_STEP = 2.0e-6;                 /* one thread, per fluid particle */
 static const double PARTICLE_FILE_BYTES = 44, PICTURE_BYTES = 7e5;
 
 typedef struct estimate {
-    double steps, time_step, seconds, memory, disk;
+    double steps, time_step, seconds, memory, disk, ghosts;
 } estimate;
+
+/* Images of evenly spread water within a support radius of periodic sides. */
+static double count_ghosts(const sb_scene *scene, const sb_model *model)
+{
+    const double h = scene->numerics.support * scene->resolution;
+    const sb_vec3 size = sb_sub(model->max, model->min);
+    double all = 1;
+    for (int axis = 0; axis < 2; axis++)
+        if (sb_scene_repeats(scene, axis))
+            all *= 1 + 2 * h / (axis == 0 ? size.x : size.y);
+    return (all - 1) * (double)model->fluid_count;
+}
 
 static estimate make_estimate(const sb_scene *scene, const sb_model *model)
 {
@@ -37,12 +50,13 @@ static estimate make_estimate(const sb_scene *scene, const sb_model *model)
     double pictures = scene->render.interval > 0
                           ? (scene->duration / scene->render.interval + 1) * (double)scene->render.camera_count
                           : 0;
-    double steps = ceil(scene->duration / dt);
+    double steps = ceil(scene->duration / dt), ghosts = count_ghosts(scene, model);
     return (estimate){
         .steps = steps,
         .time_step = dt,
         .seconds = steps * fluid * SECONDS_PER_STEP / omp_get_max_threads(),
-        .memory = fluid * FLUID_BYTES + (double)model->wall_count * WALL_BYTES,
+        .memory = fluid * FLUID_BYTES + (double)model->wall_count * WALL_BYTES + ghosts * GHOST_BYTES,
+        .ghosts = ghosts,
         .disk = files * fluid * PARTICLE_FILE_BYTES + pictures * PICTURE_BYTES,
     };
 }
@@ -86,6 +100,8 @@ static void report_text(const sb_scene *scene, const sb_model *model, const esti
     printf("  spacing            %g m in %dD\n", scene->resolution, scene->dimensions);
     printf("  fluid particles    %zu\n", model->fluid_count);
     printf("  boundary particles %zu on %zu bodies\n", model->wall_count, model->body_count);
+    if (e->ghosts > 0)
+        printf("  ghost particles    about %.0f beyond periodic sides\n", e->ghosts);
     printf("  still depth        %g m (%.1f particles)\n", model->still_depth,
            model->still_depth / scene->resolution);
     printf("  memory             about %.0f MB\n", e->memory / 1e6);
@@ -106,6 +122,7 @@ static void report_json(const sb_scene *scene, const sb_model *model, const esti
     sb_json_number(&json, "resolution_m", scene->resolution);
     sb_json_count(&json, "fluid_particles", model->fluid_count);
     sb_json_count(&json, "boundary_particles", model->wall_count);
+    sb_json_number(&json, "ghost_particles", e->ghosts);
     sb_json_number(&json, "still_depth_m", model->still_depth);
     sb_json_number(&json, "memory_bytes", e->memory);
     sb_json_number(&json, "steps", e->steps);

@@ -154,73 +154,6 @@ static void threads_make_no_difference(void **state)
     tank_free(&t);
 }
 
-/* A drop leaves at a side, comes back at the other and meets a wall beyond it: contact stops it,
-   the wall feels it. */
-static void a_drop_meets_a_wall_beyond_the_side(void **state)
-{
-    (void)state;
-    for (int way = -1; way <= 1; way += 2)
-        for (int dimensions = 2; dimensions <= 3; dimensions++) {
-            tank t;
-            tank_make(&t, dimensions, 0.1, sb_vec(2, 0.8, 2), 0.1, 0.1, 0);
-            tank_repeat(&t, 0);
-            t.scene.fluid.gravity = 0;
-            double sheet = way > 0 ? 0.03 : 1.97;
-            size_t wall = tank_add_sheet(&t, "sheet", sheet, 0, 2, sb_vec(0, 0, 0), NULL);
-            t.model.bodies[wall].moment_point = sb_vec(sheet, 0, 0);
-            t.model.fluid_count = 1;
-            t.model.fluid_position[0] =
-                sb_vec(way > 0 ? 1.42 : 0.58, dimensions == 2 ? 0 : 0.4, 1.01);
-            t.model.fluid_velocity[0] = sb_vec(9 * way, 0, 0);
-            sb_sim *sim = tank_sim(&t);
-            assert_non_null(sim);
-            double mass = sb_sim_energy(sim).mass;
-            while (sb_sim_report(sim)->time < 0.3) assert_int_equal(tank_steps(sim, 1), 0);
-            double x = sb_sim_particle(sim, 0).position.x;
-            const sb_body_impulse *push = sb_sim_impulse(sim, wall);
-            assert_int_equal(sim->n, 1);
-            assert_true(way > 0 ? x > 1.9 || x < sheet : x < 0.1 || x > sheet);
-            double lost = 9 * way - sb_sim_particle(sim, 0).velocity.x;
-            assert_near(push->pressure.x, mass * lost, 1e-4 * mass * 9);
-            assert_true(fabs(lost) > 4);
-            /* Where it is, not where its image is: the moment is that of a push at z = 1. */
-            assert_near(push->moment.y, 1.01 * push->pressure.x, 0.05 * fabs(push->pressure.x));
-            sb_sim_destroy(sim);
-            tank_free(&t);
-        }
-}
-
-/* The moment of a force on a body beside a side, the water that pushes it being beyond. */
-static void a_push_across_acts_at_the_body(void **state)
-{
-    (void)state;
-    sb_body_impulse given[2];
-    for (int beside = 0; beside <= 1; beside++) {
-        tank t;
-        tank_make(&t, 3, 0.1, sb_vec(2, 0.4, 1), 2, 0.6, 0.1);
-        tank_repeat(&t, 0);
-        tank_repeat(&t, 1);
-        size_t wall = tank_add_sheet(&t, "sheet", 1, 0, 1, sb_vec(0, 0, 0), NULL);
-        t.model.bodies[wall].moment_point = sb_vec(1, 0, 0);
-        if (beside) {
-            tank_roll(&t, sb_vec(1.01, 0, 0));
-            t.model.bodies[wall].moment_point = sb_vec(0.01, 0, 0);
-        }
-        sb_sim *sim = tank_sim(&t);
-        assert_non_null(sim);
-        assert_int_equal(tank_steps(sim, 1), 0);
-        given[beside] = *sb_sim_impulse(sim, wall);
-        sb_sim_destroy(sim);
-        tank_free(&t);
-    }
-    double push = sb_norm(sb_sub(given[1].pressure, given[0].pressure));
-    double moment = sb_norm(sb_sub(given[1].moment, given[0].moment));
-    printf("push differs by %.2g, moment by %.2g of each\n", push / sb_norm(given[0].pressure),
-           moment / sb_norm(given[0].moment));
-    assert_true(push < 1e-4 * sb_norm(given[0].pressure));
-    assert_true(moment < 1e-4 * sb_norm(given[0].moment));
-}
-
 static sb_fluid_sample found[16384];
 
 static bool in_box(sb_vec3 x, sb_vec3 min, sb_vec3 max)
@@ -279,6 +212,37 @@ static void samples_are_seen_across_sides(void **state)
     tank_free(&t);
 }
 
+static bool skips_ghosts(const sb_sim *sim)
+{
+    bool skipped = false;
+    for (const char *const *line = sb_sim_skipped(sim); *line; line++)
+        skipped = skipped || strstr(*line, "periodic sides");
+    return skipped;
+}
+
+/* Without periodic sides there is no ghost, no memory for any, and the log says so. */
+static void no_side_costs_nothing(void **state)
+{
+    (void)state;
+    for (int periodic = 0; periodic <= 1; periodic++) {
+        tank t;
+        tank_make(&t, 3, 0.1, sb_vec(1.2, 0.4, 1), 1.2, 0.6, 0.1);
+        if (periodic) tank_repeat(&t, 1);
+        sb_sim *sim = tank_sim(&t);
+        assert_non_null(sim);
+        size_t before = sb_sim_bytes(sim);
+        assert_int_equal(sim->capacity, sim->n);
+        sb_error error = {0};
+        sim->report.time_step = 0.01;
+        assert_int_equal(sb_stage_ghosts(sim, &error), SB_OK);
+        bool none = sim->ghosts.count == 0 && !sim->ghosts.of && sim->capacity == sim->n;
+        assert_true(none == !periodic && skips_ghosts(sim) == !periodic);
+        assert_true((sb_sim_bytes(sim) > before) == (periodic != 0));
+        sb_sim_destroy(sim);
+        tank_free(&t);
+    }
+}
+
 static void no_memory_is_told(void **state)
 {
     (void)state;
@@ -310,9 +274,8 @@ int main(void)
         cmocka_unit_test(a_slab_is_a_flume),
         cmocka_unit_test(a_slab_weighs_what_its_width_weighs),
         cmocka_unit_test(threads_make_no_difference),
-        cmocka_unit_test(a_drop_meets_a_wall_beyond_the_side),
-        cmocka_unit_test(a_push_across_acts_at_the_body),
         cmocka_unit_test(samples_are_seen_across_sides),
+        cmocka_unit_test(no_side_costs_nothing),
         cmocka_unit_test(no_memory_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

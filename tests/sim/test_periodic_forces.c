@@ -1,0 +1,154 @@
+/* What crosses a periodic side keeps momentum, and bodies beyond it feel what is theirs. */
+#include "../check.h"
+#include "base/memory.h"
+#include "base/random.h"
+#include "sim/tank.h"
+
+#include <stdio.h>
+
+/* Largest change of (water + what bodies were given - weight) over a step, by the sum of |m a| dt,
+   or by a tenth of that of |m v| where this is larger: velocities are floats. */
+static double follow_momentum(sb_sim *sim, int steps)
+{
+    double m = (double)sim->constant.mass, worst = 0;
+    sb_vec3 *before = sb_alloc(sim->n, sizeof *before);
+    assert_non_null(before);
+    sb_vec3 last = {0};
+    for (int s = 0; s <= steps; s++) {
+        if (s > 0) assert_int_equal(tank_steps(sim, 1), 0);
+        sb_vec3 sum = {0};
+        double pushed = 0, moving = 0;
+        for (size_t i = 0; i < sim->n; i++) {
+            sb_fluid_sample p = sb_sim_particle(sim, i);
+            sum = sb_madd(sum, m, p.velocity);
+            pushed += m * sb_norm(sb_sub(p.velocity, before[p.id]));
+            moving += m * sb_norm(p.velocity);
+            before[p.id] = p.velocity;
+        }
+        for (size_t b = 0; b < sim->model->body_count; b++) {
+            const sb_body_impulse *given = sb_sim_impulse(sim, b);
+            sum = sb_add(sum, sb_add(given->pressure, given->friction));
+        }
+        sum.z += m * (double)sim->n * sim->scene->fluid.gravity * sim->report.time;
+        if (s > 0) worst = fmax(worst, sb_norm(sb_sub(sum, last)) / fmax(pushed, 0.1 * moving));
+        last = sum;
+    }
+    sb_free(before);
+    return worst;
+}
+
+static void momentum_is_kept_across_sides(void **state)
+{
+    (void)state;
+    for (int dimensions = 2; dimensions <= 3; dimensions++)
+        for (int bodies = 0; bodies <= 1; bodies++) {
+            bool flat = dimensions == 2;
+            tank t;
+            tank_make(&t, dimensions, 0.1, sb_vec(1.2, flat ? 0 : 0.4, bodies ? 2 : 4), 1.2, 1,
+                      0.1);
+            tank_repeat(&t, 0);
+            if (!flat) tank_repeat(&t, 1);
+            t.scene.numerics.artificial_viscosity = 0.05;
+            t.scene.numerics.wall_friction = 0.1;
+            if (bodies) {
+                tank_add_sheet(&t, "sill", 0.03, 0, 0.3, sb_vec(0, 0, 0), NULL);
+            } else {
+                t.model.wall_count = t.model.bodies[0].count = 0;
+                t.scene.fluid.gravity = 0;
+            }
+            for (size_t i = 0; i < t.model.fluid_count; i++)
+                t.model.fluid_velocity[i] =
+                    sb_vec(1 + 0.2 * sb_random(4, 2 * i), 0, 0.2 * sb_random(4, 2 * i + 1));
+            /* Two layers fly at each other. */
+            for (size_t i = 0; i < t.model.fluid_count && !bodies; i++) {
+                t.model.fluid_velocity[i].z = t.model.fluid_position[i].z < 0.5 ? 0.25 : -0.25;
+                t.model.fluid_position[i].z += 1.5;
+            }
+            sb_sim *sim = tank_sim(&t);
+            assert_non_null(sim);
+            double worst = follow_momentum(sim, 60);
+            printf("%dD, %s: momentum within %.2g of sum |m a| dt\n", dimensions,
+                   bodies ? "floor and sill" : "water alone", worst);
+            assert_int_equal(sim->n, t.model.fluid_count);
+            assert_true(worst < 1e-6);
+            sb_sim_destroy(sim);
+            tank_free(&t);
+        }
+}
+
+/* A drop leaves at a side, comes back at the other and meets a wall beyond it: contact stops it,
+   the wall feels it. */
+static void a_drop_meets_a_wall_beyond_the_side(void **state)
+{
+    (void)state;
+    for (int way = -1; way <= 1; way += 2)
+        for (int dimensions = 2; dimensions <= 3; dimensions++) {
+            tank t;
+            tank_make(&t, dimensions, 0.1, sb_vec(2, 0.8, 2), 0.1, 0.1, 0);
+            tank_repeat(&t, 0);
+            t.scene.fluid.gravity = 0;
+            double sheet = way > 0 ? 0.03 : 1.97;
+            size_t wall = tank_add_sheet(&t, "sheet", sheet, 0, 2, sb_vec(0, 0, 0), NULL);
+            t.model.bodies[wall].moment_point = sb_vec(sheet, 0, 0);
+            t.model.fluid_count = 1;
+            t.model.fluid_position[0] =
+                sb_vec(way > 0 ? 1.42 : 0.58, dimensions == 2 ? 0 : 0.4, 1.01);
+            t.model.fluid_velocity[0] = sb_vec(9 * way, 0, 0);
+            sb_sim *sim = tank_sim(&t);
+            assert_non_null(sim);
+            double mass = sb_sim_energy(sim).mass;
+            while (sb_sim_report(sim)->time < 0.3) assert_int_equal(tank_steps(sim, 1), 0);
+            double x = sb_sim_particle(sim, 0).position.x;
+            const sb_body_impulse *push = sb_sim_impulse(sim, wall);
+            assert_int_equal(sim->n, 1);
+            assert_true(way > 0 ? x > 1.9 || x < sheet : x < 0.1 || x > sheet);
+            double lost = 9 * way - sb_sim_particle(sim, 0).velocity.x;
+            assert_near(push->pressure.x, mass * lost, 1e-4 * mass * 9);
+            assert_true(fabs(lost) > 4);
+            /* Where it is, not where its image is: the moment is that of a push at z = 1. */
+            assert_near(push->moment.y, 1.01 * push->pressure.x, 0.05 * fabs(push->pressure.x));
+            sb_sim_destroy(sim);
+            tank_free(&t);
+        }
+}
+
+/* The moment of a force on a body beside a side, the water that pushes it being beyond. */
+static void a_push_across_acts_at_the_body(void **state)
+{
+    (void)state;
+    sb_body_impulse given[2];
+    for (int beside = 0; beside <= 1; beside++) {
+        tank t;
+        tank_make(&t, 3, 0.1, sb_vec(2, 0.4, 1), 2, 0.6, 0.1);
+        tank_repeat(&t, 0);
+        tank_repeat(&t, 1);
+        size_t wall = tank_add_sheet(&t, "sheet", 1, 0, 1, sb_vec(0, 0, 0), NULL);
+        t.model.bodies[wall].moment_point = sb_vec(1, 0, 0);
+        if (beside) {
+            tank_roll(&t, sb_vec(1.01, 0, 0));
+            t.model.bodies[wall].moment_point = sb_vec(0.01, 0, 0);
+        }
+        sb_sim *sim = tank_sim(&t);
+        assert_non_null(sim);
+        assert_int_equal(tank_steps(sim, 1), 0);
+        given[beside] = *sb_sim_impulse(sim, wall);
+        sb_sim_destroy(sim);
+        tank_free(&t);
+    }
+    double push = sb_norm(sb_sub(given[1].pressure, given[0].pressure));
+    double moment = sb_norm(sb_sub(given[1].moment, given[0].moment));
+    printf("push differs by %.2g, moment by %.2g of each\n", push / sb_norm(given[0].pressure),
+           moment / sb_norm(given[0].moment));
+    assert_true(push < 1e-4 * sb_norm(given[0].pressure));
+    assert_true(moment < 1e-4 * sb_norm(given[0].moment));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(momentum_is_kept_across_sides),
+        cmocka_unit_test(a_drop_meets_a_wall_beyond_the_side),
+        cmocka_unit_test(a_push_across_acts_at_the_body),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
