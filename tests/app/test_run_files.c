@@ -300,6 +300,26 @@ static void until_set_and_preset_count(void **state)
     sb_scene_free(&scene);
 }
 
+/* The tank as a slab: its sill goes on from side to side. */
+static void periodic_sides_run(void **state)
+{
+    (void)state;
+    static const char sides[] = "domain.sides={y_min: periodic, y_max: periodic}";
+    outcome o = RUN(0, "check", "tank3.yaml", "--set", sides);
+    assert_contains(o.out, "  ghost particles    about 192 beyond periodic sides\n");
+    assert_null(strstr(o.out, "warning"));
+    outcome_free(&o);
+    RUN_AND_FORGET(0, "run", "tank3.yaml", "--set", sides, "--out=slab", "--quiet");
+    assert_near(json_number_of("slab/summary.json", "lost_particles"), 0, 0);
+    assert_near(json_number_of("slab/summary.json", "left_domain"), 0, 0);
+    assert_near(json_number_of("slab/summary.json", "through_walls"), 0, 0);
+    char *log = text_of("slab/run.jsonl"), *other = text_of("r3/run.jsonl");
+    assert_null(strstr(log, "periodic sides: none, no ghosts"));
+    assert_contains(other, "periodic sides: none, no ghosts");
+    sb_free(log);
+    sb_free(other);
+}
+
 static void out_has_a_default(void **state)
 {
     (void)state;
@@ -331,6 +351,7 @@ int main(void)
         cmocka_unit_test(particle_files_and_their_list),
         cmocka_unit_test(summary_has_its_keys),
         cmocka_unit_test(until_set_and_preset_count),
+        cmocka_unit_test(periodic_sides_run),
         cmocka_unit_test(out_has_a_default),
         cmocka_unit_test(unwritable_out_fails),
     };
