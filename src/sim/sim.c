@@ -2,6 +2,7 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "sim/pressure.h"
+#include "sim/turbulence.h"
 
 #include <math.h>
 #include <omp.h>
@@ -61,6 +62,7 @@ static int allocate(sb_sim *sim, size_t n, size_t bodies)
         {&sim->diagonal, n, 4, true},           {&sim->source, n, 4, true},
         {&sim->unknown, n, 4, true},            {&sim->residual, n, 4, true},
         {&sim->direction, n, 4, direction},     {&sim->product, n, 4, direction},
+        {&sim->eddy, n, 4, sb_turbulence_on(sim->scene)},
         {&sim->sort_a, n, 8, true},             {&sim->sort_b, n, 8, true},
         {&sim->scratch, n, 16, true},           {&sim->scratch_id, n, 4, true},
         {&sim->pairs.first, n, 4, true},        {&sim->pairs.count, n, 2, true},
@@ -105,8 +107,10 @@ static void note_skipped(sb_sim *sim)
 {
     const sb_numerics *n = &sim->scene->numerics;
     size_t s = 0;
-    if (!(n->artificial_viscosity > 0) && !(sim->constant.viscosity > 0))
+    if (!(n->artificial_viscosity > 0) && !(sim->constant.viscosity > 0) && !sb_turbulence_on(sim->scene))
         sim->skipped[s++] = "viscosity: both coefficients are 0, no pass over pairs";
+    if (!sb_turbulence_on(sim->scene))
+        sim->skipped[s++] = "turbulence: none, no strain rates, no memory for eddy viscosities";
     if (!(n->wall_friction > 0))
         sim->skipped[s++] = "wall friction: coefficient is 0";
     if (sim->moving_count == 0)
@@ -167,7 +171,7 @@ void sb_sim_destroy(sb_sim *sim)
     if (!sim)
         return;
     void *fields[] = {sim->position, sim->velocity, sim->id, sim->acceleration, sim->wall, sim->density,
-                      sim->diagonal, sim->source, sim->unknown, sim->residual, sim->direction, sim->product,
+                      sim->eddy, sim->diagonal, sim->source, sim->unknown, sim->residual, sim->direction, sim->product,
                       sim->sort_a, sim->sort_b, sim->scratch, sim->scratch_id, sim->partial,
                       sim->block_touched, sim->block_impulse, sim->impulse};
     for (size_t f = 0; f < sizeof fields / sizeof fields[0]; f++)

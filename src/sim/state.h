@@ -74,6 +74,7 @@ typedef struct sb_sim {
                                  the new velocity and pressure */
     sb_f4 *wall;              /* sum_b psi_b grad W_ib; last lane: sum_b psi_b v_b . grad W_ib */
     float *density;           /* kg/m^3 */
+    float *eddy;              /* m^2/s, nu_t at the step's start; NULL without a turbulence model */
     float *diagonal;          /* -a_ii > 0 for q as unknown; 0: no pressure here */
     float *source;            /* b_i, kg/m^3 */
     float *unknown;           /* q = p / rho^2 */

@@ -42,6 +42,8 @@ static void check(const tank *t, const char *name)
 static void add_terms(tank *t)
 {
     t->scene.numerics.wall_friction = 0.05;
+    t->scene.numerics.turbulence = SB_TURBULENCE_SPS;
+    t->scene.numerics.smagorinsky = 0.1;
     t->scene.fluid.viscosity = 1e-4;
     t->scene.numerics.settle_steps = 5;
 }
