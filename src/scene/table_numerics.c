@@ -60,7 +60,7 @@ static const sb_key keys[] = {
     CHOICE(turbulence, turbulence_words,
            "`sps`: an eddy viscosity from the strain rate, for eddies below the spacing; `none` "
            "leaves it out."),
-    NUMBER(smagorinsky, NULL, 0, 0.3, SB_KEY_ABOVE,
+    NUMBER(smagorinsky, NULL, 0, 0.25, SB_KEY_ABOVE,
            "C_s of that eddy viscosity: its mixing length in spacings, away from walls."),
     NUMBER(sound_speed, "m/s", 0, HUGE_VAL, 0,
            "Speed in artificial_viscosity and wall_friction; 0: 10 sqrt(g D)."),
