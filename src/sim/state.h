@@ -57,6 +57,8 @@ typedef struct sb_pairs {
     size_t used, capacity;
 } sb_pairs;
 
+struct sb_ledger_sums; /* sim/ledger.h */
+
 typedef struct sb_sim {
     const sb_scene *scene;
     const sb_model *model;
@@ -101,6 +103,9 @@ typedef struct sb_sim {
     double *block_impulse;    /* per block and body 9 values, of one step */
     unsigned char *block_touched;
     sb_body_impulse *impulse; /* per body */
+
+    struct sb_ledger_sums *block_ledger; /* per block, of one step */
+    sb_ledger ledger;
 
     bool settling;
     sb_step_report report;

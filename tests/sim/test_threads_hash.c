@@ -97,6 +97,7 @@ static void the_hash_sees_all(void **state)
                  {&sim->velocity[last], 16},
                  {&sim->id[0], 4},
                  {&sim->impulse[0].moment, sizeof(sb_vec3)},
+                 {&sim->ledger.left, sizeof(double)},
                  {&sim->report.time, sizeof(double)},
                  {&sim->report.step, sizeof(uint64_t)}};
     for (size_t p = 0; p < sizeof parts / sizeof *parts; p++)
