@@ -32,6 +32,7 @@ struct sb_measurements {
     const sb_scene *scene;
     const sb_model *model;
     double interval, time; /* s; time: of the last step's end */
+    double momentum_imbalance; /* largest of a step since the last row */
     uint64_t next;         /* the next row lies at next * interval */
     body_state *states;
     sb_body_record *bodies;
@@ -148,7 +149,10 @@ static sb_status record_energy(sb_measure *measure, const sb_sim *sim, sb_error 
                                  .kinetic = energy.kinetic,
                                  .potential = energy.potential,
                                  .mass = energy.mass,
-                                 .momentum = energy.momentum};
+                                 .momentum = energy.momentum,
+                                 .ledger = *sb_sim_ledger(sim),
+                                 .momentum_imbalance = measure->momentum_imbalance};
+    measure->momentum_imbalance = 0;
     return SB_OK;
 }
 
@@ -332,6 +336,7 @@ sb_status sb_measure_step(sb_measure *measure, const sb_sim *sim, sb_error *erro
     for (size_t i = 0; status == SB_OK && i < measure->scene->measure.plane_count; i++)
         status = sb_gate_step(measure->gates[i], &sight, &measure->planes[i].now, error);
     if (measure->map) sb_map_step(measure->map, sim);
+    measure->momentum_imbalance = fmax(measure->momentum_imbalance, sb_sim_report(sim)->momentum_imbalance);
     bool due = false;
     for (; status == SB_OK && (double)measure->next * measure->interval <= now + slack;
          measure->next++) {

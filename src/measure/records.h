@@ -3,6 +3,7 @@
 #define SB_MEASURE_RECORDS_H
 
 #include "base/vec.h"
+#include "sim/sim.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -47,6 +48,8 @@ typedef struct sb_runup_record {
 typedef struct sb_energy_record {
     double time, kinetic, potential, mass; /* s, J, J, kg */
     sb_vec3 momentum;                      /* kg m/s */
+    sb_ledger ledger;                      /* J since the start */
+    double momentum_imbalance;                 /* largest of a step since the last row */
 } sb_energy_record;
 
 /* Everything the last step brought; arrays are valid until the next one. */

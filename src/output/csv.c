@@ -34,9 +34,12 @@ static const struct {
                 "time_s,probe,u_m_s,v_m_s,w_m_s,p_Pa"},
     [ENERGY] = {"energy.csv",
                 "time_s,kinetic_J,potential_J,mass_kg,momentum_x_kg_m_s,momentum_y_kg_m_s,"
-                "momentum_z_kg_m_s",
+                "momentum_z_kg_m_s,bodies_J,viscosity_J,wall_friction_J,pressure_solve_J,contact_J,"
+                "time_integration_J,left_domain_J,momentum_imbalance",
                 "time_s,kinetic_J_per_m,potential_J_per_m,mass_kg_per_m,momentum_x_kg_m_s_per_m,"
-                "momentum_y_kg_m_s_per_m,momentum_z_kg_m_s_per_m"},
+                "momentum_y_kg_m_s_per_m,momentum_z_kg_m_s_per_m,bodies_J_per_m,viscosity_J_per_m,"
+                "wall_friction_J_per_m,pressure_solve_J_per_m,contact_J_per_m,"
+                "time_integration_J_per_m,left_domain_J_per_m,momentum_imbalance"},
     [OVERTOPPING] = {"overtopping.csv", "time_s,plane,volume_m3,flux_m3_s",
                      "time_s,plane,volume_m3_per_m,flux_m3_s_per_m"},
     [RUNUP] = {"runup.csv", "time_s,line,x_m,y_m,z_m,front_m", "time_s,line,x_m,y_m,z_m,front_m"},
@@ -123,6 +126,12 @@ static void put(FILE *stream, double value)
         fprintf(stream, ",%.9g", value + 0.0); /* + 0.0: no "-0" */
 }
 
+/* Potential energy is large beside its changes. */
+static void put_fine(FILE *stream, double value)
+{
+    fprintf(stream, ",%.12g", value);
+}
+
 static void put_vector(FILE *stream, sb_vec3 value)
 {
     put(stream, value.x);
@@ -169,6 +178,24 @@ static void write_instants(const sb_csv *csv, const sb_measure_records *records)
     }
 }
 
+static void write_energies(const sb_csv *csv, const sb_measure_records *records)
+{
+    FILE *stream = csv->tables[ENERGY].stream;
+    for (size_t i = 0; i < records->energy_count; i++) {
+        const sb_energy_record *row = &records->energies[i];
+        const sb_ledger *ledger = &row->ledger;
+        const double changes[] = {ledger->bodies,  ledger->viscosity,   ledger->friction, ledger->pressure,
+                                  ledger->contact, ledger->integration, ledger->left,     row->momentum_imbalance};
+        begin_row(stream, row->time, NULL);
+        put(stream, row->kinetic);
+        put_fine(stream, row->potential);
+        put(stream, row->mass);
+        put_vector(stream, row->momentum);
+        for (size_t c = 0; c < sizeof changes / sizeof *changes; c++) put(stream, changes[c]);
+        fputc('\n', stream);
+    }
+}
+
 static void write_totals(const sb_csv *csv, const sb_measure_records *records)
 {
     FILE *stream = csv->tables[OVERTOPPING].stream;
@@ -177,16 +204,6 @@ static void write_totals(const sb_csv *csv, const sb_measure_records *records)
         begin_row(stream, row->time, csv->scene->measure.planes[row->plane].name);
         put(stream, row->volume);
         put(stream, row->flux);
-        fputc('\n', stream);
-    }
-    stream = csv->tables[ENERGY].stream;
-    for (size_t i = 0; i < records->energy_count; i++) {
-        const sb_energy_record *row = &records->energies[i];
-        begin_row(stream, row->time, NULL);
-        put(stream, row->kinetic);
-        put(stream, row->potential);
-        put(stream, row->mass);
-        put_vector(stream, row->momentum);
         fputc('\n', stream);
     }
 }
@@ -200,6 +217,7 @@ sb_status sb_csv_write(sb_csv *csv, const sb_measure_records *records, sb_error 
     write_forces(csv, records);
     write_instants(csv, records);
     write_totals(csv, records);
+    write_energies(csv, records);
     for (int k = 0; k < TABLES; k++)
         if (csv->tables[k].stream) fflush(csv->tables[k].stream);
     return check(csv, error);

@@ -25,6 +25,8 @@ static const struct {
     {"time_step_max",        {"0",          "0"}},
     {"artificial_viscosity", {"0.01",       "0.05"}},
     {"wall_friction",        {"0",          "0.02"}},
+    {"turbulence",           {"none",       "none"}},
+    {"smagorinsky",          {"0.1",        "0.1"}},
     {"sound_speed",          {"0",          "0"}},
     {"wall_gamma",           {"0.8",        "1"}},
     {"wall_offset",          {"0.5",        "0.6"}},

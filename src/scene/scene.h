@@ -71,6 +71,11 @@ typedef enum sb_tolerance_rule {
     SB_TOLERANCE_PRESSURE /* tolerance * (dt sqrt(gD)/spacing)^2 is */
 } sb_tolerance_rule;
 
+typedef enum sb_turbulence {
+    SB_TURBULENCE_NONE,
+    SB_TURBULENCE_SPS /* sub-particle-scale eddy viscosity [W eq. 9] */
+} sb_turbulence;
+
 /* Numerics: the preset gives the defaults, the scene may override each. */
 typedef struct sb_numerics {
     sb_preset preset;
@@ -89,6 +94,8 @@ typedef struct sb_numerics {
     double time_step_max;      /* s; 0: no further bound */
     double artificial_viscosity; /* alpha of Monaghan's viscosity; 0: term is off */
     double wall_friction;      /* sigma; 0: term is off */
+    sb_turbulence turbulence;
+    double smagorinsky;        /* C_s of the eddy viscosity */
     double sound_speed;        /* m/s in the two above; 0: 10 sqrt(g D) */
     double wall_gamma;         /* factor on the boundary particles' volume */
     double wall_offset;        /* spacings that their sheet lies behind the physical wall */

@@ -6,6 +6,7 @@
 static const char *const preset_words[] = {"default", "paper", NULL};
 static const char *const solver_words[] = {"jacobi", "chebyshev", "cg", NULL};
 static const char *const tolerance_words[] = {"density", "pressure", NULL};
+static const char *const turbulence_words[] = {"none", "sps", NULL};
 static const char *const step_words[] = {"paper", "depth", NULL};
 
 #define NUMBER(key, unit_, min_, max_, flags_, doc_)                                               \
@@ -56,8 +57,13 @@ static const sb_key keys[] = {
     NUMBER(artificial_viscosity, NULL, 0, 10, 0,
            "alpha of Monaghan's viscosity; 0 leaves the term out."),
     NUMBER(wall_friction, NULL, 0, 10, 0, "sigma of the wall friction; 0 leaves the term out."),
+    CHOICE(turbulence, turbulence_words,
+           "`sps`: an eddy viscosity from the strain rate, for eddies below the spacing; `none` "
+           "leaves it out."),
+    NUMBER(smagorinsky, NULL, 0, 0.25, SB_KEY_ABOVE,
+           "C_s of that eddy viscosity: its mixing length in spacings, away from walls."),
     NUMBER(sound_speed, "m/s", 0, HUGE_VAL, 0,
-           "Speed in these two viscosities; 0: 10 sqrt(g D)."),
+           "Speed in artificial_viscosity and wall_friction; 0: 10 sqrt(g D)."),
     NUMBER(wall_gamma, NULL, 0, 5, SB_KEY_ABOVE, "Factor on the volume of boundary particles."),
     NUMBER(wall_offset, "spacings", 0, 2, 0,
            "How far boundary particles lie behind the physical wall."),

@@ -10,13 +10,13 @@
 enum { INDEX_BITS = 27 };
 static const uint64_t INDEX_MASK = ((uint64_t)1 << INDEX_BITS) - 1;
 
-/* Moves a field of 16 bytes per particle, n of them in use, into a longer array. */
-static int lengthen(void **field, size_t n, size_t capacity)
+/* Moves a field of `size` bytes per particle, n of them in use, into a longer array. */
+static int lengthen(void **field, size_t n, size_t capacity, size_t size)
 {
-    void *longer = sb_alloc_untouched(capacity, 16);
+    void *longer = sb_alloc_untouched(capacity, size);
     if (!longer)
         return -1;
-    memcpy(longer, *field, n * 16);
+    memcpy(longer, *field, n * size);
     sb_free(*field);
     *field = longer;
     return 0;
@@ -32,12 +32,13 @@ static int reserve(sb_sim *sim, size_t ghosts)
     if (sim->n + ghosts <= sim->capacity)
         return 0;
     size_t capacity = sim->n + ghosts + ghosts / 8 + 64;
-    if (lengthen((void **)&sim->position, sim->n, capacity) != 0 ||
-        lengthen((void **)&sim->velocity, sim->n, capacity) != 0 ||
-        lengthen((void **)&sim->acceleration, sim->n, capacity) != 0 ||
-        lengthen(&sim->scratch, sim->n, capacity) != 0)
+    if (lengthen((void **)&sim->position, sim->n, capacity, 16) != 0 ||
+        lengthen((void **)&sim->velocity, sim->n, capacity, 16) != 0 ||
+        lengthen((void **)&sim->acceleration, sim->n, capacity, 16) != 0 ||
+        lengthen(&sim->scratch, sim->n, capacity, 16) != 0 ||
+        (sim->eddy && lengthen((void **)&sim->eddy, sim->n, capacity, 4) != 0))
         return -1;
-    sim->bytes_fixed += 4 * 16 * (capacity - sim->capacity);
+    sim->bytes_fixed += (sim->eddy ? 68u : 64u) * (capacity - sim->capacity);
     sim->capacity = capacity;
     return 0;
 }
@@ -138,6 +139,13 @@ void sb_ghosts_refresh(const sb_sim *sim, sb_f4 *field)
 #pragma omp parallel for schedule(static)
     for (size_t g = 0; g < count; g++)
         ghost[g] = field[of[g]];
+}
+
+void sb_ghosts_refresh_values(const sb_sim *sim, float *field)
+{
+    const size_t count = sim->ghosts.count;
+    for (size_t g = 0; g < count; g++)
+        field[sim->n + g] = field[sim->ghosts.of[g]];
 }
 
 void sb_ghosts_destroy(sb_sim *sim)

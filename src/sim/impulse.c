@@ -2,6 +2,7 @@
    [A12, eq. 10], so that the momenta of water and bodies balance to round-off. */
 #include "sim/contact.h"
 #include "sim/friction.h"
+#include "sim/ledger.h"
 
 #include <string.h>
 
@@ -29,9 +30,19 @@ static void add(const sb_sim *sim, double *sum, uint32_t wall, sb_vec3 at, sb_ve
         sum[(size_t)VALUES * body + v] += values[v];
 }
 
-/* Mends what would pass a wall; the wall feels it. */
-static void contact(sb_sim *sim, size_t i, double *sum)
+static sb_f4 wall_velocity(const sb_sim *sim, uint32_t wall)
 {
+    if (!(wall >> 31))
+        return (sb_f4){0};
+    const sb_wall_set *set = &sim->walls[SB_MOVING];
+    const sb_vec3 v = sim->moving[sim->moving_of_body[set->body[wall & 0x7fffffffu]]].velocity;
+    return (sb_f4){(float)v.x, (float)v.y, (float)v.z, 0};
+}
+
+/* Mends what would pass a wall; the wall feels it. */
+static void contact(sb_sim *sim, size_t i, double *sum, sb_ledger_sums *ledger)
+{
+    const sb_f4 start = ((const sb_f4 *)sim->scratch)[i];
     sb_f4 velocity = sim->acceleration[i];
     uint32_t wall;
     if (!sb_contact_mend(sim, i, &velocity, &wall))
@@ -41,19 +52,25 @@ static void contact(sb_sim *sim, size_t i, double *sum)
     /* The push is along the wall's normal through the particle, so it may be taken to act there. */
     add(sim, sum, wall, sb_space_position(&sim->space, sim->position[i]),
         sb_scale(sb_vec((double)change[0], (double)change[1], (double)change[2]), scale), (sb_vec3){0});
+    const sb_f4 body = wall_velocity(sim, wall);
+    ledger->contact += sb_ledger_work(sim->acceleration[i], velocity, start, velocity);
+    ledger->contact_bodies += sb_ledger_work(sim->acceleration[i], velocity, body, body);
     velocity[3] = sim->acceleration[i][3];
     sim->acceleration[i] = velocity;
 }
 
-/* Forces (N) and moment (Nm) on bodies from one block of particles, into sum[body][VALUES]. */
+/* Forces (N) and moment (Nm) on bodies from one block of particles, into sum[body][VALUES]; and what friction and
+   contact do to the water's energy. */
 static void do_block(sb_sim *sim, size_t block, double *sum, float friction, float epsilon)
 {
+    sb_ledger_sums *ledger = &sim->block_ledger[block];
     const double mass = (double)sim->constant.mass, quantum = sim->space.quantum;
     const sb_f4 *velocity = sim->scratch; /* at the step's start */
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
         const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
         const float *slope = sim->wall_pairs.slope + sim->wall_pairs.first[i];
         const double q = (double)sim->unknown[i];
+        sb_f4 rub = {0};
         for (size_t k = 0; k < sim->wall_pairs.count[i]; k++) {
             if (slope[k] == 0)
                 continue;
@@ -64,13 +81,16 @@ static void do_block(sb_sim *sim, size_t block, double *sum, float friction, flo
             sb_vec3 drag = {0};
             if (friction > 0) {
                 sb_f4 f = sb_friction(sim, i, velocity[i], index[k], slope[k], friction, epsilon);
+                rub += f;
                 drag = sb_scale(sb_vec((double)f[0], (double)f[1], (double)f[2]), -mass / quantum);
             }
             add(sim, sum, index[k], sb_space_position(&sim->space, record),
                 sb_vec(scale * (double)d[0], scale * (double)d[1], scale * (double)d[2]), drag);
         }
         if (sim->wall_pairs.count[i] > 0)
-            contact(sim, i, sum);
+            contact(sim, i, sum, ledger);
+        if (friction > 0)
+            ledger->friction += sb_ledger_work((sb_f4){0}, rub, velocity[i], sim->acceleration[i]);
     }
 }
 
@@ -92,6 +112,7 @@ sb_status sb_stage_impulse(sb_sim *sim, sb_error *error)
     const float epsilon = (float)(0.01 * h_quanta * h_quanta);
 #pragma omp parallel for schedule(dynamic, 4)
     for (size_t b = 0; b < blocks; b++) {
+        sim->block_ledger[b] = (sb_ledger_sums){0};
         sim->block_touched[b] = touches_walls(sim, b);
         if (!sim->block_touched[b])
             continue;

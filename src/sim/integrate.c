@@ -1,5 +1,5 @@
 /* The time step and the symplectic update [S16, eqs. 10-12, 17, 18]. */
-#include "sim/state.h"
+#include "sim/ledger.h"
 
 #include <math.h>
 
@@ -83,22 +83,34 @@ static fastest accelerate(sb_sim *sim, size_t block)
     return top;
 }
 
-/* Returns the block's largest squared speed, contact with walls included. */
-SB_MULTIVERSION
-static float move(sb_sim *sim, size_t block)
+/* Returns the block's largest squared speed, contact with walls included; books the block's work where asked to. */
+SB_INLINE float move_block(sb_sim *sim, size_t block, bool book)
 {
+    const sb_f4 *start = sim->scratch;
+    sb_ledger_tally tally = {0};
     const float step = (float)(sim->report.time_step / sim->space.quantum);
     float top = 0;
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
         sb_f4 v = sim->acceleration[i];
-        sim->velocity[i] = v;
+        const uint32_t height = sim->position[i][2];
         sim->position[i] = (sb_record){moved(sim->position[i][0], v[0] * step),
                                        moved(sim->position[i][1], v[1] * step),
                                        moved(sim->position[i][2], v[2] * step), 0};
+        if (book)
+            sb_ledger_add(&tally, start[i], sim->velocity[i], v, (int64_t)sim->position[i][2] - height);
+        sim->velocity[i] = v;
         float square = sb_sum3(v * v);
         top = square > top ? square : top;
     }
+    if (book)
+        sb_ledger_store(&tally, &sim->block_ledger[block]);
     return top;
+}
+
+SB_MULTIVERSION
+static float move(sb_sim *sim, size_t block)
+{
+    return sim->settling ? move_block(sim, block, false) : move_block(sim, block, true);
 }
 
 /* The state becomes the step's start again: v* is no state, and may be senseless. */
@@ -141,6 +153,8 @@ sb_status sb_stage_move(sb_sim *sim, sb_error *error)
 #pragma omp parallel for schedule(static)
     for (size_t b = 0; b < blocks; b++)
         sim->partial[b] = (double)move(sim, b);
+    if (!sim->settling)
+        sb_ledger_close(sim);
     double top = 0;
     for (size_t b = 0; b < blocks; b++)
         top = sim->partial[b] > top ? sim->partial[b] : top;

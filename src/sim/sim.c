@@ -1,7 +1,9 @@
 /* Making and unmaking a simulation, and the small questions to it. */
 #include "base/hash.h"
 #include "base/memory.h"
+#include "sim/ledger.h"
 #include "sim/pressure.h"
+#include "sim/turbulence.h"
 
 #include <math.h>
 #include <omp.h>
@@ -61,6 +63,7 @@ static int allocate(sb_sim *sim, size_t n, size_t bodies)
         {&sim->diagonal, n, 4, true},           {&sim->source, n, 4, true},
         {&sim->unknown, n, 4, true},            {&sim->residual, n, 4, true},
         {&sim->direction, n, 4, direction},     {&sim->product, n, 4, direction},
+        {&sim->eddy, n, 4, sb_turbulence_on(sim->scene)},
         {&sim->sort_a, n, 8, true},             {&sim->sort_b, n, 8, true},
         {&sim->scratch, n, 16, true},           {&sim->scratch_id, n, 4, true},
         {&sim->pairs.first, n, 4, true},        {&sim->pairs.count, n, 2, true},
@@ -68,6 +71,7 @@ static int allocate(sb_sim *sim, size_t n, size_t bodies)
         {&sim->partial, blocks, 40, true},      {&sim->block_touched, blocks, 1, true},
         {&sim->block_impulse, blocks * bodies, 72, true},
         {&sim->impulse, bodies, sizeof *sim->impulse, true},
+        {&sim->block_ledger, blocks, sizeof *sim->block_ledger, true},
     };
     for (size_t r = 0; r < sizeof rows / sizeof rows[0]; r++) {
         if (!rows[r].needed)
@@ -119,8 +123,10 @@ static void note_skipped(sb_sim *sim)
 {
     const sb_numerics *n = &sim->scene->numerics;
     size_t s = 0;
-    if (!(n->artificial_viscosity > 0) && !(sim->constant.viscosity > 0))
+    if (!(n->artificial_viscosity > 0) && !(sim->constant.viscosity > 0) && !sb_turbulence_on(sim->scene))
         sim->skipped[s++] = "viscosity: both coefficients are 0, no pass over pairs";
+    if (!sb_turbulence_on(sim->scene))
+        sim->skipped[s++] = "turbulence: none, no strain rates, no memory for eddy viscosities";
     if (!(n->wall_friction > 0))
         sim->skipped[s++] = "wall friction: coefficient is 0";
     if (!sim->space.repeats)
@@ -166,6 +172,7 @@ sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **s
         sb_sim_destroy(made);
         return status;
     }
+    made->ledger = (sb_ledger){0}; /* what the scene put outside was never there */
     *sim = made;
     return SB_OK;
 }
@@ -183,9 +190,9 @@ void sb_sim_destroy(sb_sim *sim)
     if (!sim)
         return;
     void *fields[] = {sim->position, sim->velocity, sim->id, sim->acceleration, sim->wall, sim->density,
-                      sim->diagonal, sim->source, sim->unknown, sim->residual, sim->direction, sim->product,
+                      sim->eddy, sim->diagonal, sim->source, sim->unknown, sim->residual, sim->direction, sim->product,
                       sim->sort_a, sim->sort_b, sim->scratch, sim->scratch_id, sim->partial,
-                      sim->block_touched, sim->block_impulse, sim->impulse};
+                      sim->block_touched, sim->block_impulse, sim->impulse, sim->block_ledger};
     for (size_t f = 0; f < sizeof fields / sizeof fields[0]; f++)
         sb_free(fields[f]);
     free_pairs(&sim->pairs);
@@ -206,6 +213,11 @@ const sb_body_impulse *sb_sim_impulse(const sb_sim *sim, size_t body)
     return &sim->impulse[body];
 }
 
+const sb_ledger *sb_sim_ledger(const sb_sim *sim)
+{
+    return &sim->ledger;
+}
+
 sb_vec3 sb_sim_body_displacement(const sb_sim *sim, size_t body)
 {
     uint32_t m = sim->moving_of_body[body];
@@ -224,7 +236,7 @@ sb_energy sb_sim_energy(const sb_sim *sim)
         double square = 0, height = 0, x = 0, y = 0, z = 0;
         for (size_t i = b * SB_BLOCK; i < sb_block_end(sim, b); i++) {
             sb_f4 v = sim->velocity[i];
-            square += (double)sb_sum3(v * v);
+            square += (double)v[0] * (double)v[0] + (double)v[1] * (double)v[1] + (double)v[2] * (double)v[2];
             height += (double)sim->position[i][2];
             x += (double)v[0];
             y += (double)v[1];
@@ -255,6 +267,7 @@ uint64_t sb_sim_hash(const sb_sim *sim)
         hash = sb_hash(hash, &sim->velocity[i], sizeof sim->velocity[i]);
     }
     hash = sb_hash(hash, sim->impulse, sim->model->body_count * sizeof *sim->impulse);
+    hash = sb_hash(hash, &sim->ledger, sizeof sim->ledger);
     hash = sb_hash(hash, &sim->report.time, sizeof sim->report.time);
     return sb_hash(hash, &sim->report.step, sizeof sim->report.step);
 }

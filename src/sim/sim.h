@@ -22,6 +22,7 @@ typedef struct sb_step_report {
     size_t fluid_count;
     uint64_t left_domain;     /* particles that left through open sides so far */
     uint64_t lost;            /* particles that passed a wall side of the domain so far */
+    double momentum_imbalance;    /* of this step: |sum m a + sum F on bodies - M g| / sum m |a| */
 } sb_step_report;
 
 /* Impulse and angular impulse on one body since the start: differences over an interval, divided by
@@ -53,6 +54,19 @@ sb_vec3 sb_sim_body_displacement(const sb_sim *sim, size_t body);
 /* Kinetic and potential energy (J, potential from z = domain min), momentum (kg m/s), mass (kg). */
 typedef struct sb_energy { double kinetic, potential, mass; sb_vec3 momentum; } sb_energy;
 sb_energy sb_sim_energy(const sb_sim *sim);
+
+/* What changed the water's kinetic + potential energy since the start, settling left out; J (J/m in 2D).
+   Each is an addition to it, so a loss is negative; their sum is the change, to round-off. */
+typedef struct sb_ledger {
+    double bodies;      /* work of moving bodies on the water */
+    double viscosity;   /* artificial, physical and of eddies */
+    double friction;    /* at walls */
+    double pressure;    /* of the solve: nothing physical, for water at constant density stores none */
+    double contact;     /* drops stopped at walls */
+    double integration; /* weight times fall, less what gravity gave: the update's own error */
+    double left;        /* carried away by particles that left */
+} sb_ledger;
+const sb_ledger *sb_sim_ledger(const sb_sim *sim);
 
 /* A hash of the complete state. */
 uint64_t sb_sim_hash(const sb_sim *sim);

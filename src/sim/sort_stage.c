@@ -1,8 +1,8 @@
 /* Particles that left the domain come back through periodic sides or are dropped; the others are re-ordered along
    the Z-curve of their cells. */
 #include "base/memory.h"
+#include "sim/ledger.h"
 #include "sim/sort.h"
-#include "sim/state.h"
 
 #include <math.h>
 #include <string.h>
@@ -98,6 +98,8 @@ sb_status sb_stage_sort(sb_sim *sim, sb_error *error)
     if (!sorted)
         return sb_fail_memory(error, "sorting");
     permute(sim, sorted);
+    if (!sim->settling)
+        sb_ledger_leave(sim, sim->report.fluid_count, sim->n); /* their keys are the last */
     sim->n = sim->report.fluid_count;
     if (sb_cells_build(&sim->cells, sim->position, sim->n, sim->space.shift) != 0)
         return sb_fail_memory(error, "cells");

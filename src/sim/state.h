@@ -68,6 +68,8 @@ typedef struct sb_pairs {
     size_t used, capacity;
 } sb_pairs;
 
+struct sb_ledger_sums; /* sim/ledger.h */
+
 typedef struct sb_sim {
     const sb_scene *scene;
     const sb_model *model;
@@ -86,6 +88,7 @@ typedef struct sb_sim {
                                  the new velocity and pressure */
     sb_f4 *wall;              /* sum_b psi_b grad W_ib; last lane: sum_b psi_b v_b . grad W_ib */
     float *density;           /* kg/m^3 */
+    float *eddy;              /* m^2/s, nu_t at the step's start; NULL without a turbulence model */
     float *diagonal;          /* -a_ii > 0 for q as unknown; 0: no pressure here */
     float *source;            /* b_i, kg/m^3 */
     float *unknown;           /* q = p / rho^2 */
@@ -114,6 +117,9 @@ typedef struct sb_sim {
     unsigned char *block_touched;
     sb_body_impulse *impulse; /* per body */
 
+    struct sb_ledger_sums *block_ledger; /* per block, of one step */
+    sb_ledger ledger;
+
     bool settling;
     sb_step_report report;
     uint64_t left_domain, lost;
@@ -140,6 +146,7 @@ sb_status sb_stage_sort(sb_sim *sim, sb_error *error);
 sb_status sb_stage_ghosts(sb_sim *sim, sb_error *error);
 /* Gives the ghosts the values of a field whose owned part has changed. */
 void sb_ghosts_refresh(const sb_sim *sim, sb_f4 *field);
+void sb_ghosts_refresh_values(const sb_sim *sim, float *field);
 void sb_ghosts_destroy(sb_sim *sim);
 /* sim/walls.c */
 sb_status sb_walls_create(sb_sim *sim, sb_error *error);

@@ -2,26 +2,29 @@
 #include "base/clock.h"
 #include "sim/pressure.h"
 #include "sim/state.h"
+#include "sim/turbulence.h"
 
 #include <math.h>
 
 typedef struct stage {
     const char *name;
     sb_status (*run)(sb_sim *sim, sb_error *error);
+    bool (*needed)(const sb_scene *scene); /* NULL: always */
 } stage;
 
 static const stage stages[] = {
-    {"time_step", sb_stage_time_step},   /* dt from the speeds reached */
-    {"walls", sb_stage_walls},           /* paddles at t, their velocity to t + dt */
-    {"sort", sb_stage_sort},             /* back through periodic sides; Z-order, cells */
-    {"ghosts", sb_stage_ghosts},         /* images beyond periodic sides */
-    {"neighbours", sb_stage_neighbours}, /* lists, density, wall vectors, diagonal */
-    {"forces", sb_stage_forces},         /* v* = v + dt (g + viscosity + friction) */
-    {"source", sb_stage_source},         /* b = beta (rho_0 - rho) - dt div v* */
-    {"pressure", sb_stage_pressure},     /* q >= 0, A q <= b, and its acceleration */
-    {"accelerate", sb_stage_accelerate}, /* v at t + dt */
-    {"impulse", sb_stage_impulse},       /* contact with walls, reactions on bodies */
-    {"move", sb_stage_move},             /* x at t + dt */
+    {"time_step", sb_stage_time_step, NULL},              /* dt from the speeds reached */
+    {"walls", sb_stage_walls, NULL},                      /* paddles at t, their velocity to t + dt */
+    {"sort", sb_stage_sort, NULL},                        /* back through periodic sides; Z-order, cells */
+    {"ghosts", sb_stage_ghosts, NULL},                    /* images beyond periodic sides */
+    {"neighbours", sb_stage_neighbours, NULL},            /* lists, density, wall vectors, diagonal */
+    {"turbulence", sb_stage_turbulence, sb_turbulence_on}, /* eddy viscosity from the strain rate */
+    {"forces", sb_stage_forces, NULL},                    /* v* = v + dt (g + viscosity + friction) */
+    {"source", sb_stage_source, NULL},                    /* b = beta (rho_0 - rho) - dt div v* */
+    {"pressure", sb_stage_pressure, NULL},                /* q >= 0, A q <= b, and its acceleration */
+    {"accelerate", sb_stage_accelerate, NULL},            /* v at t + dt */
+    {"impulse", sb_stage_impulse, NULL},                  /* contact with walls, reactions on bodies */
+    {"move", sb_stage_move, NULL},                        /* x at t + dt */
 };
 enum { STAGES = sizeof stages / sizeof stages[0] };
 _Static_assert((int)STAGES <= (int)SB_STAGES_MAX, "stage table");
@@ -41,18 +44,24 @@ static sb_status check_finite(const sb_sim *sim, const char *stage_name, sb_erro
 
 sb_status sb_sim_step(sb_sim *sim, sb_error *error)
 {
-    sim->stage_count = STAGES;
-    for (size_t s = 0; s < STAGES; s++)
-        sim->stage[s].name = stages[s].name;
+    const stage *run[STAGES];
+    size_t count = 0;
     for (size_t s = 0; s < STAGES; s++) {
+        if (stages[s].needed && !stages[s].needed(sim->scene))
+            continue;
+        sim->stage[count].name = stages[s].name;
+        run[count++] = &stages[s];
+    }
+    sim->stage_count = count;
+    for (size_t s = 0; s < count; s++) {
         double start = sb_clock();
-        sb_status status = stages[s].run(sim, error);
+        sb_status status = run[s]->run(sim, error);
         sim->stage[s].seconds += sb_clock() - start;
         sim->stage[s].calls++;
         if (status != SB_OK)
             return status;
 #ifdef SB_DEBUG
-        status = check_finite(sim, stages[s].name, error);
+        status = check_finite(sim, run[s]->name, error);
         if (status != SB_OK)
             return status;
 #endif

@@ -1,4 +1,4 @@
-/* v* = v + dt (g + Monaghan viscosity [S16, eq. 14] + physical viscosity + wall friction [S16, eq. 33]). */
+/* v* = v + dt (g + Monaghan viscosity [S16, eq. 14] + physical and eddy viscosity + wall friction [S16, eq. 33]). */
 #include "sim/friction.h"
 #include "sim/pressure.h"
 
@@ -6,6 +6,7 @@
 typedef struct factors {
     float artificial; /* 2 alpha h c_s; over (rho_i + rho_j) it is the nu of eq. 14 */
     float physical;   /* 4 (d + 2) nu; over (rho_i + rho_j), the unswitched part */
+    float eddy;       /* 2 (d + 2); times nu_t,i + nu_t,j the same of the eddies */
     float friction;   /* sigma h c_s / 2; over rho_i */
     float epsilon;    /* 0.01 h^2 in quanta^2 */
     float inverse_quantum;
@@ -19,6 +20,7 @@ static factors make_factors(const sb_sim *sim)
     return (factors){
         .artificial = 2.0f * (float)n->artificial_viscosity * c->support * c->sound_speed,
         .physical = 4.0f * (float)(c->dimension + 2) * c->viscosity,
+        .eddy = 2.0f * (float)(c->dimension + 2),
         .friction = 0.5f * (float)n->wall_friction * c->support * c->sound_speed,
         .epsilon = (float)(0.01 * h_quanta * h_quanta),
         .inverse_quantum = (float)(1.0 / sim->space.quantum),
@@ -26,8 +28,8 @@ static factors make_factors(const sb_sim *sim)
 }
 
 /* -sum_j m Pi_ij grad W_ij, four neighbours at a time; the records carry the densities. x . v and r^2 are
-   in quanta, their quotient brought back by 1/quantum. */
-SB_INLINE sb_f4 fluid_part(const sb_sim *sim, size_t i, const factors *f)
+   in quanta, their quotient brought back by 1/quantum. eddy: sim->eddy, NULL without turbulence. */
+SB_INLINE sb_f4 fluid_part(const sb_sim *sim, size_t i, const factors *f, const float *eddy)
 {
     const sb_record *position = sim->position;
     const sb_f4 *velocity = sim->velocity;
@@ -35,7 +37,6 @@ SB_INLINE sb_f4 fluid_part(const sb_sim *sim, size_t i, const factors *f)
     const sb_f4 v = velocity[i], own_density = sb_carried(self);
     const uint32_t *index = sim->pairs.index + sim->pairs.first[i];
     const float *slope = sim->pairs.slope + sim->pairs.first[i];
-    const sb_f4 physical = sb_splat(f->physical), both = sb_splat(f->artificial + f->physical);
     const sb_f4 epsilon = sb_splat(f->epsilon);
     sb_f4 x = {0}, y = {0}, z = {0};
     for (size_t k = 0; k < sim->pairs.count[i]; k += 4) {
@@ -48,7 +49,10 @@ SB_INLINE sb_f4 fluid_part(const sb_sim *sim, size_t i, const factors *f)
         const sb_f4 weight = {slope[k], slope[k + 1], slope[k + 2], slope[k + 3]};
         sb_f4 approach = u.x * d.x + u.y * d.y + u.z * d.z;
         sb_f4 r2 = d.x * d.x + d.y * d.y + d.z * d.z;
-        sb_f4 factor = sb_select(approach < (sb_f4){0}, both, physical);
+        sb_f4 physical = sb_splat(f->physical);
+        if (eddy)
+            physical += (sb_splat(eddy[i]) + (sb_f4){eddy[a], eddy[b], eddy[c], eddy[e]}) * sb_splat(f->eddy);
+        sb_f4 factor = sb_select(approach < (sb_f4){0}, physical + sb_splat(f->artificial), physical);
         sb_f4 pi = factor * approach * weight / ((r2 + epsilon) * (own_density + density));
         x += d.x * pi;
         y += d.y * pi;
@@ -75,8 +79,10 @@ static void do_block(sb_sim *sim, size_t block, const factors *f, bool viscous, 
     sb_f4 *next = sim->scratch;
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
         sb_f4 a = {0, 0, -sim->constant.gravity, 0};
-        if (viscous)
-            a += fluid_part(sim, i, f);
+        if (sim->eddy)
+            a += fluid_part(sim, i, f, sim->eddy);
+        else if (viscous)
+            a += fluid_part(sim, i, f, NULL);
         if (frictional && sim->wall_pairs.count[i] > 0)
             a += wall_part(sim, i, f);
         a[3] = 0;
@@ -88,7 +94,7 @@ sb_status sb_stage_forces(sb_sim *sim, sb_error *error)
 {
     (void)error;
     const factors f = make_factors(sim);
-    const bool viscous = f.artificial > 0 || f.physical > 0, frictional = f.friction > 0;
+    const bool viscous = f.artificial > 0 || f.physical > 0 || sim->eddy, frictional = f.friction > 0;
     const size_t blocks = sb_blocks(sim);
     if (viscous)
         sb_pressure_load(sim, sim->density);

@@ -26,6 +26,11 @@ sb_energy sb_sim_energy(const sb_sim *sim)
     return sim->energy;
 }
 
+const sb_ledger *sb_sim_ledger(const sb_sim *sim)
+{
+    return &sim->ledger;
+}
+
 sb_fluid_sample sb_sim_particle(const sb_sim *sim, size_t i)
 {
     return sim->samples[i];

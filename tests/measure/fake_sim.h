@@ -14,6 +14,7 @@ struct sb_sim {
     sb_body_impulse impulses[FAKE_BODIES];
     sb_vec3 displacements[FAKE_BODIES];
     sb_energy energy;
+    sb_ledger ledger;
 };
 
 /* A scene and model of one unit spacing (or `spacing`) with a domain [min, max] and no bodies. */

@@ -124,7 +124,11 @@ static void instants_lie_on_multiples(void **state)
     assert_int_equal(sb_measure_latest(measure)->gauge_count, 1);
     assert_true(sb_measure_latest(measure)->gauges[0].time == 0);
     int rows = 0;
+    double largest = 0; /* since the last row */
     for (int k = 0; k < 20; k++) {
+        world.sim.ledger.pressure = -k;
+        world.sim.report.momentum_imbalance = k % 3 ? 1e-7 * k : 1e-9;
+        largest = fmax(largest, world.sim.report.momentum_imbalance);
         fake_step(&world.sim, 0.07 + 0.02 * (k % 9));
         assert_int_equal(sb_measure_step(measure, &world.sim, NULL), SB_OK);
         const sb_measure_records *records = sb_measure_latest(measure);
@@ -134,6 +138,10 @@ static void instants_lie_on_multiples(void **state)
             assert_true(fabs(records->gauges[i].eta - (5 + 0.7 * rows * 0.1)) < 1e-6);
         }
         assert_true(records->energy_count == (records->gauge_count > 0));
+        if (!records->energy_count) continue;
+        assert_true(records->energies[0].ledger.pressure == -k);
+        assert_true(records->energies[0].momentum_imbalance == largest);
+        largest = 0;
     }
     assert_true(rows > 20);
     sb_measure_destroy(measure);

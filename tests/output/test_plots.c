@@ -46,7 +46,10 @@ static void write_tables(void)
             {1, t, t < 35 || t > 70 ? (double)NAN : 9 * exp(-(t - 35) / 12)}};
         const sb_probe_record point = {0, t, {10 * sin(t / 9), 1, 0}, 1e5 * (1 + sin(t / 5))};
         const sb_energy_record energy = {
-            t, 3e11 * exp(-pow(t / 30 - 1, 2)), 5e13 + 1e11 * sin(t / 15), 1.8e10, {0, 0, 0}};
+            .time = t,
+            .kinetic = 3e11 * exp(-pow(t / 30 - 1, 2)),
+            .potential = 5e13 + 1e11 * sin(t / 15),
+            .mass = 1.8e10};
         const sb_measure_records records = {.force_count = BODIES,
                                             .forces = forces,
                                             .gauge_count = 2,

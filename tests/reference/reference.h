@@ -20,6 +20,7 @@ typedef struct sb_reference_cloud {
     const sb_vec3 *position, *velocity;
     size_t wall_count;       /* boundary particles */
     const sb_vec3 *wall_position, *wall_velocity;
+    const sb_vec3 *wall_normal; /* unit, or zero where there is none; needed for eddies only */
     const double *psi;       /* kg, or kg/m in 2D */
     const uint32_t *body;    /* of each boundary particle */
     double sound_speed, artificial_viscosity, wall_friction; /* m/s, alpha, sigma */
@@ -64,6 +65,17 @@ void sb_reference_viscosity(const sb_reference *reference, const double *rho,
 void sb_reference_friction(const sb_reference *reference, const double *rho,
                            sb_vec3 *acceleration, const sb_vec3 *center, sb_vec3 *force,
                            sb_vec3 *torque);
+
+/* nu_t = min(C_s spacing, 0.4 d)^2 |S| in m^2/s: S from velocity gradients corrected by the neighbours'
+   second moments where their determinant (1 for a full lattice's shape) exceeds `thinnest`, plain
+   ones elsewhere; d from the plane of the nearest boundary particle, `offset` (m) in front of it. */
+void sb_reference_eddy(const sb_reference *reference, const double *rho, double smagorinsky,
+                       double offset, double thinnest, double *eddy);
+
+/* Viscosity without a switch, nu_ij = nu + (eddy_i + eddy_j)/2: adds sum_j m 4 (d+2) nu_ij v.x /
+   [(rho_i + rho_j)(r^2 + 0.01 h^2)] grad W_ij. eddy: NULL for none. */
+void sb_reference_unswitched(const sb_reference *reference, const double *rho, double nu,
+                             const double *eddy, sb_vec3 *acceleration);
 
 /* div_i = sum_j m (v_i - v_j).grad W_ij + sum_b psi_b (v_i - v_b).grad W_ib, in kg/(m^3 s); the
    walls stand still when moving == 0. */

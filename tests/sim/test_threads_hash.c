@@ -42,6 +42,8 @@ static void check(const tank *t, const char *name)
 static void add_terms(tank *t)
 {
     t->scene.numerics.wall_friction = 0.05;
+    t->scene.numerics.turbulence = SB_TURBULENCE_SPS;
+    t->scene.numerics.smagorinsky = 0.1;
     t->scene.fluid.viscosity = 1e-4;
     t->scene.numerics.settle_steps = 5;
 }
@@ -95,6 +97,7 @@ static void the_hash_sees_all(void **state)
                  {&sim->velocity[last], 16},
                  {&sim->id[0], 4},
                  {&sim->impulse[0].moment, sizeof(sb_vec3)},
+                 {&sim->ledger.left, sizeof(double)},
                  {&sim->report.time, sizeof(double)},
                  {&sim->report.step, sizeof(uint64_t)}};
     for (size_t p = 0; p < sizeof parts / sizeof *parts; p++)

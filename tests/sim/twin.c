@@ -22,6 +22,9 @@ static size_t copy_walls(const sb_sim *sim, twin *t)
             t->wall_position[at] = sb_space_position(&sim->space, set->record[b]);
             t->psi[at] = (double)sb_carried_value(set->record[b]);
             t->body[at] = set->body[b];
+            sb_f4 normal = set->normal[b];
+            t->wall_normal[at] =
+                sb_vec((double)normal[0], (double)normal[1], (double)normal[2]);
             if (s == SB_MOVING)
                 t->wall_velocity[at] = sim->moving[sim->moving_of_body[set->body[b]]].velocity;
             at++;
@@ -40,10 +43,11 @@ int twin_make(const sb_sim *sim, twin *t)
     made.velocity = sb_alloc(n, sizeof(sb_vec3));
     made.wall_position = sb_alloc(walls, sizeof(sb_vec3));
     made.wall_velocity = sb_alloc(walls, sizeof(sb_vec3));
+    made.wall_normal = sb_alloc(walls, sizeof(sb_vec3));
     made.psi = sb_alloc(walls, sizeof(double));
     made.body = sb_alloc(walls, sizeof(uint32_t));
     int status = made.position && made.velocity && made.wall_position && made.wall_velocity &&
-                         made.psi && made.body
+                         made.wall_normal && made.psi && made.body
                      ? 0
                      : -1;
     if (status == 0) {
@@ -68,6 +72,7 @@ int twin_make(const sb_sim *sim, twin *t)
             .wall_count = walls,
             .wall_position = made.wall_position,
             .wall_velocity = made.wall_velocity,
+            .wall_normal = made.wall_normal,
             .psi = made.psi,
             .body = made.body,
             .sound_speed = (double)sim->constant.sound_speed,
@@ -91,6 +96,7 @@ void twin_free(twin *t)
     sb_free(t->velocity);
     sb_free(t->wall_position);
     sb_free(t->wall_velocity);
+    sb_free(t->wall_normal);
     sb_free(t->psi);
     sb_free(t->body);
     *t = (twin){0};

@@ -10,7 +10,7 @@
    without the images beyond periodic sides, which the reference makes itself. */
 typedef struct twin {
     sb_reference reference;
-    sb_vec3 *position, *velocity, *wall_position, *wall_velocity;
+    sb_vec3 *position, *velocity, *wall_position, *wall_velocity, *wall_normal;
     double *psi; /* as the simulation holds them */
     uint32_t *body;
     size_t static_count;
