@@ -132,11 +132,14 @@ static sb_status plot_one(const sb_case_run *run, sb_plot *plot, sb_error *error
     return status;
 }
 
-/* The items of one run's loss. */
+/* The items of one run's loss, in a panel of their own; none where there are no items. */
 static sb_status plot_items(const sb_case_run *run, sb_plot *plot, sb_error *error)
 {
+    char title[160];
+    bool panel = false;
     sb_sheet sheet = {0};
     sb_curve energy = {0};
+    snprintf(title, sizeof title, "What changed it, %.100s", run->label);
     sb_status status = read_energy(run, &sheet, error);
     if (status == SB_OK) status = mechanical(&sheet, &energy, error);
     for (size_t k = 0; status == SB_OK && k < sheet.columns; k++) {
@@ -145,7 +148,9 @@ static sb_status plot_items(const sb_case_run *run, sb_plot *plot, sb_error *err
         const char *column = sheet.fields[k];
         if (!is_item(column)) continue;
         snprintf(label, sizeof label, "%.*s", (int)(strstr(column, "_J") - column), column);
-        status = sb_sheet_curve(&sheet, NULL, "time_s", column, &item, error);
+        if (!panel) status = sb_plot_panel(plot, title, "time (s)", "over the start's", error);
+        panel = true;
+        if (status == SB_OK) status = sb_sheet_curve(&sheet, NULL, "time_s", column, &item, error);
         sb_curve_map(&item, 1, 0, 1 / energy.y[0], 0);
         if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, label, &item, error);
         sb_curve_free(&item);
@@ -158,7 +163,6 @@ static sb_status plot_items(const sb_case_run *run, sb_plot *plot, sb_error *err
 static sb_status plot(const sb_case_run *runs, size_t count, sb_plot *plot, sb_error *error)
 {
     const sb_case_run *chosen = &runs[0];
-    char title[160];
     sb_status status =
         sb_plot_panel(plot, "Kinetic and potential energy", "time (s)", "over the start's", error);
     for (size_t i = 0; status == SB_OK && i < count; i++) {
@@ -166,8 +170,6 @@ static sb_status plot(const sb_case_run *runs, size_t count, sb_plot *plot, sb_e
         if (runs[i].judged && runs[i].seed == 1 && strcmp(runs[i].preset, "default") == 0)
             chosen = &runs[i];
     }
-    snprintf(title, sizeof title, "What changed it, %.100s", chosen->label);
-    if (status == SB_OK) status = sb_plot_panel(plot, title, "time (s)", "over the start's", error);
     return status == SB_OK ? plot_items(chosen, plot, error) : status;
 }
 
