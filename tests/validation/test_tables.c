@@ -115,6 +115,9 @@ static void test_cases_are_sound(void **state)
                 uint64_t hash = 0;
                 if (sb_request_hash(&requests[r], scene, &hash, &error) != SB_OK)
                     fail_msg("%s: %s", of->name, error.text);
+                /* one set of defaults for all */
+                for (const char *const *more = requests[r].plan->settings; more && *more; more++)
+                    assert_true(strncmp(*more, "numerics", 8) != 0);
                 judged += requests[r].plan->judged && !requests[r].paper && requests[r].seed == 1;
             }
             if (judged != 1) fail_msg("%s: %zu judged lines, expected 1", of->name, judged);
