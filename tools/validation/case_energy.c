@@ -190,7 +190,7 @@ const sb_case sb_case_energy = {
         "tank, 3 s. Energy is "
         "kinetic plus\npotential above the floor, a row of energy.csv for every step; no filter.",
     .scene = "energy/collapse.yaml",
-    .headline = "energy, change over the whole run",
+    .headline = "energy, largest rise over 50 steps",
     .full = full,
     .quick = quick,
     .evaluate = evaluate,
