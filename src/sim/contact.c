@@ -4,10 +4,10 @@
 
 enum { SWEEPS = 3 }; /* a corner of three walls asks for one each */
 
-/* In spacings. PLANE: the nearest a particle comes to the sheet; water at rest nestles between boundary particles
-   down to about there. BALL: the nearest it comes to any one of them, which guards ridges, where a mean plane
-   lies too low. RELEASE: how fast one that starts nearer is let out, per step. */
-static const float PLANE = 0.55f, BALL = 0.7f, RELEASE = 0.005f;
+/* In spacings, beyond wall_offset. PLANE: the nearest a particle comes to the sheet; water at rest nestles between
+   boundary particles down to about there. BALL: the nearest it comes to any one of them, which guards ridges,
+   where a mean plane lies too low. RELEASE: how fast one that starts nearer is let out, per step. */
+static const float PLANE = 0.05f, BALL = 0.2f, RELEASE = 0.005f;
 
 /* The wall as seen from where the step would end, lengths in quanta. */
 typedef struct view {
@@ -88,13 +88,14 @@ bool sb_contact_mend(const sb_sim *sim, size_t i, sb_f4 *velocity, uint32_t *tou
 {
     const float to_quanta = (float)(sim->report.time_step / sim->space.quantum);
     const float spacing = sim->constant.spacing / (float)sim->space.quantum;
+    const float sheet = (float)sim->scene->numerics.wall_offset;
     bool mended = false;
     for (int sweep = 0; sweep < SWEEPS; sweep++) {
         const view v = look(sim, i, *velocity, to_quanta);
         if (!v.found)
             return mended;
-        float plane = smaller(PLANE * spacing, v.before + RELEASE * spacing) - v.distance;
-        float ball = smaller(BALL * spacing, v.ball_before + RELEASE * spacing) - v.ball;
+        float plane = smaller((sheet + PLANE) * spacing, v.before + RELEASE * spacing) - v.distance;
+        float ball = smaller((sheet + BALL) * spacing, v.ball_before + RELEASE * spacing) - v.ball;
         if (plane > 0)
             *velocity += v.normal * sb_splat(plane / to_quanta);
         else if (ball > 0 && v.ball > 0)

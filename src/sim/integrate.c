@@ -65,7 +65,7 @@ SB_MULTIVERSION
 static fastest accelerate(sb_sim *sim, size_t block)
 {
     const sb_f4 dt = sb_splat((float)sim->report.time_step);
-    const sb_f4 damping = sb_splat(sim->settling ? SETTLE_DAMPING : 1.0f);
+    const sb_f4 damping = sb_splat(sim->settling == SB_DAMPED ? SETTLE_DAMPING : 1.0f);
     const bool flat = sim->constant.dimension == 2;
     fastest top = {0, block * SB_BLOCK};
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
@@ -89,6 +89,7 @@ SB_INLINE float move_block(sb_sim *sim, size_t block, bool book)
     const sb_f4 *start = sim->scratch;
     sb_ledger_tally tally = {0};
     const float step = (float)(sim->report.time_step / sim->space.quantum);
+    const sb_f4 keep = sim->settling == SB_CREEPING ? (sb_f4){0, 0, 0, 1} : sb_splat(1);
     float top = 0;
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
         sb_f4 v = sim->acceleration[i];
@@ -98,7 +99,7 @@ SB_INLINE float move_block(sb_sim *sim, size_t block, bool book)
                                        moved(sim->position[i][2], v[2] * step), 0};
         if (book)
             sb_ledger_add(&tally, start[i], sim->velocity[i], v, (int64_t)sim->position[i][2] - height);
-        sim->velocity[i] = v;
+        sim->velocity[i] = book ? v : v * keep;
         float square = sb_sum3(v * v);
         top = square > top ? square : top;
     }

@@ -2,27 +2,13 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "sim/ledger.h"
+#include "sim/lattice.h"
 #include "sim/pressure.h"
 #include "sim/turbulence.h"
 
 #include <math.h>
 #include <omp.h>
 #include <string.h>
-
-/* |S|^2 + m sum_j m |grad W|^2 of a full lattice at the rest spacing, where S vanishes. */
-static double lattice_diagonal(const sb_scene *scene, double mass)
-{
-    double sum = 0, dr = scene->resolution, h = scene->numerics.support * dr;
-    int reach = (int)ceil(scene->numerics.support), depth = scene->dimensions == 2 ? 0 : reach;
-    for (int x = -reach; x <= reach; x++)
-        for (int y = -depth; y <= depth; y++)
-            for (int z = -reach; z <= reach; z++) {
-                double r = dr * sqrt((double)(x * x + y * y + z * z));
-                double slope = r > 0 ? sb_kernel_slope(scene->numerics.kernel, scene->dimensions, h, r) : 0;
-                sum += mass * mass * slope * slope;
-            }
-    return sum;
-}
 
 static sb_constants make_constants(const sb_scene *scene, const sb_model *model)
 {
@@ -42,7 +28,8 @@ static sb_constants make_constants(const sb_scene *scene, const sb_model *model)
         .wave_speed = (float)wave_speed,
         .sound_speed = (float)sound,
         .viscosity = (float)scene->fluid.viscosity,
-        .full_diagonal = (float)lattice_diagonal(scene, mass),
+        .full_diagonal = (float)sb_lattice_diagonal(scene, mass),
+        .spectrum = sb_lattice_spectrum(scene),
         .speed_limit = (float)(100 * fmax(wave_speed, sqrt(g * height))),
     };
 }
@@ -137,8 +124,8 @@ static void note_skipped(sb_sim *sim)
         sim->skipped[s++] = "third dimension: 9 cells searched instead of 27";
     if (!sb_pressure_solvers[n->solver]->needs_direction)
         sim->skipped[s++] = "search direction: the solver needs no memory for one";
-    if (n->settle_steps > 0 && !sb_sim_settles(sim->scene))
-        sim->skipped[s++] = "settling: fluid boxes and initial waves start as they are given";
+    if (!sb_sim_settles(sim->scene))
+        sim->skipped[s++] = "settling: settle_steps is 0, the water starts as it was filled in";
     sim->skipped[s] = NULL;
 }
 

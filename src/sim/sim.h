@@ -36,8 +36,7 @@ typedef struct sb_body_impulse {
 sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **sim, sb_error *error);
 void sb_sim_destroy(sb_sim *sim);
 
-/* Whether the scene starts from rest: a sea alone. Fluid boxes and initial waves start as they are given;
-   to settle them would let the dam break before t = 0. */
+/* Whether the water comes to rest before t = 0: where settle_steps is not 0. */
 bool sb_sim_settles(const sb_scene *scene);
 
 /* Damped steps with the paddles at rest until the water is still, where the scene settles; time stays 0. */

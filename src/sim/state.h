@@ -12,6 +12,13 @@ enum {
     SB_STAGES_MAX = 12
 };
 
+/* How the water comes to rest before t = 0. */
+enum sb_settling {
+    SB_RUNNING,  /* not at all: time goes on */
+    SB_DAMPED,   /* a sea: part of the velocity is lost in each step; an initial wave is held by a pull */
+    SB_CREEPING, /* boxes of water, which nothing holds: all of it */
+};
+
 /* Constants of the run. */
 typedef struct sb_constants {
     int dimension;
@@ -22,6 +29,7 @@ typedef struct sb_constants {
     float sound_speed;             /* m/s */
     float viscosity;               /* m^2/s, physical */
     float full_diagonal;           /* of a full lattice, per dt^2: scale of a_ii */
+    double spectrum;               /* largest eigenvalue of D^-1 A on a full lattice */
     float speed_limit;             /* m/s, above it the run has diverged */
 } sb_constants;
 
@@ -120,7 +128,7 @@ typedef struct sb_sim {
     struct sb_ledger_sums *block_ledger; /* per block, of one step */
     sb_ledger ledger;
 
-    bool settling;
+    enum sb_settling settling;
     sb_step_report report;
     uint64_t left_domain, lost;
     sb_stage_time stage[SB_STAGES_MAX];
@@ -140,6 +148,9 @@ static inline size_t sb_block_end(const sb_sim *sim, size_t block)
     return end < sim->n ? end : sim->n;
 }
 
+/* sim/settle.c: horizontal acceleration (m/s^2) that keeps an initial wave's surface level while it settles:
+   with g it stands everywhere across the surface, g d(eta)/dx. */
+float sb_settle_pull(const sb_sim *sim, sb_record at);
 /* sim/sort_stage.c: wraps or drops particles outside, sorts the rest along the Z-curve, builds the cells. */
 sb_status sb_stage_sort(sb_sim *sim, sb_error *error);
 /* sim/ghosts.c: images of what is near periodic sides, their places and velocities as after the sort. */

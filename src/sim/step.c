@@ -4,8 +4,6 @@
 #include "sim/state.h"
 #include "sim/turbulence.h"
 
-#include <math.h>
-
 typedef struct stage {
     const char *name;
     sb_status (*run)(sb_sim *sim, sb_error *error);
@@ -67,24 +65,4 @@ sb_status sb_sim_step(sb_sim *sim, sb_error *error)
 #endif
     }
     return SB_OK;
-}
-
-bool sb_sim_settles(const sb_scene *scene)
-{
-    return scene->numerics.settle_steps > 0 && scene->box_count == 0 && scene->wave.kind == SB_INITIAL_NONE;
-}
-
-sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
-{
-    enum { CALM_STEPS = 10 }; /* in a row below the limit: one may be an instant of reversal */
-    const double calm = 0.002 * (double)sim->constant.wave_speed;
-    int steps = sb_sim_settles(sim->scene) ? sim->scene->numerics.settle_steps : 0, still = 0;
-    sb_status status = SB_OK;
-    sim->settling = true;
-    for (int s = 0; s < steps && still < CALM_STEPS && status == SB_OK; s++) {
-        status = sb_sim_step(sim, error);
-        still = sim->report.max_speed < calm ? still + 1 : 0;
-    }
-    sim->settling = false;
-    return status;
 }

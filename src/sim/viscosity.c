@@ -78,7 +78,7 @@ static void do_block(sb_sim *sim, size_t block, const factors *f, bool viscous, 
     const float dt = (float)sim->report.time_step;
     sb_f4 *next = sim->scratch;
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
-        sb_f4 a = {0, 0, -sim->constant.gravity, 0};
+        sb_f4 a = {sim->settling ? sb_settle_pull(sim, sim->position[i]) : 0, 0, -sim->constant.gravity, 0};
         if (sim->eddy)
             a += fluid_part(sim, i, f, sim->eddy);
         else if (viscous)

@@ -43,7 +43,7 @@ const char tank_3d[] =
     "    - {min: [0, 0, 0], max: [0.8, 0.8, 0.6]}\n"
     "bodies:\n"
     "  - {name: post, shape: box, min: [1.0, 0.3, 0], max: [1.3, 0.6, 0.8]}\n"
-    "  - {name: sill, shape: box, min: [1.6, 0, 0], max: [1.9, 0.8, 0.2]}\n"
+    "  - {name: sill, shape: box, min: [1.6, 0, 0], max: [1.9, 0.8, 0.3]}\n"
     "measure:\n"
     "  interval: 0.05\n"
     "  gauges: [{name: wet, x: 0.4, y: 0.4}, {name: dry, x: 2.4, y: 0.4}]\n"

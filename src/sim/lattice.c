@@ -1,0 +1,67 @@
+#include "sim/lattice.h"
+
+#include <math.h>
+
+enum { WAVES = 12 }; /* wave vectors per axis of the first zone's half */
+
+/* Neighbours of the origin: places in spacings, gradients of W without its normalisation. */
+typedef struct star {
+    size_t count;
+    sb_vec3 place[1000], gradient[1000];
+    double squares; /* sum |gradient|^2 */
+} star;
+
+static void make_star(const sb_scene *scene, star *s)
+{
+    const double support = scene->numerics.support;
+    const int reach = (int)ceil(support), depth = scene->dimensions == 2 ? 0 : reach;
+    s->count = 0;
+    s->squares = 0;
+    for (int x = -reach; x <= reach; x++)
+        for (int y = -depth; y <= depth; y++)
+            for (int z = -reach; z <= reach; z++) {
+                const double r = sqrt((double)(x * x + y * y + z * z));
+                if (!(r > 0 && r < support))
+                    continue;
+                const double slope = scene->numerics.kernel->slope(r / support) / r;
+                s->place[s->count] = sb_vec(x, y, z);
+                s->gradient[s->count] = sb_scale(sb_vec(x, y, z), slope);
+                s->squares += slope * slope * r * r;
+                s->count++;
+            }
+}
+
+double sb_lattice_diagonal(const sb_scene *scene, double mass)
+{
+    double sum = 0, dr = scene->resolution, h = scene->numerics.support * dr;
+    int reach = (int)ceil(scene->numerics.support), depth = scene->dimensions == 2 ? 0 : reach;
+    for (int x = -reach; x <= reach; x++)
+        for (int y = -depth; y <= depth; y++)
+            for (int z = -reach; z <= reach; z++) {
+                double r = dr * sqrt((double)(x * x + y * y + z * z));
+                double slope = r > 0 ? sb_kernel_slope(scene->numerics.kernel, scene->dimensions, h, r) : 0;
+                sum += mass * mass * slope * slope;
+            }
+    return sum;
+}
+
+static double response(const star *s, sb_vec3 k)
+{
+    sb_vec3 g = {0};
+    for (size_t j = 0; j < s->count; j++)
+        g = sb_madd(g, sin(sb_dot(k, s->place[j])), s->gradient[j]);
+    return s->squares > 0 ? sb_dot(g, g) / s->squares : 0;
+}
+
+double sb_lattice_spectrum(const sb_scene *scene)
+{
+    static const double pi = 3.14159265358979323846;
+    star s;
+    double largest = 0;
+    make_star(scene, &s);
+    for (int x = 0; x <= WAVES; x++) /* the rest follows by symmetry */
+        for (int y = 0; y <= (scene->dimensions == 2 ? 0 : x); y++)
+            for (int z = 0; z <= (scene->dimensions == 2 ? x : y); z++)
+                largest = fmax(largest, response(&s, sb_scale(sb_vec(x, y, z), pi / WAVES)));
+    return largest;
+}

@@ -1,0 +1,67 @@
+/* Before t = 0 the lattice that the sea was filled with gives way to water at rest. Let go as it is, it would fall
+   into place by itself and drown a wave in its noise. */
+#include "physics/wave_theory.h"
+#include "sim/state.h"
+
+/* All settling begins with steps that creep: a lattice too dense at a wall would else be thrown off it. Boxes of
+   water do so for longer, and nothing else; a dam's face gives way by 0.04 (dr/D) dr in a step. */
+enum { CREEP_FIRST = 40, CREEP_BOXES = 100, CALM_STEPS = 10 }; /* calm ones in a row: one may be a reversal */
+
+bool sb_sim_settles(const sb_scene *scene)
+{
+    return scene->numerics.settle_steps > 0;
+}
+
+float sb_settle_pull(const sb_sim *sim, sb_record at)
+{
+    const sb_initial_wave *wave = &sim->scene->wave;
+    const double gravity = sim->scene->fluid.gravity, step = 1e-4 * wave->depth;
+    if (wave->kind == SB_INITIAL_NONE)
+        return 0;
+    const double x = sb_space_position(&sim->space, at).x - wave->position;
+    const sb_solitary solitary = {wave->height, wave->depth, gravity, 0};
+    const bool travels = wave->kind == SB_INITIAL_SOLITARY;
+    const double ahead = travels ? sb_solitary_elevation(&solitary, x + step)
+                                 : sb_standing_elevation(wave->height, wave->wavelength, x + step);
+    const double behind = travels ? sb_solitary_elevation(&solitary, x - step)
+                                  : sb_standing_elevation(wave->height, wave->wavelength, x - step);
+    return (float)(gravity * (ahead - behind) / (2 * step));
+}
+
+/* The velocities that the scene gives; the pressures reached stay. */
+static void let_go(sb_sim *sim)
+{
+    const size_t n = sim->n;
+    double top = 0;
+    for (size_t i = 0; i < n; i++) {
+        const sb_vec3 v = sim->model->fluid_velocity[sim->id[i]];
+        const double speed = sb_norm(v);
+        sim->velocity[i] = (sb_f4){(float)v.x, (float)v.y, (float)v.z, sim->velocity[i][3]};
+        top = speed > top ? speed : top;
+    }
+    sim->report.max_speed = top;
+}
+
+sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
+{
+    if (!sb_sim_settles(sim->scene))
+        return SB_OK;
+    const bool boxes = sim->scene->box_count > 0;
+    const double calm = 0.002 * (double)sim->constant.wave_speed;
+    int steps = sim->scene->numerics.settle_steps, still = 0;
+    if (boxes && steps > CREEP_BOXES)
+        steps = CREEP_BOXES;
+    for (size_t i = 0; i < sim->n; i++)
+        sim->velocity[i] = (sb_f4){0, 0, 0, sim->velocity[i][3]};
+    sim->report.max_speed = 0;
+    sb_status status = SB_OK;
+    for (int s = 0; s < steps && still < CALM_STEPS && status == SB_OK; s++) {
+        sim->settling = boxes || s < CREEP_FIRST ? SB_CREEPING : SB_DAMPED;
+        status = sb_sim_step(sim, error);
+        still = sim->report.max_speed < calm ? still + 1 : 0;
+    }
+    sim->settling = SB_RUNNING;
+    if (status == SB_OK)
+        let_go(sim);
+    return status;
+}
