@@ -70,7 +70,7 @@ static const sb_key keys[] = {
     NUMBER(jitter, "spacings", 0, 0.5, 0, "Amplitude of the random displacement at the start."),
     {.name = "seed", .type = SB_KEY_SEED, SB_KEY_AT(sb_numerics, seed), .max = 0x1p64,
      .flags = SB_KEY_PRESET, .doc = "Seed of that displacement."},
-    COUNT(settle_steps, "steps", 0, 1000000, "Most damped steps before t = 0; 0: none."),
+    COUNT(settle_steps, "steps", 0, 1000000, "Most steps before t = 0 in which the water comes to rest; 0: none."),
 };
 /* clang-format on */
 

@@ -4,8 +4,8 @@
 #include "sim/state.h"
 
 /* All settling begins with steps that creep: a lattice too dense at a wall would else be thrown off it. Boxes of
-   water do so for longer, and nothing else; a dam's face gives way by 0.04 (dr/D) dr in a step. */
-enum { CREEP_FIRST = 40, CREEP_BOXES = 100, CALM_STEPS = 10 }; /* calm ones in a row: one may be a reversal */
+   water do so for a little longer, and nothing else, for their sides give way. */
+enum { CREEP_FIRST = 40, CREEP_BOXES = 50, CALM_STEPS = 10 }; /* calm ones in a row: one may be a reversal */
 
 bool sb_sim_settles(const sb_scene *scene)
 {

@@ -39,7 +39,8 @@ void sb_sim_destroy(sb_sim *sim);
 /* Whether the water comes to rest before t = 0: where settle_steps is not 0. */
 bool sb_sim_settles(const sb_scene *scene);
 
-/* Damped steps with the paddles at rest until the water is still, where the scene settles; time stays 0. */
+/* Brings the water to rest with paddles at rest, where the scene settles, an initial wave's surface kept up; then
+   gives it the scene's velocities. Time stays 0. */
 sb_status sb_sim_settle(sb_sim *sim, sb_error *error);
 
 /* One step. SB_FAILED when it diverged: step, place and reason in *error; the state stays readable. */

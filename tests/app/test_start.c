@@ -47,6 +47,45 @@ static void a_wave_stands_and_moves(void **state)
     assert_near(kinetic, 174, 20); /* as it is without settling */
 }
 
+/* Kinetic energy (J) in the last row of energy.csv. */
+static double last_kinetic(const char *scene)
+{
+    write_text("start.yaml", scene);
+    RUN_AND_FORGET(0, "run", "start.yaml", "--out", "q", "--quiet", "--set", "output.plots=false");
+    char *text = text_of("q/energy.csv");
+    size_t end = strlen(text) - 1;
+    while (end > 0 && text[end - 1] != '\n')
+        end--;
+    const char *comma = strchr(text + end, ',');
+    assert_non_null(comma);
+    double kinetic = strtod(comma + 1, NULL);
+    sb_free(text);
+    return kinetic;
+}
+
+/* Unsettled, the lattice's own fall into place would be 249 J/m here; the wave has 0.2 by then. */
+static void a_wave_starts_quietly(void **state)
+{
+    (void)state;
+    double kinetic = last_kinetic("{dimensions: 2, resolution: 0.05, duration: 0.024,\n"
+                                  " domain: {min: [0, 0], max: [2, 1.5]},\n"
+                                  " water: {level: 1, seed: [1, 0.5],\n"
+                                  "         wave: {kind: standing, height: 0.05, depth: 1, wavelength: 2}},\n"
+                                  " measure: {interval: 0.012}}\n");
+    assert_near(kinetic, 0.2, 0.15);
+}
+
+/* A dam's fall, 1.4 J/m by then; unsettled 13. */
+static void a_dam_starts_quietly(void **state)
+{
+    (void)state;
+    double kinetic = last_kinetic("{dimensions: 2, resolution: 0.04, duration: 0.012,\n"
+                                  " domain: {min: [0, 0], max: [3, 1]},\n"
+                                  " water: {boxes: [{min: [0, 0], max: [0.8, 0.6]}]},\n"
+                                  " measure: {interval: 0.012}}\n");
+    assert_near(kinetic, 1.4, 1.1);
+}
+
 static void a_moving_box_moves(void **state)
 {
     (void)state;
@@ -64,6 +103,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_dam_stands),
         cmocka_unit_test(a_wave_stands_and_moves),
+        cmocka_unit_test(a_wave_starts_quietly),
+        cmocka_unit_test(a_dam_starts_quietly),
         cmocka_unit_test(a_moving_box_moves),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);

@@ -1,0 +1,82 @@
+/* The Chebyshev solver's polynomial is made for eigenvalues up to 1.3 times a full lattice's largest: settled water
+   beside walls must stay below that, whatever the kernel and its reach. */
+#include "../check.h"
+#include "base/memory.h"
+#include "sim/pressure.h"
+#include "sim/tank.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* Largest eigenvalue of D^-1 A by power iteration. */
+static double largest(sb_sim *sim)
+{
+    float *v = sb_alloc(sim->n, sizeof *v), *product = sb_alloc(sim->n, sizeof *product);
+    assert_true(v && product);
+    for (size_t i = 0; i < sim->n; i++)
+        v[i] = (float)((double)(i * 7919 % 1000) / 500 - 1);
+    double value = 0;
+    for (int round = 0; round < 200; round++) {
+        double before = 0, after = 0;
+        sb_pressure_load(sim, v);
+        sb_pressure_product(sim, product);
+        for (size_t i = 0; i < sim->n; i++) {
+            const float next = sim->diagonal[i] > 0 ? -product[i] / sim->diagonal[i] : 0;
+            before += (double)v[i] * (double)v[i];
+            after += (double)next * (double)next;
+            v[i] = next;
+        }
+        value = sqrt(after / before);
+        for (size_t i = 0; i < sim->n; i++)
+            v[i] /= (float)sqrt(after);
+    }
+    sb_free(v);
+    sb_free(product);
+    return value;
+}
+
+static void check(int dimensions, const char *kernel, double support)
+{
+    tank t;
+    const sb_vec3 size = dimensions == 2 ? sb_vec(1, 0, 1) : sb_vec(0.6, 0.5, 1);
+    sb_error error = {0};
+    tank_make(&t, dimensions, 0.05, size, size.x, 0.6, 0.1);
+    t.scene.numerics.kernel = sb_kernel_find(kernel);
+    t.scene.numerics.support = support;
+    t.scene.numerics.settle_steps = 150;
+    sb_sim *sim = tank_sim(&t);
+    assert_non_null(sim);
+    if (sb_sim_settle(sim, &error) != SB_OK)
+        fail_msg("%s", error.text);
+    assert_int_equal(tank_steps(sim, 1), 0);
+    const double found = largest(sim), lattice = sim->constant.spectrum;
+    printf("%dD %s %g: %.3f, lattice %.3f, ratio %.3f\n", dimensions, kernel, support, found, lattice, found / lattice);
+    assert_true(found < 1.3 * lattice);
+    assert_true(found > 0.9 * lattice);
+    sb_sim_destroy(sim);
+    tank_free(&t);
+}
+
+static void narrow_kernels(void **state)
+{
+    (void)state;
+    check(2, "cubic", 2);
+    check(3, "cubic", 2);
+}
+
+static void wider_kernels(void **state)
+{
+    (void)state;
+    check(2, "cubic", 2.5);
+    check(3, "cubic", 2.5);
+    check(2, "wendland-c2", 3);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(narrow_kernels),
+        cmocka_unit_test(wider_kernels),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
