@@ -16,7 +16,8 @@ static const char help[] =
     "  --threads N          of the simulation (default: all cores)\n"
     "  --preset NAME        numerics: default or paper (default: the scene's)\n"
     "  --set KEY=VALUE      change a key of the scene, e.g. --set resolution=5; may be repeated\n"
-    "  --quiet              no progress\n";
+    "  --quiet              no progress\n"
+    "  --profile            at the end, where the time went, stage by stage\n";
 
 /* runs/<scene file without folder and .yaml> */
 static void default_out(char out[SB_PATH_MAX], const char *scene)
@@ -39,7 +40,8 @@ int sb_command_run(int count, char **arguments)
     sb_options options;
     sb_error error = {0};
     sb_scene scene = {0};
-    unsigned accepted = SB_OPT_OUT | SB_OPT_UNTIL | SB_OPT_THREADS | SB_OPT_PRESET | SB_OPT_SET | SB_OPT_QUIET;
+    unsigned accepted = SB_OPT_OUT | SB_OPT_UNTIL | SB_OPT_THREADS | SB_OPT_PRESET | SB_OPT_SET | SB_OPT_QUIET |
+                        SB_OPT_PROFILE;
     sb_status status = sb_options_parse(count, arguments, accepted, "scene", &options, &error);
     if (status == SB_OK && options.help) {
         fputs(help, stdout);
@@ -53,7 +55,7 @@ int sb_command_run(int count, char **arguments)
             snprintf(out, sizeof out, "%s", options.out);
         else
             default_out(out, options.positional);
-        status = sb_run(&scene, out, options.quiet, &error);
+        status = sb_run(&scene, out, &(sb_run_voice){.quiet = options.quiet, .profile = options.profile}, &error);
     }
     if (status != SB_OK)
         fprintf(stderr, "shorebreak: %s\n", error.text);

@@ -7,6 +7,7 @@
 #include "output/csv.h"
 #include "output/esri.h"
 #include "output/plots.h"
+#include "output/profile.h"
 #include "output/progress.h"
 #include "output/summary.h"
 #include "output/video.h"
@@ -40,6 +41,9 @@ typedef struct run {
     sb_consumer consumers[3]; /* files, pictures, stream: those the scene asks for are started */
     sb_energy first_energy;
     uint64_t iterations, capped, frames;
+    uint64_t steps;           /* of this process */
+    double particle_steps, setup_seconds, settling_seconds;
+    const char *off[4];       /* consumers that are not there, ended by NULL */
     bool inside_known;
     uint64_t inside, crossed; /* particles within solids at the end */
 } run;
@@ -114,27 +118,26 @@ static sb_status start_consumers(run *r, sb_error *error)
         .scene = scene, .model = &r->model, .directory = r->directory, .camera = -1};
     r->streamer = (sb_streamer){.scene = scene, .run_name = scene->title, .log = r->log};
     sb_status status = SB_OK;
-    const char *off[4] = {NULL};
     size_t skipped = 0;
     if (scene->stream.enabled)
         status = start_streamer(r, error);
     else
-        off[skipped++] = "stream: off, no LCM thread";
+        r->off[skipped++] = "stream: off, no LCM thread";
     if (status == SB_OK && scene->output.particle_interval > 0) {
         sb_consumer_work work = sb_recorder_work(&r->recorder);
         status = sb_consumer_start(&r->consumers[RECORDER], &work, scene->output.particle_interval,
                                    FILE_QUEUE, SB_QUEUE_WAIT, error);
     } else {
-        off[skipped++] = "particle files: off, no thread";
+        r->off[skipped++] = "particle files: off, no thread";
     }
     if (status == SB_OK && scene->render.interval > 0 && scene->render.camera_count > 0) {
         sb_consumer_work work = sb_pictures_work(&r->pictures);
         status = sb_consumer_start(&r->consumers[PICTURES], &work, scene->render.interval, FILE_QUEUE,
                                    SB_QUEUE_WAIT, error);
     } else {
-        off[skipped++] = "pictures: off, no thread, no graphics memory";
+        r->off[skipped++] = "pictures: off, no thread, no graphics memory";
     }
-    sb_runlog_skipped(r->log, off);
+    sb_runlog_skipped(r->log, r->off);
     return status;
 }
 
@@ -160,9 +163,11 @@ static sb_status prepare(run *r, sb_error *error)
     say(r, text);
     sb_runlog_start(r->log, r->scene, &r->model, omp_get_max_threads(), sb_sim_bytes(r->sim));
     sb_runlog_skipped(r->log, sb_sim_skipped(r->sim));
+    r->setup_seconds = sb_progress_wall(&r->progress);
     if (sb_sim_settles(r->scene))
         say(r, "settling");
     status = sb_sim_settle(r->sim, error);
+    r->settling_seconds = sb_progress_wall(&r->progress) - r->setup_seconds;
     if (status != SB_OK)
         return status;
     sb_runlog_event(r->log, "settled", "highest speed %.3g m/s", sb_sim_report(r->sim)->max_speed);
@@ -219,6 +224,8 @@ static sb_status one_step(run *r, sb_error *error)
         return status;
     const sb_step_report *report = sb_sim_report(r->sim);
     r->iterations += (uint64_t)report->iterations;
+    r->steps++;
+    r->particle_steps += (double)report->fluid_count;
     r->capped += report->capped;
     status = sb_measure_step(r->measure, r->sim, error);
     if (status == SB_OK)
@@ -405,12 +412,31 @@ static void finish(run *r, sb_status *status, sb_error *error)
     keep_first(status, error, sb_runlog_close(r->log, &reason), &reason);
 }
 
-sb_status sb_run(const sb_scene *scene, const char *directory, bool quiet, sb_error *error)
+static void print_profile(const run *r)
+{
+    sb_profile profile = {
+        .steps = r->steps,
+        .iterations = r->iterations,
+        .particle_steps = r->particle_steps,
+        .settling_particles = r->model.fluid_count,
+        .setup = r->setup_seconds,
+        .settling = r->settling_seconds,
+        .wall = sb_progress_wall(&r->progress),
+        .simulated = sb_sim_report(r->sim)->time,
+        .bytes = sb_sim_bytes(r->sim),
+        .threads = omp_get_max_threads(),
+        .skipped = {sb_sim_skipped(r->sim), r->measure ? sb_measure_skipped(r->measure) : NULL, r->off},
+    };
+    profile.stage_count = sb_sim_stages(r->sim, &profile.stages);
+    sb_profile_print(stdout, &profile);
+}
+
+sb_status sb_run(const sb_scene *scene, const char *directory, const sb_run_voice *voice, sb_error *error)
 {
     run r = {.resolved = *scene, .directory = directory};
     r.scene = &r.resolved;
     sb_error local = {0};
-    sb_progress_begin(&r.progress, quiet ? NULL : stdout, scene->duration);
+    sb_progress_begin(&r.progress, voice->quiet ? NULL : stdout, scene->duration);
     sb_interrupt_watch();
     sb_status status = open_directory(&r, &local);
     if (status == SB_OK)
@@ -418,6 +444,8 @@ sb_status sb_run(const sb_scene *scene, const char *directory, bool quiet, sb_er
     if (status == SB_OK)
         status = advance(&r, &local);
     finish(&r, &status, &local);
+    if (voice->profile && r.sim)
+        print_profile(&r);
     sb_measure_destroy(r.measure);
     sb_sim_destroy(r.sim);
     sb_model_free(&r.model);

@@ -69,6 +69,7 @@ static const struct {
     {"run tank2.yaml --nope", "--nope: no such option"},
     {"run tank2.yaml --json", "--json: no such option"},
     {"check tank2.yaml --quiet", "--quiet: no such option"},
+    {"check tank2.yaml --profile", "--profile: no such option"},
     {"run tank2.yaml --quiet=yes", "--quiet=yes: takes no value"},
     {"run tank2.yaml --out", "--out: needs a value"},
     {"run tank2.yaml --set", "--set: needs a value"},
@@ -218,6 +219,35 @@ static void sample_writes_the_particles(void **state)
     outcome_free(&o);
 }
 
+/* The state's hash, as its hex digits in summary.json. */
+static void copy_hash(const char *summary, char hash[32])
+{
+    char *text = text_of(summary);
+    const char *at = strstr(text, "\"state_hash\"");
+    assert_non_null(at);
+    assert_int_equal(sscanf(at, "\"state_hash\": \"%31[^\"]\"", hash), 1);
+    sb_free(text);
+}
+
+static void profile_says_where_time_went_and_changes_nothing(void **state)
+{
+    (void)state;
+    char hashes[2][32];
+    outcome o = RUN(0, "run", "tank2.yaml", "--until", "0.05", "--quiet", "--out", "plain");
+    assert_string_equal(o.out, "");
+    outcome_free(&o);
+    o = RUN(0, "run", "tank2.yaml", "--until", "0.05", "--quiet", "--profile", "--out", "profiled");
+    static const char *const words[] = {"ns per particle-step\n", "\nneighbours ", "\npressure ", "\nall stages ",
+                                        " iterations per step, ", " particle-steps per second, 1 threads\n",
+                                        "\nmemory: simulation ", "\n  stream: off, no LCM thread\n"};
+    for (size_t w = 0; w < sizeof words / sizeof words[0]; w++)
+        assert_contains(o.out, words[w]);
+    outcome_free(&o);
+    copy_hash("plain/summary.json", hashes[0]);
+    copy_hash("profiled/summary.json", hashes[1]);
+    assert_string_equal(hashes[0], hashes[1]);
+}
+
 static void bad_scene_gives_its_place(void **state)
 {
     (void)state;
@@ -248,6 +278,7 @@ int main(void)
         cmocka_unit_test(check_tells_what_would_be_built),
         cmocka_unit_test(check_in_json),
         cmocka_unit_test(sample_writes_the_particles),
+        cmocka_unit_test(profile_says_where_time_went_and_changes_nothing),
         cmocka_unit_test(bad_scene_gives_its_place),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);

@@ -1,0 +1,88 @@
+/* The stage table of `run --profile`. */
+#include "output/profile.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static char *printed(const sb_profile *profile)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    sb_profile_print(out, profile);
+    assert_int_equal(fclose(out), 0);
+    return text;
+}
+
+static void assert_says(const char *text, const char *words)
+{
+    if (!strstr(text, words)) fail_msg("\"%s\" is not in\n%s", words, text);
+}
+
+static const sb_stage_time stages[] = {{"sort", 0.25, 20}, {"source", 0.5, 20}, {"pressure", 1.25, 20}};
+static const char *const none[] = {"turbulence: none", NULL}, *const off[] = {"stream: off", NULL};
+
+static const sb_profile profile = {
+    .stages = stages,
+    .stage_count = 3,
+    .steps = 15,
+    .iterations = 60,
+    .particle_steps = 15e3,
+    .settling_particles = 1000, /* in five steps: 20 000 particle-steps in all */
+    .setup = 0.5,
+    .settling = 0.75,
+    .wall = 3,
+    .simulated = 1.5,
+    .bytes = 2500000,
+    .threads = 2,
+    .skipped = {none, NULL, off},
+};
+
+static void shares_and_costs_count_settling_in(void **state)
+{
+    (void)state;
+    char *text = printed(&profile);
+    assert_says(text, "sort                20      0.250   12.5%               12500.00\n");
+    assert_says(text, "pressure            20      1.250   62.5%               62500.00\n");
+    assert_says(text, "all stages                  2.000  100.0%              100000.00\n");
+    assert_says(text, "15 steps after 5 of settling, 4.0 iterations per step, "
+                      "1e+04 particle-steps per second, 2 threads\n");
+    assert_says(text, "3.000 s in all: 0.500 s set-up, 0.750 s settling, 0.500 s outside stages; 1.5 s simulated\n");
+    assert_says(text, "simulation 2.5 MB, peak of the process ");
+    free(text);
+}
+
+static void what_was_left_out_stands_with_a_pass_of_pairs(void **state)
+{
+    (void)state;
+    char *text = printed(&profile);
+    assert_says(text, "  turbulence: none\n  stream: off\n");
+    assert_says(text, "saved about 25 ms per step");
+    free(text);
+}
+
+static void a_run_without_steps_divides_by_nothing(void **state)
+{
+    (void)state;
+    const sb_profile empty = {.threads = 1};
+    char *text = printed(&empty);
+    assert_null(strstr(text, "nan"));
+    assert_null(strstr(text, "inf"));
+    assert_says(text, "0 steps after 0 of settling");
+    free(text);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shares_and_costs_count_settling_in),
+        cmocka_unit_test(what_was_left_out_stands_with_a_pass_of_pairs),
+        cmocka_unit_test(a_run_without_steps_divides_by_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
