@@ -4,6 +4,7 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -22,6 +23,14 @@ sb_status sb_atomic_open(sb_atomic_file *file, const char *path, sb_error *error
     return SB_OK;
 }
 
+/* Makes a rename last through a power cut. Not every file system can, and the file is whole either way. */
+static void sync_folder_of(const char *path)
+{
+    char folder[SB_PATH_MAX];
+    sb_path_folder(folder, path);
+    (void)sb_file_sync(folder);
+}
+
 sb_status sb_atomic_commit(sb_atomic_file *file, int durable, sb_error *error)
 {
     FILE *stream = file->stream;
@@ -37,6 +46,8 @@ sb_status sb_atomic_commit(sb_atomic_file *file, int durable, sb_error *error)
         bad = 1;
         reason = errno;
     }
+    if (!bad && durable)
+        sync_folder_of(file->path);
     if (!bad)
         return SB_OK;
     unlink(file->temporary);
@@ -50,6 +61,16 @@ void sb_atomic_abort(sb_atomic_file *file)
     fclose(file->stream);
     file->stream = NULL;
     unlink(file->temporary);
+}
+
+int sb_file_sync(const char *path)
+{
+    int file = open(path, O_RDONLY | O_CLOEXEC);
+    if (file < 0)
+        return -1;
+    int status = fsync(file);
+    close(file);
+    return status;
 }
 
 sb_status sb_make_directories(const char *path, sb_error *error)

@@ -18,12 +18,15 @@ typedef struct sb_atomic_file {
 /* Opens "<path>.tmp" for writing. SB_FAILED names the path and the system's reason. */
 sb_status sb_atomic_open(sb_atomic_file *file, const char *path, sb_error *error);
 
-/* Flushes, syncs when `durable`, closes and renames to the final name; on any failure removes the
+/* Flushes, syncs (file and folder) when `durable`, closes and renames to the final name; on any failure removes the
    temporary and says why. */
 sb_status sb_atomic_commit(sb_atomic_file *file, int durable, sb_error *error);
 
 /* Closes and removes the temporary; fine on a closed file. */
 void sb_atomic_abort(sb_atomic_file *file);
+
+/* Puts what the system holds of a file, or of a folder's names, on disk. 0, or -1 with errno. */
+int sb_file_sync(const char *path);
 
 /* Makes the directory and all missing parents. */
 sb_status sb_make_directories(const char *path, sb_error *error);

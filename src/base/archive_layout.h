@@ -1,0 +1,30 @@
+/* What the two halves of an archive agree on. Inside src/base. */
+#ifndef SB_BASE_ARCHIVE_LAYOUT_H
+#define SB_BASE_ARCHIVE_LAYOUT_H
+
+#include "base/archive.h"
+#include "base/hash.h"
+
+#include <assert.h>
+
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "archives are little-endian");
+
+#define SB_ARCHIVE_ORDER 0x01020304u
+#define SB_ARCHIVE_END "end"
+
+enum {
+    SB_ARCHIVE_HEAD = SB_ARCHIVE_NAME + 8,
+    SB_SECTION_HEAD = SB_ARCHIVE_NAME + 16 /* name, length, checksum */
+};
+
+/* The byte before each value. */
+enum { SB_VALUE_COUNT = 'c', SB_VALUE_REAL = 'r', SB_VALUE_FLAG = 'f', SB_VALUE_LIST = 'l' };
+
+/* Of a section's name, length and content; head: where it begins. */
+static inline uint64_t sb_archive_sum(const unsigned char *head, uint64_t length)
+{
+    const uint64_t seed = sb_hash(0, head, SB_ARCHIVE_NAME + sizeof length);
+    return sb_hash(seed, head + SB_SECTION_HEAD, length);
+}
+
+#endif
