@@ -23,7 +23,7 @@ typedef struct sb_archive_out {
     unsigned char *bytes;
     size_t used, capacity;
     size_t section; /* where the open section's head lies; 0: none is open */
-    bool starved;   /* memory ran out; said by sb_archive_save */
+    bool starved;   /* memory ran out; said at the end */
 } sb_archive_out;
 
 void sb_archive_begin(sb_archive_out *out, const char *kind, uint32_t version);
@@ -38,7 +38,9 @@ void sb_put_vector(sb_archive_out *out, sb_vec3 value);
 void sb_put_list(sb_archive_out *out, const void *items, size_t count, size_t size);
 void sb_put_text(sb_archive_out *out, const char *text);
 
-/* Closes the archive and puts it on disk: beside its name, synced, renamed. SB_FAILED names path and reason. */
+/* Ends it: bytes and used are then the whole archive. SB_FAILED when memory ran out on the way. */
+sb_status sb_archive_close(sb_archive_out *out, sb_error *error);
+/* Ends it and puts it on disk: beside its name, synced, renamed. SB_FAILED names path and reason. */
 sb_status sb_archive_save(sb_archive_out *out, const char *path, sb_error *error);
 void sb_archive_out_free(sb_archive_out *out);
 

@@ -107,14 +107,19 @@ void sb_put_text(sb_archive_out *out, const char *text)
     sb_put_list(out, text, strlen(text), 1);
 }
 
-sb_status sb_archive_save(sb_archive_out *out, const char *path, sb_error *error)
+sb_status sb_archive_close(sb_archive_out *out, sb_error *error)
 {
     sb_archive_section(out, SB_ARCHIVE_END);
     close_section(out);
-    if (out->starved)
-        return sb_fail_memory(error, path);
+    return out->starved ? sb_fail_memory(error, "an archive") : SB_OK;
+}
+
+sb_status sb_archive_save(sb_archive_out *out, const char *path, sb_error *error)
+{
     sb_atomic_file file = {0};
-    sb_status status = sb_atomic_open(&file, path, error);
+    sb_status status = sb_archive_close(out, error);
+    if (status == SB_OK)
+        status = sb_atomic_open(&file, path, error);
     if (status != SB_OK)
         return status;
     fwrite(out->bytes, 1, out->used, file.stream);

@@ -3,6 +3,7 @@
 #ifndef SB_SIM_SIM_H
 #define SB_SIM_SIM_H
 
+#include "base/archive.h"
 #include "base/status.h"
 #include "frame/frame.h"
 #include "geometry/model.h"
@@ -70,6 +71,13 @@ const sb_ledger *sb_sim_ledger(const sb_sim *sim);
 
 /* A hash of the complete state. */
 uint64_t sb_sim_hash(const sb_sim *sim);
+
+/* The state between two steps, as a section of an archive. Saving changes nothing. */
+void sb_sim_save(const sb_sim *sim, sb_archive_out *out);
+/* Into a simulation of the same scene and model, which then goes on as the saved one did, bit for bit; queries find
+   nothing before its next step. SB_BAD_INPUT when the section is not of this model or makes no sense: then, and only
+   then, the state is none, and to be loaded again or destroyed. */
+sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error);
 
 /* A frame of positions, velocities and pressures, bodies' displacements filled; NULL without memory. */
 sb_frame *sb_sim_snapshot(const sb_sim *sim);

@@ -148,6 +148,8 @@ static inline size_t sb_block_end(const sb_sim *sim, size_t block)
     return end < sim->n ? end : sim->n;
 }
 
+/* sim/step.c: the stages that the scene needs, their names and number, without a step. */
+void sb_step_name_stages(sb_sim *sim);
 /* sim/settle.c: horizontal acceleration (m/s^2) that keeps an initial wave's surface level while it settles:
    with g it stands everywhere across the surface, g d(eta)/dx. */
 float sb_settle_pull(const sb_sim *sim, sb_record at);
@@ -168,6 +170,8 @@ int sb_wall_volumes(const sb_sim *sim, sb_wall_set *set, bool only_own);
 /* Adds the images beyond periodic sides, with the volume, body and normal of their own. */
 int sb_wall_images(sb_wall_set *set, const sb_space *space);
 sb_status sb_stage_walls(sb_sim *sim, sb_error *error); /* paddles to t, their table, their velocity */
+/* The moving bodies' table at their displacements, when those have been set from outside. */
+sb_status sb_walls_restore(sb_sim *sim, sb_error *error);
 /* Whether a cell may have boundary particles of the set in reach. */
 bool sb_walls_near(const sb_wall_set *set, const sb_space *space, sb_record record);
 /* sim/neighbours.c: lists, densities, wall vectors, diagonal, all in one pass. */

@@ -259,7 +259,12 @@ sb_status sb_stage_walls(sb_sim *sim, sb_error *error)
         moving->next_displacement = there;
         moving->velocity = sb_scale(moving->direction, (there - here) / dt);
     }
-    if (!moved)
+    return moved ? sb_walls_restore(sim, error) : SB_OK;
+}
+
+sb_status sb_walls_restore(sb_sim *sim, sb_error *error)
+{
+    if (sim->moving_count == 0)
         return SB_OK;
     place(sim);
     if (table_build(&sim->walls[SB_MOVING], &sim->space) != 0 ||

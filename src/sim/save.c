@@ -1,0 +1,135 @@
+/* The state between two steps, on its way into an archive and back. What a step makes anew is left out: cells,
+   ghosts, neighbours, densities; the wall tables follow from the bodies' displacements. */
+#include "base/archive.h"
+#include "sim/state.h"
+
+#include <math.h>
+
+#define SECTION "sim"
+
+/* Positions are kept below this by the move. */
+static const uint32_t POSITION_END = 0x80000000u;
+
+static void put_report(sb_archive_out *out, const sb_step_report *r)
+{
+    sb_put_count(out, r->step);
+    sb_put_count(out, (uint64_t)r->iterations);
+    sb_put_flag(out, r->capped);
+    const double reals[] = {r->time,         r->time_step, r->tolerance, r->error_mean,
+                            r->error_active, r->error_max, r->max_speed, r->momentum_imbalance};
+    sb_put_list(out, reals, sizeof reals / sizeof *reals, sizeof *reals);
+}
+
+static void take_report(sb_archive_in *in, sb_step_report *r)
+{
+    double reals[8];
+    r->step = sb_take_count(in, UINT64_MAX);
+    r->iterations = (int)sb_take_count(in, INT32_MAX);
+    r->capped = sb_take_flag(in);
+    sb_take_list(in, reals, sizeof reals / sizeof *reals, sizeof *reals);
+    double *const fields[] = {&r->time,         &r->time_step, &r->tolerance, &r->error_mean,
+                              &r->error_active, &r->error_max, &r->max_speed, &r->momentum_imbalance};
+    for (size_t f = 0; f < sizeof fields / sizeof *fields; f++)
+        *fields[f] = reals[f];
+    const bool sane = r->time >= 0 && isfinite(r->time) && r->time_step >= 0 && isfinite(r->time_step) &&
+                      r->max_speed >= 0 && isfinite(r->max_speed);
+    if (!sane)
+        sb_archive_refuse(in, "time %g s, step %g s, speed %g m/s: expected finite numbers >= 0", r->time,
+                          r->time_step, r->max_speed);
+}
+
+void sb_sim_save(const sb_sim *sim, sb_archive_out *out)
+{
+    sb_archive_section(out, SECTION);
+    put_report(out, &sim->report);
+    sb_put_count(out, sim->left_domain);
+    sb_put_count(out, sim->lost);
+    sb_put_list(out, sim->position, sim->n, sizeof *sim->position);
+    sb_put_list(out, sim->velocity, sim->n, sizeof *sim->velocity);
+    sb_put_list(out, sim->id, sim->n, sizeof *sim->id);
+    sb_put_list(out, sim->impulse, sim->model->body_count, sizeof *sim->impulse);
+    sb_put_list(out, &sim->ledger, sizeof sim->ledger / sizeof(double), sizeof(double));
+    sb_put_count(out, sim->moving_count);
+    for (size_t m = 0; m < sim->moving_count; m++) {
+        sb_put_real(out, sim->moving[m].displacement);
+        sb_put_real(out, sim->moving[m].next_displacement);
+        sb_put_vector(out, sim->moving[m].velocity);
+    }
+    sb_put_count(out, sim->stage_count);
+    for (size_t s = 0; s < sim->stage_count; s++) {
+        sb_put_real(out, sim->stage[s].seconds);
+        sb_put_count(out, sim->stage[s].calls);
+    }
+    sb_put_count(out, sb_sim_hash(sim));
+}
+
+static void take_particles(sb_sim *sim, sb_archive_in *in)
+{
+    const size_t n = sb_take_length(in, sizeof *sim->position, sim->model->fluid_count);
+    sb_take_list(in, sim->position, n, sizeof *sim->position);
+    sb_take_list(in, sim->velocity, n, sizeof *sim->velocity);
+    sb_take_list(in, sim->id, n, sizeof *sim->id);
+    for (size_t i = 0; i < n; i++) {
+        const sb_record at = sim->position[i];
+        if (at[0] >= POSITION_END || at[1] >= POSITION_END || at[2] >= POSITION_END ||
+            sim->id[i] >= sim->model->fluid_count)
+            sb_archive_refuse(in, "particle %u at (%u, %u, %u) quanta: expected less than %zu and %u", sim->id[i],
+                              at[0], at[1], at[2], sim->model->fluid_count, POSITION_END);
+    }
+    sim->n = in->error.status == SB_OK ? n : 0;
+    sim->report.fluid_count = sim->n;
+}
+
+static void take_moving(sb_sim *sim, sb_archive_in *in)
+{
+    if (sb_take_count(in, SIZE_MAX) != sim->moving_count)
+        sb_archive_refuse(in, "other moving bodies, expected %zu", sim->moving_count);
+    for (size_t m = 0; m < sim->moving_count; m++) {
+        sb_moving_body *moving = &sim->moving[m];
+        moving->displacement = sb_take_real(in);
+        moving->next_displacement = sb_take_real(in);
+        moving->velocity = sb_take_vector(in);
+        if (fabs(moving->displacement) / sim->space.quantum < POSITION_END && sb_isfinite(moving->velocity))
+            continue;
+        sb_archive_refuse(in, "a body displaced by %g m, expected one within reach", moving->displacement);
+        moving->displacement = 0;
+    }
+}
+
+static void take_stages(sb_sim *sim, sb_archive_in *in)
+{
+    const size_t count = sb_take_count(in, SB_STAGES_MAX);
+    sb_step_name_stages(sim);
+    if (count > 0 && count != sim->stage_count)
+        sb_archive_refuse(in, "a step of %zu stages, expected %zu", count, sim->stage_count);
+    for (size_t s = 0; s < count; s++) {
+        sim->stage[s].seconds = sb_take_real(in);
+        sim->stage[s].calls = sb_take_count(in, UINT64_MAX);
+    }
+}
+
+sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
+{
+    sb_status status = sb_archive_enter(in, SECTION, error);
+    if (status != SB_OK)
+        return status;
+    take_report(in, &sim->report);
+    sim->left_domain = sim->report.left_domain = sb_take_count(in, UINT64_MAX);
+    sim->lost = sim->report.lost = sb_take_count(in, UINT64_MAX);
+    take_particles(sim, in);
+    sb_take_list(in, sim->impulse, sim->model->body_count, sizeof *sim->impulse);
+    sb_take_list(in, &sim->ledger, sizeof sim->ledger / sizeof(double), sizeof(double));
+    take_moving(sim, in);
+    take_stages(sim, in);
+    const uint64_t expected = sb_take_count(in, UINT64_MAX), hash = sb_sim_hash(sim);
+    if (in->error.status == SB_OK && hash != expected)
+        sb_archive_refuse(in, "its state hashes to %016llx, expected %016llx", (unsigned long long)hash,
+                          (unsigned long long)expected);
+    status = sb_archive_leave(in, error);
+    if (status == SB_OK)
+        status = sb_walls_restore(sim, error);
+    /* The cells are of other particles: none, until the next step's sort. */
+    if (sb_cells_build(&sim->cells, sim->position, 0, sim->space.shift) != 0 && status == SB_OK)
+        status = sb_fail_memory(error, "cells");
+    return status;
+}

@@ -1,0 +1,207 @@
+/* A simulation that loads another's saved state goes on as it, bit for bit; a state that makes no sense is refused. */
+#include "../check.h"
+#include "base/memory.h"
+#include "sim/pressure.h"
+#include "sim/tank.h"
+
+#include <omp.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { BEFORE = 25, AFTER = 25 };
+
+static void save(const sb_sim *sim, sb_archive_out *out)
+{
+    sb_archive_begin(out, "TEST", 1);
+    sb_sim_save(sim, out);
+    assert_int_equal(sb_archive_close(out, NULL), SB_OK);
+}
+
+static sb_status load(sb_sim *sim, const sb_archive_out *out, sb_error *error)
+{
+    sb_archive_in in;
+    sb_status status = sb_archive_parse(&in, "saved", out->bytes, out->used, "TEST", 1, error);
+    if (status == SB_OK) status = sb_sim_load(sim, &in, error);
+    return status;
+}
+
+/* Undisturbed with one thread, and resumed half way with each of several numbers of threads. */
+static void check(const tank *t, const char *name)
+{
+    static const int threads[] = {1, 2, 3, 8};
+    const int before = omp_get_max_threads();
+    sb_archive_out out = {0};
+    sb_error error = {0};
+    omp_set_num_threads(1);
+    sb_sim *sim = tank_sim(t);
+    assert_non_null(sim);
+    if (sb_sim_settle(sim, &error) != SB_OK) fail_msg("%s", error.text);
+    assert_int_equal(tank_steps(sim, BEFORE), 0);
+    const uint64_t half = sb_sim_hash(sim);
+    save(sim, &out);
+    assert_true(sb_sim_hash(sim) == half);
+    assert_int_equal(tank_steps(sim, AFTER), 0);
+    const uint64_t end = sb_sim_hash(sim);
+    const sb_step_report last = *sb_sim_report(sim);
+    sb_sim_destroy(sim);
+    for (size_t k = 0; k < sizeof threads / sizeof *threads; k++) {
+        omp_set_num_threads(threads[k]);
+        sim = tank_sim(t);
+        assert_non_null(sim);
+        if (load(sim, &out, &error) != SB_OK) fail_msg("%s: %s", name, error.text);
+        assert_true(sb_sim_hash(sim) == half);
+        assert_int_equal(tank_steps(sim, AFTER), 0);
+        if (sb_sim_hash(sim) != end) fail_msg("%s: %d threads end otherwise", name, threads[k]);
+        const sb_step_report *report = sb_sim_report(sim);
+        assert_int_equal(report->step, BEFORE + AFTER);
+        assert_int_equal(report->iterations, last.iterations);
+        assert_true(report->time_step == last.time_step && report->error_mean == last.error_mean);
+        assert_int_equal(report->left_domain, last.left_domain);
+        sb_sim_destroy(sim);
+    }
+    omp_set_num_threads(before);
+    sb_archive_out_free(&out);
+}
+
+static void add_terms(tank *t)
+{
+    t->scene.numerics.wall_friction = 0.05;
+    t->scene.numerics.turbulence = SB_TURBULENCE_SPS;
+    t->scene.numerics.smagorinsky = 0.1;
+    t->scene.fluid.viscosity = 1e-4;
+    t->scene.numerics.settle_steps = 5;
+}
+
+static void a_dam_break_with_each_solver(void **state)
+{
+    (void)state;
+    for (sb_solver solver = SB_SOLVER_JACOBI; solver <= SB_SOLVER_CG; solver++) {
+        tank t;
+        tank_make(&t, 2, 1.0 / 40, sb_vec(2, 0, 1.5), 1, 1.1, 0.1);
+        t.scene.numerics.solver = solver;
+        add_terms(&t);
+        check(&t, sb_pressure_solvers[solver]->name);
+        tank_free(&t);
+    }
+}
+
+/* The paddle is saved while it moves, and long after it has stopped away from where it began. */
+static void a_paddle_in_motion_and_at_rest(void **state)
+{
+    (void)state;
+    static const double speeds[] = {0.5, 20};
+    for (int k = 0; k < 2; k++) {
+        const sb_wavemaker_parameters law = {
+            .kind = sb_wavemaker_find("gate"), .stroke = 0.1, .speed = speeds[k], .gravity = 9.81, .after = SB_AFTER_STAY};
+        tank t;
+        tank_make(&t, 3, 1.0 / 12, sb_vec(2, 1, 1), 2, 0.75, 0.1);
+        tank_add_sheet(&t, "paddle", -1.0 / 24, 0, 0.8, sb_vec(1, 0, 0), &law);
+        add_terms(&t);
+        check(&t, "paddle");
+        tank_free(&t);
+    }
+}
+
+static void a_periodic_slab(void **state)
+{
+    (void)state;
+    tank t;
+    tank_make(&t, 3, 0.1, sb_vec(2, 0.5, 1.2), 1, 0.8, 0.1);
+    tank_repeat(&t, 1);
+    add_terms(&t);
+    check(&t, "slab");
+    tank_free(&t);
+}
+
+static void water_that_leaves(void **state)
+{
+    (void)state;
+    tank t;
+    tank_make(&t, 2, 0.05, sb_vec(1, 0, 1), 1, 0.9, 0.1);
+    tank_repeat(&t, 0); /* no walls there */
+    t.scene.domain.side[SB_X_MIN] = t.scene.domain.side[SB_X_MAX] = SB_SIDE_OPEN;
+    tank_scatter(&t, 3, 3);
+    sb_sim *sim = tank_sim(&t);
+    assert_non_null(sim);
+    assert_int_equal(tank_steps(sim, BEFORE), 0);
+    assert_true(sb_sim_report(sim)->left_domain > 0);
+    sb_sim_destroy(sim);
+    check(&t, "leaving");
+    tank_free(&t);
+}
+
+static void another_model_is_refused(void **state)
+{
+    (void)state;
+    tank t, other;
+    sb_archive_out out = {0};
+    sb_error error = {0};
+    tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0.1);
+    tank_make(&other, 2, 0.1, sb_vec(1, 0, 1), 0.4, 0.5, 0.1);
+    sb_sim *sim = tank_sim(&t), *small = tank_sim(&other);
+    assert_true(sim && small && tank_steps(sim, 3) == 0);
+    save(sim, &out);
+    assert_int_equal(load(small, &out, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "saved: section \"sim\": a list of 25 elements of 16 bytes, expected at most 20"));
+    sb_sim_destroy(sim);
+    sb_sim_destroy(small);
+    sb_archive_out_free(&out);
+    tank_free(&t);
+    tank_free(&other);
+}
+
+/* What is wrong in it is said; a good state can be loaded over it. */
+static void senseless_states_are_refused(void **state)
+{
+    (void)state;
+    const sb_wavemaker_parameters law = {
+        .kind = sb_wavemaker_find("gate"), .stroke = 0.1, .speed = 1, .gravity = 9.81};
+    tank t;
+    sb_archive_out good = {0}, bad = {0};
+    sb_error error = {0};
+    tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0.1);
+    tank_add_sheet(&t, "paddle", -0.05, 0, 0.8, sb_vec(1, 0, 0), &law);
+    sb_sim *sim = tank_sim(&t);
+    assert_true(sim && tank_steps(sim, 3) == 0);
+    const uint64_t hash = sb_sim_hash(sim);
+    save(sim, &good);
+    struct {
+        void *at, *value;
+        size_t size;
+        const char *words;
+    } cases[] = {
+        {&sim->report.time, &(double){(double)NAN}, 8, "expected finite numbers"},
+        {&sim->report.max_speed, &(double){-1}, 8, "expected finite numbers"},
+        {&sim->id[2], &(uint32_t){25}, 4, "particle 25 at"},
+        {(uint32_t *)&sim->position[7] + 2, &(uint32_t){0x80000000u}, 4, "expected less than"},
+        {&sim->moving[0].displacement, &(double){1e300}, 8, "a body displaced by 1e+300 m"},
+        {&sim->moving[0].displacement, &(double){(double)NAN}, 8, "a body displaced by nan m"},
+        {&sim->moving_count, &(size_t){0}, 8, "other moving bodies, expected 1"},
+    };
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        unsigned char kept[8];
+        memcpy(kept, cases[c].at, cases[c].size);
+        memcpy(cases[c].at, cases[c].value, cases[c].size);
+        save(sim, &bad);
+        memcpy(cases[c].at, kept, cases[c].size);
+        assert_int_equal(load(sim, &bad, &error), SB_BAD_INPUT);
+        if (!strstr(error.text, cases[c].words)) fail_msg("%zu: %s", c, error.text);
+        if (load(sim, &good, &error) != SB_OK) fail_msg("%s", error.text);
+        assert_true(sb_sim_hash(sim) == hash);
+    }
+    assert_int_equal(tank_steps(sim, 3), 0);
+    sb_sim_destroy(sim);
+    sb_archive_out_free(&good);
+    sb_archive_out_free(&bad);
+    tank_free(&t);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_dam_break_with_each_solver), cmocka_unit_test(a_paddle_in_motion_and_at_rest),
+        cmocka_unit_test(a_periodic_slab),              cmocka_unit_test(water_that_leaves),
+        cmocka_unit_test(another_model_is_refused),     cmocka_unit_test(senseless_states_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
