@@ -148,3 +148,27 @@ size_t sb_gate_bytes(const sb_gate *gate)
 {
     return sizeof *gate + (gate->capacity + gate->next_capacity) * sizeof *gate->seen;
 }
+
+void sb_gate_save(const sb_gate *gate, sb_archive_out *out)
+{
+    sb_put_count(out, gate->count);
+    for (size_t i = 0; i < gate->count; i++) {
+        sb_put_count(out, gate->seen[i].id);
+        sb_put_vector(out, gate->seen[i].position);
+    }
+}
+
+sb_status sb_gate_load(sb_gate *gate, sb_archive_in *in, sb_error *error)
+{
+    const uint64_t count = sb_take_count(in, UINT32_MAX);
+    gate->count = 0;
+    /* Grown as they come: a count made up by someone else ends with its section. */
+    for (uint64_t i = 0; i < count && in->error.status == SB_OK; i++) {
+        if (sb_grow((void **)&gate->seen, &gate->capacity, gate->count + 1, sizeof *gate->seen) != 0)
+            return sb_fail_memory(error, gate->plane->name);
+        sighting *seen = &gate->seen[gate->count++];
+        seen->id = (uint32_t)sb_take_count(in, UINT32_MAX);
+        seen->position = sb_take_vector(in);
+    }
+    return SB_OK;
+}

@@ -198,3 +198,19 @@ size_t sb_map_bytes(const sb_map_field *map)
     return sizeof *map +
            map->result.columns * map->result.rows * (5 * sizeof(float) + sizeof(cell_sum));
 }
+
+void sb_map_save(const sb_map_field *map, sb_archive_out *out)
+{
+    const float *const arrays[] = {map->depth, map->speed, map->flux, map->arrival, map->start};
+    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
+        sb_put_list(out, arrays[k], map->result.columns * map->result.rows, sizeof *arrays[k]);
+    sb_put_real(out, map->next);
+}
+
+void sb_map_load(sb_map_field *map, sb_archive_in *in)
+{
+    float *const arrays[] = {map->depth, map->speed, map->flux, map->arrival, map->start};
+    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
+        sb_take_list(in, arrays[k], map->result.columns * map->result.rows, sizeof *arrays[k]);
+    map->next = sb_take_real(in);
+}

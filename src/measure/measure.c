@@ -2,49 +2,11 @@
 
 #include "base/memory.h"
 #include "measure/patch.h"
-
-/* One growing list of records. */
-typedef struct list {
-    void *items;
-    size_t count, capacity;
-} list;
-
-enum { FORCES, GAUGES, PROBES, FLOWS, RUNUPS, ENERGIES, LISTS };
+#include "measure/state.h"
 
 static const size_t record_size[LISTS] = {sizeof(sb_force_record), sizeof(sb_gauge_record),
                                           sizeof(sb_probe_record), sizeof(sb_flow_record),
                                           sizeof(sb_runup_record), sizeof(sb_energy_record)};
-
-/* Impulses at the creation, at the last multiple of the interval and at the last step's end. */
-typedef struct body_state {
-    sb_body_impulse start, boundary, last;
-    sb_footprint footprint;
-    bool faces; /* flow depth is taken */
-} body_state;
-
-typedef struct plane_state {
-    double boundary, last, now;
-} plane_state; /* m^3 passed so far */
-
-enum { MAX_SKIPPED = 8 };
-
-struct sb_measurements {
-    const sb_scene *scene;
-    const sb_model *model;
-    double interval, time; /* s; time: of the last step's end */
-    double momentum_imbalance; /* largest of a step since the last row */
-    uint64_t next;         /* the next row lies at next * interval */
-    body_state *states;
-    sb_body_record *bodies;
-    plane_state *planes;
-    sb_gate **gates;
-    sb_patch **patches; /* one per probe */
-    sb_map_field *map;
-    sb_cloud cloud;
-    list lists[LISTS];
-    sb_measure_records latest;
-    const char *skipped[MAX_SKIPPED + 1];
-};
 
 static void *append(sb_measure *measure, int kind)
 {

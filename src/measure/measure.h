@@ -19,6 +19,13 @@ void sb_measure_destroy(sb_measure *measure);
    memory. */
 sb_status sb_measure_step(sb_measure *measure, const sb_sim *sim, sb_error *error);
 
+/* What was measured so far and is in progress, as a section of an archive; called between steps. */
+void sb_measure_save(const sb_measure *measure, sb_archive_out *out);
+/* Into measurements of the same scene and model, which then go on as the saved ones; nothing is in
+   sb_measure_latest. SB_BAD_INPUT when the section is of others or makes no sense: then, and only then, what was
+   measured is lost, and to be loaded again or destroyed. */
+sb_status sb_measure_load(sb_measure *measure, sb_archive_in *in, sb_error *error);
+
 /* What the last sb_measure_step (or the creation) brought; valid until the next. */
 const sb_measure_records *sb_measure_latest(const sb_measure *measure);
 

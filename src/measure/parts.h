@@ -49,6 +49,9 @@ void sb_gate_destroy(sb_gate *gate);
 /* Adds the net volume that passed in the last step (m^3; m^2 in 2D) to *volume. */
 sb_status sb_gate_step(sb_gate *gate, const sb_sight *sight, double *volume, sb_error *error);
 size_t sb_gate_bytes(const sb_gate *gate);
+/* The particles seen last, within a section of an archive, and back into a gate on the same plane. */
+void sb_gate_save(const sb_gate *gate, sb_archive_out *out);
+sb_status sb_gate_load(sb_gate *gate, sb_archive_in *in, sb_error *error);
 
 /* Greatest depth, speed, flux and first arrival on a grid. */
 typedef struct sb_map_field sb_map_field;
@@ -58,6 +61,9 @@ void sb_map_destroy(sb_map_field *map);
 void sb_map_step(sb_map_field *map, const sb_sim *sim);
 const sb_map_record *sb_map_result(const sb_map_field *map);
 size_t sb_map_bytes(const sb_map_field *map);
+/* What was seen so far, within a section of an archive, and back into a map of the same grid. */
+void sb_map_save(const sb_map_field *map, sb_archive_out *out);
+void sb_map_load(sb_map_field *map, sb_archive_in *in);
 
 /* Plan rectangle of a body's wall particles at t = 0 (m). */
 typedef struct sb_footprint {

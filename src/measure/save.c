@@ -1,0 +1,109 @@
+/* What is measured, on its way into an archive and back: totals, maxima, intervals in progress, when what is due. */
+#include "measure/state.h"
+
+#define SECTION "measure"
+
+/* An impulse is nine doubles, a body's record is taken apart. */
+enum { IMPULSE = sizeof(sb_body_impulse) / sizeof(double) };
+
+static void put_bodies(const sb_measure *measure, sb_archive_out *out)
+{
+    sb_put_count(out, measure->model->body_count);
+    for (size_t b = 0; b < measure->model->body_count; b++) {
+        const body_state *state = &measure->states[b];
+        const sb_body_record *body = &measure->bodies[b];
+        sb_put_list(out, &state->start, IMPULSE, sizeof(double));
+        sb_put_list(out, &state->boundary, IMPULSE, sizeof(double));
+        sb_put_list(out, &state->last, IMPULSE, sizeof(double));
+        sb_put_real(out, body->peak);
+        sb_put_real(out, body->peak_time);
+        sb_put_vector(out, body->impulse);
+        sb_put_vector(out, body->moment);
+        sb_put_vector(out, body->force);
+        sb_put_vector(out, body->torque);
+        sb_put_real(out, body->layers);
+    }
+}
+
+static void take_bodies(sb_measure *measure, sb_archive_in *in)
+{
+    const size_t count = measure->model->body_count;
+    if (sb_take_count(in, SIZE_MAX) != count)
+        sb_archive_refuse(in, "forces on other bodies, expected %zu", count);
+    for (size_t b = 0; b < count; b++) {
+        body_state *state = &measure->states[b];
+        sb_body_record *body = &measure->bodies[b];
+        sb_take_list(in, &state->start, IMPULSE, sizeof(double));
+        sb_take_list(in, &state->boundary, IMPULSE, sizeof(double));
+        sb_take_list(in, &state->last, IMPULSE, sizeof(double));
+        body->peak = sb_take_real(in);
+        body->peak_time = sb_take_real(in);
+        body->impulse = sb_take_vector(in);
+        body->moment = sb_take_vector(in);
+        body->force = sb_take_vector(in);
+        body->torque = sb_take_vector(in);
+        body->layers = sb_take_real(in);
+    }
+}
+
+void sb_measure_save(const sb_measure *measure, sb_archive_out *out)
+{
+    sb_archive_section(out, SECTION);
+    sb_put_real(out, measure->time);
+    sb_put_count(out, measure->next);
+    sb_put_real(out, measure->momentum_imbalance);
+    put_bodies(measure, out);
+    sb_put_count(out, measure->scene->measure.plane_count);
+    for (size_t i = 0; i < measure->scene->measure.plane_count; i++) {
+        sb_put_list(out, &measure->planes[i], sizeof measure->planes[i] / sizeof(double), sizeof(double));
+        sb_gate_save(measure->gates[i], out);
+    }
+    sb_put_flag(out, measure->map != NULL);
+    if (measure->map)
+        sb_map_save(measure->map, out);
+}
+
+static sb_status take_planes(sb_measure *measure, sb_archive_in *in, sb_error *error)
+{
+    const size_t count = measure->scene->measure.plane_count;
+    sb_status status = SB_OK;
+    if (sb_take_count(in, SIZE_MAX) != count)
+        sb_archive_refuse(in, "volumes through other planes, expected %zu", count);
+    for (size_t i = 0; status == SB_OK && i < count; i++) {
+        sb_take_list(in, &measure->planes[i], sizeof measure->planes[i] / sizeof(double), sizeof(double));
+        status = sb_gate_load(measure->gates[i], in, error);
+    }
+    return status;
+}
+
+static void forget_latest(sb_measure *measure)
+{
+    for (int k = 0; k < LISTS; k++)
+        measure->lists[k].count = 0;
+    measure->latest = (sb_measure_records){0};
+}
+
+sb_status sb_measure_load(sb_measure *measure, sb_archive_in *in, sb_error *error)
+{
+    sb_status status = sb_archive_enter(in, SECTION, error);
+    if (status != SB_OK)
+        return status;
+    forget_latest(measure);
+    measure->time = sb_take_real(in);
+    measure->next = sb_take_count(in, (uint64_t)1 << 53);
+    measure->momentum_imbalance = sb_take_real(in);
+    /* The rows up to the time are written, and the next is not far: else a step would write rows without end. */
+    const double reached = (double)measure->next * measure->interval;
+    if (!(measure->time >= 0 && reached > measure->time * (1 - 1e-6) - measure->interval &&
+          reached <= measure->time * (1 + 1e-6) + 2 * measure->interval))
+        sb_archive_refuse(in, "the next rows at %g s, the time being %g s", reached, measure->time);
+    take_bodies(measure, in);
+    status = take_planes(measure, in, error);
+    if (status != SB_OK)
+        return status;
+    if (sb_take_flag(in) != (measure->map != NULL))
+        sb_archive_refuse(in, measure->map ? "no map, expected one" : "a map, expected none");
+    if (measure->map)
+        sb_map_load(measure->map, in);
+    return sb_archive_leave(in, error);
+}

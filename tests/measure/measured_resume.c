@@ -1,0 +1,156 @@
+/* Measurements that go on from a saved state bring the same records as those that were never disturbed. */
+#include "../check.h"
+#include "base/hash.h"
+#include "measure/measure.h"
+#include "sim/tank.h"
+
+#include <omp.h>
+#include <string.h>
+
+enum { BEFORE = 60, AFTER = 60 };
+
+static const sb_gauge gauges[] = {{"wet", 0.33, 0}, {"dry", 1.7, 0}};
+static const sb_probe probes[] = {{"inside", {0.5, 0, 0.3}, 0}, {"wall", {2, 0, 0.1}, 0}};
+static const sb_flow_plane planes[] = {{"gate", 1.1, 0, 1.1, 1, -1, 4}, {"lip", 1.3, 0, 1.3, 1, 0.2, 4}};
+static const sb_runup_line lines[] = {{"floor", 0, 0, 2, 0}};
+
+/* A column that has begun to fall. */
+static void make(tank *t)
+{
+    tank_make(t, 2, 0.05, sb_vec(2, 0, 1.5), 1, 0.8, 0.05);
+    t->scene.measure = (sb_measure_settings){
+        .interval = 0.013,
+        .gauge_count = 2, .gauges = (sb_gauge *)(uintptr_t)gauges,
+        .probe_count = 2, .probes = (sb_probe *)(uintptr_t)probes,
+        .plane_count = 2, .planes = (sb_flow_plane *)(uintptr_t)planes,
+        .runup_count = 1, .runups = (sb_runup_line *)(uintptr_t)lines,
+        .map = {.present = true, .x_max = 2, .cell = 0.1, .threshold = 0.05},
+    };
+}
+
+/* Continues a hash over all that a step brought; counts the rows of flows. */
+static uint64_t hash_records(uint64_t hash, const sb_measure_records *r, size_t *flows)
+{
+    hash = sb_hash(hash, r->forces, r->force_count * sizeof *r->forces);
+    hash = sb_hash(hash, r->gauges, r->gauge_count * sizeof *r->gauges);
+    hash = sb_hash(hash, r->probes, r->probe_count * sizeof *r->probes);
+    hash = sb_hash(hash, r->flows, r->flow_count * sizeof *r->flows);
+    hash = sb_hash(hash, r->runups, r->runup_count * sizeof *r->runups);
+    *flows += r->flow_count;
+    return sb_hash(hash, r->energies, r->energy_count * sizeof *r->energies);
+}
+
+static uint64_t steps(sb_sim *sim, sb_measure *measure, int count, size_t *flows)
+{
+    uint64_t hash = 0;
+    for (int s = 0; s < count; s++) {
+        assert_int_equal(tank_steps(sim, 1), 0);
+        assert_int_equal(sb_measure_step(measure, sim, NULL), SB_OK);
+        hash = hash_records(hash, sb_measure_latest(measure), flows);
+    }
+    const sb_map_record *map = sb_measure_map(measure);
+    const size_t bytes = map->columns * map->rows * sizeof(float);
+    hash = sb_hash(hash, map->depth, bytes);
+    hash = sb_hash(hash, map->speed, bytes);
+    hash = sb_hash(hash, map->flux, bytes);
+    hash = sb_hash(hash, map->arrival, bytes);
+    const sb_body_record *body = &sb_measure_bodies(measure)[0];
+    const double totals[] = {body->peak, body->peak_time, body->impulse.x, body->moment.y, body->torque.y, body->layers};
+    return sb_hash(hash, totals, sizeof totals);
+}
+
+static void create(const tank *t, sb_sim **sim, sb_measure **measure)
+{
+    *sim = tank_sim(t);
+    assert_non_null(*sim);
+    assert_int_equal(sb_measure_create(&t->scene, &t->model, *sim, measure, NULL), SB_OK);
+}
+
+static void save(const sb_sim *sim, const sb_measure *measure, sb_archive_out *out)
+{
+    sb_archive_begin(out, "TEST", 1);
+    sb_sim_save(sim, out);
+    sb_measure_save(measure, out);
+    assert_int_equal(sb_archive_close(out, NULL), SB_OK);
+}
+
+static void rows_go_on(void **state)
+{
+    (void)state;
+    tank t;
+    sb_sim *sim;
+    sb_measure *measure;
+    sb_archive_out out = {0};
+    sb_archive_in in;
+    sb_error error = {0};
+    size_t flows = 0, resumed_flows = 0;
+    make(&t);
+    create(&t, &sim, &measure);
+    steps(sim, measure, BEFORE, &flows);
+    save(sim, measure, &out);
+    flows = 0;
+    const uint64_t whole = steps(sim, measure, AFTER, &flows);
+    assert_true(flows > 10);
+    const double volume = sb_measure_bodies(measure)[0].peak;
+    sb_measure_destroy(measure);
+    sb_sim_destroy(sim);
+    create(&t, &sim, &measure);
+    assert_int_equal(sb_archive_parse(&in, "saved", out.bytes, out.used, "TEST", 1, &error), SB_OK);
+    if (sb_sim_load(sim, &in, &error) != SB_OK || sb_measure_load(measure, &in, &error) != SB_OK)
+        fail_msg("%s", error.text);
+    assert_int_equal(sb_measure_latest(measure)->gauge_count, 0);
+    const uint64_t resumed = steps(sim, measure, AFTER, &resumed_flows);
+    assert_int_equal(resumed_flows, flows);
+    assert_true(sb_measure_bodies(measure)[0].peak == volume);
+    assert_true(resumed == whole);
+    sb_measure_destroy(measure);
+    sb_sim_destroy(sim);
+    sb_archive_out_free(&out);
+    tank_free(&t);
+}
+
+static void measurements_of_others_are_refused(void **state)
+{
+    (void)state;
+    tank t, other;
+    sb_sim *sim;
+    sb_measure *measure;
+    sb_archive_out out = {0};
+    size_t flows = 0;
+    make(&t);
+    create(&t, &sim, &measure);
+    steps(sim, measure, 10, &flows);
+    save(sim, measure, &out);
+    sb_measure_destroy(measure);
+    sb_sim_destroy(sim);
+    static const char *const words[] = {"volumes through other planes, expected 1", "expected none",
+                                        "a list of 20 elements", "the next rows at "};
+    for (int k = 0; k < 4; k++) {
+        sb_archive_in in;
+        sb_error error = {0};
+        make(&other);
+        other.scene.measure.plane_count -= k == 0;
+        other.scene.measure.map.present = k != 1;
+        other.scene.measure.map.cell *= k == 2 ? 2 : 1;
+        other.scene.measure.interval *= k == 3 ? 0.01 : 1;
+        create(&other, &sim, &measure);
+        assert_int_equal(sb_archive_parse(&in, "saved", out.bytes, out.used, "TEST", 1, NULL), SB_OK);
+        assert_int_equal(sb_measure_load(measure, &in, &error), SB_BAD_INPUT);
+        if (!strstr(error.text, words[k])) fail_msg("%d: %s", k, error.text);
+        sb_measure_destroy(measure);
+        sb_sim_destroy(sim);
+        tank_free(&other);
+    }
+    sb_archive_out_free(&out);
+    tank_free(&t);
+}
+
+int main(void)
+{
+    omp_set_num_threads(1); /* a few hundred particles are quicker alone */
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rows_go_on),
+        cmocka_unit_test(measurements_of_others_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
