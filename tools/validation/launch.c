@@ -8,6 +8,7 @@
 #include <signal.h>
 #include <string.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -115,7 +116,12 @@ static void last_words(const job *j, char *line, size_t size)
     if (in) fclose(in);
 }
 
-static sb_status end(crew *c, job *j, int how, sb_error *error)
+static double seconds(const struct timeval *time)
+{
+    return (double)time->tv_sec + 1e-6 * (double)time->tv_usec;
+}
+
+static sb_status end(crew *c, job *j, int how, const struct rusage *used, sb_error *error)
 {
     char label[96], said[512], reason[640];
     sb_request_label(j->request, true, label);
@@ -123,7 +129,8 @@ static sb_status end(crew *c, job *j, int how, sb_error *error)
     c->busy--;
     if (WIFEXITED(how) && WEXITSTATUS(how) == 0) {
         printf("%s: %.1f s\n", label, sb_clock() - j->start);
-        return sb_store_finish(c->store, j->folder, error);
+        return sb_store_finish(c->store, j->folder,
+                               seconds(&used->ru_utime) + seconds(&used->ru_stime), error);
     }
     if (stopped_by || (WIFEXITED(how) && WEXITSTATUS(how) > 128)) {
         if (!stopped_by) stopped_by = SIGINT;
@@ -142,12 +149,13 @@ static sb_status wait_one(crew *c, sb_error *error)
 {
     int how, told = 0;
     pid_t process;
-    while ((process = waitpid(-1, &how, 0)) < 0 && errno == EINTR)
+    struct rusage used = {0};
+    while ((process = wait4(-1, &how, 0, &used)) < 0 && errno == EINTR)
         if (stopped_by && !told++)
             for (int i = 0; i < c->size; i++)
                 if (c->jobs[i].process) kill(c->jobs[i].process, SIGTERM);
     for (int i = 0; i < c->size; i++)
-        if (process > 0 && c->jobs[i].process == process) return end(c, &c->jobs[i], how, error);
+        if (process > 0 && c->jobs[i].process == process) return end(c, &c->jobs[i], how, &used, error);
     return process < 0 ? sb_fail(error, SB_FAILED, "cannot wait for a run: %s", strerror(errno))
                        : SB_OK;
 }

@@ -6,11 +6,12 @@
 
 #include <errno.h>
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
-enum { COLORS = 8, TEXT = 160 };
+enum { COLORS = 8, SHAPES = 4, TEXT = 160 };
 
-typedef enum kind { LINE, REFERENCE, POINTS, BAND } kind;
+typedef enum kind { LINE, REFERENCE, POINTS, MARKS, BAND } kind;
 
 typedef struct layer {
     kind kind;
@@ -21,6 +22,7 @@ typedef struct layer {
 typedef struct panel {
     char title[TEXT], x_label[TEXT], y_label[TEXT];
     double range[4];
+    bool logarithmic;
     size_t layer_count, layer_capacity;
     layer *layers;
 } panel;
@@ -72,6 +74,11 @@ void sb_plot_range(sb_plot *plot, double x_min, double x_max, double y_min, doub
     range[3] = y_max;
 }
 
+void sb_plot_logarithmic(sb_plot *plot)
+{
+    plot->panels[plot->panel_count - 1].logarithmic = true;
+}
+
 static sb_status add(sb_plot *plot, kind what, const char *label, const sb_curve *curve,
                      const sb_curve *high, sb_error *error)
 {
@@ -94,7 +101,7 @@ static sb_status add(sb_plot *plot, kind what, const char *label, const sb_curve
 sb_status sb_plot_curve(sb_plot *plot, sb_plot_style style, const char *label,
                         const sb_curve *curve, sb_error *error)
 {
-    static const kind kinds[] = {LINE, REFERENCE, POINTS};
+    static const kind kinds[] = {LINE, REFERENCE, POINTS, MARKS};
     return add(plot, kinds[style], label, curve, NULL, error);
 }
 
@@ -159,6 +166,7 @@ static void put_layer(FILE *out, const layer *l, const char *data, size_t index,
 {
     static const char *const colors[COLORS] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                "#e69f00", "#56b4e9", "#7f3c8d", "#80ba5a"};
+    static const int shapes[SHAPES] = {7, 5, 9, 6}; /* disc, square, triangle, circle */
     fprintf(out, "'%s' index %zu using 1:2", data, index);
     switch (l->kind) {
     case BAND:
@@ -166,6 +174,10 @@ static void put_layer(FILE *out, const layer *l, const char *data, size_t index,
         break;
     case POINTS:
         fputs(" with points pt 7 ps 0.4 lc rgb '#555555'", out);
+        break;
+    case MARKS:
+        fprintf(out, " with points pt %d ps 1.3 lw 1.5 lc rgb '%s'", shapes[color / COLORS % SHAPES],
+                colors[color % COLORS]);
         break;
     case REFERENCE:
         fputs(" with lines lw 2 lc rgb '#000000'", out);
@@ -179,7 +191,7 @@ static void put_layer(FILE *out, const layer *l, const char *data, size_t index,
 }
 
 /* Bands lie lowest, then points; what is simulated lies over what is measured. */
-static const kind order[] = {BAND, POINTS, REFERENCE, LINE};
+static const kind order[] = {BAND, POINTS, REFERENCE, LINE, MARKS};
 
 static void put_panel(FILE *out, const panel *p, const char *data, size_t first)
 {
@@ -190,6 +202,7 @@ static void put_panel(FILE *out, const panel *p, const char *data, size_t first)
     fputs("\nset ylabel ", out);
     put_quoted(out, p->y_label);
     fputc('\n', out);
+    fputs(p->logarithmic ? "set logscale xy\n" : "unset logscale\n", out);
     put_range(out, 'x', p->range[0], p->range[1]);
     put_range(out, 'y', p->range[2], p->range[3]);
     const char *before = "plot ";

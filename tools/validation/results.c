@@ -3,6 +3,7 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Adds a request to a list with room for it. */
@@ -34,6 +35,14 @@ sb_status sb_case_requests(const sb_case *of, bool quick, sb_request **requests,
     return SB_OK;
 }
 
+static double recalled(const char *folder, const char *key)
+{
+    char text[64], *end;
+    sb_store_recall(folder, key, text, sizeof text);
+    double value = strtod(text, &end);
+    return end == text ? (double)NAN : value;
+}
+
 /* Fills in what only the request and the record know. */
 static void complete(const sb_store *store, sb_result *r)
 {
@@ -41,6 +50,8 @@ static void complete(const sb_store *store, sb_result *r)
     sb_request_label(&r->request, false, r->run.label);
     sb_store_recall(r->run.folder, "commit", r->run.commit, sizeof r->run.commit);
     sb_store_recall(r->run.folder, "machine", r->run.machine, sizeof r->run.machine);
+    r->run.cpu = recalled(r->run.folder, "cpu_s");
+    r->run.load = recalled(r->run.folder, "load");
     view->assets = store->assets;
     view->preset = r->request.paper ? "paper" : "default";
     view->seed = r->request.seed;

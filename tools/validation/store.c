@@ -6,6 +6,7 @@
 #include <dirent.h>
 #include <errno.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -104,10 +105,13 @@ static sb_status write_text(const char *folder, const char *name, const char *te
     return sb_atomic_commit(&file, 0, error);
 }
 
-sb_status sb_store_finish(const sb_store *store, const char *folder, sb_error *error)
+sb_status sb_store_finish(const sb_store *store, const char *folder, double cpu, sb_error *error)
 {
     char text[512];
-    snprintf(text, sizeof text, "commit: %s\nmachine: %s\n", store->commit, store->machine);
+    double load;
+    if (getloadavg(&load, 1) != 1) load = (double)NAN;
+    snprintf(text, sizeof text, "commit: %s\nmachine: %s\ncpu_s: %.6g\nload: %.3g\n", store->commit,
+             store->machine, cpu, load);
     return write_text(folder, record_name, text, error);
 }
 

@@ -1,0 +1,145 @@
+/* Orders of convergence: exact ones are found, and what is no order is called so. */
+#include "check.h"
+
+#include "order.h"
+
+#include <string.h>
+
+enum { LEVELS = 3 };
+
+/* value = limit + c h^p at these spacings. */
+static void fill(sb_level *levels, const double *spacings, size_t count, double limit, double c,
+                 double p)
+{
+    for (size_t i = 0; i < count; i++)
+        levels[i] = (sb_level){spacings[i], limit + c * pow(spacings[i], p), (double)NAN};
+}
+
+static void test_exact_orders_are_found_at_unequal_ratios(void **state)
+{
+    (void)state;
+    static const double spacings[LEVELS] = {5, 3, 2}, orders[] = {0.3, 0.5, 1, 1.7, 2};
+    for (size_t k = 0; k < sizeof orders / sizeof *orders; k++)
+        for (int sign = -1; sign <= 1; sign += 2) {
+            sb_level l[LEVELS];
+            fill(l, spacings, LEVELS, 7, sign * 0.4, orders[k]);
+            sb_convergence c = sb_converge(l, LEVELS);
+            assert_int_equal(c.kind, SB_ORDER_OBSERVED);
+            assert_near(c.order, orders[k], 1e-9);
+            assert_near(c.extrapolated, 7, 1e-8);
+            assert_near(c.uncertainty, 1.25 * 0.4 * pow(2, orders[k]), 1e-8);
+        }
+}
+
+static void test_the_three_finest_that_were_measured_count(void **state)
+{
+    (void)state;
+    static const double spacings[5] = {16, 8, 4, 2, 1};
+    sb_level l[5];
+    fill(l, spacings, 5, 1, 3, 1);
+    l[0].value = 1e6;
+    l[3].value = (double)NAN; /* 8, 4, 1 are left */
+    sb_convergence c = sb_converge(l, 5);
+    assert_int_equal(c.kind, SB_ORDER_OBSERVED);
+    assert_near(c.order, 1, 1e-9);
+    assert_near(c.extrapolated, 1, 1e-8);
+}
+
+/* A chance order of 5 must not make the error bar vanish. */
+static void test_an_order_above_two_is_not_believed_for_the_error_bar(void **state)
+{
+    (void)state;
+    static const double spacings[LEVELS] = {4, 2, 1};
+    sb_level l[LEVELS];
+    fill(l, spacings, LEVELS, 0, 1, 5);
+    sb_convergence c = sb_converge(l, LEVELS);
+    assert_near(c.order, 5, 1e-9);
+    assert_near(c.uncertainty, 1.25 * 31 / 3, 1e-9); /* second order: a third of the difference */
+}
+
+static sb_convergence of_values(double a, double b, double c, double error)
+{
+    const sb_level l[LEVELS] = {{4, a, error}, {2, b, error}, {1, c, error}};
+    return sb_converge(l, LEVELS);
+}
+
+static void test_what_is_no_order_is_called_so(void **state)
+{
+    (void)state;
+    assert_int_equal(of_values(1, 2, 1.5, (double)NAN).kind, SB_ORDER_OSCILLATING);
+    assert_int_equal(of_values(1, 2, 4, (double)NAN).kind, SB_ORDER_DIVERGING);
+    assert_int_equal(of_values(1, 2, 3, (double)NAN).kind, SB_ORDER_DIVERGING);
+    assert_int_equal(of_values(1, 2, 2.5, 0.3).kind, SB_ORDER_NOISE);
+    assert_int_equal(of_values(1, 2, 2.5, 0.1).kind, SB_ORDER_OBSERVED);
+    assert_int_equal(of_values(3, 3, 3, (double)NAN).kind, SB_ORDER_NOISE);
+    assert_near(of_values(1, 2, 4, (double)NAN).uncertainty, 9, 1e-12);
+    assert_near(of_values(1, 2, 2.5, 0.3).uncertainty, 2.1, 1e-12);
+    assert_true(isnan(of_values(1, 2, 1.5, (double)NAN).order));
+    assert_true(isnan(of_values(1, 2, 1.5, (double)NAN).extrapolated));
+    for (int kind = SB_ORDER_ASSUMED; kind <= SB_ORDER_MISSING; kind++)
+        assert_true(strlen(sb_order_remark((sb_order_kind)kind)) > 0);
+}
+
+static void test_two_spacings_assume_first_order_and_one_says_nothing(void **state)
+{
+    (void)state;
+    const sb_level l[2] = {{3, 10, (double)NAN}, {2, 9, (double)NAN}};
+    sb_convergence c = sb_converge(l, 2);
+    assert_int_equal(c.kind, SB_ORDER_ASSUMED);
+    assert_near(c.uncertainty, 6, 1e-12); /* limit 7 by first order, three times the distance */
+    assert_true(isnan(c.extrapolated));
+    c = sb_converge(l, 1);
+    assert_int_equal(c.kind, SB_ORDER_MISSING);
+    assert_true(isnan(c.uncertainty));
+}
+
+static void test_scatter_widens_the_error_bar(void **state)
+{
+    (void)state;
+    double without = of_values(9, 5, 3, (double)NAN).uncertainty;
+    assert_near(of_values(9, 5, 3, 0.5).uncertainty, sqrt(without * without + 0.25), 1e-12);
+}
+
+static void test_range_over_seeds_holds_every_combination(void **state)
+{
+    (void)state;
+    static const double spacings[3] = {4, 2, 1};
+    static const double a[] = {9}, b[] = {5, 6}, c[] = {3, 4.9};
+    const double *const values[3] = {a, b, c};
+    static const size_t seeds[3] = {1, 2, 2};
+    /* Ratios 4/2, 4/0.1, 3/3, 3/1.1: the third has no order. */
+    sb_order_range r = sb_order_over_seeds(spacings, values, seeds);
+    assert_near(r.low, 1, 1e-9);
+    assert_near(r.high, log2(40), 1e-6);
+    assert_near(r.share, 0.75, 1e-12);
+}
+
+static void test_mean_and_standard_error_pass_over_gaps(void **state)
+{
+    (void)state;
+    static const double values[] = {1, (double)NAN, 3, 5};
+    double mean, error;
+    sb_mean_of(values, 4, &mean, &error);
+    assert_near(mean, 3, 1e-12);
+    assert_near(error, 2 / sqrt(3), 1e-12);
+    sb_mean_of(values, 2, &mean, &error);
+    assert_near(mean, 1, 1e-12);
+    assert_true(isnan(error));
+    sb_mean_of(values + 1, 1, &mean, &error);
+    assert_true(isnan(mean));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_exact_orders_are_found_at_unequal_ratios),
+        cmocka_unit_test(test_the_three_finest_that_were_measured_count),
+        cmocka_unit_test(test_an_order_above_two_is_not_believed_for_the_error_bar),
+        cmocka_unit_test(test_what_is_no_order_is_called_so),
+        cmocka_unit_test(test_two_spacings_assume_first_order_and_one_says_nothing),
+        cmocka_unit_test(test_scatter_widens_the_error_bar),
+        cmocka_unit_test(test_range_over_seeds_holds_every_combination),
+        cmocka_unit_test(test_mean_and_standard_error_pass_over_gaps),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

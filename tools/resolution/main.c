@@ -1,0 +1,117 @@
+/* A resolution study of any scene. */
+#include "quantity.h"
+#include "study_report.h"
+
+#include "base/memory.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What the scene becomes for the runs: one case, a plan per spacing. */
+typedef struct subject {
+    char scene[SB_PATH_MAX], name[SB_NAME_MAX], out[SB_PATH_MAX];
+    sb_case of;
+    sb_plan plans[SB_STUDY_LEVELS];
+    const char *settings[SB_TRIAL_SETTINGS + SB_STUDY_SETS + 1];
+    sb_result *trials;
+    size_t count;
+} subject;
+
+static void name_it(subject *s)
+{
+    const char *slash = strrchr(s->scene, '/');
+    snprintf(s->name, sizeof s->name, "%.60s", slash ? slash + 1 : s->scene);
+    char *dot = strrchr(s->name, '.');
+    if (dot && dot != s->name) *dot = '\0';
+}
+
+static sb_status begin(subject *s, const sb_study_options *o, sb_error *error)
+{
+    if (!realpath(o->scene, s->scene))
+        return sb_fail(error, SB_BAD_INPUT, "%.400s: no such file", o->scene);
+    name_it(s);
+    snprintf(s->out, sizeof s->out, "%s%s", o->out ? o->out : SB_SOURCE_DIR "/runs/study/",
+             o->out ? "" : s->name);
+    s->of = (sb_case){.name = s->name, .scene = s->scene, .evaluate = sb_quantities_of};
+    for (size_t i = 0; i < SB_TRIAL_SETTINGS; i++) s->settings[i] = sb_trial_settings[i];
+    for (size_t i = 0; i < o->set_count; i++) s->settings[SB_TRIAL_SETTINGS + i] = o->sets[i];
+    s->count = o->spacing_count * (size_t)o->seeds;
+    s->trials = sb_alloc(s->count, sizeof *s->trials);
+    if (!s->trials) return sb_fail_memory(error, "a study");
+    for (size_t i = 0; i < s->count; i++) {
+        sb_plan *plan = &s->plans[i / (size_t)o->seeds];
+        *plan = (sb_plan){.resolution = o->spacings[i / (size_t)o->seeds], .settings = s->settings};
+        s->trials[i].request = (sb_request){.of = &s->of,
+                                            .plan = plan,
+                                            .paper = o->paper,
+                                            .seed = 1 + (int)(i % (size_t)o->seeds)};
+    }
+    return SB_OK;
+}
+
+static sb_status report(const subject *s, const sb_study_options *o, const sb_store *store,
+                        sb_error *error)
+{
+    const sb_study study = {.options = o, .store = store, .trials = s->trials, .count = s->count};
+    sb_study_row *rows;
+    size_t count;
+    sb_status status = sb_study_rows(&study, &rows, &count, error);
+    if (status != SB_OK) return status;
+    if (!count)
+        status = sb_fail(error, SB_BAD_INPUT, "%s: nothing measured has %s", s->name,
+                         o->pattern_count ? "a name asked for by --quantity" : "a value");
+    if (count) sb_study_table(stdout, &study, rows, count);
+    if (status == SB_OK) status = sb_study_write(&study, rows, count, store->out, error);
+    if (status == SB_OK) printf("%s/study.md\n", store->out);
+    sb_study_rows_free(rows, count);
+    return status;
+}
+
+/* A scene that no run could read is bad input, said before anything runs. */
+static sb_status check(const sb_store *store, const subject *s, sb_error *error)
+{
+    char folder[SB_PATH_MAX];
+    sb_status status = SB_OK;
+    for (size_t i = 0; status == SB_OK && i < s->count; i++)
+        status = sb_store_folder(store, &s->trials[i].request, folder, error);
+    return status;
+}
+
+static void end(subject *s)
+{
+    for (size_t i = 0; s->trials && i < s->count; i++) {
+        sb_finished_free(&s->trials[i].run);
+        sb_figures_free(&s->trials[i].figures);
+    }
+    sb_free(s->trials);
+}
+
+int main(int count, char **arguments)
+{
+    static subject s;
+    sb_study_options o;
+    sb_store store;
+    sb_error error = {0};
+    size_t failed = 0;
+    setvbuf(stdout, NULL, _IOLBF, 0);
+    if (count == 2 && strcmp(arguments[1], "--version") == 0) {
+        printf("shorebreak-study %s\n", SB_VERSION);
+        return 0;
+    }
+    sb_status status = sb_study_parse(count, arguments, &o, &error);
+    if (status == SB_OK && o.help) {
+        fputs(sb_study_help, stdout);
+        return 0;
+    }
+    if (status == SB_OK) status = begin(&s, &o, &error);
+    if (status == SB_OK) status = sb_trials_store(&store, s.out, o.program, SB_SOURCE_DIR, &error);
+    if (status == SB_OK) status = check(&store, &s, &error);
+    if (status == SB_OK)
+        status = sb_trials_make(&store, s.trials, s.count, o.jobs, o.report_only, &failed, &error);
+    if (status == SB_OK) status = report(&s, &o, &store, &error);
+    end(&s);
+    if (status != SB_OK) fprintf(stderr, "study: %s\n", error.text);
+    if (status != SB_OK) return status == SB_INTERRUPTED ? 130 : (int)status;
+    return failed ? SB_FAILED : 0;
+}

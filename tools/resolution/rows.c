@@ -1,0 +1,77 @@
+/* The quantities of a study, gathered from its runs. */
+#include "study_report.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+static bool is_known(const sb_study_row *rows, size_t count, const char *quantity)
+{
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(rows[i].quantity, quantity) == 0) return true;
+    return false;
+}
+
+static sb_status begin(const sb_study *study, const sb_figure *figure, sb_study_row *row,
+                       sb_error *error)
+{
+    *row = (sb_study_row){.quantity = figure->quantity, .unit = figure->unit};
+    row->values = sb_alloc(study->count, sizeof *row->values);
+    return row->values ? SB_OK : sb_fail_memory(error, "a study");
+}
+
+/* Values of all trials, their means, and what they say of convergence. */
+static void fill(const sb_study *study, sb_study_row *row)
+{
+    const sb_study_options *o = study->options;
+    size_t seeds = (size_t)o->seeds, n = o->spacing_count;
+    for (size_t i = 0; i < study->count; i++) {
+        const sb_result *t = &study->trials[i];
+        const sb_figure *f =
+            t->state == SB_RESULT_DONE ? sb_figures_find(&t->figures, row->quantity) : NULL;
+        row->values[i] = f ? f->value : (double)NAN;
+    }
+    for (size_t l = 0; l < n; l++) {
+        row->levels[l].spacing = o->spacings[l];
+        sb_mean_of(&row->values[l * seeds], seeds, &row->levels[l].value, &row->levels[l].error);
+    }
+    row->convergence = sb_converge(row->levels, n);
+    if (n < 3) return;
+    const double *const values[3] = {&row->values[(n - 3) * seeds], &row->values[(n - 2) * seeds],
+                                     &row->values[(n - 1) * seeds]};
+    const size_t counts[3] = {seeds, seeds, seeds};
+    row->range = sb_order_over_seeds(&o->spacings[n - 3], values, counts);
+}
+
+sb_status sb_study_rows(const sb_study *study, sb_study_row **rows, size_t *count, sb_error *error)
+{
+    sb_status status = SB_OK;
+    size_t capacity = 0;
+    *rows = NULL;
+    *count = 0;
+    for (size_t i = 0; i < study->count; i++) {
+        const sb_result *t = &study->trials[i];
+        for (size_t k = 0; t->state == SB_RESULT_DONE && k < t->figures.count; k++) {
+            const sb_figure *f = &t->figures.rows[k];
+            if (!sb_study_wants(study->options, f->quantity) ||
+                is_known(*rows, *count, f->quantity))
+                continue;
+            if (sb_grow((void **)rows, &capacity, *count + 1, sizeof **rows) != 0)
+                status = sb_fail_memory(error, "a study");
+            if (status == SB_OK) status = begin(study, f, &(*rows)[*count], error);
+            if (status != SB_OK) {
+                sb_study_rows_free(*rows, *count);
+                return status;
+            }
+            fill(study, &(*rows)[(*count)++]);
+        }
+    }
+    return SB_OK;
+}
+
+void sb_study_rows_free(sb_study_row *rows, size_t count)
+{
+    for (size_t i = 0; i < count; i++) sb_free(rows[i].values);
+    sb_free(rows);
+}

@@ -1,0 +1,92 @@
+#include "trials.h"
+
+#include "launch.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+const char *const sb_trial_settings[] = {"render.interval=0", "stream.enabled=false",
+                                         "output.particle_interval=0", NULL};
+
+sb_status sb_trials_make(const sb_store *store, sb_result *trials, size_t count, int jobs,
+                         bool report_only, size_t *failed, sb_error *error)
+{
+    sb_status status = SB_OK;
+    sb_request *requests = sb_alloc(count, sizeof *requests);
+    if (!requests) return sb_fail_memory(error, "runs");
+    for (size_t i = 0; i < count; i++) requests[i] = trials[i].request;
+    if (!report_only) status = sb_launch(store, requests, count, jobs, failed, error);
+    for (size_t i = 0; status == SB_OK && i < count; i++)
+        sb_result_read(store, report_only, &trials[i]);
+    sb_free(requests);
+    return status;
+}
+
+double sb_trials_load(const sb_result *trials, size_t count)
+{
+    double load = (double)NAN;
+    for (size_t i = 0; i < count; i++)
+        if (trials[i].state == SB_RESULT_DONE) load = fmax(load, trials[i].run.load);
+    return load;
+}
+
+bool sb_trials_disturbed(const sb_result *trials, size_t count)
+{
+    return sb_trials_load(trials, count) > (double)sysconf(_SC_NPROCESSORS_ONLN) + 0.5;
+}
+
+void sb_trials_origin(FILE *out, const sb_store *store, const sb_result *trials, size_t count,
+                      const char *command)
+{
+    char load[48];
+    const sb_finished *first = NULL;
+    bool several = false;
+    for (size_t i = 0; i < count; i++) {
+        if (trials[i].state != SB_RESULT_DONE) continue;
+        if (first && strcmp(first->commit, trials[i].run.commit) != 0) several = true;
+        if (!first) first = &trials[i].run;
+    }
+    double most = sb_trials_load(trials, count);
+    snprintf(load, sizeof load, isnan(most) ? "not known" : "at most %.2g", most);
+    fprintf(out, "- command: `%s`\n- machine: %s\n- commit: %s%s\n- load of the machine: %s\n", command,
+            first ? first->machine : store->machine, first ? first->commit : "nothing has run",
+            several ? " and others" : "", load);
+    if (sb_trials_disturbed(trials, count))
+        fputs("- **times are provisional**: others computed on this machine meanwhile\n", out);
+    fputc('\n', out);
+}
+
+bool sb_trial_problem(FILE *out, const sb_result *trial)
+{
+    char label[96];
+    if (trial->state == SB_RESULT_DONE) return false;
+    sb_request_label(&trial->request, true, label);
+    fprintf(out, "- %s: %s%s\n", label, trial->state == SB_RESULT_FAILED ? "**failed**: " : "not run",
+            trial->state == SB_RESULT_FAILED ? trial->problem : "");
+    return true;
+}
+
+sb_status sb_trials_store(sb_store *store, const char *out, const char *program, const char *source,
+                          sb_error *error)
+{
+    char own[SB_PATH_MAX], folder[SB_PATH_MAX], beside[SB_PATH_MAX];
+    if (!realpath("/proc/self/exe", own)) own[0] = '\0';
+    sb_path_folder(folder, own);
+    sb_status status = sb_path_join(beside, folder, "shorebreak", error);
+    return status == SB_OK ? sb_store_open(store, out, program ? program : beside, source, error)
+                           : status;
+}
+
+sb_status sb_trial_count(const char *name, const char *text, int most, int *value, sb_error *error)
+{
+    char *end;
+    long number = strtol(text, &end, 10);
+    if (end == text || *end || number < 1 || number > most)
+        return sb_fail(error, SB_BAD_INPUT, "%s: %.50s is no number from 1 to %d", name, text, most);
+    *value = (int)number;
+    return SB_OK;
+}
