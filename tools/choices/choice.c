@@ -1,0 +1,50 @@
+#include "choice.h"
+
+#include "sensitivity.h"
+
+#include <string.h>
+
+/* clang-format off */
+const sb_choice sb_choices[] = {
+    {.name = "default", .quick = true},
+    {.name = "paper", .paper = true, .quick = true},
+    {.name = "paper, chebyshev", .paper = true, .fixed = {"numerics.solver=chebyshev"}},
+    {.name = "paper, its tolerance x 4", .paper = true, .fixed = {"numerics.tolerance=0.004"}},
+    {.name = "jacobi", .quick = true, .fixed = {"numerics.solver=jacobi"}},
+    {.name = "cg", .quick = true, .fixed = {"numerics.solver=cg"}},
+    {.name = "tolerance / 4", .key = "tolerance", .factor = 0.25},
+    {.name = "tolerance x 2", .key = "tolerance", .factor = 2},
+    {.name = "tolerance x 4", .quick = true, .key = "tolerance", .factor = 4},
+    {.name = "tolerance x 16", .key = "tolerance", .factor = 16},
+    {.name = "time step / 2", .quick = true, .key = "time_step_factor", .factor = 0.5},
+    {.name = "time step x 1.5", .key = "time_step_factor", .factor = 1.5},
+    {.name = "time step x 2", .quick = true, .key = "time_step_factor", .factor = 2},
+    {.name = "CFL x 1.5", .key = "cfl", .factor = 1.5},
+    {.name = "support 2", .quick = true, .fixed = {"numerics.support=2"}},
+    {.name = "support 3", .quick = true, .fixed = {"numerics.support=3"}},
+    {.name = "wendland-c2, support 3", .fixed = {"numerics.kernel=wendland-c2", "numerics.support=3"}},
+    {.name = "warm start 0", .quick = true, .fixed = {"numerics.warm_start=0"}},
+    {.name = "warm start 0.9", .fixed = {"numerics.warm_start=0.9"}},
+    {.name = "source relaxation / 2", .key = "source_relaxation", .factor = 0.5},
+    {.name = "source relaxation x 2", .quick = true, .key = "source_relaxation", .factor = 2},
+    {.name = "at least 1 sweep", .fixed = {"numerics.min_iterations=1"}},
+    {.name = "no artificial viscosity", .fixed = {"numerics.artificial_viscosity=0"}},
+    {.name = "artificial viscosity x 4", .key = "artificial_viscosity", .factor = 4},
+    {.name = "no settling", .fixed = {"numerics.settle_steps=0"}},
+    {.name = NULL},
+};
+/* clang-format on */
+
+size_t sb_choice_count(void)
+{
+    return sizeof sb_choices / sizeof *sb_choices - 1;
+}
+
+void sb_choice_change(const sb_choice *choice, const sb_numerics *defaults,
+                      char change[SB_CHOICE_TEXT])
+{
+    change[0] = '\0';
+    for (const sb_sensitivity_key *key = sb_sensitivity_keys; choice->key && key->key; key++)
+        if (strcmp(key->key, choice->key) == 0)
+            sb_sensitivity_change(key, defaults, choice->factor, change);
+}

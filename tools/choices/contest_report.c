@@ -1,0 +1,198 @@
+#include "contest_report.h"
+
+#include "base/memory.h"
+#include "plot_draw.h"
+#include "report.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *name_of(const sb_entry *e)
+{
+    return e->choice ? e->choice->name : "reference (default)";
+}
+
+static void put_spread(FILE *out, const sb_spread *s, bool seeds)
+{
+    char mean[48];
+    sb_text_number(mean, s->mean);
+    fprintf(out, " %s", mean);
+    if (seeds && s->high > s->low) fprintf(out, " (%.3g–%.3g)", s->low, s->high);
+    fputs(" |", out);
+}
+
+static void put_entry(FILE *out, const sb_contest *c, const sb_entry *e)
+{
+    const sb_result *t = &c->trials[e->first];
+    if (isnan(e->time.mean)) return;
+    fprintf(out, "| %s | %g |", name_of(e), e->plan.resolution);
+    if (t->state == SB_RESULT_DONE)
+        fprintf(out, " %zu | %zu | %.1f |", t->run.view.particles, t->run.view.steps,
+                t->run.view.iterations);
+    else
+        fputs(" – | – | – |", out);
+    put_spread(out, &e->time, e->seeds > 1);
+    for (size_t k = 0; k < c->error_count; k++) put_spread(out, &e->errors[k], e->seeds > 1);
+    fprintf(out, " %s |\n", e->front ? "**front**" : "");
+}
+
+static void put_contest(FILE *out, const sb_contest *c, bool cpu)
+{
+    fprintf(out, "## %s\n\nErrors against %s.\n\n| choice | spacing (m) | particles | steps | sweeps per step | %s (s) |",
+            c->subject->title, c->subject->what, cpu ? "processor time" : "run time");
+    for (size_t k = 0; k < c->error_count; k++)
+        fprintf(out, " %s (%s) |", c->subject->errors[k].name, c->subject->errors[k].unit);
+    fputs(" |\n|---|---|---|---|---|---|", out);
+    for (size_t k = 0; k < c->error_count + 1; k++) fputs("---|", out);
+    fputc('\n', out);
+    for (size_t i = 0; i < c->entry_count; i++) put_entry(out, c, &c->entries[i]);
+    fputc('\n', out);
+    bool problem = false;
+    for (size_t i = 0; i < c->trial_count; i++)
+        problem = sb_trial_problem(out, &c->trials[i]) || problem;
+    if (problem) fputc('\n', out);
+}
+
+static const char reading[] =
+    "Each row is one choice at one spacing; a choice is the preset `default` with one thing changed, or "
+    "the preset `paper`. Times and\nerrors are means over the start seeds, in brackets the least and "
+    "the most of them. **front**: no other row is both faster\nand, by the first error, better. A "
+    "difference in error that is smaller than the seeds' spread means nothing. Errors hold the\n"
+    "discretisation's, too: where all choices at a spacing have the same error, the spacing makes it.\n\n";
+
+static void put_report(FILE *out, const sb_contest_report *r, const sb_error *no_plot)
+{
+    size_t most = 0;
+    for (size_t i = 1; i < r->count; i++) {
+        double load = sb_trials_load(r->contests[i].trials, r->contests[i].trial_count);
+        double other = sb_trials_load(r->contests[most].trials, r->contests[most].trial_count);
+        if (load > other || isnan(other)) most = i;
+    }
+    fprintf(out, "# Run time against error%s\n\nMade by `tools/tradeoff`; docs/studies.md says how.\n\n",
+            r->quick ? ", quick forms" : "");
+    sb_trials_origin(out, r->store, r->contests[most].trials, r->contests[most].trial_count, r->command);
+    fputs(reading, out);
+    if (no_plot->text[0])
+        fprintf(out, "No plot: %s.\n\n", no_plot->text);
+    else
+        fputs("![error over run time](tradeoff.png)\n\n", out);
+    for (size_t i = 0; i < r->count; i++) put_contest(out, &r->contests[i], r->cpu);
+}
+
+static int by_time(const void *a, const void *b)
+{
+    const sb_entry *const *first = a, *const *second = b;
+    return ((*first)->time.mean > (*second)->time.mean) - ((*first)->time.mean < (*second)->time.mean);
+}
+
+static sb_status plot_front(const sb_contest *c, sb_plot *plot, sb_error *error)
+{
+    sb_curve curve = {0};
+    size_t count = 0;
+    const sb_entry **front = sb_alloc(c->entry_count, sizeof *front);
+    sb_status status = front ? SB_OK : sb_fail_memory(error, "a front");
+    for (size_t i = 0; front && i < c->entry_count; i++)
+        if (c->entries[i].front) front[count++] = &c->entries[i];
+    if (front) qsort(front, count, sizeof *front, by_time);
+    for (size_t i = 0; status == SB_OK && i < count; i++)
+        status = sb_curve_add(&curve, front[i]->time.mean, front[i]->errors[0].mean, error);
+    if (status == SB_OK && count)
+        status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "Pareto front", &curve, error);
+    sb_curve_free(&curve);
+    sb_free(front);
+    return status;
+}
+
+/* All spacings of a choice are marks of one kind. */
+static sb_status plot_choice(const sb_contest *c, const sb_choice *choice, sb_plot *plot,
+                             sb_error *error)
+{
+    sb_curve curve = {0};
+    sb_status status = SB_OK;
+    for (size_t i = 0; status == SB_OK && i < c->entry_count; i++)
+        if (c->entries[i].choice == choice && c->entries[i].errors[0].mean > 0)
+            status = sb_curve_add(&curve, c->entries[i].time.mean, c->entries[i].errors[0].mean, error);
+    if (status == SB_OK && curve.count)
+        status = sb_plot_curve(plot, SB_PLOT_MARKS, choice->name, &curve, error);
+    sb_curve_free(&curve);
+    return status;
+}
+
+static sb_status plot_contest(const sb_contest *c, bool cpu, sb_plot *plot, sb_error *error)
+{
+    char label[96];
+    const sb_error_measure *m = &c->subject->errors[0];
+    snprintf(label, sizeof label, "error of %.60s (%s)", m->name, m->unit);
+    sb_status status = sb_plot_panel(plot, c->subject->title,
+                                     cpu ? "processor time (s)" : "run time (s)", label, error);
+    if (status == SB_OK) sb_plot_logarithmic(plot);
+    if (status == SB_OK) status = plot_front(c, plot, error);
+    for (const sb_choice *choice = sb_choices; status == SB_OK && choice->name; choice++)
+        status = plot_choice(c, choice, plot, error);
+    return status;
+}
+
+static sb_status draw(const sb_contest_report *r, const char *folder, sb_error *error)
+{
+    char plots[SB_PATH_MAX], picture[SB_PATH_MAX], real[SB_PATH_MAX];
+    sb_plot *plot = sb_plot_create();
+    sb_status status = plot ? SB_OK : sb_fail_memory(error, "a plot");
+    if (status == SB_OK) status = sb_path_join(plots, r->store->out, "plots", error);
+    if (status == SB_OK) status = sb_make_directories(plots, error);
+    if (status == SB_OK && !realpath(folder, real))
+        status = sb_fail(error, SB_FAILED, "%.400s: no such folder", folder);
+    if (status == SB_OK) status = sb_path_join(picture, real, "tradeoff.png", error);
+    for (size_t i = 0; status == SB_OK && i < r->count; i++)
+        status = plot_contest(&r->contests[i], r->cpu, plot, error);
+    if (status == SB_OK) status = sb_plot_draw(plot, plots, "tradeoff", picture, error);
+    sb_plot_destroy(plot);
+    return status;
+}
+
+static void put_csv(FILE *out, const sb_contest_report *r)
+{
+    fputs("scene,choice,spacing_m,seed,particles,steps,sweeps_per_step,run_time_s,cpu_s,load,error,unit,"
+          "mean,least,most,front,commit\n",
+          out);
+    for (size_t n = 0; n < r->count; n++) {
+        const sb_contest *c = &r->contests[n];
+        for (size_t i = 0; i < c->entry_count; i++)
+            for (size_t t = c->entries[i].first; t < c->entries[i].first + c->entries[i].seeds; t++)
+                for (size_t k = 0; k < c->error_count; k++) {
+                    const sb_entry *e = &c->entries[i];
+                    const sb_finished *run = &c->trials[t].run;
+                    if (c->trials[t].state != SB_RESULT_DONE) continue;
+                    fprintf(out, "%s,\"%s\",%g,%d,%zu,%zu,%.3f,%.3f,%.3f,%.2f,%s,%s,%.5g,%.5g,%.5g,%s,%s\n",
+                            c->subject->name, name_of(e), e->plan.resolution,
+                            c->trials[t].request.seed, run->view.particles, run->view.steps,
+                            run->view.iterations, run->view.wall, run->cpu, run->load,
+                            c->subject->errors[k].name, c->subject->errors[k].unit,
+                            e->errors[k].mean, e->errors[k].low, e->errors[k].high,
+                            e->front ? "yes" : "no", run->commit);
+                }
+    }
+}
+
+static sb_status open_in(sb_atomic_file *file, const char *folder, const char *name, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    sb_status status = sb_path_join(path, folder, name, error);
+    return status == SB_OK ? sb_atomic_open(file, path, error) : status;
+}
+
+sb_status sb_contest_write(const sb_contest_report *report, const char *folder, sb_error *error)
+{
+    sb_atomic_file file;
+    sb_error no_plot = {0};
+    sb_status status = sb_make_directories(folder, error);
+    if (status == SB_OK) status = open_in(&file, folder, "tradeoff.csv", error);
+    if (status != SB_OK) return status;
+    draw(report, folder, &no_plot);
+    put_csv(file.stream, report);
+    status = sb_atomic_commit(&file, 0, error);
+    if (status == SB_OK) status = open_in(&file, folder, "tradeoff.md", error);
+    if (status != SB_OK) return status;
+    put_report(file.stream, report, &no_plot);
+    return sb_atomic_commit(&file, 0, error);
+}

@@ -1,0 +1,158 @@
+#include "entries.h"
+
+#include "pareto.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* What `default` gives for this scene: a choice changes one of those by a factor. */
+static sb_status read_defaults(const sb_subject *subject, const sb_store *store,
+                               sb_numerics *defaults, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    sb_scene scene = {0};
+    sb_status status = sb_path_join(path, store->assets, subject->of->scene, error);
+    if (status == SB_OK) status = sb_scene_read(path, "default", NULL, 0, &scene, error);
+    if (status != SB_OK) return status;
+    *defaults = scene.numerics;
+    sb_scene_free(&scene);
+    return SB_OK;
+}
+
+/* The entry stays where it is from here on: its plan points into it. */
+static void add(sb_contest *c, const sb_choice *choice, double spacing, bool quick, int seeds,
+                const sb_numerics *defaults)
+{
+    sb_entry *e = &c->entries[c->entry_count++];
+    size_t used = 0;
+    *e = (sb_entry){.choice = choice, .first = c->trial_count, .seeds = (size_t)seeds};
+    for (const char *const *s = c->subject->settings; s && *s; s++) e->settings[used++] = *s;
+    if (choice) sb_choice_change(choice, defaults, e->change);
+    for (int i = 0; choice && i < SB_CHOICE_FIXED && choice->fixed[i]; i++)
+        if (e->change[0])
+            e->settings[used++] = choice->fixed[i];
+        else
+            snprintf(e->change, sizeof e->change, "%s", choice->fixed[i]);
+    e->plan = (sb_plan){.resolution = spacing, .settings = e->settings};
+    for (int seed = 1; seed <= seeds; seed++) {
+        sb_request *request = &c->trials[c->trial_count++].request;
+        *request = (sb_request){.of = c->subject->of,
+                                .plan = &e->plan,
+                                .paper = choice && choice->paper,
+                                .quick = quick,
+                                .seed = seed};
+        snprintf(request->change, sizeof request->change, "%s", e->change);
+    }
+}
+
+sb_status sb_contest_begin(sb_contest *c, const sb_subject *subject, const sb_store *store,
+                           bool quick, int seeds, sb_error *error)
+{
+    const double *spacings = quick ? subject->quick : subject->full;
+    double reference = quick ? subject->quick_reference : subject->full_reference;
+    size_t most = sb_choice_count() * SB_SUBJECT_SPACINGS + 1;
+    sb_numerics defaults;
+    *c = (sb_contest){.subject = subject};
+    while (subject->errors[c->error_count].name) c->error_count++;
+    sb_status status = read_defaults(subject, store, &defaults, error);
+    if (status != SB_OK) return status;
+    c->entries = sb_alloc(most, sizeof *c->entries);
+    c->trials = sb_alloc(most * (size_t)seeds, sizeof *c->trials);
+    if (!c->entries || !c->trials) {
+        sb_contest_free(c);
+        return sb_fail_memory(error, "runs");
+    }
+    if (reference > 0) add(c, NULL, reference, quick, seeds < 2 ? seeds : 2, &defaults);
+    for (size_t i = 0; spacings[i] > 0; i++)
+        for (const sb_choice *choice = sb_choices; choice->name; choice++)
+            if (choice->quick || !quick) add(c, choice, spacings[i], quick, seeds, &defaults);
+    return SB_OK;
+}
+
+static void include(sb_spread *spread, double value, double *known)
+{
+    if (isnan(value)) return;
+    spread->mean = *known > 0 ? (spread->mean * *known + value) / (*known + 1) : value;
+    spread->low = fmin(spread->low, value); /* passes over NaN */
+    spread->high = fmax(spread->high, value);
+    ++*known;
+}
+
+static const sb_spread nothing = {(double)NAN, (double)NAN, (double)NAN};
+
+static void judge_entry(const sb_contest *c, sb_entry *e, bool cpu,
+                        const sb_figures *const *references, size_t count)
+{
+    double known = 0;
+    e->time = nothing;
+    for (size_t i = e->first; i < e->first + e->seeds; i++)
+        if (c->trials[i].state == SB_RESULT_DONE)
+            include(&e->time, cpu ? c->trials[i].run.cpu : c->trials[i].run.view.wall, &known);
+    for (size_t k = 0; k < c->error_count; k++) {
+        known = 0;
+        e->errors[k] = nothing;
+        for (size_t i = e->first; i < e->first + e->seeds; i++)
+            if (c->trials[i].state == SB_RESULT_DONE)
+                include(&e->errors[k],
+                        sb_subject_error(&c->subject->errors[k], &c->trials[i].figures, references,
+                                         count),
+                        &known);
+    }
+}
+
+/* The references' figures; none for a subject without, or when they have not run: then *lost. */
+static size_t references_of(const sb_contest *c, const sb_figures *found[SB_ENTRY_SEEDS], bool *lost)
+{
+    const sb_entry *e = &c->entries[0];
+    size_t count = 0;
+    *lost = false;
+    if (c->entry_count == 0 || e->choice) return 0;
+    for (size_t i = e->first; i < e->first + e->seeds; i++)
+        if (c->trials[i].state == SB_RESULT_DONE) found[count++] = &c->trials[i].figures;
+    *lost = count == 0;
+    return count;
+}
+
+/* The reference is in no contest. */
+static sb_status find_front(sb_contest *c, sb_error *error)
+{
+    size_t n = c->entry_count;
+    double *times = sb_alloc(n, sizeof *times), *errors = sb_alloc(n, sizeof *errors);
+    bool *front = sb_alloc(n, sizeof *front);
+    sb_status status = times && errors && front ? SB_OK : sb_fail_memory(error, "a front");
+    for (size_t i = 0; status == SB_OK && i < n; i++) {
+        times[i] = c->entries[i].choice ? c->entries[i].time.mean : (double)NAN;
+        errors[i] = c->entries[i].errors[0].mean;
+    }
+    if (status == SB_OK) sb_pareto_front(times, errors, n, front);
+    for (size_t i = 0; status == SB_OK && i < n; i++) c->entries[i].front = front[i];
+    sb_free(times);
+    sb_free(errors);
+    sb_free(front);
+    return status;
+}
+
+sb_status sb_contest_judge(sb_contest *c, bool cpu, sb_error *error)
+{
+    const sb_figures *references[SB_ENTRY_SEEDS];
+    bool lost;
+    size_t count = references_of(c, references, &lost);
+    for (size_t i = 0; i < c->entry_count; i++) {
+        judge_entry(c, &c->entries[i], cpu, references, count);
+        for (size_t k = 0; lost && k < c->error_count; k++) c->entries[i].errors[k] = nothing;
+    }
+    return find_front(c, error);
+}
+
+void sb_contest_free(sb_contest *c)
+{
+    for (size_t i = 0; i < c->trial_count; i++) {
+        sb_finished_free(&c->trials[i].run);
+        sb_figures_free(&c->trials[i].figures);
+    }
+    sb_free(c->trials);
+    sb_free(c->entries);
+    *c = (sb_contest){0};
+}

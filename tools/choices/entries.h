@@ -1,0 +1,42 @@
+/* A subject's runs: every choice at every spacing with every seed, and what comes of them. */
+#ifndef SB_CHOICES_ENTRIES_H
+#define SB_CHOICES_ENTRIES_H
+
+#include "choice.h"
+#include "subject.h"
+#include "trials.h"
+
+enum { SB_ENTRY_SETTINGS = 10, SB_ENTRY_SEEDS = 9 };
+
+/* Over the seeds; NaN: none has run. */
+typedef struct sb_spread {
+    double mean, low, high;
+} sb_spread;
+
+/* One choice at one spacing. */
+typedef struct sb_entry {
+    const sb_choice *choice; /* NULL: the reference run */
+    sb_plan plan;
+    const char *settings[SB_ENTRY_SETTINGS];
+    char change[SB_CHOICE_TEXT]; /* the setting that labels its runs; "": none */
+    size_t first, seeds; /* its trials */
+    sb_spread time;      /* s: run time, or processor time when runs shared the machine */
+    sb_spread errors[SB_SUBJECT_ERRORS];
+    bool front; /* of time and the first error */
+} sb_entry;
+
+typedef struct sb_contest {
+    const sb_subject *subject;
+    size_t entry_count, trial_count, error_count;
+    sb_entry *entries; /* the reference first, where there is one */
+    sb_result *trials;
+} sb_contest;
+
+/* The runs that are wanted; nothing is run. SB_BAD_INPUT: the scene cannot be read. */
+sb_status sb_contest_begin(sb_contest *contest, const sb_subject *subject, const sb_store *store,
+                           bool quick, int seeds, sb_error *error);
+/* From read trials: times (of the processor with cpu), errors, front. */
+sb_status sb_contest_judge(sb_contest *contest, bool cpu, sb_error *error);
+void sb_contest_free(sb_contest *contest);
+
+#endif

@@ -1,0 +1,171 @@
+/* Run time against error: choices of solver and parameters held against each other. */
+#include "contest_report.h"
+
+#include "base/memory.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { SUBJECTS = 16 };
+
+typedef struct options {
+    const char *out, *report, *program;
+    bool quick, report_only, list, help;
+    int seeds, jobs;
+    const sb_subject *subjects[SUBJECTS];
+    size_t subject_count;
+    char command[512];
+} options;
+
+static const char help[] =
+    "usage: tools/tradeoff [SCENE...] [OPTIONS]\n"
+    "Runs scenes that have a reference with many choices of solver and parameters, and tells what\n"
+    "each costs and what error it leaves. All scenes when none is named.\n\n"
+    "  --quick          fewer choices at coarse spacings, one seed; the report goes to OUT/quick\n"
+    "  --list           names scenes and choices\n"
+    "  --seeds N        start seeds of every run (3; quick: 1)\n"
+    "  --jobs N         N runs at a time with one thread each, compared by processor time; 1: one\n"
+    "                   with all cores, compared by run time (1; quick: as many as cores)\n"
+    "  --report-only    runs nothing; remakes the report from what was run\n"
+    "  --out DIR        where runs are kept (build/tradeoff)\n"
+    "  --report DIR     where the report goes (docs/results)\n"
+    "  --shorebreak F   the program that runs (the one built beside this)\n"
+    "  --help, --version\n\n"
+    "Finished runs are kept and not repeated while program and scene stay the same.\n"
+    "Exit status: 0 done, 1 bad input, 2 a run failed, 130 stopped.\n";
+
+static sb_status take_subject(options *o, const char *name, sb_error *error)
+{
+    for (const sb_subject *s = sb_subjects; s->name; s++)
+        if (strcmp(s->name, name) == 0 && o->subject_count < SUBJECTS) {
+            o->subjects[o->subject_count++] = s;
+            return SB_OK;
+        }
+    return sb_fail(error, SB_BAD_INPUT, "%.200s: no such scene; --list names them", name);
+}
+
+static sb_status take(options *o, const char *argument, const char *next, int *taken, sb_error *error)
+{
+    const struct {
+        const char *name;
+        bool *flag;
+    } flags[] = {{"--quick", &o->quick},
+                 {"--report-only", &o->report_only},
+                 {"--list", &o->list},
+                 {"--help", &o->help}};
+    const struct {
+        const char *name;
+        const char **text;
+        int *number;
+    } valued[] = {{"--out", &o->out, NULL},
+                  {"--report", &o->report, NULL},
+                  {"--shorebreak", &o->program, NULL},
+                  {"--seeds", NULL, &o->seeds},
+                  {"--jobs", NULL, &o->jobs}};
+    size_t length = strlen(o->command);
+    for (size_t k = 0; k < sizeof valued / sizeof *valued; k++) {
+        if (strcmp(argument, valued[k].name) != 0) continue;
+        if (!next) return sb_fail(error, SB_BAD_INPUT, "%s: a value is missing; see --help", argument);
+        *taken = 2;
+        if (valued[k].text) {
+            *valued[k].text = next;
+            return SB_OK;
+        }
+        snprintf(o->command + length, sizeof o->command - length, " %s %.10s", argument, next);
+        return sb_trial_count(argument, next, valued[k].number == &o->seeds ? SB_ENTRY_SEEDS : 256,
+                              valued[k].number, error);
+    }
+    for (size_t k = 0; k < sizeof flags / sizeof *flags; k++) {
+        if (strcmp(argument, flags[k].name) != 0) continue;
+        *flags[k].flag = true;
+        if (flags[k].flag == &o->quick) snprintf(o->command + length, sizeof o->command - length, " --quick");
+        return SB_OK;
+    }
+    if (argument[0] == '-')
+        return sb_fail(error, SB_BAD_INPUT, "%.200s: no such option; see --help", argument);
+    snprintf(o->command + length, sizeof o->command - length, " %.60s", argument);
+    return take_subject(o, argument, error);
+}
+
+static sb_status parse(int count, char **arguments, options *o, sb_error *error)
+{
+    sb_status status = SB_OK;
+    *o = (options){.command = "tools/tradeoff"};
+    for (int i = 1, taken; status == SB_OK && i < count; i += taken) {
+        taken = 1;
+        status = take(o, arguments[i], i + 1 < count ? arguments[i + 1] : NULL, &taken, error);
+    }
+    if (!o->seeds) o->seeds = o->quick ? 1 : 3;
+    if (!o->jobs) o->jobs = o->quick ? (int)sysconf(_SC_NPROCESSORS_ONLN) : 1;
+    if (!o->subject_count)
+        for (const sb_subject *s = sb_subjects; s->name; s++) o->subjects[o->subject_count++] = s;
+    return status;
+}
+
+static void list(void)
+{
+    puts("scenes:");
+    for (const sb_subject *s = sb_subjects; s->name; s++) printf("  %-16s %s\n", s->name, s->title);
+    puts("choices (* in the quick forms, too):");
+    for (const sb_choice *c = sb_choices; c->name; c++) printf("%c %s\n", c->quick ? '*' : ' ', c->name);
+}
+
+static sb_status report(const options *o, const sb_store *store, const sb_contest *contests,
+                        sb_error *error)
+{
+    char folder[SB_PATH_MAX];
+    const sb_contest_report what = {.store = store,
+                                    .contests = contests,
+                                    .count = o->subject_count,
+                                    .command = o->command,
+                                    .quick = o->quick,
+                                    .cpu = o->jobs > 1};
+    sb_status status = SB_OK;
+    snprintf(folder, sizeof folder, "%s", o->report ? o->report : SB_SOURCE_DIR "/docs/results");
+    if (o->quick && !o->report) status = sb_path_join(folder, store->out, "quick", error);
+    if (status == SB_OK) status = sb_contest_write(&what, folder, error);
+    if (status == SB_OK) printf("%s/tradeoff.md\n", folder);
+    return status;
+}
+
+static sb_status run(const options *o, sb_contest *contests, size_t *failed, sb_error *error)
+{
+    sb_store store;
+    sb_status status = sb_trials_store(&store, o->out ? o->out : SB_SOURCE_DIR "/build/tradeoff",
+                                       o->program, SB_SOURCE_DIR, error);
+    for (size_t i = 0; status == SB_OK && i < o->subject_count; i++)
+        status = sb_contest_begin(&contests[i], o->subjects[i], &store, o->quick, o->seeds, error);
+    for (size_t i = 0; status == SB_OK && i < o->subject_count; i++) {
+        size_t these = 0;
+        status = sb_trials_make(&store, contests[i].trials, contests[i].trial_count, o->jobs,
+                                o->report_only, &these, error);
+        *failed += these;
+        if (status == SB_OK) status = sb_contest_judge(&contests[i], o->jobs > 1, error);
+    }
+    return status == SB_OK ? report(o, &store, contests, error) : status;
+}
+
+int main(int count, char **arguments)
+{
+    options o;
+    sb_contest contests[SUBJECTS] = {{0}};
+    sb_error error = {0};
+    size_t failed = 0;
+    setvbuf(stdout, NULL, _IOLBF, 0);
+    if (count == 2 && strcmp(arguments[1], "--version") == 0) {
+        printf("shorebreak-tradeoff %s\n", SB_VERSION);
+        return 0;
+    }
+    sb_status status = parse(count, arguments, &o, &error);
+    if (status == SB_OK && (o.help || o.list)) {
+        if (o.help) fputs(help, stdout);
+        if (!o.help) list();
+        return 0;
+    }
+    if (status == SB_OK) status = run(&o, contests, &failed, &error);
+    for (size_t i = 0; i < SUBJECTS; i++) sb_contest_free(&contests[i]);
+    if (status != SB_OK) fprintf(stderr, "tradeoff: %s\n", error.text);
+    if (status != SB_OK) return status == SB_INTERRUPTED ? 130 : (int)status;
+    return failed ? SB_FAILED : 0;
+}
