@@ -1,0 +1,51 @@
+#include "cost.h"
+
+#include "run.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Adds one stage's seconds where they belong. */
+static void sort_in(sb_cost *cost, const char *name, double seconds)
+{
+    if (strncmp(name, "pressure\"", 9) == 0)
+        cost->pressure += seconds;
+    else if (strncmp(name, "neighbours\"", 11) == 0)
+        cost->query += seconds;
+    else if (strncmp(name, "sort\"", 5) == 0 || strncmp(name, "ghosts\"", 7) == 0)
+        cost->structure += seconds;
+    else
+        cost->advection += seconds;
+}
+
+sb_status sb_cost_read(const char *summary, sb_cost *cost, sb_error *error)
+{
+    static const char name[] = "\"name\": \"";
+    const char *stages = strstr(summary, "\"stages\": [");
+    *cost = (sb_cost){.fluid = sb_json_number_in(summary, "fluid_particles"),
+                      .boundary = sb_json_number_in(summary, "boundary_particles"),
+                      .threads = sb_json_number_in(summary, "threads"),
+                      .steps = sb_json_number_in(summary, "steps"),
+                      .simulated = sb_json_number_in(summary, "simulated_s"),
+                      .sweeps = sb_json_number_in(summary, "mean_iterations"),
+                      .total = sb_json_number_in(summary, "wall_s")};
+    const char *end = stages ? strchr(stages, ']') : NULL;
+    if (!end) return sb_fail(error, SB_BAD_INPUT, "summary.json: no list of stages");
+    for (const char *at = strstr(stages, name); at && at < end; at = strstr(at + 1, name)) {
+        double calls = sb_json_number_in(at, "calls");
+        sort_in(cost, at + sizeof name - 1, sb_json_number_in(at, "seconds"));
+        cost->calls = fmax(cost->calls, calls);
+    }
+    return SB_OK;
+}
+
+double sb_cost_per_particle_step(double total, double fluid, double steps)
+{
+    return 1e9 * total / (fluid * steps);
+}
+
+double sb_cost_extrapolate(const sb_cost *some, double steps, double sweeps)
+{
+    double others = (some->structure + some->query + some->advection) / some->calls;
+    return steps * (others + some->pressure / some->calls * sweeps / some->sweeps);
+}

@@ -1,0 +1,112 @@
+/* The published studies of time step, tolerance and spacing on our own plant. */
+#include "studies.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const double QUICK_SCALE = 4;
+
+typedef struct options {
+    const char *out, *report, *program;
+    bool quick, report_only, help;
+    int jobs;
+    char command[64];
+} options;
+
+static const char help[] =
+    "usage: tools/paper-studies [OPTIONS]\n"
+    "Runs the studies of Sampath et al. (2016, Tables 1 to 10) on assets/scenes/plant.yaml and sets\n"
+    "the figures beside theirs: time step, tolerance, and spacings of 5, 4, 3 and 2 m; of 1 m some\n"
+    "steps, the rest extrapolated and marked so.\n\n"
+    "  --quick          all spacings four times as wide; the report goes to OUT/quick\n"
+    "  --jobs N         N runs at a time with one thread each; 1: one with all cores (1)\n"
+    "  --report-only    runs nothing; remakes the report from what was run\n"
+    "  --out DIR        where runs are kept (build/paper-studies)\n"
+    "  --report DIR     where the report goes (docs/results)\n"
+    "  --shorebreak F   the program that runs (the one built beside this)\n"
+    "  --help, --version\n\n"
+    "Finished runs are kept and not repeated while program and scene stay the same.\n"
+    "Exit status: 0 done, 1 bad input, 2 a run failed, 130 stopped.\n";
+
+static sb_status take(options *o, const char *argument, const char *next, int *taken, sb_error *error)
+{
+    const struct {
+        const char *name;
+        const char **text;
+    } valued[] = {{"--out", &o->out}, {"--report", &o->report}, {"--shorebreak", &o->program},
+                  {"--jobs", NULL}};
+    for (size_t k = 0; k < sizeof valued / sizeof *valued; k++) {
+        if (strcmp(argument, valued[k].name) != 0) continue;
+        if (!next) return sb_fail(error, SB_BAD_INPUT, "%s: a value is missing; see --help", argument);
+        *taken = 2;
+        if (!valued[k].text) return sb_trial_count(argument, next, 256, &o->jobs, error);
+        *valued[k].text = next;
+        return SB_OK;
+    }
+    if (strcmp(argument, "--quick") == 0)
+        o->quick = true;
+    else if (strcmp(argument, "--report-only") == 0)
+        o->report_only = true;
+    else if (strcmp(argument, "--help") == 0)
+        o->help = true;
+    else
+        return sb_fail(error, SB_BAD_INPUT, "%.200s: no such option; see --help", argument);
+    return SB_OK;
+}
+
+static sb_status parse(int count, char **arguments, options *o, sb_error *error)
+{
+    sb_status status = SB_OK;
+    *o = (options){.jobs = 1};
+    for (int i = 1, taken; status == SB_OK && i < count; i += taken) {
+        taken = 1;
+        status = take(o, arguments[i], i + 1 < count ? arguments[i + 1] : NULL, &taken, error);
+    }
+    snprintf(o->command, sizeof o->command, "tools/paper-studies%s --jobs %d",
+             o->quick ? " --quick" : "", o->jobs);
+    return status;
+}
+
+static sb_status run(const options *o, sb_paper_studies *studies, size_t *failed, sb_error *error)
+{
+    sb_store store;
+    char folder[SB_PATH_MAX];
+    sb_status status = sb_trials_store(&store, o->out ? o->out : SB_SOURCE_DIR "/build/paper-studies",
+                                       o->program, SB_SOURCE_DIR, error);
+    if (status != SB_OK) return status;
+    sb_paper_begin(studies, &store, o->quick ? QUICK_SCALE : 1, o->command);
+    status = sb_trials_make(&store, studies->trials, studies->count, o->jobs, o->report_only, failed,
+                            error);
+    if (status == SB_OK) status = sb_paper_costs(studies, error);
+    snprintf(folder, sizeof folder, "%s", o->report ? o->report : SB_SOURCE_DIR "/docs/results");
+    if (status == SB_OK && o->quick && !o->report)
+        status = sb_path_join(folder, store.out, "quick", error);
+    if (status == SB_OK) status = sb_paper_write(studies, folder, error);
+    if (status == SB_OK) printf("%s/paper-studies.md\n", folder);
+    return status;
+}
+
+int main(int count, char **arguments)
+{
+    static sb_paper_studies studies;
+    options o;
+    sb_error error = {0};
+    size_t failed = 0;
+    setvbuf(stdout, NULL, _IOLBF, 0);
+    if (count == 2 && strcmp(arguments[1], "--version") == 0) {
+        printf("shorebreak-paper-studies %s\n", SB_VERSION);
+        return 0;
+    }
+    sb_status status = parse(count, arguments, &o, &error);
+    if (status == SB_OK && o.help) {
+        fputs(help, stdout);
+        return 0;
+    }
+    if (status == SB_OK) status = run(&o, &studies, &failed, &error);
+    sb_paper_free(&studies);
+    if (status != SB_OK) fprintf(stderr, "paper-studies: %s\n", error.text);
+    if (status != SB_OK) return status == SB_INTERRUPTED ? 130 : (int)status;
+    return failed ? SB_FAILED : 0;
+}

@@ -1,0 +1,207 @@
+/* Our figures beside the published ones. */
+#include "studies.h"
+
+#include "report.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* A line of a table: ours, or the paper's. */
+typedef struct line {
+    const char *whose;
+    double varied; /* what the set varies */
+    double fluid, boundary, step, sweeps, total, structure, query, advection, pressure, steps, cores;
+} line;
+
+static double varied_of(const sb_published *p, int set)
+{
+    const double values[] = {[SB_SET_LAMBDA] = p->lambda,
+                             [SB_SET_TABLE] = p->table,
+                             [SB_SET_TOLERANCE] = 100 * p->tolerance,
+                             [SB_SET_SPACING] = p->spacing};
+    return values[set];
+}
+
+/* What a set leaves out is that of the run that all sets share. */
+static double or_shared(double value, double shared)
+{
+    return isnan(value) ? shared : value;
+}
+
+static line published_line(const sb_published *p, int set)
+{
+    const sb_published *shared = sb_published_find(SB_PUBLISHED_DEFAULT);
+    double step = or_shared(p->step, shared->step);
+    return (line){"paper", varied_of(p, set), p->fluid, p->boundary, p->step, p->sweeps, p->total,
+                  p->structure, p->query, p->advection, p->pressure, SB_PUBLISHED_SECONDS / step,
+                  SB_PUBLISHED_CORES};
+}
+
+static line our_line(const sb_paper_trial *row, const char *whose, double varied)
+{
+    const sb_cost *c = &row->cost;
+    return (line){whose, varied, c->fluid, c->boundary, c->simulated / c->steps, c->sweeps, c->total,
+                  c->structure, c->query, c->advection, c->pressure, c->steps, c->threads};
+}
+
+static void put_number(FILE *out, double value)
+{
+    char text[48];
+    sb_text_number(text, value);
+    fprintf(out, " %s |", text);
+}
+
+static void put_count(FILE *out, double value)
+{
+    if (isnan(value))
+        fputs(" – |", out);
+    else
+        fprintf(out, " %.0f k |", value / 1000);
+}
+
+static void put_line(FILE *out, const line *l)
+{
+    double work = sb_cost_per_particle_step(l->total, l->fluid, l->steps);
+    double sweep = 1e9 * l->pressure / (l->fluid * l->steps * l->sweeps);
+    fputs("|", out);
+    put_number(out, l->varied);
+    fprintf(out, " %s |", l->whose);
+    put_count(out, l->fluid);
+    put_count(out, l->boundary);
+    const double numbers[] = {l->step, l->sweeps, l->total, l->structure, l->query, l->advection,
+                              l->pressure, 100 * l->pressure / l->total, work, work * l->cores, sweep,
+                              sweep * l->cores};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) put_number(out, numbers[i]);
+    fputc('\n', out);
+}
+
+static void put_table_head(FILE *out, const char *varied)
+{
+    fprintf(out,
+            "| %s | | N_f | N_b | Δt (s) | sweeps | T (s) | T_c | T_q | T_a | T_p | T_p (%%) | ns per "
+            "particle and step | × cores | ns per particle and sweep | × cores |\n",
+            varied);
+    for (int i = 0; i < 16; i++) fputs("|---", out);
+    fputs("|\n", out);
+}
+
+/* The finest spacing's whole run from its few steps, with the steps and sweeps of the next. */
+static void put_extrapolated(FILE *out, const sb_paper_studies *s)
+{
+    const sb_paper_trial *few = sb_paper_row(s, 12, true), *next = sb_paper_row(s, 13, true);
+    if (!few || !next) {
+        fputs("\nThe finest spacing is not extrapolated: its steps, or the run at the next spacing, are "
+              "missing.\n",
+              out);
+        return;
+    }
+    double steps = next->cost.steps * next->spacing / few->spacing;
+    double total = sb_cost_extrapolate(&few->cost, steps, next->cost.sweeps);
+    fprintf(out,
+            "\n**Extrapolated**, not run: %g m, 90 s. %.0f steps at %g m cost %.3g s each at %.1f sweeps; "
+            "with the steps of the %g m run times\n%g and its %.1f sweeps the whole takes %.3g s, %.3g h "
+            "(paper: 233317 s on %d cores). Set-up took %.3g s of the %.3g s.\n",
+            few->spacing, few->cost.steps, few->spacing,
+            (few->cost.structure + few->cost.query + few->cost.advection + few->cost.pressure) /
+                few->cost.calls,
+            few->cost.sweeps, next->spacing, next->spacing / few->spacing, next->cost.sweeps, total,
+            total / 3600, SB_PUBLISHED_CORES,
+            few->cost.total - few->cost.structure - few->cost.query - few->cost.advection -
+                few->cost.pressure,
+            few->cost.total);
+}
+
+static void put_set(FILE *out, const sb_paper_studies *s, int set)
+{
+    static const char *const varied[] = {"λ_max (1/s)", "slots", "ξ (%)", "δr (m)"};
+    fprintf(out, "\n## %s (%s)\n\n", sb_published_sets[set].title, sb_published_sets[set].tables);
+    if (set == SB_SET_TABLE)
+        fputs("There is no such choice here. Cells have the edge of the support radius; the table of used "
+              "cells has the smallest\npower of two of slots that is at least twice their number, so it is "
+              "at most half full and never larger than four slots per\nused cell. Static walls have a "
+              "table of their own, built once. The counterpart is what search costs, per particle, beside "
+              "what\nit cost there at every size:\n\n",
+              out);
+    put_table_head(out, varied[set]);
+    for (const int *n = sb_published_sets[set].numbers; *n; n++) {
+        const sb_published *p = sb_published_find(*n);
+        line l = published_line(p, set);
+        double ours = set == SB_SET_SPACING ? p->spacing * s->scale : l.varied;
+        put_line(out, &l);
+        const sb_paper_trial *row = sb_paper_row(s, *n, true);
+        const sb_paper_trial *other = set == SB_SET_SPACING ? sb_paper_row(s, *n, false) : NULL;
+        if (row) {
+            l = our_line(row, row->few ? "ours, `paper`, first steps only" : "ours, `paper`",
+                         set == SB_SET_TABLE ? (double)NAN : ours);
+            put_line(out, &l);
+        }
+        if (other) {
+            l = our_line(other, "ours, `default`", ours);
+            put_line(out, &l);
+        }
+    }
+    if (set == SB_SET_SPACING) put_extrapolated(out, s);
+}
+
+static const char reading[] =
+    "Published figures: Sampath, Montanari, Akinci, Prescott and Smith (2016), *Large-scale solitary wave "
+    "simulation with implicit\nincompressible SPH*, on 20 cores at 2.8 GHz. Ours run `assets/scenes/"
+    "plant.yaml` without pictures and stream. The two plants\nare not the same meshes, and our sea "
+    "holds the same volume at every spacing, where theirs loses a gap along its walls: compare\nper "
+    "particle, and per core (*× cores*). T_c: sort; T_q: neighbours (ours sums densities in the same "
+    "pass); T_p: the solve; T_a: all\nother stages; T has set-up and files, too. Where the paper prints no "
+    "mean time step, per-particle figures take that of its run No. 2.\nSweeps are iterations of the "
+    "solver. The paper's average error counts under-dense particles against compressed ones; ours, "
+    "one-sided,\nis stricter at the same ξ ([method](../method.md), section 5).\n";
+
+static void put_report(FILE *out, const sb_paper_studies *s)
+{
+    fprintf(out, "# The published studies on our plant%s\n\nMade by `tools/paper-studies`; docs/studies.md "
+                 "says how.\n\n",
+            s->scale > 1 ? ", quick form" : "");
+    sb_trials_origin(out, s->store, s->trials, s->count, s->command);
+    fputs(reading, out);
+    if (s->scale != 1)
+        fprintf(out, "\n**Quick form**: all our spacings are %g times the published ones (Table 8: %g m "
+                     "stands beside 4 m).\nOnly figures per particle can be compared.\n",
+                s->scale, 4 * s->scale);
+    for (int set = 0; sb_published_sets[set].title; set++) put_set(out, s, set);
+    fputc('\n', out);
+    for (size_t i = 0; i < s->count; i++) sb_trial_problem(out, &s->trials[i]);
+}
+
+static void put_csv(FILE *out, const sb_paper_studies *s)
+{
+    fputs("published_no,spacing_m,preset,first_steps_only,fluid,boundary,threads,steps,simulated_s,"
+          "sweeps_per_step,total_s,structure_s,query_s,advection_s,pressure_s,cpu_s,load,commit\n",
+          out);
+    for (size_t i = 0; i < s->count; i++) {
+        const sb_paper_trial *r = &s->rows[i];
+        const sb_cost *c = &r->cost;
+        if (s->trials[i].state != SB_RESULT_DONE) continue;
+        fprintf(out, "%d,%g,%s,%s,%.0f,%.0f,%.0f,%.0f,%.6g,%.4f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%s\n",
+                r->number, r->spacing, r->paper ? "paper" : "default", r->few ? "yes" : "no", c->fluid,
+                c->boundary, c->threads, c->steps, c->simulated, c->sweeps, c->total, c->structure,
+                c->query, c->advection, c->pressure, s->trials[i].run.cpu, s->trials[i].run.load,
+                s->trials[i].run.commit);
+    }
+}
+
+static sb_status write_one(const sb_paper_studies *s, const char *folder, const char *name,
+                           void (*put)(FILE *, const sb_paper_studies *), sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    sb_atomic_file file;
+    sb_status status = sb_path_join(path, folder, name, error);
+    if (status == SB_OK) status = sb_atomic_open(&file, path, error);
+    if (status != SB_OK) return status;
+    put(file.stream, s);
+    return sb_atomic_commit(&file, 0, error);
+}
+
+sb_status sb_paper_write(const sb_paper_studies *studies, const char *folder, sb_error *error)
+{
+    sb_status status = sb_make_directories(folder, error);
+    if (status == SB_OK) status = write_one(studies, folder, "paper-studies.csv", put_csv, error);
+    return status == SB_OK ? write_one(studies, folder, "paper-studies.md", put_report, error) : status;
+}

@@ -1,0 +1,85 @@
+#include "studies.h"
+
+#include "quantity.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double FEW_STEPS = 20, GRAVITY = 9.81, SUPPORT = 2; /* of the preset `paper` */
+
+static const sb_case plant = {.name = "plant",
+                              .title = "A 25 m wave at a coastal plant",
+                              .scene = "../scenes/plant.yaml",
+                              .evaluate = sb_quantities_of};
+
+static void add(sb_paper_studies *s, const sb_published *like, bool paper)
+{
+    sb_paper_trial *row = &s->rows[s->count];
+    size_t used = 0;
+    *row = (sb_paper_trial){.number = like->number,
+                            .paper = paper,
+                            .few = like->spacing < 2,
+                            .spacing = like->spacing * s->scale};
+    for (size_t i = 0; i < SB_TRIAL_SETTINGS; i++) row->settings[used++] = sb_trial_settings[i];
+    if (paper) {
+        snprintf(row->texts[0], SB_PAPER_TEXT, "numerics.time_step_factor=%.6g", like->lambda);
+        snprintf(row->texts[1], SB_PAPER_TEXT, "numerics.tolerance=%.6g", like->tolerance);
+        row->settings[used++] = row->texts[0];
+        row->settings[used++] = row->texts[1];
+    }
+    if (row->few) {
+        snprintf(row->texts[2], SB_PAPER_TEXT, "duration=%.6g",
+                 FEW_STEPS * like->lambda * SUPPORT * row->spacing / GRAVITY);
+        row->settings[used++] = row->texts[2];
+    }
+    row->plan = (sb_plan){.resolution = row->spacing, .settings = row->settings};
+    s->trials[s->count++].request =
+        (sb_request){.of = &plant, .plan = &row->plan, .paper = paper, .seed = 1};
+}
+
+void sb_paper_begin(sb_paper_studies *s, const sb_store *store, double scale, const char *command)
+{
+    *s = (sb_paper_studies){.store = store, .scale = scale, .command = command};
+    /* Numbers 5 to 7 differ in the size of a table that we have no choice of. */
+    for (const sb_published *p = sb_published_runs; p->number; p++)
+        if (p->number < 5 || p->number > 7) add(s, p, true);
+    for (const int *n = sb_published_sets[SB_SET_SPACING].numbers; *n; n++)
+        if (sb_published_find(*n)->spacing >= 2) add(s, sb_published_find(*n), false);
+}
+
+sb_status sb_paper_costs(sb_paper_studies *s, sb_error *error)
+{
+    sb_status status = SB_OK;
+    for (size_t i = 0; status == SB_OK && i < s->count; i++) {
+        char path[SB_PATH_MAX], *text;
+        size_t length;
+        if (s->trials[i].state != SB_RESULT_DONE) continue;
+        status = sb_path_join(path, s->trials[i].run.folder, "summary.json", error);
+        if (status == SB_OK) status = sb_file_read(path, (size_t)1 << 26, &text, &length, error);
+        if (status != SB_OK) return status;
+        status = sb_cost_read(text, &s->rows[i].cost, error);
+        sb_free(text);
+    }
+    return status;
+}
+
+void sb_paper_free(sb_paper_studies *s)
+{
+    for (size_t i = 0; i < s->count; i++) {
+        sb_finished_free(&s->trials[i].run);
+        sb_figures_free(&s->trials[i].figures);
+    }
+    s->count = 0;
+}
+
+const sb_paper_trial *sb_paper_row(const sb_paper_studies *s, int number, bool paper)
+{
+    for (size_t i = 0; i < s->count; i++)
+        if (s->rows[i].number == number && s->rows[i].paper == paper &&
+            s->trials[i].state == SB_RESULT_DONE)
+            return &s->rows[i];
+    return NULL;
+}
