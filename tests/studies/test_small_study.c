@@ -75,6 +75,7 @@ static void test_the_vertical_impulse_is_the_weight_times_the_duration(void **st
         if (!strstr(sb_sheet_text(&sheet, r, 0), "vertical impulse")) continue;
         assert_near(sb_sheet_number(&sheet, r, value), -9810 * 0.5, 0.02 * 9810 * 0.5);
         assert_near(sb_sheet_number(&sheet, r, seed), (double)(1 + met % 2), 0);
+        assert_true(sb_sheet_number(&sheet, r, sb_sheet_column(&sheet, "cpu_s")) > 0);
         met++;
     }
     assert_int_equal(met, 4);
@@ -84,6 +85,7 @@ static void test_the_vertical_impulse_is_the_weight_times_the_duration(void **st
 static void test_the_report_has_every_kind_of_quantity(void **state)
 {
     (void)state;
+    assert_true(file_says("out/study.md", "study.png") || file_says("out/study.md", "No plot"));
     assert_true(file_says("out/study.md", "| tank, impulse |"));
     assert_true(file_says("out/study.md", "| tank, peak |"));
     assert_true(file_says("out/study.md", "| g1, crest |"));

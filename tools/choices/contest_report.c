@@ -39,7 +39,9 @@ static void put_entry(FILE *out, const sb_contest *c, const sb_entry *e)
 
 static void put_contest(FILE *out, const sb_contest *c, bool cpu)
 {
-    fprintf(out, "## %s\n\nErrors against %s.\n\n| choice | spacing (m) | particles | steps | sweeps per step | %s (s) |",
+    fprintf(out,
+            "## %s\n\nErrors against %s.\n\n"
+            "| choice | spacing (m) | particles | steps | sweeps per step | %s (s) |",
             c->subject->title, c->subject->what, cpu ? "processor time" : "run time");
     for (size_t k = 0; k < c->error_count; k++)
         fprintf(out, " %s (%s) |", c->subject->errors[k].name, c->subject->errors[k].unit);

@@ -1,0 +1,167 @@
+/* What is an error of a choice, and that every row of the tables means something. */
+#include "check.h"
+
+#include "choice.h"
+#include "entries.h"
+#include "subject.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const char *const houses[] = {"a", "b", NULL};
+
+static void put(sb_figures *figures, const char *quantity, double reference, double value)
+{
+    assert_int_equal(
+        sb_figure_report(figures, quantity, "N", reference, value, NULL, "%s", ""), SB_OK);
+}
+
+static void test_a_figures_own_error_loses_its_sign(void **state)
+{
+    (void)state;
+    const sb_error_measure m = {"peak", "%", "peak force", NULL};
+    sb_figures f = {0};
+    put(&f, "peak force", 10, 8);
+    assert_near(sb_subject_error(&m, &f, NULL, 0), 20, 1e-12);
+    const sb_error_measure other = {"peak", "%", "no such figure", NULL};
+    assert_true(isnan(sb_subject_error(&other, &f, NULL, 0)));
+    sb_figures_free(&f);
+}
+
+/* Against the mean of two reference runs: |13 - 10| + |4 - 6| of 16. */
+static void test_errors_of_several_bodies_are_weighted_by_their_load(void **state)
+{
+    (void)state;
+    const sb_error_measure m = {"impulse", "%", "#, impulse", houses};
+    sb_figures f = {0}, first = {0}, second = {0};
+    const sb_figures *const references[] = {&first, &second};
+    put(&f, "a, impulse", (double)NAN, 13);
+    put(&f, "b, impulse", (double)NAN, 4);
+    put(&first, "a, impulse", (double)NAN, 9);
+    put(&first, "b, impulse", (double)NAN, 7);
+    put(&second, "a, impulse", (double)NAN, 11);
+    put(&second, "b, impulse", (double)NAN, 5);
+    assert_near(sb_subject_error(&m, &f, references, 2), 100 * 5.0 / 16, 1e-12);
+    const sb_error_measure one = {"impulse", "%", "b, impulse", NULL};
+    assert_near(sb_subject_error(&one, &f, references, 2), 100 * 2.0 / 6, 1e-12);
+    sb_figures_free(&f);
+    sb_figures_free(&first);
+    sb_figures_free(&second);
+}
+
+/* A changed row changes something, by a setting that every scene takes; names differ. */
+static void test_every_choice_is_one(void **state)
+{
+    (void)state;
+    for (const sb_subject *s = sb_subjects; s->name; s++) {
+        char path[1024];
+        sb_scene scene = {0};
+        sb_error error = {0};
+        snprintf(path, sizeof path, "%s/assets/validation/%s", SB_SOURCE_DIR, s->of->scene);
+        if (sb_scene_read(path, "default", NULL, 0, &scene, &error) != SB_OK) fail_msg("%s", error.text);
+        for (const sb_choice *c = sb_choices; c->name; c++) {
+            char change[SB_CHOICE_TEXT];
+            sb_choice_change(c, &scene.numerics, change);
+            assert_true((c->key != NULL) == (change[0] != '\0'));
+            assert_true(c == sb_choices || c->paper || c->key || c->fixed[0]);
+            for (const sb_choice *k = sb_choices; k < c; k++)
+                assert_string_not_equal(k->name, c->name);
+        }
+        sb_scene_free(&scene);
+    }
+}
+
+static void test_every_subject_has_spacings_and_errors(void **state)
+{
+    (void)state;
+    for (const sb_subject *s = sb_subjects; s->name; s++) {
+        assert_true(s->full[0] > 0 && s->quick[0] > 0 && s->errors[0].name);
+        for (int i = 0; s->full[i] > 0; i++) assert_true(s->full_reference < s->full[i]);
+        for (int i = 0; s->quick[i] > 0; i++) assert_true(s->quick_reference < s->quick[i]);
+        assert_true((s->full_reference > 0) == (s->quick_reference > 0));
+    }
+}
+
+/* As if it had run: so long, with this first error, in the unit of a figure's own. */
+static void pretend(sb_contest *c, const sb_entry *e, size_t seed, double seconds, double error)
+{
+    sb_result *t = &c->trials[e->first + seed];
+    t->state = SB_RESULT_DONE;
+    t->run.view.wall = seconds;
+    t->run.cpu = 2 * seconds;
+    put(&t->figures, c->subject->errors[0].quantity, 100, 100 + error);
+}
+
+static void test_seeds_are_averaged_and_the_front_is_found(void **state)
+{
+    (void)state;
+    sb_store store = {.assets = SB_SOURCE_DIR "/assets/validation"};
+    sb_contest c;
+    sb_error error = {0};
+    const sb_subject *column = &sb_subjects[1];
+    if (sb_contest_begin(&c, column, &store, true, 2, &error) != SB_OK) fail_msg("%s", error.text);
+    assert_true(c.entry_count > 3);
+    assert_int_equal(c.trial_count, 2 * c.entry_count);
+    const sb_entry *e = c.entries;
+    pretend(&c, &e[0], 0, 10, -4);
+    pretend(&c, &e[0], 1, 12, 6);
+    pretend(&c, &e[1], 0, 20, 6); /* slower, no better */
+    pretend(&c, &e[2], 0, 30, 1); /* slower and better */
+    assert_int_equal(sb_contest_judge(&c, false, &error), SB_OK);
+    assert_near(e[0].time.mean, 11, 1e-12);
+    assert_near(e[0].errors[0].mean, 5, 1e-12);
+    assert_near(e[0].errors[0].low, 4, 1e-12);
+    assert_near(e[0].errors[0].high, 6, 1e-12);
+    assert_true(e[0].front && !e[1].front && e[2].front);
+    assert_false(e[3].front);
+    assert_true(isnan(e[3].time.mean) && isnan(e[1].errors[1].mean));
+    assert_int_equal(sb_contest_judge(&c, true, &error), SB_OK);
+    assert_near(e[0].time.mean, 22, 1e-12);
+    sb_contest_free(&c);
+}
+
+/* The reference's own seeds differ from their mean; without it there is no error. */
+static void test_a_reference_run_is_the_mean_of_its_seeds(void **state)
+{
+    (void)state;
+    sb_store store = {.assets = SB_SOURCE_DIR "/assets/validation"};
+    sb_contest c;
+    sb_error error = {0};
+    const sb_subject *s = sb_subjects;
+    while (s->quick_reference <= 0) s++;
+    if (sb_contest_begin(&c, s, &store, true, 2, &error) != SB_OK) fail_msg("%s", error.text);
+    const sb_entry *e = c.entries;
+    assert_null(e[0].choice);
+    assert_near(e[0].plan.resolution, s->quick_reference, 0);
+    for (size_t i = 0; i < 3; i++) {
+        sb_result *t = &c.trials[i];
+        t->state = i < 2 ? SB_RESULT_NOT_RUN : SB_RESULT_DONE;
+        t->run.view.wall = 1;
+        for (const char *const *body = s->errors[0].bodies; *body; body++) {
+            char quantity[SB_FIGURE_TEXT];
+            snprintf(quantity, sizeof quantity, "%s%s", *body, s->errors[0].quantity + 1);
+            put(&t->figures, quantity, (double)NAN, i == 0 ? 8 : i == 1 ? 12 : 15);
+        }
+    }
+    assert_int_equal(sb_contest_judge(&c, false, &error), SB_OK);
+    assert_true(isnan(e[1].errors[0].mean) && !e[1].front);
+    c.trials[0].state = c.trials[1].state = SB_RESULT_DONE;
+    assert_int_equal(sb_contest_judge(&c, false, &error), SB_OK);
+    assert_near(e[0].errors[0].mean, 20, 1e-12);
+    assert_near(e[1].errors[0].mean, 50, 1e-12);
+    assert_true(e[1].front && !e[0].front);
+    sb_contest_free(&c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_a_figures_own_error_loses_its_sign),
+        cmocka_unit_test(test_errors_of_several_bodies_are_weighted_by_their_load),
+        cmocka_unit_test(test_every_choice_is_one),
+        cmocka_unit_test(test_seeds_are_averaged_and_the_front_is_found),
+        cmocka_unit_test(test_a_reference_run_is_the_mean_of_its_seeds),
+        cmocka_unit_test(test_every_subject_has_spacings_and_errors),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
