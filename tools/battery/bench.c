@@ -1,0 +1,120 @@
+#include "bench.h"
+
+#include "base/hash.h"
+#include "origin.h"
+#include "request.h"
+#include "store.h"
+
+#include <errno.h>
+#include <ftw.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char record_name[] = "record.txt";
+
+sb_status sb_bench_open(sb_bench *bench, const char *out, const char *program, const char *own, const char *source,
+                        sb_error *error)
+{
+    char assets[SB_PATH_MAX];
+    *bench = (sb_bench){0};
+    sb_status status = sb_make_directories(out, error);
+    if (status != SB_OK) return status;
+    if (!realpath(out, bench->out)) return sb_fail(error, SB_FAILED, "%.400s: %s", out, strerror(errno));
+    if (!realpath(program, bench->program) || access(bench->program, X_OK) != 0)
+        return sb_fail(error, SB_BAD_INPUT, "%.400s: no such program", program);
+    status = sb_path_join(assets, source, "assets/stress", error);
+    if (status != SB_OK) return status;
+    if (!realpath(assets, bench->assets))
+        return sb_fail(error, SB_BAD_INPUT, "%.400s: %s", assets, strerror(errno));
+    status = sb_hash_file(bench->program, &bench->build, error);
+    if (status == SB_OK) status = sb_hash_file(own, &bench->build, error);
+    sb_origin_commit(source, bench->commit);
+    sb_origin_machine(bench->machine);
+    return status;
+}
+
+sb_status sb_bench_folder(const sb_bench *bench, const sb_order *order, char folder[SB_PATH_MAX], sb_error *error)
+{
+    int length = snprintf(folder, SB_PATH_MAX, "%s/runs/%s/%s", bench->out, order->of->name, order->trial->name);
+    return length < SB_PATH_MAX - 64 ? SB_OK
+                                     : sb_fail(error, SB_BAD_INPUT, "%.400s: the path is too long", bench->out);
+}
+
+uint64_t sb_bench_asked(const sb_bench *bench, const sb_order *order)
+{
+    const sb_trial *t = order->trial;
+    char path[SB_PATH_MAX];
+    sb_scene scene = {0};
+    uint64_t hash = (uint64_t)t->kind;
+    if (sb_path_join(path, bench->assets, t->scene, NULL) == SB_OK) sb_hash_file(path, &hash, NULL);
+    hash = sb_hash(hash, &t->number, sizeof t->number);
+    for (size_t i = 0; i < t->setting_count; i++) hash = sb_hash(hash, t->settings[i], strlen(t->settings[i]));
+    if (sb_trial_scene(t, bench->assets, &scene, NULL) == SB_OK)
+        for (size_t b = 0; b < scene.body_count; b++)
+            if (scene.bodies[b].file) sb_hash_file(scene.bodies[b].file, &hash, NULL);
+    sb_scene_free(&scene);
+    return hash;
+}
+
+static bool recalled(const char *folder, const char *key, uint64_t wanted)
+{
+    char value[64];
+    sb_store_recall(folder, key, value, sizeof value);
+    return value[0] && strtoull(value, NULL, 16) == wanted;
+}
+
+bool sb_bench_has(const sb_bench *bench, const sb_order *order)
+{
+    char folder[SB_PATH_MAX];
+    return sb_bench_folder(bench, order, folder, NULL) == SB_OK && recalled(folder, "build", bench->build) &&
+           recalled(folder, "asked", sb_bench_asked(bench, order));
+}
+
+static int remove_one(const char *path, const struct stat *info, int kind, struct FTW *where)
+{
+    (void)info;
+    (void)kind;
+    (void)where;
+    return remove(path);
+}
+
+sb_status sb_bench_clear(const char *folder, sb_error *error)
+{
+    if (access(folder, F_OK) == 0 && nftw(folder, remove_one, 16, FTW_DEPTH | FTW_PHYS) != 0)
+        return sb_fail(error, SB_FAILED, "%.400s: %s", folder, strerror(errno));
+    return sb_make_directories(folder, error);
+}
+
+sb_status sb_bench_keep(const sb_bench *bench, const sb_order *order, const sb_outcome *o, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    sb_atomic_file file;
+    sb_status status = sb_path_join(path, o->folder, record_name, error);
+    if (status == SB_OK) status = sb_atomic_open(&file, path, error);
+    if (status != SB_OK) return status;
+    fprintf(file.stream, "asked: %016" PRIx64 "\nbuild: %016" PRIx64 "\ncommit: %s\n", sb_bench_asked(bench, order),
+            bench->build, bench->commit);
+    fprintf(file.stream, "how: %u\nended: %s\nwall: %.3f\nsaid: %s\n", o->how, o->ended, o->wall, o->said);
+    return sb_atomic_commit(&file, 0, error);
+}
+
+sb_outcome sb_bench_recall(const sb_bench *bench, const sb_order *order)
+{
+    sb_outcome o = {0};
+    char value[64];
+    if (sb_bench_folder(bench, order, o.folder, NULL) != SB_OK ||
+        !recalled(o.folder, "asked", sb_bench_asked(bench, order)))
+        return o;
+    o.there = true;
+    sb_store_recall(o.folder, "how", value, sizeof value);
+    o.how = (unsigned)strtoul(value, NULL, 10);
+    sb_store_recall(o.folder, "wall", value, sizeof value);
+    o.wall = strtod(value, NULL);
+    sb_store_recall(o.folder, "ended", o.ended, sizeof o.ended);
+    sb_store_recall(o.folder, "said", o.said, sizeof o.said);
+    sb_store_recall(o.folder, "commit", o.commit, sizeof o.commit);
+    sb_outcome_read(&o);
+    return o;
+}

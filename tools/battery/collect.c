@@ -1,0 +1,34 @@
+#include "battery.h"
+
+#include "base/memory.h"
+
+sb_status sb_stress_collect(const sb_bench *bench, const sb_stress *of, bool quick, sb_stress_results *results,
+                            sb_error *error)
+{
+    *results = (sb_stress_results){.of = of, .trials.assets = bench->assets};
+    of->plan(&results->trials, quick);
+    const size_t count = results->trials.count;
+    results->judged = sb_alloc(count, sizeof *results->judged);
+    if (results->trials.incomplete || !results->judged) return sb_fail_memory(error, "trials");
+    for (size_t i = 0; i < count; i++) {
+        const sb_order order = {of, &results->trials.list[i]};
+        results->judged[i].trial = order.trial;
+        results->judged[i].outcome = sb_bench_recall(bench, &order);
+        if (results->judged[i].outcome.there) sb_judge_common(&results->judged[i]);
+    }
+    if (of->judge) of->judge(results->judged, count);
+    for (size_t i = 0; i < count; i++) {
+        results->run += results->judged[i].outcome.there;
+        results->failed += results->judged[i].outcome.there && results->judged[i].fails;
+    }
+    return SB_OK;
+}
+
+void sb_stress_results_free(sb_stress_results *results)
+{
+    for (size_t i = 0; results->judged && i < results->trials.count; i++)
+        sb_outcome_free(&results->judged[i].outcome);
+    sb_free(results->judged);
+    sb_trials_free(&results->trials);
+    *results = (sb_stress_results){0};
+}

@@ -1,0 +1,215 @@
+#include "bench.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <omp.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { ARGUMENTS = 2 * SB_TRIAL_SETTINGS + 16, POLL = 5000 /* us */ };
+
+static const double grace = 60;               /* s that a run may take to stop when it is told */
+static const rlim_t memory = (rlim_t)4 << 30; /* bytes of addresses: a trial may not starve the machine */
+
+typedef struct worker {
+    pid_t process; /* 0: the place is free */
+    const sb_order *order;
+    sb_outcome outcome;
+    double start;
+    bool told, killed;
+} worker;
+
+static volatile sig_atomic_t stopped_by;
+
+static void stop(int number)
+{
+    stopped_by = number;
+}
+
+static void redirect(const char *path, int flags, int to)
+{
+    int file = open(path, flags, 0644);
+    if (file < 0 || dup2(file, to) < 0) _exit(126);
+    close(file);
+}
+
+/* In the child: the program itself, on the trial's scene. */
+static _Noreturn void become(const sb_bench *bench, const sb_trial *t, const char *folder)
+{
+    char *arguments[ARGUMENTS], scene[SB_PATH_MAX];
+    int count = 0;
+    if (sb_path_join(scene, bench->assets, t->scene, NULL) != SB_OK) _exit(126);
+    const char *const first[] = {"shorebreak", t->kind == SB_TRIAL_CHECK ? "check" : "run", scene};
+    const char *const more[] = {"--quiet", "--out", folder};
+    for (int i = 0; i < 3; i++) arguments[count++] = (char *)(uintptr_t)first[i];
+    for (int i = 0; i < 3 && t->kind == SB_TRIAL_RUN; i++) arguments[count++] = (char *)(uintptr_t)more[i];
+    for (size_t i = 0; i < t->setting_count; i++) {
+        arguments[count++] = (char *)(uintptr_t) "--set";
+        arguments[count++] = (char *)(uintptr_t)t->settings[i];
+    }
+    arguments[count] = NULL;
+    execv(bench->program, arguments);
+    _exit(127);
+}
+
+/* In the child: the simulation step by step, its end told as the program tells it. */
+static _Noreturn void drive(const sb_bench *bench, const sb_trial *t, const char *folder)
+{
+    sb_error error = {0};
+    omp_set_num_threads(1);
+    sb_status status = sb_drive_run(t, bench->assets, folder, &error);
+    if (status != SB_OK) fprintf(stderr, "shorebreak: %s\n", error.text);
+    fflush(NULL);
+    _exit((int)status);
+}
+
+static _Noreturn void child(const sb_bench *bench, const sb_trial *t, const char *folder)
+{
+    char said[SB_PATH_MAX + 16];
+    const struct rlimit most = {memory, memory}, none = {0, 0};
+    signal(SIGINT, SIG_DFL);
+    signal(SIGTERM, SIG_DFL);
+    snprintf(said, sizeof said, "%s/output.txt", folder);
+    redirect("/dev/null", O_RDONLY, STDIN_FILENO);
+    redirect(said, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
+    dup2(STDOUT_FILENO, STDERR_FILENO);
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    setrlimit(RLIMIT_AS, &most);
+    setrlimit(RLIMIT_CORE, &none);
+    setenv("OMP_NUM_THREADS", "1", 1);
+    setenv("OMP_WAIT_POLICY", "passive", 1);
+    if (t->kind == SB_TRIAL_DRIVEN) drive(bench, t, folder);
+    become(bench, t, folder);
+}
+
+static sb_status begin(const sb_bench *bench, const sb_order *order, worker *w, sb_error *error)
+{
+    *w = (worker){.order = order, .start = sb_clock()};
+    sb_status status = sb_bench_folder(bench, order, w->outcome.folder, error);
+    if (status == SB_OK) status = sb_bench_clear(w->outcome.folder, error);
+    if (status != SB_OK) return status;
+    fflush(NULL);
+    pid_t process = fork();
+    if (process < 0) return sb_fail(error, SB_FAILED, "cannot start a trial: %s", strerror(errno));
+    if (process == 0) child(bench, order->trial, w->outcome.folder);
+    w->process = process;
+    return SB_OK;
+}
+
+/* The last line that is not a warning, or else the last. */
+static void last_words(sb_outcome *o)
+{
+    char path[SB_PATH_MAX], line[512];
+    bool sure = false;
+    FILE *in = sb_path_join(path, o->folder, "output.txt", NULL) == SB_OK ? fopen(path, "r") : NULL;
+    while (in && fgets(line, sizeof line, in)) {
+        line[strcspn(line, "\r\n")] = '\0';
+        bool warning = strncmp(line, "shorebreak: warning:", 20) == 0;
+        if (!line[0] || (warning && sure)) continue;
+        snprintf(o->said, sizeof o->said, "%.399s", line);
+        sure = !warning;
+    }
+    if (in) fclose(in);
+}
+
+static void classify(worker *w, int how)
+{
+    sb_outcome *o = &w->outcome;
+    const int status = WIFEXITED(how) ? WEXITSTATUS(how) : -1;
+    o->how = status == 0                                                     ? SB_ENDS_WELL
+             : status == SB_BAD_INPUT                                        ? SB_ENDS_REFUSED
+             : status == SB_FAILED                                           ? SB_ENDS_FAILED
+             : w->told && !w->killed && (status == SB_INTERRUPTED || status == 128 + SIGTERM)
+                 ? SB_ENDS_STOPPED
+                 : 0;
+    if (w->killed)
+        snprintf(o->ended, sizeof o->ended, w->told ? "hung: did not stop when told" : "hung: out of patience");
+    else if (WIFEXITED(how))
+        snprintf(o->ended, sizeof o->ended, "exit status %d", status);
+    else
+        snprintf(o->ended, sizeof o->ended, "signal %d", WTERMSIG(how));
+}
+
+static sb_status end(const sb_bench *bench, worker *w, int how, sb_error *error)
+{
+    w->process = 0;
+    if (stopped_by) return SB_OK;
+    w->outcome.there = true;
+    w->outcome.wall = sb_clock() - w->start;
+    classify(w, how);
+    last_words(&w->outcome);
+    printf("%s %s: %s, %.1f s\n", w->order->of->name, w->order->trial->name, w->outcome.ended, w->outcome.wall);
+    return sb_bench_keep(bench, w->order, &w->outcome, error);
+}
+
+/* Tells runs to stop whose time is up, and kills those that hang. */
+static void watch(worker *w)
+{
+    const double spent = sb_clock() - w->start, after = w->order->trial->stop_after;
+    const bool late = spent > w->order->trial->patience || (w->told && after > 0 && spent > after + grace);
+    if (stopped_by || late) {
+        w->killed |= !stopped_by;
+        kill(w->process, SIGKILL);
+    } else if (after > 0 && spent > after && !w->told) {
+        w->told = true;
+        kill(w->process, SIGTERM);
+    }
+}
+
+/* Looks after the runs once. Whether one has ended. */
+static bool poll_once(const sb_bench *bench, worker *workers, int jobs, sb_status *status, sb_error *error)
+{
+    bool ended = false;
+    for (int i = 0; i < jobs; i++) {
+        int how;
+        if (!workers[i].process) continue;
+        watch(&workers[i]);
+        if (waitpid(workers[i].process, &how, WNOHANG) != workers[i].process) continue;
+        sb_status kept = end(bench, &workers[i], how, *status == SB_OK ? error : NULL);
+        if (*status == SB_OK) *status = kept;
+        ended = true;
+    }
+    return ended;
+}
+
+static int find_place(const worker *workers, int jobs, bool busy)
+{
+    for (int i = 0; i < jobs; i++)
+        if ((workers[i].process != 0) == busy) return i;
+    return -1;
+}
+
+sb_status sb_crew_run(const sb_bench *bench, const sb_order *orders, size_t count, int jobs, sb_error *error)
+{
+    struct sigaction now = {.sa_handler = stop}, interrupt, terminate;
+    worker *workers = sb_alloc((size_t)jobs, sizeof *workers);
+    if (!workers) return sb_fail_memory(error, "trials");
+    stopped_by = 0;
+    sigaction(SIGINT, &now, &interrupt);
+    sigaction(SIGTERM, &now, &terminate);
+    sb_status status = SB_OK;
+    for (size_t i = 0; i < count && status == SB_OK && !stopped_by; i++) {
+        if (sb_bench_has(bench, &orders[i])) continue;
+        int place;
+        while ((place = find_place(workers, jobs, false)) < 0)
+            if (!poll_once(bench, workers, jobs, &status, error)) usleep(POLL);
+        if (status == SB_OK && !stopped_by) status = begin(bench, &orders[i], &workers[place], error);
+    }
+    while (find_place(workers, jobs, true) >= 0)
+        if (!poll_once(bench, workers, jobs, &status, error)) usleep(POLL);
+    sigaction(SIGINT, &interrupt, NULL);
+    sigaction(SIGTERM, &terminate, NULL);
+    sb_free(workers);
+    if (status == SB_OK && stopped_by)
+        status = sb_fail(error, SB_INTERRUPTED, "stopped; started again, it goes on from here");
+    return status;
+}

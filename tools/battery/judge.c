@@ -1,0 +1,91 @@
+#include "stress.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+static void add(char *text, size_t size, const char *between, const char *format, va_list arguments)
+{
+    size_t length = strlen(text);
+    if (length) length += (size_t)snprintf(text + length, size - length, "%s", between);
+    if (length < size) vsnprintf(text + length, size - length, format, arguments);
+}
+
+void sb_require(sb_judged *judged, bool holds, const char *why, ...)
+{
+    if (holds) return;
+    judged->fails = true;
+    va_list arguments;
+    va_start(arguments, why);
+    add(judged->why, sizeof judged->why, "; ", why, arguments);
+    va_end(arguments);
+}
+
+void sb_note(sb_judged *judged, const char *figure, ...)
+{
+    va_list arguments;
+    va_start(arguments, figure);
+    add(judged->figure, sizeof judged->figure, ", ", figure, arguments);
+    va_end(arguments);
+}
+
+sb_judged *sb_judged_find(sb_judged *all, size_t count, const char *name)
+{
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(all[i].trial->name, name) == 0 && all[i].outcome.there) return &all[i];
+    return NULL;
+}
+
+double sb_energy_of(const sb_judged *judged, bool end)
+{
+    const char *at = end ? "energy_end" : "energy_start";
+    return sb_outcome_number_in(&judged->outcome, at, "kinetic_J") +
+           sb_outcome_number_in(&judged->outcome, at, "potential_J");
+}
+
+static void judge_end(sb_judged *judged)
+{
+    const sb_outcome *o = &judged->outcome;
+    sb_require(judged, o->how & judged->trial->ends, "%s: %.200s", o->ended, o->said);
+    /* Whoever refuses or fails says why, in a line of the program's own. */
+    if (o->how & (SB_ENDS_REFUSED | SB_ENDS_FAILED))
+        sb_require(judged, strncmp(o->said, "shorebreak: ", 12) == 0 && strlen(o->said) > 20,
+                   "no reason given: \"%.100s\"", o->said);
+    sb_require(judged, !o->not_a_number[0], "not a number in %s", o->not_a_number);
+}
+
+/* Particles that leave are counted, and all others are still there: by the water's mass. */
+static void judge_count(sb_judged *judged)
+{
+    const sb_outcome *o = &judged->outcome;
+    const double all = sb_outcome_number(o, "fluid_particles"), left = sb_outcome_number(o, "left_domain");
+    const double lost = sb_outcome_number(o, "lost_particles");
+    const double first = sb_outcome_number_in(o, "energy_start", "mass_kg");
+    const double last = sb_outcome_number_in(o, "energy_end", "mass_kg");
+    if (!(all > 0 && first > 0)) return;
+    sb_require(judged, lost == 0, "%g particles lost", lost);
+    /* What left before t = 0 is in neither mass; how many were there at t = 0 is a whole number all the same. */
+    const double now = all - left - lost, began = last > 0 ? now * first / last : now;
+    sb_require(judged, (now > 0) == (last > 0) && fabs(began - round(began)) < 1e-6 * all && began < all + 0.5,
+               "particles unaccounted for: %g of %g left, %g lost, %.9g kg remain of %.9g", left, all, lost, last,
+               first);
+    if (left > 0) sb_note(judged, "%g left", left);
+}
+
+void sb_judge_common(sb_judged *judged)
+{
+    const sb_outcome *o = &judged->outcome;
+    judge_end(judged);
+    if (judged->trial->kind == SB_TRIAL_CHECK || o->how == SB_ENDS_REFUSED) return;
+    if (!o->summary) {
+        sb_require(judged, o->how != SB_ENDS_WELL && o->how != SB_ENDS_STOPPED, "no summary.json");
+        return;
+    }
+    const double through = sb_outcome_number(o, "through_walls"), unsaid = sb_outcome_number(o, "unreported_solves");
+    const double bad = sb_outcome_number(o, "not_finite");
+    sb_require(judged, through == 0, "%g particles through walls", through);
+    sb_require(judged, !(unsaid > 0), "%g solves stopped above their tolerance unreported", unsaid);
+    sb_require(judged, !(bad > 0), "%g numbers not finite", bad);
+    judge_count(judged);
+}

@@ -1,0 +1,97 @@
+/* The same bore seen from elsewhere: moved, turned, mirrored. Forces may not know. */
+#include "stresses.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { SEEDS = 5 };
+
+/* An isometry of the plan view: x' = xx x + xy y + x0, y' likewise. Turns are by quarters, so that boxes stay boxes. */
+typedef struct frame {
+    const char *name;
+    double xx, xy, yx, yy, x0, y0, z0;
+} frame;
+
+static const frame frames[] = {
+    {"moved-1e3", 1, 0, 0, 1, 1e3, -1e3, 50},      {"moved-1e5", 1, 0, 0, 1, 1e5, 1e5, -50},
+    {"moved-1e6", 1, 0, 0, 1, -1e6, 1e6, 1000},    {"turned-90", 0, -1, 1, 0, 0, 0, 0},
+    {"turned-180", -1, 0, 0, -1, 0, 0, 0},         {"turned-270", 0, 1, -1, 0, 0, 0, 0},
+    {"mirrored-x", -1, 0, 0, 1, 0, 0, 0},          {"mirrored-y", 1, 0, 0, -1, 0, 0, 0},
+    {"turned-90-moved-1e6", 0, -1, 1, 0, 1e6, 1e6, 0},
+};
+enum { FRAMES = sizeof frames / sizeof *frames };
+
+static sb_vec3 seen(const frame *f, sb_vec3 at)
+{
+    return sb_vec(f->xx * at.x + f->xy * at.y + f->x0, f->yx * at.x + f->yy * at.y + f->y0, at.z + f->z0);
+}
+
+/* A force turned back to the frame of the scene. */
+static sb_vec3 unseen(const frame *f, sb_vec3 v)
+{
+    return sb_vec(f->xx * v.x + f->yx * v.y, f->xy * v.x + f->yy * v.y, v.z);
+}
+
+static void set_box(sb_trial *t, const frame *f, const char *key, sb_vec3 min, sb_vec3 max)
+{
+    const sb_vec3 a = seen(f, min), b = seen(f, max), low = sb_min(a, b), high = sb_max(a, b);
+    sb_trial_set(t, "%s.min=[%.12g, %.12g, %.12g]", key, low.x, low.y, low.z);
+    sb_trial_set(t, "%s.max=[%.12g, %.12g, %.12g]", key, high.x, high.y, high.z);
+}
+
+static void plan(sb_trials *trials, bool quick)
+{
+    for (int s = 1; s <= SEEDS; s++)
+        sb_trial_set(sb_trial_add(trials, "bore.yaml", "seed-%d", s), "numerics.seed=%d", s);
+    for (int i = 0; i < FRAMES; i++) {
+        if (quick && i != 2 && i != 3 && i != 6) continue;
+        sb_trial *t = sb_trial_add(trials, "bore.yaml", "%s", frames[i].name);
+        set_box(t, &frames[i], "domain", sb_vec(0, 0, 0), sb_vec(1.6, 0.6, 0.75));
+        set_box(t, &frames[i], "water.boxes[0]", sb_vec(0, 0, 0), sb_vec(0.4, 0.6, 0.3));
+        set_box(t, &frames[i], "bodies.column", sb_vec(0.9, 0.2, 0), sb_vec(1.1, 0.4, 0.75));
+    }
+}
+
+static sb_vec3 impulse_of(const sb_judged *j)
+{
+    sb_vec3 impulse = sb_outcome_vector(&j->outcome, "column", "impulse_vector_Ns");
+    for (int i = 0; i < FRAMES; i++)
+        if (strcmp(frames[i].name, j->trial->name) == 0) return unseen(&frames[i], impulse);
+    return impulse;
+}
+
+static void judge(sb_judged *all, size_t count)
+{
+    double low = HUGE_VAL, high = -HUGE_VAL, side = 0, mean = 0;
+    int seeds = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (!all[i].outcome.there || strncmp(all[i].trial->name, "seed-", 5) != 0) continue;
+        const sb_vec3 impulse = impulse_of(&all[i]);
+        low = fmin(low, impulse.x);
+        high = fmax(high, impulse.x);
+        side = fmax(side, fabs(impulse.y));
+        mean += impulse.x;
+        seeds++;
+    }
+    mean /= seeds;
+    for (size_t i = 0; i < count; i++) {
+        sb_judged *j = &all[i];
+        if (!j->outcome.there) continue;
+        const sb_vec3 impulse = impulse_of(j);
+        sb_note(j, "impulse %.2f N s along the bore, %+.2f across", impulse.x, impulse.y);
+        if (strncmp(j->trial->name, "seed-", 5) == 0) continue;
+        sb_note(j, "five seeds %.2f to %.2f", low, high);
+        sb_require(j, seeds == SEEDS, "the seeds have not run");
+        sb_require(j, fabs(impulse.x - mean) <= high - low, "beyond the seeds' spread");
+        sb_require(j, fabs(impulse.y) <= side + (high - low), "pushed aside beyond the seeds' spread");
+    }
+}
+
+const sb_stress sb_stress_frame = {
+    .name = "frame",
+    .title = "The scene moved, turned and mirrored",
+    .rule = "The impulse on the column differs from the mean of five start seeds by no more than their spread (largest "
+            "minus smallest).",
+    .plan = plan,
+    .judge = judge,
+};

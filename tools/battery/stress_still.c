@@ -1,0 +1,58 @@
+/* Still water for ten thousand steps. */
+#include "stresses.h"
+
+#include <math.h>
+
+/* Steps of the default rule, 0.15 h/sqrt(g D), that make ten thousand. */
+static double duration(double spacing, double depth, double steps)
+{
+    return steps * 0.15 * 2.5 * spacing / sqrt(9.81 * depth);
+}
+
+static void add(sb_trials *trials, const char *scene, const char *name, double spacing, double depth, double steps)
+{
+    sb_trial *t = sb_trial_add(trials, scene, "%s", name);
+    sb_trial_set(t, "resolution=%g", spacing);
+    sb_trial_set(t, "duration=%g", duration(spacing, depth, steps));
+    sb_trial_drive(t, &sb_drive_plain, steps);
+}
+
+static void plan(sb_trials *trials, bool quick)
+{
+    if (quick) {
+        add(trials, "still.yaml", "slice-0.1", 0.1, 0.5, 1000);
+        return;
+    }
+    add(trials, "still.yaml", "slice-0.1", 0.1, 0.5, 10000);
+    add(trials, "still.yaml", "slice-0.05", 0.05, 0.5, 10000);
+    add(trials, "still.yaml", "slice-0.025", 0.025, 0.5, 10000);
+    add(trials, "basin.yaml", "basin-0.1", 0.1, 0.6, 10000);
+}
+
+static void judge(sb_judged *all, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        sb_judged *j = &all[i];
+        const sb_outcome *o = &j->outcome;
+        if (!o->there) continue;
+        const double speed = sb_outcome_number(o, "late_rms_speed") / sb_outcome_number(o, "wave_speed");
+        const double weight = sb_outcome_number(o, "mass_kg") * sb_outcome_number(o, "gravity");
+        const double rise = (sb_outcome_number_in(o, "energy_end", "potential_J") -
+                             sb_outcome_number_in(o, "energy_start", "potential_J")) /
+                            (weight * sb_outcome_number(o, "resolution_m"));
+        sb_note(j, "mean speed %.2g of √(gD)", speed);
+        sb_note(j, "centre of mass %+.2g δr", rise);
+        sb_require(j, speed < 0.01, "the water does not rest");
+        sb_require(j, fabs(rise) < 0.1, "the water has risen or sunk");
+        sb_require(j, sb_outcome_number(o, "steps") >= 0.99 * j->trial->number, "fewer steps than asked for");
+    }
+}
+
+const sb_stress sb_stress_still = {
+    .name = "still-water",
+    .title = "Still water for 10 000 steps",
+    .rule = "In the second half the root mean square speed stays below 1 % of √(gD); the centre of mass rises or "
+            "sinks by less than a tenth of a spacing.",
+    .plan = plan,
+    .judge = judge,
+};

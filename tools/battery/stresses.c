@@ -1,0 +1,9 @@
+#include "stresses.h"
+
+#include <stddef.h>
+
+const sb_stress *const sb_stresses[] = {
+    &sb_stress_still, &sb_stress_plates, &sb_stress_drop,  &sb_stress_jet,
+    &sb_stress_flume, &sb_stress_film,   &sb_stress_frame, &sb_stress_keys,
+    NULL,
+};
