@@ -76,14 +76,25 @@ static void test_impacts_make_no_energy(void **state)
     must_pass("drop jet");
 }
 
+static void test_each_solver_keeps_its_word(void **state)
+{
+    (void)state;
+    must_pass("time-step tolerance");
+}
+
+static void test_walls_paddles_and_open_sides_hold(void **state)
+{
+    (void)state;
+    must_pass("sampling paddles immersed leaving");
+}
+
 /* Numerics at the ends of their ranges may spoil a run, but not the program. */
 static void test_no_key_crashes_or_hangs(void **state)
 {
     (void)state;
     int status = stress("--quick keys");
-    if (status != 0 && status != 4) fail_msg("exit status %d:\n%s", status, spoken);
-    assert_null(strstr(spoken, "signal"));
-    assert_null(strstr(spoken, "hung"));
+    if ((status != 0 && status != 4) || strstr(spoken, ": signal ") || strstr(spoken, ": hung"))
+        fail_msg("exit status %d:\n%s", status, spoken);
 }
 
 static void test_what_was_run_is_kept(void **state)
@@ -114,9 +125,14 @@ static void test_bad_command_lines(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_still_water_rests),       cmocka_unit_test(test_thin_plates_hold),
-        cmocka_unit_test(test_impacts_make_no_energy),  cmocka_unit_test(test_no_key_crashes_or_hangs),
-        cmocka_unit_test(test_what_was_run_is_kept),    cmocka_unit_test(test_bad_command_lines),
+        cmocka_unit_test(test_still_water_rests),
+        cmocka_unit_test(test_thin_plates_hold),
+        cmocka_unit_test(test_impacts_make_no_energy),
+        cmocka_unit_test(test_each_solver_keeps_its_word),
+        cmocka_unit_test(test_walls_paddles_and_open_sides_hold),
+        cmocka_unit_test(test_no_key_crashes_or_hangs),
+        cmocka_unit_test(test_what_was_run_is_kept),
+        cmocka_unit_test(test_bad_command_lines),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

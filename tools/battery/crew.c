@@ -121,10 +121,18 @@ static void last_words(sb_outcome *o)
     if (in) fclose(in);
 }
 
+/* Whether the run was told to stop before it had opened its log, and had no word for it yet. */
+static bool stopped_early(const worker *w, int how)
+{
+    char path[SB_PATH_MAX];
+    return w->told && WIFSIGNALED(how) && WTERMSIG(how) == SIGTERM &&
+           sb_path_join(path, w->outcome.folder, "run.jsonl", NULL) == SB_OK && access(path, F_OK) != 0;
+}
+
 static void classify(worker *w, int how)
 {
     sb_outcome *o = &w->outcome;
-    const int status = WIFEXITED(how) ? WEXITSTATUS(how) : -1;
+    const int status = WIFEXITED(how) ? WEXITSTATUS(how) : stopped_early(w, how) ? 128 + SIGTERM : -1;
     o->how = status == 0                                                     ? SB_ENDS_WELL
              : status == SB_BAD_INPUT                                        ? SB_ENDS_REFUSED
              : status == SB_FAILED                                           ? SB_ENDS_FAILED

@@ -79,7 +79,7 @@ void sb_judge_common(sb_judged *judged)
     judge_end(judged);
     if (judged->trial->kind == SB_TRIAL_CHECK || o->how == SB_ENDS_REFUSED) return;
     if (!o->summary) {
-        sb_require(judged, o->how != SB_ENDS_WELL && o->how != SB_ENDS_STOPPED, "no summary.json");
+        sb_require(judged, o->how != SB_ENDS_WELL, "no summary.json");
         return;
     }
     const double through = sb_outcome_number(o, "through_walls"), unsaid = sb_outcome_number(o, "unreported_solves");

@@ -1,0 +1,138 @@
+/* Time steps and tolerances far from the defaults, for every solver. */
+#include "stresses.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char *const solvers[] = {"jacobi", "chebyshev", "cg"};
+enum { SOLVERS = sizeof solvers / sizeof *solvers };
+
+/* When the collapse is compared: the water still falls as one. */
+static const double moment = 0.25; /* s */
+
+/* kept: potential energy at that moment, and that of the step before. */
+enum { AT_MOMENT, BEFORE, IS_KNOWN };
+
+static void watch(sb_driven *d)
+{
+    const double time = sb_sim_report(d->sim)->time, now = sb_sim_energy(d->sim).potential;
+    if (time >= moment && !(d->kept[IS_KNOWN] > 0)) {
+        const double before = d->kept[BEFORE] > 0 ? d->kept[BEFORE] : d->first.potential;
+        d->kept[AT_MOMENT] = before + (now - before) * (moment - d->last_time) / (time - d->last_time);
+        d->kept[IS_KNOWN] = 1;
+    }
+    d->kept[BEFORE] = now;
+}
+
+static void finish(sb_driven *d, sb_json *figures)
+{
+    sb_json_number(figures, "fallen_J", d->first.potential - d->kept[AT_MOMENT]);
+}
+
+static const sb_drive drive = {.watch = watch, .close = finish};
+
+static const double steps[] = {0.25, 0.5, 1, 2, 4};
+enum { STEPS = sizeof steps / sizeof *steps };
+
+static void plan_steps(sb_trials *trials, bool quick)
+{
+    for (int s = 0; s < SOLVERS; s++)
+        for (int k = 0; k < STEPS; k++) {
+            if (quick && (s != 1 || k == 1 || k == 3)) continue;
+            sb_trial *t = sb_trial_add(trials, "collapse.yaml", "%s-dt-x%g", solvers[s], steps[k]);
+            sb_trial_set(t, "numerics.solver=%s", solvers[s]);
+            sb_trial_set(t, "numerics.time_step_factor=%.9g", 0.15 * steps[k]);
+            sb_trial_set(t, "numerics.cfl=%.9g", fmin(1, 0.4 * steps[k]));
+            sb_trial_drive(t, &drive, steps[k]);
+        }
+}
+
+/* What the collapse has fallen at the moment, against the shortest step of the same solver. */
+static void judge_steps(sb_judged *all, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        sb_judged *j = &all[i];
+        const sb_outcome *o = &j->outcome;
+        char name[SB_TRIAL_NAME];
+        if (!o->there) continue;
+        snprintf(name, sizeof name, "%.*s-dt-x0.25", (int)strcspn(j->trial->name, "-"), j->trial->name);
+        sb_judged *finest = sb_judged_find(all, count, name);
+        const double fine = finest ? sb_outcome_number(&finest->outcome, "fallen_J") : (double)NAN;
+        const double off = sb_outcome_number(o, "fallen_J") / fine - 1;
+        sb_note(j, "fallen %+.2f %% beside the shortest step", 100 * off);
+        sb_note(j, "%.1f sweeps", sb_outcome_number(o, "mean_iterations"));
+        sb_note(j, "density error left %.1e", sb_outcome_number(o, "mean_density_error"));
+        sb_require(j, fabs(off) <= 0.01 * j->trial->number, "more than 1 %% per default step off");
+        sb_require(j, sb_outcome_number(o, "energy_peak_J") / sb_energy_of(j, false) < 1.005, "energy is made");
+    }
+}
+
+const sb_stress sb_stress_steps = {
+    .name = "time-step",
+    .title = "Time steps from a quarter to four times the default's, each solver",
+    .rule = "What a collapsing column has fallen at 0.25 s differs from the shortest step's by at most 1 % for each "
+            "default step in the time step; energy never rises by more than 0.5 %.",
+    .plan = plan_steps,
+    .judge = judge_steps,
+};
+
+static void plan_tolerances(sb_trials *trials, bool quick)
+{
+    for (int s = 0; s < SOLVERS; s++) {
+        for (int k = 2; k <= 5; k++) {
+            if (quick && k % 2) continue;
+            sb_trial *t = sb_trial_add(trials, "collapse.yaml", "%s-1e-%d", solvers[s], k);
+            sb_trial_set(t, "numerics.solver=%s", solvers[s]);
+            sb_trial_set(t, "numerics.tolerance_rule=density");
+            sb_trial_set(t, "numerics.tolerance=1e-%d", k);
+            sb_trial_set(t, "numerics.min_iterations=1");
+            sb_trial_set(t, "numerics.max_iterations=5000");
+            if (quick) sb_trial_set(t, "duration=0.3");
+            sb_trial_drive(t, &drive, k);
+        }
+        sb_trial *t = sb_trial_add(trials, "collapse.yaml", "%s-capped", solvers[s]);
+        sb_trial_set(t, "numerics.solver=%s", solvers[s]);
+        sb_trial_set(t, "numerics.tolerance_rule=density");
+        sb_trial_set(t, "numerics.tolerance=1e-9");
+        sb_trial_set(t, "numerics.max_iterations=3");
+        sb_trial_drive(t, &drive, 0);
+    }
+}
+
+static void judge_tolerances(sb_judged *all, size_t count)
+{
+    const sb_judged *looser = NULL;
+    for (size_t i = 0; i < count; i++) {
+        sb_judged *j = &all[i];
+        const sb_outcome *o = &j->outcome;
+        if (!o->there) continue;
+        const double left = sb_outcome_number(o, "mean_density_error");
+        const double sweeps = sb_outcome_number(o, "mean_iterations");
+        const double share = sb_outcome_number(o, "error_over_tolerance");
+        sb_note(j, "density error left %.1e", left);
+        sb_note(j, "%.1f sweeps", sweeps);
+        if (!(j->trial->number > 0)) { /* it cannot, and has to say so */
+            const double capped = sb_outcome_number(o, "capped_steps"), steps_done = sb_outcome_number(o, "steps");
+            sb_require(j, capped > 0.9 * steps_done, "%g of %g steps told as capped", capped, steps_done);
+            continue;
+        }
+        sb_require(j, share <= 1, "a solve left %g times its tolerance", share);
+        const double before = looser ? looser->trial->number : 0;
+        if (before > 0 && before < j->trial->number &&
+            strncmp(looser->trial->name, j->trial->name, strcspn(j->trial->name, "-")) == 0) {
+            sb_require(j, left < sb_outcome_number(&looser->outcome, "mean_density_error"), "the error does not fall");
+            sb_require(j, sweeps > sb_outcome_number(&looser->outcome, "mean_iterations"), "no more sweeps");
+        }
+        looser = j;
+    }
+}
+
+const sb_stress sb_stress_tolerances = {
+    .name = "tolerance",
+    .title = "Tolerances from 1e-2 to 1e-5, each solver",
+    .rule = "Every solve not told as capped ends within its tolerance; the error left falls and the sweeps rise from "
+            "each tolerance to the next; with three sweeps for 1e-9 nine steps in ten are told as capped.",
+    .plan = plan_tolerances,
+    .judge = judge_tolerances,
+};
