@@ -29,6 +29,9 @@ extern const sb_pressure_solver sb_solver_jacobi, sb_solver_chebyshev, sb_solver
 void sb_pressure_load(sb_sim *sim, const float *argument);
 /* acceleration = G argument: a_i = -[sum_j m (q_i + q_j) grad W_ij + q_i B_i]. */
 void sb_pressure_accelerate(sb_sim *sim);
+/* The second pass of a product: out = dt^2 [sum_j m (a_i - a_j) . grad W_ij + a_i . B_i], of the accelerations and
+   their ghosts'. */
+void sb_pressure_diverge(sb_sim *sim, float *out);
 /* out = A argument, both passes: dt^2 [sum_j m (a_i - a_j) . grad W_ij + a_i . B_i]. */
 void sb_pressure_product(sb_sim *sim, float *out);
 

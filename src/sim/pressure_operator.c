@@ -71,15 +71,20 @@ void sb_pressure_accelerate(sb_sim *sim)
         accelerate_block(sim, b);
 }
 
-void sb_pressure_product(sb_sim *sim, float *out)
+void sb_pressure_diverge(sb_sim *sim, float *out)
 {
     const size_t blocks = sb_blocks(sim);
     const float dt = (float)sim->report.time_step;
-    sb_pressure_accelerate(sim);
-    sb_ghosts_refresh(sim, sim->acceleration);
 #pragma omp parallel for schedule(dynamic, 1)
     for (size_t b = 0; b < blocks; b++)
         diverge_block(sim, b, dt * dt, out);
+}
+
+void sb_pressure_product(sb_sim *sim, float *out)
+{
+    sb_pressure_accelerate(sim);
+    sb_ghosts_refresh(sim, sim->acceleration);
+    sb_pressure_diverge(sim, out);
 }
 
 void sb_pressure_residual(sb_sim *sim)

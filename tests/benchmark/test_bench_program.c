@@ -1,0 +1,124 @@
+/* Each section once at its quick size: that the tables hold what the report looks up, and that work repeats. */
+#include "report.h"
+#include "subject.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <omp.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+static const sb_bench_request request = {
+    .assets = SB_SOURCE_DIR "/assets", .repeats = 2, .threads = 2, .quick = true};
+
+static sb_bench_rows rows_of(const char *section)
+{
+    sb_bench_rows rows = {0};
+    sb_error error = {0};
+    if (sb_bench_section_find(section)->run(&request, &rows, &error) != SB_OK)
+        fail_msg("%s: %s", section, error.text);
+    for (size_t i = 0; i < rows.count; i++)
+        if (!(rows.rows[i].least <= rows.rows[i].median && rows.rows[i].median <= rows.rows[i].most))
+            fail_msg("%s: %s: no number", rows.rows[i].subject, rows.rows[i].quantity);
+    return rows;
+}
+
+static double median_of(const sb_bench_rows *rows, const char *subject, const char *quantity)
+{
+    const sb_bench_row *row = sb_bench_find(rows, subject, 0, 0, quantity);
+    if (!row) fail_msg("no row %s, %s", subject, quantity);
+    return row->median;
+}
+
+static void kernels_stand_beside_the_machine(void **state)
+{
+    (void)state;
+    static const char *const names[] = {
+        "sort", "neighbours", "forces", "source", "pressure acceleration", "pressure divergence"};
+    sb_bench_rows rows = rows_of("kernels");
+    assert_true(median_of(&rows, "machine", "copy bandwidth") > 0.1);
+    assert_true(median_of(&rows, "machine", "arithmetic") > 0.1);
+    for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
+        assert_true(median_of(&rows, names[k], SB_BENCH_PER_PARTICLE) > 0);
+        assert_true(median_of(&rows, names[k], "share of bandwidth") > 0);
+    }
+    const double step = median_of(&rows, SB_BENCH_STEP, SB_BENCH_PER_PARTICLE);
+    assert_true(10 * median_of(&rows, SB_BENCH_ITERATION, SB_BENCH_PER_PARTICLE) < step);
+    assert_true(median_of(&rows, "sort and search", SB_BENCH_PER_PARTICLE) < step);
+    sb_bench_rows_free(&rows);
+}
+
+static void scaling_has_both_teams(void **state)
+{
+    (void)state;
+    sb_bench_rows rows = rows_of("scaling");
+    assert_int_equal(rows.count, 4);
+    assert_true(sb_bench_growth(&rows) > 0);
+    assert_true(sb_bench_efficiency(&rows, rows.rows[0].particles, 2) > 0);
+    sb_bench_rows_free(&rows);
+}
+
+/* The bytes of a field are exact, whatever the machine is doing. */
+static void memory_adds_up(void **state)
+{
+    (void)state;
+    sb_bench_rows rows = rows_of("memory");
+    const double pairs = median_of(&rows, "plant but coarser", "pairs per particle");
+    assert_true(pairs > 20 && pairs < 120);
+    assert_true(fabs(median_of(&rows, "plant but coarser", "pair lists in use") - 8 * pairs) < 0.01 * pairs);
+    assert_true(median_of(&rows, "plant but coarser by the program", "peak memory") > 8 * pairs);
+    const double land = median_of(&rows, "shore", "boundary particles");
+    assert_true(median_of(&rows, "shore with ten times the land", "boundary particles") > 2 * land);
+    sb_bench_rows_free(&rows);
+}
+
+/* In a process of its own: the sections fork, which OpenMP must not have run before. */
+static int repeat_twice(void)
+{
+    sb_bench_subject subject;
+    char resolution[32];
+    double seconds;
+    sb_bench_basin(1000, resolution);
+    const sb_override overrides[] = {{"resolution", resolution}, {"numerics.settle_steps", "3"}};
+    omp_set_num_threads(1);
+    if (sb_bench_subject_make(SB_SOURCE_DIR "/assets/benchmark/basin.yaml", overrides, 2, 1, &subject, NULL) != SB_OK)
+        return 1;
+    int wrong = sb_bench_repeat(&subject, 2, &seconds, NULL, NULL) != SB_OK;
+    omp_set_num_threads(3);
+    wrong |= sb_bench_repeat(&subject, 2, &seconds, NULL, NULL) != SB_OK;
+    wrong |= sb_bench_repeat(&subject, 1, &seconds, NULL, NULL) != SB_FAILED; /* other work, another hash */
+    subject.state.bytes[subject.state.used / 2] ^= 1;
+    wrong |= sb_bench_restore(&subject, NULL) == SB_OK;
+    sb_bench_subject_free(&subject);
+    return wrong;
+}
+
+static void repeats_do_the_same_work_or_fail(void **state)
+{
+    (void)state;
+    int ended;
+    const pid_t process = fork();
+    if (process == 0) _exit(repeat_twice());
+    assert_true(process > 0);
+    assert_int_equal(waitpid(process, &ended, 0), process);
+    assert_true(WIFEXITED(ended));
+    assert_int_equal(WEXITSTATUS(ended), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(kernels_stand_beside_the_machine),
+        cmocka_unit_test(scaling_has_both_teams),
+        cmocka_unit_test(memory_adds_up),
+        cmocka_unit_test(repeats_do_the_same_work_or_fail),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,195 @@
+/* The stages of a step and the passes of a pressure iteration, in a basin of water at rest. */
+#include "base/clock.h"
+#include "base/memory.h"
+#include "child.h"
+#include "limits.h"
+#include "sections.h"
+#include "sim/pressure.h"
+#include "subject.h"
+
+#include "base/file.h"
+
+#include <omp.h>
+#include <string.h>
+
+/* The passes of one iteration, timed one by one. */
+enum pass { LOAD, ACCELERATION, DIVERGENCE, JUDGEMENT, PASSES };
+enum { ITERATIONS = 10, MEGABYTES = 256, MEGABYTES_QUICK = 16 };
+
+/* The least that a pass must move and compute: bytes that no cache of the usual size keeps until they are needed
+   again (fields once per particle, lists once per pair; a neighbour's record is taken to be in a cache), and
+   operations on floats. */
+typedef struct work {
+    const char *name;
+    double bytes_particle, bytes_pair, operations_pair;
+} work;
+
+static const work works[] = {
+    /* lists written; of the 27 cells' particles 1 in 6.4 is a neighbour; 8 operations for each, 25 for a kernel */
+    {"neighbours", 16 + 40 + 12, 8, 6.4 * 8 + 25},
+    {"forces", 16 + 16 + 4 + 6 + 16, 8, 30},
+    {"source", 16 + 16 + 16 + 6 + 8, 8, 15},
+    {"sort", 3 * 36 + 4 * 16, 0, 0},
+    {"pressure load", 4 + 16 + 16, 0, 0},
+    {"pressure acceleration", 16 + 16 + 6 + 16, 8, 11},
+    {"pressure divergence", 16 + 16 + 16 + 6 + 4, 8, 15},
+};
+
+static const work *work_of(const char *name)
+{
+    for (size_t w = 0; w < sizeof works / sizeof works[0]; w++)
+        if (strcmp(works[w].name, name) == 0) return &works[w];
+    return NULL;
+}
+
+typedef struct context {
+    const sb_bench_request *request;
+    size_t particles;
+} context;
+
+static void time_passes(sb_sim *sim, double seconds[PASSES])
+{
+    double at[PASSES + 1];
+    at[LOAD] = sb_clock();
+    sb_pressure_load(sim, sim->unknown);
+    at[ACCELERATION] = sb_clock();
+    sb_pressure_accelerate(sim);
+    at[DIVERGENCE] = sb_clock();
+    sb_pressure_diverge(sim, sim->residual);
+    at[JUDGEMENT] = sb_clock();
+    sb_pressure_judge(sim);
+    at[PASSES] = sb_clock();
+    for (int p = 0; p < PASSES; p++) seconds[p] = at[p + 1] - at[p];
+}
+
+/* Times of all repeats. */
+typedef struct times {
+    sb_bench_samples stage[SB_STAGES_MAX], load, acceleration, divergence, judgement, step;
+} times;
+
+static sb_status measure(sb_bench_subject *subject, int repeats, times *t, sb_error *error)
+{
+    sb_status status = SB_OK;
+    for (int r = 0; r < repeats && status == SB_OK; r++) {
+        double step, stage[SB_STAGES_MAX], pass[PASSES];
+        status = sb_bench_repeat(subject, 1, &step, stage, error);
+        if (status != SB_OK) break;
+        time_passes(subject->sim, pass);
+        sb_bench_sample(&t->step, step);
+        for (size_t s = 0; s < SB_STAGES_MAX; s++) sb_bench_sample(&t->stage[s], stage[s]);
+        sb_bench_sample(&t->load, pass[LOAD]);
+        sb_bench_sample(&t->acceleration, pass[ACCELERATION]);
+        sb_bench_sample(&t->divergence, pass[DIVERGENCE]);
+        sb_bench_sample(&t->judgement, pass[JUDGEMENT]);
+    }
+    return status;
+}
+
+/* A pass's rows: per particle, per pair, and its share of what memory and arithmetic would allow. */
+static sb_status add_pass(sb_bench_rows *rows, const char *name, size_t n, double pairs,
+                          const sb_bench_samples *samples, const sb_bench_limits *limits, sb_error *error)
+{
+    const int threads = omp_get_max_threads();
+    const double per_particle = 1 / (double)n;
+    sb_status status =
+        sb_bench_add(rows, name, n, threads, SB_BENCH_PER_PARTICLE, "ns", samples, 1e9 * per_particle, error);
+    const double median = status == SB_OK ? 1e-9 * rows->rows[rows->count - 1].median : 0;
+    const work *of = work_of(name);
+    if (!of || !(median > 0)) return status;
+    const double bytes = of->bytes_particle + pairs * of->bytes_pair, operations = pairs * of->operations_pair;
+    if (status == SB_OK && of->bytes_pair > 0)
+        status =
+            sb_bench_add(rows, name, n, threads, "time per pair", "ns", samples, 1e9 * per_particle / pairs, error);
+    if (status == SB_OK)
+        status = sb_bench_add_value(rows, name, n, threads, "share of bandwidth", "%",
+                                    100 * bytes / (median * limits->copy), error);
+    if (status == SB_OK && operations > 0)
+        status = sb_bench_add_value(rows, name, n, threads, "share of arithmetic", "%",
+                                    100 * operations / (median * limits->arithmetic), error);
+    return status;
+}
+
+/* Neighbour search and sort are judged together. */
+static sb_bench_samples sum_of(const times *t, const sb_stage_time *stages, size_t count, const char *a,
+                               const char *b)
+{
+    sb_bench_samples sum = {.count = 0};
+    for (int r = 0; r < t->step.count; r++) {
+        double value = 0;
+        for (size_t s = 0; s < count; s++)
+            if (strcmp(stages[s].name, a) == 0 || strcmp(stages[s].name, b) == 0) value += t->stage[s].value[r];
+        sb_bench_sample(&sum, value);
+    }
+    return sum;
+}
+
+static sb_status add_all(const sb_bench_subject *subject, const times *t, const sb_bench_limits *limits,
+                         sb_bench_rows *rows, sb_error *error)
+{
+    const sb_stage_time *stages;
+    const size_t n = subject->sim->n, count = sb_sim_stages(subject->sim, &stages);
+    const double pairs = (double)subject->sim->pairs.used / (double)n;
+    const sb_bench_samples search = sum_of(t, stages, count, "sort", "neighbours");
+    const sb_bench_samples pressure = sum_of(t, stages, count, "pressure", "pressure");
+    sb_status status =
+        sb_bench_add_value(rows, "basin", n, omp_get_max_threads(), "pairs per particle", "1", pairs, error);
+    for (size_t s = 0; status == SB_OK && s < count; s++)
+        status = add_pass(rows, stages[s].name, n, pairs, &t->stage[s], limits, error);
+    const struct {
+        const char *name;
+        const sb_bench_samples *samples;
+        double factor;
+    } passes[] = {
+        {"pressure load", &t->load, 1},
+        {"pressure acceleration", &t->acceleration, 1},
+        {"pressure divergence", &t->divergence, 1},
+        {"pressure judgement", &t->judgement, 1},
+        {"sort and search", &search, 1},
+        {SB_BENCH_STEP, &t->step, 1},
+    };
+    for (size_t p = 0; status == SB_OK && p < sizeof passes / sizeof passes[0]; p++)
+        status = add_pass(rows, passes[p].name, n, pairs, passes[p].samples, limits, error);
+    if (status == SB_OK) /* the stage is its iterations, a first guess and a last acceleration */
+        status = sb_bench_add(rows, SB_BENCH_ITERATION, n, omp_get_max_threads(), SB_BENCH_PER_PARTICLE, "ns",
+                              &pressure, 1e9 / ((double)n * ITERATIONS), error);
+    return status;
+}
+
+static sb_status one_size(const void *context_, sb_bench_rows *rows, sb_error *error)
+{
+    const context *c = context_;
+    char path[SB_PATH_MAX], resolution[32];
+    sb_bench_subject subject;
+    sb_bench_limits limits = {0};
+    times *t = sb_alloc(1, sizeof *t);
+    sb_bench_basin(c->particles, resolution);
+    const sb_override overrides[] = {{"resolution", resolution},
+                                     {"numerics.settle_steps", "10"},
+                                     {"numerics.min_iterations", "10"},
+                                     {"numerics.max_iterations", "10"}};
+    omp_set_num_threads(c->request->threads);
+    if (!t) return sb_fail_memory(error, "samples");
+    sb_status status = sb_bench_limits_measure(c->request->quick ? MEGABYTES_QUICK : MEGABYTES, c->request->repeats,
+                                               &limits, rows, error);
+    if (status == SB_OK) status = sb_path_join(path, c->request->assets, "benchmark/basin.yaml", error);
+    if (status == SB_OK)
+        status = sb_bench_subject_make(path, overrides, sizeof overrides / sizeof overrides[0], 1, &subject, error);
+    if (status == SB_OK) {
+        status = measure(&subject, c->request->repeats, t, error);
+        if (status == SB_OK) status = add_all(&subject, t, &limits, rows, error);
+        sb_bench_subject_free(&subject);
+    }
+    sb_free(t);
+    return status;
+}
+
+sb_status sb_bench_kernels(const sb_bench_request *request, sb_bench_rows *rows, sb_error *error)
+{
+    static const size_t full[] = {200000, 1000000, 0}, quick[] = {8000, 0};
+    sb_status status = SB_OK;
+    for (const size_t *n = request->quick ? quick : full; *n && status == SB_OK; n++) {
+        const context c = {request, *n};
+        status = sb_bench_in_child(one_size, &c, rows, error);
+    }
+    return status;
+}

@@ -1,0 +1,56 @@
+/* The plant at 1 m: whether it can be set up and stepped at all on a small machine. */
+#include "base/clock.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "child.h"
+#include "sections.h"
+#include "subject.h"
+
+#include <omp.h>
+
+enum { STEPS = 20 };
+
+static sb_status add_all(const sb_bench_subject *subject, double seconds, sb_bench_rows *rows, sb_error *error)
+{
+    const size_t n = subject->sim->n;
+    const int threads = omp_get_max_threads();
+    const struct {
+        const char *quantity, *unit;
+        double value;
+    } values[] = {
+        {"set-up", "s", subject->setup},
+        {"steps", "1", STEPS},
+        {SB_BENCH_STEP, "ns", 1e9 * seconds / ((double)n * STEPS)},
+        {"boundary particles", "1", (double)subject->model.wall_count},
+        {"memory of the simulation", "B/particle", (double)sb_sim_bytes(subject->sim) / (double)n},
+        {"peak memory", "B/particle", (double)sb_memory_peak() / (double)n},
+        {"peak memory in all", "MB", 1e-6 * (double)sb_memory_peak()},
+    };
+    sb_status status = SB_OK;
+    for (size_t v = 0; v < sizeof values / sizeof values[0] && status == SB_OK; v++)
+        status = sb_bench_add_value(rows, "plant at 1 m", n, threads, values[v].quantity, values[v].unit,
+                                    values[v].value, error);
+    return status;
+}
+
+static sb_status plant(const void *context, sb_bench_rows *rows, sb_error *error)
+{
+    const sb_bench_request *request = context;
+    const sb_override overrides[] = {{"numerics.settle_steps", "0"}, {"resolution", request->quick ? "24" : "1"}};
+    char path[SB_PATH_MAX];
+    sb_bench_subject subject = {.sim = NULL};
+    omp_set_num_threads(request->threads);
+    sb_status status = sb_path_join(path, request->assets, "scenes/plant.yaml", error);
+    if (status == SB_OK) status = sb_bench_subject_build(path, overrides, 2, &subject, error);
+    if (status != SB_OK) return status;
+    const double first = sb_clock();
+    for (int s = 0; s < STEPS && status == SB_OK; s++) status = sb_sim_step(subject.sim, error);
+    if (status == SB_OK) status = add_all(&subject, sb_clock() - first, rows, error);
+    sb_bench_subject_free(&subject);
+    return status;
+}
+
+sb_status sb_bench_large(const sb_bench_request *request, sb_bench_rows *rows, sb_error *error)
+{
+    return sb_bench_in_child(plant, request, rows, error);
+}

@@ -1,0 +1,64 @@
+#include "machine.h"
+
+#include "base/clock.h"
+#include "origin.h"
+
+#include <stdio.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+/* Time spent on anything but idling and waiting for disks, from the first line of /proc/stat. */
+static double machine_busy(void)
+{
+    unsigned long long user = 0, nice = 0, system = 0, idle = 0, wait = 0, irq = 0, soft = 0, steal = 0;
+    FILE *in = fopen("/proc/stat", "r");
+    if (!in) return -1;
+    const int found = fscanf(in, "cpu %llu %llu %llu %llu %llu %llu %llu %llu", &user, &nice, &system, &idle, &wait,
+                             &irq, &soft, &steal);
+    fclose(in);
+    return found == 8 ? (double)(user + nice + system + irq + soft + steal) / (double)sysconf(_SC_CLK_TCK) : -1;
+}
+
+static double seconds_of(int who)
+{
+    struct rusage usage;
+    if (getrusage(who, &usage) != 0) return 0;
+    return (double)(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+           1e-6 * (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+}
+
+sb_bench_clock sb_bench_clock_now(void)
+{
+    return (sb_bench_clock){
+        .wall = sb_clock(), .busy = machine_busy(), .own = seconds_of(RUSAGE_SELF) + seconds_of(RUSAGE_CHILDREN)};
+}
+
+double sb_bench_others(sb_bench_clock from, sb_bench_clock to)
+{
+    const double wall = to.wall - from.wall, others = (to.busy - from.busy) - (to.own - from.own);
+    if (from.busy < 0 || to.busy < 0 || !(wall > 0) || others < 0) return 0;
+    return others / wall;
+}
+
+double sb_bench_load(void)
+{
+    double load = -1;
+    FILE *in = fopen("/proc/loadavg", "r");
+    if (in && fscanf(in, "%lf", &load) != 1) load = -1;
+    if (in) fclose(in);
+    return load;
+}
+
+static double gigabytes(void)
+{
+    return (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE) / 1e9;
+}
+
+void sb_bench_origin(char *text, size_t size, const char *source)
+{
+    char machine[128], commit[64];
+    sb_origin_machine(machine);
+    sb_origin_commit(source, commit);
+    snprintf(text, size, "machine: %s, %.1f GB\ncompiler: %s, flags %s\ncommit: %s\n", machine, gigabytes(),
+             SB_BENCH_COMPILER, SB_BENCH_FLAGS, commit);
+}

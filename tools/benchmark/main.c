@@ -1,0 +1,77 @@
+/* Command line of the benchmark. */
+#include "machine.h"
+#include "options.h"
+#include "report.h"
+
+#include "base/file.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void warn_of_others(double others)
+{
+    if (others > SB_BENCH_QUIET)
+        fprintf(stderr, "bench: warning: other programs keep %.1f cores busy: times are not to be trusted\n", others);
+}
+
+/* Measures one section and writes its table. */
+static sb_status measure(const sb_bench_section *section, const sb_bench_request *request, const char *folder,
+                         sb_error *error)
+{
+    char path[SB_PATH_MAX], name[SB_BENCH_NAME], origin[2048];
+    sb_bench_rows rows = {0};
+    printf("%s: %s (load average %.2f)\n", section->name, section->summary, sb_bench_load());
+    const double load = sb_bench_load();
+    const sb_bench_clock from = sb_bench_clock_now();
+    sb_status status = section->run(request, &rows, error);
+    const sb_bench_clock to = sb_bench_clock_now();
+    const double others = sb_bench_others(from, to);
+    sb_bench_origin(origin, sizeof origin, SB_SOURCE_DIR);
+    const size_t used = strlen(origin);
+    snprintf(origin + used, sizeof origin - used,
+             "measured: %d threads, %d repeats%s; load average before %.2f; other programs kept %.2f cores busy\n",
+             request->threads, request->repeats, request->quick ? SB_BENCH_QUICKLY : "", load, others);
+    fputs(origin, stdout);
+    warn_of_others(others);
+    snprintf(name, sizeof name, "%s.csv", section->name);
+    if (status == SB_OK) status = sb_path_join(path, folder, name, error);
+    if (status == SB_OK) status = sb_bench_write(&rows, origin, path, error);
+    if (status == SB_OK) printf("%s: %.1f s, %s\n", section->name, to.wall - from.wall, path);
+    sb_bench_rows_free(&rows);
+    return status;
+}
+
+static sb_status bench(const sb_bench_options *o, sb_error *error)
+{
+    char folder[SB_PATH_MAX];
+    const char *out = o->out ? o->out : o->quick ? SB_SOURCE_DIR "/build/bench" : SB_SOURCE_DIR "/docs/results";
+    const sb_bench_request request = {
+        .assets = SB_SOURCE_DIR "/assets", .repeats = o->repeats, .threads = o->threads, .quick = o->quick};
+    sb_status status = sb_path_join(folder, out, "bench", error);
+    if (status == SB_OK) status = sb_make_directories(folder, error);
+    for (size_t s = 0; s < o->count && status == SB_OK && !o->report_only; s++)
+        status = measure(o->sections[s], &request, folder, error);
+    if (status == SB_OK) status = sb_bench_report(out, error);
+    if (status == SB_OK) printf("%s/benchmarks.md\n", out);
+    return status;
+}
+
+int main(int count, char **arguments)
+{
+    sb_bench_options o;
+    sb_error error = {0};
+    setvbuf(stdout, NULL, _IOLBF, 0);
+    if (count == 2 && strcmp(arguments[1], "--version") == 0) {
+        printf("shorebreak-bench %s\n", SB_VERSION);
+        return 0;
+    }
+    sb_status status = sb_bench_parse(count, arguments, &o, &error);
+    if (status == SB_OK && o.help) {
+        fputs(sb_bench_help, stdout);
+        return 0;
+    }
+    if (status == SB_OK) status = bench(&o, &error);
+    if (status != SB_OK) fprintf(stderr, "bench: %s\n", error.text);
+    return (int)status;
+}

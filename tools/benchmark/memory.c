@@ -1,0 +1,155 @@
+/* What a fluid particle takes: all in by the program itself, and array by array; and what dry land costs. */
+#include "base/memory.h"
+#include "base/file.h"
+#include "child.h"
+#include "program.h"
+#include "run.h"
+#include "sections.h"
+#include "subject.h"
+
+#include <omp.h>
+
+enum { DRY_STEPS = 4 };
+
+/* The program as a user runs it, for a few steps. */
+static sb_status all_in(const sb_bench_request *request, sb_bench_rows *rows, sb_error *error)
+{
+    char scene[SB_PATH_MAX], *summary;
+    sb_bench_program run = {
+        .scene = scene,
+        .threads = request->threads,
+        .settings = {"numerics.settle_steps=10", "duration=0.2", request->quick ? "resolution=24" : "resolution=4"}};
+    sb_status status = sb_path_join(scene, request->assets, "scenes/plant.yaml", error);
+    if (status == SB_OK) status = sb_bench_program_run(&run, &summary, error);
+    if (status != SB_OK) return status;
+    const double particles = sb_json_number_in(summary, "fluid_particles");
+    const double peak = sb_json_number_in(summary, "peak_memory_bytes");
+    sb_free(summary);
+    return sb_bench_add_value(
+        rows, request->quick ? "plant but coarser by the program" : "plant at 4 m by the program", (size_t)particles,
+        request->threads, "peak memory", "B/particle", peak / particles, error);
+}
+
+/* ---- array by array ---- */
+
+static sb_status add_arrays(const char *name, const sb_bench_subject *subject, sb_bench_rows *rows, sb_error *error)
+{
+    const sb_sim *sim = subject->sim;
+    const sb_model *model = &subject->model;
+    const double n = (double)sim->n;
+    double walls = 0;
+    for (int s = 0; s < SB_WALL_SETS; s++)
+        walls += (double)(sb_cells_bytes(&sim->walls[s].cells) + sim->walls[s].count * 36 +
+                          (sim->walls[s].near_mask + 1) * 8);
+    const struct {
+        const char *name;
+        double bytes;
+    } arrays[] = {
+        {"pair lists in use", 8 * (double)sim->pairs.used},
+        {"pair lists in reserve", 8 * ((double)sim->pairs.capacity - (double)sim->pairs.used)},
+        {"wall pair lists", 8 * (double)sim->wall_pairs.capacity},
+        {"fields of particles", (double)sim->bytes_fixed},
+        {"cells", (double)sb_cells_bytes(&sim->cells)},
+        {"boundary particles", walls + 36 * (double)sim->moving_rest_count},
+        {"model: fluid particles", (model->fluid_position ? 24 * n : 0) + (model->fluid_velocity ? 24 * n : 0) +
+                                       (model->fluid_pressure ? 8 * n : 0)},
+        {"model: boundary particles", (model->wall_position ? 24 : 0) * (double)model->wall_count +
+                                          (model->wall_normal ? 24 : 0) * (double)model->wall_count},
+    };
+    sb_status status = SB_OK;
+    for (size_t a = 0; a < sizeof arrays / sizeof arrays[0] && status == SB_OK; a++)
+        status = sb_bench_add_value(rows, name, sim->n, 1, arrays[a].name, "B/particle", arrays[a].bytes / n, error);
+    if (status == SB_OK)
+        status =
+            sb_bench_add_value(rows, name, sim->n, 1, "pairs per particle", "1", (double)sim->pairs.used / n, error);
+    return status;
+}
+
+static sb_status arrays(const void *context, sb_bench_rows *rows, sb_error *error)
+{
+    const sb_bench_request *request = context;
+    const sb_override overrides[] = {{"resolution", request->quick ? "24" : "4"}, {"numerics.settle_steps", "10"}};
+    char path[SB_PATH_MAX];
+    sb_bench_subject subject;
+    omp_set_num_threads(request->threads);
+    sb_status status = sb_path_join(path, request->assets, "scenes/plant.yaml", error);
+    if (status == SB_OK) status = sb_bench_subject_make(path, overrides, 2, 2, &subject, error);
+    if (status != SB_OK) return status;
+    status = add_arrays(request->quick ? "plant but coarser" : "plant at 4 m", &subject, rows, error);
+    sb_bench_subject_free(&subject);
+    return status;
+}
+
+/* ---- dry land ---- */
+
+static sb_status make_shore(const sb_bench_request *request, bool long_land, sb_bench_subject *subject,
+                            sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    const sb_override overrides[] = {{"resolution", request->quick ? "0.2" : "0.06"},
+                                     {"numerics.settle_steps", "5"},
+                                     {"numerics.min_iterations", "10"},
+                                     {"numerics.max_iterations", "10"},
+                                     {"domain.max", "[44, 4, 3]"},
+                                     {"bodies.land.max", "[44, 4, 1.5]"}};
+    const size_t all = sizeof overrides / sizeof overrides[0];
+    sb_status status = sb_path_join(path, request->assets, "benchmark/shore.yaml", error);
+    if (status == SB_OK)
+        status = sb_bench_subject_make(path, overrides, long_land ? all : all - 2, 1, subject, error);
+    return status;
+}
+
+/* Repeats of both take turns, so that what else the machine does meets both alike. */
+static sb_status take_turns(sb_bench_subject shore[2], int repeats, sb_bench_rows *rows, sb_error *error)
+{
+    static const char *const names[] = {"shore", "shore with ten times the land"};
+    sb_bench_samples samples[2] = {{.count = 0}};
+    sb_status status = SB_OK;
+    for (int r = 0; r < repeats; r++)
+        for (int s = 0; s < 2 && status == SB_OK; s++) {
+            double seconds;
+            status = sb_bench_repeat(&shore[s], DRY_STEPS, &seconds, NULL, error);
+            sb_bench_sample(&samples[s], seconds);
+        }
+    for (int s = 0; s < 2 && status == SB_OK; s++) {
+        const size_t n = shore[s].sim->n;
+        const double walls = (double)shore[s].model.wall_count, bytes = (double)sb_sim_bytes(shore[s].sim);
+        status = sb_bench_add(rows, names[s], n, omp_get_max_threads(), SB_BENCH_STEP, "ns", &samples[s],
+                              1e9 / ((double)n * DRY_STEPS), error);
+        if (status == SB_OK)
+            status =
+                sb_bench_add_value(rows, names[s], n, omp_get_max_threads(), "boundary particles", "1", walls, error);
+        if (status == SB_OK)
+            status = sb_bench_add_value(rows, names[s], n, omp_get_max_threads(), "memory of the simulation",
+                                        "B/particle", bytes / (double)n, error);
+    }
+    if (status != SB_OK) return status;
+    const double one = sb_bench_find(rows, names[0], 0, 0, SB_BENCH_STEP)->least;
+    const double ten = sb_bench_find(rows, names[1], 0, 0, SB_BENCH_STEP)->least;
+    return sb_bench_add_value(rows, names[1], shore[1].sim->n, omp_get_max_threads(), "time added", "%",
+                              100 * (ten / one - 1), error);
+}
+
+static sb_status dry_land(const void *context, sb_bench_rows *rows, sb_error *error)
+{
+    const sb_bench_request *request = context;
+    sb_bench_subject shore[2];
+    omp_set_num_threads(request->threads);
+    sb_status status = make_shore(request, false, &shore[0], error);
+    if (status != SB_OK) return status;
+    status = make_shore(request, true, &shore[1], error);
+    if (status == SB_OK) {
+        status = take_turns(shore, request->repeats, rows, error);
+        sb_bench_subject_free(&shore[1]);
+    }
+    sb_bench_subject_free(&shore[0]);
+    return status;
+}
+
+sb_status sb_bench_memory(const sb_bench_request *request, sb_bench_rows *rows, sb_error *error)
+{
+    sb_status status = all_in(request, rows, error);
+    if (status == SB_OK) status = sb_bench_in_child(arrays, request, rows, error);
+    if (status == SB_OK) status = sb_bench_in_child(dry_land, request, rows, error);
+    return status;
+}

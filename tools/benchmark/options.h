@@ -1,0 +1,22 @@
+/* The command line of the benchmark. */
+#ifndef SB_BENCHMARK_OPTIONS_H
+#define SB_BENCHMARK_OPTIONS_H
+
+#include "sections.h"
+
+enum { SB_BENCH_SECTIONS_MAX = 16 };
+
+typedef struct sb_bench_options {
+    const sb_bench_section *sections[SB_BENCH_SECTIONS_MAX];
+    size_t count;
+    const char *out; /* --out; NULL: not given */
+    bool quick, report_only, help;
+    int repeats, threads;
+} sb_bench_options;
+
+extern const char sb_bench_help[];
+
+/* SB_BAD_INPUT names what is wrong. */
+sb_status sb_bench_parse(int count, char **arguments, sb_bench_options *options, sb_error *error);
+
+#endif

@@ -1,0 +1,127 @@
+/* What was to be reached on two cores of this class, and what was. */
+#include "report.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A figure that is one row of one table. section NULL: it is worked out of several. */
+typedef struct goal {
+    const char *figure, *unit;
+    double reach, stretch; /* at most; at_least: at least */
+    bool at_least;
+    const char *section, *subject, *quantity;
+    double factor;
+} goal;
+
+static const goal goals[] = {
+    {"plant at 4 m, 90 s, preset `paper`", "s", 600, 400, false, "runs", "plant at 4 m; paper", "wall time", 1},
+    {"plant at 4 m, 90 s, `default`", "s", 220, 90, false, "runs", "plant at 4 m; default", "wall time", 1},
+    {"column at 1 cm, per simulated second", "s", 40, 20, false, "runs", "column at 1 cm",
+     "wall time per simulated second", 1},
+    {"pressure iteration, fluid and walls, 1 M particles", "ns per particle", 60, 45, false, "kernels",
+     SB_BENCH_ITERATION, SB_BENCH_PER_PARTICLE, 1},
+    {"whole step of 10 iterations, 1 M particles", "µs per particle", 0.9, 0.65, false, "kernels", SB_BENCH_STEP,
+     SB_BENCH_PER_PARTICLE, 1e-3},
+    {"neighbour search and sort, 1 M particles", "ns per particle", 150, 90, false, "kernels", "sort and search",
+     SB_BENCH_PER_PARTICLE, 1},
+    {"cost per particle, 50 k to 4 M", "×", 1.3, 1.2, false, NULL, "growth", NULL, 1},
+    {"parallel efficiency, threads 1 to 2, 1 M particles", "", 0.9, 0.95, true, NULL, "efficiency", NULL, 1},
+    {"memory, all in, plant at 4 m", "bytes per fluid particle", 450, 300, false, "memory",
+     "plant at 4 m by the program", "peak memory", 1},
+    {"plant at 1 m: set-up", "minutes", 5, 5, false, "large", "plant at 1 m", "set-up", 1.0 / 60},
+    {"plant at 1 m: 20 steps within", "GiB", 9, 6, false, "large", "plant at 1 m", "peak memory in all",
+     1e6 / 1073741824},
+    {"ten times more dry terrain adds", "%", 2, 0, false, "memory", "shore with ten times the land", "time added", 1},
+    {"conical island, 12 s", "minutes", 90, 45, false, "island", "conical island", "wall time", 1.0 / 60},
+};
+
+/* Quick forms are no measure of anything. */
+static const sb_bench_rows *rows_of(const sb_bench_tables *tables, const char *section)
+{
+    for (size_t t = 0; t < tables->count; t++)
+        if (strcmp(tables->table[t].section->name, section) == 0 &&
+            !strstr(tables->table[t].origin, SB_BENCH_QUICKLY))
+            return &tables->table[t].rows;
+    return NULL;
+}
+
+const sb_bench_row *sb_bench_look_up(const sb_bench_tables *tables, const char *section, const char *subject,
+                                     const char *quantity)
+{
+    const sb_bench_rows *rows = rows_of(tables, section);
+    const sb_bench_row *best = NULL; /* kernels come in sizes: the one nearest a million is meant */
+    for (size_t i = 0; rows && i < rows->count; i++) {
+        const sb_bench_row *row = &rows->rows[i];
+        if (strcmp(row->subject, subject) != 0 || strcmp(row->quantity, quantity) != 0) continue;
+        if (!best || fabs(log((double)row->particles / 1e6)) < fabs(log((double)best->particles / 1e6))) best = row;
+    }
+    return best;
+}
+
+double sb_bench_growth(const sb_bench_rows *scaling)
+{
+    const sb_bench_row *first = NULL, *last = NULL;
+    for (size_t i = 0; i < scaling->count; i++) {
+        const sb_bench_row *row = &scaling->rows[i];
+        if (strcmp(row->quantity, SB_BENCH_PER_PARTICLE) != 0) continue;
+        if (!first || row->particles < first->particles ||
+            (row->particles == first->particles && row->threads > first->threads))
+            first = row;
+        if (!last || row->particles > last->particles ||
+            (row->particles == last->particles && row->threads > last->threads))
+            last = row;
+    }
+    return first && last && first != last ? last->median / first->median : (double)NAN;
+}
+
+double sb_bench_efficiency(const sb_bench_rows *scaling, size_t particles, int threads)
+{
+    const sb_bench_row *one = sb_bench_find(scaling, SB_BENCH_STEP, particles, 1, SB_BENCH_PER_PARTICLE);
+    const sb_bench_row *many = sb_bench_find(scaling, SB_BENCH_STEP, particles, threads, SB_BENCH_PER_PARTICLE);
+    return one && many && threads > 1 ? one->median / (threads * many->median) : (double)NAN;
+}
+
+/* Of two threads, in the basin of `scaling` nearest to a million particles. */
+static double efficiency(const sb_bench_rows *scaling)
+{
+    size_t nearest = 0;
+    for (size_t i = 0; i < scaling->count; i++) {
+        const size_t n = scaling->rows[i].particles;
+        if (!nearest || fabs(log((double)n / 1e6)) < fabs(log((double)nearest / 1e6))) nearest = n;
+    }
+    return sb_bench_efficiency(scaling, nearest, 2);
+}
+
+static double measured(const goal *g, const sb_bench_tables *tables)
+{
+    const sb_bench_rows *scaling = rows_of(tables, "scaling");
+    if (!g->section)
+        return !scaling                            ? (double)NAN
+               : strcmp(g->subject, "growth") == 0 ? sb_bench_growth(scaling)
+                                                   : efficiency(scaling);
+    const sb_bench_row *row = sb_bench_look_up(tables, g->section, g->subject, g->quantity);
+    return row ? g->factor * row->median : (double)NAN;
+}
+
+static bool within(const goal *g, double value, double limit)
+{
+    return g->at_least ? value >= limit : value <= limit;
+}
+
+void sb_bench_put_reach(FILE *file, const sb_bench_tables *tables)
+{
+    fputs("| figure | unit | reach | stretch | measured | |\n|---|---|---|---|---|---|\n", file);
+    for (size_t i = 0; i < sizeof goals / sizeof goals[0]; i++) {
+        const goal *g = &goals[i];
+        const double value = measured(g, tables);
+        const char *sign = g->at_least ? "≥" : "≤";
+        fprintf(file, "| %s | %s | %s %g | %g | ", g->figure, g->unit, sign, g->reach, g->stretch);
+        if (isnan(value))
+            fputs("not measured | |\n", file);
+        else
+            fprintf(file, "%.3g | %s |\n", value,
+                    within(g, value, g->stretch) ? "stretch"
+                    : within(g, value, g->reach) ? "within"
+                                                 : "**short**");
+    }
+}

@@ -1,0 +1,147 @@
+#include "rows.h"
+
+#include "base/file.h"
+#include "base/memory.h"
+#include "sheet.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char header[] = "subject,particles,threads,quantity,unit,least,median,most,repeats\n";
+
+void sb_bench_sample(sb_bench_samples *samples, double value)
+{
+    if (samples->count < SB_BENCH_REPEATS_MAX) samples->value[samples->count++] = value;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+sb_status sb_bench_append(sb_bench_rows *to, const sb_bench_row *rows, size_t count, sb_error *error)
+{
+    if (sb_grow((void **)&to->rows, &to->capacity, to->count + count, sizeof *to->rows) != 0)
+        return sb_fail_memory(error, "what was measured");
+    for (size_t i = 0; i < count; i++) to->rows[to->count++] = rows[i];
+    return SB_OK;
+}
+
+sb_status sb_bench_add(sb_bench_rows *rows, const char *subject, size_t particles, int threads, const char *quantity,
+                       const char *unit, const sb_bench_samples *samples, double factor, sb_error *error)
+{
+    sb_bench_samples sorted = *samples;
+    sb_bench_row row = {.particles = particles, .threads = threads, .repeats = sorted.count};
+    snprintf(row.subject, sizeof row.subject, "%s", subject);
+    snprintf(row.quantity, sizeof row.quantity, "%s", quantity);
+    snprintf(row.unit, sizeof row.unit, "%s", unit);
+    qsort(sorted.value, (size_t)sorted.count, sizeof sorted.value[0], ascending);
+    const int n = sorted.count;
+    row.least = n > 0 ? factor * sorted.value[0] : (double)NAN;
+    row.most = n > 0 ? factor * sorted.value[n - 1] : (double)NAN;
+    row.median = n > 0 ? factor * 0.5 * (sorted.value[(n - 1) / 2] + sorted.value[n / 2]) : (double)NAN;
+    return sb_bench_append(rows, &row, 1, error);
+}
+
+sb_status sb_bench_add_value(sb_bench_rows *rows, const char *subject, size_t particles, int threads,
+                             const char *quantity, const char *unit, double value, sb_error *error)
+{
+    const sb_bench_samples one = {.value = {value}, .count = 1};
+    return sb_bench_add(rows, subject, particles, threads, quantity, unit, &one, 1, error);
+}
+
+void sb_bench_rows_free(sb_bench_rows *rows)
+{
+    sb_free(rows->rows);
+    *rows = (sb_bench_rows){0};
+}
+
+const sb_bench_row *sb_bench_find(const sb_bench_rows *rows, const char *subject, size_t particles, int threads,
+                                  const char *quantity)
+{
+    for (size_t i = 0; i < rows->count; i++) {
+        const sb_bench_row *row = &rows->rows[i];
+        if (strcmp(row->subject, subject) == 0 && strcmp(row->quantity, quantity) == 0 &&
+            (particles == 0 || row->particles == particles) && (threads == 0 || row->threads == threads))
+            return row;
+    }
+    return NULL;
+}
+
+static void put_origin(FILE *out, const char *origin)
+{
+    for (const char *line = origin; *line;) {
+        const size_t length = strcspn(line, "\n");
+        fprintf(out, "# %.*s\n", (int)length, line);
+        line += length + (line[length] == '\n');
+    }
+}
+
+sb_status sb_bench_write(const sb_bench_rows *rows, const char *origin, const char *path, sb_error *error)
+{
+    sb_atomic_file file;
+    sb_status status = sb_atomic_open(&file, path, error);
+    if (status != SB_OK) return status;
+    put_origin(file.stream, origin);
+    fputs(header, file.stream);
+    for (size_t i = 0; i < rows->count; i++) {
+        const sb_bench_row *row = &rows->rows[i];
+        fprintf(file.stream, "%s,%zu,%d,%s,%s,%.6g,%.6g,%.6g,%d\n", row->subject, row->particles, row->threads,
+                row->quantity, row->unit, row->least, row->median, row->most, row->repeats);
+    }
+    return sb_atomic_commit(&file, 0, error);
+}
+
+static sb_status read_origin(const char *path, char *origin, size_t size, sb_error *error)
+{
+    char *text = NULL;
+    size_t length, used = 0;
+    sb_status status = sb_file_read(path, (size_t)1 << 26, &text, &length, error);
+    origin[0] = '\0';
+    for (const char *line = text; status == SB_OK && strncmp(line, "# ", 2) == 0 && used + 1 < size;) {
+        const size_t end = strcspn(line, "\n");
+        used += (size_t)snprintf(origin + used, size - used, "%.*s\n", (int)(end - 2), line + 2);
+        line += end + (line[end] == '\n');
+    }
+    sb_free(text);
+    return status;
+}
+
+static sb_bench_row row_of(const sb_sheet *sheet, size_t r)
+{
+    sb_bench_row row = {.particles = (size_t)sb_sheet_number(sheet, r, 1),
+                        .threads = (int)sb_sheet_number(sheet, r, 2),
+                        .least = sb_sheet_number(sheet, r, 5),
+                        .median = sb_sheet_number(sheet, r, 6),
+                        .most = sb_sheet_number(sheet, r, 7),
+                        .repeats = (int)sb_sheet_number(sheet, r, 8)};
+    snprintf(row.subject, sizeof row.subject, "%s", sb_sheet_text(sheet, r, 0));
+    snprintf(row.quantity, sizeof row.quantity, "%s", sb_sheet_text(sheet, r, 3));
+    snprintf(row.unit, sizeof row.unit, "%s", sb_sheet_text(sheet, r, 4));
+    return row;
+}
+
+sb_status sb_bench_read(sb_bench_rows *rows, char *origin, size_t size, bool *found, const char *path,
+                        sb_error *error)
+{
+    enum { COLUMNS = 9 };
+    sb_sheet sheet = {0};
+    *rows = (sb_bench_rows){0};
+    origin[0] = '\0';
+    *found = access(path, R_OK) == 0;
+    if (!*found) return SB_OK;
+    sb_status status = read_origin(path, origin, size, error);
+    if (status == SB_OK) status = sb_sheet_read(path, &sheet, error);
+    if (status == SB_OK && sheet.columns != COLUMNS)
+        status = sb_fail(error, SB_BAD_INPUT, "%.400s: %zu columns, expected %d", path, sheet.columns, COLUMNS);
+    for (size_t r = 0; status == SB_OK && r < sheet.rows; r++) {
+        const sb_bench_row row = row_of(&sheet, r);
+        status = sb_bench_append(rows, &row, 1, error);
+    }
+    sb_sheet_free(&sheet);
+    if (status != SB_OK) sb_bench_rows_free(rows);
+    return status;
+}

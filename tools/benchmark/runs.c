@@ -1,0 +1,64 @@
+/* Whole runs by the program itself, once each: wall time as a user has it, set-up and measuring included. */
+#include "base/file.h"
+#include "base/memory.h"
+#include "program.h"
+#include "run.h"
+#include "sections.h"
+
+typedef struct plan {
+    const char *name, *scene, *preset;
+    const char *resolution, *quick_resolution, *quick_duration;
+} plan;
+
+static const plan plans[] = {
+    {"plant at 4 m; default", "scenes/plant.yaml", "default", "resolution=4", "resolution=24", "duration=1"},
+    {"plant at 4 m; paper", "scenes/plant.yaml", "paper", "resolution=4", "resolution=24", "duration=1"},
+    {"column at 1 cm", "scenes/dam-break-column.yaml", NULL, "resolution=0.01", "resolution=0.03", "duration=0.05"},
+};
+static const plan island = {"conical island", "validation/island/island.yaml", NULL, NULL, "resolution=0.2",
+                            "duration=0.1"};
+
+static sb_status one_run(const sb_bench_request *request, const plan *p, sb_bench_rows *rows, sb_error *error)
+{
+    char scene[SB_PATH_MAX], *summary;
+    sb_bench_program run = {.scene = scene, .preset = p->preset, .threads = request->threads};
+    run.settings[0] = request->quick ? p->quick_resolution : p->resolution;
+    if (request->quick) {
+        run.settings[1] = p->quick_duration;
+        run.settings[2] = "numerics.settle_steps=5";
+    }
+    sb_status status = sb_path_join(scene, request->assets, p->scene, error);
+    if (status == SB_OK) status = sb_bench_program_run(&run, &summary, error);
+    if (status != SB_OK) return status;
+    const size_t n = (size_t)sb_json_number_in(summary, "fluid_particles");
+    const double wall = sb_json_number_in(summary, "wall_s"), simulated = sb_json_number_in(summary, "simulated_s");
+    const struct {
+        const char *quantity, *unit;
+        double value;
+    } values[] = {
+        {"wall time", "s", wall},
+        {"simulated time", "s", simulated},
+        {"wall time per simulated second", "s", wall / simulated},
+        {"steps", "1", sb_json_number_in(summary, "steps")},
+        {"iterations per step", "1", sb_json_number_in(summary, "mean_iterations")},
+        {"peak memory", "B/particle", sb_json_number_in(summary, "peak_memory_bytes") / (double)n},
+    };
+    for (size_t v = 0; v < sizeof values / sizeof values[0] && status == SB_OK; v++)
+        status = sb_bench_add_value(rows, p->name, n, request->threads, values[v].quantity, values[v].unit,
+                                    values[v].value, error);
+    sb_free(summary);
+    return status;
+}
+
+sb_status sb_bench_runs(const sb_bench_request *request, sb_bench_rows *rows, sb_error *error)
+{
+    sb_status status = SB_OK;
+    for (size_t p = 0; p < sizeof plans / sizeof plans[0] && status == SB_OK; p++)
+        status = one_run(request, &plans[p], rows, error);
+    return status;
+}
+
+sb_status sb_bench_island(const sb_bench_request *request, sb_bench_rows *rows, sb_error *error)
+{
+    return one_run(request, &island, rows, error);
+}
