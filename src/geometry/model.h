@@ -41,6 +41,9 @@ typedef struct sb_model {
 sb_status sb_model_build(const sb_scene *scene, sb_model *model, sb_error *error);
 void sb_model_free(sb_model *model);
 
+/* Of all that a simulation and its measurements start from: two models with one hash run alike. */
+uint64_t sb_model_hash(const sb_model *model);
+
 /* The bodies alone, in the same order, with meshes, colours and wavemakers but without particles:
    what pictures of a finished run need. On error *model is untouched. */
 sb_status sb_model_import_bodies(const sb_scene *scene, sb_model *model, sb_error *error);

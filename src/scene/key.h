@@ -33,7 +33,8 @@ enum {
     SB_KEY_FULL = 16,       /* vector: three components in 2D, too */
     SB_KEY_ANY_Y = 32,      /* vector: y may differ from 0 in 2D */
     SB_KEY_UNIT = 64,       /* vector: a direction, made a unit vector */
-    SB_KEY_PRESET = 128     /* default by the numerics preset */
+    SB_KEY_PRESET = 128,    /* default by the numerics preset */
+    SB_KEY_FREE = 256       /* changes neither state nor measurements nor frames: no part of the identity */
 };
 
 typedef struct sb_table sb_table;

@@ -197,9 +197,17 @@ typedef struct sb_stream_settings {
     int decimation;        /* every n-th particle */
 } sb_stream_settings;
 
+/* When the state is saved for --resume. Both 0: never. */
+typedef struct sb_checkpoint_settings {
+    double minutes; /* of wall time between two; 0: by steps only */
+    int steps;      /* between two; 0: by time only */
+    int keep;       /* how many of the last stay */
+} sb_checkpoint_settings;
+
 typedef struct sb_output_settings {
     double particle_interval; /* s between particles/NNNNNN.vtp; 0: off */
     bool plots;
+    sb_checkpoint_settings checkpoint;
 } sb_output_settings;
 
 typedef struct sb_scene {
@@ -240,6 +248,11 @@ sb_status sb_scene_read(const char *path, const char *preset_name, const sb_over
 
 /* Writes the scene with every default, so that reading it gives the same scene. Paths absolute. */
 sb_status sb_scene_write(const sb_scene *scene, const char *path, sb_error *error);
+
+/* What a run's state, measurements and frames follow from, as text to compare: the scene with every default,
+   without the keys that change none of them (duration, stream, what is done at the end), its files by their names
+   and a hash of what is in them. Free with sb_free. SB_BAD_INPUT names a file that cannot be read. */
+sb_status sb_scene_identity(const sb_scene *scene, char **text, sb_error *error);
 
 /* One key of a scene, for the reference. Texts are valid during the visit only. */
 typedef struct sb_scene_key {

@@ -84,9 +84,10 @@ static const sb_key render_keys[] = {
      .unit = "m/s", SB_KEY_NOT_NEGATIVE, .fallback = "0",
      .doc = "Speed at the top of the colour map; 0: 2 sqrt(g D)."},
     {.name = "video", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_render_settings, video),
-     .fallback = "true", .doc = "Join each camera's pictures to a film where ffmpeg is there."},
+     .fallback = "true", .flags = SB_KEY_FREE,
+     .doc = "Join each camera's pictures to a film where ffmpeg is there."},
     {.name = "video_rate", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_render_settings, video_rate),
-     .unit = "1/s", .min = 1, .max = 240, .fallback = "30", .doc = "Pictures per second of film."},
+     .unit = "1/s", .min = 1, .max = 240, .fallback = "30", .flags = SB_KEY_FREE, .doc = "Pictures per second of film."},
     {.name = "cameras", .type = SB_KEY_LIST,
      SB_KEY_ITEMS(sb_render_settings, cameras, camera_count), .table = &camera_table,
      .doc = "Each makes its own pictures and film; give eye and target, or a path."},
@@ -131,12 +132,32 @@ const sb_table sb_stream_table = {SB_KEY_ROWS(stream_keys), .size = sizeof(sb_st
                                   .finish = finish_stream};
 
 /* clang-format off */
+static const sb_key checkpoint_keys[] = {
+    {.name = "minutes", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_checkpoint_settings, minutes),
+     .unit = "min", .min = 0, .max = 525600, .fallback = "10",
+     .doc = "Wall time between two; 0: by steps only."},
+    {.name = "steps", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_checkpoint_settings, steps),
+     .unit = "steps", .min = 0, .max = 1000000000, .fallback = "0",
+     .doc = "Steps between two; 0: by minutes only. With both 0 no checkpoints are written at all."},
+    {.name = "keep", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_checkpoint_settings, keep),
+     .min = 1, .max = 1000000, .fallback = "2",
+     .doc = "How many stay, the newest ones: where one is damaged, the one before is used."},
+};
+/* clang-format on */
+
+static const sb_table checkpoint_table = {SB_KEY_ROWS(checkpoint_keys)};
+
+/* clang-format off */
 static const sb_key output_keys[] = {
     {.name = "particle_interval", .type = SB_KEY_NUMBER,
      SB_KEY_AT(sb_output_settings, particle_interval), .unit = "s", SB_KEY_NOT_NEGATIVE,
      .fallback = "0", .doc = "Simulated time between particle files for ParaView; 0: none."},
     {.name = "plots", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_output_settings, plots),
-     .fallback = "true", .doc = "Plot forces and gauges at the end where gnuplot is there."},
+     .fallback = "true", .flags = SB_KEY_FREE,
+     .doc = "Plot forces and gauges at the end where gnuplot is there."},
+    {.name = "checkpoint", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_output_settings, checkpoint),
+     .table = &checkpoint_table, .flags = SB_KEY_FREE,
+     .doc = "When the run's state is saved, for `--resume`; always once more at the end and on a signal."},
 };
 /* clang-format on */
 

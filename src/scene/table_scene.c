@@ -105,7 +105,7 @@ static const sb_key scene_keys[] = {
      .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
      .doc = "Distance of particles at rest, one spacing: the one knob between speed and detail."},
     {.name = "duration", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_scene, duration), .unit = "s",
-     .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
+     .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED | SB_KEY_FREE,
      .doc = "Simulated time of the run."},
     {.name = "fluid", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, fluid), .table = &fluid_table,
      .doc = "What flows."},
@@ -125,7 +125,7 @@ static const sb_key scene_keys[] = {
     {.name = "render", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, render),
      .table = &sb_render_table, .doc = "Pictures and film."},
     {.name = "stream", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, stream),
-     .table = &sb_stream_table, .doc = "The live stream over LCM."},
+     .table = &sb_stream_table, .flags = SB_KEY_FREE, .doc = "The live stream over LCM."},
     {.name = "output", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, output),
      .table = &sb_output_table, .doc = "Other files of a run."},
 };

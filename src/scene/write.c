@@ -1,6 +1,9 @@
 #include "base/file.h"
+#include "base/hash.h"
+#include "base/memory.h"
 #include "scene/key.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +13,9 @@ typedef struct writer {
     int indent;
     bool dash;       /* the next key is the first of a list item */
     bool unwritable; /* a text is not UTF-8 */
+    bool identity;   /* what tells two scenes apart, rather than a scene to read */
+    sb_status status;
+    sb_error error;  /* of the first file that could not be hashed */
 } writer;
 
 /* The shortest of the decimal forms that read back to the same number. */
@@ -89,6 +95,29 @@ static void put_vector(FILE *stream, const sb_vec3 *vector)
     put_numbers(stream, numbers, 3);
 }
 
+static sb_status hash_file(const char *path, uint64_t *hash, sb_error *error)
+{
+    char part[16384];
+    size_t got;
+    FILE *file = fopen(path, "rb");
+    if (!file) return sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(errno));
+    *hash = 0;
+    while ((got = fread(part, 1, sizeof part, file)) > 0) *hash = sb_hash(*hash, part, got);
+    bool bad = ferror(file) != 0;
+    fclose(file);
+    return bad ? sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read", path) : SB_OK;
+}
+
+/* A file is what is in it, wherever it lies. */
+static void put_file_identity(writer *out, const char *path)
+{
+    uint64_t hash = 0;
+    const char *slash = path ? strrchr(path, '/') : NULL;
+    put_text(out, slash ? slash + 1 : path);
+    if (out->status == SB_OK && path && *path) out->status = hash_file(path, &hash, &out->error);
+    fprintf(out->stream, " # contents %016llx", (unsigned long long)hash);
+}
+
 static void put_value(writer *out, const sb_key *key, const void *field)
 {
     FILE *stream = out->stream;
@@ -106,8 +135,14 @@ static void put_value(writer *out, const sb_key *key, const void *field)
     case SB_KEY_SWITCH:
         fputs(*(const bool *)field ? "true" : "false", stream);
         break;
-    case SB_KEY_TEXT:
     case SB_KEY_FILE:
+        if (out->identity) {
+            put_file_identity(out, *(char *const *)field);
+            break;
+        }
+        put_text(out, *(char *const *)field);
+        break;
+    case SB_KEY_TEXT:
         put_text(out, *(char *const *)field);
         break;
     case SB_KEY_NAME:
@@ -190,7 +225,25 @@ static void put_rows(writer *out, const sb_table *table, const void *item)
 {
     unsigned variant = sb_table_variant(table, item, NULL);
     for (size_t i = 0; i < table->count; i++)
-        if (sb_key_applies(&table->keys[i], variant)) put_row(out, &table->keys[i], item);
+        if (sb_key_applies(&table->keys[i], variant) && !(out->identity && table->keys[i].flags & SB_KEY_FREE))
+            put_row(out, &table->keys[i], item);
+}
+
+sb_status sb_scene_identity(const sb_scene *scene, char **text, sb_error *error)
+{
+    char *buffer = NULL;
+    size_t length = 0;
+    writer out = {.stream = open_memstream(&buffer, &length), .identity = true};
+    if (!out.stream) return sb_fail_memory(error, "the scene's identity");
+    put_rows(&out, &sb_scene_table, scene);
+    bool bad = fclose(out.stream) != 0;
+    *text = bad || out.status != SB_OK ? NULL : sb_strdup(buffer);
+    free(buffer);
+    if (out.status != SB_OK) {
+        if (error) *error = out.error;
+        return out.status;
+    }
+    return *text ? SB_OK : sb_fail_memory(error, "the scene's identity");
 }
 
 sb_status sb_scene_write(const sb_scene *scene, const char *path, sb_error *error)

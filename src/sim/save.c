@@ -1,5 +1,5 @@
 /* The state between two steps, on its way into an archive and back. What a step makes anew is left out: cells,
-   ghosts, neighbours, densities; the wall tables follow from the bodies' displacements. */
+   ghosts, neighbours, densities; the wall tables follow from the bodies' displacements. So are the stages' times, which are the process's. */
 #include "base/archive.h"
 #include "sim/state.h"
 
@@ -55,11 +55,6 @@ void sb_sim_save(const sb_sim *sim, sb_archive_out *out)
         sb_put_real(out, sim->moving[m].next_displacement);
         sb_put_vector(out, sim->moving[m].velocity);
     }
-    sb_put_count(out, sim->stage_count);
-    for (size_t s = 0; s < sim->stage_count; s++) {
-        sb_put_real(out, sim->stage[s].seconds);
-        sb_put_count(out, sim->stage[s].calls);
-    }
     sb_put_count(out, sb_sim_hash(sim));
 }
 
@@ -96,18 +91,6 @@ static void take_moving(sb_sim *sim, sb_archive_in *in)
     }
 }
 
-static void take_stages(sb_sim *sim, sb_archive_in *in)
-{
-    const size_t count = sb_take_count(in, SB_STAGES_MAX);
-    sb_step_name_stages(sim);
-    if (count > 0 && count != sim->stage_count)
-        sb_archive_refuse(in, "a step of %zu stages, expected %zu", count, sim->stage_count);
-    for (size_t s = 0; s < count; s++) {
-        sim->stage[s].seconds = sb_take_real(in);
-        sim->stage[s].calls = sb_take_count(in, UINT64_MAX);
-    }
-}
-
 sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
 {
     sb_status status = sb_archive_enter(in, SECTION, error);
@@ -120,7 +103,6 @@ sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
     sb_take_list(in, sim->impulse, sim->model->body_count, sizeof *sim->impulse);
     sb_take_list(in, &sim->ledger, sizeof sim->ledger / sizeof(double), sizeof(double));
     take_moving(sim, in);
-    take_stages(sim, in);
     const uint64_t expected = sb_take_count(in, UINT64_MAX), hash = sb_sim_hash(sim);
     if (in->error.status == SB_OK && hash != expected)
         sb_archive_refuse(in, "its state hashes to %016llx, expected %016llx", (unsigned long long)hash,

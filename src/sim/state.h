@@ -148,8 +148,6 @@ static inline size_t sb_block_end(const sb_sim *sim, size_t block)
     return end < sim->n ? end : sim->n;
 }
 
-/* sim/step.c: the stages that the scene needs, their names and number, without a step. */
-void sb_step_name_stages(sb_sim *sim);
 /* sim/settle.c: horizontal acceleration (m/s^2) that keeps an initial wave's surface level while it settles:
    with g it stands everywhere across the surface, g d(eta)/dx. */
 float sb_settle_pull(const sb_sim *sim, sb_record at);

@@ -40,9 +40,9 @@ static sb_status check_finite(const sb_sim *sim, const char *stage_name, sb_erro
 }
 #endif
 
-/* Into run, in order; returns how many. */
-static size_t list_stages(sb_sim *sim, const stage *run[STAGES])
+sb_status sb_sim_step(sb_sim *sim, sb_error *error)
 {
+    const stage *run[STAGES];
     size_t count = 0;
     for (size_t s = 0; s < STAGES; s++) {
         if (stages[s].needed && !stages[s].needed(sim->scene))
@@ -51,19 +51,6 @@ static size_t list_stages(sb_sim *sim, const stage *run[STAGES])
         run[count++] = &stages[s];
     }
     sim->stage_count = count;
-    return count;
-}
-
-void sb_step_name_stages(sb_sim *sim)
-{
-    const stage *run[STAGES];
-    (void)list_stages(sim, run);
-}
-
-sb_status sb_sim_step(sb_sim *sim, sb_error *error)
-{
-    const stage *run[STAGES];
-    const size_t count = list_stages(sim, run);
     for (size_t s = 0; s < count; s++) {
         double start = sb_clock();
         sb_status status = run[s]->run(sim, error);
