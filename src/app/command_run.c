@@ -16,6 +16,7 @@ static const char help[] =
     "  --threads N          of the simulation (default: all cores)\n"
     "  --preset NAME        numerics: default or paper (default: the scene's)\n"
     "  --set KEY=VALUE      change a key of the scene, e.g. --set resolution=5; may be repeated\n"
+    "  --resume             go on from the newest checkpoint in DIR, bit for bit; without one, from the beginning\n"
     "  --quiet              no progress\n"
     "  --profile            at the end, where the time went, stage by stage\n";
 
@@ -41,7 +42,7 @@ int sb_command_run(int count, char **arguments)
     sb_error error = {0};
     sb_scene scene = {0};
     unsigned accepted = SB_OPT_OUT | SB_OPT_UNTIL | SB_OPT_THREADS | SB_OPT_PRESET | SB_OPT_SET | SB_OPT_QUIET |
-                        SB_OPT_PROFILE;
+                        SB_OPT_PROFILE | SB_OPT_RESUME;
     sb_status status = sb_options_parse(count, arguments, accepted, "scene", &options, &error);
     if (status == SB_OK && options.help) {
         fputs(help, stdout);
@@ -55,7 +56,9 @@ int sb_command_run(int count, char **arguments)
             snprintf(out, sizeof out, "%s", options.out);
         else
             default_out(out, options.positional);
-        status = sb_run(&scene, out, &(sb_run_voice){.quiet = options.quiet, .profile = options.profile}, &error);
+        const sb_run_manner manner = {
+            .resume = options.resume, .quiet = options.quiet, .profile = options.profile};
+        status = sb_run(&scene, out, &manner, &error);
     }
     if (status != SB_OK)
         fprintf(stderr, "shorebreak: %s\n", error.text);

@@ -18,6 +18,10 @@ static void *serve(void *argument)
         }
         consumer->handled += usable;
         sb_frame_release(frame);
+        pthread_mutex_lock(&consumer->lock);
+        consumer->done++;
+        pthread_cond_signal(&consumer->idle);
+        pthread_mutex_unlock(&consumer->lock);
     }
     if (work->close)
         work->close(work->state);
@@ -31,6 +35,8 @@ sb_status sb_consumer_start(sb_consumer *consumer, const sb_consumer_work *work,
     consumer->queue = sb_frame_queue_create(capacity, policy);
     if (!consumer->queue)
         return sb_fail_memory(error, "a frame queue");
+    pthread_mutex_init(&consumer->lock, NULL);
+    pthread_cond_init(&consumer->idle, NULL);
     /* Signals are for the main thread. */
     sigset_t all, old;
     sigfillset(&all);
@@ -39,6 +45,8 @@ sb_status sb_consumer_start(sb_consumer *consumer, const sb_consumer_work *work,
     pthread_sigmask(SIG_SETMASK, &old, NULL);
     if (refused) {
         sb_frame_queue_destroy(consumer->queue);
+        pthread_cond_destroy(&consumer->idle);
+        pthread_mutex_destroy(&consumer->lock);
         consumer->queue = NULL;
         return sb_fail(error, SB_FAILED, "%s: the system refuses a thread", work->name);
     }
@@ -53,11 +61,21 @@ bool sb_consumer_due(const sb_consumer *consumer, double time)
 
 void sb_consumer_feed(sb_consumer *consumer, const sb_frame *frame)
 {
-    sb_frame_queue_push(consumer->queue, frame);
+    consumer->fed += sb_frame_queue_push(consumer->queue, frame);
     if (consumer->interval > 0)
         consumer->next = consumer->interval * (floor(frame->status.time / consumer->interval + 1e-9) + 1);
     else
         consumer->next = frame->status.time;
+}
+
+void sb_consumer_drain(sb_consumer *consumer)
+{
+    if (!consumer->started)
+        return;
+    pthread_mutex_lock(&consumer->lock);
+    while (consumer->done < consumer->fed)
+        pthread_cond_wait(&consumer->idle, &consumer->lock);
+    pthread_mutex_unlock(&consumer->lock);
 }
 
 void sb_consumer_stop(sb_consumer *consumer)
@@ -67,6 +85,8 @@ void sb_consumer_stop(sb_consumer *consumer)
     sb_frame_queue_close(consumer->queue);
     pthread_join(consumer->thread, NULL);
     sb_frame_queue_destroy(consumer->queue);
+    pthread_cond_destroy(&consumer->idle);
+    pthread_mutex_destroy(&consumer->lock);
     consumer->queue = NULL;
     consumer->started = false;
 }

@@ -27,6 +27,9 @@ typedef struct sb_consumer {
     sb_error error;         /* why it stopped; read after sb_consumer_stop */
     atomic_bool failed;
     uint64_t handled;
+    pthread_mutex_t lock;   /* of the two below */
+    pthread_cond_t idle;
+    uint64_t fed, done;     /* frames given to it, and those it is through with */
 } sb_consumer;
 
 /* Starts the thread. interval 0: every frame that any consumer asks for. */
@@ -38,6 +41,10 @@ bool sb_consumer_due(const sb_consumer *consumer, double time);
 
 /* Hands the frame over and sets the next due time. */
 void sb_consumer_feed(sb_consumer *consumer, const sb_frame *frame);
+
+/* Waits until it is through with all frames it was fed; with a queue that drops none only. What it has written and
+   counted may then be read. Fine when it never started. */
+void sb_consumer_drain(sb_consumer *consumer);
 
 /* Lets it finish what it has, and joins. Fine when it never started. */
 void sb_consumer_stop(sb_consumer *consumer);

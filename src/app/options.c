@@ -18,7 +18,7 @@ static const flag flags[] = {
     {"--out", SB_OPT_OUT, true},       {"--until", SB_OPT_UNTIL, true}, {"--threads", SB_OPT_THREADS, true},
     {"--preset", SB_OPT_PRESET, true}, {"--set", SB_OPT_SET, true},     {"--quiet", SB_OPT_QUIET, false},
     {"--json", SB_OPT_JSON, false},    {"--camera", SB_OPT_CAMERA, true},
-    {"--profile", SB_OPT_PROFILE, false},
+    {"--profile", SB_OPT_PROFILE, false}, {"--resume", SB_OPT_RESUME, false},
 };
 
 static sb_status add_override(sb_options *options, const char *text, sb_error *error)
@@ -53,6 +53,9 @@ static sb_status take(sb_options *options, unsigned bit, const char *value, sb_e
         break;
     case SB_OPT_QUIET:
         options->quiet = true;
+        break;
+    case SB_OPT_RESUME:
+        options->resume = true;
         break;
     case SB_OPT_PROFILE:
         options->profile = true;

@@ -2,6 +2,28 @@
 #include "app/consumers.h"
 #include "output/vtp.h"
 
+#include <errno.h>
+#include <inttypes.h>
+#include <string.h>
+#include <unistd.h>
+
+static void name_of(uint64_t number, char name[64])
+{
+    snprintf(name, 64, "particles/%06" PRIu64 ".vtp", number);
+}
+
+/* The list first: it never names a file that is not there. */
+static sb_status start_list(const sb_recorder *recorder, sb_error *error)
+{
+    char list[SB_PATH_MAX];
+    sb_status status = sb_path_join(list, recorder->directory, "particles.pvd", error);
+    if (status == SB_OK && recorder->count > 0)
+        return sb_pvd_write(&recorder->pvd, list, error);
+    if (status == SB_OK && unlink(list) != 0 && errno != ENOENT)
+        return sb_fail(error, SB_FAILED, "%.500s: cannot remove: %s", list, strerror(errno));
+    return status;
+}
+
 static sb_status open_recorder(void *state, sb_error *error)
 {
     const sb_recorder *recorder = state;
@@ -9,14 +31,16 @@ static sb_status open_recorder(void *state, sb_error *error)
     sb_status status = sb_path_join(folder, recorder->directory, "particles", error);
     if (status == SB_OK)
         status = sb_make_directories(folder, error);
-    return status == SB_OK ? sb_remove_numbered(folder, ".vtp", error) : status;
+    if (status == SB_OK)
+        status = start_list(recorder, error);
+    return status == SB_OK ? sb_remove_numbered(folder, ".vtp", recorder->count, error) : status;
 }
 
 static sb_status record(void *state, const sb_frame *frame, sb_error *error)
 {
     sb_recorder *recorder = state;
     char name[64], path[SB_PATH_MAX], list[SB_PATH_MAX];
-    snprintf(name, sizeof name, "particles/%06llu.vtp", (unsigned long long)recorder->count + 1);
+    name_of(recorder->count + 1, name);
     sb_status status = sb_path_join(path, recorder->directory, name, error);
     if (status == SB_OK)
         status = sb_path_join(list, recorder->directory, "particles.pvd", error);
@@ -25,6 +49,45 @@ static sb_status record(void *state, const sb_frame *frame, sb_error *error)
     if (status == SB_OK)
         status = sb_pvd_add(&recorder->pvd, list, frame->status.time, name, error);
     recorder->count += status == SB_OK;
+    return status;
+}
+
+sb_status sb_recorder_sync(sb_recorder *recorder, sb_error *error)
+{
+    char name[64] = "particles", path[SB_PATH_MAX];
+    const uint64_t first = recorder->synced;
+    for (uint64_t number = first; number <= recorder->count && recorder->count > first; number++) {
+        if (number > first)
+            name_of(number, name); /* the first turn is the folder's */
+        sb_status status = sb_path_join(path, recorder->directory, name, error);
+        if (status != SB_OK)
+            return status;
+        if (sb_file_sync(path) != 0)
+            return sb_fail(error, SB_FAILED, "%.500s: cannot be put on disk: %s", path, strerror(errno));
+    }
+    recorder->synced = recorder->count;
+    return SB_OK;
+}
+
+void sb_recorder_save(const sb_recorder *recorder, sb_archive_out *out)
+{
+    sb_put_count(out, recorder->count);
+    for (uint64_t i = 0; i < recorder->count; i++)
+        sb_put_real(out, recorder->pvd.entries[i].time);
+}
+
+sb_status sb_recorder_load(sb_recorder *recorder, sb_archive_in *in, sb_error *error)
+{
+    const uint64_t count = sb_take_count(in, UINT32_MAX);
+    sb_status status = SB_OK;
+    sb_pvd_free(&recorder->pvd);
+    recorder->count = recorder->synced = 0;
+    while (status == SB_OK && recorder->count < count && in->error.status == SB_OK) {
+        char name[64];
+        name_of(++recorder->count, name);
+        status = sb_pvd_note(&recorder->pvd, sb_take_real(in), name, error);
+    }
+    recorder->synced = recorder->count;
     return status;
 }
 

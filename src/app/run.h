@@ -7,14 +7,16 @@
 
 #include <stdbool.h>
 
-/* What a run says on stdout. */
-typedef struct sb_run_voice {
+/* How a run begins, and what it says on stdout. */
+typedef struct sb_run_manner {
+    bool resume;  /* goes on from the directory's newest checkpoint; from the beginning where there is none */
     bool quiet;   /* no progress */
     bool profile; /* the stage table at the end */
-} sb_run_voice;
+} sb_run_manner;
 
-/* Runs the scene into the directory. SB_INTERRUPTED when a signal ended it, all files being complete;
+/* Runs the scene into the directory. SB_BAD_INPUT also when there are checkpoints to resume from and none can be
+   used: the directory's files are then as they were, but for the log. SB_INTERRUPTED when a signal ended it, all files being complete;
    SB_FAILED with the reason otherwise, the last good state written. */
-sb_status sb_run(const sb_scene *scene, const char *directory, const sb_run_voice *voice, sb_error *error);
+sb_status sb_run(const sb_scene *scene, const char *directory, const sb_run_manner *manner, sb_error *error);
 
 #endif

@@ -5,6 +5,7 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -96,7 +97,17 @@ sb_status sb_make_directories(const char *path, sb_error *error)
     return SB_OK;
 }
 
-sb_status sb_remove_numbered(const char *folder, const char *suffix, sb_error *error)
+/* Whether the name is a number above `after` and the suffix, or one that was being written. */
+static int is_numbered(const char *name, const char *suffix, unsigned long long after)
+{
+    const size_t digits = strspn(name, "0123456789"), length = strlen(suffix);
+    const char *rest = name + digits + length;
+    if (digits == 0 || strncmp(name + digits, suffix, length) != 0 || (*rest && strcmp(rest, ".tmp") != 0))
+        return 0;
+    return *rest || strtoull(name, NULL, 10) > after;
+}
+
+sb_status sb_remove_numbered(const char *folder, const char *suffix, unsigned long long after, sb_error *error)
 {
     DIR *directory = opendir(folder);
     if (!directory)
@@ -105,8 +116,7 @@ sb_status sb_remove_numbered(const char *folder, const char *suffix, sb_error *e
     sb_status status = SB_OK;
     const struct dirent *entry;
     while (status == SB_OK && (entry = readdir(directory))) {
-        size_t digits = strspn(entry->d_name, "0123456789");
-        if (digits == 0 || strcmp(entry->d_name + digits, suffix) != 0)
+        if (!is_numbered(entry->d_name, suffix, after))
             continue;
         if (unlinkat(dirfd(directory), entry->d_name, 0) != 0)
             status = sb_fail(error, SB_FAILED, "%.500s/%.200s: cannot remove: %s", folder, entry->d_name,

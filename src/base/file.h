@@ -31,8 +31,9 @@ int sb_file_sync(const char *path);
 /* Makes the directory and all missing parents. */
 sb_status sb_make_directories(const char *path, sb_error *error);
 
-/* Removes the files "<digits><suffix>" of a folder: what a former run numbered. A missing folder is fine. */
-sb_status sb_remove_numbered(const char *folder, const char *suffix, sb_error *error);
+/* Removes the files "<digits><suffix>" of a folder whose number is above `after`, and what was being written when a
+   run was killed: "<digits><suffix>.tmp". A missing folder is fine. */
+sb_status sb_remove_numbered(const char *folder, const char *suffix, unsigned long long after, sb_error *error);
 
 /* base/name into out; an absolute name stands alone. SB_BAD_INPUT when longer than SB_PATH_MAX. */
 sb_status sb_path_join(char out[SB_PATH_MAX], const char *base, const char *name, sb_error *error);

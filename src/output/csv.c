@@ -5,8 +5,11 @@
 
 #include <errno.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 enum { FORCES, GAUGES, PROBES, ENERGY, OVERTOPPING, RUNUP, TABLES };
+_Static_assert((int)TABLES == (int)SB_CSV_TABLES, "lengths of all tables");
 
 typedef struct table {
     FILE *stream;
@@ -45,33 +48,51 @@ static const struct {
     [RUNUP] = {"runup.csv", "time_s,line,x_m,y_m,z_m,front_m", "time_s,line,x_m,y_m,z_m,front_m"},
 };
 
-/* The first failed file's message, or SB_OK. */
+/* The first failed file's message, or SB_OK. Rows in a file without a name would be lost without a word. */
 static sb_status check(const sb_csv *csv, sb_error *error)
 {
-    for (int k = 0; k < TABLES; k++)
-        if (csv->tables[k].stream && ferror(csv->tables[k].stream))
-            return sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", csv->tables[k].path,
-                           strerror(errno ? errno : EIO));
+    for (int k = 0; k < TABLES; k++) {
+        const table *t = &csv->tables[k];
+        struct stat found;
+        if (t->stream && ferror(t->stream))
+            return sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", t->path, strerror(errno ? errno : EIO));
+        if (t->stream && fstat(fileno(t->stream), &found) == 0 && found.st_nlink == 0)
+            return sb_fail(error, SB_FAILED, "%.500s: was removed while the run wrote it", t->path);
+    }
     return SB_OK;
 }
 
-static sb_status open_table(table *t, const char *directory, const char *name, const char *header,
-                            sb_error *error)
+static sb_status cannot_write(const table *t, sb_error *error)
 {
-    sb_status status = sb_path_join(t->path, directory, name, error);
-    if (status != SB_OK) return status;
-    t->stream = fopen(t->path, "w");
-    if (!t->stream)
-        return sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", t->path, strerror(errno));
-    errno = 0;
-    if (fprintf(t->stream, "%s\n", header) < 0 || fflush(t->stream) != 0)
-        return sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", t->path,
-                       strerror(errno ? errno : EIO));
+    return sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", t->path, strerror(errno ? errno : EIO));
+}
+
+static sb_status start_table(table *t, const char *header, sb_error *error)
+{
+    t->stream = fopen(t->path, "we");
+    errno = t->stream ? 0 : errno;
+    if (!t->stream || fprintf(t->stream, "%s\n", header) < 0 || fflush(t->stream) != 0)
+        return cannot_write(t, error);
     return SB_OK;
 }
 
-sb_status sb_csv_open(const char *directory, const sb_scene *scene, const sb_model *model,
-                      sb_csv **csv, sb_error *error)
+/* What was written after this length goes. */
+static sb_status continue_table(table *t, uint64_t length, sb_error *error)
+{
+    t->stream = fopen(t->path, "r+e");
+    if (!t->stream || ftruncate(fileno(t->stream), (off_t)length) != 0 || fseek(t->stream, 0, SEEK_END) != 0)
+        return cannot_write(t, error);
+    return SB_OK;
+}
+
+static bool has_table(const sb_scene *scene, int k)
+{
+    return k == OVERTOPPING ? scene->measure.plane_count > 0 : k == RUNUP ? scene->measure.runup_count > 0 : true;
+}
+
+/* lengths NULL: from nothing. */
+static sb_status open_tables(const char *directory, const sb_scene *scene, const sb_model *model,
+                             const sb_csv_lengths *lengths, sb_csv **csv, sb_error *error)
 {
     sb_csv *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, "CSV files");
@@ -79,17 +100,61 @@ sb_status sb_csv_open(const char *directory, const sb_scene *scene, const sb_mod
     made->model = model;
     sb_status status = SB_OK;
     for (int k = 0; status == SB_OK && k < TABLES; k++) {
-        if ((k == OVERTOPPING && !scene->measure.plane_count) ||
-            (k == RUNUP && !scene->measure.runup_count))
-            continue;
+        table *t = &made->tables[k];
+        if (!has_table(scene, k)) continue;
         const char *header = scene->dimensions == 2 ? formats[k].flat_header : formats[k].header;
-        status = open_table(&made->tables[k], directory, formats[k].name, header, error);
+        status = sb_path_join(t->path, directory, formats[k].name, error);
+        if (status == SB_OK)
+            status = lengths ? continue_table(t, lengths->bytes[k], error) : start_table(t, header, error);
     }
     if (status != SB_OK) {
         sb_csv_close(made, NULL);
         return status;
     }
     *csv = made;
+    return SB_OK;
+}
+
+sb_status sb_csv_open(const char *directory, const sb_scene *scene, const sb_model *model,
+                      sb_csv **csv, sb_error *error)
+{
+    return open_tables(directory, scene, model, NULL, csv, error);
+}
+
+sb_status sb_csv_resume(const char *directory, const sb_scene *scene, const sb_model *model,
+                        const sb_csv_lengths *lengths, sb_csv **csv, sb_error *error)
+{
+    return open_tables(directory, scene, model, lengths, csv, error);
+}
+
+sb_status sb_csv_check(const char *directory, const sb_scene *scene, const sb_csv_lengths *lengths, sb_error *error)
+{
+    for (int k = 0; k < TABLES; k++) {
+        char path[SB_PATH_MAX];
+        struct stat found;
+        if (!has_table(scene, k)) continue;
+        sb_status status = sb_path_join(path, directory, formats[k].name, error);
+        if (status != SB_OK) return status;
+        if (stat(path, &found) != 0)
+            return sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(errno));
+        if (lengths->bytes[k] == 0 || (uint64_t)found.st_size < lengths->bytes[k])
+            return sb_fail(error, SB_BAD_INPUT, "%.500s: has %llu bytes, expected the %llu that the checkpoint goes on from",
+                           path, (unsigned long long)found.st_size, (unsigned long long)lengths->bytes[k]);
+    }
+    return SB_OK;
+}
+
+sb_status sb_csv_sync(sb_csv *csv, sb_csv_lengths *lengths, sb_error *error)
+{
+    *lengths = (sb_csv_lengths){{0}};
+    for (int k = 0; k < TABLES; k++) {
+        const table *t = &csv->tables[k];
+        errno = 0;
+        if (!t->stream) continue;
+        const long at = fflush(t->stream) == 0 && fsync(fileno(t->stream)) == 0 ? ftell(t->stream) : -1;
+        if (at < 0) return cannot_write(t, error);
+        lengths->bytes[k] = (uint64_t)at;
+    }
     return SB_OK;
 }
 

@@ -28,6 +28,12 @@ void sb_progress_begin(sb_progress *progress, FILE *stream, double duration)
     progress->mark_wall[0] = progress->mark_wall[1] = now;
 }
 
+void sb_progress_resume(sb_progress *progress, double time)
+{
+    progress->mark_wall[0] = progress->mark_wall[1] = sb_clock();
+    progress->mark_time[0] = progress->mark_time[1] = time;
+}
+
 double sb_progress_wall(const sb_progress *progress)
 {
     return sb_clock() - progress->started;

@@ -21,6 +21,9 @@ typedef struct sb_progress {
    every 10 s elsewhere. */
 void sb_progress_begin(sb_progress *progress, FILE *stream, double duration);
 
+/* The run goes on from this time, not from 0. */
+void sb_progress_resume(sb_progress *progress, double time);
+
 /* Call after each step; prints when it is time to. */
 void sb_progress_update(sb_progress *progress, const sb_step_report *report);
 

@@ -29,12 +29,21 @@ static sb_status append(sb_pvd *pvd, double time, const char *file, size_t lengt
     return SB_OK;
 }
 
+sb_status sb_pvd_note(sb_pvd *pvd, double time, const char *file, sb_error *error)
+{
+    return append(pvd, time, file, strlen(file), error);
+}
+
 sb_status sb_pvd_add(sb_pvd *pvd, const char *path, double time, const char *file, sb_error *error)
 {
-    sb_status status = append(pvd, time, file, strlen(file), error);
-    if (status != SB_OK) return status;
+    sb_status status = sb_pvd_note(pvd, time, file, error);
+    return status == SB_OK ? sb_pvd_write(pvd, path, error) : status;
+}
+
+sb_status sb_pvd_write(const sb_pvd *pvd, const char *path, sb_error *error)
+{
     sb_atomic_file out;
-    status = sb_atomic_open(&out, path, error);
+    sb_status status = sb_atomic_open(&out, path, error);
     if (status != SB_OK) return status;
     fputs("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
           "byte_order=\"LittleEndian\">\n<Collection>\n",

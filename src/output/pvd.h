@@ -20,6 +20,10 @@ typedef struct sb_pvd {
 /* Adds one file (path relative to the pvd's folder) and rewrites the whole list at `path`. */
 sb_status sb_pvd_add(sb_pvd *pvd, const char *path, double time, const char *file, sb_error *error);
 
+/* The two halves of it: into the list only; the list as it is. */
+sb_status sb_pvd_note(sb_pvd *pvd, double time, const char *file, sb_error *error);
+sb_status sb_pvd_write(const sb_pvd *pvd, const char *path, sb_error *error);
+
 /* Reads a list as written above; SB_BAD_INPUT when it is damaged. *pvd is empty before. */
 sb_status sb_pvd_read(const char *path, sb_pvd *pvd, sb_error *error);
 

@@ -9,6 +9,7 @@
 #include <pthread.h>
 #include <stdarg.h>
 #include <string.h>
+#include <unistd.h>
 
 struct sb_runlog {
     FILE *stream;
@@ -18,12 +19,12 @@ struct sb_runlog {
     pthread_mutex_t mutex;
 };
 
-sb_status sb_runlog_open(const char *path, sb_runlog **log, sb_error *error)
+static sb_status open_log(const char *path, const char *mode, sb_runlog **log, sb_error *error)
 {
     sb_runlog *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, path);
     snprintf(made->path, sizeof made->path, "%s", path);
-    made->stream = fopen(path, "w");
+    made->stream = fopen(path, mode);
     if (!made->stream) {
         sb_free(made);
         return sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", path, strerror(errno));
@@ -32,6 +33,38 @@ sb_status sb_runlog_open(const char *path, sb_runlog **log, sb_error *error)
     pthread_mutex_init(&made->mutex, NULL);
     *log = made;
     return SB_OK;
+}
+
+sb_status sb_runlog_open(const char *path, sb_runlog **log, sb_error *error)
+{
+    return open_log(path, "we", log, error);
+}
+
+/* Cuts the file after its last whole line. */
+static sb_status drop_torn_line(const char *path, sb_error *error)
+{
+    FILE *file = fopen(path, "r+e");
+    if (!file)
+        return errno == ENOENT ? SB_OK
+                               : sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", path, strerror(errno));
+    long end = fseek(file, 0, SEEK_END) == 0 ? ftell(file) : 0, keep = end;
+    while (keep > 0 && fseek(file, keep - 1, SEEK_SET) == 0 && fgetc(file) != '\n') keep--;
+    bool bad = keep < end && ftruncate(fileno(file), keep) != 0;
+    int reason = errno;
+    fclose(file);
+    return bad ? sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", path, strerror(reason)) : SB_OK;
+}
+
+sb_status sb_runlog_append(const char *path, sb_runlog **log, sb_error *error)
+{
+    sb_status status = drop_torn_line(path, error);
+    return status == SB_OK ? open_log(path, "ae", log, error) : status;
+}
+
+sb_status sb_runlog_sync(sb_runlog *log, sb_error *error)
+{
+    if (!log || fsync(fileno(log->stream)) == 0) return SB_OK;
+    return sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", log->path, strerror(errno));
 }
 
 static sb_status verdict(const sb_runlog *log, sb_error *error)

@@ -13,6 +13,12 @@ typedef struct sb_runlog sb_runlog;
 /* Everything below takes a NULL log and then does nothing. */
 sb_status sb_runlog_open(const char *path, sb_runlog **log, sb_error *error);
 
+/* Goes on with a log that is there, or starts one; a line that a killed run left unfinished is dropped. */
+sb_status sb_runlog_append(const char *path, sb_runlog **log, sb_error *error);
+
+/* Puts what was written on disk. SB_FAILED when that cannot be done. */
+sb_status sb_runlog_sync(sb_runlog *log, sb_error *error);
+
 /* SB_FAILED when a line could not be written. */
 sb_status sb_runlog_check(sb_runlog *log, sb_error *error);
 

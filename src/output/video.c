@@ -41,6 +41,7 @@ bool sb_video_write(const char *directory, const char *camera, int rate, sb_runl
         status = sb_fail(&error, SB_FAILED, "%.64s...: name too long", camera);
     if (status == SB_OK) status = sb_path_join(from, directory, part + strlen("file:"), &error);
     if (status == SB_OK) status = sb_path_join(to, directory, name, &error);
+    if (status == SB_OK) unlink(from); /* one that outlived a killed run may still be writing it */
     if (status == SB_OK) status = sb_tool_run(program, arguments, directory, &error);
     if (status == SB_OK && rename(from, to) != 0)
         status = sb_fail(&error, SB_FAILED, "%.500s: %s", to, strerror(errno));

@@ -1,0 +1,212 @@
+#include "app/checkpoint_parts.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* ---- the folder ---- */
+
+sb_status sb_checkpoint_path(const run *r, uint64_t step, char path[SB_PATH_MAX], sb_error *error)
+{
+    char name[64];
+    snprintf(name, sizeof name, "%09" PRIu64 SB_CHECKPOINT_SUFFIX, step);
+    return sb_path_join(path, r->checkpoints.folder, name, error);
+}
+
+static int newest_first(const void *left, const void *right)
+{
+    const uint64_t a = *(const uint64_t *)left, b = *(const uint64_t *)right;
+    return (a < b) - (a > b);
+}
+
+/* The step in a checkpoint's name. */
+static bool is_checkpoint(const char *name, uint64_t *step)
+{
+    char *end;
+    if (strspn(name, "0123456789") == 0)
+        return false;
+    errno = 0;
+    *step = strtoull(name, &end, 10);
+    return errno == 0 && strcmp(end, SB_CHECKPOINT_SUFFIX) == 0;
+}
+
+sb_status sb_checkpoint_list(const run *r, uint64_t **steps, size_t *count, sb_error *error)
+{
+    DIR *folder = opendir(r->checkpoints.folder);
+    const struct dirent *entry;
+    size_t capacity = 0;
+    uint64_t step;
+    sb_status status = SB_OK;
+    *steps = NULL;
+    *count = 0;
+    if (!folder)
+        return errno == ENOENT ? SB_OK
+                               : sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", r->checkpoints.folder,
+                                         strerror(errno));
+    while (status == SB_OK && (entry = readdir(folder))) {
+        if (!is_checkpoint(entry->d_name, &step))
+            continue;
+        if (sb_grow((void **)steps, &capacity, *count + 1, sizeof **steps) != 0)
+            status = sb_fail_memory(error, "the list of checkpoints");
+        else
+            (*steps)[(*count)++] = step;
+    }
+    closedir(folder);
+    if (*count > 1)
+        qsort(*steps, *count, sizeof **steps, newest_first);
+    return status;
+}
+
+size_t sb_checkpoint_count(const run *r)
+{
+    uint64_t *steps;
+    size_t count;
+    (void)sb_checkpoint_list(r, &steps, &count, NULL);
+    sb_free(steps);
+    return count;
+}
+
+/* Removes those that come after the first `keep` of the list, newest first. */
+static sb_status remove_older(const run *r, size_t keep, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    uint64_t *steps;
+    size_t count;
+    sb_status status = sb_checkpoint_list(r, &steps, &count, error);
+    for (size_t i = keep; status == SB_OK && i < count; i++) {
+        status = sb_checkpoint_path(r, steps[i], path, error);
+        if (status == SB_OK && unlink(path) != 0 && errno != ENOENT)
+            status = sb_fail(error, SB_FAILED, "%.500s: cannot remove: %s", path, strerror(errno));
+    }
+    sb_free(steps);
+    return status;
+}
+
+sb_status sb_checkpoint_remove_all(run *r, sb_error *error)
+{
+    sb_status status = remove_older(r, 0, error);
+    /* And one that was being written when its run was killed. */
+    return status == SB_OK ? sb_remove_numbered(r->checkpoints.folder, SB_CHECKPOINT_SUFFIX, 0, error) : status;
+}
+
+void sb_checkpoint_forget_later(run *r)
+{
+    sb_error reason = {0};
+    if (sb_remove_numbered(r->checkpoints.folder, SB_CHECKPOINT_SUFFIX, r->checkpoints.steps_then, &reason) != SB_OK)
+        sb_run_warn(r, "%s", reason.text);
+}
+
+/* ---- beginning and end ---- */
+
+sb_status sb_checkpoint_begin(run *r, sb_error *error)
+{
+    const sb_checkpoint_settings *wish = &r->scene->output.checkpoint;
+    r->checkpoints = (sb_checkpoints){.on = wish->steps > 0 || wish->minutes > 0, .written = sb_clock()};
+    return sb_run_path(r, "checkpoints", r->checkpoints.folder, error);
+}
+
+sb_status sb_checkpoint_identify(run *r, sb_error *error)
+{
+    sb_free(r->checkpoints.identity);
+    r->checkpoints.identity = NULL;
+    r->checkpoints.model = sb_model_hash(&r->model);
+    return sb_scene_identity(r->scene, &r->checkpoints.identity, error);
+}
+
+void sb_checkpoint_end(run *r)
+{
+    sb_free(r->checkpoints.identity);
+    r->checkpoints.identity = NULL;
+    sb_archive_out_free(&r->checkpoints.out);
+}
+
+/* ---- writing ---- */
+
+bool sb_checkpoint_due(const run *r)
+{
+    const sb_checkpoint_settings *wish = &r->scene->output.checkpoint;
+    const uint64_t step = sb_sim_report(r->sim)->step;
+    return (wish->steps > 0 && step % (uint64_t)wish->steps == 0) ||
+           (wish->minutes > 0 && sb_clock() - r->checkpoints.written >= 60 * wish->minutes);
+}
+
+static void put_run(run *r, const sb_csv_lengths *lengths, sb_archive_out *out)
+{
+    const sb_energy *first = &r->first_energy;
+    sb_archive_section(out, SB_CHECKPOINT_SCENE);
+    sb_put_text(out, SB_VERSION);
+    sb_put_text(out, r->checkpoints.identity);
+    sb_put_count(out, r->checkpoints.model);
+    sb_archive_section(out, SB_CHECKPOINT_RUN);
+    sb_put_real(out, sb_run_wall(r));
+    sb_put_count(out, r->iterations);
+    sb_put_count(out, r->capped);
+    sb_put_count(out, r->frames);
+    sb_put_real(out, first->kinetic);
+    sb_put_real(out, first->potential);
+    sb_put_real(out, first->mass);
+    sb_put_vector(out, first->momentum);
+    for (int c = 0; c < CONSUMERS; c++)
+        sb_put_real(out, r->consumers[c].next);
+    sb_put_list(out, lengths->bytes, SB_CSV_TABLES, sizeof *lengths->bytes);
+    sb_put_count(out, r->pictures.count);
+    sb_recorder_save(&r->recorder, out);
+}
+
+/* What the checkpoint relies on is on disk before it is. */
+static sb_status settle_files(run *r, sb_csv_lengths *lengths, sb_error *error)
+{
+    sb_consumer_drain(&r->consumers[RECORDER]);
+    sb_consumer_drain(&r->consumers[PICTURES]);
+    sb_status status = sb_csv_sync(r->csv, lengths, error);
+    if (status == SB_OK)
+        status = sb_recorder_sync(&r->recorder, error);
+    if (status == SB_OK)
+        status = sb_pictures_sync(&r->pictures, error);
+    return status == SB_OK ? sb_runlog_sync(r->log, error) : status;
+}
+
+static sb_status write_now(run *r, char path[SB_PATH_MAX], sb_error *error)
+{
+    sb_archive_out *out = &r->checkpoints.out;
+    sb_csv_lengths lengths;
+    sb_status status = settle_files(r, &lengths, error);
+    if (status == SB_OK)
+        status = sb_checkpoint_path(r, sb_sim_report(r->sim)->step, path, error);
+    if (status != SB_OK)
+        return status;
+    sb_archive_begin(out, SB_CHECKPOINT_KIND, SB_CHECKPOINT_FORMAT);
+    put_run(r, &lengths, out);
+    sb_sim_save(r->sim, out);
+    sb_measure_save(r->measure, out);
+    return sb_archive_save(out, path, error);
+}
+
+void sb_checkpoint_write(run *r)
+{
+    sb_checkpoints *c = &r->checkpoints;
+    const sb_step_report *report = sb_sim_report(r->sim);
+    char path[SB_PATH_MAX];
+    sb_error reason = {0};
+    if (!c->on || (c->current && c->steps_then == report->step))
+        return;
+    const double start = sb_clock();
+    c->current = write_now(r, path, &reason) == SB_OK;
+    c->written = sb_clock();
+    c->steps_then = report->step;
+    if (!c->current) {
+        sb_run_warn(r, "no checkpoint at step %" PRIu64 ", the run goes on: %s", report->step, reason.text);
+        return;
+    }
+    sb_runlog_event(r->log, "checkpoint", "step %" PRIu64 ", t = %.9g s, %zu bytes in %.3f s: %.500s", report->step,
+                    report->time, c->out.used, c->written - start, strrchr(path, '/') + 1);
+    if (remove_older(r, (size_t)r->scene->output.checkpoint.keep, &reason) != SB_OK)
+        sb_run_warn(r, "%s", reason.text);
+}

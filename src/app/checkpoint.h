@@ -1,0 +1,51 @@
+/* Checkpoints of a run: DIR/checkpoints/<step>.state, from which --resume goes on bit for bit (docs/checkpoints.md).
+   Writing one reads the run only; nothing that it does can fail the run. */
+#ifndef SB_APP_CHECKPOINT_H
+#define SB_APP_CHECKPOINT_H
+
+#include "base/archive.h"
+#include "base/file.h"
+
+typedef struct run run; /* app/run_state.h */
+
+typedef struct sb_checkpoints {
+    bool on;              /* the scene asks for them */
+    char folder[SB_PATH_MAX];
+    char *identity;       /* of the scene */
+    uint64_t model;       /* hash of what was sampled */
+    sb_archive_out out;   /* its memory is kept from one to the next */
+    double written;       /* s on the clock, of the last attempt */
+    uint64_t steps_then;  /* step of the last one */
+    bool current;         /* there is one of steps_then */
+} sb_checkpoints;
+
+/* Where they go, and whether the scene wants any. */
+sb_status sb_checkpoint_begin(run *r, sb_error *error);
+
+/* How many the directory holds. */
+size_t sb_checkpoint_count(const run *r);
+
+/* Removes all that the directory holds: those of an earlier run. */
+sb_status sb_checkpoint_remove_all(run *r, sb_error *error);
+
+/* Once scene and model are final: what they are told apart by. */
+sb_status sb_checkpoint_identify(run *r, sb_error *error);
+
+/* Whether one is due: by steps, or by the wall clock, which decides when to look at the state and nothing else. */
+bool sb_checkpoint_due(const run *r);
+
+/* Saves the state between two steps and removes the oldest but the last K; a failure is a warning, and those written
+   before stay. Does nothing when they are off, or when this step has one. */
+void sb_checkpoint_write(run *r);
+
+/* Loads the newest checkpoint that is whole and of this program, scene and model into the run's simulation,
+   measurements and counters; says why others were refused. Touches no file. SB_BAD_INPUT when none can be used:
+   simulation and measurements are then worth nothing. */
+sb_status sb_checkpoint_load(run *r, sb_error *error);
+
+/* After a load: removes checkpoints of later steps, which were refused. */
+void sb_checkpoint_forget_later(run *r);
+
+void sb_checkpoint_end(run *r);
+
+#endif

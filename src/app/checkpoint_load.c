@@ -1,0 +1,116 @@
+/* Going on from a checkpoint: the newest one that is whole, of this program, and of this scene. */
+#include "app/checkpoint_parts.h"
+
+#include "base/memory.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+/* The first line in which two texts differ, cut to fit; false when they are one. */
+static bool first_difference(const char *a, const char *b, char line[2][200])
+{
+    while (*a && *b) {
+        const size_t la = strcspn(a, "\n"), lb = strcspn(b, "\n");
+        if (la != lb || memcmp(a, b, la) != 0)
+            break;
+        a += la + (a[la] == '\n');
+        b += lb + (b[lb] == '\n');
+    }
+    a += strspn(a, " ");
+    b += strspn(b, " ");
+    snprintf(line[0], sizeof line[0], "%.*s", (int)strcspn(a, "\n"), a);
+    snprintf(line[1], sizeof line[1], "%.*s", (int)strcspn(b, "\n"), b);
+    return *a || *b;
+}
+
+/* Whether it is of this program, scene and model. */
+static sb_status check_origin(const run *r, sb_archive_in *in, sb_error *error)
+{
+    char line[2][200];
+    sb_status status = sb_archive_enter(in, SB_CHECKPOINT_SCENE, error);
+    if (status != SB_OK)
+        return status;
+    char *version = sb_take_text(in), *identity = sb_take_text(in);
+    const uint64_t model = sb_take_count(in, UINT64_MAX);
+    status = sb_archive_leave(in, error);
+    if (status == SB_OK && (!version || !identity))
+        status = sb_fail_memory(error, "a checkpoint");
+    else if (status == SB_OK && strcmp(version, SB_VERSION) != 0)
+        status = sb_fail(error, SB_BAD_INPUT, "%s: written by shorebreak %.40s, expected " SB_VERSION, in->name, version);
+    else if (status == SB_OK && first_difference(identity, r->checkpoints.identity, line))
+        status = sb_fail(error, SB_BAD_INPUT, "%s: of another scene: it has \"%s\" where this one has \"%s\"", in->name,
+                         line[0], line[1]);
+    else if (status == SB_OK && model != r->checkpoints.model)
+        status = sb_fail(error, SB_BAD_INPUT, "%s: of another model: its particles at the start hash to %016" PRIx64
+                         ", expected %016" PRIx64, in->name, model, r->checkpoints.model);
+    sb_free(version);
+    sb_free(identity);
+    return status;
+}
+
+static sb_status take_run(run *r, sb_archive_in *in, sb_error *error)
+{
+    sb_energy *first = &r->first_energy;
+    sb_status status = sb_archive_enter(in, SB_CHECKPOINT_RUN, error);
+    if (status != SB_OK)
+        return status;
+    r->wall_before = sb_take_real(in);
+    r->iterations = r->iterations_before = sb_take_count(in, UINT64_MAX);
+    r->capped = sb_take_count(in, UINT64_MAX);
+    r->frames = sb_take_count(in, UINT64_MAX);
+    first->kinetic = sb_take_real(in);
+    first->potential = sb_take_real(in);
+    first->mass = sb_take_real(in);
+    first->momentum = sb_take_vector(in);
+    for (int c = 0; c < CONSUMERS; c++)
+        r->due[c] = sb_take_real(in);
+    sb_take_list(in, r->lengths.bytes, SB_CSV_TABLES, sizeof *r->lengths.bytes);
+    r->pictures.count = r->pictures.synced = sb_take_count(in, UINT32_MAX);
+    status = sb_recorder_load(&r->recorder, in, error);
+    if (status == SB_OK)
+        status = sb_archive_leave(in, error);
+    return status == SB_OK ? sb_csv_check(r->directory, r->scene, &r->lengths, error) : status;
+}
+
+static sb_status load(run *r, const char *path, sb_error *error)
+{
+    sb_archive_in in = {0};
+    sb_status status = sb_archive_open(&in, path, SB_CHECKPOINT_KIND, SB_CHECKPOINT_FORMAT, error);
+    if (status == SB_OK)
+        status = check_origin(r, &in, error);
+    if (status == SB_OK)
+        status = sb_sim_load(r->sim, &in, error);
+    if (status == SB_OK)
+        status = sb_measure_load(r->measure, &in, error);
+    if (status == SB_OK)
+        status = take_run(r, &in, error);
+    sb_archive_in_free(&in);
+    return status;
+}
+
+sb_status sb_checkpoint_load(run *r, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    sb_error newest = {0};
+    uint64_t *steps;
+    size_t count;
+    sb_status status = sb_checkpoint_list(r, &steps, &count, error);
+    bool loaded = false;
+    for (size_t i = 0; status == SB_OK && !loaded && i < count; i++) {
+        sb_error reason = {0};
+        status = sb_checkpoint_path(r, steps[i], path, error);
+        if (status != SB_OK)
+            break;
+        loaded = load(r, path, &reason) == SB_OK;
+        if (!loaded && i == 0)
+            newest = reason;
+        if (!loaded && i + 1 < count)
+            sb_run_warn(r, "%s; trying the one before", reason.text);
+    }
+    sb_free(steps);
+    if (status == SB_OK && !loaded)
+        return sb_fail(error, SB_BAD_INPUT, "no checkpoint to go on from: %.900s", newest.text);
+    r->checkpoints.steps_then = sb_sim_report(r->sim)->step;
+    r->checkpoints.current = loaded;
+    return status;
+}

@@ -1,0 +1,164 @@
+/* After the last step: what the run leaves behind, whole, however it ended. */
+#include "app/run_state.h"
+#include "base/memory.h"
+#include "output/esri.h"
+#include "output/plots.h"
+#include "output/summary.h"
+#include "output/video.h"
+#include "output/vtp.h"
+
+#include <math.h>
+#include <omp.h>
+
+static void keep_first(sb_status *status, sb_error *error, sb_status found, const sb_error *reason)
+{
+    if (found == SB_OK || *status == SB_FAILED)
+        return;
+    *status = found;
+    *error = *reason;
+}
+
+/* The state before the step that failed, for a look at what went wrong. */
+static void write_last_state(run *r)
+{
+    char path[SB_PATH_MAX];
+    sb_error reason = {0};
+    sb_frame *frame = sb_sim_snapshot(r->sim);
+    if (!frame)
+        return;
+    if (sb_run_path(r, "particles", path, &reason) == SB_OK &&
+        sb_make_directories(path, &reason) == SB_OK &&
+        sb_run_path(r, "particles/last-good.vtp", path, &reason) == SB_OK &&
+        sb_vtp_write(path, frame, &reason) == SB_OK)
+        sb_runlog_event(r->log, "last_good_state", "particles/last-good.vtp");
+    else
+        sb_run_warn(r, "%s", reason.text);
+    sb_frame_release(frame);
+}
+
+/* An independent look at the walls: winding numbers of the meshes, not boundary particles. */
+static sb_status count_inside(run *r, sb_error *error)
+{
+    sb_frame *frame = sb_sim_snapshot(r->sim);
+    sb_vec3 *displacement = sb_alloc(r->model.body_count, sizeof *displacement);
+    sb_inside_report any = {0}, deep = {0};
+    sb_status status = SB_OK;
+    if (!frame || !displacement) {
+        status = sb_fail_memory(error, "the look at the walls");
+        goto done;
+    }
+    for (size_t b = 0; b < r->model.body_count; b++)
+        displacement[b] = frame->bodies[b].displacement;
+    /* The sheet of boundary particles lies behind the wall by the offset; beyond it water has crossed. */
+    double sheet = fmax(r->scene->numerics.wall_offset, 0.5) * r->scene->resolution;
+    status = sb_model_first_inside(&r->model, frame->position, frame->count, frame->origin, displacement, 0,
+                                   &any, error);
+    if (status == SB_OK)
+        status = sb_model_first_inside(&r->model, frame->position, frame->count, frame->origin, displacement,
+                                       sheet, &deep, error);
+    if (status != SB_OK)
+        goto done;
+    r->inside_known = true;
+    r->inside = any.count;
+    r->crossed = deep.count;
+    sb_runlog_event(r->log, "walls", "%zu particle centres within solids, %zu of them beyond the boundary particles",
+                    any.count, deep.count);
+    if (deep.count > 0) {
+        const float *at = frame->position + 3 * deep.first;
+        sb_run_warn(r, "%zu particles passed through walls, the first %.3g m into \"%.63s\" near (%.5g, %.5g, %.5g) m",
+                    deep.count, deep.depth, r->model.bodies[deep.body].name, frame->origin.x + (double)at[0],
+                    frame->origin.y + (double)at[1], frame->origin.z + (double)at[2]);
+    }
+done:
+    sb_free(displacement);
+    sb_frame_release(frame);
+    return status;
+}
+
+static void stop_consumers(run *r, sb_status *status, sb_error *error)
+{
+    for (int c = 0; c < CONSUMERS; c++) {
+        sb_consumer *consumer = &r->consumers[c];
+        if (!consumer->started)
+            continue;
+        uint64_t dropped = sb_frame_queue_dropped(consumer->queue);
+        double waited = sb_frame_queue_waited(consumer->queue);
+        sb_consumer_stop(consumer);
+        sb_runlog_event(r->log, "consumer", "%s: %llu frames, %llu dropped, simulation waited %.2f s",
+                        consumer->work.name, (unsigned long long)consumer->handled,
+                        (unsigned long long)dropped, waited);
+        if (atomic_load(&consumer->failed)) {
+            sb_error reason = {0};
+            sb_fail(&reason, SB_FAILED, "%s: %.900s", consumer->work.name, consumer->error.text);
+            sb_run_warn(r, "%s", reason.text);
+            keep_first(status, error, SB_FAILED, &reason);
+        }
+    }
+}
+
+static void write_summary(run *r, sb_status *status, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    sb_error reason = {0};
+    const sb_step_report *report = sb_sim_report(r->sim);
+    sb_summary summary = {
+        .scene = r->scene,
+        .model = &r->model,
+        .status = *status,
+        .reason = *status == SB_OK ? NULL : error->text,
+        .wall = sb_run_wall(r),
+        .simulated = report->time,
+        .steps = report->step,
+        .iterations = r->iterations,
+        .capped_steps = r->capped,
+        .fluid_particles = r->model.fluid_count,
+        .bytes = sb_sim_bytes(r->sim),
+        .lost = report->lost,
+        .left_domain = report->left_domain,
+        .has_inside = r->inside_known,
+        .inside = r->inside,
+        .crossed = r->crossed,
+        .threads = omp_get_max_threads(),
+        .bodies = r->measure ? sb_measure_bodies(r->measure) : NULL,
+        .first = r->first_energy,
+        .last = sb_sim_energy(r->sim),
+        .hash = sb_sim_hash(r->sim),
+        .frames = r->recorder.count,
+        .pictures = r->pictures.count,
+    };
+    summary.stage_count = sb_sim_stages(r->sim, &summary.stages);
+    sb_status found = sb_run_path(r, "summary.json", path, &reason);
+    if (found == SB_OK)
+        found = sb_summary_write(path, &summary, &reason);
+    keep_first(status, error, found, &reason);
+}
+
+void sb_run_finish(run *r, sb_status *status, sb_error *error)
+{
+    sb_error reason = {0};
+    if (r->sim && *status == SB_FAILED)
+        write_last_state(r);
+    stop_consumers(r, status, error);
+    if (r->sim)
+        keep_first(status, error, count_inside(r, &reason), &reason);
+    if (r->csv)
+        keep_first(status, error, sb_csv_close(r->csv, &reason), &reason);
+    if (r->sim) {
+        sb_run_log_step(r);
+        sb_progress_end(&r->progress, sb_sim_report(r->sim));
+    }
+    if (r->measure) {
+        sb_runlog_bodies(r->log, &r->model, sb_measure_bodies(r->measure));
+        const sb_map_record *map = sb_measure_map(r->measure);
+        if (map)
+            keep_first(status, error, sb_maps_write(r->directory, map, &reason), &reason);
+        if (r->scene->output.plots)
+            sb_plots_write(r->directory, r->scene, r->log);
+    }
+    for (size_t c = 0; c < r->scene->render.camera_count && r->pictures.count > 1 && r->scene->render.video; c++)
+        sb_video_write(r->directory, r->scene->render.cameras[c].name, r->scene->render.video_rate, r->log);
+    if (r->sim)
+        write_summary(r, status, error);
+    sb_runlog_end(r->log, *status, *status == SB_OK ? NULL : error->text);
+    keep_first(status, error, sb_runlog_close(r->log, &reason), &reason);
+}

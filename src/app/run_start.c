@@ -1,0 +1,203 @@
+/* Before the first step. */
+#include "app/run_state.h"
+
+#include <math.h>
+#include <omp.h>
+#include <stdio.h>
+
+enum {
+    FILE_QUEUE = 3,   /* frames that wait for disk or renderer before the simulation does */
+    STREAM_QUEUE = 4  /* beyond these the stream drops the oldest */
+};
+
+static sb_status write_scene(const run *r, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    sb_status status = sb_run_path(r, "scene.yaml", path, error);
+    return status == SB_OK ? sb_scene_write(r->scene, path, error) : status;
+}
+
+/* What is there already: an earlier run's checkpoints, which go, unless this one goes on from them. */
+static sb_status look_for_checkpoints(run *r, bool *resume, sb_error *error)
+{
+    const size_t found = sb_checkpoint_count(r);
+    if (*resume && found == 0) {
+        sb_run_say(r, "%s: no checkpoint to go on from, so the run starts from the beginning", r->directory);
+        *resume = false;
+    } else if (!*resume && found > 0) {
+        sb_run_say(r, "%s: a new run in the place of an earlier one, whose checkpoints are removed (--resume goes on)",
+                   r->directory);
+    }
+    return *resume ? SB_OK : sb_checkpoint_remove_all(r, error);
+}
+
+static sb_status open_directory(run *r, bool *resume, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    sb_status status = sb_make_directories(r->directory, error);
+    if (status == SB_OK)
+        status = sb_checkpoint_begin(r, error);
+    if (status == SB_OK)
+        status = look_for_checkpoints(r, resume, error);
+    if (status == SB_OK && !*resume)
+        status = write_scene(r, error);
+    if (status == SB_OK)
+        status = sb_run_path(r, "run.jsonl", path, error);
+    if (status == SB_OK)
+        status = *resume ? sb_runlog_append(path, &r->log, error) : sb_runlog_open(path, &r->log, error);
+    if (status == SB_OK && r->checkpoints.on)
+        status = sb_make_directories(r->checkpoints.folder, error);
+    return status;
+}
+
+/* The colour map's top is the scene's, not each picture's: later pictures of this run shall match. */
+static void resolve(run *r)
+{
+    double depth = fmax(r->model.still_depth, r->scene->resolution);
+    if (!(r->resolved.render.speed_max > 0))
+        r->resolved.render.speed_max = 2 * sqrt(fmax(r->scene->fluid.gravity, 1) * depth);
+}
+
+static sb_status start_streamer(run *r, sb_error *error)
+{
+    sb_error reason = {0};
+    if (sb_stream_create(&r->scene->stream, r->scene->title, &r->streamer.stream, &reason) != SB_OK) {
+        sb_run_warn(r, "%s", reason.text);
+        return SB_OK;
+    }
+    sb_consumer_work work = sb_streamer_work(&r->streamer);
+    return sb_consumer_start(&r->consumers[STREAMER], &work, r->scene->stream.interval, STREAM_QUEUE,
+                             SB_QUEUE_DROP_OLDEST, error);
+}
+
+/* Threads of consumers are made before OpenMP binds anything. */
+static sb_status start_consumers(run *r, sb_error *error)
+{
+    const sb_scene *scene = r->scene;
+    sb_status status = SB_OK;
+    size_t skipped = 0;
+    if (scene->stream.enabled)
+        status = start_streamer(r, error);
+    else
+        r->off[skipped++] = "stream: off, no LCM thread";
+    if (status == SB_OK && scene->output.particle_interval > 0) {
+        sb_consumer_work work = sb_recorder_work(&r->recorder);
+        status = sb_consumer_start(&r->consumers[RECORDER], &work, scene->output.particle_interval,
+                                   FILE_QUEUE, SB_QUEUE_WAIT, error);
+    } else {
+        r->off[skipped++] = "particle files: off, no thread";
+    }
+    if (status == SB_OK && scene->render.interval > 0 && scene->render.camera_count > 0) {
+        sb_consumer_work work = sb_pictures_work(&r->pictures);
+        status = sb_consumer_start(&r->consumers[PICTURES], &work, scene->render.interval, FILE_QUEUE,
+                                   SB_QUEUE_WAIT, error);
+    } else {
+        r->off[skipped++] = "pictures: off, no thread, no graphics memory";
+    }
+    for (int c = 0; c < CONSUMERS; c++)
+        r->consumers[c].next = r->due[c];
+    return status;
+}
+
+static void name_consumers(run *r)
+{
+    r->recorder = (sb_recorder){.directory = r->directory};
+    r->pictures = (sb_pictures){
+        .scene = r->scene, .model = &r->model, .directory = r->directory, .camera = -1};
+    r->streamer = (sb_streamer){.scene = r->scene, .run_name = r->scene->title, .log = r->log};
+}
+
+static sb_status build_model(run *r, bool resume, sb_error *error)
+{
+    sb_run_say(r, "sampling surfaces and filling the sea");
+    sb_status status = sb_model_build(r->scene, &r->model, error);
+    if (status != SB_OK)
+        return status;
+    for (size_t w = 0; w < r->model.warning_count; w++)
+        fprintf(stderr, "shorebreak: warning: %s\n", r->model.warnings[w]);
+    resolve(r);
+    return r->checkpoints.on || resume ? sb_checkpoint_identify(r, error) : SB_OK;
+}
+
+static void note_start(run *r)
+{
+    sb_run_say(r, "%zu fluid and %zu boundary particles, %zu bodies", r->model.fluid_count, r->model.wall_count,
+               r->model.body_count);
+    sb_runlog_start(r->log, r->scene, &r->model, omp_get_max_threads(), sb_sim_bytes(r->sim));
+    sb_runlog_skipped(r->log, r->off);
+    sb_runlog_skipped(r->log, sb_sim_skipped(r->sim));
+    static const char *const off[] = {"checkpoints: off, none on a signal either, --resume starts anew", NULL};
+    if (!r->checkpoints.on)
+        sb_runlog_skipped(r->log, off);
+    r->setup_seconds = sb_progress_wall(&r->progress);
+}
+
+/* Water at rest, tables with their first rows. */
+static sb_status begin(run *r, sb_error *error)
+{
+    if (sb_sim_settles(r->scene))
+        sb_run_say(r, "settling");
+    sb_status status = sb_sim_settle(r->sim, error);
+    r->settling_seconds = sb_progress_wall(&r->progress) - r->setup_seconds;
+    if (status != SB_OK)
+        return status;
+    sb_runlog_event(r->log, "settled", "highest speed %.3g m/s", sb_sim_report(r->sim)->max_speed);
+    status = sb_measure_create(r->scene, &r->model, r->sim, &r->measure, error);
+    if (status != SB_OK)
+        return status;
+    sb_runlog_skipped(r->log, sb_measure_skipped(r->measure));
+    r->first_energy = sb_sim_energy(r->sim);
+    status = sb_csv_open(r->directory, r->scene, &r->model, &r->csv, error);
+    if (status == SB_OK)
+        status = sb_csv_write(r->csv, sb_measure_latest(r->measure), error);
+    return status;
+}
+
+/* The state of a checkpoint, and the files as they were when it was written. */
+static sb_status go_on(run *r, sb_error *error)
+{
+    sb_status status = sb_measure_create(r->scene, &r->model, r->sim, &r->measure, error);
+    if (status == SB_OK)
+        status = sb_checkpoint_load(r, error);
+    if (status != SB_OK) { /* nothing to report on, and what is there stays as it is */
+        sb_measure_destroy(r->measure);
+        sb_sim_destroy(r->sim);
+        r->measure = NULL;
+        r->sim = NULL;
+        return status;
+    }
+    r->setup_seconds = sb_progress_wall(&r->progress);
+    const sb_step_report *report = sb_sim_report(r->sim);
+    const bool over = report->time >= r->scene->duration * (1 - 1e-12);
+    sb_progress_resume(&r->progress, report->time);
+    sb_run_say(r, "going on from step %llu, t = %.9g s%s", (unsigned long long)report->step, report->time,
+               over ? ": the run is finished; a longer duration, as by --until, would go on" : "");
+    sb_runlog_event(r->log, "resumed", "step %llu, t = %.9g s, with %d threads, state %016llx",
+                    (unsigned long long)report->step, report->time, omp_get_max_threads(),
+                    (unsigned long long)sb_sim_hash(r->sim));
+    sb_checkpoint_forget_later(r);
+    status = write_scene(r, error);
+    if (status == SB_OK)
+        status = sb_csv_resume(r->directory, r->scene, &r->model, &r->lengths, &r->csv, error);
+    return status == SB_OK ? start_consumers(r, error) : status;
+}
+
+sb_status sb_run_start(run *r, bool resume, sb_error *error)
+{
+    sb_status status = open_directory(r, &resume, error);
+    name_consumers(r);
+    if (status == SB_OK)
+        status = build_model(r, resume, error);
+    if (status == SB_OK && !resume)
+        status = write_scene(r, error);
+    if (status == SB_OK && !resume)
+        status = start_consumers(r, error);
+    if (status == SB_OK)
+        status = sb_sim_create(r->scene, &r->model, &r->sim, error);
+    if (status != SB_OK)
+        return status;
+    if (resume)
+        return go_on(r, error);
+    note_start(r);
+    return begin(r, error);
+}

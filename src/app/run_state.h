@@ -1,0 +1,60 @@
+/* The insides of a run, seen by the files run*.c and checkpoint*.c only. */
+#ifndef SB_APP_RUN_STATE_H
+#define SB_APP_RUN_STATE_H
+
+#include "app/checkpoint.h"
+#include "app/consumers.h"
+#include "app/run.h"
+#include "measure/measure.h"
+#include "output/csv.h"
+#include "output/progress.h"
+#include "sim/sim.h"
+
+enum { RECORDER, PICTURES, STREAMER, CONSUMERS };
+
+struct run {
+    sb_scene resolved;     /* a shallow copy of the caller's, with what only the model can tell */
+    const sb_scene *scene; /* it */
+    const char *directory;
+    sb_model model;
+    sb_sim *sim;
+    sb_measure *measure;
+    sb_csv *csv;
+    sb_runlog *log;
+    sb_progress progress;
+    sb_recorder recorder;
+    sb_pictures pictures;
+    sb_streamer streamer;
+    sb_consumer consumers[CONSUMERS]; /* those the scene asks for are started */
+    double due[CONSUMERS];    /* s simulated, of their first frames */
+    sb_checkpoints checkpoints;
+    sb_csv_lengths lengths;   /* of the tables that a resumed run goes on with */
+    sb_energy first_energy;
+    uint64_t iterations, capped, frames;
+    double wall_before;       /* s that earlier processes of this run took */
+    uint64_t steps, iterations_before; /* steps of this process; iterations before it */
+    double particle_steps, setup_seconds, settling_seconds;
+    const char *off[4];       /* consumers that are not there, ended by NULL */
+    bool inside_known;
+    uint64_t inside, crossed; /* particles within solids at the end */
+};
+
+/* run_start.c: directory, log, model, simulation, measurements, consumers, tables; from nothing, or, with `resume` and
+   where there are checkpoints, from the newest that can be used. */
+sb_status sb_run_start(run *r, bool resume, sb_error *error);
+
+/* run_finish.c: whatever came before, leaves whole files; the first failure stays in *status and *error. */
+void sb_run_finish(run *r, sb_status *status, sb_error *error);
+
+/* A name within the run's directory. */
+sb_status sb_run_path(const run *r, const char *name, char path[SB_PATH_MAX], sb_error *error);
+/* A line on stdout, unless the run is quiet. */
+void sb_run_say(const run *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* A line on stderr and in the log. */
+void sb_run_warn(run *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* The log's periodic line, with the state's hash. */
+void sb_run_log_step(run *r);
+/* Seconds of wall time, earlier processes of this run included. */
+double sb_run_wall(const run *r);
+
+#endif
