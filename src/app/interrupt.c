@@ -16,6 +16,8 @@ void sb_interrupt_watch(void)
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    /* A file that may not grow is a full disk: the write fails, and that is reported. */
+    signal(SIGXFSZ, SIG_IGN);
 }
 
 int sb_interrupt_signal(void)
