@@ -1,0 +1,105 @@
+/* kill -9 at random moments, --resume each time: the end must be that of a run that was never disturbed. */
+#include "base/file.h"
+#include "compare.h"
+#include "options.h"
+#include "round.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Share of an undisturbed run's time within which a run is killed: beginnings, middles and ends all come. */
+static const double LONGEST = 0.6;
+
+enum { WITH_PICTURES = 4 }; /* in every so many rounds */
+
+typedef struct test {
+    sb_kill_options options;
+    char program[SB_PATH_MAX];
+    double seconds[2]; /* of undisturbed runs, without and with pictures; 0: not yet run */
+    int kills, rounds;
+    size_t files;
+} test;
+
+/* The program beside this one. */
+static sb_status find_program(test *t, sb_error *error)
+{
+    char self[SB_PATH_MAX], folder[SB_PATH_MAX];
+    const ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
+    if (length < 0)
+        return sb_fail(error, SB_FAILED, "cannot tell where this program lies");
+    self[length] = '\0';
+    sb_path_folder(folder, self);
+    return sb_path_join(t->program, folder, "shorebreak", error);
+}
+
+static sb_status name_run(const test *t, const char *name, bool pictures, char out[SB_PATH_MAX], sb_kill_run *run,
+                          sb_error *error)
+{
+    char folder[64];
+    snprintf(folder, sizeof folder, "%s%s", name, pictures ? "-pictures" : "");
+    *run = (sb_kill_run){.program = t->program, .scene = t->options.scene, .out = out, .pictures = pictures};
+    return sb_path_join(out, t->options.out, folder, error);
+}
+
+/* Or a run would go on from an earlier one's. */
+static sb_status forget_checkpoints(const char *out, sb_error *error)
+{
+    char folder[SB_PATH_MAX];
+    sb_status status = sb_path_join(folder, out, "checkpoints", error);
+    return status == SB_OK ? sb_remove_numbered(folder, ".state", 0, error) : status;
+}
+
+/* The run to compare with, once. */
+static sb_status run_whole(test *t, const sb_kill_run *run, sb_error *error)
+{
+    double *seconds = &t->seconds[run->pictures];
+    if (*seconds > 0)
+        return SB_OK;
+    sb_status status = forget_checkpoints(run->out, error);
+    return status == SB_OK ? sb_kill_none(run, seconds, error) : status;
+}
+
+static sb_status one_round(test *t, sb_kill_moments *moments, sb_error *error)
+{
+    char whole[SB_PATH_MAX], killed[SB_PATH_MAX];
+    const bool pictures = t->options.pictures && t->rounds % WITH_PICTURES == WITH_PICTURES - 1;
+    sb_kill_run run;
+    sb_status status = name_run(t, "whole", pictures, whole, &run, error);
+    if (status == SB_OK)
+        status = run_whole(t, &run, error);
+    if (status == SB_OK)
+        status = name_run(t, "killed", pictures, killed, &run, error);
+    if (status == SB_OK)
+        status = forget_checkpoints(killed, error);
+    moments->longest = LONGEST * t->seconds[pictures];
+    if (status == SB_OK)
+        status = sb_kill_some(&run, moments, t->options.kills - t->kills, &t->kills, error);
+    t->rounds++;
+    return status == SB_OK ? sb_kill_compare(whole, killed, &t->files, error) : status;
+}
+
+int main(int count, char **arguments)
+{
+    test t = {.rounds = 0};
+    sb_error error = {0};
+    sb_status status = sb_kill_options_parse(count, arguments, &t.options, &error);
+    if (status == SB_OK && t.options.help) {
+        fputs(sb_kill_help, stdout);
+        return 0;
+    }
+    sb_kill_moments moments = {.seed = t.options.seed};
+    if (status == SB_OK)
+        status = find_program(&t, &error);
+    if (status == SB_OK)
+        status = sb_make_directories(t.options.out, &error);
+    while (status == SB_OK && t.kills < t.options.kills)
+        status = one_round(&t, &moments, &error);
+    if (status != SB_OK) {
+        fprintf(stderr, "kill-test: after %d kills in %d runs: %s\n", t.kills, t.rounds, error.text);
+        return (int)status;
+    }
+    printf("%d kills in %d runs, each resumed: states and %zu files equal those of undisturbed runs\n", t.kills, t.rounds,
+           t.files);
+    return 0;
+}

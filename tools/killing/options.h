@@ -1,0 +1,23 @@
+/* The command line of tools/kill-test. */
+#ifndef SB_KILLING_OPTIONS_H
+#define SB_KILLING_OPTIONS_H
+
+#include "base/status.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct sb_kill_options {
+    const char *scene; /* a scene file */
+    const char *out;   /* the runs go into folders of this one */
+    int kills;
+    uint64_t seed;     /* of the moments */
+    bool pictures;     /* in every fourth round */
+    bool help;
+} sb_kill_options;
+
+extern const char sb_kill_help[];
+
+sb_status sb_kill_options_parse(int count, char **arguments, sb_kill_options *options, sb_error *error);
+
+#endif
