@@ -70,6 +70,16 @@ static void fill_mesh(const sb_grid *grid, double datum, uint32_t *vertex_of, sb
     mesh->vertex_count = vertices;
 }
 
+/* Numbers near the largest there are may add up to infinity. */
+static sb_status check_range(const char *path, const sb_mesh *mesh, sb_error *error)
+{
+    for (size_t i = 0; i < mesh->vertex_count; ++i)
+        if (!sb_isfinite(mesh->vertices[i]))
+            return sb_fail(error, SB_BAD_INPUT, "%.500s: a node at (%g, %g, %g), expected finite numbers",
+                           path, mesh->vertices[i].x, mesh->vertices[i].y, mesh->vertices[i].z);
+    return SB_OK;
+}
+
 static sb_status make_mesh(const char *path, const sb_grid *grid, double datum, sb_mesh *mesh,
                            sb_error *error)
 {
@@ -83,7 +93,11 @@ static sb_status make_mesh(const char *path, const sb_grid *grid, double datum, 
     sb_status status = sb_mesh_alloc(&made, grid->rows * grid->columns, triangles, error);
     if (status == SB_OK) {
         fill_mesh(grid, datum, vertex_of, &made);
-        *mesh = made;
+        status = check_range(path, &made, error);
+        if (status == SB_OK)
+            *mesh = made;
+        else
+            sb_mesh_free(&made);
     }
     sb_free(vertex_of);
     return status;

@@ -5,8 +5,8 @@
 sb_status sb_mesh_alloc(sb_mesh *mesh, size_t vertices, size_t triangles, sb_error *error)
 {
     *mesh = (sb_mesh){.vertex_count = vertices, .triangle_count = triangles};
-    mesh->vertices = sb_alloc(vertices, sizeof *mesh->vertices);
-    mesh->triangles = sb_alloc(triangles, sizeof *mesh->triangles);
+    mesh->vertices = sb_alloc_untouched(vertices, sizeof *mesh->vertices);
+    mesh->triangles = sb_alloc_untouched(triangles, sizeof *mesh->triangles);
     if (mesh->vertices && mesh->triangles) return SB_OK;
     sb_mesh_free(mesh);
     return sb_fail_memory(error, "a mesh");

@@ -19,7 +19,7 @@ typedef struct sb_mesh {
     size_t turned;  /* triangles that were turned round to face the water */
 } sb_mesh;
 
-/* Room for so many vertices and triangles, zeroed; *mesh is overwritten, not freed. */
+/* Room for so many vertices and triangles, not yet written; *mesh is overwritten, not freed. */
 sb_status sb_mesh_alloc(sb_mesh *mesh, size_t vertices, size_t triangles, sb_error *error);
 
 /* Frees what the mesh owns and zeroes it; fine on a zeroed mesh. */

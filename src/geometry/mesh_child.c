@@ -1,10 +1,8 @@
-/* Forks the child that reads a mesh file, fences it in, and takes over what it sends. */
+/* Forks the child that reads a mesh file, fences it in, and says how it ended. */
 #include "geometry/mesh_child.h"
 
 #include "base/clock.h"
-#include "base/memory.h"
 
-#include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -20,24 +18,13 @@
 #include <unistd.h>
 
 /* On the clock the child may take longer than on the processor: the disk, and other programs. */
-enum { PATIENCE = 5, MESHES_MAX = 1 << 20, TROUBLE_MAX = 200 };
+enum { PATIENCE = 5 };
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 enum { LIMIT_MEMORY = 0 }; /* sanitizers map terabytes, which they never touch */
 #else
 enum { LIMIT_MEMORY = 1 };
 #endif
-
-typedef enum link_end { LINK_OK, LINK_CLOSED, LINK_LATE } link_end;
-
-typedef struct reader {
-    const char *path;
-    pid_t child;
-    int pipe, watch; /* watch becomes readable when the child ends; -1 on old kernels */
-    double deadline; /* s on the clock */
-    uint64_t room;   /* bytes that the child may still send */
-    link_end end;
-} reader;
 
 /* ------------------------------------------------------------------ the child, after the fork */
 
@@ -98,142 +85,9 @@ static uint64_t mapped_bytes(void)
     return (uint64_t)pages * (uint64_t)sysconf(_SC_PAGESIZE);
 }
 
-/* Waits for bytes from the child, its end, or the deadline. */
-static void await(reader *from)
-{
-    while (from->end == LINK_OK) {
-        double left = from->deadline - sb_clock();
-        if (left <= 0) {
-            from->end = LINK_LATE;
-            return;
-        }
-        struct pollfd sources[2] = {{from->pipe, POLLIN, 0}, {from->watch, POLLIN, 0}};
-        int ready = poll(sources, 2, (int)(1e3 * left) + 1);
-        if (ready < 0 && errno != EINTR) from->end = LINK_CLOSED;
-        if (ready <= 0) continue;
-        if (!(sources[0].revents & POLLIN))
-            from->end = LINK_CLOSED; /* hung up, or the child ended with nothing left to read */
-        return;
-    }
-}
-
-/* Reads exactly `size` bytes; false when the child ended early, is late or sends too much. */
-static bool receive(reader *from, void *bytes, size_t size)
-{
-    char *at = bytes;
-    while (size > 0) {
-        await(from);
-        if (from->end != LINK_OK) return false;
-        ssize_t got = read(from->pipe, at, size);
-        if (got > 0) {
-            at += got;
-            size -= (size_t)got;
-        } else if (got == 0 || (errno != EINTR && errno != EAGAIN)) {
-            from->end = LINK_CLOSED;
-        }
-    }
-    return true;
-}
-
-/* Bytes of the UTF-8 character that begins at c, 0 when none does. */
-static size_t character_length(const unsigned char *c)
-{
-    size_t length = c[0] < 0x80 ? 1 : c[0] < 0xc2 ? 0 : c[0] < 0xe0 ? 2 : c[0] < 0xf0 ? 3 : 4;
-    if (c[0] > 0xf4) return 0;
-    for (size_t i = 1; i < length; ++i)
-        if ((c[i] & 0xc0) != 0x80) return 0;
-    return length;
-}
-
-/* Makes text fit for a message; a name also for a CSV row, a file name and a channel name. */
-static void clean_text(char *text, bool is_name)
-{
-    for (char *c = text; *c;) {
-        size_t length = character_length((unsigned char *)c);
-        if (length == 0 || iscntrl((unsigned char)*c) || (is_name && strchr(",\"'/\\", *c))) {
-            *c = ' ';
-            if (is_name)
-                *c = '_';
-            else if (length == 0)
-                *c = '?';
-            length = 1;
-        }
-        c += length;
-    }
-    for (size_t n = strlen(text); n > 0 && text[n - 1] == ' '; --n) text[n - 1] = '\0';
-}
-
-static sb_status receive_trouble(reader *from, const sb_mesh_record *record, sb_error *error)
-{
-    char text[TROUBLE_MAX + 1] = "";
-    size_t size = record->vertices < TROUBLE_MAX ? (size_t)record->vertices : TROUBLE_MAX;
-    if (!receive(from, text, size)) text[0] = '\0';
-    clean_text(text, false);
-    return sb_fail(error, SB_BAD_INPUT, "%.500s: not readable as a mesh: %s", from->path,
-                   text[0] ? text : "no reason given");
-}
-
-static sb_status receive_mesh(reader *from, const sb_mesh_record *record, sb_mesh *mesh,
-                              sb_error *error)
-{
-    const uint64_t vertex = sizeof *mesh->vertices, triangle = sizeof *mesh->triangles;
-    if (record->vertices > from->room / vertex || record->triangles > from->room / triangle ||
-        record->vertices * vertex + record->triangles * triangle > from->room)
-        return sb_fail(error, SB_BAD_INPUT,
-                       "%.500s: %llu vertices and %llu triangles, too many to hold", from->path,
-                       (unsigned long long)record->vertices, (unsigned long long)record->triangles);
-    from->room -= record->vertices * vertex + record->triangles * triangle;
-    sb_status status = sb_mesh_alloc(mesh, record->vertices, record->triangles, error);
-    if (status != SB_OK) return status;
-    memcpy(mesh->name, record->name, sizeof mesh->name - 1);
-    clean_text(mesh->name, true);
-    if (!receive(from, mesh->vertices, record->vertices * vertex) ||
-        !receive(from, mesh->triangles, record->triangles * triangle))
-        return SB_FAILED; /* described by how the child ended */
-    sb_error reason = {0};
-    status = sb_mesh_weld(mesh, &reason);
-    if (status == SB_OK) return SB_OK;
-    return sb_fail(error, status, "%.500s: mesh \"%s\": %s", from->path, mesh->name, reason.text);
-}
-
-typedef struct mesh_list {
-    sb_mesh *items;
-    size_t count, capacity;
-} mesh_list;
-
-static void free_list(mesh_list *list)
-{
-    for (size_t i = 0; i < list->count; ++i) sb_mesh_free(&list->items[i]);
-    sb_free(list->items);
-    *list = (mesh_list){0};
-}
-
-/* All records up to END. A failure without a text is the child's end, told by the caller. */
-static sb_status receive_all(reader *from, mesh_list *list, sb_error *error)
-{
-    for (;;) {
-        sb_mesh_record record;
-        if (!receive(from, &record, sizeof record)) return SB_FAILED;
-        if (record.magic != SB_MESH_RECORD_MAGIC || list->count >= MESHES_MAX)
-            return sb_fail(error, SB_BAD_INPUT,
-                           "%.500s: its reader sent what is no mesh, expected one", from->path);
-        if (record.kind == SB_MESH_RECORD_END) return SB_OK;
-        if (record.kind == SB_MESH_RECORD_TROUBLE) return receive_trouble(from, &record, error);
-        if (sb_grow((void **)&list->items, &list->capacity, list->count + 1, sizeof *list->items))
-            return sb_fail_memory(error, "a list of meshes");
-        sb_mesh mesh = {0};
-        sb_status status = receive_mesh(from, &record, &mesh, error);
-        if (status == SB_OK && mesh.triangle_count > 0)
-            list->items[list->count++] = mesh;
-        else
-            sb_mesh_free(&mesh);
-        if (status != SB_OK) return status;
-    }
-}
-
 /* Ends the child if it still runs, and collects it. Someone else may have done that (SIGCHLD
    ignored, or a handler that waits for all): then how it ended stays unknown, 0. */
-static int finish_child(const reader *from, bool stop)
+static int finish_child(const sb_mesh_link *from, bool stop)
 {
     if (stop && (from->watch < 0 || pidfd_send_signal(from->watch, SIGKILL, NULL, 0) != 0))
         kill(from->child, SIGKILL);
@@ -243,11 +97,11 @@ static int finish_child(const reader *from, bool stop)
     return how;
 }
 
-static sb_status explain_end(const reader *from, int how, const sb_mesh_limits *limits,
+static sb_status explain_end(const sb_mesh_link *from, int how, const sb_mesh_limits *limits,
                              sb_error *error)
 {
     int by = WIFSIGNALED(how) ? WTERMSIG(how) : 0;
-    bool late = from->end == LINK_LATE || by == SIGALRM;
+    bool late = from->end == SB_MESH_LINK_LATE || by == SIGALRM;
     if (late || by == SIGXCPU)
         return sb_fail(error, SB_BAD_INPUT,
                        "%.500s: still not read after %u s%s, expected a sound "
@@ -264,7 +118,7 @@ static sb_status explain_end(const reader *from, int how, const sb_mesh_limits *
 }
 
 /* Forks with all signals held, so that no handler of the parent runs in the child. */
-static sb_status run_reader(const char *path, const sb_mesh_limits *limits, reader *from,
+static sb_status run_reader(const char *path, const sb_mesh_limits *limits, sb_mesh_link *from,
                             sb_error *error)
 {
     int ends[2];
@@ -289,7 +143,7 @@ static sb_status run_reader(const char *path, const sb_mesh_limits *limits, read
                        strerror(reason));
     }
     int watch = pidfd_open(child, 0);
-    *from = (reader){.path = path,
+    *from = (sb_mesh_link){.path = path,
                      .child = child,
                      .pipe = ends[0],
                      .watch = watch,
@@ -333,25 +187,20 @@ sb_status sb_mesh_import_within(const char *path, const sb_mesh_limits *limits, 
                                 size_t *count, sb_error *error)
 {
     uint64_t size = 0;
-    reader from = {0};
+    sb_mesh_link from = {0};
     sb_status status = check_file(path, &size, error);
     if (status == SB_OK) status = run_reader(path, limits, &from, error);
     if (status != SB_OK) return status;
-    mesh_list list = {0};
-    status = receive_all(&from, &list, error);
-    int how = finish_child(&from, status != SB_OK && from.end != LINK_CLOSED);
+    sb_mesh *received = NULL;
+    size_t found = 0;
+    status = sb_mesh_receive(&from, &received, &found, error);
+    int how = finish_child(&from, status != SB_OK && from.end != SB_MESH_LINK_CLOSED);
     close(from.pipe);
     if (from.watch >= 0) close(from.watch);
-    if (from.end != LINK_OK) status = explain_end(&from, how, limits, error);
-    if (status == SB_OK && list.count == 0)
-        status = sb_fail(error, SB_BAD_INPUT, "%.500s: no triangles in it, expected a surface mesh",
-                         path);
-    if (status != SB_OK) {
-        free_list(&list);
-        return status;
-    }
-    *meshes = list.items;
-    *count = list.count;
+    if (from.end != SB_MESH_LINK_OK) return explain_end(&from, how, limits, error);
+    if (status != SB_OK) return status;
+    *meshes = received;
+    *count = found;
     return SB_OK;
 }
 

@@ -55,6 +55,13 @@ static sb_status read_line(table *law, char *line, const char *path, size_t numb
         return sb_fail(error, SB_BAD_INPUT,
                        "%.500s:%zu: time %g s does not follow %g s, expected increasing times",
                        path, number, next.t, law->knots[law->count - 1].t);
+    if (law->count > 0) {
+        const knot *last = &law->knots[law->count - 1];
+        double speed = (next.x - last->x) / (next.t - last->t);
+        if (!(fabs(speed) <= NUMBER_LIMIT))
+            return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: a speed of %g m/s, expected below 1e9", path, number,
+                           speed);
+    }
     if (sb_grow((void **)&law->knots, &law->capacity, law->count + 1, sizeof next) != 0)
         return sb_fail_memory(error, path);
     law->knots[law->count++] = next;

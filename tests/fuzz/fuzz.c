@@ -1,0 +1,57 @@
+#include "fuzz.h"
+
+#include "base/file.h"
+
+#include <stdbool.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static char folder[64];
+static char names[8][32]; /* of the files made so far */
+
+static void clean_up(void)
+{
+    char path[SB_PATH_MAX];
+    for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
+        if (names[i][0] && sb_path_join(path, folder, names[i], NULL) == SB_OK) remove(path);
+    rmdir(folder);
+}
+
+/* In memory where the system has such a folder: thousands of files a second. */
+static void make_folder(void)
+{
+    struct stat found;
+    bool memory = stat("/dev/shm", &found) == 0 && access("/dev/shm", W_OK) == 0;
+    snprintf(folder, sizeof folder, "%s/shorebreak-fuzz-XXXXXX", memory ? "/dev/shm" : "/tmp");
+    FUZZ_CHECK(mkdtemp(folder));
+    atexit(clean_up);
+}
+
+static void remember(const char *name)
+{
+    size_t i = 0;
+    while (i < sizeof names / sizeof *names - 1 && names[i][0] && strcmp(names[i], name) != 0) ++i;
+    snprintf(names[i], sizeof names[i], "%s", name);
+}
+
+const char *fuzz_save(const char *name, const uint8_t *data, size_t size)
+{
+    static char path[SB_PATH_MAX];
+    if (!folder[0]) make_folder();
+    remember(name);
+    FUZZ_CHECK(sb_path_join(path, folder, name, NULL) == SB_OK);
+    FILE *file = fopen(path, "wb");
+    FUZZ_CHECK(file);
+    FUZZ_CHECK(size == 0 || fwrite(data, 1, size, file) == size);
+    FUZZ_CHECK(fclose(file) == 0);
+    return path;
+}
+
+void fuzz_check_refusal(sb_status status, const sb_error *error)
+{
+    FUZZ_CHECK(status == SB_BAD_INPUT || status == SB_FAILED);
+    FUZZ_CHECK(error->status == status && error->text[0]);
+    for (const char *c = error->text; *c; ++c)
+        FUZZ_CHECK((unsigned char)*c >= ' ' && *c != 0x7f);
+}

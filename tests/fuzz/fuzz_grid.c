@@ -1,0 +1,27 @@
+/* A terrain grid, taken for each of its two formats. */
+#include "fuzz.h"
+
+#include "geometry/mesh.h"
+
+static void import(const char *name, const uint8_t *data, size_t size)
+{
+    sb_mesh mesh = {0};
+    sb_error error = {0};
+    sb_status status = sb_mesh_import_grid(fuzz_save(name, data, size), 0.5, &mesh, &error);
+    if (status != SB_OK) {
+        fuzz_check_refusal(status, &error);
+        return;
+    }
+    FUZZ_CHECK(mesh.triangle_count > 0);
+    for (size_t i = 0; i < mesh.vertex_count; ++i) FUZZ_CHECK(sb_isfinite(mesh.vertices[i]));
+    for (size_t i = 0; i < mesh.triangle_count; ++i)
+        for (int k = 0; k < 3; ++k) FUZZ_CHECK(mesh.triangles[i][k] < mesh.vertex_count);
+    sb_mesh_free(&mesh);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    import("terrain.asc", data, size);
+    import("terrain.xyz", data, size);
+    return 0;
+}

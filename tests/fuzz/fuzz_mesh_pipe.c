@@ -1,0 +1,46 @@
+/* What the mesh child sends, taken over by the process that asked for the mesh. */
+#include "fuzz.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "geometry/mesh_child.h"
+
+#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+static void check_meshes(sb_mesh *meshes, size_t count)
+{
+    FUZZ_CHECK(count > 0);
+    for (size_t i = 0; i < count; ++i) {
+        const sb_mesh *mesh = &meshes[i];
+        FUZZ_CHECK(mesh->triangle_count > 0 && memchr(mesh->name, 0, sizeof mesh->name));
+        FUZZ_CHECK(!strpbrk(mesh->name, ",\"'/\\\n\r\t"));
+        for (size_t k = 0; k < mesh->vertex_count; ++k) FUZZ_CHECK(sb_isfinite(mesh->vertices[k]));
+        for (size_t k = 0; k < 3 * mesh->triangle_count; ++k)
+            FUZZ_CHECK(mesh->triangles[k / 3][k % 3] < mesh->vertex_count);
+        sb_mesh_free(&meshes[i]);
+    }
+    sb_free(meshes);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    int pipe = memfd_create("mesh-pipe", MFD_CLOEXEC);
+    FUZZ_CHECK(pipe >= 0 && write(pipe, data, size) == (ssize_t)size && lseek(pipe, 0, SEEK_SET) == 0);
+    sb_mesh_link from = {
+        .path = "some.obj", .pipe = pipe, .watch = -1, .deadline = sb_clock() + 60, .room = 1 << 20};
+    sb_mesh *meshes = NULL;
+    size_t count = 0;
+    sb_error error = {0};
+    sb_status status = sb_mesh_receive(&from, &meshes, &count, &error);
+    close(pipe);
+    FUZZ_CHECK(from.end != SB_MESH_LINK_LATE);
+    if (status == SB_OK)
+        check_meshes(meshes, count);
+    else if (from.end == SB_MESH_LINK_OK)
+        fuzz_check_refusal(status, &error);
+    else
+        FUZZ_CHECK(status == SB_FAILED || status == SB_BAD_INPUT);
+    return 0;
+}
