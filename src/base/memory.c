@@ -14,6 +14,11 @@ void sb_memory_fail_at(long n)
     atomic_store(&countdown, n);
 }
 
+bool sb_memory_fail_pending(void)
+{
+    return atomic_load(&countdown) > 0;
+}
+
 static int told_to_fail(void)
 {
     return atomic_load_explicit(&countdown, memory_order_relaxed) > 0 &&

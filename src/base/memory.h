@@ -2,6 +2,7 @@
 #ifndef SB_BASE_MEMORY_H
 #define SB_BASE_MEMORY_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* count * size zeroed bytes, 64-byte aligned; NULL when there is no memory or the product overflows.
@@ -23,6 +24,9 @@ char *sb_strdup(const char *text);
 
 /* The n-th allocation from now fails, once (n >= 1); 0 turns that off. For tests. */
 void sb_memory_fail_at(long n);
+
+/* Whether the failure asked for is still to come. */
+bool sb_memory_fail_pending(void);
 
 /* Bytes the process may still take before the machine swaps (MemAvailable); 0 when unknown. */
 size_t sb_memory_available(void);
