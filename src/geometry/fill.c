@@ -35,7 +35,7 @@ static int gather(const sb_fluid *fluid, sb_vec3 min, sb_vec3 max, sb_sample_set
 static int drop_doubles(const sb_columns *waters, size_t water_count, const sb_fluid *fluid,
                         double spacing, sb_fluid *more)
 {
-    sb_vec3 min = sb_vec(INFINITY, INFINITY, INFINITY), max = sb_scale(min, -1);
+    sb_vec3 min = sb_vec(HUGE_VAL, HUGE_VAL, HUGE_VAL), max = sb_scale(min, -1);
     for (size_t i = 0; i < more->count; ++i) {
         min = sb_min(min, more->position[i]);
         max = sb_max(max, more->position[i]);

@@ -127,7 +127,7 @@ static bool find_start(const sb_columns *c, sb_vec3 seed, size_t *start_column, 
 {
     int64_t si = (int64_t)floor((seed.x - c->x) / c->dx);
     int64_t sj = c->scene->dimensions == 2 ? 0 : (int64_t)floor((seed.y - c->y) / c->dy);
-    double best = INFINITY;
+    double best = HUGE_VAL;
     for (int64_t j = sj - 1; j <= sj + 1; ++j)
         for (int64_t i = si - 1; i <= si + 1; ++i) {
             if (i < 0 || j < 0 || i >= c->nx || j >= c->ny) continue;
@@ -144,7 +144,7 @@ static bool find_start(const sb_columns *c, sb_vec3 seed, size_t *start_column, 
                     *start_run = r;
                 }
         }
-    return best < (double)INFINITY;
+    return best < (double)HUGE_VAL;
 }
 
 sb_status sb_columns_flood(sb_columns *c, sb_error *error)

@@ -37,8 +37,8 @@ typedef struct sb_mesh_report {
     double volume, area;     /* m^3 (signed), m^2 */
     sb_vec3 min, max;        /* m */
 } sb_mesh_report;
-/* Without memory for the search of edges, watertight is false and the counts are 0. */
-void sb_mesh_diagnose(const sb_mesh *mesh, sb_mesh_report *report);
+/* SB_FAILED without memory for the search of edges. */
+sb_status sb_mesh_diagnose(const sb_mesh *mesh, sb_mesh_report *report, sb_error *error);
 
 /* Turns triangles that face the other way than most of their surface; then the whole mesh, when a
    SOLID has a negative volume or a TERRAIN looks down. Adds to mesh->turned. */

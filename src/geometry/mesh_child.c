@@ -29,7 +29,7 @@ enum { LIMIT_MEMORY = 1 };
 /* ------------------------------------------------------------------ the child, after the fork */
 
 /* At `most` the kernel says no, or for processor time sends SIGXCPU; a unit later it kills. */
-static void limit(int what, rlim_t most)
+static void limit(__rlimit_resource_t what, rlim_t most)
 {
     struct rlimit now;
     if (getrlimit(what, &now) != 0) return;

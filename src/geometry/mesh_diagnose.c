@@ -9,7 +9,7 @@
    which keeps the digits of meshes far from the origin. */
 static void measure(const sb_mesh *mesh, sb_mesh_report *report, sb_vec3 *area_vector)
 {
-    report->min = sb_vec(INFINITY, INFINITY, INFINITY);
+    report->min = sb_vec(HUGE_VAL, HUGE_VAL, HUGE_VAL);
     report->max = sb_scale(report->min, -1);
     for (size_t i = 0; i < mesh->triangle_count; ++i)
         for (int k = 0; k < 3; ++k) {
@@ -50,9 +50,11 @@ static void order(uint32_t *a, uint32_t *b)
     *a = low;
 }
 
-static size_t count_doubled(const sb_mesh *mesh)
+/* Returns -1 without memory. */
+static int count_doubled(const sb_mesh *mesh, size_t *doubled)
 {
-    size_t count = 0, doubled = 0;
+    int failed = -1;
+    size_t count = 0;
     uint32_t *first = sb_alloc_untouched(mesh->vertex_count, sizeof *first);
     corners *all = sb_alloc_untouched(mesh->triangle_count, sizeof *all);
     if (!first || !all || sb_mesh_find_twins(mesh, first)) goto done;
@@ -67,11 +69,12 @@ static size_t count_doubled(const sb_mesh *mesh)
         order(&to[0], &to[1]);
     }
     qsort(all, count, sizeof *all, compare_corners);
-    for (size_t i = 1; i < count; ++i) doubled += compare_corners(&all[i - 1], &all[i]) == 0;
+    for (size_t i = 1; i < count; ++i) *doubled += compare_corners(&all[i - 1], &all[i]) == 0;
+    failed = 0;
 done:
     sb_free(first);
     sb_free(all);
-    return doubled;
+    return failed;
 }
 
 static void report_edges(const sb_mesh *mesh, const sb_mesh_edges *edges, sb_mesh_report *report)
@@ -97,7 +100,7 @@ static void report_edges(const sb_mesh *mesh, const sb_mesh_edges *edges, sb_mes
     }
 }
 
-void sb_mesh_diagnose(const sb_mesh *mesh, sb_mesh_report *report)
+sb_status sb_mesh_diagnose(const sb_mesh *mesh, sb_mesh_report *report, sb_error *error)
 {
     sb_vec3 area_vector;
     *report = (sb_mesh_report){0};
@@ -108,10 +111,11 @@ void sb_mesh_diagnose(const sb_mesh *mesh, sb_mesh_report *report)
             sb_mesh_is_degenerate(mesh->vertices[t[0]], mesh->vertices[t[1]], mesh->vertices[t[2]]);
     }
     sb_mesh_edges edges;
-    if (sb_mesh_find_edges(mesh, &edges)) return;
+    if (sb_mesh_find_edges(mesh, &edges)) return sb_fail_memory(error, "the edges of a mesh");
     report_edges(mesh, &edges, report);
-    report->doubled_faces = count_doubled(mesh);
+    int failed = count_doubled(mesh, &report->doubled_faces);
     sb_mesh_edges_free(&edges);
+    return failed ? sb_fail_memory(error, "the faces of a mesh") : SB_OK;
 }
 
 static void turn(sb_mesh *mesh, size_t i)

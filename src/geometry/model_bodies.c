@@ -21,7 +21,7 @@ static int find_wavemaker(const sb_scene *scene, const char *body, const char *p
 
 static sb_vec3 footprint_center(const sb_mesh *mesh)
 {
-    sb_vec3 min = sb_vec(INFINITY, INFINITY, INFINITY), max = sb_scale(min, -1);
+    sb_vec3 min = sb_vec(HUGE_VAL, HUGE_VAL, HUGE_VAL), max = sb_scale(min, -1);
     for (size_t i = 0; i < mesh->vertex_count; ++i) {
         min = sb_min(min, mesh->vertices[i]);
         max = sb_max(max, mesh->vertices[i]);

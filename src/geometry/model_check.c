@@ -18,8 +18,8 @@ static sb_status check_mesh(const sb_model_body *body, sb_model *model, sb_error
                                body->name, mesh->turned);
     if (body->role != SB_ROLE_SOLID || mesh->sheet || status != SB_OK) return status;
     sb_mesh_report report;
-    sb_mesh_diagnose(mesh, &report);
-    if (report.open_edges > 0)
+    status = sb_mesh_diagnose(mesh, &report, error);
+    if (report.open_edges > 0 && status == SB_OK)
         status = sb_model_warn(model, error,
                                "body \"%s\" is not watertight: %zu open edges, the first at (%g, "
                                "%g, %g); its inside is taken by winding number",

@@ -141,8 +141,8 @@ static const double slack = 1e-9;
 /* The stretch of u that a row shares with the triangle; it meets at least one edge. */
 static void span_row(const double u[3], const double v[3], double row, double *first, double *last)
 {
-    *first = INFINITY;
-    *last = -INFINITY;
+    *first = HUGE_VAL;
+    *last = -HUGE_VAL;
     for (int i = 0; i < 3; ++i) {
         int j = (i + 1) % 3;
         if (fmin(v[i], v[j]) > row + slack || fmax(v[i], v[j]) < row - slack) continue;
@@ -195,7 +195,7 @@ static void measure_planes(const sb_surface *surface, extent *extents)
         extent *e = extents + surface->region[t];
         if (surface->region[t] == t) {
             *e = (extent){
-                .min_u = INFINITY, .max_u = -INFINITY, .min_v = INFINITY, .max_v = -INFINITY};
+                .min_u = HUGE_VAL, .max_u = -HUGE_VAL, .min_v = HUGE_VAL, .max_v = -HUGE_VAL};
             plane_axes(surface->normal[t], e);
         }
         sb_vec3 corner[3];

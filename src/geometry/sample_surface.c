@@ -233,7 +233,7 @@ static bool on_side(const sb_sample_settings *settings, const sb_vec3 corners[3]
 static void measure(sb_surface *surface, const sb_sample_settings *settings)
 {
     const sb_mesh *mesh = sb_surface_mesh(surface);
-    surface->min = sb_vec(INFINITY, INFINITY, INFINITY);
+    surface->min = sb_vec(HUGE_VAL, HUGE_VAL, HUGE_VAL);
     surface->max = sb_scale(surface->min, -1);
     for (size_t t = 0; t < mesh->triangle_count; ++t) {
         sb_vec3 a = corner(mesh, t, 0), b = corner(mesh, t, 1), c = corner(mesh, t, 2);

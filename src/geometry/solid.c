@@ -21,7 +21,11 @@ sb_status sb_solid_create(const sb_mesh *mesh, sb_role role, sb_solid **solid, s
     made->sheet = mesh->sheet || sb_norm(made->dipoles[0].area) > sheet_share * area;
     if (role == SB_ROLE_SOLID && !made->sheet) {
         sb_mesh_report report;
-        sb_mesh_diagnose(mesh, &report);
+        status = sb_mesh_diagnose(mesh, &report, error);
+        if (status != SB_OK) {
+            sb_solid_destroy(made);
+            return status;
+        }
         made->closed = report.watertight;
     }
     *solid = made;

@@ -28,7 +28,7 @@ sb_vec3 sb_solid_nearest_on(const sb_solid_triangle *t, sb_vec3 p)
     if (!sliver && v >= 0 && w >= 0 && v + w <= size)
         return sb_madd(sb_madd(t->a, v / size, ab), w / size, ac);
     sb_vec3 best = t->a;
-    double best2 = INFINITY;
+    double best2 = HUGE_VAL;
     const sb_vec3 ends[3][2] = {{t->a, t->b}, {t->b, t->c}, {t->c, t->a}};
     const bool beyond[3] = {w<0, v + w> size, v < 0};
     for (int edge = 0; edge < 3; ++edge) {
@@ -113,7 +113,7 @@ static double angle_at(const sb_solid_triangle *t, sb_vec3 at, double near)
 
 bool sb_solid_behind(const sb_solid *solid, sb_vec3 point)
 {
-    double nearest2 = INFINITY;
+    double nearest2 = HUGE_VAL;
     sb_vec3 at;
     if (!find_nearest(solid, point, &nearest2, &at)) return false;
     /* All triangles that hold the nearest point, up to the rounding of coordinates of this size. */

@@ -4,7 +4,7 @@
  */
 static const double slack = 1e-10;
 
-/* Distance along the ray at which it enters the node's box, or INFINITY when it misses. */
+/* Distance along the ray at which it enters the node's box, or HUGE_VAL when it misses. */
 static double enter(const sb_solid_node *node, sb_vec3 origin, sb_vec3 inverse, double limit)
 {
     double begin = 0, end = limit;
@@ -22,7 +22,7 @@ static double enter(const sb_solid_node *node, sb_vec3 origin, sb_vec3 inverse, 
         begin = first > begin ? first : begin;
         end = last < end ? last : end;
     }
-    return begin <= end * (1 + slack) ? begin : (double)INFINITY;
+    return begin <= end * (1 + slack) ? begin : (double)HUGE_VAL;
 }
 
 /* Distance along the ray to the triangle from either side, or a negative number. */

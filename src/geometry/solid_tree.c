@@ -45,7 +45,7 @@ static void select_rank(item *items, size_t count, size_t k, int axis)
 
 static int widest_axis(const item *items, size_t count)
 {
-    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (size_t i = 0; i < count; ++i)
         for (int axis = 0; axis < 3; ++axis) {
             double at = items[i].center[axis];
@@ -62,8 +62,8 @@ static void fill_leaf(builder *b, sb_solid_node *node, size_t begin, size_t coun
 {
     node->first = (uint32_t)begin;
     node->count = (uint32_t)count;
-    node->min = sb_vec(INFINITY, INFINITY, INFINITY);
-    node->max = sb_vec(-INFINITY, -INFINITY, -INFINITY);
+    node->min = sb_vec(HUGE_VAL, HUGE_VAL, HUGE_VAL);
+    node->max = sb_vec(-HUGE_VAL, -HUGE_VAL, -HUGE_VAL);
     for (size_t i = begin; i < begin + count; ++i) {
         const uint32_t *corner = b->mesh->triangles[b->items[i].triangle];
         const sb_vec3 *at = b->mesh->vertices;

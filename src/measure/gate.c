@@ -79,7 +79,7 @@ sb_status sb_gate_create(const sb_sight *sight, const sb_flow_plane *plane, sb_g
     made->particle_volume = made->flat ? spacing * spacing : spacing * spacing * spacing;
     /* Far more than a step moves a particle (CFL): whoever passes was seen before. */
     made->margin = 2 * spacing;
-    made->stride = INFINITY;
+    made->stride = HUGE_VAL;
     for (int axis = 0; axis < 2; axis++) {
         double length = sb_repeat_length(sight->scene, sight->min, sight->max, axis);
         if (length > 0) made->stride = fmin(made->stride, 0.5 * length);

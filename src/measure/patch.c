@@ -220,7 +220,7 @@ sb_status sb_patch_pressure(const sb_patch *patch, const sb_sight *sight, double
 {
     const sb_scene *scene = sight->scene;
     double h = scene->numerics.support * scene->resolution;
-    sb_vec3 min = sb_vec(INFINITY, INFINITY, INFINITY), max = sb_scale(min, -1);
+    sb_vec3 min = sb_vec(HUGE_VAL, HUGE_VAL, HUGE_VAL), max = sb_scale(min, -1);
     for (size_t i = 0; i < patch->count; i++)
         if (patch->walls[i].weight > 0) {
             min = sb_min(min, patch->walls[i].position);

@@ -62,7 +62,7 @@ sb_camera_key sb_camera_at(const sb_camera *camera, double time)
 
 static void clip_planes(sb_view *view, sb_vec3 min, sb_vec3 max)
 {
-    double near = INFINITY, far = 0;
+    double near = HUGE_VAL, far = 0;
     for (int corner = 0; corner < 8; corner++) {
         sb_vec3 at = sb_vec(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y,
                             corner & 4 ? max.z : min.z);

@@ -13,8 +13,8 @@ enum { MARGIN = 3 };
 static bool bounds(const sb_frame *frame, float min[3], float max[3])
 {
     for (int a = 0; a < 3; a++) {
-        min[a] = INFINITY;
-        max[a] = -INFINITY;
+        min[a] = HUGE_VAL;
+        max[a] = -HUGE_VAL;
     }
     for (size_t i = 0; i < frame->count; i++) {
         const float *p = frame->position + 3 * i;
@@ -32,7 +32,7 @@ static sb_status lay_grid(sb_density *density, const float min[3], const float m
 {
     double cell = cell_spacings * spacing;
     /* One stray particle may stretch the box: a coarser grid stays true, only less sharp. */
-    for (double total = INFINITY;; cell *= 1.25) {
+    for (double total = HUGE_VAL;; cell *= 1.25) {
         total = 1;
         for (int a = 0; a < 3; a++)
             total *= floor((double)(max[a] - min[a]) / cell) + 2 * MARGIN + 1;

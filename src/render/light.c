@@ -54,7 +54,7 @@ static void ortho_clip(sb_vec3 right, sb_vec3 up, sb_vec3 back, sb_vec3 min, sb_
     memset(clip, 0, 16 * sizeof *clip);
     clip[15] = 1;
     for (int row = 0; row < 3; row++) {
-        double low = INFINITY, high = -INFINITY;
+        double low = HUGE_VAL, high = -HUGE_VAL;
         for (int corner = 0; corner < 8; corner++) {
             double at =
                 sb_dot(axes[row], sb_vec(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y,

@@ -171,7 +171,7 @@ static void vectors_obey_their_rules(void **state)
     assert_true(sb_norm(sb_normalize(sb_vec(0, 0, 0))) == 0);
     assert_near(sb_madd(a, 2, b).y, 8, 0);
     assert_near(sb_norm(sb_sub(sb_add(a, b), sb_add(sb_min(a, b), sb_max(a, b)))), 0, 0);
-    assert_true(sb_isfinite(a) && !sb_isfinite(sb_vec(0, NAN, 0)));
+    assert_true(sb_isfinite(a) && !sb_isfinite(sb_vec(0, (double)NAN, 0)));
 }
 
 int main(void)

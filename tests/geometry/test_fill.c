@@ -102,7 +102,7 @@ static void refuse(const char *first, const char *second)
 /* Least distance between two particles. */
 static double closest(void)
 {
-    double best = INFINITY;
+    double best = HUGE_VAL;
     for (size_t i = 0; i < model.fluid_count; ++i)
         for (size_t j = i + 1; j < model.fluid_count; ++j) {
             sb_vec3 arm = sb_sub(model.fluid_position[i], model.fluid_position[j]);

@@ -18,7 +18,7 @@ static sb_error error;
 static sb_mesh_report diagnose(const sb_mesh *mesh)
 {
     sb_mesh_report report;
-    sb_mesh_diagnose(mesh, &report);
+    assert_int_equal(sb_mesh_diagnose(mesh, &report, NULL), SB_OK);
     return report;
 }
 

@@ -54,7 +54,7 @@ static const char *save_text(const char *name, const char *text)
 static void check_cube(const sb_mesh *mesh, sb_vec3 min, double volume)
 {
     sb_mesh_report report;
-    sb_mesh_diagnose(mesh, &report);
+    assert_int_equal(sb_mesh_diagnose(mesh, &report, NULL), SB_OK);
     assert_int_equal(mesh->vertex_count, 8);
     assert_int_equal(mesh->triangle_count, 12);
     assert_true(report.watertight);

@@ -65,7 +65,7 @@ static size_t warnings_of(const char *text)
 /* Least distance of two points, images in y included. */
 static double closest(const sb_vec3 *point, size_t count, double width)
 {
-    double best = INFINITY;
+    double best = HUGE_VAL;
     for (size_t i = 0; i < count; ++i)
         for (size_t j = 0; j < count; ++j)
             for (int k = -1; k <= 1; ++k) {
@@ -146,7 +146,7 @@ static void a_sill_goes_on(void **state)
         assert_int_equal(count[0], count[1]);
         assert_true(count[0] >= 4 * 4);
         for (size_t b = 0; b < count[0]; ++b) {
-            double nearest = INFINITY;
+            double nearest = HUGE_VAL;
             for (size_t k = 0; k < count[1]; ++k)
                 nearest = fmin(nearest, sb_norm(sb_sub(point[0][b], point[1][k])));
             assert_near(nearest, 0, 1e-6);

@@ -129,7 +129,7 @@ static inline bool test_sheet_point(const test_surfaces *s, size_t k, sb_vec3 on
 
 static inline test_rules test_measure(const test_surfaces *s, size_t points_per_area)
 {
-    test_rules rules = {.nearest = INFINITY};
+    test_rules rules = {.nearest = HUGE_VAL};
     sb_sample_set set = {.cell = 1, .origin = s->settings.min};
     for (size_t i = 0; i < s->samples.count; ++i) {
         sb_vec3 at = s->samples.position[i];

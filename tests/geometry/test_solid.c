@@ -103,7 +103,7 @@ static double exact_winding(const sb_mesh *mesh, sb_vec3 p)
    barycentric coordinates, else the three edges. */
 static double exact_distance(const sb_mesh *mesh, sb_vec3 p)
 {
-    double best = INFINITY;
+    double best = HUGE_VAL;
     for (size_t i = 0; i < mesh->triangle_count; ++i) {
         sb_vec3 v[3];
         corners_of(mesh, i, v);
@@ -182,7 +182,7 @@ static void test_distance_is_the_least_of_all(void **state)
     for (uint64_t i = 0; i < 1000; ++i) {
         sb_vec3 p = random_point(3, i, sb_vec(1, -4, -1), sb_vec(5, 0, 3)), nearest, normal;
         double exact = exact_distance(&mesh, p);
-        double found = sb_solid_distance(solid, p, INFINITY, &nearest, &normal);
+        double found = sb_solid_distance(solid, p, HUGE_VAL, &nearest, &normal);
         assert_true(fabs(found - exact) < 1e-12);
         assert_true(fabs(sb_norm(sb_sub(nearest, p)) - exact) < 1e-12);
         assert_true(fabs(sb_norm(normal) - 1) < 1e-12);

@@ -1,5 +1,4 @@
-/* The n-th allocation of a whole run fails: the run says so or goes on without a nicety, and what it
-   had is given back. One n in STRIDE; all of them when SB_EACH_ALLOCATION is "all". */
+/* The n-th allocation of a whole run fails: the run says so, and what it had is given back. One n in STRIDE; all of them when SB_EACH_ALLOCATION is "all". */
 #include "../check.h"
 
 #include "app/run.h"
@@ -130,7 +129,6 @@ static sb_status quietly(sb_status (*work)(sb_error *), sb_error *error)
 /* Runs with each n-th allocation refused until a run needs fewer than n. Returns that n. */
 static long refuse_each(sb_status (*work)(sb_error *), long first, long stride)
 {
-    long survived = 0;
     for (long n = first; n < RUNS_MAX; n += stride) {
         sb_error error = {0};
         long before = atomic_load(&blocks);
@@ -142,13 +140,10 @@ static long refuse_each(sb_status (*work)(sb_error *), long first, long stride)
             fail_msg("allocation %ld: %ld blocks left", n, atomic_load(&blocks) - before);
         if (!refused) {
             if (status != SB_OK) fail_msg("%s", error.text);
-            print_message("%ld allocations, %ld of the refused ones were niceties\n", n - 1, survived);
+            print_message("%ld allocations\n", n - 1);
             return n;
         }
-        if (status == SB_OK)
-            ++survived;
-        else
-            check_refusal(n, status, &error);
+        check_refusal(n, status, &error);
     }
     fail_msg("no end of allocations");
     return 0;

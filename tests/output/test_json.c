@@ -25,7 +25,7 @@ static void writes(FILE *stream, bool pretty)
     sb_json_text(&json, "name", "a \"b\" \\ \n \x01 \x7f caf\xc3\xa9 \xff \xe2\x82");
     sb_json_number(&json, "third", 1.0 / 3);
     sb_json_number(&json, "nan", (double)NAN);
-    sb_json_number(&json, "inf", (double)-INFINITY);
+    sb_json_number(&json, "inf", -HUGE_VAL);
     sb_json_count(&json, "many", UINT64_MAX);
     sb_json_bool(&json, "yes", true);
     sb_json_text(&json, "none", NULL);

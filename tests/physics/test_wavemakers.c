@@ -101,7 +101,7 @@ static void every_law_is_continuous(void **state)
 static void every_law_refuses_what_it_needs_and_lacks(void **state)
 {
     (void)state;
-    const double bad[] = {0, -1, NAN, INFINITY};
+    const double bad[] = {0, -1, (double)NAN, HUGE_VAL};
     for (const sb_wavemaker *const *row = sb_wavemakers; *row; row++)
         for (unsigned bit = SB_WM_HEIGHT; bit <= SB_WM_FILE; bit <<= 1)
             for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
@@ -384,7 +384,7 @@ static void paddle_returns_slowly_and_smoothly(void **state)
         parameters.return_time = 0;
         assert_int_equal(sb_paddle_create(&parameters, &paddle, NULL), SB_BAD_INPUT);
         parameters.after = SB_AFTER_STAY;
-        parameters.start = NAN;
+        parameters.start = (double)NAN;
         assert_int_equal(sb_paddle_create(&parameters, &paddle, NULL), SB_BAD_INPUT);
     }
 }

@@ -252,7 +252,7 @@ static void density_is_one_inside(void **state)
     assert_true(fabsf(sb_density_at(&density, 6, 6, 11.75f) - 0.5f) < 0.12f);
     assert_true(sb_density_at(&density, 6, 6, 14) < 0.01f);
     assert_true(sb_density_at(&density, 600, 6, 6) == 0);
-    assert_true(sb_density_at(&density, NAN, 6, 6) == 0);
+    assert_true(sb_density_at(&density, (double)NAN, 6, 6) == 0);
     /* One particle gone astray costs sharpness, not memory; one lost to infinity costs nothing. */
     frame->position[0] = 9e6f;
     frame->position[4] = NAN;

@@ -91,7 +91,7 @@ static void test_bodies(void **state)
     const sb_body *bodies = scene.bodies;
     assert_true(bodies[0].report && bodies[0].has_moment_point);
     assert_near(bodies[0].moment_point.y, 2, 0);
-    assert_near(bodies[0].color[1], 0.5, 0);
+    assert_near((double)bodies[0].color[1], 0.5, 0);
     assert_int_equal(bodies[0].role, SB_ROLE_SOLID);
     assert_int_equal(bodies[1].role, SB_ROLE_TERRAIN);
     assert_false(bodies[1].report || bodies[1].has_moment_point);

@@ -223,7 +223,7 @@ static void status_alone_needs_no_frame(void **state)
     (void)state;
     sb_stream *stream = fixture_stream("memq://", 0, 1);
     seen *all = watch(stream, 1);
-    sb_frame_status status = {.step = 9, .time = 1.5, .duration = 3, .eta_seconds = NAN};
+    sb_frame_status status = {.step = 9, .time = 1.5, .duration = 3, .eta_seconds = (double)NAN};
     sb_stream_status(stream, &status);
     fixture_drain(stream);
     assert_int_equal(all->statuses, 1);

@@ -42,7 +42,7 @@ static void add_frame(void *context, const sb_frame *frame)
  */
 static int is_layer(const profile *p, size_t k)
 {
-    return p->count[k] > 0.004 * (double)p->total;
+    return (double)p->count[k] > 0.004 * (double)p->total;
 }
 
 static sb_status read_profile(const sb_case_run *run, profile *p, sb_error *error)
