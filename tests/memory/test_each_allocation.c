@@ -78,7 +78,7 @@ static sb_status run_once(sb_error *error)
 {
     sb_scene scene = {0};
     sb_status status = sb_scene_read(scene_path, NULL, NULL, 0, &scene, error);
-    if (status == SB_OK) status = sb_run(&scene, out_path, &(sb_run_voice){.quiet = true}, error);
+    if (status == SB_OK) status = sb_run(&scene, out_path, &(sb_run_manner){.quiet = true}, error);
     sb_scene_free(&scene);
     return status;
 }
