@@ -1,5 +1,6 @@
 /* shorebreak: tsunami waves striking coastal plants, by implicit incompressible SPH. */
 #include "app/commands.h"
+#include "base/memory.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -57,6 +58,7 @@ int main(int count, char **arguments)
                 return 0;
             }
         limit_spinning(arguments);
+        sb_memory_return_blocks();
         return commands[c].run(count - 2, arguments + 2);
     }
     if (*name)

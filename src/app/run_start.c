@@ -196,6 +196,7 @@ sb_status sb_run_start(run *r, bool resume, sb_error *error)
         status = sb_sim_create(r->scene, &r->model, &r->sim, error);
     if (status != SB_OK)
         return status;
+    sb_model_forget_start(&r->model);
     if (resume)
         return go_on(r, error);
     note_start(r);

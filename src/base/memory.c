@@ -1,5 +1,6 @@
 #include "base/memory.h"
 
+#include <malloc.h>
 #include <stdatomic.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -39,6 +40,11 @@ void *sb_alloc(size_t count, size_t size)
     if (pointer)
         memset(pointer, 0, count * size);
     return pointer;
+}
+
+void sb_memory_return_blocks(void)
+{
+    mallopt(M_MMAP_THRESHOLD, 1 << 20); /* left alone it grows up to 32 MB with each block freed */
 }
 
 void sb_free(void *pointer)

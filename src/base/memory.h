@@ -12,6 +12,10 @@ void *sb_alloc(size_t count, size_t size);
 /* As sb_alloc, but the bytes are not touched: pages come into being when first written. */
 void *sb_alloc_untouched(size_t count, size_t size);
 
+/* From now on blocks of a megabyte and more go back to the system when freed, instead of staying for later ones that
+   may never come. Once, before the first allocation. */
+void sb_memory_return_blocks(void);
+
 /* Frees what sb_alloc or sb_grow returned; NULL is fine. */
 void sb_free(void *pointer);
 

@@ -23,6 +23,20 @@ void sb_model_free(sb_model *model)
     *model = (sb_model){.dimensions = 0};
 }
 
+void sb_model_forget_start(sb_model *model)
+{
+    bool still = true;
+    for (size_t i = 0; model->fluid_velocity && i < model->fluid_count && still; i++)
+        still = sb_norm(model->fluid_velocity[i]) == 0;
+    sb_free(model->fluid_position);
+    sb_free(model->fluid_pressure);
+    model->fluid_position = NULL;
+    model->fluid_pressure = NULL;
+    if (!still) return;
+    sb_free(model->fluid_velocity);
+    model->fluid_velocity = NULL;
+}
+
 sb_status sb_model_warn(sb_model *model, sb_error *error, const char *format, ...)
 {
     char line[1024];

@@ -26,7 +26,7 @@ typedef struct sb_model {
     double still_depth; /* m, D: the largest still depth of water */
     size_t fluid_count;
     sb_vec3 *fluid_position; /* m */
-    sb_vec3 *fluid_velocity; /* m/s */
+    sb_vec3 *fluid_velocity; /* m/s; NULL: forgotten, all zero */
     double *fluid_pressure;  /* Pa, hydrostatic first guess */
     size_t wall_count;
     sb_vec3 *wall_position; /* m, on the offset sheet, at t = 0 */
@@ -43,6 +43,10 @@ void sb_model_free(sb_model *model);
 
 /* Of all that a simulation and its measurements start from: two models with one hash run alike. */
 uint64_t sb_model_hash(const sb_model *model);
+
+/* Frees where the fluid particles start, their pressures, and their velocities where all are zero (then NULL): what a
+   simulation that was made from the model needs no more. fluid_count stays. A hash of the model is taken before. */
+void sb_model_forget_start(sb_model *model);
 
 /* The bodies alone, in the same order, with meshes, colours and wavemakers but without particles:
    what pictures of a finished run need. On error *model is untouched. */

@@ -32,9 +32,10 @@ float sb_settle_pull(const sb_sim *sim, sb_record at)
 static void let_go(sb_sim *sim)
 {
     const size_t n = sim->n;
+    const sb_vec3 *given = sim->model->fluid_velocity;
     double top = 0;
     for (size_t i = 0; i < n; i++) {
-        const sb_vec3 v = sim->model->fluid_velocity[sim->id[i]];
+        const sb_vec3 v = given ? given[sim->id[i]] : (sb_vec3){0};
         const double speed = sb_norm(v);
         sim->velocity[i] = (sb_f4){(float)v.x, (float)v.y, (float)v.z, sim->velocity[i][3]};
         top = speed > top ? speed : top;

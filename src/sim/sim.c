@@ -51,7 +51,6 @@ static int allocate(sb_sim *sim, size_t n, size_t bodies)
         {&sim->unknown, n, 4, true},            {&sim->residual, n, 4, true},
         {&sim->direction, n, 4, direction},     {&sim->product, n, 4, direction},
         {&sim->eddy, n, 4, sb_turbulence_on(sim->scene)},
-        {&sim->sort_a, n, 8, true},             {&sim->sort_b, n, 8, true},
         {&sim->scratch, n, 16, true},           {&sim->scratch_id, n, 4, true},
         {&sim->pairs.first, n, 4, true},        {&sim->pairs.count, n, 2, true},
         {&sim->wall_pairs.first, n, 4, true},   {&sim->wall_pairs.count, n, 2, true},
@@ -69,6 +68,9 @@ static int allocate(sb_sim *sim, size_t n, size_t bodies)
         memcpy(rows[r].field, &memory, sizeof memory);
         sim->bytes_fixed += rows[r].count * rows[r].size;
     }
+    /* The sort is over before wall vectors are made: its words lie where these will. */
+    sim->sort_a = (uint64_t *)sim->wall;
+    sim->sort_b = sim->sort_a + n;
     sim->capacity = n;
     return 0;
 }
@@ -178,7 +180,7 @@ void sb_sim_destroy(sb_sim *sim)
         return;
     void *fields[] = {sim->position, sim->velocity, sim->id, sim->acceleration, sim->wall, sim->density,
                       sim->eddy, sim->diagonal, sim->source, sim->unknown, sim->residual, sim->direction, sim->product,
-                      sim->sort_a, sim->sort_b, sim->scratch, sim->scratch_id, sim->partial,
+                      sim->scratch, sim->scratch_id, sim->partial,
                       sim->block_touched, sim->block_impulse, sim->impulse, sim->block_ledger};
     for (size_t f = 0; f < sizeof fields / sizeof fields[0]; f++)
         sb_free(fields[f]);

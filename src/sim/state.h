@@ -107,7 +107,7 @@ typedef struct sb_sim {
     sb_cells cells;
     sb_ghosts ghosts;
     sb_pairs pairs, wall_pairs; /* wall_pairs.index: set << 31 | boundary particle; slope: psi W'/r quantum */
-    uint64_t *sort_a, *sort_b;
+    uint64_t *sort_a, *sort_b; /* in the memory of `wall`, which is made after the sort */
     void *scratch;            /* 16 bytes per particle, for the permutation */
     uint32_t *scratch_id;
     double *partial;          /* per block, 5 values: partial sums */

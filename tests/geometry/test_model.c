@@ -231,6 +231,24 @@ static void points_inside_are_found(void **state)
     sb_free(at);
 }
 
+static void a_start_is_forgotten_unless_it_moves(void **state)
+{
+    (void)state;
+    build();
+    const size_t n = model.fluid_count;
+    assert_non_null(model.fluid_velocity);
+    model.fluid_velocity[n - 1].x = -1e-3;
+    sb_model_forget_start(&model);
+    assert_null(model.fluid_position);
+    assert_null(model.fluid_pressure);
+    assert_non_null(model.fluid_velocity);
+    model.fluid_velocity[n - 1].x = 0;
+    sb_model_forget_start(&model);
+    assert_null(model.fluid_velocity);
+    sb_model_forget_start(&model);
+    assert_int_equal(model.fluid_count, n);
+}
+
 static void two_dimensions_have_no_side_walls(void **state)
 {
     (void)state;
@@ -302,7 +320,8 @@ int main(void)
         CASE(bodies_and_their_particles),      CASE(names_are_unique),
         CASE(a_wavemaker_needs_its_body),      CASE(open_sides_have_no_wall),
         CASE(warnings_say_what_is_too_coarse), CASE(holes_in_a_mesh_are_named),
-        CASE(points_inside_are_found),         CASE(two_dimensions_have_no_side_walls),
+        CASE(points_inside_are_found),         CASE(a_start_is_forgotten_unless_it_moves),
+        CASE(two_dimensions_have_no_side_walls),
         CASE(no_memory_is_an_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -147,6 +147,29 @@ static void check_empty(const sb_scene *scene, const sb_model *model)
     sb_sim_destroy(sim);
 }
 
+/* Settling at last gives the scene's velocities: none of them left means that all are zero. */
+static void a_start_forgotten_is_one_at_rest(void **state)
+{
+    (void)state;
+    uint64_t hash[2];
+    for (int forgotten = 0; forgotten < 2; forgotten++) {
+        tank t;
+        tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 1, 0.6, 0.1);
+        t.scene.numerics.settle_steps = 5;
+        sb_sim *sim = make(&t);
+        if (forgotten) {
+            sb_free(t.model.fluid_velocity);
+            t.model.fluid_velocity = NULL;
+        }
+        assert_int_equal(sb_sim_settle(sim, NULL), SB_OK);
+        assert_int_equal(tank_steps(sim, 2), 0);
+        hash[forgotten] = sb_sim_hash(sim);
+        sb_sim_destroy(sim);
+        tank_free(&t);
+    }
+    assert_true(hash[0] == hash[1]);
+}
+
 static void no_water_is_fine(void **state)
 {
     (void)state;
@@ -326,6 +349,7 @@ int main(void)
         cmocka_unit_test(a_lone_particle_flies_a_parabola),
         cmocka_unit_test(coincident_particles_do_no_harm),
         cmocka_unit_test(what_leaves_is_counted),
+        cmocka_unit_test(a_start_forgotten_is_one_at_rest),
         cmocka_unit_test(no_water_is_fine),
         cmocka_unit_test(divergence_is_told_and_leaves_the_state),
         cmocka_unit_test(bad_parts_are_refused),

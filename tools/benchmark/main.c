@@ -4,6 +4,7 @@
 #include "report.h"
 
 #include "base/file.h"
+#include "base/memory.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -62,6 +63,7 @@ int main(int count, char **arguments)
     sb_bench_options o;
     sb_error error = {0};
     setvbuf(stdout, NULL, _IOLBF, 0);
+    sb_memory_return_blocks(); /* as shorebreak does */
     if (count == 2 && strcmp(arguments[1], "--version") == 0) {
         printf("shorebreak-bench %s\n", SB_VERSION);
         return 0;
