@@ -15,7 +15,9 @@ static const char help[] =
     "and warnings.\n";
 
 /* Costs measured with tools/bench on two cores at 2.5 GHz; they scale an estimate, nothing else. */
-static const double FLUID_BYTES = 430, WALL_BYTES = 60;        /* of a run's heap, per particle */
+static const double PROGRAM_BYTES = 6e7;                       /* with the graphics library, before any particle */
+static const double FLUID_BYTES = 150, PAIR_BYTES = 8.2;       /* per particle; per neighbour of each */
+static const double WALL_BYTES = 85;
 static const double GHOST_BYTES = 90;                          /* per image beyond periodic sides: its fields */
 static const double SECONDS_PER_STEP = 2.0e-6;                 /* one thread, per fluid particle */
 static const double PARTICLE_FILE_BYTES = 44, PICTURE_BYTES = 7e5;
@@ -34,6 +36,13 @@ static double count_ghosts(const sb_scene *scene, const sb_model *model)
         if (sb_scene_repeats(scene, axis))
             all *= 1 + 2 * h / (axis == 0 ? size.x : size.y);
     return (all - 1) * (double)model->fluid_count;
+}
+
+/* Neighbours of a particle within the water. */
+static double count_neighbours(const sb_scene *scene)
+{
+    const double s = scene->numerics.support, pi = 3.14159265358979;
+    return scene->dimensions == 2 ? pi * s * s : 4 * pi / 3 * s * s * s;
 }
 
 static estimate make_estimate(const sb_scene *scene, const sb_model *model)
@@ -55,7 +64,8 @@ static estimate make_estimate(const sb_scene *scene, const sb_model *model)
         .steps = steps,
         .time_step = dt,
         .seconds = steps * fluid * SECONDS_PER_STEP / omp_get_max_threads(),
-        .memory = fluid * FLUID_BYTES + (double)model->wall_count * WALL_BYTES + ghosts * GHOST_BYTES,
+        .memory = PROGRAM_BYTES + fluid * (FLUID_BYTES + PAIR_BYTES * count_neighbours(scene)) +
+                  (double)model->wall_count * WALL_BYTES + ghosts * GHOST_BYTES,
         .ghosts = ghosts,
         .disk = files * fluid * PARTICLE_FILE_BYTES + pictures * PICTURE_BYTES,
     };

@@ -174,6 +174,24 @@ static void check_in_json(void **state)
 }
 
 /* Particles of each kind in the file's Int32 array "body". */
+static double memory_with_support(const char *support)
+{
+    outcome o = RUN(0, "check", "tank3.yaml", "--json", "--set", support);
+    const char *value = json_find(o.out, "memory_bytes");
+    assert_non_null(value);
+    const double bytes = strtod(value, NULL);
+    outcome_free(&o);
+    return bytes;
+}
+
+/* Most memory goes into lists of neighbours: 384 particles with 4 pi/3 s^3 of them. */
+static void check_counts_neighbours_as_memory(void **state)
+{
+    (void)state;
+    const double more = memory_with_support("numerics.support=3") - memory_with_support("numerics.support=2");
+    assert_true(more > 384 * 79.5 * 8 && more < 384 * 79.6 * 9);
+}
+
 static void count_bodies(const char *path, size_t points, size_t *walls, size_t *fluid)
 {
     FILE *file = fopen(path, "rb");
@@ -277,6 +295,7 @@ int main(void)
         cmocka_unit_test(lists_name_what_there_is),
         cmocka_unit_test(check_tells_what_would_be_built),
         cmocka_unit_test(check_in_json),
+        cmocka_unit_test(check_counts_neighbours_as_memory),
         cmocka_unit_test(sample_writes_the_particles),
         cmocka_unit_test(profile_says_where_time_went_and_changes_nothing),
         cmocka_unit_test(bad_scene_gives_its_place),
