@@ -21,15 +21,18 @@ static sb_status read_defaults(const sb_subject *subject, const sb_store *store,
     return SB_OK;
 }
 
-/* The entry stays where it is from here on: its plan points into it. */
+/* The entry stays where it is from here on: its plan points into it. A choice that changes nothing here
+   (a factor on a default of 0) is left out: its runs would be those of `default`. */
 static void add(sb_contest *c, const sb_choice *choice, double spacing, bool quick, int seeds,
                 const sb_numerics *defaults)
 {
-    sb_entry *e = &c->entries[c->entry_count++];
+    sb_entry *e = &c->entries[c->entry_count];
     size_t used = 0;
     *e = (sb_entry){.choice = choice, .first = c->trial_count, .seeds = (size_t)seeds};
     for (const char *const *s = c->subject->settings; s && *s; s++) e->settings[used++] = *s;
     if (choice) sb_choice_change(choice, defaults, e->change);
+    if (choice && choice->key && !e->change[0]) return;
+    c->entry_count++;
     for (int i = 0; choice && i < SB_CHOICE_FIXED && choice->fixed[i]; i++)
         if (e->change[0])
             e->settings[used++] = choice->fixed[i];
