@@ -40,7 +40,7 @@ static void put_entry(FILE *out, const sb_contest *c, const sb_entry *e)
 static void put_contest(FILE *out, const sb_contest *c, bool cpu)
 {
     fprintf(out,
-            "## %s\n\nErrors against %s.\n\n"
+            "## %s\n\nErrors: %s.\n\n"
             "| choice | spacing (m) | particles | steps | sweeps per step | %s (s) |",
             c->subject->title, c->subject->what, cpu ? "processor time" : "run time");
     for (size_t k = 0; k < c->error_count; k++)
@@ -50,10 +50,13 @@ static void put_contest(FILE *out, const sb_contest *c, bool cpu)
     fputc('\n', out);
     for (size_t i = 0; i < c->entry_count; i++) put_entry(out, c, &c->entries[i]);
     fputc('\n', out);
-    bool problem = false;
-    for (size_t i = 0; i < c->trial_count; i++)
-        problem = sb_trial_problem(out, &c->trials[i]) || problem;
-    if (problem) fputc('\n', out);
+    size_t missing = 0, failed = 0;
+    for (size_t i = 0; i < c->trial_count; i++) {
+        missing += c->trials[i].state == SB_RESULT_NOT_RUN;
+        failed += c->trials[i].state == SB_RESULT_FAILED && sb_trial_problem(out, &c->trials[i]);
+    }
+    if (missing) fprintf(out, "- %zu of %zu runs are not there yet\n", missing, c->trial_count);
+    if (missing + failed) fputc('\n', out);
 }
 
 static const char reading[] =
@@ -106,19 +109,29 @@ static sb_status plot_front(const sb_contest *c, sb_plot *plot, sb_error *error)
     return status;
 }
 
-/* All spacings of a choice are marks of one kind. */
+/* All spacings of a choice are marks of one kind. What has not run has a mark nowhere, so that a choice
+   has the same colour in every panel. */
 static sb_status plot_choice(const sb_contest *c, const sb_choice *choice, sb_plot *plot,
                              sb_error *error)
 {
     sb_curve curve = {0};
     sb_status status = SB_OK;
-    for (size_t i = 0; status == SB_OK && i < c->entry_count; i++)
-        if (c->entries[i].choice == choice && c->entries[i].errors[0].mean > 0)
-            status = sb_curve_add(&curve, c->entries[i].time.mean, c->entries[i].errors[0].mean, error);
+    for (size_t i = 0; status == SB_OK && i < c->entry_count; i++) {
+        double y = c->entries[i].errors[0].mean;
+        if (c->entries[i].choice == choice)
+            status = sb_curve_add(&curve, c->entries[i].time.mean, y > 0 ? y : (double)NAN, error);
+    }
     if (status == SB_OK && curve.count)
         status = sb_plot_curve(plot, SB_PLOT_MARKS, choice->name, &curve, error);
     sb_curve_free(&curve);
     return status;
+}
+
+static bool has_marks(const sb_contest *c)
+{
+    for (size_t i = 0; i < c->entry_count; i++)
+        if (c->entries[i].choice && c->entries[i].errors[0].mean > 0) return true;
+    return false;
 }
 
 static sb_status plot_contest(const sb_contest *c, bool cpu, sb_plot *plot, sb_error *error)
@@ -146,7 +159,8 @@ static sb_status draw(const sb_contest_report *r, const char *folder, sb_error *
         status = sb_fail(error, SB_FAILED, "%.400s: no such folder", folder);
     if (status == SB_OK) status = sb_path_join(picture, real, "tradeoff.png", error);
     for (size_t i = 0; status == SB_OK && i < r->count; i++)
-        status = plot_contest(&r->contests[i], r->cpu, plot, error);
+        if (has_marks(&r->contests[i]))
+            status = plot_contest(&r->contests[i], r->cpu, plot, error);
     if (status == SB_OK) status = sb_plot_draw(plot, plots, "tradeoff", picture, error);
     sb_plot_destroy(plot);
     return status;

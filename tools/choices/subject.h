@@ -17,7 +17,7 @@ typedef struct sb_error_measure {
 
 typedef struct sb_subject {
     const char *name, *title; /* NULL ends the table */
-    const char *what;         /* against what, one sentence */
+    const char *what;         /* its errors: of what, against what; without full stop */
     const sb_case *of;        /* whose scene runs and whose figures count */
     double full[SB_SUBJECT_SPACINGS + 1], quick[SB_SUBJECT_SPACINGS + 1]; /* m, ended by 0 */
     double full_reference, quick_reference; /* m: a run to compare with; 0: figures have references */

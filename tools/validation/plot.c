@@ -202,7 +202,7 @@ static void put_panel(FILE *out, const panel *p, const char *data, size_t first)
     fputs("\nset ylabel ", out);
     put_quoted(out, p->y_label);
     fputc('\n', out);
-    fputs(p->logarithmic ? "set logscale xy\n" : "unset logscale\n", out);
+    fputs(p->logarithmic ? "set logscale xy\nset format '%g'\n" : "unset logscale\nset format\n", out);
     put_range(out, 'x', p->range[0], p->range[1]);
     put_range(out, 'y', p->range[2], p->range[3]);
     const char *before = "plot ";
