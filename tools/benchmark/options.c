@@ -16,6 +16,7 @@ const char sb_bench_help[] =
     "  large          the plant at 1 m (18 million particles): set-up, 20 steps, peak memory\n"
     "  runs           whole runs: the plant at 4 m, by both presets, and the column at 1 cm\n"
     "  island         a whole run of the conical island of the validation\n"
+    "  tradeoff       run time against error: tools/tradeoff, with the options of that\n"
     "  all            kernels, scenes, scaling, memory; what is measured when nothing is named\n\n"
     "  --quick        small sizes, for a look; goes to build/bench instead\n"
     "  --out DIR      where benchmarks.md and bench/*.csv go (docs/results)\n"
