@@ -1,6 +1,7 @@
 /* The two passes of a pressure iteration: where a run spends its time. Per neighbour one 16-byte record,
    one index and one stored W'/r; walls are one vector per particle and cost nothing per neighbour. */
 #include "sim/pressure.h"
+#include "sim/simd_wide.h"
 
 void sb_pressure_load(sb_sim *sim, const float *argument)
 {
@@ -18,25 +19,27 @@ void sb_pressure_load(sb_sim *sim, const float *argument)
         sb_carry(&position[n + g], argument[of[g]]);
 }
 
+/* The records of two neighbours. */
+SB_INLINE sb_f8 two(const sb_f4 *of, const uint32_t *index)
+{
+    return sb_beside(of[index[0]], of[index[1]]);
+}
+
 SB_MULTIVERSION
 static void accelerate_block(sb_sim *sim, size_t block)
 {
-    const sb_record *position = sim->position;
+    const sb_f4 *position = (const sb_f4 *)sim->position;
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
         const uint32_t *index = sim->pairs.index + sim->pairs.first[i];
         const float *slope = sim->pairs.slope + sim->pairs.first[i];
-        const sb_record self = position[i];
-        const sb_f4 q = sb_carried(self);
-        sb_f4 even = {0}, odd = {0};
+        const sb_f8 self = sb_beside(position[i], position[i]), q = sb_carried8(self);
+        sb_f8 even = {0}, odd = {0};
         for (size_t k = 0; k < sim->pairs.count[i]; k += 4) {
-            sb_record a = position[index[k]], b = position[index[k + 1]];
-            sb_record c = position[index[k + 2]], d = position[index[k + 3]];
-            even += sb_offset(self, a) * ((q + sb_carried(a)) * sb_splat(slope[k]));
-            odd += sb_offset(self, b) * ((q + sb_carried(b)) * sb_splat(slope[k + 1]));
-            even += sb_offset(self, c) * ((q + sb_carried(c)) * sb_splat(slope[k + 2]));
-            odd += sb_offset(self, d) * ((q + sb_carried(d)) * sb_splat(slope[k + 3]));
+            const sb_f8 a = two(position, index + k), b = two(position, index + k + 2);
+            even += sb_offset8(self, a) * ((q + sb_carried8(a)) * sb_spread(slope[k], slope[k + 1]));
+            odd += sb_offset8(self, b) * ((q + sb_carried8(b)) * sb_spread(slope[k + 2], slope[k + 3]));
         }
-        sb_f4 sum = even + odd + q * sim->wall[i];
+        const sb_f4 sum = sb_halves(even + odd) + sb_carried((sb_record)position[i]) * sim->wall[i];
         sim->acceleration[i] = (sb_f4){-sum[0], -sum[1], -sum[2], 0};
     }
 }
@@ -44,22 +47,21 @@ static void accelerate_block(sb_sim *sim, size_t block)
 SB_MULTIVERSION
 static void diverge_block(sb_sim *sim, size_t block, float dt2, float *out)
 {
-    const sb_record *position = sim->position;
+    const sb_f4 *position = (const sb_f4 *)sim->position;
     const sb_f4 *acceleration = sim->acceleration;
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
         const uint32_t *index = sim->pairs.index + sim->pairs.first[i];
         const float *slope = sim->pairs.slope + sim->pairs.first[i];
-        const sb_record self = position[i];
-        const sb_f4 own = acceleration[i];
-        sb_f4 even = {0}, odd = {0};
+        const sb_f8 self = sb_beside(position[i], position[i]), own = sb_beside(acceleration[i], acceleration[i]);
+        sb_f8 even = {0}, odd = {0};
         for (size_t k = 0; k < sim->pairs.count[i]; k += 4) {
-            uint32_t a = index[k], b = index[k + 1], c = index[k + 2], d = index[k + 3];
-            even += sb_offset(self, position[a]) * ((own - acceleration[a]) * sb_splat(slope[k]));
-            odd += sb_offset(self, position[b]) * ((own - acceleration[b]) * sb_splat(slope[k + 1]));
-            even += sb_offset(self, position[c]) * ((own - acceleration[c]) * sb_splat(slope[k + 2]));
-            odd += sb_offset(self, position[d]) * ((own - acceleration[d]) * sb_splat(slope[k + 3]));
+            const uint32_t *a = index + k, *b = index + k + 2;
+            even += sb_offset8(self, two(position, a)) *
+                    ((own - two(acceleration, a)) * sb_spread(slope[k], slope[k + 1]));
+            odd += sb_offset8(self, two(position, b)) *
+                   ((own - two(acceleration, b)) * sb_spread(slope[k + 2], slope[k + 3]));
         }
-        out[i] = dt2 * sb_sum3(even + odd + own * sim->wall[i]);
+        out[i] = dt2 * sb_sum3(sb_halves(even + odd) + acceleration[i] * sim->wall[i]);
     }
 }
 
