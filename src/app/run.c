@@ -7,6 +7,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { LOG_STEPS = 100 }; /* steps between the log's periodic lines */
 
@@ -152,7 +153,7 @@ static void save_at_end(run *r, sb_status status, sb_error *error)
 
 sb_status sb_run(const sb_scene *scene, const char *directory, const sb_run_manner *manner, sb_error *error)
 {
-    run r = {.resolved = *scene, .directory = directory};
+    run r = {.resolved = *scene, .directory = directory, .lock = -1};
     r.scene = &r.resolved;
     sb_error local = {0};
     sb_progress_begin(&r.progress, manner->quiet ? NULL : stdout, scene->duration);
@@ -169,6 +170,8 @@ sb_status sb_run(const sb_scene *scene, const char *directory, const sb_run_mann
     sb_measure_destroy(r.measure);
     sb_sim_destroy(r.sim);
     sb_model_free(&r.model);
+    if (r.lock >= 0)
+        close(r.lock);
     if (status != SB_OK && error)
         *error = local;
     return status;

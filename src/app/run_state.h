@@ -16,6 +16,7 @@ struct run {
     sb_scene resolved;     /* a shallow copy of the caller's, with what only the model can tell */
     const sb_scene *scene; /* it */
     const char *directory;
+    int lock;              /* descriptor of the directory, locked for this run; -1: not yet */
     sb_model model;
     sb_sim *sim;
     sb_measure *measure;

@@ -438,6 +438,25 @@ static void a_full_disk_ends_the_run_and_it_goes_on(void **state)
     assert_same_run("roomy", "tight", tables);
 }
 
+/* A second run in the same directory is refused before it touches anything. */
+static void one_run_at_a_time(void **state)
+{
+    (void)state;
+    pid_t process = program_start((const char *const[]){"run", "measured.yaml", "--out", "one", "--quiet", "--until",
+                                                        "1000", NULL});
+    for (double end = sb_clock() + 30; !exists("one/particles/000002.vtp") && sb_clock() < end;) usleep(2000);
+    outcome o = RUN(1, "run", "measured.yaml", "--out", "one", "--quiet", "--resume");
+    assert_one_line(o.err, "one: another run is writing there");
+    outcome_free(&o);
+    assert_int_equal(kill(process, SIGTERM), 0);
+    o = program_finish(process);
+    assert_int_equal(o.status, 143);
+    outcome_free(&o);
+    char *log = text_of("one/run.jsonl");
+    assert_int_equal(count_of(log, "\"event\":\"end\""), 1);
+    sb_free(log);
+}
+
 static void removed_tables_end_the_run(void **state)
 {
     (void)state;
@@ -466,6 +485,7 @@ int main(void)
         cmocka_unit_test(other_scenes_are_refused),
         cmocka_unit_test(a_checkpoint_that_fails_is_a_warning),
         cmocka_unit_test(a_full_disk_ends_the_run_and_it_goes_on),
+        cmocka_unit_test(one_run_at_a_time),
         cmocka_unit_test(removed_tables_end_the_run),
     };
     return cmocka_run_group_tests(tests, setup, program_teardown);

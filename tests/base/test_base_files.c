@@ -114,6 +114,20 @@ static void failures_leave_nothing_and_say_why(void **state)
     assert_int_equal(sb_atomic_open(&file, long_path, &error), SB_BAD_INPUT);
 }
 
+static void numbered_files_go_from_a_number_on(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"1.a", "000002.a", "3.a", "0004.a", "2.a.tmp", "4.a.tmp", "3.b", "x3.a", "3.ab"};
+    static const bool stays[] = {true, true, false, false, false, false, true, true, true};
+    for (size_t n = 0; n < sizeof names / sizeof *names; n++) write_whole(names[n], "", 0);
+    assert_int_equal(sb_remove_numbered(folder, ".a", 2, NULL), SB_OK);
+    for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
+        if (exists(names[n]) != stays[n]) fail_msg("%s should %s", names[n], stays[n] ? "stay" : "go");
+        unlink(at(names[n]));
+    }
+    assert_int_equal(sb_remove_numbered(at("none"), ".a", 0, NULL), SB_OK);
+}
+
 /* A full disk shows only when the buffer is flushed. */
 static void full_disk_is_an_error(void **state)
 {
@@ -217,6 +231,7 @@ int main(void)
         cmocka_unit_test(commit_shows_the_file_at_once),
         cmocka_unit_test(abort_keeps_the_old_file),
         cmocka_unit_test(failures_leave_nothing_and_say_why),
+        cmocka_unit_test(numbered_files_go_from_a_number_on),
         cmocka_unit_test(full_disk_is_an_error),
         cmocka_unit_test(directories_come_with_their_parents),
         cmocka_unit_test(paths_join_and_part),

@@ -122,6 +122,43 @@ static void tables_read_back_as_series(void **state)
     sb_series_free(&series);
 }
 
+/* Rows written after the lengths were taken go; what follows comes once. */
+static void tables_go_on_from_their_lengths(void **state)
+{
+    (void)state;
+    sb_scene scene = make_scene(3, false);
+    sb_csv *csv;
+    sb_csv_lengths lengths;
+    sb_error error = {0};
+    const sb_gauge_record levels[] = {{0, 0, 1}, {0, 0.1, 2}, {0, 0.2, 3}};
+    sb_measure_records one = {.gauge_count = 1, .gauges = levels};
+    assert_int_equal(sb_csv_open(folder, &scene, &model, &csv, NULL), SB_OK);
+    assert_int_equal(sb_csv_write(csv, &one, NULL), SB_OK);
+    assert_int_equal(sb_csv_sync(csv, &lengths, NULL), SB_OK);
+    one.gauges = levels + 1;
+    assert_int_equal(sb_csv_write(csv, &one, NULL), SB_OK);
+    assert_int_equal(sb_csv_close(csv, NULL), SB_OK);
+    expect("gauges.csv", "time_s,gauge,eta_m\n0,offshore,1\n0.1,offshore,2\n");
+    assert_int_equal(sb_csv_check(folder, &scene, &lengths, &error), SB_OK);
+    assert_int_equal(sb_csv_resume(folder, &scene, &model, &lengths, &csv, NULL), SB_OK);
+    expect("gauges.csv", "time_s,gauge,eta_m\n0,offshore,1\n");
+    one.gauges = levels + 2;
+    assert_int_equal(sb_csv_write(csv, &one, NULL), SB_OK);
+    assert_int_equal(sb_csv_sync(csv, &lengths, NULL), SB_OK);
+    expect("gauges.csv", "time_s,gauge,eta_m\n0,offshore,1\n0.2,offshore,3\n");
+    assert_int_equal(lengths.bytes[1], strlen("time_s,gauge,eta_m\n0,offshore,1\n0.2,offshore,3\n"));
+    /* A table that was removed while it is written is no place for rows. */
+    unlink(in_folder("gauges.csv"));
+    assert_int_equal(sb_csv_write(csv, &one, &error), SB_FAILED);
+    assert_non_null(strstr(error.text, "gauges.csv: was removed while the run wrote it"));
+    assert_int_equal(sb_csv_close(csv, NULL), SB_FAILED);
+    assert_int_equal(sb_csv_check(folder, &scene, &lengths, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "gauges.csv: cannot read"));
+    lengths.bytes[0]++;
+    assert_int_equal(sb_csv_check(folder, &scene, &lengths, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "forces.csv: has "));
+}
+
 static void a_full_disk_is_a_failed_run(void **state)
 {
     (void)state;
@@ -145,6 +182,7 @@ int main(void)
         cmocka_unit_test(headers_are_the_contract),
         cmocka_unit_test(rows_are_there_at_once),
         cmocka_unit_test(tables_read_back_as_series),
+        cmocka_unit_test(tables_go_on_from_their_lengths),
         cmocka_unit_test(a_full_disk_is_a_failed_run),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);

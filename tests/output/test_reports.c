@@ -161,6 +161,35 @@ static void every_line_of_the_log_is_json(void **state)
     sb_runlog_warning(NULL, "no log, no harm");
 }
 
+/* A killed run leaves half a line: the next one begins where that did. */
+static void a_log_goes_on_after_its_last_whole_line(void **state)
+{
+    (void)state;
+    static const char *const torn[] = {"{\"event\":\"a\"}\n{\"event\":\"b\"}\n{\"ev", "{\"event\":\"a\"}\n", "{\"ev", ""};
+    static const size_t whole[] = {2, 1, 0, 0};
+    for (size_t k = 0; k < sizeof torn / sizeof *torn; k++) {
+        FILE *file = fopen(in_folder("torn.jsonl"), "w");
+        assert_non_null(file);
+        fputs(torn[k], file);
+        assert_int_equal(fclose(file), 0);
+        sb_runlog *log;
+        assert_int_equal(sb_runlog_append(in_folder("torn.jsonl"), &log, NULL), SB_OK);
+        sb_runlog_event(log, "resumed", "here");
+        assert_int_equal(sb_runlog_sync(log, NULL), SB_OK);
+        assert_int_equal(sb_runlog_close(log, NULL), SB_OK);
+        char *text = text_of("torn.jsonl"), *rest = NULL;
+        size_t lines = 0;
+        for (char *line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest), lines++)
+            assert_true(json_valid(line));
+        assert_int_equal(lines, whole[k] + 1);
+        sb_free(text);
+    }
+    unlink(in_folder("torn.jsonl"));
+    sb_runlog *log;
+    assert_int_equal(sb_runlog_append(in_folder("torn.jsonl"), &log, NULL), SB_OK); /* none is a new one */
+    assert_int_equal(sb_runlog_close(log, NULL), SB_OK);
+}
+
 static void a_full_disk_shows_in_the_log(void **state)
 {
     (void)state;
@@ -226,6 +255,7 @@ int main(void)
         cmocka_unit_test(summary_has_the_promised_keys),
         cmocka_unit_test(a_run_that_never_began_has_a_summary),
         cmocka_unit_test(every_line_of_the_log_is_json),
+        cmocka_unit_test(a_log_goes_on_after_its_last_whole_line),
         cmocka_unit_test(a_full_disk_shows_in_the_log),
         cmocka_unit_test(grids_have_north_on_top),
         cmocka_unit_test(progress_speaks_when_asked),
