@@ -26,7 +26,8 @@ static inline uint64_t sb_hash(uint64_t seed, const void *bytes, size_t length)
         hash = sb_hash_mix(hash ^ word) + 0x9e3779b97f4a7c15u;
     }
     uint64_t tail = 0;
-    memcpy(&tail, at, length);
+    if (length > 0) /* bytes may be NULL when there are none */
+        memcpy(&tail, at, length);
     return sb_hash_mix(hash ^ tail);
 }
 
