@@ -64,13 +64,12 @@ sb_status sb_checkpoint_list(const run *r, uint64_t **steps, size_t *count, sb_e
     return status;
 }
 
-size_t sb_checkpoint_count(const run *r)
+sb_status sb_checkpoint_count(const run *r, size_t *count, sb_error *error)
 {
     uint64_t *steps;
-    size_t count;
-    (void)sb_checkpoint_list(r, &steps, &count, NULL);
+    sb_status status = sb_checkpoint_list(r, &steps, count, error);
     sb_free(steps);
-    return count;
+    return status;
 }
 
 /* Removes those that come after the first `keep` of the list, newest first. */

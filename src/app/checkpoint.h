@@ -22,8 +22,8 @@ typedef struct sb_checkpoints {
 /* Where they go, and whether the scene wants any. */
 sb_status sb_checkpoint_begin(run *r, sb_error *error);
 
-/* How many the directory holds. */
-size_t sb_checkpoint_count(const run *r);
+/* How many the directory holds. Fails when that cannot be told. */
+sb_status sb_checkpoint_count(const run *r, size_t *count, sb_error *error);
 
 /* Removes all that the directory holds: those of an earlier run. */
 sb_status sb_checkpoint_remove_all(run *r, sb_error *error);
@@ -39,8 +39,8 @@ bool sb_checkpoint_due(const run *r);
 void sb_checkpoint_write(run *r);
 
 /* Loads the newest checkpoint that is whole and of this program, scene and model into the run's simulation,
-   measurements and counters; says why others were refused. Touches no file. SB_BAD_INPUT when none can be used:
-   simulation and measurements are then worth nothing. */
+   measurements and counters; says why others were refused. Touches no file. SB_BAD_INPUT when none can be used,
+   SB_FAILED without memory: simulation and measurements are then worth nothing. */
 sb_status sb_checkpoint_load(run *r, sb_error *error);
 
 /* After a load: removes checkpoints of later steps, which were refused. */

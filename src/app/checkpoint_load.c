@@ -33,9 +33,7 @@ static sb_status check_origin(const run *r, sb_archive_in *in, sb_error *error)
     char *version = sb_take_text(in), *identity = sb_take_text(in);
     const uint64_t model = sb_take_count(in, UINT64_MAX);
     status = sb_archive_leave(in, error);
-    if (status == SB_OK && (!version || !identity))
-        status = sb_fail_memory(error, "a checkpoint");
-    else if (status == SB_OK && strcmp(version, SB_VERSION) != 0)
+    if (status == SB_OK && strcmp(version, SB_VERSION) != 0)
         status = sb_fail(error, SB_BAD_INPUT, "%s: written by shorebreak %.40s, expected " SB_VERSION, in->name, version);
     else if (status == SB_OK && first_difference(identity, r->checkpoints.identity, line))
         status = sb_fail(error, SB_BAD_INPUT, "%s: of another scene: it has \"%s\" where this one has \"%s\"", in->name,
@@ -101,11 +99,17 @@ sb_status sb_checkpoint_load(run *r, sb_error *error)
         status = sb_checkpoint_path(r, steps[i], path, error);
         if (status != SB_OK)
             break;
-        loaded = load(r, path, &reason) == SB_OK;
+        const sb_status found = load(r, path, &reason);
+        loaded = found == SB_OK;
         if (!loaded && i == 0)
             newest = reason;
-        if (!loaded && i + 1 < count)
+        if (found == SB_FAILED) { /* for want of memory: no fault of the checkpoint's */
+            status = found;
+            if (error)
+                *error = reason;
+        } else if (!loaded && i + 1 < count) {
             sb_run_warn(r, "%s; trying the one before", reason.text);
+        }
     }
     sb_free(steps);
     if (status == SB_OK && !loaded)

@@ -167,6 +167,7 @@ sb_status sb_run(const sb_scene *scene, const char *directory, const sb_run_mann
     if (manner->profile && r.sim)
         print_profile(&r);
     sb_checkpoint_end(&r);
+    sb_pvd_free(&r.recorder.pvd); /* of a run that was not gone on with: no thread had it */
     sb_measure_destroy(r.measure);
     sb_sim_destroy(r.sim);
     sb_model_free(&r.model);

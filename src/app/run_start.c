@@ -25,7 +25,10 @@ static sb_status write_scene(const run *r, sb_error *error)
 /* What is there already: an earlier run's checkpoints, which go, unless this one goes on from them. */
 static sb_status look_for_checkpoints(run *r, bool *resume, sb_error *error)
 {
-    const size_t found = sb_checkpoint_count(r);
+    size_t found = 0;
+    sb_status status = sb_checkpoint_count(r, &found, error);
+    if (status != SB_OK)
+        return status;
     if (*resume && found == 0) {
         sb_run_say(r, "%s: no checkpoint to go on from, so the run starts from the beginning", r->directory);
         *resume = false;

@@ -67,7 +67,8 @@ void sb_archive_in_free(sb_archive_in *in);
 
 /* The following reads are of this section, from its start. SB_BAD_INPUT when there is none. */
 sb_status sb_archive_enter(sb_archive_in *in, const char *name, sb_error *error);
-/* After the section's last value: SB_BAD_INPUT when a read failed, or when something is left over. */
+/* After the section's last value: SB_BAD_INPUT when a read failed, or when something is left over; SB_FAILED when
+   memory ran out. */
 sb_status sb_archive_leave(sb_archive_in *in, sb_error *error);
 
 /* At most `most`. */
@@ -79,7 +80,7 @@ sb_vec3 sb_take_vector(sb_archive_in *in);
 void sb_take_list(sb_archive_in *in, void *items, size_t count, size_t size);
 /* How many elements the list that comes next has, when of `size` bytes each and at most `most`; else 0. */
 size_t sb_take_length(sb_archive_in *in, size_t size, size_t most);
-/* A copy to free with sb_free; NULL without memory or text. */
+/* A copy to free with sb_free; NULL when there is no text, or no memory: then the error is SB_FAILED. */
 char *sb_take_text(sb_archive_in *in);
 
 /* Keeps "<file>: <section>: <what is wrong>" as the error, unless there is one: for values that make no sense. */

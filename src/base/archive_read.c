@@ -248,8 +248,12 @@ void sb_take_list(sb_archive_in *in, void *items, size_t count, size_t size)
 char *sb_take_text(sb_archive_in *in)
 {
     const size_t length = sb_take_length(in, 1, SIZE_MAX);
-    char *text = in->error.status == SB_OK ? sb_alloc(length + 1, 1) : NULL;
+    if (in->error.status != SB_OK)
+        return NULL;
+    char *text = sb_alloc(length + 1, 1);
     if (text)
         sb_take_list(in, text, length, 1);
+    else
+        sb_fail_memory(&in->error, in->name);
     return text;
 }

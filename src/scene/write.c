@@ -229,21 +229,40 @@ static void put_rows(writer *out, const sb_table *table, const void *item)
             put_row(out, &table->keys[i], item);
 }
 
+/* A stream into memory: what is written, without an end mark. */
+typedef struct memory_text {
+    char *bytes;
+    size_t length, capacity;
+} memory_text;
+
+static ssize_t append_text(void *cookie, const char *bytes, size_t length)
+{
+    memory_text *text = cookie;
+    if (sb_grow((void **)&text->bytes, &text->capacity, text->length + length + 1, 1) != 0) return 0;
+    memcpy(text->bytes + text->length, bytes, length);
+    text->length += length;
+    text->bytes[text->length] = '\0';
+    return (ssize_t)length;
+}
+
 sb_status sb_scene_identity(const sb_scene *scene, char **text, sb_error *error)
 {
-    char *buffer = NULL;
-    size_t length = 0;
-    writer out = {.stream = open_memstream(&buffer, &length), .identity = true};
+    memory_text made = {0};
+    writer out = {.identity = true};
+    *text = NULL;
+    out.stream = fopencookie(&made, "w", (cookie_io_functions_t){.write = append_text});
     if (!out.stream) return sb_fail_memory(error, "the scene's identity");
     put_rows(&out, &sb_scene_table, scene);
-    bool bad = fclose(out.stream) != 0;
-    *text = bad || out.status != SB_OK ? NULL : sb_strdup(buffer);
-    free(buffer);
-    if (out.status != SB_OK) {
-        if (error) *error = out.error;
-        return out.status;
+    bool bad = fflush(out.stream) != 0 || ferror(out.stream);
+    fclose(out.stream);
+    if (!bad && out.status == SB_OK) {
+        *text = made.bytes;
+        return SB_OK;
     }
-    return *text ? SB_OK : sb_fail_memory(error, "the scene's identity");
+    sb_free(made.bytes);
+    if (out.status == SB_OK) return sb_fail_memory(error, "the scene's identity");
+    if (error) *error = out.error;
+    return out.status;
 }
 
 sb_status sb_scene_write(const sb_scene *scene, const char *path, sb_error *error)
