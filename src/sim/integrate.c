@@ -33,18 +33,43 @@ static double top_speed(const sb_sim *sim)
     return speed;
 }
 
+/* In spacings^2, of viscosity times dt: half of what an explicit step bears by the stiffest mode of a full lattice, for
+   at 0.14 energy still grew by 2 % in 200 steps. */
+static const double VISCOUS_STEP = 0.07;
+
+/* In spacings over sqrt(g D): shorter steps move water by less than positions are stored to. */
+static const double SHORTEST_STEP = 1e-6;
+
+/* The longest step that the constant viscosities bear. A pair at a wall is damped by half of what sigma would do as
+   alpha [S16, eqs. 14, 33]. */
+static double viscous_step(const sb_sim *sim)
+{
+    const sb_numerics *n = &sim->scene->numerics;
+    const sb_constants *c = &sim->constant;
+    const double artificial = (n->artificial_viscosity + 0.5 * n->wall_friction) * (double)c->support *
+                              (double)c->sound_speed / (2 * (c->dimension + 2));
+    const double nu = artificial + (double)c->viscosity, spacing = (double)c->spacing;
+    return nu > 0 ? VISCOUS_STEP * spacing * spacing / nu : (double)INFINITY;
+}
+
 sb_status sb_stage_time_step(sb_sim *sim, sb_error *error)
 {
     const sb_numerics *n = &sim->scene->numerics;
     double h = (double)sim->constant.support, g = (double)sim->constant.gravity;
     double bound = n->time_step_rule == SB_TIME_STEP_PAPER ? n->time_step_factor * h / g
                                                            : n->time_step_factor * h / (double)sim->constant.wave_speed;
-    double dt = fmin(cfl_step(sim, top_speed(sim)), bound);
+    double dt = fmin(fmin(cfl_step(sim, top_speed(sim)), bound), viscous_step(sim));
     if (n->time_step_max > 0)
         dt = fmin(dt, n->time_step_max);
     if (!(dt > 0) || !isfinite(dt))
         return sb_fail(error, SB_FAILED, "step %llu, t = %g s: time step is %g s: the run has diverged",
                        (unsigned long long)sim->report.step, sim->report.time, dt);
+    const double least = SHORTEST_STEP * (double)sim->constant.spacing / (double)sim->constant.wave_speed;
+    if (dt < least)
+        return sb_fail(error, SB_FAILED,
+                       "step %llu, t = %g s: time step is %g s, expected at least %.3g s: the run has diverged, or a "
+                       "key of numerics asks for it",
+                       (unsigned long long)sim->report.step, sim->report.time, dt, least);
     sim->report.time_step = sim->settling == SB_CREEPING ? CREEP_STEP * dt : dt;
     return SB_OK;
 }

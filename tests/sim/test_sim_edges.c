@@ -238,6 +238,53 @@ static void divergence_is_told_and_leaves_the_state(void **state)
     check_divergence((double)NAN, "not a number");
 }
 
+/* Far more viscosity than an explicit step of the usual length bears: the step gets shorter, and energy only falls. */
+static void much_viscosity_shortens_the_step(void **state)
+{
+    (void)state;
+    double usual = 0;
+    for (int strong = 0; strong <= 2; strong++) {
+        tank t;
+        tank_make(&t, 2, 0.1, sb_vec(2, 0, 1.5), 0.8, 1, 0.02);
+        if (strong == 1) t.scene.numerics.artificial_viscosity = 10;
+        if (strong == 2) t.scene.fluid.viscosity = 1;
+        t.scene.numerics.settle_steps = 60; /* a lattice as it is bursts the more, the shorter its first step */
+        sb_sim *sim = make(&t);
+        sb_error error = {0};
+        assert_int_equal(sb_sim_settle(sim, &error), SB_OK);
+        sb_energy first = sb_sim_energy(sim);
+        for (int s = 0; s < 200; s++) {
+            assert_int_equal(tank_steps(sim, 1), 0);
+            sb_energy now = sb_sim_energy(sim);
+            assert_true(now.kinetic + now.potential <= 1.005 * (first.kinetic + first.potential));
+        }
+        const sb_step_report *r = sb_sim_report(sim);
+        assert_int_equal(r->lost + r->left_domain, 0);
+        if (!strong) usual = r->time_step;
+        assert_true(strong ? r->time_step < 0.5 * usual : r->time_step > 0);
+        sb_sim_destroy(sim);
+        tank_free(&t);
+    }
+}
+
+static void a_step_that_moves_nothing_is_refused(void **state)
+{
+    (void)state;
+    for (int key = 0; key < 3; key++) {
+        tank t;
+        tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0);
+        sb_numerics *n = &t.scene.numerics;
+        *(key == 0 ? &n->cfl : key == 1 ? &n->time_step_factor : &n->time_step_max) = 1e-300;
+        sb_sim *sim = make(&t);
+        sb_error error = {0};
+        assert_int_equal(sb_sim_step(sim, &error), SB_FAILED);
+        assert_non_null(strstr(error.text, "expected at least"));
+        assert_int_equal(sb_sim_report(sim)->lost, 0);
+        sb_sim_destroy(sim);
+        tank_free(&t);
+    }
+}
+
 static void bad_parts_are_refused(void **state)
 {
     (void)state;
@@ -352,6 +399,8 @@ int main(void)
         cmocka_unit_test(a_start_forgotten_is_one_at_rest),
         cmocka_unit_test(no_water_is_fine),
         cmocka_unit_test(divergence_is_told_and_leaves_the_state),
+        cmocka_unit_test(much_viscosity_shortens_the_step),
+        cmocka_unit_test(a_step_that_moves_nothing_is_refused),
         cmocka_unit_test(bad_parts_are_refused),
         cmocka_unit_test(every_lack_of_memory_is_survived),
         cmocka_unit_test(a_gate_leaves_the_domain),
