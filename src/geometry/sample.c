@@ -110,6 +110,7 @@ sb_status sb_sample_surfaces(const sb_sample_settings *settings, const sb_sample
     int failed = status == SB_OK && sample_groups(&sampler, &all);
     if (status == SB_OK && !failed) {
         clip(settings, &all); /* its questions of distance are over */
+        sb_sample_round_edges(&sampler, &all);
         failed = sort_out(&all, count, &made);
     }
     if (failed) status = sb_fail_memory(error, "boundary particles");

@@ -83,6 +83,10 @@ static inline bool sb_sampler_takes(const sb_sampler *sampler, size_t surface)
 typedef enum sb_placement { SB_PLACED, SB_BURIED, SB_CROWDED } sb_placement;
 sb_placement sb_sample_place(const sb_sampler *sampler, uint32_t surface, sb_vec3 at,
                              sb_vec3 inward, sb_vec3 *placed, double *margin);
+/* The distance to a solid's surface, as sb_solid_distance. The end of a solid in a side at which the domain repeats is
+   none, for the solid goes on at the other side: beside it the answer is that of a place further in. */
+double sb_sample_distance(const sb_sample_settings *settings, const sb_solid *solid, sb_vec3 at, double limit,
+                          sb_vec3 *nearest, sb_vec3 *normal);
 /* No water comes near any point within `radius` of this one. */
 bool sb_sample_buried(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, double radius);
 /* Water may stand in front of a surface's point: no other solid covers it. */
@@ -96,6 +100,9 @@ bool sb_sample_project(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, 
 int sb_sample_lattices(sb_sampler *sampler);
 int sb_sample_grow(sb_sampler *sampler);
 int sb_sample_voids(sb_sampler *sampler);
+
+/* Gives the particles along convex edges of solids the mean normal of the faces that meet there. */
+void sb_sample_round_edges(const sb_sampler *sampler, sb_sample_set *all);
 
 /* Candidates gathered one by one, placed in parallel, accepted in their order. */
 typedef struct sb_candidate {

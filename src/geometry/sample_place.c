@@ -96,9 +96,7 @@ static sb_vec3 way_in(const sb_sample_settings *settings, sb_vec3 at, double dis
     return sb_vec(step[0], step[1], step[2]);
 }
 
-/* The distance to a surface. The end of a solid in a side at which the domain repeats is none, for
-   the solid goes on at the other side: beside it the answer is that of a place further in. */
-static double distance_to(const sb_sample_settings *settings, const sb_solid *solid, sb_vec3 at,
+double sb_sample_distance(const sb_sample_settings *settings, const sb_solid *solid, sb_vec3 at,
                           double limit, sb_vec3 *nearest, sb_vec3 *normal)
 {
     double distance = sb_solid_distance(solid, at, limit, nearest, normal);
@@ -120,7 +118,7 @@ static double clearance(const sb_sampler *sampler, uint32_t surface, sb_vec3 at,
             continue;
         sb_vec3 place, facing;
         double distance =
-            distance_to(&sampler->settings, other->source->solid, at, best, &place, &facing);
+            sb_sample_distance(&sampler->settings, other->source->solid, at, best, &place, &facing);
         if (distance >= best) continue;
         facing = water_normal(other, facing);
         if (other->mixed && sb_dot(facing, sb_sub(place, at)) < 0) facing = sb_scale(facing, -1);

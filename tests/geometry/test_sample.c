@@ -44,6 +44,44 @@ static void box_keeps_the_lattice(void **state)
     }
 }
 
+/* Distances below a box's six faces, by axis: how many are near, and the sum of their normals. */
+static int faces_near(sb_vec3 at, sb_vec3 min, sb_vec3 max, double reach, sb_vec3 *sum)
+{
+    const double below[] = {at.x - min.x, max.x - at.x, at.y - min.y, max.y - at.y, at.z - min.z, max.z - at.z};
+    double normal[3] = {0};
+    int near = 0;
+    for (int f = 0; f < 6; ++f) {
+        if (below[f] > reach) continue;
+        normal[f / 2] += f % 2 ? 1 : -1;
+        near++;
+    }
+    *sum = sb_vec(normal[0], normal[1], normal[2]);
+    return near;
+}
+
+/* Whichever face was sampled first, an edge's particles look away from both, so that a box seen in a mirror is the same
+   to the water. */
+static void edges_look_away_from_both_faces(void **state)
+{
+    (void)state;
+    const sb_vec3 min = sb_vec(0.3, 0.2, 0.1), max = sb_vec(8, 7.4, 6.6);
+    size_t edges = 0, corners = 0;
+    box(0, min, max);
+    test_sample(&s, 0.8);
+    for (size_t i = 0; i < s.samples.count; ++i) {
+        sb_vec3 expected, further;
+        int near = faces_near(s.samples.position[i], min, max, 0.94, &expected);
+        if (near != faces_near(s.samples.position[i], min, max, 0.98, &further)) continue;
+        edges += near == 2;
+        corners += near == 3;
+        sb_vec3 off = sb_sub(s.samples.normal[i], sb_normalize(expected));
+        assert_true(near >= 1);
+        assert_true(sb_norm(off) < 1e-6);
+    }
+    print_message("%zu particles at edges, %zu at corners\n", edges, corners);
+    assert_true(edges > 20 && corners > 0);
+}
+
 static void boxes_off_the_lattice(void **state)
 {
     (void)state;
@@ -276,6 +314,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(box_keeps_the_lattice, tear_down),
+        cmocka_unit_test_teardown(edges_look_away_from_both_faces, tear_down),
         cmocka_unit_test_teardown(boxes_off_the_lattice, tear_down),
         cmocka_unit_test_teardown(round_shapes, tear_down),
         cmocka_unit_test_teardown(basins_close_their_corners, tear_down),
