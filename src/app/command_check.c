@@ -1,6 +1,6 @@
 #include "app/commands.h"
 #include "app/options.h"
-#include "base/memory.h"
+#include "app/room.h"
 #include "geometry/model.h"
 #include "output/json.h"
 #include "physics/wavemaker.h"
@@ -15,35 +15,12 @@ static const char help[] =
     "and warnings.\n";
 
 /* Costs measured with tools/bench on two cores at 2.5 GHz; they scale an estimate, nothing else. */
-static const double PROGRAM_BYTES = 6e7;                       /* with the graphics library, before any particle */
-static const double FLUID_BYTES = 150, PAIR_BYTES = 8.2;       /* per particle; per neighbour of each */
-static const double WALL_BYTES = 85;
-static const double GHOST_BYTES = 90;                          /* per image beyond periodic sides: its fields */
 static const double SECONDS_PER_STEP = 2.0e-6;                 /* one thread, per fluid particle */
 static const double PARTICLE_FILE_BYTES = 44, PICTURE_BYTES = 7e5;
 
 typedef struct estimate {
     double steps, time_step, seconds, memory, disk, ghosts;
 } estimate;
-
-/* Images of evenly spread water within a support radius of periodic sides. */
-static double count_ghosts(const sb_scene *scene, const sb_model *model)
-{
-    const double h = scene->numerics.support * scene->resolution;
-    const sb_vec3 size = sb_sub(model->max, model->min);
-    double all = 1;
-    for (int axis = 0; axis < 2; axis++)
-        if (sb_scene_repeats(scene, axis))
-            all *= 1 + 2 * h / (axis == 0 ? size.x : size.y);
-    return (all - 1) * (double)model->fluid_count;
-}
-
-/* Neighbours of a particle within the water. */
-static double count_neighbours(const sb_scene *scene)
-{
-    const double s = scene->numerics.support, pi = 3.14159265358979;
-    return scene->dimensions == 2 ? pi * s * s : 4 * pi / 3 * s * s * s;
-}
 
 static estimate make_estimate(const sb_scene *scene, const sb_model *model)
 {
@@ -59,19 +36,18 @@ static estimate make_estimate(const sb_scene *scene, const sb_model *model)
     double pictures = scene->render.interval > 0
                           ? (scene->duration / scene->render.interval + 1) * (double)scene->render.camera_count
                           : 0;
-    double steps = ceil(scene->duration / dt), ghosts = count_ghosts(scene, model);
+    double steps = ceil(scene->duration / dt), ghosts = sb_room_ghosts(scene, model);
     return (estimate){
         .steps = steps,
         .time_step = dt,
         .seconds = steps * fluid * SECONDS_PER_STEP / omp_get_max_threads(),
-        .memory = PROGRAM_BYTES + fluid * (FLUID_BYTES + PAIR_BYTES * count_neighbours(scene)) +
-                  (double)model->wall_count * WALL_BYTES + ghosts * GHOST_BYTES,
+        .memory = sb_room_needed(scene, model),
         .ghosts = ghosts,
         .disk = files * fluid * PARTICLE_FILE_BYTES + pictures * PICTURE_BYTES,
     };
 }
 
-static void visit_warnings(const sb_scene *scene, const sb_model *model, const estimate *e,
+static void visit_warnings(const sb_scene *scene, const sb_model *model,
                            void (*visit)(void *context, const char *text), void *context)
 {
     char text[256];
@@ -85,12 +61,10 @@ static void visit_warnings(const sb_scene *scene, const sb_model *model, const e
         snprintf(text, sizeof text, "wave maker %s: %s", scene->wavemakers[w].name, warning);
         visit(context, text);
     }
-    size_t available = sb_memory_available();
-    if (available > 0 && e->memory > (double)available) {
-        snprintf(text, sizeof text, "needs about %.2g GB of memory, and %.2g GB are free", e->memory / 1e9,
-                 (double)available / 1e9);
-        visit(context, text);
-    }
+    /* A warning only: the run may be for another machine. */
+    sb_error room = {0};
+    if (sb_room_check(scene, model, &room) != SB_OK)
+        visit(context, room.text);
 }
 
 static void print_line(void *context, const char *text)
@@ -118,7 +92,7 @@ static void report_text(const sb_scene *scene, const sb_model *model, const esti
     printf("  steps              about %.0f of %.3g s\n", e->steps, e->time_step);
     printf("  run time           about %.0f s on %d threads\n", e->seconds, omp_get_max_threads());
     printf("  disk               about %.0f MB\n", e->disk / 1e6);
-    visit_warnings(scene, model, e, print_line, NULL);
+    visit_warnings(scene, model, print_line, NULL);
 }
 
 static void report_json(const sb_scene *scene, const sb_model *model, const estimate *e)
@@ -149,7 +123,7 @@ static void report_json(const sb_scene *scene, const sb_model *model, const esti
     }
     sb_json_close(&json);
     sb_json_open(&json, "warnings", '[');
-    visit_warnings(scene, model, e, print_json, &json);
+    visit_warnings(scene, model, print_json, &json);
     sb_json_close(&json);
     sb_json_close(&json);
     putchar('\n');

@@ -1,4 +1,5 @@
 /* Before the first step. */
+#include "app/room.h"
 #include "app/run_state.h"
 
 #include <errno.h>
@@ -138,6 +139,8 @@ static sb_status build_model(run *r, bool resume, sb_error *error)
 {
     sb_run_say(r, "sampling surfaces and filling the sea");
     sb_status status = sb_model_build(r->scene, &r->model, error);
+    if (status == SB_OK)
+        status = sb_room_check(r->scene, &r->model, error);
     if (status != SB_OK)
         return status;
     for (size_t w = 0; w < r->model.warning_count; w++)

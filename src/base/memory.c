@@ -3,7 +3,6 @@
 #include <malloc.h>
 #include <stdatomic.h>
 #include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -82,20 +81,6 @@ char *sb_strdup(const char *text)
     if (copy)
         memcpy(copy, text, bytes);
     return copy;
-}
-
-size_t sb_memory_available(void)
-{
-    FILE *file = fopen("/proc/meminfo", "r");
-    if (!file)
-        return 0;
-    char line[128];
-    unsigned long kilobytes = 0;
-    while (fgets(line, sizeof line, file))
-        if (sscanf(line, "MemAvailable: %lu kB", &kilobytes) == 1)
-            break;
-    fclose(file);
-    return (size_t)kilobytes * 1024;
 }
 
 size_t sb_memory_peak(void)

@@ -32,7 +32,8 @@ void sb_memory_fail_at(long n);
 /* Whether the failure asked for is still to come. */
 bool sb_memory_fail_pending(void);
 
-/* Bytes the process may still take before the machine swaps (MemAvailable); 0 when unknown. */
+/* Bytes the process may still take: what the machine has without swapping (MemAvailable), its control group allows,
+   and its own limit of address space leaves. 0 when unknown. */
 size_t sb_memory_available(void);
 
 /* Highest resident size of the process so far, in bytes. */

@@ -56,8 +56,8 @@ sb_status sb_model_warn(sb_model *model, sb_error *error, const char *format, ..
 }
 
 /* All bodies' particles, those of the bodies that have a surface at all. */
-static sb_status sample(const sb_scene *scene, const sb_model_space *space, sb_model *model,
-                        sb_error *error)
+sb_status sb_model_sample(const sb_scene *scene, const sb_model_space *space, sb_model *model,
+                          sb_error *error)
 {
     const sb_sample_settings settings = {.spacing = scene->resolution,
                                          .offset = scene->numerics.wall_offset * scene->resolution,
@@ -93,8 +93,8 @@ static sb_status sample(const sb_scene *scene, const sb_model_space *space, sb_m
     return SB_OK;
 }
 
-static sb_status fill(const sb_scene *scene, const sb_model_space *space, sb_model *model,
-                      sb_error *error)
+sb_status sb_model_fill(const sb_scene *scene, const sb_model_space *space, sb_model *model,
+                        sb_error *error)
 {
     sb_fill_solid *solids = sb_alloc(space->count, sizeof *solids);
     if (!solids) return sb_fail_memory(error, "solids");
@@ -120,10 +120,11 @@ sb_status sb_model_build(const sb_scene *scene, sb_model *model, sb_error *error
     sb_model made = {.dimensions = 0};
     sb_model_space space = {.count = 0};
     sb_status status = sb_model_import_bodies(scene, &made, error);
+    if (status == SB_OK) status = sb_model_room(scene, &made, error);
     if (status == SB_OK) status = sb_model_space_create(&made, scene, &space, error);
     /* The sea first: a scene whose sea escapes need not wait for its walls. */
-    if (status == SB_OK) status = fill(scene, &space, &made, error);
-    if (status == SB_OK) status = sample(scene, &space, &made, error);
+    if (status == SB_OK) status = sb_model_fill(scene, &space, &made, error);
+    if (status == SB_OK) status = sb_model_sample(scene, &space, &made, error);
     if (status == SB_OK) status = sb_model_check_sides(scene, &space, &made, error);
     sb_model_space_free(&space);
     if (status == SB_OK) status = sb_model_check(scene, &made, error);

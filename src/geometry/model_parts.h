@@ -22,6 +22,16 @@ void sb_model_space_free(sb_model_space *space);
 sb_status sb_model_check_sides(const sb_scene *scene, const sb_model_space *space, sb_model *model,
                                sb_error *error);
 
+/* Places the particles of walls and of water. */
+sb_status sb_model_sample(const sb_scene *scene, const sb_model_space *space, sb_model *model,
+                          sb_error *error);
+sb_status sb_model_fill(const sb_scene *scene, const sb_model_space *space, sb_model *model,
+                        sb_error *error);
+
+/* SB_BAD_INPUT, with the figures, when the particles of these bodies and their water would take more memory
+   than there is. */
+sb_status sb_model_room(const sb_scene *scene, const sb_model *bodies, sb_error *error);
+
 /* One more line of warning; SB_FAILED without memory. */
 sb_status sb_model_warn(sb_model *model, sb_error *error, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

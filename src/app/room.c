@@ -1,0 +1,48 @@
+#include "app/room.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+
+/* Costs measured with tools/bench: of the program with its graphics library before any particle; of water, per
+   particle and per neighbour of each; of walls, per particle; of an image beyond periodic sides, its fields. */
+static const double PROGRAM_BYTES = 6e7, FLUID_BYTES = 150, PAIR_BYTES = 8.2, WALL_BYTES = 85, GHOST_BYTES = 90;
+
+/* What the model holds of that already. */
+static const double MODEL_FLUID_BYTES = 56, MODEL_WALL_BYTES = 48;
+
+double sb_room_ghosts(const sb_scene *scene, const sb_model *model)
+{
+    const double h = scene->numerics.support * scene->resolution;
+    const sb_vec3 size = sb_sub(model->max, model->min);
+    double all = 1;
+    for (int axis = 0; axis < 2; axis++)
+        if (sb_scene_repeats(scene, axis))
+            all *= 1 + 2 * h / (axis == 0 ? size.x : size.y);
+    return (all - 1) * (double)model->fluid_count;
+}
+
+/* Neighbours of a particle within the water. */
+static double count_neighbours(const sb_scene *scene)
+{
+    const double s = scene->numerics.support, pi = 3.14159265358979;
+    return scene->dimensions == 2 ? pi * s * s : 4 * pi / 3 * s * s * s;
+}
+
+double sb_room_needed(const sb_scene *scene, const sb_model *model)
+{
+    return PROGRAM_BYTES + (double)model->fluid_count * (FLUID_BYTES + PAIR_BYTES * count_neighbours(scene)) +
+           (double)model->wall_count * WALL_BYTES + sb_room_ghosts(scene, model) * GHOST_BYTES;
+}
+
+sb_status sb_room_check(const sb_scene *scene, const sb_model *model, sb_error *error)
+{
+    const double needed = sb_room_needed(scene, model), there = (double)sb_memory_available();
+    const double held = (double)model->fluid_count * MODEL_FLUID_BYTES + (double)model->wall_count * MODEL_WALL_BYTES;
+    if (!(there > 0) || needed - held <= there)
+        return SB_OK;
+    return sb_fail(error, SB_FAILED,
+                   "needs about %.3g GB of memory for %zu fluid and %zu boundary particles, and %.3g GB are free: "
+                   "expected a larger resolution",
+                   needed / 1e9, model->fluid_count, model->wall_count, (held + there) / 1e9);
+}

@@ -1,0 +1,17 @@
+/* What memory a run takes, and whether it is there. */
+#ifndef SB_APP_ROOM_H
+#define SB_APP_ROOM_H
+
+#include "geometry/model.h"
+
+/* Images of evenly spread water within a support radius of periodic sides. */
+double sb_room_ghosts(const sb_scene *scene, const sb_model *model);
+
+/* Bytes of a run's heap, by its particles; about. */
+double sb_room_needed(const sb_scene *scene, const sb_model *model);
+
+/* SB_FAILED, with both figures, when a run of this model takes more memory than is free, the model itself being in
+   memory already. SB_OK where nobody knows how much is free. */
+sb_status sb_room_check(const sb_scene *scene, const sb_model *model, sb_error *error);
+
+#endif

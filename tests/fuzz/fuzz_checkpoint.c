@@ -1,0 +1,122 @@
+/* A checkpoint. An input that begins with 'e' is a row of edits to a sound one, each of an offset (two
+   bytes, low one first), a length and so many bytes to put there; any other is the file itself. Each is
+   tried as it is, and once more with its checksums made right, so that what they guard is tried as well. */
+#include "fuzz.h"
+
+#include "base/archive_layout.h"
+#include "base/memory.h"
+#include "measure/measure.h"
+#include "sim/sim.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+enum { FORMAT = 1 };
+static const char kind[] = "fuzzed";
+
+static const char text[] =
+    "dimensions: 2\n"
+    "resolution: 0.1\n"
+    "duration: 1\n"
+    "domain: {min: [0, 0], max: [0.8, 0.6]}\n"
+    "water: {boxes: [{min: [0.2, 0], max: [0.5, 0.3]}]}\n"
+    "numerics: {settle_steps: 0}\n"
+    "bodies: [{name: paddle, shape: box, min: [0, 0], max: [0.1, 0.6]}]\n"
+    "wavemakers: [{name: w, body: paddle, kind: goring, height: 0.05, depth: 0.3, direction: [1, 0]}]\n"
+    "measure:\n"
+    "  gauges: [{name: g, x: 0.3}]\n"
+    "  planes: [{name: p, from: [0.6], to: [0.6], z_min: 0, z_max: 0.6}]\n"
+    "  map: {min: [0], max: [0.8], cell: 0.2}\n";
+
+/* A run that has begun, and its checkpoint. */
+static sb_scene scene;
+static sb_model model;
+static sb_sim *sim;
+static sb_measure *measure;
+static sb_archive_out sound;
+
+static void make_run(void)
+{
+    sb_error error = {0};
+    sb_status status = sb_scene_read(fuzz_save("scene.yaml", (const uint8_t *)text, sizeof text - 1), NULL,
+                                     NULL, 0, &scene, &error);
+    if (status == SB_OK) status = sb_model_build(&scene, &model, &error);
+    if (status == SB_OK) status = sb_sim_create(&scene, &model, &sim, &error);
+    if (status == SB_OK) status = sb_measure_create(&scene, &model, sim, &measure, &error);
+    if (status == SB_OK) status = sb_sim_step(sim, &error);
+    if (status == SB_OK) status = sb_measure_step(measure, sim, &error);
+    if (status != SB_OK) fprintf(stderr, "%s\n", error.text);
+    FUZZ_CHECK(status == SB_OK);
+    sb_archive_begin(&sound, kind, FORMAT);
+    sb_sim_save(sim, &sound);
+    sb_measure_save(measure, &sound);
+    FUZZ_CHECK(sb_archive_close(&sound, &error) == SB_OK);
+}
+
+/* True when all of it was taken. */
+static bool try_bytes(const uint8_t *bytes, size_t size)
+{
+    sb_archive_in in = {0};
+    sb_error error = {0};
+    sb_status status = sb_archive_parse(&in, "some.checkpoint", bytes, size, kind, FORMAT, &error);
+    if (status == SB_OK) status = sb_sim_load(sim, &in, &error);
+    if (status == SB_OK) status = sb_measure_load(measure, &in, &error);
+    sb_archive_in_free(&in);
+    if (status != SB_OK) fuzz_check_refusal(status, &error);
+    return status == SB_OK;
+}
+
+static uint64_t word_at(const uint8_t *bytes)
+{
+    uint64_t word;
+    memcpy(&word, bytes, sizeof word);
+    return word;
+}
+
+static void repair(uint8_t *bytes, size_t size)
+{
+    const uint32_t words[2] = {FORMAT, SB_ARCHIVE_ORDER};
+    if (size < SB_ARCHIVE_HEAD) return;
+    memset(bytes, 0, SB_ARCHIVE_NAME);
+    memcpy(bytes, kind, strlen(kind));
+    memcpy(bytes + SB_ARCHIVE_NAME, words, sizeof words);
+    for (size_t at = SB_ARCHIVE_HEAD; size - at >= SB_SECTION_HEAD;) {
+        const uint64_t length = word_at(bytes + at + SB_ARCHIVE_NAME);
+        if (length > size - at - SB_SECTION_HEAD) return;
+        const uint64_t sum = sb_archive_sum(bytes + at, length);
+        memcpy(bytes + at + SB_ARCHIVE_NAME + 8, &sum, sizeof sum);
+        at += SB_SECTION_HEAD + length;
+    }
+}
+
+static void edit(uint8_t *bytes, size_t size, const uint8_t *edits, size_t left)
+{
+    while (left > 3) {
+        size_t at = ((size_t)edits[0] | (size_t)edits[1] << 8) % size, length = edits[2];
+        edits += 3;
+        left -= 3;
+        if (length > left) length = left;
+        if (length > size - at) length = size - at;
+        memcpy(bytes + at, edits, length);
+        edits += length;
+        left -= length;
+    }
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    if (!sim) make_run();
+    bool edits = size > 0 && data[0] == 'e';
+    size_t length = edits ? sound.used : size;
+    uint8_t *bytes = malloc(length ? length : 1);
+    FUZZ_CHECK(bytes);
+    memcpy(bytes, edits ? sound.bytes : data, length);
+    if (edits) edit(bytes, length, data + 1, size - 1);
+    try_bytes(bytes, length);
+    repair(bytes, length);
+    try_bytes(bytes, length);
+    free(bytes);
+    /* Whatever was refused, the sound one is taken afterwards. */
+    FUZZ_CHECK(try_bytes(sound.bytes, sound.used));
+    return 0;
+}

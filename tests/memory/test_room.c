@@ -1,0 +1,95 @@
+/* A scene that needs more memory than there is says so, with figures, before it starts. */
+#include "../check.h"
+
+#include "app/room.h"
+#include "base/memory.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+/* 3D: a sheet of water on the floor of a wide domain, as coasts are. */
+static const char text[] = "resolution: 0.05\n"
+                           "duration: 1\n"
+                           "domain: {min: [0, 0, 0], max: [4, 4, 4]}\n"
+                           "water: {boxes: [{min: [0, 0, 0], max: [2, 2, 0.5]}]}\n"
+                           "bodies: [{name: post, shape: box, min: [1, 1, 0], max: [1.5, 1.5, 2]}]\n";
+
+static sb_status build(const char *resolution, size_t *fluid, sb_error *error)
+{
+    char path[] = "/tmp/shorebreak-room-XXXXXX";
+    int file = mkstemp(path);
+    assert_true(file >= 0 && write(file, text, sizeof text - 1) == (ssize_t)sizeof text - 1);
+    close(file);
+    sb_scene scene = {0};
+    sb_model model = {0};
+    const sb_override finer = {"resolution", resolution};
+    sb_status status = sb_scene_read(path, NULL, &finer, 1, &scene, error);
+    if (status == SB_OK) status = sb_model_build(&scene, &model, error);
+    if (status == SB_OK) *fluid = model.fluid_count;
+    sb_model_free(&model);
+    sb_scene_free(&scene);
+    unlink(path);
+    return status;
+}
+
+static void test_too_fine_a_spacing(void **state)
+{
+    (void)state;
+    size_t fluid;
+    sb_error error = {0};
+    assert_int_equal(build("0.05", &fluid, &error), SB_OK);
+    const double finer = pow(0.05 / 1e-4, 3) * (double)fluid;
+    assert_int_equal(build("0.0001", &fluid, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "GB are free"));
+    const char *said = strstr(error.text, "makes about ");
+    assert_non_null(said);
+    assert_near(strtod(said + 12, NULL) / finer, 1, 0.15);
+}
+
+static void test_a_run_beyond_memory(void **state)
+{
+    (void)state;
+    const sb_scene scene = {.dimensions = 3, .resolution = 1, .numerics.support = 2.5};
+    const sb_model small = {.fluid_count = 1000}, large = {.fluid_count = (size_t)1 << 40};
+    sb_error error = {0};
+    assert_int_equal(sb_room_check(&scene, &small, &error), SB_OK);
+    assert_int_equal(sb_room_check(&scene, &large, &error), SB_FAILED);
+    const char *said = strstr(error.text, "needs about ");
+    assert_non_null(said);
+    assert_near(strtod(said + 12, NULL) / (sb_room_needed(&scene, &large) / 1e9), 1, 0.01);
+    assert_non_null(strstr(error.text, "GB are free"));
+}
+
+/* In a process of its own, whose limit ends with it. */
+static void test_limits_of_the_process(void **state)
+{
+    (void)state;
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    skip(); /* they map terabytes */
+#endif
+    assert_true(sb_memory_available() > 0);
+    pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        const struct rlimit limit = {(rlim_t)600 << 20, (rlim_t)600 << 20};
+        size_t left = setrlimit(RLIMIT_AS, &limit) == 0 ? sb_memory_available() : 0;
+        _exit(left > 0 && left < (size_t)600 << 20 ? 0 : 1);
+    }
+    int how;
+    assert_int_equal(waitpid(child, &how, 0), child);
+    assert_true(WIFEXITED(how) && WEXITSTATUS(how) == 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_too_fine_a_spacing),
+        cmocka_unit_test(test_a_run_beyond_memory),
+        cmocka_unit_test(test_limits_of_the_process),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
