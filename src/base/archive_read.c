@@ -21,7 +21,7 @@ static void copy_name(char out[SB_ARCHIVE_NAME + 1], const unsigned char *bytes)
 {
     size_t length = strnlen((const char *)bytes, SB_ARCHIVE_NAME);
     for (size_t i = 0; i < length; i++)
-        out[i] = bytes[i] >= ' ' && bytes[i] < 127 ? (char)bytes[i] : '.';
+        out[i] = (char)(bytes[i] >= ' ' && bytes[i] < 127 ? bytes[i] : '.');
     out[length] = '\0';
 }
 

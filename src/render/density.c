@@ -13,8 +13,8 @@ enum { MARGIN = 3 };
 static bool bounds(const sb_frame *frame, float min[3], float max[3])
 {
     for (int a = 0; a < 3; a++) {
-        min[a] = HUGE_VAL;
-        max[a] = -HUGE_VAL;
+        min[a] = INFINITY;
+        max[a] = -INFINITY;
     }
     for (size_t i = 0; i < frame->count; i++) {
         const float *p = frame->position + 3 * i;

@@ -2,6 +2,8 @@
 
 #include <limits.h>
 #include <math.h>
+#include <string.h>
+#include <strings.h>
 
 /* clang-format off */
 static const sb_key path_keys[] = {
@@ -124,8 +126,14 @@ static const sb_key stream_keys[] = {
 
 static sb_status finish_stream(sb_reader *reader, const sb_yaml *map, void *item)
 {
-    return sb_reader_interval(reader, map, "interval",
-                              ((const sb_stream_settings *)item)->interval);
+    const sb_stream_settings *stream = item;
+    /* A scene may come from anyone; LCM would overwrite the file it names, wherever that is. */
+    if (strncasecmp(stream->url + strspn(stream->url, " "), "file:", 5) == 0)
+        return sb_reader_fail(reader, map, "url",
+                              "%.80s would write outside of the output folder, expected a provider of the network; "
+                              "lcm-logger keeps a log, or LCM_DEFAULT_URL names one",
+                              stream->url);
+    return sb_reader_interval(reader, map, "interval", stream->interval);
 }
 
 const sb_table sb_stream_table = {SB_KEY_ROWS(stream_keys), .size = sizeof(sb_stream_settings),
