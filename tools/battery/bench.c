@@ -100,6 +100,14 @@ sb_status sb_bench_keep(const sb_bench *bench, const sb_order *order, const sb_o
     return sb_atomic_commit(&file, 0, error);
 }
 
+/* Takes the scenes' folder off the paths in a message. */
+static void shorten(char *text, const char *folder)
+{
+    const size_t length = strlen(folder);
+    for (char *at; (at = strstr(text, folder)) && at[length] == '/';)
+        memmove(at, at + length + 1, strlen(at + length + 1) + 1);
+}
+
 sb_outcome sb_bench_recall(const sb_bench *bench, const sb_order *order)
 {
     sb_outcome o = {0};
@@ -114,6 +122,8 @@ sb_outcome sb_bench_recall(const sb_bench *bench, const sb_order *order)
     o.wall = strtod(value, NULL);
     sb_store_recall(o.folder, "ended", o.ended, sizeof o.ended);
     sb_store_recall(o.folder, "said", o.said, sizeof o.said);
+    shorten(o.said, bench->assets);
+    shorten(o.said, o.folder);
     sb_store_recall(o.folder, "commit", o.commit, sizeof o.commit);
     sb_outcome_read(&o);
     return o;

@@ -151,6 +151,8 @@ static sb_status end(const sb_bench *bench, worker *w, int how, sb_error *error)
 {
     w->process = 0;
     if (stopped_by) return SB_OK;
+    if (WIFEXITED(how) && WEXITSTATUS(how) >= 126 && WEXITSTATUS(how) <= 127)
+        return sb_fail(error, SB_FAILED, "%.400s: cannot be started", bench->program);
     w->outcome.there = true;
     w->outcome.wall = sb_clock() - w->start;
     classify(w, how);
