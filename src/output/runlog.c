@@ -142,6 +142,8 @@ static void put_numerics(sb_json *json, const sb_numerics *n)
     sb_json_number(json, "wall_offset", n->wall_offset);
     sb_json_number(json, "jitter", n->jitter);
     sb_json_count(json, "seed", n->seed);
+    sb_json_bool(json, "sleep", n->sleep);
+    sb_json_count(json, "settle_steps", (uint64_t)n->settle_steps);
     sb_json_close(json);
 }
 

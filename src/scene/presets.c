@@ -32,6 +32,7 @@ static const struct {
     {"wall_offset",          {"0.8",        "0.6"}},
     {"jitter",               {"0.02",       "0"}},
     {"seed",                 {"1",          "1"}},
+    {"sleep",                {"false",      "false"}},
     {"settle_steps",         {"500",        "0"}},
 };
 /* clang-format on */

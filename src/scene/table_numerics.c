@@ -70,6 +70,8 @@ static const sb_key keys[] = {
     NUMBER(jitter, "spacings", 0, 0.5, 0, "Amplitude of the random displacement at the start."),
     {.name = "seed", .type = SB_KEY_SEED, SB_KEY_AT(sb_numerics, seed), .max = 0x1p64,
      .flags = SB_KEY_PRESET, .doc = "Seed of that displacement."},
+    {.name = "sleep", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_numerics, sleep), .flags = SB_KEY_PRESET,
+     .doc = "Whether a sea at rest is left out of the computation until a wave comes near."},
     COUNT(settle_steps, "steps", 0, 1000000, "Most steps before t = 0 in which the water comes to rest; 0: none."),
 };
 /* clang-format on */

@@ -2,21 +2,21 @@
    all that reads neighbours. They have cells of their own, so that the owned particles' order and cells are
    what they would be without. */
 #include "base/memory.h"
+#include "sim/sleep.h"
 #include "sim/sort.h"
-#include "sim/state.h"
 
 #include <string.h>
 
 enum { INDEX_BITS = 27 };
 static const uint64_t INDEX_MASK = ((uint64_t)1 << INDEX_BITS) - 1;
 
-/* Moves a field of `size` bytes per particle, n of them in use, into a longer array. */
-static int lengthen(void **field, size_t n, size_t capacity, size_t size)
+/* Moves a field of `size` bytes per particle, `used` of them in use, into a longer array. */
+static int lengthen(void **field, size_t used, size_t capacity, size_t size)
 {
     void *longer = sb_alloc_untouched(capacity, size);
     if (!longer)
         return -1;
-    memcpy(longer, *field, n * size);
+    memcpy(longer, *field, used * size);
     sb_free(*field);
     *field = longer;
     return 0;
@@ -29,14 +29,19 @@ static int reserve(sb_sim *sim, size_t ghosts)
         sb_grow((void **)&g->words, &g->words_capacity, ghosts, sizeof *g->words) != 0 ||
         sb_grow((void **)&g->other, &g->other_capacity, ghosts, sizeof *g->other) != 0)
         return -1;
-    if (sim->n + ghosts <= sim->capacity)
+    return sb_ghosts_room(sim, ghosts);
+}
+
+int sb_ghosts_room(sb_sim *sim, size_t beyond)
+{
+    if (sim->n + beyond <= sim->capacity)
         return 0;
-    size_t capacity = sim->n + ghosts + ghosts / 8 + 64;
-    if (lengthen((void **)&sim->position, sim->n, capacity, 16) != 0 ||
-        lengthen((void **)&sim->velocity, sim->n, capacity, 16) != 0 ||
-        lengthen((void **)&sim->acceleration, sim->n, capacity, 16) != 0 ||
-        lengthen(&sim->scratch, sim->n, capacity, 16) != 0 ||
-        (sim->eddy && lengthen((void **)&sim->eddy, sim->n, capacity, 4) != 0))
+    const size_t used = sim->n + sim->ghosts.count, capacity = sim->n + beyond + beyond / 8 + 64;
+    if (lengthen((void **)&sim->position, used, capacity, 16) != 0 ||
+        lengthen((void **)&sim->velocity, used, capacity, 16) != 0 ||
+        lengthen((void **)&sim->acceleration, used, capacity, 16) != 0 ||
+        lengthen(&sim->scratch, used, capacity, 16) != 0 ||
+        (sim->eddy && lengthen((void **)&sim->eddy, used, capacity, 4) != 0))
         return -1;
     sim->bytes_fixed += (sim->eddy ? 68u : 64u) * (capacity - sim->capacity);
     sim->capacity = capacity;
@@ -134,6 +139,8 @@ void sb_ghosts_refresh(const sb_sim *sim, sb_f4 *field)
     const size_t count = sim->ghosts.count;
     const uint32_t *of = sim->ghosts.of;
     sb_f4 *ghost = field + sim->n;
+    if (sb_fringe_count(sim) > 0)
+        memset(field + sb_fringe_first(sim), 0, sb_fringe_count(sim) * sizeof *field); /* at rest */
     if (count == 0)
         return;
 #pragma omp parallel for schedule(static)
@@ -146,6 +153,8 @@ void sb_ghosts_refresh_values(const sb_sim *sim, float *field)
     const size_t count = sim->ghosts.count;
     for (size_t g = 0; g < count; g++)
         field[sim->n + g] = field[sim->ghosts.of[g]];
+    if (sb_fringe_count(sim) > 0)
+        memset(field + sb_fringe_first(sim), 0, sb_fringe_count(sim) * sizeof *field);
 }
 
 void sb_ghosts_destroy(sb_sim *sim)

@@ -2,11 +2,13 @@
    [A12, eq. 10], so that the momenta of water and bodies balance to round-off. */
 #include "sim/contact.h"
 #include "sim/friction.h"
+#include "sim/impulse.h"
 #include "sim/ledger.h"
+#include "sim/sleep.h"
 
 #include <string.h>
 
-enum { VALUES = 9 }; /* pressure, friction, moment */
+enum { VALUES = SB_IMPULSE_VALUES };
 
 /* From an image of a boundary particle to itself: what pushes across a periodic side acts over there. */
 static sb_vec3 way_home(const sb_space *space, sb_record image)
@@ -94,12 +96,34 @@ static void do_block(sb_sim *sim, size_t block, double *sum, float friction, flo
     }
 }
 
+void sb_impulse_of_pressure(const sb_sim *sim, size_t i, double *sum)
+{
+    const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
+    const float *slope = sim->wall_pairs.slope + sim->wall_pairs.first[i];
+    for (size_t k = 0; k < sim->wall_pairs.count[i]; k++) {
+        if (slope[k] == 0)
+            continue;
+        const sb_record record = sim->walls[index[k] >> 31].record[index[k] & 0x7fffffffu];
+        const sb_f4 d = sb_offset(sim->position[i], record);
+        const double scale = (double)sim->constant.mass * (double)sim->unknown[i] * (double)slope[k];
+        add(sim, sum, index[k], sb_space_position(&sim->space, record),
+            sb_vec(scale * (double)d[0], scale * (double)d[1], scale * (double)d[2]), (sb_vec3){0});
+    }
+}
+
 static bool touches_walls(const sb_sim *sim, size_t block)
 {
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++)
         if (sim->wall_pairs.count[i] > 0)
             return true;
     return false;
+}
+
+void sb_impulse_add(sb_body_impulse *total, double dt, const double *s)
+{
+    total->pressure = sb_madd(total->pressure, dt, sb_vec(s[0], s[1], s[2]));
+    total->friction = sb_madd(total->friction, dt, sb_vec(s[3], s[4], s[5]));
+    total->moment = sb_madd(total->moment, dt, sb_vec(s[6], s[7], s[8]));
 }
 
 sb_status sb_stage_impulse(sb_sim *sim, sb_error *error)
@@ -126,13 +150,10 @@ sb_status sb_stage_impulse(sb_sim *sim, sb_error *error)
     for (size_t b = 0; b < blocks; b++) {
         if (!sim->block_touched[b])
             continue;
-        for (size_t body = 0; body < bodies; body++) {
-            const double *s = sim->block_impulse + (b * bodies + body) * VALUES;
-            sb_body_impulse *total = &sim->impulse[body];
-            total->pressure = sb_madd(total->pressure, dt, sb_vec(s[0], s[1], s[2]));
-            total->friction = sb_madd(total->friction, dt, sb_vec(s[3], s[4], s[5]));
-            total->moment = sb_madd(total->moment, dt, sb_vec(s[6], s[7], s[8]));
-        }
+        for (size_t body = 0; body < bodies; body++)
+            sb_impulse_add(&sim->impulse[body], dt, sim->block_impulse + (b * bodies + body) * VALUES);
     }
+    sb_held_press(sim, dt);
+    sb_sleep_support(sim);
     return SB_OK;
 }

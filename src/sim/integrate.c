@@ -80,7 +80,7 @@ SB_INLINE uint32_t moved(uint32_t from, float step)
     float bound = 1.0e9f;
     step = step < -bound ? -bound : step > bound ? bound : step;
     int64_t to = (int64_t)from + (int64_t)rintf(step);
-    return to < 0 ? 0 : to > 0x7fffffff ? 0x7fffffffu : (uint32_t)to;
+    return to < 0 ? 0 : to >= SB_POSITION_END ? SB_POSITION_END - 1 : (uint32_t)to;
 }
 
 /* Largest squared speed of the block, NaN when there is one, and the particle. */

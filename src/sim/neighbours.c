@@ -2,7 +2,7 @@
    diagonal of the pressure operator: the offsets are at hand once, and all four need them. */
 #include "base/memory.h"
 #include "sim/kernel_batch.h"
-#include "sim/state.h"
+#include "sim/sleep.h"
 
 #include <math.h>
 #include <omp.h>
@@ -277,6 +277,9 @@ SB_INLINE bool around(sb_sim *sim, worker *w, size_t i, sb_record *corner)
     gather(&w->fluid, &sim->cells, sim->position, code, *corner, layers, 0);
     if (sim->ghosts.count > 0 && sb_space_at_edge(&sim->space, sim->position[i]))
         gather(&w->fluid, &sim->ghosts.cells, sim->position + sim->n, code, *corner, layers, (uint32_t)sim->n);
+    if (sb_fringe_count(sim) > 0 && sim->sleep->tiles.beside[sb_tile_of(sim, &sim->sleep->tiles, sim->position[i])])
+        gather(&w->fluid, &sim->sleep->fringe_cells, sim->position + sb_fringe_first(sim), code, *corner, layers,
+               (uint32_t)sb_fringe_first(sim));
     for (uint32_t s = 0; s < SB_WALL_SETS; s++)
         if (sb_walls_near(&sim->walls[s], &sim->space, sim->position[i]))
             gather(&w->wall, &sim->walls[s].cells, sim->walls[s].record, code, *corner, layers, s << 31);

@@ -2,6 +2,19 @@
    one index and one stored W'/r; walls are one vector per particle and cost nothing per neighbour. */
 #include "sim/pressure.h"
 #include "sim/simd_wide.h"
+#include "sim/sleep.h"
+
+/* Sleepers keep their pressure and density, and are never searched along. */
+static void load_fringe(sb_sim *sim, const float *argument)
+{
+    const sb_sleep *sleep = sim->sleep;
+    const float *held = argument == sim->unknown   ? sleep->fringe_q
+                        : argument == sim->density ? sleep->fringe_density
+                                                   : NULL;
+    sb_record *position = sim->position + sb_fringe_first(sim);
+    for (size_t f = 0; f < sleep->fringe; f++)
+        sb_carry(&position[f], held ? held[f] : 0);
+}
 
 void sb_pressure_load(sb_sim *sim, const float *argument)
 {
@@ -10,6 +23,8 @@ void sb_pressure_load(sb_sim *sim, const float *argument)
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++)
         sb_carry(&position[i], argument[i]);
+    if (sb_fringe_count(sim) > 0)
+        load_fringe(sim, argument);
     const size_t ghosts = sim->ghosts.count;
     const uint32_t *of = sim->ghosts.of;
     if (ghosts == 0)

@@ -1,14 +1,11 @@
 /* The state between two steps, on its way into an archive and back. What a step makes anew is left out: cells,
    ghosts, neighbours, densities; the wall tables follow from the bodies' displacements. So are the stages' times, which are the process's. */
 #include "base/archive.h"
-#include "sim/state.h"
+#include "sim/sleep.h"
 
 #include <math.h>
 
 #define SECTION "sim"
-
-/* Positions are kept below this by the move. */
-static const uint32_t POSITION_END = 0x80000000u;
 
 static void put_report(sb_archive_out *out, const sb_step_report *r)
 {
@@ -47,6 +44,7 @@ void sb_sim_save(const sb_sim *sim, sb_archive_out *out)
     sb_put_list(out, sim->position, sim->n, sizeof *sim->position);
     sb_put_list(out, sim->velocity, sim->n, sizeof *sim->velocity);
     sb_put_list(out, sim->id, sim->n, sizeof *sim->id);
+    sb_sleep_save(sim, out);
     sb_put_list(out, sim->impulse, sim->model->body_count, sizeof *sim->impulse);
     sb_put_list(out, &sim->ledger, sizeof sim->ledger / sizeof(double), sizeof(double));
     sb_put_count(out, sim->moving_count);
@@ -66,10 +64,10 @@ static void take_particles(sb_sim *sim, sb_archive_in *in)
     sb_take_list(in, sim->id, n, sizeof *sim->id);
     for (size_t i = 0; i < n; i++) {
         const sb_record at = sim->position[i];
-        if (at[0] >= POSITION_END || at[1] >= POSITION_END || at[2] >= POSITION_END ||
+        if (at[0] >= SB_POSITION_END || at[1] >= SB_POSITION_END || at[2] >= SB_POSITION_END ||
             sim->id[i] >= sim->model->fluid_count)
             sb_archive_refuse(in, "particle %u at (%u, %u, %u) quanta: expected less than %zu and %u", sim->id[i],
-                              at[0], at[1], at[2], sim->model->fluid_count, POSITION_END);
+                              at[0], at[1], at[2], sim->model->fluid_count, SB_POSITION_END);
     }
     sim->n = in->error.status == SB_OK ? n : 0;
     sim->report.fluid_count = sim->n;
@@ -84,7 +82,7 @@ static void take_moving(sb_sim *sim, sb_archive_in *in)
         moving->displacement = sb_take_real(in);
         moving->next_displacement = sb_take_real(in);
         moving->velocity = sb_take_vector(in);
-        if (fabs(moving->displacement) / sim->space.quantum < POSITION_END && sb_isfinite(moving->velocity))
+        if (fabs(moving->displacement) / sim->space.quantum < SB_POSITION_END && sb_isfinite(moving->velocity))
             continue;
         sb_archive_refuse(in, "a body displaced by %g m, expected one within reach", moving->displacement);
         moving->displacement = 0;
@@ -100,6 +98,7 @@ sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
     sim->left_domain = sim->report.left_domain = sb_take_count(in, UINT64_MAX);
     sim->lost = sim->report.lost = sb_take_count(in, UINT64_MAX);
     take_particles(sim, in);
+    status = sb_sleep_load(sim, in, error);
     sb_take_list(in, sim->impulse, sim->model->body_count, sizeof *sim->impulse);
     sb_take_list(in, &sim->ledger, sizeof sim->ledger / sizeof(double), sizeof(double));
     take_moving(sim, in);
@@ -107,7 +106,8 @@ sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
     if (in->error.status == SB_OK && hash != expected)
         sb_archive_refuse(in, "its state hashes to %016llx, expected %016llx", (unsigned long long)hash,
                           (unsigned long long)expected);
-    status = sb_archive_leave(in, error);
+    if (status == SB_OK)
+        status = sb_archive_leave(in, error);
     if (status == SB_OK)
         status = sb_walls_restore(sim, error);
     /* The cells are of other particles: none, until the next step's sort. */

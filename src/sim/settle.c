@@ -1,7 +1,7 @@
 /* Before t = 0 the lattice that the sea was filled with gives way to water at rest. Let go as it is, it would fall
    into place by itself and drown a wave in its noise. */
 #include "physics/wave_theory.h"
-#include "sim/state.h"
+#include "sim/sleep.h"
 
 /* All settling begins with steps that creep: a lattice too dense at a wall would else be thrown off it. Boxes of
    water do so for a little longer, and nothing else, for their sides give way. */
@@ -55,14 +55,16 @@ sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
     for (size_t i = 0; i < sim->n; i++)
         sim->velocity[i] = (sb_f4){0, 0, 0, sim->velocity[i][3]};
     sim->report.max_speed = 0;
-    sb_status status = SB_OK;
+    sb_status status = sb_sleep_expect(sim, error);
     for (int s = 0; s < steps && still < CALM_STEPS && status == SB_OK; s++) {
         sim->settling = boxes || s < CREEP_FIRST ? SB_CREEPING : SB_DAMPED;
         status = sb_sim_step(sim, error);
+        sb_sleep_listen(sim, s);
         still = sim->report.max_speed < calm ? still + 1 : 0;
     }
     sim->settling = SB_RUNNING;
-    if (status == SB_OK)
-        let_go(sim);
-    return status;
+    if (status != SB_OK)
+        return status;
+    let_go(sim);
+    return sb_sleep_begin(sim, error);
 }

@@ -4,6 +4,7 @@
 #include "sim/ledger.h"
 #include "sim/lattice.h"
 #include "sim/pressure.h"
+#include "sim/sleep.h"
 #include "sim/turbulence.h"
 
 #include <math.h>
@@ -126,6 +127,10 @@ static void note_skipped(sb_sim *sim)
         sim->skipped[s++] = "third dimension: 9 cells searched instead of 27";
     if (!sb_pressure_solvers[n->solver]->needs_direction)
         sim->skipped[s++] = "search direction: the solver needs no memory for one";
+    if (!n->sleep)
+        sim->skipped[s++] = "sleep: off, all water is computed from the start";
+    else if (!sb_sleep_wanted(sim->scene))
+        sim->skipped[s++] = "sleep: the water does not start at rest, all of it is computed";
     if (!sb_sim_settles(sim->scene))
         sim->skipped[s++] = "settling: settle_steps is 0, the water starts as it was filled in";
     sim->skipped[s] = NULL;
@@ -188,6 +193,7 @@ void sb_sim_destroy(sb_sim *sim)
     free_pairs(&sim->wall_pairs);
     sb_cells_free(&sim->cells);
     sb_ghosts_destroy(sim);
+    sb_sleep_destroy(sim);
     sb_walls_destroy(sim);
     sb_free(sim);
 }
@@ -240,10 +246,13 @@ sb_energy sb_sim_energy(const sb_sim *sim)
         e.potential += partial[5 * b + 1];
         e.momentum = sb_madd(e.momentum, mass, sb_vec(partial[5 * b + 2], partial[5 * b + 3], partial[5 * b + 4]));
     }
-    e.mass = mass * (double)sim->n;
+    for (size_t s = 0; s < sb_asleep(sim); s++)
+        e.potential += (double)sim->sleep->position[s][2];
+    const double count = (double)(sim->n + sb_asleep(sim));
+    e.mass = mass * count;
     double base = sim->model->min.z - sim->space.origin.z;
-    e.potential = mass * (double)sim->constant.gravity *
-                  (e.potential * sim->space.quantum - (double)sim->n * base);
+    e.potential =
+        mass * (double)sim->constant.gravity * (e.potential * sim->space.quantum - count * base);
     return e;
 }
 
@@ -254,6 +263,12 @@ uint64_t sb_sim_hash(const sb_sim *sim)
         uint32_t xyz[4] = {sim->position[i][0], sim->position[i][1], sim->position[i][2], sim->id[i]};
         hash = sb_hash(hash, xyz, sizeof xyz);
         hash = sb_hash(hash, &sim->velocity[i], sizeof sim->velocity[i]);
+    }
+    for (size_t s = 0; s < sb_asleep(sim); s++) {
+        const sb_sleep *sleep = sim->sleep;
+        uint32_t xyz[5] = {sleep->position[s][0], sleep->position[s][1], sleep->position[s][2], sleep->id[s]};
+        memcpy(&xyz[4], &sleep->pressure[s], sizeof xyz[4]);
+        hash = sb_hash(hash, xyz, sizeof xyz);
     }
     hash = sb_hash(hash, sim->impulse, sim->model->body_count * sizeof *sim->impulse);
     hash = sb_hash(hash, &sim->ledger, sizeof sim->ledger);
@@ -280,5 +295,5 @@ size_t sb_sim_bytes(const sb_sim *sim)
     for (int s = 0; s < SB_WALL_SETS; s++)
         bytes += sb_cells_bytes(&sim->walls[s].cells) + sim->walls[s].count * 20 +
                  (sim->walls[s].near_mask + 1) * 8;
-    return bytes + sim->moving_rest_count * 20;
+    return bytes + sim->moving_rest_count * 20 + sb_sleep_bytes(sim);
 }

@@ -1,13 +1,31 @@
 /* What leaves the simulation: frames for consumers, samples for gauges and probes. */
-#include "sim/state.h"
+#include "sim/sleep.h"
 
 #include <math.h>
 #include <stdio.h>
 
+/* One particle, awake or, from n on, asleep. */
+typedef struct particle {
+    sb_record position;
+    sb_f4 velocity; /* last lane: pressure */
+    float density;
+    uint32_t id;
+} particle;
+
+static particle particle_at(const sb_sim *sim, size_t i)
+{
+    if (i < sim->n)
+        return (particle){sim->position[i], sim->velocity[i], sim->density[i], sim->id[i]};
+    const sb_sleep *sleep = sim->sleep;
+    const size_t s = i - sim->n;
+    return (particle){sleep->position[s], {0, 0, 0, sleep->pressure[s]}, sleep->density[s], sleep->id[s]};
+}
+
 sb_frame *sb_sim_snapshot(const sb_sim *sim)
 {
     const sb_model *model = sim->model;
-    sb_frame *frame = sb_frame_create(sim->n, model->body_count);
+    const size_t count = sim->n + sb_asleep(sim);
+    sb_frame *frame = sb_frame_create(count, model->body_count);
     if (!frame)
         return NULL;
     const sb_vec3 shift = sb_sub(sim->space.origin, model->min);
@@ -15,15 +33,16 @@ sb_frame *sb_sim_snapshot(const sb_sim *sim)
     frame->origin = model->min;
     frame->spacing = sim->scene->resolution;
 #pragma omp parallel for schedule(static)
-    for (size_t i = 0; i < sim->n; i++) {
-        sb_record x = sb_space_wrap(&sim->space, sim->position[i]);
+    for (size_t i = 0; i < count; i++) {
+        const particle p = particle_at(sim, i);
+        sb_record x = sb_space_wrap(&sim->space, p.position);
         frame->position[3 * i] = (float)(x[0] * quantum + shift.x);
         frame->position[3 * i + 1] = (float)(x[1] * quantum + shift.y);
         frame->position[3 * i + 2] = (float)(x[2] * quantum + shift.z);
         for (size_t axis = 0; axis < 3; axis++)
-            frame->velocity[3 * i + axis] = sim->velocity[i][axis];
-        frame->pressure[i] = sim->velocity[i][3];
-        frame->id[i] = sim->id[i];
+            frame->velocity[3 * i + axis] = p.velocity[axis];
+        frame->pressure[i] = p.velocity[3];
+        frame->id[i] = p.id;
     }
     for (size_t b = 0; b < model->body_count; b++) {
         sb_frame_body *body = &frame->bodies[b];
@@ -46,19 +65,20 @@ sb_frame *sb_sim_snapshot(const sb_sim *sim)
 
 static sb_fluid_sample sample_at(const sb_sim *sim, size_t i, sb_vec3 position)
 {
-    sb_f4 v = sim->velocity[i];
+    const particle p = particle_at(sim, i);
+    const sb_f4 v = p.velocity;
     return (sb_fluid_sample){
         .position = position,
         .velocity = sb_vec((double)v[0], (double)v[1], (double)v[2]),
         .pressure = (double)v[3],
-        .density = (double)sim->density[i],
-        .id = sim->id[i],
+        .density = (double)p.density,
+        .id = p.id,
     };
 }
 
 sb_fluid_sample sb_sim_particle(const sb_sim *sim, size_t i)
 {
-    sb_record place = sb_space_wrap(&sim->space, sim->position[i]);
+    sb_record place = sb_space_wrap(&sim->space, particle_at(sim, i).position);
     return sample_at(sim, i, sb_space_position(&sim->space, place));
 }
 
@@ -93,6 +113,23 @@ static sb_vec3 image_place(const sb_space *space, sb_record record, const int64_
                   space->origin.z + (double)(record[2] + away[2]) * space->quantum);
 }
 
+/* The particles of one cell, numbered from `base`, whose images are in the box. */
+static void query_cell(const sb_sim *sim, query *q, const sb_cells *cells, uint64_t code, size_t base,
+                       const int64_t away[3])
+{
+    const int64_t cell = sb_cells_find(cells, code);
+    if (cell < 0)
+        return;
+    for (size_t i = base + cells->begin[cell]; i < base + cells->begin[cell + 1]; i++) {
+        const sb_vec3 p = image_place(&sim->space, particle_at(sim, i).position, away);
+        if (!within(q, p))
+            continue;
+        if (q->found < q->capacity)
+            q->samples[q->found] = sample_at(sim, i, p);
+        q->found++;
+    }
+}
+
 /* The particles whose images, `away` quanta from them, are in the box. */
 static void query_images(const sb_sim *sim, query *q, const int64_t away[3])
 {
@@ -115,17 +152,9 @@ static void query_images(const sb_sim *sim, query *q, const int64_t away[3])
         for (int64_t y = a[1]; y <= b[1]; y++)
             for (int64_t x = a[0]; x <= b[0]; x++) {
                 uint64_t code = (uint64_t)x | (uint64_t)y << 21 | (uint64_t)z << 42;
-                int64_t cell = sb_cells_find(&sim->cells, code);
-                if (cell < 0)
-                    continue;
-                for (uint32_t i = sim->cells.begin[cell]; i < sim->cells.begin[cell + 1]; i++) {
-                    sb_vec3 p = image_place(space, sim->position[i], away);
-                    if (!within(q, p))
-                        continue;
-                    if (q->found < q->capacity)
-                        q->samples[q->found] = sample_at(sim, i, p);
-                    q->found++;
-                }
+                query_cell(sim, q, &sim->cells, code, 0, away);
+                if (sb_asleep(sim) > 0)
+                    query_cell(sim, q, &sim->sleep->cells, code, sim->n, away);
             }
 }
 

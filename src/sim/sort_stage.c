@@ -2,6 +2,7 @@
    the Z-curve of their cells. */
 #include "base/memory.h"
 #include "sim/ledger.h"
+#include "sim/sleep.h"
 #include "sim/sort.h"
 
 #include <math.h>
@@ -47,7 +48,8 @@ static int outside(const sb_sim *sim, const bounds *b, sb_record record)
     return result;
 }
 
-static void make_words(sb_sim *sim)
+/* Returns how many stay. */
+static size_t make_words(sb_sim *sim)
 {
     const bounds b = domain_bounds(sim);
     const uint64_t gone = ((uint64_t)1 << sim->space.key_bits) - 1;
@@ -67,7 +69,8 @@ static void make_words(sb_sim *sim)
     sim->lost += lost;
     sim->report.left_domain = sim->left_domain;
     sim->report.lost = sim->lost;
-    sim->report.fluid_count = sim->n - left - lost;
+    sim->report.fluid_count = sim->n - left - lost + sb_asleep(sim);
+    return sim->n - left - lost;
 }
 
 static void permute(sb_sim *sim, const uint64_t *words)
@@ -92,15 +95,15 @@ static void permute(sb_sim *sim, const uint64_t *words)
 
 sb_status sb_stage_sort(sb_sim *sim, sb_error *error)
 {
-    make_words(sim);
+    const size_t stay = make_words(sim);
     const uint64_t *sorted = sb_sort(sim->sort_a, sim->sort_b, sim->n, INDEX_BITS,
                                      INDEX_BITS + sim->space.key_bits);
     if (!sorted)
         return sb_fail_memory(error, "sorting");
     permute(sim, sorted);
     if (!sim->settling)
-        sb_ledger_leave(sim, sim->report.fluid_count, sim->n); /* their keys are the last */
-    sim->n = sim->report.fluid_count;
+        sb_ledger_leave(sim, stay, sim->n); /* their keys are the last */
+    sim->n = stay;
     if (sb_cells_build(&sim->cells, sim->position, sim->n, sim->space.shift) != 0)
         return sb_fail_memory(error, "cells");
     return SB_OK;

@@ -9,6 +9,9 @@
 
 #include <stdbool.h>
 
+/* Positions are kept below this. */
+static const uint32_t SB_POSITION_END = 0x80000000u;
+
 enum {
     SB_SPACE_MARGIN = 2, /* cells around the domain */
     SB_IMAGES_MAX = 26   /* of one record: two along each axis, in all combinations */

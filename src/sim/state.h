@@ -9,7 +9,7 @@
 
 enum {
     SB_BLOCK = 1024,     /* particles per unit of work and of partial sums: fixed, so sums have one order */
-    SB_STAGES_MAX = 12
+    SB_STAGES_MAX = 16
 };
 
 /* How the water comes to rest before t = 0. */
@@ -77,6 +77,7 @@ typedef struct sb_pairs {
 } sb_pairs;
 
 struct sb_ledger_sums; /* sim/ledger.h */
+struct sb_sleep;       /* sim/sleep.h */
 
 typedef struct sb_sim {
     const sb_scene *scene;
@@ -85,8 +86,8 @@ typedef struct sb_sim {
     sb_space space;
 
     /* persistent fields, n each; moved together by the sort */
-    size_t n;
-    size_t capacity;          /* of position, velocity, acceleration and scratch: n and the ghosts */
+    size_t n;                 /* those asleep not among them */
+    size_t capacity;          /* of position, velocity, acceleration and scratch: n, the ghosts and the fringe */
     sb_record *position;      /* quanta; last lane: argument of the pressure operator */
     sb_f4 *velocity;          /* m/s; last lane: pressure in Pa, the next step's warm start */
     uint32_t *id;
@@ -125,6 +126,8 @@ typedef struct sb_sim {
     unsigned char *block_touched;
     sb_body_impulse *impulse; /* per body */
 
+    struct sb_sleep *sleep;   /* still water left alone; NULL where none was laid to sleep */
+
     struct sb_ledger_sums *block_ledger; /* per block, of one step */
     sb_ledger ledger;
 
@@ -155,10 +158,13 @@ float sb_settle_pull(const sb_sim *sim, sb_record at);
 sb_status sb_stage_sort(sb_sim *sim, sb_error *error);
 /* sim/ghosts.c: images of what is near periodic sides, their places and velocities as after the sort. */
 sb_status sb_stage_ghosts(sb_sim *sim, sb_error *error);
-/* Gives the ghosts the values of a field whose owned part has changed. */
+/* Gives the ghosts the values of a field (a velocity, an acceleration, an eddy viscosity) whose owned part has changed;
+   0 to sleepers. */
 void sb_ghosts_refresh(const sb_sim *sim, sb_f4 *field);
 void sb_ghosts_refresh_values(const sb_sim *sim, float *field);
 void sb_ghosts_destroy(sb_sim *sim);
+/* Room for `beyond` entries after the owned ones; owned ones and ghosts keep their values. 0, or -1. */
+int sb_ghosts_room(sb_sim *sim, size_t beyond);
 /* sim/walls.c */
 sb_status sb_walls_create(sb_sim *sim, sb_error *error);
 void sb_walls_destroy(sb_sim *sim);

@@ -1,7 +1,7 @@
 /* The step as a list: one row per stage, one loop that runs and times them. */
 #include "base/clock.h"
 #include "sim/pressure.h"
-#include "sim/state.h"
+#include "sim/sleep.h"
 #include "sim/turbulence.h"
 
 typedef struct stage {
@@ -13,8 +13,10 @@ typedef struct stage {
 static const stage stages[] = {
     {"time_step", sb_stage_time_step, NULL},              /* dt from the speeds reached */
     {"walls", sb_stage_walls, NULL},                      /* paddles at t, their velocity to t + dt */
+    {"wake", sb_stage_wake, sb_sleep_wanted},             /* still water that a wave has come near */
     {"sort", sb_stage_sort, NULL},                        /* back through periodic sides; Z-order, cells */
     {"ghosts", sb_stage_ghosts, NULL},                    /* images beyond periodic sides */
+    {"fringe", sb_stage_fringe, sb_sleep_wanted},         /* sleepers that awake water may touch */
     {"neighbours", sb_stage_neighbours, NULL},            /* lists, density, wall vectors, diagonal */
     {"turbulence", sb_stage_turbulence, sb_turbulence_on}, /* eddy viscosity from the strain rate */
     {"forces", sb_stage_forces, NULL},                    /* v* = v + dt (g + viscosity + friction) */

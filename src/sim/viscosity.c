@@ -1,6 +1,7 @@
 /* v* = v + dt (g + Monaghan viscosity [S16, eq. 14] + physical and eddy viscosity + wall friction [S16, eq. 33]). */
 #include "sim/friction.h"
 #include "sim/pressure.h"
+#include "sim/sleep.h"
 
 /* Factors of one step. */
 typedef struct factors {
@@ -28,8 +29,9 @@ static factors make_factors(const sb_sim *sim)
 }
 
 /* -sum_j m Pi_ij grad W_ij, four neighbours at a time; the records carry the densities. x . v and r^2 are
-   in quanta, their quotient brought back by 1/quantum. eddy: sim->eddy, NULL without turbulence. */
-SB_INLINE sb_f4 fluid_part(const sb_sim *sim, size_t i, const factors *f, const float *eddy)
+   in quanta, their quotient brought back by 1/quantum. eddy: sim->eddy, NULL without turbulence. first: neighbours
+   before it in the arrays are left out. */
+SB_INLINE sb_f4 fluid_part(const sb_sim *sim, size_t i, const factors *f, const float *eddy, uint32_t first)
 {
     const sb_record *position = sim->position;
     const sb_f4 *velocity = sim->velocity;
@@ -46,7 +48,9 @@ SB_INLINE sb_f4 fluid_part(const sb_sim *sim, size_t i, const factors *f, const 
         const sb_four u = sb_turn(v - velocity[a], v - velocity[b], v - velocity[c], v - velocity[e]);
         const sb_f4 density = {sb_carried_value(position[a]), sb_carried_value(position[b]),
                                sb_carried_value(position[c]), sb_carried_value(position[e])};
-        const sb_f4 weight = {slope[k], slope[k + 1], slope[k + 2], slope[k + 3]};
+        sb_f4 weight = {slope[k], slope[k + 1], slope[k + 2], slope[k + 3]};
+        if (first > 0)
+            weight = sb_select((sb_i4){(int)a, (int)b, (int)c, (int)e} >= (int)first, weight, (sb_f4){0});
         sb_f4 approach = u.x * d.x + u.y * d.y + u.z * d.z;
         sb_f4 r2 = d.x * d.x + d.y * d.y + d.z * d.z;
         sb_f4 physical = sb_splat(f->physical);
@@ -80,14 +84,19 @@ static void do_block(sb_sim *sim, size_t block, const factors *f, bool viscous, 
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
         sb_f4 a = {sim->settling ? sb_settle_pull(sim, sim->position[i]) : 0, 0, -sim->constant.gravity, 0};
         if (sim->eddy)
-            a += fluid_part(sim, i, f, sim->eddy);
+            a += fluid_part(sim, i, f, sim->eddy, 0);
         else if (viscous)
-            a += fluid_part(sim, i, f, NULL);
+            a += fluid_part(sim, i, f, NULL, 0);
         if (frictional && sim->wall_pairs.count[i] > 0)
             a += wall_part(sim, i, f);
         a[3] = 0;
         next[i] = sim->velocity[i] + a * sb_splat(dt);
     }
+}
+
+static sb_f4 share_of_sleepers(const sb_sim *sim, size_t i, const void *with)
+{
+    return fluid_part(sim, i, with, sim->eddy, (uint32_t)sb_fringe_first(sim));
 }
 
 sb_status sb_stage_forces(sb_sim *sim, sb_error *error)
@@ -101,6 +110,8 @@ sb_status sb_stage_forces(sb_sim *sim, sb_error *error)
 #pragma omp parallel for schedule(dynamic, 1)
     for (size_t b = 0; b < blocks; b++)
         do_block(sim, b, &f, viscous, frictional);
+    if (sb_fringe_count(sim) > 0)
+        sim->sleep->rub = viscous ? sb_sleep_sum(sim, share_of_sleepers, &f) : (sb_vec3){0};
     sb_f4 *old = sim->velocity;
     sim->velocity = sim->scratch;
     sim->scratch = old;
