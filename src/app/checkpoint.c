@@ -79,7 +79,7 @@ static sb_status remove_older(const run *r, size_t keep, sb_error *error)
     uint64_t *steps;
     size_t count;
     sb_status status = sb_checkpoint_list(r, &steps, &count, error);
-    for (size_t i = keep; status == SB_OK && i < count; i++) {
+    for (size_t i = keep; status == SB_OK && steps && i < count; i++) {
         status = sb_checkpoint_path(r, steps[i], path, error);
         if (status == SB_OK && unlink(path) != 0 && errno != ENOENT)
             status = sb_fail(error, SB_FAILED, "%.500s: cannot remove: %s", path, strerror(errno));

@@ -113,11 +113,10 @@ sb_status sb_options_parse(int count, char **arguments, unsigned accepted, const
         const flag *found = find_flag(argument, accepted);
         if (!found)
             return sb_fail(error, SB_BAD_INPUT, "%.200s: no such option here; --help lists them", argument);
-        const char *value = strchr(argument, '=');
-        value = value ? value + 1 : NULL;
-        if (!found->takes_value && value)
+        const char *equals = strchr(argument, '='), *value = equals ? equals + 1 : "";
+        if (!found->takes_value && equals)
             return sb_fail(error, SB_BAD_INPUT, "%.200s: takes no value", argument);
-        if (found->takes_value && !value) {
+        if (found->takes_value && !equals) {
             if (i + 1 == count)
                 return sb_fail(error, SB_BAD_INPUT, "%.200s: needs a value", argument);
             value = arguments[++i];

@@ -3,7 +3,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-sb_status sb_fail(sb_error *error, sb_status status, const char *format, ...)
+sb_status(sb_fail)(sb_error *error, sb_status status, const char *format, ...)
 {
     if (error) {
         va_list arguments;
@@ -19,7 +19,7 @@ sb_status sb_fail(sb_error *error, sb_status status, const char *format, ...)
     return status;
 }
 
-sb_status sb_fail_memory(sb_error *error, const char *purpose)
+sb_status(sb_fail_memory)(sb_error *error, const char *purpose)
 {
     return sb_fail(error, SB_FAILED, "out of memory for %s", purpose);
 }

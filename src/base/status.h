@@ -22,4 +22,10 @@ sb_status sb_fail(sb_error *error, sb_status status, const char *format, ...)
 /* SB_FAILED with "out of memory" and what the bytes were for. */
 sb_status sb_fail_memory(sb_error *error, const char *purpose);
 
+/* What clang's analyzer cannot see from another file: that a failure is one. */
+#ifdef __clang_analyzer__
+#define sb_fail(error, status, ...) ((void)(sb_fail)(error, status, __VA_ARGS__), (status))
+#define sb_fail_memory(error, purpose) ((void)(sb_fail_memory)(error, purpose), SB_FAILED)
+#endif
+
 #endif

@@ -69,7 +69,7 @@ static sb_status read_number(sb_reader *reader, const sb_yaml *node, const sb_ke
 
 static sb_status read_integer(sb_reader *reader, const sb_yaml *node, const sb_key *key, int *value)
 {
-    double number;
+    double number = 0;
     sb_status status = read_number(reader, node, key, &number);
     if (status != SB_OK) return status;
     if (number != floor(number) || fabs(number) > INT_MAX)
@@ -210,7 +210,7 @@ static sb_status read_place(sb_reader *reader, const sb_yaml *node, const sb_key
 
 static sb_status read_color(sb_reader *reader, const sb_yaml *node, const sb_key *key, float *value)
 {
-    double numbers[3];
+    double numbers[3] = {0};
     if (node->kind != SB_YAML_LIST || node->count != 3)
         return refuse(reader, node, key, "is not a list of three numbers");
     sb_status status = read_numbers(reader, node, key, numbers + 3, numbers);
