@@ -41,6 +41,11 @@ static sb_f4 wall_velocity(const sb_sim *sim, uint32_t wall)
     return (sb_f4){(float)v.x, (float)v.y, (float)v.z, 0};
 }
 
+void sb_impulse_of_push(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 push, double *sum)
+{
+    add(sim, sum, wall, sb_space_position(&sim->space, sim->position[i]), push, (sb_vec3){0});
+}
+
 /* Mends what would pass a wall; the wall feels it. */
 static void contact(sb_sim *sim, size_t i, double *sum, sb_ledger_sums *ledger)
 {
@@ -52,8 +57,10 @@ static void contact(sb_sim *sim, size_t i, double *sum, sb_ledger_sums *ledger)
     const double scale = (double)sim->constant.mass / sim->report.time_step;
     sb_f4 change = sim->acceleration[i] - velocity;
     /* The push is along the wall's normal through the particle, so it may be taken to act there. */
-    add(sim, sum, wall, sb_space_position(&sim->space, sim->position[i]),
-        sb_scale(sb_vec((double)change[0], (double)change[1], (double)change[2]), scale), (sb_vec3){0});
+    const sb_vec3 push = sb_scale(sb_vec((double)change[0], (double)change[1], (double)change[2]), scale);
+    sb_impulse_of_push(sim, i, wall, push, sum);
+    if (sim->settling)
+        sb_sleep_feel(sim, i, wall, push);
     const sb_f4 body = wall_velocity(sim, wall);
     ledger->contact += sb_ledger_work(sim->acceleration[i], velocity, start, velocity);
     ledger->contact_bodies += sb_ledger_work(sim->acceleration[i], velocity, body, body);

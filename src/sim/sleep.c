@@ -23,7 +23,7 @@ void sb_sleep_destroy(sb_sim *sim)
     sb_tiles_free(&sleep->tiles);
     void *fields[] = {sleep->first, sleep->position, sleep->pressure, sleep->density, sleep->id,
                       sleep->fringe_position, sleep->fringe_q, sleep->fringe_density, sleep->block_beside,
-                      sleep->held, sleep->held_sum, sleep->settled_q};
+                      sleep->held, sleep->held_sum, sleep->settled_q, sleep->settled_push};
     for (size_t f = 0; f < sizeof fields / sizeof fields[0]; f++)
         sb_free(fields[f]);
     sb_cells_free(&sleep->cells);
@@ -68,7 +68,9 @@ static sb_status lay_down(sb_sim *sim, sb_error *error)
         status = sb_fail_memory(error, "still water");
     sb_free(density);
     sb_free(sleep->settled_q);
+    sb_free(sleep->settled_push);
     sleep->settled_q = NULL;
+    sleep->settled_push = NULL;
     if (status != SB_OK)
         return status;
     sb_tiles_fringe(&sleep->tiles);
@@ -80,20 +82,42 @@ sb_status sb_sleep_expect(sb_sim *sim, sb_error *error)
     if (!sb_sleep_wanted(sim->scene))
         return SB_OK;
     sb_sleep_destroy(sim);
-    if (sb_sleep_make(sim) != 0 || !(sim->sleep->settled_q = sb_alloc(sim->model->fluid_count, sizeof(float))))
+    if (sb_sleep_make(sim) != 0)
         return sb_fail_memory(error, "still water");
-    return SB_OK;
+    sb_sleep *sleep = sim->sleep;
+    sleep->settled_q = sb_alloc(sim->model->fluid_count, sizeof *sleep->settled_q);
+    sleep->settled_push = sb_alloc(sim->model->fluid_count, sizeof *sleep->settled_push);
+    sleep->share = 1;
+    return sleep->settled_q && sleep->settled_push ? SB_OK : sb_fail_memory(error, "still water");
 }
 
+void sb_sleep_feel(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 push)
+{
+    const sb_sleep *sleep = sim->sleep;
+    if (!sleep)
+        return;
+    sb_settled_push *mean = &sleep->settled_push[sim->id[i]];
+    mean->wall = wall;
+    mean->push[0] += sleep->share * (float)push.x;
+    mean->push[1] += sleep->share * (float)push.y;
+    mean->push[2] += sleep->share * (float)push.z;
+}
+
+/* Makes room in the mean of pushes for the next step's share, whether it brings one or not. */
 void sb_sleep_listen(sb_sim *sim, int step)
 {
-    if (!sim->sleep)
+    sb_sleep *sleep = sim->sleep;
+    if (!sleep)
         return;
-    float *mean = sim->sleep->settled_q;
-    const float share = 1.0f / (float)(step < LISTEN ? step + 1 : LISTEN);
+    const float share = sleep->share, next = 1.0f / (float)(step + 1 < LISTEN ? step + 2 : LISTEN);
 #pragma omp parallel for schedule(static)
-    for (size_t i = 0; i < sim->n; i++)
-        mean[sim->id[i]] += share * (sim->unknown[i] - mean[sim->id[i]]);
+    for (size_t i = 0; i < sim->n; i++) {
+        const uint32_t id = sim->id[i];
+        sleep->settled_q[id] += share * (sim->unknown[i] - sleep->settled_q[id]);
+        for (int axis = 0; axis < 3; axis++)
+            sleep->settled_push[id].push[axis] *= 1 - next;
+    }
+    sleep->share = next;
 }
 
 sb_status sb_sleep_begin(sb_sim *sim, sb_error *error)

@@ -31,6 +31,12 @@ typedef struct sb_held_force {
     double value[9];
 } sb_held_force;
 
+/* N, of a particle on a wall through contact; wall as in wall_pairs. */
+typedef struct sb_settled_push {
+    float push[3];
+    uint32_t wall;
+} sb_settled_push;
+
 typedef struct sb_sleep {
     sb_tiles tiles;
 
@@ -59,7 +65,10 @@ typedef struct sb_sleep {
 
     sb_vec3 rub, support; /* N, of sleepers on awake water in this step: by viscosity, by pressure */
     uint64_t particle_steps, asleep_steps;
-    float *settled_q;     /* by id, until the start: mean of q over the last steps of settling */
+    /* by id, until the start: means over the last steps of settling */
+    float *settled_q;
+    sb_settled_push *settled_push;
+    float share;          /* of the next step in them */
     double woken;         /* s, when the last of them woke; below 0: some sleep still */
 } sb_sleep;
 
@@ -69,6 +78,7 @@ bool sb_sleep_wanted(const sb_scene *scene);
 /* Around settling: before its first step, after each, and after the last: lays to sleep what is not near water or bodies
    that move or may. */
 sb_status sb_sleep_expect(sb_sim *sim, sb_error *error);
+void sb_sleep_feel(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 push); /* in the step: contact */
 void sb_sleep_listen(sb_sim *sim, int step);
 sb_status sb_sleep_begin(sb_sim *sim, sb_error *error);
 int sb_sleep_make(sb_sim *sim); /* without sleepers; 0, or -1 without memory */

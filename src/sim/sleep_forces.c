@@ -19,6 +19,18 @@ static uint32_t *by_tile(const sb_sim *sim, const sb_tiles *tiles, size_t *first
     return order;
 }
 
+/* What particle i did to bodies in the last steps of settling, by pressure and by contact. */
+static void add_particle(const sb_sim *sim, size_t i, double *sum)
+{
+    const sb_settled_push *mean = &sim->sleep->settled_push[sim->id[i]];
+    const double whole = 1 / (1 - (double)sim->sleep->share); /* room was made for a step that did not come */
+    sb_impulse_of_pressure(sim, i, sum);
+    if (mean->push[0] != 0 || mean->push[1] != 0 || mean->push[2] != 0)
+        sb_impulse_of_push(sim, i, mean->wall,
+                           sb_vec(whole * (double)mean->push[0], whole * (double)mean->push[1],
+                                  whole * (double)mean->push[2]), sum);
+}
+
 /* Adds the bodies that one tile's sum is not zero for to the list. */
 static int append(sb_sleep *sleep, size_t *capacity, size_t tile, const double *sum, size_t bodies)
 {
@@ -59,7 +71,7 @@ int sb_held_take(sb_sim *sim)
             continue;
         memset(sum, 0, bodies * SB_IMPULSE_VALUES * sizeof *sum);
         for (size_t k = first[t]; k < first[t + 1]; k++)
-            sb_impulse_of_pressure(sim, order[k], sum);
+            add_particle(sim, order[k], sum);
         status = append(sleep, &capacity, t, sum, bodies);
     }
     if (status == 0)
