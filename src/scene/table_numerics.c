@@ -42,7 +42,7 @@ static const sb_key keys[] = {
            "At which mean excess density the solve stops."),
     COUNT(min_iterations, NULL, 0, 100000, "Fewest iterations of a solve."),
     COUNT(max_iterations, NULL, 1, 100000, "Most iterations of a solve."),
-    NUMBER(relaxation, NULL, 0, 1, SB_KEY_ABOVE, "Factor omega of the Jacobi solver."),
+    NUMBER(relaxation, NULL, 0, 1, SB_KEY_ABOVE, "Factor omega of the Jacobi solver, lowered where a wide support would make it diverge."),
     NUMBER(warm_start, NULL, 0, 1, 0, "Share of the last pressure that a solve starts from."),
     NUMBER(source_relaxation, NULL, 0, 1, SB_KEY_ABOVE,
            "Share of the density error that one step mends."),

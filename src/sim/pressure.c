@@ -10,6 +10,14 @@ const sb_pressure_solver *const sb_pressure_solvers[] = {
     NULL,
 };
 
+/* Settled water with walls was measured to reach 1.19 times a lattice's largest eigenvalue at most. */
+static const double DISORDER = 1.3;
+
+double sb_pressure_spectrum(const sb_sim *sim)
+{
+    return DISORDER * sim->constant.spectrum;
+}
+
 SB_MULTIVERSION
 static void source_block(sb_sim *sim, size_t block, float dt, float beta)
 {

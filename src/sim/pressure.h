@@ -25,6 +25,9 @@ typedef struct sb_pressure_solver {
 extern const sb_pressure_solver *const sb_pressure_solvers[];
 extern const sb_pressure_solver sb_solver_jacobi, sb_solver_chebyshev, sb_solver_cg;
 
+/* Largest eigenvalue of D^-1 A that solvers are made for: a full lattice's with a margin for disorder and walls. */
+double sb_pressure_spectrum(const sb_sim *sim);
+
 /* Puts a field into the records' carried lane: the argument of the next product. */
 void sb_pressure_load(sb_sim *sim, const float *argument);
 /* acceleration = G argument: a_i = -[sum_j m (q_i + q_j) grad W_ij + q_i B_i]. */

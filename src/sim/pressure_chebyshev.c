@@ -4,10 +4,9 @@
 
 #include <math.h>
 
-/* Spectrum of D^-1 A that the polynomial is made for: its upper end over that of a full lattice, 1.19 being the
-   most that settled water with walls was measured to have, and its lower end, which sets which error modes are
-   damped well within some ten sweeps. */
-static const double DISORDER = 1.3, SMALLEST = 0.1;
+/* Lower end of the spectrum of D^-1 A that the polynomial is made for: it sets which error modes are damped well within
+   some ten sweeps. */
+static const double SMALLEST = 0.1;
 
 /* Water in turmoil may reach further up; then the error grows from sweep to sweep, is seen to, and the polynomial
    starts anew with a wider spectrum. */
@@ -50,7 +49,7 @@ static void sweep(sb_sim *sim, polynomial *p)
 static sb_status solve(sb_sim *sim, sb_error *error)
 {
     (void)error;
-    polynomial p = begin(DISORDER * sim->constant.spectrum);
+    polynomial p = begin(sb_pressure_spectrum(sim));
     double least = (double)INFINITY;
     for (;;) {
         sb_pressure_residual(sim);
