@@ -3,9 +3,16 @@
 #include "physics/wave_theory.h"
 #include "sim/sleep.h"
 
+#include <math.h>
+
 /* All settling begins with steps that creep: a lattice too dense at a wall would else be thrown off it. Boxes of
    water do so for a little longer, and nothing else, for their sides give way. */
 enum { CREEP_FIRST = 40, CREEP_BOXES = 50, CALM_STEPS = 10 }; /* calm ones in a row: one may be a reversal */
+
+/* A sea over rough ground keeps some unrest for good. When so many steps have not taken a tenth of its kinetic energy,
+   more would not either. */
+enum { TRIAL_STEPS = 60 };
+static const double STILL_FALLING = 0.9;
 
 bool sb_sim_settles(const sb_scene *scene)
 {
@@ -50,6 +57,7 @@ sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
     const bool boxes = sim->scene->box_count > 0;
     const double calm = 0.002 * (double)sim->constant.wave_speed;
     int steps = sim->scene->numerics.settle_steps, still = 0;
+    double before = (double)INFINITY; /* J, kinetic energy at the last trial */
     if (boxes && steps > CREEP_BOXES)
         steps = CREEP_BOXES;
     for (size_t i = 0; i < sim->n; i++)
@@ -61,6 +69,12 @@ sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
         status = sb_sim_step(sim, error);
         sb_sleep_listen(sim, s);
         still = sim->report.max_speed < calm ? still + 1 : 0;
+        if (sim->settling == SB_DAMPED && (s + 1 - CREEP_FIRST) % TRIAL_STEPS == 0) {
+            const double kinetic = sb_sim_energy(sim).kinetic;
+            if (kinetic > STILL_FALLING * before)
+                break;
+            before = kinetic;
+        }
     }
     sim->settling = SB_RUNNING;
     if (status != SB_OK)

@@ -414,7 +414,8 @@ static void a_checkpoint_that_fails_is_a_warning(void **state)
                                                          "--until", "0.1", "--set", "output.particle_interval=0",
                                                          "--set", "output.checkpoint.steps=5", NULL});
     assert_int_equal(o.status, 0);
-    assert_contains(o.err, "shorebreak: warning: no checkpoint at step 10, the run goes on: full/checkpoints/");
+    assert_contains(o.err, "shorebreak: warning: no checkpoint at step ");
+    assert_contains(o.err, ", the run goes on: full/checkpoints/");
     assert_contains(o.err, "cannot write: File too large");
     outcome_free(&o);
     assert_int_equal(list_checkpoints("full", left), 1);

@@ -69,6 +69,7 @@ static void a_wave_starts_quietly(void **state)
     (void)state;
     double kinetic = last_kinetic("{dimensions: 2, resolution: 0.05, duration: 0.024,\n"
                                   " domain: {min: [0, 0], max: [2, 1.5]},\n"
+                                  " numerics: {time_step_max: 0.006},\n"
                                   " water: {level: 1, seed: [1, 0.5],\n"
                                   "         wave: {kind: standing, height: 0.05, depth: 1, wavelength: 2}},\n"
                                   " measure: {interval: 0.012}}\n");

@@ -133,10 +133,10 @@ const sb_stress sb_stress_immersed = {
     .judge = judge_immersed,
 };
 
-/* Twice the speed at which the CFL bound, not the default's longest step, begins to set the step: 0.4/0.15 √(gD). */
+/* Twice the speed at which the CFL bound, not the default's longest step, begins to set the step. */
 static double twice_cfl(double depth)
 {
-    return 2 * 0.4 / 0.15 * sqrt(9.81 * depth);
+    return 2 * sb_trial_default("cfl") / sb_trial_default("time_step_factor") * sqrt(9.81 * depth);
 }
 
 static void plan_paddles(sb_trials *trials, bool quick)

@@ -3,10 +3,10 @@
 
 #include <math.h>
 
-/* Steps of the default rule, 0.15 h/sqrt(g D), that make ten thousand. */
+/* So many of the default rule's steps, time_step_factor h/sqrt(g D). */
 static double duration(double spacing, double depth, double steps)
 {
-    return steps * 0.15 * 2.5 * spacing / sqrt(9.81 * depth);
+    return steps * sb_trial_default("time_step_factor") * sb_trial_default("support") * spacing / sqrt(9.81 * depth);
 }
 
 static void add(sb_trials *trials, const char *scene, const char *name, double spacing, double depth, double steps)

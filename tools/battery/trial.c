@@ -1,10 +1,13 @@
 #include "trial.h"
 
+#include "scene/presets.h"
+
 #include "base/file.h"
 #include "base/memory.h"
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const double patience = 1800; /* s, on a machine that has other work, too */
@@ -62,4 +65,10 @@ sb_status sb_trial_scene(const sb_trial *trial, const char *assets, sb_scene *sc
     return status == SB_OK
                ? sb_scene_read(path, NULL, overrides, trial->setting_count, scene, error)
                : status;
+}
+
+double sb_trial_default(const char *key)
+{
+    const char *text = sb_preset_value(SB_PRESET_DEFAULT, key);
+    return text ? strtod(text, NULL) : 0;
 }

@@ -51,6 +51,9 @@ void sb_trial_set(sb_trial *trial, const char *setting, ...) __attribute__((form
 void sb_trial_drive(sb_trial *trial, const sb_drive *drive, double number);
 void sb_trials_free(sb_trials *trials);
 
+/* The number that the default preset gives to a key of `numerics`. */
+double sb_trial_default(const char *key);
+
 /* The scene that a trial runs. SB_BAD_INPUT as sb_scene_read. */
 sb_status sb_trial_scene(const sb_trial *trial, const char *assets, sb_scene *scene, sb_error *error);
 
