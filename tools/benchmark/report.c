@@ -90,6 +90,16 @@ static void put_scaling(FILE *file, const sb_bench_rows *rows)
             sb_bench_growth(rows));
 }
 
+/* What gnuplot was given stands in the table already. */
+static void remove_plot_input(const char *folder)
+{
+    static const char *const names[] = {"scaling.gp", "scaling.dat"};
+    char path[SB_PATH_MAX];
+    for (size_t n = 0; n < sizeof names / sizeof *names; n++)
+        if (sb_path_join(path, folder, names[n], NULL) == SB_OK)
+            remove(path);
+}
+
 static sb_status draw_scaling(const sb_bench_rows *rows, const char *folder, const char *picture, sb_error *error)
 {
     sb_plot *plot = sb_plot_create();
@@ -108,6 +118,7 @@ static sb_status draw_scaling(const sb_bench_rows *rows, const char *folder, con
         sb_curve_free(&curve);
     }
     if (status == SB_OK) status = sb_plot_draw(plot, folder, "scaling", picture, error);
+    remove_plot_input(folder);
     sb_plot_destroy(plot);
     return status;
 }
