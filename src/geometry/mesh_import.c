@@ -1,5 +1,6 @@
 /* The only file that knows assimp. It runs in a child process (mesh_child.c): a file that makes
    assimp crash or hang costs that child only. */
+#include "base/library.h"
 #include "base/memory.h"
 #include "geometry/mesh_child.h"
 
@@ -10,6 +11,14 @@
 #include <errno.h>
 #include <string.h>
 #include <unistd.h>
+
+/* Looked up in the child, so that the parent never maps the library nor what it pulls in. */
+typedef struct assimp {
+    __typeof__(aiCreatePropertyStore) *create_settings;
+    __typeof__(aiSetImportPropertyInteger) *set_integer;
+    __typeof__(aiImportFileExWithProperties) *import;
+    __typeof__(aiGetErrorString) *error;
+} assimp;
 
 /* p -> m p + t, in double: the files' floats are not rounded twice. */
 typedef struct placement {
@@ -169,21 +178,41 @@ static void send_nodes(sender *to, const struct aiNode *node, const placement *a
         send_nodes(to, node->mChildren[i], &at, name);
 }
 
+static sb_status load(assimp *ai, sb_error *error)
+{
+    const sb_library_function functions[] = {
+        {"aiCreatePropertyStore", &ai->create_settings},
+        {"aiSetImportPropertyInteger", &ai->set_integer},
+        {"aiImportFileExWithProperties", &ai->import},
+        {"aiGetErrorString", &ai->error},
+    };
+    return sb_library_load("libassimp.so.5", functions, sizeof functions / sizeof functions[0], error);
+}
+
+static const struct aiScene *read_scene(const assimp *ai, const char *path)
+{
+    struct aiPropertyStore *settings = ai->create_settings();
+    /* Lines and points bound nothing. Axes stay the file's own: the scene says which is up. */
+    ai->set_integer(settings, AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    ai->set_integer(settings, AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
+    ai->set_integer(settings, AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, 1);
+    return ai->import(path, aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_ValidateDataStructure, NULL,
+                      settings);
+}
+
 void sb_mesh_send_file(const char *path, int pipe)
 {
     sender to = {.pipe = pipe};
-    struct aiPropertyStore *settings = aiCreatePropertyStore();
-    /* Lines and points bound nothing. Axes stay the file's own: the scene says which is up. */
-    aiSetImportPropertyInteger(settings, AI_CONFIG_PP_SBP_REMOVE,
-                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    aiSetImportPropertyInteger(settings, AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
-    aiSetImportPropertyInteger(settings, AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, 1);
-    to.scene = aiImportFileExWithProperties(
-        path, aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_ValidateDataStructure, NULL,
-        settings);
+    assimp ai;
+    sb_error error = {0};
+    if (load(&ai, &error) != SB_OK) {
+        send_trouble(&to, error.text);
+        return;
+    }
+    to.scene = read_scene(&ai, path);
     if (!to.scene) {
         /* This one of assimp's messages would tell the path a second time. */
-        const char *reason = aiGetErrorString();
+        const char *reason = ai.error();
         bool unknown = strncmp(reason, "No suitable reader", 18) == 0;
         send_trouble(&to, unknown ? "its content is not of the format its name says" : reason);
         return;

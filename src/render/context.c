@@ -1,9 +1,12 @@
 /* The only file that knows OSMesa. */
 #include "render/context.h"
 
+#include "base/library.h"
 #include "base/memory.h"
+#include "render/gl.h"
 
 #include <GL/osmesa.h>
+#include <pthread.h>
 #include <stdlib.h>
 
 #ifdef __SANITIZE_ADDRESS__
@@ -23,10 +26,37 @@ struct sb_context {
     unsigned char buffer[SIDE * SIDE * 4];
 };
 
+sb_gl_functions sb_gl;
+
+/* Of OSMesa itself; and how looking for it all went. */
+static struct {
+    __typeof__(OSMesaCreateContextAttribs) *create;
+    __typeof__(OSMesaMakeCurrent) *make_current;
+    __typeof__(OSMesaDestroyContext) *destroy;
+    sb_error trouble;
+} mesa;
+
+static void load(void)
+{
+    const sb_library_function functions[] = {
+        {"OSMesaCreateContextAttribs", &mesa.create},
+        {"OSMesaMakeCurrent", &mesa.make_current},
+        {"OSMesaDestroyContext", &mesa.destroy},
+#define SB_GL_FIND(name) {"gl" #name, &sb_gl.name},
+        SB_GL_FUNCTIONS(SB_GL_FIND)
+#undef SB_GL_FIND
+    };
+    sb_library_load("libOSMesa.so.8", functions, sizeof functions / sizeof functions[0], &mesa.trouble);
+}
+
 sb_status sb_context_create(sb_context **context, sb_error *error)
 {
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
     /* The simulation wants the processors too: two rasteriser threads unless the user says else. */
     setenv("LP_NUM_THREADS", "2", 0);
+    pthread_once(&once, load);
+    if (mesa.trouble.status != SB_OK)
+        return sb_fail(error, SB_FAILED, "pictures cannot be drawn without OSMesa: %.900s", mesa.trouble.text);
     sb_context *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, "the drawing context");
     static const int attributes[] = {OSMESA_FORMAT,
@@ -40,7 +70,7 @@ sb_status sb_context_create(sb_context **context, sb_error *error)
                                      OSMESA_CONTEXT_MINOR_VERSION,
                                      3,
                                      0};
-    made->mesa = OSMesaCreateContextAttribs(attributes, NULL);
+    made->mesa = mesa.create(attributes, NULL);
     if (!made->mesa) {
         sb_free(made);
         return sb_fail(error, SB_FAILED,
@@ -52,7 +82,7 @@ sb_status sb_context_create(sb_context **context, sb_error *error)
 
 sb_status sb_context_enter(sb_context *context, sb_error *error)
 {
-    if (!OSMesaMakeCurrent(context->mesa, context->buffer, GL_UNSIGNED_BYTE, SIDE, SIDE))
+    if (!mesa.make_current(context->mesa, context->buffer, GL_UNSIGNED_BYTE, SIDE, SIDE))
         return sb_fail(error, SB_FAILED, "OSMesa cannot make its context current");
     return SB_OK;
 }
@@ -60,12 +90,12 @@ sb_status sb_context_enter(sb_context *context, sb_error *error)
 void sb_context_leave(sb_context *context)
 {
     (void)context;
-    OSMesaMakeCurrent(NULL, NULL, 0, 0, 0);
+    mesa.make_current(NULL, NULL, 0, 0, 0);
 }
 
 void sb_context_destroy(sb_context *context)
 {
     if (!context) return;
-    OSMesaDestroyContext(context->mesa);
+    mesa.destroy(context->mesa);
     sb_free(context);
 }

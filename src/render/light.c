@@ -75,27 +75,27 @@ static sb_status draw_depth_map(const sb_meshes *meshes, GLuint texture, int sid
                                 const float clip[16], sb_error *error)
 {
     GLuint framebuffer;
-    glGenFramebuffers(1, &framebuffer);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, texture, 0);
-    glDrawBuffer(GL_NONE);
-    glReadBuffer(GL_NONE);
+    sb_gl.GenFramebuffers(1, &framebuffer);
+    sb_gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    sb_gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, texture, 0);
+    sb_gl.DrawBuffer(GL_NONE);
+    sb_gl.ReadBuffer(GL_NONE);
     sb_status status = sb_framebuffer_check("shadow", error);
     if (status == SB_OK) {
-        glViewport(0, 0, side, side);
-        glEnable(GL_DEPTH_TEST);
-        glDepthFunc(GL_LESS);
-        glDepthMask(GL_TRUE);
-        glDisable(GL_CULL_FACE);
-        glClearDepth(1);
-        glClear(GL_DEPTH_BUFFER_BIT);
-        glEnable(GL_POLYGON_OFFSET_FILL);
-        glPolygonOffset(1.5f, 2);
+        sb_gl.Viewport(0, 0, side, side);
+        sb_gl.Enable(GL_DEPTH_TEST);
+        sb_gl.DepthFunc(GL_LESS);
+        sb_gl.DepthMask(GL_TRUE);
+        sb_gl.Disable(GL_CULL_FACE);
+        sb_gl.ClearDepth(1);
+        sb_gl.Clear(GL_DEPTH_BUFFER_BIT);
+        sb_gl.Enable(GL_POLYGON_OFFSET_FILL);
+        sb_gl.PolygonOffset(1.5f, 2);
         sb_meshes_draw_depth(meshes, clip);
-        glDisable(GL_POLYGON_OFFSET_FILL);
+        sb_gl.Disable(GL_POLYGON_OFFSET_FILL);
     }
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    glDeleteFramebuffers(1, &framebuffer);
+    sb_gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    sb_gl.DeleteFramebuffers(1, &framebuffer);
     return status;
 }
 
@@ -164,8 +164,8 @@ static sb_status make_ground(const sb_meshes *meshes, sb_vec3 min, sb_vec3 max, 
                               GL_NEAREST);
     status = draw_depth_map(meshes, depth, N, clip, error);
     if (status != SB_OK) goto done;
-    glBindTexture(GL_TEXTURE_2D, depth);
-    glGetTexImage(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT, GL_FLOAT, height);
+    sb_gl.BindTexture(GL_TEXTURE_2D, depth);
+    sb_gl.GetTexImage(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT, GL_FLOAT, height);
     /* clip z = 2 depth - 1 = clip[10] z + clip[14]; where nothing is, the ground is far below. */
     for (size_t i = 0; i < CELLS; i++) height[i] = (2 * height[i] - 1 - clip[14]) / clip[10];
     sb_light_openness(height, N, side / N, map);
@@ -180,7 +180,7 @@ static sb_status make_ground(const sb_meshes *meshes, sb_vec3 min, sb_vec3 max, 
     light->ground_frame[1] = (float)(min.y - 0.005 * side);
     light->ground_frame[2] = (float)(1 / (1.01 * side));
 done:
-    glDeleteTextures(1, &depth);
+    sb_gl.DeleteTextures(1, &depth);
     sb_free(height);
     sb_free(open);
     sb_free(map);
@@ -196,8 +196,8 @@ static sb_status make_shadow(const sb_meshes *meshes, sb_vec3 min, sb_vec3 max, 
     ortho_clip(right, up, back, min, max, clip);
     light->shadow = sb_texture_create(GL_DEPTH_COMPONENT32F, SHADOW_SIDE, SHADOW_SIDE,
                                       GL_DEPTH_COMPONENT, GL_FLOAT, NULL, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+    sb_gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    sb_gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
     /* From -1..1 to 0..1. */
     for (int i = 0; i < 16; i++)
         light->to_shadow[i] = i % 4 == 3 ? clip[i] : 0.5f * clip[i] + (i >= 12 ? 0.5f : 0);
@@ -223,8 +223,8 @@ sb_status sb_light_create(const sb_meshes *meshes, sb_vec3 origin, sb_vec3 min, 
 
 void sb_light_destroy(sb_light *light)
 {
-    glDeleteTextures(1, &light->shadow);
-    glDeleteTextures(1, &light->ground);
+    sb_gl.DeleteTextures(1, &light->shadow);
+    sb_gl.DeleteTextures(1, &light->ground);
     *light = (sb_light){0};
 }
 

@@ -163,25 +163,25 @@ static sb_status gather(const sb_model_body *body, sb_vec3 origin, struct upload
 
 static void send(sb_meshes *meshes, const struct upload *upload)
 {
-    glGenVertexArrays(1, &meshes->face_array);
-    glGenBuffers(1, &meshes->face_buffer);
-    glBindVertexArray(meshes->face_array);
-    glBindBuffer(GL_ARRAY_BUFFER, meshes->face_buffer);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(upload->corner_count * sizeof *upload->corners),
+    sb_gl.GenVertexArrays(1, &meshes->face_array);
+    sb_gl.GenBuffers(1, &meshes->face_buffer);
+    sb_gl.BindVertexArray(meshes->face_array);
+    sb_gl.BindBuffer(GL_ARRAY_BUFFER, meshes->face_buffer);
+    sb_gl.BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(upload->corner_count * sizeof *upload->corners),
                  upload->corners, GL_STATIC_DRAW);
     const GLsizei stride = sizeof(struct corner);
     sb_attribute(0, 3, GL_FLOAT, GL_FALSE, stride, 0);
     sb_attribute(1, 3, GL_BYTE, GL_TRUE, stride, offsetof(struct corner, normal));
     sb_attribute(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride, offsetof(struct corner, color));
-    for (GLuint i = 0; i < 3; i++) glEnableVertexAttribArray(i);
-    glGenVertexArrays(1, &meshes->line_array);
-    glGenBuffers(1, &meshes->line_buffer);
-    glBindVertexArray(meshes->line_array);
-    glBindBuffer(GL_ARRAY_BUFFER, meshes->line_buffer);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(upload->end_count * sizeof *upload->ends),
+    for (GLuint i = 0; i < 3; i++) sb_gl.EnableVertexAttribArray(i);
+    sb_gl.GenVertexArrays(1, &meshes->line_array);
+    sb_gl.GenBuffers(1, &meshes->line_buffer);
+    sb_gl.BindVertexArray(meshes->line_array);
+    sb_gl.BindBuffer(GL_ARRAY_BUFFER, meshes->line_buffer);
+    sb_gl.BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(upload->end_count * sizeof *upload->ends),
                  upload->ends, GL_STATIC_DRAW);
     sb_attribute(0, 3, GL_FLOAT, GL_FALSE, 0, 0);
-    glBindVertexArray(0);
+    sb_gl.BindVertexArray(0);
 }
 
 /* Random values on a lattice that wraps, blended smoothly between. */
@@ -203,8 +203,8 @@ static sb_status make_speckles(sb_meshes *meshes, sb_error *error)
         }
     meshes->speckles =
         sb_texture_create(GL_R8, SIDE, SIDE, GL_RED, GL_UNSIGNED_BYTE, texels, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
+    sb_gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
+    sb_gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
     sb_free(texels);
     return SB_OK;
 }
@@ -258,14 +258,14 @@ done:
 void sb_meshes_destroy(sb_meshes *meshes)
 {
     if (!meshes) return;
-    glDeleteVertexArrays(1, &meshes->face_array);
-    glDeleteVertexArrays(1, &meshes->line_array);
-    glDeleteBuffers(1, &meshes->face_buffer);
-    glDeleteBuffers(1, &meshes->line_buffer);
-    glDeleteTextures(1, &meshes->speckles);
-    glDeleteProgram(meshes->face_program);
-    glDeleteProgram(meshes->depth_program);
-    glDeleteProgram(meshes->line_program);
+    sb_gl.DeleteVertexArrays(1, &meshes->face_array);
+    sb_gl.DeleteVertexArrays(1, &meshes->line_array);
+    sb_gl.DeleteBuffers(1, &meshes->face_buffer);
+    sb_gl.DeleteBuffers(1, &meshes->line_buffer);
+    sb_gl.DeleteTextures(1, &meshes->speckles);
+    sb_gl.DeleteProgram(meshes->face_program);
+    sb_gl.DeleteProgram(meshes->depth_program);
+    sb_gl.DeleteProgram(meshes->line_program);
     sb_free(meshes->parts);
     sb_free(meshes);
 }
@@ -295,14 +295,14 @@ static void multiply(const float a[16], const float b[16], float out[16])
 
 void sb_meshes_draw_depth(const sb_meshes *meshes, const float clip[16])
 {
-    glUseProgram(meshes->depth_program);
+    sb_gl.UseProgram(meshes->depth_program);
     sb_uniform_mat4(meshes->depth_program, "clip", clip);
-    glBindVertexArray(meshes->face_array);
+    sb_gl.BindVertexArray(meshes->face_array);
     for (size_t i = 0; i < meshes->part_count; i++) {
         /* Light falls through what is seen through. */
         if (meshes->parts[i].moves || meshes->parts[i].one_sided) continue;
         set_shift(meshes->depth_program, &meshes->parts[i], NULL);
-        glDrawArrays(GL_TRIANGLES, meshes->parts[i].first_corner, meshes->parts[i].corners);
+        sb_gl.DrawArrays(GL_TRIANGLES, meshes->parts[i].first_corner, meshes->parts[i].corners);
     }
 }
 
@@ -313,7 +313,7 @@ void sb_meshes_draw_faces(const sb_meshes *meshes, const sb_light *light, const 
     float matrix[16], clip[16];
     sb_view_matrix(view, meshes->origin, matrix);
     multiply(view->projection, matrix, clip);
-    glUseProgram(program);
+    sb_gl.UseProgram(program);
     sb_light_bind(light, view, program);
     sb_uniform_mat4(program, "clip", clip);
     sb_uniform_texture(program, "speckles", 0, meshes->speckles);
@@ -321,21 +321,21 @@ void sb_meshes_draw_faces(const sb_meshes *meshes, const sb_light *light, const 
     /* The height over which terrain goes from sand to meadow scales with the scene: 10 m at a
        plant, centimetres in a flume. */
     sb_uniform_float(program, "unit", light->size / 175);
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LESS);
-    glCullFace(GL_BACK);
-    glBindVertexArray(meshes->face_array);
+    sb_gl.Enable(GL_DEPTH_TEST);
+    sb_gl.DepthFunc(GL_LESS);
+    sb_gl.CullFace(GL_BACK);
+    sb_gl.BindVertexArray(meshes->face_array);
     for (size_t i = 0; i < meshes->part_count; i++) {
         const struct part *part = &meshes->parts[i];
         /* Tanks and walls are seen through from behind, so that their water shows. */
         if (part->one_sided)
-            glEnable(GL_CULL_FACE);
+            sb_gl.Enable(GL_CULL_FACE);
         else
-            glDisable(GL_CULL_FACE);
+            sb_gl.Disable(GL_CULL_FACE);
         set_shift(program, part, frame);
-        glDrawArrays(GL_TRIANGLES, part->first_corner, part->corners);
+        sb_gl.DrawArrays(GL_TRIANGLES, part->first_corner, part->corners);
     }
-    glDisable(GL_CULL_FACE);
+    sb_gl.Disable(GL_CULL_FACE);
 }
 
 void sb_meshes_draw_edges(const sb_meshes *meshes, const sb_view *view, const sb_frame *frame)
@@ -343,24 +343,24 @@ void sb_meshes_draw_edges(const sb_meshes *meshes, const sb_view *view, const sb
     GLuint program = meshes->line_program;
     float matrix[16];
     sb_view_matrix(view, meshes->origin, matrix);
-    glUseProgram(program);
+    sb_gl.UseProgram(program);
     sb_uniform_mat4(program, "view", matrix);
     sb_uniform_mat4(program, "projection", view->projection);
     sb_uniform_float(program, "fade", 1.2 / view->far);
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LEQUAL);
-    glDepthMask(GL_FALSE);
-    glEnable(GL_LINE_SMOOTH);
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    glLineWidth(1.3f);
-    glBindVertexArray(meshes->line_array);
+    sb_gl.Enable(GL_DEPTH_TEST);
+    sb_gl.DepthFunc(GL_LEQUAL);
+    sb_gl.DepthMask(GL_FALSE);
+    sb_gl.Enable(GL_LINE_SMOOTH);
+    sb_gl.Enable(GL_BLEND);
+    sb_gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    sb_gl.LineWidth(1.3f);
+    sb_gl.BindVertexArray(meshes->line_array);
     for (size_t i = 0; i < meshes->part_count; i++) {
         sb_uniform_float(program, "alpha", (double)meshes->parts[i].line_alpha);
         set_shift(program, &meshes->parts[i], frame);
-        glDrawArrays(GL_LINES, meshes->parts[i].first_line, meshes->parts[i].line_ends);
+        sb_gl.DrawArrays(GL_LINES, meshes->parts[i].first_line, meshes->parts[i].line_ends);
     }
-    glDisable(GL_BLEND);
-    glDisable(GL_LINE_SMOOTH);
-    glDepthMask(GL_TRUE);
+    sb_gl.Disable(GL_BLEND);
+    sb_gl.Disable(GL_LINE_SMOOTH);
+    sb_gl.DepthMask(GL_TRUE);
 }

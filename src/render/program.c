@@ -14,14 +14,14 @@ static sb_status compile(const char *name, GLenum stage, const char *common, con
                          GLuint *shader, sb_error *error)
 {
     const char *parts[] = {version, common ? common : "", source};
-    *shader = glCreateShader(stage);
-    glShaderSource(*shader, 3, parts, NULL);
-    glCompileShader(*shader);
+    *shader = sb_gl.CreateShader(stage);
+    sb_gl.ShaderSource(*shader, 3, parts, NULL);
+    sb_gl.CompileShader(*shader);
     GLint good = 0;
-    glGetShaderiv(*shader, GL_COMPILE_STATUS, &good);
+    sb_gl.GetShaderiv(*shader, GL_COMPILE_STATUS, &good);
     if (good) return SB_OK;
     char text[400] = "";
-    glGetShaderInfoLog(*shader, sizeof text, NULL, text);
+    sb_gl.GetShaderInfoLog(*shader, sizeof text, NULL, text);
     return sb_fail(error, SB_FAILED, "shader %s: %s", name, text);
 }
 
@@ -34,82 +34,82 @@ sb_status sb_program_create(const char *name, const char *vertex, const char *co
     if (status == SB_OK)
         status = compile(name, GL_FRAGMENT_SHADER, common, fragment, &shaders[1], error);
     if (status != SB_OK) goto done;
-    made = glCreateProgram();
-    glAttachShader(made, shaders[0]);
-    glAttachShader(made, shaders[1]);
-    glLinkProgram(made);
+    made = sb_gl.CreateProgram();
+    sb_gl.AttachShader(made, shaders[0]);
+    sb_gl.AttachShader(made, shaders[1]);
+    sb_gl.LinkProgram(made);
     GLint good = 0;
-    glGetProgramiv(made, GL_LINK_STATUS, &good);
+    sb_gl.GetProgramiv(made, GL_LINK_STATUS, &good);
     if (!good) {
         char text[400] = "";
-        glGetProgramInfoLog(made, sizeof text, NULL, text);
+        sb_gl.GetProgramInfoLog(made, sizeof text, NULL, text);
         status = sb_fail(error, SB_FAILED, "shader %s: %s", name, text);
         goto done;
     }
     *program = made;
     made = 0;
 done:
-    glDeleteShader(shaders[0]);
-    glDeleteShader(shaders[1]);
-    glDeleteProgram(made);
+    sb_gl.DeleteShader(shaders[0]);
+    sb_gl.DeleteShader(shaders[1]);
+    sb_gl.DeleteProgram(made);
     return status;
 }
 
 void sb_uniform_float(GLuint program, const char *name, double value)
 {
-    glUniform1f(glGetUniformLocation(program, name), (float)value);
+    sb_gl.Uniform1f(sb_gl.GetUniformLocation(program, name), (float)value);
 }
 
 void sb_uniform_int(GLuint program, const char *name, int value)
 {
-    glUniform1i(glGetUniformLocation(program, name), value);
+    sb_gl.Uniform1i(sb_gl.GetUniformLocation(program, name), value);
 }
 
 void sb_uniform_vec2(GLuint program, const char *name, double x, double y)
 {
-    glUniform2f(glGetUniformLocation(program, name), (float)x, (float)y);
+    sb_gl.Uniform2f(sb_gl.GetUniformLocation(program, name), (float)x, (float)y);
 }
 
 void sb_uniform_vec3(GLuint program, const char *name, const float *value)
 {
-    glUniform3fv(glGetUniformLocation(program, name), 1, value);
+    sb_gl.Uniform3fv(sb_gl.GetUniformLocation(program, name), 1, value);
 }
 
 void sb_uniform_mat4(GLuint program, const char *name, const float *value)
 {
-    glUniformMatrix4fv(glGetUniformLocation(program, name), 1, GL_FALSE, value);
+    sb_gl.UniformMatrix4fv(sb_gl.GetUniformLocation(program, name), 1, GL_FALSE, value);
 }
 
 void sb_uniform_texture(GLuint program, const char *name, int unit, GLuint texture)
 {
-    glActiveTexture((GLenum)(GL_TEXTURE0 + unit));
-    glBindTexture(GL_TEXTURE_2D, texture);
-    glUniform1i(glGetUniformLocation(program, name), unit);
+    sb_gl.ActiveTexture((GLenum)(GL_TEXTURE0 + unit));
+    sb_gl.BindTexture(GL_TEXTURE_2D, texture);
+    sb_gl.Uniform1i(sb_gl.GetUniformLocation(program, name), unit);
 }
 
 void sb_fullscreen_draw(GLuint empty)
 {
-    glBindVertexArray(empty);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    sb_gl.BindVertexArray(empty);
+    sb_gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 GLuint sb_texture_create(GLenum internal, int width, int height, GLenum format, GLenum type,
                          const void *pixels, GLenum filter)
 {
     GLuint texture = 0;
-    glGenTextures(1, &texture);
-    glBindTexture(GL_TEXTURE_2D, texture);
-    glTexImage2D(GL_TEXTURE_2D, 0, (GLint)internal, width, height, 0, format, type, pixels);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, (GLint)filter);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, (GLint)filter);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    sb_gl.GenTextures(1, &texture);
+    sb_gl.BindTexture(GL_TEXTURE_2D, texture);
+    sb_gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)internal, width, height, 0, format, type, pixels);
+    sb_gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, (GLint)filter);
+    sb_gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, (GLint)filter);
+    sb_gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    sb_gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     return texture;
 }
 
 sb_status sb_framebuffer_check(const char *name, sb_error *error)
 {
-    GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+    GLenum status = sb_gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
     if (status == GL_FRAMEBUFFER_COMPLETE) return SB_OK;
     return sb_fail(error, SB_FAILED, "framebuffer %s: OpenGL status 0x%04x, expected complete",
                    name, status);
@@ -119,6 +119,6 @@ void sb_attribute(GLuint slot, GLint size, GLenum type, GLboolean normalized, GL
                   size_t offset)
 {
     /* OpenGL passes an offset in a pointer's place. NOLINTNEXTLINE(performance-no-int-to-ptr) */
-    glVertexAttribPointer(slot, size, type, normalized, stride, (const void *)offset);
-    glEnableVertexAttribArray(slot);
+    sb_gl.VertexAttribPointer(slot, size, type, normalized, stride, (const void *)offset);
+    sb_gl.EnableVertexAttribArray(slot);
 }

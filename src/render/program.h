@@ -3,11 +3,9 @@
 #define SB_RENDER_PROGRAM_H
 
 #include "base/status.h"
+#include "render/gl.h"
 
 #include <stddef.h>
-
-#define GL_GLEXT_PROTOTYPES
-#include <GL/glcorearb.h>
 
 /* Compiles and links; `common` is put before the fragment source. SB_FAILED holds the compiler's
    first words. 0 is never a valid program. */

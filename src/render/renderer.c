@@ -24,16 +24,16 @@ struct sb_renderer {
 
 static sb_status make_framebuffer(sb_renderer *r, sb_error *error)
 {
-    glGenRenderbuffers(1, &r->depth_stencil);
-    glBindRenderbuffer(GL_RENDERBUFFER, r->depth_stencil);
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, r->width, r->height);
-    glGenRenderbuffers(1, &r->color);
-    glBindRenderbuffer(GL_RENDERBUFFER, r->color);
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, r->width, r->height);
-    glGenFramebuffers(1, &r->framebuffer);
-    glBindFramebuffer(GL_FRAMEBUFFER, r->framebuffer);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, r->color);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
+    sb_gl.GenRenderbuffers(1, &r->depth_stencil);
+    sb_gl.BindRenderbuffer(GL_RENDERBUFFER, r->depth_stencil);
+    sb_gl.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, r->width, r->height);
+    sb_gl.GenRenderbuffers(1, &r->color);
+    sb_gl.BindRenderbuffer(GL_RENDERBUFFER, r->color);
+    sb_gl.RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, r->width, r->height);
+    sb_gl.GenFramebuffers(1, &r->framebuffer);
+    sb_gl.BindFramebuffer(GL_FRAMEBUFFER, r->framebuffer);
+    sb_gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, r->color);
+    sb_gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
                               r->depth_stencil);
     return sb_framebuffer_check("picture", error);
 }
@@ -121,27 +121,27 @@ static double top_speed(const sb_renderer *r, const sb_frame *frame)
 static sb_status draw_passes(sb_renderer *r, const sb_frame *frame, const sb_view *view,
                              double speed_max, sb_error *error)
 {
-    glBindFramebuffer(GL_FRAMEBUFFER, r->framebuffer);
-    glViewport(0, 0, r->width, r->height);
-    glDisable(GL_STENCIL_TEST);
-    glDepthMask(GL_TRUE);
-    glClearDepth(1);
-    glClearStencil(0);
-    glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+    sb_gl.BindFramebuffer(GL_FRAMEBUFFER, r->framebuffer);
+    sb_gl.Viewport(0, 0, r->width, r->height);
+    sb_gl.Disable(GL_STENCIL_TEST);
+    sb_gl.DepthMask(GL_TRUE);
+    sb_gl.ClearDepth(1);
+    sb_gl.ClearStencil(0);
+    sb_gl.Clear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     /* Water first: the ground beneath it then costs no shading. */
     sb_status status = sb_water_lay(&r->water, frame, view, speed_max, error);
     if (status != SB_OK) return status;
-    glBindFramebuffer(GL_FRAMEBUFFER, r->framebuffer);
-    glEnable(GL_STENCIL_TEST);
-    glStencilFunc(GL_ALWAYS, 0, 1);
-    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    sb_gl.BindFramebuffer(GL_FRAMEBUFFER, r->framebuffer);
+    sb_gl.Enable(GL_STENCIL_TEST);
+    sb_gl.StencilFunc(GL_ALWAYS, 0, 1);
+    sb_gl.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
     sb_meshes_draw_faces(r->meshes, &r->light, view, frame);
-    glDisable(GL_STENCIL_TEST);
+    sb_gl.Disable(GL_STENCIL_TEST);
     sb_sky_draw(&r->sky, &r->light, view);
     sb_water_shade(&r->water, frame, &r->light, view, r->framebuffer);
     sb_meshes_draw_edges(r->meshes, view, frame);
-    glReadPixels(0, 0, r->width, r->height, GL_RGBA, GL_UNSIGNED_BYTE, r->pixels);
-    GLenum trouble = glGetError();
+    sb_gl.ReadPixels(0, 0, r->width, r->height, GL_RGBA, GL_UNSIGNED_BYTE, r->pixels);
+    GLenum trouble = sb_gl.GetError();
     if (trouble == GL_OUT_OF_MEMORY) return sb_fail_memory(error, "drawing");
     if (trouble != GL_NO_ERROR)
         return sb_fail(error, SB_FAILED, "OpenGL error 0x%04x while drawing", trouble);
@@ -181,9 +181,9 @@ void sb_renderer_destroy(sb_renderer *renderer)
         sb_sky_destroy(&r->sky);
         sb_light_destroy(&r->light);
         sb_meshes_destroy(r->meshes);
-        glDeleteFramebuffers(1, &r->framebuffer);
-        glDeleteRenderbuffers(1, &r->color);
-        glDeleteRenderbuffers(1, &r->depth_stencil);
+        sb_gl.DeleteFramebuffers(1, &r->framebuffer);
+        sb_gl.DeleteRenderbuffers(1, &r->color);
+        sb_gl.DeleteRenderbuffers(1, &r->depth_stencil);
         sb_context_leave(r->context);
     }
     sb_context_destroy(r->context);

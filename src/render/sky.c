@@ -17,14 +17,14 @@ sb_status sb_sky_create(sb_sky *sky, sb_error *error)
 {
     sb_status status = sb_program_create("sky", sb_fullscreen_vertex, sb_light_source, fragment,
                                          &sky->program, error);
-    if (status == SB_OK) glGenVertexArrays(1, &sky->empty);
+    if (status == SB_OK) sb_gl.GenVertexArrays(1, &sky->empty);
     return status;
 }
 
 void sb_sky_destroy(sb_sky *sky)
 {
-    glDeleteProgram(sky->program);
-    glDeleteVertexArrays(1, &sky->empty);
+    sb_gl.DeleteProgram(sky->program);
+    sb_gl.DeleteVertexArrays(1, &sky->empty);
     *sky = (sb_sky){0};
 }
 
@@ -44,13 +44,13 @@ void sb_sky_bind_rays(const sb_view *view, GLuint program)
 
 void sb_sky_draw(const sb_sky *sky, const sb_light *light, const sb_view *view)
 {
-    glUseProgram(sky->program);
+    sb_gl.UseProgram(sky->program);
     sb_light_bind(light, view, sky->program);
     sb_sky_bind_rays(view, sky->program);
     sb_uniform_float(sky->program, "depth", 1);
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LEQUAL);
-    glDepthMask(GL_FALSE);
+    sb_gl.Enable(GL_DEPTH_TEST);
+    sb_gl.DepthFunc(GL_LEQUAL);
+    sb_gl.DepthMask(GL_FALSE);
     sb_fullscreen_draw(sky->empty);
-    glDepthMask(GL_TRUE);
+    sb_gl.DepthMask(GL_TRUE);
 }

@@ -116,14 +116,14 @@ static void make_colors(sb_water *water)
 static sb_status make_surfaces(sb_water *water, GLuint depth_stencil, sb_error *error)
 {
     sb_status status = SB_OK;
-    glGenFramebuffers(2, water->framebuffer);
+    sb_gl.GenFramebuffers(2, water->framebuffer);
     for (int i = 0; i < 2 && status == SB_OK; i++) {
         water->surface[i] = sb_texture_create(GL_RGBA32F, water->width, water->height, GL_RGBA,
                                               GL_FLOAT, NULL, GL_NEAREST);
-        glBindFramebuffer(GL_FRAMEBUFFER, water->framebuffer[i]);
-        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
+        sb_gl.BindFramebuffer(GL_FRAMEBUFFER, water->framebuffer[i]);
+        sb_gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
                                water->surface[i], 0);
-        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
+        sb_gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
                                   depth_stencil);
         status = sb_framebuffer_check("water", error);
     }
@@ -132,17 +132,17 @@ static sb_status make_surfaces(sb_water *water, GLuint depth_stencil, sb_error *
 
 static void make_arrays(sb_water *water)
 {
-    glGenVertexArrays(1, &water->empty);
-    glGenVertexArrays(1, &water->points);
-    glGenBuffers(1, &water->buffer);
-    glBindVertexArray(water->points);
-    glBindBuffer(GL_ARRAY_BUFFER, water->buffer);
+    sb_gl.GenVertexArrays(1, &water->empty);
+    sb_gl.GenVertexArrays(1, &water->points);
+    sb_gl.GenBuffers(1, &water->buffer);
+    sb_gl.BindVertexArray(water->points);
+    sb_gl.BindBuffer(GL_ARRAY_BUFFER, water->buffer);
     const GLsizei stride = sizeof(sb_visible_point);
     sb_attribute(0, 3, GL_FLOAT, GL_FALSE, stride, 0);
     sb_attribute(1, 2, GL_UNSIGNED_SHORT, GL_TRUE, stride, offsetof(sb_visible_point, speed));
     sb_attribute(2, 3, GL_BYTE, GL_TRUE, stride, offsetof(sb_visible_point, normal));
-    for (GLuint i = 0; i < 3; i++) glEnableVertexAttribArray(i);
-    glBindVertexArray(0);
+    for (GLuint i = 0; i < 3; i++) sb_gl.EnableVertexAttribArray(i);
+    sb_gl.BindVertexArray(0);
 }
 
 sb_status sb_water_create(int width, int height, GLuint depth_stencil, sb_water *water,
@@ -170,15 +170,15 @@ sb_status sb_water_create(int width, int height, GLuint depth_stencil, sb_water 
 
 void sb_water_destroy(sb_water *water)
 {
-    glDeleteProgram(water->sphere_program);
-    glDeleteProgram(water->smooth_program);
-    glDeleteProgram(water->shade_program);
-    glDeleteVertexArrays(1, &water->points);
-    glDeleteVertexArrays(1, &water->empty);
-    glDeleteBuffers(1, &water->buffer);
-    glDeleteTextures(1, &water->colors);
-    glDeleteTextures(2, water->surface);
-    glDeleteFramebuffers(2, water->framebuffer);
+    sb_gl.DeleteProgram(water->sphere_program);
+    sb_gl.DeleteProgram(water->smooth_program);
+    sb_gl.DeleteProgram(water->shade_program);
+    sb_gl.DeleteVertexArrays(1, &water->points);
+    sb_gl.DeleteVertexArrays(1, &water->empty);
+    sb_gl.DeleteBuffers(1, &water->buffer);
+    sb_gl.DeleteTextures(1, &water->colors);
+    sb_gl.DeleteTextures(2, water->surface);
+    sb_gl.DeleteFramebuffers(2, water->framebuffer);
     sb_visible_free(&water->visible);
     *water = (sb_water){0};
 }
@@ -188,45 +188,45 @@ static void draw_spheres(sb_water *water, const sb_frame *frame, const sb_view *
     GLuint program = water->sphere_program;
     float matrix[16];
     sb_view_matrix(view, frame->origin, matrix);
-    glBindFramebuffer(GL_FRAMEBUFFER, water->framebuffer[0]);
-    glClearColor(0, 0, 0, 0);
-    glClear(GL_COLOR_BUFFER_BIT);
-    glUseProgram(program);
+    sb_gl.BindFramebuffer(GL_FRAMEBUFFER, water->framebuffer[0]);
+    sb_gl.ClearColor(0, 0, 0, 0);
+    sb_gl.Clear(GL_COLOR_BUFFER_BIT);
+    sb_gl.UseProgram(program);
     sb_uniform_mat4(program, "view", matrix);
     sb_uniform_mat4(program, "projection", view->projection);
     sb_uniform_float(program, "radius", radius_spacings * frame->spacing);
     sb_uniform_float(program, "pixels", water->height / (2 * view->tangent));
     sb_uniform_vec2(program, "clip", (double)-view->projection[10], (double)view->projection[14]);
-    glEnable(GL_PROGRAM_POINT_SIZE);
-    glEnable(GL_STENCIL_TEST);
-    glStencilFunc(GL_ALWAYS, 1, 1);
-    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LESS);
-    glDepthMask(GL_TRUE);
-    glBindVertexArray(water->points);
-    glBindBuffer(GL_ARRAY_BUFFER, water->buffer);
-    glBufferData(GL_ARRAY_BUFFER,
+    sb_gl.Enable(GL_PROGRAM_POINT_SIZE);
+    sb_gl.Enable(GL_STENCIL_TEST);
+    sb_gl.StencilFunc(GL_ALWAYS, 1, 1);
+    sb_gl.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    sb_gl.Enable(GL_DEPTH_TEST);
+    sb_gl.DepthFunc(GL_LESS);
+    sb_gl.DepthMask(GL_TRUE);
+    sb_gl.BindVertexArray(water->points);
+    sb_gl.BindBuffer(GL_ARRAY_BUFFER, water->buffer);
+    sb_gl.BufferData(GL_ARRAY_BUFFER,
                  (GLsizeiptr)(water->visible.count * sizeof *water->visible.points),
                  water->visible.points, GL_STREAM_DRAW);
-    glDrawArrays(GL_POINTS, 0, (GLsizei)water->visible.count);
-    glDisable(GL_STENCIL_TEST);
+    sb_gl.DrawArrays(GL_POINTS, 0, (GLsizei)water->visible.count);
+    sb_gl.Disable(GL_STENCIL_TEST);
 }
 
 static void smooth_surface(const sb_water *water, const sb_frame *frame, const sb_view *view)
 {
     GLuint program = water->smooth_program;
-    glBindFramebuffer(GL_FRAMEBUFFER, water->framebuffer[1]);
-    glClear(GL_COLOR_BUFFER_BIT);
-    glUseProgram(program);
+    sb_gl.BindFramebuffer(GL_FRAMEBUFFER, water->framebuffer[1]);
+    sb_gl.Clear(GL_COLOR_BUFFER_BIT);
+    sb_gl.UseProgram(program);
     sb_uniform_float(program, "depth", 0);
     sb_uniform_float(program, "sheet", sheet_spacings * frame->spacing);
     sb_uniform_float(program, "longest", water->height / 24.0);
     double spread = smooth_spacings * frame->spacing * water->height / (2 * view->tangent);
     for (int pass = 0; pass < 2; pass++) {
-        glBindFramebuffer(GL_FRAMEBUFFER, water->framebuffer[1 - pass % 2]);
+        sb_gl.BindFramebuffer(GL_FRAMEBUFFER, water->framebuffer[1 - pass % 2]);
         sb_uniform_texture(program, "source", 0, water->surface[pass % 2]);
-        glUniform2i(glGetUniformLocation(program, "step_by"), pass % 2 == 0, pass % 2 == 1);
+        sb_gl.Uniform2i(sb_gl.GetUniformLocation(program, "step_by"), pass % 2 == 0, pass % 2 == 1);
         sb_uniform_float(program, "spread", spread);
         sb_fullscreen_draw(water->empty);
     }
@@ -235,7 +235,7 @@ static void smooth_surface(const sb_water *water, const sb_frame *frame, const s
 static void shade(const sb_water *water, const sb_light *light, const sb_view *view)
 {
     GLuint program = water->shade_program;
-    glUseProgram(program);
+    sb_gl.UseProgram(program);
     sb_light_bind(light, view, program);
     sb_sky_bind_rays(view, program);
     sb_uniform_float(program, "depth", 0);
@@ -256,16 +256,16 @@ void sb_water_shade(const sb_water *water, const sb_frame *frame, const sb_light
                     const sb_view *view, GLuint target)
 {
     if (water->visible.count > 0) {
-        glEnable(GL_STENCIL_TEST);
-        glStencilFunc(GL_EQUAL, 1, 1);
-        glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
-        glDisable(GL_DEPTH_TEST);
-        glDepthMask(GL_FALSE);
+        sb_gl.Enable(GL_STENCIL_TEST);
+        sb_gl.StencilFunc(GL_EQUAL, 1, 1);
+        sb_gl.StencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+        sb_gl.Disable(GL_DEPTH_TEST);
+        sb_gl.DepthMask(GL_FALSE);
         smooth_surface(water, frame, view);
-        glBindFramebuffer(GL_FRAMEBUFFER, target);
+        sb_gl.BindFramebuffer(GL_FRAMEBUFFER, target);
         shade(water, light, view);
-        glDisable(GL_STENCIL_TEST);
-        glDepthMask(GL_TRUE);
+        sb_gl.Disable(GL_STENCIL_TEST);
+        sb_gl.DepthMask(GL_TRUE);
     }
-    glBindFramebuffer(GL_FRAMEBUFFER, target);
+    sb_gl.BindFramebuffer(GL_FRAMEBUFFER, target);
 }

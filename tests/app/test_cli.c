@@ -285,6 +285,20 @@ static void bad_scene_gives_its_place(void **state)
     assert_false(exists("b"));
 }
 
+/* What the loader maps for every run: graphics and mesh formats come when something asks for them. */
+static void the_program_starts_without_graphics(void **state)
+{
+    (void)state;
+    assert_int_equal(setenv("LD_TRACE_LOADED_OBJECTS", "1", 1), 0);
+    outcome o = RUN(0, "list");
+    unsetenv("LD_TRACE_LOADED_OBJECTS");
+    assert_contains(o.out, "libc.so");
+    assert_null(strstr(o.out, "OSMesa"));
+    assert_null(strstr(o.out, "LLVM"));
+    assert_null(strstr(o.out, "assimp"));
+    outcome_free(&o);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -299,6 +313,7 @@ int main(void)
         cmocka_unit_test(sample_writes_the_particles),
         cmocka_unit_test(profile_says_where_time_went_and_changes_nothing),
         cmocka_unit_test(bad_scene_gives_its_place),
+        cmocka_unit_test(the_program_starts_without_graphics),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
 }

@@ -1,0 +1,21 @@
+#include "base/library.h"
+
+#include <dlfcn.h>
+#include <string.h>
+
+sb_status sb_library_load(const char *file, const sb_library_function *functions, size_t count, sb_error *error)
+{
+    void *library = dlopen(file, RTLD_NOW | RTLD_LOCAL);
+    if (!library) {
+        const char *reason = dlerror();
+        return sb_fail(error, SB_FAILED, "%s: cannot be loaded: %s", file, reason ? reason : "no reason given");
+    }
+    for (size_t f = 0; f < count; f++) {
+        void *found = dlsym(library, functions[f].name);
+        if (!found)
+            return sb_fail(error, SB_FAILED, "%s: has no %s, expected another version", file, functions[f].name);
+        /* ISO C has no cast from a pointer to data to one to a function. */
+        memcpy(functions[f].pointer, &found, sizeof found);
+    }
+    return SB_OK;
+}
