@@ -1,8 +1,8 @@
 #include "app/commands.h"
-#include "app/interrupt.h"
 #include "app/options.h"
 #include "app/run.h"
 #include "base/file.h"
+#include "base/stop.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -32,7 +32,7 @@ static void default_out(char out[SB_PATH_MAX], const char *scene)
 static int exit_status(sb_status status)
 {
     if (status == SB_INTERRUPTED)
-        return 128 + sb_interrupt_signal();
+        return 128 + sb_stop_signal();
     return (int)status;
 }
 

@@ -1,6 +1,6 @@
 #include "app/run_state.h"
 
-#include "app/interrupt.h"
+#include "base/stop.h"
 #include "output/profile.h"
 
 #include <omp.h>
@@ -109,7 +109,7 @@ static sb_status advance(run *r, sb_error *error)
 {
     sb_status status = feed(r, error);
     while (status == SB_OK && sb_sim_report(r->sim)->time < r->scene->duration * (1 - 1e-12)) {
-        if (sb_interrupt_signal())
+        if (sb_stop_signal())
             return sb_fail(error, SB_INTERRUPTED, "stopped by a signal at t = %g s",
                            sb_sim_report(r->sim)->time);
         if (sb_sim_report(r->sim)->fluid_count == 0)
@@ -157,7 +157,7 @@ sb_status sb_run(const sb_scene *scene, const char *directory, const sb_run_mann
     r.scene = &r.resolved;
     sb_error local = {0};
     sb_progress_begin(&r.progress, manner->quiet ? NULL : stdout, scene->duration);
-    sb_interrupt_watch();
+    sb_stop_watch();
     sb_status status = sb_run_start(&r, manner->resume, &local);
     if (status == SB_OK) {
         status = advance(&r, &local);

@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "base/random.h"
+#include "base/stop.h"
 #include "geometry/fill_parts.h"
 #include "geometry/sample_set.h"
 
@@ -45,6 +46,7 @@ static int drop_doubles(const sb_columns *waters, size_t water_count, const sb_f
     int failed = more->count > 0 && gather(fluid, sb_sub(min, reach), sb_add(max, reach), &set);
     size_t kept = 0;
     for (size_t i = 0; i < more->count && !failed; ++i) {
+        failed = sb_stop_signal();
         bool doubled = sb_sample_set_any(&set, more->position[i], double_distance * spacing);
         for (size_t w = 0; w < water_count && !doubled; ++w)
             doubled = sb_columns_hold(waters + w, more->position[i]);

@@ -3,6 +3,7 @@
 #include "geometry/fill_parts.h"
 
 #include "base/memory.h"
+#include "base/stop.h"
 #include "physics/wave_theory.h"
 
 #include <stdlib.h>
@@ -49,19 +50,20 @@ bool sb_columns_clear(const sb_columns *c, sb_vec3 from, sb_vec3 to)
     return true;
 }
 
-/* Distances along a ray to all surfaces, sorted. */
+/* Distances along a ray to all surfaces, sorted. Fails without memory, or when the run is to stop. */
 static void find_crossings(const sb_columns *c, sb_vec3 from, sb_vec3 direction, double length,
                            chunk *work)
 {
     work->hit_count = 0;
+    work->failed = sb_stop_signal();
     for (size_t i = 0; i < c->solid_count; ++i) {
         double at = 0;
         for (;;) {
             double t = sb_solid_raycast(c->solids[i].solid, sb_madd(from, at, direction), direction,
                                         length - at);
             if (!(t > 0)) break;
-            if (sb_grow((void **)&work->hit, &work->hit_capacity, work->hit_count + 1,
-                        sizeof *work->hit)) {
+            if (sb_stop_signal() || sb_grow((void **)&work->hit, &work->hit_capacity, work->hit_count + 1,
+                                            sizeof *work->hit)) {
                 work->failed = 1;
                 return;
             }
@@ -118,7 +120,7 @@ static void cut_column(const sb_columns *c, int64_t i, int64_t j, chunk *work)
 
 static void cut_chunk(const sb_columns *c, size_t begin, size_t end, chunk *work)
 {
-    work->of_column = sb_alloc(end - begin, sizeof *work->of_column);
+    work->of_column = sb_stop_signal() ? NULL : sb_alloc(end - begin, sizeof *work->of_column);
     work->failed = !work->of_column;
     for (size_t at = begin; at < end && !work->failed; ++at) {
         size_t before = work->run_count;

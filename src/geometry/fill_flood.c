@@ -3,6 +3,7 @@
 #include "geometry/fill_parts.h"
 
 #include "base/memory.h"
+#include "base/stop.h"
 
 #include <string.h>
 
@@ -167,10 +168,11 @@ sb_status sb_columns_flood(sb_columns *c, sb_error *error)
     front f = {0};
     c->runs[run].wet = true;
     if (front_push(&f, column, run)) status = sb_fail_memory(error, "the flood fill of the sea");
-    while (f.count > 0 && status == SB_OK) {
+    while (f.count > 0 && status == SB_OK && !sb_stop_signal()) {
         --f.count;
         status = visit(c, &f, f.column[f.count], f.run[f.count], error);
     }
+    if (f.count > 0 && status == SB_OK) status = sb_stop_fail(error, "while the sea was filled");
     sb_free(f.column);
     sb_free(f.run);
     return status;

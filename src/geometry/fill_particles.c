@@ -3,6 +3,7 @@
 #include "geometry/fill_parts.h"
 
 #include "base/memory.h"
+#include "base/stop.h"
 #include "physics/wave_theory.h"
 
 #include <string.h>
@@ -140,13 +141,30 @@ static int allocate(sb_fluid *fluid)
     return fluid->position && fluid->velocity && fluid->pressure ? 0 : -1;
 }
 
+/* All particles, the first of each column being given. */
+static sb_status place(const sb_columns *c, const size_t *first, sb_fluid *fluid, sb_error *error)
+{
+    const size_t columns = (size_t)(c->nx * c->ny);
+#pragma omp parallel for schedule(dynamic, 256)
+    for (size_t column = 0; column < columns; ++column) {
+        int64_t i = (int64_t)column % c->nx, j = (int64_t)column / c->nx;
+        size_t at = first[column];
+        for (size_t r = c->begin[column]; r < c->begin[column + 1] && !sb_stop_signal(); ++r) {
+            size_t layers = layers_of(c, i, j, c->runs + r);
+            if (layers > 0) fill_run(c, i, j, c->runs + r, layers, at, fluid);
+            at += layers;
+        }
+    }
+    return sb_stop_signal() ? sb_stop_fail(error, "while the water was placed") : SB_OK;
+}
+
 sb_status sb_columns_particles(const sb_columns *c, sb_fluid *fluid, sb_error *error)
 {
     sb_fluid made = {0};
     size_t columns = (size_t)(c->nx * c->ny);
     size_t *first = sb_alloc_untouched(columns + 1, sizeof *first);
     if (!first) return sb_fail_memory(error, "water");
-    for (size_t column = 0; column < columns; ++column) {
+    for (size_t column = 0; column < columns && !sb_stop_signal(); ++column) {
         first[column] = made.count;
         for (size_t r = c->begin[column]; r < c->begin[column + 1]; ++r) {
             const sb_run *run = c->runs + r;
@@ -154,22 +172,17 @@ sb_status sb_columns_particles(const sb_columns *c, sb_fluid *fluid, sb_error *e
             if (run->wet) made.still_depth = fmax(made.still_depth, c->level - run->low);
         }
     }
-    if (allocate(&made)) {
-        sb_free(first);
-        sb_fluid_free(&made);
-        return sb_fail_memory(error, "water");
-    }
-#pragma omp parallel for schedule(dynamic, 256)
-    for (size_t column = 0; column < columns; ++column) {
-        int64_t i = (int64_t)column % c->nx, j = (int64_t)column / c->nx;
-        size_t at = first[column];
-        for (size_t r = c->begin[column]; r < c->begin[column + 1]; ++r) {
-            size_t layers = layers_of(c, i, j, c->runs + r);
-            if (layers > 0) fill_run(c, i, j, c->runs + r, layers, at, &made);
-            at += layers;
-        }
-    }
+    sb_status status = SB_OK;
+    if (sb_stop_signal())
+        status = sb_stop_fail(error, "while the water was placed");
+    else if (allocate(&made))
+        status = sb_fail_memory(error, "water");
+    if (status == SB_OK) status = place(c, first, &made, error);
     sb_free(first);
+    if (status != SB_OK) {
+        sb_fluid_free(&made);
+        return status;
+    }
     *fluid = made;
     return SB_OK;
 }

@@ -1,6 +1,7 @@
 #include "geometry/model.h"
 
 #include "base/memory.h"
+#include "base/stop.h"
 #include "geometry/fill.h"
 #include "geometry/model_parts.h"
 #include "geometry/sample.h"
@@ -130,7 +131,8 @@ sb_status sb_model_build(const sb_scene *scene, sb_model *model, sb_error *error
     if (status == SB_OK) status = sb_model_check(scene, &made, error);
     if (status != SB_OK) {
         sb_model_free(&made);
-        return status;
+        /* Whatever a stage made of it. */
+        return sb_stop_signal() ? sb_stop_fail(error, "while the model was built: nothing is computed yet") : status;
     }
     *model = made;
     return SB_OK;

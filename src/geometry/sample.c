@@ -1,6 +1,7 @@
 #include "geometry/sample_parts.h"
 
 #include "base/memory.h"
+#include "base/stop.h"
 
 #include <string.h>
 
@@ -27,8 +28,8 @@ static int collect(sb_sampler *sampler, sb_sample_set *all)
 {
     double near = same_place * sampler->settings.spacing;
     for (size_t i = 0; i < sampler->set.count; ++i)
-        if (!sb_sample_set_any(all, sampler->set.sample[i].at, near) &&
-            sb_sample_set_add(all, sampler->set.sample + i))
+        if (sb_stop_signal() || (!sb_sample_set_any(all, sampler->set.sample[i].at, near) &&
+                                 sb_sample_set_add(all, sampler->set.sample + i)))
             return -1;
     sb_sample_set_free(&sampler->set);
     return 0;
@@ -111,7 +112,7 @@ sb_status sb_sample_surfaces(const sb_sample_settings *settings, const sb_sample
     if (status == SB_OK && !failed) {
         clip(settings, &all); /* its questions of distance are over */
         sb_sample_round_edges(&sampler, &all);
-        failed = sort_out(&all, count, &made);
+        failed = sb_stop_signal() || sort_out(&all, count, &made);
     }
     if (failed) status = sb_fail_memory(error, "boundary particles");
     if (status == SB_OK) *samples = made;

@@ -2,6 +2,8 @@
    placed as. */
 #include "geometry/sample_parts.h"
 
+#include "base/stop.h"
+
 /* In offsets: how far a place is drawn back to ask for its next face, and how far that may be. */
 static const double drawn_back = 0.2, in_reach = 1.3;
 /* Cosines: normals this near are one face's; faces that look away from each other more than this bound a plate. */
@@ -51,7 +53,7 @@ void sb_sample_round_edges(const sb_sampler *sampler, sb_sample_set *all)
 #pragma omp parallel for schedule(dynamic, 256)
     for (size_t i = 0; i < all->count; ++i) {
         const sb_surface *surface = sampler->surfaces + all->sample[i].source;
-        if (surface->source->role == SB_ROLE_SOLID && !surface->mixed)
+        if (surface->source->role == SB_ROLE_SOLID && !surface->mixed && !sb_stop_signal())
             all->sample[i].normal = normal_of(sampler, &all->sample[i]);
     }
 }

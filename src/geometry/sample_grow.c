@@ -3,6 +3,7 @@
 #include "geometry/sample_parts.h"
 
 #include "base/memory.h"
+#include "base/stop.h"
 
 enum { BLOCK = 2048, PROPOSALS = 4 };
 
@@ -85,8 +86,10 @@ int sb_sample_grow(sb_sampler *sampler)
     for (size_t begin = 0; begin < sampler->set.count && !failed;) {
         size_t left = sampler->set.count - begin, count = left < BLOCK ? left : BLOCK;
 #pragma omp parallel for schedule(dynamic, 32)
-        for (size_t i = 0; i < count; ++i) propose(sampler, begin + i, block + i);
         for (size_t i = 0; i < count; ++i)
+            if (!sb_stop_signal()) propose(sampler, begin + i, block + i);
+        failed = sb_stop_signal();
+        for (size_t i = 0; i < count && !failed; ++i)
             for (int k = 0; k < block[i].count && !failed; ++k)
                 if (!sb_sample_set_any(&sampler->set, block[i].sample[k].at, least))
                     failed = sb_sample_set_add(&sampler->set, block[i].sample + k);

@@ -4,6 +4,7 @@
 #include "geometry/sample_parts.h"
 
 #include "base/memory.h"
+#include "base/stop.h"
 
 #include <string.h>
 
@@ -22,6 +23,8 @@ int sb_candidate_flush(sb_sampler *sampler, sb_candidate_batch *batch)
         sb_candidate *c = batch->candidate + i;
         double margin;
         sb_vec3 placed;
+        batch->good[i] = false;
+        if (sb_stop_signal()) continue;
         if (c->placed) {
             batch->good[i] = sb_sample_fits(sampler, c->surface, c->at, c->reach);
             continue;
@@ -34,7 +37,7 @@ int sb_candidate_flush(sb_sampler *sampler, sb_candidate_batch *batch)
         if (batch->good[i]) c->at = placed;
     }
     double least = SB_SAMPLE_LATTICE * sampler->settings.spacing;
-    int failed = 0;
+    int failed = sb_stop_signal();
     for (size_t i = 0; i < batch->count && !failed; ++i) {
         const sb_candidate *c = batch->candidate + i;
         if (batch->good[i] && !sb_sample_set_any(&sampler->set, c->at, least))
@@ -167,6 +170,7 @@ static int scan_triangle(sb_sampler *sampler, sb_candidate_batch *batch, const l
     for (int64_t n = (int64_t)ceil(low - 0.5 - slack); n <= end; ++n) {
         double row = (double)n + 0.5;
         double first, last;
+        if (sb_stop_signal()) return -1;
         span_row(u, v, row, &first, &last);
         if (!(first <= last)) continue;
         int64_t stop = (int64_t)floor(last - 0.5 + slack);

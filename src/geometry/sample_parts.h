@@ -96,7 +96,7 @@ bool sb_sample_fits(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, dou
 /* The sheet's point nearest to `at`, which is near the sheet of this surface. */
 bool sb_sample_project(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_sample *sample);
 
-/* Stages: each adds to sampler->set. -1 without memory. */
+/* Stages: each adds to sampler->set. Not 0 without memory, or when the run is to stop. */
 int sb_sample_lattices(sb_sampler *sampler);
 int sb_sample_grow(sb_sampler *sampler);
 int sb_sample_voids(sb_sampler *sampler);

@@ -3,6 +3,7 @@
 #include "geometry/sample_parts.h"
 
 #include "base/memory.h"
+#include "base/stop.h"
 
 #include <stdlib.h>
 
@@ -154,6 +155,7 @@ static void search(const sb_sampler *sampler, const piece *whole, hole_list *lis
     stack[0] = *whole;
     depth_of[0] = 0;
     while (count > 0 && !list->failed) {
+        list->failed = sb_stop_signal();
         piece p = stack[--count];
         int depth = depth_of[count];
         if (!examine(sampler, &p, list) || depth == DEPTH_MAX) continue;
@@ -281,6 +283,7 @@ static int work_cut(const sb_sampler *sampler, work *w, const piece *whole)
     int count = 1;
     stack[0] = *whole;
     while (count > 0) {
+        if (sb_stop_signal()) return -1;
         piece p = stack[--count];
         double size = size_of(&p);
         if (size <= piece_max * sampler->settings.spacing || count == DEPTH_MAX) {
@@ -320,8 +323,8 @@ static int fill(sb_sampler *sampler, hole_list *all)
     for (size_t i = 0; i < all->count; ++i) all->hole[i].order = i;
     if (all->count > 1) qsort(all->hole, all->count, sizeof *all->hole, compare_holes);
     for (size_t i = 0; i < all->count; ++i)
-        if (!sb_sample_set_any(&sampler->set, all->hole[i].sample.at, least) &&
-            sb_sample_set_add(&sampler->set, &all->hole[i].sample))
+        if (sb_stop_signal() || (!sb_sample_set_any(&sampler->set, all->hole[i].sample.at, least) &&
+                                 sb_sample_set_add(&sampler->set, &all->hole[i].sample)))
             return -1;
     return 0;
 }

@@ -1,5 +1,6 @@
 /* Before t = 0 the lattice that the sea was filled with gives way to water at rest. Let go as it is, it would fall
    into place by itself and drown a wave in its noise. */
+#include "base/stop.h"
 #include "physics/wave_theory.h"
 #include "sim/sleep.h"
 
@@ -64,7 +65,7 @@ sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
         sim->velocity[i] = (sb_f4){0, 0, 0, sim->velocity[i][3]};
     sim->report.max_speed = 0;
     sb_status status = sb_sleep_expect(sim, error);
-    for (int s = 0; s < steps && still < CALM_STEPS && status == SB_OK; s++) {
+    for (int s = 0; s < steps && still < CALM_STEPS && status == SB_OK && !sb_stop_signal(); s++) {
         sim->settling = boxes || s < CREEP_FIRST ? SB_CREEPING : SB_DAMPED;
         status = sb_sim_step(sim, error);
         sb_sleep_listen(sim, s);
@@ -77,6 +78,8 @@ sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
         }
     }
     sim->settling = SB_RUNNING;
+    if (status == SB_OK && sb_stop_signal())
+        status = sb_stop_fail(error, "while the water came to rest: nothing is computed yet");
     if (status != SB_OK)
         return status;
     let_go(sim);

@@ -1,4 +1,4 @@
-/* Ctrl-C and SIGTERM end a run between two steps, with all of its files complete. */
+/* Ctrl-C and SIGTERM end a run between two steps, with all of its files complete, or before the first. */
 #include "program.h"
 
 #include "../output/json_check.h"
@@ -128,6 +128,51 @@ static void terminate_ends_with_143(void **state)
     }
 }
 
+/* Long before the first step a run hears as well. `setting` makes a scene that takes minutes to get there; it is told
+   once its log holds `event`, and a little later. */
+static void check_stopped_early(const char *scene, const char *setting, const char *more, const char *event,
+                                const char *words)
+{
+    static const double PROMPT = 20; /* s: a step of the settling may take one, sanitizers included */
+    bool there = false;
+    pid_t process = program_start((const char *const[]){"run", scene, "--out", "early", "--set", setting, "--set",
+                                                        more, NULL});
+    for (double end = sb_clock() + 30; !there && sb_clock() < end; usleep(2000)) {
+        if (!exists("early/run.jsonl")) continue;
+        char *log = text_of("early/run.jsonl");
+        there = strstr(log, event) != NULL;
+        sb_free(log);
+    }
+    assert_true(there);
+    usleep(500000);
+    const double told = sb_clock();
+    assert_int_equal(kill(process, SIGTERM), 0);
+    outcome o = program_finish(process);
+    if (sb_clock() - told > PROMPT) fail_msg("%s: it took %g s to stop", setting, sb_clock() - told);
+    if (o.status != 128 + SIGTERM) fail_msg("%s: exit status %d: %s", setting, o.status, o.err);
+    assert_one_line(o.err, words);
+    outcome_free(&o);
+    char *log = text_of("early/run.jsonl");
+    assert_contains(log, "\"interrupted\"");
+    sb_free(log);
+    assert_false(any_ending("early", ".tmp"));
+    assert_int_equal(unlink(in_folder("early/run.jsonl")), 0);
+}
+
+static void a_model_in_the_making_hears(void **state)
+{
+    (void)state;
+    check_stopped_early("tank3.yaml", "bodies[0].max=[18000, 18000, 18000]", "resolution=0.1", "",
+                        "stopped by a signal while the model was built: nothing is computed yet");
+}
+
+static void water_coming_to_rest_hears(void **state)
+{
+    (void)state;
+    check_stopped_early("tank2.yaml", "domain.max=[1000, 1]", "water.boxes[0].max=[900, 0.6]", "\"start\"",
+                        "stopped by a signal while the water came to rest: nothing is computed yet");
+}
+
 /* A scene that a stopped run leaves behind can be drawn. */
 static void what_is_left_can_be_drawn(void **state)
 {
@@ -142,6 +187,8 @@ int main(void)
         cmocka_unit_test(interrupt_ends_with_130),
         cmocka_unit_test(terminate_ends_with_143),
         cmocka_unit_test(what_is_left_can_be_drawn),
+        cmocka_unit_test(a_model_in_the_making_hears),
+        cmocka_unit_test(water_coming_to_rest_hears),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
 }

@@ -1,0 +1,33 @@
+#include "base/stop.h"
+
+#include <signal.h>
+#include <stdatomic.h>
+#include <stddef.h>
+
+/* Lock-free, as a handler needs; and read by all threads. */
+static atomic_int noted;
+
+static void note(int number)
+{
+    atomic_store_explicit(&noted, number, memory_order_relaxed);
+}
+
+void sb_stop_watch(void)
+{
+    struct sigaction action = {.sa_handler = note, .sa_flags = (int)(SA_RESTART | SA_RESETHAND)};
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    /* A file that may not grow is a full disk: the write fails, and that is reported. */
+    signal(SIGXFSZ, SIG_IGN);
+}
+
+int sb_stop_signal(void)
+{
+    return atomic_load_explicit(&noted, memory_order_relaxed);
+}
+
+sb_status sb_stop_fail(sb_error *error, const char *during)
+{
+    return sb_fail(error, SB_INTERRUPTED, "stopped by a signal %s", during);
+}
