@@ -1,0 +1,126 @@
+/* A run for hours, stopped and resumed: does it grow, does it break? */
+#include "base/clock.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "options.h"
+#include "origin.h"
+#include "report.h"
+#include "watch.h"
+
+#include <stdio.h>
+#include <unistd.h>
+
+enum { UNWELL = 4, NO_ROUTE = 77 }; /* exit statuses */
+
+typedef struct soak {
+    sb_soak_options options;
+    char program[SB_PATH_MAX], scene[SB_PATH_MAX], out[SB_PATH_MAX], said[SB_PATH_MAX];
+    sb_soak_life *lives;
+    size_t count, capacity;
+    char commit[64];
+    double start;
+} soak;
+
+static sb_status name_files(soak *s, sb_error *error)
+{
+    char self[SB_PATH_MAX], folder[SB_PATH_MAX];
+    const ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
+    if (length < 0)
+        return sb_fail(error, SB_FAILED, "cannot tell where this program lies");
+    self[length] = '\0';
+    sb_path_folder(folder, self);
+    sb_origin_commit(SB_SOURCE_DIR, s->commit);
+    sb_status status = sb_path_join(s->program, folder, "shorebreak", error);
+    if (status == SB_OK)
+        status = sb_path_join(s->scene, SB_SOURCE_DIR, "assets/scenes/plant.yaml", error);
+    if (status == SB_OK)
+        status = sb_path_join(s->out, s->options.out, "run", error);
+    if (status == SB_OK)
+        status = sb_path_join(s->said, s->options.out, "output.txt", error);
+    return status == SB_OK ? sb_make_directories(s->options.out, error) : status;
+}
+
+/* Until the time is over, or a life breaks: going on from what broke would hide it. */
+static sb_status live_on(soak *s, sb_soak_watch *watch, sb_error *error)
+{
+    sb_status status = SB_OK;
+    bool resume = false, broken = false;
+    while (status == SB_OK && !broken) {
+        const double gone = sb_clock() - s->start, left = 60 * s->options.minutes - gone;
+        if (left <= 0)
+            return SB_OK;
+        if (sb_grow((void **)&s->lives, &s->capacity, s->count + 1, sizeof *s->lives) != 0)
+            return sb_fail_memory(error, "lives");
+        sb_soak_life *life = &s->lives[s->count++];
+        *life = (sb_soak_life){.begun = gone};
+        status = sb_soak_live(watch, resume, left < s->options.life ? left : s->options.life, life, error);
+        resume = life->end == SB_SOAK_STOPPED;
+        broken = life->end == SB_SOAK_BROKEN;
+    }
+    return status;
+}
+
+static sb_status write_reports(const soak *s, sb_soak_report *report, sb_error *error)
+{
+    char why[400];
+    *report = (sb_soak_report){
+        .options = &s->options, .commit = s->commit, .lives = s->lives, .count = s->count, .seconds = sb_clock() - s->start};
+    for (size_t i = 0; i < s->count; i++) {
+        report->unwell += !sb_soak_well(&s->lives[i], why);
+        report->frames += s->lives[i].frames;
+        report->judged += sb_soak_grown(&s->lives[i]).judged;
+    }
+    sb_status status = sb_soak_samples_write(report, s->options.out, error);
+    return status == SB_OK ? sb_soak_report_write(report, s->options.report, error) : status;
+}
+
+static int tell(const soak *s, const sb_soak_report *report)
+{
+    char why[400];
+    for (size_t i = 0; i < s->count; i++)
+        if (!sb_soak_well(&s->lives[i], why))
+            printf("life %zu, from minute %.1f: %s\n", i + 1, s->lives[i].begun / 60, why);
+    printf("%zu lives, %zu of them long enough to be judged for growth, %zu not as they should be; %llu frames arrived\n",
+           s->count, report->judged, report->unwell, (unsigned long long)report->frames);
+    return report->unwell > 0 || report->frames == 0 ? UNWELL : 0;
+}
+
+static void forget(soak *s, sb_soak_watch *watch)
+{
+    sb_soak_watch_destroy(watch);
+    for (size_t i = 0; i < s->count; i++)
+        sb_free(s->lives[i].samples);
+    sb_free(s->lives);
+}
+
+int main(int count, char **arguments)
+{
+    soak s = {.start = sb_clock()};
+    sb_error error = {0};
+    sb_soak_watch *watch = NULL;
+    sb_soak_report report = {0};
+    sb_status status = sb_soak_options_parse(count, arguments, &s.options, &error);
+    if (status == SB_OK && s.options.help) {
+        fputs(sb_soak_help, stdout);
+        return 0;
+    }
+    if (status == SB_OK)
+        status = name_files(&s, &error);
+    const sb_soak_run run = {.program = s.program, .scene = s.scene, .out = s.out, .said = s.said,
+                             .spacing = s.options.spacing, .duration = s.options.duration};
+    if (status == SB_OK && sb_soak_watch_create(&run, &watch, &error) != SB_OK) {
+        fprintf(stderr, "soak: %s\n", error.text);
+        return NO_ROUTE;
+    }
+    if (status == SB_OK)
+        status = live_on(&s, watch, &error);
+    if (s.count > 0 && (status == SB_OK || status == SB_INTERRUPTED)) {
+        sb_status written = write_reports(&s, &report, status == SB_OK ? &error : NULL);
+        status = status == SB_OK ? written : status;
+    }
+    const int result = status == SB_OK ? tell(&s, &report) : (int)status;
+    if (status != SB_OK)
+        fprintf(stderr, "soak: %s\n", error.text);
+    forget(&s, watch);
+    return result;
+}

@@ -1,0 +1,106 @@
+#include "report.h"
+
+#include "base/file.h"
+#include "origin.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+
+static void put_head(FILE *out, const sb_soak_report *r)
+{
+    const sb_soak_options *o = r->options;
+    char machine[128];
+    sb_origin_machine(machine);
+    fprintf(out,
+            "# An hour and what it leaves\n\n"
+            "Commit %s, %s.\n"
+            "Made by `tools/soak --minutes %.4g --spacing %.4g --life %.4g --duration %.4g`; [what it does](../robustness.md#the-soak).\n\n",
+            r->commit, machine, o->minutes, o->spacing, o->life, o->duration);
+    fprintf(out,
+            "The plant with pictures, particle files and a live subscriber, stopped by SIGTERM and resumed, begun anew when\n"
+            "finished. Each life is one process. Memory is what is resident: the middle value from a third to a half of the\n"
+            "time since the first streamed step (early: after the warm-up), and of the last sixth of it (late). It may grow by\n"
+            "%.0f %% and %.0f MB, for buffers that follow the wave; descriptors may not grow; every life must end as told, and\n"
+            "its frames arrive. Lives of less than %.0f s after their first step are not judged for growth.\n\n",
+            100 * sb_soak_share, 1e-6 * sb_soak_bytes, sb_soak_shortest);
+}
+
+static void put_growth(FILE *out, const sb_soak_growth *g)
+{
+    if (g->judged)
+        fprintf(out, " %.1f | %.1f | %.1f | %.0f | %.0f |", 1e-6 * g->early, 1e-6 * g->late, 1e-6 * g->peak,
+                g->descriptors_early, g->descriptors_late);
+    else
+        fprintf(out, " – | – | %.1f | – | – |", 1e-6 * g->peak);
+}
+
+static void put_life(FILE *out, const sb_soak_life *life)
+{
+    static const char *const ends[] = {"stopped", "finished", "**broken**"};
+    char why[400];
+    const sb_soak_growth g = sb_soak_grown(life);
+    fprintf(out, "| %.1f | %.1f | %s | %" PRIu64 " | %" PRIu64 " |", life->begun / 60, life->seconds / 60,
+            life->resumed ? "resumed" : "anew", life->first_step, life->last_step);
+    put_growth(out, &g);
+    fprintf(out, " %u | %" PRIu64 " | %" PRIu64 " | %s | %s |\n", g.descriptors_peak, life->frames, life->chunks_lost,
+            ends[life->end], sb_soak_well(life, why) ? "" : why);
+}
+
+static void put_sum(FILE *out, const sb_soak_report *r)
+{
+    size_t stopped = 0, finished = 0, resumed = 0;
+    uint64_t steps = 0;
+    for (size_t i = 0; i < r->count; i++) {
+        const sb_soak_life *life = &r->lives[i];
+        stopped += life->end == SB_SOAK_STOPPED;
+        finished += life->end == SB_SOAK_FINISHED;
+        resumed += life->resumed;
+        steps += life->last_step - life->first_step;
+    }
+    fprintf(out,
+            "%.1f minutes, %zu lives: %zu stopped, %zu resumed, %zu finished; %" PRIu64 " steps, %" PRIu64
+            " frames at the subscriber. %zu lives were long enough to be judged for growth; %s.\n\n",
+            r->seconds / 60, r->count, stopped, resumed, finished, steps, r->frames, r->judged,
+            r->unwell > 0 || r->frames == 0 ? "**not all is as it should be**" : "nothing grew and nothing failed");
+}
+
+sb_status sb_soak_report_write(const sb_soak_report *report, const char *folder, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    sb_atomic_file file;
+    sb_status status = sb_make_directories(folder, error);
+    if (status == SB_OK)
+        status = sb_path_join(path, folder, "soak.md", error);
+    if (status == SB_OK)
+        status = sb_atomic_open(&file, path, error);
+    if (status != SB_OK)
+        return status;
+    put_head(file.stream, report);
+    put_sum(file.stream, report);
+    fprintf(file.stream,
+            "| begun, min | lasted, min | | from step | to step | early, MB | late, MB | peak, MB | descriptors early | late "
+            "| most | frames | chunks lost | end | |\n"
+            "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+    for (size_t i = 0; i < report->count; i++)
+        put_life(file.stream, &report->lives[i]);
+    return sb_atomic_commit(&file, 0, error);
+}
+
+sb_status sb_soak_samples_write(const sb_soak_report *report, const char *folder, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    sb_atomic_file file;
+    sb_status status = sb_path_join(path, folder, "samples.csv", error);
+    if (status == SB_OK)
+        status = sb_atomic_open(&file, path, error);
+    if (status != SB_OK)
+        return status;
+    fprintf(file.stream, "life,wall_s,resident_bytes,descriptors,step\n");
+    for (size_t i = 0; i < report->count; i++)
+        for (size_t k = 0; k < report->lives[i].count; k++) {
+            const sb_soak_sample *s = &report->lives[i].samples[k];
+            fprintf(file.stream, "%zu,%.2f,%" PRIu64 ",%u,%" PRIu64 "\n", i + 1, report->lives[i].begun + s->seconds,
+                    s->resident, s->descriptors, s->step);
+        }
+    return sb_atomic_commit(&file, 0, error);
+}

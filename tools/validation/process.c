@@ -1,0 +1,56 @@
+#include "process.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static void redirect(const char *path, int flags, int to)
+{
+    const int file = open(path, flags, 0644);
+    if (file < 0 || dup2(file, to) < 0)
+        _exit(126);
+}
+
+sb_status sb_process_start(const char *program, const char *const *arguments, const char *said, int parting,
+                           pid_t *process, sb_error *error)
+{
+    fflush(NULL);
+    *process = fork();
+    if (*process < 0)
+        return sb_fail(error, SB_FAILED, "cannot start %.400s: %s", program, strerror(errno));
+    if (*process > 0)
+        return SB_OK;
+    redirect("/dev/null", O_RDONLY, STDIN_FILENO);
+    redirect(said, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
+    dup2(STDOUT_FILENO, STDERR_FILENO);
+    close_range(STDERR_FILENO + 1, ~0U, 0); /* sockets and files of this process are none of its business */
+    prctl(PR_SET_PDEATHSIG, parting);
+    execv(program, (char **)(uintptr_t)arguments);
+    _exit(127);
+}
+
+void sb_process_describe(int how, char text[32])
+{
+    const bool exited = WIFEXITED(how);
+    snprintf(text, 32, "%s %d", exited ? "status" : "signal", exited ? WEXITSTATUS(how) : WTERMSIG(how));
+}
+
+void sb_process_last_words(const char *said, const char *none, char *words, size_t size)
+{
+    char line[512];
+    snprintf(words, size, "%s", none);
+    FILE *in = fopen(said, "r");
+    while (in && fgets(line, sizeof line, in)) {
+        line[strcspn(line, "\r\n")] = '\0';
+        if (line[0])
+            snprintf(words, size, "%s", line);
+    }
+    if (in)
+        fclose(in);
+}

@@ -1,0 +1,22 @@
+/* Other programs as processes of their own, whose words go to a file. */
+#ifndef SB_VALIDATION_PROCESS_H
+#define SB_VALIDATION_PROCESS_H
+
+#include "base/status.h"
+
+#include <stddef.h>
+#include <sys/types.h>
+
+/* Starts a program (a path) with its arguments ([0] its name, NULL behind the last), without input, what it says going
+   to the file `said`, begun anew. When this process ends before it, it gets `parting`, a signal. A program that cannot
+   be executed ends with status 127, one whose file cannot be opened with 126. SB_FAILED: no process. */
+sb_status sb_process_start(const char *program, const char *const *arguments, const char *said, int parting,
+                           pid_t *process, sb_error *error);
+
+/* "status 2", "signal 9": how a process ended, as waitpid tells it. */
+void sb_process_describe(int how, char text[32]);
+
+/* The last line in such a file that is not empty; `none` when there is none. */
+void sb_process_last_words(const char *said, const char *none, char *words, size_t size);
+
+#endif
