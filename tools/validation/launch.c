@@ -2,15 +2,14 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "process.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <signal.h>
+#include <stdio.h>
 #include <string.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 enum { ARGUMENTS = 2 * SB_SETTINGS_MAX + 16 };
 
@@ -28,6 +27,8 @@ typedef struct crew {
     size_t failed;
 } crew;
 
+static const char said_name[] = "output.txt";
+
 static volatile sig_atomic_t stopped_by;
 
 static void stop(int number)
@@ -35,25 +36,19 @@ static void stop(int number)
     stopped_by = number;
 }
 
-static void redirect(const char *path, int flags, int to)
+static sb_status start(const sb_store *store, const char *scene, job *j, bool alone, sb_error *error)
 {
-    int file = open(path, flags, 0644);
-    if (file < 0 || dup2(file, to) < 0) _exit(126);
-    close(file);
-}
-
-static _Noreturn void become(const sb_store *store, const char *scene, const job *j, bool alone)
-{
-    char *arguments[ARGUMENTS], said[SB_PATH_MAX + 16];
+    const char *arguments[ARGUMENTS];
+    char said[SB_PATH_MAX + 16];
     sb_settings settings;
     int count = 0;
     sb_request_settings(j->request, &settings);
     const char *const first[] = {"shorebreak", "run", scene, "--quiet", "--out", j->folder};
     for (size_t i = 0; i < sizeof first / sizeof *first; i++)
-        arguments[count++] = (char *)(uintptr_t)first[i];
+        arguments[count++] = first[i];
     for (size_t i = 0; i < settings.count; i++) {
         arguments[count++] = "--set";
-        arguments[count++] = (char *)(uintptr_t)settings.list[i];
+        arguments[count++] = settings.list[i];
     }
     if (j->request->paper) {
         arguments[count++] = "--preset";
@@ -64,13 +59,8 @@ static _Noreturn void become(const sb_store *store, const char *scene, const job
         arguments[count++] = "1";
     }
     arguments[count] = NULL;
-    snprintf(said, sizeof said, "%s/output.txt", j->folder);
-    redirect("/dev/null", O_RDONLY, STDIN_FILENO);
-    redirect(said, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
-    dup2(STDOUT_FILENO, STDERR_FILENO);
-    prctl(PR_SET_PDEATHSIG, SIGTERM);
-    execv(store->program, arguments);
-    _exit(127);
+    snprintf(said, sizeof said, "%s/%s", j->folder, said_name);
+    return sb_process_start(store->program, arguments, said, SIGTERM, &j->process, error);
 }
 
 /* A scene that cannot be read is a failed run; the others go on. */
@@ -93,27 +83,9 @@ static sb_status begin(crew *c, const sb_request *request, job *j, sb_error *err
     if (status == SB_OK) status = sb_path_join(scene, c->store->assets, request->of->scene, error);
     if (status == SB_OK) status = sb_make_directories(j->folder, error);
     if (status == SB_OK) status = sb_store_forget(j->folder, error);
-    if (status != SB_OK) return status;
-    fflush(NULL);
-    pid_t process = fork();
-    if (process < 0) return sb_fail(error, SB_FAILED, "cannot start a run: %s", strerror(errno));
-    if (process == 0) become(c->store, scene, j, c->size == 1);
-    j->process = process;
-    c->busy++;
-    return SB_OK;
-}
-
-/* The last line a run has said. */
-static void last_words(const job *j, char *line, size_t size)
-{
-    char path[SB_PATH_MAX], buffer[512];
-    snprintf(line, size, "it said nothing");
-    FILE *in = sb_path_join(path, j->folder, "output.txt", NULL) == SB_OK ? fopen(path, "r") : NULL;
-    while (in && fgets(buffer, sizeof buffer, in)) {
-        buffer[strcspn(buffer, "\r\n")] = '\0';
-        if (buffer[0]) snprintf(line, size, "%s", buffer);
-    }
-    if (in) fclose(in);
+    if (status == SB_OK) status = start(c->store, scene, j, c->size == 1, error);
+    c->busy += status == SB_OK;
+    return status;
 }
 
 static double seconds(const struct timeval *time)
@@ -123,7 +95,7 @@ static double seconds(const struct timeval *time)
 
 static sb_status end(crew *c, job *j, int how, const struct rusage *used, sb_error *error)
 {
-    char label[96], said[512], reason[640];
+    char label[96], path[SB_PATH_MAX], ended[32], said[512], reason[640];
     sb_request_label(j->request, true, label);
     j->process = 0;
     c->busy--;
@@ -136,9 +108,11 @@ static sb_status end(crew *c, job *j, int how, const struct rusage *used, sb_err
         if (!stopped_by) stopped_by = SIGINT;
         return SB_OK;
     }
-    last_words(j, said, sizeof said);
-    snprintf(reason, sizeof reason, "%s %d: %s", WIFEXITED(how) ? "exit status" : "signal",
-             WIFEXITED(how) ? WEXITSTATUS(how) : WTERMSIG(how), said);
+    sb_status found = sb_path_join(path, j->folder, said_name, error);
+    if (found != SB_OK) return found;
+    sb_process_describe(how, ended);
+    sb_process_last_words(path, "it said nothing", said, sizeof said);
+    snprintf(reason, sizeof reason, "%s: %s", ended, said);
     printf("%s: failed, %s\n", label, reason);
     c->failed++;
     return sb_store_fail(j->folder, reason, error);
