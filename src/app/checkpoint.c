@@ -107,7 +107,10 @@ void sb_checkpoint_forget_later(run *r)
 sb_status sb_checkpoint_begin(run *r, sb_error *error)
 {
     const sb_checkpoint_settings *wish = &r->scene->output.checkpoint;
-    r->checkpoints = (sb_checkpoints){.on = wish->steps > 0 || wish->minutes > 0, .written = sb_clock()};
+    r->checkpoints = (sb_checkpoints){.on = wish->steps > 0 || wish->minutes > 0,
+                                      .any_build = r->checkpoints.any_build,
+                                      .written = sb_clock()};
+    sb_build_numerics(r->checkpoints.build);
     return sb_run_path(r, "checkpoints", r->checkpoints.folder, error);
 }
 
@@ -141,6 +144,7 @@ static void put_run(run *r, const sb_csv_lengths *lengths, sb_archive_out *out)
     const sb_energy *first = &r->first_energy;
     sb_archive_section(out, SB_CHECKPOINT_SCENE);
     sb_put_text(out, SB_VERSION);
+    sb_put_text(out, r->checkpoints.build);
     sb_put_text(out, r->checkpoints.identity);
     sb_put_count(out, r->checkpoints.model);
     sb_archive_section(out, SB_CHECKPOINT_RUN);

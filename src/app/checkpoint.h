@@ -3,6 +3,7 @@
 #ifndef SB_APP_CHECKPOINT_H
 #define SB_APP_CHECKPOINT_H
 
+#include "app/build.h"
 #include "base/archive.h"
 #include "base/file.h"
 
@@ -13,6 +14,8 @@ typedef struct sb_checkpoints {
     char folder[SB_PATH_MAX];
     char *identity;       /* of the scene */
     uint64_t model;       /* hash of what was sampled */
+    char build[SB_BUILD_TEXT]; /* of this program's numerics */
+    bool any_build;       /* another build's will do as well */
     sb_archive_out out;   /* its memory is kept from one to the next */
     double written;       /* s on the clock, of the last attempt */
     uint64_t steps_then;  /* step of the last one */
@@ -38,7 +41,7 @@ bool sb_checkpoint_due(const run *r);
    before stay. Does nothing when they are off, or when this step has one. */
 void sb_checkpoint_write(run *r);
 
-/* Loads the newest checkpoint that is whole and of this program, scene and model into the run's simulation,
+/* Loads the newest checkpoint that is whole and of this program, build, scene and model into the run's simulation,
    measurements and counters; says why others were refused. Touches no file. SB_BAD_INPUT when none can be used,
    SB_FAILED without memory: simulation and measurements are then worth nothing. */
 sb_status sb_checkpoint_load(run *r, sb_error *error);

@@ -1,4 +1,4 @@
-/* Going on from a checkpoint: the newest one that is whole, of this program, and of this scene. */
+/* Going on from a checkpoint: the newest one that is whole, of this program and build, and of this scene. */
 #include "app/checkpoint_parts.h"
 
 #include "base/memory.h"
@@ -23,14 +23,28 @@ static bool first_difference(const char *a, const char *b, char line[2][200])
     return *a || *b;
 }
 
-/* Whether it is of this program, scene and model. */
-static sb_status check_origin(const run *r, sb_archive_in *in, sb_error *error)
+/* Another build's numbers would do, but not to the same bits: only when asked for. */
+static sb_status judge_build(run *r, const sb_archive_in *in, const char *build, sb_error *error)
+{
+    sb_error other = {0};
+    if (strcmp(build, r->checkpoints.build) == 0)
+        return SB_OK;
+    sb_fail(&other, SB_BAD_INPUT, "%.300s: written by a build with other numerics (%.200s), this one's are (%.200s)",
+            in->name, build, r->checkpoints.build);
+    if (!r->checkpoints.any_build)
+        return sb_fail(error, SB_BAD_INPUT, "%s; --other-build goes on all the same, no longer bit for bit", other.text);
+    sb_run_warn(r, "%s: gone on with, no longer bit for bit", other.text);
+    return SB_OK;
+}
+
+/* Whether it is of this program, build, scene and model. */
+static sb_status check_origin(run *r, sb_archive_in *in, sb_error *error)
 {
     char line[2][200];
     sb_status status = sb_archive_enter(in, SB_CHECKPOINT_SCENE, error);
     if (status != SB_OK)
         return status;
-    char *version = sb_take_text(in), *identity = sb_take_text(in);
+    char *version = sb_take_text(in), *build = sb_take_text(in), *identity = sb_take_text(in);
     const uint64_t model = sb_take_count(in, UINT64_MAX);
     status = sb_archive_leave(in, error);
     if (status == SB_OK && strcmp(version, SB_VERSION) != 0)
@@ -41,7 +55,10 @@ static sb_status check_origin(const run *r, sb_archive_in *in, sb_error *error)
     else if (status == SB_OK && model != r->checkpoints.model)
         status = sb_fail(error, SB_BAD_INPUT, "%s: of another model: its particles at the start hash to %016" PRIx64
                          ", expected %016" PRIx64, in->name, model, r->checkpoints.model);
+    else if (status == SB_OK)
+        status = judge_build(r, in, build, error);
     sb_free(version);
+    sb_free(build);
     sb_free(identity);
     return status;
 }

@@ -17,6 +17,7 @@ static const char help[] =
     "  --preset NAME        numerics: default or paper (default: the scene's)\n"
     "  --set KEY=VALUE      change a key of the scene, e.g. --set resolution=5; may be repeated\n"
     "  --resume             go on from the newest checkpoint in DIR, bit for bit; without one, from the beginning\n"
+    "  --other-build        with --resume: also from a checkpoint of another build, then no longer bit for bit\n"
     "  --quiet              no progress\n"
     "  --profile            at the end, where the time went, stage by stage\n";
 
@@ -42,13 +43,15 @@ int sb_command_run(int count, char **arguments)
     sb_error error = {0};
     sb_scene scene = {0};
     unsigned accepted = SB_OPT_OUT | SB_OPT_UNTIL | SB_OPT_THREADS | SB_OPT_PRESET | SB_OPT_SET | SB_OPT_QUIET |
-                        SB_OPT_PROFILE | SB_OPT_RESUME;
+                        SB_OPT_PROFILE | SB_OPT_RESUME | SB_OPT_OTHER_BUILD;
     sb_status status = sb_options_parse(count, arguments, accepted, "scene", &options, &error);
     if (status == SB_OK && options.help) {
         fputs(help, stdout);
         return 0;
     }
     char out[SB_PATH_MAX];
+    if (status == SB_OK && options.other_build && !options.resume)
+        status = sb_fail(&error, SB_BAD_INPUT, "--other-build: only together with --resume");
     if (status == SB_OK)
         status = sb_options_scene(&options, options.positional, &scene, &error);
     if (status == SB_OK) {
@@ -57,7 +60,8 @@ int sb_command_run(int count, char **arguments)
         else
             default_out(out, options.positional);
         const sb_run_manner manner = {
-            .resume = options.resume, .quiet = options.quiet, .profile = options.profile};
+            .resume = options.resume, .other_build = options.other_build, .quiet = options.quiet,
+            .profile = options.profile};
         status = sb_run(&scene, out, &manner, &error);
     }
     if (status != SB_OK)

@@ -19,6 +19,7 @@ static const flag flags[] = {
     {"--preset", SB_OPT_PRESET, true}, {"--set", SB_OPT_SET, true},     {"--quiet", SB_OPT_QUIET, false},
     {"--json", SB_OPT_JSON, false},    {"--camera", SB_OPT_CAMERA, true},
     {"--profile", SB_OPT_PROFILE, false}, {"--resume", SB_OPT_RESUME, false},
+    {"--other-build", SB_OPT_OTHER_BUILD, false},
 };
 
 static sb_status add_override(sb_options *options, const char *text, sb_error *error)
@@ -53,6 +54,9 @@ static sb_status take(sb_options *options, unsigned bit, const char *value, sb_e
         break;
     case SB_OPT_QUIET:
         options->quiet = true;
+        break;
+    case SB_OPT_OTHER_BUILD:
+        options->other_build = true;
         break;
     case SB_OPT_RESUME:
         options->resume = true;

@@ -155,6 +155,7 @@ sb_status sb_run(const sb_scene *scene, const char *directory, const sb_run_mann
 {
     run r = {.resolved = *scene, .directory = directory, .lock = -1};
     r.scene = &r.resolved;
+    r.checkpoints.any_build = manner->other_build;
     sb_error local = {0};
     sb_progress_begin(&r.progress, manner->quiet ? NULL : stdout, scene->duration);
     sb_stop_watch();

@@ -10,6 +10,7 @@
 /* How a run begins, and what it says on stdout. */
 typedef struct sb_run_manner {
     bool resume;  /* goes on from the directory's newest checkpoint; from the beginning where there is none */
+    bool other_build; /* resumes from a checkpoint of another build, too, with a warning */
     bool quiet;   /* no progress */
     bool profile; /* the stage table at the end */
 } sb_run_manner;

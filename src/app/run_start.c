@@ -154,6 +154,7 @@ static void note_start(run *r)
     sb_run_say(r, "%zu fluid and %zu boundary particles, %zu bodies", r->model.fluid_count, r->model.wall_count,
                r->model.body_count);
     sb_runlog_start(r->log, r->scene, &r->model, omp_get_max_threads(), sb_sim_bytes(r->sim));
+    sb_runlog_event(r->log, "build", "%s", r->checkpoints.build);
     sb_runlog_skipped(r->log, r->off);
     sb_runlog_skipped(r->log, sb_sim_skipped(r->sim));
     static const char *const off[] = {"checkpoints: off, none on a signal either, --resume starts anew", NULL};

@@ -101,6 +101,9 @@ sb_fluid_sample sb_sim_particle(const sb_sim *sim, size_t i);
 typedef struct sb_stage_time { const char *name; double seconds; uint64_t calls; } sb_stage_time;
 size_t sb_sim_stages(const sb_sim *sim, const sb_stage_time **stages);
 
+/* The instruction set whose code runs here, static text: with another one sums may round otherwise. */
+const char *sb_sim_instructions(void);
+
 /* What this scene made the simulation skip, one line each (static text), ended by NULL. */
 const char *const *sb_sim_skipped(const sb_sim *sim);
 

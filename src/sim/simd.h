@@ -20,6 +20,7 @@ typedef sb_u4 sb_record;
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) &&       \
     !defined(__SANITIZE_THREAD__)
 #define SB_MULTIVERSION __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#define SB_MULTIVERSIONED
 #else
 #define SB_MULTIVERSION
 #endif

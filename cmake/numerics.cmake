@@ -1,0 +1,24 @@
+# Writes OUT, a C file with one text: a hash of the sources below ROOT/src that compute, and HOW they are compiled.
+# Run at build time; what is unchanged is not written.
+cmake_minimum_required(VERSION 3.25)
+set(sources "")
+foreach(folder base/vec.h base/random.h physics geometry sim measure)
+    if(folder MATCHES "\\.h$")
+        list(APPEND sources src/${folder})
+    else()
+        file(GLOB found RELATIVE ${ROOT} ${ROOT}/src/${folder}/*.c ${ROOT}/src/${folder}/*.h
+             ${ROOT}/src/${folder}/CMakeLists.txt)
+        list(APPEND sources ${found})
+    endif()
+endforeach()
+list(SORT sources)
+set(all "")
+foreach(source ${sources})
+    file(SHA256 ${ROOT}/${source} hash)
+    string(APPEND all "${source} ${hash}\n")
+endforeach()
+string(SHA256 hash "${all}")
+string(SUBSTRING ${hash} 0 16 hash)
+string(REGEX REPLACE "[\\\\\"]" "" HOW "${HOW}")
+file(CONFIGURE OUTPUT ${OUT} CONTENT
+     "extern const char sb_build_sources[];\nconst char sb_build_sources[] = \"sources @hash@, @HOW@\";\n" @ONLY)

@@ -1,0 +1,191 @@
+/* Checkpoints that are damaged, of another scene, or of another build: refused with a word, the one before is used. */
+#include "pair.h"
+
+#include "base/archive_layout.h"
+#include "base/file.h"
+#include "base/memory.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* The newest checkpoint of "hurt" is replaced; the one before is used, with a word, and the end is the same. */
+static void goes_on_from_the_one_before(const char *newest, const char *bytes, size_t length, const char *words)
+{
+    put_bytes(newest, bytes, length);
+    outcome o = RUN(0, "run", "measured.yaml", "--out", "hurt", "--quiet", "--resume", "--set", EVERY_THREE);
+    assert_contains(o.err, "shorebreak: warning: hurt/checkpoints/");
+    assert_contains(o.err, words);
+    assert_contains(o.err, "; trying the one before");
+    outcome_free(&o);
+    assert_same_run("sound", "hurt", pair_tables);
+}
+
+static void damaged_ones_are_passed_over(void **state)
+{
+    (void)state;
+    char names[16][64], newest[128];
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "sound", "--quiet", "--set", EVERY_THREE);
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "hurt", "--quiet", "--set", EVERY_THREE);
+    assert_int_equal(list_checkpoints("hurt", names), 2);
+    snprintf(newest, sizeof newest, "hurt/checkpoints/%s", names[1]);
+    size_t length;
+    char *bytes = bytes_of(newest, &length);
+    goes_on_from_the_one_before(newest, bytes, 0, "has 0 bytes");
+    goes_on_from_the_one_before(newest, bytes, length / 2, "cut short");
+    goes_on_from_the_one_before(newest, bytes, length - 1, "cut short");
+    bytes[length / 2] ^= 4;
+    goes_on_from_the_one_before(newest, bytes, length, "damaged: the checksum of section");
+    bytes[length / 2] ^= 4;
+    bytes[8] ^= 1;
+    goes_on_from_the_one_before(newest, bytes, length, "version 3 of the format, expected 2");
+    sb_free(bytes);
+}
+
+/* Refused at the end of every section, and with every byte of its head or any section's head changed. */
+static void no_part_may_be_missing(void **state)
+{
+    (void)state;
+    char names[16][64], newest[128];
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "ends", "--quiet", "--until", "0.05", "--set",
+                   "output.checkpoint={steps: 1000, minutes: 0}");
+    assert_int_equal(list_checkpoints("ends", names), 1);
+    snprintf(newest, sizeof newest, "ends/checkpoints/%s", names[0]);
+    size_t length, sections = 0;
+    char *bytes = bytes_of(newest, &length), *before = text_of("ends/forces.csv");
+    for (size_t at = 16; at < length; sections++) {
+        uint64_t size;
+        put_bytes(newest, bytes, at);
+        outcome o = RUN(1, "run", "measured.yaml", "--out", "ends", "--quiet", "--resume");
+        assert_one_line(o.err, "no checkpoint to go on from: ends/checkpoints/");
+        assert_contains(o.err, "cut short");
+        outcome_free(&o);
+        memcpy(&size, bytes + at + 8, sizeof size);
+        at += 24 + size;
+    }
+    assert_int_equal(sections, 5); /* scene, run, sim, measure, end */
+    assert_same_file("ends", "ends", "forces.csv");
+    char *after = text_of("ends/forces.csv");
+    assert_string_equal(before, after);
+    sb_free(before);
+    sb_free(after);
+    sb_free(bytes);
+}
+
+static void other_scenes_are_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *set, *words;
+    } cases[] = {
+        {"resolution=0.04", "of another scene: it has \"resolution: 0.05 # m\" where this one has \"resolution: 0.04"},
+        {"measure.interval=0.05", "\"interval: 0.03"},
+        {"bodies.step.max=[1.81, 0.2]", "\"max: [1.8"},
+        {"numerics.seed=2", "\"seed: 1\" where this one has \"seed: 2\""},
+    };
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "other", "--quiet", "--until", "0.1");
+    char *scene = text_of("other/scene.yaml"), *forces = text_of("other/forces.csv");
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        outcome o = RUN(1, "run", "measured.yaml", "--out", "other", "--quiet", "--resume", "--set", cases[c].set);
+        assert_one_line(o.err, "no checkpoint to go on from: other/checkpoints/");
+        assert_contains(o.err, cases[c].words);
+        outcome_free(&o);
+    }
+    char *scene_now = text_of("other/scene.yaml"), *forces_now = text_of("other/forces.csv");
+    assert_string_equal(scene, scene_now);
+    assert_string_equal(forces, forces_now);
+    sb_free(scene);
+    sb_free(scene_now);
+    sb_free(forces);
+    sb_free(forces_now);
+    /* A table that was cut by someone cannot be gone on with. */
+    assert_int_equal(truncate(in_folder("other/gauges.csv"), 30), 0);
+    outcome o = RUN(1, "run", "measured.yaml", "--out", "other", "--quiet", "--resume", "--until", "0.2");
+    assert_contains(o.err, "other/gauges.csv: has 30 bytes, expected the ");
+    outcome_free(&o);
+}
+
+/* The first digit of the hash of the sources, where a checkpoint names them; the section's checksum is made right. */
+static void change_build(char *bytes, size_t length)
+{
+    static const char words[] = "sources ";
+    uint64_t section;
+    char *at = memmem(bytes, length, words, sizeof words - 1);
+    assert_non_null(at);
+    at += sizeof words - 1;
+    *at = *at == '0' ? '1' : '0';
+    unsigned char *head = (unsigned char *)bytes + SB_ARCHIVE_HEAD;
+    memcpy(&section, head + SB_ARCHIVE_NAME, sizeof section);
+    assert_true((size_t)(at - bytes) < SB_ARCHIVE_HEAD + SB_SECTION_HEAD + section);
+    const uint64_t sum = sb_archive_sum(head, section);
+    memcpy(head + SB_ARCHIVE_NAME + sizeof section, &sum, sizeof sum);
+}
+
+/* Another build's checkpoint is refused, naming both, unless it is asked for; here the numbers are the same ones. */
+static void other_builds_are_refused(void **state)
+{
+    (void)state;
+    char names[16][64], newest[128];
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "whole", "--quiet", "--until", "0.2");
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "built", "--quiet", "--until", "0.1");
+    assert_int_equal(list_checkpoints("built", names), 1);
+    snprintf(newest, sizeof newest, "built/checkpoints/%s", names[0]);
+    size_t length;
+    char *bytes = bytes_of(newest, &length);
+    change_build(bytes, length);
+    put_bytes(newest, bytes, length);
+    sb_free(bytes);
+    outcome o = RUN(1, "run", "measured.yaml", "--out", "built", "--quiet", "--until", "0.2", "--resume");
+    assert_one_line(o.err, "written by a build with other numerics (sources ");
+    assert_contains(o.err, "this one's are (sources ");
+    assert_contains(o.err, "--other-build");
+    outcome_free(&o);
+    o = RUN(0, "run", "measured.yaml", "--out", "built", "--quiet", "--until", "0.2", "--resume", "--other-build");
+    assert_contains(o.err, "warning: built/checkpoints/");
+    assert_contains(o.err, "no longer bit for bit");
+    outcome_free(&o);
+    assert_same_run("whole", "built", pair_tables);
+    RUN_AND_FORGET(1, "run", "measured.yaml", "--out", "built", "--other-build");
+}
+
+/* Names the numerics of a tree with these files; returns the text. */
+static char *numerics_of(const char *source)
+{
+    write_text("tree/src/sim/step.c", source);
+    char command[1024];
+    snprintf(command, sizeof command,
+             "cmake -D ROOT=%s -D OUT=%s -D 'HOW=GNU 1.2 \"-O3\"' -P " SB_SOURCE_DIR "/cmake/numerics.cmake",
+             in_folder("tree"), in_folder("numerics.c"));
+    assert_int_equal(system(command), 0);
+    return text_of("numerics.c");
+}
+
+static void a_changed_source_is_another_build(void **state)
+{
+    (void)state;
+    static const char *const folders[] = {"tree/src/sim", "tree/src/base"};
+    for (int f = 0; f < 2; f++)
+        assert_int_equal(sb_make_directories(in_folder("%s", folders[f]), NULL), SB_OK);
+    write_text("tree/src/base/vec.h", "");
+    write_text("tree/src/base/random.h", "");
+    char *one = numerics_of("x = 1;"), *other = numerics_of("x = 2;"), *again = numerics_of("x = 1;");
+    assert_contains(one, ", GNU 1.2 -O3\";");
+    assert_string_not_equal(one, other);
+    assert_string_equal(one, again);
+    sb_free(one);
+    sb_free(other);
+    sb_free(again);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(damaged_ones_are_passed_over),
+        cmocka_unit_test(no_part_may_be_missing),
+        cmocka_unit_test(other_scenes_are_refused),
+        cmocka_unit_test(other_builds_are_refused),
+        cmocka_unit_test(a_changed_source_is_another_build),
+    };
+    return cmocka_run_group_tests(tests, pair_setup, program_teardown);
+}

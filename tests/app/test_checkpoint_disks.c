@@ -1,0 +1,113 @@
+/* Runs with checkpoints whose disk is full, whose directory is another run's, whose tables are taken away. */
+#include "pair.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* Starts the program where no file may be longer than this: as on a disk that is full. */
+static outcome run_limited(rlim_t bytes, const char *const *arguments)
+{
+    struct rlimit kept, limit;
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &kept), 0);
+    limit = kept;
+    limit.rlim_cur = bytes;
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
+    pid_t process = program_start(arguments);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &kept), 0);
+    return program_finish(process);
+}
+
+/* The checkpoint is the longest of the files: it fails alone, the run goes on, and those before stay. */
+static void a_checkpoint_that_fails_is_a_warning(void **state)
+{
+    (void)state;
+    char names[16][64], left[16][64], words[128];
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "full", "--quiet", "--until", "0.05", "--set",
+                   "output.particle_interval=0");
+    assert_int_equal(list_checkpoints("full", names), 1);
+    struct stat size;
+    assert_int_equal(stat(in_folder("full/checkpoints/%s", names[0]), &size), 0);
+    assert_true(size.st_size > 10000);
+    outcome o = run_limited((rlim_t)size.st_size - 500,
+                            (const char *const[]){"run", "measured.yaml", "--out", "full", "--quiet", "--resume",
+                                                  "--until", "0.1", "--set", "output.particle_interval=0", "--set",
+                                                  "output.checkpoint.steps=1", NULL});
+    assert_int_equal(o.status, 0);
+    /* The first one due is at the step after the one that the run went on from. */
+    snprintf(words, sizeof words, "shorebreak: warning: no checkpoint at step %ld, the run goes on: full/checkpoints/",
+             strtol(names[0], NULL, 10) + 1);
+    if (strncmp(o.err, words, strlen(words)) != 0)
+        fail_msg("expected \"%s\" first in:\n%s", words, o.err);
+    assert_contains(o.err, "cannot write: File too large");
+    outcome_free(&o);
+    assert_int_equal(list_checkpoints("full", left), 1);
+    assert_string_equal(left[0], names[0]);
+}
+
+/* A table that cannot be written ends the run; with room again it goes on as if nothing had been. */
+static void a_full_disk_ends_the_run_and_it_goes_on(void **state)
+{
+    (void)state;
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "roomy", "--quiet", "--set", "measure.interval=0.002");
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "tight", "--quiet", "--set", "measure.interval=0.002", "--until",
+                   "0.1");
+    outcome o = run_limited(25000, (const char *const[]){"run", "measured.yaml", "--out", "tight", "--quiet", "--set",
+                                                         "measure.interval=0.002", "--resume", NULL});
+    assert_int_equal(o.status, 2);
+    assert_contains(o.err, ".csv: cannot write: File too large");
+    outcome_free(&o);
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "tight", "--quiet", "--set", "measure.interval=0.002",
+                   "--resume");
+    assert_same_run("roomy", "tight", pair_tables);
+}
+
+/* A second run in the same directory is refused before it touches anything. */
+static void one_run_at_a_time(void **state)
+{
+    (void)state;
+    pid_t process = program_start((const char *const[]){"run", "measured.yaml", "--out", "one", "--quiet", "--until",
+                                                        "1000", NULL});
+    for (double end = sb_clock() + 30; !exists("one/particles/000002.vtp") && sb_clock() < end;) usleep(2000);
+    outcome o = RUN(1, "run", "measured.yaml", "--out", "one", "--quiet", "--resume");
+    assert_one_line(o.err, "one: another run is writing there");
+    outcome_free(&o);
+    assert_int_equal(kill(process, SIGTERM), 0);
+    o = program_finish(process);
+    assert_int_equal(o.status, 143);
+    outcome_free(&o);
+    char *log = text_of("one/run.jsonl");
+    assert_int_equal(count_of(log, "\"event\":\"end\""), 1);
+    sb_free(log);
+}
+
+static void removed_tables_end_the_run(void **state)
+{
+    (void)state;
+    pid_t process = program_start((const char *const[]){"run", "measured.yaml", "--out", "gone", "--quiet", "--until",
+                                                        "1000", NULL});
+    for (double end = sb_clock() + 30; !exists("gone/particles/000002.vtp") && sb_clock() < end;) usleep(2000);
+    unlink(in_folder("gone/probes.csv"));
+    outcome o = program_finish(process);
+    assert_int_equal(o.status, 2);
+    assert_contains(o.err, "gone/probes.csv: was removed while the run wrote it");
+    outcome_free(&o);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_checkpoint_that_fails_is_a_warning),
+        cmocka_unit_test(a_full_disk_ends_the_run_and_it_goes_on),
+        cmocka_unit_test(one_run_at_a_time),
+        cmocka_unit_test(removed_tables_end_the_run),
+    };
+    return cmocka_run_group_tests(tests, pair_setup, program_teardown);
+}
