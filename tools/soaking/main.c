@@ -40,20 +40,20 @@ static sb_status name_files(soak *s, sb_error *error)
     return status == SB_OK ? sb_make_directories(s->options.out, error) : status;
 }
 
-/* Until the time is over, or a life breaks: going on from what broke would hide it. */
+/* Until the time is over and a run was resumed, or a life breaks: going on from what broke would hide it. */
 static sb_status live_on(soak *s, sb_soak_watch *watch, sb_error *error)
 {
     sb_status status = SB_OK;
     bool resume = false, broken = false;
     while (status == SB_OK && !broken) {
         const double gone = sb_clock() - s->start, left = 60 * s->options.minutes - gone;
-        if (left <= 0)
+        if (left <= 0 && s->count >= 2)
             return SB_OK;
         if (sb_grow((void **)&s->lives, &s->capacity, s->count + 1, sizeof *s->lives) != 0)
             return sb_fail_memory(error, "lives");
         sb_soak_life *life = &s->lives[s->count++];
         *life = (sb_soak_life){.begun = gone};
-        status = sb_soak_live(watch, resume, left < s->options.life ? left : s->options.life, life, error);
+        status = sb_soak_live(watch, resume, left > 0 && left < s->options.life ? left : s->options.life, life, error);
         resume = life->end == SB_SOAK_STOPPED;
         broken = life->end == SB_SOAK_BROKEN;
     }

@@ -11,7 +11,7 @@ const char sb_soak_help[] =
     "Exit status: 0 nothing grew and nothing failed, 4 something did, 1 bad input, 2 the soak itself failed, 77 no route\n"
     "for the subscriber.\n\n"
     "  --minutes N       of wall time (default: 60)\n"
-    "  --life N          seconds after which a run is stopped (default: a tenth of the time, at least 3)\n"
+    "  --life N          seconds after its first frame when a run is stopped (default: a tenth of the time, at least 3)\n"
     "  --spacing M       between particles, in metres (default: 6)\n"
     "  --duration S      simulated seconds after which it is begun anew (default: 300)\n"
     "  --out DIR         the run goes here, and samples.csv (default: runs/soak)\n"

@@ -21,9 +21,11 @@ struct sb_soak_watch {
     sb_assembly assembly;
     sb_soak_life *life; /* the present one */
     uint64_t step;      /* the last one that was told */
+    uint64_t frames;    /* that were whole when the present life began */
 };
 
-static const double grace = 120; /* s that a run may take to stop when it is told */
+static const double grace = 120;  /* s that a run may take to stop when it is told */
+static const double start_up = 1800; /* s that it may take to its first frame */
 
 static volatile sig_atomic_t stopped;
 
@@ -113,10 +115,19 @@ static void note_end(sb_soak_watch *w, bool told, bool hung, int how)
     snprintf(w->life->words, sizeof w->life->words, "%sended with %s: %.200s", hung ? "did not stop, " : "", ended, words);
 }
 
+/* Whether a life has lasted long enough: from its first frame on, however long the start took. */
+static bool is_time(const sb_soak_watch *w, double now, double patience, double *first)
+{
+    if (w->assembly.frames_complete > w->frames && *first < 0)
+        *first = now;
+    return *first < 0 ? now >= patience + start_up : now - *first >= patience;
+}
+
 /* Listens and looks until the process has ended. */
 static sb_status follow(sb_soak_watch *w, pid_t process, double patience, sb_error *error)
 {
     const double start = sb_clock(), pause = fmin(fmax(patience / 200, 0.02), 2);
+    double first = -1; /* s: when a frame came */
     bool told = false, hung = false;
     int how = 0;
     sb_status status = SB_OK;
@@ -129,7 +140,7 @@ static sb_status follow(sb_soak_watch *w, pid_t process, double patience, sb_err
         }
         if (ended < 0 && errno != EINTR)
             return sb_fail(error, SB_FAILED, "cannot wait for a run: %s", strerror(errno));
-        if (!told && (stopped || now >= patience || status != SB_OK)) {
+        if (!told && (stopped || is_time(w, now, patience, &first) || status != SB_OK)) {
             told = kill(process, SIGTERM) == 0;
             w->life->seconds = now;
         } else if (told && !hung && now > w->life->seconds + grace) {
@@ -146,14 +157,15 @@ static sb_status follow(sb_soak_watch *w, pid_t process, double patience, sb_err
 sb_status sb_soak_live(sb_soak_watch *w, bool resume, double seconds, sb_soak_life *life, sb_error *error)
 {
     pid_t process;
-    const uint64_t frames = w->assembly.frames_complete, lost = w->assembly.chunks_lost;
+    const uint64_t lost = w->assembly.chunks_lost;
+    w->frames = w->assembly.frames_complete;
     w->life = life;
     w->step = 0;
     life->resumed = resume;
     sb_status status = start(w, resume, &process, error);
     if (status == SB_OK)
         status = follow(w, process, seconds, error);
-    life->frames = w->assembly.frames_complete - frames;
+    life->frames = w->assembly.frames_complete - w->frames;
     life->chunks_lost = w->assembly.chunks_lost - lost;
     if (status == SB_OK && stopped)
         status = sb_fail(error, SB_INTERRUPTED, "stopped by a signal");
