@@ -268,6 +268,15 @@ size_t tank_add_sheet(tank *t, const char *name, double x, double z_min, double 
     return m->body_count++;
 }
 
+void tank_add_terms(tank *t)
+{
+    t->scene.numerics.wall_friction = 0.05;
+    t->scene.numerics.turbulence = SB_TURBULENCE_SPS;
+    t->scene.numerics.smagorinsky = 0.1;
+    t->scene.fluid.viscosity = 1e-4;
+    t->scene.numerics.settle_steps = 5;
+}
+
 sb_sim *tank_sim(const tank *t)
 {
     sb_error error = {0};
@@ -275,6 +284,30 @@ sb_sim *tank_sim(const tank *t)
     if (sb_sim_create(&t->scene, &t->model, &sim, &error) != SB_OK)
         fprintf(stderr, "no simulation: %s\n", error.text);
     return sim;
+}
+
+sb_sim *tank_settled(const tank *t)
+{
+    sb_error error = {0};
+    sb_sim *sim = tank_sim(t);
+    const bool settled = sim && sb_sim_settle(sim, &error) == SB_OK;
+    if (!settled) fprintf(stderr, "not settled: %s\n", error.text);
+    need(settled);
+    return sim;
+}
+
+void tank_save(const sb_sim *sim, sb_archive_out *out)
+{
+    sb_archive_begin(out, "TEST", 1);
+    sb_sim_save(sim, out);
+    need(sb_archive_close(out, NULL) == SB_OK);
+}
+
+sb_status tank_load(sb_sim *sim, const sb_archive_out *out, sb_error *error)
+{
+    sb_archive_in in;
+    sb_status status = sb_archive_parse(&in, "saved", out->bytes, out->used, "TEST", 1, error);
+    return status == SB_OK ? sb_sim_load(sim, &in, error) : status;
 }
 
 int tank_prepare(sb_sim *sim, double dt)

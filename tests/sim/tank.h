@@ -2,6 +2,7 @@
 #ifndef SB_TESTS_TANK_H
 #define SB_TESTS_TANK_H
 
+#include "base/archive.h"
 #include "geometry/model.h"
 #include "scene/scene.h"
 #include "sim/state.h"
@@ -39,10 +40,18 @@ void tank_split_patch(tank *t, sb_vec3 min, sb_vec3 max);
 size_t tank_add_sheet(tank *t, const char *name, double x, double z_min, double z_max,
                       sb_vec3 direction, const sb_wavemaker_parameters *law);
 
+/* Turns on what a scene may leave out: friction at walls, turbulence, viscosity; a few steps of settling. */
+void tank_add_terms(tank *t);
+
 /* The simulation of the tank; NULL, with the reason on stderr, when there is none. */
 sb_sim *tank_sim(const tank *t);
+/* The same, settled; the program ends, with the reason on stderr, when there is none or it does not settle. */
+sb_sim *tank_settled(const tank *t);
 /* The stages of a step up to the neighbour lists, for a step of dt. 0, or -1 with the reason. */
 int tank_prepare(sb_sim *sim, double dt);
+/* Its state as an archive, to be freed, and back from there into a simulation of the same tank. */
+void tank_save(const sb_sim *sim, sb_archive_out *out);
+sb_status tank_load(sb_sim *sim, const sb_archive_out *out, sb_error *error);
 /* n whole steps. 0, or -1 with the reason on stderr. */
 int tank_steps(sb_sim *sim, int n);
 

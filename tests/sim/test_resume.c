@@ -2,28 +2,13 @@
 #include "../check.h"
 #include "base/memory.h"
 #include "sim/pressure.h"
-#include "sim/tank.h"
+#include "sim/flume.h"
 
 #include <omp.h>
 #include <stdio.h>
 #include <string.h>
 
 enum { BEFORE = 25, AFTER = 25 };
-
-static void save(const sb_sim *sim, sb_archive_out *out)
-{
-    sb_archive_begin(out, "TEST", 1);
-    sb_sim_save(sim, out);
-    assert_int_equal(sb_archive_close(out, NULL), SB_OK);
-}
-
-static sb_status load(sb_sim *sim, const sb_archive_out *out, sb_error *error)
-{
-    sb_archive_in in;
-    sb_status status = sb_archive_parse(&in, "saved", out->bytes, out->used, "TEST", 1, error);
-    if (status == SB_OK) status = sb_sim_load(sim, &in, error);
-    return status;
-}
 
 /* Undisturbed with one thread, and resumed half way with each of several numbers of threads. */
 static void check(const tank *t, const char *name)
@@ -33,12 +18,10 @@ static void check(const tank *t, const char *name)
     sb_archive_out out = {0};
     sb_error error = {0};
     omp_set_num_threads(1);
-    sb_sim *sim = tank_sim(t);
-    assert_non_null(sim);
-    if (sb_sim_settle(sim, &error) != SB_OK) fail_msg("%s", error.text);
+    sb_sim *sim = tank_settled(t);
     assert_int_equal(tank_steps(sim, BEFORE), 0);
     const uint64_t half = sb_sim_hash(sim);
-    save(sim, &out);
+    tank_save(sim, &out);
     assert_true(sb_sim_hash(sim) == half);
     assert_int_equal(tank_steps(sim, AFTER), 0);
     const uint64_t end = sb_sim_hash(sim);
@@ -48,7 +31,7 @@ static void check(const tank *t, const char *name)
         omp_set_num_threads(threads[k]);
         sim = tank_sim(t);
         assert_non_null(sim);
-        if (load(sim, &out, &error) != SB_OK) fail_msg("%s: %s", name, error.text);
+        if (tank_load(sim, &out, &error) != SB_OK) fail_msg("%s: %s", name, error.text);
         assert_true(sb_sim_hash(sim) == half);
         assert_int_equal(tank_steps(sim, AFTER), 0);
         if (sb_sim_hash(sim) != end) fail_msg("%s: %d threads end otherwise", name, threads[k]);
@@ -63,15 +46,6 @@ static void check(const tank *t, const char *name)
     sb_archive_out_free(&out);
 }
 
-static void add_terms(tank *t)
-{
-    t->scene.numerics.wall_friction = 0.05;
-    t->scene.numerics.turbulence = SB_TURBULENCE_SPS;
-    t->scene.numerics.smagorinsky = 0.1;
-    t->scene.fluid.viscosity = 1e-4;
-    t->scene.numerics.settle_steps = 5;
-}
-
 static void a_dam_break_with_each_solver(void **state)
 {
     (void)state;
@@ -79,7 +53,7 @@ static void a_dam_break_with_each_solver(void **state)
         tank t;
         tank_make(&t, 2, 1.0 / 40, sb_vec(2, 0, 1.5), 1, 1.1, 0.1);
         t.scene.numerics.solver = solver;
-        add_terms(&t);
+        tank_add_terms(&t);
         check(&t, sb_pressure_solvers[solver]->name);
         tank_free(&t);
     }
@@ -96,7 +70,7 @@ static void a_paddle_in_motion_and_at_rest(void **state)
         tank t;
         tank_make(&t, 3, 1.0 / 12, sb_vec(2, 1, 1), 2, 0.75, 0.1);
         tank_add_sheet(&t, "paddle", -1.0 / 24, 0, 0.8, sb_vec(1, 0, 0), &law);
-        add_terms(&t);
+        tank_add_terms(&t);
         check(&t, "paddle");
         tank_free(&t);
     }
@@ -108,8 +82,26 @@ static void a_periodic_slab(void **state)
     tank t;
     tank_make(&t, 3, 0.1, sb_vec(2, 0.5, 1.2), 1, 0.8, 0.1);
     tank_repeat(&t, 1);
-    add_terms(&t);
+    tank_add_terms(&t);
     check(&t, "slab");
+    tank_free(&t);
+}
+
+/* Saved while most of the water sleeps; some of it wakes before the end. */
+static void still_water_asleep(void **state)
+{
+    (void)state;
+    tank t;
+    flume_make(&t, 3, 0.2, sb_vec(16, 0.8, 1.6), true);
+    t.scene.numerics.wall_friction = 0.05;
+    sb_sim *sim = tank_settled(&t);
+    assert_int_equal(tank_steps(sim, BEFORE), 0);
+    const size_t asleep = sb_sim_sleep(sim).asleep;
+    assert_true(asleep > t.model.fluid_count / 2);
+    assert_int_equal(tank_steps(sim, AFTER), 0);
+    assert_true(sb_sim_sleep(sim).asleep > 0 && sb_sim_sleep(sim).asleep < asleep);
+    sb_sim_destroy(sim);
+    check(&t, "sleepers");
     tank_free(&t);
 }
 
@@ -140,8 +132,8 @@ static void another_model_is_refused(void **state)
     tank_make(&other, 2, 0.1, sb_vec(1, 0, 1), 0.4, 0.5, 0.1);
     sb_sim *sim = tank_sim(&t), *small = tank_sim(&other);
     assert_true(sim && small && tank_steps(sim, 3) == 0);
-    save(sim, &out);
-    assert_int_equal(load(small, &out, &error), SB_BAD_INPUT);
+    tank_save(sim, &out);
+    assert_int_equal(tank_load(small, &out, &error), SB_BAD_INPUT);
     assert_non_null(strstr(error.text, "saved: section \"sim\": a list of 25 elements of 16 bytes, expected at most 20"));
     sb_sim_destroy(sim);
     sb_sim_destroy(small);
@@ -164,7 +156,7 @@ static void senseless_states_are_refused(void **state)
     sb_sim *sim = tank_sim(&t);
     assert_true(sim && tank_steps(sim, 3) == 0);
     const uint64_t hash = sb_sim_hash(sim);
-    save(sim, &good);
+    tank_save(sim, &good);
     struct {
         void *at, *value;
         size_t size;
@@ -182,11 +174,11 @@ static void senseless_states_are_refused(void **state)
         unsigned char kept[8];
         memcpy(kept, cases[c].at, cases[c].size);
         memcpy(cases[c].at, cases[c].value, cases[c].size);
-        save(sim, &bad);
+        tank_save(sim, &bad);
         memcpy(cases[c].at, kept, cases[c].size);
-        assert_int_equal(load(sim, &bad, &error), SB_BAD_INPUT);
+        assert_int_equal(tank_load(sim, &bad, &error), SB_BAD_INPUT);
         if (!strstr(error.text, cases[c].words)) fail_msg("%zu: %s", c, error.text);
-        if (load(sim, &good, &error) != SB_OK) fail_msg("%s", error.text);
+        if (tank_load(sim, &good, &error) != SB_OK) fail_msg("%s", error.text);
         assert_true(sb_sim_hash(sim) == hash);
     }
     assert_int_equal(tank_steps(sim, 3), 0);
@@ -200,7 +192,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_dam_break_with_each_solver), cmocka_unit_test(a_paddle_in_motion_and_at_rest),
-        cmocka_unit_test(a_periodic_slab),              cmocka_unit_test(water_that_leaves),
+        cmocka_unit_test(a_periodic_slab),              cmocka_unit_test(still_water_asleep),
+        cmocka_unit_test(water_that_leaves),
         cmocka_unit_test(another_model_is_refused),     cmocka_unit_test(senseless_states_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

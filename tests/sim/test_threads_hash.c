@@ -11,10 +11,7 @@ enum { STEPS = 60 };
 static uint64_t run(const tank *t, int threads)
 {
     omp_set_num_threads(threads);
-    sb_sim *sim = tank_sim(t);
-    assert_non_null(sim);
-    sb_error error = {0};
-    if (sb_sim_settle(sim, &error) != SB_OK) fail_msg("%s", error.text);
+    sb_sim *sim = tank_settled(t);
     assert_int_equal(tank_steps(sim, STEPS), 0);
     assert_int_equal(sb_sim_report(sim)->step, STEPS);
     assert_true(sim->n > 2 * (size_t)SB_BLOCK);
@@ -39,15 +36,6 @@ static void check(const tank *t, const char *name)
     omp_set_num_threads(before);
 }
 
-static void add_terms(tank *t)
-{
-    t->scene.numerics.wall_friction = 0.05;
-    t->scene.numerics.turbulence = SB_TURBULENCE_SPS;
-    t->scene.numerics.smagorinsky = 0.1;
-    t->scene.fluid.viscosity = 1e-4;
-    t->scene.numerics.settle_steps = 5;
-}
-
 static void a_dam_break(void **state)
 {
     (void)state;
@@ -55,7 +43,7 @@ static void a_dam_break(void **state)
         tank t;
         tank_make(&t, 2, 1.0 / 48, sb_vec(2, 0, 1.5), 1, 1.1, 0.1);
         t.scene.numerics.solver = solver;
-        add_terms(&t);
+        tank_add_terms(&t);
         check(&t, "dam break");
         tank_free(&t);
     }
@@ -74,7 +62,7 @@ static void a_paddle(void **state)
     tank_make(&t, 3, 1.0 / 12, sb_vec(2, 1, 1), 2, 0.75, 0.1);
     t.scene.numerics.solver = SB_SOLVER_CG;
     tank_add_sheet(&t, "paddle", -1.0 / 24, 0, 0.8, sb_vec(1, 0, 0), &law);
-    add_terms(&t);
+    tank_add_terms(&t);
     check(&t, "paddle");
     tank_free(&t);
 }
