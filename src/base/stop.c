@@ -27,7 +27,7 @@ int sb_stop_signal(void)
     return atomic_load_explicit(&noted, memory_order_relaxed);
 }
 
-sb_status sb_stop_fail(sb_error *error, const char *during)
+sb_status(sb_stop_fail)(sb_error *error, const char *during)
 {
     return sb_fail(error, SB_INTERRUPTED, "stopped by a signal %s", during);
 }

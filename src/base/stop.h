@@ -13,4 +13,9 @@ int sb_stop_signal(void);
 /* SB_INTERRUPTED: "stopped by a signal" and during what. */
 sb_status sb_stop_fail(sb_error *error, const char *during);
 
+/* As in status.h. */
+#ifdef __clang_analyzer__
+#define sb_stop_fail(error, during) ((void)(sb_stop_fail)(error, during), SB_INTERRUPTED)
+#endif
+
 #endif

@@ -1,6 +1,7 @@
 #include "options.h"
 
-#include <stdlib.h>
+#include "arguments.h"
+
 #include <string.h>
 #include <unistd.h>
 
@@ -27,8 +28,9 @@ const char sb_bench_help[] =
     "Let nothing else run meanwhile: a machine that is not quiet is said in the tables and the report.\n"
     "Exit status: 0 done, 1 bad input, 2 a measure failed.\n";
 
-static sb_status take_section(sb_bench_options *o, const char *name, sb_error *error)
+static sb_status take_section(void *user, const char *name, sb_error *error)
 {
+    sb_bench_options *o = user;
     const bool all = strcmp(name, "all") == 0;
     const sb_bench_section *named = sb_bench_section_find(name);
     if (!named && !all) return sb_fail(error, SB_BAD_INPUT, "%.200s: no such section; see --help", name);
@@ -40,55 +42,17 @@ static sb_status take_section(sb_bench_options *o, const char *name, sb_error *e
     return SB_OK;
 }
 
-static sb_status take_count(const char *name, const char *value, long most, int *into, sb_error *error)
-{
-    char *end;
-    const long count = strtol(value, &end, 10);
-    if (end == value || *end || count < 1 || count > most)
-        return sb_fail(error, SB_BAD_INPUT, "%s: %.50s is no number from 1 to %ld", name, value, most);
-    *into = (int)count;
-    return SB_OK;
-}
-
-static sb_status take_value(sb_bench_options *o, const char *name, const char *value, sb_error *error)
-{
-    if (!value) return sb_fail(error, SB_BAD_INPUT, "%s: a value is missing; see --help", name);
-    if (strcmp(name, "--repeats") == 0) return take_count(name, value, SB_BENCH_REPEATS_MAX, &o->repeats, error);
-    if (strcmp(name, "--threads") == 0) return take_count(name, value, 1024, &o->threads, error);
-    o->out = value;
-    return SB_OK;
-}
-
-static sb_status take(sb_bench_options *o, const char *argument, const char *next, bool *takes_next, sb_error *error)
-{
-    static const char *const valued[] = {"--repeats", "--threads", "--out"};
-    for (size_t v = 0; v < sizeof valued / sizeof valued[0]; v++)
-        if (strcmp(argument, valued[v]) == 0) {
-            *takes_next = true;
-            return take_value(o, argument, next, error);
-        }
-    if (strcmp(argument, "--quick") == 0)
-        o->quick = true;
-    else if (strcmp(argument, "--report-only") == 0)
-        o->report_only = true;
-    else if (strcmp(argument, "--help") == 0)
-        o->help = true;
-    else if (argument[0] == '-')
-        return sb_fail(error, SB_BAD_INPUT, "%.200s: no such option; see --help", argument);
-    else
-        return take_section(o, argument, error);
-    return SB_OK;
-}
-
 sb_status sb_bench_parse(int count, char **arguments, sb_bench_options *o, sb_error *error)
 {
-    sb_status status = SB_OK;
     *o = (sb_bench_options){.count = 0};
-    for (int i = 1; i < count && status == SB_OK; i++) {
-        bool takes_next = false;
-        status = take(o, arguments[i], i + 1 < count ? arguments[i + 1] : NULL, &takes_next, error);
-        i += takes_next;
-    }
+    const sb_argument options[] = {{.name = "--quick", .flag = &o->quick},
+                                   {.name = "--report-only", .flag = &o->report_only},
+                                   {.name = "--repeats", .count = &o->repeats, .most = SB_BENCH_REPEATS_MAX},
+                                   {.name = "--threads", .count = &o->threads, .most = 1024},
+                                   {.name = "--out", .text = &o->out}};
+    const sb_command_line line = {.options = options, .option_count = sizeof options / sizeof *options,
+                                  .word = take_section, .user = o, .help = &o->help};
+    sb_status status = sb_command_line_read(&line, count, arguments, error);
     if (status == SB_OK && o->count == 0) status = take_section(o, "all", error);
     if (o->repeats == 0) o->repeats = o->quick ? REPEATS_QUICK : REPEATS;
     if (o->threads == 0) o->threads = (int)sysconf(_SC_NPROCESSORS_ONLN);

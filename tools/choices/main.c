@@ -1,4 +1,5 @@
 /* Run time against error: choices of solver and parameters held against each other. */
+#include "arguments.h"
 #include "contest_report.h"
 
 #include "base/memory.h"
@@ -35,8 +36,9 @@ static const char help[] =
     "Finished runs are kept and not repeated while program and scene stay the same.\n"
     "Exit status: 0 done, 1 bad input, 2 a run failed, 130 stopped.\n";
 
-static sb_status take_subject(options *o, const char *name, sb_error *error)
+static sb_status take_subject(void *user, const char *name, sb_error *error)
 {
+    options *o = user;
     for (const sb_subject *s = sb_subjects; s->name; s++)
         if (strcmp(s->name, name) == 0 && o->subject_count < SUBJECTS) {
             o->subjects[o->subject_count++] = s;
@@ -45,57 +47,20 @@ static sb_status take_subject(options *o, const char *name, sb_error *error)
     return sb_fail(error, SB_BAD_INPUT, "%.200s: no such scene; --list names them", name);
 }
 
-static sb_status take(options *o, const char *argument, const char *next, int *taken, sb_error *error)
-{
-    const struct {
-        const char *name;
-        bool *flag;
-    } flags[] = {{"--quick", &o->quick},
-                 {"--report-only", &o->report_only},
-                 {"--list", &o->list},
-                 {"--help", &o->help}};
-    const struct {
-        const char *name;
-        const char **text;
-        int *number;
-    } valued[] = {{"--out", &o->out, NULL},
-                  {"--report", &o->report, NULL},
-                  {"--shorebreak", &o->program, NULL},
-                  {"--seeds", NULL, &o->seeds},
-                  {"--jobs", NULL, &o->jobs}};
-    size_t length = strlen(o->command);
-    for (size_t k = 0; k < sizeof valued / sizeof *valued; k++) {
-        if (strcmp(argument, valued[k].name) != 0) continue;
-        if (!next) return sb_fail(error, SB_BAD_INPUT, "%s: a value is missing; see --help", argument);
-        *taken = 2;
-        if (valued[k].text) {
-            *valued[k].text = next;
-            return SB_OK;
-        }
-        snprintf(o->command + length, sizeof o->command - length, " %s %.10s", argument, next);
-        return sb_trial_count(argument, next, valued[k].number == &o->seeds ? SB_ENTRY_SEEDS : 256,
-                              valued[k].number, error);
-    }
-    for (size_t k = 0; k < sizeof flags / sizeof *flags; k++) {
-        if (strcmp(argument, flags[k].name) != 0) continue;
-        *flags[k].flag = true;
-        if (flags[k].flag == &o->quick) snprintf(o->command + length, sizeof o->command - length, " --quick");
-        return SB_OK;
-    }
-    if (argument[0] == '-')
-        return sb_fail(error, SB_BAD_INPUT, "%.200s: no such option; see --help", argument);
-    snprintf(o->command + length, sizeof o->command - length, " %.60s", argument);
-    return take_subject(o, argument, error);
-}
-
 static sb_status parse(int count, char **arguments, options *o, sb_error *error)
 {
-    sb_status status = SB_OK;
     *o = (options){.command = "tools/tradeoff"};
-    for (int i = 1, taken; status == SB_OK && i < count; i += taken) {
-        taken = 1;
-        status = take(o, arguments[i], i + 1 < count ? arguments[i + 1] : NULL, &taken, error);
-    }
+    const sb_argument table[] = {{.name = "--quick", .flag = &o->quick, .telling = true},
+                                 {.name = "--report-only", .flag = &o->report_only},
+                                 {.name = "--list", .flag = &o->list},
+                                 {.name = "--seeds", .count = &o->seeds, .most = SB_ENTRY_SEEDS, .telling = true},
+                                 {.name = "--jobs", .count = &o->jobs, .most = 256, .telling = true},
+                                 {.name = "--out", .text = &o->out},
+                                 {.name = "--report", .text = &o->report},
+                                 {.name = "--shorebreak", .text = &o->program}};
+    const sb_command_line line = {.options = table, .option_count = sizeof table / sizeof *table, .word = take_subject,
+                                  .user = o, .help = &o->help, .command = o->command, .command_size = sizeof o->command};
+    sb_status status = sb_command_line_read(&line, count, arguments, error);
     if (!o->seeds) o->seeds = o->quick ? 1 : 3;
     if (!o->jobs) o->jobs = o->quick ? (int)sysconf(_SC_NPROCESSORS_ONLN) : 1;
     if (!o->subject_count)

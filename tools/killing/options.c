@@ -1,5 +1,7 @@
 #include "options.h"
 
+#include "arguments.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,46 +16,35 @@ const char sb_kill_help[] =
     "  --no-pictures     else every fourth run has pictures, where the scene has a camera\n"
     "  --help            this text\n";
 
-static sb_status take_number(const char *flag, const char *value, unsigned long long least, unsigned long long *number,
-                             sb_error *error)
+static sb_status take_seed(void *user, const char *value, sb_error *error)
 {
-    char *end = NULL;
-    *number = value ? strtoull(value, &end, 10) : 0;
-    if (!value || end == value || *end || strchr(value, '-') || *number < least || *number > 1000000)
-        return sb_fail(error, SB_BAD_INPUT, "%s: expected a number from %llu to 1000000", flag, least);
+    sb_kill_options *options = user;
+    char *end;
+    options->seed = strtoull(value, &end, 10);
+    return end != value && !*end && !strchr(value, '-')
+               ? SB_OK
+               : sb_fail(error, SB_BAD_INPUT, "--seed: %.50s is no number from 0", value);
+}
+
+static sb_status take_scene(void *user, const char *path, sb_error *error)
+{
+    sb_kill_options *options = user;
+    (void)error;
+    options->scene = path;
     return SB_OK;
 }
 
 sb_status sb_kill_options_parse(int count, char **arguments, sb_kill_options *options, sb_error *error)
 {
-    *options = (sb_kill_options){.scene = SB_KILL_SCENE, .out = "runs/kill-test", .kills = 100, .seed = 1, .pictures = true};
-    for (int i = 1; i < count; i++) {
-        const char *flag = arguments[i], *value = i + 1 < count ? arguments[i + 1] : NULL;
-        unsigned long long number = 0;
-        sb_status status = SB_OK;
-        if (strcmp(flag, "--help") == 0) {
-            options->help = true;
-            return SB_OK;
-        }
-        if (strcmp(flag, "--no-pictures") == 0) {
-            options->pictures = false;
-        } else if (strcmp(flag, "--out") == 0 && value) {
-            options->out = arguments[++i];
-        } else if (strcmp(flag, "--kills") == 0) {
-            status = take_number(flag, value, 1, &number, error);
-            options->kills = (int)number;
-            i++;
-        } else if (strcmp(flag, "--seed") == 0) {
-            status = take_number(flag, value, 0, &number, error);
-            options->seed = number;
-            i++;
-        } else if (flag[0] != '-') {
-            options->scene = flag;
-        } else {
-            return sb_fail(error, SB_BAD_INPUT, "%s: no such option, or no value behind it; --help lists them", flag);
-        }
-        if (status != SB_OK)
-            return status;
-    }
-    return SB_OK;
+    bool plain = false;
+    *options = (sb_kill_options){.scene = SB_KILL_SCENE, .out = "runs/kill-test", .kills = 100, .seed = 1};
+    const sb_argument table[] = {{.name = "--kills", .count = &options->kills, .most = 1e6},
+                                 {.name = "--seed", .take = take_seed},
+                                 {.name = "--out", .text = &options->out},
+                                 {.name = "--no-pictures", .flag = &plain}};
+    const sb_command_line line = {.options = table, .option_count = sizeof table / sizeof *table, .word = take_scene,
+                                  .user = options, .help = &options->help};
+    sb_status status = sb_command_line_read(&line, count, arguments, error);
+    options->pictures = !plain;
+    return status;
 }

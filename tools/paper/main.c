@@ -1,4 +1,5 @@
 /* The published studies of time step, tolerance and spacing on our own plant. */
+#include "arguments.h"
 #include "studies.h"
 
 #include <stdio.h>
@@ -30,40 +31,17 @@ static const char help[] =
     "Finished runs are kept and not repeated while program and scene stay the same.\n"
     "Exit status: 0 done, 1 bad input, 2 a run failed, 130 stopped.\n";
 
-static sb_status take(options *o, const char *argument, const char *next, int *taken, sb_error *error)
-{
-    const struct {
-        const char *name;
-        const char **text;
-    } valued[] = {{"--out", &o->out}, {"--report", &o->report}, {"--shorebreak", &o->program},
-                  {"--jobs", NULL}};
-    for (size_t k = 0; k < sizeof valued / sizeof *valued; k++) {
-        if (strcmp(argument, valued[k].name) != 0) continue;
-        if (!next) return sb_fail(error, SB_BAD_INPUT, "%s: a value is missing; see --help", argument);
-        *taken = 2;
-        if (!valued[k].text) return sb_trial_count(argument, next, 256, &o->jobs, error);
-        *valued[k].text = next;
-        return SB_OK;
-    }
-    if (strcmp(argument, "--quick") == 0)
-        o->quick = true;
-    else if (strcmp(argument, "--report-only") == 0)
-        o->report_only = true;
-    else if (strcmp(argument, "--help") == 0)
-        o->help = true;
-    else
-        return sb_fail(error, SB_BAD_INPUT, "%.200s: no such option; see --help", argument);
-    return SB_OK;
-}
-
 static sb_status parse(int count, char **arguments, options *o, sb_error *error)
 {
-    sb_status status = SB_OK;
     *o = (options){.jobs = 1};
-    for (int i = 1, taken; status == SB_OK && i < count; i += taken) {
-        taken = 1;
-        status = take(o, arguments[i], i + 1 < count ? arguments[i + 1] : NULL, &taken, error);
-    }
+    const sb_argument table[] = {{.name = "--quick", .flag = &o->quick},
+                                 {.name = "--report-only", .flag = &o->report_only},
+                                 {.name = "--jobs", .count = &o->jobs, .most = 256},
+                                 {.name = "--out", .text = &o->out},
+                                 {.name = "--report", .text = &o->report},
+                                 {.name = "--shorebreak", .text = &o->program}};
+    const sb_command_line line = {.options = table, .option_count = sizeof table / sizeof *table, .help = &o->help};
+    sb_status status = sb_command_line_read(&line, count, arguments, error);
     snprintf(o->command, sizeof o->command, "tools/paper-studies%s --jobs %d",
              o->quick ? " --quick" : "", o->jobs);
     return status;

@@ -1,10 +1,9 @@
 #include "study_options.h"
 
-#include "trials.h"
+#include "arguments.h"
 
 #include <fnmatch.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -26,8 +25,9 @@ const char sb_study_help[] =
     "Finished runs are kept and not repeated while program and scene stay the same.\n"
     "Exit status: 0 done, 1 bad input, 2 a run failed, 130 stopped.\n";
 
-static sb_status take_spacings(sb_study_options *o, const char *text, sb_error *error)
+static sb_status take_spacings(void *user, const char *text, sb_error *error)
 {
+    sb_study_options *o = user;
     o->spacing_count = 0;
     for (const char *at = text;;) {
         char *end;
@@ -53,8 +53,9 @@ static sb_status take_spacings(sb_study_options *o, const char *text, sb_error *
 }
 
 /* These the study gives itself. */
-static sb_status take_set(sb_study_options *o, const char *text, sb_error *error)
+static sb_status take_set(void *user, const char *text, sb_error *error)
 {
+    sb_study_options *o = user;
     static const char *const own[] = {"resolution=", "numerics.seed=", "numerics.preset="};
     const char *equals = strchr(text, '=');
     if (!equals || equals == text)
@@ -69,74 +70,48 @@ static sb_status take_set(sb_study_options *o, const char *text, sb_error *error
     return SB_OK;
 }
 
-static sb_status take_value(sb_study_options *o, const char *name, const char *value, sb_error *error)
+static sb_status take_preset(void *user, const char *name, sb_error *error)
 {
-    if (strcmp(name, "--resolutions") == 0) return take_spacings(o, value, error);
-    if (strcmp(name, "--set") == 0) return take_set(o, value, error);
-    if (strcmp(name, "--seeds") == 0)
-        return sb_trial_count(name, value, SB_STUDY_SEEDS, &o->seeds, error);
-    if (strcmp(name, "--jobs") == 0) return sb_trial_count(name, value, 256, &o->jobs, error);
-    if (strcmp(name, "--out") == 0) o->out = value;
-    if (strcmp(name, "--shorebreak") == 0) o->program = value;
-    if (strcmp(name, "--preset") == 0) {
-        o->paper = strcmp(value, "paper") == 0;
-        if (!o->paper && strcmp(value, "default") != 0)
-            return sb_fail(error, SB_BAD_INPUT, "--preset %.50s: expected default or paper", value);
-    }
-    if (strcmp(name, "--quantity") == 0) {
-        if (o->pattern_count == SB_STUDY_PATTERNS)
-            return sb_fail(error, SB_BAD_INPUT, "--quantity: more than %d", SB_STUDY_PATTERNS);
-        o->patterns[o->pattern_count++] = value;
-    }
+    sb_study_options *o = user;
+    o->paper = strcmp(name, "paper") == 0;
+    return o->paper || strcmp(name, "default") == 0
+               ? SB_OK
+               : sb_fail(error, SB_BAD_INPUT, "--preset %.50s: expected default or paper", name);
+}
+
+static sb_status take_pattern(void *user, const char *pattern, sb_error *error)
+{
+    sb_study_options *o = user;
+    if (o->pattern_count == SB_STUDY_PATTERNS)
+        return sb_fail(error, SB_BAD_INPUT, "--quantity: more than %d", SB_STUDY_PATTERNS);
+    o->patterns[o->pattern_count++] = pattern;
     return SB_OK;
 }
 
-static const char *const valued[] = {"--resolutions", "--set", "--seeds", "--jobs", "--preset",
-                                     "--quantity",    "--out", "--shorebreak"};
-enum { TELLING = 6 }; /* of those, that belong into the command as it is shown */
-
-static void note(sb_study_options *o, const char *text)
+static sb_status take_scene(void *user, const char *path, sb_error *error)
 {
-    size_t length = strlen(o->command);
-    const char *quote = strpbrk(text, " *?[{\"") ? "'" : "";
-    snprintf(o->command + length, sizeof o->command - length, " %s%.200s%s", quote, text, quote);
-}
-
-static sb_status take(sb_study_options *o, const char *argument, const char *next, int *taken,
-                      sb_error *error)
-{
-    for (size_t k = 0; k < sizeof valued / sizeof *valued; k++) {
-        if (strcmp(argument, valued[k]) != 0) continue;
-        if (!next) return sb_fail(error, SB_BAD_INPUT, "%s: a value is missing; see --help", argument);
-        *taken = 2;
-        if (k < TELLING) note(o, argument);
-        if (k < TELLING) note(o, next);
-        return take_value(o, argument, next, error);
-    }
-    if (strcmp(argument, "--report-only") == 0) {
-        o->report_only = true;
-        return SB_OK;
-    }
-    if (strcmp(argument, "--help") == 0) {
-        o->help = true;
-        return SB_OK;
-    }
-    if (argument[0] == '-')
-        return sb_fail(error, SB_BAD_INPUT, "%.200s: no such option; see --help", argument);
-    if (o->scene) return sb_fail(error, SB_BAD_INPUT, "%.200s: one scene only", argument);
-    o->scene = argument;
-    note(o, argument);
+    sb_study_options *o = user;
+    if (o->scene) return sb_fail(error, SB_BAD_INPUT, "%.200s: one scene only", path);
+    o->scene = path;
     return SB_OK;
 }
 
 sb_status sb_study_parse(int count, char **arguments, sb_study_options *o, sb_error *error)
 {
-    sb_status status = SB_OK;
     *o = (sb_study_options){.seeds = 1, .jobs = 1, .command = "tools/study"};
-    for (int i = 1, taken; status == SB_OK && i < count; i += taken) {
-        taken = 1;
-        status = take(o, arguments[i], i + 1 < count ? arguments[i + 1] : NULL, &taken, error);
-    }
+    const sb_argument options[] = {{.name = "--resolutions", .take = take_spacings, .telling = true},
+                                   {.name = "--set", .take = take_set, .telling = true},
+                                   {.name = "--seeds", .count = &o->seeds, .most = SB_STUDY_SEEDS, .telling = true},
+                                   {.name = "--jobs", .count = &o->jobs, .most = 256, .telling = true},
+                                   {.name = "--preset", .take = take_preset, .telling = true},
+                                   {.name = "--quantity", .take = take_pattern, .telling = true},
+                                   {.name = "--report-only", .flag = &o->report_only},
+                                   {.name = "--out", .text = &o->out},
+                                   {.name = "--shorebreak", .text = &o->program}};
+    const sb_command_line line = {.options = options, .option_count = sizeof options / sizeof *options,
+                                  .word = take_scene, .user = o, .help = &o->help, .command = o->command,
+                                  .command_size = sizeof o->command};
+    sb_status status = sb_command_line_read(&line, count, arguments, error);
     if (status != SB_OK || o->help) return status;
     if (!o->scene) return sb_fail(error, SB_BAD_INPUT, "no scene named; see --help");
     return o->spacing_count > 1

@@ -80,13 +80,3 @@ sb_status sb_trials_store(sb_store *store, const char *out, const char *program,
     return status == SB_OK ? sb_store_open(store, out, program ? program : beside, source, error)
                            : status;
 }
-
-sb_status sb_trial_count(const char *name, const char *text, int most, int *value, sb_error *error)
-{
-    char *end;
-    long number = strtol(text, &end, 10);
-    if (end == text || *end || number < 1 || number > most)
-        return sb_fail(error, SB_BAD_INPUT, "%s: %.50s is no number from 1 to %d", name, text, most);
-    *value = (int)number;
-    return SB_OK;
-}

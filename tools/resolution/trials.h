@@ -34,7 +34,4 @@ sb_status sb_trials_store(sb_store *store, const char *out, const char *program,
 extern const char *const sb_trial_settings[];
 enum { SB_TRIAL_SETTINGS = 3 };
 
-/* NAME's value as a number of runs, threads or seeds from 1 to `most`. */
-sb_status sb_trial_count(const char *name, const char *text, int most, int *value, sb_error *error);
-
 #endif

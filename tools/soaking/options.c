@@ -1,8 +1,8 @@
 #include "options.h"
 
+#include "arguments.h"
+
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 const char sb_soak_help[] =
     "usage: tools/soak [OPTIONS]\n"
@@ -18,45 +18,18 @@ const char sb_soak_help[] =
     "  --report DIR      soak.md goes here (default: docs/results)\n"
     "  --help            this text\n";
 
-static sb_status take_number(const char *flag, const char *value, double *number, sb_error *error)
-{
-    char *end = NULL;
-    *number = value ? strtod(value, &end) : 0;
-    if (!value || end == value || *end || !isfinite(*number) || *number <= 0 || *number > 1e6)
-        return sb_fail(error, SB_BAD_INPUT, "%s: expected a number above 0, at most 1e6", flag);
-    return SB_OK;
-}
-
-static sb_status take(sb_soak_options *o, const char *flag, const char *value, sb_error *error)
-{
-    const struct {
-        const char *name;
-        double *number;
-        const char **text;
-    } flags[] = {{"--minutes", &o->minutes, NULL}, {"--life", &o->life, NULL},   {"--spacing", &o->spacing, NULL},
-                 {"--duration", &o->duration, NULL}, {"--out", NULL, &o->out}, {"--report", NULL, &o->report}};
-    for (size_t f = 0; f < sizeof flags / sizeof *flags; f++) {
-        if (strcmp(flag, flags[f].name) != 0)
-            continue;
-        if (flags[f].number)
-            return take_number(flag, value, flags[f].number, error);
-        *flags[f].text = value;
-        return value ? SB_OK : sb_fail(error, SB_BAD_INPUT, "%s: a folder is missing behind it", flag);
-    }
-    return sb_fail(error, SB_BAD_INPUT, "%.200s: no such option; --help lists them", flag);
-}
-
 sb_status sb_soak_options_parse(int count, char **arguments, sb_soak_options *options, sb_error *error)
 {
     *options = (sb_soak_options){.minutes = 60, .spacing = 6, .duration = 300, .out = "runs/soak",
                                  .report = SB_SOURCE_DIR "/docs/results"};
-    sb_status status = SB_OK;
-    for (int i = 1; status == SB_OK && i < count; i += 2) {
-        options->help = strcmp(arguments[i], "--help") == 0;
-        if (options->help)
-            return SB_OK;
-        status = take(options, arguments[i], i + 1 < count ? arguments[i + 1] : NULL, error);
-    }
+    const sb_argument table[] = {{.name = "--minutes", .number = &options->minutes, .most = 1e6},
+                                 {.name = "--life", .number = &options->life, .most = 1e6},
+                                 {.name = "--spacing", .number = &options->spacing, .most = 1e3},
+                                 {.name = "--duration", .number = &options->duration, .most = 1e6},
+                                 {.name = "--out", .text = &options->out},
+                                 {.name = "--report", .text = &options->report}};
+    const sb_command_line line = {.options = table, .option_count = sizeof table / sizeof *table, .help = &options->help};
+    sb_status status = sb_command_line_read(&line, count, arguments, error);
     if (!(options->life > 0))
         options->life = fmax(6 * options->minutes, 3);
     return status;
