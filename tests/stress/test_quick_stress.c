@@ -1,53 +1,37 @@
 /* Quick forms of stress cases, by the programs themselves. */
 #include "check.h"
 
-#include "base/file.h"
 #include "base/memory.h"
+#include "tools/tool.h"
 
-#include <ftw.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-static char folder[512], *spoken;
+static char *spoken; /* by the last one that was run */
 
 static int set_up(void **state)
 {
     (void)state;
-    const char *base = getenv("TMPDIR");
-    snprintf(folder, sizeof folder, "%.400s/shorebreak-stress-XXXXXX", base && *base ? base : "/tmp");
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_one(const char *path, const struct stat *info, int kind, struct FTW *where)
-{
-    (void)info;
-    (void)kind;
-    (void)where;
-    return remove(path);
+    return tool_begin();
 }
 
 static int tear_down(void **state)
 {
     (void)state;
     sb_free(spoken);
-    return nftw(folder, remove_one, 16, FTW_DEPTH | FTW_PHYS);
+    return tool_end();
 }
 
-/* Exit status of the battery with these arguments; what it said is in `spoken`. */
+/* Exit status of the battery with these arguments. */
 static int stress(const char *arguments)
 {
-    char command[2048], said[600];
-    size_t length;
-    snprintf(said, sizeof said, "%s/said.txt", folder);
-    snprintf(command, sizeof command, "'%s/shorebreak-stress' --jobs 1 --out '%s' %s >'%s' 2>&1", SB_BINARY_DIR,
-             folder, arguments, said);
-    int how = system(command);
+    char all[300];
+    snprintf(all, sizeof all, "--jobs 1 %s", arguments);
+    const int status = tool_run("shorebreak-stress", all);
     sb_free(spoken);
-    assert_int_equal(sb_file_read(said, 1 << 20, &spoken, &length, NULL), SB_OK);
-    return WIFEXITED(how) ? WEXITSTATUS(how) : -1;
+    spoken = tool_text("said");
+    assert_non_null(spoken);
+    return status;
 }
 
 static void must_pass(const char *names)
@@ -100,15 +84,10 @@ static void test_no_key_crashes_or_hangs(void **state)
 static void test_what_was_run_is_kept(void **state)
 {
     (void)state;
-    char path[SB_PATH_MAX], *text;
-    size_t length;
     must_pass("jet");
     assert_null(strstr(spoken, "exit status"));
-    snprintf(path, sizeof path, "%s/quick/stability.md", folder);
-    assert_int_equal(sb_file_read(path, 1 << 20, &text, &length, NULL), SB_OK);
-    assert_non_null(strstr(text, "slice-into-corner"));
-    assert_non_null(strstr(text, "not run")); /* other cases */
-    sb_free(text);
+    assert_true(tool_says("out/quick/stability.md", "slice-into-corner"));
+    assert_true(tool_says("out/quick/stability.md", "not run")); /* other cases */
 }
 
 static void test_bad_command_lines(void **state)

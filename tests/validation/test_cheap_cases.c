@@ -2,63 +2,30 @@
    finished set is not run again; and what a bad command line says. */
 #include "check.h"
 
-#include "base/file.h"
-#include "base/memory.h"
 #include "sheet.h"
+#include "tools/tool.h"
 
-#include <ftw.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-static char folder[] = "/tmp/sb-validate-XXXXXX";
 static sb_sheet results;
 
-/* Exit status of the program with these arguments, its output in folder/said. */
 static int validate(const char *arguments)
 {
-    char command[1024];
-    snprintf(command, sizeof command,
-             "'%s/shorebreak-validate' %s --out '%s' --jobs 2 >'%s/said' 2>&1", SB_BINARY_DIR,
-             arguments, folder, folder);
-    int how = system(command);
-    return WIFEXITED(how) ? WEXITSTATUS(how) : -1;
-}
-
-static bool said(const char *words)
-{
-    char path[SB_PATH_MAX], line[1024];
-    bool found = false;
-    snprintf(path, sizeof path, "%s/said", folder);
-    FILE *in = fopen(path, "r");
-    while (in && fgets(line, sizeof line, in))
-        if (strstr(line, words)) found = true;
-    if (in) fclose(in);
-    return found;
-}
-
-static int remove_one(const char *path, const struct stat *info, int kind, struct FTW *where)
-{
-    (void)info;
-    (void)kind;
-    (void)where;
-    return remove(path);
+    char all[1024];
+    snprintf(all, sizeof all, "%s --jobs 2", arguments);
+    return tool_run("shorebreak-validate", all);
 }
 
 static int set_up(void **state)
 {
     (void)state;
-    if (!mkdtemp(folder)) return -1;
+    if (tool_begin() != 0) return -1;
     /* 0: all within reach, 4: some are short of it, which coarse forms may be. */
     int status = validate("--quick still-water-2d standing-wave");
     if (status != 0 && status != 4) return -1;
-    char path[SB_PATH_MAX];
-    snprintf(path, sizeof path, "%s/quick/validation/results.csv", folder);
     sb_error error = {0};
-    if (sb_sheet_read(path, &results, &error) == SB_OK) return 0;
+    if (sb_sheet_read(tool_path("out/quick/validation/results.csv"), &results, &error) == SB_OK) return 0;
     print_error("%s\n", error.text);
     return -1;
 }
@@ -67,7 +34,7 @@ static int tear_down(void **state)
 {
     (void)state;
     sb_sheet_free(&results);
-    return nftw(folder, remove_one, 16, FTW_DEPTH | FTW_PHYS);
+    return tool_end();
 }
 
 /* Column of the judged figure. */
@@ -108,28 +75,23 @@ static void test_a_coarse_standing_wave_swings(void **state)
 static void test_what_has_run_is_not_run_again(void **state)
 {
     (void)state;
-    char path[SB_PATH_MAX], *text;
-    size_t length;
     int status = validate("--quick still-water-2d");
     assert_true(status == 0 || status == 4);
-    assert_false(said("0.05 m:"));
-    assert_true(said("validation.md"));
-    snprintf(path, sizeof path, "%s/quick/validation.md", folder);
-    assert_int_equal(sb_file_read(path, 1 << 20, &text, &length, NULL), SB_OK);
-    assert_non_null(strstr(text, "still-water-2d"));
-    assert_non_null(strstr(text, "not run")); /* the other cases */
-    sb_free(text);
+    assert_false(tool_says("said", "0.05 m:"));
+    assert_true(tool_says("said", "validation.md"));
+    assert_true(tool_says("out/quick/validation.md", "still-water-2d"));
+    assert_true(tool_says("out/quick/validation.md", "not run")); /* the other cases */
 }
 
 static void test_bad_command_lines(void **state)
 {
     (void)state;
     assert_int_equal(validate("still-watr"), 1);
-    assert_true(said("validate: still-watr: no such case; --list names them"));
+    assert_true(tool_says("said", "validate: still-watr: no such case; --list names them"));
     assert_int_equal(validate("--quik"), 1);
-    assert_true(said("--quik: no such option"));
+    assert_true(tool_says("said", "--quik: no such option"));
     assert_int_equal(validate(""), 1);
-    assert_true(said("no case named"));
+    assert_true(tool_says("said", "no case named"));
 }
 
 int main(void)
