@@ -51,10 +51,8 @@ static sb_status read_header(source *file, sb_error *error)
     file->base = (uint64_t)(mark - file->header) + strlen(SB_VTP_APPENDED);
     file->header[file->base] = '\0';
     if (strlen(file->header) != file->base) return damaged(file, error, "zero bytes in the header");
-    if (!strstr(file->header, "type=\"PolyData\"") ||
-        !strstr(file->header, "byte_order=\"LittleEndian\"") ||
-        !strstr(file->header, "header_type=\"UInt64\""))
-        return damaged(file, error, "not little-endian PolyData with UInt64 headers");
+    if (strncmp(file->header, SB_VTP_HEAD, strlen(SB_VTP_HEAD)) != 0)
+        return damaged(file, error, "does not begin as little-endian PolyData with UInt64 headers");
     const char *end = file->header + file->base;
     if (!find_number(file->header, end, "NumberOfPoints", &file->points))
         return damaged(file, error, "no NumberOfPoints");
@@ -199,6 +197,29 @@ static sb_status read_fields(source *file, sb_frame *frame, sb_error *error)
     now->max_speed = values[SB_VTP_MAX_SPEED];
     now->wall_seconds = values[SB_VTP_WALL];
     now->eta_seconds = values[SB_VTP_ETA];
+    for (size_t k = 0; k < SB_VTP_STATUS_COUNT; k++)
+        if (!isfinite(values[k])) return damaged(file, error, "a status value that is no number");
+    return SB_OK;
+}
+
+static bool all_finite(const float *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(values[i])) return false;
+    return true;
+}
+
+/* What is drawn from a frame, and written into tables, counts on numbers that are some. */
+static sb_status check_numbers(const source *file, const sb_frame *frame, sb_error *error)
+{
+    if (!all_finite(frame->position, 3 * frame->count) || !all_finite(frame->velocity, 3 * frame->count) ||
+        !all_finite(frame->pressure, frame->count))
+        return damaged(file, error, "particles whose position, velocity or pressure is no number");
+    for (size_t b = 0; b < frame->body_count; b++) {
+        const sb_frame_body *body = &frame->bodies[b];
+        if (!sb_isfinite(body->displacement) || !sb_isfinite(body->force) || !sb_isfinite(body->moment))
+            return damaged(file, error, "a body whose place or load is no number");
+    }
     return SB_OK;
 }
 
@@ -222,6 +243,7 @@ static sb_status read_frame(source *file, sb_frame **frame, sb_error *error)
         status = read_array(file, "pressure", "Float32", 4, 1, file->points, made->pressure, error);
     if (status == SB_OK)
         status = read_array(file, "id", "UInt32", 4, 1, file->points, made->id, error);
+    if (status == SB_OK) status = check_numbers(file, made, error);
     if (status != SB_OK)
         sb_frame_release(made);
     else

@@ -76,9 +76,7 @@ static void write_header(FILE *stream, const layout *file)
 {
     const array *at = file->arrays;
     uint64_t offset = 0;
-    fputs("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
-          "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n<FieldData>\n",
-          stream);
+    fputs(SB_VTP_HEAD "<PolyData>\n<FieldData>\n", stream);
     for (size_t i = 0; i < file->field_count; i++) write_tag(stream, at++, true, &offset);
     fprintf(stream,
             "</FieldData>\n<Piece NumberOfPoints=\"%zu\" NumberOfVerts=\"%zu\" "

@@ -55,3 +55,17 @@ void fuzz_check_refusal(sb_status status, const sb_error *error)
     for (const char *c = error->text; *c; ++c)
         FUZZ_CHECK((unsigned char)*c >= ' ' && *c != 0x7f);
 }
+
+void fuzz_edit(uint8_t *bytes, size_t size, const uint8_t *edits, size_t left)
+{
+    while (left > 3) {
+        size_t at = ((size_t)edits[0] | (size_t)edits[1] << 8) % size, length = edits[2];
+        edits += 3;
+        left -= 3;
+        if (length > left) length = left;
+        if (length > size - at) length = size - at;
+        memcpy(bytes + at, edits, length);
+        edits += length;
+        left -= length;
+    }
+}

@@ -25,6 +25,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
    next call. The folder goes when the process ends. */
 const char *fuzz_save(const char *name, const uint8_t *data, size_t size);
 
+/* Changes bytes (at least one) as a row of edits says, each of an offset (two bytes, low one first), a length and so many
+   bytes to put there. */
+void fuzz_edit(uint8_t *bytes, size_t size, const uint8_t *edits, size_t left);
+
 /* Checks what every refusal promises: a failure's status, and one line without control characters. */
 void fuzz_check_refusal(sb_status status, const sb_error *error);
 

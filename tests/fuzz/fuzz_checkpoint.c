@@ -1,5 +1,4 @@
-/* A checkpoint. An input that begins with 'e' is a row of edits to a sound one, each of an offset (two
-   bytes, low one first), a length and so many bytes to put there; any other is the file itself. Each is
+/* A checkpoint. An input that begins with 'e' is a row of edits to a sound one; any other is the file itself. Each is
    tried as it is, and once more with its checksums made right, so that what they guard is tried as well. */
 #include "fuzz.h"
 
@@ -89,20 +88,6 @@ static void repair(uint8_t *bytes, size_t size)
     }
 }
 
-static void edit(uint8_t *bytes, size_t size, const uint8_t *edits, size_t left)
-{
-    while (left > 3) {
-        size_t at = ((size_t)edits[0] | (size_t)edits[1] << 8) % size, length = edits[2];
-        edits += 3;
-        left -= 3;
-        if (length > left) length = left;
-        if (length > size - at) length = size - at;
-        memcpy(bytes + at, edits, length);
-        edits += length;
-        left -= length;
-    }
-}
-
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     if (!sim) make_run();
@@ -111,7 +96,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     uint8_t *bytes = malloc(length ? length : 1);
     FUZZ_CHECK(bytes);
     memcpy(bytes, edits ? sound.bytes : data, length);
-    if (edits) edit(bytes, length, data + 1, size - 1);
+    if (edits) fuzz_edit(bytes, length, data + 1, size - 1);
     try_bytes(bytes, length);
     repair(bytes, length);
     try_bytes(bytes, length);

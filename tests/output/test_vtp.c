@@ -146,7 +146,7 @@ static void damaged_files_are_refused(void **state)
     size_t length, refused = 0;
     assert_int_equal(sb_file_read(in_folder("c.vtp"), 1 << 20, &bytes, &length, NULL), SB_OK);
     const char *base = strchr(strstr(bytes, "<AppendedData"), '_') + 1;
-    size_t header = (size_t)(base - bytes);
+    size_t header = (size_t)(base - bytes), declaration = (size_t)(strstr(bytes, "<PolyData>") - bytes);
     size_t needed = length - strlen("\n</AppendedData>\n</VTKFile>\n") - 2 * (8 + 20 * 4);
     for (size_t cut = 0; cut < needed; cut += cut < header ? 61 : 7) {
         sb_frame *read = NULL;
@@ -168,6 +168,8 @@ static void damaged_files_are_refused(void **state)
             if (k == 2) continue;
             if (sb_vtp_read(in_folder("d.vtp"), &read, NULL) != SB_OK)
                 refused++;
+            else if (i < declaration && (k == 0 || bytes[i] != '9'))
+                fail_msg("byte %zu of the declaration changed, and the file is read", i);
             else
                 sb_frame_release(read);
         }
@@ -178,6 +180,36 @@ static void damaged_files_are_refused(void **state)
     assert_int_equal(sb_vtp_read(in_folder("absent.vtp"), &read, &error), SB_BAD_INPUT);
     assert_non_null(strstr(error.text, "absent.vtp"));
     sb_free(bytes);
+    sb_frame_release(frame);
+}
+
+/* Each value of each kind in turn is none. */
+static void numbers_that_are_none_are_refused(void **state)
+{
+    (void)state;
+    sb_frame *frame = make_frame(20, 2);
+    const float none[] = {(float)NAN, (float)INFINITY};
+    float *const values[] = {&frame->position[59], &frame->velocity[0], &frame->pressure[7]};
+    double *const doubles[] = {&frame->bodies[1].force.z, &frame->bodies[0].moment.x, &frame->bodies[1].displacement.y,
+                               &frame->status.time, &frame->status.eta_seconds, &frame->origin.y, &frame->spacing};
+    for (int k = 0; k < 2; k++) {
+        sb_frame *read = NULL;
+        for (size_t v = 0; v < sizeof values / sizeof *values; v++) {
+            const float kept = *values[v];
+            *values[v] = none[k];
+            assert_int_equal(sb_vtp_write(in_folder("n.vtp"), frame, NULL), SB_OK);
+            assert_int_equal(sb_vtp_read(in_folder("n.vtp"), &read, NULL), SB_BAD_INPUT);
+            *values[v] = kept;
+        }
+        for (size_t d = 0; d < sizeof doubles / sizeof *doubles; d++) {
+            const double kept = *doubles[d];
+            *doubles[d] = (double)none[k];
+            assert_int_equal(sb_vtp_write(in_folder("n.vtp"), frame, NULL), SB_OK);
+            assert_int_equal(sb_vtp_read(in_folder("n.vtp"), &read, NULL), SB_BAD_INPUT);
+            *doubles[d] = kept;
+        }
+        assert_null(read);
+    }
     sb_frame_release(frame);
 }
 
@@ -257,6 +289,7 @@ int main(void)
         cmocka_unit_test(round_trip),
         cmocka_unit_test(layout_is_what_the_header_says),
         cmocka_unit_test(damaged_files_are_refused),
+        cmocka_unit_test(numbers_that_are_none_are_refused),
         cmocka_unit_test(failing_memory_is_an_error),
         cmocka_unit_test(bare_points),
         cmocka_unit_test(pvd_lists_real_times),

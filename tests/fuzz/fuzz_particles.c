@@ -1,0 +1,81 @@
+/* A particle file. An input that begins with 'e' is a row of edits to a sound one; any other is the file itself. What is
+   read has finite numbers, and comes back the same when it is written and read again. */
+#include "fuzz.h"
+
+#include "base/file.h"
+#include "base/memory.h"
+#include "output/vtp.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+static char *sound;
+static size_t length;
+
+static void make_sound(void)
+{
+    char path[SB_PATH_MAX];
+    sb_frame *frame = sb_frame_create(3, 2);
+    FUZZ_CHECK(frame);
+    frame->spacing = 0.5;
+    frame->origin = sb_vec(100, -50, 2);
+    frame->status = (sb_frame_status){.step = 7, .time = 1.5, .duration = 9, .time_step = 0.01};
+    for (size_t i = 0; i < 9; i++) frame->position[i] = (float)i;
+    snprintf(frame->bodies[0].name, sizeof frame->bodies[0].name, "reactor");
+    frame->bodies[1].force = sb_vec(1e6, 0, 0);
+    snprintf(path, sizeof path, "%s", fuzz_save("sound.vtp", NULL, 0));
+    FUZZ_CHECK(sb_vtp_write(path, frame, NULL) == SB_OK);
+    FUZZ_CHECK(sb_file_read(path, 1 << 20, &sound, &length, NULL) == SB_OK);
+    sb_frame_release(frame);
+}
+
+static void check_finite(const sb_frame *frame)
+{
+    for (size_t i = 0; i < 3 * frame->count; i++)
+        FUZZ_CHECK(isfinite(frame->position[i]) && isfinite(frame->velocity[i]));
+    for (size_t i = 0; i < frame->count; i++) FUZZ_CHECK(isfinite(frame->pressure[i]));
+    for (size_t b = 0; b < frame->body_count; b++)
+        FUZZ_CHECK(sb_isfinite(frame->bodies[b].force) && sb_isfinite(frame->bodies[b].moment) &&
+                   memchr(frame->bodies[b].name, 0, sizeof frame->bodies[b].name));
+    FUZZ_CHECK(frame->spacing > 0 && isfinite(frame->spacing) && isfinite(frame->status.time));
+}
+
+static void check_again(const sb_frame *frame)
+{
+    char path[SB_PATH_MAX];
+    sb_frame *again = NULL;
+    snprintf(path, sizeof path, "%s", fuzz_save("again.vtp", NULL, 0));
+    FUZZ_CHECK(sb_vtp_write(path, frame, NULL) == SB_OK);
+    FUZZ_CHECK(sb_vtp_read(path, &again, NULL) == SB_OK);
+    FUZZ_CHECK(again->count == frame->count && again->body_count == frame->body_count);
+    FUZZ_CHECK(again->index == frame->index && again->status.step == frame->status.step);
+    FUZZ_CHECK(memcmp(again->velocity, frame->velocity, 12 * frame->count) == 0);
+    FUZZ_CHECK(memcmp(again->pressure, frame->pressure, 4 * frame->count) == 0);
+    FUZZ_CHECK(memcmp(again->id, frame->id, 4 * frame->count) == 0);
+    sb_frame_release(again);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    if (!sound) make_sound();
+    const bool edits = size > 0 && data[0] == 'e';
+    const size_t bytes = edits ? length : size;
+    uint8_t *file = malloc(bytes ? bytes : 1);
+    FUZZ_CHECK(file);
+    if (bytes) memcpy(file, edits ? (const uint8_t *)sound : data, bytes);
+    if (edits) fuzz_edit(file, bytes, data + 1, size - 1);
+    sb_frame *frame = NULL;
+    sb_error error = {0};
+    const sb_status status = sb_vtp_read(fuzz_save("some.vtp", file, bytes), &frame, &error);
+    free(file);
+    if (status != SB_OK) {
+        FUZZ_CHECK(!frame);
+        fuzz_check_refusal(status, &error);
+        return 0;
+    }
+    check_finite(frame);
+    check_again(frame);
+    sb_frame_release(frame);
+    return 0;
+}
