@@ -1,76 +1,46 @@
-/* One pass over the cells gives each particle its neighbour lists, density, wall vector and the
-   diagonal of the pressure operator: the offsets are at hand once, and all four need them. */
+/* One pass over the groups gives each particle its neighbour lists, density, wall vector and the diagonal of the
+   pressure operator: the offsets are at hand once, and all four need them. */
 #include "base/memory.h"
 #include "sim/kernel_batch.h"
-#include "sim/sleep.h"
+#include "sim/lists.h"
+#include "sim/vicinity.h"
 
 #include <math.h>
-#include <omp.h>
-#include <string.h>
-
-#if defined(__x86_64__)
-#include <immintrin.h>
-#define SB_AVX512
-#endif
 
 enum {
-    CANDIDATES = 4096,   /* of one cell's surroundings that fit the fast buffer; more are refused */
-    LIST_MAX = 1024,     /* neighbours of one particle: 30 are normal */
-    LANES = 8,
-    SPARE = 16,          /* vector stores may run past the end */
+    WALLS = 4096,  /* boundary particles around one cell; more are refused */
+    MOST = 32767,  /* of a stored slope */
 };
 
-/* Particles around one cell as offsets from the cell's corner, in quanta. */
+/* Boundary particles around one cell as offsets from the cell's corner, in quanta. */
 typedef struct surroundings {
     size_t count;
-    float x[CANDIDATES + SPARE], y[CANDIDATES + SPARE], z[CANDIDATES + SPARE];
-    float weight[CANDIDATES + SPARE];
-    uint32_t index[CANDIDATES + SPARE];
+    float x[WALLS + SB_HIT_SPARE], y[WALLS + SB_HIT_SPARE], z[WALLS + SB_HIT_SPARE];
+    float weight[WALLS];
+    uint32_t index[WALLS];
 } surroundings;
 
-/* The hits of one particle. */
-typedef struct hits {
-    size_t count, padded; /* padded to LANES by hits at the support radius, where kernels vanish */
-    float x[LIST_MAX + SPARE], y[LIST_MAX + SPARE], z[LIST_MAX + SPARE], q2[LIST_MAX + SPARE];
-    float weight[LIST_MAX + SPARE], value[LIST_MAX + SPARE], slope[LIST_MAX + SPARE];
-    uint32_t index[LIST_MAX + SPARE];
-} hits;
-
-typedef size_t find_hits_form(const surroundings *s, hits *h, sb_f4 self, float scale, uint32_t skip);
-
-/* A list under construction for one block, copied to the shared pool when the block is done. */
-typedef struct list {
-    uint32_t *index;
-    float *slope;
-    size_t used, capacity_index, capacity_slope;
-} list;
-
-typedef struct worker {
-    surroundings fluid, wall;
-    hits hits;
-    list pairs, wall_pairs;
+struct sb_searcher {
+    sb_vicinity vicinity;
+    surroundings wall;
+    sb_hits hits;
     const sb_kernel *kernel;
     sb_kernel_batch *batch;
-    find_hits_form *find_hits;
+    sb_find_hits *find_hits;
     float q_scale;        /* (quantum / h)^2 */
     float value_scale;    /* alpha / h^d */
     float slope_scale;    /* alpha quantum / h^(d+2): W'/r per quantum */
+    float to_units;       /* a slope of the kernel in stored units */
     bool full;            /* a limit was hit */
-    bool starved;         /* memory ran out */
-} worker;
+};
 
-static bool list_reserve(list *l, size_t more)
-{
-    size_t needed = l->used + more;
-    return sb_grow((void **)&l->index, &l->capacity_index, needed, sizeof *l->index) == 0 &&
-           sb_grow((void **)&l->slope, &l->capacity_slope, needed, sizeof *l->slope) == 0;
-}
+/* ---- walls around a cell ---- */
 
-SB_INLINE void gather_cell(surroundings *s, const sb_record *record, uint32_t begin, uint32_t end,
-                           sb_record corner, uint32_t base)
+SB_INLINE void gather_cell(surroundings *s, const sb_record *record, uint32_t begin, uint32_t end, sb_record corner,
+                           uint32_t base)
 {
-    if (s->count + (end - begin) > CANDIDATES) {
-        s->count = CANDIDATES + 1;
+    if (s->count + (end - begin) > WALLS) {
+        s->count = WALLS + 1;
         return;
     }
     for (uint32_t k = begin; k < end; k++) {
@@ -83,128 +53,73 @@ SB_INLINE void gather_cell(surroundings *s, const sb_record *record, uint32_t be
     }
 }
 
-/* All records of `cells` in the 27 (2D: 9) cells around `code`, in a fixed order, numbered from `base`. */
-SB_INLINE void gather(surroundings *s, const sb_cells *cells, const sb_record *record, uint64_t code,
-                      sb_record corner, int layers, uint32_t base)
+/* Those in the 27 (2D: 9) cells around particle i's, in a fixed order. */
+static void gather_walls(const sb_sim *sim, struct sb_searcher *w, size_t i, sb_record corner)
 {
-    for (int dz = -1; dz <= 1; dz++)
-        for (int dy = -layers; dy <= layers; dy++)
-            for (int dx = -1; dx <= 1; dx++) {
-                int64_t cell = sb_cells_find(cells, code + sb_cell_step(dx, dy, dz));
-                if (cell >= 0 && s->count <= CANDIDATES)
-                    gather_cell(s, record, cells->begin[cell], cells->begin[cell + 1], corner, base);
-            }
-}
-
-/* Candidates within the support radius of `self`, as offsets self - candidate; skip: index of self.
-   Returns how many; LIST_MAX or more means that some may have been left out. */
-SB_MULTIVERSION
-static size_t find_hits_portable(const surroundings *s, hits *h, sb_f4 self, float scale, uint32_t skip)
-{
-    size_t n = 0;
-    for (size_t k = 0; k < s->count && n < LIST_MAX; k++) {
-        float x = self[0] - s->x[k], y = self[1] - s->y[k], z = self[2] - s->z[k];
-        float q2 = fmaf(x, x, fmaf(y, y, z * z)) * scale;
-        h->x[n] = x;
-        h->y[n] = y;
-        h->z[n] = z;
-        h->q2[n] = q2;
-        h->weight[n] = s->weight[k];
-        h->index[n] = s->index[k];
-        n += (q2 < 1.0f) & (s->index[k] != skip);
-    }
-    return n;
-}
-
-#ifdef SB_AVX512
-/* The same sixteen at a time; equal to the portable form to the bit. */
-__attribute__((target("avx512f")))
-static size_t find_hits_avx512(const surroundings *s, hits *h, sb_f4 self, float scale, uint32_t skip)
-{
-    const __m512 sx = _mm512_set1_ps(self[0]), sy = _mm512_set1_ps(self[1]), sz = _mm512_set1_ps(self[2]);
-    const __m512 factor = _mm512_set1_ps(scale), one = _mm512_set1_ps(1.0f);
-    const __m512i own = _mm512_set1_epi32((int)skip);
-    size_t n = 0;
-    for (size_t k = 0; k < s->count && n < LIST_MAX; k += 16) {
-        size_t left = s->count - k;
-        __mmask16 valid = (__mmask16)(left < 16 ? (1u << left) - 1 : 0xffffu);
-        __m512 x = _mm512_sub_ps(sx, _mm512_loadu_ps(s->x + k));
-        __m512 y = _mm512_sub_ps(sy, _mm512_loadu_ps(s->y + k));
-        __m512 z = _mm512_sub_ps(sz, _mm512_loadu_ps(s->z + k));
-        __m512 q2 = _mm512_mul_ps(
-            _mm512_fmadd_ps(x, x, _mm512_fmadd_ps(y, y, _mm512_mul_ps(z, z))), factor);
-        __m512i index = _mm512_loadu_si512(s->index + k);
-        __mmask16 near = _mm512_mask_cmp_ps_mask(valid, q2, one, _CMP_LT_OQ);
-        near = _mm512_mask_cmpneq_epi32_mask(near, index, own);
-        if (!near)
+    const int layers = sim->constant.dimension == 2 ? 0 : 1;
+    const uint64_t code = sb_cell_code(sim->position[i], sim->space.shift);
+    w->wall.count = 0;
+    for (uint32_t s = 0; s < SB_WALL_SETS; s++) {
+        const sb_wall_set *set = &sim->walls[s];
+        if (!sb_walls_near(set, &sim->space, sim->position[i]))
             continue;
-        _mm512_storeu_ps(h->x + n, _mm512_maskz_compress_ps(near, x));
-        _mm512_storeu_ps(h->y + n, _mm512_maskz_compress_ps(near, y));
-        _mm512_storeu_ps(h->z + n, _mm512_maskz_compress_ps(near, z));
-        _mm512_storeu_ps(h->q2 + n, _mm512_maskz_compress_ps(near, q2));
-        _mm512_storeu_ps(h->weight + n, _mm512_maskz_compress_ps(near, _mm512_loadu_ps(s->weight + k)));
-        _mm512_storeu_si512(h->index + n, _mm512_maskz_compress_epi32(near, index));
-        n += (size_t)__builtin_popcount(near);
+        for (int dz = -1; dz <= 1; dz++)
+            for (int dy = -layers; dy <= layers; dy++)
+                for (int dx = -1; dx <= 1; dx++) {
+                    int64_t cell = sb_cells_find(&set->cells, code + sb_cell_step(dx, dy, dz));
+                    if (cell >= 0 && w->wall.count <= WALLS)
+                        gather_cell(&w->wall, set->record, set->cells.begin[cell], set->cells.begin[cell + 1], corner,
+                                    s << 31);
+                }
     }
-    return n;
-}
-#endif
-
-static find_hits_form *choose_find_hits(void)
-{
-#ifdef SB_AVX512
-    if (__builtin_cpu_supports("avx512f"))
-        return find_hits_avx512;
-#endif
-    return find_hits_portable;
+    if (w->wall.count > WALLS) {
+        w->full = true;
+        w->wall.count = 0;
+    }
 }
 
-SB_INLINE void find_hits(worker *w, const surroundings *s, sb_f4 self, uint32_t skip)
+/* ---- one particle ---- */
+
+SB_INLINE void find_hits(struct sb_searcher *w, const sb_candidates *of, const sb_stretch *stretch, size_t stretches,
+                         sb_f4 self, uint32_t skip)
 {
-    size_t n = w->find_hits(s, &w->hits, self, w->q_scale, skip);
-    w->full |= n >= LIST_MAX;
-    hits *h = &w->hits;
-    h->count = n < LIST_MAX ? n : LIST_MAX;
-    h->padded = (h->count + LANES - 1) / LANES * LANES;
+    sb_hits *h = &w->hits;
+    size_t n = w->find_hits(of, stretch, stretches, h, self, w->q_scale, skip);
+    w->full |= n >= SB_LIST_MAX;
+    h->count = n < SB_LIST_MAX ? n : SB_LIST_MAX;
+    h->padded = (h->count + SB_HIT_LANES - 1) / SB_HIT_LANES * SB_HIT_LANES;
     for (size_t k = h->count; k < h->padded; k++) {
         h->x[k] = h->y[k] = h->z[k] = 0;
         h->q2[k] = 1;
+        h->candidate[k] = skip;
     }
 }
 
-/* Appends the hits to a list, padded to four with (filler, 0). */
-SB_INLINE void append(worker *w, list *l, uint32_t filler, uint16_t *count)
+/* Slopes of the kernel to roots that can be stored, and to the slopes that these stand for: all that uses a pair sees
+   the same number. */
+SB_MULTIVERSION
+static void round_slopes(float *restrict slope, float *restrict root, size_t count, float to_units)
 {
-    const hits *h = &w->hits;
-    size_t padded = (h->count + 3) / 4 * 4;
-    *count = 0;
-    if (padded == 0)
-        return;
-    if (!list_reserve(l, padded)) {
-        w->starved = true;
-        return;
+    const float most = (float)MOST;
+#pragma omp simd
+    for (size_t k = 0; k < count; k++) {
+        const float rounded = (float)(int)(sqrtf(slope[k] * to_units) + 0.5f);
+        root[k] = rounded < most ? rounded : most;
+        slope[k] = root[k] * root[k];
     }
-    memcpy(l->index + l->used, h->index, h->count * sizeof *l->index);
-    memcpy(l->slope + l->used, h->slope, h->count * sizeof *l->slope);
-    for (size_t k = h->count; k < padded; k++) {
-        l->index[l->used + k] = filler;
-        l->slope[l->used + k] = 0;
-    }
-    l->used += padded;
-    *count = (uint16_t)padded;
 }
 
-/* Fluid neighbours of particle i: density share, S_i and sum |m grad W|^2. */
-SB_INLINE void fluid_sums(worker *w, float mass, float *density, sb_f4 *sum, float *squares)
+/* Fluid neighbours of one particle: density share, S_i and sum |m grad W|^2. */
+SB_INLINE void fluid_sums(struct sb_searcher *w, float mass, float unit, float *density, sb_f4 *sum, float *squares)
 {
-    hits *h = &w->hits;
-    const float scale = mass * w->slope_scale;
+    sb_hits *h = &w->hits;
     sb_f8 value = {0}, x = {0}, y = {0}, z = {0}, square = {0};
     w->batch(w->kernel, h->q2, h->padded, h->value, h->slope);
-    for (size_t k = 0; k < h->padded; k += LANES) {
-        sb_f8 slope = *(sb_f8 *)(h->slope + k) * scale;
-        *(sb_f8 *)(h->slope + k) = slope;
+    for (size_t k = 0; k < h->padded; k += SB_HIT_LANES)
         value += *(const sb_f8 *)(h->value + k);
+    round_slopes(h->slope, h->root, h->padded, w->to_units);
+    for (size_t k = 0; k < h->padded; k += SB_HIT_LANES) {
+        const sb_f8 slope = *(const sb_f8 *)(h->slope + k) * unit;
         x += slope * *(const sb_f8 *)(h->x + k);
         y += slope * *(const sb_f8 *)(h->y + k);
         z += slope * *(const sb_f8 *)(h->z + k);
@@ -215,23 +130,25 @@ SB_INLINE void fluid_sums(worker *w, float mass, float *density, sb_f4 *sum, flo
     *squares = sb_sum8(&square) / w->q_scale;
 }
 
-/* Wall neighbours of particle i: density share and B_i = sum_b psi_b grad W_ib, with the flux
+/* Wall neighbours of one particle: density share and B_i = sum_b psi_b grad W_ib, with the flux
    sum_b psi_b v_b . grad W_ib of moving walls in the last lane. */
-SB_INLINE void wall_sums(const sb_sim *sim, worker *w, float *density, sb_f4 *wall)
+SB_INLINE void wall_sums(const sb_sim *sim, struct sb_searcher *w, float *density, sb_f4 *wall)
 {
-    hits *h = &w->hits;
+    sb_hits *h = &w->hits;
     float value = 0;
     sb_f4 sum = {0};
     w->batch(w->kernel, h->q2, h->count, h->value, h->slope);
     for (size_t k = 0; k < h->count; k++) {
-        float slope = h->slope[k] * h->weight[k] * w->slope_scale;
+        const uint32_t index = w->wall.index[h->candidate[k]];
+        const float weight = w->wall.weight[h->candidate[k]];
+        const float slope = h->slope[k] * weight * w->slope_scale;
         sb_f4 gradient = {slope * h->x[k], slope * h->y[k], slope * h->z[k], 0};
         h->slope[k] = slope;
-        value += h->weight[k] * h->value[k];
-        if (h->index[k] >> 31) {
+        h->candidate[k] = index;
+        value += weight * h->value[k];
+        if (index >> 31) {
             const sb_wall_set *set = &sim->walls[SB_MOVING];
-            uint32_t body = set->body[h->index[k] & 0x7fffffffu];
-            sb_vec3 v = sim->moving[sim->moving_of_body[body]].velocity;
+            sb_vec3 v = sim->moving[sim->moving_of_body[set->body[index & 0x7fffffffu]]].velocity;
             gradient[3] = (float)v.x * gradient[0] + (float)v.y * gradient[1] + (float)v.z * gradient[2];
         }
         sum += gradient;
@@ -240,21 +157,28 @@ SB_INLINE void wall_sums(const sb_sim *sim, worker *w, float *density, sb_f4 *wa
     *wall = sum;
 }
 
-SB_INLINE void one_particle(sb_sim *sim, worker *w, size_t i, sb_record corner, bool near_wall)
+/* candidate: which of the vicinity particle i is. cell: the corner of its cell. */
+SB_INLINE void one_particle(sb_sim *sim, struct sb_searcher *w, sb_list_builder *lists, const sb_group *group, size_t i,
+                            uint32_t candidate, sb_record cell)
 {
     const sb_constants *c = &sim->constant;
+    const sb_vicinity *v = &w->vicinity;
     float density = c->mass * w->value_scale * (float)sim->scene->numerics.kernel->shape(0);
     float squares = 0;
-    sb_f4 sum = {0}, wall = {0}, self = sb_offset(sim->position[i], corner);
-    find_hits(w, &w->fluid, self, (uint32_t)i);
-    fluid_sums(w, c->mass, &density, &sum, &squares);
-    append(w, &w->pairs, (uint32_t)i, &sim->pairs.count[i]);
+    sb_f4 sum = {0}, wall = {0}, self = sb_offset(sim->position[i], group->corner);
+    sb_stretch stretch[SB_VICINITY_ROWS];
+    const size_t stretches = sb_vicinity_reach(sim, v, self, stretch);
+    find_hits(w, &(sb_candidates){v->x, v->y, v->z}, stretch, stretches, self, candidate);
+    fluid_sums(w, c->mass, sim->pairs.unit, &density, &sum, &squares);
+    sb_list_water(lists, &w->hits, sim, i);
     sim->wall_pairs.count[i] = 0;
-    if (near_wall) {
-        find_hits(w, &w->wall, self, UINT32_MAX);
+    if (w->wall.count > 0) {
+        const sb_stretch all = {0, (uint32_t)w->wall.count};
+        find_hits(w, &(sb_candidates){w->wall.x, w->wall.y, w->wall.z}, &all, 1, sb_offset(sim->position[i], cell),
+                  UINT32_MAX);
         if (w->hits.count > 0) {
             wall_sums(sim, w, &density, &wall);
-            append(w, &w->wall_pairs, w->hits.index[0], &sim->wall_pairs.count[i]);
+            sb_list_walls(lists, &w->hits, sim, i);
         }
     }
     float diagonal = squares;
@@ -265,147 +189,77 @@ SB_INLINE void one_particle(sb_sim *sim, worker *w, size_t i, sb_record corner, 
     sim->diagonal[i] = diagonal > 1e-6f * c->full_diagonal ? diagonal : 0;
 }
 
-/* Gathers what lies around the cell of particle i. Returns whether walls may be in reach. */
-SB_INLINE bool around(sb_sim *sim, worker *w, size_t i, sb_record *corner)
-{
-    const int layers = sim->constant.dimension == 2 ? 0 : 1;
-    const int shift = sim->space.shift;
-    uint64_t code = sb_cell_code(sim->position[i], shift);
-    *corner = (sb_record){sim->position[i][0] >> shift << shift, sim->position[i][1] >> shift << shift,
-                          sim->position[i][2] >> shift << shift, 0};
-    w->fluid.count = w->wall.count = 0;
-    gather(&w->fluid, &sim->cells, sim->position, code, *corner, layers, 0);
-    if (sim->ghosts.count > 0 && sb_space_at_edge(&sim->space, sim->position[i]))
-        gather(&w->fluid, &sim->ghosts.cells, sim->position + sim->n, code, *corner, layers, (uint32_t)sim->n);
-    if (sb_fringe_count(sim) > 0 && sim->sleep->tiles.beside[sb_tile_of(sim, &sim->sleep->tiles, sim->position[i])])
-        gather(&w->fluid, &sim->sleep->fringe_cells, sim->position + sb_fringe_first(sim), code, *corner, layers,
-               (uint32_t)sb_fringe_first(sim));
-    for (uint32_t s = 0; s < SB_WALL_SETS; s++)
-        if (sb_walls_near(&sim->walls[s], &sim->space, sim->position[i]))
-            gather(&w->wall, &sim->walls[s].cells, sim->walls[s].record, code, *corner, layers, s << 31);
-    if (w->fluid.count > CANDIDATES || w->wall.count > CANDIDATES) {
-        w->full = true;
-        w->fluid.count = w->wall.count = 0;
-    }
-    return w->wall.count > 0;
-}
-
 SB_MULTIVERSION
-static void do_block(sb_sim *sim, worker *w, size_t block)
+static void search_group(sb_sim *sim, struct sb_searcher *w, sb_list_builder *lists, sb_group *group)
 {
+    const int shift = sim->space.shift;
     uint64_t last = UINT64_MAX;
-    sb_record corner = {0};
-    bool near_wall = false;
-    w->pairs.used = w->wall_pairs.used = 0;
-    for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
-        uint64_t code = sb_cell_code(sim->position[i], sim->space.shift);
-        if (code != last)
-            near_wall = around(sim, w, i, &corner);
+    uint32_t candidate = 0;
+    sb_record cell = {0};
+    for (size_t i = group->first; i < group->end; i++) {
+        const uint64_t code = sb_cell_code(sim->position[i], shift);
+        if (code != last) {
+            const sb_record here = sim->position[i];
+            cell = (sb_record){here[0] >> shift << shift, here[1] >> shift << shift, here[2] >> shift << shift, 0};
+            candidate = sb_vicinity_cell(sim, &w->vicinity, i);
+            gather_walls(sim, w, i, cell);
+        }
         last = code;
-        sim->pairs.first[i] = (uint32_t)w->pairs.used;
-        sim->wall_pairs.first[i] = (uint32_t)w->wall_pairs.used;
-        one_particle(sim, w, i, corner, near_wall);
+        one_particle(sim, w, lists, group, i, candidate++, cell);
     }
 }
 
-/* Takes room in the pool for a finished block; its place depends on timing, its contents do not. */
-static bool publish(sb_sim *sim, sb_pairs *pool, const list *l, size_t block)
+void sb_search_group(sb_sim *sim, struct sb_searcher *w, sb_list_builder *lists, sb_group *group)
 {
-    size_t at = __atomic_fetch_add(&pool->used, l->used, __ATOMIC_RELAXED);
-    if (at + l->used > pool->capacity)
-        return false;
-    if (l->used > 0) {
-        memcpy(pool->index + at, l->index, l->used * sizeof *l->index);
-        memcpy(pool->slope + at, l->slope, l->used * sizeof *l->slope);
+    sb_vicinity_gather(sim, group, &w->vicinity);
+    if (w->vicinity.count > SB_AROUND_MAX) {
+        w->full = true;
+        return;
     }
-    for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++)
-        pool->first[i] += (uint32_t)at;
-    return true;
+    sb_list_runs(lists, &w->vicinity, group);
+    search_group(sim, w, lists, group);
 }
 
-static int pool_resize(sb_pairs *pool, size_t capacity)
+static float slope_scale(const sb_sim *sim)
 {
-    sb_free(pool->index);
-    sb_free(pool->slope);
-    pool->index = sb_alloc_untouched(capacity, sizeof *pool->index);
-    pool->slope = sb_alloc_untouched(capacity, sizeof *pool->slope);
-    pool->capacity = pool->index && pool->slope ? capacity : 0;
-    return pool->capacity ? 0 : -1;
+    const int d = sim->constant.dimension;
+    return (float)(sim->scene->numerics.kernel->alpha[d] * sim->space.quantum / pow((double)sim->constant.support, d + 2));
 }
 
-static worker *make_worker(const sb_sim *sim)
+float sb_lists_unit(const sb_sim *sim)
 {
-    worker *w = sb_alloc(1, sizeof *w);
+    const sb_kernel *kernel = sim->scene->numerics.kernel;
+    const float coincident = 0;
+    float value, steepest;
+    sb_kernel_batch_for(kernel)(kernel, &coincident, 1, &value, &steepest);
+    return sim->constant.mass * slope_scale(sim) * steepest / ((float)MOST * (float)MOST);
+}
+
+struct sb_searcher *sb_searcher_create(const sb_sim *sim)
+{
+    struct sb_searcher *w = sb_alloc_untouched(1, sizeof *w);
     if (!w)
         return NULL;
     const sb_kernel *kernel = sim->scene->numerics.kernel;
-    int d = sim->constant.dimension;
-    double h = (double)sim->constant.support, quantum = sim->space.quantum;
+    const int d = sim->constant.dimension;
+    const double h = (double)sim->constant.support, quantum = sim->space.quantum;
+    w->full = false;
     w->kernel = kernel;
     w->batch = sb_kernel_batch_for(kernel);
-    w->find_hits = choose_find_hits();
+    w->find_hits = sb_find_hits_choose();
     w->q_scale = (float)(quantum / h * (quantum / h));
     w->value_scale = (float)(kernel->alpha[d] / pow(h, d));
-    w->slope_scale = (float)(kernel->alpha[d] * quantum / pow(h, d + 2));
+    w->slope_scale = slope_scale(sim);
+    w->to_units = sim->constant.mass * w->slope_scale / sim->pairs.unit;
     return w;
 }
 
-static void free_worker(worker *w)
+bool sb_searcher_full(const struct sb_searcher *w)
 {
-    if (!w)
-        return;
-    sb_free(w->pairs.index);
-    sb_free(w->pairs.slope);
-    sb_free(w->wall_pairs.index);
-    sb_free(w->wall_pairs.slope);
+    return w->full;
+}
+
+void sb_searcher_free(struct sb_searcher *w)
+{
     sb_free(w);
-}
-
-/* One attempt; *full when a particle has more neighbours than lists hold. 0, or -1 without memory. */
-static int attempt(sb_sim *sim, bool *too_small, bool *full)
-{
-    bool small = false, over = false, memory = false;
-    size_t blocks = sb_blocks(sim);
-    sim->pairs.used = sim->wall_pairs.used = 0;
-#pragma omp parallel reduction(| : small, over, memory)
-    {
-        worker *w = make_worker(sim);
-        memory |= !w;
-#pragma omp for schedule(dynamic, 1)
-        for (size_t b = 0; b < blocks; b++) {
-            if (!w)
-                continue;
-            do_block(sim, w, b);
-            small |= !publish(sim, &sim->pairs, &w->pairs, b);
-            small |= !publish(sim, &sim->wall_pairs, &w->wall_pairs, b);
-        }
-        over |= w && w->full;
-        memory |= w && w->starved;
-        free_worker(w);
-    }
-    *too_small = small;
-    *full = over;
-    return memory ? -1 : 0;
-}
-
-sb_status sb_stage_neighbours(sb_sim *sim, sb_error *error)
-{
-    for (;;) {
-        bool too_small, full;
-        if (attempt(sim, &too_small, &full) != 0)
-            return sb_fail_memory(error, "neighbour lists");
-        if (full)
-            return sb_fail(error, SB_FAILED,
-                           "step %llu: more than %d particles around one: the water has collapsed",
-                           (unsigned long long)sim->report.step, LIST_MAX);
-        if (!too_small)
-            return SB_OK;
-        size_t pairs = sim->pairs.used + sim->pairs.used / 16 + 4096;
-        size_t walls = sim->wall_pairs.used + sim->wall_pairs.used / 8 + 4096;
-        if (pairs > UINT32_MAX || walls > UINT32_MAX)
-            return sb_fail(error, SB_FAILED, "%zu neighbour pairs: expected fewer than 2^32", pairs);
-        if ((sim->pairs.used > sim->pairs.capacity && pool_resize(&sim->pairs, pairs) != 0) ||
-            (sim->wall_pairs.used > sim->wall_pairs.capacity && pool_resize(&sim->wall_pairs, walls) != 0))
-            return sb_fail_memory(error, "neighbour lists");
-    }
 }

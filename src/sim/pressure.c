@@ -18,35 +18,17 @@ double sb_pressure_spectrum(const sb_sim *sim)
     return DISORDER * sim->constant.spectrum;
 }
 
-SB_MULTIVERSION
-static void source_block(sb_sim *sim, size_t block, float dt, float beta)
-{
-    const sb_record *position = sim->position;
-    const sb_f4 *velocity = sim->velocity;
-    const float rest = sim->constant.rest_density;
-    for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
-        const uint32_t *index = sim->pairs.index + sim->pairs.first[i];
-        const float *slope = sim->pairs.slope + sim->pairs.first[i];
-        const sb_record self = position[i];
-        const sb_f4 own = velocity[i];
-        sb_f4 sum = {0};
-        for (size_t k = 0; k < sim->pairs.count[i]; k++)
-            sum += sb_offset(self, position[index[k]]) * ((own - velocity[index[k]]) * sb_splat(slope[k]));
-        float divergence = sb_sum3(sum) + sb_sum3(own * sim->wall[i]) - sim->wall[i][3];
-        sim->source[i] = beta * (rest - sim->density[i]) - dt * divergence;
-    }
-}
-
 /* b_i = beta (rho_0 - rho_i) - dt div_i, with the velocities v* and the walls' own. */
 sb_status sb_stage_source(sb_sim *sim, sb_error *error)
 {
     (void)error;
-    const size_t blocks = sb_blocks(sim);
-    const float dt = (float)sim->report.time_step;
+    const size_t n = sim->n;
+    const float dt = (float)sim->report.time_step, rest = sim->constant.rest_density;
     const float beta = (float)sim->scene->numerics.source_relaxation;
-#pragma omp parallel for schedule(dynamic, 1)
-    for (size_t b = 0; b < blocks; b++)
-        source_block(sim, b, dt, beta);
+    sb_divergence(sim, sim->velocity, 1, sim->source);
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < n; i++)
+        sim->source[i] = beta * (rest - sim->density[i]) - dt * (sim->source[i] - sim->wall[i][3]);
     return SB_OK;
 }
 

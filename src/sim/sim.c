@@ -1,6 +1,7 @@
 /* Making and unmaking a simulation, and the small questions to it. */
 #include "base/hash.h"
 #include "base/memory.h"
+#include "sim/around.h"
 #include "sim/ledger.h"
 #include "sim/lattice.h"
 #include "sim/pressure.h"
@@ -150,6 +151,7 @@ sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **s
     if (status == SB_OK) {
         made->constant = make_constants(scene, model);
         status = create_space(made, error);
+        made->pairs.unit = sb_lists_unit(made);
     }
     if (status == SB_OK && allocate(made, model->fluid_count, model->body_count) != 0)
         status = sb_fail_memory(error, "fluid particles");
@@ -171,12 +173,16 @@ sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **s
     return SB_OK;
 }
 
-static void free_pairs(sb_pairs *pairs)
+static void free_lists(sb_sim *sim)
 {
-    sb_free(pairs->first);
-    sb_free(pairs->count);
-    sb_free(pairs->index);
-    sb_free(pairs->slope);
+    sb_free(sim->pairs.first);
+    sb_free(sim->pairs.count);
+    sb_free(sim->pairs.four);
+    sb_free(sim->wall_pairs.first);
+    sb_free(sim->wall_pairs.count);
+    sb_free(sim->wall_pairs.index);
+    sb_free(sim->wall_pairs.slope);
+    sb_groups_destroy(sim);
 }
 
 void sb_sim_destroy(sb_sim *sim)
@@ -189,8 +195,7 @@ void sb_sim_destroy(sb_sim *sim)
                       sim->block_touched, sim->block_impulse, sim->impulse, sim->block_ledger};
     for (size_t f = 0; f < sizeof fields / sizeof fields[0]; f++)
         sb_free(fields[f]);
-    free_pairs(&sim->pairs);
-    free_pairs(&sim->wall_pairs);
+    free_lists(sim);
     sb_cells_free(&sim->cells);
     sb_ghosts_destroy(sim);
     sb_sleep_destroy(sim);
@@ -291,7 +296,8 @@ size_t sb_sim_bytes(const sb_sim *sim)
 {
     size_t bytes = sim->bytes_fixed + sb_cells_bytes(&sim->cells) + sb_cells_bytes(&sim->ghosts.cells);
     bytes += sim->ghosts.of_capacity * 4 + (sim->ghosts.words_capacity + sim->ghosts.other_capacity) * 8;
-    bytes += (sim->pairs.capacity + sim->wall_pairs.capacity) * 8;
+    bytes += sim->pairs.capacity * sizeof *sim->pairs.four + sim->wall_pairs.capacity * 8;
+    bytes += sim->groups.capacity * sizeof *sim->groups.group + sim->groups.room * sizeof *sim->groups.run;
     for (int s = 0; s < SB_WALL_SETS; s++)
         bytes += sb_cells_bytes(&sim->walls[s].cells) + sim->walls[s].count * 20 +
                  (sim->walls[s].near_mask + 1) * 8;

@@ -6,17 +6,10 @@
 #include "sim/simd.h"
 
 typedef int32_t sb_i8 __attribute__((vector_size(32)));
-typedef uint32_t sb_u8 __attribute__((vector_size(32)));
 
 SB_INLINE sb_f8 sb_beside(sb_f4 a, sb_f4 b)
 {
     return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
-}
-
-/* As sb_offset and sb_carried, of two records side by side. */
-SB_INLINE sb_f8 sb_offset8(sb_f8 a, sb_f8 b)
-{
-    return __builtin_convertvector((sb_i8)((sb_u8)a - (sb_u8)b), sb_f8);
 }
 
 SB_INLINE sb_f8 sb_carried8(sb_f8 records)
@@ -24,16 +17,15 @@ SB_INLINE sb_f8 sb_carried8(sb_f8 records)
     return __builtin_shufflevector(records, records, 3, 3, 3, 3, 7, 7, 7, 7);
 }
 
-/* Two numbers, each in four lanes. */
-SB_INLINE sb_f8 sb_spread(float a, float b)
+/* The first, or second, halves of two, side by side. */
+SB_INLINE sb_f8 sb_lower(sb_f8 a, sb_f8 b)
 {
-    return (sb_f8){a, a, a, a, b, b, b, b};
+    return __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11);
 }
 
-/* Sum of the two. */
-SB_INLINE sb_f4 sb_halves(sb_f8 v)
+SB_INLINE sb_f8 sb_upper(sb_f8 a, sb_f8 b)
 {
-    return __builtin_shufflevector(v, v, 0, 1, 2, 3) + __builtin_shufflevector(v, v, 4, 5, 6, 7);
+    return __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15);
 }
 
 #endif

@@ -154,8 +154,10 @@ int sb_sleepers_fringe(sb_sim *sim);
 int sb_held_take(sb_sim *sim);
 void sb_held_wake(sb_sim *sim);             /* leaves out what has woken */
 void sb_held_press(sb_sim *sim, double dt); /* adds to the bodies' impulses */
-/* Sum (N) of what `of` says (m/s^2) that sleepers do to each particle that may touch them. */
-typedef sb_f4 sb_sleep_share(const sb_sim *sim, size_t i, const void *with);
+/* Sum (N) of what `of` says (m/s^2) that sleepers do to each particle that may touch them. around: its group's, with
+   velocities and, where they are, eddy viscosities; sleepers are the places from the group's first one on. */
+typedef sb_f4 sb_sleep_share(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i,
+                             const void *with);
 sb_vec3 sb_sleep_sum(const sb_sim *sim, sb_sleep_share *of, const void *with);
 void sb_sleep_support(sb_sim *sim);         /* support, by the pressures that moved the water */
 

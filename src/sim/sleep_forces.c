@@ -1,5 +1,6 @@
 /* What sleepers do to bodies, which goes on as it was in their last step awake, and to the water awake. */
 #include "base/memory.h"
+#include "sim/around.h"
 #include "sim/impulse.h"
 #include "sim/sleep.h"
 
@@ -100,6 +101,29 @@ void sb_held_press(sb_sim *sim, double dt)
         sb_impulse_add(&sim->impulse[body], dt, sleep->held_sum + body * SB_IMPULSE_VALUES);
 }
 
+/* One block's sum, into three values. */
+static void sum_block(const sb_sim *sim, size_t block, sb_sleep_share *of, const void *with, double *sum)
+{
+    _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
+    const size_t end = sb_block_end(sim, block);
+    for (size_t i = block * SB_BLOCK; i < end;) {
+        const sb_group *group = sb_group_of(sim, i);
+        const size_t stop = group->end < end ? group->end : end;
+        if (group->sleepers == sb_around_count(sim, group)) {
+            i = stop;
+            continue;
+        }
+        sb_around_with(sim, group, sim->velocity, around);
+        if (sim->eddy)
+            sb_around_last(sim, group, sim->eddy, around);
+        for (; i < stop; i++) {
+            const sb_f4 share = of(sim, group, around, i, with);
+            for (int axis = 0; axis < 3; axis++)
+                sum[axis] += (double)share[axis];
+        }
+    }
+}
+
 sb_vec3 sb_sleep_sum(const sb_sim *sim, sb_sleep_share *of, const void *with)
 {
     const size_t blocks = sb_blocks(sim);
@@ -108,11 +132,8 @@ sb_vec3 sb_sleep_sum(const sb_sim *sim, sb_sleep_share *of, const void *with)
 #pragma omp parallel for schedule(dynamic, 1)
     for (size_t b = 0; b < blocks; b++) {
         double sum[3] = {0};
-        for (size_t i = b * SB_BLOCK; beside[b] && i < sb_block_end(sim, b); i++) {
-            const sb_f4 share = of(sim, i, with);
-            for (int axis = 0; axis < 3; axis++)
-                sum[axis] += (double)share[axis];
-        }
+        if (beside[b])
+            sum_block(sim, b, of, with, sum);
         memcpy(partial + 3 * b, sum, sizeof sum);
     }
     sb_vec3 total = {0};
@@ -122,20 +143,19 @@ sb_vec3 sb_sleep_sum(const sb_sim *sim, sb_sleep_share *of, const void *with)
 }
 
 /* -sum over sleepers j of m (q_i + q_j) grad W_ij. */
-static sb_f4 pressure_share(const sb_sim *sim, size_t i, const void *with)
+static sb_f4 pressure_share(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i, const void *with)
 {
     (void)with;
-    const size_t first = sb_fringe_first(sim);
-    const uint32_t *index = sim->pairs.index + sim->pairs.first[i];
-    const float *slope = sim->pairs.slope + sim->pairs.first[i];
-    const sb_record self = sim->position[i];
-    const sb_f4 q = sb_carried(self);
+    const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
+    const sb_f4 self = sb_in_group(sim, group, i);
     sb_f4 sum = {0};
-    for (size_t k = 0; k < sim->pairs.count[i]; k++)
-        if (index[k] >= first)
-            sum -= sb_offset(self, sim->position[index[k]]) *
-                   ((q + sb_carried(sim->position[index[k]])) * sb_splat(slope[k]));
-    return sum;
+    for (; four < end; four++)
+        for (int k = 0; k < 4; k++) {
+            const sb_f4 other = *sb_at_with(around, four->place[k]);
+            if (four->place[k] >= group->sleepers * SB_PLACE_STEP)
+                sum -= (self - other) * sb_splat((self[3] + other[3]) * sb_slopes(four)[k]);
+        }
+    return sum * sb_splat(sim->pairs.unit);
 }
 
 void sb_sleep_support(sb_sim *sim)

@@ -66,13 +66,49 @@ typedef struct sb_moving_body {
     sb_vec3 velocity;         /* m/s, between them */
 } sb_moving_body;
 
-/* Neighbours of particle i: [first[i], first[i] + padded) of the pair arrays, lists padded to four with
-   the particle itself and slope 0. */
+/* Records next to each other in the arrays that neighbours are read from. */
+typedef struct sb_run {
+    uint32_t begin, count;
+} sb_run;
+
+/* Particles next to each other, and what lies around them; see sim/around.h. */
+typedef struct sb_group {
+    uint32_t first, end;      /* particles [first, end) */
+    uint32_t run, runs;       /* around them, themselves included: runs [run, run + runs) */
+    uint32_t sleepers;        /* how many records come before the first sleeper's */
+    sb_record corner;         /* quanta: no record around is below it, or four cells and more above */
+} sb_group;
+
+typedef struct sb_groups {
+    sb_group *group;
+    size_t count, capacity;
+    sb_run *run;
+    size_t used, room;        /* runs */
+} sb_groups;
+
+/* Four neighbours. place: as sb_at wants it. slope: the root of m W'(r)/r times the quantum over sb_lists.unit, below
+   2^15, so that unit * slope^2 * offset in quanta = m grad W, the same for both of a pair; a root, because W' fades
+   out towards the support radius as a square or faster. */
+typedef struct sb_four_pairs {
+    uint16_t place[4], slope[4];
+} sb_four_pairs;
+
+/* Water around particle i: fours [first[i], first[i] + count[i]), the last filled up with the particle itself at
+   slope 0. */
+typedef struct sb_lists {
+    uint32_t *first;          /* n */
+    uint16_t *count;          /* n */
+    sb_four_pairs *four;
+    size_t used, capacity;    /* fours */
+    float unit;               /* < 0 */
+} sb_lists;
+
+/* Boundary particles around particle i: [first[i], first[i] + count[i]), padded to four with slope 0. */
 typedef struct sb_pairs {
     uint32_t *first;          /* n */
     uint16_t *count;          /* n, padded to a multiple of 4 */
-    uint32_t *index;          /* neighbour */
-    float *slope;             /* m W'(r)/r times the quantum: slope * offset in quanta = m grad W */
+    uint32_t *index;          /* wall set << 31 | boundary particle */
+    float *slope;             /* psi W'(r)/r times the quantum */
     size_t used, capacity;
 } sb_pairs;
 
@@ -107,7 +143,9 @@ typedef struct sb_sim {
 
     sb_cells cells;
     sb_ghosts ghosts;
-    sb_pairs pairs, wall_pairs; /* wall_pairs.index: set << 31 | boundary particle; slope: psi W'/r quantum */
+    sb_groups groups;
+    sb_lists pairs;
+    sb_pairs wall_pairs;
     uint64_t *sort_a, *sort_b; /* in the memory of `wall`, which is made after the sort */
     void *scratch;            /* 16 bytes per particle, for the permutation */
     uint32_t *scratch_id;
@@ -178,8 +216,10 @@ sb_status sb_stage_walls(sb_sim *sim, sb_error *error); /* paddles to t, their t
 sb_status sb_walls_restore(sb_sim *sim, sb_error *error);
 /* Whether a cell may have boundary particles of the set in reach. */
 bool sb_walls_near(const sb_wall_set *set, const sb_space *space, sb_record record);
-/* sim/neighbours.c: lists, densities, wall vectors, diagonal, all in one pass. */
+/* sim/lists.c: lists, densities, wall vectors, diagonal, all in one pass. */
 sb_status sb_stage_neighbours(sb_sim *sim, sb_error *error);
+/* sim/neighbours.c: sb_lists.unit of a simulation, so that W'/r of coincident particles, the steepest, is 2^15 - 1. */
+float sb_lists_unit(const sb_sim *sim);
 /* sim/viscosity.c: v* = v + dt (g + viscosity + wall friction). */
 sb_status sb_stage_forces(sb_sim *sim, sb_error *error);
 /* sim/pressure.c: source, solve, final acceleration. */

@@ -3,7 +3,11 @@
    exact beside walls and free surfaces, too; the walls' own velocities do not enter, for the water slips there. */
 #include "sim/turbulence.h"
 
+#include "sim/around.h"
+
 #include <math.h>
+
+enum { GROUPS = 8 }; /* per unit of work */
 
 /* von Karman's constant, as in [W]. */
 static const float KARMAN = 0.4f;
@@ -25,20 +29,19 @@ SB_INLINE sb_f4 sum_lanes(sb_f4 a, sb_f4 b, sb_f4 c, sb_f4 d)
     return t.x + t.y + t.z + t.w;
 }
 
-SB_INLINE moments gather(const sb_sim *sim, size_t i)
+/* around: sb_around_with velocities. */
+SB_INLINE moments gather(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i)
 {
-    const sb_record *position = sim->position, self = position[i];
-    const sb_f4 *velocity = sim->velocity, v = velocity[i];
-    const uint32_t *index = sim->pairs.index + sim->pairs.first[i];
-    const float *slope = sim->pairs.slope + sim->pairs.first[i];
+    const sb_f4 self = sb_in_group(sim, group, i), v = sim->velocity[i], unit = sb_splat(-sim->pairs.unit);
+    const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
     sb_f4 xx = {0}, xy = {0}, xz = {0}, yy = {0}, yz = {0}, zz = {0};
     sb_f4 ux = {0}, uy = {0}, uz = {0}, vx = {0}, vy = {0}, vz = {0}, wx = {0}, wy = {0}, wz = {0};
-    for (size_t k = 0; k < sim->pairs.count[i]; k += 4) {
-        const uint32_t a = index[k], b = index[k + 1], c = index[k + 2], e = index[k + 3];
-        const sb_four d = sb_turn(sb_offset(self, position[a]), sb_offset(self, position[b]),
-                                  sb_offset(self, position[c]), sb_offset(self, position[e]));
-        const sb_four u = sb_turn(v - velocity[a], v - velocity[b], v - velocity[c], v - velocity[e]);
-        const sb_f4 weight = {-slope[k], -slope[k + 1], -slope[k + 2], -slope[k + 3]};
+    for (; four < end; four++) {
+        const sb_f4 *a = sb_at_with(around, four->place[0]), *b = sb_at_with(around, four->place[1]);
+        const sb_f4 *c = sb_at_with(around, four->place[2]), *e = sb_at_with(around, four->place[3]);
+        const sb_four d = sb_turn(self - a[0], self - b[0], self - c[0], self - e[0]);
+        const sb_four u = sb_turn(v - a[1], v - b[1], v - c[1], v - e[1]);
+        const sb_f4 weight = sb_slopes(four) * unit;
         const sb_f4 x = d.x * weight, y = d.y * weight, z = d.z * weight;
         xx += x * d.x, xy += x * d.y, xz += x * d.z, yy += y * d.y, yz += y * d.z, zz += z * d.z;
         ux += x * u.x, uy += y * u.x, uz += z * u.x;
@@ -63,10 +66,10 @@ SB_INLINE float adjugate(float m[3][3], float out[3][3])
 }
 
 /* |S| in 1/s. Where the neighbours lie too flat for a correction it is left out. */
-SB_INLINE float strain_rate(const sb_sim *sim, size_t i)
+SB_INLINE float strain_rate(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i)
 {
     const bool flat = sim->constant.dimension == 2;
-    moments m = gather(sim, i);
+    moments m = gather(sim, group, around, i);
     const float scale = (m.place[0][0] + m.place[1][1] + m.place[2][2]) / (flat ? 2.0f : 3.0f);
     float inverse[3][3], gradient[3][3];
     for (int a = 0; a < 3; a++)
@@ -109,15 +112,17 @@ SB_INLINE float wall_distance(const sb_sim *sim, size_t i, float offset)
 }
 
 SB_MULTIVERSION
-static void do_block(sb_sim *sim, size_t block)
+static void do_group(sb_sim *sim, const sb_group *group)
 {
+    _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
     const sb_numerics *n = &sim->scene->numerics;
     const float longest = (float)n->smagorinsky * sim->constant.spacing;
     const float offset = (float)n->wall_offset * sim->constant.spacing;
-    for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
+    sb_around_with(sim, group, sim->velocity, around);
+    for (size_t i = group->first; i < group->end; i++) {
         const float near = KARMAN * wall_distance(sim, i, offset);
         const float length = near < longest ? near : longest;
-        sim->eddy[i] = length * length * strain_rate(sim, i);
+        sim->eddy[i] = length * length * strain_rate(sim, group, around, i);
     }
 }
 
@@ -129,10 +134,10 @@ bool sb_turbulence_on(const sb_scene *scene)
 sb_status sb_stage_turbulence(sb_sim *sim, sb_error *error)
 {
     (void)error;
-    const size_t blocks = sb_blocks(sim);
-#pragma omp parallel for schedule(dynamic, 1)
-    for (size_t b = 0; b < blocks; b++)
-        do_block(sim, b);
+    const size_t groups = sim->groups.count;
+#pragma omp parallel for schedule(dynamic, GROUPS)
+    for (size_t g = 0; g < groups; g++)
+        do_group(sim, &sim->groups.group[g]);
     sb_ghosts_refresh_values(sim, sim->eddy);
     return SB_OK;
 }

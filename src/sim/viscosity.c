@@ -1,7 +1,10 @@
 /* v* = v + dt (g + Monaghan viscosity [S16, eq. 14] + physical and eddy viscosity + wall friction [S16, eq. 33]). */
+#include "sim/around.h"
 #include "sim/friction.h"
 #include "sim/pressure.h"
 #include "sim/sleep.h"
+
+enum { GROUPS = 8 }; /* per unit of work */
 
 /* Factors of one step. */
 typedef struct factors {
@@ -28,34 +31,31 @@ static factors make_factors(const sb_sim *sim)
     };
 }
 
-/* -sum_j m Pi_ij grad W_ij, four neighbours at a time; the records carry the densities. x . v and r^2 are
-   in quanta, their quotient brought back by 1/quantum. eddy: sim->eddy, NULL without turbulence. first: neighbours
-   before it in the arrays are left out. */
-SB_INLINE sb_f4 fluid_part(const sb_sim *sim, size_t i, const factors *f, const float *eddy, uint32_t first)
+/* -sum_j m Pi_ij grad W_ij, four neighbours at a time; around: sb_around_with velocities, the records carrying the
+   densities. x . v and r^2 are in quanta, their quotient brought back by 1/quantum. eddies: sim->eddy stands in the
+   velocities' last lane. first: neighbours before that place are left out. */
+SB_INLINE sb_f4 fluid_part(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i, const factors *f,
+                           bool eddies, uint32_t first)
 {
-    const sb_record *position = sim->position;
-    const sb_f4 *velocity = sim->velocity;
-    const sb_record self = position[i];
-    const sb_f4 v = velocity[i], own_density = sb_carried(self);
-    const uint32_t *index = sim->pairs.index + sim->pairs.first[i];
-    const float *slope = sim->pairs.slope + sim->pairs.first[i];
-    const sb_f4 epsilon = sb_splat(f->epsilon);
+    const sb_f4 self = sb_in_group(sim, group, i), v = sim->velocity[i];
+    const sb_f4 own_density = sb_splat(self[3]), epsilon = sb_splat(f->epsilon);
+    const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
     sb_f4 x = {0}, y = {0}, z = {0};
-    for (size_t k = 0; k < sim->pairs.count[i]; k += 4) {
-        const uint32_t a = index[k], b = index[k + 1], c = index[k + 2], e = index[k + 3];
-        const sb_four d = sb_turn(sb_offset(self, position[a]), sb_offset(self, position[b]),
-                                  sb_offset(self, position[c]), sb_offset(self, position[e]));
-        const sb_four u = sb_turn(v - velocity[a], v - velocity[b], v - velocity[c], v - velocity[e]);
-        const sb_f4 density = {sb_carried_value(position[a]), sb_carried_value(position[b]),
-                               sb_carried_value(position[c]), sb_carried_value(position[e])};
-        sb_f4 weight = {slope[k], slope[k + 1], slope[k + 2], slope[k + 3]};
+    for (; four < end; four++) {
+        const sb_f4 *a = sb_at_with(around, four->place[0]), *b = sb_at_with(around, four->place[1]);
+        const sb_f4 *c = sb_at_with(around, four->place[2]), *e = sb_at_with(around, four->place[3]);
+        const sb_four d = sb_turn(self - a[0], self - b[0], self - c[0], self - e[0]);
+        const sb_four u = sb_turn(v - a[1], v - b[1], v - c[1], v - e[1]);
+        const sb_f4 density = {a[0][3], b[0][3], c[0][3], e[0][3]};
+        sb_f4 weight = sb_slopes(four);
         if (first > 0)
-            weight = sb_select((sb_i4){(int)a, (int)b, (int)c, (int)e} >= (int)first, weight, (sb_f4){0});
+            weight = sb_select((sb_i4){four->place[0], four->place[1], four->place[2], four->place[3]} >= (int)first,
+                               weight, (sb_f4){0});
         sb_f4 approach = u.x * d.x + u.y * d.y + u.z * d.z;
         sb_f4 r2 = d.x * d.x + d.y * d.y + d.z * d.z;
         sb_f4 physical = sb_splat(f->physical);
-        if (eddy)
-            physical += (sb_splat(eddy[i]) + (sb_f4){eddy[a], eddy[b], eddy[c], eddy[e]}) * sb_splat(f->eddy);
+        if (eddies)
+            physical += (sb_splat(sim->eddy[i]) + (sb_f4){a[1][3], b[1][3], c[1][3], e[1][3]}) * sb_splat(f->eddy);
         sb_f4 factor = sb_select(approach < (sb_f4){0}, physical + sb_splat(f->artificial), physical);
         sb_f4 pi = factor * approach * weight / ((r2 + epsilon) * (own_density + density));
         x += d.x * pi;
@@ -63,7 +63,7 @@ SB_INLINE sb_f4 fluid_part(const sb_sim *sim, size_t i, const factors *f, const 
         z += d.z * pi;
     }
     const sb_four sum = sb_turn(x, y, z, (sb_f4){0});
-    return (sum.x + sum.y + sum.z + sum.w) * sb_splat(f->inverse_quantum);
+    return (sum.x + sum.y + sum.z + sum.w) * sb_splat(sim->pairs.unit * f->inverse_quantum);
 }
 
 SB_INLINE sb_f4 wall_part(const sb_sim *sim, size_t i, const factors *f)
@@ -77,16 +77,21 @@ SB_INLINE sb_f4 wall_part(const sb_sim *sim, size_t i, const factors *f)
 }
 
 SB_MULTIVERSION
-static void do_block(sb_sim *sim, size_t block, const factors *f, bool viscous, bool frictional)
+static void do_group(sb_sim *sim, const sb_group *group, const factors *f, bool viscous, bool frictional)
 {
+    _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
     const float dt = (float)sim->report.time_step;
     sb_f4 *next = sim->scratch;
-    for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
+    if (viscous)
+        sb_around_with(sim, group, sim->velocity, around);
+    if (sim->eddy)
+        sb_around_last(sim, group, sim->eddy, around);
+    for (size_t i = group->first; i < group->end; i++) {
         sb_f4 a = {sim->settling ? sb_settle_pull(sim, sim->position[i]) : 0, 0, -sim->constant.gravity, 0};
         if (sim->eddy)
-            a += fluid_part(sim, i, f, sim->eddy, 0);
+            a += fluid_part(sim, group, around, i, f, true, 0);
         else if (viscous)
-            a += fluid_part(sim, i, f, NULL, 0);
+            a += fluid_part(sim, group, around, i, f, false, 0);
         if (frictional && sim->wall_pairs.count[i] > 0)
             a += wall_part(sim, i, f);
         a[3] = 0;
@@ -94,9 +99,10 @@ static void do_block(sb_sim *sim, size_t block, const factors *f, bool viscous, 
     }
 }
 
-static sb_f4 share_of_sleepers(const sb_sim *sim, size_t i, const void *with)
+static sb_f4 share_of_sleepers(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i,
+                               const void *with)
 {
-    return fluid_part(sim, i, with, sim->eddy, (uint32_t)sb_fringe_first(sim));
+    return fluid_part(sim, group, around, i, with, sim->eddy != NULL, group->sleepers * SB_PLACE_STEP);
 }
 
 sb_status sb_stage_forces(sb_sim *sim, sb_error *error)
@@ -104,12 +110,12 @@ sb_status sb_stage_forces(sb_sim *sim, sb_error *error)
     (void)error;
     const factors f = make_factors(sim);
     const bool viscous = f.artificial > 0 || f.physical > 0 || sim->eddy, frictional = f.friction > 0;
-    const size_t blocks = sb_blocks(sim);
+    const size_t groups = sim->groups.count;
     if (viscous)
         sb_pressure_load(sim, sim->density);
-#pragma omp parallel for schedule(dynamic, 1)
-    for (size_t b = 0; b < blocks; b++)
-        do_block(sim, b, &f, viscous, frictional);
+#pragma omp parallel for schedule(dynamic, GROUPS)
+    for (size_t g = 0; g < groups; g++)
+        do_group(sim, &sim->groups.group[g], &f, viscous, frictional);
     if (sb_fringe_count(sim) > 0)
         sim->sleep->rub = viscous ? sb_sleep_sum(sim, share_of_sleepers, &f) : (sb_vec3){0};
     sb_f4 *old = sim->velocity;

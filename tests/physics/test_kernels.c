@@ -108,6 +108,20 @@ static void lone_particle_has_its_known_density(void **state)
     assert_near(sb_kernel_value(sb_kernel_find("cubic"), 3, 2, 0), 0.318310, 5e-7);
 }
 
+/* Slopes over q are stored as shares of the one at q = 0. */
+static void slope_over_q_is_bounded(void **state)
+{
+    (void)state;
+    for (const sb_kernel *const *row = sb_kernels; *row; row++) {
+        const double most = -(*row)->slope(1e-4) / 1e-4;
+        assert_true(most > 1 && most < 1000);
+        for (double q = 0.001; q < 1; q += 0.001) {
+            const double here = -(*row)->slope(q) / q;
+            assert_true(here >= 0 && here <= most);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -115,6 +129,7 @@ int main(void)
         cmocka_unit_test(integrates_to_one),
         cmocka_unit_test(slope_is_the_derivative),
         cmocka_unit_test(falls_and_ends_at_the_support),
+        cmocka_unit_test(slope_over_q_is_bounded),
         cmocka_unit_test(lattice_sums_are_those_known),
         cmocka_unit_test(lattice_keeps_its_density_at_the_meant_support),
         cmocka_unit_test(lone_particle_has_its_known_density),

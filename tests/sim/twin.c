@@ -1,6 +1,7 @@
 #include "sim/twin.h"
 
 #include "base/memory.h"
+#include "sim/around.h"
 
 #include <math.h>
 #include <string.h>
@@ -32,6 +33,25 @@ static size_t copy_walls(const sb_sim *sim, twin *t)
         if (s == SB_STATIC) t->static_count = at;
     }
     return at;
+}
+
+/* Slopes of the water's pairs as the simulation holds them, where its lists have the pair: roots rounded to 15 bits,
+   which test_neighbours holds against the kernel. */
+static void take_slopes(const sb_sim *sim, twin *t)
+{
+    const sb_reference *r = &t->reference;
+    const double quantum = sim->space.quantum, near = 1e-3 * r->cloud.spacing;
+    for (size_t i = 0; i < sim->n && sim->groups.count > 0; i++)
+        for (size_t k = 0; k < twin_listed(sim, i, false); k++) {
+            const twin_entry entry = twin_list(sim, i, false, k);
+            const size_t ghost = entry.other - sim->n;
+            const size_t other = entry.other < sim->n ? entry.other : ghost < sim->ghosts.count ? sim->ghosts.of[ghost] : i;
+            const sb_f4 d = sb_offset(sim->position[i], sim->position[entry.other]);
+            const sb_vec3 offset = sb_scale(sb_vec((double)d[0], (double)d[1], (double)d[2]), quantum);
+            for (size_t p = r->fluid_start[i]; p < r->fluid_start[i + 1] && !entry.padding; p++)
+                if (r->fluid[p].other == other && sb_norm(sb_sub(r->fluid[p].offset, offset)) < near)
+                    r->fluid[p].gradient = sb_scale(r->fluid[p].offset, entry.slope / (quantum * r->mass));
+        }
 }
 
 int twin_make(const sb_sim *sim, twin *t)
@@ -81,6 +101,7 @@ int twin_make(const sb_sim *sim, twin *t)
             .period = sb_vec(period[0] * quantum, period[1] * quantum, period[2] * quantum),
         };
         status = sb_reference_create(&cloud, &made.reference);
+        if (status == 0) take_slopes(sim, &made);
     }
     if (status != 0)
         twin_free(&made);
@@ -105,6 +126,24 @@ void twin_free(twin *t)
 size_t twin_wall(const twin *t, uint32_t listed)
 {
     return (listed & 0x7fffffffu) + (listed >> 31 ? t->static_count : 0);
+}
+
+size_t twin_listed(const sb_sim *sim, size_t i, bool walls)
+{
+    return walls ? sim->wall_pairs.count[i] : 4 * (size_t)sim->pairs.count[i];
+}
+
+twin_entry twin_list(const sb_sim *sim, size_t i, bool walls, size_t k)
+{
+    if (walls) {
+        const size_t at = sim->wall_pairs.first[i] + k;
+        const double slope = (double)sim->wall_pairs.slope[at];
+        return (twin_entry){sim->wall_pairs.index[at], slope, slope == 0};
+    }
+    const sb_four_pairs *four = &sim->pairs.four[sim->pairs.first[i] + k / 4];
+    const uint32_t other = sb_around_index(sim, sb_group_of(sim, i), four->place[k % 4]);
+    const double root = (double)four->slope[k % 4];
+    return (twin_entry){other, (double)sim->pairs.unit * root * root, other == i};
 }
 
 void twin_compare(twin_gap *gap, size_t at, double a, double b)

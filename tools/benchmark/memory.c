@@ -45,8 +45,10 @@ static sb_status add_arrays(const char *name, const sb_bench_subject *subject, s
         const char *name;
         double bytes;
     } arrays[] = {
-        {"pair lists in use", 8 * (double)sim->pairs.used},
-        {"pair lists in reserve", 8 * ((double)sim->pairs.capacity - (double)sim->pairs.used)},
+        {"pair lists in use", (double)(sizeof *sim->pairs.four * sim->pairs.used)},
+        {"pair lists in reserve", (double)(sizeof *sim->pairs.four * (sim->pairs.capacity - sim->pairs.used))},
+        {"groups", (double)(sizeof *sim->groups.group * sim->groups.capacity +
+                            sizeof *sim->groups.run * sim->groups.room)},
         {"wall pair lists", 8 * (double)sim->wall_pairs.capacity},
         {"fields of particles", (double)sim->bytes_fixed},
         {"cells", (double)sb_cells_bytes(&sim->cells)},
@@ -61,7 +63,7 @@ static sb_status add_arrays(const char *name, const sb_bench_subject *subject, s
         status = sb_bench_add_value(rows, name, sim->n, 1, arrays[a].name, "B/particle", arrays[a].bytes / n, error);
     if (status == SB_OK)
         status =
-            sb_bench_add_value(rows, name, sim->n, 1, "pairs per particle", "1", (double)sim->pairs.used / n, error);
+            sb_bench_add_value(rows, name, sim->n, 1, "pairs per particle", "1", 4 * (double)sim->pairs.used / n, error);
     return status;
 }
 

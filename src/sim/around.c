@@ -1,0 +1,54 @@
+#include "sim/around.h"
+
+#include "base/memory.h"
+
+const sb_group *sb_group_of(const sb_sim *sim, size_t i)
+{
+    size_t low = 0, high = sim->groups.count;
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        if (sim->groups.group[middle].first <= i)
+            low = middle;
+        else
+            high = middle;
+    }
+    return &sim->groups.group[low];
+}
+
+uint32_t sb_around_index(const sb_sim *sim, const sb_group *group, uint16_t place)
+{
+    const sb_run *run = sim->groups.run + group->run;
+    uint32_t left = place / SB_PLACE_STEP;
+    while (left >= run->count)
+        left -= run++->count;
+    return run->begin + left;
+}
+
+/* Cells whose indices differ in their last bits only are one after the other. */
+static uint64_t block_of(uint64_t code)
+{
+    return code & ~sb_cell_step(1, 1, 1);
+}
+
+int sb_groups_build(sb_sim *sim)
+{
+    const sb_cells *cells = &sim->cells;
+    sb_groups *groups = &sim->groups;
+    groups->count = 0;
+    for (size_t c = 0; c < cells->count; c++) {
+        if (c > 0 && block_of(cells->code[c]) == block_of(cells->code[c - 1]))
+            continue;
+        if (sb_grow((void **)&groups->group, &groups->capacity, groups->count + 1, sizeof *groups->group) != 0)
+            return -1;
+        groups->group[groups->count++] = (sb_group){.first = cells->begin[c], .end = (uint32_t)sim->n};
+        if (groups->count > 1)
+            groups->group[groups->count - 2].end = cells->begin[c];
+    }
+    return 0;
+}
+
+void sb_groups_destroy(sb_sim *sim)
+{
+    sb_free(sim->groups.group);
+    sb_free(sim->groups.run);
+}

@@ -1,0 +1,97 @@
+/* Groups of particles and what lies around them. A group is what one block of 2 x 2 x 2 cells holds: neighbours on the
+   Z-curve, which see much the same water. A pass copies what is around the group side by side, once, and the lists of
+   its particles say by 16 bits where in that copy a neighbour is (docs/decisions/0007). */
+#ifndef SB_SIM_AROUND_H
+#define SB_SIM_AROUND_H
+
+#include "sim/state.h"
+
+enum {
+    SB_AROUND_MAX = 16383, /* records around a group: four times the place must fit 16 bits; 1000 are normal */
+    SB_PLACE_STEP = 4      /* a list's place is the copy's index times this: half or a quarter of its bytes */
+};
+
+/* Copies the records around a group, as offsets (quanta, exact) from its corner, the carried value in the last lane.
+   out: SB_AROUND_MAX. */
+SB_INLINE void sb_around(const sb_sim *sim, const sb_group *group, sb_f4 *out)
+{
+    const sb_run *run = sim->groups.run + group->run;
+    for (size_t r = 0; r < group->runs; r++) {
+        const sb_record *record = sim->position + run[r].begin;
+        for (size_t k = 0; k < run[r].count; k++) {
+            const sb_f4 offset = sb_offset(record[k], group->corner);
+            *out++ = (sb_f4){offset[0], offset[1], offset[2], sb_carried_value(record[k])};
+        }
+    }
+}
+
+/* The same, each followed by its value of a field. out: 2 SB_AROUND_MAX. */
+SB_INLINE void sb_around_with(const sb_sim *sim, const sb_group *group, const sb_f4 *field, sb_f4 *out)
+{
+    const sb_run *run = sim->groups.run + group->run;
+    for (size_t r = 0; r < group->runs; r++) {
+        const sb_record *record = sim->position + run[r].begin;
+        const sb_f4 *value = field + run[r].begin;
+        for (size_t k = 0; k < run[r].count; k++) {
+            const sb_f4 offset = sb_offset(record[k], group->corner);
+            *out++ = (sb_f4){offset[0], offset[1], offset[2], sb_carried_value(record[k])};
+            *out++ = value[k];
+        }
+    }
+}
+
+/* Puts another field's values into the last lanes of the values that sb_around_with copied. */
+SB_INLINE void sb_around_last(const sb_sim *sim, const sb_group *group, const float *field, sb_f4 *around)
+{
+    const sb_run *run = sim->groups.run + group->run;
+    sb_f4 *value = around + 1;
+    for (size_t r = 0; r < group->runs; r++)
+        for (size_t k = 0; k < run[r].count; k++, value += 2)
+            (*value)[3] = field[run[r].begin + k];
+}
+
+/* Particle i of the group as sb_around has it. */
+SB_INLINE sb_f4 sb_in_group(const sb_sim *sim, const sb_group *group, size_t i)
+{
+    const sb_f4 offset = sb_offset(sim->position[i], group->corner);
+    return (sb_f4){offset[0], offset[1], offset[2], sb_carried_value(sim->position[i])};
+}
+
+/* A neighbour in what sb_around made, and in what sb_around_with made: its record, then its value. */
+SB_INLINE const sb_f4 *sb_at(const sb_f4 *around, uint16_t place)
+{
+    return (const sb_f4 *)((const char *)around + sizeof *around / SB_PLACE_STEP * place);
+}
+
+SB_INLINE const sb_f4 *sb_at_with(const sb_f4 *around, uint16_t place)
+{
+    return (const sb_f4 *)((const char *)around + 2 * sizeof *around / SB_PLACE_STEP * place);
+}
+
+/* Slopes of four neighbours in units of sim->pairs.unit. */
+SB_INLINE sb_f4 sb_slopes(const sb_four_pairs *four)
+{
+    typedef uint16_t four_shorts __attribute__((vector_size(8), aligned(2)));
+    const four_shorts slope = *(const four_shorts *)four->slope;
+    const sb_f4 root = __builtin_convertvector(__builtin_convertvector(slope, sb_i4), sb_f4);
+    return root * root;
+}
+
+/* How many records are around the group. */
+SB_INLINE uint32_t sb_around_count(const sb_sim *sim, const sb_group *group)
+{
+    uint32_t count = 0;
+    for (size_t r = 0; r < group->runs; r++)
+        count += sim->groups.run[group->run + r].count;
+    return count;
+}
+
+/* The group that particle i belongs to. */
+const sb_group *sb_group_of(const sb_sim *sim, size_t i);
+/* The entry of the arrays that neighbours are read from (position, ...) which a place in a list of the group means. */
+uint32_t sb_around_index(const sb_sim *sim, const sb_group *group, uint16_t place);
+/* Divides the particles into groups, without what is around them. 0, or -1 without memory. */
+int sb_groups_build(sb_sim *sim);
+void sb_groups_destroy(sb_sim *sim);
+
+#endif

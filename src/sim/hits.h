@@ -1,0 +1,42 @@
+/* Who is in reach of a particle: candidates side by side, tested sixteen at a time, the hits packed together. */
+#ifndef SB_SIM_HITS_H
+#define SB_SIM_HITS_H
+
+#include "sim/simd.h"
+
+#include <stddef.h>
+
+enum {
+    SB_LIST_MAX = 1024,   /* neighbours of one particle: 80 are normal */
+    SB_HIT_LANES = 8,
+    SB_HIT_SPARE = 16     /* vector loads and stores may run past the end */
+};
+
+/* Coordinates of candidates in quanta, from a corner of their own. */
+typedef struct sb_candidates {
+    const float *x, *y, *z; /* SB_HIT_SPARE entries beyond the last can be read */
+} sb_candidates;
+
+/* Candidates [begin, end). */
+typedef struct sb_stretch {
+    uint32_t begin, end;
+} sb_stretch;
+
+/* The hits of one particle. */
+typedef struct sb_hits {
+    size_t count, padded; /* padded to SB_HIT_LANES by the particle itself at the support radius, where kernels vanish */
+    float x[SB_LIST_MAX + SB_HIT_SPARE], y[SB_LIST_MAX + SB_HIT_SPARE], z[SB_LIST_MAX + SB_HIT_SPARE];
+    float q2[SB_LIST_MAX + SB_HIT_SPARE], value[SB_LIST_MAX + SB_HIT_SPARE], slope[SB_LIST_MAX + SB_HIT_SPARE];
+    float root[SB_LIST_MAX + SB_HIT_SPARE]; /* as lists store slopes */
+    uint32_t candidate[SB_LIST_MAX + SB_HIT_SPARE];
+} sb_hits;
+
+/* Candidates with (scale r)^2 < 1 as offsets self - candidate, in the order of the stretches, without candidate
+   `skip`. Returns how many; SB_LIST_MAX or more means that some may have been left out. */
+typedef size_t sb_find_hits(const sb_candidates *of, const sb_stretch *stretch, size_t stretches, sb_hits *hits,
+                            sb_f4 self, float scale2, uint32_t skip);
+
+/* The form for this machine; all give the same bits. */
+sb_find_hits *sb_find_hits_choose(void);
+
+#endif

@@ -1,0 +1,190 @@
+#include "sim/lists.h"
+
+#include "base/memory.h"
+
+#include <string.h>
+
+enum { GROUPS = 8 }; /* per unit of work: 600 particles where the water is deep */
+
+/* Hits eight at a time into fours. */
+SB_MULTIVERSION
+static void write_fours(sb_four_pairs *four, const sb_hits *h)
+{
+    typedef uint32_t eight __attribute__((vector_size(32), aligned(4)));
+    typedef uint16_t eight_shorts __attribute__((vector_size(16)));
+    for (size_t k = 0; k < h->padded; k += SB_HIT_LANES, four += 2) {
+        const eight candidate = *(const eight *)(h->candidate + k);
+        const sb_f8 root = *(const sb_f8 *)(h->root + k);
+        const eight_shorts place = __builtin_convertvector(candidate * SB_PLACE_STEP, eight_shorts);
+        const eight_shorts slope = __builtin_convertvector(__builtin_convertvector(root, eight), eight_shorts);
+        memcpy(four[0].place, &place, sizeof four->place);
+        memcpy(four[1].place, (const char *)&place + sizeof four->place, sizeof four->place);
+        memcpy(four[0].slope, &slope, sizeof four->slope);
+        memcpy(four[1].slope, (const char *)&slope + sizeof four->slope, sizeof four->slope);
+    }
+}
+
+void sb_list_water(sb_list_builder *lists, const sb_hits *hits, sb_sim *sim, size_t i)
+{
+    const size_t fours = (hits->count + 3) / 4, written = hits->padded / 4;
+    sim->pairs.first[i] = (uint32_t)lists->fours;
+    sim->pairs.count[i] = 0;
+    if (sb_grow((void **)&lists->four, &lists->capacity_four, lists->fours + written, sizeof *lists->four) != 0) {
+        lists->starved = true;
+        return;
+    }
+    write_fours(lists->four + lists->fours, hits);
+    lists->fours += fours;
+    sim->pairs.count[i] = (uint16_t)fours;
+}
+
+void sb_list_walls(sb_list_builder *lists, const sb_hits *hits, sb_sim *sim, size_t i)
+{
+    const size_t padded = (hits->count + 3) / 4 * 4, needed = lists->walls + padded;
+    sim->wall_pairs.first[i] = (uint32_t)lists->walls;
+    if (sb_grow((void **)&lists->wall, &lists->capacity_wall, needed, sizeof *lists->wall) != 0 ||
+        sb_grow((void **)&lists->wall_slope, &lists->capacity_slope, needed, sizeof *lists->wall_slope) != 0) {
+        lists->starved = true;
+        return;
+    }
+    memcpy(lists->wall + lists->walls, hits->candidate, hits->count * sizeof *lists->wall);
+    memcpy(lists->wall_slope + lists->walls, hits->slope, hits->count * sizeof *lists->wall_slope);
+    for (size_t k = hits->count; k < padded; k++) {
+        lists->wall[lists->walls + k] = hits->candidate[0];
+        lists->wall_slope[lists->walls + k] = 0;
+    }
+    lists->walls = needed;
+    sim->wall_pairs.count[i] = (uint16_t)padded;
+}
+
+void sb_list_runs(sb_list_builder *lists, const sb_vicinity *v, sb_group *group)
+{
+    if (sb_grow((void **)&lists->run, &lists->capacity_run, lists->runs + v->runs, sizeof *lists->run) != 0) {
+        lists->starved = true;
+        return;
+    }
+    memcpy(lists->run + lists->runs, v->run, v->runs * sizeof *v->run);
+    group->run = (uint32_t)lists->runs;
+    group->runs = (uint32_t)v->runs;
+    lists->runs += v->runs;
+}
+
+/* ---- the shared pools ---- */
+
+/* Room for `count` entries of a pool; false when it is too small, which `used` then tells by how much. The place
+   depends on timing, the contents do not. */
+static bool take(size_t *used, size_t capacity, size_t count, size_t *at)
+{
+    *at = __atomic_fetch_add(used, count, __ATOMIC_RELAXED);
+    return *at + count <= capacity;
+}
+
+/* Copies what was built for groups [begin, end) into the pools. */
+static bool publish(sb_sim *sim, sb_list_builder *lists, size_t begin, size_t end)
+{
+    sb_groups *groups = &sim->groups;
+    size_t four, wall, run;
+    bool room = take(&sim->pairs.used, sim->pairs.capacity, lists->fours, &four);
+    room &= take(&sim->wall_pairs.used, sim->wall_pairs.capacity, lists->walls, &wall);
+    room &= take(&groups->used, groups->room, lists->runs, &run);
+    if (room && lists->fours > 0)
+        memcpy(sim->pairs.four + four, lists->four, lists->fours * sizeof *lists->four);
+    if (room && lists->walls > 0) {
+        memcpy(sim->wall_pairs.index + wall, lists->wall, lists->walls * sizeof *lists->wall);
+        memcpy(sim->wall_pairs.slope + wall, lists->wall_slope, lists->walls * sizeof *lists->wall_slope);
+    }
+    if (room && lists->runs > 0)
+        memcpy(groups->run + run, lists->run, lists->runs * sizeof *lists->run);
+    for (size_t g = begin; g < end; g++) {
+        groups->group[g].run += (uint32_t)run;
+        for (size_t i = groups->group[g].first; i < groups->group[g].end; i++) {
+            sim->pairs.first[i] += (uint32_t)four;
+            sim->wall_pairs.first[i] += (uint32_t)wall;
+        }
+    }
+    lists->fours = lists->walls = lists->runs = 0;
+    return room;
+}
+
+static void builder_free(sb_list_builder *lists)
+{
+    sb_free(lists->four);
+    sb_free(lists->wall);
+    sb_free(lists->wall_slope);
+    sb_free(lists->run);
+}
+
+/* One attempt; *full when a particle has more neighbours than lists hold. 0, or -1 without memory. */
+static int attempt(sb_sim *sim, bool *too_small, bool *full)
+{
+    bool small = false, over = false, memory = false;
+    const size_t groups = sim->groups.count, units = (groups + GROUPS - 1) / GROUPS;
+    sim->pairs.used = sim->wall_pairs.used = sim->groups.used = 0;
+#pragma omp parallel reduction(| : small, over, memory)
+    {
+        struct sb_searcher *searcher = sb_searcher_create(sim);
+        sb_list_builder lists = {.starved = !searcher};
+#pragma omp for schedule(dynamic, 1)
+        for (size_t u = 0; u < units; u++) {
+            const size_t begin = u * GROUPS, end = begin + GROUPS < groups ? begin + GROUPS : groups;
+            for (size_t g = begin; g < end && !lists.starved; g++)
+                sb_search_group(sim, searcher, &lists, &sim->groups.group[g]);
+            if (!lists.starved)
+                small |= !publish(sim, &lists, begin, end);
+        }
+        over |= searcher && sb_searcher_full(searcher);
+        memory |= lists.starved;
+        builder_free(&lists);
+        sb_searcher_free(searcher);
+    }
+    *too_small = small;
+    *full = over;
+    return memory ? -1 : 0;
+}
+
+/* Pools that were too small are made anew, a little larger than asked. */
+static int enlarge(sb_sim *sim)
+{
+    sb_lists *water = &sim->pairs;
+    sb_pairs *wall = &sim->wall_pairs;
+    sb_groups *groups = &sim->groups;
+    if (water->used > water->capacity) {
+        const size_t capacity = water->used + water->used / 16 + 1024;
+        sb_free(water->four);
+        water->four = sb_alloc_untouched(capacity, sizeof *water->four);
+        water->capacity = water->four ? capacity : 0;
+    }
+    if (wall->used > wall->capacity) {
+        const size_t capacity = wall->used + wall->used / 8 + 4096;
+        sb_free(wall->index);
+        sb_free(wall->slope);
+        wall->index = sb_alloc_untouched(capacity, sizeof *wall->index);
+        wall->slope = sb_alloc_untouched(capacity, sizeof *wall->slope);
+        wall->capacity = wall->index && wall->slope ? capacity : 0;
+    }
+    if (groups->used > groups->room) {
+        const size_t room = groups->used + groups->used / 8 + 1024;
+        sb_free(groups->run);
+        groups->run = sb_alloc_untouched(room, sizeof *groups->run);
+        groups->room = groups->run ? room : 0;
+    }
+    return water->used <= water->capacity && wall->used <= wall->capacity && groups->used <= groups->room ? 0 : -1;
+}
+
+sb_status sb_stage_neighbours(sb_sim *sim, sb_error *error)
+{
+    for (;;) {
+        bool too_small, full;
+        if (sb_groups_build(sim) != 0 || attempt(sim, &too_small, &full) != 0)
+            return sb_fail_memory(error, "neighbour lists");
+        if (full)
+            return sb_fail(error, SB_FAILED, "step %llu: more than %d particles around one: the water has collapsed",
+                           (unsigned long long)sim->report.step, SB_LIST_MAX);
+        if (!too_small)
+            return SB_OK;
+        if (sim->pairs.used > UINT32_MAX / 2 || sim->wall_pairs.used > UINT32_MAX / 2)
+            return sb_fail(error, SB_FAILED, "%zu neighbour pairs: expected fewer than 2^33", 4 * sim->pairs.used);
+        if (enlarge(sim) != 0)
+            return sb_fail_memory(error, "neighbour lists");
+    }
+}

@@ -1,0 +1,30 @@
+/* What is around a group of particles, gathered for the search: candidates cell by cell. */
+#ifndef SB_SIM_VICINITY_H
+#define SB_SIM_VICINITY_H
+
+#include "sim/around.h"
+#include "sim/hits.h"
+
+/* Owned particles, images beyond periodic sides, sleepers: one after the other. */
+enum { SB_VICINITY_PARTS = 3, SB_VICINITY_CELLS = 64, SB_VICINITY_ROWS = 9 * SB_VICINITY_PARTS };
+
+typedef struct sb_vicinity {
+    uint32_t low[3], cells[3];  /* first cell along each axis, and how many */
+    size_t parts, count;        /* count above SB_AROUND_MAX: too many */
+    uint32_t start[SB_VICINITY_PARTS][SB_VICINITY_CELLS + 1]; /* candidates of a cell: [start, next start) */
+    size_t runs;
+    sb_run run[SB_VICINITY_PARTS * SB_VICINITY_CELLS]; /* the same, as entries of sim->position */
+    float x[SB_AROUND_MAX + SB_HIT_SPARE], y[SB_AROUND_MAX + SB_HIT_SPARE], z[SB_AROUND_MAX + SB_HIT_SPARE];
+} sb_vicinity;
+
+/* Gathers; sets the group's corner and sleepers. */
+void sb_vicinity_gather(const sb_sim *sim, sb_group *group, sb_vicinity *v);
+
+/* What of the vicinity may be in reach of a particle of the group; self: its place from the group's corner. Returns
+   how many stretches. */
+size_t sb_vicinity_reach(const sb_sim *sim, const sb_vicinity *v, sb_f4 self, sb_stretch stretch[SB_VICINITY_ROWS]);
+
+/* The first candidate of the cell that particle i of the group is in. */
+uint32_t sb_vicinity_cell(const sb_sim *sim, const sb_vicinity *v, size_t i);
+
+#endif
