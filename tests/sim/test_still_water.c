@@ -54,23 +54,38 @@ static rest watch(const tank *t, double duration)
     return r;
 }
 
+static void add(rest *sum, const rest *r, double share)
+{
+    sum->force = sb_madd(sum->force, share, r->force);
+    sum->patch += share * r->patch;
+    sum->level += share * r->level;
+    for (int q = 0; q < QUARTERS; q++) sum->kinetic[q] += share * r->kinetic[q];
+}
+
 /* The patch is the middle of the floor, half as wide as the tank along each axis. Conjugate
    gradients need a tighter tolerance: at the others' their errors change sign from step to step,
-   and the water is never still. */
+   and the water is never still; they are judged by the mean of three starts, for the kinetic energy
+   of one wanders by a fifth from quarter to quarter. */
 static void check(int dimensions, double spacing, sb_vec3 size, double depth, sb_solver solver)
 {
-    bool flat = dimensions == 2;
-    tank t;
-    tank_make(&t, dimensions, spacing, size, size.x, depth, 0.01);
-    tank_split_patch(&t, sb_vec(size.x / 4, flat ? -1 : size.y / 4, -1),
-                     sb_vec(3 * size.x / 4, flat ? 1 : 3 * size.y / 4, 0));
-    t.scene.numerics.solver = solver;
-    t.scene.numerics.tolerance = solver == SB_SOLVER_CG ? 0.0005 : 0.005;
-    t.scene.numerics.settle_steps = 300;
-    t.scene.numerics.wall_gamma = 0.8;
+    const bool flat = dimensions == 2;
+    const int starts = solver == SB_SOLVER_CG ? 3 : 1;
     double wave_speed = sqrt(9.81 * depth), area = flat ? size.x : size.x * size.y;
     double mass = 1000 * depth * area, speed[QUARTERS];
-    rest r = watch(&t, 16 * depth / wave_speed);
+    rest r = {0};
+    for (int start = 0; start < starts; start++) {
+        tank t;
+        tank_make(&t, dimensions, spacing, size, size.x, depth, 0.01 + 0.001 * start);
+        tank_split_patch(&t, sb_vec(size.x / 4, flat ? -1 : size.y / 4, -1),
+                         sb_vec(3 * size.x / 4, flat ? 1 : 3 * size.y / 4, 0));
+        t.scene.numerics.solver = solver;
+        t.scene.numerics.tolerance = solver == SB_SOLVER_CG ? 0.0005 : 0.005;
+        t.scene.numerics.settle_steps = 300;
+        t.scene.numerics.wall_gamma = 0.8;
+        const rest one = watch(&t, 16 * depth / wave_speed);
+        add(&r, &one, 1.0 / starts);
+        tank_free(&t);
+    }
     for (int q = 0; q < QUARTERS; q++) speed[q] = sqrt(2 * r.kinetic[q] / mass) / wave_speed;
     double patch = r.patch / (1000 * 9.81 * depth * (flat ? area / 2 : area / 4));
     printf("%dD %s: force %+.5f %+.5f %+.5f of the weight, patch %.5f of its; level %+.3f "
@@ -85,7 +100,6 @@ static void check(int dimensions, double spacing, sb_vec3 size, double depth, sb
     assert_near(r.level, depth, 0.5 * spacing);
     assert_true(speed[2] < 0.02 && speed[3] < 0.02);
     assert_true(r.kinetic[3] <= 1.2 * r.kinetic[2]);
-    tank_free(&t);
 }
 
 static void a_flat_tank_rests(void **state)
