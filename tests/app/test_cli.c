@@ -189,7 +189,7 @@ static void check_counts_neighbours_as_memory(void **state)
 {
     (void)state;
     const double more = memory_with_support("numerics.support=3") - memory_with_support("numerics.support=2");
-    assert_true(more > 384 * 79.5 * 8 && more < 384 * 79.6 * 9);
+    assert_true(more > 384 * 79.5 * 4 && more < 384 * 79.6 * 4.5);
 }
 
 static void count_bodies(const char *path, size_t points, size_t *walls, size_t *fluid)
