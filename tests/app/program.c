@@ -131,11 +131,11 @@ static void redirect(const char *name, int descriptor)
 
 pid_t program_start(const char *const *arguments)
 {
-    char *list[ARGUMENTS] = {(char *)(uintptr_t) "shorebreak"};
+    char *list[ARGUMENTS] = {(char *)"shorebreak"};
     size_t count = 1;
     for (; arguments[count - 1]; count++) {
         assert_true(count < ARGUMENTS - 1);
-        list[count] = (char *)(uintptr_t)arguments[count - 1];
+        list[count] = (char *)arguments[count - 1];
     }
     setenv("OMP_NUM_THREADS", "1", 1);
     setenv("OMP_WAIT_POLICY", "passive", 1);

@@ -20,10 +20,10 @@ static void make(tank *t)
     tank_make(t, 2, 0.05, sb_vec(2, 0, 1.5), 1, 0.8, 0.05);
     t->scene.measure = (sb_measure_settings){
         .interval = 0.013,
-        .gauge_count = 2, .gauges = (sb_gauge *)(uintptr_t)gauges,
-        .probe_count = 2, .probes = (sb_probe *)(uintptr_t)probes,
-        .plane_count = 2, .planes = (sb_flow_plane *)(uintptr_t)planes,
-        .runup_count = 1, .runups = (sb_runup_line *)(uintptr_t)lines,
+        .gauge_count = 2, .gauges = (sb_gauge *)gauges,
+        .probe_count = 2, .probes = (sb_probe *)probes,
+        .plane_count = 2, .planes = (sb_flow_plane *)planes,
+        .runup_count = 1, .runups = (sb_runup_line *)lines,
         .map = {.present = true, .x_max = 2, .cell = 0.1, .threshold = 0.05},
     };
 }

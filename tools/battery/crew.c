@@ -50,11 +50,11 @@ static _Noreturn void become(const sb_bench *bench, const sb_trial *t, const cha
     if (sb_path_join(scene, bench->assets, t->scene, NULL) != SB_OK) _exit(126);
     const char *const first[] = {"shorebreak", t->kind == SB_TRIAL_CHECK ? "check" : "run", scene};
     const char *const more[] = {"--quiet", "--out", folder};
-    for (int i = 0; i < 3; i++) arguments[count++] = (char *)(uintptr_t)first[i];
-    for (int i = 0; i < 3 && t->kind == SB_TRIAL_RUN; i++) arguments[count++] = (char *)(uintptr_t)more[i];
+    for (int i = 0; i < 3; i++) arguments[count++] = (char *)first[i];
+    for (int i = 0; i < 3 && t->kind == SB_TRIAL_RUN; i++) arguments[count++] = (char *)more[i];
     for (size_t i = 0; i < t->setting_count; i++) {
-        arguments[count++] = (char *)(uintptr_t) "--set";
-        arguments[count++] = (char *)(uintptr_t)t->settings[i];
+        arguments[count++] = (char *)"--set";
+        arguments[count++] = (char *)t->settings[i];
     }
     arguments[count] = NULL;
     execv(bench->program, arguments);

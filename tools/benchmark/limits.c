@@ -19,7 +19,7 @@ enum {
 SB_MULTIVERSION
 static float multiply_and_add(size_t turns, float factor)
 {
-    wide sum[CHAINS], by;
+    wide sum[CHAINS], by = {0};
     for (size_t l = 0; l < LANES; l++) by[l] = factor;
     for (int c = 0; c < CHAINS; c++) sum[c] = by * (float)c;
     for (size_t t = 0; t < turns; t++)

@@ -4,7 +4,6 @@
 #include "output/tool.h"
 
 #include <ftw.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -36,18 +35,18 @@ static sb_status run_in(const sb_bench_program *run, char *folder, sb_error *err
     if (status != SB_OK) return status;
     snprintf(threads, sizeof threads, "%d", run->threads);
     const char *const first[] = {program, "run", run->scene, "--quiet", "--out", folder, "--threads", threads};
-    for (size_t i = 0; i < sizeof first / sizeof first[0]; i++) arguments[count++] = (char *)(uintptr_t)first[i];
+    for (size_t i = 0; i < sizeof first / sizeof first[0]; i++) arguments[count++] = (char *)first[i];
     for (size_t i = 0; i < sizeof quiet / sizeof quiet[0]; i++) {
-        arguments[count++] = (char *)(uintptr_t) "--set";
-        arguments[count++] = (char *)(uintptr_t)quiet[i];
+        arguments[count++] = (char *)"--set";
+        arguments[count++] = (char *)quiet[i];
     }
     for (size_t i = 0; i < SB_BENCH_SETTINGS_MAX && run->settings[i]; i++) {
-        arguments[count++] = (char *)(uintptr_t) "--set";
-        arguments[count++] = (char *)(uintptr_t)run->settings[i];
+        arguments[count++] = (char *)"--set";
+        arguments[count++] = (char *)run->settings[i];
     }
     if (run->preset) {
-        arguments[count++] = (char *)(uintptr_t) "--preset";
-        arguments[count++] = (char *)(uintptr_t)run->preset;
+        arguments[count++] = (char *)"--preset";
+        arguments[count++] = (char *)run->preset;
     }
     arguments[count] = NULL;
     return sb_tool_run(program, arguments, "/", error);

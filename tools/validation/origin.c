@@ -1,6 +1,5 @@
 #include "origin.h"
 
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/wait.h>
@@ -11,7 +10,7 @@ void sb_origin_commit(const char *source, char commit[64])
     int ends[2];
     snprintf(commit, 64, "unknown");
     if (pipe(ends) != 0) return;
-    char *const arguments[] = {"git",         "-C",          (char *)(uintptr_t)source,
+    char *const arguments[] = {"git",         "-C",          (char *)source,
                                "describe",    "--always",    "--dirty",
                                "--abbrev=10", "--exclude=*", NULL};
     pid_t child = fork();

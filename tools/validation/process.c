@@ -3,7 +3,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <stdbool.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/prctl.h>
@@ -31,7 +30,7 @@ sb_status sb_process_start(const char *program, const char *const *arguments, co
     dup2(STDOUT_FILENO, STDERR_FILENO);
     close_range(STDERR_FILENO + 1, ~0U, 0); /* sockets and files of this process are none of its business */
     prctl(PR_SET_PDEATHSIG, parting);
-    execv(program, (char **)(uintptr_t)arguments);
+    execv(program, (char **)arguments);
     _exit(127);
 }
 
