@@ -147,6 +147,21 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
     keep_first(status, error, found, &reason);
 }
 
+/* From all pictures so far: minutes of work, which one who stops a run does not wait for, and which is done over when it
+   goes on. */
+static void make_films(const run *r, sb_status status)
+{
+    static const char *const off[] = {"films: the run was stopped; they are made when it has gone on to its end", NULL};
+    if (r->scene->render.camera_count == 0 || r->pictures.count <= 1 || !r->scene->render.video)
+        return;
+    if (status == SB_INTERRUPTED) {
+        sb_runlog_skipped(r->log, off);
+        return;
+    }
+    for (size_t c = 0; c < r->scene->render.camera_count; c++)
+        sb_video_write(r->directory, r->scene->render.cameras[c].name, r->scene->render.video_rate, r->log);
+}
+
 void sb_run_finish(run *r, sb_status *status, sb_error *error)
 {
     sb_error reason = {0};
@@ -167,13 +182,12 @@ void sb_run_finish(run *r, sb_status *status, sb_error *error)
         const sb_map_record *map = sb_measure_map(r->measure);
         if (map)
             keep_first(status, error, sb_maps_write(r->directory, map, &reason), &reason);
-        if (r->scene->output.plots)
-            sb_plots_write(r->directory, r->scene, r->log);
     }
-    for (size_t c = 0; c < r->scene->render.camera_count && r->pictures.count > 1 && r->scene->render.video; c++)
-        sb_video_write(r->directory, r->scene->render.cameras[c].name, r->scene->render.video_rate, r->log);
-    if (r->sim)
+    if (r->sim) /* before what takes long: someone may lose patience */
         write_summary(r, status, error);
+    if (r->measure && r->scene->output.plots)
+        sb_plots_write(r->directory, r->scene, r->log);
+    make_films(r, *status);
     sb_runlog_end(r->log, *status, *status == SB_OK ? NULL : error->text);
     keep_first(status, error, sb_runlog_close(r->log, &reason), &reason);
 }

@@ -18,7 +18,8 @@ static pid_t start_endless(const char *scene, const char *run, const char *file)
 {
     pid_t process = program_start((const char *const[]){
         "run", scene, "--out", run, "--set", "duration=1000", "--set",
-        "output.particle_interval=0.05", "--set", "measure.interval=0.01", NULL});
+        "output.particle_interval=0.05", "--set", "measure.interval=0.01", "--set",
+        "render.video=true", NULL});
     char name[96];
     snprintf(name, sizeof name, "%s/%s", run, file);
     for (double end = sb_clock() + 30; !exists(name) && sb_clock() < end;) usleep(2000);
@@ -116,6 +117,11 @@ static void terminate_ends_with_143(void **state)
     (void)state;
     pid_t process = start_endless("tank3.yaml", "ended", "frames/front/000003.png");
     check_stopped("ended", process, SIGTERM, 384);
+    /* Who stops a run does not wait for films. */
+    assert_false(any_ending("ended", ".mp4"));
+    char *log = text_of("ended/run.jsonl");
+    assert_contains(log, "films: the run was stopped");
+    sb_free(log);
     /* Each picture is whole: it ends as PNG does. */
     for (int i = 1; i <= 3; i++) {
         char tail[12] = {0};
