@@ -31,7 +31,7 @@ bool exists(const char *name);
 /* Starts the binary with one thread; arguments end with NULL. Its output goes to files. */
 pid_t program_start(const char *const *arguments);
 
-/* Waits for its end, a minute at most: the test fails after that. Free with outcome_free. */
+/* Waits for its end, five minutes at most: the test fails after that. Free with outcome_free. */
 outcome program_finish(pid_t process);
 outcome program_run(const char *const *arguments);
 void outcome_free(outcome *o);

@@ -66,6 +66,7 @@ static sb_status find_swings(const sb_curve *a, double last, sb_curve *crossings
                              sb_curve *extremes, sb_error *error)
 {
     sb_curve size = {0};
+    if (a->count == 0) return sb_fail(error, SB_FAILED, "no elevations to look for swings in");
     sb_status status = sb_curve_copy(a, &size, error);
     for (size_t k = 0; k < size.count; k++) size.y[k] = fabs(size.y[k]);
     double before = a->x[0], least = LEAST * sb_curve_peak(&size, before, last, 0.1).y;
