@@ -12,7 +12,7 @@ static void put_head(FILE *out, const sb_soak_report *r)
     char machine[128];
     sb_origin_machine(machine);
     fprintf(out,
-            "# An hour and what it leaves\n\n"
+            "# What a soak leaves\n\n"
             "Commit %s, %s.\n"
             "Made by `tools/soak --minutes %.4g --spacing %.4g --life %.4g --duration %.4g`; [what it does](../robustness.md#the-soak).\n\n",
             r->commit, machine, o->minutes, o->spacing, o->life, o->duration);
