@@ -1,4 +1,5 @@
 #include "app/commands.h"
+#include "app/fit.h"
 #include "app/options.h"
 #include "app/room.h"
 #include "geometry/model.h"
@@ -144,6 +145,8 @@ int sb_command_check(int count, char **arguments)
     }
     if (status == SB_OK)
         status = sb_options_scene(&options, options.positional, &scene, &error);
+    if (status == SB_OK)
+        status = sb_fit_check(&scene, &error);
     if (status == SB_OK)
         status = sb_model_build(&scene, &model, &error);
     if (status == SB_OK) {

@@ -1,4 +1,5 @@
 /* Before the first step. */
+#include "app/fit.h"
 #include "app/room.h"
 #include "app/run_state.h"
 
@@ -137,8 +138,11 @@ static void name_consumers(run *r)
 
 static sb_status build_model(run *r, bool resume, sb_error *error)
 {
+    sb_status status = sb_fit_check(r->scene, error);
+    if (status != SB_OK)
+        return status;
     sb_run_say(r, "sampling surfaces and filling the sea");
-    sb_status status = sb_model_build(r->scene, &r->model, error);
+    status = sb_model_build(r->scene, &r->model, error);
     if (status == SB_OK)
         status = sb_room_check(r->scene, &r->model, error);
     if (status != SB_OK)

@@ -64,8 +64,8 @@ typedef struct sb_inside_report {
 } sb_inside_report;
 
 /* Asks for each point (xyz, relative to origin) whether it lies within a body by more than
-   tolerance (m): a proof that walls held, independent of the boundary particles. displacement: per
-   body, m; NULL: none moved. */
+   tolerance (m): a proof that walls held, independent of the boundary particles. What is beside an open
+   sheet, beyond its rim, is not within it. displacement: per body, m; NULL: none moved. */
 sb_status sb_model_first_inside(const sb_model *model, const float *position, size_t count,
                                 sb_vec3 origin, const sb_vec3 *displacement, double tolerance,
                                 sb_inside_report *report, sb_error *error);

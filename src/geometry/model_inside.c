@@ -9,7 +9,8 @@ static size_t holder(const sb_model *model, const sb_model_space *space, sb_vec3
         sb_vec3 at = displacement ? sb_sub(point, displacement[b]) : point;
         if (model->dimensions == 2) at.y = 0;
         if (space->solid[b] && sb_solid_contains(space->solid[b], at) &&
-            sb_solid_distance(space->solid[b], at, tolerance, NULL, NULL) >= tolerance)
+            sb_solid_distance(space->solid[b], at, tolerance, NULL, NULL) >= tolerance &&
+            !sb_solid_beside(space->solid[b], at))
             return b;
     }
     return SIZE_MAX;

@@ -25,6 +25,10 @@ double sb_solid_winding(const sb_solid *solid, sb_vec3 point);
    the terrain's footprint nothing is inside. A point on the surface may be either. */
 bool sb_solid_contains(const sb_solid *solid, sb_vec3 point);
 
+/* Whether the point of an open sheet that is nearest lies on its rim, where triangles fill half a turn or less: such a
+   point is beside the sheet, neither before nor behind it. */
+bool sb_solid_beside(const sb_solid *solid, sb_vec3 point);
+
 /* First hit along origin + t direction (unit), 0 < t <= limit: t, or a negative number. */
 double sb_solid_raycast(const sb_solid *solid, sb_vec3 origin, sb_vec3 direction, double limit);
 

@@ -111,7 +111,14 @@ static double angle_at(const sb_solid_triangle *t, sb_vec3 at, double near)
     return 2 * M_PI;
 }
 
-bool sb_solid_behind(const sb_solid *solid, sb_vec3 point)
+/* The surface's point nearest to another: the sum of its triangles' normals there by the angles that they fill, and
+   the sum of the angles. */
+typedef struct foot {
+    sb_vec3 at, normal;
+    double angle;
+} foot;
+
+static bool find_foot(const sb_solid *solid, sb_vec3 point, foot *out)
 {
     double nearest2 = HUGE_VAL;
     sb_vec3 at;
@@ -121,6 +128,7 @@ bool sb_solid_behind(const sb_solid *solid, sb_vec3 point)
                           sb_max(point, sb_scale(point, -1)));
     double near = 1e-12 * sb_norm(size);
     sb_vec3 normal = {0};
+    double angle = 0;
     uint32_t stack[SB_SOLID_STACK] = {0};
     int depth = 1;
     while (depth > 0) {
@@ -129,14 +137,28 @@ bool sb_solid_behind(const sb_solid *solid, sb_vec3 point)
         if (sb_solid_box_distance2(node, at) > near * near) continue;
         for (uint32_t i = node->first; i < node->first + node->count; ++i) {
             const sb_solid_triangle *t = solid->triangles + i;
-            if (sb_norm(sb_sub(sb_solid_nearest_on(t, at), at)) <= near)
-                normal =
-                    sb_madd(normal, angle_at(t, at, near), sb_normalize(sb_solid_area_vector(t)));
+            if (sb_norm(sb_sub(sb_solid_nearest_on(t, at), at)) > near) continue;
+            double share = angle_at(t, at, near);
+            normal = sb_madd(normal, share, sb_normalize(sb_solid_area_vector(t)));
+            angle += share;
         }
         if (node->count == 0) {
             stack[depth++] = node->first;
             stack[depth++] = index + 1;
         }
     }
-    return sb_dot(sb_sub(point, at), normal) < 0;
+    *out = (foot){at, normal, angle};
+    return true;
+}
+
+bool sb_solid_behind(const sb_solid *solid, sb_vec3 point)
+{
+    foot f;
+    return find_foot(solid, point, &f) && sb_dot(sb_sub(point, f.at), f.normal) < 0;
+}
+
+bool sb_solid_beside(const sb_solid *solid, sb_vec3 point)
+{
+    foot f;
+    return solid->sheet && find_foot(solid, point, &f) && f.angle < 1.01 * M_PI;
 }

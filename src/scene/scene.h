@@ -237,6 +237,12 @@ static inline bool sb_scene_repeats(const sb_scene *scene, int axis)
     return scene->domain.side[2 * axis] == SB_SIDE_PERIODIC && !(scene->dimensions == 2 && axis == 1);
 }
 
+/* m/s: faster water has diverged. A hundred times what falls from half of the domain's height. */
+static inline double sb_scene_speed_limit(const sb_scene *scene)
+{
+    return 100 * sqrt(scene->fluid.gravity * (scene->domain.max.z - scene->domain.min.z));
+}
+
 /* One --set KEY=VALUE. key: dotted path, list items by index or name: "bodies.reactor1.scale".
    value: YAML text. */
 typedef struct sb_override { const char *key, *value; } sb_override;

@@ -28,7 +28,7 @@ static const sb_key box_keys[] = {
      SB_KEY_ANY, .derived = "z of max",
      .doc = "Free surface in this box, above z of min and at most z of max."},
     {.name = "velocity", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_fluid_box, velocity), .unit = "m/s",
-     SB_KEY_ANY, .fallback = "[0, 0, 0]", .doc = "Of the water in it at the start."},
+     SB_KEY_ANY, .fallback = "[0, 0, 0]", .doc = "Of the water in it at the start; at most 100 sqrt(g H), H being the domain's height."},
 };
 /* clang-format on */
 
@@ -48,6 +48,12 @@ static sb_status finish_box(sb_reader *reader, const sb_yaml *map, void *item)
         return sb_reader_fail(reader, map, key->name,
                               "%g m is outside of the box, expected metres > %g and <= %g",
                               box->level, box->min.z, box->max.z);
+    const double speed = sb_norm(box->velocity), limit = sb_scene_speed_limit(reader->scene);
+    if (!(speed <= limit))
+        return sb_reader_fail(reader, map, "velocity",
+                              "%g m/s is faster than any water here may get, expected at most %.4g m/s, 100 times "
+                              "sqrt(gravity * height of the domain)",
+                              speed, limit);
     return SB_OK;
 }
 
@@ -80,7 +86,7 @@ static const sb_key wave_keys[] = {
      .only = "kind solitary or standing", .doc = "x of the crest."},
     {.name = "wavelength", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_wave, wavelength),
      .unit = "m", .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
-     .applies = STANDING, .only = "kind standing", .doc = "Length of the standing wave."},
+     .applies = STANDING, .only = "kind standing", .doc = "Length of the standing wave, two spacings or more."},
     {.name = "direction", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_initial_wave, direction), .min = -1,
      .max = 1, .fallback = "1", .applies = SOLITARY, .only = "kind solitary",
      .doc = "1 travels towards +x, -1 towards -x; 0 is refused."},
@@ -96,6 +102,10 @@ static sb_status finish_wave(sb_reader *reader, const sb_yaml *map, void *item)
         return sb_reader_fail(reader, map, "height",
                               "%g m would bare the bed, expected less than the depth of %g m",
                               wave->height, wave->depth);
+    if (wave->kind == SB_INITIAL_STANDING && wave->wavelength < 2 * reader->scene->resolution)
+        return sb_reader_fail(reader, map, "wavelength",
+                              "%g m is shorter than particles can show, expected at least two spacings, %g m",
+                              wave->wavelength, 2 * reader->scene->resolution);
     return SB_OK;
 }
 

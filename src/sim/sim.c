@@ -19,7 +19,6 @@ static sb_constants make_constants(const sb_scene *scene, const sb_model *model)
     double depth = model->still_depth > dr ? model->still_depth : dr;
     double wave_speed = g > 0 ? sqrt(g * depth) : 1;
     double sound = scene->numerics.sound_speed > 0 ? scene->numerics.sound_speed : 10 * wave_speed;
-    double height = scene->domain.max.z - scene->domain.min.z;
     return (sb_constants){
         .dimension = scene->dimensions,
         .spacing = (float)dr,
@@ -32,7 +31,7 @@ static sb_constants make_constants(const sb_scene *scene, const sb_model *model)
         .viscosity = (float)scene->fluid.viscosity,
         .full_diagonal = (float)sb_lattice_diagonal(scene, mass),
         .spectrum = sb_lattice_spectrum(scene),
-        .speed_limit = (float)(100 * fmax(wave_speed, sqrt(g * height))),
+        .speed_limit = (float)fmax(100 * wave_speed, sb_scene_speed_limit(scene)),
     };
 }
 

@@ -285,6 +285,21 @@ static void bad_scene_gives_its_place(void **state)
     assert_false(exists("b"));
 }
 
+/* What leaks is not run; `sample` still shows it. */
+static void walls_that_would_leak_are_refused(void **state)
+{
+    (void)state;
+    static const char set[] = "numerics.wall_offset=0.1";
+    for (int run = 0; run < 2; run++) {
+        outcome o = run ? RUN(1, "run", "tank3.yaml", "--out", "leak", "--set", set)
+                        : RUN(1, "check", "tank3.yaml", "--set", set);
+        assert_one_line(o.err, "tank3.yaml: numerics.wall_offset: 0.1 spacings, and water passes walls whose particles "
+                               "lie so near to their surface, expected 0.25 or more");
+        outcome_free(&o);
+    }
+    RUN_AND_FORGET(0, "sample", "tank3.yaml", "--out", "leak.vtp", "--set", set);
+}
+
 /* What the loader maps for every run: graphics and mesh formats come when something asks for them. */
 static void the_program_starts_without_graphics(void **state)
 {
@@ -313,6 +328,7 @@ int main(void)
         cmocka_unit_test(sample_writes_the_particles),
         cmocka_unit_test(profile_says_where_time_went_and_changes_nothing),
         cmocka_unit_test(bad_scene_gives_its_place),
+        cmocka_unit_test(walls_that_would_leak_are_refused),
         cmocka_unit_test(the_program_starts_without_graphics),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);

@@ -231,6 +231,31 @@ static void points_inside_are_found(void **state)
     sb_free(at);
 }
 
+/* A sheet has a front and a back, and neither beyond its rim. */
+static void beside_a_sheet_is_not_within(void **state)
+{
+    (void)state;
+    sb_body *slope = add_box("slope", sb_vec(0, 0, 0), sb_vec(0, 0, 0));
+    slope->shape = SB_SHAPE_PLANE;
+    slope->center = sb_vec(5, 3, 2);
+    slope->normal = sb_vec(-1, 0, 0);
+    slope->width = 2;
+    slope->length = 2;
+    build();
+    /* Behind its middle, behind near an edge, before it; then beyond an edge and a corner, each a metre on. */
+    static const struct {
+        float at[3];
+        size_t within;
+    } points[] = {{{6, 3, 2}, 1},    {{6, 3.9F, 2}, 1}, {{4, 3, 2}, 0},
+                  {{6, 4.1F, 2}, 0}, {{6, 3, 3.5F}, 0}, {{6, 4.5F, 3.5F}, 0}};
+    for (size_t i = 0; i < sizeof points / sizeof *points; ++i) {
+        sb_inside_report report;
+        assert_int_equal(sb_model_first_inside(&model, points[i].at, 1, sb_vec(0, 0, 0), NULL, 0.1, &report, &error),
+                         SB_OK);
+        if (report.count != points[i].within) fail_msg("point %zu: within %zu solids", i, report.count);
+    }
+}
+
 static void a_start_is_forgotten_unless_it_moves(void **state)
 {
     (void)state;
@@ -320,7 +345,8 @@ int main(void)
         CASE(bodies_and_their_particles),      CASE(names_are_unique),
         CASE(a_wavemaker_needs_its_body),      CASE(open_sides_have_no_wall),
         CASE(warnings_say_what_is_too_coarse), CASE(holes_in_a_mesh_are_named),
-        CASE(points_inside_are_found),         CASE(a_start_is_forgotten_unless_it_moves),
+        CASE(points_inside_are_found),         CASE(beside_a_sheet_is_not_within),
+        CASE(a_start_is_forgotten_unless_it_moves),
         CASE(two_dimensions_have_no_side_walls),
         CASE(no_memory_is_an_error),
     };
