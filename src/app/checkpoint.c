@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 /* ---- the folder ---- */
@@ -107,11 +108,16 @@ void sb_checkpoint_forget_later(run *r)
 sb_status sb_checkpoint_begin(run *r, sb_error *error)
 {
     const sb_checkpoint_settings *wish = &r->scene->output.checkpoint;
+    struct stat found;
     r->checkpoints = (sb_checkpoints){.on = wish->steps > 0 || wish->minutes > 0,
                                       .any_build = r->checkpoints.any_build,
                                       .written = sb_clock()};
     sb_build_numerics(r->checkpoints.build);
-    return sb_run_path(r, "checkpoints", r->checkpoints.folder, error);
+    sb_status status = sb_run_path(r, "checkpoints", r->checkpoints.folder, error);
+    if (status == SB_OK && lstat(r->checkpoints.folder, &found) == 0 && S_ISLNK(found.st_mode))
+        status = sb_fail(error, SB_FAILED, "%.500s: is a symbolic link, expected a directory of the run's own",
+                         r->checkpoints.folder);
+    return status;
 }
 
 sb_status sb_checkpoint_identify(run *r, sb_error *error)

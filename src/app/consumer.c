@@ -1,12 +1,16 @@
 #include "app/consumer.h"
 
+#include "base/clock.h"
+
 #include <math.h>
 #include <signal.h>
+#include <unistd.h>
 
 static void *serve(void *argument)
 {
     sb_consumer *consumer = argument;
     const sb_consumer_work *work = &consumer->work;
+    pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, NULL);
     bool usable = !work->open || work->open(work->state, &consumer->error) == SB_OK;
     if (!usable)
         atomic_store(&consumer->failed, true);
@@ -25,6 +29,9 @@ static void *serve(void *argument)
     }
     if (work->close)
         work->close(work->state);
+    pthread_mutex_lock(&consumer->lock);
+    consumer->ended = true;
+    pthread_mutex_unlock(&consumer->lock);
     return NULL;
 }
 
@@ -78,11 +85,31 @@ void sb_consumer_drain(sb_consumer *consumer)
     pthread_mutex_unlock(&consumer->lock);
 }
 
+/* Whether the thread is through with all it has while there is patience. */
+static bool ends_in_time(sb_consumer *consumer)
+{
+    enum { POLL = 5000 }; /* us */
+    const double end = sb_clock() + consumer->work.patience;
+    for (;;) {
+        pthread_mutex_lock(&consumer->lock);
+        const bool through = consumer->ended;
+        pthread_mutex_unlock(&consumer->lock);
+        if (through || !(consumer->work.patience > 0))
+            return true;
+        if (sb_clock() > end)
+            return false;
+        usleep(POLL);
+    }
+}
+
 void sb_consumer_stop(sb_consumer *consumer)
 {
     if (!consumer->started)
         return;
     sb_frame_queue_close(consumer->queue);
+    consumer->given_up = !ends_in_time(consumer);
+    if (consumer->given_up)
+        pthread_cancel(consumer->thread);
     pthread_join(consumer->thread, NULL);
     sb_frame_queue_destroy(consumer->queue);
     pthread_cond_destroy(&consumer->idle);

@@ -16,20 +16,22 @@ typedef struct sb_consumer_work {
     sb_status (*open)(void *state, sb_error *error);
     sb_status (*handle)(void *state, const sb_frame *frame, sb_error *error);
     void (*close)(void *state);
+    double patience; /* s that stopping waits for a handle which allows to be cancelled; 0: for as long as it takes */
 } sb_consumer_work;
 
 typedef struct sb_consumer {
     sb_consumer_work work;
     sb_frame_queue *queue;
     pthread_t thread;
-    bool started;
+    bool started, given_up; /* given_up: stopping was out of patience */
     double interval, next;  /* s simulated between frames; time of the next one */
     sb_error error;         /* why it stopped; read after sb_consumer_stop */
     atomic_bool failed;
     uint64_t handled;
-    pthread_mutex_t lock;   /* of the two below */
+    pthread_mutex_t lock;   /* of what is below */
     pthread_cond_t idle;
     uint64_t fed, done;     /* frames given to it, and those it is through with */
+    bool ended;             /* its thread is through with everything */
 } sb_consumer;
 
 /* Starts the thread. interval 0: every frame that any consumer asks for. */
@@ -46,7 +48,8 @@ void sb_consumer_feed(sb_consumer *consumer, const sb_frame *frame);
    counted may then be read. Fine when it never started. */
 void sb_consumer_drain(sb_consumer *consumer);
 
-/* Lets it finish what it has, and joins. Fine when it never started. */
+/* Lets it finish what it has, and joins. Out of patience, it cancels the thread instead: what that has open stays so until
+   the process ends. Fine when it never started. */
 void sb_consumer_stop(sb_consumer *consumer);
 
 #endif

@@ -18,9 +18,7 @@ static sb_status open_pictures(void *state, sb_error *error)
         if (!wanted(pictures, c))
             continue;
         snprintf(name, sizeof name, "frames/%s", render->cameras[c].name);
-        sb_status status = sb_path_join(path, pictures->directory, name, error);
-        if (status == SB_OK)
-            status = sb_make_directories(path, error);
+        sb_status status = sb_make_folder(path, pictures->directory, name, error);
         if (status == SB_OK)
             status = sb_remove_numbered(path, ".png", pictures->count, error);
         if (status != SB_OK)
@@ -91,5 +89,5 @@ static void close_pictures(void *state)
 
 sb_consumer_work sb_pictures_work(sb_pictures *pictures)
 {
-    return (sb_consumer_work){"pictures", pictures, open_pictures, draw, close_pictures};
+    return (sb_consumer_work){"pictures", pictures, open_pictures, draw, close_pictures, 0};
 }

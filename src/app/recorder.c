@@ -28,9 +28,7 @@ static sb_status open_recorder(void *state, sb_error *error)
 {
     const sb_recorder *recorder = state;
     char folder[SB_PATH_MAX];
-    sb_status status = sb_path_join(folder, recorder->directory, "particles", error);
-    if (status == SB_OK)
-        status = sb_make_directories(folder, error);
+    sb_status status = sb_make_folder(folder, recorder->directory, "particles", error);
     if (status == SB_OK)
         status = start_list(recorder, error);
     return status == SB_OK ? sb_remove_numbered(folder, ".vtp", recorder->count, error) : status;
@@ -99,5 +97,5 @@ static void close_recorder(void *state)
 
 sb_consumer_work sb_recorder_work(sb_recorder *recorder)
 {
-    return (sb_consumer_work){"particle files", recorder, open_recorder, record, close_recorder};
+    return (sb_consumer_work){"particle files", recorder, open_recorder, record, close_recorder, 0};
 }

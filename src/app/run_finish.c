@@ -40,8 +40,7 @@ static void write_last_state(run *r)
     sb_frame *frame = sb_sim_snapshot(r->sim);
     if (!frame)
         return;
-    if (sb_run_path(r, "particles", path, &reason) == SB_OK &&
-        sb_make_directories(path, &reason) == SB_OK &&
+    if (sb_make_folder(path, r->directory, "particles", &reason) == SB_OK &&
         sb_run_path(r, "particles/last-good.vtp", path, &reason) == SB_OK &&
         sb_vtp_write(path, frame, &reason) == SB_OK)
         sb_runlog_event(r->log, "last_good_state", "particles/last-good.vtp");
@@ -101,6 +100,9 @@ static void stop_consumers(run *r, sb_status *status, sb_error *error)
         sb_runlog_event(r->log, "consumer", "%s: %llu frames, %llu dropped, simulation waited %.2f s",
                         consumer->work.name, (unsigned long long)consumer->handled,
                         (unsigned long long)dropped, waited);
+        if (consumer->given_up)
+            sb_run_warn(r, "%s: given up after %g s with its last frames: what it writes to takes nothing more",
+                        consumer->work.name, consumer->work.patience);
         if (atomic_load(&consumer->failed)) {
             sb_error reason = {0};
             sb_fail(&reason, SB_FAILED, "%s: %.900s", consumer->work.name, consumer->error.text);

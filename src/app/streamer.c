@@ -1,6 +1,9 @@
 /* Frames onto LCM channels. */
 #include "app/consumers.h"
 
+/* s at the end of a run for what a provider still has to take. */
+static const double PATIENCE = 5;
+
 static sb_status publish(void *state, const sb_frame *frame, sb_error *error)
 {
     (void)error;
@@ -23,5 +26,5 @@ static void close_streamer(void *state)
 
 sb_consumer_work sb_streamer_work(sb_streamer *streamer)
 {
-    return (sb_consumer_work){"stream", streamer, NULL, publish, close_streamer};
+    return (sb_consumer_work){"stream", streamer, NULL, publish, close_streamer, PATIENCE};
 }

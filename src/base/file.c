@@ -10,6 +10,25 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+sb_status sb_file_open(const char *path, const char *mode, FILE **stream, sb_error *error)
+{
+    const int kind = mode[0] == 'w' ? O_WRONLY | O_CREAT | O_TRUNC : mode[0] == 'a' ? O_WRONLY | O_CREAT | O_APPEND
+                                                                                  : O_RDWR;
+    const int file = open(path, kind | O_NOFOLLOW | O_CLOEXEC, 0666);
+    *stream = file < 0 ? NULL : fdopen(file, mode);
+    if (*stream)
+        return SB_OK;
+    const int reason = errno;
+    if (file >= 0)
+        close(file);
+    if (reason == ELOOP)
+        sb_fail(error, SB_FAILED, "%.500s: is a symbolic link, expected a file of the run's own", path);
+    else
+        sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", path, strerror(reason));
+    errno = reason;
+    return SB_FAILED;
+}
+
 sb_status sb_atomic_open(sb_atomic_file *file, const char *path, sb_error *error)
 {
     file->stream = NULL;
@@ -18,10 +37,9 @@ sb_status sb_atomic_open(sb_atomic_file *file, const char *path, sb_error *error
                        SB_PATH_MAX);
     snprintf(file->path, sizeof file->path, "%s", path);
     snprintf(file->temporary, sizeof file->temporary, "%s.tmp", path);
-    file->stream = fopen(file->temporary, "wb");
-    if (!file->stream)
-        return sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", path, strerror(errno));
-    return SB_OK;
+    if (sb_file_open(file->temporary, "w", &file->stream, error) == SB_OK)
+        return SB_OK;
+    return errno == ELOOP ? SB_FAILED : sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", path, strerror(errno));
 }
 
 /* Makes a rename last through a power cut. Not every file system can, and the file is whole either way. */
@@ -95,6 +113,30 @@ sb_status sb_make_directories(const char *path, sb_error *error)
     if (stat(path, &status) != 0 || !S_ISDIR(status.st_mode))
         return sb_fail(error, SB_FAILED, "%.500s: not a directory", path);
     return SB_OK;
+}
+
+sb_status sb_make_folder(char path[SB_PATH_MAX], const char *directory, const char *name, sb_error *error)
+{
+    struct stat status;
+    sb_status made = sb_make_directories(directory, error);
+    if (made == SB_OK)
+        made = sb_path_join(path, directory, name, error);
+    if (made != SB_OK)
+        return made;
+    for (char *c = path + strlen(path) - strlen(name);; c++) {
+        const char kept = *c;
+        if (kept != '/' && kept != '\0')
+            continue;
+        *c = '\0';
+        if (mkdir(path, 0777) != 0 && errno != EEXIST)
+            return sb_fail(error, SB_FAILED, "%.500s: cannot make directory: %s", path, strerror(errno));
+        if (lstat(path, &status) != 0 || !S_ISDIR(status.st_mode))
+            return sb_fail(error, SB_FAILED, "%.500s: is %s, expected a directory of the run's own", path,
+                           S_ISLNK(status.st_mode) ? "a symbolic link" : "not a directory");
+        *c = kept;
+        if (kept == '\0')
+            return SB_OK;
+    }
 }
 
 /* Whether the name is a number above `after` and the suffix, or one that was being written. */

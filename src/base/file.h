@@ -15,6 +15,10 @@ typedef struct sb_atomic_file {
     char temporary[SB_PATH_MAX + 8];
 } sb_atomic_file;
 
+/* A file to write, as fopen with mode "w", "a" or "r+" opens it, but never through a symbolic link: what a run writes
+   stays in its directory. SB_FAILED names the path and the reason; *stream is then NULL, and errno the system's. */
+sb_status sb_file_open(const char *path, const char *mode, FILE **stream, sb_error *error);
+
 /* Opens "<path>.tmp" for writing. SB_FAILED names the path and the system's reason. */
 sb_status sb_atomic_open(sb_atomic_file *file, const char *path, sb_error *error);
 
@@ -30,6 +34,10 @@ int sb_file_sync(const char *path);
 
 /* Makes the directory and all missing parents. */
 sb_status sb_make_directories(const char *path, sb_error *error);
+
+/* directory/name into path, and makes the directory and the folders below it that name goes through; SB_FAILED where one
+   of those below is a symbolic link or no folder. */
+sb_status sb_make_folder(char path[SB_PATH_MAX], const char *directory, const char *name, sb_error *error);
 
 /* Removes the files "<digits><suffix>" of a folder whose number is above `after`, and what was being written when a
    run was killed: "<digits><suffix>.tmp". A missing folder is fine. */

@@ -69,18 +69,19 @@ static sb_status cannot_write(const table *t, sb_error *error)
 
 static sb_status start_table(table *t, const char *header, sb_error *error)
 {
-    t->stream = fopen(t->path, "we");
-    errno = t->stream ? 0 : errno;
-    if (!t->stream || fprintf(t->stream, "%s\n", header) < 0 || fflush(t->stream) != 0)
-        return cannot_write(t, error);
+    sb_status status = sb_file_open(t->path, "w", &t->stream, error);
+    if (status != SB_OK) return status;
+    errno = 0;
+    if (fprintf(t->stream, "%s\n", header) < 0 || fflush(t->stream) != 0) return cannot_write(t, error);
     return SB_OK;
 }
 
 /* What was written after this length goes. */
 static sb_status continue_table(table *t, uint64_t length, sb_error *error)
 {
-    t->stream = fopen(t->path, "r+e");
-    if (!t->stream || ftruncate(fileno(t->stream), (off_t)length) != 0 || fseek(t->stream, 0, SEEK_END) != 0)
+    sb_status status = sb_file_open(t->path, "r+", &t->stream, error);
+    if (status != SB_OK) return status;
+    if (ftruncate(fileno(t->stream), (off_t)length) != 0 || fseek(t->stream, 0, SEEK_END) != 0)
         return cannot_write(t, error);
     return SB_OK;
 }

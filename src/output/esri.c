@@ -33,8 +33,7 @@ sb_status sb_maps_write(const char *directory, const sb_map_record *map, sb_erro
         {"maps/arrival_time.asc", map->arrival},
     };
     char path[SB_PATH_MAX];
-    sb_status status = sb_path_join(path, directory, "maps", error);
-    if (status == SB_OK) status = sb_make_directories(path, error);
+    sb_status status = sb_make_folder(path, directory, "maps", error);
     for (size_t i = 0; status == SB_OK && i < sizeof files / sizeof *files; i++) {
         status = sb_path_join(path, directory, files[i].name, error);
         if (status == SB_OK) status = sb_esri_write(path, map, files[i].values, error);

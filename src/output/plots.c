@@ -209,8 +209,11 @@ static FILE *open_in(const char *directory, const char *name, const char *ending
                      char path[SB_PATH_MAX], sb_error *error)
 {
     int length = snprintf(path, SB_PATH_MAX, "%s/plots/%s.%s", directory, name, ending);
-    FILE *stream = length < SB_PATH_MAX ? fopen(path, "w") : NULL;
-    if (!stream) sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", path, strerror(errno));
+    FILE *stream = NULL;
+    if (length < SB_PATH_MAX)
+        sb_file_open(path, "w", &stream, error);
+    else
+        sb_fail(error, SB_FAILED, "%.500s: longer than a path may be", path);
     return stream;
 }
 
@@ -330,8 +333,7 @@ int sb_plots_write(const char *directory, const sb_scene *scene, sb_runlog *log)
         sb_runlog_event(log, "skipped", "plots: gnuplot is not there");
         return 0;
     }
-    if (sb_path_join(path, directory, "plots", &error) != SB_OK ||
-        sb_make_directories(path, &error) != SB_OK) {
+    if (sb_make_folder(path, directory, "plots", &error) != SB_OK) {
         sb_runlog_warning(log, "plots: %s", error.text);
         return 0;
     }

@@ -24,10 +24,10 @@ static sb_status open_log(const char *path, const char *mode, sb_runlog **log, s
     sb_runlog *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, path);
     snprintf(made->path, sizeof made->path, "%s", path);
-    made->stream = fopen(path, mode);
-    if (!made->stream) {
+    sb_status status = sb_file_open(path, mode, &made->stream, error);
+    if (status != SB_OK) {
         sb_free(made);
-        return sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", path, strerror(errno));
+        return status;
     }
     made->opened = sb_clock();
     pthread_mutex_init(&made->mutex, NULL);
@@ -37,16 +37,15 @@ static sb_status open_log(const char *path, const char *mode, sb_runlog **log, s
 
 sb_status sb_runlog_open(const char *path, sb_runlog **log, sb_error *error)
 {
-    return open_log(path, "we", log, error);
+    return open_log(path, "w", log, error);
 }
 
 /* Cuts the file after its last whole line. */
 static sb_status drop_torn_line(const char *path, sb_error *error)
 {
-    FILE *file = fopen(path, "r+e");
-    if (!file)
-        return errno == ENOENT ? SB_OK
-                               : sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", path, strerror(errno));
+    FILE *file;
+    sb_status status = sb_file_open(path, "r+", &file, error);
+    if (status != SB_OK) return errno == ENOENT ? SB_OK : status;
     long end = fseek(file, 0, SEEK_END) == 0 ? ftell(file) : 0, keep = end;
     while (keep > 0 && fseek(file, keep - 1, SEEK_SET) == 0 && fgetc(file) != '\n') keep--;
     bool bad = keep < end && ftruncate(fileno(file), keep) != 0;
@@ -58,7 +57,7 @@ static sb_status drop_torn_line(const char *path, sb_error *error)
 sb_status sb_runlog_append(const char *path, sb_runlog **log, sb_error *error)
 {
     sb_status status = drop_torn_line(path, error);
-    return status == SB_OK ? open_log(path, "ae", log, error) : status;
+    return status == SB_OK ? open_log(path, "a", log, error) : status;
 }
 
 sb_status sb_runlog_sync(sb_runlog *log, sb_error *error)

@@ -81,8 +81,12 @@ static void send_message(sb_stream *stream, int channel, const void *buffer, int
     sigemptyset(&pipe_signal);
     sigaddset(&pipe_signal, SIGPIPE);
     pthread_sigmask(SIG_BLOCK, &pipe_signal, &before);
+    /* A peer that stopped reading blocks for ever: here, and only here, the thread may be cancelled. */
+    int state;
+    pthread_setcancelstate(PTHREAD_CANCEL_ENABLE, &state);
     bool sent = size > 0 &&
                 lcm_publish(stream->lcm, stream->channels[channel], buffer, (unsigned)size) == 0;
+    pthread_setcancelstate(state, NULL);
     if (!sent && !sigismember(&before, SIGPIPE))
         sigtimedwait(&pipe_signal, NULL, &(struct timespec){0});
     pthread_sigmask(SIG_SETMASK, &before, NULL);

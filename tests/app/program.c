@@ -174,6 +174,18 @@ outcome program_run(const char *const *arguments)
     return program_finish(program_start(arguments));
 }
 
+outcome program_run_limited(rlim_t bytes, const char *const *arguments)
+{
+    struct rlimit kept, limit;
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &kept), 0);
+    limit = kept;
+    limit.rlim_cur = bytes;
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
+    pid_t process = program_start(arguments);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &kept), 0);
+    return program_finish(process);
+}
+
 void outcome_free(outcome *o)
 {
     sb_free(o->out);

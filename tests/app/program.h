@@ -4,6 +4,7 @@
 
 #include "../check.h"
 
+#include <sys/resource.h>
 #include <sys/types.h>
 
 /* Tanks with a block of water that falls: 300 particles in 2D, 384 in 3D, particle files every 0.1 s,
@@ -34,6 +35,8 @@ pid_t program_start(const char *const *arguments);
 /* Waits for its end, five minutes at most: the test fails after that. Free with outcome_free. */
 outcome program_finish(pid_t process);
 outcome program_run(const char *const *arguments);
+/* Where no file may be longer than this: as on a disk that is full. */
+outcome program_run_limited(rlim_t bytes, const char *const *arguments);
 void outcome_free(outcome *o);
 
 /* Runs and fails the test, with what was said, unless the exit status is the one expected. */

@@ -8,22 +8,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-/* Starts the program where no file may be longer than this: as on a disk that is full. */
-static outcome run_limited(rlim_t bytes, const char *const *arguments)
-{
-    struct rlimit kept, limit;
-    assert_int_equal(getrlimit(RLIMIT_FSIZE, &kept), 0);
-    limit = kept;
-    limit.rlim_cur = bytes;
-    assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
-    pid_t process = program_start(arguments);
-    assert_int_equal(setrlimit(RLIMIT_FSIZE, &kept), 0);
-    return program_finish(process);
-}
 
 /* The checkpoint is the longest of the files: it fails alone, the run goes on, and those before stay. */
 static void a_checkpoint_that_fails_is_a_warning(void **state)
@@ -36,8 +22,8 @@ static void a_checkpoint_that_fails_is_a_warning(void **state)
     struct stat size;
     assert_int_equal(stat(in_folder("full/checkpoints/%s", names[0]), &size), 0);
     assert_true(size.st_size > 10000);
-    outcome o = run_limited((rlim_t)size.st_size - 500,
-                            (const char *const[]){"run", "measured.yaml", "--out", "full", "--quiet", "--resume",
+    outcome o = program_run_limited((rlim_t)size.st_size - 500,
+                                    (const char *const[]){"run", "measured.yaml", "--out", "full", "--quiet", "--resume",
                                                   "--until", "0.1", "--set", "output.particle_interval=0", "--set",
                                                   "output.checkpoint.steps=1", NULL});
     assert_int_equal(o.status, 0);
@@ -59,7 +45,7 @@ static void a_full_disk_ends_the_run_and_it_goes_on(void **state)
     RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "roomy", "--quiet", "--set", "measure.interval=0.002");
     RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "tight", "--quiet", "--set", "measure.interval=0.002", "--until",
                    "0.1");
-    outcome o = run_limited(25000, (const char *const[]){"run", "measured.yaml", "--out", "tight", "--quiet", "--set",
+    outcome o = program_run_limited(25000, (const char *const[]){"run", "measured.yaml", "--out", "tight", "--quiet", "--set",
                                                          "measure.interval=0.002", "--resume", NULL});
     assert_int_equal(o.status, 2);
     assert_contains(o.err, ".csv: cannot write: File too large");

@@ -208,7 +208,7 @@ static void plan_leaving(sb_trials *trials, bool quick)
     t->ends = SB_ENDS_FAILED;
     if (quick) return;
     t = sb_trial_add(trials, "leaving.yaml", "thrown-out-at-once");
-    sb_trial_set(t, "water.boxes[0].velocity=[500, 0, 0]");
+    sb_trial_set(t, "water.boxes[0].velocity=[300, 0, 0]");
     t->ends |= SB_ENDS_FAILED;
     t = sb_trial_add(trials, "leaving.yaml", "with-everything-measured");
     sb_trial_set(t, "measure={interval: 0.01, gauges: [{name: edge, x: 1.49, y: 0.2}], probes: [{name: out, at: "

@@ -1,0 +1,310 @@
+/* What may go wrong around a run: it goes on, or stops with a reason, and what was written is whole. */
+#include "program.h"
+
+#include "../output/json_check.h"
+#include "base/clock.h"
+#include "base/memory.h"
+#include "frame/frame.h"
+#include "output/pvd.h"
+#include "output/vtp.h"
+
+#include <arpa/inet.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static void assert_ended(const char *summary, const char *words)
+{
+    char *text = text_of(summary);
+    assert_true(json_valid(text));
+    assert_contains(text, words);
+    sb_free(text);
+}
+
+/* Starts a run without an end, and waits for its third particle file. */
+static pid_t start_endless(const char *run, const char *more)
+{
+    pid_t process = program_start((const char *const[]){"run", "tank2.yaml", "--out", run, "--quiet", "--until", "1000",
+                                                        "--set", "output.particle_interval=0.02", "--set",
+                                                        more ? more : "measure.interval=0.05", NULL});
+    char third[96];
+    snprintf(third, sizeof third, "%s/particles/000003.vtp", run);
+    for (double end = sb_clock() + 30; !exists(third) && sb_clock() < end;) usleep(2000);
+    return process;
+}
+
+/* ---- subscribers ---- */
+
+static uint32_t read_word(int from)
+{
+    uint32_t word = 0;
+    if (recv(from, &word, sizeof word, MSG_WAITALL) != (ssize_t)sizeof word) _exit(1);
+    return ntohl(word);
+}
+
+/* Takes one publisher of LCM's TCP provider, greets it, reads a little, then stops for good or dies. */
+static _Noreturn void subscribe(int listening, bool dies)
+{
+    static char bytes[4096];
+    int from = accept(listening, NULL, NULL);
+    const uint32_t greeting[2] = {htonl(0x287617fa), htonl(0x0100)};
+    if (from < 0 || read_word(from) != 0x287617fb || read_word(from) != 0x0100) _exit(1);
+    if (send(from, greeting, sizeof greeting, 0) != (ssize_t)sizeof greeting) _exit(1);
+    for (size_t got = 0; got < 1 << 14;) {
+        ssize_t more = recv(from, bytes, sizeof bytes, 0);
+        if (more <= 0) _exit(1);
+        got += (size_t)more;
+    }
+    if (!dies) raise(SIGSTOP);
+    _exit(0);
+}
+
+/* A process that listens; *port is where. Its buffer is small, so that what it does not read soon blocks. */
+static pid_t start_subscriber(bool dies, unsigned *port)
+{
+    struct sockaddr_in at = {.sin_family = AF_INET, .sin_addr.s_addr = htonl(INADDR_LOOPBACK)};
+    socklen_t size = sizeof at;
+    const int small = 4096, listening = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    assert_true(listening >= 0);
+    assert_int_equal(setsockopt(listening, SOL_SOCKET, SO_RCVBUF, &small, sizeof small), 0);
+    assert_int_equal(bind(listening, (struct sockaddr *)&at, size), 0);
+    assert_int_equal(listen(listening, 1), 0);
+    assert_int_equal(getsockname(listening, (struct sockaddr *)&at, &size), 0);
+    *port = ntohs(at.sin_port);
+    pid_t process = fork();
+    assert_true(process >= 0);
+    if (process == 0) subscribe(listening, dies);
+    close(listening);
+    return process;
+}
+
+static void check_subscriber(bool dies, const char *words)
+{
+    unsigned port;
+    char url[96];
+    pid_t subscriber = start_subscriber(dies, &port);
+    snprintf(url, sizeof url, "stream={enabled: true, url: 'tcpq://127.0.0.1:%u', interval: 0.001}", port);
+    /* Frames of 130 kB, many more than the system's buffers hold. */
+    outcome o = RUN(0, "run", "tank2.yaml", "--out", "streamed", "--quiet", "--until", "0.2", "--set", url, "--set",
+                    "resolution=0.01", "--set", "output.particle_interval=0.05");
+    char *log = text_of("streamed/run.jsonl");
+    assert_contains(log, words);
+    assert_contains(log, "\"status\":\"done\"");
+    sb_free(log);
+    outcome_free(&o);
+    kill(subscriber, SIGKILL);
+    assert_int_equal(waitpid(subscriber, NULL, 0), subscriber);
+    assert_near(json_number_of("streamed/summary.json", "particle_files"), 5, 0);
+}
+
+static void a_subscriber_that_stops(void **state)
+{
+    (void)state;
+    check_subscriber(false, "stream: given up after 5 s with its last frames: what it writes to takes nothing more");
+}
+
+static void a_subscriber_that_dies(void **state)
+{
+    (void)state;
+    check_subscriber(true, "stream: the provider refused messages at t = ");
+}
+
+/* ---- pictures ---- */
+
+/* The run goes on to its end without pictures, and says why; all else is there. */
+static void check_no_pictures(const char *run, const char *words)
+{
+    char name[96];
+    outcome o = RUN(2, "run", "tank3.yaml", "--out", run, "--quiet");
+    assert_contains(o.err, words);
+    outcome_free(&o);
+    snprintf(name, sizeof name, "%s/summary.json", run);
+    assert_ended(name, words);
+    assert_near(json_number_of(name, "particle_files"), 4, 0);
+    assert_near(json_number_of(name, "pictures"), 0, 0);
+    assert_true(json_number_of(name, "simulated_s") > 0.29);
+    assert_false(any_ending(run, ".tmp"));
+}
+
+static void a_renderer_that_does_not_start(void **state)
+{
+    (void)state;
+    assert_int_equal(mkdir(in_folder("blocked"), 0700), 0);
+    write_text("blocked/frames", "not a folder\n");
+    check_no_pictures("blocked", "pictures: blocked/frames: is not a directory, expected a directory of the run's own");
+}
+
+static void no_graphics_library(void **state)
+{
+    (void)state;
+#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
+    skip(); /* the sanitizer has its own search path */
+#endif
+    char before[1024];
+    const char *path = getenv("LD_LIBRARY_PATH");
+    snprintf(before, sizeof before, "%s", path ? path : "");
+    assert_int_equal(mkdir(in_folder("broken"), 0700), 0);
+    write_text("broken/libOSMesa.so.8", "no library\n");
+    assert_int_equal(setenv("LD_LIBRARY_PATH", in_folder("broken"), 1), 0);
+    check_no_pictures("bare", "pictures: pictures cannot be drawn without OSMesa: ");
+    setenv("LD_LIBRARY_PATH", before, 1);
+}
+
+/* ---- disks ---- */
+
+static void no_room_for_particle_files(void **state)
+{
+    (void)state;
+    /* 300 particles take 15 kB; log and tables stay below 12. */
+    outcome o = program_run_limited(12000, (const char *const[]){"run", "tank2.yaml", "--out", "tight", "--quiet", "--set",
+                                                         "output.checkpoint.minutes=0", NULL});
+    if (o.status != 2) fail_msg("exit status %d: %s", o.status, o.err);
+    assert_contains(o.err, "particle files: tight/particles/000001.vtp: cannot write: File too large");
+    outcome_free(&o);
+    assert_ended("tight/summary.json", "\"failed\"");
+    assert_true(json_number_of("tight/summary.json", "simulated_s") > 0.29);
+    assert_false(exists("tight/particles/000001.vtp"));
+    assert_false(exists("tight/particles.pvd"));
+    assert_false(any_ending("tight", ".tmp"));
+}
+
+static void no_room_for_pictures(void **state)
+{
+    (void)state;
+    outcome o = program_run_limited(40000, (const char *const[]){"run", "tank3.yaml", "--out", "narrow", "--quiet", "--set",
+                                                         "render.width=1280", "--set", "render.height=720", "--set",
+                                                         "output.checkpoint.minutes=0", NULL});
+    if (o.status != 2) fail_msg("exit status %d: %s", o.status, o.err);
+    assert_contains(o.err, "pictures: narrow/frames/side/000001.png: ");
+    assert_contains(o.err, "cannot write: ");
+    outcome_free(&o);
+    assert_near(json_number_of("narrow/summary.json", "particle_files"), 4, 0);
+    assert_false(any_ending("narrow", ".png"));
+    assert_false(any_ending("narrow", ".tmp"));
+}
+
+/* The directory is removed while the run writes: it stops and says so. */
+static void a_directory_that_vanishes(void **state)
+{
+    (void)state;
+    char command[2200];
+    pid_t process = start_endless("brief", NULL);
+    snprintf(command, sizeof command, "for turn in 1 2 3 4 5 6 7 8 9; do rm -rf '%s' 2>/dev/null && exit 0; done; exit 1", in_folder("brief"));
+    assert_int_equal(system(command), 0);
+    outcome o = program_finish(process);
+    assert_int_equal(o.status, 2);
+    assert_contains(o.err, "shorebreak: brief/");
+    assert_true(strstr(o.err, "was removed while the run wrote it") || strstr(o.err, "No such file or directory"));
+    outcome_free(&o);
+}
+
+/* Moved elsewhere: particle files have no folder any more. What is there is whole. */
+static void a_directory_that_moves(void **state)
+{
+    (void)state;
+    pid_t process = start_endless("here", NULL);
+    assert_int_equal(rename(in_folder("here"), in_folder("there")), 0);
+    sleep(1);
+    kill(process, SIGTERM);
+    outcome o = program_finish(process);
+    assert_true(o.status == 2);
+    assert_contains(o.err, "particle files: here/particles/");
+    outcome_free(&o);
+    sb_pvd list = {0};
+    sb_error error = {0};
+    assert_int_equal(sb_pvd_read(in_folder("there/particles.pvd"), &list, &error), SB_OK);
+    for (size_t i = 0; i < list.count; i++) {
+        sb_frame *frame = NULL;
+        assert_int_equal(sb_vtp_read(in_folder("there/%s", list.entries[i].file), &frame, &error), SB_OK);
+        sb_frame_release(frame);
+    }
+    sb_pvd_free(&list);
+    assert_false(any_ending("there", ".tmp"));
+}
+
+/* ---- links out of the directory ---- */
+
+static void nothing_is_written_through_a_link(void **state)
+{
+    (void)state;
+    static const char *const links[] = {"forces.csv", "run.jsonl", "scene.yaml.tmp", "particles", "checkpoints"};
+    write_text("precious", "precious\n");
+    assert_int_equal(mkdir(in_folder("outside"), 0700), 0);
+    write_text("outside/000009.vtp", "old\n");
+    write_text("outside/000009.state", "old\n");
+    for (size_t i = 0; i < sizeof links / sizeof *links; i++) {
+        const bool is_folder = !strchr(links[i], '.');
+        assert_int_equal(mkdir(in_folder("linked"), 0700), 0);
+        assert_int_equal(symlink(in_folder(is_folder ? "outside" : "precious"), in_folder("linked/%s", links[i])), 0);
+        outcome o = RUN(2, "run", "tank2.yaml", "--out", "linked", "--quiet");
+        assert_contains(o.err, "is a symbolic link, expected a ");
+        assert_contains(o.err, links[i]);
+        outcome_free(&o);
+        char *text = text_of("precious"), command[2200];
+        assert_string_equal(text, "precious\n");
+        sb_free(text);
+        assert_true(exists("outside/000009.vtp") && exists("outside/000009.state"));
+        assert_false(exists("outside/000001.vtp"));
+        snprintf(command, sizeof command, "rm -r '%s'", in_folder("linked"));
+        assert_int_equal(system(command), 0);
+    }
+}
+
+/* ---- clocks ---- */
+
+static void copy_hash(const char *summary, char hash[32])
+{
+    char *text = text_of(summary);
+    const char *at = json_find(text, "state_hash");
+    assert_non_null(at);
+    assert_int_equal(sscanf(at, "\"%31[0-9a-f]\"", hash), 1);
+    sb_free(text);
+}
+
+/* Half a day ahead or back at every look at the time of day: no checkpoint comes early or late, none of it is in what
+   was reported, and the state is the same. */
+static void a_clock_that_jumps(void **state)
+{
+    (void)state;
+#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
+    skip(); /* a sanitizer's library has to be the first one loaded */
+#endif
+    char hash[2][32];
+    RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "steady", "--set", "output.checkpoint.minutes=600");
+    assert_int_equal(setenv("LD_PRELOAD", SB_BINARY_DIR "/libjumping_clock.so", 1), 0);
+    outcome o = RUN(0, "run", "tank2.yaml", "--out", "jumping", "--set", "output.checkpoint.minutes=600");
+    unsetenv("LD_PRELOAD");
+    assert_null(strstr(o.out, "h "));
+    outcome_free(&o);
+    copy_hash("steady/summary.json", hash[0]);
+    copy_hash("jumping/summary.json", hash[1]);
+    assert_string_equal(hash[0], hash[1]);
+    assert_true(json_number_of("jumping/summary.json", "wall_s") < 60);
+    char *log = text_of("jumping/run.jsonl");
+    const char *first = strstr(log, "\"event\":\"checkpoint\"");
+    assert_non_null(first);
+    assert_null(strstr(first + 1, "\"event\":\"checkpoint\"")); /* the one at the end */
+    sb_free(log);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_subscriber_that_stops),
+        cmocka_unit_test(a_subscriber_that_dies),
+        cmocka_unit_test(a_renderer_that_does_not_start),
+        cmocka_unit_test(no_graphics_library),
+        cmocka_unit_test(no_room_for_particle_files),
+        cmocka_unit_test(no_room_for_pictures),
+        cmocka_unit_test(a_directory_that_vanishes),
+        cmocka_unit_test(a_directory_that_moves),
+        cmocka_unit_test(nothing_is_written_through_a_link),
+        cmocka_unit_test(a_clock_that_jumps),
+    };
+    return cmocka_run_group_tests(tests, program_setup, program_teardown);
+}
