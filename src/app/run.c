@@ -80,6 +80,23 @@ void sb_run_log_step(run *r)
     sb_runlog_step(r->log, &state);
 }
 
+/* The first few particles that leave, each with its place; that one passed a wall is a warning. */
+static void tell_departures(run *r)
+{
+    const sb_departures *all = sb_sim_departures(r->sim);
+    for (; r->departures < all->count; r->departures++) {
+        const sb_departure *one = &all->first[r->departures];
+        char text[200];
+        snprintf(text, sizeof text, "particle %u left through the %s %s at t = %.6g s, at (%.6g, %.6g, %.6g) m with %.3g m/s",
+                 one->particle, one->lost ? "wall" : "open side", sb_side_names[one->side], one->time, one->position.x,
+                 one->position.y, one->position.z, one->speed);
+        if (one->lost)
+            sb_run_warn(r, "%s", text);
+        else
+            sb_runlog_event(r->log, "left", "%s", text);
+    }
+}
+
 static sb_status one_step(run *r, sb_error *error)
 {
     sb_status status = sb_sim_step(r->sim, error);
@@ -90,6 +107,7 @@ static sb_status one_step(run *r, sb_error *error)
     r->steps++;
     r->particle_steps += (double)report->fluid_count;
     r->capped += report->capped;
+    tell_departures(r);
     status = sb_measure_step(r->measure, r->sim, error);
     if (status == SB_OK)
         status = sb_csv_write(r->csv, sb_measure_latest(r->measure), error);
@@ -108,6 +126,7 @@ static sb_status one_step(run *r, sb_error *error)
 static sb_status advance(run *r, sb_error *error)
 {
     sb_status status = feed(r, error);
+    tell_departures(r);
     while (status == SB_OK && sb_sim_report(r->sim)->time < r->scene->duration * (1 - 1e-12)) {
         if (sb_stop_signal())
             return sb_fail(error, SB_INTERRUPTED, "stopped by a signal at t = %g s",

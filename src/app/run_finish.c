@@ -131,6 +131,7 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
         .bytes = sb_sim_bytes(r->sim),
         .lost = report->lost,
         .left_domain = report->left_domain,
+        .departures = sb_sim_departures(r->sim),
         .has_inside = r->inside_known,
         .inside = r->inside,
         .crossed = r->crossed,

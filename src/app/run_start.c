@@ -213,6 +213,7 @@ static sb_status go_on(run *r, sb_error *error)
     sb_runlog_event(r->log, "resumed", "step %llu, t = %.9g s, with %d threads, state %016llx",
                     (unsigned long long)report->step, report->time, omp_get_max_threads(),
                     (unsigned long long)sb_sim_hash(r->sim));
+    r->departures = sb_sim_departures(r->sim)->count; /* told when they left */
     sb_checkpoint_forget_later(r);
     status = write_scene(r, error);
     if (status == SB_OK)

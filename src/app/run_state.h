@@ -32,6 +32,7 @@ struct run {
     sb_csv_lengths lengths;   /* of the tables that a resumed run goes on with */
     sb_energy first_energy;
     uint64_t iterations, capped, frames;
+    size_t departures;        /* of the first few, those that the log has */
     double wall_before;       /* s that earlier processes of this run took */
     uint64_t steps, iterations_before; /* steps of this process; iterations before it */
     double particle_steps, setup_seconds, settling_seconds;

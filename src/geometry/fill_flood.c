@@ -46,15 +46,12 @@ static int spread(sb_columns *c, front *f, size_t from, size_t to_column, bool a
     return 0;
 }
 
-static const char *const side_names[SB_SIDES] = {"x_min", "x_max", "y_min",
-                                                 "y_max", "z_min", "z_max"};
-
 static sb_status escapes(sb_vec3 at, int side, sb_error *error)
 {
     return sb_fail(error, SB_BAD_INPUT,
                    "the sea escapes through the open side %s at (%g, %g, %g): expected a wall or a "
                    "solid that holds it below sea.level",
-                   side_names[side], at.x, at.y, at.z);
+                   sb_side_names[side], at.x, at.y, at.z);
 }
 
 /* A wet run beside an open side must have something between itself and it. */

@@ -40,6 +40,26 @@ static void put_energy(sb_json *json, const char *key, const sb_energy *energy)
     sb_json_close(json);
 }
 
+static void put_departures(sb_json *json, const sb_departures *all)
+{
+    sb_json_open(json, "left_by_side", '{');
+    for (int side = 0; side < SB_SIDES; side++) sb_json_count(json, sb_side_names[side], all->by_side[side]);
+    sb_json_close(json);
+    sb_json_open(json, "first_left", '[');
+    for (size_t i = 0; i < all->count; i++) {
+        const sb_departure *one = &all->first[i];
+        sb_json_open(json, NULL, '{');
+        sb_json_number(json, "time_s", one->time);
+        sb_json_count(json, "particle", one->particle);
+        sb_json_text(json, "side", sb_side_names[one->side]);
+        sb_json_bool(json, "through_wall", one->lost);
+        sb_json_vector(json, "position_m", one->position);
+        sb_json_number(json, "speed_m_s", one->speed);
+        sb_json_close(json);
+    }
+    sb_json_close(json);
+}
+
 static void put_stages(sb_json *json, const sb_summary *summary)
 {
     sb_json_open(json, "stages", '[');
@@ -84,6 +104,7 @@ static void put_all(sb_json *json, const sb_summary *s)
         sb_json_count(json, "through_walls", s->crossed);
     }
     sb_json_count(json, "left_domain", s->left_domain);
+    if (s->departures) put_departures(json, s->departures);
     sb_json_count(json, "particle_files", s->frames);
     sb_json_count(json, "pictures", s->pictures);
     sb_json_hash(json, "state_hash", s->hash);

@@ -19,6 +19,7 @@ typedef struct sb_summary {
     size_t fluid_particles;     /* at the start */
     size_t bytes;               /* heap bytes of the simulation */
     uint64_t lost, left_domain; /* through walls; through open sides */
+    const sb_departures *departures; /* by which side, and the first few */
     bool has_inside;            /* the two below were asked for */
     uint64_t inside, crossed;   /* particles whose centre lies within a solid at the end: at all; deeper
                                    than its boundary particles */

@@ -237,6 +237,9 @@ static inline bool sb_scene_repeats(const sb_scene *scene, int axis)
     return scene->domain.side[2 * axis] == SB_SIDE_PERIODIC && !(scene->dimensions == 2 && axis == 1);
 }
 
+/* "x_min" and so on, as in a scene. */
+extern const char *const sb_side_names[SB_SIDES];
+
 /* m/s: faster water has diverged. A hundred times what falls from half of the domain's height. */
 static inline double sb_scene_speed_limit(const sb_scene *scene)
 {

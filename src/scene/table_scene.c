@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+const char *const sb_side_names[SB_SIDES] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
+
 static const char *const side_words[] = {"wall", "open", "periodic", NULL};
 
 #define SIDE(index, side, fallback_, doc_)                                                         \

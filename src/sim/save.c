@@ -1,6 +1,7 @@
 /* The state between two steps, on its way into an archive and back. What a step makes anew is left out: cells,
    ghosts, neighbours, densities; the wall tables follow from the bodies' displacements. So are the stages' times, which are the process's. */
 #include "base/archive.h"
+#include "sim/departures.h"
 #include "sim/sleep.h"
 
 #include <math.h>
@@ -41,6 +42,7 @@ void sb_sim_save(const sb_sim *sim, sb_archive_out *out)
     put_report(out, &sim->report);
     sb_put_count(out, sim->left_domain);
     sb_put_count(out, sim->lost);
+    sb_departures_save(sim, out);
     sb_put_list(out, sim->position, sim->n, sizeof *sim->position);
     sb_put_list(out, sim->velocity, sim->n, sizeof *sim->velocity);
     sb_put_list(out, sim->id, sim->n, sizeof *sim->id);
@@ -97,6 +99,7 @@ sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
     take_report(in, &sim->report);
     sim->left_domain = sim->report.left_domain = sb_take_count(in, UINT64_MAX);
     sim->lost = sim->report.lost = sb_take_count(in, UINT64_MAX);
+    sb_departures_load(sim, in);
     take_particles(sim, in);
     status = sb_sleep_load(sim, in, error);
     sb_take_list(in, sim->impulse, sim->model->body_count, sizeof *sim->impulse);

@@ -70,6 +70,24 @@ typedef struct sb_ledger {
 } sb_ledger;
 const sb_ledger *sb_sim_ledger(const sb_sim *sim);
 
+/* Particles that are no longer there: how many by the domain's side that they went through, open or wall, and the first
+   few of them, in the order of the steps. Those that left before t = 0, while the water came to rest, are among them. */
+enum { SB_DEPARTURES = 8 };
+typedef struct sb_departure {
+    double time;      /* s */
+    sb_vec3 position; /* m, the first place that was outside */
+    double speed;     /* m/s */
+    uint32_t particle;
+    int side;
+    bool lost;        /* through a wall side */
+} sb_departure;
+typedef struct sb_departures {
+    uint64_t by_side[SB_SIDES];
+    size_t count;
+    sb_departure first[SB_DEPARTURES];
+} sb_departures;
+const sb_departures *sb_sim_departures(const sb_sim *sim);
+
 /* A hash of the complete state. */
 uint64_t sb_sim_hash(const sb_sim *sim);
 

@@ -1,6 +1,7 @@
 /* Particles that left the domain come back through periodic sides or are dropped; the others are re-ordered along
    the Z-curve of their cells. */
 #include "base/memory.h"
+#include "sim/departures.h"
 #include "sim/ledger.h"
 #include "sim/sleep.h"
 #include "sim/sort.h"
@@ -31,27 +32,26 @@ static bounds domain_bounds(const sb_sim *sim)
     return b;
 }
 
-/* 0 inside, 1 left through an open side, 2 lost through a wall. */
-static int outside(const sb_sim *sim, const bounds *b, sb_record record)
+/* An open side that it is beyond is the way it went, before any wall. */
+static sb_exit outside(const sb_sim *sim, const bounds *b, sb_record record)
 {
-    int result = 0;
+    sb_exit result = {-1, false};
     for (int axis = 0; axis < 3 - (sim->constant.dimension == 2); axis++) {
         int a = sim->constant.dimension == 2 && axis == 1 ? 2 : axis;
         int64_t x = record[a];
         if (x >= b->min[a] && x <= b->max[a])
             continue;
-        sb_side_kind side = sim->scene->domain.side[2 * a + (x > b->max[a])];
-        if (side == SB_SIDE_OPEN)
-            return 1;
-        result = 2;
+        const int side = 2 * a + (x > b->max[a]);
+        if (sim->scene->domain.side[side] == SB_SIDE_OPEN)
+            return (sb_exit){side, false};
+        result = (sb_exit){side, true};
     }
     return result;
 }
 
 /* Returns how many stay. */
-static size_t make_words(sb_sim *sim)
+static size_t make_words(sb_sim *sim, const bounds *b)
 {
-    const bounds b = domain_bounds(sim);
     const uint64_t gone = ((uint64_t)1 << sim->space.key_bits) - 1;
     const bool repeats = sim->space.repeats;
     uint64_t left = 0, lost = 0;
@@ -59,10 +59,10 @@ static size_t make_words(sb_sim *sim)
     for (size_t i = 0; i < sim->n; i++) {
         if (repeats)
             sim->position[i] = sb_space_wrap(&sim->space, sim->position[i]);
-        int way = outside(sim, &b, sim->position[i]);
-        left += way == 1;
-        lost += way == 2;
-        uint64_t key = way ? gone : sb_space_key(&sim->space, sim->position[i]);
+        const sb_exit way = outside(sim, b, sim->position[i]);
+        left += way.side >= 0 && !way.lost;
+        lost += way.side >= 0 && way.lost;
+        uint64_t key = way.side >= 0 ? gone : sb_space_key(&sim->space, sim->position[i]);
         sim->sort_a[i] = key << INDEX_BITS | i;
     }
     sim->left_domain += left;
@@ -95,12 +95,15 @@ static void permute(sb_sim *sim, const uint64_t *words)
 
 sb_status sb_stage_sort(sb_sim *sim, sb_error *error)
 {
-    const size_t stay = make_words(sim);
+    const bounds b = domain_bounds(sim);
+    const size_t stay = make_words(sim, &b);
     const uint64_t *sorted = sb_sort(sim->sort_a, sim->sort_b, sim->n, INDEX_BITS,
                                      INDEX_BITS + sim->space.key_bits);
     if (!sorted)
         return sb_fail_memory(error, "sorting");
     permute(sim, sorted);
+    for (size_t i = stay; i < sim->n; i++) /* in the order of their numbers before the sort */
+        sb_departures_note(sim, outside(sim, &b, sim->position[i]), i);
     if (!sim->settling)
         sb_ledger_leave(sim, stay, sim->n); /* their keys are the last */
     sim->n = stay;

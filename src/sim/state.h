@@ -172,6 +172,7 @@ typedef struct sb_sim {
     enum sb_settling settling;
     sb_step_report report;
     uint64_t left_domain, lost;
+    sb_departures departures; /* sim/departures.h */
     sb_stage_time stage[SB_STAGES_MAX];
     size_t stage_count;
     const char *skipped[12];

@@ -225,7 +225,12 @@ static void judge_leaving(sb_judged *all, size_t count)
             sb_note(j, "%.200s", j->outcome.said); /* too fast to be true: said, and as good */
             continue;
         }
-        sb_require(j, sb_outcome_number(&j->outcome, "left_domain") > 0, "none is counted as left");
+        const double left = sb_outcome_number(&j->outcome, "left_domain");
+        double placed = 0;
+        for (int side = 0; side < SB_SIDES; side++)
+            placed += sb_outcome_number_in(&j->outcome, "left_by_side", sb_side_names[side]);
+        sb_require(j, left > 0, "none is counted as left");
+        sb_require(j, placed == left, "%g are counted by side", placed);
         if (j->trial->ends == SB_ENDS_FAILED)
             sb_require(j, strstr(j->outcome.said, "all water has left the domain"), "it does not say so");
     }
@@ -234,7 +239,7 @@ static void judge_leaving(sb_judged *all, size_t count)
 const sb_stress sb_stress_leaving = {
     .name = "leaving",
     .title = "Water leaving the domain",
-    .rule = "What leaves is counted; when all has left the run says so and ends.",
+    .rule = "What leaves is counted, also by side; when all has left the run says so and ends.",
     .plan = plan_leaving,
     .judge = judge_leaving,
 };
