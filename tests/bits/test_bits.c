@@ -1,0 +1,143 @@
+/* The same bits for 1, 2, 3 and 8 threads, with consumers and without, on this instruction set: a column and the plant,
+   coarse. */
+#include "app/program.h"
+
+#include "base/memory.h"
+#include "output/json_check.h"
+#include "sim/sim.h"
+
+#include <omp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Names of the program's sets and of the compiler's: what has no vectors beyond the processor's first is "default". */
+#ifdef SB_INSTRUCTIONS
+#define SET SB_INSTRUCTIONS
+#else
+#define SET "default"
+#endif
+
+static const struct {
+    const char *name, *file, *resolution;
+} scenes[] = {
+    {"column", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "resolution=0.035"},
+    {"plant", SB_SOURCE_DIR "/assets/scenes/plant.yaml", "resolution=20"},
+};
+
+static const char settle[] = "numerics.settle_steps=20";
+
+static uint64_t count_steps(void)
+{
+    const char *wish = getenv("SB_BITS_STEPS");
+    return wish && *wish ? strtoull(wish, NULL, 10) : 30;
+}
+
+/* The set that the program picks here. */
+static const char *picked(void)
+{
+#ifdef SB_INSTRUCTIONS
+    __builtin_cpu_init();
+    return __builtin_cpu_supports("x86-64-v4") ? "x86-64-v4" : __builtin_cpu_supports("x86-64-v3") ? "x86-64-v3" : "x86-64";
+#else
+    return "default";
+#endif
+}
+
+static bool offered(void)
+{
+    return strcmp(picked(), "x86-64-v4") == 0 || strcmp(SET, picked()) == 0 || strcmp(SET, "x86-64") == 0;
+}
+
+typedef struct end {
+    uint64_t hash;
+    double time; /* s */
+} end;
+
+static end run_alone(const sb_scene *scene, const sb_model *model, int threads)
+{
+    sb_sim *sim = NULL;
+    sb_error error = {0};
+    omp_set_num_threads(threads);
+    sb_status status = sb_sim_create(scene, model, &sim, &error);
+    if (status == SB_OK) status = sb_sim_settle(sim, &error);
+    for (uint64_t step = count_steps(); step > 0 && status == SB_OK; step--) status = sb_sim_step(sim, &error);
+    if (status != SB_OK) fail_msg("%s", error.text);
+    const end reached = {sb_sim_hash(sim), sb_sim_report(sim)->time};
+    sb_sim_destroy(sim);
+    return reached;
+}
+
+/* The program as far as that, with everything that reads frames or with nothing. */
+static void check_program(size_t s, end reached, bool consumers, const char *threads)
+{
+    char until[40], hash[32], frames[3][192];
+    snprintf(until, sizeof until, "%.17g", reached.time);
+    const double interval = consumers ? reached.time / 5 : 0;
+    const double pictures = getenv("SB_BITS_STEPS") ? interval : 0; /* dear: test_consumers_hash has some every day */
+    snprintf(frames[0], sizeof frames[0],
+             "render={interval: %.6g, width: 64, height: 36, video: false, cameras: [{name: c, eye: [0, -500, 500], "
+             "target: [0, 0, 0]}]}",
+             pictures);
+    snprintf(frames[1], sizeof frames[1], "output={particle_interval: %.6g, plots: false}", interval);
+    snprintf(frames[2], sizeof frames[2], "stream={enabled: %s, url: 'memq://'}", consumers ? "true" : "false");
+    RUN_AND_FORGET(0, "run", scenes[s].file, "--out", "bits", "--quiet", "--until", until, "--threads", threads, "--set",
+                   scenes[s].resolution, "--set", settle, "--set", frames[0], "--set", frames[1], "--set", frames[2]);
+    char *text = text_of("bits/summary.json");
+    const char *value = json_find(text, "state_hash");
+    assert_non_null(value);
+    assert_int_equal(sscanf(value, "\"%31[0-9a-f]\"", hash), 1);
+    sb_free(text);
+    assert_near(json_number_of("bits/summary.json", "steps"), (double)count_steps(), 0);
+    if (strtoull(hash, NULL, 16) != reached.hash)
+        fail_msg("%s: %s threads %s consumers: the program ends as %s, expected %016llx", scenes[s].name, threads,
+                 consumers ? "with" : "without", hash, (unsigned long long)reached.hash);
+}
+
+static void check_scene(size_t s)
+{
+    static const int counts[] = {2, 3, 8};
+    char resolution[64], steps[64];
+    sb_scene scene = {0};
+    sb_model model = {0};
+    sb_error error = {0};
+    snprintf(resolution, sizeof resolution, "%s", strchr(scenes[s].resolution, '=') + 1);
+    snprintf(steps, sizeof steps, "%s", strchr(settle, '=') + 1);
+    const sb_override overrides[] = {{"resolution", resolution}, {"numerics.settle_steps", steps}};
+    if (sb_scene_read(scenes[s].file, NULL, overrides, 2, &scene, &error) != SB_OK ||
+        sb_model_build(&scene, &model, &error) != SB_OK)
+        fail_msg("%s", error.text);
+    const end alone = run_alone(&scene, &model, 1);
+    printf("%s, %s: %016llx after %llu steps, %g s\n", SET, scenes[s].name, (unsigned long long)alone.hash,
+           (unsigned long long)count_steps(), alone.time);
+    for (size_t c = 0; c < sizeof counts / sizeof *counts; c++)
+        if (run_alone(&scene, &model, counts[c]).hash != alone.hash)
+            fail_msg("%s: %d threads give another state", scenes[s].name, counts[c]);
+    sb_model_free(&model);
+    sb_scene_free(&scene);
+    if (strcmp(SET, picked()) != 0) return;
+    check_program(s, alone, false, "1");
+    check_program(s, alone, true, "3");
+}
+
+static void a_column(void **state)
+{
+    (void)state;
+    check_scene(0);
+}
+
+static void the_plant(void **state)
+{
+    (void)state;
+    check_scene(1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_column),
+        cmocka_unit_test(the_plant),
+    };
+    if (!offered()) return 77; /* no instructions for this processor */
+    return cmocka_run_group_tests(tests, program_setup, program_teardown);
+}
