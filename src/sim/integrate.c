@@ -112,6 +112,13 @@ static fastest accelerate(sb_sim *sim, size_t block)
     return top;
 }
 
+/* The velocity that a position moves by. Water that carries pressure goes with that at the step's end, which the solve
+   has made keep its density. A particle that nothing touches falls: by the mean of both ends it is on its parabola. */
+SB_INLINE sb_f4 carrying(const sb_sim *sim, size_t i, sb_f4 start, sb_f4 end)
+{
+    return sim->diagonal[i] > 0 ? end : (start + end) * sb_splat(0.5f);
+}
+
 /* Returns the block's largest squared speed, contact with walls included; books the block's work where asked to. */
 SB_INLINE float move_block(sb_sim *sim, size_t block, bool book)
 {
@@ -122,10 +129,11 @@ SB_INLINE float move_block(sb_sim *sim, size_t block, bool book)
     float top = 0;
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
         sb_f4 v = sim->acceleration[i];
+        const sb_f4 way = book ? carrying(sim, i, start[i], v) : v;
         const uint32_t height = sim->position[i][2];
-        sim->position[i] = (sb_record){moved(sim->position[i][0], v[0] * step),
-                                       moved(sim->position[i][1], v[1] * step),
-                                       moved(sim->position[i][2], v[2] * step), 0};
+        sim->position[i] = (sb_record){moved(sim->position[i][0], way[0] * step),
+                                       moved(sim->position[i][1], way[1] * step),
+                                       moved(sim->position[i][2], way[2] * step), 0};
         if (book)
             sb_ledger_add(&tally, start[i], sim->velocity[i], v, (int64_t)sim->position[i][2] - height);
         sim->velocity[i] = book ? v : v * keep;

@@ -38,21 +38,17 @@ static void a_lone_particle_flies_a_parabola(void **state)
         t.model.fluid_velocity[0] = v0;
         t.scene.numerics.wall_friction = 0.1;
         sb_sim *sim = make(&t);
-        double z = start.z, vz = v0.z, worst = 0, longest = 0;
+        double worst = 0;
         while (sb_sim_report(sim)->time < 0.8) {
             assert_int_equal(tank_steps(sim, 1), 0);
             const sb_step_report *r = sb_sim_report(sim);
-            vz -= 9.81 * r->time_step;
-            z += vz * r->time_step;
-            longest = fmax(longest, r->time_step);
+            const double z = start.z + v0.z * r->time - 0.5 * 9.81 * r->time * r->time;
             sb_fluid_sample p = sb_sim_particle(sim, 0);
             worst = fmax(worst, sb_norm(sb_sub(p.position, sb_vec(start.x + v0.x * r->time,
                                                                   start.y + v0.y * r->time, z))));
             assert_true(p.pressure == 0 && p.velocity.x == v0.x && p.velocity.y == v0.y);
-            double exact = start.z + v0.z * r->time - 0.5 * 9.81 * r->time * r->time;
-            assert_true(fabs(p.position.z - exact) <= 0.51 * 9.81 * longest * r->time);
         }
-        printf("%dD: %llu steps, worst %.2g m from the steps in double\n", dimensions,
+        printf("%dD: %llu steps, worst %.2g m from the parabola\n", dimensions,
                (unsigned long long)sb_sim_report(sim)->step, worst);
         assert_true(worst < 5e-6);
         sb_sim_destroy(sim);
