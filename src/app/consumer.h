@@ -48,8 +48,8 @@ void sb_consumer_feed(sb_consumer *consumer, const sb_frame *frame);
    counted may then be read. Fine when it never started. */
 void sb_consumer_drain(sb_consumer *consumer);
 
-/* Lets it finish what it has, and joins. Out of patience, it cancels the thread instead: what that has open stays so until
-   the process ends. Fine when it never started. */
+/* Lets it finish what it has, and joins. Out of patience, it cancels the thread instead: what that has open stays so
+   until the process ends. Fine when it never started. */
 void sb_consumer_stop(sb_consumer *consumer);
 
 #endif

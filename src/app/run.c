@@ -87,7 +87,8 @@ static void tell_departures(run *r)
     for (; r->departures < all->count; r->departures++) {
         const sb_departure *one = &all->first[r->departures];
         char text[200];
-        snprintf(text, sizeof text, "particle %u left through the %s %s at t = %.6g s, at (%.6g, %.6g, %.6g) m with %.3g m/s",
+        snprintf(text, sizeof text,
+                 "particle %u left through the %s %s at t = %.6g s, at (%.6g, %.6g, %.6g) m with %.3g m/s",
                  one->particle, one->lost ? "wall" : "open side", sb_side_names[one->side], one->time, one->position.x,
                  one->position.y, one->position.z, one->speed);
         if (one->lost)

@@ -35,8 +35,8 @@ int sb_file_sync(const char *path);
 /* Makes the directory and all missing parents. */
 sb_status sb_make_directories(const char *path, sb_error *error);
 
-/* directory/name into path, and makes the directory and the folders below it that name goes through; SB_FAILED where one
-   of those below is a symbolic link or no folder. */
+/* directory/name into path, and makes the directory and the folders below it that name goes through; SB_FAILED where
+   one of those below is a symbolic link or no folder. */
 sb_status sb_make_folder(char path[SB_PATH_MAX], const char *directory, const char *name, sb_error *error);
 
 /* Removes the files "<digits><suffix>" of a folder whose number is above `after`, and what was being written when a

@@ -70,8 +70,9 @@ typedef struct sb_ledger {
 } sb_ledger;
 const sb_ledger *sb_sim_ledger(const sb_sim *sim);
 
-/* Particles that are no longer there: how many by the domain's side that they went through, open or wall, and the first
-   few of them, in the order of the steps. Those that left before t = 0, while the water came to rest, are among them. */
+/* Particles that are no longer there: how many by the domain's side that they went through, open or wall, and the
+   first few of them, in the order of the steps. Those that left before t = 0, while the water came to rest, are among
+   them. */
 enum { SB_DEPARTURES = 8 };
 typedef struct sb_departure {
     double time;      /* s */

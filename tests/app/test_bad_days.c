@@ -161,8 +161,9 @@ static void no_room_for_particle_files(void **state)
 {
     (void)state;
     /* 300 particles take 15 kB; log and tables stay below 12. */
-    outcome o = program_run_limited(12000, (const char *const[]){"run", "tank2.yaml", "--out", "tight", "--quiet", "--set",
-                                                         "output.checkpoint.minutes=0", NULL});
+    static const char *const arguments[] = {"run",     "tank2.yaml", "--out",                       "tight",
+                                            "--quiet", "--set",      "output.checkpoint.minutes=0", NULL};
+    outcome o = program_run_limited(12000, arguments);
     if (o.status != 2) fail_msg("exit status %d: %s", o.status, o.err);
     assert_contains(o.err, "particle files: tight/particles/000001.vtp: cannot write: File too large");
     outcome_free(&o);
@@ -176,9 +177,10 @@ static void no_room_for_particle_files(void **state)
 static void no_room_for_pictures(void **state)
 {
     (void)state;
-    outcome o = program_run_limited(40000, (const char *const[]){"run", "tank3.yaml", "--out", "narrow", "--quiet", "--set",
-                                                         "render.width=1280", "--set", "render.height=720", "--set",
-                                                         "output.checkpoint.minutes=0", NULL});
+    static const char *const arguments[] = {"run", "tank3.yaml", "--out", "narrow", "--quiet", "--set",
+                                            "render.width=1280", "--set", "render.height=720", "--set",
+                                            "output.checkpoint.minutes=0", NULL};
+    outcome o = program_run_limited(40000, arguments);
     if (o.status != 2) fail_msg("exit status %d: %s", o.status, o.err);
     assert_contains(o.err, "pictures: narrow/frames/side/000001.png: ");
     assert_contains(o.err, "cannot write: ");
@@ -194,7 +196,8 @@ static void a_directory_that_vanishes(void **state)
     (void)state;
     char command[2200];
     pid_t process = start_endless("brief", NULL);
-    snprintf(command, sizeof command, "for turn in 1 2 3 4 5 6 7 8 9; do rm -rf '%s' 2>/dev/null && exit 0; done; exit 1", in_folder("brief"));
+    snprintf(command, sizeof command, "for turn in 1 2 3 4 5 6; do rm -rf '%s' 2>/dev/null && exit 0; done; exit 1",
+             in_folder("brief"));
     assert_int_equal(system(command), 0);
     outcome o = program_finish(process);
     assert_int_equal(o.status, 2);
