@@ -9,8 +9,9 @@ static const struct {
     const char *key, *value[2];
 } rows[] = {
     /* key                     default       paper   */
-    {"kernel",               {"cubic",      "cubic"}},
-    {"support",              {"2.5",        "2"}},
+    {"kernel",               {"wendland-c2", "cubic"}},
+    {"support",              {"3",          "2"}},
+    {"density",              {"completed",  "summed"}},
     {"solver",               {"chebyshev",         "jacobi"}},
     {"tolerance_rule",       {"pressure",   "density"}},
     {"tolerance",            {"0.002",      "0.001"}},
@@ -28,8 +29,8 @@ static const struct {
     {"turbulence",           {"none",       "none"}},
     {"smagorinsky",          {"0.1",        "0.1"}},
     {"sound_speed",          {"0",          "0"}},
-    {"wall_gamma",           {"1.6",        "1"}},
-    {"wall_offset",          {"0.8",        "0.6"}},
+    {"wall_gamma",           {"1.3",        "1"}},
+    {"wall_offset",          {"0.55",        "0.6"}},
     {"jitter",               {"0.02",       "0"}},
     {"seed",                 {"1",          "1"}},
     {"sleep",                {"false",      "false"}},

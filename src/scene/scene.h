@@ -71,6 +71,11 @@ typedef enum sb_tolerance_rule {
     SB_TOLERANCE_PRESSURE /* tolerance * (dt sqrt(gD)/spacing)^2 is */
 } sb_tolerance_rule;
 
+typedef enum sb_density_form {
+    SB_DENSITY_SUMMED,    /* the kernel sum as it is [S16 eq. 3] */
+    SB_DENSITY_COMPLETED  /* with what the surface cuts off and walls put in, at the start (sim/deficit.h) */
+} sb_density_form;
+
 typedef enum sb_turbulence {
     SB_TURBULENCE_NONE,
     SB_TURBULENCE_SPS /* sub-particle-scale eddy viscosity [W eq. 9] */
@@ -81,6 +86,7 @@ typedef struct sb_numerics {
     sb_preset preset;
     const sb_kernel *kernel;
     double support;            /* support radius over spacing */
+    sb_density_form density;
     sb_solver solver;
     sb_tolerance_rule tolerance_rule;
     double tolerance;          /* mean of max(0, predicted excess density)/rest density */

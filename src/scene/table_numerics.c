@@ -6,6 +6,7 @@
 static const char *const preset_words[] = {"default", "paper", NULL};
 static const char *const solver_words[] = {"jacobi", "chebyshev", "cg", NULL};
 static const char *const tolerance_words[] = {"density", "pressure", NULL};
+static const char *const density_words[] = {"summed", "completed", NULL};
 static const char *const turbulence_words[] = {"none", "sps", NULL};
 static const char *const step_words[] = {"paper", "depth", NULL};
 
@@ -34,6 +35,9 @@ static const sb_key keys[] = {
     {.name = "kernel", .type = SB_KEY_KERNEL, SB_KEY_AT(sb_numerics, kernel),
      .flags = SB_KEY_PRESET, .doc = "Smoothing kernel; `shorebreak list kernels` describes them."},
     NUMBER(support, "spacings", 1.2, 4, 0, "Radius within which particles see each other."),
+    CHOICE(density, density_words,
+           "`summed`: the kernel sum alone; `completed`: each particle carries what its sum lacked at the surface, or had "
+           "too much of at a wall, on the lattice it started from, until it comes away from there."),
     CHOICE(solver, solver_words, "Method of the pressure solve."),
     CHOICE(tolerance_rule, tolerance_words,
            "`density`: tolerance is a relative density error; `pressure`: it is the share of the "

@@ -65,3 +65,34 @@ double sb_lattice_spectrum(const sb_scene *scene)
                 largest = fmax(largest, response(&s, sb_scale(sb_vec(x, y, z), pi / WAVES)));
     return largest;
 }
+
+/* Sum of V W over the lattice, and the height's part of that of h V grad W, over the layers up to `top`. */
+static void half_space(const sb_scene *scene, int top, double *density, double *slope)
+{
+    const int dimension = scene->dimensions;
+    const double support = scene->numerics.support;
+    const int reach = (int)ceil(support), depth = dimension == 2 ? 0 : reach;
+    *density = *slope = 0;
+    for (int x = -reach; x <= reach; x++)
+        for (int y = -depth; y <= depth; y++)
+            for (int z = -reach; z <= top; z++) {
+                const double r = sqrt((double)(x * x + y * y + z * z));
+                *density += sb_kernel_value(scene->numerics.kernel, dimension, support, r);
+                if (r > 0)
+                    *slope += support * sb_kernel_slope(scene->numerics.kernel, dimension, support, r) * z / r;
+            }
+}
+
+double sb_lattice_density(const sb_scene *scene)
+{
+    double density, slope;
+    half_space(scene, (int)ceil(scene->numerics.support), &density, &slope);
+    return density;
+}
+
+double sb_lattice_truncation(const sb_scene *scene)
+{
+    double density, slope;
+    half_space(scene, 0, &density, &slope);
+    return (sb_lattice_density(scene) - density) / (slope * slope);
+}

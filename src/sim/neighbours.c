@@ -172,6 +172,9 @@ SB_INLINE void one_particle(sb_sim *sim, struct sb_searcher *w, sb_list_builder 
     fluid_sums(w, c->mass, sim->pairs.unit, &density, &sum, &squares);
     sb_list_water(lists, &w->hits, sim, i);
     sim->wall_pairs.count[i] = 0;
+    const float of_water = density;
+    if (sim->deficit)
+        sim->residual[i] = sb_sum3(sum * sum);
     if (w->wall.count > 0) {
         const sb_stretch all = {0, (uint32_t)w->wall.count};
         find_hits(w, &(sb_candidates){w->wall.x, w->wall.y, w->wall.z}, &all, 1, sb_offset(sim->position[i], cell),
@@ -185,6 +188,8 @@ SB_INLINE void one_particle(sb_sim *sim, struct sb_searcher *w, sb_list_builder 
     for (int axis = 0; axis < 3; axis++)
         diagonal += (sum[axis] + wall[axis]) * (sum[axis] + wall[axis]);
     sim->density[i] = density;
+    if (sim->deficit)
+        sim->source[i] = density - of_water;
     sim->wall[i] = wall;
     sim->diagonal[i] = diagonal > 1e-6f * c->full_diagonal ? diagonal : 0;
 }

@@ -46,6 +46,7 @@ void sb_sim_save(const sb_sim *sim, sb_archive_out *out)
     sb_put_list(out, sim->position, sim->n, sizeof *sim->position);
     sb_put_list(out, sim->velocity, sim->n, sizeof *sim->velocity);
     sb_put_list(out, sim->id, sim->n, sizeof *sim->id);
+    sb_put_list(out, sim->deficit, sim->deficit ? sim->model->fluid_count : 0, sizeof *sim->deficit);
     sb_sleep_save(sim, out);
     sb_put_list(out, sim->impulse, sim->model->body_count, sizeof *sim->impulse);
     sb_put_list(out, &sim->ledger, sizeof sim->ledger / sizeof(double), sizeof(double));
@@ -75,6 +76,18 @@ static void take_particles(sb_sim *sim, sb_archive_in *in)
     sim->report.fluid_count = sim->n;
 }
 
+static void take_deficits(sb_sim *sim, sb_archive_in *in)
+{
+    const size_t n = sim->deficit ? sim->model->fluid_count : 0;
+    sb_take_list(in, sim->deficit, n, sizeof *sim->deficit);
+    for (size_t i = 0; i < n; i++) {
+        if (!isinf(sim->deficit[i]))
+            continue;
+        sb_archive_refuse(in, "particle %zu lacks %g kg/m^3, expected a finite density", i, (double)sim->deficit[i]);
+        return;
+    }
+}
+
 static void take_moving(sb_sim *sim, sb_archive_in *in)
 {
     if (sb_take_count(in, SIZE_MAX) != sim->moving_count)
@@ -101,6 +114,7 @@ sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
     sim->lost = sim->report.lost = sb_take_count(in, UINT64_MAX);
     sb_departures_load(sim, in);
     take_particles(sim, in);
+    take_deficits(sim, in);
     status = sb_sleep_load(sim, in, error);
     sb_take_list(in, sim->impulse, sim->model->body_count, sizeof *sim->impulse);
     sb_take_list(in, &sim->ledger, sizeof sim->ledger / sizeof(double), sizeof(double));

@@ -2,6 +2,7 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "sim/around.h"
+#include "sim/deficit.h"
 #include "sim/ledger.h"
 #include "sim/lattice.h"
 #include "sim/pressure.h"
@@ -31,6 +32,9 @@ static sb_constants make_constants(const sb_scene *scene, const sb_model *model)
         .viscosity = (float)scene->fluid.viscosity,
         .full_diagonal = (float)sb_lattice_diagonal(scene, mass),
         .spectrum = sb_lattice_spectrum(scene),
+        .bulk_deficit = (float)(scene->fluid.density * (1 - sb_lattice_density(scene))),
+        .surface_deficit = (float)(sb_lattice_truncation(scene) *
+                                   pow(scene->numerics.support * dr, 2) / scene->fluid.density),
         .speed_limit = (float)fmax(100 * wave_speed, sb_scene_speed_limit(scene)),
     };
 }
@@ -46,7 +50,8 @@ static int allocate(sb_sim *sim, size_t n, size_t bodies)
         bool needed;
     } rows[] = {
         {&sim->position, n, 16, true},          {&sim->velocity, n, 16, true},
-        {&sim->id, n, 4, true},                 {&sim->acceleration, n, 16, true},
+        {&sim->id, n, 4, true},                 {&sim->deficit, n, 4, sb_deficit_on(sim->scene)},
+        {&sim->acceleration, n, 16, true},
         {&sim->wall, n, 16, true},              {&sim->density, n, 4, true},
         {&sim->diagonal, n, 4, true},           {&sim->source, n, 4, true},
         {&sim->unknown, n, 4, true},            {&sim->residual, n, 4, true},
@@ -104,6 +109,7 @@ static void fill_particles(sb_sim *sim)
     double top = 0;
     for (size_t i = 0; i < n; i++)
         top = fmax(top, sb_norm(model->fluid_velocity[i]));
+    sb_deficit_clear(sim);
     sim->report.max_speed = top;
     sim->report.fluid_count = n;
 }
@@ -117,6 +123,8 @@ static void note_skipped(sb_sim *sim)
         sim->skipped[s++] = "viscosity: both coefficients are 0, no pass over pairs";
     if (!sb_turbulence_on(sim->scene))
         sim->skipped[s++] = "turbulence: none, no strain rates, no memory for eddy viscosities";
+    if (!sb_deficit_on(sim->scene))
+        sim->skipped[s++] = "density: summed, no memory for what surfaces and walls change in it";
     if (!(n->wall_friction > 0))
         sim->skipped[s++] = "wall friction: coefficient is 0";
     if (!sim->space.repeats)
@@ -188,7 +196,7 @@ void sb_sim_destroy(sb_sim *sim)
 {
     if (!sim)
         return;
-    void *fields[] = {sim->position, sim->velocity, sim->id, sim->acceleration, sim->wall, sim->density,
+    void *fields[] = {sim->position, sim->velocity, sim->id, sim->deficit, sim->acceleration, sim->wall, sim->density,
                       sim->eddy, sim->diagonal, sim->source, sim->unknown, sim->residual, sim->direction, sim->product,
                       sim->scratch, sim->scratch_id, sim->partial,
                       sim->block_touched, sim->block_impulse, sim->impulse, sim->block_ledger};
@@ -267,6 +275,8 @@ uint64_t sb_sim_hash(const sb_sim *sim)
         uint32_t xyz[4] = {sim->position[i][0], sim->position[i][1], sim->position[i][2], sim->id[i]};
         hash = sb_hash(hash, xyz, sizeof xyz);
         hash = sb_hash(hash, &sim->velocity[i], sizeof sim->velocity[i]);
+        if (sim->deficit)
+            hash = sb_hash(hash, &sim->deficit[sim->id[i]], sizeof *sim->deficit);
     }
     for (size_t s = 0; s < sb_asleep(sim); s++) {
         const sb_sleep *sleep = sim->sleep;

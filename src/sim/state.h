@@ -29,6 +29,8 @@ typedef struct sb_constants {
     float sound_speed;             /* m/s */
     float viscosity;               /* m^2/s, physical */
     float full_diagonal;           /* of a full lattice, per dt^2: scale of a_ii */
+    float bulk_deficit;            /* kg/m^3, what a full lattice's sum lacks */
+    float surface_deficit;         /* what a flat surface's first layer lacks more, over |sum_j m grad W|^2 there */
     double spectrum;               /* largest eigenvalue of D^-1 A on a full lattice */
     float speed_limit;             /* m/s, above it the run has diverged */
 } sb_constants;
@@ -127,12 +129,13 @@ typedef struct sb_sim {
     sb_record *position;      /* quanta; last lane: argument of the pressure operator */
     sb_f4 *velocity;          /* m/s; last lane: pressure in Pa, the next step's warm start */
     uint32_t *id;
+    float *deficit;           /* by id, kg/m^3, added to the density's sum (sim/deficit.h); NULL: none. NAN: not known yet */
 
     /* fields of one step */
     sb_f4 *acceleration;      /* m/s^2, of the pressure argument; last lane 0. After the stage accelerate:
                                  the new velocity and pressure */
     sb_f4 *wall;              /* sum_b psi_b grad W_ib; last lane: sum_b psi_b v_b . grad W_ib */
-    float *density;           /* kg/m^3 */
+    float *density;           /* kg/m^3, deficit included */
     float *eddy;              /* m^2/s, nu_t at the step's start; NULL without a turbulence model */
     float *diagonal;          /* -a_ii > 0 for q as unknown; 0: no pressure here */
     float *source;            /* b_i, kg/m^3 */
@@ -175,7 +178,7 @@ typedef struct sb_sim {
     sb_departures departures; /* sim/departures.h */
     sb_stage_time stage[SB_STAGES_MAX];
     size_t stage_count;
-    const char *skipped[12];
+    const char *skipped[16];
     size_t bytes_fixed;
 } sb_sim;
 
@@ -217,7 +220,8 @@ sb_status sb_stage_walls(sb_sim *sim, sb_error *error); /* paddles to t, their t
 sb_status sb_walls_restore(sb_sim *sim, sb_error *error);
 /* Whether a cell may have boundary particles of the set in reach. */
 bool sb_walls_near(const sb_wall_set *set, const sb_space *space, sb_record record);
-/* sim/lists.c: lists, densities, wall vectors, diagonal, all in one pass. */
+/* sim/lists.c: lists, densities, wall vectors, diagonal, all in one pass; and for the stage completion, in the
+   place of source and residual, the walls' part of the densities and |sum_j m grad W_ij|^2. */
 sb_status sb_stage_neighbours(sb_sim *sim, sb_error *error);
 /* sim/neighbours.c: sb_lists.unit of a simulation, so that W'/r of coincident particles, the steepest, is 2^15 - 1. */
 float sb_lists_unit(const sb_sim *sim);

@@ -1,5 +1,6 @@
 /* The step as a list: one row per stage, one loop that runs and times them. */
 #include "base/clock.h"
+#include "sim/deficit.h"
 #include "sim/pressure.h"
 #include "sim/sleep.h"
 #include "sim/turbulence.h"
@@ -18,6 +19,7 @@ static const stage stages[] = {
     {"ghosts", sb_stage_ghosts, NULL},                    /* images beyond periodic sides */
     {"fringe", sb_stage_fringe, sb_sleep_wanted},         /* sleepers that awake water may touch */
     {"neighbours", sb_stage_neighbours, NULL},            /* lists, density, wall vectors, diagonal */
+    {"completion", sb_stage_completion, sb_deficit_on},   /* what surfaces and walls change in the density */
     {"turbulence", sb_stage_turbulence, sb_turbulence_on}, /* eddy viscosity from the strain rate */
     {"forces", sb_stage_forces, NULL},                    /* v* = v + dt (g + viscosity + friction) */
     {"source", sb_stage_source, NULL},                    /* b = beta (rho_0 - rho) - dt div v* */

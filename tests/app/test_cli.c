@@ -166,7 +166,7 @@ static void check_in_json(void **state)
     assert_contains(o.out, "\"post\"");
     outcome_free(&o);
     /* One particle deep: too coarse, which is a warning and no error. */
-    o = RUN(0, "check", "tank3.yaml", "--json", "--set", "resolution=0.3");
+    o = RUN(0, "check", "tank3.yaml", "--json", "--set", "resolution=0.25");
     assert_true(json_valid(o.out));
     assert_true(*json_find(o.out, "warnings") == '[');
     assert_contains(json_find(o.out, "warnings"), "expected");

@@ -111,7 +111,7 @@ static void violent_paddle_fails_on_the_way(void **state)
                               "bodies:\n"
                               "  - {name: paddle, shape: box, min: [-0.2, 0], max: [0, 0.9]}\n"
                               "wavemakers:\n"
-                              "  - {name: blow, body: paddle, kind: stroke, stroke: 0.5,\n"
+                              "  - {name: blow, body: paddle, kind: stroke, stroke: 2,\n"
                               "     speed: 100000, start: 0.1}\n"
                               "measure: {interval: 0.02}\n"
                               "output: {particle_interval: 0.04, plots: false}\n");

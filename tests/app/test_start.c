@@ -82,6 +82,7 @@ static void a_dam_starts_quietly(void **state)
     (void)state;
     double kinetic = last_kinetic("{dimensions: 2, resolution: 0.04, duration: 0.012,\n"
                                   " domain: {min: [0, 0], max: [3, 1]},\n"
+                                  " numerics: {time_step_max: 0.006},\n"
                                   " water: {boxes: [{min: [0, 0], max: [0.8, 0.6]}]},\n"
                                   " measure: {interval: 0.012}}\n");
     assert_near(kinetic, 1.4, 1.1);

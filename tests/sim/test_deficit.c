@@ -1,0 +1,172 @@
+/* What surfaces and walls change in a particle's density sum: found on the lattice, carried along, given up in the bulk;
+   and what it is for, a sea that stays as it was laid and a wave that keeps its height. */
+#include "../check.h"
+#include "sim/deficit.h"
+#include "sim/lattice.h"
+#include "sim/tank.h"
+
+#include <math.h>
+
+static const double DEPTH = 0.6;
+
+static sb_sim *water_in(tank *t, int dimensions, sb_density_form form, double jitter)
+{
+    const sb_vec3 size = dimensions == 2 ? sb_vec(1, 0, 1) : sb_vec(0.6, 0.5, 1);
+    tank_make(t, dimensions, 0.05, size, size.x, DEPTH, jitter);
+    t->scene.numerics.kernel = sb_kernel_find("wendland-c2");
+    t->scene.numerics.support = 3;
+    t->scene.numerics.density = form;
+    t->scene.numerics.source_relaxation = 0.2;
+    t->scene.numerics.warm_start = 0.7;
+    t->scene.numerics.wall_gamma = 1.3;
+    sb_sim *sim = tank_sim(t);
+    assert_non_null(sim);
+    return sim;
+}
+
+static void lattice_is_at_rest_density(void **state)
+{
+    (void)state;
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        tank t;
+        sb_sim *sim = water_in(&t, dimensions, SB_DENSITY_COMPLETED, 0);
+        sb_error error = {0};
+        float least = INFINITY;
+        assert_int_equal(tank_prepare(sim, 1e-3), 0);
+        for (size_t i = 0; i < sim->n; i++)
+            least = fminf(least, sim->density[i]);
+        assert_true(least < 0.8f * sim->constant.rest_density); /* the sums at the surface */
+        assert_int_equal(sb_stage_completion(sim, &error), SB_OK);
+        for (size_t i = 0; i < sim->n; i++)
+            assert_true(fabsf(sim->density[i] / sim->constant.rest_density - 1) < 1e-6f);
+        sb_sim_destroy(sim);
+        tank_free(&t);
+    }
+}
+
+/* Adding it twice would hide an error of the first time. */
+static void it_is_found_once(void **state)
+{
+    (void)state;
+    tank t;
+    sb_sim *sim = water_in(&t, 2, SB_DENSITY_COMPLETED, 0);
+    assert_int_equal(tank_steps(sim, 1), 0);
+    for (size_t i = 0; i < sim->n; i++)
+        sim->position[i][2] += (uint32_t)(0.01 / sim->space.quantum); /* off the floor, the rest as it was */
+    sb_error error = {0};
+    assert_int_equal(tank_prepare(sim, 1e-3), 0);
+    assert_int_equal(sb_stage_completion(sim, &error), SB_OK);
+    float least = INFINITY;
+    for (size_t i = 0; i < sim->n; i++)
+        least = fminf(least, sim->density[i]);
+    assert_true(least < 0.97f * sim->constant.rest_density);
+    sb_sim_destroy(sim);
+    tank_free(&t);
+}
+
+/* A particle of the bulk that carries a surface's deficit, or an excess, loses all but the slack; one at the surface
+   keeps its own. */
+static void it_is_given_up_in_the_bulk(void **state)
+{
+    (void)state;
+    tank t;
+    sb_sim *sim = water_in(&t, 2, SB_DENSITY_COMPLETED, 0);
+    assert_int_equal(tank_steps(sim, 1), 0);
+    size_t bulk[2] = {SIZE_MAX, SIZE_MAX}, surface = SIZE_MAX;
+    for (size_t i = 0; i < sim->n; i++) {
+        const sb_vec3 at = sb_space_position(&sim->space, sim->position[i]);
+        if (fabs(at.x - 0.325) < 0.02 && fabs(at.z - 0.325) < 0.02)
+            bulk[0] = sim->id[i];
+        if (fabs(at.x - 0.675) < 0.02 && fabs(at.z - 0.325) < 0.02)
+            bulk[1] = sim->id[i];
+        if (fabs(at.x - 0.525) < 0.02 && fabs(at.z - DEPTH) < 0.04)
+            surface = sim->id[i];
+    }
+    assert_true(bulk[0] < sim->n && bulk[1] < sim->n && surface < sim->n);
+    const float rest = sim->constant.rest_density, kept = sim->deficit[surface];
+    assert_true(kept > 0.2f * rest);
+    sim->deficit[bulk[0]] = 0.2f * rest;
+    sim->deficit[bulk[1]] = -0.2f * rest;
+    assert_int_equal(tank_steps(sim, 120), 0);
+    assert_true(sim->deficit[bulk[0]] < 0.04f * rest);
+    assert_true(sim->deficit[bulk[1]] > -0.04f * rest);
+    assert_true(sim->deficit[surface] == kept);
+    sb_sim_destroy(sim);
+    tank_free(&t);
+}
+
+/* Mean height of the water over its own at the start. */
+static double sunk(sb_density_form form)
+{
+    tank t;
+    sb_sim *sim = water_in(&t, 2, form, 0.02);
+    sb_error error = {0};
+    const double mass = sb_sim_energy(sim).mass * (double)sim->constant.gravity;
+    const double before = sb_sim_energy(sim).potential / mass;
+    t.scene.numerics.settle_steps = 300;
+    if (sb_sim_settle(sim, &error) != SB_OK)
+        fail_msg("%s", error.text);
+    const double after = sb_sim_energy(sim).potential / mass;
+    sb_sim_destroy(sim);
+    tank_free(&t);
+    return (after - before) / 0.05;
+}
+
+static void a_sea_stays_as_it_was_laid(void **state)
+{
+    (void)state;
+    const double completed = sunk(SB_DENSITY_COMPLETED), summed = sunk(SB_DENSITY_SUMMED);
+    assert_true(fabs(completed) < 0.05); /* spacings */
+    assert_true(fabs(summed) > 2 * fabs(completed));
+}
+
+static void it_costs_nothing_when_off(void **state)
+{
+    (void)state;
+    tank t;
+    sb_sim *sim = water_in(&t, 2, SB_DENSITY_SUMMED, 0);
+    const sb_stage_time *stages;
+    assert_null(sim->deficit);
+    assert_int_equal(tank_steps(sim, 1), 0);
+    const size_t count = sb_sim_stages(sim, &stages);
+    for (size_t s = 0; s < count; s++)
+        assert_string_not_equal(stages[s].name, "completion");
+    sb_sim_destroy(sim);
+    tank_free(&t);
+}
+
+/* A half space by quadrature: with a support of four spacings sums are within a tenth of integrals. */
+static void truncation_is_that_of_a_half_space(void **state)
+{
+    (void)state;
+    sb_scene scene = {.dimensions = 2, .resolution = 1};
+    scene.numerics.kernel = sb_kernel_find("wendland-c2");
+    scene.numerics.support = 4;
+    double density = 0, slope = 0, full = 0;
+    const double step = 0.01, h = 4;
+    for (double x = -h + step / 2; x < h; x += step)
+        for (double z = -h + step / 2; z < h; z += step) {
+            const double r = sqrt(x * x + z * z), w = sb_kernel_value(scene.numerics.kernel, 2, h, r) * step * step;
+            full += w;
+            if (z > 0.5)
+                continue;
+            density += w;
+            slope += h * sb_kernel_slope(scene.numerics.kernel, 2, h, r) * z / r * step * step;
+        }
+    assert_near(sb_lattice_density(&scene), full, 0.005);
+    const double expected = (full - density) / (slope * slope);
+    assert_near(sb_lattice_truncation(&scene), expected, 0.1 * expected);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lattice_is_at_rest_density),
+        cmocka_unit_test(it_is_found_once),
+        cmocka_unit_test(it_is_given_up_in_the_bulk),
+        cmocka_unit_test(a_sea_stays_as_it_was_laid),
+        cmocka_unit_test(it_costs_nothing_when_off),
+        cmocka_unit_test(truncation_is_that_of_a_half_space),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
