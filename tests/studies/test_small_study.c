@@ -9,7 +9,7 @@
 #include <string.h>
 
 #define SCENE "'" SB_SOURCE_DIR "/assets/validation/still-water/flat.yaml'"
-#define TINY SCENE " --resolutions 0.1,0.2 --seeds 2 --set duration=0.5 --set numerics.time_step_max=0.005"
+#define TINY SCENE " --resolutions 0.05,0.1 --seeds 2 --set duration=0.5 --set numerics.time_step_max=0.005"
 
 static int study(const char *arguments)
 {
