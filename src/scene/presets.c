@@ -22,7 +22,7 @@ static const struct {
     {"source_relaxation",    {"0.2",        "1"}},
     {"cfl",                  {"0.4",        "0.4"}},
     {"time_step_rule",       {"depth",      "paper"}},
-    {"time_step_factor",     {"0.16",         "0.075"}},
+    {"time_step_factor",     {"0.15",         "0.075"}},
     {"time_step_max",        {"0",          "0"}},
     {"artificial_viscosity", {"0.002",       "0.05"}},
     {"wall_friction",        {"0",          "0.02"}},

