@@ -127,8 +127,8 @@ sb_status sb_model_build(const sb_scene *scene, sb_model *model, sb_error *error
     if (status == SB_OK) status = sb_model_fill(scene, &space, &made, error);
     if (status == SB_OK) status = sb_model_sample(scene, &space, &made, error);
     if (status == SB_OK) status = sb_model_check_sides(scene, &space, &made, error);
+    if (status == SB_OK) status = sb_model_check(scene, &space, &made, error);
     sb_model_space_free(&space);
-    if (status == SB_OK) status = sb_model_check(scene, &made, error);
     if (status != SB_OK) {
         sb_model_free(&made);
         /* Whatever a stage made of it. */

@@ -2,11 +2,7 @@
  * spacing. */
 #include "geometry/model_parts.h"
 
-enum { RAYS_MAX = 4000, BINS = 64, DEPTH_MIN = 4, HEIGHT_MIN = 5 };
-
-/* Share of a body's surface that has to be thin before it counts as a plate, and the cosine between
-   its two faces there: sharp edges are none. */
-static const double thin_share = 0.05, opposite = -0.8;
+enum { DEPTH_MIN = 4, HEIGHT_MIN = 5 };
 
 static sb_status check_mesh(const sb_model_body *body, sb_model *model, sb_error *error)
 {
@@ -35,57 +31,6 @@ static sb_status check_mesh(const sb_model_body *body, sb_model *model, sb_error
         status = sb_model_warn(model, error, "body \"%s\": %zu faces lie twice in the same place",
                                body->name, report.doubled_faces);
     return status;
-}
-
-/* The thickness straight behind the faces that thin_share of the area stays below, at most limit.
- */
-static double find_thickness(const sb_model *model, const sb_mesh *mesh, const sb_solid *solid,
-                             double limit)
-{
-    double area = 0, thin[BINS] = {0};
-    size_t step = mesh->triangle_count / RAYS_MAX + 1;
-    for (size_t t = 0; t < mesh->triangle_count; t += step) {
-        sb_vec3 a = mesh->vertices[mesh->triangles[t][0]];
-        sb_vec3 b = mesh->vertices[mesh->triangles[t][1]];
-        sb_vec3 c = mesh->vertices[mesh->triangles[t][2]];
-        sb_vec3 normal = sb_cross(sb_sub(b, a), sb_sub(c, a));
-        double size = sb_norm(normal);
-        sb_vec3 back = sb_scale(sb_normalize(normal), -1);
-        if (!(size > 0) || (model->dimensions == 2 && fabs(back.y) > 0.5)) continue;
-        sb_vec3 at = sb_scale(sb_add(a, sb_add(b, c)), 1.0 / 3);
-        double skin = 1e-6 * model->spacing;
-        double depth = sb_solid_raycast(solid, sb_madd(at, skin, back), back, limit);
-        area += size;
-        if (!(depth > 0 && depth < limit)) continue;
-        sb_vec3 far_face = sb_scale(back, -1), end = sb_madd(at, depth + skin, back);
-        sb_solid_distance(solid, end, skin, NULL, &far_face);
-        if (sb_dot(far_face, back) > -opposite) thin[(int)(BINS * depth / limit)] += size;
-    }
-    double sum = 0;
-    for (int i = 0; i < BINS; ++i) {
-        sum += thin[i];
-        if (sum > thin_share * area) return limit * (i + 1) / BINS;
-    }
-    return limit;
-}
-
-static sb_status check_thickness(const sb_scene *scene, const sb_model_body *body, sb_model *model,
-                                 sb_error *error)
-{
-    if (body->role != SB_ROLE_SOLID || body->mesh.sheet || body->mesh.triangle_count == 0)
-        return SB_OK;
-    double support = scene->numerics.support * scene->resolution;
-    sb_solid *solid = NULL;
-    sb_status status = sb_solid_create(&body->mesh, body->role, &solid, error);
-    if (status != SB_OK) return status;
-    double thickness = find_thickness(model, &body->mesh, solid, support);
-    sb_solid_destroy(solid);
-    if (thickness >= support) return SB_OK;
-    return sb_model_warn(
-        model, error,
-        "body \"%s\" is about %.2g m thick, less than the support radius of %.3g m: water "
-        "on one side pushes water on the other",
-        body->name, thickness, support);
 }
 
 static sb_status check_height(const sb_model *model, const char *what, const char *name,
@@ -118,14 +63,14 @@ static sb_status check_water(const sb_scene *scene, sb_model *model, sb_error *e
     return status;
 }
 
-sb_status sb_model_check(const sb_scene *scene, sb_model *model, sb_error *error)
+sb_status sb_model_check(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
 {
     sb_status status = SB_OK;
     for (size_t i = 0; i < model->body_count && status == SB_OK; ++i) {
         const sb_model_body *body = model->bodies + i;
         if (body->mesh.triangle_count == 0) continue;
         status = check_mesh(body, model, error);
-        if (status == SB_OK) status = check_thickness(scene, body, model, error);
+        if (status == SB_OK) status = sb_model_check_thickness(scene, space, body, model, error);
         if (status == SB_OK && body->count == 0)
             status =
                 sb_model_warn(model, error,

@@ -169,6 +169,84 @@ static void warnings_say_what_is_too_coarse(void **state)
     assert_true(warned("nothing is wet", ""));
 }
 
+/* The scene has one body more: it is refused by name, with its thickness. */
+static void check_leaks(const char *name, const char *thickness)
+{
+    sb_model_free(&model);
+    assert_int_equal(sb_model_build(&scene, &model, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, name));
+    if (!strstr(error.text, thickness)) fail_msg("%s", error.text);
+    assert_null(model.bodies);
+    scene.body_count--;
+}
+
+static void plates_that_water_passes_are_refused(void **state)
+{
+    (void)state;
+    add_box("sheet", sb_vec(5, 1, 0), sb_vec(5.24, 5, 4));
+    check_leaks("\"sheet\"", "about 0.24 m");
+    add_box("board", sb_vec(5, 1, 1), sb_vec(8, 5, 1.05));
+    check_leaks("\"board\"", "about 0.05 m");
+    sb_body *leaning = add_box("leaning", sb_vec(-0.1, -2, 0), sb_vec(0.1, 2, 4));
+    leaning->rotate = sb_vec(0, 20, 30);
+    leaning->translate = sb_vec(5, 3, 0);
+    check_leaks("\"leaning\"", "about 0.2 m");
+    scene.dimensions = 2;
+    scene.domain.min.y = scene.domain.max.y = 0;
+    scene.sea.seed.y = 0;
+    bodies[0] = (sb_body){.name = ""};
+    add_box("slice", sb_vec(5, -1, 0), sb_vec(5.2, 1, 4));
+    check_leaks("\"slice\"", "about 0.2 m");
+}
+
+static void plates_that_hold_are_not_refused(void **state)
+{
+    (void)state;
+    add_box("half", sb_vec(5, 1, 0), sb_vec(5.25, 5, 4));
+    build();
+    assert_true(warned("\"half\"", "thick"));
+    bodies[0].max.x = 5.24;
+    /* A pavement, a lining of the wall, a plate out of the domain: water comes to one side at most. */
+    add_box("ground", sb_vec(4, 0, -1), sb_vec(9, 6, 1));
+    bodies[0].min = sb_vec(4, 1, 0.9);
+    bodies[0].max = sb_vec(9, 5, 1.1);
+    build();
+    bodies[0].min = sb_vec(9.9, 1, 0);
+    bodies[0].max = sb_vec(10.1, 5, 4);
+    build();
+    bodies[0].min = sb_vec(12, 1, 0);
+    bodies[0].max = sb_vec(12.1, 5, 4);
+    build();
+}
+
+/* A body is more than its fins. */
+static void thin_parts_are_only_warned_of(void **state)
+{
+    (void)state;
+    char path[] = SB_BINARY_DIR "/test_model_fin.obj";
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    /* A block from (5, 2, 0) to (7, 4, 4), and a fin of 2 m by 2 m by 0.1 m behind it. */
+    static const double boxes[2][6] = {{5, 2, 0, 7, 4, 4}, {7, 2.9, 1, 9, 3, 3}};
+    for (int b = 0; b < 2; b++)
+        for (int v = 0; v < 8; v++)
+            fprintf(file, "v %g %g %g\n", boxes[b][v & 1 ? 3 : 0], boxes[b][v & 2 ? 4 : 1], boxes[b][v & 4 ? 5 : 2]);
+    static const int faces[6][4] = {{1, 5, 7, 3}, {2, 4, 8, 6}, {1, 2, 6, 5}, {3, 7, 8, 4}, {1, 3, 4, 2}, {5, 6, 8, 7}};
+    for (int b = 0; b < 2; b++)
+        for (int f = 0; f < 6; f++)
+            fprintf(file, "f %d %d %d %d\n", faces[f][0] + 8 * b, faces[f][1] + 8 * b, faces[f][2] + 8 * b,
+                    faces[f][3] + 8 * b);
+    fclose(file);
+    sb_body *body = add_box("finned", sb_vec(0, 0, 0), sb_vec(0, 0, 0));
+    body->shape = SB_SHAPE_MESH;
+    body->file = path;
+    body->up = 'z';
+    body->scale = 1;
+    build();
+    assert_true(warned("\"finned\"", "thick"));
+    remove(path);
+}
+
 static void holes_in_a_mesh_are_named(void **state)
 {
     (void)state;
@@ -345,6 +423,9 @@ int main(void)
         CASE(bodies_and_their_particles),      CASE(names_are_unique),
         CASE(a_wavemaker_needs_its_body),      CASE(open_sides_have_no_wall),
         CASE(warnings_say_what_is_too_coarse), CASE(holes_in_a_mesh_are_named),
+        CASE(plates_that_water_passes_are_refused),
+        CASE(plates_that_hold_are_not_refused),
+        CASE(thin_parts_are_only_warned_of),
         CASE(points_inside_are_found),         CASE(beside_a_sheet_is_not_within),
         CASE(a_start_is_forgotten_unless_it_moves),
         CASE(two_dimensions_have_no_side_walls),

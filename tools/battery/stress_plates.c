@@ -56,7 +56,7 @@ static void add(sb_trials *trials, double thickness, bool both)
     const double right = 1 + thickness * spacing;
     sb_trial_set(t, "bodies.plate.max=[%.9g, 0.8]", right);
     if (both) sb_trial_set(t, "water.boxes=[{min: [%.9g, 0], max: [2, %g]}]", right, other);
-    if (thickness < 1) t->ends |= SB_ENDS_REFUSED;
+    if (thickness < 0.5) t->ends |= SB_ENDS_REFUSED;
     sb_trial_drive(t, &drive, 1 + 0.5 * thickness * spacing);
 }
 
@@ -99,7 +99,7 @@ const sb_stress sb_stress_plates = {
     .name = "plates",
     .title = "Plates of one and two spacings, and thinner",
     .rule = "No particle crosses; the mean force over the second half is within 10 % of the hydrostatic one; a plate "
-            "thinner than a spacing may be refused instead, with the reason.",
+            "thinner than half a spacing may be refused instead, with the reason.",
     .plan = plan,
     .judge = judge,
 };

@@ -1,0 +1,107 @@
+/* Bodies so thin that water on their one side feels water on the other, or would pass. */
+#include "geometry/model_parts.h"
+
+enum { RAYS_MAX = 4000, BINS = 64 };
+
+/* Share of a body's surface that has to be thin before it counts as a plate, and the cosine between
+   its two faces there: sharp edges are none. */
+static const double thin_share = 0.05, opposite = -0.8;
+
+/* In spacings: a plate of half a spacing holds water, one of a quarter lets it pass (docs/stability.md).
+   What is thinner over more than half of its surface is a plate in its bulk; what merely has thin
+   parts keeps the water from most of its inside. */
+static const double thin_limit = 0.499, bulk_share = 0.5;
+
+/* What rays straight behind a body's faces have met, in m². */
+typedef struct thickness {
+    double area, thin[BINS]; /* by depth up to the support radius */
+    double leaky;            /* thinner than the limit, and water may come to both sides */
+    double leaky_depth;      /* that area's mean depth times the area */
+    double limit;            /* m */
+} thickness;
+
+/* Whether water could ever be there: in the domain, and in no solid. */
+static bool is_open(const sb_model *model, const sb_model_space *space, sb_vec3 at)
+{
+    if (model->dimensions == 2) at.y = 0;
+    if (!(at.x > model->min.x && at.x < model->max.x && at.z > model->min.z && at.z < model->max.z)) return false;
+    if (model->dimensions == 3 && !(at.y > model->min.y && at.y < model->max.y)) return false;
+    for (size_t b = 0; b < space->count; ++b)
+        if (space->solid[b] && model->bodies[b].mesh.triangle_count > 0 && sb_solid_contains(space->solid[b], at))
+            return false;
+    return true;
+}
+
+/* Straight behind the middle of one triangle. */
+static void look_behind(const sb_model *model, const sb_model_space *space, const sb_solid *solid,
+                        const sb_vec3 corner[3], thickness *found)
+{
+    sb_vec3 normal = sb_cross(sb_sub(corner[1], corner[0]), sb_sub(corner[2], corner[0]));
+    double size = sb_norm(normal), skin = 1e-6 * model->spacing;
+    sb_vec3 back = sb_scale(sb_normalize(normal), -1);
+    if (!(size > 0) || (model->dimensions == 2 && fabs(back.y) > 0.5)) return;
+    sb_vec3 at = sb_scale(sb_add(corner[0], sb_add(corner[1], corner[2])), 1.0 / 3);
+    double depth = sb_solid_raycast(solid, sb_madd(at, skin, back), back, found->limit);
+    found->area += size;
+    if (!(depth > 0 && depth < found->limit)) return;
+    sb_vec3 far_face = sb_scale(back, -1), end = sb_madd(at, depth + skin, back);
+    sb_solid_distance(solid, end, skin, NULL, &far_face);
+    if (sb_dot(far_face, back) <= -opposite) return;
+    found->thin[(int)(BINS * depth / found->limit)] += size;
+    const double room = 0.5 * model->spacing;
+    if (depth < thin_limit * model->spacing && is_open(model, space, sb_madd(at, -room, back)) &&
+        is_open(model, space, sb_madd(end, room, back))) {
+        found->leaky += size;
+        found->leaky_depth += size * depth;
+    }
+}
+
+static void find_thickness(const sb_model *model, const sb_model_space *space, const sb_mesh *mesh,
+                           const sb_solid *solid, thickness *found)
+{
+    size_t step = mesh->triangle_count / RAYS_MAX + 1;
+    for (size_t t = 0; t < mesh->triangle_count; t += step) {
+        const uint32_t *of = mesh->triangles[t];
+        const sb_vec3 corner[3] = {mesh->vertices[of[0]], mesh->vertices[of[1]], mesh->vertices[of[2]]};
+        look_behind(model, space, solid, corner, found);
+    }
+}
+
+/* The depth that thin_share of the area stays below, at most the limit. */
+static double plate_thickness(const thickness *found)
+{
+    double sum = 0;
+    for (int i = 0; i < BINS; ++i) {
+        sum += found->thin[i];
+        if (sum > thin_share * found->area) return found->limit * (i + 1) / BINS;
+    }
+    return found->limit;
+}
+
+static sb_status refuse(const sb_scene *scene, const char *name, double thick, sb_error *error)
+{
+    return sb_fail(error, SB_BAD_INPUT,
+                   "%.300s: body \"%s\": about %.3g m thick over most of its surface, and water passes what is thinner "
+                   "than half the spacing (%.3g m), expected a thicker body, or a resolution of %.3g m or less",
+                   scene->path ? scene->path : "the scene", name, thick, 0.5 * scene->resolution, 2 * thick);
+}
+
+sb_status sb_model_check_thickness(const sb_scene *scene, const sb_model_space *space, const sb_model_body *body,
+                                   sb_model *model, sb_error *error)
+{
+    if (body->role != SB_ROLE_SOLID || body->mesh.sheet || body->mesh.triangle_count == 0) return SB_OK;
+    thickness found = {.limit = scene->numerics.support * scene->resolution};
+    sb_solid *solid = NULL;
+    sb_status status = sb_solid_create(&body->mesh, body->role, &solid, error);
+    if (status != SB_OK) return status;
+    find_thickness(model, space, &body->mesh, solid, &found);
+    sb_solid_destroy(solid);
+    if (found.leaky > bulk_share * found.area)
+        return refuse(scene, body->name, found.leaky_depth / found.leaky, error);
+    double thick = plate_thickness(&found);
+    if (thick >= found.limit) return SB_OK;
+    return sb_model_warn(model, error,
+                         "body \"%s\" is about %.2g m thick, less than the support radius of %.3g m: water "
+                         "on one side pushes water on the other",
+                         body->name, thick, found.limit);
+}
