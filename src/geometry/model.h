@@ -37,8 +37,8 @@ typedef struct sb_model {
     char **warnings; /* one line each: what the user should know before running */
 } sb_model;
 
-/* Imports, samples and fills, and warns of what is too coarse or too thin to trust; SB_BAD_INPUT for a body thinner than
-   half a spacing in its bulk, which water would pass. On error *model is untouched; SB_INTERRUPTED when the process is to stop (base/stop.h).
+/* Imports, samples and fills, and warns of what is too coarse or too thin to trust; SB_BAD_INPUT for a plate thinner than
+   half a spacing, which water would pass. On error *model is untouched; SB_INTERRUPTED when the process is to stop (base/stop.h).
    Deterministic for any thread count. */
 sb_status sb_model_build(const sb_scene *scene, sb_model *model, sb_error *error);
 void sb_model_free(sb_model *model);

@@ -8,9 +8,9 @@ enum { RAYS_MAX = 4000, BINS = 64 };
 static const double thin_share = 0.05, opposite = -0.8;
 
 /* In spacings: a plate of half a spacing holds water, one of a quarter lets it pass (docs/stability.md).
-   What is thinner over more than half of its surface is a plate in its bulk; what merely has thin
-   parts keeps the water from most of its inside. */
-static const double thin_limit = 0.499, bulk_share = 0.5;
+   A plate is at least a spacing wide along its faces, over more than half of its surface: water goes
+   around a slender column anyway, and what merely has thin parts is no plate. */
+static const double thin_limit = 0.499, plate_width = 1, bulk_share = 0.5;
 
 /* What rays straight behind a body's faces have met, in m². */
 typedef struct thickness {
@@ -32,6 +32,25 @@ static bool is_open(const sb_model *model, const sb_model_space *space, sb_vec3 
     return true;
 }
 
+/* Whether the body is a plate around a point within it, whose faces look along the normal: wide in all directions
+   across that. */
+static bool is_wide(const sb_model *model, const sb_solid *solid, sb_vec3 at, sb_vec3 normal)
+{
+    enum { DIRECTIONS = 4 };
+    const double limit = plate_width * model->spacing;
+    const sb_vec3 aside = fabs(normal.y) < 0.7 ? sb_vec(0, 1, 0) : sb_vec(1, 0, 0);
+    const sb_vec3 u = sb_normalize(sb_cross(normal, aside)), v = sb_cross(normal, u);
+    for (int k = 0; k < DIRECTIONS; ++k) {
+        if (model->dimensions == 2 && k > 0) return true;
+        const double turn = M_PI * k / DIRECTIONS;
+        const sb_vec3 along = sb_madd(sb_scale(u, cos(turn)), sin(turn), v);
+        const double ahead = sb_solid_raycast(solid, at, along, limit);
+        const double behind = sb_solid_raycast(solid, at, sb_scale(along, -1), limit);
+        if (ahead >= 0 && behind >= 0 && ahead + behind < limit) return false;
+    }
+    return true;
+}
+
 /* Straight behind the middle of one triangle. */
 static void look_behind(const sb_model *model, const sb_model_space *space, const sb_solid *solid,
                         const sb_vec3 corner[3], thickness *found)
@@ -49,8 +68,8 @@ static void look_behind(const sb_model *model, const sb_model_space *space, cons
     if (sb_dot(far_face, back) <= -opposite) return;
     found->thin[(int)(BINS * depth / found->limit)] += size;
     const double room = 0.5 * model->spacing;
-    if (depth < thin_limit * model->spacing && is_open(model, space, sb_madd(at, -room, back)) &&
-        is_open(model, space, sb_madd(end, room, back))) {
+    if (depth < thin_limit * model->spacing && is_wide(model, solid, sb_madd(at, 0.5 * depth, back), back) &&
+        is_open(model, space, sb_madd(at, -room, back)) && is_open(model, space, sb_madd(end, room, back))) {
         found->leaky += size;
         found->leaky_depth += size * depth;
     }

@@ -34,7 +34,7 @@ static const sb_key keys[] = {
             "`default` is the best known over several cases."},
     {.name = "kernel", .type = SB_KEY_KERNEL, SB_KEY_AT(sb_numerics, kernel),
      .flags = SB_KEY_PRESET, .doc = "Smoothing kernel; `shorebreak list kernels` describes them."},
-    NUMBER(support, "spacings", 1.2, 4, 0, "Radius within which particles see each other."),
+    NUMBER(support, "spacings", 1.5, 4, 0, "Radius within which particles see each other."),
     CHOICE(density, density_words,
            "`summed`: the kernel sum alone; `completed`: each particle carries what its sum lacked at the surface, or had "
            "too much of at a wall, on the lattice it started from, until it comes away from there."),

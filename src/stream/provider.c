@@ -1,15 +1,10 @@
 #include "stream/provider.h"
 
 #include <fcntl.h>
-#include <stdbool.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <unistd.h>
-
-#define ROUTE_REMEDY                                                                               \
-    "a multicast route is needed: ip link set lo multicast on; ip route add 224.0.0.0/4 dev lo"
 
 sb_status sb_provider_channels(const char *prefix, sb_channel channels[SB_CHANNELS],
                                sb_error *error)
@@ -63,24 +58,4 @@ void sb_stderr_release(sb_stderr_catch *hold, char *line, size_t size)
     close(hold->caught);
     close(hold->saved);
     *hold = (sb_stderr_catch){-1, -1};
-}
-
-sb_status sb_provider_open(const char *url, lcm_t **lcm, sb_error *error)
-{
-    const char *named = url && *url ? url : getenv("LCM_DEFAULT_URL");
-    if (!named || !*named) named = "udpm://239.255.76.67:7667";
-    char complaint[160];
-    sb_stderr_catch hold = sb_stderr_hold();
-    lcm_t *opened = lcm_create(named);
-    sb_stderr_release(&hold, complaint, sizeof complaint);
-    if (opened) {
-        *lcm = opened;
-        return SB_OK;
-    }
-    bool multicast = strncmp(named, "udpm://", 7) == 0;
-    return sb_fail(error, SB_FAILED, "LCM cannot open \"%.200s\" (%s); %s", named,
-                   *complaint ? complaint : "no reason given",
-                   multicast
-                       ? ROUTE_REMEDY
-                       : "expected udpm://ADDRESS:PORT, file://PATH?mode=w|r, tcpq:// or memq://");
 }

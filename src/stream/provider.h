@@ -19,8 +19,8 @@ sb_status sb_provider_channels(const char *prefix, sb_channel channels[SB_CHANNE
                                sb_error *error);
 
 /* lcm_create with the reason in *error instead of on stderr: SB_FAILED names the URL, LCM's words
-   and the remedy. url NULL or empty: LCM_DEFAULT_URL, else LCM's default. Destroy with lcm_destroy.
- */
+   and the remedy; or that there was no answer within five seconds. url NULL or empty: LCM_DEFAULT_URL,
+   else LCM's default. Destroy with lcm_destroy. */
 sb_status sb_provider_open(const char *url, lcm_t **lcm, sb_error *error);
 
 /* Between these two, what is written to stderr is caught (process-wide). sb_stderr_release gives it

@@ -64,8 +64,8 @@ static _Noreturn void subscribe(int listening, bool dies)
     _exit(0);
 }
 
-/* A process that listens; *port is where. Its buffer is small, so that what it does not read soon blocks. */
-static pid_t start_subscriber(bool dies, unsigned *port)
+/* A socket that listens; *port is where. Its buffer is small, so that what nobody reads soon blocks. */
+static int start_listening(unsigned *port)
 {
     struct sockaddr_in at = {.sin_family = AF_INET, .sin_addr.s_addr = htonl(INADDR_LOOPBACK)};
     socklen_t size = sizeof at;
@@ -76,6 +76,12 @@ static pid_t start_subscriber(bool dies, unsigned *port)
     assert_int_equal(listen(listening, 1), 0);
     assert_int_equal(getsockname(listening, (struct sockaddr *)&at, &size), 0);
     *port = ntohs(at.sin_port);
+    return listening;
+}
+
+static pid_t start_subscriber(bool dies, unsigned *port)
+{
+    const int listening = start_listening(port);
     pid_t process = fork();
     assert_true(process >= 0);
     if (process == 0) subscribe(listening, dies);
@@ -112,6 +118,23 @@ static void a_subscriber_that_dies(void **state)
 {
     (void)state;
     check_subscriber(true, "stream: the provider refused messages at t = ");
+}
+
+/* The system takes the connection, and nobody greets: as with a server that was stopped before the run. */
+static void a_peer_that_never_answers(void **state)
+{
+    (void)state;
+    unsigned port;
+    char url[96];
+    const int listening = start_listening(&port);
+    snprintf(url, sizeof url, "stream={enabled: true, url: 'tcpq://127.0.0.1:%u'}", port);
+    outcome o = RUN(0, "run", "tank2.yaml", "--out", "mute", "--quiet", "--set", url);
+    close(listening);
+    assert_contains(o.err, "warning: LCM cannot open \"tcpq://127.0.0.1:");
+    assert_contains(o.err, "no answer within 5 s");
+    outcome_free(&o);
+    assert_ended("mute/summary.json", "\"done\"");
+    assert_near(json_number_of("mute/summary.json", "particle_files"), 4, 0);
 }
 
 /* ---- pictures ---- */
@@ -300,6 +323,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_subscriber_that_stops),
         cmocka_unit_test(a_subscriber_that_dies),
+        cmocka_unit_test(a_peer_that_never_answers),
         cmocka_unit_test(a_renderer_that_does_not_start),
         cmocka_unit_test(no_graphics_library),
         cmocka_unit_test(no_room_for_particle_files),

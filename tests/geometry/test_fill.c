@@ -204,7 +204,7 @@ static void a_basin_and_a_round_pool(void **state)
 static void a_wall_thinner_than_a_cell_holds_the_sea(void **state)
 {
     (void)state;
-    add_box("dam", sb_vec(9.9, -1, -1), sb_vec(9.95, 11, 9));
+    add_box("dam", sb_vec(9.9, -1, -1), sb_vec(10.16, 11, 9));
     scene.sea.seed = sb_vec(5, 5, 3);
     build();
     volume_within(9.9 * 10 * 4, 0.02);
@@ -221,7 +221,7 @@ static void a_sea_that_escapes_says_where(void **state)
     scene.domain.side[SB_X_MAX] = SB_SIDE_OPEN;
     refuse("escapes", "x_max");
     assert_non_null(strstr(error.text, "(20, "));
-    add_box("dam", sb_vec(18, -1, -1), sb_vec(18.1, 11, 9));
+    add_box("dam", sb_vec(18, -1, -1), sb_vec(18.26, 11, 9));
     build();
     volume_within(720, 0.02);
     scene.domain.side[SB_Z_MIN] = SB_SIDE_OPEN;

@@ -219,6 +219,21 @@ static void plates_that_hold_are_not_refused(void **state)
     build();
 }
 
+/* Water goes around them. */
+static void slender_columns_are_not_refused(void **state)
+{
+    (void)state;
+    add_box("pile", sb_vec(5, 2, 0), sb_vec(5.2, 2.2, 4));
+    sb_body *pole = add_box("pole", sb_vec(0, 0, 0), sb_vec(0, 0, 0));
+    pole->shape = SB_SHAPE_CYLINDER;
+    pole->center = sb_vec(7, 3, 0);
+    pole->radius = 0.1;
+    pole->height = 4;
+    build();
+    assert_true(warned("\"pile\"", "thick"));
+    assert_true(warned("\"pole\"", "thick"));
+}
+
 /* A body is more than its fins. */
 static void thin_parts_are_only_warned_of(void **state)
 {
@@ -425,6 +440,7 @@ int main(void)
         CASE(warnings_say_what_is_too_coarse), CASE(holes_in_a_mesh_are_named),
         CASE(plates_that_water_passes_are_refused),
         CASE(plates_that_hold_are_not_refused),
+        CASE(slender_columns_are_not_refused),
         CASE(thin_parts_are_only_warned_of),
         CASE(points_inside_are_found),         CASE(beside_a_sheet_is_not_within),
         CASE(a_start_is_forgotten_unless_it_moves),
