@@ -14,14 +14,13 @@ static void *serve(void *argument)
     bool usable = !work->open || work->open(work->state, &consumer->error) == SB_OK;
     if (!usable)
         atomic_store(&consumer->failed, true);
-    const sb_frame *frame;
-    while ((frame = sb_frame_queue_pop(consumer->queue))) {
-        if (usable && work->handle(work->state, frame, &consumer->error) != SB_OK) {
+    while ((consumer->frame = sb_frame_queue_pop(consumer->queue))) {
+        if (usable && work->handle(work->state, consumer->frame, &consumer->error) != SB_OK) {
             usable = false;
             atomic_store(&consumer->failed, true);
         }
         consumer->handled += usable;
-        sb_frame_release(frame);
+        sb_frame_release(consumer->frame);
         pthread_mutex_lock(&consumer->lock);
         consumer->done++;
         pthread_cond_signal(&consumer->idle);
@@ -110,7 +109,13 @@ void sb_consumer_stop(sb_consumer *consumer)
     consumer->given_up = !ends_in_time(consumer);
     if (consumer->given_up)
         pthread_cancel(consumer->thread);
-    pthread_join(consumer->thread, NULL);
+    void *end;
+    pthread_join(consumer->thread, &end);
+    if (end == PTHREAD_CANCELED) {
+        sb_frame_release(consumer->frame);
+        if (consumer->work.abandon)
+            consumer->work.abandon(consumer->work.state);
+    }
     sb_frame_queue_destroy(consumer->queue);
     pthread_cond_destroy(&consumer->idle);
     pthread_mutex_destroy(&consumer->lock);

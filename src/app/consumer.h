@@ -16,6 +16,7 @@ typedef struct sb_consumer_work {
     sb_status (*open)(void *state, sb_error *error);
     sb_status (*handle)(void *state, const sb_frame *frame, sb_error *error);
     void (*close)(void *state);
+    void (*abandon)(void *state); /* in the place of close, in the thread that stops it, after handle was cancelled */
     double patience; /* s that stopping waits for a handle which allows to be cancelled; 0: for as long as it takes */
 } sb_consumer_work;
 
@@ -28,6 +29,7 @@ typedef struct sb_consumer {
     sb_error error;         /* why it stopped; read after sb_consumer_stop */
     atomic_bool failed;
     uint64_t handled;
+    const sb_frame *frame;  /* that the thread is at work on */
     pthread_mutex_t lock;   /* of what is below */
     pthread_cond_t idle;
     uint64_t fed, done;     /* frames given to it, and those it is through with */
@@ -48,8 +50,8 @@ void sb_consumer_feed(sb_consumer *consumer, const sb_frame *frame);
    counted may then be read. Fine when it never started. */
 void sb_consumer_drain(sb_consumer *consumer);
 
-/* Lets it finish what it has, and joins. Out of patience, it cancels the thread instead: what that has open stays so
-   until the process ends. Fine when it never started. */
+/* Lets it finish what it has, and joins. Out of patience, it cancels the thread instead, and
+   abandons what that has open. Fine when it never started. */
 void sb_consumer_stop(sb_consumer *consumer);
 
 #endif

@@ -89,5 +89,6 @@ static void close_pictures(void *state)
 
 sb_consumer_work sb_pictures_work(sb_pictures *pictures)
 {
-    return (sb_consumer_work){"pictures", pictures, open_pictures, draw, close_pictures, 0};
+    return (sb_consumer_work){
+        .name = "pictures", .state = pictures, .open = open_pictures, .handle = draw, .close = close_pictures};
 }

@@ -97,5 +97,6 @@ static void close_recorder(void *state)
 
 sb_consumer_work sb_recorder_work(sb_recorder *recorder)
 {
-    return (sb_consumer_work){"particle files", recorder, open_recorder, record, close_recorder, 0};
+    return (sb_consumer_work){
+        .name = "particle files", .state = recorder, .open = open_recorder, .handle = record, .close = close_recorder};
 }

@@ -24,7 +24,19 @@ static void close_streamer(void *state)
     streamer->stream = NULL;
 }
 
+static void abandon_streamer(void *state)
+{
+    sb_streamer *streamer = state;
+    sb_stream_abandon(streamer->stream);
+    streamer->stream = NULL;
+}
+
 sb_consumer_work sb_streamer_work(sb_streamer *streamer)
 {
-    return (sb_consumer_work){"stream", streamer, NULL, publish, close_streamer, PATIENCE};
+    return (sb_consumer_work){.name = "stream",
+                              .state = streamer,
+                              .handle = publish,
+                              .close = close_streamer,
+                              .abandon = abandon_streamer,
+                              .patience = PATIENCE};
 }

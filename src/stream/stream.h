@@ -19,6 +19,10 @@ sb_status sb_stream_create(const sb_stream_settings *settings, const char *run_n
                            sb_stream **stream, sb_error *error);
 void sb_stream_destroy(sb_stream *stream);
 
+/* After a publish was cancelled: what LCM left of it, perhaps with its lock held, cannot be closed; it is kept until the
+   process ends. */
+void sb_stream_abandon(sb_stream *stream);
+
 /* Sends status and forces of a frame, and its particles when settings->interval has passed since
    the last ones, in chunks of at most 60 kB, 0.1 ms apart (0.3 s per 2 M particles). For the
    streamer's own thread: some providers block on a stopped subscriber. */

@@ -13,6 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -51,6 +52,7 @@ static uint32_t read_word(int from)
 static _Noreturn void subscribe(int listening, bool dies)
 {
     static char bytes[4096];
+    prctl(PR_SET_PDEATHSIG, SIGKILL); /* stopped, it would outlive a test that fails, and hold its output open */
     int from = accept(listening, NULL, NULL);
     const uint32_t greeting[2] = {htonl(0x287617fa), htonl(0x0100)};
     if (from < 0 || read_word(from) != 0x287617fb || read_word(from) != 0x0100) _exit(1);
@@ -229,19 +231,36 @@ static void a_directory_that_vanishes(void **state)
     outcome_free(&o);
 }
 
-/* Moved elsewhere: particle files have no folder any more. What is listed there is whole; a file that was being written may
-   have stayed behind under its temporary name. */
+/* Stops the process while no file of its run is half written: one that was would stay under its temporary name. */
+static void hold_between_files(pid_t process, const char *run)
+{
+    for (double end = sb_clock() + 30; sb_clock() < end; usleep(1000)) {
+        int how = 0;
+        assert_int_equal(kill(process, SIGSTOP), 0);
+        assert_int_equal(waitpid(process, &how, WUNTRACED), process);
+        assert_true(WIFSTOPPED(how));
+        if (!any_ending(run, ".tmp")) return;
+        assert_int_equal(kill(process, SIGCONT), 0);
+    }
+    kill(process, SIGKILL);
+    fail_msg("%s: always a file half written", run);
+}
+
+/* Moved elsewhere: particle files have no folder any more. What is there is whole. */
 static void a_directory_that_moves(void **state)
 {
     (void)state;
     pid_t process = start_endless("here", NULL);
+    hold_between_files(process, "here");
     assert_int_equal(rename(in_folder("here"), in_folder("there")), 0);
+    assert_int_equal(kill(process, SIGCONT), 0);
     sleep(1);
     kill(process, SIGTERM);
     outcome o = program_finish(process);
     assert_true(o.status == 2);
     assert_contains(o.err, "particle files: here/particles/");
     outcome_free(&o);
+    assert_false(any_ending("there", ".tmp"));
     sb_pvd list = {0};
     sb_error error = {0};
     assert_int_equal(sb_pvd_read(in_folder("there/particles.pvd"), &list, &error), SB_OK);

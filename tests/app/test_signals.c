@@ -175,7 +175,7 @@ static void a_model_in_the_making_hears(void **state)
 static void water_coming_to_rest_hears(void **state)
 {
     (void)state;
-    check_stopped_early("tank2.yaml", "domain.max=[1000, 1]", "water.boxes[0].max=[900, 0.6]", "\"start\"",
+    check_stopped_early("tank2.yaml", "domain.max=[250, 1]", "water.boxes[0].max=[225, 0.6]", "\"start\"",
                         "stopped by a signal while the water came to rest: nothing is computed yet");
 }
 
