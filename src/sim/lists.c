@@ -178,7 +178,8 @@ sb_status sb_stage_neighbours(sb_sim *sim, sb_error *error)
         if (sb_groups_build(sim) != 0 || attempt(sim, &too_small, &full) != 0)
             return sb_fail_memory(error, "neighbour lists");
         if (full)
-            return sb_fail(error, SB_FAILED, "step %llu: more than %d particles around one: the water has collapsed",
+            return sb_fail(error, SB_FAILED,
+                           "step %llu: more than %d particles around one: the water has collapsed, or walls are too dense",
                            (unsigned long long)sim->report.step, SB_LIST_MAX);
         if (!too_small)
             return SB_OK;

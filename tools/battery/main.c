@@ -1,10 +1,10 @@
 /* Command line of the battery of stress cases. */
 #include "battery.h"
+#include "process.h"
 
 #include "base/memory.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { A_TRIAL_FAILS = 4 }; /* exit status */
@@ -65,10 +65,9 @@ static sb_status report(const sb_bench *bench, const sb_battery_options *o, size
 static sb_status stress(const sb_battery_options *o, size_t *failed, sb_error *error)
 {
     static sb_bench bench;
-    char own[SB_PATH_MAX] = "", program[SB_PATH_MAX], folder[SB_PATH_MAX];
-    if (!realpath("/proc/self/exe", own)) own[0] = '\0';
-    sb_path_folder(folder, own);
-    sb_status status = sb_path_join(program, folder, "shorebreak", error);
+    char own[SB_PATH_MAX], program[SB_PATH_MAX];
+    sb_status status = sb_process_beside(NULL, own, error);
+    if (status == SB_OK) status = sb_process_beside("shorebreak", program, error);
     if (status == SB_OK)
         status = sb_bench_open(&bench, o->out ? o->out : SB_SOURCE_DIR "/build/stress",
                                o->program ? o->program : program, own, SB_SOURCE_DIR, error);

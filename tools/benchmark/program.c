@@ -1,22 +1,12 @@
 #include "program.h"
 
-#include "base/file.h"
+#include "process.h"
+
 #include "output/tool.h"
 
 #include <ftw.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <unistd.h>
-
-static sb_status beside(char program[SB_PATH_MAX], sb_error *error)
-{
-    char own[SB_PATH_MAX], folder[SB_PATH_MAX];
-    const ssize_t length = readlink("/proc/self/exe", own, sizeof own - 1);
-    if (length < 0) return sb_fail(error, SB_FAILED, "cannot tell where the own program is");
-    own[length] = '\0';
-    sb_path_folder(folder, own);
-    return sb_path_join(program, folder, "shorebreak", error);
-}
 
 static int remove_one(const char *path, const struct stat *status, int kind, struct FTW *place)
 {
@@ -31,7 +21,7 @@ static sb_status run_in(const sb_bench_program *run, char *folder, sb_error *err
     static const char *const quiet[] = {"render.interval=0", "output.plots=false", "output.particle_interval=0"};
     char program[SB_PATH_MAX], threads[16], *arguments[64];
     int count = 0;
-    sb_status status = beside(program, error);
+    sb_status status = sb_process_beside("shorebreak", program, error);
     if (status != SB_OK) return status;
     snprintf(threads, sizeof threads, "%d", run->threads);
     const char *const first[] = {program, "run", run->scene, "--quiet", "--out", folder, "--threads", threads};

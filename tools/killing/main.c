@@ -2,11 +2,10 @@
 #include "base/file.h"
 #include "compare.h"
 #include "options.h"
+#include "process.h"
 #include "round.h"
 
 #include <stdio.h>
-#include <string.h>
-#include <unistd.h>
 
 /* Share of an undisturbed run's time within which a run is killed: beginnings, middles and ends all come. */
 static const double LONGEST = 0.6;
@@ -20,18 +19,6 @@ typedef struct test {
     int kills, rounds;
     size_t files;
 } test;
-
-/* The program beside this one. */
-static sb_status find_program(test *t, sb_error *error)
-{
-    char self[SB_PATH_MAX], folder[SB_PATH_MAX];
-    const ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
-    if (length < 0)
-        return sb_fail(error, SB_FAILED, "cannot tell where this program lies");
-    self[length] = '\0';
-    sb_path_folder(folder, self);
-    return sb_path_join(t->program, folder, "shorebreak", error);
-}
 
 static sb_status name_run(const test *t, const char *name, bool pictures, char out[SB_PATH_MAX], sb_kill_run *run,
                           sb_error *error)
@@ -90,7 +77,7 @@ int main(int count, char **arguments)
     }
     sb_kill_moments moments = {.seed = t.options.seed};
     if (status == SB_OK)
-        status = find_program(&t, &error);
+        status = sb_process_beside("shorebreak", t.program, &error);
     if (status == SB_OK)
         status = sb_make_directories(t.options.out, &error);
     while (status == SB_OK && t.kills < t.options.kills)

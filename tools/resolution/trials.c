@@ -1,11 +1,11 @@
 #include "trials.h"
 
 #include "launch.h"
+#include "process.h"
 
 #include "base/memory.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -73,10 +73,8 @@ bool sb_trial_problem(FILE *out, const sb_result *trial)
 sb_status sb_trials_store(sb_store *store, const char *out, const char *program, const char *source,
                           sb_error *error)
 {
-    char own[SB_PATH_MAX], folder[SB_PATH_MAX], beside[SB_PATH_MAX];
-    if (!realpath("/proc/self/exe", own)) own[0] = '\0';
-    sb_path_folder(folder, own);
-    sb_status status = sb_path_join(beside, folder, "shorebreak", error);
+    char beside[SB_PATH_MAX];
+    sb_status status = sb_process_beside("shorebreak", beside, error);
     return status == SB_OK ? sb_store_open(store, out, program ? program : beside, source, error)
                            : status;
 }

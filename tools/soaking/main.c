@@ -4,11 +4,11 @@
 #include "base/memory.h"
 #include "options.h"
 #include "origin.h"
+#include "process.h"
 #include "report.h"
 #include "watch.h"
 
 #include <stdio.h>
-#include <unistd.h>
 
 enum { UNWELL = 4, NO_ROUTE = 77 }; /* exit statuses */
 
@@ -23,14 +23,8 @@ typedef struct soak {
 
 static sb_status name_files(soak *s, sb_error *error)
 {
-    char self[SB_PATH_MAX], folder[SB_PATH_MAX];
-    const ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
-    if (length < 0)
-        return sb_fail(error, SB_FAILED, "cannot tell where this program lies");
-    self[length] = '\0';
-    sb_path_folder(folder, self);
     sb_origin_commit(SB_SOURCE_DIR, s->commit);
-    sb_status status = sb_path_join(s->program, folder, "shorebreak", error);
+    sb_status status = sb_process_beside("shorebreak", s->program, error);
     if (status == SB_OK)
         status = sb_path_join(s->scene, SB_SOURCE_DIR, "assets/scenes/plant.yaml", error);
     if (status == SB_OK)

@@ -1,13 +1,13 @@
 /* Command line of the validation. */
 #include "launch.h"
 #include "options.h"
+#include "process.h"
 #include "report.h"
 #include "sensitivity.h"
 
 #include "base/memory.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { SHORT_OF_REACH = 4 }; /* exit status */
@@ -88,11 +88,8 @@ static sb_status validate(const sb_validate_options *o, size_t *failed, size_t *
                           sb_error *error)
 {
     sb_store store;
-    char own[SB_PATH_MAX] = "", program[SB_PATH_MAX], path[SB_PATH_MAX];
-    sb_status status = SB_OK;
-    if (!realpath("/proc/self/exe", own)) own[0] = '\0';
-    sb_path_folder(path, own);
-    status = sb_path_join(program, path, "shorebreak", error);
+    char program[SB_PATH_MAX], path[SB_PATH_MAX];
+    sb_status status = sb_process_beside("shorebreak", program, error);
     if (status == SB_OK)
         status = sb_store_open(&store, o->out ? o->out : SB_SOURCE_DIR "/build/validation",
                                o->program ? o->program : program, SB_SOURCE_DIR, error);

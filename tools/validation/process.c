@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -32,6 +33,15 @@ sb_status sb_process_start(const char *program, const char *const *arguments, co
     prctl(PR_SET_PDEATHSIG, parting);
     execv(program, (char **)arguments);
     _exit(127);
+}
+
+sb_status sb_process_beside(const char *name, char path[SB_PATH_MAX], sb_error *error)
+{
+    char own[SB_PATH_MAX], folder[SB_PATH_MAX];
+    if (!realpath("/proc/self/exe", own))
+        return sb_fail(error, SB_FAILED, "cannot tell where this program lies: %s", strerror(errno));
+    sb_path_folder(folder, own);
+    return name ? sb_path_join(path, folder, name, error) : sb_path_join(path, "", own, error);
 }
 
 void sb_process_describe(int how, char text[32])

@@ -2,7 +2,7 @@
 #ifndef SB_VALIDATION_PROCESS_H
 #define SB_VALIDATION_PROCESS_H
 
-#include "base/status.h"
+#include "base/file.h"
 
 #include <stddef.h>
 #include <sys/types.h>
@@ -12,6 +12,9 @@
    be executed ends with status 127, one whose file cannot be opened with 126. SB_FAILED: no process. */
 sb_status sb_process_start(const char *program, const char *const *arguments, const char *said, int parting,
                            pid_t *process, sb_error *error);
+
+/* The path of the program `name` that lies beside the running one; the running one's own path with NULL. */
+sb_status sb_process_beside(const char *name, char path[SB_PATH_MAX], sb_error *error);
 
 /* "status 2", "signal 9": how a process ended, as waitpid tells it. */
 void sb_process_describe(int how, char text[32]);
