@@ -9,6 +9,7 @@
 #include "measure/patch.h"
 
 #include "base/memory.h"
+#include "physics/wall_volume.h"
 
 /* weight > 0: belongs to the patch. psi in kg. */
 typedef struct patch_wall {
@@ -163,19 +164,26 @@ static void choose(sb_patch *patch, const sb_scene *scene, sb_vec3 at, double ra
     patch->on_wall = patch->area > 0;
 }
 
-/* As the simulation: psi_b = gamma rho_0 / sum_k W_bk. Right for those whose neighbours were all
-   collected, which holds for the patch. */
+/* As the simulation. Right for those whose neighbours were all collected, which holds for the patch. */
 static void set_volumes(sb_patch *patch, const sb_scene *scene)
 {
     const sb_numerics *n = &scene->numerics;
+    const bool of_lattice = n->wall_gamma == 0;
+    const double gamma = of_lattice ? sb_wall_gamma(n->kernel, scene->dimensions, n->support, n->wall_offset)
+                                    : n->wall_gamma;
     double h = n->support * scene->resolution;
     for (size_t i = 0; i < patch->count; i++) {
-        double sum = 0;
-        for (size_t k = 0; k < patch->count; k++)
-            sum += sb_kernel_value(
-                n->kernel, scene->dimensions, h,
-                sb_norm(sb_sub(patch->walls[i].position, patch->walls[k].position)));
-        patch->walls[i].psi = n->wall_gamma * scene->fluid.density / sum;
+        const patch_wall *at = &patch->walls[i];
+        double sum = 0, bulge = 0;
+        for (size_t k = 0; k < patch->count; k++) {
+            const sb_vec3 d = sb_sub(patch->walls[k].position, at->position);
+            const double w = sb_kernel_value(n->kernel, scene->dimensions, h, sb_norm(d));
+            sum += w;
+            if (sb_wall_bends_with(sb_dot(at->normal, patch->walls[k].normal)))
+                bulge += w * sb_dot(d, at->normal) / h;
+        }
+        const double bend = of_lattice ? sb_wall_bend(bulge / sum) : 1;
+        patch->walls[i].psi = gamma * scene->fluid.density / sum * bend;
     }
 }
 

@@ -134,6 +134,7 @@ static void put_numerics(sb_json *json, const sb_numerics *n)
     sb_json_number(json, "time_step_max", n->time_step_max);
     sb_json_number(json, "artificial_viscosity", n->artificial_viscosity);
     sb_json_number(json, "wall_friction", n->wall_friction);
+    sb_json_text(json, "wall_shear", n->wall_shear == SB_SHEAR_SMOOTH ? "smooth" : "none");
     sb_json_text(json, "turbulence", n->turbulence == SB_TURBULENCE_SPS ? "sps" : "none");
     sb_json_number(json, "smagorinsky", n->smagorinsky);
     sb_json_number(json, "sound_speed", n->sound_speed);

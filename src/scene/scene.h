@@ -76,6 +76,11 @@ typedef enum sb_density_form {
     SB_DENSITY_COMPLETED  /* with what the surface cuts off and walls put in, at the start (sim/deficit.h) */
 } sb_density_form;
 
+typedef enum sb_wall_shear {
+    SB_SHEAR_NONE,
+    SB_SHEAR_SMOOTH /* the law of the smooth wall, with the fluid's viscosity */
+} sb_wall_shear;
+
 typedef enum sb_turbulence {
     SB_TURBULENCE_NONE,
     SB_TURBULENCE_SPS /* sub-particle-scale eddy viscosity [W eq. 9] */
@@ -100,10 +105,11 @@ typedef struct sb_numerics {
     double time_step_max;      /* s; 0: no further bound */
     double artificial_viscosity; /* alpha of Monaghan's viscosity; 0: term is off */
     double wall_friction;      /* sigma; 0: term is off */
+    sb_wall_shear wall_shear;
     sb_turbulence turbulence;
     double smagorinsky;        /* C_s of the eddy viscosity */
     double sound_speed;        /* m/s in the two above; 0: 10 sqrt(g D) */
-    double wall_gamma;         /* factor on the boundary particles' volume */
+    double wall_gamma;         /* factor on the boundary particles' volume; 0: of the lattice */
     double wall_offset;        /* spacings that their sheet lies behind the physical wall */
     double jitter;             /* spacings, amplitude of the start's random displacement */
     uint64_t seed;             /* of that displacement */

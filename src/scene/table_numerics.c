@@ -7,6 +7,7 @@ static const char *const preset_words[] = {"default", "paper", NULL};
 static const char *const solver_words[] = {"jacobi", "chebyshev", "cg", NULL};
 static const char *const tolerance_words[] = {"density", "pressure", NULL};
 static const char *const density_words[] = {"summed", "completed", NULL};
+static const char *const shear_words[] = {"none", "smooth", NULL};
 static const char *const turbulence_words[] = {"none", "sps", NULL};
 static const char *const step_words[] = {"paper", "depth", NULL};
 
@@ -61,6 +62,9 @@ static const sb_key keys[] = {
     NUMBER(artificial_viscosity, NULL, 0, 10, 0,
            "alpha of Monaghan's viscosity; 0 leaves the term out."),
     NUMBER(wall_friction, NULL, 0, 10, 0, "sigma of the wall friction; 0 leaves the term out."),
+    CHOICE(wall_shear, shear_words,
+           "`smooth`: walls hold the water that slides along them by the law of the smooth wall, with "
+           "the fluid's viscosity; `none` lets it slip."),
     CHOICE(turbulence, turbulence_words,
            "`sps`: an eddy viscosity from the strain rate, for eddies below the spacing; `none` "
            "leaves it out."),
@@ -68,7 +72,9 @@ static const sb_key keys[] = {
            "C_s of that eddy viscosity: its mixing length in spacings, away from walls."),
     NUMBER(sound_speed, "m/s", 0, HUGE_VAL, 0,
            "Speed in artificial_viscosity and wall_friction; 0: 10 sqrt(g D)."),
-    NUMBER(wall_gamma, NULL, 0.1, 5, 0, "Factor on the volume of boundary particles; below, they leak."),
+    NUMBER(wall_gamma, NULL, 0, 5, 0,
+           "Factor on the volume of boundary particles, at least 0.1: below, they leak; 0: the one that "
+           "bears a lattice at rest on a plane, and at edges what does so there."),
     NUMBER(wall_offset, "spacings", 0, 2, 0,
            "How far boundary particles lie behind the physical wall; a run asks for 0.25 or more."),
     NUMBER(jitter, "spacings", 0, 0.5, 0, "Amplitude of the random displacement at the start."),
@@ -80,9 +86,14 @@ static const sb_key keys[] = {
 };
 /* clang-format on */
 
+static const double GAMMA_MIN = 0.1; /* below, walls leak */
+
 static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
 {
     const sb_numerics *numerics = item;
+    if (numerics->wall_gamma > 0 && numerics->wall_gamma < GAMMA_MIN)
+        return sb_reader_fail(reader, map, "wall_gamma", "%g is out of range, expected 0 or a number from %g to 5",
+                              numerics->wall_gamma, GAMMA_MIN);
     if (numerics->min_iterations <= numerics->max_iterations) return SB_OK;
     return sb_reader_fail(reader, map, "min_iterations",
                           "%d is more than max_iterations, expected at most %d",

@@ -1,26 +1,65 @@
-/* Wall friction of one pair, used where it moves the water and where it pushes the body. */
+/* What walls do along themselves: friction and shear of one pair, used where they move the water and where they
+   push the body. */
 #ifndef SB_SIM_FRICTION_H
 #define SB_SIM_FRICTION_H
 
 #include "sim/state.h"
 
-/* -psi_b Pi_ib grad W_ib times the quantum [S16, eq. 33]; factor = sigma h c_s / 2, epsilon = 0.01 h^2 in
-   quanta^2, slope as in wall_pairs. */
-SB_INLINE sb_f4 sb_friction(const sb_sim *sim, size_t i, sb_f4 velocity, uint32_t wall, float slope,
-                            float factor, float epsilon)
+#include <math.h>
+
+/* Factors of one step; lengths in quanta where that is said. */
+typedef struct sb_rub {
+    bool on;
+    float friction; /* sigma h c_s / (2 quanta) [S16, eq. 33]; 0: none */
+    float epsilon;  /* 0.01 h^2, quanta^2 */
+    bool shear;     /* whether smooth walls hold the water that slides along them */
+    float viscosity, rest_density;  /* m^2/s; kg/m^3: density sums beside walls are none of the water's */
+    float quantum, offset, nearest; /* m; of the sheet behind the wall, and least from the wall: quanta */
+} sb_rub;
+
+/* Whether walls hold what slides along them. */
+bool sb_shear_on(const sb_scene *scene);
+
+sb_rub sb_rub_make(const sb_sim *sim);
+
+/* Of a smooth wall's shear over rho u^2, u the speed along it at a Reynolds number's distance: below 139 the laminar
+   sublayer, above it the power law of the turbulent one [Werner & Wengle 1991, eqs. 17, 18 at a point: u+ = y+,
+   and 8.3 (y+)^(1/7)]. */
+SB_INLINE float sb_wall_law(float reynolds)
+{
+    return fmaxf(1 / reynolds, 0.0246f / sqrtf(sqrtf(reynolds)));
+}
+
+/* Shear on the wall's area that the particle's pressure acts on, m/s^2; velocity: beside the wall's; d: from the
+   boundary particle, quanta. */
+SB_INLINE sb_f4 sb_shear(sb_f4 normal, sb_f4 velocity, sb_f4 d, float slope, const sb_rub *rub)
+{
+    const float height = sb_sum3(normal * d);
+    const sb_f4 along = velocity - normal * sb_splat(sb_sum3(normal * velocity));
+    const float u2 = sb_sum3(along * along);
+    if (!(height > 0 && u2 > 0))
+        return (sb_f4){0};
+    const float u = sqrtf(u2), distance = fmaxf(height - rub->offset, rub->nearest) * rub->quantum;
+    return along * sb_splat(sb_wall_law(u * distance / rub->viscosity) * u * slope * height / rub->rest_density);
+}
+
+/* Acceleration of particle i by one pair, m/s^2; slope as in wall_pairs. */
+SB_INLINE sb_f4 sb_rubbed(const sb_sim *sim, size_t i, sb_f4 velocity, uint32_t wall, float slope, const sb_rub *rub)
 {
     const sb_wall_set *set = &sim->walls[wall >> 31];
     wall &= 0x7fffffffu;
-    sb_f4 d = sb_offset(sim->position[i], set->record[wall]);
+    const sb_f4 d = sb_offset(sim->position[i], set->record[wall]);
+    sb_f4 sum = {0};
     if (set == &sim->walls[SB_MOVING]) {
         sb_vec3 v = sim->moving[sim->moving_of_body[set->body[wall]]].velocity;
         velocity -= (sb_f4){(float)v.x, (float)v.y, (float)v.z, 0};
     }
-    float approach = sb_sum3(velocity * d);
-    if (approach >= 0)
-        return (sb_f4){0};
-    float r2 = sb_sum3(d * d);
-    return d * sb_splat(factor * approach * slope / ((r2 + epsilon) * sim->density[i]));
+    const float approach = sb_sum3(velocity * d);
+    if (rub->friction > 0 && approach < 0)
+        sum += d * sb_splat(rub->friction * approach * slope / ((sb_sum3(d * d) + rub->epsilon) * sim->density[i]));
+    if (rub->shear)
+        sum += sb_shear(set->normal[wall], velocity, d, slope, rub);
+    return sum;
 }
 
 #endif

@@ -18,7 +18,8 @@ static sb_vec3 way_home(const sb_space *space, sb_record image)
     return sb_sub(sb_space_position(space, sb_space_wrap(space, image)), sb_space_position(space, image));
 }
 
-/* at: m, where the forces (N) act, as seen from the water. */
+/* at: m, where the forces (N) act, as seen from the water: the particle that they come from, for what pushes along
+   the line to it has that moment too, and what does not (shear) then leaves the moments of water and bodies balanced. */
 static void add(const sb_sim *sim, double *sum, uint32_t wall, sb_vec3 at, sb_vec3 pressure, sb_vec3 drag)
 {
     const sb_wall_set *set = &sim->walls[wall >> 31];
@@ -70,16 +71,17 @@ static void contact(sb_sim *sim, size_t i, double *sum, sb_ledger_sums *ledger)
 
 /* Forces (N) and moment (Nm) on bodies from one block of particles, into sum[body][VALUES]; and what friction and
    contact do to the water's energy. */
-static void do_block(sb_sim *sim, size_t block, double *sum, float friction, float epsilon)
+static void do_block(sb_sim *sim, size_t block, double *sum, const sb_rub *rub)
 {
     sb_ledger_sums *ledger = &sim->block_ledger[block];
-    const double mass = (double)sim->constant.mass, quantum = sim->space.quantum;
+    const double mass = (double)sim->constant.mass;
     const sb_f4 *velocity = sim->scratch; /* at the step's start */
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
         const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
         const float *slope = sim->wall_pairs.slope + sim->wall_pairs.first[i];
         const double q = (double)sim->unknown[i];
-        sb_f4 rub = {0};
+        const sb_vec3 at = sim->wall_pairs.count[i] > 0 ? sb_space_position(&sim->space, sim->position[i]) : (sb_vec3){0};
+        sb_f4 rubbed = {0};
         for (size_t k = 0; k < sim->wall_pairs.count[i]; k++) {
             if (slope[k] == 0)
                 continue;
@@ -88,18 +90,17 @@ static void do_block(sb_sim *sim, size_t block, double *sum, float friction, flo
             sb_f4 d = sb_offset(sim->position[i], record);
             double scale = mass * q * (double)slope[k];
             sb_vec3 drag = {0};
-            if (friction > 0) {
-                sb_f4 f = sb_friction(sim, i, velocity[i], index[k], slope[k], friction, epsilon);
-                rub += f;
-                drag = sb_scale(sb_vec((double)f[0], (double)f[1], (double)f[2]), -mass / quantum);
+            if (rub->on) {
+                sb_f4 f = sb_rubbed(sim, i, velocity[i], index[k], slope[k], rub);
+                rubbed += f;
+                drag = sb_scale(sb_vec((double)f[0], (double)f[1], (double)f[2]), -mass);
             }
-            add(sim, sum, index[k], sb_space_position(&sim->space, record),
-                sb_vec(scale * (double)d[0], scale * (double)d[1], scale * (double)d[2]), drag);
+            add(sim, sum, index[k], at, sb_vec(scale * (double)d[0], scale * (double)d[1], scale * (double)d[2]), drag);
         }
         if (sim->wall_pairs.count[i] > 0)
             contact(sim, i, sum, ledger);
-        if (friction > 0)
-            ledger->friction += sb_ledger_work((sb_f4){0}, rub, velocity[i], sim->acceleration[i]);
+        if (rub->on)
+            ledger->friction += sb_ledger_work((sb_f4){0}, rubbed, velocity[i], sim->acceleration[i]);
     }
 }
 
@@ -137,10 +138,7 @@ sb_status sb_stage_impulse(sb_sim *sim, sb_error *error)
 {
     (void)error;
     const size_t bodies = sim->model->body_count, blocks = sb_blocks(sim);
-    const sb_numerics *n = &sim->scene->numerics;
-    const float friction = 0.5f * (float)n->wall_friction * sim->constant.support * sim->constant.sound_speed;
-    const double h_quanta = (double)sim->constant.support / sim->space.quantum;
-    const float epsilon = (float)(0.01 * h_quanta * h_quanta);
+    const sb_rub rub = sb_rub_make(sim);
 #pragma omp parallel for schedule(dynamic, 4)
     for (size_t b = 0; b < blocks; b++) {
         sim->block_ledger[b] = (sb_ledger_sums){0};
@@ -149,7 +147,7 @@ sb_status sb_stage_impulse(sb_sim *sim, sb_error *error)
             continue;
         double *sum = sim->block_impulse + b * bodies * VALUES;
         memset(sum, 0, bodies * VALUES * sizeof *sum);
-        do_block(sim, b, sum, friction, epsilon);
+        do_block(sim, b, sum, &rub);
     }
     if (sim->settling)
         return SB_OK;

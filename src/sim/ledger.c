@@ -54,7 +54,7 @@ void sb_ledger_close(sb_sim *sim)
     const body_sums bodies = sum_bodies(sim);
     const double m = (double)sim->constant.mass, g = (double)sim->constant.gravity;
     const double dt = (double)(float)sim->report.time_step; /* as the velocities were advanced by */
-    const double friction = m * s.friction * dt / sim->space.quantum;
+    const double friction = m * s.friction * dt;
     const bool viscous = sim->scene->numerics.artificial_viscosity > 0 || sim->constant.viscosity > 0 || sim->eddy;
     sb_ledger *ledger = &sim->ledger;
     ledger->bodies -= dt * (bodies.pressure + bodies.friction);

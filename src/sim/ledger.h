@@ -15,7 +15,7 @@ typedef struct sb_ledger_sums {
     double fall;             /* u along z, m/s */
     double rise;             /* of z in the step, quanta */
     double gain[3], size;    /* w - v, and |w - v| */
-    double friction;         /* share of the forces, times quantum/dt */
+    double friction;         /* share of the forces, over dt */
     double contact;          /* share of the solve */
     double contact_bodies;   /* what moving bodies worked through contact */
 } sb_ledger_sums;

@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "sim/around.h"
 #include "sim/deficit.h"
+#include "sim/friction.h"
 #include "sim/ledger.h"
 #include "sim/lattice.h"
 #include "sim/pressure.h"
@@ -127,6 +128,8 @@ static void note_skipped(sb_sim *sim)
         sim->skipped[s++] = "density: summed, no memory for what surfaces and walls change in it";
     if (!(n->wall_friction > 0))
         sim->skipped[s++] = "wall friction: coefficient is 0";
+    if (!sb_shear_on(sim->scene))
+        sim->skipped[s++] = n->wall_shear == SB_SHEAR_NONE ? "wall shear: none" : "wall shear: the fluid has no viscosity";
     if (!sim->space.repeats)
         sim->skipped[s++] = "periodic sides: none, no ghosts";
     if (sim->moving_count == 0)

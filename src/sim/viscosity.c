@@ -1,4 +1,4 @@
-/* v* = v + dt (g + Monaghan viscosity [S16, eq. 14] + physical and eddy viscosity + wall friction [S16, eq. 33]). */
+/* v* = v + dt (g + Monaghan viscosity [S16, eq. 14] + physical and eddy viscosity + friction and shear of walls). */
 #include "sim/around.h"
 #include "sim/friction.h"
 #include "sim/pressure.h"
@@ -11,7 +11,6 @@ typedef struct factors {
     float artificial; /* 2 alpha h c_s; over (rho_i + rho_j) it is the nu of eq. 14 */
     float physical;   /* 4 (d + 2) nu; over (rho_i + rho_j), the unswitched part */
     float eddy;       /* 2 (d + 2); times nu_t,i + nu_t,j the same of the eddies */
-    float friction;   /* sigma h c_s / 2; over rho_i */
     float epsilon;    /* 0.01 h^2 in quanta^2 */
     float inverse_quantum;
 } factors;
@@ -25,7 +24,6 @@ static factors make_factors(const sb_sim *sim)
         .artificial = 2.0f * (float)n->artificial_viscosity * c->support * c->sound_speed,
         .physical = 4.0f * (float)(c->dimension + 2) * c->viscosity,
         .eddy = 2.0f * (float)(c->dimension + 2),
-        .friction = 0.5f * (float)n->wall_friction * c->support * c->sound_speed,
         .epsilon = (float)(0.01 * h_quanta * h_quanta),
         .inverse_quantum = (float)(1.0 / sim->space.quantum),
     };
@@ -66,18 +64,18 @@ SB_INLINE sb_f4 fluid_part(const sb_sim *sim, const sb_group *group, const sb_f4
     return (sum.x + sum.y + sum.z + sum.w) * sb_splat(sim->pairs.unit * f->inverse_quantum);
 }
 
-SB_INLINE sb_f4 wall_part(const sb_sim *sim, size_t i, const factors *f)
+SB_INLINE sb_f4 wall_part(const sb_sim *sim, size_t i, const sb_rub *rub)
 {
     const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
     const float *slope = sim->wall_pairs.slope + sim->wall_pairs.first[i];
     sb_f4 sum = {0};
     for (size_t k = 0; k < sim->wall_pairs.count[i]; k++)
-        sum += sb_friction(sim, i, sim->velocity[i], index[k], slope[k], f->friction, f->epsilon);
-    return sum * sb_splat(f->inverse_quantum);
+        sum += sb_rubbed(sim, i, sim->velocity[i], index[k], slope[k], rub);
+    return sum;
 }
 
 SB_MULTIVERSION
-static void do_group(sb_sim *sim, const sb_group *group, const factors *f, bool viscous, bool frictional)
+static void do_group(sb_sim *sim, const sb_group *group, const factors *f, bool viscous, const sb_rub *rub)
 {
     _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
     const float dt = (float)sim->report.time_step;
@@ -92,8 +90,8 @@ static void do_group(sb_sim *sim, const sb_group *group, const factors *f, bool 
             a += fluid_part(sim, group, around, i, f, true, 0);
         else if (viscous)
             a += fluid_part(sim, group, around, i, f, false, 0);
-        if (frictional && sim->wall_pairs.count[i] > 0)
-            a += wall_part(sim, i, f);
+        if (rub->on && sim->wall_pairs.count[i] > 0)
+            a += wall_part(sim, i, rub);
         a[3] = 0;
         next[i] = sim->velocity[i] + a * sb_splat(dt);
     }
@@ -109,13 +107,14 @@ sb_status sb_stage_forces(sb_sim *sim, sb_error *error)
 {
     (void)error;
     const factors f = make_factors(sim);
-    const bool viscous = f.artificial > 0 || f.physical > 0 || sim->eddy, frictional = f.friction > 0;
+    const sb_rub rub = sb_rub_make(sim);
+    const bool viscous = f.artificial > 0 || f.physical > 0 || sim->eddy;
     const size_t groups = sim->groups.count;
     if (viscous)
         sb_pressure_load(sim, sim->density);
 #pragma omp parallel for schedule(dynamic, GROUPS)
     for (size_t g = 0; g < groups; g++)
-        do_group(sim, &sim->groups.group[g], &f, viscous, frictional);
+        do_group(sim, &sim->groups.group[g], &f, viscous, &rub);
     if (sb_fringe_count(sim) > 0)
         sim->sleep->rub = viscous ? sb_sleep_sum(sim, share_of_sleepers, &f) : (sb_vec3){0};
     sb_f4 *old = sim->velocity;

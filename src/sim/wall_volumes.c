@@ -1,17 +1,23 @@
 /* What boundary particles stand for [A12], and their images beyond periodic sides. */
 #include "base/memory.h"
+#include "physics/wall_volume.h"
 #include "sim/state.h"
 
 #include <math.h>
 #include <string.h>
 
-/* sum_k W over the set as seen from a place, which may be an image of a boundary particle of `body`. */
-static double kernel_sum(const sb_sim *sim, const sb_wall_set *set, sb_record at, uint32_t body, bool only_own)
+/* sum_k W_bk, and sum_k W_bk (x_k - x_b).n_b / h over those that count in the bulge. */
+typedef struct sums {
+    double kernel, bulge;
+} sums;
+
+/* Adds what is seen from a place, which is boundary particle b's or that of an image of it. */
+static void look(const sb_sim *sim, const sb_wall_set *set, sb_record at, size_t b, bool only_own, sums *s)
 {
     const double h = (double)sim->constant.support, quantum = sim->space.quantum;
     const int layers = sim->constant.dimension == 2 ? 0 : 1;
     const uint64_t code = sb_cell_code(at, sim->space.shift);
-    double sum = 0;
+    const sb_f4 normal = set->normal[b];
     for (int dz = -1; dz <= 1; dz++)
         for (int dy = -layers; dy <= layers; dy++)
             for (int dx = -1; dx <= 1; dx++) {
@@ -19,16 +25,18 @@ static double kernel_sum(const sb_sim *sim, const sb_wall_set *set, sb_record at
                 if (cell < 0)
                     continue;
                 for (uint32_t k = set->cells.begin[cell]; k < set->cells.begin[cell + 1]; k++) {
-                    if (only_own && set->body[k] != body)
+                    if (only_own && set->body[k] != set->body[b])
                         continue;
                     sb_f4 d = sb_offset(at, set->record[k]);
                     double r2 = (double)d[0] * (double)d[0] + (double)d[1] * (double)d[1] +
                                 (double)d[2] * (double)d[2];
-                    sum += sb_kernel_value(sim->scene->numerics.kernel, sim->constant.dimension, h,
-                                           sqrt(r2) * quantum);
+                    const double w = sb_kernel_value(sim->scene->numerics.kernel, sim->constant.dimension, h,
+                                                     sqrt(r2) * quantum);
+                    s->kernel += w;
+                    if (sb_wall_bends_with((double)sb_sum3(normal * set->normal[k])))
+                        s->bulge -= w * (double)sb_sum3(normal * d) * quantum / h;
                 }
             }
-    return sum;
 }
 
 int sb_wall_volumes(const sb_sim *sim, sb_wall_set *set, bool only_own)
@@ -36,15 +44,20 @@ int sb_wall_volumes(const sb_sim *sim, sb_wall_set *set, bool only_own)
     float *psi = sb_alloc_untouched(set->count, sizeof *psi);
     if (!psi)
         return -1;
-    const double scale = sim->scene->numerics.wall_gamma * (double)sim->constant.rest_density;
+    const sb_numerics *n = &sim->scene->numerics;
+    const bool of_lattice = n->wall_gamma == 0;
+    const double gamma = of_lattice ? sb_wall_gamma(n->kernel, sim->constant.dimension, n->support, n->wall_offset)
+                                    : n->wall_gamma;
+    const double scale = gamma * (double)sim->constant.rest_density;
 #pragma omp parallel for schedule(dynamic, 64)
     for (size_t i = 0; i < set->count; i++) {
         sb_record image[SB_IMAGES_MAX];
-        double sum = kernel_sum(sim, set, set->record[i], set->body[i], only_own);
+        sums s = {0};
+        look(sim, set, set->record[i], i, only_own, &s);
         int images = sim->space.repeats ? sb_space_images(&sim->space, set->record[i], image) : 0;
         for (int k = 0; k < images; k++)
-            sum += kernel_sum(sim, set, image[k], set->body[i], only_own);
-        psi[i] = (float)(scale / sum);
+            look(sim, set, image[k], i, only_own, &s);
+        psi[i] = (float)(scale / s.kernel * (of_lattice ? sb_wall_bend(s.bulge / s.kernel) : 1));
     }
     for (size_t i = 0; i < set->count; i++)
         sb_carry(&set->record[i], psi[i]);

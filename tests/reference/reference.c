@@ -159,6 +159,26 @@ void sb_reference_friction(const sb_reference *reference, const double *rho, sb_
         }
 }
 
+void sb_reference_shear(const sb_reference *reference, double nu, double offset, sb_vec3 *acceleration,
+                        const sb_vec3 *center, sb_vec3 *force, sb_vec3 *torque)
+{
+    const sb_reference_cloud *c = &reference->cloud;
+    for (size_t i = 0; i < c->fluid_count; i++)
+        for (size_t k = reference->wall_start[i]; k < reference->wall_start[i + 1]; k++) {
+            const sb_reference_pair *pair = &reference->wall[k];
+            const size_t b = pair->other;
+            const sb_vec3 n = c->wall_normal[b], relative = sb_sub(c->velocity[i], c->wall_velocity[b]);
+            const sb_vec3 along = sb_madd(relative, -sb_dot(relative, n), n);
+            const double height = sb_dot(pair->offset, n), u = sb_norm(along);
+            if (!(height > 0 && u > 0)) continue;
+            const double y = fmax(height - offset, 0.25 * c->spacing), reynolds = u * y / nu;
+            const double law = fmax(1 / reynolds, 0.0246 * pow(reynolds, -0.25));
+            const double size = law * u * c->psi[b] * sb_dot(pair->gradient, n) / c->rest_density;
+            acceleration[i] = sb_madd(acceleration[i], size, along);
+            if (force) add_force(reference, b, -reference->mass * size, along, center, force, torque);
+        }
+}
+
 void sb_reference_pressure_forces(const sb_reference *reference, const double *q,
                                   const sb_vec3 *center, sb_vec3 *force, sb_vec3 *torque)
 {

@@ -20,7 +20,7 @@ typedef struct sb_reference_cloud {
     const sb_vec3 *position, *velocity;
     size_t wall_count;       /* boundary particles */
     const sb_vec3 *wall_position, *wall_velocity;
-    const sb_vec3 *wall_normal; /* unit, or zero where there is none; needed for eddies only */
+    const sb_vec3 *wall_normal; /* unit, or zero where there is none; needed for eddies and shear only */
     const double *psi;       /* kg, or kg/m in 2D */
     const uint32_t *body;    /* of each boundary particle */
     double sound_speed, artificial_viscosity, wall_friction; /* m/s, alpha, sigma */
@@ -65,6 +65,13 @@ void sb_reference_viscosity(const sb_reference *reference, const double *rho,
 void sb_reference_friction(const sb_reference *reference, const double *rho,
                            sb_vec3 *acceleration, const sb_vec3 *center, sb_vec3 *force,
                            sb_vec3 *torque);
+
+/* Shear of smooth walls, the sheet `offset` (m) behind them: with n the boundary particle's normal, u the velocity
+   along the wall beside the wall's, y the distance from it (at least a quarter of a spacing) and c the larger one of
+   nu/(u y) and 0.0246 (nu/(u y))^(1/4), adds c |u| u psi_b grad W_ib.n / rho0, where grad W_ib.n < 0; the rest as
+   for the friction. */
+void sb_reference_shear(const sb_reference *reference, double nu, double offset, sb_vec3 *acceleration,
+                        const sb_vec3 *center, sb_vec3 *force, sb_vec3 *torque);
 
 /* nu_t = min(C_s spacing, 0.4 d)^2 |S| in m^2/s: S from velocity gradients corrected by the neighbours'
    second moments where their determinant (1 for a full lattice's shape) exceeds `thinnest`, plain

@@ -100,6 +100,7 @@ static void add_terms(tank *t, sb_solver solver)
     t->scene.numerics.solver = solver;
     t->scene.numerics.artificial_viscosity = 0.05;
     t->scene.numerics.wall_friction = 0.1;
+    t->scene.numerics.wall_shear = SB_SHEAR_SMOOTH;
     t->scene.fluid.viscosity = 1e-3;
 }
 
