@@ -18,8 +18,8 @@ static sb_vec3 way_home(const sb_space *space, sb_record image)
     return sb_sub(sb_space_position(space, sb_space_wrap(space, image)), sb_space_position(space, image));
 }
 
-/* at: m, where the forces (N) act, as seen from the water: the particle that they come from, for what pushes along
-   the line to it has that moment too, and what does not (shear) then leaves the moments of water and bodies balanced. */
+/* at: m, where the forces (N) act, as seen from the water: the particle that they come from. What pushes along the line
+   to it has the same moment there, and what does not, shear, leaves the moments of water and bodies balanced. */
 static void add(const sb_sim *sim, double *sum, uint32_t wall, sb_vec3 at, sb_vec3 pressure, sb_vec3 drag)
 {
     const sb_wall_set *set = &sim->walls[wall >> 31];
@@ -80,7 +80,7 @@ static void do_block(sb_sim *sim, size_t block, double *sum, const sb_rub *rub)
         const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
         const float *slope = sim->wall_pairs.slope + sim->wall_pairs.first[i];
         const double q = (double)sim->unknown[i];
-        const sb_vec3 at = sim->wall_pairs.count[i] > 0 ? sb_space_position(&sim->space, sim->position[i]) : (sb_vec3){0};
+        const sb_vec3 at = sb_space_position(&sim->space, sim->position[i]);
         sb_f4 rubbed = {0};
         for (size_t k = 0; k < sim->wall_pairs.count[i]; k++) {
             if (slope[k] == 0)

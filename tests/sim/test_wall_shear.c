@@ -111,7 +111,8 @@ static void a_floor_holds_what_slides_over_it(void **state)
         sb_sim *sim = tank_sim(&t);
         assert_non_null(sim);
         assert_int_equal(tank_steps(sim, 1), 0);
-        const double law = 0.0246 * pow(speed * 0.5 * spacing / nu, -0.25), area = dimensions == 2 ? length : length * length;
+        const double law = 0.0246 * pow(speed * 0.5 * spacing / nu, -0.25);
+        const double area = dimensions == 2 ? length : length * length;
         const double force = sb_sim_impulse(sim, 0)->friction.x / sb_sim_report(sim)->time;
         printf("%dD: drag %.4f of the law's\n", dimensions, force / (1000 * law * speed * speed * area));
         assert_near(force / (1000 * law * speed * speed * area), 1, 0.1);
