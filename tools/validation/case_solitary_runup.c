@@ -206,7 +206,7 @@ const sb_case sb_case_runup_breaking = {
               "runs near H/d = 0.3, profiles in "
               "bins\nof 0.25 d. The clock begins where the laboratory's does, the crest "
               "arccosh(sqrt(20))/sqrt(0.75 H/d) depths "
-              "before the toe: no lag.\nd = 1 m. Gauges every 0.125 m, no filter; where ours is "
+              "before the toe: no lag.\nd = 1 m, the viscosity scaled to the laboratory's Reynolds number. Gauges every 0.125 m, no filter; where ours is "
               "dry, the beach stands for the "
               "surface.",
     .scene = "solitary-runup/breaking.yaml",
@@ -221,7 +221,7 @@ const sb_case sb_case_runup_nonbreaking = {
     .title = "Solitary wave that runs up a beach without breaking, H/d = 0.04",
     .reach = "run-up within 15 % of the laboratory at 4 to 5 particles per wave height",
     .method = "Reference: laboratory, Synolakis (1987), beach 1:19.85, between groups of runs near "
-              "H/d = 0.04. d = 1 m. No filter, "
+              "H/d = 0.04. d = 1 m, the viscosity scaled to its Reynolds number. No filter, "
               "no\nlag. The quick form has H/d = 0.1 instead, a wave that is just breaking. The "
               "preset `paper` runs at the "
               "coarsest spacing only:\nits time step is so short that it takes days at the next.",
