@@ -29,37 +29,56 @@ SB_INLINE sb_f4 wall_step(const sb_sim *sim, uint32_t wall, float to_quanta)
     return (sb_f4){(float)v.x, (float)v.y, (float)v.z, 0} * sb_splat(to_quanta);
 }
 
+/* Four boundary particles of a list as seen from the water. */
+typedef struct four_seen {
+    const sb_f4 *normal[4];
+    sb_f4 here[4], there[4]; /* offsets in quanta, now and at the step's end */
+    sb_f4 q2, weight;        /* by lanes: (|there| / h)^2; 0 for those out of reach then, and for padding */
+} four_seen;
+
 /* Weights fall off steeply, so that in a corner the nearer wall speaks. */
-static view look(const sb_sim *sim, size_t i, sb_f4 velocity, float to_quanta)
+SB_INLINE void see(const sb_sim *sim, size_t i, size_t first, sb_f4 step, float to_quanta, four_seen *s)
 {
     const float reach = sim->constant.support / (float)sim->space.quantum;
-    const float per_reach2 = 1 / (reach * reach);
-    const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
-    const float *slope = sim->wall_pairs.slope + sim->wall_pairs.first[i];
+    const uint32_t *index = sim->wall_pairs.index + first;
+    sb_f4 slope;
+    memcpy(&slope, sim->wall_pairs.slope + first, sizeof slope);
+    for (size_t k = 0; k < 4; k++) {
+        const sb_wall_set *set = &sim->walls[index[k] >> 31];
+        const uint32_t b = index[k] & 0x7fffffffu;
+        s->normal[k] = &set->normal[b];
+        s->here[k] = sb_offset(sim->position[i], set->record[b]);
+        s->there[k] = s->here[k] + step - wall_step(sim, index[k], to_quanta);
+    }
+    const sb_four at = sb_turn(s->there[0], s->there[1], s->there[2], s->there[3]);
+    s->q2 = (at.x * at.x + at.y * at.y + at.z * at.z) * sb_splat(1 / (reach * reach));
+    sb_f4 weight = (sb_splat(1) - s->q2) * (sb_splat(1) - s->q2);
+    weight *= weight;
+    weight *= weight;
+    s->weight = sb_select((s->q2 < sb_splat(1)) & (slope != (sb_f4){0}), weight, (sb_f4){0});
+}
+
+static view look(const sb_sim *sim, size_t i, sb_f4 velocity, float to_quanta)
+{
+    const size_t begin = sim->wall_pairs.first[i], end = begin + sim->wall_pairs.count[i];
     const sb_f4 step = velocity * sb_splat(to_quanta);
     sb_f4 normal = {0}, now = {0}, then = {0}, nearest = {0};
     float total = 0, least = 1;
     view v = {.found = false};
-    for (size_t k = 0; k < sim->wall_pairs.count[i]; k++) {
-        const sb_wall_set *set = &sim->walls[index[k] >> 31];
-        const uint32_t b = index[k] & 0x7fffffffu;
-        sb_f4 here = sb_offset(sim->position[i], set->record[b]);
-        sb_f4 there = here + step - wall_step(sim, index[k], to_quanta);
-        float q2 = sb_sum3(there * there) * per_reach2;
-        if (q2 >= 1 || slope[k] == 0)
-            continue;
-        float weight = (1 - q2) * (1 - q2);
-        weight *= weight;
-        weight *= weight;
-        normal += set->normal[b] * sb_splat(weight);
-        now += here * sb_splat(weight);
-        then += there * sb_splat(weight);
-        total += weight;
-        if (q2 < least) {
-            least = q2;
-            nearest = here;
-            v.apart = there;
-            v.nearest = index[k];
+    for (size_t first = begin; first < end; first += 4) {
+        four_seen s;
+        see(sim, i, first, step, to_quanta, &s);
+        for (size_t k = 0; k < 4; k++) {
+            normal += *s.normal[k] * sb_splat(s.weight[k]);
+            now += s.here[k] * sb_splat(s.weight[k]);
+            then += s.there[k] * sb_splat(s.weight[k]);
+            total += s.weight[k];
+            if (s.weight[k] > 0 && s.q2[k] < least) {
+                least = s.q2[k];
+                nearest = s.here[k];
+                v.apart = s.there[k];
+                v.nearest = sim->wall_pairs.index[first + k];
+            }
         }
     }
     float length = sqrtf(sb_sum3(normal * normal));

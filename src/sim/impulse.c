@@ -13,24 +13,50 @@ enum { VALUES = SB_IMPULSE_VALUES };
 /* From an image of a boundary particle to itself: what pushes across a periodic side acts over there. */
 static sb_vec3 way_home(const sb_space *space, sb_record image)
 {
-    if (!space->repeats)
-        return (sb_vec3){0};
     return sb_sub(sb_space_position(space, sb_space_wrap(space, image)), sb_space_position(space, image));
 }
 
-/* at: m, where the forces (N) act, as seen from the water: the particle that they come from. What pushes along the line
-   to it has the same moment there, and what does not, shear, leaves the moments of water and bodies balanced. */
-static void add(const sb_sim *sim, double *sum, uint32_t wall, sb_vec3 at, sb_vec3 pressure, sb_vec3 drag)
+/* What acts on one body, added up at hand while one boundary particle of it follows another. */
+typedef struct tally {
+    double value[VALUES], *home; /* home: of sum; NULL at first */
+    uint32_t body;
+    sb_vec3 moment_point;
+} tally;
+
+static void put_back(const tally *t)
+{
+    if (t->home)
+        memcpy(t->home, t->value, sizeof t->value);
+}
+
+static void turn_to(tally *t, const sb_sim *sim, double *sum, uint32_t body)
+{
+    if (t->home && t->body == body)
+        return;
+    put_back(t);
+    t->body = body;
+    t->home = sum + (size_t)VALUES * body;
+    t->moment_point = sim->model->bodies[body].moment_point;
+    memcpy(t->value, t->home, sizeof t->value);
+}
+
+static void add_to(double value[3], sb_vec3 v)
+{
+    value[0] += v.x;
+    value[1] += v.y;
+    value[2] += v.z;
+}
+
+/* at: m, where the force (N) acts, as seen from the water. */
+static void add(const sb_sim *sim, tally *t, double *sum, uint32_t wall, sb_vec3 at, sb_vec3 pressure, sb_vec3 drag)
 {
     const sb_wall_set *set = &sim->walls[wall >> 31];
-    const uint32_t body = set->body[wall & 0x7fffffffu];
-    at = sb_add(at, way_home(&sim->space, set->record[wall & 0x7fffffffu]));
-    sb_vec3 arm = sb_sub(at, sim->model->bodies[body].moment_point);
-    sb_vec3 moment = sb_cross(arm, sb_add(pressure, drag));
-    const double values[VALUES] = {pressure.x, pressure.y, pressure.z, drag.x,  drag.y,
-                                   drag.z,     moment.x,   moment.y,   moment.z};
-    for (size_t v = 0; v < VALUES; v++)
-        sum[(size_t)VALUES * body + v] += values[v];
+    turn_to(t, sim, sum, set->body[wall & 0x7fffffffu]);
+    if (sim->space.repeats)
+        at = sb_add(at, way_home(&sim->space, set->record[wall & 0x7fffffffu]));
+    add_to(t->value, pressure);
+    add_to(t->value + 3, drag);
+    add_to(t->value + 6, sb_cross(sb_sub(at, t->moment_point), sb_add(pressure, drag)));
 }
 
 static sb_f4 wall_velocity(const sb_sim *sim, uint32_t wall)
@@ -44,7 +70,9 @@ static sb_f4 wall_velocity(const sb_sim *sim, uint32_t wall)
 
 void sb_impulse_of_push(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 push, double *sum)
 {
-    add(sim, sum, wall, sb_space_position(&sim->space, sim->position[i]), push, (sb_vec3){0});
+    tally t = {.home = NULL};
+    add(sim, &t, sum, wall, sb_space_position(&sim->space, sim->position[i]), push, (sb_vec3){0});
+    put_back(&t);
 }
 
 /* Mends what would pass a wall; the wall feels it. */
@@ -69,36 +97,46 @@ static void contact(sb_sim *sim, size_t i, double *sum, sb_ledger_sums *ledger)
     sim->acceleration[i] = velocity;
 }
 
+/* Adds what the pressure of particle i and its friction do to bodies, into sum[body][VALUES]. Returns the sum of
+   sb_rubbed. */
+static sb_f4 react(const sb_sim *sim, size_t i, const sb_rub *rub, double *sum)
+{
+    const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
+    const float *slope = sim->wall_pairs.slope + sim->wall_pairs.first[i];
+    const double mass = (double)sim->constant.mass, press = mass * (double)sim->unknown[i];
+    const sb_f4 *velocity = sim->scratch; /* at the step's start */
+    const sb_vec3 at = sb_space_position(&sim->space, sim->position[i]);
+    tally t = {.home = NULL};
+    sb_f4 rubbed = {0};
+    for (size_t k = 0; k < sim->wall_pairs.count[i]; k++) {
+        if (slope[k] == 0)
+            continue;
+        const sb_record record = sim->walls[index[k] >> 31].record[index[k] & 0x7fffffffu];
+        const sb_f4 d = sb_offset(sim->position[i], record);
+        const double scale = press * (double)slope[k];
+        sb_vec3 drag = {0};
+        if (rub->on) {
+            const sb_f4 f = sb_rubbed(sim, i, velocity[i], index[k], slope[k], rub);
+            rubbed += f;
+            drag = sb_scale(sb_vec((double)f[0], (double)f[1], (double)f[2]), -mass);
+        }
+        add(sim, &t, sum, index[k], at, sb_vec(scale * (double)d[0], scale * (double)d[1], scale * (double)d[2]), drag);
+    }
+    put_back(&t);
+    return rubbed;
+}
+
 /* Forces (N) and moment (Nm) on bodies from one block of particles, into sum[body][VALUES]; and what friction and
    contact do to the water's energy. */
 static void do_block(sb_sim *sim, size_t block, double *sum, const sb_rub *rub)
 {
     sb_ledger_sums *ledger = &sim->block_ledger[block];
-    const double mass = (double)sim->constant.mass;
     const sb_f4 *velocity = sim->scratch; /* at the step's start */
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
-        const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
-        const float *slope = sim->wall_pairs.slope + sim->wall_pairs.first[i];
-        const double q = (double)sim->unknown[i];
-        const sb_vec3 at = sb_space_position(&sim->space, sim->position[i]);
-        sb_f4 rubbed = {0};
-        for (size_t k = 0; k < sim->wall_pairs.count[i]; k++) {
-            if (slope[k] == 0)
-                continue;
-            const sb_wall_set *set = &sim->walls[index[k] >> 31];
-            const sb_record record = set->record[index[k] & 0x7fffffffu];
-            sb_f4 d = sb_offset(sim->position[i], record);
-            double scale = mass * q * (double)slope[k];
-            sb_vec3 drag = {0};
-            if (rub->on) {
-                sb_f4 f = sb_rubbed(sim, i, velocity[i], index[k], slope[k], rub);
-                rubbed += f;
-                drag = sb_scale(sb_vec((double)f[0], (double)f[1], (double)f[2]), -mass);
-            }
-            add(sim, sum, index[k], at, sb_vec(scale * (double)d[0], scale * (double)d[1], scale * (double)d[2]), drag);
-        }
-        if (sim->wall_pairs.count[i] > 0)
-            contact(sim, i, sum, ledger);
+        if (sim->wall_pairs.count[i] == 0)
+            continue;
+        const sb_f4 rubbed = react(sim, i, rub, sum);
+        contact(sim, i, sum, ledger);
         if (rub->on)
             ledger->friction += sb_ledger_work((sb_f4){0}, rubbed, velocity[i], sim->acceleration[i]);
     }
@@ -108,15 +146,17 @@ void sb_impulse_of_pressure(const sb_sim *sim, size_t i, double *sum)
 {
     const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
     const float *slope = sim->wall_pairs.slope + sim->wall_pairs.first[i];
+    tally t = {.home = NULL};
     for (size_t k = 0; k < sim->wall_pairs.count[i]; k++) {
         if (slope[k] == 0)
             continue;
         const sb_record record = sim->walls[index[k] >> 31].record[index[k] & 0x7fffffffu];
         const sb_f4 d = sb_offset(sim->position[i], record);
         const double scale = (double)sim->constant.mass * (double)sim->unknown[i] * (double)slope[k];
-        add(sim, sum, index[k], sb_space_position(&sim->space, record),
+        add(sim, &t, sum, index[k], sb_space_position(&sim->space, record),
             sb_vec(scale * (double)d[0], scale * (double)d[1], scale * (double)d[2]), (sb_vec3){0});
     }
+    put_back(&t);
 }
 
 static bool touches_walls(const sb_sim *sim, size_t block)
