@@ -50,10 +50,14 @@ static size_t find_avx512(const sb_candidates *of, const sb_stretch *stretch, si
             _mm512_storeu_ps(h->x + n, _mm512_maskz_compress_ps(near, x));
             _mm512_storeu_ps(h->y + n, _mm512_maskz_compress_ps(near, y));
             _mm512_storeu_ps(h->z + n, _mm512_maskz_compress_ps(near, z));
-            _mm512_storeu_ps(h->q2 + n, _mm512_maskz_compress_ps(near, q2));
             _mm512_storeu_si512(h->candidate + n, _mm512_maskz_compress_epi32(near, candidate));
             n += (size_t)__builtin_popcount(near);
         }
+    for (size_t k = 0; k < n; k += 16) {
+        const __m512 x = _mm512_loadu_ps(h->x + k), y = _mm512_loadu_ps(h->y + k), z = _mm512_loadu_ps(h->z + k);
+        const __m512 r2 = _mm512_fmadd_ps(x, x, _mm512_fmadd_ps(y, y, _mm512_mul_ps(z, z)));
+        _mm512_storeu_ps(h->q2 + k, _mm512_mul_ps(r2, factor));
+    }
     return n;
 }
 #endif
