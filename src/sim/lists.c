@@ -142,20 +142,26 @@ static int attempt(sb_sim *sim, bool *too_small, bool *full)
     return memory ? -1 : 0;
 }
 
-/* Pools that were too small are made anew, a little larger than asked. */
+/* Pools that were too small are made anew with a little in reserve: what each is larger costs memory for good, what it
+   is smaller another search now and then. */
+static size_t with_reserve(size_t used)
+{
+    return used + used / 32 + 1024;
+}
+
 static int enlarge(sb_sim *sim)
 {
     sb_lists *water = &sim->pairs;
     sb_pairs *wall = &sim->wall_pairs;
     sb_groups *groups = &sim->groups;
     if (water->used > water->capacity) {
-        const size_t capacity = water->used + water->used / 16 + 1024;
+        const size_t capacity = with_reserve(water->used);
         sb_free(water->four);
         water->four = sb_alloc_untouched(capacity, sizeof *water->four);
         water->capacity = water->four ? capacity : 0;
     }
     if (wall->used > wall->capacity) {
-        const size_t capacity = wall->used + wall->used / 8 + 4096;
+        const size_t capacity = with_reserve(wall->used);
         sb_free(wall->index);
         sb_free(wall->slope);
         wall->index = sb_alloc_untouched(capacity, sizeof *wall->index);
@@ -163,7 +169,7 @@ static int enlarge(sb_sim *sim)
         wall->capacity = wall->index && wall->slope ? capacity : 0;
     }
     if (groups->used > groups->room) {
-        const size_t room = groups->used + groups->used / 8 + 1024;
+        const size_t room = with_reserve(groups->used);
         sb_free(groups->run);
         groups->run = sb_alloc_untouched(room, sizeof *groups->run);
         groups->room = groups->run ? room : 0;

@@ -77,20 +77,19 @@ static void permute(sb_sim *sim, const uint64_t *words)
 {
     sb_f4 *velocity = sim->scratch;
     sb_record *position = (sb_record *)sim->acceleration;
+    uint32_t *id = (uint32_t *)sim->residual; /* made anew after the sort */
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < sim->n; i++) {
         size_t from = words[i] & INDEX_MASK;
         position[i] = sim->position[from];
         velocity[i] = sim->velocity[from];
-        sim->scratch_id[i] = sim->id[from];
+        id[i] = sim->id[from];
     }
     sim->scratch = sim->velocity;
     sim->velocity = velocity;
     sim->acceleration = (sb_f4 *)sim->position;
     sim->position = position;
-    uint32_t *id = sim->scratch_id;
-    sim->scratch_id = sim->id;
-    sim->id = id;
+    memcpy(sim->id, id, sim->n * sizeof *id);
 }
 
 sb_status sb_stage_sort(sb_sim *sim, sb_error *error)

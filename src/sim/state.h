@@ -151,7 +151,6 @@ typedef struct sb_sim {
     sb_pairs wall_pairs;
     uint64_t *sort_a, *sort_b; /* in the memory of `wall`, which is made after the sort */
     void *scratch;            /* 16 bytes per particle, for the permutation */
-    uint32_t *scratch_id;
     double *partial;          /* per block, 5 values: partial sums */
 
     sb_wall_set walls[SB_WALL_SETS];
