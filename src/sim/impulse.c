@@ -47,7 +47,8 @@ static void add_to(double value[3], sb_vec3 v)
     value[2] += v.z;
 }
 
-/* at: m, where the force (N) acts, as seen from the water. */
+/* at: m, where the forces (N) act, as seen from the water: the particle that they come from. What pushes along the line
+   to it has the same moment there, and what does not, shear, leaves the moments of water and bodies balanced. */
 static void add(const sb_sim *sim, tally *t, double *sum, uint32_t wall, sb_vec3 at, sb_vec3 pressure, sb_vec3 drag)
 {
     const sb_wall_set *set = &sim->walls[wall >> 31];
