@@ -30,21 +30,34 @@ SB_INLINE float sb_wall_law(float reynolds)
     return fmaxf(1 / reynolds, 0.0246f / sqrtf(sqrtf(reynolds)));
 }
 
-/* Shear on the wall's area that the particle's pressure acts on, m/s^2; velocity: beside the wall's; d: from the
-   boundary particle, quanta. */
-SB_INLINE sb_f4 sb_shear(sb_f4 normal, sb_f4 velocity, sb_f4 d, float slope, const sb_rub *rub)
+/* The shear of a plane wall is the same for all its boundary particles: what of it has been found for one particle of the
+   water. Starts as zeros. */
+typedef struct sb_rubbing {
+    sb_f4 normal, velocity; /* the boundary particle's, and the water's beside the wall's */
+    sb_f4 shear;            /* c_f |u| u / rho_0 */
+} sb_rubbing;
+
+SB_INLINE bool sb_same3(sb_f4 a, sb_f4 b)
 {
-    const float height = sb_sum3(normal * d);
-    const sb_f4 along = velocity - normal * sb_splat(sb_sum3(normal * velocity));
-    const float u2 = sb_sum3(along * along);
-    if (!(height > 0 && u2 > 0))
-        return (sb_f4){0};
-    const float u = sqrtf(u2), distance = fmaxf(height - rub->offset, rub->nearest) * rub->quantum;
-    return along * sb_splat(sb_wall_law(u * distance / rub->viscosity) * u * slope * height / rub->rest_density);
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-/* Acceleration of particle i by one pair, m/s^2; slope as in wall_pairs. */
-SB_INLINE sb_f4 sb_rubbed(const sb_sim *sim, size_t i, sb_f4 velocity, uint32_t wall, float slope, const sb_rub *rub)
+/* height: above the sheet, quanta. */
+SB_INLINE void sb_shear_look(sb_rubbing *of, sb_f4 normal, sb_f4 velocity, float height, const sb_rub *rub)
+{
+    const sb_f4 along = velocity - normal * sb_splat(sb_sum3(normal * velocity));
+    const float u2 = sb_sum3(along * along);
+    *of = (sb_rubbing){.normal = normal, .velocity = velocity};
+    if (!(u2 > 0))
+        return;
+    const float u = sqrtf(u2), distance = fmaxf(height - rub->offset, rub->nearest) * rub->quantum;
+    of->shear = along * sb_splat(sb_wall_law(u * distance / rub->viscosity) * u / rub->rest_density);
+}
+
+/* Acceleration of particle i by one pair, m/s^2; slope as in wall_pairs. Shear acts on the area of wall that the
+   particle's pressure acts on. */
+SB_INLINE sb_f4 sb_rubbed(const sb_sim *sim, size_t i, sb_f4 velocity, uint32_t wall, float slope, const sb_rub *rub,
+                          sb_rubbing *rubbing)
 {
     const sb_wall_set *set = &sim->walls[wall >> 31];
     wall &= 0x7fffffffu;
@@ -54,11 +67,18 @@ SB_INLINE sb_f4 sb_rubbed(const sb_sim *sim, size_t i, sb_f4 velocity, uint32_t 
         sb_vec3 v = sim->moving[sim->moving_of_body[set->body[wall]]].velocity;
         velocity -= (sb_f4){(float)v.x, (float)v.y, (float)v.z, 0};
     }
-    const float approach = sb_sum3(velocity * d);
-    if (rub->friction > 0 && approach < 0)
-        sum += d * sb_splat(rub->friction * approach * slope / ((sb_sum3(d * d) + rub->epsilon) * sim->density[i]));
-    if (rub->shear)
-        sum += sb_shear(set->normal[wall], velocity, d, slope, rub);
+    if (rub->friction > 0) {
+        const float approach = sb_sum3(velocity * d);
+        if (approach < 0)
+            sum += d * sb_splat(rub->friction * approach * slope / ((sb_sum3(d * d) + rub->epsilon) * sim->density[i]));
+    }
+    const sb_f4 normal = set->normal[wall];
+    const float height = rub->shear ? sb_sum3(normal * d) : 0;
+    if (height > 0) {
+        if (!sb_same3(normal, rubbing->normal) || !sb_same3(velocity, rubbing->velocity))
+            sb_shear_look(rubbing, normal, velocity, height, rub);
+        sum += rubbing->shear * sb_splat(slope * height);
+    }
     return sum;
 }
 

@@ -16,28 +16,21 @@ static sb_vec3 way_home(const sb_space *space, sb_record image)
     return sb_sub(sb_space_position(space, sb_space_wrap(space, image)), sb_space_position(space, image));
 }
 
-/* What acts on one body, added up at hand while one boundary particle of it follows another. */
+/* What one particle does to one body: sums over the boundary particles of it that follow one another in its list, of
+   slope times offset, and of what rubs. All acts at the particle, carried home where it meets an image. What pushes
+   along the line to a boundary particle has the same moment there, and what does not, shear, leaves the moments of water
+   and bodies balanced. */
 typedef struct tally {
-    double value[VALUES], *home; /* home: of sum; NULL at first */
+    const sb_sim *sim;
+    double *sum, press, mass; /* sum[body][VALUES]; press: m q */
+    sb_vec3 at, home;         /* m */
     uint32_t body;
-    sb_vec3 moment_point;
+    sb_f4 pushed, rubbed;
 } tally;
 
-static void put_back(const tally *t)
+static sb_vec3 vector(sb_f4 v, double scale)
 {
-    if (t->home)
-        memcpy(t->home, t->value, sizeof t->value);
-}
-
-static void turn_to(tally *t, const sb_sim *sim, double *sum, uint32_t body)
-{
-    if (t->home && t->body == body)
-        return;
-    put_back(t);
-    t->body = body;
-    t->home = sum + (size_t)VALUES * body;
-    t->moment_point = sim->model->bodies[body].moment_point;
-    memcpy(t->value, t->home, sizeof t->value);
+    return sb_vec(scale * (double)v[0], scale * (double)v[1], scale * (double)v[2]);
 }
 
 static void add_to(double value[3], sb_vec3 v)
@@ -47,17 +40,30 @@ static void add_to(double value[3], sb_vec3 v)
     value[2] += v.z;
 }
 
-/* at: m, where the forces (N) act, as seen from the water: the particle that they come from. What pushes along the line
-   to it has the same moment there, and what does not, shear, leaves the moments of water and bodies balanced. */
-static void add(const sb_sim *sim, tally *t, double *sum, uint32_t wall, sb_vec3 at, sb_vec3 pressure, sb_vec3 drag)
+/* pressure, drag: N, on a body at a place. */
+static void add(const sb_sim *sim, double *sum, uint32_t body, sb_vec3 at, sb_vec3 pressure, sb_vec3 drag)
 {
-    const sb_wall_set *set = &sim->walls[wall >> 31];
-    turn_to(t, sim, sum, set->body[wall & 0x7fffffffu]);
-    if (sim->space.repeats)
-        at = sb_add(at, way_home(&sim->space, set->record[wall & 0x7fffffffu]));
-    add_to(t->value, pressure);
-    add_to(t->value + 3, drag);
-    add_to(t->value + 6, sb_cross(sb_sub(at, t->moment_point), sb_add(pressure, drag)));
+    double *value = sum + (size_t)VALUES * body;
+    add_to(value, pressure);
+    add_to(value + 3, drag);
+    add_to(value + 6, sb_cross(sb_sub(at, sim->model->bodies[body].moment_point), sb_add(pressure, drag)));
+}
+
+static void put_down(tally *t)
+{
+    add(t->sim, t->sum, t->body, sb_add(t->at, t->home), vector(t->pushed, t->press), vector(t->rubbed, -t->mass));
+    t->pushed = t->rubbed = (sb_f4){0};
+}
+
+static void turn_to(tally *t, const sb_wall_set *set, uint32_t wall)
+{
+    const uint32_t body = set->body[wall];
+    const sb_vec3 home = t->sim->space.repeats ? way_home(&t->sim->space, set->record[wall]) : (sb_vec3){0};
+    if (body == t->body && home.x == t->home.x && home.y == t->home.y && home.z == t->home.z)
+        return;
+    put_down(t);
+    t->body = body;
+    t->home = home;
 }
 
 static sb_f4 wall_velocity(const sb_sim *sim, uint32_t wall)
@@ -71,9 +77,12 @@ static sb_f4 wall_velocity(const sb_sim *sim, uint32_t wall)
 
 void sb_impulse_of_push(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 push, double *sum)
 {
-    tally t = {.home = NULL};
-    add(sim, &t, sum, wall, sb_space_position(&sim->space, sim->position[i]), push, (sb_vec3){0});
-    put_back(&t);
+    const sb_wall_set *set = &sim->walls[wall >> 31];
+    const sb_record record = set->record[wall & 0x7fffffffu];
+    sb_vec3 at = sb_space_position(&sim->space, sim->position[i]);
+    if (sim->space.repeats)
+        at = sb_add(at, way_home(&sim->space, record));
+    add(sim, sum, set->body[wall & 0x7fffffffu], at, push, (sb_vec3){0});
 }
 
 /* Mends what would pass a wall; the wall feels it. */
@@ -99,31 +108,34 @@ static void contact(sb_sim *sim, size_t i, double *sum, sb_ledger_sums *ledger)
 }
 
 /* Adds what the pressure of particle i and its friction do to bodies, into sum[body][VALUES]. Returns the sum of
-   sb_rubbed. */
-static sb_f4 react(const sb_sim *sim, size_t i, const sb_rub *rub, double *sum)
+   sb_rubbed; rub: NULL for none. */
+SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_rub *rub, double *sum)
 {
     const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
     const float *slope = sim->wall_pairs.slope + sim->wall_pairs.first[i];
-    const double mass = (double)sim->constant.mass, press = mass * (double)sim->unknown[i];
+    const size_t count = sim->wall_pairs.count[i];
+    const double mass = (double)sim->constant.mass;
     const sb_f4 *velocity = sim->scratch; /* at the step's start */
-    const sb_vec3 at = sb_space_position(&sim->space, sim->position[i]);
-    tally t = {.home = NULL};
+    tally t = {.sim = sim, .sum = sum, .press = mass * (double)sim->unknown[i], .mass = mass};
+    sb_rubbing rubbing = {0};
     sb_f4 rubbed = {0};
-    for (size_t k = 0; k < sim->wall_pairs.count[i]; k++) {
+    t.at = sb_space_position(&sim->space, sim->position[i]);
+    if (count > 0)
+        t.body = sim->walls[index[0] >> 31].body[index[0] & 0x7fffffffu];
+    for (size_t k = 0; k < count; k++) {
         if (slope[k] == 0)
             continue;
-        const sb_record record = sim->walls[index[k] >> 31].record[index[k] & 0x7fffffffu];
-        const sb_f4 d = sb_offset(sim->position[i], record);
-        const double scale = press * (double)slope[k];
-        sb_vec3 drag = {0};
-        if (rub->on) {
-            const sb_f4 f = sb_rubbed(sim, i, velocity[i], index[k], slope[k], rub);
+        const sb_wall_set *set = &sim->walls[index[k] >> 31];
+        const uint32_t wall = index[k] & 0x7fffffffu;
+        turn_to(&t, set, wall);
+        t.pushed += sb_offset(sim->position[i], set->record[wall]) * sb_splat(slope[k]);
+        if (rub) {
+            const sb_f4 f = sb_rubbed(sim, i, velocity[i], index[k], slope[k], rub, &rubbing);
             rubbed += f;
-            drag = sb_scale(sb_vec((double)f[0], (double)f[1], (double)f[2]), -mass);
+            t.rubbed += f;
         }
-        add(sim, &t, sum, index[k], at, sb_vec(scale * (double)d[0], scale * (double)d[1], scale * (double)d[2]), drag);
     }
-    put_back(&t);
+    put_down(&t);
     return rubbed;
 }
 
@@ -136,7 +148,7 @@ static void do_block(sb_sim *sim, size_t block, double *sum, const sb_rub *rub)
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
         if (sim->wall_pairs.count[i] == 0)
             continue;
-        const sb_f4 rubbed = react(sim, i, rub, sum);
+        const sb_f4 rubbed = react(sim, i, rub->on ? rub : NULL, sum);
         contact(sim, i, sum, ledger);
         if (rub->on)
             ledger->friction += sb_ledger_work((sb_f4){0}, rubbed, velocity[i], sim->acceleration[i]);
@@ -145,19 +157,7 @@ static void do_block(sb_sim *sim, size_t block, double *sum, const sb_rub *rub)
 
 void sb_impulse_of_pressure(const sb_sim *sim, size_t i, double *sum)
 {
-    const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
-    const float *slope = sim->wall_pairs.slope + sim->wall_pairs.first[i];
-    tally t = {.home = NULL};
-    for (size_t k = 0; k < sim->wall_pairs.count[i]; k++) {
-        if (slope[k] == 0)
-            continue;
-        const sb_record record = sim->walls[index[k] >> 31].record[index[k] & 0x7fffffffu];
-        const sb_f4 d = sb_offset(sim->position[i], record);
-        const double scale = (double)sim->constant.mass * (double)sim->unknown[i] * (double)slope[k];
-        add(sim, &t, sum, index[k], sb_space_position(&sim->space, record),
-            sb_vec(scale * (double)d[0], scale * (double)d[1], scale * (double)d[2]), (sb_vec3){0});
-    }
-    put_back(&t);
+    (void)react(sim, i, NULL, sum);
 }
 
 static bool touches_walls(const sb_sim *sim, size_t block)
