@@ -94,7 +94,7 @@ SB_MULTIVERSION
 static fastest accelerate(sb_sim *sim, size_t block)
 {
     const sb_f4 dt = sb_splat((float)sim->report.time_step);
-    const sb_f4 damping = sb_splat(sim->settling == SB_DAMPED ? SETTLE_DAMPING : 1.0f);
+    const sb_f4 damping = sb_splat(sim->settling == SB_DAMPED || sim->settling == SB_CALMED ? SETTLE_DAMPING : 1.0f);
     const bool flat = sim->constant.dimension == 2;
     fastest top = {0, block * SB_BLOCK};
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {

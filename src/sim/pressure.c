@@ -32,13 +32,14 @@ sb_status sb_stage_source(sb_sim *sim, sb_error *error)
     return SB_OK;
 }
 
-/* q from the last step's pressure in Pa, whatever dt was then; and -a_ii by this step's dt. A drop on its own
+/* q from the last step's pressure in Pa, whatever dt was then (all of it while a sea settles: its pressures are to stay);
+   and -a_ii by this step's dt. A drop on its own
    beside a wall starts from its answer: it moves far against the wall in a step, and an old pressure, which
    the mean error of all the water does not show, would throw it back faster than it came. */
 static void first_guess(sb_sim *sim)
 {
     const size_t n = sim->n;
-    const float share = (float)sim->scene->numerics.warm_start;
+    const float share = sim->settling == SB_DAMPED ? 1 : (float)sim->scene->numerics.warm_start;
     const float dt2 = (float)(sim->report.time_step * sim->report.time_step);
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) {

@@ -10,10 +10,14 @@
    water do so for a little longer, and nothing else, for their sides give way. */
 enum { CREEP_FIRST = 40, CREEP_BOXES = 50, CALM_STEPS = 10 }; /* calm ones in a row: one may be a reversal */
 
-/* A sea over rough ground keeps some unrest for good. When so many steps have not taken a tenth of its kinetic energy,
-   more would not either. */
+/* Pressures that start from all of the last ones need half the sweeps in a sea that is to rest, but leave it some
+   unrest, which the last steps, with the run's own share, take. */
+enum { CALM_LAST = 30 };
+
+/* A sea over rough ground keeps some unrest for good. When so many steps have not taken three tenths of its kinetic
+   energy, more take little. */
 enum { TRIAL_STEPS = 60 };
-static const double STILL_FALLING = 0.9;
+static const double STILL_FALLING = 0.7;
 
 bool sb_sim_settles(const sb_scene *scene)
 {
@@ -58,6 +62,7 @@ sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
     const bool boxes = sim->scene->box_count > 0;
     const double calm = 0.002 * (double)sim->constant.wave_speed;
     int steps = sim->scene->numerics.settle_steps, still = 0;
+    int turn = steps - CALM_LAST; /* where the last ones begin */
     double before = (double)INFINITY; /* J, kinetic energy at the last trial */
     if (boxes && steps > CREEP_BOXES)
         steps = CREEP_BOXES;
@@ -66,15 +71,22 @@ sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
     sim->report.max_speed = 0;
     sb_status status = sb_sleep_expect(sim, error);
     for (int s = 0; s < steps && still < CALM_STEPS && status == SB_OK && !sb_stop_signal(); s++) {
-        sim->settling = boxes || s < CREEP_FIRST ? SB_CREEPING : SB_DAMPED;
+        sim->settling = boxes || s < CREEP_FIRST ? SB_CREEPING : s < turn ? SB_DAMPED : SB_CALMED;
         status = sb_sim_step(sim, error);
         sb_sleep_listen(sim, s);
         still = sim->report.max_speed < calm ? still + 1 : 0;
-        if (sim->settling == SB_DAMPED && (s + 1 - CREEP_FIRST) % TRIAL_STEPS == 0) {
+        if (sim->settling != SB_DAMPED)
+            continue;
+        bool done = still == CALM_STEPS;
+        if ((s + 1 - CREEP_FIRST) % TRIAL_STEPS == 0) {
             const double kinetic = sb_sim_energy(sim).kinetic;
-            if (kinetic > STILL_FALLING * before)
-                break;
+            done |= kinetic > STILL_FALLING * before;
             before = kinetic;
+        }
+        if (done) {
+            turn = s + 1;
+            steps = turn + CALM_LAST;
+            still = 0;
         }
     }
     sim->settling = SB_RUNNING;

@@ -16,6 +16,7 @@ enum {
 enum sb_settling {
     SB_RUNNING,  /* not at all: time goes on */
     SB_DAMPED,   /* a sea: part of the velocity is lost in each step; an initial wave is held by a pull */
+    SB_CALMED,   /* the same, at settling's end: pressures start from the run's share again */
     SB_CREEPING, /* boxes of water, which nothing holds: all of it */
 };
 
