@@ -206,7 +206,8 @@ const sb_case sb_case_runup_breaking = {
               "runs near H/d = 0.3, profiles in "
               "bins\nof 0.25 d. The clock begins where the laboratory's does, the crest "
               "arccosh(sqrt(20))/sqrt(0.75 H/d) depths "
-              "before the toe: no lag.\nd = 1 m, the viscosity scaled to the laboratory's Reynolds number. Gauges every 0.125 m, no filter; where ours is "
+              "before the toe: no lag.\nd = 1 m, the viscosity scaled to the laboratory's Reynolds "
+              "number. Gauges every 0.125 m, no filter; where ours is "
               "dry, the beach stands for the "
               "surface.",
     .scene = "solitary-runup/breaking.yaml",
