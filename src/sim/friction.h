@@ -30,10 +30,11 @@ SB_INLINE float sb_wall_law(float reynolds)
     return fmaxf(1 / reynolds, 0.0246f / sqrtf(sqrtf(reynolds)));
 }
 
-/* The shear of a plane wall is the same for all its boundary particles: what of it has been found for one particle of the
-   water. Starts as zeros. */
+/* The shear of a plane wall is the same for all its boundary particles: what has been found of it for one particle of
+   the water. Starts as zeros. */
 typedef struct sb_rubbing {
     sb_f4 normal, velocity; /* the boundary particle's, and the water's beside the wall's */
+    float height;           /* above its sheet, quanta: parallel walls, as of stairs, are not one */
     sb_f4 shear;            /* c_f |u| u / rho_0 */
 } sb_rubbing;
 
@@ -47,7 +48,7 @@ SB_INLINE void sb_shear_look(sb_rubbing *of, sb_f4 normal, sb_f4 velocity, float
 {
     const sb_f4 along = velocity - normal * sb_splat(sb_sum3(normal * velocity));
     const float u2 = sb_sum3(along * along);
-    *of = (sb_rubbing){.normal = normal, .velocity = velocity};
+    *of = (sb_rubbing){.normal = normal, .velocity = velocity, .height = height};
     if (!(u2 > 0))
         return;
     const float u = sqrtf(u2), distance = fmaxf(height - rub->offset, rub->nearest) * rub->quantum;
@@ -75,7 +76,8 @@ SB_INLINE sb_f4 sb_rubbed(const sb_sim *sim, size_t i, sb_f4 velocity, uint32_t 
     const sb_f4 normal = set->normal[wall];
     const float height = rub->shear ? sb_sum3(normal * d) : 0;
     if (height > 0) {
-        if (!sb_same3(normal, rubbing->normal) || !sb_same3(velocity, rubbing->velocity))
+        const bool level = fabsf(height - rubbing->height) <= 1e-4f * rub->nearest;
+        if (!level || !sb_same3(normal, rubbing->normal) || !sb_same3(velocity, rubbing->velocity))
             sb_shear_look(rubbing, normal, velocity, height, rub);
         sum += rubbing->shear * sb_splat(slope * height);
     }

@@ -30,6 +30,8 @@ static void check(int dimensions, double nu)
     tank t;
     tank_make(&t, dimensions, 0.1, sb_vec(2, flat ? 0 : 0.7, 1.5), 1.2, 0.9, 0.2);
     tank_add_sheet(&t, "paddle", -0.05, 0, 1.2, sb_vec(1, 0, 0), &motion);
+    /* parallel to the wall and a little behind it, as treads of stairs are: each has a distance of its own */
+    tank_add_sheet(&t, "lining", -0.09, 0, 1.2, sb_vec(1, 0, 0), NULL);
     t.scene.numerics.artificial_viscosity = 0;
     t.scene.numerics.wall_friction = 0.3;
     t.scene.numerics.wall_shear = SB_SHEAR_SMOOTH;
@@ -46,7 +48,7 @@ static void check(int dimensions, double nu)
     sb_vec3 *expected = sb_alloc(sim->n, sizeof *expected), *apart = sb_alloc(sim->n, sizeof *apart);
     double *rho = sb_alloc(sim->n, sizeof *rho);
     assert_true(expected && apart && rho);
-    sb_vec3 center[2] = {0}, drag[2] = {0}, torque[2] = {0};
+    sb_vec3 center[3] = {0}, drag[3] = {0}, torque[3] = {0};
     sb_reference_density(&other.reference, rho);
     sb_reference_friction(&other.reference, rho, expected, center, drag, torque);
     sb_reference_unswitched(&other.reference, rho, nu, NULL, expected);
@@ -68,7 +70,7 @@ static void check(int dimensions, double nu)
     printf("%dD, nu %g: worst %.2g of the largest, %.3g m/s^2, of which shear %.3g\n", dimensions, nu,
            twin_relative(&gap), gap.scale, sheared);
     assert_true(sheared > 0.5 && twin_relative(&gap) < 2e-6);
-    for (size_t b = 0; b < 2; b++)
+    for (size_t b = 0; b < 3; b++)
         assert_true(sb_norm(sb_sub(sb_sim_impulse(sim, b)->friction, drag[b])) < 2e-6 * sb_norm(drag[b]));
     sb_free(expected);
     sb_free(apart);
