@@ -26,7 +26,7 @@ int sb_candidate_flush(sb_sampler *sampler, sb_candidate_batch *batch)
         batch->good[i] = false;
         if (sb_stop_signal()) continue;
         if (c->placed) {
-            batch->good[i] = sb_sample_fits(sampler, c->surface, c->at, c->reach);
+            batch->good[i] = sb_sample_fits(sampler, c->surface, c->at, c->inward, c->reach);
             continue;
         }
         /* What another solid covers waits for the filling of voids: a slope that runs on just below

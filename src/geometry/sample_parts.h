@@ -88,11 +88,11 @@ sb_placement sb_sample_place(const sb_sampler *sampler, uint32_t surface, sb_vec
 double sb_sample_distance(const sb_sample_settings *settings, const sb_solid *solid, sb_vec3 at, double limit,
                           sb_vec3 *nearest, sb_vec3 *normal);
 /* No water comes near any point within `radius` of this one. */
-bool sb_sample_buried(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, double radius);
+bool sb_sample_buried(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_vec3 inward, double radius);
 /* Water may stand in front of a surface's point: no other solid covers it. */
 bool sb_sample_exposed(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_vec3 normal);
 /* As sb_sample_place for a point already on the sheet, `reach` from the surface. */
-bool sb_sample_fits(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, double reach);
+bool sb_sample_fits(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_vec3 inward, double reach);
 /* The sheet's point nearest to `at`, which is near the sheet of this surface. */
 bool sb_sample_project(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_sample *sample);
 

@@ -7,6 +7,8 @@ static const double crowded_share = 0.9;
 /* Cosine between normals: faces that look away from each other bound something thin, others meet.
  */
 static const double thin_cosine = -0.5;
+/* In spacings, more than the offset: what lies this deep under what stands on it meets no water. */
+static const double burial = 0.25;
 enum { THIN_STEPS = 8 };
 
 static bool inside_box(const sb_surface *surface, sb_vec3 at, double margin)
@@ -35,23 +37,26 @@ static bool may_hide(const sb_sampler *sampler, uint32_t surface, uint32_t other
            !sampler->surfaces[other].source->moving;
 }
 
-bool sb_sample_buried(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, double radius)
+/* Within another solid there is a ball that touches the surface from the water's side, so wide that the other's own
+   sheet, which the water meets, is nearer to it than this surface. */
+bool sb_sample_buried(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_vec3 inward, double radius)
 {
     if (sampler->surfaces[surface].source->moving) return false;
     const sb_sample_settings *settings = &sampler->settings;
-    double depth = settings->support + radius;
     sb_vec3 out = sb_max(sb_sub(settings->min, at), sb_sub(at, settings->max));
     out = sb_max(out, sb_vec(0, 0, 0));
     if (settings->dimensions == 2) out.y = 0;
-    if (sb_norm(out) > depth) return true;
+    if (sb_norm(out) > settings->support + radius) return true;
     for (int axis = 0; axis < 3; ++axis)
         if (settings->repeats[axis] &&
             sb_sample_beyond(settings, at, axis) > settings->offset + radius)
             return true;
+    double ball = settings->offset + burial * settings->spacing + radius;
+    sb_vec3 center = sb_madd(at, -(1 + 1e-6) * ball, inward);
     for (uint32_t i = 0; i < sampler->surface_count; ++i) {
         const sb_surface *other = sampler->surfaces + i;
-        if (may_hide(sampler, surface, i) && contains(other, at) &&
-            sb_solid_distance(other->source->solid, at, depth, NULL, NULL) >= depth)
+        if (may_hide(sampler, surface, i) && contains(other, center) &&
+            sb_solid_distance(other->source->solid, center, ball, NULL, NULL) >= ball)
             return true;
     }
     return false;
@@ -130,11 +135,11 @@ static double clearance(const sb_sampler *sampler, uint32_t surface, sb_vec3 at,
     return best;
 }
 
-bool sb_sample_fits(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, double reach)
+bool sb_sample_fits(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_vec3 inward, double reach)
 {
     sb_vec3 nearest, normal;
     double least = crowded_share * reach;
-    return !sb_sample_buried(sampler, surface, at, 0) &&
+    return !sb_sample_buried(sampler, surface, sb_madd(at, -reach, inward), inward, 0) &&
            !(clearance(sampler, surface, at, least, &nearest, &normal) < least);
 }
 
@@ -142,7 +147,7 @@ sb_placement sb_sample_place(const sb_sampler *sampler, uint32_t surface, sb_vec
                              sb_vec3 inward, sb_vec3 *placed, double *margin)
 {
     *margin = 0;
-    if (sb_sample_buried(sampler, surface, at, 0)) return SB_BURIED;
+    if (sb_sample_buried(sampler, surface, at, inward, 0)) return SB_BURIED;
     double reach = sampler->settings.offset;
     for (int step = 0; step < THIN_STEPS; ++step) {
         *placed = sb_madd(at, reach, inward);

@@ -110,7 +110,7 @@ static bool examine_far(const sb_sampler *sampler, const piece *p, corner c, dou
     /* What is buried need not be so to the last point; what is crowded ends a tenth of the offset
        beyond the sheet's edge. */
     if (placement == SB_BURIED)
-        return radius > 0.2 * spacing && !sb_sample_buried(sampler, p->surface, c.at, radius);
+        return radius > 0.2 * spacing && !sb_sample_buried(sampler, p->surface, c.at, c.inward, radius);
     if (placement == SB_CROWDED) return radius > margin && radius > 0.06 * sampler->settings.offset;
     /* In a thin part the sheet is elsewhere, and no larger than the surface over it. */
     double distance = sb_sample_set_nearest(&sampler->set, at, cover, NULL);
@@ -138,7 +138,7 @@ static bool examine(const sb_sampler *sampler, const piece *p, hole_list *list)
     double radius = sqrt(radius2);
     /* Pieces that only luck would find covered are not asked about. */
     if (radius >= 0.8 * cover)
-        return radius < 1.5 * spacing || !sb_sample_buried(sampler, p->surface, c.at, radius);
+        return radius < 1.5 * spacing || !sb_sample_buried(sampler, p->surface, c.at, c.inward, radius);
     size_t nearest;
     double distance = sb_sample_set_nearest(&sampler->set, at, cover, &nearest);
     if (distance >= SB_SAMPLE_FILL * spacing) return examine_far(sampler, p, c, radius, list);
@@ -288,7 +288,9 @@ static int work_cut(const sb_sampler *sampler, work *w, const piece *whole)
         double size = size_of(&p);
         if (size <= piece_max * sampler->settings.spacing || count == DEPTH_MAX) {
             if (work_push(sampler, w, &p)) return -1;
-        } else if (!sb_sample_buried(sampler, p.surface, center_of(&p).at, size)) {
+        } else {
+            const corner c = center_of(&p);
+            if (sb_sample_buried(sampler, p.surface, c.at, c.inward, size)) continue;
             halve(sampler, &p, stack + count);
             count += 2;
         }

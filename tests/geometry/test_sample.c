@@ -195,6 +195,29 @@ static void nothing_where_no_water_comes(void **state)
     assert_int_equal(s.samples.count - s.samples.begin[1], 6 * 6 * 6 - 4 * 4 * 4);
 }
 
+/* Ground and what stands on it, in it, and flush with it: as where a single solid ends, no particle lies farther from
+   all water than the sheet's corner and a quarter of a spacing, and no place of the corner is bare. */
+static void nothing_below_what_stands(void **state)
+{
+    (void)state;
+    for (int deep = 0; deep <= 2; ++deep) {
+        box(0, sb_vec(0, 0, -9), sb_vec(20, 20, 0));
+        box(1, sb_vec(6.2, 7.1, deep == 2 ? -4.3 : -0.4 * deep), sb_vec(13.4, 12.9, 5));
+        test_sample(&s, 0.6);
+        test_check(&s, "a building on its ground");
+        const double reach = sb_norm(sb_vec(0.6, 0.6 + 0.25 + 0.2, 0)); /* the last: so that chance finds the water */
+        for (size_t i = 0; i < s.samples.count; ++i) {
+            bool near = false;
+            for (uint64_t n = 0; n < 4000 && !near; ++n) {
+                const sb_vec3 at = sb_madd(s.samples.position[i], reach, sb_normalize(test_random(5, n)));
+                near = !sb_solid_contains(s.solid[0], at) && !sb_solid_contains(s.solid[1], at);
+            }
+            assert_true(near);
+        }
+        test_surfaces_free(&s);
+    }
+}
+
 static void moving_bodies_are_sampled_alone(void **state)
 {
     (void)state;
@@ -322,6 +345,7 @@ int main(void)
         cmocka_unit_test_teardown(terrains, tear_down),
         cmocka_unit_test_teardown(bodies_share_their_seams, tear_down),
         cmocka_unit_test_teardown(nothing_where_no_water_comes, tear_down),
+        cmocka_unit_test_teardown(nothing_below_what_stands, tear_down),
         cmocka_unit_test_teardown(moving_bodies_are_sampled_alone, tear_down),
         cmocka_unit_test_teardown(normals_look_at_the_water, tear_down),
         cmocka_unit_test_teardown(threads_change_nothing, tear_down),

@@ -84,6 +84,13 @@ static inline double test_area(const sb_mesh *mesh, size_t t)
            sb_norm(sb_cross(sb_sub(mesh->vertices[c[1]], a), sb_sub(mesh->vertices[c[2]], a)));
 }
 
+static inline sb_vec3 test_normal(const sb_mesh *mesh, size_t t)
+{
+    const uint32_t *c = mesh->triangles[t];
+    sb_vec3 a = mesh->vertices[c[0]];
+    return sb_normalize(sb_cross(sb_sub(mesh->vertices[c[1]], a), sb_sub(mesh->vertices[c[2]], a)));
+}
+
 static inline double test_total_area(const sb_mesh *mesh)
 {
     double sum = 0;
@@ -104,14 +111,29 @@ static inline sb_vec3 test_on_triangle(const sb_mesh *mesh, size_t t, uint64_t i
                    sb_sub(mesh->vertices[c[2]], a));
 }
 
+/* A place of a surface, its normal towards the water or away from it, that another solid covers so far around that no
+   water comes near. */
+static inline bool test_buried(const test_surfaces *s, size_t k, sb_vec3 foot, sb_vec3 normal)
+{
+    const double ball = s->settings.offset + 0.25;
+    for (size_t j = 0; j < s->count; ++j)
+        for (int side = -1; side <= 1; side += 2) {
+            const sb_vec3 center = sb_madd(foot, side * ball, normal);
+            if (j != k && !s->moving[j] && !s->moving[k] && sb_solid_contains(s->solid[j], center) &&
+                sb_solid_distance(s->solid[j], center, ball, NULL, NULL) >= ball - 1e-3)
+                return true;
+        }
+    return false;
+}
+
 /* A random point of the sheet: the place `offset` behind the surface nearest to some point in the
    solid; false when that is no part of the sheet (nearer to other faces, round an open rim). */
-static inline bool test_sheet_point(const test_surfaces *s, size_t k, sb_vec3 on, uint64_t i,
-                                    sb_vec3 *at)
+static inline bool test_sheet_point(const test_surfaces *s, size_t k, size_t t, uint64_t i, sb_vec3 *at)
 {
     double d = s->settings.offset;
+    const sb_vec3 on = test_on_triangle(&s->mesh[k], t, i);
     *at = on;
-    if (d <= 0) return true;
+    if (d <= 0) return !test_buried(s, k, on, test_normal(&s->mesh[k], t));
     sb_vec3 x = sb_madd(on, 1.5 * d, test_random(3, i)), foot, normal;
     if (!sb_solid_contains(s->solid[k], x)) return false;
     double distance = sb_solid_distance(s->solid[k], x, 9, &foot, &normal);
@@ -120,7 +142,7 @@ static inline bool test_sheet_point(const test_surfaces *s, size_t k, sb_vec3 on
     bool rim = s->role == SB_ROLE_TERRAIN
                    ? foot.x < low.x || foot.y < low.y || foot.x > high.x || foot.y > high.y
                    : s->mesh[k].sheet && foot.z > high.z;
-    if (distance < 0.02 * d || rim) return false;
+    if (distance < 0.02 * d || rim || test_buried(s, k, foot, sb_scale(sb_sub(x, foot), 1 / distance))) return false;
     *at = sb_madd(foot, d / distance, sb_sub(x, foot));
     for (size_t j = 0; j < s->count; ++j)
         if (sb_solid_distance(s->solid[j], *at, d, NULL, NULL) < 0.97 * d) return false;
@@ -145,7 +167,7 @@ static inline test_rules test_measure(const test_surfaces *s, size_t points_per_
             owed += test_area(&s->mesh[k], t) * (double)points_per_area;
             for (; owed > 0; owed -= 1, ++i) {
                 sb_vec3 at;
-                if (!test_sheet_point(s, k, test_on_triangle(&s->mesh[k], t, i), i, &at)) continue;
+                if (!test_sheet_point(s, k, t, i, &at)) continue;
                 ++rules.tested;
                 rules.farthest = fmax(rules.farthest, sb_sample_set_nearest(&set, at, 3, NULL));
             }
