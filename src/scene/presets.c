@@ -31,7 +31,7 @@ static const struct {
     {"smagorinsky",          {"0.1",        "0.1"}},
     {"sound_speed",          {"0",          "0"}},
     {"wall_gamma",           {"0",          "1"}},
-    {"wall_offset",          {"0.575",      "0.6"}},
+    {"wall_offset",          {"0.75",      "0.6"}},
     {"jitter",               {"0.02",       "0"}},
     {"seed",                 {"1",          "1"}},
     {"sleep",                {"false",      "false"}},

@@ -36,7 +36,8 @@ static double worst(const sb_kernel *kernel, int dimension, double support, doub
     return most;
 }
 
-/* With the defaults a hundredth of what a layer of water weighs per spacing of depth; a twentieth more or less gamma
+/* With the kernel of the defaults and the offset that suits it best, a hundredth of what a layer of water weighs per
+   spacing of depth; a twentieth more or less gamma
    leaves three times as much. */
 static void a_lattice_rests_on_a_plane(void **state)
 {
