@@ -24,15 +24,22 @@ static int turn_of(const sb_request *request)
     return request->seed > 1 ? 2 : request->paper ? 1 : 0;
 }
 
+/* Whether the command line leaves this run out. */
+static bool left_out(const sb_validate_options *o, const sb_request *request)
+{
+    const sb_plan *coarsest = o->quick ? request->of->quick : request->of->full;
+    return (o->once && turn_of(request) != 0) || (o->spacings && request->plan - coarsest >= o->spacings);
+}
+
 /* Appends the requests of a case that belong to this turn. */
-static sb_status gather(const sb_case *of, bool quick, int turn, sb_request **all, size_t *count,
+static sb_status gather(const sb_case *of, const sb_validate_options *o, int turn, sb_request **all, size_t *count,
                         size_t *capacity, sb_error *error)
 {
     sb_request *requests = NULL;
     size_t found = 0;
-    sb_status status = sb_case_requests(of, quick, &requests, &found, error);
+    sb_status status = sb_case_requests(of, o->quick, &requests, &found, error);
     for (size_t i = 0; status == SB_OK && i < found; i++) {
-        if (turn_of(&requests[i]) != turn) continue;
+        if (turn_of(&requests[i]) != turn || left_out(o, &requests[i])) continue;
         if (sb_grow((void **)all, capacity, *count + 1, sizeof **all) != 0)
             status = sb_fail_memory(error, "runs");
         else
@@ -50,7 +57,7 @@ static sb_status run_cases(const sb_store *store, const sb_validate_options *o, 
     sb_status status = SB_OK;
     for (int turn = 0; turn < 3; turn++)
         for (size_t c = 0; status == SB_OK && c < o->count; c++)
-            status = gather(o->cases[c], o->quick, turn, &all, &count, &capacity, error);
+            status = gather(o->cases[c], o, turn, &all, &count, &capacity, error);
     if (status == SB_OK) status = sb_launch(store, all, count, o->jobs, failed, error);
     sb_free(all);
     return status;

@@ -10,6 +10,8 @@ const char sb_validate_help[] =
     "Runs the cases, compares them with experiment and theory, and writes the report.\n\n"
     "  --all            every case\n"
     "  --quick          cheap forms; the report goes to OUT/quick\n"
+    "  --spacings N     runs the N coarsest spacings of each case alone\n"
+    "  --once           runs the default preset's first seed alone\n"
     "  --sensitivity    what 25 % of every numeric default does to the cases' quick forms\n"
     "  --list           names the cases\n"
     "  --report-only    runs nothing; remakes the report from what was run\n"
@@ -56,6 +58,8 @@ sb_status sb_validate_parse(int count, char **arguments, sb_validate_options *o,
                                    {.name = "--list", .flag = &o->list},
                                    {.name = "--report-only", .flag = &o->report_only, .telling = true},
                                    {.name = "--sensitivity", .flag = &o->sensitivity, .telling = true},
+                                   {.name = "--spacings", .count = &o->spacings, .most = 64, .telling = true},
+                                   {.name = "--once", .flag = &o->once, .telling = true},
                                    {.name = "--jobs", .count = &o->jobs, .most = 256, .telling = true},
                                    {.name = "--out", .text = &o->out},
                                    {.name = "--report", .text = &o->report},
