@@ -167,6 +167,13 @@ static void warnings_say_what_is_too_coarse(void **state)
     scene.sea.present = false;
     build();
     assert_true(warned("nothing is wet", ""));
+    scene.numerics.time_step_rule = SB_TIME_STEP_DEPTH;
+    scene.numerics.time_step_factor = 0.3;
+    build();
+    assert_false(warned("time_step_factor", ""));
+    scene.numerics.time_step_factor = 0.31;
+    build();
+    assert_true(warned("time_step_factor 0.31", "expected 0.3"));
 }
 
 /* The scene has one body more: it is refused by name, with its thickness. */
