@@ -9,7 +9,7 @@
 typedef struct sb_sample_settings {
     double spacing;   /* m */
     double offset;    /* m that the sheet lies behind the surface */
-    double support;   /* m: what no water can come nearer to than this is left out */
+    double support;   /* m: nothing is sampled farther than this outside of the domain */
     int dimensions;   /* 2: the curve in y = 0 */
     sb_vec3 min, max; /* m, the domain; min is also the origin of the lattices */
     bool repeats[3]; /* the domain does, along each axis: nothing is sampled beyond those sides, nor
