@@ -43,7 +43,8 @@ static sb_status start(const sb_store *store, const char *scene, job *j, bool al
     sb_settings settings;
     int count = 0;
     sb_request_settings(j->request, &settings);
-    const char *const first[] = {"shorebreak", "run", scene, "--quiet", "--out", j->folder};
+    /* One that was stopped left a checkpoint, and goes on from it. */
+    const char *const first[] = {"shorebreak", "run", scene, "--quiet", "--resume", "--out", j->folder};
     for (size_t i = 0; i < sizeof first / sizeof *first; i++)
         arguments[count++] = first[i];
     for (size_t i = 0; i < settings.count; i++) {
@@ -106,7 +107,7 @@ static sb_status end(crew *c, job *j, int how, const struct rusage *used, sb_err
     }
     if (stopped_by || (WIFEXITED(how) && WEXITSTATUS(how) > 128)) {
         if (!stopped_by) stopped_by = SIGINT;
-        return SB_OK;
+        return sb_store_spend(j->folder, seconds(&used->ru_utime) + seconds(&used->ru_stime), error);
     }
     sb_status found = sb_path_join(path, j->folder, said_name, error);
     if (found != SB_OK) return found;

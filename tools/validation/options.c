@@ -22,7 +22,8 @@ const char sb_validate_help[] =
     "                   many as cores)\n"
     "  --shorebreak F   the program that runs (the one built beside this)\n"
     "  --help, --version\n\n"
-    "Finished runs are kept and not repeated while program and scene stay the same.\n"
+    "Finished runs are kept and not repeated while program and scene stay the same; one that was\n"
+    "stopped goes on from its checkpoint.\n"
     "Exit status: 0 all judged figures within reach, 1 bad input, 2 a run failed, 4 some figure "
     "is\n"
     "short of its reach, 130 stopped.\n";

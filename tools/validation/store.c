@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static const char record_name[] = "record.txt", failure_name[] = "failed.txt";
+static const char record_name[] = "record.txt", failure_name[] = "failed.txt", spent_name[] = "spent.txt";
 
 sb_status sb_store_open(sb_store *store, const char *out, const char *program, const char *source,
                         sb_error *error)
@@ -105,13 +105,31 @@ static sb_status write_text(const char *folder, const char *name, const char *te
     return sb_atomic_commit(&file, 0, error);
 }
 
+/* s of processor time of a run's parts that were stopped. */
+static double spent(const char *folder)
+{
+    char path[SB_PATH_MAX];
+    double sum = 0;
+    FILE *in = sb_path_join(path, folder, spent_name, NULL) == SB_OK ? fopen(path, "r") : NULL;
+    if (in && fscanf(in, "cpu_s: %lf", &sum) != 1) sum = 0;
+    if (in) fclose(in);
+    return sum;
+}
+
+sb_status sb_store_spend(const char *folder, double cpu, sb_error *error)
+{
+    char text[64];
+    snprintf(text, sizeof text, "cpu_s: %.6g\n", spent(folder) + cpu);
+    return write_text(folder, spent_name, text, error);
+}
+
 sb_status sb_store_finish(const sb_store *store, const char *folder, double cpu, sb_error *error)
 {
     char text[512];
     double load;
     if (getloadavg(&load, 1) != 1) load = (double)NAN;
     snprintf(text, sizeof text, "commit: %s\nmachine: %s\ncpu_s: %.6g\nload: %.3g\n", store->commit,
-             store->machine, cpu, load);
+             store->machine, spent(folder) + cpu, load);
     return write_text(folder, record_name, text, error);
 }
 

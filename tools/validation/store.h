@@ -29,8 +29,10 @@ sb_status sb_store_folder(const sb_store *store, const sb_request *request,
 bool sb_store_find(const sb_store *store, const sb_request *request, bool any_build,
                    char folder[SB_PATH_MAX]);
 
+/* Adds to the processor time (s) of a run that was stopped and will go on. */
+sb_status sb_store_spend(const char *folder, double cpu, sb_error *error);
 /* Marks a folder's run as finished, with what is to be remembered of it: commit, machine, cpu_s (s of
-   processor time, all threads) and load (the machine's mean over the last minute). */
+   processor time, all threads, stopped parts too) and load (the machine's mean over the last minute). */
 sb_status sb_store_finish(const sb_store *store, const char *folder, double cpu, sb_error *error);
 /* A line "key: value" of a record; "" when there is none. */
 void sb_store_recall(const char *folder, const char *key, char *value, size_t size);

@@ -1,0 +1,75 @@
+/* Runs that were stopped: what the launcher asks of the program when it is started again, and what it remembers. */
+#include "check.h"
+
+#include "cases.h"
+#include "launch.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static char folder[] = "/tmp/test-launch-XXXXXX";
+
+/* In place of shorebreak: writes down what it is asked, is stopped the first time, and then ends well. */
+static const char program[] = "#!/bin/sh\n"
+                              "echo \"$@\" >> asked\n"
+                              "[ -f once ] && exit 0\n"
+                              "touch once\n"
+                              "exit 143\n";
+
+static int set_up(void **state)
+{
+    (void)state;
+    if (!mkdtemp(folder) || chdir(folder) != 0) return -1;
+    FILE *out = fopen("program", "w");
+    return !out || fputs(program, out) < 0 || fclose(out) != 0 || chmod("program", 0755) != 0 ? -1 : 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    char command[64];
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    return chdir("/") == 0 ? system(command) : -1;
+}
+
+static void a_stopped_run_goes_on(void **state)
+{
+    (void)state;
+    sb_store store;
+    sb_error error = {0};
+    size_t failed = 0;
+    char place[SB_PATH_MAX], spent[64];
+    assert_int_equal(sb_store_open(&store, "out", "program", SB_SOURCE_DIR, &error), SB_OK);
+    const sb_request request = {.of = sb_cases[0], .plan = sb_cases[0]->quick, .quick = true, .seed = 1};
+    assert_int_equal(sb_launch(&store, &request, 1, 1, &failed, &error), SB_INTERRUPTED);
+    assert_false(sb_store_find(&store, &request, false, place));
+    assert_int_equal(sb_store_folder(&store, &request, place, &error), SB_OK);
+    assert_int_equal(sb_store_spend(place, 20, &error), SB_OK);
+    assert_int_equal(sb_launch(&store, &request, 1, 1, &failed, &error), SB_OK);
+    assert_int_equal(failed, 0);
+    assert_true(sb_store_find(&store, &request, false, place));
+    sb_store_recall(place, "cpu_s", spent, sizeof spent);
+    assert_true(strtod(spent, NULL) >= 20 && strtod(spent, NULL) < 21);
+    /* Nothing is left to be done. */
+    assert_int_equal(sb_launch(&store, &request, 1, 1, &failed, &error), SB_OK);
+
+    char line[2][2048];
+    FILE *asked = fopen("asked", "r");
+    assert_non_null(asked);
+    for (int i = 0; i < 2; i++) {
+        assert_non_null(fgets(line[i], sizeof line[i], asked));
+        assert_non_null(strstr(line[i], " --resume "));
+    }
+    assert_string_equal(line[0], line[1]);
+    assert_null(fgets(line[0], sizeof line[0], asked));
+    assert_int_equal(fclose(asked), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_stopped_run_goes_on)};
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
