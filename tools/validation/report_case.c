@@ -78,6 +78,8 @@ void sb_report_summary_line(FILE *out, const sb_case_results *results)
                 j.figure->unit);
         fprintf(out, isnan(j.worst) ? "; " : ", error %s; ", error);
     }
+    const sb_result *finest = judged ? NULL : sb_results_finest(results);
+    if (finest) fprintf(out, "not run where it is judged, but at %.6g m", finest->request.plan->resolution);
     if (judged) fprintf(out, "%zu of %zu within reach", passed, limited);
     if (judged && passed < limited) {
         fputs("; ", out);
@@ -110,6 +112,7 @@ static bool has_column(const sb_result *r)
     return r->request.seed == 1;
 }
 
+/* seeds 0: a run that is not judged. */
 static void put_judgement(FILE *out, const sb_judgement *j)
 {
     char text[48];
@@ -123,11 +126,12 @@ static void put_judgement(FILE *out, const sb_judgement *j)
     put_cell(out, text);
     sb_text_number(text, j->spread);
     put_cell(out, text);
-    put_cell(out, isnan(j->figure->limit) ? "reported" : j->pass ? "pass" : "**FAIL**");
+    put_cell(out, isnan(j->figure->limit) ? "reported" : !j->seeds ? "not judged" : j->pass ? "pass" : "**FAIL**");
     fputc('\n', out);
 }
 
-static void put_figures(FILE *out, const sb_case_results *results, const sb_result *judged)
+/* One row per figure of this run: the judged one, or else the finest there is, whose errors are not judged. */
+static void put_figures(FILE *out, const sb_case_results *results, const sb_result *of)
 {
     char text[160];
     int columns = 0;
@@ -144,8 +148,11 @@ static void put_figures(FILE *out, const sb_case_results *results, const sb_resu
     fputs(" error | reach | spread | |\n|---|---|---|", out);
     for (int i = 0; i < columns + 4; i++) fputs("---|", out);
     fputc('\n', out);
-    for (size_t i = 0; i < judged->figures.count; i++) {
-        sb_judgement j = sb_results_judge(results, i);
+    for (size_t i = 0; i < of->figures.count; i++) {
+        const sb_figure *f = &of->figures.rows[i];
+        const sb_judgement j = sb_results_judged(results)
+                                   ? sb_results_judge(results, i)
+                                   : (sb_judgement){.figure = f, .worst = f->error, .spread = (double)NAN};
         fputc('|', out);
         put_cell(out, j.figure->quantity);
         put_cell(out, j.figure->unit);
@@ -211,16 +218,16 @@ static void put_runs(FILE *out, const sb_case_results *results)
 
 void sb_report_case(FILE *out, const sb_case_results *results, const char *picture)
 {
-    const sb_result *judged = sb_results_judged(results);
+    const sb_result *judged = sb_results_judged(results), *shown = judged ? judged : sb_results_finest(results);
     fprintf(out, "<a id=\"%s\"></a>\n\n## %s\n\nCase `%s`. Reach: %s.\n\n%s\n\n", results->of->name,
             results->of->title, results->of->name, results->of->reach, results->of->method);
     if (picture) fprintf(out, "![%s](%s)\n\n", results->of->title, picture);
-    if (judged)
-        put_figures(out, results, judged);
-    else
-        fputs("Not run where it is judged.\n\n", out);
+    if (!judged) fputs("Not run where it is judged", out);
+    if (!judged && shown) fprintf(out, "; errors are those at %.6g m", shown->request.plan->resolution);
+    if (!judged) fputs(".\n\n", out);
+    if (shown) put_figures(out, results, shown);
     put_across(out, results);
-    if (judged) put_notes(out, &judged->figures);
+    if (shown) put_notes(out, &shown->figures);
     put_notes(out, &results->across);
     fputc('\n', out);
     put_runs(out, results);

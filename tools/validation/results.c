@@ -146,6 +146,16 @@ const sb_result *sb_results_judged(const sb_case_results *results)
     return NULL;
 }
 
+const sb_result *sb_results_finest(const sb_case_results *results)
+{
+    const sb_result *finest = NULL;
+    for (size_t i = 0; i < results->count; i++) {
+        const sb_result *r = &results->runs[i];
+        if (r->state == SB_RESULT_DONE && !r->request.paper && r->request.seed == 1) finest = r;
+    }
+    return finest;
+}
+
 /* By which errors are compared. */
 static double size_of(const sb_figure *figure, double error)
 {

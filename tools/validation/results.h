@@ -55,6 +55,8 @@ void sb_results_free(sb_case_results *results);
 
 /* The judged run with seed 1; NULL when it is not done. */
 const sb_result *sb_results_judged(const sb_case_results *results);
+/* The finest run of the default preset with seed 1; NULL when none is done. */
+const sb_result *sb_results_finest(const sb_case_results *results);
 /* The i-th figure of that run over its seeds. */
 sb_judgement sb_results_judge(const sb_case_results *results, size_t i);
 /* Figures with a limit, those of several runs included, and how many of them pass. */
