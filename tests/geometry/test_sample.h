@@ -111,18 +111,16 @@ static inline sb_vec3 test_on_triangle(const sb_mesh *mesh, size_t t, uint64_t i
                    sb_sub(mesh->vertices[c[2]], a));
 }
 
-/* A place of a surface, its normal towards the water or away from it, that another solid covers so far around that no
-   water comes near. */
+/* A place of a surface, its normal towards the water, that another solid covers so far around that no water comes
+   near. */
 static inline bool test_buried(const test_surfaces *s, size_t k, sb_vec3 foot, sb_vec3 normal)
 {
     const double ball = s->settings.offset + 0.25;
+    const sb_vec3 center = sb_madd(foot, ball, normal);
     for (size_t j = 0; j < s->count; ++j)
-        for (int side = -1; side <= 1; side += 2) {
-            const sb_vec3 center = sb_madd(foot, side * ball, normal);
-            if (j != k && !s->moving[j] && !s->moving[k] && sb_solid_contains(s->solid[j], center) &&
-                sb_solid_distance(s->solid[j], center, ball, NULL, NULL) >= ball - 1e-3)
-                return true;
-        }
+        if (j != k && !s->moving[j] && !s->moving[k] && sb_solid_contains(s->solid[j], center) &&
+            sb_solid_distance(s->solid[j], center, ball, NULL, NULL) >= ball - 1e-3)
+            return true;
     return false;
 }
 
@@ -142,7 +140,7 @@ static inline bool test_sheet_point(const test_surfaces *s, size_t k, size_t t, 
     bool rim = s->role == SB_ROLE_TERRAIN
                    ? foot.x < low.x || foot.y < low.y || foot.x > high.x || foot.y > high.y
                    : s->mesh[k].sheet && foot.z > high.z;
-    if (distance < 0.02 * d || rim || test_buried(s, k, foot, sb_scale(sb_sub(x, foot), 1 / distance))) return false;
+    if (distance < 0.02 * d || rim || test_buried(s, k, foot, sb_scale(sb_sub(foot, x), 1 / distance))) return false;
     *at = sb_madd(foot, d / distance, sb_sub(x, foot));
     for (size_t j = 0; j < s->count; ++j)
         if (sb_solid_distance(s->solid[j], *at, d, NULL, NULL) < 0.97 * d) return false;
