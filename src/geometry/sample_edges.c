@@ -10,15 +10,11 @@ static const double drawn_back = 0.2, in_reach = 1.3;
 static const double same_face = 0.95, plate = -0.5;
 enum { FACES = 3 };
 
-/* The face nearest to a place, towards the water; false: none in reach that water may stand before. */
-static bool face_near(const sb_sampler *sampler, uint32_t index, sb_vec3 at, double limit, sb_vec3 *normal)
+/* The face nearest to a place that water may stand before; false: none in reach. */
+static bool face_near(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, double limit, sb_vec3 *normal)
 {
-    const sb_surface *surface = sampler->surfaces + index;
     sb_vec3 nearest;
-    const sb_sample_settings *settings = &sampler->settings;
-    if (sb_sample_distance(settings, surface->source->solid, at, limit, &nearest, normal) >= limit) return false;
-    *normal = sb_scale(*normal, surface->sign);
-    return sb_sample_exposed(sampler, index, nearest, *normal);
+    return sb_sample_distance(sampler, surface, at, limit, &nearest, normal) < limit;
 }
 
 static bool is_new(const sb_vec3 *faces, int count, sb_vec3 normal)

@@ -83,10 +83,11 @@ static inline bool sb_sampler_takes(const sb_sampler *sampler, size_t surface)
 typedef enum sb_placement { SB_PLACED, SB_BURIED, SB_CROWDED } sb_placement;
 sb_placement sb_sample_place(const sb_sampler *sampler, uint32_t surface, sb_vec3 at,
                              sb_vec3 inward, sb_vec3 *placed, double *margin);
-/* The distance to a solid's surface, as sb_solid_distance. The end of a solid in a side at which the domain repeats is
-   none, for the solid goes on at the other side: beside it the answer is that of a place further in. */
-double sb_sample_distance(const sb_sample_settings *settings, const sb_solid *solid, sb_vec3 at, double limit,
-                          sb_vec3 *nearest, sb_vec3 *normal);
+/* The distance to the nearest point of a surface before which water may stand, as sb_solid_distance; *normal points to
+   the water. The end of a solid in a side at which the domain repeats is no surface, for the solid goes on at the other
+   side: beside it the answer is that of a place further in. */
+double sb_sample_distance(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, double limit, sb_vec3 *nearest,
+                          sb_vec3 *normal);
 /* No water comes near any point within `radius` of this one. */
 bool sb_sample_buried(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_vec3 inward, double radius);
 /* Water may stand in front of a surface's point: no other solid covers it. */

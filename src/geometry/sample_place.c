@@ -101,14 +101,41 @@ static sb_vec3 way_in(const sb_sample_settings *settings, sb_vec3 at, double dis
     return sb_vec(step[0], step[1], step[2]);
 }
 
-double sb_sample_distance(const sb_sample_settings *settings, const sb_solid *solid, sb_vec3 at,
-                          double limit, sb_vec3 *nearest, sb_vec3 *normal)
+/* From where a surface is asked about, moved by `step`. */
+typedef struct asking {
+    const sb_sampler *sampler;
+    uint32_t surface;
+    sb_vec3 at, step;
+} asking;
+
+/* The normal towards the water; where faces have both orientations, towards the one who asks. */
+static sb_vec3 facing(const asking *a, sb_vec3 place, sb_vec3 normal)
 {
-    double distance = sb_solid_distance(solid, at, limit, nearest, normal);
-    if (distance >= limit || !in_side(settings, *nearest)) return distance;
-    sb_vec3 step = way_in(settings, at, limit);
-    distance = sb_solid_distance(solid, sb_add(at, step), limit, nearest, normal);
-    *nearest = sb_sub(*nearest, step);
+    const sb_surface *on = a->sampler->surfaces + a->surface;
+    normal = water_normal(on, normal);
+    return on->mixed && sb_dot(normal, sb_sub(place, a->at)) < 0 ? sb_scale(normal, -1) : normal;
+}
+
+static bool is_exposed(const void *context, sb_vec3 nearest, sb_vec3 normal)
+{
+    const asking *a = context;
+    const sb_vec3 place = sb_sub(nearest, a->step);
+    return sb_sample_exposed(a->sampler, a->surface, place, facing(a, place, normal));
+}
+
+double sb_sample_distance(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, double limit, sb_vec3 *nearest,
+                          sb_vec3 *normal)
+{
+    const sb_sample_settings *settings = &sampler->settings;
+    const sb_solid *solid = sampler->surfaces[surface].source->solid;
+    asking a = {.sampler = sampler, .surface = surface, .at = at};
+    double distance = sb_solid_distance_where(solid, at, limit, is_exposed, &a, nearest, normal);
+    if (distance < limit && in_side(settings, *nearest)) {
+        a.step = way_in(settings, at, limit);
+        distance = sb_solid_distance_where(solid, sb_add(at, a.step), limit, is_exposed, &a, nearest, normal);
+        *nearest = sb_sub(*nearest, a.step);
+    }
+    if (distance < limit) *normal = facing(&a, *nearest, *normal);
     return distance;
 }
 
@@ -118,19 +145,14 @@ static double clearance(const sb_sampler *sampler, uint32_t surface, sb_vec3 at,
 {
     double best = limit;
     for (uint32_t i = 0; i < sampler->surface_count; ++i) {
-        const sb_surface *other = sampler->surfaces + i;
-        if ((i != surface && !may_hide(sampler, surface, i)) || !inside_box(other, at, best))
+        if ((i != surface && !may_hide(sampler, surface, i)) || !inside_box(sampler->surfaces + i, at, best))
             continue;
-        sb_vec3 place, facing;
-        double distance =
-            sb_sample_distance(&sampler->settings, other->source->solid, at, best, &place, &facing);
+        sb_vec3 place, toward;
+        double distance = sb_sample_distance(sampler, i, at, best, &place, &toward);
         if (distance >= best) continue;
-        facing = water_normal(other, facing);
-        if (other->mixed && sb_dot(facing, sb_sub(place, at)) < 0) facing = sb_scale(facing, -1);
-        if (!sb_sample_exposed(sampler, i, place, facing)) continue;
         best = distance;
         *nearest = place;
-        *normal = facing;
+        *normal = toward;
     }
     return best;
 }

@@ -16,6 +16,13 @@ void sb_solid_destroy(sb_solid *solid);
 double sb_solid_distance(const sb_solid *solid, sb_vec3 point, double limit, sb_vec3 *nearest,
                          sb_vec3 *normal);
 
+/* Whether a triangle counts: its point nearest to the one asked about, and its normal. */
+typedef bool sb_solid_counts(const void *context, sb_vec3 nearest, sb_vec3 normal);
+
+/* As sb_solid_distance, of the triangles that count alone. */
+double sb_solid_distance_where(const sb_solid *solid, sb_vec3 point, double limit, sb_solid_counts *counts,
+                               const void *context, sb_vec3 *nearest, sb_vec3 *normal);
+
 /* Generalised winding number (Barill et al. 2018): 1 inside, 0 outside, fractions near holes. */
 double sb_solid_winding(const sb_solid *solid, sb_vec3 point);
 

@@ -43,9 +43,15 @@ sb_vec3 sb_solid_nearest_on(const sb_solid_triangle *t, sb_vec3 p)
     return best;
 }
 
-/* Walks the tree from near to far and keeps the nearest triangle; on a tie the first one met. */
-static const sb_solid_triangle *find_nearest(const sb_solid *solid, sb_vec3 point, double *limit2,
-                                             sb_vec3 *nearest)
+static sb_vec3 normal_of(const sb_solid_triangle *t)
+{
+    return sb_normalize(sb_solid_area_vector(t));
+}
+
+/* Walks the tree from near to far and keeps the nearest triangle that counts (NULL: all do); on a tie the first one
+   met. */
+static const sb_solid_triangle *find_nearest(const sb_solid *solid, sb_vec3 point, sb_solid_counts *counts,
+                                             const void *context, double *limit2, sb_vec3 *nearest)
 {
     struct {
         uint32_t node;
@@ -63,7 +69,7 @@ static const sb_solid_triangle *find_nearest(const sb_solid *solid, sb_vec3 poin
         for (uint32_t i = node->first; i < node->first + node->count; ++i) {
             sb_vec3 at = sb_solid_nearest_on(solid->triangles + i, point);
             double d2 = distance2(at, point);
-            if (d2 < *limit2) {
+            if (d2 < *limit2 && (!counts || counts(context, at, normal_of(solid->triangles + i)))) {
                 *limit2 = d2;
                 *nearest = at;
                 found = solid->triangles + i;
@@ -82,16 +88,22 @@ static const sb_solid_triangle *find_nearest(const sb_solid *solid, sb_vec3 poin
     return found;
 }
 
-double sb_solid_distance(const sb_solid *solid, sb_vec3 point, double limit, sb_vec3 *nearest,
-                         sb_vec3 *normal)
+double sb_solid_distance_where(const sb_solid *solid, sb_vec3 point, double limit, sb_solid_counts *counts,
+                               const void *context, sb_vec3 *nearest, sb_vec3 *normal)
 {
     double limit2 = limit > 0 ? limit * limit : 0;
     sb_vec3 at;
-    const sb_solid_triangle *found = find_nearest(solid, point, &limit2, &at);
+    const sb_solid_triangle *found = find_nearest(solid, point, counts, context, &limit2, &at);
     if (!found) return limit;
     if (nearest) *nearest = at;
-    if (normal) *normal = sb_normalize(sb_solid_area_vector(found));
+    if (normal) *normal = normal_of(found);
     return sqrt(limit2);
+}
+
+double sb_solid_distance(const sb_solid *solid, sb_vec3 point, double limit, sb_vec3 *nearest,
+                         sb_vec3 *normal)
+{
+    return sb_solid_distance_where(solid, point, limit, NULL, NULL, nearest, normal);
 }
 
 /* The angle that a triangle fills around a point on it: its own angle at a corner, half a turn on
@@ -122,7 +134,7 @@ static bool find_foot(const sb_solid *solid, sb_vec3 point, foot *out)
 {
     double nearest2 = HUGE_VAL;
     sb_vec3 at;
-    if (!find_nearest(solid, point, &nearest2, &at)) return false;
+    if (!find_nearest(solid, point, NULL, NULL, &nearest2, &at)) return false;
     /* All triangles that hold the nearest point, up to the rounding of coordinates of this size. */
     sb_vec3 size = sb_max(sb_max(solid->nodes->max, sb_scale(solid->nodes->min, -1)),
                           sb_max(point, sb_scale(point, -1)));
@@ -139,7 +151,7 @@ static bool find_foot(const sb_solid *solid, sb_vec3 point, foot *out)
             const sb_solid_triangle *t = solid->triangles + i;
             if (sb_norm(sb_sub(sb_solid_nearest_on(t, at), at)) > near) continue;
             double share = angle_at(t, at, near);
-            normal = sb_madd(normal, share, sb_normalize(sb_solid_area_vector(t)));
+            normal = sb_madd(normal, share, normal_of(t));
             angle += share;
         }
         if (node->count == 0) {

@@ -218,6 +218,48 @@ static void nothing_below_what_stands(void **state)
     }
 }
 
+/* Takes the faces that look down away, as scanned buildings have none. */
+static void open_below(sb_mesh *mesh)
+{
+    size_t kept = 0;
+    for (size_t t = 0; t < mesh->triangle_count; ++t)
+        if (test_normal(mesh, t).z > -0.5) {
+            memmove(mesh->triangles[kept], mesh->triangles[t], sizeof mesh->triangles[t]);
+            ++kept;
+        }
+    assert_int_equal(mesh->triangle_count - kept, 2);
+    mesh->triangle_count = kept;
+}
+
+/* A face on the ground meets no water: it neither takes particles nor lets the sheet of the walls go on to their own
+   edges above it. So nothing changes when it is taken away. */
+static void faces_on_the_ground_do_nothing(void **state)
+{
+    (void)state;
+    const double offset = 0.75;
+    const sb_vec3 low = sb_vec(6.2, 7.1, 0), high = sb_vec(13.4, 12.9, 5);
+    sb_vec3 closed[4096];
+    size_t count = 0;
+    for (int open = 0; open <= 1; ++open) {
+        box(0, sb_vec(0, 0, -9), sb_vec(20, 20, 0));
+        box(1, low, high);
+        if (open) open_below(&s.mesh[1]);
+        test_sample(&s, offset);
+        const sb_vec3 *at = s.samples.position + s.samples.begin[1];
+        const size_t n = s.samples.count - s.samples.begin[1];
+        assert_in_range(n, 100, 4096);
+        for (size_t i = 0; i < n; ++i) {
+            assert_true(at[i].x > low.x + 0.89 * offset && at[i].x < high.x - 0.89 * offset);
+            assert_true(at[i].y > low.y + 0.89 * offset && at[i].y < high.y - 0.89 * offset);
+            assert_true(!open || sb_norm(sb_sub(at[i], closed[i])) < 1e-9);
+            closed[i] = at[i];
+        }
+        assert_true(!open || n == count);
+        count = n;
+        test_surfaces_free(&s);
+    }
+}
+
 static void moving_bodies_are_sampled_alone(void **state)
 {
     (void)state;
@@ -346,6 +388,7 @@ int main(void)
         cmocka_unit_test_teardown(bodies_share_their_seams, tear_down),
         cmocka_unit_test_teardown(nothing_where_no_water_comes, tear_down),
         cmocka_unit_test_teardown(nothing_below_what_stands, tear_down),
+        cmocka_unit_test_teardown(faces_on_the_ground_do_nothing, tear_down),
         cmocka_unit_test_teardown(moving_bodies_are_sampled_alone, tear_down),
         cmocka_unit_test_teardown(normals_look_at_the_water, tear_down),
         cmocka_unit_test_teardown(threads_change_nothing, tear_down),
