@@ -4,48 +4,11 @@
 #include "output/profile.h"
 
 #include <omp.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
 enum { LOG_STEPS = 100 }; /* steps between the log's periodic lines */
-
-/* ---- what all of a run's files use ---- */
-
-sb_status sb_run_path(const run *r, const char *name, char path[SB_PATH_MAX], sb_error *error)
-{
-    return sb_path_join(path, r->directory, name, error);
-}
-
-void sb_run_say(const run *r, const char *format, ...)
-{
-    va_list arguments;
-    if (!r->progress.stream)
-        return;
-    va_start(arguments, format);
-    vfprintf(r->progress.stream, format, arguments);
-    va_end(arguments);
-    fputc('\n', r->progress.stream);
-}
-
-void sb_run_warn(run *r, const char *format, ...)
-{
-    char text[1100];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    sb_runlog_warning(r->log, "%s", text);
-    fprintf(stderr, "shorebreak: warning: %s\n", text);
-}
-
-double sb_run_wall(const run *r)
-{
-    return r->wall_before + sb_progress_wall(&r->progress);
-}
-
-/* ---- steps ---- */
 
 /* One snapshot for all consumers that are due. */
 static sb_status feed(run *r, sb_error *error)
@@ -68,16 +31,6 @@ static sb_status feed(run *r, sb_error *error)
             sb_consumer_feed(&r->consumers[c], frame);
     sb_frame_release(frame);
     return SB_OK;
-}
-
-void sb_run_log_step(run *r)
-{
-    const sb_step_report *report = sb_sim_report(r->sim);
-    const sb_energy energy = sb_sim_energy(r->sim);
-    sb_runlog_state state = {.report = report, .energy = &energy, .has_hash = true};
-    state.stage_count = sb_sim_stages(r->sim, &state.stages);
-    state.hash = sb_sim_hash(r->sim);
-    sb_runlog_step(r->log, &state);
 }
 
 /* The first few particles that leave, each with its place; that one passed a wall is a warning. */

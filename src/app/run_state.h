@@ -48,6 +48,8 @@ sb_status sb_run_start(run *r, bool resume, sb_error *error);
 /* run_finish.c: whatever came before, leaves whole files; the first failure stays in *status and *error. */
 void sb_run_finish(run *r, sb_status *status, sb_error *error);
 
+/* ---- run_tell.c ---- */
+
 /* A name within the run's directory. */
 sb_status sb_run_path(const run *r, const char *name, char path[SB_PATH_MAX], sb_error *error);
 /* A line on stdout, unless the run is quiet. */

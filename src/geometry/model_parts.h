@@ -30,7 +30,7 @@ sb_status sb_model_check(const sb_scene *scene, const sb_model_space *space, sb_
 sb_status sb_model_check_thickness(const sb_scene *scene, const sb_model_space *space, const sb_model_body *body,
                                    sb_model *model, sb_error *error);
 
-/* Places the particles of walls and of water. */
+/* model_particles.c: places the particles of walls and of water. */
 sb_status sb_model_sample(const sb_scene *scene, const sb_model_space *space, sb_model *model,
                           sb_error *error);
 sb_status sb_model_fill(const sb_scene *scene, const sb_model_space *space, sb_model *model,
@@ -40,7 +40,7 @@ sb_status sb_model_fill(const sb_scene *scene, const sb_model_space *space, sb_m
    than there is. */
 sb_status sb_model_room(const sb_scene *scene, const sb_model *bodies, sb_error *error);
 
-/* One more line of warning; SB_FAILED without memory. */
+/* model_data.c: one more line of warning; SB_FAILED without memory. */
 sb_status sb_model_warn(sb_model *model, sb_error *error, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
