@@ -143,6 +143,7 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
         .frames = r->recorder.count,
         .pictures = r->pictures.count,
     };
+    summary.work = sb_sim_ledger(r->sim);
     summary.stage_count = sb_sim_stages(r->sim, &summary.stages);
     sb_status found = sb_run_path(r, "summary.json", path, &reason);
     if (found == SB_OK)

@@ -40,6 +40,20 @@ static void put_energy(sb_json *json, const char *key, const sb_energy *energy)
     sb_json_close(json);
 }
 
+/* As the columns of energy.csv. */
+static void put_work(sb_json *json, const sb_ledger *work)
+{
+    sb_json_open(json, "energy_work", '{');
+    sb_json_number(json, "bodies_J", work->bodies);
+    sb_json_number(json, "viscosity_J", work->viscosity);
+    sb_json_number(json, "wall_friction_J", work->friction);
+    sb_json_number(json, "pressure_solve_J", work->pressure);
+    sb_json_number(json, "contact_J", work->contact);
+    sb_json_number(json, "time_integration_J", work->integration);
+    sb_json_number(json, "left_domain_J", work->left);
+    sb_json_close(json);
+}
+
 static void put_departures(sb_json *json, const sb_departures *all)
 {
     sb_json_open(json, "left_by_side", '{');
@@ -111,6 +125,7 @@ static void put_all(sb_json *json, const sb_summary *s)
     put_bodies(json, s);
     put_energy(json, "energy_start", &s->first);
     put_energy(json, "energy_end", &s->last);
+    if (s->work) put_work(json, s->work);
     put_stages(json, s);
     sb_json_close(json);
 }

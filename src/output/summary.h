@@ -26,6 +26,7 @@ typedef struct sb_summary {
     int threads;
     const sb_body_record *bodies; /* one per body of the model; NULL: none */
     sb_energy first, last;        /* energies at the start and at the end */
+    const sb_ledger *work;        /* where energy went between; NULL: no simulation was made */
     const sb_stage_time *stages;
     size_t stage_count;
     uint64_t hash;             /* of the final state */

@@ -6,7 +6,8 @@ enum { SWEEPS = 3 }; /* a corner of three walls asks for one each */
 
 /* In spacings, beyond wall_offset. PLANE: the nearest a particle comes to the sheet; water at rest nestles between
    boundary particles down to about there. BALL: the nearest it comes to any one of them, which guards ridges,
-   where a mean plane lies too low. RELEASE: how fast one that starts nearer is let out, per step. */
+   where a mean plane lies too low. RELEASE: how fast settling lets out one that starts nearer, per step. In a run such a
+   one is not let in any further, and what is pressed on it pushes it out: contact itself gives no energy. */
 static const float PLANE = 0.05f, BALL = 0.2f, RELEASE = 0.005f;
 
 /* The wall as seen from where the step would end, lengths in quanta. */
@@ -108,13 +109,14 @@ bool sb_contact_mend(const sb_sim *sim, size_t i, sb_f4 *velocity, uint32_t *tou
     const float to_quanta = (float)(sim->report.time_step / sim->space.quantum);
     const float spacing = sim->constant.spacing / (float)sim->space.quantum;
     const float sheet = (float)sim->scene->numerics.wall_offset;
+    const float release = sim->settling ? RELEASE * spacing : 0;
     bool mended = false;
     for (int sweep = 0; sweep < SWEEPS; sweep++) {
         const view v = look(sim, i, *velocity, to_quanta);
         if (!v.found)
             return mended;
-        float plane = smaller((sheet + PLANE) * spacing, v.before + RELEASE * spacing) - v.distance;
-        float ball = smaller((sheet + BALL) * spacing, v.ball_before + RELEASE * spacing) - v.ball;
+        float plane = smaller((sheet + PLANE) * spacing, v.before + release) - v.distance;
+        float ball = smaller((sheet + BALL) * spacing, v.ball_before + release) - v.ball;
         if (plane > 0)
             *velocity += v.normal * sb_splat(plane / to_quanta);
         else if (ball > 0 && v.ball > 0)

@@ -59,7 +59,9 @@ static void summary_has_the_promised_keys(void **state)
                                 "version",
                                 "preset",
                                 "stages",
-                                "energy_end"};
+                                "energy_end",
+                                "energy_work",
+                                "contact_J"};
     sb_scene scene = make_scene();
     const sb_summary summary = {.scene = &scene,
                                 .model = &model,
@@ -72,6 +74,7 @@ static void summary_has_the_promised_keys(void **state)
                                 .lost = 2,
                                 .threads = 2,
                                 .bodies = records,
+                                .work = &(sb_ledger){.contact = -0.25},
                                 .stages = stages,
                                 .stage_count = 2,
                                 .hash = 7};

@@ -9,6 +9,7 @@
 static const char sound[] = "{\n  \"fluid_particles\": 100, \"lost_particles\": 0, \"through_walls\": 0,\n"
                             "  \"left_domain\": 0, \"unreported_solves\": 0, \"not_finite\": 0,\n"
                             "  \"bodies\": [{\"name\": \"post\", \"impulse_vector_Ns\": [1.5, -2, 3e2]}],\n"
+                            "  \"energy_work\": {\"viscosity_J\": -0.5, \"contact_J\": -0.01},\n"
                             "  \"energy_start\": {\"kinetic_J\": 1, \"potential_J\": 2, \"mass_kg\": 50},\n"
                             "  \"energy_end\": {\"kinetic_J\": 0.5, \"potential_J\": 2, \"mass_kg\": 50}\n}\n";
 
@@ -57,6 +58,7 @@ static void test_each_common_rule_can_fail(void **state)
     must_fail("\"left_domain\": 0", "\"left_domain\": 2.5", "unaccounted");
     must_fail("\"left_domain\": 0", "\"left_domain\": 100", "unaccounted");
     must_fail("\"mass_kg\": 50}\n}", "\"mass_kg\": 49.7}\n}", "unaccounted");
+    must_fail("\"contact_J\": -0.01", "\"contact_J\": 0.0004", "contact");
 }
 
 static void test_what_left_is_accounted_for(void **state)

@@ -73,6 +73,20 @@ static void judge_count(sb_judged *judged)
     if (left > 0) sb_note(judged, "%g left", left);
 }
 
+/* Contact stops what comes too near to a wall; what it gives is round-off in when a step's work is booked to which
+   term, of the energy at the start. */
+static const double contact_gives = 1e-4;
+
+static void judge_contact(sb_judged *judged)
+{
+    const sb_outcome *o = &judged->outcome;
+    const double start = sb_outcome_number_in(o, "energy_start", "kinetic_J") +
+                         sb_outcome_number_in(o, "energy_start", "potential_J");
+    const double contact = sb_outcome_number_in(o, "energy_work", "contact_J");
+    sb_require(judged, !(contact > contact_gives * start), "contact with walls makes %.2g of the energy at the start",
+               contact / start);
+}
+
 void sb_judge_common(sb_judged *judged)
 {
     const sb_outcome *o = &judged->outcome;
@@ -88,4 +102,5 @@ void sb_judge_common(sb_judged *judged)
     sb_require(judged, !(unsaid > 0), "%g solves stopped above their tolerance unreported", unsaid);
     sb_require(judged, !(bad > 0), "%g numbers not finite", bad);
     judge_count(judged);
+    judge_contact(judged);
 }

@@ -1,0 +1,89 @@
+/* Contact stops what comes too near to a wall, along the wall's normal, and pushes nothing off it. */
+#include "../check.h"
+#include "base/random.h"
+#include "sim/contact.h"
+#include "sim/tank.h"
+
+#include <stdio.h>
+
+/* A tank of still water and a plate in it, half a spacing from the water beside: nearer than contact allows. */
+static sb_sim *crowded(tank *t, int dimensions)
+{
+    tank_make(t, dimensions, 0.1, sb_vec(0.8, 0.8, 1.2), 0.8, 0.8, 0);
+    tank_add_sheet(t, "plate", 0.4, 0, 1, sb_vec(0, 0, 0), NULL);
+    sb_sim *sim = tank_sim(t);
+    assert_non_null(sim);
+    assert_int_equal(tank_prepare(sim, 0.01), 0);
+    return sim;
+}
+
+/* How many particles at rest are moved, and by how much at most, m/s. */
+static size_t moved_from_rest(const sb_sim *sim, double *most)
+{
+    size_t count = 0;
+    *most = 0;
+    for (size_t i = 0; i < sim->n; i++) {
+        sb_f4 v = {0};
+        uint32_t wall;
+        if (!sb_contact_mend(sim, i, &v, &wall)) continue;
+        count++;
+        *most = fmax(*most, sqrt((double)sb_sum3(v * v)));
+    }
+    return count;
+}
+
+static void water_at_rest_is_let_out_by_settling_alone(void **state)
+{
+    (void)state;
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        tank t;
+        sb_sim *sim = crowded(&t, dimensions);
+        double most;
+        const size_t beside = 2 * 8 * (dimensions == 3 ? 8 : 1);
+        assert_int_equal(sim->settling, SB_RUNNING);
+        const size_t running = moved_from_rest(sim, &most);
+        assert_true(most < 1e-9);
+        sim->settling = SB_CREEPING;
+        const size_t settling = moved_from_rest(sim, &most);
+        printf("%dD: %zu stopped in a run, %zu let out in settling, %.3g m/s at most\n", dimensions, running, settling,
+               most);
+        assert_int_equal(settling, beside);
+        assert_true(most > 0 && most < 0.1); /* a hundredth of a spacing a step at most */
+        sb_sim_destroy(sim);
+        tank_free(&t);
+    }
+}
+
+static void what_comes_nearer_is_stopped_and_nothing_gains(void **state)
+{
+    (void)state;
+    tank t;
+    sb_sim *sim = crowded(&t, 3);
+    size_t stopped = 0;
+    double all_before = 0, all_after = 0;
+    for (size_t i = 0; i < sim->n; i++) {
+        const sb_f4 start = {(float)(6 * sb_random(5, 3 * i) - 3), (float)(6 * sb_random(5, 3 * i + 1) - 3),
+                             (float)(6 * sb_random(5, 3 * i + 2) - 3), 0};
+        sb_f4 v = start;
+        uint32_t wall;
+        if (!sb_contact_mend(sim, i, &v, &wall)) continue;
+        stopped++;
+        const double before = (double)sb_sum3(start * start), after = (double)sb_sum3(v * v);
+        assert_true(after < 1.01 * before); /* what slides over the sheet's bumps may be lifted by them */
+        all_before += before;
+        all_after += after;
+    }
+    printf("%zu stopped, %.3g of their energy left\n", stopped, all_after / all_before);
+    assert_true(stopped > 50 && all_after < 0.8 * all_before);
+    sb_sim_destroy(sim);
+    tank_free(&t);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(water_at_rest_is_let_out_by_settling_alone),
+        cmocka_unit_test(what_comes_nearer_is_stopped_and_nothing_gains),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
