@@ -2,7 +2,6 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "output/json.h"
 
 static double ratio(double a, double b)
 {
@@ -40,8 +39,7 @@ static void put_energy(sb_json *json, const char *key, const sb_energy *energy)
     sb_json_close(json);
 }
 
-/* As the columns of energy.csv. */
-static void put_work(sb_json *json, const sb_ledger *work)
+void sb_summary_put_work(sb_json *json, const sb_ledger *work)
 {
     sb_json_open(json, "energy_work", '{');
     sb_json_number(json, "bodies_J", work->bodies);
@@ -125,7 +123,7 @@ static void put_all(sb_json *json, const sb_summary *s)
     put_bodies(json, s);
     put_energy(json, "energy_start", &s->first);
     put_energy(json, "energy_end", &s->last);
-    if (s->work) put_work(json, s->work);
+    if (s->work) sb_summary_put_work(json, s->work);
     put_stages(json, s);
     sb_json_close(json);
 }

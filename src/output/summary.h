@@ -4,6 +4,7 @@
 
 #include "geometry/model.h"
 #include "measure/records.h"
+#include "output/json.h"
 #include "scene/scene.h"
 #include "sim/sim.h"
 
@@ -32,6 +33,9 @@ typedef struct sb_summary {
     uint64_t hash;             /* of the final state */
     uint64_t frames, pictures; /* particle files and pictures written */
 } sb_summary;
+
+/* The object "energy_work": the sums of energy.csv's columns, J. */
+void sb_summary_put_work(sb_json *json, const sb_ledger *work);
 
 /* Writes the file whole or not at all. In 2D forces, impulses and energies are per metre of width
    and "per_metre" is true. */

@@ -3,6 +3,7 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "output/summary.h"
 #include "trial.h"
 
 #include <math.h>
@@ -130,6 +131,7 @@ static void put_all(sb_driven *d, sb_json *json, const sb_drive *drive, double w
     sb_json_number(json, "gravity", d->scene.fluid.gravity);
     put_energy(json, "energy_start", &d->first);
     put_energy(json, "energy_end", &last);
+    sb_summary_put_work(json, sb_sim_ledger(d->sim));
     if (drive->close) drive->close(d, json);
     sb_json_close(json);
 }
