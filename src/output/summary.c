@@ -29,7 +29,7 @@ static void put_bodies(sb_json *json, const sb_summary *summary)
     sb_json_close(json);
 }
 
-static void put_energy(sb_json *json, const char *key, const sb_energy *energy)
+void sb_summary_put_energy(sb_json *json, const char *key, const sb_energy *energy)
 {
     sb_json_open(json, key, '{');
     sb_json_number(json, "kinetic_J", energy->kinetic);
@@ -121,8 +121,8 @@ static void put_all(sb_json *json, const sb_summary *s)
     sb_json_count(json, "pictures", s->pictures);
     sb_json_hash(json, "state_hash", s->hash);
     put_bodies(json, s);
-    put_energy(json, "energy_start", &s->first);
-    put_energy(json, "energy_end", &s->last);
+    sb_summary_put_energy(json, "energy_start", &s->first);
+    sb_summary_put_energy(json, "energy_end", &s->last);
     if (s->work) sb_summary_put_work(json, s->work);
     put_stages(json, s);
     sb_json_close(json);

@@ -34,6 +34,8 @@ typedef struct sb_summary {
     uint64_t frames, pictures; /* particle files and pictures written */
 } sb_summary;
 
+/* An object of energies, J, mass, kg, and momentum, kg m/s. */
+void sb_summary_put_energy(sb_json *json, const char *key, const sb_energy *energy);
 /* The object "energy_work": the sums of energy.csv's columns, J. */
 void sb_summary_put_work(sb_json *json, const sb_ledger *work);
 

@@ -92,15 +92,6 @@ static sb_status advance(sb_driven *d, const sb_drive *drive, sb_error *error)
     return status;
 }
 
-static void put_energy(sb_json *json, const char *key, const sb_energy *energy)
-{
-    sb_json_open(json, key, '{');
-    sb_json_number(json, "kinetic_J", energy->kinetic);
-    sb_json_number(json, "potential_J", energy->potential);
-    sb_json_number(json, "mass_kg", energy->mass);
-    sb_json_close(json);
-}
-
 /* The keys that a run's own summary.json has, and those that only steps looked at one by one can give. */
 static void put_all(sb_driven *d, sb_json *json, const sb_drive *drive, double wall)
 {
@@ -129,8 +120,8 @@ static void put_all(sb_driven *d, sb_json *json, const sb_drive *drive, double w
     sb_json_number(json, "late_rms_speed", d->late_samples > 0 ? d->late_speed / d->late_samples : (double)NAN);
     sb_json_number(json, "wave_speed", sqrt(d->scene.fluid.gravity * d->model.still_depth));
     sb_json_number(json, "gravity", d->scene.fluid.gravity);
-    put_energy(json, "energy_start", &d->first);
-    put_energy(json, "energy_end", &last);
+    sb_summary_put_energy(json, "energy_start", &d->first);
+    sb_summary_put_energy(json, "energy_end", &last);
     sb_summary_put_work(json, sb_sim_ledger(d->sim));
     if (drive->close) drive->close(d, json);
     sb_json_close(json);
