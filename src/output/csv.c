@@ -38,11 +38,11 @@ static const struct {
     [ENERGY] = {"energy.csv",
                 "time_s,kinetic_J,potential_J,mass_kg,momentum_x_kg_m_s,momentum_y_kg_m_s,"
                 "momentum_z_kg_m_s,bodies_J,viscosity_J,wall_friction_J,pressure_solve_J,contact_J,"
-                "time_integration_J,left_domain_J,momentum_imbalance",
+                "time_integration_J,left_domain_J,momentum_imbalance,packing_stress_J",
                 "time_s,kinetic_J_per_m,potential_J_per_m,mass_kg_per_m,momentum_x_kg_m_s_per_m,"
                 "momentum_y_kg_m_s_per_m,momentum_z_kg_m_s_per_m,bodies_J_per_m,viscosity_J_per_m,"
                 "wall_friction_J_per_m,pressure_solve_J_per_m,contact_J_per_m,"
-                "time_integration_J_per_m,left_domain_J_per_m,momentum_imbalance"},
+                "time_integration_J_per_m,left_domain_J_per_m,momentum_imbalance,packing_stress_J_per_m"},
     [OVERTOPPING] = {"overtopping.csv", "time_s,plane,volume_m3,flux_m3_s",
                      "time_s,plane,volume_m3_per_m,flux_m3_s_per_m"},
     [RUNUP] = {"runup.csv", "time_s,line,x_m,y_m,z_m,front_m", "time_s,line,x_m,y_m,z_m,front_m"},
@@ -251,7 +251,8 @@ static void write_energies(const sb_csv *csv, const sb_measure_records *records)
         const sb_energy_record *row = &records->energies[i];
         const sb_ledger *ledger = &row->ledger;
         const double changes[] = {ledger->bodies,  ledger->viscosity,   ledger->friction, ledger->pressure,
-                                  ledger->contact, ledger->integration, ledger->left,     row->momentum_imbalance};
+                                  ledger->contact, ledger->integration, ledger->left,     row->momentum_imbalance,
+                                  ledger->stress};
         begin_row(stream, row->time, NULL);
         put(stream, row->kinetic);
         put_fine(stream, row->potential);

@@ -132,6 +132,7 @@ static void put_numerics(sb_json *json, const sb_numerics *n)
                  n->time_step_rule == SB_TIME_STEP_PAPER ? "paper" : "depth");
     sb_json_number(json, "time_step_factor", n->time_step_factor);
     sb_json_number(json, "time_step_max", n->time_step_max);
+    sb_json_number(json, "stress_correction", n->stress_correction);
     sb_json_number(json, "artificial_viscosity", n->artificial_viscosity);
     sb_json_number(json, "wall_friction", n->wall_friction);
     sb_json_text(json, "wall_shear", n->wall_shear == SB_SHEAR_SMOOTH ? "smooth" : "none");

@@ -24,6 +24,7 @@ static const struct {
     {"time_step_rule",       {"depth",      "paper"}},
     {"time_step_factor",     {"0.15",         "0.075"}},
     {"time_step_max",        {"0",          "0"}},
+    {"stress_correction",    {"1",          "0"}},
     {"artificial_viscosity", {"0.002",       "0.05"}},
     {"wall_friction",        {"0",          "0.02"}},
     {"wall_shear",           {"smooth",     "none"}},

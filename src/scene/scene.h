@@ -103,6 +103,7 @@ typedef struct sb_numerics {
     sb_time_step_rule time_step_rule;
     double time_step_factor;   /* lambda_max (1/s) or C, by the rule */
     double time_step_max;      /* s; 0: no further bound */
+    double stress_correction;  /* share of the packing's own stress that is taken away; 0: term is off */
     double artificial_viscosity; /* alpha of Monaghan's viscosity; 0: term is off */
     double wall_friction;      /* sigma; 0: term is off */
     sb_wall_shear wall_shear;

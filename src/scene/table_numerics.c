@@ -59,6 +59,9 @@ static const sb_key keys[] = {
     NUMBER(time_step_factor, NULL, 0, 10, SB_KEY_ABOVE,
            "Factor of that rule (under `paper` in 1/s)."),
     NUMBER(time_step_max, "s", 0, HUGE_VAL, 0, "A further bound on the step; 0: none."),
+    NUMBER(stress_correction, NULL, 0, 1, 0,
+           "Share of the stress by which a sheared packing of particles pushes unlike water that is taken away; 0 leaves "
+           "the term out."),
     NUMBER(artificial_viscosity, NULL, 0, 10, 0,
            "alpha of Monaghan's viscosity; 0 leaves the term out."),
     NUMBER(wall_friction, NULL, 0, 10, 0, "sigma of the wall friction; 0 leaves the term out."),

@@ -3,8 +3,9 @@
 #include <math.h>
 
 /* Of the rest density: by so much an addition may be off without being mended, once it has twice what a flat surface
-   with the same cut-off would lack. */
-static const float SLACK = 0.02f;
+   with the same cut-off would lack. More is disorder that particles carry about, and waves scatter from
+   (docs/decisions/0015). */
+static const float SLACK = 0.003f;
 
 /* At the start an excess above the walls' share, and this part of the rest density, is no stand-in for water but an
    overlap, and is left to be pushed apart. */

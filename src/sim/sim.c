@@ -6,6 +6,7 @@
 #include "sim/friction.h"
 #include "sim/ledger.h"
 #include "sim/lattice.h"
+#include "sim/packing.h"
 #include "sim/pressure.h"
 #include "sim/sleep.h"
 #include "sim/turbulence.h"
@@ -122,6 +123,8 @@ static void note_skipped(sb_sim *sim)
     size_t s = 0;
     if (!(n->artificial_viscosity > 0) && !(sim->constant.viscosity > 0) && !sb_turbulence_on(sim->scene))
         sim->skipped[s++] = "viscosity: both coefficients are 0, no pass over pairs";
+    if (!sb_packing_on(sim->scene))
+        sim->skipped[s++] = "packing's stress: left as it is, no passes over pairs for it";
     if (!sb_turbulence_on(sim->scene))
         sim->skipped[s++] = "turbulence: none, no strain rates, no memory for eddy viscosities";
     if (!sb_deficit_on(sim->scene))

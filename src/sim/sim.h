@@ -67,6 +67,7 @@ typedef struct sb_ledger {
     double contact;     /* drops stopped at walls */
     double integration; /* weight times fall, less what gravity gave: the update's own error */
     double left;        /* carried away by particles that left */
+    double stress;      /* of what takes the packing's own stress away */
 } sb_ledger;
 const sb_ledger *sb_sim_ledger(const sb_sim *sim);
 

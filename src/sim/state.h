@@ -171,6 +171,7 @@ typedef struct sb_sim {
 
     struct sb_ledger_sums *block_ledger; /* per block, of one step */
     sb_ledger ledger;
+    sb_vec3 stress_gain;      /* kg m/s, of the stage packing in one step; round-off alone */
 
     enum sb_settling settling;
     sb_step_report report;

@@ -1,6 +1,7 @@
 /* The step as a list: one row per stage, one loop that runs and times them. */
 #include "base/clock.h"
 #include "sim/deficit.h"
+#include "sim/packing.h"
 #include "sim/pressure.h"
 #include "sim/sleep.h"
 #include "sim/turbulence.h"
@@ -20,6 +21,7 @@ static const stage stages[] = {
     {"fringe", sb_stage_fringe, sb_sleep_wanted},         /* sleepers that awake water may touch */
     {"neighbours", sb_stage_neighbours, NULL},            /* lists, density, wall vectors, diagonal */
     {"completion", sb_stage_completion, sb_deficit_on},   /* what surfaces and walls change in the density */
+    {"packing", sb_stage_packing, sb_packing_on},         /* velocities by what its stress lacks to be a pressure */
     {"turbulence", sb_stage_turbulence, sb_turbulence_on}, /* eddy viscosity from the strain rate */
     {"forces", sb_stage_forces, NULL},                    /* v* = v + dt (g + viscosity + friction) */
     {"source", sb_stage_source, NULL},                    /* b = beta (rho_0 - rho) - dt div v* */

@@ -270,6 +270,7 @@ size_t tank_add_sheet(tank *t, const char *name, double x, double z_min, double 
 
 void tank_add_terms(tank *t)
 {
+    t->scene.numerics.stress_correction = 1;
     t->scene.numerics.wall_friction = 0.05;
     t->scene.numerics.turbulence = SB_TURBULENCE_SPS;
     t->scene.numerics.smagorinsky = 0.1;

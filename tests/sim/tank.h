@@ -40,7 +40,7 @@ void tank_split_patch(tank *t, sb_vec3 min, sb_vec3 max);
 size_t tank_add_sheet(tank *t, const char *name, double x, double z_min, double z_max,
                       sb_vec3 direction, const sb_wavemaker_parameters *law);
 
-/* Turns on what a scene may leave out: friction at walls, turbulence, viscosity; a few steps of settling. */
+/* Turns on what a scene may leave out: the stress correction, friction at walls, turbulence, viscosity; a few steps of settling. */
 void tank_add_terms(tank *t);
 
 /* The simulation of the tank; NULL, with the reason on stderr, when there is none. */

@@ -14,7 +14,7 @@
 static double sum(const sb_ledger *l)
 {
     return l->bodies + l->viscosity + l->friction + l->pressure + l->contact + l->integration +
-           l->left;
+           l->left + l->stress;
 }
 
 static double mechanical(const sb_sim *sim)
@@ -30,6 +30,7 @@ static sb_vec3 wide(sb_f4 v)
 
 static void add_terms(tank *t)
 {
+    t->scene.numerics.stress_correction = 1;
     t->scene.numerics.artificial_viscosity = 0.05;
     t->scene.numerics.wall_friction = 0.1;
     t->scene.numerics.turbulence = SB_TURBULENCE_SPS;
@@ -54,9 +55,9 @@ static sb_ledger follow(const tank *t, int steps, const char *name)
     sb_ledger l = *sb_sim_ledger(sim);
     printf(
         "%s: %.6g J and %.6g: sum off by %.2g of it; bodies %.4g, viscosity %.4g, friction %.4g, "
-        "pressure %.4g, contact %.4g, integration %.4g, left %.4g; momentum %.2g\n",
+        "pressure %.4g, stress %.4g, contact %.4g, integration %.4g, left %.4g; momentum %.2g\n",
         name, start, mechanical(sim) - start, gap / start, l.bodies, l.viscosity, l.friction,
-        l.pressure, l.contact, l.integration, l.left, imbalance);
+        l.pressure, l.stress, l.contact, l.integration, l.left, imbalance);
     assert_true(gap < 1e-12 * start && imbalance < 1e-6);
     sb_sim_destroy(sim);
     return l;
@@ -72,7 +73,7 @@ static void a_bore_on_a_column_is_accounted_for(void **state)
     sb_ledger l = follow(&t, 150, "column");
     assert_near(l.bodies, 0, 0);
     assert_near(l.left, 0, 0);
-    assert_true(l.viscosity < -1 && l.friction < -1 && l.pressure < 0 && l.contact < 0);
+    assert_true(l.viscosity < -1 && l.friction < -1 && l.pressure < 0 && l.contact < 0 && l.stress != 0);
     tank_free(&t);
 }
 

@@ -1,0 +1,194 @@
+/* sigma_i = -rho^2 q_i M_i with M_i = -(1/rho_0) sum_j m x_ij (x) grad W_ij is what water bears under the pressure q_i.
+   Its deviator, -rho^2 q_i (M_i - t_i 1), t_i the mean of the diagonal, is the packing's alone. By the pair force of the
+   pressure gradient, with a tensor in the place of q,
+
+       dv_i/dt = -sum_j m (S_i + S_j) grad W_ij,   S_i = q_i <E>_i,   E_i = c (1 - M_i / t_i)
+
+   it goes to second order in E. <> is a mean over the neighbours: what differs from one particle to the next is what keeps
+   the packing in order. E has no trace, so five numbers hold it. */
+#include "sim/packing.h"
+
+#include "sim/around.h"
+#include "sim/ledger.h"
+#include "sim/pressure.h"
+#include "sim/sleep.h"
+
+enum { GROUPS = 8 }; /* per unit of work */
+
+/* Of the trace of M_i in the bulk: with less, water ends nearby, and M_i says how. */
+static const float FULL = 0.9f;
+
+/* Slope of a coincident particle in units of sb_lists.unit. */
+static const float OWN = 32767.0f * 32767.0f;
+
+/* Sums over neighbours of slope x (x) x, quanta^2. */
+typedef struct moments {
+    float xx, yy, zz, xy, xz, yz;
+} moments;
+
+SB_INLINE moments gather(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i)
+{
+    const sb_f4 self = sb_in_group(sim, group, i);
+    const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
+    sb_f4 xx = {0}, yy = {0}, zz = {0}, xy = {0}, xz = {0}, yz = {0};
+    for (; four < end; four++) {
+        const sb_four d = sb_turn(self - *sb_at(around, four->place[0]), self - *sb_at(around, four->place[1]),
+                                  self - *sb_at(around, four->place[2]), self - *sb_at(around, four->place[3]));
+        const sb_f4 slope = sb_slopes(four), x = d.x * slope, y = d.y * slope;
+        xx += x * d.x, xy += x * d.y, xz += x * d.z;
+        yy += y * d.y, yz += y * d.z, zz += d.z * slope * d.z;
+    }
+    const sb_four a = sb_turn(xx, yy, zz, xy), b = sb_turn(xz, yz, (sb_f4){0}, (sb_f4){0});
+    const sb_f4 p = a.x + a.y + a.z + a.w, q = b.x + b.y + b.z + b.w;
+    return (moments){p[0], p[1], p[2], p[3], q[0], q[1]};
+}
+
+/* Water asleep keeps its pressures, so what lies beside it stays as it is. */
+SB_INLINE bool beside_sleepers(const sb_sim *sim, const sb_group *group, size_t i)
+{
+    const uint32_t first = group->sleepers * SB_PLACE_STEP;
+    const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
+    for (; sb_fringe_count(sim) > 0 && four < end; four++)
+        for (int k = 0; k < 4; k++)
+            if (four->place[k] >= first)
+                return true;
+    return false;
+}
+
+/* E_i: xx into residual, the others into acceleration as yy, xy, xz, yz. */
+SB_MULTIVERSION
+static void find_strain(sb_sim *sim, const sb_group *group, float share)
+{
+    _Alignas(64) sb_f4 around[SB_AROUND_MAX];
+    const bool flat = sim->constant.dimension == 2;
+    const float part = flat ? 0.5f : 1 / 3.0f;
+    const float unit = -sim->pairs.unit * (float)sim->space.quantum / sim->constant.rest_density;
+    sb_around(sim, group, around);
+    for (size_t i = group->first; i < group->end; i++) {
+        sim->residual[i] = 0;
+        sim->acceleration[i] = (sb_f4){0};
+        if (sim->wall_pairs.count[i] > 0)
+            continue;
+        const moments m = gather(sim, group, around, i);
+        const float mean = part * (m.xx + m.yy + m.zz), off = -share / mean;
+        if (!(unit * mean >= FULL))
+            continue;
+        sim->residual[i] = share + off * m.xx;
+        sim->acceleration[i] = (sb_f4){flat ? 0 : share + off * m.yy, off * m.xy, off * m.xz, off * m.yz};
+    }
+}
+
+/* S_i, with the slopes as the mean's weights, that of a coincident particle for the own E_i: xx into source, the others
+   into scratch. */
+SB_MULTIVERSION
+static void find_stress(sb_sim *sim, const sb_group *group)
+{
+    _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
+    sb_f4 *stress = sim->scratch;
+    sb_around_with(sim, group, sim->acceleration, around);
+    for (size_t i = group->first; i < group->end; i++) {
+        const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
+        sb_f4 sum = sim->acceleration[i] * sb_splat(OWN), sum_xx = {OWN * sim->residual[i]}, weights = {OWN};
+        for (; four < end; four++) {
+            const sb_f4 *a = sb_at_with(around, four->place[0]), *b = sb_at_with(around, four->place[1]);
+            const sb_f4 *c = sb_at_with(around, four->place[2]), *e = sb_at_with(around, four->place[3]);
+            const sb_f4 slope = sb_slopes(four);
+            sum += a[1] * sb_splat(slope[0]) + b[1] * sb_splat(slope[1]);
+            sum += c[1] * sb_splat(slope[2]) + e[1] * sb_splat(slope[3]);
+            sum_xx += slope * (sb_f4){a[0][3], b[0][3], c[0][3], e[0][3]};
+            weights += slope;
+        }
+        const float density = sim->density[i], q = sim->velocity[i][3] / (density * density);
+        const float factor = beside_sleepers(sim, group, i) ? 0 : q / (sb_sum3(weights) + weights[3]);
+        stress[i] = sum * sb_splat(factor);
+        sim->source[i] = (sb_sum3(sum_xx) + sum_xx[3]) * factor;
+    }
+}
+
+/* The velocity after the step's share, into scratch; the pressure in its last lane stays. */
+SB_MULTIVERSION
+static void push(sb_sim *sim, const sb_group *group, float dt)
+{
+    _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
+    sb_f4 *next = sim->scratch;
+    sb_around_with(sim, group, sim->acceleration, around);
+    for (size_t i = group->first; i < group->end; i++) {
+        const sb_f4 self = sb_in_group(sim, group, i), own = sim->acceleration[i];
+        const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
+        sb_f4 sum_x = {0}, sum_y = {0}, sum_z = {0};
+        for (; four < end; four++) {
+            const sb_f4 *a = sb_at_with(around, four->place[0]), *b = sb_at_with(around, four->place[1]);
+            const sb_f4 *c = sb_at_with(around, four->place[2]), *e = sb_at_with(around, four->place[3]);
+            const sb_four d = sb_turn(self - a[0], self - b[0], self - c[0], self - e[0]);
+            const sb_four s = sb_turn(own + a[1], own + b[1], own + c[1], own + e[1]);
+            const sb_f4 xx = sb_splat(self[3]) + (sb_f4){a[0][3], b[0][3], c[0][3], e[0][3]};
+            const sb_f4 yy = s.x, xy = s.y, xz = s.z, yz = s.w, slope = sb_slopes(four);
+            const sb_f4 x = d.x * slope, y = d.y * slope, z = d.z * slope;
+            sum_x += xx * x + xy * y + xz * z;
+            sum_y += xy * x + yy * y + yz * z;
+            sum_z += xz * x + yz * y - (xx + yy) * z;
+        }
+        const sb_four t = sb_turn(sum_x, sum_y, sum_z, (sb_f4){0});
+        next[i] = sim->velocity[i] - (t.x + t.y + t.z + t.w) * sb_splat(dt * sim->pairs.unit);
+    }
+}
+
+/* Work (per unit of mass) and momentum of the block's changes; the first lanes of partial. */
+static void book(const sb_sim *sim, size_t block)
+{
+    const sb_f4 *next = sim->scratch;
+    double *sum = sim->partial + 4 * block;
+    sum[0] = sum[1] = sum[2] = sum[3] = 0;
+    for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
+        sum[0] += sb_ledger_work(sim->velocity[i], next[i], sim->velocity[i], next[i]);
+        for (int axis = 0; axis < 3; axis++)
+            sum[1 + axis] += (double)next[i][axis] - (double)sim->velocity[i][axis];
+    }
+}
+
+bool sb_packing_on(const sb_scene *scene)
+{
+    return scene->numerics.stress_correction > 0;
+}
+
+static void swap(sb_f4 **a, void **b)
+{
+    sb_f4 *other = *a;
+    *a = *b;
+    *b = other;
+}
+
+sb_status sb_stage_packing(sb_sim *sim, sb_error *error)
+{
+    (void)error;
+    const size_t groups = sim->groups.count, blocks = sb_blocks(sim);
+    const float dt = (float)sim->report.time_step, share = (float)sim->scene->numerics.stress_correction;
+#pragma omp parallel for schedule(dynamic, GROUPS)
+    for (size_t g = 0; g < groups; g++)
+        find_strain(sim, &sim->groups.group[g], share);
+    sb_ghosts_refresh(sim, sim->acceleration);
+    sb_pressure_load(sim, sim->residual);
+#pragma omp parallel for schedule(dynamic, GROUPS)
+    for (size_t g = 0; g < groups; g++)
+        find_stress(sim, &sim->groups.group[g]);
+    swap(&sim->acceleration, &sim->scratch);
+    sb_ghosts_refresh(sim, sim->acceleration);
+    sb_pressure_load(sim, sim->source);
+#pragma omp parallel for schedule(dynamic, GROUPS)
+    for (size_t g = 0; g < groups; g++)
+        push(sim, &sim->groups.group[g], dt);
+#pragma omp parallel for schedule(static)
+    for (size_t b = 0; b < blocks; b++)
+        book(sim, b);
+    const double mass = (double)sim->constant.mass;
+    sim->stress_gain = (sb_vec3){0};
+    for (size_t b = 0; b < blocks; b++) {
+        const double *sum = sim->partial + 4 * b;
+        if (!sim->settling)
+            sim->ledger.stress += mass * sum[0];
+        sim->stress_gain = sb_madd(sim->stress_gain, mass, sb_vec(sum[1], sum[2], sum[3]));
+    }
+    swap(&sim->velocity, &sim->scratch);
+    sb_ghosts_refresh(sim, sim->velocity);
+    return SB_OK;
+}

@@ -1,0 +1,225 @@
+/* The packing's stress taken away: against the reference, nothing on a lattice, what of it is exact, and that it is not
+   there when off. */
+#include "../check.h"
+#include "base/memory.h"
+#include "base/random.h"
+#include "sim/packing.h"
+#include "sim/tank.h"
+#include "sim/twin.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Water under pressures at random, prepared for a step of 1 s: velocities gain the accelerations. */
+static sb_sim *pressed(tank *t)
+{
+    t->scene.numerics.stress_correction = 0.75;
+    sb_sim *sim = tank_sim(t);
+    assert_non_null(sim);
+    for (size_t i = 0; i < sim->n; i++)
+        sim->velocity[i][3] = (float)(1e4 * sb_random(7, i));
+    assert_int_equal(tank_prepare(sim, 1), 0);
+    return sim;
+}
+
+typedef double tensor[3][3];
+
+/* E_i of src/sim/packing.c, by its words. */
+static void strain(const twin *seen, size_t i, tensor s)
+{
+    const sb_reference *r = &seen->reference;
+    const int d = r->cloud.dimension;
+    tensor m = {{0}};
+    memset(s, 0, sizeof(tensor));
+    for (size_t k = r->fluid_start[i]; k < r->fluid_start[i + 1]; k++) {
+        const sb_vec3 x = r->fluid[k].offset, g = r->fluid[k].gradient;
+        const double a[3] = {x.x, x.y, x.z}, b[3] = {g.x, g.y, g.z};
+        for (int row = 0; row < 3; row++)
+            for (int column = 0; column < 3; column++)
+                m[row][column] -= r->mass * a[row] * b[column] / r->cloud.rest_density;
+    }
+    const double mean = (m[0][0] + m[1][1] + m[2][2]) / d;
+    if (mean < 0.9 || r->wall_start[i] < r->wall_start[i + 1])
+        return;
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 3; column++)
+            s[row][column] = 0.75 * ((row == column && (d == 3 || row != 1)) - m[row][column] / mean);
+}
+
+/* S_i: q times the mean with the gradients' slopes as weights, 2^15 - 1 squared units for the own. */
+static void stress(const sb_sim *sim, const twin *seen, const tensor *e, size_t i, tensor s)
+{
+    const sb_reference *r = &seen->reference;
+    const double unit = (double)sim->pairs.unit / sim->space.quantum / r->mass, own = 32767.0 * 32767.0;
+    const double q = (double)sim->velocity[i][3] / pow((double)sim->density[i], 2);
+    double weights = own;
+    for (int k = 0; k < 9; k++)
+        s[k / 3][k % 3] = own * e[i][k / 3][k % 3];
+    for (size_t p = r->fluid_start[i]; p < r->fluid_start[i + 1]; p++) {
+        const sb_vec3 x = r->fluid[p].offset;
+        const double slope = sb_dot(r->fluid[p].gradient, x) / sb_dot(x, x) / unit;
+        weights += slope;
+        for (int k = 0; k < 9; k++)
+            s[k / 3][k % 3] += slope * e[r->fluid[p].other][k / 3][k % 3];
+    }
+    for (int k = 0; k < 9; k++)
+        s[k / 3][k % 3] *= q / weights;
+}
+
+/* Scattered water beside walls, and across periodic sides. */
+static void a_random_cloud_is_the_reference(void **state)
+{
+    (void)state;
+    for (int form = 0; form < 4; form++) {
+        const int dimensions = form % 2 ? 3 : 2;
+        tank t;
+        twin seen;
+        const sb_vec3 size = dimensions == 2 ? sb_vec(3, 0, 2) : sb_vec(1.2, 1.2, 1);
+        tank_make(&t, dimensions, 0.1, size, size.x, 0.9 * size.z, 0);
+        if (form > 1)
+            tank_repeat(&t, 0);
+        tank_scatter(&t, 5, 1);
+        sb_sim *sim = pressed(&t);
+        assert_int_equal(twin_make(sim, &seen), 0);
+        tensor *e = sb_alloc(sim->n, sizeof *e), *s = sb_alloc(sim->n, sizeof *s);
+        assert_true(e && s);
+        size_t strained = 0;
+        for (size_t i = 0; i < sim->n; i++) {
+            strain(&seen, i, e[i]);
+            strained += e[i][0][0] != 0;
+        }
+        for (size_t i = 0; i < sim->n; i++)
+            stress(sim, &seen, (const tensor *)e, i, s[i]);
+        sb_error error = {0};
+        assert_int_equal(sb_stage_packing(sim, &error), SB_OK);
+        twin_gap gap = {0};
+        const sb_reference *r = &seen.reference;
+        for (size_t i = 0; i < sim->n; i++) {
+            double a[3] = {0};
+            for (size_t k = r->fluid_start[i]; k < r->fluid_start[i + 1]; k++) {
+                const size_t j = r->fluid[k].other;
+                const sb_vec3 g = r->fluid[k].gradient;
+                for (int row = 0; row < 3; row++)
+                    a[row] -= r->mass * ((s[i][row][0] + s[j][row][0]) * g.x + (s[i][row][1] + s[j][row][1]) * g.y +
+                                         (s[i][row][2] + s[j][row][2]) * g.z);
+            }
+            const sb_vec3 before = seen.velocity[i];
+            twin_compare(&gap, i, (double)sim->velocity[i][0] - before.x, a[0]);
+            twin_compare(&gap, i, (double)sim->velocity[i][1] - before.y, a[1]);
+            twin_compare(&gap, i, (double)sim->velocity[i][2] - before.z, a[2]);
+        }
+        printf("%dD, %zu particles, %zu strained: %.2g of %.3g m/s^2\n", dimensions, sim->n, strained,
+               twin_relative(&gap), gap.scale);
+        assert_true(strained > 30 && gap.scale > 1 && twin_relative(&gap) < 1e-5);
+        sb_free(e);
+        sb_free(s);
+        twin_free(&seen);
+        sb_sim_destroy(sim);
+        tank_free(&t);
+    }
+}
+
+/* Momentum is what it was, the ledger has the change of kinetic energy, and pressures stay. */
+static void momentum_and_ledger(void **state)
+{
+    (void)state;
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        tank t;
+        tank_make(&t, dimensions, 0.1, sb_vec(2, 1.2, 2), 2, 2, 0.2);
+        tank_scatter(&t, 9, 2);
+        sb_sim *sim = pressed(&t);
+        sb_error error = {0};
+        const double before = sb_sim_energy(sim).kinetic;
+        assert_int_equal(sb_stage_packing(sim, &error), SB_OK);
+        const sb_f4 *start = sim->scratch;
+        sb_vec3 push = {0};
+        double all = 0;
+        for (size_t i = 0; i < sim->n; i++) {
+            const sb_f4 change = sim->velocity[i] - start[i];
+            const sb_vec3 a = sb_vec((double)change[0], (double)change[1], (double)change[2]);
+            push = sb_add(push, a);
+            all += sb_norm(a);
+            assert_true(sim->velocity[i][3] == start[i][3]);
+        }
+        const double gain = sb_sim_energy(sim).kinetic - before;
+        printf("%dD: momentum %.2g of sum |a|, energy %.6g J\n", dimensions, sb_norm(push) / all, gain);
+        assert_true(all > 1 && sb_norm(push) < 2e-7 * all);
+        assert_near(sim->ledger.stress, gain, 1e-9 * fabs(gain));
+        assert_near(sb_norm(sim->stress_gain), (double)sim->constant.mass * sb_norm(push), 1e-6 * (double)sim->constant.mass * all);
+        sb_sim_destroy(sim);
+        tank_free(&t);
+    }
+}
+
+/* A lattice pushes alike in all directions; stretched along z and pressed together along x it does not. */
+static void only_unlike_directions_count(void **state)
+{
+    (void)state;
+    for (int dimensions = 2; dimensions <= 3; dimensions++)
+        for (int strained = 0; strained < 2; strained++) {
+            tank t;
+            tank_make(&t, dimensions, 0.1, sb_vec(2, 1.4, 2), 2, 2, 0);
+            const double middle = 1, stretch = strained ? 1.1 : 1;
+            for (size_t i = 0; i < t.model.fluid_count; i++) {
+                sb_vec3 *at = &t.model.fluid_position[i];
+                at->x = middle + (at->x - middle) / stretch;
+                at->z = middle + (at->z - middle) * stretch;
+            }
+            sb_sim *sim = pressed(&t);
+            sb_error error = {0};
+            assert_int_equal(sb_stage_packing(sim, &error), SB_OK);
+            double most = 0;
+            for (size_t i = 0; i < sim->n; i++)
+                most = fmax(most, fabs((double)sim->velocity[i][0]));
+            printf("%dD, stretched by %g: %.3g m/s^2\n", dimensions, stretch, most);
+            assert_true(strained ? most > 0.1 : most < 1e-4);
+            sb_sim_destroy(sim);
+            tank_free(&t);
+        }
+}
+
+static bool has_stage(const sb_sim *sim, const char *name)
+{
+    const sb_stage_time *stages;
+    const size_t count = sb_sim_stages(sim, &stages);
+    for (size_t s = 0; s < count; s++)
+        if (strcmp(stages[s].name, name) == 0)
+            return true;
+    return false;
+}
+
+static bool says(const sb_sim *sim, const char *word)
+{
+    for (const char *const *line = sb_sim_skipped(sim); *line; line++)
+        if (strstr(*line, word))
+            return true;
+    return false;
+}
+
+static void off_it_is_not_there(void **state)
+{
+    (void)state;
+    for (int on = 0; on < 2; on++) {
+        tank t;
+        tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0.1);
+        t.scene.numerics.stress_correction = on;
+        sb_sim *sim = tank_sim(&t);
+        assert_non_null(sim);
+        assert_int_equal(tank_steps(sim, 2), 0);
+        assert_true(has_stage(sim, "packing") == on && says(sim, "packing's stress") == !on);
+        assert_true(on || sb_sim_ledger(sim)->stress == 0);
+        sb_sim_destroy(sim);
+        tank_free(&t);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_random_cloud_is_the_reference),
+        cmocka_unit_test(momentum_and_ledger),
+        cmocka_unit_test(only_unlike_directions_count),
+        cmocka_unit_test(off_it_is_not_there),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
