@@ -30,58 +30,79 @@ SB_INLINE float sb_wall_law(float reynolds)
     return fmaxf(1 / reynolds, 0.0246f / sqrtf(sqrtf(reynolds)));
 }
 
-/* The shear of a plane wall is the same for all its boundary particles: what has been found of it for one particle of
-   the water. Starts as zeros. */
-typedef struct sb_rubbing {
-    sb_f4 normal, velocity; /* the boundary particle's, and the water's beside the wall's */
-    float height;           /* above its sheet, quanta: parallel walls, as of stairs, are not one */
-    sb_f4 shear;            /* c_f |u| u / rho_0 */
-} sb_rubbing;
-
-SB_INLINE bool sb_same3(sb_f4 a, sb_f4 b)
+SB_INLINE sb_f4 sb_wall_laws(sb_f4 reynolds)
 {
-    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+    return (sb_f4){sb_wall_law(reynolds[0]), sb_wall_law(reynolds[1]), sb_wall_law(reynolds[2]), sb_wall_law(reynolds[3])};
 }
 
-/* height: above the sheet, quanta. */
-SB_INLINE void sb_shear_look(sb_rubbing *of, sb_f4 normal, sb_f4 velocity, float height, const sb_rub *rub)
+SB_INLINE sb_f4 sb_dots(sb_four a, sb_four b)
 {
-    const sb_f4 along = velocity - normal * sb_splat(sb_sum3(normal * velocity));
-    const float u2 = sb_sum3(along * along);
-    *of = (sb_rubbing){.normal = normal, .velocity = velocity, .height = height};
-    if (!(u2 > 0))
-        return;
-    const float u = sqrtf(u2), distance = fmaxf(height - rub->offset, rub->nearest) * rub->quantum;
-    of->shear = along * sb_splat(sb_wall_law(u * distance / rub->viscosity) * u / rub->rest_density);
+    return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/* Acceleration of particle i by one pair, m/s^2; slope as in wall_pairs. Shear acts on the area of wall that the
-   particle's pressure acts on. */
-SB_INLINE sb_f4 sb_rubbed(const sb_sim *sim, size_t i, sb_f4 velocity, uint32_t wall, float slope, const sb_rub *rub,
-                          sb_rubbing *rubbing)
+/* Four boundary particles of a list as the water sees them, by lanes. */
+typedef struct sb_wall_four {
+    sb_four offset, normal, velocity; /* quanta; unit; the water's beside the wall's */
+} sb_wall_four;
+
+SB_INLINE sb_wall_four sb_see_walls(const sb_sim *sim, size_t i, sb_f4 velocity, const uint32_t *wall)
 {
-    const sb_wall_set *set = &sim->walls[wall >> 31];
-    wall &= 0x7fffffffu;
-    const sb_f4 d = sb_offset(sim->position[i], set->record[wall]);
-    sb_f4 sum = {0};
-    if (set == &sim->walls[SB_MOVING]) {
-        sb_vec3 v = sim->moving[sim->moving_of_body[set->body[wall]]].velocity;
-        velocity -= (sb_f4){(float)v.x, (float)v.y, (float)v.z, 0};
+    sb_f4 d[4], n[4], v[4];
+    for (size_t k = 0; k < 4; k++) {
+        const sb_wall_set *set = &sim->walls[wall[k] >> 31];
+        const uint32_t b = wall[k] & 0x7fffffffu;
+        d[k] = sb_offset(sim->position[i], set->record[b]);
+        n[k] = set->normal[b];
+        v[k] = velocity;
+        if (set == &sim->walls[SB_MOVING]) {
+            const sb_vec3 w = sim->moving[sim->moving_of_body[set->body[b]]].velocity;
+            v[k] -= (sb_f4){(float)w.x, (float)w.y, (float)w.z, 0};
+        }
     }
+    return (sb_wall_four){sb_turn(d[0], d[1], d[2], d[3]), sb_turn(n[0], n[1], n[2], n[3]), sb_turn(v[0], v[1], v[2], v[3])};
+}
+
+/* What slides along the wall, four pairs at a time: c_f |u| u/rho_0 times slope and height. */
+SB_INLINE sb_four sb_sheared(const sb_wall_four *of, sb_f4 slope, const sb_rub *rub)
+{
+    const sb_f4 through = sb_dots(of->normal, of->velocity), height = sb_dots(of->normal, of->offset);
+    const sb_f4 offset = sb_splat(rub->offset), nearest = sb_splat(rub->nearest);
+    const sb_four along = {.x = of->velocity.x - of->normal.x * through,
+                           .y = of->velocity.y - of->normal.y * through,
+                           .z = of->velocity.z - of->normal.z * through};
+    const sb_f4 u2 = sb_dots(along, along);
+    const sb_f4 u = {sqrtf(u2[0]), sqrtf(u2[1]), sqrtf(u2[2]), sqrtf(u2[3])};
+    const sb_f4 above = height - offset;
+    const sb_f4 distance = sb_select(above > nearest, above, nearest) * sb_splat(rub->quantum);
+    const sb_f4 law = sb_wall_laws(u * distance / sb_splat(rub->viscosity)) * u / sb_splat(rub->rest_density);
+    const sb_i4 slides = (height > (sb_f4){0}) & (u2 > (sb_f4){0});
+    const sb_f4 shear = sb_select(slides, law, (sb_f4){0}), area = sb_select(slides, slope * height, (sb_f4){0});
+    return (sb_four){.x = along.x * shear * area, .y = along.y * shear * area, .z = along.z * shear * area};
+}
+
+/* Accelerations of particle i by four pairs, m/s^2; wall, slope: four entries of wall_pairs. Shear acts on the area of
+   wall that the particle's pressure acts on. */
+SB_INLINE void sb_rubbed(const sb_sim *sim, size_t i, sb_f4 velocity, const uint32_t *wall, const float *slope,
+                         const sb_rub *rub, sb_f4 out[4])
+{
+    const sb_wall_four of = sb_see_walls(sim, i, velocity, wall);
+    const sb_f4 slopes = {slope[0], slope[1], slope[2], slope[3]};
+    sb_four sum = {.x = {0}, .y = {0}, .z = {0}};
     if (rub->friction > 0) {
-        const float approach = sb_sum3(velocity * d);
-        if (approach < 0)
-            sum += d * sb_splat(rub->friction * approach * slope / ((sb_sum3(d * d) + rub->epsilon) * sim->density[i]));
+        const sb_f4 approach = sb_dots(of.velocity, of.offset);
+        const sb_f4 weight = (sb_dots(of.offset, of.offset) + sb_splat(rub->epsilon)) * sb_splat(sim->density[i]);
+        const sb_f4 factor =
+            sb_select(approach < (sb_f4){0}, sb_splat(rub->friction) * approach * slopes / weight, (sb_f4){0});
+        sum = (sb_four){.x = of.offset.x * factor, .y = of.offset.y * factor, .z = of.offset.z * factor};
     }
-    const sb_f4 normal = set->normal[wall];
-    const float height = rub->shear ? sb_sum3(normal * d) : 0;
-    if (height > 0) {
-        const bool level = fabsf(height - rubbing->height) <= 1e-4f * rub->nearest;
-        if (!level || !sb_same3(normal, rubbing->normal) || !sb_same3(velocity, rubbing->velocity))
-            sb_shear_look(rubbing, normal, velocity, height, rub);
-        sum += rubbing->shear * sb_splat(slope * height);
+    if (rub->shear) {
+        const sb_four shear = sb_sheared(&of, slopes, rub);
+        sum.x += shear.x;
+        sum.y += shear.y;
+        sum.z += shear.z;
     }
-    return sum;
+    const sb_four pairs = sb_turn(sum.x, sum.y, sum.z, (sb_f4){0});
+    out[0] = pairs.x, out[1] = pairs.y, out[2] = pairs.z, out[3] = pairs.w;
 }
 
 #endif

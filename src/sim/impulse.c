@@ -117,12 +117,13 @@ SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_rub *rub, double *su
     const double mass = (double)sim->constant.mass;
     const sb_f4 *velocity = sim->scratch; /* at the step's start */
     tally t = {.sim = sim, .sum = sum, .press = mass * (double)sim->unknown[i], .mass = mass};
-    sb_rubbing rubbing = {0};
-    sb_f4 rubbed = {0};
+    sb_f4 rubbed = {0}, part[4];
     t.at = sb_space_position(&sim->space, sim->position[i]);
     if (count > 0)
         t.body = sim->walls[index[0] >> 31].body[index[0] & 0x7fffffffu];
     for (size_t k = 0; k < count; k++) {
+        if (rub && k % 4 == 0)
+            sb_rubbed(sim, i, velocity[i], index + k, slope + k, rub, part);
         if (slope[k] == 0)
             continue;
         const sb_wall_set *set = &sim->walls[index[k] >> 31];
@@ -130,9 +131,8 @@ SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_rub *rub, double *su
         turn_to(&t, set, wall);
         t.pushed += sb_offset(sim->position[i], set->record[wall]) * sb_splat(slope[k]);
         if (rub) {
-            const sb_f4 f = sb_rubbed(sim, i, velocity[i], index[k], slope[k], rub, &rubbing);
-            rubbed += f;
-            t.rubbed += f;
+            rubbed += part[k % 4];
+            t.rubbed += part[k % 4];
         }
     }
     put_down(&t);

@@ -68,10 +68,12 @@ SB_INLINE sb_f4 wall_part(const sb_sim *sim, size_t i, const sb_rub *rub)
 {
     const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
     const float *slope = sim->wall_pairs.slope + sim->wall_pairs.first[i];
-    sb_rubbing rubbing = {0};
-    sb_f4 sum = {0};
-    for (size_t k = 0; k < sim->wall_pairs.count[i]; k++)
-        sum += sb_rubbed(sim, i, sim->velocity[i], index[k], slope[k], rub, &rubbing);
+    sb_f4 sum = {0}, part[4];
+    for (size_t k = 0; k < sim->wall_pairs.count[i]; k += 4) {
+        sb_rubbed(sim, i, sim->velocity[i], index + k, slope + k, rub, part);
+        for (int pair = 0; pair < 4; pair++)
+            sum += part[pair];
+    }
     return sum;
 }
 
