@@ -151,19 +151,24 @@ static float move(sb_sim *sim, size_t block)
     return sim->settling ? move_block(sim, block, false) : move_block(sim, block, true);
 }
 
+sb_status sb_sim_diverged(const sb_sim *sim, size_t particle, sb_f4 velocity, sb_error *error)
+{
+    const sb_vec3 at = sb_space_position(&sim->space, sim->position[particle]);
+    return sb_fail(error, SB_FAILED,
+                   "step %llu, t = %g s: diverged: particle %u at (%.4g, %.4g, %.4g) m would reach %g m/s, "
+                   "expected below %g (density error %.3g after %d iterations)",
+                   (unsigned long long)sim->report.step + 1, sim->report.time, sim->id[particle],
+                   at.x, at.y, at.z, (double)sqrtf(sb_sum3(velocity * velocity)), (double)sim->constant.speed_limit,
+                   sim->report.error_mean, sim->report.iterations);
+}
+
 /* The state becomes the step's start again: v* is no state, and may be senseless. */
 static sb_status diverged(sb_sim *sim, fastest top, sb_error *error)
 {
     sb_f4 *start = sim->scratch;
     sim->scratch = sim->velocity;
     sim->velocity = start;
-    sb_vec3 at = sb_space_position(&sim->space, sim->position[top.particle]);
-    return sb_fail(error, SB_FAILED,
-                   "step %llu, t = %g s: diverged: particle %u at (%.4g, %.4g, %.4g) m would reach %g m/s, "
-                   "expected below %g (density error %.3g after %d iterations)",
-                   (unsigned long long)sim->report.step + 1, sim->report.time, sim->id[top.particle],
-                   at.x, at.y, at.z, (double)sqrtf(top.square), (double)sim->constant.speed_limit,
-                   sim->report.error_mean, sim->report.iterations);
+    return sb_sim_diverged(sim, top.particle, (sb_f4){sqrtf(top.square)}, error);
 }
 
 sb_status sb_stage_accelerate(sb_sim *sim, sb_error *error)

@@ -4,7 +4,7 @@
 
        dv_i/dt = -sum_j m (S_i + S_j) grad W_ij,   S_i = q_i <E>_i,   E_i = c (1 - M_i / t_i)
 
-   it goes to second order in E. <> is a mean over the neighbours: what differs from one particle to the next is what keeps
+   it is left to second order: M (1 + E) = t (1 - e^2) with e = M/t - 1. <> is a mean over the neighbours: what differs from one particle to the next is what keeps
    the packing in order. E has no trace, so five numbers hold it. */
 #include "sim/packing.h"
 
@@ -43,12 +43,12 @@ SB_INLINE moments gather(const sb_sim *sim, const sb_group *group, const sb_f4 *
     return (moments){p[0], p[1], p[2], p[3], q[0], q[1]};
 }
 
-/* Water asleep keeps its pressures, so what lies beside it stays as it is. */
+/* Sleepers bear what they bore when they were laid down: no force passes between them and water awake. */
 SB_INLINE bool beside_sleepers(const sb_sim *sim, const sb_group *group, size_t i)
 {
     const uint32_t first = group->sleepers * SB_PLACE_STEP;
     const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
-    for (; sb_fringe_count(sim) > 0 && four < end; four++)
+    for (; four < end; four++)
         for (int k = 0; k < 4; k++)
             if (four->place[k] >= first)
                 return true;
@@ -84,6 +84,7 @@ SB_MULTIVERSION
 static void find_stress(sb_sim *sim, const sb_group *group)
 {
     _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
+    const bool sleepers = group->sleepers < sb_around_count(sim, group);
     sb_f4 *stress = sim->scratch;
     sb_around_with(sim, group, sim->acceleration, around);
     for (size_t i = group->first; i < group->end; i++) {
@@ -99,7 +100,7 @@ static void find_stress(sb_sim *sim, const sb_group *group)
             weights += slope;
         }
         const float density = sim->density[i], q = sim->velocity[i][3] / (density * density);
-        const float factor = beside_sleepers(sim, group, i) ? 0 : q / (sb_sum3(weights) + weights[3]);
+        const float factor = sleepers && beside_sleepers(sim, group, i) ? 0 : q / (sb_sum3(weights) + weights[3]);
         stress[i] = sum * sb_splat(factor);
         sim->source[i] = (sb_sum3(sum_xx) + sum_xx[3]) * factor;
     }
@@ -133,13 +134,20 @@ static void push(sb_sim *sim, const sb_group *group, float dt)
     }
 }
 
-/* Work (per unit of mass) and momentum of the block's changes; the first lanes of partial. */
+/* Of one block's changes the work (per unit of mass), the momentum, and the first particle that is too fast after them,
+   n: none. */
+enum { SUMS = 5 };
+
 static void book(const sb_sim *sim, size_t block)
 {
     const sb_f4 *next = sim->scratch;
-    double *sum = sim->partial + 4 * block;
+    const float limit = sim->constant.speed_limit * sim->constant.speed_limit;
+    double *sum = sim->partial + SUMS * block;
     sum[0] = sum[1] = sum[2] = sum[3] = 0;
+    sum[4] = (double)sim->n;
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
+        if (!(sb_sum3(next[i] * next[i]) <= limit) && sum[4] == (double)sim->n)
+            sum[4] = (double)i;
         sum[0] += sb_ledger_work(sim->velocity[i], next[i], sim->velocity[i], next[i]);
         for (int axis = 0; axis < 3; axis++)
             sum[1 + axis] += (double)next[i][axis] - (double)sim->velocity[i][axis];
@@ -160,7 +168,6 @@ static void swap(sb_f4 **a, void **b)
 
 sb_status sb_stage_packing(sb_sim *sim, sb_error *error)
 {
-    (void)error;
     const size_t groups = sim->groups.count, blocks = sb_blocks(sim);
     const float dt = (float)sim->report.time_step, share = (float)sim->scene->numerics.stress_correction;
 #pragma omp parallel for schedule(dynamic, GROUPS)
@@ -181,13 +188,18 @@ sb_status sb_stage_packing(sb_sim *sim, sb_error *error)
     for (size_t b = 0; b < blocks; b++)
         book(sim, b);
     const double mass = (double)sim->constant.mass;
-    sim->stress_gain = (sb_vec3){0};
+    double work = 0;
+    sb_vec3 gain = {0};
     for (size_t b = 0; b < blocks; b++) {
-        const double *sum = sim->partial + 4 * b;
-        if (!sim->settling)
-            sim->ledger.stress += mass * sum[0];
-        sim->stress_gain = sb_madd(sim->stress_gain, mass, sb_vec(sum[1], sum[2], sum[3]));
+        const double *sum = sim->partial + SUMS * b;
+        const size_t fast = (size_t)sum[4];
+        if (fast < sim->n)
+            return sb_sim_diverged(sim, fast, ((const sb_f4 *)sim->scratch)[fast], error);
+        work += sum[0];
+        gain = sb_add(gain, sb_vec(sum[1], sum[2], sum[3]));
     }
+    sim->ledger.stress += sim->settling ? 0 : mass * work;
+    sim->stress_gain = sb_scale(gain, mass);
     swap(&sim->velocity, &sim->scratch);
     sb_ghosts_refresh(sim, sim->velocity);
     return SB_OK;

@@ -10,7 +10,7 @@ bool sb_packing_on(const sb_scene *scene);
 
 /* Adds to the velocities of one step what the stress lacks to be a pressure, by the pressures of the last step and the
    step's neighbour lists; momentum stays. Its work goes into the ledger. Uses acceleration, residual, source and
-   scratch; never fails. */
+   scratch. Where that would make a particle too fast it fails, and velocities stay as they were. */
 sb_status sb_stage_packing(sb_sim *sim, sb_error *error);
 
 #endif

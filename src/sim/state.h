@@ -233,7 +233,8 @@ sb_status sb_stage_source(sb_sim *sim, sb_error *error);
 sb_status sb_stage_pressure(sb_sim *sim, sb_error *error);
 /* sim/impulse.c: forces of the water on bodies over the step. */
 sb_status sb_stage_impulse(sb_sim *sim, sb_error *error);
-/* sim/integrate.c */
+/* sim/integrate.c: fails with where the particle is and the velocity that it would reach. */
+sb_status sb_sim_diverged(const sb_sim *sim, size_t particle, sb_f4 velocity, sb_error *error);
 sb_status sb_stage_time_step(sb_sim *sim, sb_error *error);
 sb_status sb_stage_accelerate(sb_sim *sim, sb_error *error); /* new velocities, in acceleration */
 sb_status sb_stage_move(sb_sim *sim, sb_error *error);

@@ -61,7 +61,8 @@ static void summary_has_the_promised_keys(void **state)
                                 "stages",
                                 "energy_end",
                                 "energy_work",
-                                "contact_J"};
+                                "contact_J",
+                                "packing_stress_J"};
     sb_scene scene = make_scene();
     const sb_summary summary = {.scene = &scene,
                                 .model = &model,

@@ -88,8 +88,8 @@ static void it_is_given_up_in_the_bulk(void **state)
     sim->deficit[bulk[0]] = 0.2f * rest;
     sim->deficit[bulk[1]] = -0.2f * rest;
     assert_int_equal(tank_steps(sim, 120), 0);
-    assert_true(sim->deficit[bulk[0]] < 0.04f * rest);
-    assert_true(sim->deficit[bulk[1]] > -0.04f * rest);
+    assert_true(sim->deficit[bulk[0]] < 0.005f * rest);
+    assert_true(sim->deficit[bulk[1]] > -0.012f * rest);
     assert_true(sim->deficit[surface] == kept);
     sb_sim_destroy(sim);
     tank_free(&t);

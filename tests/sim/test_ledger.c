@@ -325,6 +325,7 @@ static void settling_is_not_booked(void **state)
     tank t;
     tank_make(&t, 2, 0.1, sb_vec(1, 0, 1.5), 1, 1, 0.1);
     t.scene.numerics.settle_steps = 20;
+    t.scene.numerics.stress_correction = 1;
     sb_sim *sim = tank_sim(&t);
     sb_error error = {0};
     assert_non_null(sim);

@@ -12,6 +12,7 @@
 static void check_momentum(tank *t, sb_solver solver)
 {
     t->scene.numerics.solver = solver;
+    t->scene.numerics.stress_correction = 1;
     t->scene.numerics.artificial_viscosity = 0.05;
     t->scene.fluid.viscosity = 1e-3;
     t->scene.numerics.turbulence = SB_TURBULENCE_SPS;

@@ -30,6 +30,7 @@ const sb_choice sb_choices[] = {
     {.name = "source relaxation / 2", .key = "source_relaxation", .factor = 0.5},
     {.name = "source relaxation x 2", .quick = true, .key = "source_relaxation", .factor = 2},
     {.name = "at least 1 sweep", .fixed = {"numerics.min_iterations=1"}},
+    {.name = "no stress correction", .quick = true, .fixed = {"numerics.stress_correction=0"}},
     {.name = "no artificial viscosity", .fixed = {"numerics.artificial_viscosity=0"}},
     {.name = "artificial viscosity x 4", .key = "artificial_viscosity", .factor = 4},
     {.name = "no settling", .fixed = {"numerics.settle_steps=0"}},

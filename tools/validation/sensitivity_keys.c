@@ -22,6 +22,7 @@ const sb_sensitivity_key sb_sensitivity_keys[] = {
     NUMBER(source_relaxation, 1),
     NUMBER(cfl, 1),
     NUMBER(time_step_factor, 10),
+    NUMBER(stress_correction, 1),
     NUMBER(artificial_viscosity, 10),
     NUMBER(wall_friction, 10),
     /* 0 takes the lattice's: 1.46 in 2D, 1.45 in 3D. */
