@@ -78,6 +78,16 @@ static void find_strain(sb_sim *sim, const sb_group *group, float share)
     }
 }
 
+/* Whether there is any tensor in what sb_around_with copied: in shallow water and beside walls there is none. */
+SB_INLINE bool any_around(const sb_sim *sim, const sb_group *group, const sb_f4 *around)
+{
+    const uint32_t count = sb_around_count(sim, group);
+    sb_i4 bits = {0};
+    for (uint32_t k = 0; k < count; k++)
+        bits |= ((sb_i4)around[2 * k] & (sb_i4){0, 0, 0, -1}) | (sb_i4)around[2 * k + 1];
+    return (bits[0] | bits[1] | bits[2] | bits[3]) != 0;
+}
+
 /* S_i, with the slopes as the mean's weights, that of a coincident particle for the own E_i: xx into source, the others
    into scratch. */
 SB_MULTIVERSION
@@ -87,7 +97,12 @@ static void find_stress(sb_sim *sim, const sb_group *group)
     const bool sleepers = group->sleepers < sb_around_count(sim, group);
     sb_f4 *stress = sim->scratch;
     sb_around_with(sim, group, sim->acceleration, around);
+    const bool any = any_around(sim, group, around);
     for (size_t i = group->first; i < group->end; i++) {
+        stress[i] = (sb_f4){0};
+        sim->source[i] = 0;
+        if (!any)
+            continue;
         const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
         sb_f4 sum = sim->acceleration[i] * sb_splat(OWN), sum_xx = {OWN * sim->residual[i]}, weights = {OWN};
         for (; four < end; four++) {
@@ -113,7 +128,11 @@ static void push(sb_sim *sim, const sb_group *group, float dt)
     _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
     sb_f4 *next = sim->scratch;
     sb_around_with(sim, group, sim->acceleration, around);
+    const bool any = any_around(sim, group, around);
     for (size_t i = group->first; i < group->end; i++) {
+        next[i] = sim->velocity[i];
+        if (!any)
+            continue;
         const sb_f4 self = sb_in_group(sim, group, i), own = sim->acceleration[i];
         const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
         sb_f4 sum_x = {0}, sum_y = {0}, sum_z = {0};
@@ -130,7 +149,7 @@ static void push(sb_sim *sim, const sb_group *group, float dt)
             sum_z += xz * x + yz * y - (xx + yy) * z;
         }
         const sb_four t = sb_turn(sum_x, sum_y, sum_z, (sb_f4){0});
-        next[i] = sim->velocity[i] - (t.x + t.y + t.z + t.w) * sb_splat(dt * sim->pairs.unit);
+        next[i] -= (t.x + t.y + t.z + t.w) * sb_splat(dt * sim->pairs.unit);
     }
 }
 
