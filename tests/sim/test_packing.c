@@ -86,7 +86,8 @@ static void a_random_cloud_is_the_reference(void **state)
         sb_sim *sim = pressed(&t);
         assert_int_equal(twin_make(sim, &seen), 0);
         tensor *e = sb_alloc(sim->n, sizeof *e), *s = sb_alloc(sim->n, sizeof *s);
-        assert_true(e && s);
+        assert_non_null(e);
+        assert_non_null(s);
         size_t strained = 0;
         for (size_t i = 0; i < sim->n; i++) {
             strain(&seen, i, e[i]);
