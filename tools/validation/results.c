@@ -164,11 +164,12 @@ static double size_of(const sb_figure *figure, double error)
 
 sb_judgement sb_results_judge(const sb_case_results *results, size_t i)
 {
-    sb_judgement j = {.figure = &sb_results_judged(results)->figures.rows[i], .pass = true};
+    const sb_result *judged = sb_results_judged(results);
+    sb_judgement j = {.figure = &judged->figures.rows[i], .pass = true};
     double sum = 0, low = (double)INFINITY, high = -(double)INFINITY;
     j.worst = j.figure->error;
     for (size_t k = 0; k < results->count; k++) {
-        if (!is_judged(&results->runs[k])) continue;
+        if (!is_judged(&results->runs[k]) || strcmp(results->runs[k].run.commit, judged->run.commit) != 0) continue;
         const sb_figure *f = sb_figures_find(&results->runs[k].figures, j.figure->quantity);
         if (!f) continue;
         sum += f->value;
