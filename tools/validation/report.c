@@ -58,7 +58,7 @@ static void put_head(FILE *out, const sb_report *report)
     fprintf(out,
             "- %zu of %zu judged figures are within their reach\n\n"
             "Errors are signed: ours minus the reference. Where a resolution is run with several "
-            "start seeds by one commit, the error is the one\nlargest in magnitude, the figure passes when it "
+            "start seeds by one program, the error is the one\nlargest in magnitude, the figure passes when it "
             "does with every seed, and spread is the largest value minus the\nsmallest. "
             "`x (of y)`: at that resolution the reference is y.\n\n"
             "| case | reach | figure | |\n|---|---|---|---|\n",

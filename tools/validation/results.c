@@ -162,6 +162,13 @@ static double size_of(const sb_figure *figure, double error)
     return figure->one_sided ? error : fabs(error);
 }
 
+/* The program that ran it, by the last part of its folder (store.h). */
+static const char *build_of(const sb_result *r)
+{
+    const char *slash = strrchr(r->run.folder, '/');
+    return slash ? slash + 1 : r->run.folder;
+}
+
 sb_judgement sb_results_judge(const sb_case_results *results, size_t i)
 {
     const sb_result *judged = sb_results_judged(results);
@@ -169,7 +176,7 @@ sb_judgement sb_results_judge(const sb_case_results *results, size_t i)
     double sum = 0, low = (double)INFINITY, high = -(double)INFINITY;
     j.worst = j.figure->error;
     for (size_t k = 0; k < results->count; k++) {
-        if (!is_judged(&results->runs[k]) || strcmp(results->runs[k].run.commit, judged->run.commit) != 0) continue;
+        if (!is_judged(&results->runs[k]) || strcmp(build_of(&results->runs[k]), build_of(judged)) != 0) continue;
         const sb_figure *f = sb_figures_find(&results->runs[k].figures, j.figure->quantity);
         if (!f) continue;
         sum += f->value;

@@ -29,7 +29,7 @@ typedef struct sb_case_results {
     char problem[640]; /* what kept those from being figured; "" */
 } sb_case_results;
 
-/* A figure where it is judged, over the seeds that were run by the first one's commit: those of others say nothing about
+/* A figure where it is judged, over the seeds that were run by the first one's program: those of others say nothing about
    the spread. */
 typedef struct sb_judgement {
     const sb_figure *figure; /* of the first seed */
