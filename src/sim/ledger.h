@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-/* Partial sums over one block's particles in one step, per unit of mass. v, v*, w: velocity at the step's start,
-   before pressure, and at its end; u = (v + w)/2, so that a change d of velocity works d.u. */
+/* Partial sums over one block's particles in one step, per unit of mass. v, v*, w: velocity at the step's start, after
+   the stage packing, before pressure, and at its end; u = (v + w)/2, so that a change d of velocity works d.u. */
 typedef struct sb_ledger_sums {
     double forces;           /* (v* - v).u: gravity, viscosity, friction */
     double solve;            /* (w - v*).u: pressure and contact */

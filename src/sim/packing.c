@@ -4,14 +4,13 @@
 
        dv_i/dt = -sum_j m (S_i + S_j) grad W_ij,   S_i = q_i <E>_i,   E_i = c (1 - M_i / t_i)
 
-   it is left to second order: M (1 + E) = t (1 - e^2) with e = M/t - 1. <> is a mean over the neighbours: what differs from one particle to the next is what keeps
-   the packing in order. E has no trace, so five numbers hold it. */
+   it is left to second order: M (1 + E) = t (1 - e^2) with e = M/t - 1. <> is a mean over the neighbours: what differs
+   from one particle to the next is what keeps the packing in order. E has no trace, so five numbers hold it. */
 #include "sim/packing.h"
 
 #include "sim/around.h"
 #include "sim/ledger.h"
 #include "sim/pressure.h"
-#include "sim/sleep.h"
 
 enum { GROUPS = 8 }; /* per unit of work */
 

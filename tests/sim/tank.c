@@ -332,3 +332,21 @@ int tank_steps(sb_sim *sim, int n)
         }
     return 0;
 }
+
+bool tank_has_stage(const sb_sim *sim, const char *name)
+{
+    const sb_stage_time *stages;
+    const size_t count = sb_sim_stages(sim, &stages);
+    for (size_t s = 0; s < count; s++)
+        if (strcmp(stages[s].name, name) == 0)
+            return true;
+    return false;
+}
+
+bool tank_says(const sb_sim *sim, const char *word)
+{
+    for (const char *const *line = sb_sim_skipped(sim); *line; line++)
+        if (strstr(*line, word))
+            return true;
+    return false;
+}

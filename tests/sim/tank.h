@@ -52,6 +52,9 @@ int tank_prepare(sb_sim *sim, double dt);
 /* Its state as an archive, to be freed, and back from there into a simulation of the same tank. */
 void tank_save(const sb_sim *sim, sb_archive_out *out);
 sb_status tank_load(sb_sim *sim, const sb_archive_out *out, sb_error *error);
+/* Whether its steps have the stage, and whether it says that it leaves out something by that word. */
+bool tank_has_stage(const sb_sim *sim, const char *name);
+bool tank_says(const sb_sim *sim, const char *word);
 /* n whole steps. 0, or -1 with the reason on stderr. */
 int tank_steps(sb_sim *sim, int n);
 

@@ -235,24 +235,6 @@ static void a_stretched_lattice_pushes_alike(void **state)
     }
 }
 
-static bool has_stage(const sb_sim *sim, const char *name)
-{
-    const sb_stage_time *stages;
-    const size_t count = sb_sim_stages(sim, &stages);
-    for (size_t s = 0; s < count; s++)
-        if (strcmp(stages[s].name, name) == 0)
-            return true;
-    return false;
-}
-
-static bool says(const sb_sim *sim, const char *word)
-{
-    for (const char *const *line = sb_sim_skipped(sim); *line; line++)
-        if (strstr(*line, word))
-            return true;
-    return false;
-}
-
 static void off_it_is_not_there(void **state)
 {
     (void)state;
@@ -263,7 +245,7 @@ static void off_it_is_not_there(void **state)
         sb_sim *sim = tank_sim(&t);
         assert_non_null(sim);
         assert_int_equal(tank_steps(sim, 2), 0);
-        assert_true(has_stage(sim, "packing") == on && says(sim, "packing's stress") == !on);
+        assert_true(tank_has_stage(sim, "packing") == on && tank_says(sim, "packing's stress") == !on);
         assert_true(on || sb_sim_ledger(sim)->stress == 0);
         sb_sim_destroy(sim);
         tank_free(&t);

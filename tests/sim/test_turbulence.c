@@ -221,22 +221,6 @@ static void stress_keeps_momentum_and_takes_energy(void **state)
     }
 }
 
-static bool has_stage(const sb_sim *sim, const char *name)
-{
-    const sb_stage_time *stages;
-    size_t count = sb_sim_stages(sim, &stages);
-    for (size_t s = 0; s < count; s++)
-        if (strcmp(stages[s].name, name) == 0) return true;
-    return false;
-}
-
-static bool says(const sb_sim *sim, const char *word)
-{
-    for (const char *const *line = sb_sim_skipped(sim); *line; line++)
-        if (strstr(*line, word)) return true;
-    return false;
-}
-
 static void off_it_is_not_there(void **state)
 {
     (void)state;
@@ -249,10 +233,10 @@ static void off_it_is_not_there(void **state)
         assert_non_null(sim);
         bytes[on] = sb_sim_bytes(sim);
         assert_int_equal(tank_steps(sim, 2), 0);
-        assert_true((sim->eddy != NULL) == on && has_stage(sim, "turbulence") == on);
-        assert_true(has_stage(sim, "forces") && has_stage(sim, "move"));
-        assert_true(says(sim, "turbulence") == !on);
-        assert_false(says(sim, "viscosity: both"));
+        assert_true((sim->eddy != NULL) == on && tank_has_stage(sim, "turbulence") == on);
+        assert_true(tank_has_stage(sim, "forces") && tank_has_stage(sim, "move"));
+        assert_true(tank_says(sim, "turbulence") == !on);
+        assert_false(tank_says(sim, "viscosity: both"));
         if (on) assert_true(bytes[1] == bytes[0] + 4 * t.model.fluid_count);
         sb_sim_destroy(sim);
         tank_free(&t);
