@@ -33,7 +33,7 @@ bool sb_video_write(const char *directory, const char *camera, int rate, sb_runl
     snprintf(name, sizeof name, "%s.mp4", camera);
     char *const arguments[] = {
         "ffmpeg", "-y", "-nostdin", "-loglevel", "error", "-framerate", speed, "-i", pattern,
-        "-c:v", "libx264", "-preset", "medium", "-crf", "20", "-pix_fmt", "yuv420p",
+        "-c:v", "libx264", "-preset", "veryfast", "-crf", "20", "-pix_fmt", "yuv420p",
         /* yuv420p wants even sides */
         "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-movflags", "+faststart", part, NULL};
     sb_status status = SB_OK;

@@ -59,7 +59,7 @@ SB_INLINE void see(const sb_sim *sim, size_t i, size_t first, sb_f4 step, float 
     s->weight = sb_select((s->q2 < sb_splat(1)) & (slope != (sb_f4){0}), weight, (sb_f4){0});
 }
 
-static view look(const sb_sim *sim, size_t i, sb_f4 velocity, float to_quanta)
+SB_INLINE view look(const sb_sim *sim, size_t i, sb_f4 velocity, float to_quanta)
 {
     const size_t begin = sim->wall_pairs.first[i], end = begin + sim->wall_pairs.count[i];
     const sb_f4 step = velocity * sb_splat(to_quanta);
@@ -104,6 +104,7 @@ SB_INLINE float smaller(float a, float b)
     return a < b ? a : b;
 }
 
+SB_MULTIVERSION
 bool sb_contact_mend(const sb_sim *sim, size_t i, sb_f4 *velocity, uint32_t *touched)
 {
     const float to_quanta = (float)(sim->report.time_step / sim->space.quantum);

@@ -5,8 +5,6 @@
 
 #include "sim/state.h"
 
-#include <math.h>
-
 /* Factors of one step; lengths in quanta where that is said. */
 typedef struct sb_rub {
     bool on;
@@ -25,14 +23,10 @@ sb_rub sb_rub_make(const sb_sim *sim);
 /* Of a smooth wall's shear over rho u^2, u the speed along it at a Reynolds number's distance: below 139 the laminar
    sublayer, above it the power law of the turbulent one [Werner & Wengle 1991, eqs. 17, 18 at a point: u+ = y+,
    and 8.3 (y+)^(1/7)]. */
-SB_INLINE float sb_wall_law(float reynolds)
-{
-    return fmaxf(1 / reynolds, 0.0246f / sqrtf(sqrtf(reynolds)));
-}
-
 SB_INLINE sb_f4 sb_wall_laws(sb_f4 reynolds)
 {
-    return (sb_f4){sb_wall_law(reynolds[0]), sb_wall_law(reynolds[1]), sb_wall_law(reynolds[2]), sb_wall_law(reynolds[3])};
+    const sb_f4 laminar = sb_splat(1) / reynolds, turbulent = sb_splat(0.0246f) / sb_roots(sb_roots(reynolds));
+    return sb_select(laminar > turbulent, laminar, turbulent);
 }
 
 SB_INLINE sb_f4 sb_dots(sb_four a, sb_four b)
@@ -70,8 +64,7 @@ SB_INLINE sb_four sb_sheared(const sb_wall_four *of, sb_f4 slope, const sb_rub *
     const sb_four along = {.x = of->velocity.x - of->normal.x * through,
                            .y = of->velocity.y - of->normal.y * through,
                            .z = of->velocity.z - of->normal.z * through};
-    const sb_f4 u2 = sb_dots(along, along);
-    const sb_f4 u = {sqrtf(u2[0]), sqrtf(u2[1]), sqrtf(u2[2]), sqrtf(u2[3])};
+    const sb_f4 u2 = sb_dots(along, along), u = sb_roots(u2);
     const sb_f4 above = height - offset;
     const sb_f4 distance = sb_select(above > nearest, above, nearest) * sb_splat(rub->quantum);
     const sb_f4 law = sb_wall_laws(u * distance / sb_splat(rub->viscosity)) * u / sb_splat(rub->rest_density);

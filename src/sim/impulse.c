@@ -141,6 +141,7 @@ SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_rub *rub, double *su
 
 /* Forces (N) and moment (Nm) on bodies from one block of particles, into sum[body][VALUES]; and what friction and
    contact do to the water's energy. */
+SB_MULTIVERSION
 static void do_block(sb_sim *sim, size_t block, double *sum, const sb_rub *rub)
 {
     sb_ledger_sums *ledger = &sim->block_ledger[block];

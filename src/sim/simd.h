@@ -5,6 +5,11 @@
 
 #include <stdint.h>
 #include <string.h>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#else
+#include <math.h>
+#endif
 
 typedef float sb_f4 __attribute__((vector_size(16)));
 typedef int32_t sb_i4 __attribute__((vector_size(16)));
@@ -64,6 +69,16 @@ SB_INLINE float sb_sum8(const sb_f8 *p)
 SB_INLINE float sb_sum3(sb_f4 v)
 {
     return v[0] + v[1] + v[2];
+}
+
+/* Square roots, lane by lane. */
+SB_INLINE sb_f4 sb_roots(sb_f4 v)
+{
+#ifdef __SSE2__
+    return (sb_f4)_mm_sqrt_ps((__m128)v);
+#else
+    return (sb_f4){sqrtf(v[0]), sqrtf(v[1]), sqrtf(v[2]), sqrtf(v[3])};
+#endif
 }
 
 /* Lanes of a where the mask is set, of b elsewhere. */
