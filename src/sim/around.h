@@ -68,6 +68,20 @@ SB_INLINE const sb_f4 *sb_at_with(const sb_f4 *around, uint16_t place)
     return (const sb_f4 *)((const char *)around + 2 * sizeof *around / SB_PLACE_STEP * place);
 }
 
+/* Both, in one vector. */
+SB_INLINE const sb_f8 *sb_both_at(const sb_f4 *around, uint16_t place)
+{
+    return (const sb_f8 *)sb_at_with(around, place);
+}
+
+/* Lists are read once a pass, in order, from memory: asks for what comes some particles later (docs/decisions/0012).
+   Past the pool's end it asks for nothing. */
+SB_INLINE void sb_ask_ahead(const sb_four_pairs *four)
+{
+    enum { BYTES = 2048 };
+    __builtin_prefetch((const void *)((uintptr_t)four + BYTES));
+}
+
 /* Slopes of four neighbours in units of sim->pairs.unit. */
 SB_INLINE sb_f4 sb_slopes(const sb_four_pairs *four)
 {

@@ -11,6 +11,7 @@
 #include "sim/around.h"
 #include "sim/ledger.h"
 #include "sim/pressure.h"
+#include "sim/simd_wide.h"
 
 enum { GROUPS = 8 }; /* per unit of work */
 
@@ -31,6 +32,7 @@ SB_INLINE moments gather(const sb_sim *sim, const sb_group *group, const sb_f4 *
     const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
     sb_f4 xx = {0}, yy = {0}, zz = {0}, xy = {0}, xz = {0}, yz = {0};
     for (; four < end; four++) {
+        sb_ask_ahead(four);
         const sb_four d = sb_turn(self - *sb_at(around, four->place[0]), self - *sb_at(around, four->place[1]),
                                   self - *sb_at(around, four->place[2]), self - *sb_at(around, four->place[3]));
         const sb_f4 slope = sb_slopes(four), x = d.x * slope, y = d.y * slope;
@@ -103,20 +105,23 @@ static void find_stress(sb_sim *sim, const sb_group *group)
         if (!any)
             continue;
         const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
-        sb_f4 sum = sim->acceleration[i] * sb_splat(OWN), sum_xx = {OWN * sim->residual[i]}, weights = {OWN};
+        const sb_f4 own = {0, 0, 0, sim->residual[i]};
+        sb_f8 even = sb_beside(own, sim->acceleration[i]) * sb_splat8(OWN), odd = {0};
+        sb_f4 weights = {OWN};
         for (; four < end; four++) {
-            const sb_f4 *a = sb_at_with(around, four->place[0]), *b = sb_at_with(around, four->place[1]);
-            const sb_f4 *c = sb_at_with(around, four->place[2]), *e = sb_at_with(around, four->place[3]);
             const sb_f4 slope = sb_slopes(four);
-            sum += a[1] * sb_splat(slope[0]) + b[1] * sb_splat(slope[1]);
-            sum += c[1] * sb_splat(slope[2]) + e[1] * sb_splat(slope[3]);
-            sum_xx += slope * (sb_f4){a[0][3], b[0][3], c[0][3], e[0][3]};
+            sb_ask_ahead(four);
+            even += *sb_both_at(around, four->place[0]) * sb_splat8(slope[0]);
+            odd += *sb_both_at(around, four->place[1]) * sb_splat8(slope[1]);
+            even += *sb_both_at(around, four->place[2]) * sb_splat8(slope[2]);
+            odd += *sb_both_at(around, four->place[3]) * sb_splat8(slope[3]);
             weights += slope;
         }
+        const sb_f8 sum = even + odd;
         const float density = sim->density[i], q = sim->velocity[i][3] / (density * density);
         const float factor = sleepers && beside_sleepers(sim, group, i) ? 0 : q / (sb_sum3(weights) + weights[3]);
-        stress[i] = sum * sb_splat(factor);
-        sim->source[i] = (sb_sum3(sum_xx) + sum_xx[3]) * factor;
+        stress[i] = __builtin_shufflevector(sum, sum, 4, 5, 6, 7) * sb_splat(factor);
+        sim->source[i] = sum[3] * factor;
     }
 }
 
@@ -136,6 +141,7 @@ static void push(sb_sim *sim, const sb_group *group, float dt)
         const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
         sb_f4 sum_x = {0}, sum_y = {0}, sum_z = {0};
         for (; four < end; four++) {
+            sb_ask_ahead(four);
             const sb_f4 *a = sb_at_with(around, four->place[0]), *b = sb_at_with(around, four->place[1]);
             const sb_f4 *c = sb_at_with(around, four->place[2]), *e = sb_at_with(around, four->place[3]);
             const sb_four d = sb_turn(self - a[0], self - b[0], self - c[0], self - e[0]);

@@ -43,12 +43,6 @@ SB_INLINE sb_f8 two(const sb_f4 *around, const uint16_t *place)
     return sb_beside(*sb_at(around, place[0]), *sb_at(around, place[1]));
 }
 
-/* A neighbour's record with its value behind it. */
-SB_INLINE sb_f8 both(const sb_f4 *around, uint16_t place)
-{
-    return *(const sb_f8 *)sb_at_with(around, place);
-}
-
 /* The slopes of two neighbours, each in four lanes; the second one 2^32 times too large, which spares a shift. */
 SB_INLINE sb_f8 two_slopes(const uint16_t *slope)
 {
@@ -66,14 +60,6 @@ SB_INLINE sb_f4 fold(sb_f8 v)
            __builtin_shufflevector(v, v, 4, 5, 6, 7) * sb_splat(0x1p-32f);
 }
 
-/* Lists are read once a pass, in order, from memory: asks for what comes some particles later (docs/decisions/0012).
-   Past the pool's end it asks for nothing. */
-SB_INLINE void ask_ahead(const sb_four_pairs *four)
-{
-    enum { BYTES = 2048 };
-    __builtin_prefetch((const void *)((uintptr_t)four + BYTES));
-}
-
 SB_MULTIVERSION
 static void accelerate_group(sb_sim *sim, const sb_group *group)
 {
@@ -85,7 +71,7 @@ static void accelerate_group(sb_sim *sim, const sb_group *group)
         const sb_f8 self = sb_beside(own, own), q = sb_carried8(self);
         sb_f8 even = {0}, odd = {0};
         for (; four < end; four++) {
-            ask_ahead(four);
+            sb_ask_ahead(four);
             const sb_f8 a = two(around, four->place), b = two(around, four->place + 2);
             even += (self - a) * ((q + sb_carried8(a)) * two_slopes(four->slope));
             odd += (self - b) * ((q + sb_carried8(b)) * two_slopes(four->slope + 2));
@@ -105,9 +91,9 @@ static void diverge_group(sb_sim *sim, const sb_group *group, const sb_f4 *field
         const sb_f8 self = sb_beside(sb_in_group(sim, group, i), field[i]);
         sb_f8 even = {0}, odd = {0};
         for (; four < end; four++) {
-            ask_ahead(four);
-            const sb_f8 a = self - both(around, four->place[0]), b = self - both(around, four->place[1]);
-            const sb_f8 c = self - both(around, four->place[2]), d = self - both(around, four->place[3]);
+            sb_ask_ahead(four);
+            const sb_f8 a = self - *sb_both_at(around, four->place[0]), b = self - *sb_both_at(around, four->place[1]);
+            const sb_f8 c = self - *sb_both_at(around, four->place[2]), d = self - *sb_both_at(around, four->place[3]);
             even += sb_lower(a, b) * (sb_upper(a, b) * two_slopes(four->slope));
             odd += sb_lower(c, d) * (sb_upper(c, d) * two_slopes(four->slope + 2));
         }

@@ -1,4 +1,4 @@
-/* Two neighbours at a time: their 16-byte records side by side in one 32-byte vector. A machine without such vectors
+/* Two neighbours at a time, or one with a value of its own: 16-byte records side by side in one 32-byte vector. A machine without such vectors
    takes two instructions for each of these operations and gets the same lanes. */
 #ifndef SB_SIM_SIMD_WIDE_H
 #define SB_SIM_SIMD_WIDE_H
@@ -10,6 +10,11 @@ typedef int32_t sb_i8 __attribute__((vector_size(32)));
 SB_INLINE sb_f8 sb_beside(sb_f4 a, sb_f4 b)
 {
     return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+
+SB_INLINE sb_f8 sb_splat8(float value)
+{
+    return (sb_f8){value, value, value, value, value, value, value, value};
 }
 
 SB_INLINE sb_f8 sb_carried8(sb_f8 records)
