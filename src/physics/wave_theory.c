@@ -2,34 +2,45 @@
 
 #include <math.h>
 
+/* Lengths in depths, speeds in sqrt(gh): e = H/h, S = sech^2(alpha xi), T = tanh(alpha xi), whose squares add to 1. */
+typedef struct phase {
+    double e, alpha, s, t;
+} phase;
+
+static phase phase_at(const sb_solitary *wave, double xi)
+{
+    const double e = wave->height / wave->depth;
+    const double alpha = sqrt(0.75 * e) * (1 + e * (-5 / 8.0 + e * 71 / 128.0));
+    const double sech = 1 / cosh(alpha * xi / wave->depth); /* underflows to 0 far away, which is right */
+    return (phase){e, alpha, sech * sech, tanh(alpha * xi / wave->depth)};
+}
+
 double sb_solitary_celerity(const sb_solitary *wave)
 {
-    return sqrt(wave->gravity * (wave->depth + wave->height));
+    const double e = wave->height / wave->depth;
+    return sqrt(wave->gravity * wave->depth * (1 + e * (1 + e * (-1 / 20.0 - e * 3 / 70.0))));
 }
 
-/* Boussinesq: kappa^2 = 3H/(4h^3) [S16 eq. 43]; Rayleigh: kappa^2 = 3H/(4h^2(h+H)). */
-double sb_solitary_wavenumber(const sb_solitary *wave)
-{
-    double h = wave->depth, H = wave->height;
-    return sqrt(3 * H / (4 * h * h * (wave->rayleigh ? h + H : h)));
-}
-
-/* eta = H sech^2(kappa xi); 1/cosh underflows to 0 far away, which is right. */
 double sb_solitary_elevation(const sb_solitary *wave, double xi)
 {
-    double sech = 1 / cosh(sb_solitary_wavenumber(wave) * xi);
-    return wave->height * sech * sech;
+    const phase p = phase_at(wave, xi);
+    const double e = p.e, s = p.s, t2 = p.t * p.t;
+    return wave->height * s * (1 + e * t2 * (-3 / 4.0 + e * (5 / 8.0 - s * 101 / 80.0)));
 }
 
-/* u is uniform over the depth, so w = -z du/dx, with u' = C h eta'/(h+eta)^2. */
 void sb_solitary_velocity(const sb_solitary *wave, double xi, double z, double *u, double *w)
 {
-    double h = wave->depth, kappa = sb_solitary_wavenumber(wave);
-    double celerity = sb_solitary_celerity(wave);
-    double eta = sb_solitary_elevation(wave, xi);
-    double eta_slope = -2 * kappa * eta * tanh(kappa * xi);
-    *u = celerity * eta / (h + eta);
-    *w = -z * celerity * h * eta_slope / ((h + eta) * (h + eta));
+    const phase p = phase_at(wave, xi);
+    const double e = p.e, s = p.s, y = z * z / (wave->depth * wave->depth);
+    const double u2 = -1 / 4.0 + s + y * (3 / 2.0 - s * 9 / 4.0);
+    const double u3 = 19 / 40.0 + s * (1 / 5.0 - s * 6 / 5.0) + y * (-3 / 2.0 + s * (-15 / 4.0 + s * 15 / 2.0)) +
+                      y * y * (-3 / 8.0 + s * (45 / 16.0 - s * 45 / 16.0));
+    const double w2 = 3 / 8.0 + 2 * s + y * (1 / 2.0 - s * 3 / 2.0);
+    const double w3 = 49 / 640.0 + s * (-17 / 20.0 - s * 18 / 5.0) + y * (-13 / 16.0 + s * (-25 / 16.0 + s * 15 / 2.0)) +
+                      y * y * (-3 / 40.0 + s * (9 / 8.0 - s * 27 / 16.0));
+    const double scale = sqrt(wave->gravity * wave->depth) * e * s;
+    *u = scale * (1 - e * (u2 + e * u3));
+    *w = scale * sqrt(3 * e) * z / wave->depth * p.t * (1 - e * (w2 + e * w3));
 }
 
 double sb_standing_elevation(double amplitude, double wavelength, double x)

@@ -12,11 +12,11 @@
 /* Share of T at either end in which the motion is eased from and to rest. */
 static const double ease = 1.0 / 8.0;
 
-sb_goring sb_goring_of(const sb_solitary *wave)
+sb_goring sb_goring_of(double height, double depth, double gravity, bool rayleigh)
 {
-    sb_goring law = {.ratio = wave->height / wave->depth,
-                     .kappa = sb_solitary_wavenumber(wave),
-                     .celerity = sb_solitary_celerity(wave)};
+    sb_goring law = {.ratio = height / depth,
+                     .kappa = sqrt(3 * height / (4 * depth * depth * (rayleigh ? depth + height : depth))),
+                     .celerity = sqrt(gravity * (depth + height))};
     law.stroke = 2 * law.ratio / law.kappa;
     law.period = 2 / (law.kappa * law.celerity) * (3.80 + law.ratio);
     return law;
@@ -46,7 +46,7 @@ double sb_goring_paddle(const sb_goring *law, double t, double *speed)
     return (y - theta) / law->kappa + law->stroke / 2;
 }
 
-static sb_status make(const sb_wavemaker_parameters *parameters, int rayleigh, void **state,
+static sb_status make(const sb_wavemaker_parameters *parameters, bool rayleigh, void **state,
                       sb_error *error)
 {
     double ratio = parameters->height / parameters->depth;
@@ -60,10 +60,7 @@ static sb_status make(const sb_wavemaker_parameters *parameters, int rayleigh, v
                        parameters->gravity);
     sb_goring *law = sb_alloc(1, sizeof *law);
     if (!law) return sb_fail_memory(error, "a solitary-wave paddle");
-    *law = sb_goring_of(&(sb_solitary){.height = parameters->height,
-                                       .depth = parameters->depth,
-                                       .gravity = parameters->gravity,
-                                       .rayleigh = rayleigh});
+    *law = sb_goring_of(parameters->height, parameters->depth, parameters->gravity, rayleigh);
     *state = law;
     return SB_OK;
 }
@@ -71,13 +68,13 @@ static sb_status make(const sb_wavemaker_parameters *parameters, int rayleigh, v
 static sb_status create_boussinesq(const sb_wavemaker_parameters *parameters, void **state,
                                    sb_error *error)
 {
-    return make(parameters, 0, state, error);
+    return make(parameters, false, state, error);
 }
 
 static sb_status create_rayleigh(const sb_wavemaker_parameters *parameters, void **state,
                                  sb_error *error)
 {
-    return make(parameters, 1, state, error);
+    return make(parameters, true, state, error);
 }
 
 /* The cubic that leaves 0 at rest and reaches `value` with `speed` after `length`. */

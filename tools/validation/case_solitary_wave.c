@@ -212,7 +212,7 @@ static sb_status plot_heights(const sb_case_run *runs, size_t count, sb_plot *pl
 static sb_status plot_shapes(const sb_case_run *runs, size_t count, sb_plot *plot, sb_error *error)
 {
     const sb_scene *scene = runs[0].scene;
-    sb_solitary wave = {scene->wave.height, scene->wave.depth, scene->fluid.gravity, 0};
+    sb_solitary wave = {scene->wave.height, scene->wave.depth, scene->fluid.gravity};
     double celerity = sb_solitary_celerity(&wave);
     sb_curve theory = {0};
     sb_status status =
@@ -222,7 +222,7 @@ static sb_status plot_shapes(const sb_case_run *runs, size_t count, sb_plot *plo
         status = sb_curve_add(&theory, 0.05 * i, sb_solitary_elevation(&wave, -0.05 * i * celerity),
                               error);
     if (status == SB_OK)
-        status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "Boussinesq, H = 0.3 m", &theory, error);
+        status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "third order, H = 0.3 m", &theory, error);
     sb_curve_free(&theory);
     for (size_t i = 0; status == SB_OK && i < count; i++) {
         sb_curve eta = {0};
