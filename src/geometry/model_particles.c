@@ -8,7 +8,7 @@
 sb_status sb_model_sample(const sb_scene *scene, const sb_model_space *space, sb_model *model,
                           sb_error *error)
 {
-    const sb_sample_settings settings = {.spacing = scene->resolution,
+    const sb_sample_settings settings = {.spacing = scene->numerics.wall_spacing * scene->resolution,
                                          .offset = scene->numerics.wall_offset * scene->resolution,
                                          .support = scene->numerics.support * scene->resolution,
                                          .dimensions = scene->dimensions,

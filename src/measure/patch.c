@@ -169,7 +169,8 @@ static void set_volumes(sb_patch *patch, const sb_scene *scene)
 {
     const sb_numerics *n = &scene->numerics;
     const bool of_lattice = n->wall_gamma == 0;
-    const double gamma = of_lattice ? sb_wall_gamma(n->kernel, scene->dimensions, n->support, n->wall_offset)
+    const double gamma = of_lattice ? sb_wall_gamma(n->kernel, scene->dimensions, n->support, n->wall_offset,
+                                                    n->wall_spacing)
                                     : n->wall_gamma;
     double h = n->support * scene->resolution;
     for (size_t i = 0; i < patch->count; i++) {

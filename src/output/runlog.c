@@ -140,6 +140,7 @@ static void put_numerics(sb_json *json, const sb_numerics *n)
     sb_json_number(json, "smagorinsky", n->smagorinsky);
     sb_json_number(json, "sound_speed", n->sound_speed);
     sb_json_number(json, "wall_gamma", n->wall_gamma);
+    sb_json_number(json, "wall_spacing", n->wall_spacing);
     sb_json_number(json, "wall_offset", n->wall_offset);
     sb_json_number(json, "jitter", n->jitter);
     sb_json_count(json, "seed", n->seed);

@@ -32,6 +32,7 @@ static const struct {
     {"smagorinsky",          {"0.1",        "0.1"}},
     {"sound_speed",          {"0",          "0"}},
     {"wall_gamma",           {"0",          "1"}},
+    {"wall_spacing",         {"0.8",        "1"}},
     {"wall_offset",          {"0.75",      "0.6"}},
     {"jitter",               {"0.02",       "0"}},
     {"seed",                 {"1",          "1"}},

@@ -111,6 +111,7 @@ typedef struct sb_numerics {
     double smagorinsky;        /* C_s of the eddy viscosity */
     double sound_speed;        /* m/s in the two above; 0: 10 sqrt(g D) */
     double wall_gamma;         /* factor on the boundary particles' volume; 0: of the lattice */
+    double wall_spacing;       /* spacings between boundary particles */
     double wall_offset;        /* spacings that their sheet lies behind the physical wall */
     double jitter;             /* spacings, amplitude of the start's random displacement */
     uint64_t seed;             /* of that displacement */

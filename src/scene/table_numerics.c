@@ -78,6 +78,8 @@ static const sb_key keys[] = {
     NUMBER(wall_gamma, NULL, 0, 5, 0,
            "Factor on the volume of boundary particles, at least 0.1: below, they leak; 0: the one that "
            "bears a lattice at rest on a plane, and at edges what does so there."),
+    NUMBER(wall_spacing, "spacings", 0.4, 1.2, 0,
+           "Distance of boundary particles from each other; wide ones are grains that hold what slides along a wall."),
     NUMBER(wall_offset, "spacings", 0, 2, 0,
            "How far boundary particles lie behind the physical wall; a run asks for 0.25 or more."),
     NUMBER(jitter, "spacings", 0, 0.5, 0, "Amplitude of the random displacement at the start."),

@@ -9,7 +9,7 @@ sb_rub sb_rub_make(const sb_sim *sim)
     const sb_constants *c = &sim->constant;
     const double quantum = sim->space.quantum, h = (double)c->support, spacing = (double)c->spacing;
     const bool shear = sb_shear_on(sim->scene);
-    return (sb_rub){.on = n->wall_friction > 0 || shear,
+    return (sb_rub){.on = sb_rub_on(sim->scene),
                     .friction = (float)(0.5 * n->wall_friction * h * (double)c->sound_speed / quantum),
                     .epsilon = (float)(0.01 * h * h / (quantum * quantum)),
                     .shear = shear,
@@ -23,4 +23,9 @@ sb_rub sb_rub_make(const sb_sim *sim)
 bool sb_shear_on(const sb_scene *scene)
 {
     return scene->numerics.wall_shear == SB_SHEAR_SMOOTH && scene->fluid.viscosity > 0;
+}
+
+bool sb_rub_on(const sb_scene *scene)
+{
+    return scene->numerics.wall_friction > 0 || sb_shear_on(scene);
 }

@@ -18,6 +18,9 @@ typedef struct sb_rub {
 /* Whether walls hold what slides along them. */
 bool sb_shear_on(const sb_scene *scene);
 
+/* Whether they do anything along themselves. */
+bool sb_rub_on(const sb_scene *scene);
+
 sb_rub sb_rub_make(const sb_sim *sim);
 
 /* Of a smooth wall's shear over rho u^2, u the speed along it at a Reynolds number's distance: below 139 the laminar

@@ -107,6 +107,15 @@ static void contact(sb_sim *sim, size_t i, double *sum, sb_ledger_sums *ledger)
     sim->acceleration[i] = velocity;
 }
 
+static bool one_body(const sb_sim *sim, const uint32_t *index, size_t count)
+{
+    bool same = !sim->space.repeats;
+    const uint32_t first = count > 0 ? sim->walls[index[0] >> 31].body[index[0] & 0x7fffffffu] : 0;
+    for (size_t k = 1; k < count && same; k++)
+        same = sim->walls[index[k] >> 31].body[index[k] & 0x7fffffffu] == first;
+    return same;
+}
+
 /* Adds what the pressure of particle i and its friction do to bodies, into sum[body][VALUES]. Returns the sum of
    sb_rubbed; rub: NULL for none. */
 SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_rub *rub, double *sum)
@@ -121,6 +130,12 @@ SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_rub *rub, double *su
     t.at = sb_space_position(&sim->space, sim->position[i]);
     if (count > 0)
         t.body = sim->walls[index[0] >> 31].body[index[0] & 0x7fffffffu];
+    if (one_body(sim, index, count)) { /* as most do: the sums are there already */
+        t.pushed = sim->wall[i];
+        rubbed = t.rubbed = rub ? sim->rubbed[i] : (sb_f4){0};
+        put_down(&t);
+        return rubbed;
+    }
     for (size_t k = 0; k < count; k++) {
         if (rub && k % 4 == 0)
             sb_rubbed(sim, i, velocity[i], index + k, slope + k, rub, part);

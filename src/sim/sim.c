@@ -59,7 +59,7 @@ static int allocate(sb_sim *sim, size_t n, size_t bodies)
         {&sim->unknown, n, 4, true},            {&sim->residual, n, 4, true},
         {&sim->direction, n, 4, direction},     {&sim->product, n, 4, direction},
         {&sim->eddy, n, 4, sb_turbulence_on(sim->scene)},
-        {&sim->scratch, n, 16, true},
+        {&sim->scratch, n, 16, true},           {&sim->rubbed, n, 16, sb_rub_on(sim->scene)},
         {&sim->pairs.first, n, 4, true},        {&sim->pairs.count, n, 2, true},
         {&sim->wall_pairs.first, n, 4, true},   {&sim->wall_pairs.count, n, 2, true},
         {&sim->partial, blocks, 40, true},      {&sim->block_touched, blocks, 1, true},
@@ -204,7 +204,7 @@ void sb_sim_destroy(sb_sim *sim)
         return;
     void *fields[] = {sim->position, sim->velocity, sim->id, sim->deficit, sim->acceleration, sim->wall, sim->density,
                       sim->eddy, sim->diagonal, sim->source, sim->unknown, sim->residual, sim->direction, sim->product,
-                      sim->scratch, sim->partial,
+                      sim->scratch, sim->rubbed, sim->partial,
                       sim->block_touched, sim->block_impulse, sim->impulse, sim->block_ledger};
     for (size_t f = 0; f < sizeof fields / sizeof fields[0]; f++)
         sb_free(fields[f]);

@@ -136,6 +136,7 @@ typedef struct sb_sim {
     sb_f4 *acceleration;      /* m/s^2, of the pressure argument; last lane 0. After the stage accelerate:
                                  the new velocity and pressure */
     sb_f4 *wall;              /* sum_b psi_b grad W_ib; last lane: sum_b psi_b v_b . grad W_ib */
+    sb_f4 *rubbed;            /* m/s^2, by the walls along themselves, of particles beside them; NULL where walls do not */
     float *density;           /* kg/m^3, deficit included */
     float *eddy;              /* m^2/s, nu_t at the step's start; NULL without a turbulence model */
     float *diagonal;          /* -a_ii > 0 for q as unknown; 0: no pressure here */

@@ -94,7 +94,7 @@ static void do_group(sb_sim *sim, const sb_group *group, const factors *f, bool 
         else if (viscous)
             a += fluid_part(sim, group, around, i, f, false, 0);
         if (rub->on && sim->wall_pairs.count[i] > 0)
-            a += wall_part(sim, i, rub);
+            a += sim->rubbed[i] = wall_part(sim, i, rub);
         a[3] = 0;
         next[i] = sim->velocity[i] + a * sb_splat(dt);
     }

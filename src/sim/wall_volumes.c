@@ -46,7 +46,8 @@ int sb_wall_volumes(const sb_sim *sim, sb_wall_set *set, bool only_own)
         return -1;
     const sb_numerics *n = &sim->scene->numerics;
     const bool of_lattice = n->wall_gamma == 0;
-    const double gamma = of_lattice ? sb_wall_gamma(n->kernel, sim->constant.dimension, n->support, n->wall_offset)
+    const double gamma = of_lattice ? sb_wall_gamma(n->kernel, sim->constant.dimension, n->support, n->wall_offset,
+                                                    n->wall_spacing)
                                     : n->wall_gamma;
     const double scale = gamma * (double)sim->constant.rest_density;
 #pragma omp parallel for schedule(dynamic, 64)

@@ -37,6 +37,7 @@ static int set_up(void **state)
     scene.sea = (sb_sea){true, 4, {10, 5, 3}};
     scene.numerics.support = 2;
     scene.numerics.wall_offset = 0.5;
+    scene.numerics.wall_spacing = 1;
     scene.bodies = bodies;
     scene.boxes = boxes;
     return 0;

@@ -32,6 +32,7 @@ static int set_up(void **state)
     scene.sea = (sb_sea){true, 3, {2, 3, 2}};
     scene.numerics.support = 2;
     scene.numerics.wall_offset = 0.5;
+    scene.numerics.wall_spacing = 1;
     scene.bodies = bodies;
     scene.wavemakers = &wavemaker;
     return 0;

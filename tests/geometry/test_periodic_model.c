@@ -26,6 +26,7 @@ static void set_up(double width)
     scene.sea = (sb_sea){true, 4, {3, width / 2, 3}};
     scene.numerics.support = 2;
     scene.numerics.wall_offset = 0.5;
+    scene.numerics.wall_spacing = 1;
     scene.bodies = bodies;
 }
 

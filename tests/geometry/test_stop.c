@@ -31,6 +31,7 @@ static sb_scene make_scene(double resolution)
     scene.sea = (sb_sea){true, 2, {1, 1, 1}};
     scene.numerics.support = 2;
     scene.numerics.wall_offset = 0.5;
+    scene.numerics.wall_spacing = 1;
     scene.bodies = bodies;
     scene.boxes = &box;
     return scene;

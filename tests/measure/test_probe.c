@@ -111,6 +111,7 @@ static void add_floor(fake_world *world, double size, sb_model_body *body)
     model->body_count = 1;
     world->scene.numerics.wall_gamma = 0.7;
     world->scene.numerics.wall_offset = 0.5;
+    world->scene.numerics.wall_spacing = 1;
 }
 
 /* Force per area of a lattice with one pressure on an endless floor, by the formula. */

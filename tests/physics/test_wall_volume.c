@@ -44,7 +44,7 @@ static void a_lattice_rests_on_a_plane(void **state)
     (void)state;
     const sb_kernel *kernel = sb_kernel_find("wendland-c2");
     for (int dimension = 2; dimension <= 3; dimension++) {
-        const double gamma = sb_wall_gamma(kernel, dimension, 3, 0.575);
+        const double gamma = sb_wall_gamma(kernel, dimension, 3, 0.575, 1);
         const double best = worst(kernel, dimension, 3, 0.575, gamma);
         printf("%dD: gamma %.4f, left over %.4f\n", dimension, gamma, best);
         assert_true(best < 0.01);
@@ -60,7 +60,7 @@ static void gamma_is_the_best_one(void **state)
     for (const sb_kernel *const *row = sb_kernels; *row; row++)
         for (int dimension = 2; dimension <= 3; dimension++)
             for (double offset = 0.4; offset < 0.9; offset += 0.1) {
-                const double gamma = sb_wall_gamma(*row, dimension, (*row)->support, offset);
+                const double gamma = sb_wall_gamma(*row, dimension, (*row)->support, offset, 1);
                 double sum[3] = {0};
                 for (int way = 0; way < 3; way++)
                     for (int k = 0; k < 4; k++)
@@ -68,6 +68,18 @@ static void gamma_is_the_best_one(void **state)
                                                   gamma * (0.99 + 0.01 * way), k), 2);
                 assert_true(gamma > 0.1 && sum[1] < sum[0] && sum[1] < sum[2]);
             }
+}
+
+/* What stands for a wall hardly depends on how densely it is sampled. */
+static void gamma_is_that_of_the_wall(void **state)
+{
+    (void)state;
+    const sb_kernel *kernel = sb_kernel_find("wendland-c2");
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        const double usual = sb_wall_gamma(kernel, dimension, 3, 0.75, 1);
+        for (double spacing = 0.5; spacing < 1; spacing += 0.1)
+            assert_near(sb_wall_gamma(kernel, dimension, 3, 0.75, spacing) / usual, 1, 0.02);
+    }
 }
 
 static void planes_are_left_alone_and_edges_are_not(void **state)
@@ -87,7 +99,7 @@ static void planes_are_left_alone_and_edges_are_not(void **state)
 static double beside_an_edge(bool bend)
 {
     const sb_kernel *kernel = sb_kernel_find("wendland-c2");
-    const double offset = 0.575, gamma = sb_wall_gamma(kernel, 2, 3, offset);
+    const double offset = 0.575, gamma = sb_wall_gamma(kernel, 2, 3, offset, 1);
     enum { SIDE = 12 };
     sb_vec3 at[2 * SIDE], normal[2 * SIDE];
     double psi[2 * SIDE], sum = 0;
@@ -139,6 +151,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_lattice_rests_on_a_plane),
         cmocka_unit_test(gamma_is_the_best_one),
+        cmocka_unit_test(gamma_is_that_of_the_wall),
         cmocka_unit_test(planes_are_left_alone_and_edges_are_not),
         cmocka_unit_test(an_edge_bears_its_water),
     };

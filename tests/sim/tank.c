@@ -29,6 +29,7 @@ static void set_numerics(sb_numerics *n)
         .artificial_viscosity = 0.01,
         .wall_gamma = 0.7,
         .wall_offset = 0.5,
+        .wall_spacing = 1,
     };
 }
 
