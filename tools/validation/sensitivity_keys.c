@@ -25,9 +25,9 @@ const sb_sensitivity_key sb_sensitivity_keys[] = {
     NUMBER(stress_correction, 1),
     NUMBER(artificial_viscosity, 10),
     NUMBER(wall_friction, 10),
-    /* 0 takes the lattice's: 1.46 in 2D, 1.45 in 3D. */
-    {"wall_gamma", offsetof(sb_numerics, wall_gamma), false, 5, 1.455},
-    NUMBER(wall_spacing, 2),
+    /* 0 takes the lattice's: 1.455 in 2D, 1.443 in 3D. */
+    {"wall_gamma", offsetof(sb_numerics, wall_gamma), false, 5, 1.449},
+    NUMBER(wall_spacing, 1.2),
     NUMBER(wall_offset, 2),
     NUMBER(jitter, 0.5),
     COUNT(settle_steps, 1000000),
