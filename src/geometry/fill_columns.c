@@ -29,7 +29,7 @@ double sb_columns_surface(const sb_columns *c, double x)
     double ahead = x - wave->position;
     if (wave->kind == SB_INITIAL_STANDING)
         return c->level + sb_standing_elevation(wave->height, wave->wavelength, ahead);
-    const sb_solitary solitary = {wave->height, wave->depth, c->scene->fluid.gravity};
+    const sb_solitary solitary = {wave->height, wave->depth, c->scene->fluid.gravity, wave->theory};
     return c->level + sb_solitary_elevation(&solitary, wave->direction < 0 ? -ahead : ahead);
 }
 

@@ -109,7 +109,7 @@ static sb_vec3 velocity_at(const sb_columns *c, sb_vec3 at)
 {
     const sb_initial_wave *wave = &c->scene->wave;
     if (!c->waves || wave->kind != SB_INITIAL_SOLITARY) return c->velocity;
-    const sb_solitary solitary = {wave->height, wave->depth, c->scene->fluid.gravity};
+    const sb_solitary solitary = {wave->height, wave->depth, c->scene->fluid.gravity, wave->theory};
     double sign = wave->direction < 0 ? -1 : 1, u, w;
     sb_solitary_velocity(&solitary, sign * (at.x - wave->position),
                          fmax(at.z - (c->level - wave->depth), 0), &u, &w);

@@ -1,6 +1,7 @@
 #include "physics/wave_theory.h"
 
 #include <math.h>
+#include <stdbool.h>
 
 /* Lengths in depths, speeds in sqrt(gh): e = H/h, S = sech^2(alpha xi), T = tanh(alpha xi), whose squares add to 1. */
 typedef struct phase {
@@ -9,8 +10,9 @@ typedef struct phase {
 
 static phase phase_at(const sb_solitary *wave, double xi)
 {
-    const double e = wave->height / wave->depth;
-    const double alpha = sqrt(0.75 * e) * (1 + e * (-5 / 8.0 + e * 71 / 128.0));
+    const double e = wave->height / wave->depth, first = sqrt(0.75 * e);
+    const bool third = wave->theory == SB_SOLITARY_THIRD_ORDER;
+    const double alpha = third ? first * (1 + e * (-5 / 8.0 + e * 71 / 128.0)) : first;
     const double sech = 1 / cosh(alpha * xi / wave->depth); /* underflows to 0 far away, which is right */
     return (phase){e, alpha, sech * sech, tanh(alpha * xi / wave->depth)};
 }
@@ -18,20 +20,30 @@ static phase phase_at(const sb_solitary *wave, double xi)
 double sb_solitary_celerity(const sb_solitary *wave)
 {
     const double e = wave->height / wave->depth;
-    return sqrt(wave->gravity * wave->depth * (1 + e * (1 + e * (-1 / 20.0 - e * 3 / 70.0))));
+    const double beyond = wave->theory == SB_SOLITARY_THIRD_ORDER ? e * e * (-1 / 20.0 - e * 3 / 70.0) : 0;
+    return sqrt(wave->gravity * wave->depth * (1 + e + beyond));
 }
 
 double sb_solitary_elevation(const sb_solitary *wave, double xi)
 {
     const phase p = phase_at(wave, xi);
     const double e = p.e, s = p.s, t2 = p.t * p.t;
-    return wave->height * s * (1 + e * t2 * (-3 / 4.0 + e * (5 / 8.0 - s * 101 / 80.0)));
+    const double beyond = wave->theory == SB_SOLITARY_THIRD_ORDER ? e * t2 * (-3 / 4.0 + e * (5 / 8.0 - s * 101 / 80.0)) : 0;
+    return wave->height * s * (1 + beyond);
 }
 
-void sb_solitary_velocity(const sb_solitary *wave, double xi, double z, double *u, double *w)
+/* u uniform over the depth, u = C eta/(h + eta); w from continuity. */
+static void first_order(const sb_solitary *wave, const phase *p, double z, double *u, double *w)
 {
-    const phase p = phase_at(wave, xi);
-    const double e = p.e, s = p.s, y = z * z / (wave->depth * wave->depth);
+    const double h = wave->depth, eta = wave->height * p->s, celerity = sb_solitary_celerity(wave);
+    const double slope = -2 * p->alpha / h * eta * p->t;
+    *u = celerity * eta / (h + eta);
+    *w = -z * celerity * h * slope / ((h + eta) * (h + eta));
+}
+
+static void third_order(const sb_solitary *wave, const phase *p, double z, double *u, double *w)
+{
+    const double e = p->e, s = p->s, y = z * z / (wave->depth * wave->depth);
     const double u2 = -1 / 4.0 + s + y * (3 / 2.0 - s * 9 / 4.0);
     const double u3 = 19 / 40.0 + s * (1 / 5.0 - s * 6 / 5.0) + y * (-3 / 2.0 + s * (-15 / 4.0 + s * 15 / 2.0)) +
                       y * y * (-3 / 8.0 + s * (45 / 16.0 - s * 45 / 16.0));
@@ -40,7 +52,16 @@ void sb_solitary_velocity(const sb_solitary *wave, double xi, double z, double *
                       y * y * (-3 / 40.0 + s * (9 / 8.0 - s * 27 / 16.0));
     const double scale = sqrt(wave->gravity * wave->depth) * e * s;
     *u = scale * (1 - e * (u2 + e * u3));
-    *w = scale * sqrt(3 * e) * z / wave->depth * p.t * (1 - e * (w2 + e * w3));
+    *w = scale * sqrt(3 * e) * z / wave->depth * p->t * (1 - e * (w2 + e * w3));
+}
+
+void sb_solitary_velocity(const sb_solitary *wave, double xi, double z, double *u, double *w)
+{
+    const phase p = phase_at(wave, xi);
+    if (wave->theory == SB_SOLITARY_BOUSSINESQ)
+        first_order(wave, &p, z, u, w);
+    else
+        third_order(wave, &p, z, u, w);
 }
 
 double sb_standing_elevation(double amplitude, double wavelength, double x)

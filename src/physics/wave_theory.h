@@ -2,10 +2,18 @@
 #ifndef SB_PHYSICS_WAVE_THEORY_H
 #define SB_PHYSICS_WAVE_THEORY_H
 
-/* Solitary wave of height H on depth h to the third order of H/h [Grimshaw 1971]: what is put on water at the start. One of
-   the first order is not a solitary wave at H/h = 0.3: it is narrower, with 7 % less water, and sheds for a hundred depths.
-   xi: m ahead of the crest in the direction of travel; z: m above the bed. */
-typedef struct sb_solitary { double height, depth, gravity; } sb_solitary;
+typedef enum sb_solitary_theory {
+    SB_SOLITARY_THIRD_ORDER, /* of H/h [Grimshaw 1971] */
+    SB_SOLITARY_BOUSSINESQ   /* the first [S16, eqs. 42 to 44] */
+} sb_solitary_theory;
+
+/* Solitary wave of height H on depth h. Boussinesq's is not one in water as it is: at H/h = 0.3 it is narrower, holds 7 % less
+   water, and sheds for a hundred depths; but it is how experiments are often defined. xi: m ahead of the crest in the
+   direction of travel; z: m above the bed. */
+typedef struct sb_solitary {
+    double height, depth, gravity;
+    sb_solitary_theory theory;
+} sb_solitary;
 double sb_solitary_celerity(const sb_solitary *wave);                /* m/s */
 double sb_solitary_elevation(const sb_solitary *wave, double xi);    /* m */
 /* Speed along the travel and upward, m/s. */

@@ -6,6 +6,7 @@
 #include "base/status.h"
 #include "base/vec.h"
 #include "physics/kernel.h"
+#include "physics/wave_theory.h"
 #include "physics/wavemaker.h"
 
 #include <stdbool.h>
@@ -54,6 +55,7 @@ typedef struct sb_initial_wave {
     double position;   /* m, x of the crest */
     double wavelength; /* m, standing wave only */
     int direction;     /* +1 towards +x, -1 towards -x */
+    sb_solitary_theory theory; /* solitary wave only */
 } sb_initial_wave;
 
 typedef enum sb_preset { SB_PRESET_DEFAULT, SB_PRESET_PAPER } sb_preset;

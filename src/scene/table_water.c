@@ -60,6 +60,7 @@ static sb_status finish_box(sb_reader *reader, const sb_yaml *map, void *item)
 static const sb_table box_table = {SB_KEY_ROWS(box_keys), .size = sizeof(sb_fluid_box),
                                    .finish = finish_box};
 
+static const char *const theory_words[] = {"third-order", "boussinesq", NULL};
 static const char *const wave_words[] = {"none", "solitary", "standing", NULL};
 enum { SOLITARY = 1 << SB_INITIAL_SOLITARY, STANDING = 1 << SB_INITIAL_STANDING };
 
@@ -90,6 +91,10 @@ static const sb_key wave_keys[] = {
     {.name = "direction", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_initial_wave, direction), .min = -1,
      .max = 1, .fallback = "1", .applies = SOLITARY, .only = "kind solitary",
      .doc = "1 travels towards +x, -1 towards -x; 0 is refused."},
+    {.name = "theory", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_initial_wave, theory), .words = theory_words,
+     .fallback = "third-order", .applies = SOLITARY, .only = "kind solitary",
+     .doc = "`third-order` of height over depth, good to 0.4; `boussinesq`, the first, as experiments are often defined: high "
+            "waves of it shed water for a hundred depths."},
 };
 /* clang-format on */
 

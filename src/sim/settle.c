@@ -31,7 +31,7 @@ float sb_settle_pull(const sb_sim *sim, sb_record at)
     if (wave->kind == SB_INITIAL_NONE)
         return 0;
     const double x = sb_space_position(&sim->space, at).x - wave->position;
-    const sb_solitary solitary = {wave->height, wave->depth, gravity};
+    const sb_solitary solitary = {wave->height, wave->depth, gravity, wave->theory};
     const bool travels = wave->kind == SB_INITIAL_SOLITARY;
     const double ahead = travels ? sb_solitary_elevation(&solitary, x + step)
                                  : sb_standing_elevation(wave->height, wave->wavelength, x + step);

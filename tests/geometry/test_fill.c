@@ -293,9 +293,9 @@ static void a_solitary_wave_stands_on_the_sea(void **state)
     scene.resolution = 0.1;
     scene.domain.max = sb_vec(60, 0, 4);
     scene.sea = (sb_sea){true, 2, {10, 0, 1}};
-    scene.wave = (sb_initial_wave){SB_INITIAL_SOLITARY, 0.6, 2, 30, 0, -1};
+    scene.wave = (sb_initial_wave){SB_INITIAL_SOLITARY, 0.6, 2, 30, 0, -1, SB_SOLITARY_THIRD_ORDER};
     build();
-    const sb_solitary wave = {0.6, 2, 9.81};
+    const sb_solitary wave = {.height = 0.6, .depth = 2, .gravity = 9.81};
     double crest = 0;
     for (int i = -300; i < 300; i++)
         crest += 0.1 * sb_solitary_elevation(&wave, 0.1 * i);
@@ -320,7 +320,7 @@ static void a_standing_wave_keeps_the_volume(void **state)
 {
     (void)state;
     scene.resolution = 0.25;
-    scene.wave = (sb_initial_wave){SB_INITIAL_STANDING, 0.6, 4, 0, 20, 1};
+    scene.wave = (sb_initial_wave){.kind = SB_INITIAL_STANDING, .height = 0.6, .depth = 4, .wavelength = 20};
     build();
     volume_within(800, 0.005);
     for (size_t i = 0; i < model.fluid_count; ++i) {

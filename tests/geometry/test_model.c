@@ -158,7 +158,7 @@ static void warnings_say_what_is_too_coarse(void **state)
     add_box("far", sb_vec(70, 2, 0), sb_vec(90, 4, 4));
     scene.sea.level = 1.5;
     scene.sea.seed.z = 0.8;
-    scene.wave = (sb_initial_wave){SB_INITIAL_STANDING, 0.3, 1.5, 0, 10, 1};
+    scene.wave = (sb_initial_wave){.kind = SB_INITIAL_STANDING, .height = 0.3, .depth = 1.5, .wavelength = 10};
     build();
     assert_true(warned("\"plate\"", "about 0.4"));
     assert_false(warned("\"block\"", "thick"));

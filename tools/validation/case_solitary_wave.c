@@ -212,7 +212,7 @@ static sb_status plot_heights(const sb_case_run *runs, size_t count, sb_plot *pl
 static sb_status plot_shapes(const sb_case_run *runs, size_t count, sb_plot *plot, sb_error *error)
 {
     const sb_scene *scene = runs[0].scene;
-    sb_solitary wave = {scene->wave.height, scene->wave.depth, scene->fluid.gravity};
+    sb_solitary wave = {scene->wave.height, scene->wave.depth, scene->fluid.gravity, scene->wave.theory};
     double celerity = sb_solitary_celerity(&wave);
     sb_curve theory = {0};
     sb_status status =
