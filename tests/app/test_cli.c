@@ -223,8 +223,8 @@ static void sample_writes_the_particles(void **state)
     assert_int_equal(sscanf(o.out, "%zu boundary and %zu fluid particles", &walls, &fluid), 2);
     outcome_free(&o);
     assert_int_equal(fluid, 384);
-    /* 10.6 m2 of tank and bodies: between 0.5 and 1.3 particles per square of a spacing. */
-    assert_in_range(walls, 530, 1380);
+    /* 10.6 m2 of tank and bodies: between 0.5 and 1.3 particles per square of wall_spacing, 0.8 spacings. */
+    assert_in_range(walls, 828, 2156);
     char *head = text_of("sample.vtp"), points[64];
     snprintf(points, sizeof points, "NumberOfPoints=\"%zu\"", walls + fluid);
     assert_contains(head, points);
