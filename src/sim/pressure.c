@@ -65,6 +65,7 @@ static double tolerance(const sb_sim *sim)
 sb_status sb_stage_pressure(sb_sim *sim, sb_error *error)
 {
     first_guess(sim);
+    sim->last_sweeps = sim->report.iterations;
     sim->report.iterations = 0;
     sim->report.capped = false;
     sim->report.tolerance = tolerance(sim);

@@ -5,8 +5,9 @@
 #include <math.h>
 
 /* Lower end of the spectrum of D^-1 A that the polynomial is made for: it sets which error modes are damped well within
-   some ten sweeps. Measured: 0.06 instead of 0.1 takes 23 % of the sweeps off a flume in 2D, and adds 8 % in 3D. */
-static const double SMALLEST_2D = 0.06, SMALLEST_3D = 0.1;
+   the sweeps that a solve takes. A polynomial of degree n tells 1 from modes down to about 1/n^2 of the upper end, so
+   it follows the sweeps n of the step before (docs/decisions/0017). START: where none is known. */
+static const double START = 0.1, SHARE = 8, SMALLEST_MIN = 0.06, SMALLEST_MAX = 0.3;
 
 /* Water in turmoil may reach further up; then the error grows from sweep to sweep, is seen to, and the polynomial
    starts anew with a wider spectrum. */
@@ -17,6 +18,12 @@ typedef struct polynomial {
     double largest, smallest, theta, delta, rho;
     bool first;
 } polynomial;
+
+static double lower_end(int last_sweeps)
+{
+    const double n = last_sweeps;
+    return last_sweeps > 0 ? fmin(fmax(SHARE / (n * n), SMALLEST_MIN), SMALLEST_MAX) : START;
+}
 
 static polynomial begin(double largest, double smallest)
 {
@@ -49,7 +56,7 @@ static void sweep(sb_sim *sim, polynomial *p)
 static sb_status solve(sb_sim *sim, sb_error *error)
 {
     (void)error;
-    polynomial p = begin(sb_pressure_spectrum(sim), sim->constant.dimension == 2 ? SMALLEST_2D : SMALLEST_3D);
+    polynomial p = begin(sb_pressure_spectrum(sim), lower_end(sim->last_sweeps));
     double least = (double)INFINITY;
     for (;;) {
         sb_pressure_residual(sim);

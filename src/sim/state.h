@@ -145,6 +145,7 @@ typedef struct sb_sim {
     float *residual;          /* e_i = (A q)_i - b_i */
     float *direction;         /* of the solver's search; allocated for solvers that need it */
     float *product;           /* A times the argument */
+    int last_sweeps;          /* iterations of the step before; 0: there is none */
 
     sb_cells cells;
     sb_ghosts ghosts;
