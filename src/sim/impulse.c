@@ -107,6 +107,7 @@ static void contact(sb_sim *sim, size_t i, double *sum, sb_ledger_sums *ledger)
     sim->acceleration[i] = velocity;
 }
 
+/* Whether a list holds one body's boundary particles alone. Never beside periodic sides, where images push elsewhere. */
 static bool one_body(const sb_sim *sim, const uint32_t *index, size_t count)
 {
     bool same = !sim->space.repeats;

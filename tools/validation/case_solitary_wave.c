@@ -149,7 +149,7 @@ static sb_status evaluate(const sb_case_run *run, sb_figures *figures, sb_error 
     if (status == SB_OK)
         status = sb_figure_report(
             figures, "height at x = 10 m", "m", scene->wave.height, j.first, error,
-            "the start by Boussinesq's theory at x = %g m settles into a wave on the way",
+            "the wave was put on the water at x = %g m by theory of the third order",
             scene->wave.position);
     if (status == SB_OK)
         status = sb_figure_report(figures, "height at x = 60 m", "m", j.damped, j.last, error,
