@@ -306,7 +306,7 @@ static void periodic_sides_run(void **state)
     (void)state;
     static const char sides[] = "domain.sides={y_min: periodic, y_max: periodic}";
     outcome o = RUN(0, "check", "tank3.yaml", "--set", sides);
-    assert_contains(o.out, "  ghost particles    about 288 beyond periodic sides\n");
+    assert_contains(o.out, "  ghost particles    about 264 beyond periodic sides\n");
     assert_null(strstr(o.out, "warning"));
     outcome_free(&o);
     RUN_AND_FORGET(0, "run", "tank3.yaml", "--set", sides, "--out=slab", "--quiet");
