@@ -289,9 +289,18 @@ static void advance(sb_measure *measure, const sb_sim *sim)
         measure->planes[i].last = measure->planes[i].now;
 }
 
+static bool due(const sb_measure *measure, const sb_sim *sim)
+{
+    return (double)measure->next * measure->interval <= sb_sim_report(sim)->time + 1e-9 * measure->interval;
+}
+
+bool sb_measure_reads_pressures(const sb_measure *measure, const sb_sim *sim)
+{
+    return measure->scene->measure.probe_count > 0 && due(measure, sim);
+}
+
 sb_status sb_measure_step(sb_measure *measure, const sb_sim *sim, sb_error *error)
 {
-    double now = sb_sim_report(sim)->time, slack = 1e-9 * measure->interval;
     sb_status status = SB_OK;
     for (int k = 0; k < LISTS; k++) measure->lists[k].count = 0;
     sb_sight sight = sight_of(measure, sim, 0);
@@ -299,14 +308,11 @@ sb_status sb_measure_step(sb_measure *measure, const sb_sim *sim, sb_error *erro
         status = sb_gate_step(measure->gates[i], &sight, &measure->planes[i].now, error);
     if (measure->map) sb_map_step(measure->map, sim);
     measure->momentum_imbalance = fmax(measure->momentum_imbalance, sb_sim_report(sim)->momentum_imbalance);
-    bool due = false;
-    for (; status == SB_OK && (double)measure->next * measure->interval <= now + slack;
-         measure->next++) {
+    const bool any = due(measure, sim);
+    for (; status == SB_OK && due(measure, sim); measure->next++)
         status = record_boundary(measure, sim, (double)measure->next * measure->interval, error);
-        due = true;
-    }
-    if (status == SB_OK && due) status = record_layers(measure, &sight, error);
-    if (status == SB_OK && due) status = record_energy(measure, sim, error);
+    if (status == SB_OK && any) status = record_layers(measure, &sight, error);
+    if (status == SB_OK && any) status = record_energy(measure, sim, error);
     advance(measure, sim);
     publish(measure);
     return status;

@@ -221,7 +221,7 @@ static double push_of(const sb_patch *patch, const sb_scene *scene, const sb_flu
             sum -= wall->weight * wall->psi * height / r *
                    sb_kernel_slope(n->kernel, scene->dimensions, h, r);
     }
-    return sum * sample->pressure / (sample->density * sample->density);
+    return sum * sample->push;
 }
 
 sb_status sb_patch_pressure(const sb_patch *patch, const sb_sight *sight, double *pressure,

@@ -127,7 +127,8 @@ sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
         status = sb_archive_leave(in, error);
     if (status == SB_OK)
         status = sb_walls_restore(sim, error);
-    /* The cells are of other particles: none, until the next step's sort. */
+    /* Lists and cells are of other particles: none, until the next step's. */
+    sim->listed = sim->told = false;
     if (sb_cells_build(&sim->cells, sim->position, 0, sim->space.shift) != 0 && status == SB_OK)
         status = sb_fail_memory(error, "cells");
     return status;

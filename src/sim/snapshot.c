@@ -7,18 +7,21 @@
 /* One particle, awake or, from n on, asleep. */
 typedef struct particle {
     sb_record position;
-    sb_f4 velocity; /* last lane: pressure */
-    float density;
+    sb_f4 velocity;             /* last lane: the solve's pressure */
+    float pressure, density;    /* pressure: what the world is told */
     uint32_t id;
 } particle;
 
 static particle particle_at(const sb_sim *sim, size_t i)
 {
-    if (i < sim->n)
-        return (particle){sim->position[i], sim->velocity[i], sim->density[i], sim->id[i]};
+    if (i < sim->n) {
+        const float told = sim->told ? sim->residual[i] : sim->velocity[i][3];
+        return (particle){sim->position[i], sim->velocity[i], told, sim->density[i], sim->id[i]};
+    }
     const sb_sleep *sleep = sim->sleep;
     const size_t s = i - sim->n;
-    return (particle){sleep->position[s], {0, 0, 0, sleep->pressure[s]}, sleep->density[s], sleep->id[s]};
+    const float held = sleep->pressure[s];
+    return (particle){sleep->position[s], {0, 0, 0, held}, held, sleep->density[s], sleep->id[s]};
 }
 
 sb_frame *sb_sim_snapshot(const sb_sim *sim)
@@ -41,7 +44,7 @@ sb_frame *sb_sim_snapshot(const sb_sim *sim)
         frame->position[3 * i + 2] = (float)(x[2] * quantum + shift.z);
         for (size_t axis = 0; axis < 3; axis++)
             frame->velocity[3 * i + axis] = p.velocity[axis];
-        frame->pressure[i] = p.velocity[3];
+        frame->pressure[i] = p.pressure;
         frame->id[i] = p.id;
     }
     for (size_t b = 0; b < model->body_count; b++) {
@@ -70,8 +73,9 @@ static sb_fluid_sample sample_at(const sb_sim *sim, size_t i, sb_vec3 position)
     return (sb_fluid_sample){
         .position = position,
         .velocity = sb_vec((double)v[0], (double)v[1], (double)v[2]),
-        .pressure = (double)v[3],
+        .pressure = (double)p.pressure,
         .density = (double)p.density,
+        .push = (double)v[3] / ((double)p.density * (double)p.density),
         .id = p.id,
     };
 }

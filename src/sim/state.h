@@ -146,6 +146,8 @@ typedef struct sb_sim {
     float *direction;         /* of the solver's search; allocated for solvers that need it */
     float *product;           /* A times the argument */
     int last_sweeps;          /* iterations of the step before; 0: there is none */
+    bool listed, told;        /* since the last step's end: lists are those of the particles; residual holds the
+                                 pressures that the water bears (sim/bearing.c) */
 
     sb_cells cells;
     sb_ghosts ghosts;

@@ -50,6 +50,7 @@ sb_status sb_sim_step(sb_sim *sim, sb_error *error)
 {
     const stage *run[STAGES];
     size_t count = 0;
+    sim->listed = sim->told = false;
     for (size_t s = 0; s < STAGES; s++) {
         if (stages[s].needed && !stages[s].needed(sim->scene))
             continue;
@@ -70,5 +71,6 @@ sb_status sb_sim_step(sb_sim *sim, sb_error *error)
             return status;
 #endif
     }
+    sim->listed = true;
     return SB_OK;
 }

@@ -142,7 +142,7 @@ static void wall_pressure_is_force_over_area(void **state)
         fake_world_make(&world, dimensions, 0.5, sb_vec(0, 0, 0), sb_vec(8, 8, 8));
         fake_fill(&world, sb_vec(0, 0, 0), sb_vec(8, 8, 3), 0, 0, 0, 1);
         for (size_t i = 0; i < world.sim.report.fluid_count; i++)
-            world.sim.samples[i].pressure = 2000;
+            world.sim.samples[i].push = 2000 / 1e6;
         add_floor(&world, 8, &body);
         double expected = floor_load(&world, 2000), p;
         sb_vec3 v;

@@ -1,0 +1,80 @@
+/* The pressure that water bears, for the world outside. The solve's p = rho^2 q is what keeps the density; what a
+   particle's neighbours press on it with is the virial of the pairs [Irving & Kirkwood 1950], half of each pair's to
+   either side, and a wall's pairs alike:
+
+       P_i = -(rho_0 / 2d) [sum_j m (q_i + q_j) x_ij . grad W_ij + q_i sum_b psi_b x_ib . grad W_ib]
+
+   Under a pressure that is the same everywhere P is p times the packing's trace, which settled water has below 1; and
+   it is half as rough as p, which zigzags from particle to particle. Momentum knows P alone. */
+#include "sim/around.h"
+#include "sim/sleep.h"
+
+enum { GROUPS = 8 }; /* per unit of work */
+
+/* What neighbours are read from, as it was when the lists were made: offset from the group's corner, q in the last lane.
+   back: -dt in quanta per m/s. */
+SB_INLINE sb_f4 entry(const sb_sim *sim, const sb_group *group, size_t e, sb_f4 back)
+{
+    sb_f4 at = sb_offset(sim->position[e], group->corner);
+    const size_t sleepers = sb_fringe_first(sim);
+    if (e < sim->n) {
+        at += sim->velocity[e] * back;
+        at[3] = sim->unknown[e];
+    } else if (e < sleepers)
+        at[3] = sim->unknown[sim->ghosts.of[e - sim->n]];
+    else
+        at[3] = sim->sleep->fringe_q[e - sleepers];
+    return at;
+}
+
+/* sum_b psi_b x_ib . grad W_ib in quanta. */
+static float by_walls(const sb_sim *sim, const sb_group *group, size_t i, sb_f4 self)
+{
+    const sb_pairs *pairs = &sim->wall_pairs;
+    float sum = 0;
+    for (size_t k = pairs->first[i]; k < pairs->first[i] + pairs->count[i]; k++) {
+        const uint32_t index = pairs->index[k];
+        const sb_record wall = sim->walls[index >> 31].record[index & 0x7fffffffu];
+        const sb_f4 d = self - sb_offset(wall, group->corner);
+        sum += pairs->slope[k] * sb_sum3(d * d);
+    }
+    return sum;
+}
+
+SB_MULTIVERSION
+static void bear_group(sb_sim *sim, const sb_group *group)
+{
+    _Alignas(64) sb_f4 around[SB_AROUND_MAX];
+    const float quantum = (float)sim->space.quantum;
+    const sb_f4 back = sb_splat(-(float)sim->report.time_step / quantum);
+    const float factor = -0.5f * sim->constant.rest_density * quantum / (float)sim->constant.dimension;
+    const sb_run *run = sim->groups.run + group->run;
+    sb_f4 *at = around;
+    for (size_t r = 0; r < group->runs; r++)
+        for (size_t k = 0; k < run[r].count; k++)
+            *at++ = entry(sim, group, run[r].begin + k, back);
+    for (size_t i = group->first; i < group->end; i++) {
+        const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
+        const sb_f4 self = entry(sim, group, i, back);
+        sb_f4 sum = {0};
+        for (; four < end; four++) {
+            const sb_four d = sb_turn(*sb_at(around, four->place[0]), *sb_at(around, four->place[1]),
+                                      *sb_at(around, four->place[2]), *sb_at(around, four->place[3]));
+            const sb_f4 x = d.x - sb_splat(self[0]), y = d.y - sb_splat(self[1]), z = d.z - sb_splat(self[2]);
+            sum += (d.w + sb_splat(self[3])) * sb_slopes(four) * (x * x + y * y + z * z);
+        }
+        const float water = ((sum[0] + sum[1]) + (sum[2] + sum[3])) * sim->pairs.unit;
+        sim->residual[i] = factor * (water + self[3] * by_walls(sim, group, i, self));
+    }
+}
+
+void sb_sim_find_pressures(sb_sim *sim)
+{
+    if (!sim->listed || sim->told)
+        return;
+    const size_t groups = sim->groups.count;
+#pragma omp parallel for schedule(dynamic, GROUPS)
+    for (size_t g = 0; g < groups; g++)
+        bear_group(sim, &sim->groups.group[g]);
+    sim->told = true;
+}
