@@ -25,7 +25,7 @@ static const struct {
     {"time_step_factor",     {"0.165",      "0.075"}},
     {"time_step_max",        {"0",          "0"}},
     {"stress_correction",    {"1",          "0"}},
-    {"artificial_viscosity", {"0.004",       "0.05"}},
+    {"artificial_viscosity", {"0.005",       "0.05"}},
     {"wall_friction",        {"0",          "0.02"}},
     {"wall_shear",           {"smooth",     "none"}},
     {"turbulence",           {"none",       "none"}},
