@@ -20,21 +20,26 @@ const sb_figure *sb_figures_find(const sb_figures *figures, const char *quantity
     return NULL;
 }
 
-/* Judges and appends; a NaN error fails wherever there is a limit. */
-static sb_status add(sb_figures *figures, sb_figure figure, const char *quantity, const char *unit,
-                     const char *error_unit, sb_error *error, const char *note, va_list arguments)
+sb_status sb_figures_add(sb_figures *figures, const sb_figure *figure, sb_error *error)
 {
     if (sb_grow((void **)&figures->rows, &figures->capacity, figures->count + 1,
                 sizeof *figures->rows) != 0)
         return sb_fail_memory(error, "figures");
+    figures->rows[figures->count++] = *figure;
+    return SB_OK;
+}
+
+/* Judges and appends; a NaN error fails wherever there is a limit. */
+static sb_status add(sb_figures *figures, sb_figure figure, const char *quantity, const char *unit,
+                     const char *error_unit, sb_error *error, const char *note, va_list arguments)
+{
     snprintf(figure.quantity, sizeof figure.quantity, "%s", quantity);
     snprintf(figure.unit, sizeof figure.unit, "%s", unit);
     snprintf(figure.error_unit, sizeof figure.error_unit, "%s", error_unit);
     vsnprintf(figure.note, sizeof figure.note, note, arguments);
     double size = figure.one_sided ? figure.error : fabs(figure.error);
     figure.pass = isnan(figure.limit) || size <= figure.limit;
-    figures->rows[figures->count++] = figure;
-    return SB_OK;
+    return sb_figures_add(figures, &figure, error);
 }
 
 sb_status sb_figure_share(sb_figures *figures, const char *quantity, const char *unit,

@@ -32,6 +32,9 @@ void sb_figures_free(sb_figures *figures);
 /* The figure of that quantity, or NULL. */
 const sb_figure *sb_figures_find(const sb_figures *figures, const char *quantity);
 
+/* Adds a copy of a figure that is judged already. Without memory: SB_FAILED. */
+sb_status sb_figures_add(sb_figures *figures, const sb_figure *figure, sb_error *error);
+
 /* Each adds one figure. `note` is made as printf does ("" for none). Without memory: SB_FAILED. */
 
 /* error = 100 (value - reference)/scale %, within +-limit %. scale: often |reference|, or a wave

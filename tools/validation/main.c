@@ -1,4 +1,5 @@
 /* Command line of the validation. */
+#include "kept.h"
 #include "launch.h"
 #include "options.h"
 #include "process.h"
@@ -71,14 +72,18 @@ static sb_status report(const sb_store *store, const sb_validate_options *o, siz
     char folder[SB_PATH_MAX];
     sb_case_results results[SB_CASES_MAX] = {{0}};
     size_t count = 0;
+    sb_sheet former;
+    snprintf(folder, sizeof folder, "%s", o->report ? o->report : SB_SOURCE_DIR "/docs/results");
     sb_status status = SB_OK;
+    if (o->quick && !o->report)
+        status = sb_path_join(folder, store->out, "quick", error);
+    if (status == SB_OK) status = sb_kept_open(folder, &former, error);
+    if (status != SB_OK) return status;
     for (; status == SB_OK && sb_cases[count] && count < SB_CASES_MAX; count++)
-        status = sb_results_collect(store, sb_cases[count], o->quick, true, &results[count], error);
+        status = sb_results_collect(store, sb_cases[count], o->quick, true, &former, &results[count], error);
+    sb_sheet_free(&former);
     const sb_report what = {
         .store = store, .cases = results, .count = count, .command = o->command, .quick = o->quick};
-    snprintf(folder, sizeof folder, "%s", o->report ? o->report : SB_SOURCE_DIR "/docs/results");
-    if (status == SB_OK && o->quick && !o->report)
-        status = sb_path_join(folder, store->out, "quick", error);
     if (status == SB_OK) status = sb_report_write(&what, folder, error);
     if (status == SB_OK) printf("%s/validation.md\n", folder);
     for (size_t c = 0; c < count; c++) {

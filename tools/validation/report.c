@@ -5,6 +5,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* The commits that the shown runs were made with; more than one is said. */
 static void put_commits(FILE *out, const sb_report *report)
@@ -30,7 +31,7 @@ static void put_machine(FILE *out, const sb_report *report)
 {
     for (size_t c = 0; c < report->count; c++)
         for (size_t i = 0; i < report->cases[c].count; i++)
-            if (report->cases[c].runs[i].state == SB_RESULT_DONE) {
+            if (report->cases[c].runs[i].state == SB_RESULT_DONE && !report->cases[c].runs[i].kept) {
                 fprintf(out, "- machine: %s\n", report->cases[c].runs[i].run.machine);
                 return;
             }
@@ -60,7 +61,8 @@ static void put_head(FILE *out, const sb_report *report)
             "Errors are signed: ours minus the reference. Where a resolution is run with several "
             "start seeds by one program, the error is the one\nlargest in magnitude, the figure passes when it "
             "does with every seed, and spread is the largest value minus the\nsmallest. "
-            "`x (of y)`: at that resolution the reference is y.\n\n"
+            "`x (of y)`: at that resolution the reference is y. `(kept)` behind a commit: the figures are those of a former report; "
+            "the run's files are\nno longer there, and plots leave it out.\n\n"
             "| case | reach | figure | |\n|---|---|---|---|\n",
             passed, limited);
     for (size_t c = 0; c < report->count; c++) sb_report_summary_line(out, &report->cases[c]);
@@ -78,7 +80,7 @@ static sb_status draw(const sb_report *report, const sb_case_results *results, c
     sb_status status = sb_path_join(folder, report->store->out, "plots", error);
     if (!views || !plot) status = sb_fail_memory(error, "a plot");
     for (size_t i = 0; views && i < results->count; i++)
-        if (results->runs[i].state == SB_RESULT_DONE) views[count++] = results->runs[i].run.view;
+        if (results->runs[i].state == SB_RESULT_DONE && !results->runs[i].kept) views[count++] = results->runs[i].run.view;
     if (status == SB_OK && count == 0) status = sb_fail(error, SB_FAILED, "nothing has run");
     if (status == SB_OK) status = sb_make_directories(folder, error);
     if (status == SB_OK) status = results->of->plot(views, count, plot, error);
@@ -86,6 +88,18 @@ static sb_status draw(const sb_report *report, const sb_case_results *results, c
     sb_plot_destroy(plot);
     sb_free(views);
     return status;
+}
+
+/* Nothing to draw from, and nothing new to draw. */
+static bool all_kept(const sb_case_results *results)
+{
+    bool any = false, all = true;
+    for (size_t i = 0; i < results->count; i++) {
+        const sb_result *r = &results->runs[i];
+        any = any || r->state == SB_RESULT_DONE;
+        all = all && (r->state != SB_RESULT_DONE || r->kept);
+    }
+    return any && all;
 }
 
 static void put_case(FILE *out, const sb_report *report, const sb_case_results *results,
@@ -96,7 +110,8 @@ static void put_case(FILE *out, const sb_report *report, const sb_case_results *
     snprintf(name, sizeof name, "%.100s.png", results->of->name);
     snprintf(relative, sizeof relative, "validation/%s", name);
     sb_status status = sb_path_join(picture, pictures, name, &why);
-    if (status == SB_OK) status = draw(report, results, picture, &why);
+    const bool former = status == SB_OK && all_kept(results) && access(picture, R_OK) == 0;
+    if (status == SB_OK && !former) status = draw(report, results, picture, &why);
     sb_report_case(out, results, status == SB_OK ? relative : NULL);
     if (status != SB_OK) fprintf(out, "No plot: %s.\n\n", why.text);
 }

@@ -196,8 +196,15 @@ static void put_notes(FILE *out, const sb_figures *figures)
             fprintf(out, "- %s: %s\n", figures->rows[i].quantity, figures->rows[i].note);
 }
 
+static const char *threads(const sb_result *r, char text[48])
+{
+    sb_text_number(text, r->kept ? (double)NAN : sb_run_number(&r->run.view, "threads"));
+    return text;
+}
+
 static void put_runs(FILE *out, const sb_case_results *results)
 {
+    char text[48];
     fputs("| spacing (m) | preset | seed | particles | steps | sweeps per step | run time (s) | "
           "threads | commit |\n|---|---|---|---|---|---|---|---|---|\n",
           out);
@@ -206,9 +213,9 @@ static void put_runs(FILE *out, const sb_case_results *results)
         fprintf(out, "| %.6g | %s | %d |", r->request.plan->resolution,
                 r->request.paper ? "paper" : "default", r->request.seed);
         if (r->state == SB_RESULT_DONE)
-            fprintf(out, " %zu | %zu | %.1f | %.1f | %.0f | %s |\n", r->run.view.particles,
-                    r->run.view.steps, r->run.view.iterations, r->run.view.wall,
-                    sb_run_number(&r->run.view, "threads"), r->run.commit);
+            fprintf(out, " %zu | %zu | %.1f | %.1f | %s | %s%s |\n", r->run.view.particles,
+                    r->run.view.steps, r->run.view.iterations, r->run.view.wall, threads(r, text), r->run.commit,
+                    r->kept ? " (kept)" : "");
         else
             fprintf(out, " %s%.200s | | | | | |\n",
                     r->state == SB_RESULT_FAILED ? "**failed**: " : "not run", r->problem);

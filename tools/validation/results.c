@@ -1,5 +1,7 @@
 #include "results.h"
 
+#include "kept.h"
+
 #include "base/memory.h"
 
 #include <math.h>
@@ -64,7 +66,8 @@ void sb_result_read(const sb_store *store, bool any_build, sb_result *r)
     char folder[SB_PATH_MAX];
     sb_error why = {0};
     r->state = SB_RESULT_NOT_RUN;
-    if (sb_store_folder(store, &r->request, folder, &why) != SB_OK) {
+    r->asked[0] = '\0';
+    if (sb_store_asked(store, &r->request, r->asked, &why) != SB_OK || sb_store_folder(store, &r->request, folder, &why) != SB_OK) {
         r->state = SB_RESULT_FAILED;
         snprintf(r->problem, sizeof r->problem, "%.600s", why.text);
         return;
@@ -83,13 +86,19 @@ void sb_result_read(const sb_store *store, bool any_build, sb_result *r)
     if (status != SB_OK) snprintf(r->problem, sizeof r->problem, "%.600s", why.text);
 }
 
+/* Files that figures and plots are made from. */
+static bool at_hand(const sb_result *r)
+{
+    return r->state == SB_RESULT_DONE && !r->kept;
+}
+
 static void compare_runs(sb_case_results *results, sb_case_run *runs, sb_figures *figures)
 {
     sb_error why = {0};
     size_t count = 0;
     for (size_t i = 0; i < results->count; i++) {
         const sb_result *r = &results->runs[i];
-        if (r->state != SB_RESULT_DONE || r->request.paper || r->request.seed != 1) continue;
+        if (!at_hand(r) || r->request.paper || r->request.seed != 1) continue;
         runs[count] = r->run.view;
         figures[count++] = r->figures;
     }
@@ -99,7 +108,7 @@ static void compare_runs(sb_case_results *results, sb_case_run *runs, sb_figures
 }
 
 sb_status sb_results_collect(const sb_store *store, const sb_case *of, bool quick, bool any_build,
-                             sb_case_results *results, sb_error *error)
+                             const sb_sheet *former, sb_case_results *results, sb_error *error)
 {
     sb_request *requests = NULL;
     size_t count = 0;
@@ -113,9 +122,12 @@ sb_status sb_results_collect(const sb_store *store, const sb_case *of, bool quic
     for (size_t i = 0; status == SB_OK && i < count; i++) {
         results->runs[i].request = requests[i];
         sb_result_read(store, any_build, &results->runs[i]);
+        if (former) status = sb_kept_read(former, &results->runs[i], error);
         results->count++;
     }
     if (status == SB_OK && of->compare) compare_runs(results, views, figures);
+    if (status == SB_OK && former && results->across.count == 0 && sb_results_judged(results) && sb_results_judged(results)->kept)
+        status = sb_kept_across(former, of->name, &results->across, error);
     sb_free(views);
     sb_free(figures);
     sb_free(requests);
@@ -162,9 +174,10 @@ static double size_of(const sb_figure *figure, double error)
     return figure->one_sided ? error : fabs(error);
 }
 
-/* The program that ran it, by the last part of its folder (store.h). */
+/* The program that ran it, by the last part of its folder (store.h), or by its commit. */
 static const char *build_of(const sb_result *r)
 {
+    if (r->kept) return r->run.commit;
     const char *slash = strrchr(r->run.folder, '/');
     return slash ? slash + 1 : r->run.folder;
 }

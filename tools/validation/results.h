@@ -8,12 +8,14 @@
 typedef enum sb_result_state {
     SB_RESULT_NOT_RUN,
     SB_RESULT_FAILED, /* the run, or reading what it left: see problem */
-    SB_RESULT_DONE
+    SB_RESULT_DONE /* or kept */
 } sb_result_state;
 
 typedef struct sb_result {
     sb_request request;
+    char asked[17]; /* what it asks for, in hexadecimal; "": not known */
     sb_result_state state;
+    bool kept;      /* figures of a former report: its files are not there, nor notes, scene, threads (kept.h) */
     sb_finished run;
     sb_figures figures;
     char problem[640];
@@ -48,10 +50,10 @@ sb_status sb_case_requests(const sb_case *of, bool quick, sb_request **requests,
    build where this one has not run. */
 void sb_result_read(const sb_store *store, bool any_build, sb_result *r);
 
-/* All runs of a case: what the store has for them, with their figures. SB_FAILED only without
- * memory. */
+/* All runs of a case: what the store has for them, or else the table of a former report, with their figures. SB_FAILED
+   only without memory. */
 sb_status sb_results_collect(const sb_store *store, const sb_case *of, bool quick, bool any_build,
-                             sb_case_results *results, sb_error *error);
+                             const struct sb_sheet *former, sb_case_results *results, sb_error *error);
 void sb_results_free(sb_case_results *results);
 
 /* The judged run with seed 1; NULL when it is not done. */

@@ -37,18 +37,26 @@ sb_status sb_store_open(sb_store *store, const char *out, const char *program, c
     return SB_OK;
 }
 
-/* The folder that holds the builds' folders of a request. */
-static sb_status group_folder(const sb_store *store, const sb_request *request,
-                              char folder[SB_PATH_MAX], sb_error *error)
+sb_status sb_store_asked(const sb_store *store, const sb_request *request, char asked[17], sb_error *error)
 {
     char scene[SB_PATH_MAX];
     uint64_t hash = 0;
     sb_status status = sb_path_join(scene, store->assets, request->of->scene, error);
     if (status == SB_OK) status = sb_request_hash(request, scene, &hash, error);
+    if (status == SB_OK) snprintf(asked, 17, "%016" PRIx64, hash);
+    return status;
+}
+
+/* The folder that holds the builds' folders of a request. */
+static sb_status group_folder(const sb_store *store, const sb_request *request,
+                              char folder[SB_PATH_MAX], sb_error *error)
+{
+    char asked[17];
+    sb_status status = sb_store_asked(store, request, asked, error);
     if (status != SB_OK) return status;
-    int length = snprintf(folder, SB_PATH_MAX, "%s/runs/%s/%.6g-%s-%d-%016" PRIx64, store->out,
+    int length = snprintf(folder, SB_PATH_MAX, "%s/runs/%s/%.6g-%s-%d-%s", store->out,
                           request->of->name, request->plan->resolution,
-                          request->paper ? "paper" : "default", request->seed, hash);
+                          request->paper ? "paper" : "default", request->seed, asked);
     return length < SB_PATH_MAX - 32
                ? SB_OK
                : sb_fail(error, SB_BAD_INPUT, "%.400s: the path is too long", store->out);

@@ -1,0 +1,125 @@
+/* Figures of a former report stand in for runs that are not there, where the very same was asked. */
+#include "check.h"
+#include "tools/tool.h"
+
+#include "kept.h"
+
+#include <math.h>
+#include <string.h>
+#include <sys/stat.h>
+
+static const char table[] =
+    "case,resolution_m,preset,seed,judged,quantity,unit,reference,value,error,error_unit,reach,verdict,particles,steps,"
+    "sweeps_per_step,run_time_s,commit,asked\n"
+    "a,0.1,default,1,yes,height,m,2,2.1,5,%,10,pass,100,20,6.50,3.5,abc,0123456789abcdef\n"
+    "a,0.1,default,1,yes,\"noise, all\",%,,3,3,%,1,FAIL,100,20,6.50,3.5,abc,0123456789abcdef\n"
+    "a,0.1,default,1,yes,told,Pa,,7,,%,,reported,100,20,6.50,3.5,abc,0123456789abcdef\n"
+    "b,0.1,default,1,yes,height,m,2,1,-50,%,10,FAIL,100,20,6.50,3.5,abc,0123456789abcdef\n"
+    "a,0.05,default,1,no,height,m,2,2.2,10,%,10,pass,800,40,7.00,30.0,abc,ffffffffffffffff\n"
+    "a,,default,1,yes,order,,,1.5,1.5,,2,pass,,,,,,\n";
+
+static const sb_case of = {.name = "a"};
+static const sb_plan plan = {.resolution = 0.1, .judged = true};
+
+static sb_result wanted(const char *asked)
+{
+    sb_result r = {.request = {.of = &of, .plan = &plan, .seed = 1}};
+    snprintf(r.asked, sizeof r.asked, "%s", asked);
+    return r;
+}
+
+static void open_table(sb_sheet *sheet)
+{
+    const char *folder = tool_path("report");
+    char path[512];
+    mkdir(folder, 0777);
+    snprintf(path, sizeof path, "%s/validation", folder);
+    mkdir(path, 0777);
+    snprintf(path, sizeof path, "%s/validation/results.csv", folder);
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    fputs(table, out);
+    fclose(out);
+    assert_int_equal(sb_kept_open(tool_path("report"), sheet, NULL), SB_OK);
+    assert_int_equal(sheet->rows, 6);
+}
+
+static void test_what_was_asked_is_found(void **state)
+{
+    (void)state;
+    sb_sheet sheet;
+    open_table(&sheet);
+    sb_result r = wanted("0123456789abcdef");
+    assert_int_equal(sb_kept_read(&sheet, &r, NULL), SB_OK);
+    assert_true(r.state == SB_RESULT_DONE && r.kept);
+    assert_int_equal(r.figures.count, 3); /* not case b's */
+    const sb_figure *height = sb_figures_find(&r.figures, "height"), *noise = sb_figures_find(&r.figures, "noise, all");
+    assert_true(height && noise && height->pass && !noise->pass && noise->one_sided && !height->one_sided);
+    assert_near(height->value, 2.1, 0);
+    assert_near(height->limit, 10, 0);
+    assert_true(isnan(noise->reference) && isnan(sb_figures_find(&r.figures, "told")->limit));
+    assert_string_equal(r.run.commit, "abc");
+    assert_int_equal(r.run.view.particles, 100);
+    assert_int_equal(r.run.view.steps, 20);
+    assert_near(r.run.view.wall, 3.5, 0);
+    sb_case_results results = {.of = &of, .count = 1, .runs = &r};
+    size_t limited, passed;
+    sb_results_count(&results, &limited, &passed);
+    assert_int_equal(limited, 2);
+    assert_int_equal(passed, 1);
+    assert_int_equal(sb_kept_across(&sheet, "a", &results.across, NULL), SB_OK);
+    assert_int_equal(results.across.count, 1);
+    assert_near(results.across.rows[0].value, 1.5, 0);
+    sb_figures_free(&r.figures);
+    sb_figures_free(&results.across);
+    sb_sheet_free(&sheet);
+}
+
+static void test_other_questions_and_own_runs_are_left_alone(void **state)
+{
+    (void)state;
+    sb_sheet sheet;
+    open_table(&sheet);
+    sb_result other = wanted("0000000000000000"), unknown = wanted(""), own = wanted("0123456789abcdef");
+    own.state = SB_RESULT_FAILED;
+    sb_result *each[] = {&other, &unknown, &own};
+    for (size_t i = 0; i < 3; i++) {
+        const sb_result_state before = each[i]->state;
+        assert_int_equal(sb_kept_read(&sheet, each[i], NULL), SB_OK);
+        assert_true(each[i]->state == before && !each[i]->kept && each[i]->figures.count == 0);
+    }
+    sb_sheet_free(&sheet);
+}
+
+static void test_no_table_is_an_empty_one(void **state)
+{
+    (void)state;
+    sb_sheet sheet;
+    sb_result r = wanted("0123456789abcdef");
+    assert_int_equal(sb_kept_open(tool_path("nowhere"), &sheet, NULL), SB_OK);
+    assert_int_equal(sb_kept_read(&sheet, &r, NULL), SB_OK);
+    assert_true(r.state == SB_RESULT_NOT_RUN);
+    sb_sheet_free(&sheet);
+}
+
+static int set_up(void **state)
+{
+    (void)state;
+    return tool_begin();
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    return tool_end();
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_what_was_asked_is_found),
+        cmocka_unit_test(test_other_questions_and_own_runs_are_left_alone),
+        cmocka_unit_test(test_no_table_is_an_empty_one),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
