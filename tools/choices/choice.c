@@ -24,7 +24,7 @@ const sb_choice sb_choices[] = {
     {.name = "CFL x 1.5", .key = "cfl", .factor = 1.5},
     {.name = "support 2", .quick = true, .fixed = {"numerics.support=2"}},
     {.name = "support 3", .quick = true, .fixed = {"numerics.support=3"}},
-    {.name = "wendland-c2, support 3", .fixed = {"numerics.kernel=wendland-c2", "numerics.support=3"}},
+    {.name = "cubic, support 2.5", .fixed = {"numerics.kernel=cubic", "numerics.support=2.5"}},
     {.name = "warm start 0", .quick = true, .fixed = {"numerics.warm_start=0"}},
     {.name = "warm start 0.9", .fixed = {"numerics.warm_start=0.9"}},
     {.name = "source relaxation / 2", .key = "source_relaxation", .factor = 0.5},
