@@ -82,7 +82,7 @@ void fake_add(sb_sim *sim, sb_vec3 position, sb_vec3 velocity, double pressure)
     int failed = sb_grow((void **)&sim->samples, &sim->capacity, n + 1, sizeof *sim->samples);
     assert(!failed);
     (void)failed;
-    sim->samples[n] = (sb_fluid_sample){position, velocity, pressure, 1000, (uint32_t)n};
+    sim->samples[n] = (sb_fluid_sample){position, velocity, pressure, 1000, (uint32_t)n, pressure / 1e6};
     sim->report.fluid_count = n + 1;
     double speed = sb_norm(velocity);
     if (speed > sim->report.max_speed) sim->report.max_speed = speed;
