@@ -79,6 +79,7 @@ SB_INLINE const sb_f8 *sb_both_at(const sb_f4 *around, uint16_t place)
 SB_INLINE void sb_ask_ahead(const sb_four_pairs *four)
 {
     enum { BYTES = 2048 };
+    /* As a number: no pointer may point there. NOLINTNEXTLINE(performance-no-int-to-ptr) */
     __builtin_prefetch((const void *)((uintptr_t)four + BYTES));
 }
 
