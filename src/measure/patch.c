@@ -1,11 +1,11 @@
 /* Pressure on a wall as force over area.
 
    A fluid particle at a wall is pushed by the wall with its own pressure only, so that the layer
-   next to it carries far more pressure than the water has there (measured in a tank at rest, kernel
+   next to it has to have far more of the solve's pressure than the water has there (measured in a tank at rest, kernel
    cubic, support 2, gamma 0.7: 1.9 times the hydrostatic one in the first layer, 0.85 in the
    second, 1.02 in the third), while the force on the wall is right to a fraction of a percent.
-   Hence a probe on a wall reads that force over a small patch, and a probe near one leaves the
-   first layer out. */
+   Hence a probe on a wall reads that force over a small patch. The pressure that such a layer bears
+   (sim/bearing.c) is nearer, but some per cent too high still: a probe near a wall leaves it out. */
 #include "measure/patch.h"
 
 #include "base/memory.h"

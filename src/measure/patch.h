@@ -18,7 +18,8 @@ bool sb_patch_on_wall(const sb_patch *patch);
 sb_status sb_patch_pressure(const sb_patch *patch, const sb_sight *sight, double *pressure,
                             sb_error *error);
 
-/* Is this the layer of fluid next to the wall? Its pressure carries the wall's missing share. */
+/* Is this the layer of fluid next to the wall? It presses along the wall more than across it, and its pressure is
+   some per cent too high. */
 bool sb_patch_first_layer(const sb_patch *patch, sb_vec3 position);
 
 #endif

@@ -64,16 +64,16 @@ static void add(rest *sum, const rest *r, double share)
 
 /* The patch is the middle of the floor, half as wide as the tank along each axis. Conjugate
    gradients need a tighter tolerance: at the others' their errors change sign from step to step,
-   and the water is never still. All are judged by the mean of three starts, for the kinetic energy
-   of one wanders by a fifth and more from quarter to quarter. */
+   and the water is never still; they are judged by the mean of three starts, for the kinetic energy
+   of one wanders by a fifth from quarter to quarter. */
 static void check(int dimensions, double spacing, sb_vec3 size, double depth, sb_solver solver)
 {
     const bool flat = dimensions == 2;
-    enum { STARTS = 3 };
+    const int starts = solver == SB_SOLVER_CG ? 3 : 1;
     double wave_speed = sqrt(9.81 * depth), area = flat ? size.x : size.x * size.y;
     double mass = 1000 * depth * area, speed[QUARTERS];
     rest r = {0};
-    for (int start = 0; start < STARTS; start++) {
+    for (int start = 0; start < starts; start++) {
         tank t;
         tank_make(&t, dimensions, spacing, size, size.x, depth, 0.01 + 0.001 * start);
         tank_split_patch(&t, sb_vec(size.x / 4, flat ? -1 : size.y / 4, -1),
@@ -83,7 +83,7 @@ static void check(int dimensions, double spacing, sb_vec3 size, double depth, sb
         t.scene.numerics.settle_steps = 300;
         t.scene.numerics.wall_gamma = 0.8;
         const rest one = watch(&t, 16 * depth / wave_speed);
-        add(&r, &one, 1.0 / STARTS);
+        add(&r, &one, 1.0 / starts);
         tank_free(&t);
     }
     for (int q = 0; q < QUARTERS; q++) speed[q] = sqrt(2 * r.kinetic[q] / mass) / wave_speed;
