@@ -22,7 +22,7 @@ static const struct {
     {"source_relaxation",    {"0.2",        "1"}},
     {"cfl",                  {"0.4",        "0.4"}},
     {"time_step_rule",       {"depth",      "paper"}},
-    {"time_step_factor",     {"0.165",      "0.075"}},
+    {"time_step_factor",     {"0.22",       "0.075"}},
     {"time_step_max",        {"0",          "0"}},
     {"stress_correction",    {"1",          "0"}},
     {"artificial_viscosity", {"0.005",       "0.05"}},

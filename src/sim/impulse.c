@@ -41,7 +41,7 @@ static void add_to(double value[3], sb_vec3 v)
 }
 
 /* pressure, drag: N, on a body at a place. */
-static void add(const sb_sim *sim, double *sum, uint32_t body, sb_vec3 at, sb_vec3 pressure, sb_vec3 drag)
+SB_APART void add(const sb_sim *sim, double *sum, uint32_t body, sb_vec3 at, sb_vec3 pressure, sb_vec3 drag)
 {
     double *value = sum + (size_t)VALUES * body;
     add_to(value, pressure);
@@ -86,7 +86,7 @@ void sb_impulse_of_push(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 push
 }
 
 /* Mends what would pass a wall; the wall feels it. */
-static void contact(sb_sim *sim, size_t i, double *sum, sb_ledger_sums *ledger)
+SB_APART void contact(sb_sim *sim, size_t i, double *sum, sb_ledger_sums *ledger)
 {
     const sb_f4 start = ((const sb_f4 *)sim->scratch)[i];
     sb_f4 velocity = sim->acceleration[i];

@@ -9,9 +9,9 @@ static const float SETTLE_DAMPING = 0.9f;
 /* Damped water goes by its force, so twice the step brings it four times as far; it is too slow to mind the length. */
 static const double SETTLE_STEP = 1.5;
 
-/* Share of the step in which water creeps: density errors mend by the same share of themselves in a step of any length,
-   while what nothing holds falls as its square. */
-static const double CREEP_STEP = 0.5;
+/* In spacings over sqrt(g D), the longest step in which water creeps: density errors mend by the same share of
+   themselves in a step of any length, while what nothing holds falls as its square (docs/decisions/0021). */
+static const double CREEP_STEP = 0.15;
 
 /* Without an impulse of its own the water falls from rest: then gravity sets the pace [S16, eq. 11]. */
 static double cfl_step(const sb_sim *sim, double speed)
@@ -68,13 +68,14 @@ sb_status sb_stage_time_step(sb_sim *sim, sb_error *error)
     if (!(dt > 0) || !isfinite(dt))
         return sb_fail(error, SB_FAILED, "step %llu, t = %g s: time step is %g s: the run has diverged",
                        (unsigned long long)sim->report.step, sim->report.time, dt);
-    const double least = SHORTEST_STEP * (double)sim->constant.spacing / (double)sim->constant.wave_speed;
+    const double crossing = (double)sim->constant.spacing / (double)sim->constant.wave_speed;
+    const double least = SHORTEST_STEP * crossing;
     if (dt < least)
         return sb_fail(error, SB_FAILED,
                        "step %llu, t = %g s: time step is %g s, expected at least %.3g s: the run has diverged, or a "
                        "key of numerics asks for it",
                        (unsigned long long)sim->report.step, sim->report.time, dt, least);
-    sim->report.time_step = sim->settling == SB_CREEPING ? CREEP_STEP * dt : dt;
+    sim->report.time_step = sim->settling == SB_CREEPING ? fmin(dt, CREEP_STEP * crossing) : dt;
     return SB_OK;
 }
 
@@ -128,7 +129,7 @@ SB_INLINE float move_block(sb_sim *sim, size_t block, bool book)
 {
     const sb_f4 *start = sim->scratch;
     sb_ledger_tally tally = {0};
-    const float step = (float)(sim->report.time_step / sim->space.quantum);
+    const float step = sim->settling == SB_POISED ? 0 : (float)(sim->report.time_step / sim->space.quantum);
     const sb_f4 keep = sim->settling == SB_CREEPING ? (sb_f4){0, 0, 0, 1} : sb_splat(1);
     float top = 0;
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {

@@ -10,6 +10,8 @@
    water do so for a little longer, and nothing else, for their sides give way. */
 enum { CREEP_FIRST = 40, CREEP_BOXES = 50, CALM_STEPS = 10 }; /* calm ones in a row: one may be a reversal */
 
+static const double CALM = 0.002; /* of sqrt(g D) */
+
 /* Pressures that start from all of the last ones need half the sweeps in a sea that is to rest, but leave it some
    unrest, which the last steps, with the run's own share, take. */
 enum { CALM_LAST = 30 };
@@ -28,7 +30,7 @@ float sb_settle_pull(const sb_sim *sim, sb_record at)
 {
     const sb_initial_wave *wave = &sim->scene->wave;
     const double gravity = sim->scene->fluid.gravity, step = 1e-4 * wave->depth;
-    if (wave->kind == SB_INITIAL_NONE)
+    if (wave->kind == SB_INITIAL_NONE || sim->settling == SB_POISED)
         return 0;
     const double x = sb_space_position(&sim->space, at).x - wave->position;
     const sb_solitary solitary = {wave->height, wave->depth, gravity, wave->theory};
@@ -40,19 +42,42 @@ float sb_settle_pull(const sb_sim *sim, sb_record at)
     return (float)(gravity * (ahead - behind) / (2 * step));
 }
 
-/* The velocities that the scene gives; the pressures reached stay. */
+/* Velocities but for the last lane: the pressures reached stay. */
+static void set_velocity(sb_sim *sim, size_t i, sb_f4 v)
+{
+    v[3] = sim->velocity[i][3];
+    sim->velocity[i] = v;
+    sim->report.max_speed = fmax(sim->report.max_speed, sqrt((double)sb_sum3(v * v)));
+}
+
+/* The velocities that the scene gives. */
 static void let_go(sb_sim *sim)
 {
-    const size_t n = sim->n;
     const sb_vec3 *given = sim->model->fluid_velocity;
-    double top = 0;
-    for (size_t i = 0; i < n; i++) {
+    sim->report.max_speed = 0;
+    for (size_t i = 0; i < sim->n; i++) {
         const sb_vec3 v = given ? given[sim->id[i]] : (sb_vec3){0};
-        const double speed = sb_norm(v);
-        sim->velocity[i] = (sb_f4){(float)v.x, (float)v.y, (float)v.z, sim->velocity[i][3]};
-        top = speed > top ? speed : top;
+        set_velocity(sim, i, (sb_f4){(float)v.x, (float)v.y, (float)v.z, 0});
     }
-    sim->report.max_speed = top;
+}
+
+/* Water moves by the velocity at a step's end, so velocities belong half a step before places, as in a leapfrog: from
+   rest it is drawn back by half of what a step gives it, or all that begins at t = 0 would be half a step early
+   (docs/decisions/0021). Water that is calm stays so, and a particle that nothing touches moves by the mean of both
+   ends. */
+static sb_status poise(sb_sim *sim, sb_error *error)
+{
+    const float least = (float)CALM * sim->constant.wave_speed;
+    sim->settling = SB_POISED;
+    const sb_status status = sb_sim_step(sim, error);
+    sim->settling = SB_RUNNING;
+    sim->report.max_speed = 0;
+    for (size_t i = 0; status == SB_OK && i < sim->n; i++) {
+        const sb_f4 change = sim->velocity[i];
+        const bool begins = sim->diagonal[i] > 0 && sb_sum3(change * change) > least * least;
+        set_velocity(sim, i, change * sb_splat(begins ? -0.5f : 0));
+    }
+    return status;
 }
 
 sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
@@ -60,7 +85,7 @@ sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
     if (!sb_sim_settles(sim->scene))
         return SB_OK;
     const bool boxes = sim->scene->box_count > 0;
-    const double calm = 0.002 * (double)sim->constant.wave_speed;
+    const double calm = CALM * (double)sim->constant.wave_speed;
     int steps = sim->scene->numerics.settle_steps, still = 0;
     int turn = steps - CALM_LAST; /* where the last ones begin */
     double before = (double)INFINITY; /* J, kinetic energy at the last trial */
@@ -95,5 +120,7 @@ sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
     if (status != SB_OK)
         return status;
     let_go(sim);
-    return sb_sleep_begin(sim, error);
+    if ((boxes || sim->scene->wave.kind != SB_INITIAL_NONE) && sim->report.max_speed == 0)
+        status = poise(sim, error);
+    return status == SB_OK ? sb_sleep_begin(sim, error) : status;
 }

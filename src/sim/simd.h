@@ -32,6 +32,9 @@ typedef sb_u4 sb_record;
 #define SB_MULTIVERSION
 #endif
 #define SB_INLINE static inline __attribute__((always_inline))
+/* Compiled once, for any processor: left to the compiler, it might be drawn into one set's caller and not into another
+   build's, and round otherwise there. */
+#define SB_APART static __attribute__((noinline))
 
 SB_INLINE sb_f4 sb_splat(float value)
 {

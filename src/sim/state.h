@@ -18,6 +18,7 @@ enum sb_settling {
     SB_DAMPED,   /* a sea: part of the velocity is lost in each step; an initial wave is held by a pull */
     SB_CALMED,   /* the same, at settling's end: pressures start from the run's share again */
     SB_CREEPING, /* boxes of water, which nothing holds: all of it */
+    SB_POISED,   /* one step that moves nothing and tells how velocities change at t = 0 */
 };
 
 /* Constants of the run. */

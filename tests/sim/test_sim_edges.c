@@ -166,6 +166,37 @@ static void a_start_forgotten_is_one_at_rest(void **state)
     assert_true(hash[0] == hash[1]);
 }
 
+/* A block of water let go in mid-air falls as one, at once: its middle is on the parabola at every step. */
+static void a_block_from_rest_starts_on_time(void **state)
+{
+    (void)state;
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        tank t;
+        tank_make(&t, dimensions, 0.1, sb_vec(4, 4, 4), 0.5, 0.5, 0.02);
+        t.model.fluid_count = dimensions == 2 ? 25 : 200;
+        for (size_t i = 0; i < t.model.fluid_count; i++)
+            t.model.fluid_position[i] = sb_add(t.model.fluid_position[i], sb_vec(1, 0, 3));
+        t.scene.box_count = 1;
+        t.scene.numerics.settle_steps = 20;
+        sb_sim *sim = make(&t);
+        assert_int_equal(sb_sim_settle(sim, NULL), SB_OK);
+        const sb_energy start = sb_sim_energy(sim);
+        double worst = 0;
+        while (sb_sim_report(sim)->time < 0.3) {
+            assert_int_equal(tank_steps(sim, 1), 0);
+            const double time = sb_sim_report(sim)->time;
+            const double fallen = (start.potential - sb_sim_energy(sim).potential) / (9.81 * start.mass);
+            worst = fmax(worst, fabs(fallen - 0.5 * 9.81 * time * time));
+        }
+        printf("%dD: %llu steps, worst %.2g m from the parabola\n", dimensions,
+               (unsigned long long)sb_sim_report(sim)->step, worst);
+        assert_true(worst < 1e-4); /* half a step early would be 0.01 m */
+        sb_sim_destroy(sim);
+        t.scene.box_count = 0;
+        tank_free(&t);
+    }
+}
+
 static void no_water_is_fine(void **state)
 {
     (void)state;
@@ -398,6 +429,7 @@ int main(void)
         cmocka_unit_test(coincident_particles_do_no_harm),
         cmocka_unit_test(what_leaves_is_counted),
         cmocka_unit_test(a_start_forgotten_is_one_at_rest),
+        cmocka_unit_test(a_block_from_rest_starts_on_time),
         cmocka_unit_test(no_water_is_fine),
         cmocka_unit_test(divergence_is_told_and_leaves_the_state),
         cmocka_unit_test(much_viscosity_shortens_the_step),
