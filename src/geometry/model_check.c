@@ -5,8 +5,9 @@
 enum { DEPTH_MIN = 4, HEIGHT_MIN = 5 };
 
 /* In h/sqrt(g D). A column collapsing with steps of twice this has fallen an eighth less than with short ones after
-   0.9 sqrt(D/g), with this long ones 2 % less (tools/stress time-step). */
-static const double LONGEST_STEP = 0.3;
+   0.9 sqrt(D/g), with this long ones 2 % less; with three times this, a quarter, and some of it has passed a wall
+   (tools/stress time-step). */
+static const double LONGEST_STEP = 0.3, REFUSED_STEP = 0.6;
 
 static sb_status check_mesh(const sb_model_body *body, sb_model *model, sb_error *error)
 {
@@ -71,6 +72,11 @@ static sb_status check_steps(const sb_scene *scene, sb_model *model, sb_error *e
 {
     const sb_numerics *n = &scene->numerics;
     if (n->time_step_rule != SB_TIME_STEP_DEPTH || n->time_step_factor <= LONGEST_STEP * (1 + 1e-6)) return SB_OK;
+    if (n->time_step_factor > REFUSED_STEP * (1 + 1e-6))
+        return sb_fail(error, SB_BAD_INPUT,
+                       "%.300s: numerics.time_step_factor %g: with steps that long water falls tenths too late and "
+                       "passes walls, expected %g or less under time_step_rule depth",
+                       scene->path ? scene->path : "the scene", n->time_step_factor, REFUSED_STEP);
     return sb_model_warn(model, error,
                          "numerics.time_step_factor %g: with steps that long water falls too late by several per cent, "
                          "expected %g or less",

@@ -4,6 +4,9 @@
 #include "base/memory.h"
 #include "measure/parts.h"
 
+#include <omp.h>
+#include <string.h>
+
 /* Per cell, gathered in one reading: volume and its moments with the horizontal velocity. */
 typedef struct cell_sum {
     float volume, x, y, square;
@@ -37,8 +40,35 @@ void sb_map_destroy(sb_map_field *map)
     sb_free(map);
 }
 
-/* Adds one particle to the cells under its square. */
-static void deposit(sb_map_field *map, const sb_fluid_sample *sample)
+/* Cells [from, to) along x and y that one thread gathers. A cell's sums are added up in the particles' order whoever
+   gathers it, so they have the same bits for any number of threads. */
+typedef struct window {
+    double from[2], to[2];
+} window;
+
+/* Along y, or along x where that is all there is. */
+static window window_of(const sb_map_field *map, int thread, int threads)
+{
+    const int axis = map->flat ? 0 : 1;
+    window w = {.to = {(double)map->result.columns, (double)map->result.rows}};
+    const double cells = w.to[axis];
+    w.from[axis] = floor(cells * thread / threads);
+    w.to[axis] = floor(cells * (thread + 1) / threads);
+    return w;
+}
+
+static inline double least(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static inline double most(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+/* Adds one particle to those cells under its square that are in the window. */
+static void deposit(sb_map_field *map, const window *w, const sb_fluid_sample *sample)
 {
     const sb_map_record *grid = &map->result;
     double s = map->spacing, cell = grid->cell;
@@ -48,13 +78,13 @@ static void deposit(sb_map_field *map, const sb_fluid_sample *sample)
         y0 = 0;
         y1 = 1;
     }
-    double nx = (double)grid->columns, ny = (double)grid->rows;
-    if (!(x1 > 0 && x0 < nx && y1 > 0 && y0 < ny)) return;
+    if (!(x1 > w->from[0] && x0 < w->to[0] && y1 > w->from[1] && y0 < w->to[1])) return;
     double area = (x1 - x0) * (y1 - y0), u = sample->velocity.x, v = sample->velocity.y;
     double volume = map->flat ? s * s : s * s * s;
-    for (double j = fmax(floor(y0), 0); j < y1 && j < ny; j++)
-        for (double i = fmax(floor(x0), 0); i < x1 && i < nx; i++) {
-            double share = (fmin(x1, i + 1) - fmax(x0, i)) * (fmin(y1, j + 1) - fmax(y0, j)) / area;
+    const double first = x0 > w->from[0] ? (double)(int64_t)x0 : w->from[0], end = least(x1, w->to[0]);
+    for (double j = y0 > w->from[1] ? (double)(int64_t)y0 : w->from[1]; j < y1 && j < w->to[1]; j++)
+        for (double i = first; i < end; i++) {
+            double share = (least(x1, i + 1) - most(x0, i)) * (least(y1, j + 1) - most(y0, j)) / area;
             float part = (float)(share * volume);
             cell_sum *sum = &map->sums[(size_t)j * grid->columns + (size_t)i];
             sum->volume += part;
@@ -73,25 +103,28 @@ static double way_to_image(const sb_map_field *map, int axis, double at)
 }
 
 /* Adds one particle, and what of it lies beyond a periodic side at the other. */
-static void deposit_all(sb_map_field *map, sb_fluid_sample sample)
+static void deposit_all(sb_map_field *map, const window *w, sb_fluid_sample sample)
 {
     double dx = way_to_image(map, 0, sample.position.x);
     double dy = way_to_image(map, 1, sample.position.y);
-    deposit(map, &sample);
+    deposit(map, w, &sample);
     sample.position.x += dx;
-    if (dx != 0) deposit(map, &sample);
+    if (dx != 0) deposit(map, w, &sample);
     sample.position.y += dy;
-    if (dy != 0) deposit(map, &sample);
+    if (dy != 0) deposit(map, w, &sample);
     sample.position.x -= dx;
-    if (dx != 0 && dy != 0) deposit(map, &sample);
+    if (dx != 0 && dy != 0) deposit(map, w, &sample);
 }
 
 static void gather(sb_map_field *map, const sb_sim *sim)
 {
-    size_t cells = map->result.columns * map->result.rows;
-    for (size_t i = 0; i < cells; i++) map->sums[i] = (cell_sum){0};
-    size_t count = sb_sim_report(sim)->fluid_count;
-    for (size_t i = 0; i < count; i++) deposit_all(map, sb_sim_particle(sim, i));
+    const size_t cells = map->result.columns * map->result.rows, count = sb_sim_report(sim)->fluid_count;
+    memset(map->sums, 0, cells * sizeof *map->sums);
+#pragma omp parallel
+    {
+        const window w = window_of(map, omp_get_thread_num(), omp_get_num_threads());
+        for (size_t i = 0; i < count; i++) deposit_all(map, &w, sb_sim_particle(sim, i));
+    }
 }
 
 static float area_of(const sb_map_field *map)

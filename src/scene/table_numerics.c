@@ -57,7 +57,7 @@ static const sb_key keys[] = {
            "Longest step: `paper` time_step_factor h/g, `depth` time_step_factor h/sqrt(g D), "
            "with h the support radius and D the still depth."),
     NUMBER(time_step_factor, NULL, 0, 10, SB_KEY_ABOVE,
-           "Factor of that rule (under `paper` in 1/s)."),
+           "Factor of that rule (under `paper` in 1/s); under `depth` a run warns of more than 0.3 and refuses more than 0.6."),
     NUMBER(time_step_max, "s", 0, HUGE_VAL, 0, "A further bound on the step; 0: none."),
     NUMBER(stress_correction, NULL, 0, 1, 0,
            "Share of the stress by which a sheared packing of particles pushes unlike water that is taken away; 0 leaves "

@@ -175,6 +175,11 @@ static void warnings_say_what_is_too_coarse(void **state)
     scene.numerics.time_step_factor = 0.31;
     build();
     assert_true(warned("time_step_factor 0.31", "expected 0.3"));
+    sb_model_free(&model);
+    scene.numerics.time_step_factor = 0.61;
+    assert_int_equal(sb_model_build(&scene, &model, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "time_step_factor 0.61"));
+    assert_non_null(strstr(error.text, "expected 0.6"));
 }
 
 /* The scene has one body more: it is refused by name, with its thickness. */
