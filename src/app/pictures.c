@@ -3,15 +3,21 @@
 
 #include <errno.h>
 #include <string.h>
+#include <sys/resource.h>
 
 static bool wanted(const sb_pictures *pictures, size_t camera)
 {
     return pictures->camera < 0 || (size_t)pictures->camera == camera;
 }
 
+/* How far this thread, and those of the graphics library that it starts, stand back behind the simulation's, which
+   wait for each other at every barrier. */
+enum { NICENESS = 10 };
+
 static sb_status open_pictures(void *state, sb_error *error)
 {
     sb_pictures *pictures = state;
+    setpriority(PRIO_PROCESS, 0, NICENESS); /* refused: drawn as before */
     const sb_render_settings *render = &pictures->scene->render;
     for (size_t c = 0; c < render->camera_count; c++) {
         char name[128], path[SB_PATH_MAX];

@@ -39,8 +39,9 @@ static double top_speed(const sb_sim *sim)
    at 0.14 energy still grew by 2 % in 200 steps. */
 static const double VISCOUS_STEP = 0.07;
 
-/* In spacings over sqrt(g D): shorter steps move water by less than positions are stored to. */
-static const double SHORTEST_STEP = 1e-6;
+/* In sqrt(g D): a step so short that water this slow moves by less than half of what positions are stored to leaves it
+   where it is for ever. */
+static const double SLOWEST = 1e-3;
 
 /* The longest step that the constant viscosities bear. A pair at a wall is damped by half of what sigma would do as
    alpha [S16, eqs. 14, 33]. */
@@ -69,7 +70,7 @@ sb_status sb_stage_time_step(sb_sim *sim, sb_error *error)
         return sb_fail(error, SB_FAILED, "step %llu, t = %g s: time step is %g s: the run has diverged",
                        (unsigned long long)sim->report.step, sim->report.time, dt);
     const double crossing = (double)sim->constant.spacing / (double)sim->constant.wave_speed;
-    const double least = SHORTEST_STEP * crossing;
+    const double least = 0.5 * sim->space.quantum / (SLOWEST * (double)sim->constant.wave_speed);
     if (dt < least)
         return sb_fail(error, SB_FAILED,
                        "step %llu, t = %g s: time step is %g s, expected at least %.3g s: the run has diverged, or a "
