@@ -1,6 +1,5 @@
-/* Regular points first: the world's lattice on faces that follow the axes, fitted lattices on other
-   large planes, and chains along concave edges; candidates are placed in parallel and accepted in
-   their order. */
+/* Regular points first: lattices on planes, and chains along concave edges; candidates are placed in parallel and
+   accepted in their order. */
 #include "geometry/sample_parts.h"
 
 #include "base/memory.h"
@@ -8,11 +7,6 @@
 
 #include <string.h>
 
-/* A lattice projected along an axis stays dense enough up to this tilt (half a cell's diagonal
-   below SB_SAMPLE_FILL). */
-static const double projected_cosine = 0.93;
-/* In spacings: a tilted plane smaller than this has no lattice of its own. */
-static const double fitted_extent = 6;
 /* Normals whose mitre would reach too far have none. */
 static const double mitre_cosine = -0.7;
 
@@ -54,82 +48,8 @@ int sb_candidate_push(sb_sampler *sampler, sb_candidate_batch *batch, sb_candida
     return batch->count == SB_SAMPLE_BATCH ? sb_candidate_flush(sampler, batch) : 0;
 }
 
-/* Lattice lines at origin + (i + 1/2) step along two directions of a plane, or of a projection. */
-typedef struct lattice {
-    sb_vec3 u, v, origin;
-    double step_u, step_v;
-} lattice;
-
-/* Step near the spacing that divides `length` evenly; the spacing itself when none is near. */
-static double fitted_step(double length, double spacing)
-{
-    double pieces = round(length / spacing);
-    double step = pieces > 0 ? length / pieces : spacing;
-    return step > 0.92 * spacing && step < 1.08 * spacing ? step : spacing;
-}
-
-/* Of the world's lattice along an axis: between sides at which the domain repeats it fits. */
-static double axis_step(const sb_sample_settings *settings, int axis)
-{
-    double length = sb_sample_along(sb_sub(settings->max, settings->min), axis);
-    return settings->repeats[axis] ? fitted_step(length, settings->spacing) : settings->spacing;
-}
-
-static bool is_axis(sb_vec3 a)
-{
-    return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z))) > 1 - 1e-9;
-}
-
-static sb_vec3 axis_of(int k)
-{
-    return sb_vec(k == 0, k == 1, k == 2);
-}
-
-static int dominant(sb_vec3 n)
-{
-    double x = fabs(n.x), y = fabs(n.y), z = fabs(n.z);
-    return z >= x && z >= y ? 2 : x >= y ? 0 : 1;
-}
-
-/* Bounds of a plane's triangles along u and v. */
-typedef struct extent {
-    sb_vec3 u, v;
-    double min_u, max_u, min_v, max_v;
-} extent;
-
-static void plane_axes(sb_vec3 n, extent *e)
-{
-    sb_vec3 level = sb_cross(sb_vec(0, 0, 1), n);
-    e->u = sb_norm(level) > 1e-9 ? sb_normalize(level) : sb_vec(1, 0, 0);
-    e->v = sb_cross(n, e->u);
-}
-
-/* The lattice for one plane; false: none suits it. */
-static bool choose_lattice(const sb_sampler *sampler, sb_vec3 n, const extent *e, lattice *l)
-{
-    double spacing = sampler->settings.spacing;
-    double c[3] = {fabs(n.x), fabs(n.y), fabs(n.z)};
-    int k = dominant(n);
-    *l = (lattice){axis_of((k + 1) % 3), axis_of((k + 2) % 3), sampler->settings.min,
-                   axis_step(&sampler->settings, (k + 1) % 3),
-                   axis_step(&sampler->settings, (k + 2) % 3)};
-    if (c[k] > projected_cosine) return true;
-    double long_u = e->max_u - e->min_u, long_v = e->max_v - e->min_v;
-    if (!(fmin(long_u, long_v) > fitted_extent * spacing)) return false;
-    *l = (lattice){.u = e->u, .v = e->v, .step_v = fitted_step(long_v, spacing)};
-    double at_u = sb_dot(sampler->settings.min, e->u), at_v = e->min_v;
-    if (is_axis(e->u)) {
-        l->step_u = axis_step(&sampler->settings, dominant(e->u));
-    } else {
-        l->step_u = fitted_step(long_u, spacing);
-        at_u = e->min_u;
-    }
-    l->origin = sb_add(sb_scale(e->u, at_u), sb_scale(e->v, at_v));
-    return true;
-}
-
 /* The triangle's corners in lattice steps. */
-static void to_lattice(const lattice *l, const sb_vec3 corner[3], double u[3], double v[3])
+static void to_lattice(const sb_lattice *l, const sb_vec3 corner[3], double u[3], double v[3])
 {
     for (int i = 0; i < 3; ++i) {
         sb_vec3 arm = sb_sub(corner[i], l->origin);
@@ -158,7 +78,7 @@ static void span_row(const double u[3], const double v[3], double row, double *f
 }
 
 /* Lattice points within one triangle, row by row. */
-static int scan_triangle(sb_sampler *sampler, sb_candidate_batch *batch, const lattice *l,
+static int scan_triangle(sb_sampler *sampler, sb_candidate_batch *batch, const sb_lattice *l,
                          const sb_vec3 corner[3], sb_candidate candidate)
 {
     double u[3], v[3];
@@ -191,47 +111,22 @@ static void corners_of(const sb_mesh *mesh, size_t t, sb_vec3 corner[3])
     for (int i = 0; i < 3; ++i) corner[i] = mesh->vertices[mesh->triangles[t][i]];
 }
 
-/* Bounds of all planes of a surface, by their first triangle. */
-static void measure_planes(const sb_surface *surface, extent *extents)
-{
-    const sb_mesh *mesh = sb_surface_mesh(surface);
-    for (size_t t = 0; t < mesh->triangle_count; ++t) {
-        extent *e = extents + surface->region[t];
-        if (surface->region[t] == t) {
-            *e = (extent){
-                .min_u = HUGE_VAL, .max_u = -HUGE_VAL, .min_v = HUGE_VAL, .max_v = -HUGE_VAL};
-            plane_axes(surface->normal[t], e);
-        }
-        sb_vec3 corner[3];
-        corners_of(mesh, t, corner);
-        for (int i = 0; i < 3; ++i) {
-            double u = sb_dot(corner[i], e->u), v = sb_dot(corner[i], e->v);
-            e->min_u = fmin(e->min_u, u);
-            e->max_u = fmax(e->max_u, u);
-            e->min_v = fmin(e->min_v, v);
-            e->max_v = fmax(e->max_v, v);
-        }
-    }
-}
-
 static int scan_faces(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t index)
 {
     const sb_surface *surface = sampler->surfaces + index;
     const sb_mesh *mesh = sb_surface_mesh(surface);
-    extent *extents = sb_alloc_untouched(mesh->triangle_count, sizeof *extents);
-    if (!extents) return -1;
-    measure_planes(surface, extents);
-    int failed = 0;
+    sb_lattice *lattices = sb_alloc_untouched(mesh->triangle_count, sizeof *lattices);
+    if (!lattices) return -1;
+    int failed = sb_sample_planes(sampler, index, lattices);
     for (size_t t = 0; t < mesh->triangle_count && !failed; ++t) {
-        sb_vec3 corner[3], n = surface->normal[t];
-        lattice l;
-        if (sb_dot(n, n) == 0 || !choose_lattice(sampler, n, extents + surface->region[t], &l))
-            continue;
+        const sb_lattice *l = lattices + surface->region[t];
+        if (!l->suits) continue;
+        sb_vec3 corner[3];
         corners_of(mesh, t, corner);
-        failed = scan_triangle(sampler, batch, &l, corner,
-                               (sb_candidate){.inward = sb_scale(n, -1), .surface = index});
+        failed = scan_triangle(sampler, batch, l, corner,
+                               (sb_candidate){.inward = sb_scale(surface->normal[t], -1), .surface = index});
     }
-    sb_free(extents);
+    sb_free(lattices);
     return failed;
 }
 
@@ -241,10 +136,10 @@ static int scan_line(sb_sampler *sampler, sb_candidate_batch *batch, sb_vec3 a, 
 {
     double spacing = sampler->settings.spacing, length = sb_norm(sb_sub(b, a));
     sb_vec3 along = sb_normalize(sb_sub(b, a));
-    double step = fitted_step(length, spacing), begin = 0.5 * step;
-    if (is_axis(along)) {
+    double step = sb_sample_fitted_step(length, spacing), begin = 0.5 * step;
+    if (sb_sample_is_axis(along)) {
         double from = sb_dot(sb_sub(a, sampler->settings.min), along);
-        step = axis_step(&sampler->settings, dominant(along));
+        step = sb_sample_axis_step(&sampler->settings, sb_sample_dominant(along));
         begin = step * (ceil(from / step - 0.5 - slack) + 0.5) - from;
     }
     int64_t end = (int64_t)floor((length - begin) / step + 1e-9);
@@ -305,7 +200,7 @@ static int scan_strips(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t 
                 b = mesh->vertices[mesh->triangles[t][1]];
         a.y = b.y = 0;
         sb_vec3 n = surface->normal[t];
-        if (sb_dot(n, n) == 0 || (sb_norm(sb_sub(b, a)) < sampler->settings.spacing && !is_axis(n)))
+        if (sb_dot(n, n) == 0 || (sb_norm(sb_sub(b, a)) < sampler->settings.spacing && !sb_sample_is_axis(n)))
             continue;
         sb_candidate candidate = {.inward = sb_scale(n, -1), .surface = index};
         if (scan_line(sampler, batch, a, b, candidate)) return -1;

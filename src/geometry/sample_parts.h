@@ -19,6 +19,12 @@ typedef struct sb_crease {
     sb_vec3 a, b, normal[2];
 } sb_crease;
 
+/* An edge of a solid that is convex from the water, and the triangles that meet there. */
+typedef struct sb_ridge {
+    sb_vec3 a, b;
+    uint32_t triangle[2];
+} sb_ridge;
+
 /* A corner of the sheet around a concave vertex, between three normals. */
 typedef struct sb_cap {
     sb_vec3 at, normal[3];
@@ -35,9 +41,10 @@ typedef struct sb_surface {
                         in a side at which the domain repeats: then it is no surface */
     uint32_t *region; /* per triangle: first triangle of its plane */
     uint32_t *part;   /* per triangle: first triangle of its connected part */
-    size_t crease_count, crease_capacity, cap_count, cap_capacity;
+    size_t crease_count, crease_capacity, cap_count, cap_capacity, ridge_count, ridge_capacity;
     sb_crease *creases;
     sb_cap *caps;
+    sb_ridge *ridges; /* of solids alone */
 } sb_surface;
 
 typedef struct sb_sampler {
@@ -77,6 +84,23 @@ static inline bool sb_sampler_takes(const sb_sampler *sampler, size_t surface)
     return surface >= sampler->first && surface < sampler->last &&
            sampler->surfaces[surface].source->moving == sampler->moving;
 }
+
+/* Lattice points at origin + (i + 1/2) step along two directions of a plane, or of a projection. */
+typedef struct sb_lattice {
+    sb_vec3 u, v, origin;
+    double step_u, step_v;
+    bool suits; /* false: none does */
+} sb_lattice;
+
+/* The lattice of every plane of a surface, at the plane's first triangle; not 0 without memory. */
+int sb_sample_planes(const sb_sampler *sampler, uint32_t index, sb_lattice *lattices);
+/* Step near the spacing that divides `length` evenly; the spacing itself when none is near. */
+double sb_sample_fitted_step(double length, double spacing);
+/* Of the world's lattice along an axis: between sides at which the domain repeats it fits. */
+double sb_sample_axis_step(const sb_sample_settings *settings, int axis);
+/* Whether a unit vector follows an axis, and the axis that a vector is nearest to. */
+bool sb_sample_is_axis(sb_vec3 a);
+int sb_sample_dominant(sb_vec3 n);
 
 /* Where a surface point goes. BURIED and CROWDED: nowhere; then all surface points within *margin
    of this one share its fate (0: none may). */

@@ -13,6 +13,8 @@ static const double arc_min = 0.006;
 /* Normals around a corner count as one when their cosine is above this. */
 static const double same_normal = 0.97;
 static const double same_plane = 1 - 1e-9;
+/* Cosine between normals: faces more alike than this bend too little for an edge. */
+static const double ridge_cosine = 0.9;
 
 typedef struct spoke {
     uint32_t vertex;
@@ -118,6 +120,37 @@ static bool is_concave(const sb_surface *surface, const sb_mesh_edge *e, const s
     return rise > 0;
 }
 
+/* A mesh may hold faces twice, so more than two may meet in one edge; of a great many the first are looked at. */
+enum { MEETING_MAX = 16 };
+
+static void join_planes(sb_surface *surface, const sb_mesh_edge *edge, const sb_mesh_edge *end)
+{
+    for (const sb_mesh_edge *one = edge; one < end; ++one)
+        for (const sb_mesh_edge *other = one + 1; other < end; ++other)
+            if (sb_dot(surface->normal[one->triangle], surface->normal[other->triangle]) > same_plane)
+                unite(surface->region, one->triangle, other->triangle);
+}
+
+/* Convex edges between any two of the faces that meet in [edge, end). */
+static int add_ridges(sb_surface *surface, const sb_mesh_edge *edge, const sb_mesh_edge *end)
+{
+    const sb_mesh *mesh = sb_surface_mesh(surface);
+    if (surface->source->role != SB_ROLE_SOLID || mesh->sheet || surface->mixed) return 0;
+    for (const sb_mesh_edge *one = edge; one < end; ++one)
+        for (const sb_mesh_edge *other = one + 1; other < end; ++other) {
+            const sb_vec3 first = surface->normal[one->triangle], second = surface->normal[other->triangle];
+            if (sb_dot(first, first) == 0 || sb_dot(second, second) == 0 || sb_dot(first, second) > ridge_cosine ||
+                is_concave(surface, one, other))
+                continue;
+            if (sb_grow((void **)&surface->ridges, &surface->ridge_capacity, surface->ridge_count + 1,
+                        sizeof *surface->ridges))
+                return -1;
+            surface->ridges[surface->ridge_count++] = (sb_ridge){
+                mesh->vertices[one->low], mesh->vertices[one->high], {one->triangle, other->triangle}};
+        }
+    return 0;
+}
+
 /* Planes, parts and creases from the pairs of faces that share an edge. */
 static int join_faces(sb_surface *surface, const sb_mesh_edges *list,
                       const sb_sample_settings *settings)
@@ -127,13 +160,13 @@ static int join_faces(sb_surface *surface, const sb_mesh_edges *list,
     for (uint32_t t = 0; t < mesh->triangle_count; ++t) surface->region[t] = surface->part[t] = t;
     for (size_t i = 0, end; i < list->count; i = end) {
         end = sb_mesh_edge_run(list, i);
-        for (size_t k = i + 1; k < end; ++k)
-            unite(surface->part, edges[i].triangle, edges[k].triangle);
+        const sb_mesh_edge *meeting = edges + (end - i > MEETING_MAX ? i + MEETING_MAX : end);
+        for (size_t k = i + 1; k < end; ++k) unite(surface->part, edges[i].triangle, edges[k].triangle);
+        join_planes(surface, edges + i, meeting);
+        if (add_ridges(surface, edges + i, meeting)) return -1;
         if (end - i != 2) continue;
         sb_vec3 first = surface->normal[edges[i].triangle];
         sb_vec3 second = surface->normal[edges[i + 1].triangle];
-        if (sb_dot(first, second) > same_plane)
-            unite(surface->region, edges[i].triangle, edges[i + 1].triangle);
         if (sb_dot(first, first) == 0 || sb_dot(second, second) == 0 ||
             settings->offset * sb_norm(sb_sub(first, second)) < arc_min * settings->spacing ||
             !is_concave(surface, edges + i, edges + i + 1))
@@ -211,6 +244,7 @@ void sb_surface_free(sb_surface *surface)
     sb_free(surface->part);
     sb_free(surface->creases);
     sb_free(surface->caps);
+    sb_free(surface->ridges);
     *surface = (sb_surface){0};
 }
 

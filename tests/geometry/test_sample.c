@@ -3,6 +3,7 @@
 #include "test_sample.h"
 
 #include <omp.h>
+#include <stdlib.h>
 
 static test_surfaces s;
 
@@ -80,6 +81,51 @@ static void edges_look_away_from_both_faces(void **state)
     }
     print_message("%zu particles at edges, %zu at corners\n", edges, corners);
     assert_true(edges > 20 && corners > 0);
+}
+
+static int compare_places(const void *left, const void *right)
+{
+    const sb_vec3 *a = left, *b = right;
+    const double by[] = {a->x - b->x, a->y - b->y, a->z - b->z};
+    for (int axis = 0; axis < 3; ++axis)
+        if (fabs(by[axis]) > 1e-6) return by[axis] < 0 ? -1 : 1;
+    return 0;
+}
+
+/* The particles of the second box, in an order of their own. */
+static size_t places_of_column(sb_vec3 *at, size_t most)
+{
+    const size_t begin = s.samples.begin[1], count = s.samples.count - begin;
+    assert_in_range(count, 100, most);
+    memcpy(at, s.samples.position + begin, count * sizeof *at);
+    qsort(at, count, sizeof *at, compare_places);
+    return count;
+}
+
+/* Off the world's lattice, whichever face was sampled first: where two faces meet they share a row. */
+static void the_order_of_faces_changes_nothing(void **state)
+{
+    (void)state;
+    enum { MOST = 1024 };
+    sb_vec3 first[MOST], again[MOST];
+    size_t count = 0;
+    for (int turned = 0; turned <= 1; ++turned) {
+        box(0, sb_vec(0, 0, -9), sb_vec(40, 15, 0));
+        box(1, sb_vec(22.5, 5, 0), sb_vec(27.5, 10, 18.75));
+        sb_mesh *mesh = &s.mesh[1];
+        for (size_t t = 0, last = mesh->triangle_count - 1; turned && t < last; ++t, --last) {
+            uint32_t swap[3];
+            memcpy(swap, mesh->triangles[t], sizeof swap);
+            memcpy(mesh->triangles[t], mesh->triangles[last], sizeof swap);
+            memcpy(mesh->triangles[last], swap, sizeof swap);
+        }
+        test_sample(&s, 0.9375);
+        const size_t n = places_of_column(turned ? again : first, MOST);
+        assert_true(!turned || n == count);
+        count = n;
+        test_surfaces_free(&s);
+    }
+    for (size_t i = 0; i < count; ++i) assert_true(sb_norm(sb_sub(first[i], again[i])) < 1e-6);
 }
 
 static void boxes_off_the_lattice(void **state)
@@ -380,6 +426,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(box_keeps_the_lattice, tear_down),
         cmocka_unit_test_teardown(edges_look_away_from_both_faces, tear_down),
+        cmocka_unit_test_teardown(the_order_of_faces_changes_nothing, tear_down),
         cmocka_unit_test_teardown(boxes_off_the_lattice, tear_down),
         cmocka_unit_test_teardown(round_shapes, tear_down),
         cmocka_unit_test_teardown(basins_close_their_corners, tear_down),
