@@ -8,8 +8,8 @@
 static const double projected_cosine = 0.93;
 /* In spacings: a tilted plane smaller than this has no lattice of its own. */
 static const double fitted_extent = 6;
-/* Steps of rows spread evenly between two edges. */
-static const double narrow = 0.85, wide = 1.2;
+/* In spacings, steps of rows spread evenly: nearer ones are not accepted, and cells of wider ones would be filled. */
+static const double narrow = SB_SAMPLE_LATTICE, wide = 1.08;
 /* Cosine between the normals of faces that stand upright on each other. */
 static const double upright = 0.05;
 
