@@ -16,6 +16,7 @@ typedef struct sb_model_body {
     sb_role role;
     sb_vec3 moment_point; /* m */
     float color[3];
+    double thin;  /* m, its thickness where that is less than the support radius; else 0 */
     sb_mesh mesh; /* scene coordinates at t = 0; empty for domain sides */
 } sb_model_body;
 

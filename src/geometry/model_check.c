@@ -87,10 +87,10 @@ sb_status sb_model_check(const sb_scene *scene, const sb_model_space *space, sb_
 {
     sb_status status = SB_OK;
     for (size_t i = 0; i < model->body_count && status == SB_OK; ++i) {
-        const sb_model_body *body = model->bodies + i;
+        sb_model_body *body = model->bodies + i;
         if (body->mesh.triangle_count == 0) continue;
         status = check_mesh(body, model, error);
-        if (status == SB_OK) status = sb_model_check_thickness(scene, space, body, model, error);
+        if (status == SB_OK) status = sb_model_check_thickness(scene, space, model, body, error);
         if (status == SB_OK && body->count == 0)
             status =
                 sb_model_warn(model, error,
@@ -98,6 +98,7 @@ sb_status sb_model_check(const sb_scene *scene, const sb_model_space *space, sb_
                               "of the domain or within other bodies",
                               body->name);
     }
+    if (status == SB_OK) status = sb_model_warn_of_thin(scene, model, error);
     if (status == SB_OK) status = check_steps(scene, model, error);
     return status == SB_OK ? check_water(scene, model, error) : status;
 }

@@ -25,10 +25,13 @@ sb_status sb_model_check_sides(const sb_scene *scene, const sb_model_space *spac
 /* Adds to model->warnings what is too coarse or too thin to trust. */
 sb_status sb_model_check(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 
-/* Warns of a body thinner than the support radius; SB_BAD_INPUT where more than half of its surface is that of a
-   plate thinner than half a spacing, with room for water on both sides. */
-sb_status sb_model_check_thickness(const sb_scene *scene, const sb_model_space *space, const sb_model_body *body,
-                                   sb_model *model, sb_error *error);
+/* Sets body->thin; SB_BAD_INPUT where more than half of its surface is that of a plate thinner than half a spacing,
+   with room for water on both sides. */
+sb_status sb_model_check_thickness(const sb_scene *scene, const sb_model_space *space, const sb_model *model,
+                                   sb_model_body *body, sb_error *error);
+
+/* One line for all bodies thinner than the support radius. */
+sb_status sb_model_warn_of_thin(const sb_scene *scene, sb_model *model, sb_error *error);
 
 /* model_particles.c: places the particles of walls and of water. */
 sb_status sb_model_sample(const sb_scene *scene, const sb_model_space *space, sb_model *model,

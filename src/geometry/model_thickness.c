@@ -1,6 +1,8 @@
 /* Bodies so thin that water on their one side feels water on the other, or would pass. */
 #include "geometry/model_parts.h"
 
+#include <stdio.h>
+
 enum { RAYS_MAX = 4000, BINS = 64 };
 
 /* Share of a body's surface that has to be thin before it counts as a plate, and the cosine between
@@ -97,6 +99,11 @@ static double plate_thickness(const thickness *found)
     return found->limit;
 }
 
+static double support_radius(const sb_scene *scene) /* m */
+{
+    return scene->numerics.support * scene->resolution;
+}
+
 static sb_status refuse(const sb_scene *scene, const char *name, double thick, sb_error *error)
 {
     return sb_fail(error, SB_BAD_INPUT,
@@ -105,11 +112,11 @@ static sb_status refuse(const sb_scene *scene, const char *name, double thick, s
                    scene->path ? scene->path : "the scene", name, thick, 0.5 * scene->resolution, 2 * thick);
 }
 
-sb_status sb_model_check_thickness(const sb_scene *scene, const sb_model_space *space, const sb_model_body *body,
-                                   sb_model *model, sb_error *error)
+sb_status sb_model_check_thickness(const sb_scene *scene, const sb_model_space *space, const sb_model *model,
+                                   sb_model_body *body, sb_error *error)
 {
     if (body->role != SB_ROLE_SOLID || body->mesh.sheet || body->mesh.triangle_count == 0) return SB_OK;
-    thickness found = {.limit = scene->numerics.support * scene->resolution};
+    thickness found = {.limit = support_radius(scene)};
     sb_solid *solid = NULL;
     sb_status status = sb_solid_create(&body->mesh, body->role, &solid, error);
     if (status != SB_OK) return status;
@@ -118,9 +125,41 @@ sb_status sb_model_check_thickness(const sb_scene *scene, const sb_model_space *
     if (found.leaky > bulk_share * found.area)
         return refuse(scene, body->name, found.leaky_depth / found.leaky, error);
     double thick = plate_thickness(&found);
-    if (thick >= found.limit) return SB_OK;
+    body->thin = thick < found.limit ? thick : 0;
+    return SB_OK;
+}
+
+/* Of the thin bodies the thinnest; NULL: there is none. count: all of them. */
+static const sb_model_body *find_thinnest(const sb_model *model, size_t *count)
+{
+    const sb_model_body *thinnest = NULL;
+    *count = 0;
+    for (size_t i = 0; i < model->body_count; ++i) {
+        const sb_model_body *body = model->bodies + i;
+        if (!(body->thin > 0)) continue;
+        ++*count;
+        if (!thinnest || body->thin < thinnest->thin) thinnest = body;
+    }
+    return thinnest;
+}
+
+sb_status sb_model_warn_of_thin(const sb_scene *scene, sb_model *model, sb_error *error)
+{
+    size_t left, length = 0;
+    const sb_model_body *thinnest = find_thinnest(model, &left);
+    char others[700] = "";
+    if (!thinnest) return SB_OK;
+    left--;
+    for (size_t i = 0; i < model->body_count && length + sizeof thinnest->name + 32 < sizeof others; ++i) {
+        const sb_model_body *body = model->bodies + i;
+        if (!(body->thin > 0) || body == thinnest) continue;
+        length += (size_t)snprintf(others + length, sizeof others - length, "%s \"%s\" %.2g m",
+                                   length == 0 ? "; likewise" : ",", body->name, body->thin);
+        left--;
+    }
+    if (left > 0) snprintf(others + length, sizeof others - length, " and %zu more", left);
     return sb_model_warn(model, error,
                          "body \"%s\" is about %.2g m thick, less than the support radius of %.3g m: water "
-                         "on one side pushes water on the other",
-                         body->name, thick, found.limit);
+                         "on one side pushes water on the other%s",
+                         thinnest->name, thinnest->thin, support_radius(scene), others);
 }

@@ -8,10 +8,11 @@
 
 #include <cmocka.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static sb_scene scene;
-static sb_body bodies[6];
+static sb_body bodies[16];
 static sb_wavemaker_use wavemaker;
 static sb_model model;
 static sb_error error;
@@ -180,6 +181,40 @@ static void warnings_say_what_is_too_coarse(void **state)
     assert_int_equal(sb_model_build(&scene, &model, &error), SB_BAD_INPUT);
     assert_non_null(strstr(error.text, "time_step_factor 0.61"));
     assert_non_null(strstr(error.text, "expected 0.6"));
+}
+
+/* A plant has dozens of them: one line, the thinnest first. */
+static void thin_bodies_share_a_line(void **state)
+{
+    (void)state;
+    add_box("wall", sb_vec(3, 1, 0), sb_vec(3.6, 5, 4));
+    build();
+    assert_true(warned("body \"wall\" is about 0.6", "pushes water on the other"));
+    assert_false(warned("likewise", ""));
+    add_box("plate", sb_vec(5, 1, 0), sb_vec(5.4, 5, 4));
+    add_box("hall", sb_vec(7, 1, 0), sb_vec(7.8, 5, 4));
+    build();
+    assert_int_equal(model.warning_count, 1);
+    assert_true(warned("body \"plate\" is about 0.4", "; likewise \"wall\" 0.61 m, \"hall\" 0.8"));
+}
+
+static void thin_bodies_beyond_a_line_are_counted(void **state)
+{
+    (void)state;
+    const int count = sizeof bodies / sizeof *bodies;
+    for (int i = 0; i < count; i++) {
+        char name[SB_NAME_MAX];
+        snprintf(name, sizeof name, "a-name-that-leaves-no-room-for-many-others-in-a-line-%d", i);
+        add_box(name, sb_vec(3, 0.37 * i, 0), sb_vec(9, 0.37 * i + 0.3, 4));
+    }
+    build();
+    assert_int_equal(model.warning_count, 1);
+    assert_true(warned("-0\" is about 0.3", " more"));
+    int named = 0;
+    for (const char *at = model.warnings[0]; (at = strstr(at, "a-name")) != NULL; at++) named++;
+    int more = atoi(strstr(model.warnings[0], " and ") + 5);
+    assert_true(named > 1 && more > 0);
+    assert_int_equal(named + more, count);
 }
 
 /* The scene has one body more: it is refused by name, with its thickness. */
@@ -451,7 +486,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         CASE(bodies_and_their_particles),      CASE(names_are_unique),
         CASE(a_wavemaker_needs_its_body),      CASE(open_sides_have_no_wall),
-        CASE(warnings_say_what_is_too_coarse), CASE(holes_in_a_mesh_are_named),
+        CASE(warnings_say_what_is_too_coarse), CASE(thin_bodies_share_a_line),
+        CASE(thin_bodies_beyond_a_line_are_counted), CASE(holes_in_a_mesh_are_named),
         CASE(plates_that_water_passes_are_refused),
         CASE(plates_that_hold_are_not_refused),
         CASE(slender_columns_are_not_refused),
