@@ -10,7 +10,6 @@ typedef struct sb_sensitivity_key {
     size_t offset;   /* in sb_numerics: a double, or an int when whole */
     bool whole;
     double most; /* upper bound of the scene key; HUGE_VAL: none */
-    double zero; /* what 0 stands for */
 } sb_sensitivity_key;
 
 /* Ended by a row without key. */

@@ -1,5 +1,6 @@
 /* The defaults of which a quarter more or less has a meaning: no switches, bounds or seeds, and no
    key that the default solver does not read. */
+#include "physics/wall_volume.h"
 #include "sensitivity.h"
 
 #include <math.h>
@@ -8,11 +9,11 @@
 
 #define NUMBER(key, most)                                                                          \
     {                                                                                              \
-#key, offsetof(sb_numerics, key), false, most, 0                                           \
+#key, offsetof(sb_numerics, key), false, most                                              \
     }
 #define COUNT(key, most)                                                                           \
     {                                                                                              \
-#key, offsetof(sb_numerics, key), true, most, 0                                            \
+#key, offsetof(sb_numerics, key), true, most                                               \
     }
 
 const sb_sensitivity_key sb_sensitivity_keys[] = {
@@ -25,8 +26,7 @@ const sb_sensitivity_key sb_sensitivity_keys[] = {
     NUMBER(stress_correction, 1),
     NUMBER(artificial_viscosity, 10),
     NUMBER(wall_friction, 10),
-    /* 0 takes the lattice's: 1.455 in 2D, 1.443 in 3D. */
-    {"wall_gamma", offsetof(sb_numerics, wall_gamma), false, 5, 1.449},
+    NUMBER(wall_gamma, 5),
     NUMBER(wall_spacing, 1.2),
     NUMBER(wall_offset, 2),
     NUMBER(jitter, 0.5),
@@ -34,6 +34,7 @@ const sb_sensitivity_key sb_sensitivity_keys[] = {
     {.key = NULL},
 };
 
+/* What the key's number, or a 0 that stands for one, comes to. */
 static double value_of(const sb_sensitivity_key *key, const sb_numerics *numerics)
 {
     const char *at = (const char *)numerics + key->offset;
@@ -44,7 +45,9 @@ static double value_of(const sb_sensitivity_key *key, const sb_numerics *numeric
         return count;
     }
     memcpy(&number, at, sizeof number);
-    return number == 0 ? key->zero : number;
+    if (key->offset == offsetof(sb_numerics, wall_gamma) && number == 0)
+        return sb_wall_gamma(numerics->kernel, 3, numerics->support, numerics->wall_offset, numerics->wall_spacing);
+    return number;
 }
 
 void sb_sensitivity_change(const sb_sensitivity_key *key, const sb_numerics *defaults,
