@@ -76,8 +76,8 @@ static const sb_key keys[] = {
     NUMBER(sound_speed, "m/s", 0, HUGE_VAL, 0,
            "Speed in artificial_viscosity and wall_friction; 0: 10 sqrt(g D)."),
     NUMBER(wall_gamma, NULL, 0, 5, 0,
-           "Factor on the volume of boundary particles, at least 0.1: below, they leak; 0: the one that "
-           "bears a lattice at rest on a plane, and at edges what does so there."),
+           "Factor on the volume of boundary particles, at least 0.1: with less, walls leak; 0: computed, so that "
+           "a lattice of water stays at rest on planes and at edges."),
     NUMBER(wall_spacing, "spacings", 0.4, 1.2, 0,
            "Distance of boundary particles from each other; wide ones are grains that hold what slides along a wall."),
     NUMBER(wall_offset, "spacings", 0, 2, 0,
