@@ -31,8 +31,7 @@ static int newest_first(const void *left, const void *right)
 static bool is_checkpoint(const char *name, uint64_t *step)
 {
     char *end;
-    if (strspn(name, "0123456789") == 0)
-        return false;
+    if (strspn(name, "0123456789") == 0) return false;
     errno = 0;
     *step = strtoull(name, &end, 10);
     return errno == 0 && strcmp(end, SB_CHECKPOINT_SUFFIX) == 0;
@@ -48,20 +47,18 @@ sb_status sb_checkpoint_list(const run *r, uint64_t **steps, size_t *count, sb_e
     *steps = NULL;
     *count = 0;
     if (!folder)
-        return errno == ENOENT ? SB_OK
-                               : sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", r->checkpoints.folder,
-                                         strerror(errno));
+        return errno == ENOENT
+                   ? SB_OK
+                   : sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", r->checkpoints.folder, strerror(errno));
     while (status == SB_OK && (entry = readdir(folder))) {
-        if (!is_checkpoint(entry->d_name, &step))
-            continue;
+        if (!is_checkpoint(entry->d_name, &step)) continue;
         if (sb_grow((void **)steps, &capacity, *count + 1, sizeof **steps) != 0)
             status = sb_fail_memory(error, "the list of checkpoints");
         else
             (*steps)[(*count)++] = step;
     }
     closedir(folder);
-    if (*count > 1)
-        qsort(*steps, *count, sizeof **steps, newest_first);
+    if (*count > 1) qsort(*steps, *count, sizeof **steps, newest_first);
     return status;
 }
 
@@ -109,9 +106,8 @@ sb_status sb_checkpoint_begin(run *r, sb_error *error)
 {
     const sb_checkpoint_settings *wish = &r->scene->output.checkpoint;
     struct stat found;
-    r->checkpoints = (sb_checkpoints){.on = wish->steps > 0 || wish->minutes > 0,
-                                      .any_build = r->checkpoints.any_build,
-                                      .written = sb_clock()};
+    r->checkpoints = (sb_checkpoints){
+        .on = wish->steps > 0 || wish->minutes > 0, .any_build = r->checkpoints.any_build, .written = sb_clock()};
     sb_build_numerics(r->checkpoints.build);
     sb_status status = sb_run_path(r, "checkpoints", r->checkpoints.folder, error);
     if (status == SB_OK && lstat(r->checkpoints.folder, &found) == 0 && S_ISLNK(found.st_mode))
@@ -162,8 +158,7 @@ static void put_run(run *r, const sb_csv_lengths *lengths, sb_archive_out *out)
     sb_put_real(out, first->potential);
     sb_put_real(out, first->mass);
     sb_put_vector(out, first->momentum);
-    for (int c = 0; c < CONSUMERS; c++)
-        sb_put_real(out, r->consumers[c].next);
+    for (int c = 0; c < CONSUMERS; c++) sb_put_real(out, r->consumers[c].next);
     sb_put_list(out, lengths->bytes, SB_CSV_TABLES, sizeof *lengths->bytes);
     sb_put_count(out, r->pictures.count);
     sb_recorder_save(&r->recorder, out);
@@ -175,10 +170,8 @@ static sb_status settle_files(run *r, sb_csv_lengths *lengths, sb_error *error)
     sb_consumer_drain(&r->consumers[RECORDER]);
     sb_consumer_drain(&r->consumers[PICTURES]);
     sb_status status = sb_csv_sync(r->csv, lengths, error);
-    if (status == SB_OK)
-        status = sb_recorder_sync(&r->recorder, error);
-    if (status == SB_OK)
-        status = sb_pictures_sync(&r->pictures, error);
+    if (status == SB_OK) status = sb_recorder_sync(&r->recorder, error);
+    if (status == SB_OK) status = sb_pictures_sync(&r->pictures, error);
     return status == SB_OK ? sb_runlog_sync(r->log, error) : status;
 }
 
@@ -187,10 +180,8 @@ static sb_status write_now(run *r, char path[SB_PATH_MAX], sb_error *error)
     sb_archive_out *out = &r->checkpoints.out;
     sb_csv_lengths lengths;
     sb_status status = settle_files(r, &lengths, error);
-    if (status == SB_OK)
-        status = sb_checkpoint_path(r, sb_sim_report(r->sim)->step, path, error);
-    if (status != SB_OK)
-        return status;
+    if (status == SB_OK) status = sb_checkpoint_path(r, sb_sim_report(r->sim)->step, path, error);
+    if (status != SB_OK) return status;
     sb_archive_begin(out, SB_CHECKPOINT_KIND, SB_CHECKPOINT_FORMAT);
     put_run(r, &lengths, out);
     sb_sim_save(r->sim, out);
@@ -204,8 +195,7 @@ void sb_checkpoint_write(run *r)
     const sb_step_report *report = sb_sim_report(r->sim);
     char path[SB_PATH_MAX];
     sb_error reason = {0};
-    if (!c->on || (c->current && c->steps_then == report->step))
-        return;
+    if (!c->on || (c->current && c->steps_then == report->step)) return;
     const double start = sb_clock();
     c->current = write_now(r, path, &reason) == SB_OK;
     c->written = sb_clock();
@@ -216,6 +206,5 @@ void sb_checkpoint_write(run *r)
     }
     sb_runlog_event(r->log, "checkpoint", "step %" PRIu64 ", t = %.9g s, %zu bytes in %.3f s: %.500s", report->step,
                     report->time, c->out.used, c->written - start, strrchr(path, '/') + 1);
-    if (remove_older(r, (size_t)r->scene->output.checkpoint.keep, &reason) != SB_OK)
-        sb_run_warn(r, "%s", reason.text);
+    if (remove_older(r, (size_t)r->scene->output.checkpoint.keep, &reason) != SB_OK) sb_run_warn(r, "%s", reason.text);
 }

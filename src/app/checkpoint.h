@@ -10,16 +10,16 @@
 typedef struct run run; /* app/run_state.h */
 
 typedef struct sb_checkpoints {
-    bool on;              /* the scene asks for them */
+    bool on; /* the scene asks for them */
     char folder[SB_PATH_MAX];
-    char *identity;       /* of the scene */
-    uint64_t model;       /* hash of what was sampled */
+    char *identity;            /* of the scene */
+    uint64_t model;            /* hash of what was sampled */
     char build[SB_BUILD_TEXT]; /* of this program's numerics */
-    bool any_build;       /* another build's will do as well */
-    sb_archive_out out;   /* its memory is kept from one to the next */
-    double written;       /* s on the clock, of the last attempt */
-    uint64_t steps_then;  /* step of the last one */
-    bool current;         /* there is one of steps_then */
+    bool any_build;            /* another build's will do as well */
+    sb_archive_out out;        /* its memory is kept from one to the next */
+    double written;            /* s on the clock, of the last attempt */
+    uint64_t steps_then;       /* step of the last one */
+    bool current;              /* there is one of steps_then */
 } sb_checkpoints;
 
 /* Where they go, and whether the scene wants any. */

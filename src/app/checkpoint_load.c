@@ -11,8 +11,7 @@ static bool first_difference(const char *a, const char *b, char line[2][200])
 {
     while (*a && *b) {
         const size_t la = strcspn(a, "\n"), lb = strcspn(b, "\n");
-        if (la != lb || memcmp(a, b, la) != 0)
-            break;
+        if (la != lb || memcmp(a, b, la) != 0) break;
         a += la + (a[la] == '\n');
         b += lb + (b[lb] == '\n');
     }
@@ -27,12 +26,12 @@ static bool first_difference(const char *a, const char *b, char line[2][200])
 static sb_status judge_build(run *r, const sb_archive_in *in, const char *build, sb_error *error)
 {
     sb_error other = {0};
-    if (strcmp(build, r->checkpoints.build) == 0)
-        return SB_OK;
+    if (strcmp(build, r->checkpoints.build) == 0) return SB_OK;
     sb_fail(&other, SB_BAD_INPUT, "%.300s: written by a build with other numerics (%.200s), this one's are (%.200s)",
             in->name, build, r->checkpoints.build);
     if (!r->checkpoints.any_build)
-        return sb_fail(error, SB_BAD_INPUT, "%s; --other-build goes on all the same, no longer bit for bit", other.text);
+        return sb_fail(error, SB_BAD_INPUT, "%s; --other-build goes on all the same, no longer bit for bit",
+                       other.text);
     sb_run_warn(r, "%s: gone on with, no longer bit for bit", other.text);
     return SB_OK;
 }
@@ -42,19 +41,21 @@ static sb_status check_origin(run *r, sb_archive_in *in, sb_error *error)
 {
     char line[2][200];
     sb_status status = sb_archive_enter(in, SB_CHECKPOINT_SCENE, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     char *version = sb_take_text(in), *build = sb_take_text(in), *identity = sb_take_text(in);
     const uint64_t model = sb_take_count(in, UINT64_MAX);
     status = sb_archive_leave(in, error);
     if (status == SB_OK && strcmp(version, SB_VERSION) != 0)
-        status = sb_fail(error, SB_BAD_INPUT, "%s: written by shorebreak %.40s, expected " SB_VERSION, in->name, version);
+        status =
+            sb_fail(error, SB_BAD_INPUT, "%s: written by shorebreak %.40s, expected " SB_VERSION, in->name, version);
     else if (status == SB_OK && first_difference(identity, r->checkpoints.identity, line))
         status = sb_fail(error, SB_BAD_INPUT, "%s: of another scene: it has \"%s\" where this one has \"%s\"", in->name,
                          line[0], line[1]);
     else if (status == SB_OK && model != r->checkpoints.model)
-        status = sb_fail(error, SB_BAD_INPUT, "%s: of another model: its particles at the start hash to %016" PRIx64
-                         ", expected %016" PRIx64, in->name, model, r->checkpoints.model);
+        status =
+            sb_fail(error, SB_BAD_INPUT,
+                    "%s: of another model: its particles at the start hash to %016" PRIx64 ", expected %016" PRIx64,
+                    in->name, model, r->checkpoints.model);
     else if (status == SB_OK)
         status = judge_build(r, in, build, error);
     sb_free(version);
@@ -67,8 +68,7 @@ static sb_status take_run(run *r, sb_archive_in *in, sb_error *error)
 {
     sb_energy *first = &r->first_energy;
     sb_status status = sb_archive_enter(in, SB_CHECKPOINT_RUN, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     r->wall_before = sb_take_real(in);
     r->iterations = r->iterations_before = sb_take_count(in, UINT64_MAX);
     r->capped = sb_take_count(in, UINT64_MAX);
@@ -77,13 +77,11 @@ static sb_status take_run(run *r, sb_archive_in *in, sb_error *error)
     first->potential = sb_take_real(in);
     first->mass = sb_take_real(in);
     first->momentum = sb_take_vector(in);
-    for (int c = 0; c < CONSUMERS; c++)
-        r->due[c] = sb_take_real(in);
+    for (int c = 0; c < CONSUMERS; c++) r->due[c] = sb_take_real(in);
     sb_take_list(in, r->lengths.bytes, SB_CSV_TABLES, sizeof *r->lengths.bytes);
     r->pictures.count = r->pictures.synced = sb_take_count(in, UINT32_MAX);
     status = sb_recorder_load(&r->recorder, in, error);
-    if (status == SB_OK)
-        status = sb_archive_leave(in, error);
+    if (status == SB_OK) status = sb_archive_leave(in, error);
     return status == SB_OK ? sb_csv_check(r->directory, r->scene, &r->lengths, error) : status;
 }
 
@@ -91,14 +89,10 @@ static sb_status load(run *r, const char *path, sb_error *error)
 {
     sb_archive_in in = {0};
     sb_status status = sb_archive_open(&in, path, SB_CHECKPOINT_KIND, SB_CHECKPOINT_FORMAT, error);
-    if (status == SB_OK)
-        status = check_origin(r, &in, error);
-    if (status == SB_OK)
-        status = sb_sim_load(r->sim, &in, error);
-    if (status == SB_OK)
-        status = sb_measure_load(r->measure, &in, error);
-    if (status == SB_OK)
-        status = take_run(r, &in, error);
+    if (status == SB_OK) status = check_origin(r, &in, error);
+    if (status == SB_OK) status = sb_sim_load(r->sim, &in, error);
+    if (status == SB_OK) status = sb_measure_load(r->measure, &in, error);
+    if (status == SB_OK) status = take_run(r, &in, error);
     sb_archive_in_free(&in);
     return status;
 }
@@ -114,16 +108,13 @@ sb_status sb_checkpoint_load(run *r, sb_error *error)
     for (size_t i = 0; status == SB_OK && !loaded && i < count; i++) {
         sb_error reason = {0};
         status = sb_checkpoint_path(r, steps[i], path, error);
-        if (status != SB_OK)
-            break;
+        if (status != SB_OK) break;
         const sb_status found = load(r, path, &reason);
         loaded = found == SB_OK;
-        if (!loaded && i == 0)
-            newest = reason;
+        if (!loaded && i == 0) newest = reason;
         if (found == SB_FAILED) { /* for want of memory: no fault of the checkpoint's */
             status = found;
-            if (error)
-                *error = reason;
+            if (error) *error = reason;
         } else if (!loaded && i + 1 < count) {
             sb_run_warn(r, "%s; trying the one before", reason.text);
         }

@@ -16,7 +16,7 @@ static const char help[] =
     "and warnings.\n";
 
 /* Costs measured with tools/bench on two cores at 2.5 GHz; they scale an estimate, nothing else. */
-static const double SECONDS_PER_STEP = 2.0e-6;                 /* one thread, per fluid particle */
+static const double SECONDS_PER_STEP = 2.0e-6; /* one thread, per fluid particle */
 static const double PARTICLE_FILE_BYTES = 44, PICTURE_BYTES = 7e5;
 
 typedef struct estimate {
@@ -48,24 +48,21 @@ static estimate make_estimate(const sb_scene *scene, const sb_model *model)
     };
 }
 
-static void visit_warnings(const sb_scene *scene, const sb_model *model,
-                           void (*visit)(void *context, const char *text), void *context)
+static void visit_warnings(const sb_scene *scene, const sb_model *model, void (*visit)(void *context, const char *text),
+                           void *context)
 {
     char text[256];
-    for (size_t w = 0; w < model->warning_count; w++)
-        visit(context, model->warnings[w]);
+    for (size_t w = 0; w < model->warning_count; w++) visit(context, model->warnings[w]);
     for (size_t w = 0; w < scene->wavemaker_count; w++) {
         const sb_wavemaker_parameters *law = &scene->wavemakers[w].law;
         const char *warning = law->kind->warning ? law->kind->warning(law) : NULL;
-        if (!warning)
-            continue;
+        if (!warning) continue;
         snprintf(text, sizeof text, "wave maker %s: %s", scene->wavemakers[w].name, warning);
         visit(context, text);
     }
     /* A warning only: the run may be for another machine. */
     sb_error room = {0};
-    if (sb_room_check(scene, model, &room) != SB_OK)
-        visit(context, room.text);
+    if (sb_room_check(scene, model, &room) != SB_OK) visit(context, room.text);
 }
 
 static void print_line(void *context, const char *text)
@@ -85,10 +82,8 @@ static void report_text(const sb_scene *scene, const sb_model *model, const esti
     printf("  spacing            %g m in %dD\n", scene->resolution, scene->dimensions);
     printf("  fluid particles    %zu\n", model->fluid_count);
     printf("  boundary particles %zu on %zu bodies\n", model->wall_count, model->body_count);
-    if (e->ghosts > 0)
-        printf("  ghost particles    about %.0f beyond periodic sides\n", e->ghosts);
-    printf("  still depth        %g m (%.1f particles)\n", model->still_depth,
-           model->still_depth / scene->resolution);
+    if (e->ghosts > 0) printf("  ghost particles    about %.0f beyond periodic sides\n", e->ghosts);
+    printf("  still depth        %g m (%.1f particles)\n", model->still_depth, model->still_depth / scene->resolution);
     printf("  memory             about %.0f MB\n", e->memory / 1e6);
     printf("  steps              about %.0f of %.3g s\n", e->steps, e->time_step);
     printf("  run time           about %.0f s on %d threads\n", e->seconds, omp_get_max_threads());
@@ -136,19 +131,15 @@ int sb_command_check(int count, char **arguments)
     sb_error error = {0};
     sb_scene scene = {0};
     sb_model model = {0};
-    sb_status status = sb_options_parse(count, arguments,
-                                        SB_OPT_JSON | SB_OPT_PRESET | SB_OPT_SET | SB_OPT_THREADS, "scene",
-                                        &options, &error);
+    sb_status status = sb_options_parse(count, arguments, SB_OPT_JSON | SB_OPT_PRESET | SB_OPT_SET | SB_OPT_THREADS,
+                                        "scene", &options, &error);
     if (status == SB_OK && options.help) {
         fputs(help, stdout);
         return 0;
     }
-    if (status == SB_OK)
-        status = sb_options_scene(&options, options.positional, &scene, &error);
-    if (status == SB_OK)
-        status = sb_fit_check(&scene, &error);
-    if (status == SB_OK)
-        status = sb_model_build(&scene, &model, &error);
+    if (status == SB_OK) status = sb_options_scene(&options, options.positional, &scene, &error);
+    if (status == SB_OK) status = sb_fit_check(&scene, &error);
+    if (status == SB_OK) status = sb_model_build(&scene, &model, &error);
     if (status == SB_OK) {
         estimate e = make_estimate(&scene, &model);
         (options.json ? report_json : report_text)(&scene, &model, &e);

@@ -17,8 +17,7 @@ static void row(const char *name, const char *summary, const char *reference)
 
 static void list_kernels(void)
 {
-    for (size_t i = 0; sb_kernels[i]; i++)
-        row(sb_kernels[i]->name, sb_kernels[i]->summary, sb_kernels[i]->reference);
+    for (size_t i = 0; sb_kernels[i]; i++) row(sb_kernels[i]->name, sb_kernels[i]->summary, sb_kernels[i]->reference);
 }
 
 static void list_wavemakers(void)
@@ -42,10 +41,8 @@ static void list_presets(void)
 static const struct {
     const char *name;
     void (*list)(void);
-} tables[] = {{"kernels", list_kernels},
-              {"wavemakers", list_wavemakers},
-              {"solvers", list_solvers},
-              {"presets", list_presets}};
+} tables[] = {
+    {"kernels", list_kernels}, {"wavemakers", list_wavemakers}, {"solvers", list_solvers}, {"presets", list_presets}};
 
 int sb_command_list(int count, char **arguments)
 {
@@ -65,8 +62,7 @@ int sb_command_list(int count, char **arguments)
     if (status == SB_OK && !found)
         status = sb_fail(&error, SB_BAD_INPUT, "list %.100s: expected kernels, wavemakers, solvers or presets",
                          options.positional);
-    if (status != SB_OK)
-        fprintf(stderr, "shorebreak: %s\n", error.text);
+    if (status != SB_OK) fprintf(stderr, "shorebreak: %s\n", error.text);
     sb_options_free(&options);
     return (int)status;
 }

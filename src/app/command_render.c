@@ -20,14 +20,13 @@ static sb_status choose_camera(const sb_scene *scene, const char *name, int *cam
     *camera = -1;
     if (scene->render.camera_count == 0)
         return sb_fail(error, SB_BAD_INPUT, "the run's scene has no camera: give one by --set render.cameras=...");
-    if (!name)
-        return SB_OK;
+    if (!name) return SB_OK;
     for (size_t c = 0; c < scene->render.camera_count; c++)
-        if (strcmp(scene->render.cameras[c].name, name) == 0)
-            *camera = (int)c;
-    return *camera >= 0 ? SB_OK
-                        : sb_fail(error, SB_BAD_INPUT, "--camera %.100s: no such camera in the run's scene; first one: %s",
-                                  name, scene->render.cameras[0].name);
+        if (strcmp(scene->render.cameras[c].name, name) == 0) *camera = (int)c;
+    return *camera >= 0
+               ? SB_OK
+               : sb_fail(error, SB_BAD_INPUT, "--camera %.100s: no such camera in the run's scene; first one: %s", name,
+                         scene->render.cameras[0].name);
 }
 
 static sb_status draw_all(const char *run, const sb_pvd *list, sb_pictures *pictures, bool quiet, sb_error *error)
@@ -38,10 +37,8 @@ static sb_status draw_all(const char *run, const sb_pvd *list, sb_pictures *pict
         char path[SB_PATH_MAX];
         sb_frame *frame = NULL;
         status = sb_path_join(path, run, list->entries[i].file, error);
-        if (status == SB_OK)
-            status = sb_vtp_read(path, &frame, error);
-        if (status == SB_OK)
-            status = work.handle(pictures, frame, error);
+        if (status == SB_OK) status = sb_vtp_read(path, &frame, error);
+        if (status == SB_OK) status = work.handle(pictures, frame, error);
         sb_frame_release(frame);
         if (!quiet && status == SB_OK)
             printf("t = %g s: picture %zu of %zu\n", list->entries[i].time, i + 1, list->count);
@@ -66,21 +63,15 @@ static sb_status render(const sb_options *options, sb_error *error)
     sb_pvd list = {0};
     int camera = -1;
     sb_status status = sb_path_join(scene_path, run, "scene.yaml", error);
-    if (status == SB_OK)
-        status = sb_path_join(list_path, run, "particles.pvd", error);
-    if (status == SB_OK)
-        status = sb_options_scene(options, scene_path, &scene, error);
-    if (status == SB_OK)
-        status = choose_camera(&scene, options->camera, &camera, error);
-    if (status == SB_OK)
-        status = sb_pvd_read(list_path, &list, error);
-    if (status == SB_OK)
-        status = sb_model_import_bodies(&scene, &model, error);
+    if (status == SB_OK) status = sb_path_join(list_path, run, "particles.pvd", error);
+    if (status == SB_OK) status = sb_options_scene(options, scene_path, &scene, error);
+    if (status == SB_OK) status = choose_camera(&scene, options->camera, &camera, error);
+    if (status == SB_OK) status = sb_pvd_read(list_path, &list, error);
+    if (status == SB_OK) status = sb_model_import_bodies(&scene, &model, error);
     if (status == SB_OK) {
         sb_pictures pictures = {.scene = &scene, .model = &model, .directory = directory, .camera = camera};
         status = draw_all(run, &list, &pictures, options->quiet, error);
-        if (status == SB_OK && pictures.count > 1)
-            make_videos(directory, &scene, camera);
+        if (status == SB_OK && pictures.count > 1) make_videos(directory, &scene, camera);
     }
     sb_pvd_free(&list);
     sb_model_free(&model);
@@ -92,17 +83,14 @@ int sb_command_render(int count, char **arguments)
 {
     sb_options options;
     sb_error error = {0};
-    sb_status status = sb_options_parse(count, arguments,
-                                        SB_OPT_OUT | SB_OPT_CAMERA | SB_OPT_SET | SB_OPT_QUIET,
+    sb_status status = sb_options_parse(count, arguments, SB_OPT_OUT | SB_OPT_CAMERA | SB_OPT_SET | SB_OPT_QUIET,
                                         "run directory", &options, &error);
     if (status == SB_OK && options.help) {
         fputs(help, stdout);
         return 0;
     }
-    if (status == SB_OK)
-        status = render(&options, &error);
-    if (status != SB_OK)
-        fprintf(stderr, "shorebreak: %s\n", error.text);
+    if (status == SB_OK) status = render(&options, &error);
+    if (status != SB_OK) fprintf(stderr, "shorebreak: %s\n", error.text);
     sb_options_free(&options);
     return (int)status;
 }

@@ -32,8 +32,7 @@ static void default_out(char out[SB_PATH_MAX], const char *scene)
 
 static int exit_status(sb_status status)
 {
-    if (status == SB_INTERRUPTED)
-        return 128 + sb_stop_signal();
+    if (status == SB_INTERRUPTED) return 128 + sb_stop_signal();
     return (int)status;
 }
 
@@ -52,20 +51,19 @@ int sb_command_run(int count, char **arguments)
     char out[SB_PATH_MAX];
     if (status == SB_OK && options.other_build && !options.resume)
         status = sb_fail(&error, SB_BAD_INPUT, "--other-build: only together with --resume");
-    if (status == SB_OK)
-        status = sb_options_scene(&options, options.positional, &scene, &error);
+    if (status == SB_OK) status = sb_options_scene(&options, options.positional, &scene, &error);
     if (status == SB_OK) {
         if (options.out)
             snprintf(out, sizeof out, "%s", options.out);
         else
             default_out(out, options.positional);
-        const sb_run_manner manner = {
-            .resume = options.resume, .other_build = options.other_build, .quiet = options.quiet,
-            .profile = options.profile};
+        const sb_run_manner manner = {.resume = options.resume,
+                                      .other_build = options.other_build,
+                                      .quiet = options.quiet,
+                                      .profile = options.profile};
         status = sb_run(&scene, out, &manner, &error);
     }
-    if (status != SB_OK)
-        fprintf(stderr, "shorebreak: %s\n", error.text);
+    if (status != SB_OK) fprintf(stderr, "shorebreak: %s\n", error.text);
     sb_scene_free(&scene);
     sb_options_free(&options);
     return exit_status(status);

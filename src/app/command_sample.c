@@ -47,21 +47,16 @@ int sb_command_sample(int count, char **arguments)
     sb_error error = {0};
     sb_scene scene = {0};
     sb_model model = {0};
-    sb_status status = sb_options_parse(count, arguments,
-                                        SB_OPT_OUT | SB_OPT_PRESET | SB_OPT_SET | SB_OPT_THREADS, "scene",
-                                        &options, &error);
+    sb_status status = sb_options_parse(count, arguments, SB_OPT_OUT | SB_OPT_PRESET | SB_OPT_SET | SB_OPT_THREADS,
+                                        "scene", &options, &error);
     if (status == SB_OK && options.help) {
         fputs(help, stdout);
         return 0;
     }
-    if (status == SB_OK && !options.out)
-        status = sb_fail(&error, SB_BAD_INPUT, "sample: no --out FILE.vtp given");
-    if (status == SB_OK)
-        status = sb_options_scene(&options, options.positional, &scene, &error);
-    if (status == SB_OK)
-        status = sb_model_build(&scene, &model, &error);
-    if (status == SB_OK)
-        status = write_model(&model, options.out, &error);
+    if (status == SB_OK && !options.out) status = sb_fail(&error, SB_BAD_INPUT, "sample: no --out FILE.vtp given");
+    if (status == SB_OK) status = sb_options_scene(&options, options.positional, &scene, &error);
+    if (status == SB_OK) status = sb_model_build(&scene, &model, &error);
+    if (status == SB_OK) status = write_model(&model, options.out, &error);
     if (status == SB_OK)
         printf("%zu boundary and %zu fluid particles in %s\n", model.wall_count, model.fluid_count, options.out);
     else

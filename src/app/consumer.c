@@ -12,8 +12,7 @@ static void *serve(void *argument)
     const sb_consumer_work *work = &consumer->work;
     pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, NULL);
     bool usable = !work->open || work->open(work->state, &consumer->error) == SB_OK;
-    if (!usable)
-        atomic_store(&consumer->failed, true);
+    if (!usable) atomic_store(&consumer->failed, true);
     while ((consumer->frame = sb_frame_queue_pop(consumer->queue))) {
         if (usable && work->handle(work->state, consumer->frame, &consumer->error) != SB_OK) {
             usable = false;
@@ -26,21 +25,19 @@ static void *serve(void *argument)
         pthread_cond_signal(&consumer->idle);
         pthread_mutex_unlock(&consumer->lock);
     }
-    if (work->close)
-        work->close(work->state);
+    if (work->close) work->close(work->state);
     pthread_mutex_lock(&consumer->lock);
     consumer->ended = true;
     pthread_mutex_unlock(&consumer->lock);
     return NULL;
 }
 
-sb_status sb_consumer_start(sb_consumer *consumer, const sb_consumer_work *work, double interval,
-                            size_t capacity, sb_queue_policy policy, sb_error *error)
+sb_status sb_consumer_start(sb_consumer *consumer, const sb_consumer_work *work, double interval, size_t capacity,
+                            sb_queue_policy policy, sb_error *error)
 {
     *consumer = (sb_consumer){.work = *work, .interval = interval};
     consumer->queue = sb_frame_queue_create(capacity, policy);
-    if (!consumer->queue)
-        return sb_fail_memory(error, "a frame queue");
+    if (!consumer->queue) return sb_fail_memory(error, "a frame queue");
     pthread_mutex_init(&consumer->lock, NULL);
     pthread_cond_init(&consumer->idle, NULL);
     /* Signals are for the main thread. */
@@ -76,11 +73,9 @@ void sb_consumer_feed(sb_consumer *consumer, const sb_frame *frame)
 
 void sb_consumer_drain(sb_consumer *consumer)
 {
-    if (!consumer->started)
-        return;
+    if (!consumer->started) return;
     pthread_mutex_lock(&consumer->lock);
-    while (consumer->done < consumer->fed)
-        pthread_cond_wait(&consumer->idle, &consumer->lock);
+    while (consumer->done < consumer->fed) pthread_cond_wait(&consumer->idle, &consumer->lock);
     pthread_mutex_unlock(&consumer->lock);
 }
 
@@ -93,28 +88,23 @@ static bool ends_in_time(sb_consumer *consumer)
         pthread_mutex_lock(&consumer->lock);
         const bool through = consumer->ended;
         pthread_mutex_unlock(&consumer->lock);
-        if (through || !(consumer->work.patience > 0))
-            return true;
-        if (sb_clock() > end)
-            return false;
+        if (through || !(consumer->work.patience > 0)) return true;
+        if (sb_clock() > end) return false;
         usleep(POLL);
     }
 }
 
 void sb_consumer_stop(sb_consumer *consumer)
 {
-    if (!consumer->started)
-        return;
+    if (!consumer->started) return;
     sb_frame_queue_close(consumer->queue);
     consumer->given_up = !ends_in_time(consumer);
-    if (consumer->given_up)
-        pthread_cancel(consumer->thread);
+    if (consumer->given_up) pthread_cancel(consumer->thread);
     void *end;
     pthread_join(consumer->thread, &end);
     if (end == PTHREAD_CANCELED) {
         sb_frame_release(consumer->frame);
-        if (consumer->work.abandon)
-            consumer->work.abandon(consumer->work.state);
+        if (consumer->work.abandon) consumer->work.abandon(consumer->work.state);
     }
     sb_frame_queue_destroy(consumer->queue);
     pthread_cond_destroy(&consumer->idle);

@@ -29,16 +29,16 @@ typedef struct sb_consumer {
     sb_error error;         /* why it stopped; read after sb_consumer_stop */
     atomic_bool failed;
     uint64_t handled;
-    const sb_frame *frame;  /* that the thread is at work on */
-    pthread_mutex_t lock;   /* of what is below */
+    const sb_frame *frame; /* that the thread is at work on */
+    pthread_mutex_t lock;  /* of what is below */
     pthread_cond_t idle;
-    uint64_t fed, done;     /* frames given to it, and those it is through with */
-    bool ended;             /* its thread is through with everything */
+    uint64_t fed, done; /* frames given to it, and those it is through with */
+    bool ended;         /* its thread is through with everything */
 } sb_consumer;
 
 /* Starts the thread. interval 0: every frame that any consumer asks for. */
-sb_status sb_consumer_start(sb_consumer *consumer, const sb_consumer_work *work, double interval,
-                            size_t capacity, sb_queue_policy policy, sb_error *error);
+sb_status sb_consumer_start(sb_consumer *consumer, const sb_consumer_work *work, double interval, size_t capacity,
+                            sb_queue_policy policy, sb_error *error);
 
 /* Whether a frame at this time is due. */
 bool sb_consumer_due(const sb_consumer *consumer, double time);

@@ -6,8 +6,7 @@ static const double OFFSET_MIN = 0.25;
 sb_status sb_fit_check(const sb_scene *scene, sb_error *error)
 {
     const double offset = scene->numerics.wall_offset;
-    if (offset >= OFFSET_MIN)
-        return SB_OK;
+    if (offset >= OFFSET_MIN) return SB_OK;
     return sb_fail(error, SB_BAD_INPUT,
                    "%.500s: numerics.wall_offset: %g spacings, and water passes walls whose particles lie so near to "
                    "their surface, expected %g or more",

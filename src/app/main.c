@@ -22,8 +22,7 @@ enum { COMMANDS = sizeof commands / sizeof commands[0] };
 static void usage(FILE *stream)
 {
     fprintf(stream, "usage: shorebreak COMMAND [ARGUMENTS]\n\n");
-    for (int c = 0; c < COMMANDS; c++)
-        fprintf(stream, "  %-8s %s\n", commands[c].name, commands[c].summary);
+    for (int c = 0; c < COMMANDS; c++) fprintf(stream, "  %-8s %s\n", commands[c].name, commands[c].summary);
     fprintf(stream, "\nshorebreak COMMAND --help tells more; --version the version.\n"
                     "Exit status: 0 all done, 1 bad input, 2 the run failed, 130 or 143 stopped by a signal.\n");
 }
@@ -32,10 +31,8 @@ static void usage(FILE *stream)
    reads how long they may spin only when the process starts: start once more with a short spin. */
 static void limit_spinning(char **arguments)
 {
-    if (getenv("OMP_WAIT_POLICY") || getenv("GOMP_SPINCOUNT"))
-        return;
-    if (setenv("GOMP_SPINCOUNT", "20000", 1) == 0)
-        execv("/proc/self/exe", arguments);
+    if (getenv("OMP_WAIT_POLICY") || getenv("GOMP_SPINCOUNT")) return;
+    if (setenv("GOMP_SPINCOUNT", "20000", 1) == 0) execv("/proc/self/exe", arguments);
 }
 
 int main(int count, char **arguments)
@@ -50,8 +47,7 @@ int main(int count, char **arguments)
         return 0;
     }
     for (int c = 0; c < COMMANDS; c++) {
-        if (strcmp(name, commands[c].name) != 0)
-            continue;
+        if (strcmp(name, commands[c].name) != 0) continue;
         for (int i = 2; i < count; i++)
             if (strcmp(arguments[i], "--version") == 0) {
                 printf("shorebreak %s\n", SB_VERSION);

@@ -15,27 +15,30 @@ typedef struct flag {
 } flag;
 
 static const flag flags[] = {
-    {"--out", SB_OPT_OUT, true},       {"--until", SB_OPT_UNTIL, true}, {"--threads", SB_OPT_THREADS, true},
-    {"--preset", SB_OPT_PRESET, true}, {"--set", SB_OPT_SET, true},     {"--quiet", SB_OPT_QUIET, false},
-    {"--json", SB_OPT_JSON, false},    {"--camera", SB_OPT_CAMERA, true},
-    {"--profile", SB_OPT_PROFILE, false}, {"--resume", SB_OPT_RESUME, false},
+    {"--out", SB_OPT_OUT, true},
+    {"--until", SB_OPT_UNTIL, true},
+    {"--threads", SB_OPT_THREADS, true},
+    {"--preset", SB_OPT_PRESET, true},
+    {"--set", SB_OPT_SET, true},
+    {"--quiet", SB_OPT_QUIET, false},
+    {"--json", SB_OPT_JSON, false},
+    {"--camera", SB_OPT_CAMERA, true},
+    {"--profile", SB_OPT_PROFILE, false},
+    {"--resume", SB_OPT_RESUME, false},
     {"--other-build", SB_OPT_OTHER_BUILD, false},
 };
 
 static sb_status add_override(sb_options *options, const char *text, sb_error *error)
 {
     const char *equals = strchr(text, '=');
-    if (!equals || equals == text)
-        return sb_fail(error, SB_BAD_INPUT, "--set %.200s: expected KEY=VALUE", text);
+    if (!equals || equals == text) return sb_fail(error, SB_BAD_INPUT, "--set %.200s: expected KEY=VALUE", text);
     if (options->override_count == SB_OVERRIDES_MAX)
         return sb_fail(error, SB_BAD_INPUT, "--set: more than %d of them", SB_OVERRIDES_MAX);
     char *copy = sb_strdup(text);
-    if (!copy)
-        return sb_fail_memory(error, "options");
+    if (!copy) return sb_fail_memory(error, "options");
     copy[equals - text] = '\0';
     options->texts[options->override_count] = copy;
-    options->overrides[options->override_count++] =
-        (sb_override){.key = copy, .value = copy + (equals - text) + 1};
+    options->overrides[options->override_count++] = (sb_override){.key = copy, .value = copy + (equals - text) + 1};
     return SB_OK;
 }
 
@@ -91,14 +94,13 @@ static const flag *find_flag(const char *argument, unsigned accepted)
 {
     size_t length = strcspn(argument, "=");
     for (size_t f = 0; f < sizeof flags / sizeof flags[0]; f++)
-        if (flags[f].bit & accepted && strlen(flags[f].name) == length &&
-            strncmp(flags[f].name, argument, length) == 0)
+        if (flags[f].bit & accepted && strlen(flags[f].name) == length && strncmp(flags[f].name, argument, length) == 0)
             return &flags[f];
     return NULL;
 }
 
-sb_status sb_options_parse(int count, char **arguments, unsigned accepted, const char *what,
-                           sb_options *options, sb_error *error)
+sb_status sb_options_parse(int count, char **arguments, unsigned accepted, const char *what, sb_options *options,
+                           sb_error *error)
 {
     *options = (sb_options){0};
     for (int i = 0; i < count; i++) {
@@ -109,41 +111,34 @@ sb_status sb_options_parse(int count, char **arguments, unsigned accepted, const
         }
         if (argument[0] != '-') {
             if (options->positional)
-                return sb_fail(error, SB_BAD_INPUT, "%.200s: one %s is enough, and %.200s was given", argument,
-                               what, options->positional);
+                return sb_fail(error, SB_BAD_INPUT, "%.200s: one %s is enough, and %.200s was given", argument, what,
+                               options->positional);
             options->positional = argument;
             continue;
         }
         const flag *found = find_flag(argument, accepted);
-        if (!found)
-            return sb_fail(error, SB_BAD_INPUT, "%.200s: no such option here; --help lists them", argument);
+        if (!found) return sb_fail(error, SB_BAD_INPUT, "%.200s: no such option here; --help lists them", argument);
         const char *equals = strchr(argument, '='), *value = equals ? equals + 1 : "";
-        if (!found->takes_value && equals)
-            return sb_fail(error, SB_BAD_INPUT, "%.200s: takes no value", argument);
+        if (!found->takes_value && equals) return sb_fail(error, SB_BAD_INPUT, "%.200s: takes no value", argument);
         if (found->takes_value && !equals) {
-            if (i + 1 == count)
-                return sb_fail(error, SB_BAD_INPUT, "%.200s: needs a value", argument);
+            if (i + 1 == count) return sb_fail(error, SB_BAD_INPUT, "%.200s: needs a value", argument);
             value = arguments[++i];
         }
         sb_status status = take(options, found->bit, value, error);
-        if (status != SB_OK)
-            return status;
+        if (status != SB_OK) return status;
     }
-    if (!options->positional)
-        return sb_fail(error, SB_BAD_INPUT, "no %s given; --help tells how", what);
+    if (!options->positional) return sb_fail(error, SB_BAD_INPUT, "no %s given; --help tells how", what);
     return SB_OK;
 }
 
 void sb_options_free(sb_options *options)
 {
-    for (size_t i = 0; i < options->override_count; i++)
-        sb_free(options->texts[i]);
+    for (size_t i = 0; i < options->override_count; i++) sb_free(options->texts[i]);
     *options = (sb_options){0};
 }
 
 sb_status sb_options_scene(const sb_options *options, const char *path, sb_scene *scene, sb_error *error)
 {
-    if (options->threads > 0)
-        omp_set_num_threads(options->threads);
+    if (options->threads > 0) omp_set_num_threads(options->threads);
     return sb_scene_read(path, options->preset, options->overrides, options->override_count, scene, error);
 }

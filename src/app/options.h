@@ -10,11 +10,11 @@
 enum { SB_OVERRIDES_MAX = 256 };
 
 typedef struct sb_options {
-    const char *positional;   /* scene, run directory or table, by command */
-    const char *out;          /* --out */
-    const char *preset;       /* --preset */
-    const char *camera;       /* --camera */
-    int threads;              /* --threads; 0: as OpenMP has it */
+    const char *positional; /* scene, run directory or table, by command */
+    const char *out;        /* --out */
+    const char *preset;     /* --preset */
+    const char *camera;     /* --camera */
+    int threads;            /* --threads; 0: as OpenMP has it */
     bool quiet, json, profile, resume, other_build, help;
     size_t override_count;
     sb_override overrides[SB_OVERRIDES_MAX];
@@ -37,8 +37,8 @@ enum {
 };
 
 /* arguments: those after the command's name. what: the positional's name, for messages. */
-sb_status sb_options_parse(int count, char **arguments, unsigned accepted, const char *what,
-                           sb_options *options, sb_error *error);
+sb_status sb_options_parse(int count, char **arguments, unsigned accepted, const char *what, sb_options *options,
+                           sb_error *error);
 void sb_options_free(sb_options *options);
 
 /* Reads the scene that the options name, with their preset and overrides. */

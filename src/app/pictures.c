@@ -21,14 +21,11 @@ static sb_status open_pictures(void *state, sb_error *error)
     const sb_render_settings *render = &pictures->scene->render;
     for (size_t c = 0; c < render->camera_count; c++) {
         char name[128], path[SB_PATH_MAX];
-        if (!wanted(pictures, c))
-            continue;
+        if (!wanted(pictures, c)) continue;
         snprintf(name, sizeof name, "frames/%s", render->cameras[c].name);
         sb_status status = sb_make_folder(path, pictures->directory, name, error);
-        if (status == SB_OK)
-            status = sb_remove_numbered(path, ".png", pictures->count, error);
-        if (status != SB_OK)
-            return status;
+        if (status == SB_OK) status = sb_remove_numbered(path, ".png", pictures->count, error);
+        if (status != SB_OK) return status;
     }
     return sb_renderer_create(pictures->scene, pictures->model, &pictures->renderer, error);
 }
@@ -39,17 +36,13 @@ static sb_status draw(void *state, const sb_frame *frame, sb_error *error)
     const sb_render_settings *render = &pictures->scene->render;
     for (size_t c = 0; c < render->camera_count; c++) {
         char name[128], path[SB_PATH_MAX];
-        if (!wanted(pictures, c))
-            continue;
+        if (!wanted(pictures, c)) continue;
         snprintf(name, sizeof name, "frames/%s/%06llu.png", render->cameras[c].name,
                  (unsigned long long)pictures->count + 1);
         sb_status status = sb_path_join(path, pictures->directory, name, error);
-        if (status == SB_OK)
-            status = sb_renderer_draw(pictures->renderer, frame, c, &pictures->image, error);
-        if (status == SB_OK)
-            status = sb_png_write(path, &pictures->image, error);
-        if (status != SB_OK)
-            return status;
+        if (status == SB_OK) status = sb_renderer_draw(pictures->renderer, frame, c, &pictures->image, error);
+        if (status == SB_OK) status = sb_png_write(path, &pictures->image, error);
+        if (status != SB_OK) return status;
     }
     pictures->count++;
     return SB_OK;
@@ -65,8 +58,7 @@ static sb_status sync_camera(const sb_pictures *pictures, const char *camera, sb
         else
             snprintf(name, sizeof name, "frames/%s/%06llu.png", camera, (unsigned long long)number);
         sb_status status = sb_path_join(path, pictures->directory, name, error);
-        if (status != SB_OK)
-            return status;
+        if (status != SB_OK) return status;
         if (sb_file_sync(path) != 0)
             return sb_fail(error, SB_FAILED, "%.500s: cannot be put on disk: %s", path, strerror(errno));
     }
@@ -78,8 +70,7 @@ sb_status sb_pictures_sync(sb_pictures *pictures, sb_error *error)
     const sb_render_settings *render = &pictures->scene->render;
     for (size_t c = 0; c < render->camera_count && pictures->count > pictures->synced; c++) {
         sb_status status = wanted(pictures, c) ? sync_camera(pictures, render->cameras[c].name, error) : SB_OK;
-        if (status != SB_OK)
-            return status;
+        if (status != SB_OK) return status;
     }
     pictures->synced = pictures->count;
     return SB_OK;

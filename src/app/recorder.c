@@ -17,8 +17,7 @@ static sb_status start_list(const sb_recorder *recorder, sb_error *error)
 {
     char list[SB_PATH_MAX];
     sb_status status = sb_path_join(list, recorder->directory, "particles.pvd", error);
-    if (status == SB_OK && recorder->count > 0)
-        return sb_pvd_write(&recorder->pvd, list, error);
+    if (status == SB_OK && recorder->count > 0) return sb_pvd_write(&recorder->pvd, list, error);
     if (status == SB_OK && unlink(list) != 0 && errno != ENOENT)
         return sb_fail(error, SB_FAILED, "%.500s: cannot remove: %s", list, strerror(errno));
     return status;
@@ -29,8 +28,7 @@ static sb_status open_recorder(void *state, sb_error *error)
     const sb_recorder *recorder = state;
     char folder[SB_PATH_MAX];
     sb_status status = sb_make_folder(folder, recorder->directory, "particles", error);
-    if (status == SB_OK)
-        status = start_list(recorder, error);
+    if (status == SB_OK) status = start_list(recorder, error);
     return status == SB_OK ? sb_remove_numbered(folder, ".vtp", recorder->count, error) : status;
 }
 
@@ -40,12 +38,9 @@ static sb_status record(void *state, const sb_frame *frame, sb_error *error)
     char name[64], path[SB_PATH_MAX], list[SB_PATH_MAX];
     name_of(recorder->count + 1, name);
     sb_status status = sb_path_join(path, recorder->directory, name, error);
-    if (status == SB_OK)
-        status = sb_path_join(list, recorder->directory, "particles.pvd", error);
-    if (status == SB_OK)
-        status = sb_vtp_write(path, frame, error);
-    if (status == SB_OK)
-        status = sb_pvd_add(&recorder->pvd, list, frame->status.time, name, error);
+    if (status == SB_OK) status = sb_path_join(list, recorder->directory, "particles.pvd", error);
+    if (status == SB_OK) status = sb_vtp_write(path, frame, error);
+    if (status == SB_OK) status = sb_pvd_add(&recorder->pvd, list, frame->status.time, name, error);
     recorder->count += status == SB_OK;
     return status;
 }
@@ -55,11 +50,9 @@ sb_status sb_recorder_sync(sb_recorder *recorder, sb_error *error)
     char name[64] = "particles", path[SB_PATH_MAX];
     const uint64_t first = recorder->synced;
     for (uint64_t number = first; number <= recorder->count && recorder->count > first; number++) {
-        if (number > first)
-            name_of(number, name); /* the first turn is the folder's */
+        if (number > first) name_of(number, name); /* the first turn is the folder's */
         sb_status status = sb_path_join(path, recorder->directory, name, error);
-        if (status != SB_OK)
-            return status;
+        if (status != SB_OK) return status;
         if (sb_file_sync(path) != 0)
             return sb_fail(error, SB_FAILED, "%.500s: cannot be put on disk: %s", path, strerror(errno));
     }
@@ -70,8 +63,7 @@ sb_status sb_recorder_sync(sb_recorder *recorder, sb_error *error)
 void sb_recorder_save(const sb_recorder *recorder, sb_archive_out *out)
 {
     sb_put_count(out, recorder->count);
-    for (uint64_t i = 0; i < recorder->count; i++)
-        sb_put_real(out, recorder->pvd.entries[i].time);
+    for (uint64_t i = 0; i < recorder->count; i++) sb_put_real(out, recorder->pvd.entries[i].time);
 }
 
 sb_status sb_recorder_load(sb_recorder *recorder, sb_archive_in *in, sb_error *error)

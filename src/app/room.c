@@ -17,8 +17,7 @@ double sb_room_ghosts(const sb_scene *scene, const sb_model *model)
     const sb_vec3 size = sb_sub(model->max, model->min);
     double all = 1;
     for (int axis = 0; axis < 2; axis++)
-        if (sb_scene_repeats(scene, axis))
-            all *= 1 + 2 * h / (axis == 0 ? size.x : size.y);
+        if (sb_scene_repeats(scene, axis)) all *= 1 + 2 * h / (axis == 0 ? size.x : size.y);
     return (all - 1) * (double)model->fluid_count;
 }
 
@@ -39,8 +38,7 @@ sb_status sb_room_check(const sb_scene *scene, const sb_model *model, sb_error *
 {
     const double needed = sb_room_needed(scene, model), there = (double)sb_memory_available();
     const double held = (double)model->fluid_count * MODEL_FLUID_BYTES + (double)model->wall_count * MODEL_WALL_BYTES;
-    if (!(there > 0) || needed - held <= there)
-        return SB_OK;
+    if (!(there > 0) || needed - held <= there) return SB_OK;
     return sb_fail(error, SB_FAILED,
                    "needs about %.3g GB of memory for %zu fluid and %zu boundary particles, and %.3g GB are free: "
                    "expected a larger resolution",

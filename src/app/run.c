@@ -15,21 +15,17 @@ static sb_status feed(run *r, sb_error *error)
 {
     double time = sb_sim_report(r->sim)->time;
     bool due = false;
-    for (int c = 0; c < CONSUMERS; c++)
-        due |= sb_consumer_due(&r->consumers[c], time);
-    if (!due)
-        return SB_OK;
+    for (int c = 0; c < CONSUMERS; c++) due |= sb_consumer_due(&r->consumers[c], time);
+    if (!due) return SB_OK;
     sb_sim_find_pressures(r->sim);
     sb_frame *frame = sb_sim_snapshot(r->sim);
-    if (!frame)
-        return sb_fail_memory(error, "a frame");
+    if (!frame) return sb_fail_memory(error, "a frame");
     frame->index = ++r->frames;
     sb_measure_fill_frame(r->measure, frame);
     frame->status.wall_seconds = sb_run_wall(r);
     frame->status.eta_seconds = sb_progress_eta(&r->progress);
     for (int c = 0; c < CONSUMERS; c++)
-        if (sb_consumer_due(&r->consumers[c], time))
-            sb_consumer_feed(&r->consumers[c], frame);
+        if (sb_consumer_due(&r->consumers[c], time)) sb_consumer_feed(&r->consumers[c], frame);
     sb_frame_release(frame);
     return SB_OK;
 }
@@ -55,27 +51,20 @@ static void tell_departures(run *r)
 static sb_status one_step(run *r, sb_error *error)
 {
     sb_status status = sb_sim_step(r->sim, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     const sb_step_report *report = sb_sim_report(r->sim);
     r->iterations += (uint64_t)report->iterations;
     r->steps++;
     r->particle_steps += (double)report->fluid_count;
     r->capped += report->capped;
     tell_departures(r);
-    if (sb_measure_reads_pressures(r->measure, r->sim))
-        sb_sim_find_pressures(r->sim);
+    if (sb_measure_reads_pressures(r->measure, r->sim)) sb_sim_find_pressures(r->sim);
     status = sb_measure_step(r->measure, r->sim, error);
-    if (status == SB_OK)
-        status = sb_csv_write(r->csv, sb_measure_latest(r->measure), error);
-    if (status == SB_OK)
-        status = feed(r, error);
-    if (report->step % LOG_STEPS == 0)
-        sb_run_log_step(r);
-    if (status == SB_OK)
-        status = sb_runlog_check(r->log, error);
-    if (status == SB_OK && sb_checkpoint_due(r))
-        sb_checkpoint_write(r);
+    if (status == SB_OK) status = sb_csv_write(r->csv, sb_measure_latest(r->measure), error);
+    if (status == SB_OK) status = feed(r, error);
+    if (report->step % LOG_STEPS == 0) sb_run_log_step(r);
+    if (status == SB_OK) status = sb_runlog_check(r->log, error);
+    if (status == SB_OK && sb_checkpoint_due(r)) sb_checkpoint_write(r);
     sb_progress_update(&r->progress, report);
     return status;
 }
@@ -86,11 +75,9 @@ static sb_status advance(run *r, sb_error *error)
     tell_departures(r);
     while (status == SB_OK && sb_sim_report(r->sim)->time < r->scene->duration * (1 - 1e-12)) {
         if (sb_stop_signal())
-            return sb_fail(error, SB_INTERRUPTED, "stopped by a signal at t = %g s",
-                           sb_sim_report(r->sim)->time);
+            return sb_fail(error, SB_INTERRUPTED, "stopped by a signal at t = %g s", sb_sim_report(r->sim)->time);
         if (sb_sim_report(r->sim)->fluid_count == 0)
-            return sb_fail(error, SB_FAILED, "t = %g s: all water has left the domain",
-                           sb_sim_report(r->sim)->time);
+            return sb_fail(error, SB_FAILED, "t = %g s: all water has left the domain", sb_sim_report(r->sim)->time);
         status = one_step(r, error);
     }
     return status;
@@ -118,8 +105,7 @@ static void print_profile(const run *r)
 /* A run that was stopped says how to go on. */
 static void save_at_end(run *r, sb_status status, sb_error *error)
 {
-    if (status != SB_OK && status != SB_INTERRUPTED)
-        return;
+    if (status != SB_OK && status != SB_INTERRUPTED) return;
     sb_checkpoint_write(r);
     const size_t length = strlen(error->text);
     if (status == SB_INTERRUPTED && r->checkpoints.current)
@@ -141,16 +127,13 @@ sb_status sb_run(const sb_scene *scene, const char *directory, const sb_run_mann
         save_at_end(&r, status, &local);
     }
     sb_run_finish(&r, &status, &local);
-    if (manner->profile && r.sim)
-        print_profile(&r);
+    if (manner->profile && r.sim) print_profile(&r);
     sb_checkpoint_end(&r);
     sb_pvd_free(&r.recorder.pvd); /* of a run that was not gone on with: no thread had it */
     sb_measure_destroy(r.measure);
     sb_sim_destroy(r.sim);
     sb_model_free(&r.model);
-    if (r.lock >= 0)
-        close(r.lock);
-    if (status != SB_OK && error)
-        *error = local;
+    if (r.lock >= 0) close(r.lock);
+    if (status != SB_OK && error) *error = local;
     return status;
 }

@@ -12,8 +12,7 @@
 
 static void keep_first(sb_status *status, sb_error *error, sb_status found, const sb_error *reason)
 {
-    if (found == SB_OK || *status == SB_FAILED)
-        return;
+    if (found == SB_OK || *status == SB_FAILED) return;
     *status = found;
     *error = *reason;
 }
@@ -23,10 +22,8 @@ static void log_sleep(run *r)
 {
     const sb_sleep_report sleep = sb_sim_sleep(r->sim);
     char last[64] = "some still sleep";
-    if (sleep.particle_steps == 0)
-        return;
-    if (sleep.woken >= 0)
-        snprintf(last, sizeof last, "the last woke at %.4g s", sleep.woken);
+    if (sleep.particle_steps == 0) return;
+    if (sleep.woken >= 0) snprintf(last, sizeof last, "the last woke at %.4g s", sleep.woken);
     sb_runlog_event(r->log, "sleep", "%.3g of %.3g particle-steps asleep (%.1f %%); %s", (double)sleep.asleep_steps,
                     (double)sleep.particle_steps, 100 * (double)sleep.asleep_steps / (double)sleep.particle_steps,
                     last);
@@ -38,8 +35,7 @@ static void write_last_state(run *r)
     char path[SB_PATH_MAX];
     sb_error reason = {0};
     sb_frame *frame = sb_sim_snapshot(r->sim);
-    if (!frame)
-        return;
+    if (!frame) return;
     if (sb_make_folder(path, r->directory, "particles", &reason) == SB_OK &&
         sb_run_path(r, "particles/last-good.vtp", path, &reason) == SB_OK &&
         sb_vtp_write(path, frame, &reason) == SB_OK)
@@ -60,17 +56,15 @@ static sb_status count_inside(run *r, sb_error *error)
         status = sb_fail_memory(error, "the look at the walls");
         goto done;
     }
-    for (size_t b = 0; b < r->model.body_count; b++)
-        displacement[b] = frame->bodies[b].displacement;
+    for (size_t b = 0; b < r->model.body_count; b++) displacement[b] = frame->bodies[b].displacement;
     /* The sheet of boundary particles lies behind the wall by the offset; beyond it water has crossed. */
     double sheet = fmax(r->scene->numerics.wall_offset, 0.5) * r->scene->resolution;
-    status = sb_model_first_inside(&r->model, frame->position, frame->count, frame->origin, displacement, 0,
-                                   &any, error);
+    status =
+        sb_model_first_inside(&r->model, frame->position, frame->count, frame->origin, displacement, 0, &any, error);
     if (status == SB_OK)
-        status = sb_model_first_inside(&r->model, frame->position, frame->count, frame->origin, displacement,
-                                       sheet, &deep, error);
-    if (status != SB_OK)
-        goto done;
+        status = sb_model_first_inside(&r->model, frame->position, frame->count, frame->origin, displacement, sheet,
+                                       &deep, error);
+    if (status != SB_OK) goto done;
     r->inside_known = true;
     r->inside = any.count;
     r->crossed = deep.count;
@@ -92,14 +86,13 @@ static void stop_consumers(run *r, sb_status *status, sb_error *error)
 {
     for (int c = 0; c < CONSUMERS; c++) {
         sb_consumer *consumer = &r->consumers[c];
-        if (!consumer->started)
-            continue;
+        if (!consumer->started) continue;
         uint64_t dropped = sb_frame_queue_dropped(consumer->queue);
         double waited = sb_frame_queue_waited(consumer->queue);
         sb_consumer_stop(consumer);
         sb_runlog_event(r->log, "consumer", "%s: %llu frames, %llu dropped, simulation waited %.2f s",
-                        consumer->work.name, (unsigned long long)consumer->handled,
-                        (unsigned long long)dropped, waited);
+                        consumer->work.name, (unsigned long long)consumer->handled, (unsigned long long)dropped,
+                        waited);
         if (consumer->given_up)
             sb_run_warn(r, "%s: given up after %g s with its last frames: what it writes to takes nothing more",
                         consumer->work.name, consumer->work.patience);
@@ -146,18 +139,16 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
     summary.work = sb_sim_ledger(r->sim);
     summary.stage_count = sb_sim_stages(r->sim, &summary.stages);
     sb_status found = sb_run_path(r, "summary.json", path, &reason);
-    if (found == SB_OK)
-        found = sb_summary_write(path, &summary, &reason);
+    if (found == SB_OK) found = sb_summary_write(path, &summary, &reason);
     keep_first(status, error, found, &reason);
 }
 
-/* From all pictures so far: minutes of work, which one who stops a run does not wait for, and which is done over when it
-   goes on. */
+/* From all pictures so far: minutes of work, which one who stops a run does not wait for, and which is done over when
+   it goes on. */
 static void make_films(const run *r, sb_status status)
 {
     static const char *const off[] = {"films: the run was stopped; they are made when it has gone on to its end", NULL};
-    if (r->scene->render.camera_count == 0 || r->pictures.count <= 1 || !r->scene->render.video)
-        return;
+    if (r->scene->render.camera_count == 0 || r->pictures.count <= 1 || !r->scene->render.video) return;
     if (status == SB_INTERRUPTED) {
         sb_runlog_skipped(r->log, off);
         return;
@@ -169,13 +160,10 @@ static void make_films(const run *r, sb_status status)
 void sb_run_finish(run *r, sb_status *status, sb_error *error)
 {
     sb_error reason = {0};
-    if (r->sim && *status == SB_FAILED)
-        write_last_state(r);
+    if (r->sim && *status == SB_FAILED) write_last_state(r);
     stop_consumers(r, status, error);
-    if (r->sim)
-        keep_first(status, error, count_inside(r, &reason), &reason);
-    if (r->csv)
-        keep_first(status, error, sb_csv_close(r->csv, &reason), &reason);
+    if (r->sim) keep_first(status, error, count_inside(r, &reason), &reason);
+    if (r->csv) keep_first(status, error, sb_csv_close(r->csv, &reason), &reason);
     if (r->sim) {
         sb_run_log_step(r);
         log_sleep(r);
@@ -184,13 +172,11 @@ void sb_run_finish(run *r, sb_status *status, sb_error *error)
     if (r->measure) {
         sb_runlog_bodies(r->log, &r->model, sb_measure_bodies(r->measure));
         const sb_map_record *map = sb_measure_map(r->measure);
-        if (map)
-            keep_first(status, error, sb_maps_write(r->directory, map, &reason), &reason);
+        if (map) keep_first(status, error, sb_maps_write(r->directory, map, &reason), &reason);
     }
     if (r->sim) /* before what takes long: someone may lose patience */
         write_summary(r, status, error);
-    if (r->measure && r->scene->output.plots)
-        sb_plots_write(r->directory, r->scene, r->log);
+    if (r->measure && r->scene->output.plots) sb_plots_write(r->directory, r->scene, r->log);
     make_films(r, *status);
     sb_runlog_end(r->log, *status, *status == SB_OK ? NULL : error->text);
     keep_first(status, error, sb_runlog_close(r->log, &reason), &reason);

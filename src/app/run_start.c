@@ -13,8 +13,8 @@
 #include <unistd.h>
 
 enum {
-    FILE_QUEUE = 3,   /* frames that wait for disk or renderer before the simulation does */
-    STREAM_QUEUE = 4  /* beyond these the stream drops the oldest */
+    FILE_QUEUE = 3,  /* frames that wait for disk or renderer before the simulation does */
+    STREAM_QUEUE = 4 /* beyond these the stream drops the oldest */
 };
 
 static sb_status write_scene(const run *r, sb_error *error)
@@ -29,8 +29,7 @@ static sb_status look_for_checkpoints(run *r, bool *resume, sb_error *error)
 {
     size_t found = 0;
     sb_status status = sb_checkpoint_count(r, &found, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     if (*resume && found == 0) {
         sb_run_say(r, "%s: no checkpoint to go on from, so the run starts from the beginning", r->directory);
         *resume = false;
@@ -47,11 +46,9 @@ static sb_status lock_directory(run *r, sb_error *error)
 {
     enum { TRIES = 20, PAUSE = 100000 }; /* microseconds between them */
     r->lock = open(r->directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (r->lock < 0)
-        return sb_fail(error, SB_FAILED, "%.500s: cannot open: %s", r->directory, strerror(errno));
+    if (r->lock < 0) return sb_fail(error, SB_FAILED, "%.500s: cannot open: %s", r->directory, strerror(errno));
     for (int t = 0; t < TRIES; t++) {
-        if (flock(r->lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
-            return SB_OK;
+        if (flock(r->lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return SB_OK;
         usleep(PAUSE);
     }
     return sb_fail(error, SB_BAD_INPUT, "%.500s: another run is writing there, expected a directory of its own",
@@ -62,20 +59,14 @@ static sb_status open_directory(run *r, bool *resume, sb_error *error)
 {
     char path[SB_PATH_MAX];
     sb_status status = sb_make_directories(r->directory, error);
-    if (status == SB_OK)
-        status = lock_directory(r, error);
-    if (status == SB_OK)
-        status = sb_checkpoint_begin(r, error);
-    if (status == SB_OK)
-        status = look_for_checkpoints(r, resume, error);
-    if (status == SB_OK && !*resume)
-        status = write_scene(r, error);
-    if (status == SB_OK)
-        status = sb_run_path(r, "run.jsonl", path, error);
+    if (status == SB_OK) status = lock_directory(r, error);
+    if (status == SB_OK) status = sb_checkpoint_begin(r, error);
+    if (status == SB_OK) status = look_for_checkpoints(r, resume, error);
+    if (status == SB_OK && !*resume) status = write_scene(r, error);
+    if (status == SB_OK) status = sb_run_path(r, "run.jsonl", path, error);
     if (status == SB_OK)
         status = *resume ? sb_runlog_append(path, &r->log, error) : sb_runlog_open(path, &r->log, error);
-    if (status == SB_OK && r->checkpoints.on)
-        status = sb_make_directories(r->checkpoints.folder, error);
+    if (status == SB_OK && r->checkpoints.on) status = sb_make_directories(r->checkpoints.folder, error);
     return status;
 }
 
@@ -111,42 +102,37 @@ static sb_status start_consumers(run *r, sb_error *error)
         r->off[skipped++] = "stream: off, no LCM thread";
     if (status == SB_OK && scene->output.particle_interval > 0) {
         sb_consumer_work work = sb_recorder_work(&r->recorder);
-        status = sb_consumer_start(&r->consumers[RECORDER], &work, scene->output.particle_interval,
-                                   FILE_QUEUE, SB_QUEUE_WAIT, error);
+        status = sb_consumer_start(&r->consumers[RECORDER], &work, scene->output.particle_interval, FILE_QUEUE,
+                                   SB_QUEUE_WAIT, error);
     } else {
         r->off[skipped++] = "particle files: off, no thread";
     }
     if (status == SB_OK && scene->render.interval > 0 && scene->render.camera_count > 0) {
         sb_consumer_work work = sb_pictures_work(&r->pictures);
-        status = sb_consumer_start(&r->consumers[PICTURES], &work, scene->render.interval, FILE_QUEUE,
-                                   SB_QUEUE_WAIT, error);
+        status =
+            sb_consumer_start(&r->consumers[PICTURES], &work, scene->render.interval, FILE_QUEUE, SB_QUEUE_WAIT, error);
     } else {
         r->off[skipped++] = "pictures: off, no thread, no graphics memory";
     }
-    for (int c = 0; c < CONSUMERS; c++)
-        r->consumers[c].next = r->due[c];
+    for (int c = 0; c < CONSUMERS; c++) r->consumers[c].next = r->due[c];
     return status;
 }
 
 static void name_consumers(run *r)
 {
     r->recorder = (sb_recorder){.directory = r->directory};
-    r->pictures = (sb_pictures){
-        .scene = r->scene, .model = &r->model, .directory = r->directory, .camera = -1};
+    r->pictures = (sb_pictures){.scene = r->scene, .model = &r->model, .directory = r->directory, .camera = -1};
     r->streamer = (sb_streamer){.scene = r->scene, .run_name = r->scene->title, .log = r->log};
 }
 
 static sb_status build_model(run *r, bool resume, sb_error *error)
 {
     sb_status status = sb_fit_check(r->scene, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     sb_run_say(r, "sampling surfaces and filling the sea");
     status = sb_model_build(r->scene, &r->model, error);
-    if (status == SB_OK)
-        status = sb_room_check(r->scene, &r->model, error);
-    if (status != SB_OK)
-        return status;
+    if (status == SB_OK) status = sb_room_check(r->scene, &r->model, error);
+    if (status != SB_OK) return status;
     for (size_t w = 0; w < r->model.warning_count; w++)
         fprintf(stderr, "shorebreak: warning: %s\n", r->model.warnings[w]);
     resolve(r);
@@ -162,33 +148,28 @@ static void note_start(run *r)
     sb_runlog_skipped(r->log, r->off);
     sb_runlog_skipped(r->log, sb_sim_skipped(r->sim));
     static const char *const off[] = {"checkpoints: off, none on a signal either, --resume starts anew", NULL};
-    if (!r->checkpoints.on)
-        sb_runlog_skipped(r->log, off);
+    if (!r->checkpoints.on) sb_runlog_skipped(r->log, off);
     r->setup_seconds = sb_progress_wall(&r->progress);
 }
 
 /* Water at rest, tables with their first rows. */
 static sb_status begin(run *r, sb_error *error)
 {
-    if (sb_sim_settles(r->scene))
-        sb_run_say(r, "settling");
+    if (sb_sim_settles(r->scene)) sb_run_say(r, "settling");
     sb_status status = sb_sim_settle(r->sim, error);
     r->settling_seconds = sb_progress_wall(&r->progress) - r->setup_seconds;
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     sb_runlog_event(r->log, "settled", "highest speed %.3g m/s", sb_sim_report(r->sim)->max_speed);
     if (r->scene->numerics.sleep)
         sb_runlog_event(r->log, "asleep", "%zu of %zu particles sleep until a wave comes near",
                         sb_sim_sleep(r->sim).asleep, sb_sim_report(r->sim)->fluid_count);
     sb_sim_find_pressures(r->sim);
     status = sb_measure_create(r->scene, &r->model, r->sim, &r->measure, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     sb_runlog_skipped(r->log, sb_measure_skipped(r->measure));
     r->first_energy = sb_sim_energy(r->sim);
     status = sb_csv_open(r->directory, r->scene, &r->model, &r->csv, error);
-    if (status == SB_OK)
-        status = sb_csv_write(r->csv, sb_measure_latest(r->measure), error);
+    if (status == SB_OK) status = sb_csv_write(r->csv, sb_measure_latest(r->measure), error);
     return status;
 }
 
@@ -196,8 +177,7 @@ static sb_status begin(run *r, sb_error *error)
 static sb_status go_on(run *r, sb_error *error)
 {
     sb_status status = sb_measure_create(r->scene, &r->model, r->sim, &r->measure, error);
-    if (status == SB_OK)
-        status = sb_checkpoint_load(r, error);
+    if (status == SB_OK) status = sb_checkpoint_load(r, error);
     if (status != SB_OK) { /* nothing to report on, and what is there stays as it is */
         sb_measure_destroy(r->measure);
         sb_sim_destroy(r->sim);
@@ -217,8 +197,7 @@ static sb_status go_on(run *r, sb_error *error)
     r->departures = sb_sim_departures(r->sim)->count; /* told when they left */
     sb_checkpoint_forget_later(r);
     status = write_scene(r, error);
-    if (status == SB_OK)
-        status = sb_csv_resume(r->directory, r->scene, &r->model, &r->lengths, &r->csv, error);
+    if (status == SB_OK) status = sb_csv_resume(r->directory, r->scene, &r->model, &r->lengths, &r->csv, error);
     return status == SB_OK ? start_consumers(r, error) : status;
 }
 
@@ -226,19 +205,13 @@ sb_status sb_run_start(run *r, bool resume, sb_error *error)
 {
     sb_status status = open_directory(r, &resume, error);
     name_consumers(r);
-    if (status == SB_OK)
-        status = build_model(r, resume, error);
-    if (status == SB_OK && !resume)
-        status = write_scene(r, error);
-    if (status == SB_OK && !resume)
-        status = start_consumers(r, error);
-    if (status == SB_OK)
-        status = sb_sim_create(r->scene, &r->model, &r->sim, error);
-    if (status != SB_OK)
-        return status;
+    if (status == SB_OK) status = build_model(r, resume, error);
+    if (status == SB_OK && !resume) status = write_scene(r, error);
+    if (status == SB_OK && !resume) status = start_consumers(r, error);
+    if (status == SB_OK) status = sb_sim_create(r->scene, &r->model, &r->sim, error);
+    if (status != SB_OK) return status;
     sb_model_forget_start(&r->model);
-    if (resume)
-        return go_on(r, error);
+    if (resume) return go_on(r, error);
     note_start(r);
     return begin(r, error);
 }

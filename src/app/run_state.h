@@ -16,7 +16,7 @@ struct run {
     sb_scene resolved;     /* a shallow copy of the caller's, with what only the model can tell */
     const sb_scene *scene; /* it */
     const char *directory;
-    int lock;              /* descriptor of the directory, locked for this run; -1: not yet */
+    int lock; /* descriptor of the directory, locked for this run; -1: not yet */
     sb_model model;
     sb_sim *sim;
     sb_measure *measure;
@@ -27,16 +27,16 @@ struct run {
     sb_pictures pictures;
     sb_streamer streamer;
     sb_consumer consumers[CONSUMERS]; /* those the scene asks for are started */
-    double due[CONSUMERS];    /* s simulated, of their first frames */
+    double due[CONSUMERS];            /* s simulated, of their first frames */
     sb_checkpoints checkpoints;
-    sb_csv_lengths lengths;   /* of the tables that a resumed run goes on with */
+    sb_csv_lengths lengths; /* of the tables that a resumed run goes on with */
     sb_energy first_energy;
     uint64_t iterations, capped, frames;
-    size_t departures;        /* of the first few, those that the log has */
-    double wall_before;       /* s that earlier processes of this run took */
+    size_t departures;                 /* of the first few, those that the log has */
+    double wall_before;                /* s that earlier processes of this run took */
     uint64_t steps, iterations_before; /* steps of this process; iterations before it */
     double particle_steps, setup_seconds, settling_seconds;
-    const char *off[4];       /* consumers that are not there, ended by NULL */
+    const char *off[4]; /* consumers that are not there, ended by NULL */
     bool inside_known;
     uint64_t inside, crossed; /* particles within solids at the end */
 };

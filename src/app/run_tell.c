@@ -12,8 +12,7 @@ sb_status sb_run_path(const run *r, const char *name, char path[SB_PATH_MAX], sb
 void sb_run_say(const run *r, const char *format, ...)
 {
     va_list arguments;
-    if (!r->progress.stream)
-        return;
+    if (!r->progress.stream) return;
     va_start(arguments, format);
     vfprintf(r->progress.stream, format, arguments);
     va_end(arguments);

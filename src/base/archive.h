@@ -49,12 +49,12 @@ void sb_archive_out_free(sb_archive_out *out);
 /* Zero-initialised is empty. The first value that is not as asked for is kept as the error; from then on all
    reads give zeros. */
 typedef struct sb_archive_in {
-    char name[256];             /* of the file, for messages */
-    unsigned char *own;         /* freed by sb_archive_in_free; NULL: borrowed */
+    char name[256];     /* of the file, for messages */
+    unsigned char *own; /* freed by sb_archive_in_free; NULL: borrowed */
     const unsigned char *bytes;
     size_t length;
     char section[SB_ARCHIVE_NAME + 1];
-    size_t at, end;             /* of the section being read */
+    size_t at, end; /* of the section being read */
     sb_error error;
 } sb_archive_in;
 

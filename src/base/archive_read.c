@@ -20,8 +20,7 @@ static uint64_t word_at(const unsigned char *bytes)
 static void copy_name(char out[SB_ARCHIVE_NAME + 1], const unsigned char *bytes)
 {
     size_t length = strnlen((const char *)bytes, SB_ARCHIVE_NAME);
-    for (size_t i = 0; i < length; i++)
-        out[i] = (char)(bytes[i] >= ' ' && bytes[i] < 127 ? bytes[i] : '.');
+    for (size_t i = 0; i < length; i++) out[i] = (char)(bytes[i] >= ' ' && bytes[i] < 127 ? bytes[i] : '.');
     out[length] = '\0';
 }
 
@@ -54,7 +53,8 @@ static sb_status check_section(const sb_archive_in *in, size_t *at, char name[SB
     const uint64_t length = word_at(head + SB_ARCHIVE_NAME);
     copy_name(name, head);
     if (length > left - SB_SECTION_HEAD)
-        return sb_fail(error, SB_BAD_INPUT, "%s: cut short or damaged: section \"%s\" at byte %zu has %zu bytes left, expected %llu",
+        return sb_fail(error, SB_BAD_INPUT,
+                       "%s: cut short or damaged: section \"%s\" at byte %zu has %zu bytes left, expected %llu",
                        in->name, name, *at, left - SB_SECTION_HEAD, (unsigned long long)length);
     if (sb_archive_sum(head, length) != word_at(head + SB_ARCHIVE_NAME + 8))
         return sb_fail(error, SB_BAD_INPUT, "%s: damaged: the checksum of section \"%s\" at byte %zu does not fit",
@@ -68,8 +68,7 @@ static sb_status check_all(const sb_archive_in *in, const char *kind, uint32_t v
     char name[SB_ARCHIVE_NAME + 1] = "";
     size_t at = SB_ARCHIVE_HEAD;
     sb_status status = check_head(in, kind, version, error);
-    while (status == SB_OK && strcmp(name, SB_ARCHIVE_END) != 0)
-        status = check_section(in, &at, name, error);
+    while (status == SB_OK && strcmp(name, SB_ARCHIVE_END) != 0) status = check_section(in, &at, name, error);
     if (status == SB_OK && at != in->length)
         status = sb_fail(error, SB_BAD_INPUT, "%s: %zu bytes after its end, expected none", in->name, in->length - at);
     return status;
@@ -89,12 +88,10 @@ sb_status sb_archive_open(sb_archive_in *in, const char *path, const char *kind,
     size_t length;
     *in = (sb_archive_in){0};
     sb_status status = sb_file_read(path, (size_t)1 << 40, &bytes, &length, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     status = sb_archive_parse(in, path, bytes, length, kind, version, error);
     in->own = (unsigned char *)bytes;
-    if (status != SB_OK)
-        sb_archive_in_free(in);
+    if (status != SB_OK) sb_archive_in_free(in);
     return status;
 }
 
@@ -110,8 +107,7 @@ void sb_archive_refuse(sb_archive_in *in, const char *format, ...)
 {
     char text[512];
     va_list arguments;
-    if (in->error.status != SB_OK)
-        return;
+    if (in->error.status != SB_OK) return;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
@@ -130,8 +126,7 @@ sb_status sb_archive_enter(sb_archive_in *in, const char *name, sb_error *error)
         at += SB_SECTION_HEAD;
         in->at = at;
         in->end = at += length;
-        if (strcmp(found, name) == 0)
-            return SB_OK;
+        if (strcmp(found, name) == 0) return SB_OK;
     }
     in->at = in->end = in->length;
     return sb_fail(error, SB_BAD_INPUT, "%s: no section \"%s\"", in->name, name);
@@ -139,10 +134,8 @@ sb_status sb_archive_enter(sb_archive_in *in, const char *name, sb_error *error)
 
 sb_status sb_archive_leave(sb_archive_in *in, sb_error *error)
 {
-    if (in->at != in->end)
-        sb_archive_refuse(in, "%zu bytes left over, expected none", in->end - in->at);
-    if (in->error.status != SB_OK && error)
-        *error = in->error;
+    if (in->at != in->end) sb_archive_refuse(in, "%zu bytes left over, expected none", in->end - in->at);
+    if (in->error.status != SB_OK && error) *error = in->error;
     return in->error.status;
 }
 
@@ -160,8 +153,7 @@ static const char *kind_word(int kind)
 /* The next `length` bytes, or NULL, the reason being kept. */
 static const unsigned char *next(sb_archive_in *in, size_t length)
 {
-    if (in->error.status != SB_OK)
-        return NULL;
+    if (in->error.status != SB_OK) return NULL;
     if (length > in->end - in->at) {
         sb_archive_refuse(in, "%zu bytes left, expected %zu", in->end - in->at, length);
         return NULL;
@@ -196,16 +188,14 @@ double sb_take_real(sb_archive_in *in)
 {
     double real = 0;
     const unsigned char *bytes = value(in, SB_VALUE_REAL, sizeof real);
-    if (bytes)
-        memcpy(&real, bytes, sizeof real);
+    if (bytes) memcpy(&real, bytes, sizeof real);
     return real;
 }
 
 bool sb_take_flag(sb_archive_in *in)
 {
     const unsigned char *byte = value(in, SB_VALUE_FLAG, 1);
-    if (byte && *byte > 1)
-        sb_archive_refuse(in, "a flag of %u, expected 0 or 1", *byte);
+    if (byte && *byte > 1) sb_archive_refuse(in, "a flag of %u, expected 0 or 1", *byte);
     return byte && *byte == 1;
 }
 
@@ -220,11 +210,9 @@ size_t sb_take_length(sb_archive_in *in, size_t size, size_t most)
     const size_t start = in->at;
     const unsigned char *shape = value(in, SB_VALUE_LIST, 16);
     in->at = start;
-    if (!shape)
-        return 0;
+    if (!shape) return 0;
     const uint64_t count = word_at(shape), found = word_at(shape + 8);
-    if (found == size && count <= most && count <= (in->end - start) / size)
-        return (size_t)count;
+    if (found == size && count <= most && count <= (in->end - start) / size) return (size_t)count;
     sb_archive_refuse(in, "a list of %llu elements of %llu bytes, expected at most %zu of %zu",
                       (unsigned long long)count, (unsigned long long)found, most, size);
     return 0;
@@ -237,8 +225,7 @@ void sb_take_list(sb_archive_in *in, void *items, size_t count, size_t size)
         sb_archive_refuse(in, "a list of %llu elements of %llu bytes, expected %zu of %zu",
                           (unsigned long long)word_at(shape), (unsigned long long)word_at(shape + 8), count, size);
     const unsigned char *bytes = next(in, count * size);
-    if (count == 0)
-        return;
+    if (count == 0) return;
     if (bytes)
         memcpy(items, bytes, count * size);
     else
@@ -248,8 +235,7 @@ void sb_take_list(sb_archive_in *in, void *items, size_t count, size_t size)
 char *sb_take_text(sb_archive_in *in)
 {
     const size_t length = sb_take_length(in, 1, SIZE_MAX);
-    if (in->error.status != SB_OK)
-        return NULL;
+    if (in->error.status != SB_OK) return NULL;
     char *text = sb_alloc(length + 1, 1);
     if (text)
         sb_take_list(in, text, length, 1);

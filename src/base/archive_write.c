@@ -14,8 +14,7 @@ static void append(sb_archive_out *out, const void *bytes, size_t length)
         out->starved = true;
         return;
     }
-    if (length > 0)
-        memcpy(out->bytes + out->used, bytes, length);
+    if (length > 0) memcpy(out->bytes + out->used, bytes, length);
     out->used += length;
 }
 
@@ -34,8 +33,7 @@ static void append_name(sb_archive_out *out, const char *name)
 /* Fills in what the open section's head could not know. */
 static void close_section(sb_archive_out *out)
 {
-    if (out->section == 0 || out->starved)
-        return;
+    if (out->section == 0 || out->starved) return;
     unsigned char *head = out->bytes + out->section;
     const uint64_t length = out->used - out->section - SB_SECTION_HEAD;
     memcpy(head + SB_ARCHIVE_NAME, &length, sizeof length);
@@ -118,10 +116,8 @@ sb_status sb_archive_save(sb_archive_out *out, const char *path, sb_error *error
 {
     sb_atomic_file file = {0};
     sb_status status = sb_archive_close(out, error);
-    if (status == SB_OK)
-        status = sb_atomic_open(&file, path, error);
-    if (status != SB_OK)
-        return status;
+    if (status == SB_OK) status = sb_atomic_open(&file, path, error);
+    if (status != SB_OK) return status;
     fwrite(out->bytes, 1, out->used, file.stream);
     return sb_atomic_commit(&file, 1, error);
 }

@@ -12,15 +12,14 @@
 
 sb_status sb_file_open(const char *path, const char *mode, FILE **stream, sb_error *error)
 {
-    const int kind = mode[0] == 'w' ? O_WRONLY | O_CREAT | O_TRUNC : mode[0] == 'a' ? O_WRONLY | O_CREAT | O_APPEND
-                                                                                  : O_RDWR;
+    const int kind = mode[0] == 'w'   ? O_WRONLY | O_CREAT | O_TRUNC
+                     : mode[0] == 'a' ? O_WRONLY | O_CREAT | O_APPEND
+                                      : O_RDWR;
     const int file = open(path, kind | O_NOFOLLOW | O_CLOEXEC, 0666);
     *stream = file < 0 ? NULL : fdopen(file, mode);
-    if (*stream)
-        return SB_OK;
+    if (*stream) return SB_OK;
     const int reason = errno;
-    if (file >= 0)
-        close(file);
+    if (file >= 0) close(file);
     if (reason == ELOOP)
         sb_fail(error, SB_FAILED, "%.500s: is a symbolic link, expected a file of the run's own", path);
     else
@@ -33,12 +32,10 @@ sb_status sb_atomic_open(sb_atomic_file *file, const char *path, sb_error *error
 {
     file->stream = NULL;
     if (strlen(path) >= sizeof file->path)
-        return sb_fail(error, SB_BAD_INPUT, "%.64s...: path longer than %d bytes", path,
-                       SB_PATH_MAX);
+        return sb_fail(error, SB_BAD_INPUT, "%.64s...: path longer than %d bytes", path, SB_PATH_MAX);
     snprintf(file->path, sizeof file->path, "%s", path);
     snprintf(file->temporary, sizeof file->temporary, "%s.tmp", path);
-    if (sb_file_open(file->temporary, "w", &file->stream, error) == SB_OK)
-        return SB_OK;
+    if (sb_file_open(file->temporary, "w", &file->stream, error) == SB_OK) return SB_OK;
     return errno == ELOOP ? SB_FAILED : sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", path, strerror(errno));
 }
 
@@ -65,18 +62,15 @@ sb_status sb_atomic_commit(sb_atomic_file *file, int durable, sb_error *error)
         bad = 1;
         reason = errno;
     }
-    if (!bad && durable)
-        sync_folder_of(file->path);
-    if (!bad)
-        return SB_OK;
+    if (!bad && durable) sync_folder_of(file->path);
+    if (!bad) return SB_OK;
     unlink(file->temporary);
     return sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", file->path, strerror(reason));
 }
 
 void sb_atomic_abort(sb_atomic_file *file)
 {
-    if (!file->stream)
-        return;
+    if (!file->stream) return;
     fclose(file->stream);
     file->stream = NULL;
     unlink(file->temporary);
@@ -85,8 +79,7 @@ void sb_atomic_abort(sb_atomic_file *file)
 int sb_file_sync(const char *path)
 {
     int file = open(path, O_RDONLY | O_CLOEXEC);
-    if (file < 0)
-        return -1;
+    if (file < 0) return -1;
     int status = fsync(file);
     close(file);
     return status;
@@ -100,13 +93,11 @@ sb_status sb_make_directories(const char *path, sb_error *error)
         return sb_fail(error, SB_BAD_INPUT, "%.64s: not a usable directory name", path);
     memcpy(part, path, length + 1);
     for (size_t i = 1; i <= length; i++) {
-        if (part[i] != '/' && part[i] != '\0')
-            continue;
+        if (part[i] != '/' && part[i] != '\0') continue;
         char kept = part[i];
         part[i] = '\0';
         if (mkdir(part, 0777) != 0 && errno != EEXIST)
-            return sb_fail(error, SB_FAILED, "%.500s: cannot make directory: %s", part,
-                           strerror(errno));
+            return sb_fail(error, SB_FAILED, "%.500s: cannot make directory: %s", part, strerror(errno));
         part[i] = kept;
     }
     struct stat status;
@@ -119,14 +110,11 @@ sb_status sb_make_folder(char path[SB_PATH_MAX], const char *directory, const ch
 {
     struct stat status;
     sb_status made = sb_make_directories(directory, error);
-    if (made == SB_OK)
-        made = sb_path_join(path, directory, name, error);
-    if (made != SB_OK)
-        return made;
+    if (made == SB_OK) made = sb_path_join(path, directory, name, error);
+    if (made != SB_OK) return made;
     for (char *c = path + strlen(path) - strlen(name);; c++) {
         const char kept = *c;
-        if (kept != '/' && kept != '\0')
-            continue;
+        if (kept != '/' && kept != '\0') continue;
         *c = '\0';
         if (mkdir(path, 0777) != 0 && errno != EEXIST)
             return sb_fail(error, SB_FAILED, "%.500s: cannot make directory: %s", path, strerror(errno));
@@ -134,8 +122,7 @@ sb_status sb_make_folder(char path[SB_PATH_MAX], const char *directory, const ch
             return sb_fail(error, SB_FAILED, "%.500s: is %s, expected a directory of the run's own", path,
                            S_ISLNK(status.st_mode) ? "a symbolic link" : "not a directory");
         *c = kept;
-        if (kept == '\0')
-            return SB_OK;
+        if (kept == '\0') return SB_OK;
     }
 }
 
@@ -144,8 +131,7 @@ static int is_numbered(const char *name, const char *suffix, unsigned long long 
 {
     const size_t digits = strspn(name, "0123456789"), length = strlen(suffix);
     const char *rest = name + digits + length;
-    if (digits == 0 || strncmp(name + digits, suffix, length) != 0 || (*rest && strcmp(rest, ".tmp") != 0))
-        return 0;
+    if (digits == 0 || strncmp(name + digits, suffix, length) != 0 || (*rest && strcmp(rest, ".tmp") != 0)) return 0;
     return *rest || strtoull(name, NULL, 10) > after;
 }
 
@@ -153,16 +139,14 @@ sb_status sb_remove_numbered(const char *folder, const char *suffix, unsigned lo
 {
     DIR *directory = opendir(folder);
     if (!directory)
-        return errno == ENOENT ? SB_OK
-                               : sb_fail(error, SB_FAILED, "%.500s: cannot read: %s", folder, strerror(errno));
+        return errno == ENOENT ? SB_OK : sb_fail(error, SB_FAILED, "%.500s: cannot read: %s", folder, strerror(errno));
     sb_status status = SB_OK;
     const struct dirent *entry;
     while (status == SB_OK && (entry = readdir(directory))) {
-        if (!is_numbered(entry->d_name, suffix, after))
-            continue;
+        if (!is_numbered(entry->d_name, suffix, after)) continue;
         if (unlinkat(dirfd(directory), entry->d_name, 0) != 0)
-            status = sb_fail(error, SB_FAILED, "%.500s/%.200s: cannot remove: %s", folder, entry->d_name,
-                             strerror(errno));
+            status =
+                sb_fail(error, SB_FAILED, "%.500s/%.200s: cannot remove: %s", folder, entry->d_name, strerror(errno));
     }
     closedir(directory);
     return status;
@@ -170,11 +154,10 @@ sb_status sb_remove_numbered(const char *folder, const char *suffix, unsigned lo
 
 sb_status sb_path_join(char out[SB_PATH_MAX], const char *base, const char *name, sb_error *error)
 {
-    int length = name[0] == '/' ? snprintf(out, SB_PATH_MAX, "%s", name)
-                                : snprintf(out, SB_PATH_MAX, "%s/%s", base, name);
+    int length =
+        name[0] == '/' ? snprintf(out, SB_PATH_MAX, "%s", name) : snprintf(out, SB_PATH_MAX, "%s/%s", base, name);
     if (length < 0 || length >= SB_PATH_MAX)
-        return sb_fail(error, SB_BAD_INPUT, "%.64s...: path longer than %d bytes", name,
-                       SB_PATH_MAX);
+        return sb_fail(error, SB_BAD_INPUT, "%.64s...: path longer than %d bytes", name, SB_PATH_MAX);
     return SB_OK;
 }
 
@@ -187,14 +170,12 @@ void sb_path_folder(char out[SB_PATH_MAX], const char *path)
         snprintf(out, SB_PATH_MAX, "%.*s", slash == path ? 1 : (int)(slash - path), path);
 }
 
-sb_status sb_file_read(const char *path, size_t limit, char **text, size_t *length,
-                       sb_error *error)
+sb_status sb_file_read(const char *path, size_t limit, char **text, size_t *length, sb_error *error)
 {
     *text = NULL;
     *length = 0;
     FILE *file = fopen(path, "rb");
-    if (!file)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(errno));
+    if (!file) return sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(errno));
     sb_status status = SB_OK;
     char *buffer = NULL;
     size_t capacity = 0, used = 0;
@@ -206,12 +187,10 @@ sb_status sb_file_read(const char *path, size_t limit, char **text, size_t *leng
         size_t got = fread(buffer + used, 1, 65536, file);
         used += got;
         if (used > limit) {
-            status = sb_fail(error, SB_BAD_INPUT, "%.500s: larger than the %zu bytes allowed", path,
-                             limit);
+            status = sb_fail(error, SB_BAD_INPUT, "%.500s: larger than the %zu bytes allowed", path, limit);
             break;
         }
-        if (got == 0)
-            break;
+        if (got == 0) break;
     }
     if (status == SB_OK && ferror(file))
         status = sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(errno));

@@ -50,7 +50,6 @@ sb_status sb_path_join(char out[SB_PATH_MAX], const char *base, const char *name
 void sb_path_folder(char out[SB_PATH_MAX], const char *path);
 
 /* The whole file as a zero-terminated string of *length bytes, at most `limit`; free with sb_free. */
-sb_status sb_file_read(const char *path, size_t limit, char **text, size_t *length,
-                       sb_error *error);
+sb_status sb_file_read(const char *path, size_t limit, char **text, size_t *length, sb_error *error);
 
 #endif

@@ -21,23 +21,20 @@ bool sb_memory_fail_pending(void)
 
 static int told_to_fail(void)
 {
-    return atomic_load_explicit(&countdown, memory_order_relaxed) > 0 &&
-           atomic_fetch_sub(&countdown, 1) == 1;
+    return atomic_load_explicit(&countdown, memory_order_relaxed) > 0 && atomic_fetch_sub(&countdown, 1) == 1;
 }
 
 void *sb_alloc_untouched(size_t count, size_t size)
 {
     size_t bytes;
-    if (__builtin_mul_overflow(count, size, &bytes) || bytes > SIZE_MAX - 64 || told_to_fail())
-        return NULL;
+    if (__builtin_mul_overflow(count, size, &bytes) || bytes > SIZE_MAX - 64 || told_to_fail()) return NULL;
     return aligned_alloc(64, (bytes + 64) / 64 * 64);
 }
 
 void *sb_alloc(size_t count, size_t size)
 {
     void *pointer = sb_alloc_untouched(count, size);
-    if (pointer)
-        memset(pointer, 0, count * size);
+    if (pointer) memset(pointer, 0, count * size);
     return pointer;
 }
 
@@ -53,19 +50,15 @@ void sb_free(void *pointer)
 
 int sb_grow(void **array, size_t *capacity, size_t needed, size_t size)
 {
-    if (needed <= *capacity)
-        return 0;
+    if (needed <= *capacity) return 0;
     size_t wanted = *capacity < 16 ? 16 : *capacity;
     while (wanted < needed) {
-        if (wanted > SIZE_MAX / 2)
-            return -1;
+        if (wanted > SIZE_MAX / 2) return -1;
         wanted *= 2;
     }
     void *grown = sb_alloc_untouched(wanted, size);
-    if (!grown)
-        return -1;
-    if (*array)
-        memcpy(grown, *array, *capacity * size);
+    if (!grown) return -1;
+    if (*array) memcpy(grown, *array, *capacity * size);
     sb_free(*array);
     *array = grown;
     *capacity = wanted;
@@ -74,12 +67,10 @@ int sb_grow(void **array, size_t *capacity, size_t needed, size_t size)
 
 char *sb_strdup(const char *text)
 {
-    if (!text)
-        return NULL;
+    if (!text) return NULL;
     size_t bytes = strlen(text) + 1;
     char *copy = sb_alloc_untouched(bytes, 1);
-    if (copy)
-        memcpy(copy, text, bytes);
+    if (copy) memcpy(copy, text, bytes);
     return copy;
 }
 

@@ -22,8 +22,7 @@ static size_t of_machine(void)
     bool found = false;
     while (file && !found && fgets(line, sizeof line, file))
         found = sscanf(line, "MemAvailable: %lu kB", &kilobytes) == 1;
-    if (file)
-        fclose(file);
+    if (file) fclose(file);
     return found ? (size_t)kilobytes * 1024 : unknown;
 }
 
@@ -35,16 +34,14 @@ static size_t number_in(const char *folder, const char *name)
     snprintf(path, sizeof path, "%s/%s", folder, name);
     FILE *file = fopen(path, "r");
     bool found = file && fscanf(file, "%llu", &bytes) == 1;
-    if (file)
-        fclose(file);
+    if (file) fclose(file);
     return found ? (size_t)bytes : unknown;
 }
 
 static size_t left_of(const char *folder, const char *limit, const char *use)
 {
     size_t most = number_in(folder, limit), used = number_in(folder, use);
-    if (most == unknown || used == unknown)
-        return unknown;
+    if (most == unknown || used == unknown) return unknown;
     return most > used ? most - used : 0;
 }
 
@@ -67,8 +64,7 @@ static size_t of_group(void)
             left = least(left, left_of(folder, "memory.limit_in_bytes", "memory.usage_in_bytes"));
         }
     }
-    if (file)
-        fclose(file);
+    if (file) fclose(file);
     return left;
 }
 
@@ -76,12 +72,10 @@ static size_t of_process(void)
 {
     struct rlimit limit;
     unsigned long pages = 0;
-    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
-        return unknown;
+    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unknown;
     FILE *file = fopen("/proc/self/statm", "r");
     bool found = file && fscanf(file, "%lu", &pages) == 1;
-    if (file)
-        fclose(file);
+    if (file) fclose(file);
     size_t used = found ? (size_t)pages * (size_t)sysconf(_SC_PAGESIZE) : 0;
     return limit.rlim_cur > used ? (size_t)limit.rlim_cur - used : 0;
 }

@@ -7,8 +7,7 @@
 /* Uniform in [0, 1). */
 static inline double sb_random(uint64_t seed, uint64_t index)
 {
-    return (double)(sb_hash_mix(sb_hash_mix(seed + 0x9e3779b97f4a7c15u) ^ index) >> 11) *
-           0x1.0p-53;
+    return (double)(sb_hash_mix(sb_hash_mix(seed + 0x9e3779b97f4a7c15u) ^ index) >> 11) * 0x1.0p-53;
 }
 
 #endif

@@ -12,8 +12,7 @@ sb_status(sb_fail)(sb_error *error, sb_status status, const char *format, ...)
         va_end(arguments);
         /* Words of a hostile file may be quoted here: one line, and no orders to a terminal. */
         for (char *c = error->text; *c; c++)
-            if ((unsigned char)*c < ' ' || *c == 0x7f)
-                *c = '?';
+            if ((unsigned char)*c < ' ' || *c == 0x7f) *c = '?';
         error->status = status;
     }
     return status;

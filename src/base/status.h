@@ -16,8 +16,7 @@ typedef struct sb_error {
 } sb_error;
 
 /* Fills *error (may be NULL) and returns status, so that a failing function ends in one line. */
-sb_status sb_fail(sb_error *error, sb_status status, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
+sb_status sb_fail(sb_error *error, sb_status status, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /* SB_FAILED with "out of memory" and what the bytes were for. */
 sb_status sb_fail_memory(sb_error *error, const char *purpose);

@@ -11,32 +11,32 @@
 
 typedef struct sb_frame_body {
     char name[64];
-    sb_vec3 displacement;                 /* m since t = 0 */
-    sb_vec3 force, moment;                /* N, Nm: mean over the last finished interval */
+    sb_vec3 displacement;  /* m since t = 0 */
+    sb_vec3 force, moment; /* N, Nm: mean over the last finished interval */
     bool report;
 } sb_frame_body;
 
 typedef struct sb_frame_status {
     uint64_t step;
-    double time, duration, time_step;     /* s */
-    int iterations;                       /* of the last pressure solve */
-    double density_error;                 /* mean relative compression after the solve */
-    double max_speed;                     /* m/s */
-    double wall_seconds, eta_seconds;     /* run time so far, and estimated to the end */
+    double time, duration, time_step; /* s */
+    int iterations;                   /* of the last pressure solve */
+    double density_error;             /* mean relative compression after the solve */
+    double max_speed;                 /* m/s */
+    double wall_seconds, eta_seconds; /* run time so far, and estimated to the end */
     uint64_t lost_particles;
 } sb_frame_status;
 
 /* Read-only once published. Arrays of `count`: position[3*i] is relative to origin. */
 typedef struct sb_frame {
     sb_frame_status status;
-    uint64_t index;                       /* 1, 2, ... in the run */
-    sb_vec3 origin;                       /* m, added to every position */
-    double spacing;                       /* m */
-    size_t count;                         /* fluid particles */
-    float *position;                      /* m, 3 per particle */
-    float *velocity;                      /* m/s, 3 per particle */
-    float *pressure;                      /* Pa */
-    uint32_t *id;                         /* stable through the run */
+    uint64_t index;  /* 1, 2, ... in the run */
+    sb_vec3 origin;  /* m, added to every position */
+    double spacing;  /* m */
+    size_t count;    /* fluid particles */
+    float *position; /* m, 3 per particle */
+    float *velocity; /* m/s, 3 per particle */
+    float *pressure; /* Pa */
+    uint32_t *id;    /* stable through the run */
     size_t body_count;
     sb_frame_body *bodies;
     _Atomic int references;

@@ -61,8 +61,7 @@ static void wait_for_room(sb_frame_queue *queue)
 {
     if (queue->closed || queue->count < queue->capacity) return;
     double start = sb_clock();
-    while (!queue->closed && queue->count == queue->capacity)
-        pthread_cond_wait(&queue->has_room, &queue->lock);
+    while (!queue->closed && queue->count == queue->capacity) pthread_cond_wait(&queue->has_room, &queue->lock);
     queue->waited += sb_clock() - start;
 }
 
@@ -77,8 +76,7 @@ bool sb_frame_queue_push(sb_frame_queue *queue, const sb_frame *frame)
             oldest = take(queue);
             queue->dropped++;
         }
-        queue->ring[(queue->first + queue->count++) % queue->capacity].frame =
-            sb_frame_retain(frame);
+        queue->ring[(queue->first + queue->count++) % queue->capacity].frame = sb_frame_retain(frame);
         pthread_cond_signal(&queue->has_frame);
     }
     pthread_mutex_unlock(&queue->lock);

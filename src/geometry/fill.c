@@ -25,16 +25,16 @@ static int gather(const sb_fluid *fluid, sb_vec3 min, sb_vec3 max, sb_sample_set
 {
     for (size_t i = 0; i < fluid->count; ++i) {
         sb_vec3 p = fluid->position[i];
-        if (p.x >= min.x && p.y >= min.y && p.z >= min.z && p.x <= max.x && p.y <= max.y &&
-            p.z <= max.z && sb_sample_set_add(set, &(sb_sample){.at = p}))
+        if (p.x >= min.x && p.y >= min.y && p.z >= min.z && p.x <= max.x && p.y <= max.y && p.z <= max.z &&
+            sb_sample_set_add(set, &(sb_sample){.at = p}))
             return -1;
     }
     return 0;
 }
 
 /* Drops from `more` what earlier waters hold already, or what is too near to their particles. */
-static int drop_doubles(const sb_columns *waters, size_t water_count, const sb_fluid *fluid,
-                        double spacing, sb_fluid *more)
+static int drop_doubles(const sb_columns *waters, size_t water_count, const sb_fluid *fluid, double spacing,
+                        sb_fluid *more)
 {
     sb_vec3 min = sb_vec(HUGE_VAL, HUGE_VAL, HUGE_VAL), max = sb_scale(min, -1);
     for (size_t i = 0; i < more->count; ++i) {
@@ -48,8 +48,7 @@ static int drop_doubles(const sb_columns *waters, size_t water_count, const sb_f
     for (size_t i = 0; i < more->count && !failed; ++i) {
         failed = sb_stop_signal();
         bool doubled = sb_sample_set_any(&set, more->position[i], double_distance * spacing);
-        for (size_t w = 0; w < water_count && !doubled; ++w)
-            doubled = sb_columns_hold(waters + w, more->position[i]);
+        for (size_t w = 0; w < water_count && !doubled; ++w) doubled = sb_columns_hold(waters + w, more->position[i]);
         if (doubled) continue;
         more->position[kept] = more->position[i];
         more->velocity[kept] = more->velocity[i];
@@ -73,8 +72,7 @@ static void *join(const void *a, size_t a_count, const void *b, size_t b_count, 
 /* Moves `more` to the end of `fluid`. */
 static int append(sb_fluid *fluid, sb_fluid *more)
 {
-    sb_fluid both = {.count = fluid->count + more->count,
-                     .still_depth = fmax(fluid->still_depth, more->still_depth)};
+    sb_fluid both = {.count = fluid->count + more->count, .still_depth = fmax(fluid->still_depth, more->still_depth)};
     if (fluid->count == 0) {
         sb_fluid_free(fluid);
         *fluid = *more;
@@ -82,12 +80,9 @@ static int append(sb_fluid *fluid, sb_fluid *more)
         *more = (sb_fluid){0};
         return 0;
     }
-    both.position =
-        join(fluid->position, fluid->count, more->position, more->count, sizeof *both.position);
-    both.velocity =
-        join(fluid->velocity, fluid->count, more->velocity, more->count, sizeof *both.velocity);
-    both.pressure =
-        join(fluid->pressure, fluid->count, more->pressure, more->count, sizeof *both.pressure);
+    both.position = join(fluid->position, fluid->count, more->position, more->count, sizeof *both.position);
+    both.velocity = join(fluid->velocity, fluid->count, more->velocity, more->count, sizeof *both.velocity);
+    both.pressure = join(fluid->pressure, fluid->count, more->pressure, more->count, sizeof *both.pressure);
     if (!both.position || !both.velocity || !both.pressure) {
         sb_fluid_free(&both);
         return -1;
@@ -113,9 +108,8 @@ static void shake(const sb_scene *scene, sb_fluid *fluid)
 }
 
 /* Adds the sea (box NULL) or one box; its columns join those of the waters before. */
-static sb_status add_water(const sb_scene *scene, const sb_fill_solid *solids, size_t count,
-                           const sb_fluid_box *box, sb_columns *waters, size_t *water_count,
-                           sb_fluid *fluid, sb_error *error)
+static sb_status add_water(const sb_scene *scene, const sb_fill_solid *solids, size_t count, const sb_fluid_box *box,
+                           sb_columns *waters, size_t *water_count, sb_fluid *fluid, sb_error *error)
 {
     sb_columns *c = waters + *water_count;
     sb_fluid more = {0};
@@ -125,27 +119,25 @@ static sb_status add_water(const sb_scene *scene, const sb_fill_solid *solids, s
     for (size_t r = 0; box && r < c->run_count; ++r) c->runs[r].wet = true;
     if (!box) status = sb_columns_flood(c, error);
     if (status == SB_OK) status = sb_columns_particles(c, &more, error);
-    if (status == SB_OK && ((fluid->count > 0 && drop_doubles(waters, *water_count - 1, fluid,
-                                                              scene->resolution, &more)) ||
-                            append(fluid, &more)))
+    if (status == SB_OK &&
+        ((fluid->count > 0 && drop_doubles(waters, *water_count - 1, fluid, scene->resolution, &more)) ||
+         append(fluid, &more)))
         status = sb_fail_memory(error, "water");
     sb_fluid_free(&more);
     return status;
 }
 
-sb_status sb_fill_water(const sb_scene *scene, const sb_fill_solid *solids, size_t count,
-                        sb_fluid *fluid, sb_error *error)
+sb_status sb_fill_water(const sb_scene *scene, const sb_fill_solid *solids, size_t count, sb_fluid *fluid,
+                        sb_error *error)
 {
     sb_fluid made = {0};
     size_t water_count = 0;
     sb_columns *waters = sb_alloc(scene->box_count + 1, sizeof *waters);
     if (!waters) return sb_fail_memory(error, "water");
     sb_status status = SB_OK;
-    if (scene->sea.present)
-        status = add_water(scene, solids, count, NULL, waters, &water_count, &made, error);
+    if (scene->sea.present) status = add_water(scene, solids, count, NULL, waters, &water_count, &made, error);
     for (size_t i = 0; i < scene->box_count && status == SB_OK; ++i)
-        status =
-            add_water(scene, solids, count, scene->boxes + i, waters, &water_count, &made, error);
+        status = add_water(scene, solids, count, scene->boxes + i, waters, &water_count, &made, error);
     for (size_t i = 0; i < water_count; ++i) sb_columns_free(waters + i);
     sb_free(waters);
     if (status != SB_OK) {

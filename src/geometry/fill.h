@@ -23,8 +23,8 @@ typedef struct sb_fluid {
 
 /* Fills the scene's sea and boxes. SB_BAD_INPUT names the place where a sea escapes, or what is
    wrong with its seed. Same result for any number of threads; on error *fluid is untouched. */
-sb_status sb_fill_water(const sb_scene *scene, const sb_fill_solid *solids, size_t count,
-                        sb_fluid *fluid, sb_error *error);
+sb_status sb_fill_water(const sb_scene *scene, const sb_fill_solid *solids, size_t count, sb_fluid *fluid,
+                        sb_error *error);
 void sb_fluid_free(sb_fluid *fluid);
 
 #endif

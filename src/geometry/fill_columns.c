@@ -45,25 +45,22 @@ bool sb_columns_clear(const sb_columns *c, sb_vec3 from, sb_vec3 to)
     sb_vec3 arm = sb_sub(to, from);
     double length = sb_norm(arm);
     for (size_t i = 0; i < c->solid_count && length > 0; ++i)
-        if (sb_solid_raycast(c->solids[i].solid, from, sb_scale(arm, 1 / length), length) > 0)
-            return false;
+        if (sb_solid_raycast(c->solids[i].solid, from, sb_scale(arm, 1 / length), length) > 0) return false;
     return true;
 }
 
 /* Distances along a ray to all surfaces, sorted. Fails without memory, or when the run is to stop. */
-static void find_crossings(const sb_columns *c, sb_vec3 from, sb_vec3 direction, double length,
-                           chunk *work)
+static void find_crossings(const sb_columns *c, sb_vec3 from, sb_vec3 direction, double length, chunk *work)
 {
     work->hit_count = 0;
     work->failed = sb_stop_signal();
     for (size_t i = 0; i < c->solid_count; ++i) {
         double at = 0;
         for (;;) {
-            double t = sb_solid_raycast(c->solids[i].solid, sb_madd(from, at, direction), direction,
-                                        length - at);
+            double t = sb_solid_raycast(c->solids[i].solid, sb_madd(from, at, direction), direction, length - at);
             if (!(t > 0)) break;
-            if (sb_stop_signal() || sb_grow((void **)&work->hit, &work->hit_capacity, work->hit_count + 1,
-                                            sizeof *work->hit)) {
+            if (sb_stop_signal() ||
+                sb_grow((void **)&work->hit, &work->hit_capacity, work->hit_count + 1, sizeof *work->hit)) {
                 work->failed = 1;
                 return;
             }
@@ -108,8 +105,7 @@ static void cut_column(const sb_columns *c, int64_t i, int64_t j, chunk *work)
         double high = last ? top : c->bottom + work->hit[k];
         sb_vec3 middle = sb_vec(from.x, from.y, 0.5 * (low + high));
         if (high - low > run_min * c->spacing && !any_contains(c, middle)) {
-            if (sb_grow((void **)&work->run, &work->run_capacity, work->run_count + 1,
-                        sizeof *work->run))
+            if (sb_grow((void **)&work->run, &work->run_capacity, work->run_count + 1, sizeof *work->run))
                 work->failed = 1;
             else
                 work->run[work->run_count++] = make_run(c, low, high, last);
@@ -194,8 +190,7 @@ static void block_row(sb_columns *c, bool along_x, int64_t across, int64_t layer
 {
     int64_t count = along_x ? c->nx : c->ny;
     double step = along_x ? c->dx : c->dy;
-    sb_vec3 from =
-        along_x ? sb_columns_center(c, 0, across, layer) : sb_columns_center(c, across, 0, layer);
+    sb_vec3 from = along_x ? sb_columns_center(c, 0, across, layer) : sb_columns_center(c, across, 0, layer);
     sb_vec3 direction = along_x ? sb_vec(1, 0, 0) : sb_vec(0, 1, 0);
     from = sb_madd(from, -0.5 * step, direction);
     find_crossings(c, from, direction, step * (double)count, work);
@@ -217,8 +212,7 @@ static int block_rows(sb_columns *c)
     for (int32_t layer = 0; layer < c->layers; ++layer) {
         chunk work = {0};
         for (int64_t j = 0; j < c->ny && !work.failed; ++j) block_row(c, true, j, layer, &work);
-        for (int64_t i = 0; i < c->nx && c->ny > 1 && !work.failed; ++i)
-            block_row(c, false, i, layer, &work);
+        for (int64_t i = 0; i < c->nx && c->ny > 1 && !work.failed; ++i) block_row(c, false, i, layer, &work);
         failed = failed || work.failed;
         sb_free(work.hit);
     }
@@ -250,8 +244,7 @@ static sb_columns lay_out(const sb_scene *scene, const sb_fluid_box *box)
     c.bottom = min.z;
     c.top = domain->max.z;
     c.level = fmin(c.level, c.top);
-    if (!(max.x > min.x && c.level > min.z) || (scene->dimensions == 3 && !(max.y > min.y)))
-        return c;
+    if (!(max.x > min.x && c.level > min.z) || (scene->dimensions == 3 && !(max.y > min.y))) return c;
     c.nx = fit(max.x - min.x, c.spacing, &c.dx);
     c.ny = 1;
     c.dy = c.spacing;

@@ -55,8 +55,7 @@ static sb_status escapes(sb_vec3 at, int side, sb_error *error)
 }
 
 /* A wet run beside an open side must have something between itself and it. */
-static sb_status check_side(const sb_columns *c, const sb_run *run, int64_t i, int64_t j, int side,
-                            sb_error *error)
+static sb_status check_side(const sb_columns *c, const sb_run *run, int64_t i, int64_t j, int side, sb_error *error)
 {
     static const sb_vec3 out[4] = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}};
     double half = 0.5 * (side < SB_Y_MIN ? c->dx : c->dy);
@@ -83,8 +82,7 @@ static sb_status visit(sb_columns *c, front *f, size_t column, size_t run, sb_er
         int64_t count = along_x ? c->nx : c->ny;
         int64_t to = (along_x ? i : j) + (ahead ? 1 : -1);
         if (to < 0 || to >= count) {
-            sb_status status =
-                side[s] == SB_SIDE_OPEN ? check_side(c, from, i, j, s, error) : SB_OK;
+            sb_status status = side[s] == SB_SIDE_OPEN ? check_side(c, from, i, j, s, error) : SB_OK;
             if (status != SB_OK) return status;
             if (side[s] != SB_SIDE_PERIODIC) continue;
             to = (to + count) % count;
@@ -134,9 +132,7 @@ static bool find_start(const sb_columns *c, sb_vec3 seed, size_t *start_column, 
                 for (int32_t k = 0; k < c->runs[r].count; ++k) {
                     sb_vec3 at = sb_columns_center(c, i, j, c->runs[r].first + k);
                     double distance = sb_norm(sb_sub(at, seed));
-                    if (distance >= best || distance > 2 * c->spacing ||
-                        !sb_columns_clear(c, seed, at))
-                        continue;
+                    if (distance >= best || distance > 2 * c->spacing || !sb_columns_clear(c, seed, at)) continue;
                     best = distance;
                     *start_column = column;
                     *start_run = r;

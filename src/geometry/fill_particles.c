@@ -16,8 +16,8 @@ static const double clearance = 0.3, film = 0.25;
    numbers within a hundredth stay whole. */
 static double threshold(const sb_columns *c, int64_t i, int64_t j)
 {
-    double at = c->ny > 1 ? 0.7548776662466927 * (double)i + 0.5698402909980532 * (double)j
-                          : 0.6180339887498949 * (double)i;
+    double at =
+        c->ny > 1 ? 0.7548776662466927 * (double)i + 0.5698402909980532 * (double)j : 0.6180339887498949 * (double)i;
     return 0.01 + 0.98 * (at + 0.5 - floor(at + 0.5));
 }
 
@@ -25,8 +25,7 @@ static const int steps[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
 
 /* The wet run of a column nearby that shares most of this run's height, or NULL; *outside: there is
    no such column. */
-static const sb_run *neighbour(const sb_columns *c, int64_t i, int64_t j, const sb_run *run,
-                               bool *outside)
+static const sb_run *neighbour(const sb_columns *c, int64_t i, int64_t j, const sb_run *run, bool *outside)
 {
     *outside = i < 0 || j < 0 || i >= c->nx || j >= c->ny;
     if (*outside) return NULL;
@@ -61,14 +60,12 @@ static size_t layers_of(const sb_columns *c, int64_t i, int64_t j, const sb_run 
 {
     double height = run->high - run->low, s = c->spacing;
     if (!run->wet || height < film * s) return 0;
-    double particles =
-        c->scene->dimensions == 2 ? height * c->dx / (s * s) : height * c->dx * c->dy / (s * s * s);
+    double particles = c->scene->dimensions == 2 ? height * c->dx / (s * s) : height * c->dx * c->dy / (s * s * s);
     return (size_t)floor(particles + (evens_out(c, i, j, run) ? 0.5 : threshold(c, i, j)));
 }
 
 /* The stretch of a run that has open water on all four sides: nothing to keep clear of there. */
-static void open_part(const sb_columns *c, int64_t i, int64_t j, const sb_run *run, double *low,
-                      double *high)
+static void open_part(const sb_columns *c, int64_t i, int64_t j, const sb_run *run, double *low, double *high)
 {
     *low = run->low;
     *high = run->surface ? (double)INFINITY : run->high;
@@ -111,13 +108,12 @@ static sb_vec3 velocity_at(const sb_columns *c, sb_vec3 at)
     if (!c->waves || wave->kind != SB_INITIAL_SOLITARY) return c->velocity;
     const sb_solitary solitary = {wave->height, wave->depth, c->scene->fluid.gravity, wave->theory};
     double sign = wave->direction < 0 ? -1 : 1, u, w;
-    sb_solitary_velocity(&solitary, sign * (at.x - wave->position),
-                         fmax(at.z - (c->level - wave->depth), 0), &u, &w);
+    sb_solitary_velocity(&solitary, sign * (at.x - wave->position), fmax(at.z - (c->level - wave->depth), 0), &u, &w);
     return sb_add(c->velocity, sb_vec(sign * u, 0, w));
 }
 
-static void fill_run(const sb_columns *c, int64_t i, int64_t j, const sb_run *run, size_t layers,
-                     size_t at, sb_fluid *fluid)
+static void fill_run(const sb_columns *c, int64_t i, int64_t j, const sb_run *run, size_t layers, size_t at,
+                     sb_fluid *fluid)
 {
     double step = (run->high - run->low) / (double)layers, low, high;
     double margin = clearance * c->spacing;

@@ -38,8 +38,7 @@ static size_t count_triangles(const sb_grid *grid)
 {
     size_t count = 0, triangles[2][3];
     for (size_t j = 0; j + 1 < grid->rows; ++j)
-        for (size_t i = 0; i + 1 < grid->columns; ++i)
-            count += cut_square(grid, j * grid->columns + i, triangles);
+        for (size_t i = 0; i + 1 < grid->columns; ++i) count += cut_square(grid, j * grid->columns + i, triangles);
     return count;
 }
 
@@ -61,8 +60,7 @@ static void fill_mesh(const sb_grid *grid, double datum, uint32_t *vertex_of, sb
         for (size_t i = 0; i < grid->columns; ++i, ++node) {
             if (!vertex_of[node]) continue;
             mesh->vertices[vertices] =
-                sb_vec(grid->x + (double)i * grid->dx, grid->y + (double)j * grid->dy,
-                       grid->heights[node] + datum);
+                sb_vec(grid->x + (double)i * grid->dx, grid->y + (double)j * grid->dy, grid->heights[node] + datum);
             vertex_of[node] = vertices++;
         }
     for (size_t i = 0; i < mesh->triangle_count; ++i)
@@ -75,18 +73,16 @@ static sb_status check_range(const char *path, const sb_mesh *mesh, sb_error *er
 {
     for (size_t i = 0; i < mesh->vertex_count; ++i)
         if (!sb_isfinite(mesh->vertices[i]))
-            return sb_fail(error, SB_BAD_INPUT, "%.500s: a node at (%g, %g, %g), expected finite numbers",
-                           path, mesh->vertices[i].x, mesh->vertices[i].y, mesh->vertices[i].z);
+            return sb_fail(error, SB_BAD_INPUT, "%.500s: a node at (%g, %g, %g), expected finite numbers", path,
+                           mesh->vertices[i].x, mesh->vertices[i].y, mesh->vertices[i].z);
     return SB_OK;
 }
 
-static sb_status make_mesh(const char *path, const sb_grid *grid, double datum, sb_mesh *mesh,
-                           sb_error *error)
+static sb_status make_mesh(const char *path, const sb_grid *grid, double datum, sb_mesh *mesh, sb_error *error)
 {
     size_t triangles = count_triangles(grid);
     if (triangles == 0)
-        return sb_fail(error, SB_BAD_INPUT,
-                       "%.500s: no three neighbouring heights in it, expected terrain", path);
+        return sb_fail(error, SB_BAD_INPUT, "%.500s: no three neighbouring heights in it, expected terrain", path);
     uint32_t *vertex_of = sb_alloc(grid->rows * grid->columns, sizeof *vertex_of);
     if (!vertex_of) return sb_fail_memory(error, "a terrain grid");
     sb_mesh made;
@@ -108,16 +104,14 @@ sb_status sb_mesh_import_grid(const char *path, double datum, sb_mesh *mesh, sb_
     const char *dot = strrchr(path, '.');
     bool ascii = dot && strcasecmp(dot, ".asc") == 0;
     if (!ascii && !(dot && strcasecmp(dot, ".xyz") == 0))
-        return sb_fail(error, SB_BAD_INPUT, "%.500s: unknown grid format, expected .asc or .xyz",
-                       path);
+        return sb_fail(error, SB_BAD_INPUT, "%.500s: unknown grid format, expected .asc or .xyz", path);
     char *text = NULL;
     size_t length = 0;
     sb_grid grid = {0};
     sb_status status = sb_file_read(path, file_limit, &text, &length, error);
     if (status != SB_OK) return status;
     if (strlen(text) != length)
-        status = sb_fail(error, SB_BAD_INPUT, "%.500s: byte %zu is zero, expected text", path,
-                         strlen(text));
+        status = sb_fail(error, SB_BAD_INPUT, "%.500s: byte %zu is zero, expected text", path, strlen(text));
     else if (ascii)
         status = sb_grid_read_ascii(path, text, &grid, error);
     else

@@ -26,8 +26,7 @@ typedef struct axis {
     size_t count;
 } axis;
 
-static sb_status read_line(cloud *all, const char *text, size_t length, size_t line,
-                           sb_error *error)
+static sb_status read_line(cloud *all, const char *text, size_t length, size_t line, sb_error *error)
 {
     static const char blank[] = " \t\r,;";
     const char *at = text + strspn(text, blank), *end = text + length;
@@ -39,15 +38,14 @@ static sb_status read_line(cloud *all, const char *text, size_t length, size_t l
         char *after;
         read.at[k] = strtod(at, &after);
         /* strtod skips line ends: a number of the next line is none of this one. */
-        if (after == at || after > end || !isfinite(read.at[k]) ||
-            (after < end && !strchr(blank, *after)))
-            return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: \"%.*s\", expected x y z", all->path,
-                           line, (int)(length < 60 ? length : 60), text);
+        if (after == at || after > end || !isfinite(read.at[k]) || (after < end && !strchr(blank, *after)))
+            return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: \"%.*s\", expected x y z", all->path, line,
+                           (int)(length < 60 ? length : 60), text);
         at = after + strspn(after, blank);
     }
     if (at < end)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: \"%.*s\" after x y z, expected no more",
-                       all->path, line, (int)(end - at < 40 ? end - at : 40), at);
+        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: \"%.*s\" after x y z, expected no more", all->path, line,
+                       (int)(end - at < 40 ? end - at : 40), at);
     all->points[all->count++] = read;
     return SB_OK;
 }
@@ -93,8 +91,8 @@ static sb_status find_axis(const cloud *all, int k, axis *found, sb_error *error
     sb_free(sorted);
     if (!(steps >= 1 && steps < SB_GRID_NODES_MAX))
         return sb_fail(error, SB_BAD_INPUT,
-                       "%.500s: %zu points with %zu values of %c, expected those of a regular grid",
-                       all->path, all->count, gaps + 1, "xyz"[k]);
+                       "%.500s: %zu points with %zu values of %c, expected those of a regular grid", all->path,
+                       all->count, gaps + 1, "xyz"[k]);
     *found = (axis){low, range / steps, (size_t)steps + 1};
     return SB_OK;
 }
@@ -115,15 +113,13 @@ static sb_status place_points(const cloud *all, const axis axes[2], sb_grid *gri
         for (int k = 0; k < 2; ++k) {
             place[k] = line_of(&axes[k], p->at[k]);
             if (place[k] >= axes[k].count)
-                return sb_fail(error, SB_BAD_INPUT,
-                               "%.500s:%zu: %c is %.12g, expected %.12g plus a multiple of %.12g",
+                return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: %c is %.12g, expected %.12g plus a multiple of %.12g",
                                all->path, p->line, "xy"[k], p -> at[k], axes[k].low, axes[k].step);
         }
         double *height = &grid->heights[place[1] * grid->columns + place[0]];
         if (!isnan(*height))
-            return sb_fail(error, SB_BAD_INPUT,
-                           "%.500s:%zu: a second height at (%.12g, %.12g), expected one", all->path,
-                           p->line, p->at[0], p->at[1]);
+            return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: a second height at (%.12g, %.12g), expected one",
+                           all->path, p->line, p->at[0], p->at[1]);
         *height = p->at[2];
     }
     return SB_OK;
@@ -136,15 +132,12 @@ sb_status sb_grid_read_points(const char *path, const char *text, sb_grid *grid,
     axis axes[2] = {{0}};
     sb_status status = read_points(&all, text, error);
     if (status == SB_OK && all.count < 3)
-        status =
-            sb_fail(error, SB_BAD_INPUT, "%.500s: %zu points, expected 3 or more", path, all.count);
+        status = sb_fail(error, SB_BAD_INPUT, "%.500s: %zu points, expected 3 or more", path, all.count);
     for (int k = 0; k < 2 && status == SB_OK; ++k) status = find_axis(&all, k, &axes[k], error);
     if (status != SB_OK) goto done;
-    made = (sb_grid){axes[0].count, axes[1].count, axes[0].low, axes[1].low,
-                     axes[0].step,  axes[1].step,  NULL};
+    made = (sb_grid){axes[0].count, axes[1].count, axes[0].low, axes[1].low, axes[0].step, axes[1].step, NULL};
     /* A coast may fill little of its rectangle, but scattered points fill next to nothing. */
-    if (made.columns * made.rows > SB_GRID_NODES_MAX ||
-        made.columns * made.rows / 1000 > all.count) {
+    if (made.columns * made.rows > SB_GRID_NODES_MAX || made.columns * made.rows / 1000 > all.count) {
         status = sb_fail(error, SB_BAD_INPUT,
                          "%.500s: %zu points would lie on %zu x %zu grid lines, expected a regular "
                          "grid",
@@ -152,8 +145,7 @@ sb_status sb_grid_read_points(const char *path, const char *text, sb_grid *grid,
         goto done;
     }
     made.heights = sb_alloc_untouched(made.columns * made.rows, sizeof *made.heights);
-    status = made.heights ? place_points(&all, axes, &made, error)
-                          : sb_fail_memory(error, "a terrain grid");
+    status = made.heights ? place_points(&all, axes, &made, error) : sb_fail_memory(error, "a terrain grid");
     if (status == SB_OK)
         *grid = made;
     else

@@ -28,14 +28,14 @@ void sb_mesh_free(sb_mesh *mesh);
 /* What is wrong with a mesh, as counts and the place of the first of each. Vertices at the same
    place are one. */
 typedef struct sb_mesh_report {
-    size_t open_edges;       /* with a triangle on one side only */
-    size_t flipped_faces;    /* the lesser part of a surface whose neighbours face the other way */
-    size_t degenerate_faces; /* without area; they count for nothing else */
-    size_t doubled_faces;    /* a further triangle on the same three vertices */
+    size_t open_edges;                           /* with a triangle on one side only */
+    size_t flipped_faces;                        /* the lesser part of a surface whose neighbours face the other way */
+    size_t degenerate_faces;                     /* without area; they count for nothing else */
+    size_t doubled_faces;                        /* a further triangle on the same three vertices */
     sb_vec3 first_open_edge, first_flipped_face; /* m, middle of the edge, of the face */
-    bool watertight;         /* every edge is run through as often forth as back */
-    double volume, area;     /* m^3 (signed), m^2 */
-    sb_vec3 min, max;        /* m */
+    bool watertight;                             /* every edge is run through as often forth as back */
+    double volume, area;                         /* m^3 (signed), m^2 */
+    sb_vec3 min, max;                            /* m */
 } sb_mesh_report;
 /* SB_FAILED without memory for the search of edges. */
 sb_status sb_mesh_diagnose(const sb_mesh *mesh, sb_mesh_report *report, sb_error *error);
@@ -64,16 +64,14 @@ sb_status sb_mesh_import_grid(const char *path, double datum, sb_mesh *mesh, sb_
 /* Analytic shapes, outward normals towards the water; chord error of round ones <= tolerance (m).
    A plane's width is along z x normal (along x when it is level), its length across that. */
 sb_status sb_mesh_box(sb_vec3 min, sb_vec3 max, sb_mesh *mesh, sb_error *error);
-sb_status sb_mesh_cylinder(sb_vec3 base, double radius, double height, double tolerance,
-                           sb_mesh *mesh, sb_error *error);
-sb_status sb_mesh_plane(sb_vec3 center, sb_vec3 normal, double width, double length, sb_mesh *mesh,
-                        sb_error *error);
+sb_status sb_mesh_cylinder(sb_vec3 base, double radius, double height, double tolerance, sb_mesh *mesh,
+                           sb_error *error);
+sb_status sb_mesh_plane(sb_vec3 center, sb_vec3 normal, double width, double length, sb_mesh *mesh, sb_error *error);
 sb_status sb_mesh_basin(sb_vec3 min, sb_vec3 max, sb_mesh *mesh, sb_error *error);
 
 /* All meshes that one scene body stands for, transformed to the scene. One, named as the body; or
    with body->split one per named node of its file, names made unique by "-2", "-3". Round shapes
    are true to 0.02 spacing. Owned by the caller as from sb_mesh_import. */
-sb_status sb_mesh_from_body(const sb_body *body, double spacing, sb_mesh **meshes, size_t *count,
-                            sb_error *error);
+sb_status sb_mesh_from_body(const sb_body *body, double spacing, sb_mesh **meshes, size_t *count, sb_error *error);
 
 #endif

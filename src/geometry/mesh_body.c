@@ -48,8 +48,7 @@ static void transform(const sb_body *body, sb_mesh *mesh)
 }
 
 /* The body's meshes as its shape or file gives them. */
-static sb_status make(const sb_body *body, double spacing, sb_mesh **meshes, size_t *count,
-                      sb_error *error)
+static sb_status make(const sb_body *body, double spacing, sb_mesh **meshes, size_t *count, sb_error *error)
 {
     if (body->shape == SB_SHAPE_MESH) return sb_mesh_import(body->file, meshes, count, error);
     sb_mesh *one = sb_alloc(1, sizeof *one);
@@ -65,8 +64,7 @@ static sb_status make(const sb_body *body, double spacing, sb_mesh **meshes, siz
         status = sb_mesh_box(body->min, body->max, one, error);
         break;
     case SB_SHAPE_CYLINDER:
-        status = sb_mesh_cylinder(body->center, body->radius, body->height, chord_error * spacing,
-                                  one, error);
+        status = sb_mesh_cylinder(body->center, body->radius, body->height, chord_error * spacing, one, error);
         break;
     case SB_SHAPE_PLANE:
         status = sb_mesh_plane(body->center, body->normal, body->width, body->length, one, error);
@@ -96,8 +94,7 @@ static sb_status merge(sb_mesh *meshes, size_t *count, sb_error *error)
         dropped += meshes[i].dropped;
         turned += meshes[i].turned;
     }
-    if (vertices >= UINT32_MAX)
-        return sb_fail(error, SB_BAD_INPUT, "%zu vertices, expected fewer than 2^32", vertices);
+    if (vertices >= UINT32_MAX) return sb_fail(error, SB_BAD_INPUT, "%zu vertices, expected fewer than 2^32", vertices);
     sb_status status = sb_mesh_alloc(&whole, vertices, triangles, error);
     if (status != SB_OK) return status;
     whole.dropped = dropped;
@@ -105,11 +102,9 @@ static sb_status merge(sb_mesh *meshes, size_t *count, sb_error *error)
     vertices = triangles = 0;
     for (size_t i = 0; i < *count; ++i) {
         sb_mesh *part = &meshes[i];
-        memcpy(whole.vertices + vertices, part->vertices,
-               part->vertex_count * sizeof *part->vertices);
+        memcpy(whole.vertices + vertices, part->vertices, part->vertex_count * sizeof *part->vertices);
         for (size_t j = 0; j < part->triangle_count; ++j)
-            for (int k = 0; k < 3; ++k)
-                whole.triangles[triangles + j][k] = (uint32_t)vertices + part->triangles[j][k];
+            for (int k = 0; k < 3; ++k) whole.triangles[triangles + j][k] = (uint32_t)vertices + part->triangles[j][k];
         vertices += part->vertex_count;
         triangles += part->triangle_count;
         sb_mesh_free(part);
@@ -140,17 +135,14 @@ static void set_names(const sb_body *body, sb_mesh *meshes, size_t count)
 {
     for (size_t i = 0; i < count; ++i) {
         char wanted[SB_NAME_MAX];
-        memcpy(wanted, body->split && meshes[i].name[0] ? meshes[i].name : body->name,
-               sizeof wanted);
+        memcpy(wanted, body->split && meshes[i].name[0] ? meshes[i].name : body->name, sizeof wanted);
         memcpy(meshes[i].name, wanted, sizeof wanted);
         for (size_t number = 2; taken(meshes, i, meshes[i].name); ++number)
-            snprintf(meshes[i].name, sizeof meshes[i].name, "%.*s-%zu", SB_NAME_MAX - 22, wanted,
-                     number);
+            snprintf(meshes[i].name, sizeof meshes[i].name, "%.*s-%zu", SB_NAME_MAX - 22, wanted, number);
     }
 }
 
-sb_status sb_mesh_from_body(const sb_body *body, double spacing, sb_mesh **meshes, size_t *count,
-                            sb_error *error)
+sb_status sb_mesh_from_body(const sb_body *body, double spacing, sb_mesh **meshes, size_t *count, sb_error *error)
 {
     const bool from_file = body->shape == SB_SHAPE_MESH || body->shape == SB_SHAPE_GRID;
     sb_error reason = {0};
@@ -165,11 +157,9 @@ sb_status sb_mesh_from_body(const sb_body *body, double spacing, sb_mesh **meshe
     for (size_t i = 0; i < made_count; ++i) transform(body, &made[i]);
     /* Each solid part for itself, one may be inside out; but the parts of a terrain together, a
        quay wall alone does not know which way is up. */
-    if (status == SB_OK && body->role == SB_ROLE_SOLID)
-        status = orient(body, made, made_count, &reason);
+    if (status == SB_OK && body->role == SB_ROLE_SOLID) status = orient(body, made, made_count, &reason);
     if (status == SB_OK && !body->split) status = merge(made, &made_count, &reason);
-    if (status == SB_OK && body->role == SB_ROLE_TERRAIN)
-        status = orient(body, made, made_count, &reason);
+    if (status == SB_OK && body->role == SB_ROLE_TERRAIN) status = orient(body, made, made_count, &reason);
     if (status != SB_OK) {
         for (size_t i = 0; i < made_count; ++i) sb_mesh_free(&made[i]);
         sb_free(made);

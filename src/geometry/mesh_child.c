@@ -42,22 +42,19 @@ static void limit(__rlimit_resource_t what, rlim_t most)
 static void reset_signals(void)
 {
     for (int number = 1; number < NSIG; ++number)
-        if (number != SIGKILL && number != SIGSTOP)
-            signal(number, number == SIGINT ? SIG_IGN : SIG_DFL);
+        if (number != SIGKILL && number != SIGSTOP) signal(number, number == SIGINT ? SIG_IGN : SIG_DFL);
     sigset_t none;
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, NULL);
 }
 
-static _Noreturn void run_child(const char *path, int to, const sb_mesh_limits *limits,
-                                uint64_t mapped)
+static _Noreturn void run_child(const char *path, int to, const sb_mesh_limits *limits, uint64_t mapped)
 {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     prctl(PR_SET_DUMPABLE, 0);
     reset_signals();
     int null = open("/dev/null", O_RDWR);
-    if (null < 0 || dup2(null, STDIN_FILENO) < 0 || dup2(null, STDOUT_FILENO) < 0 ||
-        dup2(null, STDERR_FILENO) < 0)
+    if (null < 0 || dup2(null, STDIN_FILENO) < 0 || dup2(null, STDOUT_FILENO) < 0 || dup2(null, STDERR_FILENO) < 0)
         _exit(1);
     /* The pipe is above 2 here: run_reader sees to that. All else the parent had open goes. */
     enum { OWN_PIPE = 3 };
@@ -89,16 +86,14 @@ static uint64_t mapped_bytes(void)
    ignored, or a handler that waits for all): then how it ended stays unknown, 0. */
 static int finish_child(const sb_mesh_link *from, bool stop)
 {
-    if (stop && (from->watch < 0 || pidfd_send_signal(from->watch, SIGKILL, NULL, 0) != 0))
-        kill(from->child, SIGKILL);
+    if (stop && (from->watch < 0 || pidfd_send_signal(from->watch, SIGKILL, NULL, 0) != 0)) kill(from->child, SIGKILL);
     int how = 0;
     while (waitpid(from->child, &how, 0) < 0)
         if (errno != EINTR) return 0;
     return how;
 }
 
-static sb_status explain_end(const sb_mesh_link *from, int how, const sb_mesh_limits *limits,
-                             sb_error *error)
+static sb_status explain_end(const sb_mesh_link *from, int how, const sb_mesh_limits *limits, sb_error *error)
 {
     int by = WIFSIGNALED(how) ? WTERMSIG(how) : 0;
     bool late = from->end == SB_MESH_LINK_LATE || by == SIGALRM;
@@ -113,19 +108,16 @@ static sb_status explain_end(const sb_mesh_link *from, int how, const sb_mesh_li
                        "%.500s: reading it crashed (%s), expected a sound mesh file that fits in "
                        "%.1f GiB",
                        from->path, strsignal(by), (double)limits->memory / 0x1p30);
-    return sb_fail(error, SB_BAD_INPUT,
-                   "%.500s: reading it ended early, expected a sound mesh file", from->path);
+    return sb_fail(error, SB_BAD_INPUT, "%.500s: reading it ended early, expected a sound mesh file", from->path);
 }
 
 /* Forks with all signals held, so that no handler of the parent runs in the child. */
-static sb_status run_reader(const char *path, const sb_mesh_limits *limits, sb_mesh_link *from,
-                            sb_error *error)
+static sb_status run_reader(const char *path, const sb_mesh_limits *limits, sb_mesh_link *from, sb_error *error)
 {
     int ends[2];
     uint64_t mapped = mapped_bytes();
     if (pipe2(ends, O_CLOEXEC) != 0)
-        return sb_fail(error, SB_FAILED, "%.500s: no pipe to its reader: %s", path,
-                       strerror(errno));
+        return sb_fail(error, SB_FAILED, "%.500s: no pipe to its reader: %s", path, strerror(errno));
     /* Standard streams may be closed: the child's end must not be taken for one of them. */
     int high = fcntl(ends[1], F_DUPFD_CLOEXEC, 3);
     close(ends[1]);
@@ -139,16 +131,15 @@ static sb_status run_reader(const char *path, const sb_mesh_limits *limits, sb_m
     if (high >= 0) close(high);
     if (child < 0) {
         close(ends[0]);
-        return sb_fail(error, SB_FAILED, "%.500s: no process to read it: %s", path,
-                       strerror(reason));
+        return sb_fail(error, SB_FAILED, "%.500s: no process to read it: %s", path, strerror(reason));
     }
     int watch = pidfd_open(child, 0);
     *from = (sb_mesh_link){.path = path,
-                     .child = child,
-                     .pipe = ends[0],
-                     .watch = watch,
-                     .deadline = sb_clock() + limits->seconds * PATIENCE + 1,
-                     .room = limits->memory};
+                           .child = child,
+                           .pipe = ends[0],
+                           .watch = watch,
+                           .deadline = sb_clock() + limits->seconds * PATIENCE + 1,
+                           .room = limits->memory};
     return SB_OK;
 }
 
@@ -165,26 +156,22 @@ static sb_status check_file(const char *path, uint64_t *size, sb_error *error)
 {
     struct stat found;
     if (stat(path, &found) != 0)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s: %s, expected a mesh file", path,
-                       strerror(errno));
+        return sb_fail(error, SB_BAD_INPUT, "%.500s: %s, expected a mesh file", path, strerror(errno));
     if (!S_ISREG(found.st_mode))
         return sb_fail(error, SB_BAD_INPUT, "%.500s: %s, expected a mesh file", path,
                        S_ISDIR(found.st_mode) ? "is a directory" : "is no regular file");
     if (access(path, R_OK) != 0)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s: %s, expected a readable file", path,
-                       strerror(errno));
+        return sb_fail(error, SB_BAD_INPUT, "%.500s: %s, expected a readable file", path, strerror(errno));
     if (!has_known_ending(path))
-        return sb_fail(error, SB_BAD_INPUT,
-                       "%.500s: unknown format, expected .obj, .stl, .ply, .gltf, .glb or .dae",
+        return sb_fail(error, SB_BAD_INPUT, "%.500s: unknown format, expected .obj, .stl, .ply, .gltf, .glb or .dae",
                        path);
-    if (found.st_size == 0)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s: is empty, expected a mesh", path);
+    if (found.st_size == 0) return sb_fail(error, SB_BAD_INPUT, "%.500s: is empty, expected a mesh", path);
     *size = (uint64_t)found.st_size;
     return SB_OK;
 }
 
-sb_status sb_mesh_import_within(const char *path, const sb_mesh_limits *limits, sb_mesh **meshes,
-                                size_t *count, sb_error *error)
+sb_status sb_mesh_import_within(const char *path, const sb_mesh_limits *limits, sb_mesh **meshes, size_t *count,
+                                sb_error *error)
 {
     uint64_t size = 0;
     sb_mesh_link from = {0};

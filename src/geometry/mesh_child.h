@@ -24,11 +24,7 @@ typedef struct sb_mesh_record {
     char name[SB_NAME_MAX];
 } sb_mesh_record;
 
-typedef enum sb_mesh_link_end {
-    SB_MESH_LINK_OK,
-    SB_MESH_LINK_CLOSED,
-    SB_MESH_LINK_LATE
-} sb_mesh_link_end;
+typedef enum sb_mesh_link_end { SB_MESH_LINK_OK, SB_MESH_LINK_CLOSED, SB_MESH_LINK_LATE } sb_mesh_link_end;
 
 /* The parent's end of the pipe. */
 typedef struct sb_mesh_link {
@@ -52,8 +48,8 @@ typedef struct sb_mesh_limits {
 } sb_mesh_limits;
 
 /* sb_mesh_import with limits other than its own, for tests. */
-sb_status sb_mesh_import_within(const char *path, const sb_mesh_limits *limits, sb_mesh **meshes,
-                                size_t *count, sb_error *error);
+sb_status sb_mesh_import_within(const char *path, const sb_mesh_limits *limits, sb_mesh **meshes, size_t *count,
+                                sb_error *error);
 
 /* The child's part: reads the file and writes the records to the pipe. */
 void sb_mesh_send_file(const char *path, int pipe);

@@ -60,8 +60,7 @@ static int count_doubled(const sb_mesh *mesh, size_t *doubled)
     if (!first || !all || sb_mesh_find_twins(mesh, first)) goto done;
     for (size_t i = 0; i < mesh->triangle_count; ++i) {
         const uint32_t *t = mesh->triangles[i];
-        if (sb_mesh_is_degenerate(mesh->vertices[t[0]], mesh->vertices[t[1]], mesh->vertices[t[2]]))
-            continue;
+        if (sb_mesh_is_degenerate(mesh->vertices[t[0]], mesh->vertices[t[1]], mesh->vertices[t[2]])) continue;
         uint32_t *to = all[count++].corner;
         for (int k = 0; k < 3; ++k) to[k] = first[t[k]];
         order(&to[0], &to[1]);
@@ -86,9 +85,8 @@ static void report_edges(const sb_mesh *mesh, const sb_mesh_edges *edges, sb_mes
         for (size_t j = i; j < end; ++j) forward += edges->edges[j].forward;
         if (2 * forward != end - i) report->watertight = false;
         if (end - i == 1 && report->open_edges++ == 0)
-            report->first_open_edge = sb_scale(
-                sb_add(mesh->vertices[edges->edges[i].low], mesh->vertices[edges->edges[i].high]),
-                0.5);
+            report->first_open_edge =
+                sb_scale(sb_add(mesh->vertices[edges->edges[i].low], mesh->vertices[edges->edges[i].high]), 0.5);
     }
     report->flipped_faces = edges->flipped_count;
     for (size_t i = 0; i < mesh->triangle_count && edges->flipped_count > 0; ++i) {

@@ -23,8 +23,7 @@ static void collect_edges(const sb_mesh *mesh, const uint32_t *first, sb_mesh_ed
 {
     for (size_t i = 0; i < mesh->triangle_count; ++i) {
         const uint32_t *corner = mesh->triangles[i];
-        if (sb_mesh_is_degenerate(mesh->vertices[corner[0]], mesh->vertices[corner[1]],
-                                  mesh->vertices[corner[2]]))
+        if (sb_mesh_is_degenerate(mesh->vertices[corner[0]], mesh->vertices[corner[1]], mesh->vertices[corner[2]]))
             continue;
         for (int k = 0; k < 3; ++k) {
             uint32_t from = first[corner[k]], to = first[corner[(k + 1) % 3]];
@@ -43,8 +42,7 @@ static link find_leader(link *links, uint32_t i)
     while (links[found.leader].leader != found.leader) {
         link *at = &links[found.leader];
         const link *next = &links[at->leader];
-        if (next->leader != at->leader)
-            *at = (link){next->leader, (bool)(at->opposite ^ next->opposite)};
+        if (next->leader != at->leader) *at = (link){next->leader, (bool)(at->opposite ^ next->opposite)};
         found = (link){at->leader, (bool)(found.opposite ^ at->opposite)};
     }
     return found;
@@ -77,8 +75,7 @@ static int find_flipped(size_t triangles, sb_mesh_edges *edges)
     for (size_t i = 0, end; i < edges->count; i = end) {
         const sb_mesh_edge *edge = edges->edges + i;
         end = sb_mesh_edge_run(edges, i);
-        if (end - i == 2)
-            join(links, edge[0].triangle, edge[1].triangle, edge[0].forward == edge[1].forward);
+        if (end - i == 2) join(links, edge[0].triangle, edge[1].triangle, edge[0].forward == edge[1].forward);
     }
     for (size_t i = 0; i < triangles; ++i) {
         link found = find_leader(links, (uint32_t)i);

@@ -28,9 +28,7 @@ static inline size_t sb_mesh_edge_run(const sb_mesh_edges *edges, size_t begin)
 {
     const sb_mesh_edge *edge = edges->edges;
     size_t end = begin + 1;
-    while (end < edges->count && edge[end].low == edge[begin].low &&
-           edge[end].high == edge[begin].high)
-        ++end;
+    while (end < edges->count && edge[end].low == edge[begin].low && edge[end].high == edge[begin].high) ++end;
     return end;
 }
 

@@ -45,11 +45,9 @@ static void send_bytes(sender *to, const void *bytes, size_t size)
     }
 }
 
-static void send_record(sender *to, sb_mesh_record_kind kind, uint64_t vertices, uint64_t triangles,
-                        const char *name)
+static void send_record(sender *to, sb_mesh_record_kind kind, uint64_t vertices, uint64_t triangles, const char *name)
 {
-    sb_mesh_record record = {
-        .magic = SB_MESH_RECORD_MAGIC, .kind = kind, .vertices = vertices, .triangles = triangles};
+    sb_mesh_record record = {.magic = SB_MESH_RECORD_MAGIC, .kind = kind, .vertices = vertices, .triangles = triangles};
     size_t length = strlen(name);
     if (length > sizeof record.name - 1) {
         length = sizeof record.name - 1;
@@ -69,10 +67,9 @@ static void send_trouble(sender *to, const char *text)
 
 static placement compose(const placement *outer, const struct aiMatrix4x4 *inner)
 {
-    const double m[3][4] = {
-        {(double)inner->a1, (double)inner->a2, (double)inner->a3, (double)inner->a4},
-        {(double)inner->b1, (double)inner->b2, (double)inner->b3, (double)inner->b4},
-        {(double)inner->c1, (double)inner->c2, (double)inner->c3, (double)inner->c4}};
+    const double m[3][4] = {{(double)inner->a1, (double)inner->a2, (double)inner->a3, (double)inner->a4},
+                            {(double)inner->b1, (double)inner->b2, (double)inner->b3, (double)inner->b4},
+                            {(double)inner->c1, (double)inner->c2, (double)inner->c3, (double)inner->c4}};
     placement both = *outer;
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
@@ -95,8 +92,7 @@ static sb_vec3 apply(const placement *p, struct aiVector3D v)
 static bool mirrors(const placement *p)
 {
     const double(*m)[3] = p->m;
-    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
-               m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
                m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]) <
            0;
 }
@@ -115,8 +111,7 @@ static void gather(const sender *to, const struct aiNode *node, const placement 
     for (unsigned i = 0; i < node->mNumMeshes; ++i) {
         const struct aiMesh *part = mesh_of(to, node, i);
         size_t base = vertex;
-        for (unsigned j = 0; j < part->mNumVertices; ++j)
-            mesh->vertices[vertex++] = apply(at, part->mVertices[j]);
+        for (unsigned j = 0; j < part->mNumVertices; ++j) mesh->vertices[vertex++] = apply(at, part->mVertices[j]);
         for (unsigned j = 0; j < part->mNumFaces; ++j) {
             const struct aiFace *face = &part->mFaces[j];
             if (face->mNumIndices != 3) continue;
@@ -130,8 +125,7 @@ static void gather(const sender *to, const struct aiNode *node, const placement 
     }
 }
 
-static void send_node_mesh(sender *to, const struct aiNode *node, const placement *at,
-                           const char *name)
+static void send_node_mesh(sender *to, const struct aiNode *node, const placement *at, const char *name)
 {
     size_t vertices = 0, triangles = 0;
     for (unsigned i = 0; i < node->mNumMeshes; ++i) {
@@ -141,8 +135,7 @@ static void send_node_mesh(sender *to, const struct aiNode *node, const placemen
         }
         const struct aiMesh *part = mesh_of(to, node, i);
         vertices += part->mVertices ? part->mNumVertices : 0;
-        for (unsigned j = 0; part->mVertices && j < part->mNumFaces; ++j)
-            triangles += part->mFaces[j].mNumIndices == 3;
+        for (unsigned j = 0; part->mVertices && j < part->mNumFaces; ++j) triangles += part->mFaces[j].mNumIndices == 3;
     }
     if (triangles == 0) return;
     sb_mesh mesh;
@@ -168,14 +161,12 @@ static const char *name_of(const struct aiNode *node, const char *above)
     return own;
 }
 
-static void send_nodes(sender *to, const struct aiNode *node, const placement *above,
-                       const char *name)
+static void send_nodes(sender *to, const struct aiNode *node, const placement *above, const char *name)
 {
     placement at = compose(above, &node->mTransformation);
     name = name_of(node, name);
     send_node_mesh(to, node, &at, name);
-    for (unsigned i = 0; i < node->mNumChildren && !to->failed; ++i)
-        send_nodes(to, node->mChildren[i], &at, name);
+    for (unsigned i = 0; i < node->mNumChildren && !to->failed; ++i) send_nodes(to, node->mChildren[i], &at, name);
 }
 
 static sb_status load(assimp *ai, sb_error *error)

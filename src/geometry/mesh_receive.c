@@ -87,14 +87,12 @@ static sb_status receive_trouble(sb_mesh_link *from, const sb_mesh_record *recor
                    text[0] ? text : "no reason given");
 }
 
-static sb_status receive_mesh(sb_mesh_link *from, const sb_mesh_record *record, sb_mesh *mesh,
-                              sb_error *error)
+static sb_status receive_mesh(sb_mesh_link *from, const sb_mesh_record *record, sb_mesh *mesh, sb_error *error)
 {
     const uint64_t vertex = sizeof *mesh->vertices, triangle = sizeof *mesh->triangles;
     if (record->vertices > from->room / vertex || record->triangles > from->room / triangle ||
         record->vertices * vertex + record->triangles * triangle > from->room)
-        return sb_fail(error, SB_BAD_INPUT,
-                       "%.500s: %llu vertices and %llu triangles, too many to hold", from->path,
+        return sb_fail(error, SB_BAD_INPUT, "%.500s: %llu vertices and %llu triangles, too many to hold", from->path,
                        (unsigned long long)record->vertices, (unsigned long long)record->triangles);
     from->room -= record->vertices * vertex + record->triangles * triangle;
     sb_status status = sb_mesh_alloc(mesh, record->vertices, record->triangles, error);
@@ -129,8 +127,7 @@ static sb_status receive_all(sb_mesh_link *from, mesh_list *list, sb_error *erro
         sb_mesh_record record;
         if (!receive(from, &record, sizeof record)) return SB_FAILED;
         if (record.magic != SB_MESH_RECORD_MAGIC || list->count >= MESHES_MAX)
-            return sb_fail(error, SB_BAD_INPUT,
-                           "%.500s: its reader sent what is no mesh, expected one", from->path);
+            return sb_fail(error, SB_BAD_INPUT, "%.500s: its reader sent what is no mesh, expected one", from->path);
         if (record.kind == SB_MESH_RECORD_END) return SB_OK;
         if (record.kind == SB_MESH_RECORD_TROUBLE) return receive_trouble(from, &record, error);
         if (sb_grow((void **)&list->items, &list->capacity, list->count + 1, sizeof *list->items))
@@ -150,8 +147,7 @@ sb_status sb_mesh_receive(sb_mesh_link *from, sb_mesh **meshes, size_t *count, s
     mesh_list list = {0};
     sb_status status = receive_all(from, &list, error);
     if (status == SB_OK && list.count == 0)
-        status = sb_fail(error, SB_BAD_INPUT, "%.500s: no triangles in it, expected a surface mesh",
-                         from->path);
+        status = sb_fail(error, SB_BAD_INPUT, "%.500s: no triangles in it, expected a surface mesh", from->path);
     if (status != SB_OK) {
         free_list(&list);
         return status;

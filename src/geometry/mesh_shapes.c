@@ -10,15 +10,13 @@ enum { SEGMENTS_MIN = 12, SEGMENTS_MAX = 8192 };
 static void set_corners(sb_mesh *mesh, sb_vec3 min, sb_vec3 max)
 {
     for (int i = 0; i < 8; ++i)
-        mesh->vertices[i] =
-            sb_vec(i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z);
+        mesh->vertices[i] = sb_vec(i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z);
 }
 
 /* Two triangles of the quadrilateral a b c d, counter-clockwise as they come. */
 static void set_quad(uint32_t (*triangles)[3], const uint32_t corner[4])
 {
-    const uint32_t two[2][3] = {{corner[0], corner[1], corner[2]},
-                                {corner[0], corner[2], corner[3]}};
+    const uint32_t two[2][3] = {{corner[0], corner[1], corner[2]}, {corner[0], corner[2], corner[3]}};
     memcpy(triangles, two, sizeof two);
 }
 
@@ -28,10 +26,8 @@ static const uint32_t box_faces[6][4] = {{0, 2, 3, 1}, {0, 1, 5, 4}, {1, 3, 7, 5
 
 static sb_status check_extent(const char *what, sb_vec3 min, sb_vec3 max, sb_error *error)
 {
-    if (sb_isfinite(min) && sb_isfinite(max) && min.x < max.x && min.y < max.y && min.z < max.z)
-        return SB_OK;
-    return sb_fail(error, SB_BAD_INPUT,
-                   "%s from (%g, %g, %g) to (%g, %g, %g): expected min < max along every axis",
+    if (sb_isfinite(min) && sb_isfinite(max) && min.x < max.x && min.y < max.y && min.z < max.z) return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT, "%s from (%g, %g, %g) to (%g, %g, %g): expected min < max along every axis",
                    what, min.x, min.y, min.z, max.x, max.y, max.z);
 }
 
@@ -74,16 +70,13 @@ static size_t segment_count(double radius, double tolerance)
     return needed < SEGMENTS_MAX ? (size_t)needed : SEGMENTS_MAX;
 }
 
-sb_status sb_mesh_cylinder(sb_vec3 base, double radius, double height, double tolerance,
-                           sb_mesh *mesh, sb_error *error)
+sb_status sb_mesh_cylinder(sb_vec3 base, double radius, double height, double tolerance, sb_mesh *mesh, sb_error *error)
 {
     if (!(sb_isfinite(base) && isfinite(radius) && radius > 0 && isfinite(height) && height > 0))
-        return sb_fail(error, SB_BAD_INPUT,
-                       "cylinder of radius %g m and height %g m: expected both > 0", radius,
+        return sb_fail(error, SB_BAD_INPUT, "cylinder of radius %g m and height %g m: expected both > 0", radius,
                        height);
     if (!(tolerance > 0))
-        return sb_fail(error, SB_BAD_INPUT, "cylinder: chord tolerance %g m: expected > 0",
-                       tolerance);
+        return sb_fail(error, SB_BAD_INPUT, "cylinder: chord tolerance %g m: expected > 0", tolerance);
     size_t n = segment_count(radius, tolerance);
     sb_mesh cylinder;
     sb_status status = sb_mesh_alloc(&cylinder, 2 * n + 2, 4 * n, error);
@@ -107,16 +100,14 @@ sb_status sb_mesh_cylinder(sb_vec3 base, double radius, double height, double to
     return SB_OK;
 }
 
-sb_status sb_mesh_plane(sb_vec3 center, sb_vec3 normal, double width, double length, sb_mesh *mesh,
-                        sb_error *error)
+sb_status sb_mesh_plane(sb_vec3 center, sb_vec3 normal, double width, double length, sb_mesh *mesh, sb_error *error)
 {
     sb_vec3 n = sb_normalize(normal);
     if (!(sb_isfinite(center) && sb_isfinite(n) && sb_norm(n) > 0))
-        return sb_fail(error, SB_BAD_INPUT, "plane with normal (%g, %g, %g): expected a direction",
-                       normal.x, normal.y, normal.z);
+        return sb_fail(error, SB_BAD_INPUT, "plane with normal (%g, %g, %g): expected a direction", normal.x, normal.y,
+                       normal.z);
     if (!(isfinite(width) && width > 0 && isfinite(length) && length > 0))
-        return sb_fail(error, SB_BAD_INPUT, "plane of %g m x %g m: expected both > 0", width,
-                       length);
+        return sb_fail(error, SB_BAD_INPUT, "plane of %g m x %g m: expected both > 0", width, length);
     sb_mesh plane;
     sb_status status = sb_mesh_alloc(&plane, 4, 2, error);
     if (status != SB_OK) return status;

@@ -34,18 +34,15 @@ bool sb_mesh_is_degenerate(sb_vec3 a, sb_vec3 b, sb_vec3 c)
 static sb_status check(const sb_mesh *mesh, sb_error *error)
 {
     if (mesh->vertex_count >= UINT32_MAX)
-        return sb_fail(error, SB_BAD_INPUT, "%zu vertices, expected fewer than 2^32",
-                       mesh->vertex_count);
+        return sb_fail(error, SB_BAD_INPUT, "%zu vertices, expected fewer than 2^32", mesh->vertex_count);
     for (size_t i = 0; i < mesh->vertex_count; ++i)
         if (!sb_isfinite(mesh->vertices[i]))
-            return sb_fail(error, SB_BAD_INPUT,
-                           "vertex %zu is (%g, %g, %g), expected finite numbers", i,
+            return sb_fail(error, SB_BAD_INPUT, "vertex %zu is (%g, %g, %g), expected finite numbers", i,
                            mesh->vertices[i].x, mesh->vertices[i].y, mesh->vertices[i].z);
     for (size_t i = 0; i < mesh->triangle_count; ++i)
         for (int k = 0; k < 3; ++k)
             if (mesh->triangles[i][k] >= mesh->vertex_count)
-                return sb_fail(error, SB_BAD_INPUT,
-                               "triangle %zu has vertex %u, expected below %zu", i,
+                return sb_fail(error, SB_BAD_INPUT, "triangle %zu has vertex %u, expected below %zu", i,
                                mesh->triangles[i][k], mesh->vertex_count);
     return SB_OK;
 }
@@ -64,8 +61,7 @@ sb_status sb_mesh_weld(sb_mesh *mesh, sb_error *error)
     for (size_t i = 0; i < mesh->triangle_count; ++i) {
         uint32_t corner[3];
         for (int k = 0; k < 3; ++k) corner[k] = first[mesh->triangles[i][k]];
-        if (sb_mesh_is_degenerate(mesh->vertices[corner[0]], mesh->vertices[corner[1]],
-                                  mesh->vertices[corner[2]])) {
+        if (sb_mesh_is_degenerate(mesh->vertices[corner[0]], mesh->vertices[corner[1]], mesh->vertices[corner[2]])) {
             ++mesh->dropped;
             continue;
         }

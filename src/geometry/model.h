@@ -38,9 +38,9 @@ typedef struct sb_model {
     char **warnings; /* one line each: what the user should know before running */
 } sb_model;
 
-/* Imports, samples and fills, and warns of what is too coarse or too thin to trust; SB_BAD_INPUT for a plate thinner than
-   half a spacing, which water would pass. On error *model is untouched; SB_INTERRUPTED when the process is to stop (base/stop.h).
-   Deterministic for any thread count. */
+/* Imports, samples and fills, and warns of what is too coarse or too thin to trust; SB_BAD_INPUT for a plate thinner
+   than half a spacing, which water would pass. On error *model is untouched; SB_INTERRUPTED when the process is to stop
+   (base/stop.h). Deterministic for any thread count. */
 sb_status sb_model_build(const sb_scene *scene, sb_model *model, sb_error *error);
 void sb_model_free(sb_model *model);
 
@@ -65,8 +65,8 @@ typedef struct sb_inside_report {
 /* Asks for each point (xyz, relative to origin) whether it lies within a body by more than
    tolerance (m): a proof that walls held, independent of the boundary particles. What is beside an open
    sheet, beyond its rim, is not within it. displacement: per body, m; NULL: none moved. */
-sb_status sb_model_first_inside(const sb_model *model, const float *position, size_t count,
-                                sb_vec3 origin, const sb_vec3 *displacement, double tolerance,
-                                sb_inside_report *report, sb_error *error);
+sb_status sb_model_first_inside(const sb_model *model, const float *position, size_t count, sb_vec3 origin,
+                                const sb_vec3 *displacement, double tolerance, sb_inside_report *report,
+                                sb_error *error);
 
 #endif

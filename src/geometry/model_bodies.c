@@ -14,8 +14,7 @@ static const float moving_color[3] = {0.80F, 0.52F, 0.25F};
 static int find_wavemaker(const sb_scene *scene, const char *body, const char *part)
 {
     for (size_t i = 0; i < scene->wavemaker_count; ++i)
-        if (!strcmp(scene->wavemakers[i].body, body) || !strcmp(scene->wavemakers[i].body, part))
-            return (int)i;
+        if (!strcmp(scene->wavemakers[i].body, body) || !strcmp(scene->wavemakers[i].body, part)) return (int)i;
     return -1;
 }
 
@@ -40,14 +39,12 @@ static bool name_taken(const sb_model *model, const char *name)
 static void choose_name(const sb_model *model, const char *wanted, char name[SB_NAME_MAX])
 {
     snprintf(name, SB_NAME_MAX, "%s", wanted);
-    for (int n = 2; name_taken(model, name); ++n)
-        snprintf(name, SB_NAME_MAX, "%.*s-%d", SB_NAME_MAX - 16, wanted, n);
+    for (int n = 2; name_taken(model, name); ++n) snprintf(name, SB_NAME_MAX, "%.*s-%d", SB_NAME_MAX - 16, wanted, n);
 }
 
 static int add_body(sb_model *model, size_t *capacity, const char *wanted)
 {
-    if (sb_grow((void **)&model->bodies, capacity, model->body_count + 1, sizeof *model->bodies))
-        return -1;
+    if (sb_grow((void **)&model->bodies, capacity, model->body_count + 1, sizeof *model->bodies)) return -1;
     sb_model_body *body = model->bodies + model->body_count;
     *body = (sb_model_body){.wavemaker = -1};
     choose_name(model, wanted, body->name);
@@ -60,8 +57,7 @@ static void describe(const sb_scene *scene, const sb_body *from, sb_model_body *
     body->role = from->role;
     body->report = from->report;
     body->wavemaker = find_wavemaker(scene, from->name, body->name);
-    body->moment_point =
-        from->has_moment_point ? from->moment_point : footprint_center(&body->mesh);
+    body->moment_point = from->has_moment_point ? from->moment_point : footprint_center(&body->mesh);
     const float *color = from->role == SB_ROLE_TERRAIN ? terrain_color
                          : body->wavemaker >= 0        ? moving_color
                                                        : solid_color;
@@ -69,8 +65,8 @@ static void describe(const sb_scene *scene, const sb_body *from, sb_model_body *
 }
 
 /* The meshes of one body of the scene, each as a body of the model. */
-static sb_status add_meshes(const sb_scene *scene, const sb_body *from, sb_model *model,
-                            size_t *capacity, sb_error *error)
+static sb_status add_meshes(const sb_scene *scene, const sb_body *from, sb_model *model, size_t *capacity,
+                            sb_error *error)
 {
     sb_mesh *meshes = NULL;
     size_t count = 0;
@@ -104,8 +100,7 @@ static sb_status check_wavemakers(const sb_scene *scene, const sb_model *model, 
 {
     for (size_t i = 0; i < scene->wavemaker_count; ++i) {
         bool used = false;
-        for (size_t b = 0; b < model->body_count; ++b)
-            used = used || model->bodies[b].wavemaker == (int)i;
+        for (size_t b = 0; b < model->body_count; ++b) used = used || model->bodies[b].wavemaker == (int)i;
         if (!used)
             return sb_fail(error, SB_BAD_INPUT,
                            "wavemaker \"%s\": body \"%s\" is not among the bodies: expected the "

@@ -14,8 +14,7 @@ static sb_status check_mesh(const sb_model_body *body, sb_model *model, sb_error
     const sb_mesh *mesh = &body->mesh;
     sb_status status = SB_OK;
     if (mesh->turned > 0)
-        status = sb_model_warn(model, error,
-                               "body \"%s\": %zu faces looked away from the water and were turned",
+        status = sb_model_warn(model, error, "body \"%s\": %zu faces looked away from the water and were turned",
                                body->name, mesh->turned);
     if (body->role != SB_ROLE_SOLID || mesh->sheet || status != SB_OK) return status;
     sb_mesh_report report;
@@ -24,8 +23,8 @@ static sb_status check_mesh(const sb_model_body *body, sb_model *model, sb_error
         status = sb_model_warn(model, error,
                                "body \"%s\" is not watertight: %zu open edges, the first at (%g, "
                                "%g, %g); its inside is taken by winding number",
-                               body->name, report.open_edges, report.first_open_edge.x,
-                               report.first_open_edge.y, report.first_open_edge.z);
+                               body->name, report.open_edges, report.first_open_edge.x, report.first_open_edge.y,
+                               report.first_open_edge.z);
     if (report.flipped_faces > 0 && status == SB_OK)
         status = sb_model_warn(model, error,
                                "body \"%s\": %zu faces look the other way than their neighbours, "
@@ -33,19 +32,18 @@ static sb_status check_mesh(const sb_model_body *body, sb_model *model, sb_error
                                body->name, report.flipped_faces, report.first_flipped_face.x,
                                report.first_flipped_face.y, report.first_flipped_face.z);
     if (report.doubled_faces > 0 && status == SB_OK)
-        status = sb_model_warn(model, error, "body \"%s\": %zu faces lie twice in the same place",
-                               body->name, report.doubled_faces);
+        status = sb_model_warn(model, error, "body \"%s\": %zu faces lie twice in the same place", body->name,
+                               report.doubled_faces);
     return status;
 }
 
-static sb_status check_height(const sb_model *model, const char *what, const char *name,
-                              double height, sb_model *to, sb_error *error)
+static sb_status check_height(const sb_model *model, const char *what, const char *name, double height, sb_model *to,
+                              sb_error *error)
 {
     if (!(height > 0) || height >= HEIGHT_MIN * model->spacing) return SB_OK;
-    return sb_model_warn(to, error,
-                         "%s%s%s%s: a wave height of %g m is %.2g particles: expected %d or more",
-                         what, name ? " \"" : "", name ? name : "", name ? "\"" : "", height,
-                         height / model->spacing, HEIGHT_MIN);
+    return sb_model_warn(to, error, "%s%s%s%s: a wave height of %g m is %.2g particles: expected %d or more", what,
+                         name ? " \"" : "", name ? name : "", name ? "\"" : "", height, height / model->spacing,
+                         HEIGHT_MIN);
 }
 
 static sb_status check_water(const sb_scene *scene, sb_model *model, sb_error *error)
@@ -57,14 +55,13 @@ static sb_status check_water(const sb_scene *scene, sb_model *model, sb_error *e
                              0.5 * model->spacing);
     sb_status status = SB_OK;
     if (model->still_depth < DEPTH_MIN * model->spacing)
-        status = sb_model_warn(
-            model, error, "the water is at most %g m deep, %.2g particles: expected %d or more",
-            model->still_depth, model->still_depth / model->spacing, DEPTH_MIN);
+        status = sb_model_warn(model, error, "the water is at most %g m deep, %.2g particles: expected %d or more",
+                               model->still_depth, model->still_depth / model->spacing, DEPTH_MIN);
     if (status == SB_OK && scene->wave.kind != SB_INITIAL_NONE)
         status = check_height(model, "initial wave", NULL, scene->wave.height, model, error);
     for (size_t i = 0; i < scene->wavemaker_count && status == SB_OK; ++i)
-        status = check_height(model, "wavemaker", scene->wavemakers[i].name,
-                              scene->wavemakers[i].law.height, model, error);
+        status =
+            check_height(model, "wavemaker", scene->wavemakers[i].name, scene->wavemakers[i].law.height, model, error);
     return status;
 }
 
@@ -92,11 +89,10 @@ sb_status sb_model_check(const sb_scene *scene, const sb_model_space *space, sb_
         status = check_mesh(body, model, error);
         if (status == SB_OK) status = sb_model_check_thickness(scene, space, model, body, error);
         if (status == SB_OK && body->count == 0)
-            status =
-                sb_model_warn(model, error,
-                              "body \"%s\" has no surface that water could reach: it is outside "
-                              "of the domain or within other bodies",
-                              body->name);
+            status = sb_model_warn(model, error,
+                                   "body \"%s\" has no surface that water could reach: it is outside "
+                                   "of the domain or within other bodies",
+                                   body->name);
     }
     if (status == SB_OK) status = sb_model_warn_of_thin(scene, model, error);
     if (status == SB_OK) status = check_steps(scene, model, error);

@@ -42,8 +42,7 @@ sb_status sb_model_warn(sb_model *model, sb_error *error, const char *format, ..
     va_end(arguments);
     size_t capacity = model->warning_count;
     char *copy = sb_strdup(line);
-    if (!copy || sb_grow((void **)&model->warnings, &capacity, model->warning_count + 1,
-                         sizeof *model->warnings)) {
+    if (!copy || sb_grow((void **)&model->warnings, &capacity, model->warning_count + 1, sizeof *model->warnings)) {
         sb_free(copy);
         return sb_fail_memory(error, "warnings");
     }

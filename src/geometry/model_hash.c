@@ -12,8 +12,7 @@ uint64_t sb_model_hash(const sb_model *model)
     hash = sb_hash(hash, model->fluid_velocity, model->fluid_count * sizeof *model->fluid_velocity);
     hash = sb_hash(hash, model->fluid_pressure, model->fluid_count * sizeof *model->fluid_pressure);
     hash = sb_hash(hash, model->wall_position, model->wall_count * sizeof *model->wall_position);
-    if (model->wall_normal)
-        hash = sb_hash(hash, model->wall_normal, model->wall_count * sizeof *model->wall_normal);
+    if (model->wall_normal) hash = sb_hash(hash, model->wall_normal, model->wall_count * sizeof *model->wall_normal);
     for (size_t b = 0; b < model->body_count; b++) {
         const sb_model_body *body = &model->bodies[b];
         const uint64_t facts[] = {body->begin, body->count, (uint64_t)body->wavemaker, body->report};

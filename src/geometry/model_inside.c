@@ -2,8 +2,8 @@
 #include "geometry/model_parts.h"
 
 /* The body that holds the point by more than tolerance, or SIZE_MAX. */
-static size_t holder(const sb_model *model, const sb_model_space *space, sb_vec3 point,
-                     const sb_vec3 *displacement, double tolerance)
+static size_t holder(const sb_model *model, const sb_model_space *space, sb_vec3 point, const sb_vec3 *displacement,
+                     double tolerance)
 {
     for (size_t b = 0; b < space->count; ++b) {
         sb_vec3 at = displacement ? sb_sub(point, displacement[b]) : point;
@@ -18,13 +18,12 @@ static size_t holder(const sb_model *model, const sb_model_space *space, sb_vec3
 
 static sb_vec3 point_at(const float *position, size_t i, sb_vec3 origin)
 {
-    return sb_add(origin, sb_vec((double)position[3 * i], (double)position[3 * i + 1],
-                                 (double)position[3 * i + 2]));
+    return sb_add(origin, sb_vec((double)position[3 * i], (double)position[3 * i + 1], (double)position[3 * i + 2]));
 }
 
-sb_status sb_model_first_inside(const sb_model *model, const float *position, size_t count,
-                                sb_vec3 origin, const sb_vec3 *displacement, double tolerance,
-                                sb_inside_report *report, sb_error *error)
+sb_status sb_model_first_inside(const sb_model *model, const float *position, size_t count, sb_vec3 origin,
+                                const sb_vec3 *displacement, double tolerance, sb_inside_report *report,
+                                sb_error *error)
 {
     sb_model_space space;
     sb_status status = sb_model_space_create(model, NULL, &space, error);

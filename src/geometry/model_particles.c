@@ -5,26 +5,23 @@
 #include "geometry/sample.h"
 
 /* Those of the bodies that have a surface at all. */
-sb_status sb_model_sample(const sb_scene *scene, const sb_model_space *space, sb_model *model,
-                          sb_error *error)
+sb_status sb_model_sample(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
 {
-    const sb_sample_settings settings = {.spacing = scene->numerics.wall_spacing * scene->resolution,
-                                         .offset = scene->numerics.wall_offset * scene->resolution,
-                                         .support = scene->numerics.support * scene->resolution,
-                                         .dimensions = scene->dimensions,
-                                         .min = scene->domain.min,
-                                         .max = scene->domain.max,
-                                         .repeats = {sb_scene_repeats(scene, 0),
-                                                     sb_scene_repeats(scene, 1),
-                                                     sb_scene_repeats(scene, 2)}};
+    const sb_sample_settings settings = {
+        .spacing = scene->numerics.wall_spacing * scene->resolution,
+        .offset = scene->numerics.wall_offset * scene->resolution,
+        .support = scene->numerics.support * scene->resolution,
+        .dimensions = scene->dimensions,
+        .min = scene->domain.min,
+        .max = scene->domain.max,
+        .repeats = {sb_scene_repeats(scene, 0), sb_scene_repeats(scene, 1), sb_scene_repeats(scene, 2)}};
     sb_sample_source *sources = sb_alloc(space->count, sizeof *sources);
     if (!sources) return sb_fail_memory(error, "surfaces");
     size_t count = 0;
     for (size_t i = 0; i < space->count; ++i)
         if (space->solid[i])
-            sources[count++] =
-                (sb_sample_source){space->mesh[i], space->solid[i], model->bodies[i].role,
-                                   model->bodies[i].wavemaker >= 0};
+            sources[count++] = (sb_sample_source){space->mesh[i], space->solid[i], model->bodies[i].role,
+                                                  model->bodies[i].wavemaker >= 0};
     sb_samples samples = {.count = 0};
     sb_status status = sb_sample_surfaces(&settings, sources, count, &samples, error);
     sb_free(sources);
@@ -42,8 +39,7 @@ sb_status sb_model_sample(const sb_scene *scene, const sb_model_space *space, sb
     return SB_OK;
 }
 
-sb_status sb_model_fill(const sb_scene *scene, const sb_model_space *space, sb_model *model,
-                        sb_error *error)
+sb_status sb_model_fill(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
 {
     sb_fill_solid *solids = sb_alloc(space->count, sizeof *solids);
     if (!solids) return sb_fail_memory(error, "solids");

@@ -14,13 +14,12 @@ typedef struct sb_model_space {
     sb_solid **solid;
 } sb_model_space;
 
-sb_status sb_model_space_create(const sb_model *model, const sb_scene *domain_of,
-                                sb_model_space *space, sb_error *error);
+sb_status sb_model_space_create(const sb_model *model, const sb_scene *domain_of, sb_model_space *space,
+                                sb_error *error);
 void sb_model_space_free(sb_model_space *space);
 
 /* Warns where solids at one periodic side have nothing to go on as at the other. */
-sb_status sb_model_check_sides(const sb_scene *scene, const sb_model_space *space, sb_model *model,
-                               sb_error *error);
+sb_status sb_model_check_sides(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 
 /* Adds to model->warnings what is too coarse or too thin to trust. */
 sb_status sb_model_check(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
@@ -34,10 +33,8 @@ sb_status sb_model_check_thickness(const sb_scene *scene, const sb_model_space *
 sb_status sb_model_warn_of_thin(const sb_scene *scene, sb_model *model, sb_error *error);
 
 /* model_particles.c: places the particles of walls and of water. */
-sb_status sb_model_sample(const sb_scene *scene, const sb_model_space *space, sb_model *model,
-                          sb_error *error);
-sb_status sb_model_fill(const sb_scene *scene, const sb_model_space *space, sb_model *model,
-                        sb_error *error);
+sb_status sb_model_sample(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
+sb_status sb_model_fill(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 
 /* SB_BAD_INPUT, with the figures, when the particles of these bodies and their water would take more memory
    than there is. */

@@ -38,8 +38,8 @@ sb_status sb_model_room(const sb_scene *scene, const sb_model *bodies, sb_error 
 {
     const double spacing = scene->resolution;
     const sb_vec3 size = sb_sub(scene->domain.max, scene->domain.min);
-    const double cells = ceil(size.x / spacing) * ceil(size.z / spacing) *
-                         (scene->dimensions == 3 ? ceil(size.y / spacing) : 1);
+    const double cells =
+        ceil(size.x / spacing) * ceil(size.z / spacing) * (scene->dimensions == 3 ? ceil(size.y / spacing) : 1);
     const double free_bytes = (double)sb_memory_available();
     if (!(free_bytes > 0) || cells * (fluid_bytes + wall_bytes) < free_bytes) return SB_OK;
     /* Most scenes are less full: the question is worth a coarse look. One that fails there, as a sea may that leaks
@@ -49,8 +49,9 @@ sb_status sb_model_room(const sb_scene *scene, const sb_model *bodies, sb_error 
     if (look(scene, bodies, ratio, &found) != SB_OK) return SB_OK;
     const double bytes = found.fluid * fluid_bytes + found.walls * wall_bytes;
     if (bytes < free_bytes) return SB_OK;
-    return sb_fail(error, SB_BAD_INPUT,
-                   "resolution: %g m makes about %.2g particles of water and %.2g of walls: to place them takes %.3g GB "
-                   "of memory, and %.3g GB are free; expected a larger spacing or a smaller domain",
-                   spacing, found.fluid, found.walls, bytes / 1e9, free_bytes / 1e9);
+    return sb_fail(
+        error, SB_BAD_INPUT,
+        "resolution: %g m makes about %.2g particles of water and %.2g of walls: to place them takes %.3g GB "
+        "of memory, and %.3g GB are free; expected a larger spacing or a smaller domain",
+        spacing, found.fluid, found.walls, bytes / 1e9, free_bytes / 1e9);
 }

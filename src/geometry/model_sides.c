@@ -10,8 +10,7 @@ static const double within = 1e-3;
 static bool is_solid(const sb_model *model, const sb_model_space *space, sb_vec3 at)
 {
     for (size_t b = 0; b < space->count; ++b)
-        if (space->solid[b] && model->bodies[b].mesh.triangle_count > 0 &&
-            sb_solid_contains(space->solid[b], at))
+        if (space->solid[b] && model->bodies[b].mesh.triangle_count > 0 && sb_solid_contains(space->solid[b], at))
             return true;
     return false;
 }
@@ -49,8 +48,7 @@ static sb_vec3 point_on(const sides *s, size_t i, size_t k, bool upper)
 static sb_status check_axis(const sb_model_space *space, sb_model *model, int axis, sb_error *error)
 {
     sb_vec3 size = sb_sub(model->max, model->min);
-    sides s = {model, axis, places(axis == 0 ? size.y : size.x, model->spacing),
-               places(size.z, model->spacing)};
+    sides s = {model, axis, places(axis == 0 ? size.y : size.x, model->spacing), places(size.z, model->spacing)};
     if (axis == 0 && model->dimensions == 2) s.across = 1;
     size_t all = s.across * s.up, count = 0, first = all;
 #pragma omp parallel for schedule(dynamic, 64) reduction(+ : count) reduction(min : first)
@@ -70,8 +68,7 @@ static sb_status check_axis(const sb_model_space *space, sb_model *model, int ax
                          "xy"[axis], count, all, at.x, at.y, at.z);
 }
 
-sb_status sb_model_check_sides(const sb_scene *scene, const sb_model_space *space, sb_model *model,
-                               sb_error *error)
+sb_status sb_model_check_sides(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
 {
     sb_status status = SB_OK;
     for (int axis = 0; axis < 2 && status == SB_OK; ++axis)

@@ -20,14 +20,11 @@ static sb_status domain_mesh(const sb_scene *scene, sb_mesh *mesh, sb_error *err
     sb_vec3 min = scene->domain.min, max = scene->domain.max;
     for (uint32_t i = 0; i < 8; ++i)
         made.vertices[i] =
-            sb_vec(i & 1 ? max.x : min.x, flat ? (i & 2 ? 1 : -1) : (i & 2 ? max.y : min.y),
-                   i & 4 ? max.z : min.z);
+            sb_vec(i & 1 ? max.x : min.x, flat ? (i & 2 ? 1 : -1) : (i & 2 ? max.y : min.y), i & 4 ? max.z : min.z);
     made.triangle_count = 0;
     made.sheet = true;
     for (int side = 0; side < SB_SIDES; ++side) {
-        if (scene->domain.side[side] != SB_SIDE_WALL ||
-            (flat && (side == SB_Y_MIN || side == SB_Y_MAX)))
-            continue;
+        if (scene->domain.side[side] != SB_SIDE_WALL || (flat && (side == SB_Y_MIN || side == SB_Y_MAX))) continue;
         const uint32_t *c = side_corners[side];
         const uint32_t two[2][3] = {{c[0], c[1], c[2]}, {c[0], c[2], c[3]}};
         memcpy(made.triangles + made.triangle_count, two, sizeof two);
@@ -45,8 +42,8 @@ static double strip_width(const sb_model *model)
 }
 
 /* The mesh to ask: the body's own, or its section; and its solid. */
-static sb_status add_solid(const sb_model *model, const sb_scene *scene, size_t index,
-                           sb_model_space *space, sb_error *error)
+static sb_status add_solid(const sb_model *model, const sb_scene *scene, size_t index, sb_model_space *space,
+                           sb_error *error)
 {
     const sb_model_body *body = model->bodies + index;
     sb_mesh walls = {.sheet = true};
@@ -70,8 +67,8 @@ static sb_status add_solid(const sb_model *model, const sb_scene *scene, size_t 
     return status;
 }
 
-sb_status sb_model_space_create(const sb_model *model, const sb_scene *domain_of,
-                                sb_model_space *space, sb_error *error)
+sb_status sb_model_space_create(const sb_model *model, const sb_scene *domain_of, sb_model_space *space,
+                                sb_error *error)
 {
     sb_model_space made = {.count = model->body_count};
     made.section = sb_alloc(made.count, sizeof *made.section);
@@ -82,8 +79,7 @@ sb_status sb_model_space_create(const sb_model *model, const sb_scene *domain_of
         return sb_fail_memory(error, "search trees");
     }
     sb_status status = SB_OK;
-    for (size_t i = 0; i < made.count && status == SB_OK; ++i)
-        status = add_solid(model, domain_of, i, &made, error);
+    for (size_t i = 0; i < made.count && status == SB_OK; ++i) status = add_solid(model, domain_of, i, &made, error);
     if (status != SB_OK) {
         sb_model_space_free(&made);
         return status;

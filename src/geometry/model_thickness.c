@@ -122,8 +122,7 @@ sb_status sb_model_check_thickness(const sb_scene *scene, const sb_model_space *
     if (status != SB_OK) return status;
     find_thickness(model, space, &body->mesh, solid, &found);
     sb_solid_destroy(solid);
-    if (found.leaky > bulk_share * found.area)
-        return refuse(scene, body->name, found.leaky_depth / found.leaky, error);
+    if (found.leaky > bulk_share * found.area) return refuse(scene, body->name, found.leaky_depth / found.leaky, error);
     double thick = plate_thickness(&found);
     body->thin = thick < found.limit ? thick : 0;
     return SB_OK;

@@ -93,8 +93,8 @@ static int sort_out(const sb_sample_set *all, size_t source_count, sb_samples *o
     return 0;
 }
 
-sb_status sb_sample_surfaces(const sb_sample_settings *settings, const sb_sample_source *sources,
-                             size_t count, sb_samples *samples, sb_error *error)
+sb_status sb_sample_surfaces(const sb_sample_settings *settings, const sb_sample_source *sources, size_t count,
+                             sb_samples *samples, sb_error *error)
 {
     sb_sampler sampler = {.settings = *settings};
     /* Cells of one spacing: questions reach less far, so they look into 27 at most. */

@@ -37,8 +37,7 @@ static sb_vec3 normal_of(const sb_sampler *sampler, const sb_sample *sample)
         sb_dot(faces[0], sum) < same_face)
         return sample->normal;
     int count = 1;
-    while (count < FACES &&
-           face_near(sampler, sample->source, sb_madd(sample->at, -step, sum), reach, &faces[count]) &&
+    while (count < FACES && face_near(sampler, sample->source, sb_madd(sample->at, -step, sum), reach, &faces[count]) &&
            is_new(faces, count, faces[count]))
         sum = sb_add(sum, faces[count++]);
     return sb_normalize(sum);

@@ -25,8 +25,7 @@ static sb_vec3 find_axis(const sb_sampler *sampler, size_t index)
         double angle = i * M_PI / 4;
         sb_vec3 at = sb_madd(s->at, spacing * cos(angle), u);
         size_t near = index;
-        sb_sample_set_nearest(&sampler->set, sb_madd(at, spacing * sin(angle), v), 0.45 * spacing,
-                              &near);
+        sb_sample_set_nearest(&sampler->set, sb_madd(at, spacing * sin(angle), v), 0.45 * spacing, &near);
         if (near == index) continue;
         sb_vec3 arm = sb_sub(sampler->set.sample[near].at, s->at);
         return sb_normalize(sb_madd(arm, -sb_dot(arm, s->normal), s->normal));
@@ -44,8 +43,7 @@ static void propose(const sb_sampler *sampler, size_t index, proposals *out)
     for (int i = 0; i < (sampler->settings.dimensions == 2 ? 2 : PROPOSALS); ++i) {
         sb_vec3 at = sb_madd(s->at, spacing, direction[i]);
         sb_sample *next = out->sample + out->count;
-        if (!sb_sample_set_any(&sampler->set, at, least) &&
-            sb_sample_project(sampler, s->source, at, next) &&
+        if (!sb_sample_set_any(&sampler->set, at, least) && sb_sample_project(sampler, s->source, at, next) &&
             !sb_sample_set_any(&sampler->set, next->at, least))
             ++out->count;
     }
@@ -61,15 +59,13 @@ static int plant_seeds(sb_sampler *sampler, uint32_t index)
     for (size_t t = 0; t < mesh->triangle_count && !failed && !surface->mixed; ++t) {
         if (done[surface->part[t]] || sb_dot(surface->normal[t], surface->normal[t]) == 0) continue;
         sb_vec3 at = {0}, placed, inward = sb_scale(surface->normal[t], -1);
-        for (int i = 0; i < 3; ++i)
-            at = sb_madd(at, 1.0 / 3, mesh->vertices[mesh->triangles[t][i]]);
+        for (int i = 0; i < 3; ++i) at = sb_madd(at, 1.0 / 3, mesh->vertices[mesh->triangles[t][i]]);
         if (sampler->settings.dimensions == 2) at.y = 0;
         double margin;
         if (sb_sample_place(sampler, index, at, inward, &placed, &margin) != SB_PLACED) continue;
         done[surface->part[t]] = true;
         if (!sb_sample_set_any(&sampler->set, placed, 2 * sampler->settings.spacing))
-            failed =
-                sb_sample_set_add(&sampler->set, &(sb_sample){placed, surface->normal[t], index});
+            failed = sb_sample_set_add(&sampler->set, &(sb_sample){placed, surface->normal[t], index});
     }
     sb_free(done);
     return failed;

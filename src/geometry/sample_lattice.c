@@ -25,9 +25,8 @@ int sb_candidate_flush(sb_sampler *sampler, sb_candidate_batch *batch)
         }
         /* What another solid covers waits for the filling of voids: a slope that runs on just below
            a deck would else take the deck's places. */
-        batch->good[i] =
-            sb_sample_exposed(sampler, c->surface, c->at, sb_scale(c->inward, -1)) &&
-            sb_sample_place(sampler, c->surface, c->at, c->inward, &placed, &margin) == SB_PLACED;
+        batch->good[i] = sb_sample_exposed(sampler, c->surface, c->at, sb_scale(c->inward, -1)) &&
+                         sb_sample_place(sampler, c->surface, c->at, c->inward, &placed, &margin) == SB_PLACED;
         if (batch->good[i]) c->at = placed;
     }
     double least = SB_SAMPLE_LATTICE * sampler->settings.spacing;
@@ -35,8 +34,7 @@ int sb_candidate_flush(sb_sampler *sampler, sb_candidate_batch *batch)
     for (size_t i = 0; i < batch->count && !failed; ++i) {
         const sb_candidate *c = batch->candidate + i;
         if (batch->good[i] && !sb_sample_set_any(&sampler->set, c->at, least))
-            failed = sb_sample_set_add(&sampler->set,
-                                       &(sb_sample){c->at, sb_scale(c->inward, -1), c->surface});
+            failed = sb_sample_set_add(&sampler->set, &(sb_sample){c->at, sb_scale(c->inward, -1), c->surface});
     }
     batch->count = 0;
     return failed;
@@ -78,8 +76,8 @@ static void span_row(const double u[3], const double v[3], double row, double *f
 }
 
 /* Lattice points within one triangle, row by row. */
-static int scan_triangle(sb_sampler *sampler, sb_candidate_batch *batch, const sb_lattice *l,
-                         const sb_vec3 corner[3], sb_candidate candidate)
+static int scan_triangle(sb_sampler *sampler, sb_candidate_batch *batch, const sb_lattice *l, const sb_vec3 corner[3],
+                         sb_candidate candidate)
 {
     double u[3], v[3];
     to_lattice(l, corner, u, v);
@@ -98,8 +96,8 @@ static int scan_triangle(sb_sampler *sampler, sb_candidate_batch *batch, const s
             double at = (double)m + 0.5;
             double b = ((at - u[0]) * (v[2] - v[0]) - (u[2] - u[0]) * (row - v[0])) / area;
             double c = ((u[1] - u[0]) * (row - v[0]) - (at - u[0]) * (v[1] - v[0])) / area;
-            candidate.at = sb_madd(sb_madd(corner[0], b, sb_sub(corner[1], corner[0])), c,
-                                   sb_sub(corner[2], corner[0]));
+            candidate.at =
+                sb_madd(sb_madd(corner[0], b, sb_sub(corner[1], corner[0])), c, sb_sub(corner[2], corner[0]));
             if (sb_candidate_push(sampler, batch, candidate)) return -1;
         }
     }
@@ -131,8 +129,7 @@ static int scan_faces(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t i
 }
 
 /* Evenly along a straight edge, in step with the world's lattice where it follows an axis. */
-static int scan_line(sb_sampler *sampler, sb_candidate_batch *batch, sb_vec3 a, sb_vec3 b,
-                     sb_candidate candidate)
+static int scan_line(sb_sampler *sampler, sb_candidate_batch *batch, sb_vec3 a, sb_vec3 b, sb_candidate candidate)
 {
     double spacing = sampler->settings.spacing, length = sb_norm(sb_sub(b, a));
     sb_vec3 along = sb_normalize(sb_sub(b, a));
@@ -152,8 +149,7 @@ static int scan_line(sb_sampler *sampler, sb_candidate_batch *batch, sb_vec3 a, 
 }
 
 /* Where the two sheets along a concave edge meet: a chain at the mitre. */
-static int scan_crease(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t index,
-                       const sb_crease *crease)
+static int scan_crease(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t index, const sb_crease *crease)
 {
     double cosine = sb_dot(crease->normal[0], crease->normal[1]);
     if (cosine < mitre_cosine || cosine > 0.9) return 0;
@@ -173,20 +169,18 @@ static int scan_crease(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t 
 }
 
 /* Where three sheets meet: the point at the offset behind all three planes. */
-static int scan_cap(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t index,
-                    const sb_cap *cap)
+static int scan_cap(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t index, const sb_cap *cap)
 {
     const sb_vec3 *n = cap->normal;
     double volume = sb_dot(n[0], sb_cross(n[1], n[2])), offset = sampler->settings.offset;
     if (sampler->settings.dimensions == 2 || fabs(volume) < 0.3) return 0;
     sb_vec3 sum = sb_add(sb_cross(n[0], n[1]), sb_add(sb_cross(n[1], n[2]), sb_cross(n[2], n[0])));
-    return sb_candidate_push(
-        sampler, batch,
-        (sb_candidate){.at = sb_madd(cap->at, -offset / volume, sum),
-                       .inward = sb_scale(sb_normalize(sum), volume > 0 ? -1 : 1),
-                       .surface = index,
-                       .placed = true,
-                       .reach = offset});
+    return sb_candidate_push(sampler, batch,
+                             (sb_candidate){.at = sb_madd(cap->at, -offset / volume, sum),
+                                            .inward = sb_scale(sb_normalize(sum), volume > 0 ? -1 : 1),
+                                            .surface = index,
+                                            .placed = true,
+                                            .reach = offset});
 }
 
 /* The curve in y = 0: each strip of a section is two triangles, its piece lies at half its height.
@@ -196,12 +190,10 @@ static int scan_strips(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t 
     const sb_surface *surface = sampler->surfaces + index;
     const sb_mesh *mesh = sb_surface_mesh(surface);
     for (size_t t = 0; t + 1 < mesh->triangle_count; t += 2) {
-        sb_vec3 a = mesh->vertices[mesh->triangles[t][0]],
-                b = mesh->vertices[mesh->triangles[t][1]];
+        sb_vec3 a = mesh->vertices[mesh->triangles[t][0]], b = mesh->vertices[mesh->triangles[t][1]];
         a.y = b.y = 0;
         sb_vec3 n = surface->normal[t];
-        if (sb_dot(n, n) == 0 || (sb_norm(sb_sub(b, a)) < sampler->settings.spacing && !sb_sample_is_axis(n)))
-            continue;
+        if (sb_dot(n, n) == 0 || (sb_norm(sb_sub(b, a)) < sampler->settings.spacing && !sb_sample_is_axis(n))) continue;
         sb_candidate candidate = {.inward = sb_scale(n, -1), .surface = index};
         if (scan_line(sampler, batch, a, b, candidate)) return -1;
     }
@@ -210,8 +202,7 @@ static int scan_strips(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t 
 
 static int scan_surface(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t index)
 {
-    return sampler->settings.dimensions == 2 ? scan_strips(sampler, batch, index)
-                                             : scan_faces(sampler, batch, index);
+    return sampler->settings.dimensions == 2 ? scan_strips(sampler, batch, index) : scan_faces(sampler, batch, index);
 }
 
 static int scan_corners(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t index)
@@ -227,15 +218,13 @@ static int scan_corners(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t
 
 int sb_sample_lattices(sb_sampler *sampler)
 {
-    sb_candidate_batch batch = {.candidate =
-                                    sb_alloc_untouched(SB_SAMPLE_BATCH, sizeof *batch.candidate),
+    sb_candidate_batch batch = {.candidate = sb_alloc_untouched(SB_SAMPLE_BATCH, sizeof *batch.candidate),
                                 .good = sb_alloc_untouched(SB_SAMPLE_BATCH, sizeof *batch.good)};
     int failed = !batch.candidate || !batch.good;
     for (int stage = 0; stage < 2 && !failed; ++stage) {
         for (uint32_t i = sampler->first; i < sampler->last && !failed; ++i)
             if (sb_sampler_takes(sampler, i))
-                failed = stage == 0 ? scan_surface(sampler, &batch, i)
-                                    : scan_corners(sampler, &batch, i);
+                failed = stage == 0 ? scan_surface(sampler, &batch, i) : scan_corners(sampler, &batch, i);
         failed = failed || sb_candidate_flush(sampler, &batch);
     }
     sb_free(batch.candidate);

@@ -34,11 +34,11 @@ typedef struct sb_cap {
 typedef struct sb_surface {
     const sb_sample_source *source;
     sb_vec3 min, max;
-    bool bounded;    /* nothing outside of the box is inside the solid */
-    bool mixed;      /* faces of both orientations: a neighbour's normal says nothing */
-    double sign;     /* of the mesh's normals: -1 for a wholly flipped mesh */
-    sb_vec3 *normal; /* per triangle, unit, towards the water; zero when degenerate, or when it lies
-                        in a side at which the domain repeats: then it is no surface */
+    bool bounded;     /* nothing outside of the box is inside the solid */
+    bool mixed;       /* faces of both orientations: a neighbour's normal says nothing */
+    double sign;      /* of the mesh's normals: -1 for a wholly flipped mesh */
+    sb_vec3 *normal;  /* per triangle, unit, towards the water; zero when degenerate, or when it lies
+                         in a side at which the domain repeats: then it is no surface */
     uint32_t *region; /* per triangle: first triangle of its plane */
     uint32_t *part;   /* per triangle: first triangle of its connected part */
     size_t crease_count, crease_capacity, cap_count, cap_capacity, ridge_count, ridge_capacity;
@@ -74,8 +74,8 @@ static inline const sb_mesh *sb_surface_mesh(const sb_surface *surface)
 }
 
 /* Orientation, planes, parts and creases of a source's mesh. */
-sb_status sb_surface_build(const sb_sample_source *source, const sb_sample_settings *settings,
-                           sb_surface *surface, sb_error *error);
+sb_status sb_surface_build(const sb_sample_source *source, const sb_sample_settings *settings, sb_surface *surface,
+                           sb_error *error);
 void sb_surface_free(sb_surface *surface);
 
 /* Whether the present group samples this surface. */
@@ -105,8 +105,8 @@ int sb_sample_dominant(sb_vec3 n);
 /* Where a surface point goes. BURIED and CROWDED: nowhere; then all surface points within *margin
    of this one share its fate (0: none may). */
 typedef enum sb_placement { SB_PLACED, SB_BURIED, SB_CROWDED } sb_placement;
-sb_placement sb_sample_place(const sb_sampler *sampler, uint32_t surface, sb_vec3 at,
-                             sb_vec3 inward, sb_vec3 *placed, double *margin);
+sb_placement sb_sample_place(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_vec3 inward, sb_vec3 *placed,
+                             double *margin);
 /* The distance to the nearest point of a surface before which water may stand, as sb_solid_distance; *normal points to
    the water. The end of a solid in a side at which the domain repeats is no surface, for the solid goes on at the other
    side: beside it the answer is that of a place further in. */

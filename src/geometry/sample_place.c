@@ -13,9 +13,8 @@ enum { THIN_STEPS = 8 };
 
 static bool inside_box(const sb_surface *surface, sb_vec3 at, double margin)
 {
-    return at.x > surface->min.x - margin && at.x < surface->max.x + margin &&
-           at.y > surface->min.y - margin && at.y < surface->max.y + margin &&
-           at.z > surface->min.z - margin && at.z < surface->max.z + margin;
+    return at.x > surface->min.x - margin && at.x < surface->max.x + margin && at.y > surface->min.y - margin &&
+           at.y < surface->max.y + margin && at.z > surface->min.z - margin && at.z < surface->max.z + margin;
 }
 
 static bool contains(const sb_surface *surface, sb_vec3 at)
@@ -24,8 +23,7 @@ static bool contains(const sb_surface *surface, sb_vec3 at)
         /* A terrain reaches down without end. */
         bool beside = at.x < surface->min.x || at.x > surface->max.x || at.y < surface->min.y ||
                       at.y > surface->max.y || at.z > surface->max.z;
-        if (beside || (surface->source->role == SB_ROLE_SOLID && at.z < surface->min.z))
-            return false;
+        if (beside || (surface->source->role == SB_ROLE_SOLID && at.z < surface->min.z)) return false;
     }
     return sb_solid_contains(surface->source->solid, at);
 }
@@ -33,8 +31,7 @@ static bool contains(const sb_surface *surface, sb_vec3 at)
 /* Other surfaces that may hide a point of this one: static ones, from static ones. */
 static bool may_hide(const sb_sampler *sampler, uint32_t surface, uint32_t other)
 {
-    return other != surface && !sampler->surfaces[surface].source->moving &&
-           !sampler->surfaces[other].source->moving;
+    return other != surface && !sampler->surfaces[surface].source->moving && !sampler->surfaces[other].source->moving;
 }
 
 /* Within another solid there is a ball that touches the surface from the water's side, so wide that the other's own
@@ -48,9 +45,7 @@ bool sb_sample_buried(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, s
     if (settings->dimensions == 2) out.y = 0;
     if (sb_norm(out) > settings->support + radius) return true;
     for (int axis = 0; axis < 3; ++axis)
-        if (settings->repeats[axis] &&
-            sb_sample_beyond(settings, at, axis) > settings->offset + radius)
-            return true;
+        if (settings->repeats[axis] && sb_sample_beyond(settings, at, axis) > settings->offset + radius) return true;
     double ball = settings->offset + burial * settings->spacing + radius;
     sb_vec3 center = sb_madd(at, -(1 + 1e-6) * ball, inward);
     for (uint32_t i = 0; i < sampler->surface_count; ++i) {
@@ -73,8 +68,7 @@ bool sb_sample_exposed(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, 
 /* The mesh's normal, turned towards the water. */
 static sb_vec3 water_normal(const sb_surface *surface, sb_vec3 normal)
 {
-    if (surface->source->role == SB_ROLE_TERRAIN)
-        return normal.z < 0 ? sb_scale(normal, -1) : normal;
+    if (surface->source->role == SB_ROLE_TERRAIN) return normal.z < 0 ? sb_scale(normal, -1) : normal;
     return sb_scale(normal, surface->sign);
 }
 
@@ -83,8 +77,8 @@ static bool in_side(const sb_sample_settings *settings, sb_vec3 at)
 {
     bool in = false;
     for (int axis = 0; axis < 3; ++axis)
-        in = in || (settings->repeats[axis] && fabs(sb_sample_beyond(settings, at, axis)) <
-                                                   SB_SAMPLE_SIDE * settings->spacing);
+        in = in || (settings->repeats[axis] &&
+                    fabs(sb_sample_beyond(settings, at, axis)) < SB_SAMPLE_SIDE * settings->spacing);
     return in;
 }
 
@@ -140,13 +134,12 @@ double sb_sample_distance(const sb_sampler *sampler, uint32_t surface, sb_vec3 a
 }
 
 /* The distance from a point of the sheet to the nearest exposed surface, at most limit. */
-static double clearance(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, double limit,
-                        sb_vec3 *nearest, sb_vec3 *normal)
+static double clearance(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, double limit, sb_vec3 *nearest,
+                        sb_vec3 *normal)
 {
     double best = limit;
     for (uint32_t i = 0; i < sampler->surface_count; ++i) {
-        if ((i != surface && !may_hide(sampler, surface, i)) || !inside_box(sampler->surfaces + i, at, best))
-            continue;
+        if ((i != surface && !may_hide(sampler, surface, i)) || !inside_box(sampler->surfaces + i, at, best)) continue;
         sb_vec3 place, toward;
         double distance = sb_sample_distance(sampler, i, at, best, &place, &toward);
         if (distance >= best) continue;
@@ -165,8 +158,8 @@ bool sb_sample_fits(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_
            !(clearance(sampler, surface, at, least, &nearest, &normal) < least);
 }
 
-sb_placement sb_sample_place(const sb_sampler *sampler, uint32_t surface, sb_vec3 at,
-                             sb_vec3 inward, sb_vec3 *placed, double *margin)
+sb_placement sb_sample_place(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_vec3 inward, sb_vec3 *placed,
+                             double *margin)
 {
     *margin = 0;
     if (sb_sample_buried(sampler, surface, at, inward, 0)) return SB_BURIED;
@@ -200,8 +193,7 @@ bool sb_sample_project(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, 
     normal = water_normal(on, normal);
     sb_vec3 inward = sb_scale(normal, -1);
     double margin;
-    if (sb_sample_place(sampler, surface, foot, inward, &sample->at, &margin) != SB_PLACED)
-        return false;
+    if (sb_sample_place(sampler, surface, foot, inward, &sample->at, &margin) != SB_PLACED) return false;
     if (sampler->settings.dimensions == 2) sample->at.y = 0;
     sample->normal = sb_scale(inward, -1);
     sample->source = surface;

@@ -94,8 +94,9 @@ static sb_lattice choose_lattice(const sb_sample_settings *settings, sb_vec3 n, 
     const bool edges = e->edge_u || e->edge_v;
     if (sb_dot(n, n) == 0) return (sb_lattice){.suits = false};
     if (!edges && c[k] > projected_cosine)
-        return (sb_lattice){axis_of(i), axis_of(j), settings->min, sb_sample_axis_step(settings, i),
-                            sb_sample_axis_step(settings, j), true};
+        return (sb_lattice){
+            axis_of(i), axis_of(j), settings->min, sb_sample_axis_step(settings, i), sb_sample_axis_step(settings, j),
+            true};
     if (!edges && !(fmin(e->max_u - e->min_u, e->max_v - e->min_v) > fitted_extent * settings->spacing))
         return (sb_lattice){.suits = false};
     const rows u = rows_along(settings, e->u, e->min_u, e->max_u, e->edge_u);
@@ -111,8 +112,7 @@ static void measure_planes(const sb_surface *surface, extent *extents)
     for (size_t t = 0; t < mesh->triangle_count; ++t) {
         extent *e = extents + surface->region[t];
         if (surface->region[t] == t) {
-            *e = (extent){
-                .min_u = HUGE_VAL, .max_u = -HUGE_VAL, .min_v = HUGE_VAL, .max_v = -HUGE_VAL};
+            *e = (extent){.min_u = HUGE_VAL, .max_u = -HUGE_VAL, .min_v = HUGE_VAL, .max_v = -HUGE_VAL};
             plane_axes(surface->normal[t], e);
         }
         for (int i = 0; i < 3; ++i) {
@@ -145,8 +145,7 @@ static void find_ends(const sb_sampler *sampler, uint32_t index, extent *extents
             const sb_vec3 own = surface->normal[ridge->triangle[side]];
             const sb_vec3 other = surface->normal[ridge->triangle[1 - side]];
             const sb_vec3 middle = sb_scale(sb_add(ridge->a, ridge->b), 0.5);
-            if (fabs(sb_dot(own, other)) > upright || !sb_sample_exposed(sampler, index, middle, other))
-                continue;
+            if (fabs(sb_dot(own, other)) > upright || !sb_sample_exposed(sampler, index, middle, other)) continue;
             e->edge_u |= end_of(sb_dot(ridge->a, e->u), sb_dot(ridge->b, e->u), e->min_u, e->max_u, near);
             e->edge_v |= end_of(sb_dot(ridge->a, e->v), sb_dot(ridge->b, e->v), e->min_v, e->max_v, near);
         }
@@ -161,8 +160,7 @@ int sb_sample_planes(const sb_sampler *sampler, uint32_t index, sb_lattice *latt
     measure_planes(surface, extents);
     find_ends(sampler, index, extents);
     for (size_t t = 0; t < count; ++t)
-        if (surface->region[t] == t)
-            lattices[t] = choose_lattice(&sampler->settings, surface->normal[t], extents + t);
+        if (surface->region[t] == t) lattices[t] = choose_lattice(&sampler->settings, surface->normal[t], extents + t);
     sb_free(extents);
     return 0;
 }

@@ -20,13 +20,11 @@ static sb_vec3 crossing(sb_vec3 a, sb_vec3 b)
 /* The piece of a triangle in y = 0, its normal to the left of a->b seen along +y; false: none. */
 static bool cut(const sb_mesh *mesh, size_t t, sb_vec3 piece[2])
 {
-    const sb_vec3 c[3] = {mesh->vertices[mesh->triangles[t][0]],
-                          mesh->vertices[mesh->triangles[t][1]],
+    const sb_vec3 c[3] = {mesh->vertices[mesh->triangles[t][0]], mesh->vertices[mesh->triangles[t][1]],
                           mesh->vertices[mesh->triangles[t][2]]};
     int count = 0;
     for (int i = 0; i < 3; ++i)
-        if (side_of(c[i]) * side_of(c[(i + 1) % 3]) < 0 && count < 2)
-            piece[count++] = crossing(c[i], c[(i + 1) % 3]);
+        if (side_of(c[i]) * side_of(c[(i + 1) % 3]) < 0 && count < 2) piece[count++] = crossing(c[i], c[(i + 1) % 3]);
     sb_vec3 arm = count == 2 ? sb_sub(piece[1], piece[0]) : sb_vec(0, 0, 0);
     if (!(sb_dot(arm, arm) > 0)) return false;
     sb_vec3 n = sb_cross(sb_sub(c[1], c[0]), sb_sub(c[2], c[0]));

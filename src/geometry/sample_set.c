@@ -80,11 +80,9 @@ static int make_room(sb_sample_set *set)
 int sb_sample_set_add(sb_sample_set *set, const sb_sample *sample)
 {
     if (set->count + 1 >= UINT32_MAX || make_room(set) ||
-        sb_grow((void **)&set->sample, &set->sample_capacity, set->count + 1,
-                sizeof *set->sample) ||
+        sb_grow((void **)&set->sample, &set->sample_capacity, set->count + 1, sizeof *set->sample) ||
         sb_grow((void **)&set->next, &set->next_capacity, set->count + 1, sizeof *set->next) ||
-        sb_grow((void **)&set->block, &set->block_capacity, set->block_count + 1,
-                sizeof *set->block))
+        sb_grow((void **)&set->block, &set->block_capacity, set->block_count + 1, sizeof *set->block))
         return -1;
     place at = cell_of(set, sample->at);
     uint64_t key = key_of(at.x >> 2, at.y >> 2, at.z >> 2);
@@ -102,8 +100,7 @@ int sb_sample_set_add(sb_sample_set *set, const sb_sample *sample)
 }
 
 /* The nearest sample of one cell's chain, when nearer than *best2. */
-static void scan_chain(const sb_sample_set *set, uint32_t head, sb_vec3 at, double *best2,
-                       size_t *index)
+static void scan_chain(const sb_sample_set *set, uint32_t head, sb_vec3 at, double *best2, size_t *index)
 {
     for (; head; head = set->next[head - 1]) {
         sb_vec3 arm = sb_sub(set->sample[head - 1].at, at);
@@ -127,8 +124,7 @@ static double search(const sb_sample_set *set, sb_vec3 at, double limit, bool an
             for (int64_t bx = low.x >> 2; bx <= high.x >> 2; ++bx) {
                 const uint32_t *block = find_block(set, bx, by, bz);
                 if (!block) continue;
-                const place first = {bx * 4 > low.x ? bx * 4 : low.x,
-                                     by * 4 > low.y ? by * 4 : low.y,
+                const place first = {bx * 4 > low.x ? bx * 4 : low.x, by * 4 > low.y ? by * 4 : low.y,
                                      bz * 4 > low.z ? bz * 4 : low.z};
                 const place last = {bx * 4 + 3 < high.x ? bx * 4 + 3 : high.x,
                                     by * 4 + 3 < high.y ? by * 4 + 3 : high.y,

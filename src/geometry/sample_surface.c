@@ -35,8 +35,7 @@ static sb_vec3 corner(const sb_mesh *mesh, size_t triangle, int i)
 
 static sb_vec3 centroid(const sb_mesh *mesh, size_t t)
 {
-    return sb_scale(sb_add(corner(mesh, t, 0), sb_add(corner(mesh, t, 1), corner(mesh, t, 2))),
-                    1.0 / 3);
+    return sb_scale(sb_add(corner(mesh, t, 0), sb_add(corner(mesh, t, 1), corner(mesh, t, 2))), 1.0 / 3);
 }
 
 /* Turns the normals of faces whose water lies behind them, by asking the solid on both sides. */
@@ -47,8 +46,7 @@ static void orient_faces(sb_surface *surface, double step)
 #pragma omp parallel for schedule(dynamic, 64)
     for (size_t t = 0; t < mesh->triangle_count; ++t) {
         sb_vec3 at = centroid(mesh, t), n = surface->normal[t];
-        if (sb_solid_contains(solid, sb_madd(at, step, n)) &&
-            !sb_solid_contains(solid, sb_madd(at, -step, n)))
+        if (sb_solid_contains(solid, sb_madd(at, step, n)) && !sb_solid_contains(solid, sb_madd(at, -step, n)))
             surface->normal[t] = sb_scale(n, -1);
     }
 }
@@ -145,15 +143,14 @@ static int add_ridges(sb_surface *surface, const sb_mesh_edge *edge, const sb_me
             if (sb_grow((void **)&surface->ridges, &surface->ridge_capacity, surface->ridge_count + 1,
                         sizeof *surface->ridges))
                 return -1;
-            surface->ridges[surface->ridge_count++] = (sb_ridge){
-                mesh->vertices[one->low], mesh->vertices[one->high], {one->triangle, other->triangle}};
+            surface->ridges[surface->ridge_count++] =
+                (sb_ridge){mesh->vertices[one->low], mesh->vertices[one->high], {one->triangle, other->triangle}};
         }
     return 0;
 }
 
 /* Planes, parts and creases from the pairs of faces that share an edge. */
-static int join_faces(sb_surface *surface, const sb_mesh_edges *list,
-                      const sb_sample_settings *settings)
+static int join_faces(sb_surface *surface, const sb_mesh_edges *list, const sb_sample_settings *settings)
 {
     const sb_mesh *mesh = sb_surface_mesh(surface);
     const sb_mesh_edge *edges = list->edges;
@@ -171,11 +168,11 @@ static int join_faces(sb_surface *surface, const sb_mesh_edges *list,
             settings->offset * sb_norm(sb_sub(first, second)) < arc_min * settings->spacing ||
             !is_concave(surface, edges + i, edges + i + 1))
             continue;
-        if (sb_grow((void **)&surface->creases, &surface->crease_capacity,
-                    surface->crease_count + 1, sizeof *surface->creases))
+        if (sb_grow((void **)&surface->creases, &surface->crease_capacity, surface->crease_count + 1,
+                    sizeof *surface->creases))
             return -1;
-        surface->creases[surface->crease_count++] = (sb_crease){
-            mesh->vertices[edges[i].low], mesh->vertices[edges[i].high], {first, second}};
+        surface->creases[surface->crease_count++] =
+            (sb_crease){mesh->vertices[edges[i].low], mesh->vertices[edges[i].high], {first, second}};
     }
     for (uint32_t t = 0; t < mesh->triangle_count; ++t) {
         surface->region[t] = find_root(surface->region, t);
@@ -189,11 +186,9 @@ enum { NORMALS_MAX = 8 };
 static int add_caps(sb_surface *surface, sb_vec3 at, const sb_vec3 *normals, size_t count)
 {
     for (size_t i = 1; i + 1 < count; ++i) {
-        if (sb_grow((void **)&surface->caps, &surface->cap_capacity, surface->cap_count + 1,
-                    sizeof *surface->caps))
+        if (sb_grow((void **)&surface->caps, &surface->cap_capacity, surface->cap_count + 1, sizeof *surface->caps))
             return -1;
-        surface->caps[surface->cap_count++] =
-            (sb_cap){at, {normals[0], normals[i], normals[i + 1]}};
+        surface->caps[surface->cap_count++] = (sb_cap){at, {normals[0], normals[i], normals[i + 1]}};
     }
     return 0;
 }
@@ -229,8 +224,7 @@ static int find_caps(sb_surface *surface, const sb_mesh_edges *list)
         size_t normal_count = 0;
         for (n = 0; i + n < count && spokes[i + n].vertex == spokes[i].vertex; ++n)
             for (int k = 0; k < 2; ++k)
-                normal_count = add_normal(normals, normal_count,
-                                          surface->creases[spokes[i + n].crease].normal[k]);
+                normal_count = add_normal(normals, normal_count, surface->creases[spokes[i + n].crease].normal[k]);
         failed = add_caps(surface, mesh->vertices[spokes[i].vertex], normals, normal_count);
     }
     sb_free(spokes);
@@ -279,8 +273,8 @@ static void measure(sb_surface *surface, const sb_sample_settings *settings)
     }
 }
 
-sb_status sb_surface_build(const sb_sample_source *source, const sb_sample_settings *settings,
-                           sb_surface *surface, sb_error *error)
+sb_status sb_surface_build(const sb_sample_source *source, const sb_sample_settings *settings, sb_surface *surface,
+                           sb_error *error)
 {
     const sb_mesh *mesh = source->mesh;
     sb_surface made = {.source = source};

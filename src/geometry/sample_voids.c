@@ -46,8 +46,7 @@ static bool same(sb_vec3 a, sb_vec3 b)
 static corner between(corner a, corner b)
 {
     sb_vec3 at = sb_scale(sb_add(a.at, b.at), 0.5);
-    return (corner){at,
-                    same(a.inward, b.inward) ? a.inward : sb_normalize(sb_add(a.inward, b.inward))};
+    return (corner){at, same(a.inward, b.inward) ? a.inward : sb_normalize(sb_add(a.inward, b.inward))};
 }
 
 static corner center_of(const piece *p)
@@ -55,8 +54,7 @@ static corner center_of(const piece *p)
     if (p->corners == 2) return between(p->corner[0], p->corner[1]);
     const corner *c = p->corner;
     sb_vec3 at = sb_scale(sb_add(c[0].at, sb_add(c[1].at, c[2].at)), 1.0 / 3);
-    if (same(c[0].inward, c[1].inward) && same(c[0].inward, c[2].inward))
-        return (corner){at, c[0].inward};
+    if (same(c[0].inward, c[1].inward) && same(c[0].inward, c[2].inward)) return (corner){at, c[0].inward};
     return (corner){at, sb_normalize(sb_add(c[0].inward, sb_add(c[1].inward, c[2].inward)))};
 }
 
@@ -87,8 +85,7 @@ static void halve(const sb_sampler *sampler, const piece *p, piece half[2])
 
 /* One particle's ball holds all corners: then, being convex, it holds the flat piece between them;
    a round one bulges out of it by no more than its sagitta. */
-static bool in_ball(const sb_sampler *sampler, const piece *p, corner center, sb_vec3 particle,
-                    double cover)
+static bool in_ball(const sb_sampler *sampler, const piece *p, corner center, sb_vec3 particle, double cover)
 {
     for (int i = 0; i < p->corners; ++i) {
         sb_vec3 turn = sb_sub(p->corner[i].inward, center.inward);
@@ -101,8 +98,7 @@ static bool in_ball(const sb_sampler *sampler, const piece *p, corner center, sb
 
 /* A piece none of whose sheet may be near a particle: a hole when its centre belongs to the sheet
    and is far from all; returns true when it has to be halved. */
-static bool examine_far(const sb_sampler *sampler, const piece *p, corner c, double radius,
-                        hole_list *list)
+static bool examine_far(const sb_sampler *sampler, const piece *p, corner c, double radius, hole_list *list)
 {
     double spacing = sampler->settings.spacing, cover = SB_SAMPLE_COVER * spacing, margin;
     sb_vec3 at;
@@ -119,8 +115,8 @@ static bool examine_far(const sb_sampler *sampler, const piece *p, corner c, dou
     if (sb_grow((void **)&list->hole, &list->capacity, list->count + 1, sizeof *list->hole))
         list->failed = 1;
     else
-        list->hole[list->count++] = (hole){
-            .piece = *p, .sample = {at, sb_scale(c.inward, -1), p->surface}, .distance = distance};
+        list->hole[list->count++] =
+            (hole){.piece = *p, .sample = {at, sb_scale(c.inward, -1), p->surface}, .distance = distance};
     return false;
 }
 
@@ -142,9 +138,7 @@ static bool examine(const sb_sampler *sampler, const piece *p, hole_list *list)
     size_t nearest;
     double distance = sb_sample_set_nearest(&sampler->set, at, cover, &nearest);
     if (distance >= SB_SAMPLE_FILL * spacing) return examine_far(sampler, p, c, radius, list);
-    if (distance + radius <= cover ||
-        in_ball(sampler, p, c, sampler->set.sample[nearest].at, cover))
-        return false;
+    if (distance + radius <= cover || in_ball(sampler, p, c, sampler->set.sample[nearest].at, cover)) return false;
     return radius > piece_min * spacing;
 }
 
@@ -175,20 +169,16 @@ static sb_vec3 flat(sb_vec3 a)
 static size_t piece_count(const sb_sampler *sampler, const sb_surface *surface)
 {
     size_t triangles = sb_surface_mesh(surface)->triangle_count;
-    return sampler->settings.dimensions == 2
-               ? triangles / 2 + surface->crease_count
-               : triangles + 2 * surface->crease_count + surface->cap_count;
+    return sampler->settings.dimensions == 2 ? triangles / 2 + surface->crease_count
+                                             : triangles + 2 * surface->crease_count + surface->cap_count;
 }
 
 static piece crease_piece(const sb_surface *surface, size_t i)
 {
     const sb_crease *crease = surface->creases + i / 2;
     sb_vec3 in[2] = {sb_scale(crease->normal[0], -1), sb_scale(crease->normal[1], -1)};
-    if (i % 2)
-        return (piece){.corner = {{crease->a, in[0]}, {crease->b, in[1]}, {crease->a, in[1]}},
-                       .corners = 3};
-    return (piece){.corner = {{crease->a, in[0]}, {crease->b, in[0]}, {crease->b, in[1]}},
-                   .corners = 3};
+    if (i % 2) return (piece){.corner = {{crease->a, in[0]}, {crease->b, in[1]}, {crease->a, in[1]}}, .corners = 3};
+    return (piece){.corner = {{crease->a, in[0]}, {crease->b, in[0]}, {crease->b, in[1]}}, .corners = 3};
 }
 
 static bool piece_flat(const sb_surface *surface, size_t i, piece *p)
@@ -197,13 +187,11 @@ static bool piece_flat(const sb_surface *surface, size_t i, piece *p)
     p->corners = 2;
     if (i < mesh->triangle_count / 2) {
         sb_vec3 inward = sb_scale(surface->normal[2 * i], -1);
-        for (int k = 0; k < 2; ++k)
-            p->corner[k] = (corner){flat(mesh->vertices[mesh->triangles[2 * i][k]]), inward};
+        for (int k = 0; k < 2; ++k) p->corner[k] = (corner){flat(mesh->vertices[mesh->triangles[2 * i][k]]), inward};
         return sb_dot(inward, inward) > 0;
     }
     const sb_crease *crease = surface->creases + (i - mesh->triangle_count / 2);
-    for (int k = 0; k < 2; ++k)
-        p->corner[k] = (corner){flat(crease->a), sb_scale(crease->normal[k], -1)};
+    for (int k = 0; k < 2; ++k) p->corner[k] = (corner){flat(crease->a), sb_scale(crease->normal[k], -1)};
     return true;
 }
 
@@ -213,8 +201,7 @@ static bool piece_solid(const sb_surface *surface, size_t i, piece *p)
     if (i < mesh->triangle_count) {
         sb_vec3 inward = sb_scale(surface->normal[i], -1);
         p->corners = 3;
-        for (int k = 0; k < 3; ++k)
-            p->corner[k] = (corner){mesh->vertices[mesh->triangles[i][k]], inward};
+        for (int k = 0; k < 3; ++k) p->corner[k] = (corner){mesh->vertices[mesh->triangles[i][k]], inward};
         return sb_dot(inward, inward) > 0;
     }
     i -= mesh->triangle_count;
@@ -240,8 +227,7 @@ typedef struct work {
 
 static int join(hole_list *all, const hole_list *found)
 {
-    if (found->failed ||
-        sb_grow((void **)&all->hole, &all->capacity, all->count + found->count, sizeof *all->hole))
+    if (found->failed || sb_grow((void **)&all->hole, &all->capacity, all->count + found->count, sizeof *all->hole))
         return -1;
     for (size_t k = 0; k < found->count; ++k) all->hole[all->count++] = found->hole[k];
     return 0;
@@ -271,8 +257,7 @@ static int work_push(const sb_sampler *sampler, work *w, const piece *p)
 static double size_of(const piece *p)
 {
     double size = 0;
-    for (int i = 0; i < p->corners; ++i)
-        size = fmax(size, sb_norm(sb_sub(p->corner[i].at, p->corner[0].at)));
+    for (int i = 0; i < p->corners; ++i) size = fmax(size, sb_norm(sb_sub(p->corner[i].at, p->corner[0].at)));
     return size;
 }
 
@@ -350,8 +335,7 @@ int sb_sample_voids(sb_sampler *sampler)
         last = all;
         all = swap;
         all.count = 0;
-        for (size_t i = 0; i < last.count && !failed; ++i)
-            failed = work_push(sampler, w, &last.hole[i].piece);
+        for (size_t i = 0; i < last.count && !failed; ++i) failed = work_push(sampler, w, &last.hole[i].piece);
         failed = failed || work_flush(sampler, w) || fill(sampler, &all);
     }
     for (int b = 0; w && b < BLOCKS; ++b) sb_free(w->found[b].hole);

@@ -86,8 +86,7 @@ static int crossing(const sb_solid_triangle *t, sb_vec3 p)
 
 static bool below_node(const sb_solid_node *node, sb_vec3 p)
 {
-    return p.x >= node->min.x && p.x <= node->max.x && p.y >= node->min.y && p.y <= node->max.y &&
-           p.z < node->max.z;
+    return p.x >= node->min.x && p.x <= node->max.x && p.y >= node->min.y && p.y <= node->max.y && p.z < node->max.z;
 }
 
 static bool below_surface(const sb_solid *solid, sb_vec3 p)
@@ -117,8 +116,7 @@ static int closed_winding(const sb_solid *solid, sb_vec3 p)
         uint32_t index = stack[--depth];
         const sb_solid_node *node = solid->nodes + index;
         if (!below_node(node, p)) continue;
-        for (uint32_t i = node->first; i < node->first + node->count; ++i)
-            winding += crossing(solid->triangles + i, p);
+        for (uint32_t i = node->first; i < node->first + node->count; ++i) winding += crossing(solid->triangles + i, p);
         if (node->count == 0) {
             stack[depth++] = node->first;
             stack[depth++] = index + 1;
@@ -132,6 +130,5 @@ bool sb_solid_contains(const sb_solid *solid, sb_vec3 point)
     if (solid->role == SB_ROLE_TERRAIN) return below_surface(solid, point);
     if (solid->sheet) return sb_solid_behind(solid, point);
     if (sb_solid_box_distance2(solid->nodes, point) > 0) return false;
-    return solid->closed ? closed_winding(solid, point) != 0
-                         : fabs(sb_solid_winding(solid, point)) > 0.5;
+    return solid->closed ? closed_winding(solid, point) != 0 : fabs(sb_solid_winding(solid, point)) > 0.5;
 }

@@ -12,9 +12,8 @@ sb_status sb_solid_create(const sb_mesh *mesh, sb_role role, sb_solid **solid, s
 void sb_solid_destroy(sb_solid *solid);
 
 /* Distance to the surface in m, at most `limit` (returned when nothing is nearer); *nearest and
-   *normal (of the nearest triangle) may be NULL and are untouched when nothing is nearer. */
-double sb_solid_distance(const sb_solid *solid, sb_vec3 point, double limit, sb_vec3 *nearest,
-                         sb_vec3 *normal);
+ *normal (of the nearest triangle) may be NULL and are untouched when nothing is nearer. */
+double sb_solid_distance(const sb_solid *solid, sb_vec3 point, double limit, sb_vec3 *nearest, sb_vec3 *normal);
 
 /* Whether a triangle counts: its point nearest to the one asked about, and its normal. */
 typedef bool sb_solid_counts(const void *context, sb_vec3 nearest, sb_vec3 normal);

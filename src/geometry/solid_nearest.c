@@ -25,8 +25,7 @@ sb_vec3 sb_solid_nearest_on(const sb_solid_triangle *t, sb_vec3 p)
     double size = bb * cc - bc * bc;
     double v = cc * pb - bc * pc, w = bb * pc - bc * pb;
     bool sliver = size <= 1e-12 * bb * cc;
-    if (!sliver && v >= 0 && w >= 0 && v + w <= size)
-        return sb_madd(sb_madd(t->a, v / size, ab), w / size, ac);
+    if (!sliver && v >= 0 && w >= 0 && v + w <= size) return sb_madd(sb_madd(t->a, v / size, ab), w / size, ac);
     sb_vec3 best = t->a;
     double best2 = HUGE_VAL;
     const sb_vec3 ends[3][2] = {{t->a, t->b}, {t->b, t->c}, {t->c, t->a}};
@@ -100,8 +99,7 @@ double sb_solid_distance_where(const sb_solid *solid, sb_vec3 point, double limi
     return sqrt(limit2);
 }
 
-double sb_solid_distance(const sb_solid *solid, sb_vec3 point, double limit, sb_vec3 *nearest,
-                         sb_vec3 *normal)
+double sb_solid_distance(const sb_solid *solid, sb_vec3 point, double limit, sb_vec3 *nearest, sb_vec3 *normal)
 {
     return sb_solid_distance_where(solid, point, limit, NULL, NULL, nearest, normal);
 }
@@ -118,8 +116,7 @@ static double angle_at(const sb_solid_triangle *t, sb_vec3 at, double near)
         return atan2(sb_norm(sb_cross(u, v)), sb_dot(u, v));
     }
     for (int i = 0; i < 3; ++i)
-        if (sb_norm(sb_sub(nearest_on_segment(corner[i], corner[(i + 1) % 3], at), at)) <= near)
-            return M_PI;
+        if (sb_norm(sb_sub(nearest_on_segment(corner[i], corner[(i + 1) % 3], at), at)) <= near) return M_PI;
     return 2 * M_PI;
 }
 
@@ -136,8 +133,8 @@ static bool find_foot(const sb_solid *solid, sb_vec3 point, foot *out)
     sb_vec3 at;
     if (!find_nearest(solid, point, NULL, NULL, &nearest2, &at)) return false;
     /* All triangles that hold the nearest point, up to the rounding of coordinates of this size. */
-    sb_vec3 size = sb_max(sb_max(solid->nodes->max, sb_scale(solid->nodes->min, -1)),
-                          sb_max(point, sb_scale(point, -1)));
+    sb_vec3 size =
+        sb_max(sb_max(solid->nodes->max, sb_scale(solid->nodes->min, -1)), sb_max(point, sb_scale(point, -1)));
     double near = 1e-12 * sb_norm(size);
     sb_vec3 normal = {0};
     double angle = 0;

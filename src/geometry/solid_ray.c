@@ -8,11 +8,9 @@ static const double slack = 1e-10;
 static double enter(const sb_solid_node *node, sb_vec3 origin, sb_vec3 inverse, double limit)
 {
     double begin = 0, end = limit;
-    const double low[3] = {(node->min.x - origin.x) * inverse.x,
-                           (node->min.y - origin.y) * inverse.y,
+    const double low[3] = {(node->min.x - origin.x) * inverse.x, (node->min.y - origin.y) * inverse.y,
                            (node->min.z - origin.z) * inverse.z};
-    const double high[3] = {(node->max.x - origin.x) * inverse.x,
-                            (node->max.y - origin.y) * inverse.y,
+    const double high[3] = {(node->max.x - origin.x) * inverse.x, (node->max.y - origin.y) * inverse.y,
                             (node->max.z - origin.z) * inverse.z};
     for (int axis = 0; axis < 3; ++axis) {
         /* 0 * inf: the ray runs within this face of the box, which does not bound it. */

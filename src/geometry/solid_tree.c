@@ -17,8 +17,7 @@ typedef struct builder {
 /* Ties go by number, so that the order of equal centres does not hang on the sort. */
 static bool before(const item *a, const item *b, int axis)
 {
-    return a->center[axis] < b->center[axis] ||
-           (a->center[axis] == b->center[axis] && a->triangle < b->triangle);
+    return a->center[axis] < b->center[axis] || (a->center[axis] == b->center[axis] && a->triangle < b->triangle);
 }
 
 /* Quickselect: the element of rank k of [0, count) comes to its place, smaller ones before it. */
@@ -99,17 +98,15 @@ static uint32_t build_node(builder *b, size_t begin, size_t count)
 static sb_status check_mesh(const sb_mesh *mesh, sb_error *error)
 {
     if (mesh->triangle_count == 0 || mesh->triangle_count > UINT32_MAX / 2)
-        return sb_fail(error, SB_BAD_INPUT, "mesh \"%s\": %zu triangles, expected 1 to 2^31",
-                       mesh->name, mesh->triangle_count);
+        return sb_fail(error, SB_BAD_INPUT, "mesh \"%s\": %zu triangles, expected 1 to 2^31", mesh->name,
+                       mesh->triangle_count);
     for (size_t i = 0; i < mesh->vertex_count; ++i)
         if (!sb_isfinite(mesh->vertices[i]))
-            return sb_fail(error, SB_BAD_INPUT, "mesh \"%s\": vertex %zu is not finite", mesh->name,
-                           i);
+            return sb_fail(error, SB_BAD_INPUT, "mesh \"%s\": vertex %zu is not finite", mesh->name, i);
     for (size_t i = 0; i < mesh->triangle_count; ++i)
         for (int corner = 0; corner < 3; ++corner)
             if (mesh->triangles[i][corner] >= mesh->vertex_count)
-                return sb_fail(error, SB_BAD_INPUT,
-                               "mesh \"%s\": triangle %zu has vertex %u, expected below %zu",
+                return sb_fail(error, SB_BAD_INPUT, "mesh \"%s\": triangle %zu has vertex %u, expected below %zu",
                                mesh->name, i, mesh->triangles[i][corner], mesh->vertex_count);
     return SB_OK;
 }

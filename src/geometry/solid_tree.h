@@ -29,8 +29,8 @@ typedef struct sb_solid_dipole {
 struct sb_solid {
     const sb_mesh *mesh;
     sb_role role;
-    bool sheet;  /* open: inside is behind its normals */
-    bool closed; /* watertight: the winding number is whole, and counted instead of summed */
+    bool sheet;                   /* open: inside is behind its normals */
+    bool closed;                  /* watertight: the winding number is whole, and counted instead of summed */
     sb_solid_triangle *triangles; /* in leaf order */
     sb_solid_node *nodes;
     sb_solid_dipole *dipoles; /* one per node */

@@ -38,8 +38,7 @@ static double fill_dipole(sb_solid *solid, uint32_t index)
             moment = sb_madd(moment, share, solid->dipoles[child[i]].center);
         }
     }
-    sb_vec3 center =
-        area > 0 ? sb_scale(moment, 1 / area) : sb_scale(sb_add(node->min, node->max), 0.5);
+    sb_vec3 center = area > 0 ? sb_scale(moment, 1 / area) : sb_scale(sb_add(node->min, node->max), 0.5);
     solid->dipoles[index] = (sb_solid_dipole){center, sum, reach(node, center)};
     return area;
 }

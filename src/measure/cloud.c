@@ -16,25 +16,21 @@ void sb_cloud_free(sb_cloud *cloud)
 size_t sb_cloud_bytes(const sb_cloud *cloud)
 {
     return cloud->capacity * sizeof *cloud->samples + cloud->slot_capacity * sizeof *cloud->slots +
-           cloud->parent_capacity * sizeof *cloud->parents +
-           cloud->size_capacity * sizeof *cloud->sizes;
+           cloud->parent_capacity * sizeof *cloud->parents + cloud->size_capacity * sizeof *cloud->sizes;
 }
 
 static bool inside(sb_vec3 p, sb_vec3 min, sb_vec3 max)
 {
-    return p.x >= min.x && p.x <= max.x && p.y >= min.y && p.y <= max.y && p.z >= min.z &&
-           p.z <= max.z;
+    return p.x >= min.x && p.x <= max.x && p.y >= min.y && p.y <= max.y && p.z >= min.z && p.z <= max.z;
 }
 
-sb_status sb_cloud_query(sb_cloud *cloud, const sb_sim *sim, sb_vec3 min, sb_vec3 max, double lag,
-                         sb_error *error)
+sb_status sb_cloud_query(sb_cloud *cloud, const sb_sim *sim, sb_vec3 min, sb_vec3 max, double lag, sb_error *error)
 {
     double reach = lag > 0 ? lag * sb_sim_report(sim)->max_speed : 0;
     sb_vec3 wide_min = sb_sub(min, sb_vec(reach, reach, reach));
     sb_vec3 wide_max = sb_add(max, sb_vec(reach, reach, reach));
     size_t found;
-    while ((found = sb_sim_query(sim, wide_min, wide_max, cloud->samples, cloud->capacity)) >
-           cloud->capacity)
+    while ((found = sb_sim_query(sim, wide_min, wide_max, cloud->samples, cloud->capacity)) > cloud->capacity)
         if (sb_grow((void **)&cloud->samples, &cloud->capacity, found, sizeof *cloud->samples) != 0)
             return sb_fail_memory(error, "measured particles");
     cloud->count = 0;
@@ -106,8 +102,7 @@ static sb_status sort_into_cells(sb_cloud *cloud, double link, sb_error *error)
 {
     size_t n = cloud->count;
     if (sb_grow((void **)&cloud->slots, &cloud->slot_capacity, n, sizeof *cloud->slots) != 0 ||
-        sb_grow((void **)&cloud->parents, &cloud->parent_capacity, n, sizeof *cloud->parents) !=
-            0 ||
+        sb_grow((void **)&cloud->parents, &cloud->parent_capacity, n, sizeof *cloud->parents) != 0 ||
         sb_grow((void **)&cloud->sizes, &cloud->size_capacity, n, sizeof *cloud->sizes) != 0)
         return sb_fail_memory(error, "groups of measured particles");
     sb_vec3 low = cloud->samples[0].position;
@@ -115,8 +110,7 @@ static sb_status sort_into_cells(sb_cloud *cloud, double link, sb_error *error)
     for (size_t i = 0; i < n; i++) {
         sb_vec3 offset = sb_sub(cloud->samples[i].position, low);
         cloud->slots[i] = (sb_cloud_slot){
-            cell_key(cell_of(offset.x, link), cell_of(offset.y, link), cell_of(offset.z, link)),
-            (uint32_t)i};
+            cell_key(cell_of(offset.x, link), cell_of(offset.y, link), cell_of(offset.z, link)), (uint32_t)i};
         cloud->parents[i] = (uint32_t)i;
         cloud->sizes[i] = 0;
     }
@@ -134,8 +128,7 @@ static void join_neighbours(sb_cloud *cloud, size_t s, double link)
         for (uint64_t cy = y - 1; cy <= y + 1; cy++) {
             uint64_t first = cell_key(cx, cy, z - 1), last = cell_key(cx, cy, z + 1);
             if (first > key) return; /* later slots join this one themselves */
-            for (size_t t = lower_bound(cloud->slots, s, first);
-                 t < s && cloud->slots[t].key <= last; t++) {
+            for (size_t t = lower_bound(cloud->slots, s, first); t < s && cloud->slots[t].key <= last; t++) {
                 uint32_t j = cloud->slots[t].index;
                 sb_vec3 d = sb_sub(cloud->samples[i].position, cloud->samples[j].position);
                 if (sb_dot(d, d) < link * link) unite(cloud->parents, i, j);
@@ -157,8 +150,7 @@ sb_status sb_cloud_keep_largest(sb_cloud *cloud, double link, sb_error *error)
     }
     size_t kept = 0;
     for (size_t i = 0; i < cloud->count; i++)
-        if (root_of(cloud->parents, (uint32_t)i) == largest)
-            cloud->samples[kept++] = cloud->samples[i];
+        if (root_of(cloud->parents, (uint32_t)i) == largest) cloud->samples[kept++] = cloud->samples[i];
     cloud->count = kept;
     return SB_OK;
 }

@@ -30,14 +30,13 @@ static void share_out(double *counts, size_t patches, double t, double size)
 }
 
 /* Deepest patch along one side. along = 0: the side runs along y at x = place; 1: along x. */
-static sb_status side_layers(const sb_sight *sight, const sb_footprint *f, int along, double place,
-                             double *layers, sb_error *error)
+static sb_status side_layers(const sb_sight *sight, const sb_footprint *f, int along, double place, double *layers,
+                             sb_error *error)
 {
     bool flat = sight->scene->dimensions == 2;
     double spacing = sight->scene->resolution, reach = REACH * spacing;
     double from = along ? f->min.x : f->min.y, to = along ? f->max.x : f->max.y;
-    sb_vec3 min =
-        along ? sb_vec(from, place - reach, f->min.z) : sb_vec(place - reach, from, f->min.z);
+    sb_vec3 min = along ? sb_vec(from, place - reach, f->min.z) : sb_vec(place - reach, from, f->min.z);
     sb_vec3 max = along ? sb_vec(to, place + reach, f->max.z) : sb_vec(place + reach, to, f->max.z);
     min.z = sight->min.z - spacing;
     max.z = sight->max.z + spacing;
@@ -58,25 +57,21 @@ static sb_status side_layers(const sb_sight *sight, const sb_footprint *f, int a
     for (size_t i = 0; i < cloud->count; i++) {
         sb_vec3 p = cloud->samples[i].position;
         size_t behind = (along ? p.y : p.x) > place;
-        share_out(counts + behind * patches, patches,
-                  flat ? 0 : ((along ? p.x : p.y) - from) / width, spacing / width);
+        share_out(counts + behind * patches, patches, flat ? 0 : ((along ? p.x : p.y) - from) / width, spacing / width);
     }
-    for (size_t k = 0; k < 2 * patches; k++)
-        *layers = fmax(*layers, counts[k] * spacing / (PATCH * width));
+    for (size_t k = 0; k < 2 * patches; k++) *layers = fmax(*layers, counts[k] * spacing / (PATCH * width));
     sb_free(counts);
     return SB_OK;
 }
 
-sb_status sb_face_layers(const sb_sight *sight, const sb_footprint *footprint, sb_vec3 displacement,
-                         double *layers, sb_error *error)
+sb_status sb_face_layers(const sb_sight *sight, const sb_footprint *footprint, sb_vec3 displacement, double *layers,
+                         sb_error *error)
 {
     sb_footprint f = {sb_add(footprint->min, displacement), sb_add(footprint->max, displacement)};
     *layers = 0;
     sb_status status = side_layers(sight, &f, 0, f.min.x, layers, error);
     if (status == SB_OK) status = side_layers(sight, &f, 0, f.max.x, layers, error);
-    if (status == SB_OK && sight->scene->dimensions == 3)
-        status = side_layers(sight, &f, 1, f.min.y, layers, error);
-    if (status == SB_OK && sight->scene->dimensions == 3)
-        status = side_layers(sight, &f, 1, f.max.y, layers, error);
+    if (status == SB_OK && sight->scene->dimensions == 3) status = side_layers(sight, &f, 1, f.min.y, layers, error);
+    if (status == SB_OK && sight->scene->dimensions == 3) status = side_layers(sight, &f, 1, f.max.y, layers, error);
     return status;
 }

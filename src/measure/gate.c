@@ -38,15 +38,14 @@ static sb_status look(sb_gate *gate, const sb_sight *sight, size_t *count, sb_er
 {
     double pad = gate->margin;
     double bx = gate->ax + gate->tx * gate->length, by = gate->ay + gate->ty * gate->length;
-    sb_vec3 min = sb_vec(fmin(gate->ax, bx) - pad, fmin(gate->ay, by) - pad,
-                         fmax(gate->plane->z_min, sight->min.z) - pad);
-    sb_vec3 max = sb_vec(fmax(gate->ax, bx) + pad, fmax(gate->ay, by) + pad,
-                         fmin(gate->plane->z_max, sight->max.z) + pad);
+    sb_vec3 min =
+        sb_vec(fmin(gate->ax, bx) - pad, fmin(gate->ay, by) - pad, fmax(gate->plane->z_min, sight->min.z) - pad);
+    sb_vec3 max =
+        sb_vec(fmax(gate->ax, bx) + pad, fmax(gate->ay, by) + pad, fmin(gate->plane->z_max, sight->max.z) + pad);
     sb_status status = sb_cloud_query(sight->cloud, sight->sim, min, max, 0, error);
     if (status != SB_OK) return status;
     *count = 0;
-    if (sb_grow((void **)&gate->next, &gate->next_capacity, sight->cloud->count,
-                sizeof *gate->next) != 0)
+    if (sb_grow((void **)&gate->next, &gate->next_capacity, sight->cloud->count, sizeof *gate->next) != 0)
         return sb_fail_memory(error, gate->plane->name);
     for (size_t i = 0; i < sight->cloud->count; i++) {
         const sb_fluid_sample *sample = &sight->cloud->samples[i];
@@ -68,8 +67,7 @@ static void keep(sb_gate *gate, size_t count)
     gate->next_capacity = capacity;
 }
 
-sb_status sb_gate_create(const sb_sight *sight, const sb_flow_plane *plane, sb_gate **gate,
-                         sb_error *error)
+sb_status sb_gate_create(const sb_sight *sight, const sb_flow_plane *plane, sb_gate **gate, sb_error *error)
 {
     sb_gate *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, plane->name);

@@ -103,10 +103,8 @@ sb_status sb_gauge_read(const sb_sight *sight, double x, double y, double *eta, 
     if (status != SB_OK || cloud->count < least) return status;
     for (size_t i = 0; i < cloud->count; i++) {
         sb_fluid_sample *sample = &cloud->samples[i];
-        sample->density =
-            bspline((sample->position.x - x) / (STRETCH * spacing)) *
-            (flat ? 1 : bspline((sample->position.y - y) / (STRETCH * spacing)) / STRETCH) /
-            STRETCH;
+        sample->density = bspline((sample->position.x - x) / (STRETCH * spacing)) *
+                          (flat ? 1 : bspline((sample->position.y - y) / (STRETCH * spacing)) / STRETCH) / STRETCH;
     }
     qsort(cloud->samples, cloud->count, sizeof *cloud->samples, compare_heights);
     *eta = surface_of(&(column){cloud->samples, cloud->count, spacing});

@@ -17,8 +17,7 @@ struct sb_map_field {
     float *depth, *speed, *flux, *arrival, *start;
     cell_sum *sums;
     double spacing, threshold, pause, next;
-    double low[2],
-        length[2]; /* m along x and y: of the domain, which repeats after length; 0: it does not */
+    double low[2], length[2]; /* m along x and y: of the domain, which repeats after length; 0: it does not */
     bool flat;
 };
 
@@ -151,8 +150,7 @@ static void record(sb_map_field *map, double time)
             raise(&map->speed[i], hypotf(sum->x, sum->y) / sum->volume);
             raise(&map->flux[i], sum->square / area);
         }
-        if (isnan(map->arrival[i]) && depth - map->start[i] >= (float)map->threshold)
-            map->arrival[i] = (float)time;
+        if (isnan(map->arrival[i]) && depth - map->start[i] >= (float)map->threshold) map->arrival[i] = (float)time;
     }
 }
 
@@ -178,16 +176,14 @@ sb_status sb_map_create(const sb_sight *sight, sb_map_field **map, sb_error *err
     made->flat = scene->dimensions == 2;
     made->spacing = scene->resolution;
     made->threshold = wish->threshold;
-    made->result = (sb_map_record){
-        .columns = cells_between(wish->x_min, wish->x_max, wish->cell),
-        .rows = made->flat ? 1 : cells_between(wish->y_min, wish->y_max, wish->cell),
-        .x_min = wish->x_min,
-        .y_min = made->flat ? 0 : wish->y_min,
-        .cell = wish->cell};
+    made->result = (sb_map_record){.columns = cells_between(wish->x_min, wish->x_max, wish->cell),
+                                   .rows = made->flat ? 1 : cells_between(wish->y_min, wish->y_max, wish->cell),
+                                   .x_min = wish->x_min,
+                                   .y_min = made->flat ? 0 : wish->y_min,
+                                   .cell = wish->cell};
     made->low[0] = sight->min.x;
     made->low[1] = sight->min.y;
-    for (int axis = 0; axis < 2; axis++)
-        made->length[axis] = sb_repeat_length(scene, sight->min, sight->max, axis);
+    for (int axis = 0; axis < 2; axis++) made->length[axis] = sb_repeat_length(scene, sight->min, sight->max, axis);
     sb_status status = allocate(made, error);
     if (status != SB_OK) {
         sb_map_destroy(made);
@@ -228,8 +224,7 @@ const sb_map_record *sb_map_result(const sb_map_field *map)
 
 size_t sb_map_bytes(const sb_map_field *map)
 {
-    return sizeof *map +
-           map->result.columns * map->result.rows * (5 * sizeof(float) + sizeof(cell_sum));
+    return sizeof *map + map->result.columns * map->result.rows * (5 * sizeof(float) + sizeof(cell_sum));
 }
 
 void sb_map_save(const sb_map_field *map, sb_archive_out *out)

@@ -4,9 +4,8 @@
 #include "measure/patch.h"
 #include "measure/state.h"
 
-static const size_t record_size[LISTS] = {sizeof(sb_force_record), sizeof(sb_gauge_record),
-                                          sizeof(sb_probe_record), sizeof(sb_flow_record),
-                                          sizeof(sb_runup_record), sizeof(sb_energy_record)};
+static const size_t record_size[LISTS] = {sizeof(sb_force_record), sizeof(sb_gauge_record), sizeof(sb_probe_record),
+                                          sizeof(sb_flow_record),  sizeof(sb_runup_record), sizeof(sb_energy_record)};
 
 static void *append(sb_measure *measure, int kind)
 {
@@ -28,8 +27,7 @@ static sb_body_impulse impulse_at(const sb_body_impulse *a, const sb_body_impuls
 }
 
 /* The interval's mean forces, its end lying at `share` of the last step. */
-static sb_status record_forces(sb_measure *measure, const sb_sim *sim, double time, double share,
-                               sb_error *error)
+static sb_status record_forces(sb_measure *measure, const sb_sim *sim, double time, double share, sb_error *error)
 {
     double rate = 1 / measure->interval;
     for (size_t b = 0; b < measure->model->body_count; b++) {
@@ -71,8 +69,7 @@ static sb_status record_flows(sb_measure *measure, double time, double share, sb
 }
 
 /* Gauges, probes and run-up lines as they are at one instant. */
-static sb_status record_instants(sb_measure *measure, const sb_sight *sight, double time,
-                                 sb_error *error)
+static sb_status record_instants(sb_measure *measure, const sb_sight *sight, double time, sb_error *error)
 {
     const sb_measure_settings *settings = &measure->scene->measure;
     sb_status status = SB_OK;
@@ -81,16 +78,15 @@ static sb_status record_instants(sb_measure *measure, const sb_sight *sight, dou
         if (!record) return sb_fail_memory(error, "gauge records");
         record->gauge = i;
         record->time = time;
-        status =
-            sb_gauge_read(sight, settings->gauges[i].x, settings->gauges[i].y, &record->eta, error);
+        status = sb_gauge_read(sight, settings->gauges[i].x, settings->gauges[i].y, &record->eta, error);
     }
     for (size_t i = 0; status == SB_OK && i < settings->probe_count; i++) {
         sb_probe_record *record = append(measure, PROBES);
         if (!record) return sb_fail_memory(error, "probe records");
         record->probe = i;
         record->time = time;
-        status = sb_probe_read(sight, &settings->probes[i], measure->patches[i], &record->velocity,
-                               &record->pressure, error);
+        status = sb_probe_read(sight, &settings->probes[i], measure->patches[i], &record->velocity, &record->pressure,
+                               error);
     }
     for (size_t i = 0; status == SB_OK && i < settings->runup_count; i++) {
         sb_runup_record *record = append(measure, RUNUPS);
@@ -123,8 +119,8 @@ static sb_status record_layers(sb_measure *measure, const sb_sight *sight, sb_er
     for (size_t b = 0; b < measure->model->body_count; b++) {
         if (!measure->states[b].faces) continue;
         double layers;
-        sb_status status = sb_face_layers(sight, &measure->states[b].footprint,
-                                          sb_sim_body_displacement(sight->sim, b), &layers, error);
+        sb_status status = sb_face_layers(sight, &measure->states[b].footprint, sb_sim_body_displacement(sight->sim, b),
+                                          &layers, error);
         if (status != SB_OK) return status;
         if (layers > measure->bodies[b].layers) measure->bodies[b].layers = layers;
     }
@@ -133,8 +129,7 @@ static sb_status record_layers(sb_measure *measure, const sb_sight *sight, sb_er
 
 static sb_sight sight_of(sb_measure *measure, const sb_sim *sim, double lag)
 {
-    return (sb_sight){measure->scene,      sim, measure->model->min,
-                      measure->model->max, lag, &measure->cloud};
+    return (sb_sight){measure->scene, sim, measure->model->min, measure->model->max, lag, &measure->cloud};
 }
 
 static void publish(sb_measure *measure)
@@ -158,8 +153,7 @@ static void note_skipped(sb_measure *measure)
 {
     const sb_measure_settings *settings = &measure->scene->measure;
     bool reported = false;
-    for (size_t b = 0; b < measure->model->body_count; b++)
-        reported = reported || measure->bodies[b].report;
+    for (size_t b = 0; b < measure->model->body_count; b++) reported = reported || measure->bodies[b].report;
     size_t n = 0;
     if (!reported) measure->skipped[n++] = "forces: no body reports";
     if (!settings->gauge_count) measure->skipped[n++] = "wave gauges: none";
@@ -202,17 +196,15 @@ static sb_status prepare_fields(sb_measure *measure, const sb_sight *sight, sb_e
         if (!measure->patches) return sb_fail_memory(error, "measure.probes");
     }
     for (size_t i = 0; status == SB_OK && i < settings->probe_count; i++)
-        status = sb_patch_create(measure->scene, measure->model, &settings->probes[i],
-                                 &measure->patches[i], error);
+        status = sb_patch_create(measure->scene, measure->model, &settings->probes[i], &measure->patches[i], error);
     for (size_t i = 0; status == SB_OK && i < settings->plane_count; i++)
         status = sb_gate_create(sight, &settings->planes[i], &measure->gates[i], error);
-    if (status == SB_OK && settings->map.present)
-        status = sb_map_create(sight, &measure->map, error);
+    if (status == SB_OK && settings->map.present) status = sb_map_create(sight, &measure->map, error);
     return status;
 }
 
-sb_status sb_measure_create(const sb_scene *scene, const sb_model *model, const sb_sim *sim,
-                            sb_measure **measure, sb_error *error)
+sb_status sb_measure_create(const sb_scene *scene, const sb_model *model, const sb_sim *sim, sb_measure **measure,
+                            sb_error *error)
 {
     sb_measure *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, "measurements");
@@ -257,8 +249,7 @@ void sb_measure_destroy(sb_measure *measure)
 }
 
 /* All that is due at `time`, which lies `lag` seconds before the step's end. */
-static sb_status record_boundary(sb_measure *measure, const sb_sim *sim, double time,
-                                 sb_error *error)
+static sb_status record_boundary(sb_measure *measure, const sb_sim *sim, double time, sb_error *error)
 {
     double now = sb_sim_report(sim)->time, taken = now - measure->time;
     double share = taken > 0 ? (time - measure->time) / taken : 1;
@@ -278,15 +269,13 @@ static void advance(sb_measure *measure, const sb_sim *sim)
         body_state *state = &measure->states[b];
         state->last = *sb_sim_impulse(sim, b);
         /* Over the finished intervals, so that it is the sum of the rows times the interval. */
-        const sb_body_impulse *reached =
-            measure->bodies[b].report ? &state->boundary : &state->last;
+        const sb_body_impulse *reached = measure->bodies[b].report ? &state->boundary : &state->last;
         sb_vec3 end = sb_add(reached->pressure, reached->friction);
         sb_vec3 start = sb_add(state->start.pressure, state->start.friction);
         measure->bodies[b].impulse = sb_sub(end, start);
         measure->bodies[b].moment = sb_sub(reached->moment, state->start.moment);
     }
-    for (size_t i = 0; i < measure->scene->measure.plane_count; i++)
-        measure->planes[i].last = measure->planes[i].now;
+    for (size_t i = 0; i < measure->scene->measure.plane_count; i++) measure->planes[i].last = measure->planes[i].now;
 }
 
 static bool due(const sb_measure *measure, const sb_sim *sim)

@@ -10,8 +10,8 @@ typedef struct sb_measurements sb_measure; /* scene.h holds the tag of the short
 
 /* Call after settling: impulses count from here, and instant records of this time (gauges, probes,
    run-up, planes, energy) are ready in sb_measure_latest. scene and model must outlive it. */
-sb_status sb_measure_create(const sb_scene *scene, const sb_model *model, const sb_sim *sim,
-                            sb_measure **measure, sb_error *error);
+sb_status sb_measure_create(const sb_scene *scene, const sb_model *model, const sb_sim *sim, sb_measure **measure,
+                            sb_error *error);
 void sb_measure_destroy(sb_measure *measure);
 
 /* Whether the next sb_measure_step reads pressures: sb_sim_find_pressures is to come before it. */

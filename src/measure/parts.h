@@ -33,18 +33,16 @@ typedef struct sb_patch sb_patch;
 
 /* Velocity (m/s) and pressure (Pa) at a point, NaN when dry. probe->radius in m, 0: the support
    radius. On a wall the pressure is the force on the patch over its area. */
-sb_status sb_probe_read(const sb_sight *sight, const sb_probe *probe, const sb_patch *patch,
-                        sb_vec3 *velocity, double *pressure, sb_error *error);
+sb_status sb_probe_read(const sb_sight *sight, const sb_probe *probe, const sb_patch *patch, sb_vec3 *velocity,
+                        double *pressure, sb_error *error);
 
 /* Highest wet point within one spacing of the line and distance along it that water reaches (m from
    its first end), NaN when dry: the `place` and `front` of the record. */
-sb_status sb_runup_read(const sb_sight *sight, const sb_runup_line *line, sb_runup_record *record,
-                        sb_error *error);
+sb_status sb_runup_read(const sb_sight *sight, const sb_runup_line *line, sb_runup_record *record, sb_error *error);
 
 /* A plane that counts particles by the side they were last seen on. */
 typedef struct sb_gate sb_gate;
-sb_status sb_gate_create(const sb_sight *sight, const sb_flow_plane *plane, sb_gate **gate,
-                         sb_error *error);
+sb_status sb_gate_create(const sb_sight *sight, const sb_flow_plane *plane, sb_gate **gate, sb_error *error);
 void sb_gate_destroy(sb_gate *gate);
 /* Adds the net volume that passed in the last step (m^3; m^2 in 2D) to *volume. */
 sb_status sb_gate_step(sb_gate *gate, const sb_sight *sight, double *volume, sb_error *error);
@@ -71,7 +69,7 @@ typedef struct sb_footprint {
 } sb_footprint;
 sb_footprint sb_footprint_of(const sb_model *model, size_t body);
 /* Deepest water along the rectangle's sides, in spacings; displacement moves the body (m). */
-sb_status sb_face_layers(const sb_sight *sight, const sb_footprint *footprint, sb_vec3 displacement,
-                         double *layers, sb_error *error);
+sb_status sb_face_layers(const sb_sight *sight, const sb_footprint *footprint, sb_vec3 displacement, double *layers,
+                         sb_error *error);
 
 #endif

@@ -60,20 +60,18 @@ bool sb_patch_first_layer(const sb_patch *patch, sb_vec3 position)
 
 static sb_status add_wall(sb_patch *patch, sb_vec3 position, sb_vec3 normal, sb_error *error)
 {
-    if (sb_grow((void **)&patch->walls, &patch->capacity, patch->count + 1, sizeof *patch->walls) !=
-        0)
+    if (sb_grow((void **)&patch->walls, &patch->capacity, patch->count + 1, sizeof *patch->walls) != 0)
         return sb_fail_memory(error, "wall around a probe");
     patch->walls[patch->count++] = (patch_wall){.position = position, .normal = normal};
     return SB_OK;
 }
 
 /* Those of a boundary particle and of its images beyond periodic sides that are near enough. */
-static sb_status add_near(sb_patch *patch, sb_vec3 position, sb_vec3 normal, sb_vec3 at,
-                          double reach, const double length[2], sb_error *error)
+static sb_status add_near(sb_patch *patch, sb_vec3 position, sb_vec3 normal, sb_vec3 at, double reach,
+                          const double length[2], sb_error *error)
 {
     int most[2];
-    for (int axis = 0; axis < 2; axis++)
-        most[axis] = length[axis] > 0 ? 1 + (int)ceil(reach / length[axis]) : 0;
+    for (int axis = 0; axis < 2; axis++) most[axis] = length[axis] > 0 ? 1 + (int)ceil(reach / length[axis]) : 0;
     for (int j = -most[1]; j <= most[1]; j++)
         for (int i = -most[0]; i <= most[0]; i++) {
             sb_vec3 image = sb_add(position, sb_vec(i * length[0], j * length[1], 0));
@@ -85,8 +83,8 @@ static sb_status add_near(sb_patch *patch, sb_vec3 position, sb_vec3 normal, sb_
     return SB_OK;
 }
 
-static sb_status collect(sb_patch *patch, const sb_scene *scene, const sb_model *model, sb_vec3 at,
-                         double reach, sb_error *error)
+static sb_status collect(sb_patch *patch, const sb_scene *scene, const sb_model *model, sb_vec3 at, double reach,
+                         sb_error *error)
 {
     const double length[2] = {sb_repeat_length(scene, model->min, model->max, 0),
                               sb_repeat_length(scene, model->min, model->max, 1)};
@@ -96,8 +94,7 @@ static sb_status collect(sb_patch *patch, const sb_scene *scene, const sb_model 
             continue;
         for (size_t i = body->begin; i < body->begin + body->count; i++) {
             sb_vec3 normal = model->wall_normal ? model->wall_normal[i] : sb_vec(0, 0, 0);
-            sb_status status =
-                add_near(patch, model->wall_position[i], normal, at, reach, length, error);
+            sb_status status = add_near(patch, model->wall_position[i], normal, at, reach, length, error);
             if (status != SB_OK) return status;
         }
     }
@@ -108,8 +105,7 @@ static const patch_wall *nearest_wall(const sb_patch *patch, sb_vec3 at)
 {
     const patch_wall *best = NULL;
     for (size_t i = 0; i < patch->count; i++)
-        if (!best ||
-            sb_norm(sb_sub(patch->walls[i].position, at)) < sb_norm(sb_sub(best->position, at)))
+        if (!best || sb_norm(sb_sub(patch->walls[i].position, at)) < sb_norm(sb_sub(best->position, at)))
             best = &patch->walls[i];
     return best;
 }
@@ -134,8 +130,7 @@ static double covered_area(const sb_patch *patch, sb_vec3 center, double radius,
             sb_vec3 at = sb_madd(sb_madd(center, i * cell, u), j * cell, v);
             bool covered = false;
             for (size_t k = 0; k < patch->count && weight > 0 && !covered; k++)
-                covered = patch->walls[k].weight > 0 &&
-                          sb_norm(sb_sub(patch->walls[k].position, at)) < limit;
+                covered = patch->walls[k].weight > 0 && sb_norm(sb_sub(patch->walls[k].position, at)) < limit;
             sum += covered ? weight : 0;
         }
     return sum * (flat ? cell : cell * cell);
@@ -150,15 +145,13 @@ static void choose(sb_patch *patch, const sb_scene *scene, sb_vec3 at, double ra
     sb_vec3 n = nearest->normal, center;
     double height = sb_dot(sb_sub(at, nearest->position), n);
     center = sb_madd(at, -height, n);
-    if (height < -0.5 * s || height > limit || sb_norm(sb_sub(center, nearest->position)) > 0.8 * s)
-        return;
+    if (height < -0.5 * s || height > limit || sb_norm(sb_sub(center, nearest->position)) > 0.8 * s) return;
     patch->normal = n;
     for (size_t i = 0; i < patch->count; i++) {
         patch_wall *wall = &patch->walls[i];
         sb_vec3 d = sb_sub(wall->position, center);
         /* The radius may exceed that of the disk a little: coverage looks 0.75 spacings far. */
-        if (sb_dot(wall->normal, n) > 0.9 && fabs(sb_dot(d, n)) < 0.3 * s)
-            wall->weight = bell(sb_norm(d) / radius);
+        if (sb_dot(wall->normal, n) > 0.9 && fabs(sb_dot(d, n)) < 0.3 * s) wall->weight = bell(sb_norm(d) / radius);
     }
     patch->area = covered_area(patch, center, radius, scene->dimensions == 2);
     patch->on_wall = patch->area > 0;
@@ -169,9 +162,9 @@ static void set_volumes(sb_patch *patch, const sb_scene *scene)
 {
     const sb_numerics *n = &scene->numerics;
     const bool of_lattice = n->wall_gamma == 0;
-    const double gamma = of_lattice ? sb_wall_gamma(n->kernel, scene->dimensions, n->support, n->wall_offset,
-                                                    n->wall_spacing)
-                                    : n->wall_gamma;
+    const double gamma = of_lattice
+                             ? sb_wall_gamma(n->kernel, scene->dimensions, n->support, n->wall_offset, n->wall_spacing)
+                             : n->wall_gamma;
     double h = n->support * scene->resolution;
     for (size_t i = 0; i < patch->count; i++) {
         const patch_wall *at = &patch->walls[i];
@@ -180,24 +173,23 @@ static void set_volumes(sb_patch *patch, const sb_scene *scene)
             const sb_vec3 d = sb_sub(patch->walls[k].position, at->position);
             const double w = sb_kernel_value(n->kernel, scene->dimensions, h, sb_norm(d));
             sum += w;
-            if (sb_wall_bends_with(sb_dot(at->normal, patch->walls[k].normal)))
-                bulge += w * sb_dot(d, at->normal) / h;
+            if (sb_wall_bends_with(sb_dot(at->normal, patch->walls[k].normal))) bulge += w * sb_dot(d, at->normal) / h;
         }
         const double bend = of_lattice ? sb_wall_bend(bulge / sum) : 1;
         patch->walls[i].psi = gamma * scene->fluid.density / sum * bend;
     }
 }
 
-sb_status sb_patch_create(const sb_scene *scene, const sb_model *model, const sb_probe *probe,
-                          sb_patch **patch, sb_error *error)
+sb_status sb_patch_create(const sb_scene *scene, const sb_model *model, const sb_probe *probe, sb_patch **patch,
+                          sb_error *error)
 {
     sb_patch *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, probe->name);
     double support = scene->numerics.support * scene->resolution;
     double radius = probe->radius > 0 ? probe->radius : PATCH_RADIUS * scene->resolution;
     made->spacing = scene->resolution;
-    sb_status status = collect(made, scene, model, probe->at,
-                               1.5 * fmax(radius, support) + support + scene->resolution, error);
+    sb_status status =
+        collect(made, scene, model, probe->at, 1.5 * fmax(radius, support) + support + scene->resolution, error);
     if (status != SB_OK) {
         sb_patch_destroy(made);
         return status;
@@ -218,14 +210,12 @@ static double push_of(const sb_patch *patch, const sb_scene *scene, const sb_flu
         sb_vec3 d = sb_sub(sample->position, wall->position);
         double height = sb_dot(d, patch->normal), r = sb_norm(d);
         if (wall->weight > 0 && height > 0 && r < h)
-            sum -= wall->weight * wall->psi * height / r *
-                   sb_kernel_slope(n->kernel, scene->dimensions, h, r);
+            sum -= wall->weight * wall->psi * height / r * sb_kernel_slope(n->kernel, scene->dimensions, h, r);
     }
     return sum * sample->push;
 }
 
-sb_status sb_patch_pressure(const sb_patch *patch, const sb_sight *sight, double *pressure,
-                            sb_error *error)
+sb_status sb_patch_pressure(const sb_patch *patch, const sb_sight *sight, double *pressure, sb_error *error)
 {
     const sb_scene *scene = sight->scene;
     double h = scene->numerics.support * scene->resolution;
@@ -236,9 +226,8 @@ sb_status sb_patch_pressure(const sb_patch *patch, const sb_sight *sight, double
             max = sb_max(max, patch->walls[i].position);
         }
     /* Pressures and densities belong to the places at the step's start. */
-    sb_status status =
-        sb_cloud_query(sight->cloud, sight->sim, sb_sub(min, sb_vec(h, h, h)),
-                       sb_add(max, sb_vec(h, h, h)), sb_sim_report(sight->sim)->time_step, error);
+    sb_status status = sb_cloud_query(sight->cloud, sight->sim, sb_sub(min, sb_vec(h, h, h)),
+                                      sb_add(max, sb_vec(h, h, h)), sb_sim_report(sight->sim)->time_step, error);
     double sum = 0;
     for (size_t i = 0; status == SB_OK && i < sight->cloud->count; i++)
         sum += push_of(patch, scene, &sight->cloud->samples[i]);

@@ -36,8 +36,8 @@ static int basis(const sb_sight *sight, sb_vec3 offset, double radius, double te
     return n;
 }
 
-static double share_of(const sb_sight *sight, const sb_fluid_sample *sample, sb_vec3 at,
-                       double radius, const double c[TERMS])
+static double share_of(const sb_sight *sight, const sb_fluid_sample *sample, sb_vec3 at, double radius,
+                       const double c[TERMS])
 {
     double terms[TERMS], share = 0;
     int n = basis(sight, sb_sub(sample->position, at), radius, terms);
@@ -62,8 +62,7 @@ static void fit(const sb_sight *sight, sb_vec3 at, double radius, bool linear, d
             for (int l = 0; l < n; l++) moments[k][l] += weight * terms[k] * terms[l];
     }
     if (linear && solve_first_unit(moments, n, 1e-9 * total, c)) {
-        for (size_t i = 0; i < cloud->count; i++)
-            magnified += fabs(share_of(sight, &cloud->samples[i], at, radius, c));
+        for (size_t i = 0; i < cloud->count; i++) magnified += fabs(share_of(sight, &cloud->samples[i], at, radius, c));
         if (magnified <= 2.5) return;
     }
     for (int k = 0; k < TERMS; k++) c[k] = 0;
@@ -108,8 +107,7 @@ static bool drop_first_layer(sb_cloud *cloud, const sb_patch *patch)
 {
     size_t kept = 0, before = cloud->count;
     for (size_t i = 0; i < before; i++)
-        if (!sb_patch_first_layer(patch, cloud->samples[i].position))
-            cloud->samples[kept++] = cloud->samples[i];
+        if (!sb_patch_first_layer(patch, cloud->samples[i].position)) cloud->samples[kept++] = cloud->samples[i];
     cloud->count = kept;
     return kept < before;
 }
@@ -130,16 +128,15 @@ static double pressure_at(const sb_sight *sight, sb_vec3 at, double radius, bool
 static sb_status look(const sb_sight *sight, sb_vec3 at, double radius, sb_error *error)
 {
     sb_vec3 reach = sb_vec(radius, radius, radius);
-    return sb_cloud_query(sight->cloud, sight->sim, sb_sub(at, reach), sb_add(at, reach),
-                          sight->lag, error);
+    return sb_cloud_query(sight->cloud, sight->sim, sb_sub(at, reach), sb_add(at, reach), sight->lag, error);
 }
 
 /* Near a wall the fit reaches farther, for the layers that are left, and is the mean: the second
    layer is too low and a slope would carry that on (at rest, in the second
    layer: mean -5 % in 3D and -12 % in 2D, linear -9 % and -29 %). In a film, where nothing
    is left, the first layer must do. */
-static sb_status read_pressure(const sb_sight *sight, const sb_probe *probe, const sb_patch *patch,
-                               double radius, double *pressure, sb_error *error)
+static sb_status read_pressure(const sb_sight *sight, const sb_probe *probe, const sb_patch *patch, double radius,
+                               double *pressure, sb_error *error)
 {
     if (drop_first_layer(sight->cloud, patch)) {
         double far = WIDENED * radius;
@@ -158,8 +155,8 @@ static sb_status read_pressure(const sb_sight *sight, const sb_probe *probe, con
     return SB_OK;
 }
 
-sb_status sb_probe_read(const sb_sight *sight, const sb_probe *probe, const sb_patch *patch,
-                        sb_vec3 *velocity, double *pressure, sb_error *error)
+sb_status sb_probe_read(const sb_sight *sight, const sb_probe *probe, const sb_patch *patch, sb_vec3 *velocity,
+                        double *pressure, sb_error *error)
 {
     const sb_scene *scene = sight->scene;
     double radius = probe->radius > 0 ? probe->radius : scene->numerics.support * scene->resolution;

@@ -40,8 +40,7 @@ typedef struct sb_runup_record {
     size_t line;
     double time;   /* s */
     sb_vec3 place; /* m; z is the water's upper face */
-    double
-        front; /* m from the line's first end, of the water's foremost face; at most its length */
+    double front;  /* m from the line's first end, of the water's foremost face; at most its length */
 } sb_runup_record;
 
 /* At the end of the first step that reached a multiple of the interval. */
@@ -49,7 +48,7 @@ typedef struct sb_energy_record {
     double time, kinetic, potential, mass; /* s, J, J, kg */
     sb_vec3 momentum;                      /* kg m/s */
     sb_ledger ledger;                      /* J since the start */
-    double momentum_imbalance;                 /* largest of a step since the last row */
+    double momentum_imbalance;             /* largest of a step since the last row */
 } sb_energy_record;
 
 /* Everything the last step brought; arrays are valid until the next one. */
@@ -66,11 +65,10 @@ typedef struct sb_measure_records {
 /* One body over the whole run. */
 typedef struct sb_body_record {
     bool report;
-    double peak, peak_time; /* N, s: greatest |F| among interval means, and that interval's end */
-    sb_vec3 impulse,
-        moment; /* N s, N m s over the finished intervals: rows of force times interval */
-    sb_vec3 force, torque; /* N, Nm: means of the last finished interval */
-    double layers;         /* greatest flow depth at its faces in spacings; NaN: not assessed */
+    double peak, peak_time;  /* N, s: greatest |F| among interval means, and that interval's end */
+    sb_vec3 impulse, moment; /* N s, N m s over the finished intervals: rows of force times interval */
+    sb_vec3 force, torque;   /* N, Nm: means of the last finished interval */
+    double layers;           /* greatest flow depth at its faces in spacings; NaN: not assessed */
 } sb_body_record;
 
 /* Spacings of water at a face below which its force is not to be trusted. */

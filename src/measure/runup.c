@@ -36,23 +36,19 @@ static sb_status look_along(const sb_sight *sight, const course *c, sb_error *er
 {
     double spacing = sight->scene->resolution;
     double bx = c->ax + c->length * c->ux, by = c->ay + c->length * c->uy;
-    sb_vec3 min =
-        sb_vec(fmin(c->ax, bx) - spacing, fmin(c->ay, by) - spacing, sight->min.z - spacing);
-    sb_vec3 max =
-        sb_vec(fmax(c->ax, bx) + spacing, fmax(c->ay, by) + spacing, sight->max.z + spacing);
+    sb_vec3 min = sb_vec(fmin(c->ax, bx) - spacing, fmin(c->ay, by) - spacing, sight->min.z - spacing);
+    sb_vec3 max = sb_vec(fmax(c->ax, bx) + spacing, fmax(c->ay, by) + spacing, sight->max.z + spacing);
     sb_cloud *cloud = sight->cloud;
     sb_status status = sb_cloud_query(cloud, sight->sim, min, max, sight->lag, error);
     if (status != SB_OK) return status;
     size_t kept = 0;
     for (size_t i = 0; i < cloud->count; i++)
-        if (distance_to(c, cloud->samples[i].position) <= spacing)
-            cloud->samples[kept++] = cloud->samples[i];
+        if (distance_to(c, cloud->samples[i].position) <= spacing) cloud->samples[kept++] = cloud->samples[i];
     cloud->count = kept;
     return sb_cloud_keep_largest(cloud, FILM_LINK * spacing, error);
 }
 
-sb_status sb_runup_read(const sb_sight *sight, const sb_runup_line *line, sb_runup_record *record,
-                        sb_error *error)
+sb_status sb_runup_read(const sb_sight *sight, const sb_runup_line *line, sb_runup_record *record, sb_error *error)
 {
     course c = course_of(line, sight->scene->dimensions == 2);
     const sb_cloud *cloud = sight->cloud;

@@ -28,8 +28,7 @@ static void put_bodies(const sb_measure *measure, sb_archive_out *out)
 static void take_bodies(sb_measure *measure, sb_archive_in *in)
 {
     const size_t count = measure->model->body_count;
-    if (sb_take_count(in, SIZE_MAX) != count)
-        sb_archive_refuse(in, "forces on other bodies, expected %zu", count);
+    if (sb_take_count(in, SIZE_MAX) != count) sb_archive_refuse(in, "forces on other bodies, expected %zu", count);
     for (size_t b = 0; b < count; b++) {
         body_state *state = &measure->states[b];
         sb_body_record *body = &measure->bodies[b];
@@ -59,8 +58,7 @@ void sb_measure_save(const sb_measure *measure, sb_archive_out *out)
         sb_gate_save(measure->gates[i], out);
     }
     sb_put_flag(out, measure->map != NULL);
-    if (measure->map)
-        sb_map_save(measure->map, out);
+    if (measure->map) sb_map_save(measure->map, out);
 }
 
 static sb_status take_planes(sb_measure *measure, sb_archive_in *in, sb_error *error)
@@ -78,16 +76,14 @@ static sb_status take_planes(sb_measure *measure, sb_archive_in *in, sb_error *e
 
 static void forget_latest(sb_measure *measure)
 {
-    for (int k = 0; k < LISTS; k++)
-        measure->lists[k].count = 0;
+    for (int k = 0; k < LISTS; k++) measure->lists[k].count = 0;
     measure->latest = (sb_measure_records){0};
 }
 
 sb_status sb_measure_load(sb_measure *measure, sb_archive_in *in, sb_error *error)
 {
     sb_status status = sb_archive_enter(in, SECTION, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     forget_latest(measure);
     measure->time = sb_take_real(in);
     measure->next = sb_take_count(in, (uint64_t)1 << 53);
@@ -99,11 +95,9 @@ sb_status sb_measure_load(sb_measure *measure, sb_archive_in *in, sb_error *erro
         sb_archive_refuse(in, "the next rows at %g s, the time being %g s", reached, measure->time);
     take_bodies(measure, in);
     status = take_planes(measure, in, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     if (sb_take_flag(in) != (measure->map != NULL))
         sb_archive_refuse(in, measure->map ? "no map, expected one" : "a map, expected none");
-    if (measure->map)
-        sb_map_load(measure->map, in);
+    if (measure->map) sb_map_load(measure->map, in);
     return sb_archive_leave(in, error);
 }

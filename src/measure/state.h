@@ -29,9 +29,9 @@ enum { MAX_SKIPPED = 8 };
 struct sb_measurements {
     const sb_scene *scene;
     const sb_model *model;
-    double interval, time; /* s; time: of the last step's end */
+    double interval, time;     /* s; time: of the last step's end */
     double momentum_imbalance; /* largest of a step since the last row */
-    uint64_t next;         /* the next row lies at next * interval */
+    uint64_t next;             /* the next row lies at next * interval */
     body_state *states;
     sb_body_record *bodies;
     plane_state *planes;

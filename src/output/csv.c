@@ -33,8 +33,7 @@ static const struct {
                 "Mz_Nm_per_m,Fx_pressure_N_per_m,Fy_pressure_N_per_m,Fz_pressure_N_per_m,"
                 "Fx_friction_N_per_m,Fy_friction_N_per_m,Fz_friction_N_per_m"},
     [GAUGES] = {"gauges.csv", "time_s,gauge,eta_m", "time_s,gauge,eta_m"},
-    [PROBES] = {"probes.csv", "time_s,probe,u_m_s,v_m_s,w_m_s,p_Pa",
-                "time_s,probe,u_m_s,v_m_s,w_m_s,p_Pa"},
+    [PROBES] = {"probes.csv", "time_s,probe,u_m_s,v_m_s,w_m_s,p_Pa", "time_s,probe,u_m_s,v_m_s,w_m_s,p_Pa"},
     [ENERGY] = {"energy.csv",
                 "time_s,kinetic_J,potential_J,mass_kg,momentum_x_kg_m_s,momentum_y_kg_m_s,"
                 "momentum_z_kg_m_s,bodies_J,viscosity_J,wall_friction_J,pressure_solve_J,contact_J,"
@@ -116,8 +115,8 @@ static sb_status open_tables(const char *directory, const sb_scene *scene, const
     return SB_OK;
 }
 
-sb_status sb_csv_open(const char *directory, const sb_scene *scene, const sb_model *model,
-                      sb_csv **csv, sb_error *error)
+sb_status sb_csv_open(const char *directory, const sb_scene *scene, const sb_model *model, sb_csv **csv,
+                      sb_error *error)
 {
     return open_tables(directory, scene, model, NULL, csv, error);
 }
@@ -139,8 +138,9 @@ sb_status sb_csv_check(const char *directory, const sb_scene *scene, const sb_cs
         if (stat(path, &found) != 0)
             return sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(errno));
         if (lengths->bytes[k] == 0 || (uint64_t)found.st_size < lengths->bytes[k])
-            return sb_fail(error, SB_BAD_INPUT, "%.500s: has %llu bytes, expected the %llu that the checkpoint goes on from",
-                           path, (unsigned long long)found.st_size, (unsigned long long)lengths->bytes[k]);
+            return sb_fail(error, SB_BAD_INPUT,
+                           "%.500s: has %llu bytes, expected the %llu that the checkpoint goes on from", path,
+                           (unsigned long long)found.st_size, (unsigned long long)lengths->bytes[k]);
     }
     return SB_OK;
 }
@@ -250,9 +250,9 @@ static void write_energies(const sb_csv *csv, const sb_measure_records *records)
     for (size_t i = 0; i < records->energy_count; i++) {
         const sb_energy_record *row = &records->energies[i];
         const sb_ledger *ledger = &row->ledger;
-        const double changes[] = {ledger->bodies,  ledger->viscosity,   ledger->friction, ledger->pressure,
-                                  ledger->contact, ledger->integration, ledger->left,     row->momentum_imbalance,
-                                  ledger->stress};
+        const double changes[] = {ledger->bodies,   ledger->viscosity,       ledger->friction,
+                                  ledger->pressure, ledger->contact,         ledger->integration,
+                                  ledger->left,     row->momentum_imbalance, ledger->stress};
         begin_row(stream, row->time, NULL);
         put(stream, row->kinetic);
         put_fine(stream, row->potential);
@@ -277,8 +277,8 @@ static void write_totals(const sb_csv *csv, const sb_measure_records *records)
 
 sb_status sb_csv_write(sb_csv *csv, const sb_measure_records *records, sb_error *error)
 {
-    size_t rows = records->force_count + records->gauge_count + records->probe_count +
-                  records->flow_count + records->runup_count + records->energy_count;
+    size_t rows = records->force_count + records->gauge_count + records->probe_count + records->flow_count +
+                  records->runup_count + records->energy_count;
     if (rows == 0) return SB_OK;
     errno = 0;
     write_forces(csv, records);
@@ -297,8 +297,7 @@ sb_status sb_csv_close(sb_csv *csv, sb_error *error)
     for (int k = 0; k < TABLES; k++) {
         table *t = &csv->tables[k];
         if (t->stream && fclose(t->stream) != 0 && status == SB_OK)
-            status =
-                sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", t->path, strerror(errno));
+            status = sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", t->path, strerror(errno));
     }
     sb_free(csv);
     return status;

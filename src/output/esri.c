@@ -2,8 +2,7 @@
 
 #include "base/file.h"
 
-sb_status sb_esri_write(const char *path, const sb_map_record *map, const float *values,
-                        sb_error *error)
+sb_status sb_esri_write(const char *path, const sb_map_record *map, const float *values, sb_error *error)
 {
     sb_atomic_file out;
     sb_status status = sb_atomic_open(&out, path, error);
@@ -15,8 +14,7 @@ sb_status sb_esri_write(const char *path, const sb_map_record *map, const float 
     for (size_t row = map->rows; row-- > 0;) /* the northernmost row comes first */
         for (size_t i = 0; i < map->columns; i++) {
             double value = (double)values[row * map->columns + i];
-            fprintf(out.stream, "%.6g%c", isnan(value) ? -9999.0 : value,
-                    i + 1 < map->columns ? ' ' : '\n');
+            fprintf(out.stream, "%.6g%c", isnan(value) ? -9999.0 : value, i + 1 < map->columns ? ' ' : '\n');
         }
     return sb_atomic_commit(&out, 0, error);
 }

@@ -35,18 +35,15 @@ static const plot plots[] = {
     {"probes",
      "Velocity and pressure at probes",
      true,
-     {{"speed", "m/s", false, false, false, false, {2, 3, 4}},
-      {"pressure", "Pa", true, false, true, false, {5}}}},
+     {{"speed", "m/s", false, false, false, false, {2, 3, 4}}, {"pressure", "Pa", true, false, true, false, {5}}}},
     {"energy",
      "Energy",
      false,
-     {{"kinetic", "J", true, true, true, false, {1}},
-      {"potential, change", "J", true, true, true, true, {2}}}},
+     {{"kinetic", "J", true, true, true, false, {1}}, {"potential, change", "J", true, true, true, true, {2}}}},
     {"overtopping",
      "Volume through planes",
      true,
-     {{"volume", "m^3", false, true, true, false, {2}},
-      {"flux", "m^3/s", false, true, true, false, {3}}}},
+     {{"volume", "m^3", false, true, true, false, {2}}, {"flux", "m^3/s", false, true, true, false, {3}}}},
     {"runup",
      "Run-up",
      true,
@@ -63,14 +60,12 @@ static double value_of(const panel *p, const sb_series_row *row, const sb_series
     if (p->change) return a - first->values[p->columns[0]];
     if (p->signed_value) return a;
     double square = 0;
-    for (int k = 0; k < 3 && p->columns[k]; k++)
-        square += row->values[p->columns[k]] * row->values[p->columns[k]];
+    for (int k = 0; k < 3 && p->columns[k]; k++) square += row->values[p->columns[k]] * row->values[p->columns[k]];
     return sqrt(square);
 }
 
 /* Greatest |value| of every name in the first panel; over all names and for each panel in `top`. */
-static void find_peaks(const plot *what, const sb_series *series, double *peaks,
-                       double top[MAX_PANELS])
+static void find_peaks(const plot *what, const sb_series *series, double *peaks, double top[MAX_PANELS])
 {
     for (size_t i = 0; i < series->row_count; i++)
         for (int k = 0; k < MAX_PANELS && what->panels[k].label; k++) {
@@ -146,33 +141,27 @@ static const char *prefix_of(double top, double *scale)
 
 static void write_style(FILE *stream, const char *picture, int panels)
 {
-    static const char *const colors[MAX_LINES] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                                  "#e69f00", "#56b4e9", "#000000", "#7f3c8d",
-                                                  "#80ba5a", "#a5522d", "#666666", "#e73f74"};
-    fprintf(
-        stream,
-        "set terminal pngcairo noenhanced size 1200,%d font 'Sans,11'\nset output '%s'\n"
-        "set grid lt 1 lw 0.5 lc rgb '#dddddd'\nset border 3 lc rgb '#555555'\nset tics nomirror\n"
-        "set key outside right top Left reverse\nset lmargin 12\nset rmargin 26\n",
-        panels > 1 ? 800 : 500, picture);
-    for (int i = 0; i < MAX_LINES; i++)
-        fprintf(stream, "set linetype %d lc rgb '%s' lw 1.6\n", i + 1, colors[i]);
+    static const char *const colors[MAX_LINES] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
+                                                  "#000000", "#7f3c8d", "#80ba5a", "#a5522d", "#666666", "#e73f74"};
+    fprintf(stream,
+            "set terminal pngcairo noenhanced size 1200,%d font 'Sans,11'\nset output '%s'\n"
+            "set grid lt 1 lw 0.5 lc rgb '#dddddd'\nset border 3 lc rgb '#555555'\nset tics nomirror\n"
+            "set key outside right top Left reverse\nset lmargin 12\nset rmargin 26\n",
+            panels > 1 ? 800 : 500, picture);
+    for (int i = 0; i < MAX_LINES; i++) fprintf(stream, "set linetype %d lc rgb '%s' lw 1.6\n", i + 1, colors[i]);
     fprintf(stream, "set linetype cycle %d\n", MAX_LINES);
 }
 
-static void write_script(FILE *stream, const plot *what, const sb_scene *scene,
-                         const sb_series *series, const double *peaks, size_t chosen,
-                         char units[MAX_PANELS][16])
+static void write_script(FILE *stream, const plot *what, const sb_scene *scene, const sb_series *series,
+                         const double *peaks, size_t chosen, char units[MAX_PANELS][16])
 {
     char title[512];
     int panels = 0;
     while (panels < MAX_PANELS && what->panels[panels].label) panels++;
     char picture[64], note[64] = "";
     snprintf(picture, sizeof picture, "plots/%s.png", what->name);
-    if (chosen < series->name_count)
-        snprintf(note, sizeof note, " (largest %zu of %zu)", chosen, series->name_count);
-    snprintf(title, sizeof title, "%.300s: %s%s", scene->title ? scene->title : "", what->title,
-             note);
+    if (chosen < series->name_count) snprintf(note, sizeof note, " (largest %zu of %zu)", chosen, series->name_count);
+    snprintf(title, sizeof title, "%.300s: %s%s", scene->title ? scene->title : "", what->title, note);
     write_style(stream, picture, panels);
     fprintf(stream, "set multiplot layout %d,1 title ", panels);
     put_quoted(stream, title);
@@ -183,8 +172,8 @@ static void write_script(FILE *stream, const plot *what, const sb_scene *scene,
         size_t block = 0;
         for (size_t name = 0; name < series->name_count; name++) {
             if (peaks[name] < 0) continue;
-            fprintf(stream, "%s'plots/%s.dat' index %zu using 1:%d with lines title ",
-                    block ? ", " : "", what->name, block, k + 2);
+            fprintf(stream, "%s'plots/%s.dat' index %zu using 1:%d with lines title ", block ? ", " : "", what->name,
+                    block, k + 2);
             put_quoted(stream, series->names[name]);
             block++;
         }
@@ -205,8 +194,8 @@ static void choose_units(const plot *what, const sb_scene *scene, const double t
     }
 }
 
-static FILE *open_in(const char *directory, const char *name, const char *ending,
-                     char path[SB_PATH_MAX], sb_error *error)
+static FILE *open_in(const char *directory, const char *name, const char *ending, char path[SB_PATH_MAX],
+                     sb_error *error)
 {
     int length = snprintf(path, SB_PATH_MAX, "%s/plots/%s.%s", directory, name, ending);
     FILE *stream = NULL;
@@ -226,8 +215,8 @@ static sb_status draw(const char *program, const char *directory, const char *na
     return sb_tool_run(program, arguments, directory, error);
 }
 
-static sb_status draw_series(const char *program, const char *directory, const plot *what,
-                             const sb_scene *scene, const sb_series *series, sb_error *error)
+static sb_status draw_series(const char *program, const char *directory, const plot *what, const sb_scene *scene,
+                             const sb_series *series, sb_error *error)
 {
     char data[SB_PATH_MAX] = "", script[SB_PATH_MAX] = "", units[MAX_PANELS][16] = {{0}};
     double top[MAX_PANELS] = {0}, scale[MAX_PANELS];
@@ -255,8 +244,8 @@ static sb_status draw_series(const char *program, const char *directory, const p
     return status;
 }
 
-static int draw_plot(const char *program, const char *directory, const plot *what,
-                     const sb_scene *scene, sb_runlog *log)
+static int draw_plot(const char *program, const char *directory, const plot *what, const sb_scene *scene,
+                     sb_runlog *log)
 {
     char path[SB_PATH_MAX];
     sb_error error = {0};
@@ -280,16 +269,13 @@ static int draw_plot(const char *program, const char *directory, const plot *wha
 static const struct {
     const char *name, *label, *palette, *range;
 } maps[] = {
-    {"max_depth", "greatest depth (m)", "0 '#ffffff', 0.02 '#deebf7', 0.4 '#6baed6', 1 '#08306b'",
-     FROM_ZERO},
+    {"max_depth", "greatest depth (m)", "0 '#ffffff', 0.02 '#deebf7', 0.4 '#6baed6', 1 '#08306b'", FROM_ZERO},
     {"max_speed", "greatest speed (m/s)", "0 '#ffffe5', 0.5 '#fe9929', 1 '#662506'", FROM_ZERO},
-    {"max_momentum_flux", "greatest momentum flux (m^3/s^2)",
-     "0 '#fff7f3', 0.5 '#f768a1', 1 '#49006a'", FROM_ZERO},
+    {"max_momentum_flux", "greatest momentum flux (m^3/s^2)", "0 '#fff7f3', 0.5 '#f768a1', 1 '#49006a'", FROM_ZERO},
     {"arrival_time", "arrival time (s)", "0 '#440154', 0.5 '#21918c', 1 '#fde725'", ""},
 };
 
-static int draw_map(const char *program, const char *directory, size_t k, const sb_scene *scene,
-                    sb_runlog *log)
+static int draw_map(const char *program, const char *directory, size_t k, const sb_scene *scene, sb_runlog *log)
 {
     char grid[SB_PATH_MAX], script[SB_PATH_MAX], title[512];
     sb_error error = {0};
@@ -297,8 +283,8 @@ static int draw_map(const char *program, const char *directory, size_t k, const 
     if (access(grid, R_OK) != 0) return 0;
     double columns, rows, x, y, cell;
     FILE *in = fopen(grid, "r");
-    bool read = in && fscanf(in, "ncols %lf nrows %lf xllcorner %lf yllcorner %lf cellsize %lf",
-                             &columns, &rows, &x, &y, &cell) == 5;
+    bool read = in && fscanf(in, "ncols %lf nrows %lf xllcorner %lf yllcorner %lf cellsize %lf", &columns, &rows, &x,
+                             &y, &cell) == 5;
     if (in) fclose(in);
     FILE *out = read && rows > 1 ? open_in(directory, maps[k].name, "gp", script, &error) : NULL;
     if (!out) return 0;
@@ -308,8 +294,7 @@ static int draw_map(const char *program, const char *directory, size_t k, const 
             "set output 'maps/%s.png'\nset size ratio -1\nset xlabel 'x (m)'\nset ylabel 'y (m)'\n"
             "set palette defined (%s)\nset cblabel '%s'\nset tics out nomirror\nunset key\n%s"
             "set xrange [%.12g:%.12g]\nset yrange [%.12g:%.12g]\nset title ",
-            maps[k].name, maps[k].palette, maps[k].label, maps[k].range, x, x + columns * cell, y,
-            y + rows * cell);
+            maps[k].name, maps[k].palette, maps[k].label, maps[k].range, x, x + columns * cell, y, y + rows * cell);
     put_quoted(out, title);
     fprintf(out,
             "\nplot 'maps/%s.asc' skip 6 matrix using (%.12g+($1+0.5)*%.12g):"
@@ -340,7 +325,6 @@ int sb_plots_write(const char *directory, const sb_scene *scene, sb_runlog *log)
     int drawn = 0;
     for (size_t i = 0; i < sizeof plots / sizeof *plots; i++)
         drawn += draw_plot(program, directory, &plots[i], scene, log);
-    for (size_t k = 0; k < sizeof maps / sizeof *maps; k++)
-        drawn += draw_map(program, directory, k, scene, log);
+    for (size_t k = 0; k < sizeof maps / sizeof *maps; k++) drawn += draw_map(program, directory, k, scene, log);
     return drawn;
 }

@@ -12,8 +12,7 @@ static double ratio(double a, double b)
 static double stage_sum(const sb_profile *p)
 {
     double sum = 0;
-    for (size_t s = 0; s < p->stage_count; s++)
-        sum += p->stages[s].seconds;
+    for (size_t s = 0; s < p->stage_count; s++) sum += p->stages[s].seconds;
     return sum;
 }
 
@@ -28,9 +27,9 @@ static void print_stages(FILE *out, const sb_profile *p, double sum, double part
 {
     fprintf(out, "%-12s %9s %10s %7s %22s\n", "stage", "calls", "seconds", "share", "ns per particle-step");
     for (size_t s = 0; s < p->stage_count; s++)
-        fprintf(out, "%-12s %9llu %10.3f %6.1f%% %22.2f\n", p->stages[s].name,
-                (unsigned long long)p->stages[s].calls, p->stages[s].seconds,
-                100 * ratio(p->stages[s].seconds, sum), 1e9 * ratio(p->stages[s].seconds, particle_steps));
+        fprintf(out, "%-12s %9llu %10.3f %6.1f%% %22.2f\n", p->stages[s].name, (unsigned long long)p->stages[s].calls,
+                p->stages[s].seconds, 100 * ratio(p->stages[s].seconds, sum),
+                1e9 * ratio(p->stages[s].seconds, particle_steps));
     fprintf(out, "%-12s %9s %10.3f %6.1f%% %22.2f\n", "all stages", "", sum, 100.0, 1e9 * ratio(sum, particle_steps));
 }
 
@@ -38,8 +37,7 @@ static void print_stages(FILE *out, const sb_profile *p, double sum, double part
 static double pair_pass(const sb_profile *p)
 {
     for (size_t s = 0; s < p->stage_count; s++)
-        if (strcmp(p->stages[s].name, "source") == 0)
-            return ratio(p->stages[s].seconds, (double)p->stages[s].calls);
+        if (strcmp(p->stages[s].name, "source") == 0) return ratio(p->stages[s].seconds, (double)p->stages[s].calls);
     return 0;
 }
 
@@ -47,8 +45,7 @@ static void print_skipped(FILE *out, const sb_profile *p)
 {
     fprintf(out, "left out, for the scene needs none of it:\n");
     for (size_t list = 0; list < SB_PROFILE_LISTS; list++)
-        for (const char *const *line = p->skipped[list]; line && *line; line++)
-            fprintf(out, "  %s\n", *line);
+        for (const char *const *line = p->skipped[list]; line && *line; line++) fprintf(out, "  %s\n", *line);
     fprintf(out, "each pass over pairs left out saved about %.3g ms per step, what the stage source took\n",
             1e3 * pair_pass(p));
 }
@@ -61,8 +58,8 @@ void sb_profile_print(FILE *out, const sb_profile *p)
     print_stages(out, p, sum, particle_steps);
     fprintf(out,
             "%llu steps after %llu of settling, %.1f iterations per step, %.4g particle-steps per second, %d threads\n",
-            (unsigned long long)p->steps, (unsigned long long)settling,
-            ratio((double)p->iterations, (double)p->steps), ratio(particle_steps, sum), p->threads);
+            (unsigned long long)p->steps, (unsigned long long)settling, ratio((double)p->iterations, (double)p->steps),
+            ratio(particle_steps, sum), p->threads);
     fprintf(out, "%.3f s in all: %.3f s set-up, %.3f s settling, %.3f s outside stages; %.4g s simulated\n", p->wall,
             p->setup, p->settling, p->wall > p->setup + sum ? p->wall - p->setup - sum : 0, p->simulated);
     fprintf(out, "memory: simulation %.1f MB, peak of the process %.1f MB\n", (double)p->bytes / 1e6,

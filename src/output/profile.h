@@ -12,12 +12,12 @@ enum { SB_PROFILE_LISTS = 4 };
 typedef struct sb_profile {
     const sb_stage_time *stages; /* since the start, settling included */
     size_t stage_count;
-    uint64_t steps, iterations;  /* of the run proper, settling not included */
-    double particle_steps;       /* sum over those steps of the fluid particles there were */
-    size_t settling_particles;   /* fluid particles while the water came to rest */
-    double setup, settling;      /* s: before the first step; bringing the water to rest */
-    double wall, simulated;      /* s: all in all; of the scene's clock */
-    size_t bytes;                /* heap bytes of the simulation */
+    uint64_t steps, iterations; /* of the run proper, settling not included */
+    double particle_steps;      /* sum over those steps of the fluid particles there were */
+    size_t settling_particles;  /* fluid particles while the water came to rest */
+    double setup, settling;     /* s: before the first step; bringing the water to rest */
+    double wall, simulated;     /* s: all in all; of the scene's clock */
+    size_t bytes;               /* heap bytes of the simulation */
     int threads;
     const char *const *skipped[SB_PROFILE_LISTS]; /* lines, each list ended by NULL; NULL: no list */
 } sb_profile;

@@ -64,11 +64,9 @@ static void print(sb_progress *progress, const sb_step_report *report)
     sb_progress_duration(eta, progress->eta);
     sb_progress_duration(wall, sb_progress_wall(progress));
     double percent = progress->duration > 0 ? 100 * report->time / progress->duration : 100;
-    fprintf(progress->stream,
-            "%s%5.1f %%  t %.3f s  dt %.4f s  %d iterations  %.1f m/s  %s so far, %s left%s",
-            progress->terminal ? "\r" : "", percent < 100 ? percent : 100, report->time,
-            report->time_step, report->iterations, report->max_speed, wall, eta,
-            progress->terminal ? "\033[K" : "\n");
+    fprintf(progress->stream, "%s%5.1f %%  t %.3f s  dt %.4f s  %d iterations  %.1f m/s  %s so far, %s left%s",
+            progress->terminal ? "\r" : "", percent < 100 ? percent : 100, report->time, report->time_step,
+            report->iterations, report->max_speed, wall, eta, progress->terminal ? "\033[K" : "\n");
     fflush(progress->stream);
     progress->open = progress->terminal;
 }

@@ -16,10 +16,9 @@ void sb_pvd_free(sb_pvd *pvd)
 
 static sb_status append(sb_pvd *pvd, double time, const char *file, size_t length, sb_error *error)
 {
-    if (length == 0 || length >= sizeof pvd->entries->file || memchr(file, '"', length) ||
-        memchr(file, '<', length) || memchr(file, '&', length))
-        return sb_fail(error, SB_BAD_INPUT, "%.*s: not a file name for a pvd",
-                       length < 300 ? (int)length : 300, file);
+    if (length == 0 || length >= sizeof pvd->entries->file || memchr(file, '"', length) || memchr(file, '<', length) ||
+        memchr(file, '&', length))
+        return sb_fail(error, SB_BAD_INPUT, "%.*s: not a file name for a pvd", length < 300 ? (int)length : 300, file);
     if (sb_grow((void **)&pvd->entries, &pvd->capacity, pvd->count + 1, sizeof *pvd->entries) != 0)
         return sb_fail_memory(error, "list of particle files");
     sb_pvd_entry *entry = &pvd->entries[pvd->count++];
@@ -49,8 +48,8 @@ sb_status sb_pvd_write(const sb_pvd *pvd, const char *path, sb_error *error)
           "byte_order=\"LittleEndian\">\n<Collection>\n",
           out.stream);
     for (size_t i = 0; i < pvd->count; i++)
-        fprintf(out.stream, "<DataSet timestep=\"%.12g\" part=\"0\" file=\"%s\"/>\n",
-                pvd->entries[i].time, pvd->entries[i].file);
+        fprintf(out.stream, "<DataSet timestep=\"%.12g\" part=\"0\" file=\"%s\"/>\n", pvd->entries[i].time,
+                pvd->entries[i].file);
     fputs("</Collection>\n</VTKFile>\n", out.stream);
     return sb_atomic_commit(&out, 0, error);
 }
@@ -66,8 +65,7 @@ static sb_status parse(const char *path, const char *text, sb_pvd *pvd, sb_error
         const char *file = rest + strlen(between);
         bool good = isfinite(time) && strncmp(rest, between, strlen(between)) == 0;
         const char *end = good ? strchr(file, '"') : NULL;
-        if (!end)
-            return sb_fail(error, SB_BAD_INPUT, "%.500s: damaged entry %zu", path, pvd->count + 1);
+        if (!end) return sb_fail(error, SB_BAD_INPUT, "%.500s: damaged entry %zu", path, pvd->count + 1);
         sb_status status = append(pvd, time, file, (size_t)(end - file), error);
         if (status != SB_OK) return status;
         at = end;

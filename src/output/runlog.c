@@ -68,8 +68,7 @@ sb_status sb_runlog_sync(sb_runlog *log, sb_error *error)
 
 static sb_status verdict(const sb_runlog *log, sb_error *error)
 {
-    return log->reason ? sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", log->path,
-                                 strerror(log->reason))
+    return log->reason ? sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", log->path, strerror(log->reason))
                        : SB_OK;
 }
 
@@ -106,8 +105,7 @@ static void begin(sb_runlog *log, sb_json *json, const char *event)
 static void end(sb_runlog *log, sb_json *json)
 {
     sb_json_close(json);
-    if ((fflush(log->stream) != 0 || ferror(log->stream)) && !log->reason)
-        log->reason = errno ? errno : EIO;
+    if ((fflush(log->stream) != 0 || ferror(log->stream)) && !log->reason) log->reason = errno ? errno : EIO;
     pthread_mutex_unlock(&log->mutex);
 }
 
@@ -119,8 +117,7 @@ static void put_numerics(sb_json *json, const sb_numerics *n)
     sb_json_text(json, "kernel", n->kernel ? n->kernel->name : NULL);
     sb_json_number(json, "support", n->support);
     sb_json_text(json, "solver", solvers[n->solver]);
-    sb_json_text(json, "tolerance_rule",
-                 n->tolerance_rule == SB_TOLERANCE_DENSITY ? "density" : "pressure");
+    sb_json_text(json, "tolerance_rule", n->tolerance_rule == SB_TOLERANCE_DENSITY ? "density" : "pressure");
     sb_json_number(json, "tolerance", n->tolerance);
     sb_json_count(json, "min_iterations", (uint64_t)n->min_iterations);
     sb_json_count(json, "max_iterations", (uint64_t)n->max_iterations);
@@ -128,8 +125,7 @@ static void put_numerics(sb_json *json, const sb_numerics *n)
     sb_json_number(json, "warm_start", n->warm_start);
     sb_json_number(json, "source_relaxation", n->source_relaxation);
     sb_json_number(json, "cfl", n->cfl);
-    sb_json_text(json, "time_step_rule",
-                 n->time_step_rule == SB_TIME_STEP_PAPER ? "paper" : "depth");
+    sb_json_text(json, "time_step_rule", n->time_step_rule == SB_TIME_STEP_PAPER ? "paper" : "depth");
     sb_json_number(json, "time_step_factor", n->time_step_factor);
     sb_json_number(json, "time_step_max", n->time_step_max);
     sb_json_number(json, "stress_correction", n->stress_correction);
@@ -149,8 +145,7 @@ static void put_numerics(sb_json *json, const sb_numerics *n)
     sb_json_close(json);
 }
 
-void sb_runlog_start(sb_runlog *log, const sb_scene *scene, const sb_model *model, int threads,
-                     size_t bytes)
+void sb_runlog_start(sb_runlog *log, const sb_scene *scene, const sb_model *model, int threads, size_t bytes)
 {
     if (!log) return;
     sb_json json;
@@ -254,8 +249,7 @@ void sb_runlog_bodies(sb_runlog *log, const sb_model *model, const sb_body_recor
         begin(log, &json, "body");
         sb_json_text(&json, "body", model->bodies[b].name);
         sb_json_number(&json, "flow_layers", bodies[b].layers);
-        sb_json_bool(&json, "too_coarse",
-                     bodies[b].layers > 0 && bodies[b].layers < SB_LAYERS_TRUSTED);
+        sb_json_bool(&json, "too_coarse", bodies[b].layers > 0 && bodies[b].layers < SB_LAYERS_TRUSTED);
         end(log, &json);
     }
 }
@@ -265,10 +259,7 @@ void sb_runlog_end(sb_runlog *log, sb_status status, const char *reason)
     if (!log) return;
     sb_json json;
     begin(log, &json, "end");
-    sb_json_text(&json, "status",
-                 status == SB_OK            ? "done"
-                 : status == SB_INTERRUPTED ? "interrupted"
-                                            : "failed");
+    sb_json_text(&json, "status", status == SB_OK ? "done" : status == SB_INTERRUPTED ? "interrupted" : "failed");
     if (reason && *reason) sb_json_text(&json, "text", reason);
     end(log, &json);
 }

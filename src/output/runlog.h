@@ -26,19 +26,16 @@ sb_status sb_runlog_check(sb_runlog *log, sb_error *error);
 sb_status sb_runlog_close(sb_runlog *log, sb_error *error);
 
 /* "start": version, scene, threads, particles, memory, numerics chosen, the model's warnings. */
-void sb_runlog_start(sb_runlog *log, const sb_scene *scene, const sb_model *model, int threads,
-                     size_t bytes);
+void sb_runlog_start(sb_runlog *log, const sb_scene *scene, const sb_model *model, int threads, size_t bytes);
 
 /* "skipped", one line for each of lines (ended by NULL). */
 void sb_runlog_skipped(sb_runlog *log, const char *const *lines);
 
 /* "warning" with a text. */
-void sb_runlog_warning(sb_runlog *log, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
+void sb_runlog_warning(sb_runlog *log, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Any other event with a text, e.g. "settled", "frame", "plot". */
-void sb_runlog_event(sb_runlog *log, const char *event, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
+void sb_runlog_event(sb_runlog *log, const char *event, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /* The periodic "step" line. */
 typedef struct sb_runlog_state {

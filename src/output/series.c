@@ -54,8 +54,7 @@ static sb_status find_name(sb_series *series, const char *name, size_t *index, s
     return SB_OK;
 }
 
-static sb_status take_row(sb_series *series, const char *line, const char *end, bool named,
-                          sb_error *error)
+static sb_status take_row(sb_series *series, const char *line, const char *end, bool named, sb_error *error)
 {
     char field[256];
     sb_series_row row = {0};
@@ -73,8 +72,7 @@ static sb_status take_row(sb_series *series, const char *line, const char *end, 
         } else if (field[0])
             row.values[k] = strtod(field, NULL);
     }
-    if (sb_grow((void **)&series->rows, &series->row_capacity, series->row_count + 1,
-                sizeof *series->rows) != 0)
+    if (sb_grow((void **)&series->rows, &series->row_capacity, series->row_count + 1, sizeof *series->rows) != 0)
         return sb_fail_memory(error, "plots");
     series->rows[series->row_count++] = row;
     return SB_OK;

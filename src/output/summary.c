@@ -90,13 +90,9 @@ static void put_all(sb_json *json, const sb_summary *s)
 {
     sb_json_open(json, NULL, '{');
     sb_json_text(json, "version", SB_VERSION);
-    sb_json_text(json, "preset",
-                 s->scene->numerics.preset == SB_PRESET_PAPER ? "paper" : "default");
+    sb_json_text(json, "preset", s->scene->numerics.preset == SB_PRESET_PAPER ? "paper" : "default");
     sb_json_text(json, "title", s->scene->title);
-    sb_json_text(json, "status",
-                 s->status == SB_OK            ? "done"
-                 : s->status == SB_INTERRUPTED ? "interrupted"
-                                               : "failed");
+    sb_json_text(json, "status", s->status == SB_OK ? "done" : s->status == SB_INTERRUPTED ? "interrupted" : "failed");
     if (s->reason) sb_json_text(json, "reason", s->reason);
     sb_json_number(json, "wall_s", s->wall);
     sb_json_number(json, "simulated_s", s->simulated);

@@ -12,18 +12,18 @@
 typedef struct sb_summary {
     const sb_scene *scene;
     const sb_model *model;
-    sb_status status;           /* how the run ended */
-    const char *reason;         /* NULL unless it failed */
-    double wall, simulated;     /* s */
-    uint64_t steps, iterations; /* iterations: sum over all steps */
-    uint64_t capped_steps;      /* pressure solves that stopped above their tolerance */
-    size_t fluid_particles;     /* at the start */
-    size_t bytes;               /* heap bytes of the simulation */
-    uint64_t lost, left_domain; /* through walls; through open sides */
+    sb_status status;                /* how the run ended */
+    const char *reason;              /* NULL unless it failed */
+    double wall, simulated;          /* s */
+    uint64_t steps, iterations;      /* iterations: sum over all steps */
+    uint64_t capped_steps;           /* pressure solves that stopped above their tolerance */
+    size_t fluid_particles;          /* at the start */
+    size_t bytes;                    /* heap bytes of the simulation */
+    uint64_t lost, left_domain;      /* through walls; through open sides */
     const sb_departures *departures; /* by which side, and the first few */
-    bool has_inside;            /* the two below were asked for */
-    uint64_t inside, crossed;   /* particles whose centre lies within a solid at the end: at all; deeper
-                                   than its boundary particles */
+    bool has_inside;                 /* the two below were asked for */
+    uint64_t inside, crossed;        /* particles whose centre lies within a solid at the end: at all; deeper
+                                        than its boundary particles */
     int threads;
     const sb_body_record *bodies; /* one per body of the model; NULL: none */
     sb_energy first, last;        /* energies at the start and at the end */

@@ -19,8 +19,8 @@ bool sb_tool_find(const char *name, char path[SB_PATH_MAX])
         size_t length = strcspn(at, ":");
         struct stat status;
         int written = snprintf(path, SB_PATH_MAX, "%.*s/%s", (int)length, at, name);
-        if (length > 0 && written < SB_PATH_MAX && access(path, X_OK) == 0 &&
-            stat(path, &status) == 0 && S_ISREG(status.st_mode))
+        if (length > 0 && written < SB_PATH_MAX && access(path, X_OK) == 0 && stat(path, &status) == 0 &&
+            S_ISREG(status.st_mode))
             return true;
         at += length + (at[length] == ':');
     }
@@ -39,8 +39,7 @@ static void last_line(FILE *stream, char *line, size_t size)
     }
 }
 
-static int spawn(const char *path, char *const *arguments, const char *folder, int output,
-                 pid_t *child)
+static int spawn(const char *path, char *const *arguments, const char *folder, int output, pid_t *child)
 {
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
@@ -52,14 +51,12 @@ static int spawn(const char *path, char *const *arguments, const char *folder, i
     sigaddset(&defaults, SIGPIPE);
     posix_spawn_file_actions_init(&actions);
     posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK |
-                                              POSIX_SPAWN_SETSIGDEF);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
     posix_spawnattr_setpgroup(&attributes, 0);
     posix_spawnattr_setsigmask(&attributes, &none);
     posix_spawnattr_setsigdefault(&attributes, &defaults);
     int result = posix_spawn_file_actions_addchdir_np(&actions, folder);
-    if (result == 0)
-        result = posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+    if (result == 0) result = posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
     if (result == 0) result = posix_spawn_file_actions_adddup2(&actions, output, 1);
     if (result == 0) result = posix_spawn_file_actions_adddup2(&actions, output, 2);
     if (result == 0) result = posix_spawn(child, path, &actions, &attributes, arguments, environ);
@@ -71,9 +68,7 @@ static int spawn(const char *path, char *const *arguments, const char *folder, i
 sb_status sb_tool_run(const char *path, char *const *arguments, const char *folder, sb_error *error)
 {
     FILE *said = tmpfile();
-    if (!said)
-        return sb_fail(error, SB_FAILED, "%s: no temporary file: %s", arguments[0],
-                       strerror(errno));
+    if (!said) return sb_fail(error, SB_FAILED, "%s: no temporary file: %s", arguments[0], strerror(errno));
     pid_t child;
     int result = spawn(path, arguments, folder, fileno(said), &child), ended = 0;
     if (result != 0) {
@@ -85,9 +80,9 @@ sb_status sb_tool_run(const char *path, char *const *arguments, const char *fold
     if (!WIFEXITED(ended) || WEXITSTATUS(ended) != 0) {
         char line[256];
         last_line(said, line, sizeof line);
-        status = sb_fail(error, SB_FAILED, "%s: ended with %s %d: %s", arguments[0],
-                         WIFEXITED(ended) ? "status" : "signal",
-                         WIFEXITED(ended) ? WEXITSTATUS(ended) : WTERMSIG(ended), line);
+        status =
+            sb_fail(error, SB_FAILED, "%s: ended with %s %d: %s", arguments[0], WIFEXITED(ended) ? "status" : "signal",
+                    WIFEXITED(ended) ? WEXITSTATUS(ended) : WTERMSIG(ended), line);
     }
     fclose(said);
     return status;

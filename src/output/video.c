@@ -31,14 +31,12 @@ bool sb_video_write(const char *directory, const char *camera, int rate, sb_runl
     /* file: keeps ffmpeg from taking a name with a colon for a protocol */
     snprintf(part, sizeof part, "file:%s.part.mp4", camera);
     snprintf(name, sizeof name, "%s.mp4", camera);
-    char *const arguments[] = {
-        "ffmpeg", "-y", "-nostdin", "-loglevel", "error", "-framerate", speed, "-i", pattern,
-        "-c:v", "libx264", "-preset", "veryfast", "-crf", "20", "-pix_fmt", "yuv420p",
-        /* yuv420p wants even sides */
-        "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-movflags", "+faststart", part, NULL};
+    char *const arguments[] = {"ffmpeg", "-y", "-nostdin", "-loglevel", "error", "-framerate", speed, "-i", pattern,
+                               "-c:v", "libx264", "-preset", "veryfast", "-crf", "20", "-pix_fmt", "yuv420p",
+                               /* yuv420p wants even sides */
+                               "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-movflags", "+faststart", part, NULL};
     sb_status status = SB_OK;
-    if (!pattern_of(pattern, camera))
-        status = sb_fail(&error, SB_FAILED, "%.64s...: name too long", camera);
+    if (!pattern_of(pattern, camera)) status = sb_fail(&error, SB_FAILED, "%.64s...: name too long", camera);
     if (status == SB_OK) status = sb_path_join(from, directory, part + strlen("file:"), &error);
     if (status == SB_OK) status = sb_path_join(to, directory, name, &error);
     if (status == SB_OK) unlink(from); /* one that outlived a killed run may still be writing it */

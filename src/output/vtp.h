@@ -16,7 +16,7 @@ sb_status sb_vtp_read(const char *path, sb_frame **frame, sb_error *error);
 
 /* A bare cloud, for `shorebreak sample`: positions in m, unit normals (may be NULL), and the body
    each point belongs to, -1 for water (may be NULL). */
-sb_status sb_vtp_write_points(const char *path, size_t count, const sb_vec3 *positions,
-                              const sb_vec3 *normals, const int32_t *bodies, sb_error *error);
+sb_status sb_vtp_write_points(const char *path, size_t count, const sb_vec3 *positions, const sb_vec3 *normals,
+                              const int32_t *bodies, sb_error *error);
 
 #endif

@@ -20,7 +20,7 @@ enum {
 
 /* How every file begins: what is read back has to begin with the same bytes. */
 #define SB_VTP_HEAD                                                                                                    \
-    "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "                    \
+    "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "                 \
     "header_type=\"UInt64\">\n"
 #define SB_VTP_APPENDED "<AppendedData encoding=\"raw\">\n_"
 

@@ -20,8 +20,7 @@ typedef struct source {
 
 static sb_status damaged(const source *file, sb_error *error, const char *what)
 {
-    return sb_fail(error, SB_BAD_INPUT, "%.500s: %s, expected a particle file of shorebreak",
-                   file->path, what);
+    return sb_fail(error, SB_BAD_INPUT, "%.500s: %s, expected a particle file of shorebreak", file->path, what);
 }
 
 /* The value of key="..." between from and to as a number; false when absent or not a number. */
@@ -59,23 +58,21 @@ static sb_status read_header(source *file, sb_error *error)
     if (fseeko(file->stream, 0, SEEK_END) != 0) return damaged(file, error, "not seekable");
     file->end = (uint64_t)ftello(file->stream);
     /* 24 bytes of position each: a count that the file cannot hold must not be allocated. */
-    if (file->points > (file->end - file->base) / 24)
-        return damaged(file, error, "shorter than its particles");
+    if (file->points > (file->end - file->base) / 24) return damaged(file, error, "shorter than its particles");
     return SB_OK;
 }
 
 /* Puts the stream at the data of an array and checks that it has `tuples` tuples (0: any, returned)
    of that type and that many components, all inside the file. */
-static sb_status find_array(source *file, const char *name, const char *type, uint64_t size,
-                            uint64_t components, uint64_t *tuples, sb_error *error)
+static sb_status find_array(source *file, const char *name, const char *type, uint64_t size, uint64_t components,
+                            uint64_t *tuples, sb_error *error)
 {
     char pattern[128], what[160];
     snprintf(pattern, sizeof pattern, "<DataArray type=\"%s\" Name=\"%s\"", type, name);
     const char *tag = strstr(file->header, pattern);
     const char *end = tag ? strchr(tag, '>') : NULL;
     uint64_t found = 0, offset = 0, length = 0;
-    snprintf(what, sizeof what, "no %s array \"%s\" of %u components", type, name,
-             (unsigned)components);
+    snprintf(what, sizeof what, "no %s array \"%s\" of %u components", type, name, (unsigned)components);
     if (!end || !find_number(tag, end, "NumberOfComponents", &found) || found != components ||
         !find_number(tag, end, "offset", &offset))
         return damaged(file, error, what);
@@ -85,16 +82,15 @@ static sb_status find_array(source *file, const char *name, const char *type, ui
         fseeko(file->stream, (off_t)(file->base + offset), SEEK_SET) != 0 ||
         fread(&length, sizeof length, 1, file->stream) != 1)
         return damaged(file, error, what);
-    if (length > room - sizeof length - offset || length % (size * components) != 0)
-        return damaged(file, error, what);
+    if (length > room - sizeof length - offset || length % (size * components) != 0) return damaged(file, error, what);
     uint64_t there = length / (size * components);
     if (*tuples && there != *tuples) return damaged(file, error, what);
     *tuples = there;
     return SB_OK;
 }
 
-static sb_status read_array(source *file, const char *name, const char *type, uint64_t size,
-                            uint64_t components, uint64_t tuples, void *out, sb_error *error)
+static sb_status read_array(source *file, const char *name, const char *type, uint64_t size, uint64_t components,
+                            uint64_t tuples, void *out, sb_error *error)
 {
     if (tuples == 0) return SB_OK;
     sb_status status = find_array(file, name, type, size, components, &tuples, error);
@@ -112,8 +108,7 @@ static sb_status read_points(source *file, sb_frame *frame, sb_error *error)
     double block[3 * POINT_BLOCK];
     for (uint64_t first = 0; status == SB_OK && first < tuples; first += POINT_BLOCK) {
         uint64_t count = tuples - first < POINT_BLOCK ? tuples - first : POINT_BLOCK;
-        if (fread(block, 3 * sizeof(double), count, file->stream) != count)
-            return damaged(file, error, "cut off");
+        if (fread(block, 3 * sizeof(double), count, file->stream) != count) return damaged(file, error, "cut off");
         for (uint64_t i = 0; i < count; i++) {
             float *out = frame->position + 3 * (first + i);
             out[0] = (float)(block[3 * i] - frame->origin.x);
@@ -125,8 +120,7 @@ static sb_status read_points(source *file, sb_frame *frame, sb_error *error)
 }
 
 /* One column of three doubles per body. */
-static sb_status read_vectors(source *file, const char *name, size_t count, double *scratch,
-                              sb_error *error)
+static sb_status read_vectors(source *file, const char *name, size_t count, double *scratch, sb_error *error)
 {
     return read_array(file, name, "Float64", 8, 3, count, scratch, error);
 }
@@ -142,22 +136,18 @@ static sb_status read_bodies(source *file, sb_frame *frame, sb_error *error)
     size_t n = frame->body_count;
     double *vectors = sb_alloc(n, 3 * sizeof *vectors);
     char *bytes = sb_alloc(n, NAME);
-    sb_status status =
-        vectors && bytes ? SB_OK : sb_fail_memory(error, "bodies of a particle file");
+    sb_status status = vectors && bytes ? SB_OK : sb_fail_memory(error, "bodies of a particle file");
     if (status == SB_OK) status = read_array(file, "body_name", "UInt8", 1, NAME, n, bytes, error);
     for (size_t i = 0; status == SB_OK && i < n; i++)
         snprintf(frame->bodies[i].name, NAME, "%.*s", NAME - 1, bytes + i * NAME);
     if (status == SB_OK) status = read_array(file, "body_report", "UInt8", 1, 1, n, bytes, error);
     for (size_t i = 0; status == SB_OK && i < n; i++) frame->bodies[i].report = bytes[i] != 0;
     if (status == SB_OK) status = read_vectors(file, "body_displacement", n, vectors, error);
-    for (size_t i = 0; status == SB_OK && i < n; i++)
-        frame->bodies[i].displacement = vector_at(vectors, i);
+    for (size_t i = 0; status == SB_OK && i < n; i++) frame->bodies[i].displacement = vector_at(vectors, i);
     if (status == SB_OK) status = read_vectors(file, "body_force", n, vectors, error);
-    for (size_t i = 0; status == SB_OK && i < n; i++)
-        frame->bodies[i].force = vector_at(vectors, i);
+    for (size_t i = 0; status == SB_OK && i < n; i++) frame->bodies[i].force = vector_at(vectors, i);
     if (status == SB_OK) status = read_vectors(file, "body_moment", n, vectors, error);
-    for (size_t i = 0; status == SB_OK && i < n; i++)
-        frame->bodies[i].moment = vector_at(vectors, i);
+    for (size_t i = 0; status == SB_OK && i < n; i++) frame->bodies[i].moment = vector_at(vectors, i);
     sb_free(vectors);
     sb_free(bytes);
     return status;
@@ -175,18 +165,15 @@ static sb_status read_fields(source *file, sb_frame *frame, sb_error *error)
 {
     double origin[3], values[SB_VTP_STATUS_COUNT];
     sb_status status = read_array(file, "origin", "Float64", 8, 3, 1, origin, error);
-    if (status == SB_OK)
-        status = read_array(file, "spacing", "Float64", 8, 1, 1, &frame->spacing, error);
-    if (status == SB_OK)
-        status = read_array(file, "status", "Float64", 8, SB_VTP_STATUS_COUNT, 1, values, error);
+    if (status == SB_OK) status = read_array(file, "spacing", "Float64", 8, 1, 1, &frame->spacing, error);
+    if (status == SB_OK) status = read_array(file, "status", "Float64", 8, SB_VTP_STATUS_COUNT, 1, values, error);
     if (status != SB_OK) return status;
     frame->origin = vector_at(origin, 0);
     sb_frame_status *now = &frame->status;
     uint64_t iterations;
     if (!sb_isfinite(frame->origin) || !isfinite(frame->spacing) || !(frame->spacing > 0) ||
         !to_count(values[SB_VTP_STEP], &now->step) || !isfinite(values[SB_VTP_TIME]) ||
-        !to_count(values[SB_VTP_LOST], &now->lost_particles) ||
-        !to_count(values[SB_VTP_INDEX], &frame->index) ||
+        !to_count(values[SB_VTP_LOST], &now->lost_particles) || !to_count(values[SB_VTP_INDEX], &frame->index) ||
         !to_count(values[SB_VTP_ITERATIONS], &iterations) || iterations > INT32_MAX)
         return damaged(file, error, "senseless values in its field data");
     now->time = values[SB_VTP_TIME];
@@ -228,8 +215,7 @@ static sb_status read_frame(source *file, sb_frame **frame, sb_error *error)
     uint64_t bodies = 0;
     sb_status status = SB_OK;
     if (strstr(file->header, "Name=\"body_name\""))
-        status =
-            find_array(file, "body_name", "UInt8", 1, sizeof(*frame)->bodies->name, &bodies, error);
+        status = find_array(file, "body_name", "UInt8", 1, sizeof(*frame)->bodies->name, &bodies, error);
     if (status == SB_OK && bodies > MAX_BODIES) status = damaged(file, error, "too many bodies");
     if (status != SB_OK) return status;
     sb_frame *made = sb_frame_create(file->points, bodies);
@@ -237,12 +223,9 @@ static sb_status read_frame(source *file, sb_frame **frame, sb_error *error)
     status = read_fields(file, made, error);
     if (status == SB_OK) status = read_bodies(file, made, error);
     if (status == SB_OK) status = read_points(file, made, error);
-    if (status == SB_OK)
-        status = read_array(file, "velocity", "Float32", 4, 3, file->points, made->velocity, error);
-    if (status == SB_OK)
-        status = read_array(file, "pressure", "Float32", 4, 1, file->points, made->pressure, error);
-    if (status == SB_OK)
-        status = read_array(file, "id", "UInt32", 4, 1, file->points, made->id, error);
+    if (status == SB_OK) status = read_array(file, "velocity", "Float32", 4, 3, file->points, made->velocity, error);
+    if (status == SB_OK) status = read_array(file, "pressure", "Float32", 4, 1, file->points, made->pressure, error);
+    if (status == SB_OK) status = read_array(file, "id", "UInt32", 4, 1, file->points, made->id, error);
     if (status == SB_OK) status = check_numbers(file, made, error);
     if (status != SB_OK)
         sb_frame_release(made);
@@ -254,8 +237,7 @@ static sb_status read_frame(source *file, sb_frame **frame, sb_error *error)
 sb_status sb_vtp_read(const char *path, sb_frame **frame, sb_error *error)
 {
     source file = {.path = path, .stream = fopen(path, "rb")};
-    if (!file.stream)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(errno));
+    if (!file.stream) return sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(errno));
     sb_status status = read_header(&file, error);
     if (status == SB_OK) status = read_frame(&file, frame, error);
     sb_free(file.header);

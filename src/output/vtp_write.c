@@ -65,8 +65,8 @@ static size_t array_bytes(const array *item)
 
 static void write_tag(FILE *stream, const array *item, bool field, uint64_t *offset)
 {
-    fprintf(stream, "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%zu\"", item->type,
-            item->name, item->components);
+    fprintf(stream, "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%zu\"", item->type, item->name,
+            item->components);
     if (field) fprintf(stream, " NumberOfTuples=\"%zu\"", item->tuples);
     fprintf(stream, " format=\"appended\" offset=\"%" PRIu64 "\"/>\n", *offset);
     *offset += sizeof(uint64_t) + array_bytes(item);
@@ -109,8 +109,7 @@ static void write_data(FILE *stream, const array *item, void *buffer)
 static sb_status write_file(const char *path, const layout *file, sb_error *error)
 {
     if (file->points > INT32_MAX)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s: %zu points, at most %d fit", path,
-                       file->points, INT32_MAX);
+        return sb_fail(error, SB_BAD_INPUT, "%.500s: %zu points, at most %d fit", path, file->points, INT32_MAX);
     sb_atomic_file out;
     sb_status status = sb_atomic_open(&out, path, error);
     if (status != SB_OK) return status;
@@ -165,8 +164,7 @@ static sb_status make_columns(const sb_frame *frame, body_columns *columns, sb_e
     columns->moment = sb_alloc(n, 3 * sizeof(double));
     columns->report = sb_alloc(n, 1);
     columns->names = sb_alloc(n, sizeof frame->bodies->name);
-    if (!columns->displacement || !columns->force || !columns->moment || !columns->report ||
-        !columns->names)
+    if (!columns->displacement || !columns->force || !columns->moment || !columns->report || !columns->names)
         return sb_fail_memory(error, "bodies of a particle file");
     for (size_t i = 0; i < n; i++) {
         const sb_frame_body *body = &frame->bodies[i];
@@ -183,8 +181,7 @@ static void add_bodies(layout *file, const sb_frame *frame, const body_columns *
 {
     size_t n = frame->body_count;
     if (n == 0) return;
-    add(file,
-        (array){"body_name", "UInt8", 1, sizeof frame->bodies->name, n, columns->names, NULL});
+    add(file, (array){"body_name", "UInt8", 1, sizeof frame->bodies->name, n, columns->names, NULL});
     add(file, (array){"body_report", "UInt8", 1, 1, n, columns->report, NULL});
     add(file, (array){"body_displacement", "Float64", 8, 3, n, columns->displacement, NULL});
     add(file, (array){"body_force", "Float64", 8, 3, n, columns->force, NULL});
@@ -224,8 +221,8 @@ sb_status sb_vtp_write(const char *path, const sb_frame *frame, sb_error *error)
     return status;
 }
 
-sb_status sb_vtp_write_points(const char *path, size_t count, const sb_vec3 *positions,
-                              const sb_vec3 *normals, const int32_t *bodies, sb_error *error)
+sb_status sb_vtp_write_points(const char *path, size_t count, const sb_vec3 *positions, const sb_vec3 *normals,
+                              const int32_t *bodies, sb_error *error)
 {
     static_assert(sizeof(sb_vec3) == 3 * sizeof(double), "vectors are written as they lie");
     layout file = {.points = count};

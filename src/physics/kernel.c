@@ -3,9 +3,9 @@
 #include <string.h>
 
 /* A new kernel is one file that defines sb_kernel_<name>, and one ROW here. */
-#define ROWS(ROW)                                                                                  \
-    ROW(cubic)                                                                                     \
-    ROW(wendland_c2)                                                                               \
+#define ROWS(ROW)                                                                                                      \
+    ROW(cubic)                                                                                                         \
+    ROW(wendland_c2)                                                                                                   \
     ROW(wendland_c4)
 
 #define DECLARE(name) extern const sb_kernel sb_kernel_##name;

@@ -7,10 +7,10 @@
 /* Shapes in q = r/h on [0, 1]; W = alpha w(q)/h^d, W' = alpha w'(q)/h^(d+1), d the dimension. */
 typedef struct sb_kernel {
     const char *name, *summary, *reference;
-    double support;                /* the h/spacing it is meant for */
-    double alpha[4];               /* normalisation in 1D, 2D, 3D at [1], [2], [3] */
-    double (*shape)(double q);     /* w, dimensionless */
-    double (*slope)(double q);     /* dw/dq <= 0; over q it is bounded and nowhere steeper than at q = 0 */
+    double support;            /* the h/spacing it is meant for */
+    double alpha[4];           /* normalisation in 1D, 2D, 3D at [1], [2], [3] */
+    double (*shape)(double q); /* w, dimensionless */
+    double (*slope)(double q); /* dw/dq <= 0; over q it is bounded and nowhere steeper than at q = 0 */
 } sb_kernel;
 
 /* All kernels, ended by a row whose name is NULL. */

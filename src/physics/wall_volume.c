@@ -6,8 +6,8 @@
    concave ones, over lattices laid along the walls and turned at random; round walls down to 3 spacings agree. */
 static const double BEND = 8;
 
-/* Sums over a square lattice of a plane's places (a row in 2D), `step` spacings from each other, `apart` from a place over
-   one of them (at: 0) or over the middle between them (0.5): of W, or of the part of grad W across the plane. */
+/* Sums over a square lattice of a plane's places (a row in 2D), `step` spacings from each other, `apart` from a place
+   over one of them (at: 0) or over the middle between them (0.5): of W, or of the part of grad W across the plane. */
 static double over_plane(const sb_kernel *kernel, int dimension, double support, double step, double apart, double at,
                          int slope)
 {

@@ -6,8 +6,8 @@
 #include "physics/kernel.h"
 
 /* The gamma with which a sheet `offset` spacings behind a plane wall best bears a lattice at rest at any pressure:
-   sum_j m 2 grad W_ij + B_i = 0 in its layers, least squares. support, and spacing of the boundary particles: spacings of
-   the water. */
+   sum_j m 2 grad W_ij + B_i = 0 in its layers, least squares. support, and spacing of the boundary particles: spacings
+   of the water. */
 double sb_wall_gamma(const sb_kernel *kernel, int dimension, double support, double offset, double spacing);
 
 /* How many times as much as on a plane, where the sheet bends: bulge is sum_k W_bk (x_k - x_b).n_b / (h sum_k W_bk)

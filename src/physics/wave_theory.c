@@ -28,7 +28,8 @@ double sb_solitary_elevation(const sb_solitary *wave, double xi)
 {
     const phase p = phase_at(wave, xi);
     const double e = p.e, s = p.s, t2 = p.t * p.t;
-    const double beyond = wave->theory == SB_SOLITARY_THIRD_ORDER ? e * t2 * (-3 / 4.0 + e * (5 / 8.0 - s * 101 / 80.0)) : 0;
+    const double beyond =
+        wave->theory == SB_SOLITARY_THIRD_ORDER ? e * t2 * (-3 / 4.0 + e * (5 / 8.0 - s * 101 / 80.0)) : 0;
     return wave->height * s * (1 + beyond);
 }
 
@@ -48,7 +49,8 @@ static void third_order(const sb_solitary *wave, const phase *p, double z, doubl
     const double u3 = 19 / 40.0 + s * (1 / 5.0 - s * 6 / 5.0) + y * (-3 / 2.0 + s * (-15 / 4.0 + s * 15 / 2.0)) +
                       y * y * (-3 / 8.0 + s * (45 / 16.0 - s * 45 / 16.0));
     const double w2 = 3 / 8.0 + 2 * s + y * (1 / 2.0 - s * 3 / 2.0);
-    const double w3 = 49 / 640.0 + s * (-17 / 20.0 - s * 18 / 5.0) + y * (-13 / 16.0 + s * (-25 / 16.0 + s * 15 / 2.0)) +
+    const double w3 = 49 / 640.0 + s * (-17 / 20.0 - s * 18 / 5.0) +
+                      y * (-13 / 16.0 + s * (-25 / 16.0 + s * 15 / 2.0)) +
                       y * y * (-3 / 40.0 + s * (9 / 8.0 - s * 27 / 16.0));
     const double scale = sqrt(wave->gravity * wave->depth) * e * s;
     *u = scale * (1 - e * (u2 + e * u3));

@@ -4,11 +4,11 @@
 #include <string.h>
 
 /* A new law is one file that defines sb_wavemaker_<name>, and one ROW here. */
-#define ROWS(ROW)                                                                                  \
-    ROW(goring)                                                                                    \
-    ROW(goring_rayleigh)                                                                           \
-    ROW(stroke)                                                                                    \
-    ROW(file)                                                                                      \
+#define ROWS(ROW)                                                                                                      \
+    ROW(goring)                                                                                                        \
+    ROW(goring_rayleigh)                                                                                               \
+    ROW(stroke)                                                                                                        \
+    ROW(file)                                                                                                          \
     ROW(gate)
 
 #define DECLARE(name) extern const sb_wavemaker sb_wavemaker_##name;
@@ -41,24 +41,19 @@ sb_status sb_wavemaker_check(const sb_wavemaker_parameters *parameters, sb_error
     unsigned needs = parameters->kind->needs;
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
         if (needs & keys[i].bit && !(keys[i].value > 0 && isfinite(keys[i].value)))
-            return sb_fail(error, SB_BAD_INPUT, "wave maker %s: %s is %g %s, expected more than 0",
-                           law, keys[i].name, keys[i].value, keys[i].unit);
+            return sb_fail(error, SB_BAD_INPUT, "wave maker %s: %s is %g %s, expected more than 0", law, keys[i].name,
+                           keys[i].value, keys[i].unit);
     if (needs & SB_WM_FILE && !(parameters->file && *parameters->file))
-        return sb_fail(error, SB_BAD_INPUT,
-                       "wave maker %s: no file, expected a time-displacement table", law);
+        return sb_fail(error, SB_BAD_INPUT, "wave maker %s: no file, expected a time-displacement table", law);
     if (!isfinite(parameters->start))
-        return sb_fail(error, SB_BAD_INPUT, "wave maker %s: start is %g s, expected a time", law,
-                       parameters->start);
-    if (parameters->after == SB_AFTER_RETURN &&
-        !(parameters->return_time > 0 && isfinite(parameters->return_time)))
-        return sb_fail(error, SB_BAD_INPUT,
-                       "wave maker %s: return_time is %g s, expected more than 0", law,
+        return sb_fail(error, SB_BAD_INPUT, "wave maker %s: start is %g s, expected a time", law, parameters->start);
+    if (parameters->after == SB_AFTER_RETURN && !(parameters->return_time > 0 && isfinite(parameters->return_time)))
+        return sb_fail(error, SB_BAD_INPUT, "wave maker %s: return_time is %g s, expected more than 0", law,
                        parameters->return_time);
     return SB_OK;
 }
 
-sb_status sb_paddle_create(const sb_wavemaker_parameters *parameters, sb_paddle *paddle,
-                           sb_error *error)
+sb_status sb_paddle_create(const sb_wavemaker_parameters *parameters, sb_paddle *paddle, sb_error *error)
 {
     sb_status status = sb_wavemaker_check(parameters, error);
     if (status != SB_OK) return status;

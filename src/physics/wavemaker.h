@@ -14,15 +14,15 @@ typedef enum sb_after_stroke { SB_AFTER_STAY, SB_AFTER_RETURN } sb_after_stroke;
 /* Values out of the scene; each law says which it needs. */
 typedef struct sb_wavemaker_parameters {
     const sb_wavemaker *kind;
-    double start;        /* s, when the motion begins */
-    double height;       /* m, wave height H */
-    double depth;        /* m, still depth h at the paddle */
-    double stroke;       /* m, full travel */
-    double speed;        /* m/s */
-    double gravity;      /* m/s^2, from the scene */
-    char *file;          /* absolute path of a time-displacement table */
+    double start;   /* s, when the motion begins */
+    double height;  /* m, wave height H */
+    double depth;   /* m, still depth h at the paddle */
+    double stroke;  /* m, full travel */
+    double speed;   /* m/s */
+    double gravity; /* m/s^2, from the scene */
+    char *file;     /* absolute path of a time-displacement table */
     sb_after_stroke after;
-    double return_time;  /* s, of the slow way back, when after is RETURN */
+    double return_time; /* s, of the slow way back, when after is RETURN */
 } sb_wavemaker_parameters;
 
 enum { SB_WM_HEIGHT = 1, SB_WM_DEPTH = 2, SB_WM_STROKE = 4, SB_WM_SPEED = 8, SB_WM_FILE = 16 };
@@ -59,8 +59,7 @@ typedef struct sb_paddle {
     double return_time;
 } sb_paddle;
 
-sb_status sb_paddle_create(const sb_wavemaker_parameters *parameters, sb_paddle *paddle,
-                           sb_error *error);
+sb_status sb_paddle_create(const sb_wavemaker_parameters *parameters, sb_paddle *paddle, sb_error *error);
 /* Displacement in m at scene time t; continuous, with continuous speed on the way back. */
 double sb_paddle_displacement(const sb_paddle *paddle, double t);
 void sb_paddle_destroy(sb_paddle *paddle);

@@ -44,16 +44,13 @@ static sb_status read_line(table *law, char *line, const char *path, size_t numb
     if (!*at) return SB_OK;
     knot next = {0};
     if (read_number(&at, &next.t) != 0 || read_number(&at, &next.x) != 0 || *at)
-        return sb_fail(error, SB_BAD_INPUT,
-                       "%.500s:%zu: expected two numbers below 1e9, \"time displacement\"", path,
+        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: expected two numbers below 1e9, \"time displacement\"", path,
                        number);
     if (law->count == 0 && next.t < 0)
-        return sb_fail(error, SB_BAD_INPUT,
-                       "%.500s:%zu: time %g s is before the start, expected 0 or later", path,
+        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: time %g s is before the start, expected 0 or later", path,
                        number, next.t);
     if (law->count > 0 && !(next.t > law->knots[law->count - 1].t))
-        return sb_fail(error, SB_BAD_INPUT,
-                       "%.500s:%zu: time %g s does not follow %g s, expected increasing times",
+        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: time %g s does not follow %g s, expected increasing times",
                        path, number, next.t, law->knots[law->count - 1].t);
     if (law->count > 0) {
         const knot *last = &law->knots[law->count - 1];
@@ -79,8 +76,7 @@ static sb_status read_lines(table *law, char *text, const char *path, sb_error *
         line = newline ? newline + 1 : NULL;
     }
     if (law->count < 2)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: %zu rows, expected at least 2", path,
-                       number - 1, law->count);
+        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: %zu rows, expected at least 2", path, number - 1, law->count);
     return SB_OK;
 }
 
@@ -112,8 +108,7 @@ static sb_status create(const sb_wavemaker_parameters *parameters, void **state,
     if (!made)
         status = sb_fail_memory(error, path);
     else if (strlen(text) != length)
-        status =
-            sb_fail(error, SB_BAD_INPUT, "%.500s: holds a zero byte, expected plain text", path);
+        status = sb_fail(error, SB_BAD_INPUT, "%.500s: holds a zero byte, expected plain text", path);
     else
         status = read_lines(made, text, path, error);
     sb_free(text);

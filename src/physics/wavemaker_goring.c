@@ -29,8 +29,7 @@ static double solve_phase(double y, double ratio)
     double magnitude = fabs(y), theta = magnitude / (1 + ratio);
     for (int i = 0; i < 60; i++) {
         double tanh_theta = tanh(theta);
-        double step =
-            (magnitude - theta - ratio * tanh_theta) / (1 + ratio * (1 - tanh_theta * tanh_theta));
+        double step = (magnitude - theta - ratio * tanh_theta) / (1 + ratio * (1 - tanh_theta * tanh_theta));
         theta += step;
         if (fabs(step) <= 1e-15 * (1 + theta)) break;
     }
@@ -46,8 +45,7 @@ double sb_goring_paddle(const sb_goring *law, double t, double *speed)
     return (y - theta) / law->kappa + law->stroke / 2;
 }
 
-static sb_status make(const sb_wavemaker_parameters *parameters, bool rayleigh, void **state,
-                      sb_error *error)
+static sb_status make(const sb_wavemaker_parameters *parameters, bool rayleigh, void **state, sb_error *error)
 {
     double ratio = parameters->height / parameters->depth;
     if (!(ratio <= 1))
@@ -56,8 +54,7 @@ static sb_status make(const sb_wavemaker_parameters *parameters, bool rayleigh, 
                        "depth, expected a height of at most the depth",
                        parameters->height, parameters->depth);
     if (!(parameters->gravity > 0))
-        return sb_fail(error, SB_BAD_INPUT, "gravity %g m/s^2: expected more than 0",
-                       parameters->gravity);
+        return sb_fail(error, SB_BAD_INPUT, "gravity %g m/s^2: expected more than 0", parameters->gravity);
     sb_goring *law = sb_alloc(1, sizeof *law);
     if (!law) return sb_fail_memory(error, "a solitary-wave paddle");
     *law = sb_goring_of(parameters->height, parameters->depth, parameters->gravity, rayleigh);
@@ -65,14 +62,12 @@ static sb_status make(const sb_wavemaker_parameters *parameters, bool rayleigh, 
     return SB_OK;
 }
 
-static sb_status create_boussinesq(const sb_wavemaker_parameters *parameters, void **state,
-                                   sb_error *error)
+static sb_status create_boussinesq(const sb_wavemaker_parameters *parameters, void **state, sb_error *error)
 {
     return make(parameters, false, state, error);
 }
 
-static sb_status create_rayleigh(const sb_wavemaker_parameters *parameters, void **state,
-                                 sb_error *error)
+static sb_status create_rayleigh(const sb_wavemaker_parameters *parameters, void **state, sb_error *error)
 {
     return make(parameters, true, state, error);
 }
@@ -94,8 +89,7 @@ static double displacement(const void *state, double t)
     if (t >= law->period) return law->stroke;
     if (t >= length && t <= law->period - length) return sb_goring_paddle(law, t, NULL);
     double speed, value = sb_goring_paddle(law, length, &speed);
-    return t < length ? ease_in(t, length, value, speed)
-                      : law->stroke - ease_in(law->period - t, length, value, speed);
+    return t < length ? ease_in(t, length, value, speed) : law->stroke - ease_in(law->period - t, length, value, speed);
 }
 
 static double duration(const void *state)

@@ -64,8 +64,7 @@ static void clip_planes(sb_view *view, sb_vec3 min, sb_vec3 max)
 {
     double near = HUGE_VAL, far = 0;
     for (int corner = 0; corner < 8; corner++) {
-        sb_vec3 at = sb_vec(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y,
-                            corner & 4 ? max.z : min.z);
+        sb_vec3 at = sb_vec(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y, corner & 4 ? max.z : min.z);
         double depth = -sb_dot(sb_sub(at, view->eye), view->back);
         near = depth < near ? depth : near;
         far = depth > far ? depth : far;
@@ -91,8 +90,7 @@ sb_view sb_view_create(const sb_camera_key *key, double aspect, sb_vec3 min, sb_
     view.up = sb_cross(view.back, view.right);
     clip_planes(&view, min, max);
     mat4 projection;
-    glm_perspective((float)(2 * atan(view.tangent)), (float)aspect, (float)view.near,
-                    (float)view.far, projection);
+    glm_perspective((float)(2 * atan(view.tangent)), (float)aspect, (float)view.near, (float)view.far, projection);
     memcpy(view.projection, projection, sizeof view.projection);
     return view;
 }

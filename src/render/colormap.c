@@ -19,8 +19,7 @@ static double spline(const double *knots, double t)
     double s = at - k, a = knots[k], b = knots[k + 1];
     double slope_a = k > 0 ? (b - knots[k - 1]) / 2 : b - a;
     double slope_b = k < KNOTS - 2 ? (knots[k + 2] - a) / 2 : b - a;
-    return a + (b - a) * s * s * (3 - 2 * s) + slope_a * s * (1 - s) * (1 - s) +
-           slope_b * s * s * (s - 1);
+    return a + (b - a) * s * s * (3 - 2 * s) + slope_a * s * (1 - s) * (1 - s) + slope_b * s * s * (s - 1);
 }
 
 static double from_lab(double f)
@@ -52,8 +51,8 @@ static double decode(double value)
 
 double sb_lightness(const float rgb[3])
 {
-    double y = 0.2126729 * decode((double)rgb[0]) + 0.7151522 * decode((double)rgb[1]) +
-               0.0721750 * decode((double)rgb[2]);
+    double y =
+        0.2126729 * decode((double)rgb[0]) + 0.7151522 * decode((double)rgb[1]) + 0.0721750 * decode((double)rgb[2]);
     double cube = 6.0 / 29 * 6.0 / 29 * 6.0 / 29;
     return 116 * (y > cube ? cbrt(y) : y / (3 * 36.0 / 841) + 4.0 / 29) - 16;
 }

@@ -47,12 +47,11 @@ static struct {
 
 static void load(void)
 {
-    const sb_library_function functions[] = {
-        {"OSMesaCreateContextAttribs", &mesa.create},
-        {"OSMesaMakeCurrent", &mesa.make_current},
-        {"OSMesaDestroyContext", &mesa.destroy},
+    const sb_library_function functions[] = {{"OSMesaCreateContextAttribs", &mesa.create},
+                                             {"OSMesaMakeCurrent", &mesa.make_current},
+                                             {"OSMesaDestroyContext", &mesa.destroy},
 #define SB_GL_FIND(name) {"gl" #name, &sb_gl.name},
-        SB_GL_FUNCTIONS(SB_GL_FIND)
+                                             SB_GL_FUNCTIONS(SB_GL_FIND)
 #undef SB_GL_FIND
     };
     sb_library_load("libOSMesa.so.8", functions, sizeof functions / sizeof functions[0], &mesa.trouble);
@@ -82,8 +81,7 @@ sb_status sb_context_create(sb_context **context, sb_error *error)
     made->mesa = mesa.create(attributes, NULL);
     if (!made->mesa) {
         sb_free(made);
-        return sb_fail(error, SB_FAILED,
-                       "OSMesa gives no OpenGL 3.3 core context: pictures cannot be drawn");
+        return sb_fail(error, SB_FAILED, "OSMesa gives no OpenGL 3.3 core context: pictures cannot be drawn");
     }
     *context = made;
     return SB_OK;

@@ -27,15 +27,13 @@ static bool bounds(const sb_frame *frame, float min[3], float max[3])
     return min[0] <= max[0];
 }
 
-static sb_status lay_grid(sb_density *density, const float min[3], const float max[3],
-                          double spacing, sb_error *error)
+static sb_status lay_grid(sb_density *density, const float min[3], const float max[3], double spacing, sb_error *error)
 {
     double cell = cell_spacings * spacing;
     /* One stray particle may stretch the box: a coarser grid stays true, only less sharp. */
     for (double total = HUGE_VAL;; cell *= 1.25) {
         total = 1;
-        for (int a = 0; a < 3; a++)
-            total *= floor((double)(max[a] - min[a]) / cell) + 2 * MARGIN + 1;
+        for (int a = 0; a < 3; a++) total *= floor((double)(max[a] - min[a]) / cell) + 2 * MARGIN + 1;
         if (total <= nodes_max) break;
     }
     for (int a = 0; a < 3; a++) {
@@ -98,8 +96,7 @@ static void smooth(const float *restrict in, float *restrict out, size_t count, 
 {
     memset(out, 0, stride * sizeof *out);
     memset(out + count - stride, 0, stride * sizeof *out);
-    for (size_t i = stride; i < count - stride; i++)
-        out[i] = 0.5f * in[i] + 0.25f * (in[i - stride] + in[i + stride]);
+    for (size_t i = stride; i < count - stride; i++) out[i] = 0.5f * in[i] + 0.25f * (in[i - stride] + in[i + stride]);
 }
 
 sb_status sb_density_build(sb_density *density, const sb_frame *frame, sb_error *error)

@@ -155,8 +155,7 @@ struct field {
     float *distance;
 };
 
-static void draw_segment(struct field *field, double ax, double ay, double bx, double by,
-                         double reach)
+static void draw_segment(struct field *field, double ax, double ay, double bx, double by, double reach)
 {
     int x_low = (int)floor(fmin(ax, bx) - reach) - field->x0;
     int x_high = (int)ceil(fmax(ax, bx) + reach) - field->x0;
@@ -180,8 +179,7 @@ static double bend(double a, double b, double c, double d, double s)
     return b + 0.5 * s * (c - a + s * (2 * a - 5 * b + 4 * c - d + s * (3 * (b - c) + d - a)));
 }
 
-static void draw_stroke(struct field *field, double (*points)[2], int count, int smooth,
-                        double reach)
+static void draw_stroke(struct field *field, double (*points)[2], int count, int smooth, double reach)
 {
     if (count == 1 || !smooth) {
         for (int i = 0; i + 1 < count || i == 0; i++)
@@ -205,8 +203,7 @@ static void draw_stroke(struct field *field, double (*points)[2], int count, int
     }
 }
 
-static void draw_glyph(struct field *field, const char *glyph, double x, double y, double unit,
-                       double reach)
+static void draw_glyph(struct field *field, const char *glyph, double x, double y, double unit, double reach)
 {
     while (*glyph) {
         int smooth = *glyph == '~', count = 0;
@@ -222,18 +219,16 @@ static void draw_glyph(struct field *field, const char *glyph, double x, double 
 
 static void blend(unsigned char *pixel, const float rgb[3], double alpha)
 {
-    for (int c = 0; c < 3; c++)
-        pixel[c] = (unsigned char)(pixel[c] + alpha * (255 * (double)rgb[c] - pixel[c]) + 0.5);
+    for (int c = 0; c < 3; c++) pixel[c] = (unsigned char)(pixel[c] + alpha * (255 * (double)rgb[c] - pixel[c]) + 0.5);
 }
 
-sb_status sb_font_draw(sb_image *image, double x, double y, double height, const float rgb[3],
-                       const char *text, sb_error *error)
+sb_status sb_font_draw(sb_image *image, double x, double y, double height, const float rgb[3], const char *text,
+                       sb_error *error)
 {
     static const float dark[3] = {0.02f, 0.05f, 0.09f};
     double unit = height / capital, pen = 0.55 * unit < 0.6 ? 0.6 : 0.55 * unit;
     double rim = pen + 0.30 * height, reach = rim + 1;
-    struct field field = {.x0 = (int)floor(x - reach),
-                          .y0 = (int)floor(y - height - 2 * unit - reach)};
+    struct field field = {.x0 = (int)floor(x - reach), .y0 = (int)floor(y - height - 2 * unit - reach)};
     int right = (int)ceil(x + sb_font_width(text, height) + reach);
     int bottom = (int)ceil(y + base * unit + reach);
     field.x0 = field.x0 > 0 ? field.x0 : 0;

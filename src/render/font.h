@@ -10,7 +10,7 @@ double sb_font_width(const char *text, double height);
 /* Draws a line of text, its left end at x and its base line at y (px from the top left corner),
    with a soft dark rim that keeps it legible on any ground. Bytes outside ASCII show as '?', one
    per character. What lies outside the image is cut off. */
-sb_status sb_font_draw(sb_image *image, double x, double y, double height, const float rgb[3],
-                       const char *text, sb_error *error);
+sb_status sb_font_draw(sb_image *image, double x, double y, double height, const float rgb[3], const char *text,
+                       sb_error *error);
 
 #endif

@@ -10,45 +10,43 @@ enum { SHADOW_SIDE = 2048, GROUND_SIDE = 512 };
 /* Unit; high from the side, so that waves and walls alike get a bright and a dark face. */
 static const float sun[3] = {0.30f, -0.62f, 0.725f};
 
-const char sb_light_source[] =
-    "uniform vec3 eye, sun, ground_frame;\n"
-    "uniform sampler2DShadow shadow_map;\n"
-    "uniform sampler2D ground_map;\n"
-    "uniform mat4 to_shadow;\n"
-    "uniform float haze;\n"
-    "vec3 sky(vec3 d) {\n"
-    "  float up = clamp(d.z, 0.0, 1.0), down = clamp(-d.z, 0.0, 1.0);\n"
-    "  vec3 c = mix(vec3(0.72, 0.79, 0.84), vec3(0.12, 0.28, 0.56), 1.0 - exp(-3.5 * up));\n"
-    "  float g = max(dot(d, sun), 0.0); g *= g; g *= g;\n"
-    "  c += g * vec3(0.10, 0.08, 0.05);\n"
-    "  return mix(c, vec3(0.47, 0.53, 0.58), 1.0 - exp(-3.0 * down));\n"
-    "}\n"
-    /* How open a place is: on the ground what the map says there, on a wall what the ground before
-       it says, rising to a free view with height over that ground. */
-    "float openness(vec3 p, vec3 n) {\n"
-    "  vec2 out_of_wall = n.xy * (1.5 / (512.0 * ground_frame.z));\n"
-    "  vec2 map = texture(ground_map, (p.xy + out_of_wall - ground_frame.xy) * "
-    "ground_frame.z).xy;\n"
-    "  return mix(map.y, 1.0, clamp((p.z - map.x) * 0.03, 0.0, 1.0));\n"
-    "}\n"
-    "float sunlit(vec3 p, vec3 n) {\n"
-    "  vec3 s = (to_shadow * vec4(p + n * (0.002 / ground_frame.z), 1.0)).xyz;\n"
-    "  return texture(shadow_map, s);\n"
-    "}\n"
-    "vec3 lit(vec3 albedo, vec3 p, vec3 n) {\n"
-    "  float direct = max(dot(n, sun), 0.0);\n"
-    "  direct *= sunlit(p, n);\n"
-    "  vec3 dome = mix(vec3(0.22, 0.21, 0.19), vec3(0.30, 0.37, 0.47), 0.5 + 0.5 * n.z);\n"
-    "  return albedo * (direct * vec3(1.22, 1.13, 0.98) + openness(p, n) * dome);\n"
-    "}\n"
-    "vec3 hazed(vec3 color, vec3 p) {\n"
-    "  return mix(vec3(0.70, 0.77, 0.82), color, exp(-haze * distance(p, eye)));\n"
-    "}\n"
-    "vec4 encoded(vec3 color) { return vec4(sqrt(clamp(color, 0.0, 1.0)), 1.0); }\n";
+const char sb_light_source[] = "uniform vec3 eye, sun, ground_frame;\n"
+                               "uniform sampler2DShadow shadow_map;\n"
+                               "uniform sampler2D ground_map;\n"
+                               "uniform mat4 to_shadow;\n"
+                               "uniform float haze;\n"
+                               "vec3 sky(vec3 d) {\n"
+                               "  float up = clamp(d.z, 0.0, 1.0), down = clamp(-d.z, 0.0, 1.0);\n"
+                               "  vec3 c = mix(vec3(0.72, 0.79, 0.84), vec3(0.12, 0.28, 0.56), 1.0 - exp(-3.5 * up));\n"
+                               "  float g = max(dot(d, sun), 0.0); g *= g; g *= g;\n"
+                               "  c += g * vec3(0.10, 0.08, 0.05);\n"
+                               "  return mix(c, vec3(0.47, 0.53, 0.58), 1.0 - exp(-3.0 * down));\n"
+                               "}\n"
+                               /* How open a place is: on the ground what the map says there, on a wall what the ground
+                                  before it says, rising to a free view with height over that ground. */
+                               "float openness(vec3 p, vec3 n) {\n"
+                               "  vec2 out_of_wall = n.xy * (1.5 / (512.0 * ground_frame.z));\n"
+                               "  vec2 map = texture(ground_map, (p.xy + out_of_wall - ground_frame.xy) * "
+                               "ground_frame.z).xy;\n"
+                               "  return mix(map.y, 1.0, clamp((p.z - map.x) * 0.03, 0.0, 1.0));\n"
+                               "}\n"
+                               "float sunlit(vec3 p, vec3 n) {\n"
+                               "  vec3 s = (to_shadow * vec4(p + n * (0.002 / ground_frame.z), 1.0)).xyz;\n"
+                               "  return texture(shadow_map, s);\n"
+                               "}\n"
+                               "vec3 lit(vec3 albedo, vec3 p, vec3 n) {\n"
+                               "  float direct = max(dot(n, sun), 0.0);\n"
+                               "  direct *= sunlit(p, n);\n"
+                               "  vec3 dome = mix(vec3(0.22, 0.21, 0.19), vec3(0.30, 0.37, 0.47), 0.5 + 0.5 * n.z);\n"
+                               "  return albedo * (direct * vec3(1.22, 1.13, 0.98) + openness(p, n) * dome);\n"
+                               "}\n"
+                               "vec3 hazed(vec3 color, vec3 p) {\n"
+                               "  return mix(vec3(0.70, 0.77, 0.82), color, exp(-haze * distance(p, eye)));\n"
+                               "}\n"
+                               "vec4 encoded(vec3 color) { return vec4(sqrt(clamp(color, 0.0, 1.0)), 1.0); }\n";
 
 /* An orthographic clip matrix looking along -back that holds the box, in origin-relative metres. */
-static void ortho_clip(sb_vec3 right, sb_vec3 up, sb_vec3 back, sb_vec3 min, sb_vec3 max,
-                       float clip[16])
+static void ortho_clip(sb_vec3 right, sb_vec3 up, sb_vec3 back, sb_vec3 min, sb_vec3 max, float clip[16])
 {
     const sb_vec3 axes[3] = {right, up, back};
     memset(clip, 0, 16 * sizeof *clip);
@@ -56,9 +54,8 @@ static void ortho_clip(sb_vec3 right, sb_vec3 up, sb_vec3 back, sb_vec3 min, sb_
     for (int row = 0; row < 3; row++) {
         double low = HUGE_VAL, high = -HUGE_VAL;
         for (int corner = 0; corner < 8; corner++) {
-            double at =
-                sb_dot(axes[row], sb_vec(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y,
-                                         corner & 4 ? max.z : min.z));
+            double at = sb_dot(
+                axes[row], sb_vec(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y, corner & 4 ? max.z : min.z));
             low = at < low ? at : low;
             high = at > high ? at : high;
         }
@@ -71,8 +68,8 @@ static void ortho_clip(sb_vec3 right, sb_vec3 up, sb_vec3 back, sb_vec3 min, sb_
     }
 }
 
-static sb_status draw_depth_map(const sb_meshes *meshes, GLuint texture, int side,
-                                const float clip[16], sb_error *error)
+static sb_status draw_depth_map(const sb_meshes *meshes, GLuint texture, int side, const float clip[16],
+                                sb_error *error)
 {
     GLuint framebuffer;
     sb_gl.GenFramebuffers(1, &framebuffer);
@@ -120,8 +117,7 @@ void sb_light_openness(const float *height, int n, double cell, float *openness)
     for (int y = 0; y < n; y++)
         for (int x = 0; x < n; x++) {
             float blocked = 0;
-            for (int d = 0; d < 12; d++)
-                blocked += horizon(height, n, cell, x, y, directions[d][0], directions[d][1]);
+            for (int d = 0; d < 12; d++) blocked += horizon(height, n, cell, x, y, directions[d][0], directions[d][1]);
             openness[y * n + x] = 1 - blocked / 12;
         }
 }
@@ -141,8 +137,7 @@ static void soften(const float *in, int n, float *out)
 }
 
 /* Heights of the bodies seen from straight above, then what each spot sees of the sky. */
-static sb_status make_ground(const sb_meshes *meshes, sb_vec3 min, sb_vec3 max, sb_light *light,
-                             sb_error *error)
+static sb_status make_ground(const sb_meshes *meshes, sb_vec3 min, sb_vec3 max, sb_light *light, sb_error *error)
 {
     enum { N = GROUND_SIDE, CELLS = N * N };
     double side = max.x - min.x > max.y - min.y ? max.x - min.x : max.y - min.y;
@@ -160,8 +155,7 @@ static sb_status make_ground(const sb_meshes *meshes, sb_vec3 min, sb_vec3 max, 
         status = sb_fail_memory(error, "the ground map");
         goto done;
     }
-    depth = sb_texture_create(GL_DEPTH_COMPONENT32F, N, N, GL_DEPTH_COMPONENT, GL_FLOAT, NULL,
-                              GL_NEAREST);
+    depth = sb_texture_create(GL_DEPTH_COMPONENT32F, N, N, GL_DEPTH_COMPONENT, GL_FLOAT, NULL, GL_NEAREST);
     status = draw_depth_map(meshes, depth, N, clip, error);
     if (status != SB_OK) goto done;
     sb_gl.BindTexture(GL_TEXTURE_2D, depth);
@@ -187,25 +181,23 @@ done:
     return status;
 }
 
-static sb_status make_shadow(const sb_meshes *meshes, sb_vec3 min, sb_vec3 max, sb_light *light,
-                             sb_error *error)
+static sb_status make_shadow(const sb_meshes *meshes, sb_vec3 min, sb_vec3 max, sb_light *light, sb_error *error)
 {
     sb_vec3 back = sb_vec((double)sun[0], (double)sun[1], (double)sun[2]);
     sb_vec3 right = sb_normalize(sb_cross(sb_vec(0, 0, 1), back)), up = sb_cross(back, right);
     float clip[16];
     ortho_clip(right, up, back, min, max, clip);
-    light->shadow = sb_texture_create(GL_DEPTH_COMPONENT32F, SHADOW_SIDE, SHADOW_SIDE,
-                                      GL_DEPTH_COMPONENT, GL_FLOAT, NULL, GL_LINEAR);
+    light->shadow = sb_texture_create(GL_DEPTH_COMPONENT32F, SHADOW_SIDE, SHADOW_SIDE, GL_DEPTH_COMPONENT, GL_FLOAT,
+                                      NULL, GL_LINEAR);
     sb_gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
     sb_gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
     /* From -1..1 to 0..1. */
-    for (int i = 0; i < 16; i++)
-        light->to_shadow[i] = i % 4 == 3 ? clip[i] : 0.5f * clip[i] + (i >= 12 ? 0.5f : 0);
+    for (int i = 0; i < 16; i++) light->to_shadow[i] = i % 4 == 3 ? clip[i] : 0.5f * clip[i] + (i >= 12 ? 0.5f : 0);
     return draw_depth_map(meshes, light->shadow, SHADOW_SIDE, clip, error);
 }
 
-sb_status sb_light_create(const sb_meshes *meshes, sb_vec3 origin, sb_vec3 min, sb_vec3 max,
-                          double sea_level, sb_light *light, sb_error *error)
+sb_status sb_light_create(const sb_meshes *meshes, sb_vec3 origin, sb_vec3 min, sb_vec3 max, double sea_level,
+                          sb_light *light, sb_error *error)
 {
     sb_light made = {.origin = origin, .sea_level = sea_level};
     min = sb_sub(min, origin);

@@ -25,8 +25,8 @@ extern const char sb_light_source[];
 
 /* [min, max]: all that is to be lit, in scene coordinates. Needs the context. Zeroed light is fine
    to destroy. */
-sb_status sb_light_create(const sb_meshes *meshes, sb_vec3 origin, sb_vec3 min, sb_vec3 max,
-                          double sea_level, sb_light *light, sb_error *error);
+sb_status sb_light_create(const sb_meshes *meshes, sb_vec3 origin, sb_vec3 min, sb_vec3 max, double sea_level,
+                          sb_light *light, sb_error *error);
 void sb_light_destroy(sb_light *light);
 
 /* Sets the uniforms of sb_light_source for a program in use; takes texture units 4 and 5. */

@@ -85,11 +85,10 @@ static const char line_vertex[] = "layout(location = 0) in vec3 position;\n"
                                   "  gl_Position = projection * e;\n"
                                   "}\n";
 
-static const char line_fragment[] =
-    "in float depth;\n"
-    "out vec4 color;\n"
-    "uniform float alpha, fade;\n"
-    "void main() { color = vec4(0.05, 0.07, 0.09, alpha * exp(-depth * fade)); }\n";
+static const char line_fragment[] = "in float depth;\n"
+                                    "out vec4 color;\n"
+                                    "uniform float alpha, fade;\n"
+                                    "void main() { color = vec4(0.05, 0.07, 0.09, alpha * exp(-depth * fade)); }\n";
 
 static const char depth_fragment[] = "void main() {}\n";
 
@@ -102,8 +101,7 @@ static void paint_of(const sb_model_body *body, unsigned char paint[4])
         paint[3] = body->role == SB_ROLE_TERRAIN ? 255 : 0;
         color = body->wavemaker >= 0 ? steel : concrete;
     }
-    for (int i = 0; i < 3; i++)
-        paint[i] = (unsigned char)(255 * (color[i] < 1 ? color[i] : 1) + 0.5f);
+    for (int i = 0; i < 3; i++) paint[i] = (unsigned char)(255 * (color[i] < 1 ? color[i] : 1) + 0.5f);
 }
 
 static void relative(float out[3], sb_vec3 at, sb_vec3 origin)
@@ -121,8 +119,8 @@ struct upload {
     size_t end_count, end_capacity;
 };
 
-static sb_status gather(const sb_model_body *body, sb_vec3 origin, struct upload *upload,
-                        struct part *part, sb_error *error)
+static sb_status gather(const sb_model_body *body, sb_vec3 origin, struct upload *upload, struct part *part,
+                        sb_error *error)
 {
     const sb_mesh *mesh = &body->mesh;
     sb_outline outline;
@@ -130,8 +128,7 @@ static sb_status gather(const sb_model_body *body, sb_vec3 origin, struct upload
     if (status != SB_OK) return status;
     size_t corners = upload->corner_count + 3 * mesh->triangle_count;
     size_t ends = upload->end_count + 2 * outline.edge_count;
-    if (sb_grow((void **)&upload->corners, &upload->corner_capacity, corners,
-                sizeof *upload->corners) != 0 ||
+    if (sb_grow((void **)&upload->corners, &upload->corner_capacity, corners, sizeof *upload->corners) != 0 ||
         sb_grow((void **)&upload->ends, &upload->end_capacity, ends, sizeof *upload->ends) != 0) {
         sb_outline_free(&outline);
         return sb_fail_memory(error, "meshes to draw");
@@ -149,14 +146,12 @@ static sb_status gather(const sb_model_body *body, sb_vec3 origin, struct upload
     for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
         struct corner *corner = &upload->corners[upload->corner_count++];
         relative(corner->position, mesh->vertices[mesh->triangles[i / 3][i % 3]], origin);
-        for (int a = 0; a < 3; a++)
-            corner->normal[a] = (signed char)lrintf(127 * outline.normals[i][a]);
+        for (int a = 0; a < 3; a++) corner->normal[a] = (signed char)lrintf(127 * outline.normals[i][a]);
         corner->normal[3] = 0;
         memcpy(corner->color, paint, 4);
     }
     for (size_t i = 0; i < 2 * outline.edge_count; i++)
-        relative(upload->ends[upload->end_count++], mesh->vertices[outline.edges[i / 2][i % 2]],
-                 origin);
+        relative(upload->ends[upload->end_count++], mesh->vertices[outline.edges[i / 2][i % 2]], origin);
     sb_outline_free(&outline);
     return SB_OK;
 }
@@ -167,8 +162,8 @@ static void send(sb_meshes *meshes, const struct upload *upload)
     sb_gl.GenBuffers(1, &meshes->face_buffer);
     sb_gl.BindVertexArray(meshes->face_array);
     sb_gl.BindBuffer(GL_ARRAY_BUFFER, meshes->face_buffer);
-    sb_gl.BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(upload->corner_count * sizeof *upload->corners),
-                 upload->corners, GL_STATIC_DRAW);
+    sb_gl.BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(upload->corner_count * sizeof *upload->corners), upload->corners,
+                     GL_STATIC_DRAW);
     const GLsizei stride = sizeof(struct corner);
     sb_attribute(0, 3, GL_FLOAT, GL_FALSE, stride, 0);
     sb_attribute(1, 3, GL_BYTE, GL_TRUE, stride, offsetof(struct corner, normal));
@@ -178,8 +173,8 @@ static void send(sb_meshes *meshes, const struct upload *upload)
     sb_gl.GenBuffers(1, &meshes->line_buffer);
     sb_gl.BindVertexArray(meshes->line_array);
     sb_gl.BindBuffer(GL_ARRAY_BUFFER, meshes->line_buffer);
-    sb_gl.BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(upload->end_count * sizeof *upload->ends),
-                 upload->ends, GL_STATIC_DRAW);
+    sb_gl.BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(upload->end_count * sizeof *upload->ends), upload->ends,
+                     GL_STATIC_DRAW);
     sb_attribute(0, 3, GL_FLOAT, GL_FALSE, 0, 0);
     sb_gl.BindVertexArray(0);
 }
@@ -201,8 +196,7 @@ static sb_status make_speckles(sb_meshes *meshes, sb_error *error)
             double high = (1 - s) * sb_random(7, next + i) + s * sb_random(7, next + right);
             texels[y * SIDE + x] = (unsigned char)(255 * ((1 - t) * low + t * high) + 0.5);
         }
-    meshes->speckles =
-        sb_texture_create(GL_R8, SIDE, SIDE, GL_RED, GL_UNSIGNED_BYTE, texels, GL_LINEAR);
+    meshes->speckles = sb_texture_create(GL_R8, SIDE, SIDE, GL_RED, GL_UNSIGNED_BYTE, texels, GL_LINEAR);
     sb_gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
     sb_gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
     sb_free(texels);
@@ -211,19 +205,16 @@ static sb_status make_speckles(sb_meshes *meshes, sb_error *error)
 
 static sb_status make_programs(sb_meshes *meshes, sb_error *error)
 {
-    sb_status status = sb_program_create("faces", face_vertex, sb_light_source, face_fragment,
-                                         &meshes->face_program, error);
+    sb_status status =
+        sb_program_create("faces", face_vertex, sb_light_source, face_fragment, &meshes->face_program, error);
     if (status == SB_OK)
-        status = sb_program_create("shadow", face_vertex, NULL, depth_fragment,
-                                   &meshes->depth_program, error);
+        status = sb_program_create("shadow", face_vertex, NULL, depth_fragment, &meshes->depth_program, error);
     if (status == SB_OK)
-        status = sb_program_create("edges", line_vertex, NULL, line_fragment, &meshes->line_program,
-                                   error);
+        status = sb_program_create("edges", line_vertex, NULL, line_fragment, &meshes->line_program, error);
     return status;
 }
 
-sb_status sb_meshes_create(const sb_model *model, sb_vec3 origin, sb_meshes **meshes,
-                           sb_error *error)
+sb_status sb_meshes_create(const sb_model *model, sb_vec3 origin, sb_meshes **meshes, sb_error *error)
 {
     struct upload upload = {0};
     sb_meshes *made = sb_alloc(1, sizeof *made);
@@ -274,8 +265,7 @@ static void set_shift(GLuint program, const struct part *part, const sb_frame *f
 {
     float shift[3] = {0, 0, 0};
     const sb_frame_body *body = NULL;
-    if (frame && part->body < frame->body_count &&
-        strcmp(frame->bodies[part->body].name, part->name) == 0)
+    if (frame && part->body < frame->body_count && strcmp(frame->bodies[part->body].name, part->name) == 0)
         body = &frame->bodies[part->body];
     for (size_t i = 0; frame && !body && i < frame->body_count; i++)
         if (strcmp(frame->bodies[i].name, part->name) == 0) body = &frame->bodies[i];
@@ -306,8 +296,7 @@ void sb_meshes_draw_depth(const sb_meshes *meshes, const float clip[16])
     }
 }
 
-void sb_meshes_draw_faces(const sb_meshes *meshes, const sb_light *light, const sb_view *view,
-                          const sb_frame *frame)
+void sb_meshes_draw_faces(const sb_meshes *meshes, const sb_light *light, const sb_view *view, const sb_frame *frame)
 {
     GLuint program = meshes->face_program;
     float matrix[16], clip[16];

@@ -74,20 +74,17 @@ static sb_status topology_create(const sb_mesh *mesh, struct topology *topology,
     for (size_t f = 0; f < faces; f++) {
         const uint32_t *t = mesh->triangles[f];
         sb_vec3 a = mesh->vertices[t[0]];
-        topology->area[f] =
-            sb_cross(sb_sub(mesh->vertices[t[1]], a), sb_sub(mesh->vertices[t[2]], a));
+        topology->area[f] = sb_cross(sb_sub(mesh->vertices[t[1]], a), sb_sub(mesh->vertices[t[2]], a));
         for (int c = 0; c < 3; c++) topology->first[topology->weld[t[c]] + 2]++;
     }
     for (size_t v = 2; v < vertices + 2; v++) topology->first[v] += topology->first[v - 1];
     for (size_t f = 0; f < faces; f++)
         for (int c = 0; c < 3; c++)
-            topology->faces[topology->first[topology->weld[mesh->triangles[f][c]] + 1]++] =
-                (uint32_t)f;
+            topology->faces[topology->first[topology->weld[mesh->triangles[f][c]] + 1]++] = (uint32_t)f;
     return SB_OK;
 }
 
-static void corner_normals(const sb_mesh *mesh, const struct topology *topology, double cosine,
-                           float (*normals)[3])
+static void corner_normals(const sb_mesh *mesh, const struct topology *topology, double cosine, float (*normals)[3])
 {
     for (size_t f = 0; f < mesh->triangle_count; f++) {
         sb_vec3 own = sb_normalize(topology->area[f]);
@@ -118,16 +115,15 @@ static int compare_edges(const void *a, const void *b)
     return p->face < q->face ? -1 : p->face > q->face;
 }
 
-static int is_feature(const struct topology *topology, const struct edge *edges, size_t count,
-                      double cosine)
+static int is_feature(const struct topology *topology, const struct edge *edges, size_t count, double cosine)
 {
     if (count != 2) return 1;
     sb_vec3 a = topology->area[edges[0].face], b = topology->area[edges[1].face];
     return sb_dot(a, b) < cosine * sb_norm(a) * sb_norm(b);
 }
 
-static sb_status feature_edges(const sb_mesh *mesh, const struct topology *topology, double cosine,
-                               sb_outline *outline, sb_error *error)
+static sb_status feature_edges(const sb_mesh *mesh, const struct topology *topology, double cosine, sb_outline *outline,
+                               sb_error *error)
 {
     struct edge *edges = sb_alloc(3 * mesh->triangle_count, sizeof *edges);
     if (!edges) return sb_fail_memory(error, "the edges of a mesh");
@@ -140,8 +136,8 @@ static sb_status feature_edges(const sb_mesh *mesh, const struct topology *topol
         }
     qsort(edges, count, sizeof *edges, compare_edges);
     for (size_t begin = 0, end; begin < count; begin = end) {
-        for (end = begin + 1; end < count && edges[end].low == edges[begin].low &&
-                              edges[end].high == edges[begin].high;)
+        for (end = begin + 1;
+             end < count && edges[end].low == edges[begin].low && edges[end].high == edges[begin].high;)
             end++;
         if (is_feature(topology, edges + begin, end - begin, cosine)) edges[kept++] = edges[begin];
     }
@@ -159,8 +155,7 @@ static sb_status feature_edges(const sb_mesh *mesh, const struct topology *topol
     return SB_OK;
 }
 
-sb_status sb_outline_create(const sb_mesh *mesh, double crease, sb_outline *outline,
-                            sb_error *error)
+sb_status sb_outline_create(const sb_mesh *mesh, double crease, sb_outline *outline, sb_error *error)
 {
     *outline = (sb_outline){0};
     if (mesh->triangle_count == 0) return SB_OK;

@@ -12,8 +12,7 @@ typedef struct sb_outline {
 
 /* Vertices at one place count as one. Faces that meet at less than `crease` degrees share a smooth
    normal; edges that are sharper, open or shared by more than two faces become lines. */
-sb_status sb_outline_create(const sb_mesh *mesh, double crease, sb_outline *outline,
-                            sb_error *error);
+sb_status sb_outline_create(const sb_mesh *mesh, double crease, sb_outline *outline, sb_error *error);
 void sb_outline_free(sb_outline *outline);
 
 #endif

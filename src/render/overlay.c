@@ -17,16 +17,14 @@ double sb_overlay_tick(double range, int most)
     return 10 * power;
 }
 
-static void fill(sb_image *image, double x0, double y0, double x1, double y1, const float rgb[3],
-                 double alpha)
+static void fill(sb_image *image, double x0, double y0, double x1, double y1, const float rgb[3], double alpha)
 {
     for (int y = (int)lround(y0); y < (int)lround(y1); y++)
         for (int x = (int)lround(x0); x < (int)lround(x1); x++) {
             if (x < 0 || y < 0 || x >= image->width || y >= image->height) continue;
             unsigned char *pixel = image->rgb + 3 * ((size_t)y * (size_t)image->width + (size_t)x);
             for (int c = 0; c < 3; c++)
-                pixel[c] =
-                    (unsigned char)(pixel[c] + alpha * (255 * (double)rgb[c] - pixel[c]) + 0.5);
+                pixel[c] = (unsigned char)(pixel[c] + alpha * (255 * (double)rgb[c] - pixel[c]) + 0.5);
         }
 }
 
@@ -49,14 +47,13 @@ static sb_status color_bar(sb_image *image, double unit, double speed_max, sb_er
         snprintf(label, sizeof label, "%.6g", value < 1e-9 * step ? 0 : value);
         double at = x + width * value / speed_max;
         fill(image, at - 0.5 * unit, y + thick, at + 0.9 * unit, y + thick + 5 * unit, ink, 0.9);
-        status = sb_font_draw(image, at - 0.5 * sb_font_width(label, letters),
-                              y + thick + 20 * unit, letters, ink, label, error);
+        status = sb_font_draw(image, at - 0.5 * sb_font_width(label, letters), y + thick + 20 * unit, letters, ink,
+                              label, error);
     }
     return status;
 }
 
-sb_status sb_overlay_draw(sb_image *image, const char *title, double time, double speed_max,
-                          sb_error *error)
+sb_status sb_overlay_draw(sb_image *image, const char *title, double time, double speed_max, sb_error *error)
 {
     if (image->height < SB_OVERLAY_HEIGHT_MIN) return SB_OK;
     double unit = image->height / 720.0;
@@ -69,11 +66,9 @@ sb_status sb_overlay_draw(sb_image *image, const char *title, double time, doubl
         /* A long title shrinks until it fits. */
         double letters = 17 * unit, room = image->width - 60 * unit;
         double wide = sb_font_width(title, letters);
-        status = sb_font_draw(image, 30 * unit, line, wide > room ? letters * room / wide : letters,
-                              ink, title, error);
+        status = sb_font_draw(image, 30 * unit, line, wide > room ? letters * room / wide : letters, ink, title, error);
         line += 31 * unit;
     }
-    if (status == SB_OK)
-        status = sb_font_draw(image, 30 * unit, line, 15 * unit, ink, clock, error);
+    if (status == SB_OK) status = sb_font_draw(image, 30 * unit, line, 15 * unit, ink, clock, error);
     return status == SB_OK ? color_bar(image, unit, speed_max, error) : status;
 }

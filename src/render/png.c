@@ -29,16 +29,14 @@ static void on_warning(png_structp png, png_const_charp text)
 }
 
 /* No objects with destructors live across the jump: 1 when all rows are written. */
-static int write_rows(png_structp png, png_infop info, FILE *stream, const sb_image *image,
-                      struct reporter *reporter)
+static int write_rows(png_structp png, png_infop info, FILE *stream, const sb_image *image, struct reporter *reporter)
 {
     if (setjmp(reporter->jump)) return 0;
     png_init_io(png, stream);
     png_set_compression_level(png, 3);
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
-    png_set_IHDR(png, info, (png_uint_32)image->width, (png_uint_32)image->height, 8,
-                 PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, (png_uint_32)image->width, (png_uint_32)image->height, 8, PNG_COLOR_TYPE_RGB,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_write_info(png, info);
     size_t stride = 3 * (size_t)image->width;
     for (int y = 0; y < image->height; y++) png_write_row(png, image->rgb + (size_t)y * stride);
@@ -48,14 +46,12 @@ static int write_rows(png_structp png, png_infop info, FILE *stream, const sb_im
 
 sb_status sb_png_write(const char *path, const sb_image *image, sb_error *error)
 {
-    if (!image->rgb)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s: an empty picture cannot be written", path);
+    if (!image->rgb) return sb_fail(error, SB_BAD_INPUT, "%.500s: an empty picture cannot be written", path);
     sb_atomic_file file;
     sb_status status = sb_atomic_open(&file, path, error);
     if (status != SB_OK) return status;
     struct reporter reporter = {.text = "out of memory"};
-    png_structp png =
-        png_create_write_struct(PNG_LIBPNG_VER_STRING, &reporter, on_error, on_warning);
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &reporter, on_error, on_warning);
     png_infop info = png ? png_create_info_struct(png) : NULL;
     int written = info && write_rows(png, info, file.stream, image, &reporter);
     png_destroy_write_struct(png ? &png : NULL, info ? &info : NULL);
@@ -64,8 +60,8 @@ sb_status sb_png_write(const char *path, const sb_image *image, sb_error *error)
     return sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", path, reporter.text);
 }
 
-static int read_rows(png_structp png, png_infop info, FILE *stream, sb_image *image,
-                     sb_error *error, struct reporter *reporter)
+static int read_rows(png_structp png, png_infop info, FILE *stream, sb_image *image, sb_error *error,
+                     struct reporter *reporter)
 {
     if (setjmp(reporter->jump)) return 0;
     png_init_io(png, stream);
@@ -77,13 +73,10 @@ static int read_rows(png_structp png, png_infop info, FILE *stream, sb_image *im
     int passes = png_set_interlace_handling(png);
     png_read_update_info(png, info);
     png_uint_32 width = png_get_image_width(png, info), height = png_get_image_height(png, info);
-    if (width > SB_IMAGE_SIDE_MAX || height > SB_IMAGE_SIDE_MAX)
-        png_error(png, "picture too large");
-    if (sb_image_resize(image, (int)width, (int)height, error) != SB_OK)
-        png_error(png, "out of memory");
+    if (width > SB_IMAGE_SIDE_MAX || height > SB_IMAGE_SIDE_MAX) png_error(png, "picture too large");
+    if (sb_image_resize(image, (int)width, (int)height, error) != SB_OK) png_error(png, "out of memory");
     for (int pass = 0; pass < passes; pass++)
-        for (png_uint_32 y = 0; y < height; y++)
-            png_read_row(png, image->rgb + (size_t)y * 3 * width, NULL);
+        for (png_uint_32 y = 0; y < height; y++) png_read_row(png, image->rgb + (size_t)y * 3 * width, NULL);
     png_read_end(png, NULL);
     return 1;
 }
@@ -91,12 +84,10 @@ static int read_rows(png_structp png, png_infop info, FILE *stream, sb_image *im
 sb_status sb_png_read(const char *path, sb_image *image, sb_error *error)
 {
     FILE *stream = fopen(path, "rb");
-    if (!stream)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(errno));
+    if (!stream) return sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(errno));
     struct reporter reporter = {.text = "out of memory"};
     sb_image loaded = {0};
-    png_structp png =
-        png_create_read_struct(PNG_LIBPNG_VER_STRING, &reporter, on_error, on_warning);
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reporter, on_error, on_warning);
     png_infop info = png ? png_create_info_struct(png) : NULL;
     int complete = info && read_rows(png, info, stream, &loaded, error, &reporter);
     png_destroy_read_struct(png ? &png : NULL, info ? &info : NULL, NULL);

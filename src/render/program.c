@@ -2,16 +2,15 @@
 
 static const char version[] = "#version 330 core\n";
 
-const char sb_fullscreen_vertex[] =
-    "out vec2 screen;\n"
-    "uniform float depth;\n"
-    "void main() {\n"
-    "  screen = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);\n"
-    "  gl_Position = vec4(screen, depth, 1.0);\n"
-    "}\n";
+const char sb_fullscreen_vertex[] = "out vec2 screen;\n"
+                                    "uniform float depth;\n"
+                                    "void main() {\n"
+                                    "  screen = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);\n"
+                                    "  gl_Position = vec4(screen, depth, 1.0);\n"
+                                    "}\n";
 
-static sb_status compile(const char *name, GLenum stage, const char *common, const char *source,
-                         GLuint *shader, sb_error *error)
+static sb_status compile(const char *name, GLenum stage, const char *common, const char *source, GLuint *shader,
+                         sb_error *error)
 {
     const char *parts[] = {version, common ? common : "", source};
     *shader = sb_gl.CreateShader(stage);
@@ -25,14 +24,13 @@ static sb_status compile(const char *name, GLenum stage, const char *common, con
     return sb_fail(error, SB_FAILED, "shader %s: %s", name, text);
 }
 
-sb_status sb_program_create(const char *name, const char *vertex, const char *common,
-                            const char *fragment, GLuint *program, sb_error *error)
+sb_status sb_program_create(const char *name, const char *vertex, const char *common, const char *fragment,
+                            GLuint *program, sb_error *error)
 {
     GLuint shaders[2] = {0};
     GLuint made = 0;
     sb_status status = compile(name, GL_VERTEX_SHADER, NULL, vertex, &shaders[0], error);
-    if (status == SB_OK)
-        status = compile(name, GL_FRAGMENT_SHADER, common, fragment, &shaders[1], error);
+    if (status == SB_OK) status = compile(name, GL_FRAGMENT_SHADER, common, fragment, &shaders[1], error);
     if (status != SB_OK) goto done;
     made = sb_gl.CreateProgram();
     sb_gl.AttachShader(made, shaders[0]);
@@ -93,8 +91,8 @@ void sb_fullscreen_draw(GLuint empty)
     sb_gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-GLuint sb_texture_create(GLenum internal, int width, int height, GLenum format, GLenum type,
-                         const void *pixels, GLenum filter)
+GLuint sb_texture_create(GLenum internal, int width, int height, GLenum format, GLenum type, const void *pixels,
+                         GLenum filter)
 {
     GLuint texture = 0;
     sb_gl.GenTextures(1, &texture);
@@ -111,12 +109,10 @@ sb_status sb_framebuffer_check(const char *name, sb_error *error)
 {
     GLenum status = sb_gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
     if (status == GL_FRAMEBUFFER_COMPLETE) return SB_OK;
-    return sb_fail(error, SB_FAILED, "framebuffer %s: OpenGL status 0x%04x, expected complete",
-                   name, status);
+    return sb_fail(error, SB_FAILED, "framebuffer %s: OpenGL status 0x%04x, expected complete", name, status);
 }
 
-void sb_attribute(GLuint slot, GLint size, GLenum type, GLboolean normalized, GLsizei stride,
-                  size_t offset)
+void sb_attribute(GLuint slot, GLint size, GLenum type, GLboolean normalized, GLsizei stride, size_t offset)
 {
     /* OpenGL passes an offset in a pointer's place. NOLINTNEXTLINE(performance-no-int-to-ptr) */
     sb_gl.VertexAttribPointer(slot, size, type, normalized, stride, (const void *)offset);

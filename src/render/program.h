@@ -9,8 +9,8 @@
 
 /* Compiles and links; `common` is put before the fragment source. SB_FAILED holds the compiler's
    first words. 0 is never a valid program. */
-sb_status sb_program_create(const char *name, const char *vertex, const char *common,
-                            const char *fragment, GLuint *program, sb_error *error);
+sb_status sb_program_create(const char *name, const char *vertex, const char *common, const char *fragment,
+                            GLuint *program, sb_error *error);
 
 /* Uniforms of a program in use, by name; names the compiler dropped are fine. */
 void sb_uniform_float(GLuint program, const char *name, double value);
@@ -28,12 +28,11 @@ extern const char sb_fullscreen_vertex[];
 void sb_fullscreen_draw(GLuint empty);
 
 /* Reads attribute `slot` from the bound array buffer, `offset` bytes into each record. */
-void sb_attribute(GLuint slot, GLint size, GLenum type, GLboolean normalized, GLsizei stride,
-                  size_t offset);
+void sb_attribute(GLuint slot, GLint size, GLenum type, GLboolean normalized, GLsizei stride, size_t offset);
 
 /* A texture without mipmaps, clamped at its edge; pixels may be NULL. */
-GLuint sb_texture_create(GLenum internal, int width, int height, GLenum format, GLenum type,
-                         const void *pixels, GLenum filter);
+GLuint sb_texture_create(GLenum internal, int width, int height, GLenum format, GLenum type, const void *pixels,
+                         GLenum filter);
 
 /* SB_FAILED when the framebuffer now bound cannot be drawn to. */
 sb_status sb_framebuffer_check(const char *name, sb_error *error);

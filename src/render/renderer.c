@@ -33,8 +33,7 @@ static sb_status make_framebuffer(sb_renderer *r, sb_error *error)
     sb_gl.GenFramebuffers(1, &r->framebuffer);
     sb_gl.BindFramebuffer(GL_FRAMEBUFFER, r->framebuffer);
     sb_gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, r->color);
-    sb_gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
-                              r->depth_stencil);
+    sb_gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, r->depth_stencil);
     return sb_framebuffer_check("picture", error);
 }
 
@@ -63,21 +62,17 @@ static sb_status make_passes(sb_renderer *r, const sb_model *model, sb_error *er
     sb_status status = make_framebuffer(r, error);
     if (status == SB_OK) status = sb_meshes_create(model, model->min, &r->meshes, error);
     if (status == SB_OK)
-        status = sb_light_create(r->meshes, model->min, r->min, r->max, sea_level(r->scene),
-                                 &r->light, error);
+        status = sb_light_create(r->meshes, model->min, r->min, r->max, sea_level(r->scene), &r->light, error);
     if (status == SB_OK) status = sb_sky_create(&r->sky, error);
-    if (status == SB_OK)
-        status = sb_water_create(r->width, r->height, r->depth_stencil, &r->water, error);
+    if (status == SB_OK) status = sb_water_create(r->width, r->height, r->depth_stencil, &r->water, error);
     return status;
 }
 
-sb_status sb_renderer_create(const sb_scene *scene, const sb_model *model, sb_renderer **renderer,
-                             sb_error *error)
+sb_status sb_renderer_create(const sb_scene *scene, const sb_model *model, sb_renderer **renderer, sb_error *error)
 {
     int width = scene->render.width, height = scene->render.height;
     if (width < 1 || height < 1 || width > SB_IMAGE_SIDE_MAX || height > SB_IMAGE_SIDE_MAX)
-        return sb_fail(error, SB_BAD_INPUT,
-                       "render: a picture of %d x %d px, expected 1 to %d on each side", width,
+        return sb_fail(error, SB_BAD_INPUT, "render: a picture of %d x %d px, expected 1 to %d on each side", width,
                        height, SB_IMAGE_SIDE_MAX);
     sb_renderer *r = sb_alloc(1, sizeof *r);
     if (!r) return sb_fail_memory(error, "the renderer");
@@ -106,8 +101,7 @@ sb_status sb_renderer_create(const sb_scene *scene, const sb_model *model, sb_re
 static double top_speed(const sb_renderer *r, const sb_frame *frame)
 {
     if (r->scene->render.speed_max > 0) return r->scene->render.speed_max;
-    if (r->still_depth > 0 && r->scene->fluid.gravity > 0)
-        return 2 * sqrt(r->scene->fluid.gravity * r->still_depth);
+    if (r->still_depth > 0 && r->scene->fluid.gravity > 0) return 2 * sqrt(r->scene->fluid.gravity * r->still_depth);
     double fastest = 0;
     for (size_t i = 0; i < frame->count; i++) {
         const float *v = frame->velocity + 3 * i;
@@ -118,8 +112,8 @@ static double top_speed(const sb_renderer *r, const sb_frame *frame)
     return fastest > 0 ? 2 * sb_overlay_tick(sqrt(fastest), 2) : 1;
 }
 
-static sb_status draw_passes(sb_renderer *r, const sb_frame *frame, const sb_view *view,
-                             double speed_max, sb_error *error)
+static sb_status draw_passes(sb_renderer *r, const sb_frame *frame, const sb_view *view, double speed_max,
+                             sb_error *error)
 {
     sb_gl.BindFramebuffer(GL_FRAMEBUFFER, r->framebuffer);
     sb_gl.Viewport(0, 0, r->width, r->height);
@@ -143,23 +137,21 @@ static sb_status draw_passes(sb_renderer *r, const sb_frame *frame, const sb_vie
     sb_gl.ReadPixels(0, 0, r->width, r->height, GL_RGBA, GL_UNSIGNED_BYTE, r->pixels);
     GLenum trouble = sb_gl.GetError();
     if (trouble == GL_OUT_OF_MEMORY) return sb_fail_memory(error, "drawing");
-    if (trouble != GL_NO_ERROR)
-        return sb_fail(error, SB_FAILED, "OpenGL error 0x%04x while drawing", trouble);
+    if (trouble != GL_NO_ERROR) return sb_fail(error, SB_FAILED, "OpenGL error 0x%04x while drawing", trouble);
     return SB_OK;
 }
 
-sb_status sb_renderer_draw(sb_renderer *renderer, const sb_frame *frame, size_t camera,
-                           sb_image *image, sb_error *error)
+sb_status sb_renderer_draw(sb_renderer *renderer, const sb_frame *frame, size_t camera, sb_image *image,
+                           sb_error *error)
 {
     sb_renderer *r = renderer;
     const sb_render_settings *settings = &r->scene->render;
     if (camera >= settings->camera_count || settings->cameras[camera].key_count == 0)
-        return sb_fail(error, SB_BAD_INPUT, "render: camera %zu of %zu, expected one with keys",
-                       camera, settings->camera_count);
+        return sb_fail(error, SB_BAD_INPUT, "render: camera %zu of %zu, expected one with keys", camera,
+                       settings->camera_count);
     sb_camera_key key = sb_camera_at(&settings->cameras[camera], frame->status.time);
     double margin = 2 * frame->spacing;
-    sb_view view = sb_view_create(&key, (double)r->width / r->height,
-                                  sb_sub(r->min, sb_vec(margin, margin, margin)),
+    sb_view view = sb_view_create(&key, (double)r->width / r->height, sb_sub(r->min, sb_vec(margin, margin, margin)),
                                   sb_add(r->max, sb_vec(margin, margin, margin)));
     double speed_max = top_speed(r, frame);
     sb_status status = sb_image_resize(image, r->width, r->height, error);

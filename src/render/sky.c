@@ -1,22 +1,20 @@
 #include "render/sky.h"
 
-static const char fragment[] =
-    "in vec2 screen;\n"
-    "out vec4 color;\n"
-    "uniform vec3 right, up, back;\n"
-    "uniform vec2 lens;\n"
-    "void main() {\n"
-    "  vec3 d = normalize(right * screen.x * lens.x + up * screen.y * lens.y - back);\n"
-    /* Dither by an ordered pattern: a smooth gradient in 8 bits would show bands. */
-    "  ivec2 p = ivec2(gl_FragCoord.xy) & 3;\n"
-    "  float noise = float((p.x * 5 + p.y * 11 + (p.x ^ p.y) * 3) & 15) / 16.0 - 0.47;\n"
-    "  color = encoded(sky(d)) + noise / 255.0;\n"
-    "}\n";
+static const char fragment[] = "in vec2 screen;\n"
+                               "out vec4 color;\n"
+                               "uniform vec3 right, up, back;\n"
+                               "uniform vec2 lens;\n"
+                               "void main() {\n"
+                               "  vec3 d = normalize(right * screen.x * lens.x + up * screen.y * lens.y - back);\n"
+                               /* Dither by an ordered pattern: a smooth gradient in 8 bits would show bands. */
+                               "  ivec2 p = ivec2(gl_FragCoord.xy) & 3;\n"
+                               "  float noise = float((p.x * 5 + p.y * 11 + (p.x ^ p.y) * 3) & 15) / 16.0 - 0.47;\n"
+                               "  color = encoded(sky(d)) + noise / 255.0;\n"
+                               "}\n";
 
 sb_status sb_sky_create(sb_sky *sky, sb_error *error)
 {
-    sb_status status = sb_program_create("sky", sb_fullscreen_vertex, sb_light_source, fragment,
-                                         &sky->program, error);
+    sb_status status = sb_program_create("sky", sb_fullscreen_vertex, sb_light_source, fragment, &sky->program, error);
     if (status == SB_OK) sb_gl.GenVertexArrays(1, &sky->empty);
     return status;
 }

@@ -39,14 +39,13 @@ static bool outside(const struct lens *lens, const float *to_eye)
     float half = depth * lens->tangent;
     return depth < lens->near - lens->margin ||
            fabsf(dot3(to_eye, lens->up)) > half + lens->margin * (1 + lens->tangent) ||
-           fabsf(dot3(to_eye, lens->right)) >
-               half * lens->aspect + lens->margin * (1 + lens->tangent * lens->aspect);
+           fabsf(dot3(to_eye, lens->right)) > half * lens->aspect + lens->margin * (1 + lens->tangent * lens->aspect);
 }
 
 /* Against the gradient of the density a little above the particle: a single layer of water on land
    has no gradient within itself. */
-static void surface_normal(const sb_density *density, const float *p, float spacing,
-                           const float *to_eye, signed char normal[4])
+static void surface_normal(const sb_density *density, const float *p, float spacing, const float *to_eye,
+                           signed char normal[4])
 {
     float d = density->cell, x = p[0], y = p[1], z = p[2] + 0.7f * spacing;
     float g[3] = {sb_density_at(density, x - d, y, z) - sb_density_at(density, x + d, y, z),
@@ -61,8 +60,7 @@ static void surface_normal(const sb_density *density, const float *p, float spac
     normal[3] = 0;
 }
 
-static void collect(sb_visible *visible, const sb_frame *frame, const sb_view *view,
-                    double speed_max)
+static void collect(sb_visible *visible, const sb_frame *frame, const sb_view *view, double speed_max)
 {
     const sb_density *density = &visible->density;
     struct lens lens = lens_of(view, frame->origin, frame->spacing);
@@ -72,8 +70,7 @@ static void collect(sb_visible *visible, const sb_frame *frame, const sb_view *v
         float to_eye[3] = {lens.eye[0] - p[0], lens.eye[1] - p[1], lens.eye[2] - p[2]};
         if (!sb_density_counts(p) || outside(&lens, to_eye)) continue;
         float step = cover_spacings * spacing / sqrtf(dot3(to_eye, to_eye));
-        if (sb_density_at(density, p[0] + step * to_eye[0], p[1] + step * to_eye[1],
-                          p[2] + step * to_eye[2]) > dense)
+        if (sb_density_at(density, p[0] + step * to_eye[0], p[1] + step * to_eye[1], p[2] + step * to_eye[2]) > dense)
             continue;
         float share = sqrtf(dot3(v, v)) * to_share;
         float crowd = sb_density_at(density, p[0], p[1], p[2]) / crowd_density;
@@ -87,16 +84,14 @@ static void collect(sb_visible *visible, const sb_frame *frame, const sb_view *v
     }
 }
 
-sb_status sb_visible_collect(sb_visible *visible, const sb_frame *frame, const sb_view *view,
-                             double speed_max, sb_error *error)
+sb_status sb_visible_collect(sb_visible *visible, const sb_frame *frame, const sb_view *view, double speed_max,
+                             sb_error *error)
 {
     visible->count = 0;
     if (!(frame->spacing > 0) || !(speed_max > 0))
-        return sb_fail(error, SB_BAD_INPUT,
-                       "frame: spacing %g m and top speed %g m/s, expected > 0", frame->spacing,
+        return sb_fail(error, SB_BAD_INPUT, "frame: spacing %g m and top speed %g m/s, expected > 0", frame->spacing,
                        speed_max);
-    if (sb_grow((void **)&visible->points, &visible->capacity, frame->count,
-                sizeof *visible->points) != 0)
+    if (sb_grow((void **)&visible->points, &visible->capacity, frame->count, sizeof *visible->points) != 0)
         return sb_fail_memory(error, "the visible particles");
     sb_status status = sb_density_build(&visible->density, frame, error);
     if (status == SB_OK) collect(visible, frame, view, speed_max);

@@ -24,8 +24,8 @@ typedef struct sb_visible {
 
 /* Collects the particles in the view that have no water between them and the eye. speed_max > 0;
    a frame's spacing must be > 0. */
-sb_status sb_visible_collect(sb_visible *visible, const sb_frame *frame, const sb_view *view,
-                             double speed_max, sb_error *error);
+sb_status sb_visible_collect(sb_visible *visible, const sb_frame *frame, const sb_view *view, double speed_max,
+                             sb_error *error);
 void sb_visible_free(sb_visible *visible);
 
 #endif

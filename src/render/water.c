@@ -13,21 +13,20 @@ static const double radius_spacings = 0.8;
 static const double sheet_spacings = 5;
 static const double smooth_spacings = 1.1; /* standard deviation */
 
-static const char sphere_vertex[] =
-    "layout(location = 0) in vec3 position;\n"
-    "layout(location = 1) in vec2 trait;\n" /* share of the top speed, crowd */
-    "layout(location = 2) in vec3 normal;\n"
-    "uniform mat4 view, projection;\n"
-    "uniform float radius, pixels;\n" /* pixels: of one metre at one metre */
-    "flat out vec4 drop;\n"           /* depth, radius, speed, crowd */
-    "flat out vec3 slope;\n"
-    "void main() {\n"
-    "  vec4 e = view * vec4(position, 1.0);\n"
-    "  gl_Position = projection * e;\n"
-    "  drop = vec4(-e.z, radius * (0.45 + 0.55 * trait.y), trait);\n"
-    "  slope = mat3(view) * normal;\n"
-    "  gl_PointSize = clamp(2.0 * drop.y * pixels / drop.x, 1.5, 255.0);\n"
-    "}\n";
+static const char sphere_vertex[] = "layout(location = 0) in vec3 position;\n"
+                                    "layout(location = 1) in vec2 trait;\n" /* share of the top speed, crowd */
+                                    "layout(location = 2) in vec3 normal;\n"
+                                    "uniform mat4 view, projection;\n"
+                                    "uniform float radius, pixels;\n" /* pixels: of one metre at one metre */
+                                    "flat out vec4 drop;\n"           /* depth, radius, speed, crowd */
+                                    "flat out vec3 slope;\n"
+                                    "void main() {\n"
+                                    "  vec4 e = view * vec4(position, 1.0);\n"
+                                    "  gl_Position = projection * e;\n"
+                                    "  drop = vec4(-e.z, radius * (0.45 + 0.55 * trait.y), trait);\n"
+                                    "  slope = mat3(view) * normal;\n"
+                                    "  gl_PointSize = clamp(2.0 * drop.y * pixels / drop.x, 1.5, 255.0);\n"
+                                    "}\n";
 
 /* A surface in a crowd has the crowd's normal, a drop by itself that of its own sphere. */
 static const char sphere_fragment[] =
@@ -47,31 +46,30 @@ static const char sphere_fragment[] =
 
 /* One direction of a Gaussian that stops at jumps in depth; the reach follows the size that a
    particle has in the picture, and a surface seen edge on may fall away faster. */
-static const char smooth_fragment[] =
-    "out vec4 surface;\n"
-    "uniform sampler2D source;\n"
-    "uniform ivec2 step_by;\n"
-    "uniform float spread, sheet, longest;\n" /* px m; m; px */
-    "void main() {\n"
-    "  ivec2 p = ivec2(gl_FragCoord.xy);\n"
-    "  vec4 c = texelFetch(source, p, 0);\n"
-    "  float sigma = min(spread / c.x, longest);\n"
-    "  float stride = max(1.0, sigma * 0.6);\n"
-    "  float fall = -0.5 * stride * stride / (sigma * sigma);\n"
-    "  float tilt = sqrt(max(1.0 - dot(c.zw, c.zw), 0.02)) / sheet;\n"
-    "  vec4 sum = c;\n"
-    "  float total = 1.0;\n"
-    "  for (int i = 1; i <= 3; i++) {\n"
-    "    ivec2 by = step_by * int(float(i) * stride + 0.5);\n"
-    "    float w = exp(fall * float(i * i));\n"
-    "    vec4 a = texelFetch(source, p + by, 0), b = texelFetch(source, p - by, 0);\n"
-    "    vec2 jump = (vec2(a.x, b.x) - c.x) * tilt;\n"
-    "    vec2 keep = w * max(1.0 - jump * jump, 0.0);\n"
-    "    sum += a * keep.x + b * keep.y;\n"
-    "    total += keep.x + keep.y;\n"
-    "  }\n"
-    "  surface = sum / total;\n"
-    "}\n";
+static const char smooth_fragment[] = "out vec4 surface;\n"
+                                      "uniform sampler2D source;\n"
+                                      "uniform ivec2 step_by;\n"
+                                      "uniform float spread, sheet, longest;\n" /* px m; m; px */
+                                      "void main() {\n"
+                                      "  ivec2 p = ivec2(gl_FragCoord.xy);\n"
+                                      "  vec4 c = texelFetch(source, p, 0);\n"
+                                      "  float sigma = min(spread / c.x, longest);\n"
+                                      "  float stride = max(1.0, sigma * 0.6);\n"
+                                      "  float fall = -0.5 * stride * stride / (sigma * sigma);\n"
+                                      "  float tilt = sqrt(max(1.0 - dot(c.zw, c.zw), 0.02)) / sheet;\n"
+                                      "  vec4 sum = c;\n"
+                                      "  float total = 1.0;\n"
+                                      "  for (int i = 1; i <= 3; i++) {\n"
+                                      "    ivec2 by = step_by * int(float(i) * stride + 0.5);\n"
+                                      "    float w = exp(fall * float(i * i));\n"
+                                      "    vec4 a = texelFetch(source, p + by, 0), b = texelFetch(source, p - by, 0);\n"
+                                      "    vec2 jump = (vec2(a.x, b.x) - c.x) * tilt;\n"
+                                      "    vec2 keep = w * max(1.0 - jump * jump, 0.0);\n"
+                                      "    sum += a * keep.x + b * keep.y;\n"
+                                      "    total += keep.x + keep.y;\n"
+                                      "  }\n"
+                                      "  surface = sum / total;\n"
+                                      "}\n";
 
 static const char shade_fragment[] =
     "in vec2 screen;\n"
@@ -109,8 +107,7 @@ static void make_colors(sb_water *water)
         sb_colormap(i / (COLORS - 1.0), rgb);
         for (int c = 0; c < 3; c++) texels[i][c] = (unsigned char)(255 * rgb[c] + 0.5f);
     }
-    water->colors =
-        sb_texture_create(GL_RGB8, COLORS, 1, GL_RGB, GL_UNSIGNED_BYTE, texels, GL_LINEAR);
+    water->colors = sb_texture_create(GL_RGB8, COLORS, 1, GL_RGB, GL_UNSIGNED_BYTE, texels, GL_LINEAR);
 }
 
 static sb_status make_surfaces(sb_water *water, GLuint depth_stencil, sb_error *error)
@@ -118,13 +115,11 @@ static sb_status make_surfaces(sb_water *water, GLuint depth_stencil, sb_error *
     sb_status status = SB_OK;
     sb_gl.GenFramebuffers(2, water->framebuffer);
     for (int i = 0; i < 2 && status == SB_OK; i++) {
-        water->surface[i] = sb_texture_create(GL_RGBA32F, water->width, water->height, GL_RGBA,
-                                              GL_FLOAT, NULL, GL_NEAREST);
+        water->surface[i] =
+            sb_texture_create(GL_RGBA32F, water->width, water->height, GL_RGBA, GL_FLOAT, NULL, GL_NEAREST);
         sb_gl.BindFramebuffer(GL_FRAMEBUFFER, water->framebuffer[i]);
-        sb_gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
-                               water->surface[i], 0);
-        sb_gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
-                                  depth_stencil);
+        sb_gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, water->surface[i], 0);
+        sb_gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, depth_stencil);
         status = sb_framebuffer_check("water", error);
     }
     return status;
@@ -145,18 +140,16 @@ static void make_arrays(sb_water *water)
     sb_gl.BindVertexArray(0);
 }
 
-sb_status sb_water_create(int width, int height, GLuint depth_stencil, sb_water *water,
-                          sb_error *error)
+sb_status sb_water_create(int width, int height, GLuint depth_stencil, sb_water *water, sb_error *error)
 {
     sb_water made = {.width = width, .height = height};
-    sb_status status = sb_program_create("spheres", sphere_vertex, NULL, sphere_fragment,
-                                         &made.sphere_program, error);
+    sb_status status = sb_program_create("spheres", sphere_vertex, NULL, sphere_fragment, &made.sphere_program, error);
     if (status == SB_OK)
-        status = sb_program_create("smoothing", sb_fullscreen_vertex, NULL, smooth_fragment,
-                                   &made.smooth_program, error);
+        status =
+            sb_program_create("smoothing", sb_fullscreen_vertex, NULL, smooth_fragment, &made.smooth_program, error);
     if (status == SB_OK)
-        status = sb_program_create("water", sb_fullscreen_vertex, sb_light_source, shade_fragment,
-                                   &made.shade_program, error);
+        status = sb_program_create("water", sb_fullscreen_vertex, sb_light_source, shade_fragment, &made.shade_program,
+                                   error);
     if (status == SB_OK) status = make_surfaces(&made, depth_stencil, error);
     if (status != SB_OK) {
         sb_water_destroy(&made);
@@ -206,9 +199,8 @@ static void draw_spheres(sb_water *water, const sb_frame *frame, const sb_view *
     sb_gl.DepthMask(GL_TRUE);
     sb_gl.BindVertexArray(water->points);
     sb_gl.BindBuffer(GL_ARRAY_BUFFER, water->buffer);
-    sb_gl.BufferData(GL_ARRAY_BUFFER,
-                 (GLsizeiptr)(water->visible.count * sizeof *water->visible.points),
-                 water->visible.points, GL_STREAM_DRAW);
+    sb_gl.BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(water->visible.count * sizeof *water->visible.points),
+                     water->visible.points, GL_STREAM_DRAW);
     sb_gl.DrawArrays(GL_POINTS, 0, (GLsizei)water->visible.count);
     sb_gl.Disable(GL_STENCIL_TEST);
 }
@@ -244,16 +236,15 @@ static void shade(const sb_water *water, const sb_light *light, const sb_view *v
     sb_fullscreen_draw(water->empty);
 }
 
-sb_status sb_water_lay(sb_water *water, const sb_frame *frame, const sb_view *view,
-                       double speed_max, sb_error *error)
+sb_status sb_water_lay(sb_water *water, const sb_frame *frame, const sb_view *view, double speed_max, sb_error *error)
 {
     sb_status status = sb_visible_collect(&water->visible, frame, view, speed_max, error);
     if (status == SB_OK && water->visible.count > 0) draw_spheres(water, frame, view);
     return status;
 }
 
-void sb_water_shade(const sb_water *water, const sb_frame *frame, const sb_light *light,
-                    const sb_view *view, GLuint target)
+void sb_water_shade(const sb_water *water, const sb_frame *frame, const sb_light *light, const sb_view *view,
+                    GLuint target)
 {
     if (water->visible.count > 0) {
         sb_gl.Enable(GL_STENCIL_TEST);

@@ -17,17 +17,15 @@ typedef struct sb_water {
 
 /* depth_stencil: the renderbuffer shared with the picture's framebuffer, width x height. Needs the
    context. A zeroed one is fine to destroy. */
-sb_status sb_water_create(int width, int height, GLuint depth_stencil, sb_water *water,
-                          sb_error *error);
+sb_status sb_water_create(int width, int height, GLuint depth_stencil, sb_water *water, sb_error *error);
 void sb_water_destroy(sb_water *water);
 
 /* Lays the visible particles into the shared depths, which are clear, and marks their pixels with
    stencil 1. What is drawn nearer afterwards must set the stencil back to 0. */
-sb_status sb_water_lay(sb_water *water, const sb_frame *frame, const sb_view *view,
-                       double speed_max, sb_error *error);
+sb_status sb_water_lay(sb_water *water, const sb_frame *frame, const sb_view *view, double speed_max, sb_error *error);
 
 /* Paints the marked pixels of `target`, smoothed, lit and hazed; leaves target bound. */
-void sb_water_shade(const sb_water *water, const sb_frame *frame, const sb_light *light,
-                    const sb_view *view, GLuint target);
+void sb_water_shade(const sb_water *water, const sb_frame *frame, const sb_light *light, const sb_view *view,
+                    GLuint target);
 
 #endif

@@ -43,8 +43,7 @@ static void walk_key(const walk *to, const sb_key *key, const char *prefix, cons
         .fallback = fallback,
         .range = range,
         .doc = key->doc,
-        .only = key->derived && !(key->flags & (SB_KEY_REQUIRED | SB_KEY_REQUIRED_3D)) ? NULL
-                                                                                       : condition,
+        .only = key->derived && !(key->flags & (SB_KEY_REQUIRED | SB_KEY_REQUIRED_3D)) ? NULL : condition,
         .required = key->flags & SB_KEY_REQUIRED,
     };
     to->visit(to->context, &row);

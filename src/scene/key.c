@@ -96,8 +96,7 @@ __attribute__((format(printf, 2, 3))) static void say(phrase *text, const char *
 
 static void say_words(phrase *text, const char *const *words)
 {
-    for (size_t i = 0; words[i]; i++)
-        say(text, "%s%s", i == 0 ? "" : words[i + 1] ? ", " : " or ", words[i]);
+    for (size_t i = 0; words[i]; i++) say(text, "%s%s", i == 0 ? "" : words[i + 1] ? ", " : " or ", words[i]);
 }
 
 static void say_kernels(phrase *text)
@@ -109,11 +108,7 @@ static void say_kernels(phrase *text)
 static void say_laws(phrase *text)
 {
     for (size_t i = 0; sb_wavemakers[i]; i++)
-        say(text, "%s%s",
-            i == 0                 ? ""
-            : sb_wavemakers[i + 1] ? ", "
-                                   : " or ",
-            sb_wavemakers[i]->name);
+        say(text, "%s%s", i == 0 ? "" : sb_wavemakers[i + 1] ? ", " : " or ", sb_wavemakers[i]->name);
 }
 
 static void say_range(phrase *text, const sb_key *key)
@@ -125,9 +120,7 @@ static void say_range(phrase *text, const sb_key *key)
         return;
     }
     if (low) say(text, "%s %.10g", key->flags & SB_KEY_ABOVE ? ">" : ">=", key->min);
-    if (high)
-        say(text, "%s%s %.10g", low ? " and " : "",
-            key->flags & SB_KEY_BELOW ? "<" : "<=", key->max);
+    if (high) say(text, "%s%s %.10g", low ? " and " : "", key->flags & SB_KEY_BELOW ? "<" : "<=", key->max);
 }
 
 static const char *unit_words(const char *unit)
@@ -148,8 +141,7 @@ static void say_number(phrase *text, const sb_key *key)
     else
         say(text, "%s", word);
     if (key->min > -HUGE_VAL || key->max < HUGE_VAL) {
-        say(text, "%s",
-            key->flags & (SB_KEY_ABOVE | SB_KEY_BELOW) || key->max == HUGE_VAL ? " " : " from ");
+        say(text, "%s", key->flags & (SB_KEY_ABOVE | SB_KEY_BELOW) || key->max == HUGE_VAL ? " " : " from ");
         say_range(text, key);
     }
 }
@@ -256,8 +248,7 @@ static void free_key(const sb_key *key, char *field, void *item)
     } else if (key->type == SB_KEY_LIST) {
         size_t *count = (size_t *)((char *)item + key->count_offset);
         char *items = *(char **)field;
-        for (size_t i = 0; items && i < *count; i++)
-            sb_table_free(key->table, items + i * key->table->size);
+        for (size_t i = 0; items && i < *count; i++) sb_table_free(key->table, items + i * key->table->size);
         sb_free(items);
         *(char **)field = NULL;
         *count = 0;
@@ -266,6 +257,5 @@ static void free_key(const sb_key *key, char *field, void *item)
 
 void sb_table_free(const sb_table *table, void *item)
 {
-    for (size_t i = 0; i < table->count; i++)
-        free_key(&table->keys[i], (char *)item + table->keys[i].offset, item);
+    for (size_t i = 0; i < table->count; i++) free_key(&table->keys[i], (char *)item + table->keys[i].offset, item);
 }

@@ -69,8 +69,7 @@ struct sb_table {
 
 #define SB_KEY_ROWS(rows) .keys = (rows), .count = sizeof(rows) / sizeof *(rows)
 #define SB_KEY_AT(type, member) .offset = offsetof(type, member)
-#define SB_KEY_ITEMS(type, member, counter)                                                        \
-    .offset = offsetof(type, member), .count_offset = offsetof(type, counter)
+#define SB_KEY_ITEMS(type, member, counter) .offset = offsetof(type, member), .count_offset = offsetof(type, counter)
 #define SB_KEY_ANY .min = -HUGE_VAL, .max = HUGE_VAL
 #define SB_KEY_POSITIVE .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE
 #define SB_KEY_NOT_NEGATIVE .min = 0, .max = HUGE_VAL

@@ -42,8 +42,8 @@ static sb_yaml *item_by_index(const sb_yaml *list, const char *rest, size_t *use
     return &list->items[index];
 }
 
-static sb_status step_list(const sb_yaml *list, const char *key, const char *rest, size_t *used,
-                           sb_yaml **next, sb_error *error)
+static sb_status step_list(const sb_yaml *list, const char *key, const char *rest, size_t *used, sb_yaml **next,
+                           sb_error *error)
 {
     *next = item_by_name(list, rest, used);
     if (!*next) *next = item_by_index(list, rest, used);
@@ -54,13 +54,11 @@ static sb_status step_list(const sb_yaml *list, const char *key, const char *res
                    key, list->count);
 }
 
-static sb_status step_map(sb_yaml *map, const char *key, const char *rest, size_t *used,
-                          sb_yaml **next, sb_error *error)
+static sb_status step_map(sb_yaml *map, const char *key, const char *rest, size_t *used, sb_yaml **next,
+                          sb_error *error)
 {
     size_t length = strcspn(rest, ".[");
-    if (length == 0)
-        return sb_fail(error, SB_BAD_INPUT,
-                       "--set: %.200s: a part is empty, expected KEY.KEY=VALUE", key);
+    if (length == 0) return sb_fail(error, SB_BAD_INPUT, "--set: %.200s: a part is empty, expected KEY.KEY=VALUE", key);
     *used = length;
     if (sb_yaml_is_null(map)) { /* a block that is missing so far */
         sb_free(map->text);
@@ -88,15 +86,13 @@ static sb_status find_place(sb_yaml *root, const char *key, sb_yaml **place, sb_
     do {
         size_t used = 0;
         sb_yaml *next = NULL;
-        sb_status status = node->kind == SB_YAML_LIST
-                               ? step_list(node, key, rest, &used, &next, error)
-                               : step_map(node, key, rest, &used, &next, error);
+        sb_status status = node->kind == SB_YAML_LIST ? step_list(node, key, rest, &used, &next, error)
+                                                      : step_map(node, key, rest, &used, &next, error);
         if (status != SB_OK) return status;
         node = next;
         rest += used;
         if (*rest == '.' && *++rest == '\0')
-            return sb_fail(error, SB_BAD_INPUT,
-                           "--set: %.200s: ends in a dot, expected KEY.KEY=VALUE", key);
+            return sb_fail(error, SB_BAD_INPUT, "--set: %.200s: ends in a dot, expected KEY.KEY=VALUE", key);
     } while (*rest);
     *place = node;
     return SB_OK;
@@ -108,8 +104,7 @@ sb_status sb_override_apply(sb_yaml *root, const sb_override *override, sb_error
     snprintf(name, sizeof name, "--set: %.200s", override->key);
     sb_yaml value = {0}, *place = NULL;
     sb_yaml_source source = {.name = name};
-    sb_status status =
-        sb_yaml_parse(source, override->value, strlen(override->value), &value, error);
+    sb_status status = sb_yaml_parse(source, override->value, strlen(override->value), &value, error);
     if (status != SB_OK) return status;
     status = find_place(root, override->key, &place, error);
     if (status == SB_OK) sb_yaml_replace(place, &value);

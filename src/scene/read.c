@@ -13,8 +13,7 @@ enum { FILE_LIMIT = 4 << 20, ITEMS_MAX = 10000 };
 
 _Static_assert(sizeof(sb_shape) == sizeof(unsigned), "choices are read and written as unsigned");
 
-sb_status sb_reader_fail(sb_reader *reader, const sb_yaml *map, const char *key, const char *format,
-                         ...)
+sb_status sb_reader_fail(sb_reader *reader, const sb_yaml *map, const char *key, const char *format, ...)
 {
     char what[600];
     va_list arguments;
@@ -24,21 +23,18 @@ sb_status sb_reader_fail(sb_reader *reader, const sb_yaml *map, const char *key,
     const sb_yaml *child = key ? sb_yaml_child(map, key) : NULL;
     const sb_yaml *node = child ? child : map;
     char place[340] = "--set: ";
-    if (node->line > 0)
-        snprintf(place, sizeof place, "%.300s:%d:%d: ", reader->file, node->line, node->column);
+    if (node->line > 0) snprintf(place, sizeof place, "%.300s:%d:%d: ", reader->file, node->line, node->column);
     const char *path = reader->path, *dot = key && *path ? "." : "";
     const char *colon = key || *path ? ": " : "";
-    return sb_fail(reader->error, SB_BAD_INPUT, "%s%.200s%s%.60s%s%s", place, path, dot,
-                   key ? key : "", colon, what);
+    return sb_fail(reader->error, SB_BAD_INPUT, "%s%.200s%s%.60s%s%s", place, path, dot, key ? key : "", colon, what);
 }
 
-sb_status sb_reader_interval(sb_reader *reader, const sb_yaml *map, const char *key,
-                             double interval)
+sb_status sb_reader_interval(sb_reader *reader, const sb_yaml *map, const char *key, double interval)
 {
     double most = 1e7;
     if (interval <= 0 || reader->scene->duration / interval <= most) return SB_OK;
-    return sb_reader_fail(reader, map, key, "%g s fits more than %g times into %g s, expected more",
-                          interval, most, reader->scene->duration);
+    return sb_reader_fail(reader, map, key, "%g s fits more than %g times into %g s, expected more", interval, most,
+                          reader->scene->duration);
 }
 
 /* Lengthens the path by ".name" or "[index]"; returns the length to cut it to afterwards. */
@@ -60,21 +56,19 @@ static sb_status refuse_unknown(sb_reader *reader, const sb_yaml *map, const sb_
         sb_yaml place = {.line = item->line > 0 ? item->key_line : 0, .column = item->key_column};
         const char *near = sb_table_nearest(table, item->key);
         path_push(reader, item->key, 0);
-        if (near)
-            return sb_reader_fail(reader, &place, NULL, "unknown key, did you mean %s?", near);
+        if (near) return sb_reader_fail(reader, &place, NULL, "unknown key, did you mean %s?", near);
         char known[400] = "";
         size_t used = 0;
         for (size_t j = 0; j < table->count && used < sizeof known; j++)
             if (table->keys[j].name)
-                used += (size_t)snprintf(known + used, sizeof known - used, "%s%s",
-                                         j > 0 ? ", " : "", table->keys[j].name);
+                used +=
+                    (size_t)snprintf(known + used, sizeof known - used, "%s%s", j > 0 ? ", " : "", table->keys[j].name);
         return sb_reader_fail(reader, &place, NULL, "unknown key, expected one of %s", known);
     }
     return SB_OK;
 }
 
-static sb_status refuse_same_name(sb_reader *reader, const sb_yaml *list, const sb_table *table,
-                                  const char *items)
+static sb_status refuse_same_name(sb_reader *reader, const sb_yaml *list, const sb_table *table, const char *items)
 {
     if (table->keys[0].type != SB_KEY_NAME) return SB_OK;
     for (size_t i = 0; i < list->count; i++)
@@ -83,14 +77,12 @@ static sb_status refuse_same_name(sb_reader *reader, const sb_yaml *list, const 
             if (strcmp(name, items + j * table->size + table->keys[0].offset) != 0) continue;
             path_push(reader, NULL, i);
             return sb_reader_fail(reader, &list->items[i], table->keys[0].name,
-                                  "%s is the name of item %zu already, expected one of its own",
-                                  name, j);
+                                  "%s is the name of item %zu already, expected one of its own", name, j);
         }
     return SB_OK;
 }
 
-static sb_status make_items(sb_reader *reader, const sb_key *key, size_t count, void *item,
-                            char **items)
+static sb_status make_items(sb_reader *reader, const sb_key *key, size_t count, void *item, char **items)
 {
     *items = sb_alloc(count, key->table->size);
     if (!*items) return sb_fail_memory(reader->error, "the scene's lists");
@@ -107,8 +99,7 @@ static sb_status read_list(sb_reader *reader, const sb_yaml *list, const sb_key 
                               : sb_yaml_is_null(list)   ? "has no value"
                                                         : "is a single value");
     if (list->count > ITEMS_MAX)
-        return sb_reader_fail(reader, list, NULL, "has %zu items, expected at most %d", list->count,
-                              ITEMS_MAX);
+        return sb_reader_fail(reader, list, NULL, "has %zu items, expected at most %d", list->count, ITEMS_MAX);
     if (list->count == 0) return SB_OK;
     char *items;
     sb_status status = make_items(reader, key, list->count, item, &items);
@@ -136,8 +127,7 @@ static sb_status read_default(sb_reader *reader, const sb_key *key, void *field)
 
 static sb_status read_missing(sb_reader *reader, const sb_yaml *map, const sb_key *key, void *field)
 {
-    bool required = key->flags & SB_KEY_REQUIRED ||
-                    (key->flags & SB_KEY_REQUIRED_3D && reader->scene->dimensions == 3);
+    bool required = key->flags & SB_KEY_REQUIRED || (key->flags & SB_KEY_REQUIRED_3D && reader->scene->dimensions == 3);
     if (required) {
         char expected[300];
         sb_key_expectation(key, reader->scene->dimensions, expected, sizeof expected);
@@ -149,12 +139,10 @@ static sb_status read_missing(sb_reader *reader, const sb_yaml *map, const sb_ke
     return sb_reader_block(reader, &empty, key->table, field);
 }
 
-static sb_status refuse_row(sb_reader *reader, const sb_yaml *map, const sb_key *key,
-                            const char *only)
+static sb_status refuse_row(sb_reader *reader, const sb_yaml *map, const sb_key *key, const char *only)
 {
     if (key->name && sb_yaml_child(map, key->name))
-        return sb_reader_fail(reader, map, key->name, "does not apply here, expected only for %s",
-                              only);
+        return sb_reader_fail(reader, map, key->name, "does not apply here, expected only for %s", only);
     for (size_t i = 0; !key->name && i < key->table->count; i++) {
         sb_status status = refuse_row(reader, map, &key->table->keys[i], only);
         if (status != SB_OK) return status;
@@ -162,14 +150,11 @@ static sb_status refuse_row(sb_reader *reader, const sb_yaml *map, const sb_key 
     return SB_OK;
 }
 
-static sb_status read_rows(sb_reader *reader, const sb_yaml *map, const sb_table *table,
-                           void *item);
+static sb_status read_rows(sb_reader *reader, const sb_yaml *map, const sb_table *table, void *item);
 
-static sb_status read_row(sb_reader *reader, const sb_yaml *map, const sb_table *table,
-                          const sb_key *key, void *item)
+static sb_status read_row(sb_reader *reader, const sb_yaml *map, const sb_table *table, const sb_key *key, void *item)
 {
-    if (!sb_key_applies(key, sb_table_variant(table, item, map)))
-        return refuse_row(reader, map, key, key->only);
+    if (!sb_key_applies(key, sb_table_variant(table, item, map))) return refuse_row(reader, map, key, key->only);
     if (!key->name) {
         char *items;
         sb_status status = make_items(reader, key, 1, item, &items);
@@ -178,11 +163,10 @@ static sb_status read_row(sb_reader *reader, const sb_yaml *map, const sb_table 
     void *field = (char *)item + key->offset;
     const sb_yaml *node = sb_yaml_child(map, key->name);
     size_t length = path_push(reader, key->name, 0);
-    sb_status status = !node                      ? read_missing(reader, map, key, field)
-                       : key->type == SB_KEY_LIST ? read_list(reader, node, key, item)
-                       : key->type == SB_KEY_BLOCK
-                           ? sb_reader_block(reader, node, key->table, field)
-                           : sb_reader_value(reader, node, key, field);
+    sb_status status = !node                       ? read_missing(reader, map, key, field)
+                       : key->type == SB_KEY_LIST  ? read_list(reader, node, key, item)
+                       : key->type == SB_KEY_BLOCK ? sb_reader_block(reader, node, key->table, field)
+                                                   : sb_reader_value(reader, node, key, field);
     if (status == SB_OK) reader->path[length] = '\0';
     return status;
 }
@@ -208,8 +192,8 @@ sb_status sb_reader_block(sb_reader *reader, const sb_yaml *map, const sb_table 
     return status;
 }
 
-static sb_status apply_overrides(sb_yaml *root, const char *preset_name,
-                                 const sb_override *overrides, size_t count, sb_error *error)
+static sb_status apply_overrides(sb_yaml *root, const char *preset_name, const sb_override *overrides, size_t count,
+                                 sb_error *error)
 {
     sb_status status = SB_OK;
     if (preset_name) {
@@ -219,13 +203,11 @@ static sb_status apply_overrides(sb_yaml *root, const char *preset_name,
         char expected[100];
         sb_key_range(key, expected, sizeof expected);
         if (!key->words[at])
-            return sb_fail(error, SB_BAD_INPUT, "--preset: %.80s is not known, expected %s",
-                           preset_name, expected);
+            return sb_fail(error, SB_BAD_INPUT, "--preset: %.80s is not known, expected %s", preset_name, expected);
         sb_override preset = {.key = "numerics.preset", .value = preset_name};
         status = sb_override_apply(root, &preset, error);
     }
-    for (size_t i = 0; status == SB_OK && i < count; i++)
-        status = sb_override_apply(root, &overrides[i], error);
+    for (size_t i = 0; status == SB_OK && i < count; i++) status = sb_override_apply(root, &overrides[i], error);
     return status;
 }
 
@@ -234,8 +216,7 @@ static sb_status absolute_folder(const char *path, char out[SB_PATH_MAX], sb_err
     char folder[SB_PATH_MAX];
     sb_path_folder(folder, path);
     _Static_assert(SB_PATH_MAX >= 4096, "realpath needs PATH_MAX bytes");
-    if (!realpath(folder, out))
-        return sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(errno));
+    if (!realpath(folder, out)) return sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(errno));
     return SB_OK;
 }
 
@@ -254,8 +235,7 @@ static sb_status read_tree(const char *path, const char *preset_name, const sb_o
                          "%.500s:%d:%d: the scene is no block of keys, "
                          "expected lines \"key: value\"",
                          path, root->line, root->column);
-    if (status == SB_OK)
-        status = apply_overrides(root, preset_name, overrides, override_count, error);
+    if (status == SB_OK) status = apply_overrides(root, preset_name, overrides, override_count, error);
     return status;
 }
 
@@ -266,8 +246,8 @@ static void one_line(sb_error *error)
         if ((unsigned char)*at < 0x20 || *at == 0x7f) *at = '?';
 }
 
-sb_status sb_scene_read(const char *path, const char *preset_name, const sb_override *overrides,
-                        size_t override_count, sb_scene *scene, sb_error *error)
+sb_status sb_scene_read(const char *path, const char *preset_name, const sb_override *overrides, size_t override_count,
+                        sb_scene *scene, sb_error *error)
 {
     sb_scene built;
     memset(&built, 0, sizeof built); /* padding, too: equal scenes have equal bytes */
@@ -275,8 +255,7 @@ sb_status sb_scene_read(const char *path, const char *preset_name, const sb_over
     sb_yaml root = {0};
     sb_reader reader = {.file = path, .scene = &built, .error = error};
     sb_status status = absolute_folder(path, reader.folder, error);
-    if (status == SB_OK)
-        status = read_tree(path, preset_name, overrides, override_count, &root, error);
+    if (status == SB_OK) status = read_tree(path, preset_name, overrides, override_count, &root, error);
     if (status == SB_OK) status = sb_reader_block(&reader, &root, &sb_scene_table, &built);
     if (status == SB_OK) {
         built.path = sb_strdup(path);

@@ -15,8 +15,8 @@ struct sb_reader {
 
 /* Fails with "file:line:column: path.key: ..." ("--set: ..." for an override). The place is that
    of key's value in map, else of map itself; key NULL: the place is map's, the path as it is. */
-sb_status sb_reader_fail(sb_reader *reader, const sb_yaml *map, const char *key, const char *format,
-                         ...) __attribute__((format(printf, 4, 5)));
+sb_status sb_reader_fail(sb_reader *reader, const sb_yaml *map, const char *key, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
 
 /* Reads one value into its field; reader->path is at the value. */
 sb_status sb_reader_value(sb_reader *reader, const sb_yaml *node, const sb_key *key, void *field);
@@ -26,8 +26,7 @@ sb_status sb_reader_value(sb_reader *reader, const sb_yaml *node, const sb_key *
 sb_status sb_reader_block(sb_reader *reader, const sb_yaml *map, const sb_table *table, void *item);
 
 /* Whether the run's duration holds a sane number of intervals; 0 (off) passes. */
-sb_status sb_reader_interval(sb_reader *reader, const sb_yaml *map, const char *key,
-                             double interval);
+sb_status sb_reader_interval(sb_reader *reader, const sb_yaml *map, const char *key, double interval);
 
 /* Applies --set KEY=VALUE to the tree. */
 sb_status sb_override_apply(sb_yaml *root, const sb_override *override, sb_error *error);

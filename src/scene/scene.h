@@ -25,8 +25,8 @@ typedef struct sb_fluid_properties {
 } sb_fluid_properties;
 
 typedef struct sb_domain {
-    sb_vec3 min, max;              /* m */
-    sb_side_kind side[SB_SIDES];   /* periodic: pairs along x or y */
+    sb_vec3 min, max;            /* m */
+    sb_side_kind side[SB_SIDES]; /* periodic: pairs along x or y */
 } sb_domain;
 
 /* The sea: all space below `level` reachable from `seed`. */
@@ -42,28 +42,20 @@ typedef struct sb_fluid_box {
     sb_vec3 velocity; /* m/s */
 } sb_fluid_box;
 
-typedef enum sb_initial_wave_kind {
-    SB_INITIAL_NONE,
-    SB_INITIAL_SOLITARY,
-    SB_INITIAL_STANDING
-} sb_initial_wave_kind;
+typedef enum sb_initial_wave_kind { SB_INITIAL_NONE, SB_INITIAL_SOLITARY, SB_INITIAL_STANDING } sb_initial_wave_kind;
 
 typedef struct sb_initial_wave {
     sb_initial_wave_kind kind;
-    double height;     /* m: solitary wave height H, or standing-wave amplitude */
-    double depth;      /* m, still depth the theory is taken at */
-    double position;   /* m, x of the crest */
-    double wavelength; /* m, standing wave only */
-    int direction;     /* +1 towards +x, -1 towards -x */
+    double height;             /* m: solitary wave height H, or standing-wave amplitude */
+    double depth;              /* m, still depth the theory is taken at */
+    double position;           /* m, x of the crest */
+    double wavelength;         /* m, standing wave only */
+    int direction;             /* +1 towards +x, -1 towards -x */
     sb_solitary_theory theory; /* solitary wave only */
 } sb_initial_wave;
 
 typedef enum sb_preset { SB_PRESET_DEFAULT, SB_PRESET_PAPER } sb_preset;
-typedef enum sb_solver {
-    SB_SOLVER_JACOBI,
-    SB_SOLVER_CHEBYSHEV,
-    SB_SOLVER_CG
-} sb_solver;
+typedef enum sb_solver { SB_SOLVER_JACOBI, SB_SOLVER_CHEBYSHEV, SB_SOLVER_CG } sb_solver;
 typedef enum sb_time_step_rule {
     SB_TIME_STEP_PAPER, /* dt_max = factor h / g      [S16 eq. 12] */
     SB_TIME_STEP_DEPTH  /* dt_max = factor h / sqrt(g D) */
@@ -74,8 +66,8 @@ typedef enum sb_tolerance_rule {
 } sb_tolerance_rule;
 
 typedef enum sb_density_form {
-    SB_DENSITY_SUMMED,    /* the kernel sum as it is [S16 eq. 3] */
-    SB_DENSITY_COMPLETED  /* with what the surface cuts off and walls put in, at the start (sim/deficit.h) */
+    SB_DENSITY_SUMMED,   /* the kernel sum as it is [S16 eq. 3] */
+    SB_DENSITY_COMPLETED /* with what the surface cuts off and walls put in, at the start (sim/deficit.h) */
 } sb_density_form;
 
 typedef enum sb_wall_shear {
@@ -92,38 +84,38 @@ typedef enum sb_turbulence {
 typedef struct sb_numerics {
     sb_preset preset;
     const sb_kernel *kernel;
-    double support;            /* support radius over spacing */
+    double support; /* support radius over spacing */
     sb_density_form density;
     sb_solver solver;
     sb_tolerance_rule tolerance_rule;
-    double tolerance;          /* mean of max(0, predicted excess density)/rest density */
+    double tolerance; /* mean of max(0, predicted excess density)/rest density */
     int min_iterations, max_iterations;
-    double relaxation;         /* omega of Jacobi */
-    double warm_start;         /* share of the last pressure the solve starts from */
-    double source_relaxation;  /* beta: share of the density error mended in one step */
-    double cfl;                /* lambda_CFL */
+    double relaxation;        /* omega of Jacobi */
+    double warm_start;        /* share of the last pressure the solve starts from */
+    double source_relaxation; /* beta: share of the density error mended in one step */
+    double cfl;               /* lambda_CFL */
     sb_time_step_rule time_step_rule;
-    double time_step_factor;   /* lambda_max (1/s) or C, by the rule */
-    double time_step_max;      /* s; 0: no further bound */
-    double stress_correction;  /* share of the packing's own stress that is taken away; 0: term is off */
+    double time_step_factor;     /* lambda_max (1/s) or C, by the rule */
+    double time_step_max;        /* s; 0: no further bound */
+    double stress_correction;    /* share of the packing's own stress that is taken away; 0: term is off */
     double artificial_viscosity; /* alpha of Monaghan's viscosity; 0: term is off */
-    double wall_friction;      /* sigma; 0: term is off */
+    double wall_friction;        /* sigma; 0: term is off */
     sb_wall_shear wall_shear;
     sb_turbulence turbulence;
-    double smagorinsky;        /* C_s of the eddy viscosity */
-    double sound_speed;        /* m/s in the two above; 0: 10 sqrt(g D) */
-    double wall_gamma;         /* factor on the boundary particles' volume; 0: of the lattice */
-    double wall_spacing;       /* spacings between boundary particles */
-    double wall_offset;        /* spacings that their sheet lies behind the physical wall */
-    double jitter;             /* spacings, amplitude of the start's random displacement */
-    uint64_t seed;             /* of that displacement */
-    bool sleep;                /* still water is left out until a wave comes near */
-    int settle_steps;          /* most damped steps before t = 0; 0: none */
+    double smagorinsky;  /* C_s of the eddy viscosity */
+    double sound_speed;  /* m/s in the two above; 0: 10 sqrt(g D) */
+    double wall_gamma;   /* factor on the boundary particles' volume; 0: of the lattice */
+    double wall_spacing; /* spacings between boundary particles */
+    double wall_offset;  /* spacings that their sheet lies behind the physical wall */
+    double jitter;       /* spacings, amplitude of the start's random displacement */
+    uint64_t seed;       /* of that displacement */
+    bool sleep;          /* still water is left out until a wave comes near */
+    int settle_steps;    /* most damped steps before t = 0; 0: none */
 } sb_numerics;
 
 typedef enum sb_shape {
     SB_SHAPE_MESH,
-    SB_SHAPE_GRID,     /* terrain heights: ESRI ASCII or x y z */
+    SB_SHAPE_GRID, /* terrain heights: ESRI ASCII or x y z */
     SB_SHAPE_BOX,
     SB_SHAPE_CYLINDER, /* upright, closed */
     SB_SHAPE_PLANE,    /* a rectangle, solid behind its normal */
@@ -139,25 +131,25 @@ typedef struct sb_body {
     char name[SB_NAME_MAX];
     sb_shape shape;
     sb_role role;
-    bool report;                 /* has rows in forces.csv */
+    bool report; /* has rows in forces.csv */
     bool has_moment_point;
-    sb_vec3 moment_point;        /* default: footprint centre at its lowest level */
-    float color[3];              /* for pictures; < 0: chosen by role */
+    sb_vec3 moment_point; /* default: footprint centre at its lowest level */
+    float color[3];       /* for pictures; < 0: chosen by role */
     /* mesh and grid */
-    char *file;                  /* absolute path */
-    char up;                     /* 'y' or 'z': the file's up axis */
-    double scale;                /* metres per file unit */
-    bool split;                  /* named nodes become bodies of their own */
-    double datum;                /* m, added to a grid's heights */
+    char *file;   /* absolute path */
+    char up;      /* 'y' or 'z': the file's up axis */
+    double scale; /* metres per file unit */
+    bool split;   /* named nodes become bodies of their own */
+    double datum; /* m, added to a grid's heights */
     /* transform, applied in this order after scale and up-axis */
-    sb_vec3 rotate;              /* degrees about x, then y, then z */
-    sb_vec3 translate;           /* m */
+    sb_vec3 rotate;    /* degrees about x, then y, then z */
+    sb_vec3 translate; /* m */
     /* analytic shapes (before the transform) */
-    sb_vec3 min, max;            /* box, basin */
-    sb_vec3 center;              /* cylinder: centre of its base; plane: its centre */
-    double radius, height;       /* cylinder */
-    sb_vec3 normal;              /* plane, towards the water */
-    double width, length;        /* plane: horizontal extent, and extent across it */
+    sb_vec3 min, max;      /* box, basin */
+    sb_vec3 center;        /* cylinder: centre of its base; plane: its centre */
+    double radius, height; /* cylinder */
+    sb_vec3 normal;        /* plane, towards the water */
+    double width, length;  /* plane: horizontal extent, and extent across it */
 } sb_body;
 
 /* A body's motion along `direction`: the law's displacement(t - start). */
@@ -168,12 +160,26 @@ typedef struct sb_wavemaker_use {
     sb_wavemaker_parameters law; /* kind, height, depth, stroke, ..., what follows the stroke */
 } sb_wavemaker_use;
 
-typedef struct sb_gauge { char name[SB_NAME_MAX]; double x, y; } sb_gauge;
-typedef struct sb_probe { char name[SB_NAME_MAX]; sb_vec3 at; double radius; /* 0: support radius */ } sb_probe;
-/* A vertical plane from (ax, ay) to (bx, by), z_min..z_max; flow to the left of a->b is negative, to the right positive. */
-typedef struct sb_flow_plane { char name[SB_NAME_MAX]; double ax, ay, bx, by, z_min, z_max; } sb_flow_plane;
+typedef struct sb_gauge {
+    char name[SB_NAME_MAX];
+    double x, y;
+} sb_gauge;
+typedef struct sb_probe {
+    char name[SB_NAME_MAX];
+    sb_vec3 at;
+    double radius; /* 0: support radius */
+} sb_probe;
+/* A vertical plane from (ax, ay) to (bx, by), z_min..z_max; flow to the left of a->b is negative, to the right
+ * positive. */
+typedef struct sb_flow_plane {
+    char name[SB_NAME_MAX];
+    double ax, ay, bx, by, z_min, z_max;
+} sb_flow_plane;
 /* Run-up is the highest wet z within one spacing of the line from (ax, ay) to (bx, by). */
-typedef struct sb_runup_line { char name[SB_NAME_MAX]; double ax, ay, bx, by; } sb_runup_line;
+typedef struct sb_runup_line {
+    char name[SB_NAME_MAX];
+    double ax, ay, bx, by;
+} sb_runup_line;
 
 typedef struct sb_map {
     bool present;
@@ -182,15 +188,23 @@ typedef struct sb_map {
 } sb_map;
 
 typedef struct sb_measure {
-    double interval;  /* s between rows of forces, gauges, probes */
-    size_t gauge_count; sb_gauge *gauges;
-    size_t probe_count; sb_probe *probes;
-    size_t plane_count; sb_flow_plane *planes;
-    size_t runup_count; sb_runup_line *runups;
+    double interval; /* s between rows of forces, gauges, probes */
+    size_t gauge_count;
+    sb_gauge *gauges;
+    size_t probe_count;
+    sb_probe *probes;
+    size_t plane_count;
+    sb_flow_plane *planes;
+    size_t runup_count;
+    sb_runup_line *runups;
     sb_map map;
 } sb_measure_settings;
 
-typedef struct sb_camera_key { double time; sb_vec3 eye, target; double fov; } sb_camera_key;
+typedef struct sb_camera_key {
+    double time;
+    sb_vec3 eye, target;
+    double fov;
+} sb_camera_key;
 typedef struct sb_camera {
     char name[SB_NAME_MAX];
     size_t key_count; /* 1: fixed; more: a path, smooth between keys in time */
@@ -198,20 +212,21 @@ typedef struct sb_camera {
 } sb_camera;
 
 typedef struct sb_render_settings {
-    double interval;       /* s between pictures; 0: off */
-    int width, height;     /* px */
-    double speed_max;      /* m/s at the top of the colour map; 0: 2 sqrt(g D) of the scene */
-    int video_rate;        /* pictures per second of film */
-    bool video;            /* join pictures to <camera>.mp4 where ffmpeg is there */
-    size_t camera_count; sb_camera *cameras;
+    double interval;   /* s between pictures; 0: off */
+    int width, height; /* px */
+    double speed_max;  /* m/s at the top of the colour map; 0: 2 sqrt(g D) of the scene */
+    int video_rate;    /* pictures per second of film */
+    bool video;        /* join pictures to <camera>.mp4 where ffmpeg is there */
+    size_t camera_count;
+    sb_camera *cameras;
 } sb_render_settings;
 
 typedef struct sb_stream_settings {
     bool enabled;
-    char *url;             /* LCM provider; empty: LCM's default */
+    char *url;                /* LCM provider; empty: LCM's default */
     char prefix[SB_NAME_MAX]; /* of the channel names */
-    double interval;       /* s simulated between particle messages */
-    int decimation;        /* every n-th particle */
+    double interval;          /* s simulated between particle messages */
+    int decimation;           /* every n-th particle */
 } sb_stream_settings;
 
 /* When the state is saved for --resume. Both 0: never. */
@@ -228,19 +243,22 @@ typedef struct sb_output_settings {
 } sb_output_settings;
 
 typedef struct sb_scene {
-    char *path;            /* of the scene file, for messages */
+    char *path; /* of the scene file, for messages */
     char *title;
-    int dimensions;        /* 2 or 3 */
-    double resolution;     /* m, rest inter-particle distance (delta r) */
-    double duration;       /* s */
+    int dimensions;    /* 2 or 3 */
+    double resolution; /* m, rest inter-particle distance (delta r) */
+    double duration;   /* s */
     sb_fluid_properties fluid;
     sb_domain domain;
     sb_sea sea;
-    size_t box_count; sb_fluid_box *boxes;
+    size_t box_count;
+    sb_fluid_box *boxes;
     sb_initial_wave wave;
     sb_numerics numerics;
-    size_t body_count; sb_body *bodies;
-    size_t wavemaker_count; sb_wavemaker_use *wavemakers;
+    size_t body_count;
+    sb_body *bodies;
+    size_t wavemaker_count;
+    sb_wavemaker_use *wavemakers;
     sb_measure_settings measure;
     sb_render_settings render;
     sb_stream_settings stream;
@@ -264,13 +282,15 @@ static inline double sb_scene_speed_limit(const sb_scene *scene)
 
 /* One --set KEY=VALUE. key: dotted path, list items by index or name: "bodies.reactor1.scale".
    value: YAML text. */
-typedef struct sb_override { const char *key, *value; } sb_override;
+typedef struct sb_override {
+    const char *key, *value;
+} sb_override;
 
 /* Reads, applies the overrides and the preset (preset_name NULL: the scene's own), checks all.
    On error *scene is untouched and *error holds "file:line:column: key: what is wrong, what was
    expected" ("--set: key: ..." for an override). */
-sb_status sb_scene_read(const char *path, const char *preset_name, const sb_override *overrides,
-                        size_t override_count, sb_scene *scene, sb_error *error);
+sb_status sb_scene_read(const char *path, const char *preset_name, const sb_override *overrides, size_t override_count,
+                        sb_scene *scene, sb_error *error);
 
 /* Writes the scene with every default, so that reading it gives the same scene. Paths absolute. */
 sb_status sb_scene_write(const sb_scene *scene, const char *path, sb_error *error);

@@ -3,8 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-static const char *const shape_words[] = {"mesh",  "grid",  "box", "cylinder",
-                                          "plane", "basin", NULL};
+static const char *const shape_words[] = {"mesh", "grid", "box", "cylinder", "plane", "basin", NULL};
 static const char *const role_words[] = {"solid", "terrain", NULL};
 static const char *const up_words[] = {"z", "y", NULL};
 
@@ -105,11 +104,9 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
     unsigned present = variant(body, map), shape = 1u << body->shape;
     body->has_moment_point = present & MOMENT;
     if (!(present & COLOR)) body->color[0] = body->color[1] = body->color[2] = -1;
-    if (!sb_yaml_child(map, "role"))
-        body->role = body->shape == SB_SHAPE_GRID ? SB_ROLE_TERRAIN : SB_ROLE_SOLID;
+    if (!sb_yaml_child(map, "role")) body->role = body->shape == SB_SHAPE_GRID ? SB_ROLE_TERRAIN : SB_ROLE_SOLID;
     if (body->role == SB_ROLE_TERRAIN && !(shape & (MESH | GRID | PLANE)))
-        return sb_reader_fail(reader, map, "role", "a %s is no terrain, expected solid",
-                              shape_words[body->shape]);
+        return sb_reader_fail(reader, map, "role", "a %s is no terrain, expected solid", shape_words[body->shape]);
     if (body->role == SB_ROLE_SOLID && body->shape == SB_SHAPE_GRID)
         return sb_reader_fail(reader, map, "role", "a grid is a sheet, expected terrain");
     if (!sb_yaml_child(map, "report")) body->report = body->role == SB_ROLE_SOLID;
@@ -119,12 +116,10 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
         body->min.y = -reach;
         body->max.y = reach;
     }
-    if (scene->dimensions == 2 && shape & PLANE && !sb_yaml_child(map, "width"))
-        body->width = 2 * reach;
+    if (scene->dimensions == 2 && shape & PLANE && !sb_yaml_child(map, "width")) body->width = 2 * reach;
     if (shape & (BOX | BASIN) && !extents_ordered(body))
         return sb_reader_fail(reader, map, "max", "does not lie above min, expected min < max");
     return SB_OK;
 }
 
-const sb_table sb_body_table = {SB_KEY_ROWS(keys), .size = sizeof(sb_body), .variant = variant,
-                                .finish = finish};
+const sb_table sb_body_table = {SB_KEY_ROWS(keys), .size = sizeof(sb_body), .variant = variant, .finish = finish};

@@ -26,12 +26,10 @@ static sb_status finish_view(sb_reader *reader, const sb_yaml *map, void *item)
     return sb_reader_fail(reader, map, "target", "is the same point as eye, expected another");
 }
 
-static const sb_table path_table = {SB_KEY_ROWS(path_keys), .size = sizeof(sb_camera_key),
-                                    .finish = finish_view};
+static const sb_table path_table = {SB_KEY_ROWS(path_keys), .size = sizeof(sb_camera_key), .finish = finish_view};
 /* A fixed camera: the same without its time. */
-static const sb_table view_table = {.keys = path_keys + 1,
-                                    .count = sizeof path_keys / sizeof *path_keys - 1,
-                                    .size = sizeof(sb_camera_key)};
+static const sb_table view_table = {
+    .keys = path_keys + 1, .count = sizeof path_keys / sizeof *path_keys - 1, .size = sizeof(sb_camera_key)};
 
 enum { FIXED = 1, PATH = 2 };
 
@@ -58,8 +56,7 @@ static sb_status finish_camera(sb_reader *reader, const sb_yaml *map, void *item
     const sb_camera *camera = item;
     if (!(camera_variant(camera, map) & PATH)) return finish_view(reader, map, camera->keys);
     if (camera->key_count < 2)
-        return sb_reader_fail(reader, map, "path",
-                              "has %zu entries, expected at least 2, or eye and target instead",
+        return sb_reader_fail(reader, map, "path", "has %zu entries, expected at least 2, or eye and target instead",
                               camera->key_count);
     for (size_t i = 1; i < camera->key_count; i++)
         if (!(camera->keys[i].time > camera->keys[i - 1].time))
@@ -70,8 +67,8 @@ static sb_status finish_camera(sb_reader *reader, const sb_yaml *map, void *item
     return SB_OK;
 }
 
-static const sb_table camera_table = {SB_KEY_ROWS(camera_keys), .size = sizeof(sb_camera),
-                                      .variant = camera_variant, .finish = finish_camera};
+static const sb_table camera_table = {SB_KEY_ROWS(camera_keys), .size = sizeof(sb_camera), .variant = camera_variant,
+                                      .finish = finish_camera};
 
 /* clang-format off */
 static const sb_key render_keys[] = {
@@ -100,8 +97,7 @@ static sb_status finish_render(sb_reader *reader, const sb_yaml *map, void *item
 {
     const sb_render_settings *render = item;
     if (render->interval > 0 && render->camera_count == 0)
-        return sb_reader_fail(reader, map, "cameras",
-                              "there is none, expected one as render.interval is not 0");
+        return sb_reader_fail(reader, map, "cameras", "there is none, expected one as render.interval is not 0");
     return sb_reader_interval(reader, map, "interval", render->interval);
 }
 
@@ -171,8 +167,7 @@ static const sb_key output_keys[] = {
 
 static sb_status finish_output(sb_reader *reader, const sb_yaml *map, void *item)
 {
-    return sb_reader_interval(reader, map, "particle_interval",
-                              ((const sb_output_settings *)item)->particle_interval);
+    return sb_reader_interval(reader, map, "particle_interval", ((const sb_output_settings *)item)->particle_interval);
 }
 
 const sb_table sb_output_table = {SB_KEY_ROWS(output_keys), .size = sizeof(sb_output_settings),

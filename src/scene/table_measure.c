@@ -32,8 +32,7 @@ static sb_status finish_gauge(sb_reader *reader, const sb_yaml *map, void *item)
     return SB_OK;
 }
 
-static const sb_table gauge_table = {SB_KEY_ROWS(gauge_keys), .size = sizeof(sb_gauge),
-                                     .finish = finish_gauge};
+static const sb_table gauge_table = {SB_KEY_ROWS(gauge_keys), .size = sizeof(sb_gauge), .finish = finish_gauge};
 
 /* clang-format off */
 static const sb_key probe_keys[] = {
@@ -57,8 +56,7 @@ static sb_status finish_probe(sb_reader *reader, const sb_yaml *map, void *item)
     return refuse_outside(reader, map, "at");
 }
 
-static const sb_table probe_table = {SB_KEY_ROWS(probe_keys), .size = sizeof(sb_probe),
-                                     .finish = finish_probe};
+static const sb_table probe_table = {SB_KEY_ROWS(probe_keys), .size = sizeof(sb_probe), .finish = finish_probe};
 
 /* clang-format off */
 static const sb_key plane_keys[] = {
@@ -93,8 +91,8 @@ static sb_status finish_plane(sb_reader *reader, const sb_yaml *map, void *item)
     if (!sb_yaml_child(map, "z_min")) plane->z_min = scene->domain.min.z;
     if (!sb_yaml_child(map, "z_max")) plane->z_max = scene->domain.max.z;
     if (!(plane->z_min < plane->z_max))
-        return sb_reader_fail(reader, map, "z_max", "%g m is not above z_min, expected > %g",
-                              plane->z_max, plane->z_min);
+        return sb_reader_fail(reader, map, "z_max", "%g m is not above z_min, expected > %g", plane->z_max,
+                              plane->z_min);
     if (scene->dimensions == 2) flatten_plane(map, plane);
     if (scene->dimensions == 2 && plane->ax != plane->bx)
         return sb_reader_fail(reader, map, "to",
@@ -105,8 +103,7 @@ static sb_status finish_plane(sb_reader *reader, const sb_yaml *map, void *item)
     return SB_OK;
 }
 
-static const sb_table plane_table = {SB_KEY_ROWS(plane_keys), .size = sizeof(sb_flow_plane),
-                                     .finish = finish_plane};
+static const sb_table plane_table = {SB_KEY_ROWS(plane_keys), .size = sizeof(sb_flow_plane), .finish = finish_plane};
 
 /* clang-format off */
 static const sb_key runup_keys[] = {
@@ -128,8 +125,7 @@ static sb_status finish_runup(sb_reader *reader, const sb_yaml *map, void *item)
     return SB_OK;
 }
 
-static const sb_table runup_table = {SB_KEY_ROWS(runup_keys), .size = sizeof(sb_runup_line),
-                                     .finish = finish_runup};
+static const sb_table runup_table = {SB_KEY_ROWS(runup_keys), .size = sizeof(sb_runup_line), .finish = finish_runup};
 
 /* clang-format off */
 static const sb_key map_keys[] = {
@@ -173,21 +169,18 @@ static sb_status finish_map(sb_reader *reader, const sb_yaml *map, void *item)
     if (!(width > 0 && height > 0))
         return sb_reader_fail(reader, map, "max", "does not lie above min, expected min < max");
     if (!(ceil(width / grid->cell) * ceil(height / grid->cell) <= most))
-        return sb_reader_fail(reader, map, "cell",
-                              "%g m would make more than %g cells, expected longer cells",
+        return sb_reader_fail(reader, map, "cell", "%g m would make more than %g cells, expected longer cells",
                               grid->cell, most);
     return SB_OK;
 }
 
-static const sb_table map_table = {SB_KEY_ROWS(map_keys), .size = sizeof(sb_map),
-                                   .finish = finish_map};
+static const sb_table map_table = {SB_KEY_ROWS(map_keys), .size = sizeof(sb_map), .finish = finish_map};
 
 enum { MAP = 1 };
 
 static unsigned measure_variant(const void *item, const sb_yaml *map)
 {
-    bool present =
-        map ? sb_yaml_child(map, "map") != NULL : ((const sb_measure_settings *)item)->map.present;
+    bool present = map ? sb_yaml_child(map, "map") != NULL : ((const sb_measure_settings *)item)->map.present;
     return present ? MAP : 0;
 }
 
@@ -217,8 +210,7 @@ static const sb_key measure_keys[] = {
 
 static sb_status finish_measure(sb_reader *reader, const sb_yaml *map, void *item)
 {
-    return sb_reader_interval(reader, map, "interval",
-                              ((const sb_measure_settings *)item)->interval);
+    return sb_reader_interval(reader, map, "interval", ((const sb_measure_settings *)item)->interval);
 }
 
 const sb_table sb_measure_table = {SB_KEY_ROWS(measure_keys), .size = sizeof(sb_measure_settings),

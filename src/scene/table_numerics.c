@@ -11,20 +11,20 @@ static const char *const shear_words[] = {"none", "smooth", NULL};
 static const char *const turbulence_words[] = {"none", "sps", NULL};
 static const char *const step_words[] = {"paper", "depth", NULL};
 
-#define NUMBER(key, unit_, min_, max_, flags_, doc_)                                               \
-    {                                                                                              \
-        .name = #key, .type = SB_KEY_NUMBER, SB_KEY_AT(sb_numerics, key), .unit = unit_,           \
-        .min = min_, .max = max_, .flags = SB_KEY_PRESET | (flags_), .doc = doc_                   \
+#define NUMBER(key, unit_, min_, max_, flags_, doc_)                                                                   \
+    {                                                                                                                  \
+        .name = #key, .type = SB_KEY_NUMBER, SB_KEY_AT(sb_numerics, key), .unit = unit_, .min = min_, .max = max_,     \
+        .flags = SB_KEY_PRESET | (flags_), .doc = doc_                                                                 \
     }
-#define COUNT(key, unit_, min_, max_, doc_)                                                        \
-    {                                                                                              \
-        .name = #key, .type = SB_KEY_INTEGER, SB_KEY_AT(sb_numerics, key), .unit = unit_,          \
-        .min = min_, .max = max_, .flags = SB_KEY_PRESET, .doc = doc_                              \
+#define COUNT(key, unit_, min_, max_, doc_)                                                                            \
+    {                                                                                                                  \
+        .name = #key, .type = SB_KEY_INTEGER, SB_KEY_AT(sb_numerics, key), .unit = unit_, .min = min_, .max = max_,    \
+        .flags = SB_KEY_PRESET, .doc = doc_                                                                            \
     }
-#define CHOICE(key, words_, doc_)                                                                  \
-    {                                                                                              \
-        .name = #key, .type = SB_KEY_CHOICE, SB_KEY_AT(sb_numerics, key), .words = words_,         \
-        .flags = SB_KEY_PRESET, .doc = doc_                                                        \
+#define CHOICE(key, words_, doc_)                                                                                      \
+    {                                                                                                                  \
+        .name = #key, .type = SB_KEY_CHOICE, SB_KEY_AT(sb_numerics, key), .words = words_, .flags = SB_KEY_PRESET,     \
+        .doc = doc_                                                                                                    \
     }
 
 /* clang-format off */
@@ -100,10 +100,8 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
         return sb_reader_fail(reader, map, "wall_gamma", "%g is out of range, expected 0 or a number from %g to 5",
                               numerics->wall_gamma, GAMMA_MIN);
     if (numerics->min_iterations <= numerics->max_iterations) return SB_OK;
-    return sb_reader_fail(reader, map, "min_iterations",
-                          "%d is more than max_iterations, expected at most %d",
+    return sb_reader_fail(reader, map, "min_iterations", "%d is more than max_iterations, expected at most %d",
                           numerics->min_iterations, numerics->max_iterations);
 }
 
-const sb_table sb_numerics_table = {SB_KEY_ROWS(keys), .size = sizeof(sb_numerics),
-                                    .finish = finish};
+const sb_table sb_numerics_table = {SB_KEY_ROWS(keys), .size = sizeof(sb_numerics), .finish = finish};

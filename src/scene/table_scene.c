@@ -6,10 +6,10 @@ const char *const sb_side_names[SB_SIDES] = {"x_min", "x_max", "y_min", "y_max",
 
 static const char *const side_words[] = {"wall", "open", "periodic", NULL};
 
-#define SIDE(index, side, fallback_, doc_)                                                         \
-    {                                                                                              \
-        .name = side, .type = SB_KEY_CHOICE, .offset = (index) * sizeof(sb_side_kind),             \
-        .words = side_words, .fallback = fallback_, .doc = doc_                                    \
+#define SIDE(index, side, fallback_, doc_)                                                                             \
+    {                                                                                                                  \
+        .name = side, .type = SB_KEY_CHOICE, .offset = (index) * sizeof(sb_side_kind), .words = side_words,            \
+        .fallback = fallback_, .doc = doc_                                                                             \
     }
 
 /* clang-format off */
@@ -28,8 +28,7 @@ static sb_status finish_sides(sb_reader *reader, const sb_yaml *map, void *item)
     const sb_side_kind *side = item;
     for (size_t i = 0; i < SB_SIDES; i++) {
         const size_t other = i ^ 1;
-        if (side[i] != SB_SIDE_PERIODIC ||
-            (reader->scene->dimensions == 2 && (i == SB_Y_MIN || i == SB_Y_MAX)))
+        if (side[i] != SB_SIDE_PERIODIC || (reader->scene->dimensions == 2 && (i == SB_Y_MIN || i == SB_Y_MAX)))
             continue;
         if (i == SB_Z_MIN || i == SB_Z_MAX)
             return sb_reader_fail(reader, map, side_keys[i].name,
@@ -37,8 +36,8 @@ static sb_status finish_sides(sb_reader *reader, const sb_yaml *map, void *item)
                                   "or open; only x and y may be periodic");
         if (side[other] != SB_SIDE_PERIODIC)
             return sb_reader_fail(reader, map, side_keys[i].name,
-                                  "periodic, but %s is %s, expected both periodic or neither",
-                                  side_keys[other].name, side_words[side[other]]);
+                                  "periodic, but %s is %s, expected both periodic or neither", side_keys[other].name,
+                                  side_words[side[other]]);
     }
     return SB_OK;
 }
@@ -67,16 +66,14 @@ static sb_status finish_domain(sb_reader *reader, const sb_yaml *map, void *item
     for (size_t i = 0; i < 3; i++) {
         if (i == 1 && scene->dimensions == 2) continue;
         if (!(extent[i] > 0) || !isfinite(extent[i]))
-            return sb_reader_fail(reader, map, "max",
-                                  "%c does not lie above that of domain.min, expected min < max",
+            return sb_reader_fail(reader, map, "max", "%c does not lie above that of domain.min, expected min < max",
                                   "xyz"[i]);
         /* Cell numbers of the neighbour search have 21 bits per axis. */
         if (extent[i] / scene->resolution > 1e6)
             return sb_reader_fail(reader, map, "max",
                                   "%g m in %c are %.3g times the resolution of %g m, expected at "
                                   "most 1e+06 times",
-                                  extent[i], "xyz"[i], extent[i] / scene->resolution,
-                                  scene->resolution);
+                                  extent[i], "xyz"[i], extent[i] / scene->resolution, scene->resolution);
     }
     return SB_OK;
 }
@@ -148,5 +145,4 @@ static sb_status finish_scene(sb_reader *reader, const sb_yaml *map, void *item)
     return SB_OK;
 }
 
-const sb_table sb_scene_table = {SB_KEY_ROWS(scene_keys), .size = sizeof(sb_scene),
-                                 .finish = finish_scene};
+const sb_table sb_scene_table = {SB_KEY_ROWS(scene_keys), .size = sizeof(sb_scene), .finish = finish_scene};

@@ -40,13 +40,11 @@ static sb_status finish_box(sb_reader *reader, const sb_yaml *map, void *item)
     const char *outside = !in_domain(reader->scene, box->min)   ? "min"
                           : !in_domain(reader->scene, box->max) ? "max"
                                                                 : NULL;
-    if (outside)
-        return sb_reader_fail(reader, map, outside, "is outside of the domain, expected inside");
+    if (outside) return sb_reader_fail(reader, map, outside, "is outside of the domain, expected inside");
     if (!sb_yaml_child(map, "level")) box->level = box->max.z;
     const sb_key *key = &box_keys[2];
     if (!(box->level > box->min.z && box->level <= box->max.z))
-        return sb_reader_fail(reader, map, key->name,
-                              "%g m is outside of the box, expected metres > %g and <= %g",
+        return sb_reader_fail(reader, map, key->name, "%g m is outside of the box, expected metres > %g and <= %g",
                               box->level, box->min.z, box->max.z);
     const double speed = sb_norm(box->velocity), limit = sb_scene_speed_limit(reader->scene);
     if (!(speed <= limit))
@@ -57,8 +55,7 @@ static sb_status finish_box(sb_reader *reader, const sb_yaml *map, void *item)
     return SB_OK;
 }
 
-static const sb_table box_table = {SB_KEY_ROWS(box_keys), .size = sizeof(sb_fluid_box),
-                                   .finish = finish_box};
+static const sb_table box_table = {SB_KEY_ROWS(box_keys), .size = sizeof(sb_fluid_box), .finish = finish_box};
 
 static const char *const theory_words[] = {"third-order", "boussinesq", NULL};
 static const char *const wave_words[] = {"none", "solitary", "standing", NULL};
@@ -104,8 +101,7 @@ static sb_status finish_wave(sb_reader *reader, const sb_yaml *map, void *item)
     if (wave->kind == SB_INITIAL_SOLITARY && wave->direction == 0)
         return sb_reader_fail(reader, map, "direction", "0 is no direction, expected 1 or -1");
     if (wave->kind == SB_INITIAL_STANDING && wave->height >= wave->depth)
-        return sb_reader_fail(reader, map, "height",
-                              "%g m would bare the bed, expected less than the depth of %g m",
+        return sb_reader_fail(reader, map, "height", "%g m would bare the bed, expected less than the depth of %g m",
                               wave->height, wave->depth);
     if (wave->kind == SB_INITIAL_STANDING && wave->wavelength < 2 * reader->scene->resolution)
         return sb_reader_fail(reader, map, "wavelength",
@@ -114,8 +110,8 @@ static sb_status finish_wave(sb_reader *reader, const sb_yaml *map, void *item)
     return SB_OK;
 }
 
-static const sb_table wave_table = {SB_KEY_ROWS(wave_keys), .size = sizeof(sb_initial_wave),
-                                    .variant = wave_variant, .finish = finish_wave};
+static const sb_table wave_table = {SB_KEY_ROWS(wave_keys), .size = sizeof(sb_initial_wave), .variant = wave_variant,
+                                    .finish = finish_wave};
 
 enum { SEA = 1 };
 
@@ -147,20 +143,18 @@ static sb_status finish_water(sb_reader *reader, const sb_yaml *map, void *item)
     const sb_domain *domain = &scene->domain;
     sea->present = water_variant(scene, map) & SEA;
     if (!sea->present && scene->box_count == 0)
-        return sb_reader_fail(reader, map, NULL,
-                              "holds no water, expected level and seed, or boxes");
+        return sb_reader_fail(reader, map, NULL, "holds no water, expected level and seed, or boxes");
     if (!sea->present) return SB_OK;
     if (!(sea->level > domain->min.z && sea->level <= domain->max.z))
-        return sb_reader_fail(reader, map, "level",
-                              "%g m is outside of the domain, expected metres > %g and <= %g",
+        return sb_reader_fail(reader, map, "level", "%g m is outside of the domain, expected metres > %g and <= %g",
                               sea->level, domain->min.z, domain->max.z);
     if (!in_domain(scene, sea->seed))
         return sb_reader_fail(reader, map, "seed", "is outside of the domain, expected inside");
     if (!(sea->seed.z < sea->level))
-        return sb_reader_fail(reader, map, "seed", "z %g m is not below the level, expected < %g",
-                              sea->seed.z, sea->level);
+        return sb_reader_fail(reader, map, "seed", "z %g m is not below the level, expected < %g", sea->seed.z,
+                              sea->level);
     return SB_OK;
 }
 
-const sb_table sb_water_table = {SB_KEY_ROWS(water_keys), .size = sizeof(sb_scene),
-                                 .variant = water_variant, .finish = finish_water};
+const sb_table sb_water_table = {SB_KEY_ROWS(water_keys), .size = sizeof(sb_scene), .variant = water_variant,
+                                 .finish = finish_water};

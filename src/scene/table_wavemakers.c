@@ -14,11 +14,10 @@ static unsigned variant(const void *item, const sb_yaml *map)
     return (law->kind ? law->kind->needs : 0u) | (law->after == SB_AFTER_RETURN ? RETURNS : 0u);
 }
 
-#define LAW_NUMBER(key, unit_, bit, only_, doc_)                                                   \
-    {                                                                                              \
-        .name = #key, .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wavemaker_use, law.key), .unit = unit_,  \
-        .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .applies = bit,        \
-        .only = only_, .doc = doc_                                                                 \
+#define LAW_NUMBER(key, unit_, bit, only_, doc_)                                                                       \
+    {                                                                                                                  \
+        .name = #key, .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wavemaker_use, law.key), .unit = unit_, .min = 0,            \
+        .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .applies = bit, .only = only_, .doc = doc_           \
     }
 
 /* clang-format off */
@@ -73,12 +72,10 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
     sb_wavemaker_use *use = item;
     const sb_scene *scene = reader->scene;
     if (!body_may_exist(scene, use->body))
-        return sb_reader_fail(reader, map, "body", "no body is named %s, expected one of bodies",
-                              use->body);
+        return sb_reader_fail(reader, map, "body", "no body is named %s, expected one of bodies", use->body);
     for (const sb_wavemaker_use *other = scene->wavemakers; other < use; other++)
         if (strcmp(other->body, use->body) == 0)
-            return sb_reader_fail(reader, map, "body",
-                                  "%s is moved by %s already, expected one wave maker per body",
+            return sb_reader_fail(reader, map, "body", "%s is moved by %s already, expected one wave maker per body",
                                   use->body, other->name);
     sb_status status = check_direction(reader, map, use);
     if (status != SB_OK) return status;
@@ -95,5 +92,5 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
     return SB_OK;
 }
 
-const sb_table sb_wavemaker_table = {SB_KEY_ROWS(keys), .size = sizeof(sb_wavemaker_use),
-                                     .variant = variant, .finish = finish};
+const sb_table sb_wavemaker_table = {SB_KEY_ROWS(keys), .size = sizeof(sb_wavemaker_use), .variant = variant,
+                                     .finish = finish};

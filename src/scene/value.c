@@ -18,12 +18,10 @@ static sb_status refuse(sb_reader *reader, const sb_yaml *node, const sb_key *ke
     return sb_reader_fail(reader, node, NULL, "%s, expected %s", what, expected);
 }
 
-static sb_status refuse_text(sb_reader *reader, const sb_yaml *node, const sb_key *key,
-                             const char *what)
+static sb_status refuse_text(sb_reader *reader, const sb_yaml *node, const sb_key *key, const char *what)
 {
     char text[200];
-    snprintf(text, sizeof text, "%.80s%s %s", node->text, strlen(node->text) > 80 ? "..." : "",
-             what);
+    snprintf(text, sizeof text, "%.80s%s %s", node->text, strlen(node->text) > 80 ? "..." : "", what);
     return refuse(reader, node, key, text);
 }
 
@@ -50,8 +48,7 @@ static bool says_not_finite(const char *text)
 }
 
 /* strtod alone would take nan, inf, hexadecimal numbers and leading blanks. */
-static sb_status read_number(sb_reader *reader, const sb_yaml *node, const sb_key *key,
-                             double *value)
+static sb_status read_number(sb_reader *reader, const sb_yaml *node, const sb_key *key, double *value)
 {
     sb_status status = want_scalar(reader, node, key);
     if (status != SB_OK) return status;
@@ -78,8 +75,7 @@ static sb_status read_integer(sb_reader *reader, const sb_yaml *node, const sb_k
     return SB_OK;
 }
 
-static sb_status read_seed(sb_reader *reader, const sb_yaml *node, const sb_key *key,
-                           uint64_t *value)
+static sb_status read_seed(sb_reader *reader, const sb_yaml *node, const sb_key *key, uint64_t *value)
 {
     sb_status status = want_scalar(reader, node, key);
     if (status != SB_OK) return status;
@@ -97,8 +93,7 @@ static sb_status read_switch(sb_reader *reader, const sb_yaml *node, const sb_ke
     sb_status status = want_scalar(reader, node, key);
     if (status != SB_OK) return status;
     bool on = strcmp(node->text, "true") == 0;
-    if (node->quoted || (!on && strcmp(node->text, "false") != 0))
-        return refuse_text(reader, node, key, "is neither");
+    if (node->quoted || (!on && strcmp(node->text, "false") != 0)) return refuse_text(reader, node, key, "is neither");
     *value = on;
     return SB_OK;
 }
@@ -111,8 +106,7 @@ static sb_status copy_text(sb_reader *reader, const char *text, char **value)
 
 static sb_status read_name(sb_reader *reader, const sb_yaml *node, const sb_key *key, char *value)
 {
-    static const char *const letters =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.-";
+    static const char *const letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.-";
     sb_status status = want_scalar(reader, node, key);
     if (status != SB_OK) return status;
     size_t length = strlen(node->text);
@@ -136,16 +130,14 @@ static sb_status read_file(sb_reader *reader, const sb_yaml *node, const sb_key 
         return refuse_text(reader, node, key, "is too long");
     struct stat about;
     if (stat(path, &about) != 0 || access(path, R_OK) != 0)
-        return sb_reader_fail(reader, node, NULL, "cannot read %.400s: %s, expected a file", path,
-                              strerror(errno));
-    if (!S_ISREG(about.st_mode))
-        return sb_reader_fail(reader, node, NULL, "%.400s is not a regular file", path);
+        return sb_reader_fail(reader, node, NULL, "cannot read %.400s: %s, expected a file", path, strerror(errno));
+    if (!S_ISREG(about.st_mode)) return sb_reader_fail(reader, node, NULL, "%.400s is not a regular file", path);
     return copy_text(reader, path, value);
 }
 
 /* Reads the items of a list of `wanted` numbers, the path naming the item at fault. */
-static sb_status read_numbers(sb_reader *reader, const sb_yaml *node, const sb_key *key,
-                              const double *wanted_end, double *values)
+static sb_status read_numbers(sb_reader *reader, const sb_yaml *node, const sb_key *key, const double *wanted_end,
+                              double *values)
 {
     size_t length = strlen(reader->path);
     sb_key item = *key;
@@ -159,8 +151,7 @@ static sb_status read_numbers(sb_reader *reader, const sb_yaml *node, const sb_k
     return status;
 }
 
-static sb_status make_unit(sb_reader *reader, const sb_yaml *node, const sb_key *key,
-                           sb_vec3 *vector)
+static sb_status make_unit(sb_reader *reader, const sb_yaml *node, const sb_key *key, sb_vec3 *vector)
 {
     double length = sb_norm(*vector);
     if (!(length > 0) || !isfinite(length))
@@ -170,8 +161,7 @@ static sb_status make_unit(sb_reader *reader, const sb_yaml *node, const sb_key 
     return SB_OK;
 }
 
-static sb_status read_vector(sb_reader *reader, const sb_yaml *node, const sb_key *key,
-                             sb_vec3 *value)
+static sb_status read_vector(sb_reader *reader, const sb_yaml *node, const sb_key *key, sb_vec3 *value)
 {
     bool flat = reader->scene->dimensions == 2 && !(key->flags & SB_KEY_FULL);
     if (node->kind != SB_YAML_LIST) return refuse(reader, node, key, "is not a list of numbers");
@@ -183,8 +173,7 @@ static sb_status read_vector(sb_reader *reader, const sb_yaml *node, const sb_ke
     double numbers[3] = {0};
     sb_status status = read_numbers(reader, node, key, numbers + node->count, numbers);
     if (status != SB_OK) return status;
-    sb_vec3 vector = node->count == 3 ? sb_vec(numbers[0], numbers[1], numbers[2])
-                                      : sb_vec(numbers[0], 0, numbers[1]);
+    sb_vec3 vector = node->count == 3 ? sb_vec(numbers[0], numbers[1], numbers[2]) : sb_vec(numbers[0], 0, numbers[1]);
     if (flat && vector.y != 0 && !(key->flags & SB_KEY_ANY_Y))
         return refuse(reader, node, key, "has y other than 0 in a scene of 2 dimensions");
     if (key->flags & SB_KEY_UNIT) {
@@ -195,8 +184,7 @@ static sb_status read_vector(sb_reader *reader, const sb_yaml *node, const sb_ke
     return SB_OK;
 }
 
-static sb_status read_place(sb_reader *reader, const sb_yaml *node, const sb_key *key,
-                            double *value)
+static sb_status read_place(sb_reader *reader, const sb_yaml *node, const sb_key *key, double *value)
 {
     bool flat = reader->scene->dimensions == 2;
     if (node->kind != SB_YAML_LIST) return refuse(reader, node, key, "is not a list of numbers");

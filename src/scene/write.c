@@ -15,7 +15,7 @@ typedef struct writer {
     bool unwritable; /* a text is not UTF-8 */
     bool identity;   /* what tells two scenes apart, rather than a scene to read */
     sb_status status;
-    sb_error error;  /* of the first file that could not be hashed */
+    sb_error error; /* of the first file that could not be hashed */
 } writer;
 
 /* The shortest of the decimal forms that read back to the same number. */
@@ -33,12 +33,7 @@ static void put_number(FILE *stream, double number)
 static long next_code(const char **text)
 {
     const unsigned char *at = (const unsigned char *)*text;
-    int more = at[0] < 0x80   ? 0
-               : at[0] < 0xc2 ? -1
-               : at[0] < 0xe0 ? 1
-               : at[0] < 0xf0 ? 2
-               : at[0] < 0xf5 ? 3
-                              : -1;
+    int more = at[0] < 0x80 ? 0 : at[0] < 0xc2 ? -1 : at[0] < 0xe0 ? 1 : at[0] < 0xf0 ? 2 : at[0] < 0xf5 ? 3 : -1;
     if (more < 0) return -1;
     long code = more == 0 ? at[0] : at[0] & (0x3f >> more);
     for (int i = 1; i <= more; i++) {
@@ -65,8 +60,8 @@ static void put_text(writer *out, const char *text)
         }
         if (code == '"' || code == '\\')
             fprintf(out->stream, "\\%c", (char)code);
-        else if (code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x2028 || code == 0x2029 ||
-                 code == 0xfeff || code >= 0xfffe)
+        else if (code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x2028 || code == 0x2029 || code == 0xfeff ||
+                 code >= 0xfffe)
             fprintf(out->stream, "\\U%08lX", (unsigned long)code);
         else
             fwrite(start, 1, (size_t)(text - start), out->stream);
@@ -204,8 +199,7 @@ static void put_row(writer *out, const sb_key *key, const void *item)
         put_items(out, key, item);
         return;
     }
-    fprintf(out->stream, "%*s%s%s:", out->dash ? out->indent - 2 : out->indent, "",
-            out->dash ? "- " : "", key->name);
+    fprintf(out->stream, "%*s%s%s:", out->dash ? out->indent - 2 : out->indent, "", out->dash ? "- " : "", key->name);
     out->dash = false;
     if (key->type == SB_KEY_LIST) {
         put_items(out, key, item);
@@ -271,8 +265,7 @@ sb_status sb_scene_write(const sb_scene *scene, const char *path, sb_error *erro
     sb_status status = sb_atomic_open(&file, path, error);
     if (status != SB_OK) return status;
     writer out = {.stream = file.stream};
-    fputs("# A scene as shorebreak " SB_VERSION " understood it, every default written out.\n",
-          file.stream);
+    fputs("# A scene as shorebreak " SB_VERSION " understood it, every default written out.\n", file.stream);
     put_rows(&out, &sb_scene_table, scene);
     if (out.unwritable) {
         sb_atomic_abort(&file);

@@ -22,17 +22,15 @@ typedef struct loader {
     sb_error *error;
 } loader;
 
-static sb_status fail_at(sb_yaml_source source, size_t line, size_t column, const char *what,
-                         const char *detail, sb_error *error)
+static sb_status fail_at(sb_yaml_source source, size_t line, size_t column, const char *what, const char *detail,
+                         sb_error *error)
 {
-    if (!source.placed)
-        return sb_fail(error, SB_BAD_INPUT, "%.300s: %.300s%.200s", source.name, what, detail);
-    return sb_fail(error, SB_BAD_INPUT, "%.300s:%zu:%zu: %.300s%.200s", source.name, line + 1,
-                   column + 1, what, detail);
+    if (!source.placed) return sb_fail(error, SB_BAD_INPUT, "%.300s: %.300s%.200s", source.name, what, detail);
+    return sb_fail(error, SB_BAD_INPUT, "%.300s:%zu:%zu: %.300s%.200s", source.name, line + 1, column + 1, what,
+                   detail);
 }
 
-static sb_status fail_mark(const loader *load, yaml_mark_t mark, const char *what,
-                           const char *detail)
+static sb_status fail_mark(const loader *load, yaml_mark_t mark, const char *what, const char *detail)
 {
     return fail_at(load->source, mark.line, mark.column, what, detail, load->error);
 }
@@ -48,8 +46,7 @@ static sb_status load_scalar(loader *load, const yaml_node_t *node, char **text)
 {
     const char *value = (const char *)node->data.scalar.value;
     if (!is_tag(node, YAML_STR_TAG))
-        return fail_mark(load, node->start_mark, (const char *)node->tag,
-                         ": YAML tags are not used in a scene");
+        return fail_mark(load, node->start_mark, (const char *)node->tag, ": YAML tags are not used in a scene");
     if (strlen(value) != node->data.scalar.length)
         return fail_mark(load, node->start_mark, "text holds a zero byte", "");
     *text = sb_strdup(value);
@@ -70,10 +67,8 @@ static sb_status load_list(loader *load, const yaml_node_t *node, int depth, sb_
     const yaml_node_item_t *first = node->data.sequence.items.start;
     size_t count = (size_t)(node->data.sequence.items.top - first);
     if (!is_tag(node, YAML_SEQ_TAG))
-        return fail_mark(load, node->start_mark, (const char *)node->tag,
-                         ": YAML tags are not used in a scene");
-    if (count > NODES_MAX)
-        return fail_mark(load, node->start_mark, "list of more than 100000 items", "");
+        return fail_mark(load, node->start_mark, (const char *)node->tag, ": YAML tags are not used in a scene");
+    if (count > NODES_MAX) return fail_mark(load, node->start_mark, "list of more than 100000 items", "");
     sb_status status = room(load, out, count);
     for (size_t i = 0; status == SB_OK && i < count; i++)
         status = load_node(load, first[i], depth + 1, &out->items[out->count++]);
@@ -84,8 +79,7 @@ static sb_status load_pair(loader *load, const yaml_node_pair_t *pair, int depth
 {
     const yaml_node_t *key = yaml_document_get_node(load->document, pair->key);
     if (key->type != YAML_SCALAR_NODE)
-        return fail_mark(load, key->start_mark, "a key that is a list or a block",
-                         ", expected a word");
+        return fail_mark(load, key->start_mark, "a key that is a list or a block", ", expected a word");
     sb_yaml *child = &map->items[map->count++];
     child->key_line = (int)key->start_mark.line + 1;
     child->key_column = (int)key->start_mark.column + 1;
@@ -93,8 +87,7 @@ static sb_status load_pair(loader *load, const yaml_node_pair_t *pair, int depth
     if (status != SB_OK) return status;
     for (size_t i = 0; i + 1 < map->count; i++)
         if (strcmp(map->items[i].key, child->key) == 0)
-            return fail_mark(load, key->start_mark, child->key,
-                             ": given twice, expected each key once");
+            return fail_mark(load, key->start_mark, child->key, ": given twice, expected each key once");
     return load_node(load, pair->value, depth + 1, child);
 }
 
@@ -103,13 +96,10 @@ static sb_status load_map(loader *load, const yaml_node_t *node, int depth, sb_y
     const yaml_node_pair_t *first = node->data.mapping.pairs.start;
     size_t count = (size_t)(node->data.mapping.pairs.top - first);
     if (!is_tag(node, YAML_MAP_TAG))
-        return fail_mark(load, node->start_mark, (const char *)node->tag,
-                         ": YAML tags are not used in a scene");
-    if (count > KEYS_MAX)
-        return fail_mark(load, node->start_mark, "block of more than 1000 keys", "");
+        return fail_mark(load, node->start_mark, (const char *)node->tag, ": YAML tags are not used in a scene");
+    if (count > KEYS_MAX) return fail_mark(load, node->start_mark, "block of more than 1000 keys", "");
     sb_status status = room(load, out, count);
-    for (size_t i = 0; status == SB_OK && i < count; i++)
-        status = load_pair(load, &first[i], depth, out);
+    for (size_t i = 0; status == SB_OK && i < count; i++) status = load_pair(load, &first[i], depth, out);
     return status;
 }
 
@@ -119,8 +109,7 @@ static sb_status load_node(loader *load, int index, int depth, sb_yaml *out)
 {
     const yaml_node_t *node = yaml_document_get_node(load->document, index);
     if (depth > DEPTH_MAX)
-        return fail_mark(load, node->start_mark, "nested deeper than 32 levels",
-                         ", or an alias that holds itself");
+        return fail_mark(load, node->start_mark, "nested deeper than 32 levels", ", or an alias that holds itself");
     if (++load->nodes > NODES_MAX)
         return fail_mark(load, node->start_mark, "more than 100000 values",
                          ", aliases counted as often as they are used");
@@ -162,8 +151,8 @@ static bool tab_at(const char *text, size_t length, yaml_mark_t mark)
     return at + mark.column < length && text[at + mark.column] == '\t';
 }
 
-static sb_status explain(const yaml_parser_t *parser, sb_yaml_source source, const char *text,
-                         size_t length, sb_error *error)
+static sb_status explain(const yaml_parser_t *parser, sb_yaml_source source, const char *text, size_t length,
+                         sb_error *error)
 {
     const char *problem = parser->problem ? parser->problem : "cannot be parsed";
     yaml_mark_t mark = parser->problem_mark;
@@ -173,8 +162,7 @@ static sb_status explain(const yaml_parser_t *parser, sb_yaml_source source, con
         return fail_at(source, mark.line, mark.column, "not UTF-8 text: ", problem, error);
     }
     if (tab_at(text, length, mark))
-        return fail_at(source, mark.line, mark.column, "a tab, expected spaces", " for indentation",
-                       error);
+        return fail_at(source, mark.line, mark.column, "a tab, expected spaces", " for indentation", error);
     return fail_at(source, mark.line, mark.column, "not valid YAML: ", problem, error);
 }
 
@@ -190,15 +178,13 @@ static sb_status prescan(sb_yaml_source source, const char *text, size_t length,
         if (depth <= BRACKETS_MAX && anchors <= ANCHORS_MAX) continue;
         yaml_mark_t mark = mark_of(text, length, i);
         return fail_at(source, mark.line, mark.column,
-                       depth > BRACKETS_MAX ? "nested deeper than 32 levels"
-                                            : "more than 1000 anchors",
-                       "", error);
+                       depth > BRACKETS_MAX ? "nested deeper than 32 levels" : "more than 1000 anchors", "", error);
     }
     return SB_OK;
 }
 
-static sb_status refuse_second(yaml_parser_t *parser, sb_yaml_source source, const char *text,
-                               size_t length, sb_error *error)
+static sb_status refuse_second(yaml_parser_t *parser, sb_yaml_source source, const char *text, size_t length,
+                               sb_error *error)
 {
     yaml_document_t next;
     if (!yaml_parser_load(parser, &next)) return explain(parser, source, text, length, error);
@@ -206,12 +192,11 @@ static sb_status refuse_second(yaml_parser_t *parser, sb_yaml_source source, con
     bool more = yaml_document_get_root_node(&next) != NULL;
     yaml_document_delete(&next);
     if (!more) return SB_OK;
-    return fail_at(source, mark.line, mark.column, "a second YAML document", ", expected one",
-                   error);
+    return fail_at(source, mark.line, mark.column, "a second YAML document", ", expected one", error);
 }
 
-static sb_status load_document(yaml_parser_t *parser, sb_yaml_source source, const char *text,
-                               size_t length, sb_yaml *root, sb_error *error)
+static sb_status load_document(yaml_parser_t *parser, sb_yaml_source source, const char *text, size_t length,
+                               sb_yaml *root, sb_error *error)
 {
     yaml_document_t document;
     if (!yaml_parser_load(parser, &document)) return explain(parser, source, text, length, error);
@@ -235,8 +220,7 @@ static sb_status load_document(yaml_parser_t *parser, sb_yaml_source source, con
     return status;
 }
 
-sb_status sb_yaml_parse(sb_yaml_source source, const char *text, size_t length, sb_yaml *root,
-                        sb_error *error)
+sb_status sb_yaml_parse(sb_yaml_source source, const char *text, size_t length, sb_yaml *root, sb_error *error)
 {
     sb_status status = prescan(source, text, length, error);
     if (status != SB_OK) return status;
@@ -292,8 +276,7 @@ sb_yaml *sb_yaml_append(sb_yaml *map, const char *key, size_t key_length)
 {
     char *name = sb_alloc(key_length + 1, 1);
     char *text = sb_strdup("");
-    if (!name || !text ||
-        sb_grow((void **)&map->items, &map->capacity, map->count + 1, sizeof *map->items) != 0) {
+    if (!name || !text || sb_grow((void **)&map->items, &map->capacity, map->count + 1, sizeof *map->items) != 0) {
         sb_free(name);
         sb_free(text);
         return NULL;

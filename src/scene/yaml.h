@@ -32,8 +32,7 @@ typedef struct sb_yaml_source {
 /* Parses one document into *root (untouched on error). Refused: syntax errors, invalid UTF-8, no
    document or several, duplicate keys, tags, more than 100000 nodes, more than 32 levels. Aliases
    are copied. SB_BAD_INPUT, or SB_FAILED without memory. */
-sb_status sb_yaml_parse(sb_yaml_source source, const char *text, size_t length, sb_yaml *root,
-                        sb_error *error);
+sb_status sb_yaml_parse(sb_yaml_source source, const char *text, size_t length, sb_yaml *root, sb_error *error);
 
 /* Frees what the node owns and zeroes it; fine on a zeroed node. */
 void sb_yaml_free(sb_yaml *node);

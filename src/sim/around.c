@@ -19,8 +19,7 @@ uint32_t sb_around_index(const sb_sim *sim, const sb_group *group, uint16_t plac
 {
     const sb_run *run = sim->groups.run + group->run;
     uint32_t left = place / SB_PLACE_STEP;
-    while (left >= run->count)
-        left -= run++->count;
+    while (left >= run->count) left -= run++->count;
     return run->begin + left;
 }
 
@@ -36,13 +35,11 @@ int sb_groups_build(sb_sim *sim)
     sb_groups *groups = &sim->groups;
     groups->count = 0;
     for (size_t c = 0; c < cells->count; c++) {
-        if (c > 0 && block_of(cells->code[c]) == block_of(cells->code[c - 1]))
-            continue;
+        if (c > 0 && block_of(cells->code[c]) == block_of(cells->code[c - 1])) continue;
         if (sb_grow((void **)&groups->group, &groups->capacity, groups->count + 1, sizeof *groups->group) != 0)
             return -1;
         groups->group[groups->count++] = (sb_group){.first = cells->begin[c], .end = (uint32_t)sim->n};
-        if (groups->count > 1)
-            groups->group[groups->count - 2].end = cells->begin[c];
+        if (groups->count > 1) groups->group[groups->count - 2].end = cells->begin[c];
     }
     return 0;
 }

@@ -46,8 +46,7 @@ SB_INLINE void sb_around_last(const sb_sim *sim, const sb_group *group, const fl
     const sb_run *run = sim->groups.run + group->run;
     sb_f4 *value = around + 1;
     for (size_t r = 0; r < group->runs; r++)
-        for (size_t k = 0; k < run[r].count; k++, value += 2)
-            (*value)[3] = field[run[r].begin + k];
+        for (size_t k = 0; k < run[r].count; k++, value += 2) (*value)[3] = field[run[r].begin + k];
 }
 
 /* Particle i of the group as sb_around has it. */
@@ -96,8 +95,7 @@ SB_INLINE sb_f4 sb_slopes(const sb_four_pairs *four)
 SB_INLINE uint32_t sb_around_count(const sb_sim *sim, const sb_group *group)
 {
     uint32_t count = 0;
-    for (size_t r = 0; r < group->runs; r++)
-        count += sim->groups.run[group->run + r].count;
+    for (size_t r = 0; r < group->runs; r++) count += sim->groups.run[group->run + r].count;
     return count;
 }
 

@@ -11,8 +11,8 @@
 
 enum { GROUPS = 8 }; /* per unit of work */
 
-/* What neighbours are read from, as it was when the lists were made: offset from the group's corner, q in the last lane.
-   back: -dt in quanta per m/s. */
+/* What neighbours are read from, as it was when the lists were made: offset from the group's corner, q in the last
+   lane. back: -dt in quanta per m/s. */
 SB_INLINE sb_f4 entry(const sb_sim *sim, const sb_group *group, size_t e, sb_f4 back)
 {
     sb_f4 at = sb_offset(sim->position[e], group->corner);
@@ -51,8 +51,7 @@ static void bear_group(sb_sim *sim, const sb_group *group)
     const sb_run *run = sim->groups.run + group->run;
     sb_f4 *at = around;
     for (size_t r = 0; r < group->runs; r++)
-        for (size_t k = 0; k < run[r].count; k++)
-            *at++ = entry(sim, group, run[r].begin + k, back);
+        for (size_t k = 0; k < run[r].count; k++) *at++ = entry(sim, group, run[r].begin + k, back);
     for (size_t i = group->first; i < group->end; i++) {
         const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
         const sb_f4 self = entry(sim, group, i, back);
@@ -70,11 +69,9 @@ static void bear_group(sb_sim *sim, const sb_group *group)
 
 void sb_sim_find_pressures(sb_sim *sim)
 {
-    if (!sim->listed || sim->told)
-        return;
+    if (!sim->listed || sim->told) return;
     const size_t groups = sim->groups.count;
 #pragma omp parallel for schedule(dynamic, GROUPS)
-    for (size_t g = 0; g < groups; g++)
-        bear_group(sim, &sim->groups.group[g]);
+    for (size_t g = 0; g < groups; g++) bear_group(sim, &sim->groups.group[g]);
     sim->told = true;
 }

@@ -14,18 +14,15 @@ static int reserve(sb_cells *cells, size_t count)
         cells->begin = sb_alloc_untouched(capacity, sizeof *cells->begin);
         cells->code = sb_alloc_untouched(capacity, sizeof *cells->code);
         cells->cell_capacity = cells->begin && cells->code ? capacity : 0;
-        if (cells->cell_capacity == 0)
-            return -1;
+        if (cells->cell_capacity == 0) return -1;
     }
     size_t slots = 64;
-    while (slots < 2 * count)
-        slots *= 2;
+    while (slots < 2 * count) slots *= 2;
     if (slots > cells->slot_capacity) {
         sb_free(cells->slot);
         cells->slot = sb_alloc_untouched(slots, sizeof *cells->slot);
         cells->slot_capacity = cells->slot ? slots : 0;
-        if (!cells->slot)
-            return -1;
+        if (!cells->slot) return -1;
     }
     cells->slot_mask = slots - 1;
     return 0;
@@ -40,15 +37,14 @@ static int starts_cell(const sb_record *records, size_t i, int shift)
 static void insert_all(sb_cells *cells)
 {
 #pragma omp parallel for schedule(static)
-    for (size_t s = 0; s <= cells->slot_mask; s++)
-        cells->slot[s] = 0;
+    for (size_t s = 0; s <= cells->slot_mask; s++) cells->slot[s] = 0;
 #pragma omp parallel for schedule(static)
     for (size_t c = 0; c < cells->count; c++) {
         uint64_t at = sb_cells_hash(cells->code[c]) & cells->slot_mask;
         for (;; at = (at + 1) & cells->slot_mask) {
             uint32_t empty = 0;
-            if (__atomic_compare_exchange_n(&cells->slot[at], &empty, (uint32_t)(c + 1), 0,
-                                            __ATOMIC_RELAXED, __ATOMIC_RELAXED))
+            if (__atomic_compare_exchange_n(&cells->slot[at], &empty, (uint32_t)(c + 1), 0, __ATOMIC_RELAXED,
+                                            __ATOMIC_RELAXED))
                 break;
         }
     }
@@ -59,17 +55,14 @@ int sb_cells_build(sb_cells *cells, const sb_record *records, size_t count, int 
     size_t blocks = (count + BLOCK - 1) / BLOCK;
     size_t *first = sb_alloc(blocks + 1, sizeof *first);
     cells->count = 0;
-    if (!first)
-        return -1;
+    if (!first) return -1;
 #pragma omp parallel for schedule(static)
     for (size_t b = 0; b < blocks; b++) {
         size_t end = (b + 1) * BLOCK < count ? (b + 1) * BLOCK : count, found = 0;
-        for (size_t i = b * BLOCK; i < end; i++)
-            found += (size_t)starts_cell(records, i, shift);
+        for (size_t i = b * BLOCK; i < end; i++) found += (size_t)starts_cell(records, i, shift);
         first[b + 1] = found;
     }
-    for (size_t b = 0; b < blocks; b++)
-        first[b + 1] += first[b];
+    for (size_t b = 0; b < blocks; b++) first[b + 1] += first[b];
     if (reserve(cells, first[blocks]) != 0) {
         sb_free(first);
         return -1;

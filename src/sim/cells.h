@@ -8,11 +8,11 @@
 #include <stddef.h>
 
 typedef struct sb_cells {
-    size_t count;           /* used cells */
+    size_t count; /* used cells */
     size_t cell_capacity, slot_capacity;
-    uint32_t *begin;        /* count + 1: records of cell c are [begin[c], begin[c+1]) */
-    uint64_t *code;         /* count: packed cell indices */
-    uint32_t *slot;         /* hash table: cell + 1, 0 empty */
+    uint32_t *begin; /* count + 1: records of cell c are [begin[c], begin[c+1]) */
+    uint64_t *code;  /* count: packed cell indices */
+    uint32_t *slot;  /* hash table: cell + 1, 0 empty */
     uint64_t slot_mask;
 } sb_cells;
 
@@ -30,14 +30,11 @@ SB_INLINE uint64_t sb_cells_hash(uint64_t code)
 /* The cell of that code, or -1. */
 SB_INLINE int64_t sb_cells_find(const sb_cells *cells, uint64_t code)
 {
-    if (cells->count == 0)
-        return -1;
+    if (cells->count == 0) return -1;
     for (uint64_t at = sb_cells_hash(code) & cells->slot_mask;; at = (at + 1) & cells->slot_mask) {
         uint32_t entry = cells->slot[at];
-        if (entry == 0)
-            return -1;
-        if (cells->code[entry - 1] == code)
-            return entry - 1;
+        if (entry == 0) return -1;
+        if (cells->code[entry - 1] == code) return entry - 1;
     }
 }
 

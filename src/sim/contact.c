@@ -6,8 +6,8 @@ enum { SWEEPS = 3 }; /* a corner of three walls asks for one each */
 
 /* In spacings, beyond wall_offset. PLANE: the nearest a particle comes to the sheet; water at rest nestles between
    boundary particles down to about there. BALL: the nearest it comes to any one of them, which guards ridges,
-   where a mean plane lies too low. RELEASE: how fast settling lets out one that starts nearer, per step. In a run such a
-   one is not let in any further, and what is pressed on it pushes it out: contact itself gives no energy. */
+   where a mean plane lies too low. RELEASE: how fast settling lets out one that starts nearer, per step. In a run such
+   a one is not let in any further, and what is pressed on it pushes it out: contact itself gives no energy. */
 static const float PLANE = 0.05f, BALL = 0.2f, RELEASE = 0.005f;
 
 /* The wall as seen from where the step would end, lengths in quanta. */
@@ -23,8 +23,7 @@ typedef struct view {
 /* How far a wall comes in the step, in quanta. */
 SB_INLINE sb_f4 wall_step(const sb_sim *sim, uint32_t wall, float to_quanta)
 {
-    if (!(wall >> 31))
-        return (sb_f4){0};
+    if (!(wall >> 31)) return (sb_f4){0};
     const sb_wall_set *set = &sim->walls[SB_MOVING];
     sb_vec3 v = sim->moving[sim->moving_of_body[set->body[wall & 0x7fffffffu]]].velocity;
     return (sb_f4){(float)v.x, (float)v.y, (float)v.z, 0} * sb_splat(to_quanta);
@@ -83,8 +82,7 @@ SB_INLINE view look(const sb_sim *sim, size_t i, sb_f4 velocity, float to_quanta
         }
     }
     float length = sqrtf(sb_sum3(normal * normal));
-    if (!(length > 0.1f * total))
-        return v;
+    if (!(length > 0.1f * total)) return v;
     v.normal = normal / sb_splat(length);
     v.before = sb_sum3(v.normal * now) / total;
     v.distance = sb_sum3(v.normal * then) / total;
@@ -114,8 +112,7 @@ bool sb_contact_mend(const sb_sim *sim, size_t i, sb_f4 *velocity, uint32_t *tou
     bool mended = false;
     for (int sweep = 0; sweep < SWEEPS; sweep++) {
         const view v = look(sim, i, *velocity, to_quanta);
-        if (!v.found)
-            return mended;
+        if (!v.found) return mended;
         float plane = smaller((sheet + PLANE) * spacing, v.before + release) - v.distance;
         float ball = smaller((sheet + BALL) * spacing, v.ball_before + release) - v.ball;
         if (plane > 0)

@@ -21,18 +21,15 @@ bool sb_deficit_on(const sb_scene *scene)
 
 void sb_deficit_clear(sb_sim *sim)
 {
-    for (size_t i = 0; sim->deficit && i < sim->model->fluid_count; i++)
-        sim->deficit[i] = NAN;
+    for (size_t i = 0; sim->deficit && i < sim->model->fluid_count; i++) sim->deficit[i] = NAN;
 }
 
 /* density: the sum; by_walls: the walls' part of it; square: |sum_j m grad W_ij|^2 over the water; share: of what is
    out of bounds, to be mended now. */
 static float mended(const sb_constants *c, float own, float density, float by_walls, float square, float share)
 {
-    if (isnan(own))
-        own = fmaxf(c->rest_density - density, -by_walls - OVERLAP * c->rest_density);
-    if (by_walls > 0)
-        return own;
+    if (isnan(own)) own = fmaxf(c->rest_density - density, -by_walls - OVERLAP * c->rest_density);
+    if (by_walls > 0) return own;
     const float slack = SLACK * c->rest_density;
     const float least = c->bulk_deficit - slack, most = c->bulk_deficit + 2 * c->surface_deficit * square + slack;
     const float bound = own > most ? most : own < least ? least : own;

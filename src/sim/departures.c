@@ -12,8 +12,7 @@ void sb_departures_note(sb_sim *sim, sb_exit way, size_t particle)
     sb_departures *all = &sim->departures;
     const sb_f4 v = sim->velocity[particle];
     all->by_side[way.side]++;
-    if (all->count == SB_DEPARTURES)
-        return;
+    if (all->count == SB_DEPARTURES) return;
     all->first[all->count++] = (sb_departure){
         .time = sim->report.time,
         .position = sb_space_position(&sim->space, sim->position[particle]),

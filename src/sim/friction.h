@@ -8,9 +8,9 @@
 /* Factors of one step; lengths in quanta where that is said. */
 typedef struct sb_rub {
     bool on;
-    float friction; /* sigma h c_s / (2 quanta) [S16, eq. 33]; 0: none */
-    float epsilon;  /* 0.01 h^2, quanta^2 */
-    bool shear;     /* whether smooth walls hold the water that slides along them */
+    float friction;                 /* sigma h c_s / (2 quanta) [S16, eq. 33]; 0: none */
+    float epsilon;                  /* 0.01 h^2, quanta^2 */
+    bool shear;                     /* whether smooth walls hold the water that slides along them */
     float viscosity, rest_density;  /* m^2/s; kg/m^3: density sums beside walls are none of the water's */
     float quantum, offset, nearest; /* m; of the sheet behind the wall, and least from the wall: quanta */
 } sb_rub;
@@ -56,7 +56,8 @@ SB_INLINE sb_wall_four sb_see_walls(const sb_sim *sim, size_t i, sb_f4 velocity,
             v[k] -= (sb_f4){(float)w.x, (float)w.y, (float)w.z, 0};
         }
     }
-    return (sb_wall_four){sb_turn(d[0], d[1], d[2], d[3]), sb_turn(n[0], n[1], n[2], n[3]), sb_turn(v[0], v[1], v[2], v[3])};
+    return (sb_wall_four){sb_turn(d[0], d[1], d[2], d[3]), sb_turn(n[0], n[1], n[2], n[3]),
+                          sb_turn(v[0], v[1], v[2], v[3])};
 }
 
 /* What slides along the wall, four pairs at a time: c_f |u| u/rho_0 times slope and height. */

@@ -14,8 +14,7 @@ static const uint64_t INDEX_MASK = ((uint64_t)1 << INDEX_BITS) - 1;
 static int lengthen(void **field, size_t used, size_t capacity, size_t size)
 {
     void *longer = sb_alloc_untouched(capacity, size);
-    if (!longer)
-        return -1;
+    if (!longer) return -1;
     memcpy(longer, *field, used * size);
     sb_free(*field);
     *field = longer;
@@ -34,8 +33,7 @@ static int reserve(sb_sim *sim, size_t ghosts)
 
 int sb_ghosts_room(sb_sim *sim, size_t beyond)
 {
-    if (sim->n + beyond <= sim->capacity)
-        return 0;
+    if (sim->n + beyond <= sim->capacity) return 0;
     const size_t used = sim->n + sim->ghosts.count, capacity = sim->n + beyond + beyond / 8 + 64;
     if (lengthen((void **)&sim->position, used, capacity, 16) != 0 ||
         lengthen((void **)&sim->velocity, used, capacity, 16) != 0 ||
@@ -60,8 +58,7 @@ static size_t count_images(const sb_sim *sim, size_t *first)
             found += (size_t)sb_space_images(&sim->space, sim->position[i], image);
         first[b + 1] = found;
     }
-    for (size_t b = 0; b < blocks; b++)
-        first[b + 1] += first[b];
+    for (size_t b = 0; b < blocks; b++) first[b + 1] += first[b];
     return first[blocks];
 }
 
@@ -101,14 +98,11 @@ static void place(sb_sim *sim, const uint64_t *sorted, const sb_record *made)
 static int build(sb_sim *sim, const size_t *first, size_t count)
 {
     sb_ghosts *g = &sim->ghosts;
-    if (reserve(sim, count) != 0)
-        return -1;
+    if (reserve(sim, count) != 0) return -1;
     sb_record *made = (sb_record *)sim->acceleration + sim->n; /* free until the pressure is solved */
     make_images(sim, first, made);
-    const uint64_t *sorted =
-        sb_sort(g->words, g->other, count, INDEX_BITS, INDEX_BITS + sim->space.key_bits);
-    if (!sorted)
-        return -1;
+    const uint64_t *sorted = sb_sort(g->words, g->other, count, INDEX_BITS, INDEX_BITS + sim->space.key_bits);
+    if (!sorted) return -1;
     g->count = count;
     place(sim, sorted, made);
     sb_ghosts_refresh(sim, sim->velocity);
@@ -117,17 +111,15 @@ static int build(sb_sim *sim, const size_t *first, size_t count)
 
 sb_status sb_stage_ghosts(sb_sim *sim, sb_error *error)
 {
-    if (!sim->space.repeats)
-        return SB_OK;
+    if (!sim->space.repeats) return SB_OK;
     sim->ghosts.count = 0;
     size_t *first = sb_alloc(sb_blocks(sim) + 1, sizeof *first);
-    if (!first)
-        return sb_fail_memory(error, "ghosts");
+    if (!first) return sb_fail_memory(error, "ghosts");
     const size_t count = count_images(sim, first);
     sb_status status = SB_OK;
     if (count >= (size_t)1 << INDEX_BITS)
-        status = sb_fail(error, SB_FAILED, "%zu images beyond periodic sides: expected fewer than 2^%d", count,
-                         INDEX_BITS);
+        status =
+            sb_fail(error, SB_FAILED, "%zu images beyond periodic sides: expected fewer than 2^%d", count, INDEX_BITS);
     else if (count > 0 && build(sim, first, count) != 0)
         status = sb_fail_memory(error, "ghosts");
     sb_free(first);
@@ -141,20 +133,16 @@ void sb_ghosts_refresh(const sb_sim *sim, sb_f4 *field)
     sb_f4 *ghost = field + sim->n;
     if (sb_fringe_count(sim) > 0)
         memset(field + sb_fringe_first(sim), 0, sb_fringe_count(sim) * sizeof *field); /* at rest */
-    if (count == 0)
-        return;
+    if (count == 0) return;
 #pragma omp parallel for schedule(static)
-    for (size_t g = 0; g < count; g++)
-        ghost[g] = field[of[g]];
+    for (size_t g = 0; g < count; g++) ghost[g] = field[of[g]];
 }
 
 void sb_ghosts_refresh_values(const sb_sim *sim, float *field)
 {
     const size_t count = sim->ghosts.count;
-    for (size_t g = 0; g < count; g++)
-        field[sim->n + g] = field[sim->ghosts.of[g]];
-    if (sb_fringe_count(sim) > 0)
-        memset(field + sb_fringe_first(sim), 0, sb_fringe_count(sim) * sizeof *field);
+    for (size_t g = 0; g < count; g++) field[sim->n + g] = field[sim->ghosts.of[g]];
+    if (sb_fringe_count(sim) > 0) memset(field + sb_fringe_first(sim), 0, sb_fringe_count(sim) * sizeof *field);
 }
 
 void sb_ghosts_destroy(sb_sim *sim)

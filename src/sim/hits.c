@@ -27,9 +27,9 @@ static size_t find_portable(const sb_candidates *of, const sb_stretch *stretch, 
 }
 
 #ifdef SB_AVX512
-__attribute__((target("avx512f")))
-static size_t find_avx512(const sb_candidates *of, const sb_stretch *stretch, size_t stretches, sb_hits *h,
-                          sb_f4 self, float scale2, uint32_t skip)
+__attribute__((target("avx512f"))) static size_t find_avx512(const sb_candidates *of, const sb_stretch *stretch,
+                                                             size_t stretches, sb_hits *h, sb_f4 self, float scale2,
+                                                             uint32_t skip)
 {
     const __m512 sx = _mm512_set1_ps(self[0]), sy = _mm512_set1_ps(self[1]), sz = _mm512_set1_ps(self[2]);
     const __m512 factor = _mm512_set1_ps(scale2), one = _mm512_set1_ps(1.0f);
@@ -65,8 +65,7 @@ static size_t find_avx512(const sb_candidates *of, const sb_stretch *stretch, si
 sb_find_hits *sb_find_hits_choose(void)
 {
 #ifdef SB_AVX512
-    if (__builtin_cpu_supports("avx512f"))
-        return find_avx512;
+    if (__builtin_cpu_supports("avx512f")) return find_avx512;
 #endif
     return find_portable;
 }

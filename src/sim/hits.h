@@ -7,9 +7,9 @@
 #include <stddef.h>
 
 enum {
-    SB_LIST_MAX = 1024,   /* neighbours of one particle: 80 are normal */
+    SB_LIST_MAX = 1024, /* neighbours of one particle: 80 are normal */
     SB_HIT_LANES = 8,
-    SB_HIT_SPARE = 16     /* vector loads and stores may run past the end */
+    SB_HIT_SPARE = 16 /* vector loads and stores may run past the end */
 };
 
 /* Coordinates of candidates in quanta, from a corner of their own. */
@@ -24,7 +24,8 @@ typedef struct sb_stretch {
 
 /* The hits of one particle. */
 typedef struct sb_hits {
-    size_t count, padded; /* padded to SB_HIT_LANES by the particle itself at the support radius, where kernels vanish */
+    size_t count,
+        padded; /* padded to SB_HIT_LANES by the particle itself at the support radius, where kernels vanish */
     float x[SB_LIST_MAX + SB_HIT_SPARE], y[SB_LIST_MAX + SB_HIT_SPARE], z[SB_LIST_MAX + SB_HIT_SPARE];
     float q2[SB_LIST_MAX + SB_HIT_SPARE], value[SB_LIST_MAX + SB_HIT_SPARE], slope[SB_LIST_MAX + SB_HIT_SPARE];
     float root[SB_LIST_MAX + SB_HIT_SPARE]; /* as lists store slopes */

@@ -1,8 +1,8 @@
 /* What the water does to bodies over one step: the reaction to every wall term that moved the water
    [A12, eq. 10], so that the momenta of water and bodies balance to round-off. */
+#include "sim/impulse.h"
 #include "sim/contact.h"
 #include "sim/friction.h"
-#include "sim/impulse.h"
 #include "sim/ledger.h"
 #include "sim/sleep.h"
 
@@ -18,8 +18,8 @@ static sb_vec3 way_home(const sb_space *space, sb_record image)
 
 /* What one particle does to one body: sums over the boundary particles of it that follow one another in its list, of
    slope times offset, and of what rubs. All acts at the particle, carried home where it meets an image. What pushes
-   along the line to a boundary particle has the same moment there, and what does not, shear, leaves the moments of water
-   and bodies balanced. */
+   along the line to a boundary particle has the same moment there, and what does not, shear, leaves the moments of
+   water and bodies balanced. */
 typedef struct tally {
     const sb_sim *sim;
     double *sum, press, mass; /* sum[body][VALUES]; press: m q */
@@ -59,8 +59,7 @@ static void turn_to(tally *t, const sb_wall_set *set, uint32_t wall)
 {
     const uint32_t body = set->body[wall];
     const sb_vec3 home = t->sim->space.repeats ? way_home(&t->sim->space, set->record[wall]) : (sb_vec3){0};
-    if (body == t->body && home.x == t->home.x && home.y == t->home.y && home.z == t->home.z)
-        return;
+    if (body == t->body && home.x == t->home.x && home.y == t->home.y && home.z == t->home.z) return;
     put_down(t);
     t->body = body;
     t->home = home;
@@ -68,8 +67,7 @@ static void turn_to(tally *t, const sb_wall_set *set, uint32_t wall)
 
 static sb_f4 wall_velocity(const sb_sim *sim, uint32_t wall)
 {
-    if (!(wall >> 31))
-        return (sb_f4){0};
+    if (!(wall >> 31)) return (sb_f4){0};
     const sb_wall_set *set = &sim->walls[SB_MOVING];
     const sb_vec3 v = sim->moving[sim->moving_of_body[set->body[wall & 0x7fffffffu]]].velocity;
     return (sb_f4){(float)v.x, (float)v.y, (float)v.z, 0};
@@ -80,8 +78,7 @@ void sb_impulse_of_push(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 push
     const sb_wall_set *set = &sim->walls[wall >> 31];
     const sb_record record = set->record[wall & 0x7fffffffu];
     sb_vec3 at = sb_space_position(&sim->space, sim->position[i]);
-    if (sim->space.repeats)
-        at = sb_add(at, way_home(&sim->space, record));
+    if (sim->space.repeats) at = sb_add(at, way_home(&sim->space, record));
     add(sim, sum, set->body[wall & 0x7fffffffu], at, push, (sb_vec3){0});
 }
 
@@ -91,15 +88,13 @@ SB_APART void contact(sb_sim *sim, size_t i, double *sum, sb_ledger_sums *ledger
     const sb_f4 start = ((const sb_f4 *)sim->scratch)[i];
     sb_f4 velocity = sim->acceleration[i];
     uint32_t wall;
-    if (!sb_contact_mend(sim, i, &velocity, &wall))
-        return;
+    if (!sb_contact_mend(sim, i, &velocity, &wall)) return;
     const double scale = (double)sim->constant.mass / sim->report.time_step;
     sb_f4 change = sim->acceleration[i] - velocity;
     /* The push is along the wall's normal through the particle, so it may be taken to act there. */
     const sb_vec3 push = sb_scale(sb_vec((double)change[0], (double)change[1], (double)change[2]), scale);
     sb_impulse_of_push(sim, i, wall, push, sum);
-    if (sim->settling)
-        sb_sleep_feel(sim, i, wall, push);
+    if (sim->settling) sb_sleep_feel(sim, i, wall, push);
     const sb_f4 body = wall_velocity(sim, wall);
     ledger->contact += sb_ledger_work(sim->acceleration[i], velocity, start, velocity);
     ledger->contact_bodies += sb_ledger_work(sim->acceleration[i], velocity, body, body);
@@ -107,13 +102,13 @@ SB_APART void contact(sb_sim *sim, size_t i, double *sum, sb_ledger_sums *ledger
     sim->acceleration[i] = velocity;
 }
 
-/* Whether a list holds one body's boundary particles alone. Never beside periodic sides, where images push elsewhere. */
+/* Whether a list holds one body's boundary particles alone. Never beside periodic sides, where images push elsewhere.
+ */
 static bool one_body(const sb_sim *sim, const uint32_t *index, size_t count)
 {
     bool same = !sim->space.repeats;
     const uint32_t first = count > 0 ? sim->walls[index[0] >> 31].body[index[0] & 0x7fffffffu] : 0;
-    for (size_t k = 1; k < count && same; k++)
-        same = sim->walls[index[k] >> 31].body[index[k] & 0x7fffffffu] == first;
+    for (size_t k = 1; k < count && same; k++) same = sim->walls[index[k] >> 31].body[index[k] & 0x7fffffffu] == first;
     return same;
 }
 
@@ -129,8 +124,7 @@ SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_rub *rub, double *su
     tally t = {.sim = sim, .sum = sum, .press = mass * (double)sim->unknown[i], .mass = mass};
     sb_f4 rubbed = {0}, part[4];
     t.at = sb_space_position(&sim->space, sim->position[i]);
-    if (count > 0)
-        t.body = sim->walls[index[0] >> 31].body[index[0] & 0x7fffffffu];
+    if (count > 0) t.body = sim->walls[index[0] >> 31].body[index[0] & 0x7fffffffu];
     if (one_body(sim, index, count)) { /* as most do: the sums are there already */
         t.pushed = sim->wall[i];
         rubbed = t.rubbed = rub ? sim->rubbed[i] : (sb_f4){0};
@@ -138,10 +132,8 @@ SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_rub *rub, double *su
         return rubbed;
     }
     for (size_t k = 0; k < count; k++) {
-        if (rub && k % 4 == 0)
-            sb_rubbed(sim, i, velocity[i], index + k, slope + k, rub, part);
-        if (slope[k] == 0)
-            continue;
+        if (rub && k % 4 == 0) sb_rubbed(sim, i, velocity[i], index + k, slope + k, rub, part);
+        if (slope[k] == 0) continue;
         const sb_wall_set *set = &sim->walls[index[k] >> 31];
         const uint32_t wall = index[k] & 0x7fffffffu;
         turn_to(&t, set, wall);
@@ -163,12 +155,10 @@ static void do_block(sb_sim *sim, size_t block, double *sum, const sb_rub *rub)
     sb_ledger_sums *ledger = &sim->block_ledger[block];
     const sb_f4 *velocity = sim->scratch; /* at the step's start */
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
-        if (sim->wall_pairs.count[i] == 0)
-            continue;
+        if (sim->wall_pairs.count[i] == 0) continue;
         const sb_f4 rubbed = react(sim, i, rub->on ? rub : NULL, sum);
         contact(sim, i, sum, ledger);
-        if (rub->on)
-            ledger->friction += sb_ledger_work((sb_f4){0}, rubbed, velocity[i], sim->acceleration[i]);
+        if (rub->on) ledger->friction += sb_ledger_work((sb_f4){0}, rubbed, velocity[i], sim->acceleration[i]);
     }
 }
 
@@ -180,8 +170,7 @@ void sb_impulse_of_pressure(const sb_sim *sim, size_t i, double *sum)
 static bool touches_walls(const sb_sim *sim, size_t block)
 {
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++)
-        if (sim->wall_pairs.count[i] > 0)
-            return true;
+        if (sim->wall_pairs.count[i] > 0) return true;
     return false;
 }
 
@@ -201,18 +190,15 @@ sb_status sb_stage_impulse(sb_sim *sim, sb_error *error)
     for (size_t b = 0; b < blocks; b++) {
         sim->block_ledger[b] = (sb_ledger_sums){0};
         sim->block_touched[b] = touches_walls(sim, b);
-        if (!sim->block_touched[b])
-            continue;
+        if (!sim->block_touched[b]) continue;
         double *sum = sim->block_impulse + b * bodies * VALUES;
         memset(sum, 0, bodies * VALUES * sizeof *sum);
         do_block(sim, b, sum, &rub);
     }
-    if (sim->settling)
-        return SB_OK;
+    if (sim->settling) return SB_OK;
     const double dt = sim->report.time_step;
     for (size_t b = 0; b < blocks; b++) {
-        if (!sim->block_touched[b])
-            continue;
+        if (!sim->block_touched[b]) continue;
         for (size_t body = 0; body < bodies; body++)
             sb_impulse_add(&sim->impulse[body], dt, sim->block_impulse + (b * bodies + body) * VALUES);
     }

@@ -28,8 +28,8 @@ static double top_speed(const sb_sim *sim)
     double probe = 1e-3 * (double)sim->constant.spacing / (double)sim->constant.wave_speed;
     for (size_t m = 0; m < sim->moving_count && !sim->settling; m++) {
         const sb_paddle *paddle = &sim->moving[m].paddle;
-        double moved = sb_paddle_displacement(paddle, sim->report.time + probe) -
-                       sb_paddle_displacement(paddle, sim->report.time);
+        double moved =
+            sb_paddle_displacement(paddle, sim->report.time + probe) - sb_paddle_displacement(paddle, sim->report.time);
         speed = fmax(speed, fabs(moved) / probe);
     }
     return speed;
@@ -61,11 +61,9 @@ sb_status sb_stage_time_step(sb_sim *sim, sb_error *error)
     double h = (double)sim->constant.support, g = (double)sim->constant.gravity;
     double bound = n->time_step_rule == SB_TIME_STEP_PAPER ? n->time_step_factor * h / g
                                                            : n->time_step_factor * h / (double)sim->constant.wave_speed;
-    if (sim->settling == SB_DAMPED)
-        bound *= SETTLE_STEP;
+    if (sim->settling == SB_DAMPED) bound *= SETTLE_STEP;
     double dt = fmin(fmin(cfl_step(sim, top_speed(sim)), bound), viscous_step(sim));
-    if (n->time_step_max > 0)
-        dt = fmin(dt, n->time_step_max);
+    if (n->time_step_max > 0) dt = fmin(dt, n->time_step_max);
     if (!(dt > 0) || !isfinite(dt))
         return sb_fail(error, SB_FAILED, "step %llu, t = %g s: time step is %g s: the run has diverged",
                        (unsigned long long)sim->report.step, sim->report.time, dt);
@@ -106,13 +104,10 @@ static fastest accelerate(sb_sim *sim, size_t block)
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
         sb_f4 v = (sim->velocity[i] + sim->acceleration[i] * dt) * damping;
         v[3] = sim->unknown[i] * sim->density[i] * sim->density[i];
-        if (flat)
-            v[1] = 0;
+        if (flat) v[1] = 0;
         float square = sb_sum3(v * v);
-        if (!(square <= top.square))
-            top = (fastest){square, i};
-        if (isnan(square))
-            return top;
+        if (!(square <= top.square)) top = (fastest){square, i};
+        if (isnan(square)) return top;
         sim->acceleration[i] = v;
     }
     return top;
@@ -137,17 +132,15 @@ SB_INLINE float move_block(sb_sim *sim, size_t block, bool book)
         sb_f4 v = sim->acceleration[i];
         const sb_f4 way = book ? carrying(sim, i, start[i], v) : v;
         const uint32_t height = sim->position[i][2];
-        sim->position[i] = (sb_record){moved(sim->position[i][0], way[0] * step),
-                                       moved(sim->position[i][1], way[1] * step),
-                                       moved(sim->position[i][2], way[2] * step), 0};
-        if (book)
-            sb_ledger_add(&tally, start[i], sim->velocity[i], v, (int64_t)sim->position[i][2] - height);
+        sim->position[i] =
+            (sb_record){moved(sim->position[i][0], way[0] * step), moved(sim->position[i][1], way[1] * step),
+                        moved(sim->position[i][2], way[2] * step), 0};
+        if (book) sb_ledger_add(&tally, start[i], sim->velocity[i], v, (int64_t)sim->position[i][2] - height);
         sim->velocity[i] = book ? v : v * keep;
         float square = sb_sum3(v * v);
         top = square > top ? square : top;
     }
-    if (book)
-        sb_ledger_store(&tally, &sim->block_ledger[block]);
+    if (book) sb_ledger_store(&tally, &sim->block_ledger[block]);
     return top;
 }
 
@@ -163,8 +156,8 @@ sb_status sb_sim_diverged(const sb_sim *sim, size_t particle, sb_f4 velocity, sb
     return sb_fail(error, SB_FAILED,
                    "step %llu, t = %g s: diverged: particle %u at (%.4g, %.4g, %.4g) m would reach %g m/s, "
                    "expected below %g (density error %.3g after %d iterations)",
-                   (unsigned long long)sim->report.step + 1, sim->report.time, sim->id[particle],
-                   at.x, at.y, at.z, (double)sqrtf(sb_sum3(velocity * velocity)), (double)sim->constant.speed_limit,
+                   (unsigned long long)sim->report.step + 1, sim->report.time, sim->id[particle], at.x, at.y, at.z,
+                   (double)sqrtf(sb_sum3(velocity * velocity)), (double)sim->constant.speed_limit,
                    sim->report.error_mean, sim->report.iterations);
 }
 
@@ -190,8 +183,7 @@ sb_status sb_stage_accelerate(sb_sim *sim, sb_error *error)
     for (size_t b = 0; b < blocks && !isnan(top.square); b++)
         if (!(sim->partial[2 * b] <= (double)top.square))
             top = (fastest){(float)sim->partial[2 * b], (size_t)sim->partial[2 * b + 1]};
-    if (!(top.square <= sim->constant.speed_limit * sim->constant.speed_limit))
-        return diverged(sim, top, error);
+    if (!(top.square <= sim->constant.speed_limit * sim->constant.speed_limit)) return diverged(sim, top, error);
     return SB_OK;
 }
 
@@ -200,13 +192,10 @@ sb_status sb_stage_move(sb_sim *sim, sb_error *error)
     (void)error;
     const size_t blocks = sb_blocks(sim);
 #pragma omp parallel for schedule(static)
-    for (size_t b = 0; b < blocks; b++)
-        sim->partial[b] = (double)move(sim, b);
-    if (!sim->settling)
-        sb_ledger_close(sim);
+    for (size_t b = 0; b < blocks; b++) sim->partial[b] = (double)move(sim, b);
+    if (!sim->settling) sb_ledger_close(sim);
     double top = 0;
-    for (size_t b = 0; b < blocks; b++)
-        top = sim->partial[b] > top ? sim->partial[b] : top;
+    for (size_t b = 0; b < blocks; b++) top = sim->partial[b] > top ? sim->partial[b] : top;
     sim->report.max_speed = sqrt(top);
     sim->report.time += sim->settling ? 0 : sim->report.time_step;
     sim->report.step += !sim->settling;

@@ -26,8 +26,7 @@ static void cubic(const sb_kernel *kernel, const float *q2, size_t count, float 
 }
 
 SB_MULTIVERSION
-static void wendland_c2(const sb_kernel *kernel, const float *q2, size_t count, float *value,
-                        float *slope)
+static void wendland_c2(const sb_kernel *kernel, const float *q2, size_t count, float *value, float *slope)
 {
     (void)kernel;
 #pragma omp simd
@@ -39,8 +38,7 @@ static void wendland_c2(const sb_kernel *kernel, const float *q2, size_t count, 
 }
 
 SB_MULTIVERSION
-static void wendland_c4(const sb_kernel *kernel, const float *q2, size_t count, float *value,
-                        float *slope)
+static void wendland_c4(const sb_kernel *kernel, const float *q2, size_t count, float *value, float *slope)
 {
     (void)kernel;
 #pragma omp simd
@@ -55,8 +53,7 @@ static void general(const sb_kernel *kernel, const float *q2, size_t count, floa
 {
     for (size_t i = 0; i < count; i++) {
         double q = sqrt((double)q2[i]);
-        if (q < (double)NEAREST)
-            q = (double)NEAREST;
+        if (q < (double)NEAREST) q = (double)NEAREST;
         value[i] = (float)kernel->shape(q);
         slope[i] = (float)(kernel->slope(q) / q);
     }
@@ -69,7 +66,6 @@ sb_kernel_batch *sb_kernel_batch_for(const sb_kernel *kernel)
         sb_kernel_batch *batch;
     } forms[] = {{"cubic", cubic}, {"wendland-c2", wendland_c2}, {"wendland-c4", wendland_c4}};
     for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++)
-        if (strcmp(forms[i].name, kernel->name) == 0)
-            return forms[i].batch;
+        if (strcmp(forms[i].name, kernel->name) == 0) return forms[i].batch;
     return general;
 }

@@ -7,8 +7,7 @@
 #include <stddef.h>
 
 /* For i < count: value[i] = w(q), slope[i] = w'(q)/q, both dimensionless, q2[i] = (r/h)^2 < 1. */
-typedef void sb_kernel_batch(const sb_kernel *kernel, const float *q2, size_t count, float *value,
-                             float *slope);
+typedef void sb_kernel_batch(const sb_kernel *kernel, const float *q2, size_t count, float *value, float *slope);
 
 /* The vector form of a kernel; a slower general form for kernels that have none. */
 sb_kernel_batch *sb_kernel_batch_for(const sb_kernel *kernel);

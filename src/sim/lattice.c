@@ -21,8 +21,7 @@ static void make_star(const sb_scene *scene, star *s)
         for (int y = -depth; y <= depth; y++)
             for (int z = -reach; z <= reach; z++) {
                 const double r = sqrt((double)(x * x + y * y + z * z));
-                if (!(r > 0 && r < support))
-                    continue;
+                if (!(r > 0 && r < support)) continue;
                 const double slope = scene->numerics.kernel->slope(r / support) / r;
                 s->place[s->count] = sb_vec(x, y, z);
                 s->gradient[s->count] = sb_scale(sb_vec(x, y, z), slope);
@@ -48,8 +47,7 @@ double sb_lattice_diagonal(const sb_scene *scene, double mass)
 static double response(const star *s, sb_vec3 k)
 {
     sb_vec3 g = {0};
-    for (size_t j = 0; j < s->count; j++)
-        g = sb_madd(g, sin(sb_dot(k, s->place[j])), s->gradient[j]);
+    for (size_t j = 0; j < s->count; j++) g = sb_madd(g, sin(sb_dot(k, s->place[j])), s->gradient[j]);
     return s->squares > 0 ? sb_dot(g, g) / s->squares : 0;
 }
 
@@ -78,8 +76,7 @@ static void half_space(const sb_scene *scene, int top, double *density, double *
             for (int z = -reach; z <= top; z++) {
                 const double r = sqrt((double)(x * x + y * y + z * z));
                 *density += sb_kernel_value(scene->numerics.kernel, dimension, support, r);
-                if (r > 0)
-                    *slope += support * sb_kernel_slope(scene->numerics.kernel, dimension, support, r) * z / r;
+                if (r > 0) *slope += support * sb_kernel_slope(scene->numerics.kernel, dimension, support, r) * z / r;
             }
 }
 

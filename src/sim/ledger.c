@@ -10,8 +10,7 @@ static sb_ledger_sums sum_blocks(const sb_sim *sim)
         all.solve += s->solve;
         all.fall += s->fall;
         all.rise += s->rise;
-        for (int axis = 0; axis < 3; axis++)
-            all.gain[axis] += s->gain[axis];
+        for (int axis = 0; axis < 3; axis++) all.gain[axis] += s->gain[axis];
         all.size += s->size;
         all.friction += s->friction;
         all.contact += s->contact;
@@ -32,14 +31,12 @@ static body_sums sum_bodies(const sb_sim *sim)
     const size_t bodies = sim->model->body_count;
     body_sums all = {0};
     for (size_t b = 0; b < sb_blocks(sim); b++) {
-        if (!sim->block_touched[b])
-            continue;
+        if (!sim->block_touched[b]) continue;
         for (size_t body = 0; body < bodies; body++) {
             const double *s = sim->block_impulse + (b * bodies + body) * VALUES;
             const sb_vec3 pressure = sb_vec(s[0], s[1], s[2]), friction = sb_vec(s[3], s[4], s[5]);
             all.force = sb_add(all.force, sb_add(pressure, friction));
-            if (sim->moving_of_body[body] == UINT32_MAX)
-                continue;
+            if (sim->moving_of_body[body] == UINT32_MAX) continue;
             const sb_vec3 velocity = sim->moving[sim->moving_of_body[body]].velocity;
             all.pressure += sb_dot(pressure, velocity);
             all.friction += sb_dot(friction, velocity);
@@ -67,8 +64,7 @@ void sb_ledger_close(sb_sim *sim)
     const double weight = m * g * (double)sim->n;
     const sb_vec3 gain = sb_scale(sb_vec(s.gain[0], s.gain[1], s.gain[2]), m);
     sb_vec3 off = sb_madd(sb_add(gain, sim->stress_gain), dt, sb_add(bodies.force, sb_vec(0, 0, weight)));
-    if (sb_fringe_count(sim) > 0)
-        off = sb_madd(off, -dt, sb_add(sim->sleep->rub, sim->sleep->support));
+    if (sb_fringe_count(sim) > 0) off = sb_madd(off, -dt, sb_add(sim->sleep->rub, sim->sleep->support));
     sim->report.momentum_imbalance = s.size > 0 ? sb_norm(off) / (m * s.size) : 0;
 }
 

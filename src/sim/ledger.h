@@ -10,14 +10,14 @@
 /* Partial sums over one block's particles in one step, per unit of mass. v, v*, w: velocity at the step's start, after
    the stage packing, before pressure, and at its end; u = (v + w)/2, so that a change d of velocity works d.u. */
 typedef struct sb_ledger_sums {
-    double forces;           /* (v* - v).u: gravity, viscosity, friction */
-    double solve;            /* (w - v*).u: pressure and contact */
-    double fall;             /* u along z, m/s */
-    double rise;             /* of z in the step, quanta */
-    double gain[3], size;    /* w - v, and |w - v| */
-    double friction;         /* share of the forces, over dt */
-    double contact;          /* share of the solve */
-    double contact_bodies;   /* what moving bodies worked through contact */
+    double forces;         /* (v* - v).u: gravity, viscosity, friction */
+    double solve;          /* (w - v*).u: pressure and contact */
+    double fall;           /* u along z, m/s */
+    double rise;           /* of z in the step, quanta */
+    double gain[3], size;  /* w - v, and |w - v| */
+    double friction;       /* share of the forces, over dt */
+    double contact;        /* share of the solve */
+    double contact_bodies; /* what moving bodies worked through contact */
 } sb_ledger_sums;
 
 /* d.u in double, d taken between two velocities of one particle. */
@@ -56,8 +56,7 @@ SB_INLINE void sb_ledger_store(const sb_ledger_tally *t, sb_ledger_sums *sums)
     sums->solve = 0.5 * (t->solve[0] + t->solve[1] + t->solve[2]);
     sums->fall = 0.5 * (t->start[2] + t->end[2]);
     sums->rise = (double)t->rise;
-    for (int axis = 0; axis < 3; axis++)
-        sums->gain[axis] = t->end[axis] - t->start[axis];
+    for (int axis = 0; axis < 3; axis++) sums->gain[axis] = t->end[axis] - t->start[axis];
     sums->size = t->size;
 }
 

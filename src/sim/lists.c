@@ -87,14 +87,12 @@ static bool publish(sb_sim *sim, sb_list_builder *lists, size_t begin, size_t en
     bool room = take(&sim->pairs.used, sim->pairs.capacity, lists->fours, &four);
     room &= take(&sim->wall_pairs.used, sim->wall_pairs.capacity, lists->walls, &wall);
     room &= take(&groups->used, groups->room, lists->runs, &run);
-    if (room && lists->fours > 0)
-        memcpy(sim->pairs.four + four, lists->four, lists->fours * sizeof *lists->four);
+    if (room && lists->fours > 0) memcpy(sim->pairs.four + four, lists->four, lists->fours * sizeof *lists->four);
     if (room && lists->walls > 0) {
         memcpy(sim->wall_pairs.index + wall, lists->wall, lists->walls * sizeof *lists->wall);
         memcpy(sim->wall_pairs.slope + wall, lists->wall_slope, lists->walls * sizeof *lists->wall_slope);
     }
-    if (room && lists->runs > 0)
-        memcpy(groups->run + run, lists->run, lists->runs * sizeof *lists->run);
+    if (room && lists->runs > 0) memcpy(groups->run + run, lists->run, lists->runs * sizeof *lists->run);
     for (size_t g = begin; g < end; g++) {
         groups->group[g].run += (uint32_t)run;
         for (size_t i = groups->group[g].first; i < groups->group[g].end; i++) {
@@ -129,8 +127,7 @@ static int attempt(sb_sim *sim, bool *too_small, bool *full)
             const size_t begin = u * GROUPS, end = begin + GROUPS < groups ? begin + GROUPS : groups;
             for (size_t g = begin; g < end && !lists.starved; g++)
                 sb_search_group(sim, searcher, &lists, &sim->groups.group[g]);
-            if (!lists.starved)
-                small |= !publish(sim, &lists, begin, end);
+            if (!lists.starved) small |= !publish(sim, &lists, begin, end);
         }
         over |= searcher && sb_searcher_full(searcher);
         memory |= lists.starved;
@@ -184,14 +181,13 @@ sb_status sb_stage_neighbours(sb_sim *sim, sb_error *error)
         if (sb_groups_build(sim) != 0 || attempt(sim, &too_small, &full) != 0)
             return sb_fail_memory(error, "neighbour lists");
         if (full)
-            return sb_fail(error, SB_FAILED,
-                           "step %llu: more than %d particles around one: the water has collapsed, or walls are too dense",
-                           (unsigned long long)sim->report.step, SB_LIST_MAX);
-        if (!too_small)
-            return SB_OK;
+            return sb_fail(
+                error, SB_FAILED,
+                "step %llu: more than %d particles around one: the water has collapsed, or walls are too dense",
+                (unsigned long long)sim->report.step, SB_LIST_MAX);
+        if (!too_small) return SB_OK;
         if (sim->pairs.used > UINT32_MAX / 2 || sim->wall_pairs.used > UINT32_MAX / 2)
             return sb_fail(error, SB_FAILED, "%zu neighbour pairs: expected fewer than 2^33", 4 * sim->pairs.used);
-        if (enlarge(sim) != 0)
-            return sb_fail_memory(error, "neighbour lists");
+        if (enlarge(sim) != 0) return sb_fail_memory(error, "neighbour lists");
     }
 }

@@ -10,9 +10,9 @@ typedef struct sb_list_builder {
     uint32_t *wall;
     float *wall_slope;
     sb_run *run;
-    size_t fours, walls, runs;  /* written since the last time room was taken */
+    size_t fours, walls, runs; /* written since the last time room was taken */
     size_t capacity_four, capacity_wall, capacity_slope, capacity_run;
-    bool starved;               /* memory ran out */
+    bool starved; /* memory ran out */
 } sb_list_builder;
 
 /* Appends the hits as particle i's list, their slopes by `root`; those beyond `count` are the particle itself. */

@@ -8,8 +8,8 @@
 #include <math.h>
 
 enum {
-    WALLS = 4096,  /* boundary particles around one cell; more are refused */
-    MOST = 32767,  /* of a stored slope */
+    WALLS = 4096, /* boundary particles around one cell; more are refused */
+    MOST = 32767, /* of a stored slope */
 };
 
 /* Boundary particles around one cell as offsets from the cell's corner, in quanta. */
@@ -27,11 +27,11 @@ struct sb_searcher {
     const sb_kernel *kernel;
     sb_kernel_batch *batch;
     sb_find_hits *find_hits;
-    float q_scale;        /* (quantum / h)^2 */
-    float value_scale;    /* alpha / h^d */
-    float slope_scale;    /* alpha quantum / h^(d+2): W'/r per quantum */
-    float to_units;       /* a slope of the kernel in stored units */
-    bool full;            /* a limit was hit */
+    float q_scale;     /* (quantum / h)^2 */
+    float value_scale; /* alpha / h^d */
+    float slope_scale; /* alpha quantum / h^(d+2): W'/r per quantum */
+    float to_units;    /* a slope of the kernel in stored units */
+    bool full;         /* a limit was hit */
 };
 
 /* ---- walls around a cell ---- */
@@ -61,8 +61,7 @@ static void gather_walls(const sb_sim *sim, struct sb_searcher *w, size_t i, sb_
     w->wall.count = 0;
     for (uint32_t s = 0; s < SB_WALL_SETS; s++) {
         const sb_wall_set *set = &sim->walls[s];
-        if (!sb_walls_near(set, &sim->space, sim->position[i]))
-            continue;
+        if (!sb_walls_near(set, &sim->space, sim->position[i])) continue;
         for (int dz = -1; dz <= 1; dz++)
             for (int dy = -layers; dy <= layers; dy++)
                 for (int dx = -1; dx <= 1; dx++) {
@@ -115,8 +114,7 @@ SB_INLINE void fluid_sums(struct sb_searcher *w, float mass, float unit, float *
     sb_hits *h = &w->hits;
     sb_f8 value = {0}, x = {0}, y = {0}, z = {0}, square = {0};
     w->batch(w->kernel, h->q2, h->padded, h->value, h->slope);
-    for (size_t k = 0; k < h->padded; k += SB_HIT_LANES)
-        value += *(const sb_f8 *)(h->value + k);
+    for (size_t k = 0; k < h->padded; k += SB_HIT_LANES) value += *(const sb_f8 *)(h->value + k);
     round_slopes(h->slope, h->root, h->padded, w->to_units);
     for (size_t k = 0; k < h->padded; k += SB_HIT_LANES) {
         const sb_f8 slope = *(const sb_f8 *)(h->slope + k) * unit;
@@ -173,8 +171,7 @@ SB_INLINE void one_particle(sb_sim *sim, struct sb_searcher *w, sb_list_builder 
     sb_list_water(lists, &w->hits, sim, i);
     sim->wall_pairs.count[i] = 0;
     const float of_water = density;
-    if (sim->deficit)
-        sim->residual[i] = sb_sum3(sum * sum);
+    if (sim->deficit) sim->residual[i] = sb_sum3(sum * sum);
     if (w->wall.count > 0) {
         const sb_stretch all = {0, (uint32_t)w->wall.count};
         find_hits(w, &(sb_candidates){w->wall.x, w->wall.y, w->wall.z}, &all, 1, sb_offset(sim->position[i], cell),
@@ -185,11 +182,9 @@ SB_INLINE void one_particle(sb_sim *sim, struct sb_searcher *w, sb_list_builder 
         }
     }
     float diagonal = squares;
-    for (int axis = 0; axis < 3; axis++)
-        diagonal += (sum[axis] + wall[axis]) * (sum[axis] + wall[axis]);
+    for (int axis = 0; axis < 3; axis++) diagonal += (sum[axis] + wall[axis]) * (sum[axis] + wall[axis]);
     sim->density[i] = density;
-    if (sim->deficit)
-        sim->source[i] = density - of_water;
+    if (sim->deficit) sim->source[i] = density - of_water;
     sim->wall[i] = wall;
     sim->diagonal[i] = diagonal > 1e-6f * c->full_diagonal ? diagonal : 0;
 }
@@ -228,7 +223,8 @@ void sb_search_group(sb_sim *sim, struct sb_searcher *w, sb_list_builder *lists,
 static float slope_scale(const sb_sim *sim)
 {
     const int d = sim->constant.dimension;
-    return (float)(sim->scene->numerics.kernel->alpha[d] * sim->space.quantum / pow((double)sim->constant.support, d + 2));
+    return (float)(sim->scene->numerics.kernel->alpha[d] * sim->space.quantum /
+                   pow((double)sim->constant.support, d + 2));
 }
 
 float sb_lists_unit(const sb_sim *sim)
@@ -243,8 +239,7 @@ float sb_lists_unit(const sb_sim *sim)
 struct sb_searcher *sb_searcher_create(const sb_sim *sim)
 {
     struct sb_searcher *w = sb_alloc_untouched(1, sizeof *w);
-    if (!w)
-        return NULL;
+    if (!w) return NULL;
     const sb_kernel *kernel = sim->scene->numerics.kernel;
     const int d = sim->constant.dimension;
     const double h = (double)sim->constant.support, quantum = sim->space.quantum;

@@ -1,6 +1,6 @@
 /* sigma_i = -rho^2 q_i M_i with M_i = -(1/rho_0) sum_j m x_ij (x) grad W_ij is what water bears under the pressure q_i.
-   Its deviator, -rho^2 q_i (M_i - t_i 1), t_i the mean of the diagonal, is the packing's alone. By the pair force of the
-   pressure gradient, with a tensor in the place of q,
+   Its deviator, -rho^2 q_i (M_i - t_i 1), t_i the mean of the diagonal, is the packing's alone. By the pair force of
+   the pressure gradient, with a tensor in the place of q,
 
        dv_i/dt = -sum_j m (S_i + S_j) grad W_ij,   S_i = q_i <E>_i,   E_i = c (1 - M_i / t_i)
 
@@ -51,8 +51,7 @@ SB_INLINE bool beside_sleepers(const sb_sim *sim, const sb_group *group, size_t 
     const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
     for (; four < end; four++)
         for (int k = 0; k < 4; k++)
-            if (four->place[k] >= first)
-                return true;
+            if (four->place[k] >= first) return true;
     return false;
 }
 
@@ -68,12 +67,10 @@ static void find_strain(sb_sim *sim, const sb_group *group, float share)
     for (size_t i = group->first; i < group->end; i++) {
         sim->residual[i] = 0;
         sim->acceleration[i] = (sb_f4){0};
-        if (sim->wall_pairs.count[i] > 0)
-            continue;
+        if (sim->wall_pairs.count[i] > 0) continue;
         const moments m = gather(sim, group, around, i);
         const float mean = part * (m.xx + m.yy + m.zz), off = -share / mean;
-        if (!(unit * mean >= FULL))
-            continue;
+        if (!(unit * mean >= FULL)) continue;
         sim->residual[i] = share + off * m.xx;
         sim->acceleration[i] = (sb_f4){flat ? 0 : share + off * m.yy, off * m.xy, off * m.xz, off * m.yz};
     }
@@ -102,8 +99,7 @@ static void find_stress(sb_sim *sim, const sb_group *group)
     for (size_t i = group->first; i < group->end; i++) {
         stress[i] = (sb_f4){0};
         sim->source[i] = 0;
-        if (!any)
-            continue;
+        if (!any) continue;
         const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
         const sb_f4 own = {0, 0, 0, sim->residual[i]};
         sb_f8 even = sb_beside(own, sim->acceleration[i]) * sb_splat8(OWN), odd = {0};
@@ -135,8 +131,7 @@ static void push(sb_sim *sim, const sb_group *group, float dt)
     const bool any = any_around(sim, group, around);
     for (size_t i = group->first; i < group->end; i++) {
         next[i] = sim->velocity[i];
-        if (!any)
-            continue;
+        if (!any) continue;
         const sb_f4 self = sb_in_group(sim, group, i), own = sim->acceleration[i];
         const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
         sb_f4 sum_x = {0}, sum_y = {0}, sum_z = {0};
@@ -170,11 +165,9 @@ static void book(const sb_sim *sim, size_t block)
     sum[0] = sum[1] = sum[2] = sum[3] = 0;
     sum[4] = (double)sim->n;
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
-        if (!(sb_sum3(next[i] * next[i]) <= limit) && sum[4] == (double)sim->n)
-            sum[4] = (double)i;
+        if (!(sb_sum3(next[i] * next[i]) <= limit) && sum[4] == (double)sim->n) sum[4] = (double)i;
         sum[0] += sb_ledger_work(sim->velocity[i], next[i], sim->velocity[i], next[i]);
-        for (int axis = 0; axis < 3; axis++)
-            sum[1 + axis] += (double)next[i][axis] - (double)sim->velocity[i][axis];
+        for (int axis = 0; axis < 3; axis++) sum[1 + axis] += (double)next[i][axis] - (double)sim->velocity[i][axis];
     }
 }
 
@@ -195,30 +188,25 @@ sb_status sb_stage_packing(sb_sim *sim, sb_error *error)
     const size_t groups = sim->groups.count, blocks = sb_blocks(sim);
     const float dt = (float)sim->report.time_step, share = (float)sim->scene->numerics.stress_correction;
 #pragma omp parallel for schedule(dynamic, GROUPS)
-    for (size_t g = 0; g < groups; g++)
-        find_strain(sim, &sim->groups.group[g], share);
+    for (size_t g = 0; g < groups; g++) find_strain(sim, &sim->groups.group[g], share);
     sb_ghosts_refresh(sim, sim->acceleration);
     sb_pressure_load(sim, sim->residual);
 #pragma omp parallel for schedule(dynamic, GROUPS)
-    for (size_t g = 0; g < groups; g++)
-        find_stress(sim, &sim->groups.group[g]);
+    for (size_t g = 0; g < groups; g++) find_stress(sim, &sim->groups.group[g]);
     swap(&sim->acceleration, &sim->scratch);
     sb_ghosts_refresh(sim, sim->acceleration);
     sb_pressure_load(sim, sim->source);
 #pragma omp parallel for schedule(dynamic, GROUPS)
-    for (size_t g = 0; g < groups; g++)
-        push(sim, &sim->groups.group[g], dt);
+    for (size_t g = 0; g < groups; g++) push(sim, &sim->groups.group[g], dt);
 #pragma omp parallel for schedule(static)
-    for (size_t b = 0; b < blocks; b++)
-        book(sim, b);
+    for (size_t b = 0; b < blocks; b++) book(sim, b);
     const double mass = (double)sim->constant.mass;
     double work = 0;
     sb_vec3 gain = {0};
     for (size_t b = 0; b < blocks; b++) {
         const double *sum = sim->partial + SUMS * b;
         const size_t fast = (size_t)sum[4];
-        if (fast < sim->n)
-            return sb_sim_diverged(sim, fast, ((const sb_f4 *)sim->scratch)[fast], error);
+        if (fast < sim->n) return sb_sim_diverged(sim, fast, ((const sb_f4 *)sim->scratch)[fast], error);
         work += sum[0];
         gain = sb_add(gain, sb_vec(sum[1], sum[2], sum[3]));
     }

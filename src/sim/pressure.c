@@ -32,10 +32,10 @@ sb_status sb_stage_source(sb_sim *sim, sb_error *error)
     return SB_OK;
 }
 
-/* q from the last step's pressure in Pa, whatever dt was then (all of it while a sea settles: its pressures are to stay);
-   and -a_ii by this step's dt. A drop on its own
-   beside a wall starts from its answer: it moves far against the wall in a step, and an old pressure, which
-   the mean error of all the water does not show, would throw it back faster than it came. */
+/* q from the last step's pressure in Pa, whatever dt was then (all of it while a sea settles: its pressures are to
+   stay); and -a_ii by this step's dt. A drop on its own beside a wall starts from its answer: it moves far against the
+   wall in a step, and an old pressure, which the mean error of all the water does not show, would throw it back faster
+   than it came. */
 static void first_guess(sb_sim *sim)
 {
     const size_t n = sim->n;
@@ -46,8 +46,7 @@ static void first_guess(sb_sim *sim)
         float p = sim->velocity[i][3], rho = sim->density[i];
         float q = share * p / (rho * rho);
         sim->diagonal[i] *= dt2;
-        if (sim->pairs.count[i] == 0)
-            q = -sim->source[i] / sim->diagonal[i];
+        if (sim->pairs.count[i] == 0) q = -sim->source[i] / sim->diagonal[i];
         sim->unknown[i] = sim->diagonal[i] > 0 && q > 0 ? q : 0;
     }
 }
@@ -55,10 +54,8 @@ static void first_guess(sb_sim *sim)
 static double tolerance(const sb_sim *sim)
 {
     const sb_numerics *n = &sim->scene->numerics;
-    if (n->tolerance_rule == SB_TOLERANCE_DENSITY)
-        return n->tolerance;
-    double courant = sim->report.time_step * (double)sim->constant.wave_speed /
-                     (double)sim->constant.spacing;
+    if (n->tolerance_rule == SB_TOLERANCE_DENSITY) return n->tolerance;
+    double courant = sim->report.time_step * (double)sim->constant.wave_speed / (double)sim->constant.spacing;
     return n->tolerance * courant * courant;
 }
 
@@ -78,8 +75,7 @@ static void judge_block(const sb_sim *sim, size_t block, double *partial)
     double excess = 0, active = 0, count = 0, worst = 0;
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
         double e = (double)sim->residual[i];
-        if (sim->diagonal[i] == 0)
-            continue;
+        if (sim->diagonal[i] == 0) continue;
         excess += e > 0 ? e : 0;
         worst = e > worst ? e : worst;
         active += sim->unknown[i] > 0 ? fabs(e) : 0;
@@ -97,8 +93,7 @@ sb_pressure_error sb_pressure_judge(sb_sim *sim)
     const double rest = (double)sim->constant.rest_density;
     double excess = 0, active = 0, count = 0, worst = 0;
 #pragma omp parallel for schedule(static)
-    for (size_t b = 0; b < blocks; b++)
-        judge_block(sim, b, sim->partial + 4 * b);
+    for (size_t b = 0; b < blocks; b++) judge_block(sim, b, sim->partial + 4 * b);
     for (size_t b = 0; b < blocks; b++) {
         const double *p = sim->partial + 4 * b;
         excess += p[0];
@@ -118,9 +113,9 @@ sb_pressure_error sb_pressure_judge(sb_sim *sim)
     return error;
 }
 
-/* A step that stops a sweep sooner than the one before leaves more than that did, the next one makes up for it, and the load on
-   a floor at rest swings by a per cent from step to step. So to stop sooner the error has to be by this much smaller. In 2D
-   the load swings less, and water comes to rest less well by it (docs/decisions/0020). */
+/* A step that stops a sweep sooner than the one before leaves more than that did, the next one makes up for it, and the
+   load on a floor at rest swings by a per cent from step to step. So to stop sooner the error has to be by this much
+   smaller. In 2D the load swings less, and water comes to rest less well by it (docs/decisions/0020). */
 static const double SOONER = 0.7;
 
 /* The error judged is what is too dense. Chebyshev's passes also leave water that is pressed too much; where that is
@@ -137,8 +132,7 @@ bool sb_pressure_done(sb_sim *sim, const sb_pressure_error *error)
         enough &= error->active <= PRESSED * tolerance;
     else if (n->tolerance_rule == SB_TOLERANCE_PRESSURE && sim->report.iterations < sim->last_sweeps)
         enough = error->mean <= SOONER * tolerance;
-    if (enough && sim->report.iterations >= n->min_iterations)
-        return true;
+    if (enough && sim->report.iterations >= n->min_iterations) return true;
     sim->report.capped = sim->report.iterations >= n->max_iterations;
     return sim->report.capped;
 }

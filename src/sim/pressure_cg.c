@@ -9,18 +9,17 @@ static const float PROJECTION = 0.55f;
 
 /* Inner products of one sweep. */
 typedef struct sums {
-    double free, chopped;  /* |phi|^2_D, |beta|^2_D: gradient on q > 0, and inward gradient on q = 0 */
-    double slope;          /* e . direction */
-    double curvature;      /* - direction . A direction */
-    double feasible;       /* longest step that keeps q >= 0 */
+    double free, chopped; /* |phi|^2_D, |beta|^2_D: gradient on q > 0, and inward gradient on q = 0 */
+    double slope;         /* e . direction */
+    double curvature;     /* - direction . A direction */
+    double feasible;      /* longest step that keeps q >= 0 */
 } sums;
 
 static void sum_block(const sb_sim *sim, size_t block, double *partial)
 {
     double free = 0, chopped = 0, slope = 0, curvature = 0, feasible = (double)INFINITY;
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
-        if (sim->diagonal[i] == 0)
-            continue;
+        if (sim->diagonal[i] == 0) continue;
         double e = (double)sim->residual[i], d = (double)sim->direction[i];
         double q = (double)sim->unknown[i];
         if (q > 0)
@@ -29,12 +28,10 @@ static void sum_block(const sb_sim *sim, size_t block, double *partial)
             chopped += e * e / (double)sim->diagonal[i];
         slope += e * d;
         curvature -= d * (double)sim->product[i];
-        if (d < 0 && q < -feasible * d)
-            feasible = -q / d;
+        if (d < 0 && q < -feasible * d) feasible = -q / d;
     }
     const double values[5] = {free, chopped, slope, curvature, feasible};
-    for (int v = 0; v < 5; v++)
-        partial[v] = values[v];
+    for (int v = 0; v < 5; v++) partial[v] = values[v];
 }
 
 static sums sum_all(sb_sim *sim)
@@ -42,8 +39,7 @@ static sums sum_all(sb_sim *sim)
     const size_t blocks = sb_blocks(sim);
     sums s = {.feasible = (double)INFINITY};
 #pragma omp parallel for schedule(static)
-    for (size_t b = 0; b < blocks; b++)
-        sum_block(sim, b, sim->partial + 5 * b);
+    for (size_t b = 0; b < blocks; b++) sum_block(sim, b, sim->partial + 5 * b);
     for (size_t b = 0; b < blocks; b++) {
         const double *p = sim->partial + 5 * b;
         s.free += p[0];
@@ -86,8 +82,7 @@ static void project(sb_sim *sim)
     const size_t n = sim->n;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) {
-        if (sim->unknown[i] == 0 || sim->diagonal[i] == 0)
-            continue;
+        if (sim->unknown[i] == 0 || sim->diagonal[i] == 0) continue;
         float q = sim->unknown[i] + PROJECTION * sim->residual[i] / sim->diagonal[i];
         sim->unknown[i] = q > 0 ? q : 0;
     }
@@ -106,8 +101,7 @@ static double conjugation(sb_sim *sim, double curvature)
                 part += (double)sim->residual[i] / (double)sim->diagonal[i] * (double)sim->product[i];
         sim->partial[b] = part;
     }
-    for (size_t b = 0; b < blocks; b++)
-        sum += sim->partial[b];
+    for (size_t b = 0; b < blocks; b++) sum += sim->partial[b];
     return sum / curvature;
 }
 
@@ -120,13 +114,11 @@ static sb_status solve(sb_sim *sim, sb_error *error)
     while (!sb_pressure_done(sim, &judged)) {
         sums s = sum_all(sim);
         bool chopped = s.chopped > s.free;
-        if (chopped)
-            aim(sim, true, 0);
+        if (chopped) aim(sim, true, 0);
         sb_pressure_load(sim, sim->direction);
         sb_pressure_product(sim, sim->product);
         s = sum_all(sim);
-        if (!(s.curvature > 0))
-            break;
+        if (!(s.curvature > 0)) break;
         double best = s.slope / s.curvature;
         if (chopped || best <= s.feasible) {
             advance(sim, (float)best);

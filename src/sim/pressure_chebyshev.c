@@ -6,8 +6,8 @@
 
 /* Lower end of the spectrum of D^-1 A that the polynomial is made for: it sets which error modes are damped well within
    the sweeps that a solve takes. A polynomial of degree n tells 1 from modes down to about 1/n^2 of the upper end, so
-   it follows the sweeps n of the step before (docs/decisions/0017); in 2D that gains nothing, and long modes left over make a
-   tank's force noisy. START: where n is not known. */
+   it follows the sweeps n of the step before (docs/decisions/0017); in 2D that gains nothing, and long modes left over
+   make a tank's force noisy. START: where n is not known. */
 static const double IN_2D = 0.06, START = 0.1, SHARE = 8, SMALLEST_MIN = 0.06, SMALLEST_MAX = 0.2;
 
 /* Water in turmoil may reach further up; then the error grows from sweep to sweep, is seen to, and the polynomial
@@ -23,8 +23,7 @@ typedef struct polynomial {
 static double lower_end(const sb_sim *sim)
 {
     const double n = sim->last_sweeps;
-    if (sim->constant.dimension == 2)
-        return IN_2D;
+    if (sim->constant.dimension == 2) return IN_2D;
     return n > 0 ? fmin(fmax(SHARE / (n * n), SMALLEST_MIN), SMALLEST_MAX) : START;
 }
 
@@ -46,8 +45,7 @@ static void sweep(sb_sim *sim, polynomial *p)
     p->first = false;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) {
-        if (sim->diagonal[i] == 0)
-            continue;
+        if (sim->diagonal[i] == 0) continue;
         float old = sim->unknown[i], move = first ? 0 : keep * sim->direction[i];
         float q = old + move + step * sim->residual[i] / sim->diagonal[i];
         q = q > 0 ? q : 0;
@@ -64,8 +62,7 @@ static sb_status solve(sb_sim *sim, sb_error *error)
     for (;;) {
         sb_pressure_residual(sim);
         const sb_pressure_error judged = sb_pressure_judge(sim);
-        if (sb_pressure_done(sim, &judged))
-            return SB_OK;
+        if (sb_pressure_done(sim, &judged)) return SB_OK;
         if (judged.active > GROWN * least) {
             p = begin(WIDER * p.largest, p.smallest);
             least = judged.active;

@@ -13,8 +13,7 @@ static void load_fringe(sb_sim *sim, const float *argument)
                         : argument == sim->density ? sleep->fringe_density
                                                    : NULL;
     sb_record *position = sim->position + sb_fringe_first(sim);
-    for (size_t f = 0; f < sleep->fringe; f++)
-        sb_carry(&position[f], held ? held[f] : 0);
+    for (size_t f = 0; f < sleep->fringe; f++) sb_carry(&position[f], held ? held[f] : 0);
 }
 
 void sb_pressure_load(sb_sim *sim, const float *argument)
@@ -22,17 +21,13 @@ void sb_pressure_load(sb_sim *sim, const float *argument)
     const size_t n = sim->n;
     sb_record *position = sim->position;
 #pragma omp parallel for schedule(static)
-    for (size_t i = 0; i < n; i++)
-        sb_carry(&position[i], argument[i]);
-    if (sb_fringe_count(sim) > 0)
-        load_fringe(sim, argument);
+    for (size_t i = 0; i < n; i++) sb_carry(&position[i], argument[i]);
+    if (sb_fringe_count(sim) > 0) load_fringe(sim, argument);
     const size_t ghosts = sim->ghosts.count;
     const uint32_t *of = sim->ghosts.of;
-    if (ghosts == 0)
-        return;
+    if (ghosts == 0) return;
 #pragma omp parallel for schedule(static)
-    for (size_t g = 0; g < ghosts; g++)
-        sb_carry(&position[n + g], argument[of[g]]);
+    for (size_t g = 0; g < ghosts; g++) sb_carry(&position[n + g], argument[of[g]]);
 }
 
 enum { GROUPS = 8 }; /* per unit of work */
@@ -56,8 +51,7 @@ SB_INLINE sb_f8 two_slopes(const uint16_t *slope)
 /* Sum of the two halves of what two_slopes went into. */
 SB_INLINE sb_f4 fold(sb_f8 v)
 {
-    return __builtin_shufflevector(v, v, 0, 1, 2, 3) +
-           __builtin_shufflevector(v, v, 4, 5, 6, 7) * sb_splat(0x1p-32f);
+    return __builtin_shufflevector(v, v, 0, 1, 2, 3) + __builtin_shufflevector(v, v, 4, 5, 6, 7) * sb_splat(0x1p-32f);
 }
 
 SB_MULTIVERSION
@@ -105,16 +99,14 @@ void sb_pressure_accelerate(sb_sim *sim)
 {
     const size_t groups = sim->groups.count;
 #pragma omp parallel for schedule(dynamic, GROUPS)
-    for (size_t g = 0; g < groups; g++)
-        accelerate_group(sim, &sim->groups.group[g]);
+    for (size_t g = 0; g < groups; g++) accelerate_group(sim, &sim->groups.group[g]);
 }
 
 void sb_divergence(sb_sim *sim, const sb_f4 *field, float factor, float *out)
 {
     const size_t groups = sim->groups.count;
 #pragma omp parallel for schedule(dynamic, GROUPS)
-    for (size_t g = 0; g < groups; g++)
-        diverge_group(sim, &sim->groups.group[g], field, factor, out);
+    for (size_t g = 0; g < groups; g++) diverge_group(sim, &sim->groups.group[g], field, factor, out);
 }
 
 void sb_pressure_diverge(sb_sim *sim, float *out)
@@ -136,6 +128,5 @@ void sb_pressure_residual(sb_sim *sim)
     sb_pressure_load(sim, sim->unknown);
     sb_pressure_product(sim, sim->residual);
 #pragma omp parallel for schedule(static)
-    for (size_t i = 0; i < n; i++)
-        sim->residual[i] -= sim->source[i];
+    for (size_t i = 0; i < n; i++) sim->residual[i] -= sim->source[i];
 }

@@ -1,5 +1,6 @@
 /* The state between two steps, on its way into an archive and back. What a step makes anew is left out: cells,
-   ghosts, neighbours, densities; the wall tables follow from the bodies' displacements. So are the stages' times, which are the process's. */
+   ghosts, neighbours, densities; the wall tables follow from the bodies' displacements. So are the stages' times, which
+   are the process's. */
 #include "base/archive.h"
 #include "sim/departures.h"
 #include "sim/sleep.h"
@@ -27,13 +28,12 @@ static void take_report(sb_archive_in *in, sb_step_report *r)
     sb_take_list(in, reals, sizeof reals / sizeof *reals, sizeof *reals);
     double *const fields[] = {&r->time,         &r->time_step, &r->tolerance, &r->error_mean,
                               &r->error_active, &r->error_max, &r->max_speed, &r->momentum_imbalance};
-    for (size_t f = 0; f < sizeof fields / sizeof *fields; f++)
-        *fields[f] = reals[f];
+    for (size_t f = 0; f < sizeof fields / sizeof *fields; f++) *fields[f] = reals[f];
     const bool sane = r->time >= 0 && isfinite(r->time) && r->time_step >= 0 && isfinite(r->time_step) &&
                       r->max_speed >= 0 && isfinite(r->max_speed);
     if (!sane)
-        sb_archive_refuse(in, "time %g s, step %g s, speed %g m/s: expected finite numbers >= 0", r->time,
-                          r->time_step, r->max_speed);
+        sb_archive_refuse(in, "time %g s, step %g s, speed %g m/s: expected finite numbers >= 0", r->time, r->time_step,
+                          r->max_speed);
 }
 
 void sb_sim_save(const sb_sim *sim, sb_archive_out *out)
@@ -81,8 +81,7 @@ static void take_deficits(sb_sim *sim, sb_archive_in *in)
     const size_t n = sim->deficit ? sim->model->fluid_count : 0;
     sb_take_list(in, sim->deficit, n, sizeof *sim->deficit);
     for (size_t i = 0; i < n; i++) {
-        if (!isinf(sim->deficit[i]))
-            continue;
+        if (!isinf(sim->deficit[i])) continue;
         sb_archive_refuse(in, "particle %zu lacks %g kg/m^3, expected a finite density", i, (double)sim->deficit[i]);
         return;
     }
@@ -107,8 +106,7 @@ static void take_moving(sb_sim *sim, sb_archive_in *in)
 sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
 {
     sb_status status = sb_archive_enter(in, SECTION, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     take_report(in, &sim->report);
     sim->left_domain = sim->report.left_domain = sb_take_count(in, UINT64_MAX);
     sim->lost = sim->report.lost = sb_take_count(in, UINT64_MAX);
@@ -123,10 +121,8 @@ sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
     if (in->error.status == SB_OK && hash != expected)
         sb_archive_refuse(in, "its state hashes to %016llx, expected %016llx", (unsigned long long)hash,
                           (unsigned long long)expected);
-    if (status == SB_OK)
-        status = sb_archive_leave(in, error);
-    if (status == SB_OK)
-        status = sb_walls_restore(sim, error);
+    if (status == SB_OK) status = sb_archive_leave(in, error);
+    if (status == SB_OK) status = sb_walls_restore(sim, error);
     /* Lists and cells are of other particles: none, until the next step's. */
     sim->listed = sim->told = false;
     if (sb_cells_build(&sim->cells, sim->position, 0, sim->space.shift) != 0 && status == SB_OK)

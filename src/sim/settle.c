@@ -30,8 +30,7 @@ float sb_settle_pull(const sb_sim *sim, sb_record at)
 {
     const sb_initial_wave *wave = &sim->scene->wave;
     const double gravity = sim->scene->fluid.gravity, step = 1e-4 * wave->depth;
-    if (wave->kind == SB_INITIAL_NONE || sim->settling == SB_POISED)
-        return 0;
+    if (wave->kind == SB_INITIAL_NONE || sim->settling == SB_POISED) return 0;
     const double x = sb_space_position(&sim->space, at).x - wave->position;
     const sb_solitary solitary = {wave->height, wave->depth, gravity, wave->theory};
     const bool travels = wave->kind == SB_INITIAL_SOLITARY;
@@ -82,17 +81,14 @@ static sb_status poise(sb_sim *sim, sb_error *error)
 
 sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
 {
-    if (!sb_sim_settles(sim->scene))
-        return SB_OK;
+    if (!sb_sim_settles(sim->scene)) return SB_OK;
     const bool boxes = sim->scene->box_count > 0;
     const double calm = CALM * (double)sim->constant.wave_speed;
     int steps = sim->scene->numerics.settle_steps, still = 0;
-    int turn = steps - CALM_LAST; /* where the last ones begin */
+    int turn = steps - CALM_LAST;     /* where the last ones begin */
     double before = (double)INFINITY; /* J, kinetic energy at the last trial */
-    if (boxes && steps > CREEP_BOXES)
-        steps = CREEP_BOXES;
-    for (size_t i = 0; i < sim->n; i++)
-        sim->velocity[i] = (sb_f4){0, 0, 0, sim->velocity[i][3]};
+    if (boxes && steps > CREEP_BOXES) steps = CREEP_BOXES;
+    for (size_t i = 0; i < sim->n; i++) sim->velocity[i] = (sb_f4){0, 0, 0, sim->velocity[i][3]};
     sim->report.max_speed = 0;
     sb_status status = sb_sleep_expect(sim, error);
     for (int s = 0; s < steps && still < CALM_STEPS && status == SB_OK && !sb_stop_signal(); s++) {
@@ -100,8 +96,7 @@ sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
         status = sb_sim_step(sim, error);
         sb_sleep_listen(sim, s);
         still = sim->report.max_speed < calm ? still + 1 : 0;
-        if (sim->settling != SB_DAMPED)
-            continue;
+        if (sim->settling != SB_DAMPED) continue;
         bool done = still == CALM_STEPS;
         if ((s + 1 - CREEP_FIRST) % TRIAL_STEPS == 0) {
             const double kinetic = sb_sim_energy(sim).kinetic;
@@ -117,10 +112,8 @@ sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
     sim->settling = SB_RUNNING;
     if (status == SB_OK && sb_stop_signal())
         status = sb_stop_fail(error, "while the water came to rest: nothing is computed yet");
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     let_go(sim);
-    if ((boxes || sim->scene->wave.kind != SB_INITIAL_NONE) && sim->report.max_speed == 0)
-        status = poise(sim, error);
+    if ((boxes || sim->scene->wave.kind != SB_INITIAL_NONE) && sim->report.max_speed == 0) status = poise(sim, error);
     return status == SB_OK ? sb_sleep_begin(sim, error) : status;
 }

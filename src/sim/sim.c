@@ -4,8 +4,8 @@
 #include "sim/around.h"
 #include "sim/deficit.h"
 #include "sim/friction.h"
-#include "sim/ledger.h"
 #include "sim/lattice.h"
+#include "sim/ledger.h"
 #include "sim/packing.h"
 #include "sim/pressure.h"
 #include "sim/sleep.h"
@@ -35,8 +35,8 @@ static sb_constants make_constants(const sb_scene *scene, const sb_model *model)
         .full_diagonal = (float)sb_lattice_diagonal(scene, mass),
         .spectrum = sb_lattice_spectrum(scene),
         .bulk_deficit = (float)(scene->fluid.density * (1 - sb_lattice_density(scene))),
-        .surface_deficit = (float)(sb_lattice_truncation(scene) *
-                                   pow(scene->numerics.support * dr, 2) / scene->fluid.density),
+        .surface_deficit =
+            (float)(sb_lattice_truncation(scene) * pow(scene->numerics.support * dr, 2) / scene->fluid.density),
         .speed_limit = (float)fmax(100 * wave_speed, sb_scene_speed_limit(scene)),
     };
 }
@@ -51,28 +51,36 @@ static int allocate(sb_sim *sim, size_t n, size_t bodies)
         size_t count, size;
         bool needed;
     } rows[] = {
-        {&sim->position, n, 16, true},          {&sim->velocity, n, 16, true},
-        {&sim->id, n, 4, true},                 {&sim->deficit, n, 4, sb_deficit_on(sim->scene)},
+        {&sim->position, n, 16, true},
+        {&sim->velocity, n, 16, true},
+        {&sim->id, n, 4, true},
+        {&sim->deficit, n, 4, sb_deficit_on(sim->scene)},
         {&sim->acceleration, n, 16, true},
-        {&sim->wall, n, 16, true},              {&sim->density, n, 4, true},
-        {&sim->diagonal, n, 4, true},           {&sim->source, n, 4, true},
-        {&sim->unknown, n, 4, true},            {&sim->residual, n, 4, true},
-        {&sim->direction, n, 4, direction},     {&sim->product, n, 4, direction},
+        {&sim->wall, n, 16, true},
+        {&sim->density, n, 4, true},
+        {&sim->diagonal, n, 4, true},
+        {&sim->source, n, 4, true},
+        {&sim->unknown, n, 4, true},
+        {&sim->residual, n, 4, true},
+        {&sim->direction, n, 4, direction},
+        {&sim->product, n, 4, direction},
         {&sim->eddy, n, 4, sb_turbulence_on(sim->scene)},
-        {&sim->scratch, n, 16, true},           {&sim->rubbed, n, 16, sb_rub_on(sim->scene)},
-        {&sim->pairs.first, n, 4, true},        {&sim->pairs.count, n, 2, true},
-        {&sim->wall_pairs.first, n, 4, true},   {&sim->wall_pairs.count, n, 2, true},
-        {&sim->partial, blocks, 40, true},      {&sim->block_touched, blocks, 1, true},
+        {&sim->scratch, n, 16, true},
+        {&sim->rubbed, n, 16, sb_rub_on(sim->scene)},
+        {&sim->pairs.first, n, 4, true},
+        {&sim->pairs.count, n, 2, true},
+        {&sim->wall_pairs.first, n, 4, true},
+        {&sim->wall_pairs.count, n, 2, true},
+        {&sim->partial, blocks, 40, true},
+        {&sim->block_touched, blocks, 1, true},
         {&sim->block_impulse, blocks * bodies, 72, true},
         {&sim->impulse, bodies, sizeof *sim->impulse, true},
         {&sim->block_ledger, blocks, sizeof *sim->block_ledger, true},
     };
     for (size_t r = 0; r < sizeof rows / sizeof rows[0]; r++) {
-        if (!rows[r].needed)
-            continue;
+        if (!rows[r].needed) continue;
         void *memory = sb_alloc(rows[r].count, rows[r].size);
-        if (!memory)
-            return -1;
+        if (!memory) return -1;
         memcpy(rows[r].field, &memory, sizeof memory);
         sim->bytes_fixed += rows[r].count * rows[r].size;
     }
@@ -91,8 +99,7 @@ static sb_status create_space(sb_sim *sim, sb_error *error)
     sb_status status =
         sb_space_create(sim->model->min, sim->model->max, (double)sim->constant.support, &sim->space, error);
     for (int axis = 0; axis < 3 && status == SB_OK; axis++)
-        if (sb_scene_repeats(sim->scene, axis))
-            sb_space_repeat(&sim->space, axis, length[axis]);
+        if (sb_scene_repeats(sim->scene, axis)) sb_space_repeat(&sim->space, axis, length[axis]);
     return status;
 }
 
@@ -109,8 +116,7 @@ static void fill_particles(sb_sim *sim)
         sim->id[i] = (uint32_t)i;
     }
     double top = 0;
-    for (size_t i = 0; i < n; i++)
-        top = fmax(top, sb_norm(model->fluid_velocity[i]));
+    for (size_t i = 0; i < n; i++) top = fmax(top, sb_norm(model->fluid_velocity[i]));
     sb_deficit_clear(sim);
     sim->report.max_speed = top;
     sim->report.fluid_count = n;
@@ -123,22 +129,18 @@ static void note_skipped(sb_sim *sim)
     size_t s = 0;
     if (!(n->artificial_viscosity > 0) && !(sim->constant.viscosity > 0) && !sb_turbulence_on(sim->scene))
         sim->skipped[s++] = "viscosity: both coefficients are 0, no pass over pairs";
-    if (!sb_packing_on(sim->scene))
-        sim->skipped[s++] = "packing's stress: left as it is, no passes over pairs for it";
+    if (!sb_packing_on(sim->scene)) sim->skipped[s++] = "packing's stress: left as it is, no passes over pairs for it";
     if (!sb_turbulence_on(sim->scene))
         sim->skipped[s++] = "turbulence: none, no strain rates, no memory for eddy viscosities";
     if (!sb_deficit_on(sim->scene))
         sim->skipped[s++] = "density: summed, no memory for what surfaces and walls change in it";
-    if (!(n->wall_friction > 0))
-        sim->skipped[s++] = "wall friction: coefficient is 0";
+    if (!(n->wall_friction > 0)) sim->skipped[s++] = "wall friction: coefficient is 0";
     if (!sb_shear_on(sim->scene))
-        sim->skipped[s++] = n->wall_shear == SB_SHEAR_NONE ? "wall shear: none" : "wall shear: the fluid has no viscosity";
-    if (!sim->space.repeats)
-        sim->skipped[s++] = "periodic sides: none, no ghosts";
-    if (sim->moving_count == 0)
-        sim->skipped[s++] = "moving walls: no body moves";
-    if (sim->constant.dimension == 2)
-        sim->skipped[s++] = "third dimension: 9 cells searched instead of 27";
+        sim->skipped[s++] =
+            n->wall_shear == SB_SHEAR_NONE ? "wall shear: none" : "wall shear: the fluid has no viscosity";
+    if (!sim->space.repeats) sim->skipped[s++] = "periodic sides: none, no ghosts";
+    if (sim->moving_count == 0) sim->skipped[s++] = "moving walls: no body moves";
+    if (sim->constant.dimension == 2) sim->skipped[s++] = "third dimension: 9 cells searched instead of 27";
     if (!sb_pressure_solvers[n->solver]->needs_direction)
         sim->skipped[s++] = "search direction: the solver needs no memory for one";
     if (!n->sleep)
@@ -153,14 +155,13 @@ static void note_skipped(sb_sim *sim)
 sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **sim, sb_error *error)
 {
     sb_sim *made = sb_alloc(1, sizeof *made);
-    if (!made)
-        return sb_fail_memory(error, "the simulation");
+    if (!made) return sb_fail_memory(error, "the simulation");
     made->scene = scene;
     made->model = model;
     sb_status status = SB_OK;
     if (model->fluid_count >= (size_t)1 << 27)
-        status = sb_fail(error, SB_BAD_INPUT, "%zu fluid particles: expected fewer than %d",
-                         model->fluid_count, 1 << 27);
+        status =
+            sb_fail(error, SB_BAD_INPUT, "%zu fluid particles: expected fewer than %d", model->fluid_count, 1 << 27);
     if (status == SB_OK) {
         made->constant = make_constants(scene, model);
         status = create_space(made, error);
@@ -168,8 +169,7 @@ sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **s
     }
     if (status == SB_OK && allocate(made, model->fluid_count, model->body_count) != 0)
         status = sb_fail_memory(error, "fluid particles");
-    if (status == SB_OK)
-        status = sb_walls_create(made, error);
+    if (status == SB_OK) status = sb_walls_create(made, error);
     if (status != SB_OK) {
         sb_sim_destroy(made);
         return status;
@@ -200,14 +200,13 @@ static void free_lists(sb_sim *sim)
 
 void sb_sim_destroy(sb_sim *sim)
 {
-    if (!sim)
-        return;
-    void *fields[] = {sim->position, sim->velocity, sim->id, sim->deficit, sim->acceleration, sim->wall, sim->density,
-                      sim->eddy, sim->diagonal, sim->source, sim->unknown, sim->residual, sim->direction, sim->product,
-                      sim->scratch, sim->rubbed, sim->partial,
-                      sim->block_touched, sim->block_impulse, sim->impulse, sim->block_ledger};
-    for (size_t f = 0; f < sizeof fields / sizeof fields[0]; f++)
-        sb_free(fields[f]);
+    if (!sim) return;
+    void *fields[] = {
+        sim->position,      sim->velocity, sim->id,          sim->deficit, sim->acceleration, sim->wall,
+        sim->density,       sim->eddy,     sim->diagonal,    sim->source,  sim->unknown,      sim->residual,
+        sim->direction,     sim->product,  sim->scratch,     sim->rubbed,  sim->partial,      sim->block_touched,
+        sim->block_impulse, sim->impulse,  sim->block_ledger};
+    for (size_t f = 0; f < sizeof fields / sizeof fields[0]; f++) sb_free(fields[f]);
     free_lists(sim);
     sb_cells_free(&sim->cells);
     sb_ghosts_destroy(sim);
@@ -234,9 +233,7 @@ const sb_ledger *sb_sim_ledger(const sb_sim *sim)
 sb_vec3 sb_sim_body_displacement(const sb_sim *sim, size_t body)
 {
     uint32_t m = sim->moving_of_body[body];
-    return m == UINT32_MAX
-               ? (sb_vec3){0}
-               : sb_scale(sim->moving[m].direction, sim->moving[m].next_displacement);
+    return m == UINT32_MAX ? (sb_vec3){0} : sb_scale(sim->moving[m].direction, sim->moving[m].next_displacement);
 }
 
 sb_energy sb_sim_energy(const sb_sim *sim)
@@ -264,13 +261,11 @@ sb_energy sb_sim_energy(const sb_sim *sim)
         e.potential += partial[5 * b + 1];
         e.momentum = sb_madd(e.momentum, mass, sb_vec(partial[5 * b + 2], partial[5 * b + 3], partial[5 * b + 4]));
     }
-    for (size_t s = 0; s < sb_asleep(sim); s++)
-        e.potential += (double)sim->sleep->position[s][2];
+    for (size_t s = 0; s < sb_asleep(sim); s++) e.potential += (double)sim->sleep->position[s][2];
     const double count = (double)(sim->n + sb_asleep(sim));
     e.mass = mass * count;
     double base = sim->model->min.z - sim->space.origin.z;
-    e.potential =
-        mass * (double)sim->constant.gravity * (e.potential * sim->space.quantum - count * base);
+    e.potential = mass * (double)sim->constant.gravity * (e.potential * sim->space.quantum - count * base);
     return e;
 }
 
@@ -281,8 +276,7 @@ uint64_t sb_sim_hash(const sb_sim *sim)
         uint32_t xyz[4] = {sim->position[i][0], sim->position[i][1], sim->position[i][2], sim->id[i]};
         hash = sb_hash(hash, xyz, sizeof xyz);
         hash = sb_hash(hash, &sim->velocity[i], sizeof sim->velocity[i]);
-        if (sim->deficit)
-            hash = sb_hash(hash, &sim->deficit[sim->id[i]], sizeof *sim->deficit);
+        if (sim->deficit) hash = sb_hash(hash, &sim->deficit[sim->id[i]], sizeof *sim->deficit);
     }
     for (size_t s = 0; s < sb_asleep(sim); s++) {
         const sb_sleep *sleep = sim->sleep;
@@ -314,7 +308,6 @@ size_t sb_sim_bytes(const sb_sim *sim)
     bytes += sim->pairs.capacity * sizeof *sim->pairs.four + sim->wall_pairs.capacity * 8;
     bytes += sim->groups.capacity * sizeof *sim->groups.group + sim->groups.room * sizeof *sim->groups.run;
     for (int s = 0; s < SB_WALL_SETS; s++)
-        bytes += sb_cells_bytes(&sim->walls[s].cells) + sim->walls[s].count * 20 +
-                 (sim->walls[s].near_mask + 1) * 8;
+        bytes += sb_cells_bytes(&sim->walls[s].cells) + sim->walls[s].count * 20 + (sim->walls[s].near_mask + 1) * 8;
     return bytes + sim->moving_rest_count * 20 + sb_sleep_bytes(sim);
 }

@@ -13,24 +13,24 @@ typedef struct sb_sim sb_sim;
 
 /* What the last step did. */
 typedef struct sb_step_report {
-    uint64_t step;            /* steps done so far */
-    double time, time_step;   /* s: time reached, and the step that led there */
+    uint64_t step;          /* steps done so far */
+    double time, time_step; /* s: time reached, and the step that led there */
     int iterations;
-    bool capped;              /* the solve stopped at max_iterations above its tolerance */
-    double tolerance;         /* relative density error asked for */
+    bool capped;                                /* the solve stopped at max_iterations above its tolerance */
+    double tolerance;                           /* relative density error asked for */
     double error_mean, error_active, error_max; /* relative: over all, over p > 0, worst */
-    double max_speed;         /* m/s */
+    double max_speed;                           /* m/s */
     size_t fluid_count;
-    uint64_t left_domain;     /* particles that left through open sides so far */
-    uint64_t lost;            /* particles that passed a wall side of the domain so far */
-    double momentum_imbalance;    /* of this step: |sum m a + sum F on bodies - M g| / sum m |a| */
+    uint64_t left_domain;      /* particles that left through open sides so far */
+    uint64_t lost;             /* particles that passed a wall side of the domain so far */
+    double momentum_imbalance; /* of this step: |sum m a + sum F on bodies - M g| / sum m |a| */
 } sb_step_report;
 
 /* Impulse and angular impulse on one body since the start: differences over an interval, divided by
    its length, are the interval's mean force. */
 typedef struct sb_body_impulse {
-    sb_vec3 pressure, friction;               /* N s (N s/m in 2D) */
-    sb_vec3 moment;                           /* N m s about the body's moment point */
+    sb_vec3 pressure, friction; /* N s (N s/m in 2D) */
+    sb_vec3 moment;             /* N m s about the body's moment point */
 } sb_body_impulse;
 
 /* Copies what it needs; scene and model must outlive it all the same (names, wave makers, velocities until it has
@@ -54,7 +54,10 @@ const sb_body_impulse *sb_sim_impulse(const sb_sim *sim, size_t body);
 sb_vec3 sb_sim_body_displacement(const sb_sim *sim, size_t body);
 
 /* Kinetic and potential energy (J, potential from z = domain min), momentum (kg m/s), mass (kg). */
-typedef struct sb_energy { double kinetic, potential, mass; sb_vec3 momentum; } sb_energy;
+typedef struct sb_energy {
+    double kinetic, potential, mass;
+    sb_vec3 momentum;
+} sb_energy;
 sb_energy sb_sim_energy(const sb_sim *sim);
 
 /* What changed the water's kinetic + potential energy since the start, settling left out; J (J/m in 2D).
@@ -81,7 +84,7 @@ typedef struct sb_departure {
     double speed;     /* m/s */
     uint32_t particle;
     int side;
-    bool lost;        /* through a wall side */
+    bool lost; /* through a wall side */
 } sb_departure;
 typedef struct sb_departures {
     uint64_t by_side[SB_SIDES];
@@ -101,8 +104,8 @@ void sb_sim_save(const sb_sim *sim, sb_archive_out *out);
 sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error);
 
 /* Finds the pressures that water bears, after the last step, for snapshots and queries to tell (a pass over pairs, none
-   when they are known; docs/method.md, M17a). Without it, and of sleepers, they tell the solve's own, which are rougher and,
-   settled water being no lattice, a few per cent higher. The state does not change. */
+   when they are known; docs/method.md, M17a). Without it, and of sleepers, they tell the solve's own, which are rougher
+   and, settled water being no lattice, a few per cent higher. The state does not change. */
 void sb_sim_find_pressures(sb_sim *sim);
 
 /* A frame of positions, velocities and pressures, bodies' displacements filled; NULL without memory. */
@@ -115,16 +118,19 @@ typedef struct sb_fluid_sample {
     sb_vec3 position, velocity;
     double pressure, density; /* Pa, as for sb_sim_find_pressures; kg/m^3 */
     uint32_t id;
-    double push;              /* q = p/rho^2 of the solve: times psi grad W, the acceleration by a boundary particle */
+    double push; /* q = p/rho^2 of the solve: times psi grad W, the acceleration by a boundary particle */
 } sb_fluid_sample;
-size_t sb_sim_query(const sb_sim *sim, sb_vec3 min, sb_vec3 max, sb_fluid_sample *samples,
-                    size_t capacity);
+size_t sb_sim_query(const sb_sim *sim, sb_vec3 min, sb_vec3 max, sb_fluid_sample *samples, size_t capacity);
 
 /* Particle i of sb_sim_report()->fluid_count, storage order; i changes meaning from step to step. */
 sb_fluid_sample sb_sim_particle(const sb_sim *sim, size_t i);
 
 /* Seconds and calls of each stage since the start, for the stage table. */
-typedef struct sb_stage_time { const char *name; double seconds; uint64_t calls; } sb_stage_time;
+typedef struct sb_stage_time {
+    const char *name;
+    double seconds;
+    uint64_t calls;
+} sb_stage_time;
 size_t sb_sim_stages(const sb_sim *sim, const sb_stage_time **stages);
 
 /* The instruction set whose code runs here, static text: with another one sums may round otherwise. */
@@ -133,7 +139,8 @@ const char *sb_sim_instructions(void);
 /* What this scene made the simulation skip, one line each (static text), ended by NULL. */
 const char *const *sb_sim_skipped(const sb_sim *sim);
 
-/* Still water that no wave has come near: left alone, its places and pressures held, and seen by all questions above. */
+/* Still water that no wave has come near: left alone, its places and pressures held, and seen by all questions above.
+ */
 typedef struct sb_sleep_report {
     size_t asleep;           /* particles, now */
     uint64_t asleep_steps;   /* steps that they were spared so far, summed over them */

@@ -24,7 +24,7 @@ typedef sb_u4 sb_record;
    instrument the picking. SB_INSTRUCTIONS names one set instead, for tests. */
 #ifdef SB_INSTRUCTIONS
 #define SB_MULTIVERSION __attribute__((target("arch=" SB_INSTRUCTIONS)))
-#elif defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) &&       \
+#elif defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) &&             \
     !defined(__SANITIZE_THREAD__)
 #define SB_MULTIVERSION __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #define SB_MULTIVERSIONED

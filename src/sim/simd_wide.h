@@ -1,5 +1,5 @@
-/* Two neighbours at a time, or one with a value of its own: 16-byte records side by side in one 32-byte vector. A machine without such vectors
-   takes two instructions for each of these operations and gets the same lanes. */
+/* Two neighbours at a time, or one with a value of its own: 16-byte records side by side in one 32-byte vector. A
+   machine without such vectors takes two instructions for each of these operations and gets the same lanes. */
 #ifndef SB_SIM_SIMD_WIDE_H
 #define SB_SIM_SIMD_WIDE_H
 

@@ -10,13 +10,13 @@
 /* Squares of the ground from the domain's lower corner on, row after row along x; a cell lies in one of them. In 2D
    there is one row. */
 typedef struct sb_tiles {
-    int shift;              /* tile = (place - corner) >> shift: their edge in quanta is 2^shift */
-    uint32_t size[2];       /* tiles along x and y */
+    int shift;        /* tile = (place - corner) >> shift: their edge in quanta is 2^shift */
+    uint32_t size[2]; /* tiles along x and y */
     size_t count;
-    bool wraps[2];          /* whether the domain repeats along the axis */
-    uint32_t reach;         /* tiles around what is reached or stirred that are awake */
-    uint64_t ticks;         /* tiles that the front of what is reached has gone so far */
-    uint32_t full;          /* particles over the fullest tile */
+    bool wraps[2];  /* whether the domain repeats along the axis */
+    uint32_t reach; /* tiles around what is reached or stirred that are awake */
+    uint64_t ticks; /* tiles that the front of what is reached has gone so far */
+    uint32_t full;  /* particles over the fullest tile */
     unsigned char *awake, *reached, *occupied, *stirred, *fringe, *beside, *spare; /* per tile, see below */
     int64_t (*momentum)[2]; /* sum of horizontal velocity, in units of 2^-20 sqrt(g D) */
     uint32_t *water;        /* particles awake over it */
@@ -42,12 +42,12 @@ typedef struct sb_sleep {
 
     /* the sleepers, tile after tile and along the Z-curve in each */
     size_t count;
-    size_t *first;        /* tiles + 1: those of tile t are [first[t], first[t + 1]) */
-    sb_record *position;  /* quanta; last lane 0 */
-    float *pressure;      /* Pa */
-    float *density;       /* kg/m^3 */
+    size_t *first;       /* tiles + 1: those of tile t are [first[t], first[t + 1]) */
+    sb_record *position; /* quanta; last lane 0 */
+    float *pressure;     /* Pa */
+    float *density;      /* kg/m^3 */
     uint32_t *id;
-    size_t capacity;      /* of these: how many slept at first */
+    size_t capacity; /* of these: how many slept at first */
     sb_cells cells;
 
     /* those that awake water may touch, and their images beyond periodic sides: copied behind the ghosts in each
@@ -56,7 +56,7 @@ typedef struct sb_sleep {
     sb_record *fringe_position;
     float *fringe_q, *fringe_density; /* p / rho^2, kg/m^3 */
     sb_cells fringe_cells;
-    unsigned char *block_beside;      /* per block of awake particles: some may touch sleepers */
+    unsigned char *block_beside; /* per block of awake particles: some may touch sleepers */
 
     /* forces on bodies from their last step awake, by tile; their sums, 9 values per body */
     size_t held_count;
@@ -68,15 +68,15 @@ typedef struct sb_sleep {
     /* by id, until the start: means over the last steps of settling */
     float *settled_q;
     sb_settled_push *settled_push;
-    float share;          /* of the next step in them */
-    double woken;         /* s, when the last of them woke; below 0: some sleep still */
+    float share;  /* of the next step in them */
+    double woken; /* s, when the last of them woke; below 0: some sleep still */
 } sb_sleep;
 
 /* Whether the scene asks for it, and its water is still at the start. */
 bool sb_sleep_wanted(const sb_scene *scene);
 
-/* Around settling: before its first step, after each, and after the last: lays to sleep what is not near water or bodies
-   that move or may. */
+/* Around settling: before its first step, after each, and after the last: lays to sleep what is not near water or
+   bodies that move or may. */
 sb_status sb_sleep_expect(sb_sim *sim, sb_error *error);
 void sb_sleep_feel(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 push); /* in the step: contact */
 void sb_sleep_listen(sb_sim *sim, int step);
@@ -116,8 +116,7 @@ SB_INLINE size_t sb_tile_of(const sb_sim *sim, const sb_tiles *tiles, sb_record 
 {
     const uint32_t low = sb_space_low(&sim->space);
     uint32_t index[2] = {0, 0};
-    if (sim->space.repeats)
-        at = sb_space_wrap(&sim->space, at);
+    if (sim->space.repeats) at = sb_space_wrap(&sim->space, at);
     for (int axis = 0; axis < 2; axis++) {
         index[axis] = at[axis] > low ? (at[axis] - low) >> tiles->shift : 0;
         index[axis] = index[axis] < tiles->size[axis] ? index[axis] : tiles->size[axis] - 1;
@@ -156,9 +155,8 @@ void sb_held_wake(sb_sim *sim);             /* leaves out what has woken */
 void sb_held_press(sb_sim *sim, double dt); /* adds to the bodies' impulses */
 /* Sum (N) of what `of` says (m/s^2) that sleepers do to each particle that may touch them. around: its group's, with
    velocities and, where they are, eddy viscosities; sleepers are the places from the group's first one on. */
-typedef sb_f4 sb_sleep_share(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i,
-                             const void *with);
+typedef sb_f4 sb_sleep_share(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i, const void *with);
 sb_vec3 sb_sleep_sum(const sb_sim *sim, sb_sleep_share *of, const void *with);
-void sb_sleep_support(sb_sim *sim);         /* support, by the pressures that moved the water */
+void sb_sleep_support(sb_sim *sim); /* support, by the pressures that moved the water */
 
 #endif

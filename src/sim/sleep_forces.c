@@ -10,13 +10,10 @@
 static uint32_t *by_tile(const sb_sim *sim, const sb_tiles *tiles, size_t *first)
 {
     uint32_t *order = sb_alloc_untouched(sim->n, sizeof *order);
-    if (!order)
-        return NULL;
+    if (!order) return NULL;
     memset(first, 0, (tiles->count + 1) * sizeof *first);
-    for (size_t t = 0; t + 1 < tiles->count; t++)
-        first[t + 2] = first[t + 1] + tiles->water[t];
-    for (size_t i = 0; i < sim->n; i++)
-        order[first[sb_tile_of(sim, tiles, sim->position[i]) + 1]++] = (uint32_t)i;
+    for (size_t t = 0; t + 1 < tiles->count; t++) first[t + 2] = first[t + 1] + tiles->water[t];
+    for (size_t i = 0; i < sim->n; i++) order[first[sb_tile_of(sim, tiles, sim->position[i]) + 1]++] = (uint32_t)i;
     return order;
 }
 
@@ -27,9 +24,9 @@ static void add_particle(const sb_sim *sim, size_t i, double *sum)
     const double whole = 1 / (1 - (double)sim->sleep->share); /* room was made for a step that did not come */
     sb_impulse_of_pressure(sim, i, sum);
     if (mean->push[0] != 0 || mean->push[1] != 0 || mean->push[2] != 0)
-        sb_impulse_of_push(sim, i, mean->wall,
-                           sb_vec(whole * (double)mean->push[0], whole * (double)mean->push[1],
-                                  whole * (double)mean->push[2]), sum);
+        sb_impulse_of_push(
+            sim, i, mean->wall,
+            sb_vec(whole * (double)mean->push[0], whole * (double)mean->push[1], whole * (double)mean->push[2]), sum);
 }
 
 /* Adds the bodies that one tile's sum is not zero for to the list. */
@@ -38,10 +35,8 @@ static int append(sb_sleep *sleep, size_t *capacity, size_t tile, const double *
     static const double nothing[SB_IMPULSE_VALUES];
     for (size_t body = 0; body < bodies; body++) {
         const double *value = sum + body * SB_IMPULSE_VALUES;
-        if (memcmp(value, nothing, sizeof nothing) == 0)
-            continue;
-        if (sb_grow((void **)&sleep->held, capacity, sleep->held_count + 1, sizeof *sleep->held) != 0)
-            return -1;
+        if (memcmp(value, nothing, sizeof nothing) == 0) continue;
+        if (sb_grow((void **)&sleep->held, capacity, sleep->held_count + 1, sizeof *sleep->held) != 0) return -1;
         sb_held_force *held = &sleep->held[sleep->held_count++];
         *held = (sb_held_force){.tile = (uint32_t)tile, .body = (uint32_t)body};
         memcpy(held->value, value, sizeof held->value);
@@ -68,15 +63,12 @@ int sb_held_take(sb_sim *sim)
     uint32_t *order = first ? by_tile(sim, tiles, first) : NULL;
     int status = order && sum ? 0 : -1;
     for (size_t t = 0; t < tiles->count && status == 0; t++) {
-        if (tiles->awake[t])
-            continue;
+        if (tiles->awake[t]) continue;
         memset(sum, 0, bodies * SB_IMPULSE_VALUES * sizeof *sum);
-        for (size_t k = first[t]; k < first[t + 1]; k++)
-            add_particle(sim, order[k], sum);
+        for (size_t k = first[t]; k < first[t + 1]; k++) add_particle(sim, order[k], sum);
         status = append(sleep, &capacity, t, sum, bodies);
     }
-    if (status == 0)
-        sum_held(sim);
+    if (status == 0) sum_held(sim);
     sb_free(first);
     sb_free(sum);
     sb_free(order);
@@ -88,8 +80,7 @@ void sb_held_wake(sb_sim *sim)
     sb_sleep *sleep = sim->sleep;
     size_t kept = 0;
     for (size_t h = 0; h < sleep->held_count; h++)
-        if (!sleep->tiles.awake[sleep->held[h].tile])
-            sleep->held[kept++] = sleep->held[h];
+        if (!sleep->tiles.awake[sleep->held[h].tile]) sleep->held[kept++] = sleep->held[h];
     sleep->held_count = kept;
     sum_held(sim);
 }
@@ -114,12 +105,10 @@ static void sum_block(const sb_sim *sim, size_t block, sb_sleep_share *of, const
             continue;
         }
         sb_around_with(sim, group, sim->velocity, around);
-        if (sim->eddy)
-            sb_around_last(sim, group, sim->eddy, around);
+        if (sim->eddy) sb_around_last(sim, group, sim->eddy, around);
         for (; i < stop; i++) {
             const sb_f4 share = of(sim, group, around, i, with);
-            for (int axis = 0; axis < 3; axis++)
-                sum[axis] += (double)share[axis];
+            for (int axis = 0; axis < 3; axis++) sum[axis] += (double)share[axis];
         }
     }
 }
@@ -132,8 +121,7 @@ sb_vec3 sb_sleep_sum(const sb_sim *sim, sb_sleep_share *of, const void *with)
 #pragma omp parallel for schedule(dynamic, 1)
     for (size_t b = 0; b < blocks; b++) {
         double sum[3] = {0};
-        if (beside[b])
-            sum_block(sim, b, of, with, sum);
+        if (beside[b]) sum_block(sim, b, of, with, sum);
         memcpy(partial + 3 * b, sum, sizeof sum);
     }
     sb_vec3 total = {0};
@@ -160,6 +148,5 @@ static sb_f4 pressure_share(const sb_sim *sim, const sb_group *group, const sb_f
 
 void sb_sleep_support(sb_sim *sim)
 {
-    if (sb_fringe_count(sim) > 0)
-        sim->sleep->support = sb_sleep_sum(sim, pressure_share, NULL);
+    if (sb_fringe_count(sim) > 0) sim->sleep->support = sb_sleep_sum(sim, pressure_share, NULL);
 }

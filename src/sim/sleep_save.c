@@ -9,8 +9,7 @@ void sb_sleep_save(const sb_sim *sim, sb_archive_out *out)
 {
     const sb_sleep *sleep = sim->sleep;
     sb_put_flag(out, sleep != NULL);
-    if (!sleep)
-        return;
+    if (!sleep) return;
     const sb_tiles *tiles = &sleep->tiles;
     sb_put_count(out, tiles->full);
     sb_put_count(out, tiles->ticks);
@@ -35,8 +34,7 @@ static void take_tiles(sb_tiles *tiles, sb_archive_in *in)
     for (size_t f = 0; f < sizeof flags / sizeof *flags; f++) {
         sb_take_list(in, flags[f], tiles->count, 1);
         for (size_t t = 0; t < tiles->count; t++)
-            if (flags[f][t] > 1)
-                sb_archive_refuse(in, "tile %zu is marked by %u, expected 0 or 1", t, flags[f][t]);
+            if (flags[f][t] > 1) sb_archive_refuse(in, "tile %zu is marked by %u, expected 0 or 1", t, flags[f][t]);
     }
     for (size_t t = 0; t < tiles->count; t++)
         if (tiles->fringe[t] && tiles->awake[t])
@@ -48,8 +46,7 @@ static bool sound(const sb_sim *sim, size_t s, size_t tile, size_t *own)
 {
     const sb_sleep *sleep = sim->sleep;
     const sb_record at = sleep->position[s];
-    if (at[0] >= SB_POSITION_END || at[1] >= SB_POSITION_END || at[2] >= SB_POSITION_END)
-        return false;
+    if (at[0] >= SB_POSITION_END || at[1] >= SB_POSITION_END || at[2] >= SB_POSITION_END) return false;
     *own = sb_tile_of(sim, &sleep->tiles, at);
     return *own >= tile && !sleep->tiles.awake[*own] && sleep->id[s] < sim->model->fluid_count &&
            isfinite(sleep->pressure[s]) && isfinite(sleep->density[s]) && sleep->density[s] > 0;
@@ -59,8 +56,7 @@ static int take_sleepers(sb_sim *sim, sb_archive_in *in)
 {
     sb_sleep *sleep = sim->sleep;
     sleep->count = sb_take_length(in, sizeof *sleep->position, sim->model->fluid_count - sim->n);
-    if (sb_sleepers_reserve(sleep) != 0)
-        return -1;
+    if (sb_sleepers_reserve(sleep) != 0) return -1;
     sb_take_list(in, sleep->position, sleep->count, sizeof *sleep->position);
     sb_take_list(in, sleep->pressure, sleep->count, sizeof *sleep->pressure);
     sb_take_list(in, sleep->density, sleep->count, sizeof *sleep->density);
@@ -70,11 +66,9 @@ static int take_sleepers(sb_sim *sim, sb_archive_in *in)
         size_t own = 0;
         if (!sound(sim, s, tile, &own))
             sb_archive_refuse(in, "sleeper %zu: expected one of this model, in the order of tiles asleep", s);
-        for (; tile < own; tile++)
-            sleep->first[tile + 1] = s;
+        for (; tile < own; tile++) sleep->first[tile + 1] = s;
     }
-    for (; tile < sleep->tiles.count; tile++)
-        sleep->first[tile + 1] = sleep->count;
+    for (; tile < sleep->tiles.count; tile++) sleep->first[tile + 1] = sleep->count;
     return 0;
 }
 
@@ -84,8 +78,7 @@ static int take_held(sb_sim *sim, sb_archive_in *in)
     const size_t bodies = sim->model->body_count;
     size_t capacity = 0;
     sleep->held_count = sb_take_length(in, sizeof *sleep->held, sleep->tiles.count * bodies);
-    if (sb_grow((void **)&sleep->held, &capacity, sleep->held_count, sizeof *sleep->held) != 0)
-        return -1;
+    if (sb_grow((void **)&sleep->held, &capacity, sleep->held_count, sizeof *sleep->held) != 0) return -1;
     sb_take_list(in, sleep->held, sleep->held_count, sizeof *sleep->held);
     for (size_t h = 0; h < sleep->held_count; h++)
         if (sleep->held[h].tile >= sleep->tiles.count || sleep->held[h].body >= bodies) {
@@ -101,32 +94,27 @@ static int take(sb_sim *sim, sb_archive_in *in)
 {
     sb_sleep *sleep = sim->sleep;
     take_tiles(&sleep->tiles, in);
-    if (take_sleepers(sim, in) != 0 || take_held(sim, in) != 0)
-        return -1;
+    if (take_sleepers(sim, in) != 0 || take_held(sim, in) != 0) return -1;
     sleep->particle_steps = sb_take_count(in, UINT64_MAX);
     sleep->asleep_steps = sb_take_count(in, UINT64_MAX);
     sleep->woken = sb_take_real(in);
-    if (in->error.status != SB_OK)
-        return 0;
+    if (in->error.status != SB_OK) return 0;
     sb_tiles_beside(&sleep->tiles);
     sim->report.fluid_count += sleep->count;
-    if (sb_cells_build(&sleep->cells, sleep->position, sleep->count, sim->space.shift) != 0)
-        return -1;
+    if (sb_cells_build(&sleep->cells, sleep->position, sleep->count, sim->space.shift) != 0) return -1;
     return sb_sleepers_fringe(sim);
 }
 
 sb_status sb_sleep_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
 {
     sb_sleep_destroy(sim);
-    if (!sb_take_flag(in))
-        return SB_OK;
+    if (!sb_take_flag(in)) return SB_OK;
     if (!sb_sleep_wanted(sim->scene)) {
         sb_archive_refuse(in, "water asleep, expected none in this scene");
         return SB_OK;
     }
     if (sb_sleep_make(sim) == 0 && take(sim, in) == 0) {
-        if (in->error.status != SB_OK)
-            sb_sleep_destroy(sim);
+        if (in->error.status != SB_OK) sb_sleep_destroy(sim);
         return SB_OK;
     }
     sb_sleep_destroy(sim);

@@ -56,8 +56,7 @@ int sb_sleepers_take(sb_sim *sim, const float *density)
     }
     sb_free(next);
     sim->n = kept;
-    if (sb_cells_build(&sim->cells, sim->position, sim->n, sim->space.shift) != 0)
-        return -1;
+    if (sb_cells_build(&sim->cells, sim->position, sim->n, sim->space.shift) != 0) return -1;
     return sb_cells_build(&sleep->cells, sleep->position, sleep->count, sim->space.shift);
 }
 
@@ -100,14 +99,12 @@ static size_t list_fringe(const sb_sim *sim, sb_record *made)
     const sb_sleep *sleep = sim->sleep;
     size_t found = 0;
     for (size_t t = 0; t < sleep->tiles.count; t++) {
-        if (!sleep->tiles.fringe[t])
-            continue;
+        if (!sleep->tiles.fringe[t]) continue;
         for (size_t s = sleep->first[t]; s < sleep->first[t + 1]; s++) {
             sb_record image[SB_IMAGES_MAX];
             const int images = sim->space.repeats ? sb_space_images(&sim->space, sleep->position[s], image) : 0;
             for (int k = -1; k < images; k++, found++) {
-                if (!made)
-                    continue;
+                if (!made) continue;
                 made[found] = k < 0 ? sleep->position[s] : image[k];
                 made[found][3] = (uint32_t)s;
             }
@@ -150,14 +147,11 @@ int sb_sleepers_fringe(sb_sim *sim)
     sb_record *made = sb_alloc_untouched(count, sizeof *made);
     uint64_t *words = sb_alloc_untouched(count, sizeof *words), *other = sb_alloc_untouched(count, sizeof *other);
     int status = -1;
-    if (!sleep->fringe_position || !sleep->fringe_q || !sleep->fringe_density || !made || !words || !other)
-        goto done;
+    if (!sleep->fringe_position || !sleep->fringe_q || !sleep->fringe_density || !made || !words || !other) goto done;
     list_fringe(sim, made);
-    for (size_t f = 0; f < count; f++)
-        words[f] = sb_space_key(&sim->space, made[f]) << INDEX_BITS | f;
+    for (size_t f = 0; f < count; f++) words[f] = sb_space_key(&sim->space, made[f]) << INDEX_BITS | f;
     const uint64_t *sorted = sb_sort(words, other, count, INDEX_BITS, INDEX_BITS + sim->space.key_bits);
-    if (!sorted)
-        goto done;
+    if (!sorted) goto done;
     copy_fringe(sim, made, sorted);
     status = sb_cells_build(&sleep->fringe_cells, sleep->fringe_position, count, sim->space.shift);
 done:

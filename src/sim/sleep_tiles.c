@@ -17,8 +17,8 @@ static const double REACH = 4, WIDTH = 0.5;
    and at rest was measured to stay below 0.008. */
 static const double FRONT = 1.1, STIRRED = 0.02;
 
-/* In sqrt(g D): a particle that fast stirs by itself whatever the mean says, for spray slower than the front stays behind
-   it; and what counts as motion in the scene's start. */
+/* In sqrt(g D): a particle that fast stirs by itself whatever the mean says, for spray slower than the front stays
+   behind it; and what counts as motion in the scene's start. */
 static const float FAST = 1, AT_ALL = 1e-4f;
 
 int sb_tiles_create(const sb_sim *sim, sb_tiles *tiles)
@@ -37,13 +37,11 @@ int sb_tiles_create(const sb_sim *sim, sb_tiles *tiles)
     tiles->shift = shift;
     /* One more, for sources join between two ticks. */
     tiles->reach = (uint32_t)fmax(REACH, ceil(REACH * depth / ldexp(space->quantum, shift))) + 1;
-    for (int axis = 0; axis < 2; axis++)
-        tiles->wraps[axis] = space->period[axis] > 0;
+    for (int axis = 0; axis < 2; axis++) tiles->wraps[axis] = space->period[axis] > 0;
     unsigned char **flags[] = {&tiles->awake,  &tiles->reached, &tiles->occupied, &tiles->stirred,
                                &tiles->fringe, &tiles->beside,  &tiles->spare};
     for (size_t f = 0; f < sizeof flags / sizeof *flags; f++)
-        if (!(*flags[f] = sb_alloc(tiles->count, 1)))
-            return -1;
+        if (!(*flags[f] = sb_alloc(tiles->count, 1))) return -1;
     tiles->momentum = sb_alloc(tiles->count, sizeof *tiles->momentum);
     tiles->water = sb_alloc(tiles->count, sizeof *tiles->water);
     return tiles->momentum && tiles->water ? 0 : -1;
@@ -76,13 +74,11 @@ typedef struct run {
 
 static void give(sb_tiles *tiles, size_t tile, const run *r)
 {
-    if (r->water == 0)
-        return;
+    if (r->water == 0) return;
     __atomic_fetch_add(&tiles->momentum[tile][0], r->x, __ATOMIC_RELAXED);
     __atomic_fetch_add(&tiles->momentum[tile][1], r->y, __ATOMIC_RELAXED);
     __atomic_fetch_add(&tiles->water[tile], r->water, __ATOMIC_RELAXED);
-    if (r->fast)
-        __atomic_store_n(&tiles->stirred[tile], 1, __ATOMIC_RELAXED);
+    if (r->fast) __atomic_store_n(&tiles->stirred[tile], 1, __ATOMIC_RELAXED);
 }
 
 static void look_at_block(const sb_sim *sim, sb_tiles *tiles, size_t block)
@@ -130,14 +126,14 @@ static void mark_flows(const sb_sim *sim, sb_tiles *tiles)
         const size_t from = sb_tile_of(sim, tiles, sb_space_record(&sim->space, box->min));
         const size_t to = sb_tile_of(sim, tiles, sb_space_record(&sim->space, box->max));
         for (size_t y = from / columns; y <= to / columns; y++)
-            for (size_t x = from % columns; x <= to % columns; x++)
-                tiles->reached[y * columns + x] = 1;
+            for (size_t x = from % columns; x <= to % columns; x++) tiles->reached[y * columns + x] = 1;
     }
     for (size_t t = 0; t < tiles->count; t++) { /* the last tile may be narrow: the last two */
         const size_t x = t % columns, y = t / columns;
         const bool along_x =
             (x < 2 && side[SB_X_MIN] == SB_SIDE_OPEN) || (x + 2 >= columns && side[SB_X_MAX] == SB_SIDE_OPEN);
-        const bool along_y = (y < 2 && side[SB_Y_MIN] == SB_SIDE_OPEN) || (y + 2 >= rows && side[SB_Y_MAX] == SB_SIDE_OPEN);
+        const bool along_y =
+            (y < 2 && side[SB_Y_MIN] == SB_SIDE_OPEN) || (y + 2 >= rows && side[SB_Y_MAX] == SB_SIDE_OPEN);
         tiles->reached[t] |= (along_x || (along_y && !flat)) && tiles->water[t] > 0;
     }
 }
@@ -159,10 +155,8 @@ void sb_tiles_look(const sb_sim *sim, sb_tiles *tiles)
     memset(tiles->water, 0, tiles->count * sizeof *tiles->water);
     memset(tiles->stirred, 0, tiles->count);
 #pragma omp parallel for schedule(static)
-    for (size_t b = 0; b < blocks; b++)
-        look_at_block(sim, tiles, b);
-    if (sim->report.step == 0)
-        start(sim, tiles);
+    for (size_t b = 0; b < blocks; b++) look_at_block(sim, tiles, b);
+    if (sim->report.step == 0) start(sim, tiles);
     const double bound = STIRRED * (double)tiles->full * UNIT;
     for (size_t t = 0; t < tiles->count; t++) {
         tiles->occupied[t] = tiles->water[t] > 0;
@@ -179,8 +173,7 @@ static void spread_line(const unsigned char *from, unsigned char *to, int64_t le
     reach = reach + wraps < length ? reach + wraps : length;
     int64_t done = -length - 1;
     for (int64_t i = 0; i < length; i++) {
-        if (!from[(size_t)i * step])
-            continue;
+        if (!from[(size_t)i * step]) continue;
         for (int64_t k = done > i - reach ? done : i - reach; k <= i + reach; k++) {
             if (wraps)
                 to[(size_t)((k + 2 * length) % length) * step] = 1;
@@ -206,23 +199,19 @@ bool sb_tiles_wake(const sb_sim *sim, sb_tiles *tiles)
 {
     const double way = FRONT * (double)sim->constant.wave_speed * sim->report.time;
     const uint64_t ticks = (uint64_t)(way / ldexp(sim->space.quantum, tiles->shift));
-    for (; tiles->ticks < ticks; tiles->ticks++)
-        spread(tiles, tiles->reached, tiles->reached, 1);
+    for (; tiles->ticks < ticks; tiles->ticks++) spread(tiles, tiles->reached, tiles->reached, 1);
     size_t before = 0, after = 0;
-    for (size_t t = 0; t < tiles->count; t++)
-        before += tiles->awake[t];
+    for (size_t t = 0; t < tiles->count; t++) before += tiles->awake[t];
     spread(tiles, tiles->stirred, tiles->awake, tiles->reach);
     spread(tiles, tiles->reached, tiles->awake, tiles->reach);
-    for (size_t t = 0; t < tiles->count; t++)
-        after += tiles->awake[t];
+    for (size_t t = 0; t < tiles->count; t++) after += tiles->awake[t];
     return after > before;
 }
 
 bool sb_tiles_fringe(sb_tiles *tiles)
 {
     bool changed = false;
-    for (size_t t = 0; t < tiles->count; t++)
-        tiles->stirred[t] = tiles->awake[t] | tiles->occupied[t];
+    for (size_t t = 0; t < tiles->count; t++) tiles->stirred[t] = tiles->awake[t] | tiles->occupied[t];
     memset(tiles->beside, 0, tiles->count);
     spread(tiles, tiles->stirred, tiles->beside, 1);
     for (size_t t = 0; t < tiles->count; t++) {

@@ -7,8 +7,8 @@
 /* One particle, awake or, from n on, asleep. */
 typedef struct particle {
     sb_record position;
-    sb_f4 velocity;             /* last lane: the solve's pressure */
-    float pressure, density;    /* pressure: what the world is told */
+    sb_f4 velocity;          /* last lane: the solve's pressure */
+    float pressure, density; /* pressure: what the world is told */
     uint32_t id;
 } particle;
 
@@ -29,8 +29,7 @@ sb_frame *sb_sim_snapshot(const sb_sim *sim)
     const sb_model *model = sim->model;
     const size_t count = sim->n + sb_asleep(sim);
     sb_frame *frame = sb_frame_create(count, model->body_count);
-    if (!frame)
-        return NULL;
+    if (!frame) return NULL;
     const sb_vec3 shift = sb_sub(sim->space.origin, model->min);
     const double quantum = sim->space.quantum;
     frame->origin = model->min;
@@ -42,8 +41,7 @@ sb_frame *sb_sim_snapshot(const sb_sim *sim)
         frame->position[3 * i] = (float)(x[0] * quantum + shift.x);
         frame->position[3 * i + 1] = (float)(x[1] * quantum + shift.y);
         frame->position[3 * i + 2] = (float)(x[2] * quantum + shift.z);
-        for (size_t axis = 0; axis < 3; axis++)
-            frame->velocity[3 * i + axis] = p.velocity[axis];
+        for (size_t axis = 0; axis < 3; axis++) frame->velocity[3 * i + axis] = p.velocity[axis];
         frame->pressure[i] = p.pressure;
         frame->id[i] = p.id;
     }
@@ -122,14 +120,11 @@ static void query_cell(const sb_sim *sim, query *q, const sb_cells *cells, uint6
                        const int64_t away[3])
 {
     const int64_t cell = sb_cells_find(cells, code);
-    if (cell < 0)
-        return;
+    if (cell < 0) return;
     for (size_t i = base + cells->begin[cell]; i < base + cells->begin[cell + 1]; i++) {
         const sb_vec3 p = image_place(&sim->space, particle_at(sim, i).position, away);
-        if (!within(q, p))
-            continue;
-        if (q->found < q->capacity)
-            q->samples[q->found] = sample_at(sim, i, p);
+        if (!within(q, p)) continue;
+        if (q->found < q->capacity) q->samples[q->found] = sample_at(sim, i, p);
         q->found++;
     }
 }
@@ -147,8 +142,7 @@ static void query_images(const sb_sim *sim, query *q, const int64_t away[3])
         const double shift = (double)away[axis] * space->quantum;
         const double least = from[axis] - shift - reach, most = to[axis] - shift + reach;
         const double side = sb_space_low(space) * space->quantum, length = space->period[axis] * space->quantum;
-        if (length > 0 && (most < side || least > side + length))
-            return;
+        if (length > 0 && (most < side || least > side + length)) return;
         a[axis] = cell_index(space, least, axis);
         b[axis] = cell_index(space, most, axis);
     }
@@ -157,13 +151,11 @@ static void query_images(const sb_sim *sim, query *q, const int64_t away[3])
             for (int64_t x = a[0]; x <= b[0]; x++) {
                 uint64_t code = (uint64_t)x | (uint64_t)y << 21 | (uint64_t)z << 42;
                 query_cell(sim, q, &sim->cells, code, 0, away);
-                if (sb_asleep(sim) > 0)
-                    query_cell(sim, q, &sim->sleep->cells, code, sim->n, away);
+                if (sb_asleep(sim) > 0) query_cell(sim, q, &sim->sleep->cells, code, sim->n, away);
             }
 }
 
-size_t sb_sim_query(const sb_sim *sim, sb_vec3 min, sb_vec3 max, sb_fluid_sample *samples,
-                    size_t capacity)
+size_t sb_sim_query(const sb_sim *sim, sb_vec3 min, sb_vec3 max, sb_fluid_sample *samples, size_t capacity)
 {
     query q = {min, max, samples, capacity, 0};
     int64_t period[3], most[3], away[3];

@@ -29,11 +29,9 @@ uint64_t *sb_sort(uint64_t *words, uint64_t *other, size_t count, int low, int h
 {
     int threads = count < 65536 ? 1 : omp_get_max_threads();
     size_t(*counts)[BUCKETS] = sb_alloc((size_t)threads, sizeof *counts);
-    if (!counts)
-        return NULL;
+    if (!counts) return NULL;
     for (int shift = low; shift < high; shift += SB_SORT_DIGIT) {
-        uint64_t mask = high - shift < SB_SORT_DIGIT ? ((uint64_t)1 << (high - shift)) - 1
-                                                     : BUCKETS - 1;
+        uint64_t mask = high - shift < SB_SORT_DIGIT ? ((uint64_t)1 << (high - shift)) - 1 : BUCKETS - 1;
 #pragma omp parallel num_threads(threads)
         {
             int team = omp_get_num_threads();
@@ -41,13 +39,11 @@ uint64_t *sb_sort(uint64_t *words, uint64_t *other, size_t count, int low, int h
             size_t *mine = counts[omp_get_thread_num()];
             range_of(count, omp_get_thread_num(), team, &begin, &end);
             memset(mine, 0, sizeof counts[0]);
-            for (size_t i = begin; i < end; i++)
-                mine[words[i] >> shift & mask]++;
+            for (size_t i = begin; i < end; i++) mine[words[i] >> shift & mask]++;
 #pragma omp barrier
 #pragma omp single
             scan(counts, team);
-            for (size_t i = begin; i < end; i++)
-                other[mine[words[i] >> shift & mask]++] = words[i];
+            for (size_t i = begin; i < end; i++) other[mine[words[i] >> shift & mask]++] = words[i];
         }
         uint64_t *swap = words;
         words = other;

@@ -39,11 +39,9 @@ static sb_exit outside(const sb_sim *sim, const bounds *b, sb_record record)
     for (int axis = 0; axis < 3 - (sim->constant.dimension == 2); axis++) {
         int a = sim->constant.dimension == 2 && axis == 1 ? 2 : axis;
         int64_t x = record[a];
-        if (x >= b->min[a] && x <= b->max[a])
-            continue;
+        if (x >= b->min[a] && x <= b->max[a]) continue;
         const int side = 2 * a + (x > b->max[a]);
-        if (sim->scene->domain.side[side] == SB_SIDE_OPEN)
-            return (sb_exit){side, false};
+        if (sim->scene->domain.side[side] == SB_SIDE_OPEN) return (sb_exit){side, false};
         result = (sb_exit){side, true};
     }
     return result;
@@ -57,8 +55,7 @@ static size_t make_words(sb_sim *sim, const bounds *b)
     uint64_t left = 0, lost = 0;
 #pragma omp parallel for schedule(static) reduction(+ : left, lost)
     for (size_t i = 0; i < sim->n; i++) {
-        if (repeats)
-            sim->position[i] = sb_space_wrap(&sim->space, sim->position[i]);
+        if (repeats) sim->position[i] = sb_space_wrap(&sim->space, sim->position[i]);
         const sb_exit way = outside(sim, b, sim->position[i]);
         left += way.side >= 0 && !way.lost;
         lost += way.side >= 0 && way.lost;
@@ -96,15 +93,12 @@ sb_status sb_stage_sort(sb_sim *sim, sb_error *error)
 {
     const bounds b = domain_bounds(sim);
     const size_t stay = make_words(sim, &b);
-    const uint64_t *sorted = sb_sort(sim->sort_a, sim->sort_b, sim->n, INDEX_BITS,
-                                     INDEX_BITS + sim->space.key_bits);
-    if (!sorted)
-        return sb_fail_memory(error, "sorting");
+    const uint64_t *sorted = sb_sort(sim->sort_a, sim->sort_b, sim->n, INDEX_BITS, INDEX_BITS + sim->space.key_bits);
+    if (!sorted) return sb_fail_memory(error, "sorting");
     permute(sim, sorted);
     for (size_t i = stay; i < sim->n; i++) /* in the order of their numbers before the sort */
         sb_departures_note(sim, outside(sim, &b, sim->position[i]), i);
-    if (!sim->settling)
-        sb_ledger_leave(sim, stay, sim->n); /* their keys are the last */
+    if (!sim->settling) sb_ledger_leave(sim, stay, sim->n); /* their keys are the last */
     sim->n = stay;
     if (sb_cells_build(&sim->cells, sim->position, sim->n, sim->space.shift) != 0)
         return sb_fail_memory(error, "cells");

@@ -3,8 +3,7 @@
 static int bits_for(uint32_t count)
 {
     int bits = 0;
-    while (bits < 31 && (uint32_t)1 << bits < count)
-        bits++;
+    while (bits < 31 && (uint32_t)1 << bits < count) bits++;
     return bits;
 }
 
@@ -13,8 +12,7 @@ static void make_spread(sb_space *space)
     int place[3][24];
     int next = 0;
     for (int level = 0; level < 24; level++)
-        for (int axis = 0; axis < 3; axis++)
-            place[axis][level] = level < space->bits[axis] ? next++ : -1;
+        for (int axis = 0; axis < 3; axis++) place[axis][level] = level < space->bits[axis] ? next++ : -1;
     space->key_bits = next;
     for (int axis = 0; axis < 3; axis++)
         for (int byte = 0; byte < 3; byte++)
@@ -38,22 +36,19 @@ sb_status sb_space_create(sb_vec3 min, sb_vec3 max, double cell, sb_space *space
     for (int axis = 0; axis < 3; axis++) {
         double cells = floor(extent[axis] / cell) + 1 + 2 * SB_SPACE_MARGIN;
         if (!(cells < (double)(1 << (31 - LEAST_SHIFT))))
-            return sb_fail(error, SB_BAD_INPUT,
-                           "domain of %g m is %.0f support radii long: expected fewer than %d",
+            return sb_fail(error, SB_BAD_INPUT, "domain of %g m is %.0f support radii long: expected fewer than %d",
                            extent[axis], cells, 1 << (31 - LEAST_SHIFT));
         made.bits[axis] = bits_for((uint32_t)cells);
-        if (made.bits[axis] > most)
-            most = made.bits[axis];
+        if (made.bits[axis] > most) most = made.bits[axis];
     }
     made.shift = 31 - most < MOST_SHIFT ? 31 - most : MOST_SHIFT;
     made.quantum = cell / (double)(1 << made.shift);
-    made.origin = sb_sub(min, sb_vec(SB_SPACE_MARGIN * cell, SB_SPACE_MARGIN * cell,
-                                     SB_SPACE_MARGIN * cell));
+    made.origin = sb_sub(min, sb_vec(SB_SPACE_MARGIN * cell, SB_SPACE_MARGIN * cell, SB_SPACE_MARGIN * cell));
     make_spread(&made);
     if (made.key_bits > MOST_KEY_BITS)
         return sb_fail(error, SB_BAD_INPUT,
-                       "domain of %g x %g x %g m holds up to 2^%d cells of %g m: expected at most 2^%d",
-                       extent[0], extent[1], extent[2], made.key_bits, cell, MOST_KEY_BITS);
+                       "domain of %g x %g x %g m holds up to 2^%d cells of %g m: expected at most 2^%d", extent[0],
+                       extent[1], extent[2], made.key_bits, cell, MOST_KEY_BITS);
     *space = made;
     return SB_OK;
 }
@@ -77,10 +72,8 @@ int sb_space_images(const sb_space *space, sb_record record, sb_record image[SB_
         for (int k = -1; k < before; k++) {
             sb_record from = k < 0 ? record : image[k];
             sb_record step = {axis == 0 ? period : 0, axis == 1 ? period : 0, axis == 2 ? period : 0, 0};
-            if (ahead)
-                image[count++] = from + step;
-            if (behind)
-                image[count++] = from - step;
+            if (ahead) image[count++] = from + step;
+            if (behind) image[count++] = from - step;
         }
     }
     return count;
@@ -95,13 +88,11 @@ static uint32_t quanta(double distance, double quantum)
 sb_record sb_space_record(const sb_space *space, sb_vec3 position)
 {
     sb_vec3 d = sb_sub(position, space->origin);
-    return (sb_record){quanta(d.x, space->quantum), quanta(d.y, space->quantum),
-                       quanta(d.z, space->quantum), 0};
+    return (sb_record){quanta(d.x, space->quantum), quanta(d.y, space->quantum), quanta(d.z, space->quantum), 0};
 }
 
 sb_vec3 sb_space_position(const sb_space *space, sb_record record)
 {
-    return sb_vec(space->origin.x + record[0] * space->quantum,
-                  space->origin.y + record[1] * space->quantum,
+    return sb_vec(space->origin.x + record[0] * space->quantum, space->origin.y + record[1] * space->quantum,
                   space->origin.z + record[2] * space->quantum);
 }

@@ -18,14 +18,14 @@ enum {
 };
 
 typedef struct sb_space {
-    sb_vec3 origin;   /* m, where the integers are zero */
-    double quantum;   /* m */
-    double cell;      /* m, edge of a cell: the support radius */
-    int shift;        /* cell index = position >> shift */
-    int bits[3];      /* of the cell index along each axis */
-    int key_bits;     /* of the Z-order key */
-    bool repeats;     /* along one axis at least */
-    uint32_t period[3]; /* quanta after which the domain repeats along an axis; 0: it does not */
+    sb_vec3 origin;             /* m, where the integers are zero */
+    double quantum;             /* m */
+    double cell;                /* m, edge of a cell: the support radius */
+    int shift;                  /* cell index = position >> shift */
+    int bits[3];                /* of the cell index along each axis */
+    int key_bits;               /* of the Z-order key */
+    bool repeats;               /* along one axis at least */
+    uint32_t period[3];         /* quanta after which the domain repeats along an axis; 0: it does not */
     uint64_t spread[3][3][256]; /* key bits of each byte of an index, by axis and byte */
 } sb_space;
 
@@ -47,8 +47,7 @@ sb_vec3 sb_space_position(const sb_space *space, sb_record record);
 /* Three cell indices packed 21 bits each: the neighbour (dx, dy, dz) is code + sb_cell_step. */
 SB_INLINE uint64_t sb_cell_code(sb_record record, int shift)
 {
-    return (uint64_t)(record[0] >> shift) | (uint64_t)(record[1] >> shift) << 21 |
-           (uint64_t)(record[2] >> shift) << 42;
+    return (uint64_t)(record[0] >> shift) | (uint64_t)(record[1] >> shift) << 21 | (uint64_t)(record[2] >> shift) << 42;
 }
 
 SB_INLINE uint64_t sb_cell_step(int dx, int dy, int dz)
@@ -61,8 +60,7 @@ SB_INLINE int sb_space_inside(const sb_space *space, sb_record record)
 {
     for (int axis = 0; axis < 3; axis++) {
         uint32_t index = record[axis] >> space->shift;
-        if (index < 1 || index + 1 >= (uint32_t)1 << space->bits[axis])
-            return 0;
+        if (index < 1 || index + 1 >= (uint32_t)1 << space->bits[axis]) return 0;
     }
     return 1;
 }
@@ -79,8 +77,7 @@ SB_INLINE sb_record sb_space_wrap(const sb_space *space, sb_record record)
     const uint32_t low = sb_space_low(space);
     for (int axis = 0; axis < 3; axis++) {
         const int64_t period = space->period[axis], at = (int64_t)record[axis] - low;
-        if (period > 0 && (at < 0 || at >= period))
-            record[axis] = low + (uint32_t)((at % period + period) % period);
+        if (period > 0 && (at < 0 || at >= period)) record[axis] = low + (uint32_t)((at % period + period) % period);
     }
     return record;
 }

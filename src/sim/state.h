@@ -8,7 +8,7 @@
 #include "sim/space.h"
 
 enum {
-    SB_BLOCK = 1024,     /* particles per unit of work and of partial sums: fixed, so sums have one order */
+    SB_BLOCK = 1024, /* particles per unit of work and of partial sums: fixed, so sums have one order */
     SB_STAGES_MAX = 16
 };
 
@@ -24,26 +24,26 @@ enum sb_settling {
 /* Constants of the run. */
 typedef struct sb_constants {
     int dimension;
-    float spacing, support;        /* m: delta r and h */
-    float rest_density, mass;      /* kg/m^3; kg (kg/m in 2D) */
-    float gravity;                 /* m/s^2 */
-    float wave_speed;              /* m/s, sqrt(g D) */
-    float sound_speed;             /* m/s */
-    float viscosity;               /* m^2/s, physical */
-    float full_diagonal;           /* of a full lattice, per dt^2: scale of a_ii */
-    float bulk_deficit;            /* kg/m^3, what a full lattice's sum lacks */
-    float surface_deficit;         /* what a flat surface's first layer lacks more, over |sum_j m grad W|^2 there */
-    double spectrum;               /* largest eigenvalue of D^-1 A on a full lattice */
-    float speed_limit;             /* m/s, above it the run has diverged */
+    float spacing, support;   /* m: delta r and h */
+    float rest_density, mass; /* kg/m^3; kg (kg/m in 2D) */
+    float gravity;            /* m/s^2 */
+    float wave_speed;         /* m/s, sqrt(g D) */
+    float sound_speed;        /* m/s */
+    float viscosity;          /* m^2/s, physical */
+    float full_diagonal;      /* of a full lattice, per dt^2: scale of a_ii */
+    float bulk_deficit;       /* kg/m^3, what a full lattice's sum lacks */
+    float surface_deficit;    /* what a flat surface's first layer lacks more, over |sum_j m grad W|^2 there */
+    double spectrum;          /* largest eigenvalue of D^-1 A on a full lattice */
+    float speed_limit;        /* m/s, above it the run has diverged */
 } sb_constants;
 
 /* Images of owned particles beyond the periodic sides: entries n to n + count of the arrays that neighbours
    are read from. */
 typedef struct sb_ghosts {
     size_t count;
-    uint32_t *of;             /* the owned particle that each copies */
-    sb_cells cells;           /* over their records */
-    uint64_t *words, *other;  /* for their sort */
+    uint32_t *of;            /* the owned particle that each copies */
+    sb_cells cells;          /* over their records */
+    uint64_t *words, *other; /* for their sort */
     size_t of_capacity, words_capacity, other_capacity;
 } sb_ghosts;
 
@@ -51,11 +51,11 @@ typedef struct sb_ghosts {
    sides included. */
 typedef struct sb_wall_set {
     size_t count;
-    sb_record *record;    /* sorted by cell; last lane: psi_b in kg (kg/m in 2D) */
-    uint32_t *body;       /* model body of each */
-    sb_f4 *normal;        /* unit, towards the water; 0 0 0 where the model gives none */
+    sb_record *record; /* sorted by cell; last lane: psi_b in kg (kg/m in 2D) */
+    uint32_t *body;    /* model body of each */
+    sb_f4 *normal;     /* unit, towards the water; 0 0 0 where the model gives none */
     sb_cells cells;
-    uint64_t *near;       /* hash set of Z-order blocks with walls in or beside them */
+    uint64_t *near; /* hash set of Z-order blocks with walls in or beside them */
     uint64_t near_mask;
 } sb_wall_set;
 
@@ -63,11 +63,11 @@ enum { SB_STATIC, SB_MOVING, SB_WALL_SETS };
 
 /* A body that moves: its boundary particles at rest, and where its paddle is. */
 typedef struct sb_moving_body {
-    size_t body;              /* of the model */
+    size_t body; /* of the model */
     sb_paddle paddle;
     sb_vec3 direction;
     double displacement, next_displacement; /* m, at t and t + dt */
-    sb_vec3 velocity;         /* m/s, between them */
+    sb_vec3 velocity;                       /* m/s, between them */
 } sb_moving_body;
 
 /* Records next to each other in the arrays that neighbours are read from. */
@@ -77,17 +77,17 @@ typedef struct sb_run {
 
 /* Particles next to each other, and what lies around them; see sim/around.h. */
 typedef struct sb_group {
-    uint32_t first, end;      /* particles [first, end) */
-    uint32_t run, runs;       /* around them, themselves included: runs [run, run + runs) */
-    uint32_t sleepers;        /* how many records come before the first sleeper's */
-    sb_record corner;         /* quanta: no record around is below it, or four cells and more above */
+    uint32_t first, end; /* particles [first, end) */
+    uint32_t run, runs;  /* around them, themselves included: runs [run, run + runs) */
+    uint32_t sleepers;   /* how many records come before the first sleeper's */
+    sb_record corner;    /* quanta: no record around is below it, or four cells and more above */
 } sb_group;
 
 typedef struct sb_groups {
     sb_group *group;
     size_t count, capacity;
     sb_run *run;
-    size_t used, room;        /* runs */
+    size_t used, room; /* runs */
 } sb_groups;
 
 /* Four neighbours. place: as sb_at wants it. slope: the root of m W'(r)/r times the quantum over sb_lists.unit, below
@@ -100,19 +100,19 @@ typedef struct sb_four_pairs {
 /* Water around particle i: fours [first[i], first[i] + count[i]), the last filled up with the particle itself at
    slope 0. */
 typedef struct sb_lists {
-    uint32_t *first;          /* n */
-    uint16_t *count;          /* n */
+    uint32_t *first; /* n */
+    uint16_t *count; /* n */
     sb_four_pairs *four;
-    size_t used, capacity;    /* fours */
-    float unit;               /* < 0 */
+    size_t used, capacity; /* fours */
+    float unit;            /* < 0 */
 } sb_lists;
 
 /* Boundary particles around particle i: [first[i], first[i] + count[i]), padded to four with slope 0. */
 typedef struct sb_pairs {
-    uint32_t *first;          /* n */
-    uint16_t *count;          /* n, padded to a multiple of 4 */
-    uint32_t *index;          /* wall set << 31 | boundary particle */
-    float *slope;             /* psi W'(r)/r times the quantum */
+    uint32_t *first; /* n */
+    uint16_t *count; /* n, padded to a multiple of 4 */
+    uint32_t *index; /* wall set << 31 | boundary particle */
+    float *slope;    /* psi W'(r)/r times the quantum */
     size_t used, capacity;
 } sb_pairs;
 
@@ -126,29 +126,29 @@ typedef struct sb_sim {
     sb_space space;
 
     /* persistent fields, n each; moved together by the sort */
-    size_t n;                 /* those asleep not among them */
-    size_t capacity;          /* of position, velocity, acceleration and scratch: n, the ghosts and the fringe */
-    sb_record *position;      /* quanta; last lane: argument of the pressure operator */
-    sb_f4 *velocity;          /* m/s; last lane: pressure in Pa, the next step's warm start */
+    size_t n;            /* those asleep not among them */
+    size_t capacity;     /* of position, velocity, acceleration and scratch: n, the ghosts and the fringe */
+    sb_record *position; /* quanta; last lane: argument of the pressure operator */
+    sb_f4 *velocity;     /* m/s; last lane: pressure in Pa, the next step's warm start */
     uint32_t *id;
-    float *deficit;           /* by id, kg/m^3, added to the density's sum (sim/deficit.h); NULL: none. NAN: not known yet */
+    float *deficit; /* by id, kg/m^3, added to the density's sum (sim/deficit.h); NULL: none. NAN: not known yet */
 
     /* fields of one step */
-    sb_f4 *acceleration;      /* m/s^2, of the pressure argument; last lane 0. After the stage accelerate:
-                                 the new velocity and pressure */
-    sb_f4 *wall;              /* sum_b psi_b grad W_ib; last lane: sum_b psi_b v_b . grad W_ib */
-    sb_f4 *rubbed;            /* m/s^2, by the walls along themselves, of particles beside them; NULL where walls do not */
-    float *density;           /* kg/m^3, deficit included */
-    float *eddy;              /* m^2/s, nu_t at the step's start; NULL without a turbulence model */
-    float *diagonal;          /* -a_ii > 0 for q as unknown; 0: no pressure here */
-    float *source;            /* b_i, kg/m^3 */
-    float *unknown;           /* q = p / rho^2 */
-    float *residual;          /* e_i = (A q)_i - b_i */
-    float *direction;         /* of the solver's search; allocated for solvers that need it */
-    float *product;           /* A times the argument */
-    int last_sweeps;          /* iterations of the step before; 0: there is none */
-    bool listed, told;        /* since the last step's end: lists are those of the particles; residual holds the
-                                 pressures that the water bears (sim/bearing.c) */
+    sb_f4 *acceleration; /* m/s^2, of the pressure argument; last lane 0. After the stage accelerate:
+                            the new velocity and pressure */
+    sb_f4 *wall;         /* sum_b psi_b grad W_ib; last lane: sum_b psi_b v_b . grad W_ib */
+    sb_f4 *rubbed;       /* m/s^2, by the walls along themselves, of particles beside them; NULL where walls do not */
+    float *density;      /* kg/m^3, deficit included */
+    float *eddy;         /* m^2/s, nu_t at the step's start; NULL without a turbulence model */
+    float *diagonal;     /* -a_ii > 0 for q as unknown; 0: no pressure here */
+    float *source;       /* b_i, kg/m^3 */
+    float *unknown;      /* q = p / rho^2 */
+    float *residual;     /* e_i = (A q)_i - b_i */
+    float *direction;    /* of the solver's search; allocated for solvers that need it */
+    float *product;      /* A times the argument */
+    int last_sweeps;     /* iterations of the step before; 0: there is none */
+    bool listed, told;   /* since the last step's end: lists are those of the particles; residual holds the
+                            pressures that the water bears (sim/bearing.c) */
 
     sb_cells cells;
     sb_ghosts ghosts;
@@ -156,11 +156,11 @@ typedef struct sb_sim {
     sb_lists pairs;
     sb_pairs wall_pairs;
     uint64_t *sort_a, *sort_b; /* in the memory of `wall`, which is made after the sort */
-    void *scratch;            /* 16 bytes per particle, for the permutation */
-    double *partial;          /* per block, 5 values: partial sums */
+    void *scratch;             /* 16 bytes per particle, for the permutation */
+    double *partial;           /* per block, 5 values: partial sums */
 
     sb_wall_set walls[SB_WALL_SETS];
-    sb_record *moving_rest;   /* boundary particles of moving bodies at displacement 0 */
+    sb_record *moving_rest; /* boundary particles of moving bodies at displacement 0 */
     uint32_t *moving_rest_body;
     sb_f4 *moving_rest_normal;
     size_t moving_rest_count;
@@ -168,15 +168,15 @@ typedef struct sb_sim {
     sb_moving_body *moving;   /* bodies */
     uint32_t *moving_of_body; /* model body -> index into moving, UINT32_MAX: static */
 
-    double *block_impulse;    /* per block and body 9 values, of one step */
+    double *block_impulse; /* per block and body 9 values, of one step */
     unsigned char *block_touched;
     sb_body_impulse *impulse; /* per body */
 
-    struct sb_sleep *sleep;   /* still water left alone; NULL where none was laid to sleep */
+    struct sb_sleep *sleep; /* still water left alone; NULL where none was laid to sleep */
 
     struct sb_ledger_sums *block_ledger; /* per block, of one step */
     sb_ledger ledger;
-    sb_vec3 stress_gain;      /* kg m/s, of the stage packing in one step; round-off alone */
+    sb_vec3 stress_gain; /* kg m/s, of the stage packing in one step; round-off alone */
 
     enum sb_settling settling;
     sb_step_report report;

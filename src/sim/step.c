@@ -13,22 +13,22 @@ typedef struct stage {
 } stage;
 
 static const stage stages[] = {
-    {"time_step", sb_stage_time_step, NULL},              /* dt from the speeds reached */
-    {"walls", sb_stage_walls, NULL},                      /* paddles at t, their velocity to t + dt */
-    {"wake", sb_stage_wake, sb_sleep_wanted},             /* still water that a wave has come near */
-    {"sort", sb_stage_sort, NULL},                        /* back through periodic sides; Z-order, cells */
-    {"ghosts", sb_stage_ghosts, NULL},                    /* images beyond periodic sides */
-    {"fringe", sb_stage_fringe, sb_sleep_wanted},         /* sleepers that awake water may touch */
-    {"neighbours", sb_stage_neighbours, NULL},            /* lists, density, wall vectors, diagonal */
-    {"completion", sb_stage_completion, sb_deficit_on},   /* what surfaces and walls change in the density */
-    {"packing", sb_stage_packing, sb_packing_on},         /* velocities by what its stress lacks to be a pressure */
+    {"time_step", sb_stage_time_step, NULL},               /* dt from the speeds reached */
+    {"walls", sb_stage_walls, NULL},                       /* paddles at t, their velocity to t + dt */
+    {"wake", sb_stage_wake, sb_sleep_wanted},              /* still water that a wave has come near */
+    {"sort", sb_stage_sort, NULL},                         /* back through periodic sides; Z-order, cells */
+    {"ghosts", sb_stage_ghosts, NULL},                     /* images beyond periodic sides */
+    {"fringe", sb_stage_fringe, sb_sleep_wanted},          /* sleepers that awake water may touch */
+    {"neighbours", sb_stage_neighbours, NULL},             /* lists, density, wall vectors, diagonal */
+    {"completion", sb_stage_completion, sb_deficit_on},    /* what surfaces and walls change in the density */
+    {"packing", sb_stage_packing, sb_packing_on},          /* velocities by what its stress lacks to be a pressure */
     {"turbulence", sb_stage_turbulence, sb_turbulence_on}, /* eddy viscosity from the strain rate */
-    {"forces", sb_stage_forces, NULL},                    /* v* = v + dt (g + viscosity + friction) */
-    {"source", sb_stage_source, NULL},                    /* b = beta (rho_0 - rho) - dt div v* */
-    {"pressure", sb_stage_pressure, NULL},                /* q >= 0, A q <= b, and its acceleration */
-    {"accelerate", sb_stage_accelerate, NULL},            /* v at t + dt */
-    {"impulse", sb_stage_impulse, NULL},                  /* contact with walls, reactions on bodies */
-    {"move", sb_stage_move, NULL},                        /* x at t + dt */
+    {"forces", sb_stage_forces, NULL},                     /* v* = v + dt (g + viscosity + friction) */
+    {"source", sb_stage_source, NULL},                     /* b = beta (rho_0 - rho) - dt div v* */
+    {"pressure", sb_stage_pressure, NULL},                 /* q >= 0, A q <= b, and its acceleration */
+    {"accelerate", sb_stage_accelerate, NULL},             /* v at t + dt */
+    {"impulse", sb_stage_impulse, NULL},                   /* contact with walls, reactions on bodies */
+    {"move", sb_stage_move, NULL},                         /* x at t + dt */
 };
 enum { STAGES = sizeof stages / sizeof stages[0] };
 _Static_assert((int)STAGES <= (int)SB_STAGES_MAX, "stage table");
@@ -52,8 +52,7 @@ sb_status sb_sim_step(sb_sim *sim, sb_error *error)
     size_t count = 0;
     sim->listed = sim->told = false;
     for (size_t s = 0; s < STAGES; s++) {
-        if (stages[s].needed && !stages[s].needed(sim->scene))
-            continue;
+        if (stages[s].needed && !stages[s].needed(sim->scene)) continue;
         sim->stage[count].name = stages[s].name;
         run[count++] = &stages[s];
     }
@@ -63,12 +62,10 @@ sb_status sb_sim_step(sb_sim *sim, sb_error *error)
         sb_status status = run[s]->run(sim, error);
         sim->stage[s].seconds += sb_clock() - start;
         sim->stage[s].calls++;
-        if (status != SB_OK)
-            return status;
+        if (status != SB_OK) return status;
 #ifdef SB_DEBUG
         status = check_finite(sim, run[s]->name, error);
-        if (status != SB_OK)
-            return status;
+        if (status != SB_OK) return status;
 #endif
     }
     sim->listed = true;

@@ -73,10 +73,8 @@ SB_INLINE float strain_rate(const sb_sim *sim, const sb_group *group, const sb_f
     const float scale = (m.place[0][0] + m.place[1][1] + m.place[2][2]) / (flat ? 2.0f : 3.0f);
     float inverse[3][3], gradient[3][3];
     for (int a = 0; a < 3; a++)
-        for (int b = 0; b < 3; b++)
-            m.place[a][b] = scale > 0 ? m.place[a][b] / scale : 0;
-    if (flat)
-        m.place[1][1] = 1;
+        for (int b = 0; b < 3; b++) m.place[a][b] = scale > 0 ? m.place[a][b] / scale : 0;
+    if (flat) m.place[1][1] = 1;
     const float determinant = adjugate(m.place, inverse);
     const bool corrected = determinant > THINNEST;
     const float factor = corrected ? 1 / (determinant * scale * (float)sim->space.quantum) : 1 / sim->density[i];
@@ -102,8 +100,7 @@ SB_INLINE float wall_distance(const sb_sim *sim, size_t i, float offset)
         const uint32_t b = index[k] & 0x7fffffffu;
         const sb_f4 d = sb_offset(sim->position[i], set->record[b]), normal = set->normal[b];
         const float square = sb_sum3(d * d);
-        if (square >= nearest)
-            continue;
+        if (square >= nearest) continue;
         nearest = square;
         distance = sb_sum3(normal * normal) > 0 ? fabsf(sb_sum3(d * normal)) : sqrtf(square);
     }
@@ -136,8 +133,7 @@ sb_status sb_stage_turbulence(sb_sim *sim, sb_error *error)
     (void)error;
     const size_t groups = sim->groups.count;
 #pragma omp parallel for schedule(dynamic, GROUPS)
-    for (size_t g = 0; g < groups; g++)
-        do_group(sim, &sim->groups.group[g]);
+    for (size_t g = 0; g < groups; g++) do_group(sim, &sim->groups.group[g]);
     sb_ghosts_refresh_values(sim, sim->eddy);
     return SB_OK;
 }

@@ -8,7 +8,8 @@
 /* Whether the scene asks for it; where not, sim->eddy stays NULL and no stage runs. */
 bool sb_turbulence_on(const sb_scene *scene);
 
-/* sim->eddy from the velocities at the step's start, the packing's stress taken away, and the step's neighbour lists and densities. Never fails. */
+/* sim->eddy from the velocities at the step's start, the packing's stress taken away, and the step's neighbour lists
+ * and densities. Never fails. */
 sb_status sb_stage_turbulence(sb_sim *sim, sb_error *error);
 
 #endif

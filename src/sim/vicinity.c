@@ -25,8 +25,7 @@ SB_INLINE void add_cell(const sb_sim *sim, sb_vicinity *v, sb_record corner, con
                         size_t base)
 {
     const int64_t cell = sb_cells_find(cells, code);
-    if (cell < 0 || v->count > SB_AROUND_MAX)
-        return;
+    if (cell < 0 || v->count > SB_AROUND_MAX) return;
     const uint32_t begin = cells->begin[cell] + (uint32_t)base, count = cells->begin[cell + 1] - cells->begin[cell];
     if (v->count + count > SB_AROUND_MAX) {
         v->count = SB_AROUND_MAX + 1;
@@ -55,8 +54,7 @@ static void add_part(const sb_sim *sim, sb_vicinity *v, sb_record corner, const 
             for (uint32_t x = 0; x < v->cells[0]; x++) {
                 *start++ = (uint32_t)v->count;
                 add_cell(sim, v, corner, cells,
-                         (uint64_t)(v->low[0] + x) | (uint64_t)(v->low[1] + y) << 21 |
-                             (uint64_t)(v->low[2] + z) << 42,
+                         (uint64_t)(v->low[0] + x) | (uint64_t)(v->low[1] + y) << 21 | (uint64_t)(v->low[2] + z) << 42,
                          base);
             }
     *start = (uint32_t)v->count;
@@ -71,15 +69,13 @@ void sb_vicinity_gather(const sb_sim *sim, sb_group *group, sb_vicinity *v)
     v->parts = v->count = v->runs = 0;
     for (size_t i = group->first; i < group->end; i++) {
         at_edge |= sim->ghosts.count > 0 && sb_space_at_edge(&sim->space, sim->position[i]);
-        beside_sleepers |= sb_fringe_count(sim) > 0 &&
-                           sim->sleep->tiles.beside[sb_tile_of(sim, &sim->sleep->tiles, sim->position[i])];
+        beside_sleepers |=
+            sb_fringe_count(sim) > 0 && sim->sleep->tiles.beside[sb_tile_of(sim, &sim->sleep->tiles, sim->position[i])];
     }
     add_part(sim, v, corner, &sim->cells, 0);
-    if (at_edge)
-        add_part(sim, v, corner, &sim->ghosts.cells, sim->n);
+    if (at_edge) add_part(sim, v, corner, &sim->ghosts.cells, sim->n);
     group->sleepers = (uint32_t)v->count;
-    if (beside_sleepers)
-        add_part(sim, v, corner, &sim->sleep->fringe_cells, sb_fringe_first(sim));
+    if (beside_sleepers) add_part(sim, v, corner, &sim->sleep->fringe_cells, sb_fringe_first(sim));
     group->corner = corner;
 }
 
@@ -115,9 +111,8 @@ size_t sb_vicinity_reach(const sb_sim *sim, const sb_vicinity *v, sb_f4 self, sb
         for (int dz = -1; dz <= 1; dz++)
             for (int dy = -layers; dy <= layers; dy++) {
                 const float row2 = gap2[2][1 + dz] + gap2[1][1 + dy];
-                const uint32_t *start =
-                    v->start[part] + (ptrdiff_t)centre +
-                    ((ptrdiff_t)dz * (ptrdiff_t)v->cells[1] + dy) * (ptrdiff_t)v->cells[0];
+                const uint32_t *start = v->start[part] + (ptrdiff_t)centre +
+                                        ((ptrdiff_t)dz * (ptrdiff_t)v->cells[1] + dy) * (ptrdiff_t)v->cells[0];
                 const uint32_t begin = start[-(left + row2 < reach2)], end = start[1 + (right + row2 < reach2)];
                 stretch[stretches] = (sb_stretch){begin, end};
                 stretches += (row2 < reach2) & (begin < end);
@@ -128,7 +123,6 @@ size_t sb_vicinity_reach(const sb_sim *sim, const sb_vicinity *v, sb_f4 self, sb
 uint32_t sb_vicinity_cell(const sb_sim *sim, const sb_vicinity *v, size_t i)
 {
     uint32_t cell[3];
-    for (int axis = 0; axis < 3; axis++)
-        cell[axis] = (sim->position[i][axis] >> sim->space.shift) - v->low[axis];
+    for (int axis = 0; axis < 3; axis++) cell[axis] = (sim->position[i][axis] >> sim->space.shift) - v->low[axis];
     return v->start[0][index_of(v, cell)];
 }

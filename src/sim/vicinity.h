@@ -9,8 +9,8 @@
 enum { SB_VICINITY_PARTS = 3, SB_VICINITY_CELLS = 64, SB_VICINITY_ROWS = 9 * SB_VICINITY_PARTS };
 
 typedef struct sb_vicinity {
-    uint32_t low[3], cells[3];  /* first cell along each axis, and how many */
-    size_t parts, count;        /* count above SB_AROUND_MAX: too many */
+    uint32_t low[3], cells[3];                                /* first cell along each axis, and how many */
+    size_t parts, count;                                      /* count above SB_AROUND_MAX: too many */
     uint32_t start[SB_VICINITY_PARTS][SB_VICINITY_CELLS + 1]; /* candidates of a cell: [start, next start) */
     size_t runs;
     sb_run run[SB_VICINITY_PARTS * SB_VICINITY_CELLS]; /* the same, as entries of sim->position */

@@ -71,8 +71,7 @@ SB_INLINE sb_f4 wall_part(const sb_sim *sim, size_t i, const sb_rub *rub)
     sb_f4 sum = {0}, part[4];
     for (size_t k = 0; k < sim->wall_pairs.count[i]; k += 4) {
         sb_rubbed(sim, i, sim->velocity[i], index + k, slope + k, rub, part);
-        for (int pair = 0; pair < 4; pair++)
-            sum += part[pair];
+        for (int pair = 0; pair < 4; pair++) sum += part[pair];
     }
     return sum;
 }
@@ -83,18 +82,15 @@ static void do_group(sb_sim *sim, const sb_group *group, const factors *f, bool 
     _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
     const float dt = (float)sim->report.time_step;
     sb_f4 *next = sim->scratch;
-    if (viscous)
-        sb_around_with(sim, group, sim->velocity, around);
-    if (sim->eddy)
-        sb_around_last(sim, group, sim->eddy, around);
+    if (viscous) sb_around_with(sim, group, sim->velocity, around);
+    if (sim->eddy) sb_around_last(sim, group, sim->eddy, around);
     for (size_t i = group->first; i < group->end; i++) {
         sb_f4 a = {sim->settling ? sb_settle_pull(sim, sim->position[i]) : 0, 0, -sim->constant.gravity, 0};
         if (sim->eddy)
             a += fluid_part(sim, group, around, i, f, true, 0);
         else if (viscous)
             a += fluid_part(sim, group, around, i, f, false, 0);
-        if (rub->on && sim->wall_pairs.count[i] > 0)
-            a += sim->rubbed[i] = wall_part(sim, i, rub);
+        if (rub->on && sim->wall_pairs.count[i] > 0) a += sim->rubbed[i] = wall_part(sim, i, rub);
         a[3] = 0;
         next[i] = sim->velocity[i] + a * sb_splat(dt);
     }
@@ -113,13 +109,10 @@ sb_status sb_stage_forces(sb_sim *sim, sb_error *error)
     const sb_rub rub = sb_rub_make(sim);
     const bool viscous = f.artificial > 0 || f.physical > 0 || sim->eddy;
     const size_t groups = sim->groups.count;
-    if (viscous)
-        sb_pressure_load(sim, sim->density);
+    if (viscous) sb_pressure_load(sim, sim->density);
 #pragma omp parallel for schedule(dynamic, GROUPS)
-    for (size_t g = 0; g < groups; g++)
-        do_group(sim, &sim->groups.group[g], &f, viscous, &rub);
-    if (sb_fringe_count(sim) > 0)
-        sim->sleep->rub = viscous ? sb_sleep_sum(sim, share_of_sleepers, &f) : (sb_vec3){0};
+    for (size_t g = 0; g < groups; g++) do_group(sim, &sim->groups.group[g], &f, viscous, &rub);
+    if (sb_fringe_count(sim) > 0) sim->sleep->rub = viscous ? sb_sleep_sum(sim, share_of_sleepers, &f) : (sb_vec3){0};
     sb_f4 *old = sim->velocity;
     sim->velocity = sim->scratch;
     sim->scratch = old;

@@ -16,8 +16,7 @@ static bool near_insert(sb_wall_set *set, uint64_t block)
 {
     uint64_t at = sb_hash_mix(block) & set->near_mask;
     for (;; at = (at + 1) & set->near_mask) {
-        if (set->near[at] == block + 1)
-            return false;
+        if (set->near[at] == block + 1) return false;
         if (set->near[at] == 0) {
             set->near[at] = block + 1;
             return true;
@@ -27,22 +26,18 @@ static bool near_insert(sb_wall_set *set, uint64_t block)
 
 bool sb_walls_near(const sb_wall_set *set, const sb_space *space, sb_record record)
 {
-    if (set->count == 0)
-        return false;
+    if (set->count == 0) return false;
     uint64_t block = sb_space_key(space, record) >> NEAR_SHIFT;
     for (uint64_t at = sb_hash_mix(block) & set->near_mask;; at = (at + 1) & set->near_mask) {
-        if (set->near[at] == block + 1)
-            return true;
-        if (set->near[at] == 0)
-            return false;
+        if (set->near[at] == block + 1) return true;
+        if (set->near[at] == 0) return false;
     }
 }
 
 static uint64_t block_beside(const sb_space *space, sb_record record, int dx, int dy, int dz)
 {
     uint32_t cell = (uint32_t)1 << space->shift;
-    sb_record beside = record + (sb_record){(uint32_t)dx * cell, (uint32_t)dy * cell,
-                                            (uint32_t)dz * cell, 0};
+    sb_record beside = record + (sb_record){(uint32_t)dx * cell, (uint32_t)dy * cell, (uint32_t)dz * cell, 0};
     return sb_space_key(space, beside) >> NEAR_SHIFT;
 }
 
@@ -53,15 +48,13 @@ static int near_build(sb_wall_set *set, const sb_space *space)
         sb_free(set->near);
         set->near = sb_alloc(slots, sizeof *set->near);
         set->near_mask = slots - 1;
-        if (!set->near)
-            return -1;
+        if (!set->near) return -1;
         used = 0;
         for (size_t c = 0; c < set->cells.count && 2 * used < slots; c++)
             for (int d = 0; d < 27 && 2 * used < slots; d++)
-                used += near_insert(set, block_beside(space, set->record[set->cells.begin[c]],
-                                                      d % 3 - 1, d / 3 % 3 - 1, d / 9 - 1));
-        if (2 * used < slots)
-            return 0;
+                used += near_insert(
+                    set, block_beside(space, set->record[set->cells.begin[c]], d % 3 - 1, d / 3 % 3 - 1, d / 9 - 1));
+        if (2 * used < slots) return 0;
         slots *= 4;
     }
 }
@@ -77,14 +70,11 @@ static int table_build(sb_wall_set *set, const sb_space *space)
     uint32_t *body = sb_alloc_untouched(n, sizeof *body);
     sb_f4 *normal = sb_alloc_untouched(n, sizeof *normal);
     int status = -1;
-    if (!words || !other || !record || !body || !normal)
-        goto done;
+    if (!words || !other || !record || !body || !normal) goto done;
 #pragma omp parallel for schedule(static)
-    for (size_t i = 0; i < n; i++)
-        words[i] = sb_space_key(space, set->record[i]) << 27 | i;
+    for (size_t i = 0; i < n; i++) words[i] = sb_space_key(space, set->record[i]) << 27 | i;
     const uint64_t *sorted = sb_sort(words, other, n, 27, 27 + space->key_bits);
-    if (!sorted)
-        goto done;
+    if (!sorted) goto done;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) {
         size_t from = sorted[i] & (((uint64_t)1 << 27) - 1);
@@ -109,8 +99,7 @@ done:
 static bool on_grid(const sb_space *space, sb_record record)
 {
     for (int axis = 0; axis < 3; axis++)
-        if (record[axis] == 0 || record[axis] >> space->shift >> space->bits[axis] != 0)
-            return false;
+        if (record[axis] == 0 || record[axis] >> space->shift >> space->bits[axis] != 0) return false;
     return true;
 }
 
@@ -120,22 +109,18 @@ static int copy_set(sb_sim *sim, bool moving, sb_wall_set *set)
 {
     const sb_model *model = sim->model;
     for (size_t b = 0; b < model->body_count; b++)
-        if ((model->bodies[b].wavemaker >= 0) == moving)
-            set->count += model->bodies[b].count;
+        if ((model->bodies[b].wavemaker >= 0) == moving) set->count += model->bodies[b].count;
     set->record = sb_alloc_untouched(set->count, sizeof *set->record);
     set->body = sb_alloc_untouched(set->count, sizeof *set->body);
     set->normal = sb_alloc(set->count, sizeof *set->normal);
-    if (!set->record || !set->body || !set->normal)
-        return -1;
+    if (!set->record || !set->body || !set->normal) return -1;
     size_t at = 0;
     for (size_t b = 0; b < model->body_count; b++) {
         const sb_model_body *body = &model->bodies[b];
-        if ((body->wavemaker >= 0) != moving)
-            continue;
+        if ((body->wavemaker >= 0) != moving) continue;
         for (size_t i = body->begin; i < body->begin + body->count; i++) {
             sb_record record = sb_space_record(&sim->space, model->wall_position[i]);
-            if (!on_grid(&sim->space, record))
-                continue;
+            if (!on_grid(&sim->space, record)) continue;
             set->record[at] = record;
             if (model->wall_normal) {
                 sb_vec3 normal = model->wall_normal[i];
@@ -153,19 +138,16 @@ static sb_status create_paddles(sb_sim *sim, sb_error *error)
     const sb_model *model = sim->model;
     sim->moving_of_body = sb_alloc(model->body_count, sizeof *sim->moving_of_body);
     sim->moving = sb_alloc(model->body_count, sizeof *sim->moving);
-    if (!sim->moving_of_body || !sim->moving)
-        return sb_fail_memory(error, "moving bodies");
+    if (!sim->moving_of_body || !sim->moving) return sb_fail_memory(error, "moving bodies");
     for (size_t b = 0; b < model->body_count; b++) {
         sim->moving_of_body[b] = UINT32_MAX;
-        if (model->bodies[b].wavemaker < 0)
-            continue;
+        if (model->bodies[b].wavemaker < 0) continue;
         const sb_wavemaker_use *use = &sim->scene->wavemakers[model->bodies[b].wavemaker];
         sb_moving_body *moving = &sim->moving[sim->moving_count];
         moving->body = b;
         moving->direction = use->direction;
         sb_status status = sb_paddle_create(&use->law, &moving->paddle, error);
-        if (status != SB_OK)
-            return status;
+        if (status != SB_OK) return status;
         sim->moving_of_body[b] = (uint32_t)sim->moving_count++;
     }
     return SB_OK;
@@ -174,21 +156,18 @@ static sb_status create_paddles(sb_sim *sim, sb_error *error)
 sb_status sb_walls_create(sb_sim *sim, sb_error *error)
 {
     sb_status status = create_paddles(sim, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     if (sim->model->wall_count >= (size_t)1 << 27)
-        return sb_fail(error, SB_BAD_INPUT, "%zu boundary particles: expected fewer than %d",
-                       sim->model->wall_count, 1 << 27);
+        return sb_fail(error, SB_BAD_INPUT, "%zu boundary particles: expected fewer than %d", sim->model->wall_count,
+                       1 << 27);
     for (int s = 0; s < SB_WALL_SETS; s++) {
         sb_wall_set *set = &sim->walls[s];
         if (copy_set(sim, s == SB_MOVING, set) != 0 || table_build(set, &sim->space) != 0 ||
             sb_wall_volumes(sim, set, s == SB_MOVING) != 0)
             return sb_fail_memory(error, "boundary particles");
-        if (sim->space.repeats &&
-            (sb_wall_images(set, &sim->space) != 0 || table_build(set, &sim->space) != 0))
+        if (sim->space.repeats && (sb_wall_images(set, &sim->space) != 0 || table_build(set, &sim->space) != 0))
             return sb_fail_memory(error, "images of boundary particles");
-        if (near_build(set, &sim->space) != 0)
-            return sb_fail_memory(error, "boundary particles");
+        if (near_build(set, &sim->space) != 0) return sb_fail_memory(error, "boundary particles");
     }
     const sb_wall_set *set = &sim->walls[SB_MOVING];
     sim->moving_rest_count = set->count;
@@ -214,8 +193,7 @@ void sb_walls_destroy(sb_sim *sim)
         sb_free(sim->walls[s].near);
         sb_cells_free(&sim->walls[s].cells);
     }
-    for (size_t m = 0; m < sim->moving_count; m++)
-        sb_paddle_destroy(&sim->moving[m].paddle);
+    for (size_t m = 0; m < sim->moving_count; m++) sb_paddle_destroy(&sim->moving[m].paddle);
     sb_free(sim->moving);
     sb_free(sim->moving_of_body);
     sb_free(sim->moving_rest);
@@ -237,8 +215,7 @@ static void place(sb_sim *sim)
         sb_record step = {(uint32_t)(int32_t)nearbyint(shift.x), (uint32_t)(int32_t)nearbyint(shift.y),
                           (uint32_t)(int32_t)nearbyint(shift.z), 0};
         sb_record placed = sim->moving_rest[i] + step;
-        if (!sb_space_inside(&sim->space, placed))
-            continue;
+        if (!sb_space_inside(&sim->space, placed)) continue;
         sb_carry(&placed, sb_carried_value(sim->moving_rest[i]));
         set->record[set->count] = placed;
         set->normal[set->count] = sim->moving_rest_normal[i];
@@ -264,11 +241,9 @@ sb_status sb_stage_walls(sb_sim *sim, sb_error *error)
 
 sb_status sb_walls_restore(sb_sim *sim, sb_error *error)
 {
-    if (sim->moving_count == 0)
-        return SB_OK;
+    if (sim->moving_count == 0) return SB_OK;
     place(sim);
-    if (table_build(&sim->walls[SB_MOVING], &sim->space) != 0 ||
-        near_build(&sim->walls[SB_MOVING], &sim->space) != 0)
+    if (table_build(&sim->walls[SB_MOVING], &sim->space) != 0 || near_build(&sim->walls[SB_MOVING], &sim->space) != 0)
         return sb_fail_memory(error, "moving boundary particles");
     return SB_OK;
 }

@@ -15,8 +15,7 @@ static sb_status begin_frame(sb_assembly *assembly, const sb_particles_message *
     assembly->time = chunk->time;
     assembly->received = assembly->chunk_count = 0;
     void *seen = assembly->seen;
-    if (sb_grow(&seen, &assembly->seen_capacity, (size_t)chunk->chunk_count, 1) != 0)
-        return SB_FAILED;
+    if (sb_grow(&seen, &assembly->seen_capacity, (size_t)chunk->chunk_count, 1) != 0) return SB_FAILED;
     assembly->seen = seen;
     memset(assembly->seen, 0, (size_t)chunk->chunk_count);
     assembly->chunk_count = chunk->chunk_count;

@@ -102,8 +102,7 @@ static void take_name(reader *in, char name[SB_STREAM_NAME])
         return;
     }
     /* Names end up on terminals: escape sequences must not. */
-    for (int32_t i = 0; i < length - 1; i++)
-        name[i] = (char)(at[i] >= 0x20 && at[i] < 0x7f ? at[i] : '?');
+    for (int32_t i = 0; i < length - 1; i++) name[i] = (char)(at[i] >= 0x20 && at[i] < 0x7f ? at[i] : '?');
     name[length - 1] = 0;
 }
 
@@ -121,8 +120,7 @@ static reader open_message(const void *buffer, size_t size, int64_t fingerprint)
 {
     reader in = {.at = buffer, .left = size};
     if (size > SB_STREAM_MESSAGE_MAX) refuse(&in, "it is larger than 60 kB");
-    if (take_int64(&in) != fingerprint)
-        refuse(&in, "its fingerprint is that of another type or version");
+    if (take_int64(&in) != fingerprint) refuse(&in, "its fingerprint is that of another type or version");
     return in;
 }
 
@@ -130,13 +128,11 @@ static sb_status close_message(reader *in, const char *type, size_t size, sb_err
 {
     if (in->left > 0) refuse(in, "bytes are left over");
     if (in->trouble)
-        return sb_fail(error, SB_BAD_INPUT, "%s message of %zu bytes refused: %s", type, size,
-                       in->trouble);
+        return sb_fail(error, SB_BAD_INPUT, "%s message of %zu bytes refused: %s", type, size, in->trouble);
     return SB_OK;
 }
 
-sb_status sb_stream_decode_status(const void *buffer, size_t size, sb_status_message *out,
-                                  sb_error *error)
+sb_status sb_stream_decode_status(const void *buffer, size_t size, sb_status_message *out, sb_error *error)
 {
     reader in = open_message(buffer, size, __shorebreak_status_t_get_hash());
     sb_status_message message = {0};
@@ -153,16 +149,15 @@ sb_status sb_stream_decode_status(const void *buffer, size_t size, sb_status_mes
     message.lost_particles = take_int64(&in);
     message.fluid_particles = take_int64(&in);
     message.frame = take_int64(&in);
-    if (message.step < 0 || message.iterations < 0 || message.lost_particles < 0 ||
-        message.fluid_particles < 0 || message.frame < 0)
+    if (message.step < 0 || message.iterations < 0 || message.lost_particles < 0 || message.fluid_particles < 0 ||
+        message.frame < 0)
         refuse(&in, "a count is negative");
     sb_status status = close_message(&in, "status", size, error);
     if (status == SB_OK) *out = message;
     return status;
 }
 
-sb_status sb_stream_decode_forces(const void *buffer, size_t size, sb_forces_message *out,
-                                  sb_error *error)
+sb_status sb_stream_decode_forces(const void *buffer, size_t size, sb_forces_message *out, sb_error *error)
 {
     reader in = open_message(buffer, size, __shorebreak_forces_t_get_hash());
     sb_forces_message message;
@@ -191,22 +186,20 @@ static void check_chunk(reader *in, const sb_particles_message *message)
 {
     if (message->frame < 0 || message->decimation < 1 || !(message->spacing > 0))
         refuse(in, "frame, decimation or spacing is not positive");
-    if (message->chunk_count < 1 || message->chunk_count > SB_STREAM_CHUNKS_MAX ||
-        message->chunk < 0 || message->chunk >= message->chunk_count)
+    if (message->chunk_count < 1 || message->chunk_count > SB_STREAM_CHUNKS_MAX || message->chunk < 0 ||
+        message->chunk >= message->chunk_count)
         refuse(in, "its chunk is not one of the frame's");
     if (message->total < 0 || message->first < 0 || message->first > message->total ||
         message->count > message->total - message->first)
         refuse(in, "its particles are not among the frame's");
     if (in->trouble) return;
     bool last = message->chunk == message->chunk_count - 1;
-    if ((message->chunk == 0) != (message->first == 0) ||
-        last != (message->first + message->count == message->total) ||
+    if ((message->chunk == 0) != (message->first == 0) || last != (message->first + message->count == message->total) ||
         (message->count == 0) != (message->total == 0))
         refuse(in, "its chunk and its particles disagree");
 }
 
-sb_status sb_stream_decode_particles(const void *buffer, size_t size, sb_particles_message *out,
-                                     sb_error *error)
+sb_status sb_stream_decode_particles(const void *buffer, size_t size, sb_particles_message *out, sb_error *error)
 {
     reader in = open_message(buffer, size, __shorebreak_particles_t_get_hash());
     sb_particles_message message;
@@ -220,8 +213,7 @@ sb_status sb_stream_decode_particles(const void *buffer, size_t size, sb_particl
     take_doubles(&in, message.origin, 3);
     message.spacing = take_double(&in);
     message.count = take_count(&in, SB_STREAM_CHUNK, "it has more particles than fit");
-    if (take_int32(&in) != 3 * message.count)
-        refuse(&in, "its components are not three per particle");
+    if (take_int32(&in) != 3 * message.count) refuse(&in, "its components are not three per particle");
     check_chunk(&in, &message);
     size_t count = in.trouble ? 0 : (size_t)message.count;
     take_floats(&in, message.position, 3 * count);

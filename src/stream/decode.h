@@ -50,11 +50,8 @@ typedef struct sb_particles_message {
 /* Each reads one message of `size` bytes. SB_BAD_INPUT, *out untouched, when the type's fingerprint
    is another one, a count disagrees with the size or with another count, a name is not terminated,
    a number is not finite, or bytes are left over. error may be NULL. */
-sb_status sb_stream_decode_status(const void *buffer, size_t size, sb_status_message *out,
-                                  sb_error *error);
-sb_status sb_stream_decode_forces(const void *buffer, size_t size, sb_forces_message *out,
-                                  sb_error *error);
-sb_status sb_stream_decode_particles(const void *buffer, size_t size, sb_particles_message *out,
-                                     sb_error *error);
+sb_status sb_stream_decode_status(const void *buffer, size_t size, sb_status_message *out, sb_error *error);
+sb_status sb_stream_decode_forces(const void *buffer, size_t size, sb_forces_message *out, sb_error *error);
+sb_status sb_stream_decode_particles(const void *buffer, size_t size, sb_particles_message *out, sb_error *error);
 
 #endif

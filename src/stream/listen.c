@@ -38,8 +38,7 @@ static void on_status(const lcm_recv_buf_t *received, const char *channel, void 
     sb_status_message *message = &listener->message.status;
     sb_status status = sb_stream_decode_status(received->data, received->data_size, message, NULL);
     book(listener, received, status);
-    if (status == SB_OK && listener->calls.status)
-        listener->calls.status(listener->calls.user, message);
+    if (status == SB_OK && listener->calls.status) listener->calls.status(listener->calls.user, message);
 }
 
 static void on_forces(const lcm_recv_buf_t *received, const char *channel, void *user)
@@ -49,8 +48,7 @@ static void on_forces(const lcm_recv_buf_t *received, const char *channel, void 
     sb_forces_message *message = &listener->message.forces;
     sb_status status = sb_stream_decode_forces(received->data, received->data_size, message, NULL);
     book(listener, received, status);
-    if (status == SB_OK && listener->calls.forces)
-        listener->calls.forces(listener->calls.user, message);
+    if (status == SB_OK && listener->calls.forces) listener->calls.forces(listener->calls.user, message);
 }
 
 static void on_particles(const lcm_recv_buf_t *received, const char *channel, void *user)
@@ -58,26 +56,22 @@ static void on_particles(const lcm_recv_buf_t *received, const char *channel, vo
     (void)channel;
     sb_listener *listener = user;
     sb_particles_message *message = &listener->message.particles;
-    sb_status status =
-        sb_stream_decode_particles(received->data, received->data_size, message, NULL);
+    sb_status status = sb_stream_decode_particles(received->data, received->data_size, message, NULL);
     book(listener, received, status);
-    if (status == SB_OK && listener->calls.particles)
-        listener->calls.particles(listener->calls.user, message);
+    if (status == SB_OK && listener->calls.particles) listener->calls.particles(listener->calls.user, message);
 }
 
 /* LCM takes channel names as regular expressions: a prefix stands for itself. */
 static void quote(const char *channel, char pattern[2 * sizeof(sb_channel)])
 {
     for (; *channel; channel++) {
-        if ((unsigned char)*channel < 0x80 && !isalnum((unsigned char)*channel) && *channel != '_')
-            *pattern++ = '\\';
+        if ((unsigned char)*channel < 0x80 && !isalnum((unsigned char)*channel) && *channel != '_') *pattern++ = '\\';
         *pattern++ = *channel;
     }
     *pattern = 0;
 }
 
-static sb_status subscribe(sb_listener *listener, const sb_channel channels[SB_CHANNELS],
-                           sb_error *error)
+static sb_status subscribe(sb_listener *listener, const sb_channel channels[SB_CHANNELS], sb_error *error)
 {
     static const lcm_msg_handler_t handlers[SB_CHANNELS] = {on_status, on_forces, on_particles};
     /* The first subscription starts LCM's receiver and its test of the route. */
@@ -87,8 +81,7 @@ static sb_status subscribe(sb_listener *listener, const sb_channel channels[SB_C
     for (; subscribed < SB_CHANNELS; subscribed++) {
         char pattern[2 * sizeof(sb_channel)];
         quote(channels[subscribed], pattern);
-        lcm_subscription_t *made =
-            lcm_subscribe(listener->lcm, pattern, handlers[subscribed], listener);
+        lcm_subscription_t *made = lcm_subscribe(listener->lcm, pattern, handlers[subscribed], listener);
         if (!made) break;
         lcm_subscription_set_queue_capacity(made, QUEUE_MESSAGES);
     }
@@ -103,8 +96,7 @@ sb_status sb_listener_create(const char *url, const char *prefix, const sb_liste
 {
     sb_channel channels[SB_CHANNELS];
     const char *preset = getenv("LCM_DEFAULT_URL");
-    if ((!url || !*url) && (!preset || !*preset))
-        url = "udpm://239.255.76.67:7667?recv_buf_size=4000000";
+    if ((!url || !*url) && (!preset || !*preset)) url = "udpm://239.255.76.67:7667?recv_buf_size=4000000";
     sb_listener *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, "the listener");
     made->calls = *calls;

@@ -6,16 +6,14 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-sb_status sb_provider_channels(const char *prefix, sb_channel channels[SB_CHANNELS],
-                               sb_error *error)
+sb_status sb_provider_channels(const char *prefix, sb_channel channels[SB_CHANNELS], sb_error *error)
 {
     static const char *const names[SB_CHANNELS] = {"status", "forces", "particles"};
     if (!prefix || !*prefix) prefix = "shorebreak";
     for (int i = 0; i < SB_CHANNELS; i++) {
         int length = snprintf(channels[i], sizeof channels[i], "%s_%s", prefix, names[i]);
         if (length < 0 || (size_t)length >= sizeof channels[i])
-            return sb_fail(error, SB_BAD_INPUT,
-                           "stream prefix \"%s\": the channel %s_%s is longer than LCM's %d bytes",
+            return sb_fail(error, SB_BAD_INPUT, "stream prefix \"%s\": the channel %s_%s is longer than LCM's %d bytes",
                            prefix, prefix, names[i], LCM_MAX_CHANNEL_NAME_LENGTH);
     }
     return SB_OK;

@@ -15,8 +15,7 @@ typedef char sb_channel[LCM_MAX_CHANNEL_NAME_LENGTH + 1];
 
 /* <prefix>_status, <prefix>_forces, <prefix>_particles; prefix NULL or empty: "shorebreak".
    SB_BAD_INPUT when that is longer than LCM allows. */
-sb_status sb_provider_channels(const char *prefix, sb_channel channels[SB_CHANNELS],
-                               sb_error *error);
+sb_status sb_provider_channels(const char *prefix, sb_channel channels[SB_CHANNELS], sb_error *error);
 
 /* lcm_create with the reason in *error instead of on stderr: SB_FAILED names the URL, LCM's words
    and the remedy; or that there was no answer within five seconds. url NULL or empty: LCM_DEFAULT_URL,

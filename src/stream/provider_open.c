@@ -12,8 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#define ROUTE_REMEDY                                                                               \
-    "a multicast route is needed: ip link set lo multicast on; ip route add 224.0.0.0/4 dev lo"
+#define ROUTE_REMEDY "a multicast route is needed: ip link set lo multicast on; ip route add 224.0.0.0/4 dev lo"
 
 /* s; a provider that can be had is there within milliseconds. */
 static const double PATIENCE = 5;
@@ -85,8 +84,7 @@ static sb_status explain(const char *url, const char *complaint, sb_error *error
     const bool multicast = strncmp(url, "udpm://", 7) == 0;
     return sb_fail(error, SB_FAILED, "LCM cannot open \"%.200s\" (%s); %s", url,
                    *complaint ? complaint : "no reason given",
-                   multicast ? ROUTE_REMEDY
-                             : "expected udpm://ADDRESS:PORT, file://PATH?mode=w|r, tcpq:// or memq://");
+                   multicast ? ROUTE_REMEDY : "expected udpm://ADDRESS:PORT, file://PATH?mode=w|r, tcpq:// or memq://");
 }
 
 sb_status sb_provider_open(const char *url, lcm_t **lcm, sb_error *error)
@@ -108,7 +106,8 @@ sb_status sb_provider_open(const char *url, lcm_t **lcm, sb_error *error)
     sb_stderr_release(&hold, complaint, sizeof complaint);
     if (started && !ended)
         return sb_fail(error, SB_FAILED,
-                       "LCM cannot open \"%.200s\": no answer within %g s, expected a peer that greets", named, PATIENCE);
+                       "LCM cannot open \"%.200s\": no answer within %g s, expected a peer that greets", named,
+                       PATIENCE);
     lcm_t *opened = o->lcm;
     free_opening(o);
     if (!started) return sb_fail(error, SB_FAILED, "LCM cannot open \"%.200s\": the system refuses a thread", named);

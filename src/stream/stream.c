@@ -43,8 +43,8 @@ lcm_t *sb_stream_provider(sb_stream *stream)
     return stream->lcm;
 }
 
-sb_status sb_stream_create(const sb_stream_settings *settings, const char *run_name,
-                           sb_stream **stream, sb_error *error)
+sb_status sb_stream_create(const sb_stream_settings *settings, const char *run_name, sb_stream **stream,
+                           sb_error *error)
 {
     sb_stream *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, "the stream");
@@ -76,8 +76,7 @@ void sb_stream_abandon(sb_stream *stream)
 
 sb_stream_counters sb_stream_count(const sb_stream *stream)
 {
-    return (sb_stream_counters){
-        .messages = stream->messages, .bytes = stream->bytes, .errors = stream->errors};
+    return (sb_stream_counters){.messages = stream->messages, .bytes = stream->bytes, .errors = stream->errors};
 }
 
 /* Sends what an encoder left: `size` bytes, or a negative size when it failed. */
@@ -91,11 +90,9 @@ static void send_message(sb_stream *stream, int channel, const void *buffer, int
     /* A peer that stopped reading blocks for ever: here, and only here, the thread may be cancelled. */
     int state;
     pthread_setcancelstate(PTHREAD_CANCEL_ENABLE, &state);
-    bool sent = size > 0 &&
-                lcm_publish(stream->lcm, stream->channels[channel], buffer, (unsigned)size) == 0;
+    bool sent = size > 0 && lcm_publish(stream->lcm, stream->channels[channel], buffer, (unsigned)size) == 0;
     pthread_setcancelstate(state, NULL);
-    if (!sent && !sigismember(&before, SIGPIPE))
-        sigtimedwait(&pipe_signal, NULL, &(struct timespec){0});
+    if (!sent && !sigismember(&before, SIGPIPE)) sigtimedwait(&pipe_signal, NULL, &(struct timespec){0});
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     if (sent) {
         stream->messages++;
@@ -123,8 +120,7 @@ void sb_stream_status(sb_stream *stream, const sb_frame_status *status)
         .fluid_particles = stream->fluid_particles,
         .frame = stream->frame,
     };
-    send_message(stream, SB_CHANNEL_STATUS, buffer,
-                 shorebreak_status_t_encode(buffer, 0, sizeof buffer, &message));
+    send_message(stream, SB_CHANNEL_STATUS, buffer, shorebreak_status_t_encode(buffer, 0, sizeof buffer, &message));
 }
 
 static void store(double out[3], sb_vec3 vector)
@@ -161,9 +157,8 @@ static void publish_forces(sb_stream *stream, const sb_frame *frame)
             .moment = stream->moment,
             .displacement = stream->displacement,
         };
-        send_message(
-            stream, SB_CHANNEL_FORCES, stream->buffer,
-            shorebreak_forces_t_encode(stream->buffer, 0, sizeof stream->buffer, &message));
+        send_message(stream, SB_CHANNEL_FORCES, stream->buffer,
+                     shorebreak_forces_t_encode(stream->buffer, 0, sizeof stream->buffer, &message));
         first += count;
     } while (first < frame->body_count);
 }

@@ -15,12 +15,12 @@ typedef struct sb_stream sb_stream;
    copied, cut at 63 bytes. SB_FAILED with the remedy when there is no provider: warn and go on.
    LCM writes its complaints to stderr; they are caught and become part of the error, so create the
    stream before other threads print. */
-sb_status sb_stream_create(const sb_stream_settings *settings, const char *run_name,
-                           sb_stream **stream, sb_error *error);
+sb_status sb_stream_create(const sb_stream_settings *settings, const char *run_name, sb_stream **stream,
+                           sb_error *error);
 void sb_stream_destroy(sb_stream *stream);
 
-/* After a publish was cancelled: what LCM left of it, perhaps with its lock held, cannot be closed; it is kept until the
-   process ends. */
+/* After a publish was cancelled: what LCM left of it, perhaps with its lock held, cannot be closed; it is kept until
+   the process ends. */
 void sb_stream_abandon(sb_stream *stream);
 
 /* Sends status and forces of a frame, and its particles when settings->interval has passed since

@@ -13,24 +13,23 @@
 #include <string.h>
 #include <unistd.h>
 
-static const char measured[] =
-    "dimensions: 2\n"
-    "resolution: 0.05\n"
-    "duration: 0.6\n"
-    "domain: {min: [0, 0], max: [3, 1]}\n"
-    "water: {boxes: [{min: [0.3, 0], max: [1.4, 0.5]}]}\n"
-    "bodies:\n"
-    "  - {name: paddle, shape: box, min: [0, 0], max: [0.28, 0.9]}\n"
-    "  - {name: step, shape: box, min: [1.5, 0], max: [1.8, 0.2]}\n"
-    "wavemakers: [{name: w, body: paddle, kind: stroke, stroke: 0.2, speed: 0.5}]\n"
-    "measure:\n"
-    "  interval: 0.03\n"
-    "  gauges: [{name: wet, x: 0.8}, {name: dry, x: 2.8}]\n"
-    "  probes: [{name: deep, at: [0.8, 0.2]}]\n"
-    "  planes: [{name: lip, from: [1.45]}]\n"
-    "  runups: [{name: floor, from: [0.3], to: [2.9]}]\n"
-    "  map: {}\n"
-    "output: {particle_interval: 0.1, plots: false}\n";
+static const char measured[] = "dimensions: 2\n"
+                               "resolution: 0.05\n"
+                               "duration: 0.6\n"
+                               "domain: {min: [0, 0], max: [3, 1]}\n"
+                               "water: {boxes: [{min: [0.3, 0], max: [1.4, 0.5]}]}\n"
+                               "bodies:\n"
+                               "  - {name: paddle, shape: box, min: [0, 0], max: [0.28, 0.9]}\n"
+                               "  - {name: step, shape: box, min: [1.5, 0], max: [1.8, 0.2]}\n"
+                               "wavemakers: [{name: w, body: paddle, kind: stroke, stroke: 0.2, speed: 0.5}]\n"
+                               "measure:\n"
+                               "  interval: 0.03\n"
+                               "  gauges: [{name: wet, x: 0.8}, {name: dry, x: 2.8}]\n"
+                               "  probes: [{name: deep, at: [0.8, 0.2]}]\n"
+                               "  planes: [{name: lip, from: [1.45]}]\n"
+                               "  runups: [{name: floor, from: [0.3], to: [2.9]}]\n"
+                               "  map: {}\n"
+                               "output: {particle_interval: 0.1, plots: false}\n";
 
 int pair_setup(void **state)
 {
@@ -39,9 +38,17 @@ int pair_setup(void **state)
     return 0;
 }
 
-const char *const pair_tables[] = {"forces.csv",      "gauges.csv", "probes.csv",          "energy.csv",
-                                     "overtopping.csv", "runup.csv",  "maps/max_depth.asc",  "maps/max_speed.asc",
-                                     "maps/arrival_time.asc", "maps/max_momentum_flux.asc", NULL};
+const char *const pair_tables[] = {"forces.csv",
+                                   "gauges.csv",
+                                   "probes.csv",
+                                   "energy.csv",
+                                   "overtopping.csv",
+                                   "runup.csv",
+                                   "maps/max_depth.asc",
+                                   "maps/max_speed.asc",
+                                   "maps/arrival_time.asc",
+                                   "maps/max_momentum_flux.asc",
+                                   NULL};
 
 void assert_same_file(const char *a, const char *b, const char *name)
 {
@@ -96,8 +103,8 @@ static void hash_of(const char *run, char hash[32])
 
 void assert_same_run(const char *a, const char *b, const char *const *files)
 {
-    static const char *const numbers[] = {"simulated_s", "steps", "mean_iterations", "peak_N", "peak_time_s",
-                                          "impulse_Ns", "kinetic_J", "particle_files", "pictures"};
+    static const char *const numbers[] = {"simulated_s", "steps",     "mean_iterations", "peak_N",  "peak_time_s",
+                                          "impulse_Ns",  "kinetic_J", "particle_files",  "pictures"};
     char hash[2][32], name[2][96];
     hash_of(a, hash[0]);
     hash_of(b, hash[1]);

@@ -33,31 +33,30 @@ const char tank_2d[] = "title: Tank in 2D\n"
                        "  probes: [{name: deep, at: [0.4, 0.2]}]\n"
                        "output: {particle_interval: 0.1, plots: false}\n";
 
-const char tank_3d[] =
-    "title: Tank in 3D\n"
-    "resolution: 0.1\n"
-    "duration: 0.3\n"
-    "domain: {min: [0, 0, 0], max: [2.6, 0.8, 1]}\n"
-    "water:\n"
-    "  boxes:\n"
-    "    - {min: [0, 0, 0], max: [0.8, 0.8, 0.6]}\n"
-    "bodies:\n"
-    "  - {name: post, shape: box, min: [1.0, 0.3, 0], max: [1.3, 0.6, 0.8]}\n"
-    "  - {name: sill, shape: box, min: [1.6, 0, 0], max: [1.9, 0.8, 0.3]}\n"
-    "measure:\n"
-    "  interval: 0.05\n"
-    "  gauges: [{name: wet, x: 0.4, y: 0.4}, {name: dry, x: 2.4, y: 0.4}]\n"
-    "  probes: [{name: deep, at: [0.4, 0.4, 0.2]}]\n"
-    "render:\n"
-    "  interval: 0.1\n"
-    "  width: 160\n"
-    "  height: 90\n"
-    "  speed_max: 2\n"
-    "  video: false\n"
-    "  cameras:\n"
-    "    - {name: side, eye: [1, -3, 1.5], target: [1, 0.4, 0.3]}\n"
-    "    - {name: front, eye: [4, 0.4, 1.5], target: [1, 0.4, 0.3]}\n"
-    "output: {particle_interval: 0.1, plots: false}\n";
+const char tank_3d[] = "title: Tank in 3D\n"
+                       "resolution: 0.1\n"
+                       "duration: 0.3\n"
+                       "domain: {min: [0, 0, 0], max: [2.6, 0.8, 1]}\n"
+                       "water:\n"
+                       "  boxes:\n"
+                       "    - {min: [0, 0, 0], max: [0.8, 0.8, 0.6]}\n"
+                       "bodies:\n"
+                       "  - {name: post, shape: box, min: [1.0, 0.3, 0], max: [1.3, 0.6, 0.8]}\n"
+                       "  - {name: sill, shape: box, min: [1.6, 0, 0], max: [1.9, 0.8, 0.3]}\n"
+                       "measure:\n"
+                       "  interval: 0.05\n"
+                       "  gauges: [{name: wet, x: 0.4, y: 0.4}, {name: dry, x: 2.4, y: 0.4}]\n"
+                       "  probes: [{name: deep, at: [0.4, 0.4, 0.2]}]\n"
+                       "render:\n"
+                       "  interval: 0.1\n"
+                       "  width: 160\n"
+                       "  height: 90\n"
+                       "  speed_max: 2\n"
+                       "  video: false\n"
+                       "  cameras:\n"
+                       "    - {name: side, eye: [1, -3, 1.5], target: [1, 0.4, 0.3]}\n"
+                       "    - {name: front, eye: [4, 0.4, 1.5], target: [1, 0.4, 0.3]}\n"
+                       "output: {particle_interval: 0.1, plots: false}\n";
 
 static char folder[512];
 
@@ -112,8 +111,7 @@ char *text_of(const char *name)
     char *text = NULL;
     size_t length;
     sb_error error = {0};
-    if (sb_file_read(in_folder("%s", name), 1 << 26, &text, &length, &error) != SB_OK)
-        fail_msg("%s", error.text);
+    if (sb_file_read(in_folder("%s", name), 1 << 26, &text, &length, &error) != SB_OK) fail_msg("%s", error.text);
     return text;
 }
 

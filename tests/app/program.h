@@ -43,10 +43,10 @@ void outcome_free(outcome *o);
 outcome program_expect(int status, const char *const *arguments);
 
 #define RUN(status, ...) program_expect(status, (const char *const[]){__VA_ARGS__, NULL})
-#define RUN_AND_FORGET(status, ...)                                                                \
-    do {                                                                                           \
-        outcome forgotten = RUN(status, __VA_ARGS__);                                              \
-        outcome_free(&forgotten);                                                                  \
+#define RUN_AND_FORGET(status, ...)                                                                                    \
+    do {                                                                                                               \
+        outcome forgotten = RUN(status, __VA_ARGS__);                                                                  \
+        outcome_free(&forgotten);                                                                                      \
     } while (0)
 
 /* Fails unless the text is one line that begins with "shorebreak: " and holds `words`. */

@@ -30,9 +30,9 @@ static void check_and_run(const char *scene, const char *name)
     snprintf(spacing, sizeof spacing, "resolution=%.9g", COARSER * number(o.out, "resolution_m"));
     snprintf(until, sizeof until, "%.9g", STEPS * COARSER * number(o.out, "time_step_s"));
     outcome_free(&o);
-    RUN_AND_FORGET(0, "run", scene, "--out", name, "--quiet", "--until", until, "--set", spacing,
-                   "--set", "render.interval=0", "--set", "output.particle_interval=0", "--set",
-                   "output.plots=false", "--set", "numerics.settle_steps=10");
+    RUN_AND_FORGET(0, "run", scene, "--out", name, "--quiet", "--until", until, "--set", spacing, "--set",
+                   "render.interval=0", "--set", "output.particle_interval=0", "--set", "output.plots=false", "--set",
+                   "numerics.settle_steps=10");
     snprintf(run, sizeof run, "%s/summary.json", name);
     assert_true(json_number_of(run, "steps") >= STEPS);
     assert_true(json_number_of(run, "fluid_particles") > 50);
@@ -43,8 +43,8 @@ static void every_scene_checks_and_runs(void **state)
 {
     (void)state;
     const char *const folder = SB_SOURCE_DIR "/assets/scenes";
-    static const char *const promised[] = {"plant.yaml", "dam-break-column.yaml",
-                                           "solitary-flume.yaml", "still-water.yaml"};
+    static const char *const promised[] = {"plant.yaml", "dam-break-column.yaml", "solitary-flume.yaml",
+                                           "still-water.yaml"};
     for (size_t p = 0; p < sizeof promised / sizeof promised[0]; p++) {
         char path[1024];
         snprintf(path, sizeof path, "%s/%s", folder, promised[p]);

@@ -186,8 +186,8 @@ static void no_room_for_particle_files(void **state)
 {
     (void)state;
     /* 300 particles take 15 kB; log and tables stay below 12. */
-    static const char *const arguments[] = {"run",     "tank2.yaml", "--out",                       "tight",
-                                            "--quiet", "--set",      "output.checkpoint.minutes=0", NULL};
+    static const char *const arguments[] = {
+        "run", "tank2.yaml", "--out", "tight", "--quiet", "--set", "output.checkpoint.minutes=0", NULL};
     outcome o = program_run_limited(12000, arguments);
     if (o.status != 2) fail_msg("exit status %d: %s", o.status, o.err);
     assert_contains(o.err, "particle files: tight/particles/000001.vtp: cannot write: File too large");
@@ -202,9 +202,18 @@ static void no_room_for_particle_files(void **state)
 static void no_room_for_pictures(void **state)
 {
     (void)state;
-    static const char *const arguments[] = {"run", "tank3.yaml", "--out", "narrow", "--quiet", "--set",
-                                            "render.width=1280", "--set", "render.height=720", "--set",
-                                            "output.checkpoint.minutes=0", NULL};
+    static const char *const arguments[] = {"run",
+                                            "tank3.yaml",
+                                            "--out",
+                                            "narrow",
+                                            "--quiet",
+                                            "--set",
+                                            "render.width=1280",
+                                            "--set",
+                                            "render.height=720",
+                                            "--set",
+                                            "output.checkpoint.minutes=0",
+                                            NULL};
     outcome o = program_run_limited(40000, arguments);
     if (o.status != 2) fail_msg("exit status %d: %s", o.status, o.err);
     assert_contains(o.err, "pictures: narrow/frames/side/000001.png: ");
@@ -340,16 +349,11 @@ static void a_clock_that_jumps(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_subscriber_that_stops),
-        cmocka_unit_test(a_subscriber_that_dies),
-        cmocka_unit_test(a_peer_that_never_answers),
-        cmocka_unit_test(a_renderer_that_does_not_start),
-        cmocka_unit_test(no_graphics_library),
-        cmocka_unit_test(no_room_for_particle_files),
-        cmocka_unit_test(no_room_for_pictures),
-        cmocka_unit_test(a_directory_that_vanishes),
-        cmocka_unit_test(a_directory_that_moves),
-        cmocka_unit_test(nothing_is_written_through_a_link),
+        cmocka_unit_test(a_subscriber_that_stops),   cmocka_unit_test(a_subscriber_that_dies),
+        cmocka_unit_test(a_peer_that_never_answers), cmocka_unit_test(a_renderer_that_does_not_start),
+        cmocka_unit_test(no_graphics_library),       cmocka_unit_test(no_room_for_particle_files),
+        cmocka_unit_test(no_room_for_pictures),      cmocka_unit_test(a_directory_that_vanishes),
+        cmocka_unit_test(a_directory_that_moves),    cmocka_unit_test(nothing_is_written_through_a_link),
         cmocka_unit_test(a_clock_that_jumps),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);

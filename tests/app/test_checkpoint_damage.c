@@ -165,8 +165,7 @@ static void a_changed_source_is_another_build(void **state)
 {
     (void)state;
     static const char *const folders[] = {"tree/src/sim", "tree/src/base"};
-    for (int f = 0; f < 2; f++)
-        assert_int_equal(sb_make_directories(in_folder("%s", folders[f]), NULL), SB_OK);
+    for (int f = 0; f < 2; f++) assert_int_equal(sb_make_directories(in_folder("%s", folders[f]), NULL), SB_OK);
     write_text("tree/src/base/vec.h", "");
     write_text("tree/src/base/random.h", "");
     char *one = numerics_of("x = 1;"), *other = numerics_of("x = 2;"), *again = numerics_of("x = 1;");
@@ -181,10 +180,8 @@ static void a_changed_source_is_another_build(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(damaged_ones_are_passed_over),
-        cmocka_unit_test(no_part_may_be_missing),
-        cmocka_unit_test(other_scenes_are_refused),
-        cmocka_unit_test(other_builds_are_refused),
+        cmocka_unit_test(damaged_ones_are_passed_over),      cmocka_unit_test(no_part_may_be_missing),
+        cmocka_unit_test(other_scenes_are_refused),          cmocka_unit_test(other_builds_are_refused),
         cmocka_unit_test(a_changed_source_is_another_build),
     };
     return cmocka_run_group_tests(tests, pair_setup, program_teardown);

@@ -22,16 +22,15 @@ static void a_checkpoint_that_fails_is_a_warning(void **state)
     struct stat size;
     assert_int_equal(stat(in_folder("full/checkpoints/%s", names[0]), &size), 0);
     assert_true(size.st_size > 10000);
-    outcome o = program_run_limited((rlim_t)size.st_size - 500,
-                                    (const char *const[]){"run", "measured.yaml", "--out", "full", "--quiet", "--resume",
-                                                  "--until", "0.1", "--set", "output.particle_interval=0", "--set",
-                                                  "output.checkpoint.steps=1", NULL});
+    outcome o = program_run_limited(
+        (rlim_t)size.st_size - 500,
+        (const char *const[]){"run", "measured.yaml", "--out", "full", "--quiet", "--resume", "--until", "0.1", "--set",
+                              "output.particle_interval=0", "--set", "output.checkpoint.steps=1", NULL});
     assert_int_equal(o.status, 0);
     /* The first one due is at the step after the one that the run went on from. */
     snprintf(words, sizeof words, "shorebreak: warning: no checkpoint at step %ld, the run goes on: full/checkpoints/",
              strtol(names[0], NULL, 10) + 1);
-    if (strncmp(o.err, words, strlen(words)) != 0)
-        fail_msg("expected \"%s\" first in:\n%s", words, o.err);
+    if (strncmp(o.err, words, strlen(words)) != 0) fail_msg("expected \"%s\" first in:\n%s", words, o.err);
     assert_contains(o.err, "cannot write: File too large");
     outcome_free(&o);
     assert_int_equal(list_checkpoints("full", left), 1);
@@ -45,8 +44,8 @@ static void a_full_disk_ends_the_run_and_it_goes_on(void **state)
     RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "roomy", "--quiet", "--set", "measure.interval=0.002");
     RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "tight", "--quiet", "--set", "measure.interval=0.002", "--until",
                    "0.1");
-    outcome o = program_run_limited(25000, (const char *const[]){"run", "measured.yaml", "--out", "tight", "--quiet", "--set",
-                                                         "measure.interval=0.002", "--resume", NULL});
+    outcome o = program_run_limited(25000, (const char *const[]){"run", "measured.yaml", "--out", "tight", "--quiet",
+                                                                 "--set", "measure.interval=0.002", "--resume", NULL});
     assert_int_equal(o.status, 2);
     assert_contains(o.err, ".csv: cannot write: File too large");
     outcome_free(&o);
@@ -59,8 +58,8 @@ static void a_full_disk_ends_the_run_and_it_goes_on(void **state)
 static void one_run_at_a_time(void **state)
 {
     (void)state;
-    pid_t process = program_start((const char *const[]){"run", "measured.yaml", "--out", "one", "--quiet", "--until",
-                                                        "1000", NULL});
+    pid_t process = program_start(
+        (const char *const[]){"run", "measured.yaml", "--out", "one", "--quiet", "--until", "1000", NULL});
     for (double end = sb_clock() + 30; !exists("one/particles/000002.vtp") && sb_clock() < end;) usleep(2000);
     outcome o = RUN(1, "run", "measured.yaml", "--out", "one", "--quiet", "--resume");
     assert_one_line(o.err, "one: another run is writing there");
@@ -77,8 +76,8 @@ static void one_run_at_a_time(void **state)
 static void removed_tables_end_the_run(void **state)
 {
     (void)state;
-    pid_t process = program_start((const char *const[]){"run", "measured.yaml", "--out", "gone", "--quiet", "--until",
-                                                        "1000", NULL});
+    pid_t process = program_start(
+        (const char *const[]){"run", "measured.yaml", "--out", "gone", "--quiet", "--until", "1000", NULL});
     for (double end = sb_clock() + 30; !exists("gone/particles/000002.vtp") && sb_clock() < end;) usleep(2000);
     unlink(in_folder("gone/probes.csv"));
     outcome o = program_finish(process);

@@ -13,8 +13,7 @@
 static void each_solver_goes_on(void **state)
 {
     (void)state;
-    static const char *const solvers[] = {"numerics.solver=jacobi", "numerics.solver=chebyshev",
-                                          "numerics.solver=cg"};
+    static const char *const solvers[] = {"numerics.solver=jacobi", "numerics.solver=chebyshev", "numerics.solver=cg"};
     for (int s = 0; s < 3; s++) {
         RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "whole", "--quiet", "--set", solvers[s]);
         RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "parts", "--quiet", "--set", solvers[s], "--until", "0.2");
@@ -33,8 +32,9 @@ static void each_solver_goes_on(void **state)
 static void a_run_in_3d_with_pictures_goes_on(void **state)
 {
     (void)state;
-    static const char *const files[] = {"forces.csv", "gauges.csv", "frames/side/000001.png",
-                                        "frames/side/000004.png", "frames/front/000003.png", NULL};
+    static const char *const files[] = {
+        "forces.csv", "gauges.csv", "frames/side/000001.png", "frames/side/000004.png", "frames/front/000003.png",
+        NULL};
     static const char sides[] = "domain.sides={y_min: periodic, y_max: periodic}";
     for (int periodic = 0; periodic < 2; periodic++) {
         const char *set = periodic ? sides : "numerics.turbulence=sps";
@@ -61,12 +61,14 @@ static void a_run_with_sleepers_goes_on(void **state)
         "wavemakers: [{name: w, body: paddle, kind: stroke, stroke: 0.4, speed: 0.5}]\n"
         "measure: {interval: 0.1, gauges: [{name: far, x: 14}], probes: [{name: still, at: [14, 0.5]}], map: {}}\n"
         "output: {particle_interval: 0.2, plots: false}\n";
-    static const char *const files[] = {"forces.csv", "gauges.csv", "probes.csv", "energy.csv", "maps/max_speed.asc", NULL};
+    static const char *const files[] = {"forces.csv", "gauges.csv",         "probes.csv",
+                                        "energy.csv", "maps/max_speed.asc", NULL};
     unsigned long asleep = 0, all = 0;
     write_text("flume.yaml", flume);
     RUN_AND_FORGET(0, "run", "flume.yaml", "--out", "whole2", "--quiet");
     RUN_AND_FORGET(0, "run", "flume.yaml", "--out", "parts2", "--quiet", "--until", "0.5");
-    RUN_AND_FORGET(0, "run", "flume.yaml", "--out", "parts2", "--quiet", "--resume", "--until", "1.1", "--threads", "2");
+    RUN_AND_FORGET(0, "run", "flume.yaml", "--out", "parts2", "--quiet", "--resume", "--until", "1.1", "--threads",
+                   "2");
     RUN_AND_FORGET(0, "run", "flume.yaml", "--out", "parts2", "--quiet", "--resume");
     assert_same_run("whole2", "parts2", files);
     char *log = text_of("whole2/run.jsonl");
@@ -168,14 +170,10 @@ static void a_signal_leaves_a_checkpoint(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_solver_goes_on),
-        cmocka_unit_test(a_run_in_3d_with_pictures_goes_on),
-        cmocka_unit_test(a_run_with_sleepers_goes_on),
-        cmocka_unit_test(checkpoints_change_nothing),
-        cmocka_unit_test(the_last_ones_are_kept),
-        cmocka_unit_test(without_a_checkpoint_it_begins),
-        cmocka_unit_test(a_finished_run_says_so),
-        cmocka_unit_test(a_signal_leaves_a_checkpoint),
+        cmocka_unit_test(each_solver_goes_on),         cmocka_unit_test(a_run_in_3d_with_pictures_goes_on),
+        cmocka_unit_test(a_run_with_sleepers_goes_on), cmocka_unit_test(checkpoints_change_nothing),
+        cmocka_unit_test(the_last_ones_are_kept),      cmocka_unit_test(without_a_checkpoint_it_begins),
+        cmocka_unit_test(a_finished_run_says_so),      cmocka_unit_test(a_signal_leaves_a_checkpoint),
     };
     return cmocka_run_group_tests(tests, pair_setup, program_teardown);
 }

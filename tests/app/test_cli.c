@@ -145,18 +145,16 @@ static void check_tells_what_would_be_built(void **state)
     assert_contains(o.out, "still depth        0.6 m (6.0 particles)\n");
     assert_string_equal(o.err, "");
     outcome_free(&o);
-    RUN_AND_FORGET(0, "check", "tank3.yaml", "--set", "resolution=0.2", "--preset", "paper",
-                   "--threads=2");
+    RUN_AND_FORGET(0, "check", "tank3.yaml", "--set", "resolution=0.2", "--preset", "paper", "--threads=2");
     assert_false(exists("runs"));
 }
 
 static void check_in_json(void **state)
 {
     (void)state;
-    static const char *const keys[] = {"scene",     "dimensions",       "resolution_m",
-                                       "steps",     "fluid_particles",  "boundary_particles",
-                                       "bodies",    "warnings",         "memory_bytes",
-                                       "run_time_s", "disk_bytes",      "time_step_s"};
+    static const char *const keys[] = {"scene",           "dimensions",         "resolution_m", "steps",
+                                       "fluid_particles", "boundary_particles", "bodies",       "warnings",
+                                       "memory_bytes",    "run_time_s",         "disk_bytes",   "time_step_s"};
     outcome o = RUN(0, "check", "tank3.yaml", "--json");
     assert_true(json_valid(o.out));
     for (size_t k = 0; k < sizeof keys / sizeof keys[0]; k++)
@@ -255,11 +253,15 @@ static void profile_says_where_time_went_and_changes_nothing(void **state)
     assert_string_equal(o.out, "");
     outcome_free(&o);
     o = RUN(0, "run", "tank2.yaml", "--until", "0.05", "--quiet", "--profile", "--out", "profiled");
-    static const char *const words[] = {"ns per particle-step\n", "\nneighbours ", "\npressure ", "\nall stages ",
-                                        " iterations per step, ", " particle-steps per second, 1 threads\n",
-                                        "\nmemory: simulation ", "\n  stream: off, no LCM thread\n"};
-    for (size_t w = 0; w < sizeof words / sizeof words[0]; w++)
-        assert_contains(o.out, words[w]);
+    static const char *const words[] = {"ns per particle-step\n",
+                                        "\nneighbours ",
+                                        "\npressure ",
+                                        "\nall stages ",
+                                        " iterations per step, ",
+                                        " particle-steps per second, 1 threads\n",
+                                        "\nmemory: simulation ",
+                                        "\n  stream: off, no LCM thread\n"};
+    for (size_t w = 0; w < sizeof words / sizeof words[0]; w++) assert_contains(o.out, words[w]);
     outcome_free(&o);
     copy_hash("plain/summary.json", hashes[0]);
     copy_hash("profiled/summary.json", hashes[1]);

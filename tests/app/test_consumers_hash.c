@@ -28,8 +28,8 @@ static void hash_of(const char *run, char hash[32])
 static int setup(void **state)
 {
     if (program_setup(state) != 0) return -1;
-    RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "plain", "--quiet", "--until", "0.06", "--set",
-                   SPACING, "--set", "render.interval=0", "--set", "output.particle_interval=0");
+    RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "plain", "--quiet", "--until", "0.06", "--set", SPACING, "--set",
+                   "render.interval=0", "--set", "output.particle_interval=0");
     hash_of("plain", plain);
     assert_near(json_number_of("plain/summary.json", "pictures"), 0, 0);
     assert_near(json_number_of("plain/summary.json", "particle_files"), 0, 0);
@@ -41,9 +41,8 @@ static void pictures_and_files_change_nothing(void **state)
 {
     (void)state;
     char hash[32];
-    RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "drawn", "--quiet", "--until", "0.06", "--set",
-                   SPACING, "--set", "render.interval=0.02", "--set",
-                   "output.particle_interval=0.01");
+    RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "drawn", "--quiet", "--until", "0.06", "--set", SPACING, "--set",
+                   "render.interval=0.02", "--set", "output.particle_interval=0.01");
     hash_of("drawn", hash);
     assert_string_equal(hash, plain);
     assert_near(json_number_of("drawn/summary.json", "pictures"), 4, 0);
@@ -54,10 +53,9 @@ static void the_stream_changes_nothing(void **state)
 {
     (void)state;
     char hash[32];
-    outcome o = RUN(0, "run", "tank3.yaml", "--out", "sent", "--quiet", "--until", "0.06", "--set",
-                    SPACING, "--set", "render.interval=0", "--set", "output.particle_interval=0",
-                    "--set", "stream.enabled=true", "--set", "stream.url='memq://'", "--set",
-                    "stream.interval=0.01");
+    outcome o = RUN(0, "run", "tank3.yaml", "--out", "sent", "--quiet", "--until", "0.06", "--set", SPACING, "--set",
+                    "render.interval=0", "--set", "output.particle_interval=0", "--set", "stream.enabled=true", "--set",
+                    "stream.url='memq://'", "--set", "stream.interval=0.01");
     assert_string_equal(o.err, "");
     outcome_free(&o);
     hash_of("sent", hash);
@@ -75,8 +73,8 @@ static void threads_change_nothing(void **state)
     static const char *const counts[] = {"1", "2", "3"};
     for (int i = 0; i < 3; i++) {
         char hash[32];
-        RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "threads", "--quiet", "--until", "0.06",
-                       "--set", SPACING, "--set", "render.interval=0", "--threads", counts[i]);
+        RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "threads", "--quiet", "--until", "0.06", "--set", SPACING,
+                       "--set", "render.interval=0", "--threads", counts[i]);
         assert_near(json_number_of("threads/summary.json", "threads"), i + 1, 0);
         hash_of("threads", hash);
         assert_string_equal(hash, plain);
@@ -88,9 +86,8 @@ static void the_hash_sees_the_state(void **state)
 {
     (void)state;
     char hash[32];
-    RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "other", "--quiet", "--until", "0.06", "--set",
-                   SPACING, "--set", "render.interval=0", "--set", "output.particle_interval=0",
-                   "--set", "fluid.gravity=9.8");
+    RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "other", "--quiet", "--until", "0.06", "--set", SPACING, "--set",
+                   "render.interval=0", "--set", "output.particle_interval=0", "--set", "fluid.gravity=9.8");
     hash_of("other", hash);
     assert_string_not_equal(hash, plain);
 }

@@ -43,19 +43,17 @@ static void check_last_good(const char *run, size_t count, double time)
 {
     char summary[64];
     snprintf(summary, sizeof summary, "%s/summary.json", run);
-    count -= (size_t)(json_number_of(summary, "lost_particles") +
-                      json_number_of(summary, "left_domain"));
+    count -= (size_t)(json_number_of(summary, "lost_particles") + json_number_of(summary, "left_domain"));
     sb_frame *frame = NULL;
     sb_error error = {0};
-    if (sb_vtp_read(in_folder("%s/particles/last-good.vtp", run), &frame, &error) != SB_OK)
-        fail_msg("%s", error.text);
+    if (sb_vtp_read(in_folder("%s/particles/last-good.vtp", run), &frame, &error) != SB_OK) fail_msg("%s", error.text);
     assert_int_equal(frame->count, count);
     assert_near(frame->status.time, time, 1e-5 * (1 + time));
     for (size_t i = 0; i < 3 * count; i++) {
         assert_true(isfinite(frame->position[i]) && isfinite(frame->velocity[i]));
-        double coordinate = (double)frame->position[i] +
-                            (i % 3 == 0 ? frame->origin.x : i % 3 == 1 ? frame->origin.y
-                                                                        : frame->origin.z);
+        double coordinate = (double)frame->position[i] + (i % 3 == 0   ? frame->origin.x
+                                                          : i % 3 == 1 ? frame->origin.y
+                                                                       : frame->origin.z);
         assert_true(coordinate > -1 && coordinate < 3);
     }
     sb_frame_release(frame);
@@ -85,8 +83,7 @@ static void check_summary(const char *run)
 static void senseless_start_fails_at_once(void **state)
 {
     (void)state;
-    outcome o = RUN(2, "run", "tank2.yaml", "--out", "start", "--quiet", "--set",
-                    "water.boxes.0.velocity=[300, 0]");
+    outcome o = RUN(2, "run", "tank2.yaml", "--out", "start", "--quiet", "--set", "water.boxes.0.velocity=[300, 0]");
     failure f = read_failure(last_line(o.err));
     assert_int_equal(f.step, 1);
     assert_near(f.time, 0, 0);

@@ -70,8 +70,8 @@ static void one_camera_into_another_folder(void **state)
 static void all_cameras_without_a_choice(void **state)
 {
     (void)state;
-    outcome o = RUN(0, "render", "r", "--out", "all", "--quiet", "--set", "render.width=64", "--set",
-                    "render.height=48");
+    outcome o =
+        RUN(0, "render", "r", "--out", "all", "--quiet", "--set", "render.width=64", "--set", "render.height=48");
     assert_string_equal(o.out, "");
     outcome_free(&o);
     static picture small;
@@ -99,8 +99,7 @@ static void a_new_camera(void **state)
 static void into_the_run_itself(void **state)
 {
     (void)state;
-    RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "bare", "--quiet", "--until", "0.02", "--set",
-                   "render.interval=0");
+    RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "bare", "--quiet", "--until", "0.02", "--set", "render.interval=0");
     assert_false(exists("bare/frames"));
     RUN_AND_FORGET(0, "render", "bare", "--quiet");
     assert_true(exists("bare/frames/side/000001.png"));
@@ -123,8 +122,7 @@ static void no_particle_files(void **state)
     (void)state;
     RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "flat", "--quiet", "--until", "0.02", "--set",
                    "output.particle_interval=0");
-    outcome o = RUN(1, "render", "flat", "--set",
-                    "render.cameras=[{name: a, eye: [1, -3, 1], target: [1, 0, 0]}]");
+    outcome o = RUN(1, "render", "flat", "--set", "render.cameras=[{name: a, eye: [1, -3, 1], target: [1, 0, 0]}]");
     assert_one_line(o.err, "flat/particles.pvd");
     outcome_free(&o);
     o = RUN(1, "render", "flat");
@@ -149,14 +147,12 @@ static void copy_with(const char *from, const char *to, size_t keep, size_t spoi
 static void damaged_particle_file(void **state)
 {
     (void)state;
-    RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "hurt", "--quiet", "--until", "0.2", "--set",
-                   "render.interval=0");
+    RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "hurt", "--quiet", "--until", "0.2", "--set", "render.interval=0");
     static const struct {
         size_t keep, spoil;
     } wounds[] = {{4000, 0}, {100, 0}, {0, 35}};
     for (size_t w = 0; w < sizeof wounds / sizeof wounds[0]; w++) {
-        copy_with("r/particles/000002.vtp", "hurt/particles/000002.vtp", wounds[w].keep,
-                  wounds[w].spoil);
+        copy_with("r/particles/000002.vtp", "hurt/particles/000002.vtp", wounds[w].keep, wounds[w].spoil);
         outcome o = RUN(1, "render", "hurt", "--out", "worse", "--quiet");
         assert_one_line(o.err, "hurt/particles/000002.vtp: ");
         outcome_free(&o);

@@ -23,10 +23,9 @@ typedef struct force_row {
 static const char forces_3d[] =
     "time_s,body,Fx_N,Fy_N,Fz_N,Mx_Nm,My_Nm,Mz_Nm,Fx_pressure_N,Fy_pressure_N,Fz_pressure_N,"
     "Fx_friction_N,Fy_friction_N,Fz_friction_N\n";
-static const char forces_2d[] =
-    "time_s,body,Fx_N_per_m,Fy_N_per_m,Fz_N_per_m,Mx_Nm_per_m,My_Nm_per_m,Mz_Nm_per_m,"
-    "Fx_pressure_N_per_m,Fy_pressure_N_per_m,Fz_pressure_N_per_m,Fx_friction_N_per_m,"
-    "Fy_friction_N_per_m,Fz_friction_N_per_m\n";
+static const char forces_2d[] = "time_s,body,Fx_N_per_m,Fy_N_per_m,Fz_N_per_m,Mx_Nm_per_m,My_Nm_per_m,Mz_Nm_per_m,"
+                                "Fx_pressure_N_per_m,Fy_pressure_N_per_m,Fz_pressure_N_per_m,Fx_friction_N_per_m,"
+                                "Fy_friction_N_per_m,Fz_friction_N_per_m\n";
 
 /* One run of each tank, looked at by most tests; all steps of 1/200 s, so that 0.3 s end one. */
 static int setup(void **state)
@@ -77,11 +76,20 @@ static size_t read_forces(const char *name, const char *header, force_row *rows,
 static void every_file_is_there(void **state)
 {
     (void)state;
-    static const char *const names[] = {
-        "scene.yaml",     "run.jsonl",   "forces.csv",           "gauges.csv",
-        "probes.csv",     "energy.csv",  "frames/side/000001.png", "frames/side/000004.png",
-        "frames/front/000001.png", "frames/front/000004.png", "particles/000001.vtp",
-        "particles/000004.vtp", "particles.pvd", "summary.json"};
+    static const char *const names[] = {"scene.yaml",
+                                        "run.jsonl",
+                                        "forces.csv",
+                                        "gauges.csv",
+                                        "probes.csv",
+                                        "energy.csv",
+                                        "frames/side/000001.png",
+                                        "frames/side/000004.png",
+                                        "frames/front/000001.png",
+                                        "frames/front/000004.png",
+                                        "particles/000001.vtp",
+                                        "particles/000004.vtp",
+                                        "particles.pvd",
+                                        "summary.json"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         if (access(in_folder("r3/%s", names[i]), F_OK) != 0) fail_msg("no %s", names[i]);
     assert_false(exists("r3/particles/000005.vtp"));
@@ -98,15 +106,13 @@ static void scene_is_written_as_resolved(void **state)
     assert_near(first.numerics.time_step_max, 0.005, 0);
     assert_near(first.fluid.density, 1000, 0);
     char *text = text_of("r3/scene.yaml");
-    static const char *const defaults[] = {"density:", "viscosity:", "kernel:", "wall_gamma:",
-                                           "sides:",   "decimation:", "video_rate:"};
-    for (size_t d = 0; d < sizeof defaults / sizeof defaults[0]; d++)
-        assert_contains(text, defaults[d]);
+    static const char *const defaults[] = {
+        "density:", "viscosity:", "kernel:", "wall_gamma:", "sides:", "decimation:", "video_rate:"};
+    for (size_t d = 0; d < sizeof defaults / sizeof defaults[0]; d++) assert_contains(text, defaults[d]);
     sb_free(text);
     /* The same run comes of it. */
     RUN_AND_FORGET(0, "run", "r3/scene.yaml", "--out", "again", "--quiet");
-    assert_int_equal(sb_scene_read(in_folder("again/scene.yaml"), NULL, NULL, 0, &again, &error),
-                     SB_OK);
+    assert_int_equal(sb_scene_read(in_folder("again/scene.yaml"), NULL, NULL, 0, &again, &error), SB_OK);
     assert_string_equal(first.title, again.title);
     char *forces = text_of("r3/forces.csv"), *forces_again = text_of("again/forces.csv");
     assert_string_equal(forces, forces_again);
@@ -236,8 +242,7 @@ static void particle_files_and_their_list(void **state)
         sb_frame *frame = NULL;
         /* The first state at or after its time: one step late at most. */
         assert_in_range(1000 * list.entries[i].time + 1e-6, 100 * i, 100 * i + 5);
-        assert_int_equal(sb_vtp_read(in_folder("r3/%s", list.entries[i].file), &frame, &error),
-                         SB_OK);
+        assert_int_equal(sb_vtp_read(in_folder("r3/%s", list.entries[i].file), &frame, &error), SB_OK);
         assert_near(frame->status.time, list.entries[i].time, 1e-9);
         assert_int_equal(frame->count, 384);
         sb_frame_release(frame);
@@ -248,10 +253,10 @@ static void particle_files_and_their_list(void **state)
 static void summary_has_its_keys(void **state)
 {
     (void)state;
-    static const char *const keys[] = {"wall_s", "simulated_s", "steps", "fluid_particles",
-                                       "boundary_particles", "mean_iterations",
-                                       "bytes_per_particle", "lost_particles", "peak_N",
-                                       "peak_time_s", "impulse_Ns"};
+    static const char *const keys[] = {
+        "wall_s",          "simulated_s",        "steps",          "fluid_particles", "boundary_particles",
+        "mean_iterations", "bytes_per_particle", "lost_particles", "peak_N",          "peak_time_s",
+        "impulse_Ns"};
     for (size_t k = 0; k < sizeof keys / sizeof keys[0]; k++)
         assert_true(json_number_of("r3/summary.json", keys[k]) >= 0);
     assert_near(json_number_of("r3/summary.json", "steps"), 60, 0);
@@ -274,9 +279,8 @@ static void summary_has_its_keys(void **state)
 static void until_set_and_preset_count(void **state)
 {
     (void)state;
-    outcome o = RUN(0, "run", "tank2.yaml", "--out", "changed", "--until", "0.12", "--preset",
-                    "paper", "--set", "fluid.density=1025", "--set", "resolution=0.05", "--set",
-                    "output.particle_interval=0", "--quiet");
+    outcome o = RUN(0, "run", "tank2.yaml", "--out", "changed", "--until", "0.12", "--preset", "paper", "--set",
+                    "fluid.density=1025", "--set", "resolution=0.05", "--set", "output.particle_interval=0", "--quiet");
     assert_string_equal(o.out, "");
     outcome_free(&o);
     double simulated = json_number_of("changed/summary.json", "simulated_s");
@@ -291,8 +295,7 @@ static void until_set_and_preset_count(void **state)
     assert_int_equal(read_forces("changed/forces.csv", forces_2d, rows, 8), 2);
     sb_scene scene = {0};
     sb_error error = {0};
-    assert_int_equal(sb_scene_read(in_folder("changed/scene.yaml"), NULL, NULL, 0, &scene, &error),
-                     SB_OK);
+    assert_int_equal(sb_scene_read(in_folder("changed/scene.yaml"), NULL, NULL, 0, &scene, &error), SB_OK);
     assert_near(scene.duration, 0.12, 0);
     assert_near(scene.fluid.density, 1025, 0);
     assert_near(scene.resolution, 0.05, 0);
@@ -341,18 +344,12 @@ static void unwritable_out_fails(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_file_is_there),
-        cmocka_unit_test(scene_is_written_as_resolved),
-        cmocka_unit_test(log_is_lines_of_objects),
-        cmocka_unit_test(forces_have_a_row_per_body_and_interval),
-        cmocka_unit_test(forces_add_up_to_the_impulse),
-        cmocka_unit_test(gauges_are_empty_where_dry),
-        cmocka_unit_test(probes_have_all_columns),
-        cmocka_unit_test(particle_files_and_their_list),
-        cmocka_unit_test(summary_has_its_keys),
-        cmocka_unit_test(until_set_and_preset_count),
-        cmocka_unit_test(periodic_sides_run),
-        cmocka_unit_test(out_has_a_default),
+        cmocka_unit_test(every_file_is_there),          cmocka_unit_test(scene_is_written_as_resolved),
+        cmocka_unit_test(log_is_lines_of_objects),      cmocka_unit_test(forces_have_a_row_per_body_and_interval),
+        cmocka_unit_test(forces_add_up_to_the_impulse), cmocka_unit_test(gauges_are_empty_where_dry),
+        cmocka_unit_test(probes_have_all_columns),      cmocka_unit_test(particle_files_and_their_list),
+        cmocka_unit_test(summary_has_its_keys),         cmocka_unit_test(until_set_and_preset_count),
+        cmocka_unit_test(periodic_sides_run),           cmocka_unit_test(out_has_a_default),
         cmocka_unit_test(unwritable_out_fails),
     };
     return cmocka_run_group_tests(tests, setup, program_teardown);

@@ -16,10 +16,9 @@
 /* Starts a run without an end and waits until it has written `file`, within it. */
 static pid_t start_endless(const char *scene, const char *run, const char *file)
 {
-    pid_t process = program_start((const char *const[]){
-        "run", scene, "--out", run, "--set", "duration=1000", "--set",
-        "output.particle_interval=0.05", "--set", "measure.interval=0.01", "--set",
-        "render.video=true", NULL});
+    pid_t process = program_start((const char *const[]){"run", scene, "--out", run, "--set", "duration=1000", "--set",
+                                                        "output.particle_interval=0.05", "--set",
+                                                        "measure.interval=0.01", "--set", "render.video=true", NULL});
     char name[96];
     snprintf(name, sizeof name, "%s/%s", run, file);
     for (double end = sb_clock() + 30; !exists(name) && sb_clock() < end;) usleep(2000);
@@ -141,8 +140,8 @@ static void check_stopped_early(const char *scene, const char *setting, const ch
 {
     static const double PROMPT = 20; /* s: a step of the settling may take one, sanitizers included */
     bool there = false;
-    pid_t process = program_start((const char *const[]){"run", scene, "--out", "early", "--set", setting, "--set",
-                                                        more, NULL});
+    pid_t process =
+        program_start((const char *const[]){"run", scene, "--out", "early", "--set", setting, "--set", more, NULL});
     for (double end = sb_clock() + 30; !there && sb_clock() < end; usleep(2000)) {
         if (!exists("early/run.jsonl")) continue;
         char *log = text_of("early/run.jsonl");
@@ -190,10 +189,8 @@ static void what_is_left_can_be_drawn(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(interrupt_ends_with_130),
-        cmocka_unit_test(terminate_ends_with_143),
-        cmocka_unit_test(what_is_left_can_be_drawn),
-        cmocka_unit_test(a_model_in_the_making_hears),
+        cmocka_unit_test(interrupt_ends_with_130),    cmocka_unit_test(terminate_ends_with_143),
+        cmocka_unit_test(what_is_left_can_be_drawn),  cmocka_unit_test(a_model_in_the_making_hears),
         cmocka_unit_test(water_coming_to_rest_hears),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);

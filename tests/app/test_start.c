@@ -54,8 +54,7 @@ static double last_kinetic(const char *scene)
     RUN_AND_FORGET(0, "run", "start.yaml", "--out", "q", "--quiet", "--set", "output.plots=false");
     char *text = text_of("q/energy.csv");
     size_t end = strlen(text) - 1;
-    while (end > 0 && text[end - 1] != '\n')
-        end--;
+    while (end > 0 && text[end - 1] != '\n') end--;
     const char *comma = strchr(text + end, ',');
     assert_non_null(comma);
     double kinetic = strtod(comma + 1, NULL);
@@ -103,10 +102,8 @@ static void a_moving_box_moves(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_dam_stands),
-        cmocka_unit_test(a_wave_stands_and_moves),
-        cmocka_unit_test(a_wave_starts_quietly),
-        cmocka_unit_test(a_dam_starts_quietly),
+        cmocka_unit_test(a_dam_stands),          cmocka_unit_test(a_wave_stands_and_moves),
+        cmocka_unit_test(a_wave_starts_quietly), cmocka_unit_test(a_dam_starts_quietly),
         cmocka_unit_test(a_moving_box_moves),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);

@@ -148,7 +148,10 @@ static void every_flipped_bit_is_refused(void **state)
 }
 
 /* Each reads the first section in one wrong way. */
-static void read_a_number(sb_archive_in *in) { sb_take_real(in); }
+static void read_a_number(sb_archive_in *in)
+{
+    sb_take_real(in);
+}
 static void read_too_much(sb_archive_in *in)
 {
     sb_take_count(in, UINT64_MAX);
@@ -157,7 +160,10 @@ static void read_too_much(sb_archive_in *in)
     sb_free(sb_take_text(in));
     sb_take_flag(in);
 }
-static void read_a_small_count(sb_archive_in *in) { sb_take_count(in, 5); }
+static void read_a_small_count(sb_archive_in *in)
+{
+    sb_take_count(in, 5);
+}
 static void read_a_longer_list(sb_archive_in *in)
 {
     double list[9] = {1};
@@ -172,7 +178,10 @@ static void read_a_bounded_list(sb_archive_in *in)
     sb_take_flag(in);
     assert_int_equal(sb_take_length(in, 1, 5), 0);
 }
-static void read_too_little(sb_archive_in *in) { sb_take_count(in, UINT64_MAX); }
+static void read_too_little(sb_archive_in *in)
+{
+    sb_take_count(in, UINT64_MAX);
+}
 
 static void reading_otherwise_is_refused(void **state)
 {
@@ -250,12 +259,9 @@ static void a_place_that_cannot_be_written_is_named(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_written_is_read),
-        cmocka_unit_test(every_length_but_its_own_is_refused),
-        cmocka_unit_test(every_flipped_bit_is_refused),
-        cmocka_unit_test(reading_otherwise_is_refused),
-        cmocka_unit_test(without_memory_nothing_is_written),
-        cmocka_unit_test(a_place_that_cannot_be_written_is_named),
+        cmocka_unit_test(what_is_written_is_read),           cmocka_unit_test(every_length_but_its_own_is_refused),
+        cmocka_unit_test(every_flipped_bit_is_refused),      cmocka_unit_test(reading_otherwise_is_refused),
+        cmocka_unit_test(without_memory_nothing_is_written), cmocka_unit_test(a_place_that_cannot_be_written_is_named),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -117,7 +117,8 @@ static void failures_leave_nothing_and_say_why(void **state)
 static void numbered_files_go_from_a_number_on(void **state)
 {
     (void)state;
-    static const char *const names[] = {"1.a", "000002.a", "3.a", "0004.a", "2.a.tmp", "4.a.tmp", "3.b", "x3.a", "3.ab"};
+    static const char *const names[] = {"1.a",     "000002.a", "3.a",  "0004.a", "2.a.tmp",
+                                        "4.a.tmp", "3.b",      "x3.a", "3.ab"};
     static const bool stays[] = {true, true, false, false, false, false, true, true, true};
     for (size_t n = 0; n < sizeof names / sizeof *names; n++) write_whole(names[n], "", 0);
     assert_int_equal(sb_remove_numbered(folder, ".a", 2, NULL), SB_OK);

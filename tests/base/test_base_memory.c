@@ -177,14 +177,10 @@ static void vectors_obey_their_rules(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(memory_is_zeroed_and_aligned),
-        cmocka_unit_test(absurd_sizes_are_refused),
-        cmocka_unit_test(the_chosen_allocation_fails_once),
-        cmocka_unit_test(growing_keeps_the_contents),
-        cmocka_unit_test(memory_figures_are_plausible),
-        cmocka_unit_test(errors_hold_one_line),
-        cmocka_unit_test(hashes_tell_bytes_apart),
-        cmocka_unit_test(random_numbers_are_uniform_and_repeatable),
+        cmocka_unit_test(memory_is_zeroed_and_aligned),     cmocka_unit_test(absurd_sizes_are_refused),
+        cmocka_unit_test(the_chosen_allocation_fails_once), cmocka_unit_test(growing_keeps_the_contents),
+        cmocka_unit_test(memory_figures_are_plausible),     cmocka_unit_test(errors_hold_one_line),
+        cmocka_unit_test(hashes_tell_bytes_apart),          cmocka_unit_test(random_numbers_are_uniform_and_repeatable),
         cmocka_unit_test(vectors_obey_their_rules),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -15,15 +15,13 @@
 
 #include <cmocka.h>
 
-static const sb_bench_request request = {
-    .assets = SB_SOURCE_DIR "/assets", .repeats = 2, .threads = 2, .quick = true};
+static const sb_bench_request request = {.assets = SB_SOURCE_DIR "/assets", .repeats = 2, .threads = 2, .quick = true};
 
 static sb_bench_rows rows_of(const char *section)
 {
     sb_bench_rows rows = {0};
     sb_error error = {0};
-    if (sb_bench_section_find(section)->run(&request, &rows, &error) != SB_OK)
-        fail_msg("%s: %s", section, error.text);
+    if (sb_bench_section_find(section)->run(&request, &rows, &error) != SB_OK) fail_msg("%s: %s", section, error.text);
     for (size_t i = 0; i < rows.count; i++)
         if (!(rows.rows[i].least <= rows.rows[i].median && rows.rows[i].median <= rows.rows[i].most))
             fail_msg("%s: %s: no number", rows.rows[i].subject, rows.rows[i].quantity);

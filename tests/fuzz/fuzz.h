@@ -13,20 +13,20 @@
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 /* Ends the program, which counts as a finding. */
-#define FUZZ_CHECK(condition)                                                                      \
-    do {                                                                                           \
-        if (!(condition)) {                                                                        \
-            fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);                \
-            abort();                                                                               \
-        }                                                                                          \
+#define FUZZ_CHECK(condition)                                                                                          \
+    do {                                                                                                               \
+        if (!(condition)) {                                                                                            \
+            fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);                                    \
+            abort();                                                                                                   \
+        }                                                                                                              \
     } while (0)
 
 /* Writes the bytes to a file of that name in a folder of this process; its path, valid until the
    next call. The folder goes when the process ends. */
 const char *fuzz_save(const char *name, const uint8_t *data, size_t size);
 
-/* Changes bytes (at least one) as a row of edits says, each of an offset (two bytes, low one first), a length and so many
-   bytes to put there. */
+/* Changes bytes (at least one) as a row of edits says, each of an offset (two bytes, low one first), a length and so
+   many bytes to put there. */
 void fuzz_edit(uint8_t *bytes, size_t size, const uint8_t *edits, size_t left);
 
 /* Checks what every refusal promises: a failure's status, and one line without control characters. */

@@ -37,8 +37,8 @@ static sb_archive_out sound;
 static void make_run(void)
 {
     sb_error error = {0};
-    sb_status status = sb_scene_read(fuzz_save("scene.yaml", (const uint8_t *)text, sizeof text - 1), NULL,
-                                     NULL, 0, &scene, &error);
+    sb_status status =
+        sb_scene_read(fuzz_save("scene.yaml", (const uint8_t *)text, sizeof text - 1), NULL, NULL, 0, &scene, &error);
     if (status == SB_OK) status = sb_model_build(&scene, &model, &error);
     if (status == SB_OK) status = sb_sim_create(&scene, &model, &sim, &error);
     if (status == SB_OK) status = sb_measure_create(&scene, &model, sim, &measure, &error);

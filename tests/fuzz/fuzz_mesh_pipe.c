@@ -28,8 +28,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     int pipe = memfd_create("mesh-pipe", MFD_CLOEXEC);
     FUZZ_CHECK(pipe >= 0 && write(pipe, data, size) == (ssize_t)size && lseek(pipe, 0, SEEK_SET) == 0);
-    sb_mesh_link from = {
-        .path = "some.obj", .pipe = pipe, .watch = -1, .deadline = sb_clock() + 60, .room = 1 << 20};
+    sb_mesh_link from = {.path = "some.obj", .pipe = pipe, .watch = -1, .deadline = sb_clock() + 60, .room = 1 << 20};
     sb_mesh *meshes = NULL;
     size_t count = 0;
     sb_error error = {0};

@@ -15,9 +15,9 @@
 #include <sys/wait.h>
 
 /* Numbers at which counts, offsets and coordinates tip over. */
-static const char *const words[] = {"4294967295", "-1",   "nan", "1e400", "-1e-320", "2147483648",
-                                    "99999999999999999999", "0", "\n", "{", "}",     "\"",
-                                    "\xff\xff\xff\xff", "end_header", "<p>"};
+static const char *const words[] = {"4294967295",           "-1",         "nan", "1e400", "-1e-320", "2147483648",
+                                    "99999999999999999999", "0",          "\n",  "{",     "}",       "\"",
+                                    "\xff\xff\xff\xff",     "end_header", "<p>"};
 
 typedef struct dice {
     uint64_t seed, throws;
@@ -54,18 +54,30 @@ static void damage_once(sample_text *text, dice *d)
     memcpy(copy, text->bytes + at, length);
     const char *word = words[roll(d, sizeof words / sizeof *words)];
     switch (roll(d, 12)) {
-    case 1: text->bytes[at] = (char)(text->bytes[at] ^ (1 << roll(d, 8))); break;
-    case 2: erase(text, at, length); break;
-    case 3: insert(text, at, copy, length); break;
-    case 4: insert(text, roll(d, text->length), copy, length); break;
+    case 1:
+        text->bytes[at] = (char)(text->bytes[at] ^ (1 << roll(d, 8)));
+        break;
+    case 2:
+        erase(text, at, length);
+        break;
+    case 3:
+        insert(text, at, copy, length);
+        break;
+    case 4:
+        insert(text, roll(d, text->length), copy, length);
+        break;
     case 5:
     case 6:
     case 7: /* a number or a word in place of another */
         erase(text, at, strcspn(copy, " \n,<>\"") < length ? strcspn(copy, " \n,<>\"") : length);
         insert(text, at, word, strlen(word));
         break;
-    case 8: text->length = at; break; /* the file ends */
-    default: text->bytes[at] = (char)roll(d, 256); break;
+    case 8:
+        text->length = at;
+        break; /* the file ends */
+    default:
+        text->bytes[at] = (char)roll(d, 256);
+        break;
     }
 }
 
@@ -101,7 +113,7 @@ int main(int count, char **arguments)
     for (long n = 0; n < files; ++n) longest = fmax(longest, try_file(seed, n, outcomes));
     bool left = waitpid(-1, NULL, WNOHANG) != -1 || errno != ECHILD;
     if (left) puts("a child is left behind");
-    printf("%ld refused, %ld read, %ld wrong, longest %.1f s\n", outcomes[SAMPLE_REFUSED],
-           outcomes[SAMPLE_SOUND], outcomes[SAMPLE_WRONG], longest);
+    printf("%ld refused, %ld read, %ld wrong, longest %.1f s\n", outcomes[SAMPLE_REFUSED], outcomes[SAMPLE_SOUND],
+           outcomes[SAMPLE_WRONG], longest);
     return outcomes[SAMPLE_WRONG] == 0 && !left ? 0 : 1;
 }

@@ -20,8 +20,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         return 0;
     }
     FUZZ_CHECK(paddle.duration > 0 && isfinite(paddle.duration));
-    for (int i = -1; i <= 65; ++i)
-        FUZZ_CHECK(isfinite(sb_paddle_displacement(&paddle, paddle.duration * i / 64)));
+    for (int i = -1; i <= 65; ++i) FUZZ_CHECK(isfinite(sb_paddle_displacement(&paddle, paddle.duration * i / 64)));
     for (int i = 0; i < 1075; ++i) /* rows may lie as close as numbers can */
         FUZZ_CHECK(isfinite(sb_paddle_displacement(&paddle, ldexp(paddle.duration, -i))));
     sb_paddle_destroy(&paddle);

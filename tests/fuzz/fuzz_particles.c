@@ -1,5 +1,5 @@
-/* A particle file. An input that begins with 'e' is a row of edits to a sound one; any other is the file itself. What is
-   read has finite numbers, and comes back the same when it is written and read again. */
+/* A particle file. An input that begins with 'e' is a row of edits to a sound one; any other is the file itself. What
+   is read has finite numbers, and comes back the same when it is written and read again. */
 #include "fuzz.h"
 
 #include "base/file.h"

@@ -41,8 +41,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         return 0;
     }
     char *first = write_out(&scene, "written.yaml");
-    status = sb_scene_read(fuzz_save("again.yaml", (const uint8_t *)first, strlen(first)), NULL, NULL, 0,
-                           &again, &error);
+    status =
+        sb_scene_read(fuzz_save("again.yaml", (const uint8_t *)first, strlen(first)), NULL, NULL, 0, &again, &error);
     if (status != SB_OK) fprintf(stderr, "%s\n%s", error.text, first);
     FUZZ_CHECK(status == SB_OK);
     char *second = write_out(&again, "written.yaml");

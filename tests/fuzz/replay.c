@@ -38,8 +38,7 @@ static void run_path(const char *path)
     }
     for (const struct dirent *entry; (entry = readdir(listing));) {
         char inner[SB_PATH_MAX];
-        if (entry->d_name[0] != '.' && sb_path_join(inner, path, entry->d_name, NULL) == SB_OK)
-            run_file(inner);
+        if (entry->d_name[0] != '.' && sb_path_join(inner, path, entry->d_name, NULL) == SB_OK) run_file(inner);
     }
     closedir(listing);
 }

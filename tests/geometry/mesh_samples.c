@@ -10,9 +10,8 @@
 /* A cube of side 2 from (0, 0, 0), counter-clockwise seen from outside. */
 static const int cube_vertices[8][3] = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0},
                                         {0, 0, 2}, {2, 0, 2}, {0, 2, 2}, {2, 2, 2}};
-static const int cube_triangles[12][3] = {{0, 2, 3}, {0, 3, 1}, {0, 1, 5}, {0, 5, 4},
-                                          {1, 3, 7}, {1, 7, 5}, {3, 2, 6}, {3, 6, 7},
-                                          {2, 0, 4}, {2, 4, 6}, {4, 5, 7}, {4, 7, 6}};
+static const int cube_triangles[12][3] = {{0, 2, 3}, {0, 3, 1}, {0, 1, 5}, {0, 5, 4}, {1, 3, 7}, {1, 7, 5},
+                                          {3, 2, 6}, {3, 6, 7}, {2, 0, 4}, {2, 4, 6}, {4, 5, 7}, {4, 7, 6}};
 
 __attribute__((format(printf, 2, 3))) static void add(sample_text *to, const char *format, ...)
 {
@@ -36,11 +35,10 @@ void sample_make_obj(sample_text *to)
     add(to, "# two cubes\no first\n");
     for (int copy = 0; copy < 2; ++copy) {
         for (int i = 0; i < 8; ++i)
-            add(to, "v %d %d %d\n", cube_vertices[i][0] + 5 * copy, cube_vertices[i][1],
-                cube_vertices[i][2]);
+            add(to, "v %d %d %d\n", cube_vertices[i][0] + 5 * copy, cube_vertices[i][1], cube_vertices[i][2]);
         for (int i = 0; i < 12; ++i)
-            add(to, "f %d %d %d\n", cube_triangles[i][0] + 1 + 8 * copy,
-                cube_triangles[i][1] + 1 + 8 * copy, cube_triangles[i][2] + 1 + 8 * copy);
+            add(to, "f %d %d %d\n", cube_triangles[i][0] + 1 + 8 * copy, cube_triangles[i][1] + 1 + 8 * copy,
+                cube_triangles[i][2] + 1 + 8 * copy);
         if (copy == 0) add(to, "o second\n");
     }
 }
@@ -68,8 +66,7 @@ void sample_make_stl_binary(sample_text *to)
     for (int i = 0; i < 12; ++i) {
         float facet[12] = {0};
         const uint16_t attribute = 0;
-        for (int k = 0; k < 9; ++k)
-            facet[3 + k] = (float)cube_vertices[cube_triangles[i][k / 3]][k % 3];
+        for (int k = 0; k < 9; ++k) facet[3 + k] = (float)cube_vertices[cube_triangles[i][k / 3]][k % 3];
         add_bytes(to, facet, sizeof facet);
         add_bytes(to, &attribute, sizeof attribute);
     }
@@ -80,8 +77,7 @@ static void make_ply(sample_text *to)
     add(to, "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\n"
             "property float z\nelement face 12\nproperty list uchar int vertex_indices\n"
             "end_header\n");
-    for (int i = 0; i < 8; ++i)
-        add(to, "%d %d %d\n", cube_vertices[i][0], cube_vertices[i][1], cube_vertices[i][2]);
+    for (int i = 0; i < 8; ++i) add(to, "%d %d %d\n", cube_vertices[i][0], cube_vertices[i][1], cube_vertices[i][2]);
     for (int i = 0; i < 12; ++i)
         add(to, "3 %d %d %d\n", cube_triangles[i][0], cube_triangles[i][1], cube_triangles[i][2]);
 }
@@ -93,8 +89,8 @@ static void add_base64(sample_text *to, const unsigned char *bytes, size_t count
         unsigned word = (unsigned)bytes[i] << 16;
         word |= i + 1 < count ? (unsigned)bytes[i + 1] << 8 : 0;
         word |= i + 2 < count ? bytes[i + 2] : 0;
-        add(to, "%c%c%c%c", digits[word >> 18], digits[word >> 12 & 63],
-            i + 1 < count ? digits[word >> 6 & 63] : '=', i + 2 < count ? digits[word & 63] : '=');
+        add(to, "%c%c%c%c", digits[word >> 18], digits[word >> 12 & 63], i + 1 < count ? digits[word >> 6 & 63] : '=',
+            i + 2 < count ? digits[word & 63] : '=');
     }
 }
 
@@ -140,8 +136,8 @@ static void make_glb(sample_text *to)
     sample_text json = {.length = 0};
     make_gltf_json(&json, true, buffer);
     while (json.length % 4) add(&json, " ");
-    const uint32_t head[5] = {0x46546c67, 2, (uint32_t)(28 + json.length + sizeof buffer),
-                              (uint32_t)json.length, 0x4e4f534a};
+    const uint32_t head[5] = {0x46546c67, 2, (uint32_t)(28 + json.length + sizeof buffer), (uint32_t)json.length,
+                              0x4e4f534a};
     const uint32_t chunk[2] = {sizeof buffer, 0x004e4942};
     add_bytes(to, head, sizeof head);
     add_bytes(to, json.bytes, json.length);
@@ -151,11 +147,10 @@ static void make_glb(sample_text *to)
 
 void sample_make_dae(sample_text *to)
 {
-    add(to,
-        "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
-        "version=\"1.4.1\"><asset><unit name=\"meter\" meter=\"1\"/><up_axis>Z_UP</up_axis>"
-        "</asset><library_geometries><geometry id=\"g\" name=\"g\"><mesh><source id=\"p\">"
-        "<float_array id=\"pa\" count=\"24\">");
+    add(to, "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
+            "version=\"1.4.1\"><asset><unit name=\"meter\" meter=\"1\"/><up_axis>Z_UP</up_axis>"
+            "</asset><library_geometries><geometry id=\"g\" name=\"g\"><mesh><source id=\"p\">"
+            "<float_array id=\"pa\" count=\"24\">");
     for (int i = 0; i < 24; ++i) add(to, "%d ", cube_vertices[i / 3][i % 3]);
     add(to, "</float_array><technique_common><accessor source=\"#pa\" count=\"8\" stride=\"3\">"
             "<param name=\"X\" type=\"float\"/><param name=\"Y\" type=\"float\"/>"
@@ -172,7 +167,7 @@ void sample_make_dae(sample_text *to)
 
 const sample_format sample_formats[SAMPLE_FORMATS] = {
     {"cube.obj", sample_make_obj, 2}, {"ascii.stl", make_stl, 1},  {"binary.STL", sample_make_stl_binary, 1},
-    {"cube.ply", make_ply, 1}, {"cube.gltf", make_gltf, 2}, {"cube.glb", make_glb, 2},
+    {"cube.ply", make_ply, 1},        {"cube.gltf", make_gltf, 2}, {"cube.glb", make_glb, 2},
     {"cube.dae", sample_make_dae, 1},
 };
 void sample_free(sb_mesh *meshes, size_t count)
@@ -181,19 +176,16 @@ void sample_free(sb_mesh *meshes, size_t count)
     sb_free(meshes);
 }
 
-sample_outcome sample_judge(const char *path, sb_status status, sb_mesh *meshes, size_t count,
-                     const sb_error *why)
+sample_outcome sample_judge(const char *path, sb_status status, sb_mesh *meshes, size_t count, const sb_error *why)
 {
     if (status != SB_OK)
-        return status == SB_BAD_INPUT && strncmp(why->text, path, strlen(path)) == 0 &&
-                       !strchr(why->text, '\n')
+        return status == SB_BAD_INPUT && strncmp(why->text, path, strlen(path)) == 0 && !strchr(why->text, '\n')
                    ? SAMPLE_REFUSED
                    : SAMPLE_WRONG;
     bool sound = count > 0;
     for (size_t k = 0; k < count; ++k) {
         sound = sound && meshes[k].triangle_count > 0;
-        for (size_t v = 0; v < meshes[k].vertex_count; ++v)
-            sound = sound && sb_isfinite(meshes[k].vertices[v]);
+        for (size_t v = 0; v < meshes[k].vertex_count; ++v) sound = sound && sb_isfinite(meshes[k].vertices[v]);
         for (size_t t = 0; t < 3 * meshes[k].triangle_count; ++t)
             sound = sound && meshes[k].triangles[t / 3][t % 3] < meshes[k].vertex_count;
     }

@@ -30,7 +30,6 @@ typedef enum sample_outcome { SAMPLE_SOUND, SAMPLE_REFUSED, SAMPLE_WRONG } sampl
 
 /* SOUND: meshes that hold what is promised, freed here. REFUSED: bad input, and one line that begins
    with the path. WRONG: anything else. */
-sample_outcome sample_judge(const char *path, sb_status status, sb_mesh *meshes, size_t count,
-                            const sb_error *why);
+sample_outcome sample_judge(const char *path, sb_status status, sb_mesh *meshes, size_t count, const sb_error *why);
 
 #endif

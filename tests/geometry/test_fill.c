@@ -84,8 +84,7 @@ static double volume(void)
 
 static void volume_within(double expected, double share)
 {
-    if (fabs(volume() - expected) > share * expected)
-        print_message("volume %g, expected %g\n", volume(), expected);
+    if (fabs(volume() - expected) > share * expected) print_message("volume %g, expected %g\n", volume(), expected);
     assert_true(fabs(volume() - expected) <= share * expected);
 }
 
@@ -94,8 +93,7 @@ static void refuse(const char *first, const char *second)
     sb_model untouched = {.fluid_count = 77};
     assert_int_equal(sb_model_build(&scene, &untouched, &error), SB_BAD_INPUT);
     assert_int_equal(untouched.fluid_count, 77);
-    if (!strstr(error.text, first) || !strstr(error.text, second))
-        print_message("%s\n", error.text);
+    if (!strstr(error.text, first) || !strstr(error.text, second)) print_message("%s\n", error.text);
     assert_non_null(strstr(error.text, first));
     assert_non_null(strstr(error.text, second));
 }
@@ -297,8 +295,7 @@ static void a_solitary_wave_stands_on_the_sea(void **state)
     build();
     const sb_solitary wave = {.height = 0.6, .depth = 2, .gravity = 9.81};
     double crest = 0;
-    for (int i = -300; i < 300; i++)
-        crest += 0.1 * sb_solitary_elevation(&wave, 0.1 * i);
+    for (int i = -300; i < 300; i++) crest += 0.1 * sb_solitary_elevation(&wave, 0.1 * i);
     volume_within(60 * 2 + crest, 0.003);
     double top = 0, worst = -1e9, best_u = 0;
     for (size_t i = 0; i < model.fluid_count; ++i) {
@@ -366,8 +363,7 @@ static void threads_change_nothing(void **state)
     build();
     omp_set_num_threads(threads);
     assert_int_equal(model.fluid_count, one.fluid_count);
-    assert_memory_equal(model.fluid_position, one.fluid_position,
-                        one.fluid_count * sizeof(sb_vec3));
+    assert_memory_equal(model.fluid_position, one.fluid_position, one.fluid_count * sizeof(sb_vec3));
     assert_memory_equal(model.fluid_pressure, one.fluid_pressure, one.fluid_count * sizeof(double));
     assert_int_equal(model.wall_count, one.wall_count);
     assert_memory_equal(model.wall_position, one.wall_position, one.wall_count * sizeof(sb_vec3));

@@ -109,8 +109,7 @@ static void expect_refusal(const char *name, const char *text, const char *why)
     error.text[0] = '\0';
     sb_status status = sb_mesh_import_grid(path, 0, &mesh, &error);
     remove(path);
-    if (status != SB_BAD_INPUT || strncmp(error.text, path, strlen(path)) != 0 ||
-        !strstr(error.text, why))
+    if (status != SB_BAD_INPUT || strncmp(error.text, path, strlen(path)) != 0 || !strstr(error.text, why))
         fail_msg("%s: status %d: \"%s\" does not say \"%s\"", text, status, error.text, why);
     assert_int_equal(mesh.vertex_count, 77);
 }
@@ -126,16 +125,11 @@ static void test_bad_ascii(void **state)
     expect_refusal("b.asc", "ncols 2\nncols 2\n", ":2: a second ncols");
     expect_refusal("b.asc", "ncols 2\nwidth 2\n", ":2: \"width\"");
     expect_refusal("b.asc", "ncols two\n", ":1: \"two\"");
-    expect_refusal("b.asc", "ncols 2.5\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3 4",
-                   "ncols 2.5");
-    expect_refusal("b.asc", "ncols 1\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2",
-                   "ncols 1");
-    expect_refusal("b.asc", "ncols 1e9\nnrows 1e9\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2",
-                   "ncols 1e+09");
-    expect_refusal("b.asc", "ncols 9000\nnrows 9000\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2",
-                   ":6: too short");
-    expect_refusal("b.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize -1\n1 2 3 4",
-                   "cellsize -1");
+    expect_refusal("b.asc", "ncols 2.5\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3 4", "ncols 2.5");
+    expect_refusal("b.asc", "ncols 1\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2", "ncols 1");
+    expect_refusal("b.asc", "ncols 1e9\nnrows 1e9\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2", "ncols 1e+09");
+    expect_refusal("b.asc", "ncols 9000\nnrows 9000\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2", ":6: too short");
+    expect_refusal("b.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize -1\n1 2 3 4", "cellsize -1");
     expect_refusal("b.asc", "xllcenter 1\n" HEAD "1 2 3 4", "both corner and center");
     expect_refusal("b.asc", HEAD "1 2\n3 x4\n", ":7: \"x4\"");
     expect_refusal("b.asc", HEAD "1 2\n3 4m\n", ":7: \"4m\"");
@@ -198,11 +192,8 @@ static int remove_folder(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ascii),
-        cmocka_unit_test(test_points),
-        cmocka_unit_test(test_bad_ascii),
-        cmocka_unit_test(test_bad_points),
-        cmocka_unit_test(test_measured_sea_bed),
+        cmocka_unit_test(test_ascii),      cmocka_unit_test(test_points),           cmocka_unit_test(test_bad_ascii),
+        cmocka_unit_test(test_bad_points), cmocka_unit_test(test_measured_sea_bed),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

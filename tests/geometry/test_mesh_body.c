@@ -37,8 +37,7 @@ static void test_shapes(void **state)
     sb_mesh_free(&mesh);
 
     const double radius = 5, height = 3, tolerance = 0.01;
-    assert_int_equal(sb_mesh_cylinder(sb_vec(1, 1, -1), radius, height, tolerance, &mesh, &error),
-                     SB_OK);
+    assert_int_equal(sb_mesh_cylinder(sb_vec(1, 1, -1), radius, height, tolerance, &mesh, &error), SB_OK);
     report = diagnose(&mesh);
     assert_true(report.watertight);
     assert_true(near(report.min, sb_vec(-4, -4, -1)) && near(report.max, sb_vec(6, 6, 2)));
@@ -53,8 +52,8 @@ static void test_shapes(void **state)
     assert_true(near(report.min, sb_vec(-3, 2, 1.5)) && near(report.max, sb_vec(5, 2, 4.5)));
     assert_int_equal(report.open_edges, 4);
     const uint32_t *t = mesh.triangles[0];
-    sb_vec3 normal = sb_cross(sb_sub(mesh.vertices[t[1]], mesh.vertices[t[0]]),
-                              sb_sub(mesh.vertices[t[2]], mesh.vertices[t[0]]));
+    sb_vec3 normal =
+        sb_cross(sb_sub(mesh.vertices[t[1]], mesh.vertices[t[0]]), sb_sub(mesh.vertices[t[2]], mesh.vertices[t[0]]));
     assert_true(near(sb_normalize(normal), sb_vec(0, -1, 0)));
     sb_mesh_free(&mesh);
 
@@ -118,8 +117,8 @@ static void test_rotation_order(void **state)
     body.rotate = sb_vec(0, 0, 30);
     body.translate = sb_vec(0, 0, 0);
     meshes = from_body(&body, 1);
-    assert_true(near(meshes[0].vertices[0], sb_vec(cos(M_PI / 6) - 2 * sin(M_PI / 6),
-                                                   sin(M_PI / 6) + 2 * cos(M_PI / 6), 3)));
+    assert_true(
+        near(meshes[0].vertices[0], sb_vec(cos(M_PI / 6) - 2 * sin(M_PI / 6), sin(M_PI / 6) + 2 * cos(M_PI / 6), 3)));
     free_all(meshes, 1);
 }
 
@@ -143,12 +142,8 @@ static void test_mesh_file_body(void **state)
                      "o tower\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
                      "v 300 0 0\nv 400 0 0\nv 300 100 0\nv 300 0 100\n"
                      "o tower/top\nf 5 6 7\nf 5 8 6\nf 5 7 8\nf 6 8 7\n");
-    sb_body body = {.name = "plant",
-                    .shape = SB_SHAPE_MESH,
-                    .file = path,
-                    .up = 'y',
-                    .scale = 0.01,
-                    .translate = {0, 10, 0}};
+    sb_body body = {
+        .name = "plant", .shape = SB_SHAPE_MESH, .file = path, .up = 'y', .scale = 0.01, .translate = {0, 10, 0}};
     sb_mesh *meshes = from_body(&body, 1);
     sb_mesh_report report = diagnose(meshes);
     assert_string_equal(meshes[0].name, "plant");
@@ -215,9 +210,8 @@ static void test_grid_body(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_shapes),         cmocka_unit_test(test_bad_shapes),
-        cmocka_unit_test(test_rotation_order), cmocka_unit_test(test_mesh_file_body),
-        cmocka_unit_test(test_grid_body),
+        cmocka_unit_test(test_shapes),         cmocka_unit_test(test_bad_shapes), cmocka_unit_test(test_rotation_order),
+        cmocka_unit_test(test_mesh_file_body), cmocka_unit_test(test_grid_body),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,8 +31,7 @@ static void flip(sb_mesh *mesh, size_t i)
 static sb_mesh unweld(sb_mesh mesh)
 {
     sb_mesh soup;
-    assert_int_equal(sb_mesh_alloc(&soup, 3 * mesh.triangle_count, mesh.triangle_count, &error),
-                     SB_OK);
+    assert_int_equal(sb_mesh_alloc(&soup, 3 * mesh.triangle_count, mesh.triangle_count, &error), SB_OK);
     for (size_t i = 0; i < 3 * mesh.triangle_count; ++i) {
         soup.vertices[i] = mesh.vertices[mesh.triangles[i / 3][i % 3]];
         soup.triangles[i / 3][i % 3] = (uint32_t)i;
@@ -49,9 +48,7 @@ static void test_sound_box(void **state)
     sb_mesh_report report;
     assert_int_equal(sb_mesh_diagnose(&box, &report, NULL), SB_OK);
     assert_true(report.watertight);
-    assert_int_equal(report.open_edges + report.flipped_faces + report.degenerate_faces +
-                         report.doubled_faces,
-                     0);
+    assert_int_equal(report.open_edges + report.flipped_faces + report.degenerate_faces + report.doubled_faces, 0);
     assert_true(fabs(report.volume - 24) < 1e-9);
     assert_true(fabs(report.area - 52) < 1e-9);
     assert_true(report.min.x == 1e6 && report.max.y == -2e6 + 3 && report.max.z == 4);
@@ -120,8 +117,7 @@ static void test_orientation_is_mended(void **state)
     sb_mesh_free(&box);
 
     sb_mesh sheet;
-    assert_int_equal(sb_mesh_plane(sb_vec(0, 0, 0), sb_vec(0.2, 0, -1), 2, 2, &sheet, &error),
-                     SB_OK);
+    assert_int_equal(sb_mesh_plane(sb_vec(0, 0, 0), sb_vec(0.2, 0, -1), 2, 2, &sheet, &error), SB_OK);
     sheet.sheet = false;
     assert_int_equal(sb_mesh_orient(&sheet, SB_ROLE_SOLID, &error), SB_OK);
     assert_int_equal(sheet.turned, 0);

@@ -75,10 +75,8 @@ static void test_every_format(void **state)
         assert_int_equal(count, sample_formats[i].mesh_count);
         bool dae = strstr(sample_formats[i].name, ".dae"), gltf = strstr(sample_formats[i].name, ".gl");
         check_cube(&meshes[0], sb_vec(0, 0, dae ? 7 : 0), 8);
-        if (count > 1)
-            check_cube(&meshes[1], gltf ? sb_vec(10, 0, -6) : sb_vec(5, 0, 0), gltf ? 24 : 8);
-        if (dae || gltf || strstr(sample_formats[i].name, ".obj"))
-            assert_string_equal(meshes[0].name, "first");
+        if (count > 1) check_cube(&meshes[1], gltf ? sb_vec(10, 0, -6) : sb_vec(5, 0, 0), gltf ? 24 : 8);
+        if (dae || gltf || strstr(sample_formats[i].name, ".obj")) assert_string_equal(meshes[0].name, "first");
         if (gltf) assert_string_equal(meshes[1].name, "second_ mirrored");
         sample_free(meshes, count);
     }
@@ -97,8 +95,7 @@ static void test_dae_axes_and_unit(void **state)
         memcpy(unit, "meter=\"4\"", 9);
         sb_mesh *meshes;
         size_t count;
-        if (sb_mesh_import(save("unit.dae", &text), &meshes, &count, &error) != SB_OK)
-            fail_msg("%s", error.text);
+        if (sb_mesh_import(save("unit.dae", &text), &meshes, &count, &error) != SB_OK) fail_msg("%s", error.text);
         check_cube(&meshes[0], sb_vec(0, 0, 28), 512);
         sample_free(meshes, count);
     }
@@ -111,10 +108,8 @@ static void expect_refusal(const char *path, const char *why)
     const sb_mesh_limits limits = {.memory = 1u << 28, .seconds = 1};
     error.text[0] = '\0';
     sb_status status = sb_mesh_import_within(path, &limits, &meshes, &count, &error);
-    if (status != SB_BAD_INPUT)
-        fail_msg("%s: status %d, expected a refusal (%s)", path, status, error.text);
-    if (strncmp(error.text, path, strlen(path)) != 0 || !strstr(error.text, why) ||
-        strchr(error.text, '\n'))
+    if (status != SB_BAD_INPUT) fail_msg("%s: status %d, expected a refusal (%s)", path, status, error.text);
+    if (strncmp(error.text, path, strlen(path)) != 0 || !strstr(error.text, why) || strchr(error.text, '\n'))
         fail_msg("\"%s\" should be one line, begin with the path and say \"%s\"", error.text, why);
     assert_null(meshes);
     assert_int_equal(count, 99);
@@ -132,18 +127,16 @@ static void test_broken_files(void **state)
     expect_refusal(save_text("notes.txt", "hello"), "unknown format");
     expect_refusal(save_text("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), "");
     expect_refusal(save_text("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "finite");
-    expect_refusal(save_text("nan.ply",
-                             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
-                             "property float y\nproperty float z\nelement face 1\n"
-                             "property list uchar int vertex_indices\nend_header\n"
-                             "0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n"),
+    expect_refusal(save_text("nan.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                                        "property float y\nproperty float z\nelement face 1\n"
+                                        "property list uchar int vertex_indices\nend_header\n"
+                                        "0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n"),
                    "");
     expect_refusal(save_text("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"), "");
-    expect_refusal(save_text("index.ply",
-                             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
-                             "property float y\nproperty float z\nelement face 1\n"
-                             "property list uchar int vertex_indices\nend_header\n"
-                             "0 0 0\n1 0 0\n0 1 0\n3 0 1 77\n"),
+    expect_refusal(save_text("index.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                                          "property float y\nproperty float z\nelement face 1\n"
+                                          "property list uchar int vertex_indices\nend_header\n"
+                                          "0 0 0\n1 0 0\n0 1 0\n3 0 1 77\n"),
                    "");
     expect_refusal(save_text("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"), "no triangles");
     expect_refusal(save_text("header.ply", "ply\nformat ascii 1.0\nelement vertex 3\n"), "");
@@ -169,8 +162,7 @@ static void test_cut_and_garbage(void **state)
         text.length = text.length / 20;
         snprintf(name, sizeof name, "cut-%s", sample_formats[i].name);
         expect_refusal(save(name, &text), "");
-        for (size_t j = 0; j < garbage.length; ++j)
-            garbage.bytes[j] = (char)(256 * sb_random(i + 1, j));
+        for (size_t j = 0; j < garbage.length; ++j) garbage.bytes[j] = (char)(256 * sb_random(i + 1, j));
         snprintf(name, sizeof name, "garbage-%s", sample_formats[i].name);
         expect_refusal(save(name, &garbage), "");
     }
@@ -206,15 +198,13 @@ static sample_outcome read_damaged(size_t which, uint64_t round)
     }
     snprintf(path, sizeof path, "%s/%d-%s", folder, (int)round, sample_formats[which].name);
     FILE *file = fopen(path, "wb");
-    if (!file || fwrite(text.bytes, 1, text.length, file) != text.length || fclose(file) != 0)
-        return SAMPLE_WRONG;
+    if (!file || fwrite(text.bytes, 1, text.length, file) != text.length || fclose(file) != 0) return SAMPLE_WRONG;
     sb_mesh *meshes = NULL;
     size_t count = 0;
     sb_error why = {0};
     sb_status status = sb_mesh_import_within(path, &limits, &meshes, &count, &why);
     sample_outcome result = sample_judge(path, status, meshes, count, &why);
-    if (result == SAMPLE_WRONG)
-        print_message("%s: status %d, %zu meshes, %s\n", path, status, count, why.text);
+    if (result == SAMPLE_WRONG) print_message("%s: status %d, %zu meshes, %s\n", path, status, count, why.text);
     return result;
 }
 
@@ -232,8 +222,8 @@ static void test_random_damage(void **state)
         ++results[result];
     }
     double took = sb_clock() - begin;
-    print_message("%d damaged files: %d read, %d refused, %.1f s\n", SAMPLE_FORMATS * ROUNDS,
-                  results[SAMPLE_SOUND], results[SAMPLE_REFUSED], took);
+    print_message("%d damaged files: %d read, %d refused, %.1f s\n", SAMPLE_FORMATS * ROUNDS, results[SAMPLE_SOUND],
+                  results[SAMPLE_REFUSED], took);
     assert_int_equal(results[SAMPLE_WRONG], 0);
     assert_true(results[SAMPLE_SOUND] + results[SAMPLE_REFUSED] >= 300);
     assert_true(results[SAMPLE_SOUND] > 20 && results[SAMPLE_REFUSED] > 20);
@@ -253,8 +243,7 @@ static void test_names_are_made_fit(void **state)
     assert_string_equal(meshes[0].name, "a_b_c");
     assert_string_equal(meshes[1].name, "caf\xc3\xa9");
     assert_string_equal(meshes[2].name, "bad_");
-    assert_string_equal(meshes[3].name,
-                        "01234567890123456789012345678901234567890123456789012345678901");
+    assert_string_equal(meshes[3].name, "01234567890123456789012345678901234567890123456789012345678901");
     sample_free(meshes, count);
 }
 

@@ -141,8 +141,7 @@ static void open_sides_have_no_wall(void **state)
     add_box("dam", sb_vec(8, -1, -1), sb_vec(9, 7, 6));
     scene.domain.side[SB_X_MAX] = SB_SIDE_OPEN;
     build();
-    for (size_t i = model.bodies[1].begin; i < model.wall_count; ++i)
-        assert_true(model.wall_position[i].x < 10);
+    for (size_t i = model.bodies[1].begin; i < model.wall_count; ++i) assert_true(model.wall_position[i].x < 10);
     for (int side = 0; side < SB_SIDES; ++side) scene.domain.side[side] = SB_SIDE_OPEN;
     scene.sea.present = false;
     build();
@@ -350,24 +349,21 @@ static void points_inside_are_found(void **state)
         at[3 * i + 2] = (float)p.z;
     }
     sb_inside_report report;
-    assert_int_equal(sb_model_first_inside(&model, at, n, origin, NULL, 0.1, &report, &error),
-                     SB_OK);
+    assert_int_equal(sb_model_first_inside(&model, at, n, origin, NULL, 0.1, &report, &error), SB_OK);
     assert_int_equal(report.count, 0);
     assert_true(report.first == SIZE_MAX && report.body == SIZE_MAX);
     /* Two into the block, one of them by less than the tolerance. */
     const float deep[3] = {9, 2, 0}, shallow[3] = {8.05F, 2, 0};
     memcpy(at + 3 * 17, shallow, sizeof shallow);
     memcpy(at + 3 * 40, deep, sizeof deep);
-    assert_int_equal(sb_model_first_inside(&model, at, n, origin, NULL, 0.1, &report, &error),
-                     SB_OK);
+    assert_int_equal(sb_model_first_inside(&model, at, n, origin, NULL, 0.1, &report, &error), SB_OK);
     assert_int_equal(report.count, 1);
     assert_int_equal(report.first, 40);
     assert_int_equal(report.body, 0);
     assert_true(fabs(report.depth - 1) < 1e-5);
     /* The block moved 1.5 m ahead holds other points. */
     sb_vec3 moved[2] = {{1.5, 0, 0}, {0, 0, 0}};
-    assert_int_equal(sb_model_first_inside(&model, at, n, origin, moved, 0.1, &report, &error),
-                     SB_OK);
+    assert_int_equal(sb_model_first_inside(&model, at, n, origin, moved, 0.1, &report, &error), SB_OK);
     assert_int_equal(report.count, 3 * 4 * 6);
     sb_free(at);
 }
@@ -484,15 +480,20 @@ int main(void)
 {
 #define CASE(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
     const struct CMUnitTest tests[] = {
-        CASE(bodies_and_their_particles),      CASE(names_are_unique),
-        CASE(a_wavemaker_needs_its_body),      CASE(open_sides_have_no_wall),
-        CASE(warnings_say_what_is_too_coarse), CASE(thin_bodies_share_a_line),
-        CASE(thin_bodies_beyond_a_line_are_counted), CASE(holes_in_a_mesh_are_named),
+        CASE(bodies_and_their_particles),
+        CASE(names_are_unique),
+        CASE(a_wavemaker_needs_its_body),
+        CASE(open_sides_have_no_wall),
+        CASE(warnings_say_what_is_too_coarse),
+        CASE(thin_bodies_share_a_line),
+        CASE(thin_bodies_beyond_a_line_are_counted),
+        CASE(holes_in_a_mesh_are_named),
         CASE(plates_that_water_passes_are_refused),
         CASE(plates_that_hold_are_not_refused),
         CASE(slender_columns_are_not_refused),
         CASE(thin_parts_are_only_warned_of),
-        CASE(points_inside_are_found),         CASE(beside_a_sheet_is_not_within),
+        CASE(points_inside_are_found),
+        CASE(beside_a_sheet_is_not_within),
         CASE(a_start_is_forgotten_unless_it_moves),
         CASE(two_dimensions_have_no_side_walls),
         CASE(no_memory_is_an_error),

@@ -95,8 +95,7 @@ static void a_flume_has_rows_across(void **state)
         double rows = nearbyint(widths[w] / 0.5), step = widths[w] / rows;
         set_up(widths[w]);
         build();
-        printf("%g m wide: %zu fluid, %zu boundary particles\n", widths[w], model.fluid_count,
-               model.wall_count);
+        printf("%g m wide: %zu fluid, %zu boundary particles\n", widths[w], model.fluid_count, model.wall_count);
         check_rows(model.wall_position, model.wall_count, step);
         check_rows(model.fluid_position, model.fluid_count, step);
         for (size_t b = 0; b < model.wall_count; ++b) assert_near(model.wall_normal[b].y, 0, 1e-9);
@@ -148,8 +147,7 @@ static void a_sill_goes_on(void **state)
         assert_true(count[0] >= 4 * 4);
         for (size_t b = 0; b < count[0]; ++b) {
             double nearest = HUGE_VAL;
-            for (size_t k = 0; k < count[1]; ++k)
-                nearest = fmin(nearest, sb_norm(sb_sub(point[0][b], point[1][k])));
+            for (size_t k = 0; k < count[1]; ++k) nearest = fmin(nearest, sb_norm(sb_sub(point[0][b], point[1][k])));
             assert_near(nearest, 0, 1e-6);
         }
     }

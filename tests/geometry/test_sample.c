@@ -175,8 +175,7 @@ static void basins_close_their_corners(void **state)
     assert_int_equal(s.samples.count, 14 * 10 + 6 * 2 * (14 + 10 - 2));
     test_surfaces_free(&s);
     s.count = 1;
-    assert_int_equal(sb_mesh_basin(sb_vec(0.2, 0.1, 0.4), sb_vec(12, 8.3, 6), &s.mesh[0], &error),
-                     SB_OK);
+    assert_int_equal(sb_mesh_basin(sb_vec(0.2, 0.1, 0.4), sb_vec(12, 8.3, 6), &s.mesh[0], &error), SB_OK);
     test_rotate(&s.mesh[0], 0.4, 0);
     check_both("turned basin", 1.3);
 }
@@ -191,8 +190,7 @@ static void plates_become_one_sheet(void **state)
     test_surfaces_free(&s);
     box(0, sb_vec(0, 0, 0), sb_vec(0.6, 10, 8));
     test_sample(&s, 0.5);
-    for (size_t i = 0; i < s.samples.count; ++i)
-        assert_true(fabs(s.samples.position[i].x - 0.3) < 1e-3);
+    for (size_t i = 0; i < s.samples.count; ++i) assert_true(fabs(s.samples.position[i].x - 0.3) < 1e-3);
     assert_in_range(s.samples.count, 75, 100);
     test_surfaces_free(&s);
     box(0, sb_vec(0, 0, 0), sb_vec(1.4, 10, 8));
@@ -328,8 +326,7 @@ static void moving_bodies_are_sampled_alone(void **state)
     test_rules rules = test_measure(&s, 1);
     assert_true(rules.nearest > 0.01);
     size_t touching = 0;
-    for (size_t i = 0; i < s.samples.begin[1]; ++i)
-        touching += fabs(s.samples.position[i].x - 5) < 1e-9;
+    for (size_t i = 0; i < s.samples.begin[1]; ++i) touching += fabs(s.samples.position[i].x - 5) < 1e-9;
     assert_true(touching >= 48);
 }
 
@@ -377,8 +374,7 @@ static void threads_change_nothing(void **state)
         omp_set_num_threads(n);
         test_sample(&s, 0.5);
         assert_int_equal(s.samples.count, first.count);
-        assert_memory_equal(s.samples.position, first.position,
-                            first.count * sizeof *first.position);
+        assert_memory_equal(s.samples.position, first.position, first.count * sizeof *first.position);
         assert_memory_equal(s.samples.normal, first.normal, first.count * sizeof *first.normal);
         assert_memory_equal(s.samples.begin, first.begin, 4 * sizeof *first.begin);
     }

@@ -47,8 +47,7 @@ static inline void test_sample(test_surfaces *s, double offset)
     sb_error error = {0};
     sb_vec3 min = sb_vec(1e9, 1e9, 1e9), max = sb_scale(min, -1);
     for (size_t k = 0; k < s->count; ++k) {
-        if (!s->solid[k])
-            assert_int_equal(sb_solid_create(&s->mesh[k], s->role, &s->solid[k], &error), SB_OK);
+        if (!s->solid[k]) assert_int_equal(sb_solid_create(&s->mesh[k], s->role, &s->solid[k], &error), SB_OK);
         s->source[k] = (sb_sample_source){&s->mesh[k], s->solid[k], s->role, s->moving[k]};
         for (size_t i = 0; i < s->mesh[k].vertex_count; ++i) {
             min = sb_min(min, s->mesh[k].vertices[i]);
@@ -62,8 +61,7 @@ static inline void test_sample(test_surfaces *s, double offset)
                                        .min = sb_vec(floor(min.x), floor(min.y), floor(min.z)),
                                        .max = max};
     sb_samples_free(&s->samples);
-    assert_int_equal(sb_sample_surfaces(&s->settings, s->source, s->count, &s->samples, &error),
-                     SB_OK);
+    assert_int_equal(sb_sample_surfaces(&s->settings, s->source, s->count, &s->samples, &error), SB_OK);
 }
 
 static inline void test_surfaces_free(test_surfaces *s)
@@ -80,8 +78,7 @@ static inline double test_area(const sb_mesh *mesh, size_t t)
 {
     const uint32_t *c = mesh->triangles[t];
     sb_vec3 a = mesh->vertices[c[0]];
-    return 0.5 *
-           sb_norm(sb_cross(sb_sub(mesh->vertices[c[1]], a), sb_sub(mesh->vertices[c[2]], a)));
+    return 0.5 * sb_norm(sb_cross(sb_sub(mesh->vertices[c[1]], a), sb_sub(mesh->vertices[c[2]], a)));
 }
 
 static inline sb_vec3 test_normal(const sb_mesh *mesh, size_t t)
@@ -107,8 +104,7 @@ static inline sb_vec3 test_on_triangle(const sb_mesh *mesh, size_t t, uint64_t i
     }
     const uint32_t *c = mesh->triangles[t];
     sb_vec3 a = mesh->vertices[c[0]];
-    return sb_madd(sb_madd(a, u, sb_sub(mesh->vertices[c[1]], a)), v,
-                   sb_sub(mesh->vertices[c[2]], a));
+    return sb_madd(sb_madd(a, u, sb_sub(mesh->vertices[c[1]], a)), v, sb_sub(mesh->vertices[c[2]], a));
 }
 
 /* A place of a surface, its normal towards the water, that another solid covers so far around that no water comes
@@ -137,9 +133,8 @@ static inline bool test_sheet_point(const test_surfaces *s, size_t k, size_t t, 
     double distance = sb_solid_distance(s->solid[k], x, 9, &foot, &normal);
     sb_vec3 margin = sb_vec(0.01, 0.01, 0.01);
     sb_vec3 low = sb_add(s->settings.min, margin), high = sb_sub(s->settings.max, margin);
-    bool rim = s->role == SB_ROLE_TERRAIN
-                   ? foot.x < low.x || foot.y < low.y || foot.x > high.x || foot.y > high.y
-                   : s->mesh[k].sheet && foot.z > high.z;
+    bool rim = s->role == SB_ROLE_TERRAIN ? foot.x < low.x || foot.y < low.y || foot.x > high.x || foot.y > high.y
+                                          : s->mesh[k].sheet && foot.z > high.z;
     if (distance < 0.02 * d || rim || test_buried(s, k, foot, sb_scale(sb_sub(foot, x), 1 / distance))) return false;
     *at = sb_madd(foot, d / distance, sb_sub(x, foot));
     for (size_t j = 0; j < s->count; ++j)
@@ -181,13 +176,12 @@ static inline test_rules test_check(const test_surfaces *s, const char *name)
 {
     test_rules rules = test_measure(s, 150);
     if (rules.nearest < 0.7 || rules.farthest > 0.75)
-        print_message("%s, offset %g: nearest %.4f, farthest %.4f\n", name, s->settings.offset,
-                      rules.nearest, rules.farthest);
+        print_message("%s, offset %g: nearest %.4f, farthest %.4f\n", name, s->settings.offset, rules.nearest,
+                      rules.farthest);
     assert_true(rules.tested > 100);
     assert_true(rules.nearest >= 0.7);
     assert_true(rules.farthest <= 0.75);
-    for (size_t i = 0; i < s->samples.count && s->settings.offset > 0 && s->role == SB_ROLE_SOLID;
-         ++i) {
+    for (size_t i = 0; i < s->samples.count && s->settings.offset > 0 && s->role == SB_ROLE_SOLID; ++i) {
         bool inside = false;
         for (size_t k = 0; k < s->count && !inside; ++k)
             inside = sb_solid_contains(s->solid[k], s->samples.position[i]);
@@ -210,8 +204,7 @@ static inline void test_rotate(sb_mesh *mesh, double about_z, double about_y)
 static inline void test_ball(double radius, uint32_t n, sb_mesh *mesh)
 {
     sb_error error;
-    assert_int_equal(sb_mesh_alloc(mesh, (size_t)(n + 1) * 2 * n, (size_t)4 * n * n, &error),
-                     SB_OK);
+    assert_int_equal(sb_mesh_alloc(mesh, (size_t)(n + 1) * 2 * n, (size_t)4 * n * n, &error), SB_OK);
     size_t t = 0;
     for (uint32_t i = 0; i <= n; ++i)
         for (uint32_t j = 0; j < 2 * n; ++j) {
@@ -220,11 +213,9 @@ static inline void test_ball(double radius, uint32_t n, sb_mesh *mesh)
         }
     for (uint32_t i = 0; i < n; ++i)
         for (uint32_t j = 0; j < 2 * n; ++j) {
-            uint32_t a = i * 2 * n + j, b = i * 2 * n + (j + 1) % (2 * n), c = a + 2 * n,
-                     d = b + 2 * n;
+            uint32_t a = i * 2 * n + j, b = i * 2 * n + (j + 1) % (2 * n), c = a + 2 * n, d = b + 2 * n;
             if (i > 0) memcpy(mesh->triangles[t++], (uint32_t[3]){a, c, b}, sizeof(uint32_t[3]));
-            if (i + 1 < n)
-                memcpy(mesh->triangles[t++], (uint32_t[3]){b, c, d}, sizeof(uint32_t[3]));
+            if (i + 1 < n) memcpy(mesh->triangles[t++], (uint32_t[3]){b, c, d}, sizeof(uint32_t[3]));
         }
     mesh->triangle_count = t;
 }
@@ -234,8 +225,7 @@ static inline void test_hills(double length, double cell, double slope, double w
 {
     sb_error error;
     uint32_t n = (uint32_t)lround(length / cell);
-    assert_int_equal(sb_mesh_alloc(mesh, (size_t)(n + 1) * (n + 1), (size_t)2 * n * n, &error),
-                     SB_OK);
+    assert_int_equal(sb_mesh_alloc(mesh, (size_t)(n + 1) * (n + 1), (size_t)2 * n * n, &error), SB_OK);
     size_t t = 0;
     for (uint32_t i = 0; i <= n; ++i)
         for (uint32_t j = 0; j <= n; ++j) {

@@ -15,10 +15,10 @@
 
 static sb_error error;
 
-#define assert_ok(call)                                                                            \
-    do {                                                                                           \
-        error.text[0] = 0;                                                                         \
-        if ((call) != SB_OK) fail_msg("%s", error.text);                                           \
+#define assert_ok(call)                                                                                                \
+    do {                                                                                                               \
+        error.text[0] = 0;                                                                                             \
+        if ((call) != SB_OK) fail_msg("%s", error.text);                                                               \
     } while (0)
 
 static sb_vec3 random_point(uint64_t seed, uint64_t index, sb_vec3 min, sb_vec3 max)
@@ -32,15 +32,14 @@ static sb_vec3 random_point(uint64_t seed, uint64_t index, sb_vec3 min, sb_vec3 
 static void make_ball(uint32_t rings, sb_mesh *mesh)
 {
     uint32_t around = 2 * rings;
-    assert_ok(sb_mesh_alloc(mesh, (size_t)around * (rings - 1) + 2,
-                            2 * (size_t)around * (rings - 1), &error));
+    assert_ok(sb_mesh_alloc(mesh, (size_t)around * (rings - 1) + 2, 2 * (size_t)around * (rings - 1), &error));
     size_t vertex = 0, triangle = 0;
     for (uint32_t i = 1; i < rings; ++i)
         for (uint32_t j = 0; j < around; ++j) {
             double polar = M_PI * i / rings, angle = 2 * M_PI * j / around;
             double r = 1 + 0.2 * sin(5 * polar) * cos(3 * angle);
-            mesh->vertices[vertex++] = sb_vec(3 + r * sin(polar) * cos(angle),
-                                              -2 + r * sin(polar) * sin(angle), 1 + r * cos(polar));
+            mesh->vertices[vertex++] =
+                sb_vec(3 + r * sin(polar) * cos(angle), -2 + r * sin(polar) * sin(angle), 1 + r * cos(polar));
         }
     uint32_t top = (uint32_t)vertex, bottom = top + 1;
     mesh->vertices[top] = sb_vec(3, -2, 2);
@@ -68,8 +67,7 @@ static void make_terrain(uint32_t n, double x0, double y0, sb_mesh *mesh)
 {
     assert_ok(sb_mesh_alloc(mesh, (size_t)(n + 1) * (n + 1), 2 * (size_t)n * n, &error));
     for (uint32_t j = 0; j <= n; ++j)
-        for (uint32_t i = 0; i <= n; ++i)
-            mesh->vertices[j * (n + 1) + i] = sb_vec(x0 + i, y0 + j, hill(i, j));
+        for (uint32_t i = 0; i <= n; ++i) mesh->vertices[j * (n + 1) + i] = sb_vec(x0 + i, y0 + j, hill(i, j));
     size_t triangle = 0;
     for (uint32_t j = 0; j < n; ++j)
         for (uint32_t i = 0; i < n; ++i) {
@@ -92,9 +90,8 @@ static double exact_winding(const sb_mesh *mesh, sb_vec3 p)
         corners_of(mesh, i, v);
         for (int k = 0; k < 3; ++k) v[k] = sb_sub(v[k], p);
         double a = sb_norm(v[0]), b = sb_norm(v[1]), c = sb_norm(v[2]);
-        sum += 2 * atan2(sb_dot(v[0], sb_cross(v[1], v[2])), a * b * c + sb_dot(v[0], v[1]) * c +
-                                                                 sb_dot(v[1], v[2]) * a +
-                                                                 sb_dot(v[2], v[0]) * b);
+        sum += 2 * atan2(sb_dot(v[0], sb_cross(v[1], v[2])),
+                         a * b * c + sb_dot(v[0], v[1]) * c + sb_dot(v[1], v[2]) * a + sb_dot(v[2], v[0]) * b);
     }
     return sum / (4 * M_PI);
 }
@@ -233,8 +230,7 @@ static void test_terrain_is_solid_below(void **state)
         uint32_t a = (uint32_t)x, b = (uint32_t)y;
         double u = x - a, v = y - b;
         double z = u + v < 1 ? hill(a, b) * (1 - u - v) + hill(a + 1, b) * u + hill(a, b + 1) * v
-                             : hill(a + 1, b + 1) * (u + v - 1) + hill(a + 1, b) * (1 - v) +
-                                   hill(a, b + 1) * (1 - u);
+                             : hill(a + 1, b + 1) * (u + v - 1) + hill(a + 1, b) * (1 - v) + hill(a, b + 1) * (1 - u);
         assert_true(sb_solid_contains(solid, sb_vec(1e6 + x, -2e6 + y, z - 1e-6)));
         assert_true(sb_solid_contains(solid, sb_vec(1e6 + x, -2e6 + y, z - 100)));
         assert_false(sb_solid_contains(solid, sb_vec(1e6 + x, -2e6 + y, z + 1e-6)));
@@ -276,8 +272,7 @@ static void test_aligned_points(void **state)
         for (int k = -8; k <= 8; ++k) {
             sb_vec3 p = sb_add(ball.vertices[i], sb_vec(0, 0, 0.21 * k));
             double winding = exact_winding(&ball, p);
-            if (fabs(winding - round(winding)) < 1e-6)
-                assert_int_equal(sb_solid_contains(solid, p), winding > 0.5);
+            if (fabs(winding - round(winding)) < 1e-6) assert_int_equal(sb_solid_contains(solid, p), winding > 0.5);
         }
     sb_solid_destroy(solid);
     sb_mesh_free(&ball);
@@ -397,8 +392,7 @@ static void test_large_terrain_is_fast(void **state)
     double sum = 0;
     for (uint64_t i = 0; i < QUERIES; ++i) {
         double x = N * sb_random(9, 2 * i), y = N * sb_random(9, 2 * i + 1);
-        sum += sb_solid_distance(solid, sb_vec(x, y, hill(x, y) + 4 * sb_random(10, i) - 2), 3,
-                                 NULL, NULL);
+        sum += sb_solid_distance(solid, sb_vec(x, y, hill(x, y) + 4 * sb_random(10, i) - 2), 3, NULL, NULL);
     }
     double asked = sb_clock();
     size_t inside = 0;
@@ -407,9 +401,8 @@ static void test_large_terrain_is_fast(void **state)
         inside += sb_solid_contains(solid, sb_vec(x, y, hill(x, y) + 4 * sb_random(10, i) - 2));
     }
     double contained = sb_clock();
-    print_message("terrain of %zu triangles: tree %.0f ms, %.0f k distances/s, %.0f k inside/s\n",
-                  mesh.triangle_count, 1e3 * (built - begin), QUERIES / (asked - built) / 1e3,
-                  QUERIES / (contained - asked) / 1e3);
+    print_message("terrain of %zu triangles: tree %.0f ms, %.0f k distances/s, %.0f k inside/s\n", mesh.triangle_count,
+                  1e3 * (built - begin), QUERIES / (asked - built) / 1e3, QUERIES / (contained - asked) / 1e3);
     assert_true(sum / QUERIES > 0.5 && sum / QUERIES < 1);
     assert_in_range(inside, QUERIES * 48 / 100, QUERIES * 52 / 100);
     sb_solid_destroy(solid);

@@ -36,14 +36,12 @@ sb_fluid_sample sb_sim_particle(const sb_sim *sim, size_t i)
     return sim->samples[i];
 }
 
-size_t sb_sim_query(const sb_sim *sim, sb_vec3 min, sb_vec3 max, sb_fluid_sample *samples,
-                    size_t capacity)
+size_t sb_sim_query(const sb_sim *sim, sb_vec3 min, sb_vec3 max, sb_fluid_sample *samples, size_t capacity)
 {
     size_t found = 0;
     for (size_t i = 0; i < sim->report.fluid_count; i++) {
         sb_vec3 p = sim->samples[i].position;
-        if (p.x < min.x || p.x > max.x || p.y < min.y || p.y > max.y || p.z < min.z || p.z > max.z)
-            continue;
+        if (p.x < min.x || p.x > max.x || p.y < min.y || p.y > max.y || p.z < min.z || p.z > max.z) continue;
         if (found < capacity) samples[found] = sim->samples[i];
         found++;
     }
@@ -72,8 +70,7 @@ void fake_world_free(fake_world *world)
 
 sb_sight fake_sight(fake_world *world)
 {
-    return (sb_sight){&world->scene,    &world->sim, world->model.min,
-                      world->model.max, 0,           &world->cloud};
+    return (sb_sight){&world->scene, &world->sim, world->model.min, world->model.max, 0, &world->cloud};
 }
 
 void fake_add(sb_sim *sim, sb_vec3 position, sb_vec3 velocity, double pressure)
@@ -93,8 +90,8 @@ static double noise(double jitter, double spacing, uint64_t seed, size_t index, 
     return jitter * spacing * (2 * sb_random(seed + (uint64_t)axis, index) - 1);
 }
 
-void fake_fill(fake_world *world, sb_vec3 min, sb_vec3 max, double shift_x, double shift_y,
-               double jitter, uint64_t seed)
+void fake_fill(fake_world *world, sb_vec3 min, sb_vec3 max, double shift_x, double shift_y, double jitter,
+               uint64_t seed)
 {
     double s = world->scene.resolution;
     bool flat = world->scene.dimensions == 2;
@@ -104,8 +101,7 @@ void fake_fill(fake_world *world, sb_vec3 min, sb_vec3 max, double shift_x, doub
         for (double y = flat ? 0 : min.y + s / 2 + shift_y * s; y < (flat ? s / 2 : max.y); y += s)
             for (double x = min.x + s / 2 + shift_x * s; x < max.x; x += s) {
                 size_t n = sim->report.fluid_count;
-                sb_vec3 p = {x + noise(jitter, s, seed, n, 0),
-                             flat ? 0 : y + noise(jitter, s, seed, n, 1),
+                sb_vec3 p = {x + noise(jitter, s, seed, n, 0), flat ? 0 : y + noise(jitter, s, seed, n, 1),
                              z + noise(jitter, s, seed, n, 2)};
                 fake_add(sim, p, sb_vec(0, 0, 0), weight * fmax(max.z - p.z, 0));
             }

@@ -34,8 +34,8 @@ void fake_add(sb_sim *sim, sb_vec3 position, sb_vec3 velocity, double pressure);
 /* Fills [min, max] with a lattice whose layers count down from max (the top layer half a spacing
    below max.z), shifted horizontally by (shift_x, shift_y) spacings, each particle displaced by at
    most `jitter` spacings in each direction. Hydrostatic pressure below max.z. */
-void fake_fill(fake_world *world, sb_vec3 min, sb_vec3 max, double shift_x, double shift_y,
-               double jitter, uint64_t seed);
+void fake_fill(fake_world *world, sb_vec3 min, sb_vec3 max, double shift_x, double shift_y, double jitter,
+               uint64_t seed);
 
 /* Advances time by dt, moving each particle by dt times its velocity. */
 void fake_step(sb_sim *sim, double dt);

@@ -18,8 +18,7 @@ static sb_measure *start(const tank *t, sb_sim **sim)
     *sim = tank_sim(t);
     assert_non_null(*sim);
     assert_int_equal(sb_sim_settle(*sim, &error), SB_OK);
-    if (sb_measure_create(&t->scene, &t->model, *sim, &measure, &error) != SB_OK)
-        fail_msg("%s", error.text);
+    if (sb_measure_create(&t->scene, &t->model, *sim, &measure, &error) != SB_OK) fail_msg("%s", error.text);
     return measure;
 }
 
@@ -49,11 +48,8 @@ static void gauges_and_probes_see_across(void **state)
         }
         sb_gauge gauge = {"gauge", at.x, at.y};
         sb_probe probes[] = {{"inside", {at.x, at.y, 0.3}, 0}, {"floor", at, 0}};
-        t.scene.measure = (sb_measure_settings){.interval = 0.02,
-                                                .gauge_count = 1,
-                                                .gauges = &gauge,
-                                                .probe_count = 2,
-                                                .probes = probes};
+        t.scene.measure = (sb_measure_settings){
+            .interval = 0.02, .gauge_count = 1, .gauges = &gauge, .probe_count = 2, .probes = probes};
         sb_sim *sim;
         sb_measure *measure = start(&t, &sim);
         while (sb_sim_report(sim)->time < 0.02) step(sim, measure);
@@ -66,13 +62,12 @@ static void gauges_and_probes_see_across(void **state)
         sb_sim_destroy(sim);
         tank_free(&t);
     }
-    printf("gauge %.6f and %.6f m; probes %.2f and %.2f, %.2f and %.2f Pa\n", eta[0], eta[1],
-           pressure[0][0], pressure[1][0], pressure[0][1], pressure[1][1]);
+    printf("gauge %.6f and %.6f m; probes %.2f and %.2f, %.2f and %.2f Pa\n", eta[0], eta[1], pressure[0][0],
+           pressure[1][0], pressure[0][1], pressure[1][1]);
     assert_near(eta[INSIDE], 0.6, SPACING);
     assert_true(pressure[INSIDE][0] > 1000 && pressure[INSIDE][1] > 3000);
     assert_near(eta[AT_SIDE], eta[INSIDE], 1e-4);
-    for (int p = 0; p < 2; p++)
-        assert_near(pressure[AT_SIDE][p], pressure[INSIDE][p], 1e-3 * pressure[INSIDE][p]);
+    for (int p = 0; p < 2; p++) assert_near(pressure[AT_SIDE][p], pressure[INSIDE][p], 1e-3 * pressure[INSIDE][p]);
 }
 
 /* A stream brings the same volume through a plane in a side, just beside it and anywhere; the map
@@ -92,11 +87,11 @@ static void planes_and_maps_see_across(void **state)
                               {"middle", 0.5, 0, 0.5, 0.4, -1, 4},
                               {"along", 0, 0.4, 1, 0.4, -1, 4}};
     enum { PLANES = sizeof planes / sizeof *planes };
-    t.scene.measure = (sb_measure_settings){
-        .interval = 0.25,
-        .plane_count = PLANES,
-        .planes = planes,
-        .map = {.present = true, .x_max = 1, .y_max = 0.4, .cell = 0.05, .threshold = 1}};
+    t.scene.measure =
+        (sb_measure_settings){.interval = 0.25,
+                              .plane_count = PLANES,
+                              .planes = planes,
+                              .map = {.present = true, .x_max = 1, .y_max = 0.4, .cell = 0.05, .threshold = 1}};
     sb_sim *sim;
     sb_measure *measure = start(&t, &sim);
     const sb_map_record *map = sb_measure_map(measure);

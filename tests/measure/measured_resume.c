@@ -20,10 +20,14 @@ static void make(tank *t)
     tank_make(t, 2, 0.05, sb_vec(2, 0, 1.5), 1, 0.8, 0.05);
     t->scene.measure = (sb_measure_settings){
         .interval = 0.013,
-        .gauge_count = 2, .gauges = (sb_gauge *)gauges,
-        .probe_count = 2, .probes = (sb_probe *)probes,
-        .plane_count = 2, .planes = (sb_flow_plane *)planes,
-        .runup_count = 1, .runups = (sb_runup_line *)lines,
+        .gauge_count = 2,
+        .gauges = (sb_gauge *)gauges,
+        .probe_count = 2,
+        .probes = (sb_probe *)probes,
+        .plane_count = 2,
+        .planes = (sb_flow_plane *)planes,
+        .runup_count = 1,
+        .runups = (sb_runup_line *)lines,
         .map = {.present = true, .x_max = 2, .cell = 0.1, .threshold = 0.05},
     };
 }
@@ -55,7 +59,8 @@ static uint64_t steps(sb_sim *sim, sb_measure *measure, int count, size_t *flows
     hash = sb_hash(hash, map->flux, bytes);
     hash = sb_hash(hash, map->arrival, bytes);
     const sb_body_record *body = &sb_measure_bodies(measure)[0];
-    const double totals[] = {body->peak, body->peak_time, body->impulse.x, body->moment.y, body->torque.y, body->layers};
+    const double totals[] = {body->peak,     body->peak_time, body->impulse.x,
+                             body->moment.y, body->torque.y,  body->layers};
     return sb_hash(hash, totals, sizeof totals);
 }
 

@@ -32,10 +32,9 @@ static void a_tank_at_rest_reads_right(void **state)
     sb_vec3 size = {2, 1, 2};
     tank_make(&t, 2, SPACING, size, 2, 1, 0);
     sb_gauge gauge = {"middle", 1.03, 0};
-    sb_probe probes[] = {
-        {"inside", {1, 0, 0.5}, 0}, {"floor", {0.9, 0, 0}, 0}, {"wall", {0, 0, 0.4}, 0}};
-    t.scene.measure = (sb_measure_settings){
-        .interval = 0.05, .gauge_count = 1, .gauges = &gauge, .probe_count = 3, .probes = probes};
+    sb_probe probes[] = {{"inside", {1, 0, 0.5}, 0}, {"floor", {0.9, 0, 0}, 0}, {"wall", {0, 0, 0.4}, 0}};
+    t.scene.measure =
+        (sb_measure_settings){.interval = 0.05, .gauge_count = 1, .gauges = &gauge, .probe_count = 3, .probes = probes};
     sb_sim *sim;
     sb_measure *measure;
     sums s = {0};
@@ -65,8 +64,7 @@ static void a_tank_at_rest_reads_right(void **state)
 static double beyond(const sb_sim *sim, double x)
 {
     size_t count = 0;
-    for (size_t i = 0; i < sb_sim_report(sim)->fluid_count; i++)
-        count += sb_sim_particle(sim, i).position.x >= x;
+    for (size_t i = 0; i < sb_sim_report(sim)->fluid_count; i++) count += sb_sim_particle(sim, i).position.x >= x;
     return (double)count * SPACING * SPACING;
 }
 
@@ -113,8 +111,7 @@ static void wall_probes_add_up_to_the_force(void **state)
     tank_split_patch(&t, sb_vec(2, -1, 0), sb_vec(3, 1, 2));
     sb_probe probes[PROBES];
     for (int k = 0; k < PROBES; k++) probes[k] = (sb_probe){"wall", {2, 0, (k + 0.5) * spacing}, 0};
-    t.scene.measure =
-        (sb_measure_settings){.interval = 0.002, .probe_count = PROBES, .probes = probes};
+    t.scene.measure = (sb_measure_settings){.interval = 0.002, .probe_count = PROBES, .probes = probes};
     sb_sim *sim = tank_sim(&t);
     sb_measure *measure;
     double borne = 0, force = 0, greatest = 0;

@@ -12,8 +12,7 @@ static void drift(sb_sim *sim, sb_vec3 velocity)
     sim->report.max_speed = sb_norm(velocity);
 }
 
-static double passed(fake_world *world, const sb_flow_plane *plane, sb_vec3 velocity, double dt,
-                     int steps)
+static double passed(fake_world *world, const sb_flow_plane *plane, sb_vec3 velocity, double dt, int steps)
 {
     sb_sight sight = fake_sight(world);
     sb_gate *gate;
@@ -102,10 +101,8 @@ static void front_is_the_reach_of_connected_water(void **state)
         fake_world world;
         fake_world_make(&world, dimensions, spacing, sb_vec(-20, 0, 0), sb_vec(20, 10, 20));
         bool back = k % 4 >= 2; /* the water, too, then lies on the other side */
-        fake_fill(&world, sb_vec(back ? -reach : 0, 0, 0), sb_vec(back ? 0 : reach, 10, 1), 0, 0,
-                  0.2, (uint64_t)k + 1);
-        fake_add(&world.sim, sb_vec(back ? -reach - 2 : reach + 2, dimensions == 2 ? 0 : 5, 0.25),
-                 sb_vec(0, 0, 0), 0);
+        fake_fill(&world, sb_vec(back ? -reach : 0, 0, 0), sb_vec(back ? 0 : reach, 10, 1), 0, 0, 0.2, (uint64_t)k + 1);
+        fake_add(&world.sim, sb_vec(back ? -reach - 2 : reach + 2, dimensions == 2 ? 0 : 5, 0.25), sb_vec(0, 0, 0), 0);
         const sb_runup_line line = {"floor", back ? 2 : -2, 5, back ? -20 : 20, 5};
         const sb_runup_line little = {"little", 0, 5, back ? -5 : 5, 5};
         sb_sight sight = fake_sight(&world);
@@ -127,8 +124,7 @@ static void front_follows_a_thin_film(void **state)
         fake_world world;
         fake_world_make(&world, 2, spacing, sb_vec(0, 0, 0), sb_vec(40, 0, 20));
         fake_fill(&world, sb_vec(0, 0, 0), sb_vec(6, 0, 1), 0, 0, 0, 1);
-        for (int k = 1; k <= 5; k++)
-            fake_add(&world.sim, sb_vec(last + k * gap, 0, 0.25), sb_vec(0, 0, 0), 0);
+        for (int k = 1; k <= 5; k++) fake_add(&world.sim, sb_vec(last + k * gap, 0, 0.25), sb_vec(0, 0, 0), 0);
         const sb_runup_line line = {"floor", 0, 0, 40, 0};
         sb_sight sight = fake_sight(&world);
         sb_runup_record record;

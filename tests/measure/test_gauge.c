@@ -19,8 +19,7 @@ static double read_at(fake_world *world, double x, double y)
 }
 
 /* Worst and mean error in spacings over many gauge positions in still water of the given depth. */
-static void still_water(int dimensions, double spacing, double depth, double jitter, double *worst,
-                        double *mean)
+static void still_water(int dimensions, double spacing, double depth, double jitter, double *worst, double *mean)
 {
     enum { TRIALS = 200 };
     double level = 3.37, size = 12 * spacing;
@@ -30,8 +29,7 @@ static void still_water(int dimensions, double spacing, double depth, double jit
         fake_world_make(&world, dimensions, spacing, sb_vec(0, 0, level - 20 * spacing),
                         sb_vec(size, size, level + 20 * spacing));
         fake_fill(&world, sb_vec(0, 0, level - depth * spacing), sb_vec(size, size, level),
-                  sb_random(1, (uint64_t)t) - 0.5, sb_random(2, (uint64_t)t) - 0.5, jitter,
-                  (uint64_t)(100 + 3 * t));
+                  sb_random(1, (uint64_t)t) - 0.5, sb_random(2, (uint64_t)t) - 0.5, jitter, (uint64_t)(100 + 3 * t));
         double x = size * (0.4 + 0.2 * sb_random(3, (uint64_t)t));
         double y = size * (0.4 + 0.2 * sb_random(4, (uint64_t)t));
         double error = (read_at(&world, x, dimensions == 2 ? 0 : y) - level) / spacing;
@@ -60,8 +58,7 @@ static void still_level_is_unbiased_with_jitter(void **state)
         for (double jitter = 0.1; jitter < 0.25; jitter += 0.1) {
             double worst, mean;
             still_water(dimensions, 0.31, 9, jitter, &worst, &mean);
-            print_message("%dD jitter %.1f: worst %.3f, mean %+.4f spacings\n", dimensions, jitter,
-                          worst, mean);
+            print_message("%dD jitter %.1f: worst %.3f, mean %+.4f spacings\n", dimensions, jitter, worst, mean);
             /* One gauge in a rough surface sees that surface: the mean must not be off. */
             assert_true(fabs(mean) < 0.02);
             assert_true(worst < (dimensions == 3 ? 0.1 : 0.15));
@@ -86,8 +83,8 @@ static void walls_do_not_pull_the_level(void **state)
     fake_world_make(&world, 3, 1, sb_vec(0, 0, -2), sb_vec(20, 20, 40));
     fake_fill(&world, sb_vec(0, 0, 0), sb_vec(20, 20, 9), 0, 0, 0, 1);
     for (double d = 0; d < 2.1; d += 0.35) {
-        print_message("%.2f from a wall: %+.3f, in the corner %+.3f\n", d,
-                      read_at(&world, d, 10) - 9, read_at(&world, d, d) - 9);
+        print_message("%.2f from a wall: %+.3f, in the corner %+.3f\n", d, read_at(&world, d, 10) - 9,
+                      read_at(&world, d, d) - 9);
         assert_true(fabs(read_at(&world, d, 10) - 9) < 0.1);
         assert_true(fabs(read_at(&world, d, d) - 9) < 0.1);
     }
@@ -102,10 +99,8 @@ static void slope_is_followed(void **state)
     fake_world_make(&world, 3, 1, sb_vec(0, 0, 0), sb_vec(40, 12, 40));
     for (double x = 0.5; x < 40; x++)
         for (double y = 0.5; y < 12; y++)
-            for (double z = 10 + 0.2 * x - 0.5; z > 0; z--)
-                fake_add(&world.sim, sb_vec(x, y, z), sb_vec(0, 0, 0), 0);
-    for (double x = 10; x < 30; x += 2.3)
-        assert_true(fabs(read_at(&world, x, 6) - (10 + 0.2 * x)) < 0.05);
+            for (double z = 10 + 0.2 * x - 0.5; z > 0; z--) fake_add(&world.sim, sb_vec(x, y, z), sb_vec(0, 0, 0), 0);
+    for (double x = 10; x < 30; x += 2.3) assert_true(fabs(read_at(&world, x, 6) - (10 + 0.2 * x)) < 0.05);
     fake_world_free(&world);
 }
 

@@ -34,8 +34,7 @@ static void impulse_of_all_rows_is_the_integral(void **state)
     make_world(&world, bodies);
     sb_measure *measure;
     world.sim.impulses[0].pressure.x = 77; /* from settling: does not count */
-    assert_int_equal(sb_measure_create(&world.scene, &world.model, &world.sim, &measure, NULL),
-                     SB_OK);
+    assert_int_equal(sb_measure_create(&world.scene, &world.model, &world.sim, &measure, NULL), SB_OK);
     double sum = 0, sum_moment = 0, expected = 0;
     size_t rows = 0;
     for (uint64_t k = 0; rows < 2 * 50; k++) {
@@ -80,8 +79,7 @@ static void peak_is_of_interval_means(void **state)
     sb_model_body bodies[3];
     make_world(&world, bodies);
     sb_measure *measure;
-    assert_int_equal(sb_measure_create(&world.scene, &world.model, &world.sim, &measure, NULL),
-                     SB_OK);
+    assert_int_equal(sb_measure_create(&world.scene, &world.model, &world.sim, &measure, NULL), SB_OK);
     for (int k = 0; k < 40; k++) {
         /* A blow of one 0.025 s step is a quarter of its force over 0.1 s. */
         world.sim.impulses[0].pressure.x += 0.025 * (k == 17 ? 400 : 0);
@@ -112,15 +110,13 @@ static void instants_lie_on_multiples(void **state)
     fake_world world;
     fake_world_make(&world, 3, 1, sb_vec(0, 0, -5), sb_vec(10, 10, 30));
     fake_fill(&world, sb_vec(0, 0, 0), sb_vec(10, 10, 5), 0, 0, 0, 1);
-    for (size_t i = 0; i < world.sim.report.fluid_count; i++)
-        world.sim.samples[i].velocity = sb_vec(0, 0, 0.7);
+    for (size_t i = 0; i < world.sim.report.fluid_count; i++) world.sim.samples[i].velocity = sb_vec(0, 0, 0.7);
     world.sim.report.max_speed = 0.7;
     sb_gauge gauge = {"g", 5, 5};
     world.scene.measure.gauges = &gauge;
     world.scene.measure.gauge_count = 1;
     sb_measure *measure;
-    assert_int_equal(sb_measure_create(&world.scene, &world.model, &world.sim, &measure, NULL),
-                     SB_OK);
+    assert_int_equal(sb_measure_create(&world.scene, &world.model, &world.sim, &measure, NULL), SB_OK);
     assert_int_equal(sb_measure_latest(measure)->gauge_count, 1);
     assert_true(sb_measure_latest(measure)->gauges[0].time == 0);
     int rows = 0;
@@ -155,8 +151,7 @@ static void nothing_asked_is_nothing_held(void **state)
     fake_world_make(&world, 3, 1, sb_vec(0, 0, 0), sb_vec(10, 10, 10));
     fake_fill(&world, sb_vec(0, 0, 0), sb_vec(10, 10, 5), 0, 0, 0, 1);
     sb_measure *measure;
-    assert_int_equal(sb_measure_create(&world.scene, &world.model, &world.sim, &measure, NULL),
-                     SB_OK);
+    assert_int_equal(sb_measure_create(&world.scene, &world.model, &world.sim, &measure, NULL), SB_OK);
     int lines = 0;
     while (sb_measure_skipped(measure)[lines]) lines++;
     assert_int_equal(lines, 6);
@@ -187,8 +182,7 @@ static void survives_failing_memory(void **state)
         sb_measure *measure = NULL;
         sb_error error = {0};
         sb_memory_fail_at(n);
-        sb_status status =
-            sb_measure_create(&world.scene, &world.model, &world.sim, &measure, &error);
+        sb_status status = sb_measure_create(&world.scene, &world.model, &world.sim, &measure, &error);
         sb_memory_fail_at(0);
         if (status == SB_OK) {
             sb_measure_destroy(measure);

@@ -16,8 +16,7 @@ static sb_vec3 flow(sb_vec3 p)
 
 static void set_flow(sb_sim *sim)
 {
-    for (size_t i = 0; i < sim->report.fluid_count; i++)
-        sim->samples[i].velocity = flow(sim->samples[i].position);
+    for (size_t i = 0; i < sim->report.fluid_count; i++) sim->samples[i].velocity = flow(sim->samples[i].position);
 }
 
 static void read_probe(fake_world *world, sb_vec3 at, double radius, sb_vec3 *velocity, double *p)
@@ -65,8 +64,7 @@ static void one_layer_falls_back_to_the_mean(void **state)
     fake_world world;
     fake_world_make(&world, 3, 1, sb_vec(0, 0, 0), sb_vec(8, 8, 8));
     for (double x = 0.5; x < 8; x++)
-        for (double y = 0.5; y < 8; y++)
-            fake_add(&world.sim, sb_vec(x, y, 0.5), sb_vec(2, 0, 0), 0.5 * 9810);
+        for (double y = 0.5; y < 8; y++) fake_add(&world.sim, sb_vec(x, y, 0.5), sb_vec(2, 0, 0), 0.5 * 9810);
     sb_vec3 v;
     double p;
     read_probe(&world, sb_vec(4, 4, 0), 0, &v, &p);
@@ -141,8 +139,7 @@ static void wall_pressure_is_force_over_area(void **state)
         sb_model_body body;
         fake_world_make(&world, dimensions, 0.5, sb_vec(0, 0, 0), sb_vec(8, 8, 8));
         fake_fill(&world, sb_vec(0, 0, 0), sb_vec(8, 8, 3), 0, 0, 0, 1);
-        for (size_t i = 0; i < world.sim.report.fluid_count; i++)
-            world.sim.samples[i].push = 2000 / 1e6;
+        for (size_t i = 0; i < world.sim.report.fluid_count; i++) world.sim.samples[i].push = 2000 / 1e6;
         add_floor(&world, 8, &body);
         double expected = floor_load(&world, 2000), p;
         sb_vec3 v;

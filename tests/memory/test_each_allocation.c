@@ -1,4 +1,5 @@
-/* The n-th allocation of a whole run fails: the run says so, and what it had is given back. One n in STRIDE; all of them when SB_EACH_ALLOCATION is "all". */
+/* The n-th allocation of a whole run fails: the run says so, and what it had is given back. One n in STRIDE; all of
+ * them when SB_EACH_ALLOCATION is "all". */
 #include "../check.h"
 
 #include "app/run.h"

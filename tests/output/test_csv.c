@@ -11,8 +11,7 @@
 #include <signal.h>
 #include <sys/resource.h>
 
-static sb_model_body bodies[2] = {{.name = "reactor1", .report = true},
-                                  {.name = "a \"b\", c", .report = true}};
+static sb_model_body bodies[2] = {{.name = "reactor1", .report = true}, {.name = "a \"b\", c", .report = true}};
 static sb_gauge gauges[1] = {{"offshore", 1, 2}};
 static sb_probe probes[1] = {{"inlet", {0, 0, 0}, 0}};
 static sb_flow_plane planes[1] = {{"quay", 0, 0, 0, 1, 0, 1}};
@@ -65,10 +64,9 @@ static void headers_are_the_contract(void **state)
     unlink(in_folder("runup.csv"));
     assert_int_equal(sb_csv_open(folder, &scene, &model, &csv, NULL), SB_OK);
     assert_int_equal(sb_csv_close(csv, NULL), SB_OK);
-    expect("forces.csv",
-           "time_s,body,Fx_N_per_m,Fy_N_per_m,Fz_N_per_m,Mx_Nm_per_m,My_Nm_per_m,Mz_Nm_per_m,"
-           "Fx_pressure_N_per_m,Fy_pressure_N_per_m,Fz_pressure_N_per_m,Fx_friction_N_per_m,"
-           "Fy_friction_N_per_m,Fz_friction_N_per_m\n");
+    expect("forces.csv", "time_s,body,Fx_N_per_m,Fy_N_per_m,Fz_N_per_m,Mx_Nm_per_m,My_Nm_per_m,Mz_Nm_per_m,"
+                         "Fx_pressure_N_per_m,Fy_pressure_N_per_m,Fz_pressure_N_per_m,Fx_friction_N_per_m,"
+                         "Fy_friction_N_per_m,Fz_friction_N_per_m\n");
     assert_true(access(in_folder("runup.csv"), F_OK) != 0);
 }
 
@@ -88,14 +86,12 @@ static void rows_are_there_at_once(void **state)
     const sb_runup_record runups[] = {{0, 0.1, {1, 2, 3}, 4}};
     const sb_energy_record energies[] = {
         {0.10123, 5, 6.00000000001, 7, {8, 9, 10}, {11, -12, -13, -14, -15, 16, -17, 18}, 1e-7}};
-    const sb_measure_records records = {2,      2,      2,      1,     1,      1,
-                                        forces, levels, points, flows, runups, energies};
+    const sb_measure_records records = {2, 2, 2, 1, 1, 1, forces, levels, points, flows, runups, energies};
     assert_int_equal(sb_csv_open(folder, &scene, &model, &csv, NULL), SB_OK);
     assert_int_equal(sb_csv_write(csv, &records, NULL), SB_OK);
     char *text = text_of("forces.csv"); /* before closing */
-    assert_string_equal(strchr(text, '\n') + 1,
-                        "0.1,reactor1,1,2,3,4,5,6,1.5,2,3,-0.5,0,0\n"
-                        "0.1,\"a \"\"b\"\", c\",333333333,0,0,0,0,0,0,0,0,0,0,0\n");
+    assert_string_equal(strchr(text, '\n') + 1, "0.1,reactor1,1,2,3,4,5,6,1.5,2,3,-0.5,0,0\n"
+                                                "0.1,\"a \"\"b\"\", c\",333333333,0,0,0,0,0,0,0,0,0,0,0\n");
     sb_free(text);
     expect("gauges.csv", "time_s,gauge,eta_m\n0,offshore,1.25\n0.1,offshore,\n");
     expect("probes.csv", "time_s,probe,u_m_s,v_m_s,w_m_s,p_Pa\n0.1,inlet,1,0,-2,9810\n"
@@ -205,12 +201,9 @@ static void no_table_is_written_through_a_link(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(headers_are_the_contract),
-        cmocka_unit_test(rows_are_there_at_once),
-        cmocka_unit_test(tables_read_back_as_series),
-        cmocka_unit_test(tables_go_on_from_their_lengths),
-        cmocka_unit_test(a_full_disk_is_a_failed_run),
-        cmocka_unit_test(no_table_is_written_through_a_link),
+        cmocka_unit_test(headers_are_the_contract),    cmocka_unit_test(rows_are_there_at_once),
+        cmocka_unit_test(tables_read_back_as_series),  cmocka_unit_test(tables_go_on_from_their_lengths),
+        cmocka_unit_test(a_full_disk_is_a_failed_run), cmocka_unit_test(no_table_is_written_through_a_link),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

@@ -21,8 +21,7 @@ static sb_probe probes[1] = {{"inlet", {0, 0, 0}, 0}};
 static sb_scene scene = {
     .dimensions = 3,
     .title = (char *)"Plant's wave \"`touch /tmp/x`\" $(id)",
-    .measure = {
-        .interval = 0.1, .gauge_count = 2, .gauges = gauges, .probe_count = 1, .probes = probes}};
+    .measure = {.interval = 0.1, .gauge_count = 2, .gauges = gauges, .probe_count = 1, .probes = probes}};
 
 static void write_tables(void)
 {
@@ -41,15 +40,13 @@ static void write_tables(void)
             sb_vec3 f = sb_vec(size, 0.2 * size * sin(t), -0.3 * size);
             forces[b] = (sb_force_record){(size_t)b, t, f, sb_vec(0, 0, 0), f, sb_vec(0, 0, 0)};
         }
-        const sb_gauge_record levels[] = {
-            {0, t, 25 / pow(cosh((t - 30) / 6), 2)},
-            {1, t, t < 35 || t > 70 ? (double)NAN : 9 * exp(-(t - 35) / 12)}};
+        const sb_gauge_record levels[] = {{0, t, 25 / pow(cosh((t - 30) / 6), 2)},
+                                          {1, t, t < 35 || t > 70 ? (double)NAN : 9 * exp(-(t - 35) / 12)}};
         const sb_probe_record point = {0, t, {10 * sin(t / 9), 1, 0}, 1e5 * (1 + sin(t / 5))};
-        const sb_energy_record energy = {
-            .time = t,
-            .kinetic = 3e11 * exp(-pow(t / 30 - 1, 2)),
-            .potential = 5e13 + 1e11 * sin(t / 15),
-            .mass = 1.8e10};
+        const sb_energy_record energy = {.time = t,
+                                         .kinetic = 3e11 * exp(-pow(t / 30 - 1, 2)),
+                                         .potential = 5e13 + 1e11 * sin(t / 15),
+                                         .mass = 1.8e10};
         const sb_measure_records records = {.force_count = BODIES,
                                             .forces = forces,
                                             .gauge_count = 2,
@@ -134,8 +131,7 @@ static void failing_programs_are_told(void **state)
     char *const arguments[] = {"sh", "-c", "echo first; echo the reason >&2; exit 3", NULL};
     assert_int_equal(sb_tool_run("/bin/sh", arguments, folder, &error), SB_FAILED);
     assert_non_null(strstr(error.text, "status 3: the reason"));
-    char *const good[] = {"sh", "-c", "test \"$(pwd -P)\" = \"$(cd . && pwd -P)\" && touch here",
-                          NULL};
+    char *const good[] = {"sh", "-c", "test \"$(pwd -P)\" = \"$(cd . && pwd -P)\" && touch here", NULL};
     assert_int_equal(sb_tool_run("/bin/sh", good, folder, &error), SB_OK);
     assert_int_equal(access(in_folder("here"), F_OK), 0);
     assert_int_equal(sb_tool_run("/nonexistent", good, folder, &error), SB_FAILED);
@@ -181,6 +177,5 @@ int main(void)
         cmocka_unit_test(failing_programs_are_told),
         cmocka_unit_test(films_are_joined),
     };
-    return cmocka_run_group_tests(tests, folder_make,
-                                  getenv("SB_KEEP_TEST_FILES") ? NULL : folder_remove);
+    return cmocka_run_group_tests(tests, folder_make, getenv("SB_KEEP_TEST_FILES") ? NULL : folder_remove);
 }

@@ -13,9 +13,8 @@
 
 #include <cmocka.h>
 
-static sb_model_body bodies[] = {{.name = "sea wall", .report = true},
-                                 {.name = "floor", .report = false},
-                                 {.name = "unit \"1\"", .report = true}};
+static sb_model_body bodies[] = {
+    {.name = "sea wall", .report = true}, {.name = "floor", .report = false}, {.name = "unit \"1\"", .report = true}};
 static char *warnings[] = {"body sea wall: 0.3 m thick, thinner than the support"};
 static const sb_model model = {.body_count = 3,
                                .bodies = bodies,
@@ -43,26 +42,11 @@ static sb_scene make_scene(void)
 static void summary_has_the_promised_keys(void **state)
 {
     (void)state;
-    const char *const keys[] = {"wall_s",
-                                "simulated_s",
-                                "steps",
-                                "fluid_particles",
-                                "boundary_particles",
-                                "mean_iterations",
-                                "bytes_per_particle",
-                                "lost_particles",
-                                "bodies",
-                                "name",
-                                "peak_N",
-                                "peak_time_s",
-                                "impulse_Ns",
-                                "version",
-                                "preset",
-                                "stages",
-                                "energy_end",
-                                "energy_work",
-                                "contact_J",
-                                "packing_stress_J"};
+    const char *const keys[] = {
+        "wall_s",          "simulated_s",        "steps",          "fluid_particles", "boundary_particles",
+        "mean_iterations", "bytes_per_particle", "lost_particles", "bodies",          "name",
+        "peak_N",          "peak_time_s",        "impulse_Ns",     "version",         "preset",
+        "stages",          "energy_end",         "energy_work",    "contact_J",       "packing_stress_J"};
     sb_scene scene = make_scene();
     const sb_summary summary = {.scene = &scene,
                                 .model = &model,
@@ -103,10 +87,8 @@ static void a_run_that_never_began_has_a_summary(void **state)
 {
     (void)state;
     sb_scene scene = make_scene();
-    const sb_summary summary = {.scene = &scene,
-                                .model = &model,
-                                .status = SB_FAILED,
-                                .reason = "diverged at step 3\nnear (1, 2, 3)"};
+    const sb_summary summary = {
+        .scene = &scene, .model = &model, .status = SB_FAILED, .reason = "diverged at step 3\nnear (1, 2, 3)"};
     assert_int_equal(sb_summary_write(in_folder("s.json"), &summary, NULL), SB_OK);
     char *text = text_of("s.json");
     assert_true(json_valid(text));
@@ -133,12 +115,8 @@ static void every_line_of_the_log_is_json(void **state)
     assert_int_equal(pthread_create(&thread, NULL, shout, log), 0);
     shout(log);
     pthread_join(thread, NULL);
-    const sb_step_report report = {.step = 10,
-                                   .time = 0.5,
-                                   .time_step = 0.05,
-                                   .iterations = 3,
-                                   .error_max = (double)NAN,
-                                   .fluid_count = 1000};
+    const sb_step_report report = {
+        .step = 10, .time = 0.5, .time_step = 0.05, .iterations = 3, .error_max = (double)NAN, .fluid_count = 1000};
     const sb_energy energy = {.kinetic = 1, .potential = 2};
     sb_runlog_step(log, &(sb_runlog_state){&report, &energy, stages, 2, true, 0xff});
     sb_runlog_bodies(log, &model, records);
@@ -169,7 +147,8 @@ static void every_line_of_the_log_is_json(void **state)
 static void a_log_goes_on_after_its_last_whole_line(void **state)
 {
     (void)state;
-    static const char *const torn[] = {"{\"event\":\"a\"}\n{\"event\":\"b\"}\n{\"ev", "{\"event\":\"a\"}\n", "{\"ev", ""};
+    static const char *const torn[] = {"{\"event\":\"a\"}\n{\"event\":\"b\"}\n{\"ev", "{\"event\":\"a\"}\n", "{\"ev",
+                                       ""};
     static const size_t whole[] = {2, 1, 0, 0};
     for (size_t k = 0; k < sizeof torn / sizeof *torn; k++) {
         FILE *file = fopen(in_folder("torn.jsonl"), "w");
@@ -213,8 +192,8 @@ static void grids_have_north_on_top(void **state)
     const float values[] = {1, 2, 3, 4, 5, NAN};
     const sb_map_record map = {3, 2, 100, -50, 2.5, values, values, values, values};
     assert_int_equal(sb_maps_write(folder, &map, NULL), SB_OK);
-    const char *const names[] = {"maps/max_depth.asc", "maps/max_speed.asc",
-                                 "maps/max_momentum_flux.asc", "maps/arrival_time.asc"};
+    const char *const names[] = {"maps/max_depth.asc", "maps/max_speed.asc", "maps/max_momentum_flux.asc",
+                                 "maps/arrival_time.asc"};
     for (int i = 0; i < 4; i++) {
         char *text = text_of(names[i]);
         assert_string_equal(text, "ncols 3\nnrows 2\nxllcorner 100\nyllcorner -50\ncellsize 2.5\n"
@@ -256,12 +235,9 @@ static void progress_speaks_when_asked(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(summary_has_the_promised_keys),
-        cmocka_unit_test(a_run_that_never_began_has_a_summary),
-        cmocka_unit_test(every_line_of_the_log_is_json),
-        cmocka_unit_test(a_log_goes_on_after_its_last_whole_line),
-        cmocka_unit_test(a_full_disk_shows_in_the_log),
-        cmocka_unit_test(grids_have_north_on_top),
+        cmocka_unit_test(summary_has_the_promised_keys), cmocka_unit_test(a_run_that_never_began_has_a_summary),
+        cmocka_unit_test(every_line_of_the_log_is_json), cmocka_unit_test(a_log_goes_on_after_its_last_whole_line),
+        cmocka_unit_test(a_full_disk_shows_in_the_log),  cmocka_unit_test(grids_have_north_on_top),
         cmocka_unit_test(progress_speaks_when_asked),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);

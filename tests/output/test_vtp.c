@@ -64,8 +64,7 @@ static void assert_same(const sb_frame *a, const sb_frame *b)
     for (size_t k = 0; k < a->body_count; k++) {
         assert_string_equal(a->bodies[k].name, b->bodies[k].name);
         assert_true(a->bodies[k].report == b->bodies[k].report);
-        assert_memory_equal(&a->bodies[k].displacement, &b->bodies[k].displacement,
-                            sizeof(sb_vec3));
+        assert_memory_equal(&a->bodies[k].displacement, &b->bodies[k].displacement, sizeof(sb_vec3));
         assert_memory_equal(&a->bodies[k].force, &b->bodies[k].force, sizeof(sb_vec3));
         assert_memory_equal(&a->bodies[k].moment, &b->bodies[k].moment, sizeof(sb_vec3));
     }
@@ -190,8 +189,13 @@ static void numbers_that_are_none_are_refused(void **state)
     sb_frame *frame = make_frame(20, 2);
     const float none[] = {(float)NAN, (float)INFINITY};
     float *const values[] = {&frame->position[59], &frame->velocity[0], &frame->pressure[7]};
-    double *const doubles[] = {&frame->bodies[1].force.z, &frame->bodies[0].moment.x, &frame->bodies[1].displacement.y,
-                               &frame->status.time, &frame->status.eta_seconds, &frame->origin.y, &frame->spacing};
+    double *const doubles[] = {&frame->bodies[1].force.z,
+                               &frame->bodies[0].moment.x,
+                               &frame->bodies[1].displacement.y,
+                               &frame->status.time,
+                               &frame->status.eta_seconds,
+                               &frame->origin.y,
+                               &frame->spacing};
     for (int k = 0; k < 2; k++) {
         sb_frame *read = NULL;
         for (size_t v = 0; v < sizeof values / sizeof *values; v++) {
@@ -248,8 +252,7 @@ static void bare_points(void **state)
     sb_free(text);
     assert_int_equal(sb_vtp_write_points(in_folder("q.vtp"), 2, at, NULL, NULL, NULL), SB_OK);
     sb_error error = {0};
-    assert_int_equal(sb_vtp_write_points(in_folder("no/q.vtp"), 2, at, NULL, NULL, &error),
-                     SB_FAILED);
+    assert_int_equal(sb_vtp_write_points(in_folder("no/q.vtp"), 2, at, NULL, NULL, &error), SB_FAILED);
     assert_non_null(strstr(error.text, "no/q.vtp"));
 }
 
@@ -257,13 +260,10 @@ static void pvd_lists_real_times(void **state)
 {
     (void)state;
     sb_pvd pvd = {0}, read = {0};
-    assert_int_equal(sb_pvd_add(&pvd, in_folder("particles.pvd"), 0, "particles/000001.vtp", NULL),
-                     SB_OK);
-    assert_int_equal(
-        sb_pvd_add(&pvd, in_folder("particles.pvd"), 0.50321, "particles/000002.vtp", NULL), SB_OK);
+    assert_int_equal(sb_pvd_add(&pvd, in_folder("particles.pvd"), 0, "particles/000001.vtp", NULL), SB_OK);
+    assert_int_equal(sb_pvd_add(&pvd, in_folder("particles.pvd"), 0.50321, "particles/000002.vtp", NULL), SB_OK);
     char *text = text_of("particles.pvd");
-    assert_non_null(
-        strstr(text, "<DataSet timestep=\"0.50321\" part=\"0\" file=\"particles/000002.vtp\"/>"));
+    assert_non_null(strstr(text, "<DataSet timestep=\"0.50321\" part=\"0\" file=\"particles/000002.vtp\"/>"));
     assert_int_equal(sb_pvd_read(in_folder("particles.pvd"), &read, NULL), SB_OK);
     assert_int_equal(read.count, 2);
     assert_true(read.entries[1].time == 0.50321);
@@ -278,8 +278,7 @@ static void pvd_lists_real_times(void **state)
     }
     sb_free(text);
     sb_error error = {0};
-    assert_int_equal(sb_pvd_add(&pvd, in_folder("particles.pvd"), 1, "a\"b.vtp", &error),
-                     SB_BAD_INPUT);
+    assert_int_equal(sb_pvd_add(&pvd, in_folder("particles.pvd"), 1, "a\"b.vtp", &error), SB_BAD_INPUT);
     sb_pvd_free(&pvd);
 }
 

@@ -35,8 +35,7 @@ static void integrates_to_one(void **state)
 {
     (void)state;
     for (const sb_kernel *const *row = sb_kernels; *row; row++)
-        for (int dimension = 1; dimension <= 3; dimension++)
-            assert_near(integral(*row, dimension), 1, 1e-10);
+        for (int dimension = 1; dimension <= 3; dimension++) assert_near(integral(*row, dimension), 1, 1e-10);
 }
 
 static void slope_is_the_derivative(void **state)
@@ -46,9 +45,9 @@ static void slope_is_the_derivative(void **state)
     for (const sb_kernel *const *row = sb_kernels; *row; row++)
         for (int dimension = 1; dimension <= 3; dimension++)
             for (double r = 0.013; r < h - step; r += 0.0171) {
-                double difference = (sb_kernel_value(*row, dimension, h, r + step) -
-                                     sb_kernel_value(*row, dimension, h, r - step)) /
-                                    (2 * step);
+                double difference =
+                    (sb_kernel_value(*row, dimension, h, r + step) - sb_kernel_value(*row, dimension, h, r - step)) /
+                    (2 * step);
                 assert_near(sb_kernel_slope(*row, dimension, h, r), difference, 1e-8);
             }
 }

@@ -21,8 +21,7 @@ static double left_over(const sb_kernel *kernel, int dimension, double support, 
             wall += sb_kernel_slope(kernel, dimension, support, sb_norm(to_wall)) * to_wall.z / sb_norm(to_wall);
             for (int layer = 0; layer <= k + REACH; layer++) {
                 const sb_vec3 d = sb_vec(x, y, k - layer);
-                if (sb_norm(d) > 0)
-                    water += sb_kernel_slope(kernel, dimension, support, sb_norm(d)) * d.z / sb_norm(d);
+                if (sb_norm(d) > 0) water += sb_kernel_slope(kernel, dimension, support, sb_norm(d)) * d.z / sb_norm(d);
             }
         }
     return 2 * water + gamma * wall / own;
@@ -31,8 +30,7 @@ static double left_over(const sb_kernel *kernel, int dimension, double support, 
 static double worst(const sb_kernel *kernel, int dimension, double support, double offset, double gamma)
 {
     double most = 0;
-    for (int k = 0; k < 4; k++)
-        most = fmax(most, fabs(left_over(kernel, dimension, support, offset, gamma, k)));
+    for (int k = 0; k < 4; k++) most = fmax(most, fabs(left_over(kernel, dimension, support, offset, gamma, k)));
     return most;
 }
 
@@ -64,8 +62,8 @@ static void gamma_is_the_best_one(void **state)
                 double sum[3] = {0};
                 for (int way = 0; way < 3; way++)
                     for (int k = 0; k < 4; k++)
-                        sum[way] += pow(left_over(*row, dimension, (*row)->support, offset,
-                                                  gamma * (0.99 + 0.01 * way), k), 2);
+                        sum[way] +=
+                            pow(left_over(*row, dimension, (*row)->support, offset, gamma * (0.99 + 0.01 * way), k), 2);
                 assert_true(gamma > 0.1 && sum[1] < sum[0] && sum[1] < sum[2]);
             }
 }
@@ -149,10 +147,8 @@ static void an_edge_bears_its_water(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_lattice_rests_on_a_plane),
-        cmocka_unit_test(gamma_is_the_best_one),
-        cmocka_unit_test(gamma_is_that_of_the_wall),
-        cmocka_unit_test(planes_are_left_alone_and_edges_are_not),
+        cmocka_unit_test(a_lattice_rests_on_a_plane), cmocka_unit_test(gamma_is_the_best_one),
+        cmocka_unit_test(gamma_is_that_of_the_wall),  cmocka_unit_test(planes_are_left_alone_and_edges_are_not),
         cmocka_unit_test(an_edge_bears_its_water),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

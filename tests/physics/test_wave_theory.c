@@ -39,8 +39,8 @@ static void solitary_volume(void **state)
     assert_near(sum, sqrt(1.6 / 3) * (1 + 0.3 / 8), 0.005);
 }
 
-/* Largest breach of what a wave of constant form in perfect water keeps, over sqrt(gh) and h: of volume in the water; of
-   volume and of energy on its surface. */
+/* Largest breach of what a wave of constant form in perfect water keeps, over sqrt(gh) and h: of volume in the water;
+   of volume and of energy on its surface. */
 typedef struct breach {
     double volume, through, energy;
 } breach;
@@ -64,12 +64,14 @@ static breach breach_of(double height, sb_solitary_theory theory)
         const double slope = (sb_solitary_elevation(&wave, xi + d) - sb_solitary_elevation(&wave, xi - d)) / (2 * d);
         sb_solitary_velocity(&wave, xi, 1 + eta, &u, &w);
         b.through = fmax(b.through, fabs(w - (u - celerity) * slope));
-        b.energy = fmax(b.energy, fabs(eta + (u - celerity) * (u - celerity) / 2 + w * w / 2 - celerity * celerity / 2));
+        b.energy =
+            fmax(b.energy, fabs(eta + (u - celerity) * (u - celerity) / 2 + w * w / 2 - celerity * celerity / 2));
     }
     return b;
 }
 
-/* Boussinesq's: [S16, eqs. 42 to 44]; volume and what passes through its surface are kept to the last digit, energy is not. */
+/* Boussinesq's: [S16, eqs. 42 to 44]; volume and what passes through its surface are kept to the last digit, energy is
+ * not. */
 static void boussinesqs_wave(void **state)
 {
     (void)state;
@@ -133,14 +135,10 @@ static void keulegan_damping(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(solitary_celerity),
-        cmocka_unit_test(solitary_profile),
-        cmocka_unit_test(solitary_volume),
-        cmocka_unit_test(solitary_wave_keeps_volume_and_energy_to_third_order),
-        cmocka_unit_test(boussinesqs_wave),
-        cmocka_unit_test(solitary_bed_and_crest),
-        cmocka_unit_test(standing_wave),
-        cmocka_unit_test(keulegan_damping),
+        cmocka_unit_test(solitary_celerity), cmocka_unit_test(solitary_profile),
+        cmocka_unit_test(solitary_volume),   cmocka_unit_test(solitary_wave_keeps_volume_and_energy_to_third_order),
+        cmocka_unit_test(boussinesqs_wave),  cmocka_unit_test(solitary_bed_and_crest),
+        cmocka_unit_test(standing_wave),     cmocka_unit_test(keulegan_damping),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,13 +30,8 @@ static int make_good_table(void **state)
 /* Values that suit every law; each reads those it needs. */
 static sb_wavemaker_parameters good_parameters(const sb_wavemaker *kind)
 {
-    return (sb_wavemaker_parameters){.kind = kind,
-                                     .height = 0.3,
-                                     .depth = 1,
-                                     .stroke = 1.2,
-                                     .speed = 0.8,
-                                     .gravity = 9.81,
-                                     .file = TABLE};
+    return (sb_wavemaker_parameters){
+        .kind = kind, .height = 0.3, .depth = 1, .stroke = 1.2, .speed = 0.8, .gravity = 9.81, .file = TABLE};
 }
 
 static sb_paddle make_paddle(const sb_wavemaker_parameters *parameters)
@@ -165,16 +160,14 @@ static void goring_check_values(void **state)
         assert_near(law.stroke, cases[c].stroke, 5.1e-6);
         assert_near(law.period, cases[c].period, 5.1e-6);
         for (int i = 0; i <= 4; i++)
-            assert_near(sb_goring_paddle(&law, i * law.period / 4, NULL), cases[c].paddle[i],
-                        5.1e-6);
+            assert_near(sb_goring_paddle(&law, i * law.period / 4, NULL), cases[c].paddle[i], 5.1e-6);
         /* The row eases the ends only: exact at T/4, T/2, 3T/4. */
         sb_wavemaker_parameters parameters = good_parameters(sb_wavemaker_find("goring"));
         parameters.height = cases[c].height;
         parameters.depth = cases[c].depth;
         sb_paddle paddle = make_paddle(&parameters);
         for (int i = 1; i <= 3; i++)
-            assert_near(sb_paddle_displacement(&paddle, i * law.period / 4), cases[c].paddle[i],
-                        5.1e-6);
+            assert_near(sb_paddle_displacement(&paddle, i * law.period / 4), cases[c].paddle[i], 5.1e-6);
         assert_near(paddle.stroke_end, law.stroke, 1e-12);
         sb_paddle_destroy(&paddle);
     }
@@ -208,9 +201,8 @@ static void goring_top_speed(void **state)
         sb_paddle paddle = make_paddle(&parameters);
         double top = 0, step = paddle.duration / 10000;
         for (int i = 0; i < 10000; i++) {
-            double speed = (sb_paddle_displacement(&paddle, (i + 1) * step) -
-                            sb_paddle_displacement(&paddle, i * step)) /
-                           step;
+            double speed =
+                (sb_paddle_displacement(&paddle, (i + 1) * step) - sb_paddle_displacement(&paddle, i * step)) / step;
             top = speed > top ? speed : top;
         }
         assert_near(top, sqrt(9.81 * 1.3) * 0.3 / 1.3, 1e-6);
@@ -243,8 +235,7 @@ static void goring_knows_its_range(void **state)
 
 static double speed_at(const sb_paddle *paddle, double t)
 {
-    return (sb_paddle_displacement(paddle, t + 1e-6) - sb_paddle_displacement(paddle, t - 1e-6)) /
-           2e-6;
+    return (sb_paddle_displacement(paddle, t + 1e-6) - sb_paddle_displacement(paddle, t - 1e-6)) / 2e-6;
 }
 
 static void stroke_runs_at_its_speed(void **state)
@@ -334,8 +325,7 @@ static void file_refuses_bad_tables(void **state)
         assert_int_equal(sb_paddle_create(&parameters, &paddle, &error), SB_BAD_INPUT);
         char place[sizeof TABLE + 16];
         snprintf(place, sizeof place, "%s%s", TABLE, cases[i].place);
-        if (strncmp(error.text, place, strlen(place)) != 0 ||
-            !strstr(error.text, cases[i].expected))
+        if (strncmp(error.text, place, strlen(place)) != 0 || !strstr(error.text, cases[i].expected))
             fail_msg("case %zu: %s", i, error.text);
     }
     write_table("0 0\n1 1\0\n2 2\n", 14);

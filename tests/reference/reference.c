@@ -17,8 +17,7 @@ static int find_images(const sb_reference_cloud *cloud, sb_vec3 at, sb_vec3 imag
         for (int k = 0; k < before && period[axis] > 0; k++)
             for (int way = -1; way <= 1; way += 2) {
                 double by = way * period[axis];
-                image[count++] = sb_add(
-                    image[k], sb_vec(axis == 0 ? by : 0, axis == 1 ? by : 0, axis == 2 ? by : 0));
+                image[count++] = sb_add(image[k], sb_vec(axis == 0 ? by : 0, axis == 1 ? by : 0, axis == 2 ? by : 0));
             }
     }
     return count;
@@ -41,8 +40,8 @@ void sb_reference_psi(const sb_reference_cloud *cloud, double gamma, double *psi
 }
 
 /* Appends the pair of i with a point x when they are closer than h. */
-static int add_pair(const sb_reference_cloud *cloud, size_t i, size_t other, sb_vec3 x,
-                    sb_reference_pair **pairs, size_t *count, size_t *capacity)
+static int add_pair(const sb_reference_cloud *cloud, size_t i, size_t other, sb_vec3 x, sb_reference_pair **pairs,
+                    size_t *count, size_t *capacity)
 {
     sb_vec3 offset = sb_sub(cloud->position[i], x);
     double r = sb_norm(offset);
@@ -125,14 +124,13 @@ void sb_reference_viscosity(const sb_reference *reference, const double *rho, sb
             const sb_reference_pair *pair = &reference->fluid[k];
             size_t j = pair->other;
             double nu = 2 * c->artificial_viscosity * c->h * c->sound_speed / (rho[i] + rho[j]);
-            double pi =
-                switched_viscosity(nu, sb_sub(c->velocity[i], c->velocity[j]), pair->offset, c->h);
+            double pi = switched_viscosity(nu, sb_sub(c->velocity[i], c->velocity[j]), pair->offset, c->h);
             acceleration[i] = sb_madd(acceleration[i], -reference->mass * pi, pair->gradient);
         }
 }
 
-static void add_force(const sb_reference *reference, size_t b, double size, sb_vec3 gradient,
-                      const sb_vec3 *center, sb_vec3 *force, sb_vec3 *torque)
+static void add_force(const sb_reference *reference, size_t b, double size, sb_vec3 gradient, const sb_vec3 *center,
+                      sb_vec3 *force, sb_vec3 *torque)
 {
     uint32_t body = reference->cloud.body[b];
     sb_vec3 arm = sb_sub(reference->cloud.wall_position[b], center[body]);
@@ -150,12 +148,9 @@ void sb_reference_friction(const sb_reference *reference, const double *rho, sb_
             const sb_reference_pair *pair = &reference->wall[k];
             size_t b = pair->other;
             double nu = c->wall_friction * c->h * c->sound_speed / (2 * rho[i]);
-            double pi = switched_viscosity(nu, sb_sub(c->velocity[i], c->wall_velocity[b]),
-                                           pair->offset, c->h);
+            double pi = switched_viscosity(nu, sb_sub(c->velocity[i], c->wall_velocity[b]), pair->offset, c->h);
             acceleration[i] = sb_madd(acceleration[i], -c->psi[b] * pi, pair->gradient);
-            if (force)
-                add_force(reference, b, reference->mass * c->psi[b] * pi, pair->gradient, center,
-                          force, torque);
+            if (force) add_force(reference, b, reference->mass * c->psi[b] * pi, pair->gradient, center, force, torque);
         }
 }
 
@@ -179,14 +174,14 @@ void sb_reference_shear(const sb_reference *reference, double nu, double offset,
         }
 }
 
-void sb_reference_pressure_forces(const sb_reference *reference, const double *q,
-                                  const sb_vec3 *center, sb_vec3 *force, sb_vec3 *torque)
+void sb_reference_pressure_forces(const sb_reference *reference, const double *q, const sb_vec3 *center, sb_vec3 *force,
+                                  sb_vec3 *torque)
 {
     const sb_reference_cloud *c = &reference->cloud;
     for (size_t i = 0; i < c->fluid_count; i++)
         for (size_t k = reference->wall_start[i]; k < reference->wall_start[i + 1]; k++) {
             const sb_reference_pair *pair = &reference->wall[k];
-            add_force(reference, pair->other, reference->mass * c->psi[pair->other] * q[i],
-                      pair->gradient, center, force, torque);
+            add_force(reference, pair->other, reference->mass * c->psi[pair->other] * q[i], pair->gradient, center,
+                      force, torque);
         }
 }

@@ -13,18 +13,18 @@
 typedef struct sb_reference_cloud {
     const sb_kernel *kernel;
     int dimension;
-    double h, spacing;       /* m: support radius, rest distance */
-    double rest_density;     /* kg/m^3 */
-    double time_step;        /* s */
+    double h, spacing;   /* m: support radius, rest distance */
+    double rest_density; /* kg/m^3 */
+    double time_step;    /* s */
     size_t fluid_count;
     const sb_vec3 *position, *velocity;
-    size_t wall_count;       /* boundary particles */
+    size_t wall_count; /* boundary particles */
     const sb_vec3 *wall_position, *wall_velocity;
     const sb_vec3 *wall_normal; /* unit, or zero where there is none; needed for eddies and shear only */
-    const double *psi;       /* kg, or kg/m in 2D */
-    const uint32_t *body;    /* of each boundary particle */
+    const double *psi;          /* kg, or kg/m in 2D */
+    const uint32_t *body;       /* of each boundary particle */
     double sound_speed, artificial_viscosity, wall_friction; /* m/s, alpha, sigma */
-    sb_vec3 period;          /* m after which all repeats along each axis, at least h; 0: it does not */
+    sb_vec3 period; /* m after which all repeats along each axis, at least h; 0: it does not */
 } sb_reference_cloud;
 
 /* A neighbour of a fluid particle i: other is j or b, or one of its images. */
@@ -56,15 +56,13 @@ void sb_reference_destroy(sb_reference *reference);
 void sb_reference_density(const sb_reference *reference, double *rho);
 
 /* Monaghan's viscosity with its min switch [S16 eq. 14]: adds -sum_j m Pi_ij grad W_ij. */
-void sb_reference_viscosity(const sb_reference *reference, const double *rho,
-                            sb_vec3 *acceleration);
+void sb_reference_viscosity(const sb_reference *reference, const double *rho, sb_vec3 *acceleration);
 
 /* Wall friction [S16 eq. 33]: adds -sum_b psi_b Pi_ib grad W_ib to acceleration, and the opposite
    forces m psi_b Pi_ib grad W_ib in N to force[body] and their torques about center[body] to
    torque[body]; the last three may be NULL together. */
-void sb_reference_friction(const sb_reference *reference, const double *rho,
-                           sb_vec3 *acceleration, const sb_vec3 *center, sb_vec3 *force,
-                           sb_vec3 *torque);
+void sb_reference_friction(const sb_reference *reference, const double *rho, sb_vec3 *acceleration,
+                           const sb_vec3 *center, sb_vec3 *force, sb_vec3 *torque);
 
 /* Shear of smooth walls, the sheet `offset` (m) behind them: with n the boundary particle's normal, u the velocity
    along the wall beside the wall's, y the distance from it (at least a quarter of a spacing) and c the larger one of
@@ -76,30 +74,27 @@ void sb_reference_shear(const sb_reference *reference, double nu, double offset,
 /* nu_t = min(C_s spacing, 0.4 d)^2 |S| in m^2/s: S from velocity gradients corrected by the neighbours'
    second moments where their determinant (1 for a full lattice's shape) exceeds `thinnest`, plain
    ones elsewhere; d from the plane of the nearest boundary particle, `offset` (m) in front of it. */
-void sb_reference_eddy(const sb_reference *reference, const double *rho, double smagorinsky,
-                       double offset, double thinnest, double *eddy);
+void sb_reference_eddy(const sb_reference *reference, const double *rho, double smagorinsky, double offset,
+                       double thinnest, double *eddy);
 
 /* Viscosity without a switch, nu_ij = nu + (eddy_i + eddy_j)/2: adds sum_j m 4 (d+2) nu_ij v.x /
    [(rho_i + rho_j)(r^2 + 0.01 h^2)] grad W_ij. eddy: NULL for none. */
-void sb_reference_unswitched(const sb_reference *reference, const double *rho, double nu,
-                             const double *eddy, sb_vec3 *acceleration);
+void sb_reference_unswitched(const sb_reference *reference, const double *rho, double nu, const double *eddy,
+                             sb_vec3 *acceleration);
 
 /* div_i = sum_j m (v_i - v_j).grad W_ij + sum_b psi_b (v_i - v_b).grad W_ib, in kg/(m^3 s); the
    walls stand still when moving == 0. */
-void sb_reference_divergence(const sb_reference *reference, const sb_vec3 *velocity, int moving,
-                             double *divergence);
+void sb_reference_divergence(const sb_reference *reference, const sb_vec3 *velocity, int moving, double *divergence);
 
 /* b_i = beta (rho0 - rho_i) - dt div_i of the predicted velocity v*. */
-void sb_reference_source(const sb_reference *reference, const double *rho,
-                         const sb_vec3 *predicted, double beta, double *source);
+void sb_reference_source(const sb_reference *reference, const double *rho, const sb_vec3 *predicted, double beta,
+                         double *source);
 
 /* a = G q: a_i = -[sum_j m (q_i + q_j) grad W_ij + q_i sum_b psi_b grad W_ib] */
-void sb_reference_pressure_acceleration(const sb_reference *reference, const double *q,
-                                        sb_vec3 *acceleration);
+void sb_reference_pressure_acceleration(const sb_reference *reference, const double *q, sb_vec3 *acceleration);
 
 /* A q = dt^2 div(G q) with walls at rest; acceleration (fluid_count) is left holding G q. */
-void sb_reference_apply(const sb_reference *reference, const double *q, sb_vec3 *acceleration,
-                        double *product);
+void sb_reference_apply(const sb_reference *reference, const double *q, sb_vec3 *acceleration, double *product);
 
 /* a_ii = -dt^2 [|S_i|^2 + m sum_j m |grad W_ij|^2], S_i = sum_j m grad W_ij + sum_b psi_b grad W_ib */
 void sb_reference_diagonal(const sb_reference *reference, double *diagonal);
@@ -110,12 +105,12 @@ double sb_reference_lattice_diagonal(const sb_reference_cloud *cloud);
 /* Projected Jacobi for q >= 0, e = A q - b <= 0, q e = 0, from the q given, until every particle's
    |min(q |a_ii|, -e)| <= tolerance rho0. Particles with |a_ii| < 1e-6 of the lattice's keep q = 0.
    Returns the sweeps done; -1 without memory, -2 when max_sweeps did not suffice. */
-long sb_reference_solve(const sb_reference *reference, const double *source, double omega,
-                        double tolerance, long max_sweeps, double *q);
+long sb_reference_solve(const sb_reference *reference, const double *source, double omega, double tolerance,
+                        long max_sweeps, double *q);
 
 /* Adds the pressure forces m psi_b q_i grad W_ib in N to force[body], and their torques about
    center[body] to torque[body]. */
-void sb_reference_pressure_forces(const sb_reference *reference, const double *q,
-                                  const sb_vec3 *center, sb_vec3 *force, sb_vec3 *torque);
+void sb_reference_pressure_forces(const sb_reference *reference, const double *q, const sb_vec3 *center, sb_vec3 *force,
+                                  sb_vec3 *torque);
 
 #endif

@@ -5,8 +5,7 @@
 
 #include <math.h>
 
-void sb_reference_divergence(const sb_reference *reference, const sb_vec3 *velocity, int moving,
-                             double *divergence)
+void sb_reference_divergence(const sb_reference *reference, const sb_vec3 *velocity, int moving, double *divergence)
 {
     const sb_reference_cloud *c = &reference->cloud;
     for (size_t i = 0; i < c->fluid_count; i++) {
@@ -25,8 +24,8 @@ void sb_reference_divergence(const sb_reference *reference, const sb_vec3 *veloc
     }
 }
 
-void sb_reference_source(const sb_reference *reference, const double *rho, const sb_vec3 *predicted,
-                         double beta, double *source)
+void sb_reference_source(const sb_reference *reference, const double *rho, const sb_vec3 *predicted, double beta,
+                         double *source)
 {
     const sb_reference_cloud *c = &reference->cloud;
     sb_reference_divergence(reference, predicted, 1, source);
@@ -34,8 +33,7 @@ void sb_reference_source(const sb_reference *reference, const double *rho, const
         source[i] = beta * (c->rest_density - rho[i]) - c->time_step * source[i];
 }
 
-void sb_reference_pressure_acceleration(const sb_reference *reference, const double *q,
-                                        sb_vec3 *acceleration)
+void sb_reference_pressure_acceleration(const sb_reference *reference, const double *q, sb_vec3 *acceleration)
 {
     const sb_reference_cloud *c = &reference->cloud;
     for (size_t i = 0; i < c->fluid_count; i++) {
@@ -52,8 +50,7 @@ void sb_reference_pressure_acceleration(const sb_reference *reference, const dou
     }
 }
 
-void sb_reference_apply(const sb_reference *reference, const double *q, sb_vec3 *acceleration,
-                        double *product)
+void sb_reference_apply(const sb_reference *reference, const double *q, sb_vec3 *acceleration, double *product)
 {
     double square = reference->cloud.time_step * reference->cloud.time_step;
     sb_reference_pressure_acceleration(reference, q, acceleration);
@@ -93,8 +90,8 @@ double sb_reference_lattice_diagonal(const sb_reference_cloud *cloud)
     return -cloud->time_step * cloud->time_step * m * m * squares;
 }
 
-long sb_reference_solve(const sb_reference *reference, const double *source, double omega,
-                        double tolerance, long max_sweeps, double *q)
+long sb_reference_solve(const sb_reference *reference, const double *source, double omega, double tolerance,
+                        long max_sweeps, double *q)
 {
     size_t n = reference->cloud.fluid_count;
     double smallest = 1e-6 * fabs(sb_reference_lattice_diagonal(&reference->cloud));
@@ -117,8 +114,7 @@ long sb_reference_solve(const sb_reference *reference, const double *source, dou
             break;
         }
         for (size_t i = 0; i < n; i++)
-            if (fabs(diagonal[i]) >= smallest)
-                q[i] = fmax(0, q[i] + omega * (source[i] - product[i]) / diagonal[i]);
+            if (fabs(diagonal[i]) >= smallest) q[i] = fmax(0, q[i] + omega * (source[i] - product[i]) / diagonal[i]);
         sweeps++;
     }
     sb_free(diagonal);

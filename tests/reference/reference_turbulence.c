@@ -63,8 +63,7 @@ static double strain_rate(const sb_reference *reference, size_t i, double rho, d
     const int axis[3] = {0, flat ? 2 : 1, 2}, count = flat ? 2 : 3;
     fit f = make_fit(reference, i);
     double gradient[3][3] = {{0}}, determinant = 0, square = 0;
-    for (int a = 0; a < 3; a++)
-        determinant = solve(f.place, axis, count, f.velocity[a], gradient[a]);
+    for (int a = 0; a < 3; a++) determinant = solve(f.place, axis, count, f.velocity[a], gradient[a]);
     double mean = (f.place[0][0] + f.place[1][1] + f.place[2][2]) / count;
     bool corrected = determinant / pow(mean, count) > thinnest;
     for (int a = 0; a < 3; a++)
@@ -90,8 +89,8 @@ static double wall_distance(const sb_reference *reference, size_t i, double offs
     return fmax(distance - offset, 0);
 }
 
-void sb_reference_eddy(const sb_reference *reference, const double *rho, double smagorinsky,
-                       double offset, double thinnest, double *eddy)
+void sb_reference_eddy(const sb_reference *reference, const double *rho, double smagorinsky, double offset,
+                       double thinnest, double *eddy)
 {
     const sb_reference_cloud *c = &reference->cloud;
     for (size_t i = 0; i < c->fluid_count; i++) {
@@ -100,8 +99,8 @@ void sb_reference_eddy(const sb_reference *reference, const double *rho, double 
     }
 }
 
-void sb_reference_unswitched(const sb_reference *reference, const double *rho, double nu,
-                             const double *eddy, sb_vec3 *acceleration)
+void sb_reference_unswitched(const sb_reference *reference, const double *rho, double nu, const double *eddy,
+                             sb_vec3 *acceleration)
 {
     const sb_reference_cloud *c = &reference->cloud;
     for (size_t i = 0; i < c->fluid_count; i++)
@@ -110,9 +109,8 @@ void sb_reference_unswitched(const sb_reference *reference, const double *rho, d
             size_t j = pair->other;
             double mean = nu + (eddy ? 0.5 * (eddy[i] + eddy[j]) : 0);
             double approach = sb_dot(sb_sub(c->velocity[i], c->velocity[j]), pair->offset);
-            double size =
-                reference->mass * 4 * (c->dimension + 2) * mean * approach /
-                ((rho[i] + rho[j]) * (sb_dot(pair->offset, pair->offset) + 0.01 * c->h * c->h));
+            double size = reference->mass * 4 * (c->dimension + 2) * mean * approach /
+                          ((rho[i] + rho[j]) * (sb_dot(pair->offset, pair->offset) + 0.01 * c->h * c->h));
             acceleration[i] = sb_madd(acceleration[i], size, pair->gradient);
         }
 }

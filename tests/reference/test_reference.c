@@ -59,10 +59,8 @@ static sb_reference make_box(int dimension)
             for (int k = 0; k < high; k++) {
                 size_t p = cloud.fluid_count++;
                 double y = dimension == 3 ? j + 0.3 * jitter(3 * p + 1) : 0;
-                position[p] =
-                    sb_scale(sb_vec(i + 0.3 * jitter(3 * p), y, k + 0.3 * jitter(3 * p + 2)), d);
-                velocity[p] = sb_vec(jitter(5000 + 3 * p), y != 0 ? jitter(5001 + 3 * p) : 0,
-                                     jitter(5002 + 3 * p));
+                position[p] = sb_scale(sb_vec(i + 0.3 * jitter(3 * p), y, k + 0.3 * jitter(3 * p + 2)), d);
+                velocity[p] = sb_vec(jitter(5000 + 3 * p), y != 0 ? jitter(5001 + 3 * p) : 0, jitter(5002 + 3 * p));
             }
     position[cloud.fluid_count] = sb_vec(2, 0, 2);
     velocity[cloud.fluid_count++] = sb_vec(1, 0, -1);
@@ -84,8 +82,7 @@ static void lattice_figures(void **state)
     sb_reference_cloud cloud = empty_cloud(3, 0.5);
     for (int i = -2; i <= 2; i++)
         for (int j = -2; j <= 2; j++)
-            for (int k = -2; k <= 2; k++)
-                position[cloud.fluid_count++] = sb_vec(0.5 * i, 0.5 * j, 0.5 * k);
+            for (int k = -2; k <= 2; k++) position[cloud.fluid_count++] = sb_vec(0.5 * i, 0.5 * j, 0.5 * k);
     position[cloud.fluid_count++] = sb_vec(99, 0, 0);
     sb_reference reference;
     assert_int_equal(sb_reference_create(&cloud, &reference), 0);
@@ -123,8 +120,7 @@ static void pairs_are_mutual(void **state)
         for (size_t k = reference.fluid_start[i]; k < reference.fluid_start[i + 1]; k++) {
             const sb_reference_pair *pair = &reference.fluid[k], *back = NULL;
             assert_true(pair->other != i && sb_norm(pair->offset) < 0.2);
-            for (size_t l = reference.fluid_start[pair->other];
-                 l < reference.fluid_start[pair->other + 1]; l++)
+            for (size_t l = reference.fluid_start[pair->other]; l < reference.fluid_start[pair->other + 1]; l++)
                 if (reference.fluid[l].other == i) back = &reference.fluid[l];
             assert_non_null(back);
             assert_true(sb_norm(sb_add(pair->gradient, back->gradient)) == 0);
@@ -144,8 +140,7 @@ static void divergence_is_the_rate_of_the_density(void **state)
         sb_reference_divergence(&reference, velocity, 1, product);
         for (int side = 0; side <= 1; side++) {
             double by = side ? 2 * step : -step;
-            for (size_t i = 0; i < cloud->fluid_count; i++)
-                position[i] = sb_madd(position[i], by, velocity[i]);
+            for (size_t i = 0; i < cloud->fluid_count; i++) position[i] = sb_madd(position[i], by, velocity[i]);
             for (size_t b = 0; b < cloud->wall_count; b++)
                 wall_position[b] = sb_madd(wall_position[b], by, wall_velocity[b]);
             assert_int_equal(sb_reference_create(cloud, &moved), 0);
@@ -191,8 +186,7 @@ static void operator_is_symmetric_with_its_diagonal(void **state)
         for (size_t k = 0; k < n; k++) {
             assert_near(matrix[k * n + k], product[k], 1e-12 * largest);
             assert_true(product[k] <= 0 && (product[k] < 0 || k == n - 1));
-            for (size_t l = 0; l < k; l++)
-                assert_near(matrix[k * n + l], matrix[l * n + k], 1e-12 * largest);
+            for (size_t l = 0; l < k; l++) assert_near(matrix[k * n + l], matrix[l * n + k], 1e-12 * largest);
         }
         sb_reference_destroy(&reference);
     }
@@ -219,8 +213,8 @@ static void operator_is_negative_semidefinite(void **state)
 }
 
 /* Sum m a + forces = 0, and the same about a point, `size` being the sum of |m a|. */
-static void check_balance(const sb_reference *reference, const sb_vec3 *center,
-                          const sb_vec3 *force, const sb_vec3 *torque)
+static void check_balance(const sb_reference *reference, const sb_vec3 *center, const sb_vec3 *force,
+                          const sb_vec3 *torque)
 {
     sb_vec3 sum = sb_add(force[0], force[1]);
     sb_vec3 turn = sb_add(torque[0], torque[1]);
@@ -323,8 +317,7 @@ static void viscosity_has_its_effective_value(void **state)
             assert_int_equal(sb_reference_create(&cloud, &reference), 0);
             sb_reference_viscosity(&reference, rho, acceleration);
             double full = 0.05 * cloud.h * 10 / (4 * (dimension + 2));
-            assert_near(acceleration[cloud.fluid_count / 2].x / full, cases[c].share[dimension],
-                        0.012);
+            assert_near(acceleration[cloud.fluid_count / 2].x / full, cases[c].share[dimension], 0.012);
             sb_reference_destroy(&reference);
         }
 }

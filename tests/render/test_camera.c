@@ -68,11 +68,9 @@ static sb_vec3 project(const sb_view *view, sb_vec3 origin, sb_vec3 point)
     sb_vec3 p = sb_sub(point, origin);
     double e[3], clip[4];
     for (int row = 0; row < 3; row++)
-        e[row] = (double)m[row] * p.x + (double)m[4 + row] * p.y + (double)m[8 + row] * p.z +
-                 (double)m[12 + row];
+        e[row] = (double)m[row] * p.x + (double)m[4 + row] * p.y + (double)m[8 + row] * p.z + (double)m[12 + row];
     for (int row = 0; row < 4; row++)
-        clip[row] = (double)view->projection[row] * e[0] +
-                    (double)view->projection[4 + row] * e[1] +
+        clip[row] = (double)view->projection[row] * e[0] + (double)view->projection[4 + row] * e[1] +
                     (double)view->projection[8 + row] * e[2] + (double)view->projection[12 + row];
     return sb_scale(sb_vec(clip[0], clip[1], clip[2]), 1 / clip[3]);
 }
@@ -82,8 +80,7 @@ static void view_projects_as_a_lens_does(void **state)
     (void)state;
     sb_camera_key key = {0, {0, -100, 0}, {0, 0, 0}, 90};
     sb_view view = sb_view_create(&key, 2, sb_vec(-50, -50, -50), sb_vec(50, 50, 50));
-    near_vec(sb_vec(project(&view, sb_vec(0, 0, 0), sb_vec(0, 0, 0)).x, 0, 0), sb_vec(0, 0, 0),
-             1e-6);
+    near_vec(sb_vec(project(&view, sb_vec(0, 0, 0), sb_vec(0, 0, 0)).x, 0, 0), sb_vec(0, 0, 0), 1e-6);
     /* 90 degrees from top to bottom: 100 m up at 100 m is the picture's upper edge. */
     sb_vec3 corner = project(&view, sb_vec(0, 0, 0), sb_vec(200, 0, 100));
     assert_true(fabs(corner.x - 1) < 1e-5 && fabs(corner.y - 1) < 1e-5);

@@ -151,8 +151,7 @@ static void softening_blends_stairs_only(void **state)
     assert_int_equal(sb_image_resize(&image, SIDE, SIDE, &error), SB_OK);
     /* White above a line that rises by one in four; the first row of rgba is the lowest. */
     for (int y = 0; y < SIDE; y++)
-        for (int x = 0; x < SIDE; x++)
-            memset(rgba + 4 * (y * SIDE + x), y > 12 + x / 4 ? 255 : 0, 4);
+        for (int x = 0; x < SIDE; x++) memset(rgba + 4 * (y * SIDE + x), y > 12 + x / 4 ? 255 : 0, 4);
     sb_soften(rgba, &image);
     int between = 0;
     for (int y = 0; y < SIDE; y++)
@@ -180,17 +179,15 @@ static sb_mesh cube(void)
     /* Corners doubled, as meshes with a normal per face have them. */
     static sb_vec3 vertices[36];
     static uint32_t triangles[12][3];
-    static const int corner[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
-                                      {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
-                                      {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    static const int corner[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                                      {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
     for (int f = 0; f < 12; f++)
         for (int c = 0; c < 3; c++) {
             int at = corner[f][c];
             vertices[3 * f + c] = sb_vec(at & 1 ? 1 : 0, at & 2 ? 1 : 0, at & 4 ? 1 : 0);
             triangles[f][c] = (uint32_t)(3 * f + c);
         }
-    return (sb_mesh){
-        .vertex_count = 36, .vertices = vertices, .triangle_count = 12, .triangles = triangles};
+    return (sb_mesh){.vertex_count = 36, .vertices = vertices, .triangle_count = 12, .triangles = triangles};
 }
 
 static void outline_finds_the_edges_of_a_cube(void **state)
@@ -202,9 +199,7 @@ static void outline_finds_the_edges_of_a_cube(void **state)
     assert_int_equal(sb_outline_create(&mesh, 30, &outline, &error), SB_OK);
     assert_int_equal(outline.edge_count, 12); /* and no diagonals */
     for (size_t i = 0; i < 36; i++)
-        assert_true(fabsf(outline.normals[i][0]) + fabsf(outline.normals[i][1]) +
-                        fabsf(outline.normals[i][2]) ==
-                    1);
+        assert_true(fabsf(outline.normals[i][0]) + fabsf(outline.normals[i][1]) + fabsf(outline.normals[i][2]) == 1);
     sb_outline_free(&outline);
     /* Without its lid (two triangles) the rim stays; smoother than 100 degrees, only the rim does.
      */
@@ -277,8 +272,8 @@ static void only_the_surface_is_visible(void **state)
         const sb_visible_point *point = &visible.points[i];
         top += point->position[2] == 19.5f;
         /* From above, nothing below the fifth layer shows but the sides. */
-        bool side = point->position[0] < 1.6f || point->position[0] > 17.9f ||
-                    point->position[1] < 1.6f || point->position[1] > 17.9f;
+        bool side = point->position[0] < 1.6f || point->position[0] > 17.9f || point->position[1] < 1.6f ||
+                    point->position[1] > 17.9f;
         assert_true(side || point->position[2] >= 17.5f);
         if (!side) assert_true(point->normal[2] > 120);
     }

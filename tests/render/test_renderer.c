@@ -24,15 +24,13 @@ struct stage {
 /* A box as tests need it: outward faces, seen from the water. */
 static sb_mesh box(sb_vec3 min, sb_vec3 max)
 {
-    static const uint32_t faces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
-                                          {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
-                                          {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    static const uint32_t faces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                                          {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
     sb_mesh mesh = {.vertex_count = 8, .triangle_count = 12};
     mesh.vertices = sb_alloc(8, sizeof *mesh.vertices);
     mesh.triangles = sb_alloc(12, sizeof *mesh.triangles);
     for (int i = 0; i < 8; i++)
-        mesh.vertices[i] =
-            sb_vec(i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z);
+        mesh.vertices[i] = sb_vec(i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z);
     memcpy(mesh.triangles, faces, sizeof faces);
     return mesh;
 }
@@ -122,8 +120,7 @@ static int differ(const sb_image *a, const sb_image *b, int x, int y)
 }
 
 /* How many pixels of the rectangle differ by more than `tolerance`. */
-static int differences(const sb_image *a, const sb_image *b, int x0, int y0, int x1, int y1,
-                       int tolerance)
+static int differences(const sb_image *a, const sb_image *b, int x0, int y0, int x1, int y1, int tolerance)
 {
     int count = 0;
     for (int y = y0; y < y1; y++)
@@ -280,8 +277,7 @@ static void bad_sizes_and_cameras_are_refused(void **state)
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         stage.scene.render.width = bad[i][0];
         stage.scene.render.height = bad[i][1];
-        assert_int_equal(sb_renderer_create(&stage.scene, &stage.model, &renderer, &error),
-                         SB_BAD_INPUT);
+        assert_int_equal(sb_renderer_create(&stage.scene, &stage.model, &renderer, &error), SB_BAD_INPUT);
         assert_null(renderer);
         assert_non_null(strstr(error.text, "16384"));
     }

@@ -8,11 +8,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define SCENE_HEAD                                                                                 \
-    "resolution: 0.1\nduration: 1\ndomain: {min: [0, 0, 0], max: [2, 1, 1]}\n"                     \
+#define SCENE_HEAD                                                                                                     \
+    "resolution: 0.1\nduration: 1\ndomain: {min: [0, 0, 0], max: [2, 1, 1]}\n"                                         \
     "water: {level: 0.5, seed: [1, 0.5, 0.2]}\n"
-#define SCENE_FLAT                                                                                 \
-    "dimensions: 2\nresolution: 0.1\nduration: 1\ndomain: {min: [0, 0], max: [2, 1]}\n"            \
+#define SCENE_FLAT                                                                                                     \
+    "dimensions: 2\nresolution: 0.1\nduration: 1\ndomain: {min: [0, 0], max: [2, 1]}\n"                                \
     "water: {level: 0.5, seed: [1, 0.2]}\n"
 
 /* Writes text to a new file, its name into path. */
@@ -27,9 +27,8 @@ static inline void scene_file(const char *text, char path[256])
     assert_int_equal(fclose(file), 0);
 }
 
-static inline sb_status scene_read_text(const char *text, const char *preset,
-                                        const sb_override *overrides, size_t count, sb_scene *scene,
-                                        sb_error *error)
+static inline sb_status scene_read_text(const char *text, const char *preset, const sb_override *overrides,
+                                        size_t count, sb_scene *scene, sb_error *error)
 {
     char path[256];
     scene_file(text, path);
@@ -39,12 +38,11 @@ static inline sb_status scene_read_text(const char *text, const char *preset,
 }
 
 /* Fails the test, with the message, when the text is refused. */
-static inline void scene_must_read(const char *text, const char *preset,
-                                   const sb_override *overrides, size_t count, sb_scene *scene)
+static inline void scene_must_read(const char *text, const char *preset, const sb_override *overrides, size_t count,
+                                   sb_scene *scene)
 {
     sb_error error = {0};
-    if (scene_read_text(text, preset, overrides, count, scene, &error) != SB_OK)
-        fail_msg("%s", error.text);
+    if (scene_read_text(text, preset, overrides, count, scene, &error) != SB_OK) fail_msg("%s", error.text);
 }
 
 #endif

@@ -28,9 +28,8 @@ static bool is_placed(const char *message, const char *path)
     size_t length = strlen(path);
     unsigned line = 0, column = 0;
     int used = 0;
-    return strncmp(message, path, length) == 0 &&
-           sscanf(message + length, ":%u:%u: %n", &line, &column, &used) == 2 && used > 0 &&
-           line > 0 && column > 0;
+    return strncmp(message, path, length) == 0 && sscanf(message + length, ":%u:%u: %n", &line, &column, &used) == 2 &&
+           used > 0 && line > 0 && column > 0;
 }
 
 static int refuses(const char *path)
@@ -46,8 +45,7 @@ static int refuses(const char *path)
     sb_error error = {0};
     sb_status status = sb_scene_read(path, NULL, NULL, 0, &scene, &error);
     if (status == SB_BAD_INPUT && error.status == status && is_placed(error.text, path) &&
-        strstr(error.text, expected) && !strchr(error.text, '\n') &&
-        memcmp(&scene, &before, sizeof scene) == 0)
+        strstr(error.text, expected) && !strchr(error.text, '\n') && memcmp(&scene, &before, sizeof scene) == 0)
         return 1;
     print_error("%s\n  status %d: %s\n  expected: %s\n", path, (int)status, error.text, expected);
     return 0;
@@ -114,8 +112,7 @@ static void test_many_keys(void **state)
     (void)state;
     char text[32000];
     size_t used = 0;
-    for (int i = 0; i < 1001; i++)
-        used += (size_t)snprintf(text + used, sizeof text - used, "k%d: 1\n", i);
+    for (int i = 0; i < 1001; i++) used += (size_t)snprintf(text + used, sizeof text - used, "k%d: 1\n", i);
     check_text(text, used, ":1:1: block of more than 1000 keys");
 }
 
@@ -131,8 +128,7 @@ static void test_many_items(void **state)
                                "water: {level: 0.5, seed: [1, 0.5, 0.2]}\n"
                                "measure:\n  gauges:\n");
     for (int i = 0; i < 10001; i++)
-        length +=
-            (size_t)snprintf(text + length, size - length, "  - {name: g%d, x: 1, y: 0}\n", i);
+        length += (size_t)snprintf(text + length, size - length, "  - {name: g%d, x: 1, y: 0}\n", i);
     check_text(text, length, "measure.gauges: has 10001 items, expected at most 10000");
     sb_free(text);
 }
@@ -144,8 +140,7 @@ static void test_unreadable(void **state)
     sb_error error = {0};
     assert_int_equal(sb_scene_read(BAD "/none.yaml", NULL, NULL, 0, &scene, &error), SB_BAD_INPUT);
     assert_non_null(strstr(error.text, "none.yaml: cannot read: No such file"));
-    assert_int_equal(sb_scene_read("/no/such/folder/a.yaml", NULL, NULL, 0, &scene, &error),
-                     SB_BAD_INPUT);
+    assert_int_equal(sb_scene_read("/no/such/folder/a.yaml", NULL, NULL, 0, &scene, &error), SB_BAD_INPUT);
     assert_non_null(strstr(error.text, "a.yaml: cannot read: No such file"));
     assert_int_equal(sb_scene_read(BAD, NULL, NULL, 0, &scene, &error), SB_BAD_INPUT);
 }
@@ -153,9 +148,8 @@ static void test_unreadable(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_corpus),     cmocka_unit_test(test_generated),
-        cmocka_unit_test(test_many_keys),  cmocka_unit_test(test_many_items),
-        cmocka_unit_test(test_unreadable),
+        cmocka_unit_test(test_corpus),     cmocka_unit_test(test_generated),  cmocka_unit_test(test_many_keys),
+        cmocka_unit_test(test_many_items), cmocka_unit_test(test_unreadable),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,14 +28,12 @@ static block *block_of(reference *all, const char *path)
     const char *dot = strrchr(path, '.');
     size_t length = dot ? (size_t)(dot - path) : 0;
     for (size_t i = 0; i < all->block_count; i++)
-        if (strlen(all->blocks[i].name) == length &&
-            strncmp(all->blocks[i].name, path, length) == 0)
+        if (strlen(all->blocks[i].name) == length && strncmp(all->blocks[i].name, path, length) == 0)
             return &all->blocks[i];
     assert_true(all->block_count < BLOCKS_MAX && length < sizeof all->blocks->name);
     block *made = &all->blocks[all->block_count++];
     memcpy(made->name, path, length);
-    snprintf(made->table, sizeof made->table,
-             "| key | unit | default | range | meaning |\n|---|---|---|---|---|\n");
+    snprintf(made->table, sizeof made->table, "| key | unit | default | range | meaning |\n|---|---|---|---|---|\n");
     return made;
 }
 
@@ -45,19 +43,17 @@ static void add_row(void *context, const sb_scene_key *key)
     block *to = block_of(all, key->path);
     const char *dot = strrchr(key->path, '.');
     size_t used = strlen(to->table);
-    int length =
-        snprintf(to->table + used, sizeof to->table - used, "| `%s` | %s | %s | %s | %s%s%s%s |\n",
-                 dot ? dot + 1 : key->path, *key->unit ? key->unit : "–",
-                 key->required    ? "required"
-                 : *key->fallback ? key->fallback
-                                  : "see its keys",
-                 key->range, key->doc ? key->doc : "", key->only ? " Only for " : "",
-                 key->only ? key->only : "", key->only ? "." : "");
+    int length = snprintf(to->table + used, sizeof to->table - used, "| `%s` | %s | %s | %s | %s%s%s%s |\n",
+                          dot ? dot + 1 : key->path, *key->unit ? key->unit : "–",
+                          key->required    ? "required"
+                          : *key->fallback ? key->fallback
+                                           : "see its keys",
+                          key->range, key->doc ? key->doc : "", key->only ? " Only for " : "",
+                          key->only ? key->only : "", key->only ? "." : "");
     assert_true(length > 0 && used + (size_t)length < sizeof to->table);
     all->key_count++;
     bool bare = !key->doc || !*key->doc || !*key->range;
-    bool no_default =
-        !key->required && !*key->fallback && strcmp(key->range, "a block of keys") != 0;
+    bool no_default = !key->required && !*key->fallback && strcmp(key->range, "a block of keys") != 0;
     if (bare || no_default) print_error("%s has no sentence, range or default\n", key->path);
     all->bare += bare || no_default;
 }
@@ -93,8 +89,7 @@ static int check_block(const block *expected, bool update)
     sb_error error = {0};
     if (sb_file_read(DOCS, 1u << 20, &docs, &length, &error) != SB_OK) fail_msg("%s", error.text);
     char *table = find_table(docs, expected->name, &length);
-    int good =
-        table && strlen(expected->table) == length && strncmp(table, expected->table, length) == 0;
+    int good = table && strlen(expected->table) == length && strncmp(table, expected->table, length) == 0;
     if (table && !good && update) {
         rewrite(docs, (size_t)(table - docs), expected->table, table + length);
         good = 1;
@@ -116,8 +111,7 @@ static void test_every_key(void **state)
     assert_int_equal(all.bare, 0);
     const char *update = getenv("SB_UPDATE_DOCS");
     size_t good = 0;
-    for (size_t i = 0; i < all.block_count; i++)
-        good += (size_t)check_block(&all.blocks[i], update && *update);
+    for (size_t i = 0; i < all.block_count; i++) good += (size_t)check_block(&all.blocks[i], update && *update);
     assert_int_equal(good, all.block_count);
     sb_free(all.blocks);
 }

@@ -4,15 +4,14 @@
 
 #include <string.h>
 
-static const char text[] =
-    SCENE_HEAD "title: a\n"
-               "bodies:\n  - {name: a, shape: box, min: [0, 0, 0], max: [1, 1, 1]}\n"
-               "wavemakers: [{name: w, body: a, kind: goring, height: 0.1, depth: 0.5}]\n"
-               "measure: {gauges: [{name: g, x: 1, y: 0.5}]}\n"
-               "render:\n  cameras:\n    - {name: c, eye: [0, 0, 1], target: [1, 1, 1]}\n"
-               "    - {name: d, path: [{time: 0, eye: [0, 0, 1], target: [1, 1, 1]},\n"
-               "                       {time: 1, eye: [0, 0, 1], target: [1, 1, 1]}]}\n"
-               "stream: {url: \"memq://\"}\n";
+static const char text[] = SCENE_HEAD "title: a\n"
+                                      "bodies:\n  - {name: a, shape: box, min: [0, 0, 0], max: [1, 1, 1]}\n"
+                                      "wavemakers: [{name: w, body: a, kind: goring, height: 0.1, depth: 0.5}]\n"
+                                      "measure: {gauges: [{name: g, x: 1, y: 0.5}]}\n"
+                                      "render:\n  cameras:\n    - {name: c, eye: [0, 0, 1], target: [1, 1, 1]}\n"
+                                      "    - {name: d, path: [{time: 0, eye: [0, 0, 1], target: [1, 1, 1]},\n"
+                                      "                       {time: 1, eye: [0, 0, 1], target: [1, 1, 1]}]}\n"
+                                      "stream: {url: \"memq://\"}\n";
 
 static void test_each_allocation(void **state)
 {

@@ -3,10 +3,10 @@
 
 #include <string.h>
 
-#define SCENE_BODIES                                                                               \
-    SCENE_HEAD "bodies:\n"                                                                         \
-               "  - {name: a, shape: box, min: [0, 0, 0], max: [1, 1, 1]}\n"                       \
-               "  - {name: a.b, shape: box, min: [0, 0, 0], max: [1, 1, 1]}\n"                     \
+#define SCENE_BODIES                                                                                                   \
+    SCENE_HEAD "bodies:\n"                                                                                             \
+               "  - {name: a, shape: box, min: [0, 0, 0], max: [1, 1, 1]}\n"                                           \
+               "  - {name: a.b, shape: box, min: [0, 0, 0], max: [1, 1, 1]}\n"                                         \
                "  - {name: 0, shape: box, min: [0, 0, 0], max: [1, 1, 1]}\n"
 
 static void read_with(const char *text, const char *key, const char *value, sb_scene *scene)
@@ -21,8 +21,7 @@ static void refuse(const char *text, const char *key, const char *value, const c
     sb_scene scene;
     sb_error error = {0};
     assert_int_equal(scene_read_text(text, NULL, &one, 1, &scene, &error), SB_BAD_INPUT);
-    if (strcmp(error.text, expected) != 0)
-        fail_msg("%s=%s\n  %s\nexpected\n  %s", key, value, error.text, expected);
+    if (strcmp(error.text, expected) != 0) fail_msg("%s=%s\n  %s\nexpected\n  %s", key, value, error.text, expected);
 }
 
 static void test_values(void **state)
@@ -76,8 +75,7 @@ static void test_items(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         sb_scene scene;
         read_with(SCENE_BODIES, cases[i].key, "[1, 1, 7]", &scene);
-        for (size_t body = 0; body < 3; body++)
-            assert_near(scene.bodies[body].max.z, body == cases[i].body ? 7 : 1, 0);
+        for (size_t body = 0; body < 3; body++) assert_near(scene.bodies[body].max.z, body == cases[i].body ? 7 : 1, 0);
         sb_scene_free(&scene);
     }
 }
@@ -98,13 +96,10 @@ static void test_alias_is_a_copy(void **state)
 static void test_refused_keys(void **state)
 {
     (void)state;
-    refuse(SCENE_HEAD, "resolutoin", "1",
-           "--set: resolutoin: unknown key, did you mean resolution?");
-    refuse(SCENE_HEAD, "numerics.solvr", "cg",
-           "--set: numerics.solvr: unknown key, did you mean solver?");
+    refuse(SCENE_HEAD, "resolutoin", "1", "--set: resolutoin: unknown key, did you mean resolution?");
+    refuse(SCENE_HEAD, "numerics.solvr", "cg", "--set: numerics.solvr: unknown key, did you mean solver?");
     refuse(SCENE_HEAD, "", "1", "--set: : a part is empty, expected KEY.KEY=VALUE");
-    refuse(SCENE_HEAD, "domain..max", "1",
-           "--set: domain..max: a part is empty, expected KEY.KEY=VALUE");
+    refuse(SCENE_HEAD, "domain..max", "1", "--set: domain..max: a part is empty, expected KEY.KEY=VALUE");
     refuse(SCENE_HEAD, "domain.", "1", "--set: domain.: ends in a dot, expected KEY.KEY=VALUE");
     refuse(SCENE_HEAD, "resolution.x", "1",
            "--set: resolution.x: the part before x is a single value, expected a block or a list");
@@ -122,22 +117,18 @@ static void test_refused_keys(void **state)
 static void test_refused_values(void **state)
 {
     (void)state;
-    refuse(SCENE_HEAD, "resolution", "5m",
-           "--set: resolution: 5m is not a number, expected metres > 0");
+    refuse(SCENE_HEAD, "resolution", "5m", "--set: resolution: 5m is not a number, expected metres > 0");
     refuse(SCENE_HEAD, "resolution", "", "--set: resolution: has no value, expected metres > 0");
-    refuse(SCENE_HEAD, "resolution", "-1",
-           "--set: resolution: -1 is out of range, expected metres > 0");
+    refuse(SCENE_HEAD, "resolution", "-1", "--set: resolution: -1 is out of range, expected metres > 0");
     refuse(SCENE_HEAD, "water.level", "4",
            "--set: water.level: 4 m is outside of the domain, expected metres > 0 and <= 1");
     refuse(SCENE_BODIES, "bodies.a.radius", "1",
            "--set: bodies[0].radius: does not apply here, expected only for shape cylinder");
-    refuse(SCENE_HEAD, "domain", "[1, 2",
-           "--set: domain: not valid YAML: did not find expected ',' or ']'");
+    refuse(SCENE_HEAD, "domain", "[1, 2", "--set: domain: not valid YAML: did not find expected ',' or ']'");
     refuse(SCENE_HEAD, "title", "a\nb: c",
            "--set: title: not valid YAML: mapping values are not allowed in this context");
     refuse(SCENE_HEAD, "title", "a\n---\nb", "--set: title: a second YAML document, expected one");
-    refuse(SCENE_HEAD, "title", "\xff",
-           "--set: title: not UTF-8 text: invalid leading UTF-8 octet");
+    refuse(SCENE_HEAD, "title", "\xff", "--set: title: not UTF-8 text: invalid leading UTF-8 octet");
 }
 
 int main(void)

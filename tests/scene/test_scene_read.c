@@ -79,14 +79,13 @@ static void test_bodies(void **state)
 {
     (void)state;
     sb_scene scene;
-    scene_must_read(SCENE_HEAD
-                    "bodies:\n"
-                    "  - {name: pier, shape: box, min: [0, 0, 0], max: [1, 1, 1], "
-                    "moment_point: [1, 2, 3], color: [0, 0.5, 1]}\n"
-                    "  - {name: beach, shape: plane, role: terrain, center: [1, 0, 0], "
-                    "normal: [-3, 0, 4], width: 1, length: 2}\n"
-                    "  - {name: 12, shape: cylinder, center: [1, 0, 0], radius: 1, height: 2, "
-                    "report: false}\n",
+    scene_must_read(SCENE_HEAD "bodies:\n"
+                               "  - {name: pier, shape: box, min: [0, 0, 0], max: [1, 1, 1], "
+                               "moment_point: [1, 2, 3], color: [0, 0.5, 1]}\n"
+                               "  - {name: beach, shape: plane, role: terrain, center: [1, 0, 0], "
+                               "normal: [-3, 0, 4], width: 1, length: 2}\n"
+                               "  - {name: 12, shape: cylinder, center: [1, 0, 0], radius: 1, height: 2, "
+                               "report: false}\n",
                     NULL, NULL, 0, &scene);
     const sb_body *bodies = scene.bodies;
     assert_true(bodies[0].report && bodies[0].has_moment_point);
@@ -133,14 +132,13 @@ static void test_two_dimensions(void **state)
 {
     (void)state;
     sb_scene scene;
-    scene_must_read(SCENE_FLAT
-                    "bodies:\n  - {name: wall, shape: box, min: [1, 0], max: [2, 1]}\n"
-                    "  - {name: thick, shape: box, min: [1, -3, 0], max: [2, 4, 1]}\n"
-                    "  - {name: beach, shape: plane, center: [1, 0], normal: [0, 2], length: 1}\n"
-                    "wavemakers: [{name: w, body: wall, kind: stroke, stroke: 1, speed: 2, "
-                    "direction: [0, 5], after: return, return_time: 9}]\n"
-                    "measure:\n  gauges: [{name: g, x: 1}]\n  planes: [{name: p, from: [1]}]\n"
-                    "  map: {}\n",
+    scene_must_read(SCENE_FLAT "bodies:\n  - {name: wall, shape: box, min: [1, 0], max: [2, 1]}\n"
+                               "  - {name: thick, shape: box, min: [1, -3, 0], max: [2, 4, 1]}\n"
+                               "  - {name: beach, shape: plane, center: [1, 0], normal: [0, 2], length: 1}\n"
+                               "wavemakers: [{name: w, body: wall, kind: stroke, stroke: 1, speed: 2, "
+                               "direction: [0, 5], after: return, return_time: 9}]\n"
+                               "measure:\n  gauges: [{name: g, x: 1}]\n  planes: [{name: p, from: [1]}]\n"
+                               "  map: {}\n",
                     NULL, NULL, 0, &scene);
     assert_near(scene.domain.max.y, 0, 0);
     assert_near(scene.domain.max.z, 1, 0);
@@ -164,13 +162,12 @@ static void test_measure_and_cameras(void **state)
 {
     (void)state;
     sb_scene scene;
-    scene_must_read(SCENE_HEAD
-                    "measure:\n  planes: [{name: p, from: [1, 0], to: [1, 1], z_max: 0.7}]\n"
-                    "  map: {cell: 0.5}\n"
-                    "render:\n  cameras:\n    - {name: a, eye: [0, 0, 1], target: [1, 1, 1]}\n"
-                    "    - name: b\n      path:\n"
-                    "        - {time: 0, eye: [0, 0, 1], target: [1, 1, 1], fov: 20}\n"
-                    "        - {time: 2, eye: [0, 0, 2], target: [1, 1, 1]}\n",
+    scene_must_read(SCENE_HEAD "measure:\n  planes: [{name: p, from: [1, 0], to: [1, 1], z_max: 0.7}]\n"
+                               "  map: {cell: 0.5}\n"
+                               "render:\n  cameras:\n    - {name: a, eye: [0, 0, 1], target: [1, 1, 1]}\n"
+                               "    - name: b\n      path:\n"
+                               "        - {time: 0, eye: [0, 0, 1], target: [1, 1, 1], fov: 20}\n"
+                               "        - {time: 2, eye: [0, 0, 2], target: [1, 1, 1]}\n",
                     NULL, NULL, 0, &scene);
     assert_near(scene.measure.planes[0].z_min, 0, 0);
     assert_near(scene.measure.planes[0].z_max, 0.7, 0);
@@ -192,9 +189,8 @@ static void test_aliases(void **state)
 {
     (void)state;
     sb_scene scene;
-    scene_must_read(SCENE_HEAD
-                    "render:\n  cameras:\n    - {name: a, eye: &e [0, 0, 1], target: [1, 1, 1]}\n"
-                    "    - {name: b, eye: *e, target: [2, 1, 1]}\n",
+    scene_must_read(SCENE_HEAD "render:\n  cameras:\n    - {name: a, eye: &e [0, 0, 1], target: [1, 1, 1]}\n"
+                               "    - {name: b, eye: *e, target: [2, 1, 1]}\n",
                     NULL, NULL, 0, &scene);
     assert_near(scene.render.cameras[1].keys[0].eye.z, 1, 0);
     sb_scene_free(&scene);
@@ -217,8 +213,7 @@ static void test_presets(void **state)
     assert_int_equal(usual.numerics.preset, SB_PRESET_DEFAULT);
     assert_true(memcmp(&usual.numerics, &paper.numerics, sizeof usual.numerics) != 0);
     /* The scene's own keys win over the preset, and --preset over the scene's preset. */
-    scene_must_read(SCENE_HEAD "numerics: {preset: default, relaxation: 0.25}\n", "paper", NULL, 0,
-                    &mixed);
+    scene_must_read(SCENE_HEAD "numerics: {preset: default, relaxation: 0.25}\n", "paper", NULL, 0, &mixed);
     assert_near(mixed.numerics.relaxation, 0.25, 0);
     mixed.numerics.relaxation = paper.numerics.relaxation;
     assert_memory_equal(&mixed.numerics, &paper.numerics, sizeof mixed.numerics);

@@ -41,11 +41,10 @@ static const char everything[] =
     "stream: {enabled: true, url: \"memq://\", prefix: A.B, interval: 0.3, decimation: 4}\n"
     "output: {particle_interval: 0.25, plots: false}\n";
 
-#define SAME_ITEMS(a, b, items, count)                                                             \
-    do {                                                                                           \
-        assert_int_equal((a)->count, (b)->count);                                                  \
-        if ((a)->count > 0)                                                                        \
-            assert_memory_equal((a)->items, (b)->items, (a)->count * sizeof *(a)->items);          \
+#define SAME_ITEMS(a, b, items, count)                                                                                 \
+    do {                                                                                                               \
+        assert_int_equal((a)->count, (b)->count);                                                                      \
+        if ((a)->count > 0) assert_memory_equal((a)->items, (b)->items, (a)->count * sizeof *(a)->items);              \
     } while (0)
 
 static void same_text(char **a, char **b)

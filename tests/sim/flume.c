@@ -2,8 +2,7 @@
 
 void flume_make(tank *t, int dimensions, double dr, sb_vec3 size, bool sleep)
 {
-    static const sb_wavemaker_parameters law = {
-        .stroke = 0.4, .speed = 0.5, .gravity = 9.81, .after = SB_AFTER_STAY};
+    static const sb_wavemaker_parameters law = {.stroke = 0.4, .speed = 0.5, .gravity = 9.81, .after = SB_AFTER_STAY};
     sb_wavemaker_parameters stroke = law;
     stroke.kind = sb_wavemaker_find("stroke");
     tank_make(t, dimensions, dr, size, size.x, SB_FLUME_DEPTH, 0.02);

@@ -70,8 +70,7 @@ static void add_shell(tank *t, const long n[3])
     for (long x = -1; x <= n[0]; x++)
         for (long y = y0; y <= y1; y++)
             for (long z = -1; z <= n[2]; z++)
-                if (x == -1 || x == n[0] || z == -1 || z == n[2] ||
-                    (!flat && (y == -1 || y == n[1])))
+                if (x == -1 || x == n[0] || z == -1 || z == n[2] || (!flat && (y == -1 || y == n[1])))
                     add_wall(t, place(t, (double)x, (double)y, (double)z),
                              sb_vec(inward(x, n[0]), flat ? 0 : inward(y, n[1]), inward(z, n[2])));
 }
@@ -89,16 +88,13 @@ static void fill_water(tank *t, const long wet[3], double depth, double jitter)
             for (long z = 0; z < wet[2]; z++) {
                 size_t i = m->fluid_count++;
                 double d[3];
-                for (uint64_t axis = 0; axis < 3; axis++)
-                    d[axis] = jitter * (2 * sb_random(7, 3 * i + axis) - 1);
-                m->fluid_position[i] =
-                    place(t, (double)x + d[0], (double)y + d[1], (double)z + d[2]);
+                for (uint64_t axis = 0; axis < 3; axis++) d[axis] = jitter * (2 * sb_random(7, 3 * i + axis) - 1);
+                m->fluid_position[i] = place(t, (double)x + d[0], (double)y + d[1], (double)z + d[2]);
                 m->fluid_pressure[i] = 1000 * 9.81 * (depth - m->fluid_position[i].z);
             }
 }
 
-void tank_make(tank *t, int dimensions, double dr, sb_vec3 size, double wet_length, double depth,
-               double jitter)
+void tank_make(tank *t, int dimensions, double dr, sb_vec3 size, double wet_length, double depth, double jitter)
 {
     *t = (tank){0};
     sb_scene *s = &t->scene;
@@ -172,10 +168,8 @@ static sb_vec3 roll(const tank *t, sb_vec3 at, sb_vec3 by)
 void tank_roll(tank *t, sb_vec3 by)
 {
     sb_model *m = &t->model;
-    for (size_t i = 0; i < m->fluid_count; i++)
-        m->fluid_position[i] = roll(t, m->fluid_position[i], by);
-    for (size_t b = 0; b < m->wall_count; b++)
-        m->wall_position[b] = roll(t, m->wall_position[b], by);
+    for (size_t i = 0; i < m->fluid_count; i++) m->fluid_position[i] = roll(t, m->fluid_position[i], by);
+    for (size_t b = 0; b < m->wall_count; b++) m->wall_position[b] = roll(t, m->wall_position[b], by);
 }
 
 void tank_shift(tank *t, sb_vec3 by)
@@ -185,12 +179,9 @@ void tank_shift(tank *t, sb_vec3 by)
     m->max = sb_add(m->max, by);
     t->scene.domain.min = sb_add(t->scene.domain.min, by);
     t->scene.domain.max = sb_add(t->scene.domain.max, by);
-    for (size_t i = 0; i < m->fluid_count; i++)
-        m->fluid_position[i] = sb_add(m->fluid_position[i], by);
-    for (size_t b = 0; b < m->wall_count; b++)
-        m->wall_position[b] = sb_add(m->wall_position[b], by);
-    for (size_t b = 0; b < m->body_count; b++)
-        m->bodies[b].moment_point = sb_add(m->bodies[b].moment_point, by);
+    for (size_t i = 0; i < m->fluid_count; i++) m->fluid_position[i] = sb_add(m->fluid_position[i], by);
+    for (size_t b = 0; b < m->wall_count; b++) m->wall_position[b] = sb_add(m->wall_position[b], by);
+    for (size_t b = 0; b < m->body_count; b++) m->bodies[b].moment_point = sb_add(m->bodies[b].moment_point, by);
 }
 
 void tank_scatter(tank *t, uint64_t seed, double speed)
@@ -200,11 +191,10 @@ void tank_scatter(tank *t, uint64_t seed, double speed)
     for (size_t i = 0; i < m->fluid_count; i++) {
         double u[6];
         for (uint64_t k = 0; k < 6; k++) u[k] = sb_random(seed, 6 * i + k);
-        m->fluid_position[i] = sb_add(m->min, sb_vec(u[0] * (m->max.x - m->min.x),
-                                                     flat ? 0 : u[1] * (m->max.y - m->min.y),
-                                                     u[2] * (m->max.z - m->min.z)));
-        m->fluid_velocity[i] =
-            sb_scale(sb_vec(2 * u[3] - 1, flat ? 0 : 2 * u[4] - 1, 2 * u[5] - 1), speed);
+        m->fluid_position[i] =
+            sb_add(m->min, sb_vec(u[0] * (m->max.x - m->min.x), flat ? 0 : u[1] * (m->max.y - m->min.y),
+                                  u[2] * (m->max.z - m->min.z)));
+        m->fluid_velocity[i] = sb_scale(sb_vec(2 * u[3] - 1, flat ? 0 : 2 * u[4] - 1, 2 * u[5] - 1), speed);
         m->fluid_pressure[i] = 0;
     }
 }
@@ -219,8 +209,7 @@ void tank_split_patch(tank *t, sb_vec3 min, sb_vec3 max)
     for (int rest = 0; rest < 2; rest++) {
         for (size_t b = 0; b < m->wall_count; b++) {
             sb_vec3 x = m->wall_position[b];
-            bool in = x.x > min.x && x.y > min.y && x.z > min.z && x.x < max.x && x.y < max.y &&
-                      x.z < max.z;
+            bool in = x.x > min.x && x.y > min.y && x.z > min.z && x.x < max.x && x.y < max.y && x.z < max.z;
             if (in != !rest) continue;
             normal[at] = m->wall_normal[b];
             parted[at++] = x;
@@ -240,8 +229,8 @@ void tank_split_patch(tank *t, sb_vec3 min, sb_vec3 max)
     snprintf(m->bodies[0].name, sizeof m->bodies[0].name, "patch");
 }
 
-size_t tank_add_sheet(tank *t, const char *name, double x, double z_min, double z_max,
-                      sb_vec3 direction, const sb_wavemaker_parameters *law)
+size_t tank_add_sheet(tank *t, const char *name, double x, double z_min, double z_max, sb_vec3 direction,
+                      const sb_wavemaker_parameters *law)
 {
     sb_model *m = &t->model;
     sb_scene *s = &t->scene;
@@ -254,9 +243,7 @@ size_t tank_add_sheet(tank *t, const char *name, double x, double z_min, double 
     long high = lround((z_max - z_min) / dr);
     for (long y = 0; y < across; y++)
         for (long z = 0; z < high; z++)
-            add_wall(t,
-                     sb_vec(x, s->dimensions == 2 ? 0 : ((double)y + 0.5) * dr,
-                            z_min + ((double)z + 0.5) * dr),
+            add_wall(t, sb_vec(x, s->dimensions == 2 ? 0 : ((double)y + 0.5) * dr, z_min + ((double)z + 0.5) * dr),
                      sb_vec(1, 0, 0));
     body->count = m->wall_count - body->begin;
     if (law) {
@@ -283,8 +270,7 @@ sb_sim *tank_sim(const tank *t)
 {
     sb_error error = {0};
     sb_sim *sim = NULL;
-    if (sb_sim_create(&t->scene, &t->model, &sim, &error) != SB_OK)
-        fprintf(stderr, "no simulation: %s\n", error.text);
+    if (sb_sim_create(&t->scene, &t->model, &sim, &error) != SB_OK) fprintf(stderr, "no simulation: %s\n", error.text);
     return sim;
 }
 
@@ -339,15 +325,13 @@ bool tank_has_stage(const sb_sim *sim, const char *name)
     const sb_stage_time *stages;
     const size_t count = sb_sim_stages(sim, &stages);
     for (size_t s = 0; s < count; s++)
-        if (strcmp(stages[s].name, name) == 0)
-            return true;
+        if (strcmp(stages[s].name, name) == 0) return true;
     return false;
 }
 
 bool tank_says(const sb_sim *sim, const char *word)
 {
     for (const char *const *line = sb_sim_skipped(sim); *line; line++)
-        if (strstr(*line, word))
-            return true;
+        if (strstr(*line, word)) return true;
     return false;
 }

@@ -15,8 +15,7 @@ typedef struct tank {
 
 /* A closed box `size` (m) holding water to `depth` over x in [0, wet_length]; sheets half a spacing
    outside the walls, all one body "tank". dimensions 2: y is ignored. jitter in spacings. */
-void tank_make(tank *t, int dimensions, double spacing, sb_vec3 size, double wet_length,
-               double depth, double jitter);
+void tank_make(tank *t, int dimensions, double spacing, sb_vec3 size, double wet_length, double depth, double jitter);
 void tank_free(tank *t);
 
 /* Makes the sides across an axis (0: x, 1: y) periodic, without the walls there. Before bodies are
@@ -37,10 +36,11 @@ void tank_split_patch(tank *t, sb_vec3 min, sb_vec3 max);
 /* A new body of boundary particles a spacing apart: an upright sheet across the tank at x from
    z_min to z_max; moved along `direction` by `law`, or static when that is NULL. Returns the body's
    index. */
-size_t tank_add_sheet(tank *t, const char *name, double x, double z_min, double z_max,
-                      sb_vec3 direction, const sb_wavemaker_parameters *law);
+size_t tank_add_sheet(tank *t, const char *name, double x, double z_min, double z_max, sb_vec3 direction,
+                      const sb_wavemaker_parameters *law);
 
-/* Turns on what a scene may leave out: the stress correction, friction at walls, turbulence, viscosity; a few steps of settling. */
+/* Turns on what a scene may leave out: the stress correction, friction at walls, turbulence, viscosity; a few steps of
+ * settling. */
 void tank_add_terms(tank *t);
 
 /* The simulation of the tank; NULL, with the reason on stderr, when there is none. */

@@ -1,4 +1,5 @@
-/* The pressures told to the world: against the reference, in water at rest, and that the state does not know of them. */
+/* The pressures told to the world: against the reference, in water at rest, and that the state does not know of them.
+ */
 #include "../check.h"
 #include "base/random.h"
 #include "sim/tank.h"
@@ -13,7 +14,8 @@ static double virial(const sb_sim *sim, const twin *seen, size_t i)
     const double q = (double)sim->unknown[i];
     double sum = 0;
     for (size_t k = r->fluid_start[i]; k < r->fluid_start[i + 1]; k++)
-        sum += r->mass * (q + (double)sim->unknown[r->fluid[k].other]) * sb_dot(r->fluid[k].offset, r->fluid[k].gradient);
+        sum +=
+            r->mass * (q + (double)sim->unknown[r->fluid[k].other]) * sb_dot(r->fluid[k].offset, r->fluid[k].gradient);
     for (size_t k = r->wall_start[i]; k < r->wall_start[i + 1]; k++)
         sum += q * seen->psi[r->wall[k].other] * sb_dot(r->wall[k].offset, r->wall[k].gradient);
     return -0.5 * r->cloud.rest_density * sum / r->cloud.dimension;
@@ -30,18 +32,17 @@ static void a_random_cloud_is_the_reference(void **state)
         twin_gap gap = {0};
         const sb_vec3 size = dimensions == 2 ? sb_vec(3, 0, 2) : sb_vec(1.2, 1.2, 1);
         tank_make(&t, dimensions, 0.1, size, size.x, 0.9 * size.z, 0);
-        if (form > 1)
-            tank_repeat(&t, 0);
+        if (form > 1) tank_repeat(&t, 0);
         tank_scatter(&t, 5, 1);
         sb_sim *sim = tank_sim(&t);
         assert_non_null(sim);
         assert_int_equal(tank_prepare(sim, 1e-3), 0);
-        for (size_t i = 0; i < sim->n; i++)
-            sim->unknown[i] = (float)sb_random(7, i);
+        for (size_t i = 0; i < sim->n; i++) sim->unknown[i] = (float)sb_random(7, i);
         assert_int_equal(twin_make(sim, &seen), 0);
         for (size_t i = 0; i < sim->n; i++)
             for (int axis = 0; axis < 3; axis++)
-                sim->position[i][axis] += (uint32_t)(int32_t)lrint((double)sim->velocity[i][axis] * 1e-3 / sim->space.quantum);
+                sim->position[i][axis] +=
+                    (uint32_t)(int32_t)lrint((double)sim->velocity[i][axis] * 1e-3 / sim->space.quantum);
         sim->listed = true;
         sb_sim_find_pressures(sim);
         size_t beside = 0;
@@ -49,8 +50,8 @@ static void a_random_cloud_is_the_reference(void **state)
             beside += seen.reference.wall_start[i] < seen.reference.wall_start[i + 1];
             twin_compare(&gap, i, sb_sim_particle(sim, i).pressure, virial(sim, &seen, i));
         }
-        printf("%dD, %zu particles, %zu beside walls: %.2g of %.3g Pa\n", dimensions, sim->n, beside, twin_relative(&gap),
-               gap.scale);
+        printf("%dD, %zu particles, %zu beside walls: %.2g of %.3g Pa\n", dimensions, sim->n, beside,
+               twin_relative(&gap), gap.scale);
         assert_true(beside > 30 && gap.scale > 1e5 && twin_relative(&gap) < 2e-5);
         twin_free(&seen);
         sb_sim_destroy(sim);
@@ -58,7 +59,8 @@ static void a_random_cloud_is_the_reference(void **state)
     }
 }
 
-/* Mean over the water, farther from walls and surface than the support, of the deviation from rho g z, as it is and squared. */
+/* Mean over the water, farther from walls and surface than the support, of the deviation from rho g z, as it is and
+ * squared. */
 static void deviation(const sb_sim *sim, double depth, double width, double *mean, double *square)
 {
     const double weight = 1000 * 9.81, reach = (double)sim->constant.support;
@@ -66,7 +68,8 @@ static void deviation(const sb_sim *sim, double depth, double width, double *mea
     *mean = *square = 0;
     for (size_t i = 0; i < sim->n; i++) {
         const sb_fluid_sample p = sb_sim_particle(sim, i);
-        if (p.position.z < reach || p.position.z > depth - reach || p.position.x < reach || p.position.x > width - reach)
+        if (p.position.z < reach || p.position.z > depth - reach || p.position.x < reach ||
+            p.position.x > width - reach)
             continue;
         const double off = p.pressure / weight - (depth - p.position.z);
         *mean += off;
@@ -105,7 +108,8 @@ static void water_at_rest_bears_its_weight(void **state)
         told[0] += mean / STEPS;
         told[1] += square / STEPS;
     }
-    printf("the solve's %+.4f m, rms %.4f; told %+.4f m, rms %.4f\n", before[0], sqrt(before[1]), told[0], sqrt(told[1]));
+    printf("the solve's %+.4f m, rms %.4f; told %+.4f m, rms %.4f\n", before[0], sqrt(before[1]), told[0],
+           sqrt(told[1]));
     assert_true(fabs(told[0]) < 0.6 * before[0]);
     assert_true(told[1] < 0.5 * before[1]);
     sb_sim_destroy(sim);

@@ -1,5 +1,5 @@
-/* What surfaces and walls change in a particle's density sum: found on the lattice, carried along, given up in the bulk;
-   and what it is for, a sea that stays as it was laid and a wave that keeps its height. */
+/* What surfaces and walls change in a particle's density sum: found on the lattice, carried along, given up in the
+   bulk; and what it is for, a sea that stays as it was laid and a wave that keeps its height. */
 #include "../check.h"
 #include "sim/deficit.h"
 #include "sim/lattice.h"
@@ -33,8 +33,7 @@ static void lattice_is_at_rest_density(void **state)
         sb_error error = {0};
         float least = INFINITY;
         assert_int_equal(tank_prepare(sim, 1e-3), 0);
-        for (size_t i = 0; i < sim->n; i++)
-            least = fminf(least, sim->density[i]);
+        for (size_t i = 0; i < sim->n; i++) least = fminf(least, sim->density[i]);
         assert_true(least < 0.8f * sim->constant.rest_density); /* the sums at the surface */
         assert_int_equal(sb_stage_completion(sim, &error), SB_OK);
         for (size_t i = 0; i < sim->n; i++)
@@ -57,8 +56,7 @@ static void it_is_found_once(void **state)
     assert_int_equal(tank_prepare(sim, 1e-3), 0);
     assert_int_equal(sb_stage_completion(sim, &error), SB_OK);
     float least = INFINITY;
-    for (size_t i = 0; i < sim->n; i++)
-        least = fminf(least, sim->density[i]);
+    for (size_t i = 0; i < sim->n; i++) least = fminf(least, sim->density[i]);
     assert_true(least < 0.97f * sim->constant.rest_density);
     sb_sim_destroy(sim);
     tank_free(&t);
@@ -75,12 +73,9 @@ static void it_is_given_up_in_the_bulk(void **state)
     size_t bulk[2] = {SIZE_MAX, SIZE_MAX}, surface = SIZE_MAX;
     for (size_t i = 0; i < sim->n; i++) {
         const sb_vec3 at = sb_space_position(&sim->space, sim->position[i]);
-        if (fabs(at.x - 0.325) < 0.02 && fabs(at.z - 0.325) < 0.02)
-            bulk[0] = sim->id[i];
-        if (fabs(at.x - 0.675) < 0.02 && fabs(at.z - 0.325) < 0.02)
-            bulk[1] = sim->id[i];
-        if (fabs(at.x - 0.525) < 0.02 && fabs(at.z - DEPTH) < 0.04)
-            surface = sim->id[i];
+        if (fabs(at.x - 0.325) < 0.02 && fabs(at.z - 0.325) < 0.02) bulk[0] = sim->id[i];
+        if (fabs(at.x - 0.675) < 0.02 && fabs(at.z - 0.325) < 0.02) bulk[1] = sim->id[i];
+        if (fabs(at.x - 0.525) < 0.02 && fabs(at.z - DEPTH) < 0.04) surface = sim->id[i];
     }
     assert_true(bulk[0] < sim->n && bulk[1] < sim->n && surface < sim->n);
     const float rest = sim->constant.rest_density, kept = sim->deficit[surface];
@@ -104,8 +99,7 @@ static double sunk(sb_density_form form)
     const double mass = sb_sim_energy(sim).mass * (double)sim->constant.gravity;
     const double before = sb_sim_energy(sim).potential / mass;
     t.scene.numerics.settle_steps = 300;
-    if (sb_sim_settle(sim, &error) != SB_OK)
-        fail_msg("%s", error.text);
+    if (sb_sim_settle(sim, &error) != SB_OK) fail_msg("%s", error.text);
     const double after = sb_sim_energy(sim).potential / mass;
     sb_sim_destroy(sim);
     tank_free(&t);
@@ -129,8 +123,7 @@ static void it_costs_nothing_when_off(void **state)
     assert_null(sim->deficit);
     assert_int_equal(tank_steps(sim, 1), 0);
     const size_t count = sb_sim_stages(sim, &stages);
-    for (size_t s = 0; s < count; s++)
-        assert_string_not_equal(stages[s].name, "completion");
+    for (size_t s = 0; s < count; s++) assert_string_not_equal(stages[s].name, "completion");
     sb_sim_destroy(sim);
     tank_free(&t);
 }
@@ -148,8 +141,7 @@ static void truncation_is_that_of_a_half_space(void **state)
         for (double z = -h + step / 2; z < h; z += step) {
             const double r = sqrt(x * x + z * z), w = sb_kernel_value(scene.numerics.kernel, 2, h, r) * step * step;
             full += w;
-            if (z > 0.5)
-                continue;
+            if (z > 0.5) continue;
             density += w;
             slope += h * sb_kernel_slope(scene.numerics.kernel, 2, h, r) * z / r * step * step;
         }
@@ -161,12 +153,9 @@ static void truncation_is_that_of_a_half_space(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lattice_is_at_rest_density),
-        cmocka_unit_test(it_is_found_once),
-        cmocka_unit_test(it_is_given_up_in_the_bulk),
-        cmocka_unit_test(a_sea_stays_as_it_was_laid),
-        cmocka_unit_test(it_costs_nothing_when_off),
-        cmocka_unit_test(truncation_is_that_of_a_half_space),
+        cmocka_unit_test(lattice_is_at_rest_density), cmocka_unit_test(it_is_found_once),
+        cmocka_unit_test(it_is_given_up_in_the_bulk), cmocka_unit_test(a_sea_stays_as_it_was_laid),
+        cmocka_unit_test(it_costs_nothing_when_off),  cmocka_unit_test(truncation_is_that_of_a_half_space),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -32,9 +32,8 @@ static void begin(setup *s, int dimensions, double alpha, double sigma, double n
     sb_free(m->wall_normal); /* no contact without normals: the reference has none */
     m->wall_normal = NULL;
     for (size_t i = 0; i < m->fluid_count; i++)
-        m->fluid_velocity[i] =
-            sb_vec(2 * sb_random(3, 3 * i) - 1, flat ? 0 : 2 * sb_random(3, 3 * i + 1) - 1,
-                   2 * sb_random(3, 3 * i + 2) - 1);
+        m->fluid_velocity[i] = sb_vec(2 * sb_random(3, 3 * i) - 1, flat ? 0 : 2 * sb_random(3, 3 * i + 1) - 1,
+                                      2 * sb_random(3, 3 * i + 2) - 1);
     s->sim = tank_sim(&s->tank);
     assert_non_null(s->sim);
     assert_int_equal(tank_prepare(s->sim, 1), 0);
@@ -74,8 +73,8 @@ static void check(int dimensions, double alpha, double sigma, double nu)
         twin_compare(&gap, i, (double)v[2] - start.z, a.z - 9.81);
         assert_true(v[3] == (float)s.tank.model.fluid_pressure[sim->id[i]]);
     }
-    printf("%dD alpha %g, sigma %g, nu %g: worst %.2g of the largest, %.3g m/s^2\n", dimensions,
-           alpha, sigma, nu, twin_relative(&gap), gap.scale);
+    printf("%dD alpha %g, sigma %g, nu %g: worst %.2g of the largest, %.3g m/s^2\n", dimensions, alpha, sigma, nu,
+           twin_relative(&gap), gap.scale);
     assert_true(gap.scale > 9 && twin_relative(&gap) < 1e-6);
     end(&s);
 }

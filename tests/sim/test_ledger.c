@@ -13,8 +13,7 @@
 
 static double sum(const sb_ledger *l)
 {
-    return l->bodies + l->viscosity + l->friction + l->pressure + l->contact + l->integration +
-           l->left + l->stress;
+    return l->bodies + l->viscosity + l->friction + l->pressure + l->contact + l->integration + l->left + l->stress;
 }
 
 static double mechanical(const sb_sim *sim)
@@ -53,11 +52,10 @@ static sb_ledger follow(const tank *t, int steps, const char *name)
         assert_true(sb_sim_report(sim)->momentum_imbalance > 0);
     }
     sb_ledger l = *sb_sim_ledger(sim);
-    printf(
-        "%s: %.6g J and %.6g: sum off by %.2g of it; bodies %.4g, viscosity %.4g, friction %.4g, "
-        "pressure %.4g, stress %.4g, contact %.4g, integration %.4g, left %.4g; momentum %.2g\n",
-        name, start, mechanical(sim) - start, gap / start, l.bodies, l.viscosity, l.friction,
-        l.pressure, l.stress, l.contact, l.integration, l.left, imbalance);
+    printf("%s: %.6g J and %.6g: sum off by %.2g of it; bodies %.4g, viscosity %.4g, friction %.4g, "
+           "pressure %.4g, stress %.4g, contact %.4g, integration %.4g, left %.4g; momentum %.2g\n",
+           name, start, mechanical(sim) - start, gap / start, l.bodies, l.viscosity, l.friction, l.pressure, l.stress,
+           l.contact, l.integration, l.left, imbalance);
     assert_true(gap < 1e-12 * start && imbalance < 1e-6);
     sb_sim_destroy(sim);
     return l;
@@ -79,8 +77,7 @@ static void a_bore_on_a_column_is_accounted_for(void **state)
 
 static sb_wavemaker_parameters stroke_law(void)
 {
-    return (sb_wavemaker_parameters){
-        .kind = sb_wavemaker_find("stroke"), .stroke = 0.3, .speed = 1, .gravity = 9.81};
+    return (sb_wavemaker_parameters){.kind = sb_wavemaker_find("stroke"), .stroke = 0.3, .speed = 1, .gravity = 9.81};
 }
 
 static void a_paddle_flume_is_accounted_for(void **state)
@@ -117,8 +114,7 @@ static void what_leaves_is_accounted_for(void **state)
         /* The next step drops what lies outside now. */
         for (size_t i = 0; i < sim->n; i++) {
             sb_fluid_sample p = sb_sim_particle(sim, i);
-            if (p.position.x > 1.6)
-                left += mass * (sb_dot(p.velocity, p.velocity) / 2 + 9.81 * p.position.z);
+            if (p.position.x > 1.6) left += mass * (sb_dot(p.velocity, p.velocity) / 2 + 9.81 * p.position.z);
         }
         assert_int_equal(tank_steps(sim, 1), 0);
     }
@@ -171,8 +167,7 @@ static works by_reference(const sb_sim *sim, const twin *before)
     double mended = 0;
     for (size_t i = 0; i < n; i++) {
         double change = sb_dot(push[i], sb_sub(wide(sim->velocity[i]), before->velocity[i]));
-        double excess =
-            sim->scene->numerics.source_relaxation * (1000 - rho[i]) + (double)sim->residual[i];
+        double excess = sim->scene->numerics.source_relaxation * (1000 - rho[i]) + (double)sim->residual[i];
         mended -= (double)sim->constant.mass * (q[i] * excess + 0.5 * dt * change);
     }
     works w = {.mended = mended,
@@ -193,9 +188,9 @@ static void entries_are_the_works_of_their_terms(void **state)
 {
     (void)state;
     const sb_wavemaker_parameters law = stroke_law();
-    sb_status (*const stages[])(sb_sim *, sb_error *) = {
-        sb_stage_turbulence, sb_stage_forces,  sb_stage_source, sb_stage_pressure,
-        sb_stage_accelerate, sb_stage_impulse, sb_stage_move};
+    sb_status (*const stages[])(sb_sim *, sb_error *) = {sb_stage_turbulence, sb_stage_forces,     sb_stage_source,
+                                                         sb_stage_pressure,   sb_stage_accelerate, sb_stage_impulse,
+                                                         sb_stage_move};
     tank t;
     twin before;
     tank_make(&t, 3, 0.1, sb_vec(1.5, 0.6, 1.2), 1, 0.9, 0.1);
@@ -211,12 +206,11 @@ static void entries_are_the_works_of_their_terms(void **state)
     assert_int_equal(twin_make(sim, &before), 0);
     sb_ledger l = *sb_sim_ledger(sim);
     sb_error error = {0};
-    for (size_t s = 0; s < sizeof stages / sizeof *stages; s++)
-        assert_int_equal(stages[s](sim, &error), SB_OK);
+    for (size_t s = 0; s < sizeof stages / sizeof *stages; s++) assert_int_equal(stages[s](sim, &error), SB_OK);
     const sb_ledger *now = sb_sim_ledger(sim);
     works w = by_reference(sim, &before);
-    const double booked[] = {now->viscosity - l.viscosity, now->friction - l.friction,
-                             now->pressure - l.pressure, now->bodies - l.bodies};
+    const double booked[] = {now->viscosity - l.viscosity, now->friction - l.friction, now->pressure - l.pressure,
+                             now->bodies - l.bodies};
     const double expected[] = {w.viscosity, w.friction, w.pressure, w.bodies};
     for (size_t k = 0; k < 4; k++) {
         printf("booked %.9g J, reference %.9g J\n", booked[k], expected[k]);
@@ -267,8 +261,8 @@ static void a_falling_drop_books_fall_and_stop(void **state)
     }
     assert_true(falling > 200 && falling < 400 && free > 150 && free < falling);
     assert_int_equal(tank_steps(sim, 100), 0);
-    printf("a drop of 1 kg fell for %d steps: %.4g J of %.4g taken by contact, %.4g by pressure\n",
-           falling, -l->contact, start - mechanical(sim), -l->pressure);
+    printf("a drop of 1 kg fell for %d steps: %.4g J of %.4g taken by contact, %.4g by pressure\n", falling,
+           -l->contact, start - mechanical(sim), -l->pressure);
     assert_near(sum(l), mechanical(sim) - start, 1e-9);
     assert_true(l->contact < 0 && l->contact + l->pressure < -0.9 * (start - mechanical(sim)));
     sb_sim_destroy(sim);
@@ -280,9 +274,9 @@ static void a_falling_drop_books_fall_and_stop(void **state)
 static void a_swept_drop_books_the_paddles_work(void **state)
 {
     (void)state;
-    sb_status (*const stages[])(sb_sim *, sb_error *) = {
-        sb_stage_time_step, sb_stage_walls,  sb_stage_sort,     sb_stage_neighbours,
-        sb_stage_forces,    sb_stage_source, sb_stage_pressure, sb_stage_accelerate};
+    sb_status (*const stages[])(sb_sim *, sb_error *) = {sb_stage_time_step,  sb_stage_walls,     sb_stage_sort,
+                                                         sb_stage_neighbours, sb_stage_forces,    sb_stage_source,
+                                                         sb_stage_pressure,   sb_stage_accelerate};
     const sb_wavemaker_parameters law = stroke_law();
     tank t;
     tank_make(&t, 3, 0.1, sb_vec(2, 1, 1), 1, 0.1, 0);
@@ -298,8 +292,7 @@ static void a_swept_drop_books_the_paddles_work(void **state)
     sb_error error = {0};
     for (int step = 0; step < 30; step++) {
         sb_vec3 before = wide(sim->velocity[0]);
-        for (size_t s = 0; s < sizeof stages / sizeof *stages; s++)
-            assert_int_equal(stages[s](sim, &error), SB_OK);
+        for (size_t s = 0; s < sizeof stages / sizeof *stages; s++) assert_int_equal(stages[s](sim, &error), SB_OK);
         sb_vec3 pushed = wide(sim->acceleration[0]), paddle = sim->moving[0].velocity;
         assert_int_equal(sb_stage_impulse(sim, &error), SB_OK);
         assert_int_equal(sb_stage_move(sim, &error), SB_OK);

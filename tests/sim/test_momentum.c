@@ -46,16 +46,14 @@ static impulses sum_impulses(const sb_sim *sim)
         sb_vec3 push = sb_add(i->pressure, i->friction);
         sum.push = sb_add(sum.push, push);
         sum.friction = sb_add(sum.friction, i->friction);
-        sum.moment = sb_add(sum.moment,
-                            sb_add(i->moment, sb_cross(sim->model->bodies[b].moment_point, push)));
+        sum.moment = sb_add(sum.moment, sb_add(i->moment, sb_cross(sim->model->bodies[b].moment_point, push)));
     }
     return sum;
 }
 
 typedef struct balance {
-    double force,
-        moment;      /* worst over the steps, relative to sum |m a| dt, and to that times the arm */
-    double friction; /* N s that bodies felt, for the test to mean something */
+    double force, moment; /* worst over the steps, relative to sum |m a| dt, and to that times the arm */
+    double friction;      /* N s that bodies felt, for the test to mean something */
 } balance;
 
 static balance follow(const tank *t, int steps, double arm)
@@ -76,10 +74,8 @@ static balance follow(const tank *t, int steps, double arm)
         sb_vec3 weight = sb_vec(0, 0, -g * dt * after.mass);
         /* Moments of the weight at where the water was at the step's start. */
         sb_vec3 turn = sb_cross(before.weight_moment, sb_vec(0, 0, -g * dt));
-        sb_vec3 force = sb_sub(
-            sb_add(sb_sub(after.momentum, before.momentum), sb_sub(now.push, given.push)), weight);
-        sb_vec3 moment =
-            sb_sub(sb_add(sb_sub(after.spin, before.spin), sb_sub(now.moment, given.moment)), turn);
+        sb_vec3 force = sb_sub(sb_add(sb_sub(after.momentum, before.momentum), sb_sub(now.push, given.push)), weight);
+        sb_vec3 moment = sb_sub(sb_add(sb_sub(after.spin, before.spin), sb_sub(now.moment, given.moment)), turn);
         assert_true(pushed > 0);
         worst.force = fmax(worst.force, sb_norm(force) / pushed);
         worst.moment = fmax(worst.moment, sb_norm(moment) / (pushed * arm));
@@ -107,8 +103,7 @@ static void add_terms(tank *t, sb_solver solver)
 static void check(const tank *t, double arm, const char *name)
 {
     balance b = follow(t, 50, arm);
-    printf("%s: force %.2g, moment %.2g of sum |m a| dt; friction %.3g N s\n", name, b.force,
-           b.moment, b.friction);
+    printf("%s: force %.2g, moment %.2g of sum |m a| dt; friction %.3g N s\n", name, b.force, b.moment, b.friction);
     assert_true(b.force < 1e-6 && b.moment < 1e-6 && b.friction > 0);
 }
 

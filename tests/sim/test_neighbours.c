@@ -19,8 +19,7 @@ typedef struct setup {
 static const sb_wavemaker_parameters *paddle_law(void)
 {
     static sb_wavemaker_parameters law;
-    law = (sb_wavemaker_parameters){
-        .kind = sb_wavemaker_find("stroke"), .stroke = 0.5, .speed = 0.8, .gravity = 9.81};
+    law = (sb_wavemaker_parameters){.kind = sb_wavemaker_find("stroke"), .stroke = 0.5, .speed = 0.8, .gravity = 9.81};
     return &law;
 }
 
@@ -83,8 +82,8 @@ static size_t check_list(const setup *s, size_t i, bool walls)
         else if (r_over_h > 1 - 3e-7)
             edge++;
         else
-            fail_msg("particle %zu: %s %zu at r = %.9f h is not listed", i,
-                     walls ? "wall" : "water", expected[k].other, r_over_h);
+            fail_msg("particle %zu: %s %zu at r = %.9f h is not listed", i, walls ? "wall" : "water", expected[k].other,
+                     r_over_h);
     }
     if (at != count) fail_msg("particle %zu: %zu is listed but out of reach", i, listed[at]);
     return edge;
@@ -123,10 +122,11 @@ static void check_slopes(const setup *s)
                 if (walls)
                     twin_compare(&wall, i, entry.slope * distance / sim->space.quantum, expected);
                 else
-                    worst = fmax(worst, fabs(sqrt(entry.slope / unit) -
-                                             sqrt(expected / distance * sim->space.quantum / unit)));
+                    worst = fmax(
+                        worst, fabs(sqrt(entry.slope / unit) - sqrt(expected / distance * sim->space.quantum / unit)));
             }
-    printf("root of m W'/r: worst %.4f units; psi W': worst %.2g relative to the largest\n", worst, twin_relative(&wall));
+    printf("root of m W'/r: worst %.4f units; psi W': worst %.2g relative to the largest\n", worst,
+           twin_relative(&wall));
     assert_true(worst < 0.5 + 2e-6 * 32767 && twin_relative(&wall) < 2e-6);
 }
 
@@ -147,8 +147,7 @@ static void check_sums(const setup *s)
         for (size_t k = r->wall_start[i]; k < r->wall_start[i + 1]; k++) {
             const sb_reference_pair *pair = &r->wall[k];
             b = sb_madd(b, s->twin.psi[pair->other], pair->gradient);
-            flow += s->twin.psi[pair->other] *
-                    sb_dot(s->twin.wall_velocity[pair->other], pair->gradient);
+            flow += s->twin.psi[pair->other] * sb_dot(s->twin.wall_velocity[pair->other], pair->gradient);
         }
         twin_compare(&density, i, (double)sim->density[i], rho[i]);
         twin_compare(&vector, i, (double)sim->wall[i][0], b.x);
@@ -156,13 +155,11 @@ static void check_sums(const setup *s)
         twin_compare(&vector, i, (double)sim->wall[i][2], b.z);
         twin_compare(&flux, i, (double)sim->wall[i][3], flow);
         double expected = -diagonal[i] / dt2;
-        assert_true(sim->diagonal[i] > 0 ||
-                    expected < 1.001e-6 * (double)sim->constant.full_diagonal);
-        if (sim->diagonal[i] > 0)
-            worst = fmax(worst, fabs((double)sim->diagonal[i] / expected - 1));
+        assert_true(sim->diagonal[i] > 0 || expected < 1.001e-6 * (double)sim->constant.full_diagonal);
+        if (sim->diagonal[i] > 0) worst = fmax(worst, fabs((double)sim->diagonal[i] / expected - 1));
     }
-    printf("density: worst %.2g, B: %.2g, wall flux: %.2g, diagonal: %.2g of each\n",
-           twin_relative(&density), twin_relative(&vector), twin_relative(&flux), worst);
+    printf("density: worst %.2g, B: %.2g, wall flux: %.2g, diagonal: %.2g of each\n", twin_relative(&density),
+           twin_relative(&vector), twin_relative(&flux), worst);
     assert_true(density.scale > 500 && vector.scale > 0);
     assert_true(flux.scale > 0 || sim->moving_count == 0);
     assert_true(twin_relative(&density) < 1e-6);
@@ -188,8 +185,7 @@ static void check_volumes(const setup *s)
     set.wall_position += t->static_count;
     sb_reference_psi(&set, gamma, psi + t->static_count);
     for (size_t b = 0; b < all; b++) worst = fmax(worst, fabs(t->psi[b] / psi[b] - 1));
-    printf("psi: worst %.2g of each, %zu static and %zu moving\n", worst, t->static_count,
-           all - t->static_count);
+    printf("psi: worst %.2g of each, %zu static and %zu moving\n", worst, t->static_count, all - t->static_count);
     assert_int_equal(all, s->tank.model.wall_count);
     assert_true(t->static_count < all && worst < 1e-6);
     sb_free(psi);
@@ -271,8 +267,8 @@ static size_t check_against_model(const setup *s)
         assert_true(k < t->static_count);
         worst = fmax(worst, fabs(t->psi[k] / psi[b] - 1));
     }
-    printf("%zu of %zu boundary particles beside the domain, %zu kept, psi: worst %.2g\n", beside,
-           m->wall_count, t->static_count, worst);
+    printf("%zu of %zu boundary particles beside the domain, %zu kept, psi: worst %.2g\n", beside, m->wall_count,
+           t->static_count, worst);
     assert_true(beside > 500 && t->static_count < m->wall_count && worst < 1e-6);
     sb_free(psi);
     return pairs;
@@ -320,8 +316,7 @@ static void a_collapse_is_told_from_a_lack_of_memory(void **state)
         sb_memory_fail_at(n);
         if (sb_stage_neighbours(s.sim, &error) == SB_OK) break;
         failures++;
-        if (!strstr(error.text, "out of memory"))
-            fail_msg("allocation %ld failed, but: %s", n, error.text);
+        if (!strstr(error.text, "out of memory")) fail_msg("allocation %ld failed, but: %s", n, error.text);
     }
     sb_memory_fail_at(0);
     assert_true(failures > 5);

@@ -20,8 +20,7 @@ static sb_sim *pressed(tank *t)
     t->scene.numerics.stress_correction = 0.75;
     sb_sim *sim = tank_sim(t);
     assert_non_null(sim);
-    for (size_t i = 0; i < sim->n; i++)
-        sim->velocity[i][3] = (float)(1e4 * sb_random(7, i));
+    for (size_t i = 0; i < sim->n; i++) sim->velocity[i][3] = (float)(1e4 * sb_random(7, i));
     assert_int_equal(tank_prepare(sim, STEP), 0);
     return sim;
 }
@@ -43,8 +42,7 @@ static void strain(const twin *seen, size_t i, tensor s)
                 m[row][column] -= r->mass * a[row] * b[column] / r->cloud.rest_density;
     }
     const double mean = (m[0][0] + m[1][1] + m[2][2]) / d;
-    if (mean < 0.9 || r->wall_start[i] < r->wall_start[i + 1])
-        return;
+    if (mean < 0.9 || r->wall_start[i] < r->wall_start[i + 1]) return;
     for (int row = 0; row < 3; row++)
         for (int column = 0; column < 3; column++)
             s[row][column] = 0.75 * ((row == column && (d == 3 || row != 1)) - m[row][column] / mean);
@@ -57,17 +55,14 @@ static void stress(const sb_sim *sim, const twin *seen, const tensor *e, size_t 
     const double unit = (double)sim->pairs.unit / sim->space.quantum / r->mass, own = 32767.0 * 32767.0;
     const double q = (double)sim->velocity[i][3] / pow((double)sim->density[i], 2);
     double weights = own;
-    for (int k = 0; k < 9; k++)
-        s[k / 3][k % 3] = own * e[i][k / 3][k % 3];
+    for (int k = 0; k < 9; k++) s[k / 3][k % 3] = own * e[i][k / 3][k % 3];
     for (size_t p = r->fluid_start[i]; p < r->fluid_start[i + 1]; p++) {
         const sb_vec3 x = r->fluid[p].offset;
         const double slope = sb_dot(r->fluid[p].gradient, x) / sb_dot(x, x) / unit;
         weights += slope;
-        for (int k = 0; k < 9; k++)
-            s[k / 3][k % 3] += slope * e[r->fluid[p].other][k / 3][k % 3];
+        for (int k = 0; k < 9; k++) s[k / 3][k % 3] += slope * e[r->fluid[p].other][k / 3][k % 3];
     }
-    for (int k = 0; k < 9; k++)
-        s[k / 3][k % 3] *= q / weights;
+    for (int k = 0; k < 9; k++) s[k / 3][k % 3] *= q / weights;
 }
 
 /* Scattered water beside walls, and across periodic sides. */
@@ -80,8 +75,7 @@ static void a_random_cloud_is_the_reference(void **state)
         twin seen;
         const sb_vec3 size = dimensions == 2 ? sb_vec(3, 0, 2) : sb_vec(1.2, 1.2, 1);
         tank_make(&t, dimensions, 0.1, size, size.x, 0.9 * size.z, 0);
-        if (form > 1)
-            tank_repeat(&t, 0);
+        if (form > 1) tank_repeat(&t, 0);
         tank_scatter(&t, 5, 1);
         sb_sim *sim = pressed(&t);
         assert_int_equal(twin_make(sim, &seen), 0);
@@ -93,8 +87,7 @@ static void a_random_cloud_is_the_reference(void **state)
             strain(&seen, i, e[i]);
             strained += e[i][0][0] != 0;
         }
-        for (size_t i = 0; i < sim->n; i++)
-            stress(sim, &seen, (const tensor *)e, i, s[i]);
+        for (size_t i = 0; i < sim->n; i++) stress(sim, &seen, (const tensor *)e, i, s[i]);
         sb_error error = {0};
         assert_int_equal(sb_stage_packing(sim, &error), SB_OK);
         twin_gap gap = {0};
@@ -105,8 +98,9 @@ static void a_random_cloud_is_the_reference(void **state)
                 const size_t j = r->fluid[k].other;
                 const sb_vec3 g = r->fluid[k].gradient;
                 for (int row = 0; row < 3; row++)
-                    a[row] -= STEP * r->mass * ((s[i][row][0] + s[j][row][0]) * g.x + (s[i][row][1] + s[j][row][1]) * g.y +
-                                         (s[i][row][2] + s[j][row][2]) * g.z);
+                    a[row] -= STEP * r->mass *
+                              ((s[i][row][0] + s[j][row][0]) * g.x + (s[i][row][1] + s[j][row][1]) * g.y +
+                               (s[i][row][2] + s[j][row][2]) * g.z);
             }
             const sb_vec3 before = seen.velocity[i];
             twin_compare(&gap, i, (double)sim->velocity[i][0] - before.x, a[0]);
@@ -150,7 +144,8 @@ static void momentum_and_ledger(void **state)
         printf("%dD: momentum %.2g of sum |a|, energy %.6g J\n", dimensions, sb_norm(push) / all, gain);
         assert_true(all > 1 && sb_norm(push) < 2e-7 * all);
         assert_near(sim->ledger.stress, gain, 1e-9 * fabs(gain));
-        assert_near(sb_norm(sim->stress_gain), (double)sim->constant.mass * sb_norm(push), 1e-6 * (double)sim->constant.mass * all);
+        assert_near(sb_norm(sim->stress_gain), (double)sim->constant.mass * sb_norm(push),
+                    1e-6 * (double)sim->constant.mass * all);
         sb_sim_destroy(sim);
         tank_free(&t);
     }
@@ -174,8 +169,7 @@ static void only_unlike_directions_count(void **state)
             sb_error error = {0};
             assert_int_equal(sb_stage_packing(sim, &error), SB_OK);
             double most = 0;
-            for (size_t i = 0; i < sim->n; i++)
-                most = fmax(most, fabs((double)sim->velocity[i][0]));
+            for (size_t i = 0; i < sim->n; i++) most = fmax(most, fabs((double)sim->velocity[i][0]));
             printf("%dD, stretched by %g: %.3g m/s\n", dimensions, stretch, most);
             assert_true(strained ? most > 0.1 : most < 1e-4);
             sb_sim_destroy(sim);
@@ -183,8 +177,8 @@ static void only_unlike_directions_count(void **state)
         }
 }
 
-/* Of the acceleration by a pressure that rises evenly along x or z, the part along it, at the particle nearest the middle;
-   corrected: with the stage's share. */
+/* Of the acceleration by a pressure that rises evenly along x or z, the part along it, at the particle nearest the
+   middle; corrected: with the stage's share. */
 static double pushed_along(const tank *t, int axis, bool corrected)
 {
     sb_sim *sim = tank_sim(t);
@@ -204,8 +198,7 @@ static double pushed_along(const tank *t, int axis, bool corrected)
             middle = i;
         }
     }
-    if (corrected)
-        assert_int_equal(sb_stage_packing(sim, &error), SB_OK);
+    if (corrected) assert_int_equal(sb_stage_packing(sim, &error), SB_OK);
     sb_pressure_load(sim, sim->unknown);
     sb_pressure_accelerate(sim);
     const int lane = axis == 0 ? 0 : 2;
@@ -214,7 +207,8 @@ static double pushed_along(const tank *t, int axis, bool corrected)
     return all;
 }
 
-/* A stretched lattice pushes unlike along its axes under the same slope of pressure; corrected, alike to second order. */
+/* A stretched lattice pushes unlike along its axes under the same slope of pressure; corrected, alike to second order.
+ */
 static void a_stretched_lattice_pushes_alike(void **state)
 {
     (void)state;

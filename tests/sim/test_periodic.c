@@ -91,21 +91,19 @@ static void check_sums(setup *s)
         for (size_t k = r->wall_start[i]; k < r->wall_start[i + 1]; k++) {
             const sb_reference_pair *pair = &r->wall[k];
             b = sb_madd(b, s->twin.psi[pair->other], pair->gradient);
-            flow += s->twin.psi[pair->other] *
-                    sb_dot(s->twin.wall_velocity[pair->other], pair->gradient);
+            flow += s->twin.psi[pair->other] * sb_dot(s->twin.wall_velocity[pair->other], pair->gradient);
         }
         twin_compare(&density, i, (double)sim->density[i], s->rho[i]);
         twin_compare(&vector, i, (double)sim->wall[i][0], b.x);
         twin_compare(&vector, i, (double)sim->wall[i][1], b.y);
         twin_compare(&vector, i, (double)sim->wall[i][2], b.z);
         twin_compare(&flux, i, (double)sim->wall[i][3], flow);
-        if (sim->diagonal[i] > 0)
-            diagonal = fmax(diagonal, fabs((double)sim->diagonal[i] / -s->product[i] - 1));
+        if (sim->diagonal[i] > 0) diagonal = fmax(diagonal, fabs((double)sim->diagonal[i] / -s->product[i] - 1));
     }
     printf("%zu particles, %zu ghosts, %zu pairs, %zu with walls; density %.2g, B %.2g, flux %.2g, "
            "diagonal %.2g\n",
-           s->n, sim->ghosts.count, pairs, walls, twin_relative(&density), twin_relative(&vector),
-           twin_relative(&flux), diagonal);
+           s->n, sim->ghosts.count, pairs, walls, twin_relative(&density), twin_relative(&vector), twin_relative(&flux),
+           diagonal);
     /* But for pairs at the very edge of the support. */
     assert_near((double)pairs, (double)r->fluid_start[s->n], 4);
     assert_near((double)walls, (double)r->wall_start[s->n], 4);
@@ -153,10 +151,9 @@ static void check_forces(setup *s)
         s->twin.velocity[i] = expected;
     }
     assert_int_equal(sb_stage_source(sim, &error), SB_OK);
-    sb_reference_source(&s->twin.reference, s->rho, s->twin.velocity,
-                        sim->scene->numerics.source_relaxation, s->source);
-    for (size_t i = 0; i < s->n; i++)
-        twin_compare(&source, i, (double)sim->source[i], s->source[i]);
+    sb_reference_source(&s->twin.reference, s->rho, s->twin.velocity, sim->scene->numerics.source_relaxation,
+                        s->source);
+    for (size_t i = 0; i < s->n; i++) twin_compare(&source, i, (double)sim->source[i], s->source[i]);
     printf("  forces %.2g, source %.2g\n", twin_relative(&push), twin_relative(&source));
     assert_true(twin_relative(&push) < 1e-6 && twin_relative(&source) < 2e-6);
 }
@@ -190,8 +187,7 @@ static void check(int dimensions, bool x, bool y, sb_vec3 size)
 {
     setup s;
     begin(&s, dimensions, x, y, size);
-    printf("%dD, periodic in%s%s, %g x %g m: ", dimensions, x ? " x" : "", y ? " y" : "", size.x,
-           size.y);
+    printf("%dD, periodic in%s%s, %g x %g m: ", dimensions, x ? " x" : "", y ? " y" : "", size.x, size.y);
     check_sums(&s);
     check_volumes(&s);
     check_forces(&s);
@@ -276,8 +272,8 @@ static void make_rolled(tank *t, int dimensions, bool x, bool y, sb_vec3 size)
 }
 
 /* Sides are where they are by chance only: all moved along gives the same densities, pressures and
-   velocities, and the same push on what is static. Periods and ways are whole quanta, so that offsets stay what they are
-   to the bit: a quantum more or less may round a stored slope to its other side. */
+   velocities, and the same push on what is static. Periods and ways are whole quanta, so that offsets stay what they
+   are to the bit: a quantum more or less may round a stored slope to its other side. */
 static void check_rolled(int dimensions, bool x, bool y, sb_vec3 size)
 {
     tank t;
@@ -291,9 +287,8 @@ static void check_rolled(int dimensions, bool x, bool y, sb_vec3 size)
     t.scene.numerics.wall_friction = 0.1;
     sb_model *m = &t.model;
     for (size_t i = 0; i < m->fluid_count; i++)
-        m->fluid_velocity[i] =
-            sb_vec(2 * sb_random(3, 3 * i) - 1,
-                   dimensions == 2 ? 0 : 2 * sb_random(3, 3 * i + 1) - 1, -sb_random(3, 3 * i + 2));
+        m->fluid_velocity[i] = sb_vec(2 * sb_random(3, 3 * i) - 1,
+                                      dimensions == 2 ? 0 : 2 * sb_random(3, 3 * i + 1) - 1, -sb_random(3, 3 * i + 2));
     outcome still = solve_once(&t);
     for (uint64_t k = 0; k < 5; k++) {
         tank_roll(&t, whole_quanta(&t, sb_vec(size.x * sb_random(k, 0), size.y * sb_random(k, 1), 0)));
@@ -303,12 +298,10 @@ static void check_rolled(int dimensions, bool x, bool y, sb_vec3 size)
         double pressure = gap_between(moved.pressure, still.pressure, still.n), speed = 0;
         for (int axis = 0; axis < 3; axis += 3 - dimensions + 1)
             speed = fmax(speed, gap_between(moved.speed[axis], still.speed[axis], still.n));
-        double push = sb_norm(sb_sub(moved.impulse.pressure, still.impulse.pressure)) /
-                      sb_norm(still.impulse.pressure);
-        double drag = sb_norm(sb_sub(moved.impulse.friction, still.impulse.friction)) /
-                      sb_norm(still.impulse.friction);
-        printf("%dD rolled: density %.2g, pressure %.2g, velocity %.2g, push %.2g, drag %.2g\n",
-               dimensions, density, pressure, speed, push, drag);
+        double push = sb_norm(sb_sub(moved.impulse.pressure, still.impulse.pressure)) / sb_norm(still.impulse.pressure);
+        double drag = sb_norm(sb_sub(moved.impulse.friction, still.impulse.friction)) / sb_norm(still.impulse.friction);
+        printf("%dD rolled: density %.2g, pressure %.2g, velocity %.2g, push %.2g, drag %.2g\n", dimensions, density,
+               pressure, speed, push, drag);
         assert_true(density < 1e-6 && pressure < 2e-5 && speed < 2e-5);
         assert_true(push < 1e-5 && drag < 1e-5);
         outcome_free(&moved);

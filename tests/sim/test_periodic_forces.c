@@ -44,8 +44,7 @@ static void momentum_is_kept_across_sides(void **state)
         for (int bodies = 0; bodies <= 1; bodies++) {
             bool flat = dimensions == 2;
             tank t;
-            tank_make(&t, dimensions, 0.1, sb_vec(1.2, flat ? 0 : 0.4, bodies ? 2 : 4), 1.2, 1,
-                      0.1);
+            tank_make(&t, dimensions, 0.1, sb_vec(1.2, flat ? 0 : 0.4, bodies ? 2 : 4), 1.2, 1, 0.1);
             tank_repeat(&t, 0);
             if (!flat) tank_repeat(&t, 1);
             t.scene.numerics.artificial_viscosity = 0.05;
@@ -57,8 +56,7 @@ static void momentum_is_kept_across_sides(void **state)
                 t.scene.fluid.gravity = 0;
             }
             for (size_t i = 0; i < t.model.fluid_count; i++)
-                t.model.fluid_velocity[i] =
-                    sb_vec(1 + 0.2 * sb_random(4, 2 * i), 0, 0.2 * sb_random(4, 2 * i + 1));
+                t.model.fluid_velocity[i] = sb_vec(1 + 0.2 * sb_random(4, 2 * i), 0, 0.2 * sb_random(4, 2 * i + 1));
             /* Two layers fly at each other. */
             for (size_t i = 0; i < t.model.fluid_count && !bodies; i++) {
                 t.model.fluid_velocity[i].z = t.model.fluid_position[i].z < 0.5 ? 0.25 : -0.25;
@@ -91,8 +89,7 @@ static void a_drop_meets_a_wall_beyond_the_side(void **state)
             size_t wall = tank_add_sheet(&t, "sheet", sheet, 0, 2, sb_vec(0, 0, 0), NULL);
             t.model.bodies[wall].moment_point = sb_vec(sheet, 0, 0);
             t.model.fluid_count = 1;
-            t.model.fluid_position[0] =
-                sb_vec(way > 0 ? 1.42 : 0.58, dimensions == 2 ? 0 : 0.4, 1.01);
+            t.model.fluid_position[0] = sb_vec(way > 0 ? 1.42 : 0.58, dimensions == 2 ? 0 : 0.4, 1.01);
             t.model.fluid_velocity[0] = sb_vec(9 * way, 0, 0);
             sb_sim *sim = tank_sim(&t);
             assert_non_null(sim);

@@ -76,8 +76,7 @@ static void break_dam(double width, flow flows[TIMES])
     sb_sim *sim = make_flume(&t, width, 2.5);
     for (int k = 0; k < TIMES; k++) {
         flows[k] = flow_at(sim, times[k]);
-        printf("width %g at %.2f s: front %.3f, mean %.4f m\n", width, times[k], flows[k].front,
-               flows[k].middle);
+        printf("width %g at %.2f s: front %.3f, mean %.4f m\n", width, times[k], flows[k].front, flows[k].middle);
     }
     assert_int_equal(sim->n, t.model.fluid_count);
     sb_sim_destroy(sim);
@@ -144,12 +143,10 @@ static void threads_make_no_difference(void **state)
     tank_repeat(&t, 1);
     t.scene.numerics.wall_friction = 0.05;
     t.scene.numerics.solver = SB_SOLVER_CG;
-    for (size_t i = 0; i < t.model.fluid_count; i++)
-        t.model.fluid_velocity[i] = sb_vec(1, 2 * sb_random(1, i), 0);
+    for (size_t i = 0; i < t.model.fluid_count; i++) t.model.fluid_velocity[i] = sb_vec(1, 2 * sb_random(1, i), 0);
     uint64_t alone = run(&t, 1);
     printf("1 thread: %016llx\n", (unsigned long long)alone);
-    for (size_t c = 0; c < sizeof counts / sizeof *counts; c++)
-        assert_true(run(&t, counts[c]) == alone);
+    for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) assert_true(run(&t, counts[c]) == alone);
     omp_set_num_threads(before);
     tank_free(&t);
 }
@@ -158,8 +155,7 @@ static sb_fluid_sample found[16384];
 
 static bool in_box(sb_vec3 x, sb_vec3 min, sb_vec3 max)
 {
-    return x.x >= min.x && x.y >= min.y && x.z >= min.z && x.x <= max.x && x.y <= max.y &&
-           x.z <= max.z;
+    return x.x >= min.x && x.y >= min.y && x.z >= min.z && x.x <= max.x && x.y <= max.y && x.z <= max.z;
 }
 
 /* Every image in the box once. */

@@ -94,12 +94,10 @@ static void check_source(setup *s)
 {
     double *rho = s->x, *expected = s->y;
     sb_reference_density(&s->twin.reference, rho);
-    sb_reference_source(&s->twin.reference, rho, s->twin.velocity,
-                        s->tank.scene.numerics.source_relaxation, expected);
+    sb_reference_source(&s->twin.reference, rho, s->twin.velocity, s->tank.scene.numerics.source_relaxation, expected);
     twin_gap gap = {0};
     for (size_t i = 0; i < s->n; i++) twin_compare(&gap, i, s->source[i], expected[i]);
-    printf("source: worst %.2g of the rest density, which spans %.2g\n", gap.worst / 1000,
-           gap.scale / 1000);
+    printf("source: worst %.2g of the rest density, which spans %.2g\n", gap.worst / 1000, gap.scale / 1000);
     assert_true(gap.scale > 1e-3 * 1000);
     assert_true(gap.worst < 1e-6 * 1000);
 }
@@ -118,8 +116,7 @@ static void check_operator(setup *s)
         twin_compare(&push, i, (double)a[1], s->acceleration[i].y);
         twin_compare(&push, i, (double)a[2], s->acceleration[i].z);
     }
-    printf("G q: worst %.2g of the largest, A q: %.2g\n", twin_relative(&push),
-           twin_relative(&product));
+    printf("G q: worst %.2g of the largest, A q: %.2g\n", twin_relative(&push), twin_relative(&product));
     assert_true(twin_relative(&push) < 1e-6 && twin_relative(&product) < 1e-6);
     /* x . A y = y . A x and x . A x < 0, in sums that cancel nothing. */
     double *y = s->y, *ax = fast, *ay = s->product;
@@ -152,9 +149,8 @@ static void check_diagonal(setup *s)
         worst = fmax(worst, fabs(s->product[i] / held - 1));
         formula = fmax(formula, fabs(held / s->y[i] - 1));
     }
-    printf(
-        "diagonal: probed against held %.2g of each, held against reference %.2g; %zu on its own\n",
-        worst, formula, flying);
+    printf("diagonal: probed against held %.2g of each, held against reference %.2g; %zu on its own\n", worst, formula,
+           flying);
     assert_int_equal(flying, 1);
     assert_true(worst < 1e-5 && formula < 1e-5);
 }
@@ -230,8 +226,7 @@ static void check_outcome(setup *s)
         twin_compare(&push, i, (double)a[0], s->acceleration[i].x);
         twin_compare(&push, i, (double)a[2], s->acceleration[i].z);
     }
-    if (!(push.scale > 1 && twin_relative(&push) < 1e-5))
-        fail_msg("acceleration: %g of %g", push.worst, push.scale);
+    if (!(push.scale > 1 && twin_relative(&push) < 1e-5)) fail_msg("acceleration: %g of %g", push.worst, push.scale);
 }
 
 /* Each solver, from nothing, down to where float ends. */
@@ -248,9 +243,8 @@ static void check_solver(setup *s, sb_solver solver)
         check_report(s, 1e-3);
         check_outcome(s);
         last = gap_to_solution(s);
-        printf("%-9s to %.0e: %4d iterations, q within %.2g; mean %.2e, active %.2e, max %.2e\n",
-               name_of(solver), tolerance, r->iterations, last, r->error_mean, r->error_active,
-               r->error_max);
+        printf("%-9s to %.0e: %4d iterations, q within %.2g; mean %.2e, active %.2e, max %.2e\n", name_of(solver),
+               tolerance, r->iterations, last, r->error_mean, r->error_active, r->error_max);
     }
     assert_true(last < 1e-5);
     /* From the answer itself: no more than the least number of iterations, and still the answer. */
@@ -280,8 +274,7 @@ static void check_all(int dimensions)
     for (size_t i = 0; i < s.n; i++) pressed += s.solution[i] > 0;
     printf("reference: %ld sweeps, %zu particles under pressure\n", sweeps, pressed);
     assert_true(pressed > s.n / 4 && pressed < s.n);
-    for (sb_solver solver = SB_SOLVER_JACOBI; solver <= SB_SOLVER_CG; solver++)
-        check_solver(&s, solver);
+    for (sb_solver solver = SB_SOLVER_JACOBI; solver <= SB_SOLVER_CG; solver++) check_solver(&s, solver);
     end(&s);
 }
 
@@ -297,8 +290,8 @@ static void a_dam_break(void **state)
     check_all(3);
 }
 
-/* A solve stops sooner than that of the step before only where it is better by a margin; a rule in density, and 2D, know no
-   step before. In 2D water pressed too much goes on being solved. */
+/* A solve stops sooner than that of the step before only where it is better by a margin; a rule in density, and 2D,
+   know no step before. In 2D water pressed too much goes on being solved. */
 static void it_stops_no_sooner_by_chance(void **state)
 {
     (void)state;

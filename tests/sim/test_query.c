@@ -12,8 +12,7 @@ static sb_fluid_sample found[4096];
 
 static bool in_box(sb_vec3 x, sb_vec3 min, sb_vec3 max)
 {
-    return x.x >= min.x && x.y >= min.y && x.z >= min.z && x.x <= max.x && x.y <= max.y &&
-           x.z <= max.z;
+    return x.x >= min.x && x.y >= min.y && x.z >= min.z && x.x <= max.x && x.y <= max.y && x.z <= max.z;
 }
 
 static void check_box(const sb_sim *sim, sb_vec3 min, sb_vec3 max, bool *listed)
@@ -32,8 +31,8 @@ static void check_box(const sb_sim *sim, sb_vec3 min, sb_vec3 max, bool *listed)
         bool in = in_box(s.position, min, max);
         expected += in;
         if (listed[s.id] != in)
-            fail_msg("particle %u at (%g, %g, %g): found %d, expected %d", s.id, s.position.x,
-                     s.position.y, s.position.z, listed[s.id], in);
+            fail_msg("particle %u at (%g, %g, %g): found %d, expected %d", s.id, s.position.x, s.position.y,
+                     s.position.z, listed[s.id], in);
     }
     assert_int_equal(count, expected);
 }
@@ -116,8 +115,7 @@ static void check_frame(const sb_sim *sim, size_t paddle)
         const float *x = &f->position[3 * i], *v = &f->velocity[3 * i];
         sb_vec3 at = sb_add(f->origin, sb_vec((double)x[0], (double)x[1], (double)x[2]));
         worst = fmax(worst, sb_norm(sb_sub(at, s.position)));
-        assert_true((double)v[0] == s.velocity.x && (double)v[1] == s.velocity.y &&
-                    (double)v[2] == s.velocity.z);
+        assert_true((double)v[0] == s.velocity.x && (double)v[1] == s.velocity.y && (double)v[2] == s.velocity.z);
         assert_true((double)f->pressure[i] == s.pressure && f->id[i] == s.id);
     }
     double moved = sb_sim_body_displacement(sim, paddle).x;
@@ -178,8 +176,7 @@ static void in_a_tank_far_away(void **state)
 static void a_drop_swept_away_is_found(void **state)
 {
     (void)state;
-    const sb_wavemaker_parameters law = {
-        .kind = sb_wavemaker_find("gate"), .stroke = 3, .speed = 6, .gravity = 9.81};
+    const sb_wavemaker_parameters law = {.kind = sb_wavemaker_find("gate"), .stroke = 3, .speed = 6, .gravity = 9.81};
     tank t;
     tank_make(&t, 3, 0.1, sb_vec(4, 0.8, 0.8), 0.1, 0.1, 0);
     t.scene.fluid.gravity = 0;
@@ -197,8 +194,7 @@ static void a_drop_swept_away_is_found(void **state)
         assert_near(sb_sim_report(sim)->max_speed, speed, 1e-5 * speed);
     }
     sb_vec3 x = sb_sim_particle(sim, 0).position;
-    printf("the drop is at x = %.2f, the paddle at %.2f\n", x.x,
-           0.25 + sb_sim_body_displacement(sim, 1).x);
+    printf("the drop is at x = %.2f, the paddle at %.2f\n", x.x, 0.25 + sb_sim_body_displacement(sim, 1).x);
     assert_true(x.x > 0.25 + sb_sim_body_displacement(sim, 1).x);
     sb_sim_destroy(sim);
     tank_free(&t);

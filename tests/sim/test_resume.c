@@ -1,8 +1,8 @@
 /* A simulation that loads another's saved state goes on as it, bit for bit; a state that makes no sense is refused. */
 #include "../check.h"
 #include "base/memory.h"
-#include "sim/pressure.h"
 #include "sim/flume.h"
+#include "sim/pressure.h"
 
 #include <omp.h>
 #include <stdio.h>
@@ -65,8 +65,11 @@ static void a_paddle_in_motion_and_at_rest(void **state)
     (void)state;
     static const double speeds[] = {0.5, 20};
     for (int k = 0; k < 2; k++) {
-        const sb_wavemaker_parameters law = {
-            .kind = sb_wavemaker_find("gate"), .stroke = 0.1, .speed = speeds[k], .gravity = 9.81, .after = SB_AFTER_STAY};
+        const sb_wavemaker_parameters law = {.kind = sb_wavemaker_find("gate"),
+                                             .stroke = 0.1,
+                                             .speed = speeds[k],
+                                             .gravity = 9.81,
+                                             .after = SB_AFTER_STAY};
         tank t;
         tank_make(&t, 3, 1.0 / 12, sb_vec(2, 1, 1), 2, 0.75, 0.1);
         tank_add_sheet(&t, "paddle", -1.0 / 24, 0, 0.8, sb_vec(1, 0, 0), &law);
@@ -134,7 +137,8 @@ static void another_model_is_refused(void **state)
     assert_true(sim && small && tank_steps(sim, 3) == 0);
     tank_save(sim, &out);
     assert_int_equal(tank_load(small, &out, &error), SB_BAD_INPUT);
-    assert_non_null(strstr(error.text, "saved: section \"sim\": a list of 25 elements of 16 bytes, expected at most 20"));
+    assert_non_null(
+        strstr(error.text, "saved: section \"sim\": a list of 25 elements of 16 bytes, expected at most 20"));
     sb_sim_destroy(sim);
     sb_sim_destroy(small);
     sb_archive_out_free(&out);
@@ -146,8 +150,7 @@ static void another_model_is_refused(void **state)
 static void senseless_states_are_refused(void **state)
 {
     (void)state;
-    const sb_wavemaker_parameters law = {
-        .kind = sb_wavemaker_find("gate"), .stroke = 0.1, .speed = 1, .gravity = 9.81};
+    const sb_wavemaker_parameters law = {.kind = sb_wavemaker_find("gate"), .stroke = 0.1, .speed = 1, .gravity = 9.81};
     tank t;
     sb_archive_out good = {0}, bad = {0};
     sb_error error = {0};
@@ -191,10 +194,13 @@ static void senseless_states_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_dam_break_with_each_solver), cmocka_unit_test(a_paddle_in_motion_and_at_rest),
-        cmocka_unit_test(a_periodic_slab),              cmocka_unit_test(still_water_asleep),
+        cmocka_unit_test(a_dam_break_with_each_solver),
+        cmocka_unit_test(a_paddle_in_motion_and_at_rest),
+        cmocka_unit_test(a_periodic_slab),
+        cmocka_unit_test(still_water_asleep),
         cmocka_unit_test(water_that_leaves),
-        cmocka_unit_test(another_model_is_refused),     cmocka_unit_test(senseless_states_are_refused),
+        cmocka_unit_test(another_model_is_refused),
+        cmocka_unit_test(senseless_states_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

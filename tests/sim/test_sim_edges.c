@@ -44,8 +44,8 @@ static void a_lone_particle_flies_a_parabola(void **state)
             const sb_step_report *r = sb_sim_report(sim);
             const double z = start.z + v0.z * r->time - 0.5 * 9.81 * r->time * r->time;
             sb_fluid_sample p = sb_sim_particle(sim, 0);
-            worst = fmax(worst, sb_norm(sb_sub(p.position, sb_vec(start.x + v0.x * r->time,
-                                                                  start.y + v0.y * r->time, z))));
+            worst =
+                fmax(worst, sb_norm(sb_sub(p.position, sb_vec(start.x + v0.x * r->time, start.y + v0.y * r->time, z))));
             assert_true(p.pressure == 0 && p.velocity.x == v0.x && p.velocity.y == v0.y);
         }
         printf("%dD: %llu steps, worst %.2g m from the parabola\n", dimensions,
@@ -225,8 +225,7 @@ static void check_divergence(double speed, double pressure, const char *why)
     size_t hit = 0;
     while (sim->id[hit] != 42) hit++;
     sim->velocity[hit][0] = (float)speed;
-    for (size_t i = 0; i < sim->n && pressure > 0; i++)
-        sim->velocity[i][3] = (float)(pressure * (double)(i + 1));
+    for (size_t i = 0; i < sim->n && pressure > 0; i++) sim->velocity[i][3] = (float)(pressure * (double)(i + 1));
     sb_vec3 at = sb_sim_particle(sim, hit).position, where = {0};
     sb_vec3 sum_before = {0}, sum_after = {0};
     for (size_t i = 0; i < sim->n; i++)
@@ -364,8 +363,7 @@ static bool lacks_memory(const tank *t, long n)
 static void every_lack_of_memory_is_survived(void **state)
 {
     (void)state;
-    const sb_wavemaker_parameters law = {
-        .kind = sb_wavemaker_find("gate"), .stroke = 2, .speed = 3, .gravity = 9.81};
+    const sb_wavemaker_parameters law = {.kind = sb_wavemaker_find("gate"), .stroke = 2, .speed = 3, .gravity = 9.81};
     tank t;
     tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0.1);
     tank_add_sheet(&t, "gate", 0.55, 0, 1, sb_vec(0, 0, 1), &law);
@@ -386,11 +384,8 @@ static void every_lack_of_memory_is_survived(void **state)
 static void a_gate_leaves_the_domain(void **state)
 {
     (void)state;
-    const sb_wavemaker_parameters law = {.kind = sb_wavemaker_find("gate"),
-                                         .start = 0.1,
-                                         .stroke = 1000,
-                                         .speed = 8,
-                                         .gravity = 9.81};
+    const sb_wavemaker_parameters law = {
+        .kind = sb_wavemaker_find("gate"), .start = 0.1, .stroke = 1000, .speed = 8, .gravity = 9.81};
     tank t;
     tank_make(&t, 2, 0.05, sb_vec(2, 0, 1), 0.5, 0.6, 0.01);
     size_t gate = tank_add_sheet(&t, "gate", 0.525, 0, 1, sb_vec(0, 0, 1), &law);

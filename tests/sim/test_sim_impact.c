@@ -52,8 +52,7 @@ static double energy_from(const sb_sim *sim, uint32_t first)
     double sum = 0, mass = (double)sim->constant.mass;
     for (size_t i = 0; i < sim->n; i++) {
         sb_fluid_sample p = sb_sim_particle(sim, i);
-        if (p.id >= first)
-            sum += mass * (0.5 * sb_dot(p.velocity, p.velocity) + 9.81 * p.position.z);
+        if (p.id >= first) sum += mass * (0.5 * sb_dot(p.velocity, p.velocity) + 9.81 * p.position.z);
     }
     return sum;
 }
@@ -77,8 +76,7 @@ static void check_lump(sb_solver solver, size_t side)
     for (size_t k = 0; k < side * side * side; k++) {
         double x = (double)(k % side), y = (double)(k / side % side), z = (double)(k / side / side);
         size_t i = m->fluid_count++;
-        m->fluid_position[i] =
-            sb_vec(1.9 + 0.1 * x + 0.01 * y, 0.3 + 0.1 * y - 0.01 * z, 1 + 0.1 * z + 0.01 * x);
+        m->fluid_position[i] = sb_vec(1.9 + 0.1 * x + 0.01 * y, 0.3 + 0.1 * y - 0.01 * z, 1 + 0.1 * z + 0.01 * x);
         m->fluid_velocity[i] = sb_vec(15, 1, 2);
         m->fluid_pressure[i] = 0;
     }

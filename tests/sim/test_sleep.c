@@ -118,15 +118,16 @@ static void sleepers_rest_and_wake_calm(void **state)
         }
         if (edge_x < 1e9) nearest = fmin(nearest, edge_x - front);
     }
-    printf("mean speed within a depth of sleepers %.3g sqrt(g D), nearest that waves came %.3g D, the last woke at %.3g s\n",
+    printf("mean speed within a depth of sleepers %.3g sqrt(g D), nearest that waves came %.3g D, the last woke at "
+           "%.3g s\n",
            fastest / wave_speed(), nearest, sb_sim_sleep(sim).woken);
     assert_true(woken > n / 2);
-    assert_true(nearest > reach - 1.5 * SB_FLUME_DEPTH); /* a look comes every few steps, waves outrun the front a little */
+    assert_true(nearest >
+                reach - 1.5 * SB_FLUME_DEPTH); /* a look comes every few steps, waves outrun the front a little */
     assert_true(fastest < 0.01 * wave_speed());
     /* Never after the front, and not long before it: the wave's own head may be ahead of it. */
     assert_near(sb_sim_sleep(sim).woken, (20 - reach - SB_FLUME_DEPTH) / (1.1 * wave_speed()) - 0.5, 0.8);
-    assert_true(sb_sim_sleep(sim).asleep_steps > 0 &&
-                sb_sim_sleep(sim).particle_steps == n * sb_sim_report(sim)->step);
+    assert_true(sb_sim_sleep(sim).asleep_steps > 0 && sb_sim_sleep(sim).particle_steps == n * sb_sim_report(sim)->step);
     census_free(&first);
     census_free(&now);
     sb_sim_destroy(sim);
@@ -169,8 +170,10 @@ static void the_wave_is_the_same(void **state)
     const record runs[] = {off, other, on};
     for (int k = 0; k < 3; k++)
         printf("%s: paddle %.5g N s/m, floor %.6g N s/m, potential %.4g J/m, crest at x = 8 m %.4g m\n",
-               k == 0 ? "awake" : k == 1 ? "awake, another start" : "asleep", runs[k].paddle, runs[k].floor,
-               runs[k].potential, runs[k].crest);
+               k == 0   ? "awake"
+               : k == 1 ? "awake, another start"
+                        : "asleep",
+               runs[k].paddle, runs[k].floor, runs[k].potential, runs[k].crest);
     assert_near(on.paddle, off.paddle, 0.01 * fabs(off.paddle));
     assert_near(on.floor, off.floor, 0.002 * fabs(off.floor));
     assert_near(on.potential, off.potential, 0.02 * off.potential);

@@ -170,11 +170,8 @@ static void no_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(momentum_balances),
-        cmocka_unit_test(periodic_sides),
-        cmocka_unit_test(bits_repeat),
-        cmocka_unit_test(bodies_feel_sleepers),
-        cmocka_unit_test(no_memory),
+        cmocka_unit_test(momentum_balances),    cmocka_unit_test(periodic_sides), cmocka_unit_test(bits_repeat),
+        cmocka_unit_test(bodies_feel_sleepers), cmocka_unit_test(no_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -127,12 +127,10 @@ static void a_domain_beyond_the_integers_is_refused(void **state)
     sb_error error = {0};
     sb_space space;
     /* Along one axis; and by the number of its cells, where each axis alone would do. */
-    assert_int_equal(sb_space_create(sb_vec(0, 0, 0), sb_vec(1e6, 1, 1), 1, &space, &error),
-                     SB_BAD_INPUT);
+    assert_int_equal(sb_space_create(sb_vec(0, 0, 0), sb_vec(1e6, 1, 1), 1, &space, &error), SB_BAD_INPUT);
     assert_non_null(strstr(error.text, "expected fewer"));
     error = (sb_error){0};
-    assert_int_equal(sb_space_create(sb_vec(0, 0, 0), sb_vec(1e5, 1e5, 1e5), 1, &space, &error),
-                     SB_BAD_INPUT);
+    assert_int_equal(sb_space_create(sb_vec(0, 0, 0), sb_vec(1e5, 1e5, 1e5), 1, &space, &error), SB_BAD_INPUT);
     assert_non_null(strstr(error.text, "expected"));
     /* The widest that is taken leaves room for 2^27 particles in a sort word of 64 bits. */
     space = make_space(sb_vec(0, 0, 0), sb_vec(1.2e5, 0, 1e5), 1);
@@ -170,8 +168,7 @@ static void check_sort(size_t count, int low, int high, int threads)
     assert_true(sorted == words || sorted == other);
     for (size_t i = 0; i < count; i++)
         if (sorted[i] != expected[i].word)
-            fail_msg("%zu words, bits %d to %d, %d threads: wrong word at %zu", count, low, high,
-                     threads, i);
+            fail_msg("%zu words, bits %d to %d, %d threads: wrong word at %zu", count, low, high, threads, i);
     sb_free(words);
     sb_free(other);
     sb_free(expected);
@@ -298,8 +295,8 @@ static void a_vast_domain_costs_only_its_used_cells(void **state)
     sb_cells cells = {0};
     assert_int_equal(sb_cells_build(&cells, c.record, c.count, c.space.shift), 0);
     check_cells(&c, &cells);
-    printf("vast domain: %d key bits, %zu cells used, %.1f bytes for each\n", c.space.key_bits,
-           cells.count, (double)sb_cells_bytes(&cells) / (double)cells.count);
+    printf("vast domain: %d key bits, %zu cells used, %.1f bytes for each\n", c.space.key_bits, cells.count,
+           (double)sb_cells_bytes(&cells) / (double)cells.count);
     assert_true(sb_cells_bytes(&cells) < 40 * cells.count);
     sb_cells_free(&cells);
     sb_free(c.record);
@@ -317,8 +314,7 @@ static void keys_follow_the_z_curve(void **state)
         for (uint32_t y = 0; y < 16; y++)
             for (uint32_t z = 0; z < 8; z++) {
                 sb_record record = {x << space.shift, y << space.shift, z << space.shift, 0};
-                sb_record even = {(x & ~1u) << space.shift, (y & ~1u) << space.shift,
-                                  (z & ~1u) << space.shift, 0};
+                sb_record even = {(x & ~1u) << space.shift, (y & ~1u) << space.shift, (z & ~1u) << space.shift, 0};
                 uint64_t key = sb_space_key(&space, record);
                 assert_true(key < 1 << 12 && !seen[key]);
                 seen[key] = true;

@@ -13,8 +13,7 @@ static double largest(sb_sim *sim)
 {
     float *v = sb_alloc(sim->n, sizeof *v), *product = sb_alloc(sim->n, sizeof *product);
     assert_true(v && product);
-    for (size_t i = 0; i < sim->n; i++)
-        v[i] = (float)((double)(i * 7919 % 1000) / 500 - 1);
+    for (size_t i = 0; i < sim->n; i++) v[i] = (float)((double)(i * 7919 % 1000) / 500 - 1);
     double value = 0;
     for (int round = 0; round < 200; round++) {
         double before = 0, after = 0;
@@ -27,8 +26,7 @@ static double largest(sb_sim *sim)
             v[i] = next;
         }
         value = sqrt(after / before);
-        for (size_t i = 0; i < sim->n; i++)
-            v[i] /= (float)sqrt(after);
+        for (size_t i = 0; i < sim->n; i++) v[i] /= (float)sqrt(after);
     }
     sb_free(v);
     sb_free(product);
@@ -46,8 +44,7 @@ static void check(int dimensions, const char *kernel, double support)
     t.scene.numerics.settle_steps = 150;
     sb_sim *sim = tank_sim(&t);
     assert_non_null(sim);
-    if (sb_sim_settle(sim, &error) != SB_OK)
-        fail_msg("%s", error.text);
+    if (sb_sim_settle(sim, &error) != SB_OK) fail_msg("%s", error.text);
     assert_int_equal(tank_steps(sim, 1), 0);
     const double found = largest(sim), lattice = sim->constant.spectrum;
     printf("%dD %s %g: %.3f, lattice %.3f, ratio %.3f\n", dimensions, kernel, support, found, lattice, found / lattice);
@@ -85,8 +82,7 @@ static void jacobi_follows_the_reach(void **state)
     t.scene.numerics.settle_steps = 60;
     sb_sim *sim = tank_sim(&t);
     assert_non_null(sim);
-    if (sb_sim_settle(sim, &error) != SB_OK)
-        fail_msg("%s", error.text);
+    if (sb_sim_settle(sim, &error) != SB_OK) fail_msg("%s", error.text);
     assert_int_equal(tank_steps(sim, 5), 0);
     const sb_step_report *report = sb_sim_report(sim);
     printf("%d sweeps, error %.2e, tolerance %.2e\n", report->iterations, report->error_mean, report->tolerance);

@@ -22,8 +22,7 @@ static sb_sim *settle(const tank *t)
     double height = sb_sim_energy(sim).potential;
     if (sb_sim_settle(sim, &error) != SB_OK) fail_msg("%s", error.text);
     assert_true(sb_sim_report(sim)->time == 0 && sb_sim_report(sim)->step == 0);
-    for (int b = PATCH; b <= TANK; b++)
-        assert_true(sb_sim_impulse(sim, (size_t)b)->pressure.z == 0);
+    for (int b = PATCH; b <= TANK; b++) assert_true(sb_sim_impulse(sim, (size_t)b)->pressure.z == 0);
     assert_true(sb_sim_energy(sim).potential != height);
     return sim;
 }
@@ -105,15 +104,13 @@ static void check(int dimensions, double spacing, sb_vec3 size, double depth, sb
 static void a_flat_tank_rests(void **state)
 {
     (void)state;
-    for (sb_solver s = SB_SOLVER_JACOBI; s <= SB_SOLVER_CG; s++)
-        check(2, 0.05, sb_vec(1, 0, 1.5), 1, s);
+    for (sb_solver s = SB_SOLVER_JACOBI; s <= SB_SOLVER_CG; s++) check(2, 0.05, sb_vec(1, 0, 1.5), 1, s);
 }
 
 static void a_tank_rests(void **state)
 {
     (void)state;
-    for (sb_solver s = SB_SOLVER_JACOBI; s <= SB_SOLVER_CG; s++)
-        check(3, 0.1, sb_vec(0.8, 0.8, 1.2), 0.8, s);
+    for (sb_solver s = SB_SOLVER_JACOBI; s <= SB_SOLVER_CG; s++) check(3, 0.1, sb_vec(0.8, 0.8, 1.2), 0.8, s);
 }
 
 int main(void)

@@ -25,12 +25,10 @@ static void check(const tank *t, const char *name)
     const int counts[] = {2, 3, 8};
     int before = omp_get_max_threads();
     uint64_t alone = run(t, 1);
-    printf("%s, %s: %016llx\n", name, sb_pressure_solvers[t->scene.numerics.solver]->name,
-           (unsigned long long)alone);
+    printf("%s, %s: %016llx\n", name, sb_pressure_solvers[t->scene.numerics.solver]->name, (unsigned long long)alone);
     for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
         uint64_t hash = run(t, counts[c]);
-        if (hash != alone)
-            fail_msg("%s: %d threads give %016llx", name, counts[c], (unsigned long long)hash);
+        if (hash != alone) fail_msg("%s: %d threads give %016llx", name, counts[c], (unsigned long long)hash);
     }
     assert_true(run(t, 1) == alone);
     omp_set_num_threads(before);

@@ -62,9 +62,8 @@ static void a_random_cloud_is_the_reference(void **state)
             twin_compare(&stress, i, (double)v[1] - seen.velocity[i].y, expected[i].y);
             twin_compare(&stress, i, (double)v[2] - seen.velocity[i].z, expected[i].z);
         }
-        printf("%dD, %zu particles: viscosity %.2g of %.3g m^2/s, stress %.2g of %.3g m/s^2\n",
-               dimensions, sim->n, twin_relative(&gap), gap.scale, twin_relative(&stress),
-               stress.scale);
+        printf("%dD, %zu particles: viscosity %.2g of %.3g m^2/s, stress %.2g of %.3g m/s^2\n", dimensions, sim->n,
+               twin_relative(&gap), gap.scale, twin_relative(&stress), stress.scale);
         assert_true(gap.scale > 1e-3 && twin_relative(&gap) < 1e-5);
         assert_true(stress.scale > 1 && twin_relative(&stress) < 1e-5);
         sb_free(rho);
@@ -81,8 +80,7 @@ static void stir(tank *t, double g[3][3])
 {
     sb_model *m = &t->model;
     for (size_t i = 0; i < m->fluid_count; i++) {
-        const double x[3] = {m->fluid_position[i].x, m->fluid_position[i].y,
-                             m->fluid_position[i].z};
+        const double x[3] = {m->fluid_position[i].x, m->fluid_position[i].y, m->fluid_position[i].z};
         double v[3] = {0};
         for (int a = 0; a < 3; a++)
             for (int b = 0; b < 3; b++) v[a] += g[a][b] * x[b];
@@ -110,13 +108,11 @@ static void linear_flows_are_exact(void **state)
             double strain = 0, worst = 0;
             for (int a = 0; a < 3; a++)
                 for (int b = 0; b < 3; b++)
-                    if (dimensions == 3 || (a != 1 && b != 1))
-                        strain += pow(flows[f][a][b] + flows[f][b][a], 2) / 2;
+                    if (dimensions == 3 || (a != 1 && b != 1)) strain += pow(flows[f][a][b] + flows[f][b][a], 2) / 2;
             double expected = 1e-4 * sqrt(strain);
-            for (size_t i = 0; i < sim->n; i++)
-                worst = fmax(worst, fabs((double)sim->eddy[i] - expected));
-            printf("%dD flow %zu: |S| = %.4g 1/s, worst %.2g m^2/s of %.3g\n", dimensions, f,
-                   sqrt(strain), worst, expected);
+            for (size_t i = 0; i < sim->n; i++) worst = fmax(worst, fabs((double)sim->eddy[i] - expected));
+            printf("%dD flow %zu: |S| = %.4g 1/s, worst %.2g m^2/s of %.3g\n", dimensions, f, sqrt(strain), worst,
+                   expected);
             assert_true(worst < 3e-6 * fmax(expected, 1e-4));
             sb_sim_destroy(sim);
             tank_free(&t);
@@ -212,8 +208,8 @@ static void stress_keeps_momentum_and_takes_energy(void **state)
             power += (double)v[0] * a.x + (double)v[1] * a.y + (double)v[2] * a.z;
             all += sb_norm(a);
         }
-        printf("%dD: momentum %.2g, spin %.2g of sum |a| (times 1 m), power %.3g m^2/s^3\n",
-               dimensions, sb_norm(push) / all, sb_norm(spin) / all, power);
+        printf("%dD: momentum %.2g, spin %.2g of sum |a| (times 1 m), power %.3g m^2/s^3\n", dimensions,
+               sb_norm(push) / all, sb_norm(spin) / all, power);
         assert_true(all > 1 && sb_norm(push) < 1e-7 * all && sb_norm(spin) < 2e-7 * all);
         assert_true(power < 0);
         sb_sim_destroy(sim);

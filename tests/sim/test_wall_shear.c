@@ -104,8 +104,7 @@ static void a_floor_holds_what_slides_over_it(void **state)
         tank t;
         tank_make(&t, dimensions, spacing, sb_vec(length, dimensions == 2 ? 0 : length, 1), length, 0.4, 0);
         tank_repeat(&t, 0);
-        if (dimensions == 3)
-            tank_repeat(&t, 1);
+        if (dimensions == 3) tank_repeat(&t, 1);
         sb_numerics *n = &t.scene.numerics;
         n->kernel = sb_kernel_find("wendland-c2");
         n->support = 3;
@@ -113,8 +112,7 @@ static void a_floor_holds_what_slides_over_it(void **state)
         n->wall_shear = SB_SHEAR_SMOOTH;
         n->artificial_viscosity = 0;
         t.scene.fluid.viscosity = nu;
-        for (size_t i = 0; i < t.model.fluid_count; i++)
-            t.model.fluid_velocity[i] = sb_vec(speed, 0, 0);
+        for (size_t i = 0; i < t.model.fluid_count; i++) t.model.fluid_velocity[i] = sb_vec(speed, 0, 0);
         sb_sim *sim = tank_sim(&t);
         assert_non_null(sim);
         assert_int_equal(tank_steps(sim, 1), 0);

@@ -24,10 +24,8 @@ static size_t copy_walls(const sb_sim *sim, twin *t)
             t->psi[at] = (double)sb_carried_value(set->record[b]);
             t->body[at] = set->body[b];
             sb_f4 normal = set->normal[b];
-            t->wall_normal[at] =
-                sb_vec((double)normal[0], (double)normal[1], (double)normal[2]);
-            if (s == SB_MOVING)
-                t->wall_velocity[at] = sim->moving[sim->moving_of_body[set->body[b]]].velocity;
+            t->wall_normal[at] = sb_vec((double)normal[0], (double)normal[1], (double)normal[2]);
+            if (s == SB_MOVING) t->wall_velocity[at] = sim->moving[sim->moving_of_body[set->body[b]]].velocity;
             at++;
         }
         if (s == SB_STATIC) t->static_count = at;
@@ -45,7 +43,9 @@ static void take_slopes(const sb_sim *sim, twin *t)
         for (size_t k = 0; k < twin_listed(sim, i, false); k++) {
             const twin_entry entry = twin_list(sim, i, false, k);
             const size_t ghost = entry.other - sim->n;
-            const size_t other = entry.other < sim->n ? entry.other : ghost < sim->ghosts.count ? sim->ghosts.of[ghost] : i;
+            const size_t other = entry.other < sim->n        ? entry.other
+                                 : ghost < sim->ghosts.count ? sim->ghosts.of[ghost]
+                                                             : i;
             const sb_f4 d = sb_offset(sim->position[i], sim->position[entry.other]);
             const sb_vec3 offset = sb_scale(sb_vec((double)d[0], (double)d[1], (double)d[2]), quantum);
             for (size_t p = r->fluid_start[i]; p < r->fluid_start[i + 1] && !entry.padding; p++)
@@ -66,8 +66,8 @@ int twin_make(const sb_sim *sim, twin *t)
     made.wall_normal = sb_alloc(walls, sizeof(sb_vec3));
     made.psi = sb_alloc(walls, sizeof(double));
     made.body = sb_alloc(walls, sizeof(uint32_t));
-    int status = made.position && made.velocity && made.wall_position && made.wall_velocity &&
-                         made.wall_normal && made.psi && made.body
+    int status = made.position && made.velocity && made.wall_position && made.wall_velocity && made.wall_normal &&
+                         made.psi && made.body
                      ? 0
                      : -1;
     if (status == 0) {

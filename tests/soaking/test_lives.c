@@ -29,8 +29,7 @@ static void says(sb_soak_life life, const char *words)
 {
     char why[400];
     assert_int_equal(sb_soak_well(&life, why), *words == '\0');
-    if (!strstr(why, words))
-        fail_msg("\"%s\" is not in \"%s\"", words, why);
+    if (!strstr(why, words)) fail_msg("\"%s\" is not in \"%s\"", words, why);
     sb_free(life.samples);
 }
 
@@ -102,12 +101,9 @@ static void a_process_is_seen(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_start_is_no_growth),
-        cmocka_unit_test(memory_may_grow_so_far_and_no_further),
-        cmocka_unit_test(no_descriptor_may_stay_open),
-        cmocka_unit_test(a_broken_life_tells_how),
-        cmocka_unit_test(frames_have_to_arrive),
-        cmocka_unit_test(a_short_life_is_not_judged),
+        cmocka_unit_test(the_start_is_no_growth),      cmocka_unit_test(memory_may_grow_so_far_and_no_further),
+        cmocka_unit_test(no_descriptor_may_stay_open), cmocka_unit_test(a_broken_life_tells_how),
+        cmocka_unit_test(frames_have_to_arrive),       cmocka_unit_test(a_short_life_is_not_judged),
         cmocka_unit_test(a_process_is_seen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -68,11 +68,8 @@ static inline sb_stream *fixture_stream(const char *url, double interval, int de
 {
     char copy[512];
     snprintf(copy, sizeof copy, "%s", url);
-    sb_stream_settings settings = {.enabled = true,
-                                   .url = copy,
-                                   .prefix = "test",
-                                   .interval = interval,
-                                   .decimation = decimation};
+    sb_stream_settings settings = {
+        .enabled = true, .url = copy, .prefix = "test", .interval = interval, .decimation = decimation};
     sb_stream *stream = NULL;
     sb_error error = {0};
     if (sb_stream_create(&settings, "a run", &stream, &error) != SB_OK) fail_msg("%s", error.text);

@@ -18,8 +18,7 @@ static char log_url[64];
 static int monitor(const char *arguments)
 {
     char command[512];
-    snprintf(command, sizeof command, "exec '%s/shorebreak-monitor' %s 2>&1", SB_BINARY_DIR,
-             arguments);
+    snprintf(command, sizeof command, "exec '%s/shorebreak-monitor' %s 2>&1", SB_BINARY_DIR, arguments);
     FILE *pipe = popen(command, "r");
     assert_non_null(pipe);
     size_t length = fread(output, 1, sizeof output - 1, pipe);
@@ -54,8 +53,7 @@ static int record_log(void **state)
         sb_frame *frame = fixture_frame(index, 22.5 * (double)index, 5000, 5);
         snprintf(frame->bodies[0].name, sizeof frame->bodies[0].name, "reactor\x1b[31m");
         frame->bodies[0].force = sb_vec(-3e6 * (double)(3 - index), 4e6 * (double)(3 - index), 7e6);
-        frame->bodies[1].force = frame->bodies[3].force = frame->bodies[4].force =
-            sb_vec(1e6, 0, 0);
+        frame->bodies[1].force = frame->bodies[3].force = frame->bodies[4].force = sb_vec(1e6, 0, 0);
         sb_stream_publish(stream, frame);
         sb_frame_release(frame);
         unsigned char trash[300];
@@ -160,8 +158,7 @@ static void ctrl_c_restores_the_terminal(void **state)
     pid_t child = forkpty(&terminal, NULL, NULL, &size);
     if (child == 0) {
         setenv("TERM", "xterm", 1);
-        execl(SB_BINARY_DIR "/shorebreak-monitor", "shorebreak-monitor", "--url", "memq://",
-              (char *)NULL);
+        execl(SB_BINARY_DIR "/shorebreak-monitor", "shorebreak-monitor", "--url", "memq://", (char *)NULL);
         _exit(127);
     }
     assert_true(child > 0);
@@ -181,10 +178,8 @@ static void ctrl_c_restores_the_terminal(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shows_a_recorded_run),
-        cmocka_unit_test(once_shows_the_first_status),
-        cmocka_unit_test(options_are_checked),
-        cmocka_unit_test(says_when_nothing_comes),
+        cmocka_unit_test(shows_a_recorded_run),         cmocka_unit_test(once_shows_the_first_status),
+        cmocka_unit_test(options_are_checked),          cmocka_unit_test(says_when_nothing_comes),
         cmocka_unit_test(ctrl_c_restores_the_terminal),
     };
     return cmocka_run_group_tests(tests, record_log, remove_log);

@@ -23,9 +23,7 @@ enum { PARTICLES_CHUNK = 24, PARTICLES_TOTAL = 32, PARTICLES_FIRST = 40, PARTICL
 static void capture(const lcm_recv_buf_t *received, const char *channel, void *user)
 {
     (void)user;
-    message *to = &good[strstr(channel, "status")   ? STATUS
-                        : strstr(channel, "forces") ? FORCES
-                                                    : PARTICLES];
+    message *to = &good[strstr(channel, "status") ? STATUS : strstr(channel, "forces") ? FORCES : PARTICLES];
     to->size = received->data_size;
     memcpy(to->bytes, received->data, received->data_size);
 }
@@ -57,14 +55,12 @@ static sb_status decode(int type, const unsigned char *bytes, size_t size, sb_er
     sb_status status;
     if (type == STATUS) {
         status = sb_stream_decode_status(exact, size, &out.status, error);
-        if (status == SB_OK)
-            assert_true(isfinite(out.status.time) && strlen(out.status.run) < SB_STREAM_NAME);
+        if (status == SB_OK) assert_true(isfinite(out.status.time) && strlen(out.status.run) < SB_STREAM_NAME);
     } else if (type == FORCES) {
         status = sb_stream_decode_forces(exact, size, &out.forces, error);
         for (int32_t i = 0; status == SB_OK && i < 3 * out.forces.count; i++) {
             assert_true(isfinite(out.forces.force[i]) && isfinite(out.forces.moment[i]));
-            for (const char *at = out.forces.names[i / 3]; *at; at++)
-                assert_in_range(*at, 0x20, 0x7e);
+            for (const char *at = out.forces.names[i / 3]; *at; at++) assert_in_range(*at, 0x20, 0x7e);
         }
     } else {
         status = sb_stream_decode_particles(exact, size, &out.particles, error);
@@ -92,8 +88,7 @@ static void good_messages_pass(void **state)
     (void)state;
     for (int type = 0; type < TYPES; type++)
         for (int as = 0; as < TYPES; as++)
-            assert_int_equal(decode(as, good[type].bytes, good[type].size, NULL),
-                             as == type ? SB_OK : SB_BAD_INPUT);
+            assert_int_equal(decode(as, good[type].bytes, good[type].size, NULL), as == type ? SB_OK : SB_BAD_INPUT);
 }
 
 static void truncated_and_padded(void **state)
@@ -117,8 +112,7 @@ static void truncated_and_padded(void **state)
 static void hostile_counts(void **state)
 {
     (void)state;
-    static const uint32_t counts[] = {0,          1,          5,          51,         2140,
-                                      0x7fffffff, 0x80000000, 0xffffffff, 0x55555556, 0xaaaaaaaa};
+    static const uint32_t counts[] = {0, 1, 5, 51, 2140, 0x7fffffff, 0x80000000, 0xffffffff, 0x55555556, 0xaaaaaaaa};
     static const struct {
         int type;
         size_t at;
@@ -136,8 +130,7 @@ static void hostile_counts(void **state)
             message bad = good[places[p].type];
             put32(&bad, places[p].at, counts[c]);
             bool same = memcmp(&bad, &good[places[p].type], sizeof bad) == 0;
-            assert_int_equal(decode(places[p].type, bad.bytes, bad.size, NULL),
-                             same ? SB_OK : SB_BAD_INPUT);
+            assert_int_equal(decode(places[p].type, bad.bytes, bad.size, NULL), same ? SB_OK : SB_BAD_INPUT);
             /* Both counts together, three to one: only the size can tell. */
             put32(&bad, places[p].at + 4, 3 * counts[c]);
             if (places[p].at == FORCES_N || places[p].at == PARTICLES_COUNT)
@@ -197,12 +190,10 @@ static void mutate(message *victim)
         break;
     case 2: /* random bytes behind a true fingerprint, of any length */
         victim->size = 8 + draw(600);
-        for (size_t i = 8; i < victim->size; i++)
-            victim->bytes[i] = (unsigned char)draw(draw(2) ? 256 : 3);
+        for (size_t i = 8; i < victim->size; i++) victim->bytes[i] = (unsigned char)draw(draw(2) ? 256 : 3);
         break;
     default: /* a stretch of it moved, then cut */
-        if (victim->size > 80)
-            memmove(victim->bytes + 8 + draw(30), victim->bytes + 8 + draw(30), victim->size - 80);
+        if (victim->size > 80) memmove(victim->bytes + 8 + draw(30), victim->bytes + 8 + draw(30), victim->size - 80);
         victim->size -= draw((uint32_t)victim->size);
     }
 }

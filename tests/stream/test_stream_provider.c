@@ -34,8 +34,7 @@ static void bad_urls_give_the_remedy(void **state)
     assert_int_equal(create("udpm://999.1.1.1:7667", "", &error), SB_FAILED);
     contains(error.text, "udpm://999.1.1.1:7667");
     contains(error.text, "ip route add 224.0.0.0/4 dev lo");
-    static const char *const others[] = {"carrier-pigeon://", "nonsense",
-                                         "file:///no/such/dir/x?mode=w"};
+    static const char *const others[] = {"carrier-pigeon://", "nonsense", "file:///no/such/dir/x?mode=w"};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
         error = (sb_error){0};
         assert_int_equal(create(others[i], "", &error), SB_FAILED);
@@ -173,8 +172,7 @@ static void stalled_subscriber_over_udp(void **state)
     const char *url = "udpm://239.255.76.67:27667";
     lcm_t *subscriber = NULL;
     sb_error error = {0};
-    if (sb_provider_open(url, &subscriber, &error) != SB_OK)
-        skip(); /* this machine has no multicast route */
+    if (sb_provider_open(url, &subscriber, &error) != SB_OK) skip(); /* this machine has no multicast route */
     lcm_subscribe(subscriber, ".*", ignore, NULL);
     sb_stream *stream = fixture_stream(url, 0, 1);
     publish_to_stalled(stream);
@@ -185,12 +183,9 @@ static void stalled_subscriber_over_udp(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_urls_give_the_remedy),
-        cmocka_unit_test(environment_names_the_default),
-        cmocka_unit_test(complaints_stay_off_stderr),
-        cmocka_unit_test(no_route_gives_the_remedy),
-        cmocka_unit_test(refused_messages_are_counted),
-        cmocka_unit_test(stalled_subscriber_in_memory),
+        cmocka_unit_test(bad_urls_give_the_remedy),     cmocka_unit_test(environment_names_the_default),
+        cmocka_unit_test(complaints_stay_off_stderr),   cmocka_unit_test(no_route_gives_the_remedy),
+        cmocka_unit_test(refused_messages_are_counted), cmocka_unit_test(stalled_subscriber_in_memory),
         cmocka_unit_test(stalled_subscriber_over_udp),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

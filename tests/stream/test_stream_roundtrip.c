@@ -22,13 +22,11 @@ static void on_status(const lcm_recv_buf_t *received, const char *channel, void 
 {
     seen *all = user;
     assert_string_equal(channel, "test_status");
-    assert_int_equal(
-        sb_stream_decode_status(received->data, received->data_size, &all->status, NULL), SB_OK);
+    assert_int_equal(sb_stream_decode_status(received->data, received->data_size, &all->status, NULL), SB_OK);
     all->statuses++;
     /* The generated decoder is the second opinion. */
     shorebreak_status_t other = {0};
-    assert_true(shorebreak_status_t_decode(received->data, 0, (int)received->data_size, &other) >
-                0);
+    assert_true(shorebreak_status_t_decode(received->data, 0, (int)received->data_size, &other) > 0);
     assert_string_equal(other.run, all->status.run);
     assert_int_equal(other.step, all->status.step);
     assert_true(other.time == all->status.time && other.duration == all->status.duration);
@@ -49,13 +47,11 @@ static void on_forces(const lcm_recv_buf_t *received, const char *channel, void 
     seen *all = user;
     assert_string_equal(channel, "test_forces");
     if (received->data_size > all->largest) all->largest = received->data_size;
-    assert_int_equal(
-        sb_stream_decode_forces(received->data, received->data_size, &all->force, NULL), SB_OK);
+    assert_int_equal(sb_stream_decode_forces(received->data, received->data_size, &all->force, NULL), SB_OK);
     all->forces++;
     if (all->force.count == 0) return; /* LCM's decoder copies from a null pointer then */
     shorebreak_forces_t other = {0};
-    assert_true(shorebreak_forces_t_decode(received->data, 0, (int)received->data_size, &other) >
-                0);
+    assert_true(shorebreak_forces_t_decode(received->data, 0, (int)received->data_size, &other) > 0);
     assert_int_equal(other.n, all->force.count);
     size_t vectors = 3 * sizeof(double) * (size_t)other.n;
     for (int32_t i = 0; i < other.n; i++) {
@@ -76,8 +72,7 @@ static void on_particles(const lcm_recv_buf_t *received, const char *channel, vo
     assert_string_equal(channel, "test_particles");
     if (received->data_size > all->largest) all->largest = received->data_size;
     sb_particles_message *chunk = &all->chunk;
-    assert_int_equal(sb_stream_decode_particles(received->data, received->data_size, chunk, NULL),
-                     SB_OK);
+    assert_int_equal(sb_stream_decode_particles(received->data, received->data_size, chunk, NULL), SB_OK);
     all->chunks++;
     size_t count = (size_t)chunk->count;
     assert_true(all->particles + count <= all->capacity);
@@ -87,8 +82,7 @@ static void on_particles(const lcm_recv_buf_t *received, const char *channel, vo
     memcpy(all->pressure + all->particles, chunk->pressure, 4 * count);
     all->particles += count;
     shorebreak_particles_t other = {0};
-    assert_true(shorebreak_particles_t_decode(received->data, 0, (int)received->data_size, &other) >
-                0);
+    assert_true(shorebreak_particles_t_decode(received->data, 0, (int)received->data_size, &other) > 0);
     assert_int_equal(other.count, chunk->count);
     assert_int_equal(other.total, chunk->total);
     if (count > 0) {
@@ -149,8 +143,7 @@ static void check_forces(const sb_forces_message *got, const sb_frame *frame)
         assert_int_equal(got->reported[b], body->report);
         assert_memory_equal(&got->force[3 * b], &body->force, sizeof body->force);
         assert_memory_equal(&got->moment[3 * b], &body->moment, sizeof body->moment);
-        assert_memory_equal(&got->displacement[3 * b], &body->displacement,
-                            sizeof body->displacement);
+        assert_memory_equal(&got->displacement[3 * b], &body->displacement, sizeof body->displacement);
     }
 }
 
@@ -283,8 +276,7 @@ static void particles_come_once_per_interval(void **state)
     static const struct {
         double time;
         size_t chunks;
-    } steps[] = {{0, 1},   {0.2, 1},  {0.5 - 1e-9, 2}, {0.5, 2},
-                 {0.9, 2}, {2.75, 3}, {2.9, 3},        {3.01, 4}};
+    } steps[] = {{0, 1}, {0.2, 1}, {0.5 - 1e-9, 2}, {0.5, 2}, {0.9, 2}, {2.75, 3}, {2.9, 3}, {3.01, 4}};
     sb_stream *stream = fixture_stream("memq://", 0.5, 1);
     seen *all = watch(stream, 1000);
     for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
@@ -304,10 +296,8 @@ static void particles_come_once_per_interval(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_types_arrive_unchanged),
-        cmocka_unit_test(empty_frames_and_many_bodies),
-        cmocka_unit_test(status_alone_needs_no_frame),
-        cmocka_unit_test(decimation_keeps_the_same_particles),
+        cmocka_unit_test(all_types_arrive_unchanged),       cmocka_unit_test(empty_frames_and_many_bodies),
+        cmocka_unit_test(status_alone_needs_no_frame),      cmocka_unit_test(decimation_keeps_the_same_particles),
         cmocka_unit_test(particles_come_once_per_interval),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

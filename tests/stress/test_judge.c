@@ -22,8 +22,7 @@ static sb_judged judge(const char *text, const char *from, const char *to)
     const char *at = strstr(text, from);
     assert_non_null(at);
     snprintf(changed, sizeof changed, "%.*s%s%s", (int)(at - text), text, to, at + strlen(from));
-    sb_judged judged = {.trial = &usual,
-                        .outcome = {.there = true, .how = SB_ENDS_WELL, .summary = changed}};
+    sb_judged judged = {.trial = &usual, .outcome = {.there = true, .how = SB_ENDS_WELL, .summary = changed}};
     sb_judge_common(&judged);
     return judged;
 }

@@ -13,8 +13,7 @@ static const char *const houses[] = {"a", "b", NULL};
 
 static void put(sb_figures *figures, const char *quantity, double reference, double value)
 {
-    assert_int_equal(
-        sb_figure_report(figures, quantity, "N", reference, value, NULL, "%s", ""), SB_OK);
+    assert_int_equal(sb_figure_report(figures, quantity, "N", reference, value, NULL, "%s", ""), SB_OK);
 }
 
 static void test_a_figures_own_error_loses_its_sign(void **state)
@@ -73,8 +72,7 @@ static void test_every_choice_is_one(void **state)
         char folder[SB_PATH_MAX];
         if (sb_contest_begin(&c, s, &store, false, 1, &error) != SB_OK) fail_msg("%s", error.text);
         for (size_t i = 0; i < c.trial_count; i++)
-            if (sb_store_folder(&store, &c.trials[i].request, folder, &error) != SB_OK)
-                fail_msg("%s", error.text);
+            if (sb_store_folder(&store, &c.trials[i].request, folder, &error) != SB_OK) fail_msg("%s", error.text);
         sb_contest_free(&c);
     }
 }

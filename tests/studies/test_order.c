@@ -8,8 +8,7 @@
 enum { LEVELS = 3 };
 
 /* value = limit + c h^p at these spacings. */
-static void fill(sb_level *levels, const double *spacings, size_t count, double limit, double c,
-                 double p)
+static void fill(sb_level *levels, const double *spacings, size_t count, double limit, double c, double p)
 {
     for (size_t i = 0; i < count; i++)
         levels[i] = (sb_level){spacings[i], limit + c * pow(spacings[i], p), (double)NAN};

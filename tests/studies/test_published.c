@@ -11,17 +11,15 @@ static void test_times_have_the_printed_shares(void **state)
     static const struct {
         int number;
         double shares[4];
-    } printed[] = {{1, {5.4, 55.0, 17.5, 22.1}},   {2, {4.3, 37.5, 14.0, 44.3}},
-                   {3, {3.3, 23.1, 10.7, 62.9}},   {4, {2.4, 17.1, 8.0, 72.5}},
-                   {12, {10.1, 14.8, 10.9, 64.2}}, {13, {8.3, 18.8, 13.2, 59.7}},
-                   {14, {7.2, 33.5, 12.1, 47.2}},  {15, {2.8, 44.0, 11.6, 41.6}}};
+    } printed[] = {{1, {5.4, 55.0, 17.5, 22.1}},  {2, {4.3, 37.5, 14.0, 44.3}},   {3, {3.3, 23.1, 10.7, 62.9}},
+                   {4, {2.4, 17.1, 8.0, 72.5}},   {12, {10.1, 14.8, 10.9, 64.2}}, {13, {8.3, 18.8, 13.2, 59.7}},
+                   {14, {7.2, 33.5, 12.1, 47.2}}, {15, {2.8, 44.0, 11.6, 41.6}}};
     for (size_t i = 0; i < sizeof printed / sizeof *printed; i++) {
         const sb_published *p = sb_published_find(printed[i].number);
         assert_non_null(p);
         const double parts[4] = {p->structure, p->query, p->advection, p->pressure};
         /* Times are rounded to 1 s. */
-        for (int k = 0; k < 4; k++)
-            assert_near(100 * parts[k] / p->total, printed[i].shares[k], 0.06 + 60 / p->total);
+        for (int k = 0; k < 4; k++) assert_near(100 * parts[k] / p->total, printed[i].shares[k], 0.06 + 60 / p->total);
         assert_near(parts[0] + parts[1] + parts[2] + parts[3], p->total, 3);
     }
 }

@@ -26,8 +26,7 @@ static int run(const char *format, const char *argument)
 static int set_up(void **state)
 {
     (void)state;
-    return mkdtemp(prefix) ? run("cmake --install '%s' --prefix '%s' >/dev/null", SB_BINARY_DIR)
-                           : -1;
+    return mkdtemp(prefix) ? run("cmake --install '%s' --prefix '%s' >/dev/null", SB_BINARY_DIR) : -1;
 }
 
 static int tear_down(void **state)
@@ -72,8 +71,7 @@ static void test_scenes_find_their_meshes(void **state)
 static void test_licence_and_message_types_are_there(void **state)
 {
     (void)state;
-    static const char *const files[] = {"share/doc/shorebreak/LICENSE",
-                                        "share/shorebreak/meshes/README.md",
+    static const char *const files[] = {"share/doc/shorebreak/LICENSE", "share/shorebreak/meshes/README.md",
                                         "share/shorebreak/lcmtypes/status_t.lcm"};
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
         if (access(installed(files[i]), R_OK) != 0) fail_msg("%s is missing", installed(files[i]));

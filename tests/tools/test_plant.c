@@ -60,16 +60,13 @@ static sb_mesh_report diagnosed(const plant *made, const char *name)
 static void test_names_are_unique_and_complete(void **state)
 {
     const plant *made = *state;
-    static const char *const wanted[] = {
-        "terrain",   "breakwater-north", "breakwater-south", "quay",      "intake",
-        "reactor-1", "reactor-2",        "reactor-3",        "reactor-4", "reactor-5",
-        "reactor-6", "turbine-1",        "turbine-2",        "turbine-3", "turbine-4",
-        "turbine-5", "turbine-6",        "stack-1",          "tank-1",    "cavity"};
-    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++)
-        assert_non_null(find(made, wanted[i]));
+    static const char *const wanted[] = {"terrain",   "breakwater-north", "breakwater-south", "quay",      "intake",
+                                         "reactor-1", "reactor-2",        "reactor-3",        "reactor-4", "reactor-5",
+                                         "reactor-6", "turbine-1",        "turbine-2",        "turbine-3", "turbine-4",
+                                         "turbine-5", "turbine-6",        "stack-1",          "tank-1",    "cavity"};
+    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) assert_non_null(find(made, wanted[i]));
     for (size_t i = 0; i < made->count; i++)
-        for (size_t k = 0; k < i; k++)
-            assert_string_not_equal(made->meshes[i].name, made->meshes[k].name);
+        for (size_t k = 0; k < i; k++) assert_string_not_equal(made->meshes[i].name, made->meshes[k].name);
     assert_string_equal(made->meshes[0].name, "terrain");
 }
 
@@ -79,11 +76,11 @@ static void test_buildings_are_closed_and_face_outward(void **state)
     for (size_t i = 1; i < made->count; i++) {
         sb_mesh_report report;
         assert_int_equal(sb_mesh_diagnose(&made->meshes[i], &report, NULL), SB_OK);
-        if (!report.watertight || report.open_edges || report.flipped_faces ||
-            report.degenerate_faces || report.doubled_faces || report.volume < 1000)
-            fail_msg("%s: open %zu flipped %zu degenerate %zu doubled %zu volume %g",
-                     made->meshes[i].name, report.open_edges, report.flipped_faces,
-                     report.degenerate_faces, report.doubled_faces, report.volume);
+        if (!report.watertight || report.open_edges || report.flipped_faces || report.degenerate_faces ||
+            report.doubled_faces || report.volume < 1000)
+            fail_msg("%s: open %zu flipped %zu degenerate %zu doubled %zu volume %g", made->meshes[i].name,
+                     report.open_edges, report.flipped_faces, report.degenerate_faces, report.doubled_faces,
+                     report.volume);
     }
 }
 
@@ -94,8 +91,7 @@ static void test_forms_have_the_volume_of_their_formula(void **state)
     sb_mesh mesh = {0};
     sb_mesh_report report;
     /* A ring as concave as the cavity's: 30 x 20 less a pocket of 10 x 10. */
-    sb_ring low = {
-        .count = 8, .x = {0, 20, 20, 0, 0, 10, 10, 0}, .y = {0, 0, 30, 30, 20, 20, 10, 10}};
+    sb_ring low = {.count = 8, .x = {0, 20, 20, 0, 0, 10, 10, 0}, .y = {0, 0, 30, 30, 20, 20, 10, 10}};
     sb_ring rings[2] = {low, low};
     rings[1].z = 7;
     sb_form form = {0};
@@ -157,8 +153,7 @@ static void test_heights_of_coast_and_structures(void **state)
         for (double y = 20; y < 1150; y += i < 4 ? 110 : 1110)
             assert_true(fabs(sb_plant_ground(&made->options, depth[i][0], y) - depth[i][1]) < 1e-9);
     for (double x = 857; x <= 1025; x += 7) /* the terrace is level under every building */
-        for (double y = 205; y <= 895; y += 10)
-            assert_true(fabs(sb_plant_ground(&made->options, x, y) - 10) < 1e-9);
+        for (double y = 205; y <= 895; y += 10) assert_true(fabs(sb_plant_ground(&made->options, x, y) - 10) < 1e-9);
 }
 
 static void test_buildings_are_rooted_and_apart(void **state)
@@ -169,8 +164,7 @@ static void test_buildings_are_rooted_and_apart(void **state)
         assert_int_equal(sb_mesh_diagnose(&made->meshes[i], &a, NULL), SB_OK);
         for (double x = a.min.x; x <= a.max.x; x += 5)
             for (double y = a.min.y; y <= a.max.y; y += 5)
-                if (a.min.x > 860)
-                    assert_true(sb_plant_ground(&made->options, x, y) >= a.min.z + 3);
+                if (a.min.x > 860) assert_true(sb_plant_ground(&made->options, x, y) >= a.min.z + 3);
         for (size_t k = 1; k < i; k++) {
             sb_mesh_report b;
             assert_int_equal(sb_mesh_diagnose(&made->meshes[k], &b, NULL), SB_OK);
@@ -178,8 +172,7 @@ static void test_buildings_are_rooted_and_apart(void **state)
             double dx = fmax(a.min.x - b.max.x, b.min.x - a.max.x);
             double dy = fmax(a.min.y - b.max.y, b.min.y - a.max.y);
             if (dx < 12 && dy < 12)
-                fail_msg("%s and %s are %g m apart", made->meshes[i].name, made->meshes[k].name,
-                         fmax(dx, dy));
+                fail_msg("%s and %s are %g m apart", made->meshes[i].name, made->meshes[k].name, fmax(dx, dy));
         }
     }
 }
@@ -249,8 +242,7 @@ static void test_the_sea_holds_18_million_cubic_metres(void **state)
     /* Nothing landward of the shore lies below the sea, except inside the quay. */
     for (double x = 801; x < 1300; x += 3)
         for (double y = 1; y < 1150; y += 3)
-            if (x > 822 || y < 234 || y > 856)
-                assert_true(sb_plant_ground(&made->options, x, y) > 0);
+            if (x > 822 || y < 234 || y > 856) assert_true(sb_plant_ground(&made->options, x, y) > 0);
 }
 
 static void test_options_are_honoured(void **state)
@@ -287,12 +279,9 @@ static void test_extreme_heights_still_close(void **state)
             *(double *)((char *)&made.options + row->offset) = side ? row->most : row->least;
             made.options.quay = fmin(made.options.quay, made.options.grade);
             made.options.hill = fmax(made.options.hill, made.options.grade);
-            if (strcmp(row->name, "quay") == 0)
-                made.options.grade = fmax(made.options.grade, made.options.quay);
-            if (strcmp(row->name, "hill") == 0)
-                made.options.grade = fmin(made.options.grade, made.options.hill);
-            assert_int_equal(sb_plant_build(&made.options, &made.meshes, &made.count, &error),
-                             SB_OK);
+            if (strcmp(row->name, "quay") == 0) made.options.grade = fmax(made.options.grade, made.options.quay);
+            if (strcmp(row->name, "hill") == 0) made.options.grade = fmin(made.options.grade, made.options.hill);
+            assert_int_equal(sb_plant_build(&made.options, &made.meshes, &made.count, &error), SB_OK);
             test_buildings_are_closed_and_face_outward((void *[]){&made});
             sb_plant_free(made.meshes, made.count);
         }
@@ -337,8 +326,7 @@ static void test_every_failed_allocation_is_reported(void **state)
 static int run(const char *arguments)
 {
     char command[2 * SB_PATH_MAX];
-    snprintf(command, sizeof command, "%s/shorebreak-make-plant %s >/dev/null 2>&1", SB_BINARY_DIR,
-             arguments);
+    snprintf(command, sizeof command, "%s/shorebreak-make-plant %s >/dev/null 2>&1", SB_BINARY_DIR, arguments);
     int status = system(command);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
@@ -360,8 +348,7 @@ static void test_the_program_writes_the_committed_meshes(void **state)
         char *made = NULL, *kept = NULL, committed[SB_PATH_MAX];
         size_t made_length, kept_length;
         snprintf(path, sizeof path, "%s/%s.obj", folder, parts[i]);
-        snprintf(committed, sizeof committed, SB_SOURCE_DIR "/assets/meshes/plant/%s.obj",
-                 parts[i]);
+        snprintf(committed, sizeof committed, SB_SOURCE_DIR "/assets/meshes/plant/%s.obj", parts[i]);
         assert_int_equal(sb_file_read(path, 1 << 20, &made, &made_length, &error), SB_OK);
         assert_int_equal(sb_file_read(committed, 1 << 20, &kept, &kept_length, &error), SB_OK);
         assert_int_equal(made_length, kept_length);
@@ -423,8 +410,7 @@ static void test_the_import_gives_the_same_bodies(void **state)
     char folder[] = "/tmp/sb-plant-XXXXXX", path[64];
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/whole.obj", folder);
-    assert_int_equal(sb_plant_write(&made->options, made->meshes, made->count, path, &error),
-                     SB_OK);
+    assert_int_equal(sb_plant_write(&made->options, made->meshes, made->count, path, &error), SB_OK);
     assert_int_equal(compare(made, path), made->count);
     unlink(path);
     rmdir(folder);

@@ -19,8 +19,7 @@ typedef struct asked {
 static sb_status take_word(void *user, const char *word, sb_error *error)
 {
     asked *a = user;
-    if (a->count == WORDS_MAX)
-        return sb_fail(error, SB_BAD_INPUT, "%s: one too many", word);
+    if (a->count == WORDS_MAX) return sb_fail(error, SB_BAD_INPUT, "%s: one too many", word);
     a->words[a->count++] = word;
     return SB_OK;
 }
@@ -46,8 +45,13 @@ static sb_status read_line(const char *text, bool words, asked *a, sb_error *err
                                    {.name = "--minutes", .number = &a->minutes, .most = 60},
                                    {.name = "--length", .take = take_length, .telling = true},
                                    {.name = "--out", .text = &a->out}};
-    const sb_command_line line = {.options = options, .option_count = 5, .word = words ? take_word : NULL, .user = a,
-                                  .help = &a->help, .command = a->command, .command_size = sizeof a->command};
+    const sb_command_line line = {.options = options,
+                                  .option_count = 5,
+                                  .word = words ? take_word : NULL,
+                                  .user = a,
+                                  .help = &a->help,
+                                  .command = a->command,
+                                  .command_size = sizeof a->command};
     return sb_command_line_read(&line, count, arguments, error);
 }
 

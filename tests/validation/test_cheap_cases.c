@@ -43,8 +43,7 @@ static double figure(const char *name, const char *quantity, const char *column)
     for (size_t row = 0; row < results.rows; row++)
         if (strcmp(sb_sheet_text(&results, row, sb_sheet_column(&results, "case")), name) == 0 &&
             strcmp(sb_sheet_text(&results, row, sb_sheet_column(&results, "judged")), "yes") == 0 &&
-            strcmp(sb_sheet_text(&results, row, sb_sheet_column(&results, "quantity")), quantity) ==
-                0)
+            strcmp(sb_sheet_text(&results, row, sb_sheet_column(&results, "quantity")), quantity) == 0)
             return sb_sheet_number(&results, row, sb_sheet_column(&results, column));
     fail_msg("no figure %s of %s", quantity, name);
     return (double)NAN;

@@ -34,8 +34,7 @@ static void test_a_band_counts_from_its_nearer_edge(void **state)
     static const bool passes[] = {true, true, true, false, true, false, false};
     sb_figures f = {0};
     for (size_t i = 0; i < 7; i++) {
-        assert_int_equal(sb_figure_band(&f, "p", "Pa", 10, 20, values[i], 15, NULL, "%s", ""),
-                         SB_OK);
+        assert_int_equal(sb_figure_band(&f, "p", "Pa", 10, 20, values[i], 15, NULL, "%s", ""), SB_OK);
         assert_int_equal(f.rows[i].pass, passes[i]);
         if (i < 6) assert_near(f.rows[i].error, errors[i], 1e-12);
     }
@@ -54,11 +53,9 @@ static void test_the_worst_seed_judges(void **state)
     for (int i = 0; i < SEEDS; i++) {
         runs[i + 1].request = (sb_request){.plan = &plan, .seed = i + 1};
         runs[i + 1].state = SB_RESULT_DONE;
-        assert_int_equal(sb_figure_share(&runs[i + 1].figures, "v", "", 100, values[i], 100, 2.5,
-                                         NULL, "%s", ""),
+        assert_int_equal(sb_figure_share(&runs[i + 1].figures, "v", "", 100, values[i], 100, 2.5, NULL, "%s", ""),
                          SB_OK);
-        assert_int_equal(sb_figure_below(&runs[i + 1].figures, "one-sided", "%", values[i] - 101, 2,
-                                         NULL, "%s", ""),
+        assert_int_equal(sb_figure_below(&runs[i + 1].figures, "one-sided", "%", values[i] - 101, 2, NULL, "%s", ""),
                          SB_OK);
     }
     runs[0].request = (sb_request){.plan = &coarse, .seed = 1};
@@ -90,8 +87,7 @@ static double continuum(const sb_kernel *kernel, int dimension)
     double sum = 0;
     for (int i = 0; i < SHELLS; i++) {
         double r = (i + 0.5) / SHELLS, area = dimension == 2 ? 2 * M_PI * r : 4 * M_PI * r * r;
-        sum -=
-            area / SHELLS * r * r * r * sb_kernel_slope(kernel, dimension, 1, r) / (r * r + 0.01);
+        sum -= area / SHELLS * r * r * r * sb_kernel_slope(kernel, dimension, 1, r) / (r * r + 0.01);
     }
     return sum / dimension;
 }
@@ -101,8 +97,7 @@ static void test_lattice_sums_reach_the_continuum(void **state)
     (void)state;
     for (size_t i = 0; sb_kernels[i]; i++)
         for (int d = 2; d <= 3; d++)
-            assert_near(sb_theory_lattice_share(sb_kernels[i], d, 16), continuum(sb_kernels[i], d),
-                        1e-3);
+            assert_near(sb_theory_lattice_share(sb_kernels[i], d, 16), continuum(sb_kernels[i], d), 1e-3);
     assert_near(sb_theory_lattice_share(sb_kernel_find("cubic"), 2, 2), 0.9804, 1e-4);
     assert_near(sb_theory_lattice_share(sb_kernel_find("cubic"), 3, 2), 0.9915, 1e-4);
 }
@@ -119,10 +114,8 @@ static void test_standing_waves_shift(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_errors_and_limits),
-        cmocka_unit_test(test_a_band_counts_from_its_nearer_edge),
-        cmocka_unit_test(test_the_worst_seed_judges),
-        cmocka_unit_test(test_lattice_sums_reach_the_continuum),
+        cmocka_unit_test(test_errors_and_limits),     cmocka_unit_test(test_a_band_counts_from_its_nearer_edge),
+        cmocka_unit_test(test_the_worst_seed_judges), cmocka_unit_test(test_lattice_sums_reach_the_continuum),
         cmocka_unit_test(test_standing_waves_shift),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -31,11 +31,10 @@ static void test_a_sheet_gives_its_columns(void **state)
     (void)state;
     sb_sheet sheet;
     sb_curve curve = {0};
-    assert_int_equal(
-        sb_sheet_read(written("# cited\ntime_s,body,Fx_N_per_m\r\n0,a,1\n0,\"b \"\"q\"\", c\",2\n"
-                              "1,a,\n1,\"b \"\"q\"\", c\",4\n2,a,5"),
-                      &sheet, NULL),
-        SB_OK);
+    assert_int_equal(sb_sheet_read(written("# cited\ntime_s,body,Fx_N_per_m\r\n0,a,1\n0,\"b \"\"q\"\", c\",2\n"
+                                           "1,a,\n1,\"b \"\"q\"\", c\",4\n2,a,5"),
+                                   &sheet, NULL),
+                     SB_OK);
     assert_int_equal(sheet.rows, 4); /* the last line is not finished */
     assert_int_equal(sb_sheet_column(&sheet, "Fx_N"), 2);
     assert_int_equal(sb_sheet_column(&sheet, "F"), (size_t)-1);
@@ -79,8 +78,7 @@ static int look(const char *file, const struct stat *info, int kind, struct FTW 
     for (size_t row = 0; row < sheet.rows; row++)
         for (size_t k = 0; k < sheet.columns; k++)
             if (k != 1 && isnan(sb_sheet_number(&sheet, row, k)) && *sb_sheet_text(&sheet, row, k))
-                fail_msg("%s, row %zu: %s is no number", file, row + 1,
-                         sb_sheet_text(&sheet, row, k));
+                fail_msg("%s, row %zu: %s is no number", file, row + 1, sb_sheet_text(&sheet, row, k));
     sb_sheet_free(&sheet);
     tables++;
     return 0;
@@ -109,8 +107,7 @@ static void test_cases_are_sound(void **state)
             size_t count = 0, judged = 0;
             char scene[SB_PATH_MAX];
             assert_int_equal(sb_case_requests(of, quick, &requests, &count, NULL), SB_OK);
-            assert_int_equal(
-                sb_path_join(scene, SB_SOURCE_DIR "/assets/validation", of->scene, NULL), SB_OK);
+            assert_int_equal(sb_path_join(scene, SB_SOURCE_DIR "/assets/validation", of->scene, NULL), SB_OK);
             for (size_t r = 0; r < count; r++) {
                 uint64_t hash = 0;
                 if (sb_request_hash(&requests[r], scene, &hash, &error) != SB_OK)
@@ -154,16 +151,14 @@ static void test_changes_of_defaults_stay_within_their_keys(void **state)
     (void)state;
     sb_scene scene;
     char change[64];
-    assert_int_equal(sb_scene_read(SB_SOURCE_DIR "/assets/validation/still-water/flat.yaml", NULL,
-                                   NULL, 0, &scene, NULL),
-                     SB_OK);
+    assert_int_equal(
+        sb_scene_read(SB_SOURCE_DIR "/assets/validation/still-water/flat.yaml", NULL, NULL, 0, &scene, NULL), SB_OK);
     scene.numerics.warm_start = 0.9;
     scene.numerics.cfl = 0.4;
     scene.numerics.wall_friction = 0;
     for (const sb_sensitivity_key *key = sb_sensitivity_keys; key->key; key++) {
         sb_sensitivity_change(key, &scene.numerics, 1.25, change);
-        if (strcmp(key->key, "warm_start") == 0)
-            assert_string_equal(change, "numerics.warm_start=1");
+        if (strcmp(key->key, "warm_start") == 0) assert_string_equal(change, "numerics.warm_start=1");
         if (strcmp(key->key, "cfl") == 0) assert_string_equal(change, "numerics.cfl=0.5");
         if (strcmp(key->key, "wall_friction") == 0) assert_string_equal(change, "");
     }

@@ -24,7 +24,7 @@ sb_status sb_battery_parse(int count, char **arguments, sb_battery_options *opti
 typedef struct sb_stress_results {
     const sb_stress *of;
     sb_trials trials;
-    sb_judged *judged; /* one per trial */
+    sb_judged *judged;  /* one per trial */
     size_t run, failed; /* trials */
 } sb_stress_results;
 

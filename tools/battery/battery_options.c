@@ -44,8 +44,12 @@ sb_status sb_battery_parse(int count, char **arguments, sb_battery_options *o, s
                                    {.name = "--out", .text = &o->out},
                                    {.name = "--report", .text = &o->report},
                                    {.name = "--shorebreak", .text = &o->program}};
-    const sb_command_line line = {.options = options, .option_count = sizeof options / sizeof *options,
-                                  .word = take_case, .user = o, .help = &o->help, .command = o->command,
+    const sb_command_line line = {.options = options,
+                                  .option_count = sizeof options / sizeof *options,
+                                  .word = take_case,
+                                  .user = o,
+                                  .help = &o->help,
+                                  .command = o->command,
                                   .command_size = sizeof o->command};
     sb_status status = sb_command_line_read(&line, count, arguments, error);
     if (status != SB_OK || o->help || o->list) return status;
@@ -53,6 +57,5 @@ sb_status sb_battery_parse(int count, char **arguments, sb_battery_options *o, s
         for (o->count = 0; sb_stresses[o->count] && o->count < SB_STRESSES_MAX; o->count++)
             o->cases[o->count] = sb_stresses[o->count];
     if (!o->jobs) o->jobs = (int)sysconf(_SC_NPROCESSORS_ONLN);
-    return o->count ? SB_OK
-                    : sb_fail(error, SB_BAD_INPUT, "no case named; --list names them, --all takes all");
+    return o->count ? SB_OK : sb_fail(error, SB_BAD_INPUT, "no case named; --list names them, --all takes all");
 }

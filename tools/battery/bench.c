@@ -26,8 +26,7 @@ sb_status sb_bench_open(sb_bench *bench, const char *out, const char *program, c
         return sb_fail(error, SB_BAD_INPUT, "%.400s: no such program", program);
     status = sb_path_join(assets, source, "assets/stress", error);
     if (status != SB_OK) return status;
-    if (!realpath(assets, bench->assets))
-        return sb_fail(error, SB_BAD_INPUT, "%.400s: %s", assets, strerror(errno));
+    if (!realpath(assets, bench->assets)) return sb_fail(error, SB_BAD_INPUT, "%.400s: %s", assets, strerror(errno));
     status = sb_hash_file(bench->program, &bench->build, error);
     if (status == SB_OK) status = sb_hash_file(own, &bench->build, error);
     sb_origin_commit(source, bench->commit);
@@ -38,8 +37,7 @@ sb_status sb_bench_open(sb_bench *bench, const char *out, const char *program, c
 sb_status sb_bench_folder(const sb_bench *bench, const sb_order *order, char folder[SB_PATH_MAX], sb_error *error)
 {
     int length = snprintf(folder, SB_PATH_MAX, "%s/runs/%s/%s", bench->out, order->of->name, order->trial->name);
-    return length < SB_PATH_MAX - 64 ? SB_OK
-                                     : sb_fail(error, SB_BAD_INPUT, "%.400s: the path is too long", bench->out);
+    return length < SB_PATH_MAX - 64 ? SB_OK : sb_fail(error, SB_BAD_INPUT, "%.400s: the path is too long", bench->out);
 }
 
 uint64_t sb_bench_asked(const sb_bench *bench, const sb_order *order)

@@ -26,8 +26,7 @@ sb_status sb_stress_collect(const sb_bench *bench, const sb_stress *of, bool qui
 
 void sb_stress_results_free(sb_stress_results *results)
 {
-    for (size_t i = 0; results->judged && i < results->trials.count; i++)
-        sb_outcome_free(&results->judged[i].outcome);
+    for (size_t i = 0; results->judged && i < results->trials.count; i++) sb_outcome_free(&results->judged[i].outcome);
     sb_free(results->judged);
     sb_trials_free(&results->trials);
     *results = (sb_stress_results){0};

@@ -133,12 +133,11 @@ static void classify(worker *w, int how)
 {
     sb_outcome *o = &w->outcome;
     const int status = WIFEXITED(how) ? WEXITSTATUS(how) : stopped_early(w, how) ? 128 + SIGTERM : -1;
-    o->how = status == 0                                                     ? SB_ENDS_WELL
-             : status == SB_BAD_INPUT                                        ? SB_ENDS_REFUSED
-             : status == SB_FAILED                                           ? SB_ENDS_FAILED
-             : w->told && !w->killed && (status == SB_INTERRUPTED || status == 128 + SIGTERM)
-                 ? SB_ENDS_STOPPED
-                 : 0;
+    o->how = status == 0                                                                      ? SB_ENDS_WELL
+             : status == SB_BAD_INPUT                                                         ? SB_ENDS_REFUSED
+             : status == SB_FAILED                                                            ? SB_ENDS_FAILED
+             : w->told && !w->killed && (status == SB_INTERRUPTED || status == 128 + SIGTERM) ? SB_ENDS_STOPPED
+                                                                                              : 0;
     if (w->killed)
         snprintf(o->ended, sizeof o->ended, w->told ? "hung: did not stop when told" : "hung: out of patience");
     else if (WIFEXITED(how))

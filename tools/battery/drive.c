@@ -36,19 +36,16 @@ static void look(sb_driven *d)
     uint64_t bad = 0;
     sb_frame *frame = sb_sim_snapshot(d->sim);
     for (size_t i = 0; frame && i < 3 * frame->count; i++)
-        bad += !isfinite(frame->position[i]) || !isfinite(frame->velocity[i]) ||
-               !isfinite(frame->pressure[i / 3]);
+        bad += !isfinite(frame->position[i]) || !isfinite(frame->velocity[i]) || !isfinite(frame->pressure[i / 3]);
     if (bad > d->not_finite) d->not_finite = bad;
     sb_vec3 *moved = sb_alloc(d->model.body_count, sizeof *moved);
-    for (size_t b = 0; moved && b < d->model.body_count; b++)
-        moved[b] = sb_sim_body_displacement(d->sim, b);
+    for (size_t b = 0; moved && b < d->model.body_count; b++) moved[b] = sb_sim_body_displacement(d->sim, b);
     const double sheet = fmax(d->scene.numerics.wall_offset, 0.5) * d->scene.resolution;
     sb_inside_report any = {0}, deep = {0};
     if (frame && moved && !bad &&
-        sb_model_first_inside(&d->model, frame->position, frame->count, frame->origin, moved, 0, &any, NULL) ==
-            SB_OK &&
-        sb_model_first_inside(&d->model, frame->position, frame->count, frame->origin, moved, sheet, &deep,
-                              NULL) == SB_OK) {
+        sb_model_first_inside(&d->model, frame->position, frame->count, frame->origin, moved, 0, &any, NULL) == SB_OK &&
+        sb_model_first_inside(&d->model, frame->position, frame->count, frame->origin, moved, sheet, &deep, NULL) ==
+            SB_OK) {
         if (any.count > d->inside) d->inside = any.count;
         deep.count += beyond_sides(d, frame, sheet);
         if (deep.count > d->through) d->through = deep.count;
@@ -127,8 +124,7 @@ static void put_all(sb_driven *d, sb_json *json, const sb_drive *drive, double w
     sb_json_close(json);
 }
 
-static sb_status write_summary(sb_driven *d, const sb_drive *drive, const char *folder, double wall,
-                               sb_error *error)
+static sb_status write_summary(sb_driven *d, const sb_drive *drive, const char *folder, double wall, sb_error *error)
 {
     char path[SB_PATH_MAX];
     sb_atomic_file file;

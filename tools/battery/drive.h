@@ -13,11 +13,11 @@ typedef struct sb_driven {
     sb_scene scene;
     sb_model model;
     sb_sim *sim;
-    double number; /* the trial's */
-    double kept[8]; /* the hooks' own, zero at the start */
-    double last_time, momentum_imbalance; /* s of the step before; the largest so far */
+    double number;                           /* the trial's */
+    double kept[8];                          /* the hooks' own, zero at the start */
+    double last_time, momentum_imbalance;    /* s of the step before; the largest so far */
     uint64_t iterations, capped, unreported; /* unreported: solves above their tolerance that do not say so */
-    uint64_t not_finite, through, inside; /* particles, the most at any look */
+    uint64_t not_finite, through, inside;    /* particles, the most at any look */
     double error_sum, error_share; /* of report.error_mean; the largest error_mean / tolerance of a step not capped */
     sb_energy first;
     double energy_peak, top_speed;   /* J; m/s: the largest of any step */

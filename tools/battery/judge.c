@@ -80,8 +80,8 @@ static const double contact_gives = 1e-4;
 static void judge_contact(sb_judged *judged)
 {
     const sb_outcome *o = &judged->outcome;
-    const double start = sb_outcome_number_in(o, "energy_start", "kinetic_J") +
-                         sb_outcome_number_in(o, "energy_start", "potential_J");
+    const double start =
+        sb_outcome_number_in(o, "energy_start", "kinetic_J") + sb_outcome_number_in(o, "energy_start", "potential_J");
     const double contact = sb_outcome_number_in(o, "energy_work", "contact_J");
     sb_require(judged, !(contact > contact_gives * start), "contact with walls makes %.2g of the energy at the start",
                contact / start);

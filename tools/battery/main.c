@@ -18,8 +18,7 @@ static sb_status run_cases(const sb_bench *bench, const sb_battery_options *o, s
     for (size_t c = 0; c < o->count && status == SB_OK; c++) {
         trials[c].assets = bench->assets;
         o->cases[c]->plan(&trials[c], o->quick);
-        if (trials[c].incomplete ||
-            sb_grow((void **)&orders, &capacity, count + trials[c].count, sizeof *orders) != 0)
+        if (trials[c].incomplete || sb_grow((void **)&orders, &capacity, count + trials[c].count, sizeof *orders) != 0)
             status = sb_fail_memory(error, "trials");
         for (size_t i = 0; status == SB_OK && i < trials[c].count; i++)
             orders[count++] = (sb_order){o->cases[c], &trials[c].list[i]};
@@ -48,8 +47,7 @@ static sb_status report(const sb_bench *bench, const sb_battery_options *o, size
         status = sb_stress_collect(bench, sb_stresses[count], o->quick, &results[count], error);
     snprintf(folder, sizeof folder, "%s", o->report ? o->report : SB_SOURCE_DIR "/docs/results");
     if (status == SB_OK && o->quick && !o->report) status = sb_path_join(folder, bench->out, "quick", error);
-    if (status == SB_OK)
-        status = sb_stability_write(bench, results, count, o->quick, o->command, folder, error);
+    if (status == SB_OK) status = sb_stability_write(bench, results, count, o->quick, o->command, folder, error);
     for (size_t c = 0; c < count; c++) {
         for (size_t i = 0; chosen(o, results[c].of) && results[c].judged && i < results[c].trials.count; i++)
             if (results[c].judged[i].outcome.there && results[c].judged[i].fails)

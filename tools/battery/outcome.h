@@ -7,14 +7,14 @@
 #include "trial.h"
 
 typedef struct sb_outcome {
-    bool there;          /* it was run */
-    unsigned how;        /* one SB_ENDS_ bit; 0: a crash or a hang */
-    char ended[64];      /* the same in words: "exit status 0", "signal 11", "hung" */
-    char said[400];      /* the last line it wrote to the terminal */
-    char commit[64];     /* of the source it was built from */
-    double wall;         /* s */
+    bool there;      /* it was run */
+    unsigned how;    /* one SB_ENDS_ bit; 0: a crash or a hang */
+    char ended[64];  /* the same in words: "exit status 0", "signal 11", "hung" */
+    char said[400];  /* the last line it wrote to the terminal */
+    char commit[64]; /* of the source it was built from */
+    double wall;     /* s */
     char folder[SB_PATH_MAX];
-    char *summary;       /* summary.json; NULL without one */
+    char *summary;         /* summary.json; NULL without one */
     char not_a_number[96]; /* the first table with one, and its line; "" */
 } sb_outcome;
 

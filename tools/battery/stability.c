@@ -50,12 +50,13 @@ static void put_head(FILE *out, const sb_bench *bench, const sb_stress_results *
             "%zu trials asked for, %zu run, %zu passed, **%zu failed**.\n\n",
             quick ? ", quick forms" : "", bench->commit, bench->machine, command,
             quick ? "../../stability.md" : "../stability.md", asked, run, run - failed, failed);
-    fputs("Common rules, for every trial: it ends as it should and in time, or says why not in one line; no table and "
-          "no particle\nholds a number that is none; no particle is lost or within a solid deeper than its boundary "
-          "particles; all particles are\naccounted for; contact with walls makes no more than 1e-4 of the energy at the "
-          "start; solves that stop at their cap are counted (`capped`).\nTrials run with one thread each; run times are "
-          "those of the machine and load they were made on.\n\n",
-          out);
+    fputs(
+        "Common rules, for every trial: it ends as it should and in time, or says why not in one line; no table and "
+        "no particle\nholds a number that is none; no particle is lost or within a solid deeper than its boundary "
+        "particles; all particles are\naccounted for; contact with walls makes no more than 1e-4 of the energy at the "
+        "start; solves that stop at their cap are counted (`capped`).\nTrials run with one thread each; run times are "
+        "those of the machine and load they were made on.\n\n",
+        out);
 }
 
 static void put_row(FILE *out, const sb_judged *j, const char *commit)

@@ -8,7 +8,7 @@ enum { SEEDS = 5 };
 
 static void plan_meshes(sb_trials *trials, bool quick)
 {
-    static const char *const meshes[] = {"inverted", "flipped",          "hole",    "open-below", "gaps",
+    static const char *const meshes[] = {"inverted", "flipped",         "hole",   "open-below", "gaps",
                                          "doubled",  "doubled-against", "slivers"};
     for (int s = 1; s <= SEEDS; s++)
         sb_trial_set(sb_trial_add(trials, "bore-mesh.yaml", "clean-seed-%d", s), "numerics.seed=%d", s);
@@ -84,10 +84,14 @@ static const struct {
     {"block", "{name: body, shape: box, min: [0.25, 0.25, 0.2], max: [0.55, 0.55, 0.5]}", 0.027},
     {"cylinder", "{name: body, shape: cylinder, center: [0.4, 0.4, 0.2], radius: 0.15, height: 0.3}", 0.0212058},
     {"half-way", "{name: body, shape: box, min: [0.25, 0.25, 0.6], max: [0.55, 0.55, 1]}", 0.018},
-    {"turned", "{name: body, shape: box, min: [-0.15, -0.15, -0.15], max: [0.15, 0.15, 0.15], rotate: [45, 30, 20], "
-               "translate: [0.4, 0.4, 0.4]}", 0.027},
-    {"two-overlapping", "{name: body, shape: box, min: [0.2, 0.2, 0.2], max: [0.5, 0.5, 0.5]}, "
-                        "{name: other, shape: box, min: [0.35, 0.35, 0.35], max: [0.65, 0.65, 0.65]}", 0},
+    {"turned",
+     "{name: body, shape: box, min: [-0.15, -0.15, -0.15], max: [0.15, 0.15, 0.15], rotate: [45, 30, 20], "
+     "translate: [0.4, 0.4, 0.4]}",
+     0.027},
+    {"two-overlapping",
+     "{name: body, shape: box, min: [0.2, 0.2, 0.2], max: [0.5, 0.5, 0.5]}, "
+     "{name: other, shape: box, min: [0.35, 0.35, 0.35], max: [0.65, 0.65, 0.65]}",
+     0},
     {"one-spacing-off-the-floor", "{name: body, shape: box, min: [0.2, 0.2, 0.05], max: [0.6, 0.6, 0.3]}", 0},
     {"half-a-spacing-off-the-side", "{name: body, shape: box, min: [0.025, 0.2, 0.2], max: [0.3, 0.6, 0.5]}", 0},
     {"beyond-the-domain", "{name: body, shape: box, min: [0.5, -1, 0.2], max: [1.7, 0.4, 2]}", 0},

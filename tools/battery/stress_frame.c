@@ -13,10 +13,14 @@ typedef struct frame {
 } frame;
 
 static const frame frames[] = {
-    {"moved-1e3", 1, 0, 0, 1, 1e3, -1e3, 50},      {"moved-1e5", 1, 0, 0, 1, 1e5, 1e5, -50},
-    {"moved-1e6", 1, 0, 0, 1, -1e6, 1e6, 1000},    {"turned-90", 0, -1, 1, 0, 0, 0, 0},
-    {"turned-180", -1, 0, 0, -1, 0, 0, 0},         {"turned-270", 0, 1, -1, 0, 0, 0, 0},
-    {"mirrored-x", -1, 0, 0, 1, 0, 0, 0},          {"mirrored-y", 1, 0, 0, -1, 0, 0, 0},
+    {"moved-1e3", 1, 0, 0, 1, 1e3, -1e3, 50},
+    {"moved-1e5", 1, 0, 0, 1, 1e5, 1e5, -50},
+    {"moved-1e6", 1, 0, 0, 1, -1e6, 1e6, 1000},
+    {"turned-90", 0, -1, 1, 0, 0, 0, 0},
+    {"turned-180", -1, 0, 0, -1, 0, 0, 0},
+    {"turned-270", 0, 1, -1, 0, 0, 0, 0},
+    {"mirrored-x", -1, 0, 0, 1, 0, 0, 0},
+    {"mirrored-y", 1, 0, 0, -1, 0, 0, 0},
     {"turned-90-moved-1e6", 0, -1, 1, 0, 1e6, 1e6, 0},
 };
 enum { FRAMES = sizeof frames / sizeof *frames };

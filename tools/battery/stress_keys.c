@@ -65,13 +65,21 @@ static void take_words(const walk *w, const sb_key *key, const char *path)
 static void take_leaf(const walk *w, const sb_key *key, const char *path, const void *value, int dimensions)
 {
     switch (key->type) {
-    case SB_KEY_NUMBER: take_range(w, key, path, *(const double *)value, 1); break;
-    case SB_KEY_INTEGER: take_range(w, key, path, *(const int *)value, 1); break;
+    case SB_KEY_NUMBER:
+        take_range(w, key, path, *(const double *)value, 1);
+        break;
+    case SB_KEY_INTEGER:
+        take_range(w, key, path, *(const int *)value, 1);
+        break;
     case SB_KEY_VECTOR:
         take_range(w, key, path, ((const sb_vec3 *)value)->x, dimensions == 2 && !(key->flags & SB_KEY_FULL) ? 2 : 3);
         break;
-    case SB_KEY_PLACE: take_range(w, key, path, *(const double *)value, dimensions == 2 ? 1 : 2); break;
-    case SB_KEY_COLOR: take_range(w, key, path, 0.5, 3); break;
+    case SB_KEY_PLACE:
+        take_range(w, key, path, *(const double *)value, dimensions == 2 ? 1 : 2);
+        break;
+    case SB_KEY_COLOR:
+        take_range(w, key, path, 0.5, 3);
+        break;
     case SB_KEY_SEED:
         take(w, path, "0");
         take(w, path, "18446744073709551615");
@@ -80,7 +88,8 @@ static void take_leaf(const walk *w, const sb_key *key, const char *path, const 
         take(w, path, "true");
         take(w, path, "false");
         break;
-    case SB_KEY_TEXT: take(w, path, "\"\""); /* fall through */
+    case SB_KEY_TEXT:
+        take(w, path, "\"\""); /* fall through */
     case SB_KEY_NAME:
         take(w, path, "n");
         take(w, path, "a63-characters-long-name-of-what-may-be-a-file-or-channel-nameX");
@@ -88,10 +97,13 @@ static void take_leaf(const walk *w, const sb_key *key, const char *path, const 
     case SB_KEY_CHOICE:
     case SB_KEY_LETTER:
     case SB_KEY_KERNEL:
-    case SB_KEY_LAW: take_words(w, key, path); break;
+    case SB_KEY_LAW:
+        take_words(w, key, path);
+        break;
     case SB_KEY_FILE:
     case SB_KEY_BLOCK:
-    case SB_KEY_LIST: break;
+    case SB_KEY_LIST:
+        break;
     }
 }
 
@@ -156,11 +168,12 @@ static void judge(sb_judged *all, size_t count)
     for (size_t i = 0; i < count; i++) {
         sb_judged *j = &all[i];
         if (!j->outcome.there) continue;
-        sb_note(j, "%s", j->outcome.how == SB_ENDS_WELL      ? "ran"
-                         : j->outcome.how == SB_ENDS_REFUSED ? "refused"
-                         : j->outcome.how == SB_ENDS_FAILED  ? "failed"
-                         : j->outcome.how == SB_ENDS_STOPPED ? "stopped when told"
-                                                             : j->outcome.ended);
+        sb_note(j, "%s",
+                j->outcome.how == SB_ENDS_WELL      ? "ran"
+                : j->outcome.how == SB_ENDS_REFUSED ? "refused"
+                : j->outcome.how == SB_ENDS_FAILED  ? "failed"
+                : j->outcome.how == SB_ENDS_STOPPED ? "stopped when told"
+                                                    : j->outcome.ended);
         if (j->outcome.how & (SB_ENDS_REFUSED | SB_ENDS_FAILED)) sb_note(j, "%.180s", j->outcome.said + 12);
     }
 }

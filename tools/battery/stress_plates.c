@@ -44,8 +44,7 @@ static void finish(sb_driven *d, sb_json *figures)
 {
     const double time = sb_sim_report(d->sim)->time - d->kept[BEGAN];
     sb_json_number(figures, "crossed", beyond(d) - d->kept[FAR]);
-    sb_json_number(figures, "force",
-                   (sb_sim_impulse(d->sim, plate_of(d))->pressure.x - d->kept[IMPULSE]) / time);
+    sb_json_number(figures, "force", (sb_sim_impulse(d->sim, plate_of(d))->pressure.x - d->kept[IMPULSE]) / time);
 }
 
 static const sb_drive drive = {.alter = note_start, .watch = watch, .close = finish};

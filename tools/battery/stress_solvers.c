@@ -81,9 +81,10 @@ static void judge_steps(sb_judged *all, size_t count)
 const sb_stress sb_stress_steps = {
     .name = "time-step",
     .title = "Time steps from a quarter to four times the default's, each solver",
-    .rule = "What a collapsing column has fallen at 0.25 s differs from the shortest step's by at most 1 % for each "
-            "default step in the time step; energy never rises by more than 0.5 %. Four times the default's may be refused "
-            "instead, with the reason.",
+    .rule =
+        "What a collapsing column has fallen at 0.25 s differs from the shortest step's by at most 1 % for each "
+        "default step in the time step; energy never rises by more than 0.5 %. Four times the default's may be refused "
+        "instead, with the reason.",
     .plan = plan_steps,
     .judge = judge_steps,
 };

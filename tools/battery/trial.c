@@ -56,15 +56,12 @@ sb_status sb_trial_scene(const sb_trial *trial, const char *assets, sb_scene *sc
     for (size_t i = 0; i < trial->setting_count; i++) {
         memcpy(texts[i], trial->settings[i], sizeof texts[i]);
         char *equals = strchr(texts[i], '=');
-        if (!equals)
-            return sb_fail(error, SB_BAD_INPUT, "%s: %s is no KEY=VALUE", trial->name, texts[i]);
+        if (!equals) return sb_fail(error, SB_BAD_INPUT, "%s: %s is no KEY=VALUE", trial->name, texts[i]);
         *equals = '\0';
         overrides[i] = (sb_override){.key = texts[i], .value = equals + 1};
     }
     sb_status status = sb_path_join(path, assets, trial->scene, error);
-    return status == SB_OK
-               ? sb_scene_read(path, NULL, overrides, trial->setting_count, scene, error)
-               : status;
+    return status == SB_OK ? sb_scene_read(path, NULL, overrides, trial->setting_count, scene, error) : status;
 }
 
 double sb_trial_default(const char *key)

@@ -23,7 +23,7 @@ enum {
 typedef struct sb_trial {
     char name[SB_TRIAL_NAME]; /* unlike all others of its case, stable; also a folder's name */
     sb_trial_kind kind;
-    const char *scene; /* relative to assets/stress */
+    const char *scene;                               /* relative to assets/stress */
     char settings[SB_TRIAL_SETTINGS][SB_TRIAL_TEXT]; /* KEY=VALUE */
     size_t setting_count;
     const sb_drive *drive; /* of a driven trial */
@@ -38,8 +38,8 @@ typedef struct sb_trials {
     size_t count, capacity;
     sb_trial *list;
     const char *assets; /* assets/stress, for plans that read a scene; NULL: none are there */
-    sb_trial spare; /* what is filled when memory is out */
-    bool incomplete; /* memory was out */
+    sb_trial spare;     /* what is filled when memory is out */
+    bool incomplete;    /* memory was out */
 } sb_trials;
 
 /* A new trial of this scene with the defaults above, to be filled in before the next is added. Never NULL. */

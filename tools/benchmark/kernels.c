@@ -112,8 +112,7 @@ static sb_status add_pass(sb_bench_rows *rows, const char *name, size_t n, doubl
 }
 
 /* Neighbour search and sort are judged together. */
-static sb_bench_samples sum_of(const times *t, const sb_stage_time *stages, size_t count, const char *a,
-                               const char *b)
+static sb_bench_samples sum_of(const times *t, const sb_stage_time *stages, size_t count, const char *a, const char *b)
 {
     sb_bench_samples sum = {.count = 0};
     for (int r = 0; r < t->step.count; r++) {

@@ -26,9 +26,9 @@ static sb_status all_in(const sb_bench_request *request, sb_bench_rows *rows, sb
     const double particles = sb_json_number_in(summary, "fluid_particles");
     const double peak = sb_json_number_in(summary, "peak_memory_bytes");
     sb_free(summary);
-    return sb_bench_add_value(
-        rows, request->quick ? "plant but coarser by the program" : "plant at 4 m by the program", (size_t)particles,
-        request->threads, "peak memory", "B/particle", peak / particles, error);
+    return sb_bench_add_value(rows, request->quick ? "plant but coarser by the program" : "plant at 4 m by the program",
+                              (size_t)particles, request->threads, "peak memory", "B/particle", peak / particles,
+                              error);
 }
 
 /* ---- array by array ---- */
@@ -48,8 +48,8 @@ static sb_status add_arrays(const char *name, const sb_bench_subject *subject, s
     } arrays[] = {
         {"pair lists in use", (double)(sizeof *sim->pairs.four * sim->pairs.used)},
         {"pair lists in reserve", (double)(sizeof *sim->pairs.four * (sim->pairs.capacity - sim->pairs.used))},
-        {"groups", (double)(sizeof *sim->groups.group * sim->groups.capacity +
-                            sizeof *sim->groups.run * sim->groups.room)},
+        {"groups",
+         (double)(sizeof *sim->groups.group * sim->groups.capacity + sizeof *sim->groups.run * sim->groups.room)},
         {"wall pair lists", 8 * (double)sim->wall_pairs.capacity},
         {"fields of particles", (double)sim->bytes_fixed},
         {"cells", (double)sb_cells_bytes(&sim->cells)},
@@ -63,8 +63,8 @@ static sb_status add_arrays(const char *name, const sb_bench_subject *subject, s
     for (size_t a = 0; a < sizeof arrays / sizeof arrays[0] && status == SB_OK; a++)
         status = sb_bench_add_value(rows, name, sim->n, 1, arrays[a].name, "B/particle", arrays[a].bytes / n, error);
     if (status == SB_OK)
-        status =
-            sb_bench_add_value(rows, name, sim->n, 1, "pairs per particle", "1", 4 * (double)sim->pairs.used / n, error);
+        status = sb_bench_add_value(rows, name, sim->n, 1, "pairs per particle", "1", 4 * (double)sim->pairs.used / n,
+                                    error);
     return status;
 }
 
@@ -85,8 +85,7 @@ static sb_status arrays(const void *context, sb_bench_rows *rows, sb_error *erro
 
 /* ---- dry land ---- */
 
-static sb_status make_shore(const sb_bench_request *request, bool long_land, sb_bench_subject *subject,
-                            sb_error *error)
+static sb_status make_shore(const sb_bench_request *request, bool long_land, sb_bench_subject *subject, sb_error *error)
 {
     char path[SB_PATH_MAX];
     const sb_override overrides[] = {{"resolution", request->quick ? "0.2" : "0.06"},
@@ -97,8 +96,7 @@ static sb_status make_shore(const sb_bench_request *request, bool long_land, sb_
                                      {"bodies.land.max", "[44, 4, 1.5]"}};
     const size_t all = sizeof overrides / sizeof overrides[0];
     sb_status status = sb_path_join(path, request->assets, "benchmark/shore.yaml", error);
-    if (status == SB_OK)
-        status = sb_bench_subject_make(path, overrides, long_land ? all : all - 2, 1, subject, error);
+    if (status == SB_OK) status = sb_bench_subject_make(path, overrides, long_land ? all : all - 2, 1, subject, error);
     return status;
 }
 

@@ -50,8 +50,11 @@ sb_status sb_bench_parse(int count, char **arguments, sb_bench_options *o, sb_er
                                    {.name = "--repeats", .count = &o->repeats, .most = SB_BENCH_REPEATS_MAX},
                                    {.name = "--threads", .count = &o->threads, .most = 1024},
                                    {.name = "--out", .text = &o->out}};
-    const sb_command_line line = {.options = options, .option_count = sizeof options / sizeof *options,
-                                  .word = take_section, .user = o, .help = &o->help};
+    const sb_command_line line = {.options = options,
+                                  .option_count = sizeof options / sizeof *options,
+                                  .word = take_section,
+                                  .user = o,
+                                  .help = &o->help};
     sb_status status = sb_command_line_read(&line, count, arguments, error);
     if (status == SB_OK && o->count == 0) status = take_section(o, "all", error);
     if (o->repeats == 0) o->repeats = o->quick ? REPEATS_QUICK : REPEATS;

@@ -39,8 +39,7 @@ static const goal goals[] = {
 static const sb_bench_rows *rows_of(const sb_bench_tables *tables, const char *section)
 {
     for (size_t t = 0; t < tables->count; t++)
-        if (strcmp(tables->table[t].section->name, section) == 0 &&
-            !strstr(tables->table[t].origin, SB_BENCH_QUICKLY))
+        if (strcmp(tables->table[t].section->name, section) == 0 && !strstr(tables->table[t].origin, SB_BENCH_QUICKLY))
             return &tables->table[t].rows;
     return NULL;
 }

@@ -96,8 +96,7 @@ static void remove_plot_input(const char *folder)
     static const char *const names[] = {"scaling.gp", "scaling.dat"};
     char path[SB_PATH_MAX];
     for (size_t n = 0; n < sizeof names / sizeof *names; n++)
-        if (sb_path_join(path, folder, names[n], NULL) == SB_OK)
-            remove(path);
+        if (sb_path_join(path, folder, names[n], NULL) == SB_OK) remove(path);
 }
 
 static sb_status draw_scaling(const sb_bench_rows *rows, const char *folder, const char *picture, sb_error *error)

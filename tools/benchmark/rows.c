@@ -124,8 +124,7 @@ static sb_bench_row row_of(const sb_sheet *sheet, size_t r)
     return row;
 }
 
-sb_status sb_bench_read(sb_bench_rows *rows, char *origin, size_t size, bool *found, const char *path,
-                        sb_error *error)
+sb_status sb_bench_read(sb_bench_rows *rows, char *origin, size_t size, bool *found, const char *path, sb_error *error)
 {
     enum { COLUMNS = 9 };
     sb_sheet sheet = {0};

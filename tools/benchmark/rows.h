@@ -52,7 +52,6 @@ const sb_bench_row *sb_bench_find(const sb_bench_rows *rows, const char *subject
 sb_status sb_bench_write(const sb_bench_rows *rows, const char *origin, const char *path, sb_error *error);
 /* Reads it back. *found false, and no error, when there is no such file. origin: the lines behind '#', of at most
    `size` bytes. */
-sb_status sb_bench_read(sb_bench_rows *rows, char *origin, size_t size, bool *found, const char *path,
-                        sb_error *error);
+sb_status sb_bench_read(sb_bench_rows *rows, char *origin, size_t size, bool *found, const char *path, sb_error *error);
 
 #endif

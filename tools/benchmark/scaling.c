@@ -13,8 +13,7 @@ typedef struct context {
     size_t particles;
 } context;
 
-static sb_status with_threads(sb_bench_subject *subject, int threads, int repeats, sb_bench_rows *rows,
-                              sb_error *error)
+static sb_status with_threads(sb_bench_subject *subject, int threads, int repeats, sb_bench_rows *rows, sb_error *error)
 {
     sb_bench_samples samples = {.count = 0};
     sb_status status = SB_OK;

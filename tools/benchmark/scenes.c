@@ -90,8 +90,7 @@ static sb_status add_all(const char *name, const sb_bench_subject *subject, int 
         {"set-up", "s", subject->setup},
     };
     for (size_t v = 0; v < sizeof values / sizeof values[0] && status == SB_OK; v++)
-        status =
-            sb_bench_add_value(rows, name, n, threads, values[v].quantity, values[v].unit, values[v].value, error);
+        status = sb_bench_add_value(rows, name, n, threads, values[v].quantity, values[v].unit, values[v].value, error);
     return status;
 }
 

@@ -49,10 +49,9 @@ void sb_bench_subject_free(sb_bench_subject *subject)
 sb_status sb_bench_restore(sb_bench_subject *subject, sb_error *error)
 {
     sb_archive_in in = {.own = NULL};
-    sb_status status = sb_archive_parse(&in, "the saved state", subject->state.bytes, subject->state.used, KIND,
-                                        VERSION, error);
-    if (status == SB_OK)
-        status = sb_sim_load(subject->sim, &in, error);
+    sb_status status =
+        sb_archive_parse(&in, "the saved state", subject->state.bytes, subject->state.used, KIND, VERSION, error);
+    if (status == SB_OK) status = sb_sim_load(subject->sim, &in, error);
     sb_archive_in_free(&in);
     return status;
 }

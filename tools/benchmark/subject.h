@@ -12,9 +12,9 @@ typedef struct sb_bench_subject {
     sb_model model;
     sb_sim *sim;
     sb_archive_out state; /* the simulation saved, in memory */
-    double setup;    /* s: from the scene file to the first step */
-    size_t peak;     /* bytes: greatest resident size before the state was copied */
-    uint64_t result; /* hash after a repeat's steps; 0: none made yet */
+    double setup;         /* s: from the scene file to the first step */
+    size_t peak;          /* bytes: greatest resident size before the state was copied */
+    uint64_t result;      /* hash after a repeat's steps; 0: none made yet */
 } sb_bench_subject;
 
 /* Reads the scene with the overrides and makes its model and simulation, which points into *subject: that must stay

@@ -43,11 +43,9 @@ size_t sb_choice_count(void)
     return sizeof sb_choices / sizeof *sb_choices - 1;
 }
 
-void sb_choice_change(const sb_choice *choice, const sb_numerics *defaults,
-                      char change[SB_CHOICE_TEXT])
+void sb_choice_change(const sb_choice *choice, const sb_numerics *defaults, char change[SB_CHOICE_TEXT])
 {
     change[0] = '\0';
     for (const sb_sensitivity_key *key = sb_sensitivity_keys; choice->key && key->key; key++)
-        if (strcmp(key->key, choice->key) == 0)
-            sb_sensitivity_change(key, defaults, choice->factor, change);
+        if (strcmp(key->key, choice->key) == 0) sb_sensitivity_change(key, defaults, choice->factor, change);
 }

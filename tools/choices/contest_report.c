@@ -28,8 +28,7 @@ static void put_entry(FILE *out, const sb_contest *c, const sb_entry *e)
     if (isnan(e->time.mean)) return;
     fprintf(out, "| %s | %g |", name_of(e), e->plan.resolution);
     if (t->state == SB_RESULT_DONE)
-        fprintf(out, " %zu | %zu | %.1f |", t->run.view.particles, t->run.view.steps,
-                t->run.view.iterations);
+        fprintf(out, " %zu | %zu | %.1f |", t->run.view.particles, t->run.view.steps, t->run.view.iterations);
     else
         fputs(" – | – | – |", out);
     put_spread(out, &e->time, e->seeds > 1);
@@ -102,8 +101,7 @@ static sb_status plot_front(const sb_contest *c, sb_plot *plot, sb_error *error)
     if (front) qsort(front, count, sizeof *front, by_time);
     for (size_t i = 0; status == SB_OK && i < count; i++)
         status = sb_curve_add(&curve, front[i]->time.mean, front[i]->errors[0].mean, error);
-    if (status == SB_OK && count)
-        status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "Pareto front", &curve, error);
+    if (status == SB_OK && count) status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "Pareto front", &curve, error);
     sb_curve_free(&curve);
     sb_free(front);
     return status;
@@ -111,8 +109,7 @@ static sb_status plot_front(const sb_contest *c, sb_plot *plot, sb_error *error)
 
 /* All spacings of a choice are marks of one kind. What has not run has a mark nowhere, so that a choice
    has the same colour in every panel. */
-static sb_status plot_choice(const sb_contest *c, const sb_choice *choice, sb_plot *plot,
-                             sb_error *error)
+static sb_status plot_choice(const sb_contest *c, const sb_choice *choice, sb_plot *plot, sb_error *error)
 {
     sb_curve curve = {0};
     sb_status status = SB_OK;
@@ -121,8 +118,7 @@ static sb_status plot_choice(const sb_contest *c, const sb_choice *choice, sb_pl
         if (c->entries[i].choice == choice)
             status = sb_curve_add(&curve, c->entries[i].time.mean, y > 0 ? y : (double)NAN, error);
     }
-    if (status == SB_OK && curve.count)
-        status = sb_plot_curve(plot, SB_PLOT_MARKS, choice->name, &curve, error);
+    if (status == SB_OK && curve.count) status = sb_plot_curve(plot, SB_PLOT_MARKS, choice->name, &curve, error);
     sb_curve_free(&curve);
     return status;
 }
@@ -139,8 +135,8 @@ static sb_status plot_contest(const sb_contest *c, bool cpu, sb_plot *plot, sb_e
     char label[96];
     const sb_error_measure *m = &c->subject->errors[0];
     snprintf(label, sizeof label, "error of %.60s (%s)", m->name, m->unit);
-    sb_status status = sb_plot_panel(plot, c->subject->title,
-                                     cpu ? "processor time (s)" : "run time (s)", label, error);
+    sb_status status =
+        sb_plot_panel(plot, c->subject->title, cpu ? "processor time (s)" : "run time (s)", label, error);
     if (status == SB_OK) sb_plot_logarithmic(plot);
     if (status == SB_OK) status = plot_front(c, plot, error);
     for (const sb_choice *choice = sb_choices; status == SB_OK && choice->name; choice++)
@@ -159,8 +155,7 @@ static sb_status draw(const sb_contest_report *r, const char *folder, sb_error *
         status = sb_fail(error, SB_FAILED, "%.400s: no such folder", folder);
     if (status == SB_OK) status = sb_path_join(picture, real, "tradeoff.png", error);
     for (size_t i = 0; status == SB_OK && i < r->count; i++)
-        if (has_marks(&r->contests[i]))
-            status = plot_contest(&r->contests[i], r->cpu, plot, error);
+        if (has_marks(&r->contests[i])) status = plot_contest(&r->contests[i], r->cpu, plot, error);
     if (status == SB_OK) status = sb_plot_draw(plot, plots, "tradeoff", picture, error);
     sb_plot_destroy(plot);
     return status;
@@ -180,12 +175,10 @@ static void put_csv(FILE *out, const sb_contest_report *r)
                     const sb_finished *run = &c->trials[t].run;
                     if (c->trials[t].state != SB_RESULT_DONE) continue;
                     fprintf(out, "%s,\"%s\",%g,%d,%zu,%zu,%.3f,%.3f,%.3f,%.2f,%s,%s,%.5g,%.5g,%.5g,%s,%s\n",
-                            c->subject->name, name_of(e), e->plan.resolution,
-                            c->trials[t].request.seed, run->view.particles, run->view.steps,
-                            run->view.iterations, run->view.wall, run->cpu, run->load,
-                            c->subject->errors[k].name, c->subject->errors[k].unit,
-                            e->errors[k].mean, e->errors[k].low, e->errors[k].high,
-                            e->front ? "yes" : "no", run->commit);
+                            c->subject->name, name_of(e), e->plan.resolution, c->trials[t].request.seed,
+                            run->view.particles, run->view.steps, run->view.iterations, run->view.wall, run->cpu,
+                            run->load, c->subject->errors[k].name, c->subject->errors[k].unit, e->errors[k].mean,
+                            e->errors[k].low, e->errors[k].high, e->front ? "yes" : "no", run->commit);
                 }
     }
 }

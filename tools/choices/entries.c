@@ -8,8 +8,7 @@
 #include <stdio.h>
 
 /* What `default` gives for this scene: a choice changes one of those by a factor. */
-static sb_status read_defaults(const sb_subject *subject, const sb_store *store,
-                               sb_numerics *defaults, sb_error *error)
+static sb_status read_defaults(const sb_subject *subject, const sb_store *store, sb_numerics *defaults, sb_error *error)
 {
     char path[SB_PATH_MAX];
     sb_scene scene = {0};
@@ -41,17 +40,14 @@ static void add(sb_contest *c, const sb_choice *choice, double spacing, bool qui
     e->plan = (sb_plan){.resolution = spacing, .settings = e->settings};
     for (int seed = 1; seed <= seeds; seed++) {
         sb_request *request = &c->trials[c->trial_count++].request;
-        *request = (sb_request){.of = c->subject->of,
-                                .plan = &e->plan,
-                                .paper = choice && choice->paper,
-                                .quick = quick,
-                                .seed = seed};
+        *request = (sb_request){
+            .of = c->subject->of, .plan = &e->plan, .paper = choice && choice->paper, .quick = quick, .seed = seed};
         snprintf(request->change, sizeof request->change, "%s", e->change);
     }
 }
 
-sb_status sb_contest_begin(sb_contest *c, const sb_subject *subject, const sb_store *store,
-                           bool quick, int seeds, sb_error *error)
+sb_status sb_contest_begin(sb_contest *c, const sb_subject *subject, const sb_store *store, bool quick, int seeds,
+                           sb_error *error)
 {
     const double *spacings = quick ? subject->quick : subject->full;
     double reference = quick ? subject->quick_reference : subject->full_reference;
@@ -85,8 +81,7 @@ static void include(sb_spread *spread, double value, double *known)
 
 static const sb_spread nothing = {(double)NAN, (double)NAN, (double)NAN};
 
-static void judge_entry(const sb_contest *c, sb_entry *e, bool cpu,
-                        const sb_figures *const *references, size_t count)
+static void judge_entry(const sb_contest *c, sb_entry *e, bool cpu, const sb_figures *const *references, size_t count)
 {
     double known = 0;
     e->time = nothing;
@@ -99,9 +94,7 @@ static void judge_entry(const sb_contest *c, sb_entry *e, bool cpu,
         for (size_t i = e->first; i < e->first + e->seeds; i++)
             if (c->trials[i].state == SB_RESULT_DONE)
                 include(&e->errors[k],
-                        sb_subject_error(&c->subject->errors[k], &c->trials[i].figures, references,
-                                         count),
-                        &known);
+                        sb_subject_error(&c->subject->errors[k], &c->trials[i].figures, references, count), &known);
     }
 }
 

@@ -19,8 +19,8 @@ typedef struct sb_entry {
     sb_plan plan;
     const char *settings[SB_ENTRY_SETTINGS];
     char change[SB_CHOICE_TEXT]; /* the setting that labels its runs; "": none */
-    size_t first, seeds; /* its trials */
-    sb_spread time;      /* s: run time, or processor time when runs shared the machine */
+    size_t first, seeds;         /* its trials */
+    sb_spread time;              /* s: run time, or processor time when runs shared the machine */
     sb_spread errors[SB_SUBJECT_ERRORS];
     bool front; /* of time and the first error */
 } sb_entry;
@@ -33,8 +33,8 @@ typedef struct sb_contest {
 } sb_contest;
 
 /* The runs that are wanted; nothing is run. SB_BAD_INPUT: the scene cannot be read. */
-sb_status sb_contest_begin(sb_contest *contest, const sb_subject *subject, const sb_store *store,
-                           bool quick, int seeds, sb_error *error);
+sb_status sb_contest_begin(sb_contest *contest, const sb_subject *subject, const sb_store *store, bool quick, int seeds,
+                           sb_error *error);
 /* From read trials: times (of the processor with cpu), errors, front. */
 sb_status sb_contest_judge(sb_contest *contest, bool cpu, sb_error *error);
 void sb_contest_free(sb_contest *contest);

@@ -58,8 +58,13 @@ static sb_status parse(int count, char **arguments, options *o, sb_error *error)
                                  {.name = "--out", .text = &o->out},
                                  {.name = "--report", .text = &o->report},
                                  {.name = "--shorebreak", .text = &o->program}};
-    const sb_command_line line = {.options = table, .option_count = sizeof table / sizeof *table, .word = take_subject,
-                                  .user = o, .help = &o->help, .command = o->command, .command_size = sizeof o->command};
+    const sb_command_line line = {.options = table,
+                                  .option_count = sizeof table / sizeof *table,
+                                  .word = take_subject,
+                                  .user = o,
+                                  .help = &o->help,
+                                  .command = o->command,
+                                  .command_size = sizeof o->command};
     sb_status status = sb_command_line_read(&line, count, arguments, error);
     if (!o->seeds) o->seeds = o->quick ? 1 : 3;
     if (!o->jobs) o->jobs = o->quick ? (int)sysconf(_SC_NPROCESSORS_ONLN) : 1;
@@ -76,8 +81,7 @@ static void list(void)
     for (const sb_choice *c = sb_choices; c->name; c++) printf("%c %s\n", c->quick ? '*' : ' ', c->name);
 }
 
-static sb_status report(const options *o, const sb_store *store, const sb_contest *contests,
-                        sb_error *error)
+static sb_status report(const options *o, const sb_store *store, const sb_contest *contests, sb_error *error)
 {
     char folder[SB_PATH_MAX];
     const sb_contest_report what = {.store = store,
@@ -97,14 +101,14 @@ static sb_status report(const options *o, const sb_store *store, const sb_contes
 static sb_status run(const options *o, sb_contest *contests, size_t *failed, sb_error *error)
 {
     sb_store store;
-    sb_status status = sb_trials_store(&store, o->out ? o->out : SB_SOURCE_DIR "/build/tradeoff",
-                                       o->program, SB_SOURCE_DIR, error);
+    sb_status status =
+        sb_trials_store(&store, o->out ? o->out : SB_SOURCE_DIR "/build/tradeoff", o->program, SB_SOURCE_DIR, error);
     for (size_t i = 0; status == SB_OK && i < o->subject_count; i++)
         status = sb_contest_begin(&contests[i], o->subjects[i], &store, o->quick, o->seeds, error);
     for (size_t i = 0; status == SB_OK && i < o->subject_count; i++) {
         size_t these = 0;
-        status = sb_trials_make(&store, contests[i].trials, contests[i].trial_count, o->jobs,
-                                o->report_only, &these, error);
+        status =
+            sb_trials_make(&store, contests[i].trials, contests[i].trial_count, o->jobs, o->report_only, &these, error);
         *failed += these;
         if (status == SB_OK) status = sb_contest_judge(&contests[i], o->jobs > 1, error);
     }

@@ -12,7 +12,6 @@ void sb_pareto_front(const double *time, const double *error, size_t count, bool
     for (size_t i = 0; i < count; i++) {
         front[i] = !isnan(time[i]) && !isnan(error[i]);
         /* A comparison with NaN is false: such points beat nobody. */
-        for (size_t k = 0; front[i] && k < count; k++)
-            front[i] = !beats(time[k], error[k], time[i], error[i]);
+        for (size_t k = 0; front[i] && k < count; k++) front[i] = !beats(time[k], error[k], time[i], error[i]);
     }
 }

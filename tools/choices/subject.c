@@ -9,10 +9,9 @@
 #include <string.h>
 
 /* Both rows of great buildings: those that the wave meets first, and what they shelter. */
-static const char *const buildings[] = {"turbine-1", "turbine-2", "turbine-3", "turbine-4",
-                                        "turbine-5", "turbine-6", "reactor-1", "reactor-2",
-                                        "reactor-3", "reactor-4", "reactor-5", "reactor-6",
-                                        NULL};
+static const char *const buildings[] = {"turbine-1", "turbine-2", "turbine-3", "turbine-4", "turbine-5",
+                                        "turbine-6", "reactor-1", "reactor-2", "reactor-3", "reactor-4",
+                                        "reactor-5", "reactor-6", NULL};
 
 static const sb_case plant = {.name = "plant",
                               .title = "A 25 m wave at a coastal plant",
@@ -62,23 +61,22 @@ static double value_of(const sb_figures *figures, const char *pattern, const cha
     return f ? f->value : (double)NAN;
 }
 
-static double against(const sb_error_measure *m, const sb_figures *figures,
-                      const sb_figures *const *references, size_t count)
+static double against(const sb_error_measure *m, const sb_figures *figures, const sb_figures *const *references,
+                      size_t count)
 {
     static const char *const one[] = {"", NULL};
     double differences = 0, sum = 0;
     for (const char *const *body = m->bodies ? m->bodies : one; *body; body++) {
         double reference = 0;
-        for (size_t i = 0; i < count; i++)
-            reference += value_of(references[i], m->quantity, *body) / (double)count;
+        for (size_t i = 0; i < count; i++) reference += value_of(references[i], m->quantity, *body) / (double)count;
         differences += fabs(value_of(figures, m->quantity, *body) - reference);
         sum += fabs(reference);
     }
     return 100 * differences / sum;
 }
 
-double sb_subject_error(const sb_error_measure *measure, const sb_figures *figures,
-                        const sb_figures *const *references, size_t reference_count)
+double sb_subject_error(const sb_error_measure *measure, const sb_figures *figures, const sb_figures *const *references,
+                        size_t reference_count)
 {
     if (reference_count) return against(measure, figures, references, reference_count);
     const sb_figure *f = sb_figures_find(figures, measure->quantity);

@@ -16,7 +16,7 @@
 enum { LARGEST = 1 << 28 };
 
 typedef struct pair {
-    const char *name;      /* within the runs */
+    const char *name; /* within the runs */
     char path[2][SB_PATH_MAX];
     char *text[2];
     size_t length[2];
@@ -37,8 +37,7 @@ static sb_status differs(const pair *p, const char *how, sb_error *error)
 
 static sb_status compare_bytes(const pair *p, sb_error *error)
 {
-    if (p->length[0] == p->length[1] && memcmp(p->text[0], p->text[1], p->length[0]) == 0)
-        return SB_OK;
+    if (p->length[0] == p->length[1] && memcmp(p->text[0], p->text[1], p->length[0]) == 0) return SB_OK;
     return differs(p, "differ", error);
 }
 
@@ -57,10 +56,8 @@ static sb_status compare_particles(const pair *p, sb_error *error)
 {
     sb_frame *frame[2] = {NULL, NULL};
     sb_status status = SB_OK;
-    for (int k = 0; k < 2 && status == SB_OK; k++)
-        status = sb_vtp_read(p->path[k], &frame[k], error);
-    if (status == SB_OK && !same_frames(frame[0], frame[1]))
-        status = differs(p, "the particles differ", error);
+    for (int k = 0; k < 2 && status == SB_OK; k++) status = sb_vtp_read(p->path[k], &frame[k], error);
+    if (status == SB_OK && !same_frames(frame[0], frame[1])) status = differs(p, "the particles differ", error);
     sb_frame_release(frame[0]);
     sb_frame_release(frame[1]);
     return status;
@@ -77,8 +74,7 @@ static const char *next_fact(const char *at)
             const char *found = strstr(at, taken_out[t]);
             out |= found && found < at + length;
         }
-        if (out)
-            at += length + (at[length] == '\n');
+        if (out) at += length + (at[length] == '\n');
     }
     return *at ? at : NULL;
 }
@@ -87,8 +83,7 @@ static sb_status compare_summaries(const pair *p, sb_error *error)
 {
     for (int k = 0; k < 2; k++) { /* the table of stages is the last and all times */
         char *stages = strstr(p->text[k], "\"stages\"");
-        if (stages)
-            *stages = '\0';
+        if (stages) *stages = '\0';
     }
     const char *a = next_fact(p->text[0]), *b = next_fact(p->text[1]);
     while (a && b) {
@@ -96,8 +91,7 @@ static sb_status compare_summaries(const pair *p, sb_error *error)
         char how[200];
         snprintf(how, sizeof how, "\"%.*s\" and \"%.*s\"", (int)(length < 80 ? length : 80), a,
                  (int)(strcspn(b, "\n") < 80 ? strcspn(b, "\n") : 80), b);
-        if (length != strcspn(b, "\n") || memcmp(a, b, length) != 0)
-            return differs(p, how, error);
+        if (length != strcspn(b, "\n") || memcmp(a, b, length) != 0) return differs(p, how, error);
         a = next_fact(a + length + (a[length] == '\n'));
         b = next_fact(b + length + (b[length] == '\n'));
     }
@@ -112,8 +106,7 @@ static const char *next_hash(const char **at, unsigned long long *step)
         const char *end = line + strcspn(line, "\n");
         const char *count = strstr(line + sizeof event - 1, number), *found = strstr(line, hash);
         *at = end;
-        if (!count || !found || count > end || found > end)
-            continue;
+        if (!count || !found || count > end || found > end) continue;
         *step = strtoull(count + sizeof number - 1, NULL, 10);
         return found + sizeof hash - 1;
     }
@@ -128,10 +121,8 @@ static sb_status compare_logs(const pair *p, sb_error *error)
     const char *hash, *there, *at = p->text[1];
     while ((hash = next_hash(&at, &step))) {
         const char *from = p->text[0];
-        while ((there = next_hash(&from, &other)) && other != step)
-            continue;
-        if (there && strncmp(hash, there, 16) != 0)
-            return differs(p, "their states at one step differ", error);
+        while ((there = next_hash(&from, &other)) && other != step) continue;
+        if (there && strncmp(hash, there, 16) != 0) return differs(p, "their states at one step differ", error);
         common += there != NULL;
     }
     return common > 0 ? SB_OK : differs(p, "no step in common", error);
@@ -142,8 +133,7 @@ static sb_status compare_logs(const pair *p, sb_error *error)
 static sb_status compare_file(pair *p, sb_error *error)
 {
     sb_status status = SB_OK;
-    if (ends_with(p->name, ".vtp"))
-        return compare_particles(p, error);
+    if (ends_with(p->name, ".vtp")) return compare_particles(p, error);
     for (int k = 0; k < 2 && status == SB_OK; k++)
         status = sb_file_read(p->path[k], LARGEST, &p->text[k], &p->length[k], error);
     if (status == SB_OK)
@@ -171,13 +161,11 @@ static sb_status compare_entry(const char *const root[2], const char *folder, co
     snprintf(name, sizeof name, "%.2000s%s%.2000s", folder, *folder ? "/" : "", entry);
     for (int k = 0; k < 2; k++) {
         sb_status status = sb_path_join(p.path[k], root[k], name, error);
-        if (status != SB_OK)
-            return status;
+        if (status != SB_OK) return status;
     }
     if (stat(p.path[0], &found) != 0)
         return sb_fail(error, SB_FAILED, "%.500s: cannot read: %s", p.path[0], strerror(errno));
-    if (S_ISDIR(found.st_mode))
-        return compare_folder(root, name, files, error);
+    if (S_ISDIR(found.st_mode)) return compare_folder(root, name, files, error);
     ++*files;
     return compare_file(&p, error);
 }
@@ -186,17 +174,14 @@ static sb_status compare_entry(const char *const root[2], const char *folder, co
 static int list(const char *root, const char *name, struct dirent ***entries)
 {
     char path[SB_PATH_MAX];
-    if (sb_path_join(path, root, *name ? name : ".", NULL) != SB_OK)
-        return -1;
+    if (sb_path_join(path, root, *name ? name : ".", NULL) != SB_OK) return -1;
     return scandir(path, entries, visible, alphasort);
 }
 
 static void free_list(struct dirent **entries, int count)
 {
-    for (int i = 0; i < count; i++)
-        free(entries[i]);
-    if (count >= 0)
-        free(entries);
+    for (int i = 0; i < count; i++) free(entries[i]);
+    if (count >= 0) free(entries);
 }
 
 /* How many of two lists are compared from their ends: of checkpoints one. */
@@ -206,10 +191,8 @@ static bool same_names(struct dirent **const entries[2], const int count[2], boo
         const char *a = i < count[0] ? entries[0][count[0] - 1 - i]->d_name : "";
         const char *b = i < count[1] ? entries[1][count[1] - 1 - i]->d_name : "";
         *odd = *a ? a : b;
-        if (strcmp(a, b) != 0)
-            return false;
-        if (checkpoints)
-            return true;
+        if (strcmp(a, b) != 0) return false;
+        if (checkpoints) return true;
     }
     return true;
 }
@@ -224,8 +207,8 @@ static sb_status compare_folder(const char *const root[2], const char *name, siz
     if (count[0] < 0 || count[1] < 0)
         status = sb_fail(error, SB_FAILED, "%.300s/%.300s: cannot read", root[count[0] < 0 ? 0 : 1], name);
     else if (!same_names(entries, count, checkpoints, &odd))
-        status = sb_fail(error, SB_FAILED, "%.300s and %.300s: \"%.200s\" in \"%.200s\" is in one only", root[0], root[1],
-                         odd, name);
+        status = sb_fail(error, SB_FAILED, "%.300s and %.300s: \"%.200s\" in \"%.200s\" is in one only", root[0],
+                         root[1], odd, name);
     for (int i = 0; status == SB_OK && !checkpoints && i < count[0]; i++)
         status = compare_entry(root, name, entries[0][i]->d_name, files, error);
     free_list(entries[0], count[0]);

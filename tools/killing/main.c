@@ -41,8 +41,7 @@ static sb_status forget_checkpoints(const char *out, sb_error *error)
 static sb_status run_whole(test *t, const sb_kill_run *run, sb_error *error)
 {
     double *seconds = &t->seconds[run->pictures];
-    if (*seconds > 0)
-        return SB_OK;
+    if (*seconds > 0) return SB_OK;
     sb_status status = forget_checkpoints(run->out, error);
     return status == SB_OK ? sb_kill_none(run, seconds, error) : status;
 }
@@ -53,15 +52,11 @@ static sb_status one_round(test *t, sb_kill_moments *moments, sb_error *error)
     const bool pictures = t->options.pictures && t->rounds % WITH_PICTURES == WITH_PICTURES - 1;
     sb_kill_run run;
     sb_status status = name_run(t, "whole", pictures, whole, &run, error);
-    if (status == SB_OK)
-        status = run_whole(t, &run, error);
-    if (status == SB_OK)
-        status = name_run(t, "killed", pictures, killed, &run, error);
-    if (status == SB_OK)
-        status = forget_checkpoints(killed, error);
+    if (status == SB_OK) status = run_whole(t, &run, error);
+    if (status == SB_OK) status = name_run(t, "killed", pictures, killed, &run, error);
+    if (status == SB_OK) status = forget_checkpoints(killed, error);
     moments->longest = LONGEST * t->seconds[pictures];
-    if (status == SB_OK)
-        status = sb_kill_some(&run, moments, t->options.kills - t->kills, &t->kills, error);
+    if (status == SB_OK) status = sb_kill_some(&run, moments, t->options.kills - t->kills, &t->kills, error);
     t->rounds++;
     return status == SB_OK ? sb_kill_compare(whole, killed, &t->files, error) : status;
 }
@@ -76,17 +71,14 @@ int main(int count, char **arguments)
         return 0;
     }
     sb_kill_moments moments = {.seed = t.options.seed};
-    if (status == SB_OK)
-        status = sb_process_beside("shorebreak", t.program, &error);
-    if (status == SB_OK)
-        status = sb_make_directories(t.options.out, &error);
-    while (status == SB_OK && t.kills < t.options.kills)
-        status = one_round(&t, &moments, &error);
+    if (status == SB_OK) status = sb_process_beside("shorebreak", t.program, &error);
+    if (status == SB_OK) status = sb_make_directories(t.options.out, &error);
+    while (status == SB_OK && t.kills < t.options.kills) status = one_round(&t, &moments, &error);
     if (status != SB_OK) {
         fprintf(stderr, "kill-test: after %d kills in %d runs: %s\n", t.kills, t.rounds, error.text);
         return (int)status;
     }
-    printf("%d kills in %d runs, each resumed: states and %zu files equal those of undisturbed runs\n", t.kills, t.rounds,
-           t.files);
+    printf("%d kills in %d runs, each resumed: states and %zu files equal those of undisturbed runs\n", t.kills,
+           t.rounds, t.files);
     return 0;
 }

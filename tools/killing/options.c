@@ -42,8 +42,11 @@ sb_status sb_kill_options_parse(int count, char **arguments, sb_kill_options *op
                                  {.name = "--seed", .take = take_seed},
                                  {.name = "--out", .text = &options->out},
                                  {.name = "--no-pictures", .flag = &plain}};
-    const sb_command_line line = {.options = table, .option_count = sizeof table / sizeof *table, .word = take_scene,
-                                  .user = options, .help = &options->help};
+    const sb_command_line line = {.options = table,
+                                  .option_count = sizeof table / sizeof *table,
+                                  .word = take_scene,
+                                  .user = options,
+                                  .help = &options->help};
     sb_status status = sb_command_line_read(&line, count, arguments, error);
     options->pictures = !plain;
     return status;

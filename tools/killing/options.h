@@ -11,8 +11,8 @@ typedef struct sb_kill_options {
     const char *scene; /* a scene file */
     const char *out;   /* the runs go into folders of this one */
     int kills;
-    uint64_t seed;     /* of the moments */
-    bool pictures;     /* in every fourth round */
+    uint64_t seed; /* of the moments */
+    bool pictures; /* in every fourth round */
     bool help;
 } sb_kill_options;
 

@@ -18,8 +18,11 @@ static void said_path(const sb_kill_run *run, char path[SB_PATH_MAX])
 
 static sb_status start(const sb_kill_run *run, pid_t *process, sb_error *error)
 {
-    const char *const arguments[] = {"shorebreak", "run", run->scene, "--out", run->out, "--quiet", "--resume", "--set",
-                                     run->pictures ? "render.interval=0.2" : "render.interval=0", NULL};
+    const char *const arguments[] = {
+        "shorebreak", "run",    run->scene,
+        "--out",      run->out, "--quiet",
+        "--resume",   "--set",  run->pictures ? "render.interval=0.2" : "render.interval=0",
+        NULL};
     char said[SB_PATH_MAX];
     said_path(run, said);
     return sb_process_start(run->program, arguments, said, SIGKILL, process, error);
@@ -40,8 +43,7 @@ static sb_status watch(const sb_kill_run *run, double patience, bool *killed, sb
     pid_t process;
     int how = 0;
     sb_status status = start(run, &process, error);
-    if (status != SB_OK)
-        return status;
+    if (status != SB_OK) return status;
     const double deadline = sb_clock() + patience;
     while (sb_clock() < deadline) {
         if (waitpid(process, &how, WNOHANG) == process) {

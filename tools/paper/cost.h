@@ -8,11 +8,11 @@
 typedef struct sb_cost {
     double fluid, boundary, threads, steps, simulated, sweeps; /* sweeps: mean per step */
     double calls;                                              /* steps, settling included */
-    double total;     /* T: from reading the scene to the last file */
-    double structure; /* T_c: sort and ghosts */
-    double query;     /* T_q: neighbours, and with them density, B and A_ii */
-    double advection; /* T_a: all other stages */
-    double pressure;  /* T_p: the solve */
+    double total;                                              /* T: from reading the scene to the last file */
+    double structure;                                          /* T_c: sort and ghosts */
+    double query;                                              /* T_q: neighbours, and with them density, B and A_ii */
+    double advection;                                          /* T_a: all other stages */
+    double pressure;                                           /* T_p: the solve */
 } sb_cost;
 
 /* From the text of a run's summary.json. SB_BAD_INPUT when it has no stages. */

@@ -42,8 +42,7 @@ static sb_status parse(int count, char **arguments, options *o, sb_error *error)
                                  {.name = "--shorebreak", .text = &o->program}};
     const sb_command_line line = {.options = table, .option_count = sizeof table / sizeof *table, .help = &o->help};
     sb_status status = sb_command_line_read(&line, count, arguments, error);
-    snprintf(o->command, sizeof o->command, "tools/paper-studies%s --jobs %d",
-             o->quick ? " --quick" : "", o->jobs);
+    snprintf(o->command, sizeof o->command, "tools/paper-studies%s --jobs %d", o->quick ? " --quick" : "", o->jobs);
     return status;
 }
 
@@ -51,16 +50,14 @@ static sb_status run(const options *o, sb_paper_studies *studies, size_t *failed
 {
     sb_store store;
     char folder[SB_PATH_MAX];
-    sb_status status = sb_trials_store(&store, o->out ? o->out : SB_SOURCE_DIR "/build/paper-studies",
-                                       o->program, SB_SOURCE_DIR, error);
+    sb_status status = sb_trials_store(&store, o->out ? o->out : SB_SOURCE_DIR "/build/paper-studies", o->program,
+                                       SB_SOURCE_DIR, error);
     if (status != SB_OK) return status;
     sb_paper_begin(studies, &store, o->quick ? QUICK_SCALE : 1, o->command);
-    status = sb_trials_make(&store, studies->trials, studies->count, o->jobs, o->report_only, failed,
-                            error);
+    status = sb_trials_make(&store, studies->trials, studies->count, o->jobs, o->report_only, failed, error);
     if (status == SB_OK) status = sb_paper_costs(studies, error);
     snprintf(folder, sizeof folder, "%s", o->report ? o->report : SB_SOURCE_DIR "/docs/results");
-    if (status == SB_OK && o->quick && !o->report)
-        status = sb_path_join(folder, store.out, "quick", error);
+    if (status == SB_OK && o->quick && !o->report) status = sb_path_join(folder, store.out, "quick", error);
     if (status == SB_OK) status = sb_paper_write(studies, folder, error);
     if (status == SB_OK) printf("%s/paper-studies.md\n", folder);
     return status;

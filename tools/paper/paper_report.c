@@ -32,16 +32,18 @@ static line published_line(const sb_published *p, int set)
 {
     const sb_published *shared = sb_published_find(SB_PUBLISHED_DEFAULT);
     double step = or_shared(p->step, shared->step);
-    return (line){"paper", varied_of(p, set), p->fluid, p->boundary, p->step, p->sweeps, p->total,
-                  p->structure, p->query, p->advection, p->pressure, SB_PUBLISHED_SECONDS / step,
+    return (line){"paper",           varied_of(p, set), p->fluid,    p->boundary,
+                  p->step,           p->sweeps,         p->total,    p->structure,
+                  p->query,          p->advection,      p->pressure, SB_PUBLISHED_SECONDS / step,
                   SB_PUBLISHED_CORES};
 }
 
 static line our_line(const sb_paper_trial *row, const char *whose, double varied)
 {
     const sb_cost *c = &row->cost;
-    return (line){whose, varied, c->fluid, c->boundary, c->simulated / c->steps, c->sweeps, c->total,
-                  c->structure, c->query, c->advection, c->pressure, c->steps, c->threads};
+    return (line){whose,       varied,   c->fluid,     c->boundary, c->simulated / c->steps,
+                  c->sweeps,   c->total, c->structure, c->query,    c->advection,
+                  c->pressure, c->steps, c->threads};
 }
 
 static void put_number(FILE *out, double value)
@@ -68,9 +70,9 @@ static void put_line(FILE *out, const line *l)
     fprintf(out, " %s |", l->whose);
     put_count(out, l->fluid);
     put_count(out, l->boundary);
-    const double numbers[] = {l->step, l->sweeps, l->total, l->structure, l->query, l->advection,
-                              l->pressure, 100 * l->pressure / l->total, work, work * l->cores, sweep,
-                              sweep * l->cores};
+    const double numbers[] = {l->step,  l->sweeps,       l->total,    l->structure,
+                              l->query, l->advection,    l->pressure, 100 * l->pressure / l->total,
+                              work,     work * l->cores, sweep,       sweep * l->cores};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) put_number(out, numbers[i]);
     fputc('\n', out);
 }
@@ -102,12 +104,10 @@ static void put_extrapolated(FILE *out, const sb_paper_studies *s)
             "with the steps of the %g m run times\n%g and its %.1f sweeps the whole takes %.3g s, %.3g h "
             "(paper: 233317 s on %d cores). Set-up took %.3g s of the %.3g s.\n",
             few->spacing, few->cost.steps, few->spacing,
-            (few->cost.structure + few->cost.query + few->cost.advection + few->cost.pressure) /
-                few->cost.calls,
-            few->cost.sweeps, next->spacing, next->spacing / few->spacing, next->cost.sweeps, total,
-            total / 3600, SB_PUBLISHED_CORES,
-            few->cost.total - few->cost.structure - few->cost.query - few->cost.advection -
-                few->cost.pressure,
+            (few->cost.structure + few->cost.query + few->cost.advection + few->cost.pressure) / few->cost.calls,
+            few->cost.sweeps, next->spacing, next->spacing / few->spacing, next->cost.sweeps, total, total / 3600,
+            SB_PUBLISHED_CORES,
+            few->cost.total - few->cost.structure - few->cost.query - few->cost.advection - few->cost.pressure,
             few->cost.total);
 }
 
@@ -156,14 +156,16 @@ static const char reading[] =
 
 static void put_report(FILE *out, const sb_paper_studies *s)
 {
-    fprintf(out, "# The published studies on our plant%s\n\nMade by `tools/paper-studies`; docs/studies.md "
-                 "says how.\n\n",
+    fprintf(out,
+            "# The published studies on our plant%s\n\nMade by `tools/paper-studies`; docs/studies.md "
+            "says how.\n\n",
             s->scale > 1 ? ", quick form" : "");
     sb_trials_origin(out, s->store, s->trials, s->count, s->command);
     fputs(reading, out);
     if (s->scale != 1)
-        fprintf(out, "\n**Quick form**: all our spacings are %g times the published ones (Table 8: %g m "
-                     "stands beside 4 m).\nOnly figures per particle can be compared.\n",
+        fprintf(out,
+                "\n**Quick form**: all our spacings are %g times the published ones (Table 8: %g m "
+                "stands beside 4 m).\nOnly figures per particle can be compared.\n",
                 s->scale, 4 * s->scale);
     for (int set = 0; sb_published_sets[set].title; set++) put_set(out, s, set);
     fputc('\n', out);
@@ -179,11 +181,10 @@ static void put_csv(FILE *out, const sb_paper_studies *s)
         const sb_paper_trial *r = &s->rows[i];
         const sb_cost *c = &r->cost;
         if (s->trials[i].state != SB_RESULT_DONE) continue;
-        fprintf(out, "%d,%g,%s,%s,%.0f,%.0f,%.0f,%.0f,%.6g,%.4f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%s\n",
-                r->number, r->spacing, r->paper ? "paper" : "default", r->few ? "yes" : "no", c->fluid,
-                c->boundary, c->threads, c->steps, c->simulated, c->sweeps, c->total, c->structure,
-                c->query, c->advection, c->pressure, s->trials[i].run.cpu, s->trials[i].run.load,
-                s->trials[i].run.commit);
+        fprintf(out, "%d,%g,%s,%s,%.0f,%.0f,%.0f,%.0f,%.6g,%.4f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%s\n", r->number,
+                r->spacing, r->paper ? "paper" : "default", r->few ? "yes" : "no", c->fluid, c->boundary, c->threads,
+                c->steps, c->simulated, c->sweeps, c->total, c->structure, c->query, c->advection, c->pressure,
+                s->trials[i].run.cpu, s->trials[i].run.load, s->trials[i].run.commit);
     }
 }
 

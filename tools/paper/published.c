@@ -26,8 +26,8 @@ const sb_published sb_published_runs[] = {
 };
 /* clang-format on */
 
-static const int lambda[] = {1, 2, 3, 4, 0}, table[] = {5, 6, 2, 7, 0},
-                 tolerance[] = {8, 9, 2, 10, 11, 0}, spacing[] = {15, 2, 14, 13, 12, 0};
+static const int lambda[] = {1, 2, 3, 4, 0}, table[] = {5, 6, 2, 7, 0}, tolerance[] = {8, 9, 2, 10, 11, 0},
+                 spacing[] = {15, 2, 14, 13, 12, 0};
 
 const sb_published_set sb_published_sets[] = {
     [SB_SET_LAMBDA] = {"Time step: λ_max", "Tables 1 to 3", lambda},

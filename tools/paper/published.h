@@ -10,13 +10,13 @@ enum { SB_PUBLISHED_CORES = 20, SB_PUBLISHED_SECONDS = 90, SB_PUBLISHED_DEFAULT 
 
 /* NaN: not printed. Times in s. */
 typedef struct sb_published {
-    int number;             /* the paper's No.; 0 ends the list */
-    double spacing;         /* m */
-    double fluid, boundary; /* particles */
-    double tolerance;       /* xi, 1 for 100 % */
-    double table;           /* m, slots of its hash table */
-    double lambda;          /* lambda_max, 1/s */
-    double step, sweeps;    /* mean time step (s), mean iterations of the solver */
+    int number;                                          /* the paper's No.; 0 ends the list */
+    double spacing;                                      /* m */
+    double fluid, boundary;                              /* particles */
+    double tolerance;                                    /* xi, 1 for 100 % */
+    double table;                                        /* m, slots of its hash table */
+    double lambda;                                       /* lambda_max, 1/s */
+    double step, sweeps;                                 /* mean time step (s), mean iterations of the solver */
     double total, structure, query, advection, pressure; /* T, T_c, T_q, T_a, T_p */
 } sb_published;
 

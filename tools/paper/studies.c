@@ -19,10 +19,8 @@ static void add(sb_paper_studies *s, const sb_published *like, bool paper)
 {
     sb_paper_trial *row = &s->rows[s->count];
     size_t used = 0;
-    *row = (sb_paper_trial){.number = like->number,
-                            .paper = paper,
-                            .few = like->spacing < 2,
-                            .spacing = like->spacing * s->scale};
+    *row = (sb_paper_trial){
+        .number = like->number, .paper = paper, .few = like->spacing < 2, .spacing = like->spacing * s->scale};
     for (size_t i = 0; i < SB_TRIAL_SETTINGS; i++) row->settings[used++] = sb_trial_settings[i];
     if (paper) {
         snprintf(row->texts[0], SB_PAPER_TEXT, "numerics.time_step_factor=%.6g", like->lambda);
@@ -36,8 +34,7 @@ static void add(sb_paper_studies *s, const sb_published *like, bool paper)
         row->settings[used++] = row->texts[2];
     }
     row->plan = (sb_plan){.resolution = row->spacing, .settings = row->settings};
-    s->trials[s->count++].request =
-        (sb_request){.of = &plant, .plan = &row->plan, .paper = paper, .seed = 1};
+    s->trials[s->count++].request = (sb_request){.of = &plant, .plan = &row->plan, .paper = paper, .seed = 1};
 }
 
 void sb_paper_begin(sb_paper_studies *s, const sb_store *store, double scale, const char *command)
@@ -78,8 +75,7 @@ void sb_paper_free(sb_paper_studies *s)
 const sb_paper_trial *sb_paper_row(const sb_paper_studies *s, int number, bool paper)
 {
     for (size_t i = 0; i < s->count; i++)
-        if (s->rows[i].number == number && s->rows[i].paper == paper &&
-            s->trials[i].state == SB_RESULT_DONE)
+        if (s->rows[i].number == number && s->rows[i].paper == paper && s->trials[i].state == SB_RESULT_DONE)
             return &s->rows[i];
     return NULL;
 }

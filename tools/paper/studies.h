@@ -30,8 +30,7 @@ typedef struct sb_paper_studies {
 } sb_paper_studies;
 
 /* Lays out the runs; 1 m runs 20 steps only. The struct must stay where it is. */
-void sb_paper_begin(sb_paper_studies *studies, const sb_store *store, double scale,
-                    const char *command);
+void sb_paper_begin(sb_paper_studies *studies, const sb_store *store, double scale, const char *command);
 /* Reads the costs of the trials that are done. */
 sb_status sb_paper_costs(sb_paper_studies *studies, sb_error *error);
 void sb_paper_free(sb_paper_studies *studies);

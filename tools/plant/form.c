@@ -9,8 +9,8 @@
 uint32_t sb_form_vertex(sb_form *form, sb_vec3 at)
 {
     sb_mesh *mesh = &form->mesh;
-    if (form->failed || sb_grow((void **)&mesh->vertices, &form->vertex_capacity,
-                                mesh->vertex_count + 1, sizeof *mesh->vertices) != 0) {
+    if (form->failed || sb_grow((void **)&mesh->vertices, &form->vertex_capacity, mesh->vertex_count + 1,
+                                sizeof *mesh->vertices) != 0) {
         form->failed = 1;
         return 0;
     }
@@ -21,8 +21,8 @@ uint32_t sb_form_vertex(sb_form *form, sb_vec3 at)
 void sb_form_triangle(sb_form *form, uint32_t a, uint32_t b, uint32_t c)
 {
     sb_mesh *mesh = &form->mesh;
-    if (form->failed || sb_grow((void **)&mesh->triangles, &form->triangle_capacity,
-                                mesh->triangle_count + 1, sizeof *mesh->triangles) != 0) {
+    if (form->failed || sb_grow((void **)&mesh->triangles, &form->triangle_capacity, mesh->triangle_count + 1,
+                                sizeof *mesh->triangles) != 0) {
         form->failed = 1;
         return;
     }
@@ -54,8 +54,7 @@ sb_status sb_form_finish(sb_form *form, const char *name, sb_mesh *mesh, sb_erro
 
 sb_ring sb_ring_rectangle(double x_min, double x_max, double y_min, double y_max, double z)
 {
-    return (sb_ring){
-        .count = 4, .x = {x_min, x_max, x_max, x_min}, .y = {y_min, y_min, y_max, y_max}, .z = z};
+    return (sb_ring){.count = 4, .x = {x_min, x_max, x_max, x_min}, .y = {y_min, y_min, y_max, y_max}, .z = z};
 }
 
 sb_ring sb_ring_circle(double x, double y, double radius, double z)
@@ -119,8 +118,7 @@ void sb_form_loft(sb_form *form, const sb_ring *rings, size_t count)
     uint32_t first = (uint32_t)form->mesh.vertex_count;
     uint32_t corners = (uint32_t)rings[0].count;
     for (size_t r = 0; r < count; r++)
-        for (uint32_t i = 0; i < corners; i++)
-            sb_form_vertex(form, sb_vec(rings[r].x[i], rings[r].y[i], rings[r].z));
+        for (uint32_t i = 0; i < corners; i++) sb_form_vertex(form, sb_vec(rings[r].x[i], rings[r].y[i], rings[r].z));
     for (uint32_t r = 0; r + 1 < count; r++) {
         uint32_t low = first + r * corners, high = low + corners;
         for (uint32_t i = 0; i < corners; i++) {

@@ -41,8 +41,7 @@ static void add_loft(plant_site *site, const char *name, const sb_ring *rings, s
     add(site, &form, name);
 }
 
-static void add_box(plant_site *site, const char *name, const double x[2], const double y[2],
-                    double height)
+static void add_box(plant_site *site, const char *name, const double x[2], const double y[2], double height)
 {
     double grade = site->options->grade;
     sb_ring rings[] = {sb_ring_rectangle(x[0], x[1], y[0], y[1], grade - ROOT),
@@ -75,9 +74,8 @@ static void add_unit(plant_site *site, int number, double y)
 static void add_stack(plant_site *site, const char *name, double x, double y)
 {
     double grade = site->options->grade, height = site->options->stack;
-    sb_ring rings[] = {sb_ring_circle(x, y, 6.5, grade - ROOT),
-                       sb_ring_circle(x, y, 6.5, grade + 6), sb_ring_circle(x, y, 5.0, grade + 18),
-                       sb_ring_circle(x, y, 4.0, grade + height)};
+    sb_ring rings[] = {sb_ring_circle(x, y, 6.5, grade - ROOT), sb_ring_circle(x, y, 6.5, grade + 6),
+                       sb_ring_circle(x, y, 5.0, grade + 18), sb_ring_circle(x, y, 4.0, grade + height)};
     add_loft(site, name, rings, 4);
 }
 
@@ -105,12 +103,10 @@ static void add_waterfront(plant_site *site)
 {
     const sb_plant_options *options = site->options;
     double low = -options->harbour - ROOT;
-    add_prism(site, "quay", sb_ring_rectangle(SB_PLANT_SHORE, 822, 234, 856, 0), low,
-              options->quay);
-    sb_ring comb = {
-        .count = 16,
-        .x = {805, 805, 778, 778, 792, 792, 778, 778, 792, 792, 778, 778, 792, 792, 778, 778},
-        .y = {612, 708, 708, 696, 696, 680, 680, 668, 668, 652, 652, 640, 640, 624, 624, 612}};
+    add_prism(site, "quay", sb_ring_rectangle(SB_PLANT_SHORE, 822, 234, 856, 0), low, options->quay);
+    sb_ring comb = {.count = 16,
+                    .x = {805, 805, 778, 778, 792, 792, 778, 778, 792, 792, 778, 778, 792, 792, 778, 778},
+                    .y = {612, 708, 708, 696, 696, 680, 680, 668, 668, 652, 652, 640, 640, 624, 624, 612}};
     add_prism(site, "intake", comb, low, options->quay + 1);
 }
 
@@ -118,9 +114,8 @@ static void add_waterfront(plant_site *site)
 static void add_cavity(plant_site *site)
 {
     double grade = site->options->grade;
-    sb_ring walls = {.count = 8,
-                     .x = {866, 910, 910, 866, 866, 898, 898, 866},
-                     .y = {431, 431, 489, 489, 476, 476, 444, 444}};
+    sb_ring walls = {
+        .count = 8, .x = {866, 910, 910, 866, 866, 898, 898, 866}, .y = {431, 431, 489, 489, 476, 476, 444, 444}};
     add_prism(site, "cavity", walls, grade - ROOT, grade + 18);
 }
 
@@ -163,8 +158,7 @@ static void add_all(plant_site *site)
     add_box(site, "radwaste", (double[2]){996, 1020}, (double[2]){635, 690}, 18);
 }
 
-sb_status sb_plant_build(const sb_plant_options *options, sb_mesh **meshes, size_t *count,
-                         sb_error *error)
+sb_status sb_plant_build(const sb_plant_options *options, sb_mesh **meshes, size_t *count, sb_error *error)
 {
     plant_site here = {.options = options, .error = error};
     sb_mesh *out = NULL;

@@ -15,8 +15,7 @@ static void usage(FILE *out)
                  "  --out FILE          where to write (plant.obj)\n"
                  "  --parts FOLDER      a file for each part instead: terrain, reactors, ...\n");
     for (const sb_plant_option *row = sb_plant_option_table; row->name; row++)
-        fprintf(out, "  --%-17s %s (%g; %g to %g)\n", row->name, row->summary, row->value,
-                row->least, row->most);
+        fprintf(out, "  --%-17s %s (%g; %g to %g)\n", row->name, row->summary, row->value, row->least, row->most);
     fprintf(out, "  --help, --version\n");
 }
 

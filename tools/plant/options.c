@@ -26,14 +26,12 @@ sb_status sb_plant_check(const sb_plant_options *options, sb_error *error)
     for (const sb_plant_option *row = sb_plant_option_table; row->name; row++) {
         double value = *(const double *)((const char *)options + row->offset);
         if (!(value >= row->least && value <= row->most))
-            return sb_fail(error, SB_BAD_INPUT, "%s: %g m is not between %g and %g m", row->name,
-                           value, row->least, row->most);
+            return sb_fail(error, SB_BAD_INPUT, "%s: %g m is not between %g and %g m", row->name, value, row->least,
+                           row->most);
     }
     if (options->quay > options->grade)
-        return sb_fail(error, SB_BAD_INPUT, "quay: %g m is above the grade of %g m", options->quay,
-                       options->grade);
+        return sb_fail(error, SB_BAD_INPUT, "quay: %g m is above the grade of %g m", options->quay, options->grade);
     if (options->hill < options->grade)
-        return sb_fail(error, SB_BAD_INPUT, "hill: %g m is below the grade of %g m", options->hill,
-                       options->grade);
+        return sb_fail(error, SB_BAD_INPUT, "hill: %g m is below the grade of %g m", options->hill, options->grade);
     return SB_OK;
 }

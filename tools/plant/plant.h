@@ -49,17 +49,16 @@ sb_status sb_plant_terrain(const sb_plant_options *options, sb_mesh *mesh, sb_er
 
 /* Terrain first, then each building: a closed mesh with its own name, normals outward. The caller
    owns *meshes: sb_plant_free. On error nothing is left behind. */
-sb_status sb_plant_build(const sb_plant_options *options, sb_mesh **meshes, size_t *count,
-                         sb_error *error);
+sb_status sb_plant_build(const sb_plant_options *options, sb_mesh **meshes, size_t *count, sb_error *error);
 void sb_plant_free(sb_mesh *meshes, size_t count);
 
 /* Writes Wavefront OBJ with one object per mesh, the options in its head; whole or not at all. */
-sb_status sb_plant_write(const sb_plant_options *options, const sb_mesh *meshes, size_t count,
-                         const char *path, sb_error *error);
+sb_status sb_plant_write(const sb_plant_options *options, const sb_mesh *meshes, size_t count, const char *path,
+                         sb_error *error);
 
 /* The same bodies, a file for each part of the plant in `folder` (made when missing): terrain,
    breakwaters, waterfront, reactors, turbines, stacks, tanks, annexes. */
-sb_status sb_plant_write_parts(const sb_plant_options *options, const sb_mesh *meshes, size_t count,
-                               const char *folder, sb_error *error);
+sb_status sb_plant_write_parts(const sb_plant_options *options, const sb_mesh *meshes, size_t count, const char *folder,
+                               sb_error *error);
 
 #endif

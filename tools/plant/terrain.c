@@ -38,17 +38,14 @@ static double noise(double x, double y, uint64_t seed)
     uint64_t column = (uint64_t)(int64_t)fx, row = (uint64_t)(int64_t)fy;
     double corner[2][2];
     for (unsigned i = 0; i < 2; i++)
-        for (unsigned j = 0; j < 2; j++)
-            corner[i][j] = sb_random(seed, (column + i) * 65537u + (row + j));
+        for (unsigned j = 0; j < 2; j++) corner[i][j] = sb_random(seed, (column + i) * 65537u + (row + j));
     return mix(mix(corner[0][0], corner[1][0], tx), mix(corner[0][1], corner[1][1], tx), ty);
 }
 
 /* Three octaves, in [0, 1]. */
 static double relief(double x, double y)
 {
-    return (4 * noise(x / 110, y / 110, 1) + 2 * noise(x / 52, y / 52, 2) +
-            noise(x / 27, y / 27, 3)) /
-           7;
+    return (4 * noise(x / 110, y / 110, 1) + 2 * noise(x / 52, y / 52, 2) + noise(x / 27, y / 27, 3)) / 7;
 }
 
 /* Height of the sea bed without the harbour: 38 m deep to x = 150, 14 m at 400, 6 m at 700. */
@@ -85,8 +82,8 @@ static double terrace(const sb_plant_options *options, double x, double y)
 {
     double apron = options->quay - 0.5;
     double foot = mix(0, -options->harbour, basin(y));
-    double low = x < 812 ? mix(foot, apron - 1, ramp(x, SB_PLANT_SHORE, 812))
-                         : mix(apron - 1, apron, ramp(x, 812, 822));
+    double low =
+        x < 812 ? mix(foot, apron - 1, ramp(x, SB_PLANT_SHORE, 812)) : mix(apron - 1, apron, ramp(x, 812, 822));
     return mix(low, options->grade, ramp(x, 845, 857));
 }
 
@@ -98,8 +95,7 @@ double sb_plant_ground(const sb_plant_options *options, double x, double y)
         return height;
     }
     double sway = 14 * (noise(x / 60, 0.5, 6) - 0.5), back = 30 * noise(y / 80, 0.5, 7);
-    double along = smooth(y, terrace_y[0] + sway, terrace_y[1]) *
-                   (1 - smooth(y, terrace_y[2], terrace_y[3] + sway));
+    double along = smooth(y, terrace_y[0] + sway, terrace_y[1]) * (1 - smooth(y, terrace_y[2], terrace_y[3] + sway));
     double across = 1 - smooth(x, terrace_x[0], terrace_x[1] + back);
     return mix(coast(options, x, y), terrace(options, x, y), along * across);
 }
@@ -131,8 +127,7 @@ static void cell(sb_form *form, uint32_t a, uint32_t b, uint32_t c, uint32_t d)
 
 sb_status sb_plant_terrain(const sb_plant_options *options, sb_mesh *mesh, sb_error *error)
 {
-    static const double x_break[] = {SB_PLANT_X_MIN, 150,           400, 700, 712,
-                                     SB_PLANT_SHORE, 812,           822, 845, 857,
+    static const double x_break[] = {SB_PLANT_X_MIN, 150,           400, 700, 712, SB_PLANT_SHORE, 812, 822, 845, 857,
                                      1030,           SB_PLANT_X_MAX};
     static const double x_step[] = {60, 50, 50, 12, 22, 12, 10, 12, 12, 12.5, 12.5};
     static const double y_break[] = {0, 235, 250, 840, 855, SB_PLANT_Y_MAX};

@@ -20,14 +20,12 @@ static const char *number(double value, char out[32])
 
 static void write_head(const sb_plant_options *options, FILE *stream)
 {
-    fprintf(stream,
-            "# A coastal nuclear plant after the pattern of Fukushima Daiichi, written by "
-            "tools/make-plant.\n"
-            "# Metres, z up, z = 0 is still water, the paddle starts at x = 0. MIT licence, "
-            "like the program.\n#");
+    fprintf(stream, "# A coastal nuclear plant after the pattern of Fukushima Daiichi, written by "
+                    "tools/make-plant.\n"
+                    "# Metres, z up, z = 0 is still water, the paddle starts at x = 0. MIT licence, "
+                    "like the program.\n#");
     for (const sb_plant_option *row = sb_plant_option_table; row->name; row++)
-        fprintf(stream, " --%s %g", row->name,
-                *(const double *)((const char *)options + row->offset));
+        fprintf(stream, " --%s %g", row->name, *(const double *)((const char *)options + row->offset));
     fprintf(stream, "\n");
 }
 
@@ -36,10 +34,8 @@ static void write_head(const sb_plant_options *options, FILE *stream)
 static const struct {
     const char *prefix, *part;
 } parts[] = {
-    {"terrain", "terrain"},  {"breakwater", "breakwaters"},
-    {"quay", "waterfront"},  {"intake", "waterfront"},
-    {"reactor", "reactors"}, {"turbine", "turbines"},
-    {"stack", "stacks"},     {"tank", "tanks"},
+    {"terrain", "terrain"},  {"breakwater", "breakwaters"}, {"quay", "waterfront"}, {"intake", "waterfront"},
+    {"reactor", "reactors"}, {"turbine", "turbines"},       {"stack", "stacks"},    {"tank", "tanks"},
     {"", "annexes"},
 };
 enum { PARTS = sizeof parts / sizeof *parts };
@@ -66,8 +62,8 @@ static void write_mesh(const sb_mesh *mesh, size_t base, FILE *stream)
 }
 
 /* Those meshes that belong to the part, or all when it is NULL. */
-static sb_status write_file(const sb_plant_options *options, const sb_mesh *meshes, size_t count,
-                            const char *part, const char *path, sb_error *error)
+static sb_status write_file(const sb_plant_options *options, const sb_mesh *meshes, size_t count, const char *part,
+                            const char *path, sb_error *error)
 {
     sb_atomic_file file;
     sb_status status = sb_atomic_open(&file, path, error);
@@ -82,14 +78,14 @@ static sb_status write_file(const sb_plant_options *options, const sb_mesh *mesh
     return sb_atomic_commit(&file, 0, error);
 }
 
-sb_status sb_plant_write(const sb_plant_options *options, const sb_mesh *meshes, size_t count,
-                         const char *path, sb_error *error)
+sb_status sb_plant_write(const sb_plant_options *options, const sb_mesh *meshes, size_t count, const char *path,
+                         sb_error *error)
 {
     return write_file(options, meshes, count, NULL, path, error);
 }
 
-sb_status sb_plant_write_parts(const sb_plant_options *options, const sb_mesh *meshes, size_t count,
-                               const char *folder, sb_error *error)
+sb_status sb_plant_write_parts(const sb_plant_options *options, const sb_mesh *meshes, size_t count, const char *folder,
+                               sb_error *error)
 {
     sb_status status = sb_make_directories(folder, error);
     for (size_t i = 0; i < PARTS && status == SB_OK; i++) {
@@ -97,8 +93,7 @@ sb_status sb_plant_write_parts(const sb_plant_options *options, const sb_mesh *m
         if (i > 0 && strcmp(parts[i].part, parts[i - 1].part) == 0) continue;
         snprintf(name, sizeof name, "%s.obj", parts[i].part);
         status = sb_path_join(path, folder, name, error);
-        if (status == SB_OK)
-            status = write_file(options, meshes, count, parts[i].part, path, error);
+        if (status == SB_OK) status = write_file(options, meshes, count, parts[i].part, path, error);
     }
     return status;
 }

@@ -28,11 +28,9 @@ static void name_it(subject *s)
 
 static sb_status begin(subject *s, const sb_study_options *o, sb_error *error)
 {
-    if (!realpath(o->scene, s->scene))
-        return sb_fail(error, SB_BAD_INPUT, "%.400s: no such file", o->scene);
+    if (!realpath(o->scene, s->scene)) return sb_fail(error, SB_BAD_INPUT, "%.400s: no such file", o->scene);
     name_it(s);
-    snprintf(s->out, sizeof s->out, "%s%s", o->out ? o->out : SB_SOURCE_DIR "/runs/study/",
-             o->out ? "" : s->name);
+    snprintf(s->out, sizeof s->out, "%s%s", o->out ? o->out : SB_SOURCE_DIR "/runs/study/", o->out ? "" : s->name);
     s->of = (sb_case){.name = s->name, .scene = s->scene, .evaluate = sb_quantities_of};
     for (size_t i = 0; i < SB_TRIAL_SETTINGS; i++) s->settings[i] = sb_trial_settings[i];
     for (size_t i = 0; i < o->set_count; i++) s->settings[SB_TRIAL_SETTINGS + i] = o->sets[i];
@@ -42,16 +40,13 @@ static sb_status begin(subject *s, const sb_study_options *o, sb_error *error)
     for (size_t i = 0; i < s->count; i++) {
         sb_plan *plan = &s->plans[i / (size_t)o->seeds];
         *plan = (sb_plan){.resolution = o->spacings[i / (size_t)o->seeds], .settings = s->settings};
-        s->trials[i].request = (sb_request){.of = &s->of,
-                                            .plan = plan,
-                                            .paper = o->paper,
-                                            .seed = 1 + (int)(i % (size_t)o->seeds)};
+        s->trials[i].request =
+            (sb_request){.of = &s->of, .plan = plan, .paper = o->paper, .seed = 1 + (int)(i % (size_t)o->seeds)};
     }
     return SB_OK;
 }
 
-static sb_status report(const subject *s, const sb_study_options *o, const sb_store *store,
-                        sb_error *error)
+static sb_status report(const subject *s, const sb_study_options *o, const sb_store *store, sb_error *error)
 {
     const sb_study study = {.options = o, .store = store, .trials = s->trials, .count = s->count};
     sb_study_row *rows;
@@ -107,8 +102,7 @@ int main(int count, char **arguments)
     if (status == SB_OK) status = begin(&s, &o, &error);
     if (status == SB_OK) status = sb_trials_store(&store, s.out, o.program, SB_SOURCE_DIR, &error);
     if (status == SB_OK) status = check(&store, &s, &error);
-    if (status == SB_OK)
-        status = sb_trials_make(&store, s.trials, s.count, o.jobs, o.report_only, &failed, &error);
+    if (status == SB_OK) status = sb_trials_make(&store, s.trials, s.count, o.jobs, o.report_only, &failed, &error);
     if (status == SB_OK) status = report(&s, &o, &store, &error);
     end(&s);
     if (status != SB_OK) fprintf(stderr, "study: %s\n", error.text);

@@ -51,8 +51,7 @@ static int is_noise(const sb_level *a, const sb_level *b)
 
 static double range_of(const sb_level *l)
 {
-    return fmax(fmax(l[0].value, l[1].value), l[2].value) -
-           fmin(fmin(l[0].value, l[1].value), l[2].value);
+    return fmax(fmax(l[0].value, l[1].value), l[2].value) - fmin(fmin(l[0].value, l[1].value), l[2].value);
 }
 
 static sb_convergence of_two(const sb_level *l)
@@ -88,8 +87,7 @@ sb_convergence sb_converge(const sb_level *levels, size_t count)
     return c;
 }
 
-sb_order_range sb_order_over_seeds(const double spacing[3], const double *const values[3],
-                                   const size_t seeds[3])
+sb_order_range sb_order_over_seeds(const double spacing[3], const double *const values[3], const size_t seeds[3])
 {
     sb_order_range r = {(double)NAN, (double)NAN, 0};
     double fine = spacing[1] / spacing[2], coarse = spacing[0] / spacing[1];

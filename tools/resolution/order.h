@@ -42,8 +42,7 @@ sb_convergence sb_converge(const sb_level *levels, size_t count);
 typedef struct sb_order_range {
     double low, high, share;
 } sb_order_range;
-sb_order_range sb_order_over_seeds(const double spacing[3], const double *const values[3],
-                                   const size_t seeds[3]);
+sb_order_range sb_order_over_seeds(const double spacing[3], const double *const values[3], const size_t seeds[3]);
 
 /* Mean of the values that are no NaN, and its standard error (NaN below two of them). */
 void sb_mean_of(const double *values, size_t count, double *mean, double *error);

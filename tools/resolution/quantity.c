@@ -8,8 +8,7 @@
 #include <unistd.h>
 
 /* A table of the run; false (and SB_OK) when the run has none. */
-static bool open_table(const sb_case_run *run, const char *name, sb_sheet *sheet, sb_status *status,
-                       sb_error *error)
+static bool open_table(const sb_case_run *run, const char *name, sb_sheet *sheet, sb_status *status, sb_error *error)
 {
     char path[SB_PATH_MAX];
     *status = sb_path_join(path, run->folder, name, error);
@@ -29,8 +28,8 @@ static bool is_first(const sb_sheet *sheet, size_t row)
     return true;
 }
 
-static sb_status report(sb_figures *figures, const char *name, const char *what, const char *unit,
-                        double value, sb_error *error)
+static sb_status report(sb_figures *figures, const char *name, const char *what, const char *unit, double value,
+                        sb_error *error)
 {
     char quantity[SB_FIGURE_TEXT];
     snprintf(quantity, sizeof quantity, "%.63s, %s", name, what);
@@ -71,22 +70,18 @@ static sb_status add_forces(const sb_case_run *run, sb_figures *figures, sb_erro
     for (size_t r = 0; status == SB_OK && r < sheet.rows && is_first(&sheet, r); r++) {
         const char *name = sb_sheet_text(&sheet, r, 1);
         const load l = load_on(&sheet, name);
-        status = report(figures, name, "impulse", flat ? "N s/m" : "N s",
-                        hypot(l.impulse[0], l.impulse[1]), error);
+        status = report(figures, name, "impulse", flat ? "N s/m" : "N s", hypot(l.impulse[0], l.impulse[1]), error);
         if (status == SB_OK)
-            status = report(figures, name, "vertical impulse", flat ? "N s/m" : "N s", l.impulse[2],
-                            error);
-        if (status == SB_OK)
-            status = report(figures, name, "peak", flat ? "N/m" : "N", l.peak, error);
+            status = report(figures, name, "vertical impulse", flat ? "N s/m" : "N s", l.impulse[2], error);
+        if (status == SB_OK) status = report(figures, name, "peak", flat ? "N/m" : "N", l.peak, error);
     }
     sb_sheet_free(&sheet);
     return status;
 }
 
 /* The largest or the last value of a column, of every name in a table. */
-static sb_status add_column(const sb_case_run *run, const char *table, const char *column,
-                            const char *what, const char *unit, bool last, double shift,
-                            sb_figures *figures, sb_error *error)
+static sb_status add_column(const sb_case_run *run, const char *table, const char *column, const char *what,
+                            const char *unit, bool last, double shift, sb_figures *figures, sb_error *error)
 {
     sb_sheet sheet = {0};
     sb_status status;
@@ -110,15 +105,13 @@ sb_status sb_quantities_of(const sb_case_run *run, sb_figures *figures, sb_error
     const sb_scene *scene = run->scene;
     sb_status status = add_forces(run, figures, error);
     if (status == SB_OK)
-        status = add_column(run, "gauges.csv", "eta_m", "crest", "m", false,
-                            scene->sea.present ? scene->sea.level : 0, figures, error);
+        status = add_column(run, "gauges.csv", "eta_m", "crest", "m", false, scene->sea.present ? scene->sea.level : 0,
+                            figures, error);
+    if (status == SB_OK) status = add_column(run, "runup.csv", "z_m", "run-up height", "m", false, 0, figures, error);
     if (status == SB_OK)
-        status = add_column(run, "runup.csv", "z_m", "run-up height", "m", false, 0, figures, error);
+        status = add_column(run, "runup.csv", "front_m", "run-up front", "m", false, 0, figures, error);
     if (status == SB_OK)
-        status =
-            add_column(run, "runup.csv", "front_m", "run-up front", "m", false, 0, figures, error);
-    if (status == SB_OK)
-        status = add_column(run, "overtopping.csv", "volume_m3", "volume",
-                            scene->dimensions == 2 ? "m^2" : "m^3", true, 0, figures, error);
+        status = add_column(run, "overtopping.csv", "volume_m3", "volume", scene->dimensions == 2 ? "m^2" : "m^3", true,
+                            0, figures, error);
     return status;
 }

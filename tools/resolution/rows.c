@@ -13,8 +13,7 @@ static bool is_known(const sb_study_row *rows, size_t count, const char *quantit
     return false;
 }
 
-static sb_status begin(const sb_study *study, const sb_figure *figure, sb_study_row *row,
-                       sb_error *error)
+static sb_status begin(const sb_study *study, const sb_figure *figure, sb_study_row *row, sb_error *error)
 {
     *row = (sb_study_row){.quantity = figure->quantity, .unit = figure->unit};
     row->values = sb_alloc(study->count, sizeof *row->values);
@@ -28,8 +27,7 @@ static void fill(const sb_study *study, sb_study_row *row)
     size_t seeds = (size_t)o->seeds, n = o->spacing_count;
     for (size_t i = 0; i < study->count; i++) {
         const sb_result *t = &study->trials[i];
-        const sb_figure *f =
-            t->state == SB_RESULT_DONE ? sb_figures_find(&t->figures, row->quantity) : NULL;
+        const sb_figure *f = t->state == SB_RESULT_DONE ? sb_figures_find(&t->figures, row->quantity) : NULL;
         row->values[i] = f ? f->value : (double)NAN;
     }
     for (size_t l = 0; l < n; l++) {
@@ -54,9 +52,7 @@ sb_status sb_study_rows(const sb_study *study, sb_study_row **rows, size_t *coun
         const sb_result *t = &study->trials[i];
         for (size_t k = 0; t->state == SB_RESULT_DONE && k < t->figures.count; k++) {
             const sb_figure *f = &t->figures.rows[k];
-            if (!sb_study_wants(study->options, f->quantity) ||
-                is_known(*rows, *count, f->quantity))
-                continue;
+            if (!sb_study_wants(study->options, f->quantity) || is_known(*rows, *count, f->quantity)) continue;
             if (sb_grow((void **)rows, &capacity, *count + 1, sizeof **rows) != 0)
                 status = sb_fail_memory(error, "a study");
             if (status == SB_OK) status = begin(study, f, &(*rows)[*count], error);

@@ -33,8 +33,7 @@ static sb_status take_spacings(void *user, const char *text, sb_error *error)
         char *end;
         double spacing = strtod(at, &end);
         if (end == at || !(spacing > 0) || !isfinite(spacing) || (*end && *end != ','))
-            return sb_fail(error, SB_BAD_INPUT, "--resolutions %.200s: expected metres > 0, as 4,3,2",
-                           text);
+            return sb_fail(error, SB_BAD_INPUT, "--resolutions %.200s: expected metres > 0, as 4,3,2", text);
         if (o->spacing_count == SB_STUDY_LEVELS)
             return sb_fail(error, SB_BAD_INPUT, "--resolutions: more than %d", SB_STUDY_LEVELS);
         o->spacings[o->spacing_count++] = spacing;
@@ -58,12 +57,10 @@ static sb_status take_set(void *user, const char *text, sb_error *error)
     sb_study_options *o = user;
     static const char *const own[] = {"resolution=", "numerics.seed=", "numerics.preset="};
     const char *equals = strchr(text, '=');
-    if (!equals || equals == text)
-        return sb_fail(error, SB_BAD_INPUT, "--set %.200s: expected KEY=VALUE", text);
+    if (!equals || equals == text) return sb_fail(error, SB_BAD_INPUT, "--set %.200s: expected KEY=VALUE", text);
     for (size_t i = 0; i < sizeof own / sizeof *own; i++)
         if (strncmp(text, own[i], strlen(own[i])) == 0)
-            return sb_fail(error, SB_BAD_INPUT,
-                           "--set %.200s: --resolutions, --seeds and --preset say this", text);
+            return sb_fail(error, SB_BAD_INPUT, "--set %.200s: --resolutions, --seeds and --preset say this", text);
     if (o->set_count == SB_STUDY_SETS)
         return sb_fail(error, SB_BAD_INPUT, "--set: more than %d of them", SB_STUDY_SETS);
     o->sets[o->set_count++] = text;
@@ -108,8 +105,12 @@ sb_status sb_study_parse(int count, char **arguments, sb_study_options *o, sb_er
                                    {.name = "--report-only", .flag = &o->report_only},
                                    {.name = "--out", .text = &o->out},
                                    {.name = "--shorebreak", .text = &o->program}};
-    const sb_command_line line = {.options = options, .option_count = sizeof options / sizeof *options,
-                                  .word = take_scene, .user = o, .help = &o->help, .command = o->command,
+    const sb_command_line line = {.options = options,
+                                  .option_count = sizeof options / sizeof *options,
+                                  .word = take_scene,
+                                  .user = o,
+                                  .help = &o->help,
+                                  .command = o->command,
                                   .command_size = sizeof o->command};
     sb_status status = sb_command_line_read(&line, count, arguments, error);
     if (status != SB_OK || o->help) return status;

@@ -25,7 +25,7 @@ extern const char sb_study_help[];
 sb_status sb_study_parse(int count, char **arguments, sb_study_options *options, sb_error *error);
 
 /* Whether a quantity is asked for: all are without patterns; a pattern is a part of the name or, with
-   * and ?, the whole of it. */
+ * and ?, the whole of it. */
 bool sb_study_wants(const sb_study_options *options, const char *quantity);
 
 #endif

@@ -25,11 +25,9 @@ static void put_order(FILE *out, const sb_study_row *row, bool seeds)
 {
     const sb_order_range *r = &row->range;
     char order[48];
-    sb_text_number(order, row->convergence.kind == SB_ORDER_OBSERVED ? row->convergence.order
-                                                                     : (double)NAN);
+    sb_text_number(order, row->convergence.kind == SB_ORDER_OBSERVED ? row->convergence.order : (double)NAN);
     fprintf(out, " %s", order);
-    if (seeds && !isnan(r->low))
-        fprintf(out, " (%.2g to %.2g in %.0f %%)", r->low, r->high, 100 * r->share);
+    if (seeds && !isnan(r->low)) fprintf(out, " (%.2g to %.2g in %.0f %%)", r->low, r->high, 100 * r->share);
     fputs(" |", out);
 }
 
@@ -45,8 +43,7 @@ void sb_study_table(FILE *out, const sb_study *study, const sb_study_row *rows, 
     for (size_t i = 0; i < count; i++) {
         const sb_study_row *row = &rows[i];
         fprintf(out, "| %s | %s |", row->quantity, row->unit);
-        for (size_t l = 0; l < o->spacing_count; l++)
-            put_with_error(out, row->levels[l].value, row->levels[l].error);
+        for (size_t l = 0; l < o->spacing_count; l++) put_with_error(out, row->levels[l].value, row->levels[l].error);
         put_order(out, row, o->seeds > 1);
         sb_text_number(text, row->convergence.extrapolated);
         fprintf(out, " %s |", text);
@@ -63,9 +60,9 @@ static void put_runs(FILE *out, const sb_study *study)
     for (size_t i = 0; i < study->count; i++) {
         const sb_result *t = &study->trials[i];
         if (t->state != SB_RESULT_DONE) continue;
-        fprintf(out, "| %g | %d | %zu | %zu | %.2f | %.4g | %.4g | %.2g |\n", t->run.view.resolution,
-                t->request.seed, t->run.view.particles, t->run.view.steps, t->run.view.iterations,
-                t->run.view.wall, t->run.cpu, t->run.load);
+        fprintf(out, "| %g | %d | %zu | %zu | %.2f | %.4g | %.4g | %.2g |\n", t->run.view.resolution, t->request.seed,
+                t->run.view.particles, t->run.view.steps, t->run.view.iterations, t->run.view.wall, t->run.cpu,
+                t->run.load);
     }
     fputc('\n', out);
     for (size_t i = 0; i < study->count; i++) sb_trial_problem(out, &study->trials[i]);
@@ -81,8 +78,7 @@ static const char reading[] =
     "scatter, their range and twice the standard error.\nPeaks are of forces averaged over "
     "`measure.interval`: keep it the same.\n";
 
-static sb_status plot_row(const sb_study *study, const sb_study_row *row, sb_plot *plot,
-                          sb_error *error)
+static sb_status plot_row(const sb_study *study, const sb_study_row *row, sb_plot *plot, sb_error *error)
 {
     const sb_study_options *o = study->options;
     sb_curve marks = {0}, line = {0}, limit = {0};
@@ -105,8 +101,8 @@ static sb_status plot_row(const sb_study *study, const sb_study_row *row, sb_plo
     return status;
 }
 
-static sb_status draw(const sb_study *study, const sb_study_row *rows, size_t count,
-                      const char *folder, sb_error *error)
+static sb_status draw(const sb_study *study, const sb_study_row *rows, size_t count, const char *folder,
+                      sb_error *error)
 {
     char plots[SB_PATH_MAX], picture[SB_PATH_MAX], real[SB_PATH_MAX];
     sb_plot *plot = sb_plot_create();
@@ -117,8 +113,7 @@ static sb_status draw(const sb_study *study, const sb_study_row *rows, size_t co
         status = sb_fail(error, SB_FAILED, "%.400s: no such folder", folder);
     if (status == SB_OK) status = sb_path_join(picture, real, "study.png", error);
     if (status == SB_OK && !count) status = sb_fail(error, SB_FAILED, "nothing was measured");
-    for (size_t i = 0; status == SB_OK && i < count && i < PANELS; i++)
-        status = plot_row(study, &rows[i], plot, error);
+    for (size_t i = 0; status == SB_OK && i < count && i < PANELS; i++) status = plot_row(study, &rows[i], plot, error);
     if (status == SB_OK) status = sb_plot_draw(plot, plots, "study", picture, error);
     sb_plot_destroy(plot);
     return status;
@@ -136,8 +131,7 @@ static void put_report(FILE *out, const sb_study *study, const sb_study_row *row
         fprintf(out, "\nNo plot: %s.\n", no_plot->text);
     else
         fprintf(out, "\n![value over spacing](study.png)\n%s",
-                count > PANELS ? "\nThe picture has the first eight; `--quantity` chooses others.\n"
-                               : "");
+                count > PANELS ? "\nThe picture has the first eight; `--quantity` chooses others.\n" : "");
     put_runs(out, study);
 }
 
@@ -156,11 +150,10 @@ static void put_runs_csv(FILE *out, const sb_study *study, const sb_study_row *r
         for (size_t i = 0; i < study->count; i++) {
             const sb_result *t = &study->trials[i];
             if (t->state != SB_RESULT_DONE) continue;
-            fprintf(out, "\"%s\",%s,%.9g,%d,", rows[q].quantity, rows[q].unit, t->run.view.resolution,
-                    t->request.seed);
+            fprintf(out, "\"%s\",%s,%.9g,%d,", rows[q].quantity, rows[q].unit, t->run.view.resolution, t->request.seed);
             put_number(out, rows[q].values[i], ",");
-            fprintf(out, "%zu,%zu,%.4f,%.3f,", t->run.view.particles, t->run.view.steps,
-                    t->run.view.iterations, t->run.view.wall);
+            fprintf(out, "%zu,%zu,%.4f,%.3f,", t->run.view.particles, t->run.view.steps, t->run.view.iterations,
+                    t->run.view.wall);
             put_number(out, t->run.cpu, ",");
             put_number(out, t->run.load, ",");
             fprintf(out, "%s\n", t->run.commit);
@@ -190,8 +183,8 @@ static sb_status open_in(sb_atomic_file *file, const char *folder, const char *n
     return status == SB_OK ? sb_atomic_open(file, path, error) : status;
 }
 
-sb_status sb_study_write(const sb_study *study, const sb_study_row *rows, size_t count,
-                         const char *folder, sb_error *error)
+sb_status sb_study_write(const sb_study *study, const sb_study_row *rows, size_t count, const char *folder,
+                         sb_error *error)
 {
     sb_atomic_file file;
     sb_error no_plot = {0};

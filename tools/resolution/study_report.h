@@ -2,8 +2,8 @@
 #ifndef SB_STUDY_REPORT_H
 #define SB_STUDY_REPORT_H
 
-#include "study_options.h"
 #include "order.h"
+#include "study_options.h"
 #include "trials.h"
 
 /* Trials spacing by spacing, coarse to fine; at each the seeds 1..seeds. */
@@ -33,7 +33,7 @@ void sb_study_table(FILE *out, const sb_study *study, const sb_study_row *rows, 
 
 /* folder/study.md, runs.csv, orders.csv and study.png, each whole or not at all. Without gnuplot the
    report says so in place of the picture. */
-sb_status sb_study_write(const sb_study *study, const sb_study_row *rows, size_t count,
-                         const char *folder, sb_error *error);
+sb_status sb_study_write(const sb_study *study, const sb_study_row *rows, size_t count, const char *folder,
+                         sb_error *error);
 
 #endif

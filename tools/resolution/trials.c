@@ -9,19 +9,18 @@
 #include <string.h>
 #include <unistd.h>
 
-const char *const sb_trial_settings[] = {"render.interval=0", "stream.enabled=false",
-                                         "output.particle_interval=0", NULL};
+const char *const sb_trial_settings[] = {"render.interval=0", "stream.enabled=false", "output.particle_interval=0",
+                                         NULL};
 
-sb_status sb_trials_make(const sb_store *store, sb_result *trials, size_t count, int jobs,
-                         bool report_only, size_t *failed, sb_error *error)
+sb_status sb_trials_make(const sb_store *store, sb_result *trials, size_t count, int jobs, bool report_only,
+                         size_t *failed, sb_error *error)
 {
     sb_status status = SB_OK;
     sb_request *requests = sb_alloc(count, sizeof *requests);
     if (!requests) return sb_fail_memory(error, "runs");
     for (size_t i = 0; i < count; i++) requests[i] = trials[i].request;
     if (!report_only) status = sb_launch(store, requests, count, jobs, failed, error);
-    for (size_t i = 0; status == SB_OK && i < count; i++)
-        sb_result_read(store, report_only, &trials[i]);
+    for (size_t i = 0; status == SB_OK && i < count; i++) sb_result_read(store, report_only, &trials[i]);
     sb_free(requests);
     return status;
 }
@@ -39,8 +38,7 @@ bool sb_trials_disturbed(const sb_result *trials, size_t count)
     return sb_trials_load(trials, count) > (double)sysconf(_SC_NPROCESSORS_ONLN) + 0.5;
 }
 
-void sb_trials_origin(FILE *out, const sb_store *store, const sb_result *trials, size_t count,
-                      const char *command)
+void sb_trials_origin(FILE *out, const sb_store *store, const sb_result *trials, size_t count, const char *command)
 {
     char load[48];
     const sb_finished *first = NULL;
@@ -70,11 +68,9 @@ bool sb_trial_problem(FILE *out, const sb_result *trial)
     return true;
 }
 
-sb_status sb_trials_store(sb_store *store, const char *out, const char *program, const char *source,
-                          sb_error *error)
+sb_status sb_trials_store(sb_store *store, const char *out, const char *program, const char *source, sb_error *error)
 {
     char beside[SB_PATH_MAX];
     sb_status status = sb_process_beside("shorebreak", beside, error);
-    return status == SB_OK ? sb_store_open(store, out, program ? program : beside, source, error)
-                           : status;
+    return status == SB_OK ? sb_store_open(store, out, program ? program : beside, source, error) : status;
 }

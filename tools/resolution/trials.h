@@ -9,9 +9,9 @@
 #include <stdio.h>
 
 /* Runs what the store lacks, in order (unless report_only), and reads what is there. Statuses and
-   *failed as sb_launch. With report_only, runs of other builds count, too. */
-sb_status sb_trials_make(const sb_store *store, sb_result *trials, size_t count, int jobs,
-                         bool report_only, size_t *failed, sb_error *error);
+ *failed as sb_launch. With report_only, runs of other builds count, too. */
+sb_status sb_trials_make(const sb_store *store, sb_result *trials, size_t count, int jobs, bool report_only,
+                         size_t *failed, sb_error *error);
 
 /* The highest load that the machine had at the end of one of the runs; NaN: none is known. */
 double sb_trials_load(const sb_result *trials, size_t count);
@@ -20,15 +20,13 @@ double sb_trials_load(const sb_result *trials, size_t count);
 bool sb_trials_disturbed(const sb_result *trials, size_t count);
 
 /* Lines of Markdown: command, machine, commit, load; says when times are provisional. */
-void sb_trials_origin(FILE *out, const sb_store *store, const sb_result *trials, size_t count,
-                      const char *command);
+void sb_trials_origin(FILE *out, const sb_store *store, const sb_result *trials, size_t count, const char *command);
 
 /* A row of a Markdown table that says why a trial has no figures; true when it has none. */
 bool sb_trial_problem(FILE *out, const sb_result *trial);
 
 /* The store in `out` for the program beside this one, or `program`. */
-sb_status sb_trials_store(sb_store *store, const char *out, const char *program, const char *source,
-                          sb_error *error);
+sb_status sb_trials_store(sb_store *store, const char *out, const char *program, const char *source, sb_error *error);
 
 /* Settings that switch off what a study has no use for, ended by NULL: pictures, stream, particles. */
 extern const char *const sb_trial_settings[];

@@ -100,8 +100,7 @@ static void print_lines(monitor *self, double now)
         printf("no data since %.0f s\n", silent);
         self->told_silence = true;
     }
-    if (state->has_status && state->statuses != self->line_statuses &&
-        now - self->line_time >= LINE_SECONDS) {
+    if (state->has_status && state->statuses != self->line_statuses && now - self->line_time >= LINE_SECONDS) {
         sb_table_line(stdout, state);
         self->line_statuses = state->statuses;
         self->line_time = now;
@@ -112,8 +111,7 @@ static void print_lines(monitor *self, double now)
 static bool finished(const monitor *self, double now)
 {
     const sb_monitor_options *options = &self->options;
-    return stopped || self->sated ||
-           (options->duration > 0 && now - self->state.started >= options->duration) ||
+    return stopped || self->sated || (options->duration > 0 && now - self->state.started >= options->duration) ||
            (options->once && self->first_status > 0 && now - self->first_status >= ONCE_SECONDS);
 }
 
@@ -134,8 +132,7 @@ static void watch(monitor *self, sb_listener *listener)
 static void choose_style(monitor *self)
 {
     const char *terminal = getenv("TERM");
-    bool live =
-        !self->options.plain && isatty(STDOUT_FILENO) && terminal && strcmp(terminal, "dumb") != 0;
+    bool live = !self->options.plain && isatty(STDOUT_FILENO) && terminal && strcmp(terminal, "dumb") != 0;
     const char *no_colour = getenv("NO_COLOR");
     self->screen = live && !self->options.once;
     self->style.colour = live && !(no_colour && *no_colour);
@@ -149,8 +146,7 @@ static int run(monitor *self)
     sb_error error = {0};
     sb_listener *listener = NULL;
     sb_listener_calls calls = {self, on_status, on_forces, on_particles};
-    if (sb_listener_create(self->options.url, self->options.prefix, &calls, &listener, &error) !=
-        SB_OK) {
+    if (sb_listener_create(self->options.url, self->options.prefix, &calls, &listener, &error) != SB_OK) {
         fprintf(stderr, "shorebreak-monitor: %s\n", error.text);
         return 1;
     }

@@ -28,8 +28,7 @@ static bool read_duration(const char *text, double *seconds)
     return end != text && !*end && isfinite(*seconds) && *seconds > 0;
 }
 
-bool sb_monitor_options_read(int count, char **words, sb_monitor_options *options,
-                             char trouble[256])
+bool sb_monitor_options_read(int count, char **words, sb_monitor_options *options, char trouble[256])
 {
     *options = (sb_monitor_options){0};
     const char *duration = NULL;
@@ -58,8 +57,7 @@ bool sb_monitor_options_read(int count, char **words, sb_monitor_options *option
         }
     }
     if (duration && !read_duration(duration, &options->duration)) {
-        snprintf(trouble, 256, "--duration: \"%.100s\" is not a number of seconds above 0",
-                 duration);
+        snprintf(trouble, 256, "--duration: \"%.100s\" is not a number of seconds above 0", duration);
         return false;
     }
     return true;

@@ -12,8 +12,7 @@ typedef struct sb_monitor_options {
 } sb_monitor_options;
 
 /* False with a line in `trouble` on a bad command line. */
-bool sb_monitor_options_read(int count, char **words, sb_monitor_options *options,
-                             char trouble[256]);
+bool sb_monitor_options_read(int count, char **words, sb_monitor_options *options, char trouble[256]);
 
 extern const char sb_monitor_help[];
 

@@ -32,8 +32,7 @@ static void new_run(sb_monitor_state *state)
 void sb_monitor_on_status(void *user, const sb_status_message *message)
 {
     sb_monitor_state *state = user;
-    if (state->has_status &&
-        (strcmp(state->status.run, message->run) != 0 || message->step < state->status.step))
+    if (state->has_status && (strcmp(state->status.run, message->run) != 0 || message->step < state->status.step))
         new_run(state);
     state->status = *message;
     state->has_status = true;
@@ -50,8 +49,7 @@ void sb_monitor_on_forces(void *user, const sb_forces_message *message)
     for (size_t i = 0; i < count && first + i < SB_MONITOR_BODIES; i++) {
         size_t row = first + i;
         sb_monitor_body *body = &state->bodies[row];
-        if (row >= state->body_count || strcmp(body->name, message->names[i]) != 0)
-            *body = (sb_monitor_body){0};
+        if (row >= state->body_count || strcmp(body->name, message->names[i]) != 0) *body = (sb_monitor_body){0};
         memcpy(body->name, message->names[i], sizeof body->name);
         body->reported = message->reported[i];
         memcpy(body->force, &message->force[3 * i], sizeof body->force);
@@ -59,8 +57,7 @@ void sb_monitor_on_forces(void *user, const sb_forces_message *message)
         body->peak = fmax(body->peak, body->horizontal);
         if (body->reported) {
             state->peak = fmax(state->peak, body->horizontal);
-            for (int k = 0; k < 3; k++)
-                state->peak_component = fmax(state->peak_component, fabs(body->force[k]));
+            for (int k = 0; k < 3; k++) state->peak_component = fmax(state->peak_component, fabs(body->force[k]));
         }
         /* Rows between are those of a lost message: empty until it comes again. */
         while (state->body_count < row) state->bodies[state->body_count++] = (sb_monitor_body){0};
@@ -85,8 +82,7 @@ void sb_monitor_state_sample(sb_monitor_state *state, sb_listener_counters count
         state->byte_rate = (double)(count.bytes - state->samples[0].count.bytes) / span;
     }
     if (now - state->samples[used - 1].time < SAMPLE_SPACING) return;
-    if (used == SB_MONITOR_SAMPLES)
-        memmove(&state->samples[0], &state->samples[1], sizeof state->samples[0] * --used);
+    if (used == SB_MONITOR_SAMPLES) memmove(&state->samples[0], &state->samples[1], sizeof state->samples[0] * --used);
     state->samples[used].time = now;
     state->samples[used].count = count;
     state->sample_count = used + 1;

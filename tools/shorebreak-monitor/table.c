@@ -65,21 +65,16 @@ static void draw_status(canvas *to, const sb_status_message *status)
 {
     char bar[BAR_BYTES], eta[40], wall[40], time[40], end[40];
     int cells = to->style->width / 3;
-    sb_text_bar(bar,
-                cells > 60   ? 60
-                : cells < 10 ? 10
-                             : cells,
-                progress(status), -1, to->style->utf8);
+    sb_text_bar(bar, cells > 60 ? 60 : cells < 10 ? 10 : cells, progress(status), -1, to->style->utf8);
     sb_text_duration(eta, sizeof eta, status->eta_seconds);
     sb_text_duration(wall, sizeof wall, status->wall_seconds);
     sb_text_number(time, sizeof time, status->time, false);
     sb_text_number(end, sizeof end, status->duration, false);
-    fprintf(to->out, "%s%s%s %5.1f %%  %s of %s s  ETA %s", paint(to, CYAN), bar, plain(to),
-            100 * progress(status), time, end, eta);
+    fprintf(to->out, "%s%s%s %5.1f %%  %s of %s s  ETA %s", paint(to, CYAN), bar, plain(to), 100 * progress(status),
+            time, end, eta);
     end_row(to);
-    fprintf(to->out, "step %lld  dt %.4g ms  iterations %d  density error %.3g %%  wall %s",
-            (long long)status->step, 1e3 * status->time_step, (int)status->iterations,
-            100 * status->density_error, wall);
+    fprintf(to->out, "step %lld  dt %.4g ms  iterations %d  density error %.3g %%  wall %s", (long long)status->step,
+            1e3 * status->time_step, (int)status->iterations, 100 * status->density_error, wall);
     end_row(to);
     fprintf(to->out, "max speed %.4g m/s  particles %lld  %slost %lld%s", status->max_speed,
             (long long)status->fluid_particles, status->lost_particles ? paint(to, RED) : "",
@@ -90,8 +85,7 @@ static void draw_status(canvas *to, const sb_status_message *status)
 static void draw_stream(canvas *to, const sb_monitor_state *state)
 {
     const sb_assembly *chunks = &state->assembly;
-    fprintf(to->out, "stream  %.1f messages/s  %.2f MB/s  ", state->message_rate,
-            1e-6 * state->byte_rate);
+    fprintf(to->out, "stream  %.1f messages/s  %.2f MB/s  ", state->message_rate, 1e-6 * state->byte_rate);
     fprintf(to->out, "%srefused %llu%s", state->count.refused ? paint(to, RED) : "",
             (unsigned long long)state->count.refused, plain(to));
     end_row(to);
@@ -102,30 +96,27 @@ static void draw_stream(canvas *to, const sb_monitor_state *state)
     }
     fprintf(to->out, "frames  %llu complete  %llu partial  %schunks lost %llu%s",
             (unsigned long long)chunks->frames_complete, (unsigned long long)chunks->frames_partial,
-            chunks->chunks_lost ? paint(to, RED) : "", (unsigned long long)chunks->chunks_lost,
-            plain(to));
+            chunks->chunks_lost ? paint(to, RED) : "", (unsigned long long)chunks->chunks_lost, plain(to));
     fprintf(to->out, "  t %.4g s  %lld particles", chunks->time, (long long)chunks->total);
     end_row(to);
 }
 
-static void draw_body(canvas *to, const sb_monitor_state *state, const sb_monitor_body *body,
-                      int cells, bool components)
+static void draw_body(canvas *to, const sb_monitor_state *state, const sb_monitor_body *body, int cells,
+                      bool components)
 {
     char bar[BAR_BYTES], signed_bar[BAR_BYTES], number[40], peak[40];
     sb_text_unit unit = sb_text_force_unit(fmax(state->peak, state->peak_component));
     double scale = state->peak > 0 ? 1 / state->peak : 0;
     double component_scale = state->peak_component > 0 ? 1 / state->peak_component : 0;
-    sb_text_bar(bar, cells, scale * body->horizontal, body->peak > 0 ? scale * body->peak : -1,
-                to->style->utf8);
+    sb_text_bar(bar, cells, scale * body->horizontal, body->peak > 0 ? scale * body->peak : -1, to->style->utf8);
     sb_text_number(number, sizeof number, body->horizontal / unit.size, false);
     sb_text_number(peak, sizeof peak, body->peak / unit.size, false);
-    fprintf(to->out, "%-*.*s %s%s%s %9s %9s", NAME_COLUMNS, NAME_COLUMNS, body->name,
-            paint(to, CYAN), bar, plain(to), number, peak);
+    fprintf(to->out, "%-*.*s %s%s%s %9s %9s", NAME_COLUMNS, NAME_COLUMNS, body->name, paint(to, CYAN), bar, plain(to),
+            number, peak);
     for (int k = 0; k < 3; k++) {
         sb_text_number(number, sizeof number, body->force[k] / unit.size, true);
         if (components) {
-            sb_text_signed_bar(signed_bar, HALF_BAR, component_scale * body->force[k],
-                               to->style->utf8);
+            sb_text_signed_bar(signed_bar, HALF_BAR, component_scale * body->force[k], to->style->utf8);
             fprintf(to->out, " %s%s%s", paint(to, DIM), signed_bar, plain(to));
         }
         fprintf(to->out, " %9s", number);
@@ -144,15 +135,12 @@ static void draw_forces(canvas *to, const sb_monitor_state *state)
     sb_text_unit unit = sb_text_force_unit(fmax(state->peak, state->peak_component));
     char header[16];
     snprintf(header, sizeof header, "|Fxy| %s", unit.name);
-    fprintf(to->out, "%s%-*s %-*s %9s %9s", paint(to, BOLD), NAME_COLUMNS, "body", cells,
-            "horizontal", header, "peak");
-    for (int k = 0; k < 3; k++)
-        fprintf(to->out, " %*s%c", components ? 2 * HALF_BAR + 10 : 8, "F", "xyz"[k]);
+    fprintf(to->out, "%s%-*s %-*s %9s %9s", paint(to, BOLD), NAME_COLUMNS, "body", cells, "horizontal", header, "peak");
+    for (int k = 0; k < 3; k++) fprintf(to->out, " %*s%c", components ? 2 * HALF_BAR + 10 : 8, "F", "xyz"[k]);
     fprintf(to->out, "%s", plain(to));
     end_row(to);
 
-    size_t hidden =
-        state->bodies_total > state->body_count ? state->bodies_total - state->body_count : 0;
+    size_t hidden = state->bodies_total > state->body_count ? state->bodies_total - state->body_count : 0;
     for (size_t i = 0; i < state->body_count; i++) {
         if (!state->bodies[i].reported) continue;
         if (to->style->height > 0 && to->rows + 2 >= to->style->height)
@@ -166,8 +154,7 @@ static void draw_forces(canvas *to, const sb_monitor_state *state)
     }
 }
 
-void sb_table_draw(FILE *out, const sb_monitor_state *state, const sb_table_style *style,
-                   double now)
+void sb_table_draw(FILE *out, const sb_monitor_state *state, const sb_table_style *style, double now)
 {
     canvas to = {out, style, 0};
     draw_title(&to, state, now);
@@ -189,8 +176,7 @@ void sb_table_line(FILE *out, const sb_monitor_state *state)
     fprintf(out,
             "%s  %5.1f %%  t %.6g of %.6g s  step %lld  dt %.4g ms  iterations %d  "
             "density error %.3g %%  max speed %.4g m/s  ETA %s  chunks lost %llu\n",
-            status->run, 100 * progress(status), status->time, status->duration,
-            (long long)status->step, 1e3 * status->time_step, (int)status->iterations,
-            100 * status->density_error, status->max_speed, eta,
+            status->run, 100 * progress(status), status->time, status->duration, (long long)status->step,
+            1e3 * status->time_step, (int)status->iterations, 100 * status->density_error, status->max_speed, eta,
             (unsigned long long)state->assembly.chunks_lost);
 }

@@ -14,8 +14,7 @@ typedef struct sb_table_style {
 
 /* Everything known, in at most style->height rows; bodies that do not fit are counted in a last
  * row. */
-void sb_table_draw(FILE *out, const sb_monitor_state *state, const sb_table_style *style,
-                   double now);
+void sb_table_draw(FILE *out, const sb_monitor_state *state, const sb_table_style *style, double now);
 
 /* One line: where the run is. */
 void sb_table_line(FILE *out, const sb_monitor_state *state);

@@ -51,10 +51,7 @@ void sb_text_bar(char *out, int cells, double share, double mark, bool utf8)
     *out = 0;
     for (int i = 0; i < cells; i++) {
         int part = filled - 8 * i;
-        const char *cell = utf8 ? (part >= 8  ? eighths[8]
-                                   : part > 0 ? eighths[part]
-                                              : "·")
-                                : (part >= 4 ? "#" : ".");
+        const char *cell = utf8 ? (part >= 8 ? eighths[8] : part > 0 ? eighths[part] : "·") : (part >= 4 ? "#" : ".");
         if (i == marked && part <= 0) cell = utf8 ? "│" : "|";
         out = stpcpy(out, cell);
     }
@@ -63,14 +60,11 @@ void sb_text_bar(char *out, int cells, double share, double mark, bool utf8)
 void sb_text_signed_bar(char *out, int half, double share, bool utf8)
 {
     int filled = (int)lround(clamped(fabs(share)) * half);
-    if (filled == 0 && fabs(share) * half > 0.05)
-        filled = 1; /* a small force still shows its sign */
+    if (filled == 0 && fabs(share) * half > 0.05) filled = 1; /* a small force still shows its sign */
     *out = 0;
     for (int i = -half; i <= half; i++) {
         bool on = share < 0 ? i < 0 && i >= -filled : i > 0 && i <= filled;
-        const char *cell = i == 0 ? (utf8 ? "│" : "|")
-                           : on   ? (utf8 ? "█" : "#")
-                                  : (utf8 ? "·" : ".");
+        const char *cell = i == 0 ? (utf8 ? "│" : "|") : on ? (utf8 ? "█" : "#") : (utf8 ? "·" : ".");
         out = stpcpy(out, cell);
     }
 }

@@ -19,10 +19,8 @@ static unsigned count_descriptors(pid_t process)
     unsigned count = 0;
     snprintf(path, sizeof path, "/proc/%ld/fd", (long)process);
     DIR *folder = opendir(path);
-    for (const struct dirent *entry; folder && (entry = readdir(folder));)
-        count += entry->d_name[0] != '.';
-    if (folder)
-        closedir(folder);
+    for (const struct dirent *entry; folder && (entry = readdir(folder));) count += entry->d_name[0] != '.';
+    if (folder) closedir(folder);
     return count;
 }
 
@@ -34,10 +32,8 @@ static uint64_t read_resident(pid_t process)
     snprintf(path, sizeof path, "/proc/%ld/status", (long)process);
     FILE *in = fopen(path, "r");
     while (in && kilobytes == 0 && fgets(line, sizeof line, in))
-        if (strncmp(line, "VmRSS:", 6) == 0)
-            kilobytes = strtoull(line + 6, NULL, 10);
-    if (in)
-        fclose(in);
+        if (strncmp(line, "VmRSS:", 6) == 0) kilobytes = strtoull(line + 6, NULL, 10);
+    if (in) fclose(in);
     return kilobytes;
 }
 
@@ -68,8 +64,7 @@ static int ascending(const void *left, const void *right)
 static double first_heard(const sb_soak_life *life)
 {
     for (size_t i = 0; i < life->count; i++)
-        if (life->samples[i].step > 0)
-            return life->samples[i].seconds;
+        if (life->samples[i].step > 0) return life->samples[i].seconds;
     return life->seconds;
 }
 
@@ -81,8 +76,7 @@ static bool middle(const sb_soak_life *life, double from, double to, double *res
     size_t n = 0;
     for (size_t i = 0; bytes && open && i < life->count; i++) {
         const double at = life->samples[i].seconds - begin;
-        if (at < from * span || at > to * span)
-            continue;
+        if (at < from * span || at > to * span) continue;
         bytes[n] = (double)life->samples[i].resident;
         open[n++] = life->samples[i].descriptors;
     }

@@ -11,10 +11,10 @@
 
 /* A process at one moment. */
 typedef struct sb_soak_sample {
-    double seconds;     /* of its life */
-    uint64_t resident;  /* bytes */
+    double seconds;    /* of its life */
+    uint64_t resident; /* bytes */
     unsigned descriptors;
-    uint64_t step;      /* the last one streamed */
+    uint64_t step; /* the last one streamed */
 } sb_soak_sample;
 
 typedef enum sb_soak_end { SB_SOAK_STOPPED, SB_SOAK_FINISHED, SB_SOAK_BROKEN } sb_soak_end;
@@ -24,18 +24,18 @@ typedef struct sb_soak_life {
     double begun, seconds; /* s: since the soak's beginning; how long */
     bool resumed;          /* or begun anew */
     sb_soak_end end;
-    char words[300];       /* how it ended, when broken */
+    char words[300];                /* how it ended, when broken */
     uint64_t first_step, last_step; /* streamed; 0: none */
     uint64_t frames, chunks_lost;   /* that the subscriber got whole; chunks of others that never came */
     sb_soak_sample *samples;        /* owned */
     size_t count, capacity;
 } sb_soak_life;
 
-/* A life's early and late middle values, from its first streamed step on: before that the model is made and settles. The
-   first third of that span is the warm-up: first pictures, buffers. Early: from a third to a half; late: the last
+/* A life's early and late middle values, from its first streamed step on: before that the model is made and settles.
+   The first third of that span is the warm-up: first pictures, buffers. Early: from a third to a half; late: the last
    sixth. */
 typedef struct sb_soak_growth {
-    bool judged; /* long enough for that, with enough samples on both sides */
+    bool judged;              /* long enough for that, with enough samples on both sides */
     double early, late, peak; /* bytes resident */
     double descriptors_early, descriptors_late;
     unsigned descriptors_peak;

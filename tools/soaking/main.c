@@ -25,12 +25,9 @@ static sb_status name_files(soak *s, sb_error *error)
 {
     sb_origin_commit(SB_SOURCE_DIR, s->commit);
     sb_status status = sb_process_beside("shorebreak", s->program, error);
-    if (status == SB_OK)
-        status = sb_path_join(s->scene, SB_SOURCE_DIR, "assets/scenes/plant.yaml", error);
-    if (status == SB_OK)
-        status = sb_path_join(s->out, s->options.out, "run", error);
-    if (status == SB_OK)
-        status = sb_path_join(s->said, s->options.out, "output.txt", error);
+    if (status == SB_OK) status = sb_path_join(s->scene, SB_SOURCE_DIR, "assets/scenes/plant.yaml", error);
+    if (status == SB_OK) status = sb_path_join(s->out, s->options.out, "run", error);
+    if (status == SB_OK) status = sb_path_join(s->said, s->options.out, "output.txt", error);
     return status == SB_OK ? sb_make_directories(s->options.out, error) : status;
 }
 
@@ -41,8 +38,7 @@ static sb_status live_on(soak *s, sb_soak_watch *watch, sb_error *error)
     bool resume = false, broken = false;
     while (status == SB_OK && !broken) {
         const double gone = sb_clock() - s->start, left = 60 * s->options.minutes - gone;
-        if (left <= 0 && s->count >= 2)
-            return SB_OK;
+        if (left <= 0 && s->count >= 2) return SB_OK;
         if (sb_grow((void **)&s->lives, &s->capacity, s->count + 1, sizeof *s->lives) != 0)
             return sb_fail_memory(error, "lives");
         sb_soak_life *life = &s->lives[s->count++];
@@ -57,8 +53,11 @@ static sb_status live_on(soak *s, sb_soak_watch *watch, sb_error *error)
 static sb_status write_reports(const soak *s, sb_soak_report *report, sb_error *error)
 {
     char why[400];
-    *report = (sb_soak_report){
-        .options = &s->options, .commit = s->commit, .lives = s->lives, .count = s->count, .seconds = sb_clock() - s->start};
+    *report = (sb_soak_report){.options = &s->options,
+                               .commit = s->commit,
+                               .lives = s->lives,
+                               .count = s->count,
+                               .seconds = sb_clock() - s->start};
     for (size_t i = 0; i < s->count; i++) {
         report->unwell += !sb_soak_well(&s->lives[i], why);
         report->frames += s->lives[i].frames;
@@ -74,16 +73,16 @@ static int tell(const soak *s, const sb_soak_report *report)
     for (size_t i = 0; i < s->count; i++)
         if (!sb_soak_well(&s->lives[i], why))
             printf("life %zu, from minute %.1f: %s\n", i + 1, s->lives[i].begun / 60, why);
-    printf("%zu lives, %zu of them long enough to be judged for growth, %zu not as they should be; %llu frames arrived\n",
-           s->count, report->judged, report->unwell, (unsigned long long)report->frames);
+    printf(
+        "%zu lives, %zu of them long enough to be judged for growth, %zu not as they should be; %llu frames arrived\n",
+        s->count, report->judged, report->unwell, (unsigned long long)report->frames);
     return report->unwell > 0 || report->frames == 0 ? UNWELL : 0;
 }
 
 static void forget(soak *s, sb_soak_watch *watch)
 {
     sb_soak_watch_destroy(watch);
-    for (size_t i = 0; i < s->count; i++)
-        sb_free(s->lives[i].samples);
+    for (size_t i = 0; i < s->count; i++) sb_free(s->lives[i].samples);
     sb_free(s->lives);
 }
 
@@ -98,23 +97,24 @@ int main(int count, char **arguments)
         fputs(sb_soak_help, stdout);
         return 0;
     }
-    if (status == SB_OK)
-        status = name_files(&s, &error);
-    const sb_soak_run run = {.program = s.program, .scene = s.scene, .out = s.out, .said = s.said,
-                             .spacing = s.options.spacing, .duration = s.options.duration};
+    if (status == SB_OK) status = name_files(&s, &error);
+    const sb_soak_run run = {.program = s.program,
+                             .scene = s.scene,
+                             .out = s.out,
+                             .said = s.said,
+                             .spacing = s.options.spacing,
+                             .duration = s.options.duration};
     if (status == SB_OK && sb_soak_watch_create(&run, &watch, &error) != SB_OK) {
         fprintf(stderr, "soak: %s\n", error.text);
         return NO_ROUTE;
     }
-    if (status == SB_OK)
-        status = live_on(&s, watch, &error);
+    if (status == SB_OK) status = live_on(&s, watch, &error);
     if (s.count > 0 && (status == SB_OK || status == SB_INTERRUPTED)) {
         sb_status written = write_reports(&s, &report, status == SB_OK ? &error : NULL);
         status = status == SB_OK ? written : status;
     }
     const int result = status == SB_OK ? tell(&s, &report) : (int)status;
-    if (status != SB_OK)
-        fprintf(stderr, "soak: %s\n", error.text);
+    if (status != SB_OK) fprintf(stderr, "soak: %s\n", error.text);
     forget(&s, watch);
     return result;
 }

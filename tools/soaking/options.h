@@ -7,10 +7,10 @@
 #include <stdbool.h>
 
 typedef struct sb_soak_options {
-    double minutes;  /* of wall time, all lives together */
-    double life;     /* s of wall time from its first frame until a run is stopped */
-    double spacing;  /* m */
-    double duration; /* s simulated, after which the run is finished and begun anew */
+    double minutes;           /* of wall time, all lives together */
+    double life;              /* s of wall time from its first frame until a run is stopped */
+    double spacing;           /* m */
+    double duration;          /* s simulated, after which the run is finished and begun anew */
     const char *out, *report; /* folders */
     bool help;
 } sb_soak_options;

@@ -14,13 +14,18 @@ static void put_head(FILE *out, const sb_soak_report *r)
     fprintf(out,
             "# What a soak leaves\n\n"
             "Commit %s, %s.\n"
-            "Made by `tools/soak --minutes %.4g --spacing %.4g --life %.4g --duration %.4g`; [what it does](../robustness.md#the-soak).\n\n",
+            "Made by `tools/soak --minutes %.4g --spacing %.4g --life %.4g --duration %.4g`; [what it "
+            "does](../robustness.md#the-soak).\n\n",
             r->commit, machine, o->minutes, o->spacing, o->life, o->duration);
     fprintf(out,
-            "The plant with pictures, particle files and a live subscriber, stopped by SIGTERM and resumed, begun anew when\n"
-            "finished. Each life is one process. Memory is what is resident: the middle value from a third to a half of the\n"
-            "time since the first streamed step (early: after the warm-up), and of the last sixth of it (late). It may grow by\n"
-            "%.0f %% and %.0f MB, for buffers that follow the wave; descriptors may not grow; every life must end as told, and\n"
+            "The plant with pictures, particle files and a live subscriber, stopped by SIGTERM and resumed, begun anew "
+            "when\n"
+            "finished. Each life is one process. Memory is what is resident: the middle value from a third to a half "
+            "of the\n"
+            "time since the first streamed step (early: after the warm-up), and of the last sixth of it (late). It may "
+            "grow by\n"
+            "%.0f %% and %.0f MB, for buffers that follow the wave; descriptors may not grow; every life must end as "
+            "told, and\n"
             "its frames arrive. Lives of less than %.0f s after their first step are not judged for growth.\n\n",
             100 * sb_soak_share, 1e-6 * sb_soak_bytes, sb_soak_shortest);
 }
@@ -69,20 +74,16 @@ sb_status sb_soak_report_write(const sb_soak_report *report, const char *folder,
     char path[SB_PATH_MAX];
     sb_atomic_file file;
     sb_status status = sb_make_directories(folder, error);
-    if (status == SB_OK)
-        status = sb_path_join(path, folder, "soak.md", error);
-    if (status == SB_OK)
-        status = sb_atomic_open(&file, path, error);
-    if (status != SB_OK)
-        return status;
+    if (status == SB_OK) status = sb_path_join(path, folder, "soak.md", error);
+    if (status == SB_OK) status = sb_atomic_open(&file, path, error);
+    if (status != SB_OK) return status;
     put_head(file.stream, report);
     put_sum(file.stream, report);
-    fprintf(file.stream,
-            "| begun, min | lasted, min | | from step | to step | early, MB | late, MB | peak, MB | descriptors early | late "
-            "| most | frames | chunks lost | end | |\n"
-            "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
-    for (size_t i = 0; i < report->count; i++)
-        put_life(file.stream, &report->lives[i]);
+    fprintf(file.stream, "| begun, min | lasted, min | | from step | to step | early, MB | late, MB | peak, MB | "
+                         "descriptors early | late "
+                         "| most | frames | chunks lost | end | |\n"
+                         "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+    for (size_t i = 0; i < report->count; i++) put_life(file.stream, &report->lives[i]);
     return sb_atomic_commit(&file, 0, error);
 }
 
@@ -91,10 +92,8 @@ sb_status sb_soak_samples_write(const sb_soak_report *report, const char *folder
     char path[SB_PATH_MAX];
     sb_atomic_file file;
     sb_status status = sb_path_join(path, folder, "samples.csv", error);
-    if (status == SB_OK)
-        status = sb_atomic_open(&file, path, error);
-    if (status != SB_OK)
-        return status;
+    if (status == SB_OK) status = sb_atomic_open(&file, path, error);
+    if (status != SB_OK) return status;
     fprintf(file.stream, "life,wall_s,resident_bytes,descriptors,step\n");
     for (size_t i = 0; i < report->count; i++)
         for (size_t k = 0; k < report->lives[i].count; k++) {

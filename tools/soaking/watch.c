@@ -24,7 +24,7 @@ struct sb_soak_watch {
     uint64_t frames;    /* that were whole when the present life began */
 };
 
-static const double grace = 120;  /* s that a run may take to stop when it is told */
+static const double grace = 120;     /* s that a run may take to stop when it is told */
 static const double start_up = 1800; /* s that it may take to its first frame */
 
 static volatile sig_atomic_t stopped;
@@ -39,8 +39,7 @@ static void on_status(void *user, const sb_status_message *message)
 {
     sb_soak_watch *w = user;
     w->step = (uint64_t)(message->step > 0 ? message->step : 0);
-    if (w->life->first_step == 0)
-        w->life->first_step = w->step;
+    if (w->life->first_step == 0) w->life->first_step = w->step;
     w->life->last_step = w->step;
 }
 
@@ -54,8 +53,7 @@ static void on_particles(void *user, const sb_particles_message *message)
 sb_status sb_soak_watch_create(const sb_soak_run *run, sb_soak_watch **watch, sb_error *error)
 {
     sb_soak_watch *made = sb_alloc(1, sizeof *made);
-    if (!made)
-        return sb_fail_memory(error, "the subscriber");
+    if (!made) return sb_fail_memory(error, "the subscriber");
     made->run = run;
     snprintf(made->prefix, sizeof made->prefix, "soak-%ld", (long)getpid());
     const sb_listener_calls calls = {.user = made, .status = on_status, .particles = on_particles};
@@ -73,8 +71,7 @@ sb_status sb_soak_watch_create(const sb_soak_run *run, sb_soak_watch **watch, sb
 
 void sb_soak_watch_destroy(sb_soak_watch *watch)
 {
-    if (!watch)
-        return;
+    if (!watch) return;
     sb_listener_destroy(watch->listener);
     sb_assembly_free(&watch->assembly);
     sb_free(watch);
@@ -87,9 +84,22 @@ static sb_status start(const sb_soak_watch *w, bool resume, pid_t *process, sb_e
     snprintf(spacing, sizeof spacing, "resolution=%.9g", run->spacing);
     snprintf(duration, sizeof duration, "duration=%.9g", run->duration);
     snprintf(prefix, sizeof prefix, "stream.prefix=%s", w->prefix);
-    const char *const arguments[] = {"shorebreak", "run", run->scene, "--quiet", "--out", run->out, "--set", spacing, "--set",
-                                     duration, "--set", prefix, "--set", "stream.enabled=true",
-                                     resume ? "--resume" : NULL, NULL};
+    const char *const arguments[] = {"shorebreak",
+                                     "run",
+                                     run->scene,
+                                     "--quiet",
+                                     "--out",
+                                     run->out,
+                                     "--set",
+                                     spacing,
+                                     "--set",
+                                     duration,
+                                     "--set",
+                                     prefix,
+                                     "--set",
+                                     "stream.enabled=true",
+                                     resume ? "--resume" : NULL,
+                                     NULL};
     return sb_process_start(run->program, arguments, run->said, SIGTERM, process, error);
 }
 
@@ -105,21 +115,18 @@ static void note_end(sb_soak_watch *w, bool told, bool hung, int how)
 {
     char ended[32], words[200];
     const int status = WIFEXITED(how) ? WEXITSTATUS(how) : -1;
-    w->life->end = status == 0 ? SB_SOAK_FINISHED
-                   : told && status == 128 + SIGTERM ? SB_SOAK_STOPPED
-                                                     : SB_SOAK_BROKEN;
-    if (w->life->end != SB_SOAK_BROKEN)
-        return;
+    w->life->end = status == 0 ? SB_SOAK_FINISHED : told && status == 128 + SIGTERM ? SB_SOAK_STOPPED : SB_SOAK_BROKEN;
+    if (w->life->end != SB_SOAK_BROKEN) return;
     sb_process_describe(how, ended);
     sb_process_last_words(w->run->said, "it said nothing", words, sizeof words);
-    snprintf(w->life->words, sizeof w->life->words, "%sended with %s: %.200s", hung ? "did not stop, " : "", ended, words);
+    snprintf(w->life->words, sizeof w->life->words, "%sended with %s: %.200s", hung ? "did not stop, " : "", ended,
+             words);
 }
 
 /* Whether a life has lasted long enough: from its first frame on, however long the start took. */
 static bool is_time(const sb_soak_watch *w, double now, double patience, double *first)
 {
-    if (w->assembly.frames_complete > w->frames && *first < 0)
-        *first = now;
+    if (w->assembly.frames_complete > w->frames && *first < 0) *first = now;
     return *first < 0 ? now >= patience + start_up : now - *first >= patience;
 }
 
@@ -138,8 +145,7 @@ static sb_status follow(sb_soak_watch *w, pid_t process, double patience, sb_err
             w->life->seconds = told ? w->life->seconds : now;
             break;
         }
-        if (ended < 0 && errno != EINTR)
-            return sb_fail(error, SB_FAILED, "cannot wait for a run: %s", strerror(errno));
+        if (ended < 0 && errno != EINTR) return sb_fail(error, SB_FAILED, "cannot wait for a run: %s", strerror(errno));
         if (!told && (stopped || is_time(w, now, patience, &first) || status != SB_OK)) {
             told = kill(process, SIGTERM) == 0;
             w->life->seconds = now;
@@ -163,11 +169,9 @@ sb_status sb_soak_live(sb_soak_watch *w, bool resume, double seconds, sb_soak_li
     w->step = 0;
     life->resumed = resume;
     sb_status status = start(w, resume, &process, error);
-    if (status == SB_OK)
-        status = follow(w, process, seconds, error);
+    if (status == SB_OK) status = follow(w, process, seconds, error);
     life->frames = w->assembly.frames_complete - w->frames;
     life->chunks_lost = w->assembly.chunks_lost - lost;
-    if (status == SB_OK && stopped)
-        status = sb_fail(error, SB_INTERRUPTED, "stopped by a signal");
+    if (status == SB_OK && stopped) status = sb_fail(error, SB_INTERRUPTED, "stopped by a signal");
     return status;
 }

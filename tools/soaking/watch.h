@@ -18,8 +18,8 @@ sb_status sb_soak_watch_create(const sb_soak_run *run, sb_soak_watch **watch, sb
 void sb_soak_watch_destroy(sb_soak_watch *watch);
 
 /* Starts the run, resumed or anew, watches it for so many seconds of wall time after its first frame, unless it ends
-   before, then stops it with SIGTERM; fills the life but for begun. A run that breaks is told in the life; SB_FAILED when it cannot even be watched, SB_INTERRUPTED
-   when this program was told to stop. */
+   before, then stops it with SIGTERM; fills the life but for begun. A run that breaks is told in the life; SB_FAILED
+   when it cannot even be watched, SB_INTERRUPTED when this program was told to stop. */
 sb_status sb_soak_live(sb_soak_watch *watch, bool resume, double seconds, sb_soak_life *life, sb_error *error);
 
 #endif

@@ -8,8 +8,7 @@
 /* In quotes where a shell would take it apart. */
 static void note(const sb_command_line *line, const char *text)
 {
-    if (!line->command)
-        return;
+    if (!line->command) return;
     const size_t length = strlen(line->command);
     const char *quote = strpbrk(text, " *?[{\"") ? "'" : "";
     snprintf(line->command + length, line->command_size - length, " %s%.200s%s", quote, text, quote);
@@ -30,23 +29,19 @@ static sb_status take_number(const sb_argument *option, const char *value, sb_er
     char *end;
     const double number = strtod(value, &end);
     if (end == value || *end || !isfinite(number) || number <= 0 || number > option->most)
-        return sb_fail(error, SB_BAD_INPUT, "%s: %.50s is no number above 0, at most %g", option->name, value, option->most);
+        return sb_fail(error, SB_BAD_INPUT, "%s: %.50s is no number above 0, at most %g", option->name, value,
+                       option->most);
     *option->number = number;
     return SB_OK;
 }
 
 static sb_status take_value(const sb_command_line *line, const sb_argument *option, const char *value, sb_error *error)
 {
-    if (!value)
-        return sb_fail(error, SB_BAD_INPUT, "%s: a value is missing; see --help", option->name);
-    if (option->telling)
-        note(line, value);
-    if (option->count)
-        return take_count(option, value, error);
-    if (option->number)
-        return take_number(option, value, error);
-    if (option->take)
-        return option->take(line->user, value, error);
+    if (!value) return sb_fail(error, SB_BAD_INPUT, "%s: a value is missing; see --help", option->name);
+    if (option->telling) note(line, value);
+    if (option->count) return take_count(option, value, error);
+    if (option->number) return take_number(option, value, error);
+    if (option->take) return option->take(line->user, value, error);
     *option->text = value;
     return SB_OK;
 }
@@ -54,8 +49,7 @@ static sb_status take_value(const sb_command_line *line, const sb_argument *opti
 static const sb_argument *find(const sb_command_line *line, const char *name)
 {
     for (size_t k = 0; k < line->option_count; k++)
-        if (strcmp(name, line->options[k].name) == 0)
-            return &line->options[k];
+        if (strcmp(name, line->options[k].name) == 0) return &line->options[k];
     return NULL;
 }
 
@@ -65,8 +59,7 @@ static sb_status take(const sb_command_line *line, char **at, int left, int *tak
     const sb_argument *option = find(line, at[0]);
     *taken = 1;
     if (option) {
-        if (option->telling)
-            note(line, option->name);
+        if (option->telling) note(line, option->name);
         if (option->flag) {
             *option->flag = true;
             return SB_OK;

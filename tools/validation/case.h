@@ -12,12 +12,11 @@
 
 /* One resolution of a case. In every list exactly one line is judged. */
 typedef struct sb_plan {
-    double resolution; /* m; 0 ends the list */
-    bool judged;       /* the reach is judged here, by the worst of the seeds */
-    bool paper;        /* the preset `paper` runs beside the default, seed 1 */
-    int seeds;         /* numerics.seed 1..seeds; 0 is 1 */
-    const char *const
-        *settings; /* further KEY=VALUE for `shorebreak run --set`, ended by NULL; NULL: none */
+    double resolution;           /* m; 0 ends the list */
+    bool judged;                 /* the reach is judged here, by the worst of the seeds */
+    bool paper;                  /* the preset `paper` runs beside the default, seed 1 */
+    int seeds;                   /* numerics.seed 1..seeds; 0 is 1 */
+    const char *const *settings; /* further KEY=VALUE for `shorebreak run --set`, ended by NULL; NULL: none */
 } sb_plan;
 
 /* The table of a run that was read last, kept because the next curve often comes from the same one.
@@ -45,20 +44,20 @@ typedef struct sb_case_run {
 
 /* A curve of the run's table, for example ("forces.csv", "column", "time_s", "Fx_N"); see sheet.h.
  */
-sb_status sb_run_curve(const sb_case_run *run, const char *table, const char *where, const char *x,
-                       const char *y, sb_curve *curve, sb_error *error);
+sb_status sb_run_curve(const sb_case_run *run, const char *table, const char *where, const char *x, const char *y,
+                       sb_curve *curve, sb_error *error);
 /* A curve of a reference table, its path relative to assets/validation; `where` as in sheet.h. */
-sb_status sb_reference_curve(const sb_case_run *run, const char *table, const char *where,
-                             const char *x, const char *y, sb_curve *curve, sb_error *error);
+sb_status sb_reference_curve(const sb_case_run *run, const char *table, const char *where, const char *x, const char *y,
+                             sb_curve *curve, sb_error *error);
 /* A number of the run's summary.json, by its first key of that name; NaN when there is none. */
 double sb_run_number(const sb_case_run *run, const char *key);
 
 typedef struct sb_case {
-    const char *name;   /* on the command line and in file names; stable */
-    const char *title;  /* its heading */
-    const char *reach;  /* what it must reach, one line */
-    const char *method; /* Markdown: reference, windows, filters, lag rule, what is (not) counted */
-    const char *scene;  /* relative to assets/validation */
+    const char *name;     /* on the command line and in file names; stable */
+    const char *title;    /* its heading */
+    const char *reach;    /* what it must reach, one line */
+    const char *method;   /* Markdown: reference, windows, filters, lag rule, what is (not) counted */
+    const char *scene;    /* relative to assets/validation */
     const char *headline; /* quantity of the figure that stands for the case in short tables */
     const sb_plan *full, *quick;
 
@@ -69,8 +68,8 @@ typedef struct sb_case {
     /* Figures that need several runs (an order of convergence), from the finished runs of the
        default preset with seed 1, coarse to fine, and the figures that evaluate gave for each.
        NULL: none. */
-    sb_status (*compare)(const sb_case_run *runs, const sb_figures *of_each, size_t count,
-                         sb_figures *figures, sb_error *error);
+    sb_status (*compare)(const sb_case_run *runs, const sb_figures *of_each, size_t count, sb_figures *figures,
+                         sb_error *error);
 
     /* Draws the finished runs, coarse to fine, the default preset before paper, seed 1 before
      * others. */

@@ -10,10 +10,10 @@ static const char *const FORCES = "column/force.csv";
 static const char *const sets[] = {"a", "b"};
 enum { SETS = 2 };
 
-static const double FILTER = 0.02; /* s, running median, as the reference table has it */
-static const double STEP = 0.01;   /* s between its values */
-static const double ONSET = 2;     /* N: the clocks are set equal here */
-static const double ZERO = 0.05;   /* s: the measured force is a zero offset before */
+static const double FILTER = 0.02;                           /* s, running median, as the reference table has it */
+static const double STEP = 0.01;                             /* s between its values */
+static const double ONSET = 2;                               /* N: the clocks are set equal here */
+static const double ZERO = 0.05;                             /* s: the measured force is a zero offset before */
 static const double IMPULSE_BEGIN = 0.32, IMPULSE_END = 1.3; /* s */
 static const double REFLECTED_END = 1.85;                    /* s */
 
@@ -46,8 +46,7 @@ static sb_status load(const sb_case_run *run, forces *f, sb_error *error)
     double onset = 0;
     sb_status status = filtered_force(run, &ours, error);
     for (int k = 0; status == SB_OK && k < SETS; k++) {
-        status =
-            sb_reference_curve(run, FORCES, sets[k], "time_s", "force_N", &f->measured[k], error);
+        status = sb_reference_curve(run, FORCES, sets[k], "time_s", "force_N", &f->measured[k], error);
         onset += status == SB_OK ? sb_curve_onset(&f->measured[k], ONSET, ZERO) / SETS : 0;
     }
     if (status == SB_OK) {
@@ -78,21 +77,18 @@ static sb_status add_set(const forces *f, int k, sb_figures *figures, sb_error *
     size_t our_top = sb_curve_highest(ours, ZERO, IMPULSE_END);
     double peak = value_at(measured, top);
     snprintf(name, sizeof name, "peak force, digitisation %s", sets[k]);
-    sb_status status = sb_figure_share(
-        figures, name, "N", peak, value_at(ours, our_top), peak, 10, error,
-        "20 ms medians; measured at %.2f s, ours at %.2f s; clock shifted by %.3f s",
-        time_at(measured, top), time_at(ours, our_top), f->shift);
+    sb_status status = sb_figure_share(figures, name, "N", peak, value_at(ours, our_top), peak, 10, error,
+                                       "20 ms medians; measured at %.2f s, ours at %.2f s; clock shifted by %.3f s",
+                                       time_at(measured, top), time_at(ours, our_top), f->shift);
     double impulse = sb_curve_integral(measured, IMPULSE_BEGIN, IMPULSE_END);
     snprintf(name, sizeof name, "impulse 0.32 to 1.3 s, digitisation %s", sets[k]);
     if (status == SB_OK)
-        status = sb_figure_share(figures, name, "N s", impulse,
-                                 sb_curve_integral(ours, IMPULSE_BEGIN, IMPULSE_END), impulse, 5,
-                                 error, "of the 20 ms medians");
+        status = sb_figure_share(figures, name, "N s", impulse, sb_curve_integral(ours, IMPULSE_BEGIN, IMPULSE_END),
+                                 impulse, 5, error, "of the 20 ms medians");
     snprintf(name, sizeof name, "RMS until 1.3 s, digitisation %s", sets[k]);
     if (status == SB_OK)
         status =
-            sb_figure_below(figures, name, "%",
-                            100 / peak * sb_curve_rms_difference(ours, measured, ZERO, IMPULSE_END),
+            sb_figure_below(figures, name, "%", 100 / peak * sb_curve_rms_difference(ours, measured, ZERO, IMPULSE_END),
                             10, error, "from %g s on, in %% of the measured peak", ZERO);
     return status;
 }
@@ -102,14 +98,12 @@ static sb_status add_reflected(const forces *f, sb_figures *figures, sb_error *e
     size_t low = sb_curve_lowest(&f->simulated, IMPULSE_END, REFLECTED_END);
     sb_status status = sb_figure_share(
         figures, "reflected minimum", "N", -11, value_at(&f->simulated, low), 11, 30, error,
-        "20 ms medians, between %g and %g s; the two digitisations have %.1f and %.1f N",
-        IMPULSE_END, REFLECTED_END,
+        "20 ms medians, between %g and %g s; the two digitisations have %.1f and %.1f N", IMPULSE_END, REFLECTED_END,
         value_at(&f->measured[0], sb_curve_lowest(&f->measured[0], IMPULSE_END, REFLECTED_END)),
         value_at(&f->measured[1], sb_curve_lowest(&f->measured[1], IMPULSE_END, REFLECTED_END)));
     if (status == SB_OK)
-        status =
-            sb_figure_difference(figures, "time of the reflected minimum", "s", 1.57,
-                                 time_at(&f->simulated, low), 0.1, error, "of the 20 ms medians");
+        status = sb_figure_difference(figures, "time of the reflected minimum", "s", 1.57, time_at(&f->simulated, low),
+                                      0.1, error, "of the 20 ms medians");
     return status;
 }
 
@@ -121,8 +115,7 @@ static sb_status bore(const sb_case_run *run, sb_curve *velocity, double *arriva
     *arrival = NONE;
     for (size_t i = 0; status == SB_OK && i < raw.count; i++) {
         if (isnan(*arrival) && raw.y[i] > 1) *arrival = raw.x[i];
-        if (!isnan(*arrival) && !isnan(raw.y[i]))
-            status = sb_curve_add(&after, raw.x[i] - *arrival, raw.y[i], error);
+        if (!isnan(*arrival) && !isnan(raw.y[i])) status = sb_curve_add(&after, raw.x[i] - *arrival, raw.y[i], error);
     }
     if (status == SB_OK) status = sb_curve_median_filter(&after, 0.05, velocity, error);
     sb_curve_free(&raw);
@@ -136,8 +129,7 @@ static sb_status add_bore(const sb_case_run *run, sb_figures *figures, sb_error 
     double arrival = NONE;
     sb_status status = bore(run, &velocity, &arrival, error);
     if (status == SB_OK)
-        status = sb_reference_curve(run, "column/velocity.csv", NULL, "time_s", "u_m_s", &measured,
-                                    error);
+        status = sb_reference_curve(run, "column/velocity.csv", NULL, "time_s", "u_m_s", &measured, error);
     if (status == SB_OK)
         status = sb_figure_report(figures, "bore velocity, RMS difference", "m/s", NONE,
                                   sb_curve_rms_difference(&velocity, &measured, 0, 0.9), error,
@@ -163,8 +155,8 @@ static sb_status evaluate(const sb_case_run *run, sb_figures *figures, sb_error 
 
 static sb_status draw_forces(const sb_case_run *runs, size_t count, sb_plot *plot, sb_error *error)
 {
-    sb_status status = sb_plot_panel(plot, "Force on the column, 20 ms medians", "time [s]",
-                                     "horizontal force [N]", error);
+    sb_status status =
+        sb_plot_panel(plot, "Force on the column, 20 ms medians", "time [s]", "horizontal force [N]", error);
     sb_plot_range(plot, 0.2, REFLECTED_END, NONE, NONE);
     for (size_t i = 0; status == SB_OK && i < count; i++) {
         forces f;
@@ -175,8 +167,7 @@ static sb_status draw_forces(const sb_case_run *runs, size_t count, sb_plot *plo
             snprintf(label, sizeof label, "measured, digitisation %s", sets[k]);
             status = sb_plot_curve(plot, SB_PLOT_POINTS, label, &f.measured[k], error);
         }
-        if (status == SB_OK)
-            status = sb_plot_curve(plot, SB_PLOT_LINE, runs[i].label, &f.simulated, error);
+        if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, runs[i].label, &f.simulated, error);
         forces_free(&f);
     }
     return status;
@@ -189,16 +180,14 @@ static sb_status draw_bore(const sb_case_run *runs, size_t count, sb_plot *plot,
                                      "time from the bore's arrival [s]", "u [m/s]", error);
     sb_plot_range(plot, 0, 0.95, 0, NONE);
     if (status == SB_OK && count)
-        status = sb_reference_curve(&runs[0], "column/velocity.csv", NULL, "time_s", "u_m_s",
-                                    &measured, error);
+        status = sb_reference_curve(&runs[0], "column/velocity.csv", NULL, "time_s", "u_m_s", &measured, error);
     if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_POINTS, "measured", &measured, error);
     sb_curve_free(&measured);
     for (size_t i = 0; status == SB_OK && i < count; i++) {
         sb_curve velocity = {0};
         double arrival;
         status = bore(&runs[i], &velocity, &arrival, error);
-        if (status == SB_OK)
-            status = sb_plot_curve(plot, SB_PLOT_LINE, runs[i].label, &velocity, error);
+        if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, runs[i].label, &velocity, error);
         sb_curve_free(&velocity);
     }
     return status;
@@ -222,12 +211,11 @@ const sb_case sb_case_column = {
     .reach = "against both digitisations: peak within 10 %, impulse 0.32 to 1.3 s within 5 %, RMS "
              "at most 10 % of the peak until 1.3 s; reflected minimum -11 N +-30 % within 0.1 s of "
              "1.57 s",
-    .method =
-        "Yeh and Petroff, two digitisations (a, b) of the same noisy trace. Running medians over "
-        "20 ms on both sides, every 10 ms. The measured clock is uncertain by 0.1 s: one shift "
-        "makes our force pass 2 N at the mean of the times at which the two digitisations do. The "
-        "first 0.05 s, a zero offset, are left out. The bore's velocity, too, is compared from "
-        "its own arrival on.",
+    .method = "Yeh and Petroff, two digitisations (a, b) of the same noisy trace. Running medians over "
+              "20 ms on both sides, every 10 ms. The measured clock is uncertain by 0.1 s: one shift "
+              "makes our force pass 2 N at the mean of the times at which the two digitisations do. The "
+              "first 0.05 s, a zero offset, are left out. The bore's velocity, too, is compared from "
+              "its own arrival on.",
     .scene = "column/column.yaml",
     .headline = "peak force, digitisation a",
     .full = full,

@@ -16,13 +16,11 @@ typedef struct experiment {
 } experiment;
 
 static const experiment etsin = {"dambreak-front/etsin.csv", {"", NULL}, 0.3, 0.44, true, 3};
-static const experiment martin_moyce = {
-    "dambreak-front/martin-moyce.csv", {"a", "b", NULL}, 0.114, 0.32, false, 8};
-static const experiment koshizuka = {
-    "dambreak-front/koshizuka.csv", {"a", "b", NULL}, 0.292, 0.28, false, 8};
+static const experiment martin_moyce = {"dambreak-front/martin-moyce.csv", {"a", "b", NULL}, 0.114, 0.32, false, 8};
+static const experiment koshizuka = {"dambreak-front/koshizuka.csv", {"a", "b", NULL}, 0.292, 0.28, false, 8};
 
-static sb_status measured(const sb_case_run *run, const experiment *e, const char *set,
-                          sb_curve *curve, sb_error *error)
+static sb_status measured(const sb_case_run *run, const experiment *e, const char *set, sb_curve *curve,
+                          sb_error *error)
 {
     return sb_reference_curve(run, e->table, *set ? set : NULL, "time_s", "front_m", curve, error);
 }
@@ -60,15 +58,14 @@ static const char *name_of(char text[SB_FIGURE_TEXT], const char *quantity, cons
     return text;
 }
 
-static sb_status add_figures(const experiment *e, const char *set, const sb_curve *front,
-                             const sb_curve *reference, sb_figures *figures, sb_error *error)
+static sb_status add_figures(const experiment *e, const char *set, const sb_curve *front, const sb_curve *reference,
+                             sb_figures *figures, sb_error *error)
 {
     char name[SB_FIGURE_TEXT];
     distance d = distance_of(front, reference, e->last);
     sb_status status = sb_figure_below(
-        figures, name_of(name, "front, mean distance", set), "%", 100 * d.mean / d.range, e->limit,
-        error, "mean |dx| at the measured times until %g s, in %% of the range %.3f m", e->last,
-        d.range);
+        figures, name_of(name, "front, mean distance", set), "%", 100 * d.mean / d.range, e->limit, error,
+        "mean |dx| at the measured times until %g s, in %% of the range %.3f m", e->last, d.range);
     if (status == SB_OK)
         status = sb_figure_report(figures, name_of(name, "front, largest distance", set), "%", NONE,
                                   100 * d.largest / d.range, error, "over the same points");
@@ -77,22 +74,22 @@ static sb_status add_figures(const experiment *e, const char *set, const sb_curv
 
 /* The shift that makes both fronts pass one depth from the gate together, and what it brings where
    the reach is judged without it. */
-static sb_status add_shift(const experiment *e, const char *set, double lag, sb_curve *front,
-                           const sb_curve *reference, sb_figures *figures, sb_error *error)
+static sb_status add_shift(const experiment *e, const char *set, double lag, sb_curve *front, const sb_curve *reference,
+                           sb_figures *figures, sb_error *error)
 {
     char name[SB_FIGURE_TEXT];
-    sb_status status = sb_figure_report(figures, name_of(name, "shift of the clock", set), "s",
-                                        NONE, lag, error, "both fronts then pass %g m together; %s",
-                                        e->depth, e->lag ? "applied" : "not applied");
+    sb_status status =
+        sb_figure_report(figures, name_of(name, "shift of the clock", set), "s", NONE, lag, error,
+                         "both fronts then pass %g m together; %s", e->depth, e->lag ? "applied" : "not applied");
     if (status != SB_OK || e->lag) return status;
     sb_curve_map(front, 1, lag, 1, 0);
     distance d = distance_of(front, reference, e->last);
-    return sb_figure_report(figures, name_of(name, "front, mean distance if shifted", set), "%",
-                            NONE, 100 * d.mean / d.range, error, "by that time");
+    return sb_figure_report(figures, name_of(name, "front, mean distance if shifted", set), "%", NONE,
+                            100 * d.mean / d.range, error, "by that time");
 }
 
-static sb_status evaluate_set(const sb_case_run *run, const experiment *e, const char *set,
-                              sb_figures *figures, sb_error *error)
+static sb_status evaluate_set(const sb_case_run *run, const experiment *e, const char *set, sb_figures *figures,
+                              sb_error *error)
 {
     sb_curve front = {0}, reference = {0};
     sb_status status = measured(run, e, set, &reference, error);
@@ -108,17 +105,14 @@ static sb_status evaluate_set(const sb_case_run *run, const experiment *e, const
     return status;
 }
 
-static sb_status evaluate(const sb_case_run *run, const experiment *e, sb_figures *figures,
-                          sb_error *error)
+static sb_status evaluate(const sb_case_run *run, const experiment *e, sb_figures *figures, sb_error *error)
 {
     sb_status status = SB_OK;
-    for (int k = 0; status == SB_OK && e->sets[k]; k++)
-        status = evaluate_set(run, e, e->sets[k], figures, error);
+    for (int k = 0; status == SB_OK && e->sets[k]; k++) status = evaluate_set(run, e, e->sets[k], figures, error);
     return status;
 }
 
-static sb_status plot_measured(const sb_case_run *run, const experiment *e, sb_plot *plot,
-                               sb_error *error)
+static sb_status plot_measured(const sb_case_run *run, const experiment *e, sb_plot *plot, sb_error *error)
 {
     sb_status status = SB_OK;
     for (int k = 0; status == SB_OK && e->sets[k]; k++) {
@@ -133,8 +127,7 @@ static sb_status plot_measured(const sb_case_run *run, const experiment *e, sb_p
 }
 
 /* The clock as in the figures. */
-static sb_status plot_run(const sb_case_run *run, const experiment *e, sb_plot *plot,
-                          sb_error *error)
+static sb_status plot_run(const sb_case_run *run, const experiment *e, sb_plot *plot, sb_error *error)
 {
     sb_curve front = {0}, reference = {0};
     sb_status status = measured(run, e, e->sets[0], &reference, error);
@@ -149,15 +142,12 @@ static sb_status plot_run(const sb_case_run *run, const experiment *e, sb_plot *
     return status;
 }
 
-static sb_status draw(const sb_case_run *runs, size_t count, const experiment *e, sb_plot *plot,
-                      sb_error *error)
+static sb_status draw(const sb_case_run *runs, size_t count, const experiment *e, sb_plot *plot, sb_error *error)
 {
-    sb_status status =
-        sb_plot_panel(plot, "Front of the water", "time [s]", "distance from the gate [m]", error);
+    sb_status status = sb_plot_panel(plot, "Front of the water", "time [s]", "distance from the gate [m]", error);
     sb_plot_range(plot, 0, 1.1 * e->last, 0, NONE);
     if (status == SB_OK && count) status = plot_measured(&runs[0], e, plot, error);
-    for (size_t i = 0; status == SB_OK && i < count; i++)
-        status = plot_run(&runs[i], e, plot, error);
+    for (size_t i = 0; status == SB_OK && i < count; i++) status = plot_run(&runs[i], e, plot, error);
     return status;
 }
 
@@ -176,8 +166,7 @@ static sb_status evaluate_martin_moyce(const sb_case_run *run, sb_figures *figur
     return evaluate(run, &martin_moyce, figures, error);
 }
 
-static sb_status draw_martin_moyce(const sb_case_run *runs, size_t count, sb_plot *plot,
-                                   sb_error *error)
+static sb_status draw_martin_moyce(const sb_case_run *runs, size_t count, sb_plot *plot, sb_error *error)
 {
     return draw(runs, count, &martin_moyce, plot, error);
 }
@@ -187,8 +176,7 @@ static sb_status evaluate_koshizuka(const sb_case_run *run, sb_figures *figures,
     return evaluate(run, &koshizuka, figures, error);
 }
 
-static sb_status draw_koshizuka(const sb_case_run *runs, size_t count, sb_plot *plot,
-                                sb_error *error)
+static sb_status draw_koshizuka(const sb_case_run *runs, size_t count, sb_plot *plot, sb_error *error)
 {
     return draw(runs, count, &koshizuka, plot, error);
 }
@@ -203,14 +191,12 @@ static const sb_plan martin_moyce_full[] = {{.resolution = 0.0057, .paper = true
                                             {.resolution = 0.00285, .paper = true},
                                             {.resolution = 0.001425, .judged = true, .seeds = 3},
                                             {.resolution = 0}};
-static const sb_plan martin_moyce_quick[] = {{.resolution = 0.00285, .judged = true},
-                                             {.resolution = 0}};
+static const sb_plan martin_moyce_quick[] = {{.resolution = 0.00285, .judged = true}, {.resolution = 0}};
 static const sb_plan koshizuka_full[] = {{.resolution = 0.0146, .paper = true},
                                          {.resolution = 0.0073, .paper = true},
                                          {.resolution = 0.00365, .judged = true, .seeds = 3},
                                          {.resolution = 0}};
-static const sb_plan koshizuka_quick[] = {{.resolution = 0.0073, .judged = true},
-                                          {.resolution = 0}};
+static const sb_plan koshizuka_quick[] = {{.resolution = 0.0073, .judged = true}, {.resolution = 0}};
 
 const sb_case sb_case_front_etsin = {
     .name = "dambreak-front-etsin",

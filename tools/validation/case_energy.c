@@ -21,8 +21,7 @@ static sb_status mechanical(const sb_sheet *sheet, sb_curve *energy, sb_error *e
 {
     sb_curve potential = {0};
     sb_status status = sb_sheet_curve(sheet, NULL, "time_s", "kinetic_J", energy, error);
-    if (status == SB_OK)
-        status = sb_sheet_curve(sheet, NULL, "time_s", "potential_J", &potential, error);
+    if (status == SB_OK) status = sb_sheet_curve(sheet, NULL, "time_s", "potential_J", &potential, error);
     for (size_t i = 0; i < potential.count; i++) energy->y[i] += potential.y[i];
     sb_curve_free(&potential);
     if (status != SB_OK) sb_curve_free(energy);
@@ -32,8 +31,7 @@ static sb_status mechanical(const sb_sheet *sheet, sb_curve *energy, sb_error *e
 /* An item of the loss: a column in J that is neither kinetic nor potential energy. */
 static bool is_item(const char *column)
 {
-    return strstr(column, "_J") && strncmp(column, "kinetic", 7) != 0 &&
-           strncmp(column, "potential", 9) != 0;
+    return strstr(column, "_J") && strncmp(column, "kinetic", 7) != 0 && strncmp(column, "potential", 9) != 0;
 }
 
 /* Largest value in a column; NaN when the table has none. */
@@ -55,8 +53,7 @@ static double change_of(const sb_sheet *sheet, const char *column)
     return sb_sheet_number(sheet, sheet->rows - 1, k) - sb_sheet_number(sheet, 0, k);
 }
 
-static sb_status figure_items(const sb_sheet *sheet, double lost, double scale, sb_figures *figures,
-                              sb_error *error)
+static sb_status figure_items(const sb_sheet *sheet, double lost, double scale, sb_figures *figures, sb_error *error)
 {
     double sum = 0;
     size_t items = 0;
@@ -66,8 +63,7 @@ static sb_status figure_items(const sb_sheet *sheet, double lost, double scale, 
         const char *column = sheet->fields[k];
         if (!is_item(column)) continue;
         double change = change_of(sheet, column);
-        snprintf(quantity, sizeof quantity, "energy, item %.*s",
-                 (int)(strstr(column, "_J") - column), column);
+        snprintf(quantity, sizeof quantity, "energy, item %.*s", (int)(strstr(column, "_J") - column), column);
         status = sb_figure_report(figures, quantity, "%", (double)NAN, 100 * change / scale, error,
                                   "of the energy at the start, over the whole run");
         sum += change;
@@ -92,13 +88,12 @@ static sb_status figure_energy(const sb_sheet *sheet, sb_figures *figures, sb_er
         at = energy.x[i];
     }
     double lost = energy.y[energy.count - 1] - start;
-    status = sb_figure_below(
-        figures, "energy, largest rise over 50 steps", "", rise / start, 1e-4, error,
-        "of the mechanical energy at the start above the floor (%.4g J), from t = %.3f s", start,
-        at);
+    status =
+        sb_figure_below(figures, "energy, largest rise over 50 steps", "", rise / start, 1e-4, error,
+                        "of the mechanical energy at the start above the floor (%.4g J), from t = %.3f s", start, at);
     if (status == SB_OK)
-        status = sb_figure_report(figures, "energy, change over the whole run", "%", (double)NAN,
-                                  100 * lost / start, error, "of the same");
+        status = sb_figure_report(figures, "energy, change over the whole run", "%", (double)NAN, 100 * lost / start,
+                                  error, "of the same");
     if (status == SB_OK) status = figure_items(sheet, lost, start, figures, error);
     sb_curve_free(&energy);
     return status;
@@ -163,12 +158,10 @@ static sb_status plot_items(const sb_case_run *run, sb_plot *plot, sb_error *err
 static sb_status plot(const sb_case_run *runs, size_t count, sb_plot *plot, sb_error *error)
 {
     const sb_case_run *chosen = &runs[0];
-    sb_status status =
-        sb_plot_panel(plot, "Kinetic and potential energy", "time (s)", "over the start's", error);
+    sb_status status = sb_plot_panel(plot, "Kinetic and potential energy", "time (s)", "over the start's", error);
     for (size_t i = 0; status == SB_OK && i < count; i++) {
         status = plot_one(&runs[i], plot, error);
-        if (runs[i].judged && runs[i].seed == 1 && strcmp(runs[i].preset, "default") == 0)
-            chosen = &runs[i];
+        if (runs[i].judged && runs[i].seed == 1 && strcmp(runs[i].preset, "default") == 0) chosen = &runs[i];
     }
     return status == SB_OK ? plot_items(chosen, plot, error) : status;
 }
@@ -185,10 +178,9 @@ const sb_case sb_case_energy = {
     .reach = "momentum with bodies balances within 1e-6 of sum m |a| at every step; energy rises "
              "by at most 1e-4 of the "
              "start's over any 50 steps; its loss itemised",
-    .method =
-        "Reference: the laws of conservation. A column of 0.4 m collapses onto a block in a closed "
-        "tank, 3 s. Energy is "
-        "kinetic plus\npotential above the floor, a row of energy.csv for every step; no filter.",
+    .method = "Reference: the laws of conservation. A column of 0.4 m collapses onto a block in a closed "
+              "tank, 3 s. Energy is "
+              "kinetic plus\npotential above the floor, a row of energy.csv for every step; no filter.",
     .scene = "energy/collapse.yaml",
     .headline = "energy, largest rise over 50 steps",
     .full = full,

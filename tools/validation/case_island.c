@@ -29,8 +29,7 @@ enum { PROBES = 3 };
 
 /* Metres above still water. A gauge that sees no water counts as still water: the film there is
    thinner than a particle. */
-static sb_status elevation(const sb_case_run *run, const gauge *g, sb_curve *filtered,
-                           sb_error *error)
+static sb_status elevation(const sb_case_run *run, const gauge *g, sb_curve *filtered, sb_error *error)
 {
     sb_curve raw = {0};
     sb_status status = sb_run_curve(run, "gauges.csv", g->name, "time_s", "eta_m", &raw, error);
@@ -40,17 +39,14 @@ static sb_status elevation(const sb_case_run *run, const gauge *g, sb_curve *fil
     return status;
 }
 
-static sb_status measured_elevation(const sb_case_run *run, const gauge *g, sb_curve *curve,
-                                    sb_error *error)
+static sb_status measured_elevation(const sb_case_run *run, const gauge *g, sb_curve *curve, sb_error *error)
 {
-    sb_status status =
-        sb_reference_curve(run, "island/gauges.csv", NULL, "time_s", g->column, curve, error);
+    sb_status status = sb_reference_curve(run, "island/gauges.csv", NULL, "time_s", g->column, curve, error);
     if (status == SB_OK) sb_curve_map(curve, 1, 0, 1e-3, 0);
     return status;
 }
 
-static sb_status velocity(const sb_case_run *run, const char *probe, sb_curve *filtered,
-                          sb_error *error)
+static sb_status velocity(const sb_case_run *run, const char *probe, sb_curve *filtered, sb_error *error)
 {
     sb_curve raw = {0};
     sb_status status = sb_run_curve(run, "probes.csv", probe, "time_s", "u_m_s", &raw, error);
@@ -59,17 +55,15 @@ static sb_status velocity(const sb_case_run *run, const char *probe, sb_curve *f
     return status;
 }
 
-static sb_status measured_velocity(const sb_case_run *run, const char *column, sb_curve *curve,
-                                   sb_error *error)
+static sb_status measured_velocity(const sb_case_run *run, const char *column, sb_curve *curve, sb_error *error)
 {
-    sb_status status =
-        sb_reference_curve(run, "island/velocities.csv", NULL, "time_s", column, curve, error);
+    sb_status status = sb_reference_curve(run, "island/velocities.csv", NULL, "time_s", column, curve, error);
     if (status == SB_OK) sb_curve_map(curve, 1, 0, 1e-3, 0);
     return status;
 }
 
-static sb_status add_crest(const gauge *g, const sb_curve *ours, const sb_curve *measured,
-                           double end, sb_figures *figures, sb_error *error)
+static sb_status add_crest(const gauge *g, const sb_curve *ours, const sb_curve *measured, double end,
+                           sb_figures *figures, sb_error *error)
 {
     char name[SB_FIGURE_TEXT];
     size_t top = sb_curve_highest(measured, 0, end), our_top = sb_curve_highest(ours, 0, end);
@@ -78,12 +72,10 @@ static sb_status add_crest(const gauge *g, const sb_curve *ours, const sb_curve 
     double our_time = our_top == (size_t)-1 ? NONE : ours->x[our_top];
     snprintf(name, sizeof name, "%s crest", g->name);
     sb_status status =
-        g->share > 0 ? sb_figure_share(figures, name, "m", crest, our_crest, HEIGHT, g->share,
-                                       error, "in %% of H; measured at %.2f s, ours at %.2f s",
-                                       measured->x[top], our_time)
+        g->share > 0 ? sb_figure_share(figures, name, "m", crest, our_crest, HEIGHT, g->share, error,
+                                       "in %% of H; measured at %.2f s, ours at %.2f s", measured->x[top], our_time)
                      : sb_figure_difference(figures, name, "m", crest, our_crest, 0.04, error,
-                                            "measured at %.2f s, ours at %.2f s", measured->x[top],
-                                            our_time);
+                                            "measured at %.2f s, ours at %.2f s", measured->x[top], our_time);
     snprintf(name, sizeof name, "%s arrival", g->name);
     if (status == SB_OK)
         status = sb_figure_difference(figures, name, "s", sb_curve_onset(measured, crest / 2, 0),
@@ -92,8 +84,7 @@ static sb_status add_crest(const gauge *g, const sb_curve *ours, const sb_curve 
     return status;
 }
 
-static sb_status add_gauge(const sb_case_run *run, const gauge *g, sb_figures *figures,
-                           sb_error *error)
+static sb_status add_gauge(const sb_case_run *run, const gauge *g, sb_figures *figures, sb_error *error)
 {
     sb_curve ours = {0}, measured = {0};
     double end = fmin(run->scene->duration, END);
@@ -118,16 +109,14 @@ static sb_status add_probe(const sb_case_run *run, int k, sb_figures *figures, s
     snprintf(name, sizeof name, "U at %s, RMS difference", probes[k][0]);
     if (status == SB_OK)
         status =
-            sb_figure_report(figures, name, "m/s", NONE,
-                             sb_curve_rms_difference(&ours, &measured, VELOCITY_BEGIN, END), error,
-                             "0.1 s means, from %g s on, where both see water", VELOCITY_BEGIN);
+            sb_figure_report(figures, name, "m/s", NONE, sb_curve_rms_difference(&ours, &measured, VELOCITY_BEGIN, END),
+                             error, "0.1 s means, from %g s on, where both see water", VELOCITY_BEGIN);
     snprintf(name, sizeof name, "U at %s, largest", probes[k][0]);
     size_t top = sb_curve_highest(&measured, VELOCITY_BEGIN, END);
     size_t our_top = sb_curve_highest(&ours, VELOCITY_BEGIN, END);
     if (status == SB_OK)
         status = sb_figure_report(figures, name, "m/s", top == (size_t)-1 ? NONE : measured.y[top],
-                                  our_top == (size_t)-1 ? NONE : ours.y[our_top], error,
-                                  "of the 0.1 s means");
+                                  our_top == (size_t)-1 ? NONE : ours.y[our_top], error, "of the 0.1 s means");
     sb_curve_free(&ours);
     sb_curve_free(&measured);
     return status;
@@ -136,38 +125,33 @@ static sb_status add_probe(const sb_case_run *run, int k, sb_figures *figures, s
 static sb_status evaluate(const sb_case_run *run, sb_figures *figures, sb_error *error)
 {
     sb_status status = SB_OK;
-    for (int k = 0; status == SB_OK && k < GAUGES; k++)
-        status = add_gauge(run, &gauges[k], figures, error);
+    for (int k = 0; status == SB_OK && k < GAUGES; k++) status = add_gauge(run, &gauges[k], figures, error);
     for (int k = 0; status == SB_OK && k < PROBES; k++) status = add_probe(run, k, figures, error);
     return status;
 }
 
 /* One curve of each run over the measured one, which is freed. */
-typedef sb_status (*curve_reader)(const sb_case_run *run, const void *item, sb_curve *curve,
-                                  sb_error *error);
+typedef sb_status (*curve_reader)(const sb_case_run *run, const void *item, sb_curve *curve, sb_error *error);
 
-static sb_status read_elevation(const sb_case_run *run, const void *item, sb_curve *curve,
-                                sb_error *error)
+static sb_status read_elevation(const sb_case_run *run, const void *item, sb_curve *curve, sb_error *error)
 {
     return elevation(run, item, curve, error);
 }
 
-static sb_status read_velocity(const sb_case_run *run, const void *item, sb_curve *curve,
-                               sb_error *error)
+static sb_status read_velocity(const sb_case_run *run, const void *item, sb_curve *curve, sb_error *error)
 {
     return velocity(run, item, curve, error);
 }
 
-static sb_status draw_over(const sb_case_run *runs, size_t count, sb_curve *measured,
-                           curve_reader reader, const void *item, sb_plot *plot, sb_error *error)
+static sb_status draw_over(const sb_case_run *runs, size_t count, sb_curve *measured, curve_reader reader,
+                           const void *item, sb_plot *plot, sb_error *error)
 {
     sb_status status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "measured", measured, error);
     sb_curve_free(measured);
     for (size_t i = 0; status == SB_OK && i < count; i++) {
         sb_curve ours = {0};
         status = reader(&runs[i], item, &ours, error);
-        if (status == SB_OK)
-            status = sb_plot_curve(plot, SB_PLOT_LINE, runs[i].label, &ours, error);
+        if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, runs[i].label, &ours, error);
         sb_curve_free(&ours);
     }
     return status;
@@ -181,8 +165,7 @@ static sb_status draw(const sb_case_run *runs, size_t count, sb_plot *plot, sb_e
         status = sb_plot_panel(plot, gauges[k].name, "time [s]", "elevation [m]", error);
         sb_plot_range(plot, 2, END, NONE, NONE);
         if (status == SB_OK) status = measured_elevation(&runs[0], &gauges[k], &measured, error);
-        if (status == SB_OK)
-            status = draw_over(runs, count, &measured, read_elevation, &gauges[k], plot, error);
+        if (status == SB_OK) status = draw_over(runs, count, &measured, read_elevation, &gauges[k], plot, error);
     }
     for (int k = 0; status == SB_OK && count && k < PROBES; k++) {
         char title[SB_FIGURE_TEXT];
@@ -191,8 +174,7 @@ static sb_status draw(const sb_case_run *runs, size_t count, sb_plot *plot, sb_e
         status = sb_plot_panel(plot, title, "time [s]", "u [m/s]", error);
         sb_plot_range(plot, 2, END, NONE, NONE);
         if (status == SB_OK) status = measured_velocity(&runs[0], probes[k][1], &measured, error);
-        if (status == SB_OK)
-            status = draw_over(runs, count, &measured, read_velocity, probes[k][0], plot, error);
+        if (status == SB_OK) status = draw_over(runs, count, &measured, read_velocity, probes[k][0], plot, error);
     }
     return status;
 }
@@ -204,25 +186,23 @@ static const sb_plan full[] = {{.resolution = 0.19, .paper = true},
                                {.resolution = 0.095, .paper = true, .seeds = 3},
                                {.resolution = 0.0475, .judged = true, .settings = pictures},
                                {.resolution = 0}};
-static const sb_plan quick[] = {{.resolution = 0.19, .judged = true, .settings = shortened},
-                                {.resolution = 0}};
+static const sb_plan quick[] = {{.resolution = 0.19, .judged = true, .settings = shortened}, {.resolution = 0}};
 
 const sb_case sb_case_island = {
     .name = "island",
     .title = "Solitary wave over a shelf with a conical island",
     .reach = "crests: WG1, WG4 within 5 % of H, WG2, WG5 within 10 %, the others within 4 cm; "
              "arrivals within 0.15 s; U with its RMS difference",
-    .method =
-        "Tsunami Wave Basin, Oregon State University; H = 0.39 m on h = 0.78 m. No shift of the "
-        "clock: both start with the paddle. Running means over 0.05 s of the elevations and over "
-        "0.1 s of the velocities on both sides. Crest: the highest value until 12 s. Arrival: the "
-        "rise through half of the measured crest. A gauge that sees no water counts as still "
-        "water. The shelf carries 7 to 9 cm of water, under two particles at 0.0475 m: WG2, WG3 "
-        "and WG6 to WG9 stand there. The paddle's record is not published: Goring's first-order "
-        "law is used, with the height, 0.42 m instead of the 0.39 m asked of the machine, that in "
-        "a fine flat flume gives the measured crests' mean at WG1 and WG4 (flume.yaml beside the "
-        "scene). So what these two judge is the loss on the way there at the spacing shown, not "
-        "the wave that was made.",
+    .method = "Tsunami Wave Basin, Oregon State University; H = 0.39 m on h = 0.78 m. No shift of the "
+              "clock: both start with the paddle. Running means over 0.05 s of the elevations and over "
+              "0.1 s of the velocities on both sides. Crest: the highest value until 12 s. Arrival: the "
+              "rise through half of the measured crest. A gauge that sees no water counts as still "
+              "water. The shelf carries 7 to 9 cm of water, under two particles at 0.0475 m: WG2, WG3 "
+              "and WG6 to WG9 stand there. The paddle's record is not published: Goring's first-order "
+              "law is used, with the height, 0.42 m instead of the 0.39 m asked of the machine, that in "
+              "a fine flat flume gives the measured crests' mean at WG1 and WG4 (flume.yaml beside the "
+              "scene). So what these two judge is the loss on the way there at the spacing shown, not "
+              "the wave that was made.",
     .scene = "island/island.yaml",
     .headline = "WG1 crest",
     .full = full,

@@ -15,8 +15,7 @@ enum { TIMES = 4 };
 static sb_status laboratory(const sb_case_run *run, double height, double *runup, sb_error *error)
 {
     sb_curve table = {0};
-    sb_status status =
-        sb_reference_curve(run, "solitary-runup/runup.csv", NULL, "height", "runup", &table, error);
+    sb_status status = sb_reference_curve(run, "solitary-runup/runup.csv", NULL, "height", "runup", &table, error);
     for (size_t i = 0; i < table.count; i++) {
         table.x[i] = log(table.x[i]);
         table.y[i] = log(table.y[i]);
@@ -26,32 +25,25 @@ static sb_status laboratory(const sb_case_run *run, double height, double *runup
     return status;
 }
 
-static sb_status figure_runup(const sb_case_run *run, double limit, sb_figures *figures,
-                              sb_error *error)
+static sb_status figure_runup(const sb_case_run *run, double limit, sb_figures *figures, sb_error *error)
 {
     const sb_initial_wave *wave = &run->scene->wave;
     sb_curve front = {0}, top = {0};
     double height = wave->height / wave->depth, measured = (double)NAN;
-    double law =
-        height > 0.045 ? 1.109 * pow(height, 0.582) : 2.831 * sqrt(COTANGENT) * pow(height, 1.25);
+    double law = height > 0.045 ? 1.109 * pow(height, 0.582) : 2.831 * sqrt(COTANGENT) * pow(height, 1.25);
     sb_status status = laboratory(run, height, &measured, error);
-    if (status == SB_OK)
-        status = sb_run_curve(run, "runup.csv", "beach", "time_s", "front_m", &front, error);
-    if (status == SB_OK)
-        status = sb_run_curve(run, "runup.csv", "beach", "time_s", "z_m", &top, error);
+    if (status == SB_OK) status = sb_run_curve(run, "runup.csv", "beach", "time_s", "front_m", &front, error);
+    if (status == SB_OK) status = sb_run_curve(run, "runup.csv", "beach", "time_s", "z_m", &top, error);
     if (status == SB_OK) {
-        size_t far = sb_curve_highest(&front, 0, HUGE_VAL),
-               high = sb_curve_highest(&top, 0, HUGE_VAL);
+        size_t far = sb_curve_highest(&front, 0, HUGE_VAL), high = sb_curve_highest(&top, 0, HUGE_VAL);
         double reached = (front.y[far] - OFFSET) / COTANGENT / wave->depth;
-        status = sb_figure_share(
-            figures, "run-up R/d", "", measured, reached, measured, limit, error,
-            "the beach's height below the foremost water that hangs together, at t sqrt(g/d) = "
-            "%.1f, "
-            "for H/d = %g; the run-up law says %.3f",
-            front.x[far] * sqrt(run->scene->fluid.gravity / wave->depth), height, law);
+        status = sb_figure_share(figures, "run-up R/d", "", measured, reached, measured, limit, error,
+                                 "the beach's height below the foremost water that hangs together, at t sqrt(g/d) = "
+                                 "%.1f, "
+                                 "for H/d = %g; the run-up law says %.3f",
+                                 front.x[far] * sqrt(run->scene->fluid.gravity / wave->depth), height, law);
         if (status == SB_OK)
-            status = sb_figure_report(figures, "highest water over d", "", measured,
-                                      top.y[high] / wave->depth, error,
+            status = sb_figure_report(figures, "highest water over d", "", measured, top.y[high] / wave->depth, error,
                                       "upper face of the highest particle on the beach");
     }
     sb_curve_free(&front);
@@ -83,23 +75,19 @@ static sb_status surface(const sb_case_run *run, double time, sb_curve *eta, sb_
     return status;
 }
 
-static sb_status figure_profile(const sb_case_run *run, const char *time, sb_figures *figures,
-                                sb_error *error)
+static sb_status figure_profile(const sb_case_run *run, const char *time, sb_figures *figures, sb_error *error)
 {
     char quantity[SB_FIGURE_TEXT];
     sb_curve ours = {0}, lab = {0};
     double height = run->scene->wave.height / run->scene->wave.depth;
     sb_status status = surface(run, strtod(time, NULL), &ours, error);
-    if (status == SB_OK)
-        status =
-            sb_reference_curve(run, "solitary-runup/profiles.csv", time, "x", "eta", &lab, error);
+    if (status == SB_OK) status = sb_reference_curve(run, "solitary-runup/profiles.csv", time, "x", "eta", &lab, error);
     snprintf(quantity, sizeof quantity, "profile at t sqrt(g/d) = %s, RMS", time);
     if (status == SB_OK)
-        status = sb_figure_below(
-            figures, quantity, "%",
-            100 * sb_curve_rms_difference(&ours, &lab, -HUGE_VAL, HUGE_VAL) / height, 10, error,
-            "of H, at the %zu places of the laboratory, x/d from %.1f to %.1f", lab.count,
-            lab.count ? lab.x[0] : 0, lab.count ? lab.x[lab.count - 1] : 0);
+        status = sb_figure_below(figures, quantity, "%",
+                                 100 * sb_curve_rms_difference(&ours, &lab, -HUGE_VAL, HUGE_VAL) / height, 10, error,
+                                 "of H, at the %zu places of the laboratory, x/d from %.1f to %.1f", lab.count,
+                                 lab.count ? lab.x[0] : 0, lab.count ? lab.x[lab.count - 1] : 0);
     sb_curve_free(&ours);
     sb_curve_free(&lab);
     return status;
@@ -108,8 +96,7 @@ static sb_status figure_profile(const sb_case_run *run, const char *time, sb_fig
 static sb_status evaluate_breaking(const sb_case_run *run, sb_figures *figures, sb_error *error)
 {
     sb_status status = figure_runup(run, 10, figures, error);
-    for (int i = 0; status == SB_OK && i < TIMES; i++)
-        status = figure_profile(run, times[i], figures, error);
+    for (int i = 0; status == SB_OK && i < TIMES; i++) status = figure_profile(run, times[i], figures, error);
     return status;
 }
 
@@ -118,29 +105,24 @@ static sb_status evaluate_nonbreaking(const sb_case_run *run, sb_figures *figure
     return figure_runup(run, 15, figures, error);
 }
 
-static sb_status plot_profile(const sb_case_run *runs, size_t count, const char *time,
-                              sb_plot *plot, sb_error *error)
+static sb_status plot_profile(const sb_case_run *runs, size_t count, const char *time, sb_plot *plot, sb_error *error)
 {
     char title[64];
     sb_curve lab = {0};
     snprintf(title, sizeof title, "Free surface at t sqrt(g/d) = %s", time);
-    sb_status status =
-        sb_plot_panel(plot, title, "x/d, seaward of the still shoreline", "eta/d", error);
+    sb_status status = sb_plot_panel(plot, title, "x/d, seaward of the still shoreline", "eta/d", error);
     if (status == SB_OK) sb_plot_range(plot, -8, 20, -0.05, 0.45);
     double x[] = {-8, 0}, y[] = {8 / COTANGENT, 0};
     if (status == SB_OK)
-        status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "beach",
-                               &(sb_curve){.count = 2, .x = x, .y = y}, error);
+        status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "beach", &(sb_curve){.count = 2, .x = x, .y = y}, error);
     if (status == SB_OK)
-        status = sb_reference_curve(&runs[0], "solitary-runup/profiles.csv", time, "x", "eta", &lab,
-                                    error);
+        status = sb_reference_curve(&runs[0], "solitary-runup/profiles.csv", time, "x", "eta", &lab, error);
     if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_POINTS, "laboratory", &lab, error);
     sb_curve_free(&lab);
     for (size_t i = 0; status == SB_OK && i < count; i++) {
         sb_curve ours = {0};
         status = surface(&runs[i], strtod(time, NULL), &ours, error);
-        if (status == SB_OK)
-            status = sb_plot_curve(plot, SB_PLOT_LINE, runs[i].label, &ours, error);
+        if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, runs[i].label, &ours, error);
         sb_curve_free(&ours);
     }
     return status;
@@ -150,32 +132,27 @@ static sb_status plot_runup(const sb_case_run *runs, size_t count, sb_plot *plot
 {
     double measured = (double)NAN, end = runs[0].scene->duration;
     const sb_initial_wave *wave = &runs[0].scene->wave;
-    sb_status status = sb_plot_panel(plot, "Shoreline: the beach's height below the foremost water",
-                                     "time (s)", "over d", error);
-    if (status == SB_OK)
-        status = laboratory(&runs[0], wave->height / wave->depth, &measured, error);
+    sb_status status =
+        sb_plot_panel(plot, "Shoreline: the beach's height below the foremost water", "time (s)", "over d", error);
+    if (status == SB_OK) status = laboratory(&runs[0], wave->height / wave->depth, &measured, error);
     double x[] = {0, end}, y[] = {measured, measured};
     if (status == SB_OK)
-        status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "laboratory, greatest",
-                               &(sb_curve){.count = 2, .x = x, .y = y}, error);
+        status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "laboratory, greatest", &(sb_curve){.count = 2, .x = x, .y = y},
+                               error);
     for (size_t i = 0; status == SB_OK && i < count; i++) {
         sb_curve front = {0};
         status = sb_run_curve(&runs[i], "runup.csv", "beach", "time_s", "front_m", &front, error);
-        sb_curve_map(&front, 1, 0, 1 / (COTANGENT * wave->depth),
-                     -OFFSET / (COTANGENT * wave->depth));
-        if (status == SB_OK)
-            status = sb_plot_curve(plot, SB_PLOT_LINE, runs[i].label, &front, error);
+        sb_curve_map(&front, 1, 0, 1 / (COTANGENT * wave->depth), -OFFSET / (COTANGENT * wave->depth));
+        if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, runs[i].label, &front, error);
         sb_curve_free(&front);
     }
     return status;
 }
 
-static sb_status plot_breaking(const sb_case_run *runs, size_t count, sb_plot *plot,
-                               sb_error *error)
+static sb_status plot_breaking(const sb_case_run *runs, size_t count, sb_plot *plot, sb_error *error)
 {
     sb_status status = plot_runup(runs, count, plot, error);
-    for (int i = 0; status == SB_OK && i < TIMES; i++)
-        status = plot_profile(runs, count, times[i], plot, error);
+    for (int i = 0; status == SB_OK && i < TIMES; i++) status = plot_profile(runs, count, times[i], plot, error);
     return status;
 }
 
@@ -192,10 +169,10 @@ static const sb_plan nonbreaking_full[] = {{.resolution = 0.02, .paper = true},
                                            {.resolution = 0.01, .judged = true, .seeds = 3},
                                            {.resolution = 0}};
 /* A wave of H/d = 0.1 has enough particles in a cheap run. */
-static const char *const higher[] = {"water.wave.height=0.1", "water.wave.position=-27.8039",
-                                     "domain.min=[-40, -1]", "duration=18.5", NULL};
-static const sb_plan nonbreaking_quick[] = {
-    {.resolution = 0.05, .judged = true, .settings = higher}, {.resolution = 0}};
+static const char *const higher[] = {"water.wave.height=0.1", "water.wave.position=-27.8039", "domain.min=[-40, -1]",
+                                     "duration=18.5", NULL};
+static const sb_plan nonbreaking_quick[] = {{.resolution = 0.05, .judged = true, .settings = higher},
+                                            {.resolution = 0}};
 
 const sb_case sb_case_runup_breaking = {
     .name = "runup-breaking",

@@ -12,8 +12,7 @@ static const double STRETCH = 10;          /* m: lines through heights at either
 static const double HALF_WIDTH = 0.25;     /* s: of the parabola at a crest */
 
 /* Crests at the gauges: height above still water and time, over x. */
-static sb_status find_crests(const sb_case_run *run, sb_curve *heights, sb_curve *times,
-                             sb_error *error)
+static sb_status find_crests(const sb_case_run *run, sb_curve *heights, sb_curve *times, sb_error *error)
 {
     const sb_scene *scene = run->scene;
     sb_status status = SB_OK;
@@ -23,8 +22,7 @@ static sb_status find_crests(const sb_case_run *run, sb_curve *heights, sb_curve
         status = sb_run_curve(run, "gauges.csv", gauge->name, "time_s", "eta_m", &eta, error);
         sb_peak crest = sb_curve_peak(&eta, 0, HUGE_VAL, HALF_WIDTH);
         sb_curve_free(&eta);
-        if (status == SB_OK)
-            status = sb_curve_add(heights, gauge->x, crest.y - scene->sea.level, error);
+        if (status == SB_OK) status = sb_curve_add(heights, gauge->x, crest.y - scene->sea.level, error);
         if (status == SB_OK) status = sb_curve_add(times, gauge->x, crest.x, error);
     }
     return status;
@@ -51,8 +49,8 @@ static sb_status follow(const sb_case_run *run, journey *j, sb_error *error)
     if (status == SB_OK) {
         j->first = line_at(&heights, FIRST, FIRST + STRETCH, FIRST);
         j->last = line_at(&heights, LAST - STRETCH, LAST, LAST);
-        j->damped = sb_keulegan_height(j->first, scene->wave.depth, scene->fluid.viscosity,
-                                       scene->fluid.gravity, LAST - FIRST);
+        j->damped =
+            sb_keulegan_height(j->first, scene->wave.depth, scene->fluid.viscosity, scene->fluid.gravity, LAST - FIRST);
         j->celerity = sb_curve_line(&times, FIRST, LAST, &a, &b) ? 1 / b : (double)NAN;
         j->leaves = line_at(&times, FIRST, FIRST + STRETCH, FIRST);
         j->arrives = line_at(&times, LAST - STRETCH, LAST, LAST);
@@ -66,8 +64,7 @@ static sb_status follow(const sb_case_run *run, journey *j, sb_error *error)
  * kinetic. */
 static double wave_energy(const sb_scene *scene, double height)
 {
-    return 8 / (3 * sqrt(3.0)) * scene->fluid.density * scene->fluid.gravity *
-           pow(height * scene->wave.depth, 1.5);
+    return 8 / (3 * sqrt(3.0)) * scene->fluid.density * scene->fluid.gravity * pow(height * scene->wave.depth, 1.5);
 }
 
 /* By how much a column of energy.csv changes between the wave's leaving and arriving. */
@@ -82,16 +79,15 @@ static double change_of(const sb_sheet *sheet, const char *column, const journey
 
 /* Every column in J beyond kinetic and potential energy is an item of the loss, whatever its name.
  */
-static sb_status figure_items(const sb_sheet *sheet, const journey *j, double energy,
-                              sb_figures *figures, sb_error *error)
+static sb_status figure_items(const sb_sheet *sheet, const journey *j, double energy, sb_figures *figures,
+                              sb_error *error)
 {
     sb_status status = SB_OK;
     for (size_t k = 0; status == SB_OK && k < sheet->columns; k++) {
         char name[SB_FIGURE_TEXT], quantity[SB_FIGURE_TEXT];
         snprintf(name, sizeof name, "%s", sheet->fields[k]);
         char *unit = strstr(name, "_J");
-        if (!unit || strncmp(name, "kinetic", 7) == 0 || strncmp(name, "potential", 9) == 0)
-            continue;
+        if (!unit || strncmp(name, "kinetic", 7) == 0 || strncmp(name, "potential", 9) == 0) continue;
         double change = change_of(sheet, name, j);
         *unit = '\0';
         snprintf(quantity, sizeof quantity, "energy, item %.60s", name);
@@ -101,8 +97,7 @@ static sb_status figure_items(const sb_sheet *sheet, const journey *j, double en
     return status;
 }
 
-static sb_status figure_energy(const sb_case_run *run, const journey *j, sb_figures *figures,
-                               sb_error *error)
+static sb_status figure_energy(const sb_case_run *run, const journey *j, sb_figures *figures, sb_error *error)
 {
     char path[SB_PATH_MAX];
     sb_sheet sheet = {0};
@@ -111,16 +106,14 @@ static sb_status figure_energy(const sb_case_run *run, const journey *j, sb_figu
     if (status == SB_OK) status = sb_sheet_read(path, &sheet, error);
     if (status != SB_OK) return status;
     double total = change_of(&sheet, "kinetic_J", j) + change_of(&sheet, "potential_J", j);
-    status = sb_figure_report(
-        figures, "energy, change over 50 depths", "%", (double)NAN, 100 * total / energy, error,
-        "kinetic and potential, of the wave's energy at x = %g m (%.0f J/m by theory at the "
-        "measured height); Keulegan: %.2f %%. A level that sinks by a thousandth of the depth "
-        "counts like a third of the wave",
-        FIRST, energy, 100 * (pow(j->damped / j->first, 1.5) - 1));
+    status = sb_figure_report(figures, "energy, change over 50 depths", "%", (double)NAN, 100 * total / energy, error,
+                              "kinetic and potential, of the wave's energy at x = %g m (%.0f J/m by theory at the "
+                              "measured height); Keulegan: %.2f %%. A level that sinks by a thousandth of the depth "
+                              "counts like a third of the wave",
+                              FIRST, energy, 100 * (pow(j->damped / j->first, 1.5) - 1));
     if (status == SB_OK)
-        status = sb_figure_report(figures, "kinetic energy, change over 50 depths", "%",
-                                  (double)NAN, 200 * change_of(&sheet, "kinetic_J", j) / energy,
-                                  error, "of half of that energy");
+        status = sb_figure_report(figures, "kinetic energy, change over 50 depths", "%", (double)NAN,
+                                  200 * change_of(&sheet, "kinetic_J", j) / energy, error, "of half of that energy");
     if (status == SB_OK)
         status = sb_figure_report(figures, "energy, change by the loss of height", "%", (double)NAN,
                                   100 * (pow(j->last / j->first, 1.5) - 1), error,
@@ -137,24 +130,21 @@ static sb_status evaluate(const sb_case_run *run, sb_figures *figures, sb_error 
     sb_status status = follow(run, &j, error);
     if (status != SB_OK) return status;
     double unit = sqrt(scene->fluid.gravity * scene->wave.depth);
-    status = sb_figure_share(figures, "celerity", "sqrt(g h)", 1.138, j.celerity / unit, 1.138, 1,
-                             error, "line through the crests' times at gauges every 2 m");
+    status = sb_figure_share(figures, "celerity", "sqrt(g h)", 1.138, j.celerity / unit, 1.138, 1, error,
+                             "line through the crests' times at gauges every 2 m");
     if (status == SB_OK)
-        status = sb_figure_below(
-            figures, "height loss beyond Keulegan", "%", 100 * (j.damped - j.last) / j.damped, 5,
-            error,
-            "at x = %g m, from the height at %g m; lines through the crests of the first and last "
-            "%g m",
-            LAST, FIRST, STRETCH);
+        status =
+            sb_figure_below(figures, "height loss beyond Keulegan", "%", 100 * (j.damped - j.last) / j.damped, 5, error,
+                            "at x = %g m, from the height at %g m; lines through the crests of the first and last "
+                            "%g m",
+                            LAST, FIRST, STRETCH);
     if (status == SB_OK)
-        status = sb_figure_report(
-            figures, "height at x = 10 m", "m", scene->wave.height, j.first, error,
-            "the wave was put on the water at x = %g m by theory of the third order",
-            scene->wave.position);
+        status = sb_figure_report(figures, "height at x = 10 m", "m", scene->wave.height, j.first, error,
+                                  "the wave was put on the water at x = %g m by theory of the third order",
+                                  scene->wave.position);
     if (status == SB_OK)
         status = sb_figure_report(figures, "height at x = 60 m", "m", j.damped, j.last, error,
-                                  "the reference is Keulegan's for nu = %g m^2/s",
-                                  scene->fluid.viscosity);
+                                  "the reference is Keulegan's for nu = %g m^2/s", scene->fluid.viscosity);
     return status == SB_OK ? figure_energy(run, &j, figures, error) : status;
 }
 
@@ -163,20 +153,19 @@ static double loss_of(const sb_figures *figures)
     return sb_figures_find(figures, "height loss beyond Keulegan")->value;
 }
 
-static sb_status compare(const sb_case_run *runs, const sb_figures *of_each, size_t count,
-                         sb_figures *figures, sb_error *error)
+static sb_status compare(const sb_case_run *runs, const sb_figures *of_each, size_t count, sb_figures *figures,
+                         sb_error *error)
 {
     size_t f = count - 1;
     double ratio = runs[f - 1].resolution / runs[f].resolution;
     double pair = log(loss_of(&of_each[f - 1]) / loss_of(&of_each[f])) / log(ratio);
-    sb_status status =
-        sb_figure_report(figures, "order of convergence, two finest", "", (double)NAN, pair, error,
-                         "of the height loss beyond Keulegan, whose limit is 0");
+    sb_status status = sb_figure_report(figures, "order of convergence, two finest", "", (double)NAN, pair, error,
+                                        "of the height loss beyond Keulegan, whose limit is 0");
     if (status != SB_OK || count < 3) return status;
-    double steps = (loss_of(&of_each[f - 2]) - loss_of(&of_each[f - 1])) /
-                   (loss_of(&of_each[f - 1]) - loss_of(&of_each[f]));
-    return sb_figure_report(figures, "order of convergence, three finest", "", (double)NAN,
-                            log(steps) / log(ratio), error,
+    double steps =
+        (loss_of(&of_each[f - 2]) - loss_of(&of_each[f - 1])) / (loss_of(&of_each[f - 1]) - loss_of(&of_each[f]));
+    return sb_figure_report(figures, "order of convergence, three finest", "", (double)NAN, log(steps) / log(ratio),
+                            error,
                             "of the same, its limit unknown (Richardson); nothing when the losses "
                             "do not fall by less and "
                             "less");
@@ -190,18 +179,15 @@ static sb_status plot_heights(const sb_case_run *runs, size_t count, sb_plot *pl
     if (status == SB_OK) sb_plot_range(plot, FIRST, LAST, 0, 0.35);
     for (double x = FIRST; status == SB_OK && x <= LAST; x += 2)
         status = sb_curve_add(&theory, x,
-                              sb_keulegan_height(scene->wave.height, scene->wave.depth,
-                                                 scene->fluid.viscosity, scene->fluid.gravity,
-                                                 x - FIRST),
+                              sb_keulegan_height(scene->wave.height, scene->wave.depth, scene->fluid.viscosity,
+                                                 scene->fluid.gravity, x - FIRST),
                               error);
-    if (status == SB_OK)
-        status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "Keulegan", &theory, error);
+    if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "Keulegan", &theory, error);
     sb_curve_free(&theory);
     for (size_t i = 0; status == SB_OK && i < count; i++) {
         sb_curve heights = {0}, times = {0};
         status = find_crests(&runs[i], &heights, &times, error);
-        if (status == SB_OK)
-            status = sb_plot_curve(plot, SB_PLOT_LINE, runs[i].label, &heights, error);
+        if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, runs[i].label, &heights, error);
         sb_curve_free(&heights);
         sb_curve_free(&times);
     }
@@ -215,14 +201,11 @@ static sb_status plot_shapes(const sb_case_run *runs, size_t count, sb_plot *plo
     sb_solitary wave = {scene->wave.height, scene->wave.depth, scene->fluid.gravity, scene->wave.theory};
     double celerity = sb_solitary_celerity(&wave);
     sb_curve theory = {0};
-    sb_status status =
-        sb_plot_panel(plot, "Elevation at x = 60 m, each crest at 0", "time (s)", "m", error);
+    sb_status status = sb_plot_panel(plot, "Elevation at x = 60 m, each crest at 0", "time (s)", "m", error);
     if (status == SB_OK) sb_plot_range(plot, -3, 2, -0.05, 0.35);
     for (int i = -60; status == SB_OK && i <= 40; i++)
-        status = sb_curve_add(&theory, 0.05 * i, sb_solitary_elevation(&wave, -0.05 * i * celerity),
-                              error);
-    if (status == SB_OK)
-        status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "third order, H = 0.3 m", &theory, error);
+        status = sb_curve_add(&theory, 0.05 * i, sb_solitary_elevation(&wave, -0.05 * i * celerity), error);
+    if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "third order, H = 0.3 m", &theory, error);
     sb_curve_free(&theory);
     for (size_t i = 0; status == SB_OK && i < count; i++) {
         sb_curve eta = {0};

@@ -35,8 +35,8 @@ static sb_status shape(const sb_case_run *run, int n, sb_curve *amplitude, sb_er
     for (size_t g = 0; status == SB_OK && g < scene->measure.gauge_count; g++) {
         sb_curve eta = {0};
         const sb_gauge *gauge = &scene->measure.gauges[g];
-        double share = 2.0 / (double)scene->measure.gauge_count *
-                       cos(n * M_PI * (gauge->x - scene->domain.min.x) / length);
+        double share =
+            2.0 / (double)scene->measure.gauge_count * cos(n * M_PI * (gauge->x - scene->domain.min.x) / length);
         status = sb_run_curve(run, "gauges.csv", gauge->name, "time_s", "eta_m", &eta, error);
         if (status == SB_OK) sb_curve_map(&eta, 1, 0, share, -share * scene->sea.level);
         for (size_t i = 0; i < sum.count && i < eta.count; i++) sum.y[i] += eta.y[i];
@@ -62,8 +62,7 @@ typedef struct swing {
 static const double LEAST = 0.02;
 
 /* Crossings (over their number) and the logarithms of the extremes before them (over time). */
-static sb_status find_swings(const sb_curve *a, double last, sb_curve *crossings,
-                             sb_curve *extremes, sb_error *error)
+static sb_status find_swings(const sb_curve *a, double last, sb_curve *crossings, sb_curve *extremes, sb_error *error)
 {
     sb_curve size = {0};
     if (a->count == 0) return sb_fail(error, SB_FAILED, "no elevations to look for swings in");
@@ -90,8 +89,7 @@ static sb_status measure(const sb_curve *a, double last, swing *found, sb_error 
     double first, slope, squares = 0;
     *found = (swing){(double)NAN, (double)NAN, (double)NAN};
     sb_status status = find_swings(a, last, &crossings, &extremes, error);
-    if (status == SB_OK && sb_curve_line(&crossings, 0, HUGE_VAL, &first, &slope))
-        found->period = 2 * slope;
+    if (status == SB_OK && sb_curve_line(&crossings, 0, HUGE_VAL, &first, &slope)) found->period = 2 * slope;
     if (status == SB_OK && sb_curve_line(&extremes, 0, HUGE_VAL, &first, &slope)) {
         for (size_t i = 0; i < extremes.count; i++) squares += exp(2 * extremes.y[i]);
         found->decay = -slope;
@@ -102,8 +100,7 @@ static sb_status measure(const sb_curve *a, double last, swing *found, sb_error 
     return status;
 }
 
-static sb_status figure_swing(const sb_case_run *run, const wave *w, sb_figures *figures,
-                              sb_error *error)
+static sb_status figure_swing(const sb_case_run *run, const wave *w, sb_figures *figures, sb_error *error)
 {
     sb_curve a = {0};
     swing found;
@@ -121,48 +118,41 @@ static sb_status figure_swing(const sb_case_run *run, const wave *w, sb_figures 
                              "correction at the measured mean steepness %+.2f %%",
                              w->period, 100 * (period / w->period - 1));
     if (status == SB_OK)
-        status = sb_figure_share(
-            figures, "decay of the amplitude", "1/s", decay, found.decay, decay, 20, error,
-            "line through the logarithms of the extremes; theory 2 nu k^2 at nu_eff = %.3g m^2/s",
-            viscosity);
+        status = sb_figure_share(figures, "decay of the amplitude", "1/s", decay, found.decay, decay, 20, error,
+                                 "line through the logarithms of the extremes; theory 2 nu k^2 at nu_eff = %.3g m^2/s",
+                                 viscosity);
     return status;
 }
 
-static sb_status figure_shape(const sb_case_run *run, const wave *w, int n, double limit,
-                              const char *quantity, const char *note, sb_figures *figures,
-                              sb_error *error)
+static sb_status figure_shape(const sb_case_run *run, const wave *w, int n, double limit, const char *quantity,
+                              const char *note, sb_figures *figures, sb_error *error)
 {
     sb_curve a = {0};
     sb_status status = shape(run, n, &a, error);
     if (status != SB_OK) return status;
     double size = sqrt(2.0) * sb_curve_rms(&a, 0, PERIODS * w->period) / w->amplitude;
     sb_curve_free(&a);
-    if (isnan(limit))
-        return sb_figure_report(figures, quantity, "%", (double)NAN, 100 * size, error, "%s", note);
+    if (isnan(limit)) return sb_figure_report(figures, quantity, "%", (double)NAN, 100 * size, error, "%s", note);
     return sb_figure_below(figures, quantity, "%", 100 * size, limit, error, "%s", note);
 }
 
 static sb_status evaluate(const sb_case_run *run, sb_figures *figures, sb_error *error)
 {
-    static const char note[] =
-        "root mean square over ten periods times sqrt(2), over the start's amplitude";
+    static const char note[] = "root mean square over ten periods times sqrt(2), over the start's amplitude";
     wave w = wave_of(run);
     sb_status status = figure_swing(run, &w, figures, error);
     if (status == SB_OK)
-        status =
-            figure_shape(run, &w, 1, 10, "second wave, half the wave number", note, figures, error);
+        status = figure_shape(run, &w, 1, 10, "second wave, half the wave number", note, figures, error);
     if (status == SB_OK)
-        status = figure_shape(run, &w, 3, 10, "second wave, 1.5 times the wave number", note,
-                              figures, error);
+        status = figure_shape(run, &w, 3, 10, "second wave, 1.5 times the wave number", note, figures, error);
     if (status == SB_OK)
         status = figure_shape(run, &w, 4, (double)NAN, "twice the wave number",
-                              "the same; a part of it belongs to the wave itself at second order",
-                              figures, error);
+                              "the same; a part of it belongs to the wave itself at second order", figures, error);
     return status;
 }
 
-static sb_status compare(const sb_case_run *runs, const sb_figures *of_each, size_t count,
-                         sb_figures *figures, sb_error *error)
+static sb_status compare(const sb_case_run *runs, const sb_figures *of_each, size_t count, sb_figures *figures,
+                         sb_error *error)
 {
     double most = -HUGE_VAL;
     (void)runs;
@@ -172,25 +162,22 @@ static sb_status compare(const sb_case_run *runs, const sb_figures *of_each, siz
         double ratio = fine / coarse;
         most = ratio > most || isnan(ratio) ? ratio : most;
     }
-    return sb_figure_below(
-        figures, "decay, finer over coarser", "", most, 1, error,
-        "largest ratio of two neighbouring resolutions of %zu: below 1 it falls with the spacing",
-        count);
+    return sb_figure_below(figures, "decay, finer over coarser", "", most, 1, error,
+                           "largest ratio of two neighbouring resolutions of %zu: below 1 it falls with the spacing",
+                           count);
 }
 
 static sb_status plot(const sb_case_run *runs, size_t count, sb_plot *plot, sb_error *error)
 {
     wave w = wave_of(&runs[0]);
     sb_curve theory = {0};
-    sb_status status =
-        sb_plot_panel(plot, "Amplitude of the standing wave", "time (s)", "m", error);
+    sb_status status = sb_plot_panel(plot, "Amplitude of the standing wave", "time (s)", "m", error);
     if (status == SB_OK) sb_plot_range(plot, 0, PERIODS * w.period, (double)NAN, (double)NAN);
     for (int i = 0; status == SB_OK && i <= 60 * PERIODS; i++) {
         double t = w.period * i / 60;
         status = sb_curve_add(&theory, t, w.amplitude * cos(2 * M_PI * t / w.period), error);
     }
-    if (status == SB_OK)
-        status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "linear, no viscosity", &theory, error);
+    if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "linear, no viscosity", &theory, error);
     sb_curve_free(&theory);
     for (size_t i = 0; status == SB_OK && i < count; i++) {
         sb_curve a = {0};
@@ -199,8 +186,7 @@ static sb_status plot(const sb_case_run *runs, size_t count, sb_plot *plot, sb_e
         sb_curve_free(&a);
     }
     if (status == SB_OK)
-        status = sb_plot_panel(plot, "Amplitude at half the wave number: should be none",
-                               "time (s)", "m", error);
+        status = sb_plot_panel(plot, "Amplitude at half the wave number: should be none", "time (s)", "m", error);
     if (status == SB_OK) sb_plot_range(plot, 0, PERIODS * w.period, (double)NAN, (double)NAN);
     for (size_t i = 0; status == SB_OK && i < count; i++) {
         sb_curve a = {0};
@@ -215,8 +201,7 @@ static const sb_plan full[] = {{.resolution = 0.05, .paper = true},
                                {.resolution = 0.025, .paper = true},
                                {.resolution = 0.0125, .judged = true, .seeds = 3},
                                {.resolution = 0}};
-static const sb_plan quick[] = {
-    {.resolution = 0.05}, {.resolution = 0.04, .judged = true}, {.resolution = 0}};
+static const sb_plan quick[] = {{.resolution = 0.05}, {.resolution = 0.04, .judged = true}, {.resolution = 0}};
 
 const sb_case sb_case_standing_wave = {
     .name = "standing-wave",

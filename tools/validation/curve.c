@@ -77,16 +77,15 @@ static size_t left_of(const sb_curve *curve, double x)
 
 double sb_curve_at(const sb_curve *curve, double x)
 {
-    if (curve->count == 0 || !(x >= curve->x[0] && x <= curve->x[curve->count - 1]))
-        return (double)NAN;
+    if (curve->count == 0 || !(x >= curve->x[0] && x <= curve->x[curve->count - 1])) return (double)NAN;
     size_t i = left_of(curve, x);
     if (x <= curve->x[i] || i + 1 == curve->count) return curve->y[i];
     double share = (x - curve->x[i]) / (curve->x[i + 1] - curve->x[i]);
     return (1 - share) * curve->y[i] + share * curve->y[i + 1];
 }
 
-sb_status sb_curve_resample(const sb_curve *curve, double first, double last, double step,
-                            sb_curve *made, sb_error *error)
+sb_status sb_curve_resample(const sb_curve *curve, double first, double last, double step, sb_curve *made,
+                            sb_error *error)
 {
     sb_curve out = {0};
     sb_status status = SB_OK;
@@ -123,8 +122,8 @@ static double mean_of(double *values, size_t count)
 
 /* Each point becomes what `reduce` makes of the known values within window/2; the curve is sorted.
  */
-static sb_status filter(const sb_curve *curve, double window, double (*reduce)(double *, size_t),
-                        sb_curve *made, sb_error *error)
+static sb_status filter(const sb_curve *curve, double window, double (*reduce)(double *, size_t), sb_curve *made,
+                        sb_error *error)
 {
     sb_curve out = {0};
     double *near = sb_alloc(curve->count, sizeof *near), half = 0.5 * window * (1 + 1e-9);
@@ -147,14 +146,12 @@ static sb_status filter(const sb_curve *curve, double window, double (*reduce)(d
     return status;
 }
 
-sb_status sb_curve_mean_filter(const sb_curve *curve, double window, sb_curve *made,
-                               sb_error *error)
+sb_status sb_curve_mean_filter(const sb_curve *curve, double window, sb_curve *made, sb_error *error)
 {
     return filter(curve, window, mean_of, made, error);
 }
 
-sb_status sb_curve_median_filter(const sb_curve *curve, double window, sb_curve *made,
-                                 sb_error *error)
+sb_status sb_curve_median_filter(const sb_curve *curve, double window, sb_curve *made, sb_error *error)
 {
     return filter(curve, window, median_of, made, error);
 }

@@ -26,15 +26,13 @@ void sb_curve_map(sb_curve *curve, double scale_x, double shift_x, double scale_
 /* Linear interpolation; NaN outside of the curve or beside a NaN. */
 double sb_curve_at(const sb_curve *curve, double x);
 /* Values at first, first + step, ... <= last. */
-sb_status sb_curve_resample(const sb_curve *curve, double first, double last, double step,
-                            sb_curve *made, sb_error *error);
+sb_status sb_curve_resample(const sb_curve *curve, double first, double last, double step, sb_curve *made,
+                            sb_error *error);
 
 /* Centred running mean and median: over the points within window/2 of each point's x. Works on
  * clouds, too. */
-sb_status sb_curve_mean_filter(const sb_curve *curve, double window, sb_curve *made,
-                               sb_error *error);
-sb_status sb_curve_median_filter(const sb_curve *curve, double window, sb_curve *made,
-                                 sb_error *error);
+sb_status sb_curve_mean_filter(const sb_curve *curve, double window, sb_curve *made, sb_error *error);
+sb_status sb_curve_median_filter(const sb_curve *curve, double window, sb_curve *made, sb_error *error);
 
 /* Over first <= x <= last. Mean, standard deviation and root mean square count points alike; the
    integral is the trapezoid rule with interpolated ends. NaN where there is nothing. */

@@ -70,8 +70,7 @@ static size_t extreme(const sb_curve *curve, double first, double last, double s
 {
     size_t best = (size_t)-1;
     for (size_t i = 0; i < curve->count; i++)
-        if (within(curve, i, first, last) &&
-            (best == (size_t)-1 || sign * curve->y[i] > sign * curve->y[best]))
+        if (within(curve, i, first, last) && (best == (size_t)-1 || sign * curve->y[i] > sign * curve->y[best]))
             best = i;
     return best;
 }
@@ -93,12 +92,9 @@ static bool parabola(const double s[5], const double t[3], double c[3])
     double a = s[0], b = s[1], d = s[2], e = s[3], f = s[4];
     double determinant = a * (d * f - e * e) - b * (b * f - e * d) + d * (b * e - d * d);
     if (!(fabs(determinant) > 1e-12 * fabs(a * d * f))) return false;
-    c[0] = (t[0] * (d * f - e * e) - b * (t[1] * f - e * t[2]) + d * (t[1] * e - d * t[2])) /
-           determinant;
-    c[1] = (a * (t[1] * f - e * t[2]) - t[0] * (b * f - e * d) + d * (b * t[2] - t[1] * d)) /
-           determinant;
-    c[2] = (a * (d * t[2] - t[1] * e) - b * (b * t[2] - t[1] * d) + t[0] * (b * e - d * d)) /
-           determinant;
+    c[0] = (t[0] * (d * f - e * e) - b * (t[1] * f - e * t[2]) + d * (t[1] * e - d * t[2])) / determinant;
+    c[1] = (a * (t[1] * f - e * t[2]) - t[0] * (b * f - e * d) + d * (b * t[2] - t[1] * d)) / determinant;
+    c[2] = (a * (d * t[2] - t[1] * e) - b * (b * t[2] - t[1] * d) + t[0] * (b * e - d * d)) / determinant;
     return true;
 }
 

@@ -22,8 +22,7 @@ const sb_figure *sb_figures_find(const sb_figures *figures, const char *quantity
 
 sb_status sb_figures_add(sb_figures *figures, const sb_figure *figure, sb_error *error)
 {
-    if (sb_grow((void **)&figures->rows, &figures->capacity, figures->count + 1,
-                sizeof *figures->rows) != 0)
+    if (sb_grow((void **)&figures->rows, &figures->capacity, figures->count + 1, sizeof *figures->rows) != 0)
         return sb_fail_memory(error, "figures");
     figures->rows[figures->count++] = *figure;
     return SB_OK;
@@ -42,52 +41,42 @@ static sb_status add(sb_figures *figures, sb_figure figure, const char *quantity
     return sb_figures_add(figures, &figure, error);
 }
 
-sb_status sb_figure_share(sb_figures *figures, const char *quantity, const char *unit,
-                          double reference, double value, double scale, double limit,
-                          sb_error *error, const char *note, ...)
+sb_status sb_figure_share(sb_figures *figures, const char *quantity, const char *unit, double reference, double value,
+                          double scale, double limit, sb_error *error, const char *note, ...)
 {
     va_list arguments;
     va_start(arguments, note);
-    sb_figure figure = {.reference = reference,
-                        .value = value,
-                        .error = 100 * (value - reference) / scale,
-                        .limit = limit};
+    sb_figure figure = {
+        .reference = reference, .value = value, .error = 100 * (value - reference) / scale, .limit = limit};
     sb_status status = add(figures, figure, quantity, unit, "%", error, note, arguments);
     va_end(arguments);
     return status;
 }
 
-sb_status sb_figure_difference(sb_figures *figures, const char *quantity, const char *unit,
-                               double reference, double value, double limit, sb_error *error,
-                               const char *note, ...)
+sb_status sb_figure_difference(sb_figures *figures, const char *quantity, const char *unit, double reference,
+                               double value, double limit, sb_error *error, const char *note, ...)
 {
     va_list arguments;
     va_start(arguments, note);
-    sb_figure figure = {
-        .reference = reference, .value = value, .error = value - reference, .limit = limit};
+    sb_figure figure = {.reference = reference, .value = value, .error = value - reference, .limit = limit};
     sb_status status = add(figures, figure, quantity, unit, unit, error, note, arguments);
     va_end(arguments);
     return status;
 }
 
-sb_status sb_figure_below(sb_figures *figures, const char *quantity, const char *unit, double value,
-                          double limit, sb_error *error, const char *note, ...)
+sb_status sb_figure_below(sb_figures *figures, const char *quantity, const char *unit, double value, double limit,
+                          sb_error *error, const char *note, ...)
 {
     va_list arguments;
     va_start(arguments, note);
-    sb_figure figure = {.reference = (double)NAN,
-                        .value = value,
-                        .error = value,
-                        .limit = limit,
-                        .one_sided = true};
+    sb_figure figure = {.reference = (double)NAN, .value = value, .error = value, .limit = limit, .one_sided = true};
     sb_status status = add(figures, figure, quantity, unit, unit, error, note, arguments);
     va_end(arguments);
     return status;
 }
 
-sb_status sb_figure_band(sb_figures *figures, const char *quantity, const char *unit, double low,
-                         double high, double value, double limit, sb_error *error, const char *note,
-                         ...)
+sb_status sb_figure_band(sb_figures *figures, const char *quantity, const char *unit, double low, double high,
+                         double value, double limit, sb_error *error, const char *note, ...)
 {
     double outside = 0;
     if (isnan(value)) outside = value;
@@ -95,21 +84,19 @@ sb_status sb_figure_band(sb_figures *figures, const char *quantity, const char *
     if (value > high) outside = 100 * (value - high) / fabs(high);
     va_list arguments;
     va_start(arguments, note);
-    sb_figure figure = {
-        .reference = 0.5 * (low + high), .value = value, .error = outside, .limit = limit};
+    sb_figure figure = {.reference = 0.5 * (low + high), .value = value, .error = outside, .limit = limit};
     sb_status status = add(figures, figure, quantity, unit, "%", error, note, arguments);
     va_end(arguments);
     return status;
 }
 
-sb_status sb_figure_report(sb_figures *figures, const char *quantity, const char *unit,
-                           double reference, double value, sb_error *error, const char *note, ...)
+sb_status sb_figure_report(sb_figures *figures, const char *quantity, const char *unit, double reference, double value,
+                           sb_error *error, const char *note, ...)
 {
     va_list arguments;
     va_start(arguments, note);
     double miss = reference != 0 ? 100 * (value - reference) / fabs(reference) : (double)NAN;
-    sb_figure figure = {
-        .reference = reference, .value = value, .error = miss, .limit = (double)NAN};
+    sb_figure figure = {.reference = reference, .value = value, .error = miss, .limit = (double)NAN};
     sb_status status = add(figures, figure, quantity, unit, "%", error, note, arguments);
     va_end(arguments);
     return status;

@@ -7,8 +7,7 @@
 #include <unistd.h>
 
 sb_status sb_run_frames(const sb_case_run *run, double first, double last,
-                        void (*visit)(void *context, const sb_frame *frame), void *context,
-                        sb_error *error)
+                        void (*visit)(void *context, const sb_frame *frame), void *context, sb_error *error)
 {
     char name[64], path[SB_PATH_MAX];
     size_t visited = 0;
@@ -26,6 +25,5 @@ sb_status sb_run_frames(const sb_case_run *run, double first, double last,
         sb_frame_release(frame);
     }
     if (visited) return SB_OK;
-    return sb_fail(error, SB_BAD_INPUT, "%.400s: no particle file between %g and %g s", run->folder,
-                   first, last);
+    return sb_fail(error, SB_BAD_INPUT, "%.400s: no particle file between %g and %g s", run->folder, first, last);
 }

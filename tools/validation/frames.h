@@ -8,7 +8,6 @@
 /* Calls visit for each frame with first <= time <= last. SB_BAD_INPUT when there is none, or one
  * cannot be read. */
 sb_status sb_run_frames(const sb_case_run *run, double first, double last,
-                        void (*visit)(void *context, const sb_frame *frame), void *context,
-                        sb_error *error);
+                        void (*visit)(void *context, const sb_frame *frame), void *context, sb_error *error);
 
 #endif

@@ -9,7 +9,8 @@
 /* The table in a report's folder; empty when there is none. SB_BAD_INPUT names file and line. */
 sb_status sb_kept_open(const char *report_folder, sb_sheet *table, sb_error *error);
 
-/* Where r has not run and the table has what r asks for: its figures, r->kept and SB_RESULT_DONE. SB_FAILED without memory. */
+/* Where r has not run and the table has what r asks for: its figures, r->kept and SB_RESULT_DONE. SB_FAILED without
+ * memory. */
 sb_status sb_kept_read(const sb_sheet *table, sb_result *r, sb_error *error);
 /* The figures of several runs of a case. */
 sb_status sb_kept_across(const sb_sheet *table, const char *name, sb_figures *figures, sb_error *error);

@@ -45,8 +45,7 @@ static sb_status start(const sb_store *store, const char *scene, job *j, bool al
     sb_request_settings(j->request, &settings);
     /* One that was stopped left a checkpoint, and goes on from it. */
     const char *const first[] = {"shorebreak", "run", scene, "--quiet", "--resume", "--out", j->folder};
-    for (size_t i = 0; i < sizeof first / sizeof *first; i++)
-        arguments[count++] = first[i];
+    for (size_t i = 0; i < sizeof first / sizeof *first; i++) arguments[count++] = first[i];
     for (size_t i = 0; i < settings.count; i++) {
         arguments[count++] = "--set";
         arguments[count++] = settings.list[i];
@@ -102,8 +101,7 @@ static sb_status end(crew *c, job *j, int how, const struct rusage *used, sb_err
     c->busy--;
     if (WIFEXITED(how) && WEXITSTATUS(how) == 0) {
         printf("%s: %.1f s\n", label, sb_clock() - j->start);
-        return sb_store_finish(c->store, j->folder,
-                               seconds(&used->ru_utime) + seconds(&used->ru_stime), error);
+        return sb_store_finish(c->store, j->folder, seconds(&used->ru_utime) + seconds(&used->ru_stime), error);
     }
     if (stopped_by || (WIFEXITED(how) && WEXITSTATUS(how) > 128)) {
         if (!stopped_by) stopped_by = SIGINT;
@@ -131,8 +129,7 @@ static sb_status wait_one(crew *c, sb_error *error)
                 if (c->jobs[i].process) kill(c->jobs[i].process, SIGTERM);
     for (int i = 0; i < c->size; i++)
         if (process > 0 && c->jobs[i].process == process) return end(c, &c->jobs[i], how, &used, error);
-    return process < 0 ? sb_fail(error, SB_FAILED, "cannot wait for a run: %s", strerror(errno))
-                       : SB_OK;
+    return process < 0 ? sb_fail(error, SB_FAILED, "cannot wait for a run: %s", strerror(errno)) : SB_OK;
 }
 
 static job *free_place(crew *c)
@@ -159,8 +156,8 @@ static sb_status work(crew *c, const sb_request *requests, size_t count, sb_erro
     return status;
 }
 
-sb_status sb_launch(const sb_store *store, const sb_request *requests, size_t count, int jobs,
-                    size_t *failed, sb_error *error)
+sb_status sb_launch(const sb_store *store, const sb_request *requests, size_t count, int jobs, size_t *failed,
+                    sb_error *error)
 {
     struct sigaction now = {.sa_handler = stop}, interrupt, terminate;
     crew c = {.store = store, .size = jobs, .jobs = sb_alloc((size_t)jobs, sizeof(job))};

@@ -9,7 +9,7 @@
    how long it took. One that was stopped goes on from its checkpoint. A run that fails is stored as
    failed, counted in *failed, and the others go on.
    SB_INTERRUPTED after SIGINT or SIGTERM, which the running ones are told. */
-sb_status sb_launch(const sb_store *store, const sb_request *requests, size_t count, int jobs,
-                    size_t *failed, sb_error *error);
+sb_status sb_launch(const sb_store *store, const sb_request *requests, size_t count, int jobs, size_t *failed,
+                    sb_error *error);
 
 #endif

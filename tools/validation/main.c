@@ -15,8 +15,7 @@ enum { SHORT_OF_REACH = 4 }; /* exit status */
 
 static void list_cases(void)
 {
-    for (size_t i = 0; sb_cases[i]; i++)
-        printf("%-24s %s\n", sb_cases[i]->name, sb_cases[i]->title);
+    for (size_t i = 0; sb_cases[i]; i++) printf("%-24s %s\n", sb_cases[i]->name, sb_cases[i]->title);
 }
 
 /* Turns in which runs are made: what is learnt first is learnt of all cases. */
@@ -50,8 +49,7 @@ static sb_status gather(const sb_case *of, const sb_validate_options *o, int tur
     return status;
 }
 
-static sb_status run_cases(const sb_store *store, const sb_validate_options *o, size_t *failed,
-                           sb_error *error)
+static sb_status run_cases(const sb_store *store, const sb_validate_options *o, size_t *failed, sb_error *error)
 {
     sb_request *all = NULL;
     size_t count = 0, capacity = 0;
@@ -66,8 +64,7 @@ static sb_status run_cases(const sb_store *store, const sb_validate_options *o, 
 
 /* Of every case there is, run now or not; *short_of: how many judged figures of the chosen cases
  * fail. */
-static sb_status report(const sb_store *store, const sb_validate_options *o, size_t *short_of,
-                        sb_error *error)
+static sb_status report(const sb_store *store, const sb_validate_options *o, size_t *short_of, sb_error *error)
 {
     char folder[SB_PATH_MAX];
     sb_case_results results[SB_CASES_MAX] = {{0}};
@@ -75,15 +72,13 @@ static sb_status report(const sb_store *store, const sb_validate_options *o, siz
     sb_sheet former;
     snprintf(folder, sizeof folder, "%s", o->report ? o->report : SB_SOURCE_DIR "/docs/results");
     sb_status status = SB_OK;
-    if (o->quick && !o->report)
-        status = sb_path_join(folder, store->out, "quick", error);
+    if (o->quick && !o->report) status = sb_path_join(folder, store->out, "quick", error);
     if (status == SB_OK) status = sb_kept_open(folder, &former, error);
     if (status != SB_OK) return status;
     for (; status == SB_OK && sb_cases[count] && count < SB_CASES_MAX; count++)
         status = sb_results_collect(store, sb_cases[count], o->quick, true, &former, &results[count], error);
     sb_sheet_free(&former);
-    const sb_report what = {
-        .store = store, .cases = results, .count = count, .command = o->command, .quick = o->quick};
+    const sb_report what = {.store = store, .cases = results, .count = count, .command = o->command, .quick = o->quick};
     if (status == SB_OK) status = sb_report_write(&what, folder, error);
     if (status == SB_OK) printf("%s/validation.md\n", folder);
     for (size_t c = 0; c < count; c++) {
@@ -96,8 +91,7 @@ static sb_status report(const sb_store *store, const sb_validate_options *o, siz
     return status;
 }
 
-static sb_status validate(const sb_validate_options *o, size_t *failed, size_t *short_of,
-                          sb_error *error)
+static sb_status validate(const sb_validate_options *o, size_t *failed, size_t *short_of, sb_error *error)
 {
     sb_store store;
     char program[SB_PATH_MAX], path[SB_PATH_MAX];
@@ -106,11 +100,10 @@ static sb_status validate(const sb_validate_options *o, size_t *failed, size_t *
         status = sb_store_open(&store, o->out ? o->out : SB_SOURCE_DIR "/build/validation",
                                o->program ? o->program : program, SB_SOURCE_DIR, error);
     if (status == SB_OK && o->sensitivity) {
-        status = sb_path_join(path, o->report ? o->report : SB_SOURCE_DIR "/docs/results",
-                              "sensitivity.md", error);
+        status = sb_path_join(path, o->report ? o->report : SB_SOURCE_DIR "/docs/results", "sensitivity.md", error);
         if (status == SB_OK)
-            status = sb_sensitivity(&store, o->cases, o->count, o->jobs, o->report_only, o->command,
-                                    path, failed, error);
+            status =
+                sb_sensitivity(&store, o->cases, o->count, o->jobs, o->report_only, o->command, path, failed, error);
         if (status == SB_OK) printf("%s\n", path);
         return status;
     }

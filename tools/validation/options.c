@@ -65,14 +65,16 @@ sb_status sb_validate_parse(int count, char **arguments, sb_validate_options *o,
                                    {.name = "--out", .text = &o->out},
                                    {.name = "--report", .text = &o->report},
                                    {.name = "--shorebreak", .text = &o->program}};
-    const sb_command_line line = {.options = options, .option_count = sizeof options / sizeof *options,
-                                  .word = take_case, .user = o, .help = &o->help, .command = o->command,
+    const sb_command_line line = {.options = options,
+                                  .option_count = sizeof options / sizeof *options,
+                                  .word = take_case,
+                                  .user = o,
+                                  .help = &o->help,
+                                  .command = o->command,
                                   .command_size = sizeof o->command};
     sb_status status = sb_command_line_read(&line, count, arguments, error);
     if (status != SB_OK || o->help || o->list) return status;
     if (o->all || ((o->report_only || o->sensitivity) && !o->count)) take_all(o);
     if (!o->jobs) o->jobs = o->quick || o->sensitivity ? (int)sysconf(_SC_NPROCESSORS_ONLN) : 1;
-    return o->count
-               ? SB_OK
-               : sb_fail(error, SB_BAD_INPUT, "no case named; --list names them, --all takes all");
+    return o->count ? SB_OK : sb_fail(error, SB_BAD_INPUT, "no case named; --list names them, --all takes all");
 }

@@ -18,7 +18,6 @@ typedef struct sb_validate_options {
 extern const char sb_validate_help[];
 
 /* SB_BAD_INPUT says what is wrong with which argument. Options point into the arguments. */
-sb_status sb_validate_parse(int count, char **arguments, sb_validate_options *options,
-                            sb_error *error);
+sb_status sb_validate_parse(int count, char **arguments, sb_validate_options *options, sb_error *error);
 
 #endif

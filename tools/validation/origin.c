@@ -10,9 +10,8 @@ void sb_origin_commit(const char *source, char commit[64])
     int ends[2];
     snprintf(commit, 64, "unknown");
     if (pipe(ends) != 0) return;
-    char *const arguments[] = {"git",         "-C",          (char *)source,
-                               "describe",    "--always",    "--dirty",
-                               "--abbrev=10", "--exclude=*", NULL};
+    char *const arguments[] = {"git",     "-C",          (char *)source, "describe", "--always",
+                               "--dirty", "--abbrev=10", "--exclude=*",  NULL};
     pid_t child = fork();
     if (child == 0) {
         dup2(ends[1], STDOUT_FILENO);

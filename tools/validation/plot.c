@@ -51,11 +51,9 @@ void sb_plot_destroy(sb_plot *plot)
     sb_free(plot);
 }
 
-sb_status sb_plot_panel(sb_plot *plot, const char *title, const char *x_label, const char *y_label,
-                        sb_error *error)
+sb_status sb_plot_panel(sb_plot *plot, const char *title, const char *x_label, const char *y_label, sb_error *error)
 {
-    if (sb_grow((void **)&plot->panels, &plot->panel_capacity, plot->panel_count + 1,
-                sizeof *plot->panels) != 0)
+    if (sb_grow((void **)&plot->panels, &plot->panel_capacity, plot->panel_count + 1, sizeof *plot->panels) != 0)
         return sb_fail_memory(error, "a plot");
     panel *made = &plot->panels[plot->panel_count++];
     *made = (panel){.range = {(double)NAN, (double)NAN, (double)NAN, (double)NAN}};
@@ -79,12 +77,11 @@ void sb_plot_logarithmic(sb_plot *plot)
     plot->panels[plot->panel_count - 1].logarithmic = true;
 }
 
-static sb_status add(sb_plot *plot, kind what, const char *label, const sb_curve *curve,
-                     const sb_curve *high, sb_error *error)
+static sb_status add(sb_plot *plot, kind what, const char *label, const sb_curve *curve, const sb_curve *high,
+                     sb_error *error)
 {
     panel *p = &plot->panels[plot->panel_count - 1];
-    if (sb_grow((void **)&p->layers, &p->layer_capacity, p->layer_count + 1, sizeof *p->layers) !=
-        0)
+    if (sb_grow((void **)&p->layers, &p->layer_capacity, p->layer_count + 1, sizeof *p->layers) != 0)
         return sb_fail_memory(error, "a plot");
     layer *made = &p->layers[p->layer_count];
     *made = (layer){.kind = what};
@@ -98,15 +95,13 @@ static sb_status add(sb_plot *plot, kind what, const char *label, const sb_curve
     return status;
 }
 
-sb_status sb_plot_curve(sb_plot *plot, sb_plot_style style, const char *label,
-                        const sb_curve *curve, sb_error *error)
+sb_status sb_plot_curve(sb_plot *plot, sb_plot_style style, const char *label, const sb_curve *curve, sb_error *error)
 {
     static const kind kinds[] = {LINE, REFERENCE, POINTS, MARKS};
     return add(plot, kinds[style], label, curve, NULL, error);
 }
 
-sb_status sb_plot_band(sb_plot *plot, const char *label, const sb_curve *low, const sb_curve *high,
-                       sb_error *error)
+sb_status sb_plot_band(sb_plot *plot, const char *label, const sb_curve *low, const sb_curve *high, sb_error *error)
 {
     return add(plot, BAND, label, low, high, error);
 }
@@ -132,8 +127,7 @@ static void put_number(FILE *out, double value)
 
 static void put_data(FILE *out, const layer *l)
 {
-    size_t count =
-        l->kind == BAND && l->high.count < l->curve.count ? l->high.count : l->curve.count;
+    size_t count = l->kind == BAND && l->high.count < l->curve.count ? l->high.count : l->curve.count;
     for (size_t i = 0; i < count; i++) {
         put_number(out, l->curve.x[i]);
         fputc(' ', out);
@@ -250,21 +244,17 @@ static FILE *open_in(const char *folder, const char *name, const char *ending, s
 static sb_status finish(FILE *out, const char *name, sb_error *error)
 {
     int bad = ferror(out);
-    return fclose(out) == 0 && !bad
-               ? SB_OK
-               : sb_fail(error, SB_FAILED, "%s: cannot write the plot's files", name);
+    return fclose(out) == 0 && !bad ? SB_OK : sb_fail(error, SB_FAILED, "%s: cannot write the plot's files", name);
 }
 
-sb_status sb_plot_draw(const sb_plot *plot, const char *folder, const char *name,
-                       const char *picture, sb_error *error)
+sb_status sb_plot_draw(const sb_plot *plot, const char *folder, const char *name, const char *picture, sb_error *error)
 {
     char program[SB_PATH_MAX], script[TEXT];
     if (!sb_tool_find("gnuplot", program)) return sb_fail(error, SB_FAILED, "gnuplot is not there");
     FILE *out = open_in(folder, name, "dat", error);
     if (!out) return SB_FAILED;
     for (size_t p = 0; p < plot->panel_count; p++)
-        for (size_t k = 0; k < plot->panels[p].layer_count; k++)
-            put_data(out, &plot->panels[p].layers[k]);
+        for (size_t k = 0; k < plot->panels[p].layer_count; k++) put_data(out, &plot->panels[p].layers[k]);
     sb_status status = finish(out, name, error);
     out = status == SB_OK ? open_in(folder, name, "gp", error) : NULL;
     if (!out) return SB_FAILED;

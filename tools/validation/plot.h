@@ -9,25 +9,17 @@ typedef struct sb_plot sb_plot;
 
 /* line: a simulation; reference: a black line of what was measured or is theory; points: a black
    cloud of measured points; marks: large ones, of a shape and colour of their own. */
-typedef enum sb_plot_style {
-    SB_PLOT_LINE,
-    SB_PLOT_REFERENCE,
-    SB_PLOT_POINTS,
-    SB_PLOT_MARKS
-} sb_plot_style;
+typedef enum sb_plot_style { SB_PLOT_LINE, SB_PLOT_REFERENCE, SB_PLOT_POINTS, SB_PLOT_MARKS } sb_plot_style;
 
 /* Begins a panel; what is added next goes there. */
-sb_status sb_plot_panel(sb_plot *plot, const char *title, const char *x_label, const char *y_label,
-                        sb_error *error);
+sb_status sb_plot_panel(sb_plot *plot, const char *title, const char *x_label, const char *y_label, sb_error *error);
 /* Bounds of the panel's axes; NaN: as the data have it. */
 void sb_plot_range(sb_plot *plot, double x_min, double x_max, double y_min, double y_max);
 /* Both axes logarithmic; points that are not above 0 are left out. */
 void sb_plot_logarithmic(sb_plot *plot);
 /* The points are copied. Lines get colours in the order they come, anew in each panel. */
-sb_status sb_plot_curve(sb_plot *plot, sb_plot_style style, const char *label,
-                        const sb_curve *curve, sb_error *error);
+sb_status sb_plot_curve(sb_plot *plot, sb_plot_style style, const char *label, const sb_curve *curve, sb_error *error);
 /* Grey between two curves over the same x: a percentile band, an uncertainty. */
-sb_status sb_plot_band(sb_plot *plot, const char *label, const sb_curve *low, const sb_curve *high,
-                       sb_error *error);
+sb_status sb_plot_band(sb_plot *plot, const char *label, const sb_curve *low, const sb_curve *high, sb_error *error);
 
 #endif

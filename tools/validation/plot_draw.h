@@ -10,7 +10,6 @@ void sb_plot_destroy(sb_plot *plot);
 
 /* Writes folder/<name>.dat and .gp, which stay there, and has gnuplot draw the picture (absolute
    path, PNG). SB_FAILED without gnuplot. */
-sb_status sb_plot_draw(const sb_plot *plot, const char *folder, const char *name,
-                       const char *picture, sb_error *error);
+sb_status sb_plot_draw(const sb_plot *plot, const char *folder, const char *name, const char *picture, sb_error *error);
 
 #endif

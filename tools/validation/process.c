@@ -13,8 +13,7 @@
 static void redirect(const char *path, int flags, int to)
 {
     const int file = open(path, flags, 0644);
-    if (file < 0 || dup2(file, to) < 0)
-        _exit(126);
+    if (file < 0 || dup2(file, to) < 0) _exit(126);
 }
 
 sb_status sb_process_start(const char *program, const char *const *arguments, const char *said, int parting,
@@ -22,10 +21,8 @@ sb_status sb_process_start(const char *program, const char *const *arguments, co
 {
     fflush(NULL);
     *process = fork();
-    if (*process < 0)
-        return sb_fail(error, SB_FAILED, "cannot start %.400s: %s", program, strerror(errno));
-    if (*process > 0)
-        return SB_OK;
+    if (*process < 0) return sb_fail(error, SB_FAILED, "cannot start %.400s: %s", program, strerror(errno));
+    if (*process > 0) return SB_OK;
     redirect("/dev/null", O_RDONLY, STDIN_FILENO);
     redirect(said, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
     dup2(STDOUT_FILENO, STDERR_FILENO);
@@ -57,9 +54,7 @@ void sb_process_last_words(const char *said, const char *none, char *words, size
     FILE *in = fopen(said, "r");
     while (in && fgets(line, sizeof line, in)) {
         line[strcspn(line, "\r\n")] = '\0';
-        if (line[0])
-            snprintf(words, size, "%s", line);
+        if (line[0]) snprintf(words, size, "%s", line);
     }
-    if (in)
-        fclose(in);
+    if (in) fclose(in);
 }

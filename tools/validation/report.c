@@ -47,12 +47,11 @@ static void put_head(FILE *out, const sb_report *report)
         limited += l;
         passed += p;
     }
-    fprintf(
-        out,
-        "# Validation%s\n\nMade by `tools/validate`; docs/validation.md says how. Every case runs "
-        "with "
-        "the same defaults, but for the columns\n`paper`, which use the preset of that name.\n\n",
-        report->quick ? ", quick forms" : "");
+    fprintf(out,
+            "# Validation%s\n\nMade by `tools/validate`; docs/validation.md says how. Every case runs "
+            "with "
+            "the same defaults, but for the columns\n`paper`, which use the preset of that name.\n\n",
+            report->quick ? ", quick forms" : "");
     fprintf(out, "- command: `%s`\n", report->command);
     put_machine(out, report);
     put_commits(out, report);
@@ -61,7 +60,8 @@ static void put_head(FILE *out, const sb_report *report)
             "Errors are signed: ours minus the reference. Where a resolution is run with several "
             "start seeds by one program, the error is the one\nlargest in magnitude, the figure passes when it "
             "does with every seed, and spread is the largest value minus the\nsmallest. "
-            "`x (of y)`: at that resolution the reference is y. `(kept)` behind a commit: the figures are those of a former report; "
+            "`x (of y)`: at that resolution the reference is y. `(kept)` behind a commit: the figures are those of a "
+            "former report; "
             "the run's files are\nno longer there, and plots leave it out.\n\n"
             "| case | reach | figure | |\n|---|---|---|---|\n",
             passed, limited);
@@ -70,8 +70,7 @@ static void put_head(FILE *out, const sb_report *report)
 }
 
 /* Draws what the case has done into `picture`; SB_FAILED says why it could not. */
-static sb_status draw(const sb_report *report, const sb_case_results *results, const char *picture,
-                      sb_error *error)
+static sb_status draw(const sb_report *report, const sb_case_results *results, const char *picture, sb_error *error)
 {
     char folder[SB_PATH_MAX];
     size_t count = 0;
@@ -80,7 +79,8 @@ static sb_status draw(const sb_report *report, const sb_case_results *results, c
     sb_status status = sb_path_join(folder, report->store->out, "plots", error);
     if (!views || !plot) status = sb_fail_memory(error, "a plot");
     for (size_t i = 0; views && i < results->count; i++)
-        if (results->runs[i].state == SB_RESULT_DONE && !results->runs[i].kept) views[count++] = results->runs[i].run.view;
+        if (results->runs[i].state == SB_RESULT_DONE && !results->runs[i].kept)
+            views[count++] = results->runs[i].run.view;
     if (status == SB_OK && count == 0) status = sb_fail(error, SB_FAILED, "nothing has run");
     if (status == SB_OK) status = sb_make_directories(folder, error);
     if (status == SB_OK) status = results->of->plot(views, count, plot, error);
@@ -102,8 +102,7 @@ static bool all_kept(const sb_case_results *results)
     return any && all;
 }
 
-static void put_case(FILE *out, const sb_report *report, const sb_case_results *results,
-                     const char *pictures)
+static void put_case(FILE *out, const sb_report *report, const sb_case_results *results, const char *pictures)
 {
     char name[128], picture[SB_PATH_MAX], relative[160];
     sb_error why = {0};
@@ -140,7 +139,6 @@ sb_status sb_report_write(const sb_report *report, const char *folder, sb_error 
     if (status == SB_OK) status = sb_atomic_open(&file, path, error);
     if (status != SB_OK) return status;
     put_head(file.stream, report);
-    for (size_t c = 0; c < report->count; c++)
-        put_case(file.stream, report, &report->cases[c], real);
+    for (size_t c = 0; c < report->count; c++) put_case(file.stream, report, &report->cases[c], real);
     return sb_atomic_commit(&file, 0, error);
 }

@@ -32,8 +32,7 @@ static const char *verdict(const sb_case_results *results, size_t *limited, size
     bool failed = false;
     sb_results_count(results, limited, passed);
     for (size_t i = 0; i < results->count; i++)
-        if (results->runs[i].state == SB_RESULT_FAILED && results->runs[i].request.plan->judged)
-            failed = true;
+        if (results->runs[i].state == SB_RESULT_FAILED && results->runs[i].request.plan->judged) failed = true;
     if (failed) return "**FAIL** (run failed)";
     if (!sb_results_judged(results)) return "not run";
     return *passed == *limited ? "pass" : "**FAIL**";
@@ -47,8 +46,7 @@ static void put_short(FILE *out, const sb_case_results *results)
     char error[48], limit[48];
     for (size_t i = 0; judged && i < judged->figures.count + results->across.count; i++) {
         bool single = i < judged->figures.count;
-        const sb_figure *f =
-            single ? &judged->figures.rows[i] : &results->across.rows[i - judged->figures.count];
+        const sb_figure *f = single ? &judged->figures.rows[i] : &results->across.rows[i - judged->figures.count];
         sb_judgement j = {.figure = f, .worst = f->error, .pass = f->pass};
         if (isnan(f->limit)) continue;
         if (single) j = sb_results_judge(results, i);
@@ -74,8 +72,7 @@ void sb_report_summary_line(FILE *out, const sb_case_results *results)
         sb_judgement j = sb_results_judge(results, i);
         sb_text_number(value, j.mean);
         sb_text_error(error, j.worst, j.figure->error_unit);
-        fprintf(out, "%s: %s%s%s", j.figure->quantity, value, j.figure->unit[0] ? " " : "",
-                j.figure->unit);
+        fprintf(out, "%s: %s%s%s", j.figure->quantity, value, j.figure->unit[0] ? " " : "", j.figure->unit);
         fprintf(out, isnan(j.worst) ? "; " : ", error %s; ", error);
     }
     const sb_result *finest = judged ? NULL : sb_results_finest(results);
@@ -121,8 +118,8 @@ static void put_judgement(FILE *out, const sb_judgement *j)
     if (isnan(j->figure->limit))
         snprintf(text, sizeof text, "–");
     else
-        snprintf(text, sizeof text, "%.4g%s%s", j->figure->limit,
-                 j->figure->error_unit[0] ? " " : "", j->figure->error_unit);
+        snprintf(text, sizeof text, "%.4g%s%s", j->figure->limit, j->figure->error_unit[0] ? " " : "",
+                 j->figure->error_unit);
     put_cell(out, text);
     sb_text_number(text, j->spread);
     put_cell(out, text);
@@ -139,8 +136,7 @@ static void put_figures(FILE *out, const sb_case_results *results, const sb_resu
     for (size_t i = 0; i < results->count; i++) {
         const sb_request *request = &results->runs[i].request;
         if (!has_column(&results->runs[i])) continue;
-        snprintf(text, sizeof text, "%.6g m%s%s", request->plan->resolution,
-                 request->paper ? ", paper" : "",
+        snprintf(text, sizeof text, "%.6g m%s%s", request->plan->resolution, request->paper ? ", paper" : "",
                  request->plan->judged && !request->paper ? " (judged)" : "");
         put_cell(out, text);
         columns++;
@@ -175,8 +171,7 @@ static void put_across(FILE *out, const sb_case_results *results)
           out);
     for (size_t i = 0; i < results->across.count; i++) {
         const sb_figure *f = &results->across.rows[i];
-        sb_judgement j = {
-            .figure = f, .worst = f->error, .spread = (double)NAN, .pass = f->pass, .seeds = 1};
+        sb_judgement j = {.figure = f, .worst = f->error, .spread = (double)NAN, .pass = f->pass, .seeds = 1};
         fputc('|', out);
         put_cell(out, f->quantity);
         put_cell(out, f->unit);
@@ -192,8 +187,7 @@ static void put_across(FILE *out, const sb_case_results *results)
 static void put_notes(FILE *out, const sb_figures *figures)
 {
     for (size_t i = 0; i < figures->count; i++)
-        if (figures->rows[i].note[0])
-            fprintf(out, "- %s: %s\n", figures->rows[i].quantity, figures->rows[i].note);
+        if (figures->rows[i].note[0]) fprintf(out, "- %s: %s\n", figures->rows[i].quantity, figures->rows[i].note);
 }
 
 static const char *threads(const sb_result *r, char text[48])
@@ -210,15 +204,15 @@ static void put_runs(FILE *out, const sb_case_results *results)
           out);
     for (size_t i = 0; i < results->count; i++) {
         const sb_result *r = &results->runs[i];
-        fprintf(out, "| %.6g | %s | %d |", r->request.plan->resolution,
-                r->request.paper ? "paper" : "default", r->request.seed);
+        fprintf(out, "| %.6g | %s | %d |", r->request.plan->resolution, r->request.paper ? "paper" : "default",
+                r->request.seed);
         if (r->state == SB_RESULT_DONE)
-            fprintf(out, " %zu | %zu | %.1f | %.1f | %s | %s%s |\n", r->run.view.particles,
-                    r->run.view.steps, r->run.view.iterations, r->run.view.wall, threads(r, text), r->run.commit,
+            fprintf(out, " %zu | %zu | %.1f | %.1f | %s | %s%s |\n", r->run.view.particles, r->run.view.steps,
+                    r->run.view.iterations, r->run.view.wall, threads(r, text), r->run.commit,
                     r->kept ? " (kept)" : "");
         else
-            fprintf(out, " %s%.200s | | | | | |\n",
-                    r->state == SB_RESULT_FAILED ? "**failed**: " : "not run", r->problem);
+            fprintf(out, " %s%.200s | | | | | |\n", r->state == SB_RESULT_FAILED ? "**failed**: " : "not run",
+                    r->problem);
     }
     fputc('\n', out);
 }
@@ -226,8 +220,8 @@ static void put_runs(FILE *out, const sb_case_results *results)
 void sb_report_case(FILE *out, const sb_case_results *results, const char *picture)
 {
     const sb_result *judged = sb_results_judged(results), *shown = judged ? judged : sb_results_finest(results);
-    fprintf(out, "<a id=\"%s\"></a>\n\n## %s\n\nCase `%s`. Reach: %s.\n\n%s\n\n", results->of->name,
-            results->of->title, results->of->name, results->of->reach, results->of->method);
+    fprintf(out, "<a id=\"%s\"></a>\n\n## %s\n\nCase `%s`. Reach: %s.\n\n%s\n\n", results->of->name, results->of->title,
+            results->of->name, results->of->reach, results->of->method);
     if (picture) fprintf(out, "![%s](%s)\n\n", results->of->title, picture);
     if (!judged) fputs("Not run where it is judged", out);
     if (!judged && shown) fprintf(out, "; errors are those at %.6g m", shown->request.plan->resolution);

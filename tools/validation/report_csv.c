@@ -41,8 +41,8 @@ static void put_run(FILE *out, const sb_result *r)
                 r->request.paper ? "paper" : "default", r->request.seed,
                 r->request.plan->judged && !r->request.paper ? "yes" : "no");
         put_figure(out, &r->figures.rows[i]);
-        fprintf(out, "%zu,%zu,%.2f,%.1f,%s,%s\n", r->run.view.particles, r->run.view.steps,
-                r->run.view.iterations, r->run.view.wall, r->run.commit, r->asked);
+        fprintf(out, "%zu,%zu,%.2f,%.1f,%s,%s\n", r->run.view.particles, r->run.view.steps, r->run.view.iterations,
+                r->run.view.wall, r->run.commit, r->asked);
     }
 }
 

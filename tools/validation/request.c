@@ -10,14 +10,13 @@
 void sb_request_settings(const sb_request *request, sb_settings *settings)
 {
     *settings = (sb_settings){0};
-    snprintf(settings->resolution, sizeof settings->resolution, "resolution=%.9g",
-             request->plan->resolution);
+    snprintf(settings->resolution, sizeof settings->resolution, "resolution=%.9g", request->plan->resolution);
     snprintf(settings->seed, sizeof settings->seed, "numerics.seed=%d", request->seed);
     settings->list[settings->count++] = settings->resolution;
     settings->list[settings->count++] = settings->seed;
     settings->list[settings->count++] = "output.plots=false";
-    for (const char *const *more = request->plan->settings;
-         more && *more && settings->count < SB_SETTINGS_MAX - 1; more++)
+    for (const char *const *more = request->plan->settings; more && *more && settings->count < SB_SETTINGS_MAX - 1;
+         more++)
         settings->list[settings->count++] = *more;
     if (request->change[0]) settings->list[settings->count++] = request->change;
 }
@@ -26,9 +25,9 @@ void sb_request_label(const sb_request *request, bool with_case, char label[96])
 {
     char seed[32] = "";
     if (request->seed != 1) snprintf(seed, sizeof seed, ", seed %d", request->seed);
-    snprintf(label, 96, "%s%s%.6g m%s%s%s%s", with_case ? request->of->name : "",
-             with_case ? ", " : "", request->plan->resolution, request->paper ? ", paper" : "",
-             seed, request->change[0] ? ", " : "", request->change);
+    snprintf(label, 96, "%s%s%.6g m%s%s%s%s", with_case ? request->of->name : "", with_case ? ", " : "",
+             request->plan->resolution, request->paper ? ", paper" : "", seed, request->change[0] ? ", " : "",
+             request->change);
 }
 
 sb_status sb_hash_file(const char *path, uint64_t *hash, sb_error *error)
@@ -42,8 +41,7 @@ sb_status sb_hash_file(const char *path, uint64_t *hash, sb_error *error)
     return SB_OK;
 }
 
-sb_status sb_request_hash(const sb_request *request, const char *scene_path, uint64_t *hash,
-                          sb_error *error)
+sb_status sb_request_hash(const sb_request *request, const char *scene_path, uint64_t *hash, sb_error *error)
 {
     sb_settings settings;
     sb_override overrides[SB_SETTINGS_MAX];
@@ -56,15 +54,12 @@ sb_status sb_request_hash(const sb_request *request, const char *scene_path, uin
         *hash = sb_hash(*hash, settings.list[i], strlen(settings.list[i]));
         snprintf(texts[i], sizeof texts[i], "%s", settings.list[i]);
         char *equals = strchr(texts[i], '=');
-        if (!equals)
-            return sb_fail(error, SB_BAD_INPUT, "%s: %s is no KEY=VALUE", request->of->name,
-                           settings.list[i]);
+        if (!equals) return sb_fail(error, SB_BAD_INPUT, "%s: %s is no KEY=VALUE", request->of->name, settings.list[i]);
         *equals = '\0';
         overrides[i] = (sb_override){.key = texts[i], .value = equals + 1};
     }
     if (status == SB_OK)
-        status = sb_scene_read(scene_path, request->paper ? "paper" : NULL, overrides,
-                               settings.count, &scene, error);
+        status = sb_scene_read(scene_path, request->paper ? "paper" : NULL, overrides, settings.count, &scene, error);
     for (size_t b = 0; status == SB_OK && b < scene.body_count; b++)
         if (scene.bodies[b].file) status = sb_hash_file(scene.bodies[b].file, hash, error);
     sb_scene_free(&scene);

@@ -28,8 +28,7 @@ void sb_request_label(const sb_request *request, bool with_case, char label[96])
 
 /* What is asked, as a number: the scene's own text, the files it names, and all that is set.
    SB_BAD_INPUT when the scene cannot be read with these settings. */
-sb_status sb_request_hash(const sb_request *request, const char *scene_path, uint64_t *hash,
-                          sb_error *error);
+sb_status sb_request_hash(const sb_request *request, const char *scene_path, uint64_t *hash, sb_error *error);
 
 /* Continues a hash over a whole file. */
 sb_status sb_hash_file(const char *path, uint64_t *hash, sb_error *error);

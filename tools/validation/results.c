@@ -9,15 +9,13 @@
 #include <string.h>
 
 /* Adds a request to a list with room for it. */
-static void want(sb_request *requests, size_t *count, const sb_case *of, const sb_plan *plan,
-                 bool quick, bool paper, int seed)
+static void want(sb_request *requests, size_t *count, const sb_case *of, const sb_plan *plan, bool quick, bool paper,
+                 int seed)
 {
-    requests[(*count)++] =
-        (sb_request){.of = of, .plan = plan, .quick = quick, .paper = paper, .seed = seed};
+    requests[(*count)++] = (sb_request){.of = of, .plan = plan, .quick = quick, .paper = paper, .seed = seed};
 }
 
-sb_status sb_case_requests(const sb_case *of, bool quick, sb_request **requests, size_t *count,
-                           sb_error *error)
+sb_status sb_case_requests(const sb_case *of, bool quick, sb_request **requests, size_t *count, sb_error *error)
 {
     const sb_plan *plans = quick ? of->quick : of->full;
     size_t room = 0, n = 0;
@@ -25,13 +23,11 @@ sb_status sb_case_requests(const sb_case *of, bool quick, sb_request **requests,
         room += 1 + (size_t)plan->paper + (size_t)(plan->seeds > 1 ? plan->seeds - 1 : 0);
     sb_request *made = sb_alloc(room, sizeof *made);
     if (!made) return sb_fail_memory(error, "runs");
-    for (const sb_plan *plan = plans; plan->resolution > 0; plan++)
-        want(made, &n, of, plan, quick, false, 1);
+    for (const sb_plan *plan = plans; plan->resolution > 0; plan++) want(made, &n, of, plan, quick, false, 1);
     for (const sb_plan *plan = plans; plan->resolution > 0; plan++)
         if (plan->paper) want(made, &n, of, plan, quick, true, 1);
     for (const sb_plan *plan = plans; plan->resolution > 0; plan++)
-        for (int seed = 2; seed <= plan->seeds; seed++)
-            want(made, &n, of, plan, quick, false, seed);
+        for (int seed = 2; seed <= plan->seeds; seed++) want(made, &n, of, plan, quick, false, seed);
     *requests = made;
     *count = n;
     return SB_OK;
@@ -67,14 +63,14 @@ void sb_result_read(const sb_store *store, bool any_build, sb_result *r)
     sb_error why = {0};
     r->state = SB_RESULT_NOT_RUN;
     r->asked[0] = '\0';
-    if (sb_store_asked(store, &r->request, r->asked, &why) != SB_OK || sb_store_folder(store, &r->request, folder, &why) != SB_OK) {
+    if (sb_store_asked(store, &r->request, r->asked, &why) != SB_OK ||
+        sb_store_folder(store, &r->request, folder, &why) != SB_OK) {
         r->state = SB_RESULT_FAILED;
         snprintf(r->problem, sizeof r->problem, "%.600s", why.text);
         return;
     }
     if (!sb_store_find(store, &r->request, any_build, folder)) {
-        if (sb_store_failed(store, &r->request, r->problem, sizeof r->problem))
-            r->state = SB_RESULT_FAILED;
+        if (sb_store_failed(store, &r->request, r->problem, sizeof r->problem)) r->state = SB_RESULT_FAILED;
         return;
     }
     sb_status status = sb_finished_read(&r->run, folder, &why);
@@ -126,7 +122,8 @@ sb_status sb_results_collect(const sb_store *store, const sb_case *of, bool quic
         results->count++;
     }
     if (status == SB_OK && of->compare) compare_runs(results, views, figures);
-    if (status == SB_OK && former && results->across.count == 0 && sb_results_judged(results) && sb_results_judged(results)->kept)
+    if (status == SB_OK && former && results->across.count == 0 && sb_results_judged(results) &&
+        sb_results_judged(results)->kept)
         status = sb_kept_across(former, of->name, &results->across, error);
     sb_free(views);
     sb_free(figures);
@@ -153,8 +150,7 @@ static bool is_judged(const sb_result *r)
 const sb_result *sb_results_judged(const sb_case_results *results)
 {
     for (size_t i = 0; i < results->count; i++)
-        if (is_judged(&results->runs[i]) && results->runs[i].request.seed == 1)
-            return &results->runs[i];
+        if (is_judged(&results->runs[i]) && results->runs[i].request.seed == 1) return &results->runs[i];
     return NULL;
 }
 

@@ -8,14 +8,14 @@
 typedef enum sb_result_state {
     SB_RESULT_NOT_RUN,
     SB_RESULT_FAILED, /* the run, or reading what it left: see problem */
-    SB_RESULT_DONE /* or kept */
+    SB_RESULT_DONE    /* or kept */
 } sb_result_state;
 
 typedef struct sb_result {
     sb_request request;
     char asked[17]; /* what it asks for, in hexadecimal; "": not known */
     sb_result_state state;
-    bool kept;      /* figures of a former report: its files are not there, nor notes, scene, threads (kept.h) */
+    bool kept; /* figures of a former report: its files are not there, nor notes, scene, threads (kept.h) */
     sb_finished run;
     sb_figures figures;
     char problem[640];
@@ -31,8 +31,8 @@ typedef struct sb_case_results {
     char problem[640]; /* what kept those from being figured; "" */
 } sb_case_results;
 
-/* A figure where it is judged, over the seeds that were run by the first one's program: those of others say nothing about
-   the spread. */
+/* A figure where it is judged, over the seeds that were run by the first one's program: those of others say nothing
+   about the spread. */
 typedef struct sb_judgement {
     const sb_figure *figure; /* of the first seed */
     double mean;             /* of the value */
@@ -43,8 +43,7 @@ typedef struct sb_judgement {
 } sb_judgement;
 
 /* The runs a case wants; free *requests with sb_free. */
-sb_status sb_case_requests(const sb_case *of, bool quick, sb_request **requests, size_t *count,
-                           sb_error *error);
+sb_status sb_case_requests(const sb_case *of, bool quick, sb_request **requests, size_t *count, sb_error *error);
 
 /* Reads what the store has for r->request, and makes its figures. any_build: the newest of another
    build where this one has not run. */

@@ -24,9 +24,8 @@ static sb_status fill(sb_sheet_slot *slot, const char *path, sb_error *error)
     return slot->path ? SB_OK : sb_fail_memory(error, path);
 }
 
-static sb_status curve_of(sb_sheet_slot *slot, const char *folder, const char *table,
-                          const char *where, const char *x, const char *y, sb_curve *curve,
-                          sb_error *error)
+static sb_status curve_of(sb_sheet_slot *slot, const char *folder, const char *table, const char *where, const char *x,
+                          const char *y, sb_curve *curve, sb_error *error)
 {
     char path[SB_PATH_MAX];
     sb_error why = {0};
@@ -38,14 +37,14 @@ static sb_status curve_of(sb_sheet_slot *slot, const char *folder, const char *t
     return status;
 }
 
-sb_status sb_run_curve(const sb_case_run *run, const char *table, const char *where, const char *x,
-                       const char *y, sb_curve *curve, sb_error *error)
+sb_status sb_run_curve(const sb_case_run *run, const char *table, const char *where, const char *x, const char *y,
+                       sb_curve *curve, sb_error *error)
 {
     return curve_of(run->slot, run->folder, table, where, x, y, curve, error);
 }
 
-sb_status sb_reference_curve(const sb_case_run *run, const char *table, const char *where,
-                             const char *x, const char *y, sb_curve *curve, sb_error *error)
+sb_status sb_reference_curve(const sb_case_run *run, const char *table, const char *where, const char *x, const char *y,
+                             sb_curve *curve, sb_error *error)
 {
     sb_sheet_slot own = {0};
     sb_status status = curve_of(&own, run->assets, table, where, x, y, curve, error);

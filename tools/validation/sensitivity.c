@@ -35,15 +35,15 @@ static void want_changes(study *s, const sb_numerics *defaults)
     for (size_t i = 1; i < s->count; i++) {
         sb_request *request = &s->results[i].request;
         *request = s->results[0].request;
-        sb_sensitivity_change(&sb_sensitivity_keys[(i - 1) / FACTORS], defaults,
-                              factors[(i - 1) % FACTORS], request->change);
+        sb_sensitivity_change(&sb_sensitivity_keys[(i - 1) / FACTORS], defaults, factors[(i - 1) % FACTORS],
+                              request->change);
         if (!request->change[0]) request->of = NULL;
     }
 }
 
 /* Launches what the studies want: as it is (first), or all the changes. */
-static sb_status run(const sb_store *store, const study *studies, size_t count, bool first,
-                     int jobs, size_t *failed, sb_error *error)
+static sb_status run(const sb_store *store, const study *studies, size_t count, bool first, int jobs, size_t *failed,
+                     sb_error *error)
 {
     size_t room = 0, n = 0, bad = 0;
     for (size_t c = 0; c < count; c++) room += studies[c].count;
@@ -63,31 +63,25 @@ static sb_status begin(study *s, const sb_case *of, sb_error *error)
     s->count = 1 + FACTORS * key_count();
     s->results = sb_alloc(s->count, sizeof *s->results);
     if (!s->results) return sb_fail_memory(error, "a study");
-    s->results[0].request =
-        (sb_request){.of = of, .plan = judged_plan(of), .quick = true, .seed = 1};
+    s->results[0].request = (sb_request){.of = of, .plan = judged_plan(of), .quick = true, .seed = 1};
     return SB_OK;
 }
 
-static sb_status study_all(const sb_store *store, study *studies, const sb_case *const *cases,
-                           size_t count, int jobs, bool report_only, size_t *failed,
-                           sb_error *error)
+static sb_status study_all(const sb_store *store, study *studies, const sb_case *const *cases, size_t count, int jobs,
+                           bool report_only, size_t *failed, sb_error *error)
 {
     sb_status status = SB_OK;
-    for (size_t c = 0; status == SB_OK && c < count; c++)
-        status = begin(&studies[c], cases[c], error);
-    if (status == SB_OK && !report_only)
-        status = run(store, studies, count, true, jobs, failed, error);
+    for (size_t c = 0; status == SB_OK && c < count; c++) status = begin(&studies[c], cases[c], error);
+    if (status == SB_OK && !report_only) status = run(store, studies, count, true, jobs, failed, error);
     for (size_t c = 0; status == SB_OK && c < count; c++) {
         sb_result *base = &studies[c].results[0];
         sb_result_read(store, report_only, base);
         if (base->state == SB_RESULT_DONE) want_changes(&studies[c], &base->run.scene.numerics);
     }
-    if (status == SB_OK && !report_only)
-        status = run(store, studies, count, false, jobs, failed, error);
+    if (status == SB_OK && !report_only) status = run(store, studies, count, false, jobs, failed, error);
     for (size_t c = 0; status == SB_OK && c < count; c++)
         for (size_t i = 1; i < studies[c].count; i++)
-            if (studies[c].results[i].request.of)
-                sb_result_read(store, report_only, &studies[c].results[i]);
+            if (studies[c].results[i].request.of) sb_result_read(store, report_only, &studies[c].results[i]);
     return status;
 }
 
@@ -109,8 +103,7 @@ static void put_time(FILE *out, const sb_result *r)
 }
 
 /* One table: of errors, or of run times. */
-static void put_table(FILE *out, const study *studies, const sb_case *const *cases, size_t count,
-                      bool errors)
+static void put_table(FILE *out, const study *studies, const sb_case *const *cases, size_t count, bool errors)
 {
     fputs("| key | default |", out);
     for (size_t c = 0; c < count; c++) fprintf(out, " %s |", cases[c]->name);
@@ -145,8 +138,8 @@ static void put_table(FILE *out, const study *studies, const sb_case *const *cas
     fputs("\n\n", out);
 }
 
-static void put_all(FILE *out, const sb_store *store, const study *studies,
-                    const sb_case *const *cases, size_t count, const char *command)
+static void put_all(FILE *out, const sb_store *store, const study *studies, const sb_case *const *cases, size_t count,
+                    const char *command)
 {
     fprintf(out,
             "# What the numeric defaults do\n\nMade by `tools/validate --sensitivity` from the "
@@ -159,22 +152,19 @@ static void put_all(FILE *out, const sb_store *store, const study *studies,
     put_table(out, studies, cases, count, true);
     for (size_t c = 0; c < count; c++) {
         const sb_result *r = &studies[c].results[0];
-        const sb_figure *f =
-            r->state == SB_RESULT_DONE ? sb_figures_find(&r->figures, cases[c]->headline) : NULL;
+        const sb_figure *f = r->state == SB_RESULT_DONE ? sb_figures_find(&r->figures, cases[c]->headline) : NULL;
         fprintf(out, "- %s: %s", cases[c]->name, cases[c]->headline);
         if (f && isnan(f->error)) fprintf(out, ", value in %s", f->unit);
         if (f && !isnan(f->error))
-            fprintf(out, ", error%s%s, reach %.4g", f->error_unit[0] ? " in " : "", f->error_unit,
-                    f->limit);
+            fprintf(out, ", error%s%s, reach %.4g", f->error_unit[0] ? " in " : "", f->error_unit, f->limit);
         fprintf(out, ", at %.6g m\n", r->request.plan->resolution);
     }
     fputs("\n## Run times (s)\n\n", out);
     put_table(out, studies, cases, count, false);
 }
 
-static sb_status write_report(const sb_store *store, const study *studies,
-                              const sb_case *const *cases, size_t count, const char *command,
-                              const char *path, sb_error *error)
+static sb_status write_report(const sb_store *store, const study *studies, const sb_case *const *cases, size_t count,
+                              const char *command, const char *path, sb_error *error)
 {
     char folder[SB_PATH_MAX];
     sb_atomic_file file;
@@ -186,15 +176,13 @@ static sb_status write_report(const sb_store *store, const study *studies,
     return sb_atomic_commit(&file, 0, error);
 }
 
-sb_status sb_sensitivity(const sb_store *store, const sb_case *const *cases, size_t count, int jobs,
-                         bool report_only, const char *command, const char *path, size_t *failed,
-                         sb_error *error)
+sb_status sb_sensitivity(const sb_store *store, const sb_case *const *cases, size_t count, int jobs, bool report_only,
+                         const char *command, const char *path, size_t *failed, sb_error *error)
 {
     study *studies = sb_alloc(count, sizeof *studies);
     sb_status status = studies ? SB_OK : sb_fail_memory(error, "studies");
     *failed = 0;
-    if (status == SB_OK)
-        status = study_all(store, studies, cases, count, jobs, report_only, failed, error);
+    if (status == SB_OK) status = study_all(store, studies, cases, count, jobs, report_only, failed, error);
     if (status == SB_OK) status = write_report(store, studies, cases, count, command, path, error);
     for (size_t c = 0; studies && c < count; c++) {
         for (size_t i = 0; studies[c].results && i < studies[c].count; i++) {

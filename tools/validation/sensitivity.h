@@ -17,16 +17,14 @@ extern const sb_sensitivity_key sb_sensitivity_keys[];
 
 /* Text of `numerics.KEY=VALUE` for the default times factor, kept within the key's bound. "": the
    default is 0 or the change would be none, so that it has no meaning. */
-void sb_sensitivity_change(const sb_sensitivity_key *key, const sb_numerics *defaults,
-                           double factor, char change[64]);
+void sb_sensitivity_change(const sb_sensitivity_key *key, const sb_numerics *defaults, double factor, char change[64]);
 
 /* The default as text. */
 void sb_sensitivity_text(const sb_sensitivity_key *key, const sb_numerics *defaults, char text[64]);
 
 /* Runs the judged quick form of the cases with their defaults and with each change (unless
    report_only), and writes `path` (Markdown). Statuses as sb_launch. */
-sb_status sb_sensitivity(const sb_store *store, const sb_case *const *cases, size_t count, int jobs,
-                         bool report_only, const char *command, const char *path, size_t *failed,
-                         sb_error *error);
+sb_status sb_sensitivity(const sb_store *store, const sb_case *const *cases, size_t count, int jobs, bool report_only,
+                         const char *command, const char *path, size_t *failed, sb_error *error);
 
 #endif

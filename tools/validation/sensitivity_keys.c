@@ -7,13 +7,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#define NUMBER(key, most)                                                                          \
-    {                                                                                              \
-#key, offsetof(sb_numerics, key), false, most                                              \
+#define NUMBER(key, most)                                                                                              \
+    {                                                                                                                  \
+#key, offsetof(sb_numerics, key), false, most                                                                  \
     }
-#define COUNT(key, most)                                                                           \
-    {                                                                                              \
-#key, offsetof(sb_numerics, key), true, most                                               \
+#define COUNT(key, most)                                                                                               \
+    {                                                                                                                  \
+#key, offsetof(sb_numerics, key), true, most                                                                   \
     }
 
 const sb_sensitivity_key sb_sensitivity_keys[] = {
@@ -50,8 +50,7 @@ static double value_of(const sb_sensitivity_key *key, const sb_numerics *numeric
     return number;
 }
 
-void sb_sensitivity_change(const sb_sensitivity_key *key, const sb_numerics *defaults,
-                           double factor, char change[64])
+void sb_sensitivity_change(const sb_sensitivity_key *key, const sb_numerics *defaults, double factor, char change[64])
 {
     double value = value_of(key, defaults), changed = value * factor;
     if (changed > key->most) changed = key->most;

@@ -38,20 +38,18 @@ static char *take(char **at)
     return field;
 }
 
-static sb_status take_line(sb_sheet *sheet, char *line, size_t number, const char *path,
-                           sb_error *error)
+static sb_status take_line(sb_sheet *sheet, char *line, size_t number, const char *path, sb_error *error)
 {
     size_t count = 0, start = sheet->columns ? (sheet->rows + 1) * sheet->columns : 0;
     for (char *at = line; at; count++) {
         char *field = take(&at);
-        if (sb_grow((void **)&sheet->fields, &sheet->capacity, start + count + 1,
-                    sizeof *sheet->fields) != 0)
+        if (sb_grow((void **)&sheet->fields, &sheet->capacity, start + count + 1, sizeof *sheet->fields) != 0)
             return sb_fail_memory(error, path);
         sheet->fields[start + count] = field;
     }
     if (sheet->columns && count != sheet->columns)
-        return sb_fail(error, SB_BAD_INPUT, "%.400s:%zu: %zu fields, expected %zu", path, number,
-                       count, sheet->columns);
+        return sb_fail(error, SB_BAD_INPUT, "%.400s:%zu: %zu fields, expected %zu", path, number, count,
+                       sheet->columns);
     if (sheet->columns)
         sheet->rows++;
     else
@@ -74,8 +72,7 @@ sb_status sb_sheet_read(const char *path, sb_sheet *sheet, sb_error *error)
         if (*line != '#' && *line) status = take_line(&made, line, number, path, error);
         line = end + 1;
     }
-    if (status == SB_OK && made.columns == 0)
-        status = sb_fail(error, SB_BAD_INPUT, "%.400s: no header line", path);
+    if (status == SB_OK && made.columns == 0) status = sb_fail(error, SB_BAD_INPUT, "%.400s: no header line", path);
     if (status != SB_OK)
         sb_sheet_free(&made);
     else
@@ -106,8 +103,8 @@ double sb_sheet_number(const sb_sheet *sheet, size_t row, size_t column)
     return end == text || *end != '\0' ? (double)NAN : value;
 }
 
-sb_status sb_sheet_curve(const sb_sheet *sheet, const char *where, const char *x, const char *y,
-                         sb_curve *curve, sb_error *error)
+sb_status sb_sheet_curve(const sb_sheet *sheet, const char *where, const char *x, const char *y, sb_curve *curve,
+                         sb_error *error)
 {
     size_t x_column = sb_sheet_column(sheet, x), y_column = sb_sheet_column(sheet, y);
     sb_curve made = {0};
@@ -116,10 +113,9 @@ sb_status sb_sheet_curve(const sb_sheet *sheet, const char *where, const char *x
         return sb_fail(error, SB_BAD_INPUT, "no column %s", x_column == (size_t)-1 ? x : y);
     for (size_t row = 0; status == SB_OK && row < sheet->rows; row++)
         if (!where || (sheet->columns > 1 && strcmp(sb_sheet_text(sheet, row, 1), where) == 0))
-            status = sb_curve_add(&made, sb_sheet_number(sheet, row, x_column),
-                                  sb_sheet_number(sheet, row, y_column), error);
-    if (status == SB_OK && made.count == 0)
-        status = sb_fail(error, SB_BAD_INPUT, "no rows of %s", where ? where : y);
+            status = sb_curve_add(&made, sb_sheet_number(sheet, row, x_column), sb_sheet_number(sheet, row, y_column),
+                                  error);
+    if (status == SB_OK && made.count == 0) status = sb_fail(error, SB_BAD_INPUT, "no rows of %s", where ? where : y);
     if (status != SB_OK)
         sb_curve_free(&made);
     else

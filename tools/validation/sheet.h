@@ -27,7 +27,7 @@ const char *sb_sheet_text(const sb_sheet *sheet, size_t row, size_t column);
 /* Two columns by name as a curve. where: only rows whose second column is this name (forces.csv,
    gauges.csv,
    ...); NULL: all rows. SB_BAD_INPUT when a column or every row is missing. */
-sb_status sb_sheet_curve(const sb_sheet *sheet, const char *where, const char *x, const char *y,
-                         sb_curve *curve, sb_error *error);
+sb_status sb_sheet_curve(const sb_sheet *sheet, const char *where, const char *x, const char *y, sb_curve *curve,
+                         sb_error *error);
 
 #endif

@@ -56,8 +56,7 @@ static sb_status figure_layers(const sb_case_run *run, sb_figures *figures, sb_e
     profile *p = sb_alloc(1, sizeof *p);
     if (!p) return sb_fail_memory(error, "a profile");
     sb_status status = read_profile(run, p, error);
-    double scale =
-        run->scene->fluid.density * run->scene->fluid.gravity * sb_still_depth(run->scene);
+    double scale = run->scene->fluid.density * run->scene->fluid.gravity * sb_still_depth(run->scene);
     double worst = 0;
     size_t at = 0;
     for (size_t k = 0; k < LAYERS; k++) {
@@ -68,16 +67,14 @@ static sb_status figure_layers(const sb_case_run *run, sb_figures *figures, sb_e
         at = k;
     }
     if (status == SB_OK)
-        status = sb_figure_below(figures, "pressure profile, worst layer", "%",
-                                 100 * fabs(worst) / scale, 1, error,
+        status = sb_figure_below(figures, "pressure profile, worst layer", "%", 100 * fabs(worst) / scale, 1, error,
                                  "of rho g D; means over layers one spacing thick and over the "
                                  "particle files of the second half; worst in layer %zu from the "
                                  "floor, %+.1f Pa",
                                  at + 1, worst);
     if (status == SB_OK)
-        status = sb_figure_report(figures, "pressure of single particles, RMS error", "%",
-                                  (double)NAN, 100 * sqrt(p->square / (double)p->total) / scale,
-                                  error, "of rho g D, same files");
+        status = sb_figure_report(figures, "pressure of single particles, RMS error", "%", (double)NAN,
+                                  100 * sqrt(p->square / (double)p->total) / scale, error, "of rho g D, same files");
     sb_free(p);
     return status;
 }
@@ -91,22 +88,20 @@ static sb_status figure_probes(const sb_case_run *run, sb_figures *figures, sb_e
     for (size_t i = 0; i < scene->measure.probe_count; i++) {
         const sb_probe *probe = &scene->measure.probes[i];
         sb_curve pressure = {0};
-        sb_status status =
-            sb_run_curve(run, "probes.csv", probe->name, "time_s", "p_Pa", &pressure, error);
+        sb_status status = sb_run_curve(run, "probes.csv", probe->name, "time_s", "p_Pa", &pressure, error);
         if (status != SB_OK) return status;
-        double miss = sb_curve_mean(&pressure, 0.5 * scene->duration, HUGE_VAL) -
-                      weight * (scene->sea.level - probe->at.z);
+        double miss =
+            sb_curve_mean(&pressure, 0.5 * scene->duration, HUGE_VAL) - weight * (scene->sea.level - probe->at.z);
         sb_curve_free(&pressure);
         if (!(fabs(miss) <= fabs(worst))) {
             worst = miss;
             name = probe->name;
         }
     }
-    return sb_figure_below(
-        figures, "pressure at probes, worst", "%",
-        100 * fabs(worst) / (weight * sb_still_depth(scene)), 1, error,
-        "of rho g D; mean of the second half, %zu probes on walls and within; %+.1f Pa at %s",
-        scene->measure.probe_count, worst, name);
+    return sb_figure_below(figures, "pressure at probes, worst", "%",
+                           100 * fabs(worst) / (weight * sb_still_depth(scene)), 1, error,
+                           "of rho g D; mean of the second half, %zu probes on walls and within; %+.1f Pa at %s",
+                           scene->measure.probe_count, worst, name);
 }
 
 sb_status sb_still_figures(const sb_case_run *run, sb_figures *figures, sb_error *error)
@@ -118,14 +113,12 @@ sb_status sb_still_figures(const sb_case_run *run, sb_figures *figures, sb_error
 sb_status sb_still_plot(const sb_case_run *run, sb_plot *plot, sb_error *error)
 {
     sb_curve curve = {0};
-    double scale =
-        run->scene->fluid.density * run->scene->fluid.gravity * sb_still_depth(run->scene);
+    double scale = run->scene->fluid.density * run->scene->fluid.gravity * sb_still_depth(run->scene);
     profile *p = sb_alloc(1, sizeof *p);
     sb_status status = p ? read_profile(run, p, error) : sb_fail_memory(error, "a profile");
     for (size_t k = 0; status == SB_OK && k < LAYERS; k++) {
         double n = (double)p->count[k];
-        if (is_layer(p, k))
-            status = sb_curve_add(&curve, p->height[k] / n, p->excess[k] / n / scale * 100, error);
+        if (is_layer(p, k)) status = sb_curve_add(&curve, p->height[k] / n, p->excess[k] / n / scale * 100, error);
     }
     if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, run->label, &curve, error);
     sb_curve_free(&curve);

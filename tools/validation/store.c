@@ -14,21 +14,18 @@
 
 static const char record_name[] = "record.txt", failure_name[] = "failed.txt", spent_name[] = "spent.txt";
 
-sb_status sb_store_open(sb_store *store, const char *out, const char *program, const char *source,
-                        sb_error *error)
+sb_status sb_store_open(sb_store *store, const char *out, const char *program, const char *source, sb_error *error)
 {
     sb_store made = {0};
     char real[SB_PATH_MAX];
     sb_status status = sb_make_directories(out, error);
     if (status != SB_OK) return status;
-    if (!realpath(out, made.out))
-        return sb_fail(error, SB_FAILED, "%.400s: %s", out, strerror(errno));
+    if (!realpath(out, made.out)) return sb_fail(error, SB_FAILED, "%.400s: %s", out, strerror(errno));
     if (!realpath(program, made.program) || access(made.program, X_OK) != 0)
         return sb_fail(error, SB_BAD_INPUT, "%.400s: no such program", program);
     status = sb_path_join(real, source, "assets/validation", error);
     if (status != SB_OK) return status;
-    if (!realpath(real, made.assets))
-        return sb_fail(error, SB_BAD_INPUT, "%.400s: %s", real, strerror(errno));
+    if (!realpath(real, made.assets)) return sb_fail(error, SB_BAD_INPUT, "%.400s: %s", real, strerror(errno));
     status = sb_hash_file(made.program, &made.build, error);
     if (status != SB_OK) return status;
     sb_origin_commit(source, made.commit);
@@ -48,22 +45,18 @@ sb_status sb_store_asked(const sb_store *store, const sb_request *request, char 
 }
 
 /* The folder that holds the builds' folders of a request. */
-static sb_status group_folder(const sb_store *store, const sb_request *request,
-                              char folder[SB_PATH_MAX], sb_error *error)
+static sb_status group_folder(const sb_store *store, const sb_request *request, char folder[SB_PATH_MAX],
+                              sb_error *error)
 {
     char asked[17];
     sb_status status = sb_store_asked(store, request, asked, error);
     if (status != SB_OK) return status;
-    int length = snprintf(folder, SB_PATH_MAX, "%s/runs/%s/%.6g-%s-%d-%s", store->out,
-                          request->of->name, request->plan->resolution,
-                          request->paper ? "paper" : "default", request->seed, asked);
-    return length < SB_PATH_MAX - 32
-               ? SB_OK
-               : sb_fail(error, SB_BAD_INPUT, "%.400s: the path is too long", store->out);
+    int length = snprintf(folder, SB_PATH_MAX, "%s/runs/%s/%.6g-%s-%d-%s", store->out, request->of->name,
+                          request->plan->resolution, request->paper ? "paper" : "default", request->seed, asked);
+    return length < SB_PATH_MAX - 32 ? SB_OK : sb_fail(error, SB_BAD_INPUT, "%.400s: the path is too long", store->out);
 }
 
-sb_status sb_store_folder(const sb_store *store, const sb_request *request,
-                          char folder[SB_PATH_MAX], sb_error *error)
+sb_status sb_store_folder(const sb_store *store, const sb_request *request, char folder[SB_PATH_MAX], sb_error *error)
 {
     sb_status status = group_folder(store, request, folder, error);
     if (status != SB_OK) return status;
@@ -81,8 +74,7 @@ static double recorded(const char *folder)
     return (double)info.st_mtim.tv_sec + 1e-9 * (double)info.st_mtim.tv_nsec;
 }
 
-bool sb_store_find(const sb_store *store, const sb_request *request, bool any_build,
-                   char folder[SB_PATH_MAX])
+bool sb_store_find(const sb_store *store, const sb_request *request, bool any_build, char folder[SB_PATH_MAX])
 {
     char group[SB_PATH_MAX], path[SB_PATH_MAX];
     double newest = -1;
@@ -91,8 +83,7 @@ bool sb_store_find(const sb_store *store, const sb_request *request, bool any_bu
     if (!any_build || group_folder(store, request, group, NULL) != SB_OK) return false;
     DIR *builds = opendir(group);
     for (struct dirent *entry; builds && (entry = readdir(builds));) {
-        if (entry->d_name[0] == '.' || sb_path_join(path, group, entry->d_name, NULL) != SB_OK)
-            continue;
+        if (entry->d_name[0] == '.' || sb_path_join(path, group, entry->d_name, NULL) != SB_OK) continue;
         double time = recorded(path);
         if (time <= newest) continue;
         newest = time;
@@ -136,8 +127,8 @@ sb_status sb_store_finish(const sb_store *store, const char *folder, double cpu,
     char text[512];
     double load;
     if (getloadavg(&load, 1) != 1) load = (double)NAN;
-    snprintf(text, sizeof text, "commit: %s\nmachine: %s\ncpu_s: %.6g\nload: %.3g\n", store->commit,
-             store->machine, spent(folder) + cpu, load);
+    snprintf(text, sizeof text, "commit: %s\nmachine: %s\ncpu_s: %.6g\nload: %.3g\n", store->commit, store->machine,
+             spent(folder) + cpu, load);
     return write_text(folder, record_name, text, error);
 }
 
@@ -162,8 +153,7 @@ sb_status sb_store_forget(const char *folder, sb_error *error)
     for (int i = 0; i < 2; i++) {
         sb_status status = sb_path_join(path, folder, marks[i], error);
         if (status != SB_OK) return status;
-        if (unlink(path) != 0 && errno != ENOENT)
-            return sb_fail(error, SB_FAILED, "%.400s: %s", path, strerror(errno));
+        if (unlink(path) != 0 && errno != ENOENT) return sb_fail(error, SB_FAILED, "%.400s: %s", path, strerror(errno));
     }
     return SB_OK;
 }

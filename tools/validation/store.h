@@ -18,19 +18,16 @@ typedef struct sb_store {
 } sb_store;
 
 /* Makes the folder. SB_BAD_INPUT when the program or the assets are not there. */
-sb_status sb_store_open(sb_store *store, const char *out, const char *program, const char *source,
-                        sb_error *error);
+sb_status sb_store_open(sb_store *store, const char *out, const char *program, const char *source, sb_error *error);
 
 /* The folder for this request's run by this build. SB_BAD_INPUT: the scene cannot be read. */
-sb_status sb_store_folder(const sb_store *store, const sb_request *request,
-                          char folder[SB_PATH_MAX], sb_error *error);
+sb_status sb_store_folder(const sb_store *store, const sb_request *request, char folder[SB_PATH_MAX], sb_error *error);
 
 /* What the request asks for, in hexadecimal. SB_BAD_INPUT: the scene cannot be read. */
 sb_status sb_store_asked(const sb_store *store, const sb_request *request, char asked[17], sb_error *error);
 
 /* Whether the run of this build is there; with any_build, failing that, the newest of another. */
-bool sb_store_find(const sb_store *store, const sb_request *request, bool any_build,
-                   char folder[SB_PATH_MAX]);
+bool sb_store_find(const sb_store *store, const sb_request *request, bool any_build, char folder[SB_PATH_MAX]);
 
 /* Adds to the processor time (s) of a run that was stopped and will go on. */
 sb_status sb_store_spend(const char *folder, double cpu, sb_error *error);

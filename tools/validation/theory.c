@@ -23,8 +23,7 @@ double sb_theory_viscosity(const sb_scene *scene, double depth)
     double h = n->support * scene->resolution;
     double sound = n->sound_speed > 0 ? n->sound_speed : 10 * sqrt(scene->fluid.gravity * depth);
     double artificial = 0.5 * n->artificial_viscosity * h * sound / (2 * (scene->dimensions + 2));
-    return sb_theory_lattice_share(n->kernel, scene->dimensions, n->support) *
-           (artificial + scene->fluid.viscosity);
+    return sb_theory_lattice_share(n->kernel, scene->dimensions, n->support) * (artificial + scene->fluid.viscosity);
 }
 
 double sb_theory_standing_shift(double kh, double steepness)
