@@ -15,10 +15,9 @@ sb_footprint sb_footprint_of(const sb_model *model, size_t body)
     return footprint;
 }
 
-/* Boundary particles lie half a spacing behind the face: water is 0.5 to 2.5 spacings from them, to
+/* Boundary particles lie wall_offset behind the face: the strip in which a depth is taken is from there on, to
    the outside for a building, to the inside for a tank. Looking at both needs no distinction. */
-#define REACH 2.5
-#define PATCH 2.0 /* spacings: width of the strip in which a depth is taken */
+#define PATCH 2.0 /* spacings: width of the strip */
 
 /* Adds one particle of `size` patches' width at t (in patches) to the patches it lies over: whole
    particles would alias with the patches. */
@@ -34,7 +33,7 @@ static sb_status side_layers(const sb_sight *sight, const sb_footprint *f, int a
                              sb_error *error)
 {
     bool flat = sight->scene->dimensions == 2;
-    double spacing = sight->scene->resolution, reach = REACH * spacing;
+    double spacing = sight->scene->resolution, reach = (sight->scene->numerics.wall_offset + PATCH) * spacing;
     double from = along ? f->min.x : f->min.y, to = along ? f->max.x : f->max.y;
     sb_vec3 min = along ? sb_vec(from, place - reach, f->min.z) : sb_vec(place - reach, from, f->min.z);
     sb_vec3 max = along ? sb_vec(to, place + reach, f->max.z) : sb_vec(place + reach, to, f->max.z);

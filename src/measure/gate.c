@@ -75,8 +75,10 @@ sb_status sb_gate_create(const sb_sight *sight, const sb_flow_plane *plane, sb_g
     made->plane = plane;
     made->flat = sight->scene->dimensions == 2;
     made->particle_volume = made->flat ? spacing * spacing : spacing * spacing * spacing;
-    /* Far more than a step moves a particle (CFL): whoever passes was seen before. */
-    made->margin = 2 * spacing;
+    /* Farther than a step moves a particle, half as fast again as the one that its length is taken from: whoever
+       passes was seen before. */
+    const sb_numerics *numerics = &sight->scene->numerics;
+    made->margin = fmax(2, 1.5 * numerics->cfl * numerics->support) * spacing;
     made->stride = HUGE_VAL;
     for (int axis = 0; axis < 2; axis++) {
         double length = sb_repeat_length(sight->scene, sight->min, sight->max, axis);

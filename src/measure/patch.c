@@ -19,15 +19,16 @@ typedef struct patch_wall {
 
 struct sb_patch {
     bool on_wall;
-    double spacing, area; /* area: integral of the weight over the patch's surface, m^2 (m in 2D) */
+    double spacing, first_layer; /* m */
+    double area;                 /* integral of the weight over the patch's surface, m^2 (m in 2D) */
     sb_vec3 normal;
     size_t count, capacity;
     patch_wall *walls;
 };
 
-/* Distance below which a fluid particle is in the layer at the wall: that layer rests 0.7 to 1.2
-   spacings from the nearest boundary particle, the next one from 1.6 on. */
-#define FIRST_LAYER 1.4
+/* Spacings behind wall_offset. A fluid particle nearer to a boundary particle than that is in the layer at the wall,
+   which rests half a spacing before the face; the next one rests 1.5 before it. */
+#define FIRST_LAYER 1.0
 
 #define PATCH_RADIUS 2.0 /* spacings, when the probe has none */
 
@@ -50,7 +51,7 @@ bool sb_patch_on_wall(const sb_patch *patch)
 
 bool sb_patch_first_layer(const sb_patch *patch, sb_vec3 position)
 {
-    double limit = FIRST_LAYER * patch->spacing;
+    double limit = patch->first_layer;
     for (size_t i = 0; i < patch->count; i++) {
         sb_vec3 d = sb_sub(position, patch->walls[i].position);
         if (sb_dot(d, d) < limit * limit) return true;
@@ -188,6 +189,7 @@ sb_status sb_patch_create(const sb_scene *scene, const sb_model *model, const sb
     double support = scene->numerics.support * scene->resolution;
     double radius = probe->radius > 0 ? probe->radius : PATCH_RADIUS * scene->resolution;
     made->spacing = scene->resolution;
+    made->first_layer = (scene->numerics.wall_offset + FIRST_LAYER) * scene->resolution;
     sb_status status =
         collect(made, scene, model, probe->at, 1.5 * fmax(radius, support) + support + scene->resolution, error);
     if (status != SB_OK) {

@@ -6,9 +6,18 @@
 
 #include "sim/state.h"
 
+enum { SB_TOUCHES_MAX = 9 };
+
+/* One body's part: a boundary particle of it (as in wall_pairs), and by how much it changed the velocity, m/s. */
+typedef struct sb_touch {
+    uint32_t wall;
+    sb_f4 change;
+} sb_touch;
+
 /* Mends the velocity (m/s) that particle i is about to move with: its component towards a wall, relative to
    the wall, is cut so that the step ends there (inelastic; along the wall nothing
-   changes). Returns whether it did, with the boundary particle that felt it (as in wall_pairs). */
-bool sb_contact_mend(const sb_sim *sim, size_t i, sb_f4 *velocity, uint32_t *touched);
+   changes). Returns the number of touches, 0: nothing was mended; in an edge each body feels what is along its own
+   normal. A body may be there twice; the changes add up to the whole to round-off. */
+size_t sb_contact_mend(const sb_sim *sim, size_t i, sb_f4 *velocity, sb_touch touched[SB_TOUCHES_MAX]);
 
 #endif

@@ -82,22 +82,25 @@ void sb_impulse_of_push(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 push
     add(sim, sum, set->body[wall & 0x7fffffffu], at, push, (sb_vec3){0});
 }
 
-/* Mends what would pass a wall; the wall feels it. */
+/* Mends what would pass walls; each feels its own part. */
 SB_APART void contact(sb_sim *sim, size_t i, double *sum, sb_ledger_sums *ledger)
 {
     const sb_f4 start = ((const sb_f4 *)sim->scratch)[i];
     sb_f4 velocity = sim->acceleration[i];
-    uint32_t wall;
-    if (!sb_contact_mend(sim, i, &velocity, &wall)) return;
-    const double scale = (double)sim->constant.mass / sim->report.time_step;
-    sb_f4 change = sim->acceleration[i] - velocity;
-    /* The push is along the wall's normal through the particle, so it may be taken to act there. */
-    const sb_vec3 push = sb_scale(sb_vec((double)change[0], (double)change[1], (double)change[2]), scale);
-    sb_impulse_of_push(sim, i, wall, push, sum);
-    if (sim->settling) sb_sleep_feel(sim, i, wall, push);
-    const sb_f4 body = wall_velocity(sim, wall);
+    sb_touch touched[SB_TOUCHES_MAX];
+    const size_t count = sb_contact_mend(sim, i, &velocity, touched);
+    const double scale = -(double)sim->constant.mass / sim->report.time_step;
+    if (count == 0) return;
+    for (size_t k = 0; k < count; k++) {
+        const uint32_t wall = touched[k].wall;
+        /* The push is along the wall's normal through the particle, so it may be taken to act there. */
+        const sb_vec3 push = vector(touched[k].change, scale);
+        const sb_f4 body = wall_velocity(sim, wall);
+        sb_impulse_of_push(sim, i, wall, push, sum);
+        if (sim->settling) sb_sleep_feel(sim, i, wall, push);
+        ledger->contact_bodies += sb_ledger_work((sb_f4){0}, touched[k].change, body, body);
+    }
     ledger->contact += sb_ledger_work(sim->acceleration[i], velocity, start, velocity);
-    ledger->contact_bodies += sb_ledger_work(sim->acceleration[i], velocity, body, body);
     velocity[3] = sim->acceleration[i][3];
     sim->acceleration[i] = velocity;
 }

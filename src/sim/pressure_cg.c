@@ -118,7 +118,10 @@ static sb_status solve(sb_sim *sim, sb_error *error)
         sb_pressure_load(sim, sim->direction);
         sb_pressure_product(sim, sim->product);
         s = sum_all(sim);
-        if (!(s.curvature > 0)) break;
+        if (!(s.curvature > 0)) { /* no way on from here */
+            sim->report.capped = !(judged.mean <= sim->report.tolerance);
+            break;
+        }
         double best = s.slope / s.curvature;
         if (chopped || best <= s.feasible) {
             advance(sim, (float)best);

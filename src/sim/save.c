@@ -87,6 +87,9 @@ static void take_deficits(sb_sim *sim, sb_archive_in *in)
     }
 }
 
+/* In quanta: the farthest that a body may be carried, far out of any domain. */
+static const double FARTHEST = 1e15;
+
 static void take_moving(sb_sim *sim, sb_archive_in *in)
 {
     if (sb_take_count(in, SIZE_MAX) != sim->moving_count)
@@ -96,7 +99,9 @@ static void take_moving(sb_sim *sim, sb_archive_in *in)
         moving->displacement = sb_take_real(in);
         moving->next_displacement = sb_take_real(in);
         moving->velocity = sb_take_vector(in);
-        if (fabs(moving->displacement) / sim->space.quantum < SB_POSITION_END && sb_isfinite(moving->velocity))
+        const double farthest = fmax(fabs(moving->displacement), fabs(moving->next_displacement));
+        if (farthest < FARTHEST * sim->space.quantum && !isnan(moving->displacement) &&
+            !isnan(moving->next_displacement) && sb_isfinite(moving->velocity))
             continue;
         sb_archive_refuse(in, "a body displaced by %g m, expected one within reach", moving->displacement);
         moving->displacement = 0;

@@ -303,11 +303,13 @@ const char *const *sb_sim_skipped(const sb_sim *sim)
 
 size_t sb_sim_bytes(const sb_sim *sim)
 {
+    enum { WALL_BYTES = sizeof(sb_record) + sizeof(uint32_t) + sizeof(sb_f4) };
     size_t bytes = sim->bytes_fixed + sb_cells_bytes(&sim->cells) + sb_cells_bytes(&sim->ghosts.cells);
     bytes += sim->ghosts.of_capacity * 4 + (sim->ghosts.words_capacity + sim->ghosts.other_capacity) * 8;
     bytes += sim->pairs.capacity * sizeof *sim->pairs.four + sim->wall_pairs.capacity * 8;
     bytes += sim->groups.capacity * sizeof *sim->groups.group + sim->groups.room * sizeof *sim->groups.run;
     for (int s = 0; s < SB_WALL_SETS; s++)
-        bytes += sb_cells_bytes(&sim->walls[s].cells) + sim->walls[s].count * 20 + (sim->walls[s].near_mask + 1) * 8;
-    return bytes + sim->moving_rest_count * 20 + sb_sleep_bytes(sim);
+        bytes +=
+            sb_cells_bytes(&sim->walls[s].cells) + sim->walls[s].count * WALL_BYTES + (sim->walls[s].near_mask + 1) * 8;
+    return bytes + sim->moving_rest_count * WALL_BYTES + sb_sleep_bytes(sim);
 }

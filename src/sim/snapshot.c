@@ -68,12 +68,14 @@ static sb_fluid_sample sample_at(const sb_sim *sim, size_t i, sb_vec3 position)
 {
     const particle p = particle_at(sim, i);
     const sb_f4 v = p.velocity;
+    /* Nothing is summed before the first step. */
+    const double density = (double)(p.density > 0 ? p.density : sim->constant.rest_density);
     return (sb_fluid_sample){
         .position = position,
         .velocity = sb_vec((double)v[0], (double)v[1], (double)v[2]),
         .pressure = (double)p.pressure,
-        .density = (double)p.density,
-        .push = (double)v[3] / ((double)p.density * (double)p.density),
+        .density = density,
+        .push = (double)v[3] / (density * density),
         .id = p.id,
     };
 }

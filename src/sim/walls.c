@@ -212,6 +212,7 @@ static void place(sb_sim *sim)
     for (size_t i = 0; i < sim->moving_rest_count; i++) {
         const sb_moving_body *moving = &sim->moving[sim->moving_of_body[sim->moving_rest_body[i]]];
         sb_vec3 shift = sb_scale(moving->direction, moving->displacement / sim->space.quantum);
+        if (!(sb_norm(shift) < SB_POSITION_END)) continue;
         sb_record step = {(uint32_t)(int32_t)nearbyint(shift.x), (uint32_t)(int32_t)nearbyint(shift.y),
                           (uint32_t)(int32_t)nearbyint(shift.z), 0};
         sb_record placed = sim->moving_rest[i] + step;
