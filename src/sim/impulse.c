@@ -94,7 +94,7 @@ SB_APART void contact(sb_sim *sim, size_t i, double *sum, sb_ledger_sums *ledger
     /* The push is along the wall's normal through the particle, so it may be taken to act there. */
     const sb_vec3 push = sb_scale(sb_vec((double)change[0], (double)change[1], (double)change[2]), scale);
     sb_impulse_of_push(sim, i, wall, push, sum);
-    if (sim->settling) sb_sleep_feel(sim, i, wall, push);
+    if (sim->settling && sim->settling != SB_POISED) sb_sleep_feel(sim, i, wall, push);
     const sb_f4 body = wall_velocity(sim, wall);
     ledger->contact += sb_ledger_work(sim->acceleration[i], velocity, start, velocity);
     ledger->contact_bodies += sb_ledger_work(sim->acceleration[i], velocity, body, body);

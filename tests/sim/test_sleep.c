@@ -6,6 +6,7 @@
 #include "sim/sleep.h"
 
 #include <stdio.h>
+#include <string.h>
 
 static double wave_speed(void)
 {
@@ -138,6 +139,29 @@ static void what_leaves_does_not_sleep(void **state)
     sb_free(seen);
     assert_int_equal(tank_steps(sim, 3), 0);
     assert_int_equal(sb_sim_report(sim)->fluid_count, n - 1);
+    sb_sim_destroy(sim);
+    tank_free(&t);
+}
+
+/* The step that poises what starts from rest adds nothing to the mean of settling's. */
+static void a_poised_step_is_not_listened_to(void **state)
+{
+    (void)state;
+    tank t;
+    sb_sim *sim = before_lying_down(&t, 100);
+    const size_t n = t.model.fluid_count, bytes = n * sizeof *sim->sleep->settled_push;
+    sb_settled_push *before = sb_alloc(n, sizeof *before);
+    assert_non_null(before);
+    memcpy(before, sim->sleep->settled_push, bytes);
+    sim->settling = SB_POISED;
+    assert_int_equal(tank_steps(sim, 1), 0);
+    sim->settling = SB_RUNNING;
+    double borne = 0;
+    for (size_t id = 0; id < n; id++) borne -= (double)before[id].push[2];
+    printf("contacts bear %.3g of the weight\n", borne / (9.81 * sb_sim_energy(sim).mass));
+    assert_true(borne > 0.1 * 9.81 * sb_sim_energy(sim).mass);
+    assert_memory_equal(before, sim->sleep->settled_push, bytes);
+    sb_free(before);
     sb_sim_destroy(sim);
     tank_free(&t);
 }
@@ -301,6 +325,7 @@ int main(void)
         cmocka_unit_test(frames_show_sleepers),
         cmocka_unit_test(pressures_at_the_start_are_the_water_s),
         cmocka_unit_test(what_leaves_does_not_sleep),
+        cmocka_unit_test(a_poised_step_is_not_listened_to),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
