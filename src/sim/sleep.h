@@ -111,17 +111,22 @@ static inline size_t sb_asleep(const sb_sim *sim)
     return sim->sleep ? sim->sleep->count : 0;
 }
 
-/* The tile over which a record lies; those beyond the domain count to its margin. */
-SB_INLINE size_t sb_tile_of(const sb_sim *sim, const sb_tiles *tiles, sb_record at)
+/* The tile over which a place lies, where a periodic side is the domain's end; those beyond it count to its margin. */
+SB_INLINE size_t sb_tile_within(const sb_sim *sim, const sb_tiles *tiles, sb_record at)
 {
     const uint32_t low = sb_space_low(&sim->space);
     uint32_t index[2] = {0, 0};
-    if (sim->space.repeats) at = sb_space_wrap(&sim->space, at);
     for (int axis = 0; axis < 2; axis++) {
         index[axis] = at[axis] > low ? (at[axis] - low) >> tiles->shift : 0;
         index[axis] = index[axis] < tiles->size[axis] ? index[axis] : tiles->size[axis] - 1;
     }
     return (size_t)index[1] * tiles->size[0] + index[0];
+}
+
+/* The same, where what is beyond a periodic side is back through the other. */
+SB_INLINE size_t sb_tile_of(const sb_sim *sim, const sb_tiles *tiles, sb_record at)
+{
+    return sb_tile_within(sim, tiles, sim->space.repeats ? sb_space_wrap(&sim->space, at) : at);
 }
 
 /* sim/sleep_tiles.c */

@@ -123,8 +123,8 @@ static void mark_flows(const sb_sim *sim, sb_tiles *tiles)
     const bool flat = sim->constant.dimension == 2; /* without sides across y */
     for (size_t b = 0; b < sim->scene->box_count; b++) {
         const sb_fluid_box *box = &sim->scene->boxes[b];
-        const size_t from = sb_tile_of(sim, tiles, sb_space_record(&sim->space, box->min));
-        const size_t to = sb_tile_of(sim, tiles, sb_space_record(&sim->space, box->max));
+        const size_t from = sb_tile_within(sim, tiles, sb_space_record(&sim->space, box->min));
+        const size_t to = sb_tile_within(sim, tiles, sb_space_record(&sim->space, box->max));
         for (size_t y = from / columns; y <= to / columns; y++)
             for (size_t x = from % columns; x <= to % columns; x++) tiles->reached[y * columns + x] = 1;
     }

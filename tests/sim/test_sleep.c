@@ -316,6 +316,38 @@ static void frames_show_sleepers(void **state)
     tank_free(&t);
 }
 
+/* What a box covers is in motion from the start, to its end at a periodic side and no farther. */
+static void a_box_may_end_at_a_periodic_side(void **state)
+{
+    (void)state;
+    tank t;
+    flume_make(&t, 3, 0.2, sb_vec(16, 4, 1.6), true);
+    tank_repeat(&t, 0);
+    tank_repeat(&t, 1);
+    t.model.body_count = 1; /* no paddle */
+    t.scene.wavemaker_count = 0;
+    sb_fluid_box box = {.min = sb_vec(12, 2, 0), .max = sb_vec(16, 4, 1)};
+    t.scene.boxes = &box;
+    t.scene.box_count = 1;
+    sb_sim *sim = tank_sim(&t);
+    sb_tiles tiles = {0};
+    assert_non_null(sim);
+    assert_int_equal(sb_tiles_create(sim, &tiles), 0);
+    sb_tiles_look(sim, &tiles);
+    const double edge = ldexp(sim->space.quantum, tiles.shift);
+    for (size_t i = 0; i < sim->n; i++) {
+        const sb_vec3 at = sb_sim_particle(sim, i).position;
+        const bool reached = tiles.reached[sb_tile_of(sim, &tiles, sim->position[i])];
+        if (at.x > box.min.x && at.y > box.min.y) assert_true(reached);
+        if (at.x < box.min.x - edge || at.y < box.min.y - edge) assert_false(reached);
+    }
+    sb_tiles_free(&tiles);
+    sb_sim_destroy(sim);
+    t.scene.boxes = NULL;
+    t.scene.box_count = 0;
+    tank_free(&t);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -326,6 +358,7 @@ int main(void)
         cmocka_unit_test(pressures_at_the_start_are_the_water_s),
         cmocka_unit_test(what_leaves_does_not_sleep),
         cmocka_unit_test(a_poised_step_is_not_listened_to),
+        cmocka_unit_test(a_box_may_end_at_a_periodic_side),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
