@@ -58,7 +58,7 @@ typedef struct sb_sleep {
     sb_cells fringe_cells;
     unsigned char *block_beside; /* per block of awake particles: some may touch sleepers */
 
-    /* forces on bodies from their last step awake, by tile; their sums, 9 values per body */
+    /* forces on bodies, means over the last steps of settling, by tile; their sums, 9 values per body */
     size_t held_count;
     sb_held_force *held;
     double *held_sum;
@@ -154,7 +154,7 @@ int sb_sleepers_wake(sb_sim *sim);
 int sb_sleepers_fringe(sb_sim *sim);
 
 /* sim/sleep_forces.c */
-/* Keeps what the water over tiles that are not awake did to bodies in the last step. 0, or -1 without memory. */
+/* Keeps what the water over tiles that are not awake did to bodies while it settled. 0, or -1 without memory. */
 int sb_held_take(sb_sim *sim);
 void sb_held_wake(sb_sim *sim);             /* leaves out what has woken */
 void sb_held_press(sb_sim *sim, double dt); /* adds to the bodies' impulses */

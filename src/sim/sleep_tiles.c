@@ -28,7 +28,7 @@ int sb_tiles_create(const sb_sim *sim, sb_tiles *tiles)
     const sb_record high = sb_space_record(space, sim->model->max);
     const double depth = fmax(sim->model->still_depth, sim->scene->resolution);
     int shift = space->shift;
-    do { /* two cells at least: no particle crosses a tile between two looks unseen */
+    do { /* two cells at least: what crosses more than one between two looks is fast, and wakes `reach` around it */
         shift++;
         for (int axis = 0; axis < 2; axis++)
             tiles->size[axis] = axis == 1 && flat ? 1 : ((high[axis] - sb_space_low(space) - 1) >> shift) + 1;
