@@ -28,7 +28,7 @@ static int reserve(sb_sim *sim, size_t ghosts)
         sb_grow((void **)&g->words, &g->words_capacity, ghosts, sizeof *g->words) != 0 ||
         sb_grow((void **)&g->other, &g->other_capacity, ghosts, sizeof *g->other) != 0)
         return -1;
-    return sb_ghosts_room(sim, ghosts);
+    return sb_ghosts_room(sim, ghosts + sb_fringe_count(sim)); /* refreshing a field writes there too */
 }
 
 int sb_ghosts_room(sb_sim *sim, size_t beyond)

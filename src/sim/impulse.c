@@ -97,7 +97,7 @@ SB_APART void contact(sb_sim *sim, size_t i, double *sum, sb_ledger_sums *ledger
         const sb_vec3 push = vector(touched[k].change, scale);
         const sb_f4 body = wall_velocity(sim, wall);
         sb_impulse_of_push(sim, i, wall, push, sum);
-        if (sim->settling) sb_sleep_feel(sim, i, wall, push);
+        if (sim->settling && sim->settling != SB_POISED) sb_sleep_feel(sim, i, wall, push);
         ledger->contact_bodies += sb_ledger_work((sb_f4){0}, touched[k].change, body, body);
     }
     ledger->contact += sb_ledger_work(sim->acceleration[i], velocity, start, velocity);

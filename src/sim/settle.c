@@ -115,5 +115,6 @@ sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
     if (status != SB_OK) return status;
     let_go(sim);
     if ((boxes || sim->scene->wave.kind != SB_INITIAL_NONE) && sim->report.max_speed == 0) status = poise(sim, error);
+    sim->report.time_step = 0; /* these velocities have led nowhere yet: what looks back finds the places as they are */
     return status == SB_OK ? sb_sleep_begin(sim, error) : status;
 }

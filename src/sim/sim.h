@@ -14,7 +14,7 @@ typedef struct sb_sim sb_sim;
 /* What the last step did. */
 typedef struct sb_step_report {
     uint64_t step;          /* steps done so far */
-    double time, time_step; /* s: time reached, and the step that led there */
+    double time, time_step; /* s: time reached, and the step that led there; 0 at the start */
     int iterations;
     bool capped;                                /* the solve stopped at max_iterations above its tolerance */
     double tolerance;                           /* relative density error asked for */

@@ -50,14 +50,19 @@ static float *densities(const sb_sim *sim)
     return density;
 }
 
+/* Lists are of the order before the sort, so none are left. What the sort drops was never there for the run, whose
+   energy is counted from after it. */
 static sb_status lay_down(sb_sim *sim, sb_error *error)
 {
     sb_sleep *sleep = sim->sleep;
+    const double left = sim->ledger.left;
+    sim->listed = sim->told = false;
     float *density = densities(sim);
     for (size_t i = 0; i < sim->n; i++) sim->unknown[i] = sleep->settled_q[sim->id[i]];
     sb_status status = SB_OK;
     if (!density || sb_held_take(sim) != 0) status = sb_fail_memory(error, "still water");
     if (status == SB_OK) status = sb_stage_sort(sim, error);
+    sim->ledger.left = left;
     if (status == SB_OK && sb_sleepers_take(sim, density) != 0) status = sb_fail_memory(error, "still water");
     sb_free(density);
     sb_free(sleep->settled_q);
@@ -107,13 +112,20 @@ void sb_sleep_listen(sb_sim *sim, int step)
     sleep->share = next;
 }
 
+static bool any_may_sleep(const sb_tiles *tiles)
+{
+    for (size_t t = 0; t < tiles->count; t++)
+        if (!tiles->awake[t] && tiles->water[t] > 0) return true;
+    return false;
+}
+
 sb_status sb_sleep_begin(sb_sim *sim, sb_error *error)
 {
     sb_sleep *sleep = sim->sleep;
     if (!sleep) return SB_OK;
     sb_tiles_look(sim, &sleep->tiles);
     sb_tiles_wake(sim, &sleep->tiles);
-    sb_status status = lay_down(sim, error);
+    sb_status status = any_may_sleep(&sleep->tiles) ? lay_down(sim, error) : SB_OK;
     if (sleep->count == 0) /* nothing to do, ever */
         sb_sleep_destroy(sim);
     return status;

@@ -58,7 +58,7 @@ typedef struct sb_sleep {
     sb_cells fringe_cells;
     unsigned char *block_beside; /* per block of awake particles: some may touch sleepers */
 
-    /* forces on bodies from their last step awake, by tile; their sums, 9 values per body */
+    /* forces on bodies, means over the last steps of settling, by tile; their sums, 9 values per body */
     size_t held_count;
     sb_held_force *held;
     double *held_sum;
@@ -111,17 +111,22 @@ static inline size_t sb_asleep(const sb_sim *sim)
     return sim->sleep ? sim->sleep->count : 0;
 }
 
-/* The tile over which a record lies; those beyond the domain count to its margin. */
-SB_INLINE size_t sb_tile_of(const sb_sim *sim, const sb_tiles *tiles, sb_record at)
+/* The tile over which a place lies, where a periodic side is the domain's end; those beyond it count to its margin. */
+SB_INLINE size_t sb_tile_within(const sb_sim *sim, const sb_tiles *tiles, sb_record at)
 {
     const uint32_t low = sb_space_low(&sim->space);
     uint32_t index[2] = {0, 0};
-    if (sim->space.repeats) at = sb_space_wrap(&sim->space, at);
     for (int axis = 0; axis < 2; axis++) {
         index[axis] = at[axis] > low ? (at[axis] - low) >> tiles->shift : 0;
         index[axis] = index[axis] < tiles->size[axis] ? index[axis] : tiles->size[axis] - 1;
     }
     return (size_t)index[1] * tiles->size[0] + index[0];
+}
+
+/* The same, where what is beyond a periodic side is back through the other. */
+SB_INLINE size_t sb_tile_of(const sb_sim *sim, const sb_tiles *tiles, sb_record at)
+{
+    return sb_tile_within(sim, tiles, sim->space.repeats ? sb_space_wrap(&sim->space, at) : at);
 }
 
 /* sim/sleep_tiles.c */
@@ -149,7 +154,7 @@ int sb_sleepers_wake(sb_sim *sim);
 int sb_sleepers_fringe(sb_sim *sim);
 
 /* sim/sleep_forces.c */
-/* Keeps what the water over tiles that are not awake did to bodies in the last step. 0, or -1 without memory. */
+/* Keeps what the water over tiles that are not awake did to bodies while it settled. 0, or -1 without memory. */
 int sb_held_take(sb_sim *sim);
 void sb_held_wake(sb_sim *sim);             /* leaves out what has woken */
 void sb_held_press(sb_sim *sim, double dt); /* adds to the bodies' impulses */

@@ -1,4 +1,4 @@
-/* What sleepers do to bodies, which goes on as it was in their last step awake, and to the water awake. */
+/* What sleepers do to bodies, which goes on as it was in the mean of settling's last steps, and to the water awake. */
 #include "base/memory.h"
 #include "sim/around.h"
 #include "sim/impulse.h"

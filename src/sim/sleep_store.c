@@ -7,13 +7,18 @@
 
 enum { INDEX_BITS = 27 };
 
-/* How many particles sleep over each tile, summed up: first. */
-static void count_sleepers(sb_sleep *sleep)
+/* How many particles sleep over each tile, summed up: first. Of those that the sort has left: a look at the water
+   before it has seen more. */
+static void count_sleepers(sb_sim *sim)
 {
+    sb_sleep *sleep = sim->sleep;
     const sb_tiles *tiles = &sleep->tiles;
     memset(sleep->first, 0, (tiles->count + 1) * sizeof *sleep->first);
-    for (size_t t = 0; t < tiles->count; t++)
-        sleep->first[t + 1] = sleep->first[t] + (tiles->awake[t] ? 0 : tiles->water[t]);
+    for (size_t i = 0; i < sim->n; i++) {
+        const size_t tile = sb_tile_of(sim, tiles, sim->position[i]);
+        sleep->first[tile + 1] += !tiles->awake[tile];
+    }
+    for (size_t t = 0; t < tiles->count; t++) sleep->first[t + 1] += sleep->first[t];
     sleep->count = sleep->first[tiles->count];
 }
 
@@ -31,7 +36,7 @@ int sb_sleepers_take(sb_sim *sim, const float *density)
 {
     sb_sleep *sleep = sim->sleep;
     const sb_tiles *tiles = &sleep->tiles;
-    count_sleepers(sleep);
+    count_sleepers(sim);
     size_t *next = sb_alloc(tiles->count, sizeof *next), kept = 0;
     if (!next || sb_sleepers_reserve(sleep) != 0) {
         sb_free(next);

@@ -28,7 +28,7 @@ int sb_tiles_create(const sb_sim *sim, sb_tiles *tiles)
     const sb_record high = sb_space_record(space, sim->model->max);
     const double depth = fmax(sim->model->still_depth, sim->scene->resolution);
     int shift = space->shift;
-    do { /* two cells at least: no particle crosses a tile between two looks unseen */
+    do { /* two cells at least: what crosses more than one between two looks is fast, and wakes `reach` around it */
         shift++;
         for (int axis = 0; axis < 2; axis++)
             tiles->size[axis] = axis == 1 && flat ? 1 : ((high[axis] - sb_space_low(space) - 1) >> shift) + 1;
@@ -123,8 +123,8 @@ static void mark_flows(const sb_sim *sim, sb_tiles *tiles)
     const bool flat = sim->constant.dimension == 2; /* without sides across y */
     for (size_t b = 0; b < sim->scene->box_count; b++) {
         const sb_fluid_box *box = &sim->scene->boxes[b];
-        const size_t from = sb_tile_of(sim, tiles, sb_space_record(&sim->space, box->min));
-        const size_t to = sb_tile_of(sim, tiles, sb_space_record(&sim->space, box->max));
+        const size_t from = sb_tile_within(sim, tiles, sb_space_record(&sim->space, box->min));
+        const size_t to = sb_tile_within(sim, tiles, sb_space_record(&sim->space, box->max));
         for (size_t y = from / columns; y <= to / columns; y++)
             for (size_t x = from % columns; x <= to % columns; x++) tiles->reached[y * columns + x] = 1;
     }

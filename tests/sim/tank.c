@@ -142,13 +142,19 @@ void tank_repeat(tank *t, int axis)
     sb_model *m = &t->model;
     size_t kept = 0;
     t->scene.domain.side[2 * axis] = t->scene.domain.side[2 * axis + 1] = SB_SIDE_PERIODIC;
-    for (size_t b = 0; b < m->wall_count; b++) {
-        double at = along(m->wall_position[b], axis);
-        if (at < along(m->min, axis) || at >= along(m->max, axis)) continue;
-        m->wall_normal[kept] = m->wall_normal[b];
-        m->wall_position[kept++] = m->wall_position[b];
+    for (size_t k = 0; k < m->body_count; k++) {
+        sb_model_body *body = &m->bodies[k];
+        const size_t begin = kept;
+        for (size_t b = body->begin; b < body->begin + body->count; b++) {
+            double at = along(m->wall_position[b], axis);
+            if (at < along(m->min, axis) || at >= along(m->max, axis)) continue;
+            m->wall_normal[kept] = m->wall_normal[b];
+            m->wall_position[kept++] = m->wall_position[b];
+        }
+        body->begin = begin;
+        body->count = kept - begin;
     }
-    m->wall_count = m->bodies[0].count = kept;
+    m->wall_count = kept;
 }
 
 static double rolled(double at, double by, double min, double max)

@@ -18,8 +18,7 @@ typedef struct tank {
 void tank_make(tank *t, int dimensions, double spacing, sb_vec3 size, double wet_length, double depth, double jitter);
 void tank_free(tank *t);
 
-/* Makes the sides across an axis (0: x, 1: y) periodic, without the walls there. Before bodies are
-   added or split. */
+/* Makes the sides across an axis (0: x, 1: y) periodic, without the walls there. */
 void tank_repeat(tank *t, int axis);
 /* Carries water and boundary particles along within a periodic tank: what leaves at a side comes
    back at the other. */

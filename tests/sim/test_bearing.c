@@ -116,6 +116,31 @@ static void water_at_rest_bears_its_weight(void **state)
     tank_free(&t);
 }
 
+/* Velocities given at t = 0 have moved nothing yet. */
+static void a_start_in_motion_bears_what_one_at_rest_does(void **state)
+{
+    (void)state;
+    sb_sim *sim[2];
+    tank t[2];
+    for (int k = 0; k < 2; k++) {
+        tank_make(&t[k], 2, 0.1, sb_vec(2, 0, 1.5), 2, 0.8, 0.05);
+        t[k].scene.numerics.settle_steps = 60;
+        for (size_t i = 0; i < t[k].model.fluid_count; i++) t[k].model.fluid_velocity[i].x = k ? 2 : 0;
+        sim[k] = tank_settled(&t[k]);
+        sb_sim_find_pressures(sim[k]);
+    }
+    assert_int_equal(sim[0]->n, sim[1]->n);
+    for (size_t i = 0; i < sim[0]->n; i++) {
+        const sb_fluid_sample rest = sb_sim_particle(sim[0], i), moves = sb_sim_particle(sim[1], i);
+        assert_true(rest.velocity.x == 0 && moves.velocity.x == 2);
+        assert_true(moves.pressure == rest.pressure);
+    }
+    for (int k = 0; k < 2; k++) {
+        sb_sim_destroy(sim[k]);
+        tank_free(&t[k]);
+    }
+}
+
 /* Found once per step, and not of lists that are no more: a state just loaded tells the solve's. */
 static void not_of_other_lists(void **state)
 {
@@ -152,6 +177,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_random_cloud_is_the_reference),
         cmocka_unit_test(water_at_rest_bears_its_weight),
+        cmocka_unit_test(a_start_in_motion_bears_what_one_at_rest_does),
         cmocka_unit_test(not_of_other_lists),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

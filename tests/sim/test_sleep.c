@@ -6,6 +6,7 @@
 #include "sim/sleep.h"
 
 #include <stdio.h>
+#include <string.h>
 
 static double wave_speed(void)
 {
@@ -46,17 +47,123 @@ static void a_short_tank_is_as_without(void **state)
 {
     (void)state;
     uint64_t hash[2];
+    float *told[2];
+    size_t n = 0;
     for (int sleep = 0; sleep < 2; sleep++) {
         tank t;
         flume_make(&t, 2, 0.1, sb_vec(4, 0, 1.5), sleep);
         sb_sim *sim = tank_settled(&t);
         assert_true(sim->sleep == NULL && sb_sim_sleep(sim).asleep == 0);
+        sb_sim_find_pressures(sim);
+        n = sim->n;
+        told[sleep] = sb_alloc(n, sizeof(float));
+        assert_non_null(told[sleep]);
+        for (size_t i = 0; i < n; i++) told[sleep][sim->id[i]] = (float)sb_sim_particle(sim, i).pressure;
         assert_int_equal(tank_steps(sim, 20), 0);
         hash[sleep] = sb_sim_hash(sim);
         sb_sim_destroy(sim);
         tank_free(&t);
     }
     assert_true(hash[0] == hash[1]);
+    assert_memory_equal(told[0], told[1], n * sizeof(float));
+    sb_free(told[0]);
+    sb_free(told[1]);
+}
+
+/* At t = 0, once some sleep, lists are none of the order that is left, so the solve's pressures are told. */
+static void pressures_at_the_start_are_the_water_s(void **state)
+{
+    (void)state;
+    tank t;
+    flume_make(&t, 2, 0.1, sb_vec(14, 0, 1.5), true);
+    sb_sim *sim = tank_settled(&t);
+    assert_true(sb_sim_sleep(sim).asleep > 0);
+    sb_sim_find_pressures(sim);
+    double mean = 0, scale = 1000 * 9.81 * SB_FLUME_DEPTH;
+    for (size_t i = 0; i < sim->n; i++) {
+        const sb_fluid_sample s = sb_sim_particle(sim, i);
+        assert_true(s.pressure == (double)sim->velocity[i][3]);
+        mean += fabs(s.pressure - 1000 * 9.81 * (SB_FLUME_DEPTH - s.position.z)) / (scale * (double)sim->n);
+    }
+    printf("off the still water's by %.3g of rho g D\n", mean);
+    assert_true(mean < 0.2); /* of ten layers the first has nearly twice its own */
+    sb_sim_destroy(sim);
+    tank_free(&t);
+}
+
+/* Settled, not yet laid down. */
+static sb_sim *before_lying_down(tank *t, int steps)
+{
+    sb_error error = {0};
+    flume_make(t, 2, 0.1, sb_vec(14, 0, 1.5), true);
+    t->scene.numerics.wall_gamma = 0.1; /* so light that contact has to bear some of it */
+    sb_sim *sim = tank_sim(t);
+    assert_non_null(sim);
+    assert_int_equal(sb_sleep_expect(sim, &error), SB_OK);
+    for (int s = 0; s < steps; s++) {
+        sim->settling = s < 20 ? SB_CREEPING : SB_DAMPED;
+        assert_int_equal(tank_steps(sim, 1), 0);
+        sb_sleep_listen(sim, s);
+    }
+    sim->settling = SB_RUNNING;
+    return sim;
+}
+
+/* Settling's last step may throw one out where water is to sleep: it is neither awake nor asleep, and has left before
+   the run began. */
+static void what_leaves_does_not_sleep(void **state)
+{
+    (void)state;
+    tank t;
+    sb_error error = {0};
+    sb_sim *sim = before_lying_down(&t, 3);
+    const size_t n = t.model.fluid_count;
+    size_t far = 0;
+    for (size_t i = 0; i < n; i++)
+        if (sim->position[i][0] > sim->position[far][0]) far = i;
+    const uint32_t gone = sim->id[far];
+    sim->position[far] = sb_space_record(&sim->space, sb_vec(13, 0, 1.7)); /* through the open top */
+    assert_int_equal(sb_sleep_begin(sim, &error), SB_OK);
+    assert_true(sb_asleep(sim) > 0 && sim->sleep->count == sim->sleep->capacity);
+    assert_int_equal(sim->n + sb_asleep(sim), n - 1);
+    assert_int_equal(sb_sim_report(sim)->fluid_count, n - 1);
+    assert_int_equal(sb_sim_report(sim)->left_domain, 1);
+    assert_true(sb_sim_ledger(sim)->left == 0);
+    bool *seen = sb_alloc(n, 1);
+    assert_non_null(seen);
+    for (size_t i = 0; i < n - 1; i++) {
+        const uint32_t id = sb_sim_particle(sim, i).id;
+        assert_true(id < n && id != gone && !seen[id]);
+        seen[id] = true;
+    }
+    sb_free(seen);
+    assert_int_equal(tank_steps(sim, 3), 0);
+    assert_int_equal(sb_sim_report(sim)->fluid_count, n - 1);
+    sb_sim_destroy(sim);
+    tank_free(&t);
+}
+
+/* The step that poises what starts from rest adds nothing to the mean of settling's. */
+static void a_poised_step_is_not_listened_to(void **state)
+{
+    (void)state;
+    tank t;
+    sb_sim *sim = before_lying_down(&t, 100);
+    const size_t n = t.model.fluid_count, bytes = n * sizeof *sim->sleep->settled_push;
+    sb_settled_push *before = sb_alloc(n, sizeof *before);
+    assert_non_null(before);
+    memcpy(before, sim->sleep->settled_push, bytes);
+    sim->settling = SB_POISED;
+    assert_int_equal(tank_steps(sim, 1), 0);
+    sim->settling = SB_RUNNING;
+    double borne = 0;
+    for (size_t id = 0; id < n; id++) borne -= (double)before[id].push[2];
+    printf("contacts bear %.3g of the weight\n", borne / (9.81 * sb_sim_energy(sim).mass));
+    assert_true(borne > 0.1 * 9.81 * sb_sim_energy(sim).mass);
+    assert_memory_equal(before, sim->sleep->settled_push, bytes);
+    sb_free(before);
+    sb_sim_destroy(sim);
+    tank_free(&t);
 }
 
 static bool same_place(sb_vec3 a, sb_vec3 b)
@@ -209,6 +316,38 @@ static void frames_show_sleepers(void **state)
     tank_free(&t);
 }
 
+/* What a box covers is in motion from the start, to its end at a periodic side and no farther. */
+static void a_box_may_end_at_a_periodic_side(void **state)
+{
+    (void)state;
+    tank t;
+    flume_make(&t, 3, 0.2, sb_vec(16, 4, 1.6), true);
+    tank_repeat(&t, 0);
+    tank_repeat(&t, 1);
+    t.model.body_count = 1; /* no paddle */
+    t.scene.wavemaker_count = 0;
+    sb_fluid_box box = {.min = sb_vec(12, 2, 0), .max = sb_vec(16, 4, 1)};
+    t.scene.boxes = &box;
+    t.scene.box_count = 1;
+    sb_sim *sim = tank_sim(&t);
+    sb_tiles tiles = {0};
+    assert_non_null(sim);
+    assert_int_equal(sb_tiles_create(sim, &tiles), 0);
+    sb_tiles_look(sim, &tiles);
+    const double edge = ldexp(sim->space.quantum, tiles.shift);
+    for (size_t i = 0; i < sim->n; i++) {
+        const sb_vec3 at = sb_sim_particle(sim, i).position;
+        const bool reached = tiles.reached[sb_tile_of(sim, &tiles, sim->position[i])];
+        if (at.x > box.min.x && at.y > box.min.y) assert_true(reached);
+        if (at.x < box.min.x - edge || at.y < box.min.y - edge) assert_false(reached);
+    }
+    sb_tiles_free(&tiles);
+    sb_sim_destroy(sim);
+    t.scene.boxes = NULL;
+    t.scene.box_count = 0;
+    tank_free(&t);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -216,6 +355,10 @@ int main(void)
         cmocka_unit_test(sleepers_rest_and_wake_calm),
         cmocka_unit_test(the_wave_is_the_same),
         cmocka_unit_test(frames_show_sleepers),
+        cmocka_unit_test(pressures_at_the_start_are_the_water_s),
+        cmocka_unit_test(what_leaves_does_not_sleep),
+        cmocka_unit_test(a_poised_step_is_not_listened_to),
+        cmocka_unit_test(a_box_may_end_at_a_periodic_side),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

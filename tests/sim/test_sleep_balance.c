@@ -148,8 +148,9 @@ static void no_memory(void **state)
         t.scene.numerics.settle_steps = 1;
         sb_sim *sim = tank_sim(&t);
         assert_non_null(sim);
+        sim->settling = SB_CREEPING; /* at rest at its end, so that there is something to lay down */
         assert_int_equal(tank_steps(sim, 1), 0);
-        sim->report.step = 0;
+        sim->settling = SB_RUNNING;
         sb_memory_fail_at(n);
         sb_status status = sb_sleep_expect(sim, &error);
         if (status == SB_OK) {
@@ -158,6 +159,7 @@ static void no_memory(void **state)
         }
         sb_memory_fail_at(0);
         if (status != SB_OK) assert_non_null(strstr(error.text, "memory"));
+        if (status == SB_OK) assert_true(sb_sim_sleep(sim).asleep > 0);
         failures += status != SB_OK;
         sb_sim_destroy(sim);
         tank_free(&t);
