@@ -36,10 +36,11 @@ static sb_status record(void *state, const sb_frame *frame, sb_error *error)
 {
     sb_recorder *recorder = state;
     char name[64], path[SB_PATH_MAX], list[SB_PATH_MAX];
-    name_of(recorder->count + 1, name);
+    const uint64_t number = recorder->count + 1;
+    name_of(number, name);
     sb_status status = sb_path_join(path, recorder->directory, name, error);
     if (status == SB_OK) status = sb_path_join(list, recorder->directory, "particles.pvd", error);
-    if (status == SB_OK) status = sb_vtp_write(path, frame, error);
+    if (status == SB_OK) status = sb_vtp_write(path, frame, number, error);
     if (status == SB_OK) status = sb_pvd_add(&recorder->pvd, list, frame->status.time, name, error);
     recorder->count += status == SB_OK;
     return status;
