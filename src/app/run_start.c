@@ -1,16 +1,12 @@
 /* Before the first step. */
 #include "app/fit.h"
+#include "app/lock.h"
 #include "app/room.h"
 #include "app/run_state.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <omp.h>
 #include <stdio.h>
-#include <string.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 enum {
     FILE_QUEUE = 3,  /* frames that wait for disk or renderer before the simulation does */
@@ -40,26 +36,12 @@ static sb_status look_for_checkpoints(run *r, bool *resume, sb_error *error)
     return *resume ? SB_OK : sb_checkpoint_remove_all(r, error);
 }
 
-/* Two runs in one directory would spoil each other's files. The lock goes with the process, however it ends; one that
-   is just being killed may need a moment. Where the file system knows no locks there are none. */
-static sb_status lock_directory(run *r, sb_error *error)
-{
-    enum { TRIES = 20, PAUSE = 100000 }; /* microseconds between them */
-    r->lock = open(r->directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (r->lock < 0) return sb_fail(error, SB_FAILED, "%.500s: cannot open: %s", r->directory, strerror(errno));
-    for (int t = 0; t < TRIES; t++) {
-        if (flock(r->lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return SB_OK;
-        usleep(PAUSE);
-    }
-    return sb_fail(error, SB_BAD_INPUT, "%.500s: another run is writing there, expected a directory of its own",
-                   r->directory);
-}
-
+/* Two runs in one directory would spoil each other's files. */
 static sb_status open_directory(run *r, bool *resume, sb_error *error)
 {
     char path[SB_PATH_MAX];
     sb_status status = sb_make_directories(r->directory, error);
-    if (status == SB_OK) status = lock_directory(r, error);
+    if (status == SB_OK) status = sb_lock_directory(r->directory, "a directory of its own", &r->lock, error);
     if (status == SB_OK) status = sb_checkpoint_begin(r, error);
     if (status == SB_OK) status = look_for_checkpoints(r, resume, error);
     if (status == SB_OK && !*resume) status = write_scene(r, error);
