@@ -20,8 +20,8 @@ static sb_status write_scene(const run *r, sb_error *error)
     return status == SB_OK ? sb_scene_write(r->scene, path, error) : status;
 }
 
-/* What is there already: an earlier run's checkpoints, which go, unless this one goes on from them. */
-static sb_status look_for_checkpoints(run *r, bool *resume, sb_error *error)
+/* What is there already: an earlier run's files, which go, unless this one goes on from its checkpoints. */
+static sb_status look_for_earlier_run(run *r, bool *resume, sb_error *error)
 {
     size_t found = 0;
     sb_status status = sb_checkpoint_count(r, &found, error);
@@ -30,10 +30,10 @@ static sb_status look_for_checkpoints(run *r, bool *resume, sb_error *error)
         sb_run_say(r, "%s: no checkpoint to go on from, so the run starts from the beginning", r->directory);
         *resume = false;
     } else if (!*resume && found > 0) {
-        sb_run_say(r, "%s: a new run in the place of an earlier one, whose checkpoints are removed (--resume goes on)",
+        sb_run_say(r, "%s: a new run in the place of an earlier one, whose files are removed (--resume goes on)",
                    r->directory);
     }
-    return *resume ? SB_OK : sb_checkpoint_remove_all(r, error);
+    return *resume ? SB_OK : sb_run_clear(r, error);
 }
 
 /* Two runs in one directory would spoil each other's files. */
@@ -43,7 +43,7 @@ static sb_status open_directory(run *r, bool *resume, sb_error *error)
     sb_status status = sb_make_directories(r->directory, error);
     if (status == SB_OK) status = sb_lock_directory(r->directory, "a directory of its own", &r->lock, error);
     if (status == SB_OK) status = sb_checkpoint_begin(r, error);
-    if (status == SB_OK) status = look_for_checkpoints(r, resume, error);
+    if (status == SB_OK) status = look_for_earlier_run(r, resume, error);
     if (status == SB_OK && !*resume) status = write_scene(r, error);
     if (status == SB_OK) status = sb_run_path(r, "run.jsonl", path, error);
     if (status == SB_OK)

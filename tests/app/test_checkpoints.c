@@ -124,7 +124,7 @@ static void the_last_ones_are_kept(void **state)
     /* A new run there begins anew and says so. */
     outcome o = RUN(0, "run", "measured.yaml", "--out", "kept", "--until", "0.02", "--set",
                     "output.checkpoint={steps: 1000, minutes: 0}");
-    assert_contains(o.out, "kept: a new run in the place of an earlier one, whose checkpoints are removed");
+    assert_contains(o.out, "kept: a new run in the place of an earlier one, whose files are removed");
     outcome_free(&o);
     assert_int_equal(list_checkpoints("kept", names), 1);
     assert_true(strcmp(names[0], last) < 0);
