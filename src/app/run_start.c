@@ -72,7 +72,8 @@ static sb_status start_streamer(run *r, sb_error *error)
                              SB_QUEUE_DROP_OLDEST, error);
 }
 
-/* Threads of consumers are made before OpenMP binds anything. */
+/* In a new run before the water comes to rest, so that the renderer is made meanwhile; in one that goes on once the
+   checkpoint has said what files there are. */
 static sb_status start_consumers(run *r, sb_error *error)
 {
     const sb_scene *scene = r->scene;
