@@ -164,14 +164,27 @@ static void put_run(run *r, const sb_csv_lengths *lengths, sb_archive_out *out)
     sb_recorder_save(&r->recorder, out);
 }
 
+/* Of a file that a user took away. The next checkpoint does not look for it again. */
+static void tell_gone(run *r, const sb_gone *gone)
+{
+    if (gone->count == 1)
+        sb_run_warn(r, "%.500s: is not there any more; the run goes on without it", gone->first);
+    else if (gone->count > 1)
+        sb_run_warn(r, "%.500s and %" PRIu64 " more: are not there any more; the run goes on without them", gone->first,
+                    gone->count - 1);
+}
+
 /* What the checkpoint relies on is on disk before it is. */
 static sb_status settle_files(run *r, sb_csv_lengths *lengths, sb_error *error)
 {
     sb_consumer_drain(&r->consumers[RECORDER]);
     sb_consumer_drain(&r->consumers[PICTURES]);
     sb_status status = sb_csv_sync(r->csv, lengths, error);
-    if (status == SB_OK) status = sb_recorder_sync(&r->recorder, error);
-    if (status == SB_OK) status = sb_pictures_sync(&r->pictures, error);
+    sb_gone files = {0}, pictures = {0};
+    if (status == SB_OK) status = sb_recorder_sync(&r->recorder, &files, error);
+    if (status == SB_OK) tell_gone(r, &files);
+    if (status == SB_OK) status = sb_pictures_sync(&r->pictures, &pictures, error);
+    if (status == SB_OK) tell_gone(r, &pictures);
     return status == SB_OK ? sb_runlog_sync(r->log, error) : status;
 }
 

@@ -1,11 +1,13 @@
 #include "app/commands.h"
 #include "app/consumers.h"
+#include "app/lock.h"
 #include "app/options.h"
 #include "output/video.h"
 #include "output/vtp.h"
 
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 static const char help[] =
     "usage: shorebreak render RUN_DIR [--camera NAME] [--set KEY=VALUE]... [--out DIR] [--quiet]\n"
@@ -13,7 +15,7 @@ static const char help[] =
     "  --camera NAME    one of the scene's cameras (default: all)\n"
     "  --set KEY=VALUE  change the picture, e.g. --set render.width=1920, or a whole new set of cameras:\n"
     "                   --set 'render.cameras=[{name: top, eye: [0, 0, 900], target: [400, 1, 0]}]'\n"
-    "  --out DIR        frames/<camera>/ goes here (default: RUN_DIR)\n";
+    "  --out DIR        frames/<camera>/ goes here (default: RUN_DIR, once the run has ended)\n";
 
 static sb_status choose_camera(const sb_scene *scene, const char *name, int *camera, sb_error *error)
 {
@@ -61,18 +63,21 @@ static sb_status render(const sb_options *options, sb_error *error)
     sb_scene scene = {0};
     sb_model model = {0};
     sb_pvd list = {0};
-    int camera = -1;
+    int camera = -1, lock = -1;
     sb_status status = sb_path_join(scene_path, run, "scene.yaml", error);
     if (status == SB_OK) status = sb_path_join(list_path, run, "particles.pvd", error);
     if (status == SB_OK) status = sb_options_scene(options, scene_path, &scene, error);
     if (status == SB_OK) status = choose_camera(&scene, options->camera, &camera, error);
     if (status == SB_OK) status = sb_pvd_read(list_path, &list, error);
+    if (status == SB_OK) status = sb_make_directories(directory, error);
+    if (status == SB_OK) status = sb_lock_directory(directory, "a folder of its own by --out", &lock, error);
     if (status == SB_OK) status = sb_model_import_bodies(&scene, &model, error);
     if (status == SB_OK) {
         sb_pictures pictures = {.scene = &scene, .model = &model, .directory = directory, .camera = camera};
         status = draw_all(run, &list, &pictures, options->quiet, error);
         if (status == SB_OK && pictures.count > 1) make_videos(directory, &scene, camera);
     }
+    if (lock >= 0) close(lock);
     sb_pvd_free(&list);
     sb_model_free(&model);
     sb_scene_free(&scene);

@@ -65,10 +65,7 @@ bool sb_consumer_due(const sb_consumer *consumer, double time)
 void sb_consumer_feed(sb_consumer *consumer, const sb_frame *frame)
 {
     consumer->fed += sb_frame_queue_push(consumer->queue, frame);
-    if (consumer->interval > 0)
-        consumer->next = consumer->interval * (floor(frame->status.time / consumer->interval + 1e-9) + 1);
-    else
-        consumer->next = frame->status.time;
+    consumer->next = consumer->interval * (floor(frame->status.time / consumer->interval + 1e-9) + 1);
 }
 
 void sb_consumer_drain(sb_consumer *consumer)

@@ -36,7 +36,7 @@ typedef struct sb_consumer {
     bool ended;         /* its thread is through with everything */
 } sb_consumer;
 
-/* Starts the thread. interval 0: every frame that any consumer asks for. */
+/* Starts the thread. The interval is above 0. */
 sb_status sb_consumer_start(sb_consumer *consumer, const sb_consumer_work *work, double interval, size_t capacity,
                             sb_queue_policy policy, sb_error *error);
 

@@ -3,6 +3,7 @@
 #define SB_APP_CONSUMERS_H
 
 #include "app/consumer.h"
+#include "app/written.h"
 #include "base/archive.h"
 #include "base/file.h"
 #include "geometry/model.h"
@@ -20,9 +21,9 @@ typedef struct sb_recorder {
     uint64_t count, synced; /* files written; of these, on disk for certain */
 } sb_recorder;
 sb_consumer_work sb_recorder_work(sb_recorder *recorder);
-/* While its thread is idle or not there: puts what was written on disk; the list, within a section of an archive, and
-   back, before the thread begins, which then removes files that the list does not know. */
-sb_status sb_recorder_sync(sb_recorder *recorder, sb_error *error);
+/* While its thread is idle or not there: puts what was written on disk, all but what is gone; the list, within a
+   section of an archive, and back, before the thread begins, which then removes files that the list does not know. */
+sb_status sb_recorder_sync(sb_recorder *recorder, sb_gone *gone, sb_error *error);
 void sb_recorder_save(const sb_recorder *recorder, sb_archive_out *out);
 sb_status sb_recorder_load(sb_recorder *recorder, sb_archive_in *in, sb_error *error);
 
@@ -37,9 +38,9 @@ typedef struct sb_pictures {
     uint64_t count, synced; /* by camera: pictures drawn; of these, on disk for certain */
 } sb_pictures;
 sb_consumer_work sb_pictures_work(sb_pictures *pictures);
-/* While its thread is idle or not there: puts what was drawn on disk. The thread, when it begins, removes pictures
-   beyond its count. */
-sb_status sb_pictures_sync(sb_pictures *pictures, sb_error *error);
+/* While its thread is idle or not there: puts what was drawn on disk, all but what is gone. The thread, when it begins,
+   removes pictures beyond its count. */
+sb_status sb_pictures_sync(sb_pictures *pictures, sb_gone *gone, sb_error *error);
 
 /* LCM */
 typedef struct sb_streamer {

@@ -1,7 +1,6 @@
 /* Frames into PNG pictures, one folder per camera. */
 #include "app/consumers.h"
 
-#include <errno.h>
 #include <string.h>
 #include <sys/resource.h>
 
@@ -49,27 +48,25 @@ static sb_status draw(void *state, const sb_frame *frame, sb_error *error)
 }
 
 /* One camera's folder and the pictures in it that are not on disk for certain. */
-static sb_status sync_camera(const sb_pictures *pictures, const char *camera, sb_error *error)
+static sb_status sync_camera(const sb_pictures *pictures, const char *camera, sb_gone *gone, sb_error *error)
 {
-    char name[128], path[SB_PATH_MAX];
+    char name[128];
     for (uint64_t number = pictures->synced; number <= pictures->count; number++) {
         if (number == pictures->synced)
             snprintf(name, sizeof name, "frames/%s", camera);
         else
             snprintf(name, sizeof name, "frames/%s/%06llu.png", camera, (unsigned long long)number);
-        sb_status status = sb_path_join(path, pictures->directory, name, error);
+        sb_status status = sb_written_sync(pictures->directory, name, gone, error);
         if (status != SB_OK) return status;
-        if (sb_file_sync(path) != 0)
-            return sb_fail(error, SB_FAILED, "%.500s: cannot be put on disk: %s", path, strerror(errno));
     }
     return SB_OK;
 }
 
-sb_status sb_pictures_sync(sb_pictures *pictures, sb_error *error)
+sb_status sb_pictures_sync(sb_pictures *pictures, sb_gone *gone, sb_error *error)
 {
     const sb_render_settings *render = &pictures->scene->render;
     for (size_t c = 0; c < render->camera_count && pictures->count > pictures->synced; c++) {
-        sb_status status = wanted(pictures, c) ? sync_camera(pictures, render->cameras[c].name, error) : SB_OK;
+        sb_status status = wanted(pictures, c) ? sync_camera(pictures, render->cameras[c].name, gone, error) : SB_OK;
         if (status != SB_OK) return status;
     }
     pictures->synced = pictures->count;

@@ -12,7 +12,7 @@ static void name_of(uint64_t number, char name[64])
     snprintf(name, 64, "particles/%06" PRIu64 ".vtp", number);
 }
 
-/* The list first: it never names a file that is not there. */
+/* The list first: it never names a file that is not written yet, or that is about to be removed here. */
 static sb_status start_list(const sb_recorder *recorder, sb_error *error)
 {
     char list[SB_PATH_MAX];
@@ -36,25 +36,24 @@ static sb_status record(void *state, const sb_frame *frame, sb_error *error)
 {
     sb_recorder *recorder = state;
     char name[64], path[SB_PATH_MAX], list[SB_PATH_MAX];
-    name_of(recorder->count + 1, name);
+    const uint64_t number = recorder->count + 1;
+    name_of(number, name);
     sb_status status = sb_path_join(path, recorder->directory, name, error);
     if (status == SB_OK) status = sb_path_join(list, recorder->directory, "particles.pvd", error);
-    if (status == SB_OK) status = sb_vtp_write(path, frame, error);
+    if (status == SB_OK) status = sb_vtp_write(path, frame, number, error);
     if (status == SB_OK) status = sb_pvd_add(&recorder->pvd, list, frame->status.time, name, error);
     recorder->count += status == SB_OK;
     return status;
 }
 
-sb_status sb_recorder_sync(sb_recorder *recorder, sb_error *error)
+sb_status sb_recorder_sync(sb_recorder *recorder, sb_gone *gone, sb_error *error)
 {
-    char name[64] = "particles", path[SB_PATH_MAX];
+    char name[64] = "particles";
     const uint64_t first = recorder->synced;
     for (uint64_t number = first; number <= recorder->count && recorder->count > first; number++) {
         if (number > first) name_of(number, name); /* the first turn is the folder's */
-        sb_status status = sb_path_join(path, recorder->directory, name, error);
+        sb_status status = sb_written_sync(recorder->directory, name, gone, error);
         if (status != SB_OK) return status;
-        if (sb_file_sync(path) != 0)
-            return sb_fail(error, SB_FAILED, "%.500s: cannot be put on disk: %s", path, strerror(errno));
     }
     recorder->synced = recorder->count;
     return SB_OK;

@@ -38,7 +38,7 @@ static void write_last_state(run *r)
     if (!frame) return;
     if (sb_make_folder(path, r->directory, "particles", &reason) == SB_OK &&
         sb_run_path(r, "particles/last-good.vtp", path, &reason) == SB_OK &&
-        sb_vtp_write(path, frame, &reason) == SB_OK)
+        sb_vtp_write(path, frame, 0, &reason) == SB_OK)
         sb_runlog_event(r->log, "last_good_state", "particles/last-good.vtp");
     else
         sb_run_warn(r, "%s", reason.text);

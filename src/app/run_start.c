@@ -1,16 +1,12 @@
 /* Before the first step. */
 #include "app/fit.h"
+#include "app/lock.h"
 #include "app/room.h"
 #include "app/run_state.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <omp.h>
 #include <stdio.h>
-#include <string.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 enum {
     FILE_QUEUE = 3,  /* frames that wait for disk or renderer before the simulation does */
@@ -24,8 +20,8 @@ static sb_status write_scene(const run *r, sb_error *error)
     return status == SB_OK ? sb_scene_write(r->scene, path, error) : status;
 }
 
-/* What is there already: an earlier run's checkpoints, which go, unless this one goes on from them. */
-static sb_status look_for_checkpoints(run *r, bool *resume, sb_error *error)
+/* What is there already: an earlier run's files, which go, unless this one goes on from its checkpoints. */
+static sb_status look_for_earlier_run(run *r, bool *resume, sb_error *error)
 {
     size_t found = 0;
     sb_status status = sb_checkpoint_count(r, &found, error);
@@ -34,34 +30,20 @@ static sb_status look_for_checkpoints(run *r, bool *resume, sb_error *error)
         sb_run_say(r, "%s: no checkpoint to go on from, so the run starts from the beginning", r->directory);
         *resume = false;
     } else if (!*resume && found > 0) {
-        sb_run_say(r, "%s: a new run in the place of an earlier one, whose checkpoints are removed (--resume goes on)",
+        sb_run_say(r, "%s: a new run in the place of an earlier one, whose files are removed (--resume goes on)",
                    r->directory);
     }
-    return *resume ? SB_OK : sb_checkpoint_remove_all(r, error);
+    return *resume ? SB_OK : sb_run_clear(r, error);
 }
 
-/* Two runs in one directory would spoil each other's files. The lock goes with the process, however it ends; one that
-   is just being killed may need a moment. Where the file system knows no locks there are none. */
-static sb_status lock_directory(run *r, sb_error *error)
-{
-    enum { TRIES = 20, PAUSE = 100000 }; /* microseconds between them */
-    r->lock = open(r->directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (r->lock < 0) return sb_fail(error, SB_FAILED, "%.500s: cannot open: %s", r->directory, strerror(errno));
-    for (int t = 0; t < TRIES; t++) {
-        if (flock(r->lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return SB_OK;
-        usleep(PAUSE);
-    }
-    return sb_fail(error, SB_BAD_INPUT, "%.500s: another run is writing there, expected a directory of its own",
-                   r->directory);
-}
-
+/* Two runs in one directory would spoil each other's files. */
 static sb_status open_directory(run *r, bool *resume, sb_error *error)
 {
     char path[SB_PATH_MAX];
     sb_status status = sb_make_directories(r->directory, error);
-    if (status == SB_OK) status = lock_directory(r, error);
+    if (status == SB_OK) status = sb_lock_directory(r->directory, "a directory of its own", &r->lock, error);
     if (status == SB_OK) status = sb_checkpoint_begin(r, error);
-    if (status == SB_OK) status = look_for_checkpoints(r, resume, error);
+    if (status == SB_OK) status = look_for_earlier_run(r, resume, error);
     if (status == SB_OK && !*resume) status = write_scene(r, error);
     if (status == SB_OK) status = sb_run_path(r, "run.jsonl", path, error);
     if (status == SB_OK)
@@ -90,7 +72,8 @@ static sb_status start_streamer(run *r, sb_error *error)
                              SB_QUEUE_DROP_OLDEST, error);
 }
 
-/* Threads of consumers are made before OpenMP binds anything. */
+/* In a new run before the water comes to rest, so that the renderer is made meanwhile; in one that goes on once the
+   checkpoint has said what files there are. */
 static sb_status start_consumers(run *r, sb_error *error)
 {
     const sb_scene *scene = r->scene;

@@ -45,6 +45,10 @@ struct run {
    where there are checkpoints, from the newest that can be used. */
 sb_status sb_run_start(run *r, bool resume, sb_error *error);
 
+/* run_clear.c: removes what an earlier run has left in the directory, checkpoints first: files of this program's names
+   only, no links, and the folders that are empty then. */
+sb_status sb_run_clear(run *r, sb_error *error);
+
 /* run_finish.c: whatever came before, leaves whole files; the first failure stays in *status and *error. */
 void sb_run_finish(run *r, sb_status *status, sb_error *error);
 

@@ -29,7 +29,7 @@ typedef struct sb_frame_status {
 /* Read-only once published. Arrays of `count`: position[3*i] is relative to origin. */
 typedef struct sb_frame {
     sb_frame_status status;
-    uint64_t index;  /* 1, 2, ... in the run */
+    uint64_t index;  /* 1, 2, ... in the run, whichever consumer asked for it */
     sb_vec3 origin;  /* m, added to every position */
     double spacing;  /* m */
     size_t count;    /* fluid particles */

@@ -116,6 +116,7 @@ static void put_numerics(sb_json *json, const sb_numerics *n)
     sb_json_text(json, "preset", n->preset == SB_PRESET_PAPER ? "paper" : "default");
     sb_json_text(json, "kernel", n->kernel ? n->kernel->name : NULL);
     sb_json_number(json, "support", n->support);
+    sb_json_text(json, "density", n->density == SB_DENSITY_COMPLETED ? "completed" : "summed");
     sb_json_text(json, "solver", solvers[n->solver]);
     sb_json_text(json, "tolerance_rule", n->tolerance_rule == SB_TOLERANCE_DENSITY ? "density" : "pressure");
     sb_json_number(json, "tolerance", n->tolerance);

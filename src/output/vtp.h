@@ -7,10 +7,11 @@
 #include "frame/frame.h"
 
 /* Point data: velocity (m/s), pressure (Pa), id. Field data: TimeValue (s), origin, spacing (m),
-   status, and name, displacement, force, moment of every body. Written whole or not at all. */
-sb_status sb_vtp_write(const char *path, const sb_frame *frame, sb_error *error);
+   status, and name, displacement, force, moment of every body. `index` counts the run's particle files, 0: it is
+   none of them; frames count those of other consumers, too. Written whole or not at all. */
+sb_status sb_vtp_write(const char *path, const sb_frame *frame, uint64_t index, sb_error *error);
 
-/* Reads what sb_vtp_write wrote into a new frame (one reference, sb_frame_release it). A file that
+/* Reads what sb_vtp_write wrote into a new frame with its index (one reference, sb_frame_release it). A file that
    is not ours, cut off or damaged is SB_BAD_INPUT with what is wrong with it. */
 sb_status sb_vtp_read(const char *path, sb_frame **frame, sb_error *error);
 

@@ -188,7 +188,7 @@ static void add_bodies(layout *file, const sb_frame *frame, const body_columns *
     add(file, (array){"body_moment", "Float64", 8, 3, n, columns->moment, NULL});
 }
 
-sb_status sb_vtp_write(const char *path, const sb_frame *frame, sb_error *error)
+sb_status sb_vtp_write(const char *path, const sb_frame *frame, uint64_t index, sb_error *error)
 {
     const sb_frame_status *now = &frame->status;
     const double origin[3] = {frame->origin.x, frame->origin.y, frame->origin.z};
@@ -198,7 +198,7 @@ sb_status sb_vtp_write(const char *path, const sb_frame *frame, sb_error *error)
         [SB_VTP_ITERATIONS] = now->iterations, [SB_VTP_DENSITY_ERROR] = now->density_error,
         [SB_VTP_MAX_SPEED] = now->max_speed,   [SB_VTP_WALL] = now->wall_seconds,
         [SB_VTP_ETA] = now->eta_seconds,       [SB_VTP_LOST] = (double)now->lost_particles,
-        [SB_VTP_INDEX] = (double)frame->index,
+        [SB_VTP_INDEX] = (double)index,
     };
     body_columns columns = {0};
     sb_status status = make_columns(frame, &columns, error);

@@ -62,7 +62,7 @@ static void one_run_at_a_time(void **state)
         (const char *const[]){"run", "measured.yaml", "--out", "one", "--quiet", "--until", "1000", NULL});
     for (double end = sb_clock() + 30; !exists("one/particles/000002.vtp") && sb_clock() < end;) usleep(2000);
     outcome o = RUN(1, "run", "measured.yaml", "--out", "one", "--quiet", "--resume");
-    assert_one_line(o.err, "one: another run is writing there");
+    assert_one_line(o.err, "one: another run or render is writing there");
     outcome_free(&o);
     assert_int_equal(kill(process, SIGTERM), 0);
     o = program_finish(process);
@@ -71,6 +71,15 @@ static void one_run_at_a_time(void **state)
     char *log = text_of("one/run.jsonl");
     assert_int_equal(count_of(log, "\"event\":\"end\""), 1);
     sb_free(log);
+}
+
+static const char *in_run(const char *run, const char *name)
+{
+    static char paths[2][96];
+    static unsigned turn;
+    char *path = paths[turn++ % 2];
+    snprintf(path, sizeof paths[0], "%s/%s", run, name);
+    return path;
 }
 
 static void removed_tables_end_the_run(void **state)
@@ -86,6 +95,36 @@ static void removed_tables_end_the_run(void **state)
     outcome_free(&o);
 }
 
+/* What a user moves away while the run goes on is told once; checkpoints are written all the same, the one on a signal
+   included. */
+static void files_taken_away_are_told_once(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *scene, *taken, *later;
+    } cases[] = {{"measured.yaml", "particles/000002.vtp", "particles/000003.vtp"},
+                 {"tank3.yaml", "frames/side/000002.png", "frames/front/000003.png"}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char names[16][64], words[96];
+        const char *run = k ? "thinned" : "picked";
+        pid_t process = program_start((const char *const[]){"run", cases[k].scene, "--out", run, "--quiet", "--until",
+                                                            "1000", "--set", "output.checkpoint.minutes=600", NULL});
+        for (double end = sb_clock() + 30; !exists(in_run(run, cases[k].later)) && sb_clock() < end;) usleep(2000);
+        assert_int_equal(unlink(in_folder("%s", in_run(run, cases[k].taken))), 0);
+        assert_int_equal(kill(process, SIGTERM), 0);
+        outcome o = program_finish(process);
+        assert_int_equal(o.status, 143);
+        snprintf(words, sizeof words, "warning: %s: is not there any more", in_run(run, cases[k].taken));
+        assert_int_equal(count_of(o.err, words), 1);
+        outcome_free(&o);
+        assert_int_equal(list_checkpoints(run, names), 1);
+        o = RUN(0, "run", cases[k].scene, "--out", run, "--resume", "--until", "0.01");
+        assert_contains(o.out, "going on from step ");
+        assert_string_equal(o.err, "");
+        outcome_free(&o);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -93,6 +132,7 @@ int main(void)
         cmocka_unit_test(a_full_disk_ends_the_run_and_it_goes_on),
         cmocka_unit_test(one_run_at_a_time),
         cmocka_unit_test(removed_tables_end_the_run),
+        cmocka_unit_test(files_taken_away_are_told_once),
     };
     return cmocka_run_group_tests(tests, pair_setup, program_teardown);
 }

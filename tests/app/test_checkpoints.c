@@ -46,6 +46,17 @@ static void a_run_in_3d_with_pictures_goes_on(void **state)
     }
 }
 
+/* Nor does it matter who listened before the cut: particle files are counted by themselves. */
+static void a_stream_leaves_no_trace(void **state)
+{
+    (void)state;
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "mute", "--quiet", "--until", "0.35");
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "heard", "--quiet", "--until", "0.17", "--set",
+                   "stream={enabled: true, url: 'memq://', interval: 0.02}");
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "heard", "--quiet", "--until", "0.35", "--resume");
+    assert_same_run("mute", "heard", pair_tables);
+}
+
 /* A flume so long that its far water sleeps when the run is cut, with a gauge and a probe there. */
 static void a_run_with_sleepers_goes_on(void **state)
 {
@@ -113,7 +124,7 @@ static void the_last_ones_are_kept(void **state)
     /* A new run there begins anew and says so. */
     outcome o = RUN(0, "run", "measured.yaml", "--out", "kept", "--until", "0.02", "--set",
                     "output.checkpoint={steps: 1000, minutes: 0}");
-    assert_contains(o.out, "kept: a new run in the place of an earlier one, whose checkpoints are removed");
+    assert_contains(o.out, "kept: a new run in the place of an earlier one, whose files are removed");
     outcome_free(&o);
     assert_int_equal(list_checkpoints("kept", names), 1);
     assert_true(strcmp(names[0], last) < 0);
@@ -170,10 +181,15 @@ static void a_signal_leaves_a_checkpoint(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_solver_goes_on),         cmocka_unit_test(a_run_in_3d_with_pictures_goes_on),
-        cmocka_unit_test(a_run_with_sleepers_goes_on), cmocka_unit_test(checkpoints_change_nothing),
-        cmocka_unit_test(the_last_ones_are_kept),      cmocka_unit_test(without_a_checkpoint_it_begins),
-        cmocka_unit_test(a_finished_run_says_so),      cmocka_unit_test(a_signal_leaves_a_checkpoint),
+        cmocka_unit_test(each_solver_goes_on),
+        cmocka_unit_test(a_run_in_3d_with_pictures_goes_on),
+        cmocka_unit_test(a_stream_leaves_no_trace),
+        cmocka_unit_test(a_run_with_sleepers_goes_on),
+        cmocka_unit_test(checkpoints_change_nothing),
+        cmocka_unit_test(the_last_ones_are_kept),
+        cmocka_unit_test(without_a_checkpoint_it_begins),
+        cmocka_unit_test(a_finished_run_says_so),
+        cmocka_unit_test(a_signal_leaves_a_checkpoint),
     };
     return cmocka_run_group_tests(tests, pair_setup, program_teardown);
 }

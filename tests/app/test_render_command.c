@@ -1,10 +1,12 @@
 /* Pictures from the particle files of a run, after it. */
 #include "program.h"
 
+#include "base/clock.h"
 #include "base/file.h"
 #include "base/memory.h"
 
 #include <png.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -105,6 +107,26 @@ static void into_the_run_itself(void **state)
     assert_true(exists("bare/frames/side/000001.png"));
 }
 
+/* While a run goes on its pictures are its own; another folder will do. */
+static void beside_a_run_that_goes_on(void **state)
+{
+    (void)state;
+    pid_t process =
+        program_start((const char *const[]){"run", "tank3.yaml", "--out", "busy", "--quiet", "--until", "1000", NULL});
+    for (double end = sb_clock() + 30; !exists("busy/frames/front/000002.png") && sb_clock() < end;) usleep(2000);
+    outcome o = RUN(1, "render", "busy", "--quiet");
+    assert_one_line(o.err, "busy: another run or render is writing there, expected a folder of its own by --out");
+    outcome_free(&o);
+    assert_true(exists("busy/frames/side/000001.png") && exists("busy/frames/front/000001.png"));
+    RUN_AND_FORGET(0, "render", "busy", "--quiet", "--camera", "side", "--out", "beside");
+    assert_true(exists("beside/frames/side/000002.png"));
+    assert_int_equal(kill(process, SIGTERM), 0);
+    o = program_finish(process);
+    assert_int_equal(o.status, 143);
+    outcome_free(&o);
+    RUN_AND_FORGET(0, "render", "busy", "--quiet", "--camera", "side");
+}
+
 static void unknown_camera(void **state)
 {
     (void)state;
@@ -175,6 +197,7 @@ int main(void)
         cmocka_unit_test(all_cameras_without_a_choice),
         cmocka_unit_test(a_new_camera),
         cmocka_unit_test(into_the_run_itself),
+        cmocka_unit_test(beside_a_run_that_goes_on),
         cmocka_unit_test(unknown_camera),
         cmocka_unit_test(no_particle_files),
         cmocka_unit_test(damaged_particle_file),

@@ -8,12 +8,16 @@
 #include "output/vtp.h"
 #include "scene/scene.h"
 
+#include <ftw.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 enum { NUMBERS = 13 }; /* time and twelve components */
+
+static char names_there[64][160]; /* names of files */
+static size_t count_there;
 
 typedef struct force_row {
     char body[64];
@@ -323,6 +327,59 @@ static void periodic_sides_run(void **state)
     sb_free(other);
 }
 
+static int list_one(const char *path, const struct stat *info, int kind, struct FTW *where)
+{
+    (void)info;
+    (void)where;
+    if (kind == FTW_D) return 0;
+    if (count_there == sizeof names_there / sizeof *names_there) return -1;
+    snprintf(names_there[count_there++], sizeof *names_there, "%.159s", path + strlen(in_folder("used/")));
+    return 0;
+}
+
+/* What a run with everything has left, and the user's files beside it, when one with nothing begins in its place. */
+static void an_earlier_run_leaves_nothing(void **state)
+{
+    (void)state;
+    static const char *const own[] = {
+        "notes.csv",           "talk.mp4",      "maps/hills.asc", "plots/mine.png", "frames/side/best.png",
+        "particles/first.vtp", "forces.csv.old"};
+    static const char *const gone[] = {"overtopping.csv", "runup.csv", "maps/max_depth.asc",
+                                       "particles.pvd",   "side.mp4",  "frames/front"};
+    RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "used", "--quiet", "--until", "0.12", "--set",
+                   "measure.planes=[{name: p, from: [0.9, 0], to: [0.9, 0.8]}]", "--set",
+                   "measure.runups=[{name: r, from: [0.2, 0.4], to: [2.4, 0.4]}]", "--set", "measure.map={}", "--set",
+                   "output.plots=true", "--set", "render.video=true");
+    assert_true(exists("used/overtopping.csv") && exists("used/runup.csv") && exists("used/maps/max_depth.asc"));
+    assert_true(exists("used/frames/front/000002.png"));
+    write_text("used/side.part.mp4", "cut short\n");
+    write_text("used/particles/last-good.vtp", "of a failed run\n");
+    write_text("used/maps/max_speed.asc.tmp", "of a killed run\n");
+    write_text("used/plots/max_speed.gp", "of a killed run\n");
+    for (size_t k = 0; k < sizeof own / sizeof *own; k++) {
+        char name[96];
+        snprintf(name, sizeof name, "used/%s", own[k]);
+        write_text(name, "mine\n");
+    }
+    RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "used", "--quiet", "--until", "0.02", "--set",
+                   "output={particle_interval: 0, plots: false, checkpoint: {minutes: 0}}");
+    RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "anew", "--quiet", "--until", "0.02", "--set",
+                   "output={particle_interval: 0, plots: false, checkpoint: {minutes: 0}}");
+    for (size_t k = 0; k < sizeof gone / sizeof *gone; k++)
+        if (access(in_folder("used/%s", gone[k]), F_OK) == 0) fail_msg("%s is still there", gone[k]);
+    count_there = 0;
+    assert_int_equal(nftw(in_folder("used"), list_one, 16, FTW_PHYS), 0);
+    for (size_t i = 0; i < count_there; i++) {
+        bool known = access(in_folder("anew/%s", names_there[i]), F_OK) == 0;
+        for (size_t k = 0; k < sizeof own / sizeof *own; k++) known = known || strcmp(names_there[i], own[k]) == 0;
+        if (!known) fail_msg("%s is still there", names_there[i]);
+    }
+    for (size_t k = 0; k < sizeof own / sizeof *own; k++)
+        if (access(in_folder("used/%s", own[k]), F_OK) != 0) fail_msg("%s was removed", own[k]);
+    RUN_AND_FORGET(1, "render", "used", "--set",
+                   "render.cameras=[{name: a, eye: [1, -3, 1], target: [1, 0, 0]}]"); /* no old water */
+}
+
 static void out_has_a_default(void **state)
 {
     (void)state;
@@ -344,12 +401,19 @@ static void unwritable_out_fails(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_file_is_there),          cmocka_unit_test(scene_is_written_as_resolved),
-        cmocka_unit_test(log_is_lines_of_objects),      cmocka_unit_test(forces_have_a_row_per_body_and_interval),
-        cmocka_unit_test(forces_add_up_to_the_impulse), cmocka_unit_test(gauges_are_empty_where_dry),
-        cmocka_unit_test(probes_have_all_columns),      cmocka_unit_test(particle_files_and_their_list),
-        cmocka_unit_test(summary_has_its_keys),         cmocka_unit_test(until_set_and_preset_count),
-        cmocka_unit_test(periodic_sides_run),           cmocka_unit_test(out_has_a_default),
+        cmocka_unit_test(every_file_is_there),
+        cmocka_unit_test(scene_is_written_as_resolved),
+        cmocka_unit_test(log_is_lines_of_objects),
+        cmocka_unit_test(forces_have_a_row_per_body_and_interval),
+        cmocka_unit_test(forces_add_up_to_the_impulse),
+        cmocka_unit_test(gauges_are_empty_where_dry),
+        cmocka_unit_test(probes_have_all_columns),
+        cmocka_unit_test(particle_files_and_their_list),
+        cmocka_unit_test(summary_has_its_keys),
+        cmocka_unit_test(until_set_and_preset_count),
+        cmocka_unit_test(periodic_sides_run),
+        cmocka_unit_test(an_earlier_run_leaves_nothing),
+        cmocka_unit_test(out_has_a_default),
         cmocka_unit_test(unwritable_out_fails),
     };
     return cmocka_run_group_tests(tests, setup, program_teardown);

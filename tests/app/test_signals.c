@@ -174,8 +174,15 @@ static void a_model_in_the_making_hears(void **state)
 static void water_coming_to_rest_hears(void **state)
 {
     (void)state;
+    RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "early", "--quiet", "--until", "0.02");
+    assert_int_equal(unlink(in_folder("early/run.jsonl")), 0);
     check_stopped_early("tank2.yaml", "domain.max=[250, 1]", "water.boxes[0].max=[225, 0.6]", "\"start\"",
                         "stopped by a signal while the water came to rest: nothing is computed yet");
+    /* Its summary stands alone, without an earlier run's tables. */
+    char *text = text_of("early/summary.json");
+    assert_contains(text, "\"interrupted\"");
+    sb_free(text);
+    assert_false(exists("early/forces.csv") || exists("early/energy.csv") || exists("early/particles.pvd"));
 }
 
 /* A scene that a stopped run leaves behind can be drawn. */

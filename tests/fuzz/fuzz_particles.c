@@ -25,7 +25,7 @@ static void make_sound(void)
     snprintf(frame->bodies[0].name, sizeof frame->bodies[0].name, "reactor");
     frame->bodies[1].force = sb_vec(1e6, 0, 0);
     snprintf(path, sizeof path, "%s", fuzz_save("sound.vtp", NULL, 0));
-    FUZZ_CHECK(sb_vtp_write(path, frame, NULL) == SB_OK);
+    FUZZ_CHECK(sb_vtp_write(path, frame, frame->index, NULL) == SB_OK);
     FUZZ_CHECK(sb_file_read(path, 1 << 20, &sound, &length, NULL) == SB_OK);
     sb_frame_release(frame);
 }
@@ -46,7 +46,7 @@ static void check_again(const sb_frame *frame)
     char path[SB_PATH_MAX];
     sb_frame *again = NULL;
     snprintf(path, sizeof path, "%s", fuzz_save("again.vtp", NULL, 0));
-    FUZZ_CHECK(sb_vtp_write(path, frame, NULL) == SB_OK);
+    FUZZ_CHECK(sb_vtp_write(path, frame, frame->index, NULL) == SB_OK);
     FUZZ_CHECK(sb_vtp_read(path, &again, NULL) == SB_OK);
     FUZZ_CHECK(again->count == frame->count && again->body_count == frame->body_count);
     FUZZ_CHECK(again->index == frame->index && again->status.step == frame->status.step);

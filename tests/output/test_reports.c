@@ -36,7 +36,7 @@ static sb_scene make_scene(void)
                       .dimensions = 3,
                       .resolution = 6,
                       .duration = 90,
-                      .numerics = {.preset = SB_PRESET_PAPER, .solver = SB_SOLVER_CG}};
+                      .numerics = {.preset = SB_PRESET_PAPER, .density = SB_DENSITY_COMPLETED, .solver = SB_SOLVER_CG}};
 }
 
 static void summary_has_the_promised_keys(void **state)
@@ -126,18 +126,19 @@ static void every_line_of_the_log_is_json(void **state)
     assert_int_equal(sb_runlog_close(log, NULL), SB_OK);
     char *text = text_of("run.jsonl"), *rest = NULL, last[512] = "";
     size_t lines = 0;
-    bool has_stage = false, has_version = false, has_body = false;
+    bool has_stage = false, has_version = false, has_body = false, has_density = false;
     for (char *line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
         assert_true(json_valid(line));
         assert_true(json_find(line, "event") && json_find(line, "wall_s"));
         has_version = has_version || (lines == 0 && json_find(line, "version"));
+        has_density = has_density || strstr(line, "\"density\":\"completed\"");
         has_stage = has_stage || (strstr(line, "\"step\"") && strstr(line, "\"pressure\":3.5"));
         has_body = has_body || strstr(line, "\"flow_layers\":2.5,\"too_coarse\":true");
         snprintf(last, sizeof last, "%s", line);
         lines++;
     }
     assert_int_equal(lines, 1 + 2 + 400 + 1 + 1 + 1 + 1);
-    assert_true(has_version && has_stage && has_body);
+    assert_true(has_version && has_stage && has_body && has_density);
     assert_non_null(strstr(last, "interrupted"));
     sb_free(text);
     sb_runlog_warning(NULL, "no log, no harm");

@@ -77,7 +77,7 @@ static void round_trip(void **state)
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
         sb_frame *frame = make_frame(counts[i], bodies[i]), *read = NULL;
         sb_error error = {0};
-        assert_int_equal(sb_vtp_write(in_folder("a.vtp"), frame, &error), SB_OK);
+        assert_int_equal(sb_vtp_write(in_folder("a.vtp"), frame, frame->index, &error), SB_OK);
         assert_int_equal(sb_vtp_read(in_folder("a.vtp"), &read, &error), SB_OK);
         assert_same(frame, read);
         sb_frame_release(frame);
@@ -90,7 +90,7 @@ static void layout_is_what_the_header_says(void **state)
 {
     (void)state;
     sb_frame *frame = make_frame(5, 2);
-    assert_int_equal(sb_vtp_write(in_folder("b.vtp"), frame, NULL), SB_OK);
+    assert_int_equal(sb_vtp_write(in_folder("b.vtp"), frame, frame->index, NULL), SB_OK);
     char *bytes;
     size_t length;
     assert_int_equal(sb_file_read(in_folder("b.vtp"), 1 << 20, &bytes, &length, NULL), SB_OK);
@@ -140,7 +140,7 @@ static void damaged_files_are_refused(void **state)
 {
     (void)state;
     sb_frame *frame = make_frame(20, 2);
-    assert_int_equal(sb_vtp_write(in_folder("c.vtp"), frame, NULL), SB_OK);
+    assert_int_equal(sb_vtp_write(in_folder("c.vtp"), frame, frame->index, NULL), SB_OK);
     char *bytes;
     size_t length, refused = 0;
     assert_int_equal(sb_file_read(in_folder("c.vtp"), 1 << 20, &bytes, &length, NULL), SB_OK);
@@ -201,14 +201,14 @@ static void numbers_that_are_none_are_refused(void **state)
         for (size_t v = 0; v < sizeof values / sizeof *values; v++) {
             const float kept = *values[v];
             *values[v] = none[k];
-            assert_int_equal(sb_vtp_write(in_folder("n.vtp"), frame, NULL), SB_OK);
+            assert_int_equal(sb_vtp_write(in_folder("n.vtp"), frame, frame->index, NULL), SB_OK);
             assert_int_equal(sb_vtp_read(in_folder("n.vtp"), &read, NULL), SB_BAD_INPUT);
             *values[v] = kept;
         }
         for (size_t d = 0; d < sizeof doubles / sizeof *doubles; d++) {
             const double kept = *doubles[d];
             *doubles[d] = (double)none[k];
-            assert_int_equal(sb_vtp_write(in_folder("n.vtp"), frame, NULL), SB_OK);
+            assert_int_equal(sb_vtp_write(in_folder("n.vtp"), frame, frame->index, NULL), SB_OK);
             assert_int_equal(sb_vtp_read(in_folder("n.vtp"), &read, NULL), SB_BAD_INPUT);
             *doubles[d] = kept;
         }
@@ -221,7 +221,7 @@ static void failing_memory_is_an_error(void **state)
 {
     (void)state;
     sb_frame *frame = make_frame(20, 2);
-    assert_int_equal(sb_vtp_write(in_folder("e.vtp"), frame, NULL), SB_OK);
+    assert_int_equal(sb_vtp_write(in_folder("e.vtp"), frame, frame->index, NULL), SB_OK);
     int failures = 0;
     for (long n = 1; n < 50; n++) {
         sb_frame *read = NULL;
