@@ -2,11 +2,6 @@
 
 #include <math.h>
 
-enum {
-    SWEEPS = 3, /* a corner of three walls asks for one each */
-    BODIES = SB_TOUCHES_MAX / SWEEPS
-};
-
 /* In spacings, beyond wall_offset. PLANE: the nearest a particle comes to the sheet; water at rest nestles between
    boundary particles down to about there. BALL: the nearest it comes to any one of them, which guards ridges,
    where a mean plane lies too low. RELEASE: how fast settling lets out one that starts nearer, per step. In a run such
@@ -16,7 +11,6 @@ static const float PLANE = 0.05f, BALL = 0.2f, RELEASE = 0.005f;
 /* The wall as seen from where the step would end, lengths in quanta. */
 typedef struct view {
     sb_f4 normal;            /* unit, towards the side that the particle is on: mean over those in reach */
-    float share;             /* of each one's weighted normal in that mean */
     float before, distance;  /* from the sheet along it, now and at the step's end */
     sb_f4 apart;             /* from the nearest boundary particle, at the step's end */
     float ball_before, ball; /* that distance, now and at the step's end */
@@ -88,12 +82,10 @@ SB_INLINE view look(const sb_sim *sim, size_t i, sb_f4 velocity, float to_quanta
     float length = sqrtf(sb_sum3(normal * normal));
     if (!(length > 0.1f * total)) return v;
     v.normal = normal / sb_splat(length);
-    v.share = 1 / length;
     v.before = sb_sum3(v.normal * now) / total;
     v.distance = sb_sum3(v.normal * then) / total;
     if (v.before < 0) { /* a plate's other side */
         v.normal = -v.normal;
-        v.share = -v.share;
         v.before = -v.before;
         v.distance = -v.distance;
     }
@@ -108,36 +100,6 @@ SB_INLINE float smaller(float a, float b)
     return a < b ? a : b;
 }
 
-SB_INLINE uint32_t body_of(const sb_sim *sim, uint32_t wall)
-{
-    return sim->walls[wall >> 31].body[wall & 0x7fffffffu];
-}
-
-/* Parts a change of `velocity`, `push` along the mean normal, among the bodies that the normal is the mean of: each
-   one's along its own normals, what is left for the nearest one's. Returns their number. */
-SB_APART size_t part(const sb_sim *sim, size_t i, sb_f4 velocity, const view *v, float push, sb_touch touched[BODIES])
-{
-    const float to_quanta = (float)(sim->report.time_step / sim->space.quantum);
-    const size_t begin = sim->wall_pairs.first[i], end = begin + sim->wall_pairs.count[i];
-    size_t count = 1;
-    touched[0] = (sb_touch){v->nearest, v->normal * sb_splat(push)};
-    for (size_t first = begin; first < end; first += 4) {
-        four_seen s;
-        see(sim, i, first, velocity * sb_splat(to_quanta), to_quanta, &s);
-        for (size_t k = 0; k < 4; k++) {
-            const uint32_t wall = sim->wall_pairs.index[first + k];
-            size_t t = 0;
-            while (t < count && body_of(sim, touched[t].wall) != body_of(sim, wall)) t++;
-            if (s.weight[k] == 0 || t == 0 || t == BODIES) continue;
-            if (t == count) touched[count++] = (sb_touch){wall, {0}};
-            const sb_f4 change = *s.normal[k] * sb_splat(s.weight[k] * v->share * push);
-            touched[t].change += change;
-            touched[0].change -= change;
-        }
-    }
-    return count;
-}
-
 SB_MULTIVERSION
 size_t sb_contact_mend(const sb_sim *sim, size_t i, sb_f4 *velocity, sb_touch touched[SB_TOUCHES_MAX])
 {
@@ -146,19 +108,20 @@ size_t sb_contact_mend(const sb_sim *sim, size_t i, sb_f4 *velocity, sb_touch to
     const float sheet = (float)sim->scene->numerics.wall_offset;
     const float release = sim->settling ? RELEASE * spacing : 0;
     size_t count = 0;
-    for (int sweep = 0; sweep < SWEEPS; sweep++) {
+    while (count < SB_TOUCHES_MAX) {
         const view v = look(sim, i, *velocity, to_quanta);
         if (!v.found) break;
         float plane = smaller((sheet + PLANE) * spacing, v.before + release) - v.distance;
         float ball = smaller((sheet + BALL) * spacing, v.ball_before + release) - v.ball;
-        if (plane > 0) {
-            count += part(sim, i, *velocity, &v, plane / to_quanta, touched + count);
-            *velocity += v.normal * sb_splat(plane / to_quanta);
-        } else if (ball > 0 && v.ball > 0) {
-            touched[count] = (sb_touch){v.nearest, v.apart * sb_splat(ball / (v.ball * to_quanta))};
-            *velocity += touched[count++].change;
-        } else
+        sb_f4 change;
+        if (plane > 0)
+            change = v.normal * sb_splat(plane / to_quanta);
+        else if (ball > 0 && v.ball > 0)
+            change = v.apart * sb_splat(ball / (v.ball * to_quanta));
+        else
             break;
+        *velocity += change;
+        touched[count++] = (sb_touch){v.nearest, change};
     }
     return count;
 }

@@ -6,9 +6,9 @@
 
 #include "sim/state.h"
 
-enum { SB_TOUCHES_MAX = 9 };
+enum { SB_TOUCHES_MAX = 3 }; /* a corner of three walls asks for one each */
 
-/* One body's part: a boundary particle of it (as in wall_pairs), and by how much it changed the velocity, m/s. */
+/* One push: the boundary particle that feels it (as in wall_pairs), and by how much it changed the velocity, m/s. */
 typedef struct sb_touch {
     uint32_t wall;
     sb_f4 change;
@@ -16,8 +16,9 @@ typedef struct sb_touch {
 
 /* Mends the velocity (m/s) that particle i is about to move with: its component towards a wall, relative to
    the wall, is cut so that the step ends there (inelastic; along the wall nothing
-   changes). Returns the number of touches, 0: nothing was mended; in an edge each body feels what is along its own
-   normal. A body may be there twice; the changes add up to the whole to round-off. */
+   changes). Returns how many pushes that took, one after the other, each felt by the wall nearest then; 0: nothing was
+   mended. Where two walls meet, a push is along the mean of their normals and still felt by one alone: parted among
+   them it would do other work than they do. */
 size_t sb_contact_mend(const sb_sim *sim, size_t i, sb_f4 *velocity, sb_touch touched[SB_TOUCHES_MAX]);
 
 #endif

@@ -82,7 +82,7 @@ void sb_impulse_of_push(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 push
     add(sim, sum, set->body[wall & 0x7fffffffu], at, push, (sb_vec3){0});
 }
 
-/* Mends what would pass walls; each feels its own part. */
+/* Mends what would pass walls; each feels its own pushes. */
 SB_APART void contact(sb_sim *sim, size_t i, double *sum, sb_ledger_sums *ledger)
 {
     const sb_f4 start = ((const sb_f4 *)sim->scratch)[i];

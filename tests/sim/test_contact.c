@@ -83,52 +83,11 @@ static void what_comes_nearer_is_stopped_and_nothing_gains(void **state)
     tank_free(&t);
 }
 
-static uint32_t body_of(const sb_sim *sim, uint32_t wall)
-{
-    return sim->walls[wall >> 31].body[wall & 0x7fffffffu];
-}
-
-/* Water thrown into the edge between a wall and the floor: the wall stops it along x, the floor along z. */
-static void in_an_edge_each_wall_feels_its_own_part(void **state)
-{
-    (void)state;
-    tank t;
-    tank_make(&t, 3, 0.1, sb_vec(0.8, 0.8, 1.2), 0.8, 0.8, 0);
-    tank_split_patch(&t, sb_vec(-1, -1, 0), sb_vec(0, 2, 2)); /* body 0: the wall at x = 0; body 1: all others */
-    sb_sim *sim = tank_sim(&t);
-    assert_non_null(sim);
-    assert_int_equal(tank_prepare(sim, 0.01), 0);
-    size_t thrown = 0;
-    for (size_t i = 0; i < sim->n; i++) {
-        const sb_vec3 at = sb_space_position(&sim->space, sim->position[i]);
-        if (at.x > 0.1 || at.z > 0.1 || at.y < 0.2 || at.y > 0.6) continue;
-        sb_f4 v = {-8, 0, -10, 0};
-        sb_touch touched[SB_TOUCHES_MAX];
-        const size_t count = sb_contact_mend(sim, i, &v, touched);
-        double x[2] = {0}, z[2] = {0}; /* felt by each body, m/s */
-        for (size_t k = 0; k < count; k++) {
-            const uint32_t body = body_of(sim, touched[k].wall);
-            assert_true(body < 2);
-            x[body] -= (double)touched[k].change[0];
-            z[body] -= (double)touched[k].change[2];
-        }
-        printf("%zu touches: the wall feels %.2f, %.2f, the floor %.2f, %.2f m/s along x, z\n", count, x[0], z[0], x[1],
-               z[1]);
-        assert_true(x[0] < -1 && fabs(z[0]) < 1e-3);
-        assert_true(z[1] < -3); /* and along x what the edge between them bears, which is the floor's */
-        thrown++;
-    }
-    assert_int_equal(thrown, 4);
-    sb_sim_destroy(sim);
-    tank_free(&t);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(water_at_rest_is_let_out_by_settling_alone),
         cmocka_unit_test(what_comes_nearer_is_stopped_and_nothing_gains),
-        cmocka_unit_test(in_an_edge_each_wall_feels_its_own_part),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
