@@ -47,12 +47,6 @@ SB_INLINE sb_f4 sb_offset(sb_record a, sb_record b)
     return __builtin_convertvector((sb_i4)(a - b), sb_f4);
 }
 
-SB_INLINE sb_f4 sb_carried(sb_record record)
-{
-    sb_f4 lanes = (sb_f4)record;
-    return (sb_f4){lanes[3], lanes[3], lanes[3], lanes[3]};
-}
-
 SB_INLINE float sb_carried_value(sb_record record)
 {
     return ((sb_f4)record)[3];

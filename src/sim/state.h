@@ -63,7 +63,6 @@ enum { SB_STATIC, SB_MOVING, SB_WALL_SETS };
 
 /* A body that moves: its boundary particles at rest, and where its paddle is. */
 typedef struct sb_moving_body {
-    size_t body; /* of the model */
     sb_paddle paddle;
     sb_vec3 direction;
     double displacement, next_displacement; /* m, at t and t + dt */

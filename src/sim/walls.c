@@ -144,7 +144,6 @@ static sb_status create_paddles(sb_sim *sim, sb_error *error)
         if (model->bodies[b].wavemaker < 0) continue;
         const sb_wavemaker_use *use = &sim->scene->wavemakers[model->bodies[b].wavemaker];
         sb_moving_body *moving = &sim->moving[sim->moving_count];
-        moving->body = b;
         moving->direction = use->direction;
         sb_status status = sb_paddle_create(&use->law, &moving->paddle, error);
         if (status != SB_OK) return status;
