@@ -4,12 +4,24 @@
 
 #include <math.h>
 
-/* Costs measured with tools/bench: of the program with its graphics library before any particle; of water, per
-   particle and per neighbour of each; of walls, per particle; of an image beyond periodic sides, its fields. */
-static const double PROGRAM_BYTES = 6e7, FLUID_BYTES = 166, PAIR_BYTES = 4.3, WALL_BYTES = 85, GHOST_BYTES = 90;
+/* Costs measured with tools/bench: of the program before any particle, and of its graphics library; of water, per
+   particle and per neighbour of each; of walls, per particle; of an image beyond periodic sides, its fields; of a
+   checkpoint, its buffer while it grows. */
+static const double PROGRAM_BYTES = 1e7, GRAPHICS_BYTES = 5e7, FLUID_BYTES = 166, PAIR_BYTES = 4.3, WALL_BYTES = 48,
+                    GHOST_BYTES = 90, CHECKPOINT_BYTES = 70;
 
 /* What the model holds of that already. */
 static const double MODEL_FLUID_BYTES = 56, MODEL_WALL_BYTES = 48;
+
+/* A frame's particle; how many frames may wait, and the bytes that they may hold. */
+static const double FRAME_BYTES = 32, WAITING_BYTES = 256e6;
+enum { MOST_WAITING = 3 };
+
+size_t sb_room_waiting(size_t fluid_count)
+{
+    const double fit = WAITING_BYTES / (FRAME_BYTES * (double)fluid_count + 1);
+    return fit < 1 ? 1 : fit < MOST_WAITING ? (size_t)fit : MOST_WAITING;
+}
 
 double sb_room_ghosts(const sb_scene *scene, const sb_model *model)
 {
@@ -28,9 +40,20 @@ static double count_neighbours(const sb_scene *scene)
     return scene->dimensions == 2 ? pi * s * s : 4 * pi / 3 * s * s * s;
 }
 
+/* Frames at once: those that wait, the one that is written or drawn, the one that waits for room. */
+static double count_frames(const sb_scene *scene, const sb_model *model)
+{
+    const bool some = scene->output.particle_interval > 0 || scene->stream.enabled ||
+                      (scene->render.interval > 0 && scene->render.camera_count > 0);
+    return some ? (double)sb_room_waiting(model->fluid_count) + 2 : 0;
+}
+
 double sb_room_needed(const sb_scene *scene, const sb_model *model)
 {
-    return PROGRAM_BYTES + (double)model->fluid_count * (FLUID_BYTES + PAIR_BYTES * count_neighbours(scene)) +
+    const sb_checkpoint_settings *checkpoint = &scene->output.checkpoint;
+    double fluid = FLUID_BYTES + PAIR_BYTES * count_neighbours(scene) + FRAME_BYTES * count_frames(scene, model);
+    if (checkpoint->steps > 0 || checkpoint->minutes > 0) fluid += CHECKPOINT_BYTES;
+    return PROGRAM_BYTES + (scene->render.interval > 0 ? GRAPHICS_BYTES : 0) + (double)model->fluid_count * fluid +
            (double)model->wall_count * WALL_BYTES + sb_room_ghosts(scene, model) * GHOST_BYTES;
 }
 

@@ -7,7 +7,11 @@
 /* Images of evenly spread water within a support radius of periodic sides. */
 double sb_room_ghosts(const sb_scene *scene, const sb_model *model);
 
-/* Bytes of a run's heap, by its particles; about. */
+/* Frames that may wait for a consumer before the simulation does, or before the stream drops the oldest: three, fewer
+   where they are large. */
+size_t sb_room_waiting(size_t fluid_count);
+
+/* Bytes that a run takes at its peak, with the outputs that the scene asks for; about. */
 double sb_room_needed(const sb_scene *scene, const sb_model *model);
 
 /* SB_FAILED, with both figures, when a run of this model takes more memory than is free, the model itself being in

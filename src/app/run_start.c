@@ -8,11 +8,6 @@
 #include <omp.h>
 #include <stdio.h>
 
-enum {
-    FILE_QUEUE = 3,  /* frames that wait for disk or renderer before the simulation does */
-    STREAM_QUEUE = 4 /* beyond these the stream drops the oldest */
-};
-
 static sb_status write_scene(const run *r, sb_error *error)
 {
     char path[SB_PATH_MAX];
@@ -20,34 +15,39 @@ static sb_status write_scene(const run *r, sb_error *error)
     return status == SB_OK ? sb_scene_write(r->scene, path, error) : status;
 }
 
-/* What is there already: an earlier run's files, which go, unless this one goes on from its checkpoints. */
+/* Whether there is anything to go on from. */
 static sb_status look_for_earlier_run(run *r, bool *resume, sb_error *error)
 {
     size_t found = 0;
     sb_status status = sb_checkpoint_count(r, &found, error);
     if (status != SB_OK) return status;
-    if (*resume && found == 0) {
+    if (*resume && found == 0)
         sb_run_say(r, "%s: no checkpoint to go on from, so the run starts from the beginning", r->directory);
-        *resume = false;
-    } else if (!*resume && found > 0) {
+    else if (!*resume && found > 0)
         sb_run_say(r, "%s: a new run in the place of an earlier one, whose files are removed (--resume goes on)",
                    r->directory);
-    }
-    return *resume ? SB_OK : sb_run_clear(r, error);
+    *resume &= found > 0;
+    return SB_OK;
 }
 
 /* Two runs in one directory would spoil each other's files. */
 static sb_status open_directory(run *r, bool *resume, sb_error *error)
 {
-    char path[SB_PATH_MAX];
     sb_status status = sb_make_directories(r->directory, error);
     if (status == SB_OK) status = sb_lock_directory(r->directory, "a directory of its own", &r->lock, error);
     if (status == SB_OK) status = sb_checkpoint_begin(r, error);
-    if (status == SB_OK) status = look_for_earlier_run(r, resume, error);
-    if (status == SB_OK && !*resume) status = write_scene(r, error);
+    return status == SB_OK ? look_for_earlier_run(r, resume, error) : status;
+}
+
+/* The files of an earlier run go once there is a model to run, unless this one goes on with them. */
+static sb_status take_directory(run *r, bool resume, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    sb_status status = resume ? SB_OK : sb_run_clear(r, error);
+    if (status == SB_OK && !resume) status = write_scene(r, error);
     if (status == SB_OK) status = sb_run_path(r, "run.jsonl", path, error);
     if (status == SB_OK)
-        status = *resume ? sb_runlog_append(path, &r->log, error) : sb_runlog_open(path, &r->log, error);
+        status = resume ? sb_runlog_append(path, &r->log, error) : sb_runlog_open(path, &r->log, error);
     if (status == SB_OK && r->checkpoints.on) status = sb_make_directories(r->checkpoints.folder, error);
     return status;
 }
@@ -68,8 +68,8 @@ static sb_status start_streamer(run *r, sb_error *error)
         return SB_OK;
     }
     sb_consumer_work work = sb_streamer_work(&r->streamer);
-    return sb_consumer_start(&r->consumers[STREAMER], &work, r->scene->stream.interval, STREAM_QUEUE,
-                             SB_QUEUE_DROP_OLDEST, error);
+    return sb_consumer_start(&r->consumers[STREAMER], &work, r->scene->stream.interval,
+                             sb_room_waiting(r->model.fluid_count), SB_QUEUE_DROP_OLDEST, error);
 }
 
 /* In a new run before the water comes to rest, so that the renderer is made meanwhile; in one that goes on once the
@@ -77,6 +77,7 @@ static sb_status start_streamer(run *r, sb_error *error)
 static sb_status start_consumers(run *r, sb_error *error)
 {
     const sb_scene *scene = r->scene;
+    const size_t waiting = sb_room_waiting(r->model.fluid_count);
     sb_status status = SB_OK;
     size_t skipped = 0;
     if (scene->stream.enabled)
@@ -85,7 +86,7 @@ static sb_status start_consumers(run *r, sb_error *error)
         r->off[skipped++] = "stream: off, no LCM thread";
     if (status == SB_OK && scene->output.particle_interval > 0) {
         sb_consumer_work work = sb_recorder_work(&r->recorder);
-        status = sb_consumer_start(&r->consumers[RECORDER], &work, scene->output.particle_interval, FILE_QUEUE,
+        status = sb_consumer_start(&r->consumers[RECORDER], &work, scene->output.particle_interval, waiting,
                                    SB_QUEUE_WAIT, error);
     } else {
         r->off[skipped++] = "particle files: off, no thread";
@@ -93,7 +94,7 @@ static sb_status start_consumers(run *r, sb_error *error)
     if (status == SB_OK && scene->render.interval > 0 && scene->render.camera_count > 0) {
         sb_consumer_work work = sb_pictures_work(&r->pictures);
         status =
-            sb_consumer_start(&r->consumers[PICTURES], &work, scene->render.interval, FILE_QUEUE, SB_QUEUE_WAIT, error);
+            sb_consumer_start(&r->consumers[PICTURES], &work, scene->render.interval, waiting, SB_QUEUE_WAIT, error);
     } else {
         r->off[skipped++] = "pictures: off, no thread, no graphics memory";
     }
@@ -149,6 +150,7 @@ static sb_status begin(run *r, sb_error *error)
     sb_sim_find_pressures(r->sim);
     status = sb_measure_create(r->scene, &r->model, r->sim, &r->measure, error);
     if (status != SB_OK) return status;
+    sb_model_forget_particles(&r->model);
     sb_runlog_skipped(r->log, sb_measure_skipped(r->measure));
     r->first_energy = sb_sim_energy(r->sim);
     status = sb_csv_open(r->directory, r->scene, &r->model, &r->csv, error);
@@ -168,6 +170,7 @@ static sb_status go_on(run *r, sb_error *error)
         r->sim = NULL;
         return status;
     }
+    sb_model_forget_particles(&r->model);
     r->setup_seconds = sb_progress_wall(&r->progress);
     const sb_step_report *report = sb_sim_report(r->sim);
     const bool over = report->time >= r->scene->duration * (1 - 1e-12);
@@ -187,9 +190,9 @@ static sb_status go_on(run *r, sb_error *error)
 sb_status sb_run_start(run *r, bool resume, sb_error *error)
 {
     sb_status status = open_directory(r, &resume, error);
-    name_consumers(r);
     if (status == SB_OK) status = build_model(r, resume, error);
-    if (status == SB_OK && !resume) status = write_scene(r, error);
+    if (status == SB_OK) status = take_directory(r, resume, error);
+    name_consumers(r);
     if (status == SB_OK && !resume) status = start_consumers(r, error);
     if (status == SB_OK) status = sb_sim_create(r->scene, &r->model, &r->sim, error);
     if (status != SB_OK) return status;

@@ -51,6 +51,10 @@ uint64_t sb_model_hash(const sb_model *model);
    simulation that was made from the model needs no more. fluid_count stays. A hash of the model is taken before. */
 void sb_model_forget_start(sb_model *model);
 
+/* Frees what else there is by particle, boundary particles too: what nobody asks for once the water has settled and the
+   measurements are made. Both counts stay. */
+void sb_model_forget_particles(sb_model *model);
+
 /* The bodies alone, in the same order, with meshes, colours and wavemakers but without particles:
    what pictures of a finished run need. On error *model is untouched. */
 sb_status sb_model_import_bodies(const sb_scene *scene, sb_model *model, sb_error *error);

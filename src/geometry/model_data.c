@@ -11,11 +11,7 @@ void sb_model_free(sb_model *model)
     for (size_t i = 0; i < model->warning_count; ++i) sb_free(model->warnings[i]);
     sb_free(model->bodies);
     sb_free(model->warnings);
-    sb_free(model->fluid_position);
-    sb_free(model->fluid_velocity);
-    sb_free(model->fluid_pressure);
-    sb_free(model->wall_position);
-    sb_free(model->wall_normal);
+    sb_model_forget_particles(model);
     *model = (sb_model){.dimensions = 0};
 }
 
@@ -31,6 +27,17 @@ void sb_model_forget_start(sb_model *model)
     if (!still) return;
     sb_free(model->fluid_velocity);
     model->fluid_velocity = NULL;
+}
+
+void sb_model_forget_particles(sb_model *model)
+{
+    sb_free(model->fluid_position);
+    sb_free(model->fluid_velocity);
+    sb_free(model->fluid_pressure);
+    sb_free(model->wall_position);
+    sb_free(model->wall_normal);
+    model->fluid_position = model->fluid_velocity = model->wall_position = model->wall_normal = NULL;
+    model->fluid_pressure = NULL;
 }
 
 sb_status sb_model_warn(sb_model *model, sb_error *error, const char *format, ...)

@@ -34,7 +34,7 @@ typedef struct sb_body_impulse {
 } sb_body_impulse;
 
 /* Copies what it needs; scene and model must outlive it all the same (names, wave makers, velocities until it has
-   settled), but for what sb_model_forget_start takes away. */
+   settled), but for what sb_model_forget_start, and sb_model_forget_particles once it has settled, take away. */
 sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **sim, sb_error *error);
 void sb_sim_destroy(sb_sim *sim);
 

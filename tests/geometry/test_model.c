@@ -409,6 +409,12 @@ static void a_start_is_forgotten_unless_it_moves(void **state)
     assert_null(model.fluid_velocity);
     sb_model_forget_start(&model);
     assert_int_equal(model.fluid_count, n);
+    const size_t walls = model.wall_count;
+    assert_non_null(model.wall_position);
+    sb_model_forget_particles(&model);
+    assert_null(model.wall_position);
+    assert_null(model.wall_normal);
+    assert_int_equal(model.wall_count, walls);
 }
 
 static void two_dimensions_have_no_side_walls(void **state)

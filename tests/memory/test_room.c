@@ -64,6 +64,22 @@ static void test_a_run_beyond_memory(void **state)
     assert_non_null(strstr(error.text, "GB are free"));
 }
 
+static void test_outputs_take_room(void **state)
+{
+    (void)state;
+    sb_scene scene = {.dimensions = 3, .resolution = 1, .numerics.support = 2.5};
+    const sb_model model = {.fluid_count = 18000000};
+    const double bare = sb_room_needed(&scene, &model);
+    scene.output.particle_interval = 1;
+    const double files = sb_room_needed(&scene, &model);
+    assert_near(files - bare, 18e6 * 32 * 3, 1e6);
+    scene.output.checkpoint.minutes = 10;
+    assert_true(sb_room_needed(&scene, &model) > files + 18e6 * 44);
+    assert_int_equal(sb_room_waiting(1000), 3);
+    assert_int_equal(sb_room_waiting(model.fluid_count), 1);
+    assert_int_equal(sb_room_waiting(0), 3);
+}
+
 /* In a process of its own, whose limit ends with it. */
 static void test_limits_of_the_process(void **state)
 {
@@ -89,6 +105,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_too_fine_a_spacing),
         cmocka_unit_test(test_a_run_beyond_memory),
+        cmocka_unit_test(test_outputs_take_room),
         cmocka_unit_test(test_limits_of_the_process),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
