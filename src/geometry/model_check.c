@@ -13,7 +13,10 @@ static sb_status check_mesh(const sb_model_body *body, sb_model *model, sb_error
 {
     const sb_mesh *mesh = &body->mesh;
     sb_status status = SB_OK;
-    if (mesh->turned > 0)
+    if (mesh->dropped > 0)
+        status =
+            sb_model_warn(model, error, "body \"%s\": %zu faces without area are left out", body->name, mesh->dropped);
+    if (mesh->turned > 0 && status == SB_OK)
         status = sb_model_warn(model, error, "body \"%s\": %zu faces looked away from the water and were turned",
                                body->name, mesh->turned);
     if (body->role != SB_ROLE_SOLID || mesh->sheet || status != SB_OK) return status;

@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static sb_scene scene;
 static sb_body bodies[16];
@@ -180,6 +181,21 @@ static void warnings_say_what_is_too_coarse(void **state)
     assert_int_equal(sb_model_build(&scene, &model, &error), SB_BAD_INPUT);
     assert_non_null(strstr(error.text, "time_step_factor 0.61"));
     assert_non_null(strstr(error.text, "expected 0.6"));
+}
+
+static void faces_without_area_are_told(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/shorebreak-model-XXXXXX.obj";
+    int made = mkstemps(path, 4);
+    static const char text[] = "v 3 2 0\nv 6 2 0\nv 3 4 0\nv 3 2 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 1 2 2\n";
+    assert_true(made >= 0 && write(made, text, sizeof text - 1) == (ssize_t)sizeof text - 1);
+    close(made);
+    sb_body *body = &bodies[scene.body_count++];
+    *body = (sb_body){.name = "rock", .shape = SB_SHAPE_MESH, .file = path, .up = 'z', .scale = 1, .color = {-1}};
+    build();
+    assert_true(warned("\"rock\"", "1 faces without area"));
+    unlink(path);
 }
 
 /* A plant has dozens of them: one line, the thinnest first. */
@@ -486,23 +502,15 @@ int main(void)
 {
 #define CASE(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
     const struct CMUnitTest tests[] = {
-        CASE(bodies_and_their_particles),
-        CASE(names_are_unique),
-        CASE(a_wavemaker_needs_its_body),
-        CASE(open_sides_have_no_wall),
-        CASE(warnings_say_what_is_too_coarse),
-        CASE(thin_bodies_share_a_line),
-        CASE(thin_bodies_beyond_a_line_are_counted),
-        CASE(holes_in_a_mesh_are_named),
-        CASE(plates_that_water_passes_are_refused),
-        CASE(plates_that_hold_are_not_refused),
-        CASE(slender_columns_are_not_refused),
-        CASE(thin_parts_are_only_warned_of),
-        CASE(points_inside_are_found),
-        CASE(beside_a_sheet_is_not_within),
-        CASE(a_start_is_forgotten_unless_it_moves),
-        CASE(two_dimensions_have_no_side_walls),
-        CASE(no_memory_is_an_error),
+        CASE(bodies_and_their_particles),        CASE(names_are_unique),
+        CASE(a_wavemaker_needs_its_body),        CASE(open_sides_have_no_wall),
+        CASE(warnings_say_what_is_too_coarse),   CASE(faces_without_area_are_told),
+        CASE(thin_bodies_share_a_line),          CASE(thin_bodies_beyond_a_line_are_counted),
+        CASE(holes_in_a_mesh_are_named),         CASE(plates_that_water_passes_are_refused),
+        CASE(plates_that_hold_are_not_refused),  CASE(slender_columns_are_not_refused),
+        CASE(thin_parts_are_only_warned_of),     CASE(points_inside_are_found),
+        CASE(beside_a_sheet_is_not_within),      CASE(a_start_is_forgotten_unless_it_moves),
+        CASE(two_dimensions_have_no_side_walls), CASE(no_memory_is_an_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
