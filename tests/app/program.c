@@ -11,6 +11,7 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -142,6 +143,7 @@ pid_t program_start(const char *const *arguments)
     pid_t process = fork();
     assert_true(process >= 0);
     if (process == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL); /* a test that fails leaves none behind */
         redirect("stdout.txt", STDOUT_FILENO);
         redirect("stderr.txt", STDERR_FILENO);
         if (chdir(folder) == 0) execv(SB_BINARY_DIR "/shorebreak", list);

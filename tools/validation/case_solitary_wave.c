@@ -28,6 +28,15 @@ static sb_status find_crests(const sb_case_run *run, sb_curve *heights, sb_curve
     return status;
 }
 
+/* Whether each crest is later than the one before. Where a wave has died on its way crests are noise, and a line
+   through their times is no celerity. */
+static bool travels(const sb_curve *times)
+{
+    for (size_t g = 1; g < times->count; g++)
+        if (!(times->y[g] > times->y[g - 1])) return false;
+    return times->count > 1;
+}
+
 static double line_at(const sb_curve *curve, double first, double last, double x)
 {
     double a, b;
@@ -51,7 +60,7 @@ static sb_status follow(const sb_case_run *run, journey *j, sb_error *error)
         j->last = line_at(&heights, LAST - STRETCH, LAST, LAST);
         j->damped =
             sb_keulegan_height(j->first, scene->wave.depth, scene->fluid.viscosity, scene->fluid.gravity, LAST - FIRST);
-        j->celerity = sb_curve_line(&times, FIRST, LAST, &a, &b) ? 1 / b : (double)NAN;
+        j->celerity = travels(&times) && sb_curve_line(&times, FIRST, LAST, &a, &b) ? 1 / b : (double)NAN;
         j->leaves = line_at(&times, FIRST, FIRST + STRETCH, FIRST);
         j->arrives = line_at(&times, LAST - STRETCH, LAST, LAST);
     }
@@ -130,8 +139,9 @@ static sb_status evaluate(const sb_case_run *run, sb_figures *figures, sb_error 
     sb_status status = follow(run, &j, error);
     if (status != SB_OK) return status;
     double unit = sqrt(scene->fluid.gravity * scene->wave.depth);
-    status = sb_figure_share(figures, "celerity", "sqrt(g h)", 1.138, j.celerity / unit, 1.138, 1, error,
-                             "line through the crests' times at gauges every 2 m");
+    status = sb_figure_share(
+        figures, "celerity", "sqrt(g h)", 1.138, j.celerity / unit, 1.138, 1, error,
+        "line through the crests' times at gauges every 2 m; none where they do not follow one another");
     if (status == SB_OK)
         status =
             sb_figure_below(figures, "height loss beyond Keulegan", "%", 100 * (j.damped - j.last) / j.damped, 5, error,
