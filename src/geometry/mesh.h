@@ -17,6 +17,7 @@ typedef struct sb_mesh {
     bool sheet;     /* open on purpose (plane, basin): solid is what lies behind the normals */
     size_t dropped; /* degenerate triangles that the file had, left out */
     size_t turned;  /* triangles that were turned round to face the water */
+    size_t closed;  /* triangles put where the file had a hole of one */
 } sb_mesh;
 
 /* Room for so many vertices and triangles, not yet written; *mesh is overwritten, not freed. */
@@ -43,6 +44,10 @@ sb_status sb_mesh_diagnose(const sb_mesh *mesh, sb_mesh_report *report, sb_error
 /* Turns triangles that face the other way than most of their surface; then the whole mesh, when a
    SOLID has a negative volume or a TERRAIN looks down. Adds to mesh->turned. */
 sb_status sb_mesh_orient(sb_mesh *mesh, sb_role role, sb_error *error);
+
+/* Puts a triangle into each hole whose rim is three edges, adding to mesh->closed; after sb_mesh_orient. A sheet's rim
+   and what would lie back to back with a neighbour stay open. */
+sb_status sb_mesh_close(sb_mesh *mesh, sb_error *error);
 
 /* Makes vertices at the same place one, drops degenerate triangles (adding to mesh->dropped) and
    unused vertices. The order of what stays is kept. SB_BAD_INPUT for non-finite vertices or bad

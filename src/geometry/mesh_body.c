@@ -123,6 +123,14 @@ static sb_status orient(const sb_body *body, sb_mesh *meshes, size_t count, sb_e
     return status;
 }
 
+static sb_status close_holes(const sb_body *body, sb_mesh *meshes, size_t count, sb_error *error)
+{
+    sb_status status = SB_OK;
+    for (size_t i = 0; i < count && body->shape == SB_SHAPE_MESH && status == SB_OK; ++i)
+        status = sb_mesh_close(&meshes[i], error);
+    return status;
+}
+
 static bool taken(const sb_mesh *meshes, size_t count, const char *name)
 {
     for (size_t i = 0; i < count; ++i)
@@ -159,6 +167,7 @@ sb_status sb_mesh_from_body(const sb_body *body, double spacing, sb_mesh **meshe
        quay wall alone does not know which way is up. */
     if (status == SB_OK && body->role == SB_ROLE_SOLID) status = orient(body, made, made_count, &reason);
     if (status == SB_OK && !body->split) status = merge(made, &made_count, &reason);
+    if (status == SB_OK && body->role == SB_ROLE_SOLID) status = close_holes(body, made, made_count, &reason);
     if (status == SB_OK && body->role == SB_ROLE_TERRAIN) status = orient(body, made, made_count, &reason);
     if (status != SB_OK) {
         for (size_t i = 0; i < made_count; ++i) sb_mesh_free(&made[i]);

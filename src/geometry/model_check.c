@@ -19,6 +19,9 @@ static sb_status check_mesh(const sb_model_body *body, sb_model *model, sb_error
     if (mesh->turned > 0 && status == SB_OK)
         status = sb_model_warn(model, error, "body \"%s\": %zu faces looked away from the water and were turned",
                                body->name, mesh->turned);
+    if (mesh->closed > 0 && status == SB_OK)
+        status =
+            sb_model_warn(model, error, "body \"%s\": %zu holes of one triangle are closed", body->name, mesh->closed);
     if (body->role != SB_ROLE_SOLID || mesh->sheet || status != SB_OK) return status;
     sb_mesh_report report;
     status = sb_mesh_diagnose(mesh, &report, error);

@@ -144,6 +144,47 @@ static void test_weld(void **state)
     sb_mesh_free(&box);
 }
 
+/* The first triangles alone, closed as far as it goes; how many were added. */
+static size_t closed_of(sb_mesh *mesh, size_t triangles)
+{
+    mesh->triangle_count = triangles;
+    assert_int_equal(sb_mesh_close(mesh, &error), SB_OK);
+    assert_int_equal(mesh->triangle_count, triangles + mesh->closed);
+    return mesh->closed;
+}
+
+static void test_holes_of_one_triangle_are_closed(void **state)
+{
+    (void)state;
+    sb_mesh_report report;
+    for (int apart = 0; apart < 2; ++apart) {
+        sb_mesh box = make_box(sb_vec(0, 0, 0), sb_vec(2, 3, 4));
+        if (apart) box = unweld(box);
+        assert_int_equal(closed_of(&box, 11), 1);
+        assert_int_equal(sb_mesh_diagnose(&box, &report, NULL), SB_OK);
+        assert_true(report.watertight && report.flipped_faces == 0);
+        assert_true(fabs(report.volume - 24) < 1e-9);
+        sb_mesh_free(&box);
+    }
+    /* A whole side, a sheet of one triangle, and a flat one of three whose rim is a triangle stay open. */
+    sb_mesh box = make_box(sb_vec(0, 0, 0), sb_vec(2, 3, 4));
+    assert_int_equal(closed_of(&box, 10), 0);
+    assert_int_equal(closed_of(&box, 1), 0);
+    sb_mesh_free(&box);
+    static const sb_vec3 places[] = {{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {1, 1, 0}};
+    static const uint32_t fan[3][3] = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+    sb_mesh sheet;
+    assert_int_equal(sb_mesh_alloc(&sheet, 4, 3, &error), SB_OK);
+    memcpy(sheet.vertices, places, sizeof places);
+    memcpy(sheet.triangles, fan, sizeof fan);
+    assert_int_equal(closed_of(&sheet, 3), 0);
+    sheet.vertices[3].z = 1; /* a pyramid without its base is not */
+    assert_int_equal(closed_of(&sheet, 3), 1);
+    assert_int_equal(sb_mesh_diagnose(&sheet, &report, NULL), SB_OK);
+    assert_true(report.watertight && fabs(report.volume - 1.5) < 1e-12);
+    sb_mesh_free(&sheet);
+}
+
 static void test_without_memory(void **state)
 {
     (void)state;
@@ -173,6 +214,7 @@ int main(void)
         cmocka_unit_test(test_each_fault),
         cmocka_unit_test(test_orientation_is_mended),
         cmocka_unit_test(test_weld),
+        cmocka_unit_test(test_holes_of_one_triangle_are_closed),
         cmocka_unit_test(test_without_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
