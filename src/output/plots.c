@@ -219,7 +219,7 @@ static sb_status draw_series(const char *program, const char *directory, const p
                              const sb_series *series, sb_error *error)
 {
     char data[SB_PATH_MAX] = "", script[SB_PATH_MAX] = "", units[MAX_PANELS][16] = {{0}};
-    double top[MAX_PANELS] = {0}, scale[MAX_PANELS];
+    double top[MAX_PANELS] = {0}, scale[MAX_PANELS] = {0};
     double *peaks = sb_alloc(series->name_count, sizeof *peaks);
     if (!peaks) return sb_fail_memory(error, "plots");
     find_peaks(what, series, peaks, top);

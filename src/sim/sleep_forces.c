@@ -29,13 +29,19 @@ static void add_particle(const sb_sim *sim, size_t i, double *sum)
             sb_vec(whole * (double)mean->push[0], whole * (double)mean->push[1], whole * (double)mean->push[2]), sum);
 }
 
+static bool is_nothing(const double value[SB_IMPULSE_VALUES])
+{
+    for (size_t k = 0; k < SB_IMPULSE_VALUES; k++)
+        if (value[k] != 0) return false;
+    return true;
+}
+
 /* Adds the bodies that one tile's sum is not zero for to the list. */
 static int append(sb_sleep *sleep, size_t *capacity, size_t tile, const double *sum, size_t bodies)
 {
-    static const double nothing[SB_IMPULSE_VALUES];
     for (size_t body = 0; body < bodies; body++) {
         const double *value = sum + body * SB_IMPULSE_VALUES;
-        if (memcmp(value, nothing, sizeof nothing) == 0) continue;
+        if (is_nothing(value)) continue;
         if (sb_grow((void **)&sleep->held, capacity, sleep->held_count + 1, sizeof *sleep->held) != 0) return -1;
         sb_held_force *held = &sleep->held[sleep->held_count++];
         *held = (sb_held_force){.tile = (uint32_t)tile, .body = (uint32_t)body};

@@ -130,8 +130,7 @@ static void judge_tolerances(sb_judged *all, size_t count)
             continue;
         }
         sb_require(j, share <= 1, "a solve left %g times its tolerance", share);
-        const double before = looser ? looser->trial->number : 0;
-        if (before > 0 && before < j->trial->number &&
+        if (looser && looser->trial->number > 0 && looser->trial->number < j->trial->number &&
             strncmp(looser->trial->name, j->trial->name, strcspn(j->trial->name, "-")) == 0) {
             sb_require(j, left < sb_outcome_number(&looser->outcome, "mean_density_error"), "the error does not fall");
             sb_require(j, sweeps > sb_outcome_number(&looser->outcome, "mean_iterations"), "no more sweeps");
