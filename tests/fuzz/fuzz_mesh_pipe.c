@@ -9,17 +9,27 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+static void check_places(const sb_mesh *mesh)
+{
+    for (size_t k = 0; k < mesh->vertex_count; ++k) FUZZ_CHECK(sb_isfinite(mesh->vertices[k]));
+    for (size_t k = 0; k < 3 * mesh->triangle_count; ++k)
+        FUZZ_CHECK(mesh->triangles[k / 3][k % 3] < mesh->vertex_count);
+}
+
+/* As they come, and after what is done with a solid's: faces turned, holes closed. */
 static void check_meshes(sb_mesh *meshes, size_t count)
 {
     FUZZ_CHECK(count > 0);
     for (size_t i = 0; i < count; ++i) {
-        const sb_mesh *mesh = &meshes[i];
-        FUZZ_CHECK(mesh->triangle_count > 0 && memchr(mesh->name, 0, sizeof mesh->name));
+        sb_mesh *mesh = &meshes[i];
+        const size_t faces = mesh->triangle_count;
+        FUZZ_CHECK(faces > 0 && memchr(mesh->name, 0, sizeof mesh->name));
         FUZZ_CHECK(!strpbrk(mesh->name, ",\"'/\\\n\r\t"));
-        for (size_t k = 0; k < mesh->vertex_count; ++k) FUZZ_CHECK(sb_isfinite(mesh->vertices[k]));
-        for (size_t k = 0; k < 3 * mesh->triangle_count; ++k)
-            FUZZ_CHECK(mesh->triangles[k / 3][k % 3] < mesh->vertex_count);
-        sb_mesh_free(&meshes[i]);
+        check_places(mesh);
+        FUZZ_CHECK(sb_mesh_orient(mesh, SB_ROLE_SOLID, NULL) == SB_OK && sb_mesh_close(mesh, NULL) == SB_OK);
+        FUZZ_CHECK(mesh->triangle_count == faces + mesh->closed);
+        check_places(mesh);
+        sb_mesh_free(mesh);
     }
     sb_free(meshes);
 }
