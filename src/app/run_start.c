@@ -15,19 +15,26 @@ static sb_status write_scene(const run *r, sb_error *error)
     return status == SB_OK ? sb_scene_write(r->scene, path, error) : status;
 }
 
-/* Whether there is anything to go on from. */
-static sb_status look_for_earlier_run(run *r, bool *resume, sb_error *error)
+/* Without a checkpoint there is nothing to go on from. */
+static sb_status look_for_checkpoints(run *r, bool *resume, sb_error *error)
+{
+    size_t found = 0;
+    sb_status status = *resume ? sb_checkpoint_count(r, &found, error) : SB_OK;
+    if (status == SB_OK && *resume && found == 0) {
+        sb_run_say(r, "%s: no checkpoint to go on from, so the run starts from the beginning", r->directory);
+        *resume = false;
+    }
+    return status;
+}
+
+static sb_status clear_earlier_run(run *r, sb_error *error)
 {
     size_t found = 0;
     sb_status status = sb_checkpoint_count(r, &found, error);
-    if (status != SB_OK) return status;
-    if (*resume && found == 0)
-        sb_run_say(r, "%s: no checkpoint to go on from, so the run starts from the beginning", r->directory);
-    else if (!*resume && found > 0)
+    if (status == SB_OK && found > 0)
         sb_run_say(r, "%s: a new run in the place of an earlier one, whose files are removed (--resume goes on)",
                    r->directory);
-    *resume &= found > 0;
-    return SB_OK;
+    return status == SB_OK ? sb_run_clear(r, error) : status;
 }
 
 /* Two runs in one directory would spoil each other's files. */
@@ -36,14 +43,14 @@ static sb_status open_directory(run *r, bool *resume, sb_error *error)
     sb_status status = sb_make_directories(r->directory, error);
     if (status == SB_OK) status = sb_lock_directory(r->directory, "a directory of its own", &r->lock, error);
     if (status == SB_OK) status = sb_checkpoint_begin(r, error);
-    return status == SB_OK ? look_for_earlier_run(r, resume, error) : status;
+    return status == SB_OK ? look_for_checkpoints(r, resume, error) : status;
 }
 
 /* The files of an earlier run go once there is a model to run, unless this one goes on with them. */
 static sb_status take_directory(run *r, bool resume, sb_error *error)
 {
     char path[SB_PATH_MAX];
-    sb_status status = resume ? SB_OK : sb_run_clear(r, error);
+    sb_status status = resume ? SB_OK : clear_earlier_run(r, error);
     if (status == SB_OK && !resume) status = write_scene(r, error);
     if (status == SB_OK) status = sb_run_path(r, "run.jsonl", path, error);
     if (status == SB_OK)
