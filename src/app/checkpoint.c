@@ -128,7 +128,6 @@ void sb_checkpoint_end(run *r)
 {
     sb_free(r->checkpoints.identity);
     r->checkpoints.identity = NULL;
-    sb_archive_out_free(&r->checkpoints.out);
 }
 
 /* ---- writing ---- */
@@ -188,18 +187,20 @@ static sb_status settle_files(run *r, sb_csv_lengths *lengths, sb_error *error)
     return status == SB_OK ? sb_runlog_sync(r->log, error) : status;
 }
 
-static sb_status write_now(run *r, char path[SB_PATH_MAX], sb_error *error)
+static sb_status write_now(run *r, char path[SB_PATH_MAX], size_t *bytes, sb_error *error)
 {
-    sb_archive_out *out = &r->checkpoints.out;
+    sb_archive_out out = {0};
     sb_csv_lengths lengths;
     sb_status status = settle_files(r, &lengths, error);
     if (status == SB_OK) status = sb_checkpoint_path(r, sb_sim_report(r->sim)->step, path, error);
+    if (status == SB_OK) status = sb_archive_create(&out, path, SB_CHECKPOINT_KIND, SB_CHECKPOINT_FORMAT, error);
     if (status != SB_OK) return status;
-    sb_archive_begin(out, SB_CHECKPOINT_KIND, SB_CHECKPOINT_FORMAT);
-    put_run(r, &lengths, out);
-    sb_sim_save(r->sim, out);
-    sb_measure_save(r->measure, out);
-    return sb_archive_save(out, path, error);
+    put_run(r, &lengths, &out);
+    sb_sim_save(r->sim, &out);
+    sb_measure_save(r->measure, &out);
+    status = sb_archive_close(&out, error);
+    *bytes = out.used;
+    return status;
 }
 
 void sb_checkpoint_write(run *r)
@@ -207,10 +208,11 @@ void sb_checkpoint_write(run *r)
     sb_checkpoints *c = &r->checkpoints;
     const sb_step_report *report = sb_sim_report(r->sim);
     char path[SB_PATH_MAX];
+    size_t bytes = 0;
     sb_error reason = {0};
     if (!c->on || (c->current && c->steps_then == report->step)) return;
     const double start = sb_clock();
-    c->current = write_now(r, path, &reason) == SB_OK;
+    c->current = write_now(r, path, &bytes, &reason) == SB_OK;
     c->written = sb_clock();
     c->steps_then = report->step;
     if (!c->current) {
@@ -218,6 +220,6 @@ void sb_checkpoint_write(run *r)
         return;
     }
     sb_runlog_event(r->log, "checkpoint", "step %" PRIu64 ", t = %.9g s, %zu bytes in %.3f s: %.500s", report->step,
-                    report->time, c->out.used, c->written - start, strrchr(path, '/') + 1);
+                    report->time, bytes, c->written - start, strrchr(path, '/') + 1);
     if (remove_older(r, (size_t)r->scene->output.checkpoint.keep, &reason) != SB_OK) sb_run_warn(r, "%s", reason.text);
 }

@@ -4,8 +4,10 @@
 #define SB_APP_CHECKPOINT_H
 
 #include "app/build.h"
-#include "base/archive.h"
 #include "base/file.h"
+
+#include <stdbool.h>
+#include <stdint.h>
 
 typedef struct run run; /* app/run_state.h */
 
@@ -16,7 +18,6 @@ typedef struct sb_checkpoints {
     uint64_t model;            /* hash of what was sampled */
     char build[SB_BUILD_TEXT]; /* of this program's numerics */
     bool any_build;            /* another build's will do as well */
-    sb_archive_out out;        /* its memory is kept from one to the next */
     double written;            /* s on the clock, of the last attempt */
     uint64_t steps_then;       /* step of the last one */
     bool current;              /* there is one of steps_then */

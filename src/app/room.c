@@ -5,10 +5,9 @@
 #include <math.h>
 
 /* Costs measured with tools/bench: of the program before any particle, and of its graphics library; of water, per
-   particle and per neighbour of each; of walls, per particle; of an image beyond periodic sides, its fields; of a
-   checkpoint, its buffer while it grows. */
+   particle and per neighbour of each; of walls, per particle; of an image beyond periodic sides, its fields. */
 static const double PROGRAM_BYTES = 1e7, GRAPHICS_BYTES = 5e7, FLUID_BYTES = 166, PAIR_BYTES = 4.3, WALL_BYTES = 48,
-                    GHOST_BYTES = 90, CHECKPOINT_BYTES = 70;
+                    GHOST_BYTES = 90;
 
 /* What the model holds of that already. */
 static const double MODEL_FLUID_BYTES = 56, MODEL_WALL_BYTES = 48;
@@ -50,9 +49,7 @@ static double count_frames(const sb_scene *scene, const sb_model *model)
 
 double sb_room_needed(const sb_scene *scene, const sb_model *model)
 {
-    const sb_checkpoint_settings *checkpoint = &scene->output.checkpoint;
-    double fluid = FLUID_BYTES + PAIR_BYTES * count_neighbours(scene) + FRAME_BYTES * count_frames(scene, model);
-    if (checkpoint->steps > 0 || checkpoint->minutes > 0) fluid += CHECKPOINT_BYTES;
+    const double fluid = FLUID_BYTES + PAIR_BYTES * count_neighbours(scene) + FRAME_BYTES * count_frames(scene, model);
     return PROGRAM_BYTES + (scene->render.interval > 0 ? GRAPHICS_BYTES : 0) + (double)model->fluid_count * fluid +
            (double)model->wall_count * WALL_BYTES + sb_room_ghosts(scene, model) * GHOST_BYTES;
 }

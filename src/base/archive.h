@@ -3,10 +3,12 @@
    step, or bytes made up by someone else, end in a refusal.
 
    Layout, little-endian: kind (8 bytes), version and 0x01020304 (32 bits each); then sections of name (8 bytes),
-   length, checksum (64 bits each) and content; the last is named "end" and is empty. */
+   length, checksum (64 bits each) and content; the last is named "end" and is empty. The checksum runs over the name,
+   the content by blocks of SB_ARCHIVE_BLOCK bytes, and the length. */
 #ifndef SB_BASE_ARCHIVE_H
 #define SB_BASE_ARCHIVE_H
 
+#include "base/file.h"
 #include "base/status.h"
 #include "base/vec.h"
 
@@ -14,19 +16,31 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { SB_ARCHIVE_NAME = 8 }; /* most characters in a kind and in a section's name */
+enum {
+    SB_ARCHIVE_NAME = 8,     /* most characters in a kind and in a section's name */
+    SB_ARCHIVE_BLOCK = 16384 /* bytes */
+};
 
 /* ---- writing ---- */
 
-/* In the making, in memory. Zero-initialised is empty; may be begun anew, its memory is kept. */
+/* In the making: in memory, or on its way into a file, of which no more than a block is held. Zero-initialised is
+   empty; may be begun anew, its memory is kept. */
 typedef struct sb_archive_out {
-    unsigned char *bytes;
-    size_t used, capacity;
-    size_t section; /* where the open section's head lies; 0: none is open */
-    bool starved;   /* memory ran out; said at the end */
+    sb_atomic_file file;  /* its stream is NULL: in memory */
+    unsigned char *bytes; /* in memory: all blocks so far */
+    size_t used;          /* bytes so far, the one in hand left out */
+    size_t capacity;      /* of bytes */
+    size_t section;       /* where the open section's head lies; 0: none is open */
+    uint64_t sum;         /* of the open section's blocks so far */
+    int reason;           /* errno of the first failure, told at the end */
+    size_t in_hand;       /* bytes of the block that is being filled */
+    unsigned char block[SB_ARCHIVE_BLOCK];
 } sb_archive_out;
 
+/* In memory: once closed, bytes and used are the whole archive. */
 void sb_archive_begin(sb_archive_out *out, const char *kind, uint32_t version);
+/* On disk: beside `path`, renamed when closed. SB_FAILED names path and reason. */
+sb_status sb_archive_create(sb_archive_out *out, const char *path, const char *kind, uint32_t version, sb_error *error);
 /* What follows belongs to this section, until the next. */
 void sb_archive_section(sb_archive_out *out, const char *name);
 
@@ -38,10 +52,10 @@ void sb_put_vector(sb_archive_out *out, sb_vec3 value);
 void sb_put_list(sb_archive_out *out, const void *items, size_t count, size_t size);
 void sb_put_text(sb_archive_out *out, const char *text);
 
-/* Ends it: bytes and used are then the whole archive. SB_FAILED when memory ran out on the way. */
+/* Ends it; a file is then on disk, synced and renamed. SB_FAILED says why that, or anything on the way, could not be:
+   there is no file then, and one of that name from before stays. */
 sb_status sb_archive_close(sb_archive_out *out, sb_error *error);
-/* Ends it and puts it on disk: beside its name, synced, renamed. SB_FAILED names path and reason. */
-sb_status sb_archive_save(sb_archive_out *out, const char *path, sb_error *error);
+/* Gives up what is not closed. */
 void sb_archive_out_free(sb_archive_out *out);
 
 /* ---- reading ---- */

@@ -20,11 +20,14 @@ enum {
 /* The byte before each value. */
 enum { SB_VALUE_COUNT = 'c', SB_VALUE_REAL = 'r', SB_VALUE_FLAG = 'f', SB_VALUE_LIST = 'l' };
 
-/* Of a section's name, length and content; head: where it begins. */
+/* Of a section with this head and content. */
 static inline uint64_t sb_archive_sum(const unsigned char *head, uint64_t length)
 {
-    const uint64_t seed = sb_hash(0, head, SB_ARCHIVE_NAME + sizeof length);
-    return sb_hash(seed, head + SB_SECTION_HEAD, length);
+    const unsigned char *content = head + SB_SECTION_HEAD;
+    uint64_t sum = sb_hash(0, head, SB_ARCHIVE_NAME);
+    for (uint64_t at = 0; at < length; at += SB_ARCHIVE_BLOCK)
+        sum = sb_hash(sum, content + at, length - at < SB_ARCHIVE_BLOCK ? length - at : SB_ARCHIVE_BLOCK);
+    return sb_hash(sum, &length, sizeof length);
 }
 
 #endif

@@ -1,21 +1,63 @@
 #include "base/archive.h"
 
 #include "base/archive_layout.h"
-#include "base/file.h"
 #include "base/hash.h"
 #include "base/memory.h"
 
+#include <errno.h>
 #include <string.h>
+
+/* ---- where bytes go: a file, or memory ---- */
+
+/* 0, or errno. */
+static int put_bytes(sb_archive_out *out, const void *bytes, size_t length)
+{
+    if (out->file.stream) return fwrite(bytes, 1, length, out->file.stream) == length ? 0 : errno;
+    if (length > SIZE_MAX - out->used || sb_grow((void **)&out->bytes, &out->capacity, out->used + length, 1) != 0)
+        return ENOMEM;
+    memcpy(out->bytes + out->used, bytes, length);
+    return 0;
+}
+
+static void emit(sb_archive_out *out, const void *bytes, size_t length)
+{
+    if (!out->reason) out->reason = put_bytes(out, bytes, length);
+    if (!out->reason) out->used += length;
+}
+
+/* Bytes that were emitted before, anew. */
+static void amend(sb_archive_out *out, size_t at, const void *bytes, size_t length)
+{
+    FILE *stream = out->file.stream;
+    if (out->reason) return;
+    if (!stream)
+        memcpy(out->bytes + at, bytes, length);
+    else if (fseeko(stream, (off_t)at, SEEK_SET) != 0 || fwrite(bytes, 1, length, stream) != length ||
+             fseeko(stream, 0, SEEK_END) != 0)
+        out->reason = errno;
+}
+
+/* ---- blocks and sections ---- */
+
+static void flush_block(sb_archive_out *out)
+{
+    if (out->in_hand == 0) return;
+    out->sum = sb_hash(out->sum, out->block, out->in_hand);
+    emit(out, out->block, out->in_hand);
+    out->in_hand = 0;
+}
 
 static void append(sb_archive_out *out, const void *bytes, size_t length)
 {
-    if (out->starved || length > SIZE_MAX - out->used ||
-        sb_grow((void **)&out->bytes, &out->capacity, out->used + length, 1) != 0) {
-        out->starved = true;
-        return;
+    const unsigned char *from = bytes;
+    while (length > 0) {
+        const size_t room = sizeof out->block - out->in_hand, part = length < room ? length : room;
+        memcpy(out->block + out->in_hand, from, part);
+        out->in_hand += part;
+        from += part;
+        length -= part;
+        if (part == room) flush_block(out);
     }
-    if (length > 0) memcpy(out->bytes + out->used, bytes, length);
-    out->used += length;
 }
 
 static void append_word(sb_archive_out *out, uint64_t word)
@@ -23,43 +65,72 @@ static void append_word(sb_archive_out *out, uint64_t word)
     append(out, &word, sizeof word);
 }
 
-static void append_name(sb_archive_out *out, const char *name)
-{
-    char padded[SB_ARCHIVE_NAME] = {0};
-    memcpy(padded, name, strnlen(name, sizeof padded));
-    append(out, padded, sizeof padded);
-}
-
 /* Fills in what the open section's head could not know. */
 static void close_section(sb_archive_out *out)
 {
-    if (out->section == 0 || out->starved) return;
-    unsigned char *head = out->bytes + out->section;
-    const uint64_t length = out->used - out->section - SB_SECTION_HEAD;
-    memcpy(head + SB_ARCHIVE_NAME, &length, sizeof length);
-    const uint64_t sum = sb_archive_sum(head, length);
-    memcpy(head + SB_ARCHIVE_NAME + sizeof length, &sum, sizeof sum);
+    flush_block(out);
+    if (out->section == 0) return;
+    uint64_t words[2] = {out->used - out->section - SB_SECTION_HEAD};
+    words[1] = sb_hash(out->sum, &words[0], sizeof words[0]);
+    amend(out, out->section + SB_ARCHIVE_NAME, words, sizeof words);
     out->section = 0;
-}
-
-void sb_archive_begin(sb_archive_out *out, const char *kind, uint32_t version)
-{
-    const uint32_t words[2] = {version, SB_ARCHIVE_ORDER};
-    out->used = 0;
-    out->section = 0;
-    out->starved = false;
-    append_name(out, kind);
-    append(out, words, sizeof words);
 }
 
 void sb_archive_section(sb_archive_out *out, const char *name)
 {
+    unsigned char head[SB_SECTION_HEAD] = {0};
     close_section(out);
+    memcpy(head, name, strnlen(name, SB_ARCHIVE_NAME));
     out->section = out->used;
-    append_name(out, name);
-    append_word(out, 0);
-    append_word(out, 0);
+    out->sum = sb_hash(0, head, SB_ARCHIVE_NAME);
+    emit(out, head, sizeof head);
 }
+
+/* ---- beginning and end ---- */
+
+static void begin(sb_archive_out *out, const char *kind, uint32_t version)
+{
+    const uint32_t words[2] = {version, SB_ARCHIVE_ORDER};
+    char name[SB_ARCHIVE_NAME] = {0};
+    memcpy(name, kind, strnlen(kind, sizeof name));
+    out->used = out->section = out->in_hand = 0;
+    out->reason = 0;
+    emit(out, name, sizeof name);
+    emit(out, words, sizeof words);
+}
+
+void sb_archive_begin(sb_archive_out *out, const char *kind, uint32_t version)
+{
+    sb_atomic_abort(&out->file);
+    begin(out, kind, version);
+}
+
+sb_status sb_archive_create(sb_archive_out *out, const char *path, const char *kind, uint32_t version, sb_error *error)
+{
+    sb_atomic_abort(&out->file);
+    sb_status status = sb_atomic_open(&out->file, path, error);
+    if (status == SB_OK) begin(out, kind, version);
+    return status;
+}
+
+sb_status sb_archive_close(sb_archive_out *out, sb_error *error)
+{
+    sb_archive_section(out, SB_ARCHIVE_END);
+    close_section(out);
+    if (!out->file.stream) return out->reason ? sb_fail_memory(error, "an archive") : SB_OK;
+    if (!out->reason) return sb_atomic_commit(&out->file, 1, error);
+    sb_atomic_abort(&out->file);
+    return sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", out->file.path, strerror(out->reason));
+}
+
+void sb_archive_out_free(sb_archive_out *out)
+{
+    sb_atomic_abort(&out->file);
+    sb_free(out->bytes);
+    *out = (sb_archive_out){0};
+}
+
+/* ---- values ---- */
 
 static void append_kind(sb_archive_out *out, char kind)
 {
@@ -103,27 +174,4 @@ void sb_put_list(sb_archive_out *out, const void *items, size_t count, size_t si
 void sb_put_text(sb_archive_out *out, const char *text)
 {
     sb_put_list(out, text, strlen(text), 1);
-}
-
-sb_status sb_archive_close(sb_archive_out *out, sb_error *error)
-{
-    sb_archive_section(out, SB_ARCHIVE_END);
-    close_section(out);
-    return out->starved ? sb_fail_memory(error, "an archive") : SB_OK;
-}
-
-sb_status sb_archive_save(sb_archive_out *out, const char *path, sb_error *error)
-{
-    sb_atomic_file file = {0};
-    sb_status status = sb_archive_close(out, error);
-    if (status == SB_OK) status = sb_atomic_open(&file, path, error);
-    if (status != SB_OK) return status;
-    fwrite(out->bytes, 1, out->used, file.stream);
-    return sb_atomic_commit(&file, 1, error);
-}
-
-void sb_archive_out_free(sb_archive_out *out)
-{
-    sb_free(out->bytes);
-    *out = (sb_archive_out){0};
 }

@@ -39,7 +39,7 @@ static void damaged_ones_are_passed_over(void **state)
     goes_on_from_the_one_before(newest, bytes, length, "damaged: the checksum of section");
     bytes[length / 2] ^= 4;
     bytes[8] ^= 1;
-    goes_on_from_the_one_before(newest, bytes, length, "version 5 of the format, expected 4");
+    goes_on_from_the_one_before(newest, bytes, length, "version 4 of the format, expected 5");
     sb_free(bytes);
 }
 

@@ -4,8 +4,10 @@
 #include "base/file.h"
 #include "base/memory.h"
 
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -17,7 +19,6 @@ enum { NUMBERS = sizeof numbers / sizeof *numbers, LARGE = 100000 };
 
 static void fill(sb_archive_out *out)
 {
-    sb_archive_begin(out, "TEST", 7);
     sb_archive_section(out, "first");
     sb_put_count(out, UINT64_MAX);
     sb_put_flag(out, true);
@@ -37,8 +38,10 @@ static char *bytes_of(size_t *length)
     sb_archive_out out = {0};
     sb_error error = {0};
     char *bytes;
+    assert_int_equal(sb_archive_create(&out, path, "TEST", 7, &error), SB_OK);
     fill(&out);
-    if (sb_archive_save(&out, path, &error) != SB_OK) fail_msg("%s", error.text);
+    if (sb_archive_close(&out, &error) != SB_OK) fail_msg("%s", error.text);
+    assert_null(out.bytes);
     sb_archive_out_free(&out);
     assert_int_equal(sb_file_read(path, 1 << 20, &bytes, length, &error), SB_OK);
     return bytes;
@@ -212,30 +215,139 @@ static void reading_otherwise_is_refused(void **state)
     sb_archive_in_free(&in);
 }
 
-static void without_memory_nothing_is_written(void **state)
+static double *large_list(void)
+{
+    double *large = sb_alloc(LARGE, sizeof *large);
+    assert_non_null(large);
+    for (int i = 0; i < LARGE; i++) large[i] = i;
+    return large;
+}
+
+/* Sections of no block, one block and several, to the byte, and lists that begin anywhere in one. */
+static void memory_and_file_are_the_same(void **state)
 {
     (void)state;
-    unlink(path);
+    static const size_t lengths[] = {0, SB_ARCHIVE_BLOCK - 17, SB_ARCHIVE_BLOCK - 16, 3 * SB_ARCHIVE_BLOCK, 400001};
+    static sb_archive_out out[2];
+    sb_archive_in in;
+    sb_error error = {0};
+    double *large = large_list();
+    sb_archive_begin(&out[0], "TEST", 7);
+    assert_int_equal(sb_archive_create(&out[1], path, "TEST", 7, &error), SB_OK);
+    for (int o = 0; o < 2; o++) {
+        for (size_t l = 0; l < sizeof lengths / sizeof *lengths; l++) {
+            sb_archive_section(&out[o], l % 2 ? "odd" : "even");
+            sb_put_list(&out[o], large, lengths[l], 1);
+            if (l == 4) sb_put_list(&out[o], large, LARGE / 2, sizeof *large);
+        }
+        assert_int_equal(sb_archive_close(&out[o], &error), SB_OK);
+    }
+    size_t length;
+    char *bytes;
+    assert_int_equal(sb_file_read(path, 1 << 24, &bytes, &length, &error), SB_OK);
+    assert_int_equal(length, out[0].used);
+    assert_int_equal(length, out[1].used);
+    assert_memory_equal(bytes, out[0].bytes, length);
+    assert_int_equal(sb_archive_parse(&in, "it", bytes, length, "TEST", 7, &error), SB_OK);
+    for (size_t at = 100; at < length; at += length / 50) { /* in every block */
+        bytes[at] ^= 4;
+        assert_int_equal(sb_archive_parse(&in, "it", bytes, length, "TEST", 7, &error), SB_BAD_INPUT);
+        bytes[at] ^= 4;
+    }
+    sb_free(bytes);
+    sb_free(large);
+    for (int o = 0; o < 2; o++) sb_archive_out_free(&out[o]);
+}
+
+static void without_memory_it_fails(void **state)
+{
+    (void)state;
+    double *large = large_list();
     for (long n = 1; n < 100; n++) {
         sb_archive_out out = {0};
         sb_error error = {0};
-        double *large = sb_alloc(LARGE, sizeof *large);
-        assert_non_null(large);
         sb_memory_fail_at(n);
+        sb_archive_begin(&out, "TEST", 7);
         fill(&out);
         sb_put_list(&out, large, LARGE, sizeof *large);
-        sb_status status = sb_archive_save(&out, path, &error);
+        sb_status status = sb_archive_close(&out, &error);
         sb_memory_fail_at(0);
-        sb_free(large);
         sb_archive_out_free(&out);
         if (status == SB_OK) {
             assert_true(n > 1);
+            sb_free(large);
             return;
         }
+        assert_int_equal(status, SB_FAILED);
         assert_non_null(strstr(error.text, "out of memory"));
-        assert_true(access(path, F_OK) != 0);
     }
     fail_msg("it never had memory enough");
+}
+
+static bool is_there(const char *suffix)
+{
+    char name[96];
+    snprintf(name, sizeof name, "%s%s", path, suffix);
+    return access(name, F_OK) == 0;
+}
+
+/* However large it is, a file needs no memory of its own. */
+static void a_file_needs_no_memory(void **state)
+{
+    (void)state;
+    sb_archive_out out = {0};
+    sb_error error = {0};
+    double *large = large_list();
+    unlink(path);
+    sb_memory_fail_at(1);
+    assert_int_equal(sb_archive_create(&out, path, "TEST", 7, &error), SB_OK);
+    fill(&out);
+    sb_put_list(&out, large, LARGE, sizeof *large);
+    const sb_status status = sb_archive_close(&out, &error);
+    sb_memory_fail_at(0);
+    assert_int_equal(status, SB_OK);
+    assert_true(is_there(""));
+    sb_archive_out_free(&out);
+    sb_free(large);
+}
+
+/* A disk that fills up: the one before stays, nothing half-written is left. One given up leaves nothing either. */
+static void a_full_disk_leaves_the_one_before(void **state)
+{
+    (void)state;
+    struct rlimit before, small;
+    size_t length, now;
+    char *bytes = bytes_of(&length), *found;
+    double *large = large_list();
+    sb_archive_out out = {0};
+    sb_error error = {0};
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
+    small = before;
+    signal(SIGXFSZ, SIG_IGN);
+    for (rlim_t most = 0; most < 200000; most += 40001) {
+        small.rlim_cur = most;
+        assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+        assert_int_equal(sb_archive_create(&out, path, "TEST", 7, &error), SB_OK);
+        fill(&out);
+        sb_put_list(&out, large, LARGE, sizeof *large);
+        sb_archive_section(&out, "more");
+        const sb_status status = sb_archive_close(&out, &error);
+        assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
+        assert_int_equal(status, SB_FAILED);
+        if (!strstr(error.text, "/a: cannot write: File too large")) fail_msg("%s", error.text);
+        assert_false(is_there(".tmp"));
+        assert_int_equal(sb_file_read(path, 1 << 20, &found, &now, &error), SB_OK);
+        assert_int_equal(now, length);
+        assert_memory_equal(found, bytes, length);
+        sb_free(found);
+    }
+    assert_int_equal(sb_archive_create(&out, path, "TEST", 7, &error), SB_OK);
+    fill(&out);
+    assert_true(is_there(".tmp"));
+    sb_archive_out_free(&out);
+    assert_true(is_there("") && !is_there(".tmp"));
+    sb_free(large);
+    sb_free(bytes);
 }
 
 static void a_place_that_cannot_be_written_is_named(void **state)
@@ -243,12 +355,12 @@ static void a_place_that_cannot_be_written_is_named(void **state)
     (void)state;
     sb_archive_out out = {0};
     sb_error error = {0};
-    fill(&out);
-    assert_int_equal(sb_archive_save(&out, "/nonexistent/a", &error), SB_FAILED);
+    assert_int_equal(sb_archive_create(&out, "/nonexistent/a", "TEST", 7, &error), SB_FAILED);
     assert_non_null(strstr(error.text, "/nonexistent/a: cannot write: No such file"));
     /* The next one is whole again. */
+    assert_int_equal(sb_archive_create(&out, path, "TEST", 7, &error), SB_OK);
     fill(&out);
-    assert_int_equal(sb_archive_save(&out, path, &error), SB_OK);
+    assert_int_equal(sb_archive_close(&out, &error), SB_OK);
     sb_archive_out_free(&out);
     sb_archive_in in;
     assert_int_equal(sb_archive_open(&in, path, "TEST", 7, &error), SB_OK);
@@ -259,9 +371,15 @@ static void a_place_that_cannot_be_written_is_named(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_written_is_read),           cmocka_unit_test(every_length_but_its_own_is_refused),
-        cmocka_unit_test(every_flipped_bit_is_refused),      cmocka_unit_test(reading_otherwise_is_refused),
-        cmocka_unit_test(without_memory_nothing_is_written), cmocka_unit_test(a_place_that_cannot_be_written_is_named),
+        cmocka_unit_test(what_is_written_is_read),
+        cmocka_unit_test(every_length_but_its_own_is_refused),
+        cmocka_unit_test(every_flipped_bit_is_refused),
+        cmocka_unit_test(reading_otherwise_is_refused),
+        cmocka_unit_test(memory_and_file_are_the_same),
+        cmocka_unit_test(without_memory_it_fails),
+        cmocka_unit_test(a_file_needs_no_memory),
+        cmocka_unit_test(a_full_disk_leaves_the_one_before),
+        cmocka_unit_test(a_place_that_cannot_be_written_is_named),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }
