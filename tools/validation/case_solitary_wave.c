@@ -235,7 +235,7 @@ static sb_status plot(const sb_case_run *runs, size_t count, sb_plot *plot, sb_e
 }
 
 static const sb_plan full[] = {{.resolution = 0.06, .paper = true},
-                               {.resolution = 0.03, .paper = true},
+                               {.resolution = 0.03, .paper = true, .seeds = 3},
                                {.resolution = 0.015, .judged = true, .seeds = 3},
                                {.resolution = 0}};
 static const sb_plan quick[] = {{.resolution = 0.06, .judged = true}, {.resolution = 0}};
