@@ -66,7 +66,10 @@ static void test_the_worst_seed_judges(void **state)
     assert_int_equal(j.seeds, SEEDS);
     assert_near(j.mean, 100, 1e-12);
     assert_near(j.worst, -3, 1e-12);
-    assert_near(j.spread, 5, 1e-12);
+    sb_seed_spread spread = sb_results_spread(&results, "v");
+    assert_near(spread.value, 5, 1e-12);
+    assert_near(spread.resolution, 1, 0);
+    assert_true(isnan(sb_results_spread(&results, "unheard of").value));
     assert_false(j.pass);
     assert_near(sb_results_judge(&results, 1).worst, 1, 1e-12); /* not -4 */
     size_t limited, passed;
@@ -77,7 +80,16 @@ static void test_the_worst_seed_judges(void **state)
     j = sb_results_judge(&results, 0);
     assert_int_equal(j.seeds, SEEDS - 1);
     assert_near(j.worst, 2, 1e-12);
-    for (int i = 1; i <= SEEDS; i++) sb_figures_free(&runs[i].figures);
+    /* With one seed where it is judged, the spread is that of the spacing that has more. */
+    coarse.judged = true;
+    plan.judged = false;
+    assert_int_equal(sb_figure_share(&runs[0].figures, "v", "", 100, 7, 100, 2.5, NULL, "%s", ""), SB_OK);
+    assert_ptr_equal(sb_results_judged(&results), &runs[0]);
+    assert_int_equal(sb_results_judge(&results, 0).seeds, 1);
+    spread = sb_results_spread(&results, "v");
+    assert_near(spread.value, 1, 1e-12); /* 101 and 102: of the other, another program's, nothing */
+    assert_near(spread.resolution, 1, 0);
+    for (int i = 0; i <= SEEDS; i++) sb_figures_free(&runs[i].figures);
 }
 
 /* The same mean as an integral, in shells: h = 1. */

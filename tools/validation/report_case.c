@@ -109,8 +109,8 @@ static bool has_column(const sb_result *r)
     return r->request.seed == 1;
 }
 
-/* seeds 0: a run that is not judged. */
-static void put_judgement(FILE *out, const sb_judgement *j)
+/* seeds 0: a run that is not judged. spread: as text. */
+static void put_judgement(FILE *out, const sb_judgement *j, const char *spread)
 {
     char text[48];
     sb_text_error(text, j->worst, j->figure->error_unit);
@@ -121,10 +121,20 @@ static void put_judgement(FILE *out, const sb_judgement *j)
         snprintf(text, sizeof text, "%.4g%s%s", j->figure->limit, j->figure->error_unit[0] ? " " : "",
                  j->figure->error_unit);
     put_cell(out, text);
-    sb_text_number(text, j->spread);
-    put_cell(out, text);
+    put_cell(out, spread);
     put_cell(out, isnan(j->figure->limit) ? "reported" : !j->seeds ? "not judged" : j->pass ? "pass" : "**FAIL**");
     fputc('\n', out);
+}
+
+/* The place is named where it is not the column that the errors are of. */
+static void put_spread(char *text, size_t room, sb_seed_spread spread, const sb_result *of)
+{
+    char number[48];
+    sb_text_number(number, spread.value);
+    if (isnan(spread.value) || spread.resolution == of->request.plan->resolution)
+        snprintf(text, room, "%s", number);
+    else
+        snprintf(text, room, "%s at %.6g m", number, spread.resolution);
 }
 
 /* One row per figure of this run: the judged one, or else the finest there is, whose errors are not judged. */
@@ -146,9 +156,8 @@ static void put_figures(FILE *out, const sb_case_results *results, const sb_resu
     fputc('\n', out);
     for (size_t i = 0; i < of->figures.count; i++) {
         const sb_figure *f = &of->figures.rows[i];
-        const sb_judgement j = sb_results_judged(results)
-                                   ? sb_results_judge(results, i)
-                                   : (sb_judgement){.figure = f, .worst = f->error, .spread = (double)NAN};
+        const sb_judgement j =
+            sb_results_judged(results) ? sb_results_judge(results, i) : (sb_judgement){.figure = f, .worst = f->error};
         fputc('|', out);
         put_cell(out, j.figure->quantity);
         put_cell(out, j.figure->unit);
@@ -156,7 +165,8 @@ static void put_figures(FILE *out, const sb_case_results *results, const sb_resu
         put_cell(out, text);
         for (size_t k = 0; k < results->count; k++)
             if (has_column(&results->runs[k])) put_value(out, &results->runs[k], j.figure);
-        put_judgement(out, &j);
+        put_spread(text, sizeof text, sb_results_spread(results, f->quantity), of);
+        put_judgement(out, &j, text);
     }
     fputc('\n', out);
 }
@@ -171,7 +181,7 @@ static void put_across(FILE *out, const sb_case_results *results)
           out);
     for (size_t i = 0; i < results->across.count; i++) {
         const sb_figure *f = &results->across.rows[i];
-        sb_judgement j = {.figure = f, .worst = f->error, .spread = (double)NAN, .pass = f->pass, .seeds = 1};
+        sb_judgement j = {.figure = f, .worst = f->error, .pass = f->pass, .seeds = 1};
         fputc('|', out);
         put_cell(out, f->quantity);
         put_cell(out, f->unit);
@@ -179,7 +189,7 @@ static void put_across(FILE *out, const sb_case_results *results)
         put_cell(out, text);
         sb_text_number(text, f->value);
         put_cell(out, text);
-        put_judgement(out, &j);
+        put_judgement(out, &j, "–");
     }
     fputc('\n', out);
 }

@@ -142,15 +142,13 @@ void sb_results_free(sb_case_results *results)
     *results = (sb_case_results){0};
 }
 
-static bool is_judged(const sb_result *r)
-{
-    return r->request.plan->judged && !r->request.paper && r->state == SB_RESULT_DONE;
-}
-
 const sb_result *sb_results_judged(const sb_case_results *results)
 {
-    for (size_t i = 0; i < results->count; i++)
-        if (is_judged(&results->runs[i]) && results->runs[i].request.seed == 1) return &results->runs[i];
+    for (size_t i = 0; i < results->count; i++) {
+        const sb_result *r = &results->runs[i];
+        if (r->request.plan->judged && !r->request.paper && r->request.seed == 1 && r->state == SB_RESULT_DONE)
+            return r;
+    }
     return NULL;
 }
 
@@ -178,26 +176,60 @@ static const char *build_of(const sb_result *r)
     return slash ? slash + 1 : r->run.folder;
 }
 
+/* Whether r is what `first` is, but for the seed, its own included. */
+static bool is_seed_of(const sb_result *r, const sb_result *first)
+{
+    return r->request.plan == first->request.plan && !r->request.paper && r->state == SB_RESULT_DONE &&
+           strcmp(build_of(r), build_of(first)) == 0;
+}
+
 sb_judgement sb_results_judge(const sb_case_results *results, size_t i)
 {
     const sb_result *judged = sb_results_judged(results);
     sb_judgement j = {.figure = &judged->figures.rows[i], .pass = true};
-    double sum = 0, low = (double)INFINITY, high = -(double)INFINITY;
+    double sum = 0;
     j.worst = j.figure->error;
     for (size_t k = 0; k < results->count; k++) {
-        if (!is_judged(&results->runs[k]) || strcmp(build_of(&results->runs[k]), build_of(judged)) != 0) continue;
+        if (!is_seed_of(&results->runs[k], judged)) continue;
         const sb_figure *f = sb_figures_find(&results->runs[k].figures, j.figure->quantity);
         if (!f) continue;
         sum += f->value;
-        low = f->value < low ? f->value : low;
-        high = f->value > high ? f->value : high;
         if (isnan(f->error) || size_of(f, f->error) > size_of(f, j.worst)) j.worst = f->error;
         j.pass = j.pass && f->pass;
         j.seeds++;
     }
     j.mean = sum / (double)j.seeds;
-    j.spread = j.seeds > 1 ? high - low : (double)NAN;
     return j;
+}
+
+/* Over the seeds of `first`, itself one of them. */
+static sb_seed_spread spread_of(const sb_case_results *results, const sb_result *first, const char *quantity)
+{
+    double low = (double)INFINITY, high = -(double)INFINITY;
+    size_t seeds = 0;
+    for (size_t k = 0; k < results->count; k++) {
+        if (!is_seed_of(&results->runs[k], first)) continue;
+        const sb_figure *f = sb_figures_find(&results->runs[k].figures, quantity);
+        if (!f) continue;
+        low = f->value < low ? f->value : low;
+        high = f->value > high ? f->value : high;
+        seeds++;
+    }
+    return (sb_seed_spread){seeds > 1 ? high - low : (double)NAN, first->request.plan->resolution};
+}
+
+sb_seed_spread sb_results_spread(const sb_case_results *results, const char *quantity)
+{
+    sb_seed_spread finest = {.value = (double)NAN};
+    for (size_t k = 0; k < results->count; k++) {
+        const sb_result *first = &results->runs[k];
+        if (first->request.seed != 1 || first->request.paper || first->state != SB_RESULT_DONE) continue;
+        const sb_seed_spread here = spread_of(results, first, quantity);
+        if (isnan(here.value)) continue;
+        finest = here;
+        if (first->request.plan->judged) break;
+    }
+    return finest;
 }
 
 void sb_results_count(const sb_case_results *results, size_t *limited, size_t *passed)

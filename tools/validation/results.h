@@ -31,16 +31,21 @@ typedef struct sb_case_results {
     char problem[640]; /* what kept those from being figured; "" */
 } sb_case_results;
 
-/* A figure where it is judged, over the seeds that were run by the first one's program: those of others say nothing
-   about the spread. */
+/* A figure where it is judged, over the seeds that were run by the first one's program: those of others say something
+   else. */
 typedef struct sb_judgement {
     const sb_figure *figure; /* of the first seed */
     double mean;             /* of the value */
     double worst;            /* the error largest in magnitude */
-    double spread;           /* largest minus smallest value; NaN with one seed */
     size_t seeds;
     bool pass; /* of every seed */
 } sb_judgement;
+
+/* How far the start decides: a figure over the seeds that one program ran at one spacing. */
+typedef struct sb_seed_spread {
+    double value;      /* largest minus smallest; NaN: nowhere more than one seed */
+    double resolution; /* m, there */
+} sb_seed_spread;
 
 /* The runs a case wants; free *requests with sb_free. */
 sb_status sb_case_requests(const sb_case *of, bool quick, sb_request **requests, size_t *count, sb_error *error);
@@ -61,6 +66,8 @@ const sb_result *sb_results_judged(const sb_case_results *results);
 const sb_result *sb_results_finest(const sb_case_results *results);
 /* The i-th figure of that run over its seeds. */
 sb_judgement sb_results_judge(const sb_case_results *results, size_t i);
+/* Of the figure of that name: where it is judged, or else at the finest spacing that has several seeds. */
+sb_seed_spread sb_results_spread(const sb_case_results *results, const char *quantity);
 /* Figures with a limit, those of several runs included, and how many of them pass. */
 void sb_results_count(const sb_case_results *results, size_t *limited, size_t *passed);
 
