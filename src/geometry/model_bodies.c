@@ -18,14 +18,15 @@ static int find_wavemaker(const sb_scene *scene, const char *body, const char *p
     return -1;
 }
 
-static sb_vec3 footprint_center(const sb_mesh *mesh)
+/* In 2D the plane y = 0 is all there is. */
+static sb_vec3 footprint_center(const sb_mesh *mesh, int dimensions)
 {
     sb_vec3 min = sb_vec(HUGE_VAL, HUGE_VAL, HUGE_VAL), max = sb_scale(min, -1);
     for (size_t i = 0; i < mesh->vertex_count; ++i) {
         min = sb_min(min, mesh->vertices[i]);
         max = sb_max(max, mesh->vertices[i]);
     }
-    return sb_vec(0.5 * (min.x + max.x), 0.5 * (min.y + max.y), min.z);
+    return sb_vec(0.5 * (min.x + max.x), dimensions == 2 ? 0 : 0.5 * (min.y + max.y), min.z);
 }
 
 static bool name_taken(const sb_model *model, const char *name)
@@ -57,7 +58,7 @@ static void describe(const sb_scene *scene, const sb_body *from, sb_model_body *
     body->role = from->role;
     body->report = from->report;
     body->wavemaker = find_wavemaker(scene, from->name, body->name);
-    body->moment_point = from->has_moment_point ? from->moment_point : footprint_center(&body->mesh);
+    body->moment_point = from->has_moment_point ? from->moment_point : footprint_center(&body->mesh, scene->dimensions);
     const float *color = from->role == SB_ROLE_TERRAIN ? terrain_color
                          : body->wavemaker >= 0        ? moving_color
                                                        : solid_color;

@@ -136,7 +136,7 @@ static void join_neighbours(sb_cloud *cloud, size_t s, double link)
         }
 }
 
-sb_status sb_cloud_keep_largest(sb_cloud *cloud, double link, sb_error *error)
+static sb_status keep_group(sb_cloud *cloud, double link, bool by_weight, sb_error *error)
 {
     if (cloud->count < 2) return SB_OK;
     sb_status status = sort_into_cells(cloud, link, error);
@@ -145,7 +145,7 @@ sb_status sb_cloud_keep_largest(sb_cloud *cloud, double link, sb_error *error)
     uint32_t largest = 0;
     for (size_t i = 0; i < cloud->count; i++) {
         uint32_t root = root_of(cloud->parents, (uint32_t)i);
-        cloud->sizes[root]++;
+        cloud->sizes[root] += by_weight ? cloud->samples[i].density : 1;
         if (cloud->sizes[root] > cloud->sizes[largest]) largest = root;
     }
     size_t kept = 0;
@@ -153,4 +153,14 @@ sb_status sb_cloud_keep_largest(sb_cloud *cloud, double link, sb_error *error)
         if (root_of(cloud->parents, (uint32_t)i) == largest) cloud->samples[kept++] = cloud->samples[i];
     cloud->count = kept;
     return SB_OK;
+}
+
+sb_status sb_cloud_keep_largest(sb_cloud *cloud, double link, sb_error *error)
+{
+    return keep_group(cloud, link, false, error);
+}
+
+sb_status sb_cloud_keep_heaviest(sb_cloud *cloud, double link, sb_error *error)
+{
+    return keep_group(cloud, link, true, error);
 }

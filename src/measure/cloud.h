@@ -17,7 +17,8 @@ typedef struct sb_cloud {
     sb_fluid_sample *samples;
     size_t slot_capacity, parent_capacity, size_capacity;
     sb_cloud_slot *slots;
-    uint32_t *parents, *sizes;
+    uint32_t *parents;
+    double *sizes;
 } sb_cloud;
 
 void sb_cloud_free(sb_cloud *cloud);
@@ -31,5 +32,8 @@ sb_status sb_cloud_query(sb_cloud *cloud, const sb_sim *sim, sb_vec3 min, sb_vec
 /* Keeps the largest group of particles connected by distances < link (m): spray goes, water stays.
    Order is kept. */
 sb_status sb_cloud_keep_largest(sb_cloud *cloud, double link, sb_error *error);
+
+/* The same for the group with the largest sum of .density, which the caller may have used for weights. */
+sb_status sb_cloud_keep_heaviest(sb_cloud *cloud, double link, sb_error *error);
 
 #endif

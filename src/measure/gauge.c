@@ -8,7 +8,7 @@
    horizontal stretch 1: 0.190, 0.219; 1.5: 0.108, 0.155; 2: 0.074, 0.130; the mean is below 0.004
    in all of them. A solitary wave 10 s high is flattened by 0.003 s at its crest. The threshold is
    half of what the column reaches, at most 1/2: beside a wall only a part of the kernel sees
-   water. */
+   water. Where decks or submerged bodies lie over the ground, the topmost that water stands on counts. */
 #include "measure/parts.h"
 
 #include <stdlib.h>
@@ -88,25 +88,48 @@ static double surface_of(const column *c)
     return low;
 }
 
-sb_status sb_gauge_read(const sb_sight *sight, double x, double y, double *eta, sb_error *error)
+/* The particles above `floor` that hang together where the gauge stands, sorted as a column; none of them when they are
+   drops. One layer has 8 or 64 in the kernel's footprint: */
+enum { LEAST_FLAT = 4, LEAST = 12 };
+
+static sb_status look(const sb_sight *sight, double x, double y, double floor, column *c, sb_error *error)
 {
     bool flat = sight->scene->dimensions == 2;
     double spacing = sight->scene->resolution, reach = 2 * STRETCH * spacing;
     sb_cloud *cloud = sight->cloud;
-    *eta = (double)NAN;
-    sb_vec3 min = sb_vec(x - reach, flat ? -spacing : y - reach, sight->min.z - spacing);
+    sb_vec3 min = sb_vec(x - reach, flat ? -spacing : y - reach, floor);
     sb_vec3 max = sb_vec(x + reach, flat ? spacing : y + reach, sight->max.z + spacing);
+    *c = (column){.spacing = spacing};
     sb_status status = sb_cloud_query(cloud, sight->sim, min, max, sight->lag, error);
-    if (status == SB_OK) status = sb_cloud_keep_largest(cloud, SB_LINK * spacing, error);
-    /* One layer has 8 or 64 in the kernel's footprint: so few are drops, not water. */
-    size_t least = flat ? 4 : 12;
-    if (status != SB_OK || cloud->count < least) return status;
-    for (size_t i = 0; i < cloud->count; i++) {
+    for (size_t i = 0; status == SB_OK && i < cloud->count; i++) {
         sb_fluid_sample *sample = &cloud->samples[i];
         sample->density = bspline((sample->position.x - x) / (STRETCH * spacing)) *
                           (flat ? 1 : bspline((sample->position.y - y) / (STRETCH * spacing)) / STRETCH) / STRETCH;
     }
+    if (status == SB_OK) status = sb_cloud_keep_heaviest(cloud, SB_LINK * spacing, error);
+    if (status != SB_OK || cloud->count < (size_t)(flat ? LEAST_FLAT : LEAST)) return status;
     qsort(cloud->samples, cloud->count, sizeof *cloud->samples, compare_heights);
-    *eta = surface_of(&(column){cloud->samples, cloud->count, spacing});
+    c->samples = cloud->samples;
+    c->count = cloud->count;
     return SB_OK;
+}
+
+/* Spacings above a floor within which the lowest layer of water that stands on it lies. */
+static const double FOOT = 1.5;
+
+sb_status sb_gauge_read(const sb_sight *sight, double x, double y, const sb_floors *floors, double *eta,
+                        sb_error *error)
+{
+    const double spacing = sight->scene->resolution;
+    const size_t storeys = floors->count > 1 ? floors->count : 1;
+    column c;
+    sb_status status = SB_OK;
+    *eta = (double)NAN;
+    for (size_t f = 0; status == SB_OK && isnan(*eta) && f < storeys; f++) {
+        const bool ground = f + 1 == storeys;
+        status = look(sight, x, y, ground ? sight->min.z - spacing : floors->z[f], &c, error);
+        if (status != SB_OK || c.count == 0) continue;
+        if (ground || c.samples[0].position.z < floors->z[f] + FOOT * spacing) *eta = surface_of(&c);
+    }
+    return status;
 }

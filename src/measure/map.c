@@ -17,7 +17,8 @@ struct sb_map_field {
     float *depth, *speed, *flux, *arrival, *start;
     cell_sum *sums;
     double spacing, threshold, pause, next;
-    double low[2], length[2]; /* m along x and y: of the domain, which repeats after length; 0: it does not */
+    double low[2], high[2]; /* m along x and y: of the domain */
+    double length[2];       /* m, after which it repeats; 0: it does not */
     bool flat;
 };
 
@@ -126,9 +127,20 @@ static void gather(sb_map_field *map, const sb_sim *sim)
     }
 }
 
-static float area_of(const sb_map_field *map)
+/* How much of the i-th cell from `start` on lies in the domain, m; all of it where none does. */
+static double width_in_domain(const sb_map_field *map, int axis, double start, size_t i)
 {
-    return (float)(map->flat ? map->result.cell : map->result.cell * map->result.cell);
+    const double cell = map->result.cell, from = start + (double)i * cell;
+    const double width = least(from + cell, map->high[axis]) - most(from, map->low[axis]);
+    return width > 1e-6 * cell ? width : cell;
+}
+
+/* Ground that water can stand on in a cell, bodies not looked at: m^2, in 2D m. */
+static float area_of(const sb_map_field *map, size_t i)
+{
+    const sb_map_record *grid = &map->result;
+    const double x = width_in_domain(map, 0, grid->x_min, i % grid->columns);
+    return (float)(map->flat ? x : x * width_in_domain(map, 1, grid->y_min, i / grid->columns));
 }
 
 static void raise(float *value, float to)
@@ -141,10 +153,10 @@ static void raise(float *value, float to)
 static void record(sb_map_field *map, double time)
 {
     size_t cells = map->result.columns * map->result.rows;
-    float area = area_of(map), least = (float)(0.5 * map->spacing);
+    const float least = (float)(0.5 * map->spacing);
     for (size_t i = 0; i < cells; i++) {
         const cell_sum *sum = &map->sums[i];
-        float depth = sum->volume / area;
+        const float area = area_of(map, i), depth = sum->volume / area;
         if (depth > 0) raise(&map->depth[i], depth);
         if (depth >= least) {
             raise(&map->speed[i], hypotf(sum->x, sum->y) / sum->volume);
@@ -183,6 +195,8 @@ sb_status sb_map_create(const sb_sight *sight, sb_map_field **map, sb_error *err
                                    .cell = wish->cell};
     made->low[0] = sight->min.x;
     made->low[1] = sight->min.y;
+    made->high[0] = sight->max.x;
+    made->high[1] = sight->max.y;
     for (int axis = 0; axis < 2; axis++) made->length[axis] = sb_repeat_length(scene, sight->min, sight->max, axis);
     sb_status status = allocate(made, error);
     if (status != SB_OK) {
@@ -201,7 +215,7 @@ sb_status sb_map_create(const sb_sight *sight, sb_map_field **map, sb_error *err
     double time = sb_sim_report(sight->sim)->time;
     gather(made, sight->sim);
     for (size_t i = 0; i < made->result.columns * made->result.rows; i++)
-        made->start[i] = made->sums[i].volume / area_of(made);
+        made->start[i] = made->sums[i].volume / area_of(made, i);
     record(made, time);
     made->next = time + made->pause;
     *map = made;

@@ -78,7 +78,8 @@ static sb_status record_instants(sb_measure *measure, const sb_sight *sight, dou
         if (!record) return sb_fail_memory(error, "gauge records");
         record->gauge = i;
         record->time = time;
-        status = sb_gauge_read(sight, settings->gauges[i].x, settings->gauges[i].y, &record->eta, error);
+        status = sb_gauge_read(sight, settings->gauges[i].x, settings->gauges[i].y, &measure->floors[i], &record->eta,
+                               error);
     }
     for (size_t i = 0; status == SB_OK && i < settings->probe_count; i++) {
         sb_probe_record *record = append(measure, PROBES);
@@ -191,6 +192,13 @@ static sb_status prepare_fields(sb_measure *measure, const sb_sight *sight, sb_e
         measure->gates = sb_alloc(settings->plane_count, sizeof(sb_gate *));
         if (!measure->planes || !measure->gates) return sb_fail_memory(error, "measure.planes");
     }
+    if (settings->gauge_count) {
+        measure->floors = sb_alloc(settings->gauge_count, sizeof *measure->floors);
+        if (!measure->floors) return sb_fail_memory(error, "measure.gauges");
+    }
+    for (size_t i = 0; status == SB_OK && i < settings->gauge_count; i++)
+        status = sb_floors_find(measure->scene, measure->model, settings->gauges[i].x, settings->gauges[i].y,
+                                &measure->floors[i], error);
     if (settings->probe_count) {
         measure->patches = sb_alloc(settings->probe_count, sizeof(sb_patch *));
         if (!measure->patches) return sb_fail_memory(error, "measure.probes");
@@ -238,6 +246,9 @@ void sb_measure_destroy(sb_measure *measure)
     for (int k = 0; k < LISTS; k++) sb_free(measure->lists[k].items);
     for (size_t i = 0; measure->patches && i < measure->scene->measure.probe_count; i++)
         sb_patch_destroy(measure->patches[i]);
+    for (size_t i = 0; measure->floors && i < measure->scene->measure.gauge_count; i++)
+        sb_floors_free(&measure->floors[i]);
+    sb_free(measure->floors);
     sb_free(measure->patches);
     sb_free(measure->gates);
     sb_free(measure->planes);

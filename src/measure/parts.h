@@ -3,6 +3,7 @@
 #define SB_MEASURE_PARTS_H
 
 #include "measure/cloud.h"
+#include "measure/floors.h"
 #include "measure/records.h"
 
 /* Where and when to look: shared by all of them. */
@@ -25,8 +26,9 @@ static inline double sb_repeat_length(const sb_scene *scene, sb_vec3 min, sb_vec
    1.41, the next shell at 1.73 would bridge a missing layer. */
 #define SB_LINK 1.5
 
-/* Elevation of the free surface above (x, y) in m, NaN when dry. See gauge.c for the choice. */
-sb_status sb_gauge_read(const sb_sight *sight, double x, double y, double *eta, sb_error *error);
+/* Elevation of the free surface above (x, y) in m, NaN when dry; floors: of that place. See gauge.c for the choice. */
+sb_status sb_gauge_read(const sb_sight *sight, double x, double y, const sb_floors *floors, double *eta,
+                        sb_error *error);
 
 /* The wall around a probe: see patch.h. */
 typedef struct sb_patch sb_patch;

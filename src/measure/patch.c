@@ -11,17 +11,29 @@
 #include "base/memory.h"
 #include "physics/wall_volume.h"
 
+/* What a boundary particle around is to the patch. */
+enum wall_part {
+    SHEET,  /* of the sheet under the probe */
+    ROUND,  /* of the round by which that turns into a wall across, within which it lies */
+    BEHIND, /* of the far side of a plate, which bears its share of what pushes on the near one if the plate is thin */
+    ACROSS, /* of a wall that the sheet runs into */
+    APART
+};
+
 /* weight > 0: belongs to the patch. psi in kg. */
 typedef struct patch_wall {
     sb_vec3 position, normal;
     double psi, weight;
+    enum wall_part part;
 } patch_wall;
 
 struct sb_patch {
     bool on_wall;
     double spacing, first_layer; /* m */
+    double offset;               /* m, from a sheet of boundary particles to the face that they stand for */
     double area;                 /* integral of the weight over the patch's surface, m^2 (m in 2D) */
-    sb_vec3 normal;
+    sb_vec3 normal, center;      /* of the disk, in the sheet */
+    sb_vec3 outlook;
     size_t count, capacity;
     patch_wall *walls;
 };
@@ -47,6 +59,11 @@ size_t sb_patch_bytes(const sb_patch *patch)
 bool sb_patch_on_wall(const sb_patch *patch)
 {
     return patch->on_wall;
+}
+
+sb_vec3 sb_patch_outlook(const sb_patch *patch)
+{
+    return patch->outlook;
 }
 
 bool sb_patch_first_layer(const sb_patch *patch, sb_vec3 position)
@@ -102,13 +119,38 @@ static sb_status collect(sb_patch *patch, const sb_scene *scene, const sb_model 
     return SB_OK;
 }
 
+/* How many others around lie in the plane of one. */
+static size_t mates_of(const sb_patch *patch, const patch_wall *wall)
+{
+    const double s = patch->spacing;
+    size_t count = 0;
+    for (size_t k = 0; k < patch->count; k++) {
+        const sb_vec3 d = sb_sub(patch->walls[k].position, wall->position);
+        count += sb_norm(d) < 2.5 * s && fabs(sb_dot(d, wall->normal)) < 0.3 * s &&
+                 sb_dot(patch->walls[k].normal, wall->normal) > 0.98;
+    }
+    return count;
+}
+
+/* The nearest boundary particle; where that is one of the round of an edge, one of the face beside it. */
 static const patch_wall *nearest_wall(const sb_patch *patch, sb_vec3 at)
 {
-    const patch_wall *best = NULL;
+    const patch_wall *best = NULL, *plane = NULL;
     for (size_t i = 0; i < patch->count; i++)
         if (!best || sb_norm(sb_sub(patch->walls[i].position, at)) < sb_norm(sb_sub(best->position, at)))
             best = &patch->walls[i];
-    return best;
+    if (!best) return NULL;
+    const double reach = sb_norm(sb_sub(best->position, at)) + 0.5 * patch->spacing;
+    size_t most = 2 * mates_of(patch, best);
+    for (size_t i = 0; i < patch->count; i++) {
+        const patch_wall *wall = &patch->walls[i];
+        const sb_vec3 d = sb_sub(at, wall->position);
+        if (sb_norm(d) > reach || fabs(sb_dot(d, wall->normal) - patch->offset) > 0.25 * patch->spacing) continue;
+        if (mates_of(patch, wall) <= most) continue;
+        most = mates_of(patch, wall);
+        plane = wall;
+    }
+    return plane ? plane : best;
 }
 
 static double bell(double q)
@@ -116,8 +158,81 @@ static double bell(double q)
     return q < 1 ? (1 - q * q) * (1 - q * q) : 0;
 }
 
-/* Integral of the weight over that part of the disk about `center` which has boundary particles. */
-static double covered_area(const sb_patch *patch, sb_vec3 center, double radius, bool flat)
+/* ---- which boundary particles bear what pushes on the patch ---- */
+
+static double height_over_sheet(const sb_patch *patch, sb_vec3 at)
+{
+    return sb_dot(sb_sub(at, patch->center), patch->normal);
+}
+
+/* Whether the surface that a boundary particle belongs to comes out of the sheet: others of it lie before. */
+static bool comes_out(const sb_patch *patch, const patch_wall *wall)
+{
+    for (size_t k = 0; k < patch->count; k++)
+        if (sb_dot(patch->walls[k].normal, wall->normal) > 0.9 &&
+            height_over_sheet(patch, patch->walls[k].position) > 0.25 * patch->spacing)
+            return true;
+    return false;
+}
+
+static enum wall_part part_of(const sb_patch *patch, const patch_wall *wall)
+{
+    const double height = height_over_sheet(patch, wall->position), s = patch->spacing;
+    if (sb_dot(wall->normal, patch->normal) > 0.9) return fabs(height) < 0.3 * s ? SHEET : APART;
+    if (sb_norm(wall->normal) < 0.5) return APART;
+    if (comes_out(patch, wall)) return ACROSS;
+    const double likeness = sb_dot(wall->normal, patch->normal);
+    if (likeness > 0.05 && height < 0.8 * s) return ROUND;
+    return height < 0.3 * s && sb_dot(wall->normal, patch->normal) < -0.5 ? BEHIND : APART;
+}
+
+/* The boundary particle of a wall across that is nearest to a place on the face, and reaches it; NULL: none does. */
+static const patch_wall *nearest_across(const sb_patch *patch, sb_vec3 at)
+{
+    const patch_wall *best = NULL;
+    double reach = 2.5 * patch->spacing;
+    for (size_t k = 0; k < patch->count; k++) {
+        const double distance = sb_norm(sb_sub(patch->walls[k].position, at));
+        if (patch->walls[k].part != ACROSS || distance >= reach) continue;
+        best = &patch->walls[k];
+        reach = distance;
+    }
+    return best;
+}
+
+/* How far a place on the face lies within a wall across, m; 0 or less: before it, where water can be. */
+static double depth_within(const sb_patch *patch, const patch_wall *across, sb_vec3 at)
+{
+    return patch->offset - sb_dot(sb_sub(at, across->position), across->normal);
+}
+
+/* A place on the face, or if it lies nearer than `off` to a wall across or within it, the nearest on the face that does
+   not. Two walls make a corner. */
+static sb_vec3 out_of_walls(const sb_patch *patch, sb_vec3 at, double off)
+{
+    for (int turn = 0; turn < 3; turn++) {
+        const patch_wall *across = nearest_across(patch, at);
+        const double depth = across ? depth_within(patch, across, at) + off : 0;
+        if (!(depth > 1e-6 * patch->spacing)) return at;
+        const sb_vec3 n = across->normal, along = sb_madd(n, -sb_dot(n, patch->normal), patch->normal);
+        at = sb_madd(at, depth / sb_dot(along, along), along);
+    }
+    return at;
+}
+
+static sb_vec3 onto_face(const sb_patch *patch, sb_vec3 sheet)
+{
+    return sb_madd(sheet, patch->offset, patch->normal);
+}
+
+static bool is_within(const sb_patch *patch, sb_vec3 at)
+{
+    const patch_wall *across = nearest_across(patch, at);
+    return across && depth_within(patch, across, at) > 0;
+}
+
+/* Integral of the weight over that part of the disk which has boundary particles and lies before walls across. */
+static double covered_area(const sb_patch *patch, double radius, bool flat)
 {
     enum { HALF = 16 };
     sb_vec3 n = patch->normal;
@@ -128,33 +243,48 @@ static double covered_area(const sb_patch *patch, sb_vec3 center, double radius,
     for (int j = -rows; j <= rows; j++)
         for (int i = -HALF; i <= HALF; i++) {
             double weight = bell(hypot(i, j) / HALF);
-            sb_vec3 at = sb_madd(sb_madd(center, i * cell, u), j * cell, v);
+            sb_vec3 at = sb_madd(sb_madd(patch->center, i * cell, u), j * cell, v);
             bool covered = false;
             for (size_t k = 0; k < patch->count && weight > 0 && !covered; k++)
-                covered = patch->walls[k].weight > 0 && sb_norm(sb_sub(patch->walls[k].position, at)) < limit;
-            sum += covered ? weight : 0;
+                covered = patch->walls[k].part == SHEET && patch->walls[k].weight > 0 &&
+                          sb_norm(sb_sub(patch->walls[k].position, at)) < limit;
+            if (!covered) continue;
+            const patch_wall *across = nearest_across(patch, onto_face(patch, at));
+            /* A cell that the wall cuts counts by half. */
+            const double depth = across ? depth_within(patch, across, onto_face(patch, at)) : -cell;
+            sum += depth > 0.25 * cell ? 0 : depth > -0.25 * cell ? 0.5 * weight : weight;
         }
     return sum * (flat ? cell : cell * cell);
+}
+
+/* Those within a wall across bear what pushes before it. */
+static double weight_of(const sb_patch *patch, const patch_wall *wall, double radius)
+{
+    sb_vec3 place = wall->position;
+    if (wall->part != SHEET) place = sb_madd(place, -height_over_sheet(patch, place), patch->normal);
+    place = sb_madd(out_of_walls(patch, onto_face(patch, place), 0), -patch->offset, patch->normal);
+    /* The radius may exceed that of the disk a little: coverage looks 0.75 spacings far. */
+    return bell(sb_norm(sb_sub(place, patch->center)) / radius);
 }
 
 /* Chooses the particles of the patch and their weights. The disk lies in the particles' sheet. */
 static void choose(sb_patch *patch, const sb_scene *scene, sb_vec3 at, double radius)
 {
     const patch_wall *nearest = nearest_wall(patch, at);
-    double s = patch->spacing, limit = (scene->numerics.wall_offset + 0.5) * s;
+    double s = patch->spacing, limit = patch->offset + 0.5 * s;
     if (!nearest || sb_norm(nearest->normal) < 0.5) return;
-    sb_vec3 n = nearest->normal, center;
-    double height = sb_dot(sb_sub(at, nearest->position), n);
-    center = sb_madd(at, -height, n);
-    if (height < -0.5 * s || height > limit || sb_norm(sb_sub(center, nearest->position)) > 0.8 * s) return;
-    patch->normal = n;
+    const double height = sb_dot(sb_sub(at, nearest->position), nearest->normal);
+    patch->normal = nearest->normal;
+    patch->center = sb_madd(at, -height, nearest->normal);
+    if (height < -0.5 * s || height > limit || sb_norm(sb_sub(patch->center, nearest->position)) > 1.1 * s) return;
+    for (size_t i = 0; i < patch->count; i++) patch->walls[i].part = part_of(patch, &patch->walls[i]);
     for (size_t i = 0; i < patch->count; i++) {
         patch_wall *wall = &patch->walls[i];
-        sb_vec3 d = sb_sub(wall->position, center);
-        /* The radius may exceed that of the disk a little: coverage looks 0.75 spacings far. */
-        if (sb_dot(wall->normal, n) > 0.9 && fabs(sb_dot(d, n)) < 0.3 * s) wall->weight = bell(sb_norm(d) / radius);
+        if (wall->part == ROUND && !is_within(patch, onto_face(patch, wall->position))) wall->part = APART;
+        if (wall->part != ACROSS && wall->part != APART) wall->weight = weight_of(patch, wall, radius);
     }
-    patch->area = covered_area(patch, center, radius, scene->dimensions == 2);
+    patch->outlook = out_of_walls(patch, at, 0.5 * s);
+    patch->area = covered_area(patch, radius, scene->dimensions == 2);
     patch->on_wall = patch->area > 0;
 }
 
@@ -189,6 +319,8 @@ sb_status sb_patch_create(const sb_scene *scene, const sb_model *model, const sb
     double support = scene->numerics.support * scene->resolution;
     double radius = probe->radius > 0 ? probe->radius : PATCH_RADIUS * scene->resolution;
     made->spacing = scene->resolution;
+    made->offset = scene->numerics.wall_offset * scene->resolution;
+    made->outlook = probe->at;
     made->first_layer = (scene->numerics.wall_offset + FIRST_LAYER) * scene->resolution;
     sb_status status =
         collect(made, scene, model, probe->at, 1.5 * fmax(radius, support) + support + scene->resolution, error);
@@ -207,11 +339,12 @@ static double push_of(const sb_patch *patch, const sb_scene *scene, const sb_flu
 {
     const sb_numerics *n = &scene->numerics;
     double h = n->support * scene->resolution, sum = 0;
+    const bool before = height_over_sheet(patch, sample->position) > 0;
     for (size_t i = 0; i < patch->count; i++) {
         const patch_wall *wall = &patch->walls[i];
         sb_vec3 d = sb_sub(sample->position, wall->position);
         double height = sb_dot(d, patch->normal), r = sb_norm(d);
-        if (wall->weight > 0 && height > 0 && r < h)
+        if (wall->weight > 0 && height > 0 && r < h && (wall->part != BEHIND || before))
             sum -= wall->weight * wall->psi * height / r * sb_kernel_slope(n->kernel, scene->dimensions, h, r);
     }
     return sum * sample->push;

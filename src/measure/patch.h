@@ -13,6 +13,10 @@ size_t sb_patch_bytes(const sb_patch *patch);
 
 bool sb_patch_on_wall(const sb_patch *patch);
 
+/* Where water shows whether the probe is wet: the probe, but half a spacing out of the walls that the patch runs into.
+ */
+sb_vec3 sb_patch_outlook(const sb_patch *patch);
+
 /* Mean pressure over the patch: the force of the last step on it, by the formula of the simulation,
    over its area [A12, eq. 10]. In Pa; uses the sight's cloud. */
 sb_status sb_patch_pressure(const sb_patch *patch, const sb_sight *sight, double *pressure, sb_error *error);

@@ -70,21 +70,22 @@ static void fit(const sb_sight *sight, sb_vec3 at, double radius, bool linear, d
 }
 
 /* Keeps particles within the radius, their kernel weight going to .density. False: dry. */
-static bool weigh(const sb_sight *sight, const sb_probe *probe, double radius)
+static bool weigh(const sb_sight *sight, const sb_probe *probe, const sb_patch *patch, double radius)
 {
     sb_cloud *cloud = sight->cloud;
+    const sb_vec3 outlook = sb_patch_outlook(patch);
     double nearest = radius, spacing = sight->scene->resolution;
     size_t kept = 0;
     for (size_t i = 0; i < cloud->count; i++) {
         sb_fluid_sample sample = cloud->samples[i];
         double distance = sb_norm(sb_sub(sample.position, probe->at));
         if (distance >= radius) continue;
-        nearest = distance < nearest ? distance : nearest;
+        nearest = fmin(nearest, sb_norm(sb_sub(sample.position, outlook)));
         sample.density = sight->scene->numerics.kernel->shape(distance / radius);
         cloud->samples[kept++] = sample;
     }
     cloud->count = kept;
-    /* In a corner of walls the nearest lattice point is 0.87 spacings away, on a wall 0.5..0.87;
+    /* In a corner of walls the nearest lattice point is 0.87 spacings away, on a wall 0.5..0.87, from the outlook less;
        farther off, the probe looks out of the water. One or two particles are a drop. */
     return kept > (size_t)sight->scene->dimensions - 1 && nearest < 1.1 * spacing;
 }
@@ -142,14 +143,14 @@ static sb_status read_pressure(const sb_sight *sight, const sb_probe *probe, con
         double far = WIDENED * radius;
         sb_status status = look(sight, probe->at, far, error);
         if (status != SB_OK) return status;
-        bool wet = weigh(sight, probe, far);
+        bool wet = weigh(sight, probe, patch, far);
         drop_first_layer(sight->cloud, patch);
         if (wet && sight->cloud->count > (size_t)sight->scene->dimensions) {
             *pressure = pressure_at(sight, probe->at, far, false);
             return SB_OK;
         }
         status = look(sight, probe->at, radius, error);
-        if (status != SB_OK || !weigh(sight, probe, radius)) return status;
+        if (status != SB_OK || !weigh(sight, probe, patch, radius)) return status;
     }
     *pressure = pressure_at(sight, probe->at, radius, true);
     return SB_OK;
@@ -163,7 +164,7 @@ sb_status sb_probe_read(const sb_sight *sight, const sb_probe *probe, const sb_p
     *velocity = sb_vec((double)NAN, (double)NAN, (double)NAN);
     *pressure = (double)NAN;
     sb_status status = look(sight, probe->at, radius, error);
-    if (status != SB_OK || !weigh(sight, probe, radius)) return status;
+    if (status != SB_OK || !weigh(sight, probe, patch, radius)) return status;
     *velocity = velocity_at(sight, probe->at, radius);
     if (sb_patch_on_wall(patch)) return sb_patch_pressure(patch, sight, pressure, error);
     return read_pressure(sight, probe, patch, radius, pressure, error);

@@ -36,6 +36,7 @@ struct sb_measurements {
     sb_body_record *bodies;
     plane_state *planes;
     sb_gate **gates;
+    sb_floors *floors;  /* one per gauge */
     sb_patch **patches; /* one per probe */
     sb_map_field *map;
     sb_cloud cloud;

@@ -14,7 +14,7 @@ static double read_at(fake_world *world, double x, double y)
     sb_sight sight = fake_sight(world);
     sb_error error = {0};
     double eta;
-    assert_int_equal(sb_gauge_read(&sight, x, y, &eta, &error), SB_OK);
+    assert_int_equal(sb_gauge_read(&sight, x, y, &(sb_floors){0}, &eta, &error), SB_OK);
     return eta;
 }
 
