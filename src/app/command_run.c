@@ -26,8 +26,9 @@ static void default_out(char out[SB_PATH_MAX], const char *scene)
 {
     const char *slash = strrchr(scene, '/');
     const char *name = slash ? slash + 1 : scene;
-    size_t length = strcspn(name, ".");
-    snprintf(out, SB_PATH_MAX, "runs/%.*s", (int)(length ? length : strlen(name)), name);
+    const char *ending = strrchr(name, '.');
+    const bool is_scene = ending && ending > name && (strcmp(ending, ".yaml") == 0 || strcmp(ending, ".yml") == 0);
+    snprintf(out, SB_PATH_MAX, "runs/%.*s", (int)(is_scene ? (size_t)(ending - name) : strlen(name)), name);
 }
 
 static int exit_status(sb_status status)

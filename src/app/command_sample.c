@@ -6,6 +6,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 static const char help[] =
     "usage: shorebreak sample SCENE --out FILE.vtp [--preset NAME] [--set KEY=VALUE]... [--threads N]\n"
@@ -41,6 +42,15 @@ done:
     return status;
 }
 
+/* One slip of the keyboard must not cost a scene. */
+static sb_status keep_scene(const char *scene, const char *out, sb_error *error)
+{
+    struct stat from, to;
+    if (stat(scene, &from) != 0 || stat(out, &to) != 0 || from.st_dev != to.st_dev || from.st_ino != to.st_ino)
+        return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT, "--out %.500s: is the scene itself, expected another file", out);
+}
+
 int sb_command_sample(int count, char **arguments)
 {
     sb_options options;
@@ -55,6 +65,7 @@ int sb_command_sample(int count, char **arguments)
     }
     if (status == SB_OK && !options.out) status = sb_fail(&error, SB_BAD_INPUT, "sample: no --out FILE.vtp given");
     if (status == SB_OK) status = sb_options_scene(&options, options.positional, &scene, &error);
+    if (status == SB_OK) status = keep_scene(options.positional, options.out, &error);
     if (status == SB_OK) status = sb_model_build(&scene, &model, &error);
     if (status == SB_OK) status = write_model(&model, options.out, &error);
     if (status == SB_OK)

@@ -46,7 +46,7 @@ static sb_status open_directory(run *r, bool *resume, sb_error *error)
     return status == SB_OK ? look_for_checkpoints(r, resume, error) : status;
 }
 
-/* The files of an earlier run go once there is a model to run, unless this one goes on with them. */
+/* The files of an earlier run go once there is a simulation to run, unless this one goes on with them. */
 static sb_status take_directory(run *r, bool resume, sb_error *error)
 {
     char path[SB_PATH_MAX];
@@ -130,6 +130,14 @@ static sb_status build_model(run *r, bool resume, sb_error *error)
     return r->checkpoints.on || resume ? sb_checkpoint_identify(r, error) : SB_OK;
 }
 
+/* And what else would keep a new run from its first step, as long as an earlier one's files are there. */
+static sb_status make_simulation(run *r, bool resume, sb_error *error)
+{
+    sb_status status = sb_sim_create(r->scene, &r->model, &r->sim, error);
+    if (status == SB_OK && !resume) status = sb_sim_check_start(r->sim, error);
+    return status == SB_OK && !resume ? sb_run_unobstructed(r, error) : status;
+}
+
 static void note_start(run *r)
 {
     sb_run_say(r, "%zu fluid and %zu boundary particles, %zu bodies", r->model.fluid_count, r->model.wall_count,
@@ -165,18 +173,22 @@ static sb_status begin(run *r, sb_error *error)
     return status;
 }
 
+/* Nothing to report on, and what is there stays as it is. */
+static sb_status give_up(run *r, sb_status status)
+{
+    sb_measure_destroy(r->measure);
+    sb_sim_destroy(r->sim);
+    r->measure = NULL;
+    r->sim = NULL;
+    return status;
+}
+
 /* The state of a checkpoint, and the files as they were when it was written. */
 static sb_status go_on(run *r, sb_error *error)
 {
     sb_status status = sb_measure_create(r->scene, &r->model, r->sim, &r->measure, error);
     if (status == SB_OK) status = sb_checkpoint_load(r, error);
-    if (status != SB_OK) { /* nothing to report on, and what is there stays as it is */
-        sb_measure_destroy(r->measure);
-        sb_sim_destroy(r->sim);
-        r->measure = NULL;
-        r->sim = NULL;
-        return status;
-    }
+    if (status != SB_OK) return give_up(r, status);
     sb_model_forget_particles(&r->model);
     r->setup_seconds = sb_progress_wall(&r->progress);
     const sb_step_report *report = sb_sim_report(r->sim);
@@ -198,11 +210,11 @@ sb_status sb_run_start(run *r, bool resume, sb_error *error)
 {
     sb_status status = open_directory(r, &resume, error);
     if (status == SB_OK) status = build_model(r, resume, error);
+    if (status == SB_OK) status = make_simulation(r, resume, error);
     if (status == SB_OK) status = take_directory(r, resume, error);
     name_consumers(r);
     if (status == SB_OK && !resume) status = start_consumers(r, error);
-    if (status == SB_OK) status = sb_sim_create(r->scene, &r->model, &r->sim, error);
-    if (status != SB_OK) return status;
+    if (status != SB_OK) return give_up(r, status);
     sb_model_forget_start(&r->model);
     if (resume) return go_on(r, error);
     note_start(r);

@@ -45,6 +45,10 @@ struct run {
    where there are checkpoints, from the newest that can be used. */
 sb_status sb_run_start(run *r, bool resume, sb_error *error);
 
+/* run_clear.c: whether a new run could write what it writes first: nothing of another kind is in the place of a file,
+   and none of them is the scene that it was given. SB_BAD_INPUT or SB_FAILED says which. */
+sb_status sb_run_unobstructed(const run *r, sb_error *error);
+
 /* run_clear.c: removes what an earlier run has left in the directory, checkpoints first: files of this program's names
    only, no links, and the folders that are empty then. */
 sb_status sb_run_clear(run *r, sb_error *error);

@@ -292,6 +292,9 @@ typedef struct sb_override {
 sb_status sb_scene_read(const char *path, const char *preset_name, const sb_override *overrides, size_t override_count,
                         sb_scene *scene, sb_error *error);
 
+/* How the first line of such a scene begins. */
+#define SB_SCENE_WRITTEN "# A scene as shorebreak"
+
 /* Writes the scene with every default, so that reading it gives the same scene. Paths absolute. */
 sb_status sb_scene_write(const sb_scene *scene, const char *path, sb_error *error);
 

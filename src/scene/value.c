@@ -98,6 +98,20 @@ static sb_status read_switch(sb_reader *reader, const sb_yaml *node, const sb_ke
     return SB_OK;
 }
 
+/* What is told to a terminal gives it no orders: none of the control characters of ASCII but the tab, nor those from
+   U+0080 to U+009F. */
+static sb_status want_one_line(sb_reader *reader, const sb_yaml *node)
+{
+    const unsigned char *c = (const unsigned char *)node->text;
+    for (; *c; c++) {
+        const bool high = c[0] == 0xc2 && c[1] >= 0x80 && c[1] < 0xa0;
+        if (high || (*c < ' ' && *c != '\t') || *c == 127)
+            return sb_reader_fail(reader, node, NULL, "holds the control character %d, expected text on one line",
+                                  high ? c[1] : c[0]);
+    }
+    return SB_OK;
+}
+
 static sb_status copy_text(sb_reader *reader, const char *text, char **value)
 {
     *value = sb_strdup(text);
@@ -258,6 +272,7 @@ sb_status sb_reader_value(sb_reader *reader, const sb_yaml *node, const sb_key *
         return read_word(reader, node, key, field);
     case SB_KEY_TEXT: {
         sb_status status = want_scalar(reader, node, key);
+        if (status == SB_OK) status = want_one_line(reader, node);
         return status == SB_OK ? copy_text(reader, node->text, field) : status;
     }
     case SB_KEY_BLOCK:

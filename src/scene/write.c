@@ -265,7 +265,7 @@ sb_status sb_scene_write(const sb_scene *scene, const char *path, sb_error *erro
     sb_status status = sb_atomic_open(&file, path, error);
     if (status != SB_OK) return status;
     writer out = {.stream = file.stream};
-    fputs("# A scene as shorebreak " SB_VERSION " understood it, every default written out.\n", file.stream);
+    fputs(SB_SCENE_WRITTEN " " SB_VERSION " understood it, every default written out.\n", file.stream);
     put_rows(&out, &sb_scene_table, scene);
     if (out.unwritable) {
         sb_atomic_abort(&file);

@@ -55,7 +55,8 @@ static double viscous_step(const sb_sim *sim)
     return nu > 0 ? VISCOUS_STEP * spacing * spacing / nu : (double)INFINITY;
 }
 
-sb_status sb_stage_time_step(sb_sim *sim, sb_error *error)
+/* By speed, waves and viscosity, and what the scene allows at most. */
+static double step_of(const sb_sim *sim)
 {
     const sb_numerics *n = &sim->scene->numerics;
     double h = (double)sim->constant.support, g = (double)sim->constant.gravity;
@@ -63,17 +64,37 @@ sb_status sb_stage_time_step(sb_sim *sim, sb_error *error)
                                                            : n->time_step_factor * h / (double)sim->constant.wave_speed;
     if (sim->settling == SB_DAMPED) bound *= SETTLE_STEP;
     double dt = fmin(fmin(cfl_step(sim, top_speed(sim)), bound), viscous_step(sim));
-    if (n->time_step_max > 0) dt = fmin(dt, n->time_step_max);
+    return n->time_step_max > 0 ? fmin(dt, n->time_step_max) : dt;
+}
+
+static double least_step(const sb_sim *sim)
+{
+    return 0.5 * sim->space.quantum / (SLOWEST * (double)sim->constant.wave_speed);
+}
+
+sb_status sb_sim_check_start(const sb_sim *sim, sb_error *error)
+{
+    const double dt = step_of(sim), least = least_step(sim);
+    if (dt >= least && isfinite(dt)) return SB_OK;
+    return sb_fail(
+        error, SB_BAD_INPUT,
+        "%.500s: the first time step would be %g s, expected at least %.3g s: numerics.time_step_max, cfl or "
+        "time_step_factor ask for it, or gravity, viscosities or speed of sound",
+        sim->scene->path ? sim->scene->path : "the scene", dt, least);
+}
+
+sb_status sb_stage_time_step(sb_sim *sim, sb_error *error)
+{
+    const double dt = step_of(sim), least = least_step(sim);
     if (!(dt > 0) || !isfinite(dt))
         return sb_fail(error, SB_FAILED, "step %llu, t = %g s: time step is %g s: the run has diverged",
                        (unsigned long long)sim->report.step, sim->report.time, dt);
-    const double crossing = (double)sim->constant.spacing / (double)sim->constant.wave_speed;
-    const double least = 0.5 * sim->space.quantum / (SLOWEST * (double)sim->constant.wave_speed);
     if (dt < least)
         return sb_fail(error, SB_FAILED,
                        "step %llu, t = %g s: time step is %g s, expected at least %.3g s: the run has diverged, or a "
                        "key of numerics asks for it",
                        (unsigned long long)sim->report.step, sim->report.time, dt, least);
+    const double crossing = (double)sim->constant.spacing / (double)sim->constant.wave_speed;
     sim->report.time_step = sim->settling == SB_CREEPING ? fmin(dt, CREEP_STEP * crossing) : dt;
     return SB_OK;
 }

@@ -36,6 +36,8 @@ typedef struct sb_body_impulse {
 /* Copies what it needs; scene and model must outlive it all the same (names, wave makers, velocities until it has
    settled), but for what sb_model_forget_start, and sb_model_forget_particles once it has settled, take away. */
 sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **sim, sb_error *error);
+/* SB_BAD_INPUT when the scene asks for first steps so short that positions could not show them. */
+sb_status sb_sim_check_start(const sb_sim *sim, sb_error *error);
 void sb_sim_destroy(sb_sim *sim);
 
 /* Whether the water comes to rest before t = 0: where settle_steps is not 0. */

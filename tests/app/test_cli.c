@@ -230,6 +230,9 @@ static void sample_writes_the_particles(void **state)
     count_bodies(in_folder("sample.vtp"), walls + fluid, &found_walls, &found_fluid);
     assert_int_equal(found_walls, walls);
     assert_int_equal(found_fluid, fluid);
+    o = RUN(1, "sample", "tank3.yaml", "--out", "tank3.yaml");
+    assert_one_line(o.err, "--out tank3.yaml: is the scene itself, expected another file");
+    outcome_free(&o);
     o = RUN(2, "sample", "tank3.yaml", "--out", "tank3.yaml/sample.vtp");
     assert_one_line(o.err, "tank3.yaml/sample.vtp: ");
     outcome_free(&o);

@@ -12,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum { NUMBERS = 13 }; /* time and twelve components */
@@ -389,6 +390,56 @@ static void out_has_a_default(void **state)
     assert_true(exists("runs/tank2/summary.json"));
 }
 
+/* Only the scene's ending goes, not all from the first dot on: wave-0.1 and wave-0.2 are two runs. */
+static void out_keeps_the_dots_of_a_name(void **state)
+{
+    (void)state;
+    char *text = text_of("tank2.yaml");
+    write_text("wave-0.1m.yaml", text);
+    sb_free(text);
+    RUN_AND_FORGET(0, "run", "wave-0.1m.yaml", "--until=0.02", "--quiet");
+    assert_true(exists("runs/wave-0.1m/summary.json"));
+}
+
+/* A run that cannot begin costs nothing of the one before; the scene that it was given stays, too. */
+static void what_cannot_begin_costs_nothing(void **state)
+{
+    (void)state;
+    RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "dear", "--quiet", "--until", "0.02");
+    char *forces = text_of("dear/forces.csv"), *summary = text_of("dear/summary.json");
+    outcome o = RUN(1, "run", "tank2.yaml", "--out", "dear", "--quiet", "--set", "numerics.time_step_max=1e-6");
+    assert_one_line(o.err, "the first time step would be 1e-06 s, expected at least ");
+    outcome_free(&o);
+    o = RUN(1, "run", "tank2.yaml", "--out", "dear", "--quiet", "--set", "fluid.viscosity=1e300");
+    assert_one_line(o.err, "the first time step would be 0 s, expected at least ");
+    outcome_free(&o);
+    assert_int_equal(rename(in_folder("dear/energy.csv"), in_folder("dear/kept.csv")), 0);
+    assert_int_equal(symlink("kept.csv", in_folder("dear/energy.csv")), 0);
+    o = RUN(2, "run", "tank2.yaml", "--out", "dear", "--quiet");
+    assert_one_line(o.err, "dear/energy.csv: is a symbolic link, expected a file of a run or nothing");
+    outcome_free(&o);
+    char *forces_now = text_of("dear/forces.csv"), *summary_now = text_of("dear/summary.json");
+    assert_string_equal(forces, forces_now);
+    assert_string_equal(summary, summary_now);
+    sb_free(forces);
+    sb_free(forces_now);
+    sb_free(summary);
+    sb_free(summary_now);
+
+    char *scene = text_of("tank2.yaml");
+    assert_int_equal(mkdir(in_folder("home"), 0777), 0);
+    write_text("home/scene.yaml", scene);
+    o = RUN(1, "run", "home/scene.yaml", "--out", "home", "--quiet");
+    assert_one_line(o.err, "home/scene.yaml: is the scene itself, which the run would overwrite");
+    outcome_free(&o);
+    char *scene_now = text_of("home/scene.yaml");
+    assert_string_equal(scene, scene_now);
+    sb_free(scene);
+    sb_free(scene_now);
+    RUN_AND_FORGET(0, "run", "dear/scene.yaml", "--out", "own", "--quiet");
+    RUN_AND_FORGET(0, "run", "own/scene.yaml", "--out", "own", "--quiet"); /* its own */
+}
+
 static void unwritable_out_fails(void **state)
 {
     (void)state;
@@ -414,6 +465,8 @@ int main(void)
         cmocka_unit_test(periodic_sides_run),
         cmocka_unit_test(an_earlier_run_leaves_nothing),
         cmocka_unit_test(out_has_a_default),
+        cmocka_unit_test(out_keeps_the_dots_of_a_name),
+        cmocka_unit_test(what_cannot_begin_costs_nothing),
         cmocka_unit_test(unwritable_out_fails),
     };
     return cmocka_run_group_tests(tests, setup, program_teardown);

@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 static const char everything[] =
-    "title: \"Grüße \\u2028 \\\"quoted\\\" \\\\ \\t end\\x85 \\U0001F30A\"\n"
+    "title: \"Grüße \\u2028 \\\"quoted\\\" \\\\ \\t end\\u2029 \\U0001F30A\"\n"
     "resolution: 0.1234567890123456789\nduration: 1e-3\n"
     "fluid: {density: 1025, gravity: 9.80665, viscosity: 0}\n"
     "domain: {min: [-1e5, -0.1, 0], max: [2, 1, 1], sides: {x_min: open, y_max: open}}\n"
@@ -174,7 +174,7 @@ static void test_everything(void **state)
     sb_scene scene;
     sb_error error = {0};
     assert_int_equal(sb_scene_read(path, NULL, NULL, 0, &scene, &error), SB_OK);
-    assert_string_equal(scene.title, "Grüße \u2028 \"quoted\" \\ \t end\xc2\x85 \U0001F30A");
+    assert_string_equal(scene.title, "Grüße \u2028 \"quoted\" \\ \t end\u2029 \U0001F30A");
     assert_true(scene.numerics.seed == UINT64_MAX);
     assert_near(scene.resolution, 0.1234567890123456789, 0);
     sb_scene_free(&scene);

@@ -89,6 +89,8 @@ static void test_the_worst_seed_judges(void **state)
     spread = sb_results_spread(&results, "v");
     assert_near(spread.value, 1, 1e-12); /* 101 and 102: of the other, another program's, nothing */
     assert_near(spread.resolution, 1, 0);
+    runs[3].figures.rows[0].value = (double)NAN; /* not measured: no spread is known */
+    assert_true(isnan(sb_results_spread(&results, "v").value));
     for (int i = 0; i <= SEEDS; i++) sb_figures_free(&runs[i].figures);
 }
 

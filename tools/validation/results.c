@@ -211,6 +211,7 @@ static sb_seed_spread spread_of(const sb_case_results *results, const sb_result 
         if (!is_seed_of(&results->runs[k], first)) continue;
         const sb_figure *f = sb_figures_find(&results->runs[k].figures, quantity);
         if (!f) continue;
+        if (isnan(f->value)) return (sb_seed_spread){(double)NAN, first->request.plan->resolution};
         low = f->value < low ? f->value : low;
         high = f->value > high ? f->value : high;
         seeds++;

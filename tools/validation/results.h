@@ -43,7 +43,7 @@ typedef struct sb_judgement {
 
 /* How far the start decides: a figure over the seeds that one program ran at one spacing. */
 typedef struct sb_seed_spread {
-    double value;      /* largest minus smallest; NaN: nowhere more than one seed */
+    double value;      /* largest minus smallest; NaN: nowhere more than one seed that all have it */
     double resolution; /* m, there */
 } sb_seed_spread;
 
