@@ -36,10 +36,11 @@ typedef struct sb_pictures {
     sb_renderer *renderer;
     sb_image image;
     uint64_t count, synced; /* by camera: pictures drawn; of these, on disk for certain */
+    bool cleared;           /* pictures beyond the count are gone */
 } sb_pictures;
 sb_consumer_work sb_pictures_work(sb_pictures *pictures);
-/* While its thread is idle or not there: puts what was drawn on disk, all but what is gone. The thread, when it begins,
-   removes pictures beyond its count. */
+/* While its thread is idle or not there: puts what was drawn on disk, all but what is gone. The thread
+   removes pictures beyond its count: one that goes on when it begins, a new one when its first picture is there. */
 sb_status sb_pictures_sync(sb_pictures *pictures, sb_gone *gone, sb_error *error);
 
 /* LCM */

@@ -13,10 +13,9 @@ static bool wanted(const sb_pictures *pictures, size_t camera)
    wait for each other at every barrier. */
 enum { NICENESS = 10 };
 
-static sb_status open_pictures(void *state, sb_error *error)
+/* Folders, and in them no pictures but those that count. */
+static sb_status clear_later(sb_pictures *pictures, sb_error *error)
 {
-    sb_pictures *pictures = state;
-    setpriority(PRIO_PROCESS, 0, NICENESS); /* refused: drawn as before */
     const sb_render_settings *render = &pictures->scene->render;
     for (size_t c = 0; c < render->camera_count; c++) {
         char name[128], path[SB_PATH_MAX];
@@ -26,7 +25,16 @@ static sb_status open_pictures(void *state, sb_error *error)
         if (status == SB_OK) status = sb_remove_numbered(path, ".png", pictures->count, error);
         if (status != SB_OK) return status;
     }
-    return sb_renderer_create(pictures->scene, pictures->model, &pictures->renderer, error);
+    pictures->cleared = true;
+    return SB_OK;
+}
+
+static sb_status open_pictures(void *state, sb_error *error)
+{
+    sb_pictures *pictures = state;
+    setpriority(PRIO_PROCESS, 0, NICENESS); /* refused: drawn as before */
+    sb_status status = pictures->count > 0 ? clear_later(pictures, error) : SB_OK;
+    return status == SB_OK ? sb_renderer_create(pictures->scene, pictures->model, &pictures->renderer, error) : status;
 }
 
 static sb_status draw(void *state, const sb_frame *frame, sb_error *error)
@@ -40,6 +48,8 @@ static sb_status draw(void *state, const sb_frame *frame, sb_error *error)
                  (unsigned long long)pictures->count + 1);
         sb_status status = sb_path_join(path, pictures->directory, name, error);
         if (status == SB_OK) status = sb_renderer_draw(pictures->renderer, frame, c, &pictures->image, error);
+        /* Earlier pictures stay until there is one to take their place. */
+        if (status == SB_OK && !pictures->cleared) status = clear_later(pictures, error);
         if (status == SB_OK) status = sb_png_write(path, &pictures->image, error);
         if (status != SB_OK) return status;
     }

@@ -65,6 +65,25 @@ static void describe(const sb_scene *scene, const sb_body *from, sb_model_body *
     memcpy(body->color, from->color[0] < 0 ? color : from->color, sizeof body->color);
 }
 
+/* In spacings: farther out than that rounding bends what is near, too. */
+static const double FARTHEST = 1e8;
+
+static sb_status check_reach(const sb_scene *scene, const sb_model_body *body, sb_error *error)
+{
+    const double most = FARTHEST * scene->resolution;
+    for (size_t i = 0; i < body->mesh.vertex_count; ++i) {
+        const sb_vec3 at = body->mesh.vertices[i];
+        const sb_vec3 out = sb_max(sb_sub(scene->domain.min, at), sb_sub(at, scene->domain.max));
+        const double far = fmax(out.x, fmax(scene->dimensions == 2 ? 0 : out.y, out.z));
+        if (far > most)
+            return sb_fail(error, SB_BAD_INPUT,
+                           "body \"%s\" reaches to (%g, %g, %g) m: expected no more than %g m from the domain, 1e8 "
+                           "spacings",
+                           body->name, at.x, at.y, at.z, most);
+    }
+    return SB_OK;
+}
+
 /* The meshes of one body of the scene, each as a body of the model. */
 static sb_status add_meshes(const sb_scene *scene, const sb_body *from, sb_model *model, size_t *capacity,
                             sb_error *error)
@@ -82,6 +101,7 @@ static sb_status add_meshes(const sb_scene *scene, const sb_body *from, sb_model
         body->mesh = meshes[i];
         meshes[i] = (sb_mesh){.sheet = false};
         describe(scene, from, body);
+        status = check_reach(scene, body, error);
     }
     for (size_t i = 0; i < count; ++i) sb_mesh_free(meshes + i);
     sb_free(meshes);

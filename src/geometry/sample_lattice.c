@@ -59,6 +59,28 @@ static void to_lattice(const sb_lattice *l, const sb_vec3 corner[3], double u[3]
 /* In lattice steps: rounding must not lose a point on an edge. */
 static const double slack = 1e-9;
 
+/* Half the extent, and the middle, of all that is sampled, along a direction: what lies farther outside of the domain
+   than a support radius is dropped, and needs no look. */
+static void seen_along(const sb_sample_settings *settings, sb_vec3 along, double *middle, double *half)
+{
+    const double margin = settings->support + settings->offset + 4 * settings->spacing;
+    sb_vec3 size = sb_scale(sb_sub(settings->max, settings->min), 0.5);
+    if (settings->dimensions == 2) size.y = 1e3 * settings->spacing;
+    *middle = sb_dot(sb_scale(sb_add(settings->max, settings->min), 0.5), along);
+    *half = fabs(along.x) * (size.x + margin) + fabs(along.y) * (size.y + margin) + fabs(along.z) * (size.z + margin);
+}
+
+/* Cuts [low, high], in steps along a direction from a point on, to what is seen. */
+static void cut_to_seen(const sb_sample_settings *settings, sb_vec3 from, sb_vec3 along, double step, double *low,
+                        double *high)
+{
+    double middle, half;
+    seen_along(settings, along, &middle, &half);
+    middle -= sb_dot(from, along);
+    *low = fmax(*low, (middle - half) / step);
+    *high = fmin(*high, (middle + half) / step);
+}
+
 /* The stretch of u that a row shares with the triangle; it meets at least one edge. */
 static void span_row(const double u[3], const double v[3], double row, double *first, double *last)
 {
@@ -84,12 +106,18 @@ static int scan_triangle(sb_sampler *sampler, sb_candidate_batch *batch, const s
     double low = fmin(v[0], fmin(v[1], v[2])), high = fmax(v[0], fmax(v[1], v[2]));
     double area = (u[1] - u[0]) * (v[2] - v[0]) - (u[2] - u[0]) * (v[1] - v[0]);
     if (!(fabs(area) > 1e-12)) return 0;
+    double seen_first = -HUGE_VAL, seen_last = HUGE_VAL;
+    cut_to_seen(&sampler->settings, l->origin, l->v, l->step_v, &low, &high);
+    cut_to_seen(&sampler->settings, l->origin, l->u, l->step_u, &seen_first, &seen_last);
+    if (!(low <= high)) return 0;
     int64_t end = (int64_t)floor(high - 0.5 + slack);
     for (int64_t n = (int64_t)ceil(low - 0.5 - slack); n <= end; ++n) {
         double row = (double)n + 0.5;
         double first, last;
         if (sb_stop_signal()) return -1;
         span_row(u, v, row, &first, &last);
+        first = fmax(first, seen_first);
+        last = fmin(last, seen_last);
         if (!(first <= last)) continue;
         int64_t stop = (int64_t)floor(last - 0.5 + slack);
         for (int64_t m = (int64_t)ceil(first - 0.5 - slack); m <= stop; ++m) {
@@ -139,8 +167,11 @@ static int scan_line(sb_sampler *sampler, sb_candidate_batch *batch, sb_vec3 a, 
         step = sb_sample_axis_step(&sampler->settings, sb_sample_dominant(along));
         begin = step * (ceil(from / step - 0.5 - slack) + 0.5) - from;
     }
-    int64_t end = (int64_t)floor((length - begin) / step + 1e-9);
-    for (int64_t n = 0; n <= end; ++n) {
+    double low = 0, high = floor((length - begin) / step + 1e-9);
+    cut_to_seen(&sampler->settings, sb_madd(a, begin, along), along, step, &low, &high);
+    if (!(low <= high)) return 0;
+    const int64_t end = (int64_t)floor(high);
+    for (int64_t n = (int64_t)ceil(low); n <= end; ++n) {
         sb_candidate next = candidate;
         next.at = sb_add(sb_madd(a, begin + (double)n * step, along), candidate.at);
         if (sb_candidate_push(sampler, batch, next)) return -1;

@@ -1,6 +1,8 @@
 /* Commands and options: what they say, and the status they end with. */
 #include "program.h"
 
+#include "base/clock.h"
+
 #include "../output/json_check.h"
 #include "base/memory.h"
 
@@ -291,6 +293,19 @@ static void bad_scene_gives_its_place(void **state)
 }
 
 /* What leaks is not run; `sample` still shows it. */
+/* What lies out of sight costs nothing; what lies so far that rounding bends the rest is refused. */
+static void bodies_may_reach_far_but_not_without_end(void **state)
+{
+    (void)state;
+    const double begin = sb_clock();
+    outcome o = RUN(0, "check", "tank3.yaml", "--set", "bodies[0].max=[1e6, 0.6, 0.8]");
+    outcome_free(&o);
+    assert_true(sb_clock() - begin < 20); /* and not days */
+    o = RUN(1, "check", "tank3.yaml", "--set", "bodies[0].max=[1e20, 0.6, 0.8]");
+    assert_one_line(o.err, "body \"post\" reaches to (1e+20, 0.3, 0) m: expected no more than 1e+07 m from the domain");
+    outcome_free(&o);
+}
+
 static void walls_that_would_leak_are_refused(void **state)
 {
     (void)state;
@@ -333,6 +348,7 @@ int main(void)
         cmocka_unit_test(sample_writes_the_particles),
         cmocka_unit_test(profile_says_where_time_went_and_changes_nothing),
         cmocka_unit_test(bad_scene_gives_its_place),
+        cmocka_unit_test(bodies_may_reach_far_but_not_without_end),
         cmocka_unit_test(walls_that_would_leak_are_refused),
         cmocka_unit_test(the_program_starts_without_graphics),
     };

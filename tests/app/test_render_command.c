@@ -179,6 +179,12 @@ static void damaged_particle_file(void **state)
         assert_one_line(o.err, "hurt/particles/000002.vtp: ");
         outcome_free(&o);
     }
+    /* Before the first picture, those of an earlier command stay. */
+    assert_true(exists("worse/frames/side/000001.png"));
+    copy_with("r/particles/000001.vtp", "hurt/particles/000001.vtp", 300, 0);
+    RUN_AND_FORGET(1, "render", "hurt", "--out", "worse", "--quiet");
+    assert_true(exists("worse/frames/side/000001.png"));
+    copy_with("r/particles/000001.vtp", "hurt/particles/000001.vtp", 0, 0);
     assert_int_equal(unlink(in_folder("hurt/particles/000002.vtp")), 0);
     outcome o = RUN(1, "render", "hurt", "--out", "worse", "--quiet");
     assert_one_line(o.err, "hurt/particles/000002.vtp: ");

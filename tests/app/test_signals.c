@@ -166,10 +166,9 @@ static void a_model_in_the_making_hears(void **state)
     (void)state;
     RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "early", "--quiet", "--until", "0.02");
     char *log = text_of("early/run.jsonl"), *forces = text_of("early/forces.csv");
-    pid_t process =
-        program_start((const char *const[]){"run", "tank3.yaml", "--out", "early", "--set",
-                                            "bodies[0].max=[18000, 18000, 18000]", "--set", "resolution=0.1", NULL});
-    usleep(1500000);
+    pid_t process = program_start(
+        (const char *const[]){"run", "tank3.yaml", "--out", "early", "--set", "resolution=0.004", NULL}); /* seconds */
+    usleep(800000);
     check_heard(process, "stopped by a signal while the model was built: nothing is computed yet");
     char *log_then = text_of("early/run.jsonl"), *forces_then = text_of("early/forces.csv");
     assert_string_equal(log, log_then);
