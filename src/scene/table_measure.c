@@ -188,7 +188,8 @@ static unsigned measure_variant(const void *item, const sb_yaml *map)
 static const sb_key measure_keys[] = {
     {.name = "interval", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_measure_settings, interval),
      .unit = "s", SB_KEY_POSITIVE, .fallback = "0.1",
-     .doc = "Time between rows of forces, gauges and probes; forces are means over it."},
+     .doc = "Time between rows of forces, gauges and probes; forces are means over it, and the peaks of `summary.json` the "
+            "largest of these. An interval that a run's end cuts is not told."},
     {.name = "gauges", .type = SB_KEY_LIST,
      SB_KEY_ITEMS(sb_measure_settings, gauges, gauge_count), .table = &gauge_table,
      .doc = "Heights of the free surface."},
