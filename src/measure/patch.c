@@ -165,13 +165,17 @@ static double height_over_sheet(const sb_patch *patch, sb_vec3 at)
     return sb_dot(sb_sub(at, patch->center), patch->normal);
 }
 
-/* Whether the surface that a boundary particle belongs to comes out of the sheet: others of it lie before. */
+/* Whether the surface that a boundary particle belongs to comes out of the sheet: others in its plane lie before it. Of
+   stairs the riser behind a tread does, the one before it does not. */
 static bool comes_out(const sb_patch *patch, const patch_wall *wall)
 {
-    for (size_t k = 0; k < patch->count; k++)
-        if (sb_dot(patch->walls[k].normal, wall->normal) > 0.9 &&
-            height_over_sheet(patch, patch->walls[k].position) > 0.25 * patch->spacing)
+    for (size_t k = 0; k < patch->count; k++) {
+        const patch_wall *other = &patch->walls[k];
+        if (sb_dot(other->normal, wall->normal) > 0.9 &&
+            height_over_sheet(patch, other->position) > 0.25 * patch->spacing &&
+            fabs(sb_dot(sb_sub(other->position, wall->position), wall->normal)) < 0.5 * patch->spacing)
             return true;
+    }
     return false;
 }
 

@@ -106,6 +106,21 @@ static void probes_in_corners_read_what_water_bears(void **state)
     check_pressures(&r, z, 7, 0.5, 0.12);
 }
 
+/* A tread runs into the riser behind it and ends at the one before it, which is turned the same way. */
+static void probes_on_stairs_read_what_water_bears(void **state)
+{
+    (void)state;
+    static const double z[] = {0.15, 0.15, 0.3, 0.15};
+    const readings r = at_rest("water: {level: 0.6, seed: [1.9, 0.1]}\n"
+                               "bodies: [{name: upper, shape: box, min: [0, 0], max: [0.3, 0.3]},\n"
+                               "         {name: lower, shape: box, min: [0.3, 0], max: [0.5, 0.15]}]\n"
+                               "measure:\n"
+                               "  interval: 0.05\n"
+                               "  probes: [{name: a, at: [0.4, 0.15]}, {name: b, at: [0.35, 0.15]},\n"
+                               "           {name: c, at: [0.15, 0.3]}, {name: d, at: [0.425, 0.15]}]\n");
+    check_pressures(&r, z, 4, 0.6, 0.05);
+}
+
 /* Both sides of a plate thinner than the support radius bear the water before it. */
 static void probes_on_thin_plates_read_what_water_bears(void **state)
 {
@@ -167,6 +182,7 @@ int main(void)
     omp_set_num_threads(1); /* some thousand particles */
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(probes_in_corners_read_what_water_bears),
+        cmocka_unit_test(probes_on_stairs_read_what_water_bears),
         cmocka_unit_test(probes_on_thin_plates_read_what_water_bears),
         cmocka_unit_test(a_gauge_over_a_deck_reads_the_surface),
         cmocka_unit_test(a_gauge_over_a_dry_deck_reads_the_water_below),
