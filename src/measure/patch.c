@@ -179,12 +179,25 @@ static bool comes_out(const sb_patch *patch, const patch_wall *wall)
     return false;
 }
 
+/* How far a place on the face lies within a wall across, m; 0 or less: before it, where water can be. */
+static double depth_within(const sb_patch *patch, const patch_wall *across, sb_vec3 at)
+{
+    return patch->offset - sb_dot(sb_sub(at, across->position), across->normal);
+}
+
+static sb_vec3 onto_face(const sb_patch *patch, sb_vec3 sheet)
+{
+    return sb_madd(sheet, patch->offset, patch->normal);
+}
+
+/* A wall across is one before which the probe stands. */
 static enum wall_part part_of(const sb_patch *patch, const patch_wall *wall)
 {
     const double height = height_over_sheet(patch, wall->position), s = patch->spacing;
     if (sb_dot(wall->normal, patch->normal) > 0.9) return fabs(height) < 0.3 * s ? SHEET : APART;
     if (sb_norm(wall->normal) < 0.5) return APART;
-    if (comes_out(patch, wall)) return ACROSS;
+    if (comes_out(patch, wall))
+        return depth_within(patch, wall, onto_face(patch, patch->center)) < 0.25 * s ? ACROSS : APART;
     const double likeness = sb_dot(wall->normal, patch->normal);
     if (likeness > 0.05 && height < 0.8 * s) return ROUND;
     return height < 0.3 * s && sb_dot(wall->normal, patch->normal) < -0.5 ? BEHIND : APART;
@@ -204,12 +217,6 @@ static const patch_wall *nearest_across(const sb_patch *patch, sb_vec3 at)
     return best;
 }
 
-/* How far a place on the face lies within a wall across, m; 0 or less: before it, where water can be. */
-static double depth_within(const sb_patch *patch, const patch_wall *across, sb_vec3 at)
-{
-    return patch->offset - sb_dot(sb_sub(at, across->position), across->normal);
-}
-
 /* A place on the face, or if it lies nearer than `off` to a wall across or within it, the nearest on the face that does
    not. Two walls make a corner. */
 static sb_vec3 out_of_walls(const sb_patch *patch, sb_vec3 at, double off)
@@ -222,11 +229,6 @@ static sb_vec3 out_of_walls(const sb_patch *patch, sb_vec3 at, double off)
         at = sb_madd(at, depth / sb_dot(along, along), along);
     }
     return at;
-}
-
-static sb_vec3 onto_face(const sb_patch *patch, sb_vec3 sheet)
-{
-    return sb_madd(sheet, patch->offset, patch->normal);
 }
 
 static bool is_within(const sb_patch *patch, sb_vec3 at)

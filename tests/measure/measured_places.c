@@ -121,6 +121,18 @@ static void probes_on_stairs_read_what_water_bears(void **state)
     check_pressures(&r, z, 4, 0.6, 0.05);
 }
 
+/* A tread of two and a half spacings is nearly all edge, which reads low: low, but no nonsense. */
+static void a_probe_on_a_narrow_tread_reads_no_nonsense(void **state)
+{
+    (void)state;
+    static const double z[] = {0.15};
+    const readings r = at_rest("water: {level: 0.6, seed: [1.9, 0.1]}\n"
+                               "bodies: [{name: upper, shape: box, min: [0, 0], max: [0.3, 0.3]},\n"
+                               "         {name: lower, shape: box, min: [0.3, 0], max: [0.3625, 0.15]}]\n"
+                               "measure: {interval: 0.05, probes: [{name: a, at: [0.33125, 0.15]}]}\n");
+    check_pressures(&r, z, 1, 0.6, 0.4);
+}
+
 /* Both sides of a plate thinner than the support radius bear the water before it. */
 static void probes_on_thin_plates_read_what_water_bears(void **state)
 {
@@ -183,6 +195,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(probes_in_corners_read_what_water_bears),
         cmocka_unit_test(probes_on_stairs_read_what_water_bears),
+        cmocka_unit_test(a_probe_on_a_narrow_tread_reads_no_nonsense),
         cmocka_unit_test(probes_on_thin_plates_read_what_water_bears),
         cmocka_unit_test(a_gauge_over_a_deck_reads_the_surface),
         cmocka_unit_test(a_gauge_over_a_dry_deck_reads_the_water_below),
