@@ -190,17 +190,19 @@ static sb_vec3 onto_face(const sb_patch *patch, sb_vec3 sheet)
     return sb_madd(sheet, patch->offset, patch->normal);
 }
 
-/* A wall across is one before which the probe stands. */
+/* A wall across is one before which the probe stands, and not the one opposite in a narrow channel. */
 static enum wall_part part_of(const sb_patch *patch, const patch_wall *wall)
 {
     const double height = height_over_sheet(patch, wall->position), s = patch->spacing;
-    if (sb_dot(wall->normal, patch->normal) > 0.9) return fabs(height) < 0.3 * s ? SHEET : APART;
-    if (sb_norm(wall->normal) < 0.5) return APART;
-    if (comes_out(patch, wall))
-        return depth_within(patch, wall, onto_face(patch, patch->center)) < 0.25 * s ? ACROSS : APART;
     const double likeness = sb_dot(wall->normal, patch->normal);
+    if (likeness > 0.9) return fabs(height) < 0.3 * s ? SHEET : APART;
+    if (sb_norm(wall->normal) < 0.5) return APART;
+    if (comes_out(patch, wall)) {
+        const bool before = depth_within(patch, wall, onto_face(patch, patch->center)) < 0.25 * s;
+        return before && likeness > -0.9 ? ACROSS : APART;
+    }
     if (likeness > 0.05 && height < 0.8 * s) return ROUND;
-    return height < 0.3 * s && sb_dot(wall->normal, patch->normal) < -0.5 ? BEHIND : APART;
+    return height < 0.3 * s && likeness < -0.5 ? BEHIND : APART;
 }
 
 /* The boundary particle of a wall across that is nearest to a place on the face, and reaches it; NULL: none does. */

@@ -121,6 +121,20 @@ static void probes_on_stairs_read_what_water_bears(void **state)
     check_pressures(&r, z, 4, 0.6, 0.05);
 }
 
+/* The wall opposite, two spacings away, is none that the sheet runs into. */
+static void a_probe_in_a_narrow_channel_reads_what_water_bears(void **state)
+{
+    (void)state;
+    static const double z[] = {0.2, 0.3};
+    const readings r = at_rest("water: {level: 0.5, seed: [1.9, 0.1]}\n"
+                               "bodies: [{name: left, shape: box, min: [0.6, 0.1], max: [0.9, 0.4]},\n"
+                               "         {name: right, shape: box, min: [0.95, 0.1], max: [1.25, 0.4]}]\n"
+                               "measure:\n"
+                               "  interval: 0.05\n"
+                               "  probes: [{name: a, at: [0.9, 0.2]}, {name: b, at: [0.95, 0.3]}]\n");
+    check_pressures(&r, z, 2, 0.5, 0.1);
+}
+
 /* A tread of two and a half spacings is nearly all edge, which reads low: low, but no nonsense. */
 static void a_probe_on_a_narrow_tread_reads_no_nonsense(void **state)
 {
@@ -195,6 +209,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(probes_in_corners_read_what_water_bears),
         cmocka_unit_test(probes_on_stairs_read_what_water_bears),
+        cmocka_unit_test(a_probe_in_a_narrow_channel_reads_what_water_bears),
         cmocka_unit_test(a_probe_on_a_narrow_tread_reads_no_nonsense),
         cmocka_unit_test(probes_on_thin_plates_read_what_water_bears),
         cmocka_unit_test(a_gauge_over_a_deck_reads_the_surface),
