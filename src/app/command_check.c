@@ -2,9 +2,9 @@
 #include "app/fit.h"
 #include "app/options.h"
 #include "app/room.h"
+#include "app/warnings.h"
 #include "geometry/model.h"
 #include "output/json.h"
-#include "physics/wavemaker.h"
 
 #include <math.h>
 #include <omp.h>
@@ -48,18 +48,10 @@ static estimate make_estimate(const sb_scene *scene, const sb_model *model)
     };
 }
 
-static void visit_warnings(const sb_scene *scene, const sb_model *model, void (*visit)(void *context, const char *text),
-                           void *context)
+static void visit_warnings(const sb_scene *scene, const sb_model *model, sb_warning_visit *visit, void *context)
 {
-    char text[256];
     for (size_t w = 0; w < model->warning_count; w++) visit(context, model->warnings[w]);
-    for (size_t w = 0; w < scene->wavemaker_count; w++) {
-        const sb_wavemaker_parameters *law = &scene->wavemakers[w].law;
-        const char *warning = law->kind->warning ? law->kind->warning(law) : NULL;
-        if (!warning) continue;
-        snprintf(text, sizeof text, "wave maker %s: %s", scene->wavemakers[w].name, warning);
-        visit(context, text);
-    }
+    sb_scene_warnings(scene, visit, context);
     /* A warning only: the run may be for another machine. */
     sb_error room = {0};
     if (sb_room_check(scene, model, &room) != SB_OK) visit(context, room.text);

@@ -3,6 +3,7 @@
 #include "app/lock.h"
 #include "app/room.h"
 #include "app/run_state.h"
+#include "app/warnings.h"
 
 #include <math.h>
 #include <omp.h>
@@ -138,11 +139,17 @@ static sb_status make_simulation(run *r, bool resume, sb_error *error)
     return status == SB_OK && !resume ? sb_run_unobstructed(r, error) : status;
 }
 
+static void warn(void *context, const char *text)
+{
+    sb_run_warn(context, "%s", text);
+}
+
 static void note_start(run *r)
 {
     sb_run_say(r, "%zu fluid and %zu boundary particles, %zu bodies", r->model.fluid_count, r->model.wall_count,
                r->model.body_count);
     sb_runlog_start(r->log, r->scene, &r->model, omp_get_max_threads(), sb_sim_bytes(r->sim));
+    sb_scene_warnings(r->scene, warn, r);
     sb_runlog_event(r->log, "build", "%s", r->checkpoints.build);
     sb_runlog_skipped(r->log, r->off);
     sb_runlog_skipped(r->log, sb_sim_skipped(r->sim));

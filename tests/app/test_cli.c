@@ -173,6 +173,27 @@ static void check_in_json(void **state)
     outcome_free(&o);
 }
 
+/* What runs, but not as its writer will have meant it, is told before and while it runs. */
+static void a_scene_of_doubtful_use_is_warned_of(void **state)
+{
+    (void)state;
+    static const char longer[] = "measure.interval: 7 s is longer than the run of ", slow[] = "measure.interval=7";
+    outcome o = RUN(0, "check", "tank3.yaml", "--set", slow);
+    assert_contains(o.out, "warning: ");
+    assert_contains(o.out, longer);
+    outcome_free(&o);
+    o = RUN(0, "run", "tank3.yaml", "--set", slow, "--until=0.01", "--out=slow", "--quiet");
+    assert_contains(o.err, "shorebreak: warning: ");
+    assert_contains(o.err, longer);
+    outcome_free(&o);
+    char *log = text_of("slow/run.jsonl");
+    assert_contains(log, longer);
+    sb_free(log);
+    o = RUN(0, "run", "tank3.yaml", "--until=0.05", "--out=slow", "--quiet");
+    assert_null(strstr(o.err, "warning"));
+    outcome_free(&o);
+}
+
 /* Particles of each kind in the file's Int32 array "body". */
 static double memory_with_support(const char *support)
 {
@@ -344,6 +365,7 @@ int main(void)
         cmocka_unit_test(lists_name_what_there_is),
         cmocka_unit_test(check_tells_what_would_be_built),
         cmocka_unit_test(check_in_json),
+        cmocka_unit_test(a_scene_of_doubtful_use_is_warned_of),
         cmocka_unit_test(check_counts_neighbours_as_memory),
         cmocka_unit_test(sample_writes_the_particles),
         cmocka_unit_test(profile_says_where_time_went_and_changes_nothing),

@@ -1,0 +1,24 @@
+#include "app/warnings.h"
+
+#include "physics/wavemaker.h"
+
+#include <stdio.h>
+
+void sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context)
+{
+    char text[256];
+    for (size_t w = 0; w < scene->wavemaker_count; w++) {
+        const sb_wavemaker_parameters *law = &scene->wavemakers[w].law;
+        const char *warning = law->kind->warning ? law->kind->warning(law) : NULL;
+        if (!warning) continue;
+        snprintf(text, sizeof text, "wave maker %s: %s", scene->wavemakers[w].name, warning);
+        visit(context, text);
+    }
+    if (scene->measure.interval > scene->duration) {
+        snprintf(text, sizeof text,
+                 "measure.interval: %g s is longer than the run of %g s: forces.csv gets no row, the other tables but "
+                 "the one at t = 0",
+                 scene->measure.interval, scene->duration);
+        visit(context, text);
+    }
+}
