@@ -149,7 +149,7 @@ static void put_run(run *r, const sb_csv_lengths *lengths, sb_archive_out *out)
     sb_put_text(out, r->checkpoints.identity);
     sb_put_count(out, r->checkpoints.model);
     sb_archive_section(out, SB_CHECKPOINT_RUN);
-    sb_put_real(out, sb_run_wall(r));
+    sb_spent_save(r, out);
     sb_put_count(out, r->iterations);
     sb_put_count(out, r->capped);
     sb_put_count(out, r->frames);

@@ -69,7 +69,7 @@ static sb_status take_run(run *r, sb_archive_in *in, sb_error *error)
     sb_energy *first = &r->first_energy;
     sb_status status = sb_archive_enter(in, SB_CHECKPOINT_RUN, error);
     if (status != SB_OK) return status;
-    r->wall_before = sb_take_real(in);
+    sb_spent_load(r, in);
     r->iterations = r->iterations_before = sb_take_count(in, UINT64_MAX);
     r->capped = sb_take_count(in, UINT64_MAX);
     r->frames = sb_take_count(in, UINT64_MAX);

@@ -115,7 +115,7 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
         .model = &r->model,
         .status = *status,
         .reason = *status == SB_OK ? NULL : error->text,
-        .wall = sb_run_wall(r),
+        .spent = sb_spent_sum(r),
         .simulated = report->time,
         .steps = report->step,
         .iterations = r->iterations,
@@ -137,7 +137,6 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
         .pictures = r->pictures.count,
     };
     summary.work = sb_sim_ledger(r->sim);
-    summary.stage_count = sb_sim_stages(r->sim, &summary.stages);
     sb_status found = sb_run_path(r, "summary.json", path, &reason);
     if (found == SB_OK) found = sb_summary_write(path, &summary, &reason);
     keep_first(status, error, found, &reason);

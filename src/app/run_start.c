@@ -164,6 +164,7 @@ static sb_status begin(run *r, sb_error *error)
     if (sb_sim_settles(r->scene)) sb_run_say(r, "settling");
     sb_status status = sb_sim_settle(r->sim, error);
     r->settling_seconds = sb_progress_wall(&r->progress) - r->setup_seconds;
+    sb_spent_settled(r);
     if (status != SB_OK) return status;
     sb_runlog_event(r->log, "settled", "highest speed %.3g m/s", sb_sim_report(r->sim)->max_speed);
     if (r->scene->numerics.sleep)

@@ -5,6 +5,7 @@
 #include "app/checkpoint.h"
 #include "app/consumers.h"
 #include "app/run.h"
+#include "app/spent.h"
 #include "measure/measure.h"
 #include "output/csv.h"
 #include "output/progress.h"
@@ -33,7 +34,7 @@ struct run {
     sb_energy first_energy;
     uint64_t iterations, capped, frames;
     size_t departures;                 /* of the first few, those that the log has */
-    double wall_before;                /* s that earlier processes of this run took */
+    sb_spent before;                   /* what earlier processes of this run took; of this one, what settling did */
     uint64_t steps, iterations_before; /* steps of this process; iterations before it */
     double particle_steps, setup_seconds, settling_seconds;
     const char *off[4]; /* consumers that are not there, ended by NULL */

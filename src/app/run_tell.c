@@ -32,7 +32,7 @@ void sb_run_warn(run *r, const char *format, ...)
 
 double sb_run_wall(const run *r)
 {
-    return r->wall_before + sb_progress_wall(&r->progress);
+    return r->before.wall + sb_progress_wall(&r->progress);
 }
 
 void sb_run_log_step(run *r)

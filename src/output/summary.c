@@ -73,14 +73,17 @@ static void put_departures(sb_json *json, const sb_departures *all)
     sb_json_close(json);
 }
 
-static void put_stages(sb_json *json, const sb_summary *summary)
+static void put_stages(sb_json *json, const sb_spent *spent)
 {
     sb_json_open(json, "stages", '[');
-    for (size_t i = 0; i < summary->stage_count; i++) {
+    for (size_t i = 0; i < spent->stage_count; i++) {
+        const sb_stage_spent *stage = &spent->stage[i];
         sb_json_open(json, NULL, '{');
-        sb_json_text(json, "name", summary->stages[i].name);
-        sb_json_number(json, "seconds", summary->stages[i].seconds);
-        sb_json_count(json, "calls", summary->stages[i].calls);
+        sb_json_text(json, "name", stage->name);
+        sb_json_number(json, "seconds", stage->seconds);
+        sb_json_count(json, "calls", stage->calls);
+        sb_json_number(json, "settling_seconds", stage->settling_seconds);
+        sb_json_count(json, "settling_calls", stage->settling_calls);
         sb_json_close(json);
     }
     sb_json_close(json);
@@ -94,7 +97,11 @@ static void put_all(sb_json *json, const sb_summary *s)
     sb_json_text(json, "title", s->scene->title);
     sb_json_text(json, "status", s->status == SB_OK ? "done" : s->status == SB_INTERRUPTED ? "interrupted" : "failed");
     if (s->reason) sb_json_text(json, "reason", s->reason);
-    sb_json_number(json, "wall_s", s->wall);
+    sb_json_number(json, "wall_s", s->spent.wall);
+    sb_json_number(json, "processor_s", s->spent.processor);
+    sb_json_number(json, "setup_s", s->spent.setup);
+    sb_json_number(json, "settling_s", s->spent.settling);
+    sb_json_count(json, "processes", s->spent.processes);
     sb_json_number(json, "simulated_s", s->simulated);
     sb_json_count(json, "steps", s->steps);
     sb_json_count(json, "threads", (uint64_t)s->threads);
@@ -121,7 +128,7 @@ static void put_all(sb_json *json, const sb_summary *s)
     sb_summary_put_energy(json, "energy_start", &s->first);
     sb_summary_put_energy(json, "energy_end", &s->last);
     if (s->work) sb_summary_put_work(json, s->work);
-    put_stages(json, s);
+    put_stages(json, &s->spent);
     sb_json_close(json);
 }
 

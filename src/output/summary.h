@@ -8,13 +8,30 @@
 #include "scene/scene.h"
 #include "sim/sim.h"
 
+/* What one stage took: in all, and of that while the water came to rest. */
+typedef struct sb_stage_spent {
+    char name[24];
+    double seconds, settling_seconds; /* of wall time */
+    uint64_t calls, settling_calls;
+} sb_stage_spent;
+
+/* What a run took, in all the processes that worked on it. */
+typedef struct sb_spent {
+    uint64_t processes;
+    double wall, processor; /* s; processor time is of all threads */
+    double setup, settling; /* s of wall time: until the first step, in each process; bringing the water to rest */
+    size_t stage_count;
+    sb_stage_spent stage[SB_STAGES_MAX];
+} sb_spent;
+
 /* Zero or NULL where a run never came that far. Pointers are read during the call only. */
 typedef struct sb_summary {
     const sb_scene *scene;
     const sb_model *model;
-    sb_status status;                /* how the run ended */
-    const char *reason;              /* NULL unless it failed */
-    double wall, simulated;          /* s */
+    sb_status status;   /* how the run ended */
+    const char *reason; /* NULL unless it failed */
+    sb_spent spent;
+    double simulated;                /* s */
     uint64_t steps, iterations;      /* iterations: sum over all steps */
     uint64_t capped_steps;           /* pressure solves that stopped above their tolerance */
     size_t fluid_particles;          /* at the start */
@@ -28,10 +45,8 @@ typedef struct sb_summary {
     const sb_body_record *bodies; /* one per body of the model; NULL: none */
     sb_energy first, last;        /* energies at the start and at the end */
     const sb_ledger *work;        /* where energy went between; NULL: no simulation was made */
-    const sb_stage_time *stages;
-    size_t stage_count;
-    uint64_t hash;             /* of the final state */
-    uint64_t frames, pictures; /* particle files and pictures written */
+    uint64_t hash;                /* of the final state */
+    uint64_t frames, pictures;    /* particle files and pictures written */
 } sb_summary;
 
 /* An object of energies, J, mass, kg, and momentum, kg m/s. */

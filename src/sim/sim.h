@@ -127,7 +127,9 @@ size_t sb_sim_query(const sb_sim *sim, sb_vec3 min, sb_vec3 max, sb_fluid_sample
 /* Particle i of sb_sim_report()->fluid_count, storage order; i changes meaning from step to step. */
 sb_fluid_sample sb_sim_particle(const sb_sim *sim, size_t i);
 
-/* Seconds and calls of each stage since the start, for the stage table. */
+enum { SB_STAGES_MAX = 16 };
+
+/* Seconds and calls of each stage in this process, settling's steps among them, for the stage table. */
 typedef struct sb_stage_time {
     const char *name;
     double seconds;

@@ -8,8 +8,7 @@
 #include "sim/space.h"
 
 enum {
-    SB_BLOCK = 1024, /* particles per unit of work and of partial sums: fixed, so sums have one order */
-    SB_STAGES_MAX = 16
+    SB_BLOCK = 1024 /* particles per unit of work and of partial sums: fixed, so sums have one order */
 };
 
 /* How the water comes to rest before t = 0. */

@@ -21,6 +21,15 @@ static void each_solver_goes_on(void **state)
                        "--resume", "--threads", "2");
         RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "parts", "--quiet", "--set", solvers[s], "--resume");
         assert_same_run("whole", "parts", pair_tables);
+        /* Times are counted on, too. */
+        static const char *const counts[] = {"calls", "settling_calls", "steps"};
+        for (int c = 0; c < 3; c++)
+            assert_near(json_number_of("parts/summary.json", counts[c]),
+                        json_number_of("whole/summary.json", counts[c]), 0);
+        assert_near(json_number_of("parts/summary.json", "processes"), 3, 0);
+        assert_near(
+            json_number_of("parts/summary.json", "calls"),
+            json_number_of("parts/summary.json", "settling_calls") + json_number_of("parts/summary.json", "steps"), 0);
         char *log = text_of("parts/run.jsonl");
         assert_int_equal(count_of(log, "\"event\":\"resumed\""), 2);
         assert_int_equal(count_of(log, "\"event\":\"start\""), 1);

@@ -42,27 +42,50 @@ static sb_scene make_scene(void)
 static void summary_has_the_promised_keys(void **state)
 {
     (void)state;
-    const char *const keys[] = {
-        "wall_s",          "simulated_s",        "steps",          "fluid_particles", "boundary_particles",
-        "mean_iterations", "bytes_per_particle", "lost_particles", "bodies",          "name",
-        "peak_N",          "peak_time_s",        "impulse_Ns",     "version",         "preset",
-        "stages",          "energy_end",         "energy_work",    "contact_J",       "packing_stress_J"};
+    const char *const keys[] = {"wall_s",
+                                "simulated_s",
+                                "steps",
+                                "fluid_particles",
+                                "boundary_particles",
+                                "mean_iterations",
+                                "bytes_per_particle",
+                                "lost_particles",
+                                "bodies",
+                                "name",
+                                "peak_N",
+                                "peak_time_s",
+                                "impulse_Ns",
+                                "version",
+                                "preset",
+                                "stages",
+                                "energy_end",
+                                "energy_work",
+                                "contact_J",
+                                "packing_stress_J",
+                                "processor_s",
+                                "setup_s",
+                                "settling_s",
+                                "processes"};
     sb_scene scene = make_scene();
-    const sb_summary summary = {.scene = &scene,
-                                .model = &model,
-                                .wall = 12.5,
-                                .simulated = 90,
-                                .steps = 4,
-                                .iterations = 10,
-                                .fluid_particles = 1000,
-                                .bytes = 250000,
-                                .lost = 2,
-                                .threads = 2,
-                                .bodies = records,
-                                .work = &(sb_ledger){.contact = -0.25},
-                                .stages = stages,
-                                .stage_count = 2,
-                                .hash = 7};
+    const sb_summary summary = {
+        .scene = &scene,
+        .model = &model,
+        .spent =
+            {.processes = 2,
+             .wall = 12.5,
+             .settling = 3,
+             .stage_count = 1,
+             .stage = {{.name = "pressure", .seconds = 6, .settling_seconds = 2, .calls = 9, .settling_calls = 5}}},
+        .simulated = 90,
+        .steps = 4,
+        .iterations = 10,
+        .fluid_particles = 1000,
+        .bytes = 250000,
+        .lost = 2,
+        .threads = 2,
+        .bodies = records,
+        .work = &(sb_ledger){.contact = -0.25},
+        .hash = 7};
     assert_int_equal(sb_summary_write(in_folder("summary.json"), &summary, NULL), SB_OK);
     char *text = text_of("summary.json");
     assert_true(json_valid(text));
@@ -74,6 +97,10 @@ static void summary_has_the_promised_keys(void **state)
     assert_true(strtod(json_find(text, "boundary_particles"), NULL) == 500);
     assert_true(strtod(json_find(text, "lost_particles"), NULL) == 2);
     assert_true(strtod(json_find(text, "impulse_Ns"), NULL) == 5);
+    assert_true(strtod(json_find(text, "wall_s"), NULL) == 12.5);
+    assert_true(strtod(json_find(text, "settling_s"), NULL) == 3);
+    assert_true(strtod(json_find(text, "settling_seconds"), NULL) == 2);
+    assert_true(strtod(json_find(text, "calls"), NULL) == 9);
     assert_true(strtod(json_find(text, "peak_time_s"), NULL) == 31.2);
     assert_true(strncmp(json_find(text, "preset"), "\"paper\"", 7) == 0);
     assert_true(strncmp(json_find(text, "too_coarse"), "true", 4) == 0);

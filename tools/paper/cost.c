@@ -28,14 +28,14 @@ sb_status sb_cost_read(const char *summary, sb_cost *cost, sb_error *error)
                       .steps = sb_json_number_in(summary, "steps"),
                       .simulated = sb_json_number_in(summary, "simulated_s"),
                       .sweeps = sb_json_number_in(summary, "mean_iterations"),
-                      .total = sb_json_number_in(summary, "wall_s")};
+                      .setup = sb_json_number_in(summary, "setup_s"),
+                      .settling = sb_json_number_in(summary, "settling_s")};
+    cost->total = sb_json_number_in(summary, "wall_s") - cost->settling;
     const char *end = stages ? strchr(stages, ']') : NULL;
     if (!end) return sb_fail(error, SB_BAD_INPUT, "summary.json: no list of stages");
-    for (const char *at = strstr(stages, name); at && at < end; at = strstr(at + 1, name)) {
-        double calls = sb_json_number_in(at, "calls");
-        sort_in(cost, at + sizeof name - 1, sb_json_number_in(at, "seconds"));
-        cost->calls = fmax(cost->calls, calls);
-    }
+    for (const char *at = strstr(stages, name); at && at < end; at = strstr(at + 1, name))
+        sort_in(cost, at + sizeof name - 1,
+                sb_json_number_in(at, "seconds") - sb_json_number_in(at, "settling_seconds"));
     return SB_OK;
 }
 
@@ -46,6 +46,6 @@ double sb_cost_per_particle_step(double total, double fluid, double steps)
 
 double sb_cost_extrapolate(const sb_cost *some, double steps, double sweeps)
 {
-    double others = (some->structure + some->query + some->advection) / some->calls;
-    return steps * (others + some->pressure / some->calls * sweeps / some->sweeps);
+    double others = (some->structure + some->query + some->advection) / some->steps;
+    return steps * (others + some->pressure / some->steps * sweeps / some->sweeps);
 }

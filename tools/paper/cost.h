@@ -4,15 +4,16 @@
 
 #include "base/status.h"
 
-/* Times in s. The stages' times include those of settling steps; counts do not. */
+/* Times in s, of all the processes that worked on a run. What it took to bring the water to rest, which the published
+   runs do not do, stands by itself. */
 typedef struct sb_cost {
     double fluid, boundary, threads, steps, simulated, sweeps; /* sweeps: mean per step */
-    double calls;                                              /* steps, settling included */
-    double total;                                              /* T: from reading the scene to the last file */
-    double structure;                                          /* T_c: sort and ghosts */
-    double query;                                              /* T_q: neighbours, and with them density, B and A_ii */
-    double advection;                                          /* T_a: all other stages */
-    double pressure;                                           /* T_p: the solve */
+    double setup, settling;                                    /* before the first step; bringing the water to rest */
+    double total;     /* T: from reading the scene to the last file, without settling */
+    double structure; /* T_c: sort and ghosts */
+    double query;     /* T_q: neighbours, and with them density, B and A_ii */
+    double advection; /* T_a: all other stages */
+    double pressure;  /* T_p: the solve */
 } sb_cost;
 
 /* From the text of a run's summary.json. SB_BAD_INPUT when it has no stages. */
