@@ -95,6 +95,7 @@ static void pretend(sb_contest *c, const sb_entry *e, size_t seed, double second
     t->state = SB_RESULT_DONE;
     t->run.view.wall = seconds;
     t->run.cpu = 2 * seconds;
+    t->run.threads = 2;
     put(&t->figures, c->subject->errors[0].quantity, 100, 100 + error);
 }
 
@@ -123,10 +124,16 @@ static void test_seeds_are_averaged_and_the_front_is_found(void **state)
     assert_true(isnan(e[3].time.mean) && isnan(e[1].errors[1].mean));
     assert_int_equal(sb_contest_judge(&c, true, &error), SB_OK);
     assert_near(e[0].time.mean, 22, 1e-12);
+    /* A run time with fewer threads is none to compare; the processor's is. */
+    c.trials[e[2].first].run.threads = 1;
+    assert_int_equal(sb_contest_judge(&c, true, &error), SB_OK);
+    assert_near(e[2].time.mean, 60, 1e-12);
+    assert_int_equal(sb_contest_judge(&c, false, &error), SB_OK);
+    assert_true(isnan(e[2].time.mean) && !e[2].front);
     sb_contest_free(&c);
 }
 
-/* The reference's own seeds differ from their mean; without it there is no error. */
+/* The reference's seeds are held against each other; without it there is no error. */
 static void test_a_reference_run_is_the_mean_of_its_seeds(void **state)
 {
     (void)state;
@@ -153,7 +160,7 @@ static void test_a_reference_run_is_the_mean_of_its_seeds(void **state)
     assert_true(isnan(e[1].errors[0].mean) && !e[1].front);
     c.trials[0].state = c.trials[1].state = SB_RESULT_DONE;
     assert_int_equal(sb_contest_judge(&c, false, &error), SB_OK);
-    assert_near(e[0].errors[0].mean, 20, 1e-12);
+    assert_near(e[0].errors[0].mean, 50 * (4.0 / 12 + 4.0 / 8), 1e-12);
     assert_near(e[1].errors[0].mean, 50, 1e-12);
     assert_true(e[1].front && !e[0].front);
     sb_contest_free(&c);

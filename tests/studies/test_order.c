@@ -17,7 +17,7 @@ static void fill(sb_level *levels, const double *spacings, size_t count, double 
 static void test_exact_orders_are_found_at_unequal_ratios(void **state)
 {
     (void)state;
-    static const double spacings[LEVELS] = {5, 3, 2}, orders[] = {0.3, 0.5, 1, 1.7, 2};
+    static const double spacings[LEVELS] = {5, 3, 2}, orders[] = {0.55, 0.8, 1, 1.7, 2};
     for (size_t k = 0; k < sizeof orders / sizeof *orders; k++)
         for (int sign = -1; sign <= 1; sign += 2) {
             sb_level l[LEVELS];
@@ -53,7 +53,31 @@ static void test_an_order_above_two_is_not_believed_for_the_error_bar(void **sta
     fill(l, spacings, LEVELS, 0, 1, 5);
     sb_convergence c = sb_converge(l, LEVELS);
     assert_near(c.order, 5, 1e-9);
-    assert_near(c.uncertainty, 1.25 * 31 / 3, 1e-9); /* second order: a third of the difference */
+    assert_near(c.uncertainty, 1.25 * 992 / 4 / 3,
+                1e-9); /* second order: a quarter of the coarse difference, a third */
+    /* Nor one that is out of all bounds. */
+    const sb_level chance[LEVELS] = {{4, 100, (double)NAN}, {2, 50, (double)NAN}, {1, 49.99, (double)NAN}};
+    assert_near(sb_converge(chance, LEVELS).uncertainty, 1.25 * 50 / 4 / 3, 1e-9);
+}
+
+static void test_an_order_near_zero_tells_no_value_at_spacing_0(void **state)
+{
+    (void)state;
+    static const double spacings[LEVELS] = {4, 2, 1};
+    sb_level l[LEVELS];
+    fill(l, spacings, LEVELS, 0, 1, 0.3);
+    sb_convergence c = sb_converge(l, LEVELS);
+    assert_int_equal(c.kind, SB_ORDER_SLOW);
+    assert_true(isnan(c.extrapolated));
+    assert_true(c.uncertainty >= 3 * (pow(4, 0.3) - 1) && c.uncertainty >= 1); /* the limit is within */
+}
+
+static void test_a_spacing_with_one_seed_left_has_the_others_scatter(void **state)
+{
+    (void)state;
+    const sb_level all[LEVELS] = {{4, 9, 0.5}, {2, 5, 0.5}, {1, 3, 0.5}};
+    sb_level one[LEVELS] = {{4, 9, 0.5}, {2, 5, 0.25}, {1, 3, (double)NAN}};
+    assert_near(sb_converge(one, LEVELS).uncertainty, sb_converge(all, LEVELS).uncertainty, 1e-12);
 }
 
 static sb_convergence of_values(double a, double b, double c, double error)
@@ -111,6 +135,14 @@ static void test_range_over_seeds_holds_every_combination(void **state)
     assert_near(r.low, 1, 1e-9);
     assert_near(r.high, log2(40), 1e-6);
     assert_near(r.share, 0.75, 1e-12);
+    /* A seed that failed makes no combination. */
+    static const double lost[] = {(double)NAN, 4.9};
+    const double *const without[3] = {a, b, lost};
+    r = sb_order_over_seeds(spacings, without, seeds);
+    assert_near(r.share, 1, 1e-12);
+    static const double none[] = {(double)NAN, (double)NAN};
+    const double *const nothing[3] = {a, b, none};
+    assert_true(isnan(sb_order_over_seeds(spacings, nothing, seeds).share));
 }
 
 static void test_mean_and_standard_error_pass_over_gaps(void **state)
@@ -134,6 +166,8 @@ int main(void)
         cmocka_unit_test(test_exact_orders_are_found_at_unequal_ratios),
         cmocka_unit_test(test_the_three_finest_that_were_measured_count),
         cmocka_unit_test(test_an_order_above_two_is_not_believed_for_the_error_bar),
+        cmocka_unit_test(test_an_order_near_zero_tells_no_value_at_spacing_0),
+        cmocka_unit_test(test_a_spacing_with_one_seed_left_has_the_others_scatter),
         cmocka_unit_test(test_what_is_no_order_is_called_so),
         cmocka_unit_test(test_two_spacings_assume_first_order_and_one_says_nothing),
         cmocka_unit_test(test_scatter_widens_the_error_bar),

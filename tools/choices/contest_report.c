@@ -49,13 +49,18 @@ static void put_contest(FILE *out, const sb_contest *c, bool cpu)
     fputc('\n', out);
     for (size_t i = 0; i < c->entry_count; i++) put_entry(out, c, &c->entries[i]);
     fputc('\n', out);
-    size_t missing = 0, failed = 0;
+    size_t missing = 0, failed = 0, otherwise = 0;
     for (size_t i = 0; i < c->trial_count; i++) {
         missing += c->trials[i].state == SB_RESULT_NOT_RUN;
         failed += c->trials[i].state == SB_RESULT_FAILED && sb_trial_problem(out, &c->trials[i]);
     }
+    for (size_t i = 0; !cpu && i < c->trial_count; i++)
+        otherwise += c->trials[i].state == SB_RESULT_DONE && c->trials[i].run.threads != c->threads;
+    if (otherwise)
+        fprintf(out, "- %zu runs had other numbers of threads than %d: their run times are left out\n", otherwise,
+                c->threads);
     if (missing) fprintf(out, "- %zu of %zu runs are not there yet\n", missing, c->trial_count);
-    if (missing + failed) fputc('\n', out);
+    if (missing + failed + otherwise) fputc('\n', out);
 }
 
 static const char reading[] =
@@ -163,7 +168,7 @@ static sb_status draw(const sb_contest_report *r, const char *folder, sb_error *
 
 static void put_csv(FILE *out, const sb_contest_report *r)
 {
-    fputs("scene,choice,spacing_m,seed,particles,steps,sweeps_per_step,run_time_s,cpu_s,load,error,unit,"
+    fputs("scene,choice,spacing_m,seed,threads,particles,steps,sweeps_per_step,run_time_s,cpu_s,load,error,unit,"
           "mean,least,most,front,commit\n",
           out);
     for (size_t n = 0; n < r->count; n++) {
@@ -174,8 +179,8 @@ static void put_csv(FILE *out, const sb_contest_report *r)
                     const sb_entry *e = &c->entries[i];
                     const sb_finished *run = &c->trials[t].run;
                     if (c->trials[t].state != SB_RESULT_DONE) continue;
-                    fprintf(out, "%s,\"%s\",%g,%d,%zu,%zu,%.3f,%.3f,%.3f,%.2f,%s,%s,%.5g,%.5g,%.5g,%s,%s\n",
-                            c->subject->name, name_of(e), e->plan.resolution, c->trials[t].request.seed,
+                    fprintf(out, "%s,\"%s\",%g,%d,%d,%zu,%zu,%.3f,%.3f,%.3f,%.2f,\"%s\",%s,%.5g,%.5g,%.5g,%s,%s\n",
+                            c->subject->name, name_of(e), e->plan.resolution, c->trials[t].request.seed, run->threads,
                             run->view.particles, run->view.steps, run->view.iterations, run->view.wall, run->cpu,
                             run->load, c->subject->errors[k].name, c->subject->errors[k].unit, e->errors[k].mean,
                             e->errors[k].low, e->errors[k].high, e->front ? "yes" : "no", run->commit);

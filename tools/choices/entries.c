@@ -81,20 +81,37 @@ static void include(sb_spread *spread, double value, double *known)
 
 static const sb_spread nothing = {(double)NAN, (double)NAN, (double)NAN};
 
+/* A run time counts only with as many threads as the most: others, made with other --jobs, say something else. */
+static double time_of(const sb_result *trial, bool cpu, int threads)
+{
+    if (cpu) return trial->run.cpu;
+    return trial->run.threads == threads ? trial->run.view.wall : (double)NAN;
+}
+
+/* A reference is held against the other seeds' ones, for what they differ by is the least error that says anything. */
+static double error_of(const sb_contest *c, const sb_entry *e, size_t trial, size_t k,
+                       const sb_figures *const *references, size_t count)
+{
+    const sb_figures *own = &c->trials[trial].figures, *others[SB_ENTRY_SEEDS];
+    size_t other = 0;
+    if (e->choice) return sb_subject_error(&c->subject->errors[k], own, references, count);
+    for (size_t i = 0; i < count; i++)
+        if (references[i] != own) others[other++] = references[i];
+    return other ? sb_subject_error(&c->subject->errors[k], own, others, other) : (double)NAN;
+}
+
 static void judge_entry(const sb_contest *c, sb_entry *e, bool cpu, const sb_figures *const *references, size_t count)
 {
     double known = 0;
     e->time = nothing;
     for (size_t i = e->first; i < e->first + e->seeds; i++)
-        if (c->trials[i].state == SB_RESULT_DONE)
-            include(&e->time, cpu ? c->trials[i].run.cpu : c->trials[i].run.view.wall, &known);
+        if (c->trials[i].state == SB_RESULT_DONE) include(&e->time, time_of(&c->trials[i], cpu, c->threads), &known);
     for (size_t k = 0; k < c->error_count; k++) {
         known = 0;
         e->errors[k] = nothing;
         for (size_t i = e->first; i < e->first + e->seeds; i++)
             if (c->trials[i].state == SB_RESULT_DONE)
-                include(&e->errors[k],
-                        sb_subject_error(&c->subject->errors[k], &c->trials[i].figures, references, count), &known);
+                include(&e->errors[k], error_of(c, e, i, k, references, count), &known);
     }
 }
 
@@ -135,6 +152,10 @@ sb_status sb_contest_judge(sb_contest *c, bool cpu, sb_error *error)
     const sb_figures *references[SB_ENTRY_SEEDS];
     bool lost;
     size_t count = references_of(c, references, &lost);
+    c->threads = 0;
+    for (size_t i = 0; i < c->trial_count; i++)
+        if (c->trials[i].state == SB_RESULT_DONE && c->trials[i].run.threads > c->threads)
+            c->threads = c->trials[i].run.threads;
     for (size_t i = 0; i < c->entry_count; i++) {
         judge_entry(c, &c->entries[i], cpu, references, count);
         for (size_t k = 0; lost && k < c->error_count; k++) c->entries[i].errors[k] = nothing;

@@ -28,6 +28,7 @@ typedef struct sb_entry {
 typedef struct sb_contest {
     const sb_subject *subject;
     size_t entry_count, trial_count, error_count;
+    int threads;       /* the most that any run had: run times of others do not count */
     sb_entry *entries; /* the reference first, where there is one */
     sb_result *trials;
 } sb_contest;

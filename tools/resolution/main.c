@@ -26,8 +26,21 @@ static void name_it(subject *s)
     if (dot && dot != s->name) *dot = '\0';
 }
 
+/* The preset that is asked for, or else the scene's own. */
+static sb_status find_preset(const subject *s, const sb_study_options *o, bool *paper, sb_error *error)
+{
+    sb_scene scene = {0};
+    *paper = o->paper;
+    if (o->preset) return SB_OK;
+    const sb_status status = sb_scene_read(s->scene, NULL, NULL, 0, &scene, error);
+    *paper = status == SB_OK && scene.numerics.preset == SB_PRESET_PAPER;
+    sb_scene_free(&scene);
+    return status;
+}
+
 static sb_status begin(subject *s, const sb_study_options *o, sb_error *error)
 {
+    bool paper;
     if (!realpath(o->scene, s->scene)) return sb_fail(error, SB_BAD_INPUT, "%.400s: no such file", o->scene);
     name_it(s);
     snprintf(s->out, sizeof s->out, "%s%s", o->out ? o->out : SB_SOURCE_DIR "/runs/study/", o->out ? "" : s->name);
@@ -35,13 +48,15 @@ static sb_status begin(subject *s, const sb_study_options *o, sb_error *error)
     for (size_t i = 0; i < SB_TRIAL_SETTINGS; i++) s->settings[i] = sb_trial_settings[i];
     for (size_t i = 0; i < o->set_count; i++) s->settings[SB_TRIAL_SETTINGS + i] = o->sets[i];
     s->count = o->spacing_count * (size_t)o->seeds;
+    const sb_status status = find_preset(s, o, &paper, error);
+    if (status != SB_OK) return status;
     s->trials = sb_alloc(s->count, sizeof *s->trials);
     if (!s->trials) return sb_fail_memory(error, "a study");
     for (size_t i = 0; i < s->count; i++) {
         sb_plan *plan = &s->plans[i / (size_t)o->seeds];
         *plan = (sb_plan){.resolution = o->spacings[i / (size_t)o->seeds], .settings = s->settings};
         s->trials[i].request =
-            (sb_request){.of = &s->of, .plan = plan, .paper = o->paper, .seed = 1 + (int)(i % (size_t)o->seeds)};
+            (sb_request){.of = &s->of, .plan = plan, .paper = paper, .seed = 1 + (int)(i % (size_t)o->seeds)};
     }
     return SB_OK;
 }
@@ -53,7 +68,9 @@ static sb_status report(const subject *s, const sb_study_options *o, const sb_st
     size_t count;
     sb_status status = sb_study_rows(&study, &rows, &count, error);
     if (status != SB_OK) return status;
-    if (!count)
+    bool any = false;
+    for (size_t i = 0; i < s->count; i++) any |= s->trials[i].state == SB_RESULT_DONE;
+    if (!count && any)
         status = sb_fail(error, SB_BAD_INPUT, "%s: nothing measured has %s", s->name,
                          o->pattern_count ? "a name asked for by --quantity" : "a value");
     if (count) sb_study_table(stdout, &study, rows, count);

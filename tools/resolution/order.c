@@ -4,6 +4,7 @@
 
 static const double LARGEST = 10;  /* no order above this is looked for */
 static const double CREDIBLE = 2;  /* of the discretisation: a larger one is chance */
+static const double SLOWEST = 0.5; /* below it the value at spacing 0 is anywhere [Oberkampf and Roy 2010, 8.8.3] */
 static const double SAFETY = 1.25; /* three spacings; 3 with two (Roache 1994) */
 
 /* By how much the coarse difference exceeds the fine one at order p. */
@@ -29,13 +30,25 @@ static double order_of(double ratio, double fine, double coarse)
     return 0.5 * (low + high);
 }
 
-/* At most the three finest levels with a value, coarse to fine; how many. */
-static size_t finest(const sb_level *levels, size_t count, sb_level chosen[3])
+size_t sb_finest_levels(const sb_level *levels, size_t count, size_t chosen[3])
 {
     size_t found = 0;
     for (size_t i = count; i-- > 0 && found < 3;)
-        if (!isnan(levels[i].value)) chosen[2 - found++] = levels[i];
+        if (!isnan(levels[i].value)) chosen[2 - found++] = i;
     for (size_t i = 0; found < 3 && i < found; i++) chosen[i] = chosen[i + 3 - found];
+    return found;
+}
+
+/* Where too few seeds ran to tell a standard error, the largest of the others' stands in. */
+static size_t finest(const sb_level *levels, size_t count, sb_level chosen[3])
+{
+    size_t index[3], found = sb_finest_levels(levels, count, index);
+    double largest = (double)NAN;
+    for (size_t i = 0; i < found; i++) largest = fmax(largest, levels[index[i]].error);
+    for (size_t i = 0; i < found; i++) {
+        chosen[i] = levels[index[i]];
+        if (isnan(chosen[i].error)) chosen[i].error = largest;
+    }
     return found;
 }
 
@@ -74,16 +87,24 @@ sb_convergence sb_converge(const sb_level *levels, size_t count)
         c.uncertainty = range_of(l) + 2 * noise;
         return c;
     }
-    c.order = order_of(coarse / fine, l[1].spacing / l[2].spacing, l[0].spacing / l[1].spacing);
+    const double fine_ratio = l[1].spacing / l[2].spacing, coarse_ratio = l[0].spacing / l[1].spacing;
+    c.order = order_of(coarse / fine, fine_ratio, coarse_ratio);
     if (isnan(c.order)) {
         c.kind = coarse / fine < 0 ? SB_ORDER_OSCILLATING : SB_ORDER_DIVERGING;
         c.uncertainty = hypot(3 * range_of(l), noise);
         return c;
     }
+    if (c.order < SLOWEST) {
+        c.kind = SB_ORDER_SLOW;
+        c.uncertainty = hypot(3 * fmax(range_of(l), fabs(fine) / (pow(fine_ratio, SLOWEST) - 1)), noise);
+        return c;
+    }
     c.kind = SB_ORDER_OBSERVED;
-    double step = fine / (pow(l[1].spacing / l[2].spacing, fmin(c.order, CREDIBLE)) - 1);
-    c.extrapolated = l[2].value - step;
-    c.uncertainty = hypot(SAFETY * step, noise);
+    const double credible = fmin(c.order, CREDIBLE);
+    c.extrapolated = l[2].value - fine / (pow(fine_ratio, credible) - 1);
+    /* A fine difference that is small by chance must not make the bar small: what the coarse one leads to expect. */
+    const double expected = coarse / ratio_at(credible, fine_ratio, coarse_ratio);
+    c.uncertainty = hypot(SAFETY * expected / (pow(fine_ratio, credible) - 1), noise);
     return c;
 }
 
@@ -94,15 +115,17 @@ sb_order_range sb_order_over_seeds(const double spacing[3], const double *const 
     size_t tried = 0, observed = 0;
     for (size_t i = 0; i < seeds[0]; i++)
         for (size_t j = 0; j < seeds[1]; j++)
-            for (size_t k = 0; k < seeds[2]; k++, tried++) {
+            for (size_t k = 0; k < seeds[2]; k++) {
                 double a = values[0][i], b = values[1][j], c = values[2][k];
+                if (isnan(a + b + c)) continue;
+                tried++;
                 double order = order_of((a - b) / (b - c), fine, coarse);
                 if (isnan(order)) continue;
                 r.low = fmin(r.low, order); /* fmin and fmax pass over NaN */
                 r.high = fmax(r.high, order);
                 observed++;
             }
-    r.share = tried ? (double)observed / (double)tried : 0;
+    r.share = tried ? (double)observed / (double)tried : (double)NAN;
     return r;
 }
 
@@ -124,6 +147,7 @@ const char *sb_order_remark(sb_order_kind kind)
         [SB_ORDER_ASSUMED] = "two spacings: first order assumed",
         [SB_ORDER_NOISE] = "order not observable: a difference is within the seeds' scatter",
         [SB_ORDER_OSCILLATING] = "order not observable: the differences change sign",
+        [SB_ORDER_SLOW] = "order below 0.5: no value at spacing 0 can be told",
         [SB_ORDER_DIVERGING] = "order not observable: the differences do not shrink",
         [SB_ORDER_MISSING] = "not measured at two spacings",
     };

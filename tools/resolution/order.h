@@ -18,6 +18,7 @@ typedef enum sb_order_kind {
     SB_ORDER_ASSUMED,     /* two spacings: first order is assumed */
     SB_ORDER_NOISE,       /* a difference is no larger than what start seeds do */
     SB_ORDER_OSCILLATING, /* the differences change sign */
+    SB_ORDER_SLOW,        /* an order below 0.5 */
     SB_ORDER_DIVERGING,   /* the differences do not shrink */
     SB_ORDER_MISSING      /* fewer than two values */
 } sb_order_kind;
@@ -30,15 +31,20 @@ typedef struct sb_convergence {
 } sb_convergence;
 
 /* From the levels, coarse to fine; the three finest that have a value count.
-   Observed: uncertainty 1.25 |finest - extrapolated|, an order above 2 being taken as 2 there.
+   Observed: uncertainty 1.25 |finest - extrapolated|; above order 2, 1.25 times the error that the coarser difference
+   leads to expect at order 2, for a fine one that is smaller is chance.
    Assumed: 3 times the first-order estimate. Noise: the range of the values and twice the standard
-   error of the finest. Oscillating, diverging: 3 times the range. Where the standard error is known,
-   it is added (root of the sum of squares), but for noise. */
+   error of the finest. Slow: 3 times the range, or the distance at order 0.5 if that is more. Oscillating, diverging: 3
+   times the range. Where the standard error is known, it is added (root of the sum of squares), but for noise; a level
+   whose own is not known has the largest of the others. */
 sb_convergence sb_converge(const sb_level *levels, size_t count);
 
+/* Which levels these are, coarse to fine; returns how many. */
+size_t sb_finest_levels(const sb_level *levels, size_t count, size_t chosen[3]);
+
 /* What single seeds give: the order of every combination of one value per spacing of the three
-   finest. `values[l]` has seeds[l] values. low and high: the smallest and largest observed order,
-   NaN when there is none; share: of the combinations in which an order is observed. */
+   finest. `values[l]` has seeds[l] values, NaN: none. low and high: the smallest and largest observed order,
+   NaN when there is none; share: of the combinations of values in which an order is observed; NaN: there are none. */
 typedef struct sb_order_range {
     double low, high, share;
 } sb_order_range;

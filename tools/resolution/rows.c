@@ -35,11 +35,16 @@ static void fill(const sb_study *study, sb_study_row *row)
         sb_mean_of(&row->values[l * seeds], seeds, &row->levels[l].value, &row->levels[l].error);
     }
     row->convergence = sb_converge(row->levels, n);
-    if (n < 3) return;
-    const double *const values[3] = {&row->values[(n - 3) * seeds], &row->values[(n - 2) * seeds],
-                                     &row->values[(n - 1) * seeds]};
+    row->range = (sb_order_range){(double)NAN, (double)NAN, (double)NAN};
+    size_t level[3];
+    const size_t found = sb_finest_levels(row->levels, n, level);
+    row->finest = found > 0 ? o->spacings[level[found - 1]] : (double)NAN;
+    if (found < 3) return;
+    const double spacing[3] = {o->spacings[level[0]], o->spacings[level[1]], o->spacings[level[2]]};
+    const double *const values[3] = {&row->values[level[0] * seeds], &row->values[level[1] * seeds],
+                                     &row->values[level[2] * seeds]};
     const size_t counts[3] = {seeds, seeds, seeds};
-    row->range = sb_order_over_seeds(&o->spacings[n - 3], values, counts);
+    row->range = sb_order_over_seeds(spacing, values, counts);
 }
 
 sb_status sb_study_rows(const sb_study *study, sb_study_row **rows, size_t *count, sb_error *error)

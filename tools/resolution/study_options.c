@@ -70,6 +70,7 @@ static sb_status take_set(void *user, const char *text, sb_error *error)
 static sb_status take_preset(void *user, const char *name, sb_error *error)
 {
     sb_study_options *o = user;
+    o->preset = name;
     o->paper = strcmp(name, "paper") == 0;
     return o->paper || strcmp(name, "default") == 0
                ? SB_OK

@@ -15,6 +15,7 @@ typedef struct sb_study_options {
     const char *patterns[SB_STUDY_PATTERNS]; /* of quantities; none: all */
     size_t pattern_count;
     int seeds, jobs;
+    const char *preset; /* NULL: the scene's own */
     bool paper, report_only, help;
     char command[1024]; /* as it may be repeated anywhere: without folders of this machine */
 } sb_study_options;

@@ -42,13 +42,17 @@ void sb_study_table(FILE *out, const sb_study *study, const sb_study_row *rows, 
     fputc('\n', out);
     for (size_t i = 0; i < count; i++) {
         const sb_study_row *row = &rows[i];
-        fprintf(out, "| %s | %s |", row->quantity, row->unit);
+        fputs("| ", out);
+        sb_text_cell(out, row->quantity);
+        fprintf(out, " | %s |", row->unit);
         for (size_t l = 0; l < o->spacing_count; l++) put_with_error(out, row->levels[l].value, row->levels[l].error);
         put_order(out, row, o->seeds > 1);
         sb_text_number(text, row->convergence.extrapolated);
         fprintf(out, " %s |", text);
         sb_text_number(text, row->convergence.uncertainty);
-        fprintf(out, " ± %s | %s |\n", text, sb_order_remark(row->convergence.kind));
+        fprintf(out, " ± %s", text);
+        if (row->finest > o->spacings[o->spacing_count - 1]) fprintf(out, " (at %g m)", row->finest);
+        fprintf(out, " | %s |\n", sb_order_remark(row->convergence.kind));
     }
 }
 
@@ -73,8 +77,10 @@ static const char reading[] =
     "the differences between\nthe three finest spacings (Celik et al. 2008), in brackets its range "
     "over all combinations of single seeds and the share of\nthem that have one. The value at spacing "
     "0 is Richardson's. The error bar is 1.25 times the distance to it (Roache's grid\nconvergence "
-    "index), an order above 2 counting as 2; with two spacings 3 times the first-order estimate; "
-    "where no order is\nobservable 3 times the range of the three values, or, within the seeds' "
+    "index), above order 2 what the coarser difference leads to expect at order 2; with two spacings 3 times the "
+    "first-order "
+    "estimate; where no order is\nobservable, or one below 0.5, 3 times the range of the three values or more; within "
+    "the seeds' "
     "scatter, their range and twice the standard error.\nPeaks are of forces averaged over "
     "`measure.interval`: keep it the same.\n";
 

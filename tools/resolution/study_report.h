@@ -21,7 +21,8 @@ typedef struct sb_study_row {
     double *values;
     sb_level levels[SB_STUDY_LEVELS];
     sb_convergence convergence;
-    sb_order_range range; /* of single seeds; share 0 with fewer than three spacings */
+    sb_order_range range; /* of single seeds; NaN with fewer than three spacings */
+    double finest;        /* m: the finest spacing with a value, which the error bar belongs to; NaN: none */
 } sb_study_row;
 
 /* Every wanted quantity of any trial, in the order it is met. *rows: sb_study_rows_free. */

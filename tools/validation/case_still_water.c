@@ -45,7 +45,7 @@ static sb_status figure_level(const sb_case_run *run, sb_figures *figures, sb_er
         if (status != SB_OK) return status;
         double miss = sb_curve_mean(&eta, START, HUGE_VAL) - scene->sea.level;
         sb_curve_free(&eta);
-        if (!(fabs(miss) <= fabs(worst))) {
+        if (!isnan(worst) && !(fabs(miss) <= fabs(worst))) { /* one that was not measured stays the worst */
             worst = miss;
             name = scene->measure.gauges[g].name;
         }

@@ -50,10 +50,8 @@ static sb_status start(const sb_store *store, const char *scene, job *j, bool al
         arguments[count++] = "--set";
         arguments[count++] = settings.list[i];
     }
-    if (j->request->paper) {
-        arguments[count++] = "--preset";
-        arguments[count++] = "paper";
-    }
+    arguments[count++] = "--preset";
+    arguments[count++] = j->request->paper ? "paper" : "default";
     if (!alone) {
         arguments[count++] = "--threads";
         arguments[count++] = "1";

@@ -31,6 +31,8 @@ void sb_report_csv(FILE *out, const sb_report *report);
 
 /* Text for a table cell: NaN is an en dash; four digits; an error carries its sign and unit. */
 void sb_text_number(char text[48], double value);
+/* A name as it can stand in a cell of a table. */
+void sb_text_cell(FILE *out, const char *name);
 void sb_text_error(char text[48], double error, const char *unit);
 
 #endif

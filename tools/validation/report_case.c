@@ -4,6 +4,11 @@
 #include <math.h>
 #include <string.h>
 
+void sb_text_cell(FILE *out, const char *name)
+{
+    for (; *name; name++) fprintf(out, *name == '|' ? "\\%c" : "%c", *name);
+}
+
 void sb_text_number(char text[48], double value)
 {
     if (isnan(value))

@@ -59,9 +59,12 @@ sb_status sb_request_hash(const sb_request *request, const char *scene_path, uin
         overrides[i] = (sb_override){.key = texts[i], .value = equals + 1};
     }
     if (status == SB_OK)
-        status = sb_scene_read(scene_path, request->paper ? "paper" : NULL, overrides, settings.count, &scene, error);
+        status =
+            sb_scene_read(scene_path, request->paper ? "paper" : "default", overrides, settings.count, &scene, error);
     for (size_t b = 0; status == SB_OK && b < scene.body_count; b++)
         if (scene.bodies[b].file) status = sb_hash_file(scene.bodies[b].file, hash, error);
+    for (size_t w = 0; status == SB_OK && w < scene.wavemaker_count; w++)
+        if (scene.wavemakers[w].law.file) status = sb_hash_file(scene.wavemakers[w].law.file, hash, error);
     sb_scene_free(&scene);
     return status;
 }

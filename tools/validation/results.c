@@ -48,7 +48,7 @@ static void complete(const sb_store *store, sb_result *r)
     sb_request_label(&r->request, false, r->run.label);
     sb_store_recall(r->run.folder, "commit", r->run.commit, sizeof r->run.commit);
     sb_store_recall(r->run.folder, "machine", r->run.machine, sizeof r->run.machine);
-    r->run.cpu = recalled(r->run.folder, "cpu_s");
+    if (isnan(r->run.cpu)) r->run.cpu = recalled(r->run.folder, "cpu_s");
     r->run.load = recalled(r->run.folder, "load");
     view->assets = store->assets;
     view->preset = r->request.paper ? "paper" : "default";
@@ -69,10 +69,12 @@ void sb_result_read(const sb_store *store, bool any_build, sb_result *r)
         snprintf(r->problem, sizeof r->problem, "%.600s", why.text);
         return;
     }
-    if (!sb_store_find(store, &r->request, any_build, folder)) {
-        if (sb_store_failed(store, &r->request, r->problem, sizeof r->problem)) r->state = SB_RESULT_FAILED;
+    /* What this program failed at, no other's figures may cover. */
+    if (sb_store_failed(store, &r->request, r->problem, sizeof r->problem)) {
+        r->state = SB_RESULT_FAILED;
         return;
     }
+    if (!sb_store_find(store, &r->request, any_build, folder)) return;
     sb_status status = sb_finished_read(&r->run, folder, &why);
     if (status == SB_OK) {
         complete(store, r);

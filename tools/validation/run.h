@@ -8,8 +8,9 @@
 typedef struct sb_finished {
     char folder[SB_PATH_MAX];
     char label[96];
-    char threads[16], commit[64], machine[128]; /* of the run, from its record */
-    double cpu, load; /* s of processor time; the machine's load at its end; NaN: not recorded */
+    int threads;                   /* of the run's last process */
+    char commit[64], machine[128]; /* of the run, from its record */
+    double cpu, load; /* s of processor time, all processes of the run; the machine's load at its end; NaN: not known */
     sb_scene scene;
     sb_sheet_slot slot;
     sb_case_run view; /* points into this struct: copy no sb_finished */

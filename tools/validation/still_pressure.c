@@ -62,7 +62,7 @@ static sb_status figure_layers(const sb_case_run *run, sb_figures *figures, sb_e
     for (size_t k = 0; k < LAYERS; k++) {
         if (!is_layer(p, k)) continue;
         double miss = p->excess[k] / (double)p->count[k];
-        if (fabs(miss) <= fabs(worst)) continue;
+        if (isnan(worst) || fabs(miss) <= fabs(worst)) continue;
         worst = miss;
         at = k;
     }
@@ -93,7 +93,7 @@ static sb_status figure_probes(const sb_case_run *run, sb_figures *figures, sb_e
         double miss =
             sb_curve_mean(&pressure, 0.5 * scene->duration, HUGE_VAL) - weight * (scene->sea.level - probe->at.z);
         sb_curve_free(&pressure);
-        if (!(fabs(miss) <= fabs(worst))) {
+        if (!isnan(worst) && !(fabs(miss) <= fabs(worst))) { /* one that was not measured stays the worst */
             worst = miss;
             name = probe->name;
         }
