@@ -5,7 +5,8 @@
 
 #include <string.h>
 
-/* In spacings: a moving particle this near to a static one is its double. */
+/* In spacings: of two moving bodies' particles this near to each other the second is a double. One that lies where a
+   static one does is none: it goes away, and takes the water along. */
 static const double same_place = 1e-3;
 
 void sb_samples_free(sb_samples *samples)
@@ -23,15 +24,14 @@ static int sample_group(sb_sampler *sampler)
     return sb_sample_lattices(sampler) || sb_sample_grow(sampler) || sb_sample_voids(sampler);
 }
 
-/* Appends what the group found to `all`, but for doubles of what is there already. */
-static int collect(sb_sampler *sampler, sb_sample_set *all)
+/* Appends what the group found, but for doubles of what is there already; near: m, 0: there are none. */
+static int collect(sb_sample_set *found, double near, sb_sample_set *all)
 {
-    double near = same_place * sampler->settings.spacing;
-    for (size_t i = 0; i < sampler->set.count; ++i)
-        if (sb_stop_signal() || (!sb_sample_set_any(all, sampler->set.sample[i].at, near) &&
-                                 sb_sample_set_add(all, sampler->set.sample + i)))
+    for (size_t i = 0; i < found->count; ++i)
+        if (sb_stop_signal() || (!(near > 0 && sb_sample_set_any(all, found->sample[i].at, near)) &&
+                                 sb_sample_set_add(all, found->sample + i)))
             return -1;
-    sb_sample_set_free(&sampler->set);
+    sb_sample_set_free(found);
     return 0;
 }
 
@@ -46,11 +46,15 @@ static int sample_groups(sb_sampler *sampler, sb_sample_set *all)
     *all = sampler->set;
     sampler->set = (sb_sample_set){.cell = all->cell, .origin = all->origin};
     sampler->moving = true;
+    sb_sample_set moving = {.cell = all->cell, .origin = all->origin};
     for (uint32_t i = 0; i < sampler->surface_count && !failed; ++i) {
         sampler->first = i;
         sampler->last = i + 1;
-        if (sb_sampler_takes(sampler, i)) failed = sample_group(sampler) || collect(sampler, all);
+        if (sb_sampler_takes(sampler, i))
+            failed = sample_group(sampler) || collect(&sampler->set, same_place * sampler->settings.spacing, &moving);
     }
+    failed = failed || collect(&moving, 0, all);
+    sb_sample_set_free(&moving);
     return failed;
 }
 

@@ -136,6 +136,34 @@ static void a_wavemaker_needs_its_body(void **state)
     assert_non_null(strstr(error.text, "nobody"));
 }
 
+/* A paddle whose face lies in the plane of the tank's end has all its particles, and so has the tank; that both bear
+   the water is told. */
+static void a_moving_face_in_a_walls_plane_is_there(void **state)
+{
+    (void)state;
+    static const double fronts[] = {0, 0.5, 2}; /* m; the support radius is 1 */
+    size_t alone = 0;
+    for (int dimensions = 2; dimensions <= 3; dimensions++)
+        for (int f = 2; f >= 0; f--) {
+            scene.dimensions = dimensions;
+            scene.body_count = 0;
+            add_box("paddle", sb_vec(-1, -1, -1), sb_vec(fronts[f], 7, 6));
+            snprintf(wavemaker.name, sizeof wavemaker.name, "w");
+            wavemaker.direction = sb_vec(1, 0, 0);
+            snprintf(wavemaker.body, sizeof wavemaker.body, "paddle");
+            scene.wavemaker_count = 1;
+            build();
+            const sb_model_body *paddle = &model.bodies[0];
+            size_t front = 0;
+            for (size_t i = paddle->begin; i < paddle->begin + paddle->count; i++)
+                front += model.wall_normal[i].x > 0.99 && model.wall_position[i].x < fronts[f];
+            if (f == 2) alone = front;
+            assert_true(front > 0 && front == alone);
+            assert_int_equal(warned("\"paddle\" moves", "\"domain\""), f < 2);
+            sb_model_free(&model);
+        }
+}
+
 static void open_sides_have_no_wall(void **state)
 {
     (void)state;
@@ -502,15 +530,25 @@ int main(void)
 {
 #define CASE(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
     const struct CMUnitTest tests[] = {
-        CASE(bodies_and_their_particles),        CASE(names_are_unique),
-        CASE(a_wavemaker_needs_its_body),        CASE(open_sides_have_no_wall),
-        CASE(warnings_say_what_is_too_coarse),   CASE(faces_without_area_are_told),
-        CASE(thin_bodies_share_a_line),          CASE(thin_bodies_beyond_a_line_are_counted),
-        CASE(holes_in_a_mesh_are_named),         CASE(plates_that_water_passes_are_refused),
-        CASE(plates_that_hold_are_not_refused),  CASE(slender_columns_are_not_refused),
-        CASE(thin_parts_are_only_warned_of),     CASE(points_inside_are_found),
-        CASE(beside_a_sheet_is_not_within),      CASE(a_start_is_forgotten_unless_it_moves),
-        CASE(two_dimensions_have_no_side_walls), CASE(no_memory_is_an_error),
+        CASE(bodies_and_their_particles),
+        CASE(names_are_unique),
+        CASE(a_wavemaker_needs_its_body),
+        CASE(open_sides_have_no_wall),
+        CASE(a_moving_face_in_a_walls_plane_is_there),
+        CASE(warnings_say_what_is_too_coarse),
+        CASE(faces_without_area_are_told),
+        CASE(thin_bodies_share_a_line),
+        CASE(thin_bodies_beyond_a_line_are_counted),
+        CASE(holes_in_a_mesh_are_named),
+        CASE(plates_that_water_passes_are_refused),
+        CASE(plates_that_hold_are_not_refused),
+        CASE(slender_columns_are_not_refused),
+        CASE(thin_parts_are_only_warned_of),
+        CASE(points_inside_are_found),
+        CASE(beside_a_sheet_is_not_within),
+        CASE(a_start_is_forgotten_unless_it_moves),
+        CASE(two_dimensions_have_no_side_walls),
+        CASE(no_memory_is_an_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
