@@ -48,7 +48,6 @@ sb_spent sb_spent_sum(const run *r)
     sb_spent sum = r->before;
     const sb_stage_time *stages = NULL;
     const size_t count = r->sim ? sb_sim_stages(r->sim, &stages) : 0;
-    sum.processes++;
     sum.wall = sb_run_wall(r);
     sum.processor += processor_time();
     sum.setup += r->setup_seconds;
@@ -65,7 +64,6 @@ sb_spent sb_spent_sum(const run *r)
 void sb_spent_save(const run *r, sb_archive_out *out)
 {
     const sb_spent sum = sb_spent_sum(r);
-    sb_put_count(out, sum.processes);
     sb_put_real(out, sum.wall);
     sb_put_real(out, sum.processor);
     sb_put_real(out, sum.setup);
@@ -84,8 +82,7 @@ void sb_spent_save(const run *r, sb_archive_out *out)
 void sb_spent_load(run *r, sb_archive_in *in)
 {
     sb_spent *before = &r->before;
-    *before = (sb_spent){.processes = sb_take_count(in, UINT32_MAX)};
-    before->wall = sb_take_real(in);
+    *before = (sb_spent){.wall = sb_take_real(in)};
     before->processor = sb_take_real(in);
     before->setup = sb_take_real(in);
     before->settling = sb_take_real(in);

@@ -2,6 +2,9 @@
  * spacing, steps too long. */
 #include "geometry/model_parts.h"
 
+#include <math.h>
+#include <stdio.h>
+
 enum { DEPTH_MIN = 4, HEIGHT_MIN = 5 };
 
 /* In h/sqrt(g D). A column collapsing with steps of twice this has fallen an eighth less than with short ones after
@@ -52,6 +55,63 @@ static sb_status check_height(const sb_model *model, const char *what, const cha
                          HEIGHT_MIN);
 }
 
+/* In spacings and of the depth: what a law's still depth may be off by, for floors are uneven. NEAR: as far from a
+   crest or a paddle's face its water is looked at, in spacings. */
+static const double DEPTH_SLACK = 1.5, DEPTH_SHARE = 0.05, NEAR = 3;
+
+/* Still depth of the water between two places along a direction; 0: there is none. */
+static double depth_between(const sb_scene *scene, const sb_model *model, sb_vec3 along, double from, double to)
+{
+    double lowest = (double)INFINITY;
+    for (size_t i = 0; i < model->fluid_count; i++) {
+        const sb_vec3 at = model->fluid_position[i];
+        const double where = sb_dot(at, along);
+        if (where >= from && where <= to && at.z < lowest) lowest = at.z;
+    }
+    return fmax(scene->sea.level - lowest + 0.5 * model->spacing, 0);
+}
+
+static sb_status check_depth(sb_model *model, const char *what, const char *name, double depth, double there,
+                             sb_error *error)
+{
+    if (there == 0) return sb_model_warn(model, error, "%s%s: no water is there at t = 0", what, name);
+    if (fabs(depth - there) <= fmax(DEPTH_SLACK * model->spacing, DEPTH_SHARE * there)) return SB_OK;
+    return sb_model_warn(model, error,
+                         "%s%s: its depth is %g m, but the water there is about %.2g m deep: another wave comes of it",
+                         what, name, depth, there);
+}
+
+/* What a wave or a wave maker takes for the still depth, held against the water that is there. */
+static sb_status check_depths(const sb_scene *scene, sb_model *model, sb_error *error)
+{
+    const sb_initial_wave *wave = &scene->wave;
+    const double near = NEAR * model->spacing;
+    sb_status status = SB_OK;
+    if (wave->kind == SB_INITIAL_SOLITARY && scene->sea.present)
+        status = check_depth(model, "water.wave", " at its crest", wave->depth,
+                             depth_between(scene, model, sb_vec(1, 0, 0), wave->position - near, wave->position + near),
+                             error);
+    if (status == SB_OK && wave->kind != SB_INITIAL_NONE && scene->sea.present &&
+        scene->sea.level + wave->height > scene->domain.max.z)
+        status = sb_model_warn(model, error,
+                               "water.wave: its crest at z = %g m is above the domain's top, %g m: it is cut off",
+                               scene->sea.level + wave->height, scene->domain.max.z);
+    for (size_t w = 0; w < scene->wavemaker_count && status == SB_OK && scene->sea.present; w++) {
+        const sb_wavemaker_use *maker = &scene->wavemakers[w];
+        double front = -(double)INFINITY;
+        char name[SB_NAME_MAX + 4];
+        for (size_t b = 0; b < model->body_count; b++)
+            for (size_t i = model->bodies[b].begin; i < model->bodies[b].begin + model->bodies[b].count; i++)
+                if (model->bodies[b].wavemaker == (int)w && sb_dot(model->wall_normal[i], maker->direction) > 0.9)
+                    front = fmax(front, sb_dot(model->wall_position[i], maker->direction));
+        if (!(maker->law.depth > 0) || !isfinite(front)) continue;
+        snprintf(name, sizeof name, " \"%s\"", maker->name);
+        status = check_depth(model, "wavemaker", name, maker->law.depth,
+                             depth_between(scene, model, maker->direction, front, front + near), error);
+    }
+    return status;
+}
+
 static sb_status check_water(const sb_scene *scene, sb_model *model, sb_error *error)
 {
     if (model->fluid_count == 0)
@@ -68,7 +128,7 @@ static sb_status check_water(const sb_scene *scene, sb_model *model, sb_error *e
     for (size_t i = 0; i < scene->wavemaker_count && status == SB_OK; ++i)
         status =
             check_height(model, "wavemaker", scene->wavemakers[i].name, scene->wavemakers[i].law.height, model, error);
-    return status;
+    return status == SB_OK ? check_depths(scene, model, error) : status;
 }
 
 static sb_status check_steps(const sb_scene *scene, sb_model *model, sb_error *error)

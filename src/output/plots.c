@@ -244,6 +244,15 @@ static sb_status draw_series(const char *program, const char *directory, const p
     return status;
 }
 
+/* Whether any row has a number: probes and lines that no water came to have none, and a picture of them is blank. */
+static bool anything_in(const plot *what, const sb_series *series)
+{
+    for (size_t i = 0; i < series->row_count; i++)
+        for (int k = 0; k < MAX_PANELS && what->panels[k].label; k++)
+            if (isfinite(value_of(&what->panels[k], &series->rows[i], &series->rows[0]))) return true;
+    return false;
+}
+
 static int draw_plot(const char *program, const char *directory, const plot *what, const sb_scene *scene,
                      sb_runlog *log)
 {
@@ -254,7 +263,12 @@ static int draw_plot(const char *program, const char *directory, const plot *wha
     if (access(path, R_OK) != 0) return 0;
     sb_status status = sb_series_read(path, what->named, &series, &error);
     int drawn = 0;
-    if (status == SB_OK && series.row_count > 1) {
+    char blank[96];
+    const char *const skipped[] = {blank, NULL};
+    snprintf(blank, sizeof blank, "plots/%s.png: nothing but dry places in %s.csv", what->name, what->name);
+    if (status == SB_OK && series.row_count > 1 && !anything_in(what, &series)) {
+        sb_runlog_skipped(log, skipped);
+    } else if (status == SB_OK && series.row_count > 1) {
         status = draw_series(program, directory, what, scene, &series, &error);
         drawn = status == SB_OK;
     }

@@ -23,7 +23,7 @@ void sb_progress_duration(char out[32], double seconds)
 void sb_progress_begin(sb_progress *progress, FILE *stream, double duration)
 {
     double now = sb_clock();
-    *progress = (sb_progress){.stream = stream, .duration = duration, .started = now, .shown = now};
+    *progress = (sb_progress){.stream = stream, .duration = duration, .started = now, .shown = now, .eta = -1};
     progress->terminal = stream && isatty(fileno(stream));
     progress->mark_wall[0] = progress->mark_wall[1] = now;
 }
@@ -55,13 +55,13 @@ static void estimate(sb_progress *progress, double now, double time)
         progress->mark_time[1] = time;
     }
     double advanced = time - progress->mark_time[0], left = progress->duration - time;
-    progress->eta = advanced > 0 && left > 0 ? left * (now - progress->mark_wall[0]) / advanced : 0;
+    progress->eta = !(left > 0) ? 0 : advanced > 0 ? left * (now - progress->mark_wall[0]) / advanced : -1;
 }
 
 static void print(sb_progress *progress, const sb_step_report *report)
 {
     char eta[32], wall[32];
-    sb_progress_duration(eta, progress->eta);
+    sb_progress_duration(eta, progress->eta < 0 ? (double)NAN : progress->eta);
     sb_progress_duration(wall, sb_progress_wall(progress));
     double percent = progress->duration > 0 ? 100 * report->time / progress->duration : 100;
     fprintf(progress->stream, "%s%5.1f %%  t %.3f s  dt %.4f s  %d iterations  %.1f m/s  %s so far, %s left%s",

@@ -27,7 +27,7 @@ void sb_progress_resume(sb_progress *progress, double time);
 /* Call after each step; prints when it is time to. */
 void sb_progress_update(sb_progress *progress, const sb_step_report *report);
 
-/* Seconds of wall time since the start, and estimated to the end (0 when unknown). */
+/* Seconds of wall time since the start, and estimated to the end (negative: unknown). */
 double sb_progress_wall(const sb_progress *progress);
 double sb_progress_eta(const sb_progress *progress);
 

@@ -98,10 +98,9 @@ static void put_all(sb_json *json, const sb_summary *s)
     sb_json_text(json, "status", s->status == SB_OK ? "done" : s->status == SB_INTERRUPTED ? "interrupted" : "failed");
     if (s->reason) sb_json_text(json, "reason", s->reason);
     sb_json_number(json, "wall_s", s->spent.wall);
-    sb_json_number(json, "processor_s", s->spent.processor);
-    sb_json_number(json, "setup_s", s->spent.setup);
-    sb_json_number(json, "settling_s", s->spent.settling);
-    sb_json_count(json, "processes", s->spent.processes);
+    sb_json_number(json, "processor_seconds", s->spent.processor);
+    sb_json_number(json, "wall_setup_s", s->spent.setup);
+    sb_json_number(json, "wall_settling_s", s->spent.settling);
     sb_json_number(json, "simulated_s", s->simulated);
     sb_json_count(json, "steps", s->steps);
     sb_json_count(json, "threads", (uint64_t)s->threads);

@@ -17,7 +17,6 @@ typedef struct sb_stage_spent {
 
 /* What a run took, in all the processes that worked on it. */
 typedef struct sb_spent {
-    uint64_t processes;
     double wall, processor; /* s; processor time is of all threads */
     double setup, settling; /* s of wall time: until the first step, in each process; bringing the water to rest */
     size_t stage_count;

@@ -58,6 +58,19 @@ static sb_status finish_probe(sb_reader *reader, const sb_yaml *map, void *item)
 
 static const sb_table probe_table = {SB_KEY_ROWS(probe_keys), .size = sizeof(sb_probe), .finish = finish_probe};
 
+/* Whether two stretches have nothing in common. */
+static bool apart(double a0, double a1, double b0, double b1)
+{
+    return !(fmax(a0, a1) >= b0 && fmin(a0, a1) <= b1);
+}
+
+/* Whether the rectangle about two points has something of the domain. */
+static bool meets_domain(const sb_scene *scene, double ax, double ay, double bx, double by)
+{
+    const sb_domain *d = &scene->domain;
+    return !apart(ax, bx, d->min.x, d->max.x) && (scene->dimensions == 2 || !apart(ay, by, d->min.y, d->max.y));
+}
+
 /* clang-format off */
 static const sb_key plane_keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_flow_plane, name), .flags = SB_KEY_REQUIRED,
@@ -74,14 +87,13 @@ static const sb_key plane_keys[] = {
 };
 /* clang-format on */
 
-/* In 2D a plane is one metre of the slice's depth, so that volumes are per metre. */
+/* In 2D a plane is one metre of the slice's depth, so that volumes are per metre; what was given besides x says
+ * nothing. */
 static void flatten_plane(const sb_yaml *map, sb_flow_plane *plane)
 {
     if (!sb_yaml_child(map, "to")) plane->bx = plane->ax;
-    if (plane->ay == plane->by) {
-        plane->ay = -0.5;
-        plane->by = 0.5;
-    }
+    plane->ay = -0.5;
+    plane->by = 0.5;
 }
 
 static sb_status finish_plane(sb_reader *reader, const sb_yaml *map, void *item)
@@ -100,7 +112,10 @@ static sb_status finish_plane(sb_reader *reader, const sb_yaml *map, void *item)
                               "in 2D");
     if (plane->ax == plane->bx && plane->ay == plane->by)
         return sb_reader_fail(reader, map, "to", "is the same point as from, expected another");
-    return SB_OK;
+    if (apart(plane->z_min, plane->z_max, scene->domain.min.z, scene->domain.max.z))
+        return refuse_outside(reader, map, sb_yaml_child(map, "z_min") ? "z_min" : "z_max");
+    return meets_domain(scene, plane->ax, plane->ay, plane->bx, plane->by) ? SB_OK
+                                                                           : refuse_outside(reader, map, "from");
 }
 
 static const sb_table plane_table = {SB_KEY_ROWS(plane_keys), .size = sizeof(sb_flow_plane), .finish = finish_plane};
@@ -120,9 +135,11 @@ static const sb_key runup_keys[] = {
 static sb_status finish_runup(sb_reader *reader, const sb_yaml *map, void *item)
 {
     const sb_runup_line *line = item;
-    if (line->ax == line->bx && line->ay == line->by)
-        return sb_reader_fail(reader, map, "to", "is the same point as from, expected another");
-    return SB_OK;
+    const sb_scene *scene = reader->scene;
+    if (line->ax == line->bx && (scene->dimensions == 2 || line->ay == line->by))
+        return sb_reader_fail(reader, map, "to", "%s, expected another",
+                              scene->dimensions == 2 ? "has the same x as from" : "is the same point as from");
+    return meets_domain(scene, line->ax, line->ay, line->bx, line->by) ? SB_OK : refuse_outside(reader, map, "from");
 }
 
 static const sb_table runup_table = {SB_KEY_ROWS(runup_keys), .size = sizeof(sb_runup_line), .finish = finish_runup};
@@ -171,7 +188,9 @@ static sb_status finish_map(sb_reader *reader, const sb_yaml *map, void *item)
     if (!(ceil(width / grid->cell) * ceil(height / grid->cell) <= most))
         return sb_reader_fail(reader, map, "cell", "%g m would make more than %g cells, expected longer cells",
                               grid->cell, most);
-    return SB_OK;
+    return meets_domain(reader->scene, grid->x_min, grid->y_min, grid->x_max, grid->y_max)
+               ? SB_OK
+               : refuse_outside(reader, map, "min");
 }
 
 static const sb_table map_table = {SB_KEY_ROWS(map_keys), .size = sizeof(sb_map), .finish = finish_map};

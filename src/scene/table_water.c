@@ -74,7 +74,7 @@ static const sb_key wave_keys[] = {
     {.name = "height", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_wave, height), .unit = "m",
      .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
      .applies = SOLITARY | STANDING, .only = "kind solitary or standing",
-     .doc = "Height H of a solitary wave, at most its depth; amplitude of a standing one, less than it."},
+     .doc = "Height H of a solitary wave, at most 0.8332 of its depth; amplitude of a standing one, less than its depth."},
     {.name = "depth", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_wave, depth), .unit = "m",
      .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
      .applies = SOLITARY | STANDING, .only = "kind solitary or standing",
@@ -95,16 +95,18 @@ static const sb_key wave_keys[] = {
 };
 /* clang-format on */
 
+/* Of the depth [Longuet-Higgins and Fenton 1974: 0.827; Hunter and Vanden-Broeck 1983: 0.8332]. */
+static const double HIGHEST = 0.8332;
+
 static sb_status finish_wave(sb_reader *reader, const sb_yaml *map, void *item)
 {
     const sb_initial_wave *wave = item;
     if (wave->kind == SB_INITIAL_SOLITARY && wave->direction == 0)
         return sb_reader_fail(reader, map, "direction", "0 is no direction, expected 1 or -1");
-    if (wave->kind == SB_INITIAL_SOLITARY && wave->height > wave->depth)
-        return sb_reader_fail(
-            reader, map, "height",
-            "%g m on %g m: a solitary wave breaks beyond 0.78 of its depth, expected at most the depth", wave->height,
-            wave->depth);
+    if (wave->kind == SB_INITIAL_SOLITARY && wave->height > HIGHEST * wave->depth * (1 + 1e-9))
+        return sb_reader_fail(reader, map, "height",
+                              "%g m on %g m: no solitary wave is higher than %g of its depth, expected at most %g m",
+                              wave->height, wave->depth, HIGHEST, HIGHEST * wave->depth);
     if (wave->kind == SB_INITIAL_STANDING && wave->height >= wave->depth)
         return sb_reader_fail(reader, map, "height", "%g m would bare the bed, expected less than the depth of %g m",
                               wave->height, wave->depth);

@@ -189,6 +189,9 @@ static void a_scene_of_doubtful_use_is_warned_of(void **state)
     char *log = text_of("slow/run.jsonl");
     assert_contains(log, longer);
     sb_free(log);
+    o = RUN(0, "check", "tank3.yaml", "--set", "water.wave={kind: solitary, height: 0.2, depth: 0.4}");
+    assert_contains(o.out, "the theory third-order is good to 0.4");
+    outcome_free(&o);
     o = RUN(0, "run", "tank3.yaml", "--until=0.05", "--out=slow", "--quiet");
     assert_null(strstr(o.err, "warning"));
     outcome_free(&o);

@@ -211,6 +211,41 @@ static void warnings_say_what_is_too_coarse(void **state)
     assert_non_null(strstr(error.text, "expected 0.6"));
 }
 
+static void waves_are_held_against_the_water_there(void **state)
+{
+    (void)state;
+    /* The sea is 3 m deep below a lid at 5 m. */
+    static const struct {
+        double height, depth, position;
+        const char *expected;
+    } cases[] = {{1, 3, 5, NULL},
+                 {1, 1.5, 5, "its depth is 1.5 m, but the water there is about 3 m deep"},
+                 {1, 3, 40, "at its crest: no water is there"},
+                 {2.2, 3, 5, "above the domain's top, 5 m"}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        scene.wave = (sb_initial_wave){.kind = SB_INITIAL_SOLITARY,
+                                       .height = cases[k].height,
+                                       .depth = cases[k].depth,
+                                       .position = cases[k].position,
+                                       .direction = 1};
+        build();
+        assert_int_equal(warned("water.wave", ": "), cases[k].expected != NULL);
+        if (cases[k].expected) assert_true(warned("water.wave", cases[k].expected));
+    }
+    scene.wave.kind = SB_INITIAL_NONE;
+    add_box("paddle", sb_vec(1, -1, -1), sb_vec(3, 7, 6));
+    scene.wavemaker_count = 1;
+    scene.sea.seed = sb_vec(5, 3, 2);
+    snprintf(wavemaker.name, sizeof wavemaker.name, "push");
+    snprintf(wavemaker.body, sizeof wavemaker.body, "paddle");
+    wavemaker.direction = sb_vec(1, 0, 0);
+    for (int right = 0; right < 2; right++) {
+        wavemaker.law.depth = right ? 3 : 6;
+        build();
+        assert_int_equal(warned("\"push\": its depth is 6 m", "about 3 m deep"), !right);
+    }
+}
+
 static void faces_without_area_are_told(void **state)
 {
     (void)state;
@@ -537,6 +572,7 @@ int main(void)
         CASE(a_moving_face_in_a_walls_plane_is_there),
         CASE(warnings_say_what_is_too_coarse),
         CASE(faces_without_area_are_told),
+        CASE(waves_are_held_against_the_water_there),
         CASE(thin_bodies_share_a_line),
         CASE(thin_bodies_beyond_a_line_are_counted),
         CASE(holes_in_a_mesh_are_named),

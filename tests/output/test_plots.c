@@ -105,6 +105,27 @@ static void pictures_are_drawn(void **state)
     assert_true(access(in_folder("plots/forces.dat"), F_OK) != 0);
 }
 
+static void dry_places_have_no_picture(void **state)
+{
+    (void)state;
+    char program[SB_PATH_MAX];
+    if (!sb_tool_find("gnuplot", program)) skip();
+    remove(in_folder("plots/probes.png"));
+    FILE *table = fopen(in_folder("probes.csv"), "w");
+    assert_non_null(table);
+    fputs("time_s,probe,u_m_s,v_m_s,w_m_s,p_Pa\n0,inlet,,,,\n1,inlet,,,,\n2,inlet,,,,\n", table);
+    fclose(table);
+    sb_runlog *log;
+    assert_int_equal(sb_runlog_open(in_folder("run.jsonl"), &log, NULL), SB_OK);
+    assert_int_equal(sb_plots_write(folder, &scene, log), 7);
+    assert_int_equal(sb_runlog_close(log, NULL), SB_OK);
+    char *text = text_of("run.jsonl");
+    if (strstr(text, "warning")) fail_msg("%s", text);
+    assert_non_null(strstr(text, "nothing but dry places in probes.csv"));
+    sb_free(text);
+    assert_true(access(in_folder("plots/probes.png"), F_OK) != 0);
+}
+
 static void absent_programs_are_said(void **state)
 {
     (void)state;
@@ -172,9 +193,8 @@ static void films_are_joined(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pictures_are_drawn),
-        cmocka_unit_test(absent_programs_are_said),
-        cmocka_unit_test(failing_programs_are_told),
+        cmocka_unit_test(pictures_are_drawn),       cmocka_unit_test(dry_places_have_no_picture),
+        cmocka_unit_test(absent_programs_are_said), cmocka_unit_test(failing_programs_are_told),
         cmocka_unit_test(films_are_joined),
     };
     return cmocka_run_group_tests(tests, folder_make, getenv("SB_KEEP_TEST_FILES") ? NULL : folder_remove);

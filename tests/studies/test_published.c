@@ -44,7 +44,7 @@ static void test_sets_vary_one_thing(void **state)
 }
 
 static const char summary[] =
-    "{\n  \"wall_s\": 12,\n  \"settling_s\": 2,\n  \"simulated_s\": 2,\n  \"steps\": 40,\n  \"threads\": 2,\n"
+    "{\n  \"wall_s\": 12,\n  \"wall_settling_s\": 2,\n  \"simulated_s\": 2,\n  \"steps\": 40,\n  \"threads\": 2,\n"
     "  \"fluid_particles\": 1000,\n  \"boundary_particles\": 300,\n  \"mean_iterations\": 5,\n"
     "  \"stages\": [\n"
     "    {\n      \"name\": \"time_step\",\n      \"seconds\": 0.3125,\n      \"calls\": 50,\n      "

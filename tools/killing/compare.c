@@ -66,7 +66,7 @@ static sb_status compare_particles(const pair *p, sb_error *error)
 /* The next line that says nothing of wall time or memory; NULL: none. */
 static const char *next_fact(const char *at)
 {
-    static const char *const taken_out[] = {"\"wall_s\"", "_bytes\"", "\"bytes_per_"};
+    static const char *const taken_out[] = {"\"wall_", "_seconds\"", "_bytes\"", "\"bytes_per_"};
     for (bool out = true; *at && out;) {
         const size_t length = strcspn(at, "\n");
         out = false;

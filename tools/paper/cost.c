@@ -28,8 +28,8 @@ sb_status sb_cost_read(const char *summary, sb_cost *cost, sb_error *error)
                       .steps = sb_json_number_in(summary, "steps"),
                       .simulated = sb_json_number_in(summary, "simulated_s"),
                       .sweeps = sb_json_number_in(summary, "mean_iterations"),
-                      .setup = sb_json_number_in(summary, "setup_s"),
-                      .settling = sb_json_number_in(summary, "settling_s")};
+                      .setup = sb_json_number_in(summary, "wall_setup_s"),
+                      .settling = sb_json_number_in(summary, "wall_settling_s")};
     cost->total = sb_json_number_in(summary, "wall_s") - cost->settling;
     const char *end = stages ? strchr(stages, ']') : NULL;
     if (!end) return sb_fail(error, SB_BAD_INPUT, "summary.json: no list of stages");

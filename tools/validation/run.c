@@ -103,7 +103,7 @@ sb_status sb_finished_read(sb_finished *run, const char *folder, sb_error *error
                               .steps = (size_t)sb_json_number_in(text, "steps"),
                               .label = run->label,
                               .slot = &run->slot};
-    run->cpu = sb_json_number_in(text, "processor_s");
+    run->cpu = sb_json_number_in(text, "processor_seconds");
     run->threads = (int)sb_json_number_in(text, "threads");
     sb_free(text);
     return SB_OK;
