@@ -12,13 +12,19 @@ typedef struct sb_fill_solid {
     const char *name;
 } sb_fill_solid;
 
+/* Particles that a box of water has room for, and those that it got: what a water before it holds is not its. */
+typedef struct sb_box_share {
+    size_t room, got;
+} sb_box_share;
+
 /* Each particle stands for spacing^3 (2D: spacing^2 per metre) of water. Owned. */
 typedef struct sb_fluid {
     size_t count;
-    sb_vec3 *position;  /* m */
-    sb_vec3 *velocity;  /* m/s */
-    double *pressure;   /* Pa, hydrostatic below the local surface */
-    double still_depth; /* m, largest still depth of a column */
+    sb_vec3 *position;   /* m */
+    sb_vec3 *velocity;   /* m/s */
+    double *pressure;    /* Pa, hydrostatic below the local surface */
+    double still_depth;  /* m, largest still depth of a column */
+    sb_box_share *boxes; /* of each of the scene's boxes */
 } sb_fluid;
 
 /* Fills the scene's sea and boxes. SB_BAD_INPUT names the place where a sea escapes, or what is

@@ -39,6 +39,26 @@ sb_status sb_model_sample(const sb_scene *scene, const sb_model_space *space, sb
     return SB_OK;
 }
 
+/* Boxes that are not what their writer will have meant. */
+static sb_status check_boxes(const sb_scene *scene, const sb_fluid *fluid, sb_model *model, sb_error *error)
+{
+    sb_status status = SB_OK;
+    for (size_t i = 0; i < scene->box_count && status == SB_OK; ++i) {
+        const sb_box_share *share = &fluid->boxes[i];
+        if (share->room == 0)
+            status = sb_model_warn(model, error,
+                                   "water.boxes[%zu] has no room for water: solids fill it, or it is thinner than a "
+                                   "spacing",
+                                   i);
+        else if (share->got == 0 || (share->got < share->room && sb_norm(scene->boxes[i].velocity) > 0))
+            status = sb_model_warn(model, error,
+                                   "water.boxes[%zu]: %zu of its %zu particles are in water that stands before "
+                                   "it in the scene, whose level and velocity they keep",
+                                   i, share->room - share->got, share->room);
+    }
+    return status;
+}
+
 sb_status sb_model_fill(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
 {
     sb_fill_solid *solids = sb_alloc(space->count, sizeof *solids);
@@ -57,5 +77,7 @@ sb_status sb_model_fill(const sb_scene *scene, const sb_model_space *space, sb_m
     model->fluid_velocity = fluid.velocity;
     model->fluid_pressure = fluid.pressure;
     model->still_depth = fluid.still_depth;
-    return SB_OK;
+    status = check_boxes(scene, &fluid, model, error);
+    sb_free(fluid.boxes);
+    return status;
 }

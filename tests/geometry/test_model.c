@@ -246,6 +246,22 @@ static void waves_are_held_against_the_water_there(void **state)
     }
 }
 
+static void boxes_that_get_no_water_of_their_own_are_told(void **state)
+{
+    (void)state;
+    sb_fluid_box box = {.min = {4, 1, 0}, .max = {6, 3, 2}, .level = 2, .velocity = {1, 0, 0}};
+    scene.boxes = &box;
+    scene.box_count = 1;
+    build(); /* in the sea */
+    assert_true(warned("water.boxes[0]", "64 of its 64 particles"));
+    scene.sea.present = false;
+    build(); /* alone */
+    assert_false(warned("water.boxes[0]", ""));
+    add_box("rock", sb_vec(3, 0, 0), sb_vec(7, 4, 3));
+    build();
+    assert_true(warned("water.boxes[0]", "no room"));
+}
+
 static void faces_without_area_are_told(void **state)
 {
     (void)state;
@@ -573,6 +589,7 @@ int main(void)
         CASE(warnings_say_what_is_too_coarse),
         CASE(faces_without_area_are_told),
         CASE(waves_are_held_against_the_water_there),
+        CASE(boxes_that_get_no_water_of_their_own_are_told),
         CASE(thin_bodies_share_a_line),
         CASE(thin_bodies_beyond_a_line_are_counted),
         CASE(holes_in_a_mesh_are_named),
