@@ -1,6 +1,7 @@
 /* The whole model of small scenes: bodies, names, warnings, the inside test, no memory. */
 #include "base/memory.h"
 #include "geometry/model.h"
+#include "physics/wavemaker.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -24,6 +25,7 @@ static int set_up(void **state)
     memset(&scene, 0, sizeof scene);
     memset(bodies, 0, sizeof bodies);
     memset(&wavemaker, 0, sizeof wavemaker);
+    wavemaker.law = (sb_wavemaker_parameters){.kind = sb_wavemaker_find("stroke"), .stroke = 0.5, .speed = 1};
     memset(&error, 0, sizeof error);
     scene.dimensions = 3;
     scene.resolution = 0.5;
@@ -243,7 +245,12 @@ static void waves_are_held_against_the_water_there(void **state)
         wavemaker.law.depth = right ? 3 : 6;
         build();
         assert_int_equal(warned("\"push\": its depth is 6 m", "about 3 m deep"), !right);
+        assert_false(warned("\"push\" moves", "units"));
     }
+    wavemaker.law.stroke = 500; /* mm */
+    wavemaker.law.speed = 1000;
+    build();
+    assert_true(warned("\"push\" moves", "units"));
 }
 
 static void boxes_that_get_no_water_of_their_own_are_told(void **state)
