@@ -196,6 +196,8 @@ static void put_across(FILE *out, const sb_case_results *results)
         put_cell(out, text);
         put_judgement(out, &j, "–");
     }
+    if (results->across_builds)
+        fputs("\nThe runs these are of were made by several programs, as the commits below tell.\n", out);
     fputc('\n', out);
 }
 

@@ -90,13 +90,24 @@ static bool at_hand(const sb_result *r)
     return r->state == SB_RESULT_DONE && !r->kept;
 }
 
+/* The program that ran it, by the last part of its folder (store.h), or by its commit. */
+static const char *build_of(const sb_result *r)
+{
+    if (r->kept) return r->run.commit;
+    const char *slash = strrchr(r->run.folder, '/');
+    return slash ? slash + 1 : r->run.folder;
+}
+
 static void compare_runs(sb_case_results *results, sb_case_run *runs, sb_figures *figures)
 {
     sb_error why = {0};
     size_t count = 0;
+    const sb_result *first = NULL;
     for (size_t i = 0; i < results->count; i++) {
         const sb_result *r = &results->runs[i];
         if (!at_hand(r) || r->request.paper || r->request.seed != 1) continue;
+        if (first && strcmp(build_of(r), build_of(first)) != 0) results->across_builds = true;
+        if (!first) first = r;
         runs[count] = r->run.view;
         figures[count++] = r->figures;
     }
@@ -168,14 +179,6 @@ const sb_result *sb_results_finest(const sb_case_results *results)
 static double size_of(const sb_figure *figure, double error)
 {
     return figure->one_sided ? error : fabs(error);
-}
-
-/* The program that ran it, by the last part of its folder (store.h), or by its commit. */
-static const char *build_of(const sb_result *r)
-{
-    if (r->kept) return r->run.commit;
-    const char *slash = strrchr(r->run.folder, '/');
-    return slash ? slash + 1 : r->run.folder;
 }
 
 /* Whether r is what `first` is, but for the seed, its own included. */

@@ -27,8 +27,9 @@ typedef struct sb_case_results {
     const sb_case *of;
     size_t count;
     sb_result *runs;
-    sb_figures across; /* of several runs together */
-    char problem[640]; /* what kept those from being figured; "" */
+    sb_figures across;  /* of several runs together */
+    bool across_builds; /* and these are not of one program */
+    char problem[640];  /* what kept those from being figured; "" */
 } sb_case_results;
 
 /* A figure where it is judged, over the seeds that were run by the first one's program: those of others say something
