@@ -28,7 +28,7 @@ static int gather(const sb_model *model, sb_vec3 min, sb_vec3 max, sb_sample_set
 /* The static body whose face is behind this particle; SIZE_MAX: none within reach. */
 static size_t behind(const sb_sample_set *near, sb_vec3 at, sb_vec3 normal, double spacing, double reach)
 {
-    for (double depth = 0; depth <= reach; depth += spacing) {
+    for (double depth = 0; near->sample && depth <= reach; depth += spacing) {
         size_t index = 0;
         const sb_vec3 there = sb_madd(at, -depth, normal);
         if (!(sb_sample_set_nearest(near, there, BESIDE * spacing, &index) < BESIDE * spacing)) continue;
