@@ -30,6 +30,7 @@ sb_status sb_cost_read(const char *summary, sb_cost *cost, sb_error *error)
                       .sweeps = sb_json_number_in(summary, "mean_iterations"),
                       .setup = sb_json_number_in(summary, "wall_setup_s"),
                       .settling = sb_json_number_in(summary, "wall_settling_s")};
+    if (cost->settling < 1e-3) cost->settling = 0; /* there was none: what is left is the clock's */
     cost->total = sb_json_number_in(summary, "wall_s") - cost->settling;
     const char *end = stages ? strchr(stages, ']') : NULL;
     if (!end) return sb_fail(error, SB_BAD_INPUT, "summary.json: no list of stages");

@@ -167,12 +167,12 @@ static const char reading[] =
     "plant.yaml` without pictures and stream. The two plants\nare not the same meshes, and our sea "
     "holds the same volume at every spacing, where theirs loses a gap along its walls: compare\nper "
     "particle, and per core (*× cores*). T_c: sort; T_q: neighbours (ours sums densities in the same "
-    "pass); T_p: the solve; T_a: all\nother stages; T has set-up and files, too, but not what it\ntakes to bring the "
-    "water to rest (*settling*), which "
-    "the published runs and the preset `paper` do not do. Where the paper prints no "
+    "pass); T_p: the solve; T_a: all\nother stages; T has set-up and files, too, but not what it takes to bring the "
+    "water to rest "
+    "(*settling*), which the published\nruns and the preset `paper` do not do. Where the paper prints no "
     "mean time step, per-particle figures take that of its run No. 2.\nSweeps are iterations of the "
     "solver. The paper's average error counts under-dense particles against compressed ones; ours, "
-    "one-sided,\nis stricter at the same ξ ([method](../method.md), section 5).\n";
+    "one-sided,\nis stricter at the same ξ (docs/method.md, section 5).\n";
 
 static void put_report(FILE *out, const sb_paper_studies *s)
 {
