@@ -1,0 +1,83 @@
+/* A small scene that the tests of the model change, and the model built of it. */
+#ifndef SB_TESTS_SMALL_MODEL_H
+#define SB_TESTS_SMALL_MODEL_H
+
+#include "base/memory.h"
+#include "geometry/model.h"
+#include "physics/wavemaker.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static sb_scene scene;
+static sb_body bodies[16];
+static sb_wavemaker_use wavemaker;
+static sb_model model;
+static sb_error error;
+
+static int set_up(void **state)
+{
+    (void)state;
+    memset(&scene, 0, sizeof scene);
+    memset(bodies, 0, sizeof bodies);
+    memset(&wavemaker, 0, sizeof wavemaker);
+    wavemaker.law = (sb_wavemaker_parameters){.kind = sb_wavemaker_find("stroke"), .stroke = 0.5, .speed = 1};
+    memset(&error, 0, sizeof error);
+    scene.dimensions = 3;
+    scene.resolution = 0.5;
+    scene.fluid = (sb_fluid_properties){1000, 9.81, 0};
+    scene.domain.min = sb_vec(0, 0, 0);
+    scene.domain.max = sb_vec(10, 6, 5);
+    scene.domain.side[SB_Z_MAX] = SB_SIDE_OPEN;
+    scene.sea = (sb_sea){true, 3, {2, 3, 2}};
+    scene.numerics.support = 2;
+    scene.numerics.wall_offset = 0.5;
+    scene.numerics.wall_spacing = 1;
+    scene.bodies = bodies;
+    scene.wavemakers = &wavemaker;
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    sb_model_free(&model);
+    return 0;
+}
+
+static sb_body *add_box(const char *name, sb_vec3 min, sb_vec3 max)
+{
+    sb_body *body = &bodies[scene.body_count++];
+    snprintf(body->name, sizeof body->name, "%s", name);
+    body->shape = SB_SHAPE_BOX;
+    body->color[0] = -1;
+    body->min = min;
+    body->max = max;
+    return body;
+}
+
+static void build(void)
+{
+    sb_model_free(&model);
+    sb_status status = sb_model_build(&scene, &model, &error);
+    if (status != SB_OK) print_message("%s\n", error.text);
+    assert_int_equal(status, SB_OK);
+}
+
+static bool warned(const char *first, const char *second)
+{
+    for (size_t i = 0; i < model.warning_count; ++i)
+        if (strstr(model.warnings[i], first) && strstr(model.warnings[i], second)) return true;
+    return false;
+}
+
+#define CASE(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
+
+#endif
