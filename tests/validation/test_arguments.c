@@ -2,6 +2,7 @@
 #include "check.h"
 
 #include "arguments.h"
+#include "options.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -102,12 +103,23 @@ static void what_is_wrong_is_said(void **state)
     assert_non_null(strstr(error.text, "word: no such option"));
 }
 
+static void the_validation_takes_one_spacing(void **state)
+{
+    (void)state;
+    char *arguments[] = {(char *)"validate", (char *)"column", (char *)"--spacing", (char *)"0.005", NULL};
+    sb_validate_options o;
+    assert_int_equal(sb_validate_parse(4, arguments, &o, NULL), SB_OK);
+    assert_true(o.spacing == 0.005 && o.spacings == 0 && o.count == 1);
+    assert_non_null(strstr(o.command, "column --spacing 0.005"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_said_is_taken),
         cmocka_unit_test(help_ends_the_reading),
         cmocka_unit_test(what_is_wrong_is_said),
+        cmocka_unit_test(the_validation_takes_one_spacing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

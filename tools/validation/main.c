@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -28,6 +29,7 @@ static int turn_of(const sb_request *request)
 static bool left_out(const sb_validate_options *o, const sb_request *request)
 {
     const sb_plan *coarsest = o->quick ? request->of->quick : request->of->full;
+    if (o->spacing > 0 && fabs(request->plan->resolution - o->spacing) > 1e-6 * o->spacing) return true;
     return (o->once && turn_of(request) != 0) || (o->spacings && request->plan - coarsest >= o->spacings);
 }
 
@@ -57,6 +59,9 @@ static sb_status run_cases(const sb_store *store, const sb_validate_options *o, 
     for (int turn = 0; turn < 3; turn++)
         for (size_t c = 0; status == SB_OK && c < o->count; c++)
             status = gather(o->cases[c], o, turn, &all, &count, &capacity, error);
+    if (status == SB_OK && count == 0)
+        status = sb_fail(error, SB_BAD_INPUT,
+                         "--spacing %g: none of these cases has it, expected one of their tables' (m)", o->spacing);
     if (status == SB_OK) status = sb_launch(store, all, count, o->jobs, failed, error);
     sb_free(all);
     return status;

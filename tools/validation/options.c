@@ -11,6 +11,7 @@ const char sb_validate_help[] =
     "  --all            every case\n"
     "  --quick          cheap forms; the report goes to OUT/quick\n"
     "  --spacings N     runs the N coarsest spacings of each case alone\n"
+    "  --spacing R      runs this spacing alone, in m, as the tables have it\n"
     "  --once           runs the default preset's first seed alone\n"
     "  --sensitivity    what 25 % of every numeric default does to the cases' quick forms\n"
     "  --list           names the cases\n"
@@ -60,6 +61,7 @@ sb_status sb_validate_parse(int count, char **arguments, sb_validate_options *o,
                                    {.name = "--report-only", .flag = &o->report_only, .telling = true},
                                    {.name = "--sensitivity", .flag = &o->sensitivity, .telling = true},
                                    {.name = "--spacings", .count = &o->spacings, .most = 64, .telling = true},
+                                   {.name = "--spacing", .number = &o->spacing, .most = 1e6, .telling = true},
                                    {.name = "--once", .flag = &o->once, .telling = true},
                                    {.name = "--jobs", .count = &o->jobs, .most = 256, .telling = true},
                                    {.name = "--out", .text = &o->out},

@@ -10,6 +10,7 @@ typedef struct sb_validate_options {
     const char *out, *report, *program; /* NULL: not given */
     bool all, quick, list, report_only, sensitivity, once, help;
     int jobs, spacings; /* spacings: 0 for all */
+    double spacing;     /* m, this one alone; 0: all */
     const sb_case *cases[SB_CASES_MAX];
     size_t count;
     char command[1024]; /* as it may be repeated anywhere: without folders */
