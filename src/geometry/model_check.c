@@ -82,34 +82,6 @@ static sb_status check_depth(sb_model *model, const char *what, const char *name
                          what, name, depth, there);
 }
 
-/* Times the speed of long waves that no paddle in water needs: most likely a slip of units. */
-static const double FAST = 3;
-
-static sb_status check_speed(const sb_scene *scene, const sb_wavemaker_use *maker, sb_model *model, sb_error *error)
-{
-    enum { PARTS = 2000 };
-    const double waves = sqrt(scene->fluid.gravity * model->still_depth);
-    double fastest = 0, when = 0;
-    sb_paddle paddle;
-    sb_status status = sb_paddle_create(&maker->law, &paddle, error);
-    if (status != SB_OK || !(waves > 0)) return status;
-    const double step = paddle.duration / PARTS;
-    for (int k = 0; k < PARTS && step > 0; k++) {
-        const double t = paddle.start + k * step;
-        const double speed =
-            fabs(sb_paddle_displacement(&paddle, t + step) - sb_paddle_displacement(&paddle, t)) / step;
-        when = speed > fastest ? t : when;
-        fastest = fmax(fastest, speed);
-    }
-    sb_paddle_destroy(&paddle);
-    if (fastest <= FAST * waves) return SB_OK;
-    return sb_model_warn(
-        model, error,
-        "wavemaker \"%s\" moves at %.3g m/s at t = %.3g s, %.2g times as fast as long waves in its water: are "
-        "its units m and s?",
-        maker->name, fastest, when, fastest / waves);
-}
-
 /* What a wave or a wave maker takes for the still depth, held against the water that is there. */
 static sb_status check_depths(const sb_scene *scene, sb_model *model, sb_error *error)
 {
@@ -125,8 +97,6 @@ static sb_status check_depths(const sb_scene *scene, sb_model *model, sb_error *
         status = sb_model_warn(model, error,
                                "water.wave: its crest at z = %g m is above the domain's top, %g m: it is cut off",
                                scene->sea.level + wave->height, scene->domain.max.z);
-    for (size_t w = 0; w < scene->wavemaker_count && status == SB_OK; w++)
-        status = check_speed(scene, &scene->wavemakers[w], model, error);
     for (size_t w = 0; w < scene->wavemaker_count && status == SB_OK && scene->sea.present; w++) {
         const sb_wavemaker_use *maker = &scene->wavemakers[w];
         double front = -(double)INFINITY;
@@ -193,6 +163,7 @@ sb_status sb_model_check(const sb_scene *scene, const sb_model_space *space, sb_
     }
     if (status == SB_OK) status = sb_model_warn_of_thin(scene, model, error);
     if (status == SB_OK) status = sb_model_warn_of_shared(scene, model, error);
+    if (status == SB_OK) status = sb_model_warn_of_strokes(scene, space, model, error);
     if (status == SB_OK) status = check_steps(scene, model, error);
     return status == SB_OK ? check_water(scene, model, error) : status;
 }

@@ -35,6 +35,10 @@ sb_status sb_model_warn_of_thin(const sb_scene *scene, sb_model *model, sb_error
 /* A line for each moving body whose face stands less than a support radius before a wall that looks the same way. */
 sb_status sb_model_warn_of_shared(const sb_scene *scene, sb_model *model, sb_error *error);
 
+/* A line for each wave maker that is too fast for its water, and for each moving body that runs into another. */
+sb_status sb_model_warn_of_strokes(const sb_scene *scene, const sb_model_space *space, sb_model *model,
+                                   sb_error *error);
+
 /* model_particles.c: places the particles of walls and of water. */
 sb_status sb_model_sample(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 sb_status sb_model_fill(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);

@@ -76,6 +76,43 @@ static void waves_are_held_against_the_water_there(void **state)
     assert_true(warned("\"push\" moves", "units"));
 }
 
+static void strokes_into_other_bodies_are_told(void **state)
+{
+    (void)state;
+    static const struct {
+        double back, stroke,
+            wall; /* m: the paddle's rear face, its way, and the face of a block before its front at 3 m */
+        const char *expected;
+    } cases[] = {{1, 1.5, 5, NULL},
+                 {1, 4, 5, "runs into \"block\""},
+                 {1, 9, 50, "runs into \"domain\""},
+                 {1, -2, 50, "runs into \"domain\""},
+                 {-1, -2, 50, NULL}};
+    sb_body *paddle = add_box("paddle", sb_vec(1, -1, -1), sb_vec(3, 7, 6));
+    sb_body *block = add_box("block", sb_vec(5, 2, 0), sb_vec(6, 5, 4));
+    scene.wavemaker_count = 1;
+    scene.sea.seed = sb_vec(3.6, 1, 2);
+    snprintf(wavemaker.name, sizeof wavemaker.name, "push");
+    snprintf(wavemaker.body, sizeof wavemaker.body, "paddle");
+    wavemaker.law.depth = 3;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        paddle->min.x = cases[k].back;
+        wavemaker.direction = sb_vec(cases[k].stroke < 0 ? -1 : 1, 0, 0);
+        wavemaker.law.stroke = fabs(cases[k].stroke);
+        block->min.x = cases[k].wall;
+        block->max.x = cases[k].wall + 1;
+        build();
+        assert_int_equal(warned("\"paddle\"", "runs into"), cases[k].expected != NULL);
+        if (cases[k].expected) assert_true(warned("\"paddle\"", cases[k].expected));
+    }
+    /* A run that ends before the stroke gets there. */
+    wavemaker.direction.x = 1;
+    wavemaker.law.stroke = 9;
+    scene.duration = 1;
+    build();
+    assert_false(warned("\"paddle\"", "runs into"));
+}
+
 static void boxes_that_get_no_water_of_their_own_are_told(void **state)
 {
     (void)state;
@@ -265,6 +302,7 @@ int main(void)
         CASE(warnings_say_what_is_too_coarse),
         CASE(faces_without_area_are_told),
         CASE(waves_are_held_against_the_water_there),
+        CASE(strokes_into_other_bodies_are_told),
         CASE(boxes_that_get_no_water_of_their_own_are_told),
         CASE(thin_bodies_share_a_line),
         CASE(thin_bodies_beyond_a_line_are_counted),
