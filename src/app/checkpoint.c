@@ -152,6 +152,8 @@ static void put_run(run *r, const sb_csv_lengths *lengths, sb_archive_out *out)
     sb_spent_save(r, out);
     sb_put_count(out, r->iterations);
     sb_put_count(out, r->capped);
+    sb_put_real(out, r->compression);
+    sb_put_real(out, r->compression_max);
     sb_put_count(out, r->frames);
     sb_put_real(out, first->kinetic);
     sb_put_real(out, first->potential);

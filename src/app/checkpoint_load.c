@@ -72,6 +72,8 @@ static sb_status take_run(run *r, sb_archive_in *in, sb_error *error)
     sb_spent_load(r, in);
     r->iterations = r->iterations_before = sb_take_count(in, UINT64_MAX);
     r->capped = sb_take_count(in, UINT64_MAX);
+    r->compression = sb_take_real(in);
+    r->compression_max = sb_take_real(in);
     r->frames = sb_take_count(in, UINT64_MAX);
     first->kinetic = sb_take_real(in);
     first->potential = sb_take_real(in);

@@ -3,6 +3,7 @@
 #include "base/stop.h"
 #include "output/profile.h"
 
+#include <math.h>
 #include <omp.h>
 #include <stdio.h>
 #include <string.h>
@@ -54,6 +55,8 @@ static sb_status one_step(run *r, sb_error *error)
     if (status != SB_OK) return status;
     const sb_step_report *report = sb_sim_report(r->sim);
     r->iterations += (uint64_t)report->iterations;
+    r->compression += report->compression;
+    r->compression_max = fmax(r->compression_max, report->compression_max);
     r->steps++;
     r->particle_steps += (double)report->fluid_count;
     r->capped += report->capped;

@@ -120,6 +120,8 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
         .steps = report->step,
         .iterations = r->iterations,
         .capped_steps = r->capped,
+        .compression = r->compression,
+        .compression_max = r->compression_max,
         .fluid_particles = r->model.fluid_count,
         .bytes = sb_sim_bytes(r->sim),
         .lost = report->lost,

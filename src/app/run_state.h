@@ -33,9 +33,10 @@ struct run {
     sb_csv_lengths lengths; /* of the tables that a resumed run goes on with */
     sb_energy first_energy;
     uint64_t iterations, capped, frames;
-    size_t departures;                 /* of the first few, those that the log has */
-    sb_spent before;                   /* what earlier processes of this run took; of this one, what settling did */
-    uint64_t steps, iterations_before; /* steps of this process; iterations before it */
+    double compression, compression_max; /* sum over the steps, and the worst: as in sb_step_report */
+    size_t departures;                   /* of the first few, those that the log has */
+    sb_spent before;                     /* what earlier processes of this run took; of this one, what settling did */
+    uint64_t steps, iterations_before;   /* steps of this process; iterations before it */
     double particle_steps, setup_seconds, settling_seconds;
     const char *off[4]; /* consumers that are not there, ended by NULL */
     bool inside_known;

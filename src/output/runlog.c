@@ -224,6 +224,8 @@ void sb_runlog_step(sb_runlog *log, const sb_runlog_state *state)
     sb_json_number(&json, "error_mean", report->error_mean);
     sb_json_number(&json, "error_active", report->error_active);
     sb_json_number(&json, "error_max", report->error_max);
+    sb_json_number(&json, "compression_mean", report->compression);
+    sb_json_number(&json, "compression_max", report->compression_max);
     sb_json_number(&json, "max_speed_m_s", report->max_speed);
     sb_json_count(&json, "fluid_particles", report->fluid_count);
     sb_json_count(&json, "left_domain", report->left_domain);

@@ -111,6 +111,8 @@ static void put_all(sb_json *json, const sb_summary *s)
     sb_json_count(json, "boundary_particles", s->model->wall_count);
     sb_json_number(json, "mean_iterations", ratio((double)s->iterations, (double)s->steps));
     sb_json_count(json, "capped_steps", s->capped_steps);
+    sb_json_number(json, "compression_mean", ratio(s->compression, (double)s->steps));
+    sb_json_number(json, "compression_max", s->compression_max);
     sb_json_number(json, "bytes_per_particle", ratio((double)s->bytes, (double)s->fluid_particles));
     sb_json_count(json, "peak_memory_bytes", sb_memory_peak());
     sb_json_count(json, "lost_particles", s->lost);

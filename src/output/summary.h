@@ -30,16 +30,17 @@ typedef struct sb_summary {
     sb_status status;   /* how the run ended */
     const char *reason; /* NULL unless it failed */
     sb_spent spent;
-    double simulated;                /* s */
-    uint64_t steps, iterations;      /* iterations: sum over all steps */
-    uint64_t capped_steps;           /* pressure solves that stopped above their tolerance */
-    size_t fluid_particles;          /* at the start */
-    size_t bytes;                    /* heap bytes of the simulation */
-    uint64_t lost, left_domain;      /* through walls; through open sides */
-    const sb_departures *departures; /* by which side, and the first few */
-    bool has_inside;                 /* the two below were asked for */
-    uint64_t inside, crossed;        /* particles whose centre lies within a solid at the end: at all; deeper
-                                        than its boundary particles */
+    double simulated;                    /* s */
+    uint64_t steps, iterations;          /* iterations: sum over all steps */
+    double compression, compression_max; /* sum over the steps, and the worst: as in sb_step_report */
+    uint64_t capped_steps;               /* pressure solves that stopped above their tolerance */
+    size_t fluid_particles;              /* at the start */
+    size_t bytes;                        /* heap bytes of the simulation */
+    uint64_t lost, left_domain;          /* through walls; through open sides */
+    const sb_departures *departures;     /* by which side, and the first few */
+    bool has_inside;                     /* the two below were asked for */
+    uint64_t inside, crossed;            /* particles whose centre lies within a solid at the end: at all; deeper
+                                            than its boundary particles */
     int threads;
     const sb_body_record *bodies; /* one per body of the model; NULL: none */
     sb_energy first, last;        /* energies at the start and at the end */

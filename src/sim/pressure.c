@@ -18,17 +18,39 @@ double sb_pressure_spectrum(const sb_sim *sim)
     return DISORDER * sim->constant.spectrum;
 }
 
-/* b_i = beta (rho_0 - rho_i) - dt div_i, with the velocities v* and the walls' own. */
+/* One block's b_i = beta (rho_0 - rho_i) - dt div_i, with the velocities v* and the walls' own; div_i is there. Partial
+   sums of what is above the rest density: all of it, and the worst. */
+static void source_block(const sb_sim *sim, size_t block, double *partial)
+{
+    const float dt = (float)sim->report.time_step, rest = sim->constant.rest_density;
+    const float beta = (float)sim->scene->numerics.source_relaxation;
+    double excess = 0;
+    float worst = 0;
+    for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
+        const float lack = rest - sim->density[i];
+        sim->source[i] = beta * lack - dt * (sim->source[i] - sim->wall[i][3]);
+        excess += lack < 0 ? (double)-lack : 0;
+        worst = -lack > worst ? -lack : worst;
+    }
+    partial[0] = excess;
+    partial[1] = (double)worst;
+}
+
 sb_status sb_stage_source(sb_sim *sim, sb_error *error)
 {
     (void)error;
-    const size_t n = sim->n;
-    const float dt = (float)sim->report.time_step, rest = sim->constant.rest_density;
-    const float beta = (float)sim->scene->numerics.source_relaxation;
+    const size_t blocks = sb_blocks(sim);
+    const double rest = (double)sim->constant.rest_density;
+    double excess = 0, worst = 0;
     sb_divergence(sim, sim->velocity, 1, sim->source);
 #pragma omp parallel for schedule(static)
-    for (size_t i = 0; i < n; i++)
-        sim->source[i] = beta * (rest - sim->density[i]) - dt * (sim->source[i] - sim->wall[i][3]);
+    for (size_t b = 0; b < blocks; b++) source_block(sim, b, sim->partial + 2 * b);
+    for (size_t b = 0; b < blocks; b++) {
+        excess += sim->partial[2 * b];
+        worst = fmax(worst, sim->partial[2 * b + 1]);
+    }
+    sim->report.compression = sim->n ? excess / ((double)sim->n * rest) : 0;
+    sim->report.compression_max = worst / rest;
     return SB_OK;
 }
 

@@ -14,20 +14,21 @@ static void put_report(sb_archive_out *out, const sb_step_report *r)
     sb_put_count(out, r->step);
     sb_put_count(out, (uint64_t)r->iterations);
     sb_put_flag(out, r->capped);
-    const double reals[] = {r->time,         r->time_step, r->tolerance, r->error_mean,
-                            r->error_active, r->error_max, r->max_speed, r->momentum_imbalance};
+    const double reals[] = {r->time,      r->time_step,   r->tolerance,       r->error_mean, r->error_active,
+                            r->error_max, r->compression, r->compression_max, r->max_speed,  r->momentum_imbalance};
     sb_put_list(out, reals, sizeof reals / sizeof *reals, sizeof *reals);
 }
 
 static void take_report(sb_archive_in *in, sb_step_report *r)
 {
-    double reals[8];
+    double reals[10];
     r->step = sb_take_count(in, UINT64_MAX);
     r->iterations = (int)sb_take_count(in, INT32_MAX);
     r->capped = sb_take_flag(in);
     sb_take_list(in, reals, sizeof reals / sizeof *reals, sizeof *reals);
-    double *const fields[] = {&r->time,         &r->time_step, &r->tolerance, &r->error_mean,
-                              &r->error_active, &r->error_max, &r->max_speed, &r->momentum_imbalance};
+    double *const fields[] = {&r->time,         &r->time_step,         &r->tolerance,   &r->error_mean,
+                              &r->error_active, &r->error_max,         &r->compression, &r->compression_max,
+                              &r->max_speed,    &r->momentum_imbalance};
     for (size_t f = 0; f < sizeof fields / sizeof *fields; f++) *fields[f] = reals[f];
     const bool sane = r->time >= 0 && isfinite(r->time) && r->time_step >= 0 && isfinite(r->time_step) &&
                       r->max_speed >= 0 && isfinite(r->max_speed);

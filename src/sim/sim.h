@@ -19,7 +19,9 @@ typedef struct sb_step_report {
     bool capped;                                /* the solve stopped at max_iterations above its tolerance */
     double tolerance;                           /* relative density error asked for */
     double error_mean, error_active, error_max; /* relative: over all, over p > 0, worst */
-    double max_speed;                           /* m/s */
+    double compression, compression_max; /* where the step began, relative: mean of what is above the rest density,
+                                            and the worst */
+    double max_speed;                    /* m/s */
     size_t fluid_count;
     uint64_t left_domain;      /* particles that left through open sides so far */
     uint64_t lost;             /* particles that passed a wall side of the domain so far */

@@ -103,8 +103,9 @@ static void hash_of(const char *run, char hash[32])
 
 void assert_same_run(const char *a, const char *b, const char *const *files)
 {
-    static const char *const numbers[] = {"simulated_s", "steps",     "mean_iterations", "peak_N",  "peak_time_s",
-                                          "impulse_Ns",  "kinetic_J", "particle_files",  "pictures"};
+    static const char *const numbers[] = {
+        "simulated_s", "steps",          "mean_iterations", "peak_N",           "peak_time_s",    "impulse_Ns",
+        "kinetic_J",   "particle_files", "pictures",        "compression_mean", "compression_max"};
     char hash[2][32], name[2][96];
     hash_of(a, hash[0]);
     hash_of(b, hash[1]);

@@ -79,6 +79,8 @@ static void summary_has_the_promised_keys(void **state)
         .iterations = 10,
         .fluid_particles = 1000,
         .bytes = 250000,
+        .compression = 0.5,
+        .compression_max = 0.25,
         .lost = 2,
         .threads = 2,
         .bodies = records,
@@ -91,6 +93,8 @@ static void summary_has_the_promised_keys(void **state)
         if (!json_find(text, keys[i])) fail_msg("summary.json lacks %s", keys[i]);
     }
     assert_true(strtod(json_find(text, "mean_iterations"), NULL) == 2.5);
+    assert_true(strtod(json_find(text, "compression_mean"), NULL) == 0.125); /* of four steps */
+    assert_true(strtod(json_find(text, "compression_max"), NULL) == 0.25);
     assert_true(strtod(json_find(text, "bytes_per_particle"), NULL) == 250);
     assert_true(strtod(json_find(text, "boundary_particles"), NULL) == 500);
     assert_true(strtod(json_find(text, "lost_particles"), NULL) == 2);

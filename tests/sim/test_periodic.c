@@ -155,6 +155,14 @@ static void check_forces(setup *s)
                         s->source);
     for (size_t i = 0; i < s->n; i++) twin_compare(&source, i, (double)sim->source[i], s->source[i]);
     printf("  forces %.2g, source %.2g\n", twin_relative(&push), twin_relative(&source));
+    double above = 0, worst = 0;
+    const double rest = (double)sim->constant.rest_density;
+    for (size_t i = 0; i < s->n; i++) {
+        above += fmax(s->rho[i] - rest, 0) / ((double)s->n * rest);
+        worst = fmax(worst, (s->rho[i] - rest) / rest);
+    }
+    assert_near(sim->report.compression, above, 1e-6);
+    assert_near(sim->report.compression_max, worst, 1e-6);
     assert_true(twin_relative(&push) < 1e-6 && twin_relative(&source) < 2e-6);
 }
 
