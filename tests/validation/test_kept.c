@@ -10,20 +10,20 @@
 
 static const char table[] =
     "case,resolution_m,preset,seed,judged,quantity,unit,reference,value,error,error_unit,reach,verdict,particles,steps,"
-    "sweeps_per_step,run_time_s,commit,asked\n"
-    "a,0.1,default,1,yes,height,m,2,2.1,5,%,10,pass,100,20,6.50,3.5,abc,0123456789abcdef\n"
-    "a,0.1,default,1,yes,\"noise, all\",%,,3,3,%,1,FAIL,100,20,6.50,3.5,abc,0123456789abcdef\n"
-    "a,0.1,default,1,yes,told,Pa,,7,,%,,reported,100,20,6.50,3.5,abc,0123456789abcdef\n"
-    "b,0.1,default,1,yes,height,m,2,1,-50,%,10,FAIL,100,20,6.50,3.5,abc,0123456789abcdef\n"
-    "a,0.05,default,1,no,height,m,2,2.2,10,%,10,pass,800,40,7.00,30.0,abc,ffffffffffffffff\n"
-    "a,,default,1,yes,order,,,1.5,1.5,,2,pass,,,,,,\n";
+    "sweeps_per_step,run_time_s,commit,asked,meant\n"
+    "a,0.1,default,1,yes,height,m,2,2.1,5,%,10,pass,100,20,6.50,3.5,abc,0123456789abcdef,00000000000000a7\n"
+    "a,0.1,default,1,yes,\"noise, all\",%,,3,3,%,1,FAIL,100,20,6.50,3.5,abc,0123456789abcdef,00000000000000a7\n"
+    "a,0.1,default,1,yes,told,Pa,,7,,%,,reported,100,20,6.50,3.5,abc,0123456789abcdef,00000000000000a7\n"
+    "b,0.1,default,1,yes,height,m,2,1,-50,%,10,FAIL,100,20,6.50,3.5,abc,0123456789abcdef,00000000000000a7\n"
+    "a,0.05,default,1,no,height,m,2,2.2,10,%,10,pass,800,40,7.00,30.0,abc,ffffffffffffffff,00000000000000a7\n"
+    "a,,default,1,yes,order,,,1.5,1.5,,2,pass,,,,,,,\n";
 
 static const sb_case of = {.name = "a"};
 static const sb_plan plan = {.resolution = 0.1, .judged = true};
 
 static sb_result wanted(const char *asked)
 {
-    sb_result r = {.request = {.of = &of, .plan = &plan, .seed = 1}};
+    sb_result r = {.request = {.of = &of, .plan = &plan, .seed = 1}, .meant = 0xa7};
     snprintf(r.asked, sizeof r.asked, "%s", asked);
     return r;
 }
@@ -81,9 +81,11 @@ static void test_other_questions_and_own_runs_are_left_alone(void **state)
     sb_sheet sheet;
     open_table(&sheet);
     sb_result other = wanted("0000000000000000"), unknown = wanted(""), own = wanted("0123456789abcdef");
+    sb_result defaults = wanted("0123456789abcdef");
     own.state = SB_RESULT_FAILED;
-    sb_result *each[] = {&other, &unknown, &own};
-    for (size_t i = 0; i < 3; i++) {
+    defaults.meant = 0xa8; /* the same keys, but another default since */
+    sb_result *each[] = {&other, &unknown, &own, &defaults};
+    for (size_t i = 0; i < 4; i++) {
         const sb_result_state before = each[i]->state;
         assert_int_equal(sb_kept_read(&sheet, each[i], NULL), SB_OK);
         assert_true(each[i]->state == before && !each[i]->kept && each[i]->figures.count == 0);

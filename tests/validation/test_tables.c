@@ -146,6 +146,34 @@ static void test_what_is_asked_decides_the_hash(void **state)
     }
 }
 
+/* A finished run is told from one of other defaults by the scene it wrote. */
+static void test_what_a_run_wrote_means_what_was_asked(void **state)
+{
+    (void)state;
+    char file_name[] = "/tmp/shorebreak-meant-XXXXXX";
+    const char *scene = SB_SOURCE_DIR "/assets/validation/solitary-runup/breaking.yaml";
+    const sb_plan plan = {.resolution = 0.05};
+    const sb_request asked = {.of = sb_cases[0], .plan = &plan, .seed = 1};
+    const sb_override set[] = {{"resolution", "0.05"}, {"numerics.seed", "1"}, {"output.plots", "false"}};
+    uint64_t meant, meaning;
+    sb_scene made, back;
+    const int file = mkstemp(file_name);
+    assert_true(file >= 0);
+    close(file);
+    assert_int_equal(sb_request_meant(&asked, scene, &meant, NULL), SB_OK);
+    assert_int_equal(sb_scene_read(scene, "default", set, 3, &made, NULL), SB_OK);
+    for (int other = 0; other < 2; other++) {
+        made.numerics.artificial_viscosity += other * 1e-4;
+        assert_int_equal(sb_scene_write(&made, file_name, NULL), SB_OK);
+        assert_int_equal(sb_scene_read(file_name, NULL, NULL, 0, &back, NULL), SB_OK);
+        assert_int_equal(sb_scene_meaning(&back, &meaning, NULL), SB_OK);
+        assert_int_equal(meaning == meant, !other);
+        sb_scene_free(&back);
+    }
+    sb_scene_free(&made);
+    unlink(file_name);
+}
+
 static void test_changes_of_defaults_stay_within_their_keys(void **state)
 {
     (void)state;
@@ -186,6 +214,7 @@ int main(void)
         cmocka_unit_test(test_reference_tables_are_sound),
         cmocka_unit_test(test_cases_are_sound),
         cmocka_unit_test(test_what_is_asked_decides_the_hash),
+        cmocka_unit_test(test_what_a_run_wrote_means_what_was_asked),
         cmocka_unit_test(test_changes_of_defaults_stay_within_their_keys),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

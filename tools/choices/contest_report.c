@@ -112,8 +112,8 @@ static sb_status plot_front(const sb_contest *c, sb_plot *plot, sb_error *error)
     return status;
 }
 
-/* All spacings of a choice are marks of one kind. What has not run has a mark nowhere, so that a choice
-   has the same colour in every panel. */
+/* All spacings of a choice are marks of one kind, joined from the coarsest on. What has not run has a mark nowhere, so
+   that a choice has the same colour in every panel. */
 static sb_status plot_choice(const sb_contest *c, const sb_choice *choice, sb_plot *plot, sb_error *error)
 {
     sb_curve curve = {0};
@@ -123,7 +123,7 @@ static sb_status plot_choice(const sb_contest *c, const sb_choice *choice, sb_pl
         if (c->entries[i].choice == choice)
             status = sb_curve_add(&curve, c->entries[i].time.mean, y > 0 ? y : (double)NAN, error);
     }
-    if (status == SB_OK && curve.count) status = sb_plot_curve(plot, SB_PLOT_MARKS, choice->name, &curve, error);
+    if (status == SB_OK && curve.count) status = sb_plot_curve(plot, SB_PLOT_CHAIN, choice->name, &curve, error);
     sb_curve_free(&curve);
     return status;
 }

@@ -28,6 +28,7 @@ typedef struct sb_sheet_slot {
 
 /* A finished run. All of it belongs to the framework. */
 typedef struct sb_case_run {
+    const struct sb_case *of;
     const char *folder;    /* its scene.yaml, CSVs and summary.json */
     const char *assets;    /* assets/validation of the source tree */
     const sb_scene *scene; /* as it ran, every default filled in */
@@ -49,6 +50,9 @@ sb_status sb_run_curve(const sb_case_run *run, const char *table, const char *wh
 /* A curve of a reference table, its path relative to assets/validation; `where` as in sheet.h. */
 sb_status sb_reference_curve(const sb_case_run *run, const char *table, const char *where, const char *x, const char *y,
                              sb_curve *curve, sb_error *error);
+/* Adds a run's curve to the plot's panel, as what the run is: judged, another start seed, `paper`, or another spacing.
+ */
+sb_status sb_plot_run(sb_plot *plot, const sb_case_run *run, const sb_curve *curve, sb_error *error);
 /* A number of the run's summary.json, by its first key of that name; NaN when there is none. */
 double sb_run_number(const sb_case_run *run, const char *key);
 
@@ -60,6 +64,7 @@ typedef struct sb_case {
     const char *scene;    /* relative to assets/validation */
     const char *headline; /* quantity of the figure that stands for the case in short tables */
     const sb_plan *full, *quick;
+    const void *what; /* of the file's own, where several cases share its functions: run->of->what; or NULL */
 
     /* Figures of one run, in a stable order. Anything but SB_OK says which file or column is
      * missing. */

@@ -167,7 +167,7 @@ static sb_status draw_forces(const sb_case_run *runs, size_t count, sb_plot *plo
             snprintf(label, sizeof label, "measured, digitisation %s", sets[k]);
             status = sb_plot_curve(plot, SB_PLOT_POINTS, label, &f.measured[k], error);
         }
-        if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, runs[i].label, &f.simulated, error);
+        if (status == SB_OK) status = sb_plot_run(plot, &runs[i], &f.simulated, error);
         forces_free(&f);
     }
     return status;
@@ -187,7 +187,7 @@ static sb_status draw_bore(const sb_case_run *runs, size_t count, sb_plot *plot,
         sb_curve velocity = {0};
         double arrival;
         status = bore(&runs[i], &velocity, &arrival, error);
-        if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, runs[i].label, &velocity, error);
+        if (status == SB_OK) status = sb_plot_run(plot, &runs[i], &velocity, error);
         sb_curve_free(&velocity);
     }
     return status;

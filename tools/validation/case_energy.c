@@ -120,7 +120,7 @@ static sb_status plot_one(const sb_case_run *run, sb_plot *plot, sb_error *error
     if (status == SB_OK) status = mechanical(&sheet, &energy, error);
     if (status == SB_OK) {
         sb_curve_map(&energy, 1, 0, 1 / energy.y[0], 0);
-        status = sb_plot_curve(plot, SB_PLOT_LINE, run->label, &energy, error);
+        status = sb_plot_run(plot, run, &energy, error);
     }
     sb_sheet_free(&sheet);
     sb_curve_free(&energy);

@@ -197,7 +197,7 @@ static sb_status plot_heights(const sb_case_run *runs, size_t count, sb_plot *pl
     for (size_t i = 0; status == SB_OK && i < count; i++) {
         sb_curve heights = {0}, times = {0};
         status = find_crests(&runs[i], &heights, &times, error);
-        if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, runs[i].label, &heights, error);
+        if (status == SB_OK) status = sb_plot_run(plot, &runs[i], &heights, error);
         sb_curve_free(&heights);
         sb_curve_free(&times);
     }
@@ -222,7 +222,7 @@ static sb_status plot_shapes(const sb_case_run *runs, size_t count, sb_plot *plo
         status = sb_run_curve(&runs[i], "gauges.csv", "x60", "time_s", "eta_m", &eta, error);
         sb_peak crest = sb_curve_peak(&eta, 0, HUGE_VAL, HALF_WIDTH);
         sb_curve_map(&eta, 1, -crest.x, 1, -scene->sea.level);
-        if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, runs[i].label, &eta, error);
+        if (status == SB_OK) status = sb_plot_run(plot, &runs[i], &eta, error);
         sb_curve_free(&eta);
     }
     return status;

@@ -182,7 +182,7 @@ static sb_status plot(const sb_case_run *runs, size_t count, sb_plot *plot, sb_e
     for (size_t i = 0; status == SB_OK && i < count; i++) {
         sb_curve a = {0};
         status = shape(&runs[i], MAIN, &a, error);
-        if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, runs[i].label, &a, error);
+        if (status == SB_OK) status = sb_plot_run(plot, &runs[i], &a, error);
         sb_curve_free(&a);
     }
     if (status == SB_OK)
@@ -191,7 +191,7 @@ static sb_status plot(const sb_case_run *runs, size_t count, sb_plot *plot, sb_e
     for (size_t i = 0; status == SB_OK && i < count; i++) {
         sb_curve a = {0};
         status = shape(&runs[i], 1, &a, error);
-        if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, runs[i].label, &a, error);
+        if (status == SB_OK) status = sb_plot_run(plot, &runs[i], &a, error);
         sb_curve_free(&a);
     }
     return status;

@@ -135,7 +135,7 @@ static sb_status plot_force(const sb_case_run *run, sb_plot *plot, sb_error *err
     sb_curve share = {0}, smooth = {0};
     sb_status status = bearing(run, &share, error);
     if (status == SB_OK) status = sb_curve_mean_filter(&share, 0.5, &smooth, error);
-    if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, run->label, &smooth, error);
+    if (status == SB_OK) status = sb_plot_run(plot, run, &smooth, error);
     sb_curve_free(&share);
     sb_curve_free(&smooth);
     return status;
@@ -146,7 +146,7 @@ static sb_status plot_energy(const sb_case_run *run, sb_plot *plot, sb_error *er
     sb_curve kinetic = {0}, smooth = {0};
     sb_status status = sb_run_curve(run, "energy.csv", NULL, "time_s", "kinetic_J", &kinetic, error);
     if (status == SB_OK) status = sb_curve_mean_filter(&kinetic, 0.5, &smooth, error);
-    if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, run->label, &smooth, error);
+    if (status == SB_OK) status = sb_plot_run(plot, run, &smooth, error);
     sb_curve_free(&kinetic);
     sb_curve_free(&smooth);
     return status;

@@ -8,7 +8,7 @@
 
 static const char *const TABLE = "wall-pressure/pressures.csv";
 static const double FILTER = 0.002; /* s, running mean, as the reference table has it */
-static const double CALM = 0.005;   /* s, a second running mean, reported and plotted */
+static const double CALM = 0.005;   /* s, a second running mean, reported */
 static const double ARRIVAL = 500;  /* Pa at S1: the clocks are set equal here */
 static const double TOUCH = 200;    /* Pa in the measured median: a sensor's first 0.15 s begin */
 static const double FIRST = 0.15, PLATEAU_BEGIN = 0.7, PLATEAU_END = 0.9; /* s */
@@ -131,27 +131,21 @@ static sb_status evaluate(const sb_case_run *run, sb_figures *figures, sb_error 
 static sb_status draw_run(const sb_case_run *run, const char *sensor, sb_plot *plot, sb_error *error)
 {
     double shift = NONE;
-    sb_curve calm = {0};
     pressures p = {0};
     sb_status status = shift_of(run, &shift, error);
     if (status == SB_OK) status = load(run, sensor, shift, &p, error);
-    if (status == SB_OK) status = sb_curve_mean_filter(&p.simulated, CALM, &calm, error);
-    if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, run->label, &calm, error);
+    if (status == SB_OK) status = sb_plot_run(plot, run, &p.simulated, error);
     pressures_free(&p);
-    sb_curve_free(&calm);
     return status;
 }
 
 static sb_status draw_measured(const sb_case_run *run, const char *sensor, sb_plot *plot, sb_error *error)
 {
     pressures p;
-    sb_curve calm = {0};
     sb_status status = load(run, sensor, 0, &p, error);
-    if (status == SB_OK) status = sb_curve_mean_filter(&p.median, CALM, &calm, error);
     if (status == SB_OK) status = sb_plot_band(plot, "measured, 2.5 to 97.5 %", &p.low, &p.high, error);
-    if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "median", &calm, error);
+    if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "median", &p.median, error);
     pressures_free(&p);
-    sb_curve_free(&calm);
     return status;
 }
 
@@ -160,7 +154,7 @@ static sb_status draw(const sb_case_run *runs, size_t count, sb_plot *plot, sb_e
     static const char *const titles[] = {"S1, 3 mm above the floor", "S2, 15 mm", "S3, 30 mm", "S4, 80 mm"};
     sb_status status = SB_OK;
     for (int k = 0; status == SB_OK && count && k < SENSORS; k++) {
-        status = sb_plot_panel(plot, titles[k], "time [s]", "pressure, 5 ms means [Pa]", error);
+        status = sb_plot_panel(plot, titles[k], "time [s]", "pressure, 2 ms means [Pa]", error);
         sb_plot_range(plot, 0.4, 0.92, NONE, NONE);
         if (status == SB_OK) status = draw_measured(&runs[0], sensors[k], plot, error);
         for (size_t i = 0; status == SB_OK && i < count; i++) status = draw_run(&runs[i], sensors[k], plot, error);

@@ -12,6 +12,7 @@ const sb_case *const sb_cases[] = {
     &sb_case_runup_nonbreaking,
     &sb_case_front_etsin,
     &sb_case_front_martin_moyce,
+    &sb_case_front_martin_moyce_small,
     &sb_case_front_koshizuka,
     &sb_case_wall_pressure,
     &sb_case_wall_pressure_3d,

@@ -14,6 +14,7 @@ extern const sb_case sb_case_runup_nonbreaking;
 extern const sb_case sb_case_energy;
 extern const sb_case sb_case_front_etsin;
 extern const sb_case sb_case_front_martin_moyce;
+extern const sb_case sb_case_front_martin_moyce_small;
 extern const sb_case sb_case_front_koshizuka;
 extern const sb_case sb_case_wall_pressure;
 extern const sb_case sb_case_wall_pressure_3d;

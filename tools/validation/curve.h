@@ -40,8 +40,10 @@ double sb_curve_mean(const sb_curve *curve, double first, double last);
 double sb_curve_deviation(const sb_curve *curve, double first, double last);
 double sb_curve_rms(const sb_curve *curve, double first, double last);
 double sb_curve_integral(const sb_curve *curve, double first, double last);
-/* Root mean square of a - b at the points of b, within first..last and where both are known. */
+/* Root mean square of a - b at the points of b, within first..last and where both are known; and at how many they are.
+ */
 double sb_curve_rms_difference(const sb_curve *a, const sb_curve *b, double first, double last);
+size_t sb_curve_shared(const sb_curve *a, const sb_curve *b, double first, double last);
 
 /* Largest or smallest point within first..last: its index; (size_t)-1 when there is none. */
 size_t sb_curve_highest(const sb_curve *curve, double first, double last);

@@ -66,6 +66,13 @@ double sb_curve_rms_difference(const sb_curve *a, const sb_curve *b, double firs
     return count ? sqrt(sum / (double)count) : (double)NAN;
 }
 
+size_t sb_curve_shared(const sb_curve *a, const sb_curve *b, double first, double last)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < b->count; i++) count += within(b, i, first, last) && !isnan(sb_curve_at(a, b->x[i]));
+    return count;
+}
+
 static size_t extreme(const sb_curve *curve, double first, double last, double sign)
 {
     size_t best = (size_t)-1;

@@ -84,7 +84,8 @@ sb_status sb_figure_band(sb_figures *figures, const char *quantity, const char *
     if (value > high) outside = 100 * (value - high) / fabs(high);
     va_list arguments;
     va_start(arguments, note);
-    sb_figure figure = {.reference = 0.5 * (low + high), .value = value, .error = outside, .limit = limit};
+    sb_figure figure = {
+        .reference = 0.5 * (low + high), .low = low, .high = high, .value = value, .error = outside, .limit = limit};
     sb_status status = add(figures, figure, quantity, unit, "%", error, note, arguments);
     va_end(arguments);
     return status;

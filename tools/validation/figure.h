@@ -12,7 +12,8 @@ enum { SB_FIGURE_TEXT = 96, SB_FIGURE_NOTE = 240 };
 typedef struct sb_figure {
     char quantity[SB_FIGURE_TEXT]; /* unlike all others of the case, stable: "floor force, mean" */
     char unit[16];                 /* of reference and value; "" for none */
-    double reference;              /* NaN: there is none */
+    double reference;              /* NaN: there is none; of a band its middle */
+    double low, high;              /* the band's edges; low = high: none */
     double value;                  /* NaN: could not be measured, which fails a judged figure */
     double error;                  /* as `error_unit` says; NaN: none */
     char error_unit[16];           /* "%", or the unit of an absolute error */

@@ -1,5 +1,6 @@
 #include "kept.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -55,9 +56,13 @@ static bool of_case(const sb_sheet *table, size_t row, const char *name)
 sb_status sb_kept_read(const sb_sheet *table, sb_result *r, sb_error *error)
 {
     sb_status status = SB_OK;
+    char meant[17];
     if (r->state != SB_RESULT_NOT_RUN || !r->asked[0]) return SB_OK;
+    snprintf(meant, sizeof meant, "%016" PRIx64, r->meant);
     for (size_t row = 0; status == SB_OK && row < table->rows; row++) {
-        if (!of_case(table, row, r->request.of->name) || strcmp(text_of(table, row, "asked"), r->asked) != 0) continue;
+        if (!of_case(table, row, r->request.of->name) || strcmp(text_of(table, row, "asked"), r->asked) != 0 ||
+            strcmp(text_of(table, row, "meant"), meant) != 0)
+            continue;
         sb_case_run *view = &r->run.view;
         status = add_row(table, row, &r->figures, error);
         snprintf(r->run.commit, sizeof r->run.commit, "%s", text_of(table, row, "commit"));

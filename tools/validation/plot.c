@@ -9,12 +9,13 @@
 #include <stdbool.h>
 #include <string.h>
 
-enum { COLORS = 8, SHAPES = 4, TEXT = 160 };
+enum { COLORS = 8, GREYS = 2, SHAPES = 4, TEXT = 160 };
 
-typedef enum kind { LINE, REFERENCE, POINTS, MARKS, BAND } kind;
+/* A band, or one of sb_plot_style. */
+enum { BAND = SB_PLOT_CHAIN + 1 };
 
 typedef struct layer {
-    kind kind;
+    int kind;
     char label[TEXT];
     sb_curve curve, high; /* a band's lower and upper edge */
 } layer;
@@ -77,7 +78,7 @@ void sb_plot_logarithmic(sb_plot *plot)
     plot->panels[plot->panel_count - 1].logarithmic = true;
 }
 
-static sb_status add(sb_plot *plot, kind what, const char *label, const sb_curve *curve, const sb_curve *high,
+static sb_status add(sb_plot *plot, int what, const char *label, const sb_curve *curve, const sb_curve *high,
                      sb_error *error)
 {
     panel *p = &plot->panels[plot->panel_count - 1];
@@ -97,8 +98,7 @@ static sb_status add(sb_plot *plot, kind what, const char *label, const sb_curve
 
 sb_status sb_plot_curve(sb_plot *plot, sb_plot_style style, const char *label, const sb_curve *curve, sb_error *error)
 {
-    static const kind kinds[] = {LINE, REFERENCE, POINTS, MARKS};
-    return add(plot, kinds[style], label, curve, NULL, error);
+    return add(plot, (int)style, label, curve, NULL, error);
 }
 
 sb_status sb_plot_band(sb_plot *plot, const char *label, const sb_curve *low, const sb_curve *high, sb_error *error)
@@ -156,36 +156,60 @@ static void put_range(FILE *out, char axis, double low, double high)
     fputs("]\n", out);
 }
 
-static void put_layer(FILE *out, const layer *l, const char *data, size_t index, int color)
+static void put_layer(FILE *out, const layer *l, const char *data, size_t index, int turn, bool aside)
 {
-    static const char *const colors[COLORS] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                               "#e69f00", "#56b4e9", "#7f3c8d", "#80ba5a"};
+    static const char *const colors[COLORS] = {"#0072b2", "#e69f00", "#009e73", "#cc79a7",
+                                               "#56b4e9", "#d55e00", "#7f3c8d", "#80ba5a"};
+    static const char *const greys[GREYS] = {"#333333", "#999999"};
     static const int shapes[SHAPES] = {7, 5, 9, 6}; /* disc, square, triangle, circle */
+    const char *color = colors[turn % COLORS];
+    const int shape = shapes[turn / COLORS % SHAPES];
     fprintf(out, "'%s' index %zu using 1:2", data, index);
     switch (l->kind) {
     case BAND:
         fputs(":3 with filledcurves lc rgb '#d0d0d0'", out);
         break;
-    case POINTS:
-        fputs(" with points pt 7 ps 0.4 lc rgb '#555555'", out);
+    case SB_PLOT_POINTS:
+        fprintf(out, " with points pt %d ps 0.4 lc rgb '%s'", shapes[turn % SHAPES], greys[turn % GREYS]);
         break;
-    case MARKS:
-        fprintf(out, " with points pt %d ps 1.3 lw 1.5 lc rgb '%s'", shapes[color / COLORS % SHAPES],
-                colors[color % COLORS]);
+    case SB_PLOT_MARKS:
+        fprintf(out, " with points pt %d ps 1.3 lw 1.5 lc rgb '%s'", shape, color);
         break;
-    case REFERENCE:
+    case SB_PLOT_CHAIN:
+        fprintf(out, " with linespoints pt %d ps 1.3 lw 0.7 dt 3 lc rgb '%s'", shape, color);
+        break;
+    case SB_PLOT_REFERENCE:
         fputs(" with lines lw 2 lc rgb '#000000'", out);
         break;
-    case LINE:
-        fprintf(out, " with lines lw 1.5 lc rgb '%s'", colors[color % COLORS]);
+    case SB_PLOT_JUDGED:
+        fputs(" with lines lw 2.5 lc rgb '#c00000'", out);
+        break;
+    case SB_PLOT_SEED:
+        fputs(" with lines lw 1 lc rgb '#e7a3a3'", out);
+        break;
+    case SB_PLOT_ASIDE:
+        fprintf(out, " with lines lw 1 dt 2 lc rgb '%s'%s", color, aside ? " noautoscale" : "");
+        break;
+    default:
+        fprintf(out, " with lines lw 1.5 lc rgb '%s'", color);
         break;
     }
     fputs(" title ", out);
     put_quoted(out, l->label);
 }
 
-/* Bands lie lowest, then points; what is simulated lies over what is measured. */
-static const kind order[] = {BAND, POINTS, REFERENCE, LINE, MARKS};
+/* What lies lower comes first; what is simulated lies over what is measured, and what is judged over all. */
+static const int order[] = {BAND,         SB_PLOT_POINTS, SB_PLOT_REFERENCE, SB_PLOT_ASIDE, SB_PLOT_LINE,
+                            SB_PLOT_SEED, SB_PLOT_MARKS,  SB_PLOT_CHAIN,     SB_PLOT_JUDGED};
+
+/* Something in the panel that the axes can go by without what stands aside. */
+static bool has_scale(const panel *p)
+{
+    for (size_t k = 0; k < p->layer_count; k++)
+        for (size_t i = 0; p->layers[k].kind != SB_PLOT_ASIDE && i < p->layers[k].curve.count; i++)
+            if (isfinite(p->layers[k].curve.y[i])) return true;
+    return false;
+}
 
 static void put_panel(FILE *out, const panel *p, const char *data, size_t first)
 {
@@ -200,12 +224,13 @@ static void put_panel(FILE *out, const panel *p, const char *data, size_t first)
     put_range(out, 'x', p->range[0], p->range[1]);
     put_range(out, 'y', p->range[2], p->range[3]);
     const char *before = "plot ";
+    const bool aside = has_scale(p);
     for (size_t turn = 0; turn < sizeof order / sizeof *order; turn++) {
-        int color = 0;
+        int count = 0;
         for (size_t k = 0; k < p->layer_count; k++) {
             if (p->layers[k].kind != order[turn]) continue;
             fputs(before, out);
-            put_layer(out, &p->layers[k], data, first + k, color++);
+            put_layer(out, &p->layers[k], data, first + k, count++, aside);
             before = ", ";
         }
     }

@@ -55,17 +55,19 @@ static void put_head(FILE *out, const sb_report *report)
     fprintf(out, "- command: `%s`\n", report->command);
     put_machine(out, report);
     put_commits(out, report);
-    fprintf(out,
-            "- %zu of %zu judged figures are within their reach\n\n"
-            "Errors are signed: ours minus the reference. Where a resolution is run with several "
-            "start seeds by one program, the error is the one\nlargest in magnitude, the figure passes when it "
-            "does with every seed, and spread is the largest value minus the\nsmallest, there or at "
-            "the finest spacing that has several seeds, which is then named. "
-            "`x (of y)`: at that resolution the reference is y. `(kept)` behind a commit: the figures are those of a "
-            "former report; "
-            "the run's files are\nno longer there, and plots leave it out.\n\n"
-            "| case | reach | figure | |\n|---|---|---|---|\n",
-            passed, limited);
+    fprintf(
+        out,
+        "- %zu of %zu judged figures are within their reach\n\n"
+        "Errors are signed: ours minus the reference; where that is a measured band, how far ours is outside of it, in "
+        "%% of the nearer edge. Where a resolution is run with several "
+        "start seeds by one program, the error is the one\nlargest in magnitude, the figure passes when it "
+        "does with every seed, and spread is the largest value minus the\nsmallest, there or at "
+        "the finest spacing that has several seeds, which is then named. "
+        "`x (of y)`: at that resolution the reference is y. `(kept)` behind a commit: the figures are those of a "
+        "former report; "
+        "the run's files are\nno longer there, and plots leave it out.\n\n"
+        "| case | reach | figure | |\n|---|---|---|---|\n",
+        passed, limited);
     for (size_t c = 0; c < report->count; c++) sb_report_summary_line(out, &report->cases[c]);
     fputc('\n', out);
 }

@@ -78,7 +78,8 @@ void sb_report_summary_line(FILE *out, const sb_case_results *results)
         sb_text_number(value, j.mean);
         sb_text_error(error, j.worst, j.figure->error_unit);
         fprintf(out, "%s: %s%s%s", j.figure->quantity, value, j.figure->unit[0] ? " " : "", j.figure->unit);
-        fprintf(out, isnan(j.worst) ? "; " : ", error %s; ", error);
+        if (!isnan(j.worst)) fprintf(out, ", %s %s", j.seeds > 1 ? "mean of the seeds, worst error" : "error", error);
+        fputs("; ", out);
     }
     const sb_result *finest = judged ? NULL : sb_results_finest(results);
     if (finest) fprintf(out, "not run where it is judged, but at %.6g m", finest->request.plan->resolution);
@@ -88,6 +89,15 @@ void sb_report_summary_line(FILE *out, const sb_case_results *results)
         put_short(out, results);
     }
     fprintf(out, " | %s |\n", said);
+}
+
+static void put_reference(FILE *out, const sb_figure *f)
+{
+    char low[48], high[48], cell[128];
+    sb_text_number(low, f->low < f->high ? f->low : f->reference);
+    sb_text_number(high, f->high);
+    snprintf(cell, sizeof cell, "%s%s%s", low, f->low < f->high ? " to " : "", f->low < f->high ? high : "");
+    put_cell(out, cell);
 }
 
 /* Value of a figure in one run; with its reference when that differs from the one judged against.
@@ -166,8 +176,7 @@ static void put_figures(FILE *out, const sb_case_results *results, const sb_resu
         fputc('|', out);
         put_cell(out, j.figure->quantity);
         put_cell(out, j.figure->unit);
-        sb_text_number(text, j.figure->reference);
-        put_cell(out, text);
+        put_reference(out, j.figure);
         for (size_t k = 0; k < results->count; k++)
             if (has_column(&results->runs[k])) put_value(out, &results->runs[k], j.figure);
         put_spread(text, sizeof text, sb_results_spread(results, f->quantity), of);

@@ -1,6 +1,7 @@
 /* results.csv: every figure of every run. */
 #include "report.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <string.h>
 
@@ -41,15 +42,15 @@ static void put_run(FILE *out, const sb_result *r)
                 r->request.paper ? "paper" : "default", r->request.seed,
                 r->request.plan->judged && !r->request.paper ? "yes" : "no");
         put_figure(out, &r->figures.rows[i]);
-        fprintf(out, "%zu,%zu,%.2f,%.1f,%s,%s\n", r->run.view.particles, r->run.view.steps, r->run.view.iterations,
-                r->run.view.wall, r->run.commit, r->asked);
+        fprintf(out, "%zu,%zu,%.2f,%.1f,%s,%s,%016" PRIx64 "\n", r->run.view.particles, r->run.view.steps,
+                r->run.view.iterations, r->run.view.wall, r->run.commit, r->asked, r->meant);
     }
 }
 
 void sb_report_csv(FILE *out, const sb_report *report)
 {
     fputs("case,resolution_m,preset,seed,judged,quantity,unit,reference,value,error,error_unit,"
-          "reach,verdict,particles,steps,sweeps_per_step,run_time_s,commit,asked\n",
+          "reach,verdict,particles,steps,sweeps_per_step,run_time_s,commit,asked,meant\n",
           out);
     for (size_t c = 0; c < report->count; c++) {
         const sb_case_results *results = &report->cases[c];
@@ -58,7 +59,7 @@ void sb_report_csv(FILE *out, const sb_report *report)
         for (size_t i = 0; i < results->across.count; i++) {
             fprintf(out, "%s,,default,1,yes,", results->of->name);
             put_figure(out, &results->across.rows[i]);
-            fputs(",,,,,\n", out);
+            fputs(",,,,,,\n", out);
         }
     }
 }

@@ -41,15 +41,16 @@ sb_status sb_hash_file(const char *path, uint64_t *hash, sb_error *error)
     return SB_OK;
 }
 
-sb_status sb_request_hash(const sb_request *request, const char *scene_path, uint64_t *hash, sb_error *error)
+/* The scene with all that is set; the hash goes on over the settings. */
+static sb_status read_scene(const sb_request *request, const char *scene_path, sb_scene *scene, uint64_t *hash,
+                            sb_error *error)
 {
     sb_settings settings;
     sb_override overrides[SB_SETTINGS_MAX];
     char texts[SB_SETTINGS_MAX][512];
-    sb_scene scene = {0};
+    const char *preset = request->paper ? "paper" : "default";
     sb_request_settings(request, &settings);
-    sb_status status = sb_hash_file(scene_path, hash, error);
-    *hash = sb_hash(*hash, request->paper ? "paper" : "default", request->paper ? 5 : 7);
+    *hash = sb_hash(*hash, preset, strlen(preset));
     for (size_t i = 0; i < settings.count; i++) {
         *hash = sb_hash(*hash, settings.list[i], strlen(settings.list[i]));
         snprintf(texts[i], sizeof texts[i], "%s", settings.list[i]);
@@ -58,13 +59,40 @@ sb_status sb_request_hash(const sb_request *request, const char *scene_path, uin
         *equals = '\0';
         overrides[i] = (sb_override){.key = texts[i], .value = equals + 1};
     }
-    if (status == SB_OK)
-        status =
-            sb_scene_read(scene_path, request->paper ? "paper" : "default", overrides, settings.count, &scene, error);
+    return sb_scene_read(scene_path, preset, overrides, settings.count, scene, error);
+}
+
+sb_status sb_request_hash(const sb_request *request, const char *scene_path, uint64_t *hash, sb_error *error)
+{
+    sb_scene scene = {0};
+    sb_status status = sb_hash_file(scene_path, hash, error);
+    if (status == SB_OK) status = read_scene(request, scene_path, &scene, hash, error);
     for (size_t b = 0; status == SB_OK && b < scene.body_count; b++)
         if (scene.bodies[b].file) status = sb_hash_file(scene.bodies[b].file, hash, error);
     for (size_t w = 0; status == SB_OK && w < scene.wavemaker_count; w++)
         if (scene.wavemakers[w].law.file) status = sb_hash_file(scene.wavemakers[w].law.file, hash, error);
+    sb_scene_free(&scene);
+    return status;
+}
+
+sb_status sb_scene_meaning(const sb_scene *scene, uint64_t *hash, sb_error *error)
+{
+    char *text = NULL;
+    sb_scene bare = *scene;
+    bare.body_count = bare.wavemaker_count = 0;
+    bare.render = (sb_render_settings){0}; /* a run fills in what a picture's colours span */
+    sb_status status = sb_scene_identity(&bare, &text, error);
+    if (status == SB_OK) *hash = sb_hash(0, text, strlen(text));
+    sb_free(text);
+    return status;
+}
+
+sb_status sb_request_meant(const sb_request *request, const char *scene_path, uint64_t *hash, sb_error *error)
+{
+    sb_scene scene = {0};
+    uint64_t unused = 0;
+    sb_status status = read_scene(request, scene_path, &scene, &unused, error);
+    if (status == SB_OK) status = sb_scene_meaning(&scene, hash, error);
     sb_scene_free(&scene);
     return status;
 }

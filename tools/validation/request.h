@@ -30,6 +30,11 @@ void sb_request_label(const sb_request *request, bool with_case, char label[96])
    SB_BAD_INPUT when the scene cannot be read with these settings. */
 sb_status sb_request_hash(const sb_request *request, const char *scene_path, uint64_t *hash, sb_error *error);
 
+/* What a scene says with every default filled in, as a number: not what is in its bodies and wave makers, whose files
+   may lie elsewhere by now. A request's, and a finished run's, by which runs of other defaults are told from it. */
+sb_status sb_scene_meaning(const sb_scene *scene, uint64_t *hash, sb_error *error);
+sb_status sb_request_meant(const sb_request *request, const char *scene_path, uint64_t *hash, sb_error *error);
+
 /* Continues a hash over a whole file. */
 sb_status sb_hash_file(const char *path, uint64_t *hash, sb_error *error);
 

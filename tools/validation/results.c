@@ -50,6 +50,7 @@ static void complete(const sb_store *store, sb_result *r)
     sb_store_recall(r->run.folder, "machine", r->run.machine, sizeof r->run.machine);
     if (isnan(r->run.cpu)) r->run.cpu = recalled(r->run.folder, "cpu_s");
     r->run.load = recalled(r->run.folder, "load");
+    view->of = r->request.of;
     view->assets = store->assets;
     view->preset = r->request.paper ? "paper" : "default";
     view->seed = r->request.seed;
@@ -64,6 +65,7 @@ void sb_result_read(const sb_store *store, bool any_build, sb_result *r)
     r->state = SB_RESULT_NOT_RUN;
     r->asked[0] = '\0';
     if (sb_store_asked(store, &r->request, r->asked, &why) != SB_OK ||
+        sb_store_meant(store, &r->request, &r->meant, &why) != SB_OK ||
         sb_store_folder(store, &r->request, folder, &why) != SB_OK) {
         r->state = SB_RESULT_FAILED;
         snprintf(r->problem, sizeof r->problem, "%.600s", why.text);
@@ -76,6 +78,13 @@ void sb_result_read(const sb_store *store, bool any_build, sb_result *r)
     }
     if (!sb_store_find(store, &r->request, any_build, folder)) return;
     sb_status status = sb_finished_read(&r->run, folder, &why);
+    uint64_t meaning = 0;
+    if (status == SB_OK) status = sb_scene_meaning(&r->run.scene, &meaning, &why);
+    if (status == SB_OK && meaning != r->meant) {
+        sb_finished_free(&r->run);
+        snprintf(r->problem, sizeof r->problem, " with these defaults");
+        return;
+    }
     if (status == SB_OK) {
         complete(store, r);
         status = r->request.of->evaluate(&r->run.view, &r->figures, &why);

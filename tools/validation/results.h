@@ -14,6 +14,7 @@ typedef enum sb_result_state {
 typedef struct sb_result {
     sb_request request;
     char asked[17]; /* what it asks for, in hexadecimal; "": not known */
+    uint64_t meant; /* and that with every default of this program (request.h) */
     sb_result_state state;
     bool kept; /* figures of a former report: its files are not there, nor notes, scene, threads (kept.h) */
     sb_finished run;

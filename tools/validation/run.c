@@ -52,6 +52,18 @@ sb_status sb_reference_curve(const sb_case_run *run, const char *table, const ch
     return status;
 }
 
+sb_status sb_plot_run(sb_plot *plot, const sb_case_run *run, const sb_curve *curve, sb_error *error)
+{
+    sb_plot_style style = SB_PLOT_LINE;
+    if (strcmp(run->preset, "paper") == 0)
+        style = SB_PLOT_ASIDE;
+    else if (run->seed != 1)
+        style = SB_PLOT_SEED;
+    else if (run->judged)
+        style = SB_PLOT_JUDGED;
+    return sb_plot_curve(plot, style, run->label, curve, error);
+}
+
 double sb_json_number_in(const char *text, const char *key)
 {
     size_t length = strlen(key);

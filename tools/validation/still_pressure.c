@@ -120,7 +120,7 @@ sb_status sb_still_plot(const sb_case_run *run, sb_plot *plot, sb_error *error)
         double n = (double)p->count[k];
         if (is_layer(p, k)) status = sb_curve_add(&curve, p->height[k] / n, p->excess[k] / n / scale * 100, error);
     }
-    if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, run->label, &curve, error);
+    if (status == SB_OK) status = sb_plot_run(plot, run, &curve, error);
     sb_curve_free(&curve);
     sb_free(p);
     return status;

@@ -44,6 +44,13 @@ sb_status sb_store_asked(const sb_store *store, const sb_request *request, char 
     return status;
 }
 
+sb_status sb_store_meant(const sb_store *store, const sb_request *request, uint64_t *meant, sb_error *error)
+{
+    char scene[SB_PATH_MAX];
+    sb_status status = sb_path_join(scene, store->assets, request->of->scene, error);
+    return status == SB_OK ? sb_request_meant(request, scene, meant, error) : status;
+}
+
 /* The folder that holds the builds' folders of a request. */
 static sb_status group_folder(const sb_store *store, const sb_request *request, char folder[SB_PATH_MAX],
                               sb_error *error)

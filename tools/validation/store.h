@@ -26,6 +26,9 @@ sb_status sb_store_folder(const sb_store *store, const sb_request *request, char
 /* What the request asks for, in hexadecimal. SB_BAD_INPUT: the scene cannot be read. */
 sb_status sb_store_asked(const sb_store *store, const sb_request *request, char asked[17], sb_error *error);
 
+/* Its scene with every default of this program, as sb_scene_meaning. SB_BAD_INPUT: the scene cannot be read. */
+sb_status sb_store_meant(const sb_store *store, const sb_request *request, uint64_t *meant, sb_error *error);
+
 /* Whether the run of this build is there; with any_build, failing that, the newest of another. */
 bool sb_store_find(const sb_store *store, const sb_request *request, bool any_build, char folder[SB_PATH_MAX]);
 
