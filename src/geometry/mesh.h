@@ -18,6 +18,7 @@ typedef struct sb_mesh {
     size_t dropped; /* degenerate triangles that the file had, left out */
     size_t turned;  /* triangles that were turned round to face the water */
     size_t closed;  /* triangles put where the file had a hole of one */
+    double rounded; /* m, by which the file's numbers, read in single precision, may be off; 0: none of a mesh file */
 } sb_mesh;
 
 /* Room for so many vertices and triangles, not yet written; *mesh is overwritten, not freed. */
@@ -74,7 +75,8 @@ sb_status sb_mesh_cylinder(sb_vec3 base, double radius, double height, double to
 sb_status sb_mesh_plane(sb_vec3 center, sb_vec3 normal, double width, double length, sb_mesh *mesh, sb_error *error);
 sb_status sb_mesh_basin(sb_vec3 min, sb_vec3 max, sb_mesh *mesh, sb_error *error);
 
-/* All meshes that one scene body stands for, transformed to the scene. One, named as the body; or
+/* All meshes that one scene body stands for, transformed to the scene. SB_BAD_INPUT also for a mesh file whose numbers,
+   far from 0, single precision rounds by more than a quarter of the spacing. One, named as the body; or
    with body->split one per named node of its file, names made unique by "-2", "-3". Round shapes
    are true to 0.02 spacing. Owned by the caller as from sb_mesh_import. */
 sb_status sb_mesh_from_body(const sb_body *body, double spacing, sb_mesh **meshes, size_t *count, sb_error *error);

@@ -31,6 +31,33 @@ static void turn_of(double degrees, double *cosine, double *sine)
     *sine = sin(degrees * M_PI / 180);
 }
 
+/* Half of single precision's last digit, of the largest number, in metres: what importers keep of a file. */
+static double rounding(const sb_body *body, const sb_mesh *mesh)
+{
+    double largest = 0;
+    for (size_t i = 0; i < mesh->vertex_count; ++i) {
+        const sb_vec3 p = mesh->vertices[i];
+        largest = fmax(largest, fmax(fabs(p.x), fmax(fabs(p.y), fabs(p.z))));
+    }
+    return 0x1p-24 * largest * body->scale;
+}
+
+/* In spacings: mesh files are not rounded by more. */
+static const double coarsest = 0.25;
+
+static sb_status check_rounding(const sb_body *body, double spacing, sb_mesh *meshes, size_t count, sb_error *error)
+{
+    for (size_t i = 0; i < count && body->shape == SB_SHAPE_MESH; ++i) {
+        meshes[i].rounded = rounding(body, &meshes[i]);
+        if (meshes[i].rounded > coarsest * spacing)
+            return sb_fail(error, SB_BAD_INPUT,
+                           "%.300s: its places are so far from 0 that reading rounds them by %.2g m, %.2g spacings: "
+                           "expected them near 0 in the file, moved to their place by translate",
+                           body->file, meshes[i].rounded, meshes[i].rounded / spacing);
+    }
+    return SB_OK;
+}
+
 static void transform(const sb_body *body, sb_mesh *mesh)
 {
     const bool from_file = body->shape == SB_SHAPE_MESH || body->shape == SB_SHAPE_GRID;
@@ -88,17 +115,20 @@ static sb_status merge(sb_mesh *meshes, size_t *count, sb_error *error)
     if (*count <= 1) return SB_OK;
     sb_mesh whole;
     size_t vertices = 0, triangles = 0, dropped = 0, turned = 0;
+    double rounded = 0;
     for (size_t i = 0; i < *count; ++i) {
         vertices += meshes[i].vertex_count;
         triangles += meshes[i].triangle_count;
         dropped += meshes[i].dropped;
         turned += meshes[i].turned;
+        rounded = fmax(rounded, meshes[i].rounded);
     }
     if (vertices >= UINT32_MAX) return sb_fail(error, SB_BAD_INPUT, "%zu vertices, expected fewer than 2^32", vertices);
     sb_status status = sb_mesh_alloc(&whole, vertices, triangles, error);
     if (status != SB_OK) return status;
     whole.dropped = dropped;
     whole.turned = turned;
+    whole.rounded = rounded;
     vertices = triangles = 0;
     for (size_t i = 0; i < *count; ++i) {
         sb_mesh *part = &meshes[i];
@@ -162,6 +192,7 @@ sb_status sb_mesh_from_body(const sb_body *body, double spacing, sb_mesh **meshe
     else if (from_file && !(isfinite(body->scale) && body->scale > 0))
         status = sb_fail(&reason, SB_BAD_INPUT, "scale %g, expected > 0", body->scale);
     if (status == SB_OK) status = make(body, spacing, &made, &made_count, &reason);
+    if (status == SB_OK) status = check_rounding(body, spacing, made, made_count, &reason);
     for (size_t i = 0; i < made_count; ++i) transform(body, &made[i]);
     /* Each solid part for itself, one may be inside out; but the parts of a terrain together, a
        quay wall alone does not know which way is up. */

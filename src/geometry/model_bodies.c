@@ -84,6 +84,18 @@ static sb_status check_reach(const sb_scene *scene, const sb_model_body *body, s
     return SB_OK;
 }
 
+/* A part named as another body of the scene would take its rows, and its wave maker. */
+static sb_status check_name(const sb_scene *scene, const sb_body *from, const char *part, sb_error *error)
+{
+    for (size_t i = 0; i < scene->body_count && from->split; ++i)
+        if (scene->bodies + i != from && !strcmp(scene->bodies[i].name, part))
+            return sb_fail(error, SB_BAD_INPUT,
+                           "body \"%s\": %.200s has a part named \"%s\", and so is another body of the scene: expected "
+                           "another name of either",
+                           from->name, from->file ? from->file : "it", part);
+    return SB_OK;
+}
+
 /* The meshes of one body of the scene, each as a body of the model. */
 static sb_status add_meshes(const sb_scene *scene, const sb_body *from, sb_model *model, size_t *capacity,
                             sb_error *error)
@@ -93,6 +105,8 @@ static sb_status add_meshes(const sb_scene *scene, const sb_body *from, sb_model
     sb_status status = sb_mesh_from_body(from, scene->resolution, &meshes, &count, error);
     if (status != SB_OK) return status;
     for (size_t i = 0; i < count && status == SB_OK; ++i) {
+        status = check_name(scene, from, meshes[i].name, error);
+        if (status != SB_OK) break;
         if (add_body(model, capacity, meshes[i].name[0] ? meshes[i].name : from->name)) {
             status = sb_fail_memory(error, "bodies");
             break;

@@ -13,11 +13,20 @@ enum { DEPTH_MIN = 4, HEIGHT_MIN = 5 };
    (tools/stress time-step). */
 static const double LONGEST_STEP = 0.3, REFUSED_STEP = 0.6;
 
+/* In spacings: a mesh file that reading rounds by more is told. */
+static const double ROUNDED = 0.01;
+
 static sb_status check_mesh(const sb_model_body *body, sb_model *model, sb_error *error)
 {
     const sb_mesh *mesh = &body->mesh;
     sb_status status = SB_OK;
-    if (mesh->dropped > 0)
+    if (mesh->rounded > ROUNDED * model->spacing)
+        status =
+            sb_model_warn(model, error,
+                          "body \"%s\": its file's places are so far from 0 that reading rounds them by %.2g m, %.2g "
+                          "spacings: expected them near 0 in the file, moved to their place by translate",
+                          body->name, mesh->rounded, mesh->rounded / model->spacing);
+    if (mesh->dropped > 0 && status == SB_OK)
         status =
             sb_model_warn(model, error, "body \"%s\": %zu faces without area are left out", body->name, mesh->dropped);
     if (mesh->turned > 0 && status == SB_OK)

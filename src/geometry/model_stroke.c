@@ -40,16 +40,16 @@ static sb_status measure(const sb_scene *scene, const sb_wavemaker_use *maker, s
     return SB_OK;
 }
 
-static sb_status check_speed(const sb_scene *scene, const sb_wavemaker_use *maker, const stroke *stroke,
-                             sb_model *model, sb_error *error)
+static sb_status check_speed(const sb_scene *scene, const sb_wavemaker_use *maker, const stroke *way, sb_model *model,
+                             sb_error *error)
 {
     const double waves = sqrt(scene->fluid.gravity * model->still_depth);
-    if (!(waves > 0) || stroke->fastest <= FAST * waves) return SB_OK;
+    if (!(waves > 0) || way->fastest <= FAST * waves) return SB_OK;
     return sb_model_warn(
         model, error,
         "wavemaker \"%s\" moves at %.3g m/s at t = %.3g s, %.2g times as fast as long waves in its water: are "
         "its units m and s?",
-        maker->name, stroke->fastest, stroke->when, stroke->fastest / waves);
+        maker->name, way->fastest, way->when, way->fastest / waves);
 }
 
 static bool beyond_walls(const sb_domain *domain, int dimensions, sb_vec3 at, double depth)
@@ -121,13 +121,13 @@ sb_status sb_model_warn_of_strokes(const sb_scene *scene, const sb_model_space *
     sb_status status = SB_OK;
     for (size_t w = 0; w < scene->wavemaker_count && status == SB_OK; w++) {
         const sb_wavemaker_use *maker = &scene->wavemakers[w];
-        stroke stroke;
-        status = measure(scene, maker, &stroke, error);
-        if (status == SB_OK) status = check_speed(scene, maker, &stroke, model, error);
+        stroke whole;
+        status = measure(scene, maker, &whole, error);
+        if (status == SB_OK) status = check_speed(scene, maker, &whole, model, error);
         for (size_t b = 0; b < model->body_count && status == SB_OK; b++) {
             const sb_model_body *body = &model->bodies[b];
             if (body->wavemaker != (int)w) continue;
-            const double reach[2] = {stroke.most, stroke.least};
+            const double reach[2] = {whole.most, whole.least};
             for (int way = 0; way < 2 && status == SB_OK; way++)
                 if (fabs(reach[way]) > model->spacing)
                     status = check_way(scene, space, body, maker->direction, reach[way], model, error);

@@ -271,6 +271,61 @@ static void thin_parts_are_only_warned_of(void **state)
     remove(path);
 }
 
+/* A box of 2 m by 2 m by 4 m in a file, from x on, its part named; the body has it at (5, 2, 0). */
+static sb_body *add_file_box(const char *path, const char *part, double x)
+{
+    static const int faces[6][4] = {{4, 3, 2, 1}, {5, 6, 7, 8}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 4, 8, 7}, {4, 1, 5, 8}};
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "o %s\n", part);
+    for (int z = 0; z < 5; z += 4)
+        fprintf(file, "v %.9g 2 %d\nv %.9g 2 %d\nv %.9g 4 %d\nv %.9g 4 %d\n", x, z, x + 2, z, x + 2, z, x, z);
+    for (int f = 0; f < 6; f++) fprintf(file, "f %d %d %d %d\n", faces[f][0], faces[f][1], faces[f][2], faces[f][3]);
+    fclose(file);
+    sb_body *body = add_box("house", sb_vec(0, 0, 0), sb_vec(0, 0, 0));
+    body->shape = SB_SHAPE_MESH;
+    body->file = (char *)(uintptr_t)path;
+    body->up = 'z';
+    body->scale = 1;
+    body->translate = sb_vec(5 - x, 0, 0);
+    return body;
+}
+
+/* Importers keep a file's numbers in single precision: 0.03 m at 500 km, 0.25 m at 4150 km. */
+static void meshes_far_from_zero_are_told_or_refused(void **state)
+{
+    (void)state;
+    static const char path[] = SB_BINARY_DIR "/test_model_far.obj";
+    static const double from[] = {5, 5e3, 500000.125, 4150000};
+    for (size_t k = 0; k < sizeof from / sizeof *from; k++) {
+        scene.body_count = 0;
+        add_file_box(path, "house", from[k]);
+        sb_model_free(&model);
+        sb_status status = sb_model_build(&scene, &model, &error);
+        assert_int_equal(status, k == 3 ? SB_BAD_INPUT : SB_OK);
+        if (k == 3)
+            assert_non_null(strstr(error.text, "test_model_far.obj: its places are so far from 0"));
+        else
+            assert_int_equal(warned("\"house\"", "so far from 0"), k == 2);
+    }
+    remove(path);
+}
+
+static void parts_named_as_other_bodies_are_refused(void **state)
+{
+    (void)state;
+    static const char path[] = SB_BINARY_DIR "/test_model_part.obj";
+    for (int same = 0; same < 2; same++) {
+        scene.body_count = 0;
+        add_file_box(path, same ? "pillar" : "wing", 5)->split = true;
+        add_box("pillar", sb_vec(8, 2, 0), sb_vec(9, 4, 4));
+        sb_model_free(&model);
+        assert_int_equal(sb_model_build(&scene, &model, &error), same ? SB_BAD_INPUT : SB_OK);
+    }
+    assert_non_null(strstr(error.text, "has a part named \"pillar\", and so is another body"));
+    remove(path);
+}
+
 static void holes_in_a_mesh_are_named(void **state)
 {
     (void)state;
@@ -306,6 +361,8 @@ int main(void)
         CASE(boxes_that_get_no_water_of_their_own_are_told),
         CASE(thin_bodies_share_a_line),
         CASE(thin_bodies_beyond_a_line_are_counted),
+        CASE(meshes_far_from_zero_are_told_or_refused),
+        CASE(parts_named_as_other_bodies_are_refused),
         CASE(holes_in_a_mesh_are_named),
         CASE(plates_that_water_passes_are_refused),
         CASE(plates_that_hold_are_not_refused),
