@@ -161,6 +161,7 @@ static void put_run(run *r, const sb_csv_lengths *lengths, sb_archive_out *out)
     sb_put_vector(out, first->momentum);
     for (int c = 0; c < CONSUMERS; c++) sb_put_real(out, r->consumers[c].next);
     sb_put_list(out, lengths->bytes, SB_CSV_TABLES, sizeof *lengths->bytes);
+    sb_missed_save(r, out);
     sb_put_count(out, r->pictures.count);
     sb_recorder_save(&r->recorder, out);
 }

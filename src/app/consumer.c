@@ -6,19 +6,35 @@
 #include <signal.h>
 #include <unistd.h>
 
+/* Trouble begins with the first failure, and is over with the first frame that went well. */
+static void note(sb_consumer *consumer, bool good, bool is_frame)
+{
+    sb_trouble *trouble = &consumer->trouble;
+    pthread_mutex_lock(&consumer->lock);
+    const bool lasts = trouble->turns % 2;
+    if (!good && !lasts) trouble->latest = consumer->reason;
+    if (!good && is_frame && trouble->missed++ == 0) trouble->first = consumer->reason;
+    trouble->turns += good == lasts;
+    pthread_mutex_unlock(&consumer->lock);
+}
+
+static bool is_open(sb_consumer *consumer)
+{
+    return !consumer->work.open || consumer->work.open(consumer->work.state, &consumer->reason) == SB_OK;
+}
+
 static void *serve(void *argument)
 {
     sb_consumer *consumer = argument;
     const sb_consumer_work *work = &consumer->work;
     pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, NULL);
-    bool usable = !work->open || work->open(work->state, &consumer->error) == SB_OK;
-    if (!usable) atomic_store(&consumer->failed, true);
+    bool open = is_open(consumer);
+    if (!open) note(consumer, false, false);
     while ((consumer->frame = sb_frame_queue_pop(consumer->queue))) {
-        if (usable && work->handle(work->state, consumer->frame, &consumer->error) != SB_OK) {
-            usable = false;
-            atomic_store(&consumer->failed, true);
-        }
-        consumer->handled += usable;
+        open = open || is_open(consumer);
+        const bool good = open && work->handle(work->state, consumer->frame, &consumer->reason) == SB_OK;
+        note(consumer, good, true);
+        consumer->handled += good;
         sb_frame_release(consumer->frame);
         pthread_mutex_lock(&consumer->lock);
         consumer->done++;
@@ -59,13 +75,22 @@ sb_status sb_consumer_start(sb_consumer *consumer, const sb_consumer_work *work,
 
 bool sb_consumer_due(const sb_consumer *consumer, double time)
 {
-    return consumer->started && !atomic_load(&consumer->failed) && time >= consumer->next;
+    return consumer->started && time >= consumer->next;
 }
 
 void sb_consumer_feed(sb_consumer *consumer, const sb_frame *frame)
 {
     consumer->fed += sb_frame_queue_push(consumer->queue, frame);
     consumer->next = consumer->interval * (floor(frame->status.time / consumer->interval + 1e-9) + 1);
+}
+
+sb_trouble sb_consumer_trouble(sb_consumer *consumer)
+{
+    if (!consumer->started) return consumer->trouble;
+    pthread_mutex_lock(&consumer->lock);
+    const sb_trouble trouble = consumer->trouble;
+    pthread_mutex_unlock(&consumer->lock);
+    return trouble;
 }
 
 void sb_consumer_drain(sb_consumer *consumer)

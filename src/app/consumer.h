@@ -5,11 +5,10 @@
 #include "frame/queue.h"
 
 #include <pthread.h>
-#include <stdatomic.h>
 #include <stdbool.h>
 
-/* What a consumer does, all of it in its own thread. open may fail: the consumer is then out of the run,
-   with the reason kept. handle may fail: it is not called again. */
+/* What a consumer does, all of it in its own thread. open may fail: it is tried again with each frame. handle may fail:
+   that frame is missed, and the next one is handled as if nothing had been. */
 typedef struct sb_consumer_work {
     const char *name;
     void *state;
@@ -20,20 +19,28 @@ typedef struct sb_consumer_work {
     double patience; /* s that stopping waits for a handle which allows to be cancelled; 0: for as long as it takes */
 } sb_consumer_work;
 
+/* What went wrong. Trouble lasts from an open or a frame that failed until a frame that went well. */
+typedef struct sb_trouble {
+    uint64_t missed; /* frames */
+    uint64_t turns;  /* how often trouble began or was over: it lasts when this is odd */
+    sb_error first;  /* why the first frame was missed */
+    sb_error latest; /* why the latest trouble began */
+} sb_trouble;
+
 typedef struct sb_consumer {
     sb_consumer_work work;
     sb_frame_queue *queue;
     pthread_t thread;
     bool started, given_up; /* given_up: stopping was out of patience */
     double interval, next;  /* s simulated between frames; time of the next one */
-    sb_error error;         /* why it stopped; read after sb_consumer_stop */
-    atomic_bool failed;
     uint64_t handled;
     const sb_frame *frame; /* that the thread is at work on */
-    pthread_mutex_t lock;  /* of what is below */
+    sb_error reason; /* the thread's own, of its last failure; here, for a cancelled one leaves its stack as it is */
+    pthread_mutex_t lock; /* of what is below */
     pthread_cond_t idle;
     uint64_t fed, done; /* frames given to it, and those it is through with */
     bool ended;         /* its thread is through with everything */
+    sb_trouble trouble;
 } sb_consumer;
 
 /* Starts the thread. The interval is above 0. */
@@ -45,6 +52,9 @@ bool sb_consumer_due(const sb_consumer *consumer, double time);
 
 /* Hands the frame over and sets the next due time. */
 void sb_consumer_feed(sb_consumer *consumer, const sb_frame *frame);
+
+/* Its trouble so far, also after it was stopped. */
+sb_trouble sb_consumer_trouble(sb_consumer *consumer);
 
 /* Waits until it is through with all frames it was fed; with a queue that drops none only. What it has written and
    counted may then be read. Fine when it never started. */

@@ -3,6 +3,7 @@
 
 #include <string.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 static bool wanted(const sb_pictures *pictures, size_t camera)
 {
@@ -37,24 +38,47 @@ static sb_status open_pictures(void *state, sb_error *error)
     return status == SB_OK ? sb_renderer_create(pictures->scene, pictures->model, &pictures->renderer, error) : status;
 }
 
-static sb_status draw(void *state, const sb_frame *frame, sb_error *error)
+/* Where the next picture of a camera goes. */
+static sb_status name_next(const sb_pictures *pictures, size_t camera, char path[SB_PATH_MAX], sb_error *error)
 {
-    sb_pictures *pictures = state;
-    const sb_render_settings *render = &pictures->scene->render;
-    for (size_t c = 0; c < render->camera_count; c++) {
-        char name[128], path[SB_PATH_MAX];
+    char name[128];
+    snprintf(name, sizeof name, "frames/%s/%06llu.png", pictures->scene->render.cameras[camera].name,
+             (unsigned long long)pictures->count + 1);
+    return sb_path_join(path, pictures->directory, name, error);
+}
+
+static sb_status draw_each(sb_pictures *pictures, const sb_frame *frame, sb_error *error)
+{
+    for (size_t c = 0; c < pictures->scene->render.camera_count; c++) {
+        char path[SB_PATH_MAX];
         if (!wanted(pictures, c)) continue;
-        snprintf(name, sizeof name, "frames/%s/%06llu.png", render->cameras[c].name,
-                 (unsigned long long)pictures->count + 1);
-        sb_status status = sb_path_join(path, pictures->directory, name, error);
+        sb_status status = name_next(pictures, c, path, error);
         if (status == SB_OK) status = sb_renderer_draw(pictures->renderer, frame, c, &pictures->image, error);
         /* Earlier pictures stay until there is one to take their place. */
         if (status == SB_OK && !pictures->cleared) status = clear_later(pictures, error);
         if (status == SB_OK) status = sb_png_write(path, &pictures->image, error);
         if (status != SB_OK) return status;
     }
-    pictures->count++;
     return SB_OK;
+}
+
+/* One camera's picture without the others' would make its film longer than theirs. */
+static void take_back(const sb_pictures *pictures)
+{
+    char path[SB_PATH_MAX];
+    for (size_t c = 0; pictures->cleared && c < pictures->scene->render.camera_count; c++)
+        if (wanted(pictures, c) && name_next(pictures, c, path, NULL) == SB_OK) (void)unlink(path);
+}
+
+static sb_status draw(void *state, const sb_frame *frame, sb_error *error)
+{
+    sb_pictures *pictures = state;
+    sb_status status = draw_each(pictures, frame, error);
+    if (status == SB_OK)
+        pictures->count++;
+    else
+        take_back(pictures);
+    return status;
 }
 
 /* One camera's folder and the pictures in it that are not on disk for certain. */

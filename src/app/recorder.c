@@ -41,7 +41,9 @@ static sb_status record(void *state, const sb_frame *frame, sb_error *error)
     sb_status status = sb_path_join(path, recorder->directory, name, error);
     if (status == SB_OK) status = sb_path_join(list, recorder->directory, "particles.pvd", error);
     if (status == SB_OK) status = sb_vtp_write(path, frame, number, error);
-    if (status == SB_OK) status = sb_pvd_add(&recorder->pvd, list, frame->status.time, name, error);
+    if (status != SB_OK) return status;
+    status = sb_pvd_add(&recorder->pvd, list, frame->status.time, name, error);
+    if (status != SB_OK) (void)unlink(path); /* the list does not have it */
     recorder->count += status == SB_OK;
     return status;
 }

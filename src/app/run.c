@@ -65,6 +65,7 @@ static sb_status one_step(run *r, sb_error *error)
     status = sb_measure_step(r->measure, r->sim, error);
     if (status == SB_OK) status = sb_csv_write(r->csv, sb_measure_latest(r->measure), error);
     if (status == SB_OK) status = feed(r, error);
+    sb_missed_tell(r);
     if (report->step % LOG_STEPS == 0) sb_run_log_step(r);
     if (status == SB_OK) status = sb_runlog_check(r->log, error);
     if (status == SB_OK && sb_checkpoint_due(r)) sb_checkpoint_write(r);

@@ -90,19 +90,16 @@ static void stop_consumers(run *r, sb_status *status, sb_error *error)
         uint64_t dropped = sb_frame_queue_dropped(consumer->queue);
         double waited = sb_frame_queue_waited(consumer->queue);
         sb_consumer_stop(consumer);
-        sb_runlog_event(r->log, "consumer", "%s: %llu frames, %llu dropped, simulation waited %.2f s",
-                        consumer->work.name, (unsigned long long)consumer->handled, (unsigned long long)dropped,
-                        waited);
+        sb_runlog_event(r->log, "consumer", "%s: %llu frames, %llu missed, %llu dropped, simulation waited %.2f s",
+                        consumer->work.name, (unsigned long long)consumer->handled,
+                        (unsigned long long)consumer->trouble.missed, (unsigned long long)dropped, waited);
         if (consumer->given_up)
             sb_run_warn(r, "%s: given up after %g s with its last frames: what it writes to takes nothing more",
                         consumer->work.name, consumer->work.patience);
-        if (atomic_load(&consumer->failed)) {
-            sb_error reason = {0};
-            sb_fail(&reason, SB_FAILED, "%s: %.900s", consumer->work.name, consumer->error.text);
-            sb_run_warn(r, "%s", reason.text);
-            keep_first(status, error, SB_FAILED, &reason);
-        }
+        sb_error reason = {0};
+        keep_first(status, error, sb_missed_judge(r, c, &reason), &reason);
     }
+    sb_missed_tell(r);
 }
 
 static void write_summary(run *r, sb_status *status, sb_error *error)
@@ -137,6 +134,8 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
         .hash = sb_sim_hash(r->sim),
         .frames = r->recorder.count,
         .pictures = r->pictures.count,
+        .frames_missing = sb_missed_sum(r, RECORDER).count,
+        .pictures_missing = sb_missed_sum(r, PICTURES).count,
     };
     summary.work = sb_sim_ledger(r->sim);
     sb_status found = sb_run_path(r, "summary.json", path, &reason);

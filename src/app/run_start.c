@@ -131,12 +131,13 @@ static sb_status build_model(run *r, bool resume, sb_error *error)
     return r->checkpoints.on || resume ? sb_checkpoint_identify(r, error) : SB_OK;
 }
 
-/* And what else would keep a new run from its first step, as long as an earlier one's files are there. */
+/* And what else would keep a run from its first step, as long as an earlier one's files are there. */
 static sb_status make_simulation(run *r, bool resume, sb_error *error)
 {
     sb_status status = sb_sim_create(r->scene, &r->model, &r->sim, error);
     if (status == SB_OK && !resume) status = sb_sim_check_start(r->sim, error);
-    return status == SB_OK && !resume ? sb_run_unobstructed(r, error) : status;
+    if (status == SB_OK && !resume) status = sb_run_unobstructed(r, error);
+    return status == SB_OK ? sb_run_folders_free(r, error) : status;
 }
 
 static void warn(void *context, const char *text)

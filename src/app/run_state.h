@@ -4,6 +4,7 @@
 
 #include "app/checkpoint.h"
 #include "app/consumers.h"
+#include "app/missed.h"
 #include "app/run.h"
 #include "app/spent.h"
 #include "measure/measure.h"
@@ -29,6 +30,8 @@ struct run {
     sb_streamer streamer;
     sb_consumer consumers[CONSUMERS]; /* those the scene asks for are started */
     double due[CONSUMERS];            /* s simulated, of their first frames */
+    sb_missed missed[CONSUMERS];      /* by them, in earlier processes of this run */
+    uint64_t told[CONSUMERS];         /* turns of their troubles that were told */
     sb_checkpoints checkpoints;
     sb_csv_lengths lengths; /* of the tables that a resumed run goes on with */
     sb_energy first_energy;
@@ -47,9 +50,13 @@ struct run {
    where there are checkpoints, from the newest that can be used. */
 sb_status sb_run_start(run *r, bool resume, sb_error *error);
 
-/* run_clear.c: whether a new run could write what it writes first: nothing of another kind is in the place of a file,
-   and none of them is the scene that it was given. SB_BAD_INPUT or SB_FAILED says which. */
+/* run_obstacles.c: whether a new run could write what it writes first: nothing of another kind is in the place of a
+   file, and none of them is the scene that it was given. SB_BAD_INPUT or SB_FAILED says which. */
 sb_status sb_run_unobstructed(const run *r, sb_error *error);
+
+/* run_obstacles.c: whether any run could write into the folders that its scene needs. SB_FAILED says which is no folder
+   of the run's own, or closed to it. */
+sb_status sb_run_folders_free(const run *r, sb_error *error);
 
 /* run_clear.c: removes what an earlier run has left in the directory, checkpoints first: files of this program's names
    only, no links, and the folders that are empty then. */

@@ -36,7 +36,10 @@ sb_status sb_pvd_note(sb_pvd *pvd, double time, const char *file, sb_error *erro
 sb_status sb_pvd_add(sb_pvd *pvd, const char *path, double time, const char *file, sb_error *error)
 {
     sb_status status = sb_pvd_note(pvd, time, file, error);
-    return status == SB_OK ? sb_pvd_write(pvd, path, error) : status;
+    if (status != SB_OK) return status;
+    status = sb_pvd_write(pvd, path, error);
+    pvd->count -= status != SB_OK;
+    return status;
 }
 
 sb_status sb_pvd_write(const sb_pvd *pvd, const char *path, sb_error *error)

@@ -17,7 +17,7 @@ typedef struct sb_pvd {
     sb_pvd_entry *entries;
 } sb_pvd;
 
-/* Adds one file (path relative to the pvd's folder) and rewrites the whole list at `path`. */
+/* Adds one file (path relative to the pvd's folder) and rewrites the whole list at `path`; both or neither. */
 sb_status sb_pvd_add(sb_pvd *pvd, const char *path, double time, const char *file, sb_error *error);
 
 /* The two halves of it: into the list only; the list as it is. */

@@ -123,7 +123,9 @@ static void put_all(sb_json *json, const sb_summary *s)
     sb_json_count(json, "left_domain", s->left_domain);
     if (s->departures) put_departures(json, s->departures);
     sb_json_count(json, "particle_files", s->frames);
+    sb_json_count(json, "particle_files_missing", s->frames_missing);
     sb_json_count(json, "pictures", s->pictures);
+    sb_json_count(json, "pictures_missing", s->pictures_missing);
     sb_json_hash(json, "state_hash", s->hash);
     put_bodies(json, s);
     sb_summary_put_energy(json, "energy_start", &s->first);

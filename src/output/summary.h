@@ -42,11 +42,12 @@ typedef struct sb_summary {
     uint64_t inside, crossed;            /* particles whose centre lies within a solid at the end: at all; deeper
                                             than its boundary particles */
     int threads;
-    const sb_body_record *bodies; /* one per body of the model; NULL: none */
-    sb_energy first, last;        /* energies at the start and at the end */
-    const sb_ledger *work;        /* where energy went between; NULL: no simulation was made */
-    uint64_t hash;                /* of the final state */
-    uint64_t frames, pictures;    /* particle files and pictures written */
+    const sb_body_record *bodies;              /* one per body of the model; NULL: none */
+    sb_energy first, last;                     /* energies at the start and at the end */
+    const sb_ledger *work;                     /* where energy went between; NULL: no simulation was made */
+    uint64_t hash;                             /* of the final state */
+    uint64_t frames, pictures;                 /* particle files and pictures written */
+    uint64_t frames_missing, pictures_missing; /* that could not be */
 } sb_summary;
 
 /* An object of energies, J, mass, kg, and momentum, kg m/s. */

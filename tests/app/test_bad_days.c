@@ -156,14 +156,6 @@ static void check_no_pictures(const char *run, const char *words)
     assert_false(any_ending(run, ".tmp"));
 }
 
-static void a_renderer_that_does_not_start(void **state)
-{
-    (void)state;
-    assert_int_equal(mkdir(in_folder("blocked"), 0700), 0);
-    write_text("blocked/frames", "not a folder\n");
-    check_no_pictures("blocked", "pictures: blocked/frames: is not a directory, expected a directory of the run's own");
-}
-
 static void no_graphics_library(void **state)
 {
     (void)state;
@@ -349,12 +341,11 @@ static void a_clock_that_jumps(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_subscriber_that_stops),   cmocka_unit_test(a_subscriber_that_dies),
-        cmocka_unit_test(a_peer_that_never_answers), cmocka_unit_test(a_renderer_that_does_not_start),
-        cmocka_unit_test(no_graphics_library),       cmocka_unit_test(no_room_for_particle_files),
-        cmocka_unit_test(no_room_for_pictures),      cmocka_unit_test(a_directory_that_vanishes),
-        cmocka_unit_test(a_directory_that_moves),    cmocka_unit_test(nothing_is_written_through_a_link),
-        cmocka_unit_test(a_clock_that_jumps),
+        cmocka_unit_test(a_subscriber_that_stops),           cmocka_unit_test(a_subscriber_that_dies),
+        cmocka_unit_test(a_peer_that_never_answers),         cmocka_unit_test(no_graphics_library),
+        cmocka_unit_test(no_room_for_particle_files),        cmocka_unit_test(no_room_for_pictures),
+        cmocka_unit_test(a_directory_that_vanishes),         cmocka_unit_test(a_directory_that_moves),
+        cmocka_unit_test(nothing_is_written_through_a_link), cmocka_unit_test(a_clock_that_jumps),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
 }
