@@ -140,7 +140,7 @@ bool sb_checkpoint_due(const run *r)
            (wish->minutes > 0 && sb_clock() - r->checkpoints.written >= 60 * wish->minutes);
 }
 
-static void put_run(run *r, const sb_csv_lengths *lengths, sb_archive_out *out)
+static void put_run(run *r, const sb_csv_marks *tables, sb_archive_out *out)
 {
     const sb_energy *first = &r->first_energy;
     sb_archive_section(out, SB_CHECKPOINT_SCENE);
@@ -160,7 +160,8 @@ static void put_run(run *r, const sb_csv_lengths *lengths, sb_archive_out *out)
     sb_put_real(out, first->mass);
     sb_put_vector(out, first->momentum);
     for (int c = 0; c < CONSUMERS; c++) sb_put_real(out, r->consumers[c].next);
-    sb_put_list(out, lengths->bytes, SB_CSV_TABLES, sizeof *lengths->bytes);
+    sb_put_list(out, tables->bytes, SB_CSV_TABLES, sizeof *tables->bytes);
+    sb_put_list(out, tables->hash, SB_CSV_TABLES, sizeof *tables->hash);
     sb_missed_save(r, out);
     sb_put_count(out, r->pictures.count);
     sb_recorder_save(&r->recorder, out);
@@ -177,11 +178,11 @@ static void tell_gone(run *r, const sb_gone *gone)
 }
 
 /* What the checkpoint relies on is on disk before it is. */
-static sb_status settle_files(run *r, sb_csv_lengths *lengths, sb_error *error)
+static sb_status settle_files(run *r, sb_csv_marks *tables, sb_error *error)
 {
     sb_consumer_drain(&r->consumers[RECORDER]);
     sb_consumer_drain(&r->consumers[PICTURES]);
-    sb_status status = sb_csv_sync(r->csv, lengths, error);
+    sb_status status = sb_csv_sync(r->csv, tables, error);
     sb_gone files = {0}, pictures = {0};
     if (status == SB_OK) status = sb_recorder_sync(&r->recorder, &files, error);
     if (status == SB_OK) tell_gone(r, &files);
@@ -193,12 +194,12 @@ static sb_status settle_files(run *r, sb_csv_lengths *lengths, sb_error *error)
 static sb_status write_now(run *r, char path[SB_PATH_MAX], size_t *bytes, sb_error *error)
 {
     sb_archive_out out = {0};
-    sb_csv_lengths lengths;
-    sb_status status = settle_files(r, &lengths, error);
+    sb_csv_marks tables;
+    sb_status status = settle_files(r, &tables, error);
     if (status == SB_OK) status = sb_checkpoint_path(r, sb_sim_report(r->sim)->step, path, error);
     if (status == SB_OK) status = sb_archive_create(&out, path, SB_CHECKPOINT_KIND, SB_CHECKPOINT_FORMAT, error);
     if (status != SB_OK) return status;
-    put_run(r, &lengths, &out);
+    put_run(r, &tables, &out);
     sb_sim_save(r->sim, &out);
     sb_measure_save(r->measure, &out);
     status = sb_archive_close(&out, error);

@@ -80,12 +80,13 @@ static sb_status take_run(run *r, sb_archive_in *in, sb_error *error)
     first->mass = sb_take_real(in);
     first->momentum = sb_take_vector(in);
     for (int c = 0; c < CONSUMERS; c++) r->due[c] = sb_take_real(in);
-    sb_take_list(in, r->lengths.bytes, SB_CSV_TABLES, sizeof *r->lengths.bytes);
+    sb_take_list(in, r->tables.bytes, SB_CSV_TABLES, sizeof *r->tables.bytes);
+    sb_take_list(in, r->tables.hash, SB_CSV_TABLES, sizeof *r->tables.hash);
     sb_missed_load(r, in);
     r->pictures.count = r->pictures.synced = sb_take_count(in, UINT32_MAX);
     status = sb_recorder_load(&r->recorder, in, error);
     if (status == SB_OK) status = sb_archive_leave(in, error);
-    return status == SB_OK ? sb_csv_check(r->directory, r->scene, &r->lengths, error) : status;
+    return status == SB_OK ? sb_csv_check(r->directory, r->scene, &r->tables, error) : status;
 }
 
 static sb_status load(run *r, const char *path, sb_error *error)

@@ -211,7 +211,7 @@ static sb_status go_on(run *r, sb_error *error)
     r->departures = sb_sim_departures(r->sim)->count; /* told when they left */
     sb_checkpoint_forget_later(r);
     status = write_scene(r, error);
-    if (status == SB_OK) status = sb_csv_resume(r->directory, r->scene, &r->model, &r->lengths, &r->csv, error);
+    if (status == SB_OK) status = sb_csv_resume(r->directory, r->scene, &r->model, &r->tables, &r->csv, error);
     return status == SB_OK ? start_consumers(r, error) : status;
 }
 

@@ -33,7 +33,7 @@ struct run {
     sb_missed missed[CONSUMERS];      /* by them, in earlier processes of this run */
     uint64_t told[CONSUMERS];         /* turns of their troubles that were told */
     sb_checkpoints checkpoints;
-    sb_csv_lengths lengths; /* of the tables that a resumed run goes on with */
+    sb_csv_marks tables; /* those that a resumed run goes on with */
     sb_energy first_energy;
     uint64_t iterations, capped, frames;
     double compression, compression_max; /* sum over the steps, and the worst: as in sb_step_report */

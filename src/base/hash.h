@@ -31,4 +31,32 @@ static inline uint64_t sb_hash(uint64_t seed, const void *bytes, size_t length)
     return sb_hash_mix(hash ^ tail);
 }
 
+/* The hash of bytes that come piece by piece, the same wherever they are cut. Zero-initialised has none so far. */
+typedef struct sb_running_hash {
+    uint64_t blocks; /* of all whole blocks */
+    size_t in_hand;  /* bytes of the next one */
+    unsigned char block[1024];
+} sb_running_hash;
+
+static inline void sb_hash_add(sb_running_hash *hash, const void *bytes, size_t length)
+{
+    const unsigned char *at = bytes;
+    while (length > 0) {
+        const size_t room = sizeof hash->block - hash->in_hand, piece = length < room ? length : room;
+        memcpy(hash->block + hash->in_hand, at, piece);
+        hash->in_hand += piece;
+        at += piece;
+        length -= piece;
+        if (hash->in_hand < sizeof hash->block) continue;
+        hash->blocks = sb_hash(hash->blocks, hash->block, sizeof hash->block);
+        hash->in_hand = 0;
+    }
+}
+
+/* Of all bytes so far; more may come. */
+static inline uint64_t sb_hash_sum(const sb_running_hash *hash)
+{
+    return sb_hash(hash->blocks, hash->block, hash->in_hand);
+}
+
 #endif

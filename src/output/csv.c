@@ -2,6 +2,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "output/hashed_file.h"
 
 #include <errno.h>
 #include <string.h>
@@ -9,10 +10,10 @@
 #include <unistd.h>
 
 enum { FORCES, GAUGES, PROBES, ENERGY, OVERTOPPING, RUNUP, TABLES };
-_Static_assert((int)TABLES == (int)SB_CSV_TABLES, "lengths of all tables");
+_Static_assert((int)TABLES == (int)SB_CSV_TABLES, "marks of all tables");
 
 typedef struct table {
-    FILE *stream;
+    sb_hashed_file file;
     char path[SB_PATH_MAX];
 } table;
 
@@ -53,9 +54,10 @@ static sb_status check(const sb_csv *csv, sb_error *error)
     for (int k = 0; k < TABLES; k++) {
         const table *t = &csv->tables[k];
         struct stat found;
-        if (t->stream && ferror(t->stream))
+        if (!t->file.stream) continue;
+        if (ferror(t->file.stream))
             return sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", t->path, strerror(errno ? errno : EIO));
-        if (t->stream && fstat(fileno(t->stream), &found) == 0 && found.st_nlink == 0)
+        if (fstat(fileno(t->file.file), &found) == 0 && found.st_nlink == 0)
             return sb_fail(error, SB_FAILED, "%.500s: was removed while the run wrote it", t->path);
     }
     return SB_OK;
@@ -68,20 +70,10 @@ static sb_status cannot_write(const table *t, sb_error *error)
 
 static sb_status start_table(table *t, const char *header, sb_error *error)
 {
-    sb_status status = sb_file_open(t->path, "w", &t->stream, error);
+    sb_status status = sb_hashed_open(&t->file, t->path, error);
     if (status != SB_OK) return status;
     errno = 0;
-    if (fprintf(t->stream, "%s\n", header) < 0 || fflush(t->stream) != 0) return cannot_write(t, error);
-    return SB_OK;
-}
-
-/* What was written after this length goes. */
-static sb_status continue_table(table *t, uint64_t length, sb_error *error)
-{
-    sb_status status = sb_file_open(t->path, "r+", &t->stream, error);
-    if (status != SB_OK) return status;
-    if (ftruncate(fileno(t->stream), (off_t)length) != 0 || fseek(t->stream, 0, SEEK_END) != 0)
-        return cannot_write(t, error);
+    if (fprintf(t->file.stream, "%s\n", header) < 0 || fflush(t->file.stream) != 0) return cannot_write(t, error);
     return SB_OK;
 }
 
@@ -90,9 +82,9 @@ static bool has_table(const sb_scene *scene, int k)
     return k == OVERTOPPING ? scene->measure.plane_count > 0 : k == RUNUP ? scene->measure.runup_count > 0 : true;
 }
 
-/* lengths NULL: from nothing. */
+/* marks NULL: from nothing. */
 static sb_status open_tables(const char *directory, const sb_scene *scene, const sb_model *model,
-                             const sb_csv_lengths *lengths, sb_csv **csv, sb_error *error)
+                             const sb_csv_marks *marks, sb_csv **csv, sb_error *error)
 {
     sb_csv *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, "CSV files");
@@ -105,7 +97,8 @@ static sb_status open_tables(const char *directory, const sb_scene *scene, const
         const char *header = scene->dimensions == 2 ? formats[k].flat_header : formats[k].header;
         status = sb_path_join(t->path, directory, formats[k].name, error);
         if (status == SB_OK)
-            status = lengths ? continue_table(t, lengths->bytes[k], error) : start_table(t, header, error);
+            status =
+                marks ? sb_hashed_resume(&t->file, t->path, marks->bytes[k], error) : start_table(t, header, error);
     }
     if (status != SB_OK) {
         sb_csv_close(made, NULL);
@@ -121,40 +114,34 @@ sb_status sb_csv_open(const char *directory, const sb_scene *scene, const sb_mod
     return open_tables(directory, scene, model, NULL, csv, error);
 }
 
-sb_status sb_csv_resume(const char *directory, const sb_scene *scene, const sb_model *model,
-                        const sb_csv_lengths *lengths, sb_csv **csv, sb_error *error)
+sb_status sb_csv_resume(const char *directory, const sb_scene *scene, const sb_model *model, const sb_csv_marks *marks,
+                        sb_csv **csv, sb_error *error)
 {
-    return open_tables(directory, scene, model, lengths, csv, error);
+    return open_tables(directory, scene, model, marks, csv, error);
 }
 
-sb_status sb_csv_check(const char *directory, const sb_scene *scene, const sb_csv_lengths *lengths, sb_error *error)
+sb_status sb_csv_check(const char *directory, const sb_scene *scene, const sb_csv_marks *marks, sb_error *error)
 {
-    for (int k = 0; k < TABLES; k++) {
+    sb_status status = SB_OK;
+    for (int k = 0; status == SB_OK && k < TABLES; k++) {
         char path[SB_PATH_MAX];
-        struct stat found;
         if (!has_table(scene, k)) continue;
-        sb_status status = sb_path_join(path, directory, formats[k].name, error);
-        if (status != SB_OK) return status;
-        if (stat(path, &found) != 0)
-            return sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(errno));
-        if (lengths->bytes[k] == 0 || (uint64_t)found.st_size < lengths->bytes[k])
-            return sb_fail(error, SB_BAD_INPUT,
-                           "%.500s: has %llu bytes, expected the %llu that the checkpoint goes on from", path,
-                           (unsigned long long)found.st_size, (unsigned long long)lengths->bytes[k]);
+        status = sb_path_join(path, directory, formats[k].name, error);
+        if (status == SB_OK) status = sb_hashed_check(path, marks->bytes[k], marks->hash[k], error);
     }
-    return SB_OK;
+    return status;
 }
 
-sb_status sb_csv_sync(sb_csv *csv, sb_csv_lengths *lengths, sb_error *error)
+sb_status sb_csv_sync(sb_csv *csv, sb_csv_marks *marks, sb_error *error)
 {
-    *lengths = (sb_csv_lengths){{0}};
+    *marks = (sb_csv_marks){{0}, {0}};
     for (int k = 0; k < TABLES; k++) {
         const table *t = &csv->tables[k];
         errno = 0;
-        if (!t->stream) continue;
-        const long at = fflush(t->stream) == 0 && fsync(fileno(t->stream)) == 0 ? ftell(t->stream) : -1;
-        if (at < 0) return cannot_write(t, error);
-        lengths->bytes[k] = (uint64_t)at;
+        if (!t->file.stream) continue;
+        if (fflush(t->file.stream) != 0 || fsync(fileno(t->file.file)) != 0) return cannot_write(t, error);
+        marks->bytes[k] = t->file.length;
+        marks->hash[k] = sb_hash_sum(&t->file.hash);
     }
     return SB_OK;
 }
@@ -207,7 +194,7 @@ static void put_vector(FILE *stream, sb_vec3 value)
 
 static void write_forces(const sb_csv *csv, const sb_measure_records *records)
 {
-    FILE *stream = csv->tables[FORCES].stream;
+    FILE *stream = csv->tables[FORCES].file.stream;
     for (size_t i = 0; i < records->force_count; i++) {
         const sb_force_record *row = &records->forces[i];
         begin_row(stream, row->time, csv->model->bodies[row->body].name);
@@ -222,20 +209,20 @@ static void write_forces(const sb_csv *csv, const sb_measure_records *records)
 static void write_instants(const sb_csv *csv, const sb_measure_records *records)
 {
     const sb_measure_settings *settings = &csv->scene->measure;
-    FILE *stream = csv->tables[GAUGES].stream;
+    FILE *stream = csv->tables[GAUGES].file.stream;
     for (size_t i = 0; i < records->gauge_count; i++) {
         begin_row(stream, records->gauges[i].time, settings->gauges[records->gauges[i].gauge].name);
         put(stream, records->gauges[i].eta);
         fputc('\n', stream);
     }
-    stream = csv->tables[PROBES].stream;
+    stream = csv->tables[PROBES].file.stream;
     for (size_t i = 0; i < records->probe_count; i++) {
         begin_row(stream, records->probes[i].time, settings->probes[records->probes[i].probe].name);
         put_vector(stream, records->probes[i].velocity);
         put(stream, records->probes[i].pressure);
         fputc('\n', stream);
     }
-    stream = csv->tables[RUNUP].stream;
+    stream = csv->tables[RUNUP].file.stream;
     for (size_t i = 0; stream && i < records->runup_count; i++) {
         begin_row(stream, records->runups[i].time, settings->runups[records->runups[i].line].name);
         put_vector(stream, records->runups[i].place);
@@ -246,7 +233,7 @@ static void write_instants(const sb_csv *csv, const sb_measure_records *records)
 
 static void write_energies(const sb_csv *csv, const sb_measure_records *records)
 {
-    FILE *stream = csv->tables[ENERGY].stream;
+    FILE *stream = csv->tables[ENERGY].file.stream;
     for (size_t i = 0; i < records->energy_count; i++) {
         const sb_energy_record *row = &records->energies[i];
         const sb_ledger *ledger = &row->ledger;
@@ -265,7 +252,7 @@ static void write_energies(const sb_csv *csv, const sb_measure_records *records)
 
 static void write_totals(const sb_csv *csv, const sb_measure_records *records)
 {
-    FILE *stream = csv->tables[OVERTOPPING].stream;
+    FILE *stream = csv->tables[OVERTOPPING].file.stream;
     for (size_t i = 0; stream && i < records->flow_count; i++) {
         const sb_flow_record *row = &records->flows[i];
         begin_row(stream, row->time, csv->scene->measure.planes[row->plane].name);
@@ -286,7 +273,7 @@ sb_status sb_csv_write(sb_csv *csv, const sb_measure_records *records, sb_error 
     write_totals(csv, records);
     write_energies(csv, records);
     for (int k = 0; k < TABLES; k++)
-        if (csv->tables[k].stream) fflush(csv->tables[k].stream);
+        if (csv->tables[k].file.stream) fflush(csv->tables[k].file.stream);
     return check(csv, error);
 }
 
@@ -296,7 +283,7 @@ sb_status sb_csv_close(sb_csv *csv, sb_error *error)
     sb_status status = check(csv, error);
     for (int k = 0; k < TABLES; k++) {
         table *t = &csv->tables[k];
-        if (t->stream && fclose(t->stream) != 0 && status == SB_OK)
+        if (sb_hashed_close(&t->file) != 0 && status == SB_OK)
             status = sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", t->path, strerror(errno));
     }
     sb_free(csv);

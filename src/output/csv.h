@@ -17,21 +17,23 @@ typedef struct sb_csv sb_csv;
 sb_status sb_csv_open(const char *directory, const sb_scene *scene, const sb_model *model, sb_csv **csv,
                       sb_error *error);
 
-/* How long each table is, in bytes: where a resumed run goes on writing. 0: a table that this scene has not. */
+/* Where a resumed run goes on writing: how long each table is, in bytes, and their hash. 0: a table that this scene has
+   not. */
 enum { SB_CSV_TABLES = 6 };
-typedef struct sb_csv_lengths {
-    uint64_t bytes[SB_CSV_TABLES];
-} sb_csv_lengths;
+typedef struct sb_csv_marks {
+    uint64_t bytes[SB_CSV_TABLES], hash[SB_CSV_TABLES];
+} sb_csv_marks;
 
-/* Puts all rows on disk and says how long the tables are. SB_FAILED when the disk refuses. */
-sb_status sb_csv_sync(sb_csv *csv, sb_csv_lengths *lengths, sb_error *error);
+/* Puts all rows on disk and marks where the tables end. SB_FAILED when the disk refuses. */
+sb_status sb_csv_sync(sb_csv *csv, sb_csv_marks *marks, sb_error *error);
 
-/* Whether the directory has this scene's tables, each at least that long. SB_BAD_INPUT names the first that is not. */
-sb_status sb_csv_check(const char *directory, const sb_scene *scene, const sb_csv_lengths *lengths, sb_error *error);
+/* Whether the directory has this scene's tables, each beginning with what was written up to its mark. SB_BAD_INPUT
+   names the first that does not. */
+sb_status sb_csv_check(const char *directory, const sb_scene *scene, const sb_csv_marks *marks, sb_error *error);
 
-/* As sb_csv_open, but goes on with the tables that are there, cut to their lengths, which sb_csv_check has passed. */
-sb_status sb_csv_resume(const char *directory, const sb_scene *scene, const sb_model *model,
-                        const sb_csv_lengths *lengths, sb_csv **csv, sb_error *error);
+/* As sb_csv_open, but goes on with the tables that are there, cut at their marks, which sb_csv_check has passed. */
+sb_status sb_csv_resume(const char *directory, const sb_scene *scene, const sb_model *model, const sb_csv_marks *marks,
+                        sb_csv **csv, sb_error *error);
 
 /* Appends the rows; flushes when there were any. SB_FAILED when the disk refuses, or when a table was removed. */
 sb_status sb_csv_write(sb_csv *csv, const sb_measure_records *records, sb_error *error);

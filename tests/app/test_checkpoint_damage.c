@@ -106,6 +106,34 @@ static void other_scenes_are_refused(void **state)
     outcome_free(&o);
 }
 
+/* Cut at its old length, a table whose lines have got other ends, as editors give them, would end in a row that never
+   was. */
+static void an_edited_table_is_refused(void **state)
+{
+    (void)state;
+    char command[1200];
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "edited", "--quiet", "--until", "0.1");
+    char *scene = text_of("edited/scene.yaml"), *forces = text_of("edited/forces.csv");
+    snprintf(command, sizeof command, "sed -i 's/$/\\r/' '%s'", in_folder("edited/forces.csv"));
+    assert_int_equal(system(command), 0);
+    char *torn = text_of("edited/forces.csv");
+    outcome o = RUN(1, "run", "measured.yaml", "--out", "edited", "--quiet", "--resume", "--until", "0.2");
+    assert_one_line(o.err, "edited/forces.csv: was changed since the run wrote it, expected its first ");
+    outcome_free(&o);
+    char *scene_now = text_of("edited/scene.yaml"), *forces_now = text_of("edited/forces.csv");
+    assert_string_equal(scene, scene_now);
+    assert_string_equal(torn, forces_now);
+    write_text("edited/forces.csv", forces); /* as it was */
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "edited", "--quiet", "--resume", "--until", "0.2");
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "unread", "--quiet", "--until", "0.2");
+    assert_same_run("unread", "edited", pair_tables);
+    sb_free(scene);
+    sb_free(scene_now);
+    sb_free(forces);
+    sb_free(forces_now);
+    sb_free(torn);
+}
+
 /* The first digit of the hash of the sources, where a checkpoint names them; the section's checksum is made right. */
 static void change_build(char *bytes, size_t length)
 {
@@ -180,9 +208,9 @@ static void a_changed_source_is_another_build(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(damaged_ones_are_passed_over),      cmocka_unit_test(no_part_may_be_missing),
-        cmocka_unit_test(other_scenes_are_refused),          cmocka_unit_test(other_builds_are_refused),
-        cmocka_unit_test(a_changed_source_is_another_build),
+        cmocka_unit_test(damaged_ones_are_passed_over), cmocka_unit_test(no_part_may_be_missing),
+        cmocka_unit_test(an_edited_table_is_refused),   cmocka_unit_test(other_scenes_are_refused),
+        cmocka_unit_test(other_builds_are_refused),     cmocka_unit_test(a_changed_source_is_another_build),
     };
     return cmocka_run_group_tests(tests, pair_setup, program_teardown);
 }

@@ -137,6 +137,24 @@ static void hashes_tell_bytes_apart(void **state)
     assert_true(sb_hash(5, bytes + 1, 20) == sb_hash(5, shifted, 20));
 }
 
+/* Bytes hash the same in one piece and in any others; sums on the way change nothing. */
+static void pieces_hash_as_the_whole(void **state)
+{
+    (void)state;
+    enum { LENGTH = 5000 };
+    unsigned char bytes[LENGTH];
+    for (size_t i = 0; i < LENGTH; i++) bytes[i] = (unsigned char)(255 * sb_random(3, i));
+    sb_running_hash whole = {0};
+    sb_hash_add(&whole, bytes, LENGTH);
+    for (size_t piece = 1; piece < LENGTH; piece += 1 + piece / 7) {
+        sb_running_hash parts = {0};
+        for (size_t at = 0; at < LENGTH; at += piece) {
+            sb_hash_add(&parts, bytes + at, at + piece < LENGTH ? piece : LENGTH - at);
+            assert_true((sb_hash_sum(&parts) == sb_hash_sum(&whole)) == (at + piece >= LENGTH));
+        }
+    }
+}
+
 static void random_numbers_are_uniform_and_repeatable(void **state)
 {
     (void)state;
@@ -181,7 +199,7 @@ int main(void)
         cmocka_unit_test(the_chosen_allocation_fails_once), cmocka_unit_test(growing_keeps_the_contents),
         cmocka_unit_test(memory_figures_are_plausible),     cmocka_unit_test(errors_hold_one_line),
         cmocka_unit_test(hashes_tell_bytes_apart),          cmocka_unit_test(random_numbers_are_uniform_and_repeatable),
-        cmocka_unit_test(vectors_obey_their_rules),
+        cmocka_unit_test(vectors_obey_their_rules),         cmocka_unit_test(pieces_hash_as_the_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

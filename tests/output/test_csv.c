@@ -120,40 +120,59 @@ static void tables_read_back_as_series(void **state)
     sb_series_free(&series);
 }
 
-/* Rows written after the lengths were taken go; what follows comes once. */
-static void tables_go_on_from_their_lengths(void **state)
+/* Flips one bit; twice is as before. */
+static void change_byte(const char *name, long at)
+{
+    FILE *file = fopen(in_folder(name), "r+");
+    assert_non_null(file);
+    assert_int_equal(fseek(file, at, SEEK_SET), 0);
+    const int byte = fgetc(file) ^ 1;
+    assert_int_equal(fseek(file, at, SEEK_SET), 0);
+    assert_int_equal(fputc(byte, file), byte);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* Rows written after the marks were taken go; what follows comes once. */
+static void tables_go_on_from_their_marks(void **state)
 {
     (void)state;
     sb_scene scene = make_scene(3, false);
     sb_csv *csv;
-    sb_csv_lengths lengths;
+    sb_csv_marks marks;
     sb_error error = {0};
     const sb_gauge_record levels[] = {{0, 0, 1}, {0, 0.1, 2}, {0, 0.2, 3}};
     sb_measure_records one = {.gauge_count = 1, .gauges = levels};
     assert_int_equal(sb_csv_open(folder, &scene, &model, &csv, NULL), SB_OK);
     assert_int_equal(sb_csv_write(csv, &one, NULL), SB_OK);
-    assert_int_equal(sb_csv_sync(csv, &lengths, NULL), SB_OK);
+    assert_int_equal(sb_csv_sync(csv, &marks, NULL), SB_OK);
     one.gauges = levels + 1;
     assert_int_equal(sb_csv_write(csv, &one, NULL), SB_OK);
     assert_int_equal(sb_csv_close(csv, NULL), SB_OK);
     expect("gauges.csv", "time_s,gauge,eta_m\n0,offshore,1\n0.1,offshore,2\n");
-    assert_int_equal(sb_csv_check(folder, &scene, &lengths, &error), SB_OK);
-    assert_int_equal(sb_csv_resume(folder, &scene, &model, &lengths, &csv, NULL), SB_OK);
+    assert_int_equal(sb_csv_check(folder, &scene, &marks, &error), SB_OK);
+    assert_int_equal(sb_csv_resume(folder, &scene, &model, &marks, &csv, NULL), SB_OK);
     expect("gauges.csv", "time_s,gauge,eta_m\n0,offshore,1\n");
     one.gauges = levels + 2;
     assert_int_equal(sb_csv_write(csv, &one, NULL), SB_OK);
-    assert_int_equal(sb_csv_sync(csv, &lengths, NULL), SB_OK);
+    assert_int_equal(sb_csv_sync(csv, &marks, NULL), SB_OK);
     expect("gauges.csv", "time_s,gauge,eta_m\n0,offshore,1\n0.2,offshore,3\n");
-    assert_int_equal(lengths.bytes[1], strlen("time_s,gauge,eta_m\n0,offshore,1\n0.2,offshore,3\n"));
+    assert_int_equal(marks.bytes[1], strlen("time_s,gauge,eta_m\n0,offshore,1\n0.2,offshore,3\n"));
+    /* One that someone changed meanwhile is none to go on with, nor is its length all that counts. */
+    assert_int_equal(sb_csv_check(folder, &scene, &marks, &error), SB_OK);
+    change_byte("gauges.csv", 25);
+    assert_int_equal(sb_csv_check(folder, &scene, &marks, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "gauges.csv: was changed since the run wrote it, expected its first 47 bytes"));
+    change_byte("gauges.csv", 25);
+    assert_int_equal(sb_csv_check(folder, &scene, &marks, &error), SB_OK);
     /* A table that was removed while it is written is no place for rows. */
     unlink(in_folder("gauges.csv"));
     assert_int_equal(sb_csv_write(csv, &one, &error), SB_FAILED);
     assert_non_null(strstr(error.text, "gauges.csv: was removed while the run wrote it"));
     assert_int_equal(sb_csv_close(csv, NULL), SB_FAILED);
-    assert_int_equal(sb_csv_check(folder, &scene, &lengths, &error), SB_BAD_INPUT);
+    assert_int_equal(sb_csv_check(folder, &scene, &marks, &error), SB_BAD_INPUT);
     assert_non_null(strstr(error.text, "gauges.csv: cannot read"));
-    lengths.bytes[0]++;
-    assert_int_equal(sb_csv_check(folder, &scene, &lengths, &error), SB_BAD_INPUT);
+    marks.bytes[0]++;
+    assert_int_equal(sb_csv_check(folder, &scene, &marks, &error), SB_BAD_INPUT);
     assert_non_null(strstr(error.text, "forces.csv: has "));
 }
 
@@ -202,7 +221,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(headers_are_the_contract),    cmocka_unit_test(rows_are_there_at_once),
-        cmocka_unit_test(tables_read_back_as_series),  cmocka_unit_test(tables_go_on_from_their_lengths),
+        cmocka_unit_test(tables_read_back_as_series),  cmocka_unit_test(tables_go_on_from_their_marks),
         cmocka_unit_test(a_full_disk_is_a_failed_run), cmocka_unit_test(no_table_is_written_through_a_link),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
