@@ -24,7 +24,7 @@ static void usage(FILE *stream)
     fprintf(stream, "usage: shorebreak COMMAND [ARGUMENTS]\n\n");
     for (int c = 0; c < COMMANDS; c++) fprintf(stream, "  %-8s %s\n", commands[c].name, commands[c].summary);
     fprintf(stream, "\nshorebreak COMMAND --help tells more; --version the version.\n"
-                    "Exit status: 0 all done, 1 bad input, 2 the run failed, 130 or 143 stopped by a signal.\n");
+                    "Exit status: 0 all done, 1 bad input, 2 the run failed, 129, 130 or 143 stopped by a signal.\n");
 }
 
 /* OpenMP threads that spin while they wait take the cores that pictures and stream need, and libgomp

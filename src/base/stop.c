@@ -12,14 +12,25 @@ static void note(int number)
     atomic_store_explicit(&noted, number, memory_order_relaxed);
 }
 
+/* When a terminal closes, its shell and the kernel may both say so: the second word is no impatience. */
+static void watch_terminal(void)
+{
+    struct sigaction before, action = {.sa_handler = note, .sa_flags = SA_RESTART};
+    sigemptyset(&action.sa_mask);
+    if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, NULL);
+}
+
 void sb_stop_watch(void)
 {
     struct sigaction action = {.sa_handler = note, .sa_flags = (int)(SA_RESTART | SA_RESETHAND)};
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    watch_terminal();
     /* A file that may not grow is a full disk: the write fails, and that is reported. */
     signal(SIGXFSZ, SIG_IGN);
+    /* Whoever read the progress is gone: no reason to stop computing. */
+    signal(SIGPIPE, SIG_IGN);
 }
 
 int sb_stop_signal(void)

@@ -38,11 +38,12 @@ static void limit(__rlimit_resource_t what, rlim_t most)
     setrlimit(what, &now);
 }
 
-/* The parent's handlers must not run here; Ctrl-C is the parent's to act on. */
+/* The parent's handlers must not run here; Ctrl-C and a closed terminal are the parent's to act on. */
 static void reset_signals(void)
 {
     for (int number = 1; number < NSIG; ++number)
-        if (number != SIGKILL && number != SIGSTOP) signal(number, number == SIGINT ? SIG_IGN : SIG_DFL);
+        if (number != SIGKILL && number != SIGSTOP)
+            signal(number, number == SIGINT || number == SIGHUP ? SIG_IGN : SIG_DFL);
     sigset_t none;
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, NULL);

@@ -67,7 +67,7 @@ static void print(sb_progress *progress, const sb_step_report *report)
     fprintf(progress->stream, "%s%5.1f %%  t %.3f s  dt %.4f s  %d iterations  %.1f m/s  %s so far, %s left%s",
             progress->terminal ? "\r" : "", percent < 100 ? percent : 100, report->time, report->time_step,
             report->iterations, report->max_speed, wall, eta, progress->terminal ? "\033[K" : "\n");
-    fflush(progress->stream);
+    fflush(progress->stream); /* that nobody may read any more: a run does not end for that */
     progress->open = progress->terminal;
 }
 

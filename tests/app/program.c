@@ -128,7 +128,16 @@ static void redirect(const char *name, int descriptor)
     close(file);
 }
 
-pid_t program_start(const char *const *arguments)
+/* What is written there is refused. */
+static void redirect_to_nobody(void)
+{
+    int ends[2];
+    if (pipe(ends) != 0 || dup2(ends[1], STDOUT_FILENO) < 0 || dup2(ends[1], STDERR_FILENO) < 0) _exit(99);
+    close(ends[0]);
+    close(ends[1]);
+}
+
+static pid_t start(const char *const *arguments, bool heard)
 {
     char *list[ARGUMENTS] = {(char *)"shorebreak"};
     size_t count = 1;
@@ -146,10 +155,21 @@ pid_t program_start(const char *const *arguments)
         prctl(PR_SET_PDEATHSIG, SIGKILL); /* a test that fails leaves none behind */
         redirect("stdout.txt", STDOUT_FILENO);
         redirect("stderr.txt", STDERR_FILENO);
+        if (!heard) redirect_to_nobody();
         if (chdir(folder) == 0) execv(SB_BINARY_DIR "/shorebreak", list);
         _exit(99);
     }
     return process;
+}
+
+pid_t program_start(const char *const *arguments)
+{
+    return start(arguments, true);
+}
+
+pid_t program_start_unheard(const char *const *arguments)
+{
+    return start(arguments, false);
 }
 
 outcome program_finish(pid_t process)

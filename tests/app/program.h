@@ -31,6 +31,8 @@ bool exists(const char *name);
 
 /* Starts the binary with one thread; arguments end with NULL. Its output goes to files. */
 pid_t program_start(const char *const *arguments);
+/* Its output goes where nobody reads it any more. */
+pid_t program_start_unheard(const char *const *arguments);
 
 /* Waits for its end, five minutes at most: the test fails after that. Free with outcome_free. */
 outcome program_finish(pid_t process);

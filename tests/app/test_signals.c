@@ -1,4 +1,5 @@
-/* Ctrl-C and SIGTERM end a run between two steps, with all of its files complete, or before the first. */
+/* Ctrl-C, SIGTERM and a closed terminal end a run between two steps, with all of its files complete, or before the
+ * first. */
 #include "program.h"
 
 #include "../output/json_check.h"
@@ -12,6 +13,12 @@
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
+
+static void wait_for_file(const char *name)
+{
+    for (double end = sb_clock() + 30; !exists(name) && sb_clock() < end;) usleep(2000);
+    if (!exists(name)) fail_msg("no %s within 30 s", name);
+}
 
 /* Starts a run without an end, under a sky so high (`top`) that no spray leaves through it however late the run is
  * stopped, and waits until it has written `file`, within it. */
@@ -200,6 +207,55 @@ static void water_coming_to_rest_hears(void **state)
     assert_false(exists("early/forces.csv") || exists("early/energy.csv") || exists("early/particles.pvd"));
 }
 
+/* A terminal that closes may say so twice. */
+static void a_closed_terminal_ends_with_129(void **state)
+{
+    (void)state;
+    pid_t process = start_endless("tank2.yaml", "domain.max=[2, 2]", "hung", "particles/000003.vtp");
+    for (int k = 0; k < 5; k++) assert_int_equal(kill(process, SIGHUP), 0);
+    check_stopped("hung", process, SIGHUP, 300);
+}
+
+static void nohup_is_heard(void **state)
+{
+    (void)state;
+    signal(SIGHUP, SIG_IGN); /* inherited */
+    pid_t process = start_endless("tank2.yaml", "domain.max=[2, 2]", "kept", "particles/000003.vtp");
+    signal(SIGHUP, SIG_DFL);
+    assert_int_equal(kill(process, SIGHUP), 0);
+    wait_for_file("kept/particles/000012.vtp");
+    check_stopped("kept", process, SIGTERM, 300);
+}
+
+/* Whoever read its progress is gone: a run goes on to its end, or saves its state when it is told to stop. */
+static void a_run_that_nobody_hears_goes_on(void **state)
+{
+    (void)state;
+    pid_t process = program_start_unheard((const char *const[]){"run", "tank2.yaml", "--out", "alone", NULL});
+    outcome o = program_finish(process);
+    assert_int_equal(o.status, 0);
+    outcome_free(&o);
+    char *summary = text_of("alone/summary.json");
+    assert_contains(summary, "\"status\": \"done\"");
+    sb_free(summary);
+
+    process = program_start_unheard(
+        (const char *const[]){"run", "tank2.yaml", "--out", "alone", "--until", "1000", "--resume", NULL});
+    wait_for_file("alone/particles/000008.vtp");
+    assert_int_equal(kill(process, SIGINT), 0);
+    o = program_finish(process);
+    assert_int_equal(o.status, 128 + SIGINT);
+    outcome_free(&o);
+    check_reports("alone", "\"end\"");
+    const double end = json_number_of("alone/summary.json", "simulated_s");
+    char until[32];
+    snprintf(until, sizeof until, "%.12g", end * (1 - 1e-6)); /* rounded up it would be one step more */
+    o = RUN(0, "run", "tank2.yaml", "--out", "alone", "--until", until, "--resume");
+    assert_contains(o.out, "going on from step ");
+    outcome_free(&o);
+    assert_near(json_number_of("alone/summary.json", "simulated_s"), end, 0); /* its state was saved */
+}
+
 /* A scene that a stopped run leaves behind can be drawn. */
 static void what_is_left_can_be_drawn(void **state)
 {
@@ -211,9 +267,14 @@ static void what_is_left_can_be_drawn(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(interrupt_ends_with_130),    cmocka_unit_test(terminate_ends_with_143),
-        cmocka_unit_test(what_is_left_can_be_drawn),  cmocka_unit_test(a_model_in_the_making_hears),
+        cmocka_unit_test(interrupt_ends_with_130),
+        cmocka_unit_test(terminate_ends_with_143),
+        cmocka_unit_test(what_is_left_can_be_drawn),
+        cmocka_unit_test(a_model_in_the_making_hears),
         cmocka_unit_test(water_coming_to_rest_hears),
+        cmocka_unit_test(a_closed_terminal_ends_with_129),
+        cmocka_unit_test(nohup_is_heard),
+        cmocka_unit_test(a_run_that_nobody_hears_goes_on),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
 }
