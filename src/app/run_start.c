@@ -192,11 +192,24 @@ static sb_status give_up(run *r, sb_status status)
     return status;
 }
 
+/* A run goes over its end by less than a step; one that has gone further cannot have been meant to end there, and its
+   scene, written anew, would say what never was. */
+static sb_status check_end(const run *r, sb_error *error)
+{
+    const sb_step_report *report = sb_sim_report(r->sim);
+    const double before = report->time - report->time_step;
+    if (before <= r->scene->duration * (1 + 1e-9)) return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT,
+                   "duration: %.9g s, expected at least the %.9g s that the run in %.500s has reached",
+                   r->scene->duration, report->time, r->directory);
+}
+
 /* The state of a checkpoint, and the files as they were when it was written. */
 static sb_status go_on(run *r, sb_error *error)
 {
     sb_status status = sb_measure_create(r->scene, &r->model, r->sim, &r->measure, error);
     if (status == SB_OK) status = sb_checkpoint_load(r, error);
+    if (status == SB_OK) status = check_end(r, error);
     if (status != SB_OK) return give_up(r, status);
     sb_model_forget_particles(&r->model);
     r->setup_seconds = sb_progress_wall(&r->progress);

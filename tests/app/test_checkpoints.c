@@ -158,6 +158,28 @@ static void a_finished_run_says_so(void **state)
     assert_same_run("done", "again", pair_tables);
 }
 
+/* What has been computed cannot be meant to end earlier: nothing is touched, the scene that the run wrote least of all.
+ */
+static void an_end_that_has_passed_is_refused(void **state)
+{
+    (void)state;
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "past", "--quiet", "--until", "0.2");
+    char *scene = text_of("past/scene.yaml"), *summary = text_of("past/summary.json");
+    outcome o = RUN(1, "run", "measured.yaml", "--out", "past", "--resume", "--until", "0.05");
+    assert_one_line(o.err, "duration: 0.05 s, expected at least the 0.20");
+    assert_contains(o.err, " s that the run in past has reached");
+    assert_null(strstr(o.out, "going on"));
+    outcome_free(&o);
+    char *scene_now = text_of("past/scene.yaml"), *summary_now = text_of("past/summary.json");
+    assert_string_equal(scene, scene_now);
+    assert_string_equal(summary, summary_now);
+    sb_free(scene);
+    sb_free(scene_now);
+    sb_free(summary);
+    sb_free(summary_now);
+    RUN_AND_FORGET(0, "run", "past/scene.yaml", "--out", "past", "--quiet", "--resume");
+}
+
 static void a_signal_leaves_a_checkpoint(void **state)
 {
     (void)state;
@@ -197,6 +219,7 @@ int main(void)
         cmocka_unit_test(the_last_ones_are_kept),
         cmocka_unit_test(without_a_checkpoint_it_begins),
         cmocka_unit_test(a_finished_run_says_so),
+        cmocka_unit_test(an_end_that_has_passed_is_refused),
         cmocka_unit_test(a_signal_leaves_a_checkpoint),
     };
     return cmocka_run_group_tests(tests, pair_setup, program_teardown);
