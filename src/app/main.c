@@ -1,6 +1,7 @@
 /* shorebreak: tsunami waves striking coastal plants, by implicit incompressible SPH. */
 #include "app/commands.h"
 #include "base/memory.h"
+#include "base/status.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,6 +26,13 @@ static void usage(FILE *stream)
     for (int c = 0; c < COMMANDS; c++) fprintf(stream, "  %-8s %s\n", commands[c].name, commands[c].summary);
     fprintf(stream, "\nshorebreak COMMAND --help tells more; --version the version.\n"
                     "Exit status: 0 all done, 1 bad input, 2 the run failed, 129, 130 or 143 stopped by a signal.\n");
+}
+
+static void no_such(const char *name)
+{
+    sb_error error;
+    sb_fail(&error, SB_BAD_INPUT, "%.200s: no such command; --help lists them", name);
+    fprintf(stderr, "shorebreak: %s\n", error.text);
 }
 
 /* OpenMP threads that spin while they wait take the cores that pictures and stream need, and libgomp
@@ -58,7 +66,7 @@ int main(int count, char **arguments)
         return commands[c].run(count - 2, arguments + 2);
     }
     if (*name)
-        fprintf(stderr, "shorebreak: %s: no such command; --help lists them\n", name);
+        no_such(name);
     else
         usage(stderr);
     return 1;

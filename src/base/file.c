@@ -204,3 +204,14 @@ sb_status sb_file_read(const char *path, size_t limit, char **text, size_t *leng
     *length = used;
     return SB_OK;
 }
+
+sb_status sb_text_read(const char *path, size_t limit, char **text, size_t *length, sb_error *error)
+{
+    static const char mark[] = "\xef\xbb\xbf";
+    const size_t size = sizeof mark - 1;
+    sb_status status = sb_file_read(path, limit, text, length, error);
+    if (status != SB_OK || strncmp(*text, mark, size) != 0) return status;
+    *length -= size;
+    memmove(*text, *text + size, *length + 1);
+    return SB_OK;
+}

@@ -108,7 +108,7 @@ sb_status sb_mesh_import_grid(const char *path, double datum, sb_mesh *mesh, sb_
     char *text = NULL;
     size_t length = 0;
     sb_grid grid = {0};
-    sb_status status = sb_file_read(path, file_limit, &text, &length, error);
+    sb_status status = sb_text_read(path, file_limit, &text, &length, error);
     if (status != SB_OK) return status;
     if (strlen(text) != length)
         status = sb_fail(error, SB_BAD_INPUT, "%.500s: byte %zu is zero, expected text", path, strlen(text));

@@ -83,7 +83,7 @@ sb_status sb_series_read(const char *path, bool named, sb_series *series, sb_err
     char *text;
     size_t length;
     sb_series made = {0};
-    sb_status status = sb_file_read(path, (size_t)1 << 32, &text, &length, error);
+    sb_status status = sb_text_read(path, (size_t)1 << 32, &text, &length, error);
     if (status != SB_OK) return status;
     const char *line = strchr(text, '\n');
     for (line = line ? line + 1 : NULL; status == SB_OK && line && *line;) {

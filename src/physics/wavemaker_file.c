@@ -102,7 +102,7 @@ static sb_status create(const sb_wavemaker_parameters *parameters, void **state,
     const char *path = parameters->file;
     char *text = NULL;
     size_t length;
-    sb_status status = sb_file_read(path, FILE_LIMIT, &text, &length, error);
+    sb_status status = sb_text_read(path, FILE_LIMIT, &text, &length, error);
     if (status != SB_OK) return status;
     table *made = sb_alloc(1, sizeof *made);
     if (!made)

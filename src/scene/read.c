@@ -225,7 +225,7 @@ static sb_status read_tree(const char *path, const char *preset_name, const sb_o
 {
     char *text;
     size_t length;
-    sb_status status = sb_file_read(path, FILE_LIMIT, &text, &length, error);
+    sb_status status = sb_text_read(path, FILE_LIMIT, &text, &length, error);
     if (status != SB_OK) return status;
     sb_yaml_source source = {.name = path, .placed = true};
     status = sb_yaml_parse(source, text, length, root, error);

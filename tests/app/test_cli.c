@@ -62,6 +62,7 @@ static const struct {
 } mistakes[] = {
     {"frobnicate", "frobnicate: no such command"},
     {"--frobnicate", "--frobnicate: no such command"},
+    {"x\033[2J\a", "x?[2J?: no such command"},
     {"run", "no scene given"},
     {"check", "no scene given"},
     {"sample --out x.vtp", "no scene given"},

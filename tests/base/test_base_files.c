@@ -208,6 +208,26 @@ static void reading_has_its_limits(void **state)
     assert_int_equal(unlink(at("d")), 0);
 }
 
+static void text_comes_without_its_mark(void **state)
+{
+    (void)state;
+    static const char *const pairs[][2] = {{"\xef\xbb\xbftext", "text"},
+                                           {"\xef\xbb\xbf", ""},
+                                           {"", ""},
+                                           {"\xef\xbbtext", "\xef\xbbtext"},
+                                           {"te\xef\xbb\xbf", "te\xef\xbb\xbf"}};
+    for (size_t k = 0; k < sizeof pairs / sizeof *pairs; k++) {
+        char *text;
+        size_t length;
+        write_whole("m", pairs[k][0], 0);
+        assert_int_equal(sb_text_read(at("m"), 100, &text, &length, NULL), SB_OK);
+        assert_string_equal(text, pairs[k][1]);
+        assert_int_equal(length, strlen(pairs[k][1]));
+        sb_free(text);
+    }
+    assert_int_equal(unlink(at("m")), 0);
+}
+
 static void long_files_are_read_whole(void **state)
 {
     (void)state;
@@ -237,6 +257,7 @@ int main(void)
         cmocka_unit_test(directories_come_with_their_parents),
         cmocka_unit_test(paths_join_and_part),
         cmocka_unit_test(reading_has_its_limits),
+        cmocka_unit_test(text_comes_without_its_mark),
         cmocka_unit_test(long_files_are_read_whole),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

@@ -114,6 +114,24 @@ static void expect_refusal(const char *name, const char *text, const char *why)
     assert_int_equal(mesh.vertex_count, 77);
 }
 
+/* As spreadsheets write. */
+static void test_a_byte_order_mark(void **state)
+{
+    (void)state;
+    sb_mesh mesh = read_grid("m.asc",
+                             "\xef\xbb\xbf"
+                             "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 4\n",
+                             0);
+    assert_int_equal(mesh.vertex_count, 4);
+    sb_mesh_free(&mesh);
+    mesh = read_grid("m.xyz",
+                     "\xef\xbb\xbf"
+                     "0 0 1\n1 0 2\n0 1 3\n1 1 4\n",
+                     0);
+    assert_int_equal(mesh.vertex_count, 4);
+    sb_mesh_free(&mesh);
+}
+
 #define HEAD "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n"
 
 static void test_bad_ascii(void **state)
@@ -192,7 +210,8 @@ static int remove_folder(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ascii),      cmocka_unit_test(test_points),           cmocka_unit_test(test_bad_ascii),
+        cmocka_unit_test(test_ascii),      cmocka_unit_test(test_points),
+        cmocka_unit_test(test_bad_ascii),  cmocka_unit_test(test_a_byte_order_mark),
         cmocka_unit_test(test_bad_points), cmocka_unit_test(test_measured_sea_bed),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

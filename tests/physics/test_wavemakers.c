@@ -274,6 +274,13 @@ static void file_passes_through_its_rows(void **state)
     assert_near(sb_paddle_displacement(&paddle, 3.5), 1, 1e-12); /* no overshoot */
     assert_near(paddle.duration, 4, 0);
     sb_paddle_destroy(&paddle);
+    const char marked[] = "\xef\xbb\xbf"
+                          "0.5 2.0\n1 2.1\n"; /* as spreadsheets write */
+    write_table(marked, sizeof marked - 1);
+    paddle = make_paddle(&parameters);
+    make_good_table(NULL);
+    assert_near(sb_paddle_displacement(&paddle, 1), 0.1, 1e-12);
+    sb_paddle_destroy(&paddle);
 }
 
 /* Where the table is a smooth motion, the cubic gives its speed. */

@@ -196,6 +196,22 @@ static void test_aliases(void **state)
     sb_scene_free(&scene);
 }
 
+/* As some editors write; what is wrong is still found where it is. */
+static void test_a_byte_order_mark(void **state)
+{
+    (void)state;
+    sb_scene scene;
+    sb_error error = {0};
+    scene_must_read("\xef\xbb\xbf" SCENE_HEAD, NULL, NULL, 0, &scene);
+    assert_near(scene.resolution, 0.1, 0);
+    sb_scene_free(&scene);
+    assert_int_equal(scene_read_text("\xef\xbb\xbf"
+                                     "wide: 1\n" SCENE_HEAD,
+                                     NULL, NULL, 0, &scene, &error),
+                     SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, ":1:1: wide: "));
+}
+
 static void test_presets(void **state)
 {
     (void)state;
@@ -236,6 +252,7 @@ int main(void)
         cmocka_unit_test(test_two_dimensions),
         cmocka_unit_test(test_measure_and_cameras),
         cmocka_unit_test(test_aliases),
+        cmocka_unit_test(test_a_byte_order_mark),
         cmocka_unit_test(test_presets),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
