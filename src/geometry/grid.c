@@ -68,6 +68,22 @@ static void fill_mesh(const sb_grid *grid, double datum, uint32_t *vertex_of, sb
     mesh->vertex_count = vertices;
 }
 
+/* Where no height is. */
+static sb_status list_holes(const sb_grid *grid, sb_mesh *mesh, sb_error *error)
+{
+    size_t count = 0;
+    for (size_t node = 0; node < grid->rows * grid->columns; ++node) count += isnan(grid->heights[node]) != 0;
+    if (count == 0) return SB_OK;
+    mesh->holes = sb_alloc_untouched(count, sizeof *mesh->holes);
+    if (!mesh->holes) return sb_fail_memory(error, "a terrain grid");
+    for (size_t j = 0, node = 0; j < grid->rows; ++j)
+        for (size_t i = 0; i < grid->columns; ++i, ++node)
+            if (isnan(grid->heights[node]))
+                mesh->holes[mesh->hole_count++] =
+                    sb_vec(grid->x + (double)i * grid->dx, grid->y + (double)j * grid->dy, 0);
+    return SB_OK;
+}
+
 /* Numbers near the largest there are may add up to infinity. */
 static sb_status check_range(const char *path, const sb_mesh *mesh, sb_error *error)
 {
@@ -90,6 +106,7 @@ static sb_status make_mesh(const char *path, const sb_grid *grid, double datum, 
     if (status == SB_OK) {
         fill_mesh(grid, datum, vertex_of, &made);
         status = check_range(path, &made, error);
+        if (status == SB_OK) status = list_holes(grid, &made, error);
         if (status == SB_OK)
             *mesh = made;
         else

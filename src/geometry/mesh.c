@@ -17,5 +17,6 @@ void sb_mesh_free(sb_mesh *mesh)
     if (!mesh) return;
     sb_free(mesh->vertices);
     sb_free(mesh->triangles);
+    sb_free(mesh->holes);
     *mesh = (sb_mesh){0};
 }

@@ -14,11 +14,15 @@ typedef struct sb_mesh {
     sb_vec3 *vertices;
     size_t triangle_count;
     uint32_t (*triangles)[3];
-    bool sheet;     /* open on purpose (plane, basin): solid is what lies behind the normals */
-    size_t dropped; /* degenerate triangles that the file had, left out */
-    size_t turned;  /* triangles that were turned round to face the water */
-    size_t closed;  /* triangles put where the file had a hole of one */
-    double rounded; /* m, by which the file's numbers, read in single precision, may be off; 0: none of a mesh file */
+    bool sheet;        /* open on purpose (plane, basin): solid is what lies behind the normals */
+    size_t dropped;    /* degenerate triangles that the file had, left out */
+    size_t turned;     /* triangles that were turned round to face the water */
+    size_t closed;     /* triangles put where the file had a hole of one */
+    size_t ends;       /* open edges that walls were hung from, by sb_mesh_skirt */
+    sb_vec3 first_end; /* m, middle of the first of them */
+    size_t hole_count; /* nodes of a grid that have no height */
+    sb_vec3 *holes;    /* where they are, z without meaning */
+    double rounded;    /* m, by which a mesh file's numbers, read in single precision, may be off */
 } sb_mesh;
 
 /* Room for so many vertices and triangles, not yet written; *mesh is overwritten, not freed. */
@@ -49,6 +53,13 @@ sb_status sb_mesh_orient(sb_mesh *mesh, sb_role role, sb_error *error);
 /* Puts a triangle into each hole whose rim is three edges, adding to mesh->closed; after sb_mesh_orient. A sheet's rim
    and what would lie back to back with a neighbour stay open. */
 sb_status sb_mesh_close(sb_mesh *mesh, sb_error *error);
+
+/* Whether a terrain's open edge is to have a wall; seen from above its ground lies on the left from `from` to `to`. */
+typedef bool sb_mesh_ends(void *context, sb_vec3 from, sb_vec3 to);
+
+/* Hangs walls that look outwards from the open edges of a terrain that are ends, down to `depth` (m) below both the
+   edge and `floor`; sets mesh->ends. A mesh without any is left as it is. */
+sb_status sb_mesh_skirt(sb_mesh *mesh, sb_mesh_ends *ends, void *context, double floor, double depth, sb_error *error);
 
 /* Makes vertices at the same place one, drops degenerate triangles (adding to mesh->dropped) and
    unused vertices. The order of what stays is kept. SB_BAD_INPUT for non-finite vertices or bad

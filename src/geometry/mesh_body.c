@@ -66,11 +66,12 @@ static void transform(const sb_body *body, sb_mesh *mesh)
     const double angles[3] = {body->rotate.x, body->rotate.y, body->rotate.z};
     double cosine[3], sine[3];
     for (int axis = 0; axis < 3; ++axis) turn_of(angles[axis], &cosine[axis], &sine[axis]);
-    for (size_t i = 0; i < mesh->vertex_count; ++i) {
-        sb_vec3 p = sb_scale(mesh->vertices[i], scale);
+    for (size_t i = 0; i < mesh->vertex_count + mesh->hole_count; ++i) {
+        sb_vec3 *at = i < mesh->vertex_count ? mesh->vertices + i : mesh->holes + (i - mesh->vertex_count);
+        sb_vec3 p = sb_scale(*at, scale);
         if (body->shape == SB_SHAPE_MESH && body->up == 'y') p = sb_vec(p.x, -p.z, p.y);
         p.z += raise;
-        mesh->vertices[i] = sb_add(rotate(p, cosine, sine), body->translate);
+        *at = sb_add(rotate(p, cosine, sine), body->translate);
     }
 }
 

@@ -156,6 +156,7 @@ sb_status sb_model_import_bodies(const sb_scene *scene, sb_model *model, sb_erro
     for (size_t i = 0; i < scene->body_count && status == SB_OK; ++i)
         status = add_meshes(scene, scene->bodies + i, &made, &capacity, error);
     if (status == SB_OK) status = check_wavemakers(scene, &made, error);
+    if (status == SB_OK) status = sb_model_end_terrain(scene, &made, error);
     if (status == SB_OK && has_walls(scene)) {
         if (add_body(&made, &capacity, "domain")) {
             status = sb_fail_memory(error, "bodies");

@@ -163,6 +163,7 @@ sb_status sb_model_check(const sb_scene *scene, const sb_model_space *space, sb_
         sb_model_body *body = model->bodies + i;
         if (body->mesh.triangle_count == 0) continue;
         status = check_mesh(body, model, error);
+        if (status == SB_OK) status = sb_model_warn_of_ends(scene, body, model, error);
         if (status == SB_OK) status = sb_model_check_thickness(scene, space, model, body, error);
         if (status == SB_OK && body->count == 0)
             status = sb_model_warn(model, error,

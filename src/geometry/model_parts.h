@@ -24,6 +24,10 @@ sb_status sb_model_check_sides(const sb_scene *scene, const sb_model_space *spac
 /* Adds to model->warnings what is too coarse or too thin to trust. */
 sb_status sb_model_check(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 
+/* model_ends.c: walls where terrain ends within the domain; and a line for a body that has some. */
+sb_status sb_model_end_terrain(const sb_scene *scene, sb_model *model, sb_error *error);
+sb_status sb_model_warn_of_ends(const sb_scene *scene, const sb_model_body *body, sb_model *model, sb_error *error);
+
 /* Sets body->thin; SB_BAD_INPUT where more than half of its surface is that of a plate thinner than half a spacing,
    with room for water on both sides. */
 sb_status sb_model_check_thickness(const sb_scene *scene, const sb_model_space *space, const sb_model *model,

@@ -14,6 +14,9 @@
 /* In spacings: what is this near to a side lies in it. */
 #define SB_SAMPLE_SIDE 1e-6
 
+/* Cosine: a terrain's face this near to upright looks neither up nor down, and is taken as its mesh turns it. */
+#define SB_SAMPLE_UPRIGHT 1e-9
+
 /* An edge that is concave from the water: the sheet goes round it from one normal to the other. */
 typedef struct sb_crease {
     sb_vec3 a, b, normal[2];

@@ -34,6 +34,12 @@ static bool may_hide(const sb_sampler *sampler, uint32_t surface, uint32_t other
     return other != surface && !sampler->surfaces[surface].source->moving && !sampler->surfaces[other].source->moving;
 }
 
+/* A terrain's own wall goes on below ground that is lower. */
+static bool buries_itself(const sb_sampler *sampler, uint32_t surface)
+{
+    return sb_surface_mesh(sampler->surfaces + surface)->ends > 0;
+}
+
 /* Within another solid there is a ball that touches the surface from the water's side, so wide that the other's own
    sheet, which the water meets, is nearer to it than this surface. */
 bool sb_sample_buried(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_vec3 inward, double radius)
@@ -50,7 +56,7 @@ bool sb_sample_buried(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, s
     sb_vec3 center = sb_madd(at, -(1 + 1e-6) * ball, inward);
     for (uint32_t i = 0; i < sampler->surface_count; ++i) {
         const sb_surface *other = sampler->surfaces + i;
-        if (may_hide(sampler, surface, i) && contains(other, center) &&
+        if ((may_hide(sampler, surface, i) || (i == surface && buries_itself(sampler, i))) && contains(other, center) &&
             sb_solid_distance(other->source->solid, center, ball, NULL, NULL) >= ball)
             return true;
     }
@@ -68,7 +74,7 @@ bool sb_sample_exposed(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, 
 /* The mesh's normal, turned towards the water. */
 static sb_vec3 water_normal(const sb_surface *surface, sb_vec3 normal)
 {
-    if (surface->source->role == SB_ROLE_TERRAIN) return normal.z < 0 ? sb_scale(normal, -1) : normal;
+    if (surface->source->role == SB_ROLE_TERRAIN) return normal.z < -SB_SAMPLE_UPRIGHT ? sb_scale(normal, -1) : normal;
     return sb_scale(normal, surface->sign);
 }
 

@@ -59,6 +59,7 @@ sb_status sb_section_mesh(const sb_mesh *mesh, double half_width, sb_mesh *secti
     if (status != SB_OK) return status;
     made.vertex_count = made.triangle_count = 0;
     made.sheet = mesh->sheet;
+    made.ends = mesh->ends;
     for (size_t t = 0; t < mesh->triangle_count; ++t)
         if (cut(mesh, t, piece)) add_strip(&made, piece, half_width);
     for (int i = 0; i < SB_NAME_MAX; ++i) made.name[i] = mesh->name[i];

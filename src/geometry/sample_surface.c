@@ -73,7 +73,7 @@ static void orient(sb_surface *surface, const sb_mesh_edges *list, double spacin
     if (surface->source->role == SB_ROLE_TERRAIN) {
         surface->bounded = true;
         for (size_t t = 0; t < mesh->triangle_count; ++t)
-            if (surface->normal[t].z < 0) surface->normal[t] = sb_scale(surface->normal[t], -1);
+            if (surface->normal[t].z < -SB_SAMPLE_UPRIGHT) surface->normal[t] = sb_scale(surface->normal[t], -1);
     } else if (!mesh->sheet && (open || surface->mixed)) {
         orient_faces(surface, 1e-3 * spacing);
     } else if (!mesh->sheet) {

@@ -69,7 +69,7 @@ static void test_each_solver_keeps_its_word(void **state)
 static void test_walls_paddles_and_open_sides_hold(void **state)
 {
     (void)state;
-    must_pass("sampling paddles immersed leaving");
+    must_pass("sampling paddles immersed leaving ends");
 }
 
 /* Numerics at the ends of their ranges may spoil a run, but not the program. */

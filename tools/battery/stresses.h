@@ -19,6 +19,7 @@ extern const sb_stress sb_stress_meshes;
 extern const sb_stress sb_stress_immersed;
 extern const sb_stress sb_stress_paddles;
 extern const sb_stress sb_stress_leaving;
+extern const sb_stress sb_stress_ends;
 extern const sb_stress sb_stress_keys;
 
 #endif
