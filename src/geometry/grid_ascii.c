@@ -27,6 +27,9 @@ typedef enum key {
 static const char *const key_names[KEYS] = {"ncols",     "nrows",     "xllcorner", "xllcenter",
                                             "yllcorner", "yllcenter", "cellsize",  "nodata_value"};
 
+/* Of a header without the line, which the format lets it do without. */
+static const double default_nodata = -9999;
+
 typedef struct header {
     bool has[KEYS];
     double value[KEYS];
@@ -111,12 +114,13 @@ static sb_status check_header(const scanner *from, const header *head, sb_error 
 
 static sb_status read_heights(scanner *from, const header *head, sb_grid *grid, sb_error *error)
 {
+    const double nodata = head->has[KEY_NODATA] ? head->value[KEY_NODATA] : default_nodata;
     for (size_t row = grid->rows; row-- > 0;)
         for (size_t column = 0; column < grid->columns; ++column) {
             double *to = grid->heights + row * grid->columns + column;
             sb_status status = next_number(from, "a height for each cell", to, error);
             if (status != SB_OK) return status;
-            if (head->has[KEY_NODATA] && *to == head->value[KEY_NODATA]) *to = (double)NAN;
+            if (*to == nodata) *to = (double)NAN;
         }
     if (next_word(from) > 0)
         return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: more numbers than the %zu x %zu of the header", from->path,

@@ -81,6 +81,19 @@ static void test_ascii(void **state)
     assert_false(has_vertex(&mesh, 2, 2, -1));
     assert_true(has_vertex(&mesh, 0, 4, 1));
     check_looks_up(&mesh, 6);
+    assert_int_equal(mesh.hole_count, 2);
+    assert_true(mesh.holes[0].x == 4 && mesh.holes[0].y == 0 && mesh.holes[1].x == 2 && mesh.holes[1].y == 2);
+    sb_mesh_free(&mesh);
+    /* The line may be left out: then it is -9999. */
+    mesh = read_grid("n.asc", "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 1 -9999\n1 1 1\n", 0);
+    assert_int_equal(mesh.vertex_count, 5);
+    assert_int_equal(mesh.hole_count, 1);
+    check_looks_up(&mesh, 1.5);
+    sb_mesh_free(&mesh);
+    mesh =
+        read_grid("n.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nnodata_value -1\n1 1 1 -9999\n", 0);
+    assert_int_equal(mesh.vertex_count, 4);
+    assert_int_equal(mesh.hole_count, 0);
     sb_mesh_free(&mesh);
 }
 
