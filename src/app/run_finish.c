@@ -9,6 +9,7 @@
 
 #include <math.h>
 #include <omp.h>
+#include <stdio.h>
 
 static void keep_first(sb_status *status, sb_error *error, sb_status found, const sb_error *reason)
 {
@@ -80,6 +81,35 @@ done:
     sb_free(displacement);
     sb_frame_release(frame);
     return status;
+}
+
+/* Forces and depths are short of what walls let through; beyond this share they are wrong, and the run has failed. */
+static const double LOST_MAX = 0.01;
+
+static uint64_t lost_of(const run *r, char *text, size_t size)
+{
+    const uint64_t lost = r->sim ? sb_sim_report(r->sim)->lost : 0;
+    snprintf(text, size, "%llu of %zu particles were lost through walls of the domain", (unsigned long long)lost,
+             r->model.fluid_count);
+    return lost;
+}
+
+/* Before the summary, which is to say so. Whether the run fails by it. */
+static bool judge_lost(const run *r, sb_status *status, sb_error *error)
+{
+    char text[120];
+    const double lost = (double)lost_of(r, text, sizeof text);
+    const bool fails = *status == SB_OK && lost > LOST_MAX * (double)r->model.fluid_count;
+    if (fails)
+        *status =
+            sb_fail(error, SB_FAILED, "%s, more than %g %%: its forces and depths are wrong", text, 100 * LOST_MAX);
+    return fails;
+}
+
+static void tell_lost(run *r)
+{
+    char text[120];
+    if (lost_of(r, text, sizeof text) > 0) sb_run_warn(r, "%s", text);
 }
 
 static void stop_consumers(run *r, sb_status *status, sb_error *error)
@@ -174,10 +204,12 @@ void sb_run_finish(run *r, sb_status *status, sb_error *error)
         const sb_map_record *map = sb_measure_map(r->measure);
         if (map) keep_first(status, error, sb_maps_write(r->directory, map, &reason), &reason);
     }
+    const bool leaked = judge_lost(r, status, error);
     if (r->sim) /* before what takes long: someone may lose patience */
         write_summary(r, status, error);
     if (r->measure && r->scene->output.plots) sb_plots_write(r->directory, r->scene, r->log);
     make_films(r, *status);
+    if (!leaked) tell_lost(r); /* else the reason is the last line */
     sb_runlog_end(r->log, *status, *status == SB_OK ? NULL : error->text);
     keep_first(status, error, sb_runlog_close(r->log, &reason), &reason);
 }

@@ -166,6 +166,9 @@ static sb_status begin(run *r, sb_error *error)
     sb_status status = sb_sim_settle(r->sim, error);
     r->settling_seconds = sb_progress_wall(&r->progress) - r->setup_seconds;
     sb_spent_settled(r);
+    if (sb_sim_report(r->sim)->lost > 0)
+        sb_run_warn(r, "%llu of %zu particles were lost through walls of the domain while the water came to rest",
+                    (unsigned long long)sb_sim_report(r->sim)->lost, r->model.fluid_count);
     if (status != SB_OK) return status;
     sb_runlog_event(r->log, "settled", "highest speed %.3g m/s", sb_sim_report(r->sim)->max_speed);
     if (r->scene->numerics.sleep)

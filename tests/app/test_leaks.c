@@ -1,0 +1,103 @@
+/* Water that passes walls of the domain: scenes that once leaked hold theirs, and a run that loses some says so last.
+ */
+#include "program.h"
+
+#include "base/memory.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static void write_scene(const char *name, double duration, const char *body)
+{
+    char text[700];
+    snprintf(text, sizeof text,
+             "title: leaks\nresolution: 0.1\nduration: %g\ndomain: {min: [0, 0, -0.4], max: [3, 2, 1.2]}\n"
+             "water: {level: 0.5, seed: [0.3, 0.3, 0.45]}\nbodies: [{name: b, %s}]\noutput: {plots: false}\n",
+             duration, body);
+    write_text(name, text);
+}
+
+/* A post without a height takes the ground away around it, down to the domain's floor. */
+static void ground_with_a_hole_holds_the_sea(void **state)
+{
+    (void)state;
+    char grid[600] = "ncols 5\nnrows 4\nxllcenter -0.5\nyllcenter -0.5\ncellsize 1\n";
+    for (int i = 0; i < 20; i++) strcat(grid, i == 7 ? "-9999\n" : "0.1\n");
+    write_text("hole.asc", grid);
+    write_scene("hole.yaml", 0.05, "shape: grid, file: hole.asc");
+    outcome o = RUN(0, "check", "hole.yaml");
+    assert_contains(o.out, "warning: body \"b\": the ground ends within the domain, at 4 open edges, the first at (");
+    assert_contains(o.out, "nodata) at 1 node, the first at (1.5, 1.5)");
+    outcome_free(&o);
+    o = RUN(0, "run", "hole.yaml", "--out", "hole", "--quiet");
+    assert_contains(o.err, "the ground ends within the domain");
+    assert_null(strstr(o.err, "lost"));
+    outcome_free(&o);
+    assert_near(json_number_of("hole/summary.json", "lost_particles"), 0, 0);
+    assert_near(json_number_of("hole/summary.json", "through_walls"), 0, 0);
+    write_scene("short.yaml", 0.05, "shape: grid, file: hole.asc, translate: [-1, 0, 0]");
+    RUN_AND_FORGET(0, "run", "short.yaml", "--out", "short", "--quiet");
+    assert_near(json_number_of("short/summary.json", "lost_particles"), 0, 0);
+}
+
+static const char *last_line(char *text)
+{
+    const size_t length = strlen(text);
+    assert_true(length > 0 && text[length - 1] == '\n');
+    text[length - 1] = '\0';
+    const char *before = strrchr(text, '\n');
+    return before ? before + 1 : text;
+}
+
+/* A block on the floor whose one side is missing: the water within stands on no boundary particles. */
+static void much_lost_water_fails_the_run(void **state)
+{
+    (void)state;
+    write_text("open.obj", "v 1 0.5 -0.4\nv 2 0.5 -0.4\nv 2 1.5 -0.4\nv 1 1.5 -0.4\nv 1 0.5 0.8\nv 2 0.5 0.8\n"
+                           "v 2 1.5 0.8\nv 1 1.5 0.8\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\n");
+    write_scene("open.yaml", 0.05, "shape: mesh, file: open.obj");
+    outcome o = RUN(2, "run", "open.yaml", "--out", "open", "--quiet");
+    assert_contains(o.err, "were lost through walls of the domain while the water came to rest\n");
+    const char *last = last_line(o.err);
+    unsigned long long lost = 0, all = 0;
+    assert_int_equal(sscanf(last, "shorebreak: %llu of %llu particles were lost", &lost, &all), 2);
+    assert_contains(last, "through walls of the domain, more than 1 %: its forces and depths are wrong");
+    assert_near(json_number_of("open/summary.json", "lost_particles"), (double)lost, 0);
+    assert_near(json_number_of("open/summary.json", "fluid_particles"), (double)all, 0);
+    outcome_free(&o);
+    char *summary = text_of("open/summary.json"), *log = text_of("open/run.jsonl");
+    assert_contains(summary, "\"status\": \"failed\"");
+    assert_contains(summary, "were lost through walls of the domain, more than 1 %");
+    assert_contains(log, "were lost through walls of the domain, more than 1 %");
+    sb_free(summary);
+    sb_free(log);
+}
+
+/* The same in the small. */
+static void little_lost_water_is_told_last(void **state)
+{
+    (void)state;
+    write_scene("little.yaml", 0.05, "shape: mesh, file: open.obj, scale: 0.5, translate: [1, 0.7, -0.2]");
+    outcome o = RUN(0, "run", "little.yaml", "--out", "little", "--quiet");
+    const double lost = json_number_of("little/summary.json", "lost_particles");
+    assert_true(lost > 0);
+    char expected[120];
+    snprintf(expected, sizeof expected,
+             "shorebreak: warning: %.0f of %.0f particles were lost through walls of the domain", lost,
+             json_number_of("little/summary.json", "fluid_particles"));
+    assert_string_equal(last_line(o.err), expected);
+    outcome_free(&o);
+    char *log = text_of("little/run.jsonl");
+    assert_contains(log, expected + strlen("shorebreak: warning: "));
+    sb_free(log);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ground_with_a_hole_holds_the_sea),
+        cmocka_unit_test(much_lost_water_fails_the_run),
+        cmocka_unit_test(little_lost_water_is_told_last),
+    };
+    return cmocka_run_group_tests(tests, program_setup, program_teardown);
+}
