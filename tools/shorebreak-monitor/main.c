@@ -1,4 +1,5 @@
 /* Watches a run over LCM and shows it as a live table. */
+#include "guard.h"
 #include "options.h"
 #include "state.h"
 #include "table.h"
@@ -28,6 +29,7 @@ typedef struct monitor {
     sb_monitor_state state;
     sb_table_style style;
     bool screen;            /* the terminal is ours */
+    double begun;           /* sb_clock(), by which --duration counts */
     double line_time;       /* of the last plain line, sb_clock() */
     uint64_t line_statuses; /* statuses there were at that time */
     bool told_silence;
@@ -111,7 +113,7 @@ static void print_lines(monitor *self, double now)
 static bool finished(const monitor *self, double now)
 {
     const sb_monitor_options *options = &self->options;
-    return stopped || self->sated || (options->duration > 0 && now - self->state.started >= options->duration) ||
+    return stopped || self->sated || (options->duration > 0 && now - self->begun >= options->duration) ||
            (options->once && self->first_status > 0 && now - self->first_status >= ONCE_SECONDS);
 }
 
@@ -141,8 +143,9 @@ static void choose_style(monitor *self)
     measure_terminal(&self->style);
 }
 
-static int run(monitor *self)
+static int run(void *argument)
 {
+    monitor *self = argument;
     sb_error error = {0};
     sb_listener *listener = NULL;
     sb_listener_calls calls = {self, on_status, on_forces, on_particles};
@@ -172,6 +175,14 @@ static int run(monitor *self)
     return 0;
 }
 
+/* A screen that the dead child had taken is given back. */
+static void tell_crash(void)
+{
+    if (isatty(STDOUT_FILENO)) fputs(LEAVE_SCREEN, stdout);
+    fflush(stdout);
+    fputs("shorebreak-monitor: a message from the network crashed LCM's receiver; listening anew\n", stderr);
+}
+
 int main(int count, char **words)
 {
     setlocale(LC_CTYPE, "");
@@ -194,7 +205,8 @@ int main(int count, char **words)
         return 1;
     }
     self->options = options;
-    int code = run(self);
+    self->begun = sb_clock();
+    int code = sb_guard(run, self, tell_crash);
     sb_free(self);
     return fflush(stdout) == 0 ? code : 1;
 }
