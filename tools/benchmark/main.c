@@ -31,7 +31,8 @@ static sb_status measure(const sb_bench_section *section, const sb_bench_request
     sb_bench_origin(origin, sizeof origin, SB_SOURCE_DIR);
     const size_t used = strlen(origin);
     snprintf(origin + used, sizeof origin - used,
-             "measured: %d threads, %d repeats%s; load average before %.2f; other programs kept %.2f cores busy\n",
+             "measured: %d threads, %d repeats (whole runs: one)%s; load average before %.2f; other programs kept %.2f "
+             "cores busy\n",
              request->threads, request->repeats, request->quick ? SB_BENCH_QUICKLY : "", load, others);
     fputs(origin, stdout);
     warn_of_others(others);

@@ -18,6 +18,8 @@ static const goal goals[] = {
     {"plant at 4 m, 90 s, `default`", "s", 220, 90, false, "runs", "plant at 4 m; default", "wall time", 1},
     {"column at 1 cm, per simulated second", "s", 40, 20, false, "runs", "column at 1 cm",
      "wall time per simulated second", 1},
+    {"its compression, mean (asked: the DFSPH peer's)", "%", 0.044, 0.044, false, "runs", "column at 1 cm",
+     "compression, mean", 1},
     {"pressure iteration, fluid and walls, 1 M particles", "ns per particle", 60, 45, false, "kernels",
      SB_BENCH_ITERATION, SB_BENCH_PER_PARTICLE, 1},
     {"whole step of 10 iterations, 1 M particles", "µs per particle", 0.9, 0.65, false, "kernels", SB_BENCH_STEP,
@@ -36,12 +38,18 @@ static const goal goals[] = {
 };
 
 /* Quick forms are no measure of anything. */
-static const sb_bench_rows *rows_of(const sb_bench_tables *tables, const char *section)
+static const sb_bench_table *table_of(const sb_bench_tables *tables, const char *section)
 {
     for (size_t t = 0; t < tables->count; t++)
         if (strcmp(tables->table[t].section->name, section) == 0 && !strstr(tables->table[t].origin, SB_BENCH_QUICKLY))
-            return &tables->table[t].rows;
+            return &tables->table[t];
     return NULL;
+}
+
+static const sb_bench_rows *rows_of(const sb_bench_tables *tables, const char *section)
+{
+    const sb_bench_table *table = table_of(tables, section);
+    return table ? &table->rows : NULL;
 }
 
 const sb_bench_row *sb_bench_look_up(const sb_bench_tables *tables, const char *section, const char *subject,
@@ -91,15 +99,48 @@ static double efficiency(const sb_bench_rows *scaling)
     return sb_bench_efficiency(scaling, nearest, 2);
 }
 
-static double measured(const goal *g, const sb_bench_tables *tables)
+/* A figure with the least and the most of its repeats; those equal it where it has none. */
+typedef struct figure {
+    double value, least, most;
+} figure;
+
+static figure measured(const goal *g, const sb_bench_tables *tables)
 {
     const sb_bench_rows *scaling = rows_of(tables, "scaling");
-    if (!g->section)
-        return !scaling                            ? (double)NAN
-               : strcmp(g->subject, "growth") == 0 ? sb_bench_growth(scaling)
-                                                   : efficiency(scaling);
+    if (!g->section) {
+        const double value = !scaling                            ? (double)NAN
+                             : strcmp(g->subject, "growth") == 0 ? sb_bench_growth(scaling)
+                                                                 : efficiency(scaling);
+        return (figure){value, value, value};
+    }
     const sb_bench_row *row = sb_bench_look_up(tables, g->section, g->subject, g->quantity);
-    return row ? g->factor * row->median : (double)NAN;
+    if (!row) return (figure){(double)NAN, (double)NAN, (double)NAN};
+    return (figure){g->factor * row->median, g->factor * row->least, g->factor * row->most};
+}
+
+/* What stands behind "key: " in the lines of where a table is from, up to a comma. */
+static void put_from(FILE *file, const sb_bench_table *table, const char *key)
+{
+    const char *at = table ? strstr(table->origin, key) : NULL;
+    if (at) fprintf(file, "%.*s", (int)strcspn(at + strlen(key), ",\n"), at + strlen(key));
+}
+
+static void put_figure(FILE *file, figure f)
+{
+    fprintf(file, "%.3g", f.value);
+    if (f.least < f.most) fprintf(file, " (%.3g to %.3g)", f.least, f.most);
+}
+
+/* Copying of two threads, beside which times per particle are to be read. */
+static void put_bandwidth(FILE *file, const sb_bench_tables *tables)
+{
+    const sb_bench_row *row = sb_bench_look_up(tables, "kernels", "machine", "copy bandwidth");
+    if (!row) return;
+    fprintf(
+        file,
+        "\nCopy bandwidth of two threads where the kernels were measured: %.3g (%.3g to %.3g) GB/s; where the peers "
+        "were, 18.7.\n",
+        row->median, row->least, row->most);
 }
 
 static bool within(const goal *g, double value, double limit)
@@ -109,18 +150,28 @@ static bool within(const goal *g, double value, double limit)
 
 void sb_bench_put_reach(FILE *file, const sb_bench_tables *tables)
 {
-    fputs("| figure | unit | reach | stretch | measured | |\n|---|---|---|---|---|---|\n", file);
+    fputs("| figure | unit | reach | stretch | measured (least to most) | | where, commit "
+          "|\n|---|---|---|---|---|---|---|\n",
+          file);
     for (size_t i = 0; i < sizeof goals / sizeof goals[0]; i++) {
         const goal *g = &goals[i];
-        const double value = measured(g, tables);
+        const figure f = measured(g, tables);
+        const sb_bench_table *table = table_of(tables, g->section ? g->section : "scaling");
         const char *sign = g->at_least ? "≥" : "≤";
         fprintf(file, "| %s | %s | %s %g | %g | ", g->figure, g->unit, sign, g->reach, g->stretch);
-        if (isnan(value))
-            fputs("not measured | |\n", file);
-        else
-            fprintf(file, "%.3g | %s |\n", value,
-                    within(g, value, g->stretch) ? "stretch"
-                    : within(g, value, g->reach) ? "within"
-                                                 : "**short**");
+        if (isnan(f.value)) {
+            fputs("not measured | | |\n", file);
+            continue;
+        }
+        put_figure(file, f);
+        fprintf(file, " | %s | ",
+                within(g, f.value, g->stretch) ? "stretch"
+                : within(g, f.value, g->reach) ? "within"
+                                               : "**short**");
+        put_from(file, table, "machine: ");
+        fputs(", ", file);
+        put_from(file, table, "commit: ");
+        fputs(" |\n", file);
     }
+    put_bandwidth(file, tables);
 }

@@ -41,6 +41,8 @@ static sb_status one_run(const sb_bench_request *request, const plan *p, sb_benc
         {"wall time per simulated second", "s", wall / simulated},
         {"steps", "1", sb_json_number_in(summary, "steps")},
         {"iterations per step", "1", sb_json_number_in(summary, "mean_iterations")},
+        {"compression, mean", "%", 100 * sb_json_number_in(summary, "compression_mean")},
+        {"compression, worst particle", "%", 100 * sb_json_number_in(summary, "compression_max")},
         {"peak memory", "B/particle", sb_json_number_in(summary, "peak_memory_bytes") / (double)n},
     };
     for (size_t v = 0; v < sizeof values / sizeof values[0] && status == SB_OK; v++)
