@@ -126,7 +126,8 @@ static void figures_are_judged(void **state)
     (void)state;
     write_scaling("machine: abacus, 2 cores\ncommit: abc\nmeasured: 2 threads\n");
     char *text = report_text();
-    assert_non_null(strstr(text, "| cost per particle, 50 k to 4 M | × | ≤ 1.3 | 1.2 | 1.1 | stretch | abacus, abc |\n"));
+    assert_non_null(
+        strstr(text, "| cost per particle, 50 k to 4 M | × | ≤ 1.3 | 1.2 | 1.1 | stretch | abacus, abc |\n"));
     assert_non_null(strstr(text, "1 M particles |  | ≥ 0.9 | 0.95 | 0.909 | within | abacus, abc |\n"));
     assert_non_null(strstr(text, "| conical island, 12 s | minutes | ≤ 90 | 45 | not measured | | |\n"));
     assert_non_null(strstr(text, "| 1000000 | 2 | 66 | 0.909 |\n"));
