@@ -2,6 +2,17 @@
  * it. */
 #include "small_model.h"
 
+/* A mesh file in metres, z up, as a body. */
+static sb_body *add_file(const char *name, char *path)
+{
+    sb_body *body = add_box(name, sb_vec(0, 0, 0), sb_vec(0, 0, 0));
+    body->shape = SB_SHAPE_MESH;
+    body->file = path;
+    body->up = 'z';
+    body->scale = 1;
+    return body;
+}
+
 static void warnings_say_what_is_too_coarse(void **state)
 {
     (void)state;
@@ -137,8 +148,7 @@ static void faces_without_area_are_told(void **state)
     static const char text[] = "v 3 2 0\nv 6 2 0\nv 3 4 0\nv 3 2 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 1 2 2\n";
     assert_true(made >= 0 && write(made, text, sizeof text - 1) == (ssize_t)sizeof text - 1);
     close(made);
-    sb_body *body = &bodies[scene.body_count++];
-    *body = (sb_body){.name = "rock", .shape = SB_SHAPE_MESH, .file = path, .up = 'z', .scale = 1, .color = {-1}};
+    add_file("rock", path);
     build();
     assert_true(warned("\"rock\"", "1 faces without area"));
     unlink(path);
@@ -261,18 +271,14 @@ static void thin_parts_are_only_warned_of(void **state)
             fprintf(file, "f %d %d %d %d\n", faces[f][0] + 8 * b, faces[f][1] + 8 * b, faces[f][2] + 8 * b,
                     faces[f][3] + 8 * b);
     fclose(file);
-    sb_body *body = add_box("finned", sb_vec(0, 0, 0), sb_vec(0, 0, 0));
-    body->shape = SB_SHAPE_MESH;
-    body->file = path;
-    body->up = 'z';
-    body->scale = 1;
+    add_file("finned", path);
     build();
     assert_true(warned("\"finned\"", "thick"));
     remove(path);
 }
 
 /* A box of 2 m by 2 m by 4 m in a file, from x on, its part named; the body has it at (5, 2, 0). */
-static sb_body *add_file_box(const char *path, const char *part, double x)
+static sb_body *add_file_box(char *path, const char *part, double x)
 {
     static const int faces[6][4] = {{4, 3, 2, 1}, {5, 6, 7, 8}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 4, 8, 7}, {4, 1, 5, 8}};
     FILE *file = fopen(path, "w");
@@ -282,11 +288,7 @@ static sb_body *add_file_box(const char *path, const char *part, double x)
         fprintf(file, "v %.9g 2 %d\nv %.9g 2 %d\nv %.9g 4 %d\nv %.9g 4 %d\n", x, z, x + 2, z, x + 2, z, x, z);
     for (int f = 0; f < 6; f++) fprintf(file, "f %d %d %d %d\n", faces[f][0], faces[f][1], faces[f][2], faces[f][3]);
     fclose(file);
-    sb_body *body = add_box("house", sb_vec(0, 0, 0), sb_vec(0, 0, 0));
-    body->shape = SB_SHAPE_MESH;
-    body->file = (char *)(uintptr_t)path;
-    body->up = 'z';
-    body->scale = 1;
+    sb_body *body = add_file("house", path);
     body->translate = sb_vec(5 - x, 0, 0);
     return body;
 }
@@ -295,7 +297,7 @@ static sb_body *add_file_box(const char *path, const char *part, double x)
 static void meshes_far_from_zero_are_told_or_refused(void **state)
 {
     (void)state;
-    static const char path[] = SB_BINARY_DIR "/test_model_far.obj";
+    static char path[] = SB_BINARY_DIR "/test_model_far.obj";
     static const double from[] = {5, 5e3, 500000.125, 4150000};
     for (size_t k = 0; k < sizeof from / sizeof *from; k++) {
         scene.body_count = 0;
@@ -314,7 +316,7 @@ static void meshes_far_from_zero_are_told_or_refused(void **state)
 static void parts_named_as_other_bodies_are_refused(void **state)
 {
     (void)state;
-    static const char path[] = SB_BINARY_DIR "/test_model_part.obj";
+    static char path[] = SB_BINARY_DIR "/test_model_part.obj";
     for (int same = 0; same < 2; same++) {
         scene.body_count = 0;
         add_file_box(path, same ? "pillar" : "wing", 5)->split = true;
@@ -337,11 +339,7 @@ static void holes_in_a_mesh_are_named(void **state)
           "f 4 3 2 1\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n",
           file);
     fclose(file);
-    sb_body *body = add_box("lidless", sb_vec(0, 0, 0), sb_vec(0, 0, 0));
-    body->shape = SB_SHAPE_MESH;
-    body->file = path;
-    body->up = 'z';
-    body->scale = 1;
+    add_file("lidless", path);
     build();
     assert_true(warned("\"lidless\" is not watertight: 4 open edges", ", 4)"));
     for (size_t i = 0; i < model.fluid_count; ++i) {
