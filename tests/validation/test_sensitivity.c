@@ -1,0 +1,60 @@
+/* What the sensitivity report says of runs that passed, fell short, failed or had no meaning. */
+#include "check.h"
+
+#include "base/memory.h"
+#include "sensitivity_parts.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const sb_plan plan = {.resolution = 0.1, .judged = true};
+static const sb_case of = {.name = "a", .headline = "height", .quick = &plan};
+
+static void add(sb_result *r, double height, double noise)
+{
+    r->state = SB_RESULT_DONE;
+    assert_int_equal(sb_figure_share(&r->figures, "height", "m", 2, height, 2, 10, NULL, " "), SB_OK);
+    assert_int_equal(sb_figure_below(&r->figures, "noise", "%", noise, 1, NULL, " "), SB_OK);
+    assert_int_equal(sb_figure_report(&r->figures, "told", "Pa", (double)NAN, 1e6, NULL, " "), SB_OK);
+}
+
+/* As it is both pass, the noise by less; one seed is short of one, the other's height could not be measured; the first
+   key's change failed, the last's has no meaning. */
+static void test_a_report_tells_the_headline_and_the_worst(void **state)
+{
+    (void)state;
+    sb_sensitivity_study study = {.count = 1 + SB_SENSITIVITY_PAIR * sb_sensitivity_rows()};
+    study.results = sb_alloc(study.count, sizeof *study.results);
+    assert_non_null(study.results);
+    for (size_t i = 0; i < study.count; i++) study.results[i].request = (sb_request){.of = &of, .plan = &plan};
+    add(&study.results[0], 2.1, 0.25);
+    study.results[0].run.scene.numerics = (sb_numerics){.support = 2.5, .wall_gamma = 1};
+    add(&study.results[1], 1.9, 4);
+    add(&study.results[2], (double)NAN, 0.1);
+    study.results[3].state = SB_RESULT_FAILED;
+    study.results[study.count - 1].request.of = NULL;
+    const sb_case *const cases[] = {&of};
+    const sb_store store = {.machine = "a machine", .commit = "abc"};
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    sb_sensitivity_report(out, &store, &study, cases, 1, "a command");
+    assert_int_equal(fclose(out), 0);
+    assert_non_null(strstr(text, "| (as it is) | | +5 |\n| (start seed 2 / 3) | 1 | -5 / –! |\n"));
+    assert_non_null(strstr(text, "| support | 2.5 | failed / – |\n"));
+    assert_non_null(strstr(text, "- a: height, error in %, reach 10, at 0.1 m\n"));
+    assert_non_null(
+        strstr(text, "| (as it is) | | 2 of 2, 0.5× |\n| (start seed 2 / 3) | 1 | 1 of 2, 4× / 1 of 2, none |\n"));
+    assert_non_null(strstr(text, "- a: height\n"));
+    free(text);
+    for (size_t i = 0; i < study.count; i++) sb_figures_free(&study.results[i].figures);
+    sb_free(study.results);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_a_report_tells_the_headline_and_the_worst)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
