@@ -163,7 +163,8 @@ static void note_start(run *r)
 static sb_status begin(run *r, sb_error *error)
 {
     if (sb_sim_settles(r->scene)) sb_run_say(r, "settling");
-    sb_status status = sb_sim_settle(r->sim, error);
+    sb_status status = sb_sim_settle_watched(r->sim, sb_progress_settling, &r->progress, error);
+    sb_progress_settled(&r->progress);
     r->settling_seconds = sb_progress_wall(&r->progress) - r->setup_seconds;
     sb_spent_settled(r);
     if (sb_sim_report(r->sim)->lost > 0)

@@ -58,6 +58,37 @@ static void estimate(sb_progress *progress, double now, double time)
     progress->eta = !(left > 0) ? 0 : advanced > 0 ? left * (now - progress->mark_wall[0]) / advanced : -1;
 }
 
+static bool is_time(sb_progress *progress, double now)
+{
+    if (!progress->stream || now - progress->shown < (progress->terminal ? 0.2 : 10.0)) return false;
+    progress->shown = now;
+    return true;
+}
+
+static void end_line(sb_progress *progress)
+{
+    if (progress->open) fputc('\n', progress->stream);
+    progress->open = false;
+    fflush(progress->stream);
+}
+
+void sb_progress_settling(void *context, int done, int most, double speed)
+{
+    sb_progress *progress = context;
+    char wall[32];
+    if (!is_time(progress, sb_clock())) return;
+    sb_progress_duration(wall, sb_progress_wall(progress));
+    fprintf(progress->stream, "%ssettling: step %d of at most %d  %.3f m/s  %s so far%s",
+            progress->terminal ? "\r" : "", done, most, speed, wall, progress->terminal ? "\033[K" : "\n");
+    fflush(progress->stream);
+    progress->open = progress->terminal;
+}
+
+void sb_progress_settled(sb_progress *progress)
+{
+    if (progress->stream) end_line(progress);
+}
+
 static void print(sb_progress *progress, const sb_step_report *report)
 {
     char eta[32], wall[32];
@@ -75,16 +106,12 @@ void sb_progress_update(sb_progress *progress, const sb_step_report *report)
 {
     double now = sb_clock();
     estimate(progress, now, report->time);
-    if (!progress->stream || now - progress->shown < (progress->terminal ? 0.2 : 10.0)) return;
-    progress->shown = now;
-    print(progress, report);
+    if (is_time(progress, now)) print(progress, report);
 }
 
 void sb_progress_end(sb_progress *progress, const sb_step_report *report)
 {
     if (!progress->stream) return;
     print(progress, report);
-    if (progress->open) fputc('\n', progress->stream);
-    progress->open = false;
-    fflush(progress->stream);
+    end_line(progress);
 }

@@ -24,6 +24,11 @@ void sb_progress_begin(sb_progress *progress, FILE *stream, double duration);
 /* The run goes on from this time, not from 0. */
 void sb_progress_resume(sb_progress *progress, double time);
 
+/* Call after each step of the settling before t = 0 (sb_settle_watch; the context is the progress), then once when it
+   is over. */
+void sb_progress_settling(void *progress, int done, int most, double speed);
+void sb_progress_settled(sb_progress *progress);
+
 /* Call after each step; prints when it is time to. */
 void sb_progress_update(sb_progress *progress, const sb_step_report *report);
 

@@ -81,6 +81,11 @@ static sb_status poise(sb_sim *sim, sb_error *error)
 
 sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
 {
+    return sb_sim_settle_watched(sim, NULL, NULL, error);
+}
+
+sb_status sb_sim_settle_watched(sb_sim *sim, sb_settle_watch *watch, void *context, sb_error *error)
+{
     if (!sb_sim_settles(sim->scene)) return SB_OK;
     const bool boxes = sim->scene->box_count > 0;
     const double calm = CALM * (double)sim->constant.wave_speed;
@@ -95,6 +100,7 @@ sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
         sim->settling = boxes || s < CREEP_FIRST ? SB_CREEPING : s < turn ? SB_DAMPED : SB_CALMED;
         status = sb_sim_step(sim, error);
         sb_sleep_listen(sim, s);
+        if (watch) watch(context, s + 1, steps, sim->report.max_speed);
         still = sim->report.max_speed < calm ? still + 1 : 0;
         if (sim->settling != SB_DAMPED) continue;
         bool done = still == CALM_STEPS;

@@ -254,6 +254,8 @@ static void progress_speaks_when_asked(void **state)
     assert_true(strchr(text, '\n') == text + strlen(text) - 1 && !strchr(text, '\r'));
     sb_free(text);
     sb_progress_begin(&progress, NULL, 90); /* quiet */
+    sb_progress_settling(&progress, 1, 500, 0.1);
+    sb_progress_settled(&progress);
     sb_progress_update(&progress, &report);
     sb_progress_end(&progress, &report);
     char words[32];
@@ -265,13 +267,29 @@ static void progress_speaks_when_asked(void **state)
     assert_string_equal(words, "?");
 }
 
+static void progress_tells_of_settling(void **state)
+{
+    (void)state;
+    FILE *stream = fopen(in_folder("settling"), "w");
+    sb_progress progress;
+    sb_progress_begin(&progress, stream, 90);
+    sb_progress_settling(&progress, 3, 500, 0.2); /* too early for a line */
+    progress.shown -= 11;
+    sb_progress_settling(&progress, 4, 500, 0.25);
+    sb_progress_settled(&progress);
+    fclose(stream);
+    char *text = text_of("settling");
+    assert_string_equal(text, "settling: step 4 of at most 500  0.250 m/s  0s so far\n");
+    sb_free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(summary_has_the_promised_keys), cmocka_unit_test(a_run_that_never_began_has_a_summary),
         cmocka_unit_test(every_line_of_the_log_is_json), cmocka_unit_test(a_log_goes_on_after_its_last_whole_line),
         cmocka_unit_test(a_full_disk_shows_in_the_log),  cmocka_unit_test(grids_have_north_on_top),
-        cmocka_unit_test(progress_speaks_when_asked),
+        cmocka_unit_test(progress_speaks_when_asked),    cmocka_unit_test(progress_tells_of_settling),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }
