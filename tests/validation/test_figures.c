@@ -76,7 +76,7 @@ static void test_the_worst_seed_judges(void **state)
     sb_results_count(&results, &limited, &passed);
     assert_int_equal(limited, 2);
     assert_int_equal(passed, 1);
-    snprintf(runs[2].run.folder, sizeof runs[2].run.folder, "runs/case/run/another");
+    snprintf(runs[2].run.build, sizeof runs[2].run.build, "another");
     j = sb_results_judge(&results, 0);
     assert_int_equal(j.seeds, SEEDS - 1);
     assert_near(j.worst, 2, 1e-12);

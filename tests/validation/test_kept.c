@@ -3,20 +3,24 @@
 #include "tools/tool.h"
 
 #include "kept.h"
+#include "report.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
+#define RUN "100,20,6.50,3.5,abc,0123456789abcdef,00000000000000a7,2,\"Abacus, 2 cores\",b1d,"
+#define FINER "800,40,7.00,30.0,abc,ffffffffffffffff,00000000000000a7,2,\"Abacus, 2 cores\",b1d,"
 static const char table[] =
     "case,resolution_m,preset,seed,judged,quantity,unit,reference,value,error,error_unit,reach,verdict,particles,steps,"
-    "sweeps_per_step,run_time_s,commit,asked,meant\n"
-    "a,0.1,default,1,yes,height,m,2,2.1,5,%,10,pass,100,20,6.50,3.5,abc,0123456789abcdef,00000000000000a7\n"
-    "a,0.1,default,1,yes,\"noise, all\",%,,3,3,%,1,FAIL,100,20,6.50,3.5,abc,0123456789abcdef,00000000000000a7\n"
-    "a,0.1,default,1,yes,told,Pa,,7,,%,,reported,100,20,6.50,3.5,abc,0123456789abcdef,00000000000000a7\n"
-    "b,0.1,default,1,yes,height,m,2,1,-50,%,10,FAIL,100,20,6.50,3.5,abc,0123456789abcdef,00000000000000a7\n"
-    "a,0.05,default,1,no,height,m,2,2.2,10,%,10,pass,800,40,7.00,30.0,abc,ffffffffffffffff,00000000000000a7\n"
-    "a,,default,1,yes,order,,,1.5,1.5,,2,pass,,,,,,,\n";
+    "sweeps_per_step,run_time_s,commit,asked,meant,threads,machine,build,reference_low,reference_high,note\n"
+    "a,0.1,default,1,yes,height,m,2,2.1,5,%,10,pass," RUN "1.5,2.5,\"counted by hand, \"\"twice\"\"\"\n"
+    "a,0.1,default,1,yes,\"noise, all\",%,,3,3,%,1,FAIL," RUN ",,\n"
+    "a,0.1,default,1,yes,told,Pa,,7,,%,,reported," RUN ",,\n"
+    "b,0.1,default,1,yes,height,m,2,1,-50,%,10,FAIL," RUN ",,\n"
+    "a,0.05,default,1,no,height,m,2,2.2,10,%,10,pass," FINER ",,\n"
+    "a,,default,1,yes,order,,,1.5,1.5,,2,pass,,,,,,,,,,,,,of two\n";
 
 static const sb_case of = {.name = "a"};
 static const sb_plan plan = {.resolution = 0.1, .judged = true};
@@ -57,11 +61,16 @@ static void test_what_was_asked_is_found(void **state)
     assert_true(height && noise && height->pass && !noise->pass && noise->one_sided && !height->one_sided);
     assert_near(height->value, 2.1, 0);
     assert_near(height->limit, 10, 0);
+    assert_string_equal(height->note, "counted by hand, \"twice\"");
+    assert_true(height->low == 1.5 && height->high == 2.5 && noise->low == noise->high && !noise->note[0]);
     assert_true(isnan(noise->reference) && isnan(sb_figures_find(&r.figures, "told")->limit));
     assert_string_equal(r.run.commit, "abc");
     assert_int_equal(r.run.view.particles, 100);
     assert_int_equal(r.run.view.steps, 20);
     assert_near(r.run.view.wall, 3.5, 0);
+    assert_int_equal(r.run.threads, 2);
+    assert_string_equal(r.run.machine, "Abacus, 2 cores");
+    assert_string_equal(r.run.build, "b1d");
     sb_case_results results = {.of = &of, .count = 1, .runs = &r};
     size_t limited, passed;
     sb_results_count(&results, &limited, &passed);
@@ -70,6 +79,7 @@ static void test_what_was_asked_is_found(void **state)
     assert_int_equal(sb_kept_across(&sheet, "a", &results.across, NULL), SB_OK);
     assert_int_equal(results.across.count, 1);
     assert_near(results.across.rows[0].value, 1.5, 0);
+    assert_string_equal(results.across.rows[0].note, "of two");
     sb_figures_free(&r.figures);
     sb_figures_free(&results.across);
     sb_sheet_free(&sheet);
@@ -90,6 +100,35 @@ static void test_other_questions_and_own_runs_are_left_alone(void **state)
         assert_int_equal(sb_kept_read(&sheet, each[i], NULL), SB_OK);
         assert_true(each[i]->state == before && !each[i]->kept && each[i]->figures.count == 0);
     }
+    sb_sheet_free(&sheet);
+}
+
+/* A report made of kept figures alone leaves a table that gives the very same again. */
+static void test_a_table_survives_its_report(void **state)
+{
+    (void)state;
+    char *written = NULL;
+    size_t length = 0;
+    sb_sheet sheet;
+    open_table(&sheet);
+    sb_result r = wanted("0123456789abcdef");
+    sb_case_results results = {.of = &of, .count = 1, .runs = &r};
+    assert_int_equal(sb_kept_read(&sheet, &r, NULL), SB_OK);
+    assert_int_equal(sb_kept_across(&sheet, "a", &results.across, NULL), SB_OK);
+    FILE *out = open_memstream(&written, &length);
+    assert_non_null(out);
+    sb_report_csv(out, &(sb_report){.cases = &results, .count = 1});
+    fclose(out);
+    for (const char *line = table, *end; *line; line = end + 1) {
+        char text[400];
+        end = strchr(line, '\n');
+        snprintf(text, sizeof text, "%.*s", (int)(end - line + 1), line);
+        const bool asked = !strstr(line, "ffffffffffffffff") || end < strstr(line, "ffffffffffffffff");
+        assert_int_equal(strstr(written, text) != NULL, line[0] != 'b' && asked);
+    }
+    free(written);
+    sb_figures_free(&r.figures);
+    sb_figures_free(&results.across);
     sb_sheet_free(&sheet);
 }
 
@@ -121,6 +160,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_what_was_asked_is_found),
         cmocka_unit_test(test_other_questions_and_own_runs_are_left_alone),
+        cmocka_unit_test(test_a_table_survives_its_report),
         cmocka_unit_test(test_no_table_is_an_empty_one),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

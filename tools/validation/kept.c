@@ -40,11 +40,15 @@ static sb_status add_row(const sb_sheet *table, size_t row, sb_figures *figures,
                    .value = number_of(table, row, "value"),
                    .error = number_of(table, row, "error"),
                    .limit = number_of(table, row, "reach"),
+                   .low = number_of(table, row, "reference_low"),
+                   .high = number_of(table, row, "reference_high"),
                    .pass = strcmp(text_of(table, row, "verdict"), "FAIL") != 0};
+    if (isnan(f.low) || isnan(f.high)) f.low = f.high = 0;  /* no band */
     f.one_sided = isnan(f.reference) && f.value == f.error; /* sb_figure_below */
     snprintf(f.quantity, sizeof f.quantity, "%s", text_of(table, row, "quantity"));
     snprintf(f.unit, sizeof f.unit, "%s", text_of(table, row, "unit"));
     snprintf(f.error_unit, sizeof f.error_unit, "%s", text_of(table, row, "error_unit"));
+    snprintf(f.note, sizeof f.note, "%s", text_of(table, row, "note"));
     return sb_figures_add(figures, &f, error);
 }
 
@@ -66,6 +70,9 @@ sb_status sb_kept_read(const sb_sheet *table, sb_result *r, sb_error *error)
         sb_case_run *view = &r->run.view;
         status = add_row(table, row, &r->figures, error);
         snprintf(r->run.commit, sizeof r->run.commit, "%s", text_of(table, row, "commit"));
+        snprintf(r->run.machine, sizeof r->run.machine, "%s", text_of(table, row, "machine"));
+        snprintf(r->run.build, sizeof r->run.build, "%s", text_of(table, row, "build"));
+        r->run.threads = (int)count_of(table, row, "threads");
         view->particles = count_of(table, row, "particles");
         view->steps = count_of(table, row, "steps");
         view->iterations = number_of(table, row, "sweeps_per_step");

@@ -27,15 +27,22 @@ static void put_commits(FILE *out, const sb_report *report)
         fprintf(out, "- commit of all runs: `%s`\n", first);
 }
 
-static void put_machine(FILE *out, const sb_report *report)
+/* The machines that the shown runs were made on: results.csv tells whose is whose. */
+static void put_machines(FILE *out, const sb_report *report)
 {
+    const char *said[8];
+    size_t count = 0;
     for (size_t c = 0; c < report->count; c++)
-        for (size_t i = 0; i < report->cases[c].count; i++)
-            if (report->cases[c].runs[i].state == SB_RESULT_DONE && !report->cases[c].runs[i].kept) {
-                fprintf(out, "- machine: %s\n", report->cases[c].runs[i].run.machine);
-                return;
-            }
-    fprintf(out, "- machine: %s\n", report->store->machine);
+        for (size_t i = 0; i < report->cases[c].count; i++) {
+            const sb_result *r = &report->cases[c].runs[i];
+            size_t k = 0;
+            if (r->state != SB_RESULT_DONE || !r->run.machine[0]) continue;
+            while (k < count && strcmp(said[k], r->run.machine) != 0) k++;
+            if (k == count && count < sizeof said / sizeof *said) said[count++] = r->run.machine;
+        }
+    fputs(count > 1 ? "- machines, each run's in results.csv: " : "- machine: ", out);
+    for (size_t k = 0; k < count; k++) fprintf(out, "%s%s", k ? "; " : "", said[k]);
+    fprintf(out, "%s\n", count ? "" : report->store->machine);
 }
 
 static void put_head(FILE *out, const sb_report *report)
@@ -53,7 +60,7 @@ static void put_head(FILE *out, const sb_report *report)
             "the same defaults, but for the columns\n`paper`, which use the preset of that name.\n\n",
             report->quick ? ", quick forms" : "");
     fprintf(out, "- command: `%s`\n", report->command);
-    put_machine(out, report);
+    put_machines(out, report);
     put_commits(out, report);
     fprintf(
         out,

@@ -218,7 +218,7 @@ static void put_notes(FILE *out, const sb_figures *figures)
 
 static const char *threads(const sb_result *r, char text[48])
 {
-    sb_text_number(text, r->kept ? (double)NAN : sb_run_number(&r->run.view, "threads"));
+    sb_text_number(text, r->run.threads > 0 ? r->run.threads : (double)NAN);
     return text;
 }
 

@@ -14,25 +14,37 @@ static void put_text(FILE *out, const char *text)
         fputc(*text, out);
     }
     if (quote) fputc('"', out);
-    fputc(',', out);
 }
 
 static void put_number(FILE *out, double value)
 {
-    if (!isnan(value)) fprintf(out, "%.6g", value);
+    if (!isnan(value)) fprintf(out, "%.9g", value);
     fputc(',', out);
 }
 
 static void put_figure(FILE *out, const sb_figure *f)
 {
     put_text(out, f->quantity);
+    fputc(',', out);
     put_text(out, f->unit);
+    fputc(',', out);
     put_number(out, f->reference);
     put_number(out, f->value);
     put_number(out, f->error);
     put_text(out, f->error_unit);
+    fputc(',', out);
     put_number(out, f->limit);
     fprintf(out, "%s,", isnan(f->limit) ? "reported" : f->pass ? "pass" : "FAIL");
+}
+
+/* What a report says of a figure beside its row: the last columns. */
+static void put_remarks(FILE *out, const sb_figure *f)
+{
+    const bool band = f->low < f->high;
+    put_number(out, band ? f->low : (double)NAN);
+    put_number(out, band ? f->high : (double)NAN);
+    put_text(out, f->note);
+    fputc('\n', out);
 }
 
 static void put_run(FILE *out, const sb_result *r)
@@ -42,15 +54,22 @@ static void put_run(FILE *out, const sb_result *r)
                 r->request.paper ? "paper" : "default", r->request.seed,
                 r->request.plan->judged && !r->request.paper ? "yes" : "no");
         put_figure(out, &r->figures.rows[i]);
-        fprintf(out, "%zu,%zu,%.2f,%.1f,%s,%s,%016" PRIx64 "\n", r->run.view.particles, r->run.view.steps,
+        fprintf(out, "%zu,%zu,%.2f,%.1f,%s,%s,%016" PRIx64 ",", r->run.view.particles, r->run.view.steps,
                 r->run.view.iterations, r->run.view.wall, r->run.commit, r->asked, r->meant);
+        if (r->run.threads > 0) fprintf(out, "%d", r->run.threads);
+        fputc(',', out);
+        put_text(out, r->run.machine);
+        fprintf(out, ",%s,", r->run.build);
+        put_remarks(out, &r->figures.rows[i]);
     }
 }
 
 void sb_report_csv(FILE *out, const sb_report *report)
 {
     fputs("case,resolution_m,preset,seed,judged,quantity,unit,reference,value,error,error_unit,"
-          "reach,verdict,particles,steps,sweeps_per_step,run_time_s,commit,asked,meant\n",
+          "reach,verdict,particles,steps,sweeps_per_step,run_time_s,commit,asked,meant,threads,machine,build,reference_"
+          "low,"
+          "reference_high,note\n",
           out);
     for (size_t c = 0; c < report->count; c++) {
         const sb_case_results *results = &report->cases[c];
@@ -59,7 +78,8 @@ void sb_report_csv(FILE *out, const sb_report *report)
         for (size_t i = 0; i < results->across.count; i++) {
             fprintf(out, "%s,,default,1,yes,", results->of->name);
             put_figure(out, &results->across.rows[i]);
-            fputs(",,,,,,\n", out);
+            fputs(",,,,,,,,,,", out);
+            put_remarks(out, &results->across.rows[i]);
         }
     }
 }

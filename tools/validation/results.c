@@ -46,6 +46,8 @@ static void complete(const sb_store *store, sb_result *r)
 {
     sb_case_run *view = &r->run.view;
     sb_request_label(&r->request, false, r->run.label);
+    const char *slash = strrchr(r->run.folder, '/'); /* the last part names the program (store.h) */
+    snprintf(r->run.build, sizeof r->run.build, "%.16s", slash ? slash + 1 : r->run.folder);
     sb_store_recall(r->run.folder, "commit", r->run.commit, sizeof r->run.commit);
     sb_store_recall(r->run.folder, "machine", r->run.machine, sizeof r->run.machine);
     if (isnan(r->run.cpu)) r->run.cpu = recalled(r->run.folder, "cpu_s");
@@ -99,30 +101,42 @@ static bool at_hand(const sb_result *r)
     return r->state == SB_RESULT_DONE && !r->kept;
 }
 
-/* The program that ran it, by the last part of its folder (store.h), or by its commit. */
-static const char *build_of(const sb_result *r)
+/* Whether those of the runs that figures across resolutions are made from are of several programs. */
+static bool several_builds(const sb_case_results *results, bool kept)
 {
-    if (r->kept) return r->run.commit;
-    const char *slash = strrchr(r->run.folder, '/');
-    return slash ? slash + 1 : r->run.folder;
+    const sb_result *first = NULL;
+    for (size_t i = 0; i < results->count; i++) {
+        const sb_result *r = &results->runs[i];
+        if (r->state != SB_RESULT_DONE || r->kept != kept || r->request.paper || r->request.seed != 1) continue;
+        if (first && strcmp(r->run.build, first->run.build) != 0) return true;
+        if (!first) first = r;
+    }
+    return false;
 }
 
 static void compare_runs(sb_case_results *results, sb_case_run *runs, sb_figures *figures)
 {
     sb_error why = {0};
     size_t count = 0;
-    const sb_result *first = NULL;
     for (size_t i = 0; i < results->count; i++) {
         const sb_result *r = &results->runs[i];
         if (!at_hand(r) || r->request.paper || r->request.seed != 1) continue;
-        if (first && strcmp(build_of(r), build_of(first)) != 0) results->across_builds = true;
-        if (!first) first = r;
         runs[count] = r->run.view;
         figures[count++] = r->figures;
     }
     if (count < 2) return;
+    results->across_builds = several_builds(results, false);
     if (results->of->compare(runs, figures, count, &results->across, &why) != SB_OK)
         snprintf(results->problem, sizeof results->problem, "%.600s", why.text);
+}
+
+/* Those of a former report, where the judged run is kept, too. */
+static sb_status keep_across(sb_case_results *results, const sb_sheet *former, sb_error *error)
+{
+    const sb_result *judged = sb_results_judged(results);
+    if (results->across.count > 0 || !judged || !judged->kept) return SB_OK;
+    results->across_builds = several_builds(results, true);
+    return sb_kept_across(former, results->of->name, &results->across, error);
 }
 
 sb_status sb_results_collect(const sb_store *store, const sb_case *of, bool quick, bool any_build,
@@ -144,9 +158,7 @@ sb_status sb_results_collect(const sb_store *store, const sb_case *of, bool quic
         results->count++;
     }
     if (status == SB_OK && of->compare) compare_runs(results, views, figures);
-    if (status == SB_OK && former && results->across.count == 0 && sb_results_judged(results) &&
-        sb_results_judged(results)->kept)
-        status = sb_kept_across(former, of->name, &results->across, error);
+    if (status == SB_OK && former) status = keep_across(results, former, error);
     sb_free(views);
     sb_free(figures);
     sb_free(requests);
@@ -194,7 +206,7 @@ static double size_of(const sb_figure *figure, double error)
 static bool is_seed_of(const sb_result *r, const sb_result *first)
 {
     return r->request.plan == first->request.plan && !r->request.paper && r->state == SB_RESULT_DONE &&
-           strcmp(build_of(r), build_of(first)) == 0;
+           strcmp(r->run.build, first->run.build) == 0;
 }
 
 sb_judgement sb_results_judge(const sb_case_results *results, size_t i)

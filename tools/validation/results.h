@@ -16,7 +16,7 @@ typedef struct sb_result {
     char asked[17]; /* what it asks for, in hexadecimal; "": not known */
     uint64_t meant; /* and that with every default of this program (request.h) */
     sb_result_state state;
-    bool kept; /* figures of a former report: its files are not there, nor notes, scene, threads (kept.h) */
+    bool kept; /* figures of a former report: its files are not there, nor the scene (kept.h) */
     sb_finished run;
     sb_figures figures;
     char problem[640];
