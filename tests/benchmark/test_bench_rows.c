@@ -62,15 +62,16 @@ static void tables_come_back_as_they_were_written(void **state)
     char origin[256];
     bool found;
     for (int i = 0; i < 20; i++)
-        assert_int_equal(
-            sb_bench_add_value(&rows, "plant at 4 m; paper", 100 + (size_t)i, 2, "time per pair", "ns", 0.5 * i, NULL),
-            SB_OK);
+        assert_int_equal(sb_bench_add_value(&rows, "plant at 4 m; paper", 100 + (size_t)i, 2, "time, \"per\" pair",
+                                            "ns", 0.5 * i, NULL),
+                         SB_OK);
     assert_int_equal(sb_bench_write(&rows, "machine: x\ncommit: y\n", "t.csv", NULL), SB_OK);
     assert_int_equal(sb_bench_read(&back, origin, sizeof origin, &found, "t.csv", NULL), SB_OK);
     assert_true(found);
     assert_string_equal(origin, "machine: x\ncommit: y\n");
     assert_int_equal(back.count, 20);
     assert_string_equal(back.rows[19].subject, "plant at 4 m; paper");
+    assert_string_equal(back.rows[19].quantity, "time, \"per\" pair");
     assert_int_equal(back.rows[19].particles, 119);
     assert_true(back.rows[19].median == 9.5);
     sb_bench_rows_free(&rows);

@@ -89,8 +89,10 @@ sb_status sb_bench_write(const sb_bench_rows *rows, const char *origin, const ch
     fputs(header, file.stream);
     for (size_t i = 0; i < rows->count; i++) {
         const sb_bench_row *row = &rows->rows[i];
-        fprintf(file.stream, "%s,%zu,%d,%s,%s,%.6g,%.6g,%.6g,%d\n", row->subject, row->particles, row->threads,
-                row->quantity, row->unit, row->least, row->median, row->most, row->repeats);
+        sb_sheet_put(file.stream, row->subject);
+        fprintf(file.stream, ",%zu,%d,", row->particles, row->threads);
+        sb_sheet_put(file.stream, row->quantity);
+        fprintf(file.stream, ",%s,%.6g,%.6g,%.6g,%d\n", row->unit, row->least, row->median, row->most, row->repeats);
     }
     return sb_atomic_commit(&file, 0, error);
 }

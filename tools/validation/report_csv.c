@@ -1,20 +1,9 @@
 /* results.csv: every figure of every run. */
 #include "report.h"
+#include "sheet.h"
 
 #include <inttypes.h>
 #include <math.h>
-#include <string.h>
-
-static void put_text(FILE *out, const char *text)
-{
-    bool quote = strpbrk(text, ",\"") != NULL;
-    if (quote) fputc('"', out);
-    for (; *text; text++) {
-        if (*text == '"') fputc('"', out);
-        fputc(*text, out);
-    }
-    if (quote) fputc('"', out);
-}
 
 static void put_number(FILE *out, double value)
 {
@@ -24,14 +13,14 @@ static void put_number(FILE *out, double value)
 
 static void put_figure(FILE *out, const sb_figure *f)
 {
-    put_text(out, f->quantity);
+    sb_sheet_put(out, f->quantity);
     fputc(',', out);
-    put_text(out, f->unit);
+    sb_sheet_put(out, f->unit);
     fputc(',', out);
     put_number(out, f->reference);
     put_number(out, f->value);
     put_number(out, f->error);
-    put_text(out, f->error_unit);
+    sb_sheet_put(out, f->error_unit);
     fputc(',', out);
     put_number(out, f->limit);
     fprintf(out, "%s,", isnan(f->limit) ? "reported" : f->pass ? "pass" : "FAIL");
@@ -43,7 +32,7 @@ static void put_remarks(FILE *out, const sb_figure *f)
     const bool band = f->low < f->high;
     put_number(out, band ? f->low : (double)NAN);
     put_number(out, band ? f->high : (double)NAN);
-    put_text(out, f->note);
+    sb_sheet_put(out, f->note);
     fputc('\n', out);
 }
 
@@ -58,7 +47,7 @@ static void put_run(FILE *out, const sb_result *r)
                 r->run.view.iterations, r->run.view.wall, r->run.commit, r->asked, r->meant);
         if (r->run.threads > 0) fprintf(out, "%d", r->run.threads);
         fputc(',', out);
-        put_text(out, r->run.machine);
+        sb_sheet_put(out, r->run.machine);
         fprintf(out, ",%s,", r->run.build);
         put_remarks(out, &r->figures.rows[i]);
     }

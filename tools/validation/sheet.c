@@ -80,6 +80,17 @@ sb_status sb_sheet_read(const char *path, sb_sheet *sheet, sb_error *error)
     return status;
 }
 
+void sb_sheet_put(FILE *out, const char *text)
+{
+    const bool quote = strpbrk(text, ",\"") != NULL;
+    if (quote) fputc('"', out);
+    for (; *text; text++) {
+        if (*text == '"') fputc('"', out);
+        fputc(*text, out);
+    }
+    if (quote) fputc('"', out);
+}
+
 size_t sb_sheet_column(const sb_sheet *sheet, const char *name)
 {
     size_t length = strlen(name);

@@ -5,6 +5,8 @@
 
 #include "curve.h"
 
+#include <stdio.h>
+
 /* Fields are texts in `text`, which the sheet owns. */
 typedef struct sb_sheet {
     char *text;
@@ -23,6 +25,9 @@ size_t sb_sheet_column(const sb_sheet *sheet, const char *name);
 /* NaN when the field is empty or no number. */
 double sb_sheet_number(const sb_sheet *sheet, size_t row, size_t column);
 const char *sb_sheet_text(const sb_sheet *sheet, size_t row, size_t column);
+
+/* Writes a text as a field, in quotes where it needs them (RFC 4180). It holds no line's end. */
+void sb_sheet_put(FILE *out, const char *text);
 
 /* Two columns by name as a curve. where: only rows whose second column is this name (forces.csv,
    gauges.csv,
