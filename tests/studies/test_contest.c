@@ -70,7 +70,8 @@ static void test_every_choice_is_one(void **state)
         sb_contest c;
         sb_error error = {0};
         char folder[SB_PATH_MAX];
-        if (sb_contest_begin(&c, s, &store, false, 1, &error) != SB_OK) fail_msg("%s", error.text);
+        if (sb_contest_begin(&c, s, &store, &(sb_contest_wish){.seeds = 1}, &error) != SB_OK)
+            fail_msg("%s", error.text);
         for (size_t i = 0; i < c.trial_count; i++)
             if (sb_store_folder(&store, &c.trials[i].request, folder, &error) != SB_OK) fail_msg("%s", error.text);
         sb_contest_free(&c);
@@ -86,6 +87,41 @@ static void test_every_subject_has_spacings_and_errors(void **state)
         for (int i = 0; s->quick[i] > 0; i++) assert_true(s->quick_reference < s->quick[i]);
         assert_true((s->full_reference > 0) == (s->quick_reference > 0));
     }
+}
+
+/* Fewer choices, or spacings, are wished for; a reference comes with what is held against it alone. */
+static void test_a_part_may_be_wished_for(void **state)
+{
+    (void)state;
+    const sb_store store = {.assets = SB_SOURCE_DIR "/assets/validation"};
+    const sb_subject *s = sb_subjects;
+    while (s->full_reference <= 0 || s->full[1] <= 0) s++;
+    const sb_contest_wish wishes[] = {
+        {.seeds = 1},
+        {.seeds = 1, .few = true},
+        {.seeds = 1, .spacings = 1},
+        {.seeds = 1, .spacing = s->full[1]},
+        {.seeds = 1, .spacing = 0.123},
+    };
+    enum { WISHES = sizeof wishes / sizeof *wishes };
+    size_t entries[WISHES];
+    for (size_t w = 0; w < WISHES; w++) {
+        sb_contest c;
+        sb_error error = {0};
+        if (sb_contest_begin(&c, s, &store, &wishes[w], &error) != SB_OK) fail_msg("%s", error.text);
+        entries[w] = c.entry_count;
+        assert_true(c.entry_count == 0 || !c.entries[0].choice);
+        for (size_t i = 1; i < c.entry_count; i++) {
+            const double spacing = c.entries[i].plan.resolution;
+            assert_true(!wishes[w].few || c.entries[i].choice->quick);
+            assert_true(!wishes[w].spacings || spacing == s->full[0]);
+            assert_true(!(wishes[w].spacing > 0) || spacing == wishes[w].spacing);
+        }
+        sb_contest_free(&c);
+    }
+    assert_true(entries[1] < entries[0] && entries[2] < entries[0]);
+    assert_int_equal(entries[3], entries[2]);
+    assert_int_equal(entries[4], 0);
 }
 
 /* As if it had run: so long, with this first error, in the unit of a figure's own. */
@@ -106,7 +142,8 @@ static void test_seeds_are_averaged_and_the_front_is_found(void **state)
     sb_contest c;
     sb_error error = {0};
     const sb_subject *column = &sb_subjects[1];
-    if (sb_contest_begin(&c, column, &store, true, 2, &error) != SB_OK) fail_msg("%s", error.text);
+    if (sb_contest_begin(&c, column, &store, &(sb_contest_wish){.quick = true, .seeds = 2}, &error) != SB_OK)
+        fail_msg("%s", error.text);
     assert_true(c.entry_count > 3);
     assert_int_equal(c.trial_count, 2 * c.entry_count);
     const sb_entry *e = c.entries;
@@ -142,7 +179,8 @@ static void test_a_reference_run_is_the_mean_of_its_seeds(void **state)
     sb_error error = {0};
     const sb_subject *s = sb_subjects;
     while (s->quick_reference <= 0) s++;
-    if (sb_contest_begin(&c, s, &store, true, 2, &error) != SB_OK) fail_msg("%s", error.text);
+    if (sb_contest_begin(&c, s, &store, &(sb_contest_wish){.quick = true, .seeds = 2}, &error) != SB_OK)
+        fail_msg("%s", error.text);
     const sb_entry *e = c.entries;
     assert_null(e[0].choice);
     assert_near(e[0].plan.resolution, s->quick_reference, 0);
@@ -172,6 +210,7 @@ int main(void)
         cmocka_unit_test(test_a_figures_own_error_loses_its_sign),
         cmocka_unit_test(test_errors_of_several_bodies_are_weighted_by_their_load),
         cmocka_unit_test(test_every_choice_is_one),
+        cmocka_unit_test(test_a_part_may_be_wished_for),
         cmocka_unit_test(test_seeds_are_averaged_and_the_front_is_found),
         cmocka_unit_test(test_a_reference_run_is_the_mean_of_its_seeds),
         cmocka_unit_test(test_every_subject_has_spacings_and_errors),

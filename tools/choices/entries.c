@@ -22,9 +22,10 @@ static sb_status read_defaults(const sb_subject *subject, const sb_store *store,
 
 /* The entry stays where it is from here on: its plan points into it. A choice that changes nothing here
    (a factor on a default of 0) is left out: its runs would be those of `default`. */
-static void add(sb_contest *c, const sb_choice *choice, double spacing, bool quick, int seeds,
+static void add(sb_contest *c, const sb_choice *choice, double spacing, const sb_contest_wish *wish,
                 const sb_numerics *defaults)
 {
+    const int seeds = !choice && wish->seeds > 2 ? 2 : wish->seeds;
     sb_entry *e = &c->entries[c->entry_count];
     size_t used = 0;
     *e = (sb_entry){.choice = choice, .first = c->trial_count, .seeds = (size_t)seeds};
@@ -40,33 +41,44 @@ static void add(sb_contest *c, const sb_choice *choice, double spacing, bool qui
     e->plan = (sb_plan){.resolution = spacing, .settings = e->settings};
     for (int seed = 1; seed <= seeds; seed++) {
         sb_request *request = &c->trials[c->trial_count++].request;
-        *request = (sb_request){
-            .of = c->subject->of, .plan = &e->plan, .paper = choice && choice->paper, .quick = quick, .seed = seed};
+        *request = (sb_request){.of = c->subject->of,
+                                .plan = &e->plan,
+                                .paper = choice && choice->paper,
+                                .quick = wish->quick,
+                                .seed = seed};
         snprintf(request->change, sizeof request->change, "%s", e->change);
     }
 }
 
-sb_status sb_contest_begin(sb_contest *c, const sb_subject *subject, const sb_store *store, bool quick, int seeds,
+static bool wanted_at(const sb_contest_wish *wish, const double *spacings, size_t i)
+{
+    if (wish->spacing > 0 && fabs(spacings[i] - wish->spacing) > 1e-6 * wish->spacing) return false;
+    return !wish->spacings || i < (size_t)wish->spacings;
+}
+
+sb_status sb_contest_begin(sb_contest *c, const sb_subject *subject, const sb_store *store, const sb_contest_wish *wish,
                            sb_error *error)
 {
-    const double *spacings = quick ? subject->quick : subject->full;
-    double reference = quick ? subject->quick_reference : subject->full_reference;
-    size_t most = sb_choice_count() * SB_SUBJECT_SPACINGS + 1;
+    const double *spacings = wish->quick ? subject->quick : subject->full;
+    const double reference = wish->quick ? subject->quick_reference : subject->full_reference;
+    const size_t most = sb_choice_count() * SB_SUBJECT_SPACINGS + 1;
+    bool any = false;
     sb_numerics defaults;
     *c = (sb_contest){.subject = subject};
     while (subject->errors[c->error_count].name) c->error_count++;
     sb_status status = read_defaults(subject, store, &defaults, error);
     if (status != SB_OK) return status;
     c->entries = sb_alloc(most, sizeof *c->entries);
-    c->trials = sb_alloc(most * (size_t)seeds, sizeof *c->trials);
+    c->trials = sb_alloc(most * (size_t)wish->seeds, sizeof *c->trials);
     if (!c->entries || !c->trials) {
         sb_contest_free(c);
         return sb_fail_memory(error, "runs");
     }
-    if (reference > 0) add(c, NULL, reference, quick, seeds < 2 ? seeds : 2, &defaults);
+    for (size_t i = 0; spacings[i] > 0; i++) any |= wanted_at(wish, spacings, i);
+    if (reference > 0 && any) add(c, NULL, reference, wish, &defaults);
     for (size_t i = 0; spacings[i] > 0; i++)
-        for (const sb_choice *choice = sb_choices; choice->name; choice++)
-            if (choice->quick || !quick) add(c, choice, spacings[i], quick, seeds, &defaults);
+        for (const sb_choice *choice = sb_choices; choice->name && wanted_at(wish, spacings, i); choice++)
+            if (choice->quick || !(wish->quick || wish->few)) add(c, choice, spacings[i], wish, &defaults);
     return SB_OK;
 }
 

@@ -12,8 +12,9 @@ enum { SUBJECTS = 16 };
 
 typedef struct options {
     const char *out, *report, *program;
-    bool quick, report_only, list, help;
-    int seeds, jobs;
+    bool report_only, list, help;
+    sb_contest_wish wish;
+    int jobs;
     const sb_subject *subjects[SUBJECTS];
     size_t subject_count;
     char command[512];
@@ -24,6 +25,9 @@ static const char help[] =
     "Runs scenes that have a reference with many choices of solver and parameters, and tells what\n"
     "each costs and what error it leaves. All scenes when none is named.\n\n"
     "  --quick          fewer choices at coarse spacings, one seed; the report goes to OUT/quick\n"
+    "  --few            those choices at the full form's spacings\n"
+    "  --spacings N     the N coarsest spacings of each scene alone\n"
+    "  --spacing R      this spacing alone, in m, and what it is held against\n"
     "  --list           names scenes and choices\n"
     "  --seeds N        start seeds of every run (3; quick: 1)\n"
     "  --jobs N         N runs at a time with one thread each, compared by processor time; 1: one\n"
@@ -50,10 +54,13 @@ static sb_status take_subject(void *user, const char *name, sb_error *error)
 static sb_status parse(int count, char **arguments, options *o, sb_error *error)
 {
     *o = (options){.command = "tools/tradeoff"};
-    const sb_argument table[] = {{.name = "--quick", .flag = &o->quick, .telling = true},
+    const sb_argument table[] = {{.name = "--quick", .flag = &o->wish.quick, .telling = true},
+                                 {.name = "--few", .flag = &o->wish.few, .telling = true},
+                                 {.name = "--spacings", .count = &o->wish.spacings, .most = 64, .telling = true},
+                                 {.name = "--spacing", .number = &o->wish.spacing, .most = 1e6, .telling = true},
                                  {.name = "--report-only", .flag = &o->report_only},
                                  {.name = "--list", .flag = &o->list},
-                                 {.name = "--seeds", .count = &o->seeds, .most = SB_ENTRY_SEEDS, .telling = true},
+                                 {.name = "--seeds", .count = &o->wish.seeds, .most = SB_ENTRY_SEEDS, .telling = true},
                                  {.name = "--jobs", .count = &o->jobs, .most = 256, .telling = true},
                                  {.name = "--out", .text = &o->out},
                                  {.name = "--report", .text = &o->report},
@@ -66,8 +73,8 @@ static sb_status parse(int count, char **arguments, options *o, sb_error *error)
                                   .command = o->command,
                                   .command_size = sizeof o->command};
     sb_status status = sb_command_line_read(&line, count, arguments, error);
-    if (!o->seeds) o->seeds = o->quick ? 1 : 3;
-    if (!o->jobs) o->jobs = o->quick ? (int)sysconf(_SC_NPROCESSORS_ONLN) : 1;
+    if (!o->wish.seeds) o->wish.seeds = o->wish.quick ? 1 : 3;
+    if (!o->jobs) o->jobs = o->wish.quick ? (int)sysconf(_SC_NPROCESSORS_ONLN) : 1;
     if (!o->subject_count)
         for (const sb_subject *s = sb_subjects; s->name; s++) o->subjects[o->subject_count++] = s;
     return status;
@@ -81,18 +88,19 @@ static void list(void)
     for (const sb_choice *c = sb_choices; c->name; c++) printf("%c %s\n", c->quick ? '*' : ' ', c->name);
 }
 
-static sb_status report(const options *o, const sb_store *store, const sb_contest *contests, sb_error *error)
+static sb_status report(const options *o, const sb_store *store, const sb_contest *contests, size_t count,
+                        sb_error *error)
 {
     char folder[SB_PATH_MAX];
     const sb_contest_report what = {.store = store,
                                     .contests = contests,
-                                    .count = o->subject_count,
+                                    .count = count,
                                     .command = o->command,
-                                    .quick = o->quick,
+                                    .quick = o->wish.quick,
                                     .cpu = o->jobs > 1};
     sb_status status = SB_OK;
     snprintf(folder, sizeof folder, "%s", o->report ? o->report : SB_SOURCE_DIR "/docs/results");
-    if (o->quick && !o->report) status = sb_path_join(folder, store->out, "quick", error);
+    if (o->wish.quick && !o->report) status = sb_path_join(folder, store->out, "quick", error);
     if (status == SB_OK) status = sb_contest_write(&what, folder, error);
     if (status == SB_OK) printf("%s/tradeoff.md\n", folder);
     return status;
@@ -101,18 +109,27 @@ static sb_status report(const options *o, const sb_store *store, const sb_contes
 static sb_status run(const options *o, sb_contest *contests, size_t *failed, sb_error *error)
 {
     sb_store store;
+    size_t count = 0;
     sb_status status =
         sb_trials_store(&store, o->out ? o->out : SB_SOURCE_DIR "/build/tradeoff", o->program, SB_SOURCE_DIR, error);
-    for (size_t i = 0; status == SB_OK && i < o->subject_count; i++)
-        status = sb_contest_begin(&contests[i], o->subjects[i], &store, o->quick, o->seeds, error);
     for (size_t i = 0; status == SB_OK && i < o->subject_count; i++) {
+        status = sb_contest_begin(&contests[count], o->subjects[i], &store, &o->wish, error);
+        if (status == SB_OK && contests[count].trial_count > 0)
+            count++;
+        else
+            sb_contest_free(&contests[count]);
+    }
+    if (status == SB_OK && count == 0)
+        status = sb_fail(error, SB_BAD_INPUT, "--spacing %g: none of these scenes has it, expected one of theirs (m)",
+                         o->wish.spacing);
+    for (size_t i = 0; status == SB_OK && i < count; i++) {
         size_t these = 0;
         status =
             sb_trials_make(&store, contests[i].trials, contests[i].trial_count, o->jobs, o->report_only, &these, error);
         *failed += these;
         if (status == SB_OK) status = sb_contest_judge(&contests[i], o->jobs > 1, error);
     }
-    return status == SB_OK ? report(o, &store, contests, error) : status;
+    return status == SB_OK ? report(o, &store, contests, count, error) : status;
 }
 
 int main(int count, char **arguments)
