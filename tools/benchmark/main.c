@@ -16,9 +16,9 @@ static void warn_of_others(double others)
         fprintf(stderr, "bench: warning: other programs keep %.1f cores busy: times are not to be trusted\n", others);
 }
 
-/* Measures one section and writes its table. */
+/* Measures one section and writes its table. whence: machine, compiler, commit. */
 static sb_status measure(const sb_bench_section *section, const sb_bench_request *request, const char *folder,
-                         sb_error *error)
+                         const char *whence, sb_error *error)
 {
     char path[SB_PATH_MAX], name[SB_BENCH_NAME], origin[2048];
     sb_bench_rows rows = {0};
@@ -28,12 +28,11 @@ static sb_status measure(const sb_bench_section *section, const sb_bench_request
     sb_status status = section->run(request, &rows, error);
     const sb_bench_clock to = sb_bench_clock_now();
     const double others = sb_bench_others(from, to);
-    sb_bench_origin(origin, sizeof origin, SB_SOURCE_DIR);
-    const size_t used = strlen(origin);
-    snprintf(origin + used, sizeof origin - used,
-             "measured: %d threads, %d repeats (whole runs: one)%s; load average before %.2f; other programs kept %.2f "
-             "cores busy\n",
-             request->threads, request->repeats, request->quick ? SB_BENCH_QUICKLY : "", load, others);
+    snprintf(
+        origin, sizeof origin,
+        "%smeasured: %d threads, %d repeats (whole runs: one)%s; load average before %.2f; other programs kept %.2f "
+        "cores busy\n",
+        whence, request->threads, request->repeats, request->quick ? SB_BENCH_QUICKLY : "", load, others);
     fputs(origin, stdout);
     warn_of_others(others);
     snprintf(name, sizeof name, "%s.csv", section->name);
@@ -46,14 +45,15 @@ static sb_status measure(const sb_bench_section *section, const sb_bench_request
 
 static sb_status bench(const sb_bench_options *o, sb_error *error)
 {
-    char folder[SB_PATH_MAX];
+    char folder[SB_PATH_MAX], whence[1024];
     const char *out = o->out ? o->out : o->quick ? SB_SOURCE_DIR "/build/bench" : SB_SOURCE_DIR "/docs/results";
     const sb_bench_request request = {
         .assets = SB_SOURCE_DIR "/assets", .repeats = o->repeats, .threads = o->threads, .quick = o->quick};
     sb_status status = sb_path_join(folder, out, "bench", error);
     if (status == SB_OK) status = sb_make_directories(folder, error);
+    sb_bench_origin(whence, sizeof whence, SB_SOURCE_DIR); /* before tables change what git sees */
     for (size_t s = 0; s < o->count && status == SB_OK && !o->report_only; s++)
-        status = measure(o->sections[s], &request, folder, error);
+        status = measure(o->sections[s], &request, folder, whence, error);
     if (status == SB_OK) status = sb_bench_report(out, error);
     if (status == SB_OK) printf("%s/benchmarks.md\n", out);
     return status;
