@@ -8,10 +8,9 @@
    from one particle to the next is what keeps the packing in order. E has no trace, so five numbers hold it. */
 #include "sim/packing.h"
 
-#include "sim/around.h"
+#include "sim/eights.h"
 #include "sim/ledger.h"
 #include "sim/pressure.h"
-#include "sim/simd_wide.h"
 
 enum { GROUPS = 8 }; /* per unit of work */
 
@@ -135,18 +134,25 @@ static void push(sb_sim *sim, const sb_group *group, float dt)
         const sb_f4 self = sb_in_group(sim, group, i), own = sim->acceleration[i];
         const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
         sb_f4 sum_x = {0}, sum_y = {0}, sum_z = {0};
-        for (; four < end; four++) {
+        for (; four < end; four += 2) {
+            const bool two = four + 1 < end;
+            const sb_four_pairs *other = two ? four + 1 : four;
             sb_ask_ahead(four);
-            const sb_f4 *a = sb_at_with(around, four->place[0]), *b = sb_at_with(around, four->place[1]);
-            const sb_f4 *c = sb_at_with(around, four->place[2]), *e = sb_at_with(around, four->place[3]);
-            const sb_four d = sb_turn(self - a[0], self - b[0], self - c[0], self - e[0]);
-            const sb_four s = sb_turn(own + a[1], own + b[1], own + c[1], own + e[1]);
-            const sb_f4 xx = sb_splat(self[3]) + (sb_f4){a[0][3], b[0][3], c[0][3], e[0][3]};
-            const sb_f4 yy = s.x, xy = s.y, xz = s.z, yz = s.w, slope = sb_slopes(four);
-            const sb_f4 x = d.x * slope, y = d.y * slope, z = d.z * slope;
-            sum_x += xx * x + xy * y + xz * z;
-            sum_y += xy * x + yy * y + yz * z;
-            sum_z += xz * x + yz * y - (xx + yy) * z;
+            const sb_eight at = sb_eight_with(around, four, other, 0), s = sb_eight_with(around, four, other, 1);
+            const sb_f8 slope = sb_eight_slopes(four, other);
+            const sb_f8 x = (sb_spread(self, 0) - at.x) * slope, y = (sb_spread(self, 1) - at.y) * slope;
+            const sb_f8 z = (sb_spread(self, 2) - at.z) * slope;
+            const sb_f8 xx = sb_spread(self, 3) + at.w, yy = sb_spread(own, 0) + s.x, xy = sb_spread(own, 1) + s.y;
+            const sb_f8 xz = sb_spread(own, 2) + s.z, yz = sb_spread(own, 3) + s.w;
+            const sb_f8 a_x = xx * x + xy * y + xz * z, a_y = xy * x + yy * y + yz * z;
+            const sb_f8 a_z = xz * x + yz * y - (xx + yy) * z;
+            sum_x += sb_first4(a_x);
+            sum_y += sb_first4(a_y);
+            sum_z += sb_first4(a_z);
+            if (!two) break;
+            sum_x += sb_second4(a_x);
+            sum_y += sb_second4(a_y);
+            sum_z += sb_second4(a_z);
         }
         const sb_four t = sb_turn(sum_x, sum_y, sum_z, (sb_f4){0});
         next[i] -= (t.x + t.y + t.z + t.w) * sb_splat(dt * sim->pairs.unit);

@@ -1,5 +1,5 @@
 /* v* = v + dt (g + Monaghan viscosity [S16, eq. 14] + physical and eddy viscosity + friction and shear of walls). */
-#include "sim/around.h"
+#include "sim/eights.h"
 #include "sim/friction.h"
 #include "sim/pressure.h"
 #include "sim/sleep.h"
@@ -29,36 +29,63 @@ static factors make_factors(const sb_sim *sim)
     };
 }
 
-/* -sum_j m Pi_ij grad W_ij, four neighbours at a time; around: sb_around_with velocities, the records carrying the
-   densities. x . v and r^2 are in quanta, their quotient brought back by 1/quantum. eddies: sim->eddy stands in the
-   velocities' last lane. first: neighbours before that place are left out. */
+/* What a particle brings into its pairs, in every lane. */
+typedef struct own_part {
+    sb_f8 x, y, z, density;
+    sb_f8 u, v, w, eddy;
+} own_part;
+
+/* Eight neighbours: how far off, and what that is multiplied by. */
+typedef struct eight_pairs {
+    sb_f8 x, y, z, pi;
+} eight_pairs;
+
+SB_INLINE sb_i4 places_of(const sb_four_pairs *four)
+{
+    return (sb_i4){four->place[0], four->place[1], four->place[2], four->place[3]};
+}
+
+SB_INLINE eight_pairs find_pairs(const own_part *own, const sb_f4 *around, const sb_four_pairs *one,
+                                 const sb_four_pairs *other, const factors *f, bool eddies, uint32_t first)
+{
+    const sb_eight at = sb_eight_with(around, one, other, 0), of = sb_eight_with(around, one, other, 1);
+    const sb_f8 x = own->x - at.x, y = own->y - at.y, z = own->z - at.z;
+    const sb_f8 u = own->u - of.x, v = own->v - of.y, w = own->w - of.z;
+    sb_f8 weight = sb_eight_slopes(one, other);
+    if (first > 0) {
+        const sb_i4 a = places_of(one), b = places_of(other);
+        weight = sb_select8(__builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7) >= (int)first, weight, (sb_f8){0});
+    }
+    const sb_f8 approach = u * x + v * y + w * z;
+    const sb_f8 r2 = x * x + y * y + z * z;
+    sb_f8 physical = sb_splat8(f->physical);
+    if (eddies) physical += (own->eddy + of.w) * sb_splat8(f->eddy);
+    const sb_f8 factor = sb_select8(approach < (sb_f8){0}, physical + sb_splat8(f->artificial), physical);
+    const sb_f8 both = own->density + at.w;
+    return (eight_pairs){x, y, z, factor * approach * weight / ((r2 + sb_splat8(f->epsilon)) * both)};
+}
+
+/* -sum_j m Pi_ij grad W_ij, eight neighbours at a time, added up four after four; around: sb_around_with velocities,
+   the records carrying the densities. x . v and r^2 are in quanta, their quotient brought back by 1/quantum. eddies:
+   sim->eddy stands in the velocities' last lane. first: neighbours before that place are left out. */
 SB_INLINE sb_f4 fluid_part(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i, const factors *f,
                            bool eddies, uint32_t first)
 {
-    const sb_f4 self = sb_in_group(sim, group, i), v = sim->velocity[i];
-    const sb_f4 own_density = sb_splat(self[3]), epsilon = sb_splat(f->epsilon);
+    const sb_f4 at = sb_in_group(sim, group, i), of = sim->velocity[i];
+    const own_part own = {sb_spread(at, 0), sb_spread(at, 1), sb_spread(at, 2), sb_spread(at, 3),
+                          sb_spread(of, 0), sb_spread(of, 1), sb_spread(of, 2), sb_splat8(eddies ? sim->eddy[i] : 0)};
     const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
     sb_f4 x = {0}, y = {0}, z = {0};
-    for (; four < end; four++) {
-        const sb_f4 *a = sb_at_with(around, four->place[0]), *b = sb_at_with(around, four->place[1]);
-        const sb_f4 *c = sb_at_with(around, four->place[2]), *e = sb_at_with(around, four->place[3]);
-        const sb_four d = sb_turn(self - a[0], self - b[0], self - c[0], self - e[0]);
-        const sb_four u = sb_turn(v - a[1], v - b[1], v - c[1], v - e[1]);
-        const sb_f4 density = {a[0][3], b[0][3], c[0][3], e[0][3]};
-        sb_f4 weight = sb_slopes(four);
-        if (first > 0)
-            weight = sb_select((sb_i4){four->place[0], four->place[1], four->place[2], four->place[3]} >= (int)first,
-                               weight, (sb_f4){0});
-        sb_f4 approach = u.x * d.x + u.y * d.y + u.z * d.z;
-        sb_f4 r2 = d.x * d.x + d.y * d.y + d.z * d.z;
-        sb_f4 physical = sb_splat(f->physical);
-        if (eddies)
-            physical += (sb_splat(sim->eddy[i]) + (sb_f4){a[1][3], b[1][3], c[1][3], e[1][3]}) * sb_splat(f->eddy);
-        sb_f4 factor = sb_select(approach < (sb_f4){0}, physical + sb_splat(f->artificial), physical);
-        sb_f4 pi = factor * approach * weight / ((r2 + epsilon) * (own_density + density));
-        x += d.x * pi;
-        y += d.y * pi;
-        z += d.z * pi;
+    for (; four < end; four += 2) {
+        const bool two = four + 1 < end;
+        const eight_pairs e = find_pairs(&own, around, four, two ? four + 1 : four, f, eddies, first);
+        x += sb_first4(e.x) * sb_first4(e.pi);
+        y += sb_first4(e.y) * sb_first4(e.pi);
+        z += sb_first4(e.z) * sb_first4(e.pi);
+        if (!two) break;
+        x += sb_second4(e.x) * sb_second4(e.pi);
+        y += sb_second4(e.y) * sb_second4(e.pi);
+        z += sb_second4(e.z) * sb_second4(e.pi);
     }
     const sb_four sum = sb_turn(x, y, z, (sb_f4){0});
     return (sum.x + sum.y + sum.z + sum.w) * sb_splat(sim->pairs.unit * f->inverse_quantum);
