@@ -21,6 +21,32 @@ sb_status sb_checkpoint_path(const run *r, uint64_t step, char path[SB_PATH_MAX]
     return sb_path_join(path, r->checkpoints.folder, name, error);
 }
 
+sb_status sb_checkpoint_settling_path(const run *r, char path[SB_PATH_MAX], sb_error *error)
+{
+    return sb_path_join(path, r->checkpoints.folder, SB_CHECKPOINT_SETTLING SB_CHECKPOINT_SUFFIX, error);
+}
+
+bool sb_checkpoint_settling_there(const run *r)
+{
+    char path[SB_PATH_MAX];
+    return sb_checkpoint_settling_path(r, path, NULL) == SB_OK && access(path, F_OK) == 0;
+}
+
+/* And one that was being written when its run was killed. */
+static sb_status remove_settling(const run *r, sb_error *error)
+{
+    static const char *const names[] = {SB_CHECKPOINT_SETTLING SB_CHECKPOINT_SUFFIX,
+                                        SB_CHECKPOINT_SETTLING SB_CHECKPOINT_SUFFIX ".tmp"};
+    char path[SB_PATH_MAX];
+    sb_status status = SB_OK;
+    for (size_t k = 0; status == SB_OK && k < sizeof names / sizeof *names; k++) {
+        status = sb_path_join(path, r->checkpoints.folder, names[k], error);
+        if (status == SB_OK && unlink(path) != 0 && errno != ENOENT && errno != ENOTDIR)
+            status = sb_fail(error, SB_FAILED, "%.500s: cannot remove: %s", path, strerror(errno));
+    }
+    return status;
+}
+
 static int newest_first(const void *left, const void *right)
 {
     const uint64_t a = *(const uint64_t *)left, b = *(const uint64_t *)right;
@@ -89,6 +115,7 @@ static sb_status remove_older(const run *r, size_t keep, sb_error *error)
 sb_status sb_checkpoint_remove_all(run *r, sb_error *error)
 {
     sb_status status = remove_older(r, 0, error);
+    if (status == SB_OK) status = remove_settling(r, error);
     /* And one that was being written when its run was killed. */
     return status == SB_OK ? sb_remove_numbered(r->checkpoints.folder, SB_CHECKPOINT_SUFFIX, 0, error) : status;
 }
@@ -132,22 +159,25 @@ void sb_checkpoint_end(run *r)
 
 /* ---- writing ---- */
 
-bool sb_checkpoint_due(const run *r)
+bool sb_checkpoint_due(const run *r, uint64_t step)
 {
     const sb_checkpoint_settings *wish = &r->scene->output.checkpoint;
-    const uint64_t step = sb_sim_report(r->sim)->step;
     return (wish->steps > 0 && step % (uint64_t)wish->steps == 0) ||
            (wish->minutes > 0 && sb_clock() - r->checkpoints.written >= 60 * wish->minutes);
 }
 
-static void put_run(run *r, const sb_csv_marks *tables, sb_archive_out *out)
+static void put_origin(const run *r, sb_archive_out *out)
 {
-    const sb_energy *first = &r->first_energy;
     sb_archive_section(out, SB_CHECKPOINT_SCENE);
     sb_put_text(out, SB_VERSION);
     sb_put_text(out, r->checkpoints.build);
     sb_put_text(out, r->checkpoints.identity);
     sb_put_count(out, r->checkpoints.model);
+}
+
+static void put_run(run *r, const sb_csv_marks *tables, sb_archive_out *out)
+{
+    const sb_energy *first = &r->first_energy;
     sb_archive_section(out, SB_CHECKPOINT_RUN);
     sb_spent_save(r, out);
     sb_put_count(out, r->iterations);
@@ -199,6 +229,7 @@ static sb_status write_now(run *r, char path[SB_PATH_MAX], size_t *bytes, sb_err
     if (status == SB_OK) status = sb_checkpoint_path(r, sb_sim_report(r->sim)->step, path, error);
     if (status == SB_OK) status = sb_archive_create(&out, path, SB_CHECKPOINT_KIND, SB_CHECKPOINT_FORMAT, error);
     if (status != SB_OK) return status;
+    put_origin(r, &out);
     put_run(r, &tables, &out);
     sb_sim_save(r->sim, &out);
     sb_measure_save(r->measure, &out);
@@ -225,5 +256,47 @@ void sb_checkpoint_write(run *r)
     }
     sb_runlog_event(r->log, "checkpoint", "step %" PRIu64 ", t = %.9g s, %zu bytes in %.3f s: %.500s", report->step,
                     report->time, bytes, c->written - start, strrchr(path, '/') + 1);
-    if (remove_older(r, (size_t)r->scene->output.checkpoint.keep, &reason) != SB_OK) sb_run_warn(r, "%s", reason.text);
+    sb_status removed = remove_older(r, (size_t)r->scene->output.checkpoint.keep, &reason);
+    if (removed == SB_OK) removed = remove_settling(r, &reason);
+    if (removed != SB_OK) sb_run_warn(r, "%s", reason.text);
+}
+
+/* ---- while the water comes to rest ---- */
+
+static sb_status write_settling(const run *r, size_t *bytes, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    sb_archive_out out = {0};
+    sb_status status = sb_checkpoint_settling_path(r, path, error);
+    if (status == SB_OK) status = sb_archive_create(&out, path, SB_CHECKPOINT_KIND, SB_CHECKPOINT_FORMAT, error);
+    if (status != SB_OK) return status;
+    put_origin(r, &out);
+    sb_archive_section(&out, SB_CHECKPOINT_SETTLING);
+    sb_spent_save(r, &out);
+    sb_sim_save(r->sim, &out);
+    status = sb_archive_close(&out, error);
+    *bytes = out.used;
+    return status;
+}
+
+void sb_checkpoint_write_settling(run *r)
+{
+    sb_checkpoints *c = &r->checkpoints;
+    sb_error reason = {0};
+    size_t bytes = 0;
+    int done;
+    if (!c->on || !sb_sim_settling(r->sim, &done)) return;
+    const double start = sb_clock();
+    const sb_spent before = r->before; /* what is saved counts all that was spent so far as settling's */
+    r->settling_seconds = sb_progress_wall(&r->progress) - r->setup_seconds;
+    sb_spent_settled(r);
+    const sb_status status = write_settling(r, &bytes, &reason);
+    r->before = before;
+    c->written = sb_clock();
+    c->settling = status == SB_OK;
+    if (status == SB_OK)
+        sb_runlog_event(r->log, "checkpoint", "settling, step %d, %zu bytes in %.3f s: settling.state", done, bytes,
+                        c->written - start);
+    else
+        sb_run_warn(r, "no checkpoint while the water comes to rest, the run goes on: %s", reason.text);
 }

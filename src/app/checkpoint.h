@@ -1,4 +1,5 @@
-/* Checkpoints of a run: DIR/checkpoints/<step>.state, from which --resume goes on bit for bit (docs/checkpoints.md).
+/* Checkpoints of a run: DIR/checkpoints/<step>.state, and settling.state before the first of them, from which --resume
+   goes on bit for bit (docs/checkpoints.md).
    Writing one reads the run only; nothing that it does can fail the run. */
 #ifndef SB_APP_CHECKPOINT_H
 #define SB_APP_CHECKPOINT_H
@@ -21,6 +22,7 @@ typedef struct sb_checkpoints {
     double written;            /* s on the clock, of the last attempt */
     uint64_t steps_then;       /* step of the last one */
     bool current;              /* there is one of steps_then */
+    bool settling;             /* the last one written is of the water that comes to rest */
 } sb_checkpoints;
 
 /* Where they go, and whether the scene wants any. */
@@ -35,12 +37,23 @@ sb_status sb_checkpoint_remove_all(run *r, sb_error *error);
 /* Once scene and model are final: what they are told apart by. */
 sb_status sb_checkpoint_identify(run *r, sb_error *error);
 
-/* Whether one is due: by steps, or by the wall clock, which decides when to look at the state and nothing else. */
-bool sb_checkpoint_due(const run *r);
+/* Whether one is due at this step: by steps, or by the wall clock, which decides when to look at the state and nothing
+   else. */
+bool sb_checkpoint_due(const run *r, uint64_t step);
 
 /* Saves the state between two steps and removes the oldest but the last K; a failure is a warning, and those written
    before stay. Does nothing when they are off, or when this step has one. */
 void sb_checkpoint_write(run *r);
+
+/* The same while the water comes to rest, when there are no tables, frames or measurements yet. Goes with the first
+   checkpoint of a step. */
+void sb_checkpoint_write_settling(run *r);
+
+/* Whether there is one of those. */
+bool sb_checkpoint_settling_there(const run *r);
+
+/* Loads it into a simulation just made. Statuses as sb_checkpoint_load. */
+sb_status sb_checkpoint_load_settling(run *r, sb_error *error);
 
 /* Loads the newest checkpoint that is whole and of this program, build, scene and model into the run's simulation,
    measurements and counters; says why others were refused. Touches no file. SB_BAD_INPUT when none can be used,

@@ -68,7 +68,7 @@ static sb_status one_step(run *r, sb_error *error)
     sb_missed_tell(r);
     if (report->step % LOG_STEPS == 0) sb_run_log_step(r);
     if (status == SB_OK) status = sb_runlog_check(r->log, error);
-    if (status == SB_OK && sb_checkpoint_due(r)) sb_checkpoint_write(r);
+    if (status == SB_OK && sb_checkpoint_due(r, report->step)) sb_checkpoint_write(r);
     sb_progress_update(&r->progress, report);
     return status;
 }
@@ -106,13 +106,17 @@ static void print_profile(const run *r)
     sb_profile_print(stdout, &profile);
 }
 
-/* A run that was stopped says how to go on. */
+/* A run that was stopped says how to go on; one whose water had not come to rest yet, too. */
 static void save_at_end(run *r, sb_status status, sb_error *error)
 {
-    if (status != SB_OK && status != SB_INTERRUPTED) return;
-    sb_checkpoint_write(r);
+    int done;
+    if (!r->sim || (status != SB_OK && status != SB_INTERRUPTED)) return;
+    if (sb_sim_settling(r->sim, &done))
+        sb_checkpoint_write_settling(r);
+    else if (r->csv)
+        sb_checkpoint_write(r);
     const size_t length = strlen(error->text);
-    if (status == SB_INTERRUPTED && r->checkpoints.current)
+    if (status == SB_INTERRUPTED && (r->checkpoints.current || r->checkpoints.settling))
         snprintf(error->text + length, sizeof error->text - length,
                  "; to go on: shorebreak run %.200s/scene.yaml --out %.200s --resume", r->directory, r->directory);
 }
@@ -126,10 +130,8 @@ sb_status sb_run(const sb_scene *scene, const char *directory, const sb_run_mann
     sb_progress_begin(&r.progress, manner->quiet ? NULL : stdout, scene->duration);
     sb_stop_watch();
     sb_status status = sb_run_start(&r, manner->resume, &local);
-    if (status == SB_OK) {
-        status = advance(&r, &local);
-        save_at_end(&r, status, &local);
-    }
+    if (status == SB_OK) status = advance(&r, &local);
+    save_at_end(&r, status, &local);
     sb_run_finish(&r, &status, &local);
     if (manner->profile && r.sim) print_profile(&r);
     sb_checkpoint_end(&r);

@@ -16,14 +16,22 @@ static sb_status write_scene(const run *r, sb_error *error)
     return status == SB_OK ? sb_scene_write(r->scene, path, error) : status;
 }
 
+/* What a run begins from. */
+typedef enum origin {
+    NOTHING,    /* a new run */
+    SETTLING,   /* water that was coming to rest, and nothing measured yet */
+    CHECKPOINT, /* a step */
+} origin;
+
 /* Without a checkpoint there is nothing to go on from. */
-static sb_status look_for_checkpoints(run *r, bool *resume, sb_error *error)
+static sb_status look_for_checkpoints(const run *r, bool resume, origin *from, sb_error *error)
 {
     size_t found = 0;
-    sb_status status = *resume ? sb_checkpoint_count(r, &found, error) : SB_OK;
-    if (status == SB_OK && *resume && found == 0) {
+    sb_status status = resume ? sb_checkpoint_count(r, &found, error) : SB_OK;
+    *from = !resume || status != SB_OK ? NOTHING : found > 0 ? CHECKPOINT : SETTLING;
+    if (*from == SETTLING && !sb_checkpoint_settling_there(r)) {
         sb_run_say(r, "%s: no checkpoint to go on from, so the run starts from the beginning", r->directory);
-        *resume = false;
+        *from = NOTHING;
     }
     return status;
 }
@@ -39,12 +47,12 @@ static sb_status clear_earlier_run(run *r, sb_error *error)
 }
 
 /* Two runs in one directory would spoil each other's files. */
-static sb_status open_directory(run *r, bool *resume, sb_error *error)
+static sb_status open_directory(run *r, bool resume, origin *from, sb_error *error)
 {
     sb_status status = sb_make_directories(r->directory, error);
     if (status == SB_OK) status = sb_lock_directory(r->directory, "a directory of its own", &r->lock, error);
     if (status == SB_OK) status = sb_checkpoint_begin(r, error);
-    return status == SB_OK ? look_for_checkpoints(r, resume, error) : status;
+    return status == SB_OK ? look_for_checkpoints(r, resume, from, error) : status;
 }
 
 /* The files of an earlier run go once there is a simulation to run, unless this one goes on with them. */
@@ -140,6 +148,23 @@ static sb_status make_simulation(run *r, bool resume, sb_error *error)
     return status == SB_OK ? sb_run_folders_free(r, error) : status;
 }
 
+/* What settling has done so far is taken if it can be; if not, it can be done again. */
+static sb_status take_settling(run *r, origin *from, sb_error *error)
+{
+    sb_error reason = {0};
+    const sb_status found = sb_checkpoint_load_settling(r, &reason);
+    if (found == SB_OK) return SB_OK;
+    if (found != SB_BAD_INPUT) {
+        if (error) *error = reason;
+        return found;
+    }
+    sb_run_warn(r, "%s; the run starts from the beginning", reason.text);
+    *from = NOTHING;
+    sb_sim_destroy(r->sim);
+    r->sim = NULL;
+    return make_simulation(r, false, error);
+}
+
 static void warn(void *context, const char *text)
 {
     sb_run_warn(context, "%s", text);
@@ -159,11 +184,18 @@ static void note_start(run *r)
     r->setup_seconds = sb_progress_wall(&r->progress);
 }
 
+static void watch_settling(void *context, int done, int most, double speed)
+{
+    run *r = context;
+    sb_progress_settling(&r->progress, done, most, speed);
+    if (sb_checkpoint_due(r, (uint64_t)done)) sb_checkpoint_write_settling(r);
+}
+
 /* Water at rest, tables with their first rows. */
 static sb_status begin(run *r, sb_error *error)
 {
     if (sb_sim_settles(r->scene)) sb_run_say(r, "settling");
-    sb_status status = sb_sim_settle_watched(r->sim, sb_progress_settling, &r->progress, error);
+    sb_status status = sb_sim_settle_watched(r->sim, watch_settling, r, error);
     sb_progress_settled(&r->progress);
     r->settling_seconds = sb_progress_wall(&r->progress) - r->setup_seconds;
     sb_spent_settled(r);
@@ -232,17 +264,33 @@ static sb_status go_on(run *r, sb_error *error)
     return status == SB_OK ? start_consumers(r, error) : status;
 }
 
+/* The log has the rest from the process that began. */
+static void note_settling(run *r)
+{
+    int done;
+    sb_sim_settling(r->sim, &done);
+    sb_run_say(r, "going on from step %d of the settling before t = 0", done);
+    sb_runlog_event(r->log, "resumed", "step %d of settling, with %d threads, state %016llx", done,
+                    omp_get_max_threads(), (unsigned long long)sb_sim_hash(r->sim));
+    r->setup_seconds = sb_progress_wall(&r->progress);
+}
+
 sb_status sb_run_start(run *r, bool resume, sb_error *error)
 {
-    sb_status status = open_directory(r, &resume, error);
-    if (status == SB_OK) status = build_model(r, resume, error);
-    if (status == SB_OK) status = make_simulation(r, resume, error);
-    if (status == SB_OK) status = take_directory(r, resume, error);
+    origin from = NOTHING;
+    sb_status status = open_directory(r, resume, &from, error);
+    if (status == SB_OK) status = build_model(r, from != NOTHING, error);
+    if (status == SB_OK) status = make_simulation(r, from != NOTHING, error);
+    if (status == SB_OK && from == SETTLING) status = take_settling(r, &from, error);
+    if (status == SB_OK) status = take_directory(r, from != NOTHING, error);
     name_consumers(r);
-    if (status == SB_OK && !resume) status = start_consumers(r, error);
+    if (status == SB_OK && from != CHECKPOINT) status = start_consumers(r, error);
     if (status != SB_OK) return give_up(r, status);
     sb_model_forget_start(&r->model);
-    if (resume) return go_on(r, error);
-    note_start(r);
+    if (from == CHECKPOINT) return go_on(r, error);
+    if (from == SETTLING)
+        note_settling(r);
+    else
+        note_start(r);
     return begin(r, error);
 }

@@ -37,10 +37,42 @@ static void take_report(sb_archive_in *in, sb_step_report *r)
                           r->max_speed);
 }
 
+static void put_settle(sb_archive_out *out, const sb_settle *settle)
+{
+    sb_put_flag(out, settle->under_way);
+    if (!settle->under_way) return;
+    const int counts[] = {settle->done, settle->most, settle->turn, settle->calm};
+    for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) sb_put_real(out, counts[k]);
+    sb_put_real(out, settle->kinetic);
+}
+
+/* A whole number within +-2^30. */
+static int take_steps(sb_archive_in *in)
+{
+    const double value = sb_take_real(in);
+    if (fabs(value) <= 0x1p30 && value == floor(value)) return (int)value;
+    sb_archive_refuse(in, "%g steps of settling, expected a whole number", value);
+    return 0;
+}
+
+static void take_settle(sb_archive_in *in, const sb_scene *scene, sb_settle *settle)
+{
+    *settle = (sb_settle){.under_way = sb_take_flag(in)};
+    if (!settle->under_way) return;
+    settle->done = take_steps(in);
+    settle->most = take_steps(in);
+    settle->turn = take_steps(in);
+    settle->calm = take_steps(in);
+    settle->kinetic = sb_take_real(in);
+    if (!sb_sim_settles(scene) || settle->done < 0 || settle->calm < 0 || isnan(settle->kinetic))
+        sb_archive_refuse(in, "settling at step %d: expected none, or a step of it", settle->done);
+}
+
 void sb_sim_save(const sb_sim *sim, sb_archive_out *out)
 {
     sb_archive_section(out, SECTION);
     put_report(out, &sim->report);
+    put_settle(out, &sim->settle);
     sb_put_count(out, sim->left_domain);
     sb_put_count(out, sim->lost);
     sb_departures_save(sim, out);
@@ -114,6 +146,7 @@ sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
     sb_status status = sb_archive_enter(in, SECTION, error);
     if (status != SB_OK) return status;
     take_report(in, &sim->report);
+    take_settle(in, sim->scene, &sim->settle);
     sim->left_domain = sim->report.left_domain = sb_take_count(in, UINT64_MAX);
     sim->lost = sim->report.lost = sb_take_count(in, UINT64_MAX);
     sb_departures_load(sim, in);

@@ -79,48 +79,87 @@ static sb_status poise(sb_sim *sim, sb_error *error)
     return status;
 }
 
+bool sb_sim_settling(const sb_sim *sim, int *done)
+{
+    *done = sim->settle.done;
+    return sim->settle.under_way;
+}
+
 sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
 {
     return sb_sim_settle_watched(sim, NULL, NULL, error);
 }
 
-sb_status sb_sim_settle_watched(sb_sim *sim, sb_settle_watch *watch, void *context, sb_error *error)
+static sb_status begin(sb_sim *sim, sb_error *error)
 {
-    if (!sb_sim_settles(sim->scene)) return SB_OK;
+    const int steps = sim->scene->numerics.settle_steps;
     const bool boxes = sim->scene->box_count > 0;
-    const double calm = CALM * (double)sim->constant.wave_speed;
-    int steps = sim->scene->numerics.settle_steps, still = 0;
-    int turn = steps - CALM_LAST;     /* where the last ones begin */
-    double before = (double)INFINITY; /* J, kinetic energy at the last trial */
-    if (boxes && steps > CREEP_BOXES) steps = CREEP_BOXES;
+    sim->settle = (sb_settle){.under_way = true,
+                              .most = boxes && steps > CREEP_BOXES ? CREEP_BOXES : steps,
+                              .turn = steps - CALM_LAST,
+                              .kinetic = (double)INFINITY};
     for (size_t i = 0; i < sim->n; i++) sim->velocity[i] = (sb_f4){0, 0, 0, sim->velocity[i][3]};
     sim->report.max_speed = 0;
-    sb_status status = sb_sleep_expect(sim, error);
-    for (int s = 0; s < steps && still < CALM_STEPS && status == SB_OK && !sb_stop_signal(); s++) {
-        sim->settling = boxes || s < CREEP_FIRST ? SB_CREEPING : s < turn ? SB_DAMPED : SB_CALMED;
-        status = sb_sim_step(sim, error);
-        sb_sleep_listen(sim, s);
-        if (watch) watch(context, s + 1, steps, sim->report.max_speed);
-        still = sim->report.max_speed < calm ? still + 1 : 0;
-        if (sim->settling != SB_DAMPED) continue;
-        bool done = still == CALM_STEPS;
-        if ((s + 1 - CREEP_FIRST) % TRIAL_STEPS == 0) {
-            const double kinetic = sb_sim_energy(sim).kinetic;
-            done |= kinetic > STILL_FALLING * before;
-            before = kinetic;
-        }
-        if (done) {
-            turn = s + 1;
-            steps = turn + CALM_LAST;
-            still = 0;
-        }
+    return sb_sleep_expect(sim, error);
+}
+
+/* Whether the damped steps are over: calm, or no longer of much use. */
+static bool judge_trial(sb_sim *sim)
+{
+    sb_settle *settle = &sim->settle;
+    bool done = settle->calm == CALM_STEPS;
+    if ((settle->done - CREEP_FIRST) % TRIAL_STEPS == 0) {
+        const double kinetic = sb_sim_energy(sim).kinetic;
+        done |= kinetic > STILL_FALLING * settle->kinetic;
+        settle->kinetic = kinetic;
+    }
+    return done;
+}
+
+static sb_status one_step(sb_sim *sim, sb_error *error)
+{
+    sb_settle *settle = &sim->settle;
+    const double calm = CALM * (double)sim->constant.wave_speed;
+    const int s = settle->done;
+    sim->settling = sim->scene->box_count > 0 || s < CREEP_FIRST ? SB_CREEPING
+                    : s < settle->turn                           ? SB_DAMPED
+                                                                 : SB_CALMED;
+    const sb_status status = sb_sim_step(sim, error);
+    if (status != SB_OK) return status;
+    sb_sleep_listen(sim, s);
+    settle->done++;
+    settle->calm = sim->report.max_speed < calm ? settle->calm + 1 : 0;
+    if (sim->settling == SB_DAMPED && judge_trial(sim)) {
+        settle->turn = settle->done;
+        settle->most = settle->done + CALM_LAST;
+        settle->calm = 0;
+    }
+    return SB_OK;
+}
+
+/* The water, at rest, gets the velocities that the scene gives. */
+static sb_status finish(sb_sim *sim, sb_error *error)
+{
+    sb_status status = SB_OK;
+    sim->settle.under_way = false;
+    let_go(sim);
+    if ((sim->scene->box_count > 0 || sim->scene->wave.kind != SB_INITIAL_NONE) && sim->report.max_speed == 0)
+        status = poise(sim, error);
+    sim->report.time_step = 0; /* these velocities have led nowhere yet: what looks back finds the places as they are */
+    return status == SB_OK ? sb_sleep_begin(sim, error) : status;
+}
+
+sb_status sb_sim_settle_watched(sb_sim *sim, sb_settle_watch *watch, void *context, sb_error *error)
+{
+    sb_settle *settle = &sim->settle;
+    if (!sb_sim_settles(sim->scene)) return SB_OK;
+    sb_status status = settle->under_way ? SB_OK : begin(sim, error);
+    while (status == SB_OK && settle->done < settle->most && settle->calm < CALM_STEPS && !sb_stop_signal()) {
+        status = one_step(sim, error);
+        if (watch && status == SB_OK) watch(context, settle->done, settle->most, sim->report.max_speed);
     }
     sim->settling = SB_RUNNING;
     if (status == SB_OK && sb_stop_signal())
         status = sb_stop_fail(error, "while the water came to rest: nothing is computed yet");
-    if (status != SB_OK) return status;
-    let_go(sim);
-    if ((boxes || sim->scene->wave.kind != SB_INITIAL_NONE) && sim->report.max_speed == 0) status = poise(sim, error);
-    sim->report.time_step = 0; /* these velocities have led nowhere yet: what looks back finds the places as they are */
-    return status == SB_OK ? sb_sleep_begin(sim, error) : status;
+    return status == SB_OK ? finish(sim, error) : status;
 }

@@ -46,12 +46,15 @@ void sb_sim_destroy(sb_sim *sim);
 bool sb_sim_settles(const sb_scene *scene);
 
 /* Brings the water to rest with paddles at rest, where the scene settles, an initial wave's surface kept up; then
-   gives it the scene's velocities. Time stays 0. */
+   gives it the scene's velocities. Time stays 0. A simulation that was saved meanwhile goes on where it was. */
 sb_status sb_sim_settle(sb_sim *sim, sb_error *error);
 /* The same, calling `watch` after each step: how many are done, the most there may be (it is less where the water calms
-   early), and the highest speed, m/s. */
+   early), and the highest speed, m/s. The state is one between two steps and may be saved. */
 typedef void sb_settle_watch(void *context, int done, int most, double speed);
 sb_status sb_sim_settle_watched(sb_sim *sim, sb_settle_watch *watch, void *context, sb_error *error);
+
+/* Whether settling has begun and is not over; *done: the steps that it has taken. */
+bool sb_sim_settling(const sb_sim *sim, int *done);
 
 /* One step. SB_FAILED when it diverged: step, place and reason in *error; the state stays readable. */
 sb_status sb_sim_step(sb_sim *sim, sb_error *error);

@@ -24,6 +24,10 @@ void sb_sleep_save(const sb_sim *sim, sb_archive_out *out)
     sb_put_count(out, sleep->particle_steps);
     sb_put_count(out, sleep->asleep_steps);
     sb_put_real(out, sleep->woken);
+    const size_t heard = sleep->settled_q ? sim->model->fluid_count : 0; /* while it settles */
+    sb_put_list(out, sleep->settled_q, heard, sizeof *sleep->settled_q);
+    sb_put_list(out, sleep->settled_push, heard, sizeof *sleep->settled_push);
+    sb_put_real(out, (double)sleep->share);
 }
 
 static void take_tiles(sb_tiles *tiles, sb_archive_in *in)
@@ -89,6 +93,37 @@ static int take_held(sb_sim *sim, sb_archive_in *in)
     return 0;
 }
 
+/* A particle that no wall has pushed names none. */
+static bool heard_well(const sb_sim *sim, size_t i)
+{
+    const sb_settled_push *heard = &sim->sleep->settled_push[i];
+    const float *push = heard->push;
+    const bool pushed = push[0] != 0 || push[1] != 0 || push[2] != 0;
+    if (!isfinite(push[0] + push[1] + push[2] + sim->sleep->settled_q[i])) return false;
+    return !pushed || (heard->wall & 0x7fffffffu) < sim->walls[heard->wall >> 31].count;
+}
+
+/* What settling has heard so far. 0, or -1 without memory. */
+static int take_heard(sb_sim *sim, sb_archive_in *in)
+{
+    sb_sleep *sleep = sim->sleep;
+    const size_t count = sim->settle.under_way ? sim->model->fluid_count : 0;
+    if (count > 0) {
+        sleep->settled_q = sb_alloc(count, sizeof *sleep->settled_q);
+        sleep->settled_push = sb_alloc(count, sizeof *sleep->settled_push);
+        if (!sleep->settled_q || !sleep->settled_push) return -1;
+    }
+    sb_take_list(in, sleep->settled_q, count, sizeof *sleep->settled_q);
+    sb_take_list(in, sleep->settled_push, count, sizeof *sleep->settled_push);
+    for (size_t i = 0; i < count && in->error.status == SB_OK; i++)
+        if (!heard_well(sim, i))
+            sb_archive_refuse(in, "what settling heard of particle %zu: expected finite numbers, and a wall's", i);
+    sleep->share = (float)sb_take_real(in);
+    if (!(sleep->share >= 0 && sleep->share <= 1))
+        sb_archive_refuse(in, "a share of %g of what settling hears, expected 0 to 1", (double)sleep->share);
+    return 0;
+}
+
 /* 0, or -1 without memory. */
 static int take(sb_sim *sim, sb_archive_in *in)
 {
@@ -98,6 +133,7 @@ static int take(sb_sim *sim, sb_archive_in *in)
     sleep->particle_steps = sb_take_count(in, UINT64_MAX);
     sleep->asleep_steps = sb_take_count(in, UINT64_MAX);
     sleep->woken = sb_take_real(in);
+    if (take_heard(sim, in) != 0) return -1;
     if (in->error.status != SB_OK) return 0;
     sb_tiles_beside(&sleep->tiles);
     sim->report.fluid_count += sleep->count;

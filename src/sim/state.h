@@ -20,6 +20,15 @@ enum sb_settling {
     SB_POISED,   /* one step that moves nothing and tells how velocities change at t = 0 */
 };
 
+/* Where settling is between two of its steps. */
+typedef struct sb_settle {
+    bool under_way;
+    int done, most; /* steps */
+    int turn;       /* the step at which the last ones begin */
+    int calm;       /* calm steps in a row */
+    double kinetic; /* J, at the last trial; INFINITY: there was none */
+} sb_settle;
+
 /* Constants of the run. */
 typedef struct sb_constants {
     int dimension;
@@ -177,6 +186,7 @@ typedef struct sb_sim {
     sb_vec3 stress_gain; /* kg m/s, of the stage packing in one step; round-off alone */
 
     enum sb_settling settling;
+    sb_settle settle;
     sb_step_report report;
     uint64_t left_domain, lost;
     sb_departures departures; /* sim/departures.h */

@@ -147,6 +147,64 @@ static void without_a_checkpoint_it_begins(void **state)
     assert_true(exists("nothing/summary.json"));
 }
 
+/* A sea whose settling takes a second or more. */
+static const char resting[] = "resolution: 0.06\n"
+                              "duration: 0.1\n"
+                              "domain: {min: [0, 0, 0], max: [4, 1, 1]}\n"
+                              "water: {level: 0.8, seed: [1, 0.5, 0.4]}\n"
+                              "bodies: [{name: block, shape: box, min: [2, 0.3, 0], max: [2.4, 0.7, 1]}]\n"
+                              "measure: {interval: 0.02, gauges: [{name: g, x: 1, y: 0.5}]}\n"
+                              "output: {plots: false, particle_interval: 0.05, checkpoint: {steps: 5, minutes: 0}}\n";
+static const char *const resting_tables[] = {"forces.csv", "gauges.csv", "energy.csv", NULL};
+
+/* Begins in `directory`, and is sent the signal once settling has been saved. Returns its exit status. */
+static int cut_while_settling(const char *directory, int signal)
+{
+    char saved[64];
+    snprintf(saved, sizeof saved, "%s/checkpoints/settling.state", directory);
+    pid_t process = program_start((const char *const[]){"run", "resting.yaml", "--out", directory, "--quiet", NULL});
+    for (double end = sb_clock() + 60; !exists(saved) && sb_clock() < end;) usleep(1000);
+    assert_int_equal(kill(process, signal), 0);
+    outcome o = program_finish(process);
+    const int status = o.status;
+    if (signal == SIGTERM) assert_contains(o.err, "while the water came to rest: nothing is computed yet; to go on:");
+    outcome_free(&o);
+    assert_true(exists(saved));
+    return status;
+}
+
+static void a_run_goes_on_with_settling(void **state)
+{
+    (void)state;
+    char names[16][64];
+    write_text("resting.yaml", resting);
+    RUN_AND_FORGET(0, "run", "resting.yaml", "--out", "rested", "--quiet");
+    assert_int_equal(cut_while_settling("resting", SIGTERM), 128 + SIGTERM);
+    outcome o = RUN(0, "run", "resting.yaml", "--out", "resting", "--resume");
+    assert_contains(o.out, "going on from step ");
+    assert_contains(o.out, " of the settling before t = 0");
+    outcome_free(&o);
+    assert_same_run("rested", "resting", resting_tables);
+    assert_int_equal(list_checkpoints("resting", names), 2);
+    assert_false(exists("resting/checkpoints/settling.state"));
+    cut_while_settling("killed", SIGKILL);
+    RUN_AND_FORGET(0, "run", "resting.yaml", "--out", "killed", "--quiet", "--resume");
+    assert_same_run("rested", "killed", resting_tables);
+    /* One that is damaged is worth nothing but some time. */
+    cut_while_settling("damaged", SIGKILL);
+    write_text("damaged/checkpoints/settling.state", "SBSTATE, or so");
+    o = RUN(0, "run", "resting.yaml", "--out", "damaged", "--quiet", "--resume");
+    assert_contains(o.err, "damaged/checkpoints/settling.state: ");
+    assert_contains(o.err, "; the run starts from the beginning");
+    outcome_free(&o);
+    assert_same_run("rested", "damaged", resting_tables);
+    /* And a new run clears it away. */
+    cut_while_settling("anew", SIGKILL);
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "anew", "--quiet", "--until", "0.02", "--set",
+                   "output.checkpoint.minutes=0");
+    assert_false(exists("anew/checkpoints/settling.state") || exists("anew/checkpoints/settling.state.tmp"));
+}
+
 static void a_finished_run_says_so(void **state)
 {
     (void)state;
@@ -218,6 +276,7 @@ int main(void)
         cmocka_unit_test(checkpoints_change_nothing),
         cmocka_unit_test(the_last_ones_are_kept),
         cmocka_unit_test(without_a_checkpoint_it_begins),
+        cmocka_unit_test(a_run_goes_on_with_settling),
         cmocka_unit_test(a_finished_run_says_so),
         cmocka_unit_test(an_end_that_has_passed_is_refused),
         cmocka_unit_test(a_signal_leaves_a_checkpoint),

@@ -1,5 +1,6 @@
-/* A checkpoint. An input that begins with 'e' is a row of edits to a sound one; any other is the file itself. Each is
-   tried as it is, and once more with its checksums made right, so that what they guard is tried as well. */
+/* A checkpoint. An input that begins with 'e' is a row of edits to a sound one of a run, with 's' to one of water that
+   comes to rest, some of which is to sleep; any other is the file itself. Each is tried as it is, and once more with
+   its checksums made right, so that what they guard is tried as well. */
 #include "fuzz.h"
 
 #include "base/archive_layout.h"
@@ -13,7 +14,7 @@
 enum { FORMAT = 1 };
 static const char kind[] = "fuzzed";
 
-static const char text[] =
+static const char running[] =
     "dimensions: 2\n"
     "resolution: 0.1\n"
     "duration: 1\n"
@@ -27,39 +28,69 @@ static const char text[] =
     "  planes: [{name: p, from: [0.6], to: [0.6], z_min: 0, z_max: 0.6}]\n"
     "  map: {min: [0], max: [0.8], cell: 0.2}\n";
 
-/* A run that has begun, and its checkpoint. */
-static sb_scene scene;
-static sb_model model;
-static sb_sim *sim;
-static sb_measure *measure;
-static sb_archive_out sound;
+static const char resting[] = "dimensions: 2\n"
+                              "resolution: 0.1\n"
+                              "duration: 1\n"
+                              "domain: {min: [0, 0], max: [0.8, 0.6]}\n"
+                              "water: {level: 0.3, seed: [0.4, 0.2]}\n"
+                              "numerics: {settle_steps: 20, sleep: true}\n"
+                              "bodies: [{name: block, shape: box, min: [0, 0], max: [0.2, 0.6]}]\n";
 
-static void make_run(void)
+/* A simulation, and the checkpoint of it. */
+typedef struct subject {
+    const char *text;
+    bool rests;
+    sb_scene scene;
+    sb_model model;
+    sb_sim *sim;
+    sb_measure *measure; /* NULL where it rests */
+    sb_archive_out sound;
+} subject;
+
+static subject subjects[] = {{.text = running}, {.text = resting, .rests = true}};
+enum { SUBJECTS = sizeof subjects / sizeof *subjects };
+
+static void save(subject *s)
 {
     sb_error error = {0};
-    sb_status status =
-        sb_scene_read(fuzz_save("scene.yaml", (const uint8_t *)text, sizeof text - 1), NULL, NULL, 0, &scene, &error);
-    if (status == SB_OK) status = sb_model_build(&scene, &model, &error);
-    if (status == SB_OK) status = sb_sim_create(&scene, &model, &sim, &error);
-    if (status == SB_OK) status = sb_measure_create(&scene, &model, sim, &measure, &error);
-    if (status == SB_OK) status = sb_sim_step(sim, &error);
-    if (status == SB_OK) status = sb_measure_step(measure, sim, &error);
+    sb_archive_begin(&s->sound, kind, FORMAT);
+    sb_sim_save(s->sim, &s->sound);
+    if (s->measure) sb_measure_save(s->measure, &s->sound);
+    FUZZ_CHECK(sb_archive_close(&s->sound, &error) == SB_OK);
+}
+
+static void save_third(void *context, int done, int most, double speed)
+{
+    (void)most;
+    (void)speed;
+    if (done == 3) save(context);
+}
+
+static void make(subject *s)
+{
+    sb_error error = {0};
+    sb_status status = sb_scene_read(fuzz_save("scene.yaml", (const uint8_t *)s->text, strlen(s->text)), NULL, NULL, 0,
+                                     &s->scene, &error);
+    if (status == SB_OK) status = sb_model_build(&s->scene, &s->model, &error);
+    if (status == SB_OK) status = sb_sim_create(&s->scene, &s->model, &s->sim, &error);
+    if (status == SB_OK && s->rests) status = sb_sim_settle_watched(s->sim, save_third, s, &error);
+    if (status == SB_OK && !s->rests) status = sb_measure_create(&s->scene, &s->model, s->sim, &s->measure, &error);
+    if (status == SB_OK && !s->rests) status = sb_sim_step(s->sim, &error);
+    if (status == SB_OK && !s->rests) status = sb_measure_step(s->measure, s->sim, &error);
     if (status != SB_OK) fprintf(stderr, "%s\n", error.text);
     FUZZ_CHECK(status == SB_OK);
-    sb_archive_begin(&sound, kind, FORMAT);
-    sb_sim_save(sim, &sound);
-    sb_measure_save(measure, &sound);
-    FUZZ_CHECK(sb_archive_close(&sound, &error) == SB_OK);
+    if (!s->rests) save(s);
+    FUZZ_CHECK(s->sound.used > 0);
 }
 
 /* True when all of it was taken. */
-static bool try_bytes(const uint8_t *bytes, size_t size)
+static bool try_bytes(subject *s, const uint8_t *bytes, size_t size)
 {
     sb_archive_in in = {0};
     sb_error error = {0};
     sb_status status = sb_archive_parse(&in, "some.checkpoint", bytes, size, kind, FORMAT, &error);
-    if (status == SB_OK) status = sb_sim_load(sim, &in, &error);
-    if (status == SB_OK) status = sb_measure_load(measure, &in, &error);
+    if (status == SB_OK) status = sb_sim_load(s->sim, &in, &error);
+    if (status == SB_OK && s->measure) status = sb_measure_load(s->measure, &in, &error);
     sb_archive_in_free(&in);
     if (status != SB_OK) fuzz_check_refusal(status, &error);
     return status == SB_OK;
@@ -90,18 +121,20 @@ static void repair(uint8_t *bytes, size_t size)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    if (!sim) make_run();
-    bool edits = size > 0 && data[0] == 'e';
-    size_t length = edits ? sound.used : size;
+    for (size_t k = 0; k < SUBJECTS; k++)
+        if (!subjects[k].sim) make(&subjects[k]);
+    subject *s = &subjects[size > 0 && data[0] == 's'];
+    const bool edits = size > 0 && (data[0] == 'e' || data[0] == 's');
+    const size_t length = edits ? s->sound.used : size;
     uint8_t *bytes = malloc(length ? length : 1);
     FUZZ_CHECK(bytes);
-    memcpy(bytes, edits ? sound.bytes : data, length);
+    memcpy(bytes, edits ? s->sound.bytes : data, length);
     if (edits) fuzz_edit(bytes, length, data + 1, size - 1);
-    try_bytes(bytes, length);
+    try_bytes(s, bytes, length);
     repair(bytes, length);
-    try_bytes(bytes, length);
+    try_bytes(s, bytes, length);
     free(bytes);
     /* Whatever was refused, the sound one is taken afterwards. */
-    FUZZ_CHECK(try_bytes(sound.bytes, sound.used));
+    FUZZ_CHECK(try_bytes(s, s->sound.bytes, s->sound.used));
     return 0;
 }

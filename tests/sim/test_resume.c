@@ -148,6 +148,67 @@ static void water_that_leaves(void **state)
     tank_free(&t);
 }
 
+/* Saves at one step of the settling. */
+typedef struct listener {
+    const sb_sim *sim;
+    int at;
+    sb_archive_out out;
+    bool saved;
+} listener;
+
+static void save_at(void *context, int done, int most, double speed)
+{
+    listener *l = context;
+    (void)most;
+    (void)speed;
+    if (done != l->at) return;
+    tank_save(l->sim, &l->out);
+    l->saved = true;
+}
+
+/* Settling that goes on from one of its steps ends as if undisturbed, and so do the steps after it. */
+static void check_settling(const tank *t, int at, const char *name)
+{
+    sb_error error = {0};
+    sb_sim *sim = tank_sim(t), *again = tank_sim(t);
+    int done;
+    assert_true(sim && again);
+    listener l = {.sim = sim, .at = at};
+    assert_int_equal(sb_sim_settle_watched(sim, save_at, &l, &error), SB_OK);
+    if (!l.saved) fail_msg("%s: no step %d", name, at);
+    assert_false(sb_sim_settling(sim, &done));
+    if (tank_load(again, &l.out, &error) != SB_OK) fail_msg("%s: %s", name, error.text);
+    assert_true(sb_sim_settling(again, &done));
+    assert_int_equal(done, at);
+    assert_int_equal(sb_sim_settle(again, &error), SB_OK);
+    if (sb_sim_hash(sim) != sb_sim_hash(again)) fail_msg("%s: settles otherwise from step %d", name, at);
+    assert_int_equal(sb_sim_sleep(sim).asleep, sb_sim_sleep(again).asleep);
+    assert_int_equal(tank_steps(sim, AFTER), 0);
+    assert_int_equal(tank_steps(again, AFTER), 0);
+    if (sb_sim_hash(sim) != sb_sim_hash(again)) fail_msg("%s: goes on otherwise", name);
+    sb_sim_destroy(sim);
+    sb_sim_destroy(again);
+    sb_archive_out_free(&l.out);
+}
+
+static void settling_goes_on(void **state)
+{
+    (void)state;
+    static const int steps[] = {1, 39, 41, 100, 101};
+    tank t;
+    for (size_t k = 0; k < sizeof steps / sizeof *steps; k++) {
+        flume_make(&t, 3, 0.2, sb_vec(8, 0.8, 1.6), k % 2 == 1); /* with sleepers, and without */
+        t.scene.numerics.wall_friction = 0.05;
+        check_settling(&t, steps[k], "flume");
+        tank_free(&t);
+    }
+    tank_make(&t, 3, 0.1, sb_vec(2, 0.5, 1.2), 1, 0.8, 0.1);
+    t.scene.numerics.settle_steps = 100;
+    tank_repeat(&t, 1);
+    check_settling(&t, 20, "slab");
+    tank_free(&t);
+}
+
 static void another_model_is_refused(void **state)
 {
     (void)state;
@@ -223,6 +284,7 @@ int main(void)
         cmocka_unit_test(still_water_asleep),
         cmocka_unit_test(still_water_asleep_between_periodic_sides),
         cmocka_unit_test(water_that_leaves),
+        cmocka_unit_test(settling_goes_on),
         cmocka_unit_test(another_model_is_refused),
         cmocka_unit_test(senseless_states_are_refused),
     };
