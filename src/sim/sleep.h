@@ -144,7 +144,7 @@ bool sb_tiles_fringe(sb_tiles *tiles);
 void sb_tiles_beside(sb_tiles *tiles); /* beside, from fringe */
 
 /* sim/sleep_store.c */
-int sb_sleepers_reserve(sb_sleep *sleep); /* arrays for count of them */
+int sb_sleepers_reserve(sb_sleep *sleep); /* arrays for count of them, in the place of any there were */
 /* Moves the water over tiles that are not awake out of the simulation's arrays, which are sorted, to rest at its
    settled pressure; density: by id. */
 int sb_sleepers_take(sb_sim *sim, const float *density);

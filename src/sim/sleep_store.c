@@ -24,6 +24,8 @@ static void count_sleepers(sb_sim *sim)
 
 int sb_sleepers_reserve(sb_sleep *sleep)
 {
+    void *before[] = {sleep->position, sleep->pressure, sleep->density, sleep->id};
+    for (size_t f = 0; f < sizeof before / sizeof before[0]; f++) sb_free(before[f]);
     sleep->position = sb_alloc_untouched(sleep->count, sizeof *sleep->position);
     sleep->pressure = sb_alloc_untouched(sleep->count, sizeof *sleep->pressure);
     sleep->density = sb_alloc_untouched(sleep->count, sizeof *sleep->density);
