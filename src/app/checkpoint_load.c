@@ -101,13 +101,11 @@ static sb_status load(run *r, const char *path, sb_error *error)
     return status;
 }
 
-sb_status sb_checkpoint_load_settling(run *r, sb_error *error)
+static sb_status load_settling(run *r, const char *path, sb_error *error)
 {
-    char path[SB_PATH_MAX];
     sb_archive_in in = {0};
     int done;
-    sb_status status = sb_checkpoint_settling_path(r, path, error);
-    if (status == SB_OK) status = sb_archive_open(&in, path, SB_CHECKPOINT_KIND, SB_CHECKPOINT_FORMAT, error);
+    sb_status status = sb_archive_open(&in, path, SB_CHECKPOINT_KIND, SB_CHECKPOINT_FORMAT, error);
     if (status == SB_OK) status = check_origin(r, &in, error);
     if (status == SB_OK) status = sb_archive_enter(&in, SB_CHECKPOINT_SETTLING, error);
     if (status == SB_OK) {
@@ -118,8 +116,19 @@ sb_status sb_checkpoint_load_settling(run *r, sb_error *error)
     sb_archive_in_free(&in);
     if (status == SB_OK && !sb_sim_settling(r->sim, &done))
         status = sb_fail(error, SB_BAD_INPUT, "%.500s: its water has come to rest, expected some that has not", path);
-    if (status != SB_OK) r->before = (sb_spent){0};
     return status;
+}
+
+sb_status sb_checkpoint_load_settling(run *r, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    sb_error reason = {0};
+    sb_status status = sb_checkpoint_settling_path(r, path, error);
+    if (status != SB_OK) return status;
+    status = load_settling(r, path, &reason);
+    if (status == SB_OK) return SB_OK;
+    return sb_fail(error, status, status == SB_BAD_INPUT ? "no checkpoint to go on from: %.900s" : "%.900s",
+                   reason.text);
 }
 
 sb_status sb_checkpoint_load(run *r, sb_error *error)

@@ -56,11 +56,12 @@ static sb_status open_directory(run *r, bool resume, origin *from, sb_error *err
 }
 
 /* The files of an earlier run go once there is a simulation to run, unless this one goes on with them. */
-static sb_status take_directory(run *r, bool resume, sb_error *error)
+static sb_status take_directory(run *r, origin from, sb_error *error)
 {
     char path[SB_PATH_MAX];
+    const bool resume = from != NOTHING;
     sb_status status = resume ? SB_OK : clear_earlier_run(r, error);
-    if (status == SB_OK && !resume) status = write_scene(r, error);
+    if (status == SB_OK && from != CHECKPOINT) status = write_scene(r, error);
     if (status == SB_OK) status = sb_run_path(r, "run.jsonl", path, error);
     if (status == SB_OK)
         status = resume ? sb_runlog_append(path, &r->log, error) : sb_runlog_open(path, &r->log, error);
@@ -146,23 +147,6 @@ static sb_status make_simulation(run *r, bool resume, sb_error *error)
     if (status == SB_OK && !resume) status = sb_sim_check_start(r->sim, error);
     if (status == SB_OK && !resume) status = sb_run_unobstructed(r, error);
     return status == SB_OK ? sb_run_folders_free(r, error) : status;
-}
-
-/* What settling has done so far is taken if it can be; if not, it can be done again. */
-static sb_status take_settling(run *r, origin *from, sb_error *error)
-{
-    sb_error reason = {0};
-    const sb_status found = sb_checkpoint_load_settling(r, &reason);
-    if (found == SB_OK) return SB_OK;
-    if (found != SB_BAD_INPUT) {
-        if (error) *error = reason;
-        return found;
-    }
-    sb_run_warn(r, "%s; the run starts from the beginning", reason.text);
-    *from = NOTHING;
-    sb_sim_destroy(r->sim);
-    r->sim = NULL;
-    return make_simulation(r, false, error);
 }
 
 static void warn(void *context, const char *text)
@@ -281,8 +265,8 @@ sb_status sb_run_start(run *r, bool resume, sb_error *error)
     sb_status status = open_directory(r, resume, &from, error);
     if (status == SB_OK) status = build_model(r, from != NOTHING, error);
     if (status == SB_OK) status = make_simulation(r, from != NOTHING, error);
-    if (status == SB_OK && from == SETTLING) status = take_settling(r, &from, error);
-    if (status == SB_OK) status = take_directory(r, from != NOTHING, error);
+    if (status == SB_OK && from == SETTLING) status = sb_checkpoint_load_settling(r, error);
+    if (status == SB_OK) status = take_directory(r, from, error);
     name_consumers(r);
     if (status == SB_OK && from != CHECKPOINT) status = start_consumers(r, error);
     if (status != SB_OK) return give_up(r, status);

@@ -190,14 +190,26 @@ static void a_run_goes_on_with_settling(void **state)
     cut_while_settling("killed", SIGKILL);
     RUN_AND_FORGET(0, "run", "resting.yaml", "--out", "killed", "--quiet", "--resume");
     assert_same_run("rested", "killed", resting_tables);
-    /* One that is damaged is worth nothing but some time. */
+    /* One that is damaged, or of another scene, is refused, and nothing is touched. */
     cut_while_settling("damaged", SIGKILL);
-    write_text("damaged/checkpoints/settling.state", "SBSTATE, or so");
-    o = RUN(0, "run", "resting.yaml", "--out", "damaged", "--quiet", "--resume");
-    assert_contains(o.err, "damaged/checkpoints/settling.state: ");
-    assert_contains(o.err, "; the run starts from the beginning");
+    char *before = text_of("damaged/run.jsonl");
+    o = RUN(1, "run", "measured.yaml", "--out", "damaged", "--quiet", "--resume");
+    assert_contains(o.err, "no checkpoint to go on from: damaged/checkpoints/settling.state: of another scene");
     outcome_free(&o);
-    assert_same_run("rested", "damaged", resting_tables);
+    write_text("damaged/checkpoints/settling.state", "SBSTATE, or so");
+    o = RUN(1, "run", "resting.yaml", "--out", "damaged", "--quiet", "--resume");
+    assert_contains(o.err, "no checkpoint to go on from: damaged/checkpoints/settling.state: ");
+    outcome_free(&o);
+    char *after = text_of("damaged/run.jsonl");
+    assert_string_equal(before, after);
+    sb_free(before);
+    sb_free(after);
+    /* A longer run is the same one. */
+    cut_while_settling("longer", SIGKILL);
+    RUN_AND_FORGET(0, "run", "resting.yaml", "--out", "longer", "--quiet", "--resume", "--until", "0.15");
+    char *scene = text_of("longer/scene.yaml");
+    assert_contains(scene, "duration: 0.15");
+    sb_free(scene);
     /* And a new run clears it away. */
     cut_while_settling("anew", SIGKILL);
     RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "anew", "--quiet", "--until", "0.02", "--set",

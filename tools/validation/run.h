@@ -9,7 +9,7 @@ typedef struct sb_finished {
     char folder[SB_PATH_MAX];
     char label[96];
     int threads;                   /* of the run's last process */
-    char build[17];                /* of the program that ran: tells programs apart where commits are alike or differ */
+    char build[24];                /* of the program that ran: tells programs apart where commits are alike or differ */
     char commit[64], machine[128]; /* of the run, from its record */
     double cpu, load; /* s of processor time, all processes of the run; the machine's load at its end; NaN: not known */
     sb_scene scene;
