@@ -64,8 +64,10 @@ static void take_settle(sb_archive_in *in, const sb_scene *scene, sb_settle *set
     settle->turn = take_steps(in);
     settle->calm = take_steps(in);
     settle->kinetic = sb_take_real(in);
-    if (!sb_sim_settles(scene) || settle->done < 0 || settle->calm < 0 || isnan(settle->kinetic))
-        sb_archive_refuse(in, "settling at step %d: expected none, or a step of it", settle->done);
+    const int most = scene->numerics.settle_steps;
+    if (settle->done < 0 || settle->calm < 0 || settle->most > most || isnan(settle->kinetic))
+        sb_archive_refuse(in, "settling at step %d of at most %d: expected at most %d", settle->done, settle->most,
+                          most);
 }
 
 void sb_sim_save(const sb_sim *sim, sb_archive_out *out)

@@ -255,10 +255,12 @@ static void senseless_states_are_refused(void **state)
         {(uint32_t *)&sim->position[7] + 2, &(uint32_t){0x80000000u}, 4, "expected less than"},
         {&sim->moving[0].displacement, &(double){1e300}, 8, "a body displaced by 1e+300 m"},
         {&sim->moving[0].displacement, &(double){(double)NAN}, 8, "a body displaced by nan m"},
+        {&sim->settle, &(sb_settle){.under_way = true, .done = 3, .most = 1 << 20}, sizeof(sb_settle),
+         "settling at step 3 of at most 1048576: expected at most"},
         {&sim->moving_count, &(size_t){0}, 8, "other moving bodies, expected 1"},
     };
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
-        unsigned char kept[8];
+        unsigned char kept[sizeof(sb_settle)];
         memcpy(kept, cases[c].at, cases[c].size);
         memcpy(cases[c].at, cases[c].value, cases[c].size);
         tank_save(sim, &bad);
