@@ -8,6 +8,7 @@
 #include <errno.h>
 #include <pthread.h>
 #include <stdarg.h>
+#include <stdio_ext.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -15,7 +16,8 @@ struct sb_runlog {
     FILE *stream;
     char path[SB_PATH_MAX];
     double opened;
-    int reason; /* errno of the first failure, 0: none */
+    off_t whole; /* up to the end of the last line */
+    int reason;  /* errno of the first failure, 0: none */
     pthread_mutex_t mutex;
 };
 
@@ -30,6 +32,7 @@ static sb_status open_log(const char *path, const char *mode, sb_runlog **log, s
         return status;
     }
     made->opened = sb_clock();
+    if (fseeko(made->stream, 0, SEEK_END) == 0) made->whole = ftello(made->stream);
     pthread_mutex_init(&made->mutex, NULL);
     *log = made;
     return SB_OK;
@@ -102,10 +105,22 @@ static void begin(sb_runlog *log, sb_json *json, const char *event)
     sb_json_number(json, "wall_s", sb_clock() - log->opened);
 }
 
+/* A line is whole or absent: a full disk lets a file become shorter, and may have room for the next one. */
+static void take_back(sb_runlog *log)
+{
+    if (!log->reason) log->reason = errno ? errno : EIO;
+    __fpurge(log->stream);
+    clearerr(log->stream);
+    if (ftruncate(fileno(log->stream), log->whole) == 0) (void)fseeko(log->stream, log->whole, SEEK_SET);
+}
+
 static void end(sb_runlog *log, sb_json *json)
 {
     sb_json_close(json);
-    if ((fflush(log->stream) != 0 || ferror(log->stream)) && !log->reason) log->reason = errno ? errno : EIO;
+    if (fflush(log->stream) != 0 || ferror(log->stream))
+        take_back(log);
+    else
+        log->whole = ftello(log->stream);
     pthread_mutex_unlock(&log->mutex);
 }
 
