@@ -49,7 +49,8 @@ sb_status sb_path_join(char out[SB_PATH_MAX], const char *base, const char *name
 /* The folder part of path ("." when it has none). */
 void sb_path_folder(char out[SB_PATH_MAX], const char *path);
 
-/* The whole file as a zero-terminated string of *length bytes, at most `limit`; free with sb_free. */
+/* The whole file as a zero-terminated string of *length bytes, at most `limit`; free with sb_free. Where it cannot be
+   read, errno is the system's reason, else 0. */
 sb_status sb_file_read(const char *path, size_t limit, char **text, size_t *length, sb_error *error);
 
 /* The same without the byte-order mark that some editors and spreadsheets put before UTF-8. */
