@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "base/status.h"
 
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -43,8 +44,18 @@ static void limit_spinning(char **arguments)
     if (setenv("GOMP_SPINCOUNT", "20000", 1) == 0) execv("/proc/self/exe", arguments);
 }
 
+/* Where a standard stream is closed, the first file opened would take its place, and get what is said there. */
+static void keep_standard_streams(void)
+{
+    int file;
+    do file = open("/dev/null", O_RDWR);
+    while (file >= 0 && file <= STDERR_FILENO);
+    if (file >= 0) close(file);
+}
+
 int main(int count, char **arguments)
 {
+    keep_standard_streams();
     const char *name = count > 1 ? arguments[1] : "";
     if (strcmp(name, "--version") == 0) {
         printf("shorebreak %s\n", SB_VERSION);

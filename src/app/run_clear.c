@@ -31,6 +31,7 @@ static const struct {
     {"maps", MAPS, {".asc", ".asc.tmp", ".png"}},
     {"plots", TABLES, {".png", ".dat", ".gp"}},
     {"plots", MAPS, {".gp"}},
+    {"plots", {"part"}, {".png"}},
 };
 
 static const char *const folders[] = {"particles", "maps", "plots", "frames"};

@@ -51,6 +51,9 @@ static const plot plots[] = {
       {"front along the line", "m", false, false, true, false, {5}}}},
 };
 
+/* What gnuplot draws into. */
+#define PART "plots/part.png"
+
 /* Fewer lines than colours; more could not be told apart. */
 enum { MAX_LINES = 12, MAX_PANELS = 3 };
 
@@ -139,15 +142,15 @@ static const char *prefix_of(double top, double *scale)
     return "";
 }
 
-static void write_style(FILE *stream, const char *picture, int panels)
+static void write_style(FILE *stream, int panels)
 {
     static const char *const colors[MAX_LINES] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
                                                   "#000000", "#7f3c8d", "#80ba5a", "#a5522d", "#666666", "#e73f74"};
     fprintf(stream,
-            "set terminal pngcairo noenhanced size 1200,%d font 'Sans,11'\nset output '%s'\n"
+            "set terminal pngcairo noenhanced size 1200,%d font 'Sans,11'\nset output '" PART "'\n"
             "set grid lt 1 lw 0.5 lc rgb '#dddddd'\nset border 3 lc rgb '#555555'\nset tics nomirror\n"
             "set key outside right top Left reverse\nset lmargin 12\nset rmargin 26\n",
-            panels > 1 ? 800 : 500, picture);
+            panels > 1 ? 800 : 500);
     for (int i = 0; i < MAX_LINES; i++) fprintf(stream, "set linetype %d lc rgb '%s' lw 1.6\n", i + 1, colors[i]);
     fprintf(stream, "set linetype cycle %d\n", MAX_LINES);
 }
@@ -158,11 +161,10 @@ static void write_script(FILE *stream, const plot *what, const sb_scene *scene, 
     char title[512];
     int panels = 0;
     while (panels < MAX_PANELS && what->panels[panels].label) panels++;
-    char picture[64], note[64] = "";
-    snprintf(picture, sizeof picture, "plots/%s.png", what->name);
+    char note[64] = "";
     if (chosen < series->name_count) snprintf(note, sizeof note, " (largest %zu of %zu)", chosen, series->name_count);
     snprintf(title, sizeof title, "%.300s: %s%s", scene->title ? scene->title : "", what->title, note);
-    write_style(stream, picture, panels);
+    write_style(stream, panels);
     fprintf(stream, "set multiplot layout %d,1 title ", panels);
     put_quoted(stream, title);
     fputs("\nset xlabel 'time (s)'\n", stream);
@@ -206,13 +208,21 @@ static FILE *open_in(const char *directory, const char *name, const char *ending
     return stream;
 }
 
-/* Runs gnuplot on plots/<name>.gp within the directory. */
-static sb_status draw(const char *program, const char *directory, const char *name, sb_error *error)
+/* Runs gnuplot on plots/<name>.gp within the directory, which draws PART; whole, it becomes <folder>/<name>.png. */
+static sb_status draw(const char *program, const char *directory, const char *folder, const char *name, sb_error *error)
 {
-    char script[128];
+    char script[128], picture[128], part[SB_PATH_MAX], to[SB_PATH_MAX];
     snprintf(script, sizeof script, "plots/%s.gp", name);
+    snprintf(picture, sizeof picture, "%s/%s.png", folder, name);
     char *const arguments[] = {"gnuplot", script, NULL};
-    return sb_tool_run(program, arguments, directory, error);
+    sb_status status = sb_path_join(part, directory, PART, error);
+    if (status == SB_OK) status = sb_path_join(to, directory, picture, error);
+    if (status != SB_OK) return status;
+    unlink(part); /* may be a link */
+    status = sb_tool_run(program, arguments, directory, error);
+    if (status == SB_OK && rename(part, to) != 0) status = sb_fail(error, SB_FAILED, "%.500s: %s", to, strerror(errno));
+    if (status != SB_OK) unlink(part);
+    return status;
 }
 
 static sb_status draw_series(const char *program, const char *directory, const plot *what, const sb_scene *scene,
@@ -237,7 +247,7 @@ static sb_status draw_series(const char *program, const char *directory, const p
         write_script(out, what, scene, series, peaks, chosen, units);
         if (fclose(out) != 0) status = sb_fail(error, SB_FAILED, "%.500s: cannot write", script);
     }
-    if (status == SB_OK) status = draw(program, directory, what->name, error);
+    if (status == SB_OK) status = draw(program, directory, "plots", what->name, error);
     if (data[0]) unlink(data);
     if (script[0]) unlink(script);
     sb_free(peaks);
@@ -305,16 +315,16 @@ static int draw_map(const char *program, const char *directory, size_t k, const 
     snprintf(title, sizeof title, "%.300s: %s", scene->title ? scene->title : "", maps[k].label);
     fprintf(out,
             "set terminal pngcairo noenhanced size 1100,900 font 'Sans,11'\n"
-            "set output 'maps/%s.png'\nset size ratio -1\nset xlabel 'x (m)'\nset ylabel 'y (m)'\n"
+            "set output '" PART "'\nset size ratio -1\nset xlabel 'x (m)'\nset ylabel 'y (m)'\n"
             "set palette defined (%s)\nset cblabel '%s'\nset tics out nomirror\nunset key\n%s"
             "set xrange [%.12g:%.12g]\nset yrange [%.12g:%.12g]\nset title ",
-            maps[k].name, maps[k].palette, maps[k].label, maps[k].range, x, x + columns * cell, y, y + rows * cell);
+            maps[k].palette, maps[k].label, maps[k].range, x, x + columns * cell, y, y + rows * cell);
     put_quoted(out, title);
     fprintf(out,
             "\nplot 'maps/%s.asc' skip 6 matrix using (%.12g+($1+0.5)*%.12g):"
             "(%.12g-($2+0.5)*%.12g):($3==-9999?NaN:$3) with image\n",
             maps[k].name, x, cell, y + rows * cell, cell);
-    sb_status status = fclose(out) == 0 ? draw(program, directory, maps[k].name, &error)
+    sb_status status = fclose(out) == 0 ? draw(program, directory, "maps", maps[k].name, &error)
                                         : sb_fail(&error, SB_FAILED, "cannot write its script");
     unlink(script);
     if (status != SB_OK)
