@@ -60,8 +60,9 @@ static sb_status take_directory(run *r, origin from, sb_error *error)
 {
     char path[SB_PATH_MAX];
     const bool resume = from != NOTHING;
-    sb_status status = resume ? SB_OK : clear_earlier_run(r, error);
-    if (status == SB_OK && from != CHECKPOINT) status = write_scene(r, error);
+    /* First what may fail: then the earlier run is still there. */
+    sb_status status = from == CHECKPOINT ? SB_OK : write_scene(r, error);
+    if (status == SB_OK && !resume) status = clear_earlier_run(r, error);
     if (status == SB_OK) status = sb_run_path(r, "run.jsonl", path, error);
     if (status == SB_OK)
         status = resume ? sb_runlog_append(path, &r->log, error) : sb_runlog_open(path, &r->log, error);
