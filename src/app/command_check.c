@@ -27,9 +27,8 @@ typedef struct estimate {
 
 static estimate make_estimate(const sb_scene *scene, const sb_model *model)
 {
-    double depth = fmax(model->still_depth, scene->resolution);
     /* Water that falls or rushes on goes at about 2 sqrt(gD). */
-    double dt = sb_sim_longest_step(scene, model, 2 * sqrt(scene->fluid.gravity * depth));
+    double dt = sb_sim_longest_step(scene, model, 2 * sb_model_wave_speed(scene, model));
     double fluid = (double)model->fluid_count;
     double files = scene->output.particle_interval > 0 ? scene->duration / scene->output.particle_interval + 1 : 0;
     double pictures = scene->render.interval > 0

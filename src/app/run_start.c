@@ -73,9 +73,8 @@ static sb_status take_directory(run *r, origin from, sb_error *error)
 /* The colour map's top is the scene's, not each picture's: later pictures of this run shall match. */
 static void resolve(run *r)
 {
-    double depth = fmax(r->model.still_depth, r->scene->resolution);
     if (!(r->resolved.render.speed_max > 0))
-        r->resolved.render.speed_max = 2 * sqrt(fmax(r->scene->fluid.gravity, 1) * depth);
+        r->resolved.render.speed_max = 2 * sb_model_wave_speed(r->scene, &r->model);
 }
 
 static sb_status start_streamer(run *r, sb_error *error)

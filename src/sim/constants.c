@@ -8,8 +8,7 @@ sb_constants sb_constants_of(const sb_scene *scene, const sb_model *model)
 {
     double dr = scene->resolution, g = scene->fluid.gravity;
     double mass = scene->fluid.density * (scene->dimensions == 2 ? dr * dr : dr * dr * dr);
-    double depth = model->still_depth > dr ? model->still_depth : dr;
-    double wave_speed = g > 0 ? sqrt(g * depth) : 1;
+    double wave_speed = g > 0 ? sb_model_wave_speed(scene, model) : 1;
     double sound = scene->numerics.sound_speed > 0 ? scene->numerics.sound_speed : 10 * wave_speed;
     return (sb_constants){
         .dimension = scene->dimensions,
