@@ -39,6 +39,14 @@ sb_status sb_atomic_open(sb_atomic_file *file, const char *path, sb_error *error
     return errno == ELOOP ? SB_FAILED : sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", path, strerror(errno));
 }
 
+sb_status sb_atomic_open_in(sb_atomic_file *file, const char *folder, const char *name, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    *file = (sb_atomic_file){.stream = NULL};
+    sb_status status = sb_path_join(path, folder, name, error);
+    return status == SB_OK ? sb_atomic_open(file, path, error) : status;
+}
+
 /* Makes a rename last through a power cut. Not every file system can, and the file is whole either way. */
 static void sync_folder_of(const char *path)
 {

@@ -22,6 +22,9 @@ sb_status sb_file_open(const char *path, const char *mode, FILE **stream, sb_err
 /* Opens "<path>.tmp" for writing. SB_FAILED names the path and the system's reason. */
 sb_status sb_atomic_open(sb_atomic_file *file, const char *path, sb_error *error);
 
+/* The same for folder/name. */
+sb_status sb_atomic_open_in(sb_atomic_file *file, const char *folder, const char *name, sb_error *error);
+
 /* Flushes, syncs (file and folder) when `durable`, closes and renames to the final name; on any failure removes the
    temporary and says why. */
 sb_status sb_atomic_commit(sb_atomic_file *file, int durable, sb_error *error);

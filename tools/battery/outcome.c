@@ -1,8 +1,8 @@
 #include "outcome.h"
 
 #include "base/memory.h"
-#include "run.h"
 #include "sheet.h"
+#include "summary_text.h"
 
 #include <dirent.h>
 #include <math.h>
