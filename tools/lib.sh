@@ -74,3 +74,25 @@ sb_build() {
             sb_die "the preset $preset does not build"
     )
 }
+
+# sb_exec NAME [PACKAGE...] -- ARGUMENTS...: becomes the program shorebreak-NAME, built first beside the shorebreak that
+# it runs, further packages there. One that is only asked what it is is not built anew.
+sb_exec() {
+    local name=$1 packages=() argument quick=0
+    shift
+    while [[ $1 != -- ]]; do
+        packages+=("$1")
+        shift
+    done
+    shift
+    for argument; do
+        case $argument in
+        --help | --list | --version) quick=1 ;;
+        esac
+    done
+    if ((!quick)) || [[ ! -x $sb_root/build/release/shorebreak-$name ]]; then
+        sb_need "${sb_packages[@]}" "${packages[@]}" >&2
+        SB_TARGETS="shorebreak shorebreak-$name" sb_build release >&2
+    fi
+    exec "$sb_root/build/release/shorebreak-$name" "$@"
+}

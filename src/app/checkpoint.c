@@ -218,6 +218,7 @@ static sb_status settle_files(run *r, sb_csv_marks *tables, sb_error *error)
     if (status == SB_OK) tell_gone(r, &files);
     if (status == SB_OK) status = sb_pictures_sync(&r->pictures, &pictures, error);
     if (status == SB_OK) tell_gone(r, &pictures);
+    if (status == SB_OK) (void)sb_file_sync(r->directory); /* names of new files; not every file system can */
     return status == SB_OK ? sb_runlog_sync(r->log, error) : status;
 }
 

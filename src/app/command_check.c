@@ -5,6 +5,7 @@
 #include "app/warnings.h"
 #include "geometry/model.h"
 #include "output/json.h"
+#include "sim/sim.h"
 
 #include <math.h>
 #include <omp.h>
@@ -17,26 +18,24 @@ static const char help[] =
 
 /* Costs measured with tools/bench on two cores at 2.5 GHz; they scale an estimate, nothing else. */
 static const double SECONDS_PER_STEP = 2.0e-6; /* one thread, per fluid particle */
-static const double PARTICLE_FILE_BYTES = 44, PICTURE_BYTES = 7e5;
+static const double PARTICLE_FILE_BYTES = 52, PICTURE_BYTES = 7e5, CHECKPOINT_BYTES = 40;
 
 typedef struct estimate {
     double steps, time_step, seconds, memory, disk, ghosts;
+    int settling; /* steps at most */
 } estimate;
 
 static estimate make_estimate(const sb_scene *scene, const sb_model *model)
 {
-    const sb_numerics *n = &scene->numerics;
-    double g = scene->fluid.gravity > 0 ? scene->fluid.gravity : 9.81;
-    double depth = fmax(model->still_depth, scene->resolution), h = n->support * scene->resolution;
-    double bound = n->time_step_rule == SB_TIME_STEP_PAPER ? n->time_step_factor * h / g
-                                                           : n->time_step_factor * h / sqrt(g * depth);
-    /* Water that falls or rushes on goes at about 2 sqrt(gD): the other bound. */
-    double dt = fmin(bound, n->cfl * h / (2 * sqrt(g * depth)));
+    /* Water that falls or rushes on goes at about 2 sqrt(gD). */
+    double dt = sb_sim_longest_step(scene, model, 2 * sb_model_wave_speed(scene, model));
     double fluid = (double)model->fluid_count;
     double files = scene->output.particle_interval > 0 ? scene->duration / scene->output.particle_interval + 1 : 0;
     double pictures = scene->render.interval > 0
                           ? (scene->duration / scene->render.interval + 1) * (double)scene->render.camera_count
                           : 0;
+    const sb_checkpoint_settings *wish = &scene->output.checkpoint;
+    double saved = wish->minutes > 0 || wish->steps > 0 ? wish->keep : 0;
     double steps = ceil(scene->duration / dt), ghosts = sb_room_ghosts(scene, model);
     return (estimate){
         .steps = steps,
@@ -44,7 +43,8 @@ static estimate make_estimate(const sb_scene *scene, const sb_model *model)
         .seconds = steps * fluid * SECONDS_PER_STEP / omp_get_max_threads(),
         .memory = sb_room_needed(scene, model),
         .ghosts = ghosts,
-        .disk = files * fluid * PARTICLE_FILE_BYTES + pictures * PICTURE_BYTES,
+        .disk = (files * PARTICLE_FILE_BYTES + saved * CHECKPOINT_BYTES) * fluid + pictures * PICTURE_BYTES,
+        .settling = sb_sim_settle_most(scene),
     };
 }
 
@@ -78,7 +78,9 @@ static void report_text(const sb_scene *scene, const sb_model *model, const esti
     printf("  still depth        %g m (%.1f particles)\n", model->still_depth, model->still_depth / scene->resolution);
     printf("  memory             about %.0f MB\n", e->memory / 1e6);
     printf("  steps              about %.0f of %.3g s\n", e->steps, e->time_step);
-    printf("  run time           about %.0f s on %d threads\n", e->seconds, omp_get_max_threads());
+    if (e->settling > 0) printf("  settling           %d steps at most before them\n", e->settling);
+    printf("  run time           about %.0f s on %d threads%s\n", e->seconds, omp_get_max_threads(),
+           e->settling > 0 ? ", without settling" : "");
     printf("  disk               about %.0f MB\n", e->disk / 1e6);
     visit_warnings(scene, model, print_line, NULL);
 }
@@ -99,6 +101,7 @@ static void report_json(const sb_scene *scene, const sb_model *model, const esti
     sb_json_number(&json, "memory_bytes", e->memory);
     sb_json_number(&json, "steps", e->steps);
     sb_json_number(&json, "time_step_s", e->time_step);
+    sb_json_count(&json, "settling_steps_most", (uint64_t)e->settling);
     sb_json_number(&json, "run_time_s", e->seconds);
     sb_json_number(&json, "disk_bytes", e->disk);
     sb_json_open(&json, "bodies", '[');

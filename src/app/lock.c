@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdio.h>
 #include <string.h>
 #include <sys/file.h>
 #include <unistd.h>
@@ -13,7 +14,12 @@ sb_status sb_lock_directory(const char *directory, const char *expected, int *lo
     *lock = open(directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (*lock < 0) return sb_fail(error, SB_FAILED, "%.500s: cannot open: %s", directory, strerror(errno));
     for (int t = 0; t < TRIES; t++) {
-        if (flock(*lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return SB_OK;
+        if (flock(*lock, LOCK_EX | LOCK_NB) == 0) return SB_OK;
+        if (errno != EWOULDBLOCK && errno != EINTR) {
+            fprintf(stderr, "shorebreak: warning: %.500s: cannot be locked (%s): keep other runs from it\n", directory,
+                    strerror(errno));
+            return SB_OK;
+        }
         usleep(PAUSE);
     }
     return sb_fail(error, SB_BAD_INPUT, "%.500s: another run or render is writing there, expected %s", directory,

@@ -3,6 +3,9 @@
 #include "base/memory.h"
 #include "base/status.h"
 
+#include <errno.h>
+#include <fcntl.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,12 +14,13 @@
 static const struct {
     const char *name, *summary;
     int (*run)(int count, char **arguments);
+    bool answers; /* what it prints is what it is for; the others' is progress, which may go unheard */
 } commands[] = {
-    {"run", "simulate a scene, measure forces, draw pictures, stream", sb_command_run},
-    {"check", "say what a scene would build and cost, without running it", sb_command_check},
-    {"sample", "write a scene's boundary and fluid particles for ParaView", sb_command_sample},
-    {"render", "draw pictures from a finished run's particle files", sb_command_render},
-    {"list", "kernels, wave makers, solvers and presets there are", sb_command_list},
+    {"run", "simulate a scene, measure forces, draw pictures, stream", sb_command_run, false},
+    {"check", "say what a scene would build and cost, without running it", sb_command_check, true},
+    {"sample", "write a scene's boundary and fluid particles for ParaView", sb_command_sample, false},
+    {"render", "draw pictures from a finished run's particle files", sb_command_render, false},
+    {"list", "kernels, wave makers, solvers and presets there are", sb_command_list, true},
 };
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
 
@@ -35,6 +39,15 @@ static void no_such(const char *name)
     fprintf(stderr, "shorebreak: %s\n", error.text);
 }
 
+/* Exit status, when all else is well. */
+static int finish_answer(void)
+{
+    errno = 0;
+    if (fflush(stdout) == 0 && !ferror(stdout)) return 0;
+    fprintf(stderr, "shorebreak: standard output: cannot write: %s\n", strerror(errno ? errno : EIO));
+    return 2;
+}
+
 /* OpenMP threads that spin while they wait take the cores that pictures and stream need, and libgomp
    reads how long they may spin only when the process starts: start once more with a short spin. */
 static void limit_spinning(char **arguments)
@@ -43,8 +56,18 @@ static void limit_spinning(char **arguments)
     if (setenv("GOMP_SPINCOUNT", "20000", 1) == 0) execv("/proc/self/exe", arguments);
 }
 
+/* Where a standard stream is closed, the first file opened would take its place, and get what is said there. */
+static void keep_standard_streams(void)
+{
+    int file;
+    do file = open("/dev/null", O_RDWR);
+    while (file >= 0 && file <= STDERR_FILENO);
+    if (file >= 0) close(file);
+}
+
 int main(int count, char **arguments)
 {
+    keep_standard_streams();
     const char *name = count > 1 ? arguments[1] : "";
     if (strcmp(name, "--version") == 0) {
         printf("shorebreak %s\n", SB_VERSION);
@@ -63,7 +86,8 @@ int main(int count, char **arguments)
             }
         limit_spinning(arguments);
         sb_memory_return_blocks();
-        return commands[c].run(count - 2, arguments + 2);
+        const int status = commands[c].run(count - 2, arguments + 2);
+        return commands[c].answers && status == 0 ? finish_answer() : status;
     }
     if (*name)
         no_such(name);

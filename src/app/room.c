@@ -9,6 +9,11 @@
 static const double PROGRAM_BYTES = 1e7, GRAPHICS_BYTES = 5e7, FLUID_BYTES = 166, PAIR_BYTES = 4.3, WALL_BYTES = 48,
                     GHOST_BYTES = 90;
 
+/* Of a picture's pixel: two layers of water at 16 bytes, colour, depth, what is read back, what is written. Of a node
+   of the grid by which pictures find the surface, of which there are two; nodes lie 1.5 spacings apart, farther where
+   that would be too many; it grows by doubling. Of a map's cell. */
+static const double PIXEL_BYTES = 47, NODE_BYTES = 16, NODE_SPACINGS = 1.5, NODES_MAX = 2.5e7, MAP_CELL_BYTES = 36;
+
 /* What the model holds of that already. */
 static const double MODEL_FLUID_BYTES = 56, MODEL_WALL_BYTES = 48;
 
@@ -47,10 +52,32 @@ static double count_frames(const sb_scene *scene, const sb_model *model)
     return some ? (double)sb_room_waiting(model->fluid_count) + 2 : 0;
 }
 
+static double count_nodes(const sb_scene *scene, const sb_model *model)
+{
+    const double cell = NODE_SPACINGS * scene->resolution;
+    const sb_vec3 size = sb_sub(model->max, model->min);
+    return fmin(NODES_MAX, (size.x / cell + 1) * (size.y / cell + 1) * (size.z / cell + 1));
+}
+
+static double picture_bytes(const sb_scene *scene, const sb_model *model)
+{
+    const sb_render_settings *wish = &scene->render;
+    if (!(wish->interval > 0) || wish->camera_count == 0) return 0;
+    return GRAPHICS_BYTES + PIXEL_BYTES * wish->width * wish->height + NODE_BYTES * count_nodes(scene, model);
+}
+
+static double map_bytes(const sb_scene *scene)
+{
+    const sb_map *map = &scene->measure.map;
+    if (!map->present) return 0;
+    const double rows = scene->dimensions == 2 ? 1 : ceil((map->y_max - map->y_min) / map->cell);
+    return MAP_CELL_BYTES * ceil((map->x_max - map->x_min) / map->cell) * rows;
+}
+
 double sb_room_needed(const sb_scene *scene, const sb_model *model)
 {
     const double fluid = FLUID_BYTES + PAIR_BYTES * count_neighbours(scene) + FRAME_BYTES * count_frames(scene, model);
-    return PROGRAM_BYTES + (scene->render.interval > 0 ? GRAPHICS_BYTES : 0) + (double)model->fluid_count * fluid +
+    return PROGRAM_BYTES + picture_bytes(scene, model) + map_bytes(scene) + (double)model->fluid_count * fluid +
            (double)model->wall_count * WALL_BYTES + sb_room_ghosts(scene, model) * GHOST_BYTES;
 }
 

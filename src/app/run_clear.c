@@ -1,5 +1,6 @@
 /* What an earlier run has left in a directory where a new one begins. */
 #include "app/run_state.h"
+#include "output/esri.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -8,29 +9,21 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { MOST_NAMES = 6, MOST_ENDINGS = 3 };
-
-#define TABLES                                                                                                         \
-    {                                                                                                                  \
-        "forces", "gauges", "probes", "energy", "overtopping", "runup"                                                 \
-    }
-#define MAPS                                                                                                           \
-    {                                                                                                                  \
-        "max_depth", "max_speed", "max_momentum_flux", "arrival_time"                                                  \
-    }
+enum { MOST_ENDINGS = 3 };
 
 /* By name, so that nothing of the user's goes; ".tmp" was being written when a run was killed. Log and scene are
    overwritten at once, numbered files are below. */
 static const struct {
-    const char *folder, *names[MOST_NAMES], *endings[MOST_ENDINGS];
+    const char *folder, *const *names, *endings[MOST_ENDINGS];
 } left[] = {
-    {".", {"summary"}, {".json", ".json.tmp"}},
-    {".", TABLES, {".csv"}},
-    {".", {"particles"}, {".pvd", ".pvd.tmp"}},
-    {"particles", {"last-good"}, {".vtp", ".vtp.tmp"}},
-    {"maps", MAPS, {".asc", ".asc.tmp", ".png"}},
-    {"plots", TABLES, {".png", ".dat", ".gp"}},
-    {"plots", MAPS, {".gp"}},
+    {".", (const char *const[]){"summary.json", NULL}, {"", ".tmp"}},
+    {".", sb_csv_names, {".csv"}},
+    {".", (const char *const[]){"particles.pvd", NULL}, {"", ".tmp"}},
+    {"particles", (const char *const[]){"last-good.vtp", NULL}, {"", ".tmp"}},
+    {"maps", sb_map_names, {".asc", ".asc.tmp", ".png"}},
+    {"plots", sb_csv_names, {".png", ".dat", ".gp"}},
+    {"plots", sb_map_names, {".gp"}},
+    {"plots", (const char *const[]){"part", NULL}, {".png"}},
 };
 
 static const char *const folders[] = {"particles", "maps", "plots", "frames"};
@@ -64,7 +57,7 @@ static sb_status remove_named(const run *r, sb_error *error)
         const bool top = strcmp(left[i].folder, ".") == 0;
         status = sb_run_path(r, left[i].folder, folder, error);
         if (status != SB_OK || (!top && !is_folder(folder))) continue;
-        for (size_t n = 0; n < MOST_NAMES && left[i].names[n]; n++)
+        for (size_t n = 0; left[i].names[n]; n++)
             for (size_t e = 0; status == SB_OK && e < MOST_ENDINGS && left[i].endings[e]; e++)
                 status = remove_file(folder, left[i].names[n], left[i].endings[e], error);
     }

@@ -1,6 +1,7 @@
 /* After the last step: what the run leaves behind, whole, however it ended. */
 #include "app/run_state.h"
 #include "base/memory.h"
+#include "base/stop.h"
 #include "output/esri.h"
 #include "output/plots.h"
 #include "output/summary.h"
@@ -175,16 +176,18 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
 
 /* From all pictures so far: minutes of work, which one who stops a run does not wait for, and which is done over when
    it goes on. */
-static void make_films(const run *r, sb_status status)
+static sb_status make_films(const run *r, sb_status status, sb_error *error)
 {
     static const char *const off[] = {"films: the run was stopped; they are made when it has gone on to its end", NULL};
-    if (r->scene->render.camera_count == 0 || r->pictures.count <= 1 || !r->scene->render.video) return;
+    if (r->scene->render.camera_count == 0 || r->pictures.count <= 1 || !r->scene->render.video) return SB_OK;
     if (status == SB_INTERRUPTED) {
         sb_runlog_skipped(r->log, off);
-        return;
+        return SB_OK;
     }
-    for (size_t c = 0; c < r->scene->render.camera_count; c++)
+    for (size_t c = 0; c < r->scene->render.camera_count && !sb_stop_signal(); c++)
         sb_video_write(r->directory, r->scene->render.cameras[c].name, r->scene->render.video_rate, r->log);
+    return sb_stop_signal() ? sb_stop_fail(error, "while films were made, all else is done: --resume makes them")
+                            : SB_OK;
 }
 
 void sb_run_finish(run *r, sb_status *status, sb_error *error)
@@ -208,7 +211,7 @@ void sb_run_finish(run *r, sb_status *status, sb_error *error)
     if (r->sim) /* before what takes long: someone may lose patience */
         write_summary(r, status, error);
     if (r->measure && r->scene->output.plots) sb_plots_write(r->directory, r->scene, r->log);
-    make_films(r, *status);
+    keep_first(status, error, make_films(r, *status, &reason), &reason);
     if (!leaked) tell_lost(r); /* else the reason is the last line */
     sb_runlog_end(r->log, *status, *status == SB_OK ? NULL : error->text);
     keep_first(status, error, sb_runlog_close(r->log, &reason), &reason);

@@ -60,8 +60,9 @@ static sb_status take_directory(run *r, origin from, sb_error *error)
 {
     char path[SB_PATH_MAX];
     const bool resume = from != NOTHING;
-    sb_status status = resume ? SB_OK : clear_earlier_run(r, error);
-    if (status == SB_OK && from != CHECKPOINT) status = write_scene(r, error);
+    /* First what may fail: then the earlier run is still there. */
+    sb_status status = from == CHECKPOINT ? SB_OK : write_scene(r, error);
+    if (status == SB_OK && !resume) status = clear_earlier_run(r, error);
     if (status == SB_OK) status = sb_run_path(r, "run.jsonl", path, error);
     if (status == SB_OK)
         status = resume ? sb_runlog_append(path, &r->log, error) : sb_runlog_open(path, &r->log, error);
@@ -72,9 +73,8 @@ static sb_status take_directory(run *r, origin from, sb_error *error)
 /* The colour map's top is the scene's, not each picture's: later pictures of this run shall match. */
 static void resolve(run *r)
 {
-    double depth = fmax(r->model.still_depth, r->scene->resolution);
     if (!(r->resolved.render.speed_max > 0))
-        r->resolved.render.speed_max = 2 * sqrt(fmax(r->scene->fluid.gravity, 1) * depth);
+        r->resolved.render.speed_max = 2 * sb_model_wave_speed(r->scene, &r->model);
 }
 
 static sb_status start_streamer(run *r, sb_error *error)

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 
+#include <errno.h>
 #include <stdarg.h>
 #include <string.h>
 
@@ -88,6 +89,11 @@ sb_status sb_archive_open(sb_archive_in *in, const char *path, const char *kind,
     size_t length;
     *in = (sb_archive_in){0};
     sb_status status = sb_file_read(path, (size_t)1 << 40, &bytes, &length, error);
+    /* A file that is there and cannot be read now is not thereby damaged. */
+    if (status == SB_BAD_INPUT && errno != 0 && errno != ENOENT && errno != EISDIR) {
+        if (error) error->status = SB_FAILED;
+        return SB_FAILED;
+    }
     if (status != SB_OK) return status;
     status = sb_archive_parse(in, path, bytes, length, kind, version, error);
     in->own = (unsigned char *)bytes;

@@ -39,6 +39,14 @@ sb_status sb_atomic_open(sb_atomic_file *file, const char *path, sb_error *error
     return errno == ELOOP ? SB_FAILED : sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", path, strerror(errno));
 }
 
+sb_status sb_atomic_open_in(sb_atomic_file *file, const char *folder, const char *name, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    *file = (sb_atomic_file){.stream = NULL};
+    sb_status status = sb_path_join(path, folder, name, error);
+    return status == SB_OK ? sb_atomic_open(file, path, error) : status;
+}
+
 /* Makes a rename last through a power cut. Not every file system can, and the file is whole either way. */
 static void sync_folder_of(const char *path)
 {
@@ -53,7 +61,7 @@ sb_status sb_atomic_commit(sb_atomic_file *file, int durable, sb_error *error)
     file->stream = NULL;
     errno = 0;
     int bad = fflush(stream) != 0 || ferror(stream) || (durable && fsync(fileno(stream)) != 0);
-    int reason = errno;
+    int reason = errno ? errno : EIO; /* an earlier write's is not known any more */
     if (fclose(stream) != 0 && !bad) {
         bad = 1;
         reason = errno;
@@ -170,13 +178,21 @@ void sb_path_folder(char out[SB_PATH_MAX], const char *path)
         snprintf(out, SB_PATH_MAX, "%.*s", slash == path ? 1 : (int)(slash - path), path);
 }
 
+static sb_status unreadable(const char *path, int reason, sb_error *error)
+{
+    sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(reason));
+    errno = reason;
+    return SB_BAD_INPUT;
+}
+
 sb_status sb_file_read(const char *path, size_t limit, char **text, size_t *length, sb_error *error)
 {
     *text = NULL;
     *length = 0;
     FILE *file = fopen(path, "rb");
-    if (!file) return sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(errno));
+    if (!file) return unreadable(path, errno, error);
     sb_status status = SB_OK;
+    int reason = 0;
     char *buffer = NULL;
     size_t capacity = 0, used = 0;
     for (;;) {
@@ -184,6 +200,7 @@ sb_status sb_file_read(const char *path, size_t limit, char **text, size_t *leng
             status = sb_fail_memory(error, path);
             break;
         }
+        errno = 0;
         size_t got = fread(buffer + used, 1, 65536, file);
         used += got;
         if (used > limit) {
@@ -192,11 +209,14 @@ sb_status sb_file_read(const char *path, size_t limit, char **text, size_t *leng
         }
         if (got == 0) break;
     }
-    if (status == SB_OK && ferror(file))
-        status = sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(errno));
+    if (status == SB_OK && ferror(file)) {
+        reason = errno ? errno : EIO;
+        status = unreadable(path, reason, error);
+    }
     fclose(file);
     if (status != SB_OK) {
         sb_free(buffer);
+        errno = reason;
         return status;
     }
     buffer[used] = '\0';

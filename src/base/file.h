@@ -22,6 +22,9 @@ sb_status sb_file_open(const char *path, const char *mode, FILE **stream, sb_err
 /* Opens "<path>.tmp" for writing. SB_FAILED names the path and the system's reason. */
 sb_status sb_atomic_open(sb_atomic_file *file, const char *path, sb_error *error);
 
+/* The same for folder/name. */
+sb_status sb_atomic_open_in(sb_atomic_file *file, const char *folder, const char *name, sb_error *error);
+
 /* Flushes, syncs (file and folder) when `durable`, closes and renames to the final name; on any failure removes the
    temporary and says why. */
 sb_status sb_atomic_commit(sb_atomic_file *file, int durable, sb_error *error);
@@ -49,7 +52,8 @@ sb_status sb_path_join(char out[SB_PATH_MAX], const char *base, const char *name
 /* The folder part of path ("." when it has none). */
 void sb_path_folder(char out[SB_PATH_MAX], const char *path);
 
-/* The whole file as a zero-terminated string of *length bytes, at most `limit`; free with sb_free. */
+/* The whole file as a zero-terminated string of *length bytes, at most `limit`; free with sb_free. Where it cannot be
+   read, errno is the system's reason, else 0. */
 sb_status sb_file_read(const char *path, size_t limit, char **text, size_t *length, sb_error *error);
 
 /* The same without the byte-order mark that some editors and spreadsheets put before UTF-8. */

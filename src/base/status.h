@@ -15,8 +15,12 @@ typedef struct sb_error {
     char text[1024];
 } sb_error;
 
-/* Fills *error (may be NULL) and returns status, so that a failing function ends in one line. */
+/* Fills *error (may be NULL) and returns status, so that a failing function ends in one line; the text is made one, for
+   it may quote a hostile file. */
 sb_status sb_fail(sb_error *error, sb_status status, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+/* Puts "?" for the control characters of UTF-8 text: what is left is one line, and no orders to a terminal. */
+void sb_one_line(char *text);
 
 /* SB_FAILED with "out of memory" and what the bytes were for. */
 sb_status sb_fail_memory(sb_error *error, const char *purpose);

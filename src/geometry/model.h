@@ -7,6 +7,8 @@
 #include "geometry/mesh.h"
 #include "scene/scene.h"
 
+#include <math.h>
+
 /* One rigid body, its boundary particles being [begin, begin + count) of the model's. */
 typedef struct sb_model_body {
     char name[SB_NAME_MAX];
@@ -37,6 +39,12 @@ typedef struct sb_model {
     size_t warning_count;
     char **warnings; /* one line each: what the user should know before running */
 } sb_model;
+
+/* m/s: sqrt(g D) of water at least one spacing deep. */
+static inline double sb_model_wave_speed(const sb_scene *scene, const sb_model *model)
+{
+    return sqrt(scene->fluid.gravity * fmax(model->still_depth, scene->resolution));
+}
 
 /* Imports, samples and fills, and warns of what is too coarse or too thin to trust; SB_BAD_INPUT for a plate thinner
    than half a spacing, which water would pass. On error *model is untouched; SB_INTERRUPTED when the process is to stop

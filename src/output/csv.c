@@ -23,29 +23,31 @@ struct sb_csv {
     table tables[TABLES];
 };
 
+const char *const sb_csv_names[SB_CSV_TABLES + 1] = {
+    [FORCES] = "forces", [GAUGES] = "gauges",           [PROBES] = "probes",
+    [ENERGY] = "energy", [OVERTOPPING] = "overtopping", [RUNUP] = "runup",
+};
+
 /* Header lines in 3D and in 2D. */
 static const struct {
-    const char *name, *header, *flat_header;
+    const char *header, *flat_header;
 } formats[TABLES] = {
-    [FORCES] = {"forces.csv",
-                "time_s,body,Fx_N,Fy_N,Fz_N,Mx_Nm,My_Nm,Mz_Nm,Fx_pressure_N,Fy_pressure_N,"
+    [FORCES] = {"time_s,body,Fx_N,Fy_N,Fz_N,Mx_Nm,My_Nm,Mz_Nm,Fx_pressure_N,Fy_pressure_N,"
                 "Fz_pressure_N,Fx_friction_N,Fy_friction_N,Fz_friction_N",
                 "time_s,body,Fx_N_per_m,Fy_N_per_m,Fz_N_per_m,Mx_Nm_per_m,My_Nm_per_m,"
                 "Mz_Nm_per_m,Fx_pressure_N_per_m,Fy_pressure_N_per_m,Fz_pressure_N_per_m,"
                 "Fx_friction_N_per_m,Fy_friction_N_per_m,Fz_friction_N_per_m"},
-    [GAUGES] = {"gauges.csv", "time_s,gauge,eta_m", "time_s,gauge,eta_m"},
-    [PROBES] = {"probes.csv", "time_s,probe,u_m_s,v_m_s,w_m_s,p_Pa", "time_s,probe,u_m_s,v_m_s,w_m_s,p_Pa"},
-    [ENERGY] = {"energy.csv",
-                "time_s,kinetic_J,potential_J,mass_kg,momentum_x_kg_m_s,momentum_y_kg_m_s,"
+    [GAUGES] = {"time_s,gauge,eta_m", "time_s,gauge,eta_m"},
+    [PROBES] = {"time_s,probe,u_m_s,v_m_s,w_m_s,p_Pa", "time_s,probe,u_m_s,v_m_s,w_m_s,p_Pa"},
+    [ENERGY] = {"time_s,kinetic_J,potential_J,mass_kg,momentum_x_kg_m_s,momentum_y_kg_m_s,"
                 "momentum_z_kg_m_s,bodies_J,viscosity_J,wall_friction_J,pressure_solve_J,contact_J,"
                 "time_integration_J,left_domain_J,momentum_imbalance,packing_stress_J",
                 "time_s,kinetic_J_per_m,potential_J_per_m,mass_kg_per_m,momentum_x_kg_m_s_per_m,"
                 "momentum_y_kg_m_s_per_m,momentum_z_kg_m_s_per_m,bodies_J_per_m,viscosity_J_per_m,"
                 "wall_friction_J_per_m,pressure_solve_J_per_m,contact_J_per_m,"
                 "time_integration_J_per_m,left_domain_J_per_m,momentum_imbalance,packing_stress_J_per_m"},
-    [OVERTOPPING] = {"overtopping.csv", "time_s,plane,volume_m3,flux_m3_s",
-                     "time_s,plane,volume_m3_per_m,flux_m3_s_per_m"},
-    [RUNUP] = {"runup.csv", "time_s,line,x_m,y_m,z_m,front_m", "time_s,line,x_m,y_m,z_m,front_m"},
+    [OVERTOPPING] = {"time_s,plane,volume_m3,flux_m3_s", "time_s,plane,volume_m3_per_m,flux_m3_s_per_m"},
+    [RUNUP] = {"time_s,line,x_m,y_m,z_m,front_m", "time_s,line,x_m,y_m,z_m,front_m"},
 };
 
 /* The first failed file's message, or SB_OK. Rows in a file without a name would be lost without a word. */
@@ -77,6 +79,13 @@ static sb_status start_table(table *t, const char *header, sb_error *error)
     return SB_OK;
 }
 
+static sb_status path_of(const char *directory, int k, char path[SB_PATH_MAX], sb_error *error)
+{
+    char name[32];
+    snprintf(name, sizeof name, "%s.csv", sb_csv_names[k]);
+    return sb_path_join(path, directory, name, error);
+}
+
 static bool has_table(const sb_scene *scene, int k)
 {
     return k == OVERTOPPING ? scene->measure.plane_count > 0 : k == RUNUP ? scene->measure.runup_count > 0 : true;
@@ -95,7 +104,7 @@ static sb_status open_tables(const char *directory, const sb_scene *scene, const
         table *t = &made->tables[k];
         if (!has_table(scene, k)) continue;
         const char *header = scene->dimensions == 2 ? formats[k].flat_header : formats[k].header;
-        status = sb_path_join(t->path, directory, formats[k].name, error);
+        status = path_of(directory, k, t->path, error);
         if (status == SB_OK)
             status =
                 marks ? sb_hashed_resume(&t->file, t->path, marks->bytes[k], error) : start_table(t, header, error);
@@ -126,7 +135,7 @@ sb_status sb_csv_check(const char *directory, const sb_scene *scene, const sb_cs
     for (int k = 0; status == SB_OK && k < TABLES; k++) {
         char path[SB_PATH_MAX];
         if (!has_table(scene, k)) continue;
-        status = sb_path_join(path, directory, formats[k].name, error);
+        status = path_of(directory, k, path, error);
         if (status == SB_OK) status = sb_hashed_check(path, marks->bytes[k], marks->hash[k], error);
     }
     return status;

@@ -11,6 +11,10 @@
 
 typedef struct sb_csv sb_csv;
 
+/* The tables that a run may have: <name>.csv, ended by NULL. */
+enum { SB_CSV_TABLES = 6 };
+extern const char *const sb_csv_names[SB_CSV_TABLES + 1];
+
 /* Starts forces.csv, gauges.csv, probes.csv, energy.csv and, when the scene has planes or lines,
    overtopping.csv and runup.csv in the directory (which exists). scene and model must outlive it.
    SB_FAILED names the file and the system's reason. */
@@ -19,7 +23,6 @@ sb_status sb_csv_open(const char *directory, const sb_scene *scene, const sb_mod
 
 /* Where a resumed run goes on writing: how long each table is, in bytes, and their hash. 0: a table that this scene has
    not. */
-enum { SB_CSV_TABLES = 6 };
 typedef struct sb_csv_marks {
     uint64_t bytes[SB_CSV_TABLES], hash[SB_CSV_TABLES];
 } sb_csv_marks;

@@ -1,6 +1,7 @@
 #include "output/hashed_file.h"
 
 #include <errno.h>
+#include <stdbool.h>
 #include <unistd.h>
 
 /* Only what has arrived counts. */
@@ -15,6 +16,11 @@ static ssize_t take(void *cookie, const char *bytes, size_t count)
         done += (size_t)written;
     }
     sb_hash_add(&file->hash, bytes, done);
+    for (size_t i = done; i > 0; i--)
+        if (bytes[i - 1] == '\n') {
+            file->whole = file->length + i;
+            break;
+        }
     file->length += done;
     return (ssize_t)done; /* fewer than it was given: the stream's error */
 }
@@ -90,6 +96,7 @@ sb_status sb_hashed_resume(sb_hashed_file *file, const char *path, uint64_t leng
         status = cannot("write", path, SB_FAILED, error);
     else
         status = make_stream(file, path, error);
+    file->whole = length;
     if (status != SB_OK) sb_hashed_close(file);
     return status;
 }
@@ -97,7 +104,14 @@ sb_status sb_hashed_resume(sb_hashed_file *file, const char *path, uint64_t leng
 int sb_hashed_close(sb_hashed_file *file)
 {
     int result = 0, reason = 0;
+    const bool failed = file->stream && ferror(file->stream);
     if (file->stream && fclose(file->stream) != 0) {
+        result = EOF;
+        reason = errno;
+    }
+    /* A full disk lets a file become shorter. */
+    if ((failed || result != 0) && file->file && ftruncate(fileno(file->file), (off_t)file->whole) != 0 &&
+        result == 0) {
         result = EOF;
         reason = errno;
     }

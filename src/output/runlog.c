@@ -4,10 +4,12 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "output/json.h"
+#include "scene/key.h"
 
 #include <errno.h>
 #include <pthread.h>
 #include <stdarg.h>
+#include <stdio_ext.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -15,7 +17,8 @@ struct sb_runlog {
     FILE *stream;
     char path[SB_PATH_MAX];
     double opened;
-    int reason; /* errno of the first failure, 0: none */
+    off_t whole; /* up to the end of the last line */
+    int reason;  /* errno of the first failure, 0: none */
     pthread_mutex_t mutex;
 };
 
@@ -30,6 +33,7 @@ static sb_status open_log(const char *path, const char *mode, sb_runlog **log, s
         return status;
     }
     made->opened = sb_clock();
+    if (fseeko(made->stream, 0, SEEK_END) == 0) made->whole = ftello(made->stream);
     pthread_mutex_init(&made->mutex, NULL);
     *log = made;
     return SB_OK;
@@ -102,47 +106,57 @@ static void begin(sb_runlog *log, sb_json *json, const char *event)
     sb_json_number(json, "wall_s", sb_clock() - log->opened);
 }
 
+/* A line is whole or absent: a full disk lets a file become shorter, and may have room for the next one. */
+static void take_back(sb_runlog *log)
+{
+    if (!log->reason) log->reason = errno ? errno : EIO;
+    __fpurge(log->stream);
+    clearerr(log->stream);
+    if (ftruncate(fileno(log->stream), log->whole) == 0) (void)fseeko(log->stream, log->whole, SEEK_SET);
+}
+
 static void end(sb_runlog *log, sb_json *json)
 {
     sb_json_close(json);
-    if ((fflush(log->stream) != 0 || ferror(log->stream)) && !log->reason) log->reason = errno ? errno : EIO;
+    if (fflush(log->stream) != 0 || ferror(log->stream))
+        take_back(log);
+    else
+        log->whole = ftello(log->stream);
     pthread_mutex_unlock(&log->mutex);
 }
 
-static void put_numerics(sb_json *json, const sb_numerics *n)
+/* All keys of the block, as the scene's table has them. */
+static void put_numerics(sb_json *json, const sb_numerics *numerics)
 {
-    static const char *const solvers[] = {"jacobi", "chebyshev", "cg"};
     sb_json_open(json, "numerics", '{');
-    sb_json_text(json, "preset", n->preset == SB_PRESET_PAPER ? "paper" : "default");
-    sb_json_text(json, "kernel", n->kernel ? n->kernel->name : NULL);
-    sb_json_number(json, "support", n->support);
-    sb_json_text(json, "density", n->density == SB_DENSITY_COMPLETED ? "completed" : "summed");
-    sb_json_text(json, "solver", solvers[n->solver]);
-    sb_json_text(json, "tolerance_rule", n->tolerance_rule == SB_TOLERANCE_DENSITY ? "density" : "pressure");
-    sb_json_number(json, "tolerance", n->tolerance);
-    sb_json_count(json, "min_iterations", (uint64_t)n->min_iterations);
-    sb_json_count(json, "max_iterations", (uint64_t)n->max_iterations);
-    sb_json_number(json, "relaxation", n->relaxation);
-    sb_json_number(json, "warm_start", n->warm_start);
-    sb_json_number(json, "source_relaxation", n->source_relaxation);
-    sb_json_number(json, "cfl", n->cfl);
-    sb_json_text(json, "time_step_rule", n->time_step_rule == SB_TIME_STEP_PAPER ? "paper" : "depth");
-    sb_json_number(json, "time_step_factor", n->time_step_factor);
-    sb_json_number(json, "time_step_max", n->time_step_max);
-    sb_json_number(json, "stress_correction", n->stress_correction);
-    sb_json_number(json, "artificial_viscosity", n->artificial_viscosity);
-    sb_json_number(json, "wall_friction", n->wall_friction);
-    sb_json_text(json, "wall_shear", n->wall_shear == SB_SHEAR_SMOOTH ? "smooth" : "none");
-    sb_json_text(json, "turbulence", n->turbulence == SB_TURBULENCE_SPS ? "sps" : "none");
-    sb_json_number(json, "smagorinsky", n->smagorinsky);
-    sb_json_number(json, "sound_speed", n->sound_speed);
-    sb_json_number(json, "wall_gamma", n->wall_gamma);
-    sb_json_number(json, "wall_spacing", n->wall_spacing);
-    sb_json_number(json, "wall_offset", n->wall_offset);
-    sb_json_number(json, "jitter", n->jitter);
-    sb_json_count(json, "seed", n->seed);
-    sb_json_bool(json, "sleep", n->sleep);
-    sb_json_count(json, "settle_steps", (uint64_t)n->settle_steps);
+    for (size_t i = 0; i < sb_numerics_table.count; i++) {
+        const sb_key *key = &sb_numerics_table.keys[i];
+        const void *field = (const char *)numerics + key->offset;
+        unsigned choice;
+        switch (key->type) {
+        case SB_KEY_NUMBER:
+            sb_json_number(json, key->name, *(const double *)field);
+            break;
+        case SB_KEY_INTEGER:
+            sb_json_count(json, key->name, (uint64_t) * (const int *)field);
+            break;
+        case SB_KEY_SEED:
+            sb_json_count(json, key->name, *(const uint64_t *)field);
+            break;
+        case SB_KEY_SWITCH:
+            sb_json_bool(json, key->name, *(const bool *)field);
+            break;
+        case SB_KEY_CHOICE:
+            memcpy(&choice, field, sizeof choice);
+            sb_json_text(json, key->name, key->words[choice]);
+            break;
+        case SB_KEY_KERNEL:
+            sb_json_text(json, key->name, numerics->kernel ? numerics->kernel->name : NULL);
+            break;
+        default: /* no such key is in that block */
+            break;
+        }
+    }
     sb_json_close(json);
 }
 

@@ -1,5 +1,8 @@
 #include "output/tool.h"
 
+#include "base/clock.h"
+#include "base/stop.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -8,6 +11,7 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 extern char **environ;
@@ -65,17 +69,35 @@ static int spawn(const char *path, char *const *arguments, const char *folder, i
     return result;
 }
 
+/* For how much longer a tool may work once someone wishes the run to stop. */
+static const double GRACE = 5; /* s */
+
+/* Waits for the child's end, and brings it about when patience is over. */
+static int wait_for(pid_t child)
+{
+    const struct timespec pause = {0, 10000000};
+    double noted = 0;
+    int ended = 0;
+    for (pid_t found; (found = waitpid(child, &ended, WNOHANG)) != child;) {
+        if (found < 0 && errno != EINTR) break;
+        if (sb_stop_signal() && !(noted > 0)) noted = sb_clock();
+        if (noted > 0 && sb_clock() > noted + GRACE) kill(-child, SIGKILL);
+        nanosleep(&pause, NULL);
+    }
+    return ended;
+}
+
 sb_status sb_tool_run(const char *path, char *const *arguments, const char *folder, sb_error *error)
 {
     FILE *said = tmpfile();
     if (!said) return sb_fail(error, SB_FAILED, "%s: no temporary file: %s", arguments[0], strerror(errno));
     pid_t child;
-    int result = spawn(path, arguments, folder, fileno(said), &child), ended = 0;
+    int result = spawn(path, arguments, folder, fileno(said), &child);
     if (result != 0) {
         fclose(said);
         return sb_fail(error, SB_FAILED, "%s: cannot start: %s", arguments[0], strerror(result));
     }
-    while (waitpid(child, &ended, 0) < 0 && errno == EINTR) continue;
+    const int ended = wait_for(child);
     sb_status status = SB_OK;
     if (!WIFEXITED(ended) || WEXITSTATUS(ended) != 0) {
         char line[256];

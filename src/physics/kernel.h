@@ -13,7 +13,7 @@ typedef struct sb_kernel {
     double (*slope)(double q); /* dw/dq <= 0; over q it is bounded and nowhere steeper than at q = 0 */
 } sb_kernel;
 
-/* All kernels, ended by a row whose name is NULL. */
+/* All kernels, ended by NULL. */
 extern const sb_kernel *const sb_kernels[];
 
 /* The kernel of that name, or NULL. */

@@ -58,11 +58,6 @@ void sb_uniform_float(GLuint program, const char *name, double value)
     sb_gl.Uniform1f(sb_gl.GetUniformLocation(program, name), (float)value);
 }
 
-void sb_uniform_int(GLuint program, const char *name, int value)
-{
-    sb_gl.Uniform1i(sb_gl.GetUniformLocation(program, name), value);
-}
-
 void sb_uniform_vec2(GLuint program, const char *name, double x, double y)
 {
     sb_gl.Uniform2f(sb_gl.GetUniformLocation(program, name), (float)x, (float)y);

@@ -14,7 +14,6 @@ sb_status sb_program_create(const char *name, const char *vertex, const char *co
 
 /* Uniforms of a program in use, by name; names the compiler dropped are fine. */
 void sb_uniform_float(GLuint program, const char *name, double value);
-void sb_uniform_int(GLuint program, const char *name, int value);
 void sb_uniform_vec2(GLuint program, const char *name, double x, double y);
 void sb_uniform_vec3(GLuint program, const char *name, const float *value);
 void sb_uniform_mat4(GLuint program, const char *name, const float *value);

@@ -11,8 +11,8 @@
 struct sb_renderer {
     const sb_scene *scene;
     int width, height;
-    sb_vec3 min, max;   /* m, scene: domain and meshes */
-    double still_depth; /* m */
+    sb_vec3 min, max; /* m, scene: domain and meshes */
+    double speed_max; /* m/s, at the top of the colour map */
     sb_context *context;
     GLuint framebuffer, color, depth_stencil;
     sb_meshes *meshes;
@@ -79,7 +79,7 @@ sb_status sb_renderer_create(const sb_scene *scene, const sb_model *model, sb_re
     r->scene = scene;
     r->width = width;
     r->height = height;
-    r->still_depth = model->still_depth;
+    r->speed_max = scene->render.speed_max > 0 ? scene->render.speed_max : 2 * sb_model_wave_speed(scene, model);
     find_bounds(r, model);
     sb_status status = SB_OK;
     r->pixels = sb_alloc((size_t)width * (size_t)height, 4);
@@ -97,23 +97,7 @@ sb_status sb_renderer_create(const sb_scene *scene, const sb_model *model, sb_re
     return status;
 }
 
-/* m/s at the top of the colour map. */
-static double top_speed(const sb_renderer *r, const sb_frame *frame)
-{
-    if (r->scene->render.speed_max > 0) return r->scene->render.speed_max;
-    if (r->still_depth > 0 && r->scene->fluid.gravity > 0) return 2 * sqrt(r->scene->fluid.gravity * r->still_depth);
-    double fastest = 0;
-    for (size_t i = 0; i < frame->count; i++) {
-        const float *v = frame->velocity + 3 * i;
-        double square = (double)(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-        fastest = square > fastest && isfinite(square) ? square : fastest;
-    }
-    /* In steps, so that the colours do not flicker from frame to frame. */
-    return fastest > 0 ? 2 * sb_overlay_tick(sqrt(fastest), 2) : 1;
-}
-
-static sb_status draw_passes(sb_renderer *r, const sb_frame *frame, const sb_view *view, double speed_max,
-                             sb_error *error)
+static sb_status draw_passes(sb_renderer *r, const sb_frame *frame, const sb_view *view, sb_error *error)
 {
     sb_gl.BindFramebuffer(GL_FRAMEBUFFER, r->framebuffer);
     sb_gl.Viewport(0, 0, r->width, r->height);
@@ -123,7 +107,7 @@ static sb_status draw_passes(sb_renderer *r, const sb_frame *frame, const sb_vie
     sb_gl.ClearStencil(0);
     sb_gl.Clear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     /* Water first: the ground beneath it then costs no shading. */
-    sb_status status = sb_water_lay(&r->water, frame, view, speed_max, error);
+    sb_status status = sb_water_lay(&r->water, frame, view, r->speed_max, error);
     if (status != SB_OK) return status;
     sb_gl.BindFramebuffer(GL_FRAMEBUFFER, r->framebuffer);
     sb_gl.Enable(GL_STENCIL_TEST);
@@ -153,15 +137,14 @@ sb_status sb_renderer_draw(sb_renderer *renderer, const sb_frame *frame, size_t 
     double margin = 2 * frame->spacing;
     sb_view view = sb_view_create(&key, (double)r->width / r->height, sb_sub(r->min, sb_vec(margin, margin, margin)),
                                   sb_add(r->max, sb_vec(margin, margin, margin)));
-    double speed_max = top_speed(r, frame);
     sb_status status = sb_image_resize(image, r->width, r->height, error);
     if (status == SB_OK) status = sb_context_enter(r->context, error);
     if (status != SB_OK) return status;
-    status = draw_passes(r, frame, &view, speed_max, error);
+    status = draw_passes(r, frame, &view, error);
     sb_context_leave(r->context);
     if (status != SB_OK) return status;
     sb_soften(r->pixels, image);
-    return sb_overlay_draw(image, r->scene->title, frame->status.time, speed_max, error);
+    return sb_overlay_draw(image, r->scene->title, frame->status.time, r->speed_max, error);
 }
 
 void sb_renderer_destroy(sb_renderer *renderer)

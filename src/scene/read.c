@@ -239,13 +239,6 @@ static sb_status read_tree(const char *path, const char *preset_name, const sb_o
     return status;
 }
 
-/* Keys and values are quoted in messages, and may hold anything. */
-static void one_line(sb_error *error)
-{
-    for (char *at = error ? error->text : ""; *at; at++)
-        if ((unsigned char)*at < 0x20 || *at == 0x7f) *at = '?';
-}
-
 sb_status sb_scene_read(const char *path, const char *preset_name, const sb_override *overrides, size_t override_count,
                         sb_scene *scene, sb_error *error)
 {
@@ -267,7 +260,7 @@ sb_status sb_scene_read(const char *path, const char *preset_name, const sb_over
         return status;
     }
     sb_scene_free(&built);
-    one_line(error);
+    if (error) sb_one_line(error->text); /* keys and values are quoted, and may hold anything */
     return status;
 }
 

@@ -274,5 +274,5 @@ sb_status sb_scene_write(const sb_scene *scene, const char *path, sb_error *erro
                        "YAML needs",
                        path);
     }
-    return sb_atomic_commit(&file, 0, error);
+    return sb_atomic_commit(&file, 1, error); /* a resumed run begins with it */
 }

@@ -26,6 +26,12 @@ bool sb_sim_settles(const sb_scene *scene)
     return scene->numerics.settle_steps > 0;
 }
 
+int sb_sim_settle_most(const sb_scene *scene)
+{
+    const int steps = scene->numerics.settle_steps;
+    return scene->box_count > 0 && steps > CREEP_BOXES ? CREEP_BOXES : steps;
+}
+
 float sb_settle_pull(const sb_sim *sim, sb_record at)
 {
     const sb_initial_wave *wave = &sim->scene->wave;
@@ -93,9 +99,8 @@ sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
 static sb_status begin(sb_sim *sim, sb_error *error)
 {
     const int steps = sim->scene->numerics.settle_steps;
-    const bool boxes = sim->scene->box_count > 0;
     sim->settle = (sb_settle){.under_way = true,
-                              .most = boxes && steps > CREEP_BOXES ? CREEP_BOXES : steps,
+                              .most = sb_sim_settle_most(sim->scene),
                               .turn = steps - CALM_LAST,
                               .kinetic = (double)INFINITY};
     for (size_t i = 0; i < sim->n; i++) sim->velocity[i] = (sb_f4){0, 0, 0, sim->velocity[i][3]};

@@ -4,7 +4,6 @@
 #include "sim/around.h"
 #include "sim/deficit.h"
 #include "sim/friction.h"
-#include "sim/lattice.h"
 #include "sim/ledger.h"
 #include "sim/packing.h"
 #include "sim/pressure.h"
@@ -14,32 +13,6 @@
 #include <math.h>
 #include <omp.h>
 #include <string.h>
-
-static sb_constants make_constants(const sb_scene *scene, const sb_model *model)
-{
-    double dr = scene->resolution, g = scene->fluid.gravity;
-    double mass = scene->fluid.density * (scene->dimensions == 2 ? dr * dr : dr * dr * dr);
-    double depth = model->still_depth > dr ? model->still_depth : dr;
-    double wave_speed = g > 0 ? sqrt(g * depth) : 1;
-    double sound = scene->numerics.sound_speed > 0 ? scene->numerics.sound_speed : 10 * wave_speed;
-    return (sb_constants){
-        .dimension = scene->dimensions,
-        .spacing = (float)dr,
-        .support = (float)(scene->numerics.support * dr),
-        .rest_density = (float)scene->fluid.density,
-        .mass = (float)mass,
-        .gravity = (float)g,
-        .wave_speed = (float)wave_speed,
-        .sound_speed = (float)sound,
-        .viscosity = (float)scene->fluid.viscosity,
-        .full_diagonal = (float)sb_lattice_diagonal(scene, mass),
-        .spectrum = sb_lattice_spectrum(scene),
-        .bulk_deficit = (float)(scene->fluid.density * (1 - sb_lattice_density(scene))),
-        .surface_deficit =
-            (float)(sb_lattice_truncation(scene) * pow(scene->numerics.support * dr, 2) / scene->fluid.density),
-        .speed_limit = (float)fmax(100 * wave_speed, sb_scene_speed_limit(scene)),
-    };
-}
 
 static int allocate(sb_sim *sim, size_t n, size_t bodies)
 {
@@ -163,7 +136,7 @@ sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **s
         status =
             sb_fail(error, SB_BAD_INPUT, "%zu fluid particles: expected fewer than %d", model->fluid_count, 1 << 27);
     if (status == SB_OK) {
-        made->constant = make_constants(scene, model);
+        made->constant = sb_constants_of(scene, model);
         status = create_space(made, error);
         made->pairs.unit = sb_lists_unit(made);
     }

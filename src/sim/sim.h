@@ -38,12 +38,17 @@ typedef struct sb_body_impulse {
 /* Copies what it needs; scene and model must outlive it all the same (names, wave makers, velocities until it has
    settled), but for what sb_model_forget_start, and sb_model_forget_particles once it has settled, take away. */
 sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **sim, sb_error *error);
+/* The step, in s, in which water of this top speed (m/s) would be advanced: for an estimate before there is a
+   simulation. */
+double sb_sim_longest_step(const sb_scene *scene, const sb_model *model, double speed);
 /* SB_BAD_INPUT when the scene asks for first steps so short that positions could not show them. */
 sb_status sb_sim_check_start(const sb_sim *sim, sb_error *error);
 void sb_sim_destroy(sb_sim *sim);
 
 /* Whether the water comes to rest before t = 0: where settle_steps is not 0. */
 bool sb_sim_settles(const sb_scene *scene);
+/* Its steps at most; water that is calm sooner takes fewer. */
+int sb_sim_settle_most(const sb_scene *scene);
 
 /* Brings the water to rest with paddles at rest, where the scene settles, an initial wave's surface kept up; then
    gives it the scene's velocities. Time stays 0. A simulation that was saved meanwhile goes on where it was. */

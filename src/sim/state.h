@@ -4,6 +4,7 @@
 
 #include "physics/wavemaker.h"
 #include "sim/cells.h"
+#include "sim/constants.h"
 #include "sim/sim.h"
 #include "sim/space.h"
 
@@ -28,22 +29,6 @@ typedef struct sb_settle {
     int calm;       /* calm steps in a row */
     double kinetic; /* J, at the last trial; INFINITY: there was none */
 } sb_settle;
-
-/* Constants of the run. */
-typedef struct sb_constants {
-    int dimension;
-    float spacing, support;   /* m: delta r and h */
-    float rest_density, mass; /* kg/m^3; kg (kg/m in 2D) */
-    float gravity;            /* m/s^2 */
-    float wave_speed;         /* m/s, sqrt(g D) */
-    float sound_speed;        /* m/s */
-    float viscosity;          /* m^2/s, physical */
-    float full_diagonal;      /* of a full lattice, per dt^2: scale of a_ii */
-    float bulk_deficit;       /* kg/m^3, what a full lattice's sum lacks */
-    float surface_deficit;    /* what a flat surface's first layer lacks more, over |sum_j m grad W|^2 there */
-    double spectrum;          /* largest eigenvalue of D^-1 A on a full lattice */
-    float speed_limit;        /* m/s, above it the run has diverged */
-} sb_constants;
 
 /* Images of owned particles beyond the periodic sides: entries n to n + count of the arrays that neighbours
    are read from. */
@@ -246,9 +231,10 @@ sb_status sb_stage_source(sb_sim *sim, sb_error *error);
 sb_status sb_stage_pressure(sb_sim *sim, sb_error *error);
 /* sim/impulse.c: forces of the water on bodies over the step. */
 sb_status sb_stage_impulse(sb_sim *sim, sb_error *error);
+/* sim/time_step.c: the report's time step; fails when the run has diverged. */
+sb_status sb_stage_time_step(sb_sim *sim, sb_error *error);
 /* sim/integrate.c: fails with where the particle is and the velocity that it would reach. */
 sb_status sb_sim_diverged(const sb_sim *sim, size_t particle, sb_f4 velocity, sb_error *error);
-sb_status sb_stage_time_step(sb_sim *sim, sb_error *error);
 sb_status sb_stage_accelerate(sb_sim *sim, sb_error *error); /* new velocities, in acceleration */
 sb_status sb_stage_move(sb_sim *sim, sb_error *error);
 

@@ -313,6 +313,55 @@ static void nothing_is_written_through_a_link(void **state)
     }
 }
 
+/* A picture that gnuplot draws takes the place of a link. */
+static void nothing_is_drawn_through_a_link(void **state)
+{
+    (void)state;
+    struct stat drawn;
+    if (system("command -v gnuplot >/dev/null") != 0) skip();
+    write_text("precious", "precious\n");
+    assert_int_equal(mkdir(in_folder("drawn"), 0700), 0);
+    assert_int_equal(mkdir(in_folder("drawn/plots"), 0700), 0);
+    assert_int_equal(symlink(in_folder("precious"), in_folder("drawn/plots/energy.png")), 0);
+    assert_int_equal(symlink(in_folder("precious"), in_folder("drawn/plots/part.png")), 0);
+    RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "drawn", "--quiet", "--set", "output.plots=true");
+    char *text = text_of("precious");
+    assert_string_equal(text, "precious\n");
+    sb_free(text);
+    assert_int_equal(lstat(in_folder("drawn/plots/energy.png"), &drawn), 0);
+    assert_true(S_ISREG(drawn.st_mode) && drawn.st_size > 1000);
+    assert_int_not_equal(lstat(in_folder("drawn/plots/part.png"), &drawn), 0);
+}
+
+/* ---- closed streams ---- */
+
+/* What is said goes nowhere, and not into the first files that the run opens. */
+static void closed_streams_spoil_no_file(void **state)
+{
+    (void)state;
+    char command[2200];
+    snprintf(command, sizeof command, "cd '%s' && exec '%s/shorebreak' run tank2.yaml --out unheard <&- >&- 2>&-",
+             in_folder("."), SB_BINARY_DIR);
+    assert_int_equal(system(command), 0);
+    char *log = text_of("unheard/run.jsonl");
+    size_t lines = 0;
+    for (char *line = log, *end; (end = strchr(line, '\n')); line = end + 1, lines++) {
+        *end = '\0';
+        if (!json_valid(line)) fail_msg("line %zu of the log: %s", lines + 1, line);
+    }
+    assert_true(lines > 3);
+    sb_free(log);
+    static const char *const tables[] = {"forces.csv", "gauges.csv", "probes.csv", "energy.csv"};
+    for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
+        char name[64];
+        snprintf(name, sizeof name, "unheard/%s", tables[i]);
+        char *table = text_of(name);
+        assert_null(strstr(table, "shorebreak"));
+        sb_free(table);
+    }
+    RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "unheard", "--resume");
+}
+
 /* ---- clocks ---- */
 
 static void copy_hash(const char *summary, char hash[32])
@@ -357,7 +406,8 @@ int main(void)
         cmocka_unit_test(a_peer_that_never_answers),         cmocka_unit_test(no_graphics_library),
         cmocka_unit_test(no_room_for_particle_files),        cmocka_unit_test(no_room_for_pictures),
         cmocka_unit_test(a_directory_that_vanishes),         cmocka_unit_test(a_directory_that_moves),
-        cmocka_unit_test(nothing_is_written_through_a_link), cmocka_unit_test(a_clock_that_jumps),
+        cmocka_unit_test(nothing_is_written_through_a_link), cmocka_unit_test(nothing_is_drawn_through_a_link),
+        cmocka_unit_test(closed_streams_spoil_no_file),      cmocka_unit_test(a_clock_that_jumps),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
 }

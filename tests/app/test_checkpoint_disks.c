@@ -37,7 +37,16 @@ static void a_checkpoint_that_fails_is_a_warning(void **state)
     assert_string_equal(left[0], names[0]);
 }
 
-/* A table that cannot be written ends the run; with room again it goes on as if nothing had been. */
+static void assert_last_line_is_whole(const char *name)
+{
+    char *text = text_of(name);
+    const size_t length = strlen(text);
+    if (length == 0 || text[length - 1] != '\n') fail_msg("%s ends within a line", name);
+    sb_free(text);
+}
+
+/* A table that cannot be written ends the run, and all of them end with a whole row; with room again it goes on as if
+   nothing had been. */
 static void a_full_disk_ends_the_run_and_it_goes_on(void **state)
 {
     (void)state;
@@ -49,6 +58,12 @@ static void a_full_disk_ends_the_run_and_it_goes_on(void **state)
     assert_int_equal(o.status, 2);
     assert_contains(o.err, ".csv: cannot write: File too large");
     outcome_free(&o);
+    for (size_t t = 0; pair_tables[t]; t++) {
+        char name[96];
+        snprintf(name, sizeof name, "tight/%s", pair_tables[t]);
+        if (exists(name)) assert_last_line_is_whole(name);
+    }
+    assert_last_line_is_whole("tight/run.jsonl");
     RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "tight", "--quiet", "--set", "measure.interval=0.002",
                    "--resume");
     assert_same_run("roomy", "tight", pair_tables);

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
 
 static const char *const commands[] = {"run", "check", "sample", "render", "list"};
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
@@ -165,6 +166,15 @@ static void check_in_json(void **state)
     assert_near(strtod(json_find(o.out, "fluid_particles"), NULL), 384, 0);
     assert_true(strtod(json_find(o.out, "memory_bytes"), NULL) > 384 * 100);
     assert_contains(o.out, "\"post\"");
+    assert_true(strtod(json_find(o.out, "settling_steps_most"), NULL) > 0);
+    outcome_free(&o);
+    /* The steps are those of a run. */
+    o = RUN(0, "check", "tank3.yaml", "--json", "--set", "numerics.time_step_max=1e-4");
+    assert_near(strtod(json_find(o.out, "time_step_s"), NULL), 1e-4, 1e-12);
+    assert_near(strtod(json_find(o.out, "steps"), NULL), 3000, 1);
+    outcome_free(&o);
+    o = RUN(0, "check", "tank3.yaml", "--json", "--set", "numerics.artificial_viscosity=10");
+    assert_true(strtod(json_find(o.out, "time_step_s"), NULL) < 2e-4);
     outcome_free(&o);
     /* One particle deep: too coarse, which is a warning and no error. */
     o = RUN(0, "check", "tank3.yaml", "--json", "--set", "resolution=0.25");
@@ -172,6 +182,23 @@ static void check_in_json(void **state)
     assert_true(*json_find(o.out, "warnings") == '[');
     assert_contains(json_find(o.out, "warnings"), "expected");
     outcome_free(&o);
+}
+
+/* An answer that nobody can have got is no success. */
+static void an_answer_that_is_lost_is_told(void **state)
+{
+    (void)state;
+    static const char *const asked[] = {"check tank3.yaml --json", "list kernels"};
+    for (size_t i = 0; i < sizeof asked / sizeof *asked; i++) {
+        char command[2200];
+        snprintf(command, sizeof command, "cd '%s' && '%s/shorebreak' %s >/dev/full 2>lost.txt", in_folder("."),
+                 SB_BINARY_DIR, asked[i]);
+        const int how = system(command);
+        assert_true(WIFEXITED(how) && WEXITSTATUS(how) == 2);
+        char *said = text_of("lost.txt");
+        assert_one_line(said, "standard output: cannot write: No space left on device");
+        sb_free(said);
+    }
 }
 
 /* What runs, but not as its writer will have meant it, is told before and while it runs. */
@@ -369,6 +396,7 @@ int main(void)
         cmocka_unit_test(lists_name_what_there_is),
         cmocka_unit_test(check_tells_what_would_be_built),
         cmocka_unit_test(check_in_json),
+        cmocka_unit_test(an_answer_that_is_lost_is_told),
         cmocka_unit_test(a_scene_of_doubtful_use_is_warned_of),
         cmocka_unit_test(check_counts_neighbours_as_memory),
         cmocka_unit_test(sample_writes_the_particles),

@@ -69,8 +69,9 @@ static size_t read_forces(const char *name, const char *header, force_row *rows,
         end += length;
         for (int k = 1; k < NUMBERS; k++) {
             assert_int_equal(*end, ',');
-            row->value[k] = strtod(end + 1, &end);
-            assert_true(isfinite(row->value[k]));
+            const char *field = end + 1;
+            row->value[k] = strtod(field, &end);
+            assert_true(end > field && isfinite(row->value[k]));
         }
         assert_int_equal(*end, '\n');
     }

@@ -11,7 +11,9 @@
 
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static void wait_for_file(const char *name)
@@ -256,6 +258,42 @@ static void a_run_that_nobody_hears_goes_on(void **state)
     assert_near(json_number_of("alone/summary.json", "simulated_s"), end, 0); /* its state was saved */
 }
 
+static void write_program(const char *name, const char *text)
+{
+    write_text(name, text);
+    assert_int_equal(chmod(in_folder("%s", name), 0700), 0);
+}
+
+/* Whoever stops a run while films are made waits no longer than a film may take, and gets them when it goes on. */
+static void films_are_stopped_and_made_later(void **state)
+{
+    (void)state;
+    char path[4200];
+    const char *before = getenv("PATH");
+    assert_int_equal(mkdir(in_folder("bin"), 0700), 0);
+    write_program("bin/ffmpeg", "#!/bin/sh\ntouch begun\nsleep 200\n");
+    snprintf(path, sizeof path, "%s:%s", in_folder("bin"), before);
+    char *kept = sb_strdup(before);
+    setenv("PATH", path, 1);
+    const double began = sb_clock();
+    pid_t process = program_start(
+        (const char *const[]){"run", "tank3.yaml", "--out", "filmed", "--set", "render.video=true", NULL});
+    wait_for_file("filmed/begun");
+    assert_int_equal(kill(process, SIGTERM), 0);
+    outcome o = program_finish(process);
+    assert_int_equal(o.status, 128 + SIGTERM);
+    assert_contains(o.err, "stopped by a signal while films were made");
+    outcome_free(&o);
+    assert_true(sb_clock() - began < 100);
+    assert_false(exists("filmed/side.mp4"));
+    write_program("bin/ffmpeg", "#!/bin/sh\nfor last; do :; done\necho film > \"${last#file:}\"\n");
+    o = RUN(0, "run", "tank3.yaml", "--out", "filmed", "--set", "render.video=true", "--resume");
+    outcome_free(&o);
+    assert_true(exists("filmed/side.mp4") && exists("filmed/front.mp4"));
+    setenv("PATH", kept, 1);
+    sb_free(kept);
+}
+
 /* A scene that a stopped run leaves behind can be drawn. */
 static void what_is_left_can_be_drawn(void **state)
 {
@@ -267,13 +305,10 @@ static void what_is_left_can_be_drawn(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(interrupt_ends_with_130),
-        cmocka_unit_test(terminate_ends_with_143),
-        cmocka_unit_test(what_is_left_can_be_drawn),
-        cmocka_unit_test(a_model_in_the_making_hears),
-        cmocka_unit_test(water_coming_to_rest_hears),
-        cmocka_unit_test(a_closed_terminal_ends_with_129),
-        cmocka_unit_test(nohup_is_heard),
+        cmocka_unit_test(interrupt_ends_with_130),         cmocka_unit_test(terminate_ends_with_143),
+        cmocka_unit_test(what_is_left_can_be_drawn),       cmocka_unit_test(films_are_stopped_and_made_later),
+        cmocka_unit_test(a_model_in_the_making_hears),     cmocka_unit_test(water_coming_to_rest_hears),
+        cmocka_unit_test(a_closed_terminal_ends_with_129), cmocka_unit_test(nohup_is_heard),
         cmocka_unit_test(a_run_that_nobody_hears_goes_on),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);

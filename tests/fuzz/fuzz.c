@@ -1,5 +1,6 @@
 #include "fuzz.h"
 
+#include "base/archive_layout.h"
 #include "base/file.h"
 
 #include <stdbool.h>
@@ -66,5 +67,28 @@ void fuzz_edit(uint8_t *bytes, size_t size, const uint8_t *edits, size_t left)
         memcpy(bytes + at, edits, length);
         edits += length;
         left -= length;
+    }
+}
+
+static uint64_t word_at(const uint8_t *bytes)
+{
+    uint64_t word;
+    memcpy(&word, bytes, sizeof word);
+    return word;
+}
+
+void fuzz_repair(uint8_t *bytes, size_t size, const char *kind, uint32_t version)
+{
+    const uint32_t words[2] = {version, SB_ARCHIVE_ORDER};
+    if (size < SB_ARCHIVE_HEAD) return;
+    memset(bytes, 0, SB_ARCHIVE_NAME);
+    memcpy(bytes, kind, strlen(kind));
+    memcpy(bytes + SB_ARCHIVE_NAME, words, sizeof words);
+    for (size_t at = SB_ARCHIVE_HEAD; size - at >= SB_SECTION_HEAD;) {
+        const uint64_t length = word_at(bytes + at + SB_ARCHIVE_NAME);
+        if (length > size - at - SB_SECTION_HEAD) return;
+        const uint64_t sum = sb_archive_sum(bytes + at, length);
+        memcpy(bytes + at + SB_ARCHIVE_NAME + 8, &sum, sizeof sum);
+        at += SB_SECTION_HEAD + length;
     }
 }

@@ -29,6 +29,9 @@ const char *fuzz_save(const char *name, const uint8_t *data, size_t size);
    many bytes to put there. */
 void fuzz_edit(uint8_t *bytes, size_t size, const uint8_t *edits, size_t left);
 
+/* Makes the head and the checksums of an archive (base/archive.h) right, as far as its sections hang together. */
+void fuzz_repair(uint8_t *bytes, size_t size, const char *kind, uint32_t version);
+
 /* Checks what every refusal promises: a failure's status, and one line without control characters. */
 void fuzz_check_refusal(sb_status status, const sb_error *error);
 

@@ -1,9 +1,8 @@
-/* A checkpoint. An input that begins with 'e' is a row of edits to a sound one of a run, with 's' to one of water that
-   comes to rest, some of which is to sleep; any other is the file itself. Each is tried as it is, and once more with
-   its checksums made right, so that what they guard is tried as well. */
+/* The state and the measurements of a checkpoint. An input that begins with 'e' is a row of edits to a sound one of a
+   run, with 's' to one of water that comes to rest, some of which is to sleep; any other is the file itself. Each is
+   tried as it is, and once more with its checksums made right, so that what they guard is tried as well. */
 #include "fuzz.h"
 
-#include "base/archive_layout.h"
 #include "base/memory.h"
 #include "measure/measure.h"
 #include "sim/sim.h"
@@ -96,29 +95,6 @@ static bool try_bytes(subject *s, const uint8_t *bytes, size_t size)
     return status == SB_OK;
 }
 
-static uint64_t word_at(const uint8_t *bytes)
-{
-    uint64_t word;
-    memcpy(&word, bytes, sizeof word);
-    return word;
-}
-
-static void repair(uint8_t *bytes, size_t size)
-{
-    const uint32_t words[2] = {FORMAT, SB_ARCHIVE_ORDER};
-    if (size < SB_ARCHIVE_HEAD) return;
-    memset(bytes, 0, SB_ARCHIVE_NAME);
-    memcpy(bytes, kind, strlen(kind));
-    memcpy(bytes + SB_ARCHIVE_NAME, words, sizeof words);
-    for (size_t at = SB_ARCHIVE_HEAD; size - at >= SB_SECTION_HEAD;) {
-        const uint64_t length = word_at(bytes + at + SB_ARCHIVE_NAME);
-        if (length > size - at - SB_SECTION_HEAD) return;
-        const uint64_t sum = sb_archive_sum(bytes + at, length);
-        memcpy(bytes + at + SB_ARCHIVE_NAME + 8, &sum, sizeof sum);
-        at += SB_SECTION_HEAD + length;
-    }
-}
-
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     for (size_t k = 0; k < SUBJECTS; k++)
@@ -131,7 +107,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     memcpy(bytes, edits ? s->sound.bytes : data, length);
     if (edits) fuzz_edit(bytes, length, data + 1, size - 1);
     try_bytes(s, bytes, length);
-    repair(bytes, length);
+    fuzz_repair(bytes, length, kind, FORMAT);
     try_bytes(s, bytes, length);
     free(bytes);
     /* Whatever was refused, the sound one is taken afterwards. */

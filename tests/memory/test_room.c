@@ -75,6 +75,13 @@ static void test_outputs_take_room(void **state)
     assert_near(files - bare, 18e6 * 32 * 3, 1e6);
     scene.output.checkpoint.minutes = 10;
     assert_near(sb_room_needed(&scene, &model), files, 0); /* written as it is read */
+    sb_camera camera = {0};
+    scene.render =
+        (sb_render_settings){.interval = 1, .width = 7680, .height = 4320, .cameras = &camera, .camera_count = 1};
+    const double drawn = sb_room_needed(&scene, &model);
+    assert_true(drawn - files > 7680.0 * 4320 * 40);
+    scene.measure.map = (sb_map){.present = true, .x_max = 4000, .y_max = 5000, .cell = 1};
+    assert_near(sb_room_needed(&scene, &model) - drawn, 2e7 * 36, 1);
     assert_int_equal(sb_room_waiting(1000), 3);
     assert_int_equal(sb_room_waiting(model.fluid_count), 1);
     assert_int_equal(sb_room_waiting(0), 3);

@@ -4,6 +4,7 @@
 #include "stress.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const char sound[] = "{\n  \"fluid_particles\": 100, \"lost_particles\": 0, \"through_walls\": 0,\n"
@@ -97,6 +98,46 @@ static void test_how_it_ends_is_judged(void **state)
     }
 }
 
+static void write_table(const char *folder, const char *name, const char *text)
+{
+    char path[200];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    fputs(text, out);
+    assert_int_equal(fclose(out), 0);
+}
+
+/* In a table where every field has a number an empty one is none; where places may be dry it is well. */
+static void test_numbers_that_are_none_are_seen(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *table, *rows, *found;
+    } cases[] = {
+        {"forces.csv", "h\n0,post,1,2\n1,post,,2\n", "forces.csv:3"},
+        {"forces.csv", "h\n0,post,1,\n", "forces.csv:2"},
+        {"forces.csv", "h\n0,nana,1,-2\n", ""},
+        {"forces.csv", "h\n0,post,1,-inf\n", "forces.csv:2"},
+        {"energy.csv", "h\n0,nan,1\n", "energy.csv:2"},
+        {"gauges.csv", "h\n0,dry,\n", ""},
+        {"gauges.csv", "h\n0,dry,nan\n", "gauges.csv:2"},
+    };
+    char folder[] = "/tmp/shorebreak-judge-XXXXXX", path[200];
+    assert_non_null(mkdtemp(folder));
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        sb_outcome outcome = {0};
+        snprintf(outcome.folder, sizeof outcome.folder, "%s", folder);
+        write_table(folder, cases[c].table, cases[c].rows);
+        sb_outcome_read(&outcome);
+        assert_string_equal(outcome.not_a_number, cases[c].found);
+        sb_outcome_free(&outcome);
+        snprintf(path, sizeof path, "%s/%s", folder, cases[c].table);
+        assert_int_equal(remove(path), 0);
+    }
+    assert_int_equal(remove(folder), 0);
+}
+
 static void test_names_of_cases_and_trials_differ(void **state)
 {
     (void)state;
@@ -126,6 +167,7 @@ int main(void)
         cmocka_unit_test(test_each_common_rule_can_fail),
         cmocka_unit_test(test_what_left_is_accounted_for),
         cmocka_unit_test(test_how_it_ends_is_judged),
+        cmocka_unit_test(test_numbers_that_are_none_are_seen),
         cmocka_unit_test(test_names_of_cases_and_trials_differ),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,6 +3,7 @@
 
 #include "cases.h"
 #include "launch.h"
+#include "record.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -51,7 +52,7 @@ static void a_stopped_run_goes_on(void **state)
     assert_int_equal(sb_launch(&store, &request, 1, 1, &failed, &error), SB_OK);
     assert_int_equal(failed, 0);
     assert_true(sb_store_find(&store, &request, false, place));
-    sb_store_recall(place, "cpu_s", spent, sizeof spent);
+    sb_record_recall(place, "cpu_s", spent, sizeof spent);
     assert_true(strtod(spent, NULL) >= 20 && strtod(spent, NULL) < 21);
     /* Nothing is left to be done. */
     assert_int_equal(sb_launch(&store, &request, 1, 1, &failed, &error), SB_OK);

@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 
-sb_status sb_stress_collect(const sb_bench *bench, const sb_stress *of, bool quick, sb_stress_results *results,
+sb_status sb_stress_collect(const sb_workbench *bench, const sb_stress *of, bool quick, sb_stress_results *results,
                             sb_error *error)
 {
     *results = (sb_stress_results){.of = of, .trials.assets = bench->assets};
@@ -11,9 +11,9 @@ sb_status sb_stress_collect(const sb_bench *bench, const sb_stress *of, bool qui
     results->judged = sb_alloc(count, sizeof *results->judged);
     if (results->trials.incomplete || !results->judged) return sb_fail_memory(error, "trials");
     for (size_t i = 0; i < count; i++) {
-        const sb_order order = {of, &results->trials.list[i]};
-        results->judged[i].trial = order.trial;
-        results->judged[i].outcome = sb_bench_recall(bench, &order);
+        const sb_job job = {of, &results->trials.list[i]};
+        results->judged[i].trial = job.trial;
+        results->judged[i].outcome = sb_workbench_recall(bench, &job);
         if (results->judged[i].outcome.there) sb_judge_common(&results->judged[i]);
     }
     if (of->judge) of->judge(results->judged, count);

@@ -1,4 +1,4 @@
-#include "bench.h"
+#include "workbench.h"
 
 #include "base/clock.h"
 #include "base/memory.h"
@@ -22,7 +22,7 @@ static const rlim_t memory = (rlim_t)4 << 30; /* bytes of addresses: a trial may
 
 typedef struct worker {
     pid_t process; /* 0: the place is free */
-    const sb_order *order;
+    const sb_job *job;
     sb_outcome outcome;
     double start;
     bool told, killed;
@@ -43,7 +43,7 @@ static void redirect(const char *path, int flags, int to)
 }
 
 /* In the child: the program itself, on the trial's scene. */
-static _Noreturn void become(const sb_bench *bench, const sb_trial *t, const char *folder)
+static _Noreturn void become(const sb_workbench *bench, const sb_trial *t, const char *folder)
 {
     char *arguments[ARGUMENTS], scene[SB_PATH_MAX];
     int count = 0;
@@ -62,7 +62,7 @@ static _Noreturn void become(const sb_bench *bench, const sb_trial *t, const cha
 }
 
 /* In the child: the simulation step by step, its end told as the program tells it. */
-static _Noreturn void drive(const sb_bench *bench, const sb_trial *t, const char *folder)
+static _Noreturn void drive(const sb_workbench *bench, const sb_trial *t, const char *folder)
 {
     sb_error error = {0};
     omp_set_num_threads(1);
@@ -72,7 +72,7 @@ static _Noreturn void drive(const sb_bench *bench, const sb_trial *t, const char
     _exit((int)status);
 }
 
-static _Noreturn void child(const sb_bench *bench, const sb_trial *t, const char *folder)
+static _Noreturn void child(const sb_workbench *bench, const sb_trial *t, const char *folder)
 {
     char said[SB_PATH_MAX + 16];
     const struct rlimit most = {memory, memory}, none = {0, 0};
@@ -91,16 +91,16 @@ static _Noreturn void child(const sb_bench *bench, const sb_trial *t, const char
     become(bench, t, folder);
 }
 
-static sb_status begin(const sb_bench *bench, const sb_order *order, worker *w, sb_error *error)
+static sb_status begin(const sb_workbench *bench, const sb_job *job, worker *w, sb_error *error)
 {
-    *w = (worker){.order = order, .start = sb_clock()};
-    sb_status status = sb_bench_folder(bench, order, w->outcome.folder, error);
-    if (status == SB_OK) status = sb_bench_clear(w->outcome.folder, error);
+    *w = (worker){.job = job, .start = sb_clock()};
+    sb_status status = sb_workbench_folder(bench, job, w->outcome.folder, error);
+    if (status == SB_OK) status = sb_workbench_clear(w->outcome.folder, error);
     if (status != SB_OK) return status;
     fflush(NULL);
     pid_t process = fork();
     if (process < 0) return sb_fail(error, SB_FAILED, "cannot start a trial: %s", strerror(errno));
-    if (process == 0) child(bench, order->trial, w->outcome.folder);
+    if (process == 0) child(bench, job->trial, w->outcome.folder);
     w->process = process;
     return SB_OK;
 }
@@ -146,7 +146,7 @@ static void classify(worker *w, int how)
         snprintf(o->ended, sizeof o->ended, "signal %d", WTERMSIG(how));
 }
 
-static sb_status end(const sb_bench *bench, worker *w, int how, sb_error *error)
+static sb_status end(const sb_workbench *bench, worker *w, int how, sb_error *error)
 {
     w->process = 0;
     if (stopped_by) return SB_OK;
@@ -156,15 +156,15 @@ static sb_status end(const sb_bench *bench, worker *w, int how, sb_error *error)
     w->outcome.wall = sb_clock() - w->start;
     classify(w, how);
     last_words(&w->outcome);
-    printf("%s %s: %s, %.1f s\n", w->order->of->name, w->order->trial->name, w->outcome.ended, w->outcome.wall);
-    return sb_bench_keep(bench, w->order, &w->outcome, error);
+    printf("%s %s: %s, %.1f s\n", w->job->of->name, w->job->trial->name, w->outcome.ended, w->outcome.wall);
+    return sb_workbench_keep(bench, w->job, &w->outcome, error);
 }
 
 /* Tells runs to stop whose time is up, and kills those that hang. */
 static void watch(worker *w)
 {
-    const double spent = sb_clock() - w->start, after = w->order->trial->stop_after;
-    const bool late = spent > w->order->trial->patience || (w->told && after > 0 && spent > after + grace);
+    const double spent = sb_clock() - w->start, after = w->job->trial->stop_after;
+    const bool late = spent > w->job->trial->patience || (w->told && after > 0 && spent > after + grace);
     if (stopped_by || late) {
         w->killed |= !stopped_by;
         kill(w->process, SIGKILL);
@@ -175,7 +175,7 @@ static void watch(worker *w)
 }
 
 /* Looks after the runs once. Whether one has ended. */
-static bool poll_once(const sb_bench *bench, worker *workers, int jobs, sb_status *status, sb_error *error)
+static bool poll_once(const sb_workbench *bench, worker *workers, int jobs, sb_status *status, sb_error *error)
 {
     bool ended = false;
     for (int i = 0; i < jobs; i++) {
@@ -197,7 +197,7 @@ static int find_place(const worker *workers, int jobs, bool busy)
     return -1;
 }
 
-sb_status sb_crew_run(const sb_bench *bench, const sb_order *orders, size_t count, int jobs, sb_error *error)
+sb_status sb_crew_run(const sb_workbench *bench, const sb_job *work, size_t count, int jobs, sb_error *error)
 {
     struct sigaction now = {.sa_handler = stop}, interrupt, terminate;
     worker *workers = sb_alloc((size_t)jobs, sizeof *workers);
@@ -207,11 +207,11 @@ sb_status sb_crew_run(const sb_bench *bench, const sb_order *orders, size_t coun
     sigaction(SIGTERM, &now, &terminate);
     sb_status status = SB_OK;
     for (size_t i = 0; i < count && status == SB_OK && !stopped_by; i++) {
-        if (sb_bench_has(bench, &orders[i])) continue;
+        if (sb_workbench_has(bench, &work[i])) continue;
         int place;
         while ((place = find_place(workers, jobs, false)) < 0)
             if (!poll_once(bench, workers, jobs, &status, error)) usleep(POLL);
-        if (status == SB_OK && !stopped_by) status = begin(bench, &orders[i], &workers[place], error);
+        if (status == SB_OK && !stopped_by) status = begin(bench, &work[i], &workers[place], error);
     }
     while (find_place(workers, jobs, true) >= 0)
         if (!poll_once(bench, workers, jobs, &status, error)) usleep(POLL);

@@ -126,11 +126,9 @@ static void put_all(sb_driven *d, sb_json *json, const sb_drive *drive, double w
 
 static sb_status write_summary(sb_driven *d, const sb_drive *drive, const char *folder, double wall, sb_error *error)
 {
-    char path[SB_PATH_MAX];
     sb_atomic_file file;
     sb_json json;
-    sb_status status = sb_path_join(path, folder, "summary.json", error);
-    if (status == SB_OK) status = sb_atomic_open(&file, path, error);
+    sb_status status = sb_atomic_open_in(&file, folder, "summary.json", error);
     if (status != SB_OK) return status;
     sb_json_begin(&json, file.stream, true);
     put_all(d, &json, drive, wall);

@@ -9,23 +9,23 @@
 
 enum { A_TRIAL_FAILS = 4 }; /* exit status */
 
-static sb_status run_cases(const sb_bench *bench, const sb_battery_options *o, sb_error *error)
+static sb_status run_cases(const sb_workbench *bench, const sb_battery_options *o, sb_error *error)
 {
     sb_trials trials[SB_STRESSES_MAX] = {{0}};
-    sb_order *orders = NULL;
+    sb_job *work = NULL;
     size_t count = 0, capacity = 0;
     sb_status status = SB_OK;
     for (size_t c = 0; c < o->count && status == SB_OK; c++) {
         trials[c].assets = bench->assets;
         o->cases[c]->plan(&trials[c], o->quick);
-        if (trials[c].incomplete || sb_grow((void **)&orders, &capacity, count + trials[c].count, sizeof *orders) != 0)
+        if (trials[c].incomplete || sb_grow((void **)&work, &capacity, count + trials[c].count, sizeof *work) != 0)
             status = sb_fail_memory(error, "trials");
         for (size_t i = 0; status == SB_OK && i < trials[c].count; i++)
-            orders[count++] = (sb_order){o->cases[c], &trials[c].list[i]};
+            work[count++] = (sb_job){o->cases[c], &trials[c].list[i]};
     }
-    if (status == SB_OK) status = sb_crew_run(bench, orders, count, o->jobs, error);
+    if (status == SB_OK) status = sb_crew_run(bench, work, count, o->jobs, error);
     for (size_t c = 0; c < o->count; c++) sb_trials_free(&trials[c]);
-    sb_free(orders);
+    sb_free(work);
     return status;
 }
 
@@ -37,7 +37,7 @@ static bool chosen(const sb_battery_options *o, const sb_stress *of)
 }
 
 /* Of every case there is, run now or not; failures of the chosen ones are told and counted. */
-static sb_status report(const sb_bench *bench, const sb_battery_options *o, size_t *failed, sb_error *error)
+static sb_status report(const sb_workbench *bench, const sb_battery_options *o, size_t *failed, sb_error *error)
 {
     static sb_stress_results results[SB_STRESSES_MAX];
     char folder[SB_PATH_MAX];
@@ -62,13 +62,13 @@ static sb_status report(const sb_bench *bench, const sb_battery_options *o, size
 
 static sb_status stress(const sb_battery_options *o, size_t *failed, sb_error *error)
 {
-    static sb_bench bench;
+    static sb_workbench bench;
     char own[SB_PATH_MAX], program[SB_PATH_MAX];
     sb_status status = sb_process_beside(NULL, own, error);
     if (status == SB_OK) status = sb_process_beside("shorebreak", program, error);
     if (status == SB_OK)
-        status = sb_bench_open(&bench, o->out ? o->out : SB_SOURCE_DIR "/build/stress",
-                               o->program ? o->program : program, own, SB_SOURCE_DIR, error);
+        status = sb_workbench_open(&bench, o->out ? o->out : SB_SOURCE_DIR "/build/stress",
+                                   o->program ? o->program : program, own, SB_SOURCE_DIR, error);
     if (status == SB_OK && !o->report_only) status = run_cases(&bench, o, error);
     return status == SB_OK ? report(&bench, o, failed, error) : status;
 }

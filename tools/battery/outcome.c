@@ -1,8 +1,8 @@
 #include "outcome.h"
 
 #include "base/memory.h"
-#include "run.h"
 #include "sheet.h"
+#include "summary_text.h"
 
 #include <dirent.h>
 #include <math.h>
@@ -56,24 +56,39 @@ sb_status sb_outcome_curve(const sb_outcome *outcome, const char *table, const c
     return status;
 }
 
-/* Whether a field of the line is nan or inf, as printf writes them. */
-static bool line_is_bad(const char *line)
+/* Tables whose every field has a number; in others a dry place has none. A number that is none is an empty field, too.
+ */
+static const char *const full_tables[] = {"forces.csv", "energy.csv", "overtopping.csv"};
+
+static bool is_full(const char *name)
 {
-    for (const char *at = line; *at; at += strcspn(at, ","), at += *at == ',') {
-        const char *field = at + (*at == '-');
-        if (strncmp(field, "nan", 3) != 0 && strncmp(field, "inf", 3) != 0) continue;
-        if (strchr(",\r\n", field[3])) return true;
-    }
+    for (size_t i = 0; i < sizeof full_tables / sizeof *full_tables; i++)
+        if (strcmp(name, full_tables[i]) == 0) return true;
     return false;
+}
+
+/* Whether a field of the line is nan or inf, as printf writes them; or, in a full table, nothing. */
+static bool line_is_bad(const char *line, bool full)
+{
+    for (const char *at = line;; at++) {
+        const size_t length = strcspn(at, ",\r\n");
+        const char *field = at + (*at == '-');
+        if (length == 0 && full) return true;
+        if ((size_t)(at + length - field) == 3 && (strncmp(field, "nan", 3) == 0 || strncmp(field, "inf", 3) == 0))
+            return true;
+        at += length;
+        if (*at != ',') return false;
+    }
 }
 
 static void look_for_bad_numbers(sb_outcome *outcome, const char *name)
 {
     char path[SB_PATH_MAX], line[4096];
     size_t number = 0;
+    const bool full = is_full(name);
     FILE *in = sb_path_join(path, outcome->folder, name, NULL) == SB_OK ? fopen(path, "r") : NULL;
     while (in && !outcome->not_a_number[0] && fgets(line, sizeof line, in))
-        if (number++ > 0 && line_is_bad(line))
+        if (number++ > 0 && line_is_bad(line, full))
             snprintf(outcome->not_a_number, sizeof outcome->not_a_number, "%.60s:%zu", name, number);
     if (in) fclose(in);
 }

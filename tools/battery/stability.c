@@ -36,7 +36,7 @@ static void put_summary(FILE *out, const sb_stress_results *cases, size_t count)
     fputc('\n', out);
 }
 
-static void put_head(FILE *out, const sb_bench *bench, const sb_stress_results *cases, size_t count, bool quick,
+static void put_head(FILE *out, const sb_workbench *bench, const sb_stress_results *cases, size_t count, bool quick,
                      const char *command)
 {
     size_t run = 0, failed = 0, asked = 0;
@@ -91,14 +91,12 @@ static void put_case(FILE *out, const sb_stress_results *r, const char *commit)
     fputc('\n', out);
 }
 
-sb_status sb_stability_write(const sb_bench *bench, const sb_stress_results *cases, size_t count, bool quick,
+sb_status sb_stability_write(const sb_workbench *bench, const sb_stress_results *cases, size_t count, bool quick,
                              const char *command, const char *folder, sb_error *error)
 {
-    char path[SB_PATH_MAX];
     sb_atomic_file file;
     sb_status status = sb_make_directories(folder, error);
-    if (status == SB_OK) status = sb_path_join(path, folder, "stability.md", error);
-    if (status == SB_OK) status = sb_atomic_open(&file, path, error);
+    if (status == SB_OK) status = sb_atomic_open_in(&file, folder, "stability.md", error);
     if (status != SB_OK) return status;
     put_head(file.stream, bench, cases, count, quick, command);
     put_summary(file.stream, cases, count);

@@ -3,9 +3,9 @@
 #include "base/file.h"
 #include "child.h"
 #include "program.h"
-#include "run.h"
 #include "sections.h"
 #include "subject.h"
+#include "summary_text.h"
 
 #include <omp.h>
 

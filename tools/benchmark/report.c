@@ -182,12 +182,10 @@ static void put_all(FILE *file, const sb_bench_tables *tables, const char *out)
 sb_status sb_bench_report(const char *out, sb_error *error)
 {
     static sb_bench_tables tables;
-    char path[SB_PATH_MAX];
     sb_atomic_file file;
     tables = (sb_bench_tables){.count = 0};
     sb_status status = read_all(out, &tables, error);
-    if (status == SB_OK) status = sb_path_join(path, out, "benchmarks.md", error);
-    if (status == SB_OK) status = sb_atomic_open(&file, path, error);
+    if (status == SB_OK) status = sb_atomic_open_in(&file, out, "benchmarks.md", error);
     if (status == SB_OK) {
         put_all(file.stream, &tables, out);
         status = sb_atomic_commit(&file, 0, error);

@@ -2,8 +2,8 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "program.h"
-#include "run.h"
 #include "sections.h"
+#include "summary_text.h"
 
 typedef struct plan {
     const char *name, *scene, *preset;

@@ -188,24 +188,17 @@ static void put_csv(FILE *out, const sb_contest_report *r)
     }
 }
 
-static sb_status open_in(sb_atomic_file *file, const char *folder, const char *name, sb_error *error)
-{
-    char path[SB_PATH_MAX];
-    sb_status status = sb_path_join(path, folder, name, error);
-    return status == SB_OK ? sb_atomic_open(file, path, error) : status;
-}
-
 sb_status sb_contest_write(const sb_contest_report *report, const char *folder, sb_error *error)
 {
     sb_atomic_file file;
     sb_error no_plot = {0};
     sb_status status = sb_make_directories(folder, error);
-    if (status == SB_OK) status = open_in(&file, folder, "tradeoff.csv", error);
+    if (status == SB_OK) status = sb_atomic_open_in(&file, folder, "tradeoff.csv", error);
     if (status != SB_OK) return status;
     draw(report, folder, &no_plot);
     put_csv(file.stream, report);
     status = sb_atomic_commit(&file, 0, error);
-    if (status == SB_OK) status = open_in(&file, folder, "tradeoff.md", error);
+    if (status == SB_OK) status = sb_atomic_open_in(&file, folder, "tradeoff.md", error);
     if (status != SB_OK) return status;
     put_report(file.stream, report, &no_plot);
     return sb_atomic_commit(&file, 0, error);

@@ -1,6 +1,6 @@
 #include "cost.h"
 
-#include "run.h"
+#include "summary_text.h"
 
 #include <math.h>
 #include <string.h>

@@ -211,10 +211,8 @@ static void put_csv(FILE *out, const sb_paper_studies *s)
 static sb_status write_one(const sb_paper_studies *s, const char *folder, const char *name,
                            void (*put)(FILE *, const sb_paper_studies *), sb_error *error)
 {
-    char path[SB_PATH_MAX];
     sb_atomic_file file;
-    sb_status status = sb_path_join(path, folder, name, error);
-    if (status == SB_OK) status = sb_atomic_open(&file, path, error);
+    sb_status status = sb_atomic_open_in(&file, folder, name, error);
     if (status != SB_OK) return status;
     put(file.stream, s);
     return sb_atomic_commit(&file, 0, error);

@@ -182,30 +182,23 @@ static void put_orders_csv(FILE *out, const sb_study_row *rows, size_t count)
     }
 }
 
-static sb_status open_in(sb_atomic_file *file, const char *folder, const char *name, sb_error *error)
-{
-    char path[SB_PATH_MAX];
-    sb_status status = sb_path_join(path, folder, name, error);
-    return status == SB_OK ? sb_atomic_open(file, path, error) : status;
-}
-
 sb_status sb_study_write(const sb_study *study, const sb_study_row *rows, size_t count, const char *folder,
                          sb_error *error)
 {
     sb_atomic_file file;
     sb_error no_plot = {0};
     draw(study, rows, count, folder, &no_plot);
-    sb_status status = open_in(&file, folder, "runs.csv", error);
+    sb_status status = sb_atomic_open_in(&file, folder, "runs.csv", error);
     if (status == SB_OK) {
         put_runs_csv(file.stream, study, rows, count);
         status = sb_atomic_commit(&file, 0, error);
     }
-    if (status == SB_OK) status = open_in(&file, folder, "orders.csv", error);
+    if (status == SB_OK) status = sb_atomic_open_in(&file, folder, "orders.csv", error);
     if (status == SB_OK) {
         put_orders_csv(file.stream, rows, count);
         status = sb_atomic_commit(&file, 0, error);
     }
-    if (status == SB_OK) status = open_in(&file, folder, "study.md", error);
+    if (status == SB_OK) status = sb_atomic_open_in(&file, folder, "study.md", error);
     if (status != SB_OK) return status;
     put_report(file.stream, study, rows, count, &no_plot);
     return sb_atomic_commit(&file, 0, error);

@@ -71,11 +71,9 @@ static void put_sum(FILE *out, const sb_soak_report *r)
 
 sb_status sb_soak_report_write(const sb_soak_report *report, const char *folder, sb_error *error)
 {
-    char path[SB_PATH_MAX];
     sb_atomic_file file;
     sb_status status = sb_make_directories(folder, error);
-    if (status == SB_OK) status = sb_path_join(path, folder, "soak.md", error);
-    if (status == SB_OK) status = sb_atomic_open(&file, path, error);
+    if (status == SB_OK) status = sb_atomic_open_in(&file, folder, "soak.md", error);
     if (status != SB_OK) return status;
     put_head(file.stream, report);
     put_sum(file.stream, report);
@@ -89,10 +87,8 @@ sb_status sb_soak_report_write(const sb_soak_report *report, const char *folder,
 
 sb_status sb_soak_samples_write(const sb_soak_report *report, const char *folder, sb_error *error)
 {
-    char path[SB_PATH_MAX];
     sb_atomic_file file;
-    sb_status status = sb_path_join(path, folder, "samples.csv", error);
-    if (status == SB_OK) status = sb_atomic_open(&file, path, error);
+    sb_status status = sb_atomic_open_in(&file, folder, "samples.csv", error);
     if (status != SB_OK) return status;
     fprintf(file.stream, "life,wall_s,resident_bytes,descriptors,step\n");
     for (size_t i = 0; i < report->count; i++)

@@ -127,10 +127,8 @@ static void put_case(FILE *out, const sb_report *report, const sb_case_results *
 
 static sb_status write_csv(const sb_report *report, const char *folder, sb_error *error)
 {
-    char path[SB_PATH_MAX];
     sb_atomic_file file;
-    sb_status status = sb_path_join(path, folder, "results.csv", error);
-    if (status == SB_OK) status = sb_atomic_open(&file, path, error);
+    sb_status status = sb_atomic_open_in(&file, folder, "results.csv", error);
     if (status != SB_OK) return status;
     sb_report_csv(file.stream, report);
     return sb_atomic_commit(&file, 0, error);
@@ -138,15 +136,14 @@ static sb_status write_csv(const sb_report *report, const char *folder, sb_error
 
 sb_status sb_report_write(const sb_report *report, const char *folder, sb_error *error)
 {
-    char pictures[SB_PATH_MAX], real[SB_PATH_MAX], path[SB_PATH_MAX];
+    char pictures[SB_PATH_MAX], real[SB_PATH_MAX];
     sb_atomic_file file;
     sb_status status = sb_path_join(pictures, folder, "validation", error);
     if (status == SB_OK) status = sb_make_directories(pictures, error);
     if (status == SB_OK && !realpath(pictures, real))
         status = sb_fail(error, SB_FAILED, "%.400s: no such folder", pictures);
     if (status == SB_OK) status = write_csv(report, real, error);
-    if (status == SB_OK) status = sb_path_join(path, folder, "validation.md", error);
-    if (status == SB_OK) status = sb_atomic_open(&file, path, error);
+    if (status == SB_OK) status = sb_atomic_open_in(&file, folder, "validation.md", error);
     if (status != SB_OK) return status;
     put_head(file.stream, report);
     for (size_t c = 0; c < report->count; c++) put_case(file.stream, report, &report->cases[c], real);

@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/memory.h"
+#include "origin.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -28,17 +29,6 @@ void sb_request_label(const sb_request *request, bool with_case, char label[96])
     snprintf(label, 96, "%s%s%.6g m%s%s%s%s", with_case ? request->of->name : "", with_case ? ", " : "",
              request->plan->resolution, request->paper ? ", paper" : "", seed, request->change[0] ? ", " : "",
              request->change);
-}
-
-sb_status sb_hash_file(const char *path, uint64_t *hash, sb_error *error)
-{
-    char *bytes;
-    size_t length;
-    sb_status status = sb_file_read(path, (size_t)1 << 31, &bytes, &length, error);
-    if (status != SB_OK) return status;
-    *hash = sb_hash(*hash, bytes, length);
-    sb_free(bytes);
-    return SB_OK;
 }
 
 /* The scene with all that is set; the hash goes on over the settings. */

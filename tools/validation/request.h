@@ -35,7 +35,4 @@ sb_status sb_request_hash(const sb_request *request, const char *scene_path, uin
 sb_status sb_scene_meaning(const sb_scene *scene, uint64_t *hash, sb_error *error);
 sb_status sb_request_meant(const sb_request *request, const char *scene_path, uint64_t *hash, sb_error *error);
 
-/* Continues a hash over a whole file. */
-sb_status sb_hash_file(const char *path, uint64_t *hash, sb_error *error);
-
 #endif

@@ -3,6 +3,7 @@
 #include "kept.h"
 
 #include "base/memory.h"
+#include "record.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -36,7 +37,7 @@ sb_status sb_case_requests(const sb_case *of, bool quick, sb_request **requests,
 static double recalled(const char *folder, const char *key)
 {
     char text[64], *end;
-    sb_store_recall(folder, key, text, sizeof text);
+    sb_record_recall(folder, key, text, sizeof text);
     double value = strtod(text, &end);
     return end == text ? (double)NAN : value;
 }
@@ -48,8 +49,8 @@ static void complete(const sb_store *store, sb_result *r)
     sb_request_label(&r->request, false, r->run.label);
     const char *slash = strrchr(r->run.folder, '/'); /* the last part names the program (store.h) */
     snprintf(r->run.build, sizeof r->run.build, "%.16s", slash ? slash + 1 : r->run.folder);
-    sb_store_recall(r->run.folder, "commit", r->run.commit, sizeof r->run.commit);
-    sb_store_recall(r->run.folder, "machine", r->run.machine, sizeof r->run.machine);
+    sb_record_recall(r->run.folder, "commit", r->run.commit, sizeof r->run.commit);
+    sb_record_recall(r->run.folder, "machine", r->run.machine, sizeof r->run.machine);
     if (isnan(r->run.cpu)) r->run.cpu = recalled(r->run.folder, "cpu_s");
     r->run.load = recalled(r->run.folder, "load");
     view->of = r->request.of;

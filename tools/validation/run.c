@@ -1,6 +1,7 @@
 #include "run.h"
 
 #include "base/memory.h"
+#include "summary_text.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -62,19 +63,6 @@ sb_status sb_plot_run(sb_plot *plot, const sb_case_run *run, const sb_curve *cur
     else if (run->judged)
         style = SB_PLOT_JUDGED;
     return sb_plot_curve(plot, style, run->label, curve, error);
-}
-
-double sb_json_number_in(const char *text, const char *key)
-{
-    size_t length = strlen(key);
-    for (const char *at = strchr(text, '"'); at; at = strchr(at + 1, '"')) {
-        if (strncmp(at + 1, key, length) != 0 || strncmp(at + 1 + length, "\":", 2) != 0) continue;
-        const char *number = at + length + 3;
-        char *end;
-        double value = strtod(number, &end);
-        return end == number ? (double)NAN : value;
-    }
-    return (double)NAN;
 }
 
 static sb_status summary_text(const char *folder, char **text, sb_error *error)

@@ -21,7 +21,4 @@ typedef struct sb_finished {
 sb_status sb_finished_read(sb_finished *run, const char *folder, sb_error *error);
 void sb_finished_free(sb_finished *run);
 
-/* The number behind the first "key": in a JSON text; NaN when there is none. */
-double sb_json_number_in(const char *text, const char *key);
-
 #endif

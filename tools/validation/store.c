@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "origin.h"
+#include "record.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -12,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static const char record_name[] = "record.txt", failure_name[] = "failed.txt", spent_name[] = "spent.txt";
+static const char failure_name[] = "failed.txt", spent_name[] = "spent.txt";
 
 sb_status sb_store_open(sb_store *store, const char *out, const char *program, const char *source, sb_error *error)
 {
@@ -77,7 +78,7 @@ static double recorded(const char *folder)
 {
     char path[SB_PATH_MAX];
     struct stat info;
-    if (sb_path_join(path, folder, record_name, NULL) != SB_OK || stat(path, &info) != 0) return -1;
+    if (sb_path_join(path, folder, SB_RECORD_NAME, NULL) != SB_OK || stat(path, &info) != 0) return -1;
     return (double)info.st_mtim.tv_sec + 1e-9 * (double)info.st_mtim.tv_nsec;
 }
 
@@ -102,10 +103,8 @@ bool sb_store_find(const sb_store *store, const sb_request *request, bool any_bu
 
 static sb_status write_text(const char *folder, const char *name, const char *text, sb_error *error)
 {
-    char path[SB_PATH_MAX];
     sb_atomic_file file;
-    sb_status status = sb_path_join(path, folder, name, error);
-    if (status == SB_OK) status = sb_atomic_open(&file, path, error);
+    sb_status status = sb_atomic_open_in(&file, folder, name, error);
     if (status != SB_OK) return status;
     fputs(text, file.stream);
     return sb_atomic_commit(&file, 0, error);
@@ -136,26 +135,12 @@ sb_status sb_store_finish(const sb_store *store, const char *folder, double cpu,
     if (getloadavg(&load, 1) != 1) load = (double)NAN;
     snprintf(text, sizeof text, "commit: %s\nmachine: %s\ncpu_s: %.6g\nload: %.3g\n", store->commit, store->machine,
              spent(folder) + cpu, load);
-    return write_text(folder, record_name, text, error);
-}
-
-void sb_store_recall(const char *folder, const char *key, char *value, size_t size)
-{
-    char path[SB_PATH_MAX], line[512];
-    size_t length = strlen(key);
-    value[0] = '\0';
-    FILE *in = sb_path_join(path, folder, record_name, NULL) == SB_OK ? fopen(path, "r") : NULL;
-    while (in && fgets(line, sizeof line, in)) {
-        if (strncmp(line, key, length) != 0 || strncmp(line + length, ": ", 2) != 0) continue;
-        line[strcspn(line, "\n")] = '\0';
-        snprintf(value, size, "%s", line + length + 2);
-    }
-    if (in) fclose(in);
+    return write_text(folder, SB_RECORD_NAME, text, error);
 }
 
 sb_status sb_store_forget(const char *folder, sb_error *error)
 {
-    static const char *const marks[] = {record_name, failure_name};
+    static const char *const marks[] = {SB_RECORD_NAME, failure_name};
     char path[SB_PATH_MAX];
     for (int i = 0; i < 2; i++) {
         sb_status status = sb_path_join(path, folder, marks[i], error);

@@ -37,8 +37,6 @@ sb_status sb_store_spend(const char *folder, double cpu, sb_error *error);
 /* Marks a folder's run as finished, with what is to be remembered of it: commit, machine, cpu_s (s of
    processor time, all threads, stopped parts too) and load (the machine's mean over the last minute). */
 sb_status sb_store_finish(const sb_store *store, const char *folder, double cpu, sb_error *error);
-/* A line "key: value" of a record; "" when there is none. */
-void sb_store_recall(const char *folder, const char *key, char *value, size_t size);
 
 /* Takes away what a former run has left as marks in the folder. */
 sb_status sb_store_forget(const char *folder, sb_error *error);

@@ -1,7 +1,7 @@
 /* CSV files with one header line, read whole: the tables of a run, and our own reference tables,
    whose leading lines that begin with '#' cite their source. */
-#ifndef SB_VALIDATION_SHEET_H
-#define SB_VALIDATION_SHEET_H
+#ifndef SB_COMMON_SHEET_H
+#define SB_COMMON_SHEET_H
 
 #include "curve.h"
 

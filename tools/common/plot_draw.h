@@ -1,6 +1,6 @@
 /* The framework's side of plots. */
-#ifndef SB_VALIDATION_PLOT_DRAW_H
-#define SB_VALIDATION_PLOT_DRAW_H
+#ifndef SB_COMMON_PLOT_DRAW_H
+#define SB_COMMON_PLOT_DRAW_H
 
 #include "plot.h"
 

@@ -1,6 +1,6 @@
 /* Other programs as processes of their own, whose words go to a file. */
-#ifndef SB_VALIDATION_PROCESS_H
-#define SB_VALIDATION_PROCESS_H
+#ifndef SB_COMMON_PROCESS_H
+#define SB_COMMON_PROCESS_H
 
 #include "base/file.h"
 

@@ -1,6 +1,6 @@
 /* The command lines of the tools: a table of options, read in one place. */
-#ifndef SB_VALIDATION_ARGUMENTS_H
-#define SB_VALIDATION_ARGUMENTS_H
+#ifndef SB_COMMON_ARGUMENTS_H
+#define SB_COMMON_ARGUMENTS_H
 
 #include "base/status.h"
 

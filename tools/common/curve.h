@@ -2,8 +2,8 @@
    function that makes a curve hands over memory to be freed with sb_curve_free; without memory it
    is SB_FAILED. x rises strictly unless a comment says otherwise; NaN in y means "nothing measured
    there" and is left out of sums. */
-#ifndef SB_VALIDATION_CURVE_H
-#define SB_VALIDATION_CURVE_H
+#ifndef SB_COMMON_CURVE_H
+#define SB_COMMON_CURVE_H
 
 #include "base/status.h"
 

@@ -1,5 +1,9 @@
 #include "origin.h"
 
+#include "base/file.h"
+#include "base/hash.h"
+#include "base/memory.h"
+
 #include <stdio.h>
 #include <string.h>
 #include <sys/wait.h>
@@ -45,4 +49,15 @@ void sb_origin_machine(char machine[128])
     }
     if (in) fclose(in);
     snprintf(machine, 128, "%s, %ld cores", model, sysconf(_SC_NPROCESSORS_ONLN));
+}
+
+sb_status sb_hash_file(const char *path, uint64_t *hash, sb_error *error)
+{
+    char *bytes;
+    size_t length;
+    sb_status status = sb_file_read(path, (size_t)1 << 31, &bytes, &length, error);
+    if (status != SB_OK) return status;
+    *hash = sb_hash(*hash, bytes, length);
+    sb_free(bytes);
+    return SB_OK;
 }

@@ -1,9 +1,8 @@
-#include "bench.h"
+#include "workbench.h"
 
 #include "base/hash.h"
 #include "origin.h"
-#include "request.h"
-#include "store.h"
+#include "record.h"
 
 #include <errno.h>
 #include <ftw.h>
@@ -12,13 +11,11 @@
 #include <string.h>
 #include <unistd.h>
 
-static const char record_name[] = "record.txt";
-
-sb_status sb_bench_open(sb_bench *bench, const char *out, const char *program, const char *own, const char *source,
-                        sb_error *error)
+sb_status sb_workbench_open(sb_workbench *bench, const char *out, const char *program, const char *own,
+                            const char *source, sb_error *error)
 {
     char assets[SB_PATH_MAX];
-    *bench = (sb_bench){0};
+    *bench = (sb_workbench){0};
     sb_status status = sb_make_directories(out, error);
     if (status != SB_OK) return status;
     if (!realpath(out, bench->out)) return sb_fail(error, SB_FAILED, "%.400s: %s", out, strerror(errno));
@@ -34,15 +31,15 @@ sb_status sb_bench_open(sb_bench *bench, const char *out, const char *program, c
     return status;
 }
 
-sb_status sb_bench_folder(const sb_bench *bench, const sb_order *order, char folder[SB_PATH_MAX], sb_error *error)
+sb_status sb_workbench_folder(const sb_workbench *bench, const sb_job *job, char folder[SB_PATH_MAX], sb_error *error)
 {
-    int length = snprintf(folder, SB_PATH_MAX, "%s/runs/%s/%s", bench->out, order->of->name, order->trial->name);
+    int length = snprintf(folder, SB_PATH_MAX, "%s/runs/%s/%s", bench->out, job->of->name, job->trial->name);
     return length < SB_PATH_MAX - 64 ? SB_OK : sb_fail(error, SB_BAD_INPUT, "%.400s: the path is too long", bench->out);
 }
 
-uint64_t sb_bench_asked(const sb_bench *bench, const sb_order *order)
+uint64_t sb_workbench_asked(const sb_workbench *bench, const sb_job *job)
 {
-    const sb_trial *t = order->trial;
+    const sb_trial *t = job->trial;
     char path[SB_PATH_MAX];
     sb_scene scene = {0};
     uint64_t hash = (uint64_t)t->kind;
@@ -59,15 +56,15 @@ uint64_t sb_bench_asked(const sb_bench *bench, const sb_order *order)
 static bool recalled(const char *folder, const char *key, uint64_t wanted)
 {
     char value[64];
-    sb_store_recall(folder, key, value, sizeof value);
+    sb_record_recall(folder, key, value, sizeof value);
     return value[0] && strtoull(value, NULL, 16) == wanted;
 }
 
-bool sb_bench_has(const sb_bench *bench, const sb_order *order)
+bool sb_workbench_has(const sb_workbench *bench, const sb_job *job)
 {
     char folder[SB_PATH_MAX];
-    return sb_bench_folder(bench, order, folder, NULL) == SB_OK && recalled(folder, "build", bench->build) &&
-           recalled(folder, "asked", sb_bench_asked(bench, order));
+    return sb_workbench_folder(bench, job, folder, NULL) == SB_OK && recalled(folder, "build", bench->build) &&
+           recalled(folder, "asked", sb_workbench_asked(bench, job));
 }
 
 static int remove_one(const char *path, const struct stat *info, int kind, struct FTW *where)
@@ -78,21 +75,19 @@ static int remove_one(const char *path, const struct stat *info, int kind, struc
     return remove(path);
 }
 
-sb_status sb_bench_clear(const char *folder, sb_error *error)
+sb_status sb_workbench_clear(const char *folder, sb_error *error)
 {
     if (access(folder, F_OK) == 0 && nftw(folder, remove_one, 16, FTW_DEPTH | FTW_PHYS) != 0)
         return sb_fail(error, SB_FAILED, "%.400s: %s", folder, strerror(errno));
     return sb_make_directories(folder, error);
 }
 
-sb_status sb_bench_keep(const sb_bench *bench, const sb_order *order, const sb_outcome *o, sb_error *error)
+sb_status sb_workbench_keep(const sb_workbench *bench, const sb_job *job, const sb_outcome *o, sb_error *error)
 {
-    char path[SB_PATH_MAX];
     sb_atomic_file file;
-    sb_status status = sb_path_join(path, o->folder, record_name, error);
-    if (status == SB_OK) status = sb_atomic_open(&file, path, error);
+    sb_status status = sb_atomic_open_in(&file, o->folder, SB_RECORD_NAME, error);
     if (status != SB_OK) return status;
-    fprintf(file.stream, "asked: %016" PRIx64 "\nbuild: %016" PRIx64 "\ncommit: %s\n", sb_bench_asked(bench, order),
+    fprintf(file.stream, "asked: %016" PRIx64 "\nbuild: %016" PRIx64 "\ncommit: %s\n", sb_workbench_asked(bench, job),
             bench->build, bench->commit);
     fprintf(file.stream, "how: %u\nended: %s\nwall: %.3f\nsaid: %s\n", o->how, o->ended, o->wall, o->said);
     return sb_atomic_commit(&file, 0, error);
@@ -106,23 +101,23 @@ static void shorten(char *text, const char *folder)
         memmove(at, at + length + 1, strlen(at + length + 1) + 1);
 }
 
-sb_outcome sb_bench_recall(const sb_bench *bench, const sb_order *order)
+sb_outcome sb_workbench_recall(const sb_workbench *bench, const sb_job *job)
 {
     sb_outcome o = {0};
     char value[64];
-    if (sb_bench_folder(bench, order, o.folder, NULL) != SB_OK ||
-        !recalled(o.folder, "asked", sb_bench_asked(bench, order)))
+    if (sb_workbench_folder(bench, job, o.folder, NULL) != SB_OK ||
+        !recalled(o.folder, "asked", sb_workbench_asked(bench, job)))
         return o;
     o.there = true;
-    sb_store_recall(o.folder, "how", value, sizeof value);
+    sb_record_recall(o.folder, "how", value, sizeof value);
     o.how = (unsigned)strtoul(value, NULL, 10);
-    sb_store_recall(o.folder, "wall", value, sizeof value);
+    sb_record_recall(o.folder, "wall", value, sizeof value);
     o.wall = strtod(value, NULL);
-    sb_store_recall(o.folder, "ended", o.ended, sizeof o.ended);
-    sb_store_recall(o.folder, "said", o.said, sizeof o.said);
+    sb_record_recall(o.folder, "ended", o.ended, sizeof o.ended);
+    sb_record_recall(o.folder, "said", o.said, sizeof o.said);
     shorten(o.said, bench->assets);
     shorten(o.said, o.folder);
-    sb_store_recall(o.folder, "commit", o.commit, sizeof o.commit);
+    sb_record_recall(o.folder, "commit", o.commit, sizeof o.commit);
     sb_outcome_read(&o);
     return o;
 }

@@ -1,7 +1,7 @@
 /* One picture per case: a column of panels, each with curves, clouds of points and bands, drawn by
  * gnuplot. */
-#ifndef SB_VALIDATION_PLOT_H
-#define SB_VALIDATION_PLOT_H
+#ifndef SB_COMMON_PLOT_H
+#define SB_COMMON_PLOT_H
 
 #include "curve.h"
 
