@@ -65,7 +65,7 @@ static void clean_text(char *text, bool is_name)
     for (char *c = text; *c;) {
         size_t length = character_length((unsigned char *)c);
         if (length == 2 && c[0] == '\xc2' && (unsigned char)c[1] < 0xa0) /* a control character, too */
-            memcpy(c, is_name ? "__" : "??", 2);
+            c[0] = c[1] = is_name ? '_' : '?';
         if (length == 0 || iscntrl((unsigned char)*c) || (is_name && strchr(",\"'/\\", *c))) {
             *c = ' ';
             if (is_name)

@@ -53,7 +53,8 @@ void fuzz_check_refusal(sb_status status, const sb_error *error)
 {
     FUZZ_CHECK(status == SB_BAD_INPUT || status == SB_FAILED);
     FUZZ_CHECK(error->status == status && error->text[0]);
-    for (const char *c = error->text; *c; ++c) FUZZ_CHECK((unsigned char)*c >= ' ' && *c != 0x7f);
+    for (const unsigned char *c = (const unsigned char *)error->text; *c; ++c)
+        FUZZ_CHECK(*c >= ' ' && *c != 0x7f && !(c[0] == 0xc2 && c[1] >= 0x80 && c[1] < 0xa0));
 }
 
 void fuzz_edit(uint8_t *bytes, size_t size, const uint8_t *edits, size_t left)
