@@ -8,6 +8,7 @@
    it is half as rough as p, which zigzags from particle to particle. Momentum knows P alone. */
 #include "sim/around.h"
 #include "sim/sleep.h"
+#include "sim/wall_entry.h"
 
 enum { GROUPS = 8 }; /* per unit of work */
 
@@ -34,7 +35,7 @@ static float by_walls(const sb_sim *sim, const sb_group *group, size_t i, sb_f4 
     float sum = 0;
     for (size_t k = pairs->first[i]; k < pairs->first[i] + pairs->count[i]; k++) {
         const uint32_t index = pairs->index[k];
-        const sb_record wall = sim->walls[index >> 31].record[index & 0x7fffffffu];
+        const sb_record wall = sb_wall_set_of(sim, index)->record[sb_wall_particle(index)];
         const sb_f4 d = self - sb_offset(wall, group->corner);
         sum += pairs->slope[k] * sb_sum3(d * d);
     }

@@ -1,5 +1,7 @@
 #include "sim/contact.h"
 
+#include "sim/wall_entry.h"
+
 #include <math.h>
 
 /* In spacings, beyond wall_offset. PLANE: the nearest a particle comes to the sheet; water at rest nestles between
@@ -18,15 +20,6 @@ typedef struct view {
     bool found;
 } view;
 
-/* How far a wall comes in the step, in quanta. */
-SB_INLINE sb_f4 wall_step(const sb_sim *sim, uint32_t wall, float to_quanta)
-{
-    if (!(wall >> 31)) return (sb_f4){0};
-    const sb_wall_set *set = &sim->walls[SB_MOVING];
-    sb_vec3 v = sim->moving[sim->moving_of_body[set->body[wall & 0x7fffffffu]]].velocity;
-    return (sb_f4){(float)v.x, (float)v.y, (float)v.z, 0} * sb_splat(to_quanta);
-}
-
 /* Four boundary particles of a list as seen from the water. */
 typedef struct four_seen {
     const sb_f4 *normal[4];
@@ -42,11 +35,11 @@ SB_INLINE void see(const sb_sim *sim, size_t i, size_t first, sb_f4 step, float 
     sb_f4 slope;
     memcpy(&slope, sim->wall_pairs.slope + first, sizeof slope);
     for (size_t k = 0; k < 4; k++) {
-        const sb_wall_set *set = &sim->walls[index[k] >> 31];
-        const uint32_t b = index[k] & 0x7fffffffu;
+        const sb_wall_set *set = sb_wall_set_of(sim, index[k]);
+        const uint32_t b = sb_wall_particle(index[k]);
         s->normal[k] = &set->normal[b];
         s->here[k] = sb_offset(sim->position[i], set->record[b]);
-        s->there[k] = s->here[k] + step - wall_step(sim, index[k], to_quanta);
+        s->there[k] = s->here[k] + step - sb_wall_velocity(sim, index[k]) * sb_splat(to_quanta);
     }
     const sb_four at = sb_turn(s->there[0], s->there[1], s->there[2], s->there[3]);
     s->q2 = (at.x * at.x + at.y * at.y + at.z * at.z) * sb_splat(1 / (reach * reach));

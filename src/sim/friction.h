@@ -3,7 +3,7 @@
 #ifndef SB_SIM_FRICTION_H
 #define SB_SIM_FRICTION_H
 
-#include "sim/state.h"
+#include "sim/wall_entry.h"
 
 /* Factors of one step; lengths in quanta where that is said. */
 typedef struct sb_rub {
@@ -46,15 +46,11 @@ SB_INLINE sb_wall_four sb_see_walls(const sb_sim *sim, size_t i, sb_f4 velocity,
 {
     sb_f4 d[4], n[4], v[4];
     for (size_t k = 0; k < 4; k++) {
-        const sb_wall_set *set = &sim->walls[wall[k] >> 31];
-        const uint32_t b = wall[k] & 0x7fffffffu;
+        const sb_wall_set *set = sb_wall_set_of(sim, wall[k]);
+        const uint32_t b = sb_wall_particle(wall[k]);
         d[k] = sb_offset(sim->position[i], set->record[b]);
         n[k] = set->normal[b];
-        v[k] = velocity;
-        if (set == &sim->walls[SB_MOVING]) {
-            const sb_vec3 w = sim->moving[sim->moving_of_body[set->body[b]]].velocity;
-            v[k] -= (sb_f4){(float)w.x, (float)w.y, (float)w.z, 0};
-        }
+        v[k] = velocity - sb_wall_velocity(sim, wall[k]);
     }
     return (sb_wall_four){sb_turn(d[0], d[1], d[2], d[3]), sb_turn(n[0], n[1], n[2], n[3]),
                           sb_turn(v[0], v[1], v[2], v[3])};

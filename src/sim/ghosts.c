@@ -7,9 +7,6 @@
 
 #include <string.h>
 
-enum { INDEX_BITS = 27 };
-static const uint64_t INDEX_MASK = ((uint64_t)1 << INDEX_BITS) - 1;
-
 /* Moves a field of `size` bytes per particle, `used` of them in use, into a longer array. */
 static int lengthen(void **field, size_t used, size_t capacity, size_t size)
 {
@@ -75,7 +72,7 @@ static void make_images(sb_sim *sim, const size_t *first, sb_record *made)
             for (int k = 0; k < images; k++, at++) {
                 made[at] = image[k];
                 made[at][3] = (uint32_t)i;
-                sim->ghosts.words[at] = sb_space_key(&sim->space, image[k]) << INDEX_BITS | at;
+                sim->ghosts.words[at] = sb_sort_word(sb_space_key(&sim->space, image[k]), at);
             }
         }
     }
@@ -87,7 +84,7 @@ static void place(sb_sim *sim, const uint64_t *sorted, const sb_record *made)
     sb_record *position = sim->position + sim->n;
 #pragma omp parallel for schedule(static)
     for (size_t g = 0; g < count; g++) {
-        sb_record ghost = made[sorted[g] & INDEX_MASK];
+        sb_record ghost = made[sb_word_index(sorted[g])];
         sim->ghosts.of[g] = ghost[3];
         ghost[3] = 0;
         position[g] = ghost;
@@ -101,7 +98,7 @@ static int build(sb_sim *sim, const size_t *first, size_t count)
     if (reserve(sim, count) != 0) return -1;
     sb_record *made = (sb_record *)sim->acceleration + sim->n; /* free until the pressure is solved */
     make_images(sim, first, made);
-    const uint64_t *sorted = sb_sort(g->words, g->other, count, INDEX_BITS, INDEX_BITS + sim->space.key_bits);
+    const uint64_t *sorted = sb_sort(g->words, g->other, count, SB_INDEX_BITS, SB_INDEX_BITS + sim->space.key_bits);
     if (!sorted) return -1;
     g->count = count;
     place(sim, sorted, made);
@@ -117,9 +114,9 @@ sb_status sb_stage_ghosts(sb_sim *sim, sb_error *error)
     if (!first) return sb_fail_memory(error, "ghosts");
     const size_t count = count_images(sim, first);
     sb_status status = SB_OK;
-    if (count >= (size_t)1 << INDEX_BITS)
-        status =
-            sb_fail(error, SB_FAILED, "%zu images beyond periodic sides: expected fewer than 2^%d", count, INDEX_BITS);
+    if (count >= (size_t)1 << SB_INDEX_BITS)
+        status = sb_fail(error, SB_FAILED, "%zu images beyond periodic sides: expected fewer than 2^%d", count,
+                         SB_INDEX_BITS);
     else if (count > 0 && build(sim, first, count) != 0)
         status = sb_fail_memory(error, "ghosts");
     sb_free(first);

@@ -5,6 +5,7 @@
 #include "sim/friction.h"
 #include "sim/ledger.h"
 #include "sim/sleep.h"
+#include "sim/wall_entry.h"
 
 #include <string.h>
 
@@ -65,21 +66,12 @@ static void turn_to(tally *t, const sb_wall_set *set, uint32_t wall)
     t->home = home;
 }
 
-static sb_f4 wall_velocity(const sb_sim *sim, uint32_t wall)
-{
-    if (!(wall >> 31)) return (sb_f4){0};
-    const sb_wall_set *set = &sim->walls[SB_MOVING];
-    const sb_vec3 v = sim->moving[sim->moving_of_body[set->body[wall & 0x7fffffffu]]].velocity;
-    return (sb_f4){(float)v.x, (float)v.y, (float)v.z, 0};
-}
-
 void sb_impulse_of_push(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 push, double *sum)
 {
-    const sb_wall_set *set = &sim->walls[wall >> 31];
-    const sb_record record = set->record[wall & 0x7fffffffu];
+    const sb_record record = sb_wall_set_of(sim, wall)->record[sb_wall_particle(wall)];
     sb_vec3 at = sb_space_position(&sim->space, sim->position[i]);
     if (sim->space.repeats) at = sb_add(at, way_home(&sim->space, record));
-    add(sim, sum, set->body[wall & 0x7fffffffu], at, push, (sb_vec3){0});
+    add(sim, sum, sb_wall_body(sim, wall), at, push, (sb_vec3){0});
 }
 
 /* Mends what would pass walls; each feels its own pushes. */
@@ -95,7 +87,7 @@ SB_APART void contact(sb_sim *sim, size_t i, double *sum, sb_ledger_sums *ledger
         const uint32_t wall = touched[k].wall;
         /* The push is along the wall's normal through the particle, so it may be taken to act there. */
         const sb_vec3 push = vector(touched[k].change, scale);
-        const sb_f4 body = wall_velocity(sim, wall);
+        const sb_f4 body = sb_wall_velocity(sim, wall);
         sb_impulse_of_push(sim, i, wall, push, sum);
         if (sim->settling && sim->settling != SB_POISED) sb_sleep_feel(sim, i, wall, push);
         ledger->contact_bodies += sb_ledger_work((sb_f4){0}, touched[k].change, body, body);
@@ -110,8 +102,8 @@ SB_APART void contact(sb_sim *sim, size_t i, double *sum, sb_ledger_sums *ledger
 static bool one_body(const sb_sim *sim, const uint32_t *index, size_t count)
 {
     bool same = !sim->space.repeats;
-    const uint32_t first = count > 0 ? sim->walls[index[0] >> 31].body[index[0] & 0x7fffffffu] : 0;
-    for (size_t k = 1; k < count && same; k++) same = sim->walls[index[k] >> 31].body[index[k] & 0x7fffffffu] == first;
+    const uint32_t first = count > 0 ? sb_wall_body(sim, index[0]) : 0;
+    for (size_t k = 1; k < count && same; k++) same = sb_wall_body(sim, index[k]) == first;
     return same;
 }
 
@@ -127,7 +119,7 @@ SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_rub *rub, double *su
     tally t = {.sim = sim, .sum = sum, .press = mass * (double)sim->unknown[i], .mass = mass};
     sb_f4 rubbed = {0}, part[4];
     t.at = sb_space_position(&sim->space, sim->position[i]);
-    if (count > 0) t.body = sim->walls[index[0] >> 31].body[index[0] & 0x7fffffffu];
+    if (count > 0) t.body = sb_wall_body(sim, index[0]);
     if (one_body(sim, index, count)) { /* as most do: the sums are there already */
         t.pushed = sim->wall[i];
         rubbed = t.rubbed = rub ? sim->rubbed[i] : (sb_f4){0};
@@ -137,8 +129,8 @@ SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_rub *rub, double *su
     for (size_t k = 0; k < count; k++) {
         if (rub && k % 4 == 0) sb_rubbed(sim, i, velocity[i], index + k, slope + k, rub, part);
         if (slope[k] == 0) continue;
-        const sb_wall_set *set = &sim->walls[index[k] >> 31];
-        const uint32_t wall = index[k] & 0x7fffffffu;
+        const sb_wall_set *set = sb_wall_set_of(sim, index[k]);
+        const uint32_t wall = sb_wall_particle(index[k]);
         turn_to(&t, set, wall);
         t.pushed += sb_offset(sim->position[i], set->record[wall]) * sb_splat(slope[k]);
         if (rub) {

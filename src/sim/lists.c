@@ -112,10 +112,11 @@ static void builder_free(sb_list_builder *lists)
     sb_free(lists->run);
 }
 
-/* One attempt; *full when a particle has more neighbours than lists hold. 0, or -1 without memory. */
-static int attempt(sb_sim *sim, bool *too_small, bool *full)
+/* One attempt; *full: the limits hit. 0, or -1 without memory. */
+static int attempt(sb_sim *sim, bool *too_small, unsigned *full)
 {
-    bool small = false, over = false, memory = false;
+    unsigned over = 0;
+    bool small = false, memory = false;
     const size_t groups = sim->groups.count, units = (groups + GROUPS - 1) / GROUPS;
     sim->pairs.used = sim->wall_pairs.used = sim->groups.used = 0;
 #pragma omp parallel reduction(| : small, over, memory)
@@ -129,7 +130,7 @@ static int attempt(sb_sim *sim, bool *too_small, bool *full)
                 sb_search_group(sim, searcher, &lists, &sim->groups.group[g]);
             if (!lists.starved) small |= !publish(sim, &lists, begin, end);
         }
-        over |= searcher && sb_searcher_full(searcher);
+        over |= searcher ? sb_searcher_full(searcher) : 0;
         memory |= lists.starved;
         builder_free(&lists);
         sb_searcher_free(searcher);
@@ -174,20 +175,32 @@ static int enlarge(sb_sim *sim)
     return water->used <= water->capacity && wall->used <= wall->capacity && groups->used <= groups->room ? 0 : -1;
 }
 
+static sb_status refuse(const sb_sim *sim, unsigned full, sb_error *error)
+{
+    static const char *const dense = "the water has collapsed, or walls are too dense";
+    const unsigned long long step = (unsigned long long)sim->report.step;
+    if (full & SB_FULL_WALLS)
+        return sb_fail(error, SB_FAILED,
+                       "step %llu: more than %d boundary particles around one place: walls are too dense, or many "
+                       "bodies meet there",
+                       step, SB_WALLS_AROUND_MAX);
+    return sb_fail(error, SB_FAILED, "step %llu: more than %d particles around %s: %s", step,
+                   full & SB_FULL_LIST ? SB_LIST_MAX : SB_AROUND_MAX, full & SB_FULL_LIST ? "one" : "eight cells",
+                   dense);
+}
+
 sb_status sb_stage_neighbours(sb_sim *sim, sb_error *error)
 {
     for (;;) {
-        bool too_small, full;
+        bool too_small;
+        unsigned full;
         if (sb_groups_build(sim) != 0 || attempt(sim, &too_small, &full) != 0)
             return sb_fail_memory(error, "neighbour lists");
-        if (full)
-            return sb_fail(
-                error, SB_FAILED,
-                "step %llu: more than %d particles around one: the water has collapsed, or walls are too dense",
-                (unsigned long long)sim->report.step, SB_LIST_MAX);
+        if (full) return refuse(sim, full, error);
         if (!too_small) return SB_OK;
         if (sim->pairs.used > UINT32_MAX / 2 || sim->wall_pairs.used > UINT32_MAX / 2)
-            return sb_fail(error, SB_FAILED, "%zu neighbour pairs: expected fewer than 2^33", 4 * sim->pairs.used);
+            return sb_fail(error, SB_FAILED, "%zu pairs of neighbours, %zu with walls: expected fewer than 2^33, 2^31",
+                           4 * sim->pairs.used, sim->wall_pairs.used);
         if (enlarge(sim) != 0) return sb_fail_memory(error, "neighbour lists");
     }
 }

@@ -5,6 +5,11 @@
 
 #include "sim/vicinity.h"
 
+enum { SB_WALLS_AROUND_MAX = 4096 }; /* boundary particles in and beside one cell */
+
+/* There is more than fits: around a particle, of boundary particles around a cell, around a group. */
+enum { SB_FULL_LIST = 1, SB_FULL_WALLS = 2, SB_FULL_AROUND = 4 };
+
 typedef struct sb_list_builder {
     sb_four_pairs *four;
     uint32_t *wall;
@@ -27,6 +32,7 @@ struct sb_searcher;
 struct sb_searcher *sb_searcher_create(const sb_sim *sim);
 void sb_searcher_free(struct sb_searcher *searcher);
 void sb_search_group(sb_sim *sim, struct sb_searcher *searcher, sb_list_builder *lists, sb_group *group);
-bool sb_searcher_full(const struct sb_searcher *searcher); /* a particle had more neighbours than lists hold */
+/* Which of the limits were hit: bits. */
+unsigned sb_searcher_full(const struct sb_searcher *searcher);
 
 #endif

@@ -4,20 +4,21 @@
 #include "sim/kernel_batch.h"
 #include "sim/lists.h"
 #include "sim/vicinity.h"
+#include "sim/wall_entry.h"
 
 #include <math.h>
 
 enum {
-    WALLS = 4096, /* boundary particles around one cell; more are refused */
     MOST = 32767, /* of a stored slope */
 };
 
 /* Boundary particles around one cell as offsets from the cell's corner, in quanta. */
 typedef struct surroundings {
     size_t count;
-    float x[WALLS + SB_HIT_SPARE], y[WALLS + SB_HIT_SPARE], z[WALLS + SB_HIT_SPARE];
-    float weight[WALLS];
-    uint32_t index[WALLS];
+    float x[SB_WALLS_AROUND_MAX + SB_HIT_SPARE], y[SB_WALLS_AROUND_MAX + SB_HIT_SPARE],
+        z[SB_WALLS_AROUND_MAX + SB_HIT_SPARE];
+    float weight[SB_WALLS_AROUND_MAX];
+    uint32_t index[SB_WALLS_AROUND_MAX];
 } surroundings;
 
 struct sb_searcher {
@@ -31,7 +32,7 @@ struct sb_searcher {
     float value_scale; /* alpha / h^d */
     float slope_scale; /* alpha quantum / h^(d+2): W'/r per quantum */
     float to_units;    /* a slope of the kernel in stored units */
-    bool full;         /* a limit was hit */
+    unsigned full;     /* as sb_searcher_full has it */
 };
 
 /* ---- walls around a cell ---- */
@@ -39,8 +40,8 @@ struct sb_searcher {
 SB_INLINE void gather_cell(surroundings *s, const sb_record *record, uint32_t begin, uint32_t end, sb_record corner,
                            uint32_t base)
 {
-    if (s->count + (end - begin) > WALLS) {
-        s->count = WALLS + 1;
+    if (s->count + (end - begin) > SB_WALLS_AROUND_MAX) {
+        s->count = SB_WALLS_AROUND_MAX + 1;
         return;
     }
     for (uint32_t k = begin; k < end; k++) {
@@ -66,13 +67,13 @@ static void gather_walls(const sb_sim *sim, struct sb_searcher *w, size_t i, sb_
             for (int dy = -layers; dy <= layers; dy++)
                 for (int dx = -1; dx <= 1; dx++) {
                     int64_t cell = sb_cells_find(&set->cells, code + sb_cell_step(dx, dy, dz));
-                    if (cell >= 0 && w->wall.count <= WALLS)
+                    if (cell >= 0 && w->wall.count <= SB_WALLS_AROUND_MAX)
                         gather_cell(&w->wall, set->record, set->cells.begin[cell], set->cells.begin[cell + 1], corner,
-                                    s << 31);
+                                    sb_wall_entry(s, 0));
                 }
     }
-    if (w->wall.count > WALLS) {
-        w->full = true;
+    if (w->wall.count > SB_WALLS_AROUND_MAX) {
+        w->full |= SB_FULL_WALLS;
         w->wall.count = 0;
     }
 }
@@ -84,7 +85,7 @@ SB_INLINE void find_hits(struct sb_searcher *w, const sb_candidates *of, const s
 {
     sb_hits *h = &w->hits;
     size_t n = w->find_hits(of, stretch, stretches, h, self, w->q_scale, skip);
-    w->full |= n >= SB_LIST_MAX;
+    if (n >= SB_LIST_MAX) w->full |= SB_FULL_LIST;
     h->count = n < SB_LIST_MAX ? n : SB_LIST_MAX;
     h->padded = (h->count + SB_HIT_LANES - 1) / SB_HIT_LANES * SB_HIT_LANES;
     for (size_t k = h->count; k < h->padded; k++) {
@@ -144,11 +145,7 @@ SB_INLINE void wall_sums(const sb_sim *sim, struct sb_searcher *w, float *densit
         h->slope[k] = slope;
         h->candidate[k] = index;
         value += weight * h->value[k];
-        if (index >> 31) {
-            const sb_wall_set *set = &sim->walls[SB_MOVING];
-            sb_vec3 v = sim->moving[sim->moving_of_body[set->body[index & 0x7fffffffu]]].velocity;
-            gradient[3] = (float)v.x * gradient[0] + (float)v.y * gradient[1] + (float)v.z * gradient[2];
-        }
+        if (sb_wall_moves(index)) gradient[3] = sb_sum3(sb_wall_velocity(sim, index) * gradient);
         sum += gradient;
     }
     *density += w->value_scale * value;
@@ -213,7 +210,7 @@ void sb_search_group(sb_sim *sim, struct sb_searcher *w, sb_list_builder *lists,
 {
     sb_vicinity_gather(sim, group, &w->vicinity);
     if (w->vicinity.count > SB_AROUND_MAX) {
-        w->full = true;
+        w->full |= SB_FULL_AROUND;
         return;
     }
     sb_list_runs(lists, &w->vicinity, group);
@@ -243,7 +240,7 @@ struct sb_searcher *sb_searcher_create(const sb_sim *sim)
     const sb_kernel *kernel = sim->scene->numerics.kernel;
     const int d = sim->constant.dimension;
     const double h = (double)sim->constant.support, quantum = sim->space.quantum;
-    w->full = false;
+    w->full = 0;
     w->kernel = kernel;
     w->batch = sb_kernel_batch_for(kernel);
     w->find_hits = sb_find_hits_choose();
@@ -254,7 +251,7 @@ struct sb_searcher *sb_searcher_create(const sb_sim *sim)
     return w;
 }
 
-bool sb_searcher_full(const struct sb_searcher *w)
+unsigned sb_searcher_full(const struct sb_searcher *w)
 {
     return w->full;
 }

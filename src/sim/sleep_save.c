@@ -2,6 +2,7 @@
 #include "base/archive.h"
 #include "base/memory.h"
 #include "sim/sleep.h"
+#include "sim/wall_entry.h"
 
 #include <math.h>
 
@@ -100,7 +101,7 @@ static bool heard_well(const sb_sim *sim, size_t i)
     const float *push = heard->push;
     const bool pushed = push[0] != 0 || push[1] != 0 || push[2] != 0;
     if (!isfinite(push[0] + push[1] + push[2] + sim->sleep->settled_q[i])) return false;
-    return !pushed || (heard->wall & 0x7fffffffu) < sim->walls[heard->wall >> 31].count;
+    return !pushed || sb_wall_particle(heard->wall) < sb_wall_set_of(sim, heard->wall)->count;
 }
 
 /* What settling has heard so far. 0, or -1 without memory. */

@@ -5,8 +5,6 @@
 
 #include <string.h>
 
-enum { INDEX_BITS = 27 };
-
 /* How many particles sleep over each tile, summed up: first. Of those that the sort has left: a look at the water
    before it has seen more. */
 static void count_sleepers(sb_sim *sim)
@@ -125,7 +123,7 @@ static void copy_fringe(sb_sim *sim, const sb_record *made, const uint64_t *sort
 {
     sb_sleep *sleep = sim->sleep;
     for (size_t f = 0; f < sleep->fringe; f++) {
-        const sb_record at = made[sorted[f] & (((uint64_t)1 << INDEX_BITS) - 1)];
+        const sb_record at = made[sb_word_index(sorted[f])];
         const float density = sleep->density[at[3]];
         sleep->fringe_q[f] = sleep->pressure[at[3]] / (density * density);
         sleep->fringe_density[f] = density;
@@ -156,8 +154,8 @@ int sb_sleepers_fringe(sb_sim *sim)
     int status = -1;
     if (!sleep->fringe_position || !sleep->fringe_q || !sleep->fringe_density || !made || !words || !other) goto done;
     list_fringe(sim, made);
-    for (size_t f = 0; f < count; f++) words[f] = sb_space_key(&sim->space, made[f]) << INDEX_BITS | f;
-    const uint64_t *sorted = sb_sort(words, other, count, INDEX_BITS, INDEX_BITS + sim->space.key_bits);
+    for (size_t f = 0; f < count; f++) words[f] = sb_sort_word(sb_space_key(&sim->space, made[f]), f);
+    const uint64_t *sorted = sb_sort(words, other, count, SB_INDEX_BITS, SB_INDEX_BITS + sim->space.key_bits);
     if (!sorted) goto done;
     copy_fringe(sim, made, sorted);
     status = sb_cells_build(&sleep->fringe_cells, sleep->fringe_position, count, sim->space.shift);

@@ -5,7 +5,18 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { SB_SORT_DIGIT = 8 };
+enum { SB_SORT_DIGIT = 8, SB_INDEX_BITS = 27 };
+
+/* A word: the key above, the index of what it belongs to, below 2^SB_INDEX_BITS, in its last bits. */
+static inline uint64_t sb_sort_word(uint64_t key, size_t index)
+{
+    return key << SB_INDEX_BITS | index;
+}
+
+static inline size_t sb_word_index(uint64_t word)
+{
+    return word & (((uint64_t)1 << SB_INDEX_BITS) - 1);
+}
 
 /* Sorts words by bits [low, high), least significant digit first; `other` is scratch of equal size.
    Returns the array that holds the result (words or other), NULL without memory. */

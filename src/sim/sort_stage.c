@@ -9,9 +9,6 @@
 #include <math.h>
 #include <string.h>
 
-enum { INDEX_BITS = 27 };
-static const uint64_t INDEX_MASK = ((uint64_t)1 << INDEX_BITS) - 1;
-
 /* Domain bounds in quanta; walls hold water, so beyond a wall side a particle is lost only when it is
    more than a support radius out. None is beyond a periodic side. */
 typedef struct bounds {
@@ -60,7 +57,7 @@ static size_t make_words(sb_sim *sim, const bounds *b)
         left += way.side >= 0 && !way.lost;
         lost += way.side >= 0 && way.lost;
         uint64_t key = way.side >= 0 ? gone : sb_space_key(&sim->space, sim->position[i]);
-        sim->sort_a[i] = key << INDEX_BITS | i;
+        sim->sort_a[i] = sb_sort_word(key, i);
     }
     sim->left_domain += left;
     sim->lost += lost;
@@ -77,7 +74,7 @@ static void permute(sb_sim *sim, const uint64_t *words)
     uint32_t *id = (uint32_t *)sim->residual; /* made anew after the sort */
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < sim->n; i++) {
-        size_t from = words[i] & INDEX_MASK;
+        size_t from = sb_word_index(words[i]);
         position[i] = sim->position[from];
         velocity[i] = sim->velocity[from];
         id[i] = sim->id[from];
@@ -93,7 +90,8 @@ sb_status sb_stage_sort(sb_sim *sim, sb_error *error)
 {
     const bounds b = domain_bounds(sim);
     const size_t stay = make_words(sim, &b);
-    const uint64_t *sorted = sb_sort(sim->sort_a, sim->sort_b, sim->n, INDEX_BITS, INDEX_BITS + sim->space.key_bits);
+    const uint64_t *sorted =
+        sb_sort(sim->sort_a, sim->sort_b, sim->n, SB_INDEX_BITS, SB_INDEX_BITS + sim->space.key_bits);
     if (!sorted) return sb_fail_memory(error, "sorting");
     permute(sim, sorted);
     for (size_t i = stay; i < sim->n; i++) /* in the order of their numbers before the sort */

@@ -1,5 +1,7 @@
 #include "sim/space.h"
 
+#include "sim/sort.h"
+
 static int bits_for(uint32_t count)
 {
     int bits = 0;
@@ -28,8 +30,7 @@ static void make_spread(sb_space *space)
 sb_status sb_space_create(sb_vec3 min, sb_vec3 max, double cell, sb_space *space, sb_error *error)
 {
     /* 22 bits within a cell keep three cells' differences exact in float. */
-    /* Sort words of 64 bits hold a key and an index below 2^27. */
-    enum { MOST_SHIFT = 22, LEAST_SHIFT = 14, MOST_KEY_BITS = 64 - 27 };
+    enum { MOST_SHIFT = 22, LEAST_SHIFT = 14, MOST_KEY_BITS = 64 - SB_INDEX_BITS };
     sb_space made = {.cell = cell};
     double extent[3] = {max.x - min.x, max.y - min.y, max.z - min.z};
     int most = 1;

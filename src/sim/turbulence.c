@@ -4,6 +4,7 @@
 #include "sim/turbulence.h"
 
 #include "sim/around.h"
+#include "sim/wall_entry.h"
 
 #include <math.h>
 
@@ -96,8 +97,8 @@ SB_INLINE float wall_distance(const sb_sim *sim, size_t i, float offset)
     const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
     float nearest = INFINITY, distance = INFINITY;
     for (size_t k = 0; k < sim->wall_pairs.count[i]; k++) {
-        const sb_wall_set *set = &sim->walls[index[k] >> 31];
-        const uint32_t b = index[k] & 0x7fffffffu;
+        const sb_wall_set *set = sb_wall_set_of(sim, index[k]);
+        const uint32_t b = sb_wall_particle(index[k]);
         const sb_f4 d = sb_offset(sim->position[i], set->record[b]), normal = set->normal[b];
         const float square = sb_sum3(d * d);
         if (square >= nearest) continue;

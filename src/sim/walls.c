@@ -72,12 +72,12 @@ static int table_build(sb_wall_set *set, const sb_space *space)
     int status = -1;
     if (!words || !other || !record || !body || !normal) goto done;
 #pragma omp parallel for schedule(static)
-    for (size_t i = 0; i < n; i++) words[i] = sb_space_key(space, set->record[i]) << 27 | i;
-    const uint64_t *sorted = sb_sort(words, other, n, 27, 27 + space->key_bits);
+    for (size_t i = 0; i < n; i++) words[i] = sb_sort_word(sb_space_key(space, set->record[i]), i);
+    const uint64_t *sorted = sb_sort(words, other, n, SB_INDEX_BITS, SB_INDEX_BITS + space->key_bits);
     if (!sorted) goto done;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) {
-        size_t from = sorted[i] & (((uint64_t)1 << 27) - 1);
+        size_t from = sb_word_index(sorted[i]);
         record[i] = set->record[from];
         body[i] = set->body[from];
         normal[i] = set->normal[from];
@@ -156,9 +156,9 @@ sb_status sb_walls_create(sb_sim *sim, sb_error *error)
 {
     sb_status status = create_paddles(sim, error);
     if (status != SB_OK) return status;
-    if (sim->model->wall_count >= (size_t)1 << 27)
+    if (sim->model->wall_count >= (size_t)1 << SB_INDEX_BITS)
         return sb_fail(error, SB_BAD_INPUT, "%zu boundary particles: expected fewer than %d", sim->model->wall_count,
-                       1 << 27);
+                       1 << SB_INDEX_BITS);
     for (int s = 0; s < SB_WALL_SETS; s++) {
         sb_wall_set *set = &sim->walls[s];
         if (copy_set(sim, s == SB_MOVING, set) != 0 || table_build(set, &sim->space) != 0 ||

@@ -216,7 +216,7 @@ static cloud make_cloud(sb_vec3 min, sb_vec3 max, double cell)
         raw[i] = sb_space_record(&c.space, x);
         words[i] = sb_space_key(&c.space, raw[i]) << 27 | i;
     }
-    const uint64_t *sorted = sb_sort(words, other, CLOUD, 27, 27 + c.space.key_bits);
+    const uint64_t *sorted = sb_sort(words, other, CLOUD, SB_INDEX_BITS, SB_INDEX_BITS + c.space.key_bits);
     assert_non_null(sorted);
     for (size_t i = 0; i < CLOUD; i++) c.record[i] = raw[sorted[i] & ((1 << 27) - 1)];
     sb_free(words);
