@@ -57,7 +57,8 @@ sb_status sb_checkpoint_load_settling(run *r, sb_error *error);
 
 /* Loads the newest checkpoint that is whole and of this program, build, scene and model into the run's simulation,
    measurements and counters; says why others were refused. Touches no file. SB_BAD_INPUT when none can be used,
-   SB_FAILED without memory: simulation and measurements are then worth nothing. */
+   SB_FAILED without memory, or when the newest cannot be read for the moment, as from a disk that errs: simulation and
+   measurements are then worth nothing. */
 sb_status sb_checkpoint_load(run *r, sb_error *error);
 
 /* After a load: removes checkpoints of later steps, which were refused. */

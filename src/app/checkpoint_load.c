@@ -83,7 +83,7 @@ static sb_status take_run(run *r, sb_archive_in *in, sb_error *error)
     sb_take_list(in, r->tables.bytes, SB_CSV_TABLES, sizeof *r->tables.bytes);
     sb_take_list(in, r->tables.hash, SB_CSV_TABLES, sizeof *r->tables.hash);
     sb_missed_load(r, in);
-    r->pictures.count = r->pictures.synced = sb_take_count(in, UINT32_MAX);
+    r->pictures.count = sb_take_count(in, UINT32_MAX); /* the next checkpoint looks for all of them again */
     status = sb_recorder_load(&r->recorder, in, error);
     if (status == SB_OK) status = sb_archive_leave(in, error);
     return status == SB_OK ? sb_csv_check(r->directory, r->scene, &r->tables, error) : status;

@@ -49,11 +49,11 @@ static sb_status draw_all(const char *run, const sb_pvd *list, sb_pictures *pict
     return status;
 }
 
-static void make_videos(const char *directory, const sb_scene *scene, int camera)
+static void make_videos(const char *directory, const sb_scene *scene, int camera, uint64_t count)
 {
     for (size_t c = 0; c < scene->render.camera_count && scene->render.video; c++)
         if (camera < 0 || (size_t)camera == c)
-            sb_video_write(directory, scene->render.cameras[c].name, scene->render.video_rate, NULL);
+            sb_video_write(directory, scene->render.cameras[c].name, count, scene->render.video_rate, NULL);
 }
 
 static sb_status render(const sb_options *options, sb_error *error)
@@ -75,7 +75,7 @@ static sb_status render(const sb_options *options, sb_error *error)
     if (status == SB_OK) {
         sb_pictures pictures = {.scene = &scene, .model = &model, .directory = directory, .camera = camera};
         status = draw_all(run, &list, &pictures, options->quiet, error);
-        if (status == SB_OK && pictures.count > 1) make_videos(directory, &scene, camera);
+        if (status == SB_OK && pictures.count > 1) make_videos(directory, &scene, camera, pictures.count);
     }
     if (lock >= 0) close(lock);
     sb_pvd_free(&list);

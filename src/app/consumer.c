@@ -73,15 +73,18 @@ sb_status sb_consumer_start(sb_consumer *consumer, const sb_consumer_work *work,
     return SB_OK;
 }
 
+/* Steps that end on a multiple of the interval may fall short of it by what sums round. */
+static const double ROUNDING = 1e-9;
+
 bool sb_consumer_due(const sb_consumer *consumer, double time)
 {
-    return consumer->started && time >= consumer->next;
+    return consumer->started && time + ROUNDING * consumer->interval >= consumer->next;
 }
 
 void sb_consumer_feed(sb_consumer *consumer, const sb_frame *frame)
 {
     consumer->fed += sb_frame_queue_push(consumer->queue, frame);
-    consumer->next = consumer->interval * (floor(frame->status.time / consumer->interval + 1e-9) + 1);
+    consumer->next = consumer->interval * (floor(frame->status.time / consumer->interval + ROUNDING) + 1);
 }
 
 sb_trouble sb_consumer_trouble(sb_consumer *consumer)

@@ -6,6 +6,7 @@
 
 /* Costs measured with tools/bench: of the program before any particle, and of its graphics library; of water, per
    particle and per neighbour of each; of walls, per particle; of an image beyond periodic sides, its fields. */
+static const double IMPULSE_BYTES = 9 * 8 / 1024.0; /* per particle and body: nine sums per block of 1024 */
 static const double PROGRAM_BYTES = 1e7, GRAPHICS_BYTES = 5e7, FLUID_BYTES = 166, PAIR_BYTES = 4.3, WALL_BYTES = 48,
                     GHOST_BYTES = 90;
 
@@ -25,6 +26,11 @@ size_t sb_room_waiting(size_t fluid_count)
 {
     const double fit = WAITING_BYTES / (FRAME_BYTES * (double)fluid_count + 1);
     return fit < 1 ? 1 : fit < MOST_WAITING ? (size_t)fit : MOST_WAITING;
+}
+
+size_t sb_room_graphics(void)
+{
+    return (size_t)GRAPHICS_BYTES;
 }
 
 double sb_room_ghosts(const sb_scene *scene, const sb_model *model)
@@ -77,7 +83,8 @@ static double map_bytes(const sb_scene *scene)
 double sb_room_needed(const sb_scene *scene, const sb_model *model)
 {
     const double fluid = FLUID_BYTES + PAIR_BYTES * count_neighbours(scene) + FRAME_BYTES * count_frames(scene, model);
-    return PROGRAM_BYTES + picture_bytes(scene, model) + map_bytes(scene) + (double)model->fluid_count * fluid +
+    return PROGRAM_BYTES + picture_bytes(scene, model) + map_bytes(scene) +
+           (double)model->fluid_count * (fluid + IMPULSE_BYTES * (double)model->body_count) +
            (double)model->wall_count * WALL_BYTES + sb_room_ghosts(scene, model) * GHOST_BYTES;
 }
 

@@ -11,6 +11,9 @@ double sb_room_ghosts(const sb_scene *scene, const sb_model *model);
    where they are large. */
 size_t sb_room_waiting(size_t fluid_count);
 
+/* Bytes that the graphics library takes before the first picture. */
+size_t sb_room_graphics(void);
+
 /* Bytes that a run takes at its peak, with the outputs that the scene asks for; about. */
 double sb_room_needed(const sb_scene *scene, const sb_model *model);
 

@@ -19,6 +19,17 @@ static void keep_first(sb_status *status, sb_error *error, sb_status found, cons
     *error = *reason;
 }
 
+/* What came of leaving out what the scene needs not. */
+static void log_saved(run *r)
+{
+    const sb_skipped *const lists[] = {sb_sim_skipped(r->sim), r->measure ? sb_measure_skipped(r->measure) : NULL,
+                                       r->off};
+    const sb_stage_time *stages;
+    const size_t count = sb_sim_stages(r->sim, &stages);
+    const sb_saved saved = sb_saved_sum(lists, sizeof lists / sizeof *lists, stages, count);
+    sb_runlog_saved(r->log, &saved);
+}
+
 /* What still water saved. */
 static void log_sleep(run *r)
 {
@@ -178,14 +189,14 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
    it goes on. */
 static sb_status make_films(const run *r, sb_status status, sb_error *error)
 {
-    static const char *const off[] = {"films: the run was stopped; they are made when it has gone on to its end", NULL};
     if (r->scene->render.camera_count == 0 || r->pictures.count <= 1 || !r->scene->render.video) return SB_OK;
     if (status == SB_INTERRUPTED) {
-        sb_runlog_skipped(r->log, off);
+        sb_runlog_event(r->log, "skipped", "films: the run was stopped; they are made when it has gone on to its end");
         return SB_OK;
     }
     for (size_t c = 0; c < r->scene->render.camera_count && !sb_stop_signal(); c++)
-        sb_video_write(r->directory, r->scene->render.cameras[c].name, r->scene->render.video_rate, r->log);
+        sb_video_write(r->directory, r->scene->render.cameras[c].name, r->pictures.count, r->scene->render.video_rate,
+                       r->log);
     return sb_stop_signal() ? sb_stop_fail(error, "while films were made, all else is done: --resume makes them")
                             : SB_OK;
 }
@@ -199,6 +210,7 @@ void sb_run_finish(run *r, sb_status *status, sb_error *error)
     if (r->csv) keep_first(status, error, sb_csv_close(r->csv, &reason), &reason);
     if (r->sim) {
         sb_run_log_step(r);
+        log_saved(r);
         log_sleep(r);
         sb_progress_end(&r->progress, sb_sim_report(r->sim));
     }

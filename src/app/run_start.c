@@ -89,6 +89,26 @@ static sb_status start_streamer(run *r, sb_error *error)
                              sb_room_waiting(r->model.fluid_count), SB_QUEUE_DROP_OLDEST, error);
 }
 
+static bool draws(const sb_scene *scene)
+{
+    return scene->render.interval > 0 && scene->render.camera_count > 0;
+}
+
+static void note_off(run *r)
+{
+    const sb_scene *scene = r->scene;
+    size_t n = 0;
+    if (!scene->stream.enabled) r->off[n++].what = "stream: off, no LCM thread";
+    if (!(scene->output.particle_interval > 0)) r->off[n++].what = "particle files: off, no thread";
+    if (!draws(scene))
+        r->off[n++] = (sb_skipped){"pictures: off, no thread, no graphics memory", 0, sb_room_graphics()};
+    else if (!scene->render.video)
+        r->off[n++].what = "films: off, pictures are not joined";
+    if (!scene->output.plots) r->off[n++].what = "plots: off, tables are not drawn";
+    if (!r->checkpoints.on) r->off[n++].what = "checkpoints: off, none on a signal either, --resume starts anew";
+    r->off[n].what = NULL;
+}
+
 /* In a new run before the water comes to rest, so that the renderer is made meanwhile; in one that goes on once the
    checkpoint has said what files there are. */
 static sb_status start_consumers(run *r, sb_error *error)
@@ -96,24 +116,17 @@ static sb_status start_consumers(run *r, sb_error *error)
     const sb_scene *scene = r->scene;
     const size_t waiting = sb_room_waiting(r->model.fluid_count);
     sb_status status = SB_OK;
-    size_t skipped = 0;
-    if (scene->stream.enabled)
-        status = start_streamer(r, error);
-    else
-        r->off[skipped++] = "stream: off, no LCM thread";
+    note_off(r);
+    if (scene->stream.enabled) status = start_streamer(r, error);
     if (status == SB_OK && scene->output.particle_interval > 0) {
         sb_consumer_work work = sb_recorder_work(&r->recorder);
         status = sb_consumer_start(&r->consumers[RECORDER], &work, scene->output.particle_interval, waiting,
                                    SB_QUEUE_WAIT, error);
-    } else {
-        r->off[skipped++] = "particle files: off, no thread";
     }
-    if (status == SB_OK && scene->render.interval > 0 && scene->render.camera_count > 0) {
+    if (status == SB_OK && draws(scene)) {
         sb_consumer_work work = sb_pictures_work(&r->pictures);
         status =
             sb_consumer_start(&r->consumers[PICTURES], &work, scene->render.interval, waiting, SB_QUEUE_WAIT, error);
-    } else {
-        r->off[skipped++] = "pictures: off, no thread, no graphics memory";
     }
     for (int c = 0; c < CONSUMERS; c++) r->consumers[c].next = r->due[c];
     return status;
@@ -163,8 +176,6 @@ static void note_start(run *r)
     sb_runlog_event(r->log, "build", "%s", r->checkpoints.build);
     sb_runlog_skipped(r->log, r->off);
     sb_runlog_skipped(r->log, sb_sim_skipped(r->sim));
-    static const char *const off[] = {"checkpoints: off, none on a signal either, --resume starts anew", NULL};
-    if (!r->checkpoints.on) sb_runlog_skipped(r->log, off);
     r->setup_seconds = sb_progress_wall(&r->progress);
 }
 
@@ -187,7 +198,11 @@ static sb_status begin(run *r, sb_error *error)
         sb_run_warn(r, "%llu of %zu particles were lost through walls of the domain while the water came to rest",
                     (unsigned long long)sb_sim_report(r->sim)->lost, r->model.fluid_count);
     if (status != SB_OK) return status;
-    sb_runlog_event(r->log, "settled", "highest speed %.3g m/s", sb_sim_report(r->sim)->max_speed);
+    if (sb_sim_settles(r->scene)) {
+        const sb_rest rest = sb_sim_rest(r->sim);
+        sb_runlog_event(r->log, "settled", "after %d steps, highest speed %.3g m/s: %s", rest.steps, rest.speed,
+                        rest.ended);
+    }
     if (r->scene->numerics.sleep)
         sb_runlog_event(r->log, "asleep", "%zu of %zu particles sleep until a wave comes near",
                         sb_sim_sleep(r->sim).asleep, sb_sim_report(r->sim)->fluid_count);

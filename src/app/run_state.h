@@ -13,6 +13,7 @@
 #include "sim/sim.h"
 
 enum { RECORDER, PICTURES, STREAMER, CONSUMERS };
+enum { SB_RUN_OFF_MAX = 6 };
 
 struct run {
     sb_scene resolved;     /* a shallow copy of the caller's, with what only the model can tell */
@@ -41,7 +42,7 @@ struct run {
     sb_spent before;                     /* what earlier processes of this run took; of this one, what settling did */
     uint64_t steps, iterations_before;   /* steps of this process; iterations before it */
     double particle_steps, setup_seconds, settling_seconds;
-    const char *off[4]; /* consumers that are not there, ended by NULL */
+    sb_skipped off[SB_RUN_OFF_MAX + 1]; /* what else than simulation and measurements is left out */
     bool inside_known;
     uint64_t inside, crossed; /* particles within solids at the end */
 };

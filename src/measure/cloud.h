@@ -25,8 +25,9 @@ void sb_cloud_free(sb_cloud *cloud);
 size_t sb_cloud_bytes(const sb_cloud *cloud);
 
 /* Fills the cloud with the particles that were in [min, max] `lag` seconds before the sim's time,
-   lag being within the last step: positions move back along the velocity, which is exact because a
-   step moves each particle by dt times its new velocity. */
+   lag being within the last step: positions move back along the velocity: exactly, for a
+   step moves each particle by dt times its new velocity; but one that touched nothing, which moved by the mean of old
+   and new, comes out by up to g dt lag / 2 off. */
 sb_status sb_cloud_query(sb_cloud *cloud, const sb_sim *sim, sb_vec3 min, sb_vec3 max, double lag, sb_error *error);
 
 /* Keeps the largest group of particles connected by distances < link (m): spray goes, water stays.

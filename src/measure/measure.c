@@ -156,12 +156,12 @@ static void note_skipped(sb_measure *measure)
     bool reported = false;
     for (size_t b = 0; b < measure->model->body_count; b++) reported = reported || measure->bodies[b].report;
     size_t n = 0;
-    if (!reported) measure->skipped[n++] = "forces: no body reports";
-    if (!settings->gauge_count) measure->skipped[n++] = "wave gauges: none";
-    if (!settings->probe_count) measure->skipped[n++] = "probes: none";
-    if (!settings->plane_count) measure->skipped[n++] = "volume through planes: none";
-    if (!settings->runup_count) measure->skipped[n++] = "run-up lines: none";
-    if (!settings->map.present) measure->skipped[n++] = "maps: none";
+    if (!reported) measure->skipped[n++].what = "forces: no body reports";
+    if (!settings->gauge_count) measure->skipped[n++].what = "wave gauges: none";
+    if (!settings->probe_count) measure->skipped[n++].what = "probes: none";
+    if (!settings->plane_count) measure->skipped[n++].what = "volume through planes: none";
+    if (!settings->runup_count) measure->skipped[n++].what = "run-up lines: none";
+    if (!settings->map.present) measure->skipped[n++].what = "maps: none";
 }
 
 static sb_status prepare_bodies(sb_measure *measure, const sb_sim *sim, sb_error *error)
@@ -341,7 +341,7 @@ void sb_measure_fill_frame(const sb_measure *measure, sb_frame *frame)
     }
 }
 
-const char *const *sb_measure_skipped(const sb_measure *measure)
+const sb_skipped *sb_measure_skipped(const sb_measure *measure)
 {
     return measure->skipped;
 }

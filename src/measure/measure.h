@@ -40,8 +40,8 @@ const sb_map_record *sb_measure_map(const sb_measure *measure);
 /* Puts the last interval's mean force and moment into the bodies of a frame of this model. */
 void sb_measure_fill_frame(const sb_measure *measure, sb_frame *frame);
 
-/* What the scene made this part skip, one line each (static text), ended by NULL. */
-const char *const *sb_measure_skipped(const sb_measure *measure);
+/* What the scene made this part skip (static text). */
+const sb_skipped *sb_measure_skipped(const sb_measure *measure);
 
 /* Heap bytes held. */
 size_t sb_measure_bytes(const sb_measure *measure);

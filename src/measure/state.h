@@ -42,7 +42,7 @@ struct sb_measurements {
     sb_cloud cloud;
     list lists[LISTS];
     sb_measure_records latest;
-    const char *skipped[MAX_SKIPPED + 1];
+    sb_skipped skipped[MAX_SKIPPED + 1];
 };
 
 #endif

@@ -228,11 +228,8 @@ static int draw_plot(const char *program, const char *directory, const plot *wha
     if (access(path, R_OK) != 0) return 0;
     sb_status status = sb_series_read(path, what->named, &series, &error);
     int drawn = 0;
-    char blank[96];
-    const char *const skipped[] = {blank, NULL};
-    snprintf(blank, sizeof blank, "plots/%s.png: nothing but dry places in %s.csv", what->name, what->name);
     if (status == SB_OK && series.row_count > 1 && !anything_in(what, &series)) {
-        sb_runlog_skipped(log, skipped);
+        sb_runlog_event(log, "skipped", "plots/%s.png: nothing but dry places in %s.csv", what->name, what->name);
     } else if (status == SB_OK && series.row_count > 1) {
         status = draw_series(program, directory, what, scene, &series, &error);
         drawn = status == SB_OK;

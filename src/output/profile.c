@@ -2,8 +2,6 @@
 
 #include "base/memory.h"
 
-#include <string.h>
-
 static double ratio(double a, double b)
 {
     return b > 0 ? a / b : 0;
@@ -33,21 +31,19 @@ static void print_stages(FILE *out, const sb_profile *p, double sum, double part
     fprintf(out, "%-12s %9s %10.3f %6.1f%% %22.2f\n", "all stages", "", sum, 100.0, 1e9 * ratio(sum, particle_steps));
 }
 
-/* What one pass over all pairs cost: the source is one, with nothing else in it. */
-static double pair_pass(const sb_profile *p)
-{
-    for (size_t s = 0; s < p->stage_count; s++)
-        if (strcmp(p->stages[s].name, "source") == 0) return ratio(p->stages[s].seconds, (double)p->stages[s].calls);
-    return 0;
-}
-
 static void print_skipped(FILE *out, const sb_profile *p)
 {
+    const sb_saved saved = sb_saved_sum(p->skipped, SB_PROFILE_LISTS, p->stages, p->stage_count);
     fprintf(out, "left out, for the scene needs none of it:\n");
     for (size_t list = 0; list < SB_PROFILE_LISTS; list++)
-        for (const char *const *line = p->skipped[list]; line && *line; line++) fprintf(out, "  %s\n", *line);
-    fprintf(out, "each pass over pairs left out saved about %.3g ms per step, what the stage source took\n",
-            1e3 * pair_pass(p));
+        for (const sb_skipped *of = p->skipped[list]; of && of->what; of++) {
+            fprintf(out, "  %s", of->what);
+            if (of->passes > 0) fprintf(out, "; %d pass%s over pairs per step", of->passes, of->passes > 1 ? "es" : "");
+            if (of->bytes > 0) fprintf(out, "; %.3g MB", 1e-6 * (double)of->bytes);
+            fputc('\n', out);
+        }
+    fprintf(out, "saved: %d passes over pairs per step, about %.3g s so far; %.3g MB\n", saved.passes, saved.seconds,
+            1e-6 * (double)saved.bytes);
 }
 
 void sb_profile_print(FILE *out, const sb_profile *p)

@@ -2,7 +2,7 @@
 #ifndef SB_OUTPUT_PROFILE_H
 #define SB_OUTPUT_PROFILE_H
 
-#include "sim/sim.h"
+#include "output/saved.h"
 
 #include <stdio.h>
 
@@ -19,12 +19,12 @@ typedef struct sb_profile {
     double wall, simulated;     /* s: all in all; of the scene's clock */
     size_t bytes;               /* heap bytes of the simulation */
     int threads;
-    const char *const *skipped[SB_PROFILE_LISTS]; /* lines, each list ended by NULL; NULL: no list */
+    const sb_skipped *skipped[SB_PROFILE_LISTS]; /* NULL: no list */
 } sb_profile;
 
 /* One line per stage with its calls, seconds, share of all stages and ns per particle and step; then steps,
-   iterations, particle-steps per second, memory, and what the scene let the run leave out. Settling's steps are
-   in the stages' figures, and in the particle-steps that they are divided by. */
+   iterations, particle-steps per second, memory, and what the scene let the run leave out and what that saved.
+   Settling's steps are in the stages' figures, and in the particle-steps that they are divided by. */
 void sb_profile_print(FILE *out, const sb_profile *profile);
 
 #endif

@@ -191,9 +191,27 @@ static void put_line(sb_runlog *log, const char *event, const char *text)
     end(log, &json);
 }
 
-void sb_runlog_skipped(sb_runlog *log, const char *const *lines)
+void sb_runlog_skipped(sb_runlog *log, const sb_skipped *list)
 {
-    for (; log && *lines; lines++) put_line(log, "skipped", *lines);
+    sb_json json;
+    for (; log && list->what; list++) {
+        begin(log, &json, "skipped");
+        sb_json_text(&json, "text", list->what);
+        if (list->passes > 0) sb_json_count(&json, "pair_passes_per_step", (uint64_t)list->passes);
+        if (list->bytes > 0) sb_json_count(&json, "bytes", list->bytes);
+        end(log, &json);
+    }
+}
+
+void sb_runlog_saved(sb_runlog *log, const sb_saved *saved)
+{
+    if (!log) return;
+    sb_json json;
+    begin(log, &json, "saved");
+    sb_json_count(&json, "pair_passes_per_step", (uint64_t)saved->passes);
+    sb_json_number(&json, "seconds", saved->seconds);
+    sb_json_count(&json, "bytes", saved->bytes);
+    end(log, &json);
 }
 
 static void put_formatted(sb_runlog *log, const char *event, const char *format, va_list arguments)

@@ -5,6 +5,7 @@
 
 #include "geometry/model.h"
 #include "measure/records.h"
+#include "output/saved.h"
 #include "scene/scene.h"
 #include "sim/sim.h"
 
@@ -28,8 +29,10 @@ sb_status sb_runlog_close(sb_runlog *log, sb_error *error);
 /* "start": version, scene, threads, particles, memory, numerics chosen, the model's warnings. */
 void sb_runlog_start(sb_runlog *log, const sb_scene *scene, const sb_model *model, int threads, size_t bytes);
 
-/* "skipped", one line for each of lines (ended by NULL). */
-void sb_runlog_skipped(sb_runlog *log, const char *const *lines);
+/* "skipped", one line for each of the list. */
+void sb_runlog_skipped(sb_runlog *log, const sb_skipped *list);
+/* "saved": what all of that came to. */
+void sb_runlog_saved(sb_runlog *log, const sb_saved *saved);
 
 /* "warning" with a text. */
 void sb_runlog_warning(sb_runlog *log, const char *format, ...) __attribute__((format(printf, 2, 3)));

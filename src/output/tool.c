@@ -72,19 +72,18 @@ static int spawn(const char *path, char *const *arguments, const char *folder, i
 /* For how much longer a tool may work once someone wishes the run to stop. */
 static const double GRACE = 5; /* s */
 
-/* Waits for the child's end, and brings it about when patience is over. */
-static int wait_for(pid_t child)
+/* Waits for the child's end, and brings it about when patience is over. False: someone else has collected it. */
+static bool wait_for(pid_t child, int *ended)
 {
     const struct timespec pause = {0, 10000000};
     double noted = 0;
-    int ended = 0;
-    for (pid_t found; (found = waitpid(child, &ended, WNOHANG)) != child;) {
-        if (found < 0 && errno != EINTR) break;
+    for (pid_t found; (found = waitpid(child, ended, WNOHANG)) != child;) {
+        if (found < 0 && errno != EINTR) return false;
         if (sb_stop_signal() && !(noted > 0)) noted = sb_clock();
         if (noted > 0 && sb_clock() > noted + GRACE) kill(-child, SIGKILL);
         nanosleep(&pause, NULL);
     }
-    return ended;
+    return true;
 }
 
 sb_status sb_tool_run(const char *path, char *const *arguments, const char *folder, sb_error *error)
@@ -97,9 +96,11 @@ sb_status sb_tool_run(const char *path, char *const *arguments, const char *fold
         fclose(said);
         return sb_fail(error, SB_FAILED, "%s: cannot start: %s", arguments[0], strerror(result));
     }
-    const int ended = wait_for(child);
+    int ended = 0;
     sb_status status = SB_OK;
-    if (!WIFEXITED(ended) || WEXITSTATUS(ended) != 0) {
+    if (!wait_for(child, &ended)) {
+        status = sb_fail(error, SB_FAILED, "%s: how it ended is not known", arguments[0]);
+    } else if (!WIFEXITED(ended) || WEXITSTATUS(ended) != 0) {
         char line[256];
         last_line(said, line, sizeof line);
         status =

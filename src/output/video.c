@@ -18,7 +18,21 @@ static bool pattern_of(char out[SB_PATH_MAX], const char *camera)
     return *camera == '\0';
 }
 
-bool sb_video_write(const char *directory, const char *camera, int rate, sb_runlog *log)
+static sb_status check_pictures(const char *directory, const char *camera, uint64_t count, sb_error *error)
+{
+    char path[SB_PATH_MAX], name[128];
+    sb_status status = SB_OK;
+    for (uint64_t number = 1; status == SB_OK && number <= count; number++) {
+        snprintf(name, sizeof name, "frames/%.90s/%06llu.png", camera, (unsigned long long)number);
+        status = sb_path_join(path, directory, name, error);
+        if (status == SB_OK && access(path, F_OK) != 0)
+            status = sb_fail(error, SB_FAILED, "not made: picture %llu of %llu is gone; expected %s",
+                             (unsigned long long)number, (unsigned long long)count, name);
+    }
+    return status;
+}
+
+bool sb_video_write(const char *directory, const char *camera, uint64_t count, int rate, sb_runlog *log)
 {
     char program[SB_PATH_MAX], pattern[SB_PATH_MAX], speed[16], part[SB_PATH_MAX];
     char from[SB_PATH_MAX], to[SB_PATH_MAX], name[SB_PATH_MAX];
@@ -37,6 +51,7 @@ bool sb_video_write(const char *directory, const char *camera, int rate, sb_runl
                                "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-movflags", "+faststart", part, NULL};
     sb_status status = SB_OK;
     if (!pattern_of(pattern, camera)) status = sb_fail(&error, SB_FAILED, "%.64s...: name too long", camera);
+    if (status == SB_OK) status = check_pictures(directory, camera, count, &error);
     if (status == SB_OK) status = sb_path_join(from, directory, part + strlen("file:"), &error);
     if (status == SB_OK) status = sb_path_join(to, directory, name, &error);
     if (status == SB_OK) unlink(from); /* one that outlived a killed run may still be writing it */

@@ -4,8 +4,9 @@
 
 #include "output/runlog.h"
 
-/* frames/<camera>/%06d.png in `directory`, from 1 on, becomes <camera>.mp4 at `rate` pictures per
-   second. False, and a line in the log, when ffmpeg is absent or fails. */
-bool sb_video_write(const char *directory, const char *camera, int rate, sb_runlog *log);
+/* frames/<camera>/%06d.png in `directory`, from 1 to `count`, becomes <camera>.mp4 at `rate` pictures per
+   second. False, and a line in the log, when ffmpeg is absent or fails, or a picture is gone: a film that ends before
+   it would pass for the whole. */
+bool sb_video_write(const char *directory, const char *camera, uint64_t count, int rate, sb_runlog *log);
 
 #endif

@@ -4,8 +4,14 @@
 
 #include <math.h>
 
-/* Length of a projection step in units of 1/D: below 2/lambda_max of D^-1 A, whose largest value is 3.2. */
-static const float PROJECTION = 0.55f;
+/* Length of a projection step in units of 1/D; at 2/lambda_max of D^-1 A and beyond, where wide supports have it below
+   this, the shortest modes would grow. */
+static const double PROJECTION = 0.55;
+
+static float projection(const sb_sim *sim)
+{
+    return (float)fmin(PROJECTION, 2 / sb_pressure_spectrum(sim));
+}
 
 /* Inner products of one sweep. */
 typedef struct sums {
@@ -80,10 +86,11 @@ static void advance(sb_sim *sim, float length)
 static void project(sb_sim *sim)
 {
     const size_t n = sim->n;
+    const float length = projection(sim);
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) {
         if (sim->unknown[i] == 0 || sim->diagonal[i] == 0) continue;
-        float q = sim->unknown[i] + PROJECTION * sim->residual[i] / sim->diagonal[i];
+        float q = sim->unknown[i] + length * sim->residual[i] / sim->diagonal[i];
         sim->unknown[i] = q > 0 ? q : 0;
     }
 }

@@ -65,6 +65,8 @@ static void take_settle(sb_archive_in *in, const sb_scene *scene, sb_settle *set
     settle->calm = take_steps(in);
     settle->kinetic = sb_take_real(in);
     const int most = scene->numerics.settle_steps;
+    if (sb_settle_over(settle))
+        sb_archive_refuse(in, "settling that is over at step %d: expected one that goes on", settle->done);
     if (settle->done < 0 || settle->calm < 0 || settle->most > most || isnan(settle->kinetic))
         sb_archive_refuse(in, "settling at step %d of at most %d: expected at most %d", settle->done, settle->most,
                           most);

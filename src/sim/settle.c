@@ -32,6 +32,11 @@ int sb_sim_settle_most(const sb_scene *scene)
     return scene->box_count > 0 && steps > CREEP_BOXES ? CREEP_BOXES : steps;
 }
 
+bool sb_settle_over(const sb_settle *settle)
+{
+    return settle->done >= settle->most || settle->calm >= CALM_STEPS;
+}
+
 float sb_settle_pull(const sb_sim *sim, sb_record at)
 {
     const sb_initial_wave *wave = &sim->scene->wave;
@@ -85,6 +90,15 @@ static sb_status poise(sb_sim *sim, sb_error *error)
     return status;
 }
 
+sb_rest sb_sim_rest(const sb_sim *sim)
+{
+    const sb_settle *settle = &sim->settle;
+    const char *ended = settle->calm >= CALM_STEPS                      ? "calm"
+                        : settle->most < sb_sim_settle_most(sim->scene) ? "as calm as more steps would have it"
+                                                                        : "after all the steps there may be";
+    return (sb_rest){settle->done, settle->speed, ended};
+}
+
 bool sb_sim_settling(const sb_sim *sim, int *done)
 {
     *done = sim->settle.done;
@@ -133,7 +147,8 @@ static sb_status one_step(sb_sim *sim, sb_error *error)
     if (status != SB_OK) return status;
     sb_sleep_listen(sim, s);
     settle->done++;
-    settle->calm = sim->report.max_speed < calm ? settle->calm + 1 : 0;
+    settle->speed = sim->report.max_speed;
+    settle->calm = settle->speed < calm ? settle->calm + 1 : 0;
     if (sim->settling == SB_DAMPED && judge_trial(sim)) {
         settle->turn = settle->done;
         settle->most = settle->done + CALM_LAST;
@@ -159,12 +174,13 @@ sb_status sb_sim_settle_watched(sb_sim *sim, sb_settle_watch *watch, void *conte
     sb_settle *settle = &sim->settle;
     if (!sb_sim_settles(sim->scene)) return SB_OK;
     sb_status status = settle->under_way ? SB_OK : begin(sim, error);
-    while (status == SB_OK && settle->done < settle->most && settle->calm < CALM_STEPS && !sb_stop_signal()) {
+    while (status == SB_OK && !sb_settle_over(settle) && !sb_stop_signal()) {
         status = one_step(sim, error);
-        if (watch && status == SB_OK) watch(context, settle->done, settle->most, sim->report.max_speed);
+        const bool between = status == SB_OK && !sb_settle_over(settle);
+        if (watch && between) watch(context, settle->done, settle->most, settle->speed);
     }
     sim->settling = SB_RUNNING;
-    if (status == SB_OK && sb_stop_signal())
+    if (status == SB_OK && !sb_settle_over(settle))
         status = sb_stop_fail(error, "while the water came to rest: nothing is computed yet");
     return status == SB_OK ? finish(sim, error) : status;
 }

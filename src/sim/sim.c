@@ -8,6 +8,7 @@
 #include "sim/packing.h"
 #include "sim/pressure.h"
 #include "sim/sleep.h"
+#include "sim/sort.h"
 #include "sim/turbulence.h"
 
 #include <math.h>
@@ -95,34 +96,46 @@ static void fill_particles(sb_sim *sim)
     sim->report.fluid_count = n;
 }
 
+/* bytes: per particle. */
+static void leave_out(sb_sim *sim, size_t *count, const char *what, int passes, size_t bytes)
+{
+    if (*count < SB_SIM_SKIPPED_MAX)
+        sim->skipped[(*count)++] = (sb_skipped){what, passes, bytes * sim->model->fluid_count};
+}
+
 /* What this scene lets the run leave out, said once in the log. */
 static void note_skipped(sb_sim *sim)
 {
+    enum { PACKING_PASSES = 3 }; /* moments, their mean, the force */
     const sb_numerics *n = &sim->scene->numerics;
+    const bool rubs = n->wall_friction > 0 || sb_shear_on(sim->scene);
     size_t s = 0;
     if (!(n->artificial_viscosity > 0) && !(sim->constant.viscosity > 0) && !sb_turbulence_on(sim->scene))
-        sim->skipped[s++] = "viscosity: both coefficients are 0, no pass over pairs";
-    if (!sb_packing_on(sim->scene)) sim->skipped[s++] = "packing's stress: left as it is, no passes over pairs for it";
+        leave_out(sim, &s, "viscosity: both coefficients are 0, no pass over pairs", 1, 0);
+    if (!sb_packing_on(sim->scene))
+        leave_out(sim, &s, "packing's stress: left as it is, no passes over pairs for it", PACKING_PASSES, 0);
     if (!sb_turbulence_on(sim->scene))
-        sim->skipped[s++] = "turbulence: none, no strain rates, no memory for eddy viscosities";
+        leave_out(sim, &s, "turbulence: none, no strain rates, no memory for eddy viscosities", 1, sizeof *sim->eddy);
     if (!sb_deficit_on(sim->scene))
-        sim->skipped[s++] = "density: summed, no memory for what surfaces and walls change in it";
-    if (!(n->wall_friction > 0)) sim->skipped[s++] = "wall friction: coefficient is 0";
+        leave_out(sim, &s, "density: summed, no memory for what surfaces and walls change in it", 0,
+                  sizeof *sim->deficit);
+    if (!(n->wall_friction > 0)) leave_out(sim, &s, "wall friction: coefficient is 0", 0, 0);
     if (!sb_shear_on(sim->scene))
-        sim->skipped[s++] =
-            n->wall_shear == SB_SHEAR_NONE ? "wall shear: none" : "wall shear: the fluid has no viscosity";
-    if (!sim->space.repeats) sim->skipped[s++] = "periodic sides: none, no ghosts";
-    if (sim->moving_count == 0) sim->skipped[s++] = "moving walls: no body moves";
-    if (sim->constant.dimension == 2) sim->skipped[s++] = "third dimension: 9 cells searched instead of 27";
+        leave_out(sim, &s,
+                  n->wall_shear == SB_SHEAR_NONE ? "wall shear: none" : "wall shear: the fluid has no viscosity", 0,
+                  rubs ? 0 : sizeof *sim->rubbed);
+    if (!sim->space.repeats) leave_out(sim, &s, "periodic sides: none, no ghosts", 0, 0);
+    if (sim->moving_count == 0) leave_out(sim, &s, "moving walls: no body moves", 0, 0);
+    if (sim->constant.dimension == 2) leave_out(sim, &s, "third dimension: 9 cells searched instead of 27", 0, 0);
     if (!sb_pressure_solvers[n->solver]->needs_direction)
-        sim->skipped[s++] = "search direction: the solver needs no memory for one";
+        leave_out(sim, &s, "search direction: the solver needs no memory for one", 0, sizeof *sim->direction);
     if (!n->sleep)
-        sim->skipped[s++] = "sleep: off, all water is computed from the start";
+        leave_out(sim, &s, "sleep: off, all water is computed from the start", 0, 0);
     else if (!sb_sleep_wanted(sim->scene))
-        sim->skipped[s++] = "sleep: the water does not start at rest, all of it is computed";
+        leave_out(sim, &s, "sleep: the water does not start at rest, all of it is computed", 0, 0);
     if (!sb_sim_settles(sim->scene))
-        sim->skipped[s++] = "settling: settle_steps is 0, the water starts as it was filled in";
-    sim->skipped[s] = NULL;
+        leave_out(sim, &s, "settling: settle_steps is 0, the water starts as it was filled in", 0, 0);
+    sim->skipped[s] = (sb_skipped){.what = NULL};
 }
 
 sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **sim, sb_error *error)
@@ -132,9 +145,9 @@ sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **s
     made->scene = scene;
     made->model = model;
     sb_status status = SB_OK;
-    if (model->fluid_count >= (size_t)1 << 27)
-        status =
-            sb_fail(error, SB_BAD_INPUT, "%zu fluid particles: expected fewer than %d", model->fluid_count, 1 << 27);
+    if (model->fluid_count >= (size_t)1 << SB_INDEX_BITS)
+        status = sb_fail(error, SB_BAD_INPUT, "%zu fluid particles: expected fewer than %d", model->fluid_count,
+                         1 << SB_INDEX_BITS);
     if (status == SB_OK) {
         made->constant = sb_constants_of(scene, model);
         status = create_space(made, error);
@@ -269,7 +282,7 @@ size_t sb_sim_stages(const sb_sim *sim, const sb_stage_time **stages)
     return sim->stage_count;
 }
 
-const char *const *sb_sim_skipped(const sb_sim *sim)
+const sb_skipped *sb_sim_skipped(const sb_sim *sim)
 {
     return sim->skipped;
 }

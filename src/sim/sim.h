@@ -4,6 +4,7 @@
 #define SB_SIM_SIM_H
 
 #include "base/archive.h"
+#include "base/skipped.h"
 #include "base/status.h"
 #include "frame/frame.h"
 #include "geometry/model.h"
@@ -53,10 +54,18 @@ int sb_sim_settle_most(const sb_scene *scene);
 /* Brings the water to rest with paddles at rest, where the scene settles, an initial wave's surface kept up; then
    gives it the scene's velocities. Time stays 0. A simulation that was saved meanwhile goes on where it was. */
 sb_status sb_sim_settle(sb_sim *sim, sb_error *error);
-/* The same, calling `watch` after each step: how many are done, the most there may be (it is less where the water calms
-   early), and the highest speed, m/s. The state is one between two steps and may be saved. */
+/* The same, calling `watch` after each step but the last: how many are done, the most there may be (it is less where
+   the water calms early), and the highest speed, m/s. The state is one between two steps and may be saved. */
 typedef void sb_settle_watch(void *context, int done, int most, double speed);
 sb_status sb_sim_settle_watched(sb_sim *sim, sb_settle_watch *watch, void *context, sb_error *error);
+
+/* How settling ended. */
+typedef struct sb_rest {
+    int steps;
+    double speed;      /* m/s, the highest after its last step */
+    const char *ended; /* "calm", ...: static text */
+} sb_rest;
+sb_rest sb_sim_rest(const sb_sim *sim);
 
 /* Whether settling has begun and is not over; *done: the steps that it has taken. */
 bool sb_sim_settling(const sb_sim *sim, int *done);
@@ -154,8 +163,8 @@ size_t sb_sim_stages(const sb_sim *sim, const sb_stage_time **stages);
 /* The instruction set whose code runs here, static text: with another one sums may round otherwise. */
 const char *sb_sim_instructions(void);
 
-/* What this scene made the simulation skip, one line each (static text), ended by NULL. */
-const char *const *sb_sim_skipped(const sb_sim *sim);
+/* What this scene made the simulation skip (static text). */
+const sb_skipped *sb_sim_skipped(const sb_sim *sim);
 
 /* Still water that no wave has come near: left alone, its places and pressures held, and seen by all questions above.
  */

@@ -27,6 +27,7 @@ typedef struct sb_settle {
     int done, most; /* steps */
     int turn;       /* the step at which the last ones begin */
     int calm;       /* calm steps in a row */
+    double speed;   /* m/s, the highest after the last of them; the next one tells it anew, so no checkpoint has it */
     double kinetic; /* J, at the last trial; INFINITY: there was none */
 } sb_settle;
 
@@ -103,13 +104,15 @@ typedef struct sb_lists {
 typedef struct sb_pairs {
     uint32_t *first; /* n */
     uint16_t *count; /* n, padded to a multiple of 4 */
-    uint32_t *index; /* wall set << 31 | boundary particle */
+    uint32_t *index; /* see sim/wall_entry.h */
     float *slope;    /* psi W'(r)/r times the quantum */
     size_t used, capacity;
 } sb_pairs;
 
 struct sb_ledger_sums; /* sim/ledger.h */
 struct sb_sleep;       /* sim/sleep.h */
+
+enum { SB_SIM_SKIPPED_MAX = 15 };
 
 typedef struct sb_sim {
     const sb_scene *scene;
@@ -177,7 +180,7 @@ typedef struct sb_sim {
     sb_departures departures; /* sim/departures.h */
     sb_stage_time stage[SB_STAGES_MAX];
     size_t stage_count;
-    const char *skipped[16];
+    sb_skipped skipped[SB_SIM_SKIPPED_MAX + 1];
     size_t bytes_fixed;
 } sb_sim;
 
@@ -192,7 +195,10 @@ static inline size_t sb_block_end(const sb_sim *sim, size_t block)
     return end < sim->n ? end : sim->n;
 }
 
-/* sim/settle.c: horizontal acceleration (m/s^2) that keeps an initial wave's surface level while it settles:
+/* sim/settle.c: whether the step that was the last has been made. What it left behind is not saved: the water is let
+   go from it at once. */
+bool sb_settle_over(const sb_settle *settle);
+/* Horizontal acceleration (m/s^2) that keeps an initial wave's surface level while it settles:
    with g it stands everywhere across the surface, g d(eta)/dx. */
 float sb_settle_pull(const sb_sim *sim, sb_record at);
 /* sim/sort_stage.c: wraps or drops particles outside, sorts the rest along the Z-curve, builds the cells. */

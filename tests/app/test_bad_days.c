@@ -216,6 +216,19 @@ static void no_room_for_pictures(void **state)
     assert_false(any_ending("narrow", ".tmp"));
 }
 
+/* Where nobody may make a directory, root neither: refused before anything is computed, and in one line. */
+static void a_directory_that_cannot_be_made(void **state)
+{
+    (void)state;
+    static const char *const places[] = {"/proc/none", "/dev/null/run"};
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        outcome o = RUN(2, "run", "tank2.yaml", "--out", places[i], "--quiet", "--until", "1000");
+        assert_one_line(o.err, "cannot make directory");
+        assert_contains(o.err, places[i]);
+        outcome_free(&o);
+    }
+}
+
 /* The directory is removed while the run writes: it stops and says so. */
 static void a_directory_that_vanishes(void **state)
 {
@@ -402,12 +415,19 @@ static void a_clock_that_jumps(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_subscriber_that_stops),           cmocka_unit_test(a_subscriber_that_dies),
-        cmocka_unit_test(a_peer_that_never_answers),         cmocka_unit_test(no_graphics_library),
-        cmocka_unit_test(no_room_for_particle_files),        cmocka_unit_test(no_room_for_pictures),
-        cmocka_unit_test(a_directory_that_vanishes),         cmocka_unit_test(a_directory_that_moves),
-        cmocka_unit_test(nothing_is_written_through_a_link), cmocka_unit_test(nothing_is_drawn_through_a_link),
-        cmocka_unit_test(closed_streams_spoil_no_file),      cmocka_unit_test(a_clock_that_jumps),
+        cmocka_unit_test(a_subscriber_that_stops),
+        cmocka_unit_test(a_subscriber_that_dies),
+        cmocka_unit_test(a_peer_that_never_answers),
+        cmocka_unit_test(no_graphics_library),
+        cmocka_unit_test(no_room_for_particle_files),
+        cmocka_unit_test(no_room_for_pictures),
+        cmocka_unit_test(a_directory_that_cannot_be_made),
+        cmocka_unit_test(a_directory_that_vanishes),
+        cmocka_unit_test(a_directory_that_moves),
+        cmocka_unit_test(nothing_is_written_through_a_link),
+        cmocka_unit_test(nothing_is_drawn_through_a_link),
+        cmocka_unit_test(closed_streams_spoil_no_file),
+        cmocka_unit_test(a_clock_that_jumps),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
 }

@@ -123,11 +123,41 @@ static void folders_that_take_nothing_are_refused(void **state)
     sb_free(scene_now);
 }
 
+/* Pictures that someone has taken away meanwhile, as `render` into the run's folder does, are missed, and no film that
+   ends where they are missing passes for the whole. */
+static void pictures_taken_away_are_missed(void **state)
+{
+    (void)state;
+    RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "robbed", "--quiet", "--set", "render.video=true");
+    assert_int_equal(unlink(in_folder("robbed/frames/side/000002.png")), 0);
+    outcome o = RUN(0, "run", "tank3.yaml", "--out", "robbed", "--quiet", "--set", "render.video=true", "--resume",
+                    "--until", "0.4");
+    assert_contains(o.err, "frames/side/000002.png");
+    outcome_free(&o);
+    char *log = text_of("robbed/run.jsonl");
+    assert_contains(log, "frames/side/000002.png");
+    if (strstr(log, "\"video\"")) assert_contains(log, "side.mp4: not made: picture 2 of 5 is gone");
+    sb_free(log);
+}
+
+/* Steps that end on the very multiples of the interval, but for what sums round: a frame for each. */
+static void no_frame_is_lost_to_rounding(void **state)
+{
+    (void)state;
+    RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "even", "--quiet", "--until", "0.2", "--set",
+                   "numerics.time_step_max=0.002", "--set", "output.particle_interval=0.002", "--set",
+                   "output.checkpoint.minutes=0");
+    assert_near(json_number_of("even/summary.json", "steps"), 100, 0);
+    assert_near(json_number_of("even/summary.json", "particle_files"), 101, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_disk_that_is_full_for_a_while),
         cmocka_unit_test(folders_that_take_nothing_are_refused),
+        cmocka_unit_test(pictures_taken_away_are_missed),
+        cmocka_unit_test(no_frame_is_lost_to_rounding),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
 }

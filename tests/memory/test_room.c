@@ -82,6 +82,8 @@ static void test_outputs_take_room(void **state)
     assert_true(drawn - files > 7680.0 * 4320 * 40);
     scene.measure.map = (sb_map){.present = true, .x_max = 4000, .y_max = 5000, .cell = 1};
     assert_near(sb_room_needed(&scene, &model) - drawn, 2e7 * 36, 1);
+    const sb_model town = {.fluid_count = model.fluid_count, .body_count = 5000};
+    assert_near(sb_room_needed(&scene, &town) - sb_room_needed(&scene, &model), 18e6 / 1024 * 5000 * 72, 1e3);
     assert_int_equal(sb_room_waiting(1000), 3);
     assert_int_equal(sb_room_waiting(model.fluid_count), 1);
     assert_int_equal(sb_room_waiting(0), 3);

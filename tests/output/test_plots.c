@@ -134,7 +134,7 @@ static void absent_programs_are_said(void **state)
     assert_int_equal(sb_runlog_open(in_folder("absent.jsonl"), &log, NULL), SB_OK);
     setenv("PATH", "/nonexistent", 1);
     assert_int_equal(sb_plots_write(folder, &scene, log), 0);
-    assert_false(sb_video_write(folder, "beach", 30, log));
+    assert_false(sb_video_write(folder, "beach", 3, 30, log));
     setenv("PATH", path, 1);
     sb_free(path);
     assert_int_equal(sb_runlog_close(log, NULL), SB_OK);
@@ -176,12 +176,14 @@ static void films_are_joined(void **state)
     }
     sb_runlog *log;
     assert_int_equal(sb_runlog_open(in_folder("film.jsonl"), &log, NULL), SB_OK);
-    bool made = sb_video_write(folder, "50% 'off'", 30, log);
-    assert_false(sb_video_write(folder, "no such camera", 30, log));
+    bool made = sb_video_write(folder, "50% 'off'", 3, 30, log);
+    assert_false(sb_video_write(folder, "no such camera", 3, 30, log));
+    assert_false(sb_video_write(folder, "50% 'off'", 4, 30, log)); /* one is gone, and the film of three stays */
     assert_int_equal(sb_runlog_close(log, NULL), SB_OK);
     char *text = text_of("film.jsonl");
     if (!made) fail_msg("%s", text);
     assert_non_null(strstr(text, "no such camera.mp4"));
+    assert_non_null(strstr(text, "picture 4 of 4 is gone"));
     sb_free(text);
     struct stat status;
     assert_int_equal(stat(in_folder("50% 'off'.mp4"), &status), 0);

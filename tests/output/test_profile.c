@@ -25,7 +25,8 @@ static void assert_says(const char *text, const char *words)
 }
 
 static const sb_stage_time stages[] = {{"sort", 0.25, 20}, {"source", 0.5, 20}, {"pressure", 1.25, 20}};
-static const char *const none[] = {"turbulence: none", NULL}, *const off[] = {"stream: off", NULL};
+static const sb_skipped none[] = {{"packing: left", 3, 0}, {"turbulence: none", 1, 2500000}, {.what = NULL}},
+                        off[] = {{.what = "stream: off"}, {.what = NULL}};
 
 static const sb_profile profile = {
     .stages = stages,
@@ -61,8 +62,9 @@ static void what_was_left_out_stands_with_a_pass_of_pairs(void **state)
 {
     (void)state;
     char *text = printed(&profile);
-    assert_says(text, "  turbulence: none\n  stream: off\n");
-    assert_says(text, "saved about 25 ms per step");
+    assert_says(text, "  packing: left; 3 passes over pairs per step\n"
+                      "  turbulence: none; 1 pass over pairs per step; 2.5 MB\n  stream: off\n");
+    assert_says(text, "saved: 4 passes over pairs per step, about 2 s so far; 2.5 MB\n"); /* as long as the source */
     free(text);
 }
 

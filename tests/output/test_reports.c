@@ -134,12 +134,13 @@ static void *shout(void *log)
 static void every_line_of_the_log_is_json(void **state)
 {
     (void)state;
-    static const char *const skipped[] = {"viscosity: 0", "probes: none", NULL};
+    static const sb_skipped skipped[] = {{"viscosity: 0", 1, 0}, {"probes: none", 0, 4000}, {.what = NULL}};
     sb_scene scene = make_scene();
     sb_runlog *log;
     assert_int_equal(sb_runlog_open(in_folder("run.jsonl"), &log, NULL), SB_OK);
     sb_runlog_start(log, &scene, &model, 2, 12345);
     sb_runlog_skipped(log, skipped);
+    sb_runlog_saved(log, &(sb_saved){.passes = 1, .seconds = 2.5, .bytes = 4000});
     pthread_t thread;
     assert_int_equal(pthread_create(&thread, NULL, shout, log), 0);
     shout(log);
@@ -155,18 +156,22 @@ static void every_line_of_the_log_is_json(void **state)
     assert_int_equal(sb_runlog_close(log, NULL), SB_OK);
     char *text = text_of("run.jsonl"), *rest = NULL, last[512] = "";
     size_t lines = 0;
+    bool has_left_out = false, has_saved = false;
     bool has_stage = false, has_version = false, has_body = false, has_density = false;
     for (char *line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
         assert_true(json_valid(line));
         assert_true(json_find(line, "event") && json_find(line, "wall_s"));
         has_version = has_version || (lines == 0 && json_find(line, "version"));
         has_density = has_density || strstr(line, "\"density\":\"completed\"");
+        has_left_out = has_left_out || strstr(line, "\"probes: none\",\"bytes\":4000}");
+        has_saved = has_saved || strstr(line, "\"pair_passes_per_step\":1,\"seconds\":2.5,\"bytes\":4000}");
         has_stage = has_stage || (strstr(line, "\"step\"") && strstr(line, "\"pressure\":3.5"));
         has_body = has_body || strstr(line, "\"flow_layers\":2.5,\"too_coarse\":true");
         snprintf(last, sizeof last, "%s", line);
         lines++;
     }
-    assert_int_equal(lines, 1 + 2 + 400 + 1 + 1 + 1 + 1);
+    assert_int_equal(lines, 1 + 2 + 1 + 400 + 1 + 1 + 1 + 1);
+    assert_true(has_left_out && has_saved);
     assert_true(has_version && has_stage && has_body && has_density);
     assert_non_null(strstr(last, "interrupted"));
     sb_free(text);

@@ -337,7 +337,7 @@ bool tank_has_stage(const sb_sim *sim, const char *name)
 
 bool tank_says(const sb_sim *sim, const char *word)
 {
-    for (const char *const *line = sb_sim_skipped(sim); *line; line++)
-        if (strstr(*line, word)) return true;
+    for (const sb_skipped *line = sb_sim_skipped(sim); line->what; line++)
+        if (strstr(line->what, word)) return true;
     return false;
 }

@@ -212,8 +212,8 @@ static void samples_are_seen_across_sides(void **state)
 static bool skips_ghosts(const sb_sim *sim)
 {
     bool skipped = false;
-    for (const char *const *line = sb_sim_skipped(sim); *line; line++)
-        skipped = skipped || strstr(*line, "periodic sides");
+    for (const sb_skipped *line = sb_sim_skipped(sim); line->what; line++)
+        skipped = skipped || strstr(line->what, "periodic sides");
     return skipped;
 }
 

@@ -191,6 +191,38 @@ static void check_settling(const tank *t, int at, const char *name)
     sb_archive_out_free(&l.out);
 }
 
+/* The last step belongs to what comes after it: nobody may save in between, and such a state is refused. */
+static void settling_is_not_saved_at_its_end(void **state)
+{
+    (void)state;
+    for (int sleeps = 0; sleeps < 2; sleeps++) {
+        tank t;
+        sb_error error = {0};
+        sb_archive_out late = {0};
+        flume_make(&t, 3, 0.2, sb_vec(8, 0.8, 1.6), sleeps);
+        sb_sim *sim = tank_sim(&t);
+        assert_non_null(sim);
+        assert_int_equal(sb_sim_settle(sim, &error), SB_OK);
+        const int steps = sb_sim_rest(sim).steps;
+        sb_sim_destroy(sim);
+        check_settling(&t, steps - 1, "flume, but for one step");
+
+        sim = tank_sim(&t);
+        listener l = {.sim = sim, .at = steps};
+        assert_int_equal(sb_sim_settle_watched(sim, save_at, &l, &error), SB_OK);
+        assert_false(l.saved);
+        sim->settle.under_way = true; /* as an earlier program left it */
+        tank_save(sim, &late);
+        sb_sim *again = tank_sim(&t);
+        assert_int_equal(tank_load(again, &late, &error), SB_BAD_INPUT);
+        assert_non_null(strstr(error.text, "settling that is over"));
+        sb_sim_destroy(sim);
+        sb_sim_destroy(again);
+        sb_archive_out_free(&late);
+        tank_free(&t);
+    }
+}
+
 static void settling_goes_on(void **state)
 {
     (void)state;
@@ -287,6 +319,7 @@ int main(void)
         cmocka_unit_test(still_water_asleep_between_periodic_sides),
         cmocka_unit_test(water_that_leaves),
         cmocka_unit_test(settling_goes_on),
+        cmocka_unit_test(settling_is_not_saved_at_its_end),
         cmocka_unit_test(another_model_is_refused),
         cmocka_unit_test(senseless_states_are_refused),
     };
