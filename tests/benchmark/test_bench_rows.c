@@ -186,7 +186,7 @@ static void busy_others_are_seen(void **state)
     assert_true(sb_bench_others(from, to) == 0.5);
     const sb_bench_clock alone = {.wall = 12, .busy = 102, .own = 7};
     assert_true(sb_bench_others(from, alone) == 0);
-    assert_true(sb_bench_others((sb_bench_clock){.busy = -1}, to) == 0);
+    assert_true(sb_bench_others((sb_bench_clock){.busy = -1}, to) < 0);
 }
 
 int main(void)

@@ -1,6 +1,7 @@
 #include "child.h"
 
 #include "base/memory.h"
+#include "base/stop.h"
 
 #include <signal.h>
 #include <stdio.h>
@@ -20,6 +21,8 @@ static _Noreturn void child(int to, sb_bench_work *work, const void *context)
     sb_bench_rows rows = {0};
     reply answer = {.status = SB_OK};
     prctl(PR_SET_PDEATHSIG, SIGTERM);
+    signal(SIGINT, SIG_DFL); /* there is nothing to keep */
+    signal(SIGTERM, SIG_DFL);
     FILE *out = fdopen(to, "wb");
     answer.status = work(context, &rows, &answer.error);
     answer.count = answer.status == SB_OK ? rows.count : 0;
@@ -71,6 +74,7 @@ sb_status sb_bench_in_child(sb_bench_work *work, const void *context, sb_bench_r
     }
     sb_status status = receive(ends[0], rows, error);
     waitpid(process, &ended, 0);
+    if (sb_stop_signal()) return sb_stop_fail(error, "while it measured");
     if (WIFSIGNALED(ended))
         return sb_fail(error, SB_FAILED, "the measuring process ended by signal %d (memory?)", WTERMSIG(ended));
     return status;

@@ -73,7 +73,7 @@ static sb_status measure(sb_bench_subject *subject, int repeats, times *t, sb_er
 {
     sb_status status = SB_OK;
     for (int r = 0; r < repeats && status == SB_OK; r++) {
-        double step, stage[SB_STAGES_MAX], pass[PASSES];
+        double step, stage[SB_STAGES_MAX] = {0}, pass[PASSES];
         status = sb_bench_repeat(subject, 1, &step, stage, error);
         if (status != SB_OK) break;
         time_passes(subject->sim, pass);
@@ -95,7 +95,7 @@ static sb_status add_pass(sb_bench_rows *rows, const char *name, size_t n, doubl
     const double per_particle = 1 / (double)n;
     sb_status status =
         sb_bench_add(rows, name, n, threads, SB_BENCH_PER_PARTICLE, "ns", samples, 1e9 * per_particle, error);
-    const double median = status == SB_OK ? 1e-9 * rows->rows[rows->count - 1].median : 0;
+    const double median = per_particle * sb_bench_median(samples);
     const work *of = work_of(name);
     if (!of || !(median > 0)) return status;
     const double bytes = of->bytes_particle + pairs * of->bytes_pair, operations = pairs * of->operations_pair;
@@ -111,14 +111,14 @@ static sb_status add_pass(sb_bench_rows *rows, const char *name, size_t n, doubl
     return status;
 }
 
-/* Neighbour search and sort are judged together. */
+/* Of two stages, or one: neighbour search and sort are judged together. */
 static sb_bench_samples sum_of(const times *t, const sb_stage_time *stages, size_t count, const char *a, const char *b)
 {
     sb_bench_samples sum = {.count = 0};
     for (int r = 0; r < t->step.count; r++) {
         double value = 0;
         for (size_t s = 0; s < count; s++)
-            if (strcmp(stages[s].name, a) == 0 || strcmp(stages[s].name, b) == 0) value += t->stage[s].value[r];
+            if (strcmp(stages[s].name, a) == 0 || (b && strcmp(stages[s].name, b) == 0)) value += t->stage[s].value[r];
         sb_bench_sample(&sum, value);
     }
     return sum;
@@ -131,7 +131,7 @@ static sb_status add_all(const sb_bench_subject *subject, const times *t, const 
     const size_t n = subject->sim->n, count = sb_sim_stages(subject->sim, &stages);
     const double pairs = 4 * (double)subject->sim->pairs.used / (double)n;
     const sb_bench_samples search = sum_of(t, stages, count, "sort", "neighbours");
-    const sb_bench_samples pressure = sum_of(t, stages, count, "pressure", "pressure");
+    const sb_bench_samples pressure = sum_of(t, stages, count, "pressure", NULL);
     sb_status status =
         sb_bench_add_value(rows, "basin", n, omp_get_max_threads(), "pairs per particle", "1", pairs, error);
     for (size_t s = 0; status == SB_OK && s < count; s++)
@@ -139,14 +139,13 @@ static sb_status add_all(const sb_bench_subject *subject, const times *t, const 
     const struct {
         const char *name;
         const sb_bench_samples *samples;
-        double factor;
     } passes[] = {
-        {"pressure load", &t->load, 1},
-        {"pressure acceleration", &t->acceleration, 1},
-        {"pressure divergence", &t->divergence, 1},
-        {"pressure judgement", &t->judgement, 1},
-        {"sort and search", &search, 1},
-        {SB_BENCH_STEP, &t->step, 1},
+        {"pressure load", &t->load},
+        {"pressure acceleration", &t->acceleration},
+        {"pressure divergence", &t->divergence},
+        {"pressure judgement", &t->judgement},
+        {"sort and search", &search},
+        {SB_BENCH_STEP, &t->step},
     };
     for (size_t p = 0; status == SB_OK && p < sizeof passes / sizeof passes[0]; p++)
         status = add_pass(rows, passes[p].name, n, pairs, passes[p].samples, limits, error);

@@ -67,7 +67,7 @@ static sb_status add(sb_bench_rows *rows, const char *quantity, const char *unit
                      double *median, sb_error *error)
 {
     sb_status status = sb_bench_add(rows, "machine", 0, omp_get_max_threads(), quantity, unit, samples, 1e-9, error);
-    if (status == SB_OK) *median = 1e9 * rows->rows[rows->count - 1].median;
+    *median = sb_bench_median(samples);
     return status;
 }
 

@@ -36,8 +36,8 @@ sb_bench_clock sb_bench_clock_now(void)
 double sb_bench_others(sb_bench_clock from, sb_bench_clock to)
 {
     const double wall = to.wall - from.wall, others = (to.busy - from.busy) - (to.own - from.own);
-    if (from.busy < 0 || to.busy < 0 || !(wall > 0) || others < 0) return 0;
-    return others / wall;
+    if (from.busy < 0 || to.busy < 0 || !(wall > 0)) return -1;
+    return others > 0 ? others / wall : 0;
 }
 
 double sb_bench_load(void)

@@ -13,7 +13,7 @@ typedef struct sb_bench_clock {
 } sb_bench_clock;
 sb_bench_clock sb_bench_clock_now(void);
 
-/* Cores that other programs kept busy between two readings, on average; 0 where the system does not tell. */
+/* Cores that other programs kept busy between two readings, on average; negative where the system does not tell. */
 double sb_bench_others(sb_bench_clock from, sb_bench_clock to);
 
 /* The load average over the last minute; negative where the system does not tell. */

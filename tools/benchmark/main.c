@@ -5,6 +5,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/stop.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,17 +23,17 @@ static sb_status measure(const sb_bench_section *section, const sb_bench_request
 {
     char path[SB_PATH_MAX], name[SB_BENCH_NAME], origin[2048];
     sb_bench_rows rows = {0};
-    printf("%s: %s (load average %.2f)\n", section->name, section->summary, sb_bench_load());
+    char told[64] = "what other programs did is not known";
     const double load = sb_bench_load();
+    printf("%s: %s (load average %.2f)\n", section->name, section->summary, load);
     const sb_bench_clock from = sb_bench_clock_now();
     sb_status status = section->run(request, &rows, error);
     const sb_bench_clock to = sb_bench_clock_now();
     const double others = sb_bench_others(from, to);
-    snprintf(
-        origin, sizeof origin,
-        "%smeasured: %d threads, %d repeats (whole runs: one)%s; load average before %.2f; other programs kept %.2f "
-        "cores busy\n",
-        whence, request->threads, request->repeats, request->quick ? SB_BENCH_QUICKLY : "", load, others);
+    if (others >= 0) snprintf(told, sizeof told, "other programs kept %.2f cores busy", others);
+    snprintf(origin, sizeof origin,
+             "%smeasured: %d threads, %d repeats (whole runs: one)%s; load average before %.2f; %s\n", whence,
+             request->threads, request->repeats, request->quick ? SB_BENCH_QUICKLY : "", load, told);
     fputs(origin, stdout);
     warn_of_others(others);
     snprintf(name, sizeof name, "%s.csv", section->name);
@@ -53,7 +54,8 @@ static sb_status bench(const sb_bench_options *o, sb_error *error)
     if (status == SB_OK) status = sb_make_directories(folder, error);
     sb_bench_origin(whence, sizeof whence, SB_SOURCE_DIR); /* before tables change what git sees */
     for (size_t s = 0; s < o->count && status == SB_OK && !o->report_only; s++)
-        status = measure(o->sections[s], &request, folder, whence, error);
+        status = sb_stop_signal() ? sb_stop_fail(error, "before all was measured")
+                                  : measure(o->sections[s], &request, folder, whence, error);
     if (status == SB_OK) status = sb_bench_report(out, error);
     if (status == SB_OK) printf("%s/benchmarks.md\n", out);
     return status;
@@ -65,6 +67,7 @@ int main(int count, char **arguments)
     sb_error error = {0};
     setvbuf(stdout, NULL, _IOLBF, 0);
     sb_memory_return_blocks(); /* as shorebreak does */
+    sb_stop_watch();
     if (count == 2 && strcmp(arguments[1], "--version") == 0) {
         printf("shorebreak-bench %s\n", SB_VERSION);
         return 0;
@@ -76,5 +79,5 @@ int main(int count, char **arguments)
     }
     if (status == SB_OK) status = bench(&o, &error);
     if (status != SB_OK) fprintf(stderr, "bench: %s\n", error.text);
-    return (int)status;
+    return status == SB_INTERRUPTED ? 130 : (int)status;
 }

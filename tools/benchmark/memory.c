@@ -61,10 +61,11 @@ static sb_status add_arrays(const char *name, const sb_bench_subject *subject, s
     };
     sb_status status = SB_OK;
     for (size_t a = 0; a < sizeof arrays / sizeof arrays[0] && status == SB_OK; a++)
-        status = sb_bench_add_value(rows, name, sim->n, 1, arrays[a].name, "B/particle", arrays[a].bytes / n, error);
+        status = sb_bench_add_value(rows, name, sim->n, omp_get_max_threads(), arrays[a].name, "B/particle",
+                                    arrays[a].bytes / n, error);
     if (status == SB_OK)
-        status = sb_bench_add_value(rows, name, sim->n, 1, "pairs per particle", "1", 4 * (double)sim->pairs.used / n,
-                                    error);
+        status = sb_bench_add_value(rows, name, sim->n, omp_get_max_threads(), "pairs per particle", "1",
+                                    4 * (double)sim->pairs.used / n, error);
     return status;
 }
 
@@ -107,7 +108,8 @@ static sb_status take_turns(sb_bench_subject shore[2], int repeats, sb_bench_row
     static const char *const names[] = {"shore", "shore with ten times the land"};
     sb_bench_samples samples[2] = {{.count = 0}}, added = {.count = 0};
     sb_status status = SB_OK;
-    for (int turn = 0; turn < TURNS * repeats && status == SB_OK; turn++) {
+    const int turns = TURNS * repeats < SB_BENCH_REPEATS_MAX ? TURNS * repeats : SB_BENCH_REPEATS_MAX;
+    for (int turn = 0; turn < turns && status == SB_OK; turn++) {
         double each[2] = {0};
         for (int k = 0; k < 2 && status == SB_OK; k++) {
             const int s = (turn + k) % 2;

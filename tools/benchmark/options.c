@@ -26,13 +26,15 @@ const char sb_bench_help[] =
     "  --report-only  measures nothing; writes benchmarks.md again from the tables\n"
     "  --help, --version\n\n"
     "Let nothing else run meanwhile: a machine that is not quiet is said in the tables and the report.\n"
-    "Exit status: 0 done, 1 bad input, 2 a measure failed.\n";
+    "Exit status: 0 done, 1 bad input, 2 a measure failed, 130 stopped.\n";
 
 static sb_status take_section(void *user, const char *name, sb_error *error)
 {
     sb_bench_options *o = user;
     const bool all = strcmp(name, "all") == 0;
     const sb_bench_section *named = sb_bench_section_find(name);
+    if (strcmp(name, "tradeoff") == 0)
+        return sb_fail(error, SB_BAD_INPUT, "tradeoff: expected as the first word, before options of its own");
     if (!named && !all) return sb_fail(error, SB_BAD_INPUT, "%.200s: no such section; see --help", name);
     for (const sb_bench_section *s = sb_bench_sections; s->name; s++) {
         bool there = false;

@@ -56,11 +56,13 @@ const sb_bench_row *sb_bench_look_up(const sb_bench_tables *tables, const char *
                                      const char *quantity)
 {
     const sb_bench_rows *rows = rows_of(tables, section);
-    const sb_bench_row *best = NULL; /* kernels come in sizes: the one nearest a million is meant */
+    /* Kernels come in sizes: the one nearest a million is meant; of the machine itself, the last, measured with them.
+     */
+    const sb_bench_row *best = NULL;
     for (size_t i = 0; rows && i < rows->count; i++) {
         const sb_bench_row *row = &rows->rows[i];
         if (strcmp(row->subject, subject) != 0 || strcmp(row->quantity, quantity) != 0) continue;
-        if (!best || fabs(log((double)row->particles / 1e6)) < fabs(log((double)best->particles / 1e6))) best = row;
+        if (!best || fabs(log((double)row->particles / 1e6)) <= fabs(log((double)best->particles / 1e6))) best = row;
     }
     return best;
 }
@@ -136,11 +138,10 @@ static void put_bandwidth(FILE *file, const sb_bench_tables *tables)
 {
     const sb_bench_row *row = sb_bench_look_up(tables, "kernels", "machine", "copy bandwidth");
     if (!row) return;
-    fprintf(
-        file,
-        "\nCopy bandwidth of two threads where the kernels were measured: %.3g (%.3g to %.3g) GB/s; where the peers "
-        "were, 18.7.\n",
-        row->median, row->least, row->most);
+    fprintf(file,
+            "\nCopy bandwidth of two threads where the kernels were measured: %.3g (%.3g to %.3g) GB/s; where what "
+            "is to be reached was set, 18.7.\n",
+            row->median, row->least, row->most);
 }
 
 static bool within(const goal *g, double value, double limit)

@@ -7,12 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* "12.3 (12.4, +8 %)": least, median, and how far the most is above the least. */
+/* "12.4 (12.3, +8 %)": median, least, and how far the most is above that; of what may be negative the most itself. */
 static void put_spread(FILE *file, const sb_bench_row *row)
 {
     fprintf(file, "%.4g", row->median);
-    if (row->repeats > 1)
-        fprintf(file, " (%.4g, +%.0f %%)", row->least, row->least > 0 ? 100 * (row->most / row->least - 1) : 0);
+    if (row->repeats > 1 && row->least > 0)
+        fprintf(file, " (%.4g, +%.0f %%)", row->least, 100 * (row->most / row->least - 1));
+    else if (row->repeats > 1)
+        fprintf(file, " (%.4g to %.4g)", row->least, row->most);
 }
 
 static void put_cell(FILE *file, const sb_bench_row *row)
@@ -122,7 +124,7 @@ static sb_status draw_scaling(const sb_bench_rows *rows, const char *folder, con
     return status;
 }
 
-static void put_table(FILE *file, const sb_bench_table *table, bool picture)
+static void put_table(FILE *file, const sb_bench_table *table)
 {
     fprintf(file, "\n## %s\n\n%s.\n\n", table->section->name, table->section->summary);
     if (!table->found) {
@@ -136,7 +138,6 @@ static void put_table(FILE *file, const sb_bench_table *table, bool picture)
         put_scaling(file, &table->rows);
     else
         put_subjects(file, &table->rows);
-    if (picture) fputs("\n![cost per particle by size and threads](bench/scaling.png)\n", file);
 }
 
 static sb_status read_all(const char *out, sb_bench_tables *tables, sb_error *error)
@@ -154,16 +155,21 @@ static sb_status read_all(const char *out, sb_bench_tables *tables, sb_error *er
     return status;
 }
 
-/* An absolute path, as the plot wants it. */
-static bool draw(const sb_bench_table *table, const char *out)
+/* Scaling has a picture; where it cannot be drawn the reason stands in its place. */
+static void put_picture(FILE *file, const sb_bench_table *table, const char *out)
 {
     char folder[SB_PATH_MAX], absolute[SB_PATH_MAX], picture[SB_PATH_MAX];
     sb_error reason = {0};
-    if (strcmp(table->section->name, "scaling") != 0 || !table->found ||
-        sb_path_join(folder, out, "bench", NULL) != SB_OK || !realpath(folder, absolute) ||
-        sb_path_join(picture, absolute, "scaling.png", NULL) != SB_OK)
-        return false;
-    return draw_scaling(&table->rows, absolute, picture, &reason) == SB_OK;
+    if (strcmp(table->section->name, "scaling") != 0 || !table->found) return;
+    sb_status status = sb_path_join(folder, out, "bench", &reason);
+    if (status == SB_OK && !realpath(folder, absolute)) /* as the plot wants it */
+        status = sb_fail(&reason, SB_FAILED, "%.400s: no such folder", folder);
+    if (status == SB_OK) status = sb_path_join(picture, absolute, "scaling.png", &reason);
+    if (status == SB_OK) status = draw_scaling(&table->rows, absolute, picture, &reason);
+    if (status == SB_OK)
+        fputs("\n![cost per particle by size and threads](bench/scaling.png)\n", file);
+    else
+        fprintf(file, "\nNo plot: %s.\n", reason.text);
 }
 
 static void put_all(FILE *file, const sb_bench_tables *tables, const char *out)
@@ -176,7 +182,10 @@ static void put_all(FILE *file, const sb_bench_tables *tables, const char *out)
           "cores\n\n",
           file);
     sb_bench_put_reach(file, tables);
-    for (size_t t = 0; t < tables->count; t++) put_table(file, &tables->table[t], draw(&tables->table[t], out));
+    for (size_t t = 0; t < tables->count; t++) {
+        put_table(file, &tables->table[t]);
+        put_picture(file, &tables->table[t], out);
+    }
 }
 
 sb_status sb_bench_report(const char *out, sb_error *error)

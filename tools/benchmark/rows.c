@@ -30,19 +30,32 @@ sb_status sb_bench_append(sb_bench_rows *to, const sb_bench_row *rows, size_t co
     return SB_OK;
 }
 
+static sb_bench_samples in_order(const sb_bench_samples *samples)
+{
+    sb_bench_samples sorted = *samples;
+    qsort(sorted.value, (size_t)sorted.count, sizeof sorted.value[0], ascending);
+    return sorted;
+}
+
+double sb_bench_median(const sb_bench_samples *samples)
+{
+    const sb_bench_samples sorted = in_order(samples);
+    const int n = sorted.count;
+    return n > 0 ? 0.5 * (sorted.value[(n - 1) / 2] + sorted.value[n / 2]) : (double)NAN;
+}
+
 sb_status sb_bench_add(sb_bench_rows *rows, const char *subject, size_t particles, int threads, const char *quantity,
                        const char *unit, const sb_bench_samples *samples, double factor, sb_error *error)
 {
-    sb_bench_samples sorted = *samples;
+    const sb_bench_samples sorted = in_order(samples);
     sb_bench_row row = {.particles = particles, .threads = threads, .repeats = sorted.count};
     snprintf(row.subject, sizeof row.subject, "%s", subject);
     snprintf(row.quantity, sizeof row.quantity, "%s", quantity);
     snprintf(row.unit, sizeof row.unit, "%s", unit);
-    qsort(sorted.value, (size_t)sorted.count, sizeof sorted.value[0], ascending);
     const int n = sorted.count;
     row.least = n > 0 ? factor * sorted.value[0] : (double)NAN;
     row.most = n > 0 ? factor * sorted.value[n - 1] : (double)NAN;
-    row.median = n > 0 ? factor * 0.5 * (sorted.value[(n - 1) / 2] + sorted.value[n / 2]) : (double)NAN;
+    row.median = factor * sb_bench_median(samples);
     return sb_bench_append(rows, &row, 1, error);
 }
 
@@ -112,14 +125,23 @@ static sb_status read_origin(const char *path, char *origin, size_t size, sb_err
     return status;
 }
 
+/* A count in a column; SB_BAD_INPUT names the line. */
+static sb_status count_of(const sb_sheet *sheet, size_t r, size_t column, const char *path, size_t *count,
+                          sb_error *error)
+{
+    const double value = sb_sheet_number(sheet, r, column);
+    if (!(value >= 0 && value < 1e9))
+        return sb_fail(error, SB_BAD_INPUT, "%.400s: row %zu: %s: \"%.40s\", expected a number from 0 to 1e9", path,
+                       r + 1, sheet->fields[column], sb_sheet_text(sheet, r, column));
+    *count = (size_t)value;
+    return SB_OK;
+}
+
 static sb_bench_row row_of(const sb_sheet *sheet, size_t r)
 {
-    sb_bench_row row = {.particles = (size_t)sb_sheet_number(sheet, r, 1),
-                        .threads = (int)sb_sheet_number(sheet, r, 2),
-                        .least = sb_sheet_number(sheet, r, 5),
+    sb_bench_row row = {.least = sb_sheet_number(sheet, r, 5),
                         .median = sb_sheet_number(sheet, r, 6),
-                        .most = sb_sheet_number(sheet, r, 7),
-                        .repeats = (int)sb_sheet_number(sheet, r, 8)};
+                        .most = sb_sheet_number(sheet, r, 7)};
     snprintf(row.subject, sizeof row.subject, "%s", sb_sheet_text(sheet, r, 0));
     snprintf(row.quantity, sizeof row.quantity, "%s", sb_sheet_text(sheet, r, 3));
     snprintf(row.unit, sizeof row.unit, "%s", sb_sheet_text(sheet, r, 4));
@@ -139,8 +161,14 @@ sb_status sb_bench_read(sb_bench_rows *rows, char *origin, size_t size, bool *fo
     if (status == SB_OK && sheet.columns != COLUMNS)
         status = sb_fail(error, SB_BAD_INPUT, "%.400s: %zu columns, expected %d", path, sheet.columns, COLUMNS);
     for (size_t r = 0; status == SB_OK && r < sheet.rows; r++) {
-        const sb_bench_row row = row_of(&sheet, r);
-        status = sb_bench_append(rows, &row, 1, error);
+        sb_bench_row row = row_of(&sheet, r);
+        size_t threads = 0, repeats = 0;
+        status = count_of(&sheet, r, 1, path, &row.particles, error);
+        if (status == SB_OK) status = count_of(&sheet, r, 2, path, &threads, error);
+        if (status == SB_OK) status = count_of(&sheet, r, 8, path, &repeats, error);
+        row.threads = (int)threads;
+        row.repeats = (int)repeats;
+        if (status == SB_OK) status = sb_bench_append(rows, &row, 1, error);
     }
     sb_sheet_free(&sheet);
     if (status != SB_OK) sb_bench_rows_free(rows);

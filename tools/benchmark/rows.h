@@ -35,6 +35,9 @@ typedef struct sb_bench_samples {
 /* Beyond SB_BENCH_REPEATS_MAX samples are left out. */
 void sb_bench_sample(sb_bench_samples *samples, double value);
 
+/* NaN without samples. */
+double sb_bench_median(const sb_bench_samples *samples);
+
 /* Least, median and most of the samples, each times `factor`. SB_FAILED without memory. */
 sb_status sb_bench_add(sb_bench_rows *rows, const char *subject, size_t particles, int threads, const char *quantity,
                        const char *unit, const sb_bench_samples *samples, double factor, sb_error *error);

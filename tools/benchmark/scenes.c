@@ -75,7 +75,7 @@ static sb_status add_all(const char *name, const sb_bench_subject *subject, int 
     if (status == SB_OK)
         status =
             sb_bench_add(rows, name, n, threads, "time per simulated second", "s", &t->step, 1 / t->simulated, error);
-    const double median = status == SB_OK ? rows->rows[rows->count - 1].median * t->simulated : 0;
+    const double median = sb_bench_median(&t->step);
     const struct {
         const char *quantity, *unit;
         double value;

@@ -36,12 +36,15 @@ static void put_entry(FILE *out, const sb_contest *c, const sb_entry *e)
     fprintf(out, " %s |\n", e->front ? "**front**" : "");
 }
 
-static void put_contest(FILE *out, const sb_contest *c, bool cpu)
+static void put_contest(FILE *out, const sb_contest_report *r, const sb_contest *c)
 {
+    const bool cpu = r->cpu;
+    fprintf(out, "## %s\n\n", c->subject->title);
+    sb_trials_where(out, r->store, c->trials, c->trial_count);
     fprintf(out,
-            "## %s\n\nErrors: %s.\n\n"
+            "Errors: %s.\n\n"
             "| choice | spacing (m) | particles | steps | sweeps per step | %s (s) |",
-            c->subject->title, c->subject->what, cpu ? "processor time" : "run time");
+            c->subject->what, cpu ? "processor time" : "run time");
     for (size_t k = 0; k < c->error_count; k++)
         fprintf(out, " %s (%s) |", c->subject->errors[k].name, c->subject->errors[k].unit);
     fputs(" |\n|---|---|---|---|---|---|", out);
@@ -72,21 +75,15 @@ static const char reading[] =
 
 static void put_report(FILE *out, const sb_contest_report *r, const sb_error *no_plot)
 {
-    size_t most = 0;
-    for (size_t i = 1; i < r->count; i++) {
-        double load = sb_trials_load(r->contests[i].trials, r->contests[i].trial_count);
-        double other = sb_trials_load(r->contests[most].trials, r->contests[most].trial_count);
-        if (load > other || isnan(other)) most = i;
-    }
     fprintf(out, "# Run time against error%s\n\nMade by `tools/tradeoff`; docs/studies.md says how.\n\n",
             r->quick ? ", quick forms" : "");
-    sb_trials_origin(out, r->store, r->contests[most].trials, r->contests[most].trial_count, r->command);
+    fprintf(out, "- command: `%s`\n\n", r->command);
     fputs(reading, out);
     if (no_plot->text[0])
         fprintf(out, "No plot: %s.\n\n", no_plot->text);
     else
         fputs("![error over run time](tradeoff.png)\n\n", out);
-    for (size_t i = 0; i < r->count; i++) put_contest(out, &r->contests[i], r->cpu);
+    for (size_t i = 0; i < r->count; i++) put_contest(out, r, &r->contests[i]);
 }
 
 static int by_time(const void *a, const void *b)
@@ -169,7 +166,7 @@ static sb_status draw(const sb_contest_report *r, const char *folder, sb_error *
 static void put_csv(FILE *out, const sb_contest_report *r)
 {
     fputs("scene,choice,spacing_m,seed,threads,particles,steps,sweeps_per_step,run_time_s,cpu_s,load,error,unit,"
-          "mean,least,most,front,commit\n",
+          "value,mean,least,most,front,commit,machine\n",
           out);
     for (size_t n = 0; n < r->count; n++) {
         const sb_contest *c = &r->contests[n];
@@ -179,11 +176,14 @@ static void put_csv(FILE *out, const sb_contest_report *r)
                     const sb_entry *e = &c->entries[i];
                     const sb_finished *run = &c->trials[t].run;
                     if (c->trials[t].state != SB_RESULT_DONE) continue;
-                    fprintf(out, "%s,\"%s\",%g,%d,%d,%zu,%zu,%.3f,%.3f,%.3f,%.2f,\"%s\",%s,%.5g,%.5g,%.5g,%s,%s\n",
-                            c->subject->name, name_of(e), e->plan.resolution, c->trials[t].request.seed, run->threads,
-                            run->view.particles, run->view.steps, run->view.iterations, run->view.wall, run->cpu,
-                            run->load, c->subject->errors[k].name, c->subject->errors[k].unit, e->errors[k].mean,
-                            e->errors[k].low, e->errors[k].high, e->front ? "yes" : "no", run->commit);
+                    fprintf(
+                        out,
+                        "%s,\"%s\",%g,%d,%d,%zu,%zu,%.3f,%.3f,%.3f,%.2f,\"%s\",%s,%.5g,%.5g,%.5g,%.5g,%s,%s,\"%s\"\n",
+                        c->subject->name, name_of(e), e->plan.resolution, c->trials[t].request.seed, run->threads,
+                        run->view.particles, run->view.steps, run->view.iterations, run->view.wall, run->cpu, run->load,
+                        c->subject->errors[k].name, c->subject->errors[k].unit, c->trial_errors[t][k],
+                        e->errors[k].mean, e->errors[k].low, e->errors[k].high, e->front ? "yes" : "no", run->commit,
+                        run->machine);
                 }
     }
 }

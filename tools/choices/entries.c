@@ -20,12 +20,18 @@ static sb_status read_defaults(const sb_subject *subject, const sb_store *store,
     return SB_OK;
 }
 
+static int reference_seeds(const sb_contest_wish *wish)
+{
+    const int seeds = wish->references ? wish->references : wish->seeds;
+    return seeds < SB_REFERENCE_SEEDS ? seeds : SB_REFERENCE_SEEDS;
+}
+
 /* The entry stays where it is from here on: its plan points into it. A choice that changes nothing here
    (a factor on a default of 0) is left out: its runs would be those of `default`. */
 static void add(sb_contest *c, const sb_choice *choice, double spacing, const sb_contest_wish *wish,
                 const sb_numerics *defaults)
 {
-    const int seeds = !choice && wish->seeds > 2 ? 2 : wish->seeds;
+    const int seeds = choice ? wish->seeds : reference_seeds(wish);
     sb_entry *e = &c->entries[c->entry_count];
     size_t used = 0;
     *e = (sb_entry){.choice = choice, .first = c->trial_count, .seeds = (size_t)seeds};
@@ -69,8 +75,10 @@ sb_status sb_contest_begin(sb_contest *c, const sb_subject *subject, const sb_st
     sb_status status = read_defaults(subject, store, &defaults, error);
     if (status != SB_OK) return status;
     c->entries = sb_alloc(most, sizeof *c->entries);
-    c->trials = sb_alloc(most * (size_t)wish->seeds, sizeof *c->trials);
-    if (!c->entries || !c->trials) {
+    const size_t runs = most * (size_t)wish->seeds + SB_REFERENCE_SEEDS;
+    c->trials = sb_alloc(runs, sizeof *c->trials);
+    c->trial_errors = sb_alloc(runs, sizeof *c->trial_errors);
+    if (!c->entries || !c->trials || !c->trial_errors) {
         sb_contest_free(c);
         return sb_fail_memory(error, "runs");
     }
@@ -112,7 +120,9 @@ static double error_of(const sb_contest *c, const sb_entry *e, size_t trial, siz
     return other ? sb_subject_error(&c->subject->errors[k], own, others, other) : (double)NAN;
 }
 
-static void judge_entry(const sb_contest *c, sb_entry *e, bool cpu, const sb_figures *const *references, size_t count)
+/* lost: the reference has not run, so nobody has an error. */
+static void judge_entry(const sb_contest *c, sb_entry *e, bool cpu, const sb_figures *const *references, size_t count,
+                        bool lost)
 {
     double known = 0;
     e->time = nothing;
@@ -121,9 +131,11 @@ static void judge_entry(const sb_contest *c, sb_entry *e, bool cpu, const sb_fig
     for (size_t k = 0; k < c->error_count; k++) {
         known = 0;
         e->errors[k] = nothing;
-        for (size_t i = e->first; i < e->first + e->seeds; i++)
-            if (c->trials[i].state == SB_RESULT_DONE)
-                include(&e->errors[k], error_of(c, e, i, k, references, count), &known);
+        for (size_t i = e->first; i < e->first + e->seeds; i++) {
+            const bool done = !lost && c->trials[i].state == SB_RESULT_DONE;
+            c->trial_errors[i][k] = done ? error_of(c, e, i, k, references, count) : (double)NAN;
+            include(&e->errors[k], c->trial_errors[i][k], &known);
+        }
     }
 }
 
@@ -168,10 +180,7 @@ sb_status sb_contest_judge(sb_contest *c, bool cpu, sb_error *error)
     for (size_t i = 0; i < c->trial_count; i++)
         if (c->trials[i].state == SB_RESULT_DONE && c->trials[i].run.threads > c->threads)
             c->threads = c->trials[i].run.threads;
-    for (size_t i = 0; i < c->entry_count; i++) {
-        judge_entry(c, &c->entries[i], cpu, references, count);
-        for (size_t k = 0; lost && k < c->error_count; k++) c->entries[i].errors[k] = nothing;
-    }
+    for (size_t i = 0; i < c->entry_count; i++) judge_entry(c, &c->entries[i], cpu, references, count, lost);
     return find_front(c, error);
 }
 
@@ -182,6 +191,7 @@ void sb_contest_free(sb_contest *c)
         sb_figures_free(&c->trials[i].figures);
     }
     sb_free(c->trials);
+    sb_free(c->trial_errors);
     sb_free(c->entries);
     *c = (sb_contest){0};
 }

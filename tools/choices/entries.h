@@ -6,7 +6,7 @@
 #include "subject.h"
 #include "trials.h"
 
-enum { SB_ENTRY_SETTINGS = 10, SB_ENTRY_SEEDS = 9 };
+enum { SB_ENTRY_SETTINGS = 10, SB_ENTRY_SEEDS = 9, SB_REFERENCE_SEEDS = 2 };
 
 /* Over the seeds; NaN: none has run. */
 typedef struct sb_spread {
@@ -31,13 +31,15 @@ typedef struct sb_contest {
     int threads;       /* the most that any run had: run times of others do not count */
     sb_entry *entries; /* the reference first, where there is one */
     sb_result *trials;
+    double (*trial_errors)[SB_SUBJECT_ERRORS]; /* each run's own; NaN: none */
 } sb_contest;
 
 /* What of a subject is wanted. */
 typedef struct sb_contest_wish {
     bool quick;     /* the cheap form: few choices at coarse spacings */
     bool few;       /* those choices at the full form's spacings */
-    int seeds;      /* of every run; the reference has two at most */
+    int seeds;      /* of every run */
+    int references; /* seeds of the reference, at most 2; 0: as many as of the others */
     int spacings;   /* the coarsest so many alone; 0: all */
     double spacing; /* this one alone, m; 0: all */
 } sb_contest_wish;

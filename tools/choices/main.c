@@ -30,11 +30,12 @@ static const char help[] =
     "  --spacing R      this spacing alone, in m, and what it is held against\n"
     "  --list           names scenes and choices\n"
     "  --seeds N        start seeds of every run (3; quick: 1)\n"
+    "  --references N   start seeds of what the plant is held against, 1 or 2 (as many as --seeds)\n"
     "  --jobs N         N runs at a time with one thread each, compared by processor time; 1: one\n"
     "                   with all cores, compared by run time (1; quick: as many as cores)\n"
     "  --report-only    runs nothing; remakes the report from what was run\n"
     "  --out DIR        where runs are kept (build/tradeoff)\n"
-    "  --report DIR     where the report goes (docs/results)\n"
+    "  --report DIR     where the report goes (docs/results; of some of the scenes OUT/some)\n"
     "  --shorebreak F   the program that runs (the one built beside this)\n"
     "  --help, --version\n\n"
     "Finished runs are kept and not repeated while program and scene stay the same.\n"
@@ -54,17 +55,19 @@ static sb_status take_subject(void *user, const char *name, sb_error *error)
 static sb_status parse(int count, char **arguments, options *o, sb_error *error)
 {
     *o = (options){.command = "tools/tradeoff"};
-    const sb_argument table[] = {{.name = "--quick", .flag = &o->wish.quick, .telling = true},
-                                 {.name = "--few", .flag = &o->wish.few, .telling = true},
-                                 {.name = "--spacings", .count = &o->wish.spacings, .most = 64, .telling = true},
-                                 {.name = "--spacing", .number = &o->wish.spacing, .most = 1e6, .telling = true},
-                                 {.name = "--report-only", .flag = &o->report_only},
-                                 {.name = "--list", .flag = &o->list},
-                                 {.name = "--seeds", .count = &o->wish.seeds, .most = SB_ENTRY_SEEDS, .telling = true},
-                                 {.name = "--jobs", .count = &o->jobs, .most = 256, .telling = true},
-                                 {.name = "--out", .text = &o->out},
-                                 {.name = "--report", .text = &o->report},
-                                 {.name = "--shorebreak", .text = &o->program}};
+    const sb_argument table[] = {
+        {.name = "--quick", .flag = &o->wish.quick, .telling = true},
+        {.name = "--few", .flag = &o->wish.few, .telling = true},
+        {.name = "--spacings", .count = &o->wish.spacings, .most = 64, .telling = true},
+        {.name = "--spacing", .number = &o->wish.spacing, .most = 1e6, .telling = true},
+        {.name = "--report-only", .flag = &o->report_only},
+        {.name = "--list", .flag = &o->list},
+        {.name = "--seeds", .count = &o->wish.seeds, .most = SB_ENTRY_SEEDS, .telling = true},
+        {.name = "--references", .count = &o->wish.references, .most = SB_REFERENCE_SEEDS, .telling = true},
+        {.name = "--jobs", .count = &o->jobs, .most = 256, .telling = true},
+        {.name = "--out", .text = &o->out},
+        {.name = "--report", .text = &o->report},
+        {.name = "--shorebreak", .text = &o->program}};
     const sb_command_line line = {.options = table,
                                   .option_count = sizeof table / sizeof *table,
                                   .word = take_subject,
@@ -88,6 +91,13 @@ static void list(void)
     for (const sb_choice *c = sb_choices; c->name; c++) printf("%c %s\n", c->quick ? '*' : ' ', c->name);
 }
 
+static size_t all_subjects(void)
+{
+    size_t count = 0;
+    while (sb_subjects[count].name) count++;
+    return count;
+}
+
 static sb_status report(const options *o, const sb_store *store, const sb_contest *contests, size_t count,
                         sb_error *error)
 {
@@ -100,7 +110,8 @@ static sb_status report(const options *o, const sb_store *store, const sb_contes
                                     .cpu = o->jobs > 1};
     sb_status status = SB_OK;
     snprintf(folder, sizeof folder, "%s", o->report ? o->report : SB_SOURCE_DIR "/docs/results");
-    if (o->wish.quick && !o->report) status = sb_path_join(folder, store->out, "quick", error);
+    if (!o->report && (o->wish.quick || count < all_subjects()))
+        status = sb_path_join(folder, store->out, o->wish.quick ? "quick" : "some", error);
     if (status == SB_OK) status = sb_contest_write(&what, folder, error);
     if (status == SB_OK) printf("%s/tradeoff.md\n", folder);
     return status;

@@ -31,22 +31,32 @@ sb_status sb_cost_read(const char *summary, sb_cost *cost, sb_error *error)
                       .setup = sb_json_number_in(summary, "wall_setup_s"),
                       .settling = sb_json_number_in(summary, "wall_settling_s")};
     if (cost->settling < 1e-3) cost->settling = 0; /* there was none: what is left is the clock's */
-    cost->total = sb_json_number_in(summary, "wall_s") - cost->settling;
     const char *end = stages ? strchr(stages, ']') : NULL;
     if (!end) return sb_fail(error, SB_BAD_INPUT, "summary.json: no list of stages");
     for (const char *at = strstr(stages, name); at && at < end; at = strstr(at + 1, name))
         sort_in(cost, at + sizeof name - 1,
                 sb_json_number_in(at, "seconds") - sb_json_number_in(at, "settling_seconds"));
+    cost->total = cost->structure + cost->query + cost->advection + cost->pressure;
+    cost->other = sb_json_number_in(summary, "wall_s") - cost->settling - cost->total;
     return SB_OK;
 }
 
-double sb_cost_per_particle_step(double total, double fluid, double steps)
+double sb_cost_per_particle_step(double seconds, double fluid, double steps)
 {
-    return 1e9 * total / (fluid * steps);
+    return 1e9 * seconds / (fluid * steps);
 }
 
-double sb_cost_extrapolate(const sb_cost *some, double steps, double sweeps)
+sb_cost sb_cost_extrapolate(const sb_cost *some, double steps, double sweeps)
 {
-    double others = (some->structure + some->query + some->advection) / some->steps;
-    return steps * (others + some->pressure / some->steps * sweeps / some->sweeps);
+    const double more = steps / some->steps, swept = more * sweeps / some->sweeps;
+    sb_cost whole = *some;
+    whole.steps = steps;
+    whole.sweeps = sweeps;
+    whole.simulated *= more;
+    whole.structure *= more;
+    whole.query *= more;
+    whole.advection *= more;
+    whole.pressure *= swept;
+    whole.total = whole.structure + whole.query + whole.advection + whole.pressure;
+    return whole;
 }

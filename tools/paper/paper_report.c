@@ -10,7 +10,7 @@
 typedef struct line {
     const char *whose;
     double varied; /* what the set varies */
-    double fluid, boundary, step, sweeps, total, structure, query, advection, pressure, settling, steps, cores;
+    double fluid, boundary, step, sweeps, total, structure, query, advection, pressure, settling, other, steps, cores;
 } line;
 
 static double varied_of(const sb_published *p, int set)
@@ -32,28 +32,21 @@ static line published_line(const sb_published *p, int set)
 {
     const sb_published *shared = sb_published_find(SB_PUBLISHED_DEFAULT);
     double step = or_shared(p->step, shared->step);
-    return (line){"paper",
-                  varied_of(p, set),
-                  p->fluid,
-                  p->boundary,
-                  p->step,
-                  p->sweeps,
-                  p->total,
-                  p->structure,
-                  p->query,
-                  p->advection,
-                  p->pressure,
-                  0,
-                  SB_PUBLISHED_SECONDS / step,
+    return (line){"paper",           varied_of(p, set),
+                  p->fluid,          p->boundary,
+                  p->step,           p->sweeps,
+                  p->total,          p->structure,
+                  p->query,          p->advection,
+                  p->pressure,       0,
+                  (double)NAN,       SB_PUBLISHED_SECONDS / step,
                   SB_PUBLISHED_CORES};
 }
 
-static line our_line(const sb_paper_trial *row, const char *whose, double varied)
+static line our_line(const sb_cost *c, const char *whose, double varied)
 {
-    const sb_cost *c = &row->cost;
     return (line){whose,       varied,      c->fluid,     c->boundary, c->simulated / c->steps,
                   c->sweeps,   c->total,    c->structure, c->query,    c->advection,
-                  c->pressure, c->settling, c->steps,     c->threads};
+                  c->pressure, c->settling, c->other,     c->steps,    c->threads};
 }
 
 static void put_number(FILE *out, double value)
@@ -74,25 +67,21 @@ static void put_count(FILE *out, double value)
 static void put_line(FILE *out, const line *l)
 {
     double work = sb_cost_per_particle_step(l->total, l->fluid, l->steps);
+    double query = sb_cost_per_particle_step(l->query, l->fluid, l->steps);
     double sweep = 1e9 * l->pressure / (l->fluid * l->steps * l->sweeps);
     fputs("|", out);
     put_number(out, l->varied);
     fprintf(out, " %s |", l->whose);
     put_count(out, l->fluid);
     put_count(out, l->boundary);
-    const double numbers[] = {l->step,
-                              l->sweeps,
-                              l->settling,
-                              l->total,
-                              l->structure,
-                              l->query,
-                              l->advection,
-                              l->pressure,
-                              100 * l->pressure / l->total,
-                              work,
-                              work * l->cores,
-                              sweep,
-                              sweep * l->cores};
+    const double numbers[] = {l->step,     l->sweeps,
+                              l->settling, l->other,
+                              l->total,    l->structure,
+                              l->query,    l->advection,
+                              l->pressure, 100 * l->pressure / l->total,
+                              work,        work * l->cores,
+                              query,       query * l->cores,
+                              sweep,       sweep * l->cores};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) put_number(out, numbers[i]);
     fputc('\n', out);
 }
@@ -100,33 +89,40 @@ static void put_line(FILE *out, const line *l)
 static void put_table_head(FILE *out, const char *varied)
 {
     fprintf(out,
-            "| %s | | N_f | N_b | Δt (s) | sweeps | settling (s) | T (s) | T_c | T_q | T_a | T_p | T_p (%%) | ns per "
-            "particle and step | × cores | ns per particle and sweep | × cores |\n",
+            "| %s | | N_f | N_b | Δt (s) | sweeps | settling (s) | other (s) | T (s) | T_c | T_q | T_a | T_p | T_p "
+            "(%%) | ns per "
+            "particle and step | × cores | of that neighbours | × cores | ns per particle and sweep | × cores |\n",
             varied);
-    for (int i = 0; i < 17; i++) fputs("|---", out);
+    for (int i = 0; i < 20; i++) fputs("|---", out);
     fputs("|\n", out);
 }
 
 /* The finest spacing's whole run from its few steps, with the steps and sweeps of the next. */
+static bool extrapolate(const sb_paper_studies *s, sb_cost *whole)
+{
+    const sb_paper_trial *few = sb_paper_row(s, 12, true), *next = sb_paper_row(s, 13, true);
+    if (!few || !next) return false;
+    *whole = sb_cost_extrapolate(&few->cost, next->cost.steps * next->spacing / few->spacing, next->cost.sweeps);
+    return true;
+}
+
 static void put_extrapolated(FILE *out, const sb_paper_studies *s)
 {
     const sb_paper_trial *few = sb_paper_row(s, 12, true), *next = sb_paper_row(s, 13, true);
-    if (!few || !next) {
+    sb_cost whole;
+    if (!extrapolate(s, &whole)) {
         fputs("\nThe finest spacing is not extrapolated: its steps, or the run at the next spacing, are "
               "missing.\n",
               out);
         return;
     }
-    double steps = next->cost.steps * next->spacing / few->spacing;
-    double total = sb_cost_extrapolate(&few->cost, steps, next->cost.sweeps);
     fprintf(out,
             "\n**Extrapolated**, not run: %g m, 90 s. %.0f steps at %g m cost %.3g s each at %.1f sweeps; "
-            "with the steps of the %g m run times\n%g and its %.1f sweeps the whole takes %.3g s, %.3g h "
-            "(paper: 233317 s on %d cores). Set-up took %.3g s of the %.3g s.\n",
-            few->spacing, few->cost.steps, few->spacing,
-            (few->cost.structure + few->cost.query + few->cost.advection + few->cost.pressure) / few->cost.steps,
-            few->cost.sweeps, next->spacing, next->spacing / few->spacing, next->cost.sweeps, total, total / 3600,
-            SB_PUBLISHED_CORES, few->cost.setup, few->cost.total);
+            "with the steps of the %g m run times\n%g and its %.1f sweeps the whole takes %.3g s, %.3g h, and %.3g s "
+            "of set-up (paper: 233317 s on %d cores).\n",
+            few->spacing, few->cost.steps, few->spacing, few->cost.total / few->cost.steps, few->cost.sweeps,
+            next->spacing, next->spacing / few->spacing, next->cost.sweeps, whole.total, whole.total / 3600,
+            few->cost.setup, SB_PUBLISHED_CORES);
 }
 
 static void put_set(FILE *out, const sb_paper_studies *s, int set)
@@ -138,8 +134,9 @@ static void put_set(FILE *out, const sb_paper_studies *s, int set)
               "cells has the smallest\npower of two of slots that is at least twice their number, so it is "
               "at most half full and never larger than four slots per\nused cell. Static walls have a "
               "table of their own, built once. The counterpart is what search costs, per particle, beside "
-              "what\nit cost there at every size:\n\n",
+              "what\nit cost there at every size, *of that neighbours* in the table:\n\n",
               out);
+    sb_cost whole;
     put_table_head(out, varied[set]);
     for (const int *n = sb_published_sets[set].numbers; *n; n++) {
         const sb_published *p = sb_published_find(*n);
@@ -149,12 +146,16 @@ static void put_set(FILE *out, const sb_paper_studies *s, int set)
         const sb_paper_trial *row = sb_paper_row(s, *n, true);
         const sb_paper_trial *other = set == SB_SET_SPACING ? sb_paper_row(s, *n, false) : NULL;
         if (row) {
-            l = our_line(row, row->few ? "ours, `paper`, first steps only" : "ours, `paper`",
+            l = our_line(&row->cost, row->few ? "ours, `paper`, first steps only" : "ours, `paper`",
                          set == SB_SET_TABLE ? (double)NAN : ours);
             put_line(out, &l);
         }
+        if (row && row->few && extrapolate(s, &whole)) {
+            l = our_line(&whole, "ours, `paper`, **extrapolated**", ours);
+            put_line(out, &l);
+        }
         if (other) {
-            l = our_line(other, "ours, `default`", ours);
+            l = our_line(&other->cost, "ours, `default`", ours);
             put_line(out, &l);
         }
     }
@@ -167,9 +168,9 @@ static const char reading[] =
     "plant.yaml` without pictures and stream. The two plants\nare not the same meshes, and our sea "
     "holds the same volume at every spacing, where theirs loses a gap along its walls: compare\nper "
     "particle, and per core (*× cores*). T_c: sort; T_q: neighbours (ours sums densities in the same "
-    "pass); T_p: the solve; T_a: all\nother stages; T has set-up and files, too, but not what it takes to bring the "
-    "water to rest "
-    "(*settling*), which the published\nruns and the preset `paper` do not do. Where the paper prints no "
+    "pass); T_p: the solve; T_a: all\nother stages; T is their sum. Beside it stand what brings the "
+    "water to rest (*settling*), which the published\nruns and the preset `paper` do not do, and set-up, measuring and "
+    "files (*other*). Where the paper prints no "
     "mean time step, per-particle figures take that of its run No. 2.\nSweeps are iterations of the "
     "solver. The paper's average error counts under-dense particles against compressed ones; ours, "
     "one-sided,\nis stricter at the same ξ (docs/method.md, section 5).\n";
@@ -192,19 +193,29 @@ static void put_report(FILE *out, const sb_paper_studies *s)
     for (size_t i = 0; i < s->count; i++) sb_trial_problem(out, &s->trials[i]);
 }
 
+static void put_csv_row(FILE *out, const sb_paper_studies *s, size_t i, const char *which, const sb_cost *c)
+{
+    const sb_paper_trial *r = &s->rows[i];
+    const sb_finished *run = &s->trials[i].run;
+    fprintf(out,
+            "%d,%g,%s,%s,%.0f,%.0f,%.0f,%.0f,%.6g,%.4f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%s,\"%s\"\n",
+            r->number, r->spacing, r->paper ? "paper" : "default", which, c->fluid, c->boundary, c->threads, c->steps,
+            c->simulated, c->sweeps, c->settling, c->setup, c->other, c->total, c->structure, c->query, c->advection,
+            c->pressure, run->cpu, run->load, run->commit, run->machine);
+}
+
 static void put_csv(FILE *out, const sb_paper_studies *s)
 {
-    fputs("published_no,spacing_m,preset,first_steps_only,fluid,boundary,threads,steps,simulated_s,"
-          "sweeps_per_step,settling_s,setup_s,total_s,structure_s,query_s,advection_s,pressure_s,cpu_s,load,commit\n",
+    sb_cost whole;
+    fputs("published_no,spacing_m,preset,run,fluid,boundary,threads,steps,simulated_s,"
+          "sweeps_per_step,settling_s,setup_s,other_s,total_s,structure_s,query_s,advection_s,pressure_s,cpu_s,load,"
+          "commit,machine\n",
           out);
     for (size_t i = 0; i < s->count; i++) {
         const sb_paper_trial *r = &s->rows[i];
-        const sb_cost *c = &r->cost;
         if (s->trials[i].state != SB_RESULT_DONE) continue;
-        fprintf(out, "%d,%g,%s,%s,%.0f,%.0f,%.0f,%.0f,%.6g,%.4f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%s\n",
-                r->number, r->spacing, r->paper ? "paper" : "default", r->few ? "yes" : "no", c->fluid, c->boundary,
-                c->threads, c->steps, c->simulated, c->sweeps, c->settling, c->setup, c->total, c->structure, c->query,
-                c->advection, c->pressure, s->trials[i].run.cpu, s->trials[i].run.load, s->trials[i].run.commit);
+        put_csv_row(out, s, i, r->few ? "first steps" : "whole", &r->cost);
+        if (r->few && extrapolate(s, &whole)) put_csv_row(out, s, i, "extrapolated", &whole);
     }
 }
 

@@ -2,7 +2,6 @@
 
 #include <math.h>
 
-static const double LARGEST = 10;  /* no order above this is looked for */
 static const double CREDIBLE = 2;  /* of the discretisation: a larger one is chance */
 static const double SLOWEST = 0.5; /* below it the value at spacing 0 is anywhere [Oberkampf and Roy 2010, 8.8.3] */
 static const double SAFETY = 1.25; /* three spacings; 3 with two (Roache 1994) */
@@ -17,7 +16,7 @@ static double ratio_at(double p, double fine, double coarse)
 /* The order at which differences have this ratio: ratio_at rises with p. NaN: none above 0. */
 static double order_of(double ratio, double fine, double coarse)
 {
-    double low = 0, high = LARGEST;
+    double low = 0, high = SB_ORDER_LARGEST;
     if (!(ratio > ratio_at(0, fine, coarse))) return (double)NAN;
     if (ratio > ratio_at(high, fine, coarse)) return high;
     for (int i = 0; i < 60; i++) {
@@ -145,7 +144,7 @@ const char *sb_order_remark(sb_order_kind kind)
     static const char *const remarks[] = {
         [SB_ORDER_OBSERVED] = "",
         [SB_ORDER_ASSUMED] = "two spacings: first order assumed",
-        [SB_ORDER_NOISE] = "order not observable: a difference is within the seeds' scatter",
+        [SB_ORDER_NOISE] = "order not observable: a difference is none, or within the seeds' scatter",
         [SB_ORDER_OSCILLATING] = "order not observable: the differences change sign",
         [SB_ORDER_SLOW] = "order below 0.5: no value at spacing 0 can be told",
         [SB_ORDER_DIVERGING] = "order not observable: the differences do not shrink",

@@ -6,6 +6,9 @@
 
 #include <stddef.h>
 
+/* No order above this is looked for: it stands for itself and all larger ones. */
+#define SB_ORDER_LARGEST 10.0
+
 /* A quantity at one spacing. */
 typedef struct sb_level {
     double spacing; /* m, > 0 */
@@ -16,7 +19,7 @@ typedef struct sb_level {
 typedef enum sb_order_kind {
     SB_ORDER_OBSERVED,    /* the differences shrink with the spacing */
     SB_ORDER_ASSUMED,     /* two spacings: first order is assumed */
-    SB_ORDER_NOISE,       /* a difference is no larger than what start seeds do */
+    SB_ORDER_NOISE,       /* a difference is none, or no larger than what start seeds do */
     SB_ORDER_OSCILLATING, /* the differences change sign */
     SB_ORDER_SLOW,        /* an order below 0.5 */
     SB_ORDER_DIVERGING,   /* the differences do not shrink */
@@ -25,7 +28,7 @@ typedef enum sb_order_kind {
 
 typedef struct sb_convergence {
     sb_order_kind kind;
-    double order;        /* NaN unless observed or assumed */
+    double order;        /* NaN unless observed or assumed; at most SB_ORDER_LARGEST */
     double extrapolated; /* at spacing 0; NaN unless observed */
     double uncertainty;  /* half width of the error bar of the finest value, in its unit; NaN: none */
 } sb_convergence;

@@ -24,9 +24,10 @@ static void put_with_error(FILE *out, double value, double error)
 static void put_order(FILE *out, const sb_study_row *row, bool seeds)
 {
     const sb_order_range *r = &row->range;
+    const double observed = row->convergence.kind == SB_ORDER_OBSERVED ? row->convergence.order : (double)NAN;
     char order[48];
-    sb_text_number(order, row->convergence.kind == SB_ORDER_OBSERVED ? row->convergence.order : (double)NAN);
-    fprintf(out, " %s", order);
+    sb_text_number(order, observed);
+    fprintf(out, " %s%s", observed >= SB_ORDER_LARGEST ? "at least " : "", order);
     if (seeds && !isnan(r->low)) fprintf(out, " (%.2g to %.2g in %.0f %%)", r->low, r->high, 100 * r->share);
     fputs(" |", out);
 }
@@ -84,26 +85,39 @@ static const char reading[] =
     "scatter, their range and twice the standard error.\nPeaks are of forces averaged over "
     "`measure.interval`: keep it the same.\n";
 
+/* From the finest value to the one at spacing 0, and what the finest may be off by. */
+static sb_status add_bar(const sb_study_row *row, const sb_level *finest, sb_curve *limit, sb_curve *bar,
+                         sb_error *error)
+{
+    const double half = row->convergence.uncertainty;
+    sb_status status = sb_curve_add(limit, finest->spacing, finest->value, error);
+    if (status == SB_OK) status = sb_curve_add(limit, 0, row->convergence.extrapolated, error);
+    if (isnan(half)) return status;
+    if (status == SB_OK) status = sb_curve_add(bar, finest->spacing, finest->value - half, error);
+    return status == SB_OK ? sb_curve_add(bar, finest->spacing, finest->value + half, error) : status;
+}
+
 static sb_status plot_row(const sb_study *study, const sb_study_row *row, sb_plot *plot, sb_error *error)
 {
     const sb_study_options *o = study->options;
-    sb_curve marks = {0}, line = {0}, limit = {0};
+    sb_curve marks = {0}, line = {0}, limit = {0}, bar = {0};
     sb_status status = sb_plot_panel(plot, row->quantity, "spacing (m)", row->unit, error);
     if (status == SB_OK) sb_plot_range(plot, 0, (double)NAN, (double)NAN, (double)NAN);
     for (size_t i = 0; status == SB_OK && i < study->count; i++)
         status = sb_curve_add(&marks, o->spacings[i / (size_t)o->seeds], row->values[i], error);
     for (size_t l = 0; status == SB_OK && l < o->spacing_count; l++)
         status = sb_curve_add(&line, o->spacings[l], row->levels[l].value, error);
-    const sb_level *last = &row->levels[o->spacing_count - 1];
-    if (status == SB_OK) status = sb_curve_add(&limit, last->spacing, last->value, error);
-    if (status == SB_OK) status = sb_curve_add(&limit, 0, row->convergence.extrapolated, error);
+    for (size_t l = 0; status == SB_OK && l < o->spacing_count; l++)
+        if (row->levels[l].spacing == row->finest) status = add_bar(row, &row->levels[l], &limit, &bar, error);
     if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_MARKS, "seeds", &marks, error);
     if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, "mean", &line, error);
+    if (status == SB_OK && bar.count) status = sb_plot_curve(plot, SB_PLOT_LINE, "error bar", &bar, error);
     if (status == SB_OK && !isnan(row->convergence.extrapolated))
         status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "extrapolated", &limit, error);
     sb_curve_free(&marks);
     sb_curve_free(&line);
     sb_curve_free(&limit);
+    sb_curve_free(&bar);
     return status;
 }
 

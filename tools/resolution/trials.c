@@ -18,7 +18,10 @@ sb_status sb_trials_make(const sb_store *store, sb_result *trials, size_t count,
     sb_status status = SB_OK;
     sb_request *requests = sb_alloc(count, sizeof *requests);
     if (!requests) return sb_fail_memory(error, "runs");
-    for (size_t i = 0; i < count; i++) requests[i] = trials[i].request;
+    size_t taken = 0;
+    for (int seed = 1; taken < count; seed++)
+        for (size_t i = 0; i < count; i++)
+            if (trials[i].request.seed == seed) requests[taken++] = trials[i].request;
     if (!report_only) status = sb_launch(store, requests, count, jobs, failed, error);
     for (size_t i = 0; status == SB_OK && i < count; i++) sb_result_read(store, report_only, &trials[i]);
     sb_free(requests);
@@ -38,24 +41,43 @@ bool sb_trials_disturbed(const sb_result *trials, size_t count)
     return sb_trials_load(trials, count) > (double)sysconf(_SC_NPROCESSORS_ONLN) + 0.5;
 }
 
-void sb_trials_origin(FILE *out, const sb_store *store, const sb_result *trials, size_t count, const char *command)
+/* "a, b": every machine or commit that any of the runs has; each once. */
+static void put_all_of(FILE *out, const sb_result *trials, size_t count, bool machines)
+{
+    for (size_t i = 0; i < count; i++) {
+        const char *own = machines ? trials[i].run.machine : trials[i].run.commit;
+        bool told = trials[i].state != SB_RESULT_DONE, first = true;
+        for (size_t k = 0; k < i; k++) {
+            const char *other = machines ? trials[k].run.machine : trials[k].run.commit;
+            if (trials[k].state != SB_RESULT_DONE) continue;
+            first = false;
+            told |= strcmp(own, other) == 0;
+        }
+        if (!told) fprintf(out, "%s%s", first ? "" : "; ", own);
+    }
+}
+
+void sb_trials_where(FILE *out, const sb_store *store, const sb_result *trials, size_t count)
 {
     char load[48];
-    const sb_finished *first = NULL;
-    bool several = false;
-    for (size_t i = 0; i < count; i++) {
-        if (trials[i].state != SB_RESULT_DONE) continue;
-        if (first && strcmp(first->commit, trials[i].run.commit) != 0) several = true;
-        if (!first) first = &trials[i].run;
-    }
-    double most = sb_trials_load(trials, count);
+    size_t done = 0;
+    for (size_t i = 0; i < count; i++) done += trials[i].state == SB_RESULT_DONE;
+    const double most = sb_trials_load(trials, count);
     snprintf(load, sizeof load, isnan(most) ? "not known" : "at most %.2g", most);
-    fprintf(out, "- command: `%s`\n- machine: %s\n- commit: %s%s\n- load of the machine: %s\n", command,
-            first ? first->machine : store->machine, first ? first->commit : "nothing has run",
-            several ? " and others" : "", load);
+    fputs("- machine: ", out);
+    if (done) put_all_of(out, trials, count, true);
+    fprintf(out, "%s\n- commit: ", done ? "" : store->machine);
+    if (done) put_all_of(out, trials, count, false);
+    fprintf(out, "%s\n- load of the machine: %s\n", done ? "" : "nothing has run", load);
     if (sb_trials_disturbed(trials, count))
         fputs("- **times are provisional**: others computed on this machine meanwhile\n", out);
     fputc('\n', out);
+}
+
+void sb_trials_origin(FILE *out, const sb_store *store, const sb_result *trials, size_t count, const char *command)
+{
+    fprintf(out, "- command: `%s`\n", command);
+    sb_trials_where(out, store, trials, count);
 }
 
 bool sb_trial_problem(FILE *out, const sb_result *trial)

@@ -8,8 +8,9 @@
 
 #include <stdio.h>
 
-/* Runs what the store lacks, in order (unless report_only), and reads what is there. Statuses and
- *failed as sb_launch. With report_only, runs of other builds count, too. */
+/* Runs what the store lacks (unless report_only) and reads what is there. In order, but one start seed (1, 2, ...)
+ after the other: a machine that is slower for an hour meets all choices alike. Statuses and *failed as sb_launch. With
+ report_only, runs of other builds count, too. */
 sb_status sb_trials_make(const sb_store *store, sb_result *trials, size_t count, int jobs, bool report_only,
                          size_t *failed, sb_error *error);
 
@@ -19,7 +20,9 @@ double sb_trials_load(const sb_result *trials, size_t count);
    believed. */
 bool sb_trials_disturbed(const sb_result *trials, size_t count);
 
-/* Lines of Markdown: command, machine, commit, load; says when times are provisional. */
+/* Lines of Markdown: machines, commits, load; says when times are provisional. */
+void sb_trials_where(FILE *out, const sb_store *store, const sb_result *trials, size_t count);
+/* The same behind the command. */
 void sb_trials_origin(FILE *out, const sb_store *store, const sb_result *trials, size_t count, const char *command);
 
 /* A row of a Markdown table that says why a trial has no figures; true when it has none. */

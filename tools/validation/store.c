@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "origin.h"
+#include "process.h"
 #include "record.h"
 
 #include <dirent.h>
@@ -14,6 +15,14 @@
 #include <unistd.h>
 
 static const char failure_name[] = "failed.txt", spent_name[] = "spent.txt";
+
+/* Whether the program was built with this one, so that the source tree is its own. */
+static bool is_own(const char *program)
+{
+    char beside[SB_PATH_MAX], real[SB_PATH_MAX];
+    return sb_process_beside("shorebreak", beside, NULL) == SB_OK && realpath(beside, real) &&
+           strcmp(real, program) == 0;
+}
 
 sb_status sb_store_open(sb_store *store, const char *out, const char *program, const char *source, sb_error *error)
 {
@@ -29,7 +38,7 @@ sb_status sb_store_open(sb_store *store, const char *out, const char *program, c
     if (!realpath(real, made.assets)) return sb_fail(error, SB_BAD_INPUT, "%.400s: %s", real, strerror(errno));
     status = sb_hash_file(made.program, &made.build, error);
     if (status != SB_OK) return status;
-    sb_origin_commit(source, made.commit);
+    if (is_own(made.program)) sb_origin_commit(source, made.commit);
     sb_origin_machine(made.machine);
     *store = made;
     return SB_OK;
@@ -128,13 +137,27 @@ sb_status sb_store_spend(const char *folder, double cpu, sb_error *error)
     return write_text(folder, spent_name, text, error);
 }
 
+/* "sources 0123456789abcdef" of the program that wrote the log in this folder; "unknown" without one. */
+static void find_sources(const char *folder, char text[64])
+{
+    char path[SB_PATH_MAX], line[4096];
+    snprintf(text, 64, "unknown");
+    FILE *in = sb_path_join(path, folder, "run.jsonl", NULL) == SB_OK ? fopen(path, "r") : NULL;
+    while (in && fgets(line, sizeof line, in)) {
+        const char *at = strstr(line, "\"event\":\"build\"") ? strstr(line, "sources ") : NULL;
+        if (at) snprintf(text, 64, "%.*s", (int)strcspn(at, ",\""), at);
+    }
+    if (in) fclose(in);
+}
+
 sb_status sb_store_finish(const sb_store *store, const char *folder, double cpu, sb_error *error)
 {
-    char text[512];
+    char text[512], sources[64];
     double load;
+    find_sources(folder, sources);
     if (getloadavg(&load, 1) != 1) load = (double)NAN;
-    snprintf(text, sizeof text, "commit: %s\nmachine: %s\ncpu_s: %.6g\nload: %.3g\n", store->commit, store->machine,
-             spent(folder) + cpu, load);
+    snprintf(text, sizeof text, "commit: %s\nmachine: %s\ncpu_s: %.6g\nload: %.3g\n",
+             store->commit[0] ? store->commit : sources, store->machine, spent(folder) + cpu, load);
     return write_text(folder, SB_RECORD_NAME, text, error);
 }
 

@@ -13,7 +13,7 @@ typedef struct sb_store {
     char program[SB_PATH_MAX]; /* the shorebreak that runs */
     char assets[SB_PATH_MAX];  /* assets/validation */
     uint64_t build;            /* hash of the program */
-    char commit[64];           /* of the source tree, "unknown" where git cannot tell */
+    char commit[64]; /* of the source tree, "unknown" where git cannot tell; "": of a program from elsewhere */
     char machine[128];
 } sb_store;
 
@@ -34,7 +34,8 @@ bool sb_store_find(const sb_store *store, const sb_request *request, bool any_bu
 
 /* Adds to the processor time (s) of a run that was stopped and will go on. */
 sb_status sb_store_spend(const char *folder, double cpu, sb_error *error);
-/* Marks a folder's run as finished, with what is to be remembered of it: commit, machine, cpu_s (s of
+/* Marks a folder's run as finished, with what is to be remembered of it: commit (of a program from elsewhere the hash
+   of its sources, as its log has it), machine, cpu_s (s of
    processor time, all threads, stopped parts too) and load (the machine's mean over the last minute). */
 sb_status sb_store_finish(const sb_store *store, const char *folder, double cpu, sb_error *error);
 
