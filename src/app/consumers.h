@@ -45,8 +45,6 @@ sb_status sb_pictures_sync(sb_pictures *pictures, sb_gone *gone, sb_error *error
 
 /* LCM */
 typedef struct sb_streamer {
-    const sb_scene *scene;
-    const char *run_name;
     sb_stream *stream;
     sb_runlog *log;
     sb_stream_counters counters; /* up to the last frame; the first trouble is logged, once */

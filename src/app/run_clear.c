@@ -67,12 +67,13 @@ static sb_status remove_named(const run *r, sb_error *error)
 /* One camera's pictures, and the film made of them. */
 static sb_status remove_camera(const run *r, const char *frames, const char *camera, sb_error *error)
 {
-    char folder[SB_PATH_MAX];
+    char folder[SB_PATH_MAX], part[SB_PATH_MAX];
     sb_status status = sb_path_join(folder, frames, camera, error);
     if (status != SB_OK || !is_folder(folder)) return status;
+    snprintf(part, sizeof part, ".%.255s", camera);
     status = sb_remove_numbered(folder, ".png", 0, error);
     if (status == SB_OK) status = remove_file(r->directory, camera, ".mp4", error);
-    if (status == SB_OK) status = remove_file(r->directory, camera, ".part.mp4", error);
+    if (status == SB_OK) status = remove_file(r->directory, part, ".part.mp4", error);
     (void)rmdir(folder); /* unless something else is in it */
     return status;
 }

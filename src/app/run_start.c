@@ -85,8 +85,13 @@ static sb_status start_streamer(run *r, sb_error *error)
         return SB_OK;
     }
     sb_consumer_work work = sb_streamer_work(&r->streamer);
-    return sb_consumer_start(&r->consumers[STREAMER], &work, r->scene->stream.interval,
-                             sb_room_waiting(r->model.fluid_count), SB_QUEUE_DROP_OLDEST, error);
+    const sb_status status = sb_consumer_start(&r->consumers[STREAMER], &work, r->scene->stream.interval,
+                                               sb_room_waiting(r->model.fluid_count), SB_QUEUE_DROP_OLDEST, error);
+    if (status != SB_OK) {
+        sb_stream_destroy(r->streamer.stream);
+        r->streamer.stream = NULL;
+    }
+    return status;
 }
 
 static bool draws(const sb_scene *scene)
@@ -136,7 +141,7 @@ static void name_consumers(run *r)
 {
     r->recorder = (sb_recorder){.directory = r->directory};
     r->pictures = (sb_pictures){.scene = r->scene, .model = &r->model, .directory = r->directory, .camera = -1};
-    r->streamer = (sb_streamer){.scene = r->scene, .run_name = r->scene->title, .log = r->log};
+    r->streamer = (sb_streamer){.log = r->log};
 }
 
 static sb_status build_model(run *r, bool resume, sb_error *error)
@@ -192,6 +197,7 @@ static sb_status begin(run *r, sb_error *error)
     if (sb_sim_settles(r->scene)) sb_run_say(r, "settling");
     sb_status status = sb_sim_settle_watched(r->sim, watch_settling, r, error);
     sb_progress_settled(&r->progress);
+    sb_progress_resume(&r->progress, 0); /* settling says nothing of the speed of steps */
     r->settling_seconds = sb_progress_wall(&r->progress) - r->setup_seconds;
     sb_spent_settled(r);
     if (sb_sim_report(r->sim)->lost > 0)

@@ -50,7 +50,7 @@ static sb_status escapes(sb_vec3 at, int side, sb_error *error)
 {
     return sb_fail(error, SB_BAD_INPUT,
                    "the sea escapes through the open side %s at (%g, %g, %g): expected a wall or a "
-                   "solid that holds it below sea.level",
+                   "solid that holds it below water.level",
                    sb_side_names[side], at.x, at.y, at.z);
 }
 
@@ -96,23 +96,10 @@ static sb_status visit(sb_columns *c, front *f, size_t column, size_t run, sb_er
 
 static sb_status check_seed(const sb_columns *c, sb_vec3 seed, sb_error *error)
 {
-    const sb_domain *d = &c->scene->domain;
-    bool flat = c->scene->dimensions == 2;
-    if (seed.x < d->min.x || seed.x > d->max.x || seed.z < d->min.z || seed.z > d->max.z ||
-        (!flat && (seed.y < d->min.y || seed.y > d->max.y)))
-        return sb_fail(error, SB_BAD_INPUT,
-                       "sea.seed (%g, %g, %g) is outside of the domain: expected a point in the "
-                       "water",
-                       seed.x, seed.y, seed.z);
-    if (seed.z >= c->level)
-        return sb_fail(error, SB_BAD_INPUT,
-                       "sea.seed (%g, %g, %g) is not below sea.level %g: expected a point in the "
-                       "water",
-                       seed.x, seed.y, seed.z, c->level);
     for (size_t i = 0; i < c->solid_count; ++i)
         if (sb_solid_contains(c->solids[i].solid, seed))
             return sb_fail(error, SB_BAD_INPUT,
-                           "sea.seed (%g, %g, %g) is inside the body \"%s\": expected a point in "
+                           "water.seed (%g, %g, %g) is inside the body \"%s\": expected a point in "
                            "the water",
                            seed.x, seed.y, seed.z, c->solids[i].name);
     return SB_OK;
@@ -147,15 +134,10 @@ sb_status sb_columns_flood(sb_columns *c, sb_error *error)
     if (c->scene->dimensions == 2) seed.y = 0;
     sb_status status = check_seed(c, seed, error);
     if (status != SB_OK) return status;
-    if (c->scene->domain.side[SB_Z_MAX] == SB_SIDE_OPEN && c->scene->sea.level > c->top)
-        return sb_fail(error, SB_BAD_INPUT,
-                       "sea.level %g is above the domain's open top at %g: expected a level within "
-                       "the domain",
-                       c->scene->sea.level, c->top);
     size_t column = 0, run = 0;
     if (c->nx == 0 || !find_start(c, seed, &column, &run))
         return sb_fail(error, SB_BAD_INPUT,
-                       "sea.seed (%g, %g, %g) has no room for a particle around it: expected a "
+                       "water.seed (%g, %g, %g) has no room for a particle around it: expected a "
                        "point in open water, or a finer resolution",
                        seed.x, seed.y, seed.z);
     front f = {0};

@@ -5,6 +5,9 @@
 
 #include "geometry/mesh.h"
 
+#include <stdlib.h>
+#include <string.h>
+
 /* Heights at (x + i dx, y + j dy), i < columns, j < rows, j = 0 being the southernmost row;
    NAN: a hole. Owned. */
 typedef struct sb_grid {
@@ -16,6 +19,17 @@ typedef struct sb_grid {
 /* Both read the zero-terminated text of the file `path`; SB_BAD_INPUT "path:line: ...". */
 sb_status sb_grid_read_ascii(const char *path, const char *text, sb_grid *grid, sb_error *error);
 sb_status sb_grid_read_points(const char *path, const char *text, sb_grid *grid, sb_error *error);
+
+/* As strtod, but of decimal digits alone: 0x10 is 0 and something. */
+static inline double sb_decimal(const char *text, char **end)
+{
+    const char *digits = text + strspn(text, " \t\r\n\v\f");
+    digits += *digits == '+' || *digits == '-';
+    const double value = strtod(text, end);
+    if (digits[0] != '0' || (digits[1] | 0x20) != 'x') return value;
+    *end += digits + 1 - *end;
+    return 0;
+}
 
 /* Most nodes of a grid: the vertices of its mesh need 32-bit numbers, and memory. */
 enum { SB_GRID_NODES_MAX = 1 << 28 };

@@ -46,7 +46,7 @@ static sb_status next_number(scanner *from, const char *what, double *value, sb_
 {
     size_t length = next_word(from);
     char *end;
-    double number = strtod(from->at, &end);
+    double number = sb_decimal(from->at, &end);
     if (length == 0)
         return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: the file ends, expected %s", from->path, from->line, what);
     if (end != from->at + length || !isfinite(number))

@@ -36,7 +36,7 @@ static sb_status read_line(cloud *all, const char *text, size_t length, size_t l
     point read = {.line = line};
     for (int k = 0; k < 3; ++k) {
         char *after;
-        read.at[k] = strtod(at, &after);
+        read.at[k] = sb_decimal(at, &after);
         /* strtod skips line ends: a number of the next line is none of this one. */
         if (after == at || after > end || !isfinite(read.at[k]) || (after < end && !strchr(blank, *after)))
             return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: \"%.*s\", expected x y z", all->path, line,
@@ -125,6 +125,17 @@ static sb_status place_points(const cloud *all, const axis axes[2], sb_grid *gri
     return SB_OK;
 }
 
+/* Few points may lie on many grid lines: heights, vertices and places of holes are of all of them. */
+static sb_status check_room(const char *path, const sb_grid *grid, sb_error *error)
+{
+    const double node = sizeof(double) + sizeof(uint32_t) + sizeof(sb_vec3);
+    const double needed = node * (double)grid->columns * (double)grid->rows, there = (double)sb_memory_available();
+    if (!(there > 0) || needed < there) return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT,
+                   "%.500s: %zu x %zu grid lines take %.3g GB of memory, and %.3g GB are free; expected fewer", path,
+                   grid->columns, grid->rows, needed / 1e9, there / 1e9);
+}
+
 sb_status sb_grid_read_points(const char *path, const char *text, sb_grid *grid, sb_error *error)
 {
     cloud all = {.path = path};
@@ -137,13 +148,15 @@ sb_status sb_grid_read_points(const char *path, const char *text, sb_grid *grid,
     if (status != SB_OK) goto done;
     made = (sb_grid){axes[0].count, axes[1].count, axes[0].low, axes[1].low, axes[0].step, axes[1].step, NULL};
     /* A coast may fill little of its rectangle, but scattered points fill next to nothing. */
-    if (made.columns * made.rows > SB_GRID_NODES_MAX || made.columns * made.rows / 1000 > all.count) {
+    if (made.columns * made.rows > SB_GRID_NODES_MAX || made.columns * made.rows / 100 > all.count) {
         status = sb_fail(error, SB_BAD_INPUT,
                          "%.500s: %zu points would lie on %zu x %zu grid lines, expected a regular "
                          "grid",
                          path, all.count, made.columns, made.rows);
         goto done;
     }
+    status = check_room(path, &made, error);
+    if (status != SB_OK) goto done;
     made.heights = sb_alloc_untouched(made.columns * made.rows, sizeof *made.heights);
     status = made.heights ? place_points(&all, axes, &made, error) : sb_fail_memory(error, "a terrain grid");
     if (status == SB_OK)

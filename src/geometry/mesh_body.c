@@ -169,16 +169,31 @@ static bool taken(const sb_mesh *meshes, size_t count, const char *name)
     return false;
 }
 
-/* Gives names to meshes without one, and a number to the second of a name. */
+/* Gives names to meshes without one, and a number to the second of a name: the numbers of a run of equal names, as
+   tools write them, rise on. */
 static void set_names(const sb_body *body, sb_mesh *meshes, size_t count)
 {
+    char last[SB_NAME_MAX] = "";
+    size_t number = 2;
     for (size_t i = 0; i < count; ++i) {
         char wanted[SB_NAME_MAX];
         memcpy(wanted, body->split && meshes[i].name[0] ? meshes[i].name : body->name, sizeof wanted);
+        if (strcmp(wanted, last) != 0) number = 2;
+        memcpy(last, wanted, sizeof last);
         memcpy(meshes[i].name, wanted, sizeof wanted);
-        for (size_t number = 2; taken(meshes, i, meshes[i].name); ++number)
-            snprintf(meshes[i].name, sizeof meshes[i].name, "%.*s-%zu", SB_NAME_MAX - 22, wanted, number);
+        while (taken(meshes, i, meshes[i].name))
+            snprintf(meshes[i].name, sizeof meshes[i].name, "%.*s-%zu", SB_NAME_MAX - 22, wanted, number++);
     }
+}
+
+/* A scene of more bodies than that is none: their names are compared with each other. */
+enum { PARTS_MAX = 10000 };
+
+static sb_status check_parts(const sb_body *body, size_t count, sb_error *error)
+{
+    if (!body->split || count <= PARTS_MAX) return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT, "%.500s: %zu parts, expected at most %d of a body that is split", body->file,
+                   count, PARTS_MAX);
 }
 
 sb_status sb_mesh_from_body(const sb_body *body, double spacing, sb_mesh **meshes, size_t *count, sb_error *error)
@@ -193,6 +208,7 @@ sb_status sb_mesh_from_body(const sb_body *body, double spacing, sb_mesh **meshe
     else if (from_file && !(isfinite(body->scale) && body->scale > 0))
         status = sb_fail(&reason, SB_BAD_INPUT, "scale %g, expected > 0", body->scale);
     if (status == SB_OK) status = make(body, spacing, &made, &made_count, &reason);
+    if (status == SB_OK) status = check_parts(body, made_count, &reason);
     if (status == SB_OK) status = check_rounding(body, spacing, made, made_count, &reason);
     for (size_t i = 0; i < made_count; ++i) transform(body, &made[i]);
     /* Each solid part for itself, one may be inside out; but the parts of a terrain together, a

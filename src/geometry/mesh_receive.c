@@ -25,8 +25,10 @@ static void await(sb_mesh_link *from)
         int ready = poll(sources, 2, (int)(1e3 * left) + 1);
         if (ready < 0 && errno != EINTR) from->end = SB_MESH_LINK_CLOSED;
         if (ready <= 0) continue;
-        if (!(sources[0].revents & POLLIN))
-            from->end = SB_MESH_LINK_CLOSED; /* hung up, or the child ended with nothing left to read */
+        if (sources[0].revents & POLLIN) return;
+        /* The child may have written and ended between the looks at the one and the other. */
+        if (sources[0].revents == 0 && poll(sources, 1, 0) > 0 && sources[0].revents & POLLIN) return;
+        from->end = SB_MESH_LINK_CLOSED; /* hung up, or the child ended with nothing left to read */
         return;
     }
 }

@@ -10,12 +10,15 @@ static const float solid_color[3] = {0.74F, 0.72F, 0.68F};
 static const float terrain_color[3] = {0.60F, 0.54F, 0.42F};
 static const float moving_color[3] = {0.80F, 0.52F, 0.25F};
 
-/* Index of the wavemaker that moves a body of the scene, or that of its parts' name; -1: none. */
+/* Index of the wavemaker that moves the part by its own name, or else the whole body of the scene; -1: none. */
 static int find_wavemaker(const sb_scene *scene, const char *body, const char *part)
 {
-    for (size_t i = 0; i < scene->wavemaker_count; ++i)
-        if (!strcmp(scene->wavemakers[i].body, body) || !strcmp(scene->wavemakers[i].body, part)) return (int)i;
-    return -1;
+    int whole = -1;
+    for (size_t i = 0; i < scene->wavemaker_count; ++i) {
+        if (!strcmp(scene->wavemakers[i].body, part)) return (int)i;
+        if (whole < 0 && !strcmp(scene->wavemakers[i].body, body)) whole = (int)i;
+    }
+    return whole;
 }
 
 /* In 2D the plane y = 0 is all there is. */
@@ -75,7 +78,7 @@ static sb_status check_reach(const sb_scene *scene, const sb_model_body *body, s
         const sb_vec3 at = body->mesh.vertices[i];
         const sb_vec3 out = sb_max(sb_sub(scene->domain.min, at), sb_sub(at, scene->domain.max));
         const double far = fmax(out.x, fmax(scene->dimensions == 2 ? 0 : out.y, out.z));
-        if (far > most)
+        if (!sb_isfinite(at) || !(far <= most))
             return sb_fail(error, SB_BAD_INPUT,
                            "body \"%s\" reaches to (%g, %g, %g) m: expected no more than %g m from the domain, 1e8 "
                            "spacings",

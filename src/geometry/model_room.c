@@ -17,7 +17,9 @@ typedef struct counts {
 static sb_status look(const sb_scene *scene, const sb_model *bodies, double ratio, counts *found)
 {
     sb_scene coarse = *scene;
-    sb_model model = *bodies; /* its bodies are shared, and sampled anew afterwards */
+    sb_model model = *bodies; /* its bodies are shared, and sampled anew afterwards; warnings are its own */
+    model.warnings = NULL;
+    model.warning_count = 0;
     sb_model_space space = {.count = 0};
     coarse.resolution *= ratio;
     sb_status status = sb_model_space_create(bodies, &coarse, &space, NULL);
@@ -26,6 +28,8 @@ static sb_status look(const sb_scene *scene, const sb_model *bodies, double rati
     sb_model_space_free(&space);
     *found = (counts){(double)model.fluid_count * pow(ratio, scene->dimensions),
                       (double)model.wall_count * pow(ratio, scene->dimensions - 1)};
+    for (size_t i = 0; i < model.warning_count; ++i) sb_free(model.warnings[i]);
+    sb_free(model.warnings);
     sb_free(model.fluid_position);
     sb_free(model.fluid_velocity);
     sb_free(model.fluid_pressure);

@@ -9,10 +9,18 @@ static ssize_t take(void *cookie, const char *bytes, size_t count)
 {
     sb_hashed_file *file = cookie;
     size_t done = 0;
+    /* The stream forgets what it could not hand on: what comes after a gap would be glued to a torn line. */
+    if (file->failed) {
+        errno = file->failed;
+        return 0;
+    }
     while (done < count) {
         const ssize_t written = write(fileno(file->file), bytes + done, count - done);
         if (written < 0 && errno == EINTR) continue;
-        if (written <= 0) break;
+        if (written <= 0) {
+            file->failed = written < 0 && errno ? errno : EIO;
+            break;
+        }
         done += (size_t)written;
     }
     sb_hash_add(&file->hash, bytes, done);
@@ -104,17 +112,17 @@ sb_status sb_hashed_resume(sb_hashed_file *file, const char *path, uint64_t leng
 int sb_hashed_close(sb_hashed_file *file)
 {
     int result = 0, reason = 0;
-    const bool failed = file->stream && ferror(file->stream);
     if (file->stream && fclose(file->stream) != 0) {
         result = EOF;
         reason = errno;
     }
-    /* A full disk lets a file become shorter. */
-    if ((failed || result != 0) && file->file && ftruncate(fileno(file->file), (off_t)file->whole) != 0 &&
-        result == 0) {
+    if (file->failed) {
         result = EOF;
-        reason = errno;
+        reason = file->failed;
     }
+    /* A full disk lets a file become shorter; one that does not leaves the reason as it is. */
+    if (result != 0 && file->file && ftruncate(fileno(file->file), (off_t)file->whole) != 0 && reason == 0)
+        reason = errno;
     if (file->file && fclose(file->file) != 0 && result == 0) {
         result = EOF;
         reason = errno;

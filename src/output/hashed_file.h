@@ -13,6 +13,7 @@ typedef struct sb_hashed_file {
     uint64_t length;
     uint64_t whole;       /* up to the end of the last line */
     sb_running_hash hash; /* of what was flushed, as the lengths */
+    int failed;           /* errno of the first failure to write, after which nothing is; 0: none */
 } sb_hashed_file;
 
 /* From nothing. SB_FAILED names the path and the reason. */

@@ -51,7 +51,7 @@ typedef struct sb_runlog_state {
 } sb_runlog_state;
 void sb_runlog_step(sb_runlog *log, const sb_runlog_state *state);
 
-/* "bodies": how many particles deep the flow at each reporting body's face was, and whether that
+/* "body": how many particles deep the flow at each reporting body's face was, and whether that
    is too coarse to trust. */
 void sb_runlog_bodies(sb_runlog *log, const sb_model *model, const sb_body_record *bodies);
 

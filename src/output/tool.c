@@ -23,7 +23,8 @@ bool sb_tool_find(const char *name, char path[SB_PATH_MAX])
         size_t length = strcspn(at, ":");
         struct stat status;
         int written = snprintf(path, SB_PATH_MAX, "%.*s/%s", (int)length, at, name);
-        if (length > 0 && written < SB_PATH_MAX && access(path, X_OK) == 0 && stat(path, &status) == 0 &&
+        /* The tool is started in another directory, where a relative place is another one. */
+        if (*at == '/' && written < SB_PATH_MAX && access(path, X_OK) == 0 && stat(path, &status) == 0 &&
             S_ISREG(status.st_mode))
             return true;
         at += length + (at[length] == ':');

@@ -43,7 +43,8 @@ bool sb_video_write(const char *directory, const char *camera, uint64_t count, i
     }
     snprintf(speed, sizeof speed, "%d", rate);
     /* file: keeps ffmpeg from taking a name with a colon for a protocol */
-    snprintf(part, sizeof part, "file:%s.part.mp4", camera);
+    /* no camera's name begins with a dot */
+    snprintf(part, sizeof part, "file:.%s.part.mp4", camera);
     snprintf(name, sizeof name, "%s.mp4", camera);
     char *const arguments[] = {"ffmpeg", "-y", "-nostdin", "-loglevel", "error", "-framerate", speed, "-i", pattern,
                                "-c:v", "libx264", "-preset", "veryfast", "-crf", "20", "-pix_fmt", "yuv420p",

@@ -156,7 +156,7 @@ static sb_status read_bodies(source *file, sb_frame *frame, sb_error *error)
 /* A double that must be a whole number from 0 to 2^53. */
 static bool to_count(double value, uint64_t *count)
 {
-    if (!(value >= 0 && value <= 9007199254740992.0)) return false;
+    if (!(value >= 0 && value <= 9007199254740992.0) || value != floor(value)) return false;
     *count = (uint64_t)value;
     return true;
 }

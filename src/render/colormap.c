@@ -43,16 +43,3 @@ void sb_colormap(double t, float rgb[3])
     rgb[1] = encode(-0.9692660 * x + 1.8760108 * y + 0.0415560 * z);
     rgb[2] = encode(0.0556434 * x - 0.2040259 * y + 1.0572252 * z);
 }
-
-static double decode(double value)
-{
-    return value <= 0.04045 ? value / 12.92 : pow((value + 0.055) / 1.055, 2.4);
-}
-
-double sb_lightness(const float rgb[3])
-{
-    double y =
-        0.2126729 * decode((double)rgb[0]) + 0.7151522 * decode((double)rgb[1]) + 0.0721750 * decode((double)rgb[2]);
-    double cube = 6.0 / 29 * 6.0 / 29 * 6.0 / 29;
-    return 116 * (y > cube ? cbrt(y) : y / (3 * 36.0 / 841) + 4.0 / 29) - 16;
-}

@@ -5,7 +5,4 @@
 /* sRGB 0..1 at t in 0..1 (clamped; NaN gives t = 0). CIE lightness rises evenly with t. */
 void sb_colormap(double t, float rgb[3]);
 
-/* CIE L* (0..100, D65) of an sRGB colour of 0..1. */
-double sb_lightness(const float rgb[3]);
-
 #endif

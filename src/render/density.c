@@ -29,7 +29,8 @@ static bool bounds(const sb_frame *frame, float min[3], float max[3])
 
 static sb_status lay_grid(sb_density *density, const float min[3], const float max[3], double spacing, sb_error *error)
 {
-    double cell = cell_spacings * spacing;
+    const double least = 1e-30; /* finer ones floats cannot tell */
+    double cell = fmax(cell_spacings * spacing, least);
     /* One stray particle may stretch the box: a coarser grid stays true, only less sharp. */
     for (double total = HUGE_VAL;; cell *= 1.25) {
         total = 1;

@@ -22,7 +22,4 @@ void sb_image_free(sb_image *image);
 /* Writes the picture whole or not at all. Fast settings: level 3, no filter. */
 sb_status sb_png_write(const char *path, const sb_image *image, sb_error *error);
 
-/* Reads any PNG as 8-bit RGB; on error *image is untouched. */
-sb_status sb_png_read(const char *path, sb_image *image, sb_error *error);
-
 #endif

@@ -42,10 +42,11 @@ static sb_status color_bar(sb_image *image, double unit, double speed_max, sb_er
     }
     double letters = 11 * unit, step = sb_overlay_tick(speed_max, 5);
     sb_status status = sb_font_draw(image, x, y - 9 * unit, letters, ink, "speed  m/s", error);
-    for (double value = 0; value <= speed_max * (1 + 1e-9) && status == SB_OK; value += step) {
+    const int ticks = step > 0 && isfinite(step) ? (int)floor(speed_max / step * (1 + 1e-9)) : 0;
+    for (int tick = 0; tick <= ticks && status == SB_OK; tick++) {
         char label[32];
-        snprintf(label, sizeof label, "%.6g", value < 1e-9 * step ? 0 : value);
-        double at = x + width * value / speed_max;
+        snprintf(label, sizeof label, "%.6g", tick * step);
+        double at = x + width * (tick * step / speed_max);
         fill(image, at - 0.5 * unit, y + thick, at + 0.9 * unit, y + thick + 5 * unit, ink, 0.9);
         status = sb_font_draw(image, at - 0.5 * sb_font_width(label, letters), y + thick + 20 * unit, letters, ink,
                               label, error);

@@ -56,47 +56,7 @@ sb_status sb_png_write(const char *path, const sb_image *image, sb_error *error)
     int written = info && write_rows(png, info, file.stream, image, &reporter);
     png_destroy_write_struct(png ? &png : NULL, info ? &info : NULL);
     if (written) return sb_atomic_commit(&file, 0, error);
+    const int reason = ferror(file.stream) ? errno : 0;
     sb_atomic_abort(&file);
-    return sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", path, reporter.text);
-}
-
-static int read_rows(png_structp png, png_infop info, FILE *stream, sb_image *image, sb_error *error,
-                     struct reporter *reporter)
-{
-    if (setjmp(reporter->jump)) return 0;
-    png_init_io(png, stream);
-    png_read_info(png, info);
-    png_set_expand(png);
-    png_set_strip_16(png);
-    png_set_strip_alpha(png);
-    png_set_gray_to_rgb(png);
-    int passes = png_set_interlace_handling(png);
-    png_read_update_info(png, info);
-    png_uint_32 width = png_get_image_width(png, info), height = png_get_image_height(png, info);
-    if (width > SB_IMAGE_SIDE_MAX || height > SB_IMAGE_SIDE_MAX) png_error(png, "picture too large");
-    if (sb_image_resize(image, (int)width, (int)height, error) != SB_OK) png_error(png, "out of memory");
-    for (int pass = 0; pass < passes; pass++)
-        for (png_uint_32 y = 0; y < height; y++) png_read_row(png, image->rgb + (size_t)y * 3 * width, NULL);
-    png_read_end(png, NULL);
-    return 1;
-}
-
-sb_status sb_png_read(const char *path, sb_image *image, sb_error *error)
-{
-    FILE *stream = fopen(path, "rb");
-    if (!stream) return sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(errno));
-    struct reporter reporter = {.text = "out of memory"};
-    sb_image loaded = {0};
-    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reporter, on_error, on_warning);
-    png_infop info = png ? png_create_info_struct(png) : NULL;
-    int complete = info && read_rows(png, info, stream, &loaded, error, &reporter);
-    png_destroy_read_struct(png ? &png : NULL, info ? &info : NULL, NULL);
-    fclose(stream);
-    if (!complete) {
-        sb_image_free(&loaded);
-        return sb_fail(error, SB_BAD_INPUT, "%.500s: not a readable PNG: %s", path, reporter.text);
-    }
-    sb_image_free(image);
-    *image = loaded;
-    return SB_OK;
+    return sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", path, reason ? strerror(reason) : reporter.text);
 }

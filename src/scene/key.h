@@ -94,7 +94,7 @@ const char *sb_table_nearest(const sb_table *table, const char *name);
 /* Default as YAML text under that preset; NULL when the row has none. */
 const char *sb_key_default(const sb_key *key, sb_preset preset);
 
-/* "metres > 0", "[x, z] in metres", "one of wall, open": what the key wants, in words. */
+/* "metres > 0", "[x, z] in metres", "one of wall, open, periodic": what the key wants, in words. */
 void sb_key_expectation(const sb_key *key, int dimensions, char *out, size_t size);
 
 /* The range alone: "> 0", "2 to 3", "wall or open". */

@@ -120,6 +120,8 @@ static const sb_key stream_keys[] = {
 };
 /* clang-format on */
 
+enum { PREFIX_MAX = 63 - 10 }; /* the longest channel: <prefix>_particles */
+
 static sb_status finish_stream(sb_reader *reader, const sb_yaml *map, void *item)
 {
     const sb_stream_settings *stream = item;
@@ -129,6 +131,9 @@ static sb_status finish_stream(sb_reader *reader, const sb_yaml *map, void *item
                               "%.80s would write outside of the output folder, expected a provider of the network; "
                               "lcm-logger keeps a log, or LCM_DEFAULT_URL names one",
                               stream->url);
+    if (strlen(stream->prefix) > PREFIX_MAX)
+        return sb_reader_fail(reader, map, "prefix", "%zu letters, expected at most %d, for LCM's channels have 63",
+                              strlen(stream->prefix), PREFIX_MAX);
     return sb_reader_interval(reader, map, "interval", stream->interval);
 }
 

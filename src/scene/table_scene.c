@@ -57,6 +57,9 @@ static const sb_key domain_keys[] = {
 };
 /* clang-format on */
 
+/* In spacings: numbers of 53 bits are a millionth of one apart there. */
+static const double FARTHEST = 1e-6 * 0x1p52;
+
 static sb_status finish_domain(sb_reader *reader, const sb_yaml *map, void *item)
 {
     const sb_domain *domain = item;
@@ -74,6 +77,13 @@ static sb_status finish_domain(sb_reader *reader, const sb_yaml *map, void *item
                                   "%g m in %c are %.3g times the resolution of %g m, expected at "
                                   "most 1e+06 times",
                                   extent[i], "xyz"[i], extent[i] / scene->resolution, scene->resolution);
+        const double least[] = {domain->min.x, domain->min.y, domain->min.z};
+        const double farthest = fmax(fabs(least[i]), fabs(least[i] + extent[i]));
+        if (farthest > FARTHEST * scene->resolution)
+            return sb_reader_fail(reader, map, "max",
+                                  "%c reaches to %g m, where numbers are further apart than a millionth of the "
+                                  "resolution of %g m, expected less than %g m from 0",
+                                  "xyz"[i], farthest, scene -> resolution, FARTHEST * scene -> resolution);
     }
     return SB_OK;
 }

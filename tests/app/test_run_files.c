@@ -354,7 +354,7 @@ static void an_earlier_run_leaves_nothing(void **state)
                    "output.plots=true", "--set", "render.video=true");
     assert_true(exists("used/overtopping.csv") && exists("used/runup.csv") && exists("used/maps/max_depth.asc"));
     assert_true(exists("used/frames/front/000002.png"));
-    write_text("used/side.part.mp4", "cut short\n");
+    write_text("used/.side.part.mp4", "cut short\n");
     write_text("used/particles/last-good.vtp", "of a failed run\n");
     write_text("used/maps/max_speed.asc.tmp", "of a killed run\n");
     write_text("used/plots/max_speed.gp", "of a killed run\n");

@@ -165,6 +165,8 @@ static void test_bad_ascii(void **state)
     expect_refusal("b.asc", HEAD "1 2\n3 x4\n", ":7: \"x4\"");
     expect_refusal("b.asc", HEAD "1 2\n3 4m\n", ":7: \"4m\"");
     expect_refusal("b.asc", HEAD "1 2\n3 1e999\n", ":7: \"1e999\"");
+    expect_refusal("b.asc", HEAD "1 2\n3 0x10\n", ":7: \"0x10\"");
+    expect_refusal("b.asc", HEAD "1 2\n3 -0X10\n", ":7: \"-0X10\"");
     expect_refusal("b.asc", HEAD "1 2\n3    \n", ":8: the file ends");
     expect_refusal("b.asc", HEAD "1 2\n3 4\n5\n", ":8: more numbers");
     expect_refusal("b.asc", HEAD "nodata_value 0\n0 2\n3 0\n", "no three neighbouring heights");

@@ -167,6 +167,12 @@ static void test_mesh_file_body(void **state)
     assert_string_equal(meshes[0].name, "a_b");
     assert_string_equal(meshes[1].name, "a_b-2");
     free_all(meshes, 2);
+    write_file(path, "v 0 0 0\nv 1 0 0\nv 0 1 0\no bolt-3\nf 1 2 3\no a,b\nf 1 2 3\no a/b\nf 1 2 3\no a'b\nf 1 2 3\no "
+                     "bolt/3\nf 1 2 3\n");
+    meshes = from_body(&body, 5);
+    static const char *const names[] = {"bolt-3", "a_b", "a_b-2", "a_b-3", "bolt_3"};
+    for (int i = 0; i < 5; i++) assert_string_equal(meshes[i].name, names[i]);
+    free_all(meshes, 5);
 
     sb_mesh *none = NULL;
     size_t count = 0;

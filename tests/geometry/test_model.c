@@ -64,6 +64,72 @@ static void a_wavemaker_needs_its_body(void **state)
     assert_non_null(strstr(error.text, "nobody"));
 }
 
+/* A wave maker of a part's own goes before that of the whole, in whatever order they stand. */
+static void parts_may_have_wavemakers_of_their_own(void **state)
+{
+    (void)state;
+    char path[] = SB_BINARY_DIR "/test_model_parts.obj";
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    for (int k = 0; k < 2; k++) {
+        const int v = 4 * k, x = 3 + 4 * k;
+        fprintf(file, "v %d 2 0\nv %d 2 0\nv %d 4 0\nv %d 2 4\n", x, x + 2, x, x);
+        fprintf(file, "o %s\nf %d %d %d\nf %d %d %d\nf %d %d %d\nf %d %d %d\n", k ? "gate" : "tower", v + 1, v + 3,
+                v + 2, v + 1, v + 2, v + 4, v + 1, v + 4, v + 3, v + 2, v + 3, v + 4);
+    }
+    assert_int_equal(fclose(file), 0);
+    static const char *const moved[2][2] = {{"plant", "gate"}, {"gate", "plant"}};
+    for (int order = 0; order < 2; order++) {
+        sb_wavemaker_use makers[2] = {wavemaker, wavemaker};
+        for (int k = 0; k < 2; k++) {
+            snprintf(makers[k].name, sizeof makers[k].name, "push-%d", k);
+            snprintf(makers[k].body, sizeof makers[k].body, "%s", moved[order][k]);
+            makers[k].direction = sb_vec(1, 0, 0);
+        }
+        scene.wavemakers = makers;
+        scene.wavemaker_count = 2;
+        scene.body_count = 0;
+        sb_body *body = add_box("plant", sb_vec(0, 0, 0), sb_vec(0, 0, 0));
+        body->shape = SB_SHAPE_MESH;
+        body->file = path;
+        body->up = 'z';
+        body->scale = 1;
+        body->split = true;
+        build();
+        assert_string_equal(model.bodies[0].name, "tower");
+        assert_int_equal(model.bodies[0].wavemaker, order);
+        assert_int_equal(model.bodies[1].wavemaker, 1 - order);
+    }
+    scene.wavemakers = &wavemaker;
+    remove(path);
+}
+
+/* Places that are no numbers any more after all turns and scales. */
+static void bodies_of_no_place_are_refused(void **state)
+{
+    (void)state;
+    char path[] = SB_BINARY_DIR "/test_model_nowhere.xyz";
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs("0 50 1\n10 50 1\n0 60 1\n10 60 1\n", file);
+    assert_int_equal(fclose(file), 0);
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        scene.dimensions = dimensions;
+        scene.body_count = 0;
+        sb_body *body = add_box("coast", sb_vec(0, 0, 0), sb_vec(0, 0, 0));
+        body->shape = SB_SHAPE_GRID;
+        body->role = SB_ROLE_TERRAIN;
+        body->file = path;
+        body->up = 'z';
+        body->scale = 1e308;
+        sb_model_free(&model);
+        assert_int_equal(sb_model_build(&scene, &model, &error), SB_BAD_INPUT);
+        assert_non_null(strstr(error.text, "\"coast\""));
+        assert_non_null(strstr(error.text, "expected"));
+    }
+    remove(path);
+}
+
 /* A paddle whose face lies in the plane of the tank's end has all its particles, and so has the tank; that both bear
    the water is told. */
 static void a_moving_face_in_a_walls_plane_is_there(void **state)
@@ -259,6 +325,8 @@ int main(void)
         CASE(bodies_and_their_particles),
         CASE(names_are_unique),
         CASE(a_wavemaker_needs_its_body),
+        CASE(parts_may_have_wavemakers_of_their_own),
+        CASE(bodies_of_no_place_are_refused),
         CASE(open_sides_have_no_wall),
         CASE(a_moving_face_in_a_walls_plane_is_there),
         CASE(points_inside_are_found),

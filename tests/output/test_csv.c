@@ -2,12 +2,14 @@
 #include "output/csv.h"
 
 #include "folder.h"
+#include "output/hashed_file.h"
 #include "output/series.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
 
 #include <cmocka.h>
+#include <errno.h>
 #include <signal.h>
 #include <sys/resource.h>
 
@@ -195,6 +197,29 @@ static void a_full_disk_is_a_failed_run(void **state)
     assert_non_null(strstr(error.text, "/nonexistent/folder"));
 }
 
+/* What a stream could not hand on it forgets: later lines would be glued to a torn one. */
+static void nothing_follows_a_gap(void **state)
+{
+    (void)state;
+    sb_hashed_file file;
+    sb_error error = {0};
+    struct rlimit kept;
+    assert_int_equal(sb_hashed_open(&file, in_folder("lines"), &error), SB_OK);
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &kept), 0);
+    const struct rlimit limit = {10, kept.rlim_max};
+    signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
+    fputs("first\nsecond\n", file.stream);
+    assert_true(fflush(file.stream) != 0);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &kept), 0);
+    fputs("third\n", file.stream);
+    (void)fflush(file.stream);
+    errno = 0;
+    assert_int_equal(sb_hashed_close(&file), EOF);
+    assert_int_equal(errno, EFBIG);
+    expect("lines", "first\n");
+}
+
 static void no_table_is_written_through_a_link(void **state)
 {
     (void)state;
@@ -223,6 +248,7 @@ int main(void)
         cmocka_unit_test(headers_are_the_contract),    cmocka_unit_test(rows_are_there_at_once),
         cmocka_unit_test(tables_read_back_as_series),  cmocka_unit_test(tables_go_on_from_their_marks),
         cmocka_unit_test(a_full_disk_is_a_failed_run), cmocka_unit_test(no_table_is_written_through_a_link),
+        cmocka_unit_test(nothing_follows_a_gap),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

@@ -83,6 +83,27 @@ static bool is_png(const char *name)
     return got == 8 && large && memcmp(start, "\x89PNG\r\n\x1a\n", 8) == 0;
 }
 
+/* A tool is started in another directory, where a relative place is another one. */
+static void relative_places_are_no_paths(void **state)
+{
+    (void)state;
+    char kept[4096], path[SB_PATH_MAX], relative[SB_PATH_MAX + 8];
+    snprintf(kept, sizeof kept, "%s", getenv("PATH") ? getenv("PATH") : "");
+    char *here = getcwd(NULL, 0);
+    assert_non_null(here);
+    assert_int_equal(chdir(folder), 0);
+    assert_int_equal(symlink("/bin/true", "a-tool"), 0);
+    snprintf(relative, sizeof relative, ".:%s", folder);
+    setenv("PATH", relative, 1);
+    assert_true(sb_tool_find("a-tool", path) && path[0] == '/');
+    setenv("PATH", ".", 1);
+    assert_false(sb_tool_find("a-tool", path));
+    setenv("PATH", kept, 1);
+    unlink("a-tool");
+    assert_int_equal(chdir(here), 0);
+    free(here);
+}
+
 static void pictures_are_drawn(void **state)
 {
     (void)state;
@@ -189,15 +210,15 @@ static void films_are_joined(void **state)
     assert_int_equal(stat(in_folder("50% 'off'.mp4"), &status), 0);
     assert_true(status.st_size > 1000);
     assert_true(access(in_folder("no such camera.mp4"), F_OK) != 0);
-    assert_true(access(in_folder("50% 'off'.part.mp4"), F_OK) != 0);
+    assert_true(access(in_folder(".50% 'off'.part.mp4"), F_OK) != 0);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pictures_are_drawn),       cmocka_unit_test(dry_places_have_no_picture),
-        cmocka_unit_test(absent_programs_are_said), cmocka_unit_test(failing_programs_are_told),
-        cmocka_unit_test(films_are_joined),
+        cmocka_unit_test(relative_places_are_no_paths), cmocka_unit_test(pictures_are_drawn),
+        cmocka_unit_test(dry_places_have_no_picture),   cmocka_unit_test(absent_programs_are_said),
+        cmocka_unit_test(failing_programs_are_told),    cmocka_unit_test(films_are_joined),
     };
     return cmocka_run_group_tests(tests, folder_make, getenv("SB_KEEP_TEST_FILES") ? NULL : folder_remove);
 }

@@ -217,6 +217,29 @@ static void numbers_that_are_none_are_refused(void **state)
     sb_frame_release(frame);
 }
 
+/* Where the status says 7 it is made to say 7.5. */
+static void half_steps_are_refused(void **state)
+{
+    (void)state;
+    sb_frame *frame = make_frame(20, 2), *read = NULL;
+    const double whole = 123456789, half = 123456789.5;
+    frame->status.step = (uint64_t)whole;
+    assert_int_equal(sb_vtp_write(in_folder("h.vtp"), frame, frame->index, NULL), SB_OK);
+    char *bytes;
+    size_t length;
+    assert_int_equal(sb_file_read(in_folder("h.vtp"), 1 << 20, &bytes, &length, NULL), SB_OK);
+    char *at = memmem(bytes, length, &whole, sizeof whole);
+    assert_non_null(at);
+    memcpy(at, &half, sizeof half);
+    FILE *stream = fopen(in_folder("h.vtp"), "wb");
+    assert_int_equal(fwrite(bytes, 1, length, stream), length);
+    assert_int_equal(fclose(stream), 0);
+    assert_int_equal(sb_vtp_read(in_folder("h.vtp"), &read, NULL), SB_BAD_INPUT);
+    assert_null(read);
+    sb_free(bytes);
+    sb_frame_release(frame);
+}
+
 static void failing_memory_is_an_error(void **state)
 {
     (void)state;
@@ -288,6 +311,7 @@ int main(void)
         cmocka_unit_test(round_trip),
         cmocka_unit_test(layout_is_what_the_header_says),
         cmocka_unit_test(damaged_files_are_refused),
+        cmocka_unit_test(half_steps_are_refused),
         cmocka_unit_test(numbers_that_are_none_are_refused),
         cmocka_unit_test(failing_memory_is_an_error),
         cmocka_unit_test(bare_points),

@@ -10,6 +10,7 @@
 #include "render/soften.h"
 #include "render/visible.h"
 
+#include <png.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -19,20 +20,34 @@
 
 #include <cmocka.h>
 
+static double decode(double value)
+{
+    return value <= 0.04045 ? value / 12.92 : pow((value + 0.055) / 1.055, 2.4);
+}
+
+/* CIE L* (0..100, D65) of an sRGB colour of 0..1. */
+static double lightness(const float rgb[3])
+{
+    double y =
+        0.2126729 * decode((double)rgb[0]) + 0.7151522 * decode((double)rgb[1]) + 0.0721750 * decode((double)rgb[2]);
+    double cube = 6.0 / 29 * 6.0 / 29 * 6.0 / 29;
+    return 116 * (y > cube ? cbrt(y) : y / (3 * 36.0 / 841) + 4.0 / 29) - 16;
+}
+
 static void colormap_rises_evenly_in_lightness(void **state)
 {
     (void)state;
     enum { STEPS = 64 };
     float rgb[3];
     sb_colormap(0, rgb);
-    double first = sb_lightness(rgb), last = first;
+    double first = lightness(rgb), last = first;
     assert_true(rgb[2] > 2 * rgb[0] && rgb[2] > rgb[1]);
     sb_colormap(1, rgb);
-    double mean = (sb_lightness(rgb) - first) / STEPS;
+    double mean = (lightness(rgb) - first) / STEPS;
     assert_true(mean * STEPS > 70);
     for (int i = 1; i <= STEPS; i++) {
         sb_colormap((double)i / STEPS, rgb);
-        double rise = sb_lightness(rgb) - last;
+        double rise = lightness(rgb) - last;
         assert_true(rise > 0.9 * mean && rise < 1.1 * mean);
         last += rise;
         for (int c = 0; c < 3; c++) assert_true(rgb[c] > 0 && rgb[c] < 1); /* nothing clipped */
@@ -42,8 +57,8 @@ static void colormap_rises_evenly_in_lightness(void **state)
     sb_colormap((double)NAN, high);
     assert_memory_equal(low, high, sizeof low);
     const float white[3] = {1, 1, 1}, grey[3] = {0.5f, 0.5f, 0.5f};
-    assert_true(fabs(sb_lightness(white) - 100) < 0.01);
-    assert_true(fabs(sb_lightness(grey) - 53.39) < 0.01); /* CIE value of sRGB 0.5 */
+    assert_true(fabs(lightness(white) - 100) < 0.01);
+    assert_true(fabs(lightness(grey) - 53.39) < 0.01); /* CIE value of sRGB 0.5 */
 }
 
 static void png_round_trip(void **state)
@@ -52,27 +67,23 @@ static void png_round_trip(void **state)
     char path[64], missing[] = "/nonexistent-folder/picture.png";
     snprintf(path, sizeof path, "/tmp/sb-picture-%ld.png", (long)getpid());
     sb_error error = {0};
-    sb_image image = {0}, back = {0};
+    sb_image image = {0};
     assert_int_equal(sb_image_resize(&image, 37, 23, &error), SB_OK);
     for (int i = 0; i < 37 * 23 * 3; i++) image.rgb[i] = (unsigned char)(i * 31 + i / 7);
     assert_int_equal(sb_png_write(path, &image, &error), SB_OK);
-    assert_int_equal(sb_png_read(path, &back, &error), SB_OK);
-    assert_int_equal(back.width, 37);
-    assert_int_equal(back.height, 23);
-    assert_memory_equal(back.rgb, image.rgb, 37 * 23 * 3);
+    png_image back = {.version = PNG_IMAGE_VERSION};
+    unsigned char rgb[37 * 23 * 3];
+    assert_true(png_image_begin_read_from_file(&back, path));
+    assert_true(back.width == 37 && back.height == 23 && back.format == PNG_FORMAT_RGB);
+    assert_true(png_image_finish_read(&back, NULL, rgb, 0, NULL));
+    assert_memory_equal(rgb, image.rgb, sizeof rgb);
     assert_int_equal(sb_png_write(missing, &image, &error), SB_FAILED);
     assert_non_null(strstr(error.text, missing));
 
-    /* A file cut short is refused and leaves the picture as it was. */
-    assert_int_equal(truncate(path, 200), 0);
-    assert_int_equal(sb_png_read(path, &back, &error), SB_BAD_INPUT);
-    assert_memory_equal(back.rgb, image.rgb, 37 * 23 * 3);
-    assert_int_equal(sb_png_read(missing, &back, &error), SB_BAD_INPUT);
     unlink(path);
     sb_image_free(&image);
     assert_int_equal(sb_png_write(path, &image, &error), SB_BAD_INPUT);
     assert_true(access(path, F_OK) != 0);
-    sb_image_free(&back);
 }
 
 static void image_sizes_are_checked(void **state)
@@ -172,6 +183,14 @@ static void ticks_are_round_numbers(void **state)
     assert_true(fabs(sb_overlay_tick(5, 5) - 1) < 1e-12);
     assert_true(fabs(sb_overlay_tick(0.83, 5) - 0.2) < 1e-12);
     assert_true(fabs(sb_overlay_tick(2200, 5) - 500) < 1e-9);
+    /* The smallest and largest speeds there are: fewer ticks, no endless ones. */
+    sb_image image = {0};
+    sb_error error = {0};
+    assert_int_equal(sb_image_resize(&image, 640, 360, &error), SB_OK);
+    static const double speeds[] = {5e-324, 1e-300, 1e300, 1.7976931348623157e308};
+    for (size_t i = 0; i < sizeof speeds / sizeof *speeds; i++)
+        assert_int_equal(sb_overlay_draw(&image, "title", 1, speeds[i], &error), SB_OK);
+    sb_image_free(&image);
 }
 
 static sb_mesh cube(void)
@@ -254,6 +273,8 @@ static void density_is_one_inside(void **state)
     frame->position[8] = INFINITY;
     assert_int_equal(sb_density_build(&density, frame, &error), SB_OK);
     assert_true(density.n[0] * density.n[1] * density.n[2] < 30000000);
+    frame->spacing = 5e-324; /* as a file may say */
+    assert_int_equal(sb_density_build(&density, frame, &error), SB_OK);
     sb_density_free(&density);
     sb_frame_release(frame);
 }
