@@ -15,7 +15,7 @@ const char sb_bench_help[] =
     "  scaling        cost per particle, 50 thousand to 4 million particles, one thread and more\n"
     "  memory         bytes per particle, array by array; what dry land costs\n"
     "  large          the plant at 1 m (18 million particles): set-up, 20 steps, peak memory\n"
-    "  runs           whole runs: the plant at 4 m, by both presets, and the column at 1 cm\n"
+    "  runs           whole runs: the plant at 4 m, by both presets, and the column at 1 cm, also held tighter\n"
     "  island         a whole run of the conical island of the validation\n"
     "  tradeoff       run time against error: tools/tradeoff, with the options of that\n"
     "  all            kernels, scenes, scaling, memory; what is measured when nothing is named\n\n"

@@ -16,10 +16,10 @@ typedef struct goal {
 static const goal goals[] = {
     {"plant at 4 m, 90 s, preset `paper`", "s", 600, 400, false, "runs", "plant at 4 m; paper", "wall time", 1},
     {"plant at 4 m, 90 s, `default`", "s", 220, 90, false, "runs", "plant at 4 m; default", "wall time", 1},
-    {"column at 1 cm, per simulated second", "s", 40, 20, false, "runs", "column at 1 cm",
+    {"column at 1 cm, held tighter, per simulated second", "s", 40, 20, false, "runs", "column at 1 cm, held tighter",
      "wall time per simulated second", 1},
-    {"its compression, mean (asked: the DFSPH peer's)", "%", 0.044, 0.044, false, "runs", "column at 1 cm",
-     "compression, mean", 1},
+    {"its compression, mean (asked: the DFSPH peer's)", "%", 0.044, 0.044, false, "runs",
+     "column at 1 cm, held tighter", "compression, mean", 1},
     {"pressure iteration, fluid and walls, 1 M particles", "ns per particle", 60, 45, false, "kernels",
      SB_BENCH_ITERATION, SB_BENCH_PER_PARTICLE, 1},
     {"whole step of 10 iterations, 1 M particles", "µs per particle", 0.9, 0.65, false, "kernels", SB_BENCH_STEP,
