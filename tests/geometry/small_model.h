@@ -64,6 +64,17 @@ static sb_body *add_box(const char *name, sb_vec3 min, sb_vec3 max)
     return body;
 }
 
+/* A mesh in a file, or what the caller makes of it. */
+static inline sb_body *add_file(const char *name, char *path)
+{
+    sb_body *body = add_box(name, sb_vec(0, 0, 0), sb_vec(0, 0, 0));
+    body->shape = SB_SHAPE_MESH;
+    body->file = path;
+    body->up = 'z';
+    body->scale = 1;
+    return body;
+}
+
 static void build(void)
 {
     sb_model_free(&model);

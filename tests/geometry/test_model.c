@@ -89,12 +89,7 @@ static void parts_may_have_wavemakers_of_their_own(void **state)
         scene.wavemakers = makers;
         scene.wavemaker_count = 2;
         scene.body_count = 0;
-        sb_body *body = add_box("plant", sb_vec(0, 0, 0), sb_vec(0, 0, 0));
-        body->shape = SB_SHAPE_MESH;
-        body->file = path;
-        body->up = 'z';
-        body->scale = 1;
-        body->split = true;
+        add_file("plant", path)->split = true;
         build();
         assert_string_equal(model.bodies[0].name, "tower");
         assert_int_equal(model.bodies[0].wavemaker, order);
@@ -116,11 +111,9 @@ static void bodies_of_no_place_are_refused(void **state)
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
         scene.dimensions = dimensions;
         scene.body_count = 0;
-        sb_body *body = add_box("coast", sb_vec(0, 0, 0), sb_vec(0, 0, 0));
+        sb_body *body = add_file("coast", path);
         body->shape = SB_SHAPE_GRID;
         body->role = SB_ROLE_TERRAIN;
-        body->file = path;
-        body->up = 'z';
         body->scale = 1e308;
         sb_model_free(&model);
         assert_int_equal(sb_model_build(&scene, &model, &error), SB_BAD_INPUT);

@@ -3,16 +3,6 @@
 #include "small_model.h"
 
 /* A mesh file in metres, z up, as a body. */
-static sb_body *add_file(const char *name, char *path)
-{
-    sb_body *body = add_box(name, sb_vec(0, 0, 0), sb_vec(0, 0, 0));
-    body->shape = SB_SHAPE_MESH;
-    body->file = path;
-    body->up = 'z';
-    body->scale = 1;
-    return body;
-}
-
 static void warnings_say_what_is_too_coarse(void **state)
 {
     (void)state;
