@@ -65,7 +65,7 @@ static sb_status finish_domain(sb_reader *reader, const sb_yaml *map, void *item
     const sb_domain *domain = item;
     const sb_scene *scene = reader->scene;
     sb_vec3 size = sb_sub(domain->max, domain->min);
-    const double extent[] = {size.x, size.y, size.z};
+    const double extent[] = {size.x, size.y, size.z}, spacing = scene->resolution;
     for (size_t i = 0; i < 3; i++) {
         if (i == 1 && scene->dimensions == 2) continue;
         if (!(extent[i] > 0) || !isfinite(extent[i]))
@@ -79,11 +79,11 @@ static sb_status finish_domain(sb_reader *reader, const sb_yaml *map, void *item
                                   extent[i], "xyz"[i], extent[i] / scene->resolution, scene->resolution);
         const double least[] = {domain->min.x, domain->min.y, domain->min.z};
         const double farthest = fmax(fabs(least[i]), fabs(least[i] + extent[i]));
-        if (farthest > FARTHEST * scene->resolution)
+        if (farthest > FARTHEST * spacing)
             return sb_reader_fail(reader, map, "max",
                                   "%c reaches to %g m, where numbers are further apart than a millionth of the "
                                   "resolution of %g m, expected less than %g m from 0",
-                                  "xyz"[i], farthest, scene -> resolution, FARTHEST * scene -> resolution);
+                                  "xyz"[i], farthest, spacing, FARTHEST * spacing);
     }
     return SB_OK;
 }
