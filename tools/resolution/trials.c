@@ -28,17 +28,43 @@ sb_status sb_trials_make(const sb_store *store, sb_result *trials, size_t count,
     return status;
 }
 
-double sb_trials_load(const sb_result *trials, size_t count)
+/* Others computed beside this run: its time is not to be believed. */
+static bool disturbed(const sb_result *trial)
 {
-    double load = (double)NAN;
-    for (size_t i = 0; i < count; i++)
-        if (trials[i].state == SB_RESULT_DONE) load = fmax(load, trials[i].run.load);
-    return load;
+    return trial->state == SB_RESULT_DONE && trial->run.load > (double)sysconf(_SC_NPROCESSORS_ONLN) + 0.5;
 }
 
-bool sb_trials_disturbed(const sb_result *trials, size_t count)
+/* What it is, with the numerics that its plan sets, and the load that it met. */
+static void put_trial(FILE *out, const sb_result *trial)
 {
-    return sb_trials_load(trials, count) > (double)sysconf(_SC_NPROCESSORS_ONLN) + 0.5;
+    static const char numerics[] = "numerics.";
+    char label[96];
+    sb_request_label(&trial->request, true, label);
+    fputs(label, out);
+    for (const char *const *setting = trial->request.plan->settings; setting && *setting; setting++)
+        if (strncmp(*setting, numerics, sizeof numerics - 1) == 0) fprintf(out, ", %s", *setting + sizeof numerics - 1);
+    fprintf(out, " (load %.2g)", trial->run.load);
+}
+
+/* The load and, where it was too high, the runs that it was too high for. */
+static void put_load(FILE *out, const sb_result *trials, size_t count)
+{
+    enum { NAMED = 6 };
+    double most = (double)NAN;
+    size_t high = 0;
+    for (size_t i = 0; i < count; i++)
+        if (trials[i].state == SB_RESULT_DONE) most = fmax(most, trials[i].run.load);
+    if (isnan(most))
+        fputs("- load of the machine: not known\n", out);
+    else
+        fprintf(out, "- load of the machine: at most %.2g\n", most);
+    for (size_t i = 0; i < count; i++) {
+        if (!disturbed(&trials[i]) || high++ >= NAMED) continue;
+        fputs(high == 1 ? "- **provisional times**, because others computed on this machine meanwhile: " : "; ", out);
+        put_trial(out, &trials[i]);
+    }
+    if (high > NAMED) fprintf(out, "; and of %zu more runs", high - NAMED);
+    if (high) fputc('\n', out);
 }
 
 /* "a, b": every machine or commit that any of the runs has; each once. */
@@ -59,18 +85,14 @@ static void put_all_of(FILE *out, const sb_result *trials, size_t count, bool ma
 
 void sb_trials_where(FILE *out, const sb_store *store, const sb_result *trials, size_t count)
 {
-    char load[48];
     size_t done = 0;
     for (size_t i = 0; i < count; i++) done += trials[i].state == SB_RESULT_DONE;
-    const double most = sb_trials_load(trials, count);
-    snprintf(load, sizeof load, isnan(most) ? "not known" : "at most %.2g", most);
     fputs("- machine: ", out);
     if (done) put_all_of(out, trials, count, true);
     fprintf(out, "%s\n- commit: ", done ? "" : store->machine);
     if (done) put_all_of(out, trials, count, false);
-    fprintf(out, "%s\n- load of the machine: %s\n", done ? "" : "nothing has run", load);
-    if (sb_trials_disturbed(trials, count))
-        fputs("- **times are provisional**: others computed on this machine meanwhile\n", out);
+    fprintf(out, "%s\n", done ? "" : "nothing has run");
+    put_load(out, trials, count);
     fputc('\n', out);
 }
 

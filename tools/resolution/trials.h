@@ -14,13 +14,7 @@
 sb_status sb_trials_make(const sb_store *store, sb_result *trials, size_t count, int jobs, bool report_only,
                          size_t *failed, sb_error *error);
 
-/* The highest load that the machine had at the end of one of the runs; NaN: none is known. */
-double sb_trials_load(const sb_result *trials, size_t count);
-/* Whether that load exceeds the cores by more than a half: others computed, times are not to be
-   believed. */
-bool sb_trials_disturbed(const sb_result *trials, size_t count);
-
-/* Lines of Markdown: machines, commits, load; says when times are provisional. */
+/* Lines of Markdown: machines, commits, load; names the runs whose times are provisional. */
 void sb_trials_where(FILE *out, const sb_store *store, const sb_result *trials, size_t count);
 /* The same behind the command. */
 void sb_trials_origin(FILE *out, const sb_store *store, const sb_result *trials, size_t count, const char *command);
