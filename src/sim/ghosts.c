@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "sim/sleep.h"
 #include "sim/sort.h"
+#include "sim/stages.h"
 
 #include <string.h>
 

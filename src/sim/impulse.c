@@ -5,6 +5,7 @@
 #include "sim/friction.h"
 #include "sim/ledger.h"
 #include "sim/sleep.h"
+#include "sim/stages.h"
 #include "sim/wall_entry.h"
 
 #include <string.h>

@@ -1,5 +1,6 @@
 /* The symplectic update [S16, eqs. 17, 18]. */
 #include "sim/ledger.h"
+#include "sim/stages.h"
 
 #include <math.h>
 

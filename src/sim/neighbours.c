@@ -1,262 +1,137 @@
-/* One pass over the groups gives each particle its neighbour lists, density, wall vector and the diagonal of the
-   pressure operator: the offsets are at hand once, and all four need them. */
+/* The stage that finds who is around whom: all threads search, each through a few groups at a time, and put what they
+   found into pools that all share. */
 #include "base/memory.h"
-#include "sim/kernel_batch.h"
+#include "sim/around.h"
 #include "sim/lists.h"
-#include "sim/vicinity.h"
-#include "sim/wall_entry.h"
+#include "sim/searcher.h"
+#include "sim/stages.h"
 
-#include <math.h>
+#include <string.h>
 
-enum {
-    MOST = 32767, /* of a stored slope */
-};
+enum { GROUPS = 8 }; /* per unit of work: 600 particles where the water is deep */
 
-/* Boundary particles around one cell as offsets from the cell's corner, in quanta. */
-typedef struct surroundings {
-    size_t count;
-    float x[SB_WALLS_AROUND_MAX + SB_HIT_SPARE], y[SB_WALLS_AROUND_MAX + SB_HIT_SPARE],
-        z[SB_WALLS_AROUND_MAX + SB_HIT_SPARE];
-    float weight[SB_WALLS_AROUND_MAX];
-    uint32_t index[SB_WALLS_AROUND_MAX];
-} surroundings;
-
-struct sb_searcher {
-    sb_vicinity vicinity;
-    surroundings wall;
-    sb_hits hits;
-    const sb_kernel *kernel;
-    sb_kernel_batch *batch;
-    sb_find_hits *find_hits;
-    float q_scale;     /* (quantum / h)^2 */
-    float value_scale; /* alpha / h^d */
-    float slope_scale; /* alpha quantum / h^(d+2): W'/r per quantum */
-    float to_units;    /* a slope of the kernel in stored units */
-    unsigned full;     /* as sb_searcher_full has it */
-};
-
-/* ---- walls around a cell ---- */
-
-SB_INLINE void gather_cell(surroundings *s, const sb_record *record, uint32_t begin, uint32_t end, sb_record corner,
-                           uint32_t base)
+/* Room for `count` entries of a pool; false when it is too small, which `used` then tells by how much. The place
+   depends on timing, the contents do not. */
+static bool take(size_t *used, size_t capacity, size_t count, size_t *at)
 {
-    if (s->count + (end - begin) > SB_WALLS_AROUND_MAX) {
-        s->count = SB_WALLS_AROUND_MAX + 1;
-        return;
-    }
-    for (uint32_t k = begin; k < end; k++) {
-        sb_f4 d = sb_offset(record[k], corner);
-        s->x[s->count] = d[0];
-        s->y[s->count] = d[1];
-        s->z[s->count] = d[2];
-        s->weight[s->count] = sb_carried_value(record[k]);
-        s->index[s->count++] = base + k;
-    }
+    *at = __atomic_fetch_add(used, count, __ATOMIC_RELAXED);
+    return *at + count <= capacity;
 }
 
-/* Those in the 27 (2D: 9) cells around particle i's, in a fixed order. */
-static void gather_walls(const sb_sim *sim, struct sb_searcher *w, size_t i, sb_record corner)
+/* Copies what was built for groups [begin, end) into the pools. */
+static bool publish(sb_sim *sim, sb_list_builder *lists, size_t begin, size_t end)
 {
-    const int layers = sim->constant.dimension == 2 ? 0 : 1;
-    const uint64_t code = sb_cell_code(sim->position[i], sim->space.shift);
-    w->wall.count = 0;
-    for (uint32_t s = 0; s < SB_WALL_SETS; s++) {
-        const sb_wall_set *set = &sim->walls[s];
-        if (!sb_walls_near(set, &sim->space, sim->position[i])) continue;
-        for (int dz = -1; dz <= 1; dz++)
-            for (int dy = -layers; dy <= layers; dy++)
-                for (int dx = -1; dx <= 1; dx++) {
-                    int64_t cell = sb_cells_find(&set->cells, code + sb_cell_step(dx, dy, dz));
-                    if (cell >= 0 && w->wall.count <= SB_WALLS_AROUND_MAX)
-                        gather_cell(&w->wall, set->record, set->cells.begin[cell], set->cells.begin[cell + 1], corner,
-                                    sb_wall_entry(s, 0));
-                }
+    sb_groups *groups = &sim->groups;
+    size_t four, wall, run;
+    bool room = take(&sim->pairs.used, sim->pairs.capacity, lists->fours, &four);
+    room &= take(&sim->wall_pairs.used, sim->wall_pairs.capacity, lists->walls, &wall);
+    room &= take(&groups->used, groups->room, lists->runs, &run);
+    if (room && lists->fours > 0) memcpy(sim->pairs.four + four, lists->four, lists->fours * sizeof *lists->four);
+    if (room && lists->walls > 0) {
+        memcpy(sim->wall_pairs.index + wall, lists->wall, lists->walls * sizeof *lists->wall);
+        memcpy(sim->wall_pairs.slope + wall, lists->wall_slope, lists->walls * sizeof *lists->wall_slope);
     }
-    if (w->wall.count > SB_WALLS_AROUND_MAX) {
-        w->full |= SB_FULL_WALLS;
-        w->wall.count = 0;
-    }
-}
-
-/* ---- one particle ---- */
-
-SB_INLINE void find_hits(struct sb_searcher *w, const sb_candidates *of, const sb_stretch *stretch, size_t stretches,
-                         sb_f4 self, uint32_t skip)
-{
-    sb_hits *h = &w->hits;
-    size_t n = w->find_hits(of, stretch, stretches, h, self, w->q_scale, skip);
-    if (n >= SB_LIST_MAX) w->full |= SB_FULL_LIST;
-    h->count = n < SB_LIST_MAX ? n : SB_LIST_MAX;
-    h->padded = (h->count + SB_HIT_LANES - 1) / SB_HIT_LANES * SB_HIT_LANES;
-    for (size_t k = h->count; k < h->padded; k++) {
-        h->x[k] = h->y[k] = h->z[k] = 0;
-        h->q2[k] = 1;
-        h->candidate[k] = skip;
-    }
-}
-
-/* Slopes of the kernel to roots that can be stored, and to the slopes that these stand for: all that uses a pair sees
-   the same number. */
-SB_MULTIVERSION
-static void round_slopes(float *restrict slope, float *restrict root, size_t count, float to_units)
-{
-    const float most = (float)MOST;
-#pragma omp simd
-    for (size_t k = 0; k < count; k++) {
-        const float rounded = (float)(int)(sqrtf(slope[k] * to_units) + 0.5f);
-        root[k] = rounded < most ? rounded : most;
-        slope[k] = root[k] * root[k];
-    }
-}
-
-/* Fluid neighbours of one particle: density share, S_i and sum |m grad W|^2. */
-SB_INLINE void fluid_sums(struct sb_searcher *w, float mass, float unit, float *density, sb_f4 *sum, float *squares)
-{
-    sb_hits *h = &w->hits;
-    sb_f8 value = {0}, x = {0}, y = {0}, z = {0}, square = {0};
-    w->batch(w->kernel, h->q2, h->padded, h->value, h->slope);
-    for (size_t k = 0; k < h->padded; k += SB_HIT_LANES) value += *(const sb_f8 *)(h->value + k);
-    round_slopes(h->slope, h->root, h->padded, w->to_units);
-    for (size_t k = 0; k < h->padded; k += SB_HIT_LANES) {
-        const sb_f8 slope = *(const sb_f8 *)(h->slope + k) * unit;
-        x += slope * *(const sb_f8 *)(h->x + k);
-        y += slope * *(const sb_f8 *)(h->y + k);
-        z += slope * *(const sb_f8 *)(h->z + k);
-        square += slope * slope * *(const sb_f8 *)(h->q2 + k);
-    }
-    *density += mass * w->value_scale * sb_sum8(&value);
-    *sum += (sb_f4){sb_sum8(&x), sb_sum8(&y), sb_sum8(&z), 0};
-    *squares = sb_sum8(&square) / w->q_scale;
-}
-
-/* Wall neighbours of one particle: density share and B_i = sum_b psi_b grad W_ib, with the flux
-   sum_b psi_b v_b . grad W_ib of moving walls in the last lane. */
-SB_INLINE void wall_sums(const sb_sim *sim, struct sb_searcher *w, float *density, sb_f4 *wall)
-{
-    sb_hits *h = &w->hits;
-    float value = 0;
-    sb_f4 sum = {0};
-    w->batch(w->kernel, h->q2, h->count, h->value, h->slope);
-    for (size_t k = 0; k < h->count; k++) {
-        const uint32_t index = w->wall.index[h->candidate[k]];
-        const float weight = w->wall.weight[h->candidate[k]];
-        const float slope = h->slope[k] * weight * w->slope_scale;
-        sb_f4 gradient = {slope * h->x[k], slope * h->y[k], slope * h->z[k], 0};
-        h->slope[k] = slope;
-        h->candidate[k] = index;
-        value += weight * h->value[k];
-        if (sb_wall_moves(index)) gradient[3] = sb_sum3(sb_wall_velocity(sim, index) * gradient);
-        sum += gradient;
-    }
-    *density += w->value_scale * value;
-    *wall = sum;
-}
-
-/* candidate: which of the vicinity particle i is. cell: the corner of its cell. */
-SB_INLINE void one_particle(sb_sim *sim, struct sb_searcher *w, sb_list_builder *lists, const sb_group *group, size_t i,
-                            uint32_t candidate, sb_record cell)
-{
-    const sb_constants *c = &sim->constant;
-    const sb_vicinity *v = &w->vicinity;
-    float density = c->mass * w->value_scale * (float)sim->scene->numerics.kernel->shape(0);
-    float squares = 0;
-    sb_f4 sum = {0}, wall = {0}, self = sb_offset(sim->position[i], group->corner);
-    sb_stretch stretch[SB_VICINITY_ROWS];
-    const size_t stretches = sb_vicinity_reach(sim, v, self, stretch);
-    find_hits(w, &(sb_candidates){v->x, v->y, v->z}, stretch, stretches, self, candidate);
-    fluid_sums(w, c->mass, sim->pairs.unit, &density, &sum, &squares);
-    sb_list_water(lists, &w->hits, sim, i);
-    sim->wall_pairs.count[i] = 0;
-    const float of_water = density;
-    if (sim->deficit) sim->residual[i] = sb_sum3(sum * sum);
-    if (w->wall.count > 0) {
-        const sb_stretch all = {0, (uint32_t)w->wall.count};
-        find_hits(w, &(sb_candidates){w->wall.x, w->wall.y, w->wall.z}, &all, 1, sb_offset(sim->position[i], cell),
-                  UINT32_MAX);
-        if (w->hits.count > 0) {
-            wall_sums(sim, w, &density, &wall);
-            sb_list_walls(lists, &w->hits, sim, i);
+    if (room && lists->runs > 0) memcpy(groups->run + run, lists->run, lists->runs * sizeof *lists->run);
+    for (size_t g = begin; g < end; g++) {
+        groups->group[g].run += (uint32_t)run;
+        for (size_t i = groups->group[g].first; i < groups->group[g].end; i++) {
+            sim->pairs.first[i] += (uint32_t)four;
+            sim->wall_pairs.first[i] += (uint32_t)wall;
         }
     }
-    float diagonal = squares;
-    for (int axis = 0; axis < 3; axis++) diagonal += (sum[axis] + wall[axis]) * (sum[axis] + wall[axis]);
-    sim->density[i] = density;
-    if (sim->deficit) sim->source[i] = density - of_water;
-    sim->wall[i] = wall;
-    sim->diagonal[i] = diagonal > 1e-6f * c->full_diagonal ? diagonal : 0;
+    lists->fours = lists->walls = lists->runs = 0;
+    return room;
 }
 
-SB_MULTIVERSION
-static void search_group(sb_sim *sim, struct sb_searcher *w, sb_list_builder *lists, sb_group *group)
+/* One attempt; *full: the limits hit. 0, or -1 without memory. */
+static int attempt(sb_sim *sim, bool *too_small, unsigned *full)
 {
-    const int shift = sim->space.shift;
-    uint64_t last = UINT64_MAX;
-    uint32_t candidate = 0;
-    sb_record cell = {0};
-    for (size_t i = group->first; i < group->end; i++) {
-        const uint64_t code = sb_cell_code(sim->position[i], shift);
-        if (code != last) {
-            const sb_record here = sim->position[i];
-            cell = (sb_record){here[0] >> shift << shift, here[1] >> shift << shift, here[2] >> shift << shift, 0};
-            candidate = sb_vicinity_cell(sim, &w->vicinity, i);
-            gather_walls(sim, w, i, cell);
+    unsigned over = 0;
+    bool small = false, memory = false;
+    const size_t groups = sim->groups.count, units = (groups + GROUPS - 1) / GROUPS;
+    sim->pairs.used = sim->wall_pairs.used = sim->groups.used = 0;
+#pragma omp parallel reduction(| : small, over, memory)
+    {
+        sb_searcher *searcher = sb_searcher_create(sim);
+        sb_list_builder lists = {.starved = !searcher};
+#pragma omp for schedule(dynamic, 1)
+        for (size_t u = 0; u < units; u++) {
+            const size_t begin = u * GROUPS, end = begin + GROUPS < groups ? begin + GROUPS : groups;
+            for (size_t g = begin; g < end && !lists.starved; g++)
+                sb_search_group(sim, searcher, &lists, &sim->groups.group[g]);
+            if (!lists.starved) small |= !publish(sim, &lists, begin, end);
         }
-        last = code;
-        one_particle(sim, w, lists, group, i, candidate++, cell);
+        over |= searcher ? sb_searcher_full(searcher) : 0;
+        memory |= lists.starved;
+        sb_list_builder_free(&lists);
+        sb_searcher_free(searcher);
     }
+    *too_small = small;
+    *full = over;
+    return memory ? -1 : 0;
 }
 
-void sb_search_group(sb_sim *sim, struct sb_searcher *w, sb_list_builder *lists, sb_group *group)
+/* Pools that were too small are made anew with a little in reserve: what each is larger costs memory for good, what it
+   is smaller another search now and then. */
+static size_t with_reserve(size_t used)
 {
-    sb_vicinity_gather(sim, group, &w->vicinity);
-    if (w->vicinity.count > SB_AROUND_MAX) {
-        w->full |= SB_FULL_AROUND;
-        return;
+    return used + used / 32 + 1024;
+}
+
+static int enlarge(sb_sim *sim)
+{
+    sb_lists *water = &sim->pairs;
+    sb_pairs *wall = &sim->wall_pairs;
+    sb_groups *groups = &sim->groups;
+    if (water->used > water->capacity) {
+        const size_t capacity = with_reserve(water->used);
+        sb_free(water->four);
+        water->four = sb_alloc_untouched(capacity, sizeof *water->four);
+        water->capacity = water->four ? capacity : 0;
     }
-    sb_list_runs(lists, &w->vicinity, group);
-    search_group(sim, w, lists, group);
+    if (wall->used > wall->capacity) {
+        const size_t capacity = with_reserve(wall->used);
+        sb_free(wall->index);
+        sb_free(wall->slope);
+        wall->index = sb_alloc_untouched(capacity, sizeof *wall->index);
+        wall->slope = sb_alloc_untouched(capacity, sizeof *wall->slope);
+        wall->capacity = wall->index && wall->slope ? capacity : 0;
+    }
+    if (groups->used > groups->room) {
+        const size_t room = with_reserve(groups->used);
+        sb_free(groups->run);
+        groups->run = sb_alloc_untouched(room, sizeof *groups->run);
+        groups->room = groups->run ? room : 0;
+    }
+    return water->used <= water->capacity && wall->used <= wall->capacity && groups->used <= groups->room ? 0 : -1;
 }
 
-static float slope_scale(const sb_sim *sim)
+static sb_status refuse(const sb_sim *sim, unsigned full, sb_error *error)
 {
-    const int d = sim->constant.dimension;
-    return (float)(sim->scene->numerics.kernel->alpha[d] * sim->space.quantum /
-                   pow((double)sim->constant.support, d + 2));
+    static const char *const dense = "the water has collapsed, or walls are too dense";
+    const unsigned long long step = (unsigned long long)sim->report.step;
+    if (full & SB_FULL_WALLS)
+        return sb_fail(error, SB_FAILED,
+                       "step %llu: more than %d boundary particles around one place: walls are too dense, or many "
+                       "bodies meet there",
+                       step, SB_WALLS_AROUND_MAX);
+    return sb_fail(error, SB_FAILED, "step %llu: more than %d particles around %s: %s", step,
+                   full & SB_FULL_LIST ? SB_LIST_MAX : SB_AROUND_MAX, full & SB_FULL_LIST ? "one" : "eight cells",
+                   dense);
 }
 
-float sb_lists_unit(const sb_sim *sim)
+sb_status sb_stage_neighbours(sb_sim *sim, sb_error *error)
 {
-    const sb_kernel *kernel = sim->scene->numerics.kernel;
-    const float coincident = 0;
-    float value, steepest;
-    sb_kernel_batch_for(kernel)(kernel, &coincident, 1, &value, &steepest);
-    return sim->constant.mass * slope_scale(sim) * steepest / ((float)MOST * (float)MOST);
-}
-
-struct sb_searcher *sb_searcher_create(const sb_sim *sim)
-{
-    struct sb_searcher *w = sb_alloc_untouched(1, sizeof *w);
-    if (!w) return NULL;
-    const sb_kernel *kernel = sim->scene->numerics.kernel;
-    const int d = sim->constant.dimension;
-    const double h = (double)sim->constant.support, quantum = sim->space.quantum;
-    w->full = 0;
-    w->kernel = kernel;
-    w->batch = sb_kernel_batch_for(kernel);
-    w->find_hits = sb_find_hits_choose();
-    w->q_scale = (float)(quantum / h * (quantum / h));
-    w->value_scale = (float)(kernel->alpha[d] / pow(h, d));
-    w->slope_scale = slope_scale(sim);
-    w->to_units = sim->constant.mass * w->slope_scale / sim->pairs.unit;
-    return w;
-}
-
-unsigned sb_searcher_full(const struct sb_searcher *w)
-{
-    return w->full;
-}
-
-void sb_searcher_free(struct sb_searcher *w)
-{
-    sb_free(w);
+    for (;;) {
+        bool too_small;
+        unsigned full;
+        if (sb_groups_build(sim) != 0 || attempt(sim, &too_small, &full) != 0)
+            return sb_fail_memory(error, "neighbour lists");
+        if (full) return refuse(sim, full, error);
+        if (!too_small) return SB_OK;
+        if (sim->pairs.used > UINT32_MAX / 2 || sim->wall_pairs.used > UINT32_MAX / 2)
+            return sb_fail(error, SB_FAILED, "%zu pairs of neighbours, %zu with walls: expected fewer than 2^33, 2^31",
+                           4 * sim->pairs.used, sim->wall_pairs.used);
+        if (enlarge(sim) != 0) return sb_fail_memory(error, "neighbour lists");
+    }
 }

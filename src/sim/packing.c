@@ -11,6 +11,7 @@
 #include "sim/eights.h"
 #include "sim/ledger.h"
 #include "sim/pressure.h"
+#include "sim/stages.h"
 
 enum { GROUPS = 8 }; /* per unit of work */
 

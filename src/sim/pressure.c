@@ -1,6 +1,8 @@
 /* The source of the pressure problem, its first guess, when to stop, and the acceleration that results. */
 #include "sim/pressure.h"
 
+#include "sim/stages.h"
+
 #include <math.h>
 
 const sb_pressure_solver *const sb_pressure_solvers[] = {

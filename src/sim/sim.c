@@ -7,8 +7,10 @@
 #include "sim/ledger.h"
 #include "sim/packing.h"
 #include "sim/pressure.h"
+#include "sim/searcher.h"
 #include "sim/sleep.h"
 #include "sim/sort.h"
+#include "sim/stages.h"
 #include "sim/turbulence.h"
 
 #include <math.h>

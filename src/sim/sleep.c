@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "sim/impulse.h"
+#include "sim/stages.h"
 
 #include <string.h>
 

@@ -5,6 +5,7 @@
 #include "sim/ledger.h"
 #include "sim/sleep.h"
 #include "sim/sort.h"
+#include "sim/stages.h"
 
 #include <math.h>
 #include <string.h>

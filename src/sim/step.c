@@ -4,6 +4,7 @@
 #include "sim/packing.h"
 #include "sim/pressure.h"
 #include "sim/sleep.h"
+#include "sim/stages.h"
 #include "sim/turbulence.h"
 
 typedef struct stage {

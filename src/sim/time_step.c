@@ -1,4 +1,5 @@
 /* How far a step goes [S16, eqs. 10-12]. */
+#include "sim/stages.h"
 #include "sim/state.h"
 
 #include <math.h>

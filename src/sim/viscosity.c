@@ -3,6 +3,7 @@
 #include "sim/friction.h"
 #include "sim/pressure.h"
 #include "sim/sleep.h"
+#include "sim/stages.h"
 
 enum { GROUPS = 8 }; /* per unit of work */
 

@@ -3,6 +3,7 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "sim/sort.h"
+#include "sim/stages.h"
 #include "sim/state.h"
 
 #include <math.h>

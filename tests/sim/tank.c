@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "base/random.h"
+#include "sim/stages.h"
 
 #include <assert.h>
 #include <stdio.h>

@@ -2,6 +2,7 @@
  * double. */
 #include "../check.h"
 #include "base/memory.h"
+#include "sim/stages.h"
 #include "sim/tank.h"
 #include "sim/twin.h"
 

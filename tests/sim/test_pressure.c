@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "sim/pressure.h"
+#include "sim/stages.h"
 #include "sim/tank.h"
 #include "sim/twin.h"
 

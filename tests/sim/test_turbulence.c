@@ -3,6 +3,7 @@
 #include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "sim/stages.h"
 #include "sim/tank.h"
 #include "sim/turbulence.h"
 #include "sim/twin.h"

@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "sim/friction.h"
+#include "sim/stages.h"
 #include "sim/tank.h"
 #include "sim/twin.h"
 

@@ -1,0 +1,55 @@
+/* What is around the particles, as the search leaves it for the passes: groups of them, and lists of pairs. */
+#ifndef SB_SIM_PAIRS_H
+#define SB_SIM_PAIRS_H
+
+#include "sim/simd.h"
+
+#include <stddef.h>
+
+/* Records next to each other in the arrays that neighbours are read from. */
+typedef struct sb_run {
+    uint32_t begin, count;
+} sb_run;
+
+/* Particles next to each other, and what lies around them; see sim/around.h. */
+typedef struct sb_group {
+    uint32_t first, end; /* particles [first, end) */
+    uint32_t run, runs;  /* around them, themselves included: runs [run, run + runs) */
+    uint32_t sleepers;   /* how many records come before the first sleeper's */
+    sb_record corner;    /* quanta: no record around is below it, or four cells and more above */
+} sb_group;
+
+typedef struct sb_groups {
+    sb_group *group;
+    size_t count, capacity;
+    sb_run *run;
+    size_t used, room; /* runs */
+} sb_groups;
+
+/* Four neighbours. place: as sb_at wants it. slope: the root of m W'(r)/r times the quantum over sb_lists.unit, below
+   2^15, so that unit * slope^2 * offset in quanta = m grad W, the same for both of a pair; a root, because W' fades
+   out towards the support radius as a square or faster. */
+typedef struct sb_four_pairs {
+    uint16_t place[4], slope[4];
+} sb_four_pairs;
+
+/* Water around particle i: fours [first[i], first[i] + count[i]), the last filled up with the particle itself at
+   slope 0. */
+typedef struct sb_lists {
+    uint32_t *first; /* n */
+    uint16_t *count; /* n */
+    sb_four_pairs *four;
+    size_t used, capacity; /* fours */
+    float unit;            /* < 0 */
+} sb_lists;
+
+/* Boundary particles around particle i: [first[i], first[i] + count[i]), padded to four with slope 0. */
+typedef struct sb_pairs {
+    uint32_t *first; /* n */
+    uint16_t *count; /* n, padded to a multiple of 4 */
+    uint32_t *index; /* see sim/wall_entry.h */
+    float *slope;    /* psi W'(r)/r times the quantum */
+    size_t used, capacity;
+} sb_pairs;
+
+#endif

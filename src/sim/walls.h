@@ -1,0 +1,44 @@
+/* Boundary particles [A12]: those that stand still, and those of bodies that move. */
+#ifndef SB_SIM_WALLS_H
+#define SB_SIM_WALLS_H
+
+#include "physics/wavemaker.h"
+#include "sim/cells.h"
+#include "sim/sim.h"
+#include "sim/space.h"
+
+/* Boundary particles that share one search table: all static ones, or all that move; images beyond periodic
+   sides included. */
+typedef struct sb_wall_set {
+    size_t count;
+    sb_record *record; /* sorted by cell; last lane: psi_b in kg (kg/m in 2D) */
+    uint32_t *body;    /* model body of each */
+    sb_f4 *normal;     /* unit, towards the water; 0 0 0 where the model gives none */
+    sb_cells cells;
+    uint64_t *near; /* hash set of Z-order blocks with walls in or beside them */
+    uint64_t near_mask;
+} sb_wall_set;
+
+enum { SB_STATIC, SB_MOVING, SB_WALL_SETS };
+
+/* A body that moves: its boundary particles at rest, and where its paddle is. */
+typedef struct sb_moving_body {
+    sb_paddle paddle;
+    sb_vec3 direction;
+    double displacement, next_displacement; /* m, at t and t + dt */
+    sb_vec3 velocity;                       /* m/s, between them */
+} sb_moving_body;
+
+sb_status sb_walls_create(sb_sim *sim, sb_error *error);
+void sb_walls_destroy(sb_sim *sim);
+/* sim/wall_volumes.c: psi_b = gamma rho_0 / sum_k W_bk over the boundary particles of `set` in reach, itself
+   included [A12, eq. 4; S16, eq. 30]; only_own: those of the same body only. The set holds no images. */
+int sb_wall_volumes(const sb_sim *sim, sb_wall_set *set, bool only_own);
+/* Adds the images beyond periodic sides, with the volume, body and normal of their own. */
+int sb_wall_images(sb_wall_set *set, const sb_space *space);
+/* The moving bodies' table at their displacements, when those have been set from outside. */
+sb_status sb_walls_restore(sb_sim *sim, sb_error *error);
+/* Whether a cell may have boundary particles of the set in reach. */
+bool sb_walls_near(const sb_wall_set *set, const sb_space *space, sb_record record);
+
+#endif
