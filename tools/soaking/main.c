@@ -50,7 +50,8 @@ static sb_status live_on(soak *s, sb_soak_watch *watch, sb_error *error)
     return status;
 }
 
-static sb_status write_reports(const soak *s, sb_soak_report *report, sb_error *error)
+/* The report of a soak that was stopped lies with its run: what is kept is of whole ones. */
+static sb_status write_reports(const soak *s, bool whole, sb_soak_report *report, sb_error *error)
 {
     char why[400];
     *report = (sb_soak_report){.options = &s->options,
@@ -64,7 +65,7 @@ static sb_status write_reports(const soak *s, sb_soak_report *report, sb_error *
         report->judged += sb_soak_grown(&s->lives[i]).judged;
     }
     sb_status status = sb_soak_samples_write(report, s->options.out, error);
-    return status == SB_OK ? sb_soak_report_write(report, s->options.report, error) : status;
+    return status == SB_OK ? sb_soak_report_write(report, whole ? s->options.report : s->options.out, error) : status;
 }
 
 static int tell(const soak *s, const sb_soak_report *report)
@@ -110,7 +111,7 @@ int main(int count, char **arguments)
     }
     if (status == SB_OK) status = live_on(&s, watch, &error);
     if (s.count > 0 && (status == SB_OK || status == SB_INTERRUPTED)) {
-        sb_status written = write_reports(&s, &report, status == SB_OK ? &error : NULL);
+        sb_status written = write_reports(&s, status == SB_OK, &report, status == SB_OK ? &error : NULL);
         status = status == SB_OK ? written : status;
     }
     const int result = status == SB_OK ? tell(&s, &report) : (int)status;

@@ -18,7 +18,8 @@ const char sb_soak_help[] = "usage: tools/soak [OPTIONS]\n"
                             "  --spacing M       between particles, in metres (default: 6)\n"
                             "  --duration S      simulated seconds after which it is begun anew (default: 300)\n"
                             "  --out DIR         the run goes here, and samples.csv (default: runs/soak)\n"
-                            "  --report DIR      soak.md goes here (default: docs/results)\n"
+                            "  --report DIR      soak.md goes here (default: docs/results); of a soak that is stopped\n"
+                            "                    it lies beside samples.csv\n"
                             "  --help            this text\n";
 
 sb_status sb_soak_options_parse(int count, char **arguments, sb_soak_options *options, sb_error *error)
