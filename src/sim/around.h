@@ -11,32 +11,54 @@ enum {
     SB_PLACE_STEP = 4      /* a list's place is the copy's index times this: half or a quarter of its bytes */
 };
 
-/* Copies the records around a group, as offsets (quanta, exact) from its corner, the carried value in the last lane.
-   out: SB_AROUND_MAX. */
+/* Two records side by side. */
+typedef uint32_t sb_two_records __attribute__((vector_size(32), aligned(16)));
+typedef int32_t sb_two_offsets __attribute__((vector_size(32)));
+typedef float sb_two_values __attribute__((vector_size(32), aligned(16)));
+
+/* A record as an offset (quanta, exact) from a corner, the carried value in the last lane. */
+SB_INLINE sb_f4 sb_offset_carrying(sb_record record, sb_record corner)
+{
+    return __builtin_shufflevector(sb_offset(record, corner), (sb_f4)record, 0, 1, 2, 7);
+}
+
+/* The same of two; corner: the corner twice. A macro, for such vectors are passed in more ways than one. */
+#define SB_OFFSETS_CARRYING(records, corner)                                                                           \
+    __builtin_shufflevector(__builtin_convertvector((sb_two_offsets)((records) - (corner)), sb_two_values),            \
+                            (sb_two_values)(records), 0, 1, 2, 11, 4, 5, 6, 15)
+
+/* Copies the records around a group, as offsets from its corner. out: SB_AROUND_MAX. */
 SB_INLINE void sb_around(const sb_sim *sim, const sb_group *group, sb_f4 *out)
 {
+    const sb_record c = group->corner;
+    const sb_two_records corner = __builtin_shufflevector(c, c, 0, 1, 2, 3, 0, 1, 2, 3);
     const sb_run *run = sim->groups.run + group->run;
     for (size_t r = 0; r < group->runs; r++) {
-        const sb_record *record = sim->position + run[r].begin;
-        for (size_t k = 0; k < run[r].count; k++) {
-            const sb_f4 offset = sb_offset(record[k], group->corner);
-            *out++ = (sb_f4){offset[0], offset[1], offset[2], sb_carried_value(record[k])};
-        }
+        const sb_record *record = sim->position + run[r].begin, *end = record + run[r].count;
+        for (; record + 2 <= end; record += 2, out += 2)
+            *(sb_two_values *)out = SB_OFFSETS_CARRYING(*(const sb_two_records *)record, corner);
+        if (record < end) *out++ = sb_offset_carrying(*record, c);
     }
 }
 
 /* The same, each followed by its value of a field. out: 2 SB_AROUND_MAX. */
 SB_INLINE void sb_around_with(const sb_sim *sim, const sb_group *group, const sb_f4 *field, sb_f4 *out)
 {
+    const sb_record c = group->corner;
+    const sb_two_records corner = __builtin_shufflevector(c, c, 0, 1, 2, 3, 0, 1, 2, 3);
     const sb_run *run = sim->groups.run + group->run;
     for (size_t r = 0; r < group->runs; r++) {
-        const sb_record *record = sim->position + run[r].begin;
+        const sb_record *record = sim->position + run[r].begin, *end = record + run[r].count;
         const sb_f4 *value = field + run[r].begin;
-        for (size_t k = 0; k < run[r].count; k++) {
-            const sb_f4 offset = sb_offset(record[k], group->corner);
-            *out++ = (sb_f4){offset[0], offset[1], offset[2], sb_carried_value(record[k])};
-            *out++ = value[k];
+        for (; record + 2 <= end; record += 2, value += 2, out += 4) {
+            const sb_two_values a = SB_OFFSETS_CARRYING(*(const sb_two_records *)record, corner);
+            const sb_two_values b = *(const sb_two_values *)value;
+            *(sb_two_values *)out = __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11);
+            *(sb_two_values *)(out + 2) = __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15);
         }
+        if (record == end) continue;
+        *out++ = sb_offset_carrying(*record, c);
+        *out++ = *value;
     }
 }
 
@@ -52,8 +74,7 @@ SB_INLINE void sb_around_last(const sb_sim *sim, const sb_group *group, const fl
 /* Particle i of the group as sb_around has it. */
 SB_INLINE sb_f4 sb_in_group(const sb_sim *sim, const sb_group *group, size_t i)
 {
-    const sb_f4 offset = sb_offset(sim->position[i], group->corner);
-    return (sb_f4){offset[0], offset[1], offset[2], sb_carried_value(sim->position[i])};
+    return sb_offset_carrying(sim->position[i], group->corner);
 }
 
 /* A neighbour in what sb_around made, and in what sb_around_with made: its record, then its value. */
@@ -77,7 +98,7 @@ SB_INLINE const sb_f8 *sb_both_at(const sb_f4 *around, uint16_t place)
    Past the pool's end it asks for nothing. */
 SB_INLINE void sb_ask_ahead(const sb_four_pairs *four)
 {
-    enum { BYTES = 2048 };
+    enum { BYTES = 4096 };
     /* As a number: no pointer may point there. NOLINTNEXTLINE(performance-no-int-to-ptr) */
     __builtin_prefetch((const void *)((uintptr_t)four + BYTES));
 }

@@ -8,8 +8,8 @@
 #endif
 
 SB_MULTIVERSION
-static size_t find_portable(const sb_candidates *of, const sb_stretch *stretch, size_t stretches, sb_hits *h,
-                            sb_f4 self, float scale2, uint32_t skip)
+size_t sb_find_hits_portable(const sb_candidates *of, const sb_stretch *stretch, size_t stretches, sb_hits *h,
+                             sb_f4 self, float scale2, uint32_t skip)
 {
     size_t n = 0;
     for (size_t s = 0; s < stretches; s++)
@@ -27,36 +27,100 @@ static size_t find_portable(const sb_candidates *of, const sb_stretch *stretch, 
 }
 
 #ifdef SB_AVX512
-__attribute__((target("avx512f"))) static size_t find_avx512(const sb_candidates *of, const sb_stretch *stretch,
-                                                             size_t stretches, sb_hits *h, sb_f4 self, float scale2,
-                                                             uint32_t skip)
+#define WIDE __attribute__((target("avx512f")))
+enum { LANES = 16, BATCH = 8, BATCHES = SB_CANDIDATES_MAX / LANES + SB_STRETCHES_MAX + BATCH };
+
+/* Candidates to be tested together: LANES from `begin` on, those below `end` of them. */
+typedef struct batches {
+    size_t count;
+    uint32_t begin[BATCHES], end[BATCHES];
+} batches;
+
+/* The stretches by sixteens, eight of these at a time and without a branch on how long a stretch is, which no processor
+   foretells. */
+WIDE SB_INLINE void divide(const sb_stretch *stretch, size_t stretches, batches *b)
 {
-    const __m512 sx = _mm512_set1_ps(self[0]), sy = _mm512_set1_ps(self[1]), sz = _mm512_set1_ps(self[2]);
-    const __m512 factor = _mm512_set1_ps(scale2), one = _mm512_set1_ps(1.0f);
+    const __m256i starts =
+        _mm256_setr_epi32(0, LANES, 2 * LANES, 3 * LANES, 4 * LANES, 5 * LANES, 6 * LANES, 7 * LANES);
+    size_t count = 0;
+    for (size_t s = 0; s < stretches; s++) {
+        const uint32_t end = stretch[s].end;
+        for (uint32_t k = stretch[s].begin; k < end; k += BATCH * LANES) {
+            const uint32_t left = (end - k + LANES - 1) / LANES;
+            const __m256i begin = _mm256_add_epi32(_mm256_set1_epi32((int)k), starts);
+            _mm256_storeu_si256((__m256i_u *)(b->begin + count), begin);
+            _mm256_storeu_si256((__m256i_u *)(b->end + count), _mm256_set1_epi32((int)end));
+            count += left < BATCH ? left : BATCH;
+        }
+    }
+    b->count = count;
+}
+
+/* Offsets from sixteen candidates, and their squared lengths in units of the support radius. */
+typedef struct offsets {
+    __m512 x, y, z, q2;
+} offsets;
+
+WIDE SB_INLINE offsets offsets_from(sb_f4 self, __m512 x, __m512 y, __m512 z, float scale2)
+{
+    x = _mm512_sub_ps(_mm512_set1_ps(self[0]), x);
+    y = _mm512_sub_ps(_mm512_set1_ps(self[1]), y);
+    z = _mm512_sub_ps(_mm512_set1_ps(self[2]), z);
+    const __m512 r2 = _mm512_fmadd_ps(x, x, _mm512_fmadd_ps(y, y, _mm512_mul_ps(z, z)));
+    return (offsets){x, y, z, _mm512_mul_ps(r2, _mm512_set1_ps(scale2))};
+}
+
+/* The places of hits 0, 4, 8 and 12. */
+WIDE SB_INLINE __m512 every_fourth(const sb_f4 *place, const uint32_t *hit)
+{
+    __m512 records = _mm512_castps128_ps512((__m128)place[hit[0]]);
+    records = _mm512_insertf32x4(records, (__m128)place[hit[4]], 1);
+    records = _mm512_insertf32x4(records, (__m128)place[hit[8]], 2);
+    return _mm512_insertf32x4(records, (__m128)place[hit[12]], 3);
+}
+
+/* Offsets from sixteen hits, their places fetched again and turned into lanes. */
+WIDE SB_INLINE offsets offsets_of(sb_f4 self, const sb_f4 *place, const uint32_t *hit, float scale2)
+{
+    const __m512 a = every_fourth(place, hit), b = every_fourth(place, hit + 1);
+    const __m512 c = every_fourth(place, hit + 2), d = every_fourth(place, hit + 3);
+    const __m512d ab = _mm512_castps_pd(_mm512_unpacklo_ps(a, b)), cd = _mm512_castps_pd(_mm512_unpacklo_ps(c, d));
+    const __m512d z =
+        _mm512_unpacklo_pd(_mm512_castps_pd(_mm512_unpackhi_ps(a, b)), _mm512_castps_pd(_mm512_unpackhi_ps(c, d)));
+    return offsets_from(self, _mm512_castpd_ps(_mm512_unpacklo_pd(ab, cd)),
+                        _mm512_castpd_ps(_mm512_unpackhi_pd(ab, cd)), _mm512_castpd_ps(z), scale2);
+}
+
+/* Packs the hits' numbers alone, and makes the offsets again from them: one hit in seven candidates, and packing is
+   what costs most. */
+WIDE static size_t find_avx512(const sb_candidates *of, const sb_stretch *stretch, size_t stretches, sb_hits *h,
+                               sb_f4 self, float scale2, uint32_t skip)
+{
     const __m512i own = _mm512_set1_epi32((int)skip);
     const __m512i lanes = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    const float *x = of->x, *y = of->y, *z = of->z;
+    uint32_t *hit = h->candidate;
+    batches b;
     size_t n = 0;
-    for (size_t s = 0; s < stretches; s++)
-        for (uint32_t k = stretch[s].begin; k < stretch[s].end && n < SB_LIST_MAX; k += 16) {
-            const uint32_t left = stretch[s].end - k;
-            const __mmask16 valid = (__mmask16)(left < 16 ? (1u << left) - 1 : 0xffffu);
-            __m512 x = _mm512_sub_ps(sx, _mm512_loadu_ps(of->x + k));
-            __m512 y = _mm512_sub_ps(sy, _mm512_loadu_ps(of->y + k));
-            __m512 z = _mm512_sub_ps(sz, _mm512_loadu_ps(of->z + k));
-            __m512 q2 = _mm512_mul_ps(_mm512_fmadd_ps(x, x, _mm512_fmadd_ps(y, y, _mm512_mul_ps(z, z))), factor);
-            __m512i candidate = _mm512_add_epi32(lanes, _mm512_set1_epi32((int)k));
-            __mmask16 near = _mm512_mask_cmp_ps_mask(valid, q2, one, _CMP_LT_OQ);
-            near = _mm512_mask_cmpneq_epi32_mask(near, candidate, own);
-            _mm512_storeu_ps(h->x + n, _mm512_maskz_compress_ps(near, x));
-            _mm512_storeu_ps(h->y + n, _mm512_maskz_compress_ps(near, y));
-            _mm512_storeu_ps(h->z + n, _mm512_maskz_compress_ps(near, z));
-            _mm512_storeu_si512(h->candidate + n, _mm512_maskz_compress_epi32(near, candidate));
-            n += (size_t)__builtin_popcount(near);
-        }
-    for (size_t k = 0; k < n; k += 16) {
-        const __m512 x = _mm512_loadu_ps(h->x + k), y = _mm512_loadu_ps(h->y + k), z = _mm512_loadu_ps(h->z + k);
-        const __m512 r2 = _mm512_fmadd_ps(x, x, _mm512_fmadd_ps(y, y, _mm512_mul_ps(z, z)));
-        _mm512_storeu_ps(h->q2 + k, _mm512_mul_ps(r2, factor));
+    divide(stretch, stretches, &b);
+    for (size_t m = 0; m < b.count && n < SB_LIST_MAX; m++) {
+        const uint32_t k = b.begin[m];
+        const __m512i candidate = _mm512_add_epi32(lanes, _mm512_set1_epi32((int)k));
+        const offsets at =
+            offsets_from(self, _mm512_loadu_ps(x + k), _mm512_loadu_ps(y + k), _mm512_loadu_ps(z + k), scale2);
+        __mmask16 near = _mm512_cmplt_epi32_mask(candidate, _mm512_set1_epi32((int)b.end[m]));
+        near = _mm512_mask_cmpneq_epi32_mask(near, candidate, own);
+        near = _mm512_mask_cmp_ps_mask(near, at.q2, _mm512_set1_ps(1.0f), _CMP_LT_OQ);
+        _mm512_storeu_si512(hit + n, _mm512_maskz_compress_epi32(near, candidate));
+        n += (size_t)__builtin_popcount(near);
+    }
+    _mm512_storeu_si512(hit + n, _mm512_setzero_si512()); /* what is fetched beyond the last is a candidate, too */
+    for (size_t k = 0; k < n; k += LANES) {
+        const offsets at = offsets_of(self, of->place, hit + k, scale2);
+        _mm512_storeu_ps(h->x + k, at.x);
+        _mm512_storeu_ps(h->y + k, at.y);
+        _mm512_storeu_ps(h->z + k, at.z);
+        _mm512_storeu_ps(h->q2 + k, at.q2);
     }
     return n;
 }
@@ -67,5 +131,5 @@ sb_find_hits *sb_find_hits_choose(void)
 #ifdef SB_AVX512
     if (__builtin_cpu_supports("avx512f")) return find_avx512;
 #endif
-    return find_portable;
+    return sb_find_hits_portable;
 }

@@ -9,12 +9,16 @@
 enum {
     SB_LIST_MAX = 1024, /* neighbours of one particle: 80 are normal */
     SB_HIT_LANES = 8,
-    SB_HIT_SPARE = 16 /* vector loads and stores may run past the end */
+    SB_HIT_SPARE = 96, /* vector loads and stores may run past the end; and what is stored of one of these fields does
+                          not lie where, but for a multiple of 4 kB, the next one is read */
+    SB_CANDIDATES_MAX = 16383,
+    SB_STRETCHES_MAX = 27
 };
 
 /* Coordinates of candidates in quanta, from a corner of their own. */
 typedef struct sb_candidates {
     const float *x, *y, *z; /* SB_HIT_SPARE entries beyond the last can be read */
+    const sb_f4 *place;     /* the same, a record each; its last lane means nothing */
 } sb_candidates;
 
 /* Candidates [begin, end). */
@@ -37,6 +41,8 @@ typedef struct sb_hits {
 typedef size_t sb_find_hits(const sb_candidates *of, const sb_stretch *stretch, size_t stretches, sb_hits *hits,
                             sb_f4 self, float scale2, uint32_t skip);
 
+/* For any processor. */
+sb_find_hits sb_find_hits_portable;
 /* The form for this machine; all give the same bits. */
 sb_find_hits *sb_find_hits_choose(void);
 

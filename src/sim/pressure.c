@@ -93,22 +93,57 @@ sb_status sb_stage_pressure(sb_sim *sim, sb_error *error)
     return sb_pressure_solvers[sim->scene->numerics.solver]->solve(sim, error);
 }
 
-/* Partial sums of one block: positive excess, |e| and count of active particles, worst. */
+/* What is summed over a block: positive excess and |e| of active particles, one particle after the other; and by lanes
+   how many are active, and the worst. */
+typedef struct judgement {
+    double sums __attribute__((vector_size(16)));
+    sb_i4 active;
+    sb_f4 worst;
+} judgement;
+
+/* Four particles, by masks: a branch on the sign of an error is a guess. What has no pressure, diagonal 0, is without
+   error. */
+SB_INLINE void judge_four(judgement *j, sb_f4 error, sb_f4 diagonal, sb_f4 unknown)
+{
+    typedef float two_floats __attribute__((vector_size(8)));
+    const sb_f4 zero = {0};
+    const sb_i4 solved = diagonal != zero, active = solved & (unknown > zero);
+    const sb_f4 excess = (sb_f4)((sb_i4)error & solved & (error > zero));
+    const sb_f4 off = (sb_f4)((sb_i4)error & active & 0x7fffffff);
+    const sb_f4 both[2] = {__builtin_shufflevector(excess, off, 0, 4, 1, 5),
+                           __builtin_shufflevector(excess, off, 2, 6, 3, 7)};
+    for (int k = 0; k < 2; k++) {
+        j->sums += __builtin_convertvector((two_floats){both[k][0], both[k][1]}, __typeof__(j->sums));
+        j->sums += __builtin_convertvector((two_floats){both[k][2], both[k][3]}, __typeof__(j->sums));
+    }
+    j->active -= active;
+    j->worst = sb_select(excess > j->worst, excess, j->worst);
+}
+
+SB_INLINE sb_f4 four_of(const float *field)
+{
+    return *(const sb_f4 *)field;
+}
+
 static void judge_block(const sb_sim *sim, size_t block, double *partial)
 {
-    double excess = 0, active = 0, count = 0, worst = 0;
-    for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
-        double e = (double)sim->residual[i];
-        if (sim->diagonal[i] == 0) continue;
-        excess += e > 0 ? e : 0;
-        worst = e > worst ? e : worst;
-        active += sim->unknown[i] > 0 ? fabs(e) : 0;
-        count += sim->unknown[i] > 0;
+    const float *residual = sim->residual, *diagonal = sim->diagonal, *unknown = sim->unknown;
+    judgement j = {0};
+    const size_t end = sb_block_end(sim, block);
+    size_t i = block * SB_BLOCK;
+    for (; i + 4 <= end; i += 4) judge_four(&j, four_of(residual + i), four_of(diagonal + i), four_of(unknown + i));
+    if (i < end) {
+        sb_f4 last[3] = {0};
+        memcpy(&last[0], residual + i, (end - i) * sizeof(float));
+        memcpy(&last[1], diagonal + i, (end - i) * sizeof(float));
+        memcpy(&last[2], unknown + i, (end - i) * sizeof(float));
+        judge_four(&j, last[0], last[1], last[2]);
     }
-    partial[0] = excess;
-    partial[1] = active;
-    partial[2] = count;
-    partial[3] = worst;
+    const sb_f4 worst = j.worst;
+    partial[0] = j.sums[0];
+    partial[1] = j.sums[1];
+    partial[2] = (double)(j.active[0] + j.active[1] + j.active[2] + j.active[3]);
+    partial[3] = (double)fmaxf(fmaxf(worst[0], worst[1]), fmaxf(worst[2], worst[3]));
 }
 
 sb_pressure_error sb_pressure_judge(sb_sim *sim)

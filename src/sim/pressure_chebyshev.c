@@ -37,6 +37,8 @@ static polynomial begin(double largest, double smallest)
 static void sweep(sb_sim *sim, polynomial *p)
 {
     const size_t n = sim->n;
+    const float *restrict residual = sim->residual, *restrict diagonal = sim->diagonal;
+    float *restrict unknown = sim->unknown, *restrict direction = sim->direction;
     const double next = 1 / (2 * p->theta / p->delta - p->rho);
     const bool first = p->first;
     const float keep = first ? 0 : (float)(next * p->rho);
@@ -45,12 +47,12 @@ static void sweep(sb_sim *sim, polynomial *p)
     p->first = false;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) {
-        if (sim->diagonal[i] == 0) continue;
-        float old = sim->unknown[i], move = first ? 0 : keep * sim->direction[i];
-        float q = old + move + step * sim->residual[i] / sim->diagonal[i];
+        const float old = unknown[i], move = first ? 0 : keep * direction[i];
+        float q = old + move + step * residual[i] / diagonal[i];
         q = q > 0 ? q : 0;
-        sim->direction[i] = q - old;
-        sim->unknown[i] = q;
+        q = diagonal[i] != 0 ? q : old; /* no pressure here: its unknown is 0, and stays so */
+        direction[i] = q - old;
+        unknown[i] = q;
     }
 }
 

@@ -1,6 +1,6 @@
-/* The two passes of a pressure iteration: where a run spends its time. Per neighbour one record from a copy in the
-   nearest cache and 4 bytes of a list; walls are one vector per particle and cost nothing per neighbour. */
-#include "sim/around.h"
+/* The two passes of a pressure iteration, and what is made of them. Per neighbour one record from a copy in the nearest
+   cache and 4 bytes of a list; walls are one vector per particle and cost nothing per neighbour. */
+#include "sim/passes.h"
 #include "sim/pressure.h"
 #include "sim/simd_wide.h"
 #include "sim/sleep.h"
@@ -95,18 +95,20 @@ static void diverge_group(sb_sim *sim, const sb_group *group, const sb_f4 *field
     }
 }
 
+const sb_passes sb_passes_narrow = {"32 bytes", accelerate_group, diverge_group};
+
 void sb_pressure_accelerate(sb_sim *sim)
 {
     const size_t groups = sim->groups.count;
 #pragma omp parallel for schedule(dynamic, GROUPS)
-    for (size_t g = 0; g < groups; g++) accelerate_group(sim, &sim->groups.group[g]);
+    for (size_t g = 0; g < groups; g++) sim->passes->accelerate(sim, &sim->groups.group[g]);
 }
 
 void sb_divergence(sb_sim *sim, const sb_f4 *field, float factor, float *out)
 {
     const size_t groups = sim->groups.count;
 #pragma omp parallel for schedule(dynamic, GROUPS)
-    for (size_t g = 0; g < groups; g++) diverge_group(sim, &sim->groups.group[g], field, factor, out);
+    for (size_t g = 0; g < groups; g++) sim->passes->diverge(sim, &sim->groups.group[g], field, factor, out);
 }
 
 void sb_pressure_diverge(sb_sim *sim, float *out)

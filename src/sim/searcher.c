@@ -16,6 +16,7 @@ typedef struct surroundings {
     size_t count;
     float x[SB_WALLS_AROUND_MAX + SB_HIT_SPARE], y[SB_WALLS_AROUND_MAX + SB_HIT_SPARE],
         z[SB_WALLS_AROUND_MAX + SB_HIT_SPARE];
+    sb_f4 place[SB_WALLS_AROUND_MAX];
     float weight[SB_WALLS_AROUND_MAX];
     uint32_t index[SB_WALLS_AROUND_MAX];
 } surroundings;
@@ -48,6 +49,7 @@ SB_INLINE void gather_cell(surroundings *s, const sb_record *record, uint32_t be
         s->x[s->count] = d[0];
         s->y[s->count] = d[1];
         s->z[s->count] = d[2];
+        s->place[s->count] = d;
         s->weight[s->count] = sb_carried_value(record[k]);
         s->index[s->count++] = base + k;
     }
@@ -162,7 +164,7 @@ SB_INLINE void one_particle(sb_sim *sim, sb_searcher *w, sb_list_builder *lists,
     sb_f4 sum = {0}, wall = {0}, self = sb_offset(sim->position[i], group->corner);
     sb_stretch stretch[SB_VICINITY_ROWS];
     const size_t stretches = sb_vicinity_reach(sim, v, self, stretch);
-    find_hits(w, &(sb_candidates){v->x, v->y, v->z}, stretch, stretches, self, candidate);
+    find_hits(w, &(sb_candidates){v->x, v->y, v->z, v->place}, stretch, stretches, self, candidate);
     fluid_sums(w, c->mass, sim->pairs.unit, &density, &sum, &squares);
     sb_list_water(lists, &w->hits, sim, i);
     sim->wall_pairs.count[i] = 0;
@@ -170,8 +172,8 @@ SB_INLINE void one_particle(sb_sim *sim, sb_searcher *w, sb_list_builder *lists,
     if (sim->deficit) sim->residual[i] = sb_sum3(sum * sum);
     if (w->wall.count > 0) {
         const sb_stretch all = {0, (uint32_t)w->wall.count};
-        find_hits(w, &(sb_candidates){w->wall.x, w->wall.y, w->wall.z}, &all, 1, sb_offset(sim->position[i], cell),
-                  UINT32_MAX);
+        find_hits(w, &(sb_candidates){w->wall.x, w->wall.y, w->wall.z, w->wall.place}, &all, 1,
+                  sb_offset(sim->position[i], cell), UINT32_MAX);
         if (w->hits.count > 0) {
             wall_sums(sim, w, &density, &wall);
             sb_list_walls(lists, &w->hits, sim, i);

@@ -1,11 +1,11 @@
 /* Making and unmaking a simulation, and the small questions to it. */
 #include "base/hash.h"
 #include "base/memory.h"
-#include "sim/around.h"
 #include "sim/deficit.h"
 #include "sim/friction.h"
 #include "sim/ledger.h"
 #include "sim/packing.h"
+#include "sim/passes.h"
 #include "sim/pressure.h"
 #include "sim/searcher.h"
 #include "sim/sleep.h"
@@ -146,6 +146,7 @@ sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **s
     if (!made) return sb_fail_memory(error, "the simulation");
     made->scene = scene;
     made->model = model;
+    made->passes = sb_passes_choose();
     sb_status status = SB_OK;
     if (model->fluid_count >= (size_t)1 << SB_INDEX_BITS)
         status = sb_fail(error, SB_BAD_INPUT, "%zu fluid particles: expected fewer than %d", model->fluid_count,

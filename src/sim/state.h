@@ -16,6 +16,7 @@ enum {
 };
 
 struct sb_ledger_sums; /* sim/ledger.h */
+struct sb_passes;      /* sim/passes.h */
 struct sb_sleep;       /* sim/sleep.h */
 
 enum { SB_SIM_SKIPPED_MAX = 15 };
@@ -25,6 +26,7 @@ struct sb_sim {
     const sb_model *model;
     sb_constants constant;
     sb_space space;
+    const struct sb_passes *passes; /* of the pressure solve, in the form for this machine */
 
     /* persistent fields, n each; moved together by the sort */
     size_t n;            /* those asleep not among them */

@@ -37,6 +37,7 @@ SB_INLINE void add_cell(const sb_sim *sim, sb_vicinity *v, sb_record corner, con
         v->x[v->count + k] = offset[0];
         v->y[v->count + k] = offset[1];
         v->z[v->count + k] = offset[2];
+        v->place[v->count + k] = offset;
     }
     v->count += count;
     sb_run *last = v->runs > 0 ? &v->run[v->runs - 1] : NULL;

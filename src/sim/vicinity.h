@@ -7,6 +7,8 @@
 
 /* Owned particles, images beyond periodic sides, sleepers: one after the other. */
 enum { SB_VICINITY_PARTS = 3, SB_VICINITY_CELLS = 64, SB_VICINITY_ROWS = 9 * SB_VICINITY_PARTS };
+_Static_assert((int)SB_AROUND_MAX <= (int)SB_CANDIDATES_MAX && (int)SB_VICINITY_ROWS <= (int)SB_STRETCHES_MAX,
+               "what is tested for hits");
 
 typedef struct sb_vicinity {
     uint32_t low[3], cells[3];                                /* first cell along each axis, and how many */
@@ -15,6 +17,7 @@ typedef struct sb_vicinity {
     size_t runs;
     sb_run run[SB_VICINITY_PARTS * SB_VICINITY_CELLS]; /* the same, as entries of sim->position */
     float x[SB_AROUND_MAX + SB_HIT_SPARE], y[SB_AROUND_MAX + SB_HIT_SPARE], z[SB_AROUND_MAX + SB_HIT_SPARE];
+    sb_f4 place[SB_AROUND_MAX]; /* the same, a record each */
 } sb_vicinity;
 
 /* Gathers; sets the group's corner and sleepers. */

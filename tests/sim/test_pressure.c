@@ -3,6 +3,7 @@
 #include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "sim/passes.h"
 #include "sim/pressure.h"
 #include "sim/stages.h"
 #include "sim/tank.h"
@@ -326,12 +327,89 @@ static void it_stops_no_sooner_by_chance(void **state)
     }
 }
 
+/* Accelerations and their divergences by one form of the passes. */
+static void by_form(setup *s, const sb_passes *form, sb_f4 *acceleration, float *divergence)
+{
+    s->sim->passes = form;
+    sb_pressure_accelerate(s->sim);
+    sb_divergence(s->sim, s->sim->acceleration, 0.5f, divergence);
+    memcpy(acceleration, s->sim->acceleration, s->n * sizeof *acceleration);
+}
+
+/* Vectors of 64 bytes change no bit of what those of 32 bytes make. */
+static void both_forms_of_the_passes(void **state)
+{
+    (void)state;
+    if (!sb_passes_wide()) skip();
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        setup s;
+        begin(&s, dimensions);
+        sb_f4 *a[2];
+        float *d[2];
+        for (int form = 0; form < 2; form++) {
+            a[form] = sb_alloc(s.n, sizeof *a[form]);
+            d[form] = sb_alloc(s.n, sizeof *d[form]);
+            assert_true(a[form] && d[form]);
+        }
+        for (size_t i = 0; i < s.n; i++) s.sim->unknown[i] = (float)sb_random(9, i);
+        sb_pressure_load(s.sim, s.sim->unknown);
+        by_form(&s, &sb_passes_narrow, a[0], d[0]);
+        by_form(&s, sb_passes_wide(), a[1], d[1]);
+        assert_memory_equal(a[0], a[1], s.n * sizeof *a[0]);
+        assert_memory_equal(d[0], d[1], s.n * sizeof *d[0]);
+        for (int form = 0; form < 2; form++) {
+            sb_free(a[form]);
+            sb_free(d[form]);
+        }
+        end(&s);
+    }
+}
+
+/* Mean, active and worst error by the plain loop, in the order of particles; blocks need not be full. */
+static void errors_are_summed_in_order(void **state)
+{
+    (void)state;
+    setup s;
+    begin(&s, 3);
+    const double rest = (double)s.sim->constant.rest_density;
+    for (s.sim->n = s.n - 3; s.sim->n <= s.n; s.sim->n++) {
+        double excess = 0, active = 0, worst = 0, part[2] = {0};
+        size_t count = 0;
+        for (size_t i = 0; i < s.sim->n; i++) {
+            s.sim->residual[i] = (float)(sb_random(3, i) - 0.5);
+            s.sim->unknown[i] = i % 3 == 0 ? 0 : 1;
+            if (i % 7 == 0) s.sim->diagonal[i] = 0;
+            if (i % SB_BLOCK == 0) {
+                excess += part[0];
+                active += part[1];
+                part[0] = part[1] = 0;
+            }
+            if (s.sim->diagonal[i] == 0) continue;
+            const double e = (double)s.sim->residual[i];
+            part[0] += e > 0 ? e : 0;
+            worst = e > worst ? e : worst;
+            if (s.sim->unknown[i] > 0) {
+                part[1] += fabs(e);
+                count++;
+            }
+        }
+        const sb_pressure_error error = sb_pressure_judge(s.sim);
+        assert_true(error.mean == (excess + part[0]) / ((double)s.sim->n * rest));
+        assert_true(error.active == (active + part[1]) / ((double)count * rest));
+        assert_true(error.max == worst / rest);
+    }
+    s.sim->n = s.n;
+    end(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_flat_dam_break),
         cmocka_unit_test(a_dam_break),
         cmocka_unit_test(it_stops_no_sooner_by_chance),
+        cmocka_unit_test(both_forms_of_the_passes),
+        cmocka_unit_test(errors_are_summed_in_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

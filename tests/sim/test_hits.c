@@ -1,0 +1,86 @@
+/* The search's test of candidates: the form for this machine finds what the portable one finds, bit for bit and in its
+   order, and writes nowhere else. */
+#include "sim/hits.h"
+
+#include "../check.h"
+#include "base/memory.h"
+#include "base/random.h"
+
+#include <string.h>
+
+enum { CANDIDATES = 5000, GUARD = 64 };
+
+typedef struct cloud {
+    float x[CANDIDATES + SB_HIT_SPARE], y[CANDIDATES + SB_HIT_SPARE], z[CANDIDATES + SB_HIT_SPARE];
+    sb_f4 place[CANDIDATES];
+} cloud;
+
+typedef struct guarded {
+    sb_hits hits;
+    unsigned char after[GUARD];
+} guarded;
+
+/* Whole quanta in a cube of 4000, as offsets are. */
+static void scatter(cloud *c, uint64_t seed)
+{
+    for (size_t k = 0; k < CANDIDATES; k++) {
+        c->x[k] = (float)(int)(4000 * sb_random(seed, 3 * k));
+        c->y[k] = (float)(int)(4000 * sb_random(seed, 3 * k + 1));
+        c->z[k] = (float)(int)(4000 * sb_random(seed, 3 * k + 2));
+        c->place[k] = (sb_f4){c->x[k], c->y[k], c->z[k], 0};
+    }
+}
+
+static size_t find(sb_find_hits *form, const cloud *c, const sb_stretch *stretch, size_t stretches, float reach,
+                   guarded *out)
+{
+    const sb_f4 self = {c->x[40], c->y[40], c->z[40], 0};
+    memset(out->after, 0xa5, GUARD);
+    const size_t n = form(&(sb_candidates){c->x, c->y, c->z, c->place}, stretch, stretches, &out->hits, self,
+                          1 / (reach * reach), 40);
+    for (int k = 0; k < GUARD; k++) assert_int_equal(out->after[k], 0xa5);
+    return n;
+}
+
+static void forms_agree(void **state)
+{
+    (void)state;
+    static const sb_stretch stretches[][4] = {
+        {{0, CANDIDATES}},                                  /* all */
+        {{0, 1}, {16, 17}, {31, 63}, {4999, 5000}},         /* a vector is not full, or just */
+        {{40, 41}, {41, 200}, {900, 1044}, {1100, 3000}},   /* longer than eight vectors */
+        {{40, 41}},                                         /* nothing but the particle itself */
+    };
+    static const size_t counts[] = {1, 4, 4, 1};
+    static const float reaches[] = {300, 1000, 1500, 9000};
+    cloud *c = sb_alloc(1, sizeof *c);
+    guarded *one = sb_alloc(1, sizeof *one), *other = sb_alloc(1, sizeof *other);
+    assert_true(c && one && other);
+    for (uint64_t seed = 0; seed < 5; seed++)
+        for (size_t s = 0; s < sizeof counts / sizeof *counts; s++)
+            for (size_t r = 0; r < sizeof reaches / sizeof *reaches; r++) {
+                scatter(c, seed);
+                const size_t n = find(sb_find_hits_portable, c, stretches[s], counts[s], reaches[r], one);
+                const size_t m = find(sb_find_hits_choose(), c, stretches[s], counts[s], reaches[r], other);
+                if (n >= SB_LIST_MAX) {
+                    assert_true(m >= SB_LIST_MAX);
+                    continue;
+                }
+                assert_int_equal(n, m);
+                assert_memory_equal(one->hits.x, other->hits.x, n * 4);
+                assert_memory_equal(one->hits.y, other->hits.y, n * 4);
+                assert_memory_equal(one->hits.z, other->hits.z, n * 4);
+                assert_memory_equal(one->hits.q2, other->hits.q2, n * 4);
+                assert_memory_equal(one->hits.candidate, other->hits.candidate, n * 4);
+                if (reaches[r] > 8000 && s == 1) assert_int_equal(n, 34); /* the particle itself left out */
+            }
+    sb_free(c);
+    sb_free(one);
+    sb_free(other);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(forms_agree)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
