@@ -17,7 +17,7 @@ typedef struct sb_pressure_error {
    sim->report.iterations, error_* up to date by sb_pressure_judge. */
 typedef struct sb_pressure_solver {
     const char *name, *summary, *reference;
-    bool needs_direction; /* the fields direction and product beyond residual */
+    bool needs_direction, needs_product; /* these fields beyond residual */
     sb_status (*solve)(sb_sim *sim, sb_error *error);
 } sb_pressure_solver;
 

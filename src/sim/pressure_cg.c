@@ -152,5 +152,6 @@ const sb_pressure_solver sb_solver_cg = {
     .summary = "conjugate gradients with projection (MPRGP), Jacobi-scaled",
     .reference = "Dostal and Schoeberl 2005",
     .needs_direction = true,
+    .needs_product = true,
     .solve = solve,
 };

@@ -21,7 +21,7 @@ static int allocate(sb_sim *sim, size_t n, size_t bodies)
 {
     const sb_numerics *numerics = &sim->scene->numerics;
     size_t blocks = n / SB_BLOCK + 1;
-    bool direction = sb_pressure_solvers[numerics->solver]->needs_direction;
+    const sb_pressure_solver *solver = sb_pressure_solvers[numerics->solver];
     struct {
         void *field;
         size_t count, size;
@@ -38,8 +38,8 @@ static int allocate(sb_sim *sim, size_t n, size_t bodies)
         {&sim->source, n, 4, true},
         {&sim->unknown, n, 4, true},
         {&sim->residual, n, 4, true},
-        {&sim->direction, n, 4, direction},
-        {&sim->product, n, 4, direction},
+        {&sim->direction, n, 4, solver->needs_direction},
+        {&sim->product, n, 4, solver->needs_product},
         {&sim->eddy, n, 4, sb_turbulence_on(sim->scene)},
         {&sim->scratch, n, 16, true},
         {&sim->rubbed, n, 16, sb_rub_on(sim->scene)},
@@ -131,6 +131,8 @@ static void note_skipped(sb_sim *sim)
     if (sim->constant.dimension == 2) leave_out(sim, &s, "third dimension: 9 cells searched instead of 27", 0, 0);
     if (!sb_pressure_solvers[n->solver]->needs_direction)
         leave_out(sim, &s, "search direction: the solver needs no memory for one", 0, sizeof *sim->direction);
+    if (!sb_pressure_solvers[n->solver]->needs_product)
+        leave_out(sim, &s, "product of the direction: the solver needs no memory for one", 0, sizeof *sim->product);
     if (!n->sleep)
         leave_out(sim, &s, "sleep: off, all water is computed from the start", 0, 0);
     else if (!sb_sleep_wanted(sim->scene))

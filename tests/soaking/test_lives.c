@@ -47,6 +47,24 @@ static void memory_may_grow_so_far_and_no_further(void **state)
     says(life_that_grows(45e3, 0), "memory grew by 11.");
 }
 
+/* Frames that wait may be there late and not early, in one life; a growth in all of them is a leak. */
+static void frames_may_wait_in_single_lives(void **state)
+{
+    (void)state;
+    sb_soak_life lives[2] = {life_that_grows(80e3, 0), life_that_grows(0, 0)};
+    char why[400];
+    double growth;
+    assert_near(sb_soak_waiting(1000), 5 * 32 * 1000, 0);
+    assert_false(sb_soak_well(&lives[0], why));
+    for (int i = 0; i < 2; i++) lives[i].waiting = 14e6;
+    assert_true(sb_soak_well(&lives[0], why));
+    assert_true(sb_soak_steady(lives, 2, &growth));
+    assert_near(growth, 10e6, 1e6);
+    assert_false(sb_soak_steady(lives, 1, &growth));
+    assert_near(growth, 20e6, 1e6);
+    for (int i = 0; i < 2; i++) sb_free(lives[i].samples);
+}
+
 static void no_descriptor_may_stay_open(void **state)
 {
     (void)state;
@@ -102,6 +120,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_start_is_no_growth),      cmocka_unit_test(memory_may_grow_so_far_and_no_further),
+        cmocka_unit_test(frames_may_wait_in_single_lives),
         cmocka_unit_test(no_descriptor_may_stay_open), cmocka_unit_test(a_broken_life_tells_how),
         cmocka_unit_test(frames_have_to_arrive),       cmocka_unit_test(a_short_life_is_not_judged),
         cmocka_unit_test(a_process_is_seen),

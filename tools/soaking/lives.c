@@ -12,6 +12,10 @@ const double sb_soak_share = 0.03, sb_soak_bytes = 4e6, sb_soak_shortest = 90;
 
 enum { FEWEST = 4 }; /* samples of which a middle one is taken */
 
+/* Of a frame, per particle: place, velocity, pressure, number. Frames: three that wait, the one that is drawn or
+   written, the one that waits for room. */
+static const double FRAME_BYTES = 32, FRAMES = 5;
+
 /* Names in /proc/PID/fd, one for each descriptor; 0: the process is gone. */
 static unsigned count_descriptors(pid_t process)
 {
@@ -92,6 +96,16 @@ static bool middle(const sb_soak_life *life, double from, double to, double *res
     return enough;
 }
 
+double sb_soak_waiting(double particles)
+{
+    return FRAMES * FRAME_BYTES * particles;
+}
+
+static double allowed(double early)
+{
+    return sb_soak_share * early + sb_soak_bytes;
+}
+
 sb_soak_growth sb_soak_grown(const sb_soak_life *life)
 {
     sb_soak_growth g = {0};
@@ -112,11 +126,25 @@ bool sb_soak_well(const sb_soak_life *life, char why[400])
     why[0] = '\0';
     if (life->end == SB_SOAK_BROKEN)
         snprintf(why, 400, "%s", life->words);
-    else if (g.judged && g.late - g.early > sb_soak_share * g.early + sb_soak_bytes)
+    else if (g.judged && g.late - g.early > allowed(g.early) + life->waiting)
         snprintf(why, 400, "memory grew by %.1f MB", 1e-6 * (g.late - g.early));
     else if (g.judged && g.descriptors_late > g.descriptors_early)
         snprintf(why, 400, "descriptors grew from %.0f to %.0f", g.descriptors_early, g.descriptors_late);
     else if (g.judged && life->frames == 0)
         snprintf(why, 400, "the subscriber got no frame");
     return why[0] == '\0';
+}
+
+bool sb_soak_steady(const sb_soak_life *lives, size_t count, double *growth)
+{
+    double grown = 0, early = 0, judged = 0;
+    for (size_t i = 0; i < count; i++) {
+        const sb_soak_growth g = sb_soak_grown(&lives[i]);
+        if (!g.judged) continue;
+        grown += g.late - g.early;
+        early += g.early;
+        judged++;
+    }
+    *growth = judged > 0 ? grown / judged : 0;
+    return !(judged > 0) || *growth <= allowed(early / judged);
 }
