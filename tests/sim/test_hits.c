@@ -46,10 +46,10 @@ static void forms_agree(void **state)
 {
     (void)state;
     static const sb_stretch stretches[][4] = {
-        {{0, CANDIDATES}},                                  /* all */
-        {{0, 1}, {16, 17}, {31, 63}, {4999, 5000}},         /* a vector is not full, or just */
-        {{40, 41}, {41, 200}, {900, 1044}, {1100, 3000}},   /* longer than eight vectors */
-        {{40, 41}},                                         /* nothing but the particle itself */
+        {{0, CANDIDATES}},                                /* all */
+        {{0, 1}, {16, 17}, {31, 63}, {4999, 5000}},       /* a vector is not full, or just */
+        {{40, 41}, {41, 200}, {900, 1044}, {1100, 3000}}, /* longer than eight vectors */
+        {{40, 41}},                                       /* nothing but the particle itself */
     };
     static const size_t counts[] = {1, 4, 4, 1};
     static const float reaches[] = {300, 1000, 1500, 9000};

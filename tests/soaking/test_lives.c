@@ -119,11 +119,10 @@ static void a_process_is_seen(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_start_is_no_growth),      cmocka_unit_test(memory_may_grow_so_far_and_no_further),
-        cmocka_unit_test(frames_may_wait_in_single_lives),
-        cmocka_unit_test(no_descriptor_may_stay_open), cmocka_unit_test(a_broken_life_tells_how),
-        cmocka_unit_test(frames_have_to_arrive),       cmocka_unit_test(a_short_life_is_not_judged),
-        cmocka_unit_test(a_process_is_seen),
+        cmocka_unit_test(the_start_is_no_growth),          cmocka_unit_test(memory_may_grow_so_far_and_no_further),
+        cmocka_unit_test(frames_may_wait_in_single_lives), cmocka_unit_test(no_descriptor_may_stay_open),
+        cmocka_unit_test(a_broken_life_tells_how),         cmocka_unit_test(frames_have_to_arrive),
+        cmocka_unit_test(a_short_life_is_not_judged),      cmocka_unit_test(a_process_is_seen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

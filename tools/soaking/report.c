@@ -74,8 +74,7 @@ static void put_sum(FILE *out, const sb_soak_report *r)
             "%.1f minutes, %zu lives: %zu stopped, %zu resumed, %zu finished; %" PRIu64 " steps, %" PRIu64
             " frames at the subscriber. %zu lives were long enough to be judged for growth, %+.1f MB in the mean; "
             "%s.\n\n",
-            r->seconds / 60, r->count, stopped, resumed, finished, steps, r->frames, r->judged,
-            1e-6 * r->growth,
+            r->seconds / 60, r->count, stopped, resumed, finished, steps, r->frames, r->judged, 1e-6 * r->growth,
             sb_soak_report_well(r) ? "nothing grew and nothing failed" : "**not all is as it should be**");
 }
 
