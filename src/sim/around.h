@@ -35,7 +35,7 @@ SB_INLINE void sb_around(const sb_sim *sim, const sb_group *group, sb_f4 *out)
     const sb_run *run = sim->groups.run + group->run;
     for (size_t r = 0; r < group->runs; r++) {
         const sb_record *record = sim->position + run[r].begin, *end = record + run[r].count;
-        for (; record + 2 <= end; record += 2, out += 2)
+        for (; end - record >= 2; record += 2, out += 2)
             *(sb_two_values *)out = SB_OFFSETS_CARRYING(*(const sb_two_records *)record, corner);
         if (record < end) *out++ = sb_offset_carrying(*record, c);
     }
@@ -50,7 +50,7 @@ SB_INLINE void sb_around_with(const sb_sim *sim, const sb_group *group, const sb
     for (size_t r = 0; r < group->runs; r++) {
         const sb_record *record = sim->position + run[r].begin, *end = record + run[r].count;
         const sb_f4 *value = field + run[r].begin;
-        for (; record + 2 <= end; record += 2, value += 2, out += 4) {
+        for (; end - record >= 2; record += 2, value += 2, out += 4) {
             const sb_two_values a = SB_OFFSETS_CARRYING(*(const sb_two_records *)record, corner);
             const sb_two_values b = *(const sb_two_values *)value;
             *(sb_two_values *)out = __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11);

@@ -37,7 +37,8 @@ typedef struct sb_hits {
 } sb_hits;
 
 /* Candidates with (scale r)^2 < 1 as offsets self - candidate, in the order of the stretches, without candidate
-   `skip`. Returns how many; SB_LIST_MAX or more means that some may have been left out. */
+   `skip`. SB_STRETCHES_MAX stretches of SB_CANDIDATES_MAX candidates together at most, none in two. Returns how many
+   hits; SB_LIST_MAX or more means that some may have been left out. */
 typedef size_t sb_find_hits(const sb_candidates *of, const sb_stretch *stretch, size_t stretches, sb_hits *hits,
                             sb_f4 self, float scale2, uint32_t skip);
 

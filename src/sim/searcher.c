@@ -11,6 +11,8 @@ enum {
     MOST = 32767, /* of a stored slope */
 };
 
+_Static_assert((int)SB_WALLS_AROUND_MAX <= (int)SB_CANDIDATES_MAX, "what is tested for hits");
+
 /* Boundary particles around one cell as offsets from the cell's corner, in quanta. */
 typedef struct surroundings {
     size_t count;

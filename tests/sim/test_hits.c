@@ -20,6 +20,34 @@ typedef struct guarded {
     unsigned char after[GUARD];
 } guarded;
 
+/* As many stretches and candidates as there may be: the test's own room is enough for them, and of what is found
+   nothing is written beyond what may be. */
+static void limits_are_kept(void **state)
+{
+    (void)state;
+    enum { LONG = SB_CANDIDATES_MAX / SB_STRETCHES_MAX / 16 * 16 + 1 };
+    float *place = sb_alloc(SB_CANDIDATES_MAX + SB_HIT_SPARE, sizeof *place);
+    sb_f4 *record = sb_alloc(SB_CANDIDATES_MAX, sizeof *record);
+    guarded *out = sb_alloc(1, sizeof *out);
+    assert_true(place && record && out);
+    sb_stretch stretch[SB_STRETCHES_MAX];
+    for (uint32_t s = 0; s < SB_STRETCHES_MAX; s++) stretch[s] = (sb_stretch){s * LONG, (s + 1) * LONG};
+    stretch[SB_STRETCHES_MAX - 1].end = SB_CANDIDATES_MAX;
+    const sb_candidates of = {place, place, place, record};
+    memset(out, 0xa5, sizeof *out);
+    assert_int_equal(sb_find_hits_choose()(&of, stretch, SB_STRETCHES_MAX, &out->hits, (sb_f4){9, 9, 9, 0}, 1, 7), 0);
+    assert_true(sb_find_hits_choose()(&of, stretch, SB_STRETCHES_MAX, &out->hits, (sb_f4){0}, 1, 7) >= SB_LIST_MAX);
+    const float *const fields[] = {out->hits.x, out->hits.y, out->hits.z, out->hits.q2,
+                                   (const float *)out->hits.candidate};
+    const uint32_t untouched = 0xa5a5a5a5;
+    for (size_t f = 0; f < sizeof fields / sizeof *fields; f++)
+        assert_memory_equal(fields[f] + SB_LIST_MAX + SB_HIT_SPARE - 1, &untouched, sizeof untouched);
+    for (int k = 0; k < GUARD; k++) assert_int_equal(out->after[k], 0xa5);
+    sb_free(place);
+    sb_free(record);
+    sb_free(out);
+}
+
 /* Whole quanta in a cube of 4000, as offsets are. */
 static void scatter(cloud *c, uint64_t seed)
 {
@@ -81,6 +109,6 @@ static void forms_agree(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(forms_agree)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(forms_agree), cmocka_unit_test(limits_are_kept)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

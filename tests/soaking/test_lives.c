@@ -51,18 +51,27 @@ static void memory_may_grow_so_far_and_no_further(void **state)
 static void frames_may_wait_in_single_lives(void **state)
 {
     (void)state;
-    sb_soak_life lives[2] = {life_that_grows(80e3, 0), life_that_grows(0, 0)};
+    enum { LIVES = 4 };
+    sb_soak_life lives[LIVES] = {life_that_grows(80e3, 0), life_that_grows(0, 0), life_that_grows(0, 0),
+                                 life_that_grows(0, 0)};
     char why[400];
     double growth;
     assert_near(sb_soak_waiting(1000), 5 * 32 * 1000, 0);
     assert_false(sb_soak_well(&lives[0], why));
-    for (int i = 0; i < 2; i++) lives[i].waiting = 14e6;
+    for (int i = 0; i < LIVES; i++) lives[i].waiting = 14e6;
     assert_true(sb_soak_well(&lives[0], why));
-    assert_true(sb_soak_steady(lives, 2, &growth));
-    assert_near(growth, 10e6, 1e6);
-    assert_false(sb_soak_steady(lives, 1, &growth));
-    assert_near(growth, 20e6, 1e6);
-    for (int i = 0; i < 2; i++) sb_free(lives[i].samples);
+    assert_true(sb_soak_steady(lives, LIVES, &growth));
+    assert_near(growth, 5e6, 1e6);
+    assert_true(sb_soak_steady(lives, 1, &growth)); /* too few to say */
+    for (int i = 1; i < LIVES; i++) {
+        sb_free(lives[i].samples);
+        lives[i] = life_that_grows(45e3, 0);
+        lives[i].waiting = 14e6;
+        assert_true(sb_soak_well(&lives[i], why));
+    }
+    assert_false(sb_soak_steady(lives, LIVES, &growth));
+    assert_near(growth, 13.4e6, 1e6);
+    for (int i = 0; i < LIVES; i++) sb_free(lives[i].samples);
 }
 
 static void no_descriptor_may_stay_open(void **state)

@@ -10,7 +10,10 @@
 
 const double sb_soak_share = 0.03, sb_soak_bytes = 4e6, sb_soak_shortest = 90;
 
-enum { FEWEST = 4 }; /* samples of which a middle one is taken */
+enum {
+    FEWEST = 4,      /* samples of which a middle one is taken */
+    FEWEST_LIVES = 4 /* of which a mean says more than how many frames waited in one */
+};
 
 /* Of a frame, per particle: place, velocity, pressure, number. Frames: three that wait, the one that is drawn or
    written, the one that waits for room. */
@@ -140,11 +143,11 @@ bool sb_soak_steady(const sb_soak_life *lives, size_t count, double *growth)
     double grown = 0, early = 0, judged = 0;
     for (size_t i = 0; i < count; i++) {
         const sb_soak_growth g = sb_soak_grown(&lives[i]);
-        if (!g.judged) continue;
+        if (!g.judged || lives[i].end == SB_SOAK_BROKEN) continue;
         grown += g.late - g.early;
         early += g.early;
         judged++;
     }
     *growth = judged > 0 ? grown / judged : 0;
-    return !(judged > 0) || *growth <= allowed(early / judged);
+    return judged < FEWEST_LIVES || *growth <= allowed(early / judged);
 }

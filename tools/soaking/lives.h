@@ -60,8 +60,8 @@ sb_soak_growth sb_soak_grown(const sb_soak_life *life);
 /* Whether a life is as it should be; else why not, in a few words. A life too short to be judged for growth has only to
    end well. */
 bool sb_soak_well(const sb_soak_life *life, char why[400]);
-/* Whether the judged ones of all lives grew no further, in the mean, than they may. growth: bytes, that mean; 0 where
-   none was judged. */
+/* Whether the judged ones of all lives grew no further, in the mean, than they may; with fewer than four of them
+   nothing is held against it. growth: bytes, that mean; 0 where none was judged. */
 bool sb_soak_steady(const sb_soak_life *lives, size_t count, double *growth);
 
 #endif
