@@ -2,7 +2,8 @@
    the narrow form's two sums side by side, so the same is added to the same. */
 #include "sim/passes.h"
 
-#ifdef SB_MULTIVERSIONED
+#if defined(SB_MULTIVERSIONED) || (defined(SB_NATIVE) && defined(__AVX512BW__) && defined(__AVX512DQ__) &&             \
+                                   defined(__AVX512VL__) && defined(__FMA__))
 #include <immintrin.h>
 
 /* Of the set that the loader picks where there are such vectors, x86-64-v4: products and sums are contracted as in the

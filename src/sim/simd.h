@@ -20,12 +20,12 @@ typedef float sb_f8 __attribute__((vector_size(32), aligned(4)));
    (the argument of the pressure operator). */
 typedef sb_u4 sb_record;
 
-/* Each function so marked exists once per instruction set; the loader picks. Sanitizers cannot
-   instrument the picking. SB_INSTRUCTIONS names one set instead, for tests. */
+/* Each function so marked exists once per instruction set; the loader picks. Sanitizers cannot instrument the picking.
+   SB_INSTRUCTIONS names one set instead, for tests; a build for one processor (SB_NATIVE) has its set already. */
 #ifdef SB_INSTRUCTIONS
 #define SB_MULTIVERSION __attribute__((target("arch=" SB_INSTRUCTIONS)))
-#elif defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) &&             \
-    !defined(__SANITIZE_THREAD__)
+#elif defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(SB_NATIVE) &&                        \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define SB_MULTIVERSION __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #define SB_MULTIVERSIONED
 #else
