@@ -12,7 +12,7 @@ const double sb_soak_share = 0.03, sb_soak_bytes = 4e6, sb_soak_shortest = 90;
 
 enum {
     FEWEST = 4,      /* samples of which a middle one is taken */
-    FEWEST_LIVES = 4 /* of which a mean says more than how many frames waited in one */
+    FEWEST_LIVES = 4 /* of which the middle one says more than how many frames waited in one */
 };
 
 /* Of a frame, per particle: place, velocity, pressure, number. Frames: three that wait, the one that is drawn or
@@ -140,14 +140,21 @@ bool sb_soak_well(const sb_soak_life *life, char why[400])
 
 bool sb_soak_steady(const sb_soak_life *lives, size_t count, double *growth)
 {
-    double grown = 0, early = 0, judged = 0;
-    for (size_t i = 0; i < count; i++) {
+    double *grown = sb_alloc(count, sizeof *grown), *early = sb_alloc(count, sizeof *early);
+    size_t n = 0;
+    for (size_t i = 0; grown && early && i < count; i++) {
         const sb_soak_growth g = sb_soak_grown(&lives[i]);
         if (!g.judged || lives[i].end == SB_SOAK_BROKEN) continue;
-        grown += g.late - g.early;
-        early += g.early;
-        judged++;
+        grown[n] = g.late - g.early;
+        early[n++] = g.early;
     }
-    *growth = judged > 0 ? grown / judged : 0;
-    return judged < FEWEST_LIVES || *growth <= allowed(early / judged);
+    if (n > 0) {
+        qsort(grown, n, sizeof *grown, ascending);
+        qsort(early, n, sizeof *early, ascending);
+    }
+    *growth = n > 0 ? grown[n / 2] : 0;
+    const bool steady = n < FEWEST_LIVES || *growth <= allowed(early[n / 2]);
+    sb_free(grown);
+    sb_free(early);
+    return steady;
 }

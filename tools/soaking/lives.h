@@ -43,7 +43,7 @@ typedef struct sb_soak_growth {
 } sb_soak_growth;
 
 /* Lives may grow by this share of their early memory, and by so many bytes: pages of buffers that follow the wave. That
-   is what they may in the mean; a single one by the frames that wait, too, of which there are none to five: whether
+   is what the middle one may; a single one by the frames that wait, too, of which there are none to five: whether
    pictures keep pace is the machine's matter, and not the same early and late. What leaks, leaks in every life. */
 extern const double sb_soak_share, sb_soak_bytes;
 /* Bytes of the frames of so many particles that may be on their way at once. */
@@ -60,8 +60,9 @@ sb_soak_growth sb_soak_grown(const sb_soak_life *life);
 /* Whether a life is as it should be; else why not, in a few words. A life too short to be judged for growth has only to
    end well. */
 bool sb_soak_well(const sb_soak_life *life, char why[400]);
-/* Whether the judged ones of all lives grew no further, in the mean, than they may; with fewer than four of them
-   nothing is held against it. growth: bytes, that mean; 0 where none was judged. */
+/* Whether the judged ones of all lives grew no further than they may, by the middle one of their growths: a life that
+   ends with films alone shrinks by 90 MB, and would hide in a mean what others grow. With fewer than four of them
+   nothing is held against it. growth: bytes, the middle one; 0 where none was judged. */
 bool sb_soak_steady(const sb_soak_life *lives, size_t count, double *growth);
 
 #endif

@@ -78,7 +78,7 @@ static int tell(const soak *s, const sb_soak_report *report)
     printf(
         "%zu lives, %zu of them long enough to be judged for growth, %zu not as they should be; %llu frames arrived\n",
         s->count, report->judged, report->unwell, (unsigned long long)report->frames);
-    if (!report->steady) printf("memory grew by %.1f MB in the mean of the lives\n", 1e-6 * report->growth);
+    if (!report->steady) printf("memory grew by %.1f MB in the middle one of the lives\n", 1e-6 * report->growth);
     return sb_soak_report_well(report) ? 0 : UNWELL;
 }
 

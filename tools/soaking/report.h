@@ -12,8 +12,8 @@ typedef struct sb_soak_report {
     size_t count;
     double seconds;  /* of wall time, all together */
     size_t unwell;   /* lives that are not as they should be */
-    bool steady;     /* in the mean they did not grow */
-    double growth;   /* bytes, that mean */
+    bool steady;     /* the middle one did not grow */
+    double growth;   /* bytes, of the middle one */
     size_t judged;   /* lives long enough to be judged for growth */
     uint64_t frames; /* that the subscriber got whole */
 } sb_soak_report;
