@@ -9,8 +9,7 @@
 enum {
     SB_LIST_MAX = 1024, /* neighbours of one particle: 80 are normal */
     SB_HIT_LANES = 8,
-    SB_HIT_SPARE = 96, /* vector loads and stores may run past the end; and what is stored of one of these fields does
-                          not lie where, but for a multiple of 4 kB, the next one is read */
+    SB_HIT_SPARE = 96, /* vector loads and stores may run past the end, by 31; as many, for it was timed (0029) */
     SB_CANDIDATES_MAX = 16383,
     SB_STRETCHES_MAX = 27
 };

@@ -6,7 +6,6 @@
 #include "sim/around.h"
 
 typedef struct sb_passes {
-    const char *name;
     /* sim->acceleration of the group, as sb_pressure_accelerate has it. */
     void (*accelerate)(sb_sim *sim, const sb_group *group);
     /* out of the group, as sb_divergence has it. */

@@ -95,7 +95,7 @@ static void diverge_group(sb_sim *sim, const sb_group *group, const sb_f4 *field
     }
 }
 
-const sb_passes sb_passes_narrow = {"32 bytes", accelerate_group, diverge_group};
+const sb_passes sb_passes_narrow = {accelerate_group, diverge_group};
 
 void sb_pressure_accelerate(sb_sim *sim)
 {

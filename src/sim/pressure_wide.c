@@ -87,7 +87,7 @@ WIDE static void diverge_group(sb_sim *sim, const sb_group *group, const sb_f4 *
     }
 }
 
-static const sb_passes wide = {"64 bytes", accelerate_group, diverge_group};
+static const sb_passes wide = {accelerate_group, diverge_group};
 
 const sb_passes *sb_passes_wide(void)
 {
@@ -95,8 +95,9 @@ const sb_passes *sb_passes_wide(void)
     return __builtin_cpu_supports("x86-64-v4") ? &wide : NULL;
 }
 
-/* Zen 5 and later, which alone of AMD's have this instruction: their units are as wide as the vectors. Where halves
-   take turns, or shuffles have one port, the narrow form was measured to be the faster one or as fast. */
+/* Zen 5 and later, which alone of AMD's have this instruction: their units are as wide as the vectors, and there this
+   form was measured to be the faster one. On two Xeons, others by such vectors were slower (docs/decisions/0012); where
+   nobody has measured, the narrow form stays. */
 static bool wide_pays(void)
 {
     return __builtin_cpu_is("amd") && __builtin_cpu_supports("avx512vp2intersect");

@@ -47,33 +47,6 @@ static void memory_may_grow_so_far_and_no_further(void **state)
     says(life_that_grows(45e3, 0), "memory grew by 11.");
 }
 
-/* Frames that wait may be there late and not early, in one life; a growth in all of them is a leak. */
-static void frames_may_wait_in_single_lives(void **state)
-{
-    (void)state;
-    enum { LIVES = 4 };
-    sb_soak_life lives[LIVES] = {life_that_grows(80e3, 0), life_that_grows(0, 0), life_that_grows(0, 0),
-                                 life_that_grows(0, 0)};
-    char why[400];
-    double growth;
-    assert_near(sb_soak_waiting(1000), 5 * 32 * 1000, 0);
-    assert_false(sb_soak_well(&lives[0], why));
-    for (int i = 0; i < LIVES; i++) lives[i].waiting = 14e6;
-    assert_true(sb_soak_well(&lives[0], why));
-    assert_true(sb_soak_steady(lives, LIVES, &growth));
-    assert_near(growth, 0, 1e6);
-    assert_true(sb_soak_steady(lives, 1, &growth)); /* too few to say */
-    for (int i = 1; i < LIVES; i++) {
-        sb_free(lives[i].samples);
-        lives[i] = life_that_grows(i == 1 ? -300e3 : 45e3, 0); /* one that shrinks hides nothing */
-        lives[i].waiting = 14e6;
-        assert_true(sb_soak_well(&lives[i], why));
-    }
-    assert_false(sb_soak_steady(lives, LIVES, &growth));
-    assert_near(growth, 11.2e6, 1e6);
-    for (int i = 0; i < LIVES; i++) sb_free(lives[i].samples);
-}
-
 static void no_descriptor_may_stay_open(void **state)
 {
     (void)state;
@@ -128,10 +101,10 @@ static void a_process_is_seen(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_start_is_no_growth),          cmocka_unit_test(memory_may_grow_so_far_and_no_further),
-        cmocka_unit_test(frames_may_wait_in_single_lives), cmocka_unit_test(no_descriptor_may_stay_open),
-        cmocka_unit_test(a_broken_life_tells_how),         cmocka_unit_test(frames_have_to_arrive),
-        cmocka_unit_test(a_short_life_is_not_judged),      cmocka_unit_test(a_process_is_seen),
+        cmocka_unit_test(the_start_is_no_growth),      cmocka_unit_test(memory_may_grow_so_far_and_no_further),
+        cmocka_unit_test(no_descriptor_may_stay_open), cmocka_unit_test(a_broken_life_tells_how),
+        cmocka_unit_test(frames_have_to_arrive),       cmocka_unit_test(a_short_life_is_not_judged),
+        cmocka_unit_test(a_process_is_seen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,14 +10,7 @@
 
 const double sb_soak_share = 0.03, sb_soak_bytes = 4e6, sb_soak_shortest = 90;
 
-enum {
-    FEWEST = 4,      /* samples of which a middle one is taken */
-    FEWEST_LIVES = 4 /* of which the middle one says more than how many frames waited in one */
-};
-
-/* Of a frame, per particle: place, velocity, pressure, number. Frames: three that wait, the one that is drawn or
-   written, the one that waits for room. */
-static const double FRAME_BYTES = 32, FRAMES = 5;
+enum { FEWEST = 4 }; /* samples of which a middle one is taken */
 
 /* Names in /proc/PID/fd, one for each descriptor; 0: the process is gone. */
 static unsigned count_descriptors(pid_t process)
@@ -99,16 +92,6 @@ static bool middle(const sb_soak_life *life, double from, double to, double *res
     return enough;
 }
 
-double sb_soak_waiting(double particles)
-{
-    return FRAMES * FRAME_BYTES * particles;
-}
-
-static double allowed(double early)
-{
-    return sb_soak_share * early + sb_soak_bytes;
-}
-
 sb_soak_growth sb_soak_grown(const sb_soak_life *life)
 {
     sb_soak_growth g = {0};
@@ -129,32 +112,11 @@ bool sb_soak_well(const sb_soak_life *life, char why[400])
     why[0] = '\0';
     if (life->end == SB_SOAK_BROKEN)
         snprintf(why, 400, "%s", life->words);
-    else if (g.judged && g.late - g.early > allowed(g.early) + life->waiting)
+    else if (g.judged && g.late - g.early > sb_soak_share * g.early + sb_soak_bytes)
         snprintf(why, 400, "memory grew by %.1f MB", 1e-6 * (g.late - g.early));
     else if (g.judged && g.descriptors_late > g.descriptors_early)
         snprintf(why, 400, "descriptors grew from %.0f to %.0f", g.descriptors_early, g.descriptors_late);
     else if (g.judged && life->frames == 0)
         snprintf(why, 400, "the subscriber got no frame");
     return why[0] == '\0';
-}
-
-bool sb_soak_steady(const sb_soak_life *lives, size_t count, double *growth)
-{
-    double *grown = sb_alloc(count, sizeof *grown), *early = sb_alloc(count, sizeof *early);
-    size_t n = 0;
-    for (size_t i = 0; grown && early && i < count; i++) {
-        const sb_soak_growth g = sb_soak_grown(&lives[i]);
-        if (!g.judged || lives[i].end == SB_SOAK_BROKEN) continue;
-        grown[n] = g.late - g.early;
-        early[n++] = g.early;
-    }
-    if (n > 0) {
-        qsort(grown, n, sizeof *grown, ascending);
-        qsort(early, n, sizeof *early, ascending);
-    }
-    *growth = n > 0 ? grown[n / 2] : 0;
-    const bool steady = n < FEWEST_LIVES || *growth <= allowed(early[n / 2]);
-    sb_free(grown);
-    sb_free(early);
-    return steady;
 }

@@ -27,7 +27,6 @@ typedef struct sb_soak_life {
     char words[300];                /* how it ended, when broken */
     uint64_t first_step, last_step; /* streamed; 0: none */
     uint64_t frames, chunks_lost;   /* that the subscriber got whole; chunks of others that never came */
-    double waiting;                 /* bytes: what frames on their way to pictures, files and stream may hold */
     sb_soak_sample *samples;        /* owned */
     size_t count, capacity;
 } sb_soak_life;
@@ -42,12 +41,8 @@ typedef struct sb_soak_growth {
     unsigned descriptors_peak;
 } sb_soak_growth;
 
-/* Lives may grow by this share of their early memory, and by so many bytes: pages of buffers that follow the wave. That
-   is what the middle one may; a single one by the frames that wait, too, of which there are none to five: whether
-   pictures keep pace is the machine's matter, and not the same early and late. What leaks, leaks in every life. */
+/* A life may grow by this share of its early memory, and by so many bytes: pages of buffers that follow the wave. */
 extern const double sb_soak_share, sb_soak_bytes;
-/* Bytes of the frames of so many particles that may be on their way at once. */
-double sb_soak_waiting(double particles);
 /* s: a shorter span is not judged for growth; the warm-up may be most of it. */
 extern const double sb_soak_shortest;
 
@@ -60,9 +55,5 @@ sb_soak_growth sb_soak_grown(const sb_soak_life *life);
 /* Whether a life is as it should be; else why not, in a few words. A life too short to be judged for growth has only to
    end well. */
 bool sb_soak_well(const sb_soak_life *life, char why[400]);
-/* Whether the judged ones of all lives grew no further than they may, by the middle one of their growths: a life that
-   ends with films alone shrinks by 90 MB, and would hide in a mean what others grow. With fewer than four of them
-   nothing is held against it. growth: bytes, the middle one; 0 where none was judged. */
-bool sb_soak_steady(const sb_soak_life *lives, size_t count, double *growth);
 
 #endif

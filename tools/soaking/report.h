@@ -12,14 +12,9 @@ typedef struct sb_soak_report {
     size_t count;
     double seconds;  /* of wall time, all together */
     size_t unwell;   /* lives that are not as they should be */
-    bool steady;     /* the middle one did not grow */
-    double growth;   /* bytes, of the middle one */
     size_t judged;   /* lives long enough to be judged for growth */
     uint64_t frames; /* that the subscriber got whole */
 } sb_soak_report;
-
-/* Whether all is as it should be. */
-bool sb_soak_report_well(const sb_soak_report *report);
 
 /* Writes folder/soak.md, whole or not at all. */
 sb_status sb_soak_report_write(const sb_soak_report *report, const char *folder, sb_error *error);

@@ -47,7 +47,6 @@ static void on_status(void *user, const sb_status_message *message)
 static void on_particles(void *user, const sb_particles_message *message)
 {
     sb_soak_watch *w = user;
-    w->life->waiting = sb_soak_waiting((double)message->total * message->decimation);
     sb_assembly_add(&w->assembly, message);
 }
 
