@@ -9,11 +9,11 @@
 static const sb_key path_keys[] = {
     {.name = "time", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_camera_key, time), .unit = "s",
      SB_KEY_NOT_NEGATIVE, .flags = SB_KEY_REQUIRED,
-     .doc = "When the camera is here; later than the entry before."},
+     .doc = "Time at which the camera is at this place; later than the previous entry."},
     {.name = "eye", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_camera_key, eye), .unit = "m", SB_KEY_ANY,
-     .flags = SB_KEY_REQUIRED | SB_KEY_FULL, .doc = "Where the camera is."},
+     .flags = SB_KEY_REQUIRED | SB_KEY_FULL, .doc = "Position of the camera."},
     {.name = "target", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_camera_key, target), .unit = "m",
-     SB_KEY_ANY, .flags = SB_KEY_REQUIRED | SB_KEY_FULL, .doc = "What it looks at."},
+     SB_KEY_ANY, .flags = SB_KEY_REQUIRED | SB_KEY_FULL, .doc = "Point at which the camera looks."},
     {.name = "fov", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_camera_key, fov), .unit = "deg", .min = 1,
      .max = 170, .fallback = "45", .doc = "Vertical angle of view."},
 };
@@ -42,10 +42,10 @@ static unsigned camera_variant(const void *item, const sb_yaml *map)
 /* clang-format off */
 static const sb_key camera_keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_camera, name), .flags = SB_KEY_REQUIRED,
-     .doc = "Unlike all other cameras' names; its folder and film bear it."},
+     .doc = "Unique name of the camera; its folder and film have this name."},
     {.name = "path", .type = SB_KEY_LIST, SB_KEY_ITEMS(sb_camera, keys, key_count),
      .table = &path_table, .applies = PATH, .only = "a moving camera", .derived = "a fixed camera",
-     .doc = "Two or more places in time, with a smooth path between."},
+     .doc = "Path of a moving camera: two or more places with times, connected smoothly."},
     {.type = SB_KEY_LIST, SB_KEY_ITEMS(sb_camera, keys, key_count), .table = &view_table,
      .applies = FIXED, .only = "a camera without path"},
 };
@@ -74,22 +74,23 @@ static const sb_table camera_table = {SB_KEY_ROWS(camera_keys), .size = sizeof(s
 static const sb_key render_keys[] = {
     {.name = "interval", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_render_settings, interval),
      .unit = "s", SB_KEY_NOT_NEGATIVE, .fallback = "0",
-     .doc = "Simulated time between pictures; 0: none are made."},
+     .doc = "Simulated time between pictures; 0: no pictures."},
     {.name = "width", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_render_settings, width), .unit = "px",
-     .min = 16, .max = 16384, .fallback = "1280", .doc = "Of a picture."},
+     .min = 16, .max = 16384, .fallback = "1280", .doc = "Width of a picture."},
     {.name = "height", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_render_settings, height), .unit = "px",
-     .min = 16, .max = 16384, .fallback = "720", .doc = "Of a picture."},
+     .min = 16, .max = 16384, .fallback = "720", .doc = "Height of a picture."},
     {.name = "speed_max", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_render_settings, speed_max),
      .unit = "m/s", SB_KEY_NOT_NEGATIVE, .fallback = "0",
-     .doc = "Speed at the top of the colour map; 0: 2 sqrt(g D)."},
+     .doc = "Speed at the upper end of the colour map; 0: 2 sqrt(g D)."},
     {.name = "video", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_render_settings, video),
      .fallback = "true", .flags = SB_KEY_FREE,
-     .doc = "Join each camera's pictures to a film where ffmpeg is there."},
+     .doc = "Whether to join each camera's pictures to a film, if ffmpeg is installed."},
     {.name = "video_rate", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_render_settings, video_rate),
-     .unit = "1/s", .min = 1, .max = 240, .fallback = "30", .flags = SB_KEY_FREE, .doc = "Pictures per second of film."},
+     .unit = "1/s", .min = 1, .max = 240, .fallback = "30", .flags = SB_KEY_FREE,
+     .doc = "Pictures per second of the film."},
     {.name = "cameras", .type = SB_KEY_LIST,
      SB_KEY_ITEMS(sb_render_settings, cameras, camera_count), .table = &camera_table,
-     .doc = "Each makes its own pictures and film; give eye and target, or a path."},
+     .doc = "Cameras. Each makes its own pictures and film, and has eye and target, or a path."},
 };
 /* clang-format on */
 
@@ -107,11 +108,11 @@ const sb_table sb_render_table = {SB_KEY_ROWS(render_keys), .size = sizeof(sb_re
 /* clang-format off */
 static const sb_key stream_keys[] = {
     {.name = "enabled", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_stream_settings, enabled),
-     .fallback = "false", .doc = "Whether the run is published while it goes."},
+     .fallback = "false", .doc = "Whether the run publishes its state while it runs."},
     {.name = "url", .type = SB_KEY_TEXT, SB_KEY_AT(sb_stream_settings, url), .fallback = "\"\"",
-     .doc = "LCM provider, as udpm://239.255.76.67:7667?ttl=0; empty: LCM's default."},
+     .doc = "LCM provider, for example udpm://239.255.76.67:7667?ttl=0; empty: LCM's default."},
     {.name = "prefix", .type = SB_KEY_NAME, SB_KEY_AT(sb_stream_settings, prefix),
-     .fallback = "shorebreak", .doc = "What channel names begin with."},
+     .fallback = "shorebreak", .doc = "First part of channel names."},
     {.name = "interval", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_stream_settings, interval),
      .unit = "s", SB_KEY_POSITIVE, .fallback = "0.1",
      .doc = "Simulated time between particle messages."},
@@ -144,13 +145,15 @@ const sb_table sb_stream_table = {SB_KEY_ROWS(stream_keys), .size = sizeof(sb_st
 static const sb_key checkpoint_keys[] = {
     {.name = "minutes", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_checkpoint_settings, minutes),
      .unit = "min", .min = 0, .max = 525600, .fallback = "10",
-     .doc = "Wall time between two; 0: by steps only."},
+     .doc = "Run time between two checkpoints; 0: by steps only."},
     {.name = "steps", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_checkpoint_settings, steps),
      .unit = "steps", .min = 0, .max = 1000000000, .fallback = "0",
-     .doc = "Steps between two; 0: by minutes only. With both 0 no checkpoints are written at all."},
+     .doc = "Steps between two checkpoints; 0: by minutes only. With both 0, no checkpoints are "
+            "written."},
     {.name = "keep", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_checkpoint_settings, keep),
      .min = 1, .max = 1000000, .fallback = "2",
-     .doc = "How many stay, the newest ones: where one is damaged, the one before is used."},
+     .doc = "Number of checkpoints that are kept, the newest ones. If one is damaged, the "
+            "previous one is used."},
 };
 /* clang-format on */
 
@@ -160,13 +163,15 @@ static const sb_table checkpoint_table = {SB_KEY_ROWS(checkpoint_keys)};
 static const sb_key output_keys[] = {
     {.name = "particle_interval", .type = SB_KEY_NUMBER,
      SB_KEY_AT(sb_output_settings, particle_interval), .unit = "s", SB_KEY_NOT_NEGATIVE,
-     .fallback = "0", .doc = "Simulated time between particle files for ParaView; 0: none."},
+     .fallback = "0",
+     .doc = "Simulated time between particle files for ParaView; 0: no particle files."},
     {.name = "plots", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_output_settings, plots),
      .fallback = "true", .flags = SB_KEY_FREE,
-     .doc = "Plot forces and gauges at the end where gnuplot is there."},
+     .doc = "Whether to plot forces and gauges at the end, if gnuplot is installed."},
     {.name = "checkpoint", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_output_settings, checkpoint),
      .table = &checkpoint_table, .flags = SB_KEY_FREE,
-     .doc = "When the run's state is saved, for `--resume`; always once more at the end and on a signal."},
+     .doc = "Times at which checkpoints are saved, for `--resume`; also at the end and on a "
+            "signal."},
 };
 /* clang-format on */
 

@@ -15,11 +15,11 @@ static sb_status refuse_outside(sb_reader *reader, const sb_yaml *map, const cha
 /* clang-format off */
 static const sb_key gauge_keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_gauge, name), .flags = SB_KEY_REQUIRED,
-     .doc = "Unlike all other gauges' names."},
+     .doc = "Unique name of the gauge."},
     {.name = "x", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_gauge, x), .unit = "m", SB_KEY_ANY,
-     .flags = SB_KEY_REQUIRED, .doc = "Place, inside the domain."},
+     .flags = SB_KEY_REQUIRED, .doc = "Position, inside the domain."},
     {.name = "y", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_gauge, y), .unit = "m", SB_KEY_ANY,
-     .flags = SB_KEY_REQUIRED_3D, .fallback = "0", .doc = "Place; 0 in 2D."},
+     .flags = SB_KEY_REQUIRED_3D, .fallback = "0", .doc = "Position; 0 in 2D."},
 };
 /* clang-format on */
 
@@ -37,12 +37,12 @@ static const sb_table gauge_table = {SB_KEY_ROWS(gauge_keys), .size = sizeof(sb_
 /* clang-format off */
 static const sb_key probe_keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_probe, name), .flags = SB_KEY_REQUIRED,
-     .doc = "Unlike all other probes' names."},
+     .doc = "Unique name of the probe."},
     {.name = "at", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_probe, at), .unit = "m", SB_KEY_ANY,
-     .flags = SB_KEY_REQUIRED, .doc = "Place, inside the domain."},
+     .flags = SB_KEY_REQUIRED, .doc = "Position, inside the domain."},
     {.name = "radius", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_probe, radius), .unit = "m",
      SB_KEY_NOT_NEGATIVE, .fallback = "0",
-     .doc = "Particles this near count; 0: the support radius."},
+     .doc = "Radius within which particles are used; 0: the support radius."},
 };
 /* clang-format on */
 
@@ -74,16 +74,16 @@ static bool meets_domain(const sb_scene *scene, double ax, double ay, double bx,
 /* clang-format off */
 static const sb_key plane_keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_flow_plane, name), .flags = SB_KEY_REQUIRED,
-     .doc = "Unlike all other planes' names."},
+     .doc = "Unique name of the plane."},
     {.name = "from", .type = SB_KEY_PLACE, SB_KEY_AT(sb_flow_plane, ax), .unit = "m", SB_KEY_ANY,
      .flags = SB_KEY_REQUIRED, .doc = "One end of the plane's footprint, [x, y]; [x] in 2D."},
     {.name = "to", .type = SB_KEY_PLACE, SB_KEY_AT(sb_flow_plane, bx), .unit = "m", SB_KEY_ANY,
      .flags = SB_KEY_REQUIRED_3D, .derived = "from",
-     .doc = "The other end; flow to the right, going there, counts positive (+x in 2D)."},
+     .doc = "The other end. Flow to the right, seen from the first end, is positive (+x in 2D)."},
     {.name = "z_min", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_flow_plane, z_min), .unit = "m",
-     SB_KEY_ANY, .derived = "z of domain.min", .doc = "Lower edge."},
+     SB_KEY_ANY, .derived = "z of domain.min", .doc = "Lower edge of the plane."},
     {.name = "z_max", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_flow_plane, z_max), .unit = "m",
-     SB_KEY_ANY, .derived = "z of domain.max", .doc = "Upper edge."},
+     SB_KEY_ANY, .derived = "z of domain.max", .doc = "Upper edge of the plane."},
 };
 /* clang-format on */
 
@@ -123,12 +123,13 @@ static const sb_table plane_table = {SB_KEY_ROWS(plane_keys), .size = sizeof(sb_
 /* clang-format off */
 static const sb_key runup_keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_runup_line, name), .flags = SB_KEY_REQUIRED,
-     .doc = "Unlike all other lines' names."},
+     .doc = "Unique name of the line."},
     {.name = "from", .type = SB_KEY_PLACE, SB_KEY_AT(sb_runup_line, ax), .unit = "m", SB_KEY_ANY,
      .flags = SB_KEY_REQUIRED,
-     .doc = "One end of the line, [x, y]; [x] in 2D. The water's front is told as the distance from here."},
+     .doc = "One end of the line, [x, y]; [x] in 2D. The front is reported as the distance from "
+            "this point."},
     {.name = "to", .type = SB_KEY_PLACE, SB_KEY_AT(sb_runup_line, bx), .unit = "m", SB_KEY_ANY,
-     .flags = SB_KEY_REQUIRED, .doc = "The other end."},
+     .flags = SB_KEY_REQUIRED, .doc = "The other end of the line."},
 };
 /* clang-format on */
 
@@ -151,10 +152,10 @@ static const sb_key map_keys[] = {
     {.name = "max", .type = SB_KEY_PLACE, SB_KEY_AT(sb_map, x_max), .unit = "m", SB_KEY_ANY,
      .derived = "that of the domain", .doc = "Corner with the largest x and y; [x] in 2D."},
     {.name = "cell", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_map, cell), .unit = "m", SB_KEY_POSITIVE,
-     .derived = "2 resolution", .doc = "Side of a cell."},
+     .derived = "2 resolution", .doc = "Edge length of a cell."},
     {.name = "threshold", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_map, threshold), .unit = "m",
      SB_KEY_POSITIVE, .derived = "resolution",
-     .doc = "Depth, or rise above the start, that counts as arrival."},
+     .doc = "Depth, or rise above the initial surface, that counts as arrival."},
 };
 /* clang-format on */
 
@@ -207,24 +208,25 @@ static unsigned measure_variant(const void *item, const sb_yaml *map)
 static const sb_key measure_keys[] = {
     {.name = "interval", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_measure_settings, interval),
      .unit = "s", SB_KEY_POSITIVE, .fallback = "0.1",
-     .doc = "Time between rows of forces, gauges and probes; forces are means over it, and the peaks of `summary.json` the "
-            "largest of these. An interval that a run's end cuts is not told."},
+     .doc = "Time between rows of forces, gauges and probes. Forces are means over the interval, "
+            "and peaks in `summary.json` are the largest of these means. An incomplete last "
+            "interval has no row."},
     {.name = "gauges", .type = SB_KEY_LIST,
      SB_KEY_ITEMS(sb_measure_settings, gauges, gauge_count), .table = &gauge_table,
-     .doc = "Heights of the free surface."},
+     .doc = "Gauges of the free surface's height."},
     {.name = "probes", .type = SB_KEY_LIST,
      SB_KEY_ITEMS(sb_measure_settings, probes, probe_count), .table = &probe_table,
-     .doc = "Velocity and pressure at a point."},
+     .doc = "Probes of velocity and pressure at a point."},
     {.name = "planes", .type = SB_KEY_LIST,
      SB_KEY_ITEMS(sb_measure_settings, planes, plane_count), .table = &plane_table,
-     .doc = "Volume through a vertical plane, as in overtopping."},
+     .doc = "Vertical planes through which volumes are measured, for example overtopping."},
     {.name = "runups", .type = SB_KEY_LIST,
      SB_KEY_ITEMS(sb_measure_settings, runups, runup_count), .table = &runup_table,
-     .doc = "Highest wet point along a line, and how far along it water reaches."},
+     .doc = "Lines along which the highest wet point and the front are measured."},
     {.name = "map", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_measure_settings, map), .table = &map_table,
      .applies = MAP, .only = "maps", .derived = "no maps",
-     .doc = "Greatest depth, speed, momentum flux and time of arrival on a horizontal grid; "
-            "`map: {}` takes all defaults."},
+     .doc = "Maps of greatest depth, speed, momentum flux and of arrival time on a horizontal "
+            "grid; `map: {}` uses all defaults."},
 };
 /* clang-format on */
 

@@ -31,63 +31,75 @@ static const char *const step_words[] = {"paper", "depth", NULL};
 static const sb_key keys[] = {
     {.name = "preset", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_numerics, preset),
      .words = preset_words, .fallback = "default",
-     .doc = "Fills in all that this block does not give: `paper` follows Sampath et al., "
-            "`default` is the best known over several cases."},
+     .doc = "Set of defaults for the keys that this block does not give. `default` is the best "
+            "known set over several cases; `paper` follows Sampath et al."},
     {.name = "kernel", .type = SB_KEY_KERNEL, SB_KEY_AT(sb_numerics, kernel),
-     .flags = SB_KEY_PRESET, .doc = "Smoothing kernel; `shorebreak list kernels` describes them."},
-    NUMBER(support, "spacings", 1.5, 4, 0, "Radius within which particles see each other."),
+     .flags = SB_KEY_PRESET, .doc = "Kernel; `shorebreak list kernels` describes the kernels."},
+    NUMBER(support, "spacings", 1.5, 4, 0,
+           "Support radius: distance within which particles interact."),
     CHOICE(density, density_words,
-           "`summed`: the kernel sum alone; `completed`: each particle carries what its sum lacked at the surface, or had "
-           "too much of at a wall, on the lattice it started from, until it comes away from there."),
+           "`summed`: density from the kernel sum alone. `completed`: with the density "
+           "correction, which compensates the kernel's missing part at the surface and its "
+           "overlap with walls."),
     CHOICE(solver, solver_words, "Method of the pressure solve."),
     CHOICE(tolerance_rule, tolerance_words,
-           "`density`: tolerance is a relative density error; `pressure`: it is the share of the "
-           "still water's pressure, and the density error follows from the time step."),
+           "`density`: the tolerance is a relative density error. `pressure`: it is a fraction of "
+           "the still water's pressure, and the density error follows from the time step."),
     NUMBER(tolerance, NULL, 0, 1, SB_KEY_ABOVE | SB_KEY_BELOW,
-           "At which mean excess density the solve stops."),
-    COUNT(min_iterations, NULL, 0, 100000, "Fewest iterations of a solve."),
-    COUNT(max_iterations, NULL, 1, 100000, "Most iterations of a solve."),
-    NUMBER(relaxation, NULL, 0, 1, SB_KEY_ABOVE, "Factor omega of the Jacobi solver, lowered where a wide support would make it diverge."),
-    NUMBER(warm_start, NULL, 0, 1, 0, "Share of the last pressure that a solve starts from."),
+           "Mean excess density at which a solve stops, see `tolerance_rule`."),
+    COUNT(min_iterations, NULL, 0, 100000, "Smallest number of iterations of a solve."),
+    COUNT(max_iterations, NULL, 1, 100000, "Largest number of iterations of a solve."),
+    NUMBER(relaxation, NULL, 0, 1, SB_KEY_ABOVE,
+           "Relaxation factor omega of the Jacobi solver. It is reduced where a wide support "
+           "would make the solver diverge."),
+    NUMBER(warm_start, NULL, 0, 1, 0, "Fraction of the last pressure from which a solve starts."),
     NUMBER(source_relaxation, NULL, 0, 1, SB_KEY_ABOVE,
-           "Share of the density error that one step mends."),
+           "Fraction of the density error that one step corrects."),
     NUMBER(cfl, NULL, 0, 1, SB_KEY_ABOVE,
-           "Part of the support that a particle may cross per step."),
+           "Fraction of the support radius that a particle may travel in one step."),
     CHOICE(time_step_rule, step_words,
-           "Longest step: `paper` time_step_factor h/g, `depth` time_step_factor h/sqrt(g D), "
-           "with h the support radius and D the still depth."),
+           "Rule for the longest time step: `paper`: time_step_factor h/g; `depth`: "
+           "time_step_factor h/sqrt(g D)."),
     NUMBER(time_step_factor, NULL, 0, 10, SB_KEY_ABOVE,
-           "Factor of that rule (under `paper` in 1/s); under `depth` a run warns of more than 0.3 and refuses more than 0.6."),
-    NUMBER(time_step_max, "s", 0, HUGE_VAL, 0, "A further bound on the step; 0: none."),
+           "Factor in `time_step_rule`; for `paper` its unit is 1/s. For `depth`, values above "
+           "0.3 give a warning and values above 0.6 are refused."),
+    NUMBER(time_step_max, "s", 0, HUGE_VAL, 0, "Additional upper bound of the time step; 0: none."),
     NUMBER(stress_correction, NULL, 0, 1, 0,
-           "Share of the stress by which a sheared packing of particles pushes unlike water that is taken away; 0 leaves "
-           "the term out."),
+           "Fraction of the deviatoric particle-packing stress that is removed; 0 leaves the term "
+           "out."),
     NUMBER(artificial_viscosity, NULL, 0, 10, 0,
-           "alpha of Monaghan's viscosity; 0 leaves the term out."),
-    NUMBER(wall_friction, NULL, 0, 10, 0, "sigma of the wall friction; 0 leaves the term out."),
+           "Coefficient alpha of Monaghan's artificial viscosity; 0 leaves the term out."),
+    NUMBER(wall_friction, NULL, 0, 10, 0,
+           "Coefficient sigma of the artificial wall friction; 0 leaves the term out."),
     CHOICE(wall_shear, shear_words,
-           "`smooth`: walls hold the water that slides along them by the law of the smooth wall, with "
-           "the fluid's viscosity; `none` lets it slip."),
+           "`smooth`: walls exert shear by the law of the smooth wall, with the fluid's "
+           "viscosity. `none`: free slip."),
     CHOICE(turbulence, turbulence_words,
-           "`sps`: an eddy viscosity from the strain rate, for eddies below the spacing; `none` "
+           "`sps`: sub-particle-scale turbulence, an eddy viscosity from the strain rate. `none` "
            "leaves it out."),
     NUMBER(smagorinsky, NULL, 0, 0.25, SB_KEY_ABOVE,
-           "C_s of that eddy viscosity: its mixing length in spacings, away from walls."),
+           "Smagorinsky constant C_s of the eddy viscosity: its mixing length away from walls, in "
+           "particle spacings."),
     NUMBER(sound_speed, "m/s", 0, HUGE_VAL, 0,
-           "Speed in artificial_viscosity and wall_friction; 0: 10 sqrt(g D)."),
+           "Speed of sound in the terms of artificial_viscosity and wall_friction; 0: 10 sqrt(g "
+           "D)."),
     NUMBER(wall_gamma, NULL, 0, 5, 0,
-           "Factor on the volume of boundary particles, at least 0.1: with less, walls leak; 0: computed, so that "
-           "a lattice of water stays at rest on planes and at edges."),
+           "Factor gamma of the wall volume; 0: computed so that a lattice of water stays at rest "
+           "at planes and edges. Other values are 0.1 or more, because walls leak below."),
     NUMBER(wall_spacing, "spacings", 0.4, 1.2, 0,
-           "Distance of boundary particles from each other; wide ones are grains that hold what slides along a wall."),
+           "Distance between boundary particles. A large distance slows water that slides along a "
+           "wall."),
     NUMBER(wall_offset, "spacings", 0, 2, 0,
-           "How far boundary particles lie behind the physical wall; a run asks for 0.25 or more."),
-    NUMBER(jitter, "spacings", 0, 0.5, 0, "Amplitude of the random displacement at the start."),
+           "Distance of the boundary particles behind the physical wall; a run requires 0.25 or "
+           "more."),
+    NUMBER(jitter, "spacings", 0, 0.5, 0,
+           "Amplitude of the random displacement of the particles at the start."),
     {.name = "seed", .type = SB_KEY_SEED, SB_KEY_AT(sb_numerics, seed), .max = 0x1p64,
-     .flags = SB_KEY_PRESET, .doc = "Seed of that displacement."},
+     .flags = SB_KEY_PRESET, .doc = "Start seed: seed of the random displacement."},
     {.name = "sleep", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_numerics, sleep), .flags = SB_KEY_PRESET,
-     .doc = "Whether a sea at rest is left out of the computation until a wave comes near."},
-    COUNT(settle_steps, "steps", 0, 1000000, "Most steps before t = 0 in which the water comes to rest; 0: none."),
+     .doc = "Whether still water sleeps, that is, is not computed until a wave approaches."},
+    COUNT(settle_steps, "steps", 0, 1000000,
+           "Largest number of settling steps before t = 0; 0: no settling."),
 };
 /* clang-format on */
 

@@ -16,8 +16,8 @@ static const char *const side_words[] = {"wall", "open", "periodic", NULL};
 static const sb_key side_keys[] = {
     SIDE(SB_X_MIN, "x_min", "wall", "The side at the smallest x."),
     SIDE(SB_X_MAX, "x_max", "wall", "The side at the largest x."),
-    SIDE(SB_Y_MIN, "y_min", "wall", "The side at the smallest y; without meaning in 2D."),
-    SIDE(SB_Y_MAX, "y_max", "wall", "The side at the largest y; without meaning in 2D."),
+    SIDE(SB_Y_MIN, "y_min", "wall", "The side at the smallest y; has no effect in 2D."),
+    SIDE(SB_Y_MAX, "y_max", "wall", "The side at the largest y; has no effect in 2D."),
     SIDE(SB_Z_MIN, "z_min", "wall", "The floor."),
     SIDE(SB_Z_MAX, "z_max", "open", "The lid."),
 };
@@ -51,9 +51,7 @@ static const sb_key domain_keys[] = {
     {.name = "max", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_domain, max), .unit = "m", SB_KEY_ANY,
      .flags = SB_KEY_REQUIRED, .doc = "Corner with the largest coordinates."},
     {.name = "sides", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_domain, side), .table = &side_table,
-     .doc = "What each side does: a `wall` holds the water; through an `open` side particles "
-            "leave, and are counted; what leaves through a `periodic` side comes in at the "
-            "opposite one (x and y only, both sides or neither)."},
+     .doc = "Type of each side of the domain: `wall`, `open` or `periodic`; see below."},
 };
 /* clang-format on */
 
@@ -95,7 +93,8 @@ static const sb_key fluid_keys[] = {
     {.name = "density", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_fluid_properties, density),
      .unit = "kg/m3", SB_KEY_POSITIVE, .fallback = "1000", .doc = "Rest density."},
     {.name = "gravity", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_fluid_properties, gravity),
-     .unit = "m/s2", SB_KEY_POSITIVE, .fallback = "9.81", .doc = "Magnitude; it points to -z."},
+     .unit = "m/s2", SB_KEY_POSITIVE, .fallback = "9.81",
+     .doc = "Magnitude of gravity; it points to -z."},
     {.name = "viscosity", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_fluid_properties, viscosity),
      .unit = "m2/s", SB_KEY_NOT_NEGATIVE, .fallback = "1e-6",
      .doc = "Kinematic viscosity of the fluid; 0 leaves the term out."},
@@ -107,36 +106,38 @@ static const sb_table fluid_table = {SB_KEY_ROWS(fluid_keys)};
 /* clang-format off */
 static const sb_key scene_keys[] = {
     {.name = "title", .type = SB_KEY_TEXT, SB_KEY_AT(sb_scene, title), .fallback = "\"\"",
-     .doc = "One line for pictures and reports."},
+     .doc = "Title of the scene, for pictures and reports."},
     {.name = "dimensions", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_scene, dimensions), .min = 2,
-     .max = 3, .fallback = "3", .doc = "3, or 2 for a vertical slice in x and z."},
+     .max = 3, .fallback = "3",
+     .doc = "Number of dimensions: 3, or 2 for a vertical slice in x and z."},
     {.name = "resolution", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_scene, resolution), .unit = "m",
      .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
-     .doc = "Distance of particles at rest, one spacing: the one knob between speed and detail."},
+     .doc = "Particle spacing at rest. Smaller values resolve more detail and take longer."},
     {.name = "duration", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_scene, duration), .unit = "s",
      .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED | SB_KEY_FREE,
      .doc = "Simulated time of the run."},
     {.name = "fluid", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, fluid), .table = &fluid_table,
-     .doc = "What flows."},
+     .doc = "Properties of the fluid."},
     {.name = "domain", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, domain), .table = &domain_table,
-     .flags = SB_KEY_REQUIRED, .doc = "The box in which all happens."},
+     .flags = SB_KEY_REQUIRED, .doc = "The box that contains the simulation."},
     {.name = "numerics", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, numerics),
-     .table = &sb_numerics_table, .doc = "How the equations are solved; a preset fills it."},
+     .table = &sb_numerics_table,
+     .doc = "Numerical parameters; a preset sets the ones that are not given."},
     {.name = "water", .type = SB_KEY_BLOCK, .offset = 0, .table = &sb_water_table,
-     .flags = SB_KEY_REQUIRED, .doc = "Where water is at the start."},
+     .flags = SB_KEY_REQUIRED, .doc = "The water at the start."},
     {.name = "bodies", .type = SB_KEY_LIST, SB_KEY_ITEMS(sb_scene, bodies, body_count),
-     .table = &sb_body_table, .doc = "Solid things: terrain, buildings, paddles."},
+     .table = &sb_body_table, .doc = "Solids: terrain, buildings, paddles."},
     {.name = "wavemakers", .type = SB_KEY_LIST,
      SB_KEY_ITEMS(sb_scene, wavemakers, wavemaker_count), .table = &sb_wavemaker_table,
-     .doc = "Bodies that move by a law."},
+     .doc = "Laws by which bodies move."},
     {.name = "measure", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, measure),
-     .table = &sb_measure_table, .doc = "What is measured, and how often."},
+     .table = &sb_measure_table, .doc = "Measurements, and their interval."},
     {.name = "render", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, render),
-     .table = &sb_render_table, .doc = "Pictures and film."},
+     .table = &sb_render_table, .doc = "Pictures and films."},
     {.name = "stream", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, stream),
-     .table = &sb_stream_table, .flags = SB_KEY_FREE, .doc = "The live stream over LCM."},
+     .table = &sb_stream_table, .flags = SB_KEY_FREE, .doc = "Live stream over LCM."},
     {.name = "output", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, output),
-     .table = &sb_output_table, .doc = "Other files of a run."},
+     .table = &sb_output_table, .doc = "Other files that a run writes."},
 };
 /* clang-format on */
 

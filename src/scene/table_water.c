@@ -26,9 +26,11 @@ static const sb_key box_keys[] = {
      .flags = SB_KEY_REQUIRED, .doc = "Corner with the largest coordinates."},
     {.name = "level", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_fluid_box, level), .unit = "m",
      SB_KEY_ANY, .derived = "z of max",
-     .doc = "Free surface in this box, above z of min and at most z of max."},
+     .doc = "Free surface of the water in this box, above z of min and at most z of max."},
     {.name = "velocity", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_fluid_box, velocity), .unit = "m/s",
-     SB_KEY_ANY, .fallback = "[0, 0, 0]", .doc = "Of the water in it at the start; at most 100 sqrt(g H), H being the domain's height."},
+     SB_KEY_ANY, .fallback = "[0, 0, 0]",
+     .doc = "Velocity of the water in the box at the start; at most 100 sqrt(g H), with H the "
+            "height of the domain."},
 };
 /* clang-format on */
 
@@ -70,28 +72,31 @@ static unsigned wave_variant(const void *item, const sb_yaml *map)
 /* clang-format off */
 static const sb_key wave_keys[] = {
     {.name = "kind", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_initial_wave, kind), .words = wave_words,
-     .fallback = "none", .doc = "Which wave is on the water at the start."},
+     .fallback = "none", .doc = "Wave that is on the water at the start."},
     {.name = "height", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_wave, height), .unit = "m",
      .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
      .applies = SOLITARY | STANDING, .only = "kind solitary or standing",
-     .doc = "Height H of a solitary wave, at most 0.8332 of its depth; amplitude of a standing one, less than its depth."},
+     .doc = "Height H of a solitary wave, at most 0.8332 of its depth; amplitude of a standing "
+            "wave, less than its depth."},
     {.name = "depth", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_wave, depth), .unit = "m",
      .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
      .applies = SOLITARY | STANDING, .only = "kind solitary or standing",
-     .doc = "Still depth that the theory is taken at."},
+     .doc = "Still-water depth for the wave theory."},
     {.name = "position", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_wave, position), .unit = "m",
      SB_KEY_ANY, .fallback = "0", .applies = SOLITARY | STANDING,
      .only = "kind solitary or standing", .doc = "x of the crest."},
     {.name = "wavelength", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_wave, wavelength),
      .unit = "m", .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
-     .applies = STANDING, .only = "kind standing", .doc = "Length of the standing wave, two spacings or more."},
+     .applies = STANDING, .only = "kind standing",
+     .doc = "Wavelength of the standing wave, at least two particle spacings."},
     {.name = "direction", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_initial_wave, direction), .min = -1,
      .max = 1, .fallback = "1", .applies = SOLITARY, .only = "kind solitary",
-     .doc = "1 travels towards +x, -1 towards -x; 0 is refused."},
+     .doc = "Direction of travel: 1 towards +x, -1 towards -x; 0 is an error."},
     {.name = "theory", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_initial_wave, theory), .words = theory_words,
      .fallback = "third-order", .applies = SOLITARY, .only = "kind solitary",
-     .doc = "`third-order` of height over depth, good to 0.4; `boussinesq`, the first, as experiments are often defined: high "
-            "waves of it shed water for a hundred depths."},
+     .doc = "Order of the theory in height over depth: `third-order`, valid to 0.4, or "
+            "`boussinesq`, first order, as many experiments are defined. High `boussinesq` waves "
+            "lose water at their tail for a hundred depths."},
 };
 /* clang-format on */
 
@@ -135,11 +140,12 @@ static const sb_key water_keys[] = {
      .doc = "Still-water level of the sea, inside the domain."},
     {.name = "seed", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_scene, sea.seed), .unit = "m", SB_KEY_ANY,
      .flags = SB_KEY_REQUIRED, .applies = SEA, .only = "a sea, which needs water.level",
-     .doc = "A point in the sea: all space below the level that can be reached from it is filled."},
+     .doc = "A point in the sea. The sea fills all space below the level that is connected with "
+            "this point."},
     {.name = "boxes", .type = SB_KEY_LIST, SB_KEY_ITEMS(sb_scene, boxes, box_count),
      .table = &box_table, .doc = "Boxes of water, each with its own level."},
     {.name = "wave", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, wave), .table = &wave_table,
-     .doc = "A wave that is there at t = 0, surface and velocities, by its theory."},
+     .doc = "Wave at t = 0: surface and velocities by wave theory."},
 };
 /* clang-format on */
 
