@@ -30,18 +30,6 @@ static void log_saved(run *r)
     sb_runlog_saved(r->log, &saved);
 }
 
-/* What still water saved. */
-static void log_sleep(run *r)
-{
-    const sb_sleep_report sleep = sb_sim_sleep(r->sim);
-    char last[64] = "some still sleep";
-    if (sleep.particle_steps == 0) return;
-    if (sleep.woken >= 0) snprintf(last, sizeof last, "the last woke at %.4g s", sleep.woken);
-    sb_runlog_event(r->log, "sleep", "%.3g of %.3g particle-steps asleep (%.1f %%); %s", (double)sleep.asleep_steps,
-                    (double)sleep.particle_steps, 100 * (double)sleep.asleep_steps / (double)sleep.particle_steps,
-                    last);
-}
-
 /* The state before the step that failed, for a look at what went wrong. */
 static void write_last_state(run *r)
 {
@@ -211,7 +199,6 @@ void sb_run_finish(run *r, sb_status *status, sb_error *error)
     if (r->sim) {
         sb_run_log_step(r);
         log_saved(r);
-        log_sleep(r);
         sb_progress_end(&r->progress, sb_sim_report(r->sim));
     }
     if (r->measure) {

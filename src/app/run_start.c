@@ -209,9 +209,6 @@ static sb_status begin(run *r, sb_error *error)
         sb_runlog_event(r->log, "settled", "after %d steps, highest speed %.3g m/s: %s", rest.steps, rest.speed,
                         rest.ended);
     }
-    if (r->scene->numerics.sleep)
-        sb_runlog_event(r->log, "asleep", "%zu of %zu particles sleep until a wave comes near",
-                        sb_sim_sleep(r->sim).asleep, sb_sim_report(r->sim)->fluid_count);
     sb_sim_find_pressures(r->sim);
     status = sb_measure_create(r->scene, &r->model, r->sim, &r->measure, error);
     if (status != SB_OK) return status;

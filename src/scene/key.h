@@ -56,10 +56,16 @@ typedef struct sb_key {
     const char *doc;
 } sb_key;
 
+/* A key of earlier versions, refused with the reason. */
+typedef struct sb_removed_key {
+    const char *name, *reason;
+} sb_removed_key;
+
 struct sb_table {
     const sb_key *keys;
     size_t count;
-    size_t size; /* of the struct, for lists */
+    const sb_removed_key *removed; /* up to a row without a name; NULL: none */
+    size_t size;                   /* of the struct, for lists */
     /* Bits that say which rows apply, from what is read so far and from the keys present (map;
        NULL when writing). */
     unsigned (*variant)(const void *item, const sb_yaml *map);

@@ -36,7 +36,6 @@ static const struct {
     {"wall_offset",          {"0.75",      "0.6"}},
     {"jitter",               {"0.05",       "0"}},
     {"seed",                 {"1",          "1"}},
-    {"sleep",                {"false",      "false"}},
     {"settle_steps",         {"500",        "0"}},
 };
 /* clang-format on */

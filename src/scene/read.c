@@ -48,14 +48,22 @@ static size_t path_push(sb_reader *reader, const char *name, size_t index)
     return length;
 }
 
+static const char *removal_reason(const sb_table *table, const char *name)
+{
+    for (const sb_removed_key *key = table->removed; key && key->name; key++)
+        if (strcmp(key->name, name) == 0) return key->reason;
+    return NULL;
+}
+
 static sb_status refuse_unknown(sb_reader *reader, const sb_yaml *map, const sb_table *table)
 {
     for (size_t i = 0; i < map->count; i++) {
         const sb_yaml *item = &map->items[i];
         if (sb_table_find(table, item->key)) continue;
         sb_yaml place = {.line = item->line > 0 ? item->key_line : 0, .column = item->key_column};
-        const char *near = sb_table_nearest(table, item->key);
+        const char *near = sb_table_nearest(table, item->key), *reason = removal_reason(table, item->key);
         path_push(reader, item->key, 0);
+        if (reason) return sb_reader_fail(reader, &place, NULL, "this key was removed: %s", reason);
         if (near) return sb_reader_fail(reader, &place, NULL, "unknown key, did you mean %s?", near);
         char known[400] = "";
         size_t used = 0;

@@ -109,7 +109,6 @@ typedef struct sb_numerics {
     double wall_offset;  /* spacings that their sheet lies behind the physical wall */
     double jitter;       /* spacings, amplitude of the start's random displacement */
     uint64_t seed;       /* of that displacement */
-    bool sleep;          /* still water is left out until a wave comes near */
     int settle_steps;    /* most damped steps before t = 0; 0: none */
 } sb_numerics;
 

@@ -96,12 +96,15 @@ static const sb_key keys[] = {
            "Amplitude of the random displacement of the particles at the start."),
     {.name = "seed", .type = SB_KEY_SEED, SB_KEY_AT(sb_numerics, seed), .max = 0x1p64,
      .flags = SB_KEY_PRESET, .doc = "Start seed: seed of the random displacement."},
-    {.name = "sleep", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_numerics, sleep), .flags = SB_KEY_PRESET,
-     .doc = "Whether still water sleeps, that is, is not computed until a wave approaches."},
     COUNT(settle_steps, "steps", 0, 1000000,
            "Largest number of settling steps before t = 0; 0: no settling."),
 };
 /* clang-format on */
+
+static const sb_removed_key removed[] = {
+    {"sleep", "still water is always computed; delete the key"},
+    {NULL, NULL},
+};
 
 static const double GAMMA_MIN = 0.1; /* below, walls leak */
 
@@ -116,4 +119,5 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
                           numerics->min_iterations, numerics->max_iterations);
 }
 
-const sb_table sb_numerics_table = {SB_KEY_ROWS(keys), .size = sizeof(sb_numerics), .finish = finish};
+const sb_table sb_numerics_table = {SB_KEY_ROWS(keys), .removed = removed, .size = sizeof(sb_numerics),
+                                    .finish = finish};

@@ -2,27 +2,6 @@
 
 #include "base/memory.h"
 
-const sb_group *sb_group_of(const sb_sim *sim, size_t i)
-{
-    size_t low = 0, high = sim->groups.count;
-    while (high - low > 1) {
-        const size_t middle = low + (high - low) / 2;
-        if (sim->groups.group[middle].first <= i)
-            low = middle;
-        else
-            high = middle;
-    }
-    return &sim->groups.group[low];
-}
-
-uint32_t sb_around_index(const sb_sim *sim, const sb_group *group, uint16_t place)
-{
-    const sb_run *run = sim->groups.run + group->run;
-    uint32_t left = place / SB_PLACE_STEP;
-    while (left >= run->count) left -= run++->count;
-    return run->begin + left;
-}
-
 /* Cells whose indices differ in their last bits only are one after the other. */
 static uint64_t block_of(uint64_t code)
 {

@@ -120,10 +120,6 @@ SB_INLINE uint32_t sb_around_count(const sb_sim *sim, const sb_group *group)
     return count;
 }
 
-/* The group that particle i belongs to. */
-const sb_group *sb_group_of(const sb_sim *sim, size_t i);
-/* The entry of the arrays that neighbours are read from (position, ...) which a place in a list of the group means. */
-uint32_t sb_around_index(const sb_sim *sim, const sb_group *group, uint16_t place);
 /* Divides the particles into groups, without what is around them. 0, or -1 without memory. */
 int sb_groups_build(sb_sim *sim);
 void sb_groups_destroy(sb_sim *sim);

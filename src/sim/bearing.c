@@ -7,7 +7,6 @@
    Under a pressure that is the same everywhere P is p times the packing's trace, which settled water has below 1; and
    it is half as rough as p, which zigzags from particle to particle. Momentum knows P alone. */
 #include "sim/around.h"
-#include "sim/sleep.h"
 #include "sim/wall_entry.h"
 
 enum { GROUPS = 8 }; /* per unit of work */
@@ -17,14 +16,11 @@ enum { GROUPS = 8 }; /* per unit of work */
 SB_INLINE sb_f4 entry(const sb_sim *sim, const sb_group *group, size_t e, sb_f4 back)
 {
     sb_f4 at = sb_offset(sim->position[e], group->corner);
-    const size_t sleepers = sb_fringe_first(sim);
     if (e < sim->n) {
         at += sim->velocity[e] * back;
         at[3] = sim->unknown[e];
-    } else if (e < sleepers)
+    } else
         at[3] = sim->unknown[sim->ghosts.of[e - sim->n]];
-    else
-        at[3] = sim->sleep->fringe_q[e - sleepers];
     return at;
 }
 

@@ -2,9 +2,9 @@
    all that reads neighbours. They have cells of their own, so that the owned particles' order and cells are
    what they would be without. */
 #include "base/memory.h"
-#include "sim/sleep.h"
 #include "sim/sort.h"
 #include "sim/stages.h"
+#include "sim/state.h"
 
 #include <string.h>
 
@@ -19,17 +19,8 @@ static int lengthen(void **field, size_t used, size_t capacity, size_t size)
     return 0;
 }
 
-static int reserve(sb_sim *sim, size_t ghosts)
-{
-    sb_ghosts *g = &sim->ghosts;
-    if (sb_grow((void **)&g->of, &g->of_capacity, ghosts, sizeof *g->of) != 0 ||
-        sb_grow((void **)&g->words, &g->words_capacity, ghosts, sizeof *g->words) != 0 ||
-        sb_grow((void **)&g->other, &g->other_capacity, ghosts, sizeof *g->other) != 0)
-        return -1;
-    return sb_ghosts_room(sim, ghosts + sb_fringe_count(sim)); /* refreshing a field writes there too */
-}
-
-int sb_ghosts_room(sb_sim *sim, size_t beyond)
+/* Makes room for `beyond` entries after the owned ones; owned ones and ghosts keep their values. 0, or -1. */
+static int make_room(sb_sim *sim, size_t beyond)
 {
     if (sim->n + beyond <= sim->capacity) return 0;
     const size_t used = sim->n + sim->ghosts.count, capacity = sim->n + beyond + beyond / 8 + 64;
@@ -42,6 +33,16 @@ int sb_ghosts_room(sb_sim *sim, size_t beyond)
     sim->bytes_fixed += (sim->eddy ? 68u : 64u) * (capacity - sim->capacity);
     sim->capacity = capacity;
     return 0;
+}
+
+static int reserve(sb_sim *sim, size_t ghosts)
+{
+    sb_ghosts *g = &sim->ghosts;
+    if (sb_grow((void **)&g->of, &g->of_capacity, ghosts, sizeof *g->of) != 0 ||
+        sb_grow((void **)&g->words, &g->words_capacity, ghosts, sizeof *g->words) != 0 ||
+        sb_grow((void **)&g->other, &g->other_capacity, ghosts, sizeof *g->other) != 0)
+        return -1;
+    return make_room(sim, ghosts);
 }
 
 /* first[b]: ghosts of the blocks before b. Returns how many there are. */
@@ -129,8 +130,6 @@ void sb_ghosts_refresh(const sb_sim *sim, sb_f4 *field)
     const size_t count = sim->ghosts.count;
     const uint32_t *of = sim->ghosts.of;
     sb_f4 *ghost = field + sim->n;
-    if (sb_fringe_count(sim) > 0)
-        memset(field + sb_fringe_first(sim), 0, sb_fringe_count(sim) * sizeof *field); /* at rest */
     if (count == 0) return;
 #pragma omp parallel for schedule(static)
     for (size_t g = 0; g < count; g++) ghost[g] = field[of[g]];
@@ -140,7 +139,6 @@ void sb_ghosts_refresh_values(const sb_sim *sim, float *field)
 {
     const size_t count = sim->ghosts.count;
     for (size_t g = 0; g < count; g++) field[sim->n + g] = field[sim->ghosts.of[g]];
-    if (sb_fringe_count(sim) > 0) memset(field + sb_fringe_first(sim), 0, sb_fringe_count(sim) * sizeof *field);
 }
 
 void sb_ghosts_destroy(sb_sim *sim)

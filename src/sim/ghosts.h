@@ -14,12 +14,10 @@ typedef struct sb_ghosts {
     size_t of_capacity, words_capacity, other_capacity;
 } sb_ghosts;
 
-/* Gives the ghosts the values of a field (a velocity, an acceleration, an eddy viscosity) whose owned part has changed;
-   0 to sleepers. */
+/* Gives the ghosts the values of a field (a velocity, an acceleration, an eddy viscosity) whose owned part has changed.
+ */
 void sb_ghosts_refresh(const sb_sim *sim, sb_f4 *field);
 void sb_ghosts_refresh_values(const sb_sim *sim, float *field);
 void sb_ghosts_destroy(sb_sim *sim);
-/* Room for `beyond` entries after the owned ones; owned ones and ghosts keep their values. 0, or -1. */
-int sb_ghosts_room(sb_sim *sim, size_t beyond);
 
 #endif

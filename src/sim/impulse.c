@@ -1,16 +1,14 @@
 /* What the water does to bodies over one step: the reaction to every wall term that moved the water
    [A12, eq. 10], so that the momenta of water and bodies balance to round-off. */
-#include "sim/impulse.h"
 #include "sim/contact.h"
 #include "sim/friction.h"
 #include "sim/ledger.h"
-#include "sim/sleep.h"
 #include "sim/stages.h"
 #include "sim/wall_entry.h"
 
 #include <string.h>
 
-enum { VALUES = SB_IMPULSE_VALUES };
+enum { VALUES = 9 }; /* per body: pressure and friction, N, and moment, N m: three components each */
 
 /* From an image of a boundary particle to itself: what pushes across a periodic side acts over there. */
 static sb_vec3 way_home(const sb_space *space, sb_record image)
@@ -67,7 +65,7 @@ static void turn_to(tally *t, const sb_wall_set *set, uint32_t wall)
     t->home = home;
 }
 
-void sb_impulse_of_push(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 push, double *sum)
+static void add_push(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 push, double *sum)
 {
     const sb_record record = sb_wall_set_of(sim, wall)->record[sb_wall_particle(wall)];
     sb_vec3 at = sb_space_position(&sim->space, sim->position[i]);
@@ -89,8 +87,7 @@ SB_APART void contact(sb_sim *sim, size_t i, double *sum, sb_ledger_sums *ledger
         /* The push is along the wall's normal through the particle, so it may be taken to act there. */
         const sb_vec3 push = vector(touched[k].change, scale);
         const sb_f4 body = sb_wall_velocity(sim, wall);
-        sb_impulse_of_push(sim, i, wall, push, sum);
-        if (sim->settling && sim->settling != SB_POISED) sb_sleep_feel(sim, i, wall, push);
+        add_push(sim, i, wall, push, sum);
         ledger->contact_bodies += sb_ledger_work((sb_f4){0}, touched[k].change, body, body);
     }
     ledger->contact += sb_ledger_work(sim->acceleration[i], velocity, start, velocity);
@@ -158,11 +155,6 @@ static void do_block(sb_sim *sim, size_t block, double *sum, const sb_rub *rub)
     }
 }
 
-void sb_impulse_of_pressure(const sb_sim *sim, size_t i, double *sum)
-{
-    (void)react(sim, i, NULL, sum);
-}
-
 static bool touches_walls(const sb_sim *sim, size_t block)
 {
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++)
@@ -170,7 +162,8 @@ static bool touches_walls(const sb_sim *sim, size_t block)
     return false;
 }
 
-void sb_impulse_add(sb_body_impulse *total, double dt, const double *s)
+/* Adds a force's values over dt (s) to a body's impulse. */
+static void add_impulse(sb_body_impulse *total, double dt, const double *s)
 {
     total->pressure = sb_madd(total->pressure, dt, sb_vec(s[0], s[1], s[2]));
     total->friction = sb_madd(total->friction, dt, sb_vec(s[3], s[4], s[5]));
@@ -196,9 +189,7 @@ sb_status sb_stage_impulse(sb_sim *sim, sb_error *error)
     for (size_t b = 0; b < blocks; b++) {
         if (!sim->block_touched[b]) continue;
         for (size_t body = 0; body < bodies; body++)
-            sb_impulse_add(&sim->impulse[body], dt, sim->block_impulse + (b * bodies + body) * VALUES);
+            add_impulse(&sim->impulse[body], dt, sim->block_impulse + (b * bodies + body) * VALUES);
     }
-    sb_held_press(sim, dt);
-    sb_sleep_support(sim);
     return SB_OK;
 }

@@ -1,5 +1,4 @@
 #include "sim/ledger.h"
-#include "sim/sleep.h"
 
 static sb_ledger_sums sum_blocks(const sb_sim *sim)
 {
@@ -64,7 +63,6 @@ void sb_ledger_close(sb_sim *sim)
     const double weight = m * g * (double)sim->n;
     const sb_vec3 gain = sb_scale(sb_vec(s.gain[0], s.gain[1], s.gain[2]), m);
     sb_vec3 off = sb_madd(sb_add(gain, sim->stress_gain), dt, sb_add(bodies.force, sb_vec(0, 0, weight)));
-    if (sb_fringe_count(sim) > 0) off = sb_madd(off, -dt, sb_add(sim->sleep->rub, sim->sleep->support));
     sim->report.momentum_imbalance = s.size > 0 ? sb_norm(off) / (m * s.size) : 0;
 }
 

@@ -44,17 +44,6 @@ SB_INLINE moments gather(const sb_sim *sim, const sb_group *group, const sb_f4 *
     return (moments){p[0], p[1], p[2], p[3], q[0], q[1]};
 }
 
-/* Sleepers bear what they bore when they were laid down: no force passes between them and water awake. */
-SB_INLINE bool beside_sleepers(const sb_sim *sim, const sb_group *group, size_t i)
-{
-    const uint32_t first = group->sleepers * SB_PLACE_STEP;
-    const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
-    for (; four < end; four++)
-        for (int k = 0; k < 4; k++)
-            if (four->place[k] >= first) return true;
-    return false;
-}
-
 /* E_i: xx into residual, the others into acceleration as yy, xy, xz, yz. */
 SB_MULTIVERSION
 static void find_strain(sb_sim *sim, const sb_group *group, float share)
@@ -92,7 +81,6 @@ SB_MULTIVERSION
 static void find_stress(sb_sim *sim, const sb_group *group)
 {
     _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
-    const bool sleepers = group->sleepers < sb_around_count(sim, group);
     sb_f4 *stress = sim->scratch;
     sb_around_with(sim, group, sim->acceleration, around);
     const bool any = any_around(sim, group, around);
@@ -115,7 +103,7 @@ static void find_stress(sb_sim *sim, const sb_group *group)
         }
         const sb_f8 sum = even + odd;
         const float density = sim->density[i], q = sim->velocity[i][3] / (density * density);
-        const float factor = sleepers && beside_sleepers(sim, group, i) ? 0 : q / (sb_sum3(weights) + weights[3]);
+        const float factor = q / (sb_sum3(weights) + weights[3]);
         stress[i] = __builtin_shufflevector(sum, sum, 4, 5, 6, 7) * sb_splat(factor);
         sim->source[i] = sum[3] * factor;
     }

@@ -15,7 +15,6 @@ typedef struct sb_run {
 typedef struct sb_group {
     uint32_t first, end; /* particles [first, end) */
     uint32_t run, runs;  /* around them, themselves included: runs [run, run + runs) */
-    uint32_t sleepers;   /* how many records come before the first sleeper's */
     sb_record corner;    /* quanta: no record around is below it, or four cells and more above */
 } sb_group;
 

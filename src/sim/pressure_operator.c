@@ -3,18 +3,6 @@
 #include "sim/passes.h"
 #include "sim/pressure.h"
 #include "sim/simd_wide.h"
-#include "sim/sleep.h"
-
-/* Sleepers keep their pressure and density, and are never searched along. */
-static void load_fringe(sb_sim *sim, const float *argument)
-{
-    const sb_sleep *sleep = sim->sleep;
-    const float *held = argument == sim->unknown   ? sleep->fringe_q
-                        : argument == sim->density ? sleep->fringe_density
-                                                   : NULL;
-    sb_record *position = sim->position + sb_fringe_first(sim);
-    for (size_t f = 0; f < sleep->fringe; f++) sb_carry(&position[f], held ? held[f] : 0);
-}
 
 void sb_pressure_load(sb_sim *sim, const float *argument)
 {
@@ -22,7 +10,6 @@ void sb_pressure_load(sb_sim *sim, const float *argument)
     sb_record *position = sim->position;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) sb_carry(&position[i], argument[i]);
-    if (sb_fringe_count(sim) > 0) load_fringe(sim, argument);
     const size_t ghosts = sim->ghosts.count;
     const uint32_t *of = sim->ghosts.of;
     if (ghosts == 0) return;

@@ -3,7 +3,7 @@
    are the process's. */
 #include "base/archive.h"
 #include "sim/departures.h"
-#include "sim/sleep.h"
+#include "sim/state.h"
 
 #include <math.h>
 
@@ -84,7 +84,6 @@ void sb_sim_save(const sb_sim *sim, sb_archive_out *out)
     sb_put_list(out, sim->velocity, sim->n, sizeof *sim->velocity);
     sb_put_list(out, sim->id, sim->n, sizeof *sim->id);
     sb_put_list(out, sim->deficit, sim->deficit ? sim->model->fluid_count : 0, sizeof *sim->deficit);
-    sb_sleep_save(sim, out);
     sb_put_list(out, sim->impulse, sim->model->body_count, sizeof *sim->impulse);
     sb_put_list(out, &sim->ledger, sizeof sim->ledger / sizeof(double), sizeof(double));
     sb_put_count(out, sim->moving_count);
@@ -156,7 +155,6 @@ sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
     sb_departures_load(sim, in);
     take_particles(sim, in);
     take_deficits(sim, in);
-    status = sb_sleep_load(sim, in, error);
     sb_take_list(in, sim->impulse, sim->model->body_count, sizeof *sim->impulse);
     sb_take_list(in, &sim->ledger, sizeof sim->ledger / sizeof(double), sizeof(double));
     take_moving(sim, in);

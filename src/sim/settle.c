@@ -2,7 +2,7 @@
    into place by itself and drown a wave in its noise. */
 #include "base/stop.h"
 #include "physics/wave_theory.h"
-#include "sim/sleep.h"
+#include "sim/state.h"
 
 #include <math.h>
 
@@ -110,7 +110,7 @@ sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
     return sb_sim_settle_watched(sim, NULL, NULL, error);
 }
 
-static sb_status begin(sb_sim *sim, sb_error *error)
+static void begin(sb_sim *sim)
 {
     const int steps = sim->scene->numerics.settle_steps;
     sim->settle = (sb_settle){.under_way = true,
@@ -119,7 +119,6 @@ static sb_status begin(sb_sim *sim, sb_error *error)
                               .kinetic = (double)INFINITY};
     for (size_t i = 0; i < sim->n; i++) sim->velocity[i] = (sb_f4){0, 0, 0, sim->velocity[i][3]};
     sim->report.max_speed = 0;
-    return sb_sleep_expect(sim, error);
 }
 
 /* Whether the damped steps are over: calm, or no longer of much use. */
@@ -145,7 +144,6 @@ static sb_status one_step(sb_sim *sim, sb_error *error)
                                                                  : SB_CALMED;
     const sb_status status = sb_sim_step(sim, error);
     if (status != SB_OK) return status;
-    sb_sleep_listen(sim, s);
     settle->done++;
     settle->speed = sim->report.max_speed;
     settle->calm = settle->speed < calm ? settle->calm + 1 : 0;
@@ -166,14 +164,15 @@ static sb_status finish(sb_sim *sim, sb_error *error)
     if ((sim->scene->box_count > 0 || sim->scene->wave.kind != SB_INITIAL_NONE) && sim->report.max_speed == 0)
         status = poise(sim, error);
     sim->report.time_step = 0; /* these velocities have led nowhere yet: what looks back finds the places as they are */
-    return status == SB_OK ? sb_sleep_begin(sim, error) : status;
+    return status;
 }
 
 sb_status sb_sim_settle_watched(sb_sim *sim, sb_settle_watch *watch, void *context, sb_error *error)
 {
     sb_settle *settle = &sim->settle;
     if (!sb_sim_settles(sim->scene)) return SB_OK;
-    sb_status status = settle->under_way ? SB_OK : begin(sim, error);
+    sb_status status = SB_OK;
+    if (!settle->under_way) begin(sim);
     while (status == SB_OK && !sb_settle_over(settle) && !sb_stop_signal()) {
         status = one_step(sim, error);
         const bool between = status == SB_OK && !sb_settle_over(settle);

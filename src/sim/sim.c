@@ -8,7 +8,6 @@
 #include "sim/passes.h"
 #include "sim/pressure.h"
 #include "sim/searcher.h"
-#include "sim/sleep.h"
 #include "sim/sort.h"
 #include "sim/stages.h"
 #include "sim/turbulence.h"
@@ -133,10 +132,6 @@ static void note_skipped(sb_sim *sim)
         leave_out(sim, &s, "search direction: the solver needs no memory for one", 0, sizeof *sim->direction);
     if (!sb_pressure_solvers[n->solver]->needs_product)
         leave_out(sim, &s, "product of the direction: the solver needs no memory for one", 0, sizeof *sim->product);
-    if (!n->sleep)
-        leave_out(sim, &s, "sleep: off, all water is computed from the start", 0, 0);
-    else if (!sb_sleep_wanted(sim->scene))
-        leave_out(sim, &s, "sleep: the water does not start at rest, all of it is computed", 0, 0);
     if (!sb_sim_settles(sim->scene))
         leave_out(sim, &s, "settling: settle_steps is 0, the water starts as it was filled in", 0, 0);
     sim->skipped[s] = (sb_skipped){.what = NULL};
@@ -201,7 +196,6 @@ void sb_sim_destroy(sb_sim *sim)
     free_lists(sim);
     sb_cells_free(&sim->cells);
     sb_ghosts_destroy(sim);
-    sb_sleep_destroy(sim);
     sb_walls_destroy(sim);
     sb_free(sim);
 }
@@ -252,8 +246,7 @@ sb_energy sb_sim_energy(const sb_sim *sim)
         e.potential += partial[5 * b + 1];
         e.momentum = sb_madd(e.momentum, mass, sb_vec(partial[5 * b + 2], partial[5 * b + 3], partial[5 * b + 4]));
     }
-    for (size_t s = 0; s < sb_asleep(sim); s++) e.potential += (double)sim->sleep->position[s][2];
-    const double count = (double)(sim->n + sb_asleep(sim));
+    const double count = (double)sim->n;
     e.mass = mass * count;
     double base = sim->model->min.z - sim->space.origin.z;
     e.potential = mass * (double)sim->constant.gravity * (e.potential * sim->space.quantum - count * base);
@@ -268,12 +261,6 @@ uint64_t sb_sim_hash(const sb_sim *sim)
         hash = sb_hash(hash, xyz, sizeof xyz);
         hash = sb_hash(hash, &sim->velocity[i], sizeof sim->velocity[i]);
         if (sim->deficit) hash = sb_hash(hash, &sim->deficit[sim->id[i]], sizeof *sim->deficit);
-    }
-    for (size_t s = 0; s < sb_asleep(sim); s++) {
-        const sb_sleep *sleep = sim->sleep;
-        uint32_t xyz[5] = {sleep->position[s][0], sleep->position[s][1], sleep->position[s][2], sleep->id[s]};
-        memcpy(&xyz[4], &sleep->pressure[s], sizeof xyz[4]);
-        hash = sb_hash(hash, xyz, sizeof xyz);
     }
     hash = sb_hash(hash, sim->impulse, sim->model->body_count * sizeof *sim->impulse);
     hash = sb_hash(hash, &sim->ledger, sizeof sim->ledger);
@@ -302,5 +289,5 @@ size_t sb_sim_bytes(const sb_sim *sim)
     for (int s = 0; s < SB_WALL_SETS; s++)
         bytes +=
             sb_cells_bytes(&sim->walls[s].cells) + sim->walls[s].count * WALL_BYTES + (sim->walls[s].near_mask + 1) * 8;
-    return bytes + sim->moving_rest_count * WALL_BYTES + sb_sleep_bytes(sim);
+    return bytes + sim->moving_rest_count * WALL_BYTES;
 }

@@ -124,12 +124,12 @@ uint64_t sb_sim_hash(const sb_sim *sim);
 /* The state between two steps, as a section of an archive. Saving changes nothing. */
 void sb_sim_save(const sb_sim *sim, sb_archive_out *out);
 /* Into a simulation of the same scene and model, which then goes on as the saved one did, bit for bit; queries find
-   none of the water awake before its next step. SB_BAD_INPUT when the section is not of this model or makes no
+   no water before its next step. SB_BAD_INPUT when the section is not of this model or makes no
    sense: then, and only then, the state is none, and to be loaded again or destroyed. */
 sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error);
 
 /* Finds the pressures that water bears, after the last step, for snapshots and queries to tell (a pass over pairs, none
-   when they are known; docs/method.md, M17a). Without it, and of sleepers, they tell the solve's own, which are rougher
+   when they are known; docs/method.md, M17a). Without it they tell the solve's own, which are rougher
    and, settled water being no lattice, a few per cent higher. The state does not change. */
 void sb_sim_find_pressures(sb_sim *sim);
 
@@ -165,16 +165,6 @@ const char *sb_sim_instructions(void);
 
 /* What this scene made the simulation skip (static text). */
 const sb_skipped *sb_sim_skipped(const sb_sim *sim);
-
-/* Still water that no wave has come near: left alone, its places and pressures held, and seen by all questions above.
- */
-typedef struct sb_sleep_report {
-    size_t asleep;           /* particles, now */
-    uint64_t asleep_steps;   /* steps that they were spared so far, summed over them */
-    uint64_t particle_steps; /* those of all particles */
-    double woken;            /* s, when the last woke; below 0: some sleep, or none ever did */
-} sb_sleep_report;
-sb_sleep_report sb_sim_sleep(const sb_sim *sim);
 
 /* Heap bytes held. */
 size_t sb_sim_bytes(const sb_sim *sim);

@@ -1,10 +1,9 @@
 /* What leaves the simulation: frames for consumers, samples for gauges and probes. */
-#include "sim/sleep.h"
+#include "sim/state.h"
 
 #include <math.h>
 #include <stdio.h>
 
-/* One particle, awake or, from n on, asleep. */
 typedef struct particle {
     sb_record position;
     sb_f4 velocity;          /* last lane: the solve's pressure */
@@ -14,20 +13,14 @@ typedef struct particle {
 
 static particle particle_at(const sb_sim *sim, size_t i)
 {
-    if (i < sim->n) {
-        const float told = sim->told ? sim->residual[i] : sim->velocity[i][3];
-        return (particle){sim->position[i], sim->velocity[i], told, sim->density[i], sim->id[i]};
-    }
-    const sb_sleep *sleep = sim->sleep;
-    const size_t s = i - sim->n;
-    const float held = sleep->pressure[s];
-    return (particle){sleep->position[s], {0, 0, 0, held}, held, sleep->density[s], sleep->id[s]};
+    const float told = sim->told ? sim->residual[i] : sim->velocity[i][3];
+    return (particle){sim->position[i], sim->velocity[i], told, sim->density[i], sim->id[i]};
 }
 
 sb_frame *sb_sim_snapshot(const sb_sim *sim)
 {
     const sb_model *model = sim->model;
-    const size_t count = sim->n + sb_asleep(sim);
+    const size_t count = sim->n;
     sb_frame *frame = sb_frame_create(count, model->body_count);
     if (!frame) return NULL;
     const sb_vec3 shift = sb_sub(sim->space.origin, model->min);
@@ -153,7 +146,6 @@ static void query_images(const sb_sim *sim, query *q, const int64_t away[3])
             for (int64_t x = a[0]; x <= b[0]; x++) {
                 uint64_t code = (uint64_t)x | (uint64_t)y << 21 | (uint64_t)z << 42;
                 query_cell(sim, q, &sim->cells, code, 0, away);
-                if (sb_asleep(sim) > 0) query_cell(sim, q, &sim->sleep->cells, code, sim->n, away);
             }
 }
 

@@ -3,9 +3,9 @@
 #include "base/memory.h"
 #include "sim/departures.h"
 #include "sim/ledger.h"
-#include "sim/sleep.h"
 #include "sim/sort.h"
 #include "sim/stages.h"
+#include "sim/state.h"
 
 #include <math.h>
 #include <string.h>
@@ -64,7 +64,7 @@ static size_t make_words(sb_sim *sim, const bounds *b)
     sim->lost += lost;
     sim->report.left_domain = sim->left_domain;
     sim->report.lost = sim->lost;
-    sim->report.fluid_count = sim->n - left - lost + sb_asleep(sim);
+    sim->report.fluid_count = sim->n - left - lost;
     return sim->n - left - lost;
 }
 

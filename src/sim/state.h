@@ -17,7 +17,6 @@ enum {
 
 struct sb_ledger_sums; /* sim/ledger.h */
 struct sb_passes;      /* sim/passes.h */
-struct sb_sleep;       /* sim/sleep.h */
 
 enum { SB_SIM_SKIPPED_MAX = 15 };
 
@@ -29,8 +28,8 @@ struct sb_sim {
     const struct sb_passes *passes; /* of the pressure solve, in the form for this machine */
 
     /* persistent fields, n each; moved together by the sort */
-    size_t n;            /* those asleep not among them */
-    size_t capacity;     /* of position, velocity, acceleration and scratch: n, the ghosts and the fringe */
+    size_t n;
+    size_t capacity;     /* of position, velocity, acceleration and scratch: n and the ghosts */
     sb_record *position; /* quanta; last lane: argument of the pressure operator */
     sb_f4 *velocity;     /* m/s; last lane: pressure in Pa, the next step's warm start */
     uint32_t *id;
@@ -74,8 +73,6 @@ struct sb_sim {
     double *block_impulse; /* per block and body 9 values, of one step */
     unsigned char *block_touched;
     sb_body_impulse *impulse; /* per body */
-
-    struct sb_sleep *sleep; /* still water left alone; NULL where none was laid to sleep */
 
     struct sb_ledger_sums *block_ledger; /* per block, of one step */
     sb_ledger ledger;

@@ -3,7 +3,6 @@
 #include "sim/deficit.h"
 #include "sim/packing.h"
 #include "sim/pressure.h"
-#include "sim/sleep.h"
 #include "sim/stages.h"
 #include "sim/turbulence.h"
 
@@ -16,10 +15,8 @@ typedef struct stage {
 static const stage stages[] = {
     {"time_step", sb_stage_time_step, NULL},               /* dt from the speeds reached */
     {"walls", sb_stage_walls, NULL},                       /* paddles at t, their velocity to t + dt */
-    {"wake", sb_stage_wake, sb_sleep_wanted},              /* still water that a wave has come near */
     {"sort", sb_stage_sort, NULL},                         /* back through periodic sides; Z-order, cells */
     {"ghosts", sb_stage_ghosts, NULL},                     /* images beyond periodic sides */
-    {"fringe", sb_stage_fringe, sb_sleep_wanted},          /* sleepers that awake water may touch */
     {"neighbours", sb_stage_neighbours, NULL},             /* lists, density, wall vectors, diagonal */
     {"completion", sb_stage_completion, sb_deficit_on},    /* what surfaces and walls change in the density */
     {"packing", sb_stage_packing, sb_packing_on},          /* velocities by what its stress lacks to be a pressure */

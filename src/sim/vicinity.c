@@ -1,7 +1,5 @@
 #include "sim/vicinity.h"
 
-#include "sim/sleep.h"
-
 /* The block of cells that the group's particles are in, and the cells beside. */
 static void find_cells(const sb_sim *sim, const sb_group *group, sb_vicinity *v)
 {
@@ -64,19 +62,14 @@ static void add_part(const sb_sim *sim, sb_vicinity *v, sb_record corner, const 
 void sb_vicinity_gather(const sb_sim *sim, sb_group *group, sb_vicinity *v)
 {
     const int shift = sim->space.shift;
-    bool at_edge = false, beside_sleepers = false;
+    bool at_edge = false;
     find_cells(sim, group, v);
     const sb_record corner = {v->low[0] << shift, v->low[1] << shift, v->low[2] << shift, 0};
     v->parts = v->count = v->runs = 0;
-    for (size_t i = group->first; i < group->end; i++) {
+    for (size_t i = group->first; i < group->end; i++)
         at_edge |= sim->ghosts.count > 0 && sb_space_at_edge(&sim->space, sim->position[i]);
-        beside_sleepers |=
-            sb_fringe_count(sim) > 0 && sim->sleep->tiles.beside[sb_tile_of(sim, &sim->sleep->tiles, sim->position[i])];
-    }
     add_part(sim, v, corner, &sim->cells, 0);
     if (at_edge) add_part(sim, v, corner, &sim->ghosts.cells, sim->n);
-    group->sleepers = (uint32_t)v->count;
-    if (beside_sleepers) add_part(sim, v, corner, &sim->sleep->fringe_cells, sb_fringe_first(sim));
     group->corner = corner;
 }
 

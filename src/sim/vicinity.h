@@ -5,8 +5,8 @@
 #include "sim/around.h"
 #include "sim/hits.h"
 
-/* Owned particles, images beyond periodic sides, sleepers: one after the other. */
-enum { SB_VICINITY_PARTS = 3, SB_VICINITY_CELLS = 64, SB_VICINITY_ROWS = 9 * SB_VICINITY_PARTS };
+/* Owned particles, then images beyond periodic sides. */
+enum { SB_VICINITY_PARTS = 2, SB_VICINITY_CELLS = 64, SB_VICINITY_ROWS = 9 * SB_VICINITY_PARTS };
 _Static_assert((int)SB_AROUND_MAX <= (int)SB_CANDIDATES_MAX && (int)SB_VICINITY_ROWS <= (int)SB_STRETCHES_MAX,
                "what is tested for hits");
 
@@ -20,7 +20,7 @@ typedef struct sb_vicinity {
     sb_f4 place[SB_AROUND_MAX]; /* the same, a record each */
 } sb_vicinity;
 
-/* Gathers; sets the group's corner and sleepers. */
+/* Gathers; sets the group's corner. */
 void sb_vicinity_gather(const sb_sim *sim, sb_group *group, sb_vicinity *v);
 
 /* What of the vicinity may be in reach of a particle of the group; self: its place from the group's corner. Returns

@@ -2,7 +2,6 @@
 #include "sim/eights.h"
 #include "sim/friction.h"
 #include "sim/pressure.h"
-#include "sim/sleep.h"
 #include "sim/stages.h"
 
 enum { GROUPS = 8 }; /* per unit of work */
@@ -41,22 +40,13 @@ typedef struct eight_pairs {
     sb_f8 x, y, z, pi;
 } eight_pairs;
 
-SB_INLINE sb_i4 places_of(const sb_four_pairs *four)
-{
-    return (sb_i4){four->place[0], four->place[1], four->place[2], four->place[3]};
-}
-
 SB_INLINE eight_pairs find_pairs(const own_part *own, const sb_f4 *around, const sb_four_pairs *one,
-                                 const sb_four_pairs *other, const factors *f, bool eddies, uint32_t first)
+                                 const sb_four_pairs *other, const factors *f, bool eddies)
 {
     const sb_eight at = sb_eight_with(around, one, other, 0), of = sb_eight_with(around, one, other, 1);
     const sb_f8 x = own->x - at.x, y = own->y - at.y, z = own->z - at.z;
     const sb_f8 u = own->u - of.x, v = own->v - of.y, w = own->w - of.z;
-    sb_f8 weight = sb_eight_slopes(one, other);
-    if (first > 0) {
-        const sb_i4 a = places_of(one), b = places_of(other);
-        weight = sb_select8(__builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7) >= (int)first, weight, (sb_f8){0});
-    }
+    const sb_f8 weight = sb_eight_slopes(one, other);
     const sb_f8 approach = u * x + v * y + w * z;
     const sb_f8 r2 = x * x + y * y + z * z;
     sb_f8 physical = sb_splat8(f->physical);
@@ -68,9 +58,9 @@ SB_INLINE eight_pairs find_pairs(const own_part *own, const sb_f4 *around, const
 
 /* -sum_j m Pi_ij grad W_ij, eight neighbours at a time, added up four after four; around: sb_around_with velocities,
    the records carrying the densities. x . v and r^2 are in quanta, their quotient brought back by 1/quantum. eddies:
-   sim->eddy stands in the velocities' last lane. first: neighbours before that place are left out. */
+   sim->eddy stands in the velocities' last lane. */
 SB_INLINE sb_f4 fluid_part(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i, const factors *f,
-                           bool eddies, uint32_t first)
+                           bool eddies)
 {
     const sb_f4 at = sb_in_group(sim, group, i), of = sim->velocity[i];
     const own_part own = {sb_spread(at, 0), sb_spread(at, 1), sb_spread(at, 2), sb_spread(at, 3),
@@ -79,7 +69,7 @@ SB_INLINE sb_f4 fluid_part(const sb_sim *sim, const sb_group *group, const sb_f4
     sb_f4 x = {0}, y = {0}, z = {0};
     for (; four < end; four += 2) {
         const bool two = four + 1 < end;
-        const eight_pairs e = find_pairs(&own, around, four, two ? four + 1 : four, f, eddies, first);
+        const eight_pairs e = find_pairs(&own, around, four, two ? four + 1 : four, f, eddies);
         x += sb_first4(e.x) * sb_first4(e.pi);
         y += sb_first4(e.y) * sb_first4(e.pi);
         z += sb_first4(e.z) * sb_first4(e.pi);
@@ -115,19 +105,13 @@ static void do_group(sb_sim *sim, const sb_group *group, const factors *f, bool 
     for (size_t i = group->first; i < group->end; i++) {
         sb_f4 a = {sim->settling ? sb_settle_pull(sim, sim->position[i]) : 0, 0, -sim->constant.gravity, 0};
         if (sim->eddy)
-            a += fluid_part(sim, group, around, i, f, true, 0);
+            a += fluid_part(sim, group, around, i, f, true);
         else if (viscous)
-            a += fluid_part(sim, group, around, i, f, false, 0);
+            a += fluid_part(sim, group, around, i, f, false);
         if (rub->on && sim->wall_pairs.count[i] > 0) a += sim->rubbed[i] = wall_part(sim, i, rub);
         a[3] = 0;
         next[i] = sim->velocity[i] + a * sb_splat(dt);
     }
-}
-
-static sb_f4 share_of_sleepers(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i,
-                               const void *with)
-{
-    return fluid_part(sim, group, around, i, with, sim->eddy != NULL, group->sleepers * SB_PLACE_STEP);
 }
 
 sb_status sb_stage_forces(sb_sim *sim, sb_error *error)
@@ -140,7 +124,6 @@ sb_status sb_stage_forces(sb_sim *sim, sb_error *error)
     if (viscous) sb_pressure_load(sim, sim->density);
 #pragma omp parallel for schedule(dynamic, GROUPS)
     for (size_t g = 0; g < groups; g++) do_group(sim, &sim->groups.group[g], &f, viscous, &rub);
-    if (sb_fringe_count(sim) > 0) sim->sleep->rub = viscous ? sb_sleep_sum(sim, share_of_sleepers, &f) : (sb_vec3){0};
     sb_f4 *old = sim->velocity;
     sim->velocity = sim->scratch;
     sim->scratch = old;

@@ -65,39 +65,6 @@ static void a_stream_leaves_no_trace(void **state)
     assert_same_run("mute", "heard", pair_tables);
 }
 
-/* A flume so long that its far water sleeps when the run is cut, with a gauge and a probe there. */
-static void a_run_with_sleepers_goes_on(void **state)
-{
-    (void)state;
-    static const char flume[] =
-        "dimensions: 2\n"
-        "resolution: 0.1\n"
-        "duration: 1.6\n"
-        "domain: {min: [0, 0], max: [16, 1.6]}\n"
-        "water: {level: 1, seed: [8, 0.5]}\n"
-        "numerics: {sleep: true, settle_steps: 200}\n"
-        "bodies: [{name: paddle, shape: box, min: [0, 0], max: [0.3, 1.5]}]\n"
-        "wavemakers: [{name: w, body: paddle, kind: stroke, stroke: 0.4, speed: 0.5}]\n"
-        "measure: {interval: 0.1, gauges: [{name: far, x: 14}], probes: [{name: still, at: [14, 0.5]}], map: {}}\n"
-        "output: {particle_interval: 0.2, plots: false}\n";
-    static const char *const files[] = {"forces.csv", "gauges.csv",         "probes.csv",
-                                        "energy.csv", "maps/max_speed.asc", NULL};
-    unsigned long asleep = 0, all = 0;
-    write_text("flume.yaml", flume);
-    RUN_AND_FORGET(0, "run", "flume.yaml", "--out", "whole2", "--quiet");
-    RUN_AND_FORGET(0, "run", "flume.yaml", "--out", "parts2", "--quiet", "--until", "0.5");
-    RUN_AND_FORGET(0, "run", "flume.yaml", "--out", "parts2", "--quiet", "--resume", "--until", "1.1", "--threads",
-                   "2");
-    RUN_AND_FORGET(0, "run", "flume.yaml", "--out", "parts2", "--quiet", "--resume");
-    assert_same_run("whole2", "parts2", files);
-    char *log = text_of("whole2/run.jsonl");
-    const char *event = strstr(log, "\"event\":\"asleep\""), *text = event ? strstr(event, "\"text\":\"") : NULL;
-    assert_non_null(text);
-    assert_int_equal(sscanf(text + strlen("\"text\":\""), "%lu of %lu", &asleep, &all), 2);
-    assert_true(asleep > all / 4 && asleep < all);
-    sb_free(log);
-}
-
 static void checkpoints_change_nothing(void **state)
 {
     (void)state;
@@ -284,7 +251,6 @@ int main(void)
         cmocka_unit_test(each_solver_goes_on),
         cmocka_unit_test(a_run_in_3d_with_pictures_goes_on),
         cmocka_unit_test(a_stream_leaves_no_trace),
-        cmocka_unit_test(a_run_with_sleepers_goes_on),
         cmocka_unit_test(checkpoints_change_nothing),
         cmocka_unit_test(the_last_ones_are_kept),
         cmocka_unit_test(without_a_checkpoint_it_begins),

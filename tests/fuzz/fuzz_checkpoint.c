@@ -1,5 +1,5 @@
 /* The state and the measurements of a checkpoint. An input that begins with 'e' is a row of edits to a sound one of a
-   run, with 's' to one of water that comes to rest, some of which is to sleep; any other is the file itself. Each is
+   run, with 's' to one of water that settles; any other is the file itself. Each is
    tried as it is, and once more with its checksums made right, so that what they guard is tried as well. */
 #include "fuzz.h"
 
@@ -32,7 +32,7 @@ static const char resting[] = "dimensions: 2\n"
                               "duration: 1\n"
                               "domain: {min: [0, 0], max: [0.8, 0.6]}\n"
                               "water: {level: 0.3, seed: [0.4, 0.2]}\n"
-                              "numerics: {settle_steps: 20, sleep: true}\n"
+                              "numerics: {settle_steps: 20}\n"
                               "bodies: [{name: block, shape: box, min: [0, 0], max: [0.2, 0.6]}]\n";
 
 /* A simulation, and the checkpoint of it. */

@@ -133,6 +133,29 @@ size_t twin_listed(const sb_sim *sim, size_t i, bool walls)
     return walls ? sim->wall_pairs.count[i] : 4 * (size_t)sim->pairs.count[i];
 }
 
+/* The group that particle i belongs to. */
+static const sb_group *group_of(const sb_sim *sim, size_t i)
+{
+    size_t low = 0, high = sim->groups.count;
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        if (sim->groups.group[middle].first <= i)
+            low = middle;
+        else
+            high = middle;
+    }
+    return &sim->groups.group[low];
+}
+
+/* The entry of the arrays that neighbours are read from which a place in a list of the group means. */
+static uint32_t around_index(const sb_sim *sim, const sb_group *group, uint16_t place)
+{
+    const sb_run *run = sim->groups.run + group->run;
+    uint32_t left = place / SB_PLACE_STEP;
+    while (left >= run->count) left -= run++->count;
+    return run->begin + left;
+}
+
 twin_entry twin_list(const sb_sim *sim, size_t i, bool walls, size_t k)
 {
     if (walls) {
@@ -141,7 +164,7 @@ twin_entry twin_list(const sb_sim *sim, size_t i, bool walls, size_t k)
         return (twin_entry){sim->wall_pairs.index[at], slope, slope == 0};
     }
     const sb_four_pairs *four = &sim->pairs.four[sim->pairs.first[i] + k / 4];
-    const uint32_t other = sb_around_index(sim, sb_group_of(sim, i), four->place[k % 4]);
+    const uint32_t other = around_index(sim, group_of(sim, i), four->place[k % 4]);
     const double root = (double)four->slope[k % 4];
     return (twin_entry){other, (double)sim->pairs.unit * root * root, other == i};
 }

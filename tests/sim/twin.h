@@ -27,7 +27,7 @@ size_t twin_wall(const twin *t, uint32_t listed);
 
 /* Entry k of particle i's list of water or of walls, fillings-up included. */
 typedef struct twin_entry {
-    uint32_t other; /* a particle (ghosts and sleepers follow the owned ones), or as in sb_pairs.index */
+    uint32_t other; /* a particle (ghosts follow the owned ones), or as in sb_pairs.index */
     double slope;   /* m W'/r, or psi W'/r, times the quantum */
     bool padding;
 } twin_entry;
