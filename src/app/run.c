@@ -18,7 +18,7 @@ static sb_status feed(run *r, sb_error *error)
     bool due = false;
     for (int c = 0; c < CONSUMERS; c++) due |= sb_consumer_due(&r->consumers[c], time);
     if (!due) return SB_OK;
-    sb_sim_find_pressures(r->sim);
+    sb_sim_find_virial_pressures(r->sim);
     sb_frame *frame = sb_sim_snapshot(r->sim);
     if (!frame) return sb_fail_memory(error, "a frame");
     frame->index = ++r->frames;
@@ -61,7 +61,7 @@ static sb_status one_step(run *r, sb_error *error)
     r->particle_steps += (double)report->fluid_count;
     r->capped += report->capped;
     tell_departures(r);
-    if (sb_measure_reads_pressures(r->measure, r->sim)) sb_sim_find_pressures(r->sim);
+    if (sb_measure_reads_pressures(r->measure, r->sim)) sb_sim_find_virial_pressures(r->sim);
     status = sb_measure_step(r->measure, r->sim, error);
     if (status == SB_OK) status = sb_csv_write(r->csv, sb_measure_latest(r->measure), error);
     if (status == SB_OK) status = feed(r, error);

@@ -209,7 +209,7 @@ static sb_status begin(run *r, sb_error *error)
         sb_runlog_event(r->log, "settled", "after %d steps, highest speed %.3g m/s: %s", rest.steps, rest.speed,
                         rest.ended);
     }
-    sb_sim_find_pressures(r->sim);
+    sb_sim_find_virial_pressures(r->sim);
     status = sb_measure_create(r->scene, &r->model, r->sim, &r->measure, error);
     if (status != SB_OK) return status;
     sb_model_forget_particles(&r->model);

@@ -14,7 +14,7 @@ sb_status sb_measure_create(const sb_scene *scene, const sb_model *model, const 
                             sb_error *error);
 void sb_measure_destroy(sb_measure *measure);
 
-/* Whether the next sb_measure_step reads pressures: sb_sim_find_pressures is to come before it. */
+/* Whether the next sb_measure_step reads pressures: sb_sim_find_virial_pressures is to come before it. */
 bool sb_measure_reads_pressures(const sb_measure *measure, const sb_sim *sim);
 /* Call after every step. A step that crosses multiples of the interval is split in proportion:
    force and velocity are constant within it, so rows lie on exact multiples. Fails only without

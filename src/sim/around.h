@@ -96,7 +96,7 @@ SB_INLINE const sb_f8 *sb_both_at(const sb_f4 *around, uint16_t place)
 
 /* Lists are read once a pass, in order, from memory: asks for what comes some particles later (docs/decisions/0012).
    Past the pool's end it asks for nothing. */
-SB_INLINE void sb_ask_ahead(const sb_four_pairs *four)
+SB_INLINE void sb_prefetch(const sb_four_pairs *four)
 {
     enum { BYTES = 4096 };
     /* As a number: no pointer may point there. NOLINTNEXTLINE(performance-no-int-to-ptr) */

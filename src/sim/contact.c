@@ -41,7 +41,7 @@ SB_INLINE void see(const sb_sim *sim, size_t i, size_t first, sb_f4 step, float 
         s->here[k] = sb_offset(sim->position[i], set->record[b]);
         s->there[k] = s->here[k] + step - sb_wall_velocity(sim, index[k]) * sb_splat(to_quanta);
     }
-    const sb_four at = sb_turn(s->there[0], s->there[1], s->there[2], s->there[3]);
+    const sb_four at = sb_transpose(s->there[0], s->there[1], s->there[2], s->there[3]);
     s->q2 = (at.x * at.x + at.y * at.y + at.z * at.z) * sb_splat(1 / (reach * reach));
     sb_f4 weight = (sb_splat(1) - s->q2) * (sb_splat(1) - s->q2);
     weight *= weight;
@@ -94,14 +94,14 @@ SB_INLINE float smaller(float a, float b)
 }
 
 SB_MULTIVERSION
-size_t sb_contact_mend(const sb_sim *sim, size_t i, sb_f4 *velocity, sb_touch touched[SB_TOUCHES_MAX])
+size_t sb_contact_resolve(const sb_sim *sim, size_t i, sb_f4 *velocity, sb_contact_push touched[SB_CONTACT_PUSHES_MAX])
 {
     const float to_quanta = (float)(sim->report.time_step / sim->space.quantum);
     const float spacing = sim->constant.spacing / (float)sim->space.quantum;
     const float sheet = (float)sim->scene->numerics.wall_offset;
     const float release = sim->settling ? RELEASE * spacing : 0;
     size_t count = 0;
-    while (count < SB_TOUCHES_MAX) {
+    while (count < SB_CONTACT_PUSHES_MAX) {
         const view v = look(sim, i, *velocity, to_quanta);
         if (!v.found) break;
         float plane = smaller((sheet + PLANE) * spacing, v.before + release) - v.distance;
@@ -114,7 +114,7 @@ size_t sb_contact_mend(const sb_sim *sim, size_t i, sb_f4 *velocity, sb_touch to
         else
             break;
         *velocity += change;
-        touched[count++] = (sb_touch){v.nearest, change};
+        touched[count++] = (sb_contact_push){v.nearest, change};
     }
     return count;
 }

@@ -14,7 +14,7 @@ typedef struct sb_eight {
 
 SB_INLINE sb_f8 sb_two_with(const sb_f4 *around, const sb_four_pairs *one, const sb_four_pairs *other, int k, int part)
 {
-    return sb_beside(sb_at_with(around, one->place[k])[part], sb_at_with(around, other->place[k])[part]);
+    return sb_join(sb_at_with(around, one->place[k])[part], sb_at_with(around, other->place[k])[part]);
 }
 
 /* The neighbours of two fours in what sb_around_with made. part 0: their records; 1: their values. */
@@ -36,7 +36,7 @@ SB_INLINE sb_eight sb_eight_with(const sb_f4 *around, const sb_four_pairs *one, 
 
 SB_INLINE sb_f8 sb_eight_slopes(const sb_four_pairs *one, const sb_four_pairs *other)
 {
-    return sb_beside(sb_slopes(one), sb_slopes(other));
+    return sb_join(sb_slopes(one), sb_slopes(other));
 }
 
 /* One lane of a record in all eight. */

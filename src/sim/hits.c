@@ -8,7 +8,7 @@
 #endif
 
 SB_MULTIVERSION
-size_t sb_find_hits_portable(const sb_candidates *of, const sb_stretch *stretch, size_t stretches, sb_hits *h,
+size_t sb_find_hits_portable(const sb_candidates *of, const sb_candidate_range *stretch, size_t stretches, sb_hits *h,
                              sb_f4 self, float scale2, uint32_t skip)
 {
     size_t n = 0;
@@ -28,7 +28,7 @@ size_t sb_find_hits_portable(const sb_candidates *of, const sb_stretch *stretch,
 
 #ifdef SB_AVX512
 #define WIDE __attribute__((target("avx512f")))
-enum { LANES = 16, BATCH = 8, BATCHES = SB_CANDIDATES_MAX / LANES + SB_STRETCHES_MAX + BATCH };
+enum { LANES = 16, BATCH = 8, BATCHES = SB_CANDIDATES_MAX / LANES + SB_CANDIDATE_RANGES_MAX + BATCH };
 
 /* Candidates to be tested together: LANES from `begin` on, those below `end` of them. */
 typedef struct batches {
@@ -38,7 +38,7 @@ typedef struct batches {
 
 /* The stretches by sixteens, eight of these at a time and without a branch on how long a stretch is, which no processor
    foretells. */
-WIDE SB_INLINE void divide(const sb_stretch *stretch, size_t stretches, batches *b)
+WIDE SB_INLINE void divide(const sb_candidate_range *stretch, size_t stretches, batches *b)
 {
     const __m256i starts =
         _mm256_setr_epi32(0, LANES, 2 * LANES, 3 * LANES, 4 * LANES, 5 * LANES, 6 * LANES, 7 * LANES);
@@ -93,7 +93,7 @@ WIDE SB_INLINE offsets offsets_of(sb_f4 self, const sb_f4 *place, const uint32_t
 
 /* Packs the hits' numbers alone, and makes the offsets again from them: one hit in seven candidates, and packing is
    what costs most. */
-WIDE static size_t find_avx512(const sb_candidates *of, const sb_stretch *stretch, size_t stretches, sb_hits *h,
+WIDE static size_t find_avx512(const sb_candidates *of, const sb_candidate_range *stretch, size_t stretches, sb_hits *h,
                                sb_f4 self, float scale2, uint32_t skip)
 {
     const __m512i own = _mm512_set1_epi32((int)skip);

@@ -11,7 +11,7 @@ enum {
     SB_HIT_LANES = 8,
     SB_HIT_SPARE = 96, /* vector loads and stores may run past the end, by 31; as many, for it was timed (0029) */
     SB_CANDIDATES_MAX = 16383,
-    SB_STRETCHES_MAX = 27
+    SB_CANDIDATE_RANGES_MAX = 27
 };
 
 /* Coordinates of candidates in quanta, from a corner of their own. */
@@ -21,9 +21,9 @@ typedef struct sb_candidates {
 } sb_candidates;
 
 /* Candidates [begin, end). */
-typedef struct sb_stretch {
+typedef struct sb_candidate_range {
     uint32_t begin, end;
-} sb_stretch;
+} sb_candidate_range;
 
 /* The hits of one particle. */
 typedef struct sb_hits {
@@ -36,9 +36,9 @@ typedef struct sb_hits {
 } sb_hits;
 
 /* Candidates with (scale r)^2 < 1 as offsets self - candidate, in the order of the stretches, without candidate
-   `skip`. SB_STRETCHES_MAX stretches of SB_CANDIDATES_MAX candidates together at most, none in two. Returns how many
-   hits; SB_LIST_MAX or more means that some may have been left out. */
-typedef size_t sb_find_hits(const sb_candidates *of, const sb_stretch *stretch, size_t stretches, sb_hits *hits,
+   `skip`. SB_CANDIDATE_RANGES_MAX stretches of SB_CANDIDATES_MAX candidates together at most, none in two. Returns how
+   many hits; SB_LIST_MAX or more means that some may have been left out. */
+typedef size_t sb_find_hits(const sb_candidates *of, const sb_candidate_range *stretch, size_t stretches, sb_hits *hits,
                             sb_f4 self, float scale2, uint32_t skip);
 
 /* For any processor. */

@@ -1,9 +1,9 @@
 /* What the water does to bodies over one step: the reaction to every wall term that moved the water
    [A12, eq. 10], so that the momenta of water and bodies balance to round-off. */
 #include "sim/contact.h"
-#include "sim/friction.h"
 #include "sim/ledger.h"
 #include "sim/stages.h"
+#include "sim/wall_drag.h"
 #include "sim/wall_entry.h"
 
 #include <string.h>
@@ -25,7 +25,7 @@ typedef struct tally {
     double *sum, press, mass; /* sum[body][VALUES]; press: m q */
     sb_vec3 at, home;         /* m */
     uint32_t body;
-    sb_f4 pushed, rubbed;
+    sb_f4 pushed, drag;
 } tally;
 
 static sb_vec3 vector(sb_f4 v, double scale)
@@ -51,8 +51,8 @@ SB_APART void add(const sb_sim *sim, double *sum, uint32_t body, sb_vec3 at, sb_
 
 static void put_down(tally *t)
 {
-    add(t->sim, t->sum, t->body, sb_add(t->at, t->home), vector(t->pushed, t->press), vector(t->rubbed, -t->mass));
-    t->pushed = t->rubbed = (sb_f4){0};
+    add(t->sim, t->sum, t->body, sb_add(t->at, t->home), vector(t->pushed, t->press), vector(t->drag, -t->mass));
+    t->pushed = t->drag = (sb_f4){0};
 }
 
 static void turn_to(tally *t, const sb_wall_set *set, uint32_t wall)
@@ -78,8 +78,8 @@ SB_APART void contact(sb_sim *sim, size_t i, double *sum, sb_ledger_sums *ledger
 {
     const sb_f4 start = ((const sb_f4 *)sim->scratch)[i];
     sb_f4 velocity = sim->acceleration[i];
-    sb_touch touched[SB_TOUCHES_MAX];
-    const size_t count = sb_contact_mend(sim, i, &velocity, touched);
+    sb_contact_push touched[SB_CONTACT_PUSHES_MAX];
+    const size_t count = sb_contact_resolve(sim, i, &velocity, touched);
     const double scale = -(double)sim->constant.mass / sim->report.time_step;
     if (count == 0) return;
     for (size_t k = 0; k < count; k++) {
@@ -106,8 +106,8 @@ static bool one_body(const sb_sim *sim, const uint32_t *index, size_t count)
 }
 
 /* Adds what the pressure of particle i and its friction do to bodies, into sum[body][VALUES]. Returns the sum of
-   sb_rubbed; rub: NULL for none. */
-SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_rub *rub, double *sum)
+   sb_wall_drag_four; law: NULL for none. */
+SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_wall_drag *law, double *sum)
 {
     const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
     const float *slope = sim->wall_pairs.slope + sim->wall_pairs.first[i];
@@ -115,43 +115,43 @@ SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_rub *rub, double *su
     const double mass = (double)sim->constant.mass;
     const sb_f4 *velocity = sim->scratch; /* at the step's start */
     tally t = {.sim = sim, .sum = sum, .press = mass * (double)sim->unknown[i], .mass = mass};
-    sb_f4 rubbed = {0}, part[4];
+    sb_f4 drag = {0}, part[4];
     t.at = sb_space_position(&sim->space, sim->position[i]);
     if (count > 0) t.body = sb_wall_body(sim, index[0]);
     if (one_body(sim, index, count)) { /* as most do: the sums are there already */
         t.pushed = sim->wall[i];
-        rubbed = t.rubbed = rub ? sim->rubbed[i] : (sb_f4){0};
+        drag = t.drag = law ? sim->wall_drag[i] : (sb_f4){0};
         put_down(&t);
-        return rubbed;
+        return drag;
     }
     for (size_t k = 0; k < count; k++) {
-        if (rub && k % 4 == 0) sb_rubbed(sim, i, velocity[i], index + k, slope + k, rub, part);
+        if (law && k % 4 == 0) sb_wall_drag_four(sim, i, velocity[i], index + k, slope + k, law, part);
         if (slope[k] == 0) continue;
         const sb_wall_set *set = sb_wall_set_of(sim, index[k]);
         const uint32_t wall = sb_wall_particle(index[k]);
         turn_to(&t, set, wall);
         t.pushed += sb_offset(sim->position[i], set->record[wall]) * sb_splat(slope[k]);
-        if (rub) {
-            rubbed += part[k % 4];
-            t.rubbed += part[k % 4];
+        if (law) {
+            drag += part[k % 4];
+            t.drag += part[k % 4];
         }
     }
     put_down(&t);
-    return rubbed;
+    return drag;
 }
 
 /* Forces (N) and moment (Nm) on bodies from one block of particles, into sum[body][VALUES]; and what friction and
    contact do to the water's energy. */
 SB_MULTIVERSION
-static void do_block(sb_sim *sim, size_t block, double *sum, const sb_rub *rub)
+static void do_block(sb_sim *sim, size_t block, double *sum, const sb_wall_drag *law)
 {
     sb_ledger_sums *ledger = &sim->block_ledger[block];
     const sb_f4 *velocity = sim->scratch; /* at the step's start */
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
         if (sim->wall_pairs.count[i] == 0) continue;
-        const sb_f4 rubbed = react(sim, i, rub->on ? rub : NULL, sum);
+        const sb_f4 drag = react(sim, i, law->on ? law : NULL, sum);
         contact(sim, i, sum, ledger);
-        if (rub->on) ledger->friction += sb_ledger_work((sb_f4){0}, rubbed, velocity[i], sim->acceleration[i]);
+        if (law->on) ledger->friction += sb_ledger_work((sb_f4){0}, drag, velocity[i], sim->acceleration[i]);
     }
 }
 
@@ -174,7 +174,7 @@ sb_status sb_stage_impulse(sb_sim *sim, sb_error *error)
 {
     (void)error;
     const size_t bodies = sim->model->body_count, blocks = sb_blocks(sim);
-    const sb_rub rub = sb_rub_make(sim);
+    const sb_wall_drag law = sb_wall_drag_make(sim);
 #pragma omp parallel for schedule(dynamic, 4)
     for (size_t b = 0; b < blocks; b++) {
         sim->block_ledger[b] = (sb_ledger_sums){0};
@@ -182,7 +182,7 @@ sb_status sb_stage_impulse(sb_sim *sim, sb_error *error)
         if (!sim->block_touched[b]) continue;
         double *sum = sim->block_impulse + b * bodies * VALUES;
         memset(sum, 0, bodies * VALUES * sizeof *sum);
-        do_block(sim, b, sum, &rub);
+        do_block(sim, b, sum, &law);
     }
     if (sim->settling) return SB_OK;
     const double dt = sim->report.time_step;

@@ -27,7 +27,7 @@ SB_MULTIVERSION
 static fastest accelerate(sb_sim *sim, size_t block)
 {
     const sb_f4 dt = sb_splat((float)sim->report.time_step);
-    const sb_f4 damping = sb_splat(sim->settling == SB_DAMPED || sim->settling == SB_CALMED ? SETTLE_DAMPING : 1.0f);
+    const sb_f4 damping = sb_splat(sim->settling == SB_DAMPING || sim->settling == SB_CALMING ? SETTLE_DAMPING : 1.0f);
     const bool flat = sim->constant.dimension == 2;
     fastest top = {0, block * SB_BLOCK};
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
@@ -54,7 +54,7 @@ SB_INLINE float move_block(sb_sim *sim, size_t block, bool book)
 {
     const sb_f4 *start = sim->scratch;
     sb_ledger_tally tally = {0};
-    const float step = sim->settling == SB_POISED ? 0 : (float)(sim->report.time_step / sim->space.quantum);
+    const float step = sim->settling == SB_START_TRIAL ? 0 : (float)(sim->report.time_step / sim->space.quantum);
     const sb_f4 keep = sim->settling == SB_CREEPING ? (sb_f4){0, 0, 0, 1} : sb_splat(1);
     float top = 0;
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {

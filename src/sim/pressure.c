@@ -63,7 +63,7 @@ sb_status sb_stage_source(sb_sim *sim, sb_error *error)
 static void first_guess(sb_sim *sim)
 {
     const size_t n = sim->n;
-    const float share = sim->settling == SB_DAMPED ? 1 : (float)sim->scene->numerics.warm_start;
+    const float share = sim->settling == SB_DAMPING ? 1 : (float)sim->scene->numerics.warm_start;
     const float dt2 = (float)(sim->report.time_step * sim->report.time_step);
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) {

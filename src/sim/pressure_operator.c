@@ -22,7 +22,7 @@ enum { GROUPS = 8 }; /* per unit of work */
 /* The records of two neighbours. */
 SB_INLINE sb_f8 two(const sb_f4 *around, const uint16_t *place)
 {
-    return sb_beside(*sb_at(around, place[0]), *sb_at(around, place[1]));
+    return sb_join(*sb_at(around, place[0]), *sb_at(around, place[1]));
 }
 
 /* The slopes of two neighbours, each in four lanes; the second one 2^32 times too large, which spares a shift. */
@@ -49,10 +49,10 @@ static void accelerate_group(sb_sim *sim, const sb_group *group)
     for (size_t i = group->first; i < group->end; i++) {
         const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
         const sb_f4 own = sb_in_group(sim, group, i);
-        const sb_f8 self = sb_beside(own, own), q = sb_carried8(self);
+        const sb_f8 self = sb_join(own, own), q = sb_carried8(self);
         sb_f8 even = {0}, odd = {0};
         for (; four < end; four++) {
-            sb_ask_ahead(four);
+            sb_prefetch(four);
             const sb_f8 a = two(around, four->place), b = two(around, four->place + 2);
             even += (self - a) * ((q + sb_carried8(a)) * two_slopes(four->slope));
             odd += (self - b) * ((q + sb_carried8(b)) * two_slopes(four->slope + 2));
@@ -69,10 +69,10 @@ static void diverge_group(sb_sim *sim, const sb_group *group, const sb_f4 *field
     sb_around_with(sim, group, field, around);
     for (size_t i = group->first; i < group->end; i++) {
         const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
-        const sb_f8 self = sb_beside(sb_in_group(sim, group, i), field[i]);
+        const sb_f8 self = sb_join(sb_in_group(sim, group, i), field[i]);
         sb_f8 even = {0}, odd = {0};
         for (; four < end; four++) {
-            sb_ask_ahead(four);
+            sb_prefetch(four);
             const sb_f8 a = self - *sb_both_at(around, four->place[0]), b = self - *sb_both_at(around, four->place[1]);
             const sb_f8 c = self - *sb_both_at(around, four->place[2]), d = self - *sb_both_at(around, four->place[3]);
             even += sb_lower(a, b) * (sb_upper(a, b) * two_slopes(four->slope));

@@ -56,7 +56,7 @@ WIDE static void accelerate_group(sb_sim *sim, const sb_group *group)
         const __m512 self = _mm512_broadcast_f32x4((__m128)own), q = _mm512_set1_ps(own[3]);
         __m512 total = _mm512_setzero_ps();
         for (; four < end; four++) {
-            sb_ask_ahead(four);
+            sb_prefetch(four);
             const __m512 at = four_at(around, four->place);
             const __m512 both = _mm512_add_ps(q, _mm512_permute_ps(at, 0xff)); /* q_i + q_j in all lanes of j */
             const __m512 weight = _mm512_mul_ps(both, four_slopes(four->slope));
@@ -77,7 +77,7 @@ WIDE static void diverge_group(sb_sim *sim, const sb_group *group, const sb_f4 *
         const __m512 own = _mm512_broadcast_f32x4((__m128)field[i]);
         __m512 total = _mm512_setzero_ps();
         for (; four < end; four++) {
-            sb_ask_ahead(four);
+            sb_prefetch(four);
             const __m512 ab = two_with(around, four->place), cd = two_with(around, four->place + 2);
             const __m512 at = _mm512_shuffle_f32x4(ab, cd, 0x88), value = _mm512_shuffle_f32x4(ab, cd, 0xdd);
             const __m512 weight = _mm512_mul_ps(_mm512_sub_ps(own, value), four_slopes(four->slope));

@@ -83,7 +83,8 @@ void sb_sim_save(const sb_sim *sim, sb_archive_out *out)
     sb_put_list(out, sim->position, sim->n, sizeof *sim->position);
     sb_put_list(out, sim->velocity, sim->n, sizeof *sim->velocity);
     sb_put_list(out, sim->id, sim->n, sizeof *sim->id);
-    sb_put_list(out, sim->deficit, sim->deficit ? sim->model->fluid_count : 0, sizeof *sim->deficit);
+    sb_put_list(out, sim->density_correction, sim->density_correction ? sim->model->fluid_count : 0,
+                sizeof *sim->density_correction);
     sb_put_list(out, sim->impulse, sim->model->body_count, sizeof *sim->impulse);
     sb_put_list(out, &sim->ledger, sizeof sim->ledger / sizeof(double), sizeof(double));
     sb_put_count(out, sim->moving_count);
@@ -114,11 +115,12 @@ static void take_particles(sb_sim *sim, sb_archive_in *in)
 
 static void take_deficits(sb_sim *sim, sb_archive_in *in)
 {
-    const size_t n = sim->deficit ? sim->model->fluid_count : 0;
-    sb_take_list(in, sim->deficit, n, sizeof *sim->deficit);
+    const size_t n = sim->density_correction ? sim->model->fluid_count : 0;
+    sb_take_list(in, sim->density_correction, n, sizeof *sim->density_correction);
     for (size_t i = 0; i < n; i++) {
-        if (!isinf(sim->deficit[i])) continue;
-        sb_archive_refuse(in, "particle %zu lacks %g kg/m^3, expected a finite density", i, (double)sim->deficit[i]);
+        if (!isinf(sim->density_correction[i])) continue;
+        sb_archive_refuse(in, "particle %zu lacks %g kg/m^3, expected a finite density", i,
+                          (double)sim->density_correction[i]);
         return;
     }
 }
@@ -165,7 +167,7 @@ sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
     if (status == SB_OK) status = sb_archive_leave(in, error);
     if (status == SB_OK) status = sb_walls_restore(sim, error);
     /* Lists and cells are of other particles: none, until the next step's. */
-    sim->listed = sim->told = false;
+    sim->lists_current = sim->virial_known = false;
     if (sb_cells_build(&sim->cells, sim->position, 0, sim->space.shift) != 0 && status == SB_OK)
         status = sb_fail_memory(error, "cells");
     return status;

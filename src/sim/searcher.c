@@ -83,7 +83,7 @@ static void gather_walls(const sb_sim *sim, sb_searcher *w, size_t i, sb_record 
 
 /* ---- one particle ---- */
 
-SB_INLINE void find_hits(sb_searcher *w, const sb_candidates *of, const sb_stretch *stretch, size_t stretches,
+SB_INLINE void find_hits(sb_searcher *w, const sb_candidates *of, const sb_candidate_range *stretch, size_t stretches,
                          sb_f4 self, uint32_t skip)
 {
     sb_hits *h = &w->hits;
@@ -164,16 +164,16 @@ SB_INLINE void one_particle(sb_sim *sim, sb_searcher *w, sb_list_builder *lists,
     float density = c->mass * w->value_scale * (float)sim->scene->numerics.kernel->shape(0);
     float squares = 0;
     sb_f4 sum = {0}, wall = {0}, self = sb_offset(sim->position[i], group->corner);
-    sb_stretch stretch[SB_VICINITY_ROWS];
-    const size_t stretches = sb_vicinity_reach(sim, v, self, stretch);
+    sb_candidate_range stretch[SB_VICINITY_ROWS];
+    const size_t stretches = sb_vicinity_candidates(sim, v, self, stretch);
     find_hits(w, &(sb_candidates){v->x, v->y, v->z, v->place}, stretch, stretches, self, candidate);
     fluid_sums(w, c->mass, sim->pairs.unit, &density, &sum, &squares);
     sb_list_water(lists, &w->hits, sim, i);
     sim->wall_pairs.count[i] = 0;
     const float of_water = density;
-    if (sim->deficit) sim->residual[i] = sb_sum3(sum * sum);
+    if (sim->density_correction) sim->residual[i] = sb_sum3(sum * sum);
     if (w->wall.count > 0) {
-        const sb_stretch all = {0, (uint32_t)w->wall.count};
+        const sb_candidate_range all = {0, (uint32_t)w->wall.count};
         find_hits(w, &(sb_candidates){w->wall.x, w->wall.y, w->wall.z, w->wall.place}, &all, 1,
                   sb_offset(sim->position[i], cell), UINT32_MAX);
         if (w->hits.count > 0) {
@@ -184,7 +184,7 @@ SB_INLINE void one_particle(sb_sim *sim, sb_searcher *w, sb_list_builder *lists,
     float diagonal = squares;
     for (int axis = 0; axis < 3; axis++) diagonal += (sum[axis] + wall[axis]) * (sum[axis] + wall[axis]);
     sim->density[i] = density;
-    if (sim->deficit) sim->source[i] = density - of_water;
+    if (sim->density_correction) sim->source[i] = density - of_water;
     sim->wall[i] = wall;
     sim->diagonal[i] = diagonal > 1e-6f * c->full_diagonal ? diagonal : 0;
 }

@@ -37,11 +37,11 @@ bool sb_settle_over(const sb_settle *settle)
     return settle->done >= settle->most || settle->calm >= CALM_STEPS;
 }
 
-float sb_settle_pull(const sb_sim *sim, sb_record at)
+float sb_settle_wave_acceleration(const sb_sim *sim, sb_record at)
 {
     const sb_initial_wave *wave = &sim->scene->wave;
     const double gravity = sim->scene->fluid.gravity, step = 1e-4 * wave->depth;
-    if (wave->kind == SB_INITIAL_NONE || sim->settling == SB_POISED) return 0;
+    if (wave->kind == SB_INITIAL_NONE || sim->settling == SB_START_TRIAL) return 0;
     const double x = sb_space_position(&sim->space, at).x - wave->position;
     const sb_solitary solitary = {wave->height, wave->depth, gravity, wave->theory};
     const bool travels = wave->kind == SB_INITIAL_SOLITARY;
@@ -78,7 +78,7 @@ static void let_go(sb_sim *sim)
 static sb_status poise(sb_sim *sim, sb_error *error)
 {
     const float least = (float)CALM * sim->constant.wave_speed;
-    sim->settling = SB_POISED;
+    sim->settling = SB_START_TRIAL;
     const sb_status status = sb_sim_step(sim, error);
     sim->settling = SB_RUNNING;
     sim->report.max_speed = 0;
@@ -140,14 +140,14 @@ static sb_status one_step(sb_sim *sim, sb_error *error)
     const double calm = CALM * (double)sim->constant.wave_speed;
     const int s = settle->done;
     sim->settling = sim->scene->box_count > 0 || s < CREEP_FIRST ? SB_CREEPING
-                    : s < settle->turn                           ? SB_DAMPED
-                                                                 : SB_CALMED;
+                    : s < settle->turn                           ? SB_DAMPING
+                                                                 : SB_CALMING;
     const sb_status status = sb_sim_step(sim, error);
     if (status != SB_OK) return status;
     settle->done++;
     settle->speed = sim->report.max_speed;
     settle->calm = settle->speed < calm ? settle->calm + 1 : 0;
-    if (sim->settling == SB_DAMPED && judge_trial(sim)) {
+    if (sim->settling == SB_DAMPING && judge_trial(sim)) {
         settle->turn = settle->done;
         settle->most = settle->done + CALM_LAST;
         settle->calm = 0;

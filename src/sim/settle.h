@@ -6,11 +6,11 @@
 #include "sim/simd.h"
 
 enum sb_settling {
-    SB_RUNNING,  /* not at all: time goes on */
-    SB_DAMPED,   /* a sea: part of the velocity is lost in each step; an initial wave is held by a pull */
-    SB_CALMED,   /* the same, at settling's end: pressures start from the run's share again */
-    SB_CREEPING, /* boxes of water, which nothing holds: all of it */
-    SB_POISED,   /* one step that moves nothing and tells how velocities change at t = 0 */
+    SB_RUNNING,     /* not at all: time goes on */
+    SB_DAMPING,     /* a sea: part of the velocity is lost in each step; an initial wave is held by a pull */
+    SB_CALMING,     /* the same, at settling's end: pressures start from the run's share again */
+    SB_CREEPING,    /* boxes of water, which nothing holds: all of it */
+    SB_START_TRIAL, /* one step that moves nothing and tells how velocities change at t = 0 */
 };
 
 /* Where settling is between two of its steps. */
@@ -28,6 +28,6 @@ typedef struct sb_settle {
 bool sb_settle_over(const sb_settle *settle);
 /* Horizontal acceleration (m/s^2) that keeps an initial wave's surface level while it settles:
    with g it stands everywhere across the surface, g d(eta)/dx. */
-float sb_settle_pull(const sb_sim *sim, sb_record at);
+float sb_settle_wave_acceleration(const sb_sim *sim, sb_record at);
 
 #endif

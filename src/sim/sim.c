@@ -1,16 +1,16 @@
 /* Making and unmaking a simulation, and the small questions to it. */
 #include "base/hash.h"
 #include "base/memory.h"
-#include "sim/deficit.h"
-#include "sim/friction.h"
+#include "sim/density_correction.h"
 #include "sim/ledger.h"
-#include "sim/packing.h"
 #include "sim/passes.h"
 #include "sim/pressure.h"
 #include "sim/searcher.h"
 #include "sim/sort.h"
 #include "sim/stages.h"
+#include "sim/stress_correction.h"
 #include "sim/turbulence.h"
+#include "sim/wall_drag.h"
 
 #include <math.h>
 #include <omp.h>
@@ -29,7 +29,7 @@ static int allocate(sb_sim *sim, size_t n, size_t bodies)
         {&sim->position, n, 16, true},
         {&sim->velocity, n, 16, true},
         {&sim->id, n, 4, true},
-        {&sim->deficit, n, 4, sb_deficit_on(sim->scene)},
+        {&sim->density_correction, n, 4, sb_density_correction_on(sim->scene)},
         {&sim->acceleration, n, 16, true},
         {&sim->wall, n, 16, true},
         {&sim->density, n, 4, true},
@@ -41,7 +41,7 @@ static int allocate(sb_sim *sim, size_t n, size_t bodies)
         {&sim->product, n, 4, solver->needs_product},
         {&sim->eddy, n, 4, sb_turbulence_on(sim->scene)},
         {&sim->scratch, n, 16, true},
-        {&sim->rubbed, n, 16, sb_rub_on(sim->scene)},
+        {&sim->wall_drag, n, 16, sb_wall_drag_on(sim->scene)},
         {&sim->pairs.first, n, 4, true},
         {&sim->pairs.count, n, 2, true},
         {&sim->wall_pairs.first, n, 4, true},
@@ -92,7 +92,7 @@ static void fill_particles(sb_sim *sim)
     }
     double top = 0;
     for (size_t i = 0; i < n; i++) top = fmax(top, sb_norm(model->fluid_velocity[i]));
-    sb_deficit_clear(sim);
+    sb_density_correction_clear(sim);
     sim->report.max_speed = top;
     sim->report.fluid_count = n;
 }
@@ -113,18 +113,18 @@ static void note_skipped(sb_sim *sim)
     size_t s = 0;
     if (!(n->artificial_viscosity > 0) && !(sim->constant.viscosity > 0) && !sb_turbulence_on(sim->scene))
         leave_out(sim, &s, "viscosity: both coefficients are 0, no pass over pairs", 1, 0);
-    if (!sb_packing_on(sim->scene))
+    if (!sb_stress_correction_on(sim->scene))
         leave_out(sim, &s, "packing's stress: left as it is, no passes over pairs for it", PACKING_PASSES, 0);
     if (!sb_turbulence_on(sim->scene))
         leave_out(sim, &s, "turbulence: none, no strain rates, no memory for eddy viscosities", 1, sizeof *sim->eddy);
-    if (!sb_deficit_on(sim->scene))
+    if (!sb_density_correction_on(sim->scene))
         leave_out(sim, &s, "density: summed, no memory for what surfaces and walls change in it", 0,
-                  sizeof *sim->deficit);
+                  sizeof *sim->density_correction);
     if (!(n->wall_friction > 0)) leave_out(sim, &s, "wall friction: coefficient is 0", 0, 0);
     if (!sb_shear_on(sim->scene))
         leave_out(sim, &s,
                   n->wall_shear == SB_SHEAR_NONE ? "wall shear: none" : "wall shear: the fluid has no viscosity", 0,
-                  rubs ? 0 : sizeof *sim->rubbed);
+                  rubs ? 0 : sizeof *sim->wall_drag);
     if (!sim->space.repeats) leave_out(sim, &s, "periodic sides: none, no ghosts", 0, 0);
     if (sim->moving_count == 0) leave_out(sim, &s, "moving walls: no body moves", 0, 0);
     if (sim->constant.dimension == 2) leave_out(sim, &s, "third dimension: 9 cells searched instead of 27", 0, 0);
@@ -187,11 +187,27 @@ static void free_lists(sb_sim *sim)
 void sb_sim_destroy(sb_sim *sim)
 {
     if (!sim) return;
-    void *fields[] = {
-        sim->position,      sim->velocity, sim->id,          sim->deficit, sim->acceleration, sim->wall,
-        sim->density,       sim->eddy,     sim->diagonal,    sim->source,  sim->unknown,      sim->residual,
-        sim->direction,     sim->product,  sim->scratch,     sim->rubbed,  sim->partial,      sim->block_touched,
-        sim->block_impulse, sim->impulse,  sim->block_ledger};
+    void *fields[] = {sim->position,
+                      sim->velocity,
+                      sim->id,
+                      sim->density_correction,
+                      sim->acceleration,
+                      sim->wall,
+                      sim->density,
+                      sim->eddy,
+                      sim->diagonal,
+                      sim->source,
+                      sim->unknown,
+                      sim->residual,
+                      sim->direction,
+                      sim->product,
+                      sim->scratch,
+                      sim->wall_drag,
+                      sim->partial,
+                      sim->block_touched,
+                      sim->block_impulse,
+                      sim->impulse,
+                      sim->block_ledger};
     for (size_t f = 0; f < sizeof fields / sizeof fields[0]; f++) sb_free(fields[f]);
     free_lists(sim);
     sb_cells_free(&sim->cells);
@@ -260,7 +276,8 @@ uint64_t sb_sim_hash(const sb_sim *sim)
         uint32_t xyz[4] = {sim->position[i][0], sim->position[i][1], sim->position[i][2], sim->id[i]};
         hash = sb_hash(hash, xyz, sizeof xyz);
         hash = sb_hash(hash, &sim->velocity[i], sizeof sim->velocity[i]);
-        if (sim->deficit) hash = sb_hash(hash, &sim->deficit[sim->id[i]], sizeof *sim->deficit);
+        if (sim->density_correction)
+            hash = sb_hash(hash, &sim->density_correction[sim->id[i]], sizeof *sim->density_correction);
     }
     hash = sb_hash(hash, sim->impulse, sim->model->body_count * sizeof *sim->impulse);
     hash = sb_hash(hash, &sim->ledger, sizeof sim->ledger);

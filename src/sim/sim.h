@@ -131,7 +131,7 @@ sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error);
 /* Finds the pressures that water bears, after the last step, for snapshots and queries to tell (a pass over pairs, none
    when they are known; docs/method.md, M17a). Without it they tell the solve's own, which are rougher
    and, settled water being no lattice, a few per cent higher. The state does not change. */
-void sb_sim_find_pressures(sb_sim *sim);
+void sb_sim_find_virial_pressures(sb_sim *sim);
 
 /* A frame of positions, velocities and pressures, bodies' displacements filled; NULL without memory. */
 sb_frame *sb_sim_snapshot(const sb_sim *sim);
@@ -141,7 +141,7 @@ sb_frame *sb_sim_snapshot(const sb_sim *sim);
    away and to eight spacings at least. At most `capacity` are written; the number found is returned (may be larger). */
 typedef struct sb_fluid_sample {
     sb_vec3 position, velocity;
-    double pressure, density; /* Pa, as for sb_sim_find_pressures; kg/m^3 */
+    double pressure, density; /* Pa, as for sb_sim_find_virial_pressures; kg/m^3 */
     uint32_t id;
     double push; /* q = p/rho^2 of the solve: times psi grad W, the acceleration by a boundary particle */
 } sb_fluid_sample;

@@ -69,7 +69,7 @@ SB_INLINE float sb_sum3(sb_f4 v)
 }
 
 /* Square roots, lane by lane. */
-SB_INLINE sb_f4 sb_roots(sb_f4 v)
+SB_INLINE sb_f4 sb_sqrt4(sb_f4 v)
 {
 #ifdef __SSE2__
     return (sb_f4)_mm_sqrt_ps((__m128)v);
@@ -89,7 +89,7 @@ typedef struct sb_four {
     sb_f4 x, y, z, w;
 } sb_four;
 
-SB_INLINE sb_four sb_turn(sb_f4 a, sb_f4 b, sb_f4 c, sb_f4 d)
+SB_INLINE sb_four sb_transpose(sb_f4 a, sb_f4 b, sb_f4 c, sb_f4 d)
 {
     sb_f4 xy0 = __builtin_shufflevector(a, b, 0, 4, 1, 5), xy1 = __builtin_shufflevector(c, d, 0, 4, 1, 5);
     sb_f4 zw0 = __builtin_shufflevector(a, b, 2, 6, 3, 7), zw1 = __builtin_shufflevector(c, d, 2, 6, 3, 7);

@@ -7,7 +7,7 @@
 
 typedef int32_t sb_i8 __attribute__((vector_size(32)));
 
-SB_INLINE sb_f8 sb_beside(sb_f4 a, sb_f4 b)
+SB_INLINE sb_f8 sb_join(sb_f4 a, sb_f4 b)
 {
     return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
 }

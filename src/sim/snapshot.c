@@ -13,8 +13,8 @@ typedef struct particle {
 
 static particle particle_at(const sb_sim *sim, size_t i)
 {
-    const float told = sim->told ? sim->residual[i] : sim->velocity[i][3];
-    return (particle){sim->position[i], sim->velocity[i], told, sim->density[i], sim->id[i]};
+    const float pressure = sim->virial_known ? sim->residual[i] : sim->velocity[i][3];
+    return (particle){sim->position[i], sim->velocity[i], pressure, sim->density[i], sim->id[i]};
 }
 
 sb_frame *sb_sim_snapshot(const sb_sim *sim)

@@ -33,13 +33,14 @@ struct sb_sim {
     sb_record *position; /* quanta; last lane: argument of the pressure operator */
     sb_f4 *velocity;     /* m/s; last lane: pressure in Pa, the next step's warm start */
     uint32_t *id;
-    float *deficit; /* by id, kg/m^3, added to the density's sum (sim/deficit.h); NULL: none. NAN: not known yet */
+    float *density_correction; /* by id, kg/m^3, added to the density's sum (sim/density_correction.h); NULL: none. NAN:
+                                  not known yet */
 
     /* fields of one step */
     sb_f4 *acceleration; /* m/s^2, of the pressure argument; last lane 0. After the stage accelerate:
                             the new velocity and pressure */
     sb_f4 *wall;         /* sum_b psi_b grad W_ib; last lane: sum_b psi_b v_b . grad W_ib */
-    sb_f4 *rubbed;       /* m/s^2, by the walls along themselves, of particles beside them; NULL where walls do not */
+    sb_f4 *wall_drag;    /* m/s^2, by the walls along themselves, of particles beside them; NULL where walls do not */
     float *density;      /* kg/m^3, deficit included */
     float *eddy;         /* m^2/s, nu_t at the step's start; NULL without a turbulence model */
     float *diagonal;     /* -a_ii > 0 for q as unknown; 0: no pressure here */
@@ -49,8 +50,8 @@ struct sb_sim {
     float *direction;    /* of the solver's search; allocated for solvers that need it */
     float *product;      /* A times the argument */
     int last_sweeps;     /* iterations of the step before; 0: there is none */
-    bool listed, told;   /* since the last step's end: lists are those of the particles; residual holds the
-                            pressures that the water bears (sim/bearing.c) */
+    bool lists_current, virial_known; /* since the last step's end: lists are those of the particles; residual holds the
+                          pressures that the water bears (sim/virial_pressure.c) */
 
     sb_cells cells;
     sb_ghosts ghosts;

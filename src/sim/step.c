@@ -1,9 +1,9 @@
 /* The step as a list: one row per stage, one loop that runs and times them. */
 #include "base/clock.h"
-#include "sim/deficit.h"
-#include "sim/packing.h"
+#include "sim/density_correction.h"
 #include "sim/pressure.h"
 #include "sim/stages.h"
+#include "sim/stress_correction.h"
 #include "sim/turbulence.h"
 
 typedef struct stage {
@@ -13,13 +13,15 @@ typedef struct stage {
 } stage;
 
 static const stage stages[] = {
-    {"time_step", sb_stage_time_step, NULL},               /* dt from the speeds reached */
-    {"walls", sb_stage_walls, NULL},                       /* paddles at t, their velocity to t + dt */
-    {"sort", sb_stage_sort, NULL},                         /* back through periodic sides; Z-order, cells */
-    {"ghosts", sb_stage_ghosts, NULL},                     /* images beyond periodic sides */
-    {"neighbours", sb_stage_neighbours, NULL},             /* lists, density, wall vectors, diagonal */
-    {"completion", sb_stage_completion, sb_deficit_on},    /* what surfaces and walls change in the density */
-    {"packing", sb_stage_packing, sb_packing_on},          /* velocities by what its stress lacks to be a pressure */
+    {"time_step", sb_stage_time_step, NULL},   /* dt from the speeds reached */
+    {"walls", sb_stage_walls, NULL},           /* paddles at t, their velocity to t + dt */
+    {"sort", sb_stage_sort, NULL},             /* back through periodic sides; Z-order, cells */
+    {"ghosts", sb_stage_ghosts, NULL},         /* images beyond periodic sides */
+    {"neighbours", sb_stage_neighbours, NULL}, /* lists, density, wall vectors, diagonal */
+    {"completion", sb_stage_density_correction,
+     sb_density_correction_on}, /* what surfaces and walls change in the density */
+    {"packing", sb_stage_stress_correction,
+     sb_stress_correction_on},                             /* velocities by what its stress lacks to be a pressure */
     {"turbulence", sb_stage_turbulence, sb_turbulence_on}, /* eddy viscosity from the strain rate */
     {"forces", sb_stage_forces, NULL},                     /* v* = v + dt (g + viscosity + friction) */
     {"source", sb_stage_source, NULL},                     /* b = beta (rho_0 - rho) - dt div v* */
@@ -48,7 +50,7 @@ sb_status sb_sim_step(sb_sim *sim, sb_error *error)
 {
     const stage *run[STAGES];
     size_t count = 0;
-    sim->listed = sim->told = false;
+    sim->lists_current = sim->virial_known = false;
     for (size_t s = 0; s < STAGES; s++) {
         if (stages[s].needed && !stages[s].needed(sim->scene)) continue;
         sim->stage[count].name = stages[s].name;
@@ -66,6 +68,6 @@ sb_status sb_sim_step(sb_sim *sim, sb_error *error)
         if (status != SB_OK) return status;
 #endif
     }
-    sim->listed = true;
+    sim->lists_current = true;
     return SB_OK;
 }

@@ -69,7 +69,7 @@ double sb_sim_longest_step(const sb_scene *scene, const sb_model *model, double 
 static double step_of(const sb_sim *sim)
 {
     return longest_step(&sim->scene->numerics, &sim->constant, top_speed(sim),
-                        sim->settling == SB_DAMPED ? SETTLE_STEP : 1);
+                        sim->settling == SB_DAMPING ? SETTLE_STEP : 1);
 }
 
 static double least_step(const sb_sim *sim)

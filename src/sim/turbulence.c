@@ -26,7 +26,7 @@ typedef struct moments {
 /* Sums of the lanes of four vectors. */
 SB_INLINE sb_f4 sum_lanes(sb_f4 a, sb_f4 b, sb_f4 c, sb_f4 d)
 {
-    const sb_four t = sb_turn(a, b, c, d);
+    const sb_four t = sb_transpose(a, b, c, d);
     return t.x + t.y + t.z + t.w;
 }
 
@@ -40,8 +40,8 @@ SB_INLINE moments gather(const sb_sim *sim, const sb_group *group, const sb_f4 *
     for (; four < end; four++) {
         const sb_f4 *a = sb_at_with(around, four->place[0]), *b = sb_at_with(around, four->place[1]);
         const sb_f4 *c = sb_at_with(around, four->place[2]), *e = sb_at_with(around, four->place[3]);
-        const sb_four d = sb_turn(self - a[0], self - b[0], self - c[0], self - e[0]);
-        const sb_four u = sb_turn(v - a[1], v - b[1], v - c[1], v - e[1]);
+        const sb_four d = sb_transpose(self - a[0], self - b[0], self - c[0], self - e[0]);
+        const sb_four u = sb_transpose(v - a[1], v - b[1], v - c[1], v - e[1]);
         const sb_f4 weight = sb_slopes(four) * unit;
         const sb_f4 x = d.x * weight, y = d.y * weight, z = d.z * weight;
         xx += x * d.x, xy += x * d.y, xz += x * d.z, yy += y * d.y, yz += y * d.z, zz += z * d.z;

@@ -87,7 +87,8 @@ SB_INLINE void find_gaps(float in, float edge, float gap2[3])
 }
 
 SB_MULTIVERSION
-size_t sb_vicinity_reach(const sb_sim *sim, const sb_vicinity *v, sb_f4 self, sb_stretch stretch[SB_VICINITY_ROWS])
+size_t sb_vicinity_candidates(const sb_sim *sim, const sb_vicinity *v, sb_f4 self,
+                              sb_candidate_range stretch[SB_VICINITY_ROWS])
 {
     const float edge = (float)((int32_t)1 << sim->space.shift);
     const float reach2 = 1.00001f * edge * edge; /* round-off must not leave out a hit */
@@ -108,7 +109,7 @@ size_t sb_vicinity_reach(const sb_sim *sim, const sb_vicinity *v, sb_f4 self, sb
                 const uint32_t *start = v->start[part] + (ptrdiff_t)centre +
                                         ((ptrdiff_t)dz * (ptrdiff_t)v->cells[1] + dy) * (ptrdiff_t)v->cells[0];
                 const uint32_t begin = start[-(left + row2 < reach2)], end = start[1 + (right + row2 < reach2)];
-                stretch[stretches] = (sb_stretch){begin, end};
+                stretch[stretches] = (sb_candidate_range){begin, end};
                 stretches += (row2 < reach2) & (begin < end);
             }
     return stretches;

@@ -7,7 +7,7 @@
 
 /* Owned particles, then images beyond periodic sides. */
 enum { SB_VICINITY_PARTS = 2, SB_VICINITY_CELLS = 64, SB_VICINITY_ROWS = 9 * SB_VICINITY_PARTS };
-_Static_assert((int)SB_AROUND_MAX <= (int)SB_CANDIDATES_MAX && (int)SB_VICINITY_ROWS <= (int)SB_STRETCHES_MAX,
+_Static_assert((int)SB_AROUND_MAX <= (int)SB_CANDIDATES_MAX && (int)SB_VICINITY_ROWS <= (int)SB_CANDIDATE_RANGES_MAX,
                "what is tested for hits");
 
 typedef struct sb_vicinity {
@@ -25,7 +25,8 @@ void sb_vicinity_gather(const sb_sim *sim, sb_group *group, sb_vicinity *v);
 
 /* What of the vicinity may be in reach of a particle of the group; self: its place from the group's corner. Returns
    how many stretches. */
-size_t sb_vicinity_reach(const sb_sim *sim, const sb_vicinity *v, sb_f4 self, sb_stretch stretch[SB_VICINITY_ROWS]);
+size_t sb_vicinity_candidates(const sb_sim *sim, const sb_vicinity *v, sb_f4 self,
+                              sb_candidate_range stretch[SB_VICINITY_ROWS]);
 
 /* The first candidate of the cell that particle i of the group is in. */
 uint32_t sb_vicinity_cell(const sb_sim *sim, const sb_vicinity *v, size_t i);

@@ -1,8 +1,8 @@
 /* v* = v + dt (g + Monaghan viscosity [S16, eq. 14] + physical and eddy viscosity + friction and shear of walls). */
 #include "sim/eights.h"
-#include "sim/friction.h"
 #include "sim/pressure.h"
 #include "sim/stages.h"
+#include "sim/wall_drag.h"
 
 enum { GROUPS = 8 }; /* per unit of work */
 
@@ -78,24 +78,24 @@ SB_INLINE sb_f4 fluid_part(const sb_sim *sim, const sb_group *group, const sb_f4
         y += sb_second4(e.y) * sb_second4(e.pi);
         z += sb_second4(e.z) * sb_second4(e.pi);
     }
-    const sb_four sum = sb_turn(x, y, z, (sb_f4){0});
+    const sb_four sum = sb_transpose(x, y, z, (sb_f4){0});
     return (sum.x + sum.y + sum.z + sum.w) * sb_splat(sim->pairs.unit * f->inverse_quantum);
 }
 
-SB_INLINE sb_f4 wall_part(const sb_sim *sim, size_t i, const sb_rub *rub)
+SB_INLINE sb_f4 wall_part(const sb_sim *sim, size_t i, const sb_wall_drag *law)
 {
     const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
     const float *slope = sim->wall_pairs.slope + sim->wall_pairs.first[i];
     sb_f4 sum = {0}, part[4];
     for (size_t k = 0; k < sim->wall_pairs.count[i]; k += 4) {
-        sb_rubbed(sim, i, sim->velocity[i], index + k, slope + k, rub, part);
+        sb_wall_drag_four(sim, i, sim->velocity[i], index + k, slope + k, law, part);
         for (int pair = 0; pair < 4; pair++) sum += part[pair];
     }
     return sum;
 }
 
 SB_MULTIVERSION
-static void do_group(sb_sim *sim, const sb_group *group, const factors *f, bool viscous, const sb_rub *rub)
+static void do_group(sb_sim *sim, const sb_group *group, const factors *f, bool viscous, const sb_wall_drag *law)
 {
     _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
     const float dt = (float)sim->report.time_step;
@@ -103,12 +103,13 @@ static void do_group(sb_sim *sim, const sb_group *group, const factors *f, bool 
     if (viscous) sb_around_with(sim, group, sim->velocity, around);
     if (sim->eddy) sb_around_last(sim, group, sim->eddy, around);
     for (size_t i = group->first; i < group->end; i++) {
-        sb_f4 a = {sim->settling ? sb_settle_pull(sim, sim->position[i]) : 0, 0, -sim->constant.gravity, 0};
+        sb_f4 a = {sim->settling ? sb_settle_wave_acceleration(sim, sim->position[i]) : 0, 0, -sim->constant.gravity,
+                   0};
         if (sim->eddy)
             a += fluid_part(sim, group, around, i, f, true);
         else if (viscous)
             a += fluid_part(sim, group, around, i, f, false);
-        if (rub->on && sim->wall_pairs.count[i] > 0) a += sim->rubbed[i] = wall_part(sim, i, rub);
+        if (law->on && sim->wall_pairs.count[i] > 0) a += sim->wall_drag[i] = wall_part(sim, i, law);
         a[3] = 0;
         next[i] = sim->velocity[i] + a * sb_splat(dt);
     }
@@ -118,12 +119,12 @@ sb_status sb_stage_forces(sb_sim *sim, sb_error *error)
 {
     (void)error;
     const factors f = make_factors(sim);
-    const sb_rub rub = sb_rub_make(sim);
+    const sb_wall_drag law = sb_wall_drag_make(sim);
     const bool viscous = f.artificial > 0 || f.physical > 0 || sim->eddy;
     const size_t groups = sim->groups.count;
     if (viscous) sb_pressure_load(sim, sim->density);
 #pragma omp parallel for schedule(dynamic, GROUPS)
-    for (size_t g = 0; g < groups; g++) do_group(sim, &sim->groups.group[g], &f, viscous, &rub);
+    for (size_t g = 0; g < groups; g++) do_group(sim, &sim->groups.group[g], &f, viscous, &law);
     sb_f4 *old = sim->velocity;
     sim->velocity = sim->scratch;
     sim->scratch = old;

@@ -24,8 +24,8 @@ static size_t moved_from_rest(const sb_sim *sim, double *most)
     *most = 0;
     for (size_t i = 0; i < sim->n; i++) {
         sb_f4 v = {0};
-        sb_touch touched[SB_TOUCHES_MAX];
-        if (sb_contact_mend(sim, i, &v, touched) == 0) continue;
+        sb_contact_push touched[SB_CONTACT_PUSHES_MAX];
+        if (sb_contact_resolve(sim, i, &v, touched) == 0) continue;
         count++;
         *most = fmax(*most, sqrt((double)sb_sum3(v * v)));
     }
@@ -65,8 +65,8 @@ static void what_comes_nearer_is_stopped_and_nothing_gains(void **state)
         const sb_f4 start = {(float)(6 * sb_random(5, 3 * i) - 3), (float)(6 * sb_random(5, 3 * i + 1) - 3),
                              (float)(6 * sb_random(5, 3 * i + 2) - 3), 0};
         sb_f4 v = start, sum = start;
-        sb_touch touched[SB_TOUCHES_MAX];
-        const size_t touches = sb_contact_mend(sim, i, &v, touched);
+        sb_contact_push touched[SB_CONTACT_PUSHES_MAX];
+        const size_t touches = sb_contact_resolve(sim, i, &v, touched);
         if (touches == 0) continue;
         stopped++;
         for (size_t k = 0; k < touches; k++) sum += touched[k].change;

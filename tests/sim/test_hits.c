@@ -25,18 +25,20 @@ typedef struct guarded {
 static void limits_are_kept(void **state)
 {
     (void)state;
-    enum { LONG = SB_CANDIDATES_MAX / SB_STRETCHES_MAX / 16 * 16 + 1 };
+    enum { LONG = SB_CANDIDATES_MAX / SB_CANDIDATE_RANGES_MAX / 16 * 16 + 1 };
     float *place = sb_alloc(SB_CANDIDATES_MAX + SB_HIT_SPARE, sizeof *place);
     sb_f4 *record = sb_alloc(SB_CANDIDATES_MAX, sizeof *record);
     guarded *out = sb_alloc(1, sizeof *out);
     assert_true(place && record && out);
-    sb_stretch stretch[SB_STRETCHES_MAX];
-    for (uint32_t s = 0; s < SB_STRETCHES_MAX; s++) stretch[s] = (sb_stretch){s * LONG, (s + 1) * LONG};
-    stretch[SB_STRETCHES_MAX - 1].end = SB_CANDIDATES_MAX;
+    sb_candidate_range stretch[SB_CANDIDATE_RANGES_MAX];
+    for (uint32_t s = 0; s < SB_CANDIDATE_RANGES_MAX; s++) stretch[s] = (sb_candidate_range){s * LONG, (s + 1) * LONG};
+    stretch[SB_CANDIDATE_RANGES_MAX - 1].end = SB_CANDIDATES_MAX;
     const sb_candidates of = {place, place, place, record};
     memset(out, 0xa5, sizeof *out);
-    assert_int_equal(sb_find_hits_choose()(&of, stretch, SB_STRETCHES_MAX, &out->hits, (sb_f4){9, 9, 9, 0}, 1, 7), 0);
-    assert_true(sb_find_hits_choose()(&of, stretch, SB_STRETCHES_MAX, &out->hits, (sb_f4){0}, 1, 7) >= SB_LIST_MAX);
+    assert_int_equal(
+        sb_find_hits_choose()(&of, stretch, SB_CANDIDATE_RANGES_MAX, &out->hits, (sb_f4){9, 9, 9, 0}, 1, 7), 0);
+    assert_true(sb_find_hits_choose()(&of, stretch, SB_CANDIDATE_RANGES_MAX, &out->hits, (sb_f4){0}, 1, 7) >=
+                SB_LIST_MAX);
     const float *const fields[] = {out->hits.x, out->hits.y, out->hits.z, out->hits.q2,
                                    (const float *)out->hits.candidate};
     const uint32_t untouched = 0xa5a5a5a5;
@@ -59,7 +61,7 @@ static void scatter(cloud *c, uint64_t seed)
     }
 }
 
-static size_t find(sb_find_hits *form, const cloud *c, const sb_stretch *stretch, size_t stretches, float reach,
+static size_t find(sb_find_hits *form, const cloud *c, const sb_candidate_range *stretch, size_t stretches, float reach,
                    guarded *out)
 {
     const sb_f4 self = {c->x[40], c->y[40], c->z[40], 0};
@@ -73,7 +75,7 @@ static size_t find(sb_find_hits *form, const cloud *c, const sb_stretch *stretch
 static void forms_agree(void **state)
 {
     (void)state;
-    static const sb_stretch stretches[][4] = {
+    static const sb_candidate_range stretches[][4] = {
         {{0, CANDIDATES}},                                /* all */
         {{0, 1}, {16, 17}, {31, 63}, {4999, 5000}},       /* a vector is not full, or just */
         {{40, 41}, {41, 200}, {900, 1044}, {1100, 3000}}, /* longer than eight vectors */

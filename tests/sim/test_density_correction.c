@@ -1,7 +1,7 @@
 /* What surfaces and walls change in a particle's density sum: found on the lattice, carried along, given up in the
    bulk; and what it is for, a sea that stays as it was laid and a wave that keeps its height. */
 #include "../check.h"
-#include "sim/deficit.h"
+#include "sim/density_correction.h"
 #include "sim/lattice.h"
 #include "sim/tank.h"
 
@@ -35,7 +35,7 @@ static void lattice_is_at_rest_density(void **state)
         assert_int_equal(tank_prepare(sim, 1e-3), 0);
         for (size_t i = 0; i < sim->n; i++) least = fminf(least, sim->density[i]);
         assert_true(least < 0.8f * sim->constant.rest_density); /* the sums at the surface */
-        assert_int_equal(sb_stage_completion(sim, &error), SB_OK);
+        assert_int_equal(sb_stage_density_correction(sim, &error), SB_OK);
         for (size_t i = 0; i < sim->n; i++)
             assert_true(fabsf(sim->density[i] / sim->constant.rest_density - 1) < 1e-6f);
         sb_sim_destroy(sim);
@@ -54,7 +54,7 @@ static void it_is_found_once(void **state)
         sim->position[i][2] += (uint32_t)(0.01 / sim->space.quantum); /* off the floor, the rest as it was */
     sb_error error = {0};
     assert_int_equal(tank_prepare(sim, 1e-3), 0);
-    assert_int_equal(sb_stage_completion(sim, &error), SB_OK);
+    assert_int_equal(sb_stage_density_correction(sim, &error), SB_OK);
     float least = INFINITY;
     for (size_t i = 0; i < sim->n; i++) least = fminf(least, sim->density[i]);
     assert_true(least < 0.97f * sim->constant.rest_density);
@@ -78,14 +78,14 @@ static void it_is_given_up_in_the_bulk(void **state)
         if (fabs(at.x - 0.525) < 0.02 && fabs(at.z - DEPTH) < 0.04) surface = sim->id[i];
     }
     assert_true(bulk[0] < sim->n && bulk[1] < sim->n && surface < sim->n);
-    const float rest = sim->constant.rest_density, kept = sim->deficit[surface];
+    const float rest = sim->constant.rest_density, kept = sim->density_correction[surface];
     assert_true(kept > 0.2f * rest);
-    sim->deficit[bulk[0]] = 0.2f * rest;
-    sim->deficit[bulk[1]] = -0.2f * rest;
+    sim->density_correction[bulk[0]] = 0.2f * rest;
+    sim->density_correction[bulk[1]] = -0.2f * rest;
     assert_int_equal(tank_steps(sim, 120), 0);
-    assert_true(sim->deficit[bulk[0]] < 0.005f * rest);
-    assert_true(sim->deficit[bulk[1]] > -0.012f * rest);
-    assert_true(sim->deficit[surface] == kept);
+    assert_true(sim->density_correction[bulk[0]] < 0.005f * rest);
+    assert_true(sim->density_correction[bulk[1]] > -0.012f * rest);
+    assert_true(sim->density_correction[surface] == kept);
     sb_sim_destroy(sim);
     tank_free(&t);
 }
@@ -120,7 +120,7 @@ static void it_costs_nothing_when_off(void **state)
     tank t;
     sb_sim *sim = water_in(&t, 2, SB_DENSITY_SUMMED, 0);
     const sb_stage_time *stages;
-    assert_null(sim->deficit);
+    assert_null(sim->density_correction);
     assert_int_equal(tank_steps(sim, 1), 0);
     const size_t count = sb_sim_stages(sim, &stages);
     for (size_t s = 0; s < count; s++) assert_string_not_equal(stages[s].name, "completion");

@@ -54,8 +54,8 @@ static void bear_group(sb_sim *sim, const sb_group *group)
         const sb_f4 self = entry(sim, group, i, back);
         sb_f4 sum = {0};
         for (; four < end; four++) {
-            const sb_four d = sb_turn(*sb_at(around, four->place[0]), *sb_at(around, four->place[1]),
-                                      *sb_at(around, four->place[2]), *sb_at(around, four->place[3]));
+            const sb_four d = sb_transpose(*sb_at(around, four->place[0]), *sb_at(around, four->place[1]),
+                                           *sb_at(around, four->place[2]), *sb_at(around, four->place[3]));
             const sb_f4 x = d.x - sb_splat(self[0]), y = d.y - sb_splat(self[1]), z = d.z - sb_splat(self[2]);
             sum += (d.w + sb_splat(self[3])) * sb_slopes(four) * (x * x + y * y + z * z);
         }
@@ -64,11 +64,11 @@ static void bear_group(sb_sim *sim, const sb_group *group)
     }
 }
 
-void sb_sim_find_pressures(sb_sim *sim)
+void sb_sim_find_virial_pressures(sb_sim *sim)
 {
-    if (!sim->listed || sim->told) return;
+    if (!sim->lists_current || sim->virial_known) return;
     const size_t groups = sim->groups.count;
 #pragma omp parallel for schedule(dynamic, GROUPS)
     for (size_t g = 0; g < groups; g++) bear_group(sim, &sim->groups.group[g]);
-    sim->told = true;
+    sim->virial_known = true;
 }

@@ -3,8 +3,8 @@
 #include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
-#include "sim/packing.h"
 #include "sim/pressure.h"
+#include "sim/stress_correction.h"
 #include "sim/tank.h"
 #include "sim/twin.h"
 
@@ -27,7 +27,7 @@ static sb_sim *pressed(tank *t)
 
 typedef double tensor[3][3];
 
-/* E_i of src/sim/packing.c, by its words. */
+/* E_i of src/sim/stress_correction.c, by its words. */
 static void strain(const twin *seen, size_t i, tensor s)
 {
     const sb_reference *r = &seen->reference;
@@ -89,7 +89,7 @@ static void a_random_cloud_is_the_reference(void **state)
         }
         for (size_t i = 0; i < sim->n; i++) stress(sim, &seen, (const tensor *)e, i, s[i]);
         sb_error error = {0};
-        assert_int_equal(sb_stage_packing(sim, &error), SB_OK);
+        assert_int_equal(sb_stage_stress_correction(sim, &error), SB_OK);
         twin_gap gap = {0};
         const sb_reference *r = &seen.reference;
         for (size_t i = 0; i < sim->n; i++) {
@@ -129,7 +129,7 @@ static void momentum_and_ledger(void **state)
         sb_sim *sim = pressed(&t);
         sb_error error = {0};
         const double before = sb_sim_energy(sim).kinetic;
-        assert_int_equal(sb_stage_packing(sim, &error), SB_OK);
+        assert_int_equal(sb_stage_stress_correction(sim, &error), SB_OK);
         const sb_f4 *start = sim->scratch;
         sb_vec3 push = {0};
         double all = 0;
@@ -167,7 +167,7 @@ static void only_unlike_directions_count(void **state)
             }
             sb_sim *sim = pressed(&t);
             sb_error error = {0};
-            assert_int_equal(sb_stage_packing(sim, &error), SB_OK);
+            assert_int_equal(sb_stage_stress_correction(sim, &error), SB_OK);
             double most = 0;
             for (size_t i = 0; i < sim->n; i++) most = fmax(most, fabs((double)sim->velocity[i][0]));
             printf("%dD, stretched by %g: %.3g m/s\n", dimensions, stretch, most);
@@ -198,7 +198,7 @@ static double pushed_along(const tank *t, int axis, bool corrected)
             middle = i;
         }
     }
-    if (corrected) assert_int_equal(sb_stage_packing(sim, &error), SB_OK);
+    if (corrected) assert_int_equal(sb_stage_stress_correction(sim, &error), SB_OK);
     sb_pressure_load(sim, sim->unknown);
     sb_pressure_accelerate(sim);
     const int lane = axis == 0 ? 0 : 2;

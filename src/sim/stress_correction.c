@@ -6,7 +6,7 @@
 
    it is left to second order: M (1 + E) = t (1 - e^2) with e = M/t - 1. <> is a mean over the neighbours: what differs
    from one particle to the next is what keeps the packing in order. E has no trace, so five numbers hold it. */
-#include "sim/packing.h"
+#include "sim/stress_correction.h"
 
 #include "sim/eights.h"
 #include "sim/ledger.h"
@@ -32,14 +32,14 @@ SB_INLINE moments gather(const sb_sim *sim, const sb_group *group, const sb_f4 *
     const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
     sb_f4 xx = {0}, yy = {0}, zz = {0}, xy = {0}, xz = {0}, yz = {0};
     for (; four < end; four++) {
-        sb_ask_ahead(four);
-        const sb_four d = sb_turn(self - *sb_at(around, four->place[0]), self - *sb_at(around, four->place[1]),
-                                  self - *sb_at(around, four->place[2]), self - *sb_at(around, four->place[3]));
+        sb_prefetch(four);
+        const sb_four d = sb_transpose(self - *sb_at(around, four->place[0]), self - *sb_at(around, four->place[1]),
+                                       self - *sb_at(around, four->place[2]), self - *sb_at(around, four->place[3]));
         const sb_f4 slope = sb_slopes(four), x = d.x * slope, y = d.y * slope;
         xx += x * d.x, xy += x * d.y, xz += x * d.z;
         yy += y * d.y, yz += y * d.z, zz += d.z * slope * d.z;
     }
-    const sb_four a = sb_turn(xx, yy, zz, xy), b = sb_turn(xz, yz, (sb_f4){0}, (sb_f4){0});
+    const sb_four a = sb_transpose(xx, yy, zz, xy), b = sb_transpose(xz, yz, (sb_f4){0}, (sb_f4){0});
     const sb_f4 p = a.x + a.y + a.z + a.w, q = b.x + b.y + b.z + b.w;
     return (moments){p[0], p[1], p[2], p[3], q[0], q[1]};
 }
@@ -90,11 +90,11 @@ static void find_stress(sb_sim *sim, const sb_group *group)
         if (!any) continue;
         const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
         const sb_f4 own = {0, 0, 0, sim->residual[i]};
-        sb_f8 even = sb_beside(own, sim->acceleration[i]) * sb_splat8(OWN), odd = {0};
+        sb_f8 even = sb_join(own, sim->acceleration[i]) * sb_splat8(OWN), odd = {0};
         sb_f4 weights = {OWN};
         for (; four < end; four++) {
             const sb_f4 slope = sb_slopes(four);
-            sb_ask_ahead(four);
+            sb_prefetch(four);
             even += *sb_both_at(around, four->place[0]) * sb_splat8(slope[0]);
             odd += *sb_both_at(around, four->place[1]) * sb_splat8(slope[1]);
             even += *sb_both_at(around, four->place[2]) * sb_splat8(slope[2]);
@@ -126,7 +126,7 @@ static void push(sb_sim *sim, const sb_group *group, float dt)
         for (; four < end; four += 2) {
             const bool two = four + 1 < end;
             const sb_four_pairs *other = two ? four + 1 : four;
-            sb_ask_ahead(four);
+            sb_prefetch(four);
             const sb_eight at = sb_eight_with(around, four, other, 0), s = sb_eight_with(around, four, other, 1);
             const sb_f8 slope = sb_eight_slopes(four, other);
             const sb_f8 x = (sb_spread(self, 0) - at.x) * slope, y = (sb_spread(self, 1) - at.y) * slope;
@@ -143,7 +143,7 @@ static void push(sb_sim *sim, const sb_group *group, float dt)
             sum_y += sb_second4(a_y);
             sum_z += sb_second4(a_z);
         }
-        const sb_four t = sb_turn(sum_x, sum_y, sum_z, (sb_f4){0});
+        const sb_four t = sb_transpose(sum_x, sum_y, sum_z, (sb_f4){0});
         next[i] -= (t.x + t.y + t.z + t.w) * sb_splat(dt * sim->pairs.unit);
     }
 }
@@ -166,7 +166,7 @@ static void book(const sb_sim *sim, size_t block)
     }
 }
 
-bool sb_packing_on(const sb_scene *scene)
+bool sb_stress_correction_on(const sb_scene *scene)
 {
     return scene->numerics.stress_correction > 0;
 }
@@ -178,7 +178,7 @@ static void swap(sb_f4 **a, void **b)
     *b = other;
 }
 
-sb_status sb_stage_packing(sb_sim *sim, sb_error *error)
+sb_status sb_stage_stress_correction(sb_sim *sim, sb_error *error)
 {
     const size_t groups = sim->groups.count, blocks = sb_blocks(sim);
     const float dt = (float)sim->report.time_step, share = (float)sim->scene->numerics.stress_correction;

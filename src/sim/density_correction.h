@@ -4,18 +4,18 @@
    laid; and since the addition is constant while a particle stays where it is, the constraint on its density has
    the plain sum's derivative: forces still derive from it, momentum and energy balance as before.
    A particle that comes from the surface, or from a wall, into the bulk of the water gives its addition up. */
-#ifndef SB_SIM_DEFICIT_H
-#define SB_SIM_DEFICIT_H
+#ifndef SB_SIM_DENSITY_CORRECTION_H
+#define SB_SIM_DENSITY_CORRECTION_H
 
 #include "sim/state.h"
 
-/* Whether the scene asks for it; where not, sim->deficit stays NULL and no stage runs. */
-bool sb_deficit_on(const sb_scene *scene);
+/* Whether the scene asks for it; where not, sim->density_correction stays NULL and no stage runs. */
+bool sb_density_correction_on(const sb_scene *scene);
 
 /* Before the first step: none is known. */
-void sb_deficit_clear(sb_sim *sim);
+void sb_density_correction_clear(sb_sim *sim);
 
 /* Adds them to the densities, from what the stage neighbours left. Never fails. */
-sb_status sb_stage_completion(sb_sim *sim, sb_error *error);
+sb_status sb_stage_density_correction(sb_sim *sim, sb_error *error);
 
 #endif

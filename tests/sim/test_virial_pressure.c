@@ -43,8 +43,8 @@ static void a_random_cloud_is_the_reference(void **state)
             for (int axis = 0; axis < 3; axis++)
                 sim->position[i][axis] +=
                     (uint32_t)(int32_t)lrint((double)sim->velocity[i][axis] * 1e-3 / sim->space.quantum);
-        sim->listed = true;
-        sb_sim_find_pressures(sim);
+        sim->lists_current = true;
+        sb_sim_find_virial_pressures(sim);
         size_t beside = 0;
         for (size_t i = 0; i < sim->n; i++) {
             beside += seen.reference.wall_start[i] < seen.reference.wall_start[i + 1];
@@ -102,7 +102,7 @@ static void water_at_rest_bears_its_weight(void **state)
         before[0] += mean / STEPS;
         before[1] += square / STEPS;
         const uint64_t hash = sb_sim_hash(sim);
-        sb_sim_find_pressures(sim);
+        sb_sim_find_virial_pressures(sim);
         assert_true(sb_sim_hash(sim) == hash);
         deviation(sim, 1, 1.2, &mean, &square);
         told[0] += mean / STEPS;
@@ -127,7 +127,7 @@ static void a_start_in_motion_bears_what_one_at_rest_does(void **state)
         t[k].scene.numerics.settle_steps = 60;
         for (size_t i = 0; i < t[k].model.fluid_count; i++) t[k].model.fluid_velocity[i].x = k ? 2 : 0;
         sim[k] = tank_settled(&t[k]);
-        sb_sim_find_pressures(sim[k]);
+        sb_sim_find_virial_pressures(sim[k]);
     }
     assert_int_equal(sim[0]->n, sim[1]->n);
     for (size_t i = 0; i < sim[0]->n; i++) {
@@ -150,21 +150,21 @@ static void not_of_other_lists(void **state)
     sb_sim *sim = tank_sim(&t), *again = tank_sim(&t);
     assert_non_null(sim);
     assert_non_null(again);
-    sb_sim_find_pressures(sim); /* nothing was done yet */
+    sb_sim_find_virial_pressures(sim); /* nothing was done yet */
     assert_int_equal(tank_steps(sim, 30), 0);
     const float solved = sim->velocity[0][3];
     assert_true(sb_sim_particle(sim, 0).pressure == (double)solved);
-    sb_sim_find_pressures(sim);
+    sb_sim_find_virial_pressures(sim);
     const double told = sb_sim_particle(sim, 0).pressure;
     assert_true(told != (double)solved);
     sim->unknown[0] *= 2;
-    sb_sim_find_pressures(sim);
+    sb_sim_find_virial_pressures(sim);
     assert_true(sb_sim_particle(sim, 0).pressure == told);
     sb_archive_out out = {0};
     sb_error error = {0};
     tank_save(sim, &out);
     assert_int_equal(tank_load(again, &out, &error), SB_OK);
-    sb_sim_find_pressures(again);
+    sb_sim_find_virial_pressures(again);
     assert_true(sb_sim_particle(again, 0).pressure == (double)again->velocity[0][3]);
     sb_archive_out_free(&out);
     sb_sim_destroy(sim);

@@ -1,4 +1,4 @@
-#include "sim/deficit.h"
+#include "sim/density_correction.h"
 
 #include <math.h>
 
@@ -14,14 +14,14 @@ static const float OVERLAP = 0.1f;
 /* An addition that is out of bounds is mended within the time in which a long wave crosses this many supports. */
 static const double CROSSED = 2;
 
-bool sb_deficit_on(const sb_scene *scene)
+bool sb_density_correction_on(const sb_scene *scene)
 {
     return scene->numerics.density == SB_DENSITY_COMPLETED;
 }
 
-void sb_deficit_clear(sb_sim *sim)
+void sb_density_correction_clear(sb_sim *sim)
 {
-    for (size_t i = 0; sim->deficit && i < sim->model->fluid_count; i++) sim->deficit[i] = NAN;
+    for (size_t i = 0; sim->density_correction && i < sim->model->fluid_count; i++) sim->density_correction[i] = NAN;
 }
 
 /* density: the sum; by_walls: the walls' part of it; square: |sum_j m grad W_ij|^2 over the water; share: of what is
@@ -36,7 +36,7 @@ static float mended(const sb_constants *c, float own, float density, float by_wa
     return own + share * (bound - own);
 }
 
-sb_status sb_stage_completion(sb_sim *sim, sb_error *error)
+sb_status sb_stage_density_correction(sb_sim *sim, sb_error *error)
 {
     (void)error;
     const size_t n = sim->n;
@@ -44,7 +44,7 @@ sb_status sb_stage_completion(sb_sim *sim, sb_error *error)
     const float share = (float)fmin(crossed / CROSSED, 1);
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) {
-        float *own = &sim->deficit[sim->id[i]];
+        float *own = &sim->density_correction[sim->id[i]];
         *own = mended(&sim->constant, *own, sim->density[i], sim->source[i], sim->residual[i], share);
         sim->density[i] += *own;
     }
