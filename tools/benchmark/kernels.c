@@ -2,7 +2,6 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "child.h"
-#include "limits.h"
 #include "sections.h"
 #include "sim/pressure.h"
 #include "subject.h"
@@ -14,7 +13,7 @@
 
 /* The passes of one iteration, timed one by one. */
 enum pass { LOAD, ACCELERATION, DIVERGENCE, JUDGEMENT, PASSES };
-enum { ITERATIONS = 10, MEGABYTES = 256, MEGABYTES_QUICK = 16 };
+enum { ITERATIONS = 10 };
 
 /* The least that a pass must move and compute: bytes that no cache of the usual size keeps until they are needed
    again (fields once per particle, lists once per pair; a neighbour's record is taken to be in a cache), and
@@ -89,7 +88,7 @@ static sb_status measure(sb_bench_subject *subject, int repeats, times *t, sb_er
 
 /* A pass's rows: per particle, per pair, and its share of what memory and arithmetic would allow. */
 static sb_status add_pass(sb_bench_rows *rows, const char *name, size_t n, double pairs,
-                          const sb_bench_samples *samples, const sb_bench_limits *limits, sb_error *error)
+                          const sb_bench_samples *samples, const sb_bench_request *request, sb_error *error)
 {
     const int threads = omp_get_max_threads();
     const double per_particle = 1 / (double)n;
@@ -104,10 +103,10 @@ static sb_status add_pass(sb_bench_rows *rows, const char *name, size_t n, doubl
             sb_bench_add(rows, name, n, threads, "time per pair", "ns", samples, 1e9 * per_particle / pairs, error);
     if (status == SB_OK)
         status = sb_bench_add_value(rows, name, n, threads, "share of bandwidth", "%",
-                                    100 * bytes / (median * limits->copy), error);
+                                    100 * bytes / (median * request->copy), error);
     if (status == SB_OK && operations > 0)
         status = sb_bench_add_value(rows, name, n, threads, "share of arithmetic", "%",
-                                    100 * operations / (median * limits->arithmetic), error);
+                                    100 * operations / (median * request->arithmetic), error);
     return status;
 }
 
@@ -124,7 +123,7 @@ static sb_bench_samples sum_of(const times *t, const sb_stage_time *stages, size
     return sum;
 }
 
-static sb_status add_all(const sb_bench_subject *subject, const times *t, const sb_bench_limits *limits,
+static sb_status add_all(const sb_bench_subject *subject, const times *t, const sb_bench_request *request,
                          sb_bench_rows *rows, sb_error *error)
 {
     const sb_stage_time *stages;
@@ -135,7 +134,7 @@ static sb_status add_all(const sb_bench_subject *subject, const times *t, const 
     sb_status status =
         sb_bench_add_value(rows, "basin", n, omp_get_max_threads(), "pairs per particle", "1", pairs, error);
     for (size_t s = 0; status == SB_OK && s < count; s++)
-        status = add_pass(rows, stages[s].name, n, pairs, &t->stage[s], limits, error);
+        status = add_pass(rows, stages[s].name, n, pairs, &t->stage[s], request, error);
     const struct {
         const char *name;
         const sb_bench_samples *samples;
@@ -148,7 +147,7 @@ static sb_status add_all(const sb_bench_subject *subject, const times *t, const 
         {SB_BENCH_STEP, &t->step},
     };
     for (size_t p = 0; status == SB_OK && p < sizeof passes / sizeof passes[0]; p++)
-        status = add_pass(rows, passes[p].name, n, pairs, passes[p].samples, limits, error);
+        status = add_pass(rows, passes[p].name, n, pairs, passes[p].samples, request, error);
     if (status == SB_OK) /* the stage is its iterations, a first guess and a last acceleration */
         status = sb_bench_add(rows, SB_BENCH_ITERATION, n, omp_get_max_threads(), SB_BENCH_PER_PARTICLE, "ns",
                               &pressure, 1e9 / ((double)n * ITERATIONS), error);
@@ -160,7 +159,6 @@ static sb_status one_size(const void *context_, sb_bench_rows *rows, sb_error *e
     const context *c = context_;
     char path[SB_PATH_MAX], resolution[32];
     sb_bench_subject subject;
-    sb_bench_limits limits = {0};
     times *t = sb_alloc(1, sizeof *t);
     sb_bench_basin(c->particles, resolution);
     const sb_override overrides[] = {{"resolution", resolution},
@@ -169,14 +167,12 @@ static sb_status one_size(const void *context_, sb_bench_rows *rows, sb_error *e
                                      {"numerics.max_iterations", "10"}};
     omp_set_num_threads(c->request->threads);
     if (!t) return sb_fail_memory(error, "samples");
-    sb_status status = sb_bench_limits_measure(c->request->quick ? MEGABYTES_QUICK : MEGABYTES, c->request->repeats,
-                                               &limits, rows, error);
-    if (status == SB_OK) status = sb_path_join(path, c->request->assets, "benchmark/basin.yaml", error);
+    sb_status status = sb_path_join(path, c->request->assets, "benchmark/basin.yaml", error);
     if (status == SB_OK)
         status = sb_bench_subject_make(path, overrides, sizeof overrides / sizeof overrides[0], 1, &subject, error);
     if (status == SB_OK) {
         status = measure(&subject, c->request->repeats, t, error);
-        if (status == SB_OK) status = add_all(&subject, t, &limits, rows, error);
+        if (status == SB_OK) status = add_all(&subject, t, c->request, rows, error);
         sb_bench_subject_free(&subject);
     }
     sb_free(t);

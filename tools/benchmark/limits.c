@@ -2,6 +2,8 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "child.h"
+#include "report.h"
 #include "sim/simd.h"
 
 #include <omp.h>
@@ -13,6 +15,8 @@ enum {
     CHAINS = 8, /* independent sums: as many as it takes to hide an operation's latency */
     TURNS = 2000000,
     LANES = sizeof(wide) / sizeof(float),
+    MEGABYTES = 256, /* of each array: many times the last cache */
+    MEGABYTES_QUICK = 16,
 };
 
 /* Products and sums that nothing waits for but their own chain. */
@@ -64,25 +68,24 @@ static double triad_once(float *to, const float *a, const float *b, size_t count
 }
 
 static sb_status add(sb_bench_rows *rows, const char *quantity, const char *unit, const sb_bench_samples *samples,
-                     double *median, sb_error *error)
+                     sb_error *error)
 {
-    sb_status status = sb_bench_add(rows, "machine", 0, omp_get_max_threads(), quantity, unit, samples, 1e-9, error);
-    *median = sb_bench_median(samples);
-    return status;
+    return sb_bench_add(rows, SB_BENCH_MACHINE, 0, omp_get_max_threads(), quantity, unit, samples, 1e-9, error);
 }
 
-sb_status sb_bench_limits_measure(size_t megabytes, int repeats, sb_bench_limits *limits, sb_bench_rows *rows,
-                                  sb_error *error)
+static sb_status measure(const void *context, sb_bench_rows *rows, sb_error *error)
 {
-    const size_t count = megabytes * 1000000 / sizeof(float);
+    const sb_bench_request *request = context;
+    const size_t count = (request->quick ? MEGABYTES_QUICK : MEGABYTES) * (size_t)1000000 / sizeof(float);
     float *arrays[3] = {NULL}, kept = 0;
     sb_bench_samples copy = {.count = 0}, triad = copy, arithmetic = copy;
     sb_status status = SB_OK;
+    omp_set_num_threads(request->threads);
     for (int a = 0; a < 3; a++) {
         arrays[a] = sb_alloc(count, sizeof(float));
         if (!arrays[a]) status = sb_fail_memory(error, "the measure of bandwidth");
     }
-    for (int r = 0; status == SB_OK && r <= repeats; r++) {
+    for (int r = 0; status == SB_OK && r <= request->repeats; r++) {
         const double copied = copy_once(arrays[0], arrays[1], count);
         const double added = triad_once(arrays[2], arrays[0], arrays[1], count);
         const double computed = arithmetic_once(&kept);
@@ -93,9 +96,34 @@ sb_status sb_bench_limits_measure(size_t megabytes, int repeats, sb_bench_limits
     }
     if (status == SB_OK && !(kept > 0))
         status = sb_fail(error, SB_FAILED, "sums of positive numbers came out as %g", (double)kept);
-    if (status == SB_OK) status = add(rows, "copy bandwidth", "GB/s", &copy, &limits->copy, error);
-    if (status == SB_OK) status = add(rows, "triad bandwidth", "GB/s", &triad, &limits->triad, error);
-    if (status == SB_OK) status = add(rows, "arithmetic", "GFLOP/s", &arithmetic, &limits->arithmetic, error);
+    if (status == SB_OK) status = add(rows, SB_BENCH_COPY, "GB/s", &copy, error);
+    if (status == SB_OK) status = add(rows, "triad bandwidth", "GB/s", &triad, error);
+    if (status == SB_OK) status = add(rows, SB_BENCH_ARITHMETIC, "GFLOP/s", &arithmetic, error);
     for (int a = 0; a < 3; a++) sb_free(arrays[a]);
+    return status;
+}
+
+sb_status sb_bench_limits(sb_bench_request *request, sb_bench_rows *rows, sb_error *error)
+{
+    sb_status status = sb_bench_in_child(measure, request, rows, error);
+    if (status != SB_OK) return status;
+    request->copy = 1e9 * sb_bench_find(rows, SB_BENCH_MACHINE, 0, 0, SB_BENCH_COPY)->median;
+    request->arithmetic = 1e9 * sb_bench_find(rows, SB_BENCH_MACHINE, 0, 0, SB_BENCH_ARITHMETIC)->median;
+    return SB_OK;
+}
+
+sb_status sb_bench_same_machine(const char *folder, const sb_bench_request *request, sb_error *error)
+{
+    static sb_bench_tables tables;
+    const double now = 1e-9 * request->copy, most = 1.3;
+    sb_status status = sb_bench_tables_read(&tables, folder, error);
+    const sb_bench_row *kept = sb_bench_copy(&tables, NULL);
+    if (status == SB_OK && kept && kept->threads == request->threads &&
+        (now > most * kept->median || kept->median > most * now))
+        status = sb_fail(error, SB_BAD_INPUT,
+                         "%.400s: its tables are of a machine that copies %.3g GB/s, this one copies %.3g GB/s: stop "
+                         "other programs, or give this machine a folder of its own with --machine NAME",
+                         folder, kept->median, now);
+    sb_bench_tables_free(&tables);
     return status;
 }

@@ -1,19 +1,16 @@
-/* What this machine can do at best, measured in the same process as the kernels that are held against it. */
+/* What this machine can do at best, measured just before each section whose figures are held against it. */
 #ifndef SB_BENCHMARK_LIMITS_H
 #define SB_BENCHMARK_LIMITS_H
 
-#include "rows.h"
+#include "sections.h"
 
-/* Medians, by the threads OpenMP uses now. Bytes are those that the program names: what a processor reads in
-   addition, to own a line before it writes to it, is not counted. */
-typedef struct sb_bench_limits {
-    double copy;       /* bytes per second of a = b */
-    double triad;      /* of a = b + s c [McCalpin 1995] */
-    double arithmetic; /* floating-point operations per second: products and sums held in registers, two each */
-} sb_bench_limits;
+/* Adds rows of the subject "machine": the speed of a = b and of a = b + s c [McCalpin 1995], and of products and sums
+   held in registers, by the threads of the request. Sets the medians in the request. Bytes are those that the program
+   names: what a processor reads in addition, to own a line before it writes to it, is not counted. */
+sb_status sb_bench_limits(sb_bench_request *request, sb_bench_rows *rows, sb_error *error);
 
-/* Adds rows of the subject "machine". megabytes: of each of the three arrays; many times the last cache. */
-sb_status sb_bench_limits_measure(size_t megabytes, int repeats, sb_bench_limits *limits, sb_bench_rows *rows,
-                                  sb_error *error);
+/* SB_BAD_INPUT where that folder's tables are of a machine with another copy bandwidth than the request's: machines
+   whose processors share a name may differ in memory. */
+sb_status sb_bench_same_machine(const char *folder, const sb_bench_request *request, sb_error *error);
 
 #endif

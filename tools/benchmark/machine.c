@@ -3,6 +3,7 @@
 #include "base/clock.h"
 #include "origin.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -52,6 +53,22 @@ double sb_bench_load(void)
 static double gigabytes(void)
 {
     return (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE) / 1e9;
+}
+
+/* Letters and digits, with one '-' for what stands between them; what is in parentheses is left out. */
+void sb_bench_folder(const char *machine, char name[128])
+{
+    size_t used = 0;
+    int depth = 0;
+    for (const char *c = machine; *c && used < 127; c++) {
+        depth += (*c == '(') - (*c == ')');
+        if (depth == 0 && isalnum((unsigned char)*c))
+            name[used++] = (char)tolower((unsigned char)*c);
+        else if (used > 0 && name[used - 1] != '-')
+            name[used++] = '-';
+    }
+    while (used > 0 && name[used - 1] == '-') used--;
+    name[used] = '\0';
 }
 
 void sb_bench_origin(char *text, size_t size, const char *source)

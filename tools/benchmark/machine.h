@@ -19,6 +19,9 @@ double sb_bench_others(sb_bench_clock from, sb_bench_clock to);
 /* The load average over the last minute; negative where the system does not tell. */
 double sb_bench_load(void);
 
+/* The folder of a machine's rows, made of "AMD EPYC (R), 2 cores": amd-epyc-2-cores. */
+void sb_bench_folder(const char *machine, char name[128]);
+
 /* Lines about where figures come from: processor, memory, compiler and flags, commit of the source tree. */
 void sb_bench_origin(char *text, size_t size, const char *source);
 

@@ -1,6 +1,8 @@
 /* Command line of the benchmark. */
+#include "limits.h"
 #include "machine.h"
 #include "options.h"
+#include "origin.h"
 #include "report.h"
 
 #include "base/file.h"
@@ -10,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 static void warn_of_others(double others)
 {
@@ -17,23 +20,27 @@ static void warn_of_others(double others)
         fprintf(stderr, "bench: warning: other programs keep %.1f cores busy: times are not to be trusted\n", others);
 }
 
-/* Measures one section and writes its table. whence: machine, compiler, commit. */
-static sb_status measure(const sb_bench_section *section, const sb_bench_request *request, const char *folder,
+/* Measures one section and writes its table. whence: machine, compiler, commit. check: that kept tables are of this
+   machine. */
+static sb_status measure(const sb_bench_section *section, sb_bench_request *request, const char *folder, bool check,
                          const char *whence, sb_error *error)
 {
-    char path[SB_PATH_MAX], name[SB_BENCH_NAME], origin[2048];
+    char path[SB_PATH_MAX], name[SB_BENCH_NAME], origin[2048], date[32], busy[64] = "use by other programs not known";
     sb_bench_rows rows = {0};
-    char told[64] = "what other programs did is not known";
     const double load = sb_bench_load();
+    const time_t now = time(NULL);
+    strftime(date, sizeof date, "%Y-%m-%d %H:%M", gmtime(&now));
     printf("%s: %s (load average %.2f)\n", section->name, section->summary, load);
     const sb_bench_clock from = sb_bench_clock_now();
-    sb_status status = section->run(request, &rows, error);
+    sb_status status = sb_bench_limits(request, &rows, error);
+    if (status == SB_OK && check) status = sb_bench_same_machine(folder, request, error);
+    if (status == SB_OK) status = section->run(request, &rows, error);
     const sb_bench_clock to = sb_bench_clock_now();
     const double others = sb_bench_others(from, to);
-    if (others >= 0) snprintf(told, sizeof told, "other programs kept %.2f cores busy", others);
+    if (others >= 0) snprintf(busy, sizeof busy, "other programs kept %.2f cores busy", others);
     snprintf(origin, sizeof origin,
-             "%smeasured: %d threads, %d repeats (whole runs: one)%s; load average before %.2f; %s\n", whence,
-             request->threads, request->repeats, request->quick ? SB_BENCH_QUICKLY : "", load, told);
+             "%smeasured: %s UTC, %d threads, %d repeats (whole runs: one)%s; load average before %.2f; %s\n", whence,
+             date, request->threads, request->repeats, request->quick ? SB_BENCH_QUICKLY : "", load, busy);
     fputs(origin, stdout);
     warn_of_others(others);
     snprintf(name, sizeof name, "%s.csv", section->name);
@@ -44,18 +51,27 @@ static sb_status measure(const sb_bench_section *section, const sb_bench_request
     return status;
 }
 
-static sb_status bench(const sb_bench_options *o, sb_error *error)
+static sb_status measure_all(const sb_bench_options *o, const char *out, sb_error *error)
 {
-    char folder[SB_PATH_MAX], whence[1024];
-    const char *out = o->out ? o->out : o->quick ? SB_SOURCE_DIR "/build/bench" : SB_SOURCE_DIR "/docs/results";
-    const sb_bench_request request = {
+    char bench[SB_PATH_MAX], folder[SB_PATH_MAX], machine[128], name[128], whence[1024];
+    sb_bench_request request = {
         .assets = SB_SOURCE_DIR "/assets", .repeats = o->repeats, .threads = o->threads, .quick = o->quick};
-    sb_status status = sb_path_join(folder, out, "bench", error);
+    sb_origin_machine(machine);
+    sb_bench_folder(machine, name);
+    sb_status status = sb_path_join(bench, out, "bench", error);
+    if (status == SB_OK) status = sb_path_join(folder, bench, o->machine ? o->machine : name, error);
     if (status == SB_OK) status = sb_make_directories(folder, error);
     sb_bench_origin(whence, sizeof whence, SB_SOURCE_DIR); /* before tables change what git sees */
-    for (size_t s = 0; s < o->count && status == SB_OK && !o->report_only; s++)
+    for (size_t s = 0; s < o->count && status == SB_OK; s++)
         status = sb_stop_signal() ? sb_stop_fail(error, "before all was measured")
-                                  : measure(o->sections[s], &request, folder, whence, error);
+                                  : measure(o->sections[s], &request, folder, !o->machine && !o->quick, whence, error);
+    return status;
+}
+
+static sb_status bench(const sb_bench_options *o, sb_error *error)
+{
+    const char *out = o->out ? o->out : o->quick ? SB_SOURCE_DIR "/build/bench" : SB_SOURCE_DIR "/docs/results";
+    sb_status status = o->report_only ? SB_OK : measure_all(o, out, error);
     if (status == SB_OK) status = sb_bench_report(out, error);
     if (status == SB_OK) printf("%s/benchmarks.md\n", out);
     return status;

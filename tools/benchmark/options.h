@@ -9,7 +9,7 @@ enum { SB_BENCH_SECTIONS_MAX = 16 };
 typedef struct sb_bench_options {
     const sb_bench_section *sections[SB_BENCH_SECTIONS_MAX];
     size_t count;
-    const char *out; /* --out; NULL: not given */
+    const char *out, *machine; /* --out, --machine; NULL: not given */
     bool quick, report_only, help;
     int repeats, threads;
 } sb_bench_options;

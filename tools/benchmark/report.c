@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "plot_draw.h"
 
+#include <dirent.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -49,14 +50,26 @@ static void put_kernels(FILE *file, const sb_bench_rows *rows)
         put_cell(file, sb_bench_find(rows, row->subject, row->particles, row->threads, "share of arithmetic"));
         fputc('\n', file);
     }
-    fputs("\nThe machine in the same processes:\n\n| limit | unit | median (least, spread) |\n|---|---|---|\n", file);
-    for (size_t i = 0; i < rows->count; i++)
-        if (strcmp(rows->rows[i].subject, "machine") == 0) {
-            fprintf(file, "| %s, %d threads | %s | ", rows->rows[i].quantity, rows->rows[i].threads,
-                    rows->rows[i].unit);
-            put_spread(file, &rows->rows[i]);
-            fputs(" |\n", file);
-        }
+}
+
+static bool is_machine(const sb_bench_row *row)
+{
+    return strcmp(row->subject, SB_BENCH_MACHINE) == 0;
+}
+
+/* What the machine could do at the time, in one line. */
+static void put_machine(FILE *file, const sb_bench_rows *rows)
+{
+    const char *between = "\nThe machine:";
+    for (size_t i = 0; i < rows->count; i++) {
+        const sb_bench_row *row = &rows->rows[i];
+        if (!is_machine(row)) continue;
+        fprintf(file, "%s %s ", between, row->quantity);
+        put_spread(file, row);
+        fprintf(file, " %s", row->unit);
+        between = ",";
+    }
+    if (*between == ',') fputs(".\n", file);
 }
 
 /* One table per subject: a row per quantity. */
@@ -65,6 +78,7 @@ static void put_subjects(FILE *file, const sb_bench_rows *rows)
     const char *before = "";
     for (size_t i = 0; i < rows->count; i++) {
         const sb_bench_row *row = &rows->rows[i];
+        if (is_machine(row)) continue;
         if (strcmp(row->subject, before) != 0)
             fprintf(file, "\n%s: %zu fluid particles, %d threads\n\n| quantity | unit | |\n|---|---|---|\n",
                     row->subject, row->particles, row->threads);
@@ -80,6 +94,7 @@ static void put_scaling(FILE *file, const sb_bench_rows *rows)
     fputs("\n| particles | threads | ns per particle and step | parallel efficiency |\n|---|---|---|---|\n", file);
     for (size_t i = 0; i < rows->count; i++) {
         const sb_bench_row *row = &rows->rows[i];
+        if (is_machine(row)) continue;
         const double share = sb_bench_efficiency(rows, row->particles, row->threads);
         fprintf(file, "| %zu | %d | ", row->particles, row->threads);
         put_spread(file, row);
@@ -113,7 +128,7 @@ static sb_status draw_scaling(const sb_bench_rows *rows, const char *folder, con
         char label[64];
         snprintf(label, sizeof label, "%d thread%s", threads, threads > 1 ? "s" : "");
         for (size_t i = 0; i < rows->count && status == SB_OK; i++)
-            if (rows->rows[i].threads == threads)
+            if (rows->rows[i].threads == threads && !is_machine(&rows->rows[i]))
                 status = sb_curve_add(&curve, log10((double)rows->rows[i].particles), rows->rows[i].median, error);
         if (status == SB_OK && curve.count > 0) status = sb_plot_curve(plot, SB_PLOT_LINE, label, &curve, error);
         sb_curve_free(&curve);
@@ -124,26 +139,40 @@ static sb_status draw_scaling(const sb_bench_rows *rows, const char *folder, con
     return status;
 }
 
-static void put_table(FILE *file, const sb_bench_table *table)
+/* Scaling has a picture; where it cannot be drawn the reason stands in its place. */
+static void put_picture(FILE *file, const sb_bench_table *table, const char *folder, const char *name)
 {
-    fprintf(file, "\n## %s\n\n%s.\n\n", table->section->name, table->section->summary);
-    if (!table->found) {
-        fprintf(file, "Not measured: `tools/bench %s` does.\n", table->section->name);
-        return;
-    }
-    fprintf(file, "```\n%s```\n", table->origin);
+    char absolute[SB_PATH_MAX], picture[SB_PATH_MAX];
+    sb_error reason = {0};
+    sb_status status = SB_OK;
+    if (!realpath(folder, absolute)) /* as the plot wants it */
+        status = sb_fail(&reason, SB_FAILED, "%.400s: no such folder", folder);
+    if (status == SB_OK) status = sb_path_join(picture, absolute, "scaling.png", &reason);
+    if (status == SB_OK) status = draw_scaling(&table->rows, absolute, picture, &reason);
+    if (status == SB_OK)
+        fprintf(file, "\n![cost per particle by size and threads](bench/%s/scaling.png)\n", name);
+    else
+        fprintf(file, "\nNo plot: %s.\n", reason.text);
+}
+
+static void put_table(FILE *file, const sb_bench_table *table, const char *folder, const char *name)
+{
+    if (!table->found) return;
+    fprintf(file, "\n### %s: %s\n\n```\n%s```\n", table->section->name, table->section->summary, table->origin);
+    put_machine(file, &table->rows);
     if (strcmp(table->section->name, "kernels") == 0)
         put_kernels(file, &table->rows);
-    else if (strcmp(table->section->name, "scaling") == 0)
+    else if (strcmp(table->section->name, "scaling") == 0) {
         put_scaling(file, &table->rows);
-    else
+        put_picture(file, table, folder, name);
+    } else
         put_subjects(file, &table->rows);
 }
 
-static sb_status read_all(const char *out, sb_bench_tables *tables, sb_error *error)
+sb_status sb_bench_tables_read(sb_bench_tables *tables, const char *folder, sb_error *error)
 {
-    char folder[SB_PATH_MAX], path[SB_PATH_MAX], name[SB_BENCH_NAME];
-    sb_status status = sb_path_join(folder, out, "bench", error);
+    char path[SB_PATH_MAX], name[SB_BENCH_NAME];
+    sb_status status = SB_OK;
     for (const sb_bench_section *s = sb_bench_sections; s->name && status == SB_OK; s++) {
         sb_bench_table *table = &tables->table[tables->count++];
         table->section = s;
@@ -155,50 +184,73 @@ static sb_status read_all(const char *out, sb_bench_tables *tables, sb_error *er
     return status;
 }
 
-/* Scaling has a picture; where it cannot be drawn the reason stands in its place. */
-static void put_picture(FILE *file, const sb_bench_table *table, const char *out)
+void sb_bench_tables_free(sb_bench_tables *tables)
 {
-    char folder[SB_PATH_MAX], absolute[SB_PATH_MAX], picture[SB_PATH_MAX];
-    sb_error reason = {0};
-    if (strcmp(table->section->name, "scaling") != 0 || !table->found) return;
-    sb_status status = sb_path_join(folder, out, "bench", &reason);
-    if (status == SB_OK && !realpath(folder, absolute)) /* as the plot wants it */
-        status = sb_fail(&reason, SB_FAILED, "%.400s: no such folder", folder);
-    if (status == SB_OK) status = sb_path_join(picture, absolute, "scaling.png", &reason);
-    if (status == SB_OK) status = draw_scaling(&table->rows, absolute, picture, &reason);
-    if (status == SB_OK)
-        fputs("\n![cost per particle by size and threads](bench/scaling.png)\n", file);
-    else
-        fprintf(file, "\nNo plot: %s.\n", reason.text);
+    for (size_t t = 0; t < tables->count; t++) sb_bench_rows_free(&tables->table[t].rows);
+    tables->count = 0;
 }
 
-static void put_all(FILE *file, const sb_bench_tables *tables, const char *out)
+/* All of one machine: its name and bandwidth, targets, section by section. Nothing where no table is found. */
+static void put_all(FILE *file, const sb_bench_tables *tables, const char *folder, const char *name)
 {
-    fputs("# Benchmarks\n\nMade by `tools/bench`; how to read and repeat them: [performance.md](../performance.md). "
-          "Medians; in\n"
-          "brackets the least and how far the most lies above it. A section's lines say where and when it was "
-          "measured: where\n"
-          "other programs kept cores busy, its times are not to be trusted.\n\n## What was to be reached, on two "
-          "cores\n\n",
-          file);
-    sb_bench_put_reach(file, tables);
+    static const char key[] = "machine: ";
+    const sb_bench_row *copy = sb_bench_copy(tables, NULL);
+    const char *machine = name;
+    size_t found = 0;
     for (size_t t = 0; t < tables->count; t++) {
-        put_table(file, &tables->table[t]);
-        put_picture(file, &tables->table[t], out);
+        const char *at = strstr(tables->table[t].origin, key);
+        if (at) machine = at + strlen(key);
+        found += tables->table[t].found;
     }
+    if (found == 0) return;
+    fprintf(file, "\n## %.*s; ", (int)strcspn(machine, "\n"), machine);
+    if (copy)
+        fprintf(file, "copy bandwidth %.3g GB/s on %d threads\n\n", copy->median, copy->threads);
+    else
+        fputs("copy bandwidth not measured\n\n", file);
+    sb_bench_put_targets(file, tables);
+    for (size_t t = 0; t < tables->count; t++) put_table(file, &tables->table[t], folder, name);
+}
+
+static int is_machines_folder(const struct dirent *entry)
+{
+    return entry->d_name[0] != '.' && !strchr(entry->d_name, '.');
+}
+
+static sb_status put_machines(FILE *file, const char *out, sb_error *error)
+{
+    static sb_bench_tables tables;
+    char bench[SB_PATH_MAX], folder[SB_PATH_MAX];
+    struct dirent **names = NULL;
+    sb_status status = sb_path_join(bench, out, "bench", error);
+    const int count = status == SB_OK ? scandir(bench, &names, is_machines_folder, alphasort) : 0;
+    if (count < 0) status = sb_fail(error, SB_BAD_INPUT, "%.400s: cannot be read, expected a folder", bench);
+    for (int m = 0; m < count; m++) {
+        if (status == SB_OK) status = sb_path_join(folder, bench, names[m]->d_name, error);
+        if (status == SB_OK) status = sb_bench_tables_read(&tables, folder, error);
+        if (status == SB_OK) put_all(file, &tables, folder, names[m]->d_name);
+        sb_bench_tables_free(&tables);
+        free(names[m]);
+    }
+    free(names);
+    return status;
 }
 
 sb_status sb_bench_report(const char *out, sb_error *error)
 {
-    static sb_bench_tables tables;
     sb_atomic_file file;
-    tables = (sb_bench_tables){.count = 0};
-    sb_status status = read_all(out, &tables, error);
-    if (status == SB_OK) status = sb_atomic_open_in(&file, out, "benchmarks.md", error);
-    if (status == SB_OK) {
-        put_all(file.stream, &tables, out);
-        status = sb_atomic_commit(&file, 0, error);
-    }
-    for (size_t t = 0; t < tables.count; t++) sb_bench_rows_free(&tables.table[t].rows);
+    sb_status status = sb_atomic_open_in(&file, out, "benchmarks.md", error);
+    if (status != SB_OK) return status;
+    fputs("# Benchmarks\n\n"
+          "What the simulation costs, machine by machine. Made by `tools/bench`; how to read and repeat the figures:\n"
+          "[performance.md](../performance.md). Each table holds figures of one machine only. Figures are medians; in "
+          "brackets stand\nthe least and how far the most lies above it. Each section names its commit and the load of "
+          "the machine: where other\nprograms kept cores busy, do not trust its times.\n\n"
+          "A time is judged as a ratio, so that the targets hold on any machine: time × copy bandwidth, the kilobytes "
+          "that the\nmachine could have copied meanwhile, per fluid particle.\n",
+          file.stream);
+    status = put_machines(file.stream, out, error);
+    if (status == SB_OK) return sb_atomic_commit(&file, 0, error);
+    sb_atomic_abort(&file);
     return status;
 }

@@ -1,4 +1,4 @@
-/* benchmarks.md, made of the sections' tables. */
+/* benchmarks.md, made of the kept rows of each machine. */
 #ifndef SB_BENCHMARK_REPORT_H
 #define SB_BENCHMARK_REPORT_H
 
@@ -6,7 +6,7 @@
 
 #include <stdio.h>
 
-/* The tables that there are. */
+/* The kept rows of one section. */
 typedef struct sb_bench_table {
     const sb_bench_section *section;
     bool found;
@@ -19,25 +19,29 @@ typedef struct sb_bench_table {
 
 enum { SB_BENCH_TABLES_MAX = 16 };
 
+/* Those of one machine. */
 typedef struct sb_bench_tables {
     size_t count;
     sb_bench_table table[SB_BENCH_TABLES_MAX];
 } sb_bench_tables;
 
-/* Reads OUT/bench/<section>.csv, those that there are, and writes OUT/benchmarks.md and OUT/bench/scaling.png
+/* Reads FOLDER/<section>.csv, those that there are. Zero-initialised is empty; free in any case. */
+sb_status sb_bench_tables_read(sb_bench_tables *tables, const char *folder, sb_error *error);
+void sb_bench_tables_free(sb_bench_tables *tables);
+
+/* Writes OUT/benchmarks.md, machine by machine, from the tables in OUT/bench/<machine>/, and beside those scaling.png
    (without gnuplot: no picture). */
 sb_status sb_bench_report(const char *out, sb_error *error);
 
 /* Inside the report. */
 
-/* The table of what was to be reached, row by row: figure, reach, stretch, measured, whether it passes. */
-void sb_bench_put_reach(FILE *file, const sb_bench_tables *tables);
-/* The row looked for, in the table of that section; NULL: none. */
-const sb_bench_row *sb_bench_look_up(const sb_bench_tables *tables, const char *section, const char *subject,
-                                     const char *quantity);
+/* What the targets say about one machine: figure, time, judged ratio, target, stretch target, result. */
+void sb_bench_put_targets(FILE *file, const sb_bench_tables *tables);
+/* The copy bandwidth measured with that table; else, or with NULL, with another one of the same machine. NULL: none. */
+const sb_bench_row *sb_bench_copy(const sb_bench_tables *tables, const sb_bench_table *table);
 /* The largest basin's cost per particle over the smallest's, on the most threads; NaN: not measured. */
 double sb_bench_growth(const sb_bench_rows *scaling);
-/* Parallel efficiency from one thread to the most, in the basin nearest to a million particles; NaN. */
+/* Parallel efficiency from one thread to that many; NaN: not measured. */
 double sb_bench_efficiency(const sb_bench_rows *scaling, size_t particles, int threads);
 
 #endif

@@ -8,10 +8,11 @@
 
 /* How a section is asked for. */
 typedef struct sb_bench_request {
-    const char *assets; /* folder with benchmark/ and scenes/ */
-    int repeats;        /* of each measure, >= 1 */
-    int threads;        /* the most to use */
-    bool quick;         /* small sizes: for a look, and for tests of the program itself */
+    const char *assets;      /* folder with benchmark/ and scenes/ */
+    int repeats;             /* of each measure, >= 1 */
+    int threads;             /* the most to use */
+    bool quick;              /* small sizes: for a look, and for tests of the program itself */
+    double copy, arithmetic; /* what the machine can do, by sb_bench_limits: B/s, operations on floats per second */
 } sb_bench_request;
 
 typedef sb_status sb_bench_run(const sb_bench_request *request, sb_bench_rows *rows, sb_error *error);
@@ -37,5 +38,8 @@ void sb_bench_basin(size_t particles, char resolution[32]);
 #define SB_BENCH_PER_PARTICLE "time per particle"
 #define SB_BENCH_STEP "whole step"
 #define SB_BENCH_ITERATION "pressure iteration"
+#define SB_BENCH_MACHINE "machine"
+#define SB_BENCH_COPY "copy bandwidth"
+#define SB_BENCH_ARITHMETIC "arithmetic"
 
 #endif
