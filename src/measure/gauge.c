@@ -117,19 +117,18 @@ static sb_status look(const sb_sight *sight, double x, double y, double floor, c
 /* Spacings above a floor within which the lowest layer of water that stands on it lies. */
 static const double FOOT = 1.5;
 
-sb_status sb_gauge_read(const sb_sight *sight, double x, double y, const sb_floors *floors, double *eta,
-                        sb_error *error)
+sb_status sb_gauge_read(const sb_sight *sight, double x, double y, const sb_floors *floors, double *z, sb_error *error)
 {
     const double spacing = sight->scene->resolution;
     const size_t storeys = floors->count > 1 ? floors->count : 1;
     column c;
     sb_status status = SB_OK;
-    *eta = (double)NAN;
-    for (size_t f = 0; status == SB_OK && isnan(*eta) && f < storeys; f++) {
+    *z = (double)NAN;
+    for (size_t f = 0; status == SB_OK && isnan(*z) && f < storeys; f++) {
         const bool ground = f + 1 == storeys;
         status = look(sight, x, y, ground ? sight->min.z - spacing : floors->z[f], &c, error);
         if (status != SB_OK || c.count == 0) continue;
-        if (ground || c.samples[0].position.z < floors->z[f] + FOOT * spacing) *eta = surface_of(&c);
+        if (ground || c.samples[0].position.z < floors->z[f] + FOOT * spacing) *z = surface_of(&c);
     }
     return status;
 }

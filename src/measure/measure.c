@@ -72,14 +72,16 @@ static sb_status record_flows(sb_measure *measure, double time, double share, sb
 static sb_status record_instants(sb_measure *measure, const sb_sight *sight, double time, sb_error *error)
 {
     const sb_measure_settings *settings = &measure->scene->measure;
+    const sb_sea *sea = &measure->scene->sea;
     sb_status status = SB_OK;
     for (size_t i = 0; status == SB_OK && i < settings->gauge_count; i++) {
         sb_gauge_record *record = append(measure, GAUGES);
         if (!record) return sb_fail_memory(error, "gauge records");
         record->gauge = i;
         record->time = time;
-        status = sb_gauge_read(sight, settings->gauges[i].x, settings->gauges[i].y, &measure->floors[i], &record->eta,
-                               error);
+        status =
+            sb_gauge_read(sight, settings->gauges[i].x, settings->gauges[i].y, &measure->floors[i], &record->z, error);
+        record->eta = sea->present ? record->z - sea->level : (double)NAN;
     }
     for (size_t i = 0; status == SB_OK && i < settings->probe_count; i++) {
         sb_probe_record *record = append(measure, PROBES);

@@ -26,9 +26,9 @@ static inline double sb_repeat_length(const sb_scene *scene, sb_vec3 min, sb_vec
    1.41, the next shell at 1.73 would bridge a missing layer. */
 #define SB_LINK 1.5
 
-/* Elevation of the free surface above (x, y) in m, NaN when dry; floors: of that place. See gauge.c for the choice. */
-sb_status sb_gauge_read(const sb_sight *sight, double x, double y, const sb_floors *floors, double *eta,
-                        sb_error *error);
+/* Absolute elevation z of the free surface at (x, y) in m, NaN when dry; floors: of that place. See gauge.c for the
+   choice. */
+sb_status sb_gauge_read(const sb_sight *sight, double x, double y, const sb_floors *floors, double *z, sb_error *error);
 
 /* The wall around a probe: see patch.h. */
 typedef struct sb_patch sb_patch;

@@ -15,10 +15,10 @@ typedef struct sb_force_record {
     sb_vec3 force, moment, pressure, friction; /* force = pressure + friction */
 } sb_force_record;
 
-/* Surface elevation at that instant; NaN when dry. */
+/* The free surface at that instant; NaN when dry. */
 typedef struct sb_gauge_record {
     size_t gauge;
-    double time, eta; /* s, m */
+    double time, eta, z; /* s; m above the still-water level (NaN in a scene without one); m, absolute */
 } sb_gauge_record;
 
 /* All NaN when dry. */

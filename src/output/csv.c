@@ -37,7 +37,7 @@ static const struct {
                 "time_s,body,Fx_N_per_m,Fy_N_per_m,Fz_N_per_m,Mx_Nm_per_m,My_Nm_per_m,"
                 "Mz_Nm_per_m,Fx_pressure_N_per_m,Fy_pressure_N_per_m,Fz_pressure_N_per_m,"
                 "Fx_friction_N_per_m,Fy_friction_N_per_m,Fz_friction_N_per_m"},
-    [GAUGES] = {"time_s,gauge,eta_m", "time_s,gauge,eta_m"},
+    [GAUGES] = {"time_s,gauge,eta_m,z_m", "time_s,gauge,eta_m,z_m"},
     [PROBES] = {"time_s,probe,u_m_s,v_m_s,w_m_s,p_Pa", "time_s,probe,u_m_s,v_m_s,w_m_s,p_Pa"},
     [ENERGY] = {"time_s,kinetic_J,potential_J,mass_kg,momentum_x_kg_m_s,momentum_y_kg_m_s,"
                 "momentum_z_kg_m_s,bodies_J,viscosity_J,wall_friction_J,pressure_solve_J,contact_J,"
@@ -79,6 +79,28 @@ static sb_status start_table(table *t, const char *header, sb_error *error)
     return SB_OK;
 }
 
+static const char *header_of(const sb_scene *scene, int k)
+{
+    return scene->dimensions == 2 ? formats[k].flat_header : formats[k].header;
+}
+
+/* Rows of one version under the columns of another would be read as what they are not. */
+static sb_status check_header(const char *path, const char *expected, sb_error *error)
+{
+    char found[1024] = "";
+    errno = 0;
+    FILE *file = fopen(path, "r");
+    if (!file) return sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(errno));
+    if (!fgets(found, sizeof found, file)) found[0] = '\0';
+    fclose(file);
+    found[strcspn(found, "\r\n")] = '\0';
+    if (strcmp(found, expected) == 0) return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT,
+                   "%.300s:1: has the columns `%.200s` of another version, expected `%.200s`: "
+                   "start the run anew in another folder, or resume it with the version that began it",
+                   path, found, expected);
+}
+
 static sb_status path_of(const char *directory, int k, char path[SB_PATH_MAX], sb_error *error)
 {
     char name[32];
@@ -103,11 +125,10 @@ static sb_status open_tables(const char *directory, const sb_scene *scene, const
     for (int k = 0; status == SB_OK && k < TABLES; k++) {
         table *t = &made->tables[k];
         if (!has_table(scene, k)) continue;
-        const char *header = scene->dimensions == 2 ? formats[k].flat_header : formats[k].header;
         status = path_of(directory, k, t->path, error);
         if (status == SB_OK)
-            status =
-                marks ? sb_hashed_resume(&t->file, t->path, marks->bytes[k], error) : start_table(t, header, error);
+            status = marks ? sb_hashed_resume(&t->file, t->path, marks->bytes[k], error)
+                           : start_table(t, header_of(scene, k), error);
     }
     if (status != SB_OK) {
         sb_csv_close(made, NULL);
@@ -137,6 +158,7 @@ sb_status sb_csv_check(const char *directory, const sb_scene *scene, const sb_cs
         if (!has_table(scene, k)) continue;
         status = path_of(directory, k, path, error);
         if (status == SB_OK) status = sb_hashed_check(path, marks->bytes[k], marks->hash[k], error);
+        if (status == SB_OK) status = check_header(path, header_of(scene, k), error);
     }
     return status;
 }
@@ -222,6 +244,7 @@ static void write_instants(const sb_csv *csv, const sb_measure_records *records)
     for (size_t i = 0; i < records->gauge_count; i++) {
         begin_row(stream, records->gauges[i].time, settings->gauges[records->gauges[i].gauge].name);
         put(stream, records->gauges[i].eta);
+        put(stream, records->gauges[i].z);
         fputc('\n', stream);
     }
     stream = csv->tables[PROBES].file.stream;

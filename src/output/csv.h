@@ -30,8 +30,8 @@ typedef struct sb_csv_marks {
 /* Puts all rows on disk and marks where the tables end. SB_FAILED when the disk refuses. */
 sb_status sb_csv_sync(sb_csv *csv, sb_csv_marks *marks, sb_error *error);
 
-/* Whether the directory has this scene's tables, each beginning with what was written up to its mark. SB_BAD_INPUT
-   names the first that does not. */
+/* Whether the directory has this scene's tables, each beginning with what was written up to its mark and having
+   this version's columns. SB_BAD_INPUT names the first that does not. */
 sb_status sb_csv_check(const char *directory, const sb_scene *scene, const sb_csv_marks *marks, sb_error *error);
 
 /* As sb_csv_open, but goes on with the tables that are there, cut at their marks, which sb_csv_check has passed. */

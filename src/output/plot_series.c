@@ -17,10 +17,14 @@ typedef struct panel {
     int columns[3]; /* 0: none */
 } panel;
 
+/* Scenes that a plot is for: elevations are above the still-water level where there is one. */
+typedef enum scenes { ALL_SCENES, WITH_LEVEL, WITHOUT_LEVEL } scenes;
+
 typedef struct plot {
     const char *name, *title; /* plots/<name>.png from <name>.csv */
     bool named;
     panel panels[3];
+    scenes scenes;
 } plot;
 
 static const plot plots[] = {
@@ -28,25 +32,39 @@ static const plot plots[] = {
      "Force on bodies (interval means)",
      true,
      {{"horizontal force", "N", true, true, false, false, {2, 3}},
-      {"vertical force", "N", true, true, true, false, {4}}}},
-    {"gauges", "Surface elevation", true, {{"elevation", "m", false, false, true, false, {2}}}},
+      {"vertical force", "N", true, true, true, false, {4}}},
+     ALL_SCENES},
+    {"gauges",
+     "Water surface at gauges, above the still-water level",
+     true,
+     {{"elevation above still water", "m", false, false, true, false, {2}}},
+     WITH_LEVEL},
+    {"gauges",
+     "Water surface at gauges, absolute elevation z",
+     true,
+     {{"absolute elevation z", "m", false, false, true, false, {3}}},
+     WITHOUT_LEVEL},
     {"probes",
      "Velocity and pressure at probes",
      true,
-     {{"speed", "m/s", false, false, false, false, {2, 3, 4}}, {"pressure", "Pa", true, false, true, false, {5}}}},
+     {{"speed", "m/s", false, false, false, false, {2, 3, 4}}, {"pressure", "Pa", true, false, true, false, {5}}},
+     ALL_SCENES},
     {"energy",
      "Energy",
      false,
-     {{"kinetic", "J", true, true, true, false, {1}}, {"potential, change", "J", true, true, true, true, {2}}}},
+     {{"kinetic", "J", true, true, true, false, {1}}, {"potential, change", "J", true, true, true, true, {2}}},
+     ALL_SCENES},
     {"overtopping",
      "Volume through planes",
      true,
-     {{"volume", "m^3", false, true, true, false, {2}}, {"flux", "m^3/s", false, true, true, false, {3}}}},
+     {{"volume", "m^3", false, true, true, false, {2}}, {"flux", "m^3/s", false, true, true, false, {3}}},
+     ALL_SCENES},
     {"runup",
      "Run-up",
      true,
      {{"highest wet level", "m", false, false, true, false, {4}},
-      {"front along the line", "m", false, false, true, false, {5}}}},
+      {"front along the line", "m", false, false, true, false, {5}}},
+     ALL_SCENES},
 };
 
 /* Fewer lines than colours; more could not be told apart. */
@@ -243,7 +261,9 @@ static int draw_plot(const char *program, const char *directory, const plot *wha
 int sb_plot_series(const char *program, const char *directory, const sb_scene *scene, sb_runlog *log)
 {
     int drawn = 0;
-    for (size_t i = 0; i < sizeof plots / sizeof *plots; i++)
-        drawn += draw_plot(program, directory, &plots[i], scene, log);
+    for (size_t i = 0; i < sizeof plots / sizeof *plots; i++) {
+        const scenes other = scene->sea.present ? WITHOUT_LEVEL : WITH_LEVEL;
+        if (plots[i].scenes != other) drawn += draw_plot(program, directory, &plots[i], scene, log);
+    }
     return drawn;
 }

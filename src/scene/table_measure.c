@@ -213,7 +213,8 @@ static const sb_key measure_keys[] = {
             "interval has no row."},
     {.name = "gauges", .type = SB_KEY_LIST,
      SB_KEY_ITEMS(sb_measure_settings, gauges, gauge_count), .table = &gauge_table,
-     .doc = "Gauges of the free surface's height."},
+     .doc = "Gauges of the water surface's elevation: above the still-water level `water.level` (empty without one), and "
+            "absolute."},
     {.name = "probes", .type = SB_KEY_LIST,
      SB_KEY_ITEMS(sb_measure_settings, probes, probe_count), .table = &probe_table,
      .doc = "Probes of velocity and pressure at a point."},

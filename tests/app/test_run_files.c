@@ -203,16 +203,17 @@ static void gauges_are_empty_where_dry(void **state)
     (void)state;
     char *text = text_of("r3/gauges.csv");
     size_t wet = 0, dry = 0;
-    for (const char *line = rows_of(text, "time_s,gauge,eta_m\n"); *line; line = next_line(line)) {
+    for (const char *line = rows_of(text, "time_s,gauge,eta_m,z_m\n"); *line; line = next_line(line)) {
         double time;
         char name[64];
         int length = 0;
         assert_int_equal(sscanf(line, "%lf,%63[^,],%n", &time, name, &length), 2);
         bool is_dry = strcmp(name, "dry") == 0;
+        assert_int_equal(line[length], ','); /* no still-water level to be above */
         if (is_dry)
-            assert_int_equal(line[length], '\n');
+            assert_int_equal(line[length + 1], '\n');
         else
-            assert_near(strtod(line + length, NULL), 0.5, 0.2);
+            assert_near(strtod(line + length + 1, NULL), 0.5, 0.2);
         assert_near(time, 0.05 * (double)(is_dry ? dry++ : wet++), 1e-12);
     }
     assert_int_equal(wet, 7);

@@ -56,7 +56,7 @@ static void gauges_and_probes_see_across(void **state)
         const sb_measure_records *r = sb_measure_latest(measure);
         assert_int_equal(r->gauge_count, 1);
         assert_int_equal(r->probe_count, 2);
-        eta[place] = r->gauges[0].eta;
+        eta[place] = r->gauges[0].z;
         for (int p = 0; p < 2; p++) pressure[place][p] = r->probes[p].pressure;
         sb_measure_destroy(measure);
         sb_sim_destroy(sim);

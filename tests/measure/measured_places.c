@@ -63,7 +63,7 @@ static readings at_rest(const char *text)
         check_ok(sb_measure_step(measure, sim, &error), &error);
         const sb_measure_records *now = sb_measure_latest(measure);
         if (sb_sim_report(sim)->time < 0.5 || now->gauge_count + now->probe_count == 0) continue;
-        for (size_t i = 0; i < now->gauge_count; i++) r.eta[now->gauges[i].gauge] += now->gauges[i].eta;
+        for (size_t i = 0; i < now->gauge_count; i++) r.eta[now->gauges[i].gauge] += now->gauges[i].z;
         for (size_t i = 0; i < now->probe_count; i++) r.pressure[now->probes[i].probe] += now->probes[i].pressure;
         rows += (int)((now->gauge_count + now->probe_count) / (scene.measure.gauge_count + scene.measure.probe_count));
     }

@@ -18,7 +18,7 @@ typedef struct sums {
 static void collect(sums *s, const sb_measure_records *r)
 {
     for (size_t i = 0; i < r->force_count; i++, s->forces++) s->force += r->forces[i].force.z;
-    for (size_t i = 0; i < r->gauge_count; i++, s->levels++) s->level += r->gauges[i].eta;
+    for (size_t i = 0; i < r->gauge_count; i++, s->levels++) s->level += r->gauges[i].z;
     for (size_t i = 0; i < r->probe_count; i++) {
         s->pressure[r->probes[i].probe] += r->probes[i].pressure;
         s->pressures[r->probes[i].probe]++;

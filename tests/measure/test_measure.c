@@ -115,6 +115,7 @@ static void instants_lie_on_multiples(void **state)
     sb_gauge gauge = {"g", 5, 5};
     world.scene.measure.gauges = &gauge;
     world.scene.measure.gauge_count = 1;
+    world.scene.sea = (sb_sea){.present = true, .level = 5.5};
     sb_measure *measure;
     assert_int_equal(sb_measure_create(&world.scene, &world.model, &world.sim, &measure, NULL), SB_OK);
     assert_int_equal(sb_measure_latest(measure)->gauge_count, 1);
@@ -131,7 +132,8 @@ static void instants_lie_on_multiples(void **state)
         for (size_t i = 0; i < records->gauge_count; i++) {
             rows++;
             assert_true(records->gauges[i].time == rows * 0.1);
-            assert_true(fabs(records->gauges[i].eta - (5 + 0.7 * rows * 0.1)) < 1e-6);
+            assert_true(fabs(records->gauges[i].z - (5 + 0.7 * rows * 0.1)) < 1e-6);
+            assert_true(fabs(records->gauges[i].eta - (0.7 * rows * 0.1 - 0.5)) < 1e-6);
         }
         assert_true(records->energy_count == (records->gauge_count > 0));
         if (!records->energy_count) continue;
@@ -140,6 +142,25 @@ static void instants_lie_on_multiples(void **state)
         largest = 0;
     }
     assert_true(rows > 20);
+    sb_measure_destroy(measure);
+    fake_world_free(&world);
+}
+
+/* Water that was put into boxes has no still-water level to be above. */
+static void without_a_level_there_is_no_elevation_above_it(void **state)
+{
+    (void)state;
+    fake_world world;
+    fake_world_make(&world, 3, 1, sb_vec(0, 0, -5), sb_vec(10, 10, 30));
+    fake_fill(&world, sb_vec(0, 0, 0), sb_vec(10, 10, 5), 0, 0, 0, 1);
+    sb_gauge gauge = {"g", 5, 5};
+    world.scene.measure.gauges = &gauge;
+    world.scene.measure.gauge_count = 1;
+    sb_measure *measure;
+    assert_int_equal(sb_measure_create(&world.scene, &world.model, &world.sim, &measure, NULL), SB_OK);
+    const sb_gauge_record *row = sb_measure_latest(measure)->gauges;
+    assert_true(fabs(row->z - 5) < 1e-6);
+    assert_true(isnan(row->eta));
     sb_measure_destroy(measure);
     fake_world_free(&world);
 }
@@ -203,6 +224,7 @@ int main(void)
         cmocka_unit_test(impulse_of_all_rows_is_the_integral),
         cmocka_unit_test(peak_is_of_interval_means),
         cmocka_unit_test(instants_lie_on_multiples),
+        cmocka_unit_test(without_a_level_there_is_no_elevation_above_it),
         cmocka_unit_test(nothing_asked_is_nothing_held),
         cmocka_unit_test(survives_failing_memory),
     };

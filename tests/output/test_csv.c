@@ -53,7 +53,7 @@ static void headers_are_the_contract(void **state)
     /* Not closed yet: a stopped run has them too. */
     expect("forces.csv", "time_s,body,Fx_N,Fy_N,Fz_N,Mx_Nm,My_Nm,Mz_Nm,Fx_pressure_N,Fy_pressure_N,"
                          "Fz_pressure_N,Fx_friction_N,Fy_friction_N,Fz_friction_N\n");
-    expect("gauges.csv", "time_s,gauge,eta_m\n");
+    expect("gauges.csv", "time_s,gauge,eta_m,z_m\n");
     expect("probes.csv", "time_s,probe,u_m_s,v_m_s,w_m_s,p_Pa\n");
     expect("overtopping.csv", "time_s,plane,volume_m3,flux_m3_s\n");
     expect("runup.csv", "time_s,line,x_m,y_m,z_m,front_m\n");
@@ -82,7 +82,7 @@ static void rows_are_there_at_once(void **state)
         {0, 0.1, {1, 2, 3}, {4, 5, 6}, {1.5, 2, 3}, {-0.5, 0, -0.0}},
         {1, 0.1, {1e9 / 3, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}},
     };
-    const sb_gauge_record levels[] = {{0, 0, 1.25}, {0, 0.1, nan}};
+    const sb_gauge_record levels[] = {{0, 0, 1.25, 3.25}, {0, 0.1, nan, nan}};
     const sb_probe_record points[] = {{0, 0.1, {1, 0, -2}, 9810}, {0, 0.2, {nan, nan, nan}, nan}};
     const sb_flow_record flows[] = {{0, 0.1, 12.5, 3}};
     const sb_runup_record runups[] = {{0, 0.1, {1, 2, 3}, 4}};
@@ -95,7 +95,7 @@ static void rows_are_there_at_once(void **state)
     assert_string_equal(strchr(text, '\n') + 1, "0.1,reactor1,1,2,3,4,5,6,1.5,2,3,-0.5,0,0\n"
                                                 "0.1,\"a \"\"b\"\", c\",333333333,0,0,0,0,0,0,0,0,0,0,0\n");
     sb_free(text);
-    expect("gauges.csv", "time_s,gauge,eta_m\n0,offshore,1.25\n0.1,offshore,\n");
+    expect("gauges.csv", "time_s,gauge,eta_m,z_m\n0,offshore,1.25,3.25\n0.1,offshore,,\n");
     expect("probes.csv", "time_s,probe,u_m_s,v_m_s,w_m_s,p_Pa\n0.1,inlet,1,0,-2,9810\n"
                          "0.2,inlet,,,,\n");
     expect("overtopping.csv", "time_s,plane,volume_m3,flux_m3_s\n0.1,quay,12.5,3\n");
@@ -142,7 +142,7 @@ static void tables_go_on_from_their_marks(void **state)
     sb_csv *csv;
     sb_csv_marks marks;
     sb_error error = {0};
-    const sb_gauge_record levels[] = {{0, 0, 1}, {0, 0.1, 2}, {0, 0.2, 3}};
+    const sb_gauge_record levels[] = {{0, 0, 1, 1}, {0, 0.1, 2, 2}, {0, 0.2, 3, 3}};
     sb_measure_records one = {.gauge_count = 1, .gauges = levels};
     assert_int_equal(sb_csv_open(folder, &scene, &model, &csv, NULL), SB_OK);
     assert_int_equal(sb_csv_write(csv, &one, NULL), SB_OK);
@@ -150,20 +150,20 @@ static void tables_go_on_from_their_marks(void **state)
     one.gauges = levels + 1;
     assert_int_equal(sb_csv_write(csv, &one, NULL), SB_OK);
     assert_int_equal(sb_csv_close(csv, NULL), SB_OK);
-    expect("gauges.csv", "time_s,gauge,eta_m\n0,offshore,1\n0.1,offshore,2\n");
+    expect("gauges.csv", "time_s,gauge,eta_m,z_m\n0,offshore,1,1\n0.1,offshore,2,2\n");
     assert_int_equal(sb_csv_check(folder, &scene, &marks, &error), SB_OK);
     assert_int_equal(sb_csv_resume(folder, &scene, &model, &marks, &csv, NULL), SB_OK);
-    expect("gauges.csv", "time_s,gauge,eta_m\n0,offshore,1\n");
+    expect("gauges.csv", "time_s,gauge,eta_m,z_m\n0,offshore,1,1\n");
     one.gauges = levels + 2;
     assert_int_equal(sb_csv_write(csv, &one, NULL), SB_OK);
     assert_int_equal(sb_csv_sync(csv, &marks, NULL), SB_OK);
-    expect("gauges.csv", "time_s,gauge,eta_m\n0,offshore,1\n0.2,offshore,3\n");
-    assert_int_equal(marks.bytes[1], strlen("time_s,gauge,eta_m\n0,offshore,1\n0.2,offshore,3\n"));
+    expect("gauges.csv", "time_s,gauge,eta_m,z_m\n0,offshore,1,1\n0.2,offshore,3,3\n");
+    assert_int_equal(marks.bytes[1], strlen("time_s,gauge,eta_m,z_m\n0,offshore,1,1\n0.2,offshore,3,3\n"));
     /* One that someone changed meanwhile is none to go on with, nor is its length all that counts. */
     assert_int_equal(sb_csv_check(folder, &scene, &marks, &error), SB_OK);
     change_byte("gauges.csv", 25);
     assert_int_equal(sb_csv_check(folder, &scene, &marks, &error), SB_BAD_INPUT);
-    assert_non_null(strstr(error.text, "gauges.csv: was changed since the run wrote it, expected its first 47 bytes"));
+    assert_non_null(strstr(error.text, "gauges.csv: was changed since the run wrote it, expected its first 55 bytes"));
     change_byte("gauges.csv", 25);
     assert_int_equal(sb_csv_check(folder, &scene, &marks, &error), SB_OK);
     /* A table that was removed while it is written is no place for rows. */
@@ -176,6 +176,34 @@ static void tables_go_on_from_their_marks(void **state)
     marks.bytes[0]++;
     assert_int_equal(sb_csv_check(folder, &scene, &marks, &error), SB_BAD_INPUT);
     assert_non_null(strstr(error.text, "forces.csv: has "));
+}
+
+/* Rows of this version under the columns of one that had no z_m would be read as what they are not. */
+static void other_columns_are_not_gone_on_with(void **state)
+{
+    (void)state;
+    static const char old[] = "time_s,gauge,eta_m\n0,offshore,1\n";
+    sb_scene scene = make_scene(3, false);
+    sb_csv *csv;
+    sb_csv_marks marks;
+    sb_error error = {0};
+    sb_running_hash hash = {0};
+    unlink(in_folder("gauges.csv"));
+    assert_int_equal(sb_csv_open(folder, &scene, &model, &csv, NULL), SB_OK);
+    assert_int_equal(sb_csv_sync(csv, &marks, NULL), SB_OK);
+    assert_int_equal(sb_csv_close(csv, NULL), SB_OK);
+    assert_int_equal(sb_csv_check(folder, &scene, &marks, &error), SB_OK);
+    FILE *file = fopen(in_folder("gauges.csv"), "w");
+    assert_non_null(file);
+    fputs(old, file);
+    assert_int_equal(fclose(file), 0);
+    sb_hash_add(&hash, old, strlen(old));
+    marks.bytes[1] = strlen(old);
+    marks.hash[1] = sb_hash_sum(&hash);
+    assert_int_equal(sb_csv_check(folder, &scene, &marks, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "gauges.csv:1: has the columns `time_s,gauge,eta_m` of another version, "
+                                       "expected `time_s,gauge,eta_m,z_m`: start the run anew"));
+    expect("gauges.csv", old);
 }
 
 static void a_full_disk_is_a_failed_run(void **state)
@@ -248,7 +276,7 @@ int main(void)
         cmocka_unit_test(headers_are_the_contract),    cmocka_unit_test(rows_are_there_at_once),
         cmocka_unit_test(tables_read_back_as_series),  cmocka_unit_test(tables_go_on_from_their_marks),
         cmocka_unit_test(a_full_disk_is_a_failed_run), cmocka_unit_test(no_table_is_written_through_a_link),
-        cmocka_unit_test(nothing_follows_a_gap),
+        cmocka_unit_test(nothing_follows_a_gap),       cmocka_unit_test(other_columns_are_not_gone_on_with),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

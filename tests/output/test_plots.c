@@ -40,8 +40,9 @@ static void write_tables(void)
             sb_vec3 f = sb_vec(size, 0.2 * size * sin(t), -0.3 * size);
             forces[b] = (sb_force_record){(size_t)b, t, f, sb_vec(0, 0, 0), f, sb_vec(0, 0, 0)};
         }
-        const sb_gauge_record levels[] = {{0, t, 25 / pow(cosh((t - 30) / 6), 2)},
-                                          {1, t, t < 35 || t > 70 ? (double)NAN : 9 * exp(-(t - 35) / 12)}};
+        const double none = (double)NAN, wave = 25 / pow(cosh((t - 30) / 6), 2);
+        const double near = t < 35 || t > 70 ? none : 9 * exp(-(t - 35) / 12);
+        const sb_gauge_record levels[] = {{0, t, none, wave}, {1, t, none, near}};
         const sb_probe_record point = {0, t, {10 * sin(t / 9), 1, 0}, 1e5 * (1 + sin(t / 5))};
         const sb_energy_record energy = {.time = t,
                                          .kinetic = 3e11 * exp(-pow(t / 30 - 1, 2)),
@@ -147,6 +148,46 @@ static void dry_places_have_no_picture(void **state)
     assert_true(access(in_folder("plots/probes.png"), F_OK) != 0);
 }
 
+static void write_text(const char *name, const char *text)
+{
+    FILE *file = fopen(in_folder(name), "w");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* A gnuplot that shows what it was asked for. */
+static void plots_say_what_they_show(void **state)
+{
+    (void)state;
+    char bin[SB_PATH_MAX];
+    char *path = sb_strdup(getenv("PATH"));
+    assert_int_equal(sb_make_directories(in_folder("bin"), NULL), SB_OK);
+    write_text("bin/gnuplot", "#!/bin/sh\n/bin/cat \"$1\" \"${1%.gp}.dat\" >>asked\necho >plots/part.png\n");
+    assert_int_equal(chmod(in_folder("bin/gnuplot"), 0700), 0);
+    snprintf(bin, sizeof bin, "%s", in_folder("bin"));
+    write_text("gauges.csv", "time_s,gauge,eta_m,z_m\n0,offshore,0.5,2.5\n1,offshore,0.25,2.25\n");
+    for (int level = 0; level < 2; level++) {
+        sb_runlog *log;
+        unlink(in_folder("asked"));
+        scene.sea = (sb_sea){.present = level, .level = 2};
+        assert_int_equal(sb_runlog_open(in_folder("said.jsonl"), &log, NULL), SB_OK);
+        setenv("PATH", bin, 1);
+        sb_plots_write(folder, &scene, log);
+        setenv("PATH", path, 1);
+        assert_int_equal(sb_runlog_close(log, NULL), SB_OK);
+        char *asked = text_of("asked");
+        assert_non_null(asked);
+        assert_true((strstr(asked, "'elevation above still water (m)'") != NULL) == level);
+        assert_true((strstr(asked, "\n0 0.5\n1 0.25\n") != NULL) == level);
+        assert_true((strstr(asked, "'absolute elevation z (m)'") != NULL) == !level);
+        assert_true((strstr(asked, "\n0 2.5\n1 2.25\n") != NULL) == !level);
+        sb_free(asked);
+    }
+    scene.sea = (sb_sea){0};
+    sb_free(path);
+}
+
 static void absent_programs_are_said(void **state)
 {
     (void)state;
@@ -219,6 +260,7 @@ int main(void)
         cmocka_unit_test(relative_places_are_no_paths), cmocka_unit_test(pictures_are_drawn),
         cmocka_unit_test(dry_places_have_no_picture),   cmocka_unit_test(absent_programs_are_said),
         cmocka_unit_test(failing_programs_are_told),    cmocka_unit_test(films_are_joined),
+        cmocka_unit_test(plots_say_what_they_show),
     };
     return cmocka_run_group_tests(tests, folder_make, getenv("SB_KEEP_TEST_FILES") ? NULL : folder_remove);
 }

@@ -20,7 +20,7 @@ static double gauge_error(const sb_judged *j, const char *gauge, double level)
 {
     sb_curve curve = {0};
     double worst = (double)NAN;
-    if (sb_outcome_curve(&j->outcome, "gauges.csv", gauge, "time_s", "eta_m", &curve, NULL) == SB_OK)
+    if (sb_outcome_curve(&j->outcome, "gauges.csv", gauge, "time_s", "z_m", &curve, NULL) == SB_OK)
         for (size_t i = 0; i < curve.count; i++) {
             const double off = fabs(curve.y[i] - level);
             if (i == 0 || !(off <= worst)) worst = off;

@@ -105,7 +105,7 @@ sb_status sb_quantities_of(const sb_case_run *run, sb_figures *figures, sb_error
     const sb_scene *scene = run->scene;
     sb_status status = add_forces(run, figures, error);
     if (status == SB_OK)
-        status = add_column(run, "gauges.csv", "eta_m", "crest", "m", false, scene->sea.present ? scene->sea.level : 0,
+        status = add_column(run, "gauges.csv", "z_m", "crest", "m", false, scene->sea.present ? scene->sea.level : 0,
                             figures, error);
     if (status == SB_OK) status = add_column(run, "runup.csv", "z_m", "run-up height", "m", false, 0, figures, error);
     if (status == SB_OK)

@@ -34,7 +34,7 @@ enum { PROBES = 3 };
 static sb_status elevation(const sb_case_run *run, const gauge *g, sb_curve *filtered, sb_error *error)
 {
     sb_curve raw = {0};
-    sb_status status = sb_run_curve(run, "gauges.csv", g->name, "time_s", "eta_m", &raw, error);
+    sb_status status = sb_run_curve(run, "gauges.csv", g->name, "time_s", "z_m", &raw, error);
     for (size_t i = 0; i < raw.count; i++) raw.y[i] = isnan(raw.y[i]) ? 0 : raw.y[i] - LEVEL;
     if (status == SB_OK) status = sb_curve_mean_filter(&raw, FILTER, filtered, error);
     sb_curve_free(&raw);

@@ -62,7 +62,7 @@ static sb_status surface(const sb_case_run *run, double time, sb_curve *eta, sb_
     for (size_t g = scene->measure.gauge_count; status == SB_OK && g-- > 0;) {
         const sb_gauge *gauge = &scene->measure.gauges[g];
         sb_curve series = {0};
-        status = sb_run_curve(run, "gauges.csv", gauge->name, "time_s", "eta_m", &series, error);
+        status = sb_run_curve(run, "gauges.csv", gauge->name, "time_s", "z_m", &series, error);
         double beach = fmax(gauge->x / COTANGENT, -depth), level = sb_curve_at(&series, t);
         if (isnan(level)) level = beach;
         sb_curve_free(&series);

@@ -19,7 +19,7 @@ static sb_status find_crests(const sb_case_run *run, sb_curve *heights, sb_curve
     for (size_t g = 0; status == SB_OK && g < scene->measure.gauge_count; g++) {
         const sb_gauge *gauge = &scene->measure.gauges[g];
         sb_curve eta = {0};
-        status = sb_run_curve(run, "gauges.csv", gauge->name, "time_s", "eta_m", &eta, error);
+        status = sb_run_curve(run, "gauges.csv", gauge->name, "time_s", "z_m", &eta, error);
         sb_peak crest = sb_curve_peak(&eta, 0, HUGE_VAL, HALF_WIDTH);
         sb_curve_free(&eta);
         if (status == SB_OK) status = sb_curve_add(heights, gauge->x, crest.y - scene->sea.level, error);
@@ -219,7 +219,7 @@ static sb_status plot_shapes(const sb_case_run *runs, size_t count, sb_plot *plo
     sb_curve_free(&theory);
     for (size_t i = 0; status == SB_OK && i < count; i++) {
         sb_curve eta = {0};
-        status = sb_run_curve(&runs[i], "gauges.csv", "x60", "time_s", "eta_m", &eta, error);
+        status = sb_run_curve(&runs[i], "gauges.csv", "x60", "time_s", "z_m", &eta, error);
         sb_peak crest = sb_curve_peak(&eta, 0, HUGE_VAL, HALF_WIDTH);
         sb_curve_map(&eta, 1, -crest.x, 1, -scene->sea.level);
         if (status == SB_OK) status = sb_plot_run(plot, &runs[i], &eta, error);

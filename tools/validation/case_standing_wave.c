@@ -37,7 +37,7 @@ static sb_status shape(const sb_case_run *run, int n, sb_curve *amplitude, sb_er
         const sb_gauge *gauge = &scene->measure.gauges[g];
         double share =
             2.0 / (double)scene->measure.gauge_count * cos(n * M_PI * (gauge->x - scene->domain.min.x) / length);
-        status = sb_run_curve(run, "gauges.csv", gauge->name, "time_s", "eta_m", &eta, error);
+        status = sb_run_curve(run, "gauges.csv", gauge->name, "time_s", "z_m", &eta, error);
         if (status == SB_OK) sb_curve_map(&eta, 1, 0, share, -share * scene->sea.level);
         for (size_t i = 0; i < sum.count && i < eta.count; i++) sum.y[i] += eta.y[i];
         if (sum.count)

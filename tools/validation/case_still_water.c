@@ -40,8 +40,7 @@ static sb_status figure_level(const sb_case_run *run, sb_figures *figures, sb_er
     const char *name = "";
     for (size_t g = 0; g < scene->measure.gauge_count; g++) {
         sb_curve eta = {0};
-        sb_status status =
-            sb_run_curve(run, "gauges.csv", scene->measure.gauges[g].name, "time_s", "eta_m", &eta, error);
+        sb_status status = sb_run_curve(run, "gauges.csv", scene->measure.gauges[g].name, "time_s", "z_m", &eta, error);
         if (status != SB_OK) return status;
         double miss = sb_curve_mean(&eta, START, HUGE_VAL) - scene->sea.level;
         sb_curve_free(&eta);
