@@ -10,13 +10,15 @@ void sb_cloud_free(sb_cloud *cloud)
     sb_free(cloud->slots);
     sb_free(cloud->parents);
     sb_free(cloud->sizes);
+    sb_free(cloud->marks);
     *cloud = (sb_cloud){0};
 }
 
 size_t sb_cloud_bytes(const sb_cloud *cloud)
 {
     return cloud->capacity * sizeof *cloud->samples + cloud->slot_capacity * sizeof *cloud->slots +
-           cloud->parent_capacity * sizeof *cloud->parents + cloud->size_capacity * sizeof *cloud->sizes;
+           cloud->parent_capacity * sizeof *cloud->parents + cloud->size_capacity * sizeof *cloud->sizes +
+           cloud->mark_capacity * sizeof *cloud->marks;
 }
 
 static bool inside(sb_vec3 p, sb_vec3 min, sb_vec3 max)
@@ -26,15 +28,25 @@ static bool inside(sb_vec3 p, sb_vec3 min, sb_vec3 max)
 
 sb_status sb_cloud_query(sb_cloud *cloud, const sb_sim *sim, sb_vec3 min, sb_vec3 max, double lag, sb_error *error)
 {
+    cloud->count = 0;
+    return sb_cloud_add(cloud, sim, min, max, lag, error);
+}
+
+sb_status sb_cloud_add(sb_cloud *cloud, const sb_sim *sim, sb_vec3 min, sb_vec3 max, double lag, sb_error *error)
+{
+    const size_t before = cloud->count;
     double reach = lag > 0 ? lag * sb_sim_report(sim)->max_speed : 0;
     sb_vec3 wide_min = sb_sub(min, sb_vec(reach, reach, reach));
     sb_vec3 wide_max = sb_add(max, sb_vec(reach, reach, reach));
     size_t found;
-    while ((found = sb_sim_query(sim, wide_min, wide_max, cloud->samples, cloud->capacity)) > cloud->capacity)
+    for (;;) {
+        sb_fluid_sample *free = cloud->samples ? cloud->samples + before : NULL;
+        found = before + sb_sim_query(sim, wide_min, wide_max, free, cloud->capacity - before);
+        if (found <= cloud->capacity) break;
         if (sb_grow((void **)&cloud->samples, &cloud->capacity, found, sizeof *cloud->samples) != 0)
             return sb_fail_memory(error, "measured particles");
-    cloud->count = 0;
-    for (size_t i = 0; i < found; i++) {
+    }
+    for (size_t i = before; i < found; i++) {
         sb_fluid_sample sample = cloud->samples[i];
         if (lag > 0) sample.position = sb_madd(sample.position, -lag, sample.velocity);
         if (inside(sample.position, min, max)) cloud->samples[cloud->count++] = sample;
@@ -136,9 +148,9 @@ static void join_neighbours(sb_cloud *cloud, size_t s, double link)
         }
 }
 
-static sb_status keep_group(sb_cloud *cloud, double link, bool by_weight, sb_error *error)
+/* Of at least two samples. */
+static sb_status find_largest(sb_cloud *cloud, double link, bool by_weight, uint32_t *found, sb_error *error)
 {
-    if (cloud->count < 2) return SB_OK;
     sb_status status = sort_into_cells(cloud, link, error);
     if (status != SB_OK) return status;
     for (size_t s = 1; s < cloud->count; s++) join_neighbours(cloud, s, link);
@@ -148,6 +160,16 @@ static sb_status keep_group(sb_cloud *cloud, double link, bool by_weight, sb_err
         cloud->sizes[root] += by_weight ? cloud->samples[i].density : 1;
         if (cloud->sizes[root] > cloud->sizes[largest]) largest = root;
     }
+    *found = largest;
+    return SB_OK;
+}
+
+static sb_status keep_group(sb_cloud *cloud, double link, bool by_weight, sb_error *error)
+{
+    uint32_t largest;
+    if (cloud->count < 2) return SB_OK;
+    sb_status status = find_largest(cloud, link, by_weight, &largest, error);
+    if (status != SB_OK) return status;
     size_t kept = 0;
     for (size_t i = 0; i < cloud->count; i++)
         if (root_of(cloud->parents, (uint32_t)i) == largest) cloud->samples[kept++] = cloud->samples[i];
@@ -163,4 +185,65 @@ sb_status sb_cloud_keep_largest(sb_cloud *cloud, double link, sb_error *error)
 sb_status sb_cloud_keep_heaviest(sb_cloud *cloud, double link, sb_error *error)
 {
     return keep_group(cloud, link, true, error);
+}
+
+sb_status sb_cloud_unmark(sb_cloud *cloud, sb_error *error)
+{
+    if (sb_grow((void **)&cloud->marks, &cloud->mark_capacity, cloud->count, sizeof *cloud->marks) != 0)
+        return sb_fail_memory(error, "marks of measured particles");
+    for (size_t i = 0; i < cloud->count; i++) cloud->marks[i] = false;
+    return SB_OK;
+}
+
+sb_status sb_cloud_mark_largest(sb_cloud *cloud, double link, sb_error *error)
+{
+    uint32_t largest = 0;
+    if (cloud->count == 0) return SB_OK;
+    sb_status status = find_largest(cloud, link, false, &largest, error);
+    for (size_t i = 0; status == SB_OK && i < cloud->count; i++)
+        if (root_of(cloud->parents, (uint32_t)i) == largest) cloud->marks[i] = true;
+    return status;
+}
+
+/* Others nearer than link to the sample of slot s, counted up to `enough`. With a stack, all of them are marked, and
+   the slots of those that were not go on top of it. */
+static size_t visit_near(sb_cloud *cloud, size_t s, double link, size_t enough, uint32_t *stack, size_t *top)
+{
+    const sb_vec3 at = cloud->samples[cloud->slots[s].index].position;
+    const uint64_t key = cloud->slots[s].key, mask = (1u << CELL_BITS) - 1;
+    const uint64_t x = key >> 2 * CELL_BITS, y = key >> CELL_BITS & mask, z = key & mask;
+    size_t found = 0;
+    for (uint64_t column = 0; column < 9; column++) {
+        const uint64_t cx = x + column / 3 - 1, cy = y + column % 3 - 1;
+        const uint64_t last = cell_key(cx, cy, z + 1);
+        size_t t = lower_bound(cloud->slots, cloud->count, cell_key(cx, cy, z - 1));
+        for (; t < cloud->count && cloud->slots[t].key <= last; t++) {
+            const uint32_t j = cloud->slots[t].index;
+            const sb_vec3 d = sb_sub(at, cloud->samples[j].position);
+            if (t == s || !(sb_dot(d, d) < link * link)) continue;
+            if (++found >= enough) return found;
+            if (!stack || cloud->marks[j]) continue;
+            cloud->marks[j] = true;
+            stack[(*top)++] = (uint32_t)t;
+        }
+    }
+    return found;
+}
+
+sb_status sb_cloud_spread(sb_cloud *cloud, double link, size_t least, sb_error *error)
+{
+    if (cloud->count < 2) return SB_OK;
+    sb_status status = sort_into_cells(cloud, link, error);
+    if (status != SB_OK) return status;
+    /* Each sample gets on the stack once at most: when it is marked, or now. */
+    uint32_t *stack = cloud->parents;
+    size_t top = 0;
+    for (size_t s = 0; s < cloud->count; s++)
+        if (cloud->marks[cloud->slots[s].index]) stack[top++] = (uint32_t)s;
+    while (top > 0) {
+        const size_t s = stack[--top];
+        if (least == 0 || visit_near(cloud, s, link, least, NULL, NULL) >= least)
+            visit_near(cloud, s, link, SIZE_MAX, stack, &top);
+    }
+    return SB_OK;
 }

@@ -5,6 +5,8 @@
 
 #include "sim/sim.h"
 
+#include <stdbool.h>
+
 /* One place of a cell-sorted list. */
 typedef struct sb_cloud_slot {
     uint64_t key;
@@ -19,6 +21,8 @@ typedef struct sb_cloud {
     sb_cloud_slot *slots;
     uint32_t *parents;
     double *sizes;
+    size_t mark_capacity;
+    bool *marks; /* of the samples, after sb_cloud_unmark */
 } sb_cloud;
 
 void sb_cloud_free(sb_cloud *cloud);
@@ -30,11 +34,23 @@ size_t sb_cloud_bytes(const sb_cloud *cloud);
    and new, comes out by up to g dt lag / 2 off. */
 sb_status sb_cloud_query(sb_cloud *cloud, const sb_sim *sim, sb_vec3 min, sb_vec3 max, double lag, sb_error *error);
 
+/* The same, behind the samples that are there. */
+sb_status sb_cloud_add(sb_cloud *cloud, const sb_sim *sim, sb_vec3 min, sb_vec3 max, double lag, sb_error *error);
+
 /* Keeps the largest group of particles connected by distances < link (m): spray goes, water stays.
    Order is kept. */
 sb_status sb_cloud_keep_largest(sb_cloud *cloud, double link, sb_error *error);
 
 /* The same for the group with the largest sum of .density, which the caller may have used for weights. */
 sb_status sb_cloud_keep_heaviest(sb_cloud *cloud, double link, sb_error *error);
+
+/* Takes all marks away. Marks are the samples' until these change their order. */
+sb_status sb_cloud_unmark(sb_cloud *cloud, sb_error *error);
+
+/* Marks the largest group of samples connected by distances < link (m). */
+sb_status sb_cloud_mark_largest(sb_cloud *cloud, double link, sb_error *error);
+
+/* Marks spread: from each marked sample that has at least `least` others nearer than link (m) to all of these. */
+sb_status sb_cloud_spread(sb_cloud *cloud, double link, size_t least, sb_error *error);
 
 #endif

@@ -38,8 +38,7 @@ typedef struct sb_patch sb_patch;
 sb_status sb_probe_read(const sb_sight *sight, const sb_probe *probe, const sb_patch *patch, sb_vec3 *velocity,
                         double *pressure, sb_error *error);
 
-/* Highest wet point within one spacing of the line and distance along it that water reaches (m from
-   its first end), NaN when dry: the `place` and `front` of the record. */
+/* The `place`, `front` and `apart` of the record. */
 sb_status sb_runup_read(const sb_sight *sight, const sb_runup_line *line, sb_runup_record *record, sb_error *error);
 
 /* A plane that counts particles by the side they were last seen on. */

@@ -35,12 +35,14 @@ typedef struct sb_flow_record {
     double time, volume, flux; /* s, m^3, m^3/s (m^2, m^2/s in 2D) */
 } sb_flow_record;
 
-/* The highest wet point near a line, and how far water reaches along it; NaN when dry. */
+/* The run-up along a line: the highest point and the front of the water that is connected with that at its first end.
+   See runup.c. */
 typedef struct sb_runup_record {
     size_t line;
     double time;   /* s */
-    sb_vec3 place; /* m; z is the water's upper face */
-    double front;  /* m from the line's first end, of the water's foremost face; at most its length */
+    sb_vec3 place; /* m; z is the water's upper face; NaN where no such water is */
+    double front;  /* m from the first end, 0 to the line's length; NaN where no water at all is */
+    double apart;  /* m of the line over which only other water lies: puddles, thin films, drops */
 } sb_runup_record;
 
 /* At the end of the first step that reached a multiple of the interval. */

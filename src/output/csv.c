@@ -47,7 +47,7 @@ static const struct {
                 "wall_friction_J_per_m,pressure_solve_J_per_m,contact_J_per_m,"
                 "time_integration_J_per_m,left_domain_J_per_m,momentum_imbalance,packing_stress_J_per_m"},
     [OVERTOPPING] = {"time_s,plane,volume_m3,flux_m3_s", "time_s,plane,volume_m3_per_m,flux_m3_s_per_m"},
-    [RUNUP] = {"time_s,line,x_m,y_m,z_m,front_m", "time_s,line,x_m,y_m,z_m,front_m"},
+    [RUNUP] = {"time_s,line,x_m,y_m,z_m,front_m,apart_m", "time_s,line,x_m,y_m,z_m,front_m,apart_m"},
 };
 
 /* The first failed file's message, or SB_OK. Rows in a file without a name would be lost without a word. */
@@ -259,6 +259,7 @@ static void write_instants(const sb_csv *csv, const sb_measure_records *records)
         begin_row(stream, records->runups[i].time, settings->runups[records->runups[i].line].name);
         put_vector(stream, records->runups[i].place);
         put(stream, records->runups[i].front);
+        put(stream, records->runups[i].apart);
         fputc('\n', stream);
     }
 }

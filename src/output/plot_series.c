@@ -60,10 +60,11 @@ static const plot plots[] = {
      {{"volume", "m^3", false, true, true, false, {2}}, {"flux", "m^3/s", false, true, true, false, {3}}},
      ALL_SCENES},
     {"runup",
-     "Run-up",
+     "Run-up, and water apart from it",
      true,
-     {{"highest wet level", "m", false, false, true, false, {4}},
-      {"front along the line", "m", false, false, true, false, {5}}},
+     {{"run-up, absolute z", "m", false, false, true, false, {4}},
+      {"front from first end", "m", false, false, true, false, {5}},
+      {"length of water apart", "m", false, false, true, false, {6}}},
      ALL_SCENES},
 };
 

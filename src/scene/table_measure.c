@@ -126,8 +126,8 @@ static const sb_key runup_keys[] = {
      .doc = "Unique name of the line."},
     {.name = "from", .type = SB_KEY_PLACE, SB_KEY_AT(sb_runup_line, ax), .unit = "m", SB_KEY_ANY,
      .flags = SB_KEY_REQUIRED,
-     .doc = "One end of the line, [x, y]; [x] in 2D. The front is reported as the distance from "
-            "this point."},
+     .doc = "First end of the line, [x, y]; [x] in 2D: in the sea, or on land. The front is the distance from this "
+            "point."},
     {.name = "to", .type = SB_KEY_PLACE, SB_KEY_AT(sb_runup_line, bx), .unit = "m", SB_KEY_ANY,
      .flags = SB_KEY_REQUIRED, .doc = "The other end of the line."},
 };
@@ -223,7 +223,8 @@ static const sb_key measure_keys[] = {
      .doc = "Vertical planes through which volumes are measured, for example overtopping."},
     {.name = "runups", .type = SB_KEY_LIST,
      SB_KEY_ITEMS(sb_measure_settings, runups, runup_count), .table = &runup_table,
-     .doc = "Lines along which the highest wet point and the front are measured."},
+     .doc = "Lines along which run-up and front are measured, of the water that is connected with the water at the "
+            "line's first end. Other water on the line is measured separately."},
     {.name = "map", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_measure_settings, map), .table = &map_table,
      .applies = MAP, .only = "maps", .derived = "no maps",
      .doc = "Maps of greatest depth, speed, momentum flux and of arrival time on a horizontal "

@@ -56,7 +56,7 @@ static void headers_are_the_contract(void **state)
     expect("gauges.csv", "time_s,gauge,eta_m,z_m\n");
     expect("probes.csv", "time_s,probe,u_m_s,v_m_s,w_m_s,p_Pa\n");
     expect("overtopping.csv", "time_s,plane,volume_m3,flux_m3_s\n");
-    expect("runup.csv", "time_s,line,x_m,y_m,z_m,front_m\n");
+    expect("runup.csv", "time_s,line,x_m,y_m,z_m,front_m,apart_m\n");
     expect("energy.csv", "time_s,kinetic_J,potential_J,mass_kg,momentum_x_kg_m_s,"
                          "momentum_y_kg_m_s,momentum_z_kg_m_s,bodies_J,viscosity_J,"
                          "wall_friction_J,pressure_solve_J,contact_J,time_integration_J,"
@@ -85,7 +85,7 @@ static void rows_are_there_at_once(void **state)
     const sb_gauge_record levels[] = {{0, 0, 1.25, 3.25}, {0, 0.1, nan, nan}};
     const sb_probe_record points[] = {{0, 0.1, {1, 0, -2}, 9810}, {0, 0.2, {nan, nan, nan}, nan}};
     const sb_flow_record flows[] = {{0, 0.1, 12.5, 3}};
-    const sb_runup_record runups[] = {{0, 0.1, {1, 2, 3}, 4}};
+    const sb_runup_record runups[] = {{0, 0.1, {1, 2, 3}, 4, 0.5}};
     const sb_energy_record energies[] = {
         {0.10123, 5, 6.00000000001, 7, {8, 9, 10}, {11, -12, -13, -14, -15, 16, -17, 18}, 1e-7}};
     const sb_measure_records records = {2, 2, 2, 1, 1, 1, forces, levels, points, flows, runups, energies};
@@ -99,7 +99,7 @@ static void rows_are_there_at_once(void **state)
     expect("probes.csv", "time_s,probe,u_m_s,v_m_s,w_m_s,p_Pa\n0.1,inlet,1,0,-2,9810\n"
                          "0.2,inlet,,,,\n");
     expect("overtopping.csv", "time_s,plane,volume_m3,flux_m3_s\n0.1,quay,12.5,3\n");
-    expect("runup.csv", "time_s,line,x_m,y_m,z_m,front_m\n0.1,beach,1,2,3,4\n");
+    expect("runup.csv", "time_s,line,x_m,y_m,z_m,front_m,apart_m\n0.1,beach,1,2,3,4,0.5\n");
     text = text_of("energy.csv");
     assert_string_equal(strchr(text, '\n') + 1,
                         "0.10123,5,6.00000000001,7,8,9,10,11,-12,-13,-14,-15,16,-17,1e-07,18\n");

@@ -167,6 +167,7 @@ static void plots_say_what_they_show(void **state)
     assert_int_equal(chmod(in_folder("bin/gnuplot"), 0700), 0);
     snprintf(bin, sizeof bin, "%s", in_folder("bin"));
     write_text("gauges.csv", "time_s,gauge,eta_m,z_m\n0,offshore,0.5,2.5\n1,offshore,0.25,2.25\n");
+    write_text("runup.csv", "time_s,line,x_m,y_m,z_m,front_m,apart_m\n0,beach,1,2,3,4,7\n1,beach,1,2,3,5,8\n");
     for (int level = 0; level < 2; level++) {
         sb_runlog *log;
         unlink(in_folder("asked"));
@@ -182,6 +183,10 @@ static void plots_say_what_they_show(void **state)
         assert_true((strstr(asked, "\n0 0.5\n1 0.25\n") != NULL) == level);
         assert_true((strstr(asked, "'absolute elevation z (m)'") != NULL) == !level);
         assert_true((strstr(asked, "\n0 2.5\n1 2.25\n") != NULL) == !level);
+        assert_non_null(strstr(asked, "'run-up, absolute z (m)'"));
+        assert_non_null(strstr(asked, "'front from first end (m)'"));
+        assert_non_null(strstr(asked, "'length of water apart (m)'"));
+        assert_non_null(strstr(asked, "\n0 3 4 7\n1 3 5 8\n"));
         sb_free(asked);
     }
     scene.sea = (sb_sea){0};

@@ -1,0 +1,202 @@
+/* Run-up lines: what of the water on a line is the run-up, and what lies apart from it. Spacing 0.5 m, support 1 m. */
+#include "fake_sim.h"
+
+#include "base/random.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include <cmocka.h>
+
+static const double SPACING = 0.5;
+
+static void make_world(fake_world *world, int dimensions)
+{
+    fake_world_make(world, dimensions, SPACING, sb_vec(0, 0, 0), sb_vec(60, 10, 20));
+}
+
+static void fill(fake_world *world, double x0, double x1, double z0, double z1)
+{
+    fake_fill(world, sb_vec(x0, 0, z0), sb_vec(x1, 10, z1), 0, 0, 0, 1);
+}
+
+static void row(sb_vec3 first, sb_vec3 step, int count, fake_world *world)
+{
+    for (int k = 0; k < count; k++) fake_add(&world->sim, sb_madd(first, k, step), sb_vec(0, 0, 0), 0);
+}
+
+static sb_runup_record read_line(fake_world *world, double from, double to)
+{
+    const sb_runup_line line = {"line", from, 5, to, 5};
+    sb_sight sight = fake_sight(world);
+    sb_runup_record record = {0};
+    assert_int_equal(sb_runup_read(&sight, &line, &record, NULL), SB_OK);
+    return record;
+}
+
+/* A sea of 20 m and, 10 m behind, a puddle as long as the sea on the line is, and higher. */
+static void a_puddle_is_not_the_runup(void **state)
+{
+    (void)state;
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        /* In the sea, at its edge, just and well ahead of it. */
+        static const double from[] = {10, 20, 20.5, 25};
+        fake_world world;
+        make_world(&world, dimensions);
+        fill(&world, 0, 20, 0, 2);
+        fill(&world, 30, 45, 4, 5);
+        for (int k = 0; k < 4; k++) {
+            const sb_runup_record r = read_line(&world, from[k], 55);
+            assert_true(fabs(r.front - fmax(20 - from[k], 0)) < 1e-9);
+            assert_true(fabs(r.apart - 15) < 1e-9);
+            if (k < 3) assert_true(fabs(r.place.z - 2) < 1e-9);
+            if (k == 3) assert_true(isnan(r.place.z));
+        }
+        fake_world_free(&world);
+    }
+}
+
+/* The first water that comes from before the line counts; a puddle that it meets is the run-up from then on. */
+static void a_line_on_land_waits_for_the_sea(void **state)
+{
+    (void)state;
+    static const double reached[] = {20, 24.5, 26, 29, 29.5, 30};
+    for (int k = 0; k < 6; k++) {
+        fake_world world;
+        make_world(&world, 2);
+        fill(&world, 0, reached[k], 0, 1);
+        fill(&world, 30, 45, 0, 1);
+        const sb_runup_record r = read_line(&world, 25, 55);
+        const double gap = 30 - reached[k] + SPACING; /* between particles */
+        assert_true(fabs(r.front - (gap < 1 ? 20 : fmax(reached[k] - 25, 0))) < 1e-9);
+        assert_true(fabs(r.apart - (gap < 1 ? 0 : 15)) < 1e-9);
+        fake_world_free(&world);
+    }
+}
+
+static void no_water_is_an_empty_row(void **state)
+{
+    (void)state;
+    fake_world world;
+    make_world(&world, 3);
+    sb_runup_record r = read_line(&world, 5, 55);
+    assert_true(isnan(r.place.z) && isnan(r.front) && r.apart == 0);
+    fill(&world, 0, 20, 0, 2);
+    r = read_line(&world, 30, 55);
+    assert_true(isnan(r.place.z) && isnan(r.front) && r.apart == 0);
+    fake_add(&world.sim, sb_vec(40, 5, 3), sb_vec(0, 0, 0), 0);
+    r = read_line(&world, 30, 55);
+    assert_true(isnan(r.place.z) && r.front == 0 && fabs(r.apart - SPACING) < 1e-9);
+    fake_world_free(&world);
+}
+
+/* A tongue one layer thick, in 3D a few particles wide: a gap less than the support radius does not end it. */
+static void a_gap_within_the_support_radius_is_none(void **state)
+{
+    (void)state;
+    for (int dimensions = 2; dimensions <= 3; dimensions++)
+        for (int torn = 0; torn < 2; torn++) {
+            const double first = 19.75 + (torn ? 1.05 : 0.95);
+            fake_world world;
+            make_world(&world, dimensions);
+            fill(&world, 0, 20, 0, 0.5);
+            for (int j = 0; j < (dimensions == 3 ? 4 : 1); j++)
+                row(sb_vec(first, dimensions == 3 ? 4.25 + 0.5 * j : 0, 0.25), sb_vec(SPACING, 0, 0), 8, &world);
+            const double end = first + 3.75;
+            const sb_runup_record r = read_line(&world, 10, 55);
+            assert_true(fabs(r.front - (torn ? 10 : end - 10)) < 1e-9);
+            assert_true(fabs(r.apart - (torn ? 4 : 0)) < 1e-9);
+            fake_world_free(&world);
+        }
+}
+
+/* Behind a wall 2 m thick and as high as the sea: apart, until water stands over the wall. */
+static void a_splash_over_a_wall_is_apart_until_water_is_over_it(void **state)
+{
+    (void)state;
+    for (int over = 0; over < 2; over++) {
+        fake_world world;
+        make_world(&world, 3);
+        fill(&world, 0, 20, 0, 3);
+        fill(&world, 22, 26, 0, 3);
+        fake_add(&world.sim, sb_vec(21, 5, 5), sb_vec(5, 0, 0), 0); /* on its way */
+        if (over) fill(&world, 0, 26, 3, 3.5);
+        const sb_runup_record r = read_line(&world, 10, 55);
+        assert_true(fabs(r.front - (over ? 16 : 10)) < 1e-9);
+        assert_true(fabs(r.apart - (over ? 0 : 4.5)) < 1e-9);
+        fake_world_free(&world);
+    }
+}
+
+/* Ahead of two layers a film of a fifth of one, at random: in some starts it hangs together for metres. It is none of
+   the run-up in any, but for what lies within a support radius. */
+static void a_film_too_thin_does_not_move_the_front(void **state)
+{
+    (void)state;
+    double apart = 0;
+    for (uint64_t seed = 1; seed <= 30; seed++) {
+        fake_world world;
+        make_world(&world, 3);
+        fill(&world, 0, 20, 0, 1);
+        for (uint64_t i = 0; i < 160; i++) /* 20 m by 10 m */
+            fake_add(&world.sim, sb_vec(20 + 20 * sb_random(seed, 2 * i), 10 * sb_random(seed, 2 * i + 1), 0.25),
+                     sb_vec(0, 0, 0), 0);
+        const sb_runup_record r = read_line(&world, 10, 55);
+        print_message("front %.2f m, apart %.2f m\n", r.front, r.apart);
+        assert_true(r.front >= 10 && r.front < 10 + 2 + 2 * SPACING);
+        apart += r.apart / 30;
+        fake_world_free(&world);
+    }
+    assert_true(apart > 5);
+}
+
+/* A pillar that is wider than what is looked at for the front: the water beside it leads around. */
+static void water_beside_a_line_leads_around_a_gap(void **state)
+{
+    (void)state;
+    fake_world world;
+    make_world(&world, 3);
+    for (double x = 0.25; x < 30; x += SPACING)
+        for (double y = 0.25; y < 10; y += SPACING)
+            for (double z = 0.25; z < 2; z += SPACING)
+                if (!(x > 18 && x < 20.5 && y > 3.9 && y < 6.1))
+                    fake_add(&world.sim, sb_vec(x, y, z), sb_vec(0, 0, 0), 0);
+    const sb_runup_record r = read_line(&world, 10, 55);
+    assert_true(fabs(r.front - 20) < 1e-9);
+    assert_true(r.apart == 0);
+    fake_world_free(&world);
+}
+
+/* Looked at in parts: each particle once. */
+static void a_slanting_line_is_read_like_another(void **state)
+{
+    (void)state;
+    fake_world world;
+    fake_world_make(&world, 3, SPACING, sb_vec(0, 0, 0), sb_vec(60, 60, 20));
+    fake_fill(&world, sb_vec(0, 0, 0), sb_vec(40, 60, 1), 0, 0, 0, 1);
+    fake_fill(&world, sb_vec(48, 0, 0), sb_vec(60, 60, 1), 0, 0, 0, 1);
+    const sb_runup_line line = {"line", 1, 1, 59, 59};
+    sb_sight sight = fake_sight(&world);
+    sb_runup_record r;
+    assert_int_equal(sb_runup_read(&sight, &line, &r, NULL), SB_OK);
+    /* The edges cross the line at 45 degrees: particles a spacing to both sides of it are that much ahead. */
+    assert_true(fabs(r.front - 39 * sqrt(2)) <= 2 * SPACING);
+    assert_true(fabs(r.apart - 11 * sqrt(2)) <= 2 * SPACING);
+    assert_true(fabs(r.place.z - 1) < 1e-9);
+    fake_world_free(&world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_puddle_is_not_the_runup),
+        cmocka_unit_test(a_line_on_land_waits_for_the_sea),
+        cmocka_unit_test(no_water_is_an_empty_row),
+        cmocka_unit_test(a_gap_within_the_support_radius_is_none),
+        cmocka_unit_test(a_splash_over_a_wall_is_apart_until_water_is_over_it),
+        cmocka_unit_test(a_film_too_thin_does_not_move_the_front),
+        cmocka_unit_test(water_beside_a_line_leads_around_a_gap),
+        cmocka_unit_test(a_slanting_line_is_read_like_another),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
