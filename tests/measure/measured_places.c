@@ -203,6 +203,40 @@ static void a_gauge_at_a_wall_reads_its_own_side(void **state)
     assert_true(fabs(r.eta[1] - 0.6) < 0.5 * SPACING);
 }
 
+/* A puddle on the plateau has more particles on the last lines than the sea. */
+static void a_puddle_on_a_plateau_is_not_the_runup(void **state)
+{
+    (void)state;
+    sb_scene scene = {0};
+    sb_model model = {0};
+    sb_sim *sim = NULL;
+    sb_measure *measure = NULL;
+    sb_error error = {0};
+    read_scene("water: {level: 0.3, seed: [0.1, 0.1], boxes: [{min: [1.4, 0.5], max: [2, 0.6]}]}\n"
+               "bodies: [{name: plateau, shape: box, min: [1, 0], max: [2, 0.5]}]\n"
+               "measure:\n"
+               "  runups: [{name: deep, from: [0.2], to: [2]}, {name: near, from: [0.9], to: [2]},\n"
+               "           {name: shore, from: [1], to: [2]}]\n",
+               &scene);
+    check_ok(sb_model_build(&scene, &model, &error), &error);
+    check_ok(sb_sim_create(&scene, &model, &sim, &error), &error);
+    check_ok(sb_sim_settle(sim, &error), &error);
+    check_ok(sb_measure_create(&scene, &model, sim, &measure, &error), &error);
+    const sb_measure_records *now = sb_measure_latest(measure);
+    assert_int_equal(now->runup_count, 3);
+    for (size_t i = 0; i < now->runup_count; i++) {
+        const sb_runup_record *r = &now->runups[i];
+        print_message("front %.4f m, top %.4f m, apart %.4f m\n", r->front, r->place.z, r->apart);
+        assert_true(fabs(r->front - (1 - scene.measure.runups[i].ax)) < 0.5 * SPACING);
+        assert_true(fabs(r->place.z - 0.3) < 0.5 * SPACING);
+        assert_true(fabs(r->apart - 0.6) < 3 * SPACING); /* its end sags while it settles */
+    }
+    sb_measure_destroy(measure);
+    sb_sim_destroy(sim);
+    sb_model_free(&model);
+    sb_scene_free(&scene);
+}
+
 int main(void)
 {
     omp_set_num_threads(1); /* some thousand particles */
@@ -215,6 +249,7 @@ int main(void)
         cmocka_unit_test(a_gauge_over_a_deck_reads_the_surface),
         cmocka_unit_test(a_gauge_over_a_dry_deck_reads_the_water_below),
         cmocka_unit_test(a_gauge_at_a_wall_reads_its_own_side),
+        cmocka_unit_test(a_puddle_on_a_plateau_is_not_the_runup),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
