@@ -150,6 +150,34 @@ static void a_film_too_thin_does_not_move_the_front(void **state)
     assert_true(apart > 5);
 }
 
+/* Where two parts of the line meet, 0.2 m ahead of the two layers, the thin film's particles count once. */
+static void parts_of_a_line_count_no_particle_twice(void **state)
+{
+    (void)state;
+    fake_world world;
+    make_world(&world, 3);
+    fill(&world, 0, 20, 0, 1);
+    for (double x = 20.5; x < 30; x += 0.9)
+        for (double y = 0.5; y < 10; y += 0.9) fake_add(&world.sim, sb_vec(x, y, 0.25), sb_vec(0, 0, 0), 0);
+    const sb_runup_record r = read_line(&world, 10, 31.4);
+    assert_true(fabs(r.front - 11.65) < 1e-9); /* the first row has the sea around it, and leads to the second */
+    fake_world_free(&world);
+}
+
+/* No water before the first end, the first of it 0.85 m ahead, and a puddle that is larger. */
+static void a_line_starts_in_water_within_the_support_radius(void **state)
+{
+    (void)state;
+    fake_world world;
+    make_world(&world, 2);
+    fill(&world, 10, 20, 0, 1);
+    fill(&world, 30, 50, 0, 1);
+    const sb_runup_record r = read_line(&world, 9.4, 55);
+    assert_true(fabs(r.front - 10.6) < 1e-9);
+    assert_true(fabs(r.apart - 20) < 1e-9);
+    fake_world_free(&world);
+}
+
 /* A pillar that is wider than what is looked at for the front: the water beside it leads around. */
 static void water_beside_a_line_leads_around_a_gap(void **state)
 {
@@ -195,6 +223,8 @@ int main(void)
         cmocka_unit_test(a_gap_within_the_support_radius_is_none),
         cmocka_unit_test(a_splash_over_a_wall_is_apart_until_water_is_over_it),
         cmocka_unit_test(a_film_too_thin_does_not_move_the_front),
+        cmocka_unit_test(parts_of_a_line_count_no_particle_twice),
+        cmocka_unit_test(a_line_starts_in_water_within_the_support_radius),
         cmocka_unit_test(water_beside_a_line_leads_around_a_gap),
         cmocka_unit_test(a_slanting_line_is_read_like_another),
     };
