@@ -1,6 +1,7 @@
 #include "scene/key.h"
 
 #include "base/memory.h"
+#include "base/nearest.h"
 #include "scene/presets.h"
 
 #include <limits.h>
@@ -29,49 +30,22 @@ const sb_key *sb_table_find(const sb_table *table, const char *name)
     return NULL;
 }
 
-/* Levenshtein's distance, or a large number for long words. */
-static size_t distance(const char *a, const char *b)
-{
-    enum { LONGEST = 40 };
-    size_t n = strlen(a), m = strlen(b), row[LONGEST + 1];
-    if (n > LONGEST || m > LONGEST) return SIZE_MAX;
-    for (size_t j = 0; j <= m; j++) row[j] = j;
-    for (size_t i = 1; i <= n; i++) {
-        size_t diagonal = row[0];
-        row[0] = i;
-        for (size_t j = 1; j <= m; j++) {
-            size_t change = diagonal + (a[i - 1] != b[j - 1]);
-            diagonal = row[j];
-            size_t drop = (row[j] < row[j - 1] ? row[j] : row[j - 1]) + 1;
-            row[j] = change < drop ? change : drop;
-        }
-    }
-    return row[m];
-}
-
-static void nearest(const sb_table *table, const char *name, const char **best, size_t *least)
+static void try_all(const sb_table *table, sb_nearest *nearest)
 {
     for (size_t i = 0; i < table->count; i++) {
         const sb_key *key = &table->keys[i];
-        if (!key->name) {
-            nearest(key->table, name, best, least);
-            continue;
-        }
-        size_t away = distance(name, key->name);
-        if (away < *least) {
-            *least = away;
-            *best = key->name;
-        }
+        if (key->name)
+            sb_nearest_try(nearest, key->name);
+        else
+            try_all(key->table, nearest);
     }
 }
 
 const char *sb_table_nearest(const sb_table *table, const char *name)
 {
-    const char *best = NULL;
-    size_t length = strlen(name);
-    size_t least = length < 5 ? 3 : length / 2 + 1;
-    nearest(table, name, &best, &least);
-    return best;
+    sb_nearest nearest = sb_nearest_to(name);
+    try_all(table, &nearest);
+    return nearest.found;
 }
 
 const char *sb_key_default(const sb_key *key, sb_preset preset)
