@@ -82,9 +82,11 @@ static bool wait_for(opening *o, pthread_t thread)
 static sb_status explain(const char *url, const char *complaint, sb_error *error)
 {
     const bool multicast = strncmp(url, "udpm://", 7) == 0;
-    return sb_fail(error, SB_FAILED, "LCM cannot open \"%.200s\" (%s); %s", url,
-                   *complaint ? complaint : "no reason given",
-                   multicast ? ROUTE_REMEDY : "expected udpm://ADDRESS:PORT, file://PATH?mode=w|r, tcpq:// or memq://");
+    return sb_fail(
+        error, SB_FAILED, "LCM cannot open \"%.200s\" (%s); %s", url, *complaint ? complaint : "no reason given",
+        multicast
+            ? ROUTE_REMEDY
+            : "expected udpm://239.255.76.67:7667?ttl=0, tcpq://127.0.0.1:7700 or another provider of the network");
 }
 
 sb_status sb_provider_open(const char *url, lcm_t **lcm, sb_error *error)
