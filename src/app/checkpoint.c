@@ -112,14 +112,6 @@ static sb_status remove_older(const run *r, size_t keep, sb_error *error)
     return status;
 }
 
-sb_status sb_checkpoint_remove_all(run *r, sb_error *error)
-{
-    sb_status status = remove_older(r, 0, error);
-    if (status == SB_OK) status = remove_settling(r, error);
-    /* And one that was being written when its run was killed. */
-    return status == SB_OK ? sb_remove_numbered(r->checkpoints.folder, SB_CHECKPOINT_SUFFIX, 0, error) : status;
-}
-
 void sb_checkpoint_forget_later(run *r)
 {
     sb_error reason = {0};
@@ -210,6 +202,7 @@ static void tell_gone(run *r, const sb_gone *gone)
 /* What the checkpoint relies on is on disk before it is. */
 static sb_status settle_files(run *r, sb_csv_marks *tables, sb_error *error)
 {
+    sb_run_keep_log(r);
     sb_consumer_drain(&r->consumers[RECORDER]);
     sb_consumer_drain(&r->consumers[PICTURES]);
     sb_status status = sb_csv_sync(r->csv, tables, error);
@@ -222,11 +215,28 @@ static sb_status settle_files(run *r, sb_csv_marks *tables, sb_error *error)
     return status == SB_OK ? sb_runlog_sync(r->log, error) : status;
 }
 
+/* Someone may have removed it. The run's own directory is not made anew: there, nothing else is left either. */
+static sb_status keep_folder(run *r, sb_error *error)
+{
+    struct stat found = {0};
+    if (mkdir(r->checkpoints.folder, 0777) == 0) {
+        sb_run_warn(r, "%.500s: was removed during the run; it was made again", r->checkpoints.folder);
+        return SB_OK;
+    }
+    if (errno != EEXIST)
+        return sb_fail(error, SB_FAILED, "%.500s: cannot make directory: %s", r->checkpoints.folder, strerror(errno));
+    return lstat(r->checkpoints.folder, &found) == 0 && S_ISDIR(found.st_mode)
+               ? SB_OK
+               : sb_fail(error, SB_FAILED, "%.500s: is %s, expected a directory of the run's own",
+                         r->checkpoints.folder, sb_file_kind(found.st_mode) ? sb_file_kind(found.st_mode) : "a file");
+}
+
 static sb_status write_now(run *r, char path[SB_PATH_MAX], size_t *bytes, sb_error *error)
 {
     sb_archive_out out = {0};
     sb_csv_marks tables;
     sb_status status = settle_files(r, &tables, error);
+    if (status == SB_OK) status = keep_folder(r, error);
     if (status == SB_OK) status = sb_checkpoint_path(r, sb_sim_report(r->sim)->step, path, error);
     if (status == SB_OK) status = sb_archive_create(&out, path, SB_CHECKPOINT_KIND, SB_CHECKPOINT_FORMAT, error);
     if (status != SB_OK) return status;
@@ -264,11 +274,12 @@ void sb_checkpoint_write(run *r)
 
 /* ---- while the water comes to rest ---- */
 
-static sb_status write_settling(const run *r, size_t *bytes, sb_error *error)
+static sb_status write_settling(run *r, size_t *bytes, sb_error *error)
 {
     char path[SB_PATH_MAX];
     sb_archive_out out = {0};
     sb_status status = sb_checkpoint_settling_path(r, path, error);
+    if (status == SB_OK) status = keep_folder(r, error);
     if (status == SB_OK) status = sb_archive_create(&out, path, SB_CHECKPOINT_KIND, SB_CHECKPOINT_FORMAT, error);
     if (status != SB_OK) return status;
     put_origin(r, &out);

@@ -31,9 +31,6 @@ sb_status sb_checkpoint_begin(run *r, sb_error *error);
 /* How many the directory holds. Fails when that cannot be told. */
 sb_status sb_checkpoint_count(const run *r, size_t *count, sb_error *error);
 
-/* Removes all that the directory holds: those of an earlier run. */
-sb_status sb_checkpoint_remove_all(run *r, sb_error *error);
-
 /* Once scene and model are final: what they are told apart by. */
 sb_status sb_checkpoint_identify(run *r, sb_error *error);
 

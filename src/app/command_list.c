@@ -1,5 +1,6 @@
 #include "app/commands.h"
 #include "app/options.h"
+#include "base/nearest.h"
 #include "physics/kernel.h"
 #include "physics/wavemaker.h"
 #include "sim/pressure.h"
@@ -44,6 +45,15 @@ static const struct {
 } tables[] = {
     {"kernels", list_kernels}, {"wavemakers", list_wavemakers}, {"solvers", list_solvers}, {"presets", list_presets}};
 
+static sb_status refuse(const char *name, sb_error *error)
+{
+    sb_nearest nearest = sb_nearest_to(name);
+    for (size_t t = 0; t < sizeof tables / sizeof tables[0]; t++) sb_nearest_try(&nearest, tables[t].name);
+    return sb_fail(error, SB_BAD_INPUT, "list %.100s: expected kernels, wavemakers, solvers or presets%s%s%s", name,
+                   nearest.found ? "; did you mean " : "", nearest.found ? nearest.found : "",
+                   nearest.found ? "?" : "");
+}
+
 int sb_command_list(int count, char **arguments)
 {
     sb_options options;
@@ -59,9 +69,7 @@ int sb_command_list(int count, char **arguments)
             tables[t].list();
             found = true;
         }
-    if (status == SB_OK && !found)
-        status = sb_fail(&error, SB_BAD_INPUT, "list %.100s: expected kernels, wavemakers, solvers or presets",
-                         options.positional);
+    if (status == SB_OK && !found) status = refuse(options.positional, &error);
     if (status != SB_OK) fprintf(stderr, "shorebreak: %s\n", error.text);
     sb_options_free(&options);
     return (int)status;

@@ -2,6 +2,8 @@
 #include "app/consumers.h"
 #include "app/lock.h"
 #include "app/options.h"
+#include "app/run_files.h"
+#include "base/nearest.h"
 #include "output/video.h"
 #include "output/vtp.h"
 
@@ -25,10 +27,12 @@ static sb_status choose_camera(const sb_scene *scene, const char *name, int *cam
     if (!name) return SB_OK;
     for (size_t c = 0; c < scene->render.camera_count; c++)
         if (strcmp(scene->render.cameras[c].name, name) == 0) *camera = (int)c;
-    return *camera >= 0
-               ? SB_OK
-               : sb_fail(error, SB_BAD_INPUT, "--camera %.100s: no such camera in the run's scene; first one: %s", name,
-                         scene->render.cameras[0].name);
+    if (*camera >= 0) return SB_OK;
+    sb_nearest nearest = sb_nearest_to(name);
+    for (size_t c = 0; c < scene->render.camera_count; c++) sb_nearest_try(&nearest, scene->render.cameras[c].name);
+    return sb_fail(error, SB_BAD_INPUT, "--camera %.100s: no such camera in the run's scene; %s %s%s", name,
+                   nearest.found ? "did you mean" : "the first one is",
+                   nearest.found ? nearest.found : scene->render.cameras[0].name, nearest.found ? "?" : "");
 }
 
 static sb_status draw_all(const char *run, const sb_pvd *list, sb_pictures *pictures, bool quiet, sb_error *error)
@@ -56,6 +60,29 @@ static void make_videos(const char *directory, const sb_scene *scene, int camera
             sb_video_write(directory, scene->render.cameras[c].name, count, scene->render.video_rate, NULL);
 }
 
+/* Before any of the run's files is read: a FIFO among them would keep this waiting. */
+static sb_status check_run(const char *run, sb_error *error)
+{
+    sb_run_files files;
+    sb_status status = sb_run_files_find(run, NULL, &files, error);
+    sb_run_files_free(&files);
+    return status;
+}
+
+/* Earlier pictures are replaced, other people's are not. */
+static sb_status check_place(const char *directory, const sb_scene *scene, int camera, sb_error *error)
+{
+    sb_run_files files;
+    sb_status status = sb_run_files_find_pictures(directory, scene, camera, &files, error);
+    if (status == SB_OK && files.foreign[0])
+        status = sb_fail(error, SB_BAD_INPUT,
+                         "%.500s/%.300s: was not written by shorebreak, and render would overwrite it; name another "
+                         "directory by --out",
+                         directory, files.foreign);
+    sb_run_files_free(&files);
+    return status;
+}
+
 static sb_status render(const sb_options *options, sb_error *error)
 {
     char scene_path[SB_PATH_MAX], list_path[SB_PATH_MAX];
@@ -66,11 +93,13 @@ static sb_status render(const sb_options *options, sb_error *error)
     int camera = -1, lock = -1;
     sb_status status = sb_path_join(scene_path, run, "scene.yaml", error);
     if (status == SB_OK) status = sb_path_join(list_path, run, "particles.pvd", error);
+    if (status == SB_OK && access(run, F_OK) == 0) status = check_run(run, error);
     if (status == SB_OK) status = sb_options_scene(options, scene_path, &scene, error);
     if (status == SB_OK) status = choose_camera(&scene, options->camera, &camera, error);
     if (status == SB_OK) status = sb_pvd_read(list_path, &list, error);
     if (status == SB_OK) status = sb_make_directories(directory, error);
     if (status == SB_OK) status = sb_lock_directory(directory, "a folder of its own by --out", &lock, error);
+    if (status == SB_OK) status = check_place(directory, &scene, camera, error);
     if (status == SB_OK) status = sb_model_import_bodies(&scene, &model, error);
     if (status == SB_OK) {
         sb_pictures pictures = {.scene = &scene, .model = &model, .directory = directory, .camera = camera};

@@ -16,6 +16,8 @@ static const char help[] =
     "  --threads N          of the simulation (default: all cores)\n"
     "  --preset NAME        numerics: default or paper (default: the scene's)\n"
     "  --set KEY=VALUE      change a key of the scene, e.g. --set resolution=5; may be repeated\n"
+    "  --overwrite          replace the run that DIR holds; without it, or --resume, such a DIR is refused, and so is\n"
+    "                       one that holds other files and no run\n"
     "  --resume             go on from the newest checkpoint in DIR, bit for bit; without one, from the beginning\n"
     "  --other-build        with --resume: also from a checkpoint of another build, then no longer bit for bit\n"
     "  --quiet              no progress\n"
@@ -43,7 +45,7 @@ int sb_command_run(int count, char **arguments)
     sb_error error = {0};
     sb_scene scene = {0};
     unsigned accepted = SB_OPT_OUT | SB_OPT_UNTIL | SB_OPT_THREADS | SB_OPT_PRESET | SB_OPT_SET | SB_OPT_QUIET |
-                        SB_OPT_PROFILE | SB_OPT_RESUME | SB_OPT_OTHER_BUILD;
+                        SB_OPT_PROFILE | SB_OPT_RESUME | SB_OPT_OVERWRITE | SB_OPT_OTHER_BUILD;
     sb_status status = sb_options_parse(count, arguments, accepted, "scene", &options, &error);
     if (status == SB_OK && options.help) {
         fputs(help, stdout);
@@ -52,6 +54,8 @@ int sb_command_run(int count, char **arguments)
     char out[SB_PATH_MAX];
     if (status == SB_OK && options.other_build && !options.resume)
         status = sb_fail(&error, SB_BAD_INPUT, "--other-build: only together with --resume");
+    if (status == SB_OK && options.overwrite && options.resume)
+        status = sb_fail(&error, SB_BAD_INPUT, "--overwrite: not together with --resume, which keeps the run");
     if (status == SB_OK) status = sb_options_scene(&options, options.positional, &scene, &error);
     if (status == SB_OK) {
         if (options.out)
@@ -59,6 +63,7 @@ int sb_command_run(int count, char **arguments)
         else
             default_out(out, options.positional);
         const sb_run_manner manner = {.resume = options.resume,
+                                      .overwrite = options.overwrite,
                                       .other_build = options.other_build,
                                       .quiet = options.quiet,
                                       .profile = options.profile};

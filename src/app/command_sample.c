@@ -1,5 +1,6 @@
 #include "app/commands.h"
 #include "app/options.h"
+#include "base/file.h"
 #include "base/memory.h"
 #include "geometry/model.h"
 #include "output/vtp.h"
@@ -42,10 +43,12 @@ done:
     return status;
 }
 
-/* One slip of the keyboard must not cost a scene. */
+/* One slip of the keyboard must not cost a scene, and a wrong place not the sampling. */
 static sb_status keep_scene(const char *scene, const char *out, sb_error *error)
 {
     struct stat from, to;
+    sb_error reason = {0};
+    if (sb_file_replaceable(out, &reason) != SB_OK) return sb_fail(error, SB_BAD_INPUT, "--out %s", reason.text);
     if (stat(scene, &from) != 0 || stat(out, &to) != 0 || from.st_dev != to.st_dev || from.st_ino != to.st_ino)
         return SB_OK;
     return sb_fail(error, SB_BAD_INPUT, "--out %.500s: is the scene itself, expected another file", out);

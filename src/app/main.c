@@ -1,6 +1,7 @@
 /* shorebreak: tsunami waves striking coastal plants, by implicit incompressible SPH. */
 #include "app/commands.h"
 #include "base/memory.h"
+#include "base/nearest.h"
 #include "base/status.h"
 
 #include <errno.h>
@@ -35,7 +36,13 @@ static void usage(FILE *stream)
 static void no_such(const char *name)
 {
     sb_error error;
-    sb_fail(&error, SB_BAD_INPUT, "%.200s: no such command; --help lists them", name);
+    sb_nearest nearest = sb_nearest_to(name);
+    for (int c = 0; c < COMMANDS; c++) sb_nearest_try(&nearest, commands[c].name);
+    if (nearest.found)
+        sb_fail(&error, SB_BAD_INPUT, "%.200s: no such command, did you mean %s? --help lists all", name,
+                nearest.found);
+    else
+        sb_fail(&error, SB_BAD_INPUT, "%.200s: no such command; --help lists them", name);
     fprintf(stderr, "shorebreak: %s\n", error.text);
 }
 
@@ -46,6 +53,19 @@ static int finish_answer(void)
     if (fflush(stdout) == 0 && !ferror(stdout)) return 0;
     fprintf(stderr, "shorebreak: standard output: cannot write: %s\n", strerror(errno ? errno : EIO));
     return 2;
+}
+
+static bool returned;
+
+/* A library that ends the process, as OpenMP's does when the system refuses it a thread, does so with status 1, which
+   is for bad input. */
+static void judge_exit(int status, void *unused)
+{
+    (void)unused;
+    if (returned || status == 0) return;
+    fprintf(stderr, "shorebreak: a library ended the program for the reason above; if the system refused a thread, use "
+                    "fewer by --threads\n");
+    _exit(2);
 }
 
 /* OpenMP threads that spin while they wait take the cores that pictures and stream need, and libgomp
@@ -86,7 +106,9 @@ int main(int count, char **arguments)
             }
         limit_spinning(arguments);
         sb_memory_return_blocks();
+        on_exit(judge_exit, NULL);
         const int status = commands[c].run(count - 2, arguments + 2);
+        returned = true;
         return commands[c].answers && status == 0 ? finish_answer() : status;
     }
     if (*name)

@@ -1,6 +1,7 @@
 #include "app/options.h"
 
 #include "base/memory.h"
+#include "base/nearest.h"
 
 #include <math.h>
 #include <omp.h>
@@ -25,6 +26,7 @@ static const flag flags[] = {
     {"--camera", SB_OPT_CAMERA, true},
     {"--profile", SB_OPT_PROFILE, false},
     {"--resume", SB_OPT_RESUME, false},
+    {"--overwrite", SB_OPT_OVERWRITE, false},
     {"--other-build", SB_OPT_OTHER_BUILD, false},
 };
 
@@ -60,6 +62,9 @@ static sb_status take(sb_options *options, unsigned bit, const char *value, sb_e
         break;
     case SB_OPT_OTHER_BUILD:
         options->other_build = true;
+        break;
+    case SB_OPT_OVERWRITE:
+        options->overwrite = true;
         break;
     case SB_OPT_RESUME:
         options->resume = true;
@@ -99,6 +104,19 @@ static const flag *find_flag(const char *argument, unsigned accepted)
     return NULL;
 }
 
+static sb_status refuse_flag(const char *argument, unsigned accepted, sb_error *error)
+{
+    char name[64];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(argument, "="), argument);
+    sb_nearest nearest = sb_nearest_to(name);
+    for (size_t f = 0; f < sizeof flags / sizeof flags[0]; f++)
+        if (flags[f].bit & accepted) sb_nearest_try(&nearest, flags[f].name);
+    return nearest.found
+               ? sb_fail(error, SB_BAD_INPUT, "%.200s: no such option here, did you mean %s? --help lists all",
+                         argument, nearest.found)
+               : sb_fail(error, SB_BAD_INPUT, "%.200s: no such option here; --help lists them", argument);
+}
+
 sb_status sb_options_parse(int count, char **arguments, unsigned accepted, const char *what, sb_options *options,
                            sb_error *error)
 {
@@ -117,7 +135,7 @@ sb_status sb_options_parse(int count, char **arguments, unsigned accepted, const
             continue;
         }
         const flag *found = find_flag(argument, accepted);
-        if (!found) return sb_fail(error, SB_BAD_INPUT, "%.200s: no such option here; --help lists them", argument);
+        if (!found) return refuse_flag(argument, accepted, error);
         const char *equals = strchr(argument, '='), *value = equals ? equals + 1 : "";
         if (!found->takes_value && equals) return sb_fail(error, SB_BAD_INPUT, "%.200s: takes no value", argument);
         if (found->takes_value && !equals) {

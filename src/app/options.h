@@ -15,7 +15,7 @@ typedef struct sb_options {
     const char *preset;     /* --preset */
     const char *camera;     /* --camera */
     int threads;            /* --threads; 0: as OpenMP has it */
-    bool quiet, json, profile, resume, other_build, help;
+    bool quiet, json, profile, resume, overwrite, other_build, help;
     size_t override_count;
     sb_override overrides[SB_OVERRIDES_MAX];
     char *texts[SB_OVERRIDES_MAX]; /* owned copies that the overrides' keys live in */
@@ -33,7 +33,8 @@ enum {
     SB_OPT_CAMERA = 128,
     SB_OPT_PROFILE = 256,
     SB_OPT_RESUME = 512,
-    SB_OPT_OTHER_BUILD = 1024
+    SB_OPT_OTHER_BUILD = 1024,
+    SB_OPT_OVERWRITE = 2048
 };
 
 /* arguments: those after the command's name. what: the positional's name, for messages. */

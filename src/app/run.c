@@ -66,7 +66,10 @@ static sb_status one_step(run *r, sb_error *error)
     if (status == SB_OK) status = sb_csv_write(r->csv, sb_measure_latest(r->measure), error);
     if (status == SB_OK) status = feed(r, error);
     sb_missed_tell(r);
-    if (report->step % LOG_STEPS == 0) sb_run_log_step(r);
+    if (report->step % LOG_STEPS == 0) {
+        sb_run_keep_log(r);
+        sb_run_log_step(r);
+    }
     if (status == SB_OK) status = sb_runlog_check(r->log, error);
     if (status == SB_OK && sb_checkpoint_due(r, report->step)) sb_checkpoint_write(r);
     sb_progress_update(&r->progress, report);
@@ -129,7 +132,7 @@ sb_status sb_run(const sb_scene *scene, const char *directory, const sb_run_mann
     sb_error local = {0};
     sb_progress_begin(&r.progress, manner->quiet ? NULL : stdout, scene->duration);
     sb_stop_watch();
-    sb_status status = sb_run_start(&r, manner->resume, &local);
+    sb_status status = sb_run_start(&r, manner, &local);
     if (status == SB_OK) status = advance(&r, &local);
     save_at_end(&r, status, &local);
     sb_run_finish(&r, &status, &local);
@@ -139,6 +142,7 @@ sb_status sb_run(const sb_scene *scene, const char *directory, const sb_run_mann
     sb_measure_destroy(r.measure);
     sb_sim_destroy(r.sim);
     sb_model_free(&r.model);
+    sb_run_files_free(&r.left);
     if (r.lock >= 0) close(r.lock);
     if (status != SB_OK && error) *error = local;
     return status;

@@ -1,115 +1,77 @@
-/* What an earlier run has left in a directory where a new one begins. */
-#include "app/run_state.h"
-#include "output/esri.h"
+/* What a directory holds before a run begins there, and removing what an earlier run left. */
+#include "app/run_files.h"
+
+#include "base/memory.h"
 
 #include <dirent.h>
 #include <errno.h>
-#include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { MOST_ENDINGS = 3 };
-
-/* By name, so that nothing of the user's goes; ".tmp" was being written when a run was killed. Log and scene are
-   overwritten at once, numbered files are below. */
-static const struct {
-    const char *folder, *const *names, *endings[MOST_ENDINGS];
-} left[] = {
-    {".", (const char *const[]){"summary.json", NULL}, {"", ".tmp"}},
-    {".", sb_csv_names, {".csv"}},
-    {".", (const char *const[]){"particles.pvd", NULL}, {"", ".tmp"}},
-    {"particles", (const char *const[]){"last-good.vtp", NULL}, {"", ".tmp"}},
-    {"maps", sb_map_names, {".asc", ".asc.tmp", ".png"}},
-    {"plots", sb_csv_names, {".png", ".dat", ".gp"}},
-    {"plots", sb_map_names, {".gp"}},
-    {"plots", (const char *const[]){"part", NULL}, {".png"}},
-};
-
-static const char *const folders[] = {"particles", "maps", "plots", "frames"};
-
-/* A link stays: where the new run would write through it, that is refused. */
-static sb_status remove_file(const char *folder, const char *name, const char *ending, sb_error *error)
+/* Bytes at the start of directory/name, as a text; -1 where it is no regular file. */
+static long start_of(const char *directory, const char *name, char *text, size_t size)
 {
     char path[SB_PATH_MAX];
     struct stat found;
-    const int length = snprintf(path, sizeof path, "%s/%s%s", folder, name, ending);
-    if (length >= (int)sizeof path)
-        return sb_fail(error, SB_BAD_INPUT, "%.64s...: path longer than %d bytes", path, SB_PATH_MAX);
-    if (lstat(path, &found) != 0 || !S_ISREG(found.st_mode)) return SB_OK;
-    if (unlink(path) != 0 && errno != ENOENT)
-        return sb_fail(error, SB_FAILED, "%.500s: cannot remove: %s", path, strerror(errno));
-    return SB_OK;
+    text[0] = '\0';
+    if (sb_path_join(path, directory, name, NULL) != SB_OK || lstat(path, &found) != 0 || !S_ISREG(found.st_mode))
+        return -1;
+    const size_t got = sb_file_start(path, text, size - 1);
+    text[got] = '\0';
+    return (long)got;
 }
 
-/* A folder of the run's own, not one that a link leads to. */
-static bool is_folder(const char *path)
+static bool is_empty(const char *directory, char name[SB_RUN_NAME_MAX])
 {
-    struct stat found;
-    return lstat(path, &found) == 0 && S_ISDIR(found.st_mode);
+    DIR *entries = opendir(directory);
+    const struct dirent *entry;
+    bool empty = true;
+    while (entries && empty && (entry = readdir(entries))) {
+        empty = entry->d_name[0] == '.';
+        if (!empty) snprintf(name, SB_RUN_NAME_MAX, "%s", entry->d_name);
+    }
+    if (entries) closedir(entries);
+    return empty;
 }
 
-static sb_status remove_named(const run *r, sb_error *error)
+sb_run_holds sb_run_directory_holds(const char *directory, char name[SB_RUN_NAME_MAX])
+{
+    char text[2048];
+    name[0] = '\0';
+    if (is_empty(directory, name)) return SB_HOLDS_NOTHING;
+    const bool has_scene = start_of(directory, "scene.yaml", text, sizeof text) > 0 &&
+                           strncmp(text, SB_SCENE_WRITTEN, strlen(SB_SCENE_WRITTEN)) == 0;
+    const long log = start_of(directory, "run.jsonl", text, sizeof text);
+    const bool has_log = log > 0 && strncmp(text, SB_RUN_LOG_START, strlen(SB_RUN_LOG_START)) == 0;
+    if (!has_scene && !has_log) return log == 0 ? SB_HOLDS_CLAIM : SB_HOLDS_OTHERS;
+    start_of(directory, "summary.json", text, sizeof text);
+    return strstr(text, "\"status\": \"done\"") ? SB_HOLDS_FINISHED : SB_HOLDS_UNFINISHED;
+}
+
+/* Of a run's folders, if it is empty. */
+static void remove_folder_of(const char *directory, const char *path)
 {
     char folder[SB_PATH_MAX];
-    sb_status status = SB_OK;
-    for (size_t i = 0; status == SB_OK && i < sizeof left / sizeof *left; i++) {
-        const bool top = strcmp(left[i].folder, ".") == 0;
-        status = sb_run_path(r, left[i].folder, folder, error);
-        if (status != SB_OK || (!top && !is_folder(folder))) continue;
-        for (size_t n = 0; left[i].names[n]; n++)
-            for (size_t e = 0; status == SB_OK && e < MOST_ENDINGS && left[i].endings[e]; e++)
-                status = remove_file(folder, left[i].names[n], left[i].endings[e], error);
-    }
-    return status;
+    sb_path_folder(folder, path);
+    if (strcmp(folder, directory) != 0) (void)rmdir(folder);
 }
 
-/* One camera's pictures, and the film made of them. */
-static sb_status remove_camera(const run *r, const char *frames, const char *camera, sb_error *error)
-{
-    char folder[SB_PATH_MAX], part[SB_PATH_MAX];
-    sb_status status = sb_path_join(folder, frames, camera, error);
-    if (status != SB_OK || !is_folder(folder)) return status;
-    snprintf(part, sizeof part, ".%.255s", camera);
-    status = sb_remove_numbered(folder, ".png", 0, error);
-    if (status == SB_OK) status = remove_file(r->directory, camera, ".mp4", error);
-    if (status == SB_OK) status = remove_file(r->directory, part, ".part.mp4", error);
-    (void)rmdir(folder); /* unless something else is in it */
-    return status;
-}
-
-/* Of the cameras that the earlier scene had, or that were drawn later. */
-static sb_status remove_cameras(const run *r, sb_error *error)
+sb_status sb_run_files_remove(const char *directory, const sb_run_files *files, sb_error *error)
 {
     char frames[SB_PATH_MAX];
-    const struct dirent *entry;
-    sb_status status = sb_run_path(r, "frames", frames, error);
-    if (status != SB_OK || !is_folder(frames)) return status;
-    DIR *folder = opendir(frames);
-    if (!folder) return sb_fail(error, SB_FAILED, "%.500s: cannot read: %s", frames, strerror(errno));
-    while (status == SB_OK && (entry = readdir(folder)))
-        if (entry->d_name[0] != '.') status = remove_camera(r, frames, entry->d_name, error);
-    closedir(folder);
+    for (size_t i = 0; i < files->count; i++)
+        if (unlink(files->own[i]) != 0 && errno != ENOENT)
+            return sb_fail(error, SB_FAILED, "%.500s: cannot remove: %s", files->own[i], strerror(errno));
+    for (size_t i = 0; i < files->count; i++) remove_folder_of(directory, files->own[i]);
+    sb_status status = sb_path_join(frames, directory, "frames", error);
+    if (status == SB_OK) (void)rmdir(frames);
     return status;
 }
 
-static sb_status remove_particles(const run *r, sb_error *error)
+void sb_run_files_free(sb_run_files *files)
 {
-    char folder[SB_PATH_MAX];
-    sb_status status = sb_run_path(r, "particles", folder, error);
-    return status == SB_OK && is_folder(folder) ? sb_remove_numbered(folder, ".vtp", 0, error) : status;
-}
-
-sb_status sb_run_clear(run *r, sb_error *error)
-{
-    char path[SB_PATH_MAX];
-    sb_status status = sb_checkpoint_remove_all(r, error);
-    if (status == SB_OK) status = remove_named(r, error);
-    if (status == SB_OK) status = remove_particles(r, error);
-    if (status == SB_OK) status = remove_cameras(r, error);
-    for (size_t i = 0; status == SB_OK && i < sizeof folders / sizeof *folders; i++) {
-        status = sb_run_path(r, folders[i], path, error);
-        if (status == SB_OK) (void)rmdir(path); /* unless something else is in it */
-    }
-    return status;
+    for (size_t i = 0; i < files->count; i++) sb_free(files->own[i]);
+    sb_free(files->own);
+    *files = (sb_run_files){0};
 }

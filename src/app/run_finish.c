@@ -170,6 +170,8 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
     summary.work = sb_sim_ledger(r->sim);
     sb_status found = sb_run_path(r, "summary.json", path, &reason);
     if (found == SB_OK) found = sb_summary_write(path, &summary, &reason);
+    /* What went wrong before stays the reason; this is told all the same, for the file that is there says "running". */
+    if (found != SB_OK && *status == SB_FAILED) sb_run_warn(r, "%s", reason.text);
     keep_first(status, error, found, &reason);
 }
 
@@ -192,6 +194,7 @@ static sb_status make_films(const run *r, sb_status status, sb_error *error)
 void sb_run_finish(run *r, sb_status *status, sb_error *error)
 {
     sb_error reason = {0};
+    sb_run_keep_log(r);
     if (r->sim && *status == SB_FAILED) write_last_state(r);
     stop_consumers(r, status, error);
     if (r->sim) keep_first(status, error, count_inside(r, &reason), &reason);

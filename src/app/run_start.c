@@ -4,6 +4,7 @@
 #include "app/room.h"
 #include "app/run_state.h"
 #include "app/warnings.h"
+#include "output/summary.h"
 
 #include <math.h>
 #include <omp.h>
@@ -14,6 +15,14 @@ static sb_status write_scene(const run *r, sb_error *error)
     char path[SB_PATH_MAX];
     sb_status status = sb_run_path(r, "scene.yaml", path, error);
     return status == SB_OK ? sb_scene_write(r->scene, path, error) : status;
+}
+
+/* From now on until the end. */
+static sb_status write_running(const run *r, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    sb_status status = sb_run_path(r, "summary.json", path, error);
+    return status == SB_OK ? sb_summary_write_running(path, r->scene, error) : status;
 }
 
 /* What a run begins from. */
@@ -38,21 +47,19 @@ static sb_status look_for_checkpoints(const run *r, bool resume, origin *from, s
 
 static sb_status clear_earlier_run(run *r, sb_error *error)
 {
-    size_t found = 0;
-    sb_status status = sb_checkpoint_count(r, &found, error);
-    if (status == SB_OK && found > 0)
-        sb_run_say(r, "%s: a new run in the place of an earlier one, whose files are removed (--resume goes on)",
-                   r->directory);
-    return status == SB_OK ? sb_run_clear(r, error) : status;
+    if (r->left.count > 0)
+        sb_run_say(r, "%s: the files of the earlier run are removed, for a new one in its place", r->directory);
+    return sb_run_files_remove(r->directory, &r->left, error);
 }
 
 /* Two runs in one directory would spoil each other's files. */
-static sb_status open_directory(run *r, bool resume, origin *from, sb_error *error)
+static sb_status open_directory(run *r, const sb_run_manner *manner, origin *from, sb_error *error)
 {
     sb_status status = sb_make_directories(r->directory, error);
     if (status == SB_OK) status = sb_lock_directory(r->directory, "a directory of its own", &r->lock, error);
     if (status == SB_OK) status = sb_checkpoint_begin(r, error);
-    return status == SB_OK ? look_for_checkpoints(r, resume, from, error) : status;
+    if (status == SB_OK) status = sb_run_admit(r, manner, error);
+    return status == SB_OK ? look_for_checkpoints(r, manner->resume, from, error) : status;
 }
 
 /* The files of an earlier run go once there is a simulation to run, unless this one goes on with them. */
@@ -163,7 +170,6 @@ static sb_status make_simulation(run *r, bool resume, sb_error *error)
 {
     sb_status status = sb_sim_create(r->scene, &r->model, &r->sim, error);
     if (status == SB_OK && !resume) status = sb_sim_check_start(r->sim, error);
-    if (status == SB_OK && !resume) status = sb_run_unobstructed(r, error);
     return status == SB_OK ? sb_run_folders_free(r, error) : status;
 }
 
@@ -178,6 +184,11 @@ static void note_start(run *r)
                r->model.body_count);
     sb_runlog_start(r->log, r->scene, &r->model, omp_get_max_threads(), sb_sim_bytes(r->sim));
     sb_scene_warnings(r->scene, warn, r);
+    if (r->left.others == 1)
+        sb_run_warn(r, "%.500s/%.300s: is not a file of a run; it stays", r->directory, r->left.first_other);
+    else if (r->left.others > 1)
+        sb_run_warn(r, "%.500s/%.300s and %zu more: are not files of a run; they stay", r->directory,
+                    r->left.first_other, r->left.others - 1);
     sb_runlog_event(r->log, "build", "%s", r->checkpoints.build);
     sb_runlog_skipped(r->log, r->off);
     sb_runlog_skipped(r->log, sb_sim_skipped(r->sim));
@@ -260,6 +271,8 @@ static sb_status go_on(run *r, sb_error *error)
                     (unsigned long long)report->step, report->time, omp_get_max_threads(),
                     (unsigned long long)sb_sim_hash(r->sim));
     r->departures = sb_sim_departures(r->sim)->count; /* told when they left */
+    status = write_running(r, error); /* first what may fail: the files still belong to the earlier end */
+    if (status != SB_OK) return give_up(r, status);
     sb_checkpoint_forget_later(r);
     status = write_scene(r, error);
     if (status == SB_OK) status = sb_csv_resume(r->directory, r->scene, &r->model, &r->tables, &r->csv, error);
@@ -277,10 +290,10 @@ static void note_settling(run *r)
     r->setup_seconds = sb_progress_wall(&r->progress);
 }
 
-sb_status sb_run_start(run *r, bool resume, sb_error *error)
+sb_status sb_run_start(run *r, const sb_run_manner *manner, sb_error *error)
 {
     origin from = NOTHING;
-    sb_status status = open_directory(r, resume, &from, error);
+    sb_status status = open_directory(r, manner, &from, error);
     if (status == SB_OK) status = build_model(r, from != NOTHING, error);
     if (status == SB_OK) status = make_simulation(r, from != NOTHING, error);
     if (status == SB_OK && from == SETTLING) status = sb_checkpoint_load_settling(r, error);
@@ -290,6 +303,8 @@ sb_status sb_run_start(run *r, bool resume, sb_error *error)
     if (status != SB_OK) return give_up(r, status);
     sb_model_forget_start(&r->model);
     if (from == CHECKPOINT) return go_on(r, error);
+    status = write_running(r, error);
+    if (status != SB_OK) return status;
     if (from == SETTLING)
         note_settling(r);
     else

@@ -6,6 +6,7 @@
 #include "app/consumers.h"
 #include "app/missed.h"
 #include "app/run.h"
+#include "app/run_files.h"
 #include "app/spent.h"
 #include "measure/measure.h"
 #include "output/csv.h"
@@ -19,7 +20,8 @@ struct run {
     sb_scene resolved;     /* a shallow copy of the caller's, with what only the model can tell */
     const sb_scene *scene; /* it */
     const char *directory;
-    int lock; /* descriptor of the directory, locked for this run; -1: not yet */
+    int lock;          /* descriptor of the directory, locked for this run; -1: not yet */
+    sb_run_files left; /* what the directory held before the run began */
     sb_model model;
     sb_sim *sim;
     sb_measure *measure;
@@ -47,21 +49,18 @@ struct run {
     uint64_t inside, crossed; /* particles within solids at the end */
 };
 
-/* run_start.c: directory, log, model, simulation, measurements, consumers, tables; from nothing, or, with `resume` and
+/* run_start.c: directory, log, model, simulation, measurements, consumers, tables; from nothing, or, to resume and
    where there are checkpoints, from the newest that can be used. */
-sb_status sb_run_start(run *r, bool resume, sb_error *error);
+sb_status sb_run_start(run *r, const sb_run_manner *manner, sb_error *error);
 
-/* run_obstacles.c: whether a new run could write what it writes first: nothing of another kind is in the place of a
-   file, and none of them is the scene that it was given. SB_BAD_INPUT or SB_FAILED says which. */
-sb_status sb_run_unobstructed(const run *r, sb_error *error);
+/* run_obstacles.c: whether a run that begins in this manner may write into its directory: that is empty, or holds a run
+   that it resumes or overwrites; nothing of another kind, and no other file, stands where it would write. Fills
+   r->left. SB_BAD_INPUT or SB_FAILED says what stands against it. */
+sb_status sb_run_admit(run *r, const sb_run_manner *manner, sb_error *error);
 
 /* run_obstacles.c: whether any run could write into the folders that its scene needs. SB_FAILED says which is no folder
    of the run's own, or closed to it. */
 sb_status sb_run_folders_free(const run *r, sb_error *error);
-
-/* run_clear.c: removes what an earlier run has left in the directory, checkpoints first: files of this program's names
-   only, no links, and the folders that are empty then. */
-sb_status sb_run_clear(run *r, sb_error *error);
 
 /* run_finish.c: whatever came before, leaves whole files; the first failure stays in *status and *error. */
 void sb_run_finish(run *r, sb_status *status, sb_error *error);
@@ -74,6 +73,8 @@ sb_status sb_run_path(const run *r, const char *name, char path[SB_PATH_MAX], sb
 void sb_run_say(const run *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* A line on stderr and in the log. */
 void sb_run_warn(run *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* A log that was removed is made anew, with a warning. */
+void sb_run_keep_log(run *r);
 /* The log's periodic line, with the state's hash. */
 void sb_run_log_step(run *r);
 /* Seconds of wall time, earlier processes of this run included. */

@@ -30,6 +30,12 @@ void sb_run_warn(run *r, const char *format, ...)
     fprintf(stderr, "shorebreak: warning: %s\n", text);
 }
 
+void sb_run_keep_log(run *r)
+{
+    if (sb_runlog_remade(r->log))
+        sb_run_warn(r, "%.500s/run.jsonl: was removed during the run; its earlier lines are lost", r->directory);
+}
+
 double sb_run_wall(const run *r)
 {
     return r->before.wall + sb_progress_wall(&r->progress);

@@ -10,20 +10,57 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+const char *sb_file_kind(mode_t mode)
+{
+    return S_ISREG(mode)    ? NULL
+           : S_ISLNK(mode)  ? "a symbolic link"
+           : S_ISDIR(mode)  ? "a directory"
+           : S_ISFIFO(mode) ? "a FIFO"
+           : S_ISSOCK(mode) ? "a socket"
+                            : "a device";
+}
+
+/* What was found at the path is no file to write. errno tells the caller that the message is complete. */
+static sb_status refuse(const char *path, const struct stat *found, sb_error *error)
+{
+    const char *kind = sb_file_kind(found->st_mode);
+    if (kind)
+        sb_fail(error, SB_FAILED, "%.500s: is %s, expected a regular file or nothing", path, kind);
+    else
+        sb_fail(error, SB_FAILED,
+                "%.500s: has %lu names (hard links), and writing would change the file under each of them; expected a "
+                "file with one name: copy it",
+                path, (unsigned long)found->st_nlink);
+    errno = EEXIST;
+    return SB_FAILED;
+}
+
+sb_status sb_file_replaceable(const char *path, sb_error *error)
+{
+    struct stat found;
+    return lstat(path, &found) == 0 && sb_file_kind(found.st_mode) ? refuse(path, &found, error) : SB_OK;
+}
+
+/* Without waiting for the other end of a FIFO, and truncated only once it is known to be a file of its own. */
 sb_status sb_file_open(const char *path, const char *mode, FILE **stream, sb_error *error)
 {
-    const int kind = mode[0] == 'w'   ? O_WRONLY | O_CREAT | O_TRUNC
-                     : mode[0] == 'a' ? O_WRONLY | O_CREAT | O_APPEND
-                                      : O_RDWR;
-    const int file = open(path, kind | O_NOFOLLOW | O_CLOEXEC, 0666);
-    *stream = file < 0 ? NULL : fdopen(file, mode);
-    if (*stream) return SB_OK;
-    const int reason = errno;
-    if (file >= 0) close(file);
-    if (reason == ELOOP)
-        sb_fail(error, SB_FAILED, "%.500s: is a symbolic link, expected a file of the run's own", path);
-    else
-        sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", path, strerror(reason));
+    const int kind = mode[0] == 'w' ? O_WRONLY | O_CREAT : mode[0] == 'a' ? O_WRONLY | O_CREAT | O_APPEND : O_RDWR;
+    struct stat found;
+    *stream = NULL;
+    const int file = open(path, kind | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+    int reason = errno;
+    if (file < 0) {
+        if (lstat(path, &found) == 0 && sb_file_kind(found.st_mode)) return refuse(path, &found, error);
+    } else if (fstat(file, &found) == 0 && (sb_file_kind(found.st_mode) || found.st_nlink > 1)) {
+        close(file);
+        return refuse(path, &found, error);
+    } else {
+        if (mode[0] != 'w' || ftruncate(file, 0) == 0) *stream = fdopen(file, mode);
+        if (*stream) return SB_OK;
+        reason = errno;
+        close(file);
+    }
+    sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", path, strerror(reason));
     errno = reason;
     return SB_FAILED;
 }
@@ -35,8 +72,9 @@ sb_status sb_atomic_open(sb_atomic_file *file, const char *path, sb_error *error
         return sb_fail(error, SB_BAD_INPUT, "%.64s...: path longer than %d bytes", path, SB_PATH_MAX);
     snprintf(file->path, sizeof file->path, "%s", path);
     snprintf(file->temporary, sizeof file->temporary, "%s.tmp", path);
+    if (sb_file_replaceable(path, error) != SB_OK) return SB_FAILED;
     if (sb_file_open(file->temporary, "w", &file->stream, error) == SB_OK) return SB_OK;
-    return errno == ELOOP ? SB_FAILED : sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", path, strerror(errno));
+    return errno == EEXIST ? SB_FAILED : sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", path, strerror(errno));
 }
 
 sb_status sb_atomic_open_in(sb_atomic_file *file, const char *folder, const char *name, sb_error *error)
@@ -84,13 +122,32 @@ void sb_atomic_abort(sb_atomic_file *file)
     unlink(file->temporary);
 }
 
+size_t sb_file_start(const char *path, char *bytes, size_t size)
+{
+    struct stat found;
+    const int file = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0) return 0;
+    const ssize_t got = fstat(file, &found) == 0 && S_ISREG(found.st_mode) ? pread(file, bytes, size, 0) : 0;
+    close(file);
+    return got > 0 ? (size_t)got : 0;
+}
+
 int sb_file_sync(const char *path)
 {
-    int file = open(path, O_RDONLY | O_CLOEXEC);
+    int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (file < 0) return -1;
     int status = fsync(file);
     close(file);
     return status;
+}
+
+/* Keeps errno. */
+static int is_directory(const char *path)
+{
+    struct stat found;
+    const int reason = errno, is = stat(path, &found) == 0 && S_ISDIR(found.st_mode);
+    errno = reason;
+    return is;
 }
 
 sb_status sb_make_directories(const char *path, sb_error *error)
@@ -104,13 +161,12 @@ sb_status sb_make_directories(const char *path, sb_error *error)
         if (part[i] != '/' && part[i] != '\0') continue;
         char kept = part[i];
         part[i] = '\0';
-        if (mkdir(part, 0777) != 0 && errno != EEXIST)
+        if (mkdir(part, 0777) != 0 && !is_directory(part)) {
+            if (errno == EEXIST) return sb_fail(error, SB_BAD_INPUT, "%.500s: is not a directory, expected one", part);
             return sb_fail(error, SB_FAILED, "%.500s: cannot make directory: %s", part, strerror(errno));
+        }
         part[i] = kept;
     }
-    struct stat status;
-    if (stat(path, &status) != 0 || !S_ISDIR(status.st_mode))
-        return sb_fail(error, SB_FAILED, "%.500s: not a directory", path);
     return SB_OK;
 }
 
@@ -134,12 +190,13 @@ sb_status sb_make_folder(char path[SB_PATH_MAX], const char *directory, const ch
     }
 }
 
-/* Whether the name is a number above `after` and the suffix, or one that was being written. */
-static int is_numbered(const char *name, const char *suffix, unsigned long long after)
+int sb_is_numbered(const char *name, const char *suffix, unsigned long long after)
 {
+    enum { DIGITS = 6 }; /* at least: as all numbers of files are written */
     const size_t digits = strspn(name, "0123456789"), length = strlen(suffix);
     const char *rest = name + digits + length;
-    if (digits == 0 || strncmp(name + digits, suffix, length) != 0 || (*rest && strcmp(rest, ".tmp") != 0)) return 0;
+    if (digits < DIGITS || strncmp(name + digits, suffix, length) != 0 || (*rest && strcmp(rest, ".tmp") != 0))
+        return 0;
     return *rest || strtoull(name, NULL, 10) > after;
 }
 
@@ -151,7 +208,7 @@ sb_status sb_remove_numbered(const char *folder, const char *suffix, unsigned lo
     sb_status status = SB_OK;
     const struct dirent *entry;
     while (status == SB_OK && (entry = readdir(directory))) {
-        if (!is_numbered(entry->d_name, suffix, after)) continue;
+        if (!sb_is_numbered(entry->d_name, suffix, after)) continue;
         if (unlinkat(dirfd(directory), entry->d_name, 0) != 0)
             status =
                 sb_fail(error, SB_FAILED, "%.500s/%.200s: cannot remove: %s", folder, entry->d_name, strerror(errno));

@@ -5,6 +5,7 @@
 #include "base/status.h"
 
 #include <stdio.h>
+#include <sys/types.h>
 
 #define SB_PATH_MAX 4096
 
@@ -15,8 +16,16 @@ typedef struct sb_atomic_file {
     char temporary[SB_PATH_MAX + 8];
 } sb_atomic_file;
 
-/* A file to write, as fopen with mode "w", "a" or "r+" opens it, but never through a symbolic link: what a run writes
-   stays in its directory. SB_FAILED names the path and the reason; *stream is then NULL, and errno the system's. */
+/* What stands at a path, by its mode, as "a FIFO"; NULL: a regular file. */
+const char *sb_file_kind(mode_t mode);
+
+/* SB_FAILED where something else than a regular file stands at the path: what is written there is renamed to it. */
+sb_status sb_file_replaceable(const char *path, sb_error *error);
+
+/* A file to write, as fopen with mode "w", "a" or "r+" opens it, but regular files of one name only: never through a
+   symbolic link or another name, for what a run writes stays in its directory; never a FIFO or a device, which could
+   keep it waiting. SB_FAILED names the path and the reason; *stream is then NULL, and errno the system's, or EEXIST for
+   what stands there. */
 sb_status sb_file_open(const char *path, const char *mode, FILE **stream, sb_error *error);
 
 /* Opens "<path>.tmp" for writing. SB_FAILED names the path and the system's reason. */
@@ -32,18 +41,24 @@ sb_status sb_atomic_commit(sb_atomic_file *file, int durable, sb_error *error);
 /* Closes and removes the temporary; fine on a closed file. */
 void sb_atomic_abort(sb_atomic_file *file);
 
+/* The first bytes of a regular file, as many as there are; none of anything else. */
+size_t sb_file_start(const char *path, char *bytes, size_t size);
+
 /* Puts what the system holds of a file, or of a folder's names, on disk. 0, or -1 with errno. */
 int sb_file_sync(const char *path);
 
-/* Makes the directory and all missing parents. */
+/* Makes the directory and all missing parents. SB_BAD_INPUT when one of them is there and is no directory. */
 sb_status sb_make_directories(const char *path, sb_error *error);
 
 /* directory/name into path, and makes the directory and the folders below it that name goes through; SB_FAILED where
    one of those below is a symbolic link or no folder. */
 sb_status sb_make_folder(char path[SB_PATH_MAX], const char *directory, const char *name, sb_error *error);
 
-/* Removes the files "<digits><suffix>" of a folder whose number is above `after`, and what was being written when a
-   run was killed: "<digits><suffix>.tmp". A missing folder is fine. */
+/* Whether the name is a number above `after`, of six digits at least, and the suffix; or that of any number and
+   ".tmp", which was being written. */
+int sb_is_numbered(const char *name, const char *suffix, unsigned long long after);
+
+/* Removes the files of a folder that are so named. A missing folder is fine. */
 sb_status sb_remove_numbered(const char *folder, const char *suffix, unsigned long long after, sb_error *error);
 
 /* base/name into out; an absolute name stands alone. SB_BAD_INPUT when longer than SB_PATH_MAX. */

@@ -37,6 +37,7 @@ sb_status sb_plot_draw(const char *program, const char *directory, const char *f
     char *const arguments[] = {"gnuplot", script, NULL};
     sb_status status = sb_path_join(part, directory, SB_PLOT_PART, error);
     if (status == SB_OK) status = sb_path_join(to, directory, picture, error);
+    if (status == SB_OK) status = sb_file_replaceable(to, error);
     if (status != SB_OK) return status;
     unlink(part); /* may be a link */
     status = sb_tool_run(program, arguments, directory, error);

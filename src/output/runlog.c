@@ -11,6 +11,7 @@
 #include <stdarg.h>
 #include <stdio_ext.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 struct sb_runlog {
@@ -19,6 +20,7 @@ struct sb_runlog {
     double opened;
     off_t whole; /* up to the end of the last line */
     int reason;  /* errno of the first failure, 0: none */
+    bool lost;   /* removed, and could not be made anew */
     pthread_mutex_t mutex;
 };
 
@@ -68,6 +70,23 @@ sb_status sb_runlog_sync(sb_runlog *log, sb_error *error)
 {
     if (!log || fsync(fileno(log->stream)) == 0) return SB_OK;
     return sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", log->path, strerror(errno));
+}
+
+bool sb_runlog_remade(sb_runlog *log)
+{
+    struct stat found;
+    if (!log) return false;
+    pthread_mutex_lock(&log->mutex);
+    const bool gone = !log->lost && fstat(fileno(log->stream), &found) == 0 && found.st_nlink == 0;
+    FILE *anew = NULL;
+    log->lost |= gone && sb_file_open(log->path, "a", &anew, NULL) != SB_OK;
+    if (anew) {
+        fclose(log->stream); /* each line was flushed */
+        log->stream = anew;
+        log->whole = fseeko(anew, 0, SEEK_END) == 0 ? ftello(anew) : 0;
+    }
+    pthread_mutex_unlock(&log->mutex);
+    return gone;
 }
 
 static sb_status verdict(const sb_runlog *log, sb_error *error)

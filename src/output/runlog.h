@@ -20,6 +20,9 @@ sb_status sb_runlog_append(const char *path, sb_runlog **log, sb_error *error);
 /* Puts what was written on disk. SB_FAILED when that cannot be done. */
 sb_status sb_runlog_sync(sb_runlog *log, sb_error *error);
 
+/* Whether the file was removed since it was opened; it is then made anew, where that can be done, and said so once. */
+bool sb_runlog_remade(sb_runlog *log);
+
 /* SB_FAILED when a line could not be written. */
 sb_status sb_runlog_check(sb_runlog *log, sb_error *error);
 

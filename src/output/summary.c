@@ -89,13 +89,18 @@ static void put_stages(sb_json *json, const sb_spent *spent)
     sb_json_close(json);
 }
 
-static void put_all(sb_json *json, const sb_summary *s)
+static void put_head(sb_json *json, const sb_scene *scene, const char *status)
 {
     sb_json_open(json, NULL, '{');
     sb_json_text(json, "version", SB_VERSION);
-    sb_json_text(json, "preset", s->scene->numerics.preset == SB_PRESET_PAPER ? "paper" : "default");
-    sb_json_text(json, "title", s->scene->title);
-    sb_json_text(json, "status", s->status == SB_OK ? "done" : s->status == SB_INTERRUPTED ? "interrupted" : "failed");
+    sb_json_text(json, "preset", scene->numerics.preset == SB_PRESET_PAPER ? "paper" : "default");
+    sb_json_text(json, "title", scene->title);
+    sb_json_text(json, "status", status);
+}
+
+static void put_all(sb_json *json, const sb_summary *s)
+{
+    put_head(json, s->scene, s->status == SB_OK ? "done" : s->status == SB_INTERRUPTED ? "interrupted" : "failed");
     if (s->reason) sb_json_text(json, "reason", s->reason);
     sb_json_number(json, "wall_s", s->spent.wall);
     sb_json_number(json, "processor_seconds", s->spent.processor);
@@ -133,6 +138,18 @@ static void put_all(sb_json *json, const sb_summary *s)
     if (s->work) sb_summary_put_work(json, s->work);
     put_stages(json, &s->spent);
     sb_json_close(json);
+}
+
+sb_status sb_summary_write_running(const char *path, const sb_scene *scene, sb_error *error)
+{
+    sb_atomic_file out;
+    sb_status status = sb_atomic_open(&out, path, error);
+    if (status != SB_OK) return status;
+    sb_json json;
+    sb_json_begin(&json, out.stream, true);
+    put_head(&json, scene, "running");
+    sb_json_close(&json);
+    return sb_atomic_commit(&out, 1, error);
 }
 
 sb_status sb_summary_write(const char *path, const sb_summary *summary, sb_error *error)

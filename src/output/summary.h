@@ -55,6 +55,10 @@ void sb_summary_put_energy(sb_json *json, const char *key, const sb_energy *ener
 /* The object "energy_work": the sums of energy.csv's columns, J. */
 void sb_summary_put_work(sb_json *json, const sb_ledger *work);
 
+/* The same file while the run goes on: version, preset, title and the status "running", so that a run which never comes
+   to its end is not taken for an earlier one that did. */
+sb_status sb_summary_write_running(const char *path, const sb_scene *scene, sb_error *error);
+
 /* Writes the file whole or not at all. In 2D forces, impulses and energies are per metre of width
    and "per_metre" is true. */
 sb_status sb_summary_write(const char *path, const sb_summary *summary, sb_error *error);

@@ -55,6 +55,7 @@ bool sb_video_write(const char *directory, const char *camera, uint64_t count, i
     if (status == SB_OK) status = check_pictures(directory, camera, count, &error);
     if (status == SB_OK) status = sb_path_join(from, directory, part + strlen("file:"), &error);
     if (status == SB_OK) status = sb_path_join(to, directory, name, &error);
+    if (status == SB_OK) status = sb_file_replaceable(to, &error);
     if (status == SB_OK) unlink(from); /* one that outlived a killed run may still be writing it */
     if (status == SB_OK) status = sb_tool_run(program, arguments, directory, &error);
     if (status == SB_OK && rename(from, to) != 0)

@@ -28,6 +28,17 @@ static void on_warning(png_structp png, png_const_charp text)
     (void)text;
 }
 
+/* A text chunk, the first one after the header: by it a run tells its pictures from other people's. */
+static const char software[] = "Software", own_name[] = "shorebreak";
+
+bool sb_png_is_own(const char *start, size_t length)
+{
+    char mark[sizeof software + sizeof own_name];
+    memcpy(mark, software, sizeof software);
+    memcpy(mark + sizeof software, own_name, sizeof own_name);
+    return length >= 8 && memcmp(start, "\x89PNG\r\n\x1a\n", 8) == 0 && memmem(start, length, mark, sizeof mark - 1);
+}
+
 /* No objects with destructors live across the jump: 1 when all rows are written. */
 static int write_rows(png_structp png, png_infop info, FILE *stream, const sb_image *image, struct reporter *reporter)
 {
@@ -37,6 +48,8 @@ static int write_rows(png_structp png, png_infop info, FILE *stream, const sb_im
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
     png_set_IHDR(png, info, (png_uint_32)image->width, (png_uint_32)image->height, 8, PNG_COLOR_TYPE_RGB,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_text mark = {.compression = PNG_TEXT_COMPRESSION_NONE, .key = (char *)software, .text = (char *)own_name};
+    png_set_text(png, info, &mark, 1);
     png_write_info(png, info);
     size_t stride = 3 * (size_t)image->width;
     for (int y = 0; y < image->height; y++) png_write_row(png, image->rgb + (size_t)y * stride);

@@ -110,6 +110,32 @@ static void removed_tables_end_the_run(void **state)
     outcome_free(&o);
 }
 
+/* The folder of the checkpoints, and the log: without them a run could not go on, or not be told for one. */
+static void what_was_removed_is_made_again(void **state)
+{
+    (void)state;
+    char names[16][64];
+    pid_t process = program_start((const char *const[]){"run", "measured.yaml", "--out", "swept", "--quiet", "--until",
+                                                        "1000", "--set", "output.checkpoint.steps=5", NULL});
+    for (double end = sb_clock() + 30; !exists("swept/particles/000002.vtp") && sb_clock() < end;) usleep(2000);
+    assert_int_equal(rename(in_folder("swept/checkpoints"), in_folder("elsewhere")), 0);
+    assert_int_equal(unlink(in_folder("swept/run.jsonl")), 0);
+    for (double end = sb_clock() + 30; !exists("swept/run.jsonl") && sb_clock() < end;) usleep(2000);
+    for (double end = sb_clock() + 30; !exists("swept/checkpoints") && sb_clock() < end;) usleep(2000);
+    assert_int_equal(kill(process, SIGTERM), 0);
+    outcome o = program_finish(process);
+    assert_int_equal(o.status, 143);
+    assert_int_equal(count_of(o.err, "warning: swept/checkpoints: was removed during the run; it was made again"), 1);
+    assert_int_equal(
+        count_of(o.err, "warning: swept/run.jsonl: was removed during the run; its earlier lines are lost"), 1);
+    outcome_free(&o);
+    assert_true(list_checkpoints("swept", names) >= 1);
+    char *log = text_of("swept/run.jsonl");
+    assert_int_equal(strncmp(log, "{\"event\":", 9), 0);
+    assert_int_equal(count_of(log, "\"event\":\"end\""), 1);
+    sb_free(log);
+}
+
 /* What a user moves away while the run goes on is told once; checkpoints are written all the same, the one on a signal
    included. */
 static void files_taken_away_are_told_once(void **state)
@@ -148,6 +174,7 @@ int main(void)
         cmocka_unit_test(a_full_disk_ends_the_run_and_it_goes_on),
         cmocka_unit_test(one_run_at_a_time),
         cmocka_unit_test(removed_tables_end_the_run),
+        cmocka_unit_test(what_was_removed_is_made_again),
         cmocka_unit_test(files_taken_away_are_told_once),
     };
     return cmocka_run_group_tests(tests, pair_setup, program_teardown);

@@ -15,8 +15,9 @@ static void each_solver_goes_on(void **state)
     (void)state;
     static const char *const solvers[] = {"numerics.solver=jacobi", "numerics.solver=chebyshev", "numerics.solver=cg"};
     for (int s = 0; s < 3; s++) {
-        RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "whole", "--quiet", "--set", solvers[s]);
-        RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "parts", "--quiet", "--set", solvers[s], "--until", "0.2");
+        RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "whole", "--quiet", "--overwrite", "--set", solvers[s]);
+        RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "parts", "--quiet", "--overwrite", "--set", solvers[s],
+                       "--until", "0.2");
         RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "parts", "--quiet", "--set", solvers[s], "--until", "0.41",
                        "--resume", "--threads", "2");
         RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "parts", "--quiet", "--set", solvers[s], "--resume");
@@ -46,8 +47,9 @@ static void a_run_in_3d_with_pictures_goes_on(void **state)
     static const char sides[] = "domain.sides={y_min: periodic, y_max: periodic}";
     for (int periodic = 0; periodic < 2; periodic++) {
         const char *set = periodic ? sides : "numerics.turbulence=sps";
-        RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "whole3", "--quiet", "--set", set);
-        RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "parts3", "--quiet", "--set", set, "--until", "0.17");
+        RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "whole3", "--quiet", "--overwrite", "--set", set);
+        RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "parts3", "--quiet", "--overwrite", "--set", set, "--until",
+                       "0.17");
         /* The run's own scene will do as well: it names the same files, and what was set. */
         RUN_AND_FORGET(0, "run", "parts3/scene.yaml", "--out", "parts3", "--quiet", "--resume", "--until", "0.3");
         assert_same_run("whole3", "parts3", files);
@@ -97,9 +99,9 @@ static void the_last_ones_are_kept(void **state)
     snprintf(last, sizeof last, "%09d.state", (steps - 1) / 4 * 4);
     assert_string_equal(names[1], last);
     /* A new run there begins anew and says so. */
-    outcome o = RUN(0, "run", "measured.yaml", "--out", "kept", "--until", "0.02", "--set",
+    outcome o = RUN(0, "run", "measured.yaml", "--out", "kept", "--overwrite", "--until", "0.02", "--set",
                     "output.checkpoint={steps: 1000, minutes: 0}");
-    assert_contains(o.out, "kept: a new run in the place of an earlier one, whose files are removed");
+    assert_contains(o.out, "kept: the files of the earlier run are removed, for a new one in its place");
     outcome_free(&o);
     assert_int_equal(list_checkpoints("kept", names), 1);
     assert_true(strcmp(names[0], last) < 0);
@@ -179,7 +181,7 @@ static void a_run_goes_on_with_settling(void **state)
     sb_free(scene);
     /* And a new run clears it away. */
     cut_while_settling("anew", SIGKILL);
-    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "anew", "--quiet", "--until", "0.02", "--set",
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "anew", "--quiet", "--overwrite", "--until", "0.02", "--set",
                    "output.checkpoint.minutes=0");
     assert_false(exists("anew/checkpoints/settling.state") || exists("anew/checkpoints/settling.state.tmp"));
 }
@@ -223,8 +225,9 @@ static void a_signal_leaves_a_checkpoint(void **state)
     static const int signals[] = {SIGINT, SIGTERM};
     for (int s = 0; s < 2; s++) {
         char names[16][64];
-        pid_t process = program_start((const char *const[]){"run", "measured.yaml", "--out", "cut", "--until", "1000",
-                                                            "--set", "output.checkpoint.minutes=60", NULL});
+        pid_t process =
+            program_start((const char *const[]){"run", "measured.yaml", "--out", "cut", "--overwrite", "--until",
+                                                "1000", "--set", "output.checkpoint.minutes=60", NULL});
         for (double end = sb_clock() + 30; !exists("cut/particles/000002.vtp") && sb_clock() < end;) usleep(2000);
         assert_int_equal(kill(process, signals[s]), 0);
         outcome o = program_finish(process);
@@ -238,9 +241,9 @@ static void a_signal_leaves_a_checkpoint(void **state)
         char text[32];
         snprintf(text, sizeof text, "%.6f", until);
         RUN_AND_FORGET(0, "run", "cut/scene.yaml", "--out", "cut", "--quiet", "--resume", "--until", text);
-        RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "uncut", "--quiet", "--until", text);
+        RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "uncut", "--quiet", "--overwrite", "--until", text);
         assert_same_run("uncut", "cut", pair_tables);
-        RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "cut", "--quiet", "--until", "0.01"); /* clears it */
+        RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "cut", "--quiet", "--overwrite", "--until", "0.01");
         unlink(in_folder("cut/particles/000002.vtp"));
     }
 }

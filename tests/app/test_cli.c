@@ -62,6 +62,15 @@ static const struct {
     const char *arguments, *words;
 } mistakes[] = {
     {"frobnicate", "frobnicate: no such command"},
+    {"chekc tank2.yaml", "chekc: no such command, did you mean check?"},
+    {"runs tank2.yaml", "runs: no such command, did you mean run?"},
+    {"run tank2.yaml --resum", "--resum: no such option here, did you mean --resume?"},
+    {"run tank2.yaml --untill=3", "--untill=3: no such option here, did you mean --until?"},
+    {"run tank2.yaml --over-write", "--over-write: no such option here, did you mean --overwrite?"},
+    {"check tank2.yaml --threds 2", "--threds: no such option here, did you mean --threads?"},
+    {"run tank2.yaml --set resolutoin=1", "did you mean resolution?"},
+    {"run tank2.yaml --set numerics.kernel=cubc", "expected cubic"},
+    {"list kernel", "did you mean kernels?"},
     {"--frobnicate", "--frobnicate: no such command"},
     {"x\033[2J\a", "x?[2J?: no such command"},
     {"run", "no scene given"},
@@ -220,7 +229,7 @@ static void a_scene_of_doubtful_use_is_warned_of(void **state)
     o = RUN(0, "check", "tank3.yaml", "--set", "water.wave={kind: solitary, height: 0.2, depth: 0.4}");
     assert_contains(o.out, "the theory third-order is good to 0.4");
     outcome_free(&o);
-    o = RUN(0, "run", "tank3.yaml", "--until=0.05", "--out=slow", "--quiet");
+    o = RUN(0, "run", "tank3.yaml", "--until=0.05", "--out=slow", "--overwrite", "--quiet");
     assert_null(strstr(o.err, "warning"));
     outcome_free(&o);
 }

@@ -73,8 +73,8 @@ static void threads_change_nothing(void **state)
     static const char *const counts[] = {"1", "2", "3"};
     for (int i = 0; i < 3; i++) {
         char hash[32];
-        RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "threads", "--quiet", "--until", "0.06", "--set", SPACING,
-                       "--set", "render.interval=0", "--threads", counts[i]);
+        RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "threads", "--quiet", "--overwrite", "--until", "0.06", "--set",
+                       SPACING, "--set", "render.interval=0", "--threads", counts[i]);
         assert_near(json_number_of("threads/summary.json", "threads"), i + 1, 0);
         hash_of("threads", hash);
         assert_string_equal(hash, plain);

@@ -95,6 +95,7 @@ static void folders_that_take_nothing_are_refused(void **state)
         char words[128], command[1200], place[64];
         const char *folder = folders[k / 2];
         assert_int_equal(mkdir(in_folder("blocked"), 0700), 0);
+        write_text("blocked/run.jsonl", ""); /* a run's directory */
         if (strchr(folder, '/')) assert_int_equal(mkdir(in_folder("blocked/frames"), 0700), 0);
         snprintf(place, sizeof place, "blocked/%s", folder);
         if (k % 2)
@@ -106,7 +107,10 @@ static void folders_that_take_nothing_are_refused(void **state)
                  k % 2 ? "not a directory" : "a symbolic link");
         assert_one_line(o.err, words);
         outcome_free(&o);
-        assert_false(exists("blocked/scene.yaml") || exists("blocked/run.jsonl"));
+        assert_false(exists("blocked/scene.yaml"));
+        char *log = text_of("blocked/run.jsonl");
+        assert_string_equal(log, "");
+        sb_free(log);
         snprintf(command, sizeof command, "rm -r '%s'", in_folder("blocked"));
         assert_int_equal(system(command), 0);
     }

@@ -344,9 +344,9 @@ static int list_one(const char *path, const struct stat *info, int kind, struct 
 static void an_earlier_run_leaves_nothing(void **state)
 {
     (void)state;
-    static const char *const own[] = {
-        "notes.csv",           "talk.mp4",      "maps/hills.asc", "plots/mine.png", "frames/side/best.png",
-        "particles/first.vtp", "forces.csv.old"};
+    static const char *const own[] = {"notes.csv",           "talk.mp4",       "maps/hills.asc",
+                                      "plots/mine.png",      "holiday.mp4",    "frames/side/best.png",
+                                      "particles/first.vtp", "forces.csv.old", "frames/holiday/000001.png"};
     static const char *const gone[] = {"overtopping.csv", "runup.csv", "maps/max_depth.asc",
                                        "particles.pvd",   "side.mp4",  "frames/front"};
     RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "used", "--quiet", "--until", "0.12", "--set",
@@ -356,16 +356,19 @@ static void an_earlier_run_leaves_nothing(void **state)
     assert_true(exists("used/overtopping.csv") && exists("used/runup.csv") && exists("used/maps/max_depth.asc"));
     assert_true(exists("used/frames/front/000002.png"));
     write_text("used/.side.part.mp4", "cut short\n");
-    write_text("used/particles/last-good.vtp", "of a failed run\n");
+    write_text("used/particles/last-good.vtp", "<?xml of a failed run\n");
     write_text("used/maps/max_speed.asc.tmp", "of a killed run\n");
     write_text("used/plots/max_speed.gp", "of a killed run\n");
+    assert_int_equal(mkdir(in_folder("used/frames/holiday"), 0777), 0);
     for (size_t k = 0; k < sizeof own / sizeof *own; k++) {
         char name[96];
         snprintf(name, sizeof name, "used/%s", own[k]);
         write_text(name, "mine\n");
     }
-    RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "used", "--quiet", "--until", "0.02", "--set",
-                   "output={particle_interval: 0, plots: false, checkpoint: {minutes: 0}}");
+    outcome o = RUN(0, "run", "tank2.yaml", "--out", "used", "--quiet", "--overwrite", "--until", "0.02", "--set",
+                    "output={particle_interval: 0, plots: false, checkpoint: {minutes: 0}}");
+    assert_contains(o.err, " and 8 more: are not files of a run; they stay\n");
+    outcome_free(&o);
     RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "anew", "--quiet", "--until", "0.02", "--set",
                    "output={particle_interval: 0, plots: false, checkpoint: {minutes: 0}}");
     for (size_t k = 0; k < sizeof gone / sizeof *gone; k++)
@@ -409,15 +412,16 @@ static void what_cannot_begin_costs_nothing(void **state)
     (void)state;
     RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "dear", "--quiet", "--until", "0.02");
     char *forces = text_of("dear/forces.csv"), *summary = text_of("dear/summary.json");
-    outcome o = RUN(1, "run", "tank2.yaml", "--out", "dear", "--quiet", "--set", "numerics.time_step_max=1e-6");
+    outcome o =
+        RUN(1, "run", "tank2.yaml", "--out", "dear", "--quiet", "--overwrite", "--set", "numerics.time_step_max=1e-6");
     assert_one_line(o.err, "the first time step would be 1e-06 s, expected at least ");
     outcome_free(&o);
-    o = RUN(1, "run", "tank2.yaml", "--out", "dear", "--quiet", "--set", "fluid.viscosity=1e300");
+    o = RUN(1, "run", "tank2.yaml", "--out", "dear", "--quiet", "--overwrite", "--set", "fluid.viscosity=1e300");
     assert_one_line(o.err, "the first time step would be 0 s, expected at least ");
     outcome_free(&o);
     assert_int_equal(rename(in_folder("dear/energy.csv"), in_folder("dear/kept.csv")), 0);
     assert_int_equal(symlink("kept.csv", in_folder("dear/energy.csv")), 0);
-    o = RUN(2, "run", "tank2.yaml", "--out", "dear", "--quiet");
+    o = RUN(2, "run", "tank2.yaml", "--out", "dear", "--quiet", "--overwrite");
     assert_one_line(o.err, "dear/energy.csv: is a symbolic link, expected a file of a run or nothing");
     outcome_free(&o);
     char *forces_now = text_of("dear/forces.csv"), *summary_now = text_of("dear/summary.json");
@@ -432,23 +436,27 @@ static void what_cannot_begin_costs_nothing(void **state)
     assert_int_equal(mkdir(in_folder("home"), 0777), 0);
     write_text("home/scene.yaml", scene);
     o = RUN(1, "run", "home/scene.yaml", "--out", "home", "--quiet");
-    assert_one_line(o.err, "home/scene.yaml: is the scene itself, which the run would overwrite");
+    assert_one_line(o.err,
+                    "home: holds \"scene.yaml\" but no run of shorebreak; name an empty or a new directory by --out");
     outcome_free(&o);
     char *scene_now = text_of("home/scene.yaml");
     assert_string_equal(scene, scene_now);
     sb_free(scene);
     sb_free(scene_now);
     RUN_AND_FORGET(0, "run", "dear/scene.yaml", "--out", "own", "--quiet");
-    RUN_AND_FORGET(0, "run", "own/scene.yaml", "--out", "own", "--quiet"); /* its own */
+    RUN_AND_FORGET(0, "run", "own/scene.yaml", "--out", "own", "--quiet", "--overwrite"); /* its own */
 }
 
 static void unwritable_out_fails(void **state)
 {
     (void)state;
-    outcome o = RUN(2, "run", "tank2.yaml", "--out", "tank3.yaml/below", "--quiet");
-    assert_one_line(o.err, "tank3.yaml/below: ");
-    assert_string_equal(o.out, "");
-    outcome_free(&o);
+    static const char *const places[] = {"tank3.yaml", "tank3.yaml/below"};
+    for (size_t k = 0; k < 2; k++) {
+        outcome o = RUN(1, "run", "tank2.yaml", "--out", places[k], "--quiet");
+        assert_one_line(o.err, "tank3.yaml: is not a directory, expected one");
+        assert_string_equal(o.out, "");
+        outcome_free(&o);
+    }
 }
 
 int main(void)

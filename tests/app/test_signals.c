@@ -175,8 +175,8 @@ static void a_model_in_the_making_hears(void **state)
     (void)state;
     RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "early", "--quiet", "--until", "0.02");
     char *log = text_of("early/run.jsonl"), *forces = text_of("early/forces.csv");
-    pid_t process = program_start(
-        (const char *const[]){"run", "tank3.yaml", "--out", "early", "--set", "resolution=0.004", NULL}); /* seconds */
+    pid_t process = program_start((const char *const[]){"run", "tank3.yaml", "--out", "early", "--overwrite", "--set",
+                                                        "resolution=0.004", NULL}); /* seconds */
     usleep(800000);
     check_heard(process, "stopped by a signal while the model was built: nothing is computed yet");
     char *log_then = text_of("early/run.jsonl"), *forces_then = text_of("early/forces.csv");
@@ -191,11 +191,11 @@ static void a_model_in_the_making_hears(void **state)
 static void water_coming_to_rest_hears(void **state)
 {
     (void)state;
-    RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "early", "--quiet", "--until", "0.02");
+    RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "early", "--quiet", "--overwrite", "--until", "0.02");
     assert_int_equal(unlink(in_folder("early/run.jsonl")), 0);
     pid_t process =
-        program_start((const char *const[]){"run", "tank2.yaml", "--out", "early", "--set", "domain.max=[250, 1]",
-                                            "--set", "water.boxes[0].max=[225, 0.6]", NULL});
+        program_start((const char *const[]){"run", "tank2.yaml", "--out", "early", "--overwrite", "--set",
+                                            "domain.max=[250, 1]", "--set", "water.boxes[0].max=[225, 0.6]", NULL});
     wait_for("early/run.jsonl", "\"start\"");
     check_heard(process, "stopped by a signal while the water came to rest: nothing is computed yet");
     char *log = text_of("early/run.jsonl");

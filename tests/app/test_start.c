@@ -12,7 +12,7 @@
 static void start_of(const char *scene, double *z, double *kinetic)
 {
     write_text("start.yaml", scene);
-    RUN_AND_FORGET(0, "run", "start.yaml", "--out", "s", "--quiet", "--set", "output.plots=false");
+    RUN_AND_FORGET(0, "run", "start.yaml", "--out", "s", "--overwrite", "--quiet", "--set", "output.plots=false");
     char *text = text_of("s/gauges.csv");
     const char *row = strstr(text, "\n0,g,");
     assert_non_null(row);
@@ -53,7 +53,7 @@ static void a_wave_stands_and_moves(void **state)
 static double last_kinetic(const char *scene)
 {
     write_text("start.yaml", scene);
-    RUN_AND_FORGET(0, "run", "start.yaml", "--out", "q", "--quiet", "--set", "output.plots=false");
+    RUN_AND_FORGET(0, "run", "start.yaml", "--out", "q", "--overwrite", "--quiet", "--set", "output.plots=false");
     char *text = text_of("q/energy.csv");
     size_t end = strlen(text) - 1;
     while (end > 0 && text[end - 1] != '\n') end--;

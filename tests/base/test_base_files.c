@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 static char folder[] = "/tmp/shorebreak-files-XXXXXX";
@@ -99,8 +100,8 @@ static void failures_leave_nothing_and_say_why(void **state)
     assert_non_null(strstr(error.text, "No such file"));
 
     /* The final name is a directory that is not empty: the rename must fail. */
-    assert_int_equal(sb_make_directories(at("taken/inner"), NULL), SB_OK);
     assert_int_equal(sb_atomic_open(&file, at("taken"), &error), SB_OK);
+    assert_int_equal(sb_make_directories(at("taken/inner"), NULL), SB_OK);
     fputs("x", file.stream);
     assert_int_equal(sb_atomic_commit(&file, 0, &error), SB_FAILED);
     assert_int_equal(error.status, SB_FAILED);
@@ -117,9 +118,9 @@ static void failures_leave_nothing_and_say_why(void **state)
 static void numbered_files_go_from_a_number_on(void **state)
 {
     (void)state;
-    static const char *const names[] = {"1.a",     "000002.a", "3.a",  "0004.a", "2.a.tmp",
-                                        "4.a.tmp", "3.b",      "x3.a", "3.ab"};
-    static const bool stays[] = {true, true, false, false, false, false, true, true, true};
+    static const char *const names[] = {"000001.a",     "000002.a", "000003.a", "000000004.a", "000002.a.tmp",
+                                        "000004.a.tmp", "000003.b", "x3.a",     "000003.ab",   "3.a"};
+    static const bool stays[] = {true, true, false, false, false, false, true, true, true, true};
     for (size_t n = 0; n < sizeof names / sizeof *names; n++) write_whole(names[n], "", 0);
     assert_int_equal(sb_remove_numbered(folder, ".a", 2, NULL), SB_OK);
     for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
@@ -155,14 +156,56 @@ static void directories_come_with_their_parents(void **state)
     assert_true(exists("p/q/r"));
     write_whole("p/file", "x", 0);
     sb_error error = {0};
-    assert_int_equal(sb_make_directories(at("p/file"), &error), SB_FAILED);
-    assert_non_null(strstr(error.text, "p/file"));
-    assert_int_equal(sb_make_directories(at("p/file/below"), NULL), SB_FAILED);
+    assert_int_equal(sb_make_directories(at("p/file"), &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "p/file: is not a directory, expected one"));
+    assert_int_equal(sb_make_directories(at("p/file/below"), NULL), SB_BAD_INPUT);
     assert_int_equal(sb_make_directories("", NULL), SB_BAD_INPUT);
     assert_int_equal(unlink(at("p/file")), 0);
     assert_int_equal(rmdir(at("p/q/r")), 0);
     assert_int_equal(rmdir(at("p/q")), 0);
     assert_int_equal(rmdir(at("p")), 0);
+}
+
+/* None of them is written to, removed or waited for. */
+static void only_files_of_their_own_are_opened(void **state)
+{
+    (void)state;
+    static const char *const kinds[] = {"a symbolic link", "a directory", "a FIFO", "a device", "2 names (hard links)"};
+    static const char *const modes[] = {"w", "a", "r+"};
+    struct stat before, after;
+    char path[SB_PATH_MAX], target[SB_PATH_MAX];
+    snprintf(path, sizeof path, "%s", at("place"));
+    snprintf(target, sizeof target, "%s", at("target"));
+    write_whole("target", "kept", 0);
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+        if (k == 0) assert_int_equal(symlink("target", path), 0);
+        if (k == 1) assert_int_equal(mkdir(path, 0700), 0);
+        if (k == 2) assert_int_equal(mkfifo(path, 0600), 0);
+        if (k == 3 && mknod(path, S_IFCHR | 0600, makedev(1, 3)) != 0) continue; /* only root may */
+        if (k == 4) assert_int_equal(link(target, path), 0);
+        assert_int_equal(lstat(path, &before), 0);
+        for (size_t m = 0; m < sizeof modes / sizeof *modes; m++) {
+            FILE *stream;
+            sb_error error = {0};
+            assert_int_equal(sb_file_open(path, modes[m], &stream, &error), SB_FAILED);
+            assert_null(stream);
+            assert_non_null(strstr(error.text, "place: "));
+            assert_non_null(strstr(error.text, kinds[k]));
+        }
+        sb_atomic_file file;
+        sb_error error = {0};
+        const sb_status status = sb_atomic_open(&file, path, &error);
+        assert_int_equal(status, k == 4 ? SB_OK : SB_FAILED); /* a rename takes one name only */
+        if (status == SB_OK)
+            sb_atomic_abort(&file);
+        else
+            assert_non_null(strstr(error.text, kinds[k]));
+        assert_int_equal(lstat(path, &after), 0);
+        assert_true(before.st_ino == after.st_ino && before.st_mode == after.st_mode);
+        assert_int_equal(remove(path), 0);
+    }
+    check_text("target", "kept");
+    assert_int_equal(unlink(at("target")), 0);
 }
 
 static void paths_join_and_part(void **state)
@@ -255,6 +298,7 @@ int main(void)
         cmocka_unit_test(numbered_files_go_from_a_number_on),
         cmocka_unit_test(full_disk_is_an_error),
         cmocka_unit_test(directories_come_with_their_parents),
+        cmocka_unit_test(only_files_of_their_own_are_opened),
         cmocka_unit_test(paths_join_and_part),
         cmocka_unit_test(reading_has_its_limits),
         cmocka_unit_test(text_comes_without_its_mark),

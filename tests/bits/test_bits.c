@@ -83,9 +83,9 @@ static void check_program(size_t s, end reached, bool consumers, const char *thr
              pictures);
     snprintf(frames[1], sizeof frames[1], "output={particle_interval: %.6g, plots: false}", interval);
     snprintf(frames[2], sizeof frames[2], "stream={enabled: %s, url: 'memq://'}", consumers ? "true" : "false");
-    RUN_AND_FORGET(0, "run", scenes[s].file, "--out", "bits", "--quiet", "--until", until, "--threads", threads,
-                   "--set", scenes[s].resolution, "--set", settle, "--set", frames[0], "--set", frames[1], "--set",
-                   frames[2]);
+    RUN_AND_FORGET(0, "run", scenes[s].file, "--out", "bits", "--quiet", "--overwrite", "--until", until, "--threads",
+                   threads, "--set", scenes[s].resolution, "--set", settle, "--set", frames[0], "--set", frames[1],
+                   "--set", frames[2]);
     char *text = text_of("bits/summary.json");
     const char *value = json_find(text, "state_hash");
     assert_non_null(value);

@@ -86,7 +86,7 @@ static sb_status run_with(const sb_override *override, const sb_run_manner *mann
 /* One whole run, from the scene's text on. */
 static sb_status run_once(sb_error *error)
 {
-    return run_with(NULL, &(sb_run_manner){.quiet = true}, error);
+    return run_with(NULL, &(sb_run_manner){.overwrite = true, .quiet = true}, error);
 }
 
 /* One that writes checkpoints, and one that goes on from one: without memory for writing one the run goes on. */
@@ -94,7 +94,7 @@ static const sb_override checkpoints = {"output.checkpoint.steps", "2"};
 
 static sb_status run_saved(sb_error *error)
 {
-    return run_with(&checkpoints, &(sb_run_manner){.quiet = true}, error);
+    return run_with(&checkpoints, &(sb_run_manner){.overwrite = true, .quiet = true}, error);
 }
 
 static sb_status run_resumed(sb_error *error)

@@ -2,6 +2,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "process.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -96,6 +97,7 @@ static sb_status begin(const sb_workbench *bench, const sb_job *job, worker *w, 
     *w = (worker){.job = job, .start = sb_clock()};
     sb_status status = sb_workbench_folder(bench, job, w->outcome.folder, error);
     if (status == SB_OK) status = sb_workbench_clear(w->outcome.folder, error);
+    if (status == SB_OK) status = sb_process_claim(w->outcome.folder, error);
     if (status != SB_OK) return status;
     fflush(NULL);
     pid_t process = fork();
@@ -121,12 +123,12 @@ static void last_words(sb_outcome *o)
     if (in) fclose(in);
 }
 
-/* Whether the run was told to stop before it had opened its log, and had no word for it yet. */
+/* Whether the run was told to stop before it had begun its log, and had no word for it yet. */
 static bool stopped_early(const worker *w, int how)
 {
-    char path[SB_PATH_MAX];
+    char path[SB_PATH_MAX], byte;
     return w->told && WIFSIGNALED(how) && WTERMSIG(how) == SIGTERM &&
-           sb_path_join(path, w->outcome.folder, "run.jsonl", NULL) == SB_OK && access(path, F_OK) != 0;
+           sb_path_join(path, w->outcome.folder, "run.jsonl", NULL) == SB_OK && sb_file_start(path, &byte, 1) == 0;
 }
 
 static void classify(worker *w, int how)

@@ -32,6 +32,17 @@ sb_status sb_process_start(const char *program, const char *const *arguments, co
     _exit(127);
 }
 
+sb_status sb_process_claim(const char *folder, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    FILE *log = NULL;
+    sb_status status = sb_make_directories(folder, error);
+    if (status == SB_OK) status = sb_path_join(path, folder, "run.jsonl", error);
+    if (status == SB_OK) status = sb_file_open(path, "a", &log, error);
+    if (log) fclose(log);
+    return status;
+}
+
 sb_status sb_process_beside(const char *name, char path[SB_PATH_MAX], sb_error *error)
 {
     char own[SB_PATH_MAX], folder[SB_PATH_MAX];

@@ -13,6 +13,10 @@
 sb_status sb_process_start(const char *program, const char *const *arguments, const char *said, int parting,
                            pid_t *process, sb_error *error);
 
+/* Makes the folder, and in it an empty log where there is none: by that mark `shorebreak run` takes it for a run's own,
+   though files of this program lie there, too. */
+sb_status sb_process_claim(const char *folder, sb_error *error);
+
 /* The path of the program `name` that lies beside the running one; the running one's own path with NULL. */
 sb_status sb_process_beside(const char *name, char path[SB_PATH_MAX], sb_error *error);
 

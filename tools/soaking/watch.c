@@ -98,7 +98,7 @@ static sb_status start(const sb_soak_watch *w, bool resume, pid_t *process, sb_e
                                      prefix,
                                      "--set",
                                      "stream.enabled=true",
-                                     resume ? "--resume" : NULL,
+                                     resume ? "--resume" : "--overwrite",
                                      NULL};
     return sb_process_start(run->program, arguments, run->said, SIGTERM, process, error);
 }

@@ -79,7 +79,7 @@ static sb_status begin(crew *c, const sb_request *request, job *j, sb_error *err
     sb_status status = sb_store_folder(c->store, request, j->folder, error);
     if (status == SB_BAD_INPUT) return refuse(c, request, error);
     if (status == SB_OK) status = sb_path_join(scene, c->store->assets, request->of->scene, error);
-    if (status == SB_OK) status = sb_make_directories(j->folder, error);
+    if (status == SB_OK) status = sb_process_claim(j->folder, error);
     if (status == SB_OK) status = sb_store_forget(j->folder, error);
     if (status == SB_OK) status = start(c->store, scene, j, c->size == 1, error);
     c->busy += status == SB_OK;

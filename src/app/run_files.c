@@ -1,0 +1,304 @@
+#include "app/run_files.h"
+
+#include "app/checkpoint_parts.h"
+#include "base/memory.h"
+#include "output/csv.h"
+#include "output/esri.h"
+#include "render/image.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define PNG "\x89PNG"
+
+typedef enum place { CHECKPOINTS, PARTICLES, MAPS, PLOTS, CAMERA, TOP } place;
+
+static const char *const folders[] = {
+    [CHECKPOINTS] = "checkpoints", [PARTICLES] = "particles", [MAPS] = "maps", [PLOTS] = "plots", [CAMERA] = "frames"};
+enum { FOLDERS = sizeof folders / sizeof *folders };
+
+enum { KEPT = 1 /* overwritten by the next run, not removed before */,
+       GROWS = 2 /* written in place: under a further name another file would change */ };
+
+/* names + ending, and how such a file begins: nothing of the user's goes. */
+static const struct {
+    place in;
+    const char *const *names, *ending, *start;
+    unsigned how;
+} known[] = {
+    {TOP, (const char *const[]){"run", NULL}, ".jsonl", SB_RUN_LOG_START, KEPT | GROWS},
+    {TOP, (const char *const[]){"scene", NULL}, ".yaml", SB_SCENE_WRITTEN, KEPT},
+    {TOP, (const char *const[]){"summary", NULL}, ".json", "{", 0},
+    {TOP, sb_csv_names, ".csv", "time_s,", GROWS},
+    {TOP, (const char *const[]){"particles", NULL}, ".pvd", "<?xml", 0},
+    {PARTICLES, (const char *const[]){"last-good", NULL}, ".vtp", "<?xml", 0},
+    {CHECKPOINTS, (const char *const[]){SB_CHECKPOINT_SETTLING, NULL}, SB_CHECKPOINT_SUFFIX, SB_CHECKPOINT_KIND, 0},
+    {MAPS, sb_map_names, ".asc", "ncols", 0},
+    {MAPS, sb_map_names, ".png", PNG, 0},
+    {PLOTS, sb_csv_names, ".png", PNG, 0},
+    {PLOTS, sb_csv_names, ".dat", "", 0},
+    {PLOTS, sb_csv_names, ".gp", "", 0},
+    {PLOTS, sb_map_names, ".gp", "", 0},
+    {PLOTS, (const char *const[]){"part", NULL}, ".png", "", 0},
+};
+
+static const struct {
+    place in;
+    const char *ending, *start;
+} numbered[] = {{PARTICLES, ".vtp", "<?xml"}, {CHECKPOINTS, SB_CHECKPOINT_SUFFIX, SB_CHECKPOINT_KIND}};
+
+/* What a file's name says of it. */
+typedef struct kind {
+    bool named;        /* a run names its files like this one */
+    const char *start; /* how it begins; NULL: see own */
+    bool own;
+    unsigned how;
+} kind;
+
+typedef struct finder {
+    const char *directory;
+    const sb_scene *scene; /* may be NULL */
+    int camera;            /* the only one that is drawn; < 0: all */
+    char *earlier;         /* the text of the earlier run's scene.yaml from its cameras on; NULL: none */
+    sb_run_files *files;
+    sb_error *error;
+} finder;
+
+/* An empty file is anyone's: a full disk leaves it. */
+static bool begins_with(const char *path, const char *start)
+{
+    char bytes[64];
+    const size_t got = sb_file_start(path, bytes, sizeof bytes), length = strlen(start);
+    return memcmp(bytes, start, got < length ? got : length) == 0;
+}
+
+static bool is_folder(const char *path)
+{
+    struct stat found;
+    return lstat(path, &found) == 0 && S_ISDIR(found.st_mode);
+}
+
+/* ---- cameras ---- */
+
+static bool has_camera(const finder *f, const char *name)
+{
+    const sb_scene *scene = f->scene;
+    for (size_t c = 0; scene && c < scene->render.camera_count; c++)
+        if ((f->camera < 0 || (size_t)f->camera == c) && strcmp(scene->render.cameras[c].name, name) == 0) return true;
+    return false;
+}
+
+/* Pictures of versions that did not mark them are told by the camera. */
+static bool earlier_camera(const finder *f, const char *name)
+{
+    char words[SB_RUN_NAME_MAX];
+    snprintf(words, sizeof words, "name: \"%.255s\"\n", name);
+    return f->earlier && strstr(f->earlier, words);
+}
+
+static bool is_marked(const char *path)
+{
+    char bytes[SB_PNG_MARK_WITHIN];
+    return sb_png_is_own(bytes, sb_file_start(path, bytes, sizeof bytes));
+}
+
+/* Whether a run, or render, has drawn pictures for this camera. */
+static bool own_camera(const finder *f, const char *name)
+{
+    char folder[SB_PATH_MAX], path[SB_PATH_MAX];
+    if (earlier_camera(f, name)) return true;
+    const int length = snprintf(folder, sizeof folder, "%s/frames/%.255s", f->directory, name);
+    if (length >= (int)sizeof folder || !is_folder(folder)) return false;
+    DIR *entries = opendir(folder);
+    const struct dirent *entry;
+    bool own = false;
+    while (entries && !own && (entry = readdir(entries)))
+        own = sb_is_numbered(entry->d_name, ".png", 0) && sb_path_join(path, folder, entry->d_name, NULL) == SB_OK &&
+              is_marked(path);
+    if (entries) closedir(entries);
+    return own;
+}
+
+/* <camera>.mp4, or .<camera>.part.mp4, which was being made. */
+static kind kind_of_film(const finder *f, const char *name)
+{
+    const bool part = name[0] == '.';
+    const char *ending = part ? ".part.mp4" : ".mp4";
+    const size_t length = strlen(name), tail = strlen(ending);
+    char camera[256];
+    if (length <= tail + part || strcmp(name + length - tail, ending) != 0) return (kind){.named = false};
+    snprintf(camera, sizeof camera, "%.*s", (int)(length - tail - part), name + part);
+    const bool own = own_camera(f, camera);
+    return (kind){.named = own || has_camera(f, camera), .own = own};
+}
+
+static kind kind_of_picture(const finder *f, const char *camera, const char *path, const char *name)
+{
+    if (!sb_is_numbered(name, ".png", 0)) return (kind){.named = false};
+    const bool wanted = has_camera(f, camera);
+    const bool own = earlier_camera(f, camera) || is_marked(path) || (wanted && strstr(name, ".tmp"));
+    return (kind){.named = own || wanted, .own = own};
+}
+
+/* ---- entries ---- */
+
+static kind kind_of(const finder *f, place in, const char *camera, const char *path, const char *name)
+{
+    const size_t whole = strlen(name);
+    const bool temporary = whole > 4 && strcmp(name + whole - 4, ".tmp") == 0;
+    const size_t length = whole - (temporary ? 4 : 0);
+    if (in == CAMERA) return kind_of_picture(f, camera, path, name);
+    for (size_t k = 0; k < sizeof numbered / sizeof *numbered; k++)
+        if (numbered[k].in == in && sb_is_numbered(name, numbered[k].ending, 0))
+            return (kind){.named = true, .start = temporary ? "" : numbered[k].start};
+    for (size_t k = 0; k < sizeof known / sizeof *known; k++)
+        for (size_t n = 0; known[k].in == in && known[k].names[n]; n++) {
+            const size_t stem = strlen(known[k].names[n]);
+            if (length != stem + strlen(known[k].ending) || strncmp(name, known[k].names[n], stem) != 0 ||
+                strncmp(name + stem, known[k].ending, length - stem) != 0)
+                continue;
+            return (kind){.named = true,
+                          .start = temporary ? "" : known[k].start,
+                          .how = temporary ? known[k].how & ~(unsigned)KEPT : known[k].how};
+        }
+    return in == TOP ? kind_of_film(f, name) : (kind){.named = false};
+}
+
+static void note_other(const finder *f, const char *path)
+{
+    if (f->files->others++ == 0)
+        snprintf(f->files->first_other, SB_RUN_NAME_MAX, "%s", path + strlen(f->directory) + 1);
+}
+
+static sb_status note_own(const finder *f, const char *path)
+{
+    sb_run_files *files = f->files;
+    char *copy = sb_strdup(path);
+    if (!copy || sb_grow((void **)&files->own, &files->capacity, files->count + 1, sizeof *files->own) != 0) {
+        sb_free(copy);
+        return sb_fail_memory(f->error, "the list of an earlier run's files");
+    }
+    files->own[files->count++] = copy;
+    return SB_OK;
+}
+
+static sb_status note(const finder *f, place in, const char *camera, const char *path, const char *name)
+{
+    struct stat found;
+    if (lstat(path, &found) != 0) return SB_OK;
+    const kind what = kind_of(f, in, camera, path, name);
+    if (!what.named) {
+        if (in == TOP && name[0] == '.') return SB_OK;
+        note_other(f, path);
+        return SB_OK;
+    }
+    const char *other = sb_file_kind(found.st_mode);
+    if (other)
+        return sb_fail(f->error, SB_FAILED, "%.500s: is %s, expected a file of a run or nothing", path, other);
+    if (what.how & GROWS && found.st_nlink > 1)
+        return sb_fail(f->error, SB_FAILED,
+                       "%.500s: has %lu names (hard links), and the run would change the file under each of them; "
+                       "expected a file with one name: copy it",
+                       path, (unsigned long)found.st_nlink);
+    if (!(what.start ? begins_with(path, what.start) : what.own)) {
+        if (!f->files->foreign[0])
+            snprintf(f->files->foreign, SB_RUN_NAME_MAX, "%s", path + strlen(f->directory) + 1);
+        return SB_OK;
+    }
+    return what.how & KEPT ? SB_OK : note_own(f, path);
+}
+
+/* ---- folders ---- */
+
+static sb_status look_into(const finder *f, place in, const char *camera, const char *folder);
+
+static bool is_own_folder(const char *name)
+{
+    for (size_t k = 0; k < FOLDERS; k++)
+        if (strcmp(name, folders[k]) == 0) return true;
+    return false;
+}
+
+static sb_status look_at(const finder *f, place in, const char *camera, const char *folder, const char *name)
+{
+    char path[SB_PATH_MAX];
+    sb_status status = sb_path_join(path, folder, name, f->error);
+    if (status != SB_OK || (in == TOP && is_own_folder(name) && is_folder(path))) return status;
+    if (in == CAMERA && !camera && is_folder(path)) return look_into(f, in, name, path);
+    if (in == CAMERA && !camera) {
+        note_other(f, path);
+        return SB_OK;
+    }
+    return note(f, in, camera, path, name);
+}
+
+/* camera NULL: the folder of all cameras' folders. */
+static sb_status look_into(const finder *f, place in, const char *camera, const char *folder)
+{
+    const struct dirent *entry;
+    sb_status status = SB_OK;
+    if (!is_folder(folder) && in != TOP) return SB_OK;
+    DIR *entries = opendir(folder);
+    if (!entries) return sb_fail(f->error, SB_FAILED, "%.500s: cannot read: %s", folder, strerror(errno));
+    while (status == SB_OK && (entry = readdir(entries)))
+        if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0)
+            status = look_at(f, in, camera, folder, entry->d_name);
+    closedir(entries);
+    return status;
+}
+
+/* ---- the whole ---- */
+
+/* The cameras of the scene that the earlier run wrote. */
+static sb_status read_earlier(finder *f, char **text)
+{
+    char path[SB_PATH_MAX];
+    struct stat found;
+    size_t length;
+    *text = NULL;
+    if (sb_path_join(path, f->directory, "scene.yaml", NULL) != SB_OK || lstat(path, &found) != 0 ||
+        !S_ISREG(found.st_mode) || found.st_size == 0 || !begins_with(path, SB_SCENE_WRITTEN))
+        return SB_OK;
+    sb_status status = sb_file_read(path, (size_t)1 << 24, text, &length, f->error);
+    if (status == SB_OK) f->earlier = strstr(*text, "\n  cameras:");
+    return status;
+}
+
+static sb_status look_at_folder(const finder *f, place in)
+{
+    char folder[SB_PATH_MAX];
+    sb_status status = sb_path_join(folder, f->directory, folders[in], f->error);
+    return status == SB_OK ? look_into(f, in, NULL, folder) : status;
+}
+
+sb_status sb_run_files_find(const char *directory, const sb_scene *scene, sb_run_files *files, sb_error *error)
+{
+    finder f = {.directory = directory, .scene = scene, .camera = -1, .files = files, .error = error};
+    char *text;
+    *files = (sb_run_files){0};
+    sb_status status = read_earlier(&f, &text);
+    for (size_t k = 0; status == SB_OK && k < FOLDERS; k++) status = look_at_folder(&f, (place)k);
+    if (status == SB_OK) status = look_into(&f, TOP, NULL, directory);
+    sb_free(text);
+    return status;
+}
+
+sb_status sb_run_files_find_pictures(const char *directory, const sb_scene *scene, int camera, sb_run_files *files,
+                                     sb_error *error)
+{
+    finder f = {.directory = directory, .scene = scene, .camera = camera, .files = files, .error = error};
+    char *text, film[128];
+    *files = (sb_run_files){0};
+    sb_status status = read_earlier(&f, &text);
+    if (status == SB_OK) status = look_at_folder(&f, CAMERA);
+    for (size_t c = 0; status == SB_OK && c < scene->render.camera_count; c++) {
+        if (camera >= 0 && (size_t)camera != c) continue;
+        snprintf(film, sizeof film, "%.100s.mp4", scene->render.cameras[c].name);
+        status = look_at(&f, TOP, NULL, directory, film);
+    }
+    sb_free(text);
+    return status;
+}
