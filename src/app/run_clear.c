@@ -22,13 +22,16 @@ static long start_of(const char *directory, const char *name, char *text, size_t
     return (long)got;
 }
 
+/* A run that is killed while it writes its first file leaves no more than this. */
+static const char beginning[] = "scene.yaml.tmp";
+
 static bool is_empty(const char *directory, char name[SB_RUN_NAME_MAX])
 {
     DIR *entries = opendir(directory);
     const struct dirent *entry;
     bool empty = true;
     while (entries && empty && (entry = readdir(entries))) {
-        empty = entry->d_name[0] == '.';
+        empty = entry->d_name[0] == '.' || strcmp(entry->d_name, beginning) == 0;
         if (!empty) snprintf(name, SB_RUN_NAME_MAX, "%s", entry->d_name);
     }
     if (entries) closedir(entries);

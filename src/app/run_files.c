@@ -20,8 +20,10 @@ static const char *const folders[] = {
     [CHECKPOINTS] = "checkpoints", [PARTICLES] = "particles", [MAPS] = "maps", [PLOTS] = "plots", [CAMERA] = "frames"};
 enum { FOLDERS = sizeof folders / sizeof *folders };
 
-enum { KEPT = 1 /* overwritten by the next run, not removed before */,
-       GROWS = 2 /* written in place: under a further name another file would change */ };
+enum {
+    KEPT = 1 /* overwritten by the next run, not removed before */,
+    GROWS = 2 /* written in place: under a further name another file would change */
+};
 
 /* names + ending, and how such a file begins: nothing of the user's goes. */
 static const struct {
@@ -196,16 +198,14 @@ static sb_status note(const finder *f, place in, const char *camera, const char 
         return SB_OK;
     }
     const char *other = sb_file_kind(found.st_mode);
-    if (other)
-        return sb_fail(f->error, SB_FAILED, "%.500s: is %s, expected a file of a run or nothing", path, other);
-    if (what.how & GROWS && found.st_nlink > 1)
+    if (other) return sb_fail(f->error, SB_FAILED, "%.500s: is %s, expected a file of a run or nothing", path, other);
+    if (f->scene && what.how & GROWS && found.st_nlink > 1)
         return sb_fail(f->error, SB_FAILED,
                        "%.500s: has %lu names (hard links), and the run would change the file under each of them; "
                        "expected a file with one name: copy it",
                        path, (unsigned long)found.st_nlink);
     if (!(what.start ? begins_with(path, what.start) : what.own)) {
-        if (!f->files->foreign[0])
-            snprintf(f->files->foreign, SB_RUN_NAME_MAX, "%s", path + strlen(f->directory) + 1);
+        if (!f->files->foreign[0]) snprintf(f->files->foreign, SB_RUN_NAME_MAX, "%s", path + strlen(f->directory) + 1);
         return SB_OK;
     }
     return what.how & KEPT ? SB_OK : note_own(f, path);

@@ -33,7 +33,8 @@ typedef struct sb_run_files {
 } sb_run_files;
 
 /* Looks through the directory. SB_FAILED also when something else than a regular file stands where a run writes one,
-   or, for a table or the log, a file that has further names. scene: the run's; NULL: not known. */
+   or, for a table or the log, a file that has further names. scene: of the run that would write;
+   NULL: none, the files are read only. */
 sb_status sb_run_files_find(const char *directory, const sb_scene *scene, sb_run_files *files, sb_error *error);
 
 /* The same for the pictures and films of the scene's cameras alone. camera: of one of them; < 0: of all. */

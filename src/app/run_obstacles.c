@@ -40,6 +40,7 @@ sb_status sb_run_admit(run *r, const sb_run_manner *manner, sb_error *error)
     const sb_run_holds holds = sb_run_directory_holds(r->directory, name);
     sb_status status = judge_holding(r, manner, holds, name, error);
     if (status == SB_OK) status = sb_run_files_find(r->directory, r->scene, &r->left, error);
+    if (!manner->overwrite) r->left.others = 0; /* only who replaces a run may wonder what stays of it */
     if (status == SB_OK && manner->resume) status = sb_checkpoint_count(r, &count, error);
     const bool continues = manner->resume && (count > 0 || sb_checkpoint_settling_there(r));
     if (status == SB_OK && !continues && r->left.foreign[0])

@@ -15,7 +15,8 @@
 #include <unistd.h>
 
 enum { LINK, FIFO, DEVICE, FOLDER, HARD_LINK, KINDS };
-static const char *const kinds[KINDS] = {"a symbolic link", "a FIFO", "a device", "a directory", "2 names (hard links)"};
+static const char *const kinds[KINDS] = {"a symbolic link", "a FIFO", "a device", "a directory",
+                                         "2 names (hard links)"};
 
 static char places[64][96]; /* below the run's directory */
 static size_t count;
@@ -42,14 +43,21 @@ static int setup(void **state)
     if (program_setup(state) != 0) return -1;
     RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "r", "--quiet", "--set", "measure.map={}", "--set",
                    "measure.planes=[{name: p, from: [0.9, 0], to: [0.9, 0.8]}]", "--set",
-                   "measure.runups=[{name: r, from: [0.2, 0.4], to: [2.4, 0.4]}]", "--set", "output.plots=true", "--set",
-                   "render.video=true");
+                   "measure.runups=[{name: r, from: [0.2, 0.4], to: [2.4, 0.4]}]", "--set", "output.plots=true",
+                   "--set", "render.video=true");
     if (nftw(in_folder("r"), add_place, 16, FTW_PHYS) != 0) return -1;
     /* Written beside the final names, or in failure or while a run begins only. */
-    static const char *const more[] = {"scene.yaml.tmp", "summary.json.tmp", "particles.pvd.tmp", "maps/max_depth.asc.tmp",
-                                       "particles/000009.vtp.tmp", "particles/last-good.vtp",
-                                       "frames/side/000009.png.tmp", "checkpoints/000000999.state.tmp",
-                                       "checkpoints/settling.state", ".side.part.mp4", "plots/part.png"};
+    static const char *const more[] = {"scene.yaml.tmp",
+                                       "summary.json.tmp",
+                                       "particles.pvd.tmp",
+                                       "maps/max_depth.asc.tmp",
+                                       "particles/000009.vtp.tmp",
+                                       "particles/last-good.vtp",
+                                       "frames/side/000009.png.tmp",
+                                       "checkpoints/000000999.state.tmp",
+                                       "checkpoints/settling.state",
+                                       ".side.part.mp4",
+                                       "plots/part.png"};
     for (size_t k = 0; k < sizeof more / sizeof *more; k++) snprintf(places[count++], sizeof *places, "%s", more[k]);
     return 0;
 }
@@ -57,10 +65,20 @@ static int setup(void **state)
 static void every_kind_of_file_is_on_the_list(void **state)
 {
     (void)state;
-    static const char *const names[] = {"scene.yaml",  "run.jsonl",    "summary.json",        "forces.csv",
-                                        "gauges.csv",  "probes.csv",   "energy.csv",          "overtopping.csv",
-                                        "runup.csv",   "particles.pvd", "particles/000001.vtp", "maps/max_depth.asc",
-                                        "frames/side/000001.png", "frames/front/000001.png"};
+    static const char *const names[] = {"scene.yaml",
+                                        "run.jsonl",
+                                        "summary.json",
+                                        "forces.csv",
+                                        "gauges.csv",
+                                        "probes.csv",
+                                        "energy.csv",
+                                        "overtopping.csv",
+                                        "runup.csv",
+                                        "particles.pvd",
+                                        "particles/000001.vtp",
+                                        "maps/max_depth.asc",
+                                        "frames/side/000001.png",
+                                        "frames/front/000001.png"};
     for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
         bool found = false;
         for (size_t k = 0; k < count; k++) found = found || strcmp(places[k], names[n]) == 0;
@@ -130,7 +148,8 @@ static void a_run_is_refused(void **state)
             const bool was = rename(path, aside) == 0;
             if (put(kind, path)) {
                 check_refused(places[k], kind, path,
-                              (const char *const[]){"run", "tank3.yaml", "--out", "r", "--quiet", "--overwrite", NULL}, 2);
+                              (const char *const[]){"run", "tank3.yaml", "--out", "r", "--quiet", "--overwrite", NULL},
+                              2);
                 check_refused(places[k], kind, path,
                               (const char *const[]){"run", "tank3.yaml", "--out", "r", "--quiet", "--resume", NULL}, 2);
             }
@@ -154,15 +173,15 @@ static void render_and_sample_are_refused(void **state)
             char path[1200];
             snprintf(path, sizeof path, "%s", in_folder("%s", names[n]));
             if (!put(kind, path)) continue;
-            check_refused(names[n], kind, path,
-                          (const char *const[]){"render", "r", "--out", "album", "--quiet", NULL}, 2);
+            check_refused(names[n], kind, path, (const char *const[]){"render", "r", "--out", "album", "--quiet", NULL},
+                          2);
             assert_int_equal(remove(path), 0);
         }
         char path[1200];
         snprintf(path, sizeof path, "%s", in_folder("s.vtp"));
         if (!put(kind, path)) continue;
-        check_refused("--out s.vtp", kind, path,
-                      (const char *const[]){"sample", "tank3.yaml", "--out", "s.vtp", NULL}, 1);
+        check_refused("--out s.vtp", kind, path, (const char *const[]){"sample", "tank3.yaml", "--out", "s.vtp", NULL},
+                      1);
         assert_int_equal(remove(path), 0);
     }
 }
