@@ -5,7 +5,10 @@
 #include "process.h"
 #include "round.h"
 
+#include <errno.h>
 #include <stdio.h>
+#include <string.h>
+#include <unistd.h>
 
 /* Share of an undisturbed run's time within which a run is killed: beginnings, middles and ends all come. */
 static const double LONGEST = 0.6;
@@ -29,12 +32,16 @@ static sb_status name_run(const test *t, const char *name, bool pictures, char o
     return sb_path_join(out, t->options.out, folder, error);
 }
 
-/* Or a run would go on from an earlier one's. */
-static sb_status forget_checkpoints(const char *out, sb_error *error)
+/* Or a run would go on from an earlier one's checkpoint, or not begin where one is finished. */
+static sb_status forget_run(const char *out, sb_error *error)
 {
-    char folder[SB_PATH_MAX];
-    sb_status status = sb_path_join(folder, out, "checkpoints", error);
-    return status == SB_OK ? sb_remove_numbered(folder, ".state", 0, error) : status;
+    char path[SB_PATH_MAX];
+    sb_status status = sb_path_join(path, out, "checkpoints", error);
+    if (status == SB_OK) status = sb_remove_numbered(path, ".state", 0, error);
+    if (status == SB_OK) status = sb_path_join(path, out, "summary.json", error);
+    if (status == SB_OK && unlink(path) != 0 && errno != ENOENT)
+        status = sb_fail(error, SB_FAILED, "%.500s: cannot remove: %s", path, strerror(errno));
+    return status;
 }
 
 /* The run to compare with, once. */
@@ -42,7 +49,7 @@ static sb_status run_whole(test *t, const sb_kill_run *run, sb_error *error)
 {
     double *seconds = &t->seconds[run->pictures];
     if (*seconds > 0) return SB_OK;
-    sb_status status = forget_checkpoints(run->out, error);
+    sb_status status = forget_run(run->out, error);
     return status == SB_OK ? sb_kill_none(run, seconds, error) : status;
 }
 
@@ -54,7 +61,7 @@ static sb_status one_round(test *t, sb_kill_moments *moments, sb_error *error)
     sb_status status = name_run(t, "whole", pictures, whole, &run, error);
     if (status == SB_OK) status = run_whole(t, &run, error);
     if (status == SB_OK) status = name_run(t, "killed", pictures, killed, &run, error);
-    if (status == SB_OK) status = forget_checkpoints(killed, error);
+    if (status == SB_OK) status = forget_run(killed, error);
     moments->longest = LONGEST * t->seconds[pictures];
     if (status == SB_OK) status = sb_kill_some(&run, moments, t->options.kills - t->kills, &t->kills, error);
     t->rounds++;
