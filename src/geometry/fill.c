@@ -111,7 +111,7 @@ static void shake(const sb_scene *scene, sb_fluid *fluid)
 /* Adds the sea (box NULL) or one box; its columns join those of the waters before. */
 static sb_status add_water(const sb_scene *scene, const sb_fill_solid *solids, size_t count, const sb_fluid_box *box,
                            sb_columns *waters, size_t *water_count, sb_fluid *fluid, sb_box_share *share,
-                           sb_error *error)
+                           sb_wave_room *wave, sb_error *error)
 {
     sb_columns *c = waters + *water_count;
     sb_fluid more = {0};
@@ -120,6 +120,7 @@ static sb_status add_water(const sb_scene *scene, const sb_fill_solid *solids, s
     ++*water_count;
     for (size_t r = 0; box && r < c->run_count; ++r) c->runs[r].wet = true;
     if (!box) status = sb_columns_flood(c, error);
+    if (status == SB_OK) sb_columns_wave(c, wave);
     if (status == SB_OK) status = sb_columns_particles(c, &more, error);
     if (share) share->room = more.count;
     if (status == SB_OK && fluid->count > 0 && drop_doubles(waters, *water_count - 1, fluid, scene->resolution, &more))
@@ -134,14 +135,16 @@ sb_status sb_fill_water(const sb_scene *scene, const sb_fill_solid *solids, size
                         sb_error *error)
 {
     sb_fluid made = {0};
+    sb_wave_room wave = {.wet = false};
     size_t water_count = 0;
     sb_columns *waters = sb_alloc(scene->box_count + 1, sizeof *waters);
     sb_box_share *boxes = sb_alloc(scene->box_count, sizeof *boxes);
     sb_status status = waters && boxes ? SB_OK : sb_fail_memory(error, "water");
     if (status == SB_OK && scene->sea.present)
-        status = add_water(scene, solids, count, NULL, waters, &water_count, &made, NULL, error);
+        status = add_water(scene, solids, count, NULL, waters, &water_count, &made, NULL, &wave, error);
     for (size_t i = 0; i < scene->box_count && status == SB_OK; ++i)
-        status = add_water(scene, solids, count, scene->boxes + i, waters, &water_count, &made, boxes + i, error);
+        status =
+            add_water(scene, solids, count, scene->boxes + i, waters, &water_count, &made, boxes + i, &wave, error);
     for (size_t i = 0; i < water_count; ++i) sb_columns_free(waters + i);
     sb_free(waters);
     if (status != SB_OK) {
@@ -150,6 +153,7 @@ sb_status sb_fill_water(const sb_scene *scene, const sb_fill_solid *solids, size
         return status;
     }
     made.boxes = boxes;
+    made.wave = wave;
     shake(scene, &made);
     *fluid = made;
     return SB_OK;

@@ -17,6 +17,17 @@ typedef struct sb_box_share {
     size_t room, got;
 } sb_box_share;
 
+/* Of an initial solitary wave, what is above the still-water level, and the room that the water has for it. In 2D per
+   metre of width. */
+typedef struct sb_wave_room {
+    bool wet;         /* there is water for it at all */
+    double area;      /* m^2, of the whole wave in the plane x-z, as far up as the domain's top */
+    double width;     /* m, of the water across the wave, where that is widest */
+    double held;      /* m^3 of the wave that the water has */
+    double low, high; /* m, the water's extent in x */
+    double reach;     /* m, from the crest to where half a per cent of the volume is left */
+} sb_wave_room;
+
 /* Each particle stands for spacing^3 (2D: spacing^2 per metre) of water. Owned. */
 typedef struct sb_fluid {
     size_t count;
@@ -25,6 +36,7 @@ typedef struct sb_fluid {
     double *pressure;    /* Pa, hydrostatic below the local surface */
     double still_depth;  /* m, largest still depth of a column */
     sb_box_share *boxes; /* of each of the scene's boxes */
+    sb_wave_room wave;
 } sb_fluid;
 
 /* Fills the scene's sea and boxes. SB_BAD_INPUT names the place where a sea escapes, or what is

@@ -60,6 +60,9 @@ bool sb_columns_clear(const sb_columns *columns, sb_vec3 from, sb_vec3 to);
 /* Marks the runs that the sea's seed reaches. */
 sb_status sb_columns_flood(sb_columns *columns, sb_error *error);
 
+/* Adds what these waters have of the scene's initial solitary wave; once their runs are marked. */
+void sb_columns_wave(const sb_columns *columns, sb_wave_room *room);
+
 /* Particles of all wet runs, in the order of the columns; still_depth is theirs. */
 sb_status sb_columns_particles(const sb_columns *columns, sb_fluid *fluid, sb_error *error);
 

@@ -78,6 +78,7 @@ sb_status sb_model_fill(const sb_scene *scene, const sb_model_space *space, sb_m
     model->fluid_pressure = fluid.pressure;
     model->still_depth = fluid.still_depth;
     status = check_boxes(scene, &fluid, model, error);
+    if (status == SB_OK) status = sb_model_warn_of_wave(scene, &fluid.wave, model, error);
     sb_free(fluid.boxes);
     return status;
 }

@@ -2,6 +2,7 @@
 #ifndef SB_GEOMETRY_MODEL_PARTS_H
 #define SB_GEOMETRY_MODEL_PARTS_H
 
+#include "geometry/fill.h"
 #include "geometry/model.h"
 #include "geometry/solid.h"
 
@@ -42,6 +43,9 @@ sb_status sb_model_warn_of_shared(const sb_scene *scene, sb_model *model, sb_err
 /* A line for each wave maker that is too fast for its water, and for each moving body that runs into another. */
 sb_status sb_model_warn_of_strokes(const sb_scene *scene, const sb_model_space *space, sb_model *model,
                                    sb_error *error);
+
+/* A line for an initial solitary wave of which more than 1 % is cut off. */
+sb_status sb_model_warn_of_wave(const sb_scene *scene, const sb_wave_room *room, sb_model *model, sb_error *error);
 
 /* model_particles.c: places the particles of walls and of water. */
 sb_status sb_model_sample(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
