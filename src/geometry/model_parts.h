@@ -40,6 +40,9 @@ sb_status sb_model_warn_of_thin(const sb_scene *scene, sb_model *model, sb_error
 /* A line for each moving body whose face stands less than a support radius before a wall that looks the same way. */
 sb_status sb_model_warn_of_shared(const sb_scene *scene, sb_model *model, sb_error *error);
 
+/* One line for all bodies at rest whose surface lies so close behind that of another that both take its load. */
+sb_status sb_model_warn_of_clad(const sb_scene *scene, sb_model *model, sb_error *error);
+
 /* A line for each wave maker that is too fast for its water, and for each moving body that runs into another. */
 sb_status sb_model_warn_of_strokes(const sb_scene *scene, const sb_model_space *space, sb_model *model,
                                    sb_error *error);

@@ -24,7 +24,8 @@ static void make_flume(void)
 {
     scene.domain.max = sb_vec(60, 3, 5);
     scene.sea.seed = sb_vec(30, 1.5, 2);
-    scene.wave = (sb_initial_wave){.kind = SB_INITIAL_SOLITARY, .height = 1, .depth = 3, .position = 30, .direction = 1};
+    scene.wave =
+        (sb_initial_wave){.kind = SB_INITIAL_SOLITARY, .height = 1, .depth = 3, .position = 30, .direction = 1};
 }
 
 static void waves_that_are_cut_off_are_reported(void **state)
@@ -98,11 +99,69 @@ static void waves_cut_by_bodies_and_land_are_reported(void **state)
     remove(path);
 }
 
+/* Water presses on what lies behind a face, too, as long as it is within the support radius: here to 0.5 m. */
+static void surfaces_close_behind_others_are_reported(void **state)
+{
+    (void)state;
+    static const struct {
+        sb_vec3 min, max;
+        bool shared;
+    } cores[] = {
+        {{7.3, -1, -1}, {11, 7, 6}, true},    /* behind the whole face */
+        {{7.4, 2, -1}, {9, 4, 2}, true},      /* behind a part of it */
+        {{7.6, -1, -1}, {11, 7, 6}, false},   /* deeper */
+        {{6.7, 2, -1}, {9, 4, 2}, true},      /* before it: then the core is the cladding */
+        {{7, 4.5, -1}, {9, 7, 6}, false},     /* beside it */
+        {{7.3, 4.5, -1}, {9, 7, 6}, false},   /* beside it and set back */
+        {{7.3, -1, 3.4}, {9, 4.5, 6}, false}, /* on it */
+    };
+    for (int dimensions = 2; dimensions <= 3; ++dimensions)
+        for (size_t k = 0; k < sizeof cores / sizeof *cores; ++k) {
+            if (dimensions == 2 && (k == 4 || k == 5)) continue;
+            scene.dimensions = dimensions;
+            scene.sea.seed.y = dimensions == 2 ? 0 : 3;
+            scene.body_count = 0;
+            add_box("front", sb_vec(7, -1, -1), sb_vec(9, k > 3 ? 4.5 : 7, k > 5 ? 3.4 : 6))->report = true;
+            add_box("core", cores[k].min, cores[k].max);
+            if (dimensions == 2) bodies[1].min.y = -1;
+            build();
+            assert_int_equal(warned("sum of their forces", ""), cores[k].shared);
+            if (!cores[k].shared) continue;
+            const char *line = warning("\"front\"", "\"core\"");
+            assert_true(fabs(number_after(line, "lies about ") - fabs(cores[k].min.x - 7)) < 0.01);
+            assert_int_equal(strstr(line, "\"core\"") > strstr(line, "\"front\""), cores[k].min.x > 7);
+            bodies[0].report = false; /* nobody reads these forces */
+            build();
+            assert_false(warned("sum of their forces", ""));
+        }
+}
+
+/* Many of them share a line, and none is left out of the count. */
+static void many_surfaces_behind_others_share_a_line(void **state)
+{
+    (void)state;
+    scene.domain.max.y = 24;
+    add_box("front", sb_vec(7, -1, -1), sb_vec(9, 25, 6))->report = true;
+    for (int k = 0; k < 12; k++) {
+        char name[SB_NAME_MAX];
+        snprintf(name, sizeof name, "a-name-that-leaves-no-room-for-all-others-in-a-line-%d", k);
+        add_box(name, sb_vec(7.4, 2 * k, -1), sb_vec(9, 2 * k + 1, 6));
+    }
+    build();
+    const char *line = warning("sum of their forces", "; likewise");
+    int named = 0;
+    for (const char *at = line; (at = strstr(at, "a-name")) != NULL; at++) named++;
+    assert_true(named > 1 && named < 12);
+    assert_int_equal(named + (int)number_after(strstr(line, "; likewise"), " and "), 12);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         CASE(waves_that_are_cut_off_are_reported),
         CASE(waves_cut_by_bodies_and_land_are_reported),
+        CASE(surfaces_close_behind_others_are_reported),
+        CASE(many_surfaces_behind_others_share_a_line),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

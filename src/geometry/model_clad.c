@@ -1,0 +1,205 @@
+/* Bodies at rest whose surface lies close behind that of another: within the support radius of the water both take its
+   load, and neither force is that of the body alone. */
+#include "base/memory.h"
+#include "geometry/model_parts.h"
+#include "geometry/sample_set.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Looking the same way: the cosine between two normals. In spacings: BESIDE along the face, CLOSEST behind it; as near
+   as FIRST to a face its water is. SHARE of a face that has to be concerned. */
+static const double SAME_WAY = 0.9, BESIDE = 0.75, CLOSEST = 0.05, FIRST = 0.5, SHARE = 0.2;
+
+/* Faces by the axis and sign that their normal is nearest to. */
+enum { FACES = 6 };
+
+typedef struct search {
+    const sb_model *model;
+    double depth;   /* m: what is farther behind a surface takes no load */
+    size_t *totals; /* FACES per body: its particles */
+    size_t *found;  /* FACES per body: particles of the present one that the body has a surface behind */
+    size_t *behind; /* FACES per body: particles of the body that are behind the present one */
+    uint8_t *seen;  /* per boundary particle: counted in `behind` already */
+    sb_vec3 *place; /* per body: of the first found */
+    double *nearest;
+    size_t pairs;
+    char first[700];  /* the first pair: front, rear, place */
+    char others[600]; /* further ones, as far as there is room */
+    size_t named;
+} search;
+
+static int face_of(sb_vec3 normal)
+{
+    const double size[3] = {fabs(normal.x), fabs(normal.y), fabs(normal.z)};
+    const int axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
+    const double along = axis == 0 ? normal.x : axis == 1 ? normal.y : normal.z;
+    return 2 * axis + (along > 0);
+}
+
+static bool takes_part(const sb_model_body *body)
+{
+    return body->wavemaker < 0 && body->count > 0;
+}
+
+static void extent_of(const sb_model *model, const sb_model_body *body, double margin, sb_vec3 *min, sb_vec3 *max)
+{
+    *min = *max = model->wall_position[body->begin];
+    for (size_t i = body->begin; i < body->begin + body->count; i++) {
+        *min = sb_min(*min, model->wall_position[i]);
+        *max = sb_max(*max, model->wall_position[i]);
+    }
+    const sb_vec3 more = sb_vec(margin, margin, margin);
+    *min = sb_sub(*min, more);
+    *max = sb_add(*max, more);
+}
+
+/* The other bodies' particles near the front one, each with its own index as source. */
+static int gather(const sb_model *model, size_t front, sb_vec3 min, sb_vec3 max, sb_sample_set *near)
+{
+    for (size_t b = 0; b < model->body_count; b++) {
+        const sb_model_body *body = &model->bodies[b];
+        if (b == front || !takes_part(body) || !(body->report || model->bodies[front].report)) continue;
+        for (size_t i = body->begin; i < body->begin + body->count; i++) {
+            const sb_vec3 at = model->wall_position[i];
+            if (at.x < min.x || at.y < min.y || at.z < min.z || at.x > max.x || at.y > max.y || at.z > max.z) continue;
+            const sb_sample one = {.at = at, .normal = model->wall_normal[i], .source = (uint32_t)i};
+            if (sb_sample_set_add(near, &one) != 0) return -1;
+        }
+    }
+    return 0;
+}
+
+static size_t body_of(const sb_model *model, size_t particle)
+{
+    size_t b = 0;
+    while (particle < model->bodies[b].begin || particle >= model->bodies[b].begin + model->bodies[b].count) b++;
+    return b;
+}
+
+/* The particle behind this one that looks the same way, and how deep; SIZE_MAX: there is none. */
+static size_t look_behind(const search *s, const sb_sample_set *near, sb_vec3 at, sb_vec3 normal, double *depth)
+{
+    const double spacing = s->model->spacing;
+    for (double step = 0.25 * spacing; near->sample && step <= s->depth; step += 0.5 * spacing) {
+        size_t index = 0;
+        const sb_vec3 there = sb_madd(at, -step, normal);
+        if (!(sb_sample_set_nearest(near, there, spacing, &index) < spacing)) continue;
+        const sb_sample *wall = &near->sample[index];
+        const sb_vec3 way = sb_sub(at, wall->at);
+        *depth = sb_dot(way, normal);
+        if (sb_dot(wall->normal, normal) > SAME_WAY && *depth > CLOSEST * spacing && *depth < s->depth &&
+            sb_norm(sb_madd(way, -*depth, normal)) < BESIDE * spacing)
+            return wall->source;
+    }
+    return SIZE_MAX;
+}
+
+static void count_behind(search *s, const sb_model_body *front, const sb_sample_set *near)
+{
+    const sb_model *model = s->model;
+    for (size_t i = front->begin; i < front->begin + front->count; i++) {
+        double depth = 0;
+        const size_t rear = look_behind(s, near, model->wall_position[i], model->wall_normal[i], &depth);
+        if (rear == SIZE_MAX) continue;
+        const size_t b = body_of(model, rear);
+        if (!(s->nearest[b] <= depth)) {
+            s->nearest[b] = depth;
+            s->place[b] = model->wall_position[i];
+        }
+        s->found[FACES * b + (size_t)face_of(model->wall_normal[i])]++;
+        if (!s->seen[rear]) s->behind[FACES * b + (size_t)face_of(model->wall_normal[rear])]++;
+        s->seen[rear] = 1;
+    }
+}
+
+static bool matters(const search *s, size_t front, size_t rear)
+{
+    for (size_t f = 0; f < FACES; f++) {
+        const size_t found = s->found[FACES * rear + f], behind = s->behind[FACES * rear + f];
+        if ((double)found > SHARE * (double)s->totals[FACES * front + f] ||
+            (double)behind > SHARE * (double)s->totals[FACES * rear + f])
+            return true;
+    }
+    return false;
+}
+
+static void note(search *s, const sb_model_body *front, const sb_model_body *rear, sb_vec3 place, double depth)
+{
+    const size_t length = strlen(s->others);
+    if (s->pairs++ == 0) {
+        snprintf(s->first, sizeof s->first,
+                 "bodies \"%s\" and \"%s\": the surface of the second lies about %.2g m behind that of the first, near (%.4g, "
+                 "%.4g, %.4g)",
+                 front->name, rear->name, depth, place.x, place.y, place.z);
+        return;
+    }
+    if (length + strlen(front->name) + strlen(rear->name) + 32 > sizeof s->others) return;
+    snprintf(s->others + length, sizeof s->others - length, "%s \"%s\" behind \"%s\"",
+             length == 0 ? "; likewise" : ",", rear->name, front->name);
+    s->named++;
+}
+
+static sb_status look(search *s, size_t front, sb_error *error)
+{
+    const sb_model *model = s->model;
+    const sb_model_body *body = &model->bodies[front];
+    sb_vec3 min, max;
+    extent_of(model, body, s->depth + model->spacing, &min, &max);
+    sb_sample_set near = {.cell = model->spacing, .origin = min};
+    if (gather(model, front, min, max, &near) != 0) {
+        sb_sample_set_free(&near);
+        return sb_fail_memory(error, "surfaces behind surfaces");
+    }
+    memset(s->found, 0, FACES * model->body_count * sizeof *s->found);
+    memset(s->behind, 0, FACES * model->body_count * sizeof *s->behind);
+    memset(s->seen, 0, model->wall_count);
+    for (size_t b = 0; b < model->body_count; b++) s->nearest[b] = (double)NAN;
+    count_behind(s, body, &near);
+    sb_sample_set_free(&near);
+    for (size_t b = 0; b < model->body_count; b++)
+        if (matters(s, front, b)) note(s, body, &model->bodies[b], s->place[b], s->nearest[b]);
+    return SB_OK;
+}
+
+static sb_status look_at_all(search *s, sb_error *error)
+{
+    const sb_model *model = s->model;
+    sb_status status = SB_OK;
+    for (size_t b = 0; b < model->body_count; b++)
+        for (size_t i = model->bodies[b].begin; i < model->bodies[b].begin + model->bodies[b].count; i++)
+            s->totals[FACES * b + (size_t)face_of(model->wall_normal[i])]++;
+    for (size_t b = 0; b < model->body_count && status == SB_OK; b++)
+        if (takes_part(&model->bodies[b])) status = look(s, b, error);
+    return status;
+}
+
+sb_status sb_model_warn_of_clad(const sb_scene *scene, sb_model *model, sb_error *error)
+{
+    const sb_numerics *n = &scene->numerics;
+    const size_t rows = FACES * model->body_count;
+    search s = {.model = model, .depth = (n->support - n->wall_offset - FIRST) * model->spacing};
+    char more[40] = "";
+    s.totals = sb_alloc(rows, sizeof *s.totals);
+    s.found = sb_alloc(rows, sizeof *s.found);
+    s.behind = sb_alloc(rows, sizeof *s.behind);
+    s.seen = sb_alloc(model->wall_count, sizeof *s.seen);
+    s.place = sb_alloc(model->body_count, sizeof *s.place);
+    s.nearest = sb_alloc(model->body_count, sizeof *s.nearest);
+    sb_status status = s.totals && s.found && s.behind && s.seen && s.place && s.nearest
+                           ? look_at_all(&s, error)
+                           : sb_fail_memory(error, "surfaces behind surfaces");
+    if (status == SB_OK && s.pairs > s.named + 1) snprintf(more, sizeof more, " and %zu more", s.pairs - s.named - 1);
+    if (status == SB_OK && s.pairs > 0)
+        status = sb_model_warn(model, error,
+                               "%s: both take the load of the same water, so the force on each is wrong and the sum of "
+                               "their forces is right; expected one body, or %.3g m or more between the surfaces%s%s",
+                               s.first, s.depth, s.others, more);
+    sb_free(s.totals);
+    sb_free(s.found);
+    sb_free(s.behind);
+    sb_free(s.seen);
+    sb_free(s.place);
+    sb_free(s.nearest);
+    return status;
+}
