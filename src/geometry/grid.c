@@ -65,7 +65,7 @@ static void fill_mesh(const sb_grid *grid, double datum, uint32_t *vertex_of, sb
         }
     for (size_t i = 0; i < mesh->triangle_count; ++i)
         for (int k = 0; k < 3; ++k) mesh->triangles[i][k] = vertex_of[mesh->triangles[i][k]];
-    mesh->vertex_count = vertices;
+    mesh->vertex_count = mesh->node_count = vertices;
 }
 
 /* Where no height is. */

@@ -20,6 +20,7 @@ typedef struct sb_mesh {
     size_t closed;     /* triangles put where the file had a hole of one */
     size_t ends;       /* open edges that walls were hung from, by sb_mesh_skirt */
     sb_vec3 first_end; /* m, middle of the first of them */
+    size_t node_count; /* the first vertices are so many nodes of a grid */
     size_t hole_count; /* nodes of a grid that have no height */
     sb_vec3 *holes;    /* where they are, z without meaning */
     double rounded;    /* m, by which a mesh file's numbers, read in single precision, may be off */

@@ -81,8 +81,10 @@ static sb_status check_reach(const sb_scene *scene, const sb_model_body *body, s
         if (!sb_isfinite(at) || !(far <= most))
             return sb_fail(error, SB_BAD_INPUT,
                            "body \"%s\" reaches to (%g, %g, %g) m: expected no more than %g m from the domain, 1e8 "
-                           "spacings",
-                           body->name, at.x, at.y, at.z, most);
+                           "spacings%s",
+                           body->name, at.x, at.y, at.z, most,
+                           body->mesh.node_count > 0 ? "; does the file name the value of its missing heights (nodata)?"
+                                                     : "");
     }
     return SB_OK;
 }

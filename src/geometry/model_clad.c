@@ -129,14 +129,15 @@ static void note(search *s, const sb_model_body *front, const sb_model_body *rea
     const size_t length = strlen(s->others);
     if (s->pairs++ == 0) {
         snprintf(s->first, sizeof s->first,
-                 "bodies \"%s\" and \"%s\": the surface of the second lies about %.2g m behind that of the first, near (%.4g, "
+                 "bodies \"%s\" and \"%s\": the surface of the second lies about %.2g m behind that of the first, near "
+                 "(%.4g, "
                  "%.4g, %.4g)",
                  front->name, rear->name, depth, place.x, place.y, place.z);
         return;
     }
     if (length + strlen(front->name) + strlen(rear->name) + 32 > sizeof s->others) return;
-    snprintf(s->others + length, sizeof s->others - length, "%s \"%s\" behind \"%s\"",
-             length == 0 ? "; likewise" : ",", rear->name, front->name);
+    snprintf(s->others + length, sizeof s->others - length, "%s \"%s\" behind \"%s\"", length == 0 ? "; likewise" : ",",
+             rear->name, front->name);
     s->named++;
 }
 

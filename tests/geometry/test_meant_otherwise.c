@@ -155,13 +155,105 @@ static void many_surfaces_behind_others_share_a_line(void **state)
     assert_int_equal(named + (int)number_after(strstr(line, "; likewise"), " and "), 12);
 }
 
+/* A grid of 6 by 4 nodes, 2 m apart, whose heights are 0 but for what stands at two of them. */
+static sb_body *add_grid(char *path, const char *nodata, const char *first, const char *second)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "ncols 6\nnrows 4\nxllcenter 0\nyllcenter 0\ncellsize 2\n%s", nodata);
+    for (int node = 0; node < 24; node++)
+        fprintf(file, "%s%c", node == 8 ? first : node == 15 ? second : "0.1", node % 6 == 5 ? '\n' : ' ');
+    fclose(file);
+    sb_body *body = add_file("ground", path);
+    body->shape = SB_SHAPE_GRID;
+    body->role = SB_ROLE_TERRAIN;
+    return body;
+}
+
+static void heights_that_are_none_are_reported(void **state)
+{
+    (void)state;
+    static char path[] = SB_BINARY_DIR "/test_meant_nodata.asc";
+    static const struct {
+        const char *nodata, *first, *second, *expected;
+    } cases[] = {
+        {"", "0.2", "0.3", NULL},
+        {"", "-4", "7", NULL}, /* a pit and a hill */
+        {"", "-9999", "-9999", NULL},
+        {"NODATA_value -32768\n", "-32767", "0.3",
+         "1 of its grid's nodes within the domain is at z = -32766 m, far below"},
+        {"", "-32768", "-32767", "2 of its grid's nodes within the domain are at z = -32767 m and more, far below"},
+        {"NODATA_value -1\n", "-999", "0.3", "1 of its grid's nodes"},
+        {"", "9999", "0.3", "1 of its grid's nodes within the domain is at z = 10000 m, far above"},
+        {"", "9999", "-99999", "2 of its grid's nodes"},
+    };
+    scene.domain.min.z = -5;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+        scene.body_count = 0;
+        add_grid(path, cases[k].nodata, cases[k].first, cases[k].second)->datum = 1;
+        build();
+        assert_int_equal(warned("\"ground\"", "NODATA_value"), cases[k].expected != NULL);
+        if (cases[k].expected) assert_non_null(strstr(warning("\"ground\"", "1.1 to "), cases[k].expected));
+        /* What is none is not told as the ground's lowest height, too. */
+        assert_false(warned("domain's floor is", ""));
+    }
+    /* The same two places outside of the domain, at (4, 4) and (6, 2). */
+    scene.domain.min.x = 8.1;
+    scene.sea.seed.x = 9;
+    build();
+    assert_false(warned("\"ground\"", "NODATA_value"));
+    scene.domain.min.x = 0;
+    scene.sea.seed.x = 2;
+    scene.body_count = 0;
+    add_grid(path, "", "1e30", "0.3");
+    sb_model_free(&model);
+    assert_int_equal(sb_model_build(&scene, &model, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "nodata"));
+    remove(path);
+}
+
+static void ground_below_the_floor_is_reported(void **state)
+{
+    (void)state;
+    static char path[] = SB_BINARY_DIR "/test_meant_floor.obj";
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    /* From 2 m at the left side to -10 m at x = 6 m, and on from there to the other. */
+    fputs("v 0 -9 2\nv 6 -9 -10\nv 20 -9 -10\nv 0 12 2\nv 6 12 -10\nv 20 12 -10\nf 1 2 5 4\nf 2 3 6 5\n", file);
+    fclose(file);
+    add_file("bed", path)->role = SB_ROLE_TERRAIN;
+    scene.sea.seed.x = 8;
+    scene.domain.min.z = -5;
+    scene.sea.seed.z = -2;
+    for (scene.dimensions = 2; scene.dimensions <= 3; ++scene.dimensions) {
+        scene.sea.seed.y = scene.dimensions == 2 ? 0 : 3;
+        scene.domain.min.z = -5;
+        build();
+        assert_true(fabs(model.still_depth - 8) < 1e-9); /* for 13 m */
+        const char *line = warning("\"bed\"", "the domain's floor is at -5 m");
+        assert_true(fabs(number_after(line, "as low as z = ") + 10) < 0.01);
+        assert_true(fabs(number_after(line, "stands on that floor and is ") - 5) < 0.01);
+        scene.domain.min.z = -10;
+        build();
+        assert_true(fabs(model.still_depth - 13) < 1e-9);
+        assert_false(warned("\"bed\"", "domain's floor"));
+    }
+    /* The ground is below the floor where no water is: behind a dam. */
+    scene.dimensions = 3;
+    scene.domain.min.z = -5;
+    add_box("dam", sb_vec(3, -1, -12), sb_vec(30, 7, 6));
+    scene.sea.seed = sb_vec(2, 3, 2);
+    build();
+    assert_false(warned("\"bed\"", "domain's floor"));
+    remove(path);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        CASE(waves_that_are_cut_off_are_reported),
-        CASE(waves_cut_by_bodies_and_land_are_reported),
-        CASE(surfaces_close_behind_others_are_reported),
-        CASE(many_surfaces_behind_others_share_a_line),
+        CASE(waves_that_are_cut_off_are_reported),       CASE(waves_cut_by_bodies_and_land_are_reported),
+        CASE(surfaces_close_behind_others_are_reported), CASE(many_surfaces_behind_others_share_a_line),
+        CASE(heights_that_are_none_are_reported),        CASE(ground_below_the_floor_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
