@@ -14,6 +14,7 @@ typedef struct sb_model_body {
     char name[SB_NAME_MAX];
     size_t begin, count;
     int wavemaker; /* index into scene.wavemakers, -1: static */
+    size_t source; /* index into scene.bodies, SIZE_MAX: the domain's sides */
     bool report;   /* has rows in forces.csv */
     sb_role role;
     sb_vec3 moment_point; /* m */

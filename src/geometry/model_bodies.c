@@ -50,7 +50,7 @@ static int add_body(sb_model *model, size_t *capacity, const char *wanted)
 {
     if (sb_grow((void **)&model->bodies, capacity, model->body_count + 1, sizeof *model->bodies)) return -1;
     sb_model_body *body = model->bodies + model->body_count;
-    *body = (sb_model_body){.wavemaker = -1};
+    *body = (sb_model_body){.wavemaker = -1, .source = SIZE_MAX};
     choose_name(model, wanted, body->name);
     ++model->body_count;
     return 0;
@@ -58,6 +58,7 @@ static int add_body(sb_model *model, size_t *capacity, const char *wanted)
 
 static void describe(const sb_scene *scene, const sb_body *from, sb_model_body *body)
 {
+    body->source = (size_t)(from - scene->bodies);
     body->role = from->role;
     body->report = from->report;
     body->wavemaker = find_wavemaker(scene, from->name, body->name);

@@ -165,15 +165,12 @@ sb_status sb_model_check(const sb_scene *scene, const sb_model_space *space, sb_
         status = check_mesh(body, model, error);
         if (status == SB_OK) status = sb_model_warn_of_ends(scene, body, model, error);
         if (status == SB_OK) status = sb_model_check_thickness(scene, space, model, body, error);
-        if (status == SB_OK && body->count == 0)
-            status = sb_model_warn(model, error,
-                                   "body \"%s\" has no surface that water could reach: it is outside "
-                                   "of the domain or within other bodies",
-                                   body->name);
+        if (status == SB_OK) status = sb_model_warn_of_place(scene, body, space->solid[i], model, error);
     }
     if (status == SB_OK) status = sb_model_warn_of_thin(scene, model, error);
     if (status == SB_OK) status = sb_model_warn_of_shared(scene, model, error);
     if (status == SB_OK) status = sb_model_warn_of_ground(scene, space, model, error);
+    if (status == SB_OK) status = sb_model_warn_of_open(scene, space, model, error);
     if (status == SB_OK) status = sb_model_warn_of_clad(scene, model, error);
     if (status == SB_OK) status = sb_model_warn_of_strokes(scene, space, model, error);
     if (status == SB_OK) status = check_steps(scene, model, error);

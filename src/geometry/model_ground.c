@@ -93,9 +93,9 @@ static sb_status check_heights(const sb_scene *scene, const sb_model_body *body,
                 "from %g to %g m; the first is at (%g, %g): most likely a missing height (nodata) that the file does "
                 "not name; expected it as NODATA_value in the header, or no line of it in an .xyz file",
                 body->name, count, count > 1 ? "are" : "is", least, most > least ? " and more" : "",
-                most < low    ? "below"
+                most < low     ? "below"
                 : least > high ? "above"
-                              : "from",
+                               : "from",
                 low, high, mesh->vertices[first].x, mesh->vertices[first].y);
     }
     sb_free(within);
@@ -103,13 +103,13 @@ static sb_status check_heights(const sb_scene *scene, const sb_model_body *body,
     return status;
 }
 
-/* Most places at which the ground below the domain's floor is looked for. In spacings: water so near to the floor stands
-   on it; ground that is no farther below the floor is no matter. */
+/* Most places at which the ground below the domain's floor is looked for. In spacings: water so near to the floor
+   stands on it; ground that is no farther below the floor is no matter. */
 enum { PLACES_MAX = 20000 };
 static const double ON_FLOOR = 1, BELOW = 0.25;
 
-/* Straight down from the water on the domain's floor to the ground, which is no deeper than `bottom`: the deepest place,
-   of those above `lowest`; false: there is none below *deepest. */
+/* Straight down from the water on the domain's floor to the ground, which is no deeper than `bottom`: the deepest
+   place, of those above `lowest`; false: there is none below *deepest. */
 static bool sound(const sb_model *model, const sb_solid *solid, double bottom, double lowest, sb_vec3 *deepest)
 {
     const double floor = model->min.z, top = floor + ON_FLOOR * model->spacing;

@@ -46,6 +46,14 @@ sb_status sb_model_warn_of_clad(const sb_scene *scene, sb_model *model, sb_error
 /* A line for each grid with heights that are none, and for each terrain below the domain's floor where water is. */
 sb_status sb_model_warn_of_ground(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 
+/* A line for each open side that water stands at. */
+sb_status sb_model_warn_of_open(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
+
+/* A line for a body that no water can reach, with the scale that would bring its file into the domain. solid: NULL in
+   2D where the plane y = 0 misses the body. */
+sb_status sb_model_warn_of_place(const sb_scene *scene, const sb_model_body *body, const sb_solid *solid,
+                                 sb_model *model, sb_error *error);
+
 /* A line for each wave maker that is too fast for its water, and for each moving body that runs into another. */
 sb_status sb_model_warn_of_strokes(const sb_scene *scene, const sb_model_space *space, sb_model *model,
                                    sb_error *error);

@@ -248,12 +248,110 @@ static void ground_below_the_floor_is_reported(void **state)
     remove(path);
 }
 
+static void water_at_an_open_side_is_reported(void **state)
+{
+    (void)state;
+    sb_fluid_box box = {.min = {0, 0, 0}, .max = {10, 6, 2}, .level = 2};
+    scene.boxes = &box;
+    scene.box_count = 1;
+    scene.sea.present = false;
+    add_box("dam", sb_vec(90, -1, -1), sb_vec(92, 7, 6));
+    for (scene.dimensions = 2; scene.dimensions <= 3; ++scene.dimensions)
+        for (int side = SB_X_MIN; side < SB_Z_MAX; ++side) {
+            if (scene.dimensions == 2 && (side == SB_Y_MIN || side == SB_Y_MAX)) continue;
+            scene.domain.side[side] = SB_SIDE_OPEN;
+            build();
+            assert_non_null(strstr(warning("water.boxes[0]", "open side"), sb_side_names[side]));
+            scene.domain.side[side] = SB_SIDE_WALL;
+            build();
+            assert_false(warned("open side", ""));
+        }
+    /* Held by a dam, or a metre away from the side: then it breaks and runs, as meant. */
+    scene.dimensions = 3;
+    scene.domain.side[SB_X_MAX] = SB_SIDE_OPEN;
+    bodies[0].min.x = 9;
+    bodies[0].max.x = 11;
+    build();
+    assert_false(warned("open side", ""));
+    bodies[0].min.x = 90;
+    bodies[0].max.x = 91;
+    box.max.x = 9;
+    build();
+    assert_false(warned("open side", ""));
+    /* A sea that a sill holds, and a wave that is higher than the sill: its sea ends there. */
+    scene.box_count = 0;
+    scene.sea.present = true;
+    scene.domain.max.x = 60;
+    bodies[0].min = sb_vec(57, -1, -1);
+    bodies[0].max = sb_vec(61, 7, 3);
+    build();
+    assert_false(warned("open side", ""));
+    scene.wave =
+        (sb_initial_wave){.kind = SB_INITIAL_SOLITARY, .height = 1, .depth = 3, .position = 52, .direction = 1};
+    build();
+    assert_true(warned("water.wave", "cut off"));
+    assert_false(warned("open side", ""));
+}
+
+/* A house of 2 m by 2 m by 4 m in its file's unit, at (5, 2, 0) once that is metres. */
+static sb_body *add_house(char *path, double unit)
+{
+    static const int faces[6][4] = {{4, 3, 2, 1}, {5, 6, 7, 8}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 4, 8, 7}, {4, 1, 5, 8}};
+    static const double corners[4][2] = {{5, 2}, {7, 2}, {7, 4}, {5, 4}};
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    for (int v = 0; v < 8; v++)
+        fprintf(file, "v %.9g %.9g %.9g\n", corners[v % 4][0] / unit, corners[v % 4][1] / unit, (v < 4 ? 0 : 4) / unit);
+    for (int f = 0; f < 6; f++) fprintf(file, "f %d %d %d %d\n", faces[f][0], faces[f][1], faces[f][2], faces[f][3]);
+    fclose(file);
+    sb_body *body = add_file("house", path);
+    body->report = true;
+    return body;
+}
+
+static void bodies_that_no_water_reaches_are_reported(void **state)
+{
+    (void)state;
+    static char path[] = SB_BINARY_DIR "/test_meant_house.obj";
+    static const double units[] = {1e-3, 1e-2, 1e3};
+    for (size_t k = 0; k < sizeof units / sizeof *units; ++k) {
+        scene.body_count = 0;
+        sb_body *house = add_house(path, units[k]);
+        build();
+        const char *line = warning("\"house\"", "expected scale ");
+        char size[80];
+        snprintf(size, sizeof size, "it is %g x %g x %g m", 2 / units[k], 2 / units[k], 4 / units[k]);
+        assert_non_null(strstr(line, size));
+        assert_true(fabs(number_after(line, "expected scale ") - units[k]) < 1e-9);
+        house->scale = units[k];
+        build();
+        assert_false(warned("\"house\"", "scale"));
+        assert_false(warned("\"house\"", "no surface"));
+        assert_int_equal(model.bodies[0].source, 0);
+    }
+    /* In its unit, but elsewhere: no scale helps. */
+    scene.body_count = 0;
+    add_house(path, 1)->translate.x = 90;
+    build();
+    const char *line = warning("\"house\"", "outside of the domain");
+    assert_non_null(strstr(line, "2 x 2 x 4 m, from (95, 2, 0) to (97, 4, 4)"));
+    assert_null(strstr(line, "scale"));
+    /* Within another. */
+    bodies[0].translate.x = 0;
+    add_box("hill", sb_vec(4, 1, -1), sb_vec(8, 5, 5));
+    build();
+    warning("\"house\" has no surface", "within other bodies");
+    assert_false(warned("\"hill\"", "no surface"));
+    remove(path);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         CASE(waves_that_are_cut_off_are_reported),       CASE(waves_cut_by_bodies_and_land_are_reported),
         CASE(surfaces_close_behind_others_are_reported), CASE(many_surfaces_behind_others_share_a_line),
         CASE(heights_that_are_none_are_reported),        CASE(ground_below_the_floor_is_reported),
+        CASE(water_at_an_open_side_is_reported),         CASE(bodies_that_no_water_reaches_are_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
