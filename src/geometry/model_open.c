@@ -56,10 +56,11 @@ static sb_status check_side(const sb_scene *scene, const sb_model_space *space, 
     if (low > high) return SB_OK;
     const size_t box = box_of(scene, first);
     if (box < scene->box_count) snprintf(name, sizeof name, "water.boxes[%zu]", box);
-    return sb_model_warn(model, error,
-                         "%s: its water stands at the open side %s, near (%.4g, %.4g, %.4g) and %.2g m high, and leaves "
-                         "the domain there from the start; expected a wall at that side, or a body that holds the water",
-                         name, sb_side_names[side], first.x, first.y, first.z, high - low + model->spacing);
+    return sb_model_warn(
+        model, error,
+        "%s: its water stands at the open side %s, near (%.4g, %.4g, %.4g) and %.2g m high, and leaves "
+        "the domain there from the start; expected a wall at that side, or a body that holds the water",
+        name, sb_side_names[side], first.x, first.y, first.z, high - low + model->spacing);
 }
 
 sb_status sb_model_warn_of_open(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)

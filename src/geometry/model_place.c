@@ -85,9 +85,10 @@ sb_status sb_model_warn_of_place(const sb_scene *scene, const sb_model_body *bod
                              : small  ? "smaller than the spacing"
                              : !solid ? "not cut by the plane y = 0"
                                       : "within other bodies, or larger than the domain",
-                             size.x, size.y, size.z, of.min.x, of.min.y, of.min.z, of.max.x, of.max.y, of.max.z, advice);
+                             size.x, size.y, size.z, of.min.x, of.min.y, of.min.z, of.max.x, of.max.y, of.max.z,
+                             advice);
     if ((!large && !small) || (large && !advice[0])) return SB_OK;
-    return sb_model_warn(model, error, "body \"%s\" is %g x %g x %g m, %s%s", body->name, size.x, size.y, size.z,
-                         large ? "more than a hundred times the domain" : "smaller than the spacing: water hardly meets it",
-                         advice);
+    return sb_model_warn(
+        model, error, "body \"%s\" is %g x %g x %g m, %s%s", body->name, size.x, size.y, size.z,
+        large ? "more than a hundred times the domain" : "smaller than the spacing: water hardly meets it", advice);
 }

@@ -216,6 +216,9 @@ sb_status sb_map_create(const sb_sight *sight, sb_map_field **map, sb_error *err
     gather(made, sight->sim);
     for (size_t i = 0; i < made->result.columns * made->result.rows; i++)
         made->start[i] = made->sums[i].volume / area_of(made, i);
+    /* Where water stands from the start it need not arrive. */
+    for (size_t i = 0; i < made->result.columns * made->result.rows; i++)
+        if (made->start[i] >= (float)made->threshold) made->arrival[i] = (float)time;
     record(made, time);
     made->next = time + made->pause;
     *map = made;

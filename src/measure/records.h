@@ -83,7 +83,7 @@ typedef struct sb_map_record {
     const float *depth;        /* m */
     const float *speed;        /* m/s, of the depth-averaged horizontal velocity */
     const float *flux;         /* m^3/s^2, depth times mean square of the horizontal speed */
-    const float *arrival;      /* s, when the rise above the start first met the threshold */
+    const float *arrival;      /* s, when the depth at the start, or later the rise above it, first met the threshold */
 } sb_map_record;
 
 #endif

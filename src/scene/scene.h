@@ -183,7 +183,7 @@ typedef struct sb_runup_line {
 typedef struct sb_map {
     bool present;
     double x_min, y_min, x_max, y_max, cell; /* m */
-    double threshold;                        /* m of depth (or rise above the start) that is "arrival" */
+    double threshold;                        /* m of depth at the start, or later of rise above it, that is "arrival" */
 } sb_map;
 
 typedef struct sb_measure {

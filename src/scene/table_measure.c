@@ -155,7 +155,7 @@ static const sb_key map_keys[] = {
      .derived = "2 resolution", .doc = "Edge length of a cell."},
     {.name = "threshold", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_map, threshold), .unit = "m",
      SB_KEY_POSITIVE, .derived = "resolution",
-     .doc = "Depth, or rise above the initial surface, that counts as arrival."},
+     .doc = "Depth at the start, or later rise above it, that counts as arrival."},
 };
 /* clang-format on */
 
