@@ -112,6 +112,24 @@ static void tell_lost(run *r)
     if (lost_of(r, text, sizeof text) > 0) sb_run_warn(r, "%s", text);
 }
 
+/* In spacings: what is thinner is a drop or two. */
+static const double FILM = 0.25;
+
+/* Gauges that stayed empty though water came; those over water that was thin from the start have a warning already. */
+static void warn_of_gauges(run *r)
+{
+    const sb_measure_settings *settings = &r->scene->measure;
+    for (size_t i = 0; i < settings->gauge_count; i++) {
+        const double depth = sb_measure_gauge_missed(r->measure, i);
+        if (!(depth > FILM * r->scene->resolution) || (r->model.shallow && r->model.shallow[i])) continue;
+        sb_run_warn(
+            r,
+            "gauge \"%s\": all its values are empty, though water came: it was at most about %.2g m deep there, "
+            "too thin for the spacing of %g m; expected a resolution of about %.2g m or less to see it",
+            settings->gauges[i].name, depth, r->scene->resolution, depth);
+    }
+}
+
 static void stop_consumers(run *r, sb_status *status, sb_error *error)
 {
     for (int c = 0; c < CONSUMERS; c++) {
@@ -205,6 +223,7 @@ void sb_run_finish(run *r, sb_status *status, sb_error *error)
         sb_progress_end(&r->progress, sb_sim_report(r->sim));
     }
     if (r->measure) {
+        warn_of_gauges(r);
         sb_runlog_bodies(r->log, &r->model, sb_measure_bodies(r->measure));
         const sb_map_record *map = sb_measure_map(r->measure);
         if (map) keep_first(status, error, sb_maps_write(r->directory, map, &reason), &reason);

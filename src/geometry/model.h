@@ -37,6 +37,7 @@ typedef struct sb_model {
     sb_vec3 *wall_normal;   /* unit, towards the water */
     size_t body_count;
     sb_model_body *bodies;
+    bool *shallow; /* per gauge of the scene: a warning says that its water is too thin; NULL: there are no gauges */
     size_t warning_count;
     char **warnings; /* one line each: what the user should know before running */
 } sb_model;

@@ -171,6 +171,7 @@ sb_status sb_model_check(const sb_scene *scene, const sb_model_space *space, sb_
     if (status == SB_OK) status = sb_model_warn_of_shared(scene, model, error);
     if (status == SB_OK) status = sb_model_warn_of_ground(scene, space, model, error);
     if (status == SB_OK) status = sb_model_warn_of_open(scene, space, model, error);
+    if (status == SB_OK) status = sb_model_warn_of_gauges(scene, space, model, error);
     if (status == SB_OK) status = sb_model_warn_of_clad(scene, model, error);
     if (status == SB_OK) status = sb_model_warn_of_strokes(scene, space, model, error);
     if (status == SB_OK) status = check_steps(scene, model, error);

@@ -10,6 +10,7 @@ void sb_model_free(sb_model *model)
     for (size_t i = 0; i < model->body_count; ++i) sb_mesh_free(&model->bodies[i].mesh);
     for (size_t i = 0; i < model->warning_count; ++i) sb_free(model->warnings[i]);
     sb_free(model->bodies);
+    sb_free(model->shallow);
     sb_free(model->warnings);
     sb_model_forget_particles(model);
     *model = (sb_model){.dimensions = 0};

@@ -54,6 +54,9 @@ sb_status sb_model_warn_of_open(const sb_scene *scene, const sb_model_space *spa
 sb_status sb_model_warn_of_place(const sb_scene *scene, const sb_model_body *body, const sb_solid *solid,
                                  sb_model *model, sb_error *error);
 
+/* One line for all gauges over still water that is too thin for them; sets model->shallow. */
+sb_status sb_model_warn_of_gauges(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
+
 /* A line for each wave maker that is too fast for its water, and for each moving body that runs into another. */
 sb_status sb_model_warn_of_strokes(const sb_scene *scene, const sb_model_space *space, sb_model *model,
                                    sb_error *error);

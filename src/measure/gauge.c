@@ -27,6 +27,7 @@ typedef struct column {
     const sb_fluid_sample *samples;
     size_t count;
     double spacing;
+    double water; /* m, depth of all of the water, also of what is no column */
 } column;
 
 static double color_at(const column *c, double z)
@@ -105,6 +106,7 @@ static sb_status look(const sb_sight *sight, double x, double y, double floor, c
         sb_fluid_sample *sample = &cloud->samples[i];
         sample->density = bspline((sample->position.x - x) / (STRETCH * spacing)) *
                           (flat ? 1 : bspline((sample->position.y - y) / (STRETCH * spacing)) / STRETCH) / STRETCH;
+        c->water += sample->density * spacing;
     }
     if (status == SB_OK) status = sb_cloud_keep_heaviest(cloud, SB_LINK * spacing, error);
     if (status != SB_OK || cloud->count < (size_t)(flat ? LEAST_FLAT : LEAST)) return status;
@@ -117,16 +119,19 @@ static sb_status look(const sb_sight *sight, double x, double y, double floor, c
 /* Spacings above a floor within which the lowest layer of water that stands on it lies. */
 static const double FOOT = 1.5;
 
-sb_status sb_gauge_read(const sb_sight *sight, double x, double y, const sb_floors *floors, double *z, sb_error *error)
+sb_status sb_gauge_read(const sb_sight *sight, double x, double y, const sb_floors *floors, double *z, double *water,
+                        sb_error *error)
 {
     const double spacing = sight->scene->resolution;
     const size_t storeys = floors->count > 1 ? floors->count : 1;
     column c;
     sb_status status = SB_OK;
     *z = (double)NAN;
+    *water = 0;
     for (size_t f = 0; status == SB_OK && isnan(*z) && f < storeys; f++) {
         const bool ground = f + 1 == storeys;
         status = look(sight, x, y, ground ? sight->min.z - spacing : floors->z[f], &c, error);
+        *water = c.water; /* the last look, at the ground, sees all */
         if (status != SB_OK || c.count == 0) continue;
         if (ground || c.samples[0].position.z < floors->z[f] + FOOT * spacing) *z = surface_of(&c);
     }

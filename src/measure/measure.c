@@ -79,9 +79,15 @@ static sb_status record_instants(sb_measure *measure, const sb_sight *sight, dou
         if (!record) return sb_fail_memory(error, "gauge records");
         record->gauge = i;
         record->time = time;
-        status =
-            sb_gauge_read(sight, settings->gauges[i].x, settings->gauges[i].y, &measure->floors[i], &record->z, error);
+        double water = 0;
+        status = sb_gauge_read(sight, settings->gauges[i].x, settings->gauges[i].y, &measure->floors[i], &record->z,
+                               &water, error);
         record->eta = sea->present ? record->z - sea->level : (double)NAN;
+        gauge_state *state = &measure->gauges[i];
+        if (isnan(record->z))
+            state->thin = fmax(state->thin, water);
+        else
+            state->seen = true;
     }
     for (size_t i = 0; status == SB_OK && i < settings->probe_count; i++) {
         sb_probe_record *record = append(measure, PROBES);
@@ -196,7 +202,8 @@ static sb_status prepare_fields(sb_measure *measure, const sb_sight *sight, sb_e
     }
     if (settings->gauge_count) {
         measure->floors = sb_alloc(settings->gauge_count, sizeof *measure->floors);
-        if (!measure->floors) return sb_fail_memory(error, "measure.gauges");
+        measure->gauges = sb_alloc(settings->gauge_count, sizeof *measure->gauges);
+        if (!measure->floors || !measure->gauges) return sb_fail_memory(error, "measure.gauges");
     }
     for (size_t i = 0; status == SB_OK && i < settings->gauge_count; i++)
         status = sb_floors_find(measure->scene, measure->model, settings->gauges[i].x, settings->gauges[i].y,
@@ -251,6 +258,7 @@ void sb_measure_destroy(sb_measure *measure)
     for (size_t i = 0; measure->floors && i < measure->scene->measure.gauge_count; i++)
         sb_floors_free(&measure->floors[i]);
     sb_free(measure->floors);
+    sb_free(measure->gauges);
     sb_free(measure->patches);
     sb_free(measure->gates);
     sb_free(measure->planes);
@@ -333,6 +341,12 @@ const sb_body_record *sb_measure_bodies(const sb_measure *measure)
 const sb_map_record *sb_measure_map(const sb_measure *measure)
 {
     return measure->map ? sb_map_result(measure->map) : NULL;
+}
+
+double sb_measure_gauge_missed(const sb_measure *measure, size_t gauge)
+{
+    const gauge_state *state = &measure->gauges[gauge];
+    return state->seen ? 0 : state->thin;
 }
 
 void sb_measure_fill_frame(const sb_measure *measure, sb_frame *frame)

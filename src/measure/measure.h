@@ -37,6 +37,9 @@ const sb_body_record *sb_measure_bodies(const sb_measure *measure);
 /* The map so far, or NULL when the scene has none. */
 const sb_map_record *sb_measure_map(const sb_measure *measure);
 
+/* Of a gauge that had no value in any row so far: the depth of the deepest water there, m; else 0. */
+double sb_measure_gauge_missed(const sb_measure *measure, size_t gauge);
+
 /* Puts the last interval's mean force and moment into the bodies of a frame of this model. */
 void sb_measure_fill_frame(const sb_measure *measure, sb_frame *frame);
 

@@ -27,8 +27,9 @@ static inline double sb_repeat_length(const sb_scene *scene, sb_vec3 min, sb_vec
 #define SB_LINK 1.5
 
 /* Absolute elevation z of the free surface at (x, y) in m, NaN when dry; floors: of that place. See gauge.c for the
-   choice. */
-sb_status sb_gauge_read(const sb_sight *sight, double x, double y, const sb_floors *floors, double *z, sb_error *error);
+   choice. *water: m, the depth of all the water that is seen there, also where it is too thin to have a surface. */
+sb_status sb_gauge_read(const sb_sight *sight, double x, double y, const sb_floors *floors, double *z, double *water,
+                        sb_error *error);
 
 /* The wall around a probe: see patch.h. */
 typedef struct sb_patch sb_patch;

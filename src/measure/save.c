@@ -57,6 +57,11 @@ void sb_measure_save(const sb_measure *measure, sb_archive_out *out)
         sb_put_list(out, &measure->planes[i], sizeof measure->planes[i] / sizeof(double), sizeof(double));
         sb_gate_save(measure->gates[i], out);
     }
+    sb_put_count(out, measure->scene->measure.gauge_count);
+    for (size_t i = 0; i < measure->scene->measure.gauge_count; i++) {
+        sb_put_flag(out, measure->gauges[i].seen);
+        sb_put_real(out, measure->gauges[i].thin);
+    }
     sb_put_flag(out, measure->map != NULL);
     if (measure->map) sb_map_save(measure->map, out);
 }
@@ -72,6 +77,16 @@ static sb_status take_planes(sb_measure *measure, sb_archive_in *in, sb_error *e
         status = sb_gate_load(measure->gates[i], in, error);
     }
     return status;
+}
+
+static void take_gauges(sb_measure *measure, sb_archive_in *in)
+{
+    const size_t count = measure->scene->measure.gauge_count;
+    if (sb_take_count(in, SIZE_MAX) != count) sb_archive_refuse(in, "other gauges, expected %zu", count);
+    for (size_t i = 0; i < count; i++) {
+        measure->gauges[i].seen = sb_take_flag(in);
+        measure->gauges[i].thin = sb_take_real(in);
+    }
 }
 
 static void forget_latest(sb_measure *measure)
@@ -96,6 +111,7 @@ sb_status sb_measure_load(sb_measure *measure, sb_archive_in *in, sb_error *erro
     take_bodies(measure, in);
     status = take_planes(measure, in, error);
     if (status != SB_OK) return status;
+    take_gauges(measure, in);
     if (sb_take_flag(in) != (measure->map != NULL))
         sb_archive_refuse(in, measure->map ? "no map, expected one" : "a map, expected none");
     if (measure->map) sb_map_load(measure->map, in);

@@ -24,6 +24,12 @@ typedef struct plane_state {
     double boundary, last, now;
 } plane_state; /* m^3 passed so far */
 
+/* Of a gauge over all rows: whether it had a value, and the deepest water while it had none, m. */
+typedef struct gauge_state {
+    bool seen;
+    double thin;
+} gauge_state;
+
 enum { MAX_SKIPPED = 8 };
 
 struct sb_measurements {
@@ -36,7 +42,8 @@ struct sb_measurements {
     sb_body_record *bodies;
     plane_state *planes;
     sb_gate **gates;
-    sb_floors *floors;  /* one per gauge */
+    sb_floors *floors; /* one per gauge */
+    gauge_state *gauges;
     sb_patch **patches; /* one per probe */
     sb_map_field *map;
     sb_cloud cloud;

@@ -39,7 +39,7 @@ static void damaged_ones_are_passed_over(void **state)
     goes_on_from_the_one_before(newest, bytes, length, "damaged: the checksum of section");
     bytes[length / 2] ^= 4;
     bytes[8] ^= 1;
-    goes_on_from_the_one_before(newest, bytes, length, "version 8 of the format, expected 9");
+    goes_on_from_the_one_before(newest, bytes, length, "version 11 of the format, expected 10");
     sb_free(bytes);
 }
 

@@ -345,6 +345,40 @@ static void bodies_that_no_water_reaches_are_reported(void **state)
     remove(path);
 }
 
+static void gauges_over_thin_water_are_reported(void **state)
+{
+    (void)state;
+    /* A step up to so many spacings of water, its gauge 3 m up from the edge; and one over deep water. */
+    static const struct {
+        double depth;
+        bool thin;
+    } cases[] = {{0.2, true}, {0.45, true}, {1, false}, {2, false}, {-1, false}, {0.01, false}};
+    static const sb_gauge gauges[] = {{"deep", 2, 3}, {"shelf", 8, 3}, {"end", 9.2, 3}};
+    scene.measure.gauges = (sb_gauge *)gauges;
+    scene.measure.gauge_count = 2;
+    for (scene.dimensions = 2; scene.dimensions <= 3; ++scene.dimensions)
+        for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+            scene.sea.seed.y = scene.dimensions == 2 ? 0 : 3;
+            scene.body_count = 0;
+            add_box("step", sb_vec(5, -1, -1), sb_vec(11, 7, 3 - 0.5 * cases[k].depth));
+            build();
+            assert_false(model.shallow[0]);
+            assert_int_equal(model.shallow[1], cases[k].thin);
+            assert_int_equal(warned("gauge \"shelf\"", "stay empty"), cases[k].thin);
+            assert_false(warned("\"deep\"", ""));
+            if (!cases[k].thin) continue;
+            const char *line = warning("gauge \"shelf\"", "expected a resolution of ");
+            assert_true(fabs(number_after(line, "still water there is ") / (0.5 * cases[k].depth) - 1) < 0.05);
+            assert_true(fabs(number_after(line, "expected a resolution of ") / (0.5 * cases[k].depth) - 1) < 0.05);
+            assert_null(strstr(line, "likewise"));
+        }
+    scene.dimensions = 3;
+    bodies[0].max.z = 2.9;
+    scene.measure.gauge_count = 3;
+    build();
+    assert_non_null(strstr(warning("gauge \"shelf\"", "stay empty"), "; likewise \"end\" 0.1 m"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -352,6 +386,7 @@ int main(void)
         CASE(surfaces_close_behind_others_are_reported), CASE(many_surfaces_behind_others_share_a_line),
         CASE(heights_that_are_none_are_reported),        CASE(ground_below_the_floor_is_reported),
         CASE(water_at_an_open_side_is_reported),         CASE(bodies_that_no_water_reaches_are_reported),
+        CASE(gauges_over_thin_water_are_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -58,6 +58,8 @@ static uint64_t steps(sb_sim *sim, sb_measure *measure, int count, size_t *flows
     hash = sb_hash(hash, map->speed, bytes);
     hash = sb_hash(hash, map->flux, bytes);
     hash = sb_hash(hash, map->arrival, bytes);
+    const double missed[] = {sb_measure_gauge_missed(measure, 0), sb_measure_gauge_missed(measure, 1)};
+    hash = sb_hash(hash, missed, sizeof missed);
     const sb_body_record *body = &sb_measure_bodies(measure)[0];
     const double totals[] = {body->peak,     body->peak_time, body->impulse.x,
                              body->moment.y, body->torque.y,  body->layers};

@@ -13,8 +13,8 @@ static double read_at(fake_world *world, double x, double y)
 {
     sb_sight sight = fake_sight(world);
     sb_error error = {0};
-    double eta;
-    assert_int_equal(sb_gauge_read(&sight, x, y, &(sb_floors){0}, &eta, &error), SB_OK);
+    double eta, water;
+    assert_int_equal(sb_gauge_read(&sight, x, y, &(sb_floors){0}, &eta, &water, &error), SB_OK);
     return eta;
 }
 
@@ -131,12 +131,31 @@ static void dry_is_nan(void **state)
     fake_world_free(&world);
 }
 
+/* Of a layer with every third particle alone is left: no surface, but a third of a spacing of water. */
+static void water_too_thin_for_a_surface_is_measured(void **state)
+{
+    (void)state;
+    fake_world world;
+    sb_error error = {0};
+    double eta = 0, water = 0;
+    fake_world_make(&world, 2, 0.5, sb_vec(0, 0, 0), sb_vec(40, 0, 20));
+    for (int k = 0; k < 24; k++) fake_add(&world.sim, sb_vec(0.25 + 1.5 * k, 0, 0.25), sb_vec(0, 0, 0), 0);
+    sb_sight sight = fake_sight(&world);
+    for (double x = 8; x < 24; x += 0.37) {
+        assert_int_equal(sb_gauge_read(&sight, x, 0, &(sb_floors){0}, &eta, &water, &error), SB_OK);
+        assert_true(isnan(eta));
+        assert_true(fabs(water - 0.5 / 3) < 0.02);
+    }
+    fake_world_free(&world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(still_level_is_exact_on_a_lattice),
         cmocka_unit_test(still_level_is_unbiased_with_jitter),
         cmocka_unit_test(thin_layers_keep_their_level),
+        cmocka_unit_test(water_too_thin_for_a_surface_is_measured),
         cmocka_unit_test(walls_do_not_pull_the_level),
         cmocka_unit_test(slope_is_followed),
         cmocka_unit_test(spray_does_not_count),

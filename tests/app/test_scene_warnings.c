@@ -1,0 +1,97 @@
+/* What a scene most likely was not meant to be: `check` and `run` both print it, and the run's log has it. */
+#include "program.h"
+
+#include "base/memory.h"
+
+#include <string.h>
+
+#define TANK "title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\nmeasure: {interval: 0.01}\noutput: {plots: false}\n"
+
+/* The lines that hold both texts. */
+static int lines_with(const char *text, const char *first, const char *second)
+{
+    int count = 0;
+    for (const char *line = text; *line; line += strcspn(line, "\n"), line += *line == '\n') {
+        const size_t length = strcspn(line, "\n");
+        const char *at = strstr(line, first), *other = strstr(line, second);
+        count += at && other && at < line + length && other < line + length;
+    }
+    return count;
+}
+
+static void check_and_run_say_the_same(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *scene, *first, *second;
+    } cases[] = {
+        {TANK "domain: {min: [0, 0], max: [8, 0.8]}\n"
+              "water: {level: 0.5, seed: [1, 0.2], wave: {kind: solitary, height: 0.15, depth: 0.5}}\n",
+         "water.wave: 50 % of the wave's volume", "expected water.wave.position"},
+        {TANK "domain: {min: [0, 0], max: [1.3, 0.8]}\nwater: {level: 0.6, seed: [0.1, 0.2]}\nbodies:\n"
+              "  - {name: facade, shape: box, min: [1, -1, -0.2], max: [1.4, 1, 1]}\n"
+              "  - {name: core, shape: box, min: [1.05, -1, -0.2], max: [1.4, 1, 1]}\n",
+         "bodies \"facade\" and \"core\"", "the sum of their forces is right"},
+        {TANK "domain: {min: [0, -0.5], max: [3, 1]}\nwater: {level: 0, seed: [1.5, -0.2]}\n"
+              "bodies: [{name: bed, shape: plane, role: terrain, center: [1.5, 0, -1], normal: [0, 0, 1], width: 9, "
+              "length: 9}]\n",
+         "body \"bed\": its ground under the water is as low as z = -1 m", "the domain's floor is at -0.5 m"},
+        {TANK "domain: {min: [0, 0], max: [2, 1], sides: {x_max: open}}\n"
+              "water: {boxes: [{min: [0, 0], max: [2, 0.4]}]}\n",
+         "water.boxes[0]: its water stands at the open side x_max", "expected a wall"},
+        {TANK "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
+              "bodies: [{name: far, shape: box, min: [90, -1, 0], max: [95, 1, 2]}]\n",
+         "body \"far\" has no surface that water could reach", "5 x 2 x 2 m"},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        write_text("doubtful.yaml", cases[k].scene);
+        outcome o = RUN(0, "check", "doubtful.yaml");
+        if (lines_with(o.out, cases[k].first, cases[k].second) != 1) fail_msg("%s", o.out);
+        outcome_free(&o);
+        o = RUN(0, "run", "doubtful.yaml", "--out=doubtful", "--quiet", "--overwrite", "--set",
+                "numerics.settle_steps=0");
+        if (lines_with(o.err, cases[k].first, cases[k].second) != 1) fail_msg("%s", o.err);
+        outcome_free(&o);
+        char *log = text_of("doubtful/run.jsonl");
+        assert_contains(log, cases[k].second);
+        sb_free(log);
+    }
+}
+
+/* A third of a spacing over a shelf is known before. Two particles on the floor are a spacing deep by the scene, and too
+   few to have a surface: that is known at the end. */
+static void gauges_that_stay_empty_are_reported_once(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {
+        TANK "domain: {min: [0, 0], max: [4, 1]}\nwater: {level: 0.5, seed: [1, 0.2]}\n"
+             "bodies: [{name: shelf, shape: box, min: [2, -1, -0.2], max: [5, 1, 0.485]}]\n",
+        TANK "domain: {min: [0, 0], max: [4, 1]}\n"
+             "water: {boxes: [{min: [0, 0], max: [1.5, 0.4]}, {min: [2.95, 0], max: [3.05, 0.05]}]}\n"};
+    static const char gauges[] = "measure.gauges=[{name: thin, x: 3}, {name: deep, x: 1}, {name: dry, x: 3.7}]";
+    for (int late = 0; late < 2; late++) {
+        write_text("thin.yaml", scenes[late]);
+        outcome o = RUN(0, "check", "thin.yaml", "--set", gauges);
+        assert_int_equal(lines_with(o.out, "gauge \"thin\"", "expected a resolution of 0.015 m"), !late);
+        outcome_free(&o);
+        o = RUN(0, "run", "thin.yaml", "--out=thin", "--quiet", "--overwrite", "--set", gauges, "--set",
+                "numerics.settle_steps=0");
+        assert_int_equal(lines_with(o.err, "gauge \"thin\"", "expected a resolution of "), 1);
+        assert_int_equal(lines_with(o.err, "gauge \"thin\"", "all its values are empty, though water came"), late);
+        assert_null(strstr(o.err, "deep\""));
+        assert_int_equal(strstr(o.err, "\"dry\"") != NULL, !late); /* it is on the shelf, too */
+        outcome_free(&o);
+        char *log = text_of("thin/run.jsonl");
+        assert_int_equal(lines_with(log, "gauge \\\"thin\\\"", "expected a resolution of "), 1);
+        sb_free(log);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(check_and_run_say_the_same),
+        cmocka_unit_test(gauges_that_stay_empty_are_reported_once),
+    };
+    return cmocka_run_group_tests(tests, program_setup, program_teardown);
+}
