@@ -20,7 +20,9 @@ typedef struct search {
     size_t *totals; /* FACES per body: its particles */
     size_t *found;  /* FACES per body: particles of the present one that the body has a surface behind */
     size_t *behind; /* FACES per body: particles of the body that are behind the present one */
-    uint8_t *seen;  /* per boundary particle: counted in `behind` already */
+    size_t *seen;   /* per boundary particle: counted in `behind` of the body before this number */
+    sb_vec3 *min;   /* per body: the extent of its particles, m */
+    sb_vec3 *max;
     sb_vec3 *place; /* per body: of the first found */
     double *nearest;
     size_t pairs;
@@ -42,29 +44,25 @@ static bool takes_part(const sb_model_body *body)
     return body->wavemaker < 0 && body->count > 0;
 }
 
-static void extent_of(const sb_model *model, const sb_model_body *body, double margin, sb_vec3 *min, sb_vec3 *max)
+static bool overlap(sb_vec3 min, sb_vec3 max, sb_vec3 other_min, sb_vec3 other_max)
 {
-    *min = *max = model->wall_position[body->begin];
-    for (size_t i = body->begin; i < body->begin + body->count; i++) {
-        *min = sb_min(*min, model->wall_position[i]);
-        *max = sb_max(*max, model->wall_position[i]);
-    }
-    const sb_vec3 more = sb_vec(margin, margin, margin);
-    *min = sb_sub(*min, more);
-    *max = sb_add(*max, more);
+    return min.x <= other_max.x && min.y <= other_max.y && min.z <= other_max.z && max.x >= other_min.x &&
+           max.y >= other_min.y && max.z >= other_min.z;
 }
 
 /* The other bodies' particles near the front one, each with its own index as source. */
-static int gather(const sb_model *model, size_t front, sb_vec3 min, sb_vec3 max, sb_sample_set *near)
+static int gather(const search *s, size_t front, sb_vec3 min, sb_vec3 max, sb_sample_set *near)
 {
+    const sb_model *model = s->model;
     for (size_t b = 0; b < model->body_count; b++) {
         const sb_model_body *body = &model->bodies[b];
-        if (b == front || !takes_part(body) || !(body->report || model->bodies[front].report)) continue;
+        if (b == front || !takes_part(body) || !(body->report || model->bodies[front].report) ||
+            !overlap(min, max, s->min[b], s->max[b]))
+            continue;
         for (size_t i = body->begin; i < body->begin + body->count; i++) {
             const sb_vec3 at = model->wall_position[i];
-            if (at.x < min.x || at.y < min.y || at.z < min.z || at.x > max.x || at.y > max.y || at.z > max.z) continue;
             const sb_sample one = {.at = at, .normal = model->wall_normal[i], .source = (uint32_t)i};
-            if (sb_sample_set_add(near, &one) != 0) return -1;
+            if (overlap(min, max, at, at) && sb_sample_set_add(near, &one) != 0) return -1;
         }
     }
     return 0;
@@ -108,8 +106,9 @@ static void count_behind(search *s, const sb_model_body *front, const sb_sample_
             s->place[b] = model->wall_position[i];
         }
         s->found[FACES * b + (size_t)face_of(model->wall_normal[i])]++;
-        if (!s->seen[rear]) s->behind[FACES * b + (size_t)face_of(model->wall_normal[rear])]++;
-        s->seen[rear] = 1;
+        const size_t number = (size_t)(front - model->bodies) + 1;
+        if (s->seen[rear] != number) s->behind[FACES * b + (size_t)face_of(model->wall_normal[rear])]++;
+        s->seen[rear] = number;
     }
 }
 
@@ -145,16 +144,16 @@ static sb_status look(search *s, size_t front, sb_error *error)
 {
     const sb_model *model = s->model;
     const sb_model_body *body = &model->bodies[front];
-    sb_vec3 min, max;
-    extent_of(model, body, s->depth + model->spacing, &min, &max);
+    const double margin = s->depth + model->spacing;
+    const sb_vec3 more = sb_vec(margin, margin, margin);
+    const sb_vec3 min = sb_sub(s->min[front], more), max = sb_add(s->max[front], more);
     sb_sample_set near = {.cell = model->spacing, .origin = min};
-    if (gather(model, front, min, max, &near) != 0) {
+    if (gather(s, front, min, max, &near) != 0) {
         sb_sample_set_free(&near);
         return sb_fail_memory(error, "surfaces behind surfaces");
     }
     memset(s->found, 0, FACES * model->body_count * sizeof *s->found);
     memset(s->behind, 0, FACES * model->body_count * sizeof *s->behind);
-    memset(s->seen, 0, model->wall_count);
     for (size_t b = 0; b < model->body_count; b++) s->nearest[b] = (double)NAN;
     count_behind(s, body, &near);
     sb_sample_set_free(&near);
@@ -163,44 +162,66 @@ static sb_status look(search *s, size_t front, sb_error *error)
     return SB_OK;
 }
 
-static sb_status look_at_all(search *s, sb_error *error)
+static void measure_bodies(search *s)
 {
     const sb_model *model = s->model;
-    sb_status status = SB_OK;
-    for (size_t b = 0; b < model->body_count; b++)
-        for (size_t i = model->bodies[b].begin; i < model->bodies[b].begin + model->bodies[b].count; i++)
+    for (size_t b = 0; b < model->body_count; b++) {
+        const sb_model_body *body = &model->bodies[b];
+        for (size_t i = body->begin; i < body->begin + body->count; i++) {
             s->totals[FACES * b + (size_t)face_of(model->wall_normal[i])]++;
-    for (size_t b = 0; b < model->body_count && status == SB_OK; b++)
-        if (takes_part(&model->bodies[b])) status = look(s, b, error);
+            s->min[b] = i == body->begin ? model->wall_position[i] : sb_min(s->min[b], model->wall_position[i]);
+            s->max[b] = i == body->begin ? model->wall_position[i] : sb_max(s->max[b], model->wall_position[i]);
+        }
+    }
+}
+
+static sb_status look_at_all(search *s, sb_error *error)
+{
+    sb_status status = SB_OK;
+    measure_bodies(s);
+    for (size_t b = 0; b < s->model->body_count && status == SB_OK; b++)
+        if (takes_part(&s->model->bodies[b])) status = look(s, b, error);
     return status;
+}
+
+static int allocate(search *s)
+{
+    const size_t bodies = s->model->body_count;
+    s->totals = sb_alloc(FACES * bodies, sizeof *s->totals);
+    s->found = sb_alloc(FACES * bodies, sizeof *s->found);
+    s->behind = sb_alloc(FACES * bodies, sizeof *s->behind);
+    s->seen = sb_alloc(s->model->wall_count, sizeof *s->seen);
+    s->min = sb_alloc(bodies, sizeof *s->min);
+    s->max = sb_alloc(bodies, sizeof *s->max);
+    s->place = sb_alloc(bodies, sizeof *s->place);
+    s->nearest = sb_alloc(bodies, sizeof *s->nearest);
+    return s->totals && s->found && s->behind && s->seen && s->min && s->max && s->place && s->nearest ? 0 : -1;
+}
+
+static void release(search *s)
+{
+    sb_free(s->totals);
+    sb_free(s->found);
+    sb_free(s->behind);
+    sb_free(s->seen);
+    sb_free(s->min);
+    sb_free(s->max);
+    sb_free(s->place);
+    sb_free(s->nearest);
 }
 
 sb_status sb_model_warn_of_clad(const sb_scene *scene, sb_model *model, sb_error *error)
 {
     const sb_numerics *n = &scene->numerics;
-    const size_t rows = FACES * model->body_count;
     search s = {.model = model, .depth = (n->support - n->wall_offset - FIRST) * model->spacing};
     char more[40] = "";
-    s.totals = sb_alloc(rows, sizeof *s.totals);
-    s.found = sb_alloc(rows, sizeof *s.found);
-    s.behind = sb_alloc(rows, sizeof *s.behind);
-    s.seen = sb_alloc(model->wall_count, sizeof *s.seen);
-    s.place = sb_alloc(model->body_count, sizeof *s.place);
-    s.nearest = sb_alloc(model->body_count, sizeof *s.nearest);
-    sb_status status = s.totals && s.found && s.behind && s.seen && s.place && s.nearest
-                           ? look_at_all(&s, error)
-                           : sb_fail_memory(error, "surfaces behind surfaces");
-    if (status == SB_OK && s.pairs > s.named + 1) snprintf(more, sizeof more, " and %zu more", s.pairs - s.named - 1);
+    sb_status status = allocate(&s) != 0 ? sb_fail_memory(error, "surfaces behind surfaces") : look_at_all(&s, error);
+    if (s.pairs > s.named + 1) snprintf(more, sizeof more, " and %zu more", s.pairs - s.named - 1);
     if (status == SB_OK && s.pairs > 0)
         status = sb_model_warn(model, error,
                                "%s: both take the load of the same water, so the force on each is wrong and the sum of "
                                "their forces is right; expected one body, or %.3g m or more between the surfaces%s%s",
                                s.first, s.depth, s.others, more);
-    sb_free(s.totals);
-    sb_free(s.found);
-    sb_free(s.behind);
-    sb_free(s.seen);
-    sb_free(s.place);
-    sb_free(s.nearest);
+    release(&s);
     return status;
 }

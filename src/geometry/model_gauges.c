@@ -77,17 +77,17 @@ sb_status sb_model_warn_of_gauges(const sb_scene *scene, const sb_model_space *s
             first = i;
             depth = here;
         } else if (here > 0 && length + SB_NAME_MAX + 32 < sizeof others) {
-            length +=
-                (size_t)snprintf(others + length, sizeof others - length, "%s \"%s\" %.2g m",
-                                 length == 0 ? "; likewise" : ",", settings->gauges[i].name, here);
+            length += (size_t)snprintf(others + length, sizeof others - length, "%s \"%s\" %.2g m",
+                                       length == 0 ? "; likewise" : ",", settings->gauges[i].name, here);
         } else {
             left += here > 0;
         }
     }
     if (first == SIZE_MAX) return SB_OK;
     if (left > 0) snprintf(more, sizeof more, " and %zu more", left);
-    return sb_model_warn(model, error,
-                         "gauge \"%s\": the still water there is %.2g m deep, less than the spacing of %g m: its values "
-                         "stay empty until deeper water comes; expected a resolution of %.2g m or less to see it%s%s",
-                         settings->gauges[first].name, depth, model->spacing, depth, others, more);
+    return sb_model_warn(
+        model, error,
+        "gauge \"%s\": the still water there is %.2g m deep, less than the spacing of %g m: its values "
+        "stay empty until deeper water comes; expected a resolution of %.2g m or less to see it%s%s",
+        settings->gauges[first].name, depth, model->spacing, depth, others, more);
 }

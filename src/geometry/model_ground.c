@@ -1,11 +1,13 @@
-/* Ground that is deeper than was meant: heights that are none, and ground below the domain's floor. */
+/* Ground at another depth than was meant: missing heights whose value the file does not give, and ground below the
+   domain's floor. */
 #include "base/memory.h"
 #include "geometry/model_parts.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Heights farther from all others than so many times their range, or the domain's height, are hardly heights. */
+/* A height is taken for missing where it is farther from all others than so many times their range and than so many
+   times the domain's height. */
 static const double FAR_OFF = 10;
 
 /* Heights of a grid's nodes within the domain, ascending; owned. */
@@ -90,8 +92,8 @@ static sb_status check_heights(const sb_scene *scene, const sb_model_body *body,
             status = sb_model_warn(
                 model, error,
                 "body \"%s\": %zu of its grid's nodes within the domain %s at z = %g m%s, far %s all others, which are "
-                "from %g to %g m; the first is at (%g, %g): most likely a missing height (nodata) that the file does "
-                "not name; expected it as NODATA_value in the header, or no line of it in an .xyz file",
+                "from %g to %g m; the first is at (%g, %g): most likely missing heights (nodata) whose value the file "
+                "does not give; expected their NODATA_value in the header, or no lines for them in an .xyz file",
                 body->name, count, count > 1 ? "are" : "is", least, most > least ? " and more" : "",
                 most < low     ? "below"
                 : least > high ? "above"

@@ -43,7 +43,8 @@ sb_status sb_model_warn_of_shared(const sb_scene *scene, sb_model *model, sb_err
 /* One line for all bodies at rest whose surface lies so close behind that of another that both take its load. */
 sb_status sb_model_warn_of_clad(const sb_scene *scene, sb_model *model, sb_error *error);
 
-/* A line for each grid with heights that are none, and for each terrain below the domain's floor where water is. */
+/* A line for each grid with missing heights that are not marked as such, and for each terrain below the domain's floor
+ * where water is. */
 sb_status sb_model_warn_of_ground(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 
 /* A line for each open side that water stands at. */

@@ -31,6 +31,6 @@ sb_status sb_model_warn_of_wave(const sb_scene *scene, const sb_wave_room *room,
     advise(scene, room, advice, sizeof advice);
     return sb_model_warn(model, error,
                          "water.wave: %.2g %% of the wave's volume above the still-water level is cut off: it lies "
-                         "beyond a side, in a body or on land, and the water is from x = %g m to %g m; %s",
+                         "beyond a side, in a body or on land, and the water extends from x = %g m to %g m; %s",
                          100 * missing, room->low, room->high, advice);
 }

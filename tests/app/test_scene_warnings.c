@@ -5,7 +5,8 @@
 
 #include <string.h>
 
-#define TANK "title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\nmeasure: {interval: 0.01}\noutput: {plots: false}\n"
+#define TANK                                                                                                           \
+    "title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\nmeasure: {interval: 0.01}\noutput: {plots: false}\n"
 
 /* The lines that hold both texts. */
 static int lines_with(const char *text, const char *first, const char *second)
@@ -58,8 +59,8 @@ static void check_and_run_say_the_same(void **state)
     }
 }
 
-/* A third of a spacing over a shelf is known before. Two particles on the floor are a spacing deep by the scene, and too
-   few to have a surface: that is known at the end. */
+/* A third of a spacing over a shelf is known before. Two particles on the floor are a spacing deep by the scene, and
+   too few to have a surface: that is known at the end. */
 static void gauges_that_stay_empty_are_reported_once(void **state)
 {
     (void)state;

@@ -75,7 +75,7 @@ static void waves_cut_by_bodies_and_land_are_reported(void **state)
     scene.wave.position = 24;
     build();
     const char *line = warning("water.wave", "cut off");
-    assert_true(fabs(number_after(line, "the water is from x = ") - 19.5) <= 0.5);
+    assert_true(fabs(number_after(line, "the water extends from x = ") - 19.5) <= 0.5);
     scene.body_count = 0;
     bodies[0] = (sb_body){.role = SB_ROLE_SOLID};
     /* A pillar at the crest, of half the width and a tenth of the wave's length; and a pier beside the water. */
@@ -170,7 +170,7 @@ static sb_body *add_grid(char *path, const char *nodata, const char *first, cons
     return body;
 }
 
-static void heights_that_are_none_are_reported(void **state)
+static void unmarked_missing_heights_are_reported(void **state)
 {
     (void)state;
     static char path[] = SB_BINARY_DIR "/test_meant_nodata.asc";
@@ -194,7 +194,7 @@ static void heights_that_are_none_are_reported(void **state)
         build();
         assert_int_equal(warned("\"ground\"", "NODATA_value"), cases[k].expected != NULL);
         if (cases[k].expected) assert_non_null(strstr(warning("\"ground\"", "1.1 to "), cases[k].expected));
-        /* What is none is not told as the ground's lowest height, too. */
+        /* A missing height is not reported as the ground's lowest height, too. */
         assert_false(warned("domain's floor is", ""));
     }
     /* The same two places outside of the domain, at (4, 4) and (6, 2). */
@@ -384,7 +384,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         CASE(waves_that_are_cut_off_are_reported),       CASE(waves_cut_by_bodies_and_land_are_reported),
         CASE(surfaces_close_behind_others_are_reported), CASE(many_surfaces_behind_others_share_a_line),
-        CASE(heights_that_are_none_are_reported),        CASE(ground_below_the_floor_is_reported),
+        CASE(unmarked_missing_heights_are_reported),     CASE(ground_below_the_floor_is_reported),
         CASE(water_at_an_open_side_is_reported),         CASE(bodies_that_no_water_reaches_are_reported),
         CASE(gauges_over_thin_water_are_reported),
     };
