@@ -1,10 +1,12 @@
 #include "base/file.h"
 
+#include "base/input.h"
 #include "base/memory.h"
 
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -242,14 +244,34 @@ static sb_status unreadable(const char *path, int reason, sb_error *error)
     return SB_BAD_INPUT;
 }
 
+/* A size is easily set, also by who has no disk for it: memory is asked about what would fill it. */
+static sb_status check_size(const char *path, off_t size, size_t limit, sb_error *error)
+{
+    static const off_t small = (off_t)1 << 28;
+    if ((uintmax_t)size > limit)
+        return sb_fail(error, SB_BAD_INPUT, "%.500s: larger than the %zu bytes allowed", path, limit);
+    const size_t there = size > small ? sb_memory_available() : 0;
+    if (there == 0 || (uintmax_t)size <= there) return SB_OK;
+    return sb_fail(error, SB_FAILED, "%.500s: %.3g GB, expected no more than the %.3g GB of free memory", path,
+                   (double)size / 1e9, (double)there / 1e9);
+}
+
 sb_status sb_file_read(const char *path, size_t limit, char **text, size_t *length, sb_error *error)
 {
     *text = NULL;
     *length = 0;
-    FILE *file = fopen(path, "rb");
-    if (!file) return unreadable(path, errno, error);
-    sb_status status = SB_OK;
+    FILE *file;
+    struct stat about;
     int reason = 0;
+    sb_status status = sb_input_open(path, &file, error);
+    if (status != SB_OK) return status;
+    /* What is too large by its size need not be read to its limit first. */
+    if (fstat(fileno(file), &about) == 0 && about.st_size > 0) status = check_size(path, about.st_size, limit, error);
+    if (status != SB_OK) {
+        fclose(file);
+        errno = 0;
+        return status;
+    }
     char *buffer = NULL;
     size_t capacity = 0, used = 0;
     for (;;) {

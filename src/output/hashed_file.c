@@ -1,5 +1,7 @@
 #include "output/hashed_file.h"
 
+#include "base/input.h"
+
 #include <errno.h>
 #include <stdbool.h>
 #include <unistd.h>
@@ -71,11 +73,11 @@ sb_status sb_hashed_check(const char *path, uint64_t length, uint64_t hash, sb_e
 {
     sb_running_hash there;
     uint64_t found;
+    FILE *file;
+    sb_status status = sb_input_open(path, &file, error);
+    if (status != SB_OK) return status;
     errno = 0;
-    FILE *file = fopen(path, "rb");
-    if (!file) return cannot("read", path, SB_BAD_INPUT, error);
-    sb_status status =
-        hash_start(file, length, &there, &found) == 0 ? SB_OK : cannot("read", path, SB_BAD_INPUT, error);
+    if (hash_start(file, length, &there, &found) != 0) status = cannot("read", path, SB_BAD_INPUT, error);
     fclose(file);
     if (status != SB_OK) return status;
     if (length == 0 || found < length)

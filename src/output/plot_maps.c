@@ -1,5 +1,6 @@
 /* Plots of the maps. */
 #include "base/file.h"
+#include "base/input.h"
 #include "output/plot_parts.h"
 
 #include <unistd.h>
@@ -22,9 +23,10 @@ static int draw_map(const char *program, const char *directory, size_t k, const 
     snprintf(grid, sizeof grid, "%.4000s/maps/%s.asc", directory, maps[k].name);
     if (access(grid, R_OK) != 0) return 0;
     double columns, rows, x, y, cell;
-    FILE *in = fopen(grid, "r");
-    bool read = in && fscanf(in, "ncols %lf nrows %lf xllcorner %lf yllcorner %lf cellsize %lf", &columns, &rows, &x,
-                             &y, &cell) == 5;
+    FILE *in = NULL;
+    bool read =
+        sb_input_open(grid, &in, NULL) == SB_OK &&
+        fscanf(in, "ncols %lf nrows %lf xllcorner %lf yllcorner %lf cellsize %lf", &columns, &rows, &x, &y, &cell) == 5;
     if (in) fclose(in);
     FILE *out = read && rows > 1 ? sb_plot_open(directory, maps[k].name, "gp", script, &error) : NULL;
     if (!out) return 0;

@@ -1,3 +1,4 @@
+#include "base/input.h"
 #include "base/memory.h"
 #include "output/vtp.h"
 #include "output/vtp_layout.h"
@@ -236,9 +237,10 @@ static sb_status read_frame(source *file, sb_frame **frame, sb_error *error)
 
 sb_status sb_vtp_read(const char *path, sb_frame **frame, sb_error *error)
 {
-    source file = {.path = path, .stream = fopen(path, "rb")};
-    if (!file.stream) return sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(errno));
-    sb_status status = read_header(&file, error);
+    source file = {.path = path};
+    sb_status status = sb_input_open(path, &file.stream, error);
+    if (status != SB_OK) return status;
+    status = read_header(&file, error);
     if (status == SB_OK) status = read_frame(&file, frame, error);
     sb_free(file.header);
     fclose(file.stream);

@@ -1,3 +1,4 @@
+#include "base/input.h"
 #include "base/memory.h"
 #include "scene/reader.h"
 
@@ -145,7 +146,9 @@ static sb_status read_file(sb_reader *reader, const sb_yaml *node, const sb_key 
     struct stat about;
     if (stat(path, &about) != 0 || access(path, R_OK) != 0)
         return sb_reader_fail(reader, node, NULL, "cannot read %.400s: %s, expected a file", path, strerror(errno));
-    if (!S_ISREG(about.st_mode)) return sb_reader_fail(reader, node, NULL, "%.400s is not a regular file", path);
+    if (!S_ISREG(about.st_mode))
+        return sb_reader_fail(reader, node, NULL, "%.400s is %s, expected a regular file", path,
+                              sb_input_kind(about.st_mode));
     return copy_text(reader, path, value);
 }
 

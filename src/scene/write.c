@@ -1,9 +1,9 @@
 #include "base/file.h"
 #include "base/hash.h"
+#include "base/input.h"
 #include "base/memory.h"
 #include "scene/key.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -94,8 +94,9 @@ static sb_status hash_file(const char *path, uint64_t *hash, sb_error *error)
 {
     char part[16384];
     size_t got;
-    FILE *file = fopen(path, "rb");
-    if (!file) return sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(errno));
+    FILE *file;
+    sb_status status = sb_input_open(path, &file, error);
+    if (status != SB_OK) return status;
     *hash = 0;
     while ((got = fread(part, 1, sizeof part, file)) > 0) *hash = sb_hash(*hash, part, got);
     bool bad = ferror(file) != 0;

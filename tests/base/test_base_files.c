@@ -1,8 +1,11 @@
 /* Files are whole or absent; paths join; directories come with their parents. */
 #include "../check.h"
 #include "base/file.h"
+#include "base/input.h"
 #include "base/memory.h"
 
+#include <errno.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -289,6 +292,55 @@ static void long_files_are_read_whole(void **state)
     assert_int_equal(unlink(at("e")), 0);
 }
 
+static void expect_no_input(const char *path, const char *why)
+{
+    char *text;
+    size_t length;
+    FILE *stream;
+    sb_error error = {0};
+    errno = ENOENT;
+    assert_int_equal(sb_input_open(path, &stream, &error), SB_BAD_INPUT);
+    assert_null(stream);
+    assert_int_equal(errno, 0);
+    if (!strstr(error.text, path) || !strstr(error.text, why)) fail_msg("\"%s\" does not say \"%s\"", error.text, why);
+    assert_int_equal(sb_file_read(path, 1000, &text, &length, &error), SB_BAD_INPUT);
+    assert_null(text);
+}
+
+/* Opened as other programs do, a pipe would wait for its writer and a device never end. */
+static void inputs_are_regular_files(void **state)
+{
+    (void)state;
+    char target[SB_PATH_MAX];
+    expect_no_input(folder, "is a directory, expected a regular file");
+    expect_no_input("/dev/zero", "is a device, expected a regular file");
+    assert_int_equal(mkfifo(at("pipe"), 0600), 0);
+    expect_no_input(at("pipe"), "is a named pipe, expected a regular file");
+    assert_int_equal(symlink("pipe", at("link")), 0);
+    expect_no_input(at("link"), "is a named pipe, expected a regular file");
+    assert_int_equal(unlink(at("link")), 0);
+    assert_int_equal(unlink(at("pipe")), 0);
+    /* Links to files are fine. */
+    write_whole("file", "text", 0);
+    assert_int_equal(symlink("file", at("soft")), 0);
+    snprintf(target, sizeof target, "%s", at("file"));
+    assert_int_equal(link(target, at("hard")), 0);
+    check_text("soft", "text");
+    check_text("hard", "text");
+    assert_int_equal(unlink(at("soft")), 0);
+    assert_int_equal(unlink(at("hard")), 0);
+    /* A size without anything behind it is refused before it is read. */
+    char *text;
+    size_t length;
+    sb_error error = {0};
+    assert_int_equal(truncate(at("file"), (off_t)1 << 40), 0);
+    assert_int_equal(sb_file_read(at("file"), 1000, &text, &length, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "larger than the 1000 bytes allowed"));
+    assert_int_equal(sb_file_read(at("file"), SIZE_MAX, &text, &length, &error), SB_FAILED);
+    assert_non_null(strstr(error.text, "1.1e+03 GB, expected no more than"));
+    assert_int_equal(unlink(at("file")), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -303,6 +355,7 @@ int main(void)
         cmocka_unit_test(reading_has_its_limits),
         cmocka_unit_test(text_comes_without_its_mark),
         cmocka_unit_test(long_files_are_read_whole),
+        cmocka_unit_test(inputs_are_regular_files),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -1,0 +1,60 @@
+#include "base/input.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+const char *sb_input_kind(mode_t mode)
+{
+    if (S_ISREG(mode)) return "a regular file";
+    if (S_ISDIR(mode)) return "a directory";
+    if (S_ISFIFO(mode)) return "a named pipe";
+    return S_ISSOCK(mode) ? "a socket" : "a device";
+}
+
+static sb_status unreadable(const char *path, int reason, sb_error *error)
+{
+    sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(reason));
+    errno = reason;
+    return SB_BAD_INPUT;
+}
+
+static sb_status irregular(const char *path, mode_t mode, sb_error *error)
+{
+    sb_fail(error, SB_BAD_INPUT, "%.500s: is %s, expected a regular file", path, sb_input_kind(mode));
+    errno = 0;
+    return SB_BAD_INPUT;
+}
+
+sb_status sb_input_descriptor(const char *path, int *file, sb_error *error)
+{
+    struct stat found;
+    *file = -1;
+    /* Opening a device may have an effect by itself. */
+    if (stat(path, &found) != 0) return unreadable(path, errno, error);
+    if (!S_ISREG(found.st_mode)) return irregular(path, found.st_mode, error);
+    /* Another file may stand there by now: opening that does not wait either. */
+    const int opened = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (opened < 0) return unreadable(path, errno, error);
+    if (fstat(opened, &found) == 0 && S_ISREG(found.st_mode)) {
+        *file = opened;
+        return SB_OK;
+    }
+    close(opened);
+    return irregular(path, found.st_mode, error);
+}
+
+sb_status sb_input_open(const char *path, FILE **stream, sb_error *error)
+{
+    int file;
+    *stream = NULL;
+    sb_status status = sb_input_descriptor(path, &file, error);
+    if (status != SB_OK) return status;
+    *stream = fdopen(file, "rb");
+    if (*stream) return SB_OK;
+    const int reason = errno;
+    close(file);
+    return unreadable(path, reason, error);
+}
