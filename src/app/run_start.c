@@ -178,6 +178,14 @@ static void warn(void *context, const char *text)
     sb_run_warn(context, "%s", text);
 }
 
+static void note_mesh_guards(run *r)
+{
+    const char *gaps = sb_mesh_fence_gaps();
+    bool reads = false;
+    for (size_t b = 0; b < r->scene->body_count; b++) reads = reads || r->scene->bodies[b].shape == SB_SHAPE_MESH;
+    if (reads && gaps) sb_runlog_event(r->log, "skipped", "%s", gaps);
+}
+
 static void note_start(run *r)
 {
     sb_run_say(r, "%zu fluid and %zu boundary particles, %zu bodies", r->model.fluid_count, r->model.wall_count,
@@ -191,6 +199,7 @@ static void note_start(run *r)
                     r->left.first_other, r->left.others - 1);
     sb_runlog_event(r->log, "build", "%s", r->checkpoints.build);
     sb_runlog_skipped(r->log, r->off);
+    note_mesh_guards(r);
     sb_runlog_skipped(r->log, sb_sim_skipped(r->sim));
     r->setup_seconds = sb_progress_wall(&r->progress);
 }

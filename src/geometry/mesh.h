@@ -71,8 +71,12 @@ sb_status sb_mesh_weld(sb_mesh *mesh, sb_error *error);
    time, and 1 s per MB). One mesh, welded, for each node that has triangles, named after it (""
    when it has no name; letters that a CSV or a path would trip over become _); the nodes'
    transforms are applied. File units and axes, but a DAE is in metres by its own unit. *meshes is
-   owned by the caller: sb_mesh_free each, then sb_free. SB_BAD_INPUT "file: what, expected". */
+   owned by the caller: sb_mesh_free each, then sb_free. The child opens no file outside of the mesh's folder; a mesh
+   that names one is refused. SB_BAD_INPUT "file: what, expected", SB_INTERRUPTED by a signal (base/stop.h). */
 sb_status sb_mesh_import(const char *path, sb_mesh **meshes, size_t *count, sb_error *error);
+
+/* What of its guards (mesh_fence.h) this kernel does not have, as a line for a log; NULL: nothing. */
+const char *sb_mesh_fence_gaps(void);
 
 /* Terrain heights as a sheet mesh: ESRI ASCII (.asc; nodata cells are holes) or lines "x y z" on a
    regular grid (.xyz, in any order; missing points are holes). File units; datum is added to the

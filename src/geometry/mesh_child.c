@@ -2,6 +2,8 @@
 #include "geometry/mesh_child.h"
 
 #include "base/clock.h"
+#include "base/input.h"
+#include "base/stop.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -16,6 +18,9 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+/* The child's descriptors. */
+enum { OWN_PIPE = 3, OWN_FILE, OWN_ABOVE };
 
 /* On the clock the child may take longer than on the processor: the disk, and other programs. */
 enum { PATIENCE = 5 };
@@ -49,7 +54,7 @@ static void reset_signals(void)
     sigprocmask(SIG_SETMASK, &none, NULL);
 }
 
-static _Noreturn void run_child(const char *path, int to, const sb_mesh_limits *limits, uint64_t mapped)
+static _Noreturn void run_child(const char *path, int mesh, int to, const sb_mesh_limits *limits, uint64_t mapped)
 {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     prctl(PR_SET_DUMPABLE, 0);
@@ -57,16 +62,15 @@ static _Noreturn void run_child(const char *path, int to, const sb_mesh_limits *
     int null = open("/dev/null", O_RDWR);
     if (null < 0 || dup2(null, STDIN_FILENO) < 0 || dup2(null, STDOUT_FILENO) < 0 || dup2(null, STDERR_FILENO) < 0)
         _exit(1);
-    /* The pipe is above 2 here: run_reader sees to that. All else the parent had open goes. */
-    enum { OWN_PIPE = 3 };
-    if (to != OWN_PIPE && dup2(to, OWN_PIPE) < 0) _exit(1);
-    close_range(OWN_PIPE + 1, ~0U, 0);
+    /* Both are above these numbers here: run_reader sees to that. All else the parent had open goes. */
+    if (dup2(to, OWN_PIPE) < 0 || dup2(mesh, OWN_FILE) < 0) _exit(1);
+    close_range(OWN_FILE + 1, ~0U, 0);
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_FSIZE, 0);
     limit(RLIMIT_CPU, limits->seconds);
     if (LIMIT_MEMORY) limit(RLIMIT_AS, mapped + limits->memory);
     alarm(limits->seconds * PATIENCE);
-    sb_mesh_send_file(path, OWN_PIPE);
+    sb_mesh_send_file(path, OWN_FILE, OWN_PIPE);
     _exit(0);
 }
 
@@ -113,23 +117,25 @@ static sb_status explain_end(const sb_mesh_link *from, int how, const sb_mesh_li
 }
 
 /* Forks with all signals held, so that no handler of the parent runs in the child. */
-static sb_status run_reader(const char *path, const sb_mesh_limits *limits, sb_mesh_link *from, sb_error *error)
+static sb_status run_reader(const char *path, int mesh, const sb_mesh_limits *limits, sb_mesh_link *from,
+                            sb_error *error)
 {
     int ends[2];
     uint64_t mapped = mapped_bytes();
     if (pipe2(ends, O_CLOEXEC) != 0)
         return sb_fail(error, SB_FAILED, "%.500s: no pipe to its reader: %s", path, strerror(errno));
     /* Standard streams may be closed: the child's end must not be taken for one of them. */
-    int high = fcntl(ends[1], F_DUPFD_CLOEXEC, 3);
+    int high = fcntl(ends[1], F_DUPFD_CLOEXEC, OWN_ABOVE), file = fcntl(mesh, F_DUPFD_CLOEXEC, OWN_ABOVE);
     close(ends[1]);
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
-    pid_t child = high < 0 ? -1 : fork();
-    if (child == 0) run_child(path, high, limits, mapped);
+    pid_t child = high < 0 || file < 0 ? -1 : fork();
+    if (child == 0) run_child(path, file, high, limits, mapped);
     int reason = errno;
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     if (high >= 0) close(high);
+    if (file >= 0) close(file);
     if (child < 0) {
         close(ends[0]);
         return sb_fail(error, SB_FAILED, "%.500s: no process to read it: %s", path, strerror(reason));
@@ -153,31 +159,29 @@ static bool has_known_ending(const char *path)
     return false;
 }
 
-static sb_status check_file(const char *path, uint64_t *size, sb_error *error)
+/* Opens the mesh: what is read is then the file whose size was seen. */
+static sb_status open_mesh(const char *path, int *mesh, uint64_t *size, sb_error *error)
 {
     struct stat found;
-    if (stat(path, &found) != 0)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s: %s, expected a mesh file", path, strerror(errno));
-    if (!S_ISREG(found.st_mode))
-        return sb_fail(error, SB_BAD_INPUT, "%.500s: %s, expected a mesh file", path,
-                       S_ISDIR(found.st_mode) ? "is a directory" : "is no regular file");
-    if (access(path, R_OK) != 0)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s: %s, expected a readable file", path, strerror(errno));
+    sb_status status = sb_input_descriptor(path, mesh, error);
+    if (status != SB_OK) return status;
     if (!has_known_ending(path))
-        return sb_fail(error, SB_BAD_INPUT, "%.500s: unknown format, expected .obj, .stl, .ply, .gltf, .glb or .dae",
-                       path);
-    if (found.st_size == 0) return sb_fail(error, SB_BAD_INPUT, "%.500s: is empty, expected a mesh", path);
-    *size = (uint64_t)found.st_size;
-    return SB_OK;
+        status = sb_fail(error, SB_BAD_INPUT, "%.500s: unknown format, expected .obj, .stl, .ply, .gltf, .glb or .dae",
+                         path);
+    else if (fstat(*mesh, &found) != 0)
+        status = sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(errno));
+    else if (found.st_size == 0)
+        status = sb_fail(error, SB_BAD_INPUT, "%.500s: is empty, expected a mesh", path);
+    if (status == SB_OK) *size = (uint64_t)found.st_size;
+    if (status != SB_OK) close(*mesh);
+    return status;
 }
 
-sb_status sb_mesh_import_within(const char *path, const sb_mesh_limits *limits, sb_mesh **meshes, size_t *count,
-                                sb_error *error)
+static sb_status import_open(const char *path, int mesh, const sb_mesh_limits *limits, sb_mesh **meshes, size_t *count,
+                             sb_error *error)
 {
-    uint64_t size = 0;
     sb_mesh_link from = {0};
-    sb_status status = check_file(path, &size, error);
-    if (status == SB_OK) status = run_reader(path, limits, &from, error);
+    sb_status status = run_reader(path, mesh, limits, &from, error);
     if (status != SB_OK) return status;
     sb_mesh *received = NULL;
     size_t found = 0;
@@ -185,6 +189,7 @@ sb_status sb_mesh_import_within(const char *path, const sb_mesh_limits *limits, 
     int how = finish_child(&from, status != SB_OK && from.end != SB_MESH_LINK_CLOSED);
     close(from.pipe);
     if (from.watch >= 0) close(from.watch);
+    if (from.end == SB_MESH_LINK_STOPPED) return sb_stop_fail(error, "while a mesh was read");
     if (from.end != SB_MESH_LINK_OK) return explain_end(&from, how, limits, error);
     if (status != SB_OK) return status;
     *meshes = received;
@@ -192,14 +197,29 @@ sb_status sb_mesh_import_within(const char *path, const sb_mesh_limits *limits, 
     return SB_OK;
 }
 
+sb_status sb_mesh_import_within(const char *path, const sb_mesh_limits *limits, sb_mesh **meshes, size_t *count,
+                                sb_error *error)
+{
+    int mesh;
+    uint64_t size = 0;
+    sb_status status = open_mesh(path, &mesh, &size, error);
+    if (status != SB_OK) return status;
+    status = import_open(path, mesh, limits, meshes, count, error);
+    close(mesh);
+    return status;
+}
+
 sb_status sb_mesh_import(const char *path, sb_mesh **meshes, size_t *count, sb_error *error)
 {
+    int mesh;
     uint64_t size = 0;
-    sb_status status = check_file(path, &size, error);
+    sb_status status = open_mesh(path, &mesh, &size, error);
     if (status != SB_OK) return status;
     /* A million triangles take 1 to 3 s; a small glTF may name a large buffer file. */
     const uint64_t megabytes = size >> 20;
     const sb_mesh_limits limits = {.memory = UINT64_C(4) << 30,
                                    .seconds = 20 + (megabytes < 600 ? (unsigned)megabytes : 600)};
-    return sb_mesh_import_within(path, &limits, meshes, count, error);
+    status = import_open(path, mesh, &limits, meshes, count, error);
+    close(mesh);
+    return status;
 }

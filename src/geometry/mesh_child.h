@@ -24,7 +24,12 @@ typedef struct sb_mesh_record {
     char name[SB_NAME_MAX];
 } sb_mesh_record;
 
-typedef enum sb_mesh_link_end { SB_MESH_LINK_OK, SB_MESH_LINK_CLOSED, SB_MESH_LINK_LATE } sb_mesh_link_end;
+typedef enum sb_mesh_link_end {
+    SB_MESH_LINK_OK,
+    SB_MESH_LINK_CLOSED,
+    SB_MESH_LINK_LATE,
+    SB_MESH_LINK_STOPPED /* by a signal to this process */
+} sb_mesh_link_end;
 
 /* The parent's end of the pipe. */
 typedef struct sb_mesh_link {
@@ -51,7 +56,7 @@ typedef struct sb_mesh_limits {
 sb_status sb_mesh_import_within(const char *path, const sb_mesh_limits *limits, sb_mesh **meshes, size_t *count,
                                 sb_error *error);
 
-/* The child's part: reads the file and writes the records to the pipe. */
-void sb_mesh_send_file(const char *path, int pipe);
+/* The child's part: reads the file, open as `mesh`, and writes the records to the pipe. */
+void sb_mesh_send_file(const char *path, int mesh, int pipe);
 
 #endif

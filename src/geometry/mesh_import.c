@@ -1,8 +1,10 @@
-/* The only file that knows assimp. It runs in a child process (mesh_child.c): a file that makes
+/* Only this file and mesh_files.c know assimp. They run in a child process (mesh_child.c): a file that makes
    assimp crash or hang costs that child only. */
 #include "base/library.h"
 #include "base/memory.h"
 #include "geometry/mesh_child.h"
+#include "geometry/mesh_fence.h"
+#include "geometry/mesh_files.h"
 
 #include <assimp/cimport.h>
 #include <assimp/config.h>
@@ -180,27 +182,35 @@ static sb_status load(assimp *ai, sb_error *error)
     return sb_library_load("libassimp.so.5", functions, sizeof functions / sizeof functions[0], error);
 }
 
-static const struct aiScene *read_scene(const assimp *ai, const char *path)
+static const struct aiScene *read_scene(const assimp *ai, sb_mesh_files *files)
 {
     struct aiPropertyStore *settings = ai->create_settings();
     /* Lines and points bound nothing. Axes stay the file's own: the scene says which is up. */
     ai->set_integer(settings, AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     ai->set_integer(settings, AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
     ai->set_integer(settings, AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, 1);
-    return ai->import(path, aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_ValidateDataStructure, NULL,
-                      settings);
+    return ai->import(files->path, aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_ValidateDataStructure,
+                      &files->io, settings);
 }
 
-void sb_mesh_send_file(const char *path, int pipe)
+void sb_mesh_send_file(const char *path, int mesh, int pipe)
 {
     sender to = {.pipe = pipe};
     assimp ai;
+    sb_mesh_files files;
     sb_error error = {0};
-    if (load(&ai, &error) != SB_OK) {
+    sb_status status = load(&ai, &error);
+    if (status == SB_OK) status = sb_mesh_files_begin(&files, path, mesh, &error);
+    if (status != SB_OK) {
         send_trouble(&to, error.text);
         return;
     }
-    to.scene = read_scene(&ai, path);
+    sb_mesh_fence(files.root);
+    to.scene = read_scene(&ai, &files);
+    if (files.refusal[0]) {
+        send_trouble(&to, files.refusal);
+        return;
+    }
     if (!to.scene) {
         /* This one of assimp's messages would tell the path a second time. */
         const char *reason = ai.error();

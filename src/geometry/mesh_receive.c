@@ -2,6 +2,7 @@
    the library that reads it. */
 #include "base/clock.h"
 #include "base/memory.h"
+#include "base/stop.h"
 #include "geometry/mesh_child.h"
 
 #include <ctype.h>
@@ -10,9 +11,12 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MESHES_MAX = 1 << 20, TROUBLE_MAX = 200 };
+enum { MESHES_MAX = 1 << 20, TROUBLE_MAX = 400 };
 
-/* Waits for bytes from the child, its end, or the deadline. */
+/* In s: a signal may reach another thread than the one that waits here. */
+static const double SLICE = 0.1;
+
+/* Waits for bytes from the child, its end, a signal to stop, or the deadline. */
 static void await(sb_mesh_link *from)
 {
     while (from->end == SB_MESH_LINK_OK) {
@@ -21,8 +25,12 @@ static void await(sb_mesh_link *from)
             from->end = SB_MESH_LINK_LATE;
             return;
         }
+        if (sb_stop_signal()) {
+            from->end = SB_MESH_LINK_STOPPED;
+            return;
+        }
         struct pollfd sources[2] = {{from->pipe, POLLIN, 0}, {from->watch, POLLIN, 0}};
-        int ready = poll(sources, 2, (int)(1e3 * left) + 1);
+        int ready = poll(sources, 2, (int)(1e3 * (left < SLICE ? left : SLICE)) + 1);
         if (ready < 0 && errno != EINTR) from->end = SB_MESH_LINK_CLOSED;
         if (ready <= 0) continue;
         if (sources[0].revents & POLLIN) return;
