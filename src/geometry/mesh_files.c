@@ -5,6 +5,7 @@
 
 #include "base/input.h"
 #include "base/memory.h"
+#include "geometry/mesh_stl.h"
 
 #include <errno.h>
 #include <stdint.h>
@@ -137,6 +138,8 @@ static struct aiFile *open_file(struct aiFileIO *io, const char *name, const cha
                                  .FileSizeProc = size_of,
                                  .SeekProc = seek,
                                  .FlushProc = flush_nothing};
+    if (mesh && sb_mesh_is_stl(name))
+        sb_mesh_stl_content(file, &made->bytes, &made->size, files->refusal, sizeof files->refusal);
     return &made->file;
 }
 
