@@ -1,4 +1,5 @@
 /* Any paddle from a table of lines "t x" (s after the start, m), as measured in a flume. */
+#include "base/columns.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "physics/wavemaker.h"
@@ -16,6 +17,7 @@ typedef struct knot {
 typedef struct table {
     knot *knots;
     size_t count, capacity;
+    bool header; /* a line that names the columns was read */
 } table;
 
 static void destroy(void *state)
@@ -25,15 +27,27 @@ static void destroy(void *state)
     sb_free(law);
 }
 
-/* A decimal number at *at, which moves behind it; -1 when there is none or it is out of range. */
+/* A decimal number at *at, which moves behind it and what parts it from the next, blanks or one comma or semicolon; -1
+ * when there is none or it is out of range. */
 static int read_number(char **at, double *value)
 {
-    char *end = *at + strcspn(*at, " \t\r");
+    char *end = *at + strcspn(*at, " \t\r,;");
     if (end == *at || strspn(*at, "+-.0123456789eE") != (size_t)(end - *at)) return -1;
     char *stop;
     *value = strtod(*at, &stop);
     *at = end + strspn(end, " \t\r");
+    if (**at == ',' || **at == ';') *at += 1 + strspn(*at + 1, " \t\r");
     return stop == end && fabs(*value) <= NUMBER_LIMIT ? 0 : -1;
+}
+
+/* One line may name the columns, before the first row. */
+static sb_status read_header(table *law, const char *line, const char *path, size_t number, sb_error *error)
+{
+    const char *unit = sb_columns_unit(line, strlen(line));
+    law->header = true;
+    if (!unit) return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: its header names the unit %s, expected seconds and metres", path,
+                   number, unit);
 }
 
 /* One line without its newline; a comment or an empty line adds nothing. */
@@ -42,6 +56,8 @@ static sb_status read_line(table *law, char *line, const char *path, size_t numb
     char *at = line + strspn(line, " \t\r");
     at[strcspn(at, "#")] = '\0';
     if (!*at) return SB_OK;
+    if (law->count == 0 && !law->header && sb_columns_header(at, strlen(at)))
+        return read_header(law, at, path, number, error);
     knot next = {0};
     if (read_number(&at, &next.t) != 0 || read_number(&at, &next.x) != 0 || *at)
         return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: expected two numbers below 1e9, \"time displacement\"", path,

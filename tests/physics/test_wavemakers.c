@@ -301,6 +301,32 @@ static void file_gives_the_speed_of_a_smooth_table(void **state)
     sb_paddle_destroy(&paddle);
 }
 
+/* As spreadsheets and other programs write tables. */
+static void file_reads_headers_and_commas(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        "0 0\n1 0.5\n",
+        "0,0\n1,0.5\n",
+        "0, 0\r\n1 , 0.5\r\n",
+        "0;0\n1;0.5\n",
+        "t x\n0 0\n1 0.5\n",
+        "\"time (s)\",\"displacement (m)\"\n0,0\n1,0.5,\n",
+        "# flume 2\n\nTime_s\tX_m\n0\t0\n1\t0.5\n",
+    };
+    sb_wavemaker_parameters parameters = good_parameters(sb_wavemaker_find("file"));
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        write_table(texts[i], strlen(texts[i]));
+        sb_paddle paddle;
+        sb_error error = {0};
+        if (sb_paddle_create(&parameters, &paddle, &error) != SB_OK) fail_msg("case %zu: %s", i, error.text);
+        assert_near(paddle.stroke_end, 0.5, 1e-15);
+        assert_near(paddle.duration, 1, 1e-15);
+        sb_paddle_destroy(&paddle);
+    }
+    make_good_table(NULL);
+}
+
 static void file_refuses_bad_tables(void **state)
 {
     (void)state;
@@ -319,7 +345,12 @@ static void file_refuses_bad_tables(void **state)
         {"0 0\n1 0x10\n", ":2:", "two numbers"},
         {"0 0\n1 --1\n", ":2:", "two numbers"},
         {"0 0\n1 1e10\n", ":2:", "two numbers"},
-        {"t x\n0 0\n1 1\n", ":1:", "two numbers"},
+        {"t x\nt x\n0 0\n1 1\n", ":2:", "two numbers"},
+        {"t 0\n0 0\n1 1\n", ":1:", "two numbers"},
+        {"0 0\nt x\n1 1\n", ":2:", "two numbers"},
+        {"time, displacement (mm)\n0 0\n1 1\n", ":1:", "names the unit mm, expected seconds and metres"},
+        {"0,0\n1,,1\n", ":2:", "two numbers"},
+        {"0,0\n1\n", ":2:", "two numbers"},
         {"0 0\n# a\n\n1 1\n1 2\n", ":5:", "increasing"},
         {"0 0\n2 1\n1 2\n", ":3:", "increasing"},
         {"-1 0\n2 1\n", ":1:", "before the start"},
@@ -400,6 +431,7 @@ int main(void)
         cmocka_unit_test(gate_is_pulled_at_constant_speed),
         cmocka_unit_test(file_passes_through_its_rows),
         cmocka_unit_test(file_gives_the_speed_of_a_smooth_table),
+        cmocka_unit_test(file_reads_headers_and_commas),
         cmocka_unit_test(file_refuses_bad_tables),
         cmocka_unit_test(paddle_waits_for_its_start),
         cmocka_unit_test(paddle_returns_slowly_and_smoothly),
