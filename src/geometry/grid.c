@@ -116,12 +116,31 @@ static sb_status make_mesh(const char *path, const sb_grid *grid, double datum, 
     return status;
 }
 
+typedef sb_status read_grid(const char *path, const char *text, sb_grid *grid, sb_error *error);
+
+/* By the ending of the file's name; those in tt and topotype are GeoClaw's. */
+static read_grid *reader_of(const char *path)
+{
+    static const struct {
+        const char *ending;
+        read_grid *read;
+    } known[] = {
+        {".asc", sb_grid_read_ascii},       {".tt2", sb_grid_read_ascii},        {".tt3", sb_grid_read_ascii},
+        {".topotype2", sb_grid_read_ascii}, {".topotype3", sb_grid_read_ascii},  {".xyz", sb_grid_read_points},
+        {".tt1", sb_grid_read_points},      {".topotype1", sb_grid_read_points},
+    };
+    const char *dot = strrchr(path, '.');
+    for (size_t i = 0; dot && i < sizeof known / sizeof *known; ++i)
+        if (strcasecmp(dot, known[i].ending) == 0) return known[i].read;
+    return NULL;
+}
+
 sb_status sb_mesh_import_grid(const char *path, double datum, sb_mesh *mesh, sb_error *error)
 {
-    const char *dot = strrchr(path, '.');
-    bool ascii = dot && strcasecmp(dot, ".asc") == 0;
-    if (!ascii && !(dot && strcasecmp(dot, ".xyz") == 0))
-        return sb_fail(error, SB_BAD_INPUT, "%.500s: unknown grid format, expected .asc or .xyz", path);
+    read_grid *const read = reader_of(path);
+    if (!read)
+        return sb_fail(error, SB_BAD_INPUT,
+                       "%.500s: unknown grid format, expected .asc, .tt2 or .tt3 (rows), .xyz or .tt1 (points)", path);
     char *text = NULL;
     size_t length = 0;
     sb_grid grid = {0};
@@ -129,10 +148,8 @@ sb_status sb_mesh_import_grid(const char *path, double datum, sb_mesh *mesh, sb_
     if (status != SB_OK) return status;
     if (strlen(text) != length)
         status = sb_fail(error, SB_BAD_INPUT, "%.500s: byte %zu is zero, expected text", path, strlen(text));
-    else if (ascii)
-        status = sb_grid_read_ascii(path, text, &grid, error);
     else
-        status = sb_grid_read_points(path, text, &grid, error);
+        status = read(path, text, &grid, error);
     sb_free(text);
     if (status == SB_OK) status = make_mesh(path, &grid, datum, mesh, error);
     sb_free(grid.heights);

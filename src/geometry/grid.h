@@ -16,6 +16,26 @@ typedef struct sb_grid {
     double *heights;     /* [j * columns + i] */
 } sb_grid;
 
+/* A text grid, read word by word; "#" begins a comment that ends with the line. */
+typedef struct sb_grid_text {
+    const char *path, *at;
+    size_t line;
+} sb_grid_text;
+
+typedef struct sb_grid_header {
+    size_t columns, rows;
+    double x, y, dx, dy, nodata; /* x, y: of the south-western node; file units */
+} sb_grid_header;
+
+/* Length of the next word, which begins at from->at; 0 at the end of the text. */
+size_t sb_grid_word(sb_grid_text *from);
+
+/* The next word as a number, `nan` among them; SB_BAD_INPUT with its line and `what` was expected. */
+sb_status sb_grid_number(sb_grid_text *from, const char *what, double *value, sb_error *error);
+
+/* Lines "key value", as of ESRI, or "value key", as of GeoClaw, up to the first height. */
+sb_status sb_grid_read_header(sb_grid_text *from, sb_grid_header *head, sb_error *error);
+
 /* Both read the zero-terminated text of the file `path`; SB_BAD_INPUT "path:line: ...". */
 sb_status sb_grid_read_ascii(const char *path, const char *text, sb_grid *grid, sb_error *error);
 sb_status sb_grid_read_points(const char *path, const char *text, sb_grid *grid, sb_error *error);

@@ -1,9 +1,12 @@
 /* Lines "x y z" that make up a regular grid, in any order. */
+#include "base/columns.h"
 #include "base/memory.h"
+#include "base/stop.h"
 #include "geometry/grid.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 /* Coordinates closer than this part of their range are one grid line; and a coordinate may be off
    its line by this part of the step, as rounding in the file leaves it. */
@@ -18,6 +21,7 @@ typedef struct cloud {
     const char *path;
     point *points;
     size_t count, capacity;
+    bool header; /* a line that names the columns was read */
 } cloud;
 
 /* Grid lines along one axis: low + i step, i < count. */
@@ -26,11 +30,25 @@ typedef struct axis {
     size_t count;
 } axis;
 
+/* One line may name the columns, before the first point. */
+static sb_status read_header(cloud *all, const char *text, size_t length, size_t line, sb_error *error)
+{
+    const size_t skip = strspn(text, " \t\"'");
+    const char *word = text + (skip < length ? skip : 0);
+    all->header = true;
+    if (strncasecmp(word, "y", 1) != 0 && strncasecmp(word, "lat", 3) != 0 && strncasecmp(word, "north", 5) != 0)
+        return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: columns \"%.*s\", expected x, y and z in this order", all->path,
+                   line, (int)(length < 60 ? length : 60), text);
+}
+
 static sb_status read_line(cloud *all, const char *text, size_t length, size_t line, sb_error *error)
 {
     static const char blank[] = " \t\r,;";
     const char *at = text + strspn(text, blank), *end = text + length;
     if (at >= end || *at == '#') return SB_OK;
+    if (all->count == 0 && !all->header && sb_columns_header(text, length))
+        return read_header(all, text, length, line, error);
     if (sb_grow((void **)&all->points, &all->capacity, all->count + 1, sizeof *all->points))
         return sb_fail_memory(error, "a terrain grid");
     point read = {.line = line};
@@ -38,7 +56,8 @@ static sb_status read_line(cloud *all, const char *text, size_t length, size_t l
         char *after;
         read.at[k] = sb_decimal(at, &after);
         /* strtod skips line ends: a number of the next line is none of this one. */
-        if (after == at || after > end || !isfinite(read.at[k]) || (after < end && !strchr(blank, *after)))
+        const bool number = isfinite(read.at[k]) || (k == 2 && isnan(read.at[k])); /* a height may be missing */
+        if (after == at || after > end || !number || (after < end && !strchr(blank, *after)))
             return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: \"%.*s\", expected x y z", all->path, line,
                            (int)(length < 60 ? length : 60), text);
         at = after + strspn(after, blank);
@@ -56,6 +75,7 @@ static sb_status read_points(cloud *all, const char *text, sb_error *error)
     for (size_t line = 1; *text && status == SB_OK; ++line) {
         size_t length = strcspn(text, "\n");
         status = read_line(all, text, length, line, error);
+        if (line % 4096 == 0 && sb_stop_signal()) return sb_stop_fail(error, "while terrain was read");
         text += length + (text[length] == '\n');
     }
     return status;

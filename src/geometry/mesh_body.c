@@ -70,6 +70,7 @@ static void transform(const sb_body *body, sb_mesh *mesh)
         sb_vec3 *at = i < mesh->vertex_count ? mesh->vertices + i : mesh->holes + (i - mesh->vertex_count);
         sb_vec3 p = sb_scale(*at, scale);
         if (body->shape == SB_SHAPE_MESH && body->up == 'y') p = sb_vec(p.x, -p.z, p.y);
+        if (body->shape == SB_SHAPE_GRID && body->positive == SB_POSITIVE_DOWN) p.z = -p.z;
         p.z += raise;
         *at = sb_add(rotate(p, cosine, sine), body->translate);
     }

@@ -126,6 +126,11 @@ typedef enum sb_role {
     SB_ROLE_TERRAIN /* a sheet; solid is all below it */
 } sb_role;
 
+typedef enum sb_positive {
+    SB_POSITIVE_UP,  /* a grid's numbers are heights */
+    SB_POSITIVE_DOWN /* they are depths */
+} sb_positive;
+
 typedef struct sb_body {
     char name[SB_NAME_MAX];
     sb_shape shape;
@@ -135,11 +140,12 @@ typedef struct sb_body {
     sb_vec3 moment_point; /* default: footprint centre at its lowest level */
     float color[3];       /* for pictures; < 0: chosen by role */
     /* mesh and grid */
-    char *file;   /* absolute path */
-    char up;      /* 'y' or 'z': the file's up axis */
-    double scale; /* metres per file unit */
-    bool split;   /* named nodes become bodies of their own */
-    double datum; /* m, added to a grid's heights */
+    char *file;           /* absolute path */
+    char up;              /* 'y' or 'z': the file's up axis */
+    double scale;         /* metres per file unit */
+    bool split;           /* named nodes become bodies of their own */
+    sb_positive positive; /* which way a grid's numbers count */
+    double datum;         /* m, added to a grid's heights */
     /* transform, applied in this order after scale and up-axis */
     sb_vec3 rotate;    /* degrees about x, then y, then z */
     sb_vec3 translate; /* m */

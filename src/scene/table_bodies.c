@@ -5,6 +5,7 @@
 
 static const char *const shape_words[] = {"mesh", "grid", "box", "cylinder", "plane", "basin", NULL};
 static const char *const role_words[] = {"solid", "terrain", NULL};
+static const char *const positive_words[] = {"up", "down", NULL};
 static const char *const up_words[] = {"z", "y", NULL};
 
 enum {
@@ -48,7 +49,7 @@ static const sb_key keys[] = {
      .doc = "Colour in pictures: [red, green, blue]."},
     {.name = "file", .type = SB_KEY_FILE, SB_KEY_AT(sb_body, file), .flags = SB_KEY_REQUIRED,
      .applies = MESH | GRID, .only = "shape mesh or grid",
-     .doc = "Mesh (OBJ, STL, PLY, glTF/GLB, DAE), or heights (ESRI ASCII .asc, lines of x y z)."},
+     .doc = "Mesh (OBJ, STL, PLY, glTF/GLB, DAE), or heights (ESRI ASCII .asc, GeoClaw topotype 1 to 3, lines of x y z)."},
     {.name = "up", .type = SB_KEY_LETTER, SB_KEY_AT(sb_body, up), .words = up_words,
      .fallback = "z", .applies = MESH, .only = "shape mesh", .doc = "The file's upward axis."},
     {.name = "scale", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_body, scale), .unit = "m",
@@ -57,6 +58,9 @@ static const sb_key keys[] = {
     {.name = "split", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_body, split), .fallback = "false",
      .applies = MESH, .only = "shape mesh",
      .doc = "Whether each named node of the file becomes a body of its own."},
+    {.name = "positive", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_body, positive), .words = positive_words,
+     .fallback = "up", .applies = GRID, .only = "shape grid",
+     .doc = "Direction of the file's numbers: `up` for heights, `down` for depths."},
     {.name = "datum", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_body, datum), .unit = "m", SB_KEY_ANY,
      .fallback = "0", .applies = GRID, .only = "shape grid", .doc = "Value added to all heights."},
     {.name = "min", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_body, min), .unit = "m", SB_KEY_ANY,

@@ -170,6 +170,18 @@ static void test_bad_ascii(void **state)
     expect_refusal("b.asc", HEAD "1 2\n3    \n", ":8: the file ends");
     expect_refusal("b.asc", HEAD "1 2\n3 4\n5\n", ":8: more numbers");
     expect_refusal("b.asc", HEAD "nodata_value 0\n0 2\n3 0\n", "no three neighbouring heights");
+    expect_refusal("b.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ndx 1\n1 2 3 4",
+                   ":6: the header ends without dy");
+    expect_refusal("b.asc", HEAD "dx 1\ndy 1\n1 2 3 4", "has cellsize and dx, expected one of them");
+    expect_refusal("b.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1 0\n1 2 3 4", "dy 0, expected > 0");
+    expect_refusal("b.asc", "ncols 2\nnrows 2\nxllcorner nan\nyllcorner 0\ncellsize 1\n1 2 3 4", "xllcorner is not a");
+    expect_refusal("b.asc", "ncols 2\nnrows 2\nxlower 0\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3 4", "both corner");
+    expect_refusal("b.tt3", "2 ncols\n2 mx\n", ":2: a second ncols");
+    expect_refusal("b.tt3", "2 ncols\n2 wide\n", ":2: \"wide\", expected ncols");
+    expect_refusal("b.tt3", "2 2 ncols\n", ":1: two numbers before ncols");
+    expect_refusal("b.tt2", "2 mx\n2 my\n0 xlower\n0 ylower\n1 cellsize\n-1 nodata_value\n1\n2\n3\n",
+                   ":10: the file ends");
+    expect_refusal("b.asc", HEAD "1 2\n3 -inf\n", ":7: \"-inf\"");
     expect_refusal("b.tif", HEAD "1 2 3 4", "unknown grid format");
     assert_int_equal(sb_mesh_import_grid("/nonexistent/b.asc", 0, NULL, &error), SB_BAD_INPUT);
     assert_int_equal(sb_mesh_import_grid("/", 0, NULL, &error), SB_BAD_INPUT);
@@ -181,11 +193,117 @@ static void test_bad_points(void **state)
     expect_refusal("b.xyz", "", "0 points");
     expect_refusal("b.xyz", "0 0 1\n1 0\n0 1 1\n", ":2: \"1 0\"");
     expect_refusal("b.xyz", "0 0 1\n1 0 1 5\n0 1 1\n", ":2: \"5\"");
-    expect_refusal("b.xyz", "0 0 1\n1 0 nan\n", ":2:");
+    expect_refusal("b.xyz", "0 0 1\n1 nan 1\n", ":2:");
+    expect_refusal("b.xyz", "0 0 1\n1 0 inf\n", ":2:");
+    expect_refusal("b.xyz", "x y z\nx y z\n0 0 1\n", ":2: \"x y z\"");
+    expect_refusal("b.xyz", "x 0 1\n1 0 1\n0 1 1\n", ":1: \"x 0 1\"");
+    expect_refusal("b.xyz", "lat,lon,z\n0,0,1\n1,0,1\n0,1,1\n", ":1: columns \"lat,lon,z\", expected x, y and z");
     expect_refusal("b.xyz", "0 0 1\n1 0 1\n0 1 1\n\n1 0 2\n", ":5: a second height at (1, 0)");
     expect_refusal("b.xyz", "0 0 1\n1 0 1\n2 0 1\n3.4 0 1\n0 1 1\n", "expected 0 plus a multiple");
     expect_refusal("b.xyz", "0 0 1\n1 0 1\n2 0 1\n", "1 values of y");
     expect_refusal("b.xyz", "0 0 1\n1 1 1\n1e6 1e6 1\n", "expected");
+}
+
+/* Six nodes, the north-western of 1, and steps of 10 and 20. */
+static void expect_six(const char *name, const char *text, double x, double y)
+{
+    sb_mesh mesh = read_grid(name, text, 0);
+    assert_int_equal(mesh.vertex_count + mesh.hole_count, 6);
+    if (!has_vertex(&mesh, x, y + 20, 1) || !has_vertex(&mesh, x + 20, y, 6)) fail_msg("%s", text);
+    sb_mesh_free(&mesh);
+}
+
+static void test_unequal_steps(void **state)
+{
+    (void)state;
+    expect_six("s.asc", "ncols 3\nnrows 2\nxllcorner 100\nyllcorner 200\ndx 10\ndy 20\n1 2 3\n4 5 6\n", 105, 210);
+    expect_six("s.asc", "ncols 3\nnrows 2\nxllcenter 100\nyllcenter 200\nDX 10.0\nDY 20.0\n1 2 3\n4 5 6\n", 100, 200);
+    expect_six("s.asc", "ncols 3\nnrows 2\nxllcorner 1\nyllcorner 2\ncellsize 10 20\n1 2 3\n4 5 6\n", 6, 12);
+    /* Equal ones are a cellsize. */
+    sb_mesh mesh = read_grid("e.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ndx 2\ndy 2\n1 2\n3 4\n", 0);
+    assert_true(has_vertex(&mesh, 1, 3, 1) && has_vertex(&mesh, 3, 1, 4));
+    sb_mesh_free(&mesh);
+}
+
+static void test_missing_heights_and_comments(void **state)
+{
+    (void)state;
+    expect_six("m.asc",
+               "# of a survey\nncols 3 # columns\nnrows 2\nxllcenter 0\nyllcenter 0\ndx 10\ndy 20\n"
+               "nodata_value nan\n# heights\n1 nan 3\n4 5 6 # end\n",
+               0, 0);
+    expect_six("m.asc", "ncols 3\nnrows 2\nxllcenter 0\nyllcenter 0\ndx 10\ndy 20\n1 2 -NaN\n4 5 6\n", 0, 0);
+    sb_mesh mesh = read_grid("m.asc", "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nnan 1 1\n1 1 NaN\n", 0);
+    assert_int_equal(mesh.hole_count, 2);
+    assert_int_equal(mesh.triangle_count, 2);
+    sb_mesh_free(&mesh);
+    mesh = read_grid("m.xyz", "0 0 1\n1 0 nan\n2 0 1\n0 1 1\n1 1 1\n2 1 1\n", 0);
+    assert_int_equal(mesh.hole_count, 1);
+    assert_true(mesh.holes[0].x == 1 && mesh.holes[0].y == 0);
+    sb_mesh_free(&mesh);
+}
+
+/* As GeoClaw's topotools writes them, and its pages show them. */
+static void test_geoclaw(void **state)
+{
+    (void)state;
+    expect_six("g.tt3",
+               "     3                              ncols\n     2                              nrows\n"
+               " 1.000000000000000e+02              xlower\n 2.000000000000000e+02              ylower\n"
+               " 1.000000000000000e+01     2.000000000000000e+01          cellsize\n"
+               "     -9999                          nodata_value\n"
+               "  1.0000000e+00   2.0000000e+00   -9.9990000e+03 \n  4.0000000e+00   5.0000000e+00   6.0000000e+00 \n",
+               100, 200);
+    expect_six("g.topotype2",
+               "3 mx\n2 my\n0. xllcorner\n20. yllcorner\n10. 20. cellsize\n9999. nodatavalue\n1.\n2.\n3.\n4.\n5.\n6.\n",
+               5, 30);
+    sb_mesh mesh = read_grid("g.asc",
+                             "2 ncols\n2 nrows\n0 xlower\n20 ylower\n10 cellsize\n9999 nodata_value\n"
+                             "-1 -2\n-3 -4\n",
+                             0);
+    assert_true(has_vertex(&mesh, 0, 30, -1) && has_vertex(&mesh, 10, 20, -4));
+    sb_mesh_free(&mesh);
+    mesh = read_grid("g.tt1", "0. 30. -1000.\n10. 30. -1000.\n0. 20. -1000.\n10. 20. -1000.\n", 0);
+    assert_true(has_vertex(&mesh, 10, 20, -1000));
+    sb_mesh_free(&mesh);
+}
+
+static void test_points_with_a_header(void **state)
+{
+    (void)state;
+    static const char *const heads[] = {"x y z", "x,y,z", "\"X [m]\";\"Y [m]\";\"Z [m]\"", "lon lat depth",
+                                        "# a comment\n\nEasting, Northing, Elevation\r"};
+    for (size_t i = 0; i < sizeof heads / sizeof *heads; ++i) {
+        char text[256];
+        snprintf(text, sizeof text, "%s\n0,0,1\n1,0,2\n0,1,3\n1,1,4\n", heads[i]);
+        sb_mesh mesh = read_grid("h.xyz", text, 0);
+        assert_int_equal(mesh.vertex_count, 4);
+        assert_true(has_vertex(&mesh, 0, 0, 1));
+        sb_mesh_free(&mesh);
+    }
+}
+
+static void test_depths_count_downwards(void **state)
+{
+    (void)state;
+    char path[256];
+    snprintf(path, sizeof path, "%s", save("d.asc", HEAD "1 2\n3 -9999\n"));
+    sb_body body = {.name = "bed",
+                    .shape = SB_SHAPE_GRID,
+                    .role = SB_ROLE_TERRAIN,
+                    .file = path,
+                    .scale = 2,
+                    .positive = SB_POSITIVE_DOWN,
+                    .datum = 10};
+    sb_mesh *meshes;
+    size_t count;
+    if (sb_mesh_from_body(&body, 0.1, &meshes, &count, &error) != SB_OK) fail_msg("%s", error.text);
+    assert_int_equal(meshes->hole_count, 1);
+    assert_true(has_vertex(meshes, 1, 3, 8) && has_vertex(meshes, 3, 3, 6) && has_vertex(meshes, 1, 1, 4));
+    check_looks_up(meshes, 2);
+    sb_mesh_free(meshes);
+    sb_free(meshes);
+    remove(path);
 }
 
 static void test_measured_sea_bed(void **state)
@@ -225,9 +343,17 @@ static int remove_folder(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ascii),      cmocka_unit_test(test_points),
-        cmocka_unit_test(test_bad_ascii),  cmocka_unit_test(test_a_byte_order_mark),
-        cmocka_unit_test(test_bad_points), cmocka_unit_test(test_measured_sea_bed),
+        cmocka_unit_test(test_ascii),
+        cmocka_unit_test(test_points),
+        cmocka_unit_test(test_bad_ascii),
+        cmocka_unit_test(test_a_byte_order_mark),
+        cmocka_unit_test(test_unequal_steps),
+        cmocka_unit_test(test_missing_heights_and_comments),
+        cmocka_unit_test(test_geoclaw),
+        cmocka_unit_test(test_points_with_a_header),
+        cmocka_unit_test(test_depths_count_downwards),
+        cmocka_unit_test(test_bad_points),
+        cmocka_unit_test(test_measured_sea_bed),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
