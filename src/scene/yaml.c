@@ -10,8 +10,8 @@ enum {
     NODES_MAX = 100000,
     DEPTH_MAX = 32,
     KEYS_MAX = 1000,
-    /* libyaml takes time quadratic in these two; no scene comes near. */
-    BRACKETS_MAX = 1000,
+    /* libyaml takes time quadratic in these two; no scene comes near. The outermost bracket may be the document. */
+    BRACKETS_MAX = DEPTH_MAX + 1,
     ANCHORS_MAX = 1000
 };
 
@@ -166,21 +166,33 @@ static sb_status explain(const yaml_parser_t *parser, sb_yaml_source source, con
     return fail_at(source, mark.line, mark.column, "not valid YAML: ", problem, error);
 }
 
+/* Counts as libyaml's scanner finds them, so that brackets in comments and quoted texts are none; text that cannot be
+   scanned is left to the parser, which says why. The scanner looks ahead by a kilobyte at most. */
 static sb_status prescan(sb_yaml_source source, const char *text, size_t length, sb_error *error)
 {
     size_t depth = 0, anchors = 0;
-    for (size_t i = 0; i < length; i++) {
-        if (text[i] == '[' || text[i] == '{')
-            depth++;
-        else if ((text[i] == ']' || text[i] == '}') && depth > 0)
-            depth--;
-        anchors += text[i] == '&';
-        if (depth <= BRACKETS_MAX && anchors <= ANCHORS_MAX) continue;
-        yaml_mark_t mark = mark_of(text, length, i);
-        return fail_at(source, mark.line, mark.column,
-                       depth > BRACKETS_MAX ? "nested deeper than 32 levels" : "more than 1000 anchors", "", error);
+    yaml_parser_t parser;
+    sb_status status = SB_OK;
+    if (!yaml_parser_initialize(&parser)) return sb_fail_memory(error, "the YAML parser");
+    yaml_parser_set_input_string(&parser, (const unsigned char *)text, length);
+    yaml_parser_set_encoding(&parser, YAML_UTF8_ENCODING);
+    for (bool more = true; more && status == SB_OK;) {
+        yaml_token_t token;
+        if (!yaml_parser_scan(&parser, &token)) break;
+        const yaml_token_type_t type = token.type;
+        const yaml_mark_t mark = token.start_mark;
+        more = type != YAML_STREAM_END_TOKEN && type != YAML_NO_TOKEN;
+        depth += type == YAML_FLOW_SEQUENCE_START_TOKEN || type == YAML_FLOW_MAPPING_START_TOKEN;
+        depth -= depth > 0 && (type == YAML_FLOW_SEQUENCE_END_TOKEN || type == YAML_FLOW_MAPPING_END_TOKEN);
+        anchors += type == YAML_ANCHOR_TOKEN;
+        yaml_token_delete(&token);
+        if (depth > BRACKETS_MAX || anchors > ANCHORS_MAX)
+            status =
+                fail_at(source, mark.line, mark.column,
+                        depth > BRACKETS_MAX ? "nested deeper than 32 levels" : "more than 1000 anchors", "", error);
     }
-    return SB_OK;
+    yaml_parser_delete(&parser);
+    return status;
 }
 
 static sb_status refuse_second(yaml_parser_t *parser, sb_yaml_source source, const char *text, size_t length,

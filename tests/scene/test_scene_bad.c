@@ -99,7 +99,11 @@ static void test_generated(void **state)
     memset(large, '#', length);
     check_text(large, length, "larger than the 4194304 bytes allowed");
     memset(large, '[', length);
-    check_text(large, 4u << 20, ":1:1001: nested deeper than 32 levels");
+    check_text(large, 4u << 20, ":1:34: nested deeper than 32 levels");
+    memset(large, ' ', 34);
+    large[0] = '#';
+    large[33] = '\n';
+    check_text(large, 4u << 20, ":2:34: nested deeper than 32 levels");
     for (size_t i = 0; i < length; i++) large[i] = "- &a x\n"[i % 7];
     check_text(large, 4u << 20, "more than 1000 anchors");
     for (size_t i = 0; i < length; i++) large[i] = "- x\n"[i % 4];

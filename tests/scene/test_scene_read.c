@@ -241,6 +241,22 @@ static void test_presets(void **state)
     sb_scene_free(&mixed);
 }
 
+/* What guards the parser counts brackets and anchors, and none that stand in comments, texts or blocks of text. */
+static void test_brackets_that_are_none(void **state)
+{
+    (void)state;
+    char text[16384] = SCENE_HEAD "# ", title[64];
+    for (int i = 0; i < 1500; i++) strcat(text, i % 100 == 99 ? "[\n# " : "[{&a ");
+    snprintf(title, sizeof title, "\ntitle: \"a # [[[[");
+    strcat(text, title);
+    for (int i = 0; i < 1500; i++) strcat(text, "[");
+    strcat(text, "\" # [[[\n");
+    sb_scene scene;
+    scene_must_read(text, NULL, NULL, 0, &scene);
+    assert_int_equal(strlen(scene.title), strlen("a # [[[[") + 1500);
+    sb_scene_free(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -254,6 +270,7 @@ int main(void)
         cmocka_unit_test(test_aliases),
         cmocka_unit_test(test_a_byte_order_mark),
         cmocka_unit_test(test_presets),
+        cmocka_unit_test(test_brackets_that_are_none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
