@@ -19,7 +19,8 @@ typedef struct sb_error {
    it may quote a hostile file. */
 sb_status sb_fail(sb_error *error, sb_status status, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
-/* Puts "?" for the control characters of UTF-8 text: what is left is one line, and no orders to a terminal. */
+/* Puts "?" for the control characters of UTF-8 text, and for those that turn its direction: what is left is one line,
+ * and no orders to a terminal. */
 void sb_one_line(char *text);
 
 /* SB_FAILED with "out of memory" and what the bytes were for. */

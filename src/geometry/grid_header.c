@@ -23,10 +23,22 @@ static const struct {
     const char *word;
     key key;
 } words[] = {
-    {"ncols", KEY_NCOLS},         {"mx", KEY_NCOLS},           {"nrows", KEY_NROWS},         {"my", KEY_NROWS},
-    {"xllcorner", KEY_XLLCORNER}, {"xllcenter", KEY_XLLCENTER}, {"xlower", KEY_XLLCENTER},    {"yllcorner", KEY_YLLCORNER},
-    {"yllcenter", KEY_YLLCENTER}, {"ylower", KEY_YLLCENTER},   {"cellsize", KEY_CELLSIZE},   {"dx", KEY_DX},
-    {"dy", KEY_DY},               {"nodata_value", KEY_NODATA}, {"nodatavalue", KEY_NODATA}, {"nodataval", KEY_NODATA},
+    {"ncols", KEY_NCOLS},
+    {"mx", KEY_NCOLS},
+    {"nrows", KEY_NROWS},
+    {"my", KEY_NROWS},
+    {"xllcorner", KEY_XLLCORNER},
+    {"xllcenter", KEY_XLLCENTER},
+    {"xlower", KEY_XLLCENTER},
+    {"yllcorner", KEY_YLLCORNER},
+    {"yllcenter", KEY_YLLCENTER},
+    {"ylower", KEY_YLLCENTER},
+    {"cellsize", KEY_CELLSIZE},
+    {"dx", KEY_DX},
+    {"dy", KEY_DY},
+    {"nodata_value", KEY_NODATA},
+    {"nodatavalue", KEY_NODATA},
+    {"nodataval", KEY_NODATA},
     {"nodata", KEY_NODATA},
 };
 

@@ -10,6 +10,7 @@
 /* Vertices in metres, scene axes. Triangles counter-clockwise seen from the water. Owned. */
 typedef struct sb_mesh {
     char name[SB_NAME_MAX];
+    char original[SB_NAME_MAX]; /* the name in its file, any bytes, where that is no name of a body; else "" */
     size_t vertex_count;
     sb_vec3 *vertices;
     size_t triangle_count;
@@ -69,7 +70,7 @@ sb_status sb_mesh_weld(sb_mesh *mesh, sb_error *error);
 
 /* Reads OBJ, STL, PLY, glTF, GLB or DAE in a child process with limits (4 GiB; 20 s of processor
    time, and 1 s per MB). One mesh, welded, for each node that has triangles, named after it (""
-   when it has no name; letters that a CSV or a path would trip over become _); the nodes'
+   when it has no name; characters that no name of a scene has become _); the nodes'
    transforms are applied. File units and axes, but a DAE is in metres by its own unit. *meshes is
    owned by the caller: sb_mesh_free each, then sb_free. The child opens no file outside of the mesh's folder; a mesh
    that names one is refused. SB_BAD_INPUT "file: what, expected", SB_INTERRUPTED by a signal (base/stop.h). */

@@ -163,10 +163,11 @@ static sb_status close_holes(const sb_body *body, sb_mesh *meshes, size_t count,
     return status;
 }
 
-static bool taken(const sb_mesh *meshes, size_t count, const char *name)
+/* Whether a mesh before `count` has the name; for one whose own name was replaced, whether any has it by its own. */
+static bool taken(const sb_mesh *meshes, size_t count, size_t all, bool replaced, const char *name)
 {
-    for (size_t i = 0; i < count; ++i)
-        if (strcmp(meshes[i].name, name) == 0) return true;
+    for (size_t i = 0; i < (replaced ? all : count); ++i)
+        if ((i < count || !meshes[i].original[0]) && i != count && strcmp(meshes[i].name, name) == 0) return true;
     return false;
 }
 
@@ -178,11 +179,12 @@ static void set_names(const sb_body *body, sb_mesh *meshes, size_t count)
     size_t number = 2;
     for (size_t i = 0; i < count; ++i) {
         char wanted[SB_NAME_MAX];
+        const bool replaced = body->split && meshes[i].original[0];
         memcpy(wanted, body->split && meshes[i].name[0] ? meshes[i].name : body->name, sizeof wanted);
         if (strcmp(wanted, last) != 0) number = 2;
         memcpy(last, wanted, sizeof last);
         memcpy(meshes[i].name, wanted, sizeof wanted);
-        while (taken(meshes, i, meshes[i].name))
+        while (taken(meshes, i, count, replaced, meshes[i].name))
             snprintf(meshes[i].name, sizeof meshes[i].name, "%.*s-%zu", SB_NAME_MAX - 22, wanted, number++);
     }
 }

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/stop.h"
 #include "geometry/mesh_child.h"
+#include "scene/name.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -69,23 +70,16 @@ static size_t character_length(const unsigned char *c)
     return length;
 }
 
-/* Makes text fit for a message; a name also for a CSV row, a file name and a channel name. */
-static void clean_text(char *text, bool is_name)
+/* Makes text fit for a message. */
+static void clean_text(char *text)
 {
     for (char *c = text; *c;) {
-        size_t length = character_length((unsigned char *)c);
-        if (length == 2 && c[0] == '\xc2' && (unsigned char)c[1] < 0xa0) /* a control character, too */
-            c[0] = c[1] = is_name ? '_' : '?';
-        if (length == 0 || iscntrl((unsigned char)*c) || (is_name && strchr(",\"'/\\", *c))) {
-            *c = ' ';
-            if (is_name)
-                *c = '_';
-            else if (length == 0)
-                *c = '?';
-            length = 1;
-        }
-        c += length;
+        const size_t length = character_length((unsigned char *)c);
+        if (length == 0) *c = '?';
+        if (iscntrl((unsigned char)*c)) *c = ' ';
+        c += length ? length : 1;
     }
+    sb_one_line(text);
     for (size_t n = strlen(text); n > 0 && text[n - 1] == ' '; --n) text[n - 1] = '\0';
 }
 
@@ -94,7 +88,7 @@ static sb_status receive_trouble(sb_mesh_link *from, const sb_mesh_record *recor
     char text[TROUBLE_MAX + 1] = "";
     size_t size = record->vertices < TROUBLE_MAX ? (size_t)record->vertices : TROUBLE_MAX;
     if (!receive(from, text, size)) text[0] = '\0';
-    clean_text(text, false);
+    clean_text(text);
     return sb_fail(error, SB_BAD_INPUT, "%.500s: not readable as a mesh: %s", from->path,
                    text[0] ? text : "no reason given");
 }
@@ -110,7 +104,8 @@ static sb_status receive_mesh(sb_mesh_link *from, const sb_mesh_record *record, 
     sb_status status = sb_mesh_alloc(mesh, record->vertices, record->triangles, error);
     if (status != SB_OK) return status;
     memcpy(mesh->name, record->name, sizeof mesh->name - 1);
-    clean_text(mesh->name, true);
+    memcpy(mesh->original, mesh->name, sizeof mesh->original);
+    if (!sb_name_fit(mesh->name)) mesh->original[0] = '\0';
     if (!receive(from, mesh->vertices, record->vertices * vertex) ||
         !receive(from, mesh->triangles, record->triangles * triangle))
         return SB_FAILED; /* described by how the child ended */

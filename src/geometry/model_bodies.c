@@ -2,6 +2,7 @@
 #include "geometry/model_parts.h"
 
 #include "base/memory.h"
+#include "scene/name.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -102,6 +103,26 @@ static sb_status check_name(const sb_scene *scene, const sb_body *from, const ch
     return SB_OK;
 }
 
+/* One warning for a file: how many of its parts' names no body may have, and what some of them became. */
+static sb_status tell_names(const sb_body *from, const sb_mesh *meshes, size_t count, sb_model *model, sb_error *error)
+{
+    enum { SHOWN = 4 };
+    char list[600] = "", original[100];
+    size_t replaced = 0, used = 0;
+    for (size_t i = 0; i < count && from->split; ++i) {
+        if (!meshes[i].original[0]) continue;
+        sb_name_escape(meshes[i].original, original, sizeof original);
+        if (replaced++ < SHOWN)
+            used += (size_t)snprintf(list + used, sizeof list - used, "%s \"%s\" is \"%s\"", used ? "," : "", original,
+                                     meshes[i].name);
+    }
+    if (replaced == 0) return SB_OK;
+    return sb_model_warn(model, error,
+                         "body \"%s\": %zu names of parts in its file have characters other than letters, digits, _ . "
+                         "and -, which become _:%s%s",
+                         from->name, replaced, list, replaced > SHOWN ? ", ..." : "");
+}
+
 /* The meshes of one body of the scene, each as a body of the model. */
 static sb_status add_meshes(const sb_scene *scene, const sb_body *from, sb_model *model, size_t *capacity,
                             sb_error *error)
@@ -110,6 +131,7 @@ static sb_status add_meshes(const sb_scene *scene, const sb_body *from, sb_model
     size_t count = 0;
     sb_status status = sb_mesh_from_body(from, scene->resolution, &meshes, &count, error);
     if (status != SB_OK) return status;
+    status = tell_names(from, meshes, count, model, error);
     for (size_t i = 0; i < count && status == SB_OK; ++i) {
         status = check_name(scene, from, meshes[i].name, error);
         if (status != SB_OK) break;

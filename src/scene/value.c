@@ -1,5 +1,6 @@
 #include "base/input.h"
 #include "base/memory.h"
+#include "scene/name.h"
 #include "scene/reader.h"
 
 #include <errno.h>
@@ -121,13 +122,12 @@ static sb_status copy_text(sb_reader *reader, const char *text, char **value)
 
 static sb_status read_name(sb_reader *reader, const sb_yaml *node, const sb_key *key, char *value)
 {
-    static const char *const letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.-";
     sb_status status = want_scalar(reader, node, key);
     if (status != SB_OK) return status;
     size_t length = strlen(node->text);
     if (length == 0) return refuse(reader, node, key, "is empty");
     if (length >= SB_NAME_MAX) return refuse_text(reader, node, key, "is too long");
-    if (strspn(node->text, letters) != length)
+    if (strspn(node->text, sb_name_letters) != length)
         return refuse_text(reader, node, key, "has a character that no file name should have");
     if (node->text[0] == '.' || node->text[0] == '-')
         return refuse_text(reader, node, key, "starts with a dot or a dash");

@@ -17,6 +17,9 @@ static void control_characters_are_taken_out(void **state)
          "31mb\xc2\x80\xc2\x9f",
          "a??31mb????"},
         {"\xc2\xa0\xc3\xa9 \xe2\x82\xac", "\xc2\xa0\xc3\xa9 \xe2\x82\xac"},
+        {"\xe2\x80\xaetxt.\xe2\x81\xa6\xd8\x9c\xe2\x80\x8f", "???txt.????????"},
+        {"\xe2\x80\x90 \xe2\x80\xaf \xe2\x81\xa5", "\xe2\x80\x90 \xe2\x80\xaf \xe2\x81\xa5"},
+        {"cut short \xe2\x80", "cut short \xe2\x80"},
         {"cut short \xc2", "cut short \xc2"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {

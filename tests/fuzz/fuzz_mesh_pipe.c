@@ -4,6 +4,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "geometry/mesh_child.h"
+#include "scene/name.h"
 
 #include <string.h>
 #include <sys/mman.h>
@@ -24,7 +25,8 @@ static void check_meshes(sb_mesh *meshes, size_t count)
         sb_mesh *mesh = &meshes[i];
         const size_t faces = mesh->triangle_count;
         FUZZ_CHECK(faces > 0 && memchr(mesh->name, 0, sizeof mesh->name));
-        FUZZ_CHECK(!strpbrk(mesh->name, ",\"'/\\\n\r\t"));
+        FUZZ_CHECK(strspn(mesh->name, sb_name_letters) == strlen(mesh->name));
+        FUZZ_CHECK(mesh->name[0] != '.' && mesh->name[0] != '-');
         check_places(mesh);
         FUZZ_CHECK(sb_mesh_orient(mesh, SB_ROLE_SOLID, NULL) == SB_OK && sb_mesh_close(mesh, NULL) == SB_OK);
         FUZZ_CHECK(mesh->triangle_count == faces + mesh->closed);

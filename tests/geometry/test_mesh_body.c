@@ -1,6 +1,7 @@
 /* Analytic shapes, and bodies of a scene as meshes in its axes. */
 #include "base/memory.h"
 #include "geometry/mesh.h"
+#include "geometry/model.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -187,6 +188,76 @@ static void test_mesh_file_body(void **state)
     remove(path);
 }
 
+/* A name that the file has of its own is not taken by one that was replaced, whichever comes first. */
+static void test_part_names(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *original, *name;
+    } cases[] = {
+        {"..", "_."},
+        {"=cmd|x", "_cmd_x"},
+        {"`id`", "_id_"},
+        {"-rf", "_rf"},
+        {"\xe2\x80\xaetxt.b", "_txt.b"},
+        {"a,b", "a_b-2"},
+        {"", "a_b"},
+        {"a;b", "a_b-3"},
+        {"\x1b[31m", "__31m"},
+        {"\"quoted\"", "_quoted_"},
+        {"two words", "two_words"},
+        {"\xe6\x97\xa5\xe6\x9c\xac", "__"},
+        {"", "pump-1.A"},
+    };
+    enum { CASES = sizeof cases / sizeof *cases };
+    char path[] = "/tmp/shorebreak-body-XXXXXX.gltf", nodes[2048] = "", roots[256] = "", text[4096];
+    const int made = mkstemps(path, 5);
+    assert_true(made >= 0);
+    close(made);
+    for (size_t i = 0; i < CASES; ++i) {
+        const char *name = cases[i].original[0] ? cases[i].original : cases[i].name;
+        snprintf(roots + strlen(roots), sizeof roots - strlen(roots), "%s%zu", i ? "," : "", i);
+        snprintf(nodes + strlen(nodes), sizeof nodes - strlen(nodes), "%s{\"mesh\":0,\"name\":\"", i ? "," : "");
+        for (; *name; ++name) {
+            const char plain[2] = {*name, '\0'};
+            strcat(nodes, *name == '"' ? "\\\"" : *name == '\x1b' ? "\\u001b" : plain);
+        }
+        snprintf(nodes + strlen(nodes), sizeof nodes - strlen(nodes), "\"}");
+    }
+    snprintf(text, sizeof text,
+             "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[%s]}],\"nodes\":[%s],"
+             "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+             "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],"
+             "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":\"data:"
+             "application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}",
+             roots, nodes);
+    write_file(path, text);
+    sb_body body = {
+        .name = "plant", .shape = SB_SHAPE_MESH, .role = SB_ROLE_TERRAIN, .file = path, .scale = 1, .split = true};
+    sb_mesh *meshes = from_body(&body, CASES);
+    for (size_t i = 0; i < CASES; ++i) {
+        assert_string_equal(meshes[i].name, cases[i].name);
+        assert_string_equal(meshes[i].original, cases[i].original);
+    }
+    free_all(meshes, CASES);
+
+    sb_scene scene = {.dimensions = 3, .resolution = 0.1, .bodies = &body, .body_count = 1};
+    scene.domain.max = sb_vec(2, 2, 2);
+    for (int side = 0; side < SB_SIDES; ++side) scene.domain.side[side] = SB_SIDE_OPEN;
+    sb_model model;
+    if (sb_model_import_bodies(&scene, &model, &error) != SB_OK) fail_msg("%s", error.text);
+    const char *told = NULL;
+    for (size_t i = 0; i < model.warning_count; ++i)
+        if (strstr(model.warnings[i], "names of parts")) told = model.warnings[i];
+    assert_non_null(told);
+    assert_string_equal(told,
+                        "body \"plant\": 11 names of parts in its file have characters other than letters, digits, "
+                        "_ . and -, which become _: \"..\" is \"_.\", \"=cmd|x\" is \"_cmd_x\", \"`id`\" is "
+                        "\"_id_\", \"-rf\" is \"_rf\", ...");
+    sb_model_free(&model);
+    remove(path);
+}
+
 static void test_grid_body(void **state)
 {
     (void)state;
@@ -217,7 +288,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_shapes),         cmocka_unit_test(test_bad_shapes), cmocka_unit_test(test_rotation_order),
-        cmocka_unit_test(test_mesh_file_body), cmocka_unit_test(test_grid_body),
+        cmocka_unit_test(test_mesh_file_body), cmocka_unit_test(test_part_names), cmocka_unit_test(test_grid_body),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
