@@ -164,7 +164,7 @@ const char *sb_mesh_fence_gaps(void)
     const bool calls = false;
 #endif
     return files && calls ? NULL
-           : files        ? "seccomp: not available here; mesh files are read without it"
-           : calls        ? "Landlock: not available here; mesh files are read without it"
-                          : "Landlock and seccomp: not available here; mesh files are read without them";
+           : files        ? "seccomp: not available, mesh files are read without it"
+           : calls        ? "Landlock: not available, mesh files are read without it"
+                          : "Landlock and seccomp: not available, mesh files are read without them";
 }

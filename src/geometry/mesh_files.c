@@ -89,7 +89,7 @@ static void flush_nothing(struct aiFile *file)
 static void refuse(sb_mesh_files *files, const char *name, const char *how, const char *kind)
 {
     if (files->refusal[0]) return;
-    snprintf(files->refusal, sizeof files->refusal, "it names the file \"%.200s\"%s%s", name, how, kind);
+    snprintf(files->refusal, sizeof files->refusal, "it refers to the file \"%.200s\"%s%s", name, how, kind);
 }
 
 /* What the mesh calls the file: the name without the folder that assimp puts before it. */
@@ -110,7 +110,7 @@ static int open_within(sb_mesh_files *files, const char *name)
     const size_t length = strcmp(files->root, "/") == 0 ? 0 : strlen(files->root);
     if (sb_path_join(joined, files->root, own, NULL) != SB_OK || !realpath(joined, resolved)) return -1;
     if (strncmp(resolved, files->root, length) != 0 || (resolved[length] != '/' && resolved[length] != '\0')) {
-        refuse(files, own, " outside of its folder, expected its files in that folder", "");
+        refuse(files, own, " outside of its folder, expected all its files in that folder", "");
         return -1;
     }
     if (stat(resolved, &about) == 0 && !S_ISREG(about.st_mode))

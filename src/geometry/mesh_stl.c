@@ -138,9 +138,9 @@ static void correct_text(int file, char **bytes, size_t size, char *refusal, siz
         if (size >= 3 && memcmp(whole.bytes, mark, 3) == 0) blank(&whole, 0, 3);
         const size_t at = skip_blanks(&whole, 0, size);
         if (size - at < 5 || strncasecmp(whole.bytes + at, "solid", 5) != 0)
-            snprintf(refusal, room, "text that does not begin with the word solid, expected an STL file");
+            snprintf(refusal, room, "text that does not begin with \"solid\", expected an STL file");
         else if (blank(&whole, 0, at), correct_words(&whole, &full) > 0 && full == 0)
-            snprintf(refusal, room, "solids without a facet, expected triangles");
+            snprintf(refusal, room, "its solids have no facets, expected at least one");
     }
     if (whole.size == size && whole.changed)
         *bytes = whole.bytes;
@@ -163,11 +163,12 @@ void sb_mesh_stl_content(int file, char **bytes, size_t *size, char *refusal, si
     for (int i = 3; look >= HEAD && i >= 0; --i) triangles = triangles << 8 | (unsigned char)head[COUNT_AT + i];
     const uint64_t whole = HEAD + TRIANGLE * triangles;
     if (look < HEAD)
-        snprintf(refusal, room, "%zu bytes that are no text, expected a binary STL file of %d or more", *size, HEAD);
+        snprintf(refusal, room, "%zu bytes of binary data, expected at least the %d of a binary STL file", *size, HEAD);
     else if (triangles == 0)
-        snprintf(refusal, room, "a binary STL file of 0 triangles, expected some");
+        snprintf(refusal, room, "its header counts 0 triangles, expected 1 or more");
     else if (whole > *size)
-        snprintf(refusal, room, "%llu triangles by its header, and bytes of %llu: it is cut short, or no STL file",
+        snprintf(refusal, room,
+                 "its header counts %llu triangles, but it has data for %llu: it is truncated, or not an STL file",
                  (unsigned long long)triangles, (unsigned long long)((*size - HEAD) / TRIANGLE));
     else
         *size = (size_t)whole;

@@ -113,14 +113,15 @@ static sb_status tell_names(const sb_body *from, const sb_mesh *meshes, size_t c
         if (!meshes[i].original[0]) continue;
         sb_name_escape(meshes[i].original, original, sizeof original);
         if (replaced++ < SHOWN)
-            used += (size_t)snprintf(list + used, sizeof list - used, "%s \"%s\" is \"%s\"", used ? "," : "", original,
-                                     meshes[i].name);
+            used += (size_t)snprintf(list + used, sizeof list - used, "%s \"%s\" becomes \"%s\"", used ? "," : "",
+                                     original, meshes[i].name);
     }
     if (replaced == 0) return SB_OK;
-    return sb_model_warn(model, error,
-                         "body \"%s\": %zu names of parts in its file have characters other than letters, digits, _ . "
-                         "and -, which become _:%s%s",
-                         from->name, replaced, list, replaced > SHOWN ? ", ..." : "");
+    return sb_model_warn(
+        model, error,
+        "body \"%s\": %zu part names contain characters other than letters, digits, _ . and -, which are "
+        "replaced by _:%s%s",
+        from->name, replaced, list, replaced > SHOWN ? ", ..." : "");
 }
 
 /* The meshes of one body of the scene, each as a body of the model. */

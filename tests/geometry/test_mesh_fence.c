@@ -125,13 +125,13 @@ static void files_of_the_folder_are_read(void **state)
 static void files_elsewhere_are_refused(void **state)
 {
     (void)state;
-    static const char *const why = "outside of its folder, expected its files in that folder";
+    static const char *const why = "outside of its folder, expected all its files in that folder";
     char absolute[600];
     save("out.bin", corners, sizeof corners);
     save_text("out.mtl", "newmtl red\nKd 1 0 0\n");
     assert_int_equal(symlink("../out.bin", path_of("in/leads-out.bin")), 0);
     assert_int_equal(symlink("..", path_of("in/up")), 0);
-    expect_refusal(gltf("in/up.gltf", "../out.bin"), "it names the file \"../out.bin\" outside of its folder");
+    expect_refusal(gltf("in/up.gltf", "../out.bin"), "it refers to the file \"../out.bin\" outside of its folder");
     expect_refusal(gltf("in/around.gltf", "sub/../../out.bin"), why);
     expect_refusal(gltf("in/by-link.gltf", "leads-out.bin"), why);
     expect_refusal(gltf("in/by-folder.gltf", "up/out.bin"), why);

@@ -117,16 +117,16 @@ static void the_cause_is_named(void **state)
     sample_text text = {.length = 0};
     sample_make_stl_binary(&text);
     save(text.bytes, text.length - 60);
-    expect_refusal("12 triangles by its header, and bytes of 10: it is cut short");
+    expect_refusal("its header counts 12 triangles, but it has data for 10: it is truncated");
     memset(text.bytes + 80, 0, 4);
     save(text.bytes, text.length);
-    expect_refusal("a binary STL file of 0 triangles");
+    expect_refusal("its header counts 0 triangles");
     save("\x01\x02\x03", 3);
-    expect_refusal("3 bytes that are no text");
+    expect_refusal("3 bytes of binary data");
     save("solid a\nendsolid a\n", 19);
-    expect_refusal("solids without a facet");
+    expect_refusal("its solids have no facets");
     save("hello, world\n", 13);
-    expect_refusal("text that does not begin with the word solid");
+    expect_refusal("text that does not begin with \"solid\"");
 }
 
 int main(void)
