@@ -1,18 +1,12 @@
 #include "base/input.h"
 
+#include "base/file.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-const char *sb_input_kind(mode_t mode)
-{
-    if (S_ISREG(mode)) return "a regular file";
-    if (S_ISDIR(mode)) return "a directory";
-    if (S_ISFIFO(mode)) return "a named pipe";
-    return S_ISSOCK(mode) ? "a socket" : "a device";
-}
 
 static sb_status unreadable(const char *path, int reason, sb_error *error)
 {
@@ -23,7 +17,7 @@ static sb_status unreadable(const char *path, int reason, sb_error *error)
 
 static sb_status irregular(const char *path, mode_t mode, sb_error *error)
 {
-    sb_fail(error, SB_BAD_INPUT, "%.500s: is %s, expected a regular file", path, sb_input_kind(mode));
+    sb_fail(error, SB_BAD_INPUT, "%.500s: is %s, expected a regular file", path, sb_file_kind(mode));
     errno = 0;
     return SB_BAD_INPUT;
 }
@@ -38,12 +32,13 @@ sb_status sb_input_descriptor(const char *path, int *file, sb_error *error)
     /* Another file may stand there by now: opening that does not wait either. */
     const int opened = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
     if (opened < 0) return unreadable(path, errno, error);
-    if (fstat(opened, &found) == 0 && S_ISREG(found.st_mode)) {
+    const int reason = fstat(opened, &found) == 0 ? 0 : errno;
+    if (reason == 0 && S_ISREG(found.st_mode)) {
         *file = opened;
         return SB_OK;
     }
     close(opened);
-    return irregular(path, found.st_mode, error);
+    return reason ? unreadable(path, reason, error) : irregular(path, found.st_mode, error);
 }
 
 sb_status sb_input_open(const char *path, FILE **stream, sb_error *error)

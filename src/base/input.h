@@ -5,12 +5,8 @@
 #include "base/status.h"
 
 #include <stdio.h>
-#include <sys/types.h>
 
-/* What a file is by its mode: "a regular file", "a directory", "a named pipe", "a device", "a socket". */
-const char *sb_input_kind(mode_t mode);
-
-/* A descriptor to read `path` from, closed on exec. Links are followed. A directory, named pipe, device or socket is
+/* A descriptor to read `path` from, closed on exec. Links are followed. A directory, FIFO, device or socket is
    refused without opening it, so that no input waits for a writer, and none is without an end. SB_BAD_INPUT names the
    path and the reason; *file is then -1, and errno the system's reason, or 0. */
 sb_status sb_input_descriptor(const char *path, int *file, sb_error *error);

@@ -114,7 +114,7 @@ static int open_within(sb_mesh_files *files, const char *name)
         return -1;
     }
     if (stat(resolved, &about) == 0 && !S_ISREG(about.st_mode))
-        refuse(files, own, ", expected a regular file, not ", sb_input_kind(about.st_mode));
+        refuse(files, own, ", expected a regular file, not ", sb_file_kind(about.st_mode));
     return sb_input_descriptor(resolved, &file, NULL) == SB_OK ? file : -1;
 }
 

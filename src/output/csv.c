@@ -1,6 +1,7 @@
 #include "output/csv.h"
 
 #include "base/file.h"
+#include "base/input.h"
 #include "base/memory.h"
 #include "output/hashed_file.h"
 
@@ -88,9 +89,9 @@ static const char *header_of(const sb_scene *scene, int k)
 static sb_status check_header(const char *path, const char *expected, sb_error *error)
 {
     char found[1024] = "";
-    errno = 0;
-    FILE *file = fopen(path, "r");
-    if (!file) return sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read: %s", path, strerror(errno));
+    FILE *file;
+    sb_status status = sb_input_open(path, &file, error);
+    if (status != SB_OK) return status;
     if (!fgets(found, sizeof found, file)) found[0] = '\0';
     fclose(file);
     found[strcspn(found, "\r\n")] = '\0';

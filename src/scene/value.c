@@ -148,7 +148,7 @@ static sb_status read_file(sb_reader *reader, const sb_yaml *node, const sb_key 
         return sb_reader_fail(reader, node, NULL, "cannot read %.400s: %s, expected a file", path, strerror(errno));
     if (!S_ISREG(about.st_mode))
         return sb_reader_fail(reader, node, NULL, "%.400s is %s, expected a regular file", path,
-                              sb_input_kind(about.st_mode));
+                              sb_file_kind(about.st_mode));
     return copy_text(reader, path, value);
 }
 

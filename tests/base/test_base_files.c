@@ -315,9 +315,9 @@ static void inputs_are_regular_files(void **state)
     expect_no_input(folder, "is a directory, expected a regular file");
     expect_no_input("/dev/zero", "is a device, expected a regular file");
     assert_int_equal(mkfifo(at("pipe"), 0600), 0);
-    expect_no_input(at("pipe"), "is a named pipe, expected a regular file");
+    expect_no_input(at("pipe"), "is a FIFO, expected a regular file");
     assert_int_equal(symlink("pipe", at("link")), 0);
-    expect_no_input(at("link"), "is a named pipe, expected a regular file");
+    expect_no_input(at("link"), "is a FIFO, expected a regular file");
     assert_int_equal(unlink(at("link")), 0);
     assert_int_equal(unlink(at("pipe")), 0);
     /* Links to files are fine. */

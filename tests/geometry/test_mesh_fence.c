@@ -151,9 +151,9 @@ static void what_is_no_file_is_refused(void **state)
     (void)state;
     assert_int_equal(mkfifo(path_of("in/pipe.bin"), 0600), 0);
     assert_int_equal(mkfifo(path_of("in/pipe.obj"), 0600), 0);
-    expect_refusal(path_of("in/pipe.obj"), "is a named pipe, expected a regular file");
-    expect_refusal(gltf("in/pipe.gltf", "pipe.bin"), "\"pipe.bin\", expected a regular file, not a named pipe");
-    expect_refusal(obj("in/piped.obj", "pipe.bin"), "expected a regular file, not a named pipe");
+    expect_refusal(path_of("in/pipe.obj"), "is a FIFO, expected a regular file");
+    expect_refusal(gltf("in/pipe.gltf", "pipe.bin"), "\"pipe.bin\", expected a regular file, not a FIFO");
+    expect_refusal(obj("in/piped.obj", "pipe.bin"), "expected a regular file, not a FIFO");
     expect_refusal(obj("in/folder.obj", "sub"), "\"sub\", expected a regular file, not a directory");
     assert_int_equal(symlink("/dev/zero", path_of("in/zero.obj")), 0);
     expect_refusal(path_of("in/zero.obj"), "is a device, expected a regular file");

@@ -122,7 +122,7 @@ static void test_broken_files(void **state)
     assert_int_equal(mkdir(path_of("folder.obj"), 0700), 0);
     expect_refusal(path_of("folder.obj"), "is a directory");
     assert_int_equal(mkfifo(path_of("pipe.obj"), 0600), 0);
-    expect_refusal(path_of("pipe.obj"), "is a named pipe");
+    expect_refusal(path_of("pipe.obj"), "is a FIFO");
     expect_refusal(save_text("empty.obj", ""), "is empty");
     expect_refusal(save_text("notes.txt", "hello"), "unknown format");
     expect_refusal(save_text("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), "");
