@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 
-/* Cells whose indices differ in their last bits only are one after the other. */
+/* Cells whose indices differ only in their last bits follow one another in the Z-order. */
 static uint64_t block_of(uint64_t code)
 {
     return code & ~sb_cell_step(1, 1, 1);

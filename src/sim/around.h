@@ -1,14 +1,15 @@
-/* Groups of particles and what lies around them. A group is what one block of 2 x 2 x 2 cells holds: neighbours on the
-   Z-curve, which see much the same water. A pass copies what is around the group side by side, once, and the lists of
-   its particles say by 16 bits where in that copy a neighbour is (docs/decisions/0007). */
+/* Groups of particles and the records around them. A group is the content of one block of 2 x 2 x 2 cells. These
+   particles follow one another on the Z-curve and share most of their neighbours. A pass copies the records around the
+   group into one contiguous array. The neighbour lists of the group hold 16-bit places in that array
+   (docs/decisions/0007). */
 #ifndef SB_SIM_AROUND_H
 #define SB_SIM_AROUND_H
 
 #include "sim/state.h"
 
 enum {
-    SB_AROUND_MAX = 16383, /* records around a group: four times the place must fit 16 bits; 1000 are normal */
-    SB_PLACE_STEP = 4      /* a list's place is the copy's index times this: half or a quarter of its bytes */
+    SB_AROUND_MAX = 16383, /* records around a group: four times the index must fit 16 bits; 1000 are normal */
+    SB_PLACE_STEP = 4      /* a place in a list is the index in the copy times this */
 };
 
 /* Two records side by side. */
@@ -16,13 +17,14 @@ typedef uint32_t sb_two_records __attribute__((vector_size(32), aligned(16)));
 typedef int32_t sb_two_offsets __attribute__((vector_size(32)));
 typedef float sb_two_values __attribute__((vector_size(32), aligned(16)));
 
-/* A record as an offset (quanta, exact) from a corner, the carried value in the last lane. */
+/* A record as an offset (quanta, exact) from a corner, with the carried value in the last lane. */
 SB_INLINE sb_f4 sb_offset_carrying(sb_record record, sb_record corner)
 {
     return __builtin_shufflevector(sb_offset(record, corner), (sb_f4)record, 0, 1, 2, 7);
 }
 
-/* The same of two; corner: the corner twice. A macro, for such vectors are passed in more ways than one. */
+/* The same for two records; corner: the corner twice. A macro, because the way of passing such vectors depends on the
+   instruction set. */
 #define SB_OFFSETS_CARRYING(records, corner)                                                                           \
     __builtin_shufflevector(__builtin_convertvector((sb_two_offsets)((records) - (corner)), sb_two_values),            \
                             (sb_two_values)(records), 0, 1, 2, 11, 4, 5, 6, 15)
@@ -41,7 +43,7 @@ SB_INLINE void sb_around(const sb_sim *sim, const sb_group *group, sb_f4 *out)
     }
 }
 
-/* The same, each followed by its value of a field. out: 2 SB_AROUND_MAX. */
+/* The same, each record followed by its value of a field. out: 2 SB_AROUND_MAX. */
 SB_INLINE void sb_around_with(const sb_sim *sim, const sb_group *group, const sb_f4 *field, sb_f4 *out)
 {
     const sb_record c = group->corner;
@@ -71,13 +73,14 @@ SB_INLINE void sb_around_last(const sb_sim *sim, const sb_group *group, const fl
         for (size_t k = 0; k < run[r].count; k++, value += 2) (*value)[3] = field[run[r].begin + k];
 }
 
-/* Particle i of the group as sb_around has it. */
+/* Particle i of the group in the form that sb_around writes. */
 SB_INLINE sb_f4 sb_in_group(const sb_sim *sim, const sb_group *group, size_t i)
 {
     return sb_offset_carrying(sim->position[i], group->corner);
 }
 
-/* A neighbour in what sb_around made, and in what sb_around_with made: its record, then its value. */
+/* A neighbour's record in the output of sb_around. sb_at_with: its record, then its value, in the output of
+   sb_around_with. */
 SB_INLINE const sb_f4 *sb_at(const sb_f4 *around, uint16_t place)
 {
     return (const sb_f4 *)((const char *)around + sizeof *around / SB_PLACE_STEP * place);
@@ -88,18 +91,18 @@ SB_INLINE const sb_f4 *sb_at_with(const sb_f4 *around, uint16_t place)
     return (const sb_f4 *)((const char *)around + 2 * sizeof *around / SB_PLACE_STEP * place);
 }
 
-/* Both, in one vector. */
+/* Record and value in one vector. */
 SB_INLINE const sb_f8 *sb_both_at(const sb_f4 *around, uint16_t place)
 {
     return (const sb_f8 *)sb_at_with(around, place);
 }
 
-/* Lists are read once a pass, in order, from memory: asks for what comes some particles later (docs/decisions/0012).
-   Past the pool's end it asks for nothing. */
+/* Lists are read once per pass, in order, from memory. This prefetches the entries of a few particles ahead
+   (docs/decisions/0012). Past the end of the pool the prefetch has no effect. */
 SB_INLINE void sb_prefetch(const sb_four_pairs *four)
 {
     enum { BYTES = 4096 };
-    /* As a number: no pointer may point there. NOLINTNEXTLINE(performance-no-int-to-ptr) */
+    /* Computed as an integer: a pointer past the pool would be undefined. NOLINTNEXTLINE(performance-no-int-to-ptr) */
     __builtin_prefetch((const void *)((uintptr_t)four + BYTES));
 }
 
@@ -112,7 +115,7 @@ SB_INLINE sb_f4 sb_slopes(const sb_four_pairs *four)
     return root * root;
 }
 
-/* How many records are around the group. */
+/* Number of records around the group. */
 SB_INLINE uint32_t sb_around_count(const sb_sim *sim, const sb_group *group)
 {
     uint32_t count = 0;
@@ -120,7 +123,7 @@ SB_INLINE uint32_t sb_around_count(const sb_sim *sim, const sb_group *group)
     return count;
 }
 
-/* Divides the particles into groups, without what is around them. 0, or -1 without memory. */
+/* Divides the particles into groups; does not find the records around them. Returns 0, or -1 without memory. */
 int sb_groups_build(sb_sim *sim);
 void sb_groups_destroy(sb_sim *sim);
 

@@ -33,7 +33,7 @@ static int starts_cell(const sb_record *records, size_t i, int shift)
     return i == 0 || sb_cell_code(records[i], shift) != sb_cell_code(records[i - 1], shift);
 }
 
-/* Slots hold the same cells whatever thread comes first; only their order within a probe differs. */
+/* The set of occupied slots does not depend on the order of threads; only the order within a probe sequence does. */
 static void insert_all(sb_cells *cells)
 {
 #pragma omp parallel for schedule(static)

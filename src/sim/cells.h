@@ -1,5 +1,5 @@
-/* Used cells of a sorted set of records, found by compact hashing [I11]: memory grows with the used
-   cells, whatever the domain's extent. */
+/* Table of the used cells of a sorted set of records, found by compact hashing [I11]. Memory grows with the number of
+   used cells, not with the domain's extent. */
 #ifndef SB_SIM_CELLS_H
 #define SB_SIM_CELLS_H
 
@@ -16,7 +16,8 @@ typedef struct sb_cells {
     uint64_t slot_mask;
 } sb_cells;
 
-/* Builds the table over `count` records sorted so that cells are contiguous. 0, or -1 without memory. */
+/* Builds the table over `count` records, which must be sorted so that cells are contiguous. Returns 0, or -1 without
+   memory. */
 int sb_cells_build(sb_cells *cells, const sb_record *records, size_t count, int shift);
 void sb_cells_free(sb_cells *cells);
 size_t sb_cells_bytes(const sb_cells *cells);
@@ -27,7 +28,7 @@ SB_INLINE uint64_t sb_cells_hash(uint64_t code)
     return code ^ code >> 29;
 }
 
-/* The cell of that code, or -1. */
+/* Index of the cell with that code, or -1. */
 SB_INLINE int64_t sb_cells_find(const sb_cells *cells, uint64_t code)
 {
     if (cells->count == 0) return -1;

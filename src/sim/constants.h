@@ -1,4 +1,4 @@
-/* What a scene and its model fix for the whole run. Inside src/sim. */
+/* Constants of a run, computed from the scene and its model. Internal to src/sim. */
 #ifndef SB_SIM_CONSTANTS_H
 #define SB_SIM_CONSTANTS_H
 
@@ -13,14 +13,14 @@ typedef struct sb_constants {
     float wave_speed;         /* m/s, sqrt(g D) */
     float sound_speed;        /* m/s */
     float viscosity;          /* m^2/s, physical */
-    float full_diagonal;      /* of a full lattice, per dt^2: scale of a_ii */
-    float bulk_deficit;       /* kg/m^3, what a full lattice's sum lacks */
-    float surface_deficit;    /* what a flat surface's first layer lacks more, over |sum_j m grad W|^2 there */
+    float full_diagonal;      /* |a_ii|/dt^2 of a full lattice: the scale of a_ii */
+    float bulk_deficit;       /* kg/m^3, deficit of a full lattice's density sum */
+    float surface_deficit;    /* further deficit of a flat surface's first layer, over |sum_j m grad W|^2 there */
     double spectrum;          /* largest eigenvalue of D^-1 A on a full lattice */
     float speed_limit;        /* m/s, above it the run has diverged */
 } sb_constants;
 
-/* Without gravity the wave speed is 1 m/s; a sea shallower than one spacing counts as one spacing deep. */
+/* Without gravity the wave speed is 1 m/s. Water shallower than one particle spacing counts as one spacing deep. */
 sb_constants sb_constants_of(const sb_scene *scene, const sb_model *model);
 
 #endif

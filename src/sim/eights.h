@@ -1,13 +1,13 @@
-/* Passes over pairs whose neighbours bring a value each, eight neighbours at a time: two fours of a list side by side
-   in 32-byte vectors, half the instructions of one after the other. What comes of them is added up four after four, so
-   that sums are those of fours to the last bit. */
+/* Passes over pairs in which each neighbour has a value, eight neighbours at a time: two groups of four of a list side
+   by side in 32-byte vectors, which takes half the instructions. The results are added up four after four, so that the
+   sums have the same bits as sums over groups of four. */
 #ifndef SB_SIM_EIGHTS_H
 #define SB_SIM_EIGHTS_H
 
 #include "sim/around.h"
 #include "sim/simd_wide.h"
 
-/* Eight records turned into lanes of x, y, z and w: those of the first four, then those of the other. */
+/* Eight records transposed into lanes of x, y, z and w: those of the first four, then those of the second four. */
 typedef struct sb_eight {
     sb_f8 x, y, z, w;
 } sb_eight;
@@ -17,7 +17,7 @@ SB_INLINE sb_f8 sb_two_with(const sb_f4 *around, const sb_four_pairs *one, const
     return sb_join(sb_at_with(around, one->place[k])[part], sb_at_with(around, other->place[k])[part]);
 }
 
-/* The neighbours of two fours in what sb_around_with made. part 0: their records; 1: their values. */
+/* The neighbours of two groups of four in the output of sb_around_with. part 0: their records; 1: their values. */
 SB_INLINE sb_eight sb_eight_with(const sb_f4 *around, const sb_four_pairs *one, const sb_four_pairs *other, int part)
 {
     const sb_f8 a = sb_two_with(around, one, other, 0, part), b = sb_two_with(around, one, other, 1, part);
@@ -39,10 +39,10 @@ SB_INLINE sb_f8 sb_eight_slopes(const sb_four_pairs *one, const sb_four_pairs *o
     return sb_join(sb_slopes(one), sb_slopes(other));
 }
 
-/* One lane of a record in all eight. */
+/* One lane of a record in all eight lanes. */
 #define sb_spread(record, lane) __builtin_shufflevector(record, record, lane, lane, lane, lane, lane, lane, lane, lane)
 
-/* One half of a vector. */
+/* One half of a vector: the first four lanes, or the last four. */
 SB_INLINE sb_f4 sb_first4(sb_f8 v)
 {
     return __builtin_shufflevector(v, v, 0, 1, 2, 3);

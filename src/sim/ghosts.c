@@ -1,6 +1,6 @@
-/* Periodic sides: images of the particles within a support radius of such a side, a domain's length away, for
-   all that reads neighbours. They have cells of their own, so that the owned particles' order and cells are
-   what they would be without. */
+/* Ghost particles at periodic sides: images of the particles within a support radius of such a side, one domain length
+   away. Every pass over neighbours reads them. They have their own cells, so that the order and the cells of the fluid
+   particles are the same as without ghosts. */
 #include "base/memory.h"
 #include "sim/sort.h"
 #include "sim/stages.h"
@@ -19,7 +19,8 @@ static int lengthen(void **field, size_t used, size_t capacity, size_t size)
     return 0;
 }
 
-/* Makes room for `beyond` entries after the owned ones; owned ones and ghosts keep their values. 0, or -1. */
+/* Makes room for `beyond` entries after the fluid particles; all entries keep their values. Returns 0, or -1 without
+   memory. */
 static int make_room(sb_sim *sim, size_t beyond)
 {
     if (sim->n + beyond <= sim->capacity) return 0;
@@ -45,7 +46,7 @@ static int reserve(sb_sim *sim, size_t ghosts)
     return make_room(sim, ghosts);
 }
 
-/* first[b]: ghosts of the blocks before b. Returns how many there are. */
+/* Sets first[b] to the number of ghosts of the blocks before b. Returns the number of all ghosts. */
 static size_t count_images(const sb_sim *sim, size_t *first)
 {
     const size_t blocks = sb_blocks(sim);
@@ -61,7 +62,8 @@ static size_t count_images(const sb_sim *sim, size_t *first)
     return first[blocks];
 }
 
-/* The images in the order of their owners, each with its owner in the last lane, and words to sort them by. */
+/* Makes the images in the order of their originals, each with the original's index in the last lane, and the words to
+   sort them by. */
 static void make_images(sb_sim *sim, const size_t *first, sb_record *made)
 {
     const size_t blocks = sb_blocks(sim);
@@ -93,12 +95,12 @@ static void place(sb_sim *sim, const uint64_t *sorted, const sb_record *made)
     }
 }
 
-/* 0, or -1 without memory. */
+/* Returns 0, or -1 without memory. */
 static int build(sb_sim *sim, const size_t *first, size_t count)
 {
     sb_ghosts *g = &sim->ghosts;
     if (reserve(sim, count) != 0) return -1;
-    sb_record *made = (sb_record *)sim->acceleration + sim->n; /* free until the pressure is solved */
+    sb_record *made = (sb_record *)sim->acceleration + sim->n; /* unused until the pressure is solved */
     make_images(sim, first, made);
     const uint64_t *sorted = sb_sort(g->words, g->other, count, SB_INDEX_BITS, SB_INDEX_BITS + sim->space.key_bits);
     if (!sorted) return -1;

@@ -8,12 +8,12 @@
 #endif
 
 SB_MULTIVERSION
-size_t sb_find_hits_portable(const sb_candidates *of, const sb_candidate_range *stretch, size_t stretches, sb_hits *h,
+size_t sb_find_hits_portable(const sb_candidates *of, const sb_candidate_range *range, size_t ranges, sb_hits *h,
                              sb_f4 self, float scale2, uint32_t skip)
 {
     size_t n = 0;
-    for (size_t s = 0; s < stretches; s++)
-        for (uint32_t k = stretch[s].begin; k < stretch[s].end && n < SB_LIST_MAX; k++) {
+    for (size_t s = 0; s < ranges; s++)
+        for (uint32_t k = range[s].begin; k < range[s].end && n < SB_LIST_MAX; k++) {
             float x = self[0] - of->x[k], y = self[1] - of->y[k], z = self[2] - of->z[k];
             float q2 = fmaf(x, x, fmaf(y, y, z * z)) * scale2;
             h->x[n] = x;
@@ -30,22 +30,22 @@ size_t sb_find_hits_portable(const sb_candidates *of, const sb_candidate_range *
 #define WIDE __attribute__((target("avx512f")))
 enum { LANES = 16, BATCH = 8, BATCHES = SB_CANDIDATES_MAX / LANES + SB_CANDIDATE_RANGES_MAX + BATCH };
 
-/* Candidates to be tested together: LANES from `begin` on, those below `end` of them. */
+/* Candidates to be tested together: LANES candidates from `begin` on, of which those below `end` count. */
 typedef struct batches {
     size_t count;
     uint32_t begin[BATCHES], end[BATCHES];
 } batches;
 
-/* The stretches by sixteens, eight of these at a time and without a branch on how long a stretch is, which no processor
-   foretells. */
-WIDE SB_INLINE void divide(const sb_candidate_range *stretch, size_t stretches, batches *b)
+/* Divides the ranges into batches of sixteen, eight batches at a time. There is no branch on the length of a range,
+   because processors cannot predict it. */
+WIDE SB_INLINE void divide(const sb_candidate_range *range, size_t ranges, batches *b)
 {
     const __m256i starts =
         _mm256_setr_epi32(0, LANES, 2 * LANES, 3 * LANES, 4 * LANES, 5 * LANES, 6 * LANES, 7 * LANES);
     size_t count = 0;
-    for (size_t s = 0; s < stretches; s++) {
-        const uint32_t end = stretch[s].end;
-        for (uint32_t k = stretch[s].begin; k < end; k += BATCH * LANES) {
+    for (size_t s = 0; s < ranges; s++) {
+        const uint32_t end = range[s].end;
+        for (uint32_t k = range[s].begin; k < end; k += BATCH * LANES) {
             const uint32_t left = (end - k + LANES - 1) / LANES;
             const __m256i begin = _mm256_add_epi32(_mm256_set1_epi32((int)k), starts);
             _mm256_storeu_si256((__m256i_u *)(b->begin + count), begin);
@@ -70,7 +70,7 @@ WIDE SB_INLINE offsets offsets_from(sb_f4 self, __m512 x, __m512 y, __m512 z, fl
     return (offsets){x, y, z, _mm512_mul_ps(r2, _mm512_set1_ps(scale2))};
 }
 
-/* The places of hits 0, 4, 8 and 12. */
+/* The records of hits 0, 4, 8 and 12. */
 WIDE SB_INLINE __m512 every_fourth(const sb_f4 *place, const uint32_t *hit)
 {
     __m512 records = _mm512_castps128_ps512((__m128)place[hit[0]]);
@@ -79,7 +79,7 @@ WIDE SB_INLINE __m512 every_fourth(const sb_f4 *place, const uint32_t *hit)
     return _mm512_insertf32x4(records, (__m128)place[hit[12]], 3);
 }
 
-/* Offsets from sixteen hits, their places fetched again and turned into lanes. */
+/* Offsets from sixteen hits: their records are loaded again and transposed into lanes. */
 WIDE SB_INLINE offsets offsets_of(sb_f4 self, const sb_f4 *place, const uint32_t *hit, float scale2)
 {
     const __m512 a = every_fourth(place, hit), b = every_fourth(place, hit + 1);
@@ -91,9 +91,9 @@ WIDE SB_INLINE offsets offsets_of(sb_f4 self, const sb_f4 *place, const uint32_t
                         _mm512_castpd_ps(_mm512_unpackhi_pd(ab, cd)), _mm512_castpd_ps(z), scale2);
 }
 
-/* Packs the hits' numbers alone, and makes the offsets again from them: one hit in seven candidates, and packing is
-   what costs most. */
-WIDE static size_t find_avx512(const sb_candidates *of, const sb_candidate_range *stretch, size_t stretches, sb_hits *h,
+/* Compresses only the indices of the hits, and computes the offsets again from them. Compressing costs most, and one
+   candidate in seven is a hit. */
+WIDE static size_t find_avx512(const sb_candidates *of, const sb_candidate_range *range, size_t ranges, sb_hits *h,
                                sb_f4 self, float scale2, uint32_t skip)
 {
     const __m512i own = _mm512_set1_epi32((int)skip);
@@ -102,7 +102,7 @@ WIDE static size_t find_avx512(const sb_candidates *of, const sb_candidate_range
     uint32_t *hit = h->candidate;
     batches b;
     size_t n = 0;
-    divide(stretch, stretches, &b);
+    divide(range, ranges, &b);
     for (size_t m = 0; m < b.count && n < SB_LIST_MAX; m++) {
         const uint32_t k = b.begin[m];
         const __m512i candidate = _mm512_add_epi32(lanes, _mm512_set1_epi32((int)k));
@@ -114,7 +114,7 @@ WIDE static size_t find_avx512(const sb_candidates *of, const sb_candidate_range
         _mm512_storeu_si512(hit + n, _mm512_maskz_compress_epi32(near, candidate));
         n += (size_t)__builtin_popcount(near);
     }
-    _mm512_storeu_si512(hit + n, _mm512_setzero_si512()); /* what is fetched beyond the last is a candidate, too */
+    _mm512_storeu_si512(hit + n, _mm512_setzero_si512()); /* loads beyond the last hit must read a candidate */
     for (size_t k = 0; k < n; k += LANES) {
         const offsets at = offsets_of(self, of->place, hit + k, scale2);
         _mm512_storeu_ps(h->x + k, at.x);

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Below this q the slope over q is held, so that coincident particles give no infinity: they feel no
-   pressure from each other, and jitter parts them. */
+/* Below this q, slope/q stays constant, so that coincident particles give no infinity. They exert no pressure on each
+   other; jitter separates them. */
 static const float NEAREST = 1e-4f;
 
 SB_MULTIVERSION

@@ -1,4 +1,4 @@
-/* Kernel values of a whole list at once; the shapes of src/physics/kernel.h in vector form. */
+/* Kernel values of a whole list in one call: vector forms of the kernels of src/physics/kernel.h. */
 #ifndef SB_SIM_KERNEL_BATCH_H
 #define SB_SIM_KERNEL_BATCH_H
 
@@ -9,7 +9,7 @@
 /* For i < count: value[i] = w(q), slope[i] = w'(q)/q, both dimensionless, q2[i] = (r/h)^2 < 1. */
 typedef void sb_kernel_batch(const sb_kernel *kernel, const float *q2, size_t count, float *value, float *slope);
 
-/* The vector form of a kernel; a slower general form for kernels that have none. */
+/* The vector form of a kernel, or a slower general form for kernels without one. */
 sb_kernel_batch *sb_kernel_batch_for(const sb_kernel *kernel);
 
 #endif

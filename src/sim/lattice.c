@@ -4,7 +4,7 @@
 
 enum { WAVES = 12 }; /* wave vectors per axis of the first zone's half */
 
-/* Neighbours of the origin: places in spacings, gradients of W without its normalisation. */
+/* Neighbours of the origin: positions in spacings, gradients of W without its normalisation. */
 typedef struct star {
     size_t count;
     sb_vec3 place[1000], gradient[1000];
@@ -14,12 +14,12 @@ typedef struct star {
 static void make_star(const sb_scene *scene, star *s)
 {
     const double support = scene->numerics.support;
-    const int reach = (int)ceil(support), depth = scene->dimensions == 2 ? 0 : reach;
+    const int radius = (int)ceil(support), depth = scene->dimensions == 2 ? 0 : radius;
     s->count = 0;
     s->squares = 0;
-    for (int x = -reach; x <= reach; x++)
+    for (int x = -radius; x <= radius; x++)
         for (int y = -depth; y <= depth; y++)
-            for (int z = -reach; z <= reach; z++) {
+            for (int z = -radius; z <= radius; z++) {
                 const double r = sqrt((double)(x * x + y * y + z * z));
                 if (!(r > 0 && r < support)) continue;
                 const double slope = scene->numerics.kernel->slope(r / support) / r;
@@ -33,10 +33,10 @@ static void make_star(const sb_scene *scene, star *s)
 double sb_lattice_diagonal(const sb_scene *scene, double mass)
 {
     double sum = 0, dr = scene->resolution, h = scene->numerics.support * dr;
-    int reach = (int)ceil(scene->numerics.support), depth = scene->dimensions == 2 ? 0 : reach;
-    for (int x = -reach; x <= reach; x++)
+    int radius = (int)ceil(scene->numerics.support), depth = scene->dimensions == 2 ? 0 : radius;
+    for (int x = -radius; x <= radius; x++)
         for (int y = -depth; y <= depth; y++)
-            for (int z = -reach; z <= reach; z++) {
+            for (int z = -radius; z <= radius; z++) {
                 double r = dr * sqrt((double)(x * x + y * y + z * z));
                 double slope = r > 0 ? sb_kernel_slope(scene->numerics.kernel, scene->dimensions, h, r) : 0;
                 sum += mass * mass * slope * slope;
@@ -64,16 +64,16 @@ double sb_lattice_spectrum(const sb_scene *scene)
     return largest;
 }
 
-/* Sum of V W over the lattice, and the height's part of that of h V grad W, over the layers up to `top`. */
+/* Over the layers up to `top`: the sum of V W, and the vertical component of the sum of h V grad W. */
 static void half_space(const sb_scene *scene, int top, double *density, double *slope)
 {
     const int dimension = scene->dimensions;
     const double support = scene->numerics.support;
-    const int reach = (int)ceil(support), depth = dimension == 2 ? 0 : reach;
+    const int radius = (int)ceil(support), depth = dimension == 2 ? 0 : radius;
     *density = *slope = 0;
-    for (int x = -reach; x <= reach; x++)
+    for (int x = -radius; x <= radius; x++)
         for (int y = -depth; y <= depth; y++)
-            for (int z = -reach; z <= top; z++) {
+            for (int z = -radius; z <= top; z++) {
                 const double r = sqrt((double)(x * x + y * y + z * z));
                 *density += sb_kernel_value(scene->numerics.kernel, dimension, support, r);
                 if (r > 0) *slope += support * sb_kernel_slope(scene->numerics.kernel, dimension, support, r) * z / r;

@@ -4,17 +4,17 @@
 
 #include <string.h>
 
-/* Hits eight at a time into fours. */
+/* Packs hits into groups of four, eight hits at a time. */
 SB_MULTIVERSION
 static void write_fours(sb_four_pairs *four, const sb_hits *h)
 {
     typedef uint32_t eight __attribute__((vector_size(32), aligned(4)));
-    typedef uint16_t eight_shorts __attribute__((vector_size(16)));
+    typedef uint16_t eight_u16 __attribute__((vector_size(16)));
     for (size_t k = 0; k < h->padded; k += SB_HIT_LANES, four += 2) {
         const eight candidate = *(const eight *)(h->candidate + k);
         const sb_f8 root = *(const sb_f8 *)(h->root + k);
-        const eight_shorts place = __builtin_convertvector(candidate * SB_PLACE_STEP, eight_shorts);
-        const eight_shorts slope = __builtin_convertvector(__builtin_convertvector(root, eight), eight_shorts);
+        const eight_u16 place = __builtin_convertvector(candidate * SB_PLACE_STEP, eight_u16);
+        const eight_u16 slope = __builtin_convertvector(__builtin_convertvector(root, eight), eight_u16);
         memcpy(four[0].place, &place, sizeof four->place);
         memcpy(four[1].place, (const char *)&place + sizeof four->place, sizeof four->place);
         memcpy(four[0].slope, &slope, sizeof four->slope);
@@ -28,7 +28,7 @@ void sb_list_water(sb_list_builder *lists, const sb_hits *hits, sb_sim *sim, siz
     sim->pairs.first[i] = (uint32_t)lists->fours;
     sim->pairs.count[i] = 0;
     if (sb_grow((void **)&lists->four, &lists->capacity_four, lists->fours + written, sizeof *lists->four) != 0) {
-        lists->starved = true;
+        lists->out_of_memory = true;
         return;
     }
     write_fours(lists->four + lists->fours, hits);
@@ -42,7 +42,7 @@ void sb_list_walls(sb_list_builder *lists, const sb_hits *hits, sb_sim *sim, siz
     sim->wall_pairs.first[i] = (uint32_t)lists->walls;
     if (sb_grow((void **)&lists->wall, &lists->capacity_wall, needed, sizeof *lists->wall) != 0 ||
         sb_grow((void **)&lists->wall_slope, &lists->capacity_slope, needed, sizeof *lists->wall_slope) != 0) {
-        lists->starved = true;
+        lists->out_of_memory = true;
         return;
     }
     memcpy(lists->wall + lists->walls, hits->candidate, hits->count * sizeof *lists->wall);
@@ -58,7 +58,7 @@ void sb_list_walls(sb_list_builder *lists, const sb_hits *hits, sb_sim *sim, siz
 void sb_list_runs(sb_list_builder *lists, const sb_vicinity *v, sb_group *group)
 {
     if (sb_grow((void **)&lists->run, &lists->capacity_run, lists->runs + v->runs, sizeof *lists->run) != 0) {
-        lists->starved = true;
+        lists->out_of_memory = true;
         return;
     }
     memcpy(lists->run + lists->runs, v->run, v->runs * sizeof *v->run);

@@ -1,5 +1,5 @@
-/* The stage that finds who is around whom: all threads search, each through a few groups at a time, and put what they
-   found into pools that all share. */
+/* The stage that finds the neighbours of all particles. Each thread searches a few groups at a time and copies their
+   lists into shared pools. */
 #include "base/memory.h"
 #include "sim/around.h"
 #include "sim/lists.h"
@@ -10,15 +10,15 @@
 
 enum { GROUPS = 8 }; /* per unit of work: 600 particles where the water is deep */
 
-/* Room for `count` entries of a pool; false when it is too small, which `used` then tells by how much. The place
-   depends on timing, the contents do not. */
+/* Reserves `count` entries of a pool, from *at on. Returns false if the pool is too small; `used` is then the size
+   needed. The place in the pool depends on timing; the contents do not. */
 static bool take(size_t *used, size_t capacity, size_t count, size_t *at)
 {
     *at = __atomic_fetch_add(used, count, __ATOMIC_RELAXED);
     return *at + count <= capacity;
 }
 
-/* Copies what was built for groups [begin, end) into the pools. */
+/* Copies the lists of groups [begin, end) into the pools. */
 static bool publish(sb_sim *sim, sb_list_builder *lists, size_t begin, size_t end)
 {
     sb_groups *groups = &sim->groups;
@@ -43,7 +43,8 @@ static bool publish(sb_sim *sim, sb_list_builder *lists, size_t begin, size_t en
     return room;
 }
 
-/* One attempt; *full: the limits hit. 0, or -1 without memory. */
+/* One search of all groups. *too_small: a pool was too small; *full: the limits that were exceeded. Returns 0, or -1
+   without memory. */
 static int attempt(sb_sim *sim, bool *too_small, unsigned *full)
 {
     unsigned over = 0;
@@ -53,16 +54,16 @@ static int attempt(sb_sim *sim, bool *too_small, unsigned *full)
 #pragma omp parallel reduction(| : small, over, memory)
     {
         sb_searcher *searcher = sb_searcher_create(sim);
-        sb_list_builder lists = {.starved = !searcher};
+        sb_list_builder lists = {.out_of_memory = !searcher};
 #pragma omp for schedule(dynamic, 1)
         for (size_t u = 0; u < units; u++) {
             const size_t begin = u * GROUPS, end = begin + GROUPS < groups ? begin + GROUPS : groups;
-            for (size_t g = begin; g < end && !lists.starved; g++)
+            for (size_t g = begin; g < end && !lists.out_of_memory; g++)
                 sb_search_group(sim, searcher, &lists, &sim->groups.group[g]);
-            if (!lists.starved) small |= !publish(sim, &lists, begin, end);
+            if (!lists.out_of_memory) small |= !publish(sim, &lists, begin, end);
         }
         over |= searcher ? sb_searcher_full(searcher) : 0;
-        memory |= lists.starved;
+        memory |= lists.out_of_memory;
         sb_list_builder_free(&lists);
         sb_searcher_free(searcher);
     }
@@ -71,8 +72,8 @@ static int attempt(sb_sim *sim, bool *too_small, unsigned *full)
     return memory ? -1 : 0;
 }
 
-/* Pools that were too small are made anew with a little in reserve: what each is larger costs memory for good, what it
-   is smaller another search now and then. */
+/* New size of a pool that was too small. A larger reserve costs memory for the rest of the run, a smaller one another
+   search now and then. */
 static size_t with_reserve(size_t used)
 {
     return used + used / 32 + 1024;
@@ -108,16 +109,16 @@ static int enlarge(sb_sim *sim)
 
 static sb_status refuse(const sb_sim *sim, unsigned full, sb_error *error)
 {
-    static const char *const dense = "the water has collapsed, or walls are too dense";
+    static const char *const dense = "the water has collapsed, or the boundary particles are too dense";
     const unsigned long long step = (unsigned long long)sim->report.step;
     if (full & SB_FULL_WALLS)
         return sb_fail(error, SB_FAILED,
-                       "step %llu: more than %d boundary particles around one place: walls are too dense, or many "
-                       "bodies meet there",
+                       "step %llu: more than %d boundary particles within one cell and its neighbour cells: walls are "
+                       "too dense, or too many bodies meet there",
                        step, SB_WALLS_AROUND_MAX);
     return sb_fail(error, SB_FAILED, "step %llu: more than %d particles around %s: %s", step,
-                   full & SB_FULL_LIST ? SB_LIST_MAX : SB_AROUND_MAX, full & SB_FULL_LIST ? "one" : "eight cells",
-                   dense);
+                   full & SB_FULL_LIST ? SB_LIST_MAX : SB_AROUND_MAX,
+                   full & SB_FULL_LIST ? "one particle" : "a block of eight cells", dense);
 }
 
 sb_status sb_stage_neighbours(sb_sim *sim, sb_error *error)

@@ -8,10 +8,10 @@
 #include <math.h>
 
 enum {
-    MOST = 32767, /* of a stored slope */
+    MOST = 32767, /* largest stored slope */
 };
 
-_Static_assert((int)SB_WALLS_AROUND_MAX <= (int)SB_CANDIDATES_MAX, "what is tested for hits");
+_Static_assert((int)SB_WALLS_AROUND_MAX <= (int)SB_CANDIDATES_MAX, "capacity of the search for hits");
 
 /* Boundary particles around one cell as offsets from the cell's corner, in quanta. */
 typedef struct surroundings {
@@ -34,7 +34,7 @@ struct sb_searcher {
     float value_scale; /* alpha / h^d */
     float slope_scale; /* alpha quantum / h^(d+2): W'/r per quantum */
     float to_units;    /* a slope of the kernel in stored units */
-    unsigned full;     /* as sb_searcher_full has it */
+    unsigned full;     /* see sb_searcher_full */
 };
 
 /* ---- walls around a cell ---- */
@@ -57,7 +57,7 @@ SB_INLINE void gather_cell(surroundings *s, const sb_record *record, uint32_t be
     }
 }
 
-/* Those in the 27 (2D: 9) cells around particle i's, in a fixed order. */
+/* Gathers the boundary particles in the 27 (2D: 9) cells around that of particle i, in a fixed order. */
 static void gather_walls(const sb_sim *sim, sb_searcher *w, size_t i, sb_record corner)
 {
     const int layers = sim->constant.dimension == 2 ? 0 : 1;
@@ -83,11 +83,11 @@ static void gather_walls(const sb_sim *sim, sb_searcher *w, size_t i, sb_record 
 
 /* ---- one particle ---- */
 
-SB_INLINE void find_hits(sb_searcher *w, const sb_candidates *of, const sb_candidate_range *stretch, size_t stretches,
+SB_INLINE void find_hits(sb_searcher *w, const sb_candidates *of, const sb_candidate_range *range, size_t ranges,
                          sb_f4 self, uint32_t skip)
 {
     sb_hits *h = &w->hits;
-    size_t n = w->find_hits(of, stretch, stretches, h, self, w->q_scale, skip);
+    size_t n = w->find_hits(of, range, ranges, h, self, w->q_scale, skip);
     if (n >= SB_LIST_MAX) w->full |= SB_FULL_LIST;
     h->count = n < SB_LIST_MAX ? n : SB_LIST_MAX;
     h->padded = (h->count + SB_HIT_LANES - 1) / SB_HIT_LANES * SB_HIT_LANES;
@@ -98,8 +98,8 @@ SB_INLINE void find_hits(sb_searcher *w, const sb_candidates *of, const sb_candi
     }
 }
 
-/* Slopes of the kernel to roots that can be stored, and to the slopes that these stand for: all that uses a pair sees
-   the same number. */
+/* Rounds slopes of the kernel to storable roots, and replaces them by the squares of these roots, so that all uses of a
+   pair have the same number. */
 SB_MULTIVERSION
 static void round_slopes(float *restrict slope, float *restrict root, size_t count, float to_units)
 {
@@ -112,7 +112,7 @@ static void round_slopes(float *restrict slope, float *restrict root, size_t cou
     }
 }
 
-/* Fluid neighbours of one particle: density share, S_i and sum |m grad W|^2. */
+/* Sums over the fluid neighbours of one particle: part of the density, S_i, and sum |m grad W|^2. */
 SB_INLINE void fluid_sums(sb_searcher *w, float mass, float unit, float *density, sb_f4 *sum, float *squares)
 {
     sb_hits *h = &w->hits;
@@ -132,8 +132,8 @@ SB_INLINE void fluid_sums(sb_searcher *w, float mass, float unit, float *density
     *squares = sb_sum8(&square) / w->q_scale;
 }
 
-/* Wall neighbours of one particle: density share and B_i = sum_b psi_b grad W_ib, with the flux
-   sum_b psi_b v_b . grad W_ib of moving walls in the last lane. */
+/* Sums over the boundary particles around one particle: part of the density, and B_i = sum_b psi_b grad W_ib with the
+   flux sum_b psi_b v_b . grad W_ib of moving walls in the last lane. */
 SB_INLINE void wall_sums(const sb_sim *sim, sb_searcher *w, float *density, sb_f4 *wall)
 {
     sb_hits *h = &w->hits;
@@ -155,7 +155,8 @@ SB_INLINE void wall_sums(const sb_sim *sim, sb_searcher *w, float *density, sb_f
     *wall = sum;
 }
 
-/* candidate: which of the vicinity particle i is. cell: the corner of its cell. */
+/* Searches the neighbours of particle i and fills in its fields. candidate: its index in the vicinity; cell: the corner
+   of its cell. */
 SB_INLINE void one_particle(sb_sim *sim, sb_searcher *w, sb_list_builder *lists, const sb_group *group, size_t i,
                             uint32_t candidate, sb_record cell)
 {
@@ -164,13 +165,13 @@ SB_INLINE void one_particle(sb_sim *sim, sb_searcher *w, sb_list_builder *lists,
     float density = c->mass * w->value_scale * (float)sim->scene->numerics.kernel->shape(0);
     float squares = 0;
     sb_f4 sum = {0}, wall = {0}, self = sb_offset(sim->position[i], group->corner);
-    sb_candidate_range stretch[SB_VICINITY_ROWS];
-    const size_t stretches = sb_vicinity_candidates(sim, v, self, stretch);
-    find_hits(w, &(sb_candidates){v->x, v->y, v->z, v->place}, stretch, stretches, self, candidate);
+    sb_candidate_range range[SB_VICINITY_ROWS];
+    const size_t ranges = sb_vicinity_candidates(sim, v, self, range);
+    find_hits(w, &(sb_candidates){v->x, v->y, v->z, v->place}, range, ranges, self, candidate);
     fluid_sums(w, c->mass, sim->pairs.unit, &density, &sum, &squares);
     sb_list_water(lists, &w->hits, sim, i);
     sim->wall_pairs.count[i] = 0;
-    const float of_water = density;
+    const float fluid_density = density;
     if (sim->density_correction) sim->residual[i] = sb_sum3(sum * sum);
     if (w->wall.count > 0) {
         const sb_candidate_range all = {0, (uint32_t)w->wall.count};
@@ -184,7 +185,7 @@ SB_INLINE void one_particle(sb_sim *sim, sb_searcher *w, sb_list_builder *lists,
     float diagonal = squares;
     for (int axis = 0; axis < 3; axis++) diagonal += (sum[axis] + wall[axis]) * (sum[axis] + wall[axis]);
     sim->density[i] = density;
-    if (sim->density_correction) sim->source[i] = density - of_water;
+    if (sim->density_correction) sim->source[i] = density - fluid_density;
     sim->wall[i] = wall;
     sim->diagonal[i] = diagonal > 1e-6f * c->full_diagonal ? diagonal : 0;
 }

@@ -1,5 +1,5 @@
-/* The search by one thread. A pass over a group gives each of its particles neighbour lists, density, wall vector and
-   the diagonal of the pressure operator: the offsets are at hand once, and all four need them. */
+/* The neighbour search of one thread. One pass over a group computes neighbour lists, density, wall vector and the
+   diagonal of the pressure operator of each particle, because all four need the same offsets. */
 #ifndef SB_SIM_SEARCHER_H
 #define SB_SIM_SEARCHER_H
 
@@ -7,7 +7,7 @@
 
 enum { SB_WALLS_AROUND_MAX = 4096 }; /* boundary particles in and beside one cell */
 
-/* There is more than fits: around a particle, of boundary particles around a cell, around a group. */
+/* Limits that were exceeded: neighbours of a particle, boundary particles around a cell, records around a group. */
 enum { SB_FULL_LIST = 1, SB_FULL_WALLS = 2, SB_FULL_AROUND = 4 };
 
 typedef struct sb_searcher sb_searcher;
@@ -16,10 +16,10 @@ sb_searcher *sb_searcher_create(const sb_sim *sim); /* NULL without memory */
 void sb_searcher_free(sb_searcher *searcher);
 /* Appends the group's lists to `lists`, and fills in the fields of its particles. */
 void sb_search_group(sb_sim *sim, sb_searcher *searcher, sb_list_builder *lists, sb_group *group);
-/* Which of the limits were hit: bits. */
+/* The limits that were exceeded, as bits. */
 unsigned sb_searcher_full(const sb_searcher *searcher);
 
-/* sb_lists.unit of a simulation, so that W'/r of coincident particles, the steepest, is 2^15 - 1. */
+/* sb_lists.unit of a simulation: the largest W'/r, that of coincident particles, has the root 2^15 - 1. */
 float sb_lists_unit(const sb_sim *sim);
 
 #endif

@@ -1,5 +1,5 @@
-/* Four-lane vectors, the 16-byte records built on them, and run-time choice of the instruction set.
-   A record is one 128-bit load per neighbour; gathers of separate arrays are slower (docs/decisions/0002). */
+/* Four-lane vectors, the 16-byte records made of them, and the choice of the instruction set at run time. A record
+   takes one 128-bit load per neighbour; gathers from separate arrays are slower (docs/decisions/0002). */
 #ifndef SB_SIM_SIMD_H
 #define SB_SIM_SIMD_H
 
@@ -16,12 +16,12 @@ typedef int32_t sb_i4 __attribute__((vector_size(16)));
 typedef uint32_t sb_u4 __attribute__((vector_size(16)));
 typedef float sb_f8 __attribute__((vector_size(32), aligned(4)));
 
-/* Position record: x, y, z in quanta, and in the last lane the bits of a float that travels along
-   (the argument of the pressure operator). */
+/* Position record: x, y, z in quanta, and in the last lane the bits of a float: argument of the pressure operator. */
 typedef sb_u4 sb_record;
 
-/* Each function so marked exists once per instruction set; the loader picks. Sanitizers cannot instrument the picking.
-   SB_INSTRUCTIONS names one set instead, for tests; a build for one processor (SB_NATIVE) has its set already. */
+/* A function with this mark is compiled once per instruction set, and the loader selects one. Sanitizers cannot
+   instrument that selection. SB_INSTRUCTIONS names a single set instead, for tests. A build for one processor
+   (SB_NATIVE) needs only the set of that processor. */
 #ifdef SB_INSTRUCTIONS
 #define SB_MULTIVERSION __attribute__((target("arch=" SB_INSTRUCTIONS)))
 #elif defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(SB_NATIVE) &&                        \
@@ -32,8 +32,8 @@ typedef sb_u4 sb_record;
 #define SB_MULTIVERSION
 #endif
 #define SB_INLINE static inline __attribute__((always_inline))
-/* Compiled once, for any processor: left to the compiler, it might be drawn into one set's caller and not into another
-   build's, and round otherwise there. */
+/* A function with this mark is compiled once, for any processor. Otherwise the compiler might inline it into the caller
+   in one build and not in another, and the two would round differently. */
 #define SB_APART static __attribute__((noinline))
 
 SB_INLINE sb_f4 sb_splat(float value)
@@ -41,7 +41,7 @@ SB_INLINE sb_f4 sb_splat(float value)
     return (sb_f4){value, value, value, value};
 }
 
-/* a - b in quanta as floats; exact within three cells. The last lane is finite but meaningless. */
+/* a - b in quanta as floats; exact within three cells. The last lane is finite but has no meaning. */
 SB_INLINE sb_f4 sb_offset(sb_record a, sb_record b)
 {
     return __builtin_convertvector((sb_i4)(a - b), sb_f4);
@@ -84,7 +84,7 @@ SB_INLINE sb_f4 sb_select(sb_i4 mask, sb_f4 a, sb_f4 b)
     return (sb_f4)(((sb_i4)a & mask) | ((sb_i4)b & ~mask));
 }
 
-/* Four records turned into four lanes of x, y, z and w. */
+/* Four records transposed into four lanes of x, y, z and w. */
 typedef struct sb_four {
     sb_f4 x, y, z, w;
 } sb_four;

@@ -1,5 +1,5 @@
-/* Two neighbours at a time, or one with a value of its own: 16-byte records side by side in one 32-byte vector. A
-   machine without such vectors takes two instructions for each of these operations and gets the same lanes. */
+/* Two 16-byte records side by side in one 32-byte vector: those of two neighbours, or the record and the value of one.
+   A processor without such vectors takes two instructions for each of these operations and gets the same lanes. */
 #ifndef SB_SIM_SIMD_WIDE_H
 #define SB_SIM_SIMD_WIDE_H
 
@@ -22,7 +22,7 @@ SB_INLINE sb_f8 sb_carried8(sb_f8 records)
     return __builtin_shufflevector(records, records, 3, 3, 3, 3, 7, 7, 7, 7);
 }
 
-/* The first, or second, halves of two, side by side. */
+/* The first halves of two vectors, side by side. sb_upper: the second halves. */
 SB_INLINE sb_f8 sb_lower(sb_f8 a, sb_f8 b)
 {
     return __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11);

@@ -13,7 +13,7 @@ static void range_of(size_t count, int thread, int threads, size_t *begin, size_
     *end = count * (size_t)(thread + 1) / (size_t)threads;
 }
 
-/* First place of each (bucket, thread): buckets in order, threads in order within one. */
+/* First place of each (bucket, thread): buckets in order, and threads in order within a bucket. */
 static void scan(size_t (*histogram)[BUCKETS], int threads)
 {
     size_t place = 0;

@@ -7,7 +7,7 @@
 
 enum { SB_SORT_DIGIT = 8, SB_INDEX_BITS = 27 };
 
-/* A word: the key above, the index of what it belongs to, below 2^SB_INDEX_BITS, in its last bits. */
+/* A sort word: the key in the upper bits, and in the last bits an index below 2^SB_INDEX_BITS. */
 static inline uint64_t sb_sort_word(uint64_t key, size_t index)
 {
     return key << SB_INDEX_BITS | index;
@@ -19,7 +19,7 @@ static inline size_t sb_word_index(uint64_t word)
 }
 
 /* Sorts words by bits [low, high), least significant digit first; `other` is scratch of equal size.
-   Returns the array that holds the result (words or other), NULL without memory. */
+   Returns the array that holds the result (words or other), or NULL without memory. */
 uint64_t *sb_sort(uint64_t *words, uint64_t *other, size_t count, int low, int high);
 
 #endif

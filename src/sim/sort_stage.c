@@ -1,5 +1,5 @@
-/* Particles that left the domain come back through periodic sides or are dropped; the others are re-ordered along
-   the Z-curve of their cells. */
+/* The stage sort: particles that left the domain return through periodic sides or are removed; the others are sorted
+   along the Z-curve of their cells. */
 #include "base/memory.h"
 #include "sim/departures.h"
 #include "sim/ledger.h"
@@ -10,8 +10,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Domain bounds in quanta; walls hold water, so beyond a wall side a particle is lost only when it is
-   more than a support radius out. None is beyond a periodic side. */
+/* Bounds of the domain in quanta. Beyond a wall side a particle counts as lost only from one support radius on. No
+   particle is beyond a periodic side. */
 typedef struct bounds {
     int64_t min[3], max[3];
 } bounds;
@@ -30,7 +30,7 @@ static bounds domain_bounds(const sb_sim *sim)
     return b;
 }
 
-/* An open side that it is beyond is the way it went, before any wall. */
+/* Finds the side that a particle is beyond: an open side if there is one, else a wall side. */
 static sb_exit outside(const sb_sim *sim, const bounds *b, sb_record record)
 {
     sb_exit result = {-1, false};
@@ -45,7 +45,7 @@ static sb_exit outside(const sb_sim *sim, const bounds *b, sb_record record)
     return result;
 }
 
-/* Returns how many stay. */
+/* Makes the sort words. Returns the number of particles that stay. */
 static size_t make_words(sb_sim *sim, const bounds *b)
 {
     const uint64_t gone = ((uint64_t)1 << sim->space.key_bits) - 1;
@@ -72,7 +72,7 @@ static void permute(sb_sim *sim, const uint64_t *words)
 {
     sb_f4 *velocity = sim->scratch;
     sb_record *position = (sb_record *)sim->acceleration;
-    uint32_t *id = (uint32_t *)sim->residual; /* made anew after the sort */
+    uint32_t *id = (uint32_t *)sim->residual; /* computed anew after the sort */
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < sim->n; i++) {
         size_t from = sb_word_index(words[i]);
@@ -97,7 +97,7 @@ sb_status sb_stage_sort(sb_sim *sim, sb_error *error)
     permute(sim, sorted);
     for (size_t i = stay; i < sim->n; i++) /* in the order of their numbers before the sort */
         sb_departures_note(sim, outside(sim, &b, sim->position[i]), i);
-    if (!sim->settling) sb_ledger_leave(sim, stay, sim->n); /* their keys are the last */
+    if (!sim->settling) sb_ledger_leave(sim, stay, sim->n); /* their keys are the largest */
     sim->n = stay;
     if (sb_cells_build(&sim->cells, sim->position, sim->n, sim->space.shift) != 0)
         return sb_fail_memory(error, "cells");

@@ -29,7 +29,7 @@ static void make_spread(sb_space *space)
 
 sb_status sb_space_create(sb_vec3 min, sb_vec3 max, double cell, sb_space *space, sb_error *error)
 {
-    /* 22 bits within a cell keep three cells' differences exact in float. */
+    /* With 22 bits per cell, differences within three cells are exact in float. */
     enum { MOST_SHIFT = 22, LEAST_SHIFT = 14, MOST_KEY_BITS = 64 - SB_INDEX_BITS };
     sb_space made = {.cell = cell};
     double extent[3] = {max.x - min.x, max.y - min.y, max.z - min.z};
@@ -63,12 +63,12 @@ void sb_space_repeat(sb_space *space, int axis, double length)
 int sb_space_images(const sb_space *space, sb_record record, sb_record image[SB_IMAGES_MAX])
 {
     const uint32_t low = sb_space_low(space);
-    const int32_t reach = (int32_t)1 << space->shift;
+    const int32_t range = (int32_t)1 << space->shift;
     int count = 0;
     for (int axis = 0; axis < 3; axis++) {
         const uint32_t period = space->period[axis];
-        const bool ahead = period > 0 && (int32_t)(record[axis] - low) < reach;
-        const bool behind = period > 0 && (int32_t)(low + period - record[axis]) < reach;
+        const bool ahead = period > 0 && (int32_t)(record[axis] - low) < range;
+        const bool behind = period > 0 && (int32_t)(low + period - record[axis]) < range;
         const int before = count;
         for (int k = -1; k < before; k++) {
             sb_record from = k < 0 ? record : image[k];

@@ -1,5 +1,5 @@
-/* Positions as 32-bit integers: exact differences, the same bits wherever the scene lies, and a cell
-   index by one shift. A quantum is cell/2^shift, the origin lies two cells outside the domain. */
+/* Positions as 32-bit integers. Differences are exact, results do not depend on the location of the scene, and a cell
+   index is one shift. A quantum is cell/2^shift; the origin lies two cells outside of the domain. */
 #ifndef SB_SIM_SPACE_H
 #define SB_SIM_SPACE_H
 
@@ -9,42 +9,42 @@
 
 #include <stdbool.h>
 
-/* Positions are kept below this. */
+/* All coordinates are below this. */
 static const uint32_t SB_POSITION_END = 0x80000000u;
 
 enum {
     SB_SPACE_MARGIN = 2, /* cells around the domain */
-    SB_IMAGES_MAX = 26   /* of one record: two along each axis, in all combinations */
+    SB_IMAGES_MAX = 26   /* images of one record: two along each axis, in all combinations */
 };
 
 typedef struct sb_space {
-    sb_vec3 origin;             /* m, where the integers are zero */
+    sb_vec3 origin;             /* m, the position with coordinates 0 */
     double quantum;             /* m */
     double cell;                /* m, edge of a cell: the support radius */
     int shift;                  /* cell index = position >> shift */
     int bits[3];                /* of the cell index along each axis */
     int key_bits;               /* of the Z-order key */
-    bool repeats;               /* along one axis at least */
-    uint32_t period[3];         /* quanta after which the domain repeats along an axis; 0: it does not */
+    bool repeats;               /* along at least one axis */
+    uint32_t period[3];         /* period along an axis in quanta; 0: not periodic */
     uint64_t spread[3][3][256]; /* key bits of each byte of an index, by axis and byte */
 } sb_space;
 
-/* SB_BAD_INPUT when the domain has more cells than positions can tell apart. */
+/* SB_BAD_INPUT if the domain has more cells than positions can distinguish. */
 sb_status sb_space_create(sb_vec3 min, sb_vec3 max, double cell, sb_space *space, sb_error *error);
 
-/* Makes the domain repeat along an axis after `length` (m), its extent there and at least a cell; rounded to
-   whole quanta, so off by half a quantum at most. */
+/* Makes the domain periodic along an axis. length (m): its extent along that axis, at least one cell; it is rounded to
+   whole quanta. */
 void sb_space_repeat(sb_space *space, int axis, double length);
 
-/* The images of a record of the domain, whole periods away along one axis or several, that are within a
-   cell's edge of the domain. Returns how many; always in one order. */
+/* Finds the images of a record of the domain, whole periods away along one or several axes, that are within one cell of
+   the domain. Returns their number; the order is always the same. */
 int sb_space_images(const sb_space *space, sb_record record, sb_record image[SB_IMAGES_MAX]);
 
-/* Nearest quanta; clamped to the representable range. */
+/* Rounds a position to quanta, clamped to the representable range. */
 sb_record sb_space_record(const sb_space *space, sb_vec3 position);
 sb_vec3 sb_space_position(const sb_space *space, sb_record record);
 
-/* Three cell indices packed 21 bits each: the neighbour (dx, dy, dz) is code + sb_cell_step. */
+/* Three cell indices packed with 21 bits each. The code of the neighbour (dx, dy, dz) is code + sb_cell_step. */
 SB_INLINE uint64_t sb_cell_code(sb_record record, int shift)
 {
     return (uint64_t)(record[0] >> shift) | (uint64_t)(record[1] >> shift) << 21 | (uint64_t)(record[2] >> shift) << 42;
@@ -55,7 +55,7 @@ SB_INLINE uint64_t sb_cell_step(int dx, int dy, int dz)
     return (uint64_t)(int64_t)dx + ((uint64_t)(int64_t)dy << 21) + ((uint64_t)(int64_t)dz << 42);
 }
 
-/* Whether the record's cell is on the grid, with a cell to spare on each side. */
+/* Whether the record's cell and its neighbour cells are on the grid. */
 SB_INLINE int sb_space_inside(const sb_space *space, sb_record record)
 {
     for (int axis = 0; axis < 3; axis++) {
@@ -71,7 +71,7 @@ SB_INLINE uint32_t sb_space_low(const sb_space *space)
     return (uint32_t)SB_SPACE_MARGIN << space->shift;
 }
 
-/* The image that is in the domain, along the axes that repeat; the last lane is kept. */
+/* The image that is in the domain along the periodic axes; the last lane does not change. */
 SB_INLINE sb_record sb_space_wrap(const sb_space *space, sb_record record)
 {
     const uint32_t low = sb_space_low(space);
@@ -82,7 +82,7 @@ SB_INLINE sb_record sb_space_wrap(const sb_space *space, sb_record record)
     return record;
 }
 
-/* Whether the cells around the record's reach beyond a side at which the domain repeats. */
+/* Whether a neighbour cell of the record's cell extends beyond a periodic side. */
 SB_INLINE bool sb_space_at_edge(const sb_space *space, sb_record record)
 {
     const uint32_t low = sb_space_low(space);
@@ -95,7 +95,7 @@ SB_INLINE bool sb_space_at_edge(const sb_space *space, sb_record record)
     return false;
 }
 
-/* Place along the Z-curve: the bits of the three indices interleaved, an axis ending with its last bit. */
+/* Key along the Z-curve: the interleaved bits of the three indices. An axis takes part up to its last bit. */
 SB_INLINE uint64_t sb_space_key(const sb_space *space, sb_record record)
 {
     uint64_t key = 0;

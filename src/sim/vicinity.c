@@ -1,6 +1,6 @@
 #include "sim/vicinity.h"
 
-/* The block of cells that the group's particles are in, and the cells beside. */
+/* Finds the range of cells of the group's particles and their neighbour cells. */
 static void find_cells(const sb_sim *sim, const sb_group *group, sb_vicinity *v)
 {
     const int shift = sim->space.shift;
@@ -18,7 +18,7 @@ static void find_cells(const sb_sim *sim, const sb_group *group, sb_vicinity *v)
     }
 }
 
-/* One cell's records, entries base + begin and so on of sim->position. */
+/* Appends the records of one cell: the entries from base + begin on of sim->position. */
 SB_INLINE void add_cell(const sb_sim *sim, sb_vicinity *v, sb_record corner, const sb_cells *cells, uint64_t code,
                         size_t base)
 {
@@ -78,7 +78,8 @@ SB_INLINE size_t index_of(const sb_vicinity *v, const uint32_t cell[3])
     return ((size_t)cell[2] * v->cells[1] + cell[1]) * v->cells[0] + cell[0];
 }
 
-/* Squared distances along an axis to the cell before, the own one and the one behind, `in` beyond the lower face. */
+/* Squared distances along an axis to the previous cell, the own cell and the next cell. in: distance from the lower
+   face of the own cell. */
 SB_INLINE void find_gaps(float in, float edge, float gap2[3])
 {
     gap2[0] = in * in;
@@ -88,10 +89,10 @@ SB_INLINE void find_gaps(float in, float edge, float gap2[3])
 
 SB_MULTIVERSION
 size_t sb_vicinity_candidates(const sb_sim *sim, const sb_vicinity *v, sb_f4 self,
-                              sb_candidate_range stretch[SB_VICINITY_ROWS])
+                              sb_candidate_range range[SB_VICINITY_ROWS])
 {
     const float edge = (float)((int32_t)1 << sim->space.shift);
-    const float reach2 = 1.00001f * edge * edge; /* round-off must not leave out a hit */
+    const float reach2 = 1.00001f * edge * edge; /* so that round-off does not exclude a hit */
     const int layers = v->cells[1] > 1 ? 1 : 0;
     uint32_t home[3];
     float gap2[3][3];
@@ -101,7 +102,7 @@ size_t sb_vicinity_candidates(const sb_sim *sim, const sb_vicinity *v, sb_f4 sel
     }
     const float left = gap2[0][0], right = gap2[0][2];
     const size_t centre = index_of(v, home);
-    size_t stretches = 0;
+    size_t ranges = 0;
     for (size_t part = 0; part < v->parts; part++)
         for (int dz = -1; dz <= 1; dz++)
             for (int dy = -layers; dy <= layers; dy++) {
@@ -109,10 +110,10 @@ size_t sb_vicinity_candidates(const sb_sim *sim, const sb_vicinity *v, sb_f4 sel
                 const uint32_t *start = v->start[part] + (ptrdiff_t)centre +
                                         ((ptrdiff_t)dz * (ptrdiff_t)v->cells[1] + dy) * (ptrdiff_t)v->cells[0];
                 const uint32_t begin = start[-(left + row2 < reach2)], end = start[1 + (right + row2 < reach2)];
-                stretch[stretches] = (sb_candidate_range){begin, end};
-                stretches += (row2 < reach2) & (begin < end);
+                range[ranges] = (sb_candidate_range){begin, end};
+                ranges += (row2 < reach2) & (begin < end);
             }
-    return stretches;
+    return ranges;
 }
 
 uint32_t sb_vicinity_cell(const sb_sim *sim, const sb_vicinity *v, size_t i)
