@@ -1,4 +1,4 @@
-/* The source of the pressure problem, its first guess, when to stop, and the acceleration that results. */
+/* The pressure problem of one step: source, initial guess, error of the solve and stopping criterion. */
 #include "sim/pressure.h"
 
 #include "sim/stages.h"
@@ -12,7 +12,7 @@ const sb_pressure_solver *const sb_pressure_solvers[] = {
     NULL,
 };
 
-/* Settled water with walls was measured to reach 1.19 times a lattice's largest eigenvalue at most. */
+/* Measured in settled water with walls: at most 1.19 times the largest eigenvalue of a lattice. */
 static const double DISORDER = 1.3;
 
 double sb_pressure_spectrum(const sb_sim *sim)
@@ -20,8 +20,8 @@ double sb_pressure_spectrum(const sb_sim *sim)
     return DISORDER * sim->constant.spectrum;
 }
 
-/* One block's b_i = beta (rho_0 - rho_i) - dt div_i, with the velocities v* and the walls' own; div_i is there. Partial
-   sums of what is above the rest density: all of it, and the worst. */
+/* Computes b_i = beta (rho_0 - rho_i) - dt div_i of one block, with v* and the walls' velocities. sim->source holds
+   div_i on entry. partial: sum and maximum of the density above the rest density. */
 static void source_block(const sb_sim *sim, size_t block, double *partial)
 {
     const float dt = (float)sim->report.time_step, rest = sim->constant.rest_density;
@@ -29,10 +29,10 @@ static void source_block(const sb_sim *sim, size_t block, double *partial)
     double excess = 0;
     float worst = 0;
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
-        const float lack = rest - sim->density[i];
-        sim->source[i] = beta * lack - dt * (sim->source[i] - sim->wall[i][3]);
-        excess += lack < 0 ? (double)-lack : 0;
-        worst = -lack > worst ? -lack : worst;
+        const float deficit = rest - sim->density[i];
+        sim->source[i] = beta * deficit - dt * (sim->source[i] - sim->wall[i][3]);
+        excess += deficit < 0 ? (double)-deficit : 0;
+        worst = -deficit > worst ? -deficit : worst;
     }
     partial[0] = excess;
     partial[1] = (double)worst;
@@ -56,11 +56,11 @@ sb_status sb_stage_source(sb_sim *sim, sb_error *error)
     return SB_OK;
 }
 
-/* q from the last step's pressure in Pa, whatever dt was then (all of it while a sea settles: its pressures are to
-   stay); and -a_ii by this step's dt. A drop on its own beside a wall starts from its answer: it moves far against the
-   wall in a step, and an old pressure, which the mean error of all the water does not show, would throw it back faster
-   than it came. */
-static void first_guess(sb_sim *sim)
+/* Sets the initial guess of q from the last step's pressure in Pa, whatever its dt was, and multiplies -a_ii by this
+   step's dt^2. Damped settling steps start from the full pressure, because pressures should not change. A single
+   particle beside a wall starts from its solution: it moves far towards the wall in one step, and an old pressure would
+   throw it back faster than it came. The mean error of all the water does not show such an error. */
+static void set_initial_guess(sb_sim *sim)
 {
     const size_t n = sim->n;
     const float share = sim->settling == SB_DAMPING ? 1 : (float)sim->scene->numerics.warm_start;
@@ -85,7 +85,7 @@ static double tolerance(const sb_sim *sim)
 
 sb_status sb_stage_pressure(sb_sim *sim, sb_error *error)
 {
-    first_guess(sim);
+    set_initial_guess(sim);
     sim->last_sweeps = sim->report.iterations;
     sim->report.iterations = 0;
     sim->report.capped = false;
@@ -93,16 +93,16 @@ sb_status sb_stage_pressure(sb_sim *sim, sb_error *error)
     return sb_pressure_solvers[sim->scene->numerics.solver]->solve(sim, error);
 }
 
-/* What is summed over a block: positive excess and |e| of active particles, one particle after the other; and by lanes
-   how many are active, and the worst. */
+/* Sums over a block. sums: max(0, e), and |e| of active particles, one particle after the other. By lanes: number of
+   active particles, and largest e. */
 typedef struct judgement {
     double sums __attribute__((vector_size(16)));
     sb_i4 active;
     sb_f4 worst;
 } judgement;
 
-/* Four particles, by masks: a branch on the sign of an error is a guess. What has no pressure, diagonal 0, is without
-   error. */
+/* Adds four particles, by masks: a processor cannot predict a branch on the sign of an error. A particle with diagonal
+   0 has no pressure and no error. */
 SB_INLINE void judge_four(judgement *j, sb_f4 error, sb_f4 diagonal, sb_f4 unknown)
 {
     typedef float two_floats __attribute__((vector_size(8)));
@@ -172,14 +172,16 @@ sb_pressure_error sb_pressure_judge(sb_sim *sim)
     return error;
 }
 
-/* A step that stops a sweep sooner than the one before leaves more than that did, the next one makes up for it, and the
-   load on a floor at rest swings by a per cent from step to step. So to stop sooner the error has to be by this much
-   smaller. In 2D the load swings less, and water comes to rest less well by it (docs/decisions/0020). */
+/* Factor on the tolerance for a solve that stops after fewer sweeps than the last step's. Such a solve leaves a larger
+   error, which the next step corrects, and the load on a floor under water at rest then varies by one per cent from
+   step to step. In 2D the load varies less, and with the factor water comes to rest less well
+   (docs/decisions/0020). */
 static const double SOONER = 0.7;
 
-/* The error judged is what is too dense. Chebyshev's passes also leave water that is pressed too much; where that is
-   this many times as much, shallow water hops from step to step. In 3D, where it is spray that is so, it costs half as
-   many sweeps again and gives nothing (docs/decisions/0022). */
+/* Limit of the mean of |e| over active particles, in tolerances. The error of a solve counts only excess density, but
+   Chebyshev sweeps also leave excess pressure. Above this limit shallow water moves up and down from step to step. In
+   3D the particles with excess pressure are spray; the limit would cost half as many sweeps again without any gain
+   (docs/decisions/0022). */
 static const double PRESSED = 4;
 
 bool sb_pressure_done(sb_sim *sim, const sb_pressure_error *error)

@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-/* Length of a projection step in units of 1/D; at 2/lambda_max of D^-1 A and beyond, where wide supports have it below
-   this, the shortest modes would grow. */
+/* Length of a projection step in units of 1/D. From 2/lambda_max of D^-1 A on, the shortest modes would grow. With wide
+   supports that limit is below this value. */
 static const double PROJECTION = 0.55;
 
 static float projection(const sb_sim *sim)
@@ -125,7 +125,7 @@ static sb_status solve(sb_sim *sim, sb_error *error)
         sb_pressure_load(sim, sim->direction);
         sb_pressure_product(sim, sim->product);
         s = sum_all(sim);
-        if (!(s.curvature > 0)) { /* no way on from here */
+        if (!(s.curvature > 0)) { /* no further descent */
             sim->report.capped = !(judged.mean <= sim->report.tolerance);
             break;
         }

@@ -1,20 +1,20 @@
-/* Chebyshev semi-iteration on the Jacobi-scaled operator, clamped: no inner products, so one pass less
-   over memory than conjugate gradients, and it forgives the clamp. */
+/* Chebyshev semi-iteration on the Jacobi-scaled operator, with the clamp q >= 0. It has no inner products, and so one
+   pass over memory less than conjugate gradients, and it converges in spite of the clamp. */
 #include "sim/pressure.h"
 
 #include <math.h>
 
-/* Lower end of the spectrum of D^-1 A that the polynomial is made for: it sets which error modes are damped well within
-   the sweeps that a solve takes. A polynomial of degree n tells 1 from modes down to about 1/n^2 of the upper end, so
-   it follows the sweeps n of the step before (docs/decisions/0017); in 2D that gains nothing, and long modes left over
-   make a tank's force noisy. START: where n is not known. */
+/* Lower end of the interval of eigenvalues of D^-1 A for which the polynomial is made. It determines the error modes
+   that the sweeps of one solve damp well. A polynomial of degree n damps modes down to about 1/n^2 of the upper end, so
+   that the value is SHARE/n^2 with n the number of sweeps of the step before (docs/decisions/0017). In 2D that gives no
+   gain, and the remaining long modes make the force on a tank noisy. START: used while n is not known. */
 static const double IN_2D = 0.06, START = 0.1, SHARE = 8, SMALLEST_MIN = 0.06, SMALLEST_MAX = 0.2;
 
-/* Water in turmoil may reach further up; then the error grows from sweep to sweep, is seen to, and the polynomial
-   starts anew with a wider spectrum. */
+/* Violently moving water may have larger eigenvalues. The error then grows from sweep to sweep; when it has grown by
+   the factor GROWN, the iteration restarts with a wider interval. */
 static const double GROWN = 2, WIDER = 1.4;
 
-/* The recurrence's coefficients, Golub and Varga 1961. */
+/* Coefficients of the recurrence [Golub and Varga 1961]. */
 typedef struct polynomial {
     double largest, smallest, theta, delta, rho;
     bool first;
@@ -50,7 +50,7 @@ static void sweep(sb_sim *sim, polynomial *p)
         const float old = unknown[i], move = first ? 0 : keep * direction[i];
         float q = old + move + step * residual[i] / diagonal[i];
         q = q > 0 ? q : 0;
-        q = diagonal[i] != 0 ? q : old; /* no pressure here: its unknown is 0, and stays so */
+        q = diagonal[i] != 0 ? q : old; /* a particle without pressure keeps q = 0 */
         direction[i] = q - old;
         unknown[i] = q;
     }

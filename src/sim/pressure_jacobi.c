@@ -1,11 +1,12 @@
 /* Relaxed Jacobi with the clamp q >= 0 [I14; S16, Algorithm 2], in residual form. */
 #include "sim/pressure.h"
 
-/* Beyond 2 / (largest eigenvalue) every sweep adds to the error. Wide supports reach that below the usual 0.5. */
+/* The relaxation factor. Above 2 / (largest eigenvalue) every sweep adds to the error. With wide supports that limit is
+   below the usual 0.5. */
 static float factor(const sb_sim *sim)
 {
-    const double asked = sim->scene->numerics.relaxation, bound = 2 / sb_pressure_spectrum(sim);
-    return (float)(asked < bound ? asked : bound);
+    const double requested = sim->scene->numerics.relaxation, bound = 2 / sb_pressure_spectrum(sim);
+    return (float)(requested < bound ? requested : bound);
 }
 
 static sb_status solve(sb_sim *sim, sb_error *error)

@@ -1,5 +1,6 @@
-/* The two passes of a pressure iteration, and what is made of them. Per neighbour one record from a copy in the nearest
-   cache and 4 bytes of a list; walls are one vector per particle and cost nothing per neighbour. */
+/* The two passes of a pressure iteration, and the products and residuals computed by them. A neighbour takes one record
+   from a copy in the first-level cache and 4 bytes of a list. Walls are one vector per particle and cost nothing per
+   neighbour. */
 #include "sim/passes.h"
 #include "sim/pressure.h"
 #include "sim/simd_wide.h"
@@ -25,7 +26,7 @@ SB_INLINE sb_f8 two(const sb_f4 *around, const uint16_t *place)
     return sb_join(*sb_at(around, place[0]), *sb_at(around, place[1]));
 }
 
-/* The slopes of two neighbours, each in four lanes; the second one 2^32 times too large, which spares a shift. */
+/* The slopes of two neighbours, each in four lanes. The second one is 2^32 times too large, which saves a shift. */
 SB_INLINE sb_f8 two_slopes(const uint16_t *slope)
 {
     int32_t pair;
@@ -35,7 +36,7 @@ SB_INLINE sb_f8 two_slopes(const uint16_t *slope)
     return root * root;
 }
 
-/* Sum of the two halves of what two_slopes went into. */
+/* Sum of the two halves of a vector that was weighted by two_slopes. */
 SB_INLINE sb_f4 fold(sb_f8 v)
 {
     return __builtin_shufflevector(v, v, 0, 1, 2, 3) + __builtin_shufflevector(v, v, 4, 5, 6, 7) * sb_splat(0x1p-32f);

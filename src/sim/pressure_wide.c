@@ -1,14 +1,14 @@
-/* The pressure passes by vectors of 64 bytes: the records of four neighbours instead of two. Their lanes are those of
-   the narrow form's two sums side by side, so the same is added to the same. */
+/* The pressure passes with vectors of 64 bytes: the records of four neighbours instead of two. The lanes are the two
+   sums of the narrow form side by side, so that both forms add the same terms in the same order. */
 #include "sim/passes.h"
 
 #if defined(SB_MULTIVERSIONED) || (defined(SB_NATIVE) && defined(__AVX512BW__) && defined(__AVX512DQ__) &&             \
                                    defined(__AVX512VL__) && defined(__FMA__))
 #include <immintrin.h>
 
-/* Of the set that the loader picks where there are such vectors, x86-64-v4: products and sums are contracted as in the
-   narrow form, so both round alike (tests/sim/test_pressure.c). Named one by one, for a build that is for one processor
-   has more than that set. */
+/* The instructions of x86-64-v4, the set that the loader selects on processors with such vectors. Products and sums are
+   contracted as in the narrow form, so that both forms round alike (tests/sim/test_pressure.c). The instructions are
+   named one by one because a build for one processor has more than that set. */
 #define WIDE __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,fma,bmi,bmi2")))
 
 /* The slopes of four neighbours, each in four lanes: a byte shuffle puts 16 bits into the lower half of a lane. */
@@ -23,7 +23,7 @@ WIDE SB_INLINE __m512 four_slopes(const uint16_t *slope)
     return _mm512_mul_ps(root, root);
 }
 
-/* The records of four neighbours in what sb_around made. */
+/* The records of four neighbours in the output of sb_around. */
 WIDE SB_INLINE __m512 four_at(const sb_f4 *around, const uint16_t *place)
 {
     __m512 records = _mm512_castps128_ps512((__m128)*sb_at(around, place[0]));
@@ -32,7 +32,7 @@ WIDE SB_INLINE __m512 four_at(const sb_f4 *around, const uint16_t *place)
     return _mm512_insertf32x4(records, (__m128)*sb_at(around, place[3]), 3);
 }
 
-/* Record and value of a neighbour, then those of the next, in what sb_around_with made. */
+/* Record and value of a neighbour, then those of the next, in the output of sb_around_with. */
 WIDE SB_INLINE __m512 two_with(const sb_f4 *around, const uint16_t *place)
 {
     const __m512 one = _mm512_castps256_ps512((__m256)*sb_both_at(around, place[0]));
@@ -95,9 +95,9 @@ const sb_passes *sb_passes_wide(void)
     return __builtin_cpu_supports("x86-64-v4") ? &wide : NULL;
 }
 
-/* Zen 5 and later, which alone of AMD's have this instruction: their units are as wide as the vectors, and there this
-   form was measured to be the faster one. On two Xeons, others by such vectors were slower (docs/decisions/0012); where
-   nobody has measured, the narrow form stays. */
+/* Whether this form is the faster one: true for Zen 5 and later, the only AMD processors with this instruction. Their
+   units are as wide as the vectors, and this form was measured to be faster on them. On two Xeons other passes with
+   such vectors were slower (docs/decisions/0012). Processors that were not measured use the narrow form. */
 static bool wide_pays(void)
 {
     return __builtin_cpu_is("amd") && __builtin_cpu_supports("avx512vp2intersect");
