@@ -1,24 +1,24 @@
-/* The last word of a wall: no particle comes nearer to its sheet than some half a spacing.
-   Pressure holds water off where there is enough of it; a lone drop or a thin film is too light to build up
-   density before it has passed, and would leak. */
+/* Contact resolution: limits the velocity of a particle so that it does not pass a wall within the step
+   (docs/method.md, section 7). Where there is enough water, pressure keeps it away from walls. A single drop or a film
+   of one layer has too little mass to build up density before it passes the boundary surface, and would leak. */
 #ifndef SB_SIM_CONTACT_H
 #define SB_SIM_CONTACT_H
 
 #include "sim/state.h"
 
-enum { SB_CONTACT_PUSHES_MAX = 3 }; /* a corner of three walls asks for one each */
+enum { SB_CONTACT_PUSHES_MAX = 3 }; /* a corner of three walls needs one for each wall */
 
-/* One push: the boundary particle that feels it (as in wall_pairs), and by how much it changed the velocity, m/s. */
+/* One push: the boundary particle that receives the reaction (as in wall_pairs), and the change of velocity, m/s. */
 typedef struct sb_contact_push {
     uint32_t wall;
     sb_f4 change;
 } sb_contact_push;
 
-/* Mends the velocity (m/s) that particle i is about to move with: its component towards a wall, relative to
-   the wall, is cut so that the step ends there (inelastic; along the wall nothing
-   changes). Returns how many pushes that took, one after the other, each felt by the wall nearest then; 0: nothing was
-   mended. Where two walls meet, a push is along the mean of their normals and still felt by one alone: parted among
-   them it would do other work than they do. */
-size_t sb_contact_resolve(const sb_sim *sim, size_t i, sb_f4 *velocity, sb_contact_push touched[SB_CONTACT_PUSHES_MAX]);
+/* Limits the velocity (m/s) with which particle i will move: the component towards a wall, relative to the wall, is
+   reduced so that the step ends at the permitted distance (inelastic). The tangential component does not change.
+   Returns the number of pushes, which are applied one after the other; 0: the velocity is unchanged. The wall that is
+   nearest at the time receives the reaction. Where two walls meet, a push is along the mean of their normals, and still
+   only one wall receives it: divided between the two walls, it would do different work from theirs. */
+size_t sb_contact_resolve(const sb_sim *sim, size_t i, sb_f4 *velocity, sb_contact_push pushes[SB_CONTACT_PUSHES_MAX]);
 
 #endif

@@ -2,16 +2,15 @@
 
 #include <math.h>
 
-/* Of the rest density: by so much an addition may be off without being mended, once it has twice what a flat surface
-   with the same cut-off would lack. More is disorder that particles carry about, and waves scatter from
-   (docs/decisions/0015). */
+/* Margin of the bounds of c_i, as a fraction of the rest density. A wider margin lets particles keep disorder, at which
+   passing waves scatter (docs/decisions/0015). */
 static const float SLACK = 0.003f;
 
-/* At the start an excess above the walls' share, and this part of the rest density, is no stand-in for water but an
-   overlap, and is left to be pushed apart. */
+/* At the start, an excess of the density sum above the walls' part plus this fraction of the rest density is an overlap
+   of particles. It is not corrected, so that pressure separates them. */
 static const float OVERLAP = 0.1f;
 
-/* An addition that is out of bounds is mended within the time in which a long wave crosses this many supports. */
+/* A c_i outside of its bounds returns to them within the time in which a long wave crosses this many support radii. */
 static const double CROSSED = 2;
 
 bool sb_density_correction_on(const sb_scene *scene)
@@ -24,9 +23,10 @@ void sb_density_correction_clear(sb_sim *sim)
     for (size_t i = 0; sim->density_correction && i < sim->model->fluid_count; i++) sim->density_correction[i] = NAN;
 }
 
-/* density: the sum; by_walls: the walls' part of it; square: |sum_j m grad W_ij|^2 over the water; share: of what is
-   out of bounds, to be mended now. */
-static float mended(const sb_constants *c, float own, float density, float by_walls, float square, float share)
+/* The c_i of a particle after this step. own: its c_i before, NAN in the first step; density: the density sum;
+   by_walls: the walls' part of it; square: |sum_j m grad W_ij|^2 over the water; share: fraction of the excess over the
+   bounds that is removed now. */
+static float corrected(const sb_constants *c, float own, float density, float by_walls, float square, float share)
 {
     if (isnan(own)) own = fmaxf(c->rest_density - density, -by_walls - OVERLAP * c->rest_density);
     if (by_walls > 0) return own;
@@ -45,7 +45,7 @@ sb_status sb_stage_density_correction(sb_sim *sim, sb_error *error)
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) {
         float *own = &sim->density_correction[sim->id[i]];
-        *own = mended(&sim->constant, *own, sim->density[i], sim->source[i], sim->residual[i], share);
+        *own = corrected(&sim->constant, *own, sim->density[i], sim->source[i], sim->residual[i], share);
         sim->density[i] += *own;
     }
     return SB_OK;

@@ -1,21 +1,22 @@
-/* What a particle's density sum lacks where its kernel is cut off by the surface, or has too much of where a wall
-   stands in for water: taken from the lattice that the particle starts in, carried along with it, and added to its sum.
-   So the surface rests at its place, instead of sinking until the sum is full, and the lattice is at rest as it was
-   laid; and since the addition is constant while a particle stays where it is, the constraint on its density has
-   the plain sum's derivative: forces still derive from it, momentum and energy balance as before.
-   A particle that comes from the surface, or from a wall, into the bulk of the water gives its addition up. */
+/* The density correction c_i (docs/method.md, section 3). A particle's density sum is too low where the free surface
+   cuts its kernel off, and too high where a wall overlaps it. c_i is this difference on the initial lattice. It is
+   stored with the particle and added to its density sum in every step. The free surface therefore stays in place
+   instead of sinking until the sum equals the rest density, and the initial lattice is at rest.
+   c_i is constant while a particle remains where it is. The density then has the same derivative as the plain sum, and
+   the balances of momentum and energy hold unchanged. Where a particle moves from the surface or a wall into the bulk,
+   c_i returns to the value of the bulk. */
 #ifndef SB_SIM_DENSITY_CORRECTION_H
 #define SB_SIM_DENSITY_CORRECTION_H
 
 #include "sim/state.h"
 
-/* Whether the scene asks for it; where not, sim->density_correction stays NULL and no stage runs. */
+/* Whether the scene uses the density correction. If not, sim->density_correction is NULL and no stage runs. */
 bool sb_density_correction_on(const sb_scene *scene);
 
-/* Before the first step: none is known. */
+/* Marks all corrections as not yet known, as before the first step. */
 void sb_density_correction_clear(sb_sim *sim);
 
-/* Adds them to the densities, from what the stage neighbours left. Never fails. */
+/* Updates the corrections from the results of the stage neighbours, and adds them to the densities. Never fails. */
 sb_status sb_stage_density_correction(sb_sim *sim, sb_error *error);
 
 #endif

@@ -1,5 +1,5 @@
-/* What the water does to bodies over one step: the reaction to every wall term that moved the water
-   [A12, eq. 10], so that the momenta of water and bodies balance to round-off. */
+/* Forces of the water on bodies over one step: the reaction to every wall term that accelerated the water
+   [A12, eq. 10]. The momenta of water and bodies therefore balance to round-off. */
 #include "sim/contact.h"
 #include "sim/ledger.h"
 #include "sim/stages.h"
@@ -10,20 +10,20 @@
 
 enum { VALUES = 9 }; /* per body: pressure and friction, N, and moment, N m: three components each */
 
-/* From an image of a boundary particle to itself: what pushes across a periodic side acts over there. */
-static sb_vec3 way_home(const sb_space *space, sb_record image)
+/* Vector from an image of a boundary particle to the original. A force across a periodic side acts on the original. */
+static sb_vec3 to_original(const sb_space *space, sb_record image)
 {
     return sb_sub(sb_space_position(space, sb_space_wrap(space, image)), sb_space_position(space, image));
 }
 
-/* What one particle does to one body: sums over the boundary particles of it that follow one another in its list, of
-   slope times offset, and of what rubs. All acts at the particle, carried home where it meets an image. What pushes
-   along the line to a boundary particle has the same moment there, and what does not, shear, leaves the moments of
-   water and bodies balanced. */
+/* Force of one fluid particle on one body: sums over consecutive boundary particles of the body in the particle's list,
+   of slope times offset and of the drag. The force acts at the fluid particle, shifted to the original where it meets
+   an image. A force along the line to a boundary particle has the same moment there. Shear is not along that line;
+   acting at the fluid particle it keeps the moments of water and bodies balanced. */
 typedef struct tally {
     const sb_sim *sim;
     double *sum, press, mass; /* sum[body][VALUES]; press: m q */
-    sb_vec3 at, home;         /* m */
+    sb_vec3 at, shift;        /* m: of the fluid particle, and to the original */
     uint32_t body;
     sb_f4 pushed, drag;
 } tally;
@@ -40,7 +40,7 @@ static void add_to(double value[3], sb_vec3 v)
     value[2] += v.z;
 }
 
-/* pressure, drag: N, on a body at a place. */
+/* Adds a force on a body. pressure, drag: N; at: m, the point of application. */
 SB_APART void add(const sb_sim *sim, double *sum, uint32_t body, sb_vec3 at, sb_vec3 pressure, sb_vec3 drag)
 {
     double *value = sum + (size_t)VALUES * body;
@@ -49,54 +49,54 @@ SB_APART void add(const sb_sim *sim, double *sum, uint32_t body, sb_vec3 at, sb_
     add_to(value + 6, sb_cross(sb_sub(at, sim->model->bodies[body].moment_point), sb_add(pressure, drag)));
 }
 
-static void put_down(tally *t)
+static void flush(tally *t)
 {
-    add(t->sim, t->sum, t->body, sb_add(t->at, t->home), vector(t->pushed, t->press), vector(t->drag, -t->mass));
+    add(t->sim, t->sum, t->body, sb_add(t->at, t->shift), vector(t->pushed, t->press), vector(t->drag, -t->mass));
     t->pushed = t->drag = (sb_f4){0};
 }
 
 static void turn_to(tally *t, const sb_wall_set *set, uint32_t wall)
 {
     const uint32_t body = set->body[wall];
-    const sb_vec3 home = t->sim->space.repeats ? way_home(&t->sim->space, set->record[wall]) : (sb_vec3){0};
-    if (body == t->body && home.x == t->home.x && home.y == t->home.y && home.z == t->home.z) return;
-    put_down(t);
+    const sb_vec3 shift = t->sim->space.repeats ? to_original(&t->sim->space, set->record[wall]) : (sb_vec3){0};
+    if (body == t->body && shift.x == t->shift.x && shift.y == t->shift.y && shift.z == t->shift.z) return;
+    flush(t);
     t->body = body;
-    t->home = home;
+    t->shift = shift;
 }
 
 static void add_push(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 push, double *sum)
 {
     const sb_record record = sb_wall_set_of(sim, wall)->record[sb_wall_particle(wall)];
     sb_vec3 at = sb_space_position(&sim->space, sim->position[i]);
-    if (sim->space.repeats) at = sb_add(at, way_home(&sim->space, record));
+    if (sim->space.repeats) at = sb_add(at, to_original(&sim->space, record));
     add(sim, sum, sb_wall_body(sim, wall), at, push, (sb_vec3){0});
 }
 
-/* Mends what would pass walls; each feels its own pushes. */
+/* Resolves contact of particle i; the bodies receive the reactions. */
 SB_APART void contact(sb_sim *sim, size_t i, double *sum, sb_ledger_sums *ledger)
 {
     const sb_f4 start = ((const sb_f4 *)sim->scratch)[i];
     sb_f4 velocity = sim->acceleration[i];
-    sb_contact_push touched[SB_CONTACT_PUSHES_MAX];
-    const size_t count = sb_contact_resolve(sim, i, &velocity, touched);
+    sb_contact_push pushes[SB_CONTACT_PUSHES_MAX];
+    const size_t count = sb_contact_resolve(sim, i, &velocity, pushes);
     const double scale = -(double)sim->constant.mass / sim->report.time_step;
     if (count == 0) return;
     for (size_t k = 0; k < count; k++) {
-        const uint32_t wall = touched[k].wall;
-        /* The push is along the wall's normal through the particle, so it may be taken to act there. */
-        const sb_vec3 push = vector(touched[k].change, scale);
+        const uint32_t wall = pushes[k].wall;
+        /* The push is along the wall's normal through the particle, so that it may act at the particle. */
+        const sb_vec3 push = vector(pushes[k].change, scale);
         const sb_f4 body = sb_wall_velocity(sim, wall);
         add_push(sim, i, wall, push, sum);
-        ledger->contact_bodies += sb_ledger_work((sb_f4){0}, touched[k].change, body, body);
+        ledger->contact_bodies += sb_ledger_work((sb_f4){0}, pushes[k].change, body, body);
     }
     ledger->contact += sb_ledger_work(sim->acceleration[i], velocity, start, velocity);
     velocity[3] = sim->acceleration[i][3];
     sim->acceleration[i] = velocity;
 }
 
-/* Whether a list holds one body's boundary particles alone. Never beside periodic sides, where images push elsewhere.
- */
+/* Whether all boundary particles of a list belong to one body. Always false with periodic sides, where forces on images
+   act elsewhere. */
 static bool one_body(const sb_sim *sim, const uint32_t *index, size_t count)
 {
     bool same = !sim->space.repeats;
@@ -105,8 +105,8 @@ static bool one_body(const sb_sim *sim, const uint32_t *index, size_t count)
     return same;
 }
 
-/* Adds what the pressure of particle i and its friction do to bodies, into sum[body][VALUES]. Returns the sum of
-   sb_wall_drag_four; law: NULL for none. */
+/* Adds the forces of particle i's pressure and drag on bodies to sum[body][VALUES]. Returns the sum of
+   sb_wall_drag_four; law: NULL without drag. */
 SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_wall_drag *law, double *sum)
 {
     const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
@@ -118,10 +118,10 @@ SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_wall_drag *law, doub
     sb_f4 drag = {0}, part[4];
     t.at = sb_space_position(&sim->space, sim->position[i]);
     if (count > 0) t.body = sb_wall_body(sim, index[0]);
-    if (one_body(sim, index, count)) { /* as most do: the sums are there already */
+    if (one_body(sim, index, count)) { /* the usual case: the sums exist already */
         t.pushed = sim->wall[i];
         drag = t.drag = law ? sim->wall_drag[i] : (sb_f4){0};
-        put_down(&t);
+        flush(&t);
         return drag;
     }
     for (size_t k = 0; k < count; k++) {
@@ -136,12 +136,12 @@ SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_wall_drag *law, doub
             t.drag += part[k % 4];
         }
     }
-    put_down(&t);
+    flush(&t);
     return drag;
 }
 
-/* Forces (N) and moment (Nm) on bodies from one block of particles, into sum[body][VALUES]; and what friction and
-   contact do to the water's energy. */
+/* Adds forces (N) and moments (N m) of one block of particles on bodies to sum[body][VALUES], and the work of friction
+   and contact to the block's ledger. */
 SB_MULTIVERSION
 static void do_block(sb_sim *sim, size_t block, double *sum, const sb_wall_drag *law)
 {

@@ -1,11 +1,13 @@
-/* sigma_i = -rho^2 q_i M_i with M_i = -(1/rho_0) sum_j m x_ij (x) grad W_ij is what water bears under the pressure q_i.
-   Its deviator, -rho^2 q_i (M_i - t_i 1), t_i the mean of the diagonal, is the packing's alone. By the pair force of
-   the pressure gradient, with a tensor in the place of q,
+/* Under the pressure q_i the neighbourhood of a particle has the stress sigma_i = -rho^2 q_i M_i with
+   M_i = -(1/rho_0) sum_j m x_ij (x) grad W_ij (docs/method.md, M15d). Its deviatoric part, -rho^2 q_i (M_i - t_i 1)
+   with t_i the mean of the diagonal of M_i, is due to the particle packing alone. The stage removes it by the pair
+   force of the pressure gradient, with a tensor in the place of q (M15e):
 
        dv_i/dt = -sum_j m (S_i + S_j) grad W_ij,   S_i = q_i <E>_i,   E_i = c (1 - M_i / t_i)
 
-   it is left to second order: M (1 + E) = t (1 - e^2) with e = M/t - 1. <> is a mean over the neighbours: what differs
-   from one particle to the next is what keeps the packing in order. E has no trace, so five numbers hold it. */
+   The remaining part is of second order: M (1 + E) = t (1 - e^2) with e = M/t - 1. <> is a mean over the neighbours. It
+   leaves differences between adjacent particles in place, because these keep the packing ordered. E has no trace, so
+   that five numbers represent it. */
 #include "sim/stress_correction.h"
 
 #include "sim/eights.h"
@@ -15,10 +17,11 @@
 
 enum { GROUPS = 8 }; /* per unit of work */
 
-/* Of the trace of M_i in the bulk: with less, water ends nearby, and M_i says how. */
+/* Least t_i of a particle that is corrected. Below it the free surface is near, and M_i shows the surface instead of
+   the packing. */
 static const float FULL = 0.9f;
 
-/* Slope of a coincident particle in units of sb_lists.unit. */
+/* Weight of the particle itself in the mean: the slope of a coincident particle in units of sb_lists.unit. */
 static const float OWN = 32767.0f * 32767.0f;
 
 /* Sums over neighbours of slope x (x) x, quanta^2. */
@@ -65,7 +68,7 @@ static void find_strain(sb_sim *sim, const sb_group *group, float share)
     }
 }
 
-/* Whether there is any tensor in what sb_around_with copied: in shallow water and beside walls there is none. */
+/* Whether any of the tensors that sb_around_with copied is not 0. In shallow water and beside walls all are 0. */
 SB_INLINE bool any_around(const sb_sim *sim, const sb_group *group, const sb_f4 *around)
 {
     const uint32_t count = sb_around_count(sim, group);
@@ -75,8 +78,8 @@ SB_INLINE bool any_around(const sb_sim *sim, const sb_group *group, const sb_f4 
     return (bits[0] | bits[1] | bits[2] | bits[3]) != 0;
 }
 
-/* S_i, with the slopes as the mean's weights, that of a coincident particle for the own E_i: xx into source, the others
-   into scratch. */
+/* S_i: xx into source, the others into scratch. The weights of the mean are the slopes; the weight of the particle's
+   own E_i is the slope of a coincident particle. */
 SB_MULTIVERSION
 static void find_stress(sb_sim *sim, const sb_group *group)
 {
@@ -109,9 +112,9 @@ static void find_stress(sb_sim *sim, const sb_group *group)
     }
 }
 
-/* The velocity after the step's share, into scratch; the pressure in its last lane stays. */
+/* The velocity after the correction, into scratch. The pressure in its last lane does not change. */
 SB_MULTIVERSION
-static void push(sb_sim *sim, const sb_group *group, float dt)
+static void accelerate(sb_sim *sim, const sb_group *group, float dt)
 {
     _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
     sb_f4 *next = sim->scratch;
@@ -148,11 +151,11 @@ static void push(sb_sim *sim, const sb_group *group, float dt)
     }
 }
 
-/* Of one block's changes the work (per unit of mass), the momentum, and the first particle that is too fast after them,
-   n: none. */
+/* Sums over one block's changes of velocity: work (per unit of mass), momentum, and the first particle that is too fast
+   afterwards (n: none). */
 enum { SUMS = 5 };
 
-static void book(const sb_sim *sim, size_t block)
+static void sum_changes(const sb_sim *sim, size_t block)
 {
     const sb_f4 *next = sim->scratch;
     const float limit = sim->constant.speed_limit * sim->constant.speed_limit;
@@ -192,9 +195,9 @@ sb_status sb_stage_stress_correction(sb_sim *sim, sb_error *error)
     sb_ghosts_refresh(sim, sim->acceleration);
     sb_pressure_load(sim, sim->source);
 #pragma omp parallel for schedule(dynamic, GROUPS)
-    for (size_t g = 0; g < groups; g++) push(sim, &sim->groups.group[g], dt);
+    for (size_t g = 0; g < groups; g++) accelerate(sim, &sim->groups.group[g], dt);
 #pragma omp parallel for schedule(static)
-    for (size_t b = 0; b < blocks; b++) book(sim, b);
+    for (size_t b = 0; b < blocks; b++) sum_changes(sim, b);
     const double mass = (double)sim->constant.mass;
     double work = 0;
     sb_vec3 gain = {0};

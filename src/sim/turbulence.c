@@ -1,6 +1,7 @@
-/* nu_t = min(C_s dr, kappa d)^2 |S| [W, eq. 9], |S| = sqrt(2 S:S), S the strain rate, d the distance from the
-   nearest wall. Velocity gradients are corrected by the neighbours' second moments, so that linear fields are
-   exact beside walls and free surfaces, too; the walls' own velocities do not enter, for the water slips there. */
+/* Eddy viscosity nu_t = min(C_s dr, kappa d)^2 |S| [W, eq. 9] with |S| = sqrt(2 S:S), S the strain rate and d the
+   distance from the nearest wall. Velocity gradients are corrected by the neighbours' second moments, so that linear
+   fields are exact also beside walls and free surfaces. The velocities of walls do not enter, because water slips along
+   them. */
 #include "sim/turbulence.h"
 
 #include "sim/around.h"
@@ -13,8 +14,9 @@ enum { GROUPS = 8 }; /* per unit of work */
 /* von Karman's constant, as in [W]. */
 static const float KARMAN = 0.4f;
 
-/* Least determinant, of 1 for moments alike in all directions, that a correction divides by: 0.6 along the edge
-   of a block of water, 0.3 in its corner, 0 in a film of one layer, whose velocities say nothing across it. */
+/* Smallest determinant of the second moments for which gradients are corrected. It is 1 for isotropic moments, 0.6
+   along the edge of a block of water, 0.3 in its corner, and 0 in a film of one layer, whose velocities contain no
+   gradient across the film. */
 static const float THINNEST = 0.1f;
 
 /* Sums over the neighbours j of one particle, w = -m W'/r times the quantum, x_ij in quanta:
@@ -66,7 +68,7 @@ SB_INLINE float adjugate(float m[3][3], float out[3][3])
     return m[0][0] * out[0][0] + m[0][1] * out[0][1] + m[0][2] * out[0][2];
 }
 
-/* |S| in 1/s. Where the neighbours lie too flat for a correction it is left out. */
+/* |S| in 1/s. Gradients are not corrected where the determinant is below THINNEST. */
 SB_INLINE float strain_rate(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i)
 {
     const bool flat = sim->constant.dimension == 2;
@@ -91,7 +93,7 @@ SB_INLINE float strain_rate(const sb_sim *sim, const sb_group *group, const sb_f
     return sqrtf(square);
 }
 
-/* Distance (m) from the wall at the nearest boundary particle, whose sheet lies `offset` behind it. */
+/* Distance (m) from the wall at the nearest boundary particle. The boundary surface lies `offset` behind the wall. */
 SB_INLINE float wall_distance(const sb_sim *sim, size_t i, float offset)
 {
     const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];

@@ -1,18 +1,18 @@
-/* The pressure that water bears, for the world outside. The solve's p = rho^2 q is what keeps the density; what a
-   particle's neighbours press on it with is the virial of the pairs [Irving & Kirkwood 1950], half of each pair's to
-   either side, and a wall's pairs alike:
+/* The virial pressure, which probes and particle files contain (docs/method.md, M17a). The solver pressure p = rho^2 q
+   keeps the density. The pressure that a particle's neighbours exert on it is the virial of the pairs
+   [Irving & Kirkwood 1950], half of each pair's to either particle, pairs with walls included:
 
        P_i = -(rho_0 / 2d) [sum_j m (q_i + q_j) x_ij . grad W_ij + q_i sum_b psi_b x_ib . grad W_ib]
 
-   Under a pressure that is the same everywhere P is p times the packing's trace, which settled water has below 1; and
-   it is half as rough as p, which zigzags from particle to particle. Momentum knows P alone. */
+   Under a uniform pressure P is p times the packing trace, which is below 1 in settled water. P has half of the scatter
+   of p, which alternates from particle to particle. The momentum balance contains P, not p. */
 #include "sim/around.h"
 #include "sim/wall_entry.h"
 
 enum { GROUPS = 8 }; /* per unit of work */
 
-/* What neighbours are read from, as it was when the lists were made: offset from the group's corner, q in the last
-   lane. back: -dt in quanta per m/s. */
+/* The record of entry e as it was when the lists were made: offset from the group's corner, and q in the last lane.
+   back: -dt in quanta per m/s. */
 SB_INLINE sb_f4 entry(const sb_sim *sim, const sb_group *group, size_t e, sb_f4 back)
 {
     sb_f4 at = sb_offset(sim->position[e], group->corner);
@@ -39,7 +39,7 @@ static float by_walls(const sb_sim *sim, const sb_group *group, size_t i, sb_f4 
 }
 
 SB_MULTIVERSION
-static void bear_group(sb_sim *sim, const sb_group *group)
+static void find_pressures(sb_sim *sim, const sb_group *group)
 {
     _Alignas(64) sb_f4 around[SB_AROUND_MAX];
     const float quantum = (float)sim->space.quantum;
@@ -69,6 +69,6 @@ void sb_sim_find_virial_pressures(sb_sim *sim)
     if (!sim->lists_current || sim->virial_known) return;
     const size_t groups = sim->groups.count;
 #pragma omp parallel for schedule(dynamic, GROUPS)
-    for (size_t g = 0; g < groups; g++) bear_group(sim, &sim->groups.group[g]);
+    for (size_t g = 0; g < groups; g++) find_pressures(sim, &sim->groups.group[g]);
     sim->virial_known = true;
 }

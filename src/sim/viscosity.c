@@ -1,4 +1,5 @@
-/* v* = v + dt (g + Monaghan viscosity [S16, eq. 14] + physical and eddy viscosity + friction and shear of walls). */
+/* The stage forces: v* = v + dt (g + Monaghan viscosity [S16, eq. 14] + physical and eddy viscosity + wall friction and
+   wall shear). */
 #include "sim/eights.h"
 #include "sim/pressure.h"
 #include "sim/stages.h"
@@ -9,8 +10,8 @@ enum { GROUPS = 8 }; /* per unit of work */
 /* Factors of one step. */
 typedef struct factors {
     float artificial; /* 2 alpha h c_s; over (rho_i + rho_j) it is the nu of eq. 14 */
-    float physical;   /* 4 (d + 2) nu; over (rho_i + rho_j), the unswitched part */
-    float eddy;       /* 2 (d + 2); times nu_t,i + nu_t,j the same of the eddies */
+    float physical;   /* 4 (d + 2) nu, over (rho_i + rho_j): acts on all pairs */
+    float eddy;       /* 2 (d + 2), times nu_t,i + nu_t,j: the same for the eddy viscosity */
     float epsilon;    /* 0.01 h^2 in quanta^2 */
     float inverse_quantum;
 } factors;
@@ -29,13 +30,13 @@ static factors make_factors(const sb_sim *sim)
     };
 }
 
-/* What a particle brings into its pairs, in every lane. */
+/* The values of a particle itself in its pairs, repeated in all lanes. */
 typedef struct own_part {
     sb_f8 x, y, z, density;
     sb_f8 u, v, w, eddy;
 } own_part;
 
-/* Eight neighbours: how far off, and what that is multiplied by. */
+/* Eight pairs: the offsets, and their factors. */
 typedef struct eight_pairs {
     sb_f8 x, y, z, pi;
 } eight_pairs;
@@ -56,9 +57,9 @@ SB_INLINE eight_pairs find_pairs(const own_part *own, const sb_f4 *around, const
     return (eight_pairs){x, y, z, factor * approach * weight / ((r2 + sb_splat8(f->epsilon)) * both)};
 }
 
-/* -sum_j m Pi_ij grad W_ij, eight neighbours at a time, added up four after four; around: sb_around_with velocities,
-   the records carrying the densities. x . v and r^2 are in quanta, their quotient brought back by 1/quantum. eddies:
-   sim->eddy stands in the velocities' last lane. */
+/* -sum_j m Pi_ij grad W_ij, eight neighbours at a time, added up four after four. around: output of sb_around_with for
+   the velocities, with densities in the last lane of the records. x . v and r^2 are in quanta; their quotient is
+   converted by 1/quantum. eddies: the last lane of the velocities contains sim->eddy. */
 SB_INLINE sb_f4 fluid_part(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i, const factors *f,
                            bool eddies)
 {

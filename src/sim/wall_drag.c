@@ -1,6 +1,7 @@
 #include "sim/wall_drag.h"
 
-/* In spacings from the wall: what comes nearer is held as if it were there. */
+/* Smallest distance from the wall in the law of the wall, in spacings. Particles that are closer are treated as if they
+   were at this distance. */
 static const double NEAREST = 0.25;
 
 sb_wall_drag sb_wall_drag_make(const sb_sim *sim)

@@ -1,31 +1,31 @@
-/* What walls do along themselves: friction and shear of one pair, used where they move the water and where they
-   push the body. */
+/* Drag of walls: friction and shear of one pair. It is used for the acceleration of the water and for the force on the
+   body. */
 #ifndef SB_SIM_WALL_DRAG_H
 #define SB_SIM_WALL_DRAG_H
 
 #include "sim/wall_entry.h"
 
-/* Factors of one step; lengths in quanta where that is said. */
+/* Factors of one step. Lengths are in quanta where noted. */
 typedef struct sb_wall_drag {
     bool on;
     float friction;                 /* sigma h c_s / (2 quanta) [S16, eq. 33]; 0: none */
     float epsilon;                  /* 0.01 h^2, quanta^2 */
-    bool shear;                     /* whether smooth walls hold the water that slides along them */
-    float viscosity, rest_density;  /* m^2/s; kg/m^3: density sums beside walls are none of the water's */
-    float quantum, offset, nearest; /* m; of the sheet behind the wall, and least from the wall: quanta */
+    bool shear;                     /* whether there is smooth-wall shear */
+    float viscosity, rest_density;  /* m^2/s; kg/m^3, used because density sums beside walls are not those of water */
+    float quantum, offset, nearest; /* m; quanta: wall offset, and smallest distance from the wall */
 } sb_wall_drag;
 
-/* Whether walls hold what slides along them. */
+/* Whether walls exert shear. */
 bool sb_shear_on(const sb_scene *scene);
 
-/* Whether they do anything along themselves. */
+/* Whether walls exert friction or shear. */
 bool sb_wall_drag_on(const sb_scene *scene);
 
 sb_wall_drag sb_wall_drag_make(const sb_sim *sim);
 
-/* Of a smooth wall's shear over rho u^2, u the speed along it at a Reynolds number's distance: below 139 the laminar
-   sublayer, above it the power law of the turbulent one [Werner & Wengle 1991, eqs. 17, 18 at a point: u+ = y+,
-   and 8.3 (y+)^(1/7)]. */
+/* Shear stress of a smooth wall over rho u^2, with u the speed along the wall at the distance y, as a function of
+   reynolds = u y/nu: the law of the laminar sublayer below 139, and above it the power law of turbulent flow
+   [Werner & Wengle 1991, eqs. 17, 18 at a point: u+ = y+, and 8.3 (y+)^(1/7)]. */
 SB_INLINE sb_f4 sb_wall_laws(sb_f4 reynolds)
 {
     const sb_f4 laminar = sb_splat(1) / reynolds, turbulent = sb_splat(0.0246f) / sb_sqrt4(sb_sqrt4(reynolds));
@@ -37,9 +37,9 @@ SB_INLINE sb_f4 sb_dot4(sb_four a, sb_four b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/* Four boundary particles of a list as the water sees them, by lanes. */
+/* Four boundary particles of a list relative to a fluid particle, by lanes. */
 typedef struct sb_wall_four {
-    sb_four offset, normal, velocity; /* quanta; unit; the water's beside the wall's */
+    sb_four offset, normal, velocity; /* quanta; unit vector; velocity of the water relative to the wall, m/s */
 } sb_wall_four;
 
 SB_INLINE sb_wall_four sb_gather_walls(const sb_sim *sim, size_t i, sb_f4 velocity, const uint32_t *wall)
@@ -56,7 +56,7 @@ SB_INLINE sb_wall_four sb_gather_walls(const sb_sim *sim, size_t i, sb_f4 veloci
                           sb_transpose(v[0], v[1], v[2], v[3])};
 }
 
-/* What slides along the wall, four pairs at a time: c_f |u| u/rho_0 times slope and height. */
+/* Acceleration by wall shear, four pairs at a time: c_f |u| u/rho_0 times slope and height. */
 SB_INLINE sb_four sb_wall_shear_four(const sb_wall_four *of, sb_f4 slope, const sb_wall_drag *law)
 {
     const sb_f4 through = sb_dot4(of->normal, of->velocity), height = sb_dot4(of->normal, of->offset);
@@ -73,8 +73,8 @@ SB_INLINE sb_four sb_wall_shear_four(const sb_wall_four *of, sb_f4 slope, const 
     return (sb_four){.x = along.x * shear * area, .y = along.y * shear * area, .z = along.z * shear * area};
 }
 
-/* Accelerations of particle i by four pairs, m/s^2; wall, slope: four entries of wall_pairs. Shear acts on the area of
-   wall that the particle's pressure acts on. */
+/* Accelerations of particle i by friction and shear of four pairs, m/s^2. wall, slope: four entries of wall_pairs.
+   Shear acts on the same area of wall as the particle's pressure. */
 SB_INLINE void sb_wall_drag_four(const sb_sim *sim, size_t i, sb_f4 velocity, const uint32_t *wall, const float *slope,
                                  const sb_wall_drag *law, sb_f4 out[4])
 {

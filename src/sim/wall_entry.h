@@ -1,5 +1,5 @@
-/* An entry of a list of walls (sb_pairs.index): a wall set in its highest bit, a boundary particle of that set below.
- */
+/* An entry of a wall list (sb_pairs.index): the wall set in the highest bit, and a boundary particle of that set in the
+   other bits. */
 #ifndef SB_SIM_WALL_ENTRY_H
 #define SB_SIM_WALL_ENTRY_H
 
@@ -28,13 +28,13 @@ SB_INLINE const sb_wall_set *sb_wall_set_of(const sb_sim *sim, uint32_t entry)
     return &sim->walls[entry >> SB_WALL_SET_SHIFT];
 }
 
-/* The model's body that it belongs to. */
+/* Index of the model's body that the boundary particle belongs to. */
 SB_INLINE uint32_t sb_wall_body(const sb_sim *sim, uint32_t entry)
 {
     return sb_wall_set_of(sim, entry)->body[sb_wall_particle(entry)];
 }
 
-/* m/s, over the step; last lane 0. */
+/* Velocity of the boundary particle in this step, m/s; last lane 0. */
 SB_INLINE sb_f4 sb_wall_velocity(const sb_sim *sim, uint32_t entry)
 {
     if (!sb_wall_moves(entry)) return (sb_f4){0};

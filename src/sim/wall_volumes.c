@@ -1,4 +1,4 @@
-/* What boundary particles stand for [A12], and their images beyond periodic sides. */
+/* Wall volumes psi of boundary particles [A12] (docs/method.md, M16, M16a), and images beyond periodic sides. */
 #include "base/memory.h"
 #include "physics/wall_volume.h"
 #include "sim/state.h"
@@ -6,13 +6,13 @@
 #include <math.h>
 #include <string.h>
 
-/* sum_k W_bk, and sum_k W_bk (x_k - x_b).n_b / h over those that count in the bulge. */
+/* kernel: sum_k W_bk. curvature: sum_k W_bk (x_k - x_b).n_b / h, without the far face of a thin wall. */
 typedef struct sums {
-    double kernel, bulge;
+    double kernel, curvature;
 } sums;
 
-/* Adds what is seen from a place, which is boundary particle b's or that of an image of it. */
-static void look(const sb_sim *sim, const sb_wall_set *set, sb_record at, size_t b, bool only_own, sums *s)
+/* Adds the sums at one position: that of boundary particle b, or of an image of it. */
+static void add_sums(const sb_sim *sim, const sb_wall_set *set, sb_record at, size_t b, bool only_own, sums *s)
 {
     const double h = (double)sim->constant.support, quantum = sim->space.quantum;
     const int layers = sim->constant.dimension == 2 ? 0 : 1;
@@ -31,7 +31,7 @@ static void look(const sb_sim *sim, const sb_wall_set *set, sb_record at, size_t
                         sb_kernel_value(sim->scene->numerics.kernel, sim->constant.dimension, h, sqrt(r2) * quantum);
                     s->kernel += w;
                     if (sb_wall_bends_with((double)sb_sum3(normal * set->normal[k])))
-                        s->bulge -= w * (double)sb_sum3(normal * d) * quantum / h;
+                        s->curvature -= w * (double)sb_sum3(normal * d) * quantum / h;
                 }
             }
 }
@@ -50,10 +50,10 @@ int sb_wall_volumes(const sb_sim *sim, sb_wall_set *set, bool only_own)
     for (size_t i = 0; i < set->count; i++) {
         sb_record image[SB_IMAGES_MAX];
         sums s = {0};
-        look(sim, set, set->record[i], i, only_own, &s);
+        add_sums(sim, set, set->record[i], i, only_own, &s);
         int images = sim->space.repeats ? sb_space_images(&sim->space, set->record[i], image) : 0;
-        for (int k = 0; k < images; k++) look(sim, set, image[k], i, only_own, &s);
-        psi[i] = (float)(scale / s.kernel * (of_lattice ? sb_wall_bend(s.bulge / s.kernel) : 1));
+        for (int k = 0; k < images; k++) add_sums(sim, set, image[k], i, only_own, &s);
+        psi[i] = (float)(scale / s.kernel * (of_lattice ? sb_wall_bend(s.curvature / s.kernel) : 1));
     }
     for (size_t i = 0; i < set->count; i++) sb_carry(&set->record[i], psi[i]);
     sb_free(psi);

@@ -1,5 +1,5 @@
-/* Boundary particles [A12]: a search table built once for the static ones and made anew for the moving ones
-   only while they move. */
+/* Boundary particles [A12]. The search table of the static ones is built once; that of the moving ones is rebuilt only
+   while they move. */
 #include "base/hash.h"
 #include "base/memory.h"
 #include "sim/sort.h"
@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- which Z-order blocks are near walls: one look tells a dry or open-water cell apart ---- */
+/* ---- Z-order blocks near walls: one look-up recognises a cell without walls ---- */
 
 enum { NEAR_SHIFT = 6 }; /* 4 x 4 x 4 cells */
 
@@ -96,7 +96,7 @@ done:
     return status;
 }
 
-/* Whether a boundary particle lies on the grid of cells; what was clamped to its lower edge does not. */
+/* Whether a boundary particle lies on the grid of cells. One that was clamped to the lower edge does not. */
 static bool on_grid(const sb_space *space, sb_record record)
 {
     for (int axis = 0; axis < 3; axis++)
@@ -104,8 +104,8 @@ static bool on_grid(const sb_space *space, sb_record record)
     return true;
 }
 
-/* What is off the grid is more than two cells outside the domain and meets no water: left out, for
-   keys tell cells apart on the grid only. */
+/* Copies the boundary particles of the static or the moving bodies into a set. Boundary particles off the grid are left
+   out: they are more than two cells outside of the domain and meet no water, and keys are unique only on the grid. */
 static int copy_set(sb_sim *sim, bool moving, sb_wall_set *set)
 {
     const sb_model *model = sim->model;
@@ -203,8 +203,8 @@ void sb_walls_destroy(sb_sim *sim)
 
 /* ---- moving ---- */
 
-/* The moving set at the bodies' present displacements; what has left the grid of cells (a gate pulled
-   out of the domain) meets no water and is left out. */
+/* Places the moving set at the bodies' present displacements. Boundary particles that have left the grid of cells (a
+   gate pulled out of the domain) meet no water and are left out. */
 static void place(sb_sim *sim)
 {
     sb_wall_set *set = &sim->walls[SB_MOVING];

@@ -1,4 +1,4 @@
-/* Boundary particles [A12]: those that stand still, and those of bodies that move. */
+/* Boundary particles [A12]: the static ones, and those of moving bodies. */
 #ifndef SB_SIM_WALLS_H
 #define SB_SIM_WALLS_H
 
@@ -7,13 +7,13 @@
 #include "sim/sim.h"
 #include "sim/space.h"
 
-/* Boundary particles that share one search table: all static ones, or all that move; images beyond periodic
-   sides included. */
+/* Boundary particles that share one search table: all static ones, or all moving ones, images beyond periodic sides
+   included. */
 typedef struct sb_wall_set {
     size_t count;
     sb_record *record; /* sorted by cell; last lane: psi_b in kg (kg/m in 2D) */
     uint32_t *body;    /* model body of each */
-    sb_f4 *normal;     /* unit, towards the water; 0 0 0 where the model gives none */
+    sb_f4 *normal;     /* unit, towards the water; 0 0 0 if the model has none */
     sb_cells cells;
     uint64_t *near; /* hash set of Z-order blocks with walls in or beside them */
     uint64_t near_mask;
@@ -21,7 +21,7 @@ typedef struct sb_wall_set {
 
 enum { SB_STATIC, SB_MOVING, SB_WALL_SETS };
 
-/* A body that moves: its boundary particles at rest, and where its paddle is. */
+/* A moving body: its law of motion and its present displacement. */
 typedef struct sb_moving_body {
     sb_paddle paddle;
     sb_vec3 direction;
@@ -31,14 +31,16 @@ typedef struct sb_moving_body {
 
 sb_status sb_walls_create(sb_sim *sim, sb_error *error);
 void sb_walls_destroy(sb_sim *sim);
-/* sim/wall_volumes.c: psi_b = gamma rho_0 / sum_k W_bk over the boundary particles of `set` in reach, itself
-   included [A12, eq. 4; S16, eq. 30]; only_own: those of the same body only. The set holds no images. */
+/* sim/wall_volumes.c: psi_b = gamma rho_0 / sum_k W_bk over the boundary particles k of `set` within h, b included
+   [A12, eq. 4; S16, eq. 30]. only_own: only over those of the same body. The set must not have images yet. Returns 0,
+   or -1 without memory. */
 int sb_wall_volumes(const sb_sim *sim, sb_wall_set *set, bool only_own);
-/* Adds the images beyond periodic sides, with the volume, body and normal of their own. */
+/* Adds the images beyond periodic sides, with the volume, body and normal of their originals. Returns 0, or -1 without
+   memory. */
 int sb_wall_images(sb_wall_set *set, const sb_space *space);
-/* The moving bodies' table at their displacements, when those have been set from outside. */
+/* Rebuilds the table of the moving bodies after their displacements have been set. */
 sb_status sb_walls_restore(sb_sim *sim, sb_error *error);
-/* Whether a cell may have boundary particles of the set in reach. */
+/* Whether a cell may have boundary particles of the set within the support radius. */
 bool sb_walls_near(const sb_wall_set *set, const sb_space *space, sb_record record);
 
 #endif
