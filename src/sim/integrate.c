@@ -4,10 +4,10 @@
 
 #include <math.h>
 
-/* Share of the velocity kept in each step of the settling before t = 0 (docs/decisions/0018). */
+/* Fraction of the velocity that a settling step keeps (docs/decisions/0018). */
 static const float SETTLE_DAMPING = 0.9f;
 
-/* Rounds to quanta; a clamped position is outside the domain, and the sort will drop it. */
+/* Rounds to quanta. A clamped position is outside of the domain, and the sort drops the particle. */
 SB_INLINE uint32_t moved(uint32_t from, float step)
 {
     float bound = 1.0e9f;
@@ -16,13 +16,13 @@ SB_INLINE uint32_t moved(uint32_t from, float step)
     return to < 0 ? 0 : to >= SB_POSITION_END ? SB_POSITION_END - 1 : (uint32_t)to;
 }
 
-/* Largest squared speed of the block, NaN when there is one, and the particle. */
+/* Largest squared speed of the block (NaN if any speed is NaN), and its particle. */
 typedef struct fastest {
     float square;
     size_t particle;
 } fastest;
 
-/* New velocities into the acceleration's place: nothing is lost yet if they turn out senseless. */
+/* Writes the new velocities into the acceleration field, so that the old ones still exist if the run has diverged. */
 SB_MULTIVERSION
 static fastest accelerate(sb_sim *sim, size_t block)
 {
@@ -42,14 +42,16 @@ static fastest accelerate(sb_sim *sim, size_t block)
     return top;
 }
 
-/* The velocity that a position moves by. Water that carries pressure goes with that at the step's end, which the solve
-   has made keep its density. A particle that nothing touches falls: by the mean of both ends it is on its parabola. */
-SB_INLINE sb_f4 carrying(const sb_sim *sim, size_t i, sb_f4 start, sb_f4 end)
+/* The velocity with which a particle moves. A particle under pressure moves with the velocity at the step's end, which
+   the solve has made divergence-free. A particle without neighbours moves with the mean of the velocities before and
+   after the step, and so follows its ballistic parabola. */
+SB_INLINE sb_f4 moving_velocity(const sb_sim *sim, size_t i, sb_f4 start, sb_f4 end)
 {
     return sim->diagonal[i] > 0 ? end : (start + end) * sb_splat(0.5f);
 }
 
-/* Returns the block's largest squared speed, contact with walls included; books the block's work where asked to. */
+/* Moves the particles of a block. Returns their largest squared speed, after contact resolution. book: whether to enter
+   the block's work in the ledger. */
 SB_INLINE float move_block(sb_sim *sim, size_t block, bool book)
 {
     const sb_f4 *start = sim->scratch;
@@ -59,7 +61,7 @@ SB_INLINE float move_block(sb_sim *sim, size_t block, bool book)
     float top = 0;
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
         sb_f4 v = sim->acceleration[i];
-        const sb_f4 way = book ? carrying(sim, i, start[i], v) : v;
+        const sb_f4 way = book ? moving_velocity(sim, i, start[i], v) : v;
         const uint32_t height = sim->position[i][2];
         sim->position[i] =
             (sb_record){moved(sim->position[i][0], way[0] * step), moved(sim->position[i][1], way[1] * step),
@@ -83,14 +85,14 @@ sb_status sb_sim_diverged(const sb_sim *sim, size_t particle, sb_f4 velocity, sb
 {
     const sb_vec3 at = sb_space_position(&sim->space, sim->position[particle]);
     return sb_fail(error, SB_FAILED,
-                   "step %llu, t = %g s: diverged: particle %u at (%.4g, %.4g, %.4g) m would reach %g m/s, "
+                   "step %llu, t = %g s: diverged: particle %u at (%.4g, %.4g, %.4g) m would move at %g m/s, "
                    "expected below %g (density error %.3g after %d iterations)",
                    (unsigned long long)sim->report.step + 1, sim->report.time, sim->id[particle], at.x, at.y, at.z,
                    (double)sqrtf(sb_sum3(velocity * velocity)), (double)sim->constant.speed_limit,
                    sim->report.error_mean, sim->report.iterations);
 }
 
-/* The state becomes the step's start again: v* is no state, and may be senseless. */
+/* Restores the velocities of the step's start: v* is not a state and may hold any values. */
 static sb_status diverged(sb_sim *sim, fastest top, sb_error *error)
 {
     sb_f4 *start = sim->scratch;

@@ -18,10 +18,10 @@ static sb_ledger_sums sum_blocks(const sb_sim *sim)
     return all;
 }
 
-/* Forces (N) on bodies, and the power (W) that they take from those that move. */
+/* Sum of the forces (N) on all bodies, and their power (W) on the moving bodies. */
 typedef struct body_sums {
     sb_vec3 force;
-    double pressure, friction; /* contact counts as pressure here */
+    double pressure, friction; /* pressure includes contact */
 } body_sums;
 
 static body_sums sum_bodies(const sb_sim *sim)
@@ -49,12 +49,12 @@ void sb_ledger_close(sb_sim *sim)
     const sb_ledger_sums s = sum_blocks(sim);
     const body_sums bodies = sum_bodies(sim);
     const double m = (double)sim->constant.mass, g = (double)sim->constant.gravity;
-    const double dt = (double)(float)sim->report.time_step; /* as the velocities were advanced by */
+    const double dt = (double)(float)sim->report.time_step; /* in the precision that advanced the velocities */
     const double friction = m * s.friction * dt;
     const bool viscous = sim->scene->numerics.artificial_viscosity > 0 || sim->constant.viscosity > 0 || sim->eddy;
     sb_ledger *ledger = &sim->ledger;
     ledger->bodies -= dt * (bodies.pressure + bodies.friction);
-    /* Without viscosity only the rounding of v* is left there. */
+    /* Without viscosity this value is only the rounding of v*. */
     *(viscous ? &ledger->viscosity : &ledger->integration) += m * (s.forces + g * dt * s.fall) - friction;
     ledger->friction += friction + dt * bodies.friction;
     ledger->pressure += m * (s.solve - s.contact + s.contact_bodies) + dt * bodies.pressure;

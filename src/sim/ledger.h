@@ -1,5 +1,5 @@
-/* Where the water's mechanical energy went, step by step, and whether its momentum balances
-   (docs/method.md, section 11). Sums only: nothing here changes the run. */
+/* The energy ledger: itemises the change of the water's mechanical energy in each step, and checks the momentum balance
+   (docs/method.md, section 11). It only sums; it does not change the run. */
 #ifndef SB_SIM_LEDGER_H
 #define SB_SIM_LEDGER_H
 
@@ -7,20 +7,21 @@
 
 #include <math.h>
 
-/* Partial sums over one block's particles in one step, per unit of mass. v, v*, w: velocity at the step's start, after
-   the stage packing, before pressure, and at its end; u = (v + w)/2, so that a change d of velocity works d.u. */
+/* Partial sums over one block's particles in one step, per unit of mass. v is the velocity at the step's start, after
+   the stress correction; v* that before the pressure; w that at the step's end. With u = (v + w)/2 a change d of the
+   velocity does the work d.u. */
 typedef struct sb_ledger_sums {
     double forces;         /* (v* - v).u: gravity, viscosity, friction */
     double solve;          /* (w - v*).u: pressure and contact */
-    double fall;           /* u along z, m/s */
-    double rise;           /* of z in the step, quanta */
+    double fall;           /* z component of u, m/s */
+    double rise;           /* change of z in the step, quanta */
     double gain[3], size;  /* w - v, and |w - v| */
-    double friction;       /* share of the forces, over dt */
-    double contact;        /* share of the solve */
-    double contact_bodies; /* what moving bodies worked through contact */
+    double friction;       /* part of the forces, over dt */
+    double contact;        /* part of the solve */
+    double contact_bodies; /* work of moving bodies by contact */
 } sb_ledger_sums;
 
-/* d.u in double, d taken between two velocities of one particle. */
+/* d.u in double precision; d is the difference of two velocities of one particle. */
 SB_INLINE double sb_ledger_work(sb_f4 from, sb_f4 to, sb_f4 start, sb_f4 end)
 {
     double work = 0;
@@ -29,7 +30,7 @@ SB_INLINE double sb_ledger_work(sb_f4 from, sb_f4 to, sb_f4 start, sb_f4 end)
     return work;
 }
 
-/* A block's sums in the making, inside the loop that moves it: a pass of its own would cost twice as much. */
+/* Running sums of one block, filled in the loop that moves its particles: a separate pass would cost twice as much. */
 typedef double sb_d4 __attribute__((vector_size(32)));
 typedef struct sb_ledger_tally {
     sb_d4 forces, solve, start, end; /* twice (v* - v) u, twice (w - v*) u, v, w, by axis; last lanes meaningless */
@@ -60,10 +61,10 @@ SB_INLINE void sb_ledger_store(const sb_ledger_tally *t, sb_ledger_sums *sums)
     sums->size = t->size;
 }
 
-/* Closes the step: sim->ledger and the report's momentum balance from the blocks and the bodies' forces. */
+/* Ends the step: computes sim->ledger and the report's momentum balance from the blocks' sums and the body forces. */
 void sb_ledger_close(sb_sim *sim);
 
-/* Books what particles [first, end) carry away. */
+/* Enters the energy of particles [first, end), which leave the domain. */
 void sb_ledger_leave(sb_sim *sim, size_t first, size_t end);
 
 #endif

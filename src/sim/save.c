@@ -1,6 +1,6 @@
-/* The state between two steps, on its way into an archive and back. What a step makes anew is left out: cells,
-   ghosts, neighbours, densities; the wall tables follow from the bodies' displacements. So are the stages' times, which
-   are the process's. */
+/* Saves the state between two steps into an archive and loads it again. The archive has no data that a step computes
+   anew: cells, ghosts, neighbours, densities. Wall tables follow from the bodies' displacements. Stage times belong to
+   the process and are not saved. */
 #include "base/archive.h"
 #include "sim/departures.h"
 #include "sim/state.h"
@@ -46,12 +46,12 @@ static void put_settle(sb_archive_out *out, const sb_settle *settle)
     sb_put_real(out, settle->kinetic);
 }
 
-/* A whole number within +-2^30. */
+/* Reads a whole number within +-2^30. */
 static int take_steps(sb_archive_in *in)
 {
     const double value = sb_take_real(in);
     if (fabs(value) <= 0x1p30 && value == floor(value)) return (int)value;
-    sb_archive_refuse(in, "%g steps of settling, expected a whole number", value);
+    sb_archive_refuse(in, "%g settling steps, expected a whole number", value);
     return 0;
 }
 
@@ -66,9 +66,9 @@ static void take_settle(sb_archive_in *in, const sb_scene *scene, sb_settle *set
     settle->kinetic = sb_take_real(in);
     const int most = scene->numerics.settle_steps;
     if (sb_settle_over(settle))
-        sb_archive_refuse(in, "settling that is over at step %d: expected one that goes on", settle->done);
+        sb_archive_refuse(in, "settling has ended at step %d: expected settling in progress", settle->done);
     if (settle->done < 0 || settle->calm < 0 || settle->most > most || isnan(settle->kinetic))
-        sb_archive_refuse(in, "settling at step %d of at most %d: expected at most %d", settle->done, settle->most,
+        sb_archive_refuse(in, "settling step %d of at most %d: expected at most %d steps", settle->done, settle->most,
                           most);
 }
 
@@ -106,32 +106,34 @@ static void take_particles(sb_sim *sim, sb_archive_in *in)
         const sb_record at = sim->position[i];
         if (at[0] >= SB_POSITION_END || at[1] >= SB_POSITION_END || at[2] >= SB_POSITION_END ||
             sim->id[i] >= sim->model->fluid_count)
-            sb_archive_refuse(in, "particle %u at (%u, %u, %u) quanta: expected less than %zu and %u", sim->id[i],
-                              at[0], at[1], at[2], sim->model->fluid_count, SB_POSITION_END);
+            sb_archive_refuse(in,
+                              "particle %u at (%u, %u, %u) quanta: expected a particle number below %zu and "
+                              "coordinates below %u",
+                              sim->id[i], at[0], at[1], at[2], sim->model->fluid_count, SB_POSITION_END);
     }
     sim->n = in->error.status == SB_OK ? n : 0;
     sim->report.fluid_count = sim->n;
 }
 
-static void take_deficits(sb_sim *sim, sb_archive_in *in)
+static void take_corrections(sb_sim *sim, sb_archive_in *in)
 {
     const size_t n = sim->density_correction ? sim->model->fluid_count : 0;
     sb_take_list(in, sim->density_correction, n, sizeof *sim->density_correction);
     for (size_t i = 0; i < n; i++) {
         if (!isinf(sim->density_correction[i])) continue;
-        sb_archive_refuse(in, "particle %zu lacks %g kg/m^3, expected a finite density", i,
+        sb_archive_refuse(in, "density correction of particle %zu is %g kg/m^3, expected a finite value", i,
                           (double)sim->density_correction[i]);
         return;
     }
 }
 
-/* In quanta: the farthest that a body may be carried, far out of any domain. */
+/* In quanta: the largest displacement of a body, far outside of any domain. */
 static const double FARTHEST = 1e15;
 
 static void take_moving(sb_sim *sim, sb_archive_in *in)
 {
     if (sb_take_count(in, SIZE_MAX) != sim->moving_count)
-        sb_archive_refuse(in, "other moving bodies, expected %zu", sim->moving_count);
+        sb_archive_refuse(in, "different number of moving bodies, expected %zu", sim->moving_count);
     for (size_t m = 0; m < sim->moving_count; m++) {
         sb_moving_body *moving = &sim->moving[m];
         moving->displacement = sb_take_real(in);
@@ -141,7 +143,8 @@ static void take_moving(sb_sim *sim, sb_archive_in *in)
         if (farthest < FARTHEST * sim->space.quantum && !isnan(moving->displacement) &&
             !isnan(moving->next_displacement) && sb_isfinite(moving->velocity))
             continue;
-        sb_archive_refuse(in, "a body displaced by %g m, expected one within reach", moving->displacement);
+        sb_archive_refuse(in, "moving body %zu is displaced by %g m, expected less than %g m and finite velocities", m,
+                          moving->displacement, FARTHEST * sim->space.quantum);
         moving->displacement = 0;
     }
 }
@@ -156,17 +159,17 @@ sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
     sim->lost = sim->report.lost = sb_take_count(in, UINT64_MAX);
     sb_departures_load(sim, in);
     take_particles(sim, in);
-    take_deficits(sim, in);
+    take_corrections(sim, in);
     sb_take_list(in, sim->impulse, sim->model->body_count, sizeof *sim->impulse);
     sb_take_list(in, &sim->ledger, sizeof sim->ledger / sizeof(double), sizeof(double));
     take_moving(sim, in);
     const uint64_t expected = sb_take_count(in, UINT64_MAX), hash = sb_sim_hash(sim);
     if (in->error.status == SB_OK && hash != expected)
-        sb_archive_refuse(in, "its state hashes to %016llx, expected %016llx", (unsigned long long)hash,
+        sb_archive_refuse(in, "state hash is %016llx, expected %016llx", (unsigned long long)hash,
                           (unsigned long long)expected);
     if (status == SB_OK) status = sb_archive_leave(in, error);
     if (status == SB_OK) status = sb_walls_restore(sim, error);
-    /* Lists and cells are of other particles: none, until the next step's. */
+    /* The lists and cells belong to the old particles: there are none until the next step. */
     sim->lists_current = sim->virial_known = false;
     if (sb_cells_build(&sim->cells, sim->position, 0, sim->space.shift) != 0 && status == SB_OK)
         status = sb_fail_memory(error, "cells");

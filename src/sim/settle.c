@@ -1,23 +1,24 @@
-/* Before t = 0 the lattice that the sea was filled with gives way to water at rest. Let go as it is, it would fall
-   into place by itself and drown a wave in its noise. */
+/* Settling: damped steps before t = 0 in which the initial lattice comes to rest (docs/method.md, section 10). Without
+   settling the lattice would rearrange itself during the run, and its noise would hide a wave. */
 #include "base/stop.h"
 #include "physics/wave_theory.h"
 #include "sim/state.h"
 
 #include <math.h>
 
-/* All settling begins with steps that creep: a lattice too dense at a wall would else be thrown off it. Boxes of
-   water do so for a little longer, and nothing else, for their sides give way. */
-enum { CREEP_FIRST = 40, CREEP_BOXES = 50, CALM_STEPS = 10 }; /* calm ones in a row: one may be a reversal */
+/* Settling begins with creeping steps: a lattice that is too dense at a wall would otherwise be thrown off it. Boxes of
+   water have unsupported sides: they creep for a few steps more and have no further stage. CALM_STEPS: calm steps in a
+   row that end settling; a single one may be a reversal of the motion. */
+enum { CREEP_FIRST = 40, CREEP_BOXES = 50, CALM_STEPS = 10 };
 
-static const double CALM = 0.002; /* of sqrt(g D) */
+static const double CALM = 0.002; /* highest speed of calm water, over sqrt(g D) */
 
-/* Pressures that start from all of the last ones need half the sweeps in a sea that is to rest, but leave it some
-   unrest, which the last steps, with the run's own share, take. */
+/* Number of last steps. Damped steps start their solves from the full last pressures, which halves the number of
+   sweeps but leaves some residual motion. The last steps use the run's own warm start and remove it. */
 enum { CALM_LAST = 30 };
 
-/* A sea over rough ground keeps some unrest for good. When so many steps have not taken three tenths of its kinetic
-   energy, more take little. */
+/* Water over rough ground always keeps some residual motion. When TRIAL_STEPS steps have reduced its kinetic energy by
+   less than three tenths, further steps have little effect. */
 enum { TRIAL_STEPS = 60 };
 static const double STILL_FALLING = 0.7;
 
@@ -52,7 +53,7 @@ float sb_settle_wave_acceleration(const sb_sim *sim, sb_record at)
     return (float)(gravity * (ahead - behind) / (2 * step));
 }
 
-/* Velocities but for the last lane: the pressures reached stay. */
+/* Sets a velocity; the pressure in the last lane does not change. */
 static void set_velocity(sb_sim *sim, size_t i, sb_f4 v)
 {
     v[3] = sim->velocity[i][3];
@@ -60,8 +61,8 @@ static void set_velocity(sb_sim *sim, size_t i, sb_f4 v)
     sim->report.max_speed = fmax(sim->report.max_speed, sqrt((double)sb_sum3(v * v)));
 }
 
-/* The velocities that the scene gives. */
-static void let_go(sb_sim *sim)
+/* Sets the velocities of the scene. */
+static void set_scene_velocities(sb_sim *sim)
 {
     const sb_vec3 *given = sim->model->fluid_velocity;
     sim->report.max_speed = 0;
@@ -71,11 +72,11 @@ static void let_go(sb_sim *sim)
     }
 }
 
-/* Water moves by the velocity at a step's end, so velocities belong half a step before places, as in a leapfrog: from
-   rest it is drawn back by half of what a step gives it, or all that begins at t = 0 would be half a step early
-   (docs/decisions/0021). Water that is calm stays so, and a particle that nothing touches moves by the mean of both
-   ends. */
-static sb_status poise(sb_sim *sim, sb_error *error)
+/* Sets the velocities of water that starts from rest to minus half of the velocity change of one step. Particles move
+   with the velocity at the end of a step, so that velocities belong to times half a step before the positions, as in a
+   leapfrog scheme. Otherwise all motion would begin half a step early (docs/decisions/0021). Calm water stays at rest,
+   and so does a particle without neighbours, which moves with the mean of the velocities before and after a step. */
+static sb_status set_half_step_back(sb_sim *sim, sb_error *error)
 {
     const float least = (float)CALM * sim->constant.wave_speed;
     sim->settling = SB_START_TRIAL;
@@ -94,8 +95,8 @@ sb_rest sb_sim_rest(const sb_sim *sim)
 {
     const sb_settle *settle = &sim->settle;
     const char *ended = settle->calm >= CALM_STEPS                      ? "calm"
-                        : settle->most < sb_sim_settle_most(sim->scene) ? "as calm as more steps would have it"
-                                                                        : "after all the steps there may be";
+                        : settle->most < sb_sim_settle_most(sim->scene) ? "further steps would change little"
+                                                                        : "largest number of steps done";
     return (sb_rest){settle->done, settle->speed, ended};
 }
 
@@ -121,7 +122,7 @@ static void begin(sb_sim *sim)
     sim->report.max_speed = 0;
 }
 
-/* Whether the damped steps are over: calm, or no longer of much use. */
+/* Whether the damped steps are over: the water is calm, or further damped steps would change little. */
 static bool judge_trial(sb_sim *sim)
 {
     sb_settle *settle = &sim->settle;
@@ -155,15 +156,15 @@ static sb_status one_step(sb_sim *sim, sb_error *error)
     return SB_OK;
 }
 
-/* The water, at rest, gets the velocities that the scene gives. */
+/* Gives the settled water the velocities of the scene. */
 static sb_status finish(sb_sim *sim, sb_error *error)
 {
     sb_status status = SB_OK;
     sim->settle.under_way = false;
-    let_go(sim);
+    set_scene_velocities(sim);
     if ((sim->scene->box_count > 0 || sim->scene->wave.kind != SB_INITIAL_NONE) && sim->report.max_speed == 0)
-        status = poise(sim, error);
-    sim->report.time_step = 0; /* these velocities have led nowhere yet: what looks back finds the places as they are */
+        status = set_half_step_back(sim, error);
+    sim->report.time_step = 0; /* nothing has moved with these velocities: passes that look back find no motion */
     return status;
 }
 

@@ -1,4 +1,4 @@
-/* Making and unmaking a simulation, and the small questions to it. */
+/* Creation and destruction of a simulation, and its simple accessors. */
 #include "base/hash.h"
 #include "base/memory.h"
 #include "sim/density_correction.h"
@@ -59,7 +59,7 @@ static int allocate(sb_sim *sim, size_t n, size_t bodies)
         memcpy(rows[r].field, &memory, sizeof memory);
         sim->bytes_fixed += rows[r].count * rows[r].size;
     }
-    /* The sort is over before wall vectors are made: its words lie where these will. */
+    /* The sort ends before the wall vectors are computed, so that its words can use their memory. */
     sim->sort_a = (uint64_t *)sim->wall;
     sim->sort_b = sim->sort_a + n;
     sim->capacity = n;
@@ -97,43 +97,43 @@ static void fill_particles(sb_sim *sim)
     sim->report.fluid_count = n;
 }
 
-/* bytes: per particle. */
-static void leave_out(sb_sim *sim, size_t *count, const char *what, int passes, size_t bytes)
+/* Appends a line to the list of skipped parts. passes: per step, over all pairs; bytes: per particle. */
+static void skip(sb_sim *sim, size_t *count, const char *what, int passes, size_t bytes)
 {
     if (*count < SB_SIM_SKIPPED_MAX)
         sim->skipped[(*count)++] = (sb_skipped){what, passes, bytes * sim->model->fluid_count};
 }
 
-/* What this scene lets the run leave out, said once in the log. */
+/* Lists the parts that this scene does not need; the log reports them once. */
 static void note_skipped(sb_sim *sim)
 {
-    enum { PACKING_PASSES = 3 }; /* moments, their mean, the force */
+    enum { CORRECTION_PASSES = 3 }; /* moments, their mean, the force */
     const sb_numerics *n = &sim->scene->numerics;
-    const bool rubs = n->wall_friction > 0 || sb_shear_on(sim->scene);
+    const bool drag = n->wall_friction > 0 || sb_shear_on(sim->scene);
     size_t s = 0;
     if (!(n->artificial_viscosity > 0) && !(sim->constant.viscosity > 0) && !sb_turbulence_on(sim->scene))
-        leave_out(sim, &s, "viscosity: both coefficients are 0, no pass over pairs", 1, 0);
+        skip(sim, &s, "viscosity: both coefficients are 0, no pass over particle pairs", 1, 0);
     if (!sb_stress_correction_on(sim->scene))
-        leave_out(sim, &s, "packing's stress: left as it is, no passes over pairs for it", PACKING_PASSES, 0);
+        skip(sim, &s, "stress correction: off, no passes over particle pairs for it", CORRECTION_PASSES, 0);
     if (!sb_turbulence_on(sim->scene))
-        leave_out(sim, &s, "turbulence: none, no strain rates, no memory for eddy viscosities", 1, sizeof *sim->eddy);
+        skip(sim, &s, "turbulence: none, no strain rates and no memory for eddy viscosities", 1, sizeof *sim->eddy);
     if (!sb_density_correction_on(sim->scene))
-        leave_out(sim, &s, "density: summed, no memory for what surfaces and walls change in it", 0,
-                  sizeof *sim->density_correction);
-    if (!(n->wall_friction > 0)) leave_out(sim, &s, "wall friction: coefficient is 0", 0, 0);
+        skip(sim, &s, "density correction: off (density: summed), no memory for it", 0,
+             sizeof *sim->density_correction);
+    if (!(n->wall_friction > 0)) skip(sim, &s, "wall friction: the coefficient is 0", 0, 0);
     if (!sb_shear_on(sim->scene))
-        leave_out(sim, &s,
-                  n->wall_shear == SB_SHEAR_NONE ? "wall shear: none" : "wall shear: the fluid has no viscosity", 0,
-                  rubs ? 0 : sizeof *sim->wall_drag);
-    if (!sim->space.repeats) leave_out(sim, &s, "periodic sides: none, no ghosts", 0, 0);
-    if (sim->moving_count == 0) leave_out(sim, &s, "moving walls: no body moves", 0, 0);
-    if (sim->constant.dimension == 2) leave_out(sim, &s, "third dimension: 9 cells searched instead of 27", 0, 0);
+        skip(sim, &s, n->wall_shear == SB_SHEAR_NONE ? "wall shear: none" : "wall shear: the fluid has no viscosity", 0,
+             drag ? 0 : sizeof *sim->wall_drag);
+    if (!sim->space.repeats) skip(sim, &s, "periodic sides: none, no ghost particles", 0, 0);
+    if (sim->moving_count == 0) skip(sim, &s, "moving walls: no body moves", 0, 0);
+    if (sim->constant.dimension == 2) skip(sim, &s, "third dimension: 2D scene, 9 cells searched instead of 27", 0, 0);
     if (!sb_pressure_solvers[n->solver]->needs_direction)
-        leave_out(sim, &s, "search direction: the solver needs no memory for one", 0, sizeof *sim->direction);
+        skip(sim, &s, "search direction: no memory, the solver does not use one", 0, sizeof *sim->direction);
     if (!sb_pressure_solvers[n->solver]->needs_product)
-        leave_out(sim, &s, "product of the direction: the solver needs no memory for one", 0, sizeof *sim->product);
+        skip(sim, &s, "product with the search direction: no memory, the solver does not use one", 0,
+             sizeof *sim->product);
     if (!sb_sim_settles(sim->scene))
-        leave_out(sim, &s, "settling: settle_steps is 0, the water starts as it was filled in", 0, 0);
+        skip(sim, &s, "settling: settle_steps is 0, the water starts from the initial lattice", 0, 0);
     sim->skipped[s] = (sb_skipped){.what = NULL};
 }
 
@@ -167,7 +167,7 @@ sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **s
         sb_sim_destroy(made);
         return status;
     }
-    made->ledger = (sb_ledger){0}; /* what the scene put outside was never there */
+    made->ledger = (sb_ledger){0}; /* particles that start outside of the domain do not count as leaving it */
     *sim = made;
     return SB_OK;
 }

@@ -1,5 +1,5 @@
-/* The simulation: opaque, made from a scene and its model, advanced step by step, read by snapshots
-   and queries. Same bits for any number of threads. */
+/* The simulation. It is opaque: created from a scene and its model, advanced step by step, and read by snapshots and
+   queries. It gives the same bits for any number of threads. */
 #ifndef SB_SIM_SIM_H
 #define SB_SIM_SIM_H
 
@@ -12,16 +12,16 @@
 
 typedef struct sb_sim sb_sim;
 
-/* What the last step did. */
+/* Report of the last step. */
 typedef struct sb_step_report {
     uint64_t step;          /* steps done so far */
-    double time, time_step; /* s: time reached, and the step that led there; 0 at the start */
+    double time, time_step; /* s: present time, and the last time step; 0 at the start */
     int iterations;
     bool capped;                                /* the solve stopped at max_iterations above its tolerance */
-    double tolerance;                           /* relative density error asked for */
-    double error_mean, error_active, error_max; /* relative: over all, over p > 0, worst */
-    double compression, compression_max; /* where the step began, relative: mean of what is above the rest density,
-                                            and the worst */
+    double tolerance;                           /* relative density error at which the solve stops */
+    double error_mean, error_active, error_max; /* relative: mean over all particles, mean over p > 0, largest */
+    double compression, compression_max; /* relative density above the rest density at the start of the step: mean, and
+                                            largest */
     double max_speed;                    /* m/s */
     size_t fluid_count;
     uint64_t left_domain;      /* particles that left through open sides so far */
@@ -29,48 +29,48 @@ typedef struct sb_step_report {
     double momentum_imbalance; /* of this step: |sum m a + sum F on bodies - M g| / sum m |a| */
 } sb_step_report;
 
-/* Impulse and angular impulse on one body since the start: differences over an interval, divided by
-   its length, are the interval's mean force. */
+/* Impulse and angular impulse on one body since the start. Their difference over an interval, divided by the length of
+   the interval, is the mean force. */
 typedef struct sb_body_impulse {
     sb_vec3 pressure, friction; /* N s (N s/m in 2D) */
     sb_vec3 moment;             /* N m s about the body's moment point */
 } sb_body_impulse;
 
-/* Copies what it needs; scene and model must outlive it all the same (names, wave makers, velocities until it has
-   settled), but for what sb_model_forget_start, and sb_model_forget_particles once it has settled, take away. */
+/* Creates a simulation. scene and model must outlive it: it reads names, wave makers and, until it has settled, the
+   initial velocities. The exceptions are the parts that sb_model_forget_start frees, and, after settling,
+   sb_model_forget_particles. */
 sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **sim, sb_error *error);
-/* The step, in s, in which water of this top speed (m/s) would be advanced: for an estimate before there is a
-   simulation. */
+/* The time step (s) for water with this maximum speed (m/s): an estimate that needs no simulation. */
 double sb_sim_longest_step(const sb_scene *scene, const sb_model *model, double speed);
-/* SB_BAD_INPUT when the scene asks for first steps so short that positions could not show them. */
+/* SB_BAD_INPUT if the scene requires a first step that is too short for the resolution of stored positions. */
 sb_status sb_sim_check_start(const sb_sim *sim, sb_error *error);
 void sb_sim_destroy(sb_sim *sim);
 
-/* Whether the water comes to rest before t = 0: where settle_steps is not 0. */
+/* Whether the run has settling: whether settle_steps is not 0. */
 bool sb_sim_settles(const sb_scene *scene);
-/* Its steps at most; water that is calm sooner takes fewer. */
+/* Largest number of settling steps; water that is calm earlier takes fewer. */
 int sb_sim_settle_most(const sb_scene *scene);
 
-/* Brings the water to rest with paddles at rest, where the scene settles, an initial wave's surface kept up; then
-   gives it the scene's velocities. Time stays 0. A simulation that was saved meanwhile goes on where it was. */
+/* Settling, if the scene has it: brings the water to rest with paddles at rest, holding the surface of an initial wave,
+   then gives it the scene's velocities. Time stays 0. A simulation that was saved during settling continues there. */
 sb_status sb_sim_settle(sb_sim *sim, sb_error *error);
-/* The same, calling `watch` after each step but the last: how many are done, the most there may be (it is less where
-   the water calms early), and the highest speed, m/s. The state is one between two steps and may be saved. */
+/* The same, calling `watch` after each step but the last with the steps done, the largest number of steps (which
+   decreases if the water calms early), and the highest speed, m/s. The simulation may be saved in `watch`. */
 typedef void sb_settle_watch(void *context, int done, int most, double speed);
 sb_status sb_sim_settle_watched(sb_sim *sim, sb_settle_watch *watch, void *context, sb_error *error);
 
-/* How settling ended. */
+/* Result of settling. */
 typedef struct sb_rest {
     int steps;
-    double speed;      /* m/s, the highest after its last step */
+    double speed;      /* m/s, the highest after the last step */
     const char *ended; /* "calm", ...: static text */
 } sb_rest;
 sb_rest sb_sim_rest(const sb_sim *sim);
 
-/* Whether settling has begun and is not over; *done: the steps that it has taken. */
+/* Whether settling is in progress; *done: the number of settling steps done. */
 bool sb_sim_settling(const sb_sim *sim, int *done);
 
-/* One step. SB_FAILED when it diverged: step, place and reason in *error; the state stays readable. */
+/* Advances one step. SB_FAILED if the run has diverged: *error has step, position and reason; the state is readable. */
 sb_status sb_sim_step(sb_sim *sim, sb_error *error);
 
 const sb_step_report *sb_sim_report(const sb_sim *sim);
@@ -85,27 +85,26 @@ typedef struct sb_energy {
 } sb_energy;
 sb_energy sb_sim_energy(const sb_sim *sim);
 
-/* What changed the water's kinetic + potential energy since the start, settling left out; J (J/m in 2D).
-   Each is an addition to it, so a loss is negative; their sum is the change, to round-off. */
+/* Changes of the water's kinetic plus potential energy since t = 0, without settling; J (J/m in 2D). Each entry is an
+   addition to the energy, so that a loss is negative. Their sum is the change of energy, to round-off. */
 typedef struct sb_ledger {
     double bodies;      /* work of moving bodies on the water */
-    double viscosity;   /* artificial, physical and of eddies */
-    double friction;    /* at walls */
-    double pressure;    /* of the solve: nothing physical, for water at constant density stores none */
-    double contact;     /* drops stopped at walls */
-    double integration; /* weight times fall, less what gravity gave: the update's own error */
-    double left;        /* carried away by particles that left */
-    double stress;      /* of what takes the packing's own stress away */
+    double viscosity;   /* artificial, physical and eddy viscosity */
+    double friction;    /* wall friction and wall shear */
+    double pressure;    /* energy that the solve adds or removes; not physical: water of constant density stores none */
+    double contact;     /* contact resolution */
+    double integration; /* change of potential energy plus the work of gravity: the error of the time integration */
+    double left;        /* minus the energy of particles that left the domain */
+    double stress;      /* deviatoric stress correction */
 } sb_ledger;
 const sb_ledger *sb_sim_ledger(const sb_sim *sim);
 
-/* Particles that are no longer there: how many by the domain's side that they went through, open or wall, and the
-   first few of them, in the order of the steps. Those that left before t = 0, while the water came to rest, are among
-   them. */
+/* Particles that left the domain: their number per side, open or wall, and the first few of them, in the order of the
+   steps. Particles that left during settling are included. */
 enum { SB_DEPARTURES = 8 };
 typedef struct sb_departure {
     double time;      /* s */
-    sb_vec3 position; /* m, the first place that was outside */
+    sb_vec3 position; /* m, the first position outside */
     double speed;     /* m/s */
     uint32_t particle;
     int side;
@@ -118,41 +117,42 @@ typedef struct sb_departures {
 } sb_departures;
 const sb_departures *sb_sim_departures(const sb_sim *sim);
 
-/* A hash of the complete state. */
+/* The state hash. */
 uint64_t sb_sim_hash(const sb_sim *sim);
 
-/* The state between two steps, as a section of an archive. Saving changes nothing. */
+/* Saves the state between two steps as a section of an archive. The simulation does not change. */
 void sb_sim_save(const sb_sim *sim, sb_archive_out *out);
-/* Into a simulation of the same scene and model, which then goes on as the saved one did, bit for bit; queries find
-   no water before its next step. SB_BAD_INPUT when the section is not of this model or makes no
-   sense: then, and only then, the state is none, and to be loaded again or destroyed. */
+/* Loads a saved state into a simulation of the same scene and model, which then continues bit for bit like the saved
+   one. Queries find no water before its next step. SB_BAD_INPUT if the section belongs to another model or has
+   impossible values. Only then is the state undefined: load another state or destroy the simulation. */
 sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error);
 
-/* Finds the pressures that water bears, after the last step, for snapshots and queries to tell (a pass over pairs, none
-   when they are known; docs/method.md, M17a). Without it they tell the solve's own, which are rougher
-   and, settled water being no lattice, a few per cent higher. The state does not change. */
+/* Computes the virial pressures after the last step, for snapshots and queries (docs/method.md, M17a). This takes one
+   pass over pairs, or none if they are known already. Without this call, snapshots and queries contain the solver
+   pressure, which is noisier and in settled water a few per cent higher. The state does not change. */
 void sb_sim_find_virial_pressures(sb_sim *sim);
 
-/* A frame of positions, velocities and pressures, bodies' displacements filled; NULL without memory. */
+/* Makes a frame of positions, velocities, pressures and the bodies' displacements; NULL without memory. */
 sb_frame *sb_sim_snapshot(const sb_sim *sim);
 
-/* All fluid particles in the box [min, max], in a fixed order, for gauges and probes. Positions in
-   scene metres. Beyond periodic sides there are images, with the id of their particle, up to a domain's length
-   away and to eight spacings at least. At most `capacity` are written; the number found is returned (may be larger). */
+/* Finds all fluid particles in the box [min, max], in a fixed order, for gauges and probes. Positions are in the
+   scene's coordinates, m. Beyond periodic sides it finds images, with the id of their original, up to one domain length
+   away and at least up to eight spacings. It writes at most `capacity` samples and returns the number found, which may
+   be larger. */
 typedef struct sb_fluid_sample {
     sb_vec3 position, velocity;
     double pressure, density; /* Pa, as for sb_sim_find_virial_pressures; kg/m^3 */
     uint32_t id;
-    double push; /* q = p/rho^2 of the solve: times psi grad W, the acceleration by a boundary particle */
+    double push; /* q = p/rho^2 of the solve: psi grad W times this is the acceleration by a boundary particle */
 } sb_fluid_sample;
 size_t sb_sim_query(const sb_sim *sim, sb_vec3 min, sb_vec3 max, sb_fluid_sample *samples, size_t capacity);
 
-/* Particle i of sb_sim_report()->fluid_count, storage order; i changes meaning from step to step. */
+/* Particle i < sb_sim_report()->fluid_count in storage order; i is another particle after each step. */
 sb_fluid_sample sb_sim_particle(const sb_sim *sim, size_t i);
 
 enum { SB_STAGES_MAX = 16 };
 
-/* Seconds and calls of each stage in this process, settling's steps among them, for the stage table. */
+/* Seconds and calls of each stage in this process, settling included, for the stage table. */
 typedef struct sb_stage_time {
     const char *name;
     double seconds;
@@ -160,10 +160,10 @@ typedef struct sb_stage_time {
 } sb_stage_time;
 size_t sb_sim_stages(const sb_sim *sim, const sb_stage_time **stages);
 
-/* The instruction set whose code runs here, static text: with another one sums may round otherwise. */
+/* The instruction set whose code runs here (static text). With another instruction set sums may round differently. */
 const char *sb_sim_instructions(void);
 
-/* What this scene made the simulation skip (static text). */
+/* The parts that the simulation skips because this scene does not need them (static text). */
 const sb_skipped *sb_sim_skipped(const sb_sim *sim);
 
 /* Heap bytes held. */

@@ -1,4 +1,4 @@
-/* What leaves the simulation: frames for consumers, samples for gauges and probes. */
+/* Output of the simulation: frames for consumers, samples for gauges and probes. */
 #include "sim/state.h"
 
 #include <math.h>
@@ -6,8 +6,8 @@
 
 typedef struct particle {
     sb_record position;
-    sb_f4 velocity;          /* last lane: the solve's pressure */
-    float pressure, density; /* pressure: what the world is told */
+    sb_f4 velocity;          /* last lane: the solver pressure */
+    float pressure, density; /* pressure: the virial pressure if known, else the solver pressure */
     uint32_t id;
 } particle;
 
@@ -61,7 +61,7 @@ static sb_fluid_sample sample_at(const sb_sim *sim, size_t i, sb_vec3 position)
 {
     const particle p = particle_at(sim, i);
     const sb_f4 v = p.velocity;
-    /* Nothing is summed before the first step. */
+    /* Density sums do not exist before the first step. */
     const double density = (double)(p.density > 0 ? p.density : sim->constant.rest_density);
     return (sb_fluid_sample){
         .position = position,
@@ -79,7 +79,7 @@ sb_fluid_sample sb_sim_particle(const sb_sim *sim, size_t i)
     return sample_at(sim, i, sb_space_position(&sim->space, place));
 }
 
-/* Cell index of a coordinate, kept on the grid. */
+/* Cell index of a coordinate, limited to the grid. */
 static int64_t cell_index(const sb_space *space, double distance, int axis)
 {
     double index = floor(distance / space->cell);
@@ -87,8 +87,8 @@ static int64_t cell_index(const sb_space *space, double distance, int axis)
     return (int64_t)(index < 0 ? 0 : index > most ? most : index);
 }
 
-/* In spacings beyond a periodic side: gauges look four far, and each step adds what particles moved. */
-static const double IMAGES_REACH = 8;
+/* Least range of images beyond a periodic side, in spacings: gauges need four, and particles move within a step. */
+static const double IMAGES_RANGE = 8;
 
 typedef struct query {
     sb_vec3 min, max;
@@ -102,7 +102,7 @@ static bool within(const query *q, sb_vec3 p)
            p.z <= q->max.z;
 }
 
-/* The place of a particle's image, `away` quanta from it. */
+/* Position of a particle's image, `away` quanta from it. */
 static sb_vec3 image_place(const sb_space *space, sb_record record, const int64_t away[3])
 {
     return sb_vec(space->origin.x + (double)(record[0] + away[0]) * space->quantum,
@@ -110,7 +110,7 @@ static sb_vec3 image_place(const sb_space *space, sb_record record, const int64_
                   space->origin.z + (double)(record[2] + away[2]) * space->quantum);
 }
 
-/* The particles of one cell, numbered from `base`, whose images are in the box. */
+/* Finds the particles of one cell, numbered from `base`, whose images are in the box. */
 static void query_cell(const sb_sim *sim, query *q, const sb_cells *cells, uint64_t code, size_t base,
                        const int64_t away[3])
 {
@@ -124,18 +124,18 @@ static void query_cell(const sb_sim *sim, query *q, const sb_cells *cells, uint6
     }
 }
 
-/* The particles whose images, `away` quanta from them, are in the box. */
+/* Finds the particles whose images, `away` quanta from them, are in the box. */
 static void query_images(const sb_sim *sim, query *q, const int64_t away[3])
 {
     const sb_space *space = &sim->space;
-    /* The cells are those of the step's start: look as far around as a particle can have come. */
-    const double reach = sim->report.max_speed * sim->report.time_step + space->quantum;
+    /* The cells are those of the step's start: search as far around as a particle can have moved since. */
+    const double margin = sim->report.max_speed * sim->report.time_step + space->quantum;
     const sb_vec3 low = sb_sub(q->min, space->origin), high = sb_sub(q->max, space->origin);
     const double from[3] = {low.x, low.y, low.z}, to[3] = {high.x, high.y, high.z};
     int64_t a[3], b[3];
     for (int axis = 0; axis < 3; axis++) {
         const double shift = (double)away[axis] * space->quantum;
-        const double least = from[axis] - shift - reach, most = to[axis] - shift + reach;
+        const double least = from[axis] - shift - margin, most = to[axis] - shift + margin;
         const double side = sb_space_low(space) * space->quantum, length = space->period[axis] * space->quantum;
         if (length > 0 && (most < side || least > side + length)) return;
         a[axis] = cell_index(space, least, axis);
@@ -156,7 +156,7 @@ size_t sb_sim_query(const sb_sim *sim, sb_vec3 min, sb_vec3 max, sb_fluid_sample
     for (int axis = 0; axis < 3; axis++) {
         period[axis] = sim->space.period[axis];
         double length = (double)period[axis] * sim->space.quantum;
-        most[axis] = length > 0 ? 1 + (int64_t)ceil(IMAGES_REACH * sim->scene->resolution / length) : 0;
+        most[axis] = length > 0 ? 1 + (int64_t)ceil(IMAGES_RANGE * sim->scene->resolution / length) : 0;
     }
     for (int64_t z = -most[2]; z <= most[2]; z++)
         for (int64_t y = -most[1]; y <= most[1]; y++)

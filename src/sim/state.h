@@ -1,4 +1,4 @@
-/* The simulation's insides, seen by the stages of a step only. */
+/* The simulation's internal state. Only the stages of a step use it. */
 #ifndef SB_SIM_STATE_H
 #define SB_SIM_STATE_H
 
@@ -12,7 +12,7 @@
 #include "sim/walls.h"
 
 enum {
-    SB_BLOCK = 1024 /* particles per unit of work and of partial sums: fixed, so sums have one order */
+    SB_BLOCK = 1024 /* particles per unit of work and per partial sum: fixed, so that sums always have the same order */
 };
 
 struct sb_ledger_sums; /* sim/ledger.h */
@@ -25,40 +25,39 @@ struct sb_sim {
     const sb_model *model;
     sb_constants constant;
     sb_space space;
-    const struct sb_passes *passes; /* of the pressure solve, in the form for this machine */
+    const struct sb_passes *passes; /* of the pressure solve, in the implementation for this processor */
 
-    /* persistent fields, n each; moved together by the sort */
+    /* persistent fields, n entries each; the sort reorders them together */
     size_t n;
-    size_t capacity;     /* of position, velocity, acceleration and scratch: n and the ghosts */
+    size_t capacity;     /* entries of position, velocity, acceleration and scratch: n and the ghosts */
     sb_record *position; /* quanta; last lane: argument of the pressure operator */
     sb_f4 *velocity;     /* m/s; last lane: pressure in Pa, the next step's warm start */
     uint32_t *id;
-    float *density_correction; /* by id, kg/m^3, added to the density's sum (sim/density_correction.h); NULL: none. NAN:
-                                  not known yet */
+    float *density_correction; /* c_i by id, kg/m^3 (sim/density_correction.h); NULL: off. NAN: not known yet */
 
     /* fields of one step */
-    sb_f4 *acceleration; /* m/s^2, of the pressure argument; last lane 0. After the stage accelerate:
-                            the new velocity and pressure */
+    sb_f4 *acceleration; /* m/s^2, by the pressure argument; last lane 0. After the stage accelerate: new velocity and
+                            pressure */
     sb_f4 *wall;         /* sum_b psi_b grad W_ib; last lane: sum_b psi_b v_b . grad W_ib */
-    sb_f4 *wall_drag;    /* m/s^2, by the walls along themselves, of particles beside them; NULL where walls do not */
-    float *density;      /* kg/m^3, deficit included */
+    sb_f4 *wall_drag;    /* m/s^2, by friction and shear of walls, for particles beside walls; NULL without drag */
+    float *density;      /* kg/m^3, density correction included */
     float *eddy;         /* m^2/s, nu_t at the step's start; NULL without a turbulence model */
     float *diagonal;     /* -a_ii > 0 for q as unknown; 0: no pressure here */
     float *source;       /* b_i, kg/m^3 */
     float *unknown;      /* q = p / rho^2 */
     float *residual;     /* e_i = (A q)_i - b_i */
-    float *direction;    /* of the solver's search; allocated for solvers that need it */
-    float *product;      /* A times the argument */
-    int last_sweeps;     /* iterations of the step before; 0: there is none */
-    bool lists_current, virial_known; /* since the last step's end: lists are those of the particles; residual holds the
-                          pressures that the water bears (sim/virial_pressure.c) */
+    float *direction;    /* search direction of the solver; allocated for solvers that need it */
+    float *product;      /* A times the argument; allocated for solvers that need it */
+    int last_sweeps;     /* iterations of the step before; 0: no step before */
+    bool lists_current;  /* the lists belong to the present particles */
+    bool virial_known;   /* residual holds the virial pressures (sim/virial_pressure.c) */
 
     sb_cells cells;
     sb_ghosts ghosts;
     sb_groups groups;
     sb_lists pairs;
     sb_pairs wall_pairs;
-    uint64_t *sort_a, *sort_b; /* in the memory of `wall`, which is made after the sort */
+    uint64_t *sort_a, *sort_b; /* in the memory of `wall`, which is computed after the sort */
     void *scratch;             /* 16 bytes per particle, for the permutation */
     double *partial;           /* per block, 5 values: partial sums */
 
@@ -77,7 +76,7 @@ struct sb_sim {
 
     struct sb_ledger_sums *block_ledger; /* per block, of one step */
     sb_ledger ledger;
-    sb_vec3 stress_gain; /* kg m/s, of the stage packing in one step; round-off alone */
+    sb_vec3 stress_gain; /* kg m/s, momentum from the stress correction in one step: only round-off */
 
     enum sb_settling settling;
     sb_settle settle;

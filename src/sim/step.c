@@ -1,4 +1,4 @@
-/* The step as a list: one row per stage, one loop that runs and times them. */
+/* The time step as a table: one row per stage, and one loop that runs and times the stages. */
 #include "base/clock.h"
 #include "sim/density_correction.h"
 #include "sim/pressure.h"
@@ -13,15 +13,14 @@ typedef struct stage {
 } stage;
 
 static const stage stages[] = {
-    {"time_step", sb_stage_time_step, NULL},   /* dt from the speeds reached */
-    {"walls", sb_stage_walls, NULL},           /* paddles at t, their velocity to t + dt */
-    {"sort", sb_stage_sort, NULL},             /* back through periodic sides; Z-order, cells */
-    {"ghosts", sb_stage_ghosts, NULL},         /* images beyond periodic sides */
-    {"neighbours", sb_stage_neighbours, NULL}, /* lists, density, wall vectors, diagonal */
-    {"completion", sb_stage_density_correction,
-     sb_density_correction_on}, /* what surfaces and walls change in the density */
+    {"time_step", sb_stage_time_step, NULL},                               /* dt from the present speeds */
+    {"walls", sb_stage_walls, NULL},                                       /* paddles at t, their velocity to t + dt */
+    {"sort", sb_stage_sort, NULL},                                         /* wrap at periodic sides; Z-order, cells */
+    {"ghosts", sb_stage_ghosts, NULL},                                     /* images beyond periodic sides */
+    {"neighbours", sb_stage_neighbours, NULL},                             /* lists, density, wall vectors, diagonal */
+    {"completion", sb_stage_density_correction, sb_density_correction_on}, /* density sums at surfaces and walls */
     {"packing", sb_stage_stress_correction,
-     sb_stress_correction_on},                             /* velocities by what its stress lacks to be a pressure */
+     sb_stress_correction_on},                             /* removes deviatoric stress of the particle packing */
     {"turbulence", sb_stage_turbulence, sb_turbulence_on}, /* eddy viscosity from the strain rate */
     {"forces", sb_stage_forces, NULL},                     /* v* = v + dt (g + viscosity + friction) */
     {"source", sb_stage_source, NULL},                     /* b = beta (rho_0 - rho) - dt div v* */
@@ -34,7 +33,7 @@ enum { STAGES = sizeof stages / sizeof stages[0] };
 _Static_assert((int)STAGES <= (int)SB_STAGES_MAX, "stage table");
 
 #ifdef SB_DEBUG
-/* In the debug build every stage leaves finite numbers behind. */
+/* Debug builds check after every stage that all numbers are finite. */
 static sb_status check_finite(const sb_sim *sim, const char *stage_name, sb_error *error)
 {
     for (size_t i = 0; i < sim->n; i++)

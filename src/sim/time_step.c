@@ -1,17 +1,18 @@
-/* How far a step goes [S16, eqs. 10-12]. */
+/* The choice of the time step [S16, eqs. 10-12] (docs/method.md, section 8). */
 #include "sim/stages.h"
 #include "sim/state.h"
 
 #include <math.h>
 
-/* Damped water goes by its force, so twice the step brings it four times as far; it is too slow to mind the length. */
+/* Factor on the step that waves permit, for damped steps. Damped water moves in proportion to dt^2, and it is slow
+   enough for longer steps. */
 static const double SETTLE_STEP = 1.5;
 
-/* In spacings over sqrt(g D), the longest step in which water creeps: density errors mend by the same share of
-   themselves in a step of any length, while what nothing holds falls as its square (docs/decisions/0021). */
+/* Longest creeping step in spacings over sqrt(g D). A step of any length removes the same fraction of a density error,
+   but unsupported water falls in proportion to dt^2 (docs/decisions/0021). */
 static const double CREEP_STEP = 0.15;
 
-/* Without an impulse of its own the water falls from rest: then gravity sets the pace [S16, eq. 11]. */
+/* The CFL limit. Water at rest starts to move by gravity, which then determines the limit [S16, eq. 11]. */
 static double cfl_step(const sb_numerics *n, const sb_constants *c, double speed)
 {
     double h = (double)c->support, g = (double)c->gravity;
@@ -32,16 +33,16 @@ static double top_speed(const sb_sim *sim)
     return speed;
 }
 
-/* In spacings^2, of viscosity times dt: half of what an explicit step bears by the stiffest mode of a full lattice, for
-   at 0.14 energy still grew by 2 % in 200 steps. */
+/* Largest viscosity times dt, in spacings^2: half of the stability limit of an explicit step for the stiffest mode of a
+   full lattice. At that limit, 0.14, energy still grew by 2 % in 200 steps. */
 static const double VISCOUS_STEP = 0.07;
 
-/* In sqrt(g D): a step so short that water this slow moves by less than half of what positions are stored to leaves it
-   where it is for ever. */
+/* Speed in sqrt(g D) that must be able to move water in one step. In a step in which such water moves by less than half
+   a quantum it never moves. */
 static const double SLOWEST = 1e-3;
 
-/* The longest step that the constant viscosities bear. A pair at a wall is damped by half of what sigma would do as
-   alpha [S16, eqs. 14, 33]. */
+/* The longest step that is stable for the constant viscosities. sigma damps a pair at a wall by half as much as the
+   same alpha would [S16, eqs. 14, 33]. */
 static double viscous_step(const sb_numerics *n, const sb_constants *c)
 {
     const double artificial = (n->artificial_viscosity + 0.5 * n->wall_friction) * (double)c->support *
@@ -50,7 +51,7 @@ static double viscous_step(const sb_numerics *n, const sb_constants *c)
     return nu > 0 ? VISCOUS_STEP * spacing * spacing / nu : (double)INFINITY;
 }
 
-/* By waves; `stretched` times as long, and never longer than by speed and viscosity, nor than the scene allows. */
+/* The time step: the smallest of the limits by waves (times `stretched`), speed, viscosity and the scene. */
 static double longest_step(const sb_numerics *n, const sb_constants *c, double speed, double stretched)
 {
     double h = (double)c->support, g = (double)c->gravity;
@@ -84,7 +85,7 @@ sb_status sb_sim_check_start(const sb_sim *sim, sb_error *error)
     return sb_fail(
         error, SB_BAD_INPUT,
         "%.500s: the first time step would be %g s, expected at least %.3g s: numerics.time_step_max, cfl or "
-        "time_step_factor ask for it, or gravity, viscosities or speed of sound",
+        "time_step_factor is too small, or gravity, a viscosity or the speed of sound is too large",
         sim->scene->path ? sim->scene->path : "the scene", dt, least);
 }
 
@@ -97,7 +98,7 @@ sb_status sb_stage_time_step(sb_sim *sim, sb_error *error)
     if (dt < least)
         return sb_fail(error, SB_FAILED,
                        "step %llu, t = %g s: time step is %g s, expected at least %.3g s: the run has diverged, or a "
-                       "key of numerics asks for it",
+                       "key of numerics limits the step too much",
                        (unsigned long long)sim->report.step, sim->report.time, dt, least);
     const double crossing = (double)sim->constant.spacing / (double)sim->constant.wave_speed;
     sim->report.time_step = sim->settling == SB_CREEPING ? fmin(dt, CREEP_STEP * crossing) : dt;

@@ -324,8 +324,8 @@ static void periodic_sides_run(void **state)
     assert_near(json_number_of("slab/summary.json", "left_domain"), 0, 0);
     assert_near(json_number_of("slab/summary.json", "through_walls"), 0, 0);
     char *log = text_of("slab/run.jsonl"), *other = text_of("r3/run.jsonl");
-    assert_null(strstr(log, "periodic sides: none, no ghosts"));
-    assert_contains(other, "periodic sides: none, no ghosts");
+    assert_null(strstr(log, "periodic sides: none, no ghost particles"));
+    assert_contains(other, "periodic sides: none, no ghost particles");
     sb_free(log);
     sb_free(other);
 }

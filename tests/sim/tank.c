@@ -34,10 +34,10 @@ static void set_numerics(sb_numerics *n)
     };
 }
 
-/* Tests cannot go on without memory, whatever NDEBUG says. */
-static void need(bool there)
+/* Ends the test program if a condition does not hold, regardless of NDEBUG. */
+static void need(bool condition)
 {
-    if (!there) abort();
+    if (!condition) abort();
 }
 
 static void add_wall(tank *t, sb_vec3 at, sb_vec3 normal)
@@ -50,20 +50,20 @@ static void add_wall(tank *t, sb_vec3 at, sb_vec3 normal)
     m->wall_position[m->wall_count++] = at;
 }
 
-/* Towards the water, of a place of the shell along one axis. */
+/* Component of the inward direction along one axis, for a position of the shell. */
 static double inward(long index, long n)
 {
     return (index == -1) - (index == n);
 }
 
-/* A lattice place: the middle of cell (x, y, z); y is 0 in 2D. */
+/* A lattice position: the middle of cell (x, y, z); y is 0 in 2D. */
 static sb_vec3 place(const tank *t, double x, double y, double z)
 {
     sb_vec3 middle = sb_vec(x + 0.5, t->scene.dimensions == 2 ? 0 : y + 0.5, z + 0.5);
     return sb_scale(middle, t->scene.resolution);
 }
 
-/* All places of the shell of a lattice box whose index is -1 or n along some axis. */
+/* Adds the shell of a lattice box: all positions with the index -1 or n along an axis. */
 static void add_shell(tank *t, const long n[3])
 {
     bool flat = t->scene.dimensions == 2;
@@ -236,7 +236,7 @@ void tank_split_patch(tank *t, sb_vec3 min, sb_vec3 max)
     snprintf(m->bodies[0].name, sizeof m->bodies[0].name, "patch");
 }
 
-size_t tank_add_sheet(tank *t, const char *name, double x, double z_min, double z_max, sb_vec3 direction,
+size_t tank_add_plate(tank *t, const char *name, double x, double z_min, double z_max, sb_vec3 direction,
                       const sb_wavemaker_parameters *law)
 {
     sb_model *m = &t->model;
@@ -336,9 +336,9 @@ bool tank_has_stage(const sb_sim *sim, const char *name)
     return false;
 }
 
-bool tank_says(const sb_sim *sim, const char *word)
+bool tank_skips(const sb_sim *sim, const char *text)
 {
     for (const sb_skipped *line = sb_sim_skipped(sim); line->what; line++)
-        if (strstr(line->what, word)) return true;
+        if (strstr(line->what, text)) return true;
     return false;
 }

@@ -1,4 +1,4 @@
-/* Small scenes made by hand for tests of the simulation: a tank with water, no files. */
+/* Small scenes for tests of the simulation: a tank with water, made without files. */
 #ifndef SB_TESTS_TANK_H
 #define SB_TESTS_TANK_H
 
@@ -13,48 +13,44 @@ typedef struct tank {
     size_t wall_capacity, normal_capacity;
 } tank;
 
-/* A closed box `size` (m) holding water to `depth` over x in [0, wet_length]; sheets half a spacing
-   outside the walls, all one body "tank". dimensions 2: y is ignored. jitter in spacings. */
+/* Makes a closed box of `size` (m) with water to `depth` over x in [0, wet_length]. The boundary surfaces lie half a
+   spacing behind the walls and belong to one body "tank". dimensions 2: y is ignored. jitter: in spacings. */
 void tank_make(tank *t, int dimensions, double spacing, sb_vec3 size, double wet_length, double depth, double jitter);
 void tank_free(tank *t);
 
-/* Makes the sides across an axis (0: x, 1: y) periodic, without the walls there. */
+/* Makes the sides across an axis (0: x, 1: y) periodic, and removes the walls there. */
 void tank_repeat(tank *t, int axis);
-/* Carries water and boundary particles along within a periodic tank: what leaves at a side comes
-   back at the other. */
+/* Shifts water and boundary particles within a periodic tank; what leaves at one side returns at the other. */
 void tank_roll(tank *t, sb_vec3 by);
 
-/* Carries the whole tank, water and all, elsewhere. */
+/* Shifts the whole tank with its water. */
 void tank_shift(tank *t, sb_vec3 by);
-/* Water anywhere within the box, at velocities up to `speed` along each axis, at pressure 0. */
+/* Moves the water to random positions within the box, with velocities up to `speed` along each axis and pressure 0. */
 void tank_scatter(tank *t, uint64_t seed, double speed);
-/* Parts what lies in the box (min, max) off the body "tank", as body 0, "patch"; the rest is
- * body 1. */
+/* Splits the body "tank": its boundary particles in the box (min, max) become body 0, "patch"; the rest is body 1. */
 void tank_split_patch(tank *t, sb_vec3 min, sb_vec3 max);
 
-/* A new body of boundary particles a spacing apart: an upright sheet across the tank at x from
-   z_min to z_max; moved along `direction` by `law`, or static when that is NULL. Returns the body's
-   index. */
-size_t tank_add_sheet(tank *t, const char *name, double x, double z_min, double z_max, sb_vec3 direction,
+/* Adds a body of boundary particles one spacing apart: a vertical plane across the tank at x from z_min to z_max. It
+   moves along `direction` by `law`, or is static if that is NULL. Returns the body's index. */
+size_t tank_add_plate(tank *t, const char *name, double x, double z_min, double z_max, sb_vec3 direction,
                       const sb_wavemaker_parameters *law);
 
-/* Turns on what a scene may leave out: the stress correction, friction at walls, turbulence, viscosity; a few steps of
- * settling. */
+/* Turns on optional parts: stress correction, wall friction, turbulence, viscosity, and a few settling steps. */
 void tank_add_terms(tank *t);
 
-/* The simulation of the tank; NULL, with the reason on stderr, when there is none. */
+/* Creates the simulation of the tank. On failure returns NULL and prints the reason to stderr. */
 sb_sim *tank_sim(const tank *t);
-/* The same, settled; the program ends, with the reason on stderr, when there is none or it does not settle. */
+/* The same, settled. On failure prints the reason to stderr and aborts. */
 sb_sim *tank_settled(const tank *t);
-/* The stages of a step up to the neighbour lists, for a step of dt. 0, or -1 with the reason. */
+/* Runs the stages of a step of dt up to the neighbour lists. Returns 0, or -1 with the reason on stderr. */
 int tank_prepare(sb_sim *sim, double dt);
-/* Its state as an archive, to be freed, and back from there into a simulation of the same tank. */
+/* Saves the state to an archive, which the caller frees; loads it into a simulation of the same tank. */
 void tank_save(const sb_sim *sim, sb_archive_out *out);
 sb_status tank_load(sb_sim *sim, const sb_archive_out *out, sb_error *error);
-/* Whether its steps have the stage, and whether it says that it leaves out something by that word. */
+/* Whether the steps have the stage, and whether the list of skipped parts contains the text. */
 bool tank_has_stage(const sb_sim *sim, const char *name);
-bool tank_says(const sb_sim *sim, const char *word);
-/* n whole steps. 0, or -1 with the reason on stderr. */
+bool tank_skips(const sb_sim *sim, const char *text);
+/* Runs n whole steps. Returns 0, or -1 with the reason on stderr. */
 int tank_steps(sb_sim *sim, int n);
 
 #endif

@@ -1,4 +1,4 @@
-/* Contact stops what comes too near to a wall, along the wall's normal, and pushes nothing off it. */
+/* Contact resolution stops particles that come too close to a wall, along the wall's normal, and adds no energy. */
 #include "../check.h"
 #include "base/random.h"
 #include "sim/contact.h"
@@ -6,33 +6,34 @@
 
 #include <stdio.h>
 
-/* A tank of still water and a plate in it, half a spacing from the water beside: nearer than contact allows. */
+/* A tank of still water with a plate half a spacing from the nearest water, which is closer than contact resolution
+   permits. */
 static sb_sim *crowded(tank *t, int dimensions)
 {
     tank_make(t, dimensions, 0.1, sb_vec(0.8, 0.8, 1.2), 0.8, 0.8, 0);
-    tank_add_sheet(t, "plate", 0.4, 0, 1, sb_vec(0, 0, 0), NULL);
+    tank_add_plate(t, "plate", 0.4, 0, 1, sb_vec(0, 0, 0), NULL);
     sb_sim *sim = tank_sim(t);
     assert_non_null(sim);
     assert_int_equal(tank_prepare(sim, 0.01), 0);
     return sim;
 }
 
-/* How many particles at rest are moved, and by how much at most, m/s. */
+/* Number of particles at rest that contact resolution moves, and their highest speed, m/s. */
 static size_t moved_from_rest(const sb_sim *sim, double *most)
 {
     size_t count = 0;
     *most = 0;
     for (size_t i = 0; i < sim->n; i++) {
         sb_f4 v = {0};
-        sb_contact_push touched[SB_CONTACT_PUSHES_MAX];
-        if (sb_contact_resolve(sim, i, &v, touched) == 0) continue;
+        sb_contact_push pushes[SB_CONTACT_PUSHES_MAX];
+        if (sb_contact_resolve(sim, i, &v, pushes) == 0) continue;
         count++;
         *most = fmax(*most, sqrt((double)sb_sum3(v * v)));
     }
     return count;
 }
 
-static void water_at_rest_is_let_out_by_settling_alone(void **state)
+static void only_settling_moves_out_water_at_rest(void **state)
 {
     (void)state;
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
@@ -45,8 +46,8 @@ static void water_at_rest_is_let_out_by_settling_alone(void **state)
         assert_true(most < 1e-9);
         sim->settling = SB_CREEPING;
         const size_t settling = moved_from_rest(sim, &most);
-        printf("%dD: %zu stopped in a run, %zu let out in settling, %.3g m/s at most\n", dimensions, running, settling,
-               most);
+        printf("%dD: %zu stopped in a run, %zu moved out in settling, %.3g m/s at most\n", dimensions, running,
+               settling, most);
         assert_int_equal(settling, beside);
         assert_true(most > 0 && most < 0.1); /* a hundredth of a spacing a step at most */
         sb_sim_destroy(sim);
@@ -54,7 +55,7 @@ static void water_at_rest_is_let_out_by_settling_alone(void **state)
     }
 }
 
-static void what_comes_nearer_is_stopped_and_nothing_gains(void **state)
+static void approaching_particles_are_stopped_without_energy_gain(void **state)
 {
     (void)state;
     tank t;
@@ -65,15 +66,15 @@ static void what_comes_nearer_is_stopped_and_nothing_gains(void **state)
         const sb_f4 start = {(float)(6 * sb_random(5, 3 * i) - 3), (float)(6 * sb_random(5, 3 * i + 1) - 3),
                              (float)(6 * sb_random(5, 3 * i + 2) - 3), 0};
         sb_f4 v = start, sum = start;
-        sb_contact_push touched[SB_CONTACT_PUSHES_MAX];
-        const size_t touches = sb_contact_resolve(sim, i, &v, touched);
-        if (touches == 0) continue;
+        sb_contact_push pushes[SB_CONTACT_PUSHES_MAX];
+        const size_t count = sb_contact_resolve(sim, i, &v, pushes);
+        if (count == 0) continue;
         stopped++;
-        for (size_t k = 0; k < touches; k++) sum += touched[k].change;
+        for (size_t k = 0; k < count; k++) sum += pushes[k].change;
         sum -= v;
-        assert_true((double)sb_sum3(sum * sum) < 1e-10); /* (m/s)^2: what bodies feel is what the water lost */
+        assert_true((double)sb_sum3(sum * sum) < 1e-10); /* (m/s)^2: bodies receive what the water loses */
         const double before = (double)sb_sum3(start * start), after = (double)sb_sum3(v * v);
-        assert_true(after < 1.01 * before); /* what slides over the sheet's bumps may be lifted by them */
+        assert_true(after < 1.01 * before); /* the unevenness of the boundary surface may lift particles */
         all_before += before;
         all_after += after;
     }
@@ -86,8 +87,8 @@ static void what_comes_nearer_is_stopped_and_nothing_gains(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(water_at_rest_is_let_out_by_settling_alone),
-        cmocka_unit_test(what_comes_nearer_is_stopped_and_nothing_gains),
+        cmocka_unit_test(only_settling_moves_out_water_at_rest),
+        cmocka_unit_test(approaching_particles_are_stopped_without_energy_gain),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* What surfaces and walls change in a particle's density sum: found on the lattice, carried along, given up in the
-   bulk; and what it is for, a sea that stays as it was laid and a wave that keeps its height. */
+/* The density correction: determined on the initial lattice, kept with the particle, returned to the bulk's value in
+   the bulk. With it, water at rest keeps its level. */
 #include "../check.h"
 #include "sim/density_correction.h"
 #include "sim/lattice.h"
@@ -43,15 +43,15 @@ static void lattice_is_at_rest_density(void **state)
     }
 }
 
-/* Adding it twice would hide an error of the first time. */
-static void it_is_found_once(void **state)
+/* Determining it again in a later step would hide a deficit that has appeared since the start. */
+static void it_is_determined_once(void **state)
 {
     (void)state;
     tank t;
     sb_sim *sim = water_in(&t, 2, SB_DENSITY_COMPLETED, 0);
     assert_int_equal(tank_steps(sim, 1), 0);
     for (size_t i = 0; i < sim->n; i++)
-        sim->position[i][2] += (uint32_t)(0.01 / sim->space.quantum); /* off the floor, the rest as it was */
+        sim->position[i][2] += (uint32_t)(0.01 / sim->space.quantum); /* off the floor, otherwise unchanged */
     sb_error error = {0};
     assert_int_equal(tank_prepare(sim, 1e-3), 0);
     assert_int_equal(sb_stage_density_correction(sim, &error), SB_OK);
@@ -62,9 +62,9 @@ static void it_is_found_once(void **state)
     tank_free(&t);
 }
 
-/* A particle of the bulk that carries a surface's deficit, or an excess, loses all but the slack; one at the surface
-   keeps its own. */
-static void it_is_given_up_in_the_bulk(void **state)
+/* A particle in the bulk with the correction of a surface, or with an excess, returns to the bounds of the bulk. A
+   particle at the surface keeps its correction. */
+static void it_returns_to_the_bulk_value(void **state)
 {
     (void)state;
     tank t;
@@ -90,8 +90,8 @@ static void it_is_given_up_in_the_bulk(void **state)
     tank_free(&t);
 }
 
-/* Mean height of the water over its own at the start. */
-static double sunk(sb_density_form form)
+/* Change of the mean height of the water by settling, in spacings. */
+static double rise_by_settling(sb_density_form form)
 {
     tank t;
     sb_sim *sim = water_in(&t, 2, form, 0.02);
@@ -106,10 +106,10 @@ static double sunk(sb_density_form form)
     return (after - before) / 0.05;
 }
 
-static void a_sea_stays_as_it_was_laid(void **state)
+static void settling_keeps_the_level(void **state)
 {
     (void)state;
-    const double completed = sunk(SB_DENSITY_COMPLETED), summed = sunk(SB_DENSITY_SUMMED);
+    const double completed = rise_by_settling(SB_DENSITY_COMPLETED), summed = rise_by_settling(SB_DENSITY_SUMMED);
     assert_true(fabs(completed) < 0.1); /* spacings */
     assert_true(fabs(summed) > 5 * fabs(completed));
 }
@@ -128,7 +128,7 @@ static void it_costs_nothing_when_off(void **state)
     tank_free(&t);
 }
 
-/* A half space by quadrature: with a support of four spacings sums are within a tenth of integrals. */
+/* Compared with a half space by quadrature. With a support of four spacings sums are within a tenth of integrals. */
 static void truncation_is_that_of_a_half_space(void **state)
 {
     (void)state;
@@ -153,9 +153,9 @@ static void truncation_is_that_of_a_half_space(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lattice_is_at_rest_density), cmocka_unit_test(it_is_found_once),
-        cmocka_unit_test(it_is_given_up_in_the_bulk), cmocka_unit_test(a_sea_stays_as_it_was_laid),
-        cmocka_unit_test(it_costs_nothing_when_off),  cmocka_unit_test(truncation_is_that_of_a_half_space),
+        cmocka_unit_test(lattice_is_at_rest_density),   cmocka_unit_test(it_is_determined_once),
+        cmocka_unit_test(it_returns_to_the_bulk_value), cmocka_unit_test(settling_keeps_the_level),
+        cmocka_unit_test(it_costs_nothing_when_off),    cmocka_unit_test(truncation_is_that_of_a_half_space),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

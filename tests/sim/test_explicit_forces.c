@@ -1,5 +1,4 @@
-/* Gravity, viscosity and wall friction of one step against the reference, and what shear they make.
- */
+/* Gravity, viscosity and wall friction of one step compared with the reference, and the decay of a shear flow. */
 #include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
@@ -17,20 +16,20 @@ typedef struct setup {
     double *rho;
 } setup;
 
-/* A jittered dam break between walls, one of them moving, in lively motion. The step of 1 s makes
-   the accelerations, not the velocities, fill the floats' digits. */
+/* A jittered dam break with random velocities between walls, one of which moves. The step is 1 s, so that the floats
+   resolve the accelerations and not only the velocities. */
 static void begin(setup *s, int dimensions, double alpha, double sigma, double nu)
 {
     const sb_wavemaker_parameters law = {
         .kind = sb_wavemaker_find("stroke"), .stroke = 0.5, .speed = 0.9, .gravity = 9.81};
     bool flat = dimensions == 2;
     tank_make(&s->tank, dimensions, 0.1, sb_vec(2, flat ? 0 : 0.7, 1.5), 1.2, 0.9, 0.2);
-    tank_add_sheet(&s->tank, "paddle", -0.05, 0, 1.2, sb_vec(1, 0, 0), &law);
+    tank_add_plate(&s->tank, "paddle", -0.05, 0, 1.2, sb_vec(1, 0, 0), &law);
     s->tank.scene.numerics.artificial_viscosity = alpha;
     s->tank.scene.numerics.wall_friction = sigma;
     s->tank.scene.fluid.viscosity = nu;
     sb_model *m = &s->tank.model;
-    sb_free(m->wall_normal); /* no contact without normals: the reference has none */
+    sb_free(m->wall_normal); /* without normals there is no contact resolution, which the reference does not have */
     m->wall_normal = NULL;
     for (size_t i = 0; i < m->fluid_count; i++)
         m->fluid_velocity[i] = sb_vec(2 * sb_random(3, 3 * i) - 1, flat ? 0 : 2 * sb_random(3, 3 * i + 1) - 1,
@@ -92,8 +91,8 @@ static void each_term_and_all_together(void **state)
     }
 }
 
-/* Forces that bodies feel over the step, by the reference, from the same velocities and q. */
-static void bodies_feel_the_reference_forces(void **state)
+/* Forces on bodies compared with the reference, for the same velocities and q. */
+static void forces_on_bodies_are_the_reference(void **state)
 {
     (void)state;
     setup s;
@@ -114,18 +113,18 @@ static void bodies_feel_the_reference_forces(void **state)
     for (size_t b = 0; b < 2; b++) {
         const sb_body_impulse *i = sb_sim_impulse(sim, b);
         double gap = sb_norm(sb_sub(i->pressure, force[b])) / sb_norm(force[b]);
-        double rub = sb_norm(sb_sub(i->friction, drag[b])) / sb_norm(drag[b]);
+        double friction = sb_norm(sb_sub(i->friction, drag[b])) / sb_norm(drag[b]);
         double turn = sb_norm(sb_sub(i->moment, torque[b])) / sb_norm(torque[b]);
-        printf("body %zu: pressure %.2g, friction %.2g, moment %.2g of each\n", b, gap, rub, turn);
+        printf("body %zu: pressure %.2g, friction %.2g, moment %.2g of each\n", b, gap, friction, turn);
         assert_true(sb_norm(force[b]) > 1 && sb_norm(drag[b]) > 1);
-        assert_true(gap < 1e-6 && rub < 1e-6 && turn < 1e-6);
+        assert_true(gap < 1e-6 && friction < 1e-6 && turn < 1e-6);
     }
     sb_free(q);
     end(&s);
 }
 
-/* u = z^2 has u'' = 2: the physical term makes 2 nu of it on a lattice, but for the share that the
-   support of two spacings misses (docs/method.md, section 6). */
+/* u = z^2 has u'' = 2, and so the physical term gives 2 nu on a lattice, times the fraction for a support of two
+   spacings (docs/method.md, section 6). */
 static void shear_decays_as_documented(void **state)
 {
     (void)state;
@@ -147,16 +146,16 @@ static void shear_decays_as_documented(void **state)
         sb_error error = {0};
         assert_int_equal(sb_stage_forces(sim, &error), SB_OK);
         sb_vec3 half = sb_vec(0.55, dimensions == 2 ? 0 : 0.55, 0.55);
-        size_t seen = 0;
+        size_t count = 0;
         for (size_t i = 0; i < sim->n; i++) {
             sb_fluid_sample p = sb_sim_particle(sim, i);
             if (sb_norm(sb_sub(p.position, half)) > 0.12) continue;
             double z = p.position.z, decay = (p.velocity.x - 100 * z * z) / (200 * nu);
             assert_near(decay, share, 0.01);
-            seen++;
+            count++;
         }
-        printf("%dD: %zu particles inside feel the share %.2f\n", dimensions, seen, share);
-        assert_true(seen >= 5);
+        printf("%dD: %zu particles inside decay with the fraction %.2f\n", dimensions, count, share);
+        assert_true(count >= 5);
         sb_sim_destroy(sim);
         tank_free(&t);
     }
@@ -166,7 +165,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_term_and_all_together),
-        cmocka_unit_test(bodies_feel_the_reference_forces),
+        cmocka_unit_test(forces_on_bodies_are_the_reference),
         cmocka_unit_test(shear_decays_as_documented),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

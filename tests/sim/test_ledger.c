@@ -1,5 +1,5 @@
-/* The energy ledger: its sum is the change of energy, each entry is the work of the term it names
-   by the reference, and known flows book what they must. */
+/* The energy ledger: its sum is the change of energy, each entry is the work of its term according to the reference,
+   and known flows have known entries. */
 #include "../check.h"
 #include "base/memory.h"
 #include "sim/pressure.h"
@@ -38,7 +38,7 @@ static void add_terms(tank *t)
     t->scene.fluid.viscosity = 1e-3;
 }
 
-/* Steps the tank; after each the sum is the change since the start, and momenta balance. */
+/* Advances the tank. Checks after each step that the sum is the change since the start, and that momentum balances. */
 static sb_ledger follow(const tank *t, int steps, const char *name)
 {
     sb_sim *sim = tank_sim(t);
@@ -68,7 +68,7 @@ static void a_bore_on_a_column_is_accounted_for(void **state)
     tank t;
     tank_make(&t, 3, 0.1, sb_vec(2, 0.7, 1.5), 0.8, 1, 0.1);
     add_terms(&t);
-    tank_add_sheet(&t, "column", 1.45, 0, 0.8, sb_vec(0, 0, 0), NULL);
+    tank_add_plate(&t, "column", 1.45, 0, 0.8, sb_vec(0, 0, 0), NULL);
     sb_ledger l = follow(&t, 150, "column");
     assert_near(l.bodies, 0, 0);
     assert_near(l.left, 0, 0);
@@ -89,7 +89,7 @@ static void a_paddle_flume_is_accounted_for(void **state)
         tank t;
         tank_make(&t, dimensions, 0.1, sb_vec(4, 0.5, 1.5), 4, 1, 0.1);
         add_terms(&t);
-        tank_add_sheet(&t, "paddle", -0.05, 0, 1.4, sb_vec(1, 0, 0), &law);
+        tank_add_plate(&t, "paddle", -0.05, 0, 1.4, sb_vec(1, 0, 0), &law);
         sb_ledger l = follow(&t, 100, dimensions == 2 ? "flume 2D" : "flume 3D");
         /* Pushing a metre of water by 0.3 m raises a bore of some 0.3 m times still pressure. */
         double width = dimensions == 2 ? 1 : 0.5;
@@ -99,7 +99,7 @@ static void a_paddle_flume_is_accounted_for(void **state)
     }
 }
 
-/* Water that passes the open side takes along what it has there. */
+/* Water that leaves through the open side is entered with the energy that it has there. */
 static void what_leaves_is_accounted_for(void **state)
 {
     (void)state;
@@ -112,7 +112,7 @@ static void what_leaves_is_accounted_for(void **state)
     assert_non_null(sim);
     double left = 0, mass = (double)sim->constant.mass;
     for (int s = 0; s < 200; s++) {
-        /* The next step drops what lies outside now. */
+        /* The next step removes the particles that are outside now. */
         for (size_t i = 0; i < sim->n; i++) {
             sb_fluid_sample p = sb_sim_particle(sim, i);
             if (p.position.x > 1.6) left += mass * (sb_dot(p.velocity, p.velocity) / 2 + 9.81 * p.position.z);
@@ -125,11 +125,10 @@ static void what_leaves_is_accounted_for(void **state)
     tank_free(&t);
 }
 
-/* What one step booked, by the reference: each acceleration times the mean of the velocities before
-   and after it. */
+/* Work of one step according to the reference: each acceleration times the mean of the velocities before and after. */
 typedef struct works {
     double viscosity, friction, pressure, bodies;
-    double mended; /* the pressure's again, by docs/method.md (M23b) */
+    double pressure_by_error; /* the pressure's work by docs/method.md (M23b) */
 } works;
 
 static double work(const sb_sim *sim, const twin *before, const sb_vec3 *acceleration)
@@ -148,9 +147,9 @@ static works by_reference(const sb_sim *sim, const twin *before)
     const size_t n = sim->n;
     double *rho = sb_alloc(n, sizeof *rho), *eddy = sb_alloc(n, sizeof *eddy);
     double *q = sb_alloc(n, sizeof *q);
-    sb_vec3 *viscous = sb_alloc(n, sizeof *viscous), *rub = sb_alloc(n, sizeof *rub);
+    sb_vec3 *viscous = sb_alloc(n, sizeof *viscous), *friction = sb_alloc(n, sizeof *friction);
     sb_vec3 *push = sb_alloc(n, sizeof *push);
-    assert_true(rho && eddy && q && viscous && rub && push);
+    assert_true(rho && eddy && q && viscous && friction && push);
     sb_reference_density(r, rho);
     for (size_t i = 0; i < n; i++) {
         eddy[i] = (double)sim->eddy[i];
@@ -159,28 +158,28 @@ static works by_reference(const sb_sim *sim, const twin *before)
     sb_reference_viscosity(r, rho, viscous);
     sb_reference_unswitched(r, rho, sim->scene->fluid.viscosity, eddy, viscous);
     sb_vec3 center[2] = {{0}}, drag[2] = {{0}}, force[2] = {{0}}, torque[2] = {{0}};
-    sb_reference_friction(r, rho, rub, center, drag, torque);
+    sb_reference_friction(r, rho, friction, center, drag, torque);
     sb_reference_pressure_acceleration(r, q, push);
     sb_reference_pressure_forces(r, q, center, force, torque);
     const double dt = sim->report.time_step;
     const sb_vec3 paddle = sim->moving[0].velocity;
     const double given = dt * sb_dot(drag[1], paddle), pushed = dt * sb_dot(force[1], paddle);
-    double mended = 0;
+    double pressure_by_error = 0;
     for (size_t i = 0; i < n; i++) {
         double change = sb_dot(push[i], sb_sub(wide(sim->velocity[i]), before->velocity[i]));
         double excess = sim->scene->numerics.source_relaxation * (1000 - rho[i]) + (double)sim->residual[i];
-        mended -= (double)sim->constant.mass * (q[i] * excess + 0.5 * dt * change);
+        pressure_by_error -= (double)sim->constant.mass * (q[i] * excess + 0.5 * dt * change);
     }
-    works w = {.mended = mended,
+    works w = {.pressure_by_error = pressure_by_error,
                .viscosity = work(sim, before, viscous),
-               .friction = work(sim, before, rub) + given,
+               .friction = work(sim, before, friction) + given,
                .pressure = work(sim, before, push) + pushed,
                .bodies = -given - pushed};
     sb_free(rho);
     sb_free(eddy);
     sb_free(q);
     sb_free(viscous);
-    sb_free(rub);
+    sb_free(friction);
     sb_free(push);
     return w;
 }
@@ -196,8 +195,9 @@ static void entries_are_the_works_of_their_terms(void **state)
     twin before;
     tank_make(&t, 3, 0.1, sb_vec(1.5, 0.6, 1.2), 1, 0.9, 0.1);
     add_terms(&t);
-    tank_add_sheet(&t, "paddle", -0.05, 0, 1.1, sb_vec(1, 0, 0), &law);
-    sb_free(t.model.wall_normal); /* no contact without normals: the reference has none */
+    tank_add_plate(&t, "paddle", -0.05, 0, 1.1, sb_vec(1, 0, 0), &law);
+    sb_free(
+        t.model.wall_normal); /* without normals there is no contact resolution, which the reference does not have */
     t.model.wall_normal = NULL;
     sb_sim *sim = tank_sim(&t);
     assert_non_null(sim);
@@ -210,26 +210,27 @@ static void entries_are_the_works_of_their_terms(void **state)
     for (size_t s = 0; s < sizeof stages / sizeof *stages; s++) assert_int_equal(stages[s](sim, &error), SB_OK);
     const sb_ledger *now = sb_sim_ledger(sim);
     works w = by_reference(sim, &before);
-    const double booked[] = {now->viscosity - l.viscosity, now->friction - l.friction, now->pressure - l.pressure,
-                             now->bodies - l.bodies};
+    const double entered[] = {now->viscosity - l.viscosity, now->friction - l.friction, now->pressure - l.pressure,
+                              now->bodies - l.bodies};
     const double expected[] = {w.viscosity, w.friction, w.pressure, w.bodies};
     for (size_t k = 0; k < 4; k++) {
-        printf("booked %.9g J, reference %.9g J\n", booked[k], expected[k]);
+        printf("ledger %.9g J, reference %.9g J\n", entered[k], expected[k]);
         assert_true(fabs(expected[k]) > 1e-3);
-        assert_near(booked[k], expected[k], 1e-5 * fabs(expected[k]));
+        assert_near(entered[k], expected[k], 1e-5 * fabs(expected[k]));
     }
-    /* The residual is a difference of float sums as large as those that bodies feel. */
-    printf("pressure by what it mends %.9g J\n", w.mended);
-    assert_near(booked[2], w.mended, 1e-6 * fabs(w.bodies));
+    /* The residual is a difference of float sums as large as the forces on bodies. */
+    printf("pressure by (M23b) %.9g J\n", w.pressure_by_error);
+    assert_near(entered[2], w.pressure_by_error, 1e-6 * fabs(w.bodies));
     assert_near(now->contact, l.contact, 0);
     twin_free(&before);
     sb_sim_destroy(sim);
     tank_free(&t);
 }
 
-/* A drop that falls from rest and is stopped by the floor. Falling freely it loses nothing; once the floor is in reach,
-   v' = v - g dt and x' = x + dt v' lose m g dt/2 of each |v' - v|; the floor takes the rest. */
-static void a_falling_drop_books_fall_and_stop(void **state)
+/* A drop falls from rest and is stopped by the floor. In free fall it loses nothing. Once the floor is within the
+   support radius, v' = v - g dt and x' = x + dt v' lose m g dt/2 of each |v' - v|. Contact and pressure remove the
+   rest. */
+static void a_falling_drop_has_its_known_entries(void **state)
 {
     (void)state;
     tank t;
@@ -250,7 +251,7 @@ static void a_falling_drop_books_fall_and_stop(void **state)
         assert_int_equal(tank_steps(sim, 1), 0);
         if (l->contact != 0) break;
         double v = sb_norm(sb_sim_particle(sim, 0).velocity), dt = sim->report.time_step;
-        /* Each step's fall is rounded to a quantum, its velocity to a float. */
+        /* Each step rounds the displacement to a quantum and the velocity to a float. */
         double rounding = 9.81 * sim->space.quantum / 2 + v * v * (double)FLT_EPSILON / 2;
         if (sim->diagonal[0] > 0)
             expected -= 9.81 * dt * (v - speed) / 2;
@@ -262,7 +263,7 @@ static void a_falling_drop_books_fall_and_stop(void **state)
     }
     assert_true(falling > 200 && falling < 400 && free > 150 && free < falling);
     assert_int_equal(tank_steps(sim, 100), 0);
-    printf("a drop of 1 kg fell for %d steps: %.4g J of %.4g taken by contact, %.4g by pressure\n", falling,
+    printf("a drop of 1 kg fell for %d steps: %.4g J of %.4g removed by contact, %.4g by pressure\n", falling,
            -l->contact, start - mechanical(sim), -l->pressure);
     assert_near(sum(l), mechanical(sim) - start, 1e-9);
     assert_true(l->contact < 0 && l->contact + l->pressure < -0.9 * (start - mechanical(sim)));
@@ -270,9 +271,9 @@ static void a_falling_drop_books_fall_and_stop(void **state)
     tank_free(&t);
 }
 
-/* A drop at rest that a paddle sweeps up, by pressure and by contact: the paddle works m dv.v_b,
-   and each of the two loses what of that the drop does not move with. */
-static void a_swept_drop_books_the_paddles_work(void **state)
+/* A paddle accelerates a drop from rest, by pressure and by contact. The paddle does the work m dv.v_b; pressure and
+   contact lose the part of it that does not move the drop. */
+static void a_swept_drop_has_the_paddles_work(void **state)
 {
     (void)state;
     sb_status (*const stages[])(sb_sim *, sb_error *) = {sb_stage_time_step,  sb_stage_walls,     sb_stage_sort,
@@ -281,7 +282,7 @@ static void a_swept_drop_books_the_paddles_work(void **state)
     const sb_wavemaker_parameters law = stroke_law();
     tank t;
     tank_make(&t, 3, 0.1, sb_vec(2, 1, 1), 1, 0.1, 0);
-    tank_add_sheet(&t, "paddle", 0.3, 0, 1, sb_vec(1, 0, 0), &law);
+    tank_add_plate(&t, "paddle", 0.3, 0, 1, sb_vec(1, 0, 0), &law);
     t.model.fluid_count = 1;
     t.model.fluid_position[0] = sb_vec(0.42, 0.47, 0.53);
     t.model.fluid_pressure[0] = 0;
@@ -303,7 +304,7 @@ static void a_swept_drop_books_the_paddles_work(void **state)
         pressure += mass * sb_dot(sb_sub(pushed, before), slip);
         contact += mass * sb_dot(sb_sub(after, pushed), slip);
     }
-    printf("a drop of 1 kg swept to %.3g m/s: paddle %.4g J, contact %.4g, pressure %.4g\n",
+    printf("a drop of 1 kg accelerated to %.3g m/s: paddle %.4g J, contact %.4g, pressure %.4g\n",
            (double)sim->velocity[0][0], l->bodies, l->contact, l->pressure);
     assert_true(sim->velocity[0][0] > 0.9f && contact < -0.01 && pressure < -0.01);
     assert_near(l->bodies, given, 1e-6 * given);
@@ -313,7 +314,7 @@ static void a_swept_drop_books_the_paddles_work(void **state)
     tank_free(&t);
 }
 
-static void settling_is_not_booked(void **state)
+static void settling_is_not_entered(void **state)
 {
     (void)state;
     tank t;
@@ -340,9 +341,9 @@ int main(void)
         cmocka_unit_test(a_paddle_flume_is_accounted_for),
         cmocka_unit_test(what_leaves_is_accounted_for),
         cmocka_unit_test(entries_are_the_works_of_their_terms),
-        cmocka_unit_test(a_falling_drop_books_fall_and_stop),
-        cmocka_unit_test(a_swept_drop_books_the_paddles_work),
-        cmocka_unit_test(settling_is_not_booked),
+        cmocka_unit_test(a_falling_drop_has_its_known_entries),
+        cmocka_unit_test(a_swept_drop_has_the_paddles_work),
+        cmocka_unit_test(settling_is_not_entered),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,11 +1,11 @@
-/* What the water gains, bodies and gravity give: linear and angular momentum, step by step. */
+/* Balance of linear and angular momentum between water, bodies and gravity, step by step. */
 #include "../check.h"
 #include "base/memory.h"
 #include "sim/tank.h"
 
 #include <stdio.h>
 
-/* Of the water, about the scene's origin; by double sums over what the simulation reports. */
+/* Momenta of the water about the scene's origin, from double sums over the particles that the simulation reports. */
 typedef struct account {
     sb_vec3 momentum, spin, weight_moment; /* kg m/s, kg m^2/s; sum of x times m, kg m */
     double mass;
@@ -37,7 +37,7 @@ typedef struct impulses {
     sb_vec3 push, moment, friction;
 } impulses;
 
-/* Of the bodies so far; the moments brought from each body's own point to the origin. */
+/* Sums over the bodies since the start. Moments are converted from each body's moment point to the origin. */
 static impulses sum_impulses(const sb_sim *sim)
 {
     impulses sum = {0};
@@ -53,7 +53,7 @@ static impulses sum_impulses(const sb_sim *sim)
 
 typedef struct balance {
     double force, moment; /* worst over the steps, relative to sum |m a| dt, and to that times the arm */
-    double friction;      /* N s that bodies felt, for the test to mean something */
+    double friction;      /* N s on bodies: must not be 0, or the test would not test friction */
 } balance;
 
 static balance follow(const tank *t, int steps, double arm)
@@ -72,7 +72,7 @@ static balance follow(const tank *t, int steps, double arm)
         account after = take(sim, &r, &pushed);
         impulses now = sum_impulses(sim);
         sb_vec3 weight = sb_vec(0, 0, -g * dt * after.mass);
-        /* Moments of the weight at where the water was at the step's start. */
+        /* Moments of the weight at the positions of the step's start. */
         sb_vec3 turn = sb_cross(before.weight_moment, sb_vec(0, 0, -g * dt));
         sb_vec3 force = sb_sub(sb_add(sb_sub(after.momentum, before.momentum), sb_sub(now.push, given.push)), weight);
         sb_vec3 moment = sb_sub(sb_add(sb_sub(after.spin, before.spin), sb_sub(now.moment, given.moment)), turn);
@@ -120,7 +120,7 @@ static void a_flat_dam_break_balances(void **state)
     }
 }
 
-/* With a static sill in its way and a paddle at its back, each with a moment point of its own. */
+/* With a static sill in front of the water and a paddle behind it, each with its own moment point. */
 static void a_dam_break_with_bodies_balances(void **state)
 {
     (void)state;
@@ -129,16 +129,17 @@ static void a_dam_break_with_bodies_balances(void **state)
     tank t;
     tank_make(&t, 3, 0.1, sb_vec(2, 0.7, 1.5), 1, 1, 0.1);
     add_terms(&t, SB_SOLVER_CG);
-    size_t sill = tank_add_sheet(&t, "sill", 1.45, 0, 0.4, sb_vec(0, 0, 0), NULL);
-    size_t paddle = tank_add_sheet(&t, "paddle", -0.05, 0, 1.2, sb_vec(1, 0, 0), &law);
+    size_t sill = tank_add_plate(&t, "sill", 1.45, 0, 0.4, sb_vec(0, 0, 0), NULL);
+    size_t paddle = tank_add_plate(&t, "paddle", -0.05, 0, 1.2, sb_vec(1, 0, 0), &law);
     t.model.bodies[sill].moment_point = sb_vec(1.45, 0.35, 0);
     t.model.bodies[paddle].moment_point = sb_vec(0, 0.35, -3);
     check(&t, 1, "3D");
     tank_free(&t);
 }
 
-/* What takes the packing's stress away keeps momentum exactly, and spin but for what neighbours' strains differ by. */
-static void the_packings_stress_balances(void **state)
+/* The stress correction conserves momentum exactly, and angular momentum except for differences of <E> among
+   neighbours. */
+static void the_stress_correction_balances(void **state)
 {
     (void)state;
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
@@ -147,7 +148,7 @@ static void the_packings_stress_balances(void **state)
         add_terms(&t, SB_SOLVER_CHEBYSHEV);
         t.scene.numerics.stress_correction = 1;
         const balance b = follow(&t, 50, 1);
-        printf("%dD, stress taken away: force %.2g, moment %.2g of sum |m a| dt\n", dimensions, b.force, b.moment);
+        printf("%dD, stress correction: force %.2g, moment %.2g of sum |m a| dt\n", dimensions, b.force, b.moment);
         assert_true(b.force < 1e-6 && b.moment > 0 && b.moment < 1e-3);
         tank_free(&t);
     }
@@ -158,7 +159,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_flat_dam_break_balances),
         cmocka_unit_test(a_dam_break_with_bodies_balances),
-        cmocka_unit_test(the_packings_stress_balances),
+        cmocka_unit_test(the_stress_correction_balances),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,4 @@
-/* Lists, densities, wall vectors, the diagonal and the walls' volumes against brute force in
- * double. */
+/* Lists, densities, wall vectors, the diagonal and the wall volumes compared with brute force in double precision. */
 #include "../check.h"
 #include "base/memory.h"
 #include "sim/stages.h"
@@ -24,7 +23,7 @@ static const sb_wavemaker_parameters *paddle_law(void)
     return &law;
 }
 
-/* Water scattered through a tank with a static sheet and a paddle under way. */
+/* Water scattered through a tank with a static plate and a moving paddle. */
 static void begin(setup *s, int dimensions, const char *kernel)
 {
     double dr = 0.1;
@@ -33,8 +32,8 @@ static void begin(setup *s, int dimensions, const char *kernel)
     s->tank.scene.numerics.kernel = sb_kernel_find(kernel);
     s->tank.scene.numerics.support = s->tank.scene.numerics.kernel->support;
     tank_scatter(&s->tank, (uint64_t)dimensions, 1);
-    tank_add_sheet(&s->tank, "sill", 0.9, 0, 0.5, sb_vec(0, 0, 0), NULL);
-    tank_add_sheet(&s->tank, "paddle", 0.2, 0, 1, sb_vec(1, 0, 0), paddle_law());
+    tank_add_plate(&s->tank, "sill", 0.9, 0, 0.5, sb_vec(0, 0, 0), NULL);
+    tank_add_plate(&s->tank, "paddle", 0.2, 0, 1, sb_vec(1, 0, 0), paddle_law());
     s->sim = tank_sim(&s->tank);
     assert_non_null(s->sim);
     s->sim->report.time = 0.4;
@@ -57,9 +56,8 @@ static int by_value(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* One list against the reference's pairs [first, last): the same set but for pairs that stand on
-   the edge of the support to float round-off; padding repeats an entry of the list, or i, at slope
-   0. */
+/* Compares one list with the reference's pairs: they are the same except for pairs at the support radius to float
+   round-off. Padding repeats an entry of the list, or i, with slope 0. Returns the number of pairs at the radius. */
 static size_t check_list(const setup *s, size_t i, bool walls)
 {
     const sb_reference *r = &s->twin.reference;
@@ -86,7 +84,7 @@ static size_t check_list(const setup *s, size_t i, bool walls)
             fail_msg("particle %zu: %s %zu at r = %.9f h is not listed", i, walls ? "wall" : "water", expected[k].other,
                      r_over_h);
     }
-    if (at != count) fail_msg("particle %zu: %zu is listed but out of reach", i, listed[at]);
+    if (at != count) fail_msg("particle %zu: %zu is listed but beyond the support radius", i, listed[at]);
     return edge;
 }
 
@@ -103,7 +101,7 @@ static void check_lists(const setup *s)
     assert_true(pairs > 5 * n && walls > n / 2 && edge <= 4);
 }
 
-/* m grad W and psi grad W of the listed pairs; the water's as they are stored: their roots to half a unit. */
+/* m grad W and psi grad W of the listed pairs. The roots of fluid pairs are stored rounded to half a unit. */
 static void check_slopes(const setup *s)
 {
     const sb_reference *r = &s->twin.reference;
@@ -171,7 +169,7 @@ static void check_sums(const setup *s)
     sb_free(diagonal);
 }
 
-/* psi_b over the static set as a whole, and over each moving body by itself. */
+/* psi_b over the whole static set, and over each moving body by itself. */
 static void check_volumes(const setup *s)
 {
     const twin *t = &s->twin;
@@ -218,7 +216,7 @@ static void a_cloud_with_walls(void **state)
     check_all(3, "wendland-c4");
 }
 
-/* Lists are made afresh when their pool was too small, whatever thread came first. */
+/* Lists are built again if their pool was too small, in any order of the threads. */
 static void lists_do_not_depend_on_the_pool(void **state)
 {
     (void)state;
@@ -243,8 +241,8 @@ static void lists_do_not_depend_on_the_pool(void **state)
     end(&s);
 }
 
-/* Boundary particles of the whole model in reach of water, and whether those beside the domain have
-   the psi that all of them, near and far, give. */
+/* Returns the number of pairs of water with boundary particles of the whole model, and checks that boundary particles
+   beside the domain have the psi that follows from all of them. */
 static size_t check_against_model(const setup *s)
 {
     const sb_model *m = &s->tank.model;
@@ -275,18 +273,18 @@ static size_t check_against_model(const setup *s)
     return pairs;
 }
 
-/* Terrain often reaches beyond the domain: what lies there must not hide walls within it, though
-   its cells share their keys. */
+/* Terrain often extends beyond the domain. Boundary particles there must not hide walls within the domain, although
+   their cells have the same keys. */
 static void walls_beyond_the_domain_hide_nothing(void **state)
 {
     (void)state;
     setup s;
     tank_make(&s.tank, 3, 0.1, sb_vec(2.4, 0.8, 0.8), 2.4, 0.6, 0);
     tank_scatter(&s.tank, 11, 1);
-    size_t hill = tank_add_sheet(&s.tank, "hill", -3.05, -6, 6, sb_vec(0, 0, 0), NULL);
+    size_t hill = tank_add_plate(&s.tank, "hill", -3.05, -6, 6, sb_vec(0, 0, 0), NULL);
     for (int far = -2; far <= 6; far++) {
         s.tank.model.body_count = hill + 1;
-        tank_add_sheet(&s.tank, "part", 1.2 * far + 0.05, -6, 6, sb_vec(0, 0, 0), NULL);
+        tank_add_plate(&s.tank, "part", 1.2 * far + 0.05, -6, 6, sb_vec(0, 0, 0), NULL);
     }
     sb_model_body *body = &s.tank.model.bodies[hill];
     body->count = s.tank.model.wall_count - body->begin;
@@ -304,7 +302,7 @@ static void walls_beyond_the_domain_hide_nothing(void **state)
     end(&s);
 }
 
-static void a_collapse_is_told_from_a_lack_of_memory(void **state)
+static void collapse_and_missing_memory_are_distinguished(void **state)
 {
     (void)state;
     setup s;
@@ -323,7 +321,7 @@ static void a_collapse_is_told_from_a_lack_of_memory(void **state)
     assert_true(failures > 5);
     check_lists(&s);
     end(&s);
-    /* All water in one place: more of it than lists hold. */
+    /* All water at one position: more particles than lists can hold. */
     begin(&s, 3, "cubic");
     assert_true(s.sim->n > 1024);
     for (size_t i = 0; i < s.sim->n; i++) s.sim->position[i] = s.sim->position[0];
@@ -341,7 +339,7 @@ int main(void)
         cmocka_unit_test(a_cloud_with_walls),
         cmocka_unit_test(lists_do_not_depend_on_the_pool),
         cmocka_unit_test(walls_beyond_the_domain_hide_nothing),
-        cmocka_unit_test(a_collapse_is_told_from_a_lack_of_memory),
+        cmocka_unit_test(collapse_and_missing_memory_are_distinguished),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,4 @@
-/* Periodic sides against the reference, which sums over all images, and against themselves moved
-   along. */
+/* Periodic sides compared with the reference, which sums over all images, and with the same scene, shifted. */
 #include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
@@ -32,8 +31,8 @@ static void allocate(setup *s)
     assert_non_null(s->acceleration);
 }
 
-/* Water scattered through a tank with a sheet of a static body beside the side in x, and a paddle
-   under way where only y repeats. Lengths are no multiples of anything. */
+/* Water scattered through a tank with a static plate beside the side in x, and a moving paddle if only y is periodic.
+   Lengths are no multiples of the spacing. */
 static void begin(setup *s, int dimensions, bool x, bool y, sb_vec3 size)
 {
     const sb_wavemaker_parameters law = {
@@ -43,8 +42,8 @@ static void begin(setup *s, int dimensions, bool x, bool y, sb_vec3 size)
     if (x) tank_repeat(&s->tank, 0);
     if (y) tank_repeat(&s->tank, 1);
     tank_scatter(&s->tank, 5, 1);
-    tank_add_sheet(&s->tank, "sill", 0.04, 0, 0.5, sb_vec(0, 0, 0), NULL);
-    if (!x) tank_add_sheet(&s->tank, "paddle", 0.3, 0, 0.7, sb_vec(1, 0, 0), &law);
+    tank_add_plate(&s->tank, "sill", 0.04, 0, 0.5, sb_vec(0, 0, 0), NULL);
+    if (!x) tank_add_plate(&s->tank, "paddle", 0.3, 0, 0.7, sb_vec(1, 0, 0), &law);
     s->tank.scene.numerics.artificial_viscosity = 0.5;
     s->tank.scene.numerics.wall_friction = 1;
     s->sim = tank_sim(&s->tank);
@@ -105,7 +104,7 @@ static void check_sums(setup *s)
            "diagonal %.2g\n",
            s->n, sim->ghosts.count, pairs, walls, twin_relative(&density), twin_relative(&vector), twin_relative(&flux),
            diagonal);
-    /* But for pairs at the very edge of the support. */
+    /* Except for pairs at the support radius. */
     assert_near((double)pairs, (double)r->fluid_start[s->n], 4);
     assert_near((double)walls, (double)r->wall_start[s->n], 4);
     assert_true(sim->ghosts.count > 0 && pairs > 5 * s->n && walls > 0);
@@ -114,7 +113,7 @@ static void check_sums(setup *s)
     assert_true(twin_relative(&flux) < 1e-6 && diagonal < 1e-5);
 }
 
-/* psi_b counts images on the far side. */
+/* psi_b includes images beyond the periodic sides. */
 static void check_volumes(const setup *s)
 {
     const twin *t = &s->twin;
@@ -133,7 +132,7 @@ static void check_volumes(const setup *s)
     sb_free(psi);
 }
 
-/* Viscosity and wall friction, and the source that their velocities make. */
+/* Viscosity and wall friction, and the source that results from the velocities. */
 static void check_forces(setup *s)
 {
     sb_error error = {0};
@@ -204,7 +203,7 @@ static void check(int dimensions, bool x, bool y, sb_vec3 size)
     end(&s);
 }
 
-/* Down to a domain of one support radius, in which neighbours are met on both sides. */
+/* Down to a domain of one support radius, in which two particles interact through both sides. */
 static void a_cloud_meets_its_images(void **state)
 {
     (void)state;
@@ -218,7 +217,7 @@ static void a_cloud_meets_its_images(void **state)
     check(3, true, true, sb_vec(0.27, 0.2, 0.8));
 }
 
-/* Fields by particle id, as one solve of fixed length leaves them. */
+/* Fields by particle id after one solve with a fixed number of iterations. */
 typedef struct outcome {
     size_t n;
     double *density, *pressure, *speed[3];
@@ -263,7 +262,7 @@ static double gap_between(const double *a, const double *b, size_t n)
     return twin_relative(&gap);
 }
 
-/* Up to whole quanta of the tank's positions. */
+/* Rounds up to whole quanta of the tank. */
 static sb_vec3 whole_quanta(const tank *t, sb_vec3 way)
 {
     sb_sim *sim = tank_sim(t);
@@ -280,9 +279,9 @@ static void make_rolled(tank *t, int dimensions, bool x, bool y, sb_vec3 size)
     if (y) tank_repeat(t, 1);
 }
 
-/* Sides are where they are by chance only: all moved along gives the same densities, pressures and
-   velocities, and the same push on what is static. Periods and ways are whole quanta, so that offsets stay what they
-   are to the bit: a quantum more or less may round a stored slope to its other side. */
+/* The position of periodic sides is arbitrary: the shifted scene has the same densities, pressures, velocities and
+   forces on static bodies. Periods and shifts are whole quanta, so that all offsets keep their bits. A difference of
+   one quantum could round a stored slope differently. */
 static void check_rolled(int dimensions, bool x, bool y, sb_vec3 size)
 {
     tank t;

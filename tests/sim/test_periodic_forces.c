@@ -1,4 +1,4 @@
-/* What crosses a periodic side keeps momentum, and bodies beyond it feel what is theirs. */
+/* Forces across a periodic side conserve momentum and act on the right body at the right place. */
 #include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
@@ -6,8 +6,8 @@
 
 #include <stdio.h>
 
-/* Largest change of (water + what bodies were given - weight) over a step, by the sum of |m a| dt,
-   or by a tenth of that of |m v| where this is larger: velocities are floats. */
+/* Largest change of (momentum of the water + impulse on bodies - impulse of the weight) over a step, relative to the
+   sum of |m a| dt, or to a tenth of that of |m v| if this is larger, because velocities are floats. */
 static double follow_momentum(sb_sim *sim, int steps)
 {
     double m = (double)sim->constant.mass, worst = 0;
@@ -50,7 +50,7 @@ static void momentum_is_kept_across_sides(void **state)
             t.scene.numerics.artificial_viscosity = 0.05;
             t.scene.numerics.wall_friction = 0.1;
             if (bodies) {
-                tank_add_sheet(&t, "sill", 0.03, 0, 0.3, sb_vec(0, 0, 0), NULL);
+                tank_add_plate(&t, "sill", 0.03, 0, 0.3, sb_vec(0, 0, 0), NULL);
             } else {
                 t.model.wall_count = t.model.bodies[0].count = 0;
                 t.scene.fluid.gravity = 0;
@@ -74,8 +74,8 @@ static void momentum_is_kept_across_sides(void **state)
         }
 }
 
-/* A drop leaves at a side, comes back at the other and meets a wall beyond it: contact stops it,
-   the wall feels it. */
+/* A drop leaves at one side, returns at the other and meets a wall there. Contact stops it, and the wall receives the
+   impulse. */
 static void a_drop_meets_a_wall_beyond_the_side(void **state)
 {
     (void)state;
@@ -85,9 +85,9 @@ static void a_drop_meets_a_wall_beyond_the_side(void **state)
             tank_make(&t, dimensions, 0.1, sb_vec(2, 0.8, 2), 0.1, 0.1, 0);
             tank_repeat(&t, 0);
             t.scene.fluid.gravity = 0;
-            double sheet = way > 0 ? 0.03 : 1.97;
-            size_t wall = tank_add_sheet(&t, "sheet", sheet, 0, 2, sb_vec(0, 0, 0), NULL);
-            t.model.bodies[wall].moment_point = sb_vec(sheet, 0, 0);
+            double plane = way > 0 ? 0.03 : 1.97;
+            size_t wall = tank_add_plate(&t, "plane", plane, 0, 2, sb_vec(0, 0, 0), NULL);
+            t.model.bodies[wall].moment_point = sb_vec(plane, 0, 0);
             t.model.fluid_count = 1;
             t.model.fluid_position[0] = sb_vec(way > 0 ? 1.42 : 0.58, dimensions == 2 ? 0 : 0.4, 1.01);
             t.model.fluid_velocity[0] = sb_vec(9 * way, 0, 0);
@@ -98,18 +98,18 @@ static void a_drop_meets_a_wall_beyond_the_side(void **state)
             double x = sb_sim_particle(sim, 0).position.x;
             const sb_body_impulse *push = sb_sim_impulse(sim, wall);
             assert_int_equal(sim->n, 1);
-            assert_true(way > 0 ? x > 1.9 || x < sheet : x < 0.1 || x > sheet);
+            assert_true(way > 0 ? x > 1.9 || x < plane : x < 0.1 || x > plane);
             double lost = 9 * way - sb_sim_particle(sim, 0).velocity.x;
             assert_near(push->pressure.x, mass * lost, 1e-4 * mass * 9);
             assert_true(fabs(lost) > 4);
-            /* Where it is, not where its image is: the moment is that of a push at z = 1. */
+            /* The force acts on the wall itself, not on its image: the moment is that of a force at z = 1. */
             assert_near(push->moment.y, 1.01 * push->pressure.x, 0.05 * fabs(push->pressure.x));
             sb_sim_destroy(sim);
             tank_free(&t);
         }
 }
 
-/* The moment of a force on a body beside a side, the water that pushes it being beyond. */
+/* The moment of a force on a body beside a periodic side, from water beyond that side. */
 static void a_push_across_acts_at_the_body(void **state)
 {
     (void)state;
@@ -119,7 +119,7 @@ static void a_push_across_acts_at_the_body(void **state)
         tank_make(&t, 3, 0.1, sb_vec(2, 0.4, 1), 2, 0.6, 0.1);
         tank_repeat(&t, 0);
         tank_repeat(&t, 1);
-        size_t wall = tank_add_sheet(&t, "sheet", 1, 0, 1, sb_vec(0, 0, 0), NULL);
+        size_t wall = tank_add_plate(&t, "plane", 1, 0, 1, sb_vec(0, 0, 0), NULL);
         t.model.bodies[wall].moment_point = sb_vec(1, 0, 0);
         if (beside) {
             tank_roll(&t, sb_vec(1.01, 0, 0));

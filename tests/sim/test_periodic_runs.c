@@ -1,5 +1,4 @@
-/* What runs with periodic sides do: streams, slabs, drops, samples across a side; the same bits for
-   any number of threads. */
+/* Runs with periodic sides: streams, slabs, samples across a side, and the same bits for any number of threads. */
 #include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
@@ -12,8 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Water at one speed over a smooth floor goes round and round: no particle is lost, none is
-   counted as gone. */
+/* Water flows at one speed over a smooth floor through the periodic sides: no particle is lost or leaves. */
 static void a_stream_goes_round(void **state)
 {
     (void)state;
@@ -84,9 +82,9 @@ static void break_dam(double width, flow flows[TIMES])
     tank_free(&t);
 }
 
-/* A slab of four spacings is a flume of any width. Its dam breaks as that in two dimensions does,
-   once the start is over: the lattices there push off their walls with forces of their own. The
-   front is one particle, so it is known to a spacing or two. */
+/* A slab of four spacings behaves like a flume of any width. A dam break in it is the same as in two dimensions once
+   the start is over; at the start the lattices are pushed off their walls by different forces. The front is a single
+   particle and so is accurate to one or two spacings. */
 static void a_slab_is_a_flume(void **state)
 {
     (void)state;
@@ -102,8 +100,8 @@ static void a_slab_is_a_flume(void **state)
     }
 }
 
-/* The floor bears the same per metre of width. */
-static void a_slab_weighs_what_its_width_weighs(void **state)
+/* The load on the floor per metre of width is the same. */
+static void the_load_is_proportional_to_the_width(void **state)
 {
     (void)state;
     for (int slab = 0; slab <= 1; slab++) {
@@ -159,14 +157,14 @@ static bool in_box(sb_vec3 x, sb_vec3 min, sb_vec3 max)
     return x.x >= min.x && x.y >= min.y && x.z >= min.z && x.x <= max.x && x.y <= max.y && x.z <= max.z;
 }
 
-/* Every image in the box once. */
+/* Checks that a query finds every image in the box once. */
 static void check_box(const sb_sim *sim, sb_vec3 min, sb_vec3 max)
 {
     /* The domain's length, rounded to quanta. */
     double quantum = sim->space.quantum;
     sb_vec3 size = sb_vec(sim->space.period[0] * quantum, sim->space.period[1] * quantum, 0);
     size_t expected = 0, count = sb_sim_query(sim, min, max, found, 16384);
-    double sum = 0, reached = 0;
+    double sum = 0, found_sum = 0;
     for (size_t i = 0; i < sim->n; i++)
         for (int x = -2; x <= 2; x++)
             for (int y = -5; y <= 5; y++) {
@@ -180,13 +178,13 @@ static void check_box(const sb_sim *sim, sb_vec3 min, sb_vec3 max)
     assert_true(count <= 16384);
     for (size_t k = 0; k < count; k++) {
         assert_true(in_box(found[k].position, min, max));
-        reached += (1 + found[k].position.x + 3 * found[k].position.y) * (1 + found[k].id % 17);
+        found_sum += (1 + found[k].position.x + 3 * found[k].position.y) * (1 + found[k].id % 17);
     }
-    assert_near(reached, sum, 1e-9 * fabs(sum));
+    assert_near(found_sum, sum, 1e-9 * fabs(sum));
 }
 
-/* A domain's length away in x, eight spacings in y, where the domain is but two wide. */
-static void samples_are_seen_across_sides(void **state)
+/* Images up to one domain length away in x, and up to eight spacings in y, where the domain is two spacings wide. */
+static void queries_find_images_across_sides(void **state)
 {
     (void)state;
     tank t;
@@ -218,7 +216,7 @@ static bool skips_ghosts(const sb_sim *sim)
     return skipped;
 }
 
-/* Without periodic sides there is no ghost, no memory for any, and the log says so. */
+/* Without periodic sides there are no ghosts and no memory for ghosts, and the list of skipped parts says so. */
 static void no_side_costs_nothing(void **state)
 {
     (void)state;
@@ -241,14 +239,14 @@ static void no_side_costs_nothing(void **state)
     }
 }
 
-static void no_memory_is_told(void **state)
+static void missing_memory_is_reported(void **state)
 {
     (void)state;
     tank t;
     tank_make(&t, 3, 0.1, sb_vec(1.2, 0.4, 1), 1.2, 0.6, 0.1);
     tank_repeat(&t, 1);
     bool done = false;
-    int told = 0;
+    int reported = 0;
     for (long n = 1; !done; n++) {
         sb_error error = {0};
         sb_sim *sim = NULL;
@@ -258,10 +256,10 @@ static void no_memory_is_told(void **state)
         sb_memory_fail_at(0);
         done = status == SB_OK;
         if (!done) assert_non_null(strstr(error.text, "memory"));
-        told += !done && (strstr(error.text, "ghosts") || strstr(error.text, "images"));
+        reported += !done && (strstr(error.text, "ghosts") || strstr(error.text, "images"));
         sb_sim_destroy(sim);
     }
-    assert_true(told >= 8);
+    assert_true(reported >= 8);
     tank_free(&t);
 }
 
@@ -270,11 +268,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_stream_goes_round),
         cmocka_unit_test(a_slab_is_a_flume),
-        cmocka_unit_test(a_slab_weighs_what_its_width_weighs),
+        cmocka_unit_test(the_load_is_proportional_to_the_width),
         cmocka_unit_test(threads_make_no_difference),
-        cmocka_unit_test(samples_are_seen_across_sides),
+        cmocka_unit_test(queries_find_images_across_sides),
         cmocka_unit_test(no_side_costs_nothing),
-        cmocka_unit_test(no_memory_is_told),
+        cmocka_unit_test(missing_memory_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,4 @@
-/* The pressure problem in float against the double-precision reference: source, operator, solvers.
- */
+/* The pressure problem in float compared with the double-precision reference: source, operator, solvers. */
 #include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
@@ -20,15 +19,14 @@ typedef struct setup {
     sb_vec3 *acceleration;
     double *x, *y, *product; /* n each */
     double *source;          /* the simulation's, in double */
-    double *solution;        /* the reference's answer to it */
+    double *solution;        /* the reference's solution for it */
 } setup;
 
-/* A dam break some steps after its start, up to the source of the next solve; one particle flies.
- */
+/* A dam break some steps after its start, up to the source of the next solve. One particle is in free flight. */
 static void begin(setup *s, int dimensions)
 {
     *s = (setup){0};
-    /* More than one block of particles, so that sums over blocks are in play. */
+    /* More than one block of particles, so that sums over blocks are tested. */
     bool flat = dimensions == 2;
     sb_vec3 size = flat ? sb_vec(3, 0, 2) : sb_vec(2, 0.8, 1.5);
     tank_make(&s->tank, dimensions, flat ? 0.05 : 0.1, size, flat ? 2 : 1.4, flat ? 1.4 : 1.2, 0.1);
@@ -72,7 +70,7 @@ static void fill_random(double *field, size_t n, uint64_t seed)
     for (size_t i = 0; i < n; i++) field[i] = (double)(float)sb_random(seed, i);
 }
 
-/* out = A argument by the simulation, its acceleration in sim->acceleration. */
+/* out = A argument by the simulation; leaves the acceleration in sim->acceleration. */
 static void fast_product(setup *s, const double *argument, double *out)
 {
     float *narrow = sb_alloc(s->n, sizeof *narrow), *result = sb_alloc(s->n, sizeof *result);
@@ -120,7 +118,7 @@ static void check_operator(setup *s)
     }
     printf("G q: worst %.2g of the largest, A q: %.2g\n", twin_relative(&push), twin_relative(&product));
     assert_true(twin_relative(&push) < 1e-6 && twin_relative(&product) < 1e-6);
-    /* x . A y = y . A x and x . A x < 0, in sums that cancel nothing. */
+    /* x . A y = y . A x and x . A x < 0, in sums without cancellation. */
     double *y = s->y, *ax = fast, *ay = s->product;
     fill_random(y, s->n, 2);
     fast_product(s, y, ay);
@@ -131,7 +129,7 @@ static void check_operator(setup *s)
     assert_true(dot(s->x, ax, s->n) < 0);
 }
 
-/* A e_i at i is what the neighbour pass says, and the reference's diagonal. */
+/* (A e_i)_i is the diagonal of the neighbour pass and of the reference. */
 static void check_diagonal(setup *s)
 {
     double dt2 = s->sim->report.time_step * s->sim->report.time_step, worst = 0, formula = 0;
@@ -142,22 +140,22 @@ static void check_diagonal(setup *s)
         s->x[i] = 1;
         fast_product(s, s->x, s->product);
         s->x[i] = 0;
-        double held = -(double)s->sim->diagonal[i] * dt2;
-        if (held == 0) {
+        double stored = -(double)s->sim->diagonal[i] * dt2;
+        if (stored == 0) {
             flying++;
             assert_true(fabs(s->product[i]) <= 1e-6 * (double)s->sim->constant.full_diagonal * dt2);
             continue;
         }
-        worst = fmax(worst, fabs(s->product[i] / held - 1));
-        formula = fmax(formula, fabs(held / s->y[i] - 1));
+        worst = fmax(worst, fabs(s->product[i] / stored - 1));
+        formula = fmax(formula, fabs(stored / s->y[i] - 1));
     }
-    printf("diagonal: probed against held %.2g of each, held against reference %.2g; %zu on its own\n", worst, formula,
-           flying);
+    printf("diagonal: probed against stored %.2g of each, stored against reference %.2g; %zu isolated\n", worst,
+           formula, flying);
     assert_int_equal(flying, 1);
     assert_true(worst < 1e-5 && formula < 1e-5);
 }
 
-/* The simulation's errors of q, made afresh by the reference's operator. */
+/* The errors of q, computed by the reference's operator. */
 static sb_pressure_error true_error(setup *s, const double *q)
 {
     sb_pressure_error error = {0};
@@ -206,7 +204,7 @@ static double gap_to_solution(const setup *s)
     return twin_relative(&gap);
 }
 
-/* A report is true to `relative` and to the float operator's own round-off. */
+/* Checks that the reported errors are correct to `relative` and to the round-off of the float operator. */
 static void check_report(setup *s, double relative)
 {
     const sb_step_report *r = &s->sim->report;
@@ -216,7 +214,7 @@ static void check_report(setup *s, double relative)
     assert_near(r->error_max, e.max, relative * e.max + 4e-7);
 }
 
-/* The solve leaves G q of the q it returns, q >= 0, and none on a particle by itself. */
+/* Checks that the solve leaves the acceleration G q, that q >= 0, and that q = 0 for an isolated particle. */
 static void check_outcome(setup *s)
 {
     twin_gap push = {0};
@@ -231,7 +229,7 @@ static void check_outcome(setup *s)
     if (!(push.scale > 1 && twin_relative(&push) < 1e-5)) fail_msg("acceleration: %g of %g", push.worst, push.scale);
 }
 
-/* Each solver, from nothing, down to where float ends. */
+/* Runs a solver from q = 0 down to the precision of float. */
 static void check_solver(setup *s, sb_solver solver)
 {
     double last = 1;
@@ -249,11 +247,11 @@ static void check_solver(setup *s, sb_solver solver)
                tolerance, r->iterations, last, r->error_mean, r->error_active, r->error_max);
     }
     assert_true(last < 1e-5);
-    /* From the answer itself: no more than the least number of iterations, and still the answer. */
+    /* From the solution itself it takes the smallest number of iterations and keeps the solution. */
     solve(s, solver, 1e-6, 5000, 1);
     assert_int_equal(s->sim->report.iterations, s->tank.scene.numerics.min_iterations);
     assert_true(gap_to_solution(s) < 1e-5);
-    /* A cap is kept and told. */
+    /* The limit of iterations is respected and reported. */
     solve(s, solver, 1e-9, 7, 0);
     assert_true(s->sim->report.capped && s->sim->report.error_mean > 1e-9);
     assert_in_range(s->sim->report.iterations, 7, 8);
@@ -292,15 +290,15 @@ static void a_dam_break(void **state)
     check_all(3);
 }
 
-/* A solve stops sooner than that of the step before only where it is better by a margin; a rule in density, and 2D,
-   know no step before. In 2D water pressed too much goes on being solved. */
-static void it_stops_no_sooner_by_chance(void **state)
+/* A solve stops earlier than that of the step before only if its error is smaller by a margin. The rule `density`, and
+   2D, do not use the step before. In 2D a solve continues while there is excess pressure. */
+static void an_early_stop_needs_a_margin(void **state)
 {
     (void)state;
     static const struct {
         sb_tolerance_rule rule;
         int dimensions, iterations, before;
-        double mean, active; /* of the tolerance */
+        double mean, active; /* in tolerances */
         bool done;
     } cases[] = {
         {SB_TOLERANCE_PRESSURE, 3, 8, 9, 0.9, 0, false}, {SB_TOLERANCE_PRESSURE, 3, 8, 9, 0.6, 0, true},
@@ -327,7 +325,7 @@ static void it_stops_no_sooner_by_chance(void **state)
     }
 }
 
-/* Accelerations and their divergences by one form of the passes. */
+/* Accelerations and their divergences by one implementation of the passes. */
 static void by_form(setup *s, const sb_passes *form, sb_f4 *acceleration, float *divergence)
 {
     s->sim->passes = form;
@@ -336,8 +334,8 @@ static void by_form(setup *s, const sb_passes *form, sb_f4 *acceleration, float 
     memcpy(acceleration, s->sim->acceleration, s->n * sizeof *acceleration);
 }
 
-/* Vectors of 64 bytes change no bit of what those of 32 bytes make. */
-static void both_forms_of_the_passes(void **state)
+/* The passes with vectors of 64 bytes give the same bits as those with 32 bytes. */
+static void both_forms_of_the_passes_agree(void **state)
 {
     (void)state;
     if (!sb_passes_wide()) skip();
@@ -365,7 +363,8 @@ static void both_forms_of_the_passes(void **state)
     }
 }
 
-/* Mean, active and worst error by the plain loop, in the order of particles; blocks need not be full. */
+/* Mean, active and largest error compared with a plain loop in the order of particles, also for blocks that are not
+   full. */
 static void errors_are_summed_in_order(void **state)
 {
     (void)state;
@@ -407,8 +406,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_flat_dam_break),
         cmocka_unit_test(a_dam_break),
-        cmocka_unit_test(it_stops_no_sooner_by_chance),
-        cmocka_unit_test(both_forms_of_the_passes),
+        cmocka_unit_test(an_early_stop_needs_a_margin),
+        cmocka_unit_test(both_forms_of_the_passes_agree),
         cmocka_unit_test(errors_are_summed_in_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,4 @@
-/* What leaves the simulation: boxes of samples, energies and frames against the particles one by
- * one. */
+/* Queries, energies and frames compared with a loop over all particles. */
 #include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
@@ -37,7 +36,7 @@ static void check_box(const sb_sim *sim, sb_vec3 min, sb_vec3 max, bool *listed)
     assert_int_equal(count, expected);
 }
 
-/* Samples found are the particles themselves, and a short buffer gets the first of them. */
+/* Samples have the values of the particles, and a buffer that is too small gets the first of them. */
 static void check_samples(const sb_sim *sim)
 {
     sb_vec3 min = {0.2, -1, 0.1}, max = {0.7, 2, 0.6};
@@ -72,7 +71,7 @@ static void check_boxes(const sb_sim *sim)
         a = sb_add(sim->model->min, sb_vec(u[0] * size.x, u[1] * size.y, u[2] * size.z));
         c = sb_add(sim->model->min, sb_vec(u[3] * size.x, u[4] * size.y, u[5] * size.z));
         check_box(sim, sb_min(a, c), sb_max(a, c), listed);
-        /* A thin box around one particle, which may have left the cell it was sorted into. */
+        /* A thin box around one particle, which may have left its cell since the sort. */
         sb_vec3 x = sb_sim_particle(sim, (size_t)(sb_random(b, 9) * (double)sim->n)).position;
         sb_vec3 thin = sb_vec(1e-6, 1e-6, 1e-6);
         check_box(sim, sb_sub(x, thin), sb_add(x, thin), listed);
@@ -136,7 +135,7 @@ static void check_run(int dimensions, sb_vec3 away)
         .kind = sb_wavemaker_find("stroke"), .stroke = 0.3, .speed = 1, .gravity = 9.81};
     tank t;
     tank_make(&t, dimensions, 0.1, sb_vec(2, dimensions == 2 ? 0 : 0.7, 1.5), 1, 1, 0.1);
-    size_t paddle = tank_add_sheet(&t, "paddle", -0.05, 0, 1.2, sb_vec(1, 0, 0), &law);
+    size_t paddle = tank_add_plate(&t, "paddle", -0.05, 0, 1.2, sb_vec(1, 0, 0), &law);
     tank_shift(&t, away);
     sb_sim *sim = tank_sim(&t);
     assert_non_null(sim);
@@ -164,15 +163,14 @@ static void in_a_tank(void **state)
     check_run(3, sb_vec(0, 0, 0));
 }
 
-/* Frames keep their precision where single precision alone would have steps of 6 cm. */
+/* Frames keep their precision where single-precision coordinates would have steps of 6 cm. */
 static void in_a_tank_far_away(void **state)
 {
     (void)state;
     check_run(3, sb_vec(1e6, -5e5, 300));
 }
 
-/* A paddle that sweeps up a resting drop: the fastest of the water is then what the wall's contact
- * made it. */
+/* A paddle accelerates a drop from rest. The reported maximum speed and the queries must include contact resolution. */
 static void a_drop_swept_away_is_found(void **state)
 {
     (void)state;
@@ -182,7 +180,7 @@ static void a_drop_swept_away_is_found(void **state)
     t.scene.fluid.gravity = 0;
     t.model.fluid_count = 1;
     t.model.fluid_position[0] = sb_vec(0.6, 0.4, 0.4);
-    tank_add_sheet(&t, "paddle", 0.25, 0, 0.8, sb_vec(1, 0, 0), &law);
+    tank_add_plate(&t, "paddle", 0.25, 0, 0.8, sb_vec(1, 0, 0), &law);
     sb_sim *sim = tank_sim(&t);
     assert_non_null(sim);
     bool listed[1];

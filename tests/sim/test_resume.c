@@ -1,4 +1,4 @@
-/* A simulation that loads another's saved state goes on as it, bit for bit; a state that makes no sense is refused. */
+/* A simulation that loads a saved state continues bit for bit like the saved one; an impossible state is refused. */
 #include "../check.h"
 #include "base/memory.h"
 #include "sim/pressure.h"
@@ -10,7 +10,7 @@
 
 enum { BEFORE = 25, AFTER = 25 };
 
-/* Undisturbed with one thread, and resumed half way with each of several numbers of threads. */
+/* Compares an uninterrupted run on one thread with runs that are resumed half way on several numbers of threads. */
 static void check(const tank *t, const char *name)
 {
     static const int threads[] = {1, 2, 3, 8};
@@ -34,7 +34,7 @@ static void check(const tank *t, const char *name)
         if (tank_load(sim, &out, &error) != SB_OK) fail_msg("%s: %s", name, error.text);
         assert_true(sb_sim_hash(sim) == half);
         assert_int_equal(tank_steps(sim, AFTER), 0);
-        if (sb_sim_hash(sim) != end) fail_msg("%s: %d threads end otherwise", name, threads[k]);
+        if (sb_sim_hash(sim) != end) fail_msg("%s: %d threads end with another state", name, threads[k]);
         const sb_step_report *report = sb_sim_report(sim);
         assert_int_equal(report->step, BEFORE + AFTER);
         assert_int_equal(report->iterations, last.iterations);
@@ -59,7 +59,7 @@ static void a_dam_break_with_each_solver(void **state)
     }
 }
 
-/* The paddle is saved while it moves, and long after it has stopped away from where it began. */
+/* The paddle is saved while it moves, and long after it has stopped at another place. */
 static void a_paddle_in_motion_and_at_rest(void **state)
 {
     (void)state;
@@ -72,7 +72,7 @@ static void a_paddle_in_motion_and_at_rest(void **state)
                                              .after = SB_AFTER_STAY};
         tank t;
         tank_make(&t, 3, 1.0 / 12, sb_vec(2, 1, 1), 2, 0.75, 0.1);
-        tank_add_sheet(&t, "paddle", -1.0 / 24, 0, 0.8, sb_vec(1, 0, 0), &law);
+        tank_add_plate(&t, "paddle", -1.0 / 24, 0, 0.8, sb_vec(1, 0, 0), &law);
         tank_add_terms(&t);
         check(&t, "paddle");
         tank_free(&t);
@@ -107,19 +107,19 @@ static void water_that_leaves(void **state)
     tank_free(&t);
 }
 
-/* A sea at rest and a paddle, body 1, at x = 0 that pushes for 0.9 s at up to 0.5 m/s. */
+/* A flume at rest with a paddle, body 1, at x = 0 that moves for 0.9 s at up to 0.5 m/s. */
 static void flume_make(tank *t, int dimensions, double dr, sb_vec3 size)
 {
     static const sb_wavemaker_parameters law = {.stroke = 0.4, .speed = 0.5, .gravity = 9.81, .after = SB_AFTER_STAY};
     sb_wavemaker_parameters stroke = law;
     stroke.kind = sb_wavemaker_find("stroke");
     tank_make(t, dimensions, dr, size, size.x, 1, 0.02);
-    tank_add_sheet(t, "paddle", -dr / 2, 0, size.z, sb_vec(1, 0, 0), &stroke);
+    tank_add_plate(t, "paddle", -dr / 2, 0, size.z, sb_vec(1, 0, 0), &stroke);
     t->scene.sea = (sb_sea){.present = true, .level = 1};
     t->scene.numerics.settle_steps = 200;
 }
 
-/* Saves at one step of the settling. */
+/* Saves the simulation at one settling step. */
 typedef struct listener {
     const sb_sim *sim;
     int at;
@@ -137,7 +137,7 @@ static void save_at(void *context, int done, int most, double speed)
     l->saved = true;
 }
 
-/* Settling that goes on from one of its steps ends as if undisturbed, and so do the steps after it. */
+/* Settling that is resumed from one of its steps ends like uninterrupted settling, and so do the steps after it. */
 static void check_settling(const tank *t, int at, const char *name)
 {
     sb_error error = {0};
@@ -152,16 +152,17 @@ static void check_settling(const tank *t, int at, const char *name)
     assert_true(sb_sim_settling(again, &done));
     assert_int_equal(done, at);
     assert_int_equal(sb_sim_settle(again, &error), SB_OK);
-    if (sb_sim_hash(sim) != sb_sim_hash(again)) fail_msg("%s: settles otherwise from step %d", name, at);
+    if (sb_sim_hash(sim) != sb_sim_hash(again))
+        fail_msg("%s: settling resumed from step %d ends with another state", name, at);
     assert_int_equal(tank_steps(sim, AFTER), 0);
     assert_int_equal(tank_steps(again, AFTER), 0);
-    if (sb_sim_hash(sim) != sb_sim_hash(again)) fail_msg("%s: goes on otherwise", name);
+    if (sb_sim_hash(sim) != sb_sim_hash(again)) fail_msg("%s: the run after settling differs", name);
     sb_sim_destroy(sim);
     sb_sim_destroy(again);
     sb_archive_out_free(&l.out);
 }
 
-/* The last step belongs to what comes after it: nobody may save in between, and such a state is refused. */
+/* The state after the last settling step is never saved, and such a state is refused. */
 static void settling_is_not_saved_at_its_end(void **state)
 {
     (void)state;
@@ -174,24 +175,24 @@ static void settling_is_not_saved_at_its_end(void **state)
     assert_int_equal(sb_sim_settle(sim, &error), SB_OK);
     const int steps = sb_sim_rest(sim).steps;
     sb_sim_destroy(sim);
-    check_settling(&t, steps - 1, "flume, but for one step");
+    check_settling(&t, steps - 1, "flume, all but one step");
 
     sim = tank_sim(&t);
     listener l = {.sim = sim, .at = steps};
     assert_int_equal(sb_sim_settle_watched(sim, save_at, &l, &error), SB_OK);
     assert_false(l.saved);
-    sim->settle.under_way = true; /* as an earlier program left it */
+    sim->settle.under_way = true; /* as an earlier version of the program saved it */
     tank_save(sim, &late);
     sb_sim *again = tank_sim(&t);
     assert_int_equal(tank_load(again, &late, &error), SB_BAD_INPUT);
-    assert_non_null(strstr(error.text, "settling that is over"));
+    assert_non_null(strstr(error.text, "settling has ended"));
     sb_sim_destroy(sim);
     sb_sim_destroy(again);
     sb_archive_out_free(&late);
     tank_free(&t);
 }
 
-static void settling_goes_on(void **state)
+static void settling_is_resumed(void **state)
 {
     (void)state;
     static const int steps[] = {1, 39, 41, 100, 101};
@@ -230,8 +231,8 @@ static void another_model_is_refused(void **state)
     tank_free(&other);
 }
 
-/* What is wrong in it is said; a good state can be loaded over it. */
-static void senseless_states_are_refused(void **state)
+/* The message names the error; afterwards a good state can be loaded. */
+static void impossible_states_are_refused(void **state)
 {
     (void)state;
     const sb_wavemaker_parameters law = {.kind = sb_wavemaker_find("gate"), .stroke = 0.1, .speed = 1, .gravity = 9.81};
@@ -239,7 +240,7 @@ static void senseless_states_are_refused(void **state)
     sb_archive_out good = {0}, bad = {0};
     sb_error error = {0};
     tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0.1);
-    tank_add_sheet(&t, "paddle", -0.05, 0, 0.8, sb_vec(1, 0, 0), &law);
+    tank_add_plate(&t, "paddle", -0.05, 0, 0.8, sb_vec(1, 0, 0), &law);
     sb_sim *sim = tank_sim(&t);
     assert_true(sim && tank_steps(sim, 3) == 0);
     const uint64_t hash = sb_sim_hash(sim);
@@ -247,17 +248,17 @@ static void senseless_states_are_refused(void **state)
     struct {
         void *at, *value;
         size_t size;
-        const char *words;
+        const char *text;
     } cases[] = {
         {&sim->report.time, &(double){(double)NAN}, 8, "expected finite numbers"},
         {&sim->report.max_speed, &(double){-1}, 8, "expected finite numbers"},
         {&sim->id[2], &(uint32_t){25}, 4, "particle 25 at"},
-        {(uint32_t *)&sim->position[7] + 2, &(uint32_t){0x80000000u}, 4, "expected less than"},
-        {&sim->moving[0].displacement, &(double){1e300}, 8, "a body displaced by 1e+300 m"},
-        {&sim->moving[0].displacement, &(double){(double)NAN}, 8, "a body displaced by nan m"},
+        {(uint32_t *)&sim->position[7] + 2, &(uint32_t){0x80000000u}, 4, "coordinates below 2147483648"},
+        {&sim->moving[0].displacement, &(double){1e300}, 8, "moving body 0 is displaced by 1e+300 m"},
+        {&sim->moving[0].displacement, &(double){(double)NAN}, 8, "moving body 0 is displaced by nan m"},
         {&sim->settle, &(sb_settle){.under_way = true, .done = 3, .most = 1 << 20}, sizeof(sb_settle),
-         "settling at step 3 of at most 1048576: expected at most"},
-        {&sim->moving_count, &(size_t){0}, 8, "other moving bodies, expected 1"},
+         "settling step 3 of at most 1048576: expected at most"},
+        {&sim->moving_count, &(size_t){0}, 8, "different number of moving bodies, expected 1"},
     };
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         unsigned char kept[sizeof(sb_settle)];
@@ -266,7 +267,7 @@ static void senseless_states_are_refused(void **state)
         tank_save(sim, &bad);
         memcpy(cases[c].at, kept, cases[c].size);
         assert_int_equal(tank_load(sim, &bad, &error), SB_BAD_INPUT);
-        if (!strstr(error.text, cases[c].words)) fail_msg("%zu: %s", c, error.text);
+        if (!strstr(error.text, cases[c].text)) fail_msg("%zu: %s", c, error.text);
         if (tank_load(sim, &good, &error) != SB_OK) fail_msg("%s", error.text);
         assert_true(sb_sim_hash(sim) == hash);
     }
@@ -284,10 +285,10 @@ int main(void)
         cmocka_unit_test(a_paddle_in_motion_and_at_rest),
         cmocka_unit_test(a_periodic_slab),
         cmocka_unit_test(water_that_leaves),
-        cmocka_unit_test(settling_goes_on),
+        cmocka_unit_test(settling_is_resumed),
         cmocka_unit_test(settling_is_not_saved_at_its_end),
         cmocka_unit_test(another_model_is_refused),
-        cmocka_unit_test(senseless_states_are_refused),
+        cmocka_unit_test(impossible_states_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

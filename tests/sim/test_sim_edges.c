@@ -1,4 +1,4 @@
-/* The simulation where scenes get odd: one particle, none, two in one place, and runs that fail. */
+/* The simulation of unusual scenes: one particle, none, two at one position; and runs that fail. */
 #include "../check.h"
 #include "base/memory.h"
 #include "sim/pressure.h"
@@ -23,8 +23,7 @@ static sb_fluid_sample by_id(const sb_sim *sim, uint32_t id)
     return (sb_fluid_sample){0};
 }
 
-/* Far from all else a particle knows gravity only: no pressure from its own density of 0.3 rho_0.
- */
+/* An isolated particle is subject to gravity only: its own density of 0.3 rho_0 gives no pressure. */
 static void a_lone_particle_flies_a_parabola(void **state)
 {
     (void)state;
@@ -75,9 +74,9 @@ static void coincident_particles_do_no_harm(void **state)
         t.scene.numerics.wall_friction = 0.1;
         t.scene.fluid.viscosity = 1e-4;
         sb_vec3 *x = t.model.fluid_position;
-        x[1] = x[0]; /* to the bit */
+        x[1] = x[0]; /* exactly */
         x[100] = sb_add(x[101], sb_vec(1e-7, 0, 0));
-        x[50] = t.model.wall_position[40]; /* in a boundary particle's place */
+        x[50] = t.model.wall_position[40]; /* at the position of a boundary particle */
         x[7] = x[8] = x[9] = sb_vec(0.3, 0.3, 0.9);
         sb_sim *sim = make(&t);
         assert_int_equal(tank_steps(sim, 60), 0);
@@ -102,7 +101,7 @@ static void what_leaves_is_counted(void **state)
     t.model.fluid_velocity[3] = sb_vec(0, 0, 3);        /* through the open top */
     t.model.fluid_position[4] = sb_vec(3, 0, 0.5);      /* beyond the open side from the start */
     t.model.fluid_position[5] = sb_vec(-0.21, 0, 0.8);  /* beyond a wall by more than the support */
-    t.model.fluid_position[6] = sb_vec(1e12, 0, -1e12); /* beyond all numbers */
+    t.model.fluid_position[6] = sb_vec(1e12, 0, -1e12); /* beyond the range of stored positions */
     sb_sim *sim = make(&t);
     const sb_step_report *r = sb_sim_report(sim);
     assert_int_equal(r->left_domain, 2);
@@ -143,7 +142,7 @@ static void check_empty(const sb_scene *scene, const sb_model *model)
     sb_sim_destroy(sim);
 }
 
-/* Settling at last gives the scene's velocities: none of them left means that all are zero. */
+/* Settling ends by setting the scene's velocities. If the model has none any more, all are zero. */
 static void a_start_forgotten_is_one_at_rest(void **state)
 {
     (void)state;
@@ -166,7 +165,7 @@ static void a_start_forgotten_is_one_at_rest(void **state)
     assert_true(hash[0] == hash[1]);
 }
 
-/* A block of water let go in mid-air falls as one, at once: its middle is on the parabola at every step. */
+/* A block of water released in mid-air falls at once and as a whole: its centre is on the parabola at every step. */
 static void a_block_from_rest_starts_on_time(void **state)
 {
     (void)state;
@@ -190,7 +189,7 @@ static void a_block_from_rest_starts_on_time(void **state)
         }
         printf("%dD: %llu steps, worst %.2g m from the parabola\n", dimensions,
                (unsigned long long)sb_sim_report(sim)->step, worst);
-        assert_true(worst < 1e-4); /* half a step early would be 0.01 m */
+        assert_true(worst < 1e-4); /* a start half a step early would give 0.01 m */
         sb_sim_destroy(sim);
         t.scene.box_count = 0;
         tank_free(&t);
@@ -207,14 +206,14 @@ static void no_water_is_fine(void **state)
         t.scene.numerics.settle_steps = 3;
         t.model.fluid_count = 0;
         check_empty(&t.scene, &t.model);
-        sb_model bare = {.max = t.model.max}; /* nor walls, nor bodies */
+        sb_model bare = {.max = t.model.max}; /* no walls and no bodies either */
         check_empty(&t.scene, &bare);
         tank_free(&t);
     }
     sb_sim_destroy(NULL);
 }
 
-/* The step that fails leaves the state of the last good one, to be looked at and written. */
+/* A step that fails leaves the readable state of the step before. */
 static void check_divergence(double speed, double pressure, const char *why)
 {
     tank t;
@@ -260,16 +259,17 @@ static void check_divergence(double speed, double pressure, const char *why)
     tank_free(&t);
 }
 
-static void divergence_is_told_and_leaves_the_state(void **state)
+static void divergence_is_reported_and_keeps_the_state(void **state)
 {
     (void)state;
     check_divergence(1e5, 0, "too fast");
     check_divergence((double)NAN, 0, "not a number");
-    check_divergence(1e5, 1, "too fast, packing's stress taken away");
-    check_divergence(0, 1e12, "thrown by what takes the packing's stress away");
+    check_divergence(1e5, 1, "too fast, with stress correction");
+    check_divergence(0, 1e12, "too fast by the stress correction");
 }
 
-/* Far more viscosity than an explicit step of the usual length bears: the step gets shorter, and energy only falls. */
+/* With a viscosity for which an explicit step of the usual length is unstable, the step is shorter and energy only
+   decreases. */
 static void much_viscosity_shortens_the_step(void **state)
 {
     (void)state;
@@ -279,7 +279,7 @@ static void much_viscosity_shortens_the_step(void **state)
         tank_make(&t, 2, 0.1, sb_vec(2, 0, 1.5), 0.8, 1, 0.02);
         if (strong == 1) t.scene.numerics.artificial_viscosity = 10;
         if (strong == 2) t.scene.fluid.viscosity = 1;
-        t.scene.numerics.settle_steps = 60; /* a lattice as it is bursts the more, the shorter its first step */
+        t.scene.numerics.settle_steps = 60; /* an unsettled lattice expands the faster, the shorter its first step */
         sb_sim *sim = make(&t);
         sb_error error = {0};
         assert_int_equal(sb_sim_settle(sim, &error), SB_OK);
@@ -322,7 +322,7 @@ static void bad_parts_are_refused(void **state)
     sb_wavemaker_parameters law = {.kind = sb_wavemaker_find("stroke"), .stroke = -1, .speed = 1};
     tank t;
     tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0);
-    tank_add_sheet(&t, "paddle", -0.05, 0, 1, sb_vec(1, 0, 0), &law);
+    tank_add_plate(&t, "paddle", -0.05, 0, 1, sb_vec(1, 0, 0), &law);
     sb_error error = {0};
     sb_sim *sim = NULL;
     assert_int_equal(sb_sim_create(&t.scene, &t.model, &sim, &error), SB_BAD_INPUT);
@@ -335,8 +335,8 @@ static void bad_parts_are_refused(void **state)
     tank_free(&t);
 }
 
-/* Creation and two steps with the n-th allocation failing. Whether that allocation was reached. */
-static bool lacks_memory(const tank *t, long n)
+/* Creation and two steps in which the n-th allocation fails. Returns whether there was such an allocation. */
+static bool allocation_fails(const tank *t, long n)
 {
     sb_error error = {0};
     sb_sim *sim = NULL;
@@ -349,7 +349,7 @@ static bool lacks_memory(const tank *t, long n)
         assert_int_equal(status, SB_FAILED);
         if (!strstr(error.text, "out of memory")) fail_msg("allocation %ld: %s", n, error.text);
     }
-    if (sim) { /* readable all the same */
+    if (sim) { /* still readable */
         check_finite(sim);
         assert_true(sb_sim_energy(sim).mass > 0);
         sb_sim_query(sim, t->model.min, t->model.max, NULL, 0);
@@ -360,19 +360,19 @@ static bool lacks_memory(const tank *t, long n)
     return status != SB_OK;
 }
 
-static void every_lack_of_memory_is_survived(void **state)
+static void every_failed_allocation_is_survived(void **state)
 {
     (void)state;
     const sb_wavemaker_parameters law = {.kind = sb_wavemaker_find("gate"), .stroke = 2, .speed = 3, .gravity = 9.81};
     tank t;
     tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0.1);
-    tank_add_sheet(&t, "gate", 0.55, 0, 1, sb_vec(0, 0, 1), &law);
+    tank_add_plate(&t, "gate", 0.55, 0, 1, sb_vec(0, 0, 1), &law);
     t.scene.numerics.solver = SB_SOLVER_CG;
     int before = omp_get_max_threads();
     for (int threads = 1; threads <= 2; threads++) {
         omp_set_num_threads(threads);
         long n = 1;
-        while (lacks_memory(&t, n)) n++;
+        while (allocation_fails(&t, n)) n++;
         printf("%d threads: %ld allocations failed one by one\n", threads, n - 1);
         assert_true(n > 80);
     }
@@ -380,7 +380,7 @@ static void every_lack_of_memory_is_survived(void **state)
     tank_free(&t);
 }
 
-/* A gate drawn up and out of the domain holds the water until then, and is gone after. */
+/* A gate that is pulled up out of the domain holds the water until it moves, and then has no effect. */
 static void a_gate_leaves_the_domain(void **state)
 {
     (void)state;
@@ -388,7 +388,7 @@ static void a_gate_leaves_the_domain(void **state)
         .kind = sb_wavemaker_find("gate"), .start = 0.1, .stroke = 1000, .speed = 8, .gravity = 9.81};
     tank t;
     tank_make(&t, 2, 0.05, sb_vec(2, 0, 1), 0.5, 0.6, 0.01);
-    size_t gate = tank_add_sheet(&t, "gate", 0.525, 0, 1, sb_vec(0, 0, 1), &law);
+    size_t gate = tank_add_plate(&t, "gate", 0.525, 0, 1, sb_vec(0, 0, 1), &law);
     sb_sim *sim = make(&t);
     double front = 0;
     while (sb_sim_report(sim)->time < 0.1) assert_int_equal(tank_steps(sim, 1), 0);
@@ -410,7 +410,7 @@ static void a_gate_leaves_the_domain(void **state)
     assert_near(sb_sim_body_displacement(sim, gate).z, 8 * (sb_sim_report(sim)->time - 0.1), 1e-9);
     front = 0;
     for (size_t i = 0; i < sim->n; i++) front = fmax(front, sb_sim_particle(sim, i).position.x);
-    printf("the front has come to x = %.2f m at %.2f s\n", front, sb_sim_report(sim)->time);
+    printf("the front is at x = %.2f m at %.2f s\n", front, sb_sim_report(sim)->time);
     assert_true(front > 1.2);
     assert_int_equal(sb_sim_report(sim)->lost, 0);
     sb_sim_destroy(sim);
@@ -426,11 +426,11 @@ int main(void)
         cmocka_unit_test(a_start_forgotten_is_one_at_rest),
         cmocka_unit_test(a_block_from_rest_starts_on_time),
         cmocka_unit_test(no_water_is_fine),
-        cmocka_unit_test(divergence_is_told_and_leaves_the_state),
+        cmocka_unit_test(divergence_is_reported_and_keeps_the_state),
         cmocka_unit_test(much_viscosity_shortens_the_step),
         cmocka_unit_test(a_step_that_moves_nothing_is_refused),
         cmocka_unit_test(bad_parts_are_refused),
-        cmocka_unit_test(every_lack_of_memory_is_survived),
+        cmocka_unit_test(every_failed_allocation_is_survived),
         cmocka_unit_test(a_gate_leaves_the_domain),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

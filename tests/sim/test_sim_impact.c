@@ -1,4 +1,4 @@
-/* Spray against walls: it stays in, and comes back slower than it came. */
+/* Spray that hits walls: it does not pass them, and it loses energy. */
 #include "../check.h"
 #include "sim/pressure.h"
 #include "sim/tank.h"
@@ -12,8 +12,8 @@ static sb_sim *make(const tank *t)
     return sim;
 }
 
-/* A lone drop is too light to build up pressure: contact alone keeps it in, whatever its speed, and
-   the wall takes up what it loses. */
+/* A single drop is too light to build up pressure. Contact resolution alone stops it, at any speed, and the wall
+   receives the momentum that it loses. */
 static void check_drop(sb_solver solver, sb_vec3 velocity)
 {
     tank t;
@@ -57,8 +57,8 @@ static double energy_from(const sb_sim *sim, uint32_t first)
     return sum;
 }
 
-/* side^3 particles fly at a wall while a calm pool, far from them, makes the mean error of the
-   water small: each drop must be solved all the same. */
+/* side^3 particles fly at a wall, while a calm pool far from them makes the mean error of the water small. The pressure
+   of each drop must be correct nevertheless. */
 static void check_lump(sb_solver solver, size_t side)
 {
     tank t;

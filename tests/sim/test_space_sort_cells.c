@@ -1,4 +1,4 @@
-/* Positions as integers, their order along the Z-curve, and the table of used cells. */
+/* Integer positions, their order along the Z-curve, and the table of used cells. */
 #include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
@@ -60,13 +60,13 @@ static void differences_are_exact_within_three_cells(void **state)
     (void)state;
     sb_space space = make_space(sb_vec(0, 0, 0), sb_vec(10, 10, 10), 0.5);
     assert_int_equal(space.shift, 22);
-    const double reach = 3.0 * (1 << 22);
+    const double range = 3.0 * (1 << 22);
     sb_record from = sb_space_record(&space, sb_vec(5, 5, 5));
     for (uint64_t i = 0; i < CLOUD; i++) {
         sb_record to = from;
         int64_t step[3];
         for (uint64_t axis = 0; axis < 3; axis++) {
-            step[axis] = (int64_t)((2 * sb_random(2, 3 * i + axis) - 1) * reach);
+            step[axis] = (int64_t)((2 * sb_random(2, 3 * i + axis) - 1) * range);
             to[axis] = (uint32_t)((int64_t)from[axis] + step[axis]);
         }
         sb_f4 d = sb_offset(to, from);
@@ -91,7 +91,7 @@ static void a_thousand_kilometres_change_no_integer(void **state)
     }
 }
 
-/* The same dam break beside the origin and far from it, after some steps. */
+/* The same dam break near the origin and far from it, after some steps. */
 static void a_run_far_away_is_the_same_run(void **state)
 {
     (void)state;
@@ -126,13 +126,13 @@ static void a_domain_beyond_the_integers_is_refused(void **state)
     (void)state;
     sb_error error = {0};
     sb_space space;
-    /* Along one axis; and by the number of its cells, where each axis alone would do. */
+    /* Too long along one axis; and too many cells, although each axis alone is within the limit. */
     assert_int_equal(sb_space_create(sb_vec(0, 0, 0), sb_vec(1e6, 1, 1), 1, &space, &error), SB_BAD_INPUT);
     assert_non_null(strstr(error.text, "expected fewer"));
     error = (sb_error){0};
     assert_int_equal(sb_space_create(sb_vec(0, 0, 0), sb_vec(1e5, 1e5, 1e5), 1, &space, &error), SB_BAD_INPUT);
     assert_non_null(strstr(error.text, "expected"));
-    /* The widest that is taken leaves room for 2^27 particles in a sort word of 64 bits. */
+    /* The largest permitted domain leaves room for 2^27 particles in a sort word of 64 bits. */
     space = make_space(sb_vec(0, 0, 0), sb_vec(1.2e5, 0, 1e5), 1);
     assert_int_equal(space.key_bits, 64 - 27);
 }
@@ -158,7 +158,7 @@ static void check_sort(size_t count, int low, int high, int threads)
     assert_true(words && other && expected);
     uint64_t mask = high == 64 ? UINT64_MAX : ((uint64_t)1 << high) - 1;
     for (size_t i = 0; i < count; i++) {
-        /* Few different keys, so that stability shows. */
+        /* Few different keys, so that stability is tested. */
         words[i] = sb_hash_mix(i + 1) & ~((uint64_t)0x1ffff0 << low);
         expected[i] = (ranked){(words[i] & mask) >> low, words[i], i};
     }
@@ -200,7 +200,7 @@ typedef struct cloud {
     size_t count;
 } cloud;
 
-/* A sorted cloud that leaves many cells empty: it lies on two sheets and in a clump. */
+/* A sorted cloud that leaves many cells empty: it lies on two planes and in a cluster. */
 static cloud make_cloud(sb_vec3 min, sb_vec3 max, double cell)
 {
     cloud c = {.space = make_space(min, max, cell), .count = CLOUD};
@@ -250,7 +250,7 @@ static void all_used_cells_are_found_and_no_other(void **state)
     sb_cells cells = {0};
     assert_int_equal(sb_cells_build(&cells, c.record, c.count, c.space.shift), 0);
     check_cells(&c, &cells);
-    /* Every place of the grid, by a table of its own. */
+    /* Compares every cell of the grid with a separate table. */
     static bool used[64][64][64];
     memset(used, 0, sizeof used);
     size_t distinct = 0, found = 0;
@@ -270,7 +270,7 @@ static void all_used_cells_are_found_and_no_other(void **state)
             }
     assert_int_equal(found, distinct);
     assert_true(distinct < 25 * 16 * 9 * 9 / 10);
-    /* Fewer cells in the same tables, none, and no memory for the first. */
+    /* Fewer cells in the same tables, no cells, and failing allocations. */
     assert_int_equal(sb_cells_build(&cells, c.record, 7, c.space.shift), 0);
     assert_int_equal(cells.begin[cells.count], 7);
     assert_int_equal(sb_cells_build(&cells, c.record, 0, c.space.shift), 0);
@@ -287,7 +287,7 @@ static void all_used_cells_are_found_and_no_other(void **state)
     sb_free(c.record);
 }
 
-/* 3 km by 3 km by 10 m at h = 0.1 m: memory must follow the cells used. */
+/* 3 km by 3 km by 10 m at h = 0.1 m: memory must be proportional to the number of used cells. */
 static void a_vast_domain_costs_only_its_used_cells(void **state)
 {
     (void)state;
@@ -302,7 +302,7 @@ static void a_vast_domain_costs_only_its_used_cells(void **state)
     sb_free(c.record);
 }
 
-/* The key is one to one on the grid, and its eights are cubes of 2 x 2 x 2 cells. */
+/* Keys are unique on the grid, and eight successive keys are a cube of 2 x 2 x 2 cells. */
 static void keys_follow_the_z_curve(void **state)
 {
     (void)state;

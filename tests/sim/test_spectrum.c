@@ -1,5 +1,5 @@
-/* The Chebyshev solver's polynomial is made for eigenvalues up to 1.3 times a full lattice's largest: settled water
-   beside walls must stay below that, whatever the kernel and its reach. */
+/* The Chebyshev solver assumes eigenvalues up to 1.3 times the largest of a full lattice. Settled water beside walls
+   must stay below that for every kernel and support radius. */
 #include "../check.h"
 #include "base/memory.h"
 #include "sim/pressure.h"
@@ -69,8 +69,8 @@ static void wider_kernels(void **state)
     check(2, "wendland-c2", 3);
 }
 
-/* With the factor 0.5 that does for two spacings, sweeps would add to the error here. */
-static void jacobi_follows_the_reach(void **state)
+/* With the factor 0.5, which is stable for a support of two spacings, sweeps would add to the error here. */
+static void jacobi_factor_follows_the_support(void **state)
 {
     (void)state;
     tank t;
@@ -97,7 +97,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(narrow_kernels),
         cmocka_unit_test(wider_kernels),
-        cmocka_unit_test(jacobi_follows_the_reach),
+        cmocka_unit_test(jacobi_factor_follows_the_support),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* Water at rest stays at rest, weighs what it weighs, and stands where it stood. */
+/* Water at rest stays at rest, exerts its weight, and keeps its level. */
 #include "../check.h"
 #include "sim/pressure.h"
 #include "sim/tank.h"
@@ -61,10 +61,10 @@ static void add(rest *sum, const rest *r, double share)
     for (int q = 0; q < QUARTERS; q++) sum->kinetic[q] += share * r->kinetic[q];
 }
 
-/* The patch is the middle of the floor, half as wide as the tank along each axis. Conjugate
-   gradients need a tighter tolerance: at the others' their errors change sign from step to step,
-   and the water is never still; they are judged by the mean of three starts, for the kinetic energy
-   of one wanders by a fifth from quarter to quarter. */
+/* The patch is the middle of the floor, half as wide as the tank along each axis. Conjugate gradients need a smaller
+   tolerance: with that of the other solvers their errors change sign from step to step, and the water does not come to
+   rest. They are judged by the mean of three starts, because the kinetic energy of a single one varies by a fifth from
+   quarter to quarter. */
 static void check(int dimensions, double spacing, sb_vec3 size, double depth, sb_solver solver)
 {
     const bool flat = dimensions == 2;

@@ -1,5 +1,5 @@
-/* The packing's stress taken away: against the reference, nothing on a lattice, what of it is exact, and that it is not
-   there when off. */
+/* The deviatoric stress correction: compared with a direct evaluation, zero on a lattice, conservation of momentum,
+   effect on a stretched lattice, and no cost when off. */
 #include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
@@ -11,11 +11,11 @@
 #include <stdio.h>
 #include <string.h>
 
-/* s; at 1 a factor of it forgotten would not be seen. */
+/* s; not 1, so that a missing factor dt fails the test. */
 static const double STEP = 0.5;
 
-/* Water under pressures at random, prepared for a step. */
-static sb_sim *pressed(tank *t)
+/* Water with random pressures, prepared for a step. */
+static sb_sim *prepare_with_pressures(tank *t)
 {
     t->scene.numerics.stress_correction = 0.75;
     sb_sim *sim = tank_sim(t);
@@ -27,10 +27,10 @@ static sb_sim *pressed(tank *t)
 
 typedef double tensor[3][3];
 
-/* E_i of src/sim/stress_correction.c, by its words. */
-static void strain(const twin *seen, size_t i, tensor s)
+/* E_i by its definition in src/sim/stress_correction.c. */
+static void strain(const twin *copy, size_t i, tensor s)
 {
-    const sb_reference *r = &seen->reference;
+    const sb_reference *r = &copy->reference;
     const int d = r->cloud.dimension;
     tensor m = {{0}};
     memset(s, 0, sizeof(tensor));
@@ -48,10 +48,10 @@ static void strain(const twin *seen, size_t i, tensor s)
             s[row][column] = 0.75 * ((row == column && (d == 3 || row != 1)) - m[row][column] / mean);
 }
 
-/* S_i: q times the mean with the gradients' slopes as weights, 2^15 - 1 squared units for the own. */
-static void stress(const sb_sim *sim, const twin *seen, const tensor *e, size_t i, tensor s)
+/* S_i: q times the mean of E, weighted by the slopes of the gradients; the own weight is 2^15 - 1 squared units. */
+static void stress(const sb_sim *sim, const twin *copy, const tensor *e, size_t i, tensor s)
 {
-    const sb_reference *r = &seen->reference;
+    const sb_reference *r = &copy->reference;
     const double unit = (double)sim->pairs.unit / sim->space.quantum / r->mass, own = 32767.0 * 32767.0;
     const double q = (double)sim->velocity[i][3] / pow((double)sim->density[i], 2);
     double weights = own;
@@ -72,26 +72,26 @@ static void a_random_cloud_is_the_reference(void **state)
     for (int form = 0; form < 4; form++) {
         const int dimensions = form % 2 ? 3 : 2;
         tank t;
-        twin seen;
+        twin copy;
         const sb_vec3 size = dimensions == 2 ? sb_vec(3, 0, 2) : sb_vec(1.2, 1.2, 1);
         tank_make(&t, dimensions, 0.1, size, size.x, 0.9 * size.z, 0);
         if (form > 1) tank_repeat(&t, 0);
         tank_scatter(&t, 5, 1);
-        sb_sim *sim = pressed(&t);
-        assert_int_equal(twin_make(sim, &seen), 0);
+        sb_sim *sim = prepare_with_pressures(&t);
+        assert_int_equal(twin_make(sim, &copy), 0);
         tensor *e = sb_alloc(sim->n, sizeof *e), *s = sb_alloc(sim->n, sizeof *s);
         assert_non_null(e);
         assert_non_null(s);
         size_t strained = 0;
         for (size_t i = 0; i < sim->n; i++) {
-            strain(&seen, i, e[i]);
+            strain(&copy, i, e[i]);
             strained += e[i][0][0] != 0;
         }
-        for (size_t i = 0; i < sim->n; i++) stress(sim, &seen, (const tensor *)e, i, s[i]);
+        for (size_t i = 0; i < sim->n; i++) stress(sim, &copy, (const tensor *)e, i, s[i]);
         sb_error error = {0};
         assert_int_equal(sb_stage_stress_correction(sim, &error), SB_OK);
         twin_gap gap = {0};
-        const sb_reference *r = &seen.reference;
+        const sb_reference *r = &copy.reference;
         for (size_t i = 0; i < sim->n; i++) {
             double a[3] = {0};
             for (size_t k = r->fluid_start[i]; k < r->fluid_start[i + 1]; k++) {
@@ -102,7 +102,7 @@ static void a_random_cloud_is_the_reference(void **state)
                               ((s[i][row][0] + s[j][row][0]) * g.x + (s[i][row][1] + s[j][row][1]) * g.y +
                                (s[i][row][2] + s[j][row][2]) * g.z);
             }
-            const sb_vec3 before = seen.velocity[i];
+            const sb_vec3 before = copy.velocity[i];
             twin_compare(&gap, i, (double)sim->velocity[i][0] - before.x, a[0]);
             twin_compare(&gap, i, (double)sim->velocity[i][1] - before.y, a[1]);
             twin_compare(&gap, i, (double)sim->velocity[i][2] - before.z, a[2]);
@@ -112,13 +112,13 @@ static void a_random_cloud_is_the_reference(void **state)
         assert_true(strained > 30 && gap.scale > 0.5 && twin_relative(&gap) < 1e-5);
         sb_free(e);
         sb_free(s);
-        twin_free(&seen);
+        twin_free(&copy);
         sb_sim_destroy(sim);
         tank_free(&t);
     }
 }
 
-/* Momentum is what it was, the ledger has the change of kinetic energy, and pressures stay. */
+/* Momentum is conserved, the ledger has the change of kinetic energy, and pressures do not change. */
 static void momentum_and_ledger(void **state)
 {
     (void)state;
@@ -126,7 +126,7 @@ static void momentum_and_ledger(void **state)
         tank t;
         tank_make(&t, dimensions, 0.1, sb_vec(2, 1.2, 2), 2, 2, 0.2);
         tank_scatter(&t, 9, 2);
-        sb_sim *sim = pressed(&t);
+        sb_sim *sim = prepare_with_pressures(&t);
         sb_error error = {0};
         const double before = sb_sim_energy(sim).kinetic;
         assert_int_equal(sb_stage_stress_correction(sim, &error), SB_OK);
@@ -151,8 +151,8 @@ static void momentum_and_ledger(void **state)
     }
 }
 
-/* A lattice pushes alike in all directions; stretched along z and pressed together along x it does not. */
-static void only_unlike_directions_count(void **state)
+/* A lattice has no deviatoric stress; one that is stretched along z and compressed along x has. */
+static void only_a_strained_lattice_is_corrected(void **state)
 {
     (void)state;
     for (int dimensions = 2; dimensions <= 3; dimensions++)
@@ -165,7 +165,7 @@ static void only_unlike_directions_count(void **state)
                 at->x = middle + (at->x - middle) / stretch;
                 at->z = middle + (at->z - middle) * stretch;
             }
-            sb_sim *sim = pressed(&t);
+            sb_sim *sim = prepare_with_pressures(&t);
             sb_error error = {0};
             assert_int_equal(sb_stage_stress_correction(sim, &error), SB_OK);
             double most = 0;
@@ -177,9 +177,9 @@ static void only_unlike_directions_count(void **state)
         }
 }
 
-/* Of the acceleration by a pressure that rises evenly along x or z, the part along it, at the particle nearest the
-   middle; corrected: with the stage's share. */
-static double pushed_along(const tank *t, int axis, bool corrected)
+/* Acceleration by a pressure that increases linearly along x or z, at the particle nearest to the middle, component
+   along that axis. corrected: with the acceleration of the stress correction. */
+static double acceleration_along(const tank *t, int axis, bool corrected)
 {
     sb_sim *sim = tank_sim(t);
     sb_error error = {0};
@@ -207,9 +207,9 @@ static double pushed_along(const tank *t, int axis, bool corrected)
     return all;
 }
 
-/* A stretched lattice pushes unlike along its axes under the same slope of pressure; corrected, alike to second order.
- */
-static void a_stretched_lattice_pushes_alike(void **state)
+/* Under equal pressure gradients a stretched lattice is accelerated differently along its axes. With the correction the
+   accelerations are equal to second order. */
+static void a_stretched_lattice_is_isotropic(void **state)
 {
     (void)state;
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
@@ -221,15 +221,15 @@ static void a_stretched_lattice_pushes_alike(void **state)
             at->z = 1 + (at->z - 1) * 1.08;
         }
         t.scene.numerics.stress_correction = 1;
-        const double off = pushed_along(&t, 0, false) / pushed_along(&t, 2, false) - 1;
-        const double left = pushed_along(&t, 0, true) / pushed_along(&t, 2, true) - 1;
+        const double off = acceleration_along(&t, 0, false) / acceleration_along(&t, 2, false) - 1;
+        const double left = acceleration_along(&t, 0, true) / acceleration_along(&t, 2, true) - 1;
         printf("%dD: along x over along z %+.2g off, corrected %+.2g\n", dimensions, off, left);
         assert_true(fabs(off) > 0.02 && fabs(left) < 2 * off * off);
         tank_free(&t);
     }
 }
 
-static void off_it_is_not_there(void **state)
+static void it_costs_nothing_when_off(void **state)
 {
     (void)state;
     for (int on = 0; on < 2; on++) {
@@ -239,7 +239,7 @@ static void off_it_is_not_there(void **state)
         sb_sim *sim = tank_sim(&t);
         assert_non_null(sim);
         assert_int_equal(tank_steps(sim, 2), 0);
-        assert_true(tank_has_stage(sim, "packing") == on && tank_says(sim, "packing's stress") == !on);
+        assert_true(tank_has_stage(sim, "packing") == on && tank_skips(sim, "stress correction") == !on);
         assert_true(on || sb_sim_ledger(sim)->stress == 0);
         sb_sim_destroy(sim);
         tank_free(&t);
@@ -251,9 +251,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_random_cloud_is_the_reference),
         cmocka_unit_test(momentum_and_ledger),
-        cmocka_unit_test(only_unlike_directions_count),
-        cmocka_unit_test(a_stretched_lattice_pushes_alike),
-        cmocka_unit_test(off_it_is_not_there),
+        cmocka_unit_test(only_a_strained_lattice_is_corrected),
+        cmocka_unit_test(a_stretched_lattice_is_isotropic),
+        cmocka_unit_test(it_costs_nothing_when_off),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -59,14 +59,14 @@ static void a_paddle(void **state)
     tank t;
     tank_make(&t, 3, 1.0 / 12, sb_vec(2, 1, 1), 2, 0.75, 0.1);
     t.scene.numerics.solver = SB_SOLVER_CG;
-    tank_add_sheet(&t, "paddle", -1.0 / 24, 0, 0.8, sb_vec(1, 0, 0), &law);
+    tank_add_plate(&t, "paddle", -1.0 / 24, 0, 0.8, sb_vec(1, 0, 0), &law);
     tank_add_terms(&t);
     check(&t, "paddle");
     tank_free(&t);
 }
 
-/* The hash sees a change of one bit of anything that a run carries on. */
-static void the_hash_sees_all(void **state)
+/* The hash depends on every bit of the state. */
+static void the_hash_covers_the_state(void **state)
 {
     (void)state;
     tank t;
@@ -103,7 +103,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_dam_break),
         cmocka_unit_test(a_paddle),
-        cmocka_unit_test(the_hash_sees_all),
+        cmocka_unit_test(the_hash_covers_the_state),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* Eddy viscosity of the sub-particle-scale model: against the reference, on linear fields, at
-   walls, what its stress does, and that it is not there when off. */
+/* Eddy viscosity of the sub-particle-scale model: compared with the reference, on linear fields, at walls; the effect
+   of its stress; and no cost when off. */
 #include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
@@ -29,8 +29,8 @@ static sb_sim *prepared(const tank *t)
     return sim;
 }
 
-/* Water scattered at random, thick and thin, beside walls of which one moves: viscosities and
-   stresses. The step of 1 s leaves the accelerations, not the velocities, in the floats' digits. */
+/* Water scattered at random beside walls, one of which moves: viscosities and stresses. The step is 1 s, so that the
+   floats resolve the accelerations and not only the velocities. */
 static void a_random_cloud_is_the_reference(void **state)
 {
     (void)state;
@@ -38,30 +38,30 @@ static void a_random_cloud_is_the_reference(void **state)
         .kind = sb_wavemaker_find("stroke"), .stroke = 0.5, .speed = 0.9, .gravity = 9.81};
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
         tank t;
-        twin seen;
+        twin copy;
         sb_vec3 size = dimensions == 2 ? sb_vec(2, 0, 2) : sb_vec(1.2, 0.8, 0.8);
         tank_make(&t, dimensions, 0.1, size, size.x, 0.5 * size.z, 0);
         tank_scatter(&t, 5, 1);
-        tank_add_sheet(&t, "paddle", 0.5, 0, 0.6, sb_vec(1, 0, 0), &law);
+        tank_add_plate(&t, "paddle", 0.5, 0, 0.6, sb_vec(1, 0, 0), &law);
         turn_on(&t);
-        t.scene.numerics.smagorinsky = 0.5; /* so that walls limit many */
+        t.scene.numerics.smagorinsky = 0.5; /* so that walls limit many lengths */
         sb_sim *sim = prepared(&t);
-        assert_int_equal(twin_make(sim, &seen), 0);
+        assert_int_equal(twin_make(sim, &copy), 0);
         double *rho = sb_alloc(sim->n, sizeof *rho), *eddy = sb_alloc(sim->n, sizeof *eddy);
         sb_vec3 *expected = sb_alloc(sim->n, sizeof *expected);
         assert_true(rho && eddy && expected);
-        sb_reference_density(&seen.reference, rho);
-        sb_reference_eddy(&seen.reference, rho, 0.5, 0.05, 0.1, eddy);
-        sb_reference_unswitched(&seen.reference, rho, 0, eddy, expected);
+        sb_reference_density(&copy.reference, rho);
+        sb_reference_eddy(&copy.reference, rho, 0.5, 0.05, 0.1, eddy);
+        sb_reference_unswitched(&copy.reference, rho, 0, eddy, expected);
         twin_gap gap = {0}, stress = {0};
         for (size_t i = 0; i < sim->n; i++) twin_compare(&gap, i, (double)sim->eddy[i], eddy[i]);
         sb_error error = {0};
         assert_int_equal(sb_stage_forces(sim, &error), SB_OK);
         for (size_t i = 0; i < sim->n; i++) {
             sb_f4 v = sim->velocity[i];
-            twin_compare(&stress, i, (double)v[0] - seen.velocity[i].x, expected[i].x);
-            twin_compare(&stress, i, (double)v[1] - seen.velocity[i].y, expected[i].y);
-            twin_compare(&stress, i, (double)v[2] - seen.velocity[i].z, expected[i].z);
+            twin_compare(&stress, i, (double)v[0] - copy.velocity[i].x, expected[i].x);
+            twin_compare(&stress, i, (double)v[1] - copy.velocity[i].y, expected[i].y);
+            twin_compare(&stress, i, (double)v[2] - copy.velocity[i].z, expected[i].z);
         }
         printf("%dD, %zu particles: viscosity %.2g of %.3g m^2/s, stress %.2g of %.3g m/s^2\n", dimensions, sim->n,
                twin_relative(&gap), gap.scale, twin_relative(&stress), stress.scale);
@@ -70,7 +70,7 @@ static void a_random_cloud_is_the_reference(void **state)
         sb_free(rho);
         sb_free(eddy);
         sb_free(expected);
-        twin_free(&seen);
+        twin_free(&copy);
         sb_sim_destroy(sim);
         tank_free(&t);
     }
@@ -89,8 +89,8 @@ static void stir(tank *t, double g[3][3])
     }
 }
 
-/* Shear, strain and turning: nu_t = (C_s dr)^2 |S| everywhere, in corners and at the surface, on a
-   jittered lattice; none for water that turns as a whole. */
+/* Shear, strain and rotation: nu_t = (C_s dr)^2 |S| everywhere on a jittered lattice, also in corners and at the
+   surface, and nu_t = 0 for rigid rotation. */
 static void linear_flows_are_exact(void **state)
 {
     (void)state;
@@ -120,13 +120,13 @@ static void linear_flows_are_exact(void **state)
         }
 }
 
-/* One particle of a sheared tank brought nearer and nearer to the floor: (kappa d)^2 |S| there. */
-static void walls_damp_it(void **state)
+/* One particle of a sheared tank at decreasing distances d from the floor: nu_t = (kappa d)^2 |S|. */
+static void walls_reduce_it(void **state)
 {
     (void)state;
     const double dr = 0.1, shear = 3;
     double last = 1;
-    for (double d = 0.05; d >= 0; d -= 0.005) { /* from the wall; its sheet lies dr/2 behind */
+    for (double d = 0.05; d >= 0; d -= 0.005) { /* from the wall, dr/2 in front of the boundary surface */
         tank t;
         tank_make(&t, 3, dr, sb_vec(1, 0.8, 1), 1, 0.8, 0);
         turn_on(&t);
@@ -154,9 +154,9 @@ static void walls_damp_it(void **state)
     assert_true(last < 1e-9 * shear);
 }
 
-/* In u = c z^2 the shear is 2 c z and nu_t is (C_s dr)^2 2 |c z|: the stress (C_s dr)^2 (2 c z)^2
-   drives (C_s dr)^2 8 c^2 z, but for the share that a support of two spacings misses, as the
-   water's own viscosity does (docs/method.md, section 6). */
+/* In u = c z^2 the shear is 2 c z and nu_t is (C_s dr)^2 2 |c z|. The stress (C_s dr)^2 (2 c z)^2 gives the
+   acceleration (C_s dr)^2 8 c^2 z, times the fraction for a support of two spacings, which physical viscosity has, too
+   (docs/method.md, section 6). */
 static void shear_decays_as_documented(void **state)
 {
     (void)state;
@@ -172,22 +172,22 @@ static void shear_decays_as_documented(void **state)
         sb_error error = {0};
         assert_int_equal(sb_stage_forces(sim, &error), SB_OK);
         sb_vec3 half = sb_vec(0.55, dimensions == 2 ? 0 : 0.55, 1.05);
-        size_t seen = 0;
+        size_t count = 0;
         for (size_t i = 0; i < sim->n; i++) {
             sb_fluid_sample p = sb_sim_particle(sim, i);
             if (sb_norm(sb_sub(p.position, half)) > 0.12) continue;
             double z = p.position.z;
             assert_near((p.velocity.x - c * z * z) / (1e-4 * 8 * c * c * z), share, 0.01);
-            seen++;
+            count++;
         }
-        assert_true(seen >= 5);
+        assert_true(count >= 5);
         sb_sim_destroy(sim);
         tank_free(&t);
     }
 }
 
-/* Stress moves momentum and spin about, makes none, and takes energy. */
-static void stress_keeps_momentum_and_takes_energy(void **state)
+/* The stress conserves momentum and angular momentum, and removes energy. */
+static void stress_conserves_momentum_and_removes_energy(void **state)
 {
     (void)state;
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
@@ -218,7 +218,7 @@ static void stress_keeps_momentum_and_takes_energy(void **state)
     }
 }
 
-static void off_it_is_not_there(void **state)
+static void it_costs_nothing_when_off(void **state)
 {
     (void)state;
     size_t bytes[2];
@@ -232,8 +232,8 @@ static void off_it_is_not_there(void **state)
         assert_int_equal(tank_steps(sim, 2), 0);
         assert_true((sim->eddy != NULL) == on && tank_has_stage(sim, "turbulence") == on);
         assert_true(tank_has_stage(sim, "forces") && tank_has_stage(sim, "move"));
-        assert_true(tank_says(sim, "turbulence") == !on);
-        assert_false(tank_says(sim, "viscosity: both"));
+        assert_true(tank_skips(sim, "turbulence") == !on);
+        assert_false(tank_skips(sim, "viscosity: both"));
         if (on) assert_true(bytes[1] == bytes[0] + 4 * t.model.fluid_count);
         sb_sim_destroy(sim);
         tank_free(&t);
@@ -245,10 +245,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_random_cloud_is_the_reference),
         cmocka_unit_test(linear_flows_are_exact),
-        cmocka_unit_test(walls_damp_it),
+        cmocka_unit_test(walls_reduce_it),
         cmocka_unit_test(shear_decays_as_documented),
-        cmocka_unit_test(stress_keeps_momentum_and_takes_energy),
-        cmocka_unit_test(off_it_is_not_there),
+        cmocka_unit_test(stress_conserves_momentum_and_removes_energy),
+        cmocka_unit_test(it_costs_nothing_when_off),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

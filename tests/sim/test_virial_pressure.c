@@ -1,5 +1,4 @@
-/* The pressures told to the world: against the reference, in water at rest, and that the state does not know of them.
- */
+/* The virial pressure: compared with a direct evaluation, in water at rest, and without effect on the state. */
 #include "../check.h"
 #include "base/random.h"
 #include "sim/tank.h"
@@ -7,28 +6,28 @@
 
 #include <stdio.h>
 
-/* The virial by its words: half of each pair's to the particle, walls' pairs alike. */
-static double virial(const sb_sim *sim, const twin *seen, size_t i)
+/* The virial pressure by its definition (docs/method.md, M17a). */
+static double virial(const sb_sim *sim, const twin *copy, size_t i)
 {
-    const sb_reference *r = &seen->reference;
+    const sb_reference *r = &copy->reference;
     const double q = (double)sim->unknown[i];
     double sum = 0;
     for (size_t k = r->fluid_start[i]; k < r->fluid_start[i + 1]; k++)
         sum +=
             r->mass * (q + (double)sim->unknown[r->fluid[k].other]) * sb_dot(r->fluid[k].offset, r->fluid[k].gradient);
     for (size_t k = r->wall_start[i]; k < r->wall_start[i + 1]; k++)
-        sum += q * seen->psi[r->wall[k].other] * sb_dot(r->wall[k].offset, r->wall[k].gradient);
+        sum += q * copy->psi[r->wall[k].other] * sb_dot(r->wall[k].offset, r->wall[k].gradient);
     return -0.5 * r->cloud.rest_density * sum / r->cloud.dimension;
 }
 
-/* Scattered water beside walls, and across periodic sides, which has moved since the lists were made. */
+/* Scattered water beside walls and across periodic sides that has moved since the lists were made. */
 static void a_random_cloud_is_the_reference(void **state)
 {
     (void)state;
     for (int form = 0; form < 4; form++) {
         const int dimensions = form % 2 ? 3 : 2;
         tank t;
-        twin seen;
+        twin copy;
         twin_gap gap = {0};
         const sb_vec3 size = dimensions == 2 ? sb_vec(3, 0, 2) : sb_vec(1.2, 1.2, 1);
         tank_make(&t, dimensions, 0.1, size, size.x, 0.9 * size.z, 0);
@@ -38,7 +37,7 @@ static void a_random_cloud_is_the_reference(void **state)
         assert_non_null(sim);
         assert_int_equal(tank_prepare(sim, 1e-3), 0);
         for (size_t i = 0; i < sim->n; i++) sim->unknown[i] = (float)sb_random(7, i);
-        assert_int_equal(twin_make(sim, &seen), 0);
+        assert_int_equal(twin_make(sim, &copy), 0);
         for (size_t i = 0; i < sim->n; i++)
             for (int axis = 0; axis < 3; axis++)
                 sim->position[i][axis] +=
@@ -47,29 +46,29 @@ static void a_random_cloud_is_the_reference(void **state)
         sb_sim_find_virial_pressures(sim);
         size_t beside = 0;
         for (size_t i = 0; i < sim->n; i++) {
-            beside += seen.reference.wall_start[i] < seen.reference.wall_start[i + 1];
-            twin_compare(&gap, i, sb_sim_particle(sim, i).pressure, virial(sim, &seen, i));
+            beside += copy.reference.wall_start[i] < copy.reference.wall_start[i + 1];
+            twin_compare(&gap, i, sb_sim_particle(sim, i).pressure, virial(sim, &copy, i));
         }
         printf("%dD, %zu particles, %zu beside walls: %.2g of %.3g Pa\n", dimensions, sim->n, beside,
                twin_relative(&gap), gap.scale);
         assert_true(beside > 30 && gap.scale > 1e5 && twin_relative(&gap) < 2e-5);
-        twin_free(&seen);
+        twin_free(&copy);
         sb_sim_destroy(sim);
         tank_free(&t);
     }
 }
 
-/* Mean over the water, farther from walls and surface than the support, of the deviation from rho g z, as it is and
- * squared. */
+/* Mean of the deviation from hydrostatic pressure, and of its square, in metres of water, over the particles farther
+   from walls and surface than the support radius. */
 static void deviation(const sb_sim *sim, double depth, double width, double *mean, double *square)
 {
-    const double weight = 1000 * 9.81, reach = (double)sim->constant.support;
+    const double weight = 1000 * 9.81, support = (double)sim->constant.support;
     size_t count = 0;
     *mean = *square = 0;
     for (size_t i = 0; i < sim->n; i++) {
         const sb_fluid_sample p = sb_sim_particle(sim, i);
-        if (p.position.z < reach || p.position.z > depth - reach || p.position.x < reach ||
-            p.position.x > width - reach)
+        if (p.position.z < support || p.position.z > depth - support || p.position.x < support ||
+            p.position.x > width - support)
             continue;
         const double off = p.pressure / weight - (depth - p.position.z);
         *mean += off;
@@ -81,8 +80,9 @@ static void deviation(const sb_sim *sim, double depth, double width, double *mea
     *square /= (double)count;
 }
 
-/* Settled water is no lattice: the solve's pressures are too high on the mean, and rougher. Bits and hash stay. */
-static void water_at_rest_bears_its_weight(void **state)
+/* Settled water is not a lattice: the solver pressure is too high on average, and has more scatter. The state hash does
+   not change. */
+static void water_at_rest_has_hydrostatic_pressure(void **state)
 {
     (void)state;
     tank t;
@@ -93,7 +93,7 @@ static void water_at_rest_bears_its_weight(void **state)
     t.scene.numerics.settle_steps = 300;
     t.scene.numerics.wall_gamma = 0;
     sb_sim *sim = tank_settled(&t);
-    double before[2] = {0}, told[2] = {0};
+    double before[2] = {0}, virial_sums[2] = {0};
     enum { STEPS = 200 };
     for (int s = 0; s < STEPS; s++) {
         double mean, square;
@@ -105,19 +105,19 @@ static void water_at_rest_bears_its_weight(void **state)
         sb_sim_find_virial_pressures(sim);
         assert_true(sb_sim_hash(sim) == hash);
         deviation(sim, 1, 1.2, &mean, &square);
-        told[0] += mean / STEPS;
-        told[1] += square / STEPS;
+        virial_sums[0] += mean / STEPS;
+        virial_sums[1] += square / STEPS;
     }
-    printf("the solve's %+.4f m, rms %.4f; told %+.4f m, rms %.4f\n", before[0], sqrt(before[1]), told[0],
-           sqrt(told[1]));
-    assert_true(fabs(told[0]) < 0.6 * before[0]);
-    assert_true(told[1] < 0.5 * before[1]);
+    printf("solver pressure %+.4f m, rms %.4f; virial pressure %+.4f m, rms %.4f\n", before[0], sqrt(before[1]),
+           virial_sums[0], sqrt(virial_sums[1]));
+    assert_true(fabs(virial_sums[0]) < 0.6 * before[0]);
+    assert_true(virial_sums[1] < 0.5 * before[1]);
     sb_sim_destroy(sim);
     tank_free(&t);
 }
 
-/* Velocities given at t = 0 have moved nothing yet. */
-static void a_start_in_motion_bears_what_one_at_rest_does(void **state)
+/* Velocities set at t = 0 have moved nothing yet, so that they do not change the pressures. */
+static void initial_velocities_do_not_change_pressures(void **state)
 {
     (void)state;
     sb_sim *sim[2];
@@ -141,8 +141,9 @@ static void a_start_in_motion_bears_what_one_at_rest_does(void **state)
     }
 }
 
-/* Found once per step, and not of lists that are no more: a state just loaded tells the solve's. */
-static void not_of_other_lists(void **state)
+/* Virial pressures are computed once per step, and only from current lists: a state that was just loaded has solver
+   pressures. */
+static void only_current_lists_are_used(void **state)
 {
     (void)state;
     tank t;
@@ -150,16 +151,16 @@ static void not_of_other_lists(void **state)
     sb_sim *sim = tank_sim(&t), *again = tank_sim(&t);
     assert_non_null(sim);
     assert_non_null(again);
-    sb_sim_find_virial_pressures(sim); /* nothing was done yet */
+    sb_sim_find_virial_pressures(sim); /* no step was done yet */
     assert_int_equal(tank_steps(sim, 30), 0);
     const float solved = sim->velocity[0][3];
     assert_true(sb_sim_particle(sim, 0).pressure == (double)solved);
     sb_sim_find_virial_pressures(sim);
-    const double told = sb_sim_particle(sim, 0).pressure;
-    assert_true(told != (double)solved);
+    const double virial_sums = sb_sim_particle(sim, 0).pressure;
+    assert_true(virial_sums != (double)solved);
     sim->unknown[0] *= 2;
     sb_sim_find_virial_pressures(sim);
-    assert_true(sb_sim_particle(sim, 0).pressure == told);
+    assert_true(sb_sim_particle(sim, 0).pressure == virial_sums);
     sb_archive_out out = {0};
     sb_error error = {0};
     tank_save(sim, &out);
@@ -176,9 +177,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_random_cloud_is_the_reference),
-        cmocka_unit_test(water_at_rest_bears_its_weight),
-        cmocka_unit_test(a_start_in_motion_bears_what_one_at_rest_does),
-        cmocka_unit_test(not_of_other_lists),
+        cmocka_unit_test(water_at_rest_has_hydrostatic_pressure),
+        cmocka_unit_test(initial_velocities_do_not_change_pressures),
+        cmocka_unit_test(only_current_lists_are_used),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

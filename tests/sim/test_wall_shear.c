@@ -1,4 +1,4 @@
-/* The shear of smooth walls: against the reference pair by pair, and as a drag on water that slides. */
+/* The shear of smooth walls: compared with the reference pair by pair, and as drag on sliding water. */
 #include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
@@ -19,15 +19,15 @@ static void the_law_is_that_of_the_smooth_wall(void **state)
     (void)state;
     assert_near(law(10), 0.1, 1e-7);
     assert_near(law(1e4), 0.00246, 1e-7);
-    /* u+ = y+ = 11.81 where they meet */
+    /* u+ = y+ = 11.81 where the two laws meet */
     assert_near(law(139.4), 1 / 139.4, 2e-6);
     assert_near(law(139.6), 1 / 139.5, 2e-5);
-    /* beside the logarithmic law u+ = ln(9.8 y+)/0.41 at y+ = 500: u+ 20.7 */
+    /* compared with the logarithmic law u+ = ln(9.8 y+)/0.41 at y+ = 500: u+ 20.7 */
     const double log_law = log(9.8 * 500) / 0.41;
     assert_near(law(500 * log_law) * log_law * log_law, 1, 0.1);
 }
 
-/* A jittered dam break in lively motion beside a moving wall, for one long step as in test_explicit_forces.c. */
+/* A jittered dam break with random velocities beside a moving wall, for one long step as in test_explicit_forces.c. */
 static void check(int dimensions, double nu)
 {
     const sb_wavemaker_parameters motion = {
@@ -35,9 +35,9 @@ static void check(int dimensions, double nu)
     const bool flat = dimensions == 2;
     tank t;
     tank_make(&t, dimensions, 0.1, sb_vec(2, flat ? 0 : 0.7, 1.5), 1.2, 0.9, 0.2);
-    tank_add_sheet(&t, "paddle", -0.05, 0, 1.2, sb_vec(1, 0, 0), &motion);
-    /* parallel to the wall and a little behind it, as treads of stairs are: each has a distance of its own */
-    tank_add_sheet(&t, "lining", -0.09, 0, 1.2, sb_vec(1, 0, 0), NULL);
+    tank_add_plate(&t, "paddle", -0.05, 0, 1.2, sb_vec(1, 0, 0), &motion);
+    /* parallel to the wall and a little behind it, like treads of stairs: each has its own distance */
+    tank_add_plate(&t, "lining", -0.09, 0, 1.2, sb_vec(1, 0, 0), NULL);
     t.scene.numerics.artificial_viscosity = 0;
     t.scene.numerics.wall_friction = 0.3;
     t.scene.numerics.wall_shear = SB_SHEAR_SMOOTH;
@@ -86,7 +86,7 @@ static void check(int dimensions, double nu)
     tank_free(&t);
 }
 
-static void water_and_bodies_feel_the_reference_shear(void **state)
+static void shear_on_water_and_bodies_is_the_reference(void **state)
 {
     (void)state;
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
@@ -95,9 +95,9 @@ static void water_and_bodies_feel_the_reference_shear(void **state)
     }
 }
 
-/* Water that slides over a floor at 1 m/s loses momentum as the law says for the first layer's distance: rho c u^2
-   per area. */
-static void a_floor_holds_what_slides_over_it(void **state)
+/* Water that slides over a floor at 1 m/s loses the momentum rho c u^2 per area, by the law for the first layer's
+   distance. */
+static void a_floor_slows_sliding_water(void **state)
 {
     (void)state;
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
@@ -127,7 +127,7 @@ static void a_floor_holds_what_slides_over_it(void **state)
     }
 }
 
-/* Off, or in water without viscosity, nothing is computed. */
+/* Wall shear is off by the scene key and in water without viscosity. */
 static void it_is_off_without_viscosity(void **state)
 {
     (void)state;
@@ -143,8 +143,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_law_is_that_of_the_smooth_wall),
-        cmocka_unit_test(water_and_bodies_feel_the_reference_shear),
-        cmocka_unit_test(a_floor_holds_what_slides_over_it),
+        cmocka_unit_test(shear_on_water_and_bodies_is_the_reference),
+        cmocka_unit_test(a_floor_slows_sliding_water),
         cmocka_unit_test(it_is_off_without_viscosity),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -12,7 +12,7 @@ static bool is_image(const sb_sim *sim, sb_record record)
     return memcmp(&home, &record, sizeof home) != 0;
 }
 
-/* Returns how many there are. */
+/* Copies the boundary particles. Returns their number. */
 static size_t copy_walls(const sb_sim *sim, twin *t)
 {
     size_t at = 0;
@@ -33,8 +33,8 @@ static size_t copy_walls(const sb_sim *sim, twin *t)
     return at;
 }
 
-/* Slopes of the water's pairs as the simulation holds them, where its lists have the pair: roots rounded to 15 bits,
-   which test_neighbours holds against the kernel. */
+/* Copies the slopes of fluid pairs that are in the simulation's lists. Their roots are rounded to 15 bits;
+   test_neighbours compares them with the kernel. */
 static void take_slopes(const sb_sim *sim, twin *t)
 {
     const sb_reference *r = &t->reference;
@@ -147,7 +147,7 @@ static const sb_group *group_of(const sb_sim *sim, size_t i)
     return &sim->groups.group[low];
 }
 
-/* The entry of the arrays that neighbours are read from which a place in a list of the group means. */
+/* Index in the particle arrays for a place in a list of the group. */
 static uint32_t around_index(const sb_sim *sim, const sb_group *group, uint16_t place)
 {
     const sb_run *run = sim->groups.run + group->run;
@@ -172,7 +172,7 @@ twin_entry twin_list(const sb_sim *sim, size_t i, bool walls, size_t k)
 void twin_compare(twin_gap *gap, size_t at, double a, double b)
 {
     double difference = fabs(a - b);
-    /* Written so that a NaN stays the worst. */
+    /* The comparison keeps a NaN as the worst value. */
     if (!(difference <= gap->worst)) {
         gap->worst = isnan(gap->worst) ? gap->worst : difference;
         gap->at = at;
