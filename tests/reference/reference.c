@@ -6,7 +6,7 @@
 
 enum { IMAGES = 27 };
 
-/* The place itself first, then its images one period away along each axis that repeats. */
+/* Finds the position itself, then its images one period away along each periodic axis. */
 static int find_images(const sb_reference_cloud *cloud, sb_vec3 at, sb_vec3 image[IMAGES])
 {
     int count = 0;
@@ -39,7 +39,7 @@ void sb_reference_psi(const sb_reference_cloud *cloud, double gamma, double *psi
     }
 }
 
-/* Appends the pair of i with a point x when they are closer than h. */
+/* Appends the pair of i with a point x if they are closer than h. */
 static int add_pair(const sb_reference_cloud *cloud, size_t i, size_t other, sb_vec3 x, sb_reference_pair **pairs,
                     size_t *count, size_t *capacity)
 {
@@ -109,7 +109,7 @@ void sb_reference_density(const sb_reference *reference, double *rho)
     }
 }
 
-/* Pi = -nu min(v.x, 0)/(r^2 + 0.01 h^2): only pairs that approach each other are slowed. */
+/* Pi = -nu min(v.x, 0)/(r^2 + 0.01 h^2): acts only on pairs that approach each other. */
 static double switched_viscosity(double nu, sb_vec3 velocity, sb_vec3 offset, double h)
 {
     double approach = sb_dot(velocity, offset);

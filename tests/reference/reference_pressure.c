@@ -1,4 +1,4 @@
-/* The pressure system: source, operator A = -dt^2 G^T G, its diagonal, projected Jacobi. */
+/* The pressure problem: source, operator A = -dt^2 G^T G, its diagonal, and projected Jacobi iteration. */
 #include "reference/reference.h"
 
 #include "base/memory.h"
@@ -79,10 +79,10 @@ void sb_reference_diagonal(const sb_reference *reference, double *diagonal)
 double sb_reference_lattice_diagonal(const sb_reference_cloud *cloud)
 {
     double m = cloud->rest_density * pow(cloud->spacing, cloud->dimension), squares = 0;
-    int reach = (int)ceil(cloud->h / cloud->spacing), across = cloud->dimension == 3 ? reach : 0;
-    for (int i = -reach; i <= reach; i++)
+    int radius = (int)ceil(cloud->h / cloud->spacing), across = cloud->dimension == 3 ? radius : 0;
+    for (int i = -radius; i <= radius; i++)
         for (int j = -across; j <= across; j++)
-            for (int k = -reach; k <= reach; k++) {
+            for (int k = -radius; k <= radius; k++) {
                 double r = cloud->spacing * sqrt(i * i + j * j + k * k);
                 double slope = sb_kernel_slope(cloud->kernel, cloud->dimension, cloud->h, r);
                 squares += slope * slope;

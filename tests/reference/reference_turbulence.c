@@ -3,7 +3,8 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* Velocity differences and offsets of one particle's neighbours, weighted by -m W'/r. */
+/* Sums over one particle's neighbours, weighted by -m W'/r: velocity differences times offsets, and offsets times
+   offsets. */
 typedef struct fit {
     double velocity[3][3], place[3][3];
 } fit;
@@ -27,7 +28,7 @@ static fit make_fit(const sb_reference *reference, size_t i)
     return f;
 }
 
-/* Solves m x = rhs over the given axes by Gaussian elimination with pivots; the determinant. */
+/* Solves m x = rhs over the given axes by Gaussian elimination with pivots. Returns the determinant. */
 static double solve(double m[3][3], const int *axis, int count, const double rhs[3], double x[3])
 {
     double rows[3][4], determinant = 1;

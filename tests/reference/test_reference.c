@@ -1,5 +1,5 @@
-/* The reference itself: lattice figures, a symmetric operator, balanced forces, a complementary
-   solution; in 2D and 3D, in a box with one moving side, with a particle on its own. */
+/* Tests of the reference itself: lattice values, symmetry of the operator, balance of forces, complementarity of the
+   solution; in 2D and 3D, in a box with one moving side and one isolated particle. */
 #include "../check.h"
 #include "base/random.h"
 #include "reference/reference.h"
@@ -47,8 +47,8 @@ static void add_wall(sb_reference_cloud *cloud, sb_vec3 x, uint32_t owner)
     body[b] = owner;
 }
 
-/* A jittered block of 5 x 5 x 6 (5 x 12 in 2D) on a floor, body 0, beside a moving side, body 1;
-   the last particle is alone. */
+/* A jittered block of 5 x 5 x 6 (5 x 12 in 2D) on a floor, body 0, beside a moving side, body 1. The last particle is
+   isolated. */
 static sb_reference make_box(int dimension)
 {
     const double d = 0.1;
@@ -97,7 +97,7 @@ static void lattice_figures(void **state)
     sb_reference_destroy(&reference);
 }
 
-/* A plane sampled at the spacing has boundary volumes of 1.427 spacing^3 at gamma = 1. */
+/* On a plane with one boundary particle per spacing, wall volumes are 1.427 spacing^3 at gamma = 1. */
 static void plane_has_its_known_volume(void **state)
 {
     (void)state;
@@ -129,7 +129,7 @@ static void pairs_are_mutual(void **state)
     sb_reference_destroy(&reference);
 }
 
-/* div is the rate of the density as fluid and walls move on. */
+/* div is the rate of the density while fluid and walls move. */
 static void divergence_is_the_rate_of_the_density(void **state)
 {
     (void)state;
@@ -165,7 +165,7 @@ static void source_mixes_density_and_divergence(void **state)
     sb_reference_destroy(&reference);
 }
 
-/* The whole matrix by unit vectors: symmetric, and its diagonal in closed form. */
+/* The whole matrix, from unit vectors, is symmetric and has the diagonal of the closed form. */
 static void operator_is_symmetric_with_its_diagonal(void **state)
 {
     (void)state;
@@ -212,7 +212,7 @@ static void operator_is_negative_semidefinite(void **state)
     sb_reference_destroy(&reference);
 }
 
-/* Sum m a + forces = 0, and the same about a point, `size` being the sum of |m a|. */
+/* Checks that sum m a + forces = 0, and that moments balance, relative to the sum of |m a|. */
 static void check_balance(const sb_reference *reference, const sb_vec3 *center, const sb_vec3 *force,
                           const sb_vec3 *torque)
 {
@@ -231,7 +231,7 @@ static void check_balance(const sb_reference *reference, const sb_vec3 *center, 
     assert_near(sb_norm(turn) / size, 0, 1e-14);
 }
 
-static void momentum_is_kept(void **state)
+static void momentum_is_conserved(void **state)
 {
     (void)state;
     const sb_vec3 center[2] = {{0.2, -0.1, 0.4}, {1, 2, 3}};
@@ -242,12 +242,12 @@ static void momentum_is_kept(void **state)
         sb_reference_pressure_acceleration(&reference, q, acceleration);
         sb_reference_pressure_forces(&reference, q, center, force, torque);
         check_balance(&reference, center, force, torque);
-        assert_true(force[0].z < 0 && force[1].x < 0); /* pressed away from the water */
+        assert_true(force[0].z < 0 && force[1].x < 0); /* away from the water */
         sb_reference_destroy(&reference);
     }
 }
 
-static void viscous_forces_keep_momentum_and_take_energy(void **state)
+static void viscous_forces_conserve_momentum_and_remove_energy(void **state)
 {
     (void)state;
     const sb_vec3 center[2] = {{0.2, -0.1, 0.4}, {1, 2, 3}};
@@ -265,7 +265,7 @@ static void viscous_forces_keep_momentum_and_take_energy(void **state)
     sb_reference_destroy(&reference);
 }
 
-/* Two particles by hand: slowed when they approach, left alone when they part. */
+/* Two particles, calculated by hand: viscosity acts if they approach each other, and not if they separate. */
 static void viscosity_acts_on_approach_only(void **state)
 {
     (void)state;
@@ -291,9 +291,9 @@ static void viscosity_acts_on_approach_only(void **state)
     }
 }
 
-/* On v = (z^2/2, 0, 0), whose Laplacian is 1, the term gives its effective kinematic viscosity:
-   alpha h c_s/(2(d + 2)), h the support, halved by the switch. The sum needs a fine lattice: at
-   h = 2 spacings it reaches but 0.65 (2D) and 0.70 (3D) of that. */
+/* On v = (z^2/2, 0, 0), whose Laplacian is 1, the term gives its effective kinematic viscosity alpha h c_s/(2(d + 2)),
+   with h the support radius, halved by the switch. The sum needs a fine lattice: at h = 2 spacings it is only 0.65 (2D)
+   and 0.70 (3D) of that. */
 static void viscosity_has_its_effective_value(void **state)
 {
     (void)state;
@@ -304,10 +304,10 @@ static void viscosity_has_its_effective_value(void **state)
         for (int dimension = 2; dimension <= 3; dimension++) {
             sb_reference_cloud cloud = empty_cloud(dimension, 0.5);
             cloud.h = 0.5 * cases[c].support;
-            int reach = (int)cases[c].support, deep = dimension == 3 ? reach : 0;
-            for (int i = -reach; i <= reach; i++)
+            int radius = (int)cases[c].support, deep = dimension == 3 ? radius : 0;
+            for (int i = -radius; i <= radius; i++)
                 for (int j = -deep; j <= deep; j++)
-                    for (int k = -reach; k <= reach; k++) {
+                    for (int k = -radius; k <= radius; k++) {
                         position[cloud.fluid_count] = sb_vec(0.5 * i, 0.5 * j, 0.5 * k);
                         rho[cloud.fluid_count] = 1000;
                         velocity[cloud.fluid_count++] = sb_vec(0.125 * k * k, 0, 0);
@@ -322,8 +322,7 @@ static void viscosity_has_its_effective_value(void **state)
         }
 }
 
-/* Water falling onto its floor: under pressure below, none above, every particle one or the other.
- */
+/* Water falling onto its floor: each particle is either under pressure or has q = 0, and both kinds occur. */
 static void solution_is_complementary(void **state)
 {
     (void)state;
@@ -349,7 +348,7 @@ static void solution_is_complementary(void **state)
             slack += excess < -1e-3;
         }
         assert_true(pressed > n / 5 && slack > n / 10);
-        assert_true(q[n - 1] == 0); /* alone: ballistic */
+        assert_true(q[n - 1] == 0); /* isolated: ballistic */
         sb_reference_destroy(&reference);
     }
 }
@@ -364,8 +363,8 @@ int main(void)
         cmocka_unit_test(source_mixes_density_and_divergence),
         cmocka_unit_test(operator_is_symmetric_with_its_diagonal),
         cmocka_unit_test(operator_is_negative_semidefinite),
-        cmocka_unit_test(momentum_is_kept),
-        cmocka_unit_test(viscous_forces_keep_momentum_and_take_energy),
+        cmocka_unit_test(momentum_is_conserved),
+        cmocka_unit_test(viscous_forces_conserve_momentum_and_remove_energy),
         cmocka_unit_test(viscosity_acts_on_approach_only),
         cmocka_unit_test(viscosity_has_its_effective_value),
         cmocka_unit_test(solution_is_complementary),
