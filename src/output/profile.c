@@ -23,12 +23,12 @@ static uint64_t settling_steps(const sb_profile *p)
 
 static void print_stages(FILE *out, const sb_profile *p, double sum, double particle_steps)
 {
-    fprintf(out, "%-12s %9s %10s %7s %22s\n", "stage", "calls", "seconds", "share", "ns per particle-step");
+    fprintf(out, "%-18s %9s %10s %7s %22s\n", "stage", "calls", "seconds", "share", "ns per particle-step");
     for (size_t s = 0; s < p->stage_count; s++)
-        fprintf(out, "%-12s %9llu %10.3f %6.1f%% %22.2f\n", p->stages[s].name, (unsigned long long)p->stages[s].calls,
+        fprintf(out, "%-18s %9llu %10.3f %6.1f%% %22.2f\n", p->stages[s].name, (unsigned long long)p->stages[s].calls,
                 p->stages[s].seconds, 100 * ratio(p->stages[s].seconds, sum),
                 1e9 * ratio(p->stages[s].seconds, particle_steps));
-    fprintf(out, "%-12s %9s %10.3f %6.1f%% %22.2f\n", "all stages", "", sum, 100.0, 1e9 * ratio(sum, particle_steps));
+    fprintf(out, "%-18s %9s %10.3f %6.1f%% %22.2f\n", "all stages", "", sum, 100.0, 1e9 * ratio(sum, particle_steps));
 }
 
 static void print_skipped(FILE *out, const sb_profile *p)

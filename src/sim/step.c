@@ -13,13 +13,14 @@ typedef struct stage {
 } stage;
 
 static const stage stages[] = {
-    {"time_step", sb_stage_time_step, NULL},                               /* dt from the present speeds */
-    {"walls", sb_stage_walls, NULL},                                       /* paddles at t, their velocity to t + dt */
-    {"sort", sb_stage_sort, NULL},                                         /* wrap at periodic sides; Z-order, cells */
-    {"ghosts", sb_stage_ghosts, NULL},                                     /* images beyond periodic sides */
-    {"neighbours", sb_stage_neighbours, NULL},                             /* lists, density, wall vectors, diagonal */
-    {"completion", sb_stage_density_correction, sb_density_correction_on}, /* density sums at surfaces and walls */
-    {"packing", sb_stage_stress_correction,
+    {"time_step", sb_stage_time_step, NULL},   /* dt from the present speeds */
+    {"walls", sb_stage_walls, NULL},           /* paddles at t, their velocity to t + dt */
+    {"sort", sb_stage_sort, NULL},             /* wrap at periodic sides; Z-order, cells */
+    {"ghosts", sb_stage_ghosts, NULL},         /* images beyond periodic sides */
+    {"neighbours", sb_stage_neighbours, NULL}, /* lists, density, wall vectors, diagonal */
+    {"density_correction", sb_stage_density_correction,
+     sb_density_correction_on}, /* density sums at surfaces and walls */
+    {"stress_correction", sb_stage_stress_correction,
      sb_stress_correction_on},                             /* removes deviatoric stress of the particle packing */
     {"turbulence", sb_stage_turbulence, sb_turbulence_on}, /* eddy viscosity from the strain rate */
     {"forces", sb_stage_forces, NULL},                     /* v* = v + dt (g + viscosity + friction) */

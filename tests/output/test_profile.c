@@ -25,7 +25,7 @@ static void assert_says(const char *text, const char *words)
 }
 
 static const sb_stage_time stages[] = {{"sort", 0.25, 20}, {"source", 0.5, 20}, {"pressure", 1.25, 20}};
-static const sb_skipped none[] = {{"packing: left", 3, 0}, {"turbulence: none", 1, 2500000}, {.what = NULL}},
+static const sb_skipped none[] = {{"stress correction: off", 3, 0}, {"turbulence: none", 1, 2500000}, {.what = NULL}},
                         off[] = {{.what = "stream: off"}, {.what = NULL}};
 
 static const sb_profile profile = {
@@ -48,9 +48,9 @@ static void shares_and_costs_count_settling_in(void **state)
 {
     (void)state;
     char *text = printed(&profile);
-    assert_says(text, "sort                20      0.250   12.5%               12500.00\n");
-    assert_says(text, "pressure            20      1.250   62.5%               62500.00\n");
-    assert_says(text, "all stages                  2.000  100.0%              100000.00\n");
+    assert_says(text, "sort                      20      0.250   12.5%               12500.00\n");
+    assert_says(text, "pressure                  20      1.250   62.5%               62500.00\n");
+    assert_says(text, "all stages                        2.000  100.0%              100000.00\n");
     assert_says(text, "15 steps after 5 of settling, 4.0 iterations per step, "
                       "1e+04 particle-steps per second, 2 threads\n");
     assert_says(text, "3.000 s in all: 0.500 s set-up, 0.750 s settling, 0.500 s outside stages; 1.5 s simulated\n");
@@ -62,7 +62,7 @@ static void what_was_left_out_stands_with_a_pass_of_pairs(void **state)
 {
     (void)state;
     char *text = printed(&profile);
-    assert_says(text, "  packing: left; 3 passes over pairs per step\n"
+    assert_says(text, "  stress correction: off; 3 passes over pairs per step\n"
                       "  turbulence: none; 1 pass over pairs per step; 2.5 MB\n  stream: off\n");
     assert_says(text, "saved: 4 passes over pairs per step, about 2 s so far; 2.5 MB\n"); /* as long as the source */
     free(text);

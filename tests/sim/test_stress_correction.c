@@ -239,7 +239,7 @@ static void it_costs_nothing_when_off(void **state)
         sb_sim *sim = tank_sim(&t);
         assert_non_null(sim);
         assert_int_equal(tank_steps(sim, 2), 0);
-        assert_true(tank_has_stage(sim, "packing") == on && tank_skips(sim, "stress correction") == !on);
+        assert_true(tank_has_stage(sim, "stress_correction") == on && tank_skips(sim, "stress correction") == !on);
         assert_true(on || sb_sim_ledger(sim)->stress == 0);
         sb_sim_destroy(sim);
         tank_free(&t);

@@ -27,7 +27,7 @@ static const work works[] = {
     /* lists written; of the particles tested 1 in 5 is a neighbour; 8 operations for each, 25 for a kernel */
     {"neighbours", 16 + 40 + 12, 4, 5 * 8 + 25},
     /* three passes: moments, their mean, the force */
-    {"packing", 16 + 6 + 20 + 36 + 6 + 20 + 36 + 6 + 32, 12, 21 + 13 + 33},
+    {"stress_correction", 16 + 6 + 20 + 36 + 6 + 20 + 36 + 6 + 32, 12, 21 + 13 + 33},
     {"forces", 16 + 16 + 4 + 6 + 16, 4, 30},
     {"source", 16 + 16 + 16 + 6 + 8, 4, 15},
     {"sort", 3 * 36 + 4 * 16, 0, 0},
