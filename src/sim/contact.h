@@ -17,8 +17,8 @@ typedef struct sb_contact_push {
 /* Limits the velocity (m/s) with which particle i will move: the component towards a wall, relative to the wall, is
    reduced so that the step ends at the permitted distance (inelastic). The tangential component does not change.
    Returns the number of pushes, which are applied one after the other; 0: the velocity is unchanged. The wall that is
-   nearest at the time receives the reaction. Where two walls meet, a push is along the mean of their normals, and still
-   only one wall receives it: divided between the two walls, it would do different work from theirs. */
+   nearest at the time receives the reaction. Where two walls meet, a push is along the mean of their normals, but only
+   one wall receives the reaction: dividing it between moving and static walls would change the work that they do. */
 size_t sb_contact_resolve(const sb_sim *sim, size_t i, sb_f4 *velocity, sb_contact_push pushes[SB_CONTACT_PUSHES_MAX]);
 
 #endif

@@ -10,7 +10,7 @@
 enum {
     SB_LIST_MAX = 1024, /* neighbours of one particle: 80 are normal */
     SB_HIT_LANES = 8,
-    SB_HIT_SPARE = 96, /* vector loads and stores may pass the end by 31 entries; 96 was the fastest (0029) */
+    SB_HIT_SPARE = 96, /* vector loads and stores may pass the end by 31 entries; 96 by measurement (0029) */
     SB_CANDIDATES_MAX = 16383,
     SB_CANDIDATE_RANGES_MAX = 27
 };

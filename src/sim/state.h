@@ -1,4 +1,4 @@
-/* The simulation's internal state. Only the stages of a step use it. */
+/* The simulation's internal state, private to src/sim. */
 #ifndef SB_SIM_STATE_H
 #define SB_SIM_STATE_H
 
