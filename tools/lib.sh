@@ -4,7 +4,7 @@
 # The top folder of the source tree.
 sb_root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 
-# What building, testing and running need; what only plots and films need comes after it.
+# Packages for building, testing and running; then those that only plots and films need.
 sb_packages=(build-essential cmake ninja-build pkg-config git libosmesa6-dev liblcm-dev liblcm-bin
              libglib2.0-dev libassimp-dev libcglm-dev libpng-dev libyaml-dev libcmocka-dev)
 sb_picture_packages=(gnuplot-nox ffmpeg)
@@ -25,11 +25,11 @@ sb_missing() {
     done
 }
 
-# Installs the named packages where they are missing; says what it does, is quiet when all is there.
+# Installs the named packages that are missing; prints nothing if none is missing.
 sb_need() {
     local missing=() as_root=() log
     if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
-        printf '%s: no Debian package tools here; trusting that these are installed: %s\n' \
+        printf '%s: no Debian package tools here; assuming that these are installed: %s\n' \
             "$(basename -- "$0")" "$*" >&2
         return 0
     fi
@@ -52,7 +52,7 @@ sb_need() {
     rm -f "$log"
 }
 
-# Runs a command; shows what it printed only when it fails.
+# Runs a command; shows its output only if it fails.
 sb_quietly() {
     local log status=0
     log=$(mktemp)
@@ -75,8 +75,8 @@ sb_build() {
     )
 }
 
-# sb_exec NAME [PACKAGE...] -- ARGUMENTS...: becomes the program shorebreak-NAME, built first beside the shorebreak that
-# it runs, further packages there. One that is only asked what it is is not built anew.
+# sb_exec NAME [PACKAGE...] -- ARGUMENTS...: builds shorebreak-NAME and the shorebreak that it runs, installs the packages,
+# and replaces the script by the program. For --help, --list and --version an existing program is not built again.
 sb_exec() {
     local name=$1 packages=() argument quick=0
     shift

@@ -273,11 +273,11 @@ static void options_choose_sections(void **state)
     static const char *const wrong[][2] = {
         {"pressure", "pressure: no such section"},
         {"--fast", "--fast: no such option"},
-        {"--repeats 0", "--repeats: 0 is no number from 1 to 100"},
-        {"--repeats 101", "101 is no number"},
-        {"--threads two", "--threads: two is no number"},
+        {"--repeats 0", "--repeats: 0 is not a number from 1 to 100"},
+        {"--repeats 101", "101 is not a number"},
+        {"--threads two", "--threads: two is not a number"},
         {"--machine ../x", "--machine: \"../x\": expected small letters, digits and -"},
-        {"--out", "--out: a value is missing"}};
+        {"--out", "--out: expected a value"}};
     for (size_t w = 0; w < sizeof wrong / sizeof wrong[0]; w++) {
         assert_int_equal(parse(wrong[w][0], &o, &error), SB_BAD_INPUT);
         if (!strstr(error.text, wrong[w][1])) fail_msg("%s: %s", wrong[w][0], error.text);

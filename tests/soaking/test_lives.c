@@ -1,4 +1,4 @@
-/* What the soak holds against the samples of a life. */
+/* Tests of the limits of growth that tools/soak applies. */
 #include "../check.h"
 
 #include "base/memory.h"
@@ -9,9 +9,9 @@
 
 enum { SAMPLES = 200 };
 
-/* A life of 10 minutes whose first streamed step comes after 100 s, at 200 MB and 10 descriptors, that grows by so much
-   in each second after that. */
-static sb_soak_life life_that_grows(double bytes_per_second, double descriptors_per_second)
+/* A life of 10 minutes. Its first streamed step comes after 100 s, at 200 MB and 10 descriptors, which grow by the
+   given rates afterwards. */
+static sb_soak_life growing_life(double bytes_per_second, double descriptors_per_second)
 {
     sb_soak_life life = {.seconds = 600, .end = SB_SOAK_STOPPED, .frames = 7};
     for (int i = 0; i < SAMPLES; i++) {
@@ -20,91 +20,91 @@ static sb_soak_life life_that_grows(double bytes_per_second, double descriptors_
                                        .resident = (uint64_t)(t < 100 ? 5e7 : 2e8 + bytes_per_second * since),
                                        .descriptors = (unsigned)(10 + descriptors_per_second * since),
                                        .step = t < 100 ? 0 : (uint64_t)t};
-        assert_int_equal(sb_soak_keep(&life, &sample, NULL), SB_OK);
+        assert_int_equal(sb_soak_add(&life, &sample, NULL), SB_OK);
     }
     return life;
 }
 
-static void says(sb_soak_life life, const char *words)
+static void assert_problem(sb_soak_life life, const char *expected)
 {
     char why[400];
-    assert_int_equal(sb_soak_well(&life, why), *words == '\0');
-    if (!strstr(why, words)) fail_msg("\"%s\" is not in \"%s\"", words, why);
+    assert_int_equal(sb_soak_passed(&life, why), *expected == '\0');
+    if (!strstr(why, expected)) fail_msg("\"%s\" is not in \"%s\"", expected, why);
     sb_free(life.samples);
 }
 
-static void the_start_is_no_growth(void **state)
+static void test_start_is_not_growth(void **state)
 {
     (void)state;
-    says(life_that_grows(0, 0), "");
+    assert_problem(growing_life(0, 0), "");
 }
 
-/* From the middle of the early part to that of the late one are 250 of the 500 s: 10 MB are allowed. */
-static void memory_may_grow_so_far_and_no_further(void **state)
+/* The medians of the early and the late part are 250 s apart; 10 MB of growth are allowed. */
+static void test_memory_growth_is_limited(void **state)
 {
     (void)state;
-    says(life_that_grows(35e3, 0), "");
-    says(life_that_grows(45e3, 0), "memory grew by 11.");
+    assert_problem(growing_life(35e3, 0), "");
+    assert_problem(growing_life(45e3, 0), "memory grew by 11.");
 }
 
-static void no_descriptor_may_stay_open(void **state)
+static void test_descriptors_may_not_grow(void **state)
 {
     (void)state;
-    says(life_that_grows(0, 0.01), "descriptors grew from 1");
+    assert_problem(growing_life(0, 0.01), "descriptors grew from 1");
 }
 
-static void a_broken_life_tells_how(void **state)
+static void test_failed_process_is_explained(void **state)
 {
     (void)state;
-    sb_soak_life life = life_that_grows(0, 0);
-    life.end = SB_SOAK_BROKEN;
-    strcpy(life.words, "ended with signal 11: it said nothing");
-    says(life, "signal 11");
+    sb_soak_life life = growing_life(0, 0);
+    life.end = SB_SOAK_FAILED;
+    strcpy(life.message, "ended with signal 11: no output");
+    assert_problem(life, "signal 11");
 }
 
-static void frames_have_to_arrive(void **state)
+static void test_frames_must_arrive(void **state)
 {
     (void)state;
-    sb_soak_life life = life_that_grows(0, 0);
+    sb_soak_life life = growing_life(0, 0);
     life.frames = 0;
-    says(life, "no frame");
+    assert_problem(life, "no frame");
 }
 
-static void a_short_life_is_not_judged(void **state)
+static void test_short_life_is_not_judged(void **state)
 {
     (void)state;
-    sb_soak_life life = life_that_grows(1e6, 0);
+    sb_soak_life life = growing_life(1e6, 0);
     life.seconds = 150;
-    assert_false(sb_soak_grown(&life).judged);
-    says(life, "");
+    assert_false(sb_soak_growth_of(&life).judged);
+    assert_problem(life, "");
 }
 
-static void a_process_is_seen(void **state)
+static void test_process_is_measured(void **state)
 {
     (void)state;
     sb_soak_sample before = {0}, after = {0};
-    assert_int_equal(sb_soak_look(getpid(), &before, NULL), SB_OK);
+    assert_int_equal(sb_soak_measure(getpid(), &before, NULL), SB_OK);
     const int more = dup(STDOUT_FILENO);
     enum { BYTES = 1 << 25 };
     char *block = sb_alloc(BYTES, 1);
     assert_non_null(block);
     memset(block, 1, BYTES);
-    assert_int_equal(sb_soak_look(getpid(), &after, NULL), SB_OK);
+    assert_int_equal(sb_soak_measure(getpid(), &after, NULL), SB_OK);
     close(more);
     assert_int_equal(block[BYTES / 2], 1);
     sb_free(block);
     assert_int_equal(after.descriptors, before.descriptors + 1);
     assert_true(after.resident > before.resident + BYTES / 2);
-    assert_int_equal(sb_soak_look(-1, &after, NULL), SB_FAILED);
+    assert_int_equal(sb_soak_measure(-1, &after, NULL), SB_FAILED);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_start_is_no_growth),      cmocka_unit_test(memory_may_grow_so_far_and_no_further),
-        cmocka_unit_test(no_descriptor_may_stay_open), cmocka_unit_test(a_broken_life_tells_how),
-        cmocka_unit_test(frames_have_to_arrive),       cmocka_unit_test(a_short_life_is_not_judged),
-        cmocka_unit_test(a_process_is_seen),
+        cmocka_unit_test(test_start_is_not_growth),      cmocka_unit_test(test_memory_growth_is_limited),
+        cmocka_unit_test(test_descriptors_may_not_grow), cmocka_unit_test(test_failed_process_is_explained),
+        cmocka_unit_test(test_frames_must_arrive),       cmocka_unit_test(test_short_life_is_not_judged),
+        cmocka_unit_test(test_process_is_measured),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -70,7 +70,7 @@ static void test_every_choice_is_one(void **state)
         sb_contest c;
         sb_error error = {0};
         char folder[SB_PATH_MAX];
-        if (sb_contest_begin(&c, s, &store, &(sb_contest_wish){.seeds = 1}, &error) != SB_OK)
+        if (sb_contest_begin(&c, s, &store, &(sb_contest_selection){.seeds = 1}, &error) != SB_OK)
             fail_msg("%s", error.text);
         for (size_t i = 0; i < c.trial_count; i++)
             if (sb_store_folder(&store, &c.trials[i].request, folder, &error) != SB_OK) fail_msg("%s", error.text);
@@ -96,7 +96,7 @@ static void test_a_part_may_be_wished_for(void **state)
     const sb_store store = {.assets = SB_SOURCE_DIR "/assets/validation"};
     const sb_subject *s = sb_subjects;
     while (s->full_reference <= 0 || s->full[1] <= 0) s++;
-    const sb_contest_wish wishes[] = {
+    const sb_contest_selection wishes[] = {
         {.seeds = 1},
         {.seeds = 1, .few = true},
         {.seeds = 1, .spacings = 1},
@@ -142,7 +142,7 @@ static void test_seeds_are_averaged_and_the_front_is_found(void **state)
     sb_contest c;
     sb_error error = {0};
     const sb_subject *column = &sb_subjects[1];
-    if (sb_contest_begin(&c, column, &store, &(sb_contest_wish){.quick = true, .seeds = 2}, &error) != SB_OK)
+    if (sb_contest_begin(&c, column, &store, &(sb_contest_selection){.quick = true, .seeds = 2}, &error) != SB_OK)
         fail_msg("%s", error.text);
     assert_true(c.entry_count > 3);
     assert_int_equal(c.trial_count, 2 * c.entry_count);
@@ -179,7 +179,7 @@ static void test_a_reference_run_is_the_mean_of_its_seeds(void **state)
     sb_error error = {0};
     const sb_subject *s = sb_subjects;
     while (s->quick_reference <= 0) s++;
-    if (sb_contest_begin(&c, s, &store, &(sb_contest_wish){.quick = true, .seeds = 2}, &error) != SB_OK)
+    if (sb_contest_begin(&c, s, &store, &(sb_contest_selection){.quick = true, .seeds = 2}, &error) != SB_OK)
         fail_msg("%s", error.text);
     const sb_entry *e = c.entries;
     assert_null(e[0].choice);

@@ -1,5 +1,5 @@
-/* Two cheap cases through the validation program, with tolerances for their coarse forms; that a
-   finished set is not run again; and what a bad command line says. */
+/* Tests of tools/validate: two cheap cases with tolerances for their coarse forms; a finished run is not repeated; bad
+   command lines are refused. */
 #include "check.h"
 
 #include "sheet.h"
@@ -21,7 +21,7 @@ static int set_up(void **state)
 {
     (void)state;
     if (tool_begin() != 0) return -1;
-    /* 0: all within reach, 4: some are short of it, which coarse forms may be. */
+    /* 0: all within their targets; 4: some missed, as coarse forms may. */
     int status = validate("--quick still-water-2d standing-wave");
     if (status != 0 && status != 4) return -1;
     sb_error error = {0};
@@ -37,7 +37,7 @@ static int tear_down(void **state)
     return tool_end();
 }
 
-/* Column of the judged figure. */
+/* Value of a column for the judged figure. */
 static double figure(const char *name, const char *quantity, const char *column)
 {
     for (size_t row = 0; row < results.rows; row++)
@@ -49,7 +49,7 @@ static double figure(const char *name, const char *quantity, const char *column)
     return (double)NAN;
 }
 
-static void test_still_water_stays_still(void **state)
+static void test_still_water_stays_at_rest(void **state)
 {
     (void)state;
     const char *name = "still-water-2d";
@@ -61,7 +61,7 @@ static void test_still_water_stays_still(void **state)
 }
 
 /* At 25 particles over the depth the wave is a particle and a quarter high. */
-static void test_a_coarse_standing_wave_swings(void **state)
+static void test_coarse_standing_wave_oscillates(void **state)
 {
     (void)state;
     const char *name = "standing-wave";
@@ -71,7 +71,7 @@ static void test_a_coarse_standing_wave_swings(void **state)
     assert_true(figure(name, "second wave, 1.5 times the wave number", "value") <= 10);
 }
 
-static void test_what_has_run_is_not_run_again(void **state)
+static void test_finished_run_is_not_repeated(void **state)
 {
     (void)state;
     int status = validate("--quick still-water-2d");
@@ -82,24 +82,24 @@ static void test_what_has_run_is_not_run_again(void **state)
     assert_true(tool_says("out/quick/validation.md", "not run")); /* the other cases */
 }
 
-static void test_bad_command_lines(void **state)
+static void test_bad_command_lines_are_refused(void **state)
 {
     (void)state;
     assert_int_equal(validate("still-watr"), 1);
-    assert_true(tool_says("said", "validate: still-watr: no such case; --list names them"));
+    assert_true(tool_says("said", "validate: still-watr: no such case; --list shows the cases"));
     assert_int_equal(validate("--quik"), 1);
     assert_true(tool_says("said", "--quik: no such option"));
     assert_int_equal(validate(""), 1);
-    assert_true(tool_says("said", "no case named"));
+    assert_true(tool_says("said", "no case given"));
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_still_water_stays_still),
-        cmocka_unit_test(test_a_coarse_standing_wave_swings),
-        cmocka_unit_test(test_what_has_run_is_not_run_again),
-        cmocka_unit_test(test_bad_command_lines),
+        cmocka_unit_test(test_still_water_stays_at_rest),
+        cmocka_unit_test(test_coarse_standing_wave_oscillates),
+        cmocka_unit_test(test_finished_run_is_not_repeated),
+        cmocka_unit_test(test_bad_command_lines_are_refused),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

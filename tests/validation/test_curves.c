@@ -1,4 +1,4 @@
-/* The small mathematics of comparing curves. */
+/* Tests of the operations on curves. */
 #include "check.h"
 
 #include "curve.h"
@@ -100,7 +100,7 @@ static void test_impulse_is_the_trapezoid_with_interpolated_ends(void **state)
     (void)state;
     sb_curve line = made_of(11, 0.1, straight), fine = made_of(2001, 0.001, wave);
     assert_near(sb_curve_integral(&line, 0.13, 0.77), 3 * 0.64 - (0.77 * 0.77 - 0.13 * 0.13), 1e-12);
-    /* the rule is short by step^2/12 times the change of slope, = 1.05e-6 */
+    /* the rule is too low by step^2/12 times the change of slope, 1.05e-6 */
     assert_near(sb_curve_integral(&fine, 0, 0.5), 1 / M_PI, 1.1e-6);
     assert_near(sb_curve_integral(&fine, 0.25, 1.25), 0, 1e-9);
     assert_true(isnan(sb_curve_integral(&line, -0.1, 0.5)));

@@ -1,4 +1,4 @@
-/* Figures, how seeds are judged together, and theory. */
+/* Tests of figures, of their judgement over seeds, and of theory. */
 #include "check.h"
 
 #include "results.h"
@@ -26,7 +26,7 @@ static void test_errors_and_limits(void **state)
     sb_figures_free(&f);
 }
 
-static void test_a_band_counts_from_its_nearer_edge(void **state)
+static void test_band_error_is_from_nearer_edge(void **state)
 {
     (void)state;
     static const double values[] = {15, 20, 23, 24, 8.5, 8, (double)NAN};
@@ -43,7 +43,7 @@ static void test_a_band_counts_from_its_nearer_edge(void **state)
 
 enum { SEEDS = 3 };
 
-static void test_the_worst_seed_judges(void **state)
+static void test_worst_seed_decides(void **state)
 {
     (void)state;
     static const double values[SEEDS] = {101, 97, 102};
@@ -69,7 +69,7 @@ static void test_the_worst_seed_judges(void **state)
     sb_seed_spread spread = sb_results_spread(&results, "v");
     assert_near(spread.value, 5, 1e-12);
     assert_near(spread.resolution, 1, 0);
-    assert_true(isnan(sb_results_spread(&results, "unheard of").value));
+    assert_true(isnan(sb_results_spread(&results, "unknown").value));
     assert_false(j.pass);
     assert_near(sb_results_judge(&results, 1).worst, 1, 1e-12); /* not -4 */
     size_t limited, passed;
@@ -80,21 +80,21 @@ static void test_the_worst_seed_judges(void **state)
     j = sb_results_judge(&results, 0);
     assert_int_equal(j.seeds, SEEDS - 1);
     assert_near(j.worst, 2, 1e-12);
-    /* With one seed where it is judged, the spread is that of the spacing that has more. */
+    /* If the judged spacing has one seed, the spread is that of the spacing with several seeds. */
     coarse.judged = true;
     plan.judged = false;
     assert_int_equal(sb_figure_share(&runs[0].figures, "v", "", 100, 7, 100, 2.5, NULL, "%s", ""), SB_OK);
     assert_ptr_equal(sb_results_judged(&results), &runs[0]);
     assert_int_equal(sb_results_judge(&results, 0).seeds, 1);
     spread = sb_results_spread(&results, "v");
-    assert_near(spread.value, 1, 1e-12); /* 101 and 102: of the other, another program's, nothing */
+    assert_near(spread.value, 1, 1e-12); /* 101 and 102; the run of another program does not count */
     assert_near(spread.resolution, 1, 0);
     runs[3].figures.rows[0].value = (double)NAN; /* not measured: no spread is known */
     assert_true(isnan(sb_results_spread(&results, "v").value));
     for (int i = 0; i <= SEEDS; i++) sb_figures_free(&runs[i].figures);
 }
 
-/* The same mean as an integral, in shells: h = 1. */
+/* The lattice sum as an integral over shells, h = 1. */
 static double continuum(const sb_kernel *kernel, int dimension)
 {
     enum { SHELLS = 4000 };
@@ -106,7 +106,7 @@ static double continuum(const sb_kernel *kernel, int dimension)
     return sum / dimension;
 }
 
-static void test_lattice_sums_reach_the_continuum(void **state)
+static void test_lattice_sums_converge_to_continuum(void **state)
 {
     (void)state;
     for (size_t i = 0; sb_kernels[i]; i++)
@@ -117,7 +117,7 @@ static void test_lattice_sums_reach_the_continuum(void **state)
 }
 
 /* Deep water: 1 - (k a)^2/8; the shift vanishes at k h = 1.07 (depth 0.17 of the length). */
-static void test_standing_waves_shift(void **state)
+static void test_standing_wave_frequency_shift(void **state)
 {
     (void)state;
     assert_near(sb_theory_standing_shift(20, 0.1), 1 - 0.01 / 8, 1e-9);
@@ -128,9 +128,11 @@ static void test_standing_waves_shift(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_errors_and_limits),     cmocka_unit_test(test_a_band_counts_from_its_nearer_edge),
-        cmocka_unit_test(test_the_worst_seed_judges), cmocka_unit_test(test_lattice_sums_reach_the_continuum),
-        cmocka_unit_test(test_standing_waves_shift),
+        cmocka_unit_test(test_errors_and_limits),
+        cmocka_unit_test(test_band_error_is_from_nearer_edge),
+        cmocka_unit_test(test_worst_seed_decides),
+        cmocka_unit_test(test_lattice_sums_converge_to_continuum),
+        cmocka_unit_test(test_standing_wave_frequency_shift),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* Figures of a former report stand in for runs that are not there, where the very same was asked. */
+/* Tests of kept figures: an earlier report replaces a missing run if request and defaults are the same. */
 #include "check.h"
 #include "tools/tool.h"
 
@@ -13,11 +13,12 @@
 #define RUN "100,20,6.50,3.5,abc,0123456789abcdef,00000000000000a7,2,\"Abacus, 2 cores\",b1d,"
 #define FINER "800,40,7.00,30.0,abc,ffffffffffffffff,00000000000000a7,2,\"Abacus, 2 cores\",b1d,"
 static const char table[] =
-    "case,resolution_m,preset,seed,judged,quantity,unit,reference,value,error,error_unit,reach,verdict,particles,steps,"
-    "sweeps_per_step,run_time_s,commit,asked,meant,threads,machine,build,reference_low,reference_high,note\n"
+    "case,resolution_m,preset,seed,judged,quantity,unit,reference,value,error,error_unit,target,verdict,particles,"
+    "steps,"
+    "sweeps_per_step,run_time_s,commit,request,defaults,threads,machine,build,reference_low,reference_high,note\n"
     "a,0.1,default,1,yes,height,m,2,2.1,5,%,10,pass," RUN "1.5,2.5,\"counted by hand, \"\"twice\"\"\"\n"
     "a,0.1,default,1,yes,\"noise, all\",%,,3,3,%,1,FAIL," RUN ",,\n"
-    "a,0.1,default,1,yes,told,Pa,,7,,%,,reported," RUN ",,\n"
+    "a,0.1,default,1,yes,pressure,Pa,,7,,%,,reported," RUN ",,\n"
     "b,0.1,default,1,yes,height,m,2,1,-50,%,10,FAIL," RUN ",,\n"
     "a,0.05,default,1,no,height,m,2,2.2,10,%,10,pass," FINER ",,\n"
     "a,,default,1,yes,order,,,1.5,1.5,,2,pass,,,,,,,,,,,,,of two\n";
@@ -25,10 +26,10 @@ static const char table[] =
 static const sb_case of = {.name = "a"};
 static const sb_plan plan = {.resolution = 0.1, .judged = true};
 
-static sb_result wanted(const char *asked)
+static sb_result requested(const char *hash)
 {
-    sb_result r = {.request = {.of = &of, .plan = &plan, .seed = 1}, .meant = 0xa7};
-    snprintf(r.asked, sizeof r.asked, "%s", asked);
+    sb_result r = {.request = {.of = &of, .plan = &plan, .seed = 1}, .defaults_hash = 0xa7};
+    snprintf(r.request_hash, sizeof r.request_hash, "%s", hash);
     return r;
 }
 
@@ -48,12 +49,12 @@ static void open_table(sb_sheet *sheet)
     assert_int_equal(sheet->rows, 6);
 }
 
-static void test_what_was_asked_is_found(void **state)
+static void test_same_request_is_found(void **state)
 {
     (void)state;
     sb_sheet sheet;
     open_table(&sheet);
-    sb_result r = wanted("0123456789abcdef");
+    sb_result r = requested("0123456789abcdef");
     assert_int_equal(sb_kept_read(&sheet, &r, NULL), SB_OK);
     assert_true(r.state == SB_RESULT_DONE && r.kept);
     assert_int_equal(r.figures.count, 3); /* not case b's */
@@ -63,7 +64,7 @@ static void test_what_was_asked_is_found(void **state)
     assert_near(height->limit, 10, 0);
     assert_string_equal(height->note, "counted by hand, \"twice\"");
     assert_true(height->low == 1.5 && height->high == 2.5 && noise->low == noise->high && !noise->note[0]);
-    assert_true(isnan(noise->reference) && isnan(sb_figures_find(&r.figures, "told")->limit));
+    assert_true(isnan(noise->reference) && isnan(sb_figures_find(&r.figures, "pressure")->limit));
     assert_string_equal(r.run.commit, "abc");
     assert_int_equal(r.run.view.particles, 100);
     assert_int_equal(r.run.view.steps, 20);
@@ -85,15 +86,15 @@ static void test_what_was_asked_is_found(void **state)
     sb_sheet_free(&sheet);
 }
 
-static void test_other_questions_and_own_runs_are_left_alone(void **state)
+static void test_other_requests_and_own_runs_are_ignored(void **state)
 {
     (void)state;
     sb_sheet sheet;
     open_table(&sheet);
-    sb_result other = wanted("0000000000000000"), unknown = wanted(""), own = wanted("0123456789abcdef");
-    sb_result defaults = wanted("0123456789abcdef");
+    sb_result other = requested("0000000000000000"), unknown = requested(""), own = requested("0123456789abcdef");
+    sb_result defaults = requested("0123456789abcdef");
     own.state = SB_RESULT_FAILED;
-    defaults.meant = 0xa8; /* the same keys, but another default since */
+    defaults.defaults_hash = 0xa8; /* the same request, but another default */
     sb_result *each[] = {&other, &unknown, &own, &defaults};
     for (size_t i = 0; i < 4; i++) {
         const sb_result_state before = each[i]->state;
@@ -103,15 +104,15 @@ static void test_other_questions_and_own_runs_are_left_alone(void **state)
     sb_sheet_free(&sheet);
 }
 
-/* A report made of kept figures alone leaves a table that gives the very same again. */
-static void test_a_table_survives_its_report(void **state)
+/* A report of kept figures alone writes a table with the same figures. */
+static void test_report_of_kept_figures_keeps_table(void **state)
 {
     (void)state;
     char *written = NULL;
     size_t length = 0;
     sb_sheet sheet;
     open_table(&sheet);
-    sb_result r = wanted("0123456789abcdef");
+    sb_result r = requested("0123456789abcdef");
     sb_case_results results = {.of = &of, .count = 1, .runs = &r};
     assert_int_equal(sb_kept_read(&sheet, &r, NULL), SB_OK);
     assert_int_equal(sb_kept_across(&sheet, "a", &results.across, NULL), SB_OK);
@@ -123,8 +124,8 @@ static void test_a_table_survives_its_report(void **state)
         char text[400];
         end = strchr(line, '\n');
         snprintf(text, sizeof text, "%.*s", (int)(end - line + 1), line);
-        const bool asked = !strstr(line, "ffffffffffffffff") || end < strstr(line, "ffffffffffffffff");
-        assert_int_equal(strstr(written, text) != NULL, line[0] != 'b' && asked);
+        const bool same = !strstr(line, "ffffffffffffffff") || end < strstr(line, "ffffffffffffffff");
+        assert_int_equal(strstr(written, text) != NULL, line[0] != 'b' && same);
     }
     free(written);
     sb_figures_free(&r.figures);
@@ -132,11 +133,11 @@ static void test_a_table_survives_its_report(void **state)
     sb_sheet_free(&sheet);
 }
 
-static void test_no_table_is_an_empty_one(void **state)
+static void test_missing_table_is_empty(void **state)
 {
     (void)state;
     sb_sheet sheet;
-    sb_result r = wanted("0123456789abcdef");
+    sb_result r = requested("0123456789abcdef");
     assert_int_equal(sb_kept_open(tool_path("nowhere"), &sheet, NULL), SB_OK);
     assert_int_equal(sb_kept_read(&sheet, &r, NULL), SB_OK);
     assert_true(r.state == SB_RESULT_NOT_RUN);
@@ -158,10 +159,10 @@ static int tear_down(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_what_was_asked_is_found),
-        cmocka_unit_test(test_other_questions_and_own_runs_are_left_alone),
-        cmocka_unit_test(test_a_table_survives_its_report),
-        cmocka_unit_test(test_no_table_is_an_empty_one),
+        cmocka_unit_test(test_same_request_is_found),
+        cmocka_unit_test(test_other_requests_and_own_runs_are_ignored),
+        cmocka_unit_test(test_report_of_kept_figures_keeps_table),
+        cmocka_unit_test(test_missing_table_is_empty),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

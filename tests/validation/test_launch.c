@@ -1,4 +1,4 @@
-/* Runs that were stopped: what the launcher asks of the program when it is started again, and what it remembers. */
+/* Tests of the launcher: a stopped run is resumed, and its processor time is added. */
 #include "check.h"
 
 #include "cases.h"
@@ -13,9 +13,9 @@
 
 static char folder[] = "/tmp/test-launch-XXXXXX";
 
-/* In place of shorebreak: writes down what it is asked, is stopped the first time, and then ends well. */
+/* Replaces shorebreak: records its arguments, ends as if stopped the first time, and succeeds the second time. */
 static const char program[] = "#!/bin/sh\n"
-                              "echo \"$@\" >> asked\n"
+                              "echo \"$@\" >> arguments\n"
                               "[ -f once ] && exit 0\n"
                               "touch once\n"
                               "exit 143\n";
@@ -36,7 +36,7 @@ static int tear_down(void **state)
     return chdir("/") == 0 ? system(command) : -1;
 }
 
-static void a_stopped_run_goes_on(void **state)
+static void test_stopped_run_is_resumed(void **state)
 {
     (void)state;
     sb_store store;
@@ -54,23 +54,23 @@ static void a_stopped_run_goes_on(void **state)
     assert_true(sb_store_find(&store, &request, false, place));
     sb_record_recall(place, "cpu_s", spent, sizeof spent);
     assert_true(strtod(spent, NULL) >= 20 && strtod(spent, NULL) < 21);
-    /* Nothing is left to be done. */
+    /* A third launch runs nothing. */
     assert_int_equal(sb_launch(&store, &request, 1, 1, &failed, &error), SB_OK);
 
     char line[2][2048];
-    FILE *asked = fopen("asked", "r");
-    assert_non_null(asked);
+    FILE *arguments = fopen("arguments", "r");
+    assert_non_null(arguments);
     for (int i = 0; i < 2; i++) {
-        assert_non_null(fgets(line[i], sizeof line[i], asked));
+        assert_non_null(fgets(line[i], sizeof line[i], arguments));
         assert_non_null(strstr(line[i], " --resume "));
     }
     assert_string_equal(line[0], line[1]);
-    assert_null(fgets(line[0], sizeof line[0], asked));
-    assert_int_equal(fclose(asked), 0);
+    assert_null(fgets(line[0], sizeof line[0], arguments));
+    assert_int_equal(fclose(arguments), 0);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_stopped_run_goes_on)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_stopped_run_is_resumed)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -1,4 +1,4 @@
-/* Tables are read strictly; every reference table and every scene of a case is sound. */
+/* Tests of the table reader, of every reference table, and of every scene of a case. */
 #include "check.h"
 
 #include "base/file.h"
@@ -26,7 +26,7 @@ static const char *written(const char *text)
     return path;
 }
 
-static void test_a_sheet_gives_its_columns(void **state)
+static void test_table_columns_are_read(void **state)
 {
     (void)state;
     sb_sheet sheet;
@@ -51,7 +51,7 @@ static void test_a_sheet_gives_its_columns(void **state)
     sb_sheet_free(&sheet);
 }
 
-static void test_a_ragged_line_is_named(void **state)
+static void test_row_with_missing_fields_is_refused(void **state)
 {
     (void)state;
     sb_sheet sheet;
@@ -63,7 +63,7 @@ static void test_a_ragged_line_is_named(void **state)
 
 static int tables;
 
-/* Cites its source, has numbers in all columns of all rows but names, and is small. */
+/* A table cites its source, has numbers in all columns other than that of names, and is small. */
 static int look(const char *file, const struct stat *info, int kind, struct FTW *where)
 {
     (void)where;
@@ -78,22 +78,21 @@ static int look(const char *file, const struct stat *info, int kind, struct FTW 
     for (size_t row = 0; row < sheet.rows; row++)
         for (size_t k = 0; k < sheet.columns; k++)
             if (k != 1 && isnan(sb_sheet_number(&sheet, row, k)) && *sb_sheet_text(&sheet, row, k))
-                fail_msg("%s, row %zu: %s is no number", file, row + 1, sb_sheet_text(&sheet, row, k));
+                fail_msg("%s, row %zu: %s is not a number", file, row + 1, sb_sheet_text(&sheet, row, k));
     sb_sheet_free(&sheet);
     tables++;
     return 0;
 }
 
-static void test_reference_tables_are_sound(void **state)
+static void test_reference_tables_are_valid(void **state)
 {
     (void)state;
     assert_int_equal(nftw(SB_SOURCE_DIR "/assets/validation", look, 16, FTW_PHYS), 0);
     assert_true(tables >= 2);
 }
 
-/* Every case has a name of its own, what it needs, one judged line, and scenes that can be read as
- * they will be run. */
-static void test_cases_are_sound(void **state)
+/* Every case has a unique name, its functions, one judged spacing, and scenes that can be read with their settings. */
+static void test_cases_are_valid(void **state)
 {
     (void)state;
     for (size_t i = 0; sb_cases[i]; i++) {
@@ -117,13 +116,13 @@ static void test_cases_are_sound(void **state)
                     assert_true(strncmp(*more, "numerics", 8) != 0);
                 judged += requests[r].plan->judged && !requests[r].paper && requests[r].seed == 1;
             }
-            if (judged != 1) fail_msg("%s: %zu judged lines, expected 1", of->name, judged);
+            if (judged != 1) fail_msg("%s: %zu judged spacings, expected 1", of->name, judged);
             sb_free(requests);
         }
     }
 }
 
-static void test_what_is_asked_decides_the_hash(void **state)
+static void test_hash_depends_on_request(void **state)
 {
     (void)state;
     static const char *const longer[] = {"duration=21", NULL};
@@ -146,35 +145,35 @@ static void test_what_is_asked_decides_the_hash(void **state)
     }
 }
 
-/* A finished run is told from one of other defaults by the scene it wrote. */
-static void test_what_a_run_wrote_means_what_was_asked(void **state)
+/* The scene that a run writes shows with which defaults it ran. */
+static void test_written_scene_has_same_defaults_hash(void **state)
 {
     (void)state;
-    char file_name[] = "/tmp/shorebreak-meant-XXXXXX";
+    char file_name[] = "/tmp/shorebreak-defaults-XXXXXX";
     const char *scene = SB_SOURCE_DIR "/assets/validation/solitary-runup/breaking.yaml";
     const sb_plan plan = {.resolution = 0.05};
-    const sb_request asked = {.of = sb_cases[0], .plan = &plan, .seed = 1};
+    const sb_request request = {.of = sb_cases[0], .plan = &plan, .seed = 1};
     const sb_override set[] = {{"resolution", "0.05"}, {"numerics.seed", "1"}, {"output.plots", "false"}};
-    uint64_t meant, meaning;
+    uint64_t expected, written_hash;
     sb_scene made, back;
     const int file = mkstemp(file_name);
     assert_true(file >= 0);
     close(file);
-    assert_int_equal(sb_request_meant(&asked, scene, &meant, NULL), SB_OK);
+    assert_int_equal(sb_request_defaults_hash(&request, scene, &expected, NULL), SB_OK);
     assert_int_equal(sb_scene_read(scene, "default", set, 3, &made, NULL), SB_OK);
     for (int other = 0; other < 2; other++) {
         made.numerics.artificial_viscosity += other * 1e-4;
         assert_int_equal(sb_scene_write(&made, file_name, NULL), SB_OK);
         assert_int_equal(sb_scene_read(file_name, NULL, NULL, 0, &back, NULL), SB_OK);
-        assert_int_equal(sb_scene_meaning(&back, &meaning, NULL), SB_OK);
-        assert_int_equal(meaning == meant, !other);
+        assert_int_equal(sb_scene_defaults_hash(&back, &written_hash, NULL), SB_OK);
+        assert_int_equal(written_hash == expected, !other);
         sb_scene_free(&back);
     }
     sb_scene_free(&made);
     unlink(file_name);
 }
 
-static void test_changes_of_defaults_stay_within_their_keys(void **state)
+static void test_changed_defaults_stay_within_bounds(void **state)
 {
     (void)state;
     sb_scene scene;
@@ -209,13 +208,13 @@ static int tear_down(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_sheet_gives_its_columns),
-        cmocka_unit_test(test_a_ragged_line_is_named),
-        cmocka_unit_test(test_reference_tables_are_sound),
-        cmocka_unit_test(test_cases_are_sound),
-        cmocka_unit_test(test_what_is_asked_decides_the_hash),
-        cmocka_unit_test(test_what_a_run_wrote_means_what_was_asked),
-        cmocka_unit_test(test_changes_of_defaults_stay_within_their_keys),
+        cmocka_unit_test(test_table_columns_are_read),
+        cmocka_unit_test(test_row_with_missing_fields_is_refused),
+        cmocka_unit_test(test_reference_tables_are_valid),
+        cmocka_unit_test(test_cases_are_valid),
+        cmocka_unit_test(test_hash_depends_on_request),
+        cmocka_unit_test(test_written_scene_has_same_defaults_hash),
+        cmocka_unit_test(test_changed_defaults_stay_within_bounds),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -36,17 +36,17 @@ static sb_status take_case(void *user, const char *name, sb_error *error)
 sb_status sb_battery_parse(int count, char **arguments, sb_battery_options *o, sb_error *error)
 {
     *o = (sb_battery_options){.command = "tools/stress"};
-    const sb_argument options[] = {{.name = "--all", .flag = &o->all, .telling = true},
-                                   {.name = "--quick", .flag = &o->quick, .telling = true},
+    const sb_argument options[] = {{.name = "--all", .flag = &o->all, .repeated = true},
+                                   {.name = "--quick", .flag = &o->quick, .repeated = true},
                                    {.name = "--list", .flag = &o->list},
-                                   {.name = "--report-only", .flag = &o->report_only, .telling = true},
-                                   {.name = "--jobs", .count = &o->jobs, .most = 256, .telling = true},
+                                   {.name = "--report-only", .flag = &o->report_only, .repeated = true},
+                                   {.name = "--jobs", .count = &o->jobs, .most = 256, .repeated = true},
                                    {.name = "--out", .text = &o->out},
                                    {.name = "--report", .text = &o->report},
                                    {.name = "--shorebreak", .text = &o->program}};
     const sb_command_line line = {.options = options,
                                   .option_count = sizeof options / sizeof *options,
-                                  .word = take_case,
+                                  .operand = take_case,
                                   .user = o,
                                   .help = &o->help,
                                   .command = o->command,

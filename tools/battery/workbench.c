@@ -37,7 +37,7 @@ sb_status sb_workbench_folder(const sb_workbench *bench, const sb_job *job, char
     return length < SB_PATH_MAX - 64 ? SB_OK : sb_fail(error, SB_BAD_INPUT, "%.400s: the path is too long", bench->out);
 }
 
-uint64_t sb_workbench_asked(const sb_workbench *bench, const sb_job *job)
+uint64_t sb_workbench_request_hash(const sb_workbench *bench, const sb_job *job)
 {
     const sb_trial *t = job->trial;
     char path[SB_PATH_MAX];
@@ -64,7 +64,7 @@ bool sb_workbench_has(const sb_workbench *bench, const sb_job *job)
 {
     char folder[SB_PATH_MAX];
     return sb_workbench_folder(bench, job, folder, NULL) == SB_OK && recalled(folder, "build", bench->build) &&
-           recalled(folder, "asked", sb_workbench_asked(bench, job));
+           recalled(folder, "asked", sb_workbench_request_hash(bench, job));
 }
 
 static int remove_one(const char *path, const struct stat *info, int kind, struct FTW *where)
@@ -87,8 +87,8 @@ sb_status sb_workbench_keep(const sb_workbench *bench, const sb_job *job, const 
     sb_atomic_file file;
     sb_status status = sb_atomic_open_in(&file, o->folder, SB_RECORD_NAME, error);
     if (status != SB_OK) return status;
-    fprintf(file.stream, "asked: %016" PRIx64 "\nbuild: %016" PRIx64 "\ncommit: %s\n", sb_workbench_asked(bench, job),
-            bench->build, bench->commit);
+    fprintf(file.stream, "asked: %016" PRIx64 "\nbuild: %016" PRIx64 "\ncommit: %s\n",
+            sb_workbench_request_hash(bench, job), bench->build, bench->commit);
     fprintf(file.stream, "how: %u\nended: %s\nwall: %.3f\nsaid: %s\n", o->how, o->ended, o->wall, o->said);
     return sb_atomic_commit(&file, 0, error);
 }
@@ -106,7 +106,7 @@ sb_outcome sb_workbench_recall(const sb_workbench *bench, const sb_job *job)
     sb_outcome o = {0};
     char value[64];
     if (sb_workbench_folder(bench, job, o.folder, NULL) != SB_OK ||
-        !recalled(o.folder, "asked", sb_workbench_asked(bench, job)))
+        !recalled(o.folder, "asked", sb_workbench_request_hash(bench, job)))
         return o;
     o.there = true;
     sb_record_recall(o.folder, "how", value, sizeof value);

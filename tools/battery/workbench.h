@@ -6,7 +6,7 @@
 
 sb_status sb_workbench_folder(const sb_workbench *bench, const sb_job *job, char folder[SB_PATH_MAX], sb_error *error);
 /* What is asked, as a number: the scene's text, the files it names, all that is set. */
-uint64_t sb_workbench_asked(const sb_workbench *bench, const sb_job *job);
+uint64_t sb_workbench_request_hash(const sb_workbench *bench, const sb_job *job);
 /* Whether this very build has an outcome for it. */
 bool sb_workbench_has(const sb_workbench *bench, const sb_job *job);
 /* Empties the trial's folder and makes it anew. */

@@ -56,7 +56,7 @@ sb_status sb_bench_parse(int count, char **arguments, sb_bench_options *o, sb_er
                                    {.name = "--machine", .text = &o->machine}};
     const sb_command_line line = {.options = options,
                                   .option_count = sizeof options / sizeof *options,
-                                  .word = take_section,
+                                  .operand = take_section,
                                   .user = o,
                                   .help = &o->help};
     sb_status status = sb_command_line_read(&line, count, arguments, error);

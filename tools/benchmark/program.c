@@ -46,7 +46,7 @@ static sb_status start_and_wait(const char *program, const char *const *argument
     if (sb_stop_signal()) return sb_stop_fail(error, "while shorebreak ran");
     if (known && WIFEXITED(ended) && WEXITSTATUS(ended) == 0) return SB_OK;
     sb_process_describe(ended, how);
-    sb_process_last_words(said, "it said nothing", words, sizeof words);
+    sb_process_last_line(said, "it said nothing", words, sizeof words);
     return sb_fail(error, SB_FAILED, "%.400s: ended with %s: %s", program, how, words);
 }
 

@@ -20,7 +20,7 @@ static sb_status read_defaults(const sb_subject *subject, const sb_store *store,
     return SB_OK;
 }
 
-static int reference_seeds(const sb_contest_wish *wish)
+static int reference_seeds(const sb_contest_selection *wish)
 {
     const int seeds = wish->references ? wish->references : wish->seeds;
     return seeds < SB_REFERENCE_SEEDS ? seeds : SB_REFERENCE_SEEDS;
@@ -28,7 +28,7 @@ static int reference_seeds(const sb_contest_wish *wish)
 
 /* The entry stays where it is from here on: its plan points into it. A choice that changes nothing here
    (a factor on a default of 0) is left out: its runs would be those of `default`. */
-static void add(sb_contest *c, const sb_choice *choice, double spacing, const sb_contest_wish *wish,
+static void add(sb_contest *c, const sb_choice *choice, double spacing, const sb_contest_selection *wish,
                 const sb_numerics *defaults)
 {
     const int seeds = choice ? wish->seeds : reference_seeds(wish);
@@ -56,14 +56,14 @@ static void add(sb_contest *c, const sb_choice *choice, double spacing, const sb
     }
 }
 
-static bool wanted_at(const sb_contest_wish *wish, const double *spacings, size_t i)
+static bool wanted_at(const sb_contest_selection *wish, const double *spacings, size_t i)
 {
     if (wish->spacing > 0 && fabs(spacings[i] - wish->spacing) > 1e-6 * wish->spacing) return false;
     return !wish->spacings || i < (size_t)wish->spacings;
 }
 
-sb_status sb_contest_begin(sb_contest *c, const sb_subject *subject, const sb_store *store, const sb_contest_wish *wish,
-                           sb_error *error)
+sb_status sb_contest_begin(sb_contest *c, const sb_subject *subject, const sb_store *store,
+                           const sb_contest_selection *wish, sb_error *error)
 {
     const double *spacings = wish->quick ? subject->quick : subject->full;
     const double reference = wish->quick ? subject->quick_reference : subject->full_reference;

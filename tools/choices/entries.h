@@ -35,19 +35,19 @@ typedef struct sb_contest {
 } sb_contest;
 
 /* What of a subject is wanted. */
-typedef struct sb_contest_wish {
+typedef struct sb_contest_selection {
     bool quick;     /* the cheap form: few choices at coarse spacings */
     bool few;       /* those choices at the full form's spacings */
     int seeds;      /* of every run */
     int references; /* seeds of the reference, at most 2; 0: as many as of the others */
     int spacings;   /* the coarsest so many alone; 0: all */
     double spacing; /* this one alone, m; 0: all */
-} sb_contest_wish;
+} sb_contest_selection;
 
 /* The runs that are wanted, the reference first; nothing is run. A wish for a spacing that the subject has not gives
    none. SB_BAD_INPUT: the scene cannot be read. */
 sb_status sb_contest_begin(sb_contest *contest, const sb_subject *subject, const sb_store *store,
-                           const sb_contest_wish *wish, sb_error *error);
+                           const sb_contest_selection *wish, sb_error *error);
 /* From read trials: times (of the processor with cpu), errors, front. */
 sb_status sb_contest_judge(sb_contest *contest, bool cpu, sb_error *error);
 void sb_contest_free(sb_contest *contest);

@@ -13,7 +13,7 @@ enum { SUBJECTS = 16 };
 typedef struct options {
     const char *out, *report, *program;
     bool report_only, list, help;
-    sb_contest_wish wish;
+    sb_contest_selection wish;
     int jobs;
     const sb_subject *subjects[SUBJECTS];
     size_t subject_count;
@@ -56,21 +56,21 @@ static sb_status parse(int count, char **arguments, options *o, sb_error *error)
 {
     *o = (options){.command = "tools/tradeoff"};
     const sb_argument table[] = {
-        {.name = "--quick", .flag = &o->wish.quick, .telling = true},
-        {.name = "--few", .flag = &o->wish.few, .telling = true},
-        {.name = "--spacings", .count = &o->wish.spacings, .most = 64, .telling = true},
-        {.name = "--spacing", .number = &o->wish.spacing, .most = 1e6, .telling = true},
+        {.name = "--quick", .flag = &o->wish.quick, .repeated = true},
+        {.name = "--few", .flag = &o->wish.few, .repeated = true},
+        {.name = "--spacings", .count = &o->wish.spacings, .most = 64, .repeated = true},
+        {.name = "--spacing", .number = &o->wish.spacing, .most = 1e6, .repeated = true},
         {.name = "--report-only", .flag = &o->report_only},
         {.name = "--list", .flag = &o->list},
-        {.name = "--seeds", .count = &o->wish.seeds, .most = SB_ENTRY_SEEDS, .telling = true},
-        {.name = "--references", .count = &o->wish.references, .most = SB_REFERENCE_SEEDS, .telling = true},
-        {.name = "--jobs", .count = &o->jobs, .most = 256, .telling = true},
+        {.name = "--seeds", .count = &o->wish.seeds, .most = SB_ENTRY_SEEDS, .repeated = true},
+        {.name = "--references", .count = &o->wish.references, .most = SB_REFERENCE_SEEDS, .repeated = true},
+        {.name = "--jobs", .count = &o->jobs, .most = 256, .repeated = true},
         {.name = "--out", .text = &o->out},
         {.name = "--report", .text = &o->report},
         {.name = "--shorebreak", .text = &o->program}};
     const sb_command_line line = {.options = table,
                                   .option_count = sizeof table / sizeof *table,
-                                  .word = take_subject,
+                                  .operand = take_subject,
                                   .user = o,
                                   .help = &o->help,
                                   .command = o->command,

@@ -1,4 +1,4 @@
-/* The command lines of the tools: a table of options, read in one place. */
+/* Reads the command lines of the tools from a table of options. */
 #ifndef SB_COMMON_ARGUMENTS_H
 #define SB_COMMON_ARGUMENTS_H
 
@@ -7,11 +7,11 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* What to do with a value, or with an argument that is no option. */
+/* Handles a value, or an argument that is not an option. */
 typedef sb_status sb_argument_taker(void *user, const char *value, sb_error *error);
 
-/* One option. What it sets is the one of these five that is not NULL; all but a flag take a value. Texts point into the
-   arguments. */
+/* One option. Exactly one of the five pointers is set: where the value goes. All options but flags take a value. Texts
+   point into the arguments. */
 typedef struct sb_argument {
     const char *name; /* "--jobs" */
     bool *flag;
@@ -20,20 +20,20 @@ typedef struct sb_argument {
     double *number; /* above 0, at most most */
     sb_argument_taker *take;
     double most;
-    bool telling; /* belongs into the command as it may be repeated anywhere, as folders of this machine do not */
+    bool repeated; /* part of `command`, which can be repeated on any machine; options with folders are not */
 } sb_argument;
 
 typedef struct sb_command_line {
     const sb_argument *options;
     size_t option_count;
-    sb_argument_taker *word; /* for arguments without a dash; NULL: there are none */
-    void *user;              /* for all takers */
-    bool *help;              /* set by --help, after which nothing is read */
-    char *command;           /* what tells is put behind this text; NULL: not wanted */
-    size_t command_size;     /* bytes, the zero included */
+    sb_argument_taker *operand; /* for arguments without a dash; NULL: none are allowed */
+    void *user;                 /* passed to all takers */
+    bool *help;                 /* set by --help, after which nothing more is read */
+    char *command;              /* repeated options and operands are appended to this text; NULL: not needed */
+    size_t command_size;        /* bytes, including the final zero */
 } sb_command_line;
 
-/* arguments[0] is the program. SB_BAD_INPUT says what is wrong with which argument. */
+/* arguments[0] is the program. SB_BAD_INPUT: the error names the argument. */
 sb_status sb_command_line_read(const sb_command_line *line, int count, char **arguments, sb_error *error);
 
 #endif

@@ -38,7 +38,7 @@ sb_status sb_curve_copy(const sb_curve *from, sb_curve *to, sb_error *error)
     return status;
 }
 
-/* By insertion: stable, and quick on the nearly sorted series that there are. */
+/* Insertion sort: stable, and fast for nearly sorted series. */
 void sb_curve_sort(sb_curve *curve)
 {
     for (size_t i = 1; i < curve->count; i++) {
@@ -61,7 +61,7 @@ void sb_curve_map(sb_curve *curve, double scale_x, double shift_x, double scale_
     }
 }
 
-/* Index of the last point at or left of x; the curve has at least one, and x is not left of it. */
+/* Index of the last point at or left of x. The curve has points, and x is not left of the first. */
 static size_t left_of(const sb_curve *curve, double x)
 {
     size_t low = 0, high = curve->count;
@@ -120,8 +120,7 @@ static double mean_of(double *values, size_t count)
     return sum / (double)count;
 }
 
-/* Each point becomes what `reduce` makes of the known values within window/2; the curve is sorted.
- */
+/* Replaces each value by `reduce` of the values within window/2 that are not NaN. The curve is sorted. */
 static sb_status filter(const sb_curve *curve, double window, double (*reduce)(double *, size_t), sb_curve *made,
                         sb_error *error)
 {

@@ -26,13 +26,13 @@ void sb_origin_commit(const char *source, char commit[64])
         _exit(127);
     }
     close(ends[1]);
-    FILE *said = fdopen(ends[0], "r");
+    FILE *output = fdopen(ends[0], "r");
     char line[64];
-    if (said && fgets(line, sizeof line, said)) {
+    if (output && fgets(line, sizeof line, output)) {
         line[strcspn(line, "\n")] = '\0';
         if (line[0]) snprintf(commit, 64, "%s", line);
     }
-    if (said) fclose(said);
+    if (output) fclose(output);
     if (child > 0) waitpid(child, NULL, 0);
 }
 

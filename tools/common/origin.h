@@ -1,4 +1,4 @@
-/* Where figures come from: the source's commit, the machine, the files that were used. */
+/* Origin of figures: commit of the source, machine, hashes of files. */
 #ifndef SB_COMMON_ORIGIN_H
 #define SB_COMMON_ORIGIN_H
 
@@ -6,12 +6,11 @@
 
 #include <stdint.h>
 
-/* The commit of the source tree, with -dirty behind it when files differ; "unknown" where git
- * cannot tell. */
+/* The commit of the source tree, with -dirty appended if files differ; "unknown" if git does not report it. */
 void sb_origin_commit(const char *source, char commit[64]);
 /* Processor and number of cores. */
 void sb_origin_machine(char machine[128]);
-/* Continues a hash over a whole file. SB_BAD_INPUT when it cannot be read. */
+/* Continues a hash over a whole file. SB_BAD_INPUT: it cannot be read. */
 sb_status sb_hash_file(const char *path, uint64_t *hash, sb_error *error);
 
 #endif

@@ -106,7 +106,7 @@ sb_status sb_plot_band(sb_plot *plot, const char *label, const sb_curve *low, co
     return add(plot, BAND, label, low, high, error);
 }
 
-/* As a single-quoted gnuplot string. */
+/* Writes a single-quoted gnuplot string. */
 static void put_quoted(FILE *out, const char *text)
 {
     fputc('\'', out);
@@ -198,11 +198,11 @@ static void put_layer(FILE *out, const layer *l, const char *data, size_t index,
     put_quoted(out, l->label);
 }
 
-/* What lies lower comes first; what is simulated lies over what is measured, and what is judged over all. */
+/* Drawing order: simulated curves are over measured ones, and the judged curve is on top. */
 static const int order[] = {BAND,         SB_PLOT_POINTS, SB_PLOT_REFERENCE, SB_PLOT_ASIDE, SB_PLOT_LINE,
                             SB_PLOT_SEED, SB_PLOT_MARKS,  SB_PLOT_CHAIN,     SB_PLOT_JUDGED};
 
-/* Something in the panel that the axes can go by without what stands aside. */
+/* Whether the panel has data for the ranges of the axes other than the layers of style `aside`. */
 static bool has_scale(const panel *p)
 {
     for (size_t k = 0; k < p->layer_count; k++)
@@ -275,7 +275,7 @@ static sb_status finish(FILE *out, const char *name, sb_error *error)
 sb_status sb_plot_draw(const sb_plot *plot, const char *folder, const char *name, const char *picture, sb_error *error)
 {
     char program[SB_PATH_MAX], script[TEXT];
-    if (!sb_tool_find("gnuplot", program)) return sb_fail(error, SB_FAILED, "gnuplot is not there");
+    if (!sb_tool_find("gnuplot", program)) return sb_fail(error, SB_FAILED, "gnuplot is not installed");
     FILE *out = open_in(folder, name, "dat", error);
     if (!out) return SB_FAILED;
     for (size_t p = 0; p < plot->panel_count; p++)

@@ -1,5 +1,4 @@
-/* One picture per case: a column of panels, each with curves, clouds of points and bands, drawn by
- * gnuplot. */
+/* A picture with a column of panels, each with curves, clouds of points and bands, drawn by gnuplot. */
 #ifndef SB_COMMON_PLOT_H
 #define SB_COMMON_PLOT_H
 
@@ -7,10 +6,10 @@
 
 typedef struct sb_plot sb_plot;
 
-/* line: a simulation; judged: the one that counts, thick and over all others; seed: thin and pale, the same from other
-   starts; aside: dashed, and the axes do not make room for it; reference: a black line of what was measured or is
-   theory; points: a cloud of measured points, each cloud with a mark of its own; marks: large ones, of a shape and
-   colour of their own; chain: such marks, joined by a faint line. */
+/* line: a simulation. judged: the judged simulation, thick and on top. seed: the same with another start seed, thin and
+   pale. aside: dashed, ignored by the ranges of the axes. reference: a black line, measured or theory. points: a cloud
+   of measured points; each cloud has its own mark. marks: large marks with their own shape and colour. chain: such
+   marks joined by a faint line. */
 typedef enum sb_plot_style {
     SB_PLOT_LINE,
     SB_PLOT_JUDGED,
@@ -22,15 +21,15 @@ typedef enum sb_plot_style {
     SB_PLOT_CHAIN
 } sb_plot_style;
 
-/* Begins a panel; what is added next goes there. */
+/* Begins a panel, to which the following calls add. */
 sb_status sb_plot_panel(sb_plot *plot, const char *title, const char *x_label, const char *y_label, sb_error *error);
-/* Bounds of the panel's axes; NaN: as the data have it. */
+/* Bounds of the panel's axes; NaN: from the data. */
 void sb_plot_range(sb_plot *plot, double x_min, double x_max, double y_min, double y_max);
-/* Both axes logarithmic; points that are not above 0 are left out. */
+/* Makes both axes logarithmic; points not above 0 are omitted. */
 void sb_plot_logarithmic(sb_plot *plot);
-/* The points are copied. Layers of a style get colours in the order they come, anew in each panel. */
+/* Copies the points. Layers of a style get colours in order, starting again in each panel. */
 sb_status sb_plot_curve(sb_plot *plot, sb_plot_style style, const char *label, const sb_curve *curve, sb_error *error);
-/* Grey between two curves over the same x: a percentile band, an uncertainty. */
+/* Fills the area between two curves over the same x: a percentile band or an uncertainty. */
 sb_status sb_plot_band(sb_plot *plot, const char *label, const sb_curve *low, const sb_curve *high, sb_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-/* Other programs as processes of their own, whose words go to a file. */
+/* Runs other programs as processes whose output goes to a file. */
 #ifndef SB_COMMON_PROCESS_H
 #define SB_COMMON_PROCESS_H
 
@@ -7,23 +7,23 @@
 #include <stddef.h>
 #include <sys/types.h>
 
-/* Starts a program (a path) with its arguments ([0] its name, NULL behind the last), without input, what it says going
-   to the file `said`, begun anew. When this process ends before it, it gets `parting`, a signal. A program that cannot
-   be executed ends with status 127, one whose file cannot be opened with 126. SB_FAILED: no process. */
-sb_status sb_process_start(const char *program, const char *const *arguments, const char *said, int parting,
-                           pid_t *process, sb_error *error);
+/* Starts a program (a path) with its arguments ([0]: its name; NULL after the last). It has no input; its output
+   replaces the file `output`. If this process ends first, the program gets the signal `parent_death_signal`. The
+   program ends with status 127 if it cannot be executed, 126 if `output` cannot be opened. SB_FAILED: no process. */
+sb_status sb_process_start(const char *program, const char *const *arguments, const char *output,
+                           int parent_death_signal, pid_t *process, sb_error *error);
 
-/* Makes the folder, and in it an empty log where there is none: by that mark `shorebreak run` takes it for a run's own,
-   though files of this program lie there, too. */
+/* Makes the folder and in it an empty log if there is none. This marks the folder as that of a run for `shorebreak
+   run`, although it also contains files of this program. */
 sb_status sb_process_claim(const char *folder, sb_error *error);
 
-/* The path of the program `name` that lies beside the running one; the running one's own path with NULL. */
+/* Path of the program `name` in the folder of this program; NULL: path of this program. */
 sb_status sb_process_beside(const char *name, char path[SB_PATH_MAX], sb_error *error);
 
-/* "status 2", "signal 9": how a process ended, as waitpid tells it. */
+/* "status 2" or "signal 9", from the status that waitpid returned. */
 void sb_process_describe(int how, char text[32]);
 
-/* The last line in such a file that is not empty; `none` when there is none. */
-void sb_process_last_words(const char *said, const char *none, char *words, size_t size);
+/* The last line of an output file that is not empty; `none` if there is none. */
+void sb_process_last_line(const char *output, const char *none, char *text, size_t size);
 
 #endif

@@ -1,4 +1,4 @@
-/* What is remembered of a run that has ended: lines "key: value" in a file of its folder. */
+/* The record of a finished run: lines "key: value" in a file of its folder. */
 #ifndef SB_COMMON_RECORD_H
 #define SB_COMMON_RECORD_H
 
@@ -6,7 +6,7 @@
 
 #define SB_RECORD_NAME "record.txt"
 
-/* The value of a key; "" when there is none. */
+/* The value of a key; "": none. */
 void sb_record_recall(const char *folder, const char *key, char *value, size_t size);
 
 #endif

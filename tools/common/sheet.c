@@ -15,8 +15,8 @@ void sb_sheet_free(sb_sheet *sheet)
     *sheet = (sb_sheet){0};
 }
 
-/* Takes a field off *at, ending it with a zero; moves *at behind its comma, or to NULL at the
-   line's end. Quotes around a field (RFC 4180) are taken away. */
+/* Reads a field at *at and ends it with a zero; moves *at behind its comma, or to NULL at the end of the line. Quotes
+   around a field (RFC 4180) are removed. */
 static char *take(char **at)
 {
     char *field = *at, *out = *at, *c = *at;

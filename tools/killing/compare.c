@@ -63,15 +63,15 @@ static sb_status compare_particles(const pair *p, sb_error *error)
     return status;
 }
 
-/* The next line that says nothing of wall time or memory; NULL: none. */
-static const char *next_fact(const char *at)
+/* The next line that has no run time or memory; NULL: none. */
+static const char *next_compared_line(const char *at)
 {
-    static const char *const taken_out[] = {"\"wall_", "_seconds\"", "_bytes\"", "\"bytes_per_"};
+    static const char *const omitted[] = {"\"wall_", "_seconds\"", "_bytes\"", "\"bytes_per_"};
     for (bool out = true; *at && out;) {
         const size_t length = strcspn(at, "\n");
         out = false;
-        for (size_t t = 0; t < sizeof taken_out / sizeof *taken_out; t++) {
-            const char *found = strstr(at, taken_out[t]);
+        for (size_t t = 0; t < sizeof omitted / sizeof *omitted; t++) {
+            const char *found = strstr(at, omitted[t]);
             out |= found && found < at + length;
         }
         if (out) at += length + (at[length] == '\n');
@@ -81,24 +81,24 @@ static const char *next_fact(const char *at)
 
 static sb_status compare_summaries(const pair *p, sb_error *error)
 {
-    for (int k = 0; k < 2; k++) { /* the table of stages is the last and all times */
+    for (int k = 0; k < 2; k++) { /* the table of stages is last and has only times */
         char *stages = strstr(p->text[k], "\"stages\"");
         if (stages) *stages = '\0';
     }
-    const char *a = next_fact(p->text[0]), *b = next_fact(p->text[1]);
+    const char *a = next_compared_line(p->text[0]), *b = next_compared_line(p->text[1]);
     while (a && b) {
         const size_t length = strcspn(a, "\n");
         char how[200];
         snprintf(how, sizeof how, "\"%.*s\" and \"%.*s\"", (int)(length < 80 ? length : 80), a,
                  (int)(strcspn(b, "\n") < 80 ? strcspn(b, "\n") : 80), b);
         if (length != strcspn(b, "\n") || memcmp(a, b, length) != 0) return differs(p, how, error);
-        a = next_fact(a + length + (a[length] == '\n'));
-        b = next_fact(b + length + (b[length] == '\n'));
+        a = next_compared_line(a + length + (a[length] == '\n'));
+        b = next_compared_line(b + length + (b[length] == '\n'));
     }
     return a || b ? differs(p, "one is longer", error) : SB_OK;
 }
 
-/* The hash that a log has for a step, as 16 digits; NULL: none. From *at on, which moves past it. */
+/* The next state hash in a log from *at, as 16 digits; NULL: none. Moves *at behind it. */
 static const char *next_hash(const char **at, unsigned long long *step)
 {
     static const char event[] = "{\"event\":\"step\"", number[] = "\"step\":", hash[] = "\"state_hash\":\"";
@@ -113,7 +113,7 @@ static const char *next_hash(const char **at, unsigned long long *step)
     return NULL;
 }
 
-/* Every state that either log tells of, at whatever attempt, is the one that the undisturbed run had there. */
+/* Every state in the log of the killed run must equal that of the undisturbed run at the same step. */
 static sb_status compare_logs(const pair *p, sb_error *error)
 {
     size_t common = 0;
@@ -170,7 +170,7 @@ static sb_status compare_entry(const char *const root[2], const char *folder, co
     return compare_file(&p, error);
 }
 
-/* Entries in order of their names; how many, or -1. */
+/* Reads entries in order of their names; returns their number, or -1. */
 static int list(const char *root, const char *name, struct dirent ***entries)
 {
     char path[SB_PATH_MAX];
@@ -184,7 +184,7 @@ static void free_list(struct dirent **entries, int count)
     if (count >= 0) free(entries);
 }
 
-/* How many of two lists are compared from their ends: of checkpoints one. */
+/* Compares two lists from their ends; of checkpoints only the last name. */
 static bool same_names(struct dirent **const entries[2], const int count[2], bool checkpoints, const char **odd)
 {
     for (int i = 0; i < count[0] || i < count[1]; i++) {
@@ -207,8 +207,8 @@ static sb_status compare_folder(const char *const root[2], const char *name, siz
     if (count[0] < 0 || count[1] < 0)
         status = sb_fail(error, SB_FAILED, "%.300s/%.300s: cannot read", root[count[0] < 0 ? 0 : 1], name);
     else if (!same_names(entries, count, checkpoints, &odd))
-        status = sb_fail(error, SB_FAILED, "%.300s and %.300s: \"%.200s\" in \"%.200s\" is in one only", root[0],
-                         root[1], odd, name);
+        status = sb_fail(error, SB_FAILED, "%.300s and %.300s: \"%.200s\" in \"%.200s\" exists in only one of them",
+                         root[0], root[1], odd, name);
     for (int i = 0; status == SB_OK && !checkpoints && i < count[0]; i++)
         status = compare_entry(root, name, entries[0][i]->d_name, files, error);
     free_list(entries[0], count[0]);

@@ -1,4 +1,4 @@
-/* Two folders of runs, file by file. */
+/* Compares two folders of runs file by file. */
 #ifndef SB_KILLING_COMPARE_H
 #define SB_KILLING_COMPARE_H
 
@@ -6,9 +6,9 @@
 
 #include <stddef.h>
 
-/* SB_FAILED names the first file that differs, is missing or is one too many. All bytes count, except: wall times in
-   particle files; times and memory in summary.json; in run.jsonl only states' hashes at steps are compared, of
-   steps that both have; of checkpoints only the last one's name is. *files: how many were compared. */
+/* SB_FAILED names the first file that differs, is missing or is surplus. All bytes are compared, with these exceptions.
+   Particle files: no run times. summary.json: no times and memory. run.jsonl: only the state hashes of steps that both
+   have. Checkpoints: only the name of the last. *files: number of compared files. */
 sb_status sb_kill_compare(const char *whole, const char *other, size_t *files, sb_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-/* kill -9 at random moments, --resume each time: the end must be that of a run that was never disturbed. */
+/* tools/kill-test: kills a run at random times and resumes it; the result must equal that of an undisturbed run. */
 #include "base/file.h"
 #include "compare.h"
 #include "options.h"
@@ -10,15 +10,15 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Share of an undisturbed run's time within which a run is killed: beginnings, middles and ends all come. */
+/* A run is killed within this fraction of the undisturbed run time, so that kills are in all parts of a run. */
 static const double LONGEST = 0.6;
 
-enum { WITH_PICTURES = 4 }; /* in every so many rounds */
+enum { WITH_PICTURES = 4 }; /* every fourth round has pictures */
 
 typedef struct test {
     sb_kill_options options;
     char program[SB_PATH_MAX];
-    double seconds[2]; /* of undisturbed runs, without and with pictures; 0: not yet run */
+    double seconds[2]; /* run times of undisturbed runs without and with pictures; 0: not run yet */
     int kills, rounds;
     size_t files;
 } test;
@@ -32,8 +32,8 @@ static sb_status name_run(const test *t, const char *name, bool pictures, char o
     return sb_path_join(out, t->options.out, folder, error);
 }
 
-/* Or a run would go on from an earlier one's checkpoint, or not begin where one is finished. */
-static sb_status forget_run(const char *out, sb_error *error)
+/* Removes checkpoints, from which a run would resume, and the summary, which marks a run as finished. */
+static sb_status remove_run(const char *out, sb_error *error)
 {
     char path[SB_PATH_MAX];
     sb_status status = sb_path_join(path, out, "checkpoints", error);
@@ -44,12 +44,12 @@ static sb_status forget_run(const char *out, sb_error *error)
     return status;
 }
 
-/* The run to compare with, once. */
+/* Makes the undisturbed run once. */
 static sb_status run_whole(test *t, const sb_kill_run *run, sb_error *error)
 {
     double *seconds = &t->seconds[run->pictures];
     if (*seconds > 0) return SB_OK;
-    sb_status status = forget_run(run->out, error);
+    sb_status status = remove_run(run->out, error);
     return status == SB_OK ? sb_kill_none(run, seconds, error) : status;
 }
 
@@ -61,7 +61,7 @@ static sb_status one_round(test *t, sb_kill_moments *moments, sb_error *error)
     sb_status status = name_run(t, "whole", pictures, whole, &run, error);
     if (status == SB_OK) status = run_whole(t, &run, error);
     if (status == SB_OK) status = name_run(t, "killed", pictures, killed, &run, error);
-    if (status == SB_OK) status = forget_run(killed, error);
+    if (status == SB_OK) status = remove_run(killed, error);
     moments->longest = LONGEST * t->seconds[pictures];
     if (status == SB_OK) status = sb_kill_some(&run, moments, t->options.kills - t->kills, &t->kills, error);
     t->rounds++;

@@ -7,13 +7,13 @@
 
 const char sb_kill_help[] =
     "usage: tools/kill-test [SCENE] [OPTIONS]\n"
-    "Kills a run with SIGKILL at random moments, resumes it each time, and compares its final state and all of\n"
-    "its files with those of a run that was never disturbed. Exit status 0: all equal.\n\n"
-    "  SCENE             a scene of some seconds' work (default: a small one with every kind of file)\n"
-    "  --kills N         how often (default: 100)\n"
-    "  --seed N          of the moments (default: 1)\n"
-    "  --out DIR         the runs go here (default: runs/kill-test)\n"
-    "  --no-pictures     else every fourth run has pictures, where the scene has a camera\n"
+    "Kills a run with SIGKILL at random times and resumes it each time. Compares its final state and all its\n"
+    "files with those of an undisturbed run. Exit status 0: all are equal.\n\n"
+    "  SCENE             a scene that runs for some seconds (default: a small one with every kind of file)\n"
+    "  --kills N         number of kills (default: 100)\n"
+    "  --seed N          seed of the random times (default: 1)\n"
+    "  --out DIR         folder of the runs (default: runs/kill-test)\n"
+    "  --no-pictures     no pictures; without it every fourth run draws them if the scene has a camera\n"
     "  --help            this text\n";
 
 static sb_status take_seed(void *user, const char *value, sb_error *error)
@@ -23,7 +23,7 @@ static sb_status take_seed(void *user, const char *value, sb_error *error)
     options->seed = strtoull(value, &end, 10);
     return end != value && !*end && !strchr(value, '-')
                ? SB_OK
-               : sb_fail(error, SB_BAD_INPUT, "--seed: %.50s is no number from 0", value);
+               : sb_fail(error, SB_BAD_INPUT, "--seed: %.50s is not a whole number >= 0", value);
 }
 
 static sb_status take_scene(void *user, const char *path, sb_error *error)
@@ -44,7 +44,7 @@ sb_status sb_kill_options_parse(int count, char **arguments, sb_kill_options *op
                                  {.name = "--no-pictures", .flag = &plain}};
     const sb_command_line line = {.options = table,
                                   .option_count = sizeof table / sizeof *table,
-                                  .word = take_scene,
+                                  .operand = take_scene,
                                   .user = options,
                                   .help = &options->help};
     sb_status status = sb_command_line_read(&line, count, arguments, error);

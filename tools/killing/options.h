@@ -1,4 +1,4 @@
-/* The command line of tools/kill-test. */
+/* Command line of tools/kill-test. */
 #ifndef SB_KILLING_OPTIONS_H
 #define SB_KILLING_OPTIONS_H
 
@@ -9,9 +9,9 @@
 
 typedef struct sb_kill_options {
     const char *scene; /* a scene file */
-    const char *out;   /* the runs go into folders of this one */
+    const char *out;   /* folder of the runs' folders */
     int kills;
-    uint64_t seed; /* of the moments */
+    uint64_t seed; /* of the random times */
     bool pictures; /* in every fourth round */
     bool help;
 } sb_kill_options;

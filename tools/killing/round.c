@@ -10,8 +10,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* What the run says goes to <out>.txt. */
-static void said_path(const sb_kill_run *run, char path[SB_PATH_MAX])
+/* The output of the run goes to <out>.txt. */
+static void output_path(const sb_kill_run *run, char path[SB_PATH_MAX])
 {
     snprintf(path, SB_PATH_MAX, "%.4000s.txt", run->out);
 }
@@ -23,32 +23,32 @@ static sb_status start(const sb_kill_run *run, pid_t *process, sb_error *error)
         "--out",      run->out, "--quiet",
         "--resume",   "--set",  run->pictures ? "render.interval=0.2" : "render.interval=0",
         NULL};
-    char said[SB_PATH_MAX];
-    said_path(run, said);
-    return sb_process_start(run->program, arguments, said, SIGKILL, process, error);
+    char output[SB_PATH_MAX];
+    output_path(run, output);
+    return sb_process_start(run->program, arguments, output, SIGKILL, process, error);
 }
 
-static sb_status broken(const sb_kill_run *run, int how, sb_error *error)
+static sb_status fail_run(const sb_kill_run *run, int how, sb_error *error)
 {
-    char ended[32], path[SB_PATH_MAX], words[512];
-    said_path(run, path);
+    char ended[32], path[SB_PATH_MAX], last_line[512];
+    output_path(run, path);
     sb_process_describe(how, ended);
-    sb_process_last_words(path, "", words, sizeof words);
-    return sb_fail(error, SB_FAILED, "%.300s: ended with %s: %.400s", run->out, ended, words);
+    sb_process_last_line(path, "", last_line, sizeof last_line);
+    return sb_fail(error, SB_FAILED, "%.300s: ended with %s: %.400s", run->out, ended, last_line);
 }
 
-/* Starts the run, waits for `patience` s and then kills. *killed: it had not ended by itself. */
-static sb_status watch(const sb_kill_run *run, double patience, bool *killed, sb_error *error)
+/* Starts the run and kills it after `seconds`. *killed: it had not ended before. */
+static sb_status watch(const sb_kill_run *run, double seconds, bool *killed, sb_error *error)
 {
     pid_t process;
     int how = 0;
     sb_status status = start(run, &process, error);
     if (status != SB_OK) return status;
-    const double deadline = sb_clock() + patience;
+    const double deadline = sb_clock() + seconds;
     while (sb_clock() < deadline) {
         if (waitpid(process, &how, WNOHANG) == process) {
             *killed = false;
-            return WIFEXITED(how) && WEXITSTATUS(how) == 0 ? SB_OK : broken(run, how, error);
+            return WIFEXITED(how) && WEXITSTATUS(how) == 0 ? SB_OK : fail_run(run, how, error);
         }
         const double left = deadline - sb_clock();
         usleep(left > 0.002 ? 1000 : left > 0 ? (useconds_t)(1e6 * left) : 0);
@@ -56,10 +56,10 @@ static sb_status watch(const sb_kill_run *run, double patience, bool *killed, sb
     kill(process, SIGKILL);
     waitpid(process, &how, 0);
     *killed = WIFSIGNALED(how); /* it may have ended in between */
-    return *killed || WEXITSTATUS(how) == 0 ? SB_OK : broken(run, how, error);
+    return *killed || WEXITSTATUS(how) == 0 ? SB_OK : fail_run(run, how, error);
 }
 
-static const double FOREVER = 3600; /* s: a run that takes an hour hangs, or is no scene for this */
+static const double FOREVER = 3600; /* s; a run of an hour hangs, or the scene is not suitable */
 
 sb_status sb_kill_none(const sb_kill_run *run, double *seconds, sb_error *error)
 {

@@ -97,18 +97,18 @@ static sb_status take_scene(void *user, const char *path, sb_error *error)
 sb_status sb_study_parse(int count, char **arguments, sb_study_options *o, sb_error *error)
 {
     *o = (sb_study_options){.seeds = 1, .jobs = 1, .command = "tools/study"};
-    const sb_argument options[] = {{.name = "--resolutions", .take = take_spacings, .telling = true},
-                                   {.name = "--set", .take = take_set, .telling = true},
-                                   {.name = "--seeds", .count = &o->seeds, .most = SB_STUDY_SEEDS, .telling = true},
-                                   {.name = "--jobs", .count = &o->jobs, .most = 256, .telling = true},
-                                   {.name = "--preset", .take = take_preset, .telling = true},
-                                   {.name = "--quantity", .take = take_pattern, .telling = true},
+    const sb_argument options[] = {{.name = "--resolutions", .take = take_spacings, .repeated = true},
+                                   {.name = "--set", .take = take_set, .repeated = true},
+                                   {.name = "--seeds", .count = &o->seeds, .most = SB_STUDY_SEEDS, .repeated = true},
+                                   {.name = "--jobs", .count = &o->jobs, .most = 256, .repeated = true},
+                                   {.name = "--preset", .take = take_preset, .repeated = true},
+                                   {.name = "--quantity", .take = take_pattern, .repeated = true},
                                    {.name = "--report-only", .flag = &o->report_only},
                                    {.name = "--out", .text = &o->out},
                                    {.name = "--shorebreak", .text = &o->program}};
     const sb_command_line line = {.options = options,
                                   .option_count = sizeof options / sizeof *options,
-                                  .word = take_scene,
+                                  .operand = take_scene,
                                   .user = o,
                                   .help = &o->help,
                                   .command = o->command,

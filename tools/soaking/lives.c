@@ -10,9 +10,9 @@
 
 const double sb_soak_share = 0.03, sb_soak_bytes = 4e6, sb_soak_shortest = 90;
 
-enum { FEWEST = 4 }; /* samples of which a middle one is taken */
+enum { FEWEST = 4 }; /* fewest samples for a median */
 
-/* Names in /proc/PID/fd, one for each descriptor; 0: the process is gone. */
+/* Number of entries in /proc/PID/fd; 0: the process has ended. */
 static unsigned count_descriptors(pid_t process)
 {
     char path[64];
@@ -24,7 +24,7 @@ static unsigned count_descriptors(pid_t process)
     return count;
 }
 
-/* Kilobytes behind VmRSS; 0: the process is gone. */
+/* VmRSS in kilobytes; 0: the process has ended. */
 static uint64_t read_resident(pid_t process)
 {
     char path[64], line[256];
@@ -37,16 +37,17 @@ static uint64_t read_resident(pid_t process)
     return kilobytes;
 }
 
-sb_status sb_soak_look(pid_t process, sb_soak_sample *sample, sb_error *error)
+sb_status sb_soak_measure(pid_t process, sb_soak_sample *sample, sb_error *error)
 {
     sample->resident = 1024 * read_resident(process);
     sample->descriptors = count_descriptors(process);
     return sample->resident > 0 && sample->descriptors > 0
                ? SB_OK
-               : sb_fail(error, SB_FAILED, "process %ld: nothing to be seen of it", (long)process);
+               : sb_fail(error, SB_FAILED, "process %ld: cannot read its memory and descriptors in /proc",
+                         (long)process);
 }
 
-sb_status sb_soak_keep(sb_soak_life *life, const sb_soak_sample *sample, sb_error *error)
+sb_status sb_soak_add(sb_soak_life *life, const sb_soak_sample *sample, sb_error *error)
 {
     if (sb_grow((void **)&life->samples, &life->capacity, life->count + 1, sizeof *sample) != 0)
         return sb_fail_memory(error, "samples");
@@ -60,18 +61,18 @@ static int ascending(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
-/* When the first streamed step was heard of; the life's end when none was. */
-static double first_heard(const sb_soak_life *life)
+/* Time of the first sample after a streamed step; the end of the process if there is none. */
+static double first_streamed(const sb_soak_life *life)
 {
     for (size_t i = 0; i < life->count; i++)
         if (life->samples[i].step > 0) return life->samples[i].seconds;
     return life->seconds;
 }
 
-/* The middle values of the samples from one share of the span to another. False when there are too few. */
+/* Medians of the samples between two fractions of the time since the first streamed step. False: too few samples. */
 static bool middle(const sb_soak_life *life, double from, double to, double *resident, double *descriptors)
 {
-    const double begin = first_heard(life), span = life->seconds - begin;
+    const double begin = first_streamed(life), span = life->seconds - begin;
     double *bytes = sb_alloc(life->count, sizeof *bytes), *open = sb_alloc(life->count, sizeof *open);
     size_t n = 0;
     for (size_t i = 0; bytes && open && i < life->count; i++) {
@@ -92,7 +93,7 @@ static bool middle(const sb_soak_life *life, double from, double to, double *res
     return enough;
 }
 
-sb_soak_growth sb_soak_grown(const sb_soak_life *life)
+sb_soak_growth sb_soak_growth_of(const sb_soak_life *life)
 {
     sb_soak_growth g = {0};
     for (size_t i = 0; i < life->count; i++) {
@@ -100,23 +101,23 @@ sb_soak_growth sb_soak_grown(const sb_soak_life *life)
         g.peak = (double)s->resident > g.peak ? (double)s->resident : g.peak;
         g.descriptors_peak = s->descriptors > g.descriptors_peak ? s->descriptors : g.descriptors_peak;
     }
-    g.judged = life->seconds - first_heard(life) >= sb_soak_shortest &&
+    g.judged = life->seconds - first_streamed(life) >= sb_soak_shortest &&
                middle(life, 1.0 / 3, 0.5, &g.early, &g.descriptors_early) &&
                middle(life, 5.0 / 6, 1, &g.late, &g.descriptors_late);
     return g;
 }
 
-bool sb_soak_well(const sb_soak_life *life, char why[400])
+bool sb_soak_passed(const sb_soak_life *life, char why[400])
 {
-    const sb_soak_growth g = sb_soak_grown(life);
+    const sb_soak_growth g = sb_soak_growth_of(life);
     why[0] = '\0';
-    if (life->end == SB_SOAK_BROKEN)
-        snprintf(why, 400, "%s", life->words);
+    if (life->end == SB_SOAK_FAILED)
+        snprintf(why, 400, "%s", life->message);
     else if (g.judged && g.late - g.early > sb_soak_share * g.early + sb_soak_bytes)
         snprintf(why, 400, "memory grew by %.1f MB", 1e-6 * (g.late - g.early));
     else if (g.judged && g.descriptors_late > g.descriptors_early)
         snprintf(why, 400, "descriptors grew from %.0f to %.0f", g.descriptors_early, g.descriptors_late);
     else if (g.judged && life->frames == 0)
-        snprintf(why, 400, "the subscriber got no frame");
+        snprintf(why, 400, "the subscriber received no frame");
     return why[0] == '\0';
 }

@@ -1,4 +1,4 @@
-/* A run for hours, stopped and resumed: does it grow, does it break? */
+/* tools/soak: stops and resumes a run for hours; checks that its memory does not grow and that it does not fail. */
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/memory.h"
@@ -10,11 +10,11 @@
 
 #include <stdio.h>
 
-enum { UNWELL = 4, NO_ROUTE = 77 }; /* exit statuses */
+enum { PROCESS_FAILED = 4, NO_ROUTE = 77 }; /* exit statuses */
 
 typedef struct soak {
     sb_soak_options options;
-    char program[SB_PATH_MAX], scene[SB_PATH_MAX], out[SB_PATH_MAX], said[SB_PATH_MAX];
+    char program[SB_PATH_MAX], scene[SB_PATH_MAX], out[SB_PATH_MAX], output[SB_PATH_MAX];
     sb_soak_life *lives;
     size_t count, capacity;
     char commit[64];
@@ -27,16 +27,16 @@ static sb_status name_files(soak *s, sb_error *error)
     sb_status status = sb_process_beside("shorebreak", s->program, error);
     if (status == SB_OK) status = sb_path_join(s->scene, SB_SOURCE_DIR, "assets/scenes/plant.yaml", error);
     if (status == SB_OK) status = sb_path_join(s->out, s->options.out, "run", error);
-    if (status == SB_OK) status = sb_path_join(s->said, s->options.out, "output.txt", error);
+    if (status == SB_OK) status = sb_path_join(s->output, s->options.out, "output.txt", error);
     return status == SB_OK ? sb_make_directories(s->options.out, error) : status;
 }
 
-/* Until the time is over and a run was resumed, or a life breaks: going on from what broke would hide it. */
-static sb_status live_on(soak *s, sb_soak_watch *watch, sb_error *error)
+/* Runs until the time is over and a run was resumed, or until a process fails: a resumed run would hide the failure. */
+static sb_status run_all(soak *s, sb_soak_watch *watch, sb_error *error)
 {
     sb_status status = SB_OK;
-    bool resume = false, broken = false;
-    while (status == SB_OK && !broken) {
+    bool resume = false, failed = false;
+    while (status == SB_OK && !failed) {
         const double gone = sb_clock() - s->start, left = 60 * s->options.minutes - gone;
         if (left <= 0 && s->count >= 2) return SB_OK;
         if (sb_grow((void **)&s->lives, &s->capacity, s->count + 1, sizeof *s->lives) != 0)
@@ -45,12 +45,12 @@ static sb_status live_on(soak *s, sb_soak_watch *watch, sb_error *error)
         *life = (sb_soak_life){.begun = gone};
         status = sb_soak_live(watch, resume, left > 0 && left < s->options.life ? left : s->options.life, life, error);
         resume = life->end == SB_SOAK_STOPPED;
-        broken = life->end == SB_SOAK_BROKEN;
+        failed = life->end == SB_SOAK_FAILED;
     }
     return status;
 }
 
-/* The report of a soak that was stopped lies with its run: what is kept is of whole ones. */
+/* The report of a stopped soak goes to the folder of its run; docs/results has only complete ones. */
 static sb_status write_reports(const soak *s, bool whole, sb_soak_report *report, sb_error *error)
 {
     char why[400];
@@ -60,27 +60,26 @@ static sb_status write_reports(const soak *s, bool whole, sb_soak_report *report
                                .count = s->count,
                                .seconds = sb_clock() - s->start};
     for (size_t i = 0; i < s->count; i++) {
-        report->unwell += !sb_soak_well(&s->lives[i], why);
+        report->failed += !sb_soak_passed(&s->lives[i], why);
         report->frames += s->lives[i].frames;
-        report->judged += sb_soak_grown(&s->lives[i]).judged;
+        report->judged += sb_soak_growth_of(&s->lives[i]).judged;
     }
     sb_status status = sb_soak_samples_write(report, s->options.out, error);
     return status == SB_OK ? sb_soak_report_write(report, whole ? s->options.report : s->options.out, error) : status;
 }
 
-static int tell(const soak *s, const sb_soak_report *report)
+static int print_result(const soak *s, const sb_soak_report *report)
 {
     char why[400];
     for (size_t i = 0; i < s->count; i++)
-        if (!sb_soak_well(&s->lives[i], why))
-            printf("life %zu, from minute %.1f: %s\n", i + 1, s->lives[i].begun / 60, why);
-    printf(
-        "%zu lives, %zu of them long enough to be judged for growth, %zu not as they should be; %llu frames arrived\n",
-        s->count, report->judged, report->unwell, (unsigned long long)report->frames);
-    return report->unwell > 0 || report->frames == 0 ? UNWELL : 0;
+        if (!sb_soak_passed(&s->lives[i], why))
+            printf("process %zu, started at minute %.1f: %s\n", i + 1, s->lives[i].begun / 60, why);
+    printf("%zu processes, %zu of them long enough to judge their growth, %zu failed; %llu frames received\n", s->count,
+           report->judged, report->failed, (unsigned long long)report->frames);
+    return report->failed > 0 || report->frames == 0 ? PROCESS_FAILED : 0;
 }
 
-static void forget(soak *s, sb_soak_watch *watch)
+static void free_all(soak *s, sb_soak_watch *watch)
 {
     sb_soak_watch_destroy(watch);
     for (size_t i = 0; i < s->count; i++) sb_free(s->lives[i].samples);
@@ -102,20 +101,20 @@ int main(int count, char **arguments)
     const sb_soak_run run = {.program = s.program,
                              .scene = s.scene,
                              .out = s.out,
-                             .said = s.said,
+                             .output = s.output,
                              .spacing = s.options.spacing,
                              .duration = s.options.duration};
     if (status == SB_OK && sb_soak_watch_create(&run, &watch, &error) != SB_OK) {
         fprintf(stderr, "soak: %s\n", error.text);
         return NO_ROUTE;
     }
-    if (status == SB_OK) status = live_on(&s, watch, &error);
+    if (status == SB_OK) status = run_all(&s, watch, &error);
     if (s.count > 0 && (status == SB_OK || status == SB_INTERRUPTED)) {
         sb_status written = write_reports(&s, status == SB_OK, &report, status == SB_OK ? &error : NULL);
         status = status == SB_OK ? written : status;
     }
-    const int result = status == SB_OK ? tell(&s, &report) : (int)status;
+    const int result = status == SB_OK ? print_result(&s, &report) : (int)status;
     if (status != SB_OK) fprintf(stderr, "soak: %s\n", error.text);
-    forget(&s, watch);
+    free_all(&s, watch);
     return result;
 }

@@ -4,23 +4,22 @@
 
 #include <math.h>
 
-const char sb_soak_help[] = "usage: tools/soak [OPTIONS]\n"
-                            "Runs the plant with pictures, particle files and a live subscriber, stops it with SIGTERM "
-                            "and resumes it again and\n"
-                            "again, begins anew when it is finished, and watches the memory and the descriptors of its "
-                            "processes. Writes soak.md.\n"
-                            "Exit status: 0 nothing grew and nothing failed, 4 something did, 1 bad input, 2 the soak "
-                            "itself failed, 77 no route\n"
-                            "for the subscriber.\n\n"
-                            "  --minutes N       of wall time (default: 60)\n"
-                            "  --life N          seconds after its first frame when a run is stopped (default: a tenth "
-                            "of the time, at least 3)\n"
-                            "  --spacing M       between particles, in metres (default: 6)\n"
-                            "  --duration S      simulated seconds after which it is begun anew (default: 300)\n"
-                            "  --out DIR         the run goes here, and samples.csv (default: runs/soak)\n"
-                            "  --report DIR      soak.md goes here (default: docs/results); of a soak that is stopped\n"
-                            "                    it lies beside samples.csv\n"
-                            "  --help            this text\n";
+const char sb_soak_help[] =
+    "usage: tools/soak [OPTIONS]\n"
+    "Runs the plant with pictures, particle files and a live subscriber. Stops the run with SIGTERM and\n"
+    "resumes it repeatedly; starts a new run when it has finished. Checks that the memory and the file\n"
+    "descriptors of its processes do not grow. Writes soak.md.\n\n"
+    "  --minutes N       run time in minutes (default: 60)\n"
+    "  --life N          seconds after its first frame at which a process is stopped (default: a tenth\n"
+    "                    of the run time, at least 3)\n"
+    "  --spacing M       particle spacing in metres (default: 6)\n"
+    "  --duration S      simulated seconds after which a new run is started (default: 300)\n"
+    "  --out DIR         folder of the run and of samples.csv (default: runs/soak)\n"
+    "  --report DIR      folder of soak.md (default: docs/results); if the soak is stopped, soak.md\n"
+    "                    is written beside samples.csv\n"
+    "  --help            this text\n\n"
+    "Exit status: 0 nothing grew and nothing failed, 1 bad input, 2 the soak itself failed, 4 something\n"
+    "grew or failed, 77 no network route for the subscriber.\n";
 
 sb_status sb_soak_options_parse(int count, char **arguments, sb_soak_options *options, sb_error *error)
 {

@@ -1,4 +1,4 @@
-/* The command line of the soak. */
+/* Command line of tools/soak. */
 #ifndef SB_SOAKING_OPTIONS_H
 #define SB_SOAKING_OPTIONS_H
 
@@ -7,17 +7,17 @@
 #include <stdbool.h>
 
 typedef struct sb_soak_options {
-    double minutes;           /* of wall time, all lives together */
-    double life;              /* s of wall time from its first frame until a run is stopped */
+    double minutes;           /* run time of the soak */
+    double life;              /* s of run time from the first frame until a process is stopped */
     double spacing;           /* m */
-    double duration;          /* s simulated, after which the run is finished and begun anew */
+    double duration;          /* simulated s after which the run has finished and a new one is started */
     const char *out, *report; /* folders */
     bool help;
 } sb_soak_options;
 
 extern const char sb_soak_help[];
 
-/* SB_BAD_INPUT says what is wrong with which argument. Options point into the arguments. */
+/* SB_BAD_INPUT: the error names the argument. Options point into the arguments. */
 sb_status sb_soak_options_parse(int count, char **arguments, sb_soak_options *options, sb_error *error);
 
 #endif

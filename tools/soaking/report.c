@@ -12,22 +12,25 @@ static void put_head(FILE *out, const sb_soak_report *r)
     char machine[128];
     sb_origin_machine(machine);
     fprintf(out,
-            "# What a soak leaves\n\n"
+            "# Soak test\n\n"
             "Commit %s, %s.\n"
-            "Made by `tools/soak --minutes %.4g --spacing %.4g --life %.4g --duration %.4g`; [what it "
-            "does](../robustness.md#the-soak).\n\n",
+            "Made by `tools/soak --minutes %.4g --spacing %.4g --life %.4g --duration %.4g` "
+            "([explanation](../robustness.md#the-soak)).\n\n",
             r->commit, machine, o->minutes, o->spacing, o->life, o->duration);
-    fprintf(out,
-            "The plant with pictures, particle files and a live subscriber, stopped by SIGTERM and resumed, begun anew "
-            "when\n"
-            "finished. Each life is one process. Memory is what is resident: the middle value from a third to a half "
-            "of the\n"
-            "time since the first streamed step (early: after the warm-up), and of the last sixth of it (late). It may "
-            "grow by\n"
-            "%.0f %% and %.0f MB, for buffers that follow the wave; descriptors may not grow; every life must end as "
-            "told, and\n"
-            "its frames arrive. Lives of less than %.0f s after their first step are not judged for growth.\n\n",
-            100 * sb_soak_share, 1e-6 * sb_soak_bytes, sb_soak_shortest);
+    fprintf(
+        out,
+        "The plant runs with pictures, particle files and a live subscriber. It is stopped by SIGTERM and resumed; a "
+        "new run is\n"
+        "started when it has finished. Each row of the table is one process.\n\n"
+        "- Memory is resident memory. Early: median from one third to one half of the time since the first streamed "
+        "step, after\n"
+        "  the warm-up. Late: median of the last sixth. Late minus early may be at most %.0f %% of early plus %.0f MB, "
+        "for buffers\n"
+        "  that follow the wave.\n"
+        "- The number of file descriptors may not grow.\n"
+        "- Every process must stop or finish without an error, and its frames must arrive.\n"
+        "- The growth of processes that end less than %.0f s after their first step is not judged.\n\n",
+        100 * sb_soak_share, 1e-6 * sb_soak_bytes, sb_soak_shortest);
 }
 
 static void put_growth(FILE *out, const sb_soak_growth *g)
@@ -41,14 +44,14 @@ static void put_growth(FILE *out, const sb_soak_growth *g)
 
 static void put_life(FILE *out, const sb_soak_life *life)
 {
-    static const char *const ends[] = {"stopped", "finished", "**broken**"};
+    static const char *const ends[] = {"stopped", "finished", "**failed**"};
     char why[400];
-    const sb_soak_growth g = sb_soak_grown(life);
+    const sb_soak_growth g = sb_soak_growth_of(life);
     fprintf(out, "| %.1f | %.1f | %s | %" PRIu64 " | %" PRIu64 " |", life->begun / 60, life->seconds / 60,
-            life->resumed ? "resumed" : "anew", life->first_step, life->last_step);
+            life->resumed ? "resumed" : "new", life->first_step, life->last_step);
     put_growth(out, &g);
     fprintf(out, " %u | %" PRIu64 " | %" PRIu64 " | %s | %s |\n", g.descriptors_peak, life->frames, life->chunks_lost,
-            ends[life->end], sb_soak_well(life, why) ? "" : why);
+            ends[life->end], sb_soak_passed(life, why) ? "" : why);
 }
 
 static void put_sum(FILE *out, const sb_soak_report *r)
@@ -63,10 +66,10 @@ static void put_sum(FILE *out, const sb_soak_report *r)
         steps += life->last_step - life->first_step;
     }
     fprintf(out,
-            "%.1f minutes, %zu lives: %zu stopped, %zu resumed, %zu finished; %" PRIu64 " steps, %" PRIu64
-            " frames at the subscriber. %zu lives were long enough to be judged for growth; %s.\n\n",
+            "%.1f minutes, %zu processes: %zu stopped, %zu resumed, %zu finished; %" PRIu64 " steps, %" PRIu64
+            " frames received. The growth of %zu processes was judged: %s.\n\n",
             r->seconds / 60, r->count, stopped, resumed, finished, steps, r->frames, r->judged,
-            r->unwell > 0 || r->frames == 0 ? "**not all is as it should be**" : "nothing grew and nothing failed");
+            r->failed > 0 || r->frames == 0 ? "**something grew or failed**" : "nothing grew and nothing failed");
 }
 
 sb_status sb_soak_report_write(const sb_soak_report *report, const char *folder, sb_error *error)
@@ -77,10 +80,10 @@ sb_status sb_soak_report_write(const sb_soak_report *report, const char *folder,
     if (status != SB_OK) return status;
     put_head(file.stream, report);
     put_sum(file.stream, report);
-    fprintf(file.stream, "| begun, min | lasted, min | | from step | to step | early, MB | late, MB | peak, MB | "
-                         "descriptors early | late "
-                         "| most | frames | chunks lost | end | |\n"
-                         "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+    fprintf(file.stream,
+            "| start, min | duration, min | run | first step | last step | early, MB | late, MB | peak, MB | "
+            "descriptors early | late | most | frames | chunks lost | end | problem |\n"
+            "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (size_t i = 0; i < report->count; i++) put_life(file.stream, &report->lives[i]);
     return sb_atomic_commit(&file, 0, error);
 }

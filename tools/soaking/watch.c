@@ -19,13 +19,13 @@ struct sb_soak_watch {
     char prefix[32];
     sb_listener *listener;
     sb_assembly assembly;
-    sb_soak_life *life; /* the present one */
-    uint64_t step;      /* the last one that was told */
-    uint64_t frames;    /* that were whole when the present life began */
+    sb_soak_life *life; /* the current process */
+    uint64_t step;      /* the last one that was streamed */
+    uint64_t frames;    /* complete frames before the current process */
 };
 
-static const double grace = 120;     /* s that a run may take to stop when it is told */
-static const double start_up = 1800; /* s that it may take to its first frame */
+static const double grace = 120;     /* s that a run may take to stop after SIGTERM */
+static const double start_up = 1800; /* s that a run may take to its first frame */
 
 static volatile sig_atomic_t stopped;
 
@@ -43,7 +43,7 @@ static void on_status(void *user, const sb_status_message *message)
     w->life->last_step = w->step;
 }
 
-/* A chunk without memory for its flags is one that is lost. */
+/* If memory for the flags of a chunk is missing, the chunk counts as lost. */
 static void on_particles(void *user, const sb_particles_message *message)
 {
     sb_soak_watch *w = user;
@@ -100,63 +100,65 @@ static sb_status start(const sb_soak_watch *w, bool resume, pid_t *process, sb_e
                                      "stream.enabled=true",
                                      resume ? "--resume" : "--overwrite",
                                      NULL};
-    return sb_process_start(run->program, arguments, run->said, SIGTERM, process, error);
+    return sb_process_start(run->program, arguments, run->output, SIGTERM, process, error);
 }
 
-/* One look, if the process is still there to be seen. */
+/* Takes a sample if the process still exists. */
 static sb_status take_sample(sb_soak_watch *w, pid_t process, double seconds, sb_error *error)
 {
     sb_soak_sample sample = {.seconds = seconds, .step = w->step};
-    return sb_soak_look(process, &sample, NULL) == SB_OK ? sb_soak_keep(w->life, &sample, error) : SB_OK;
+    return sb_soak_measure(process, &sample, NULL) == SB_OK ? sb_soak_add(w->life, &sample, error) : SB_OK;
 }
 
-/* A run that was told to stop ends with 128 + SIGTERM, or well when it was just finished. */
-static void note_end(sb_soak_watch *w, bool told, bool hung, int how)
+/* After SIGTERM a run ends with 128 + SIGTERM, or with 0 if it had just finished. */
+static void note_end(sb_soak_watch *w, bool stop_sent, bool hung, int how)
 {
-    char ended[32], words[200];
+    char ended[32], last_line[200];
     const int status = WIFEXITED(how) ? WEXITSTATUS(how) : -1;
-    w->life->end = status == 0 ? SB_SOAK_FINISHED : told && status == 128 + SIGTERM ? SB_SOAK_STOPPED : SB_SOAK_BROKEN;
-    if (w->life->end != SB_SOAK_BROKEN) return;
+    w->life->end = status == 0                            ? SB_SOAK_FINISHED
+                   : stop_sent && status == 128 + SIGTERM ? SB_SOAK_STOPPED
+                                                          : SB_SOAK_FAILED;
+    if (w->life->end != SB_SOAK_FAILED) return;
     sb_process_describe(how, ended);
-    sb_process_last_words(w->run->said, "it said nothing", words, sizeof words);
-    snprintf(w->life->words, sizeof w->life->words, "%sended with %s: %.200s", hung ? "did not stop, " : "", ended,
-             words);
+    sb_process_last_line(w->run->output, "no output", last_line, sizeof last_line);
+    snprintf(w->life->message, sizeof w->life->message, "%sended with %s: %.200s", hung ? "did not stop, " : "", ended,
+             last_line);
 }
 
-/* Whether a life has lasted long enough: from its first frame on, however long the start took. */
-static bool is_time(const sb_soak_watch *w, double now, double patience, double *first)
+/* Whether the process has run for so many seconds since its first frame. */
+static bool is_time(const sb_soak_watch *w, double now, double seconds, double *first)
 {
     if (w->assembly.frames_complete > w->frames && *first < 0) *first = now;
-    return *first < 0 ? now >= patience + start_up : now - *first >= patience;
+    return *first < 0 ? now >= seconds + start_up : now - *first >= seconds;
 }
 
-/* Listens and looks until the process has ended. */
-static sb_status follow(sb_soak_watch *w, pid_t process, double patience, sb_error *error)
+/* Receives messages and takes samples until the process has ended. */
+static sb_status follow(sb_soak_watch *w, pid_t process, double seconds, sb_error *error)
 {
-    const double start = sb_clock(), pause = fmin(fmax(patience / 200, 0.02), 2);
-    double first = -1; /* s: when a frame came */
-    bool told = false, hung = false;
+    const double start = sb_clock(), pause = fmin(fmax(seconds / 200, 0.02), 2);
+    double first = -1; /* s; time of the first frame */
+    bool stop_sent = false, hung = false;
     int how = 0;
     sb_status status = SB_OK;
     for (;;) {
         const pid_t ended = waitpid(process, &how, WNOHANG);
         const double now = sb_clock() - start;
         if (ended == process) {
-            w->life->seconds = told ? w->life->seconds : now;
+            w->life->seconds = stop_sent ? w->life->seconds : now;
             break;
         }
         if (ended < 0 && errno != EINTR) return sb_fail(error, SB_FAILED, "cannot wait for a run: %s", strerror(errno));
-        if (!told && (stopped || is_time(w, now, patience, &first) || status != SB_OK)) {
-            told = kill(process, SIGTERM) == 0;
+        if (!stop_sent && (stopped || is_time(w, now, seconds, &first) || status != SB_OK)) {
+            stop_sent = kill(process, SIGTERM) == 0;
             w->life->seconds = now;
-        } else if (told && !hung && now > w->life->seconds + grace) {
+        } else if (stop_sent && !hung && now > w->life->seconds + grace) {
             hung = kill(process, SIGKILL) == 0;
-        } else if (!told) {
+        } else if (!stop_sent) {
             status = take_sample(w, process, now, error);
         }
         sb_listener_poll(w->listener, pause);
     }
-    note_end(w, told, hung, how);
+    note_end(w, stop_sent, hung, how);
     return status;
 }
 

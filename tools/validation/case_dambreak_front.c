@@ -1,4 +1,4 @@
-/* Fronts of dam breaks over a dry bed: four experiments, each in its own geometry. */
+/* Fronts of dam breaks on a dry bed: four experiments with different geometries. */
 #include "cases.h"
 
 #include <math.h>
@@ -9,10 +9,10 @@
 typedef struct experiment {
     const char *table;
     const char *sets[3]; /* digitisations in the table, ended by NULL; "": the table has no sets */
-    double depth;        /* m, of the column of water at the start */
-    double last;         /* s: the comparison ends here, before the measured front meets a wall */
+    double depth;        /* m, initial height of the water column */
+    double last;         /* s; the comparison ends before the measured front meets a wall */
     bool lag;            /* whether the clock is shifted */
-    double limit;        /* reach: mean distance in % of the range */
+    double limit;        /* target: mean distance in % of the range */
 } experiment;
 
 static const experiment etsin = {"dambreak-front/etsin.csv", {"", NULL}, 0.3, 0.44, true, 3};
@@ -53,7 +53,7 @@ static distance distance_of(const sb_curve *front, const sb_curve *reference, do
     return d;
 }
 
-/* Quantity of a digitisation. */
+/* Name of a figure of a digitisation. */
 static const char *name_of(char text[SB_FIGURE_TEXT], const char *quantity, const char *set)
 {
     snprintf(text, SB_FIGURE_TEXT, "%s%s%s", quantity, *set ? ", digitisation " : "", set);
@@ -70,24 +70,24 @@ static sb_status add_figures(const experiment *e, const char *set, const sb_curv
         "mean |dx| at the measured times until %g s, in %% of the range %.3f m", e->last, d.range);
     if (status == SB_OK)
         status = sb_figure_report(figures, name_of(name, "front, largest distance", set), "%", NONE,
-                                  100 * d.largest / d.range, error, "over the same points");
+                                  100 * d.largest / d.range, error, "at the same times");
     return status;
 }
 
-/* The shift that makes both fronts pass one depth from the gate together, and what it brings where
-   the reach is judged without it. */
+/* Adds the shift with which both fronts pass one depth from the gate at the same time and, if figures are judged
+   without the shift, the mean distance with it. */
 static sb_status add_shift(const experiment *e, const char *set, double lag, sb_curve *front, const sb_curve *reference,
                            sb_figures *figures, sb_error *error)
 {
     char name[SB_FIGURE_TEXT];
-    sb_status status =
-        sb_figure_report(figures, name_of(name, "shift of the clock", set), "s", NONE, lag, error,
-                         "both fronts then pass %g m together; %s", e->depth, e->lag ? "applied" : "not applied");
+    sb_status status = sb_figure_report(figures, name_of(name, "shift of the clock", set), "s", NONE, lag, error,
+                                        "with this shift both fronts pass %g m at the same time; %s", e->depth,
+                                        e->lag ? "applied" : "not applied");
     if (status != SB_OK || e->lag) return status;
     sb_curve_map(front, 1, lag, 1, 0);
     distance d = distance_of(front, reference, e->last);
     return sb_figure_report(figures, name_of(name, "front, mean distance if shifted", set), "%", NONE,
-                            100 * d.mean / d.range, error, "by that time");
+                            100 * d.mean / d.range, error, "with that shift");
 }
 
 static sb_status evaluate_set(const sb_case_run *run, const experiment *e, const char *set, sb_figures *figures,
@@ -129,7 +129,7 @@ static sb_status plot_measured(const sb_case_run *run, const experiment *e, sb_p
     return status;
 }
 
-/* The clock as in the figures. */
+/* The clock is shifted as in the figures. */
 static sb_status plot_run(const sb_case_run *run, const experiment *e, sb_plot *plot, sb_error *error)
 {
     sb_curve front = {0}, reference = {0};
@@ -180,14 +180,14 @@ static const sb_plan koshizuka_quick[] = {{.resolution = 0.0073, .judged = true}
 const sb_case sb_case_front_etsin = {
     .name = "dambreak-front-etsin",
     .title = "Dam-break front, ETSIN (column 0.60 m by 0.30 m)",
-    .reach = "front within 3 % of the range, after one time lag",
-    .method = "The foremost water that hangs together along the floor of a vertical slice, half a "
-              "spacing before its last particle, every 2 ms; no filter. Error: mean of the "
-              "distances at the measured times (every 20 ms until 0.44 s; the measured front meets the wall at "
-              "0.453 s, ours runs on in a longer tank) in percent of the measured range. The experiment's clock is "
-              "known to be "
-              "off by some 0.02 s: one shift makes the two fronts pass the place one depth (0.30 "
-              "m) from the gate together. Free-slip walls; the gate vanishes.",
+    .targets = "front: mean distance within 3 % of the range, after one time shift",
+    .method =
+        "The front is the foremost connected water along the floor of a vertical slice, half a spacing before its "
+        "last\nparticle, every 2 ms; no filter. The error is the mean of the distances at the measured times, in "
+        "percent of the measured\nrange. The measured times are every 20 ms until 0.44 s. The measured front meets "
+        "the wall at 0.453 s; the simulated tank is\nlonger. The clock of the experiment is known to be wrong by "
+        "about 0.02 s. One shift makes both fronts pass the point\none depth (0.30 m) from the gate at the same "
+        "time. Walls are free-slip; the gate disappears at t = 0.",
     .scene = "dambreak-front/etsin.yaml",
     .headline = "front, mean distance",
     .full = etsin_full,
@@ -199,9 +199,8 @@ const sb_case sb_case_front_etsin = {
 const sb_case sb_case_front_martin_moyce = {
     .name = "dambreak-front-martin-moyce",
     .title = "Dam-break front, Martin and Moyce (column 0.057 m by 0.114 m)",
-    .reach = "front within 8 % of the range, against both digitisations",
-    .method = "As above, without any shift of the clock: mean distance at the measured points "
-              "until 0.32 s.",
+    .targets = "front: mean distance within 8 % of the range, for both digitisations",
+    .method = "As for ETSIN, without a shift of the clock: mean distance at the measured points until 0.32 s.",
     .scene = "dambreak-front/martin-moyce.yaml",
     .headline = "front, mean distance, digitisation a",
     .full = martin_moyce_full,
@@ -213,8 +212,8 @@ const sb_case sb_case_front_martin_moyce = {
 const sb_case sb_case_front_martin_moyce_small = {
     .name = "dambreak-front-martin-moyce-small",
     .title = "Dam-break front, Martin and Moyce (column 0.029 m by 0.057 m)",
-    .reach = "front within 8 % of the range",
-    .method = "As above: mean distance at the measured points, all of them.",
+    .targets = "front: mean distance within 8 % of the range",
+    .method = "As for ETSIN, without a shift of the clock: mean distance at all measured points.",
     .scene = "dambreak-front/martin-moyce-small.yaml",
     .headline = "front, mean distance",
     .full = martin_moyce_small_full,
@@ -226,9 +225,8 @@ const sb_case sb_case_front_martin_moyce_small = {
 const sb_case sb_case_front_koshizuka = {
     .name = "dambreak-front-koshizuka",
     .title = "Dam-break front, Koshizuka and Oka (column 0.146 m by 0.292 m)",
-    .reach = "front within 8 % of the range, against both digitisations",
-    .method = "As above, without any shift of the clock: mean distance at the measured points "
-              "until 0.28 s.",
+    .targets = "front: mean distance within 8 % of the range, for both digitisations",
+    .method = "As for ETSIN, without a shift of the clock: mean distance at the measured points until 0.28 s.",
     .scene = "dambreak-front/koshizuka.yaml",
     .headline = "front, mean distance, digitisation a",
     .full = koshizuka_full,

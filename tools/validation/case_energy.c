@@ -1,4 +1,4 @@
-/* Momentum and energy of a collapsing column in a closed tank. */
+/* Momentum and energy of a collapsing water column in a closed tank. */
 #include "cases.h"
 
 #include "base/file.h"
@@ -16,7 +16,7 @@ static sb_status read_energy(const sb_case_run *run, sb_sheet *sheet, sb_error *
     return status == SB_OK ? sb_sheet_read(path, sheet, error) : status;
 }
 
-/* Kinetic and potential energy, the floor being z = 0, over time. */
+/* Kinetic plus potential energy over time. Potential energy counts from the floor, z = 0. */
 static sb_status mechanical(const sb_sheet *sheet, sb_curve *energy, sb_error *error)
 {
     sb_curve potential = {0};
@@ -34,7 +34,7 @@ static bool is_item(const char *column)
     return strstr(column, "_J") && strncmp(column, "kinetic", 7) != 0 && strncmp(column, "potential", 9) != 0;
 }
 
-/* Largest value in a column; NaN when the table has none. */
+/* Largest value in a column; NaN: none. */
 static double largest(const sb_sheet *sheet, const char *column)
 {
     sb_curve curve = {0};
@@ -65,14 +65,14 @@ static sb_status figure_items(const sb_sheet *sheet, double lost, double scale, 
         double change = change_of(sheet, column);
         snprintf(quantity, sizeof quantity, "energy, item %.*s", (int)(strstr(column, "_J") - column), column);
         status = sb_figure_report(figures, quantity, "%", (double)NAN, 100 * change / scale, error,
-                                  "of the energy at the start, over the whole run");
+                                  "relative to the energy at the start; over the whole run");
         sum += change;
         items++;
     }
     if (status != SB_OK) return status;
     return sb_figure_below(figures, "energy, change that no item explains", "",
                            items ? fabs(lost - sum) / scale : (double)NAN, 1e-6, error,
-                           "of the energy at the start; %zu items in energy.csv", items);
+                           "relative to the energy at the start; %zu items in energy.csv", items);
 }
 
 static sb_status figure_energy(const sb_sheet *sheet, sb_figures *figures, sb_error *error)
@@ -88,12 +88,14 @@ static sb_status figure_energy(const sb_sheet *sheet, sb_figures *figures, sb_er
         at = energy.x[i];
     }
     double lost = energy.y[energy.count - 1] - start;
-    status =
-        sb_figure_below(figures, "energy, largest rise over 50 steps", "", rise / start, 1e-4, error,
-                        "of the mechanical energy at the start above the floor (%.4g J), from t = %.3f s", start, at);
+    status = sb_figure_below(
+        figures, "energy, largest rise over 50 steps", "", rise / start, 1e-4, error,
+        "relative to the mechanical energy at the start, potential energy counted from the floor (%.4g J); the "
+        "largest rise begins at t = %.3f s",
+        start, at);
     if (status == SB_OK)
         status = sb_figure_report(figures, "energy, change over the whole run", "%", (double)NAN, 100 * lost / start,
-                                  error, "of the same");
+                                  error, "relative to the same energy");
     if (status == SB_OK) status = figure_items(sheet, lost, start, figures, error);
     sb_curve_free(&energy);
     return status;
@@ -106,7 +108,7 @@ static sb_status evaluate(const sb_case_run *run, sb_figures *figures, sb_error 
     if (status == SB_OK)
         status = sb_figure_below(figures, "momentum balance with bodies, worst step", "",
                                  largest(&sheet, "momentum_imbalance"), 1e-6, error,
-                                 "|sum m a + sum F on bodies - M g| over sum m |a|");
+                                 "|sum m a + sum F on bodies - M g| divided by sum m |a|");
     if (status == SB_OK) status = figure_energy(&sheet, figures, error);
     sb_sheet_free(&sheet);
     return status;
@@ -127,7 +129,7 @@ static sb_status plot_one(const sb_case_run *run, sb_plot *plot, sb_error *error
     return status;
 }
 
-/* The items of one run's loss, in a panel of their own; none where there are no items. */
+/* Plots the items of one run's loss in a panel; no panel if there are no items. */
 static sb_status plot_items(const sb_case_run *run, sb_plot *plot, sb_error *error)
 {
     char title[160];
@@ -175,12 +177,10 @@ static const sb_plan quick[] = {{.resolution = 0.04, .judged = true}, {.resoluti
 const sb_case sb_case_energy = {
     .name = "momentum-energy",
     .title = "Momentum and energy of a collapsing column",
-    .reach = "momentum with bodies balances within 1e-6 of sum m |a| at every step; energy rises "
-             "by at most 1e-4 of the "
-             "start's over any 50 steps; its loss itemised",
-    .method = "Reference: the laws of conservation. A column of 0.4 m collapses onto a block in a closed "
-              "tank, 3 s. Energy is "
-              "kinetic plus\npotential above the floor, a row of energy.csv for every step; no filter.",
+    .targets = "momentum balance with bodies: within 1e-6 of sum m |a| at every step; energy: rises by at most 1e-4 of "
+               "the initial energy over any 50 steps; loss of energy: itemised to 1e-6",
+    .method = "Reference: the conservation laws. A column of 0.4 m collapses onto a block in a closed tank, for 3 s. "
+              "Energy is\nkinetic plus potential energy above the floor, one row of energy.csv per step; no filter.",
     .scene = "energy/collapse.yaml",
     .headline = "energy, largest rise over 50 steps",
     .full = full,

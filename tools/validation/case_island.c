@@ -1,4 +1,4 @@
-/* A solitary wave runs over a shelf with a conical island. */
+/* A solitary wave over a shelf with a conical island. */
 #include "cases.h"
 
 #include <math.h>
@@ -8,14 +8,13 @@
 
 static const double LEVEL = 0.78, HEIGHT = 0.39; /* m: still water, target height of the wave */
 static const double END = 12;                    /* s */
-static const double BEGIN = 2;                   /* s: before that no wave is at any gauge, but a start may splash */
-static const double ASTRAY = 0.5;                /* s: farther from the measured crest ours is another wave's */
+static const double BEGIN = 2;                   /* s; before it no wave is at any gauge, but the start may splash */
+static const double OTHER_WAVE = 0.5;            /* s; a crest farther from the measured one is another wave */
 static const double FILTER = 0.05;               /* s, running mean of the gauges */
 static const double VELOCITY_FILTER = 0.1;       /* s, of the velocities */
-static const double VELOCITY_BEGIN = 4;          /* s: the wave is not there before */
+static const double VELOCITY_BEGIN = 4;          /* s; the wave arrives later */
 
-/* How near the crest must come: a share of HEIGHT, or 4 cm where the water is under two particles
-   deep. */
+/* Target of the crest: a fraction of HEIGHT, or 4 cm where the water is less than two particles deep. */
 typedef struct gauge {
     const char *name, *column;
     double share; /* %; 0: 4 cm */
@@ -29,8 +28,8 @@ enum { GAUGES = sizeof gauges / sizeof gauges[0] };
 static const char *const probes[][2] = {{"A", "A_mm_s"}, {"B", "B_mm_s"}, {"C", "C_mm_s"}};
 enum { PROBES = 3 };
 
-/* Metres above still water. A gauge that sees no water counts as still water: the film there is
-   thinner than a particle. */
+/* Metres above still water. A gauge without water counts as still water: the film there is thinner than a particle.
+ */
 static sb_status elevation(const sb_case_run *run, const gauge *g, sb_curve *filtered, sb_error *error)
 {
     sb_curve raw = {0};
@@ -73,23 +72,24 @@ static sb_status add_crest(const gauge *g, const sb_curve *ours, const sb_curve 
     size_t our_top = sb_curve_highest(ours, BEGIN, end);
     double our_crest = our_top == (size_t)-1 ? NONE : ours->y[our_top];
     double our_time = our_top == (size_t)-1 ? NONE : ours->x[our_top];
-    char said[SB_FIGURE_NOTE];
-    snprintf(said, sizeof said, "measured at %.2f s, ours at %.2f s", when, our_time);
-    if (!(fabs(our_time - when) <= ASTRAY)) {
-        snprintf(said, sizeof said, "measured at %.2f s; ours, %.3g m at %.2f s, is another wave's", when, our_crest,
+    char note[SB_FIGURE_NOTE];
+    snprintf(note, sizeof note, "measured at %.2f s, simulated at %.2f s", when, our_time);
+    if (!(fabs(our_time - when) <= OTHER_WAVE)) {
+        snprintf(note, sizeof note,
+                 "measured at %.2f s; the simulated crest, %.3g m at %.2f s, is that of another wave", when, our_crest,
                  our_time);
         our_crest = NONE;
     }
     snprintf(name, sizeof name, "%s crest", g->name);
     sb_status status =
         g->share > 0
-            ? sb_figure_share(figures, name, "m", crest, our_crest, HEIGHT, g->share, error, "in %% of H; %s", said)
-            : sb_figure_difference(figures, name, "m", crest, our_crest, 0.04, error, "%s", said);
+            ? sb_figure_share(figures, name, "m", crest, our_crest, HEIGHT, g->share, error, "relative to H; %s", note)
+            : sb_figure_difference(figures, name, "m", crest, our_crest, 0.04, error, "%s", note);
     snprintf(name, sizeof name, "%s arrival", g->name);
     if (status == SB_OK)
         status = sb_figure_difference(figures, name, "s", sb_curve_onset(measured, crest / 2, BEGIN),
                                       sb_curve_onset(ours, crest / 2, BEGIN), 0.15, error,
-                                      "rise through half of the measured crest");
+                                      "first rise above half of the measured crest");
     return status;
 }
 
@@ -101,7 +101,7 @@ static sb_status add_gauge(const sb_case_run *run, const gauge *g, sb_figures *f
     if (status == SB_OK) status = elevation(run, g, &ours, error);
     if (status == SB_OK) {
         size_t top = sb_curve_highest(&measured, BEGIN, END);
-        if (measured.x[top] + 0.3 < end) /* a shortened run leaves out what comes later */
+        if (measured.x[top] + 0.3 < end) /* a shortened run ends before later crests */
             status = add_crest(g, &ours, &measured, end, figures, error);
     }
     sb_curve_free(&ours);
@@ -119,7 +119,7 @@ static sb_status add_probe(const sb_case_run *run, int k, sb_figures *figures, s
     if (status == SB_OK)
         status =
             sb_figure_report(figures, name, "m/s", NONE, sb_curve_rms_difference(&ours, &measured, VELOCITY_BEGIN, END),
-                             error, "0.1 s means, from %g s on, at the %zu of %zu measured points where both see water",
+                             error, "0.1 s means from %g s, at the %zu of %zu measured points where both have water",
                              VELOCITY_BEGIN, sb_curve_shared(&ours, &measured, VELOCITY_BEGIN, END),
                              sb_curve_shared(&measured, &measured, VELOCITY_BEGIN, END));
     snprintf(name, sizeof name, "U at %s, largest", probes[k][0]);
@@ -127,7 +127,7 @@ static sb_status add_probe(const sb_case_run *run, int k, sb_figures *figures, s
     size_t our_top = sb_curve_highest(&ours, VELOCITY_BEGIN, END);
     if (status == SB_OK)
         status = sb_figure_report(figures, name, "m/s", top == (size_t)-1 ? NONE : measured.y[top],
-                                  our_top == (size_t)-1 ? NONE : ours.y[our_top], error, "of the 0.1 s means");
+                                  our_top == (size_t)-1 ? NONE : ours.y[our_top], error, "from 0.1 s means");
     sb_curve_free(&ours);
     sb_curve_free(&measured);
     return status;
@@ -141,7 +141,7 @@ static sb_status evaluate(const sb_case_run *run, sb_figures *figures, sb_error 
     return status;
 }
 
-/* One curve of each run over the measured one, which is freed. */
+/* Reads one curve of a run. */
 typedef sb_status (*curve_reader)(const sb_case_run *run, const void *item, sb_curve *curve, sb_error *error);
 
 static sb_status read_elevation(const sb_case_run *run, const void *item, sb_curve *curve, sb_error *error)
@@ -202,20 +202,21 @@ static const sb_plan quick[] = {{.resolution = 0.19, .judged = true, .settings =
 const sb_case sb_case_island = {
     .name = "island",
     .title = "Solitary wave over a shelf with a conical island",
-    .reach = "crests: WG1, WG4 within 5 % of H, WG2, WG5 within 10 %, the others within 4 cm; "
-             "arrivals within 0.15 s; U with its RMS difference",
-    .method = "Tsunami Wave Basin, Oregon State University; H = 0.39 m on h = 0.78 m. No shift of the "
-              "clock: both start with the paddle. Running means over 0.05 s of the elevations and over "
-              "0.1 s of the velocities on both sides, from 2 s to 12 s. Crest: the highest value; ours more than "
-              "half a second off the measured one is another wave's, and none. Arrival: the first rise through half of "
-              "the measured crest. A "
-              "gauge that sees no water counts as still "
-              "water. The shelf carries 7 to 9 cm of water, under two particles at 0.0475 m: WG2, WG3 "
-              "and WG6 to WG9 stand there. The paddle's record is not published: Goring's first-order "
-              "law is used, with the height, 0.42 m instead of the 0.39 m asked of the machine, that in "
-              "a fine flat flume gives the measured crests' mean at WG1 and WG4 (flume.yaml beside the "
-              "scene). So what these two judge is the loss on the way there at the spacing shown, not "
-              "the wave that was made.",
+    .targets = "crests at WG1 and WG4: within 5 % of H; crests at WG2 and WG5: within 10 % of H; other crests: within "
+               "4 cm; arrivals: within 0.15 s",
+    .method =
+        "Reference: Tsunami Wave Basin, Oregon State University; H = 0.39 m, h = 0.78 m. The clock is not shifted: "
+        "both start\nwith the paddle. Both sides are running means, over 0.05 s for elevations and 0.1 s for "
+        "velocities, from 2 s to 12 s.\n\n"
+        "- Crest: the highest value. A simulated crest more than half a second from the measured one belongs to "
+        "another wave\n  and does not count.\n"
+        "- Arrival: the first rise above half of the measured crest.\n"
+        "- A gauge without water counts as still water.\n"
+        "- WG2, WG3 and WG6 to WG9 stand on the shelf, in 7 to 9 cm of water: less than two particles at 0.0475 m.\n"
+        "- The record of the paddle is not published. The simulation uses Goring's first-order law. Its height is "
+        "0.42 m, not\n  the 0.39 m requested of the machine: in a fine flat flume, 0.42 m gives the measured mean of "
+        "the crests at WG1 and WG4\n  (flume.yaml beside the scene). These two gauges therefore test the loss of "
+        "height on the way to them, not the wave\n  that was made.",
     .scene = "island/island.yaml",
     .headline = "WG1 crest",
     .full = full,

@@ -1,4 +1,4 @@
-/* Solitary waves on a plane beach of 1:19.85: one that breaks, one that does not. */
+/* Solitary waves on a plane beach of 1:19.85: a breaking and a non-breaking one. */
 #include "cases.h"
 
 #include <math.h>
@@ -6,12 +6,12 @@
 #include <stdlib.h>
 
 static const double COTANGENT = 19.85;
-static const double OFFSET = 0.5; /* m: the run-up line begins this far seaward of the shoreline */
+static const double OFFSET = 0.5; /* m; distance from the start of the run-up line to the shoreline */
 static const char *const times[] = {"15", "20", "25", "30"};
 enum { TIMES = 4 };
 
-/* The laboratory's run-up for a wave of height H/d, between groups of runs along straight lines in
-   logarithms. which: "runup", the groups' means; "least" or "greatest" of a group. */
+/* The laboratory's run-up for a wave of height H/d, interpolated between groups of runs on logarithmic axes. which:
+   "runup" (means of the groups), "least" or "greatest" of a group. */
 static sb_status laboratory(const sb_case_run *run, const char *which, double height, double *runup, sb_error *error)
 {
     sb_curve table = {0};
@@ -38,9 +38,8 @@ static sb_status figure_runup(const sb_case_run *run, double limit, sb_figures *
         size_t far = sb_curve_highest(&front, 0, HUGE_VAL), high = sb_curve_highest(&top, 0, HUGE_VAL);
         double reached = (front.y[far] - OFFSET) / COTANGENT / wave->depth;
         status = sb_figure_share(figures, "run-up R/d", "", measured, reached, measured, limit, error,
-                                 "the beach's height below the foremost water that hangs together, at t sqrt(g/d) = "
-                                 "%.1f, "
-                                 "for H/d = %g; the run-up law says %.3f",
+                                 "height of the beach at the front of the connected water, at t sqrt(g/d) = %.1f, for "
+                                 "H/d = %g; the run-up law gives %.3f",
                                  front.x[far] * sqrt(run->scene->fluid.gravity / wave->depth), height, law);
         if (status == SB_OK)
             status = sb_figure_report(figures, "highest water over d", "", measured, top.y[high] / wave->depth, error,
@@ -51,8 +50,7 @@ static sb_status figure_runup(const sb_case_run *run, double limit, sb_figures *
     return status;
 }
 
-/* Free surface over x/d (seaward, as in the laboratory) at a time in sqrt(d/g); where no water is,
- * the beach. */
+/* Free surface over x/d (seaward, as in the laboratory) at a time in sqrt(d/g); the beach where there is no water. */
 static sb_status surface(const sb_case_run *run, double time, sb_curve *eta, sb_error *error)
 {
     const sb_scene *scene = run->scene;
@@ -86,7 +84,7 @@ static sb_status figure_profile(const sb_case_run *run, const char *time, sb_fig
     if (status == SB_OK)
         status = sb_figure_below(figures, quantity, "%",
                                  100 * sb_curve_rms_difference(&ours, &lab, -HUGE_VAL, HUGE_VAL) / height, 10, error,
-                                 "of H, at the %zu places of the laboratory, x/d from %.1f to %.1f", lab.count,
+                                 "relative to H; at %zu measured places, x/d from %.1f to %.1f", lab.count,
                                  lab.count ? lab.x[0] : 0, lab.count ? lab.x[lab.count - 1] : 0);
     sb_curve_free(&ours);
     sb_curve_free(&lab);
@@ -128,7 +126,7 @@ static sb_status plot_profile(const sb_case_run *runs, size_t count, const char 
     return status;
 }
 
-/* The laboratory's run-up as a level, with the range of its runs: least, greatest, mean. */
+/* Plots the laboratory's run-up as a level with the range of its runs. level: least, greatest, mean. */
 static sb_status plot_level(sb_plot *plot, double end, const double level[3], sb_error *error)
 {
     double x[] = {0, end}, y[3][2];
@@ -174,13 +172,12 @@ static const sb_plan breaking_full[] = {{.resolution = 0.06, .paper = true},
                                         {.resolution = 0}};
 static const sb_plan breaking_quick[] = {{.resolution = 0.05, .judged = true}, {.resolution = 0}};
 
-/* The preset `paper` at the second spacing, too, would take about five hours of a thread: its time steps go with the
-   spacing over g. */
+/* The preset `paper` at the second spacing would take about five hours of one thread. */
 static const sb_plan nonbreaking_full[] = {{.resolution = 0.02, .paper = true, .seeds = 3},
                                            {.resolution = 0.0133},
                                            {.resolution = 0.01, .judged = true},
                                            {.resolution = 0}};
-/* A wave of H/d = 0.1 has enough particles in a cheap run. */
+/* A wave of H/d = 0.1 is enough particles high in a cheap run. */
 static const char *const higher[] = {"water.wave.height=0.1", "water.wave.position=-27.8039", "domain.min=[-40, -1]",
                                      "duration=18.5", NULL};
 static const sb_plan nonbreaking_quick[] = {{.resolution = 0.05, .judged = true, .settings = higher},
@@ -189,16 +186,15 @@ static const sb_plan nonbreaking_quick[] = {{.resolution = 0.05, .judged = true,
 const sb_case sb_case_runup_breaking = {
     .name = "runup-breaking",
     .title = "Solitary wave that breaks on a beach, H/d = 0.3",
-    .reach = "run-up within 10 % of the laboratory; profiles' RMS at most 10 % of H at t sqrt(g/d) "
-             "= 15, 20, 25, 30",
-    .method = "Reference: laboratory, Synolakis (1987), beach 1:19.85; run-up between groups of "
-              "runs near H/d = 0.3, profiles in "
-              "bins\nof 0.25 d. The clock begins where the laboratory's does, the crest "
-              "arccosh(sqrt(20))/sqrt(0.75 H/d) depths "
-              "before the toe: no lag.\nd = 1 m, the viscosity scaled to the laboratory's Reynolds "
-              "number. Gauges every 0.125 m, no filter; where ours is "
-              "dry, the beach stands for the "
-              "surface.",
+    .targets =
+        "run-up: within 10 % of the laboratory; profiles at t sqrt(g/d) = 15, 20, 25, 30: RMS difference at most "
+        "10 % of H",
+    .method =
+        "Reference: laboratory, Synolakis (1987), beach 1:19.85. The run-up is interpolated between groups of runs "
+        "near H/d = 0.3;\nprofiles are in bins of 0.25 d. The clock begins as in the laboratory, when the crest is "
+        "arccosh(sqrt(20))/sqrt(0.75 H/d)\ndepths before the toe; no time shift. d = 1 m, with the viscosity scaled "
+        "to the laboratory's Reynolds number. Gauges are\n0.125 m apart; no filter. Where the simulation is dry, the "
+        "surface is the beach.",
     .scene = "solitary-runup/breaking.yaml",
     .headline = "run-up R/d",
     .full = breaking_full,
@@ -209,12 +205,12 @@ const sb_case sb_case_runup_breaking = {
 const sb_case sb_case_runup_nonbreaking = {
     .name = "runup-nonbreaking",
     .title = "Solitary wave that runs up a beach without breaking, H/d = 0.04",
-    .reach = "run-up within 15 % of the laboratory at 4 to 5 particles per wave height",
-    .method = "Reference: laboratory, Synolakis (1987), beach 1:19.85, between groups of runs near "
-              "H/d = 0.04. d = 1 m, the viscosity scaled to its Reynolds number. No filter, "
-              "no\nlag. The quick form has H/d = 0.1 instead, a wave that is just breaking. The "
-              "preset `paper` runs at the "
-              "coarsest spacing only:\none and a half hours of a thread; the next would take five, and was not run.",
+    .targets = "run-up: within 15 % of the laboratory at 4 to 5 particles per wave height",
+    .method =
+        "Reference: laboratory, Synolakis (1987), beach 1:19.85, interpolated between groups of runs near H/d = "
+        "0.04. d = 1 m, with\nthe viscosity scaled to the laboratory's Reynolds number. No filter, no time shift. "
+        "The quick form has H/d = 0.1, a wave that\njust breaks. The preset `paper` runs only at the coarsest "
+        "spacing, which takes one and a half hours of one thread; the\nnext spacing would take five.",
     .scene = "solitary-runup/nonbreaking.yaml",
     .headline = "run-up R/d",
     .full = nonbreaking_full,

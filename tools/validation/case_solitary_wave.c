@@ -7,11 +7,11 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double FIRST = 10, LAST = 60; /* m: where the wave is measured from and to */
-static const double STRETCH = 10;          /* m: lines through heights at either end */
-static const double HALF_WIDTH = 0.25;     /* s: of the parabola at a crest */
+static const double FIRST = 10, LAST = 60; /* m; the wave is measured between these */
+static const double STRETCH = 10;          /* m; length of the fits through heights at either end */
+static const double HALF_WIDTH = 0.25;     /* s; of the parabola at a crest */
 
-/* Crests at the gauges: height above still water and time, over x. */
+/* Crests at the gauges: height above still water, and time, over x. */
 static sb_status find_crests(const sb_case_run *run, sb_curve *heights, sb_curve *times, sb_error *error)
 {
     const sb_scene *scene = run->scene;
@@ -28,8 +28,8 @@ static sb_status find_crests(const sb_case_run *run, sb_curve *heights, sb_curve
     return status;
 }
 
-/* Whether each crest is later than the one before. Where a wave has died on its way crests are noise, and a line
-   through their times is no celerity. */
+/* Whether each crest is later than the one before. If the wave has decayed to noise, a line through the times of the
+   crests gives no celerity. */
 static bool travels(const sb_curve *times)
 {
     for (size_t g = 1; g < times->count; g++)
@@ -43,7 +43,7 @@ static double line_at(const sb_curve *curve, double first, double last, double x
     return sb_curve_line(curve, first, last, &a, &b) ? a + b * x : (double)NAN;
 }
 
-/* Height at the start and the end, and what Keulegan leaves of the former. */
+/* Height at the start and at the end, and the height that Keulegan's damping leaves at the end. */
 typedef struct journey {
     double first, last, damped, celerity; /* m, m, m, m/s */
     double leaves, arrives;               /* s */
@@ -69,14 +69,13 @@ static sb_status follow(const sb_case_run *run, journey *j, sb_error *error)
     return status;
 }
 
-/* Of the wave by Boussinesq, J per metre of width: 8/(3 sqrt 3) rho g (H h)^1.5, half of it
- * kinetic. */
+/* Energy of the wave by Boussinesq, J per metre of width: 8/(3 sqrt 3) rho g (H h)^1.5, half of it kinetic. */
 static double wave_energy(const sb_scene *scene, double height)
 {
     return 8 / (3 * sqrt(3.0)) * scene->fluid.density * scene->fluid.gravity * pow(height * scene->wave.depth, 1.5);
 }
 
-/* By how much a column of energy.csv changes between the wave's leaving and arriving. */
+/* Change of a column of energy.csv while the wave travels from FIRST to LAST. */
 static double change_of(const sb_sheet *sheet, const char *column, const journey *j)
 {
     sb_curve curve = {0};
@@ -86,8 +85,7 @@ static double change_of(const sb_sheet *sheet, const char *column, const journey
     return change;
 }
 
-/* Every column in J beyond kinetic and potential energy is an item of the loss, whatever its name.
- */
+/* Every column in J other than kinetic and potential energy is an item of the loss. */
 static sb_status figure_items(const sb_sheet *sheet, const journey *j, double energy, sb_figures *figures,
                               sb_error *error)
 {
@@ -101,7 +99,7 @@ static sb_status figure_items(const sb_sheet *sheet, const journey *j, double en
         *unit = '\0';
         snprintf(quantity, sizeof quantity, "energy, item %.60s", name);
         status = sb_figure_report(figures, quantity, "%", (double)NAN, 100 * change / energy, error,
-                                  "of the wave's energy at x = %g m", FIRST);
+                                  "relative to the wave's energy at x = %g m", FIRST);
     }
     return status;
 }
@@ -116,17 +114,18 @@ static sb_status figure_energy(const sb_case_run *run, const journey *j, sb_figu
     if (status != SB_OK) return status;
     double total = change_of(&sheet, "kinetic_J", j) + change_of(&sheet, "potential_J", j);
     status = sb_figure_report(figures, "energy, change over 50 depths", "%", (double)NAN, 100 * total / energy, error,
-                              "kinetic and potential, of the wave's energy at x = %g m (%.0f J/m by theory at the "
-                              "measured height); Keulegan: %.2f %%. A level that sinks by a thousandth of the depth "
-                              "counts like a third of the wave",
+                              "kinetic and potential, relative to the wave's energy at x = %g m (%.0f J/m by theory "
+                              "for its height); Keulegan: %.2f %%. A level lower by 0.001 depths changes it by a third "
+                              "of the wave's energy",
                               FIRST, energy, 100 * (pow(j->damped / j->first, 1.5) - 1));
     if (status == SB_OK)
         status = sb_figure_report(figures, "kinetic energy, change over 50 depths", "%", (double)NAN,
-                                  200 * change_of(&sheet, "kinetic_J", j) / energy, error, "of half of that energy");
+                                  200 * change_of(&sheet, "kinetic_J", j) / energy, error,
+                                  "relative to half of that energy");
     if (status == SB_OK)
         status = sb_figure_report(figures, "energy, change by the loss of height", "%", (double)NAN,
                                   100 * (pow(j->last / j->first, 1.5) - 1), error,
-                                  "what the measured heights mean for a wave with energy ~ H^1.5");
+                                  "from the heights, for a wave with energy ~ H^1.5");
     if (status == SB_OK) status = figure_items(&sheet, j, energy, figures, error);
     sb_sheet_free(&sheet);
     return status;
@@ -139,9 +138,9 @@ static sb_status evaluate(const sb_case_run *run, sb_figures *figures, sb_error 
     sb_status status = follow(run, &j, error);
     if (status != SB_OK) return status;
     double unit = sqrt(scene->fluid.gravity * scene->wave.depth);
-    status = sb_figure_share(
-        figures, "celerity", "sqrt(g h)", 1.138, j.celerity / unit, 1.138, 1, error,
-        "line through the crests' times at gauges every 2 m; none where they do not follow one another");
+    status = sb_figure_share(figures, "celerity", "sqrt(g h)", 1.138, j.celerity / unit, 1.138, 1, error,
+                             "line through the times of the crests at gauges every 2 m; no value if a crest is not "
+                             "later than the one before");
     if (status == SB_OK)
         status =
             sb_figure_below(figures, "height loss beyond Keulegan", "%", 100 * (j.damped - j.last) / j.damped, 5, error,
@@ -150,11 +149,10 @@ static sb_status evaluate(const sb_case_run *run, sb_figures *figures, sb_error 
                             LAST, FIRST, STRETCH);
     if (status == SB_OK)
         status = sb_figure_report(figures, "height at x = 10 m", "m", scene->wave.height, j.first, error,
-                                  "the wave was put on the water at x = %g m by theory of the third order",
-                                  scene->wave.position);
+                                  "the initial wave, of third-order theory, is at x = %g m", scene->wave.position);
     if (status == SB_OK)
         status = sb_figure_report(figures, "height at x = 60 m", "m", j.damped, j.last, error,
-                                  "the reference is Keulegan's for nu = %g m^2/s", scene->fluid.viscosity);
+                                  "reference: Keulegan's damping for nu = %g m^2/s", scene->fluid.viscosity);
     return status == SB_OK ? figure_energy(run, &j, figures, error) : status;
 }
 
@@ -170,15 +168,13 @@ static sb_status compare(const sb_case_run *runs, const sb_figures *of_each, siz
     double ratio = runs[f - 1].resolution / runs[f].resolution;
     double pair = log(loss_of(&of_each[f - 1]) / loss_of(&of_each[f])) / log(ratio);
     sb_status status = sb_figure_report(figures, "order of convergence, two finest", "", (double)NAN, pair, error,
-                                        "of the height loss beyond Keulegan, whose limit is 0");
+                                        "of the height loss beyond Keulegan, which tends to 0");
     if (status != SB_OK || count < 3) return status;
     double steps =
         (loss_of(&of_each[f - 2]) - loss_of(&of_each[f - 1])) / (loss_of(&of_each[f - 1]) - loss_of(&of_each[f]));
-    return sb_figure_report(figures, "order of convergence, three finest", "", (double)NAN, log(steps) / log(ratio),
-                            error,
-                            "of the same, its limit unknown (Richardson); nothing when the losses "
-                            "do not fall by less and "
-                            "less");
+    return sb_figure_report(
+        figures, "order of convergence, three finest", "", (double)NAN, log(steps) / log(ratio), error,
+        "of the same loss with an unknown limit (Richardson); no value if its differences do not shrink");
 }
 
 static sb_status plot_heights(const sb_case_run *runs, size_t count, sb_plot *plot, sb_error *error)
@@ -204,7 +200,7 @@ static sb_status plot_heights(const sb_case_run *runs, size_t count, sb_plot *pl
     return status;
 }
 
-/* Elevation at the last gauge, each run's crest at 0: shape and what trails behind. */
+/* Elevation at the last gauge, with each crest at time 0: the shape of the wave and its trailing waves. */
 static sb_status plot_shapes(const sb_case_run *runs, size_t count, sb_plot *plot, sb_error *error)
 {
     const sb_scene *scene = runs[0].scene;
@@ -243,16 +239,13 @@ static const sb_plan quick[] = {{.resolution = 0.06, .judged = true}, {.resoluti
 const sb_case sb_case_solitary_wave = {
     .name = "solitary-wave",
     .title = "Solitary wave over fifty depths",
-    .reach = "celerity within 1 % of 1.138 sqrt(g h); height loss beyond Keulegan at most 5 % at "
-             "20 particles per "
-             "wave height",
-    .method = "Reference: celerity of the exact solitary wave of H/h = 0.3; damping by Keulegan "
-              "(1948) with the water's "
-              "viscosity,\n1e-6 m^2/s. The walls are slippery, so the bed's friction that Keulegan "
-              "counts is not in the "
-              "simulation; it is below 1 %.\nH = 0.3 m, h = 1 m, from x = 10 to 60 m. Crests are "
-              "parabolas through 0.5 s of a "
-              "gauge's elevation, no other filter, no lag.",
+    .targets = "celerity: within 1 % of 1.138 sqrt(g h); height loss beyond Keulegan: at most 5 % at 20 particles per "
+               "wave height",
+    .method =
+        "Reference: celerity of the exact solitary wave of H/h = 0.3; damping by Keulegan (1948) for the viscosity "
+        "of water,\n1e-6 m^2/s. Walls are free-slip: the friction of the bed in Keulegan's formula, below 1 %, is not "
+        "simulated. H = 0.3 m,\nh = 1 m, from x = 10 m to 60 m. A crest is a parabola through 0.5 s of a gauge's "
+        "elevation; no other filter, no time shift.",
     .scene = "solitary-wave/solitary-wave.yaml",
     .headline = "height loss beyond Keulegan",
     .full = full,

@@ -1,4 +1,4 @@
-/* A standing wave in a slice, ten periods. */
+/* A standing wave in a vertical slice over ten periods. */
 #include "cases.h"
 #include "physics/wave_theory.h"
 #include "theory.h"
@@ -9,7 +9,7 @@
 enum { MAIN = 2, PERIODS = 10 }; /* the wave is shape 2 of cos(n pi x/length) */
 
 typedef struct wave {
-    double amplitude, depth, k, gravity, length, period; /* of the scene; linear period */
+    double amplitude, depth, k, gravity, length, period; /* of the scene; the period is that of linear theory */
 } wave;
 
 static wave wave_of(const sb_case_run *run)
@@ -24,8 +24,8 @@ static wave wave_of(const sb_case_run *run)
     return w;
 }
 
-/* Amplitude over time of the shape cos(n pi x/length) in the elevation at the gauges, which stand
-   at the midpoints of equal parts. */
+/* Amplitude over time of the shape cos(n pi x/length) in the elevation. The gauges are at the midpoints of equal
+   intervals. */
 static sb_status shape(const sb_case_run *run, int n, sb_curve *amplitude, sb_error *error)
 {
     const sb_scene *scene = run->scene;
@@ -52,20 +52,20 @@ static sb_status shape(const sb_case_run *run, int n, sb_curve *amplitude, sb_er
     return status;
 }
 
-/* What a damped swing shows: period from a line through all crossings of zero, decay from one
-   through the logarithms of the extremes between them. */
-typedef struct swing {
+/* Results for a damped oscillation: the period from a line through all zero crossings, the decay from a line through
+   the logarithms of the extremes between them. */
+typedef struct oscillation {
     double period, decay, mean_square; /* s, 1/s, m^2 of the extremes */
-} swing;
+} oscillation;
 
-/* Swings that reach less than this share of the largest are noise, not swings. */
+/* Extremes below this fraction of the largest are noise. */
 static const double LEAST = 0.02;
 
-/* Crossings (over their number) and the logarithms of the extremes before them (over time). */
-static sb_status find_swings(const sb_curve *a, double last, sb_curve *crossings, sb_curve *extremes, sb_error *error)
+/* Finds zero crossings (over their number) and the logarithms of the extremes before them (over time). */
+static sb_status find_extremes(const sb_curve *a, double last, sb_curve *crossings, sb_curve *extremes, sb_error *error)
 {
     sb_curve size = {0};
-    if (a->count == 0) return sb_fail(error, SB_FAILED, "no elevations to look for swings in");
+    if (a->count == 0) return sb_fail(error, SB_FAILED, "no surface elevations");
     sb_status status = sb_curve_copy(a, &size, error);
     for (size_t k = 0; k < size.count; k++) size.y[k] = fabs(size.y[k]);
     double before = a->x[0], least = LEAST * sb_curve_peak(&size, before, last, 0.1).y;
@@ -83,12 +83,12 @@ static sb_status find_swings(const sb_curve *a, double last, sb_curve *crossings
     return status;
 }
 
-static sb_status measure(const sb_curve *a, double last, swing *found, sb_error *error)
+static sb_status measure(const sb_curve *a, double last, oscillation *found, sb_error *error)
 {
     sb_curve crossings = {0}, extremes = {0};
     double first, slope, squares = 0;
-    *found = (swing){(double)NAN, (double)NAN, (double)NAN};
-    sb_status status = find_swings(a, last, &crossings, &extremes, error);
+    *found = (oscillation){(double)NAN, (double)NAN, (double)NAN};
+    sb_status status = find_extremes(a, last, &crossings, &extremes, error);
     if (status == SB_OK && sb_curve_line(&crossings, 0, HUGE_VAL, &first, &slope)) found->period = 2 * slope;
     if (status == SB_OK && sb_curve_line(&extremes, 0, HUGE_VAL, &first, &slope)) {
         for (size_t i = 0; i < extremes.count; i++) squares += exp(2 * extremes.y[i]);
@@ -100,10 +100,10 @@ static sb_status measure(const sb_curve *a, double last, swing *found, sb_error 
     return status;
 }
 
-static sb_status figure_swing(const sb_case_run *run, const wave *w, sb_figures *figures, sb_error *error)
+static sb_status figure_oscillation(const sb_case_run *run, const wave *w, sb_figures *figures, sb_error *error)
 {
     sb_curve a = {0};
-    swing found;
+    oscillation found;
     sb_status status = shape(run, MAIN, &a, error);
     if (status == SB_OK) status = measure(&a, PERIODS * w->period, &found, error);
     sb_curve_free(&a);
@@ -112,11 +112,11 @@ static sb_status figure_swing(const sb_case_run *run, const wave *w, sb_figures 
     double steepness = w->k * sqrt(found.mean_square);
     double period = w->period / sb_theory_standing_shift(w->k * w->depth, steepness);
     double decay = sb_theory_decay(viscosity, w->k);
-    status = sb_figure_share(figures, "period", "s", period, found.period, period, 1, error,
-                             "line through all zero crossings of ten periods; linear theory says "
-                             "%.4f s, its third-order "
-                             "correction at the measured mean steepness %+.2f %%",
-                             w->period, 100 * (period / w->period - 1));
+    status =
+        sb_figure_share(figures, "period", "s", period, found.period, period, 1, error,
+                        "line through all zero crossings of ten periods; linear theory gives %.4f s, the third-order "
+                        "correction at the simulated mean steepness %+.2f %%",
+                        w->period, 100 * (period / w->period - 1));
     if (status == SB_OK)
         status = sb_figure_share(figures, "decay of the amplitude", "1/s", decay, found.decay, decay, 20, error,
                                  "line through the logarithms of the extremes; theory 2 nu k^2 at nu_eff = %.3g m^2/s",
@@ -138,16 +138,16 @@ static sb_status figure_shape(const sb_case_run *run, const wave *w, int n, doub
 
 static sb_status evaluate(const sb_case_run *run, sb_figures *figures, sb_error *error)
 {
-    static const char note[] = "root mean square over ten periods times sqrt(2), over the start's amplitude";
+    static const char note[] = "root mean square over ten periods times sqrt(2), relative to the initial amplitude";
     wave w = wave_of(run);
-    sb_status status = figure_swing(run, &w, figures, error);
+    sb_status status = figure_oscillation(run, &w, figures, error);
     if (status == SB_OK)
         status = figure_shape(run, &w, 1, 10, "second wave, half the wave number", note, figures, error);
     if (status == SB_OK)
         status = figure_shape(run, &w, 3, 10, "second wave, 1.5 times the wave number", note, figures, error);
     if (status == SB_OK)
         status = figure_shape(run, &w, 4, (double)NAN, "twice the wave number",
-                              "the same; a part of it belongs to the wave itself at second order", figures, error);
+                              "the same; part of it is the second-order shape of the wave itself", figures, error);
     return status;
 }
 
@@ -162,9 +162,9 @@ static sb_status compare(const sb_case_run *runs, const sb_figures *of_each, siz
         double ratio = fine / coarse;
         most = ratio > most || isnan(ratio) ? ratio : most;
     }
-    return sb_figure_below(figures, "decay, finer over coarser", "", most, 1, error,
-                           "largest ratio of two neighbouring resolutions of %zu: below 1 it falls with the spacing",
-                           count);
+    return sb_figure_below(
+        figures, "decay, finer over coarser", "", most, 1, error,
+        "largest ratio of two neighbouring spacings of %zu; below 1 the decay falls with the spacing", count);
 }
 
 static sb_status plot(const sb_case_run *runs, size_t count, sb_plot *plot, sb_error *error)
@@ -206,18 +206,14 @@ static const sb_plan quick[] = {{.resolution = 0.05}, {.resolution = 0.04, .judg
 const sb_case sb_case_standing_wave = {
     .name = "standing-wave",
     .title = "Standing wave over ten periods",
-    .reach = "period within 1 %; decay within 20 % of theory at the stated viscosity and falling "
-             "with the spacing; no "
-             "second wave (other shapes at most 10 % of the amplitude)",
-    .method = "Reference: linear theory with its third-order shift of frequency (Tadjbakhsh and "
-              "Keller 1960); decay by the "
-              "viscosity\nof the irrotational flow, 2 nu k^2 (Lamb 1932, art. 348), at the "
-              "effective viscosity of the viscous "
-              "terms (docs/method.md,\nsection 6, with the lattice sum averaged over all "
-              "directions of strain). The walls are "
-              "slippery: no boundary layers are\ncounted. h = 1 m, wavelength 2 m, amplitude 0.05 "
-              "m. Forty gauges are projected "
-              "on cos(n pi x/2); the wave is n = 2.\nNo filter, no lag.",
+    .targets = "period: within 1 %; decay: within 20 % of theory for the effective viscosity, and falling with the "
+               "spacing; other shapes: at most 10 % of the amplitude",
+    .method =
+        "Reference: linear theory with the third-order shift of frequency (Tadjbakhsh and Keller 1960). The decay is "
+        "that of the\nviscosity of the irrotational flow, 2 nu k^2 (Lamb 1932, art. 348), for the effective viscosity "
+        "of the viscous terms\n(docs/method.md, section 6, with the lattice sum averaged over all directions of "
+        "strain). Walls are free-slip, so that there\nare no boundary layers. h = 1 m, wavelength 2 m, amplitude 0.05 "
+        "m. Forty gauges are projected on cos(n pi x/2); the wave is\nn = 2. No filter, no time shift.",
     .scene = "standing-wave/standing-wave.yaml",
     .headline = "period",
     .full = full,

@@ -6,11 +6,11 @@
 #include <stdio.h>
 #include <string.h>
 
-/* s: means leave out what is before. */
+/* s; means begin here. */
 static const double START = 1;
 
-/* Rate of the water's weight that all bodies bear, -sum Fz / (M g), over time. */
-static sb_status bearing(const sb_case_run *run, sb_curve *share, sb_error *error)
+/* Upward reaction of all bodies relative to the water's weight, -sum Fz / (M g), over time. */
+static sb_status reaction(const sb_case_run *run, sb_curve *share, sb_error *error)
 {
     const sb_scene *scene = run->scene;
     sb_curve mass = {0}, total = {0};
@@ -44,7 +44,7 @@ static sb_status figure_level(const sb_case_run *run, sb_figures *figures, sb_er
         if (status != SB_OK) return status;
         double miss = sb_curve_mean(&eta, START, HUGE_VAL) - scene->sea.level;
         sb_curve_free(&eta);
-        if (!isnan(worst) && !(fabs(miss) <= fabs(worst))) { /* one that was not measured stays the worst */
+        if (!isnan(worst) && !(fabs(miss) <= fabs(worst))) { /* a gauge without a value stays the worst */
             worst = miss;
             name = scene->measure.gauges[g].name;
         }
@@ -64,13 +64,14 @@ static sb_status figure_energy(const sb_case_run *run, sb_figures *figures, sb_e
         double after = sb_curve_mean(&kinetic, half, HUGE_VAL);
         double speed = sqrt(2 * after / mass.y[0]);
         double celerity = sqrt(run->scene->fluid.gravity * sb_still_depth(run->scene));
-        status = sb_figure_below(figures, "kinetic energy, growth", "%", 100 * (after / before - 1), 5, error,
-                                 "mean of the second half over that of the first after %g s; two means of a steady "
-                                 "unrest differ by some per cent",
-                                 START);
+        status = sb_figure_below(
+            figures, "kinetic energy, growth", "%", 100 * (after / before - 1), 5, error,
+            "mean of the second half relative to that of the first half after %g s, minus 1; two means of "
+            "a steady motion differ by some per cent",
+            START);
         if (status == SB_OK)
             status = sb_figure_report(figures, "speed, root mean square", "%", (double)NAN, 100 * speed / celerity,
-                                      error, "of sqrt(g D), second half");
+                                      error, "relative to sqrt(g D); second half of the run");
     }
     sb_curve_free(&kinetic);
     sb_curve_free(&mass);
@@ -80,17 +81,18 @@ static sb_status figure_energy(const sb_case_run *run, sb_figures *figures, sb_e
 static sb_status figure_force(const sb_case_run *run, sb_figures *figures, sb_error *error)
 {
     sb_curve share = {0};
-    sb_status status = bearing(run, &share, error);
+    sb_status status = reaction(run, &share, error);
     if (status != SB_OK) return status;
     double mean = sb_curve_mean(&share, START, HUGE_VAL);
-    status = sb_figure_share(figures, "force on all bodies, mean", "weights", 1, mean, 1, 0.2, error,
-                             "upward reaction of tank and all that stands in it over the weight of all "
-                             "particles, after %g s",
-                             START);
+    status = sb_figure_share(
+        figures, "force on all bodies, mean", "weights", 1, mean, 1, 0.2, error,
+        "upward reaction of the tank and all bodies in it, relative to the weight of all particles; mean "
+        "after %g s",
+        START);
     if (status == SB_OK)
-        status = sb_figure_below(figures, "force on all bodies, standard deviation", "%",
-                                 100 * sb_curve_deviation(&share, START, HUGE_VAL), 1, error,
-                                 "of the weight; of means over %g s, no filter", run->scene->measure.interval);
+        status = sb_figure_below(
+            figures, "force on all bodies, standard deviation", "%", 100 * sb_curve_deviation(&share, START, HUGE_VAL),
+            1, error, "relative to the weight; from means over %g s, no filter", run->scene->measure.interval);
     sb_curve_free(&share);
     return status;
 }
@@ -102,7 +104,7 @@ static sb_status figure_mass(const sb_case_run *run, double volume, sb_figures *
     if (status != SB_OK) return status;
     double expected = run->scene->fluid.density * volume;
     status = sb_figure_report(figures, "mass of water", run->scene->dimensions == 2 ? "kg/m" : "kg", expected,
-                              mass.y[mass.count - 1], error, "at the end");
+                              mass.y[mass.count - 1], error, "at the end of the run");
     sb_curve_free(&mass);
     return status;
 }
@@ -121,7 +123,7 @@ static sb_status evaluate_tank(const sb_case_run *run, sb_figures *figures, sb_e
     return evaluate(run, 1, figures, error); /* 1 m x (1 m x) 1 m */
 }
 
-/* Of basin.yaml: the tank less stairs, pillar, pocket's walls and slope. */
+/* Volume of basin.yaml: the tank minus stairs, pillar, walls of the pocket and slope. */
 static sb_status evaluate_basin(const sb_case_run *run, sb_figures *figures, sb_error *error)
 {
     double volume = 3 * 0.6 - 0.2 * (0.45 + 0.3 + 0.15) - M_PI * 0.12 * 0.12 * 0.6 - 2 * 0.2 * 0.4 * 0.45 -
@@ -132,7 +134,7 @@ static sb_status evaluate_basin(const sb_case_run *run, sb_figures *figures, sb_
 static sb_status plot_force(const sb_case_run *run, sb_plot *plot, sb_error *error)
 {
     sb_curve share = {0}, smooth = {0};
-    sb_status status = bearing(run, &share, error);
+    sb_status status = reaction(run, &share, error);
     if (status == SB_OK) status = sb_curve_mean_filter(&share, 0.5, &smooth, error);
     if (status == SB_OK) status = sb_plot_run(plot, run, &smooth, error);
     sb_curve_free(&share);
@@ -176,14 +178,12 @@ static sb_status draw(const sb_case_run *runs, size_t count, sb_plot *plot, sb_e
     return status;
 }
 
-#define REACH                                                                                                          \
-    "mean force on floor and bodies = weight within 0.2 %, standard deviation at most 1 %; "                           \
-    "kinetic energy does not "                                                                                         \
-    "grow; pressure profile within 1 % of rho g D; level within half a spacing"
+#define TARGETS                                                                                                        \
+    "force on all bodies: mean within 0.2 % of the weight, standard deviation at most 1 %; kinetic energy: does not "  \
+    "grow; pressure at probes and in layers: within 1 % of rho g D; level: within half a spacing"
 #define METHOD                                                                                                         \
-    "Reference: statics. 20 s from rest, after the settling that the defaults do. D is the still "                     \
-    "depth, the weight that "                                                                                          \
-    "of the particles\nthere are. Forces are summed over every body that touches water."
+    "Reference: hydrostatics. The water rests for 20 s, after the settling of the defaults. D is the still-water\n"    \
+    "depth. The weight is that of all particles. Forces are summed over all bodies that touch water."
 
 static const sb_plan flat_full[] = {{.resolution = 0.1, .paper = true},
                                     {.resolution = 0.05, .paper = true, .judged = true, .seeds = 3},
@@ -196,7 +196,7 @@ static const sb_plan basin_quick[] = {{.resolution = 0.075, .judged = true, .set
 
 const sb_case sb_case_still_water_flat = {.name = "still-water-2d",
                                           .title = "Still water in a slice of a tank",
-                                          .reach = REACH,
+                                          .targets = TARGETS,
                                           .method = METHOD,
                                           .scene = "still-water/flat.yaml",
                                           .headline = "force on all bodies, standard deviation",
@@ -207,7 +207,7 @@ const sb_case sb_case_still_water_flat = {.name = "still-water-2d",
 
 const sb_case sb_case_still_water_box = {.name = "still-water-box",
                                          .title = "Still water in a cube",
-                                         .reach = REACH,
+                                         .targets = TARGETS,
                                          .method = METHOD,
                                          .scene = "still-water/box.yaml",
                                          .headline = "force on all bodies, standard deviation",
@@ -218,7 +218,7 @@ const sb_case sb_case_still_water_box = {.name = "still-water-box",
 
 const sb_case sb_case_still_water_basin = {.name = "still-water-basin",
                                            .title = "Still water in a basin with slope, stairs, pillar and pocket",
-                                           .reach = REACH,
+                                           .targets = TARGETS,
                                            .method = METHOD,
                                            .scene = "still-water/basin.yaml",
                                            .headline = "force on all bodies, standard deviation",

@@ -1,4 +1,4 @@
-/* The rows of the table of cases, each in a file case_<name>.c. */
+/* The cases, each in a file case_<name>.c. */
 #ifndef SB_VALIDATION_CASES_H
 #define SB_VALIDATION_CASES_H
 

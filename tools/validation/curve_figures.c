@@ -1,4 +1,4 @@
-/* What is read off a curve: sums, extremes, peaks, onsets, lines. */
+/* Numbers computed from a curve: sums, extremes, peaks, onsets, fitted lines. */
 #include "curve.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@ static bool within(const sb_curve *curve, size_t i, double first, double last)
     return curve->x[i] >= first && curve->x[i] <= last && !isnan(curve->y[i]);
 }
 
-/* Mean of |y - shift|^power for power 1 (signed) or 2. */
+/* Mean of (y - shift)^power for power 1 or 2. */
 static double moment(const sb_curve *curve, double first, double last, double shift, int power)
 {
     double sum = 0;
@@ -92,8 +92,7 @@ size_t sb_curve_lowest(const sb_curve *curve, double first, double last)
     return extreme(curve, first, last, -1);
 }
 
-/* Solves the normal equations of y = c0 + c1 u + c2 u^2, given s[k] = sum u^k and t[k] = sum y u^k.
- */
+/* Solves the normal equations of y = c0 + c1 u + c2 u^2, given s[k] = sum u^k and t[k] = sum y u^k. */
 static bool parabola(const double s[5], const double t[3], double c[3])
 {
     double a = s[0], b = s[1], d = s[2], e = s[3], f = s[4];

@@ -28,7 +28,7 @@ sb_status sb_figures_add(sb_figures *figures, const sb_figure *figure, sb_error 
     return SB_OK;
 }
 
-/* Judges and appends; a NaN error fails wherever there is a limit. */
+/* Judges and appends a figure. A NaN error misses any target. */
 static sb_status add(sb_figures *figures, sb_figure figure, const char *quantity, const char *unit,
                      const char *error_unit, sb_error *error, const char *note, va_list arguments)
 {

@@ -1,12 +1,11 @@
-/* The particle files of a run, in order. */
+/* Reads the particle files of a run in order. */
 #ifndef SB_VALIDATION_FRAMES_H
 #define SB_VALIDATION_FRAMES_H
 
 #include "case.h"
 #include "frame/frame.h"
 
-/* Calls visit for each frame with first <= time <= last. SB_BAD_INPUT when there is none, or one
- * cannot be read. */
+/* Calls visit for each frame with first <= time <= last. SB_BAD_INPUT: there is none, or one cannot be read. */
 sb_status sb_run_frames(const sb_case_run *run, double first, double last,
                         void (*visit)(void *context, const sb_frame *frame), void *context, sb_error *error);
 

@@ -39,7 +39,7 @@ static sb_status add_row(const sb_sheet *table, size_t row, sb_figures *figures,
     sb_figure f = {.reference = number_of(table, row, "reference"),
                    .value = number_of(table, row, "value"),
                    .error = number_of(table, row, "error"),
-                   .limit = number_of(table, row, "reach"),
+                   .limit = number_of(table, row, "target"),
                    .low = number_of(table, row, "reference_low"),
                    .high = number_of(table, row, "reference_high"),
                    .pass = strcmp(text_of(table, row, "verdict"), "FAIL") != 0};
@@ -60,12 +60,12 @@ static bool of_case(const sb_sheet *table, size_t row, const char *name)
 sb_status sb_kept_read(const sb_sheet *table, sb_result *r, sb_error *error)
 {
     sb_status status = SB_OK;
-    char meant[17];
-    if (r->state != SB_RESULT_NOT_RUN || !r->asked[0]) return SB_OK;
-    snprintf(meant, sizeof meant, "%016" PRIx64, r->meant);
+    char defaults[17];
+    if (r->state != SB_RESULT_NOT_RUN || !r->request_hash[0]) return SB_OK;
+    snprintf(defaults, sizeof defaults, "%016" PRIx64, r->defaults_hash);
     for (size_t row = 0; status == SB_OK && row < table->rows; row++) {
-        if (!of_case(table, row, r->request.of->name) || strcmp(text_of(table, row, "asked"), r->asked) != 0 ||
-            strcmp(text_of(table, row, "meant"), meant) != 0)
+        if (!of_case(table, row, r->request.of->name) || strcmp(text_of(table, row, "request"), r->request_hash) != 0 ||
+            strcmp(text_of(table, row, "defaults"), defaults) != 0)
             continue;
         sb_case_run *view = &r->run.view;
         status = add_row(table, row, &r->figures, error);

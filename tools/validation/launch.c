@@ -27,7 +27,7 @@ typedef struct crew {
     size_t failed;
 } crew;
 
-static const char said_name[] = "output.txt";
+static const char output_name[] = "output.txt";
 
 static volatile sig_atomic_t stopped_by;
 
@@ -39,11 +39,11 @@ static void stop(int number)
 static sb_status start(const sb_store *store, const char *scene, job *j, bool alone, sb_error *error)
 {
     const char *arguments[ARGUMENTS];
-    char said[SB_PATH_MAX + 16];
+    char output[SB_PATH_MAX + 16];
     sb_settings settings;
     int count = 0;
     sb_request_settings(j->request, &settings);
-    /* One that was stopped left a checkpoint, and goes on from it. */
+    /* A run that was stopped left a checkpoint, from which it resumes. */
     const char *const first[] = {"shorebreak", "run", scene, "--quiet", "--resume", "--out", j->folder};
     for (size_t i = 0; i < sizeof first / sizeof *first; i++) arguments[count++] = first[i];
     for (size_t i = 0; i < settings.count; i++) {
@@ -57,11 +57,11 @@ static sb_status start(const sb_store *store, const char *scene, job *j, bool al
         arguments[count++] = "1";
     }
     arguments[count] = NULL;
-    snprintf(said, sizeof said, "%s/%s", j->folder, said_name);
-    return sb_process_start(store->program, arguments, said, SIGTERM, &j->process, error);
+    snprintf(output, sizeof output, "%s/%s", j->folder, output_name);
+    return sb_process_start(store->program, arguments, output, SIGTERM, &j->process, error);
 }
 
-/* A scene that cannot be read is a failed run; the others go on. */
+/* A scene that cannot be read counts as a failed run; the others continue. */
 static sb_status refuse(crew *c, const sb_request *request, sb_error *error)
 {
     char label[96];
@@ -93,7 +93,7 @@ static double seconds(const struct timeval *time)
 
 static sb_status end(crew *c, job *j, int how, const struct rusage *used, sb_error *error)
 {
-    char label[96], path[SB_PATH_MAX], ended[32], said[512], reason[640];
+    char label[96], path[SB_PATH_MAX], ended[32], last_line[512], reason[640];
     sb_request_label(j->request, true, label);
     j->process = 0;
     c->busy--;
@@ -105,11 +105,11 @@ static sb_status end(crew *c, job *j, int how, const struct rusage *used, sb_err
         if (!stopped_by) stopped_by = SIGINT;
         return sb_store_spend(j->folder, seconds(&used->ru_utime) + seconds(&used->ru_stime), error);
     }
-    sb_status found = sb_path_join(path, j->folder, said_name, error);
+    sb_status found = sb_path_join(path, j->folder, output_name, error);
     if (found != SB_OK) return found;
     sb_process_describe(how, ended);
-    sb_process_last_words(path, "it said nothing", said, sizeof said);
-    snprintf(reason, sizeof reason, "%s: %s", ended, said);
+    sb_process_last_line(path, "no output", last_line, sizeof last_line);
+    snprintf(reason, sizeof reason, "%s: %s", ended, last_line);
     printf("%s: failed, %s\n", label, reason);
     c->failed++;
     return sb_store_fail(j->folder, reason, error);
@@ -118,11 +118,11 @@ static sb_status end(crew *c, job *j, int how, const struct rusage *used, sb_err
 /* Waits for one run to end. */
 static sb_status wait_one(crew *c, sb_error *error)
 {
-    int how, told = 0;
+    int how, signalled = 0;
     pid_t process;
     struct rusage used = {0};
     while ((process = wait4(-1, &how, 0, &used)) < 0 && errno == EINTR)
-        if (stopped_by && !told++)
+        if (stopped_by && !signalled++)
             for (int i = 0; i < c->size; i++)
                 if (c->jobs[i].process) kill(c->jobs[i].process, SIGTERM);
     for (int i = 0; i < c->size; i++)
@@ -169,6 +169,6 @@ sb_status sb_launch(const sb_store *store, const sb_request *requests, size_t co
     sb_free(c.jobs);
     *failed = c.failed;
     if (status == SB_OK && stopped_by)
-        status = sb_fail(error, SB_INTERRUPTED, "stopped; started again, it goes on from here");
+        status = sb_fail(error, SB_INTERRUPTED, "stopped; the same command continues from here");
     return status;
 }

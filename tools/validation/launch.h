@@ -1,14 +1,13 @@
-/* Runs what is wanted and not yet there, as processes of the real program. */
+/* Makes the requested runs that are not stored yet, each as a process of the real program. */
 #ifndef SB_VALIDATION_LAUNCH_H
 #define SB_VALIDATION_LAUNCH_H
 
 #include "store.h"
 
-/* Runs every request that the store lacks for this build, in their order. jobs 1: one at a time
-   with all cores; more: that many at a time with one thread each. Says on stdout what is run and
-   how long it took. One that was stopped goes on from its checkpoint. A run that fails is stored as
-   failed, counted in *failed, and the others go on.
-   SB_INTERRUPTED after SIGINT or SIGTERM, which the running ones are told. */
+/* Runs, in order, every request of which this build has no stored run. jobs 1: one run at a time with all cores;
+   more: that many runs at a time with one thread each. Prints on stdout each run and its run time. A run that was
+   stopped continues from its checkpoint. A failed run is stored as failed and counted in *failed; the others continue.
+   SB_INTERRUPTED after SIGINT or SIGTERM, which is passed on to the running processes. */
 sb_status sb_launch(const sb_store *store, const sb_request *requests, size_t count, int jobs, size_t *failed,
                     sb_error *error);
 

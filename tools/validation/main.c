@@ -1,4 +1,4 @@
-/* Command line of the validation. */
+/* tools/validate: runs the cases and writes the report. */
 #include "kept.h"
 #include "launch.h"
 #include "options.h"
@@ -12,21 +12,21 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { SHORT_OF_REACH = 4 }; /* exit status */
+enum { TARGETS_MISSED = 4 }; /* exit status */
 
 static void list_cases(void)
 {
     for (size_t i = 0; sb_cases[i]; i++) printf("%-24s %s\n", sb_cases[i]->name, sb_cases[i]->title);
 }
 
-/* Turns in which runs are made: what is learnt first is learnt of all cases. */
+/* Runs are made in three turns, so that every case has first results early. */
 static int turn_of(const sb_request *request)
 {
     return request->seed > 1 ? 2 : request->paper ? 1 : 0;
 }
 
-/* Whether the command line leaves this run out. */
-static bool left_out(const sb_validate_options *o, const sb_request *request)
+/* Whether the command line excludes this run. */
+static bool is_excluded(const sb_validate_options *o, const sb_request *request)
 {
     const sb_plan *coarsest = o->quick ? request->of->quick : request->of->full;
     if (o->spacing > 0 && fabs(request->plan->resolution - o->spacing) > 1e-6 * o->spacing) return true;
@@ -41,7 +41,7 @@ static sb_status gather(const sb_case *of, const sb_validate_options *o, int tur
     size_t found = 0;
     sb_status status = sb_case_requests(of, o->quick, &requests, &found, error);
     for (size_t i = 0; status == SB_OK && i < found; i++) {
-        if (turn_of(&requests[i]) != turn || left_out(o, &requests[i])) continue;
+        if (turn_of(&requests[i]) != turn || is_excluded(o, &requests[i])) continue;
         if (sb_grow((void **)all, capacity, *count + 1, sizeof **all) != 0)
             status = sb_fail_memory(error, "runs");
         else
@@ -61,15 +61,15 @@ static sb_status run_cases(const sb_store *store, const sb_validate_options *o, 
             status = gather(o->cases[c], o, turn, &all, &count, &capacity, error);
     if (status == SB_OK && count == 0)
         status = sb_fail(error, SB_BAD_INPUT,
-                         "--spacing %g: none of these cases has it, expected one of their tables' (m)", o->spacing);
+                         "--spacing %g: no named case has this spacing, expected one of the report's tables (m)",
+                         o->spacing);
     if (status == SB_OK) status = sb_launch(store, all, count, o->jobs, failed, error);
     sb_free(all);
     return status;
 }
 
-/* Of every case there is, run now or not; *short_of: how many judged figures of the chosen cases
- * fail. */
-static sb_status report(const sb_store *store, const sb_validate_options *o, size_t *short_of, sb_error *error)
+/* Writes the report of all cases, whether run now or not. *missed: judged figures of the named cases that missed. */
+static sb_status report(const sb_store *store, const sb_validate_options *o, size_t *missed, sb_error *error)
 {
     char folder[SB_PATH_MAX];
     sb_case_results results[SB_CASES_MAX] = {{0}};
@@ -90,13 +90,13 @@ static sb_status report(const sb_store *store, const sb_validate_options *o, siz
         size_t limited, passed;
         sb_results_count(&results[c], &limited, &passed);
         for (size_t k = 0; k < o->count; k++)
-            if (o->cases[k] == results[c].of) *short_of += limited - passed;
+            if (o->cases[k] == results[c].of) *missed += limited - passed;
         sb_results_free(&results[c]);
     }
     return status;
 }
 
-static sb_status validate(const sb_validate_options *o, size_t *failed, size_t *short_of, sb_error *error)
+static sb_status validate(const sb_validate_options *o, size_t *failed, size_t *missed, sb_error *error)
 {
     sb_store store;
     char program[SB_PATH_MAX], path[SB_PATH_MAX];
@@ -113,14 +113,14 @@ static sb_status validate(const sb_validate_options *o, size_t *failed, size_t *
         return status;
     }
     if (status == SB_OK && !o->report_only) status = run_cases(&store, o, failed, error);
-    return status == SB_OK ? report(&store, o, short_of, error) : status;
+    return status == SB_OK ? report(&store, o, missed, error) : status;
 }
 
 int main(int count, char **arguments)
 {
     sb_validate_options o;
     sb_error error = {0};
-    size_t failed = 0, short_of = 0;
+    size_t failed = 0, missed = 0;
     setvbuf(stdout, NULL, _IOLBF, 0);
     if (count == 2 && strcmp(arguments[1], "--version") == 0) {
         printf("shorebreak-validate %s\n", SB_VERSION);
@@ -132,8 +132,8 @@ int main(int count, char **arguments)
         if (!o.help) list_cases();
         return 0;
     }
-    if (status == SB_OK) status = validate(&o, &failed, &short_of, &error);
+    if (status == SB_OK) status = validate(&o, &failed, &missed, &error);
     if (status != SB_OK) fprintf(stderr, "validate: %s\n", error.text);
     if (status != SB_OK) return status == SB_INTERRUPTED ? 130 : (int)status;
-    return failed ? SB_FAILED : short_of ? SHORT_OF_REACH : 0;
+    return failed ? SB_FAILED : missed ? TARGETS_MISSED : 0;
 }

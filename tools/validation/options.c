@@ -7,27 +7,25 @@
 
 const char sb_validate_help[] =
     "usage: tools/validate [CASE...|--all] [OPTIONS]\n"
-    "Runs the cases, compares them with experiment and theory, and writes the report.\n\n"
+    "Runs the cases, compares them with experiments and theory, and writes the report.\n\n"
     "  --all            every case\n"
     "  --quick          cheap forms; the report goes to OUT/quick\n"
-    "  --spacings N     runs the N coarsest spacings of each case alone\n"
-    "  --spacing R      runs this spacing alone, in m, as the tables have it\n"
-    "  --once           runs the default preset's first seed alone\n"
-    "  --sensitivity    what 25 % of every numeric default does to the cases' quick forms\n"
-    "  --list           names the cases\n"
-    "  --report-only    runs nothing; remakes the report from what was run\n"
-    "  --out DIR        where runs are kept (build/validation)\n"
-    "  --report DIR     where the report goes (docs/results)\n"
-    "  --jobs N         N runs at a time with one thread each; 1: one with all cores (1; quick: "
-    "as\n"
-    "                   many as cores)\n"
-    "  --shorebreak F   the program that runs (the one built beside this)\n"
+    "  --spacings N     only the N coarsest spacings of each case\n"
+    "  --spacing R      only this spacing, in m, as in the tables of the report\n"
+    "  --once           only the first seed of the default preset\n"
+    "  --sensitivity    effect of a 25 % change of every numeric default on the quick forms\n"
+    "  --list           lists the cases\n"
+    "  --report-only    runs nothing; writes the report again from stored runs\n"
+    "  --out DIR        folder of stored runs (build/validation)\n"
+    "  --report DIR     folder of the report (docs/results)\n"
+    "  --jobs N         N runs at a time with one thread each; 1: one run with all cores\n"
+    "                   (default 1; --quick and --sensitivity: the number of cores)\n"
+    "  --shorebreak F   program that runs the cases (the one built beside this tool)\n"
     "  --help, --version\n\n"
-    "Finished runs are kept and not repeated while program and scene stay the same; one that was\n"
-    "stopped goes on from its checkpoint.\n"
-    "Exit status: 0 all judged figures within reach, 1 bad input, 2 a run failed, 4 some figure "
-    "is\n"
-    "short of its reach, 130 stopped.\n";
+    "Finished runs are stored and not repeated as long as program and scene stay the same. A run\n"
+    "that was stopped continues from its checkpoint.\n"
+    "Exit status: 0 all judged figures within their targets, 1 bad input, 2 a run failed, 4 some\n"
+    "figures missed their targets, 130 stopped.\n";
 
 static const sb_case *find_case(const char *name)
 {
@@ -40,7 +38,7 @@ static sb_status take_case(void *user, const char *name, sb_error *error)
 {
     sb_validate_options *o = user;
     const sb_case *of = find_case(name);
-    if (!of) return sb_fail(error, SB_BAD_INPUT, "%.200s: no such case; --list names them", name);
+    if (!of) return sb_fail(error, SB_BAD_INPUT, "%.200s: no such case; --list shows the cases", name);
     if (o->count == SB_CASES_MAX) return sb_fail(error, SB_BAD_INPUT, "too many cases");
     o->cases[o->count++] = of;
     return SB_OK;
@@ -55,21 +53,21 @@ static void take_all(sb_validate_options *o)
 sb_status sb_validate_parse(int count, char **arguments, sb_validate_options *o, sb_error *error)
 {
     *o = (sb_validate_options){.command = "tools/validate"};
-    const sb_argument options[] = {{.name = "--all", .flag = &o->all, .telling = true},
-                                   {.name = "--quick", .flag = &o->quick, .telling = true},
+    const sb_argument options[] = {{.name = "--all", .flag = &o->all, .repeated = true},
+                                   {.name = "--quick", .flag = &o->quick, .repeated = true},
                                    {.name = "--list", .flag = &o->list},
-                                   {.name = "--report-only", .flag = &o->report_only, .telling = true},
-                                   {.name = "--sensitivity", .flag = &o->sensitivity, .telling = true},
-                                   {.name = "--spacings", .count = &o->spacings, .most = 64, .telling = true},
-                                   {.name = "--spacing", .number = &o->spacing, .most = 1e6, .telling = true},
-                                   {.name = "--once", .flag = &o->once, .telling = true},
-                                   {.name = "--jobs", .count = &o->jobs, .most = 256, .telling = true},
+                                   {.name = "--report-only", .flag = &o->report_only, .repeated = true},
+                                   {.name = "--sensitivity", .flag = &o->sensitivity, .repeated = true},
+                                   {.name = "--spacings", .count = &o->spacings, .most = 64, .repeated = true},
+                                   {.name = "--spacing", .number = &o->spacing, .most = 1e6, .repeated = true},
+                                   {.name = "--once", .flag = &o->once, .repeated = true},
+                                   {.name = "--jobs", .count = &o->jobs, .most = 256, .repeated = true},
                                    {.name = "--out", .text = &o->out},
                                    {.name = "--report", .text = &o->report},
                                    {.name = "--shorebreak", .text = &o->program}};
     const sb_command_line line = {.options = options,
                                   .option_count = sizeof options / sizeof *options,
-                                  .word = take_case,
+                                  .operand = take_case,
                                   .user = o,
                                   .help = &o->help,
                                   .command = o->command,
@@ -78,5 +76,5 @@ sb_status sb_validate_parse(int count, char **arguments, sb_validate_options *o,
     if (status != SB_OK || o->help || o->list) return status;
     if (o->all || ((o->report_only || o->sensitivity) && !o->count)) take_all(o);
     if (!o->jobs) o->jobs = o->quick || o->sensitivity ? (int)sysconf(_SC_NPROCESSORS_ONLN) : 1;
-    return o->count ? SB_OK : sb_fail(error, SB_BAD_INPUT, "no case named; --list names them, --all takes all");
+    return o->count ? SB_OK : sb_fail(error, SB_BAD_INPUT, "no case given; --list shows the cases, --all selects all");
 }

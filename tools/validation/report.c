@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The commits that the shown runs were made with; more than one is said. */
+/* The commit of the shown runs, or a remark that there are several. */
 static void put_commits(FILE *out, const sb_report *report)
 {
     const char *first = NULL;
@@ -22,27 +22,49 @@ static void put_commits(FILE *out, const sb_report *report)
     if (!first)
         fputs("- commit: nothing has run\n", out);
     else if (several)
-        fputs("- commit: the runs are of several builds; each names its own\n", out);
+        fputs("- commit: the runs have several commits; the tables of runs name them\n", out);
     else
         fprintf(out, "- commit of all runs: `%s`\n", first);
 }
 
-/* The machines that the shown runs were made on: results.csv tells whose is whose. */
+/* The machines of the shown runs. results.csv names the machine of each run. */
 static void put_machines(FILE *out, const sb_report *report)
 {
-    const char *said[8];
+    const char *listed[8];
     size_t count = 0;
     for (size_t c = 0; c < report->count; c++)
         for (size_t i = 0; i < report->cases[c].count; i++) {
             const sb_result *r = &report->cases[c].runs[i];
             size_t k = 0;
             if (r->state != SB_RESULT_DONE || !r->run.machine[0]) continue;
-            while (k < count && strcmp(said[k], r->run.machine) != 0) k++;
-            if (k == count && count < sizeof said / sizeof *said) said[count++] = r->run.machine;
+            while (k < count && strcmp(listed[k], r->run.machine) != 0) k++;
+            if (k == count && count < sizeof listed / sizeof *listed) listed[count++] = r->run.machine;
         }
-    fputs(count > 1 ? "- machines, each run's in results.csv: " : "- machine: ", out);
-    for (size_t k = 0; k < count; k++) fprintf(out, "%s%s", k ? "; " : "", said[k]);
+    fputs(count > 1 ? "- machines (results.csv names the machine of each run): " : "- machine: ", out);
+    for (size_t k = 0; k < count; k++) fprintf(out, "%s%s", k ? "; " : "", listed[k]);
     fprintf(out, "%s\n", count ? "" : report->store->machine);
+}
+
+static const char reading[] =
+    "How to read the tables:\n\n"
+    "- Error: simulated value minus reference. If the reference is a measured band, the error is the distance from\n"
+    "  its nearer edge in % of that edge, and 0 inside the band.\n"
+    "- Start seeds: if one program ran a spacing with several seeds, the error is the largest in magnitude. A figure\n"
+    "  is within its target if it is so with every seed. The summary shows the mean value of the seeds.\n"
+    "- Spread: largest minus smallest value over the seeds at the judged spacing. If that spacing has one seed, it is\n"
+    "  the spread at the finest spacing with several seeds, which is named.\n"
+    "- `x (of y)`: at this spacing the reference is y.\n"
+    "- `(kept)` after a commit: the figures come from an earlier report. The run's files are not available, and plots\n"
+    "  omit the run.\n\n";
+
+static void put_summary(FILE *out, const sb_report *report, size_t missed)
+{
+    fputs("| case | headline figure | value | error | within target | result |\n|---|---|---|---|---|---|\n", out);
+    for (size_t c = 0; c < report->count; c++) sb_report_summary_row(out, &report->cases[c]);
+    if (missed)
+        fputs("\nFigures that missed their targets:\n\n| case | figure | error | target |\n|---|---|---|---|\n", out);
+    for (size_t c = 0; c < report->count; c++) sb_report_missed_rows(out, &report->cases[c]);
+    fputc('\n', out);
 }
 
 static void put_head(FILE *out, const sb_report *report)
@@ -55,31 +77,18 @@ static void put_head(FILE *out, const sb_report *report)
         passed += p;
     }
     fprintf(out,
-            "# Validation%s\n\nMade by `tools/validate`; docs/validation.md says how. Every case runs "
-            "with "
-            "the same defaults, but for the columns\n`paper`, which use the preset of that name.\n\n",
+            "# Validation%s\n\nMade by `tools/validate`. docs/validation.md explains how cases run and how figures are "
+            "judged.\nAll cases use the same defaults. Columns marked `paper` show the preset of that name.\n\n",
             report->quick ? ", quick forms" : "");
     fprintf(out, "- command: `%s`\n", report->command);
     put_machines(out, report);
     put_commits(out, report);
-    fprintf(
-        out,
-        "- %zu of %zu judged figures are within their reach\n\n"
-        "Errors are signed: ours minus the reference; where that is a measured band, how far ours is outside of it, in "
-        "%% of the nearer edge. Where a resolution is run with several "
-        "start seeds by one program, the error is the one\nlargest in magnitude, the figure passes when it "
-        "does with every seed, and spread is the largest value minus the\nsmallest, there or at "
-        "the finest spacing that has several seeds, which is then named. "
-        "`x (of y)`: at that resolution the reference is y. `(kept)` behind a commit: the figures are those of a "
-        "former report; "
-        "the run's files are\nno longer there, and plots leave it out.\n\n"
-        "| case | reach | figure | |\n|---|---|---|---|\n",
-        passed, limited);
-    for (size_t c = 0; c < report->count; c++) sb_report_summary_line(out, &report->cases[c]);
-    fputc('\n', out);
+    fprintf(out, "- %zu of %zu judged figures are within their targets\n\n", passed, limited);
+    fputs(reading, out);
+    put_summary(out, report, limited - passed);
 }
 
-/* Draws what the case has done into `picture`; SB_FAILED says why it could not. */
+/* Draws the finished runs of the case into `picture`. SB_FAILED: no run, or no plot; the error says which. */
 static sb_status draw(const sb_report *report, const sb_case_results *results, const char *picture, sb_error *error)
 {
     char folder[SB_PATH_MAX];
@@ -100,7 +109,7 @@ static sb_status draw(const sb_report *report, const sb_case_results *results, c
     return status;
 }
 
-/* Nothing to draw from, and nothing new to draw. */
+/* Whether all finished runs are kept ones: there is nothing to draw from, and the earlier picture is still right. */
 static bool all_kept(const sb_case_results *results)
 {
     bool any = false, all = true;

@@ -1,5 +1,4 @@
-/* The report: validation.md with a summary and a section per case, a plot per case and results.csv.
- */
+/* Writes the report: validation.md with a summary and a section per case, one plot per case, and results.csv. */
 #ifndef SB_VALIDATION_REPORT_H
 #define SB_VALIDATION_REPORT_H
 
@@ -11,27 +10,28 @@ typedef struct sb_report {
     const sb_store *store;
     const sb_case_results *cases;
     size_t count;
-    const char *command; /* as it was typed */
+    const char *command; /* as typed */
     bool quick;
 } sb_report;
 
 /* Writes folder/validation.md, folder/validation/<case>.png and folder/validation/results.csv, each
-   whole or not at all. A plot that cannot be drawn is said so in the report and keeps its former
-   picture. */
+   whole or not at all. If a plot cannot be drawn, the report says so and the earlier picture stays. */
 sb_status sb_report_write(const sb_report *report, const char *folder, sb_error *error);
 
-/* Inside the report. */
+/* Parts of the report. */
 
-/* Its section; picture: path relative to the report, NULL when there is none. */
+/* Section of a case. picture: path relative to the report; NULL: none. */
 void sb_report_case(FILE *out, const sb_case_results *results, const char *picture);
-/* One line of the summary. */
-void sb_report_summary_line(FILE *out, const sb_case_results *results);
+/* One row of the summary table. */
+void sb_report_summary_row(FILE *out, const sb_case_results *results);
+/* Rows of the table of missed figures. */
+void sb_report_missed_rows(FILE *out, const sb_case_results *results);
 /* Rows of results.csv: one per run and figure. */
 void sb_report_csv(FILE *out, const sb_report *report);
 
-/* Text for a table cell: NaN is an en dash; four digits; an error carries its sign and unit. */
+/* Text for a table cell. A number has four digits; NaN is an en dash; an error has a sign and a unit. */
 void sb_text_number(char text[48], double value);
-/* A name as it can stand in a cell of a table. */
+/* Writes a name with the escapes that a table cell needs. */
 void sb_text_cell(FILE *out, const char *name);
 void sb_text_error(char text[48], double error, const char *unit);
 

@@ -1,4 +1,4 @@
-/* A case in the report: summary line, figures, runs. */
+/* Writes a case in the report: summary row, missed figures, table of figures, table of runs. */
 #include "report.h"
 
 #include <math.h>
@@ -38,16 +38,14 @@ static const char *verdict(const sb_case_results *results, size_t *limited, size
     sb_results_count(results, limited, passed);
     for (size_t i = 0; i < results->count; i++)
         if (results->runs[i].state == SB_RESULT_FAILED && results->runs[i].request.plan->judged) failed = true;
-    if (failed) return "**FAIL** (run failed)";
+    if (failed) return "**run failed**";
     if (!sb_results_judged(results)) return "not run";
-    return *passed == *limited ? "pass" : "**FAIL**";
+    return *passed == *limited ? "within" : "**missed**";
 }
 
-/* Names what is short of its reach. */
-static void put_short(FILE *out, const sb_case_results *results)
+void sb_report_missed_rows(FILE *out, const sb_case_results *results)
 {
     const sb_result *judged = sb_results_judged(results);
-    const char *before = "short: ";
     char error[48], limit[48];
     for (size_t i = 0; judged && i < judged->figures.count + results->across.count; i++) {
         bool single = i < judged->figures.count;
@@ -58,37 +56,43 @@ static void put_short(FILE *out, const sb_case_results *results)
         if (j.pass) continue;
         sb_text_error(error, j.worst, f->error_unit);
         sb_text_number(limit, f->limit);
-        fprintf(out, "%s%s %s (reach %s)", before, f->quantity, error, limit);
-        before = "; ";
+        fprintf(out, "| %s |", results->of->name);
+        put_cell(out, f->quantity);
+        fprintf(out, " %s | %s%s%s |\n", error, limit, f->error_unit[0] ? " " : "", f->error_unit);
     }
 }
 
-void sb_report_summary_line(FILE *out, const sb_case_results *results)
+/* Quantity, value and error of the headline figure. */
+static void put_headline(FILE *out, const sb_case_results *results, const sb_result *judged)
 {
-    size_t limited, passed;
     char value[48], error[48];
-    const char *said = verdict(results, &limited, &passed);
-    const sb_result *judged = sb_results_judged(results);
-    fprintf(out, "| [%s](#%s) |", results->of->title, results->of->name);
-    put_cell(out, results->of->reach);
-    fputc(' ', out);
     for (size_t i = 0; judged && i < judged->figures.count; i++) {
         if (strcmp(judged->figures.rows[i].quantity, results->of->headline) != 0) continue;
         sb_judgement j = sb_results_judge(results, i);
         sb_text_number(value, j.mean);
         sb_text_error(error, j.worst, j.figure->error_unit);
-        fprintf(out, "%s: %s%s%s", j.figure->quantity, value, j.figure->unit[0] ? " " : "", j.figure->unit);
-        if (!isnan(j.worst)) fprintf(out, ", %s %s", j.seeds > 1 ? "mean of the seeds, worst error" : "error", error);
-        fputs("; ", out);
+        put_cell(out, j.figure->quantity);
+        fprintf(out, " %s%s%s | %s |", value, j.figure->unit[0] ? " " : "", j.figure->unit, error);
+        return;
     }
-    const sb_result *finest = judged ? NULL : sb_results_finest(results);
-    if (finest) fprintf(out, "not run where it is judged, but at %.6g m", finest->request.plan->resolution);
-    if (judged) fprintf(out, "%zu of %zu within reach", passed, limited);
-    if (judged && passed < limited) {
-        fputs("; ", out);
-        put_short(out, results);
-    }
-    fprintf(out, " | %s |\n", said);
+    put_cell(out, results->of->headline);
+    fputs(" – | – |", out);
+}
+
+void sb_report_summary_row(FILE *out, const sb_case_results *results)
+{
+    size_t limited, passed;
+    const char *result = verdict(results, &limited, &passed);
+    const sb_result *judged = sb_results_judged(results), *finest = judged ? NULL : sb_results_finest(results);
+    fprintf(out, "| [%s](#%s) |", results->of->title, results->of->name);
+    put_headline(out, results, judged);
+    if (judged)
+        fprintf(out, " %zu of %zu |", passed, limited);
+    else
+        fputs(" – |", out);
+    fprintf(out, " %s", result);
+    if (finest) fprintf(out, " at the judged spacing; run at %.6g m", finest->request.plan->resolution);
+    fputs(" |\n", out);
 }
 
 static void put_reference(FILE *out, const sb_figure *f)
@@ -100,19 +104,18 @@ static void put_reference(FILE *out, const sb_figure *f)
     put_cell(out, cell);
 }
 
-/* Value of a figure in one run; with its reference when that differs from the one judged against.
- */
-static void put_value(FILE *out, const sb_result *r, const sb_figure *wanted)
+/* Value of a figure in one run, with the run's reference if it differs from that of the judged run. */
+static void put_value(FILE *out, const sb_result *r, const sb_figure *judged)
 {
     char text[48], reference[48], cell[128];
     if (r->state != SB_RESULT_DONE) {
         put_cell(out, r->state == SB_RESULT_FAILED ? "failed" : "not run");
         return;
     }
-    const sb_figure *f = sb_figures_find(&r->figures, wanted->quantity);
+    const sb_figure *f = sb_figures_find(&r->figures, judged->quantity);
     sb_text_number(text, f ? f->value : (double)NAN);
     snprintf(cell, sizeof cell, "%s", text);
-    if (f && fabs(f->reference - wanted->reference) > 1e-3 * fabs(wanted->reference)) {
+    if (f && fabs(f->reference - judged->reference) > 1e-3 * fabs(judged->reference)) {
         sb_text_number(reference, f->reference);
         snprintf(cell, sizeof cell, "%s (of %s)", text, reference);
     }
@@ -124,7 +127,7 @@ static bool has_column(const sb_result *r)
     return r->request.seed == 1;
 }
 
-/* seeds 0: a run that is not judged. spread: as text. */
+/* j->seeds is 0 for a run that is not judged. */
 static void put_judgement(FILE *out, const sb_judgement *j, const char *spread)
 {
     char text[48];
@@ -137,11 +140,11 @@ static void put_judgement(FILE *out, const sb_judgement *j, const char *spread)
                  j->figure->error_unit);
     put_cell(out, text);
     put_cell(out, spread);
-    put_cell(out, isnan(j->figure->limit) ? "reported" : !j->seeds ? "not judged" : j->pass ? "pass" : "**FAIL**");
+    put_cell(out, isnan(j->figure->limit) ? "reported" : !j->seeds ? "not judged" : j->pass ? "within" : "**missed**");
     fputc('\n', out);
 }
 
-/* The place is named where it is not the column that the errors are of. */
+/* Names the spacing if it is not the one that the errors belong to. */
 static void put_spread(char *text, size_t room, sb_seed_spread spread, const sb_result *of)
 {
     char number[48];
@@ -152,7 +155,7 @@ static void put_spread(char *text, size_t room, sb_seed_spread spread, const sb_
         snprintf(text, room, "%s at %.6g m", number, spread.resolution);
 }
 
-/* One row per figure of this run: the judged one, or else the finest there is, whose errors are not judged. */
+/* One row per figure of this run: the judged run, or else the finest run, whose errors are not judged. */
 static void put_figures(FILE *out, const sb_case_results *results, const sb_result *of)
 {
     char text[160];
@@ -166,7 +169,7 @@ static void put_figures(FILE *out, const sb_case_results *results, const sb_resu
         put_cell(out, text);
         columns++;
     }
-    fputs(" error | reach | spread | |\n|---|---|---|", out);
+    fputs(" error | target | spread | result |\n|---|---|---|", out);
     for (int i = 0; i < columns + 4; i++) fputs("---|", out);
     fputc('\n', out);
     for (size_t i = 0; i < of->figures.count; i++) {
@@ -188,9 +191,9 @@ static void put_figures(FILE *out, const sb_case_results *results, const sb_resu
 static void put_across(FILE *out, const sb_case_results *results)
 {
     char text[48];
-    if (results->problem[0]) fprintf(out, "Across resolutions: %s.\n\n", results->problem);
+    if (results->problem[0]) fprintf(out, "Across spacings: %s.\n\n", results->problem);
     if (results->across.count == 0) return;
-    fputs("| across resolutions | unit | reference | ours | error | reach | spread | |\n"
+    fputs("| across spacings | unit | reference | value | error | target | spread | result |\n"
           "|---|---|---|---|---|---|---|---|\n",
           out);
     for (size_t i = 0; i < results->across.count; i++) {
@@ -206,7 +209,7 @@ static void put_across(FILE *out, const sb_case_results *results)
         put_judgement(out, &j, "–");
     }
     if (results->across_builds)
-        fputs("\nThe runs these are of were made by several programs, as the commits below tell.\n", out);
+        fputs("\nThese runs were made by several programs. The table of runs names their commits.\n", out);
     fputc('\n', out);
 }
 
@@ -243,13 +246,26 @@ static void put_runs(FILE *out, const sb_case_results *results)
     fputc('\n', out);
 }
 
+/* A list item per target; `targets` separates them by "; ". */
+static void put_targets(FILE *out, const char *targets)
+{
+    for (const char *at = targets, *end; *at; at = end) {
+        end = strstr(at, "; ");
+        const size_t length = end ? (size_t)(end - at) : strlen(at);
+        fprintf(out, "- %.*s\n", (int)length, at);
+        end = end ? end + 2 : at + length;
+    }
+}
+
 void sb_report_case(FILE *out, const sb_case_results *results, const char *picture)
 {
     const sb_result *judged = sb_results_judged(results), *shown = judged ? judged : sb_results_finest(results);
-    fprintf(out, "<a id=\"%s\"></a>\n\n## %s\n\nCase `%s`. Reach: %s.\n\n%s\n\n", results->of->name, results->of->title,
-            results->of->name, results->of->reach, results->of->method);
+    fprintf(out, "<a id=\"%s\"></a>\n\n## %s\n\nCase `%s`. Targets:\n\n", results->of->name, results->of->title,
+            results->of->name);
+    put_targets(out, results->of->targets);
+    fprintf(out, "\n%s\n\n", results->of->method);
     if (picture) fprintf(out, "![%s](%s)\n\n", results->of->title, picture);
-    if (!judged) fputs("Not run where it is judged", out);
+    if (!judged) fputs("Not run at the judged spacing", out);
     if (!judged && shown) fprintf(out, "; errors are those at %.6g m", shown->request.plan->resolution);
     if (!judged) fputs(".\n\n", out);
     if (shown) put_figures(out, results, shown);

@@ -1,4 +1,4 @@
-/* results.csv: every figure of every run. */
+/* Writes results.csv: every figure of every run. */
 #include "report.h"
 #include "sheet.h"
 
@@ -26,7 +26,7 @@ static void put_figure(FILE *out, const sb_figure *f)
     fprintf(out, "%s,", isnan(f->limit) ? "reported" : f->pass ? "pass" : "FAIL");
 }
 
-/* What a report says of a figure beside its row: the last columns. */
+/* The last columns: what the report says about a figure outside its row of the table. */
 static void put_remarks(FILE *out, const sb_figure *f)
 {
     const bool band = f->low < f->high;
@@ -44,7 +44,7 @@ static void put_run(FILE *out, const sb_result *r)
                 r->request.plan->judged && !r->request.paper ? "yes" : "no");
         put_figure(out, &r->figures.rows[i]);
         fprintf(out, "%zu,%zu,%.2f,%.1f,%s,%s,%016" PRIx64 ",", r->run.view.particles, r->run.view.steps,
-                r->run.view.iterations, r->run.view.wall, r->run.commit, r->asked, r->meant);
+                r->run.view.iterations, r->run.view.wall, r->run.commit, r->request_hash, r->defaults_hash);
         if (r->run.threads > 0) fprintf(out, "%d", r->run.threads);
         fputc(',', out);
         sb_sheet_put(out, r->run.machine);
@@ -56,9 +56,8 @@ static void put_run(FILE *out, const sb_result *r)
 void sb_report_csv(FILE *out, const sb_report *report)
 {
     fputs("case,resolution_m,preset,seed,judged,quantity,unit,reference,value,error,error_unit,"
-          "reach,verdict,particles,steps,sweeps_per_step,run_time_s,commit,asked,meant,threads,machine,build,reference_"
-          "low,"
-          "reference_high,note\n",
+          "target,verdict,particles,steps,sweeps_per_step,run_time_s,commit,request,defaults,threads,machine,build,"
+          "reference_low,reference_high,note\n",
           out);
     for (size_t c = 0; c < report->count; c++) {
         const sb_case_results *results = &report->cases[c];

@@ -31,7 +31,7 @@ void sb_request_label(const sb_request *request, bool with_case, char label[96])
              request->change);
 }
 
-/* The scene with all that is set; the hash goes on over the settings. */
+/* Reads the scene with all settings; continues the hash over the settings. */
 static sb_status read_scene(const sb_request *request, const char *scene_path, sb_scene *scene, uint64_t *hash,
                             sb_error *error)
 {
@@ -45,7 +45,8 @@ static sb_status read_scene(const sb_request *request, const char *scene_path, s
         *hash = sb_hash(*hash, settings.list[i], strlen(settings.list[i]));
         snprintf(texts[i], sizeof texts[i], "%s", settings.list[i]);
         char *equals = strchr(texts[i], '=');
-        if (!equals) return sb_fail(error, SB_BAD_INPUT, "%s: %s is no KEY=VALUE", request->of->name, settings.list[i]);
+        if (!equals)
+            return sb_fail(error, SB_BAD_INPUT, "%s: %s: expected KEY=VALUE", request->of->name, settings.list[i]);
         *equals = '\0';
         overrides[i] = (sb_override){.key = texts[i], .value = equals + 1};
     }
@@ -65,24 +66,24 @@ sb_status sb_request_hash(const sb_request *request, const char *scene_path, uin
     return status;
 }
 
-sb_status sb_scene_meaning(const sb_scene *scene, uint64_t *hash, sb_error *error)
+sb_status sb_scene_defaults_hash(const sb_scene *scene, uint64_t *hash, sb_error *error)
 {
     char *text = NULL;
     sb_scene bare = *scene;
     bare.body_count = bare.wavemaker_count = 0;
-    bare.render = (sb_render_settings){0}; /* a run fills in what a picture's colours span */
+    bare.render = (sb_render_settings){0}; /* a run fills in the range of a picture's colours */
     sb_status status = sb_scene_identity(&bare, &text, error);
     if (status == SB_OK) *hash = sb_hash(0, text, strlen(text));
     sb_free(text);
     return status;
 }
 
-sb_status sb_request_meant(const sb_request *request, const char *scene_path, uint64_t *hash, sb_error *error)
+sb_status sb_request_defaults_hash(const sb_request *request, const char *scene_path, uint64_t *hash, sb_error *error)
 {
     sb_scene scene = {0};
     uint64_t unused = 0;
     sb_status status = read_scene(request, scene_path, &scene, &unused, error);
-    if (status == SB_OK) status = sb_scene_meaning(&scene, hash, error);
+    if (status == SB_OK) status = sb_scene_defaults_hash(&scene, hash, error);
     sb_scene_free(&scene);
     return status;
 }

@@ -10,8 +10,8 @@
 #include <string.h>
 
 /* Adds a request to a list with room for it. */
-static void want(sb_request *requests, size_t *count, const sb_case *of, const sb_plan *plan, bool quick, bool paper,
-                 int seed)
+static void add_request(sb_request *requests, size_t *count, const sb_case *of, const sb_plan *plan, bool quick,
+                        bool paper, int seed)
 {
     requests[(*count)++] = (sb_request){.of = of, .plan = plan, .quick = quick, .paper = paper, .seed = seed};
 }
@@ -24,11 +24,11 @@ sb_status sb_case_requests(const sb_case *of, bool quick, sb_request **requests,
         room += 1 + (size_t)plan->paper + (size_t)(plan->seeds > 1 ? plan->seeds - 1 : 0);
     sb_request *made = sb_alloc(room, sizeof *made);
     if (!made) return sb_fail_memory(error, "runs");
-    for (const sb_plan *plan = plans; plan->resolution > 0; plan++) want(made, &n, of, plan, quick, false, 1);
+    for (const sb_plan *plan = plans; plan->resolution > 0; plan++) add_request(made, &n, of, plan, quick, false, 1);
     for (const sb_plan *plan = plans; plan->resolution > 0; plan++)
-        if (plan->paper) want(made, &n, of, plan, quick, true, 1);
+        if (plan->paper) add_request(made, &n, of, plan, quick, true, 1);
     for (const sb_plan *plan = plans; plan->resolution > 0; plan++)
-        for (int seed = 2; seed <= plan->seeds; seed++) want(made, &n, of, plan, quick, false, seed);
+        for (int seed = 2; seed <= plan->seeds; seed++) add_request(made, &n, of, plan, quick, false, seed);
     *requests = made;
     *count = n;
     return SB_OK;
@@ -42,7 +42,7 @@ static double recalled(const char *folder, const char *key)
     return end == text ? (double)NAN : value;
 }
 
-/* Fills in what only the request and the record know. */
+/* Fills in what only the request and the record contain. */
 static void complete(const sb_store *store, sb_result *r)
 {
     sb_case_run *view = &r->run.view;
@@ -66,15 +66,15 @@ void sb_result_read(const sb_store *store, bool any_build, sb_result *r)
     char folder[SB_PATH_MAX];
     sb_error why = {0};
     r->state = SB_RESULT_NOT_RUN;
-    r->asked[0] = '\0';
-    if (sb_store_asked(store, &r->request, r->asked, &why) != SB_OK ||
-        sb_store_meant(store, &r->request, &r->meant, &why) != SB_OK ||
+    r->request_hash[0] = '\0';
+    if (sb_store_request_hash(store, &r->request, r->request_hash, &why) != SB_OK ||
+        sb_store_defaults_hash(store, &r->request, &r->defaults_hash, &why) != SB_OK ||
         sb_store_folder(store, &r->request, folder, &why) != SB_OK) {
         r->state = SB_RESULT_FAILED;
         snprintf(r->problem, sizeof r->problem, "%.600s", why.text);
         return;
     }
-    /* What this program failed at, no other's figures may cover. */
+    /* If this program failed, figures of another program must not hide that. */
     if (sb_store_failed(store, &r->request, r->problem, sizeof r->problem)) {
         r->state = SB_RESULT_FAILED;
         return;
@@ -82,8 +82,8 @@ void sb_result_read(const sb_store *store, bool any_build, sb_result *r)
     if (!sb_store_find(store, &r->request, any_build, folder)) return;
     sb_status status = sb_finished_read(&r->run, folder, &why);
     uint64_t meaning = 0;
-    if (status == SB_OK) status = sb_scene_meaning(&r->run.scene, &meaning, &why);
-    if (status == SB_OK && meaning != r->meant) {
+    if (status == SB_OK) status = sb_scene_defaults_hash(&r->run.scene, &meaning, &why);
+    if (status == SB_OK && meaning != r->defaults_hash) {
         sb_finished_free(&r->run);
         snprintf(r->problem, sizeof r->problem, " with these defaults");
         return;
@@ -96,13 +96,13 @@ void sb_result_read(const sb_store *store, bool any_build, sb_result *r)
     if (status != SB_OK) snprintf(r->problem, sizeof r->problem, "%.600s", why.text);
 }
 
-/* Files that figures and plots are made from. */
-static bool at_hand(const sb_result *r)
+/* Whether the run's files are available. */
+static bool has_files(const sb_result *r)
 {
     return r->state == SB_RESULT_DONE && !r->kept;
 }
 
-/* Whether those of the runs that figures across resolutions are made from are of several programs. */
+/* Whether the runs that figures across spacings are derived from were made by several programs. */
 static bool several_builds(const sb_case_results *results, bool kept)
 {
     const sb_result *first = NULL;
@@ -121,7 +121,7 @@ static void compare_runs(sb_case_results *results, sb_case_run *runs, sb_figures
     size_t count = 0;
     for (size_t i = 0; i < results->count; i++) {
         const sb_result *r = &results->runs[i];
-        if (!at_hand(r) || r->request.paper || r->request.seed != 1) continue;
+        if (!has_files(r) || r->request.paper || r->request.seed != 1) continue;
         runs[count] = r->run.view;
         figures[count++] = r->figures;
     }
@@ -131,7 +131,7 @@ static void compare_runs(sb_case_results *results, sb_case_run *runs, sb_figures
         snprintf(results->problem, sizeof results->problem, "%.600s", why.text);
 }
 
-/* Those of a former report, where the judged run is kept, too. */
+/* Takes figures across spacings from an earlier report if the judged run is kept, too. */
 static sb_status keep_across(sb_case_results *results, const sb_sheet *former, sb_error *error)
 {
     const sb_result *judged = sb_results_judged(results);
@@ -197,13 +197,13 @@ const sb_result *sb_results_finest(const sb_case_results *results)
     return finest;
 }
 
-/* By which errors are compared. */
+/* Size of an error for comparisons. */
 static double size_of(const sb_figure *figure, double error)
 {
     return figure->one_sided ? error : fabs(error);
 }
 
-/* Whether r is what `first` is, but for the seed, its own included. */
+/* Whether r differs from `first` in the seed only, or is `first`. */
 static bool is_seed_of(const sb_result *r, const sb_result *first)
 {
     return r->request.plan == first->request.plan && !r->request.paper && r->state == SB_RESULT_DONE &&
@@ -229,7 +229,7 @@ sb_judgement sb_results_judge(const sb_case_results *results, size_t i)
     return j;
 }
 
-/* Over the seeds of `first`, itself one of them. */
+/* Spread over the seeds of `first`, including `first`. */
 static sb_seed_spread spread_of(const sb_case_results *results, const sb_result *first, const char *quantity)
 {
     double low = (double)INFINITY, high = -(double)INFINITY;

@@ -14,7 +14,7 @@ static void empty(sb_sheet_slot *slot)
     slot->path = NULL;
 }
 
-/* Has the slot hold this table. */
+/* Reads the table into the slot unless it is there. */
 static sb_status fill(sb_sheet_slot *slot, const char *path, sb_error *error)
 {
     if (slot->path && strcmp(slot->path, path) == 0) return SB_OK;

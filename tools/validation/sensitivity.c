@@ -18,7 +18,7 @@ static const sb_plan *judged_plan(const sb_case *of)
     return plan;
 }
 
-static void want_changes(sb_sensitivity_study *s, const sb_numerics *defaults)
+static void add_changes(sb_sensitivity_study *s, const sb_numerics *defaults)
 {
     for (size_t i = 1; i < s->count; i++) {
         const size_t row = (i - 1) / SB_SENSITIVITY_PAIR, one = (i - 1) % SB_SENSITIVITY_PAIR;
@@ -33,7 +33,7 @@ static void want_changes(sb_sensitivity_study *s, const sb_numerics *defaults)
     }
 }
 
-/* Launches what the studies want: as it is (first), or all that differs. */
+/* Launches the runs of the studies: those with the defaults (first), or all others. */
 static sb_status run(const sb_store *store, const sb_sensitivity_study *studies, size_t count, bool first, int jobs,
                      size_t *failed, sb_error *error)
 {
@@ -68,7 +68,7 @@ static sb_status study_all(const sb_store *store, sb_sensitivity_study *studies,
     for (size_t c = 0; status == SB_OK && c < count; c++) {
         sb_result *base = &studies[c].results[0];
         sb_result_read(store, report_only, base);
-        if (base->state == SB_RESULT_DONE) want_changes(&studies[c], &base->run.scene.numerics);
+        if (base->state == SB_RESULT_DONE) add_changes(&studies[c], &base->run.scene.numerics);
     }
     if (status == SB_OK && !report_only) status = run(store, studies, count, false, jobs, failed, error);
     for (size_t c = 0; status == SB_OK && c < count; c++)

@@ -1,5 +1,5 @@
-/* The defaults of which a quarter more or less has a meaning: no switches, bounds or seeds, and no
-   key that the default solver does not read. */
+/* The defaults whose change by 25 % is studied: no switches, bounds or seeds, and no key that the default solver does
+   not read. */
 #include "physics/wall_volume.h"
 #include "sensitivity.h"
 
@@ -34,7 +34,7 @@ const sb_sensitivity_key sb_sensitivity_keys[] = {
     {.key = NULL},
 };
 
-/* What the key's number, or a 0 that stands for one, comes to. */
+/* Value of the key. A wall_gamma of 0 stands for a computed value. */
 static double value_of(const sb_sensitivity_key *key, const sb_numerics *numerics)
 {
     const char *at = (const char *)numerics + key->offset;

@@ -1,9 +1,10 @@
+/* Writes the report of the sensitivity study. */
 #include "report.h"
 #include "sensitivity_parts.h"
 
 #include <math.h>
 
-/* Writes what a cell says of a run that is done. */
+/* Writes the cell of a finished run. */
 typedef void put_run(FILE *out, const sb_result *r);
 
 static void put_headline(FILE *out, const sb_result *r)
@@ -17,15 +18,15 @@ static void put_headline(FILE *out, const sb_result *r)
     fprintf(out, "%s%s", text, f && !f->pass ? "!" : "");
 }
 
-/* How many times its reach a judged figure is off; what could not be measured is beyond all. */
-static double times_reach(const sb_figure *f)
+/* Error of a judged figure divided by its target; HUGE_VAL if it could not be measured. */
+static double over_target(const sb_figure *f)
 {
     if (isnan(f->value)) return HUGE_VAL;
     const double off = f->one_sided ? f->error : fabs(f->error);
     return isnan(f->error) || off <= 0 ? 0 : off / f->limit;
 }
 
-/* The judged figure that is farthest off, for its reach; NULL: none is judged. */
+/* The judged figure with the largest error relative to its target; NULL: none is judged. */
 static const sb_figure *worst_of(const sb_figures *figures, size_t *judged, size_t *passed)
 {
     const sb_figure *worst = NULL;
@@ -35,7 +36,7 @@ static const sb_figure *worst_of(const sb_figures *figures, size_t *judged, size
         if (isnan(f->limit)) continue;
         *judged += 1;
         *passed += f->pass;
-        if (!worst || times_reach(f) > times_reach(worst)) worst = f;
+        if (!worst || over_target(f) > over_target(worst)) worst = f;
     }
     return worst;
 }
@@ -45,10 +46,10 @@ static void put_judged(FILE *out, const sb_result *r)
     size_t judged, passed;
     const sb_figure *worst = worst_of(&r->figures, &judged, &passed);
     fprintf(out, "%zu of %zu", passed, judged);
-    if (worst && isinf(times_reach(worst)))
+    if (worst && isinf(over_target(worst)))
         fputs(", none", out);
     else if (worst)
-        fprintf(out, ", %.2g×", times_reach(worst));
+        fprintf(out, ", %.2g×", over_target(worst));
 }
 
 static void put_time(FILE *out, const sb_result *r)
@@ -84,7 +85,7 @@ static void put_table(FILE *out, const sb_sensitivity_study *studies, const sb_c
     for (size_t c = 0; c < count; c++) fprintf(out, " %s |", cases[c]->name);
     fputs("\n|---|---|", out);
     for (size_t c = 0; c < count; c++) fputs("---|", out);
-    fputs("\n| (as it is) | |", out);
+    fputs("\n| (defaults) | |", out);
     for (size_t c = 0; c < count; c++) {
         fputc(' ', out);
         put_cell(out, &studies[c].results[0], put);
@@ -106,7 +107,7 @@ static void put_table(FILE *out, const sb_sensitivity_study *studies, const sb_c
     fputs("\n\n", out);
 }
 
-/* What the headlines are. */
+/* Lists the headline figures. */
 static void put_headlines(FILE *out, const sb_sensitivity_study *studies, const sb_case *const *cases, size_t count)
 {
     for (size_t c = 0; c < count; c++) {
@@ -115,12 +116,12 @@ static void put_headlines(FILE *out, const sb_sensitivity_study *studies, const 
         fprintf(out, "- %s: %s", cases[c]->name, cases[c]->headline);
         if (f && isnan(f->error)) fprintf(out, ", value in %s", f->unit);
         if (f && !isnan(f->error))
-            fprintf(out, ", error%s%s, reach %.4g", f->error_unit[0] ? " in " : "", f->error_unit, f->limit);
+            fprintf(out, ", error%s%s, target %.4g", f->error_unit[0] ? " in " : "", f->error_unit, f->limit);
         fprintf(out, ", at %.6g m\n", r->request.plan->resolution);
     }
 }
 
-/* Which figure of the defaults is farthest off. */
+/* Lists the figure with the largest error relative to its target. */
 static void put_worst(FILE *out, const sb_sensitivity_study *studies, const sb_case *const *cases, size_t count)
 {
     for (size_t c = 0; c < count; c++) {
@@ -134,22 +135,26 @@ static void put_worst(FILE *out, const sb_sensitivity_study *studies, const sb_c
 void sb_sensitivity_report(FILE *out, const sb_store *store, const sb_sensitivity_study *studies,
                            const sb_case *const *cases, size_t count, const char *command)
 {
-    fprintf(out,
-            "# What the numeric defaults do\n\nMade by `tools/validate --sensitivity` from the quick forms of the "
-            "cases: each default times 0.75 / times 1.25, all\nothers as they are. A value that would pass its key's "
-            "bound stays there; – where the change has no meaning, as of a default of 0.\nThe defaults are those of "
-            "the first case. The row of start seeds changes nothing but how the fluid particles lie at t = 0:\nwhat a "
-            "default does counts as far as it is beyond that.\n\n- command: `%s`\n- machine: %s\n- commit: `%s`\n\n"
-            "## Errors of the headline figures\n\n! marks an error beyond the reach.\n\n",
-            command, store->machine, store->commit);
+    fprintf(
+        out,
+        "# Sensitivity to the numeric defaults\n\n"
+        "Made by `tools/validate --sensitivity` from the quick forms of the cases. Each default is multiplied by 0.75 "
+        "and by\n1.25; a cell shows both results, separated by a slash. All other defaults stay the same. A value "
+        "stays within the\nbounds of its key. – marks a change without effect, as of a default of 0. The column "
+        "`default` is that of the first case.\n\nThe row of start seeds changes only the positions of the fluid "
+        "particles at t = 0. The effect of a default is\nsignificant only if it exceeds that of the start seeds.\n\n"
+        "- command: `%s`\n- machine: %s\n- commit: `%s`\n\n"
+        "## Errors of the headline figures\n\n! marks an error beyond the target.\n\n",
+        command, store->machine, store->commit);
     put_table(out, studies, cases, count, put_headline);
     put_headlines(out, studies, cases, count);
-    fputs("\n## All judged figures\n\nHow many of a run's judged figures are within their reach, and by how many times "
-          "its reach the one farthest off is off\n(none: one could not be measured). Figures that take several "
-          "spacings are not among them.\n\n",
+    fputs("\n## All judged figures\n\nEach cell shows how many of a run's judged figures are within their targets, and "
+          "the "
+          "largest error divided by its target\n(none: a figure could not be measured). Figures that need several "
+          "spacings are not included.\n\n",
           out);
     put_table(out, studies, cases, count, put_judged);
-    fputs("The one farthest off as it is:\n\n", out);
+    fputs("Figure with the largest error relative to its target, with the defaults:\n\n", out);
     put_worst(out, studies, cases, count);
     fputs("\n## Run times (s)\n\n", out);
     put_table(out, studies, cases, count, put_time);

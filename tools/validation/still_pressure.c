@@ -10,7 +10,7 @@ double sb_still_depth(const sb_scene *scene)
     return scene->sea.level - scene->bodies[0].min.z;
 }
 
-/* Mean over particles and files of p - rho g (level - z), by layers of one spacing. */
+/* Means over particles and files of p - rho g (level - z), in layers one spacing thick. */
 enum { LAYERS = 512 };
 typedef struct profile {
     const sb_scene *scene;
@@ -38,8 +38,7 @@ static void add_frame(void *context, const sb_frame *frame)
     }
 }
 
-/* Layers with less than this share of the particles are no layers: single ones above the surface.
- */
+/* A layer with fewer particles consists of single particles above the surface and is ignored. */
 static int is_layer(const profile *p, size_t k)
 {
     return (double)p->count[k] > 0.004 * (double)p->total;
@@ -67,19 +66,20 @@ static sb_status figure_layers(const sb_case_run *run, sb_figures *figures, sb_e
         at = k;
     }
     if (status == SB_OK)
-        status = sb_figure_below(figures, "pressure profile, worst layer", "%", 100 * fabs(worst) / scale, 1, error,
-                                 "of rho g D; means over layers one spacing thick and over the "
-                                 "particle files of the second half; worst in layer %zu from the "
-                                 "floor, %+.1f Pa",
-                                 at + 1, worst);
+        status =
+            sb_figure_below(figures, "pressure profile, worst layer", "%", 100 * fabs(worst) / scale, 1, error,
+                            "relative to rho g D; means over layers one spacing thick and over the particle files of "
+                            "the second half; largest error in layer %zu from the floor, %+.1f Pa",
+                            at + 1, worst);
     if (status == SB_OK)
         status = sb_figure_report(figures, "pressure of single particles, RMS error", "%", (double)NAN,
-                                  100 * sqrt(p->square / (double)p->total) / scale, error, "of rho g D, same files");
+                                  100 * sqrt(p->square / (double)p->total) / scale, error,
+                                  "relative to rho g D; same files");
     sb_free(p);
     return status;
 }
 
-/* What the scene's probes read, on walls and within. */
+/* Pressures at the scene's probes, on walls and in the water. */
 static sb_status figure_probes(const sb_case_run *run, sb_figures *figures, sb_error *error)
 {
     const sb_scene *scene = run->scene;
@@ -93,15 +93,16 @@ static sb_status figure_probes(const sb_case_run *run, sb_figures *figures, sb_e
         double miss =
             sb_curve_mean(&pressure, 0.5 * scene->duration, HUGE_VAL) - weight * (scene->sea.level - probe->at.z);
         sb_curve_free(&pressure);
-        if (!isnan(worst) && !(fabs(miss) <= fabs(worst))) { /* one that was not measured stays the worst */
+        if (!isnan(worst) && !(fabs(miss) <= fabs(worst))) { /* a probe without a value stays the worst */
             worst = miss;
             name = probe->name;
         }
     }
-    return sb_figure_below(figures, "pressure at probes, worst", "%",
-                           100 * fabs(worst) / (weight * sb_still_depth(scene)), 1, error,
-                           "of rho g D; mean of the second half, %zu probes on walls and within; %+.1f Pa at %s",
-                           scene->measure.probe_count, worst, name);
+    return sb_figure_below(
+        figures, "pressure at probes, worst", "%", 100 * fabs(worst) / (weight * sb_still_depth(scene)), 1, error,
+        "relative to rho g D; means over the second half at %zu probes on walls and in the water; largest error "
+        "%+.1f Pa at %s",
+        scene->measure.probe_count, worst, name);
 }
 
 sb_status sb_still_figures(const sb_case_run *run, sb_figures *figures, sb_error *error)

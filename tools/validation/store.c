@@ -16,7 +16,7 @@
 
 static const char failure_name[] = "failed.txt", spent_name[] = "spent.txt";
 
-/* Whether the program was built with this one, so that the source tree is its own. */
+/* Whether the program was built together with this tool, so that it belongs to this source tree. */
 static bool is_own(const char *program)
 {
     char beside[SB_PATH_MAX], real[SB_PATH_MAX];
@@ -44,32 +44,32 @@ sb_status sb_store_open(sb_store *store, const char *out, const char *program, c
     return SB_OK;
 }
 
-sb_status sb_store_asked(const sb_store *store, const sb_request *request, char asked[17], sb_error *error)
+sb_status sb_store_request_hash(const sb_store *store, const sb_request *request, char hash[17], sb_error *error)
 {
     char scene[SB_PATH_MAX];
-    uint64_t hash = 0;
+    uint64_t number = 0;
     sb_status status = sb_path_join(scene, store->assets, request->of->scene, error);
-    if (status == SB_OK) status = sb_request_hash(request, scene, &hash, error);
-    if (status == SB_OK) snprintf(asked, 17, "%016" PRIx64, hash);
+    if (status == SB_OK) status = sb_request_hash(request, scene, &number, error);
+    if (status == SB_OK) snprintf(hash, 17, "%016" PRIx64, number);
     return status;
 }
 
-sb_status sb_store_meant(const sb_store *store, const sb_request *request, uint64_t *meant, sb_error *error)
+sb_status sb_store_defaults_hash(const sb_store *store, const sb_request *request, uint64_t *hash, sb_error *error)
 {
     char scene[SB_PATH_MAX];
     sb_status status = sb_path_join(scene, store->assets, request->of->scene, error);
-    return status == SB_OK ? sb_request_meant(request, scene, meant, error) : status;
+    return status == SB_OK ? sb_request_defaults_hash(request, scene, hash, error) : status;
 }
 
-/* The folder that holds the builds' folders of a request. */
+/* The folder that contains the folders of all builds for a request. */
 static sb_status group_folder(const sb_store *store, const sb_request *request, char folder[SB_PATH_MAX],
                               sb_error *error)
 {
-    char asked[17];
-    sb_status status = sb_store_asked(store, request, asked, error);
+    char hash[17];
+    sb_status status = sb_store_request_hash(store, request, hash, error);
     if (status != SB_OK) return status;
     int length = snprintf(folder, SB_PATH_MAX, "%s/runs/%s/%.6g-%s-%d-%s", store->out, request->of->name,
-                          request->plan->resolution, request->paper ? "paper" : "default", request->seed, asked);
+                          request->plan->resolution, request->paper ? "paper" : "default", request->seed, hash);
     return length < SB_PATH_MAX - 32 ? SB_OK : sb_fail(error, SB_BAD_INPUT, "%.400s: the path is too long", store->out);
 }
 
@@ -82,7 +82,7 @@ sb_status sb_store_folder(const sb_store *store, const sb_request *request, char
     return SB_OK;
 }
 
-/* When the record in this folder was written (s); -1 without one. */
+/* Time at which the record in this folder was written (s); -1: none. */
 static double recorded(const char *folder)
 {
     char path[SB_PATH_MAX];
@@ -119,7 +119,7 @@ static sb_status write_text(const char *folder, const char *name, const char *te
     return sb_atomic_commit(&file, 0, error);
 }
 
-/* s of processor time of a run's parts that were stopped. */
+/* Processor time (s) of the parts of a run that were stopped. */
 static double spent(const char *folder)
 {
     char path[SB_PATH_MAX];
@@ -137,7 +137,7 @@ sb_status sb_store_spend(const char *folder, double cpu, sb_error *error)
     return write_text(folder, spent_name, text, error);
 }
 
-/* "sources 0123456789abcdef" of the program that wrote the log in this folder; "unknown" without one. */
+/* "sources 0123456789abcdef" of the program that wrote the log in this folder; "unknown": no log. */
 static void find_sources(const char *folder, char text[64])
 {
     char path[SB_PATH_MAX], line[4096];

@@ -5,9 +5,9 @@
 double sb_theory_lattice_share(const sb_kernel *kernel, int dimension, double support)
 {
     double sum = 0;
-    int reach = (int)ceil(support), layers = dimension == 3 ? reach : 0;
-    for (int i = -reach; i <= reach; i++)
-        for (int j = -reach; j <= reach; j++)
+    int range = (int)ceil(support), layers = dimension == 3 ? range : 0;
+    for (int i = -range; i <= range; i++)
+        for (int j = -range; j <= range; j++)
             for (int k = -layers; k <= layers; k++) {
                 double r = sqrt((double)(i * i + j * j + k * k));
                 if (r == 0 || r >= support) continue;

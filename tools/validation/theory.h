@@ -1,23 +1,23 @@
-/* What theory says of the cases, beyond src/physics/wave_theory.h. */
+/* Theory of the cases, beyond src/physics/wave_theory.h. */
 #ifndef SB_VALIDATION_THEORY_H
 #define SB_VALIDATION_THEORY_H
 
 #include "scene/scene.h"
 
-/* Effective kinematic viscosity (m^2/s) of a run's viscous terms, docs/method.md (M14), on still
-   depth D: the artificial one acts on approaching pairs only, which in a flow that keeps its volume
-   are half of the work. The sum over the lattice of the run's kernel and support is the mean over
-   all orientations of a strain: (1/d) sum V r^3 |W'|/(r^2 + 0.01 h^2) of the continuum's value. */
+/* Effective kinematic viscosity (m^2/s) of a run's viscous terms, docs/method.md (M14), for the still depth D.
+   Artificial viscosity acts only on approaching pairs, which do half of the work in a flow of constant volume. The
+   lattice sum for the run's kernel and support, (1/d) sum V r^3 |W'|/(r^2 + 0.01 h^2), is the ratio to the continuum's
+   value, as a mean over all orientations of the strain. */
 double sb_theory_viscosity(const sb_scene *scene, double depth);
-/* That mean alone; 1 in the continuum. */
+/* The lattice sum alone; 1 in the continuum. */
 double sb_theory_lattice_share(const sb_kernel *kernel, int dimension, double support);
 
 /* Angular frequency of a standing wave of steepness `steepness` = k a over the linear one, to third
    order (Tadjbakhsh and Keller 1960). kh: wave number times depth. */
 double sb_theory_standing_shift(double kh, double steepness);
 
-/* Rate (1/s) at which the amplitude of a wave of wave number k decays between slippery walls by the
-   viscosity of the irrotational flow alone: 2 nu k^2, at any depth (Lamb 1932, art. 348). */
+/* Decay rate (1/s) of the amplitude of a wave of wave number k between free-slip walls, by the viscosity of the
+   irrotational flow alone: 2 nu k^2 at any depth (Lamb 1932, art. 348). */
 double sb_theory_decay(double viscosity, double k);
 
 #endif
