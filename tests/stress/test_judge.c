@@ -1,4 +1,4 @@
-/* The rules of the battery can fail: each is broken here. */
+/* Tests of the common rules of tools/stress: each rule is violated once. */
 #include "check.h"
 
 #include "stress.h"
@@ -16,7 +16,7 @@ static const char sound[] = "{\n  \"fluid_particles\": 100, \"lost_particles\": 
 
 static const sb_trial usual = {.name = "usual", .ends = SB_ENDS_WELL};
 
-/* Judges a run that left this text, with one place of it replaced. */
+/* Judges a run with this summary, one part of which is replaced. */
 static sb_judged judge(const char *text, const char *from, const char *to)
 {
     static char changed[2048];
@@ -28,14 +28,14 @@ static sb_judged judge(const char *text, const char *from, const char *to)
     return judged;
 }
 
-static void must_fail(const char *from, const char *to, const char *why)
+static void assert_fails(const char *from, const char *to, const char *why)
 {
     sb_judged judged = judge(sound, from, to);
     if (!judged.fails || !strstr(judged.why, why))
-        fail_msg("%s -> %s: expected to fail for \"%s\", it said \"%s\"", from, to, why, judged.why);
+        fail_msg("%s -> %s: expected to fail for \"%s\", failed for \"%s\"", from, to, why, judged.why);
 }
 
-static void test_a_sound_run_passes(void **state)
+static void test_valid_run_passes(void **state)
 {
     (void)state;
     sb_judged judged = judge(sound, "100", "100");
@@ -50,18 +50,18 @@ static void test_a_sound_run_passes(void **state)
 static void test_each_common_rule_can_fail(void **state)
 {
     (void)state;
-    must_fail("\"lost_particles\": 0", "\"lost_particles\": 2", "2 particles lost");
-    must_fail("\"through_walls\": 0", "\"through_walls\": 3", "3 particles through walls");
-    must_fail("\"through_walls\": 0", "\"through_walls\": null", "through walls");
-    must_fail("\"unreported_solves\": 0", "\"unreported_solves\": 1", "unreported");
-    must_fail("\"not_finite\": 0", "\"not_finite\": 7", "not finite");
-    must_fail("\"left_domain\": 0", "\"left_domain\": 2.5", "unaccounted");
-    must_fail("\"left_domain\": 0", "\"left_domain\": 100", "unaccounted");
-    must_fail("\"mass_kg\": 50}\n}", "\"mass_kg\": 49.7}\n}", "unaccounted");
-    must_fail("\"contact_J\": -0.01", "\"contact_J\": 0.0004", "contact");
+    assert_fails("\"lost_particles\": 0", "\"lost_particles\": 2", "2 particles lost");
+    assert_fails("\"through_walls\": 0", "\"through_walls\": 3", "3 particles through walls");
+    assert_fails("\"through_walls\": 0", "\"through_walls\": null", "through walls");
+    assert_fails("\"unreported_solves\": 0", "\"unreported_solves\": 1", "unreported");
+    assert_fails("\"not_finite\": 0", "\"not_finite\": 7", "not finite");
+    assert_fails("\"left_domain\": 0", "\"left_domain\": 2.5", "unaccounted");
+    assert_fails("\"left_domain\": 0", "\"left_domain\": 100", "unaccounted");
+    assert_fails("\"mass_kg\": 50}\n}", "\"mass_kg\": 49.7}\n}", "unaccounted");
+    assert_fails("\"contact_J\": -0.01", "\"contact_J\": 0.0004", "contact");
 }
 
-static void test_what_left_is_accounted_for(void **state)
+static void test_particles_that_left_are_counted(void **state)
 {
     (void)state;
     char text[2048];
@@ -69,11 +69,11 @@ static void test_what_left_is_accounted_for(void **state)
     snprintf(text, sizeof text, "%.*s\"mass_kg\": 45}\n}", (int)(end - sound), sound);
     assert_false(judge(text, "\"left_domain\": 0", "\"left_domain\": 10").fails);
     assert_true(judge(text, "\"left_domain\": 0", "\"left_domain\": 9").fails);
-    /* Ten of them before t = 0. */
+    /* Ten particles left before t = 0. */
     assert_false(judge(sound, "\"left_domain\": 0", "\"left_domain\": 10").fails);
 }
 
-static void test_how_it_ends_is_judged(void **state)
+static void test_end_is_judged(void **state)
 {
     (void)state;
     const struct {
@@ -108,8 +108,8 @@ static void write_table(const char *folder, const char *name, const char *text)
     assert_int_equal(fclose(out), 0);
 }
 
-/* In a table where every field has a number an empty one is none; where places may be dry it is well. */
-static void test_numbers_that_are_none_are_seen(void **state)
+/* An empty field is not a number in a table where every field has one; it is allowed where places may be dry. */
+static void test_nan_in_tables_is_found(void **state)
 {
     (void)state;
     static const struct {
@@ -138,7 +138,7 @@ static void test_numbers_that_are_none_are_seen(void **state)
     assert_int_equal(remove(folder), 0);
 }
 
-static void test_names_of_cases_and_trials_differ(void **state)
+static void test_names_are_unique(void **state)
 {
     (void)state;
     for (size_t c = 0; sb_stresses[c]; c++) {
@@ -163,12 +163,12 @@ static void test_names_of_cases_and_trials_differ(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_sound_run_passes),
+        cmocka_unit_test(test_valid_run_passes),
         cmocka_unit_test(test_each_common_rule_can_fail),
-        cmocka_unit_test(test_what_left_is_accounted_for),
-        cmocka_unit_test(test_how_it_ends_is_judged),
-        cmocka_unit_test(test_numbers_that_are_none_are_seen),
-        cmocka_unit_test(test_names_of_cases_and_trials_differ),
+        cmocka_unit_test(test_particles_that_left_are_counted),
+        cmocka_unit_test(test_end_is_judged),
+        cmocka_unit_test(test_nan_in_tables_is_found),
+        cmocka_unit_test(test_names_are_unique),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

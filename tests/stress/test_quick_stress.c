@@ -1,4 +1,4 @@
-/* Quick forms of stress cases, by the programs themselves. */
+/* Tests of tools/stress: quick forms of the stress cases. */
 #include "check.h"
 
 #include "base/memory.h"
@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static char *spoken; /* by the last one that was run */
+static char *output; /* of the last run of the tool */
 
 static int set_up(void **state)
 {
@@ -18,107 +18,107 @@ static int set_up(void **state)
 static int tear_down(void **state)
 {
     (void)state;
-    sb_free(spoken);
+    sb_free(output);
     return tool_end();
 }
 
-/* Exit status of the battery with these arguments. */
+/* Exit status of tools/stress with these arguments. */
 static int stress(const char *arguments)
 {
     char all[300];
     snprintf(all, sizeof all, "--jobs 1 %s", arguments);
     const int status = tool_run("shorebreak-stress", all);
-    sb_free(spoken);
-    spoken = tool_text("said");
-    assert_non_null(spoken);
+    sb_free(output);
+    output = tool_text("said");
+    assert_non_null(output);
     return status;
 }
 
-static void must_pass(const char *names)
+static void assert_passes(const char *names)
 {
     char arguments[256];
     snprintf(arguments, sizeof arguments, "--quick %s", names);
     int status = stress(arguments);
-    if (status != 0) fail_msg("exit status %d:\n%s", status, spoken);
+    if (status != 0) fail_msg("exit status %d:\n%s", status, output);
 }
 
-static void test_still_water_rests(void **state)
+static void test_still_water(void **state)
 {
     (void)state;
-    must_pass("still-water flume");
+    assert_passes("still-water flume");
 }
 
-static void test_thin_plates_hold(void **state)
+static void test_thin_plates(void **state)
 {
     (void)state;
-    must_pass("plates");
+    assert_passes("plates");
 }
 
-static void test_impacts_make_no_energy(void **state)
+static void test_impacts_add_no_energy(void **state)
 {
     (void)state;
-    must_pass("drop jet");
+    assert_passes("drop jet");
 }
 
-static void test_each_solver_keeps_its_word(void **state)
+static void test_solvers_meet_tolerances(void **state)
 {
     (void)state;
-    must_pass("time-step tolerance");
+    assert_passes("time-step tolerance");
 }
 
-static void test_walls_paddles_and_open_sides_hold(void **state)
+static void test_walls_paddles_and_open_sides(void **state)
 {
     (void)state;
-    must_pass("sampling paddles immersed leaving ends");
+    assert_passes("sampling paddles immersed leaving ends");
 }
 
-static void test_starts_frames_films_and_broken_meshes_hold(void **state)
+static void test_starts_frames_films_and_defective_meshes(void **state)
 {
     (void)state;
-    must_pass("film frame start meshes");
+    assert_passes("film frame start meshes");
 }
 
-/* Numerics at the ends of their ranges may spoil a run, but not the program. */
+/* Extreme values of keys may make a run fail, but must not crash the program. */
 static void test_no_key_crashes_or_hangs(void **state)
 {
     (void)state;
     int status = stress("--quick keys");
-    if ((status != 0 && status != 4) || strstr(spoken, ": signal ") || strstr(spoken, ": hung"))
-        fail_msg("exit status %d:\n%s", status, spoken);
+    if ((status != 0 && status != 4) || strstr(output, ": signal ") || strstr(output, ": hung"))
+        fail_msg("exit status %d:\n%s", status, output);
 }
 
-static void test_what_was_run_is_kept(void **state)
+static void test_trials_are_stored(void **state)
 {
     (void)state;
-    must_pass("jet");
-    assert_null(strstr(spoken, "exit status"));
+    assert_passes("jet");
+    assert_null(strstr(output, "exit status"));
     assert_true(tool_says("out/quick/stability.md", "slice-into-corner"));
     assert_true(tool_says("out/quick/stability.md", "not run")); /* other cases */
 }
 
-static void test_bad_command_lines(void **state)
+static void test_bad_command_lines_are_refused(void **state)
 {
     (void)state;
     assert_int_equal(stress("stil-water"), 1);
-    assert_non_null(strstr(spoken, "stress: stil-water: no such case; --list names them"));
+    assert_non_null(strstr(output, "stress: stil-water: no such case; --list shows the cases"));
     assert_int_equal(stress("--quik"), 1);
-    assert_non_null(strstr(spoken, "--quik: no such option"));
+    assert_non_null(strstr(output, "--quik: no such option"));
     assert_int_equal(stress(""), 1);
-    assert_non_null(strstr(spoken, "no case named"));
+    assert_non_null(strstr(output, "no case given"));
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_still_water_rests),
-        cmocka_unit_test(test_thin_plates_hold),
-        cmocka_unit_test(test_impacts_make_no_energy),
-        cmocka_unit_test(test_what_was_run_is_kept),
-        cmocka_unit_test(test_each_solver_keeps_its_word),
-        cmocka_unit_test(test_walls_paddles_and_open_sides_hold),
-        cmocka_unit_test(test_starts_frames_films_and_broken_meshes_hold),
+        cmocka_unit_test(test_still_water),
+        cmocka_unit_test(test_thin_plates),
+        cmocka_unit_test(test_impacts_add_no_energy),
+        cmocka_unit_test(test_trials_are_stored),
+        cmocka_unit_test(test_solvers_meet_tolerances),
+        cmocka_unit_test(test_walls_paddles_and_open_sides),
+        cmocka_unit_test(test_starts_frames_films_and_defective_meshes),
         cmocka_unit_test(test_no_key_crashes_or_hangs),
-        cmocka_unit_test(test_bad_command_lines),
+        cmocka_unit_test(test_bad_command_lines_are_refused),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

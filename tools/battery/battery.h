@@ -1,4 +1,4 @@
-/* The command line of the battery, and its report. */
+/* Command line and report of tools/stress. */
 #ifndef SB_BATTERY_BATTERY_H
 #define SB_BATTERY_BATTERY_H
 
@@ -12,23 +12,23 @@ typedef struct sb_battery_options {
     int jobs;
     const sb_stress *cases[SB_STRESSES_MAX];
     size_t count;
-    char command[1024]; /* as it may be repeated anywhere: without folders */
+    char command[1024]; /* as it can be repeated on any machine: without folders */
 } sb_battery_options;
 
 extern const char sb_battery_help[];
 
-/* SB_BAD_INPUT says what is wrong with which argument. Options point into the arguments. */
+/* SB_BAD_INPUT: the error names the argument. Options point into the arguments. */
 sb_status sb_battery_parse(int count, char **arguments, sb_battery_options *options, sb_error *error);
 
-/* A case with all its trials judged. */
+/* A case with its judged trials. */
 typedef struct sb_stress_results {
     const sb_stress *of;
     sb_trials trials;
     sb_judged *judged;  /* one per trial */
-    size_t run, failed; /* trials */
+    size_t run, failed; /* numbers of trials */
 } sb_stress_results;
 
-/* Recalls what was run of a case and judges it. */
+/* Reads the stored trials of a case and judges them. */
 sb_status sb_stress_collect(const sb_workbench *bench, const sb_stress *of, bool quick, sb_stress_results *results,
                             sb_error *error);
 void sb_stress_results_free(sb_stress_results *results);

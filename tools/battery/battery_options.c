@@ -7,19 +7,19 @@
 
 const char sb_battery_help[] =
     "usage: tools/stress [CASE...|--all] [OPTIONS]\n"
-    "Runs stress cases, judges each by its rule, and writes the report stability.md.\n\n"
+    "Runs stress cases, judges each trial by the rules, and writes the report stability.md.\n\n"
     "  --all            every case\n"
     "  --quick          few and cheap forms; the report goes to OUT/quick\n"
-    "  --list           names the cases\n"
-    "  --report-only    runs nothing; remakes the report from what was run\n"
-    "  --out DIR        where trials are kept (build/stress)\n"
-    "  --report DIR     where the report goes (docs/results)\n"
-    "  --jobs N         N trials at a time with one thread each (as many as cores)\n"
-    "  --shorebreak F   the program that runs (the one built beside this)\n"
+    "  --list           lists the cases\n"
+    "  --report-only    runs nothing; writes the report again from stored trials\n"
+    "  --out DIR        folder of stored trials (build/stress)\n"
+    "  --report DIR     folder of the report (docs/results)\n"
+    "  --jobs N         N trials at a time with one thread each (default: the number of cores)\n"
+    "  --shorebreak F   program that runs the trials (the one built beside this tool)\n"
     "  --help, --version\n\n"
-    "Trials that were run are kept and not repeated while program and scene stay the same.\n"
-    "Exit status: 0 all of the named cases pass, 1 bad input, 2 the battery itself failed, 4 a trial\n"
-    "fails, 130 stopped.\n";
+    "Trials are stored and not repeated as long as program and scene stay the same.\n"
+    "Exit status: 0 all trials of the named cases pass, 1 bad input, 2 the tool itself failed, 4 a\n"
+    "trial fails, 130 stopped.\n";
 
 static sb_status take_case(void *user, const char *name, sb_error *error)
 {
@@ -30,7 +30,7 @@ static sb_status take_case(void *user, const char *name, sb_error *error)
         o->cases[o->count++] = sb_stresses[i];
         return SB_OK;
     }
-    return sb_fail(error, SB_BAD_INPUT, "%.200s: no such case; --list names them", name);
+    return sb_fail(error, SB_BAD_INPUT, "%.200s: no such case; --list shows the cases", name);
 }
 
 sb_status sb_battery_parse(int count, char **arguments, sb_battery_options *o, sb_error *error)
@@ -57,5 +57,5 @@ sb_status sb_battery_parse(int count, char **arguments, sb_battery_options *o, s
         for (o->count = 0; sb_stresses[o->count] && o->count < SB_STRESSES_MAX; o->count++)
             o->cases[o->count] = sb_stresses[o->count];
     if (!o->jobs) o->jobs = (int)sysconf(_SC_NPROCESSORS_ONLN);
-    return o->count ? SB_OK : sb_fail(error, SB_BAD_INPUT, "no case named; --list names them, --all takes all");
+    return o->count ? SB_OK : sb_fail(error, SB_BAD_INPUT, "no case given; --list shows the cases, --all selects all");
 }

@@ -18,15 +18,15 @@
 
 enum { ARGUMENTS = 2 * SB_TRIAL_SETTINGS + 16, POLL = 5000 /* us */ };
 
-static const double grace = 60;               /* s that a run may take to stop when it is told */
-static const rlim_t memory = (rlim_t)4 << 30; /* bytes of addresses: a trial may not starve the machine */
+static const double stop_time = 60;                  /* s that a run may take to stop after SIGTERM */
+static const rlim_t address_space = (rlim_t)4 << 30; /* bytes; a trial must not exhaust the machine's memory */
 
 typedef struct worker {
     pid_t process; /* 0: the place is free */
     const sb_job *job;
     sb_outcome outcome;
     double start;
-    bool told, killed;
+    bool stop_sent, killed;
 } worker;
 
 static volatile sig_atomic_t stopped_by;
@@ -43,8 +43,8 @@ static void redirect(const char *path, int flags, int to)
     close(file);
 }
 
-/* In the child: the program itself, on the trial's scene. */
-static _Noreturn void become(const sb_workbench *bench, const sb_trial *t, const char *folder)
+/* In the child process: runs shorebreak on the trial's scene. */
+static _Noreturn void run_program(const sb_workbench *bench, const sb_trial *t, const char *folder)
 {
     char *arguments[ARGUMENTS], scene[SB_PATH_MAX];
     int count = 0;
@@ -62,7 +62,8 @@ static _Noreturn void become(const sb_workbench *bench, const sb_trial *t, const
     _exit(127);
 }
 
-/* In the child: the simulation step by step, its end told as the program tells it. */
+/* In the child process: runs the simulation step by step; the message and exit status at its end are those of
+ * shorebreak. */
 static _Noreturn void drive(const sb_workbench *bench, const sb_trial *t, const char *folder)
 {
     sb_error error = {0};
@@ -75,13 +76,13 @@ static _Noreturn void drive(const sb_workbench *bench, const sb_trial *t, const 
 
 static _Noreturn void child(const sb_workbench *bench, const sb_trial *t, const char *folder)
 {
-    char said[SB_PATH_MAX + 16];
-    const struct rlimit most = {memory, memory}, none = {0, 0};
+    char output[SB_PATH_MAX + 16];
+    const struct rlimit most = {address_space, address_space}, none = {0, 0};
     signal(SIGINT, SIG_DFL);
     signal(SIGTERM, SIG_DFL);
-    snprintf(said, sizeof said, "%s/output.txt", folder);
+    snprintf(output, sizeof output, "%s/output.txt", folder);
     redirect("/dev/null", O_RDONLY, STDIN_FILENO);
-    redirect(said, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
+    redirect(output, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
     dup2(STDOUT_FILENO, STDERR_FILENO);
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     setrlimit(RLIMIT_AS, &most);
@@ -89,7 +90,7 @@ static _Noreturn void child(const sb_workbench *bench, const sb_trial *t, const 
     setenv("OMP_NUM_THREADS", "1", 1);
     setenv("OMP_WAIT_POLICY", "passive", 1);
     if (t->kind == SB_TRIAL_DRIVEN) drive(bench, t, folder);
-    become(bench, t, folder);
+    run_program(bench, t, folder);
 }
 
 static sb_status begin(const sb_workbench *bench, const sb_job *job, worker *w, sb_error *error)
@@ -107,27 +108,27 @@ static sb_status begin(const sb_workbench *bench, const sb_job *job, worker *w, 
     return SB_OK;
 }
 
-/* The last line that is not a warning, or else the last. */
-static void last_words(sb_outcome *o)
+/* Reads the last line that is not a warning, or else the last line. */
+static void read_last_line(sb_outcome *o)
 {
     char path[SB_PATH_MAX], line[512];
-    bool sure = false;
+    bool no_warning = false;
     FILE *in = sb_path_join(path, o->folder, "output.txt", NULL) == SB_OK ? fopen(path, "r") : NULL;
     while (in && fgets(line, sizeof line, in)) {
         line[strcspn(line, "\r\n")] = '\0';
         bool warning = strncmp(line, "shorebreak: warning:", 20) == 0;
-        if (!line[0] || (warning && sure)) continue;
+        if (!line[0] || (warning && no_warning)) continue;
         snprintf(o->said, sizeof o->said, "%.399s", line);
-        sure = !warning;
+        no_warning = !warning;
     }
     if (in) fclose(in);
 }
 
-/* Whether the run was told to stop before it had begun its log, and had no word for it yet. */
+/* Whether SIGTERM ended the run before it had begun its log and handled signals. */
 static bool stopped_early(const worker *w, int how)
 {
     char path[SB_PATH_MAX], byte;
-    return w->told && WIFSIGNALED(how) && WTERMSIG(how) == SIGTERM &&
+    return w->stop_sent && WIFSIGNALED(how) && WTERMSIG(how) == SIGTERM &&
            sb_path_join(path, w->outcome.folder, "run.jsonl", NULL) == SB_OK && sb_file_start(path, &byte, 1) == 0;
 }
 
@@ -135,13 +136,14 @@ static void classify(worker *w, int how)
 {
     sb_outcome *o = &w->outcome;
     const int status = WIFEXITED(how) ? WEXITSTATUS(how) : stopped_early(w, how) ? 128 + SIGTERM : -1;
-    o->how = status == 0                                                                      ? SB_ENDS_WELL
-             : status == SB_BAD_INPUT                                                         ? SB_ENDS_REFUSED
-             : status == SB_FAILED                                                            ? SB_ENDS_FAILED
-             : w->told && !w->killed && (status == SB_INTERRUPTED || status == 128 + SIGTERM) ? SB_ENDS_STOPPED
-                                                                                              : 0;
+    o->how = status == 0                                                                           ? SB_ENDS_WELL
+             : status == SB_BAD_INPUT                                                              ? SB_ENDS_REFUSED
+             : status == SB_FAILED                                                                 ? SB_ENDS_FAILED
+             : w->stop_sent && !w->killed && (status == SB_INTERRUPTED || status == 128 + SIGTERM) ? SB_ENDS_STOPPED
+                                                                                                   : 0;
     if (w->killed)
-        snprintf(o->ended, sizeof o->ended, w->told ? "hung: did not stop when told" : "hung: out of patience");
+        snprintf(o->ended, sizeof o->ended,
+                 w->stop_sent ? "hung: did not stop after SIGTERM" : "hung: time limit exceeded");
     else if (WIFEXITED(how))
         snprintf(o->ended, sizeof o->ended, "exit status %d", status);
     else
@@ -157,26 +159,26 @@ static sb_status end(const sb_workbench *bench, worker *w, int how, sb_error *er
     w->outcome.there = true;
     w->outcome.wall = sb_clock() - w->start;
     classify(w, how);
-    last_words(&w->outcome);
+    read_last_line(&w->outcome);
     printf("%s %s: %s, %.1f s\n", w->job->of->name, w->job->trial->name, w->outcome.ended, w->outcome.wall);
     return sb_workbench_keep(bench, w->job, &w->outcome, error);
 }
 
-/* Tells runs to stop whose time is up, and kills those that hang. */
+/* Sends SIGTERM to a run whose time is over; kills one that hangs. */
 static void watch(worker *w)
 {
     const double spent = sb_clock() - w->start, after = w->job->trial->stop_after;
-    const bool late = spent > w->job->trial->patience || (w->told && after > 0 && spent > after + grace);
+    const bool late = spent > w->job->trial->time_limit || (w->stop_sent && after > 0 && spent > after + stop_time);
     if (stopped_by || late) {
         w->killed |= !stopped_by;
         kill(w->process, SIGKILL);
-    } else if (after > 0 && spent > after && !w->told) {
-        w->told = true;
+    } else if (after > 0 && spent > after && !w->stop_sent) {
+        w->stop_sent = true;
         kill(w->process, SIGTERM);
     }
 }
 
-/* Looks after the runs once. Whether one has ended. */
+/* Checks all runs once; returns whether one has ended. */
 static bool poll_once(const sb_workbench *bench, worker *workers, int jobs, sb_status *status, sb_error *error)
 {
     bool ended = false;
@@ -221,6 +223,6 @@ sb_status sb_crew_run(const sb_workbench *bench, const sb_job *work, size_t coun
     sigaction(SIGTERM, &terminate, NULL);
     sb_free(workers);
     if (status == SB_OK && stopped_by)
-        status = sb_fail(error, SB_INTERRUPTED, "stopped; started again, it goes on from here");
+        status = sb_fail(error, SB_INTERRUPTED, "stopped; the same command continues from here");
     return status;
 }

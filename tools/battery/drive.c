@@ -8,12 +8,12 @@
 
 #include <math.h>
 
-enum { LOOK = 25 }; /* steps between looks at every particle */
+enum { CHECK_INTERVAL = 25 }; /* steps between checks of every particle */
 
 const sb_drive sb_drive_plain = {0};
 
-/* Particles behind the sheet of a side that is a wall: those sides are no mesh to ask. */
-static uint64_t beyond_sides(const sb_driven *d, const sb_frame *frame, double sheet)
+/* Counts particles behind the boundary particles of sides that are walls: those sides have no mesh. */
+static uint64_t beyond_sides(const sb_driven *d, const sb_frame *frame, double depth)
 {
     const sb_vec3 min = d->scene.domain.min, max = d->scene.domain.max;
     const double bound[SB_SIDES] = {min.x, max.x, min.y, max.y, min.z, max.z};
@@ -24,14 +24,14 @@ static uint64_t beyond_sides(const sb_driven *d, const sb_frame *frame, double s
         for (size_t s = 0; s < SB_SIDES; s++) {
             const double at = origin[s / 2] + (double)frame->position[3 * i + s / 2];
             if (d->scene.domain.side[s] != SB_SIDE_WALL || (s / 2 == 1 && d->scene.dimensions == 2)) continue;
-            out |= (s % 2 ? at - bound[s] : bound[s] - at) > sheet;
+            out |= (s % 2 ? at - bound[s] : bound[s] - at) > depth;
         }
         beyond += out;
     }
     return beyond;
 }
 
-static void look(sb_driven *d)
+static void check_particles(sb_driven *d)
 {
     uint64_t bad = 0;
     sb_frame *frame = sb_sim_snapshot(d->sim);
@@ -40,21 +40,21 @@ static void look(sb_driven *d)
     if (bad > d->not_finite) d->not_finite = bad;
     sb_vec3 *moved = sb_alloc(d->model.body_count, sizeof *moved);
     for (size_t b = 0; moved && b < d->model.body_count; b++) moved[b] = sb_sim_body_displacement(d->sim, b);
-    const double sheet = fmax(d->scene.numerics.wall_offset, 0.5) * d->scene.resolution;
+    const double depth = fmax(d->scene.numerics.wall_offset, 0.5) * d->scene.resolution;
     sb_inside_report any = {0}, deep = {0};
     if (frame && moved && !bad &&
         sb_model_first_inside(&d->model, frame->position, frame->count, frame->origin, moved, 0, &any, NULL) == SB_OK &&
-        sb_model_first_inside(&d->model, frame->position, frame->count, frame->origin, moved, sheet, &deep, NULL) ==
+        sb_model_first_inside(&d->model, frame->position, frame->count, frame->origin, moved, depth, &deep, NULL) ==
             SB_OK) {
         if (any.count > d->inside) d->inside = any.count;
-        deep.count += beyond_sides(d, frame, sheet);
+        deep.count += beyond_sides(d, frame, depth);
         if (deep.count > d->through) d->through = deep.count;
     }
     sb_free(moved);
     sb_frame_release(frame);
 }
 
-static void tally(sb_driven *d)
+static void add_step(sb_driven *d)
 {
     const sb_step_report *r = sb_sim_report(d->sim);
     d->iterations += (uint64_t)r->iterations;
@@ -81,15 +81,15 @@ static sb_status advance(sb_driven *d, const sb_drive *drive, sb_error *error)
         d->last_time = r->time;
         status = sb_sim_step(d->sim, error);
         if (status != SB_OK) break;
-        tally(d);
+        add_step(d);
         if (drive->watch) drive->watch(d);
-        if (r->step % LOOK == 0) look(d);
+        if (r->step % CHECK_INTERVAL == 0) check_particles(d);
     }
-    look(d);
+    check_particles(d);
     return status;
 }
 
-/* The keys that a run's own summary.json has, and those that only steps looked at one by one can give. */
+/* Writes the keys of a run's summary.json, and those that only a driven run can measure. */
 static void put_all(sb_driven *d, sb_json *json, const sb_drive *drive, double wall)
 {
     const sb_step_report *r = sb_sim_report(d->sim);

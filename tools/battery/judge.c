@@ -48,14 +48,14 @@ static void judge_end(sb_judged *judged)
 {
     const sb_outcome *o = &judged->outcome;
     sb_require(judged, o->how & judged->trial->ends, "%s: %.200s", o->ended, o->said);
-    /* Whoever refuses or fails says why, in a line of the program's own. */
+    /* A refusal or failure gives its reason in one line. */
     if (o->how & (SB_ENDS_REFUSED | SB_ENDS_FAILED))
         sb_require(judged, strncmp(o->said, "shorebreak: ", 12) == 0 && strlen(o->said) > 20,
                    "no reason given: \"%.100s\"", o->said);
     sb_require(judged, !o->not_a_number[0], "not a number in %s", o->not_a_number);
 }
 
-/* Particles that leave are counted, and all others are still there: by the water's mass. */
+/* By the mass of the water, all particles that were not counted as having left must remain. */
 static void judge_count(sb_judged *judged)
 {
     const sb_outcome *o = &judged->outcome;
@@ -65,17 +65,17 @@ static void judge_count(sb_judged *judged)
     const double last = sb_outcome_number_in(o, "energy_end", "mass_kg");
     if (!(all > 0 && first > 0)) return;
     sb_require(judged, lost == 0, "%g particles lost", lost);
-    /* What left before t = 0 is in neither mass; how many were there at t = 0 is a whole number all the same. */
+    /* Particles that left before t = 0 are in neither mass, but the number at t = 0 must be whole. */
     const double now = all - left - lost, began = last > 0 ? now * first / last : now;
     sb_require(judged, (now > 0) == (last > 0) && fabs(began - round(began)) < 1e-6 * all && began < all + 0.5,
                "particles unaccounted for: %g of %g left, %g lost, %.9g kg remain of %.9g", left, all, lost, last,
                first);
-    if (left > 0) sb_note(judged, "%g left", left);
+    if (left > 0) sb_note(judged, "%g particles left the domain", left);
 }
 
-/* Contact stops what comes too near to a wall; what it gives is round-off in when a step's work is booked to which
-   term, of the energy at the start. */
-static const double contact_gives = 1e-4;
+/* Largest energy that the contact resolution may add, as a fraction of the energy at the start: the error of assigning
+   a step's work to its terms. */
+static const double contact_gain = 1e-4;
 
 static void judge_contact(sb_judged *judged)
 {
@@ -83,7 +83,7 @@ static void judge_contact(sb_judged *judged)
     const double start =
         sb_outcome_number_in(o, "energy_start", "kinetic_J") + sb_outcome_number_in(o, "energy_start", "potential_J");
     const double contact = sb_outcome_number_in(o, "energy_work", "contact_J");
-    sb_require(judged, !(contact > contact_gives * start), "contact with walls makes %.2g of the energy at the start",
+    sb_require(judged, !(contact > contact_gain * start), "contact with walls adds %.2g of the energy at the start",
                contact / start);
 }
 
@@ -96,10 +96,11 @@ void sb_judge_common(sb_judged *judged)
         sb_require(judged, o->how != SB_ENDS_WELL, "no summary.json");
         return;
     }
-    const double through = sb_outcome_number(o, "through_walls"), unsaid = sb_outcome_number(o, "unreported_solves");
+    const double through = sb_outcome_number(o, "through_walls"),
+                 unreported = sb_outcome_number(o, "unreported_solves");
     const double bad = sb_outcome_number(o, "not_finite");
     sb_require(judged, through == 0, "%g particles through walls", through);
-    sb_require(judged, !(unsaid > 0), "%g solves stopped above their tolerance unreported", unsaid);
+    sb_require(judged, !(unreported > 0), "%g solves stopped above their tolerance unreported", unreported);
     sb_require(judged, !(bad > 0), "%g numbers not finite", bad);
     judge_count(judged);
     judge_contact(judged);

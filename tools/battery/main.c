@@ -1,4 +1,4 @@
-/* Command line of the battery of stress cases. */
+/* tools/stress: runs stress cases and writes the report. */
 #include "battery.h"
 #include "process.h"
 
@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { A_TRIAL_FAILS = 4 }; /* exit status */
+enum { TRIAL_FAILED = 4 }; /* exit status */
 
 static sb_status run_cases(const sb_workbench *bench, const sb_battery_options *o, sb_error *error)
 {
@@ -36,7 +36,7 @@ static bool chosen(const sb_battery_options *o, const sb_stress *of)
     return false;
 }
 
-/* Of every case there is, run now or not; failures of the chosen ones are told and counted. */
+/* Writes the report of all cases; prints and counts the failed trials of the named cases. */
 static sb_status report(const sb_workbench *bench, const sb_battery_options *o, size_t *failed, sb_error *error)
 {
     static sb_stress_results results[SB_STRESSES_MAX];
@@ -91,5 +91,5 @@ int main(int count, char **arguments)
     if (status == SB_OK) status = stress(&o, &failed, &error);
     if (status != SB_OK) fprintf(stderr, "stress: %s\n", error.text);
     if (status != SB_OK) return status == SB_INTERRUPTED ? 130 : (int)status;
-    return failed ? A_TRIAL_FAILS : 0;
+    return failed ? TRIAL_FAILED : 0;
 }

@@ -56,8 +56,8 @@ sb_status sb_outcome_curve(const sb_outcome *outcome, const char *table, const c
     return status;
 }
 
-/* Tables whose every field has a number; in others a dry place has none. A number that is none is an empty field, too.
- */
+/* Tables in which every field has a number; in others a field may be empty for a dry place. NaN is written as an empty
+ * field. */
 static const char *const full_tables[] = {"forces.csv", "energy.csv", "overtopping.csv"};
 
 static bool is_full(const char *name)
@@ -67,7 +67,7 @@ static bool is_full(const char *name)
     return false;
 }
 
-/* Whether a field of the line is nan or inf, as printf writes them; or, in a full table, nothing. */
+/* Whether a field of the line is nan or inf, as printf writes them, or empty in a full table. */
 static bool line_is_bad(const char *line, bool full)
 {
     for (const char *at = line;; at++) {

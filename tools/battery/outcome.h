@@ -1,4 +1,4 @@
-/* What came of a trial. */
+/* Outcome of a trial. */
 #ifndef SB_BATTERY_OUTCOME_H
 #define SB_BATTERY_OUTCOME_H
 
@@ -7,22 +7,22 @@
 #include "trial.h"
 
 typedef struct sb_outcome {
-    bool there;      /* it was run */
-    unsigned how;    /* one SB_ENDS_ bit; 0: a crash or a hang */
-    char ended[64];  /* the same in words: "exit status 0", "signal 11", "hung" */
-    char said[400];  /* the last line it wrote to the terminal */
-    char commit[64]; /* of the source it was built from */
+    bool there;      /* the trial was run */
+    unsigned how;    /* one SB_ENDS_ bit; 0: it crashed or hung */
+    char ended[64];  /* the same as text: "exit status 0", "signal 11", "hung" */
+    char said[400];  /* last line of its output */
+    char commit[64]; /* of the program's source */
     double wall;     /* s */
     char folder[SB_PATH_MAX];
-    char *summary;         /* summary.json; NULL without one */
-    char not_a_number[96]; /* the first table with one, and its line; "" */
+    char *summary;         /* text of summary.json; NULL: none */
+    char not_a_number[96]; /* first table with NaN or inf, and its line; "": none */
 } sb_outcome;
 
-/* The first number of that key in summary.json; NaN without one. */
+/* The first number of that key in summary.json; NaN: none. */
 double sb_outcome_number(const sb_outcome *outcome, const char *key);
 /* The number of that key within the object (or named item of a list) that begins at `within`. */
 double sb_outcome_number_in(const sb_outcome *outcome, const char *within, const char *key);
-/* A vector of a body in summary.json; NaNs without it. */
+/* A vector of a body in summary.json; NaNs: none. */
 sb_vec3 sb_outcome_vector(const sb_outcome *outcome, const char *body, const char *key);
 /* A curve of one of the run's tables, as sb_sheet_curve. */
 sb_status sb_outcome_curve(const sb_outcome *outcome, const char *table, const char *where, const char *x,

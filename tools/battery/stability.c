@@ -1,6 +1,7 @@
-/* stability.md: what was asked of each trial, what came of it. */
+/* Writes stability.md: the rules and the outcome of every trial. */
 #include "battery.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
@@ -26,12 +27,11 @@ static const char *verdict_of(const sb_stress_results *r)
 
 static void put_summary(FILE *out, const sb_stress_results *cases, size_t count)
 {
-    fputs("| case | what must hold, beside the common rules | passed | |\n|---|---|---|---|\n", out);
+    fputs("| case | passed | result |\n|---|---|---|\n", out);
     for (size_t c = 0; c < count; c++) {
         const sb_stress_results *r = &cases[c];
-        fprintf(out, "| [%s](#%s) |", r->of->title, r->of->name);
-        put_cell(out, r->of->rule);
-        fprintf(out, " %zu of %zu | %s |\n", r->run - r->failed, r->trials.count, verdict_of(r));
+        fprintf(out, "| [%s](#%s) | %zu of %zu | %s |\n", r->of->title, r->of->name, r->run - r->failed,
+                r->trials.count, verdict_of(r));
     }
     fputc('\n', out);
 }
@@ -39,24 +39,26 @@ static void put_summary(FILE *out, const sb_stress_results *cases, size_t count)
 static void put_head(FILE *out, const sb_workbench *bench, const sb_stress_results *cases, size_t count, bool quick,
                      const char *command)
 {
-    size_t run = 0, failed = 0, asked = 0;
+    size_t run = 0, failed = 0, planned = 0;
     for (size_t c = 0; c < count; c++) {
         run += cases[c].run;
         failed += cases[c].failed;
-        asked += cases[c].trials.count;
+        planned += cases[c].trials.count;
     }
     fprintf(out,
-            "# Stability%s\n\nCommit %s, %s.\nMade by `%s`; [how to read and repeat it](%s).\n\n"
-            "%zu trials asked for, %zu run, %zu passed, **%zu failed**.\n\n",
+            "# Stability%s\n\nCommit %s, %s.\nMade by `%s` ([explanation](%s)).\n\n"
+            "%zu trials planned, %zu run, %zu passed, **%zu failed**.\n\n",
             quick ? ", quick forms" : "", bench->commit, bench->machine, command,
-            quick ? "../../stability.md" : "../stability.md", asked, run, run - failed, failed);
-    fputs(
-        "Common rules, for every trial: it ends as it should and in time, or says why not in one line; no table and "
-        "no particle\nholds a number that is none; no particle is lost or within a solid deeper than its boundary "
-        "particles; all particles are\naccounted for; contact with walls makes no more than 1e-4 of the energy at the "
-        "start; solves that stop at their cap are counted (`capped`).\nTrials run with one thread each; run times are "
-        "those of the machine and load they were made on.\n\n",
-        out);
+            quick ? "../../stability.md" : "../stability.md", planned, run, run - failed, failed);
+    fputs("Common rules for every trial:\n\n"
+          "- It ends in time and in an allowed way. A refusal or failure gives its reason in one line.\n"
+          "- No table and no particle contains a value that is not a number.\n"
+          "- No particle is lost, or within a solid deeper than its boundary particles.\n"
+          "- All particles are accounted for.\n"
+          "- Contact with walls adds at most 1e-4 of the energy at the start.\n"
+          "- Solves that stop at `max_iterations` are counted (`capped`).\n\n"
+          "Trials run with one thread each. Run times depend on the machine and its load.\n\n",
+          out);
 }
 
 static void put_row(FILE *out, const sb_judged *j, const char *commit)
@@ -80,11 +82,22 @@ static void put_row(FILE *out, const sb_judged *j, const char *commit)
     fputs(" |\n", out);
 }
 
+/* A list item per rule; `rules` separates them by "; ". */
+static void put_rules(FILE *out, const char *rules)
+{
+    for (const char *at = rules, *end; *at; at = end) {
+        end = strstr(at, "; ");
+        const size_t length = end ? (size_t)(end - at) : strlen(at);
+        fprintf(out, "- %c%.*s\n", toupper((unsigned char)*at), (int)length - 1, at + 1);
+        end = end ? end + 2 : at + length;
+    }
+}
+
 static void put_case(FILE *out, const sb_stress_results *r, const char *commit)
 {
-    fprintf(out, "<a id=\"%s\"></a>\n\n## %s\n\nCase `%s`. %s\n\n", r->of->name, r->of->title, r->of->name,
-            r->of->rule);
-    fputs("| variant | figure | particles | steps | capped | inside | run time (s) | |\n"
+    fprintf(out, "<a id=\"%s\"></a>\n\n## %s\n\nCase `%s`. Rules:\n\n", r->of->name, r->of->title, r->of->name);
+    put_rules(out, r->of->rules);
+    fputs("\n| trial | measured | particles | steps | capped | inside | run time (s) | result |\n"
           "|---|---|---|---|---|---|---|---|\n",
           out);
     for (size_t i = 0; i < r->trials.count; i++) put_row(out, &r->judged[i], commit);

@@ -1,4 +1,4 @@
-/* Bodies: bad meshes, bodies under water at the start, paddles driven hard. */
+/* Stress cases of bodies: defective meshes, bodies under water at the start, fast paddles. */
 #include "stresses.h"
 
 #include <math.h>
@@ -44,15 +44,16 @@ static void judge_meshes(sb_judged *all, size_t count)
         if (strncmp(j->trial->name, "clean", 5) == 0) continue;
         sb_note(j, "sound mesh, five seeds: %.2f to %.2f", low, high);
         sb_require(j, seeds == SEEDS, "the seeds have not run");
-        sb_require(j, fabs(along - mean) <= high - low, "beyond the seeds' spread");
+        sb_require(j, fabs(along - mean) <= high - low, "differs by more than the spread of the seeds");
     }
 }
 
 const sb_stress sb_stress_meshes = {
     .name = "meshes",
     .title = "Wall meshes with turned faces, gaps, doubled faces, slivers",
-    .rule = "Refused, or the impulse on the column differs from the mean of five start seeds with the sound mesh by no "
-            "more than their spread (largest minus smallest).",
+    .rules =
+        "The mesh is refused, or the impulse on the column differs from the mean of five start seeds with the sound "
+        "mesh by at most their spread (largest minus smallest)",
     .plan = plan_meshes,
     .judge = judge_meshes,
 };
@@ -76,7 +77,7 @@ static void finish(sb_driven *d, sb_json *figures)
 
 static const sb_drive lifted = {.watch = watch, .close = finish};
 
-/* number: m^3 of water that the body displaces; 0: its lift is not asked for. */
+/* volume: m^3 of water that the body displaces; 0: its lift is not judged. */
 static const struct {
     const char *name, *body;
     double volume;
@@ -120,24 +121,25 @@ static void judge_immersed(sb_judged *all, size_t count)
         if (!o->there || j->trial->drive == &sb_drive_plain) continue;
         const double speed = sb_outcome_number(o, "late_rms_speed") / sb_outcome_number(o, "wave_speed");
         sb_note(j, "mean speed %.2g of √(gD)", speed);
-        sb_require(j, speed < 0.02, "the water does not rest");
+        sb_require(j, speed < 0.02, "the water does not come to rest");
         if (!(j->trial->number > 0)) continue;
         const double share = sb_outcome_number(o, "lift_N") / (1000 * 9.81 * j->trial->number);
         sb_note(j, "lift %.3f of ρgV", share);
-        sb_require(j, fabs(share - 1) < 0.1, "the lift is not that of the water displaced");
+        sb_require(j, fabs(share - 1) < 0.1, "the lift differs from the weight of the displaced water");
     }
 }
 
 const sb_stress sb_stress_immersed = {
     .name = "immersed",
     .title = "Bodies under water at t = 0",
-    .rule = "Water at rest stays at rest, below 2 % of √(gD) in the second half; the lift of a body that stands free "
-            "is within 10 % of ρgV.",
+    .rules =
+        "The mean speed of still water stays below 2 % of √(gD) in the second half; the lift of a free-standing body "
+        "is within 10 % of ρgV",
     .plan = plan_immersed,
     .judge = judge_immersed,
 };
 
-/* Twice the speed at which the CFL bound, not the default's longest step, begins to set the step. */
+/* Twice the speed above which the CFL bound, and not the longest time step, limits the step. */
 static double twice_cfl(double depth)
 {
     return 2 * sb_trial_default("cfl") / sb_trial_default("time_step_factor") * sqrt(9.81 * depth);
@@ -188,7 +190,7 @@ static void judge_paddles(sb_judged *all, size_t count)
         if (!j->outcome.there) continue;
         const double off = sb_outcome_number(&j->outcome, "momentum_imbalance");
         sb_note(j, "top speed %.3g m/s", sb_outcome_number(&j->outcome, "top_speed"));
-        sb_note(j, "momentum balances to %.1e", off);
+        sb_note(j, "momentum balances within %.1e", off);
         sb_require(j, off < 1e-4, "momentum does not balance");
     }
 }
@@ -196,8 +198,9 @@ static void judge_paddles(sb_judged *all, size_t count)
 const sb_stress sb_stress_paddles = {
     .name = "paddles",
     .title = "Paddles at twice the CFL speed, reversing, against a dry bed",
-    .rule = "Forces on bodies, gravity and the water's acceleration balance within 1e-4 of its momentum's change in "
-            "every step.",
+    .rules =
+        "Forces on bodies, gravity and the water's acceleration balance within 1e-4 of the change of momentum in every "
+        "step",
     .plan = plan_paddles,
     .judge = judge_paddles,
 };
@@ -226,24 +229,25 @@ static void judge_leaving(sb_judged *all, size_t count)
         sb_judged *j = &all[i];
         if (!j->outcome.there) continue;
         if (j->outcome.how == SB_ENDS_FAILED && j->trial->ends != SB_ENDS_FAILED) {
-            sb_note(j, "%.200s", j->outcome.said); /* too fast to be true: said, and as good */
+            sb_note(j, "%.200s", j->outcome.said); /* the program refuses speeds that are too high */
             continue;
         }
         const double left = sb_outcome_number(&j->outcome, "left_domain");
         double placed = 0;
         for (int side = 0; side < SB_SIDES; side++)
             placed += sb_outcome_number_in(&j->outcome, "left_by_side", sb_side_names[side]);
-        sb_require(j, left > 0, "none is counted as left");
-        sb_require(j, placed == left, "%g are counted by side", placed);
+        sb_require(j, left > 0, "no particle is counted as having left");
+        sb_require(j, placed == left, "%g particles are counted by side", placed);
         if (j->trial->ends == SB_ENDS_FAILED)
-            sb_require(j, strstr(j->outcome.said, "all water has left the domain"), "it does not say so");
+            sb_require(j, strstr(j->outcome.said, "all water has left the domain"), "the run does not report it");
     }
 }
 
 const sb_stress sb_stress_leaving = {
     .name = "leaving",
     .title = "Water leaving the domain",
-    .rule = "What leaves is counted, also by side; when all has left the run says so and ends.",
+    .rules =
+        "Particles that leave are counted, in total and by side; when all water has left, the run reports it and ends",
     .plan = plan_leaving,
     .judge = judge_leaving,
 };

@@ -1,4 +1,4 @@
-/* Ground with holes, or that ends short of the domain's sides. */
+/* Stress case: ground with holes, or ground that ends before the sides of the domain. */
 #include "stresses.h"
 
 static const struct {
@@ -37,7 +37,7 @@ static void plan(sb_trials *trials, bool quick)
 const sb_stress sb_stress_ends = {
     .name = "ends",
     .title = "Ground that ends within the domain",
-    .rule = "None but the common ones: no particle is lost beside the ground, or enters it from the side.",
+    .rules = "Only the common rules: no particle is lost beside the ground, and none enters the ground from the side",
     .plan = plan,
     .judge = NULL,
 };

@@ -1,4 +1,4 @@
-/* The same bore seen from elsewhere: moved, turned, mirrored. Forces may not know. */
+/* Stress case: the same bore in a moved, rotated or mirrored scene, where forces must be the same. */
 #include "stresses.h"
 
 #include <math.h>
@@ -6,7 +6,8 @@
 
 enum { SEEDS = 5 };
 
-/* An isometry of the plan view: x' = xx x + xy y + x0, y' likewise. Turns are by quarters, so that boxes stay boxes. */
+/* An isometry of the plan view: x' = xx x + xy y + x0, y' likewise. Rotations are by 90 degrees, so that boxes stay
+ * boxes. */
 typedef struct frame {
     const char *name;
     double xx, xy, yx, yy, x0, y0, z0;
@@ -25,20 +26,20 @@ static const frame frames[] = {
 };
 enum { FRAMES = sizeof frames / sizeof *frames };
 
-static sb_vec3 seen(const frame *f, sb_vec3 at)
+static sb_vec3 transform(const frame *f, sb_vec3 at)
 {
     return sb_vec(f->xx * at.x + f->xy * at.y + f->x0, f->yx * at.x + f->yy * at.y + f->y0, at.z + f->z0);
 }
 
-/* A force turned back to the frame of the scene. */
-static sb_vec3 unseen(const frame *f, sb_vec3 v)
+/* Transforms a force back to the frame of the scene. */
+static sb_vec3 transform_back(const frame *f, sb_vec3 v)
 {
     return sb_vec(f->xx * v.x + f->yx * v.y, f->xy * v.x + f->yy * v.y, v.z);
 }
 
 static void set_box(sb_trial *t, const frame *f, const char *key, sb_vec3 min, sb_vec3 max)
 {
-    const sb_vec3 a = seen(f, min), b = seen(f, max), low = sb_min(a, b), high = sb_max(a, b);
+    const sb_vec3 a = transform(f, min), b = transform(f, max), low = sb_min(a, b), high = sb_max(a, b);
     sb_trial_set(t, "%s.min=[%.12g, %.12g, %.12g]", key, low.x, low.y, low.z);
     sb_trial_set(t, "%s.max=[%.12g, %.12g, %.12g]", key, high.x, high.y, high.z);
 }
@@ -60,7 +61,7 @@ static sb_vec3 impulse_of(const sb_judged *j)
 {
     sb_vec3 impulse = sb_outcome_vector(&j->outcome, "column", "impulse_vector_Ns");
     for (int i = 0; i < FRAMES; i++)
-        if (strcmp(frames[i].name, j->trial->name) == 0) return unseen(&frames[i], impulse);
+        if (strcmp(frames[i].name, j->trial->name) == 0) return transform_back(&frames[i], impulse);
     return impulse;
 }
 
@@ -86,16 +87,18 @@ static void judge(sb_judged *all, size_t count)
         if (strncmp(j->trial->name, "seed-", 5) == 0) continue;
         sb_note(j, "five seeds %.2f to %.2f", low, high);
         sb_require(j, seeds == SEEDS, "the seeds have not run");
-        sb_require(j, fabs(impulse.x - mean) <= high - low, "beyond the seeds' spread");
-        sb_require(j, fabs(impulse.y) <= side + (high - low), "pushed aside beyond the seeds' spread");
+        sb_require(j, fabs(impulse.x - mean) <= high - low, "differs by more than the spread of the seeds");
+        sb_require(j, fabs(impulse.y) <= side + (high - low),
+                   "the transverse impulse differs by more than the spread of the seeds");
     }
 }
 
 const sb_stress sb_stress_frame = {
     .name = "frame",
     .title = "The scene moved, turned and mirrored",
-    .rule = "The impulse on the column differs from the mean of five start seeds by no more than their spread (largest "
-            "minus smallest).",
+    .rules =
+        "The impulse on the column differs from the mean of five start seeds by at most their spread (largest minus "
+        "smallest)",
     .plan = plan,
     .judge = judge,
 };

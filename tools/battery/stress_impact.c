@@ -1,9 +1,9 @@
-/* What hits hard: a dropped column, a jet on a corner. */
+/* Stress cases of impacts: a dropped column, a jet on a corner. */
 #include "stresses.h"
 
 #include <math.h>
 
-/* Energy never rises above what was there, to the rounding of a step. */
+/* The energy must not rise above the initial energy. */
 static void judge(sb_judged *all, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -11,10 +11,10 @@ static void judge(sb_judged *all, size_t count)
         const sb_outcome *o = &j->outcome;
         if (!o->there) continue;
         const double peak = sb_outcome_number(o, "energy_peak_J") / sb_energy_of(j, false);
-        sb_note(j, "highest energy %.5f of the start's", peak);
-        sb_note(j, "%.2f at the end", sb_energy_of(j, true) / sb_energy_of(j, false));
+        sb_note(j, "highest energy %.5f of the initial energy", peak);
+        sb_note(j, "energy at the end %.2f", sb_energy_of(j, true) / sb_energy_of(j, false));
         sb_note(j, "top speed %.3g m/s", sb_outcome_number(o, "top_speed"));
-        sb_require(j, peak < 1.005, "energy is made");
+        sb_require(j, peak < 1.005, "the energy increases");
     }
 }
 
@@ -31,12 +31,13 @@ static void plan_drop(sb_trials *trials, bool quick)
 const sb_stress sb_stress_drop = {
     .name = "drop",
     .title = "A column 50 spacings high dropped",
-    .rule = "Energy, potential counted from the floor, never rises above the start's by more than 0.5 %.",
+    .rules =
+        "The energy, with potential energy counted from the floor, never exceeds the initial energy by more than 0.5 %",
     .plan = plan_drop,
     .judge = judge,
 };
 
-/* Ten times sqrt(g D) of the block's own depth, split over the axes by (x, y, z). */
+/* Gives the block a velocity of ten times sqrt(g D), D being its depth, in the direction (x, y, z). */
 static void aim(sb_trials *trials, const char *scene, const char *name, double depth, sb_vec3 towards, bool flat)
 {
     sb_trial *t = sb_trial_add(trials, scene, "%s", name);
@@ -61,7 +62,8 @@ static void plan_jet(sb_trials *trials, bool quick)
 const sb_stress sb_stress_jet = {
     .name = "jet",
     .title = "A jet at 10 √(gD) on a corner",
-    .rule = "Energy, potential counted from the floor, never rises above the start's by more than 0.5 %.",
+    .rules =
+        "The energy, with potential energy counted from the floor, never exceeds the initial energy by more than 0.5 %",
     .plan = plan_jet,
     .judge = judge,
 };

@@ -1,4 +1,4 @@
-/* Plates thinner than the support, wet on one side or at two levels. */
+/* Stress case: plates thinner than the support radius, with water on one side or different levels on both. */
 #include "stresses.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 
 static const double spacing = 0.025, level = 0.5, other = 0.25; /* m */
 
-/* kept: impulse and time when the second half began, particles on the far side, the plate's body. */
+/* kept: impulse and time when the second half began, particles on the far side at the start, a flag. */
 enum { IMPULSE, BEGAN, FAR, HAS_BEGUN };
 
 static size_t plate_of(const sb_driven *d)
@@ -16,7 +16,7 @@ static size_t plate_of(const sb_driven *d)
     return 0;
 }
 
-/* Particles right of the plate's middle: what number says. */
+/* Number of particles to the right of the middle of the plate (number). */
 static double beyond(const sb_driven *d)
 {
     double count = 0;
@@ -90,15 +90,16 @@ static void judge(sb_judged *all, size_t count)
         sb_note(j, "force %.3f of ½ρgD²", share);
         sb_note(j, "%g particles crossed", crossed);
         sb_require(j, crossed == 0, "water crosses the plate");
-        sb_require(j, fabs(share - 1) < 0.1, "the force is not that of the water held");
+        sb_require(j, fabs(share - 1) < 0.1, "the force differs from the hydrostatic force");
     }
 }
 
 const sb_stress sb_stress_plates = {
     .name = "plates",
     .title = "Plates of one and two spacings, and thinner",
-    .rule = "No particle crosses; the mean force over the second half is within 10 % of the hydrostatic one; a plate "
-            "thinner than half a spacing may be refused instead, with the reason.",
+    .rules =
+        "No particle crosses the plate; the mean force over the second half is within 10 % of the hydrostatic force; a "
+        "plate thinner than half a spacing may be refused with the reason instead",
     .plan = plan,
     .judge = judge,
 };

@@ -1,4 +1,4 @@
-/* Water that is long and thin: a flume of 1000 to 1, films of two particles. */
+/* Stress cases of shallow water: a flume of 1000 to 1, films of two particles. */
 #include "stresses.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@ static void plan_flume(sb_trials *trials, bool quick)
                     "{name: far, x: 19.5}]");
 }
 
-/* Of one gauge: the largest distance from the level. */
+/* Largest deviation from the level at one gauge. */
 static double gauge_error(const sb_judged *j, const char *gauge, double level)
 {
     sb_curve curve = {0};
@@ -39,7 +39,7 @@ static void judge_flume(sb_judged *all, size_t count)
             const double off = gauge_error(&all[i], gauges[g], 0.1);
             if (!(off <= worst)) worst = off;
         }
-        sb_note(&all[i], "surface off by %.3f δr at most", worst / 0.025);
+        sb_note(&all[i], "largest deviation of the surface %.3f δr", worst / 0.025);
         sb_require(&all[i], worst < 0.5 * 0.025, "the surface is not level");
     }
 }
@@ -47,7 +47,8 @@ static void judge_flume(sb_judged *all, size_t count)
 const sb_stress sb_stress_flume = {
     .name = "flume",
     .title = "A flume of 1000 to 1",
-    .rule = "The surface stays within half a spacing of the level at both ends, at a quarter and in the middle.",
+    .rules = "The surface stays within half a spacing of the level at both ends, at a quarter of the length and in the "
+             "middle",
     .plan = plan_flume,
     .judge = judge_flume,
 };
@@ -68,17 +69,17 @@ static void judge_film(sb_judged *all, size_t count)
         if (!o->there) continue;
         const double peak = sb_outcome_number(o, "energy_peak_J") / sb_energy_of(j, false);
         const double speed = sb_outcome_number(o, "late_rms_speed") / sb_outcome_number(o, "wave_speed");
-        sb_note(j, "highest energy %.5f of the start's", peak);
+        sb_note(j, "highest energy %.5f of the initial energy", peak);
         sb_note(j, "mean speed %.2g of √(gD)", speed);
-        sb_require(j, peak < 1.01, "energy is made");
-        if (strcmp(j->trial->name, "slice") == 0) sb_require(j, speed < 0.01, "the film does not rest");
+        sb_require(j, peak < 1.01, "the energy increases");
+        if (strcmp(j->trial->name, "slice") == 0) sb_require(j, speed < 0.01, "the film does not come to rest");
     }
 }
 
 const sb_stress sb_stress_film = {
     .name = "film",
     .title = "A film of two particles",
-    .rule = "On a level floor its speed stays below 1 % of √(gD); energy never rises by more than 1 %.",
+    .rules = "The mean speed on a level floor stays below 1 % of √(gD); the energy never rises by more than 1 %",
     .plan = plan_film,
     .judge = judge_film,
 };

@@ -1,4 +1,4 @@
-/* Time steps and tolerances far from the defaults, for every solver. */
+/* Stress cases of time steps and tolerances far from the defaults, for every solver. */
 #include "stresses.h"
 
 #include <math.h>
@@ -8,10 +8,10 @@
 static const char *const solvers[] = {"jacobi", "chebyshev", "cg"};
 enum { SOLVERS = sizeof solvers / sizeof *solvers };
 
-/* When the collapse is compared: the water still falls as one. */
+/* Time at which the collapse is compared: the water has not yet broken up. */
 static const double moment = 0.25; /* s */
 
-/* kept: potential energy at that moment, and that of the step before. */
+/* kept: potential energy at that time, and that of the step before. */
 enum { AT_MOMENT, BEFORE, IS_KNOWN };
 
 static void watch(sb_driven *d)
@@ -27,11 +27,11 @@ static void watch(sb_driven *d)
 
 static void finish(sb_driven *d, sb_json *figures)
 {
-    double told = 0;
+    double warnings = 0;
     for (size_t w = 0; w < d->model.warning_count; w++)
-        told += strstr(d->model.warnings[w], "time_step_factor") != NULL;
+        warnings += strstr(d->model.warnings[w], "time_step_factor") != NULL;
     sb_json_number(figures, "fallen_J", d->first.potential - d->kept[AT_MOMENT]);
-    sb_json_number(figures, "told", told);
+    sb_json_number(figures, "told", warnings);
 }
 
 static const sb_drive drive = {.watch = watch, .close = finish};
@@ -53,7 +53,7 @@ static void plan_steps(sb_trials *trials, bool quick)
         }
 }
 
-/* What the collapse has fallen at the moment, against the shortest step of the same solver. */
+/* Compares the loss of potential energy at that time with that of the shortest step of the same solver. */
 static void judge_steps(sb_judged *all, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -69,22 +69,22 @@ static void judge_steps(sb_judged *all, size_t count)
         sb_judged *finest = sb_judged_find(all, count, name);
         const double fine = finest ? sb_outcome_number(&finest->outcome, "fallen_J") : (double)NAN;
         const double off = sb_outcome_number(o, "fallen_J") / fine - 1;
-        sb_note(j, "fallen %+.2f %% beside the shortest step", 100 * off);
+        sb_note(j, "fall %+.2f %% relative to the shortest step", 100 * off);
         sb_note(j, "%.1f sweeps", sb_outcome_number(o, "mean_iterations"));
-        sb_note(j, "density error left %.1e", sb_outcome_number(o, "mean_density_error"));
-        if (sb_outcome_number(o, "told") > 0) sb_note(j, "a warning says that the step is too long");
-        sb_require(j, fabs(off) <= 0.01 * j->trial->number, "more than 1 %% per default step off");
-        sb_require(j, sb_outcome_number(o, "energy_peak_J") / sb_energy_of(j, false) < 1.005, "energy is made");
+        sb_note(j, "remaining density error %.1e", sb_outcome_number(o, "mean_density_error"));
+        if (sb_outcome_number(o, "told") > 0) sb_note(j, "a warning reports that the step is too long");
+        sb_require(j, fabs(off) <= 0.01 * j->trial->number, "differs by more than 1 %% per default step");
+        sb_require(j, sb_outcome_number(o, "energy_peak_J") / sb_energy_of(j, false) < 1.005, "the energy increases");
     }
 }
 
 const sb_stress sb_stress_steps = {
     .name = "time-step",
     .title = "Time steps from a quarter to four times the default's, each solver",
-    .rule =
-        "What a collapsing column has fallen at 0.25 s differs from the shortest step's by at most 1 % for each "
-        "default step in the time step; energy never rises by more than 0.5 %. Four times the default's may be refused "
-        "instead, with the reason.",
+    .rules =
+        "The fall of a collapsing column at 0.25 s differs from that with the shortest step by at most 1 % times the "
+        "ratio of the time step to the default; the energy never rises by more than 0.5 %; four times the default "
+        "step may be refused with the reason instead",
     .plan = plan_steps,
     .judge = judge_steps,
 };
@@ -122,18 +122,19 @@ static void judge_tolerances(sb_judged *all, size_t count)
         const double left = sb_outcome_number(o, "mean_density_error");
         const double sweeps = sb_outcome_number(o, "mean_iterations");
         const double share = sb_outcome_number(o, "error_over_tolerance");
-        sb_note(j, "density error left %.1e", left);
+        sb_note(j, "remaining density error %.1e", left);
         sb_note(j, "%.1f sweeps", sweeps);
-        if (!(j->trial->number > 0)) { /* it cannot, and has to say so */
+        if (!(j->trial->number > 0)) { /* it cannot converge and must report that */
             const double capped = sb_outcome_number(o, "capped_steps"), steps_done = sb_outcome_number(o, "steps");
-            sb_require(j, capped > 0.9 * steps_done, "%g of %g steps told as capped", capped, steps_done);
+            sb_require(j, capped > 0.9 * steps_done, "%g of %g steps counted as capped", capped, steps_done);
             continue;
         }
         sb_require(j, share <= 1, "a solve left %g times its tolerance", share);
         if (looser && looser->trial->number > 0 && looser->trial->number < j->trial->number &&
             strncmp(looser->trial->name, j->trial->name, strcspn(j->trial->name, "-")) == 0) {
             sb_require(j, left < sb_outcome_number(&looser->outcome, "mean_density_error"), "the error does not fall");
-            sb_require(j, sweeps > sb_outcome_number(&looser->outcome, "mean_iterations"), "no more sweeps");
+            sb_require(j, sweeps > sb_outcome_number(&looser->outcome, "mean_iterations"),
+                       "the sweeps do not increase");
         }
         looser = j;
     }
@@ -142,8 +143,10 @@ static void judge_tolerances(sb_judged *all, size_t count)
 const sb_stress sb_stress_tolerances = {
     .name = "tolerance",
     .title = "Tolerances from 1e-2 to 1e-5, each solver",
-    .rule = "Every solve not told as capped ends within its tolerance; the error left falls and the sweeps rise from "
-            "each tolerance to the next; with three sweeps for 1e-9 nine steps in ten are told as capped.",
+    .rules =
+        "Every solve that is not counted as capped ends within its tolerance; from each tolerance to the next the "
+        "remaining error falls and the sweeps increase; with three sweeps for 1e-9, nine steps in ten are counted as "
+        "capped",
     .plan = plan_tolerances,
     .judge = judge_tolerances,
 };

@@ -1,4 +1,4 @@
-/* Starts that are no lattice: jittered, overlapping, coincident, alone, spray. */
+/* Stress cases of irregular starts: jittered, overlapping and coincident particles, one particle, spray. */
 #include "stresses.h"
 
 #include "base/memory.h"
@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The index of the particle nearest to particle i. */
+/* Index of the particle nearest to particle i. */
 static size_t nearest_to(const sb_model *m, size_t i)
 {
     size_t found = i;
@@ -21,7 +21,7 @@ static size_t nearest_to(const sb_model *m, size_t i)
     return found;
 }
 
-/* One particle in `number` is put a tenth of a spacing from its nearest neighbour. */
+/* Puts one particle in `number` a tenth of a spacing from its nearest neighbour. */
 static sb_status overlap(sb_driven *d, sb_error *error)
 {
     (void)error;
@@ -34,7 +34,7 @@ static sb_status overlap(sb_driven *d, sb_error *error)
     return SB_OK;
 }
 
-/* Two in one place, to the bit, in the middle of the water. */
+/* Puts two particles into exactly the same place, in the middle of the water. */
 static sb_status coincide(sb_driven *d, sb_error *error)
 {
     (void)error;
@@ -44,7 +44,7 @@ static sb_status coincide(sb_driven *d, sb_error *error)
     return SB_OK;
 }
 
-/* `number` particles anywhere, each at its own velocity of up to 5 m/s along each axis. */
+/* Puts `number` particles at random places with random velocities of up to 5 m/s along each axis. */
 static sb_status scatter(sb_driven *d, sb_error *error)
 {
     sb_model *m = &d->model;
@@ -67,7 +67,7 @@ static sb_status scatter(sb_driven *d, sb_error *error)
     return SB_OK;
 }
 
-/* kept: where it began, the longest step, and the worst distance from the exact parabola. */
+/* kept: start of the particle, longest time step, largest distance from the exact parabola. */
 enum { X0, Y0, Z0, LONGEST, OFF_EXACT };
 
 static sb_status throw_one(sb_driven *d, sb_error *error)
@@ -142,15 +142,16 @@ static void judge(sb_judged *all, size_t count)
         const double speed = sb_outcome_number(o, "late_rms_speed") / sb_outcome_number(o, "wave_speed");
         if (alone) {
             const double exact = sb_outcome_number(o, "off_exact");
-            sb_note(j, "%.1e δr from the exact parabola", exact);
+            sb_note(j, "distance from the exact parabola %.1e δr", exact);
             sb_note(j, "g dt t/2 is %.2f δr", sb_outcome_number(o, "first_order"));
-            sb_require(j, exact < 1e-3, "it is off the exact parabola");
+            sb_require(j, exact < 1e-3, "the particle is off the exact parabola");
             continue;
         }
-        sb_note(j, "highest energy %.4f of the start's", peak);
+        sb_note(j, "highest energy %.4f of the initial energy", peak);
         if (!flies) sb_note(j, "mean speed %.2g of √(gD) in the second half", speed);
-        /* What overlaps unsettled is under pressure: that sets free more than there was of kinetic energy. */
-        sb_require(j, peak < (strstr(j->trial->name, "unsettled") ? 1.1 : 1.005), "energy is made");
+        /* Overlapping particles that do not settle are under pressure, which releases more than the initial kinetic
+         * energy. */
+        sb_require(j, peak < (strstr(j->trial->name, "unsettled") ? 1.1 : 1.005), "the energy increases");
         if (!flies) sb_require(j, speed < 0.02, "the water does not come to rest");
     }
 }
@@ -158,14 +159,15 @@ static void judge(sb_judged *all, size_t count)
 const sb_stress sb_stress_start = {
     .name = "start",
     .title = "Jittered, overlapping, coincident particles; one alone; all spray",
-    .rule = "Water at rest comes back to rest: below 2 % of √(gD) in the second half of 5 s, energy never above the "
-            "start's by more than 0.5 % (10 % where overlaps are let go unsettled); a particle alone keeps "
-            "within 0.001 δr of its parabola; spray makes no energy.",
+    .rules =
+        "The mean speed of water falls below 2 % of √(gD) in the second half of 5 s; the energy, also of spray, never "
+        "exceeds the initial energy by more than 0.5 %, or 10 % for overlapping particles without settling; a single "
+        "particle stays within 0.001 δr of its parabola",
     .plan = plan,
     .judge = judge,
 };
 
-/* Walls sampled at `number` times the spacing, their sheet where it was. */
+/* Samples walls at `number` times the spacing, with the boundary particles at the same depth. */
 static sb_status resample(sb_driven *d, sb_error *error)
 {
     sb_scene other = d->scene;
@@ -203,7 +205,7 @@ static void plan_sampling(sb_trials *trials, bool quick)
         t = sb_trial_add(trials, "basin.yaml", "basin-x%g", times[k]);
         sb_trial_set(t, "duration=4");
         sb_trial_drive(t, &resampled, 1 / times[k]);
-        if (times[k] == 4) t->ends |= SB_ENDS_FAILED; /* sixteen times the boundary particles */
+        if (times[k] == 4) t->ends |= SB_ENDS_FAILED; /* sixteen times as many boundary particles */
     }
 }
 
@@ -223,22 +225,23 @@ static void judge_sampling(sb_judged *all, size_t count)
         const double height = sb_outcome_number_in(o, "energy_end", "potential_J") / weight;
         const double spacing = sb_outcome_number(o, "resolution_m");
         sb_note(j, "mean speed %.2g of √(gD)", speed);
-        sb_require(j, speed < 0.02, "the water does not rest");
+        sb_require(j, speed < 0.02, "the water does not come to rest");
         const bool slice = strncmp(j->trial->name, "slice", 5) == 0;
         const sb_judged *usual = sb_judged_find(all, count, slice ? "slice-x1" : "basin-x1");
-        const double usually =
+        const double usual_height =
             usual ? sb_outcome_number_in(&usual->outcome, "energy_end", "potential_J") / weight : (double)NAN;
-        sb_note(j, "centre of mass %+.3f δr beside the usual", (height - usually) / spacing);
-        sb_require(j, fabs(height - usually) < 0.25 * spacing, "the water stands elsewhere");
+        sb_note(j, "centre of mass %+.3f δr from that of the usual sampling", (height - usual_height) / spacing);
+        sb_require(j, fabs(height - usual_height) < 0.25 * spacing, "the centre of mass differs");
     }
 }
 
 const sb_stress sb_stress_sampling = {
     .name = "sampling",
     .title = "Walls sampled at half, twice and four times the usual number per length",
-    .rule = "Water rests, below 2 % of √(gD) in the second half; its centre of mass is within a quarter of a spacing "
-            "of where it is with the usual sampling; more boundary particles around one than lists hold are told in "
-            "the first step.",
+    .rules =
+        "The mean speed of still water stays below 2 % of √(gD) in the second half; its centre of mass is within a "
+        "quarter of a spacing of that with the usual sampling; more boundary particles around a place than the lists "
+        "can hold are reported in the first step",
     .plan = plan_sampling,
     .judge = judge_sampling,
 };

@@ -1,9 +1,9 @@
-/* Still water for ten thousand steps. */
+/* Stress case: still water for ten thousand steps. */
 #include "stresses.h"
 
 #include <math.h>
 
-/* So many of the default rule's steps, time_step_factor h/sqrt(g D). */
+/* Duration of so many default time steps, time_step_factor h/sqrt(g D). */
 static double duration(double spacing, double depth, double steps)
 {
     return steps * sb_trial_default("time_step_factor") * sb_trial_default("support") * spacing / sqrt(9.81 * depth);
@@ -41,18 +41,19 @@ static void judge(sb_judged *all, size_t count)
                              sb_outcome_number_in(o, "energy_start", "potential_J")) /
                             (weight * sb_outcome_number(o, "resolution_m"));
         sb_note(j, "mean speed %.2g of √(gD)", speed);
-        sb_note(j, "centre of mass %+.2g δr", rise);
-        sb_require(j, speed < 0.01, "the water does not rest");
-        sb_require(j, fabs(rise) < 0.1, "the water has risen or sunk");
-        sb_require(j, sb_outcome_number(o, "steps") >= 0.99 * j->trial->number, "fewer steps than asked for");
+        sb_note(j, "centre of mass moved %+.2g δr", rise);
+        sb_require(j, speed < 0.01, "the water does not come to rest");
+        sb_require(j, fabs(rise) < 0.1, "the centre of mass has moved");
+        sb_require(j, sb_outcome_number(o, "steps") >= 0.99 * j->trial->number, "fewer steps than requested");
     }
 }
 
 const sb_stress sb_stress_still = {
     .name = "still-water",
     .title = "Still water for 10 000 steps",
-    .rule = "In the second half the root mean square speed stays below 1 % of √(gD); the centre of mass rises or "
-            "sinks by less than a tenth of a spacing.",
+    .rules = "The root mean square speed stays below 1 % of √(gD) in the second half; the centre of mass moves by less "
+             "than a "
+             "tenth of a spacing",
     .plan = plan,
     .judge = judge,
 };

@@ -1,4 +1,4 @@
-/* The rows of the table of stress cases, each in a file stress_<name>.c. */
+/* The stress cases, each in a file stress_<name>.c. */
 #ifndef SB_BATTERY_STRESSES_H
 #define SB_BATTERY_STRESSES_H
 

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double patience = 1800; /* s, on a machine that has other work, too */
+static const double time_limit = 1800; /* s, on a machine that also runs other programs */
 
 sb_trial *sb_trial_add(sb_trials *trials, const char *scene, const char *name, ...)
 {
@@ -19,7 +19,7 @@ sb_trial *sb_trial_add(sb_trials *trials, const char *scene, const char *name, .
         trial = &trials->list[trials->count++];
     else
         trials->incomplete = true;
-    *trial = (sb_trial){.scene = scene, .ends = SB_ENDS_WELL, .patience = patience};
+    *trial = (sb_trial){.scene = scene, .ends = SB_ENDS_WELL, .time_limit = time_limit};
     va_list arguments;
     va_start(arguments, name);
     vsnprintf(trial->name, sizeof trial->name, name, arguments);
@@ -56,7 +56,7 @@ sb_status sb_trial_scene(const sb_trial *trial, const char *assets, sb_scene *sc
     for (size_t i = 0; i < trial->setting_count; i++) {
         memcpy(texts[i], trial->settings[i], sizeof texts[i]);
         char *equals = strchr(texts[i], '=');
-        if (!equals) return sb_fail(error, SB_BAD_INPUT, "%s: %s is no KEY=VALUE", trial->name, texts[i]);
+        if (!equals) return sb_fail(error, SB_BAD_INPUT, "%s: %s: expected KEY=VALUE", trial->name, texts[i]);
         *equals = '\0';
         overrides[i] = (sb_override){.key = texts[i], .value = equals + 1};
     }

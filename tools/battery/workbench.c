@@ -93,7 +93,7 @@ sb_status sb_workbench_keep(const sb_workbench *bench, const sb_job *job, const 
     return sb_atomic_commit(&file, 0, error);
 }
 
-/* Takes the scenes' folder off the paths in a message. */
+/* Removes a folder from the paths in a message. */
 static void shorten(char *text, const char *folder)
 {
     const size_t length = strlen(folder);

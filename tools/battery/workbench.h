@@ -1,17 +1,17 @@
-/* Where trials and their outcomes are kept. */
+/* Stores trials and their outcomes. */
 #ifndef SB_BATTERY_WORKBENCH_H
 #define SB_BATTERY_WORKBENCH_H
 
 #include "crew.h"
 
 sb_status sb_workbench_folder(const sb_workbench *bench, const sb_job *job, char folder[SB_PATH_MAX], sb_error *error);
-/* What is asked, as a number: the scene's text, the files it names, all that is set. */
+/* Hash of a request: the scene's text, the files that it names, and all settings. */
 uint64_t sb_workbench_request_hash(const sb_workbench *bench, const sb_job *job);
-/* Whether this very build has an outcome for it. */
+/* Whether the stored outcome is by this build. */
 bool sb_workbench_has(const sb_workbench *bench, const sb_job *job);
-/* Empties the trial's folder and makes it anew. */
+/* Makes an empty folder for the trial. */
 sb_status sb_workbench_clear(const char *folder, sb_error *error);
-/* Writes outcome.txt. */
+/* Writes record.txt. */
 sb_status sb_workbench_keep(const sb_workbench *bench, const sb_job *job, const sb_outcome *outcome, sb_error *error);
 
 #endif
