@@ -1,4 +1,4 @@
-/* What is an error of a choice, and that every row of the tables means something. */
+/* Tests of the errors of choices, and of the tables of choices and subjects. */
 #include "check.h"
 
 #include "choice.h"
@@ -16,7 +16,7 @@ static void put(sb_figures *figures, const char *quantity, double reference, dou
     assert_int_equal(sb_figure_report(figures, quantity, "N", reference, value, NULL, "%s", ""), SB_OK);
 }
 
-static void test_a_figures_own_error_loses_its_sign(void **state)
+static void test_error_of_figure_is_absolute(void **state)
 {
     (void)state;
     const sb_error_measure m = {"peak", "%", "peak force", NULL};
@@ -28,8 +28,8 @@ static void test_a_figures_own_error_loses_its_sign(void **state)
     sb_figures_free(&f);
 }
 
-/* Against the mean of two reference runs: |13 - 10| + |4 - 6| of 16. */
-static void test_errors_of_several_bodies_are_weighted_by_their_load(void **state)
+/* Error against the mean of two reference runs: (|13 - 10| + |4 - 6|)/16. */
+static void test_errors_of_bodies_are_weighted_by_load(void **state)
 {
     (void)state;
     const sb_error_measure m = {"impulse", "%", "#, impulse", houses};
@@ -56,8 +56,8 @@ static bool is_default_key(const char *name)
     return false;
 }
 
-/* Only the first row changes nothing; every scene takes all settings; names differ. */
-static void test_every_choice_is_one(void **state)
+/* Only the first row changes nothing; every scene accepts all settings; names are unique. */
+static void test_choices_are_valid(void **state)
 {
     (void)state;
     for (const sb_choice *c = sb_choices; c->name; c++) {
@@ -78,7 +78,7 @@ static void test_every_choice_is_one(void **state)
     }
 }
 
-static void test_every_subject_has_spacings_and_errors(void **state)
+static void test_subjects_have_spacings_and_errors(void **state)
 {
     (void)state;
     for (const sb_subject *s = sb_subjects; s->name; s++) {
@@ -89,33 +89,33 @@ static void test_every_subject_has_spacings_and_errors(void **state)
     }
 }
 
-/* Fewer choices, or spacings, are wished for; a reference comes with what is held against it alone. */
-static void test_a_part_may_be_wished_for(void **state)
+/* Fewer choices or spacings are selected; there is a reference only if runs are compared with it. */
+static void test_part_of_runs_can_be_selected(void **state)
 {
     (void)state;
     const sb_store store = {.assets = SB_SOURCE_DIR "/assets/validation"};
     const sb_subject *s = sb_subjects;
     while (s->full_reference <= 0 || s->full[1] <= 0) s++;
-    const sb_contest_selection wishes[] = {
+    const sb_contest_selection selections[] = {
         {.seeds = 1},
         {.seeds = 1, .few = true},
         {.seeds = 1, .spacings = 1},
         {.seeds = 1, .spacing = s->full[1]},
         {.seeds = 1, .spacing = 0.123},
     };
-    enum { WISHES = sizeof wishes / sizeof *wishes };
-    size_t entries[WISHES];
-    for (size_t w = 0; w < WISHES; w++) {
+    enum { SELECTIONS = sizeof selections / sizeof *selections };
+    size_t entries[SELECTIONS];
+    for (size_t w = 0; w < SELECTIONS; w++) {
         sb_contest c;
         sb_error error = {0};
-        if (sb_contest_begin(&c, s, &store, &wishes[w], &error) != SB_OK) fail_msg("%s", error.text);
+        if (sb_contest_begin(&c, s, &store, &selections[w], &error) != SB_OK) fail_msg("%s", error.text);
         entries[w] = c.entry_count;
         assert_true(c.entry_count == 0 || !c.entries[0].choice);
         for (size_t i = 1; i < c.entry_count; i++) {
             const double spacing = c.entries[i].plan.resolution;
-            assert_true(!wishes[w].few || c.entries[i].choice->quick);
-            assert_true(!wishes[w].spacings || spacing == s->full[0]);
-            assert_true(!(wishes[w].spacing > 0) || spacing == wishes[w].spacing);
+            assert_true(!selections[w].few || c.entries[i].choice->quick);
+            assert_true(!selections[w].spacings || spacing == s->full[0]);
+            assert_true(!(selections[w].spacing > 0) || spacing == selections[w].spacing);
         }
         sb_contest_free(&c);
     }
@@ -124,8 +124,8 @@ static void test_a_part_may_be_wished_for(void **state)
     assert_int_equal(entries[4], 0);
 }
 
-/* As if it had run: so long, with this first error, in the unit of a figure's own. */
-static void pretend(sb_contest *c, const sb_entry *e, size_t seed, double seconds, double error)
+/* Marks a trial as finished with this run time and first error, in the unit of the figure. */
+static void mark_done(sb_contest *c, const sb_entry *e, size_t seed, double seconds, double error)
 {
     sb_result *t = &c->trials[e->first + seed];
     t->state = SB_RESULT_DONE;
@@ -135,7 +135,7 @@ static void pretend(sb_contest *c, const sb_entry *e, size_t seed, double second
     put(&t->figures, c->subject->errors[0].quantity, 100, 100 + error);
 }
 
-static void test_seeds_are_averaged_and_the_front_is_found(void **state)
+static void test_means_over_seeds_and_front(void **state)
 {
     (void)state;
     sb_store store = {.assets = SB_SOURCE_DIR "/assets/validation"};
@@ -147,10 +147,10 @@ static void test_seeds_are_averaged_and_the_front_is_found(void **state)
     assert_true(c.entry_count > 3);
     assert_int_equal(c.trial_count, 2 * c.entry_count);
     const sb_entry *e = c.entries;
-    pretend(&c, &e[0], 0, 10, -4);
-    pretend(&c, &e[0], 1, 12, 6);
-    pretend(&c, &e[1], 0, 20, 6); /* slower, no better */
-    pretend(&c, &e[2], 0, 30, 1); /* slower and better */
+    mark_done(&c, &e[0], 0, 10, -4);
+    mark_done(&c, &e[0], 1, 12, 6);
+    mark_done(&c, &e[1], 0, 20, 6); /* slower, larger error */
+    mark_done(&c, &e[2], 0, 30, 1); /* slower, smaller error */
     assert_int_equal(sb_contest_judge(&c, false, &error), SB_OK);
     assert_near(e[0].time.mean, 11, 1e-12);
     assert_near(e[0].errors[0].mean, 5, 1e-12);
@@ -161,7 +161,7 @@ static void test_seeds_are_averaged_and_the_front_is_found(void **state)
     assert_true(isnan(e[3].time.mean) && isnan(e[1].errors[1].mean));
     assert_int_equal(sb_contest_judge(&c, true, &error), SB_OK);
     assert_near(e[0].time.mean, 22, 1e-12);
-    /* A run time with fewer threads is none to compare; the processor's is. */
+    /* A run time with fewer threads is not compared; its processor time is. */
     c.trials[e[2].first].run.threads = 1;
     assert_int_equal(sb_contest_judge(&c, true, &error), SB_OK);
     assert_near(e[2].time.mean, 60, 1e-12);
@@ -170,8 +170,8 @@ static void test_seeds_are_averaged_and_the_front_is_found(void **state)
     sb_contest_free(&c);
 }
 
-/* The reference's seeds are held against each other; without it there is no error. */
-static void test_a_reference_run_is_the_mean_of_its_seeds(void **state)
+/* The seeds of the reference are compared with each other; without the reference there are no errors. */
+static void test_reference_is_mean_of_its_seeds(void **state)
 {
     (void)state;
     sb_store store = {.assets = SB_SOURCE_DIR "/assets/validation"};
@@ -207,13 +207,13 @@ static void test_a_reference_run_is_the_mean_of_its_seeds(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_figures_own_error_loses_its_sign),
-        cmocka_unit_test(test_errors_of_several_bodies_are_weighted_by_their_load),
-        cmocka_unit_test(test_every_choice_is_one),
-        cmocka_unit_test(test_a_part_may_be_wished_for),
-        cmocka_unit_test(test_seeds_are_averaged_and_the_front_is_found),
-        cmocka_unit_test(test_a_reference_run_is_the_mean_of_its_seeds),
-        cmocka_unit_test(test_every_subject_has_spacings_and_errors),
+        cmocka_unit_test(test_error_of_figure_is_absolute),
+        cmocka_unit_test(test_errors_of_bodies_are_weighted_by_load),
+        cmocka_unit_test(test_choices_are_valid),
+        cmocka_unit_test(test_part_of_runs_can_be_selected),
+        cmocka_unit_test(test_means_over_seeds_and_front),
+        cmocka_unit_test(test_reference_is_mean_of_its_seeds),
+        cmocka_unit_test(test_subjects_have_spacings_and_errors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

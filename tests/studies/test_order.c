@@ -1,4 +1,4 @@
-/* Orders of convergence: exact ones are found, and what is no order is called so. */
+/* Tests of the order of convergence. */
 #include "check.h"
 
 #include "order.h"
@@ -30,22 +30,22 @@ static void test_exact_orders_are_found_at_unequal_ratios(void **state)
         }
 }
 
-static void test_the_three_finest_that_were_measured_count(void **state)
+static void test_three_finest_measured_spacings_count(void **state)
 {
     (void)state;
     static const double spacings[5] = {16, 8, 4, 2, 1};
     sb_level l[5];
     fill(l, spacings, 5, 1, 3, 1);
     l[0].value = 1e6;
-    l[3].value = (double)NAN; /* 8, 4, 1 are left */
+    l[3].value = (double)NAN; /* 8, 4, 1 remain */
     sb_convergence c = sb_converge(l, 5);
     assert_int_equal(c.kind, SB_ORDER_OBSERVED);
     assert_near(c.order, 1, 1e-9);
     assert_near(c.extrapolated, 1, 1e-8);
 }
 
-/* A chance order of 5 must not make the error bar vanish. */
-static void test_an_order_above_two_is_not_believed_for_the_error_bar(void **state)
+/* An order of 5 by chance must not make the error bar vanish. */
+static void test_error_bar_limits_order_to_two(void **state)
 {
     (void)state;
     static const double spacings[LEVELS] = {4, 2, 1};
@@ -55,12 +55,12 @@ static void test_an_order_above_two_is_not_believed_for_the_error_bar(void **sta
     assert_near(c.order, 5, 1e-9);
     assert_near(c.uncertainty, 1.25 * 992 / 4 / 3,
                 1e-9); /* second order: a quarter of the coarse difference, a third */
-    /* Nor one that is out of all bounds. */
+    /* Nor an order above the largest. */
     const sb_level chance[LEVELS] = {{4, 100, (double)NAN}, {2, 50, (double)NAN}, {1, 49.99, (double)NAN}};
     assert_near(sb_converge(chance, LEVELS).uncertainty, 1.25 * 50 / 4 / 3, 1e-9);
 }
 
-static void test_an_order_near_zero_tells_no_value_at_spacing_0(void **state)
+static void test_order_near_zero_gives_no_extrapolation(void **state)
 {
     (void)state;
     static const double spacings[LEVELS] = {4, 2, 1};
@@ -72,7 +72,7 @@ static void test_an_order_near_zero_tells_no_value_at_spacing_0(void **state)
     assert_true(c.uncertainty >= 3 * (pow(4, 0.3) - 1) && c.uncertainty >= 1); /* the limit is within */
 }
 
-static void test_a_spacing_with_one_seed_left_has_the_others_scatter(void **state)
+static void test_spacing_with_one_seed_gets_scatter_of_others(void **state)
 {
     (void)state;
     const sb_level all[LEVELS] = {{4, 9, 0.5}, {2, 5, 0.5}, {1, 3, 0.5}};
@@ -86,7 +86,7 @@ static sb_convergence of_values(double a, double b, double c, double error)
     return sb_converge(l, LEVELS);
 }
 
-static void test_what_is_no_order_is_called_so(void **state)
+static void test_unobservable_orders_are_classified(void **state)
 {
     (void)state;
     assert_int_equal(of_values(1, 2, 1.5, (double)NAN).kind, SB_ORDER_OSCILLATING);
@@ -103,7 +103,7 @@ static void test_what_is_no_order_is_called_so(void **state)
         assert_true(strlen(sb_order_remark((sb_order_kind)kind)) > 0);
 }
 
-static void test_two_spacings_assume_first_order_and_one_says_nothing(void **state)
+static void test_two_spacings_assume_first_order(void **state)
 {
     (void)state;
     const sb_level l[2] = {{3, 10, (double)NAN}, {2, 9, (double)NAN}};
@@ -123,19 +123,19 @@ static void test_scatter_widens_the_error_bar(void **state)
     assert_near(of_values(9, 5, 3, 0.5).uncertainty, sqrt(without * without + 0.25), 1e-12);
 }
 
-static void test_range_over_seeds_holds_every_combination(void **state)
+static void test_range_covers_all_combinations_of_seeds(void **state)
 {
     (void)state;
     static const double spacings[3] = {4, 2, 1};
     static const double a[] = {9}, b[] = {5, 6}, c[] = {3, 4.9};
     const double *const values[3] = {a, b, c};
     static const size_t seeds[3] = {1, 2, 2};
-    /* Ratios 4/2, 4/0.1, 3/3, 3/1.1: the third has no order. */
+    /* Ratios 4/2, 4/0.1, 3/3, 3/1.1; the third has no order. */
     sb_order_range r = sb_order_over_seeds(spacings, values, seeds);
     assert_near(r.low, 1, 1e-9);
     assert_near(r.high, log2(40), 1e-6);
     assert_near(r.share, 0.75, 1e-12);
-    /* A seed that failed makes no combination. */
+    /* A failed seed is not part of any combination. */
     static const double lost[] = {(double)NAN, 4.9};
     const double *const without[3] = {a, b, lost};
     r = sb_order_over_seeds(spacings, without, seeds);
@@ -145,7 +145,7 @@ static void test_range_over_seeds_holds_every_combination(void **state)
     assert_true(isnan(sb_order_over_seeds(spacings, nothing, seeds).share));
 }
 
-static void test_mean_and_standard_error_pass_over_gaps(void **state)
+static void test_mean_and_standard_error_ignore_nan(void **state)
 {
     (void)state;
     static const double values[] = {1, (double)NAN, 3, 5};
@@ -164,15 +164,15 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_exact_orders_are_found_at_unequal_ratios),
-        cmocka_unit_test(test_the_three_finest_that_were_measured_count),
-        cmocka_unit_test(test_an_order_above_two_is_not_believed_for_the_error_bar),
-        cmocka_unit_test(test_an_order_near_zero_tells_no_value_at_spacing_0),
-        cmocka_unit_test(test_a_spacing_with_one_seed_left_has_the_others_scatter),
-        cmocka_unit_test(test_what_is_no_order_is_called_so),
-        cmocka_unit_test(test_two_spacings_assume_first_order_and_one_says_nothing),
+        cmocka_unit_test(test_three_finest_measured_spacings_count),
+        cmocka_unit_test(test_error_bar_limits_order_to_two),
+        cmocka_unit_test(test_order_near_zero_gives_no_extrapolation),
+        cmocka_unit_test(test_spacing_with_one_seed_gets_scatter_of_others),
+        cmocka_unit_test(test_unobservable_orders_are_classified),
+        cmocka_unit_test(test_two_spacings_assume_first_order),
         cmocka_unit_test(test_scatter_widens_the_error_bar),
-        cmocka_unit_test(test_range_over_seeds_holds_every_combination),
-        cmocka_unit_test(test_mean_and_standard_error_pass_over_gaps),
+        cmocka_unit_test(test_range_covers_all_combinations_of_seeds),
+        cmocka_unit_test(test_mean_and_standard_error_ignore_nan),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

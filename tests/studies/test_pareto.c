@@ -1,4 +1,4 @@
-/* The front: what nothing beats, and only that. */
+/* Tests of the Pareto front. */
 #include "check.h"
 
 #include "pareto.h"
@@ -7,7 +7,7 @@
 
 enum { MANY = 60 };
 
-static void test_a_hand_made_front(void **state)
+static void test_front_of_given_points(void **state)
 {
     (void)state;
     static const double time[] = {1, 2, 3, 2, 4, 0.5}, error[] = {9, 5, 5, 4, 1, 20};
@@ -17,7 +17,7 @@ static void test_a_hand_made_front(void **state)
     for (int i = 0; i < 6; i++) assert_int_equal(front[i], expected[i]);
 }
 
-static void test_equal_points_share_the_front_and_nan_is_on_none(void **state)
+static void test_equal_points_and_nan(void **state)
 {
     (void)state;
     const double nan = (double)NAN;
@@ -28,8 +28,8 @@ static void test_equal_points_share_the_front_and_nan_is_on_none(void **state)
     assert_false(front[2] || front[3]);
 }
 
-/* Sorted by time, the front's errors fall, and every other point has one of it below. */
-static void test_the_front_of_chance_points(void **state)
+/* Along the front, errors fall with time; every other point is dominated by a point of the front. */
+static void test_front_of_random_points(void **state)
 {
     (void)state;
     double time[MANY], error[MANY];
@@ -40,21 +40,21 @@ static void test_the_front_of_chance_points(void **state)
     }
     sb_pareto_front(time, error, MANY, front);
     for (int i = 0; i < MANY; i++) {
-        bool beaten = false;
+        bool dominated = false;
         for (int k = 0; k < MANY; k++) {
             if (front[i] && front[k] && time[k] < time[i]) assert_true(error[k] > error[i]);
-            beaten = beaten || (front[k] && time[k] < time[i] && error[k] < error[i]);
+            dominated = dominated || (front[k] && time[k] < time[i] && error[k] < error[i]);
         }
-        assert_true(front[i] != beaten);
+        assert_true(front[i] != dominated);
     }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_hand_made_front),
-        cmocka_unit_test(test_equal_points_share_the_front_and_nan_is_on_none),
-        cmocka_unit_test(test_the_front_of_chance_points),
+        cmocka_unit_test(test_front_of_given_points),
+        cmocka_unit_test(test_equal_points_and_nan),
+        cmocka_unit_test(test_front_of_random_points),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

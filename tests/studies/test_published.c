@@ -1,4 +1,4 @@
-/* The published tables, held against their own percentages, and costs in their terms. */
+/* Tests of the published tables against their printed percentages, and of the costs in the paper's terms. */
 #include "check.h"
 
 #include "cost.h"
@@ -24,7 +24,7 @@ static void test_times_have_the_printed_shares(void **state)
     }
 }
 
-/* What a set varies, and nothing else, differs within it; halving xi costs 1.78 times the sweeps. */
+/* Within a set only its parameter differs; halving xi takes 1.73 times the sweeps. */
 static void test_sets_vary_one_thing(void **state)
 {
     (void)state;
@@ -60,7 +60,7 @@ static const char summary[] =
     "    {\n      \"name\": \"impulse\",\n      \"seconds\": 1.25,\n      \"calls\": 50,\n      \"settling_seconds\": "
     "0.25\n    }\n  ]\n}\n";
 
-static void test_stages_without_settling_are_sorted_into_the_papers_four(void **state)
+static void test_stages_are_grouped_as_in_paper(void **state)
 {
     (void)state;
     sb_cost c;
@@ -77,8 +77,8 @@ static void test_stages_without_settling_are_sorted_into_the_papers_four(void **
     assert_int_equal(sb_cost_read("{\"wall_s\": 1}", &c, NULL), SB_BAD_INPUT);
 }
 
-/* 80 steps of twice the sweeps: what is no solve doubles with the steps, the solve fourfold. */
-static void test_extrapolation_goes_with_steps_and_sweeps(void **state)
+/* 80 steps with twice the sweeps: other stages take twice as long, the solve four times. */
+static void test_extrapolation_by_steps_and_sweeps(void **state)
 {
     (void)state;
     sb_cost c;
@@ -92,8 +92,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_times_have_the_printed_shares),
         cmocka_unit_test(test_sets_vary_one_thing),
-        cmocka_unit_test(test_stages_without_settling_are_sorted_into_the_papers_four),
-        cmocka_unit_test(test_extrapolation_goes_with_steps_and_sweeps),
+        cmocka_unit_test(test_stages_are_grouped_as_in_paper),
+        cmocka_unit_test(test_extrapolation_by_steps_and_sweeps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

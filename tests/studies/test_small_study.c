@@ -1,5 +1,5 @@
-/* A resolution study of a still tank by the program itself: impulses add up to the weight, finished
-   runs are not repeated, quantities can be chosen, and what a bad command line says. */
+/* Tests of tools/study with a still tank: impulses equal the weight, finished runs are not repeated, quantities can be
+   selected, bad command lines are refused. */
 #include "check.h"
 
 #include "sheet.h"
@@ -30,8 +30,8 @@ static int tear_down(void **state)
     return tool_end();
 }
 
-/* 1000 kg/m rest for 0.5 s and a step at most: that is what the tank has borne, at every spacing. */
-static void test_the_vertical_impulse_is_the_weight_times_the_duration(void **state)
+/* The tank carries 1000 kg/m for 0.5 s and at most a step more, at every spacing. */
+static void test_vertical_impulse_is_weight_times_duration(void **state)
 {
     (void)state;
     sb_sheet sheet = {0};
@@ -49,7 +49,7 @@ static void test_the_vertical_impulse_is_the_weight_times_the_duration(void **st
     sb_sheet_free(&sheet);
 }
 
-static void test_the_report_has_every_kind_of_quantity(void **state)
+static void test_report_has_every_kind_of_quantity(void **state)
 {
     (void)state;
     assert_true(tool_says("out/study.md", "study.png") || tool_says("out/study.md", "No plot"));
@@ -60,7 +60,7 @@ static void test_the_report_has_every_kind_of_quantity(void **state)
     assert_true(tool_says("out/orders.csv", "two spacings: first order assumed"));
 }
 
-static void test_what_has_run_is_not_run_again_and_patterns_choose(void **state)
+static void test_runs_are_stored_and_patterns_select(void **state)
 {
     (void)state;
     assert_int_equal(study(TINY " --quantity 'g?, *' --quantity 'tank, peak'"), 0);
@@ -72,7 +72,7 @@ static void test_what_has_run_is_not_run_again_and_patterns_choose(void **state)
     assert_true(tool_says("said", "--quantity"));
 }
 
-static void test_bad_command_lines(void **state)
+static void test_bad_command_lines_are_refused(void **state)
 {
     (void)state;
     assert_int_equal(study(SCENE), 1);
@@ -82,7 +82,7 @@ static void test_bad_command_lines(void **state)
     assert_int_equal(study(SCENE " --resolutions 0.1,0.2,0.1"), 1);
     assert_true(tool_says("said", "0.1 is given twice"));
     assert_int_equal(study(SCENE " --resolutions 0.2,0.1 --set resolution=1"), 1);
-    assert_true(tool_says("said", "--resolutions, --seeds and --preset say this"));
+    assert_true(tool_says("said", "use --resolutions, --seeds or --preset for this key"));
     assert_int_equal(study(SCENE " --resolutions 0.2,0.1 --set nothing.there=1"), 1);
     assert_true(tool_says("said", "nothing"));
     assert_int_equal(study("/nowhere.yaml --resolutions 0.2,0.1"), 1);
@@ -92,10 +92,10 @@ static void test_bad_command_lines(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_the_vertical_impulse_is_the_weight_times_the_duration),
-        cmocka_unit_test(test_the_report_has_every_kind_of_quantity),
-        cmocka_unit_test(test_what_has_run_is_not_run_again_and_patterns_choose),
-        cmocka_unit_test(test_bad_command_lines),
+        cmocka_unit_test(test_vertical_impulse_is_weight_times_duration),
+        cmocka_unit_test(test_report_has_every_kind_of_quantity),
+        cmocka_unit_test(test_runs_are_stored_and_patterns_select),
+        cmocka_unit_test(test_bad_command_lines_are_refused),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -1,4 +1,4 @@
-/* The choices held against each other: one row each. */
+/* The choices of solver and parameters that are compared: one row each. */
 #ifndef SB_CHOICES_CHOICE_H
 #define SB_CHOICES_CHOICE_H
 
@@ -9,18 +9,18 @@ enum { SB_CHOICE_FIXED = 3, SB_CHOICE_TEXT = 64 };
 typedef struct sb_choice {
     const char *name;                   /* NULL ends the table; stable */
     bool paper;                         /* preset `paper` instead of `default` */
-    bool quick;                         /* among the quick ones */
+    bool quick;                         /* part of the quick forms */
     const char *fixed[SB_CHOICE_FIXED]; /* KEY=VALUE */
-    const char *key;                    /* of the defaults' sensitivity table; NULL: none */
-    double factor;                      /* on that default */
+    const char *key;                    /* of the sensitivity study's table of defaults; NULL: none */
+    double factor;                      /* of that default */
 } sb_choice;
 
-/* The first is the default preset as it is. */
+/* The first is the unchanged default preset. */
 extern const sb_choice sb_choices[];
 size_t sb_choice_count(void);
 
-/* "numerics.KEY=VALUE" of a row with a key: the default, as read from a scene, times its factor; ""
-   for rows without, and where the change would be none. */
+/* Writes "numerics.KEY=VALUE" for a row with a key: the default, as read from a scene, times the factor. "": the row
+   has no key, or nothing changes. */
 void sb_choice_change(const sb_choice *choice, const sb_numerics *defaults, char change[SB_CHOICE_TEXT]);
 
 #endif

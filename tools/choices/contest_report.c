@@ -33,7 +33,7 @@ static void put_entry(FILE *out, const sb_contest *c, const sb_entry *e)
         fputs(" – | – | – |", out);
     put_spread(out, &e->time, e->seeds > 1);
     for (size_t k = 0; k < c->error_count; k++) put_spread(out, &e->errors[k], e->seeds > 1);
-    fprintf(out, " %s |\n", e->front ? "**front**" : "");
+    fprintf(out, " %s |\n", e->front ? "**yes**" : "");
 }
 
 static void put_contest(FILE *out, const sb_contest_report *r, const sb_contest *c)
@@ -47,7 +47,7 @@ static void put_contest(FILE *out, const sb_contest_report *r, const sb_contest 
             c->subject->what, cpu ? "processor time" : "run time");
     for (size_t k = 0; k < c->error_count; k++)
         fprintf(out, " %s (%s) |", c->subject->errors[k].name, c->subject->errors[k].unit);
-    fputs(" |\n|---|---|---|---|---|---|", out);
+    fputs(" front |\n|---|---|---|---|---|---|", out);
     for (size_t k = 0; k < c->error_count + 1; k++) fputs("---|", out);
     fputc('\n', out);
     for (size_t i = 0; i < c->entry_count; i++) put_entry(out, c, &c->entries[i]);
@@ -60,22 +60,22 @@ static void put_contest(FILE *out, const sb_contest_report *r, const sb_contest 
     for (size_t i = 0; !cpu && i < c->trial_count; i++)
         otherwise += c->trials[i].state == SB_RESULT_DONE && c->trials[i].run.threads != c->threads;
     if (otherwise)
-        fprintf(out, "- %zu runs had other numbers of threads than %d: their run times are left out\n", otherwise,
-                c->threads);
-    if (missing) fprintf(out, "- %zu of %zu runs are not there yet\n", missing, c->trial_count);
+        fprintf(out, "- %zu runs did not have %d threads: their run times are omitted\n", otherwise, c->threads);
+    if (missing) fprintf(out, "- %zu of %zu runs are missing\n", missing, c->trial_count);
     if (missing + failed + otherwise) fputc('\n', out);
 }
 
 static const char reading[] =
-    "Each row is one choice at one spacing; a choice is the preset `default` with one thing changed, or "
-    "the preset `paper`. Times and\nerrors are means over the start seeds, in brackets the least and "
-    "the most of them. **front**: no other row is both faster\nand, by the first error, better. A "
-    "difference in error that is smaller than the seeds' spread means nothing. Errors hold the\n"
-    "discretisation's, too: where all choices at a spacing have the same error, the spacing makes it.\n\n";
+    "Each row is one choice at one spacing. A choice is the preset `default` with one change, or the preset `paper`. "
+    "Times and\nerrors are means over the start seeds; brackets contain the smallest and the largest value. Front: no "
+    "other row is both\nfaster and has a smaller first error. A difference in error below the spread of the seeds "
+    "is "
+    "not significant. Errors include\nthat of the discretisation: if all choices at a spacing have the same error, the "
+    "spacing causes it.\n\n";
 
 static void put_report(FILE *out, const sb_contest_report *r, const sb_error *no_plot)
 {
-    fprintf(out, "# Run time against error%s\n\nMade by `tools/tradeoff`; docs/studies.md says how.\n\n",
+    fprintf(out, "# Run time against error%s\n\nMade by `tools/tradeoff`. docs/studies.md explains the method.\n\n",
             r->quick ? ", quick forms" : "");
     fprintf(out, "- command: `%s`\n\n", r->command);
     fputs(reading, out);
@@ -109,8 +109,8 @@ static sb_status plot_front(const sb_contest *c, sb_plot *plot, sb_error *error)
     return status;
 }
 
-/* All spacings of a choice are marks of one kind, joined from the coarsest on. What has not run has a mark nowhere, so
-   that a choice has the same colour in every panel. */
+/* Plots the spacings of a choice as marks of one kind, joined from coarse to fine. A choice that was not run has an
+   empty curve, so that a choice has the same colour in every panel. */
 static sb_status plot_choice(const sb_contest *c, const sb_choice *choice, sb_plot *plot, sb_error *error)
 {
     sb_curve curve = {0};

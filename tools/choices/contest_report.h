@@ -1,4 +1,4 @@
-/* What the choices cost and what they are worth, as Markdown, CSV and picture. */
+/* Writes run time and error of the choices as Markdown, CSV and picture. */
 #ifndef SB_CHOICES_CONTEST_REPORT_H
 #define SB_CHOICES_CONTEST_REPORT_H
 
@@ -9,11 +9,11 @@ typedef struct sb_contest_report {
     const sb_contest *contests;
     size_t count;
     const char *command;
-    bool quick, cpu; /* cpu: times are of the processor */
+    bool quick, cpu; /* cpu: times are processor times */
 } sb_contest_report;
 
-/* folder/tradeoff.md, tradeoff.csv and tradeoff.png, each whole or not at all; without gnuplot the
-   report says so in place of the picture. */
+/* Writes folder/tradeoff.md, tradeoff.csv and tradeoff.png, each whole or not at all. Without gnuplot the report says
+   so in place of the picture. */
 sb_status sb_contest_write(const sb_contest_report *report, const char *folder, sb_error *error);
 
 #endif

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* What `default` gives for this scene: a choice changes one of those by a factor. */
+/* Reads the scene's numerics with the preset `default`, of which a choice changes one by a factor. */
 static sb_status read_defaults(const sb_subject *subject, const sb_store *store, sb_numerics *defaults, sb_error *error)
 {
     char path[SB_PATH_MAX];
@@ -20,18 +20,18 @@ static sb_status read_defaults(const sb_subject *subject, const sb_store *store,
     return SB_OK;
 }
 
-static int reference_seeds(const sb_contest_selection *wish)
+static int reference_seeds(const sb_contest_selection *selection)
 {
-    const int seeds = wish->references ? wish->references : wish->seeds;
+    const int seeds = selection->references ? selection->references : selection->seeds;
     return seeds < SB_REFERENCE_SEEDS ? seeds : SB_REFERENCE_SEEDS;
 }
 
-/* The entry stays where it is from here on: its plan points into it. A choice that changes nothing here
-   (a factor on a default of 0) is left out: its runs would be those of `default`. */
-static void add(sb_contest *c, const sb_choice *choice, double spacing, const sb_contest_selection *wish,
+/* Adds an entry, which must not move afterwards: its plan points into it. A choice that changes nothing
+   (a factor of a default of 0) is omitted: its runs would be those of `default`. */
+static void add(sb_contest *c, const sb_choice *choice, double spacing, const sb_contest_selection *selection,
                 const sb_numerics *defaults)
 {
-    const int seeds = choice ? wish->seeds : reference_seeds(wish);
+    const int seeds = choice ? selection->seeds : reference_seeds(selection);
     sb_entry *e = &c->entries[c->entry_count];
     size_t used = 0;
     *e = (sb_entry){.choice = choice, .first = c->trial_count, .seeds = (size_t)seeds};
@@ -50,23 +50,23 @@ static void add(sb_contest *c, const sb_choice *choice, double spacing, const sb
         *request = (sb_request){.of = c->subject->of,
                                 .plan = &e->plan,
                                 .paper = choice && choice->paper,
-                                .quick = wish->quick,
+                                .quick = selection->quick,
                                 .seed = seed};
         snprintf(request->change, sizeof request->change, "%s", e->change);
     }
 }
 
-static bool wanted_at(const sb_contest_selection *wish, const double *spacings, size_t i)
+static bool is_selected(const sb_contest_selection *selection, const double *spacings, size_t i)
 {
-    if (wish->spacing > 0 && fabs(spacings[i] - wish->spacing) > 1e-6 * wish->spacing) return false;
-    return !wish->spacings || i < (size_t)wish->spacings;
+    if (selection->spacing > 0 && fabs(spacings[i] - selection->spacing) > 1e-6 * selection->spacing) return false;
+    return !selection->spacings || i < (size_t)selection->spacings;
 }
 
 sb_status sb_contest_begin(sb_contest *c, const sb_subject *subject, const sb_store *store,
-                           const sb_contest_selection *wish, sb_error *error)
+                           const sb_contest_selection *selection, sb_error *error)
 {
-    const double *spacings = wish->quick ? subject->quick : subject->full;
-    const double reference = wish->quick ? subject->quick_reference : subject->full_reference;
+    const double *spacings = selection->quick ? subject->quick : subject->full;
+    const double reference = selection->quick ? subject->quick_reference : subject->full_reference;
     const size_t most = sb_choice_count() * SB_SUBJECT_SPACINGS + 1;
     bool any = false;
     sb_numerics defaults;
@@ -75,40 +75,41 @@ sb_status sb_contest_begin(sb_contest *c, const sb_subject *subject, const sb_st
     sb_status status = read_defaults(subject, store, &defaults, error);
     if (status != SB_OK) return status;
     c->entries = sb_alloc(most, sizeof *c->entries);
-    const size_t runs = most * (size_t)wish->seeds + SB_REFERENCE_SEEDS;
+    const size_t runs = most * (size_t)selection->seeds + SB_REFERENCE_SEEDS;
     c->trials = sb_alloc(runs, sizeof *c->trials);
     c->trial_errors = sb_alloc(runs, sizeof *c->trial_errors);
     if (!c->entries || !c->trials || !c->trial_errors) {
         sb_contest_free(c);
         return sb_fail_memory(error, "runs");
     }
-    for (size_t i = 0; spacings[i] > 0; i++) any |= wanted_at(wish, spacings, i);
-    if (reference > 0 && any) add(c, NULL, reference, wish, &defaults);
+    for (size_t i = 0; spacings[i] > 0; i++) any |= is_selected(selection, spacings, i);
+    if (reference > 0 && any) add(c, NULL, reference, selection, &defaults);
     for (size_t i = 0; spacings[i] > 0; i++)
-        for (const sb_choice *choice = sb_choices; choice->name && wanted_at(wish, spacings, i); choice++)
-            if (choice->quick || !(wish->quick || wish->few)) add(c, choice, spacings[i], wish, &defaults);
+        for (const sb_choice *choice = sb_choices; choice->name && is_selected(selection, spacings, i); choice++)
+            if (choice->quick || !(selection->quick || selection->few))
+                add(c, choice, spacings[i], selection, &defaults);
     return SB_OK;
 }
 
-static void include(sb_spread *spread, double value, double *known)
+static void add_value(sb_spread *spread, double value, double *known)
 {
     if (isnan(value)) return;
     spread->mean = *known > 0 ? (spread->mean * *known + value) / (*known + 1) : value;
-    spread->low = fmin(spread->low, value); /* passes over NaN */
+    spread->low = fmin(spread->low, value); /* ignores NaN */
     spread->high = fmax(spread->high, value);
     ++*known;
 }
 
-static const sb_spread nothing = {(double)NAN, (double)NAN, (double)NAN};
+static const sb_spread no_values = {(double)NAN, (double)NAN, (double)NAN};
 
-/* A run time counts only with as many threads as the most: others, made with other --jobs, say something else. */
+/* A run time counts only for runs with the largest number of threads: others ran with other --jobs. */
 static double time_of(const sb_result *trial, bool cpu, int threads)
 {
     if (cpu) return trial->run.cpu;
     return trial->run.threads == threads ? trial->run.view.wall : (double)NAN;
 }
 
-/* A reference is held against the other seeds' ones, for what they differ by is the least error that says anything. */
+/* A reference is compared with those of the other seeds: smaller errors than their difference are not significant. */
 static double error_of(const sb_contest *c, const sb_entry *e, size_t trial, size_t k,
                        const sb_figures *const *references, size_t count)
 {
@@ -120,39 +121,39 @@ static double error_of(const sb_contest *c, const sb_entry *e, size_t trial, siz
     return other ? sb_subject_error(&c->subject->errors[k], own, others, other) : (double)NAN;
 }
 
-/* lost: the reference has not run, so nobody has an error. */
+/* missing: the reference has not run, so that there are no errors. */
 static void judge_entry(const sb_contest *c, sb_entry *e, bool cpu, const sb_figures *const *references, size_t count,
-                        bool lost)
+                        bool missing)
 {
     double known = 0;
-    e->time = nothing;
+    e->time = no_values;
     for (size_t i = e->first; i < e->first + e->seeds; i++)
-        if (c->trials[i].state == SB_RESULT_DONE) include(&e->time, time_of(&c->trials[i], cpu, c->threads), &known);
+        if (c->trials[i].state == SB_RESULT_DONE) add_value(&e->time, time_of(&c->trials[i], cpu, c->threads), &known);
     for (size_t k = 0; k < c->error_count; k++) {
         known = 0;
-        e->errors[k] = nothing;
+        e->errors[k] = no_values;
         for (size_t i = e->first; i < e->first + e->seeds; i++) {
-            const bool done = !lost && c->trials[i].state == SB_RESULT_DONE;
+            const bool done = !missing && c->trials[i].state == SB_RESULT_DONE;
             c->trial_errors[i][k] = done ? error_of(c, e, i, k, references, count) : (double)NAN;
-            include(&e->errors[k], c->trial_errors[i][k], &known);
+            add_value(&e->errors[k], c->trial_errors[i][k], &known);
         }
     }
 }
 
-/* The references' figures; none for a subject without, or when they have not run: then *lost. */
-static size_t references_of(const sb_contest *c, const sb_figures *found[SB_ENTRY_SEEDS], bool *lost)
+/* Finds the figures of the references: none if the subject has no reference, or if none has run (*missing). */
+static size_t references_of(const sb_contest *c, const sb_figures *found[SB_ENTRY_SEEDS], bool *missing)
 {
     const sb_entry *e = &c->entries[0];
     size_t count = 0;
-    *lost = false;
+    *missing = false;
     if (c->entry_count == 0 || e->choice) return 0;
     for (size_t i = e->first; i < e->first + e->seeds; i++)
         if (c->trials[i].state == SB_RESULT_DONE) found[count++] = &c->trials[i].figures;
-    *lost = count == 0;
+    *missing = count == 0;
     return count;
 }
 
-/* The reference is in no contest. */
+/* The reference is not part of the front. */
 static sb_status find_front(sb_contest *c, sb_error *error)
 {
     size_t n = c->entry_count;
@@ -174,13 +175,13 @@ static sb_status find_front(sb_contest *c, sb_error *error)
 sb_status sb_contest_judge(sb_contest *c, bool cpu, sb_error *error)
 {
     const sb_figures *references[SB_ENTRY_SEEDS];
-    bool lost;
-    size_t count = references_of(c, references, &lost);
+    bool missing;
+    size_t count = references_of(c, references, &missing);
     c->threads = 0;
     for (size_t i = 0; i < c->trial_count; i++)
         if (c->trials[i].state == SB_RESULT_DONE && c->trials[i].run.threads > c->threads)
             c->threads = c->trials[i].run.threads;
-    for (size_t i = 0; i < c->entry_count; i++) judge_entry(c, &c->entries[i], cpu, references, count, lost);
+    for (size_t i = 0; i < c->entry_count; i++) judge_entry(c, &c->entries[i], cpu, references, count, missing);
     return find_front(c, error);
 }
 

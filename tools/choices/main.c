@@ -1,4 +1,4 @@
-/* Run time against error: choices of solver and parameters held against each other. */
+/* tools/tradeoff: compares run time and error of choices of solver and parameters. */
 #include "arguments.h"
 #include "contest_report.h"
 
@@ -13,7 +13,7 @@ enum { SUBJECTS = 16 };
 typedef struct options {
     const char *out, *report, *program;
     bool report_only, list, help;
-    sb_contest_selection wish;
+    sb_contest_selection selection;
     int jobs;
     const sb_subject *subjects[SUBJECTS];
     size_t subject_count;
@@ -22,23 +22,23 @@ typedef struct options {
 
 static const char help[] =
     "usage: tools/tradeoff [SCENE...] [OPTIONS]\n"
-    "Runs scenes that have a reference with many choices of solver and parameters, and tells what\n"
-    "each costs and what error it leaves. All scenes when none is named.\n\n"
+    "Runs scenes that have a reference with many choices of solver and parameters, and reports run\n"
+    "time and error of each. Without a SCENE: all scenes.\n\n"
     "  --quick          fewer choices at coarse spacings, one seed; the report goes to OUT/quick\n"
-    "  --few            those choices at the full form's spacings\n"
-    "  --spacings N     the N coarsest spacings of each scene alone\n"
-    "  --spacing R      this spacing alone, in m, and what it is held against\n"
-    "  --list           names scenes and choices\n"
+    "  --few            fewer choices at the spacings of the full form\n"
+    "  --spacings N     only the N coarsest spacings of each scene\n"
+    "  --spacing R      only this spacing, in m, and its reference\n"
+    "  --list           lists scenes and choices\n"
     "  --seeds N        start seeds of every run (3; quick: 1)\n"
-    "  --references N   start seeds of what the plant is held against, 1 or 2 (as many as --seeds)\n"
-    "  --jobs N         N runs at a time with one thread each, compared by processor time; 1: one\n"
-    "                   with all cores, compared by run time (1; quick: as many as cores)\n"
-    "  --report-only    runs nothing; remakes the report from what was run\n"
-    "  --out DIR        where runs are kept (build/tradeoff)\n"
-    "  --report DIR     where the report goes (docs/results; of some of the scenes OUT/some)\n"
-    "  --shorebreak F   the program that runs (the one built beside this)\n"
+    "  --references N   start seeds of the reference run of the plant, 1 or 2 (default: --seeds)\n"
+    "  --jobs N         N runs at a time with one thread each, compared by processor time; 1: one run\n"
+    "                   with all cores, compared by run time (1; quick: the number of cores)\n"
+    "  --report-only    runs nothing; writes the report again from stored runs\n"
+    "  --out DIR        folder of stored runs (build/tradeoff)\n"
+    "  --report DIR     folder of the report (docs/results; for some of the scenes OUT/some)\n"
+    "  --shorebreak F   program that runs the scenes (the one built beside this tool)\n"
     "  --help, --version\n\n"
-    "Finished runs are kept and not repeated while program and scene stay the same.\n"
+    "Finished runs are stored and not repeated as long as program and scene stay the same.\n"
     "Exit status: 0 done, 1 bad input, 2 a run failed, 130 stopped.\n";
 
 static sb_status take_subject(void *user, const char *name, sb_error *error)
@@ -49,21 +49,21 @@ static sb_status take_subject(void *user, const char *name, sb_error *error)
             o->subjects[o->subject_count++] = s;
             return SB_OK;
         }
-    return sb_fail(error, SB_BAD_INPUT, "%.200s: no such scene; --list names them", name);
+    return sb_fail(error, SB_BAD_INPUT, "%.200s: no such scene; --list shows the scenes", name);
 }
 
 static sb_status parse(int count, char **arguments, options *o, sb_error *error)
 {
     *o = (options){.command = "tools/tradeoff"};
     const sb_argument table[] = {
-        {.name = "--quick", .flag = &o->wish.quick, .repeated = true},
-        {.name = "--few", .flag = &o->wish.few, .repeated = true},
-        {.name = "--spacings", .count = &o->wish.spacings, .most = 64, .repeated = true},
-        {.name = "--spacing", .number = &o->wish.spacing, .most = 1e6, .repeated = true},
+        {.name = "--quick", .flag = &o->selection.quick, .repeated = true},
+        {.name = "--few", .flag = &o->selection.few, .repeated = true},
+        {.name = "--spacings", .count = &o->selection.spacings, .most = 64, .repeated = true},
+        {.name = "--spacing", .number = &o->selection.spacing, .most = 1e6, .repeated = true},
         {.name = "--report-only", .flag = &o->report_only},
         {.name = "--list", .flag = &o->list},
-        {.name = "--seeds", .count = &o->wish.seeds, .most = SB_ENTRY_SEEDS, .repeated = true},
-        {.name = "--references", .count = &o->wish.references, .most = SB_REFERENCE_SEEDS, .repeated = true},
+        {.name = "--seeds", .count = &o->selection.seeds, .most = SB_ENTRY_SEEDS, .repeated = true},
+        {.name = "--references", .count = &o->selection.references, .most = SB_REFERENCE_SEEDS, .repeated = true},
         {.name = "--jobs", .count = &o->jobs, .most = 256, .repeated = true},
         {.name = "--out", .text = &o->out},
         {.name = "--report", .text = &o->report},
@@ -76,8 +76,8 @@ static sb_status parse(int count, char **arguments, options *o, sb_error *error)
                                   .command = o->command,
                                   .command_size = sizeof o->command};
     sb_status status = sb_command_line_read(&line, count, arguments, error);
-    if (!o->wish.seeds) o->wish.seeds = o->wish.quick ? 1 : 3;
-    if (!o->jobs) o->jobs = o->wish.quick ? (int)sysconf(_SC_NPROCESSORS_ONLN) : 1;
+    if (!o->selection.seeds) o->selection.seeds = o->selection.quick ? 1 : 3;
+    if (!o->jobs) o->jobs = o->selection.quick ? (int)sysconf(_SC_NPROCESSORS_ONLN) : 1;
     if (!o->subject_count)
         for (const sb_subject *s = sb_subjects; s->name; s++) o->subjects[o->subject_count++] = s;
     return status;
@@ -87,7 +87,7 @@ static void list(void)
 {
     puts("scenes:");
     for (const sb_subject *s = sb_subjects; s->name; s++) printf("  %-16s %s\n", s->name, s->title);
-    puts("choices (* in the quick forms, too):");
+    puts("choices (*: also in the quick forms):");
     for (const sb_choice *c = sb_choices; c->name; c++) printf("%c %s\n", c->quick ? '*' : ' ', c->name);
 }
 
@@ -106,12 +106,12 @@ static sb_status report(const options *o, const sb_store *store, const sb_contes
                                     .contests = contests,
                                     .count = count,
                                     .command = o->command,
-                                    .quick = o->wish.quick,
+                                    .quick = o->selection.quick,
                                     .cpu = o->jobs > 1};
     sb_status status = SB_OK;
     snprintf(folder, sizeof folder, "%s", o->report ? o->report : SB_SOURCE_DIR "/docs/results");
-    if (!o->report && (o->wish.quick || count < all_subjects()))
-        status = sb_path_join(folder, store->out, o->wish.quick ? "quick" : "some", error);
+    if (!o->report && (o->selection.quick || count < all_subjects()))
+        status = sb_path_join(folder, store->out, o->selection.quick ? "quick" : "some", error);
     if (status == SB_OK) status = sb_contest_write(&what, folder, error);
     if (status == SB_OK) printf("%s/tradeoff.md\n", folder);
     return status;
@@ -124,15 +124,16 @@ static sb_status run(const options *o, sb_contest *contests, size_t *failed, sb_
     sb_status status =
         sb_trials_store(&store, o->out ? o->out : SB_SOURCE_DIR "/build/tradeoff", o->program, SB_SOURCE_DIR, error);
     for (size_t i = 0; status == SB_OK && i < o->subject_count; i++) {
-        status = sb_contest_begin(&contests[count], o->subjects[i], &store, &o->wish, error);
+        status = sb_contest_begin(&contests[count], o->subjects[i], &store, &o->selection, error);
         if (status == SB_OK && contests[count].trial_count > 0)
             count++;
         else
             sb_contest_free(&contests[count]);
     }
     if (status == SB_OK && count == 0)
-        status = sb_fail(error, SB_BAD_INPUT, "--spacing %g: none of these scenes has it, expected one of theirs (m)",
-                         o->wish.spacing);
+        status = sb_fail(error, SB_BAD_INPUT,
+                         "--spacing %g: no selected scene has this spacing, expected one of the report's tables (m)",
+                         o->selection.spacing);
     for (size_t i = 0; status == SB_OK && i < count; i++) {
         size_t these = 0;
         status =

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Both rows of great buildings: those that the wave meets first, and what they shelter. */
+/* Both rows of large buildings: the front row and the row behind it. */
 static const char *const buildings[] = {"turbine-1", "turbine-2", "turbine-3", "turbine-4", "turbine-5",
                                         "turbine-6", "reactor-1", "reactor-2", "reactor-3", "reactor-4",
                                         "reactor-5", "reactor-6", NULL};
@@ -21,28 +21,29 @@ static const sb_case plant = {.name = "plant",
 /* clang-format off */
 const sb_subject sb_subjects[] = {
     {.name = "still-water", .title = "Still water in a slice of a tank, 20 s",
-     .what = "noise of the force on the tank, of the weight; worst layer's pressure, of rho g D",
+     .what = "standard deviation of the force on the tank, relative to the weight; largest pressure error of a layer, "
+             "relative to rho g D",
      .of = &sb_case_still_water_flat, .full = {0.1, 0.05, 0.025}, .quick = {0.1, 0.05},
      .errors = {{"force noise", "%", "force on all bodies, standard deviation", NULL},
                 {"pressure profile", "%", "pressure profile, worst layer", NULL}}},
     {.name = "column", .title = "Dam-break bore against a square column",
-     .what = "against the laboratory, digitisation a",
+     .what = "difference from the laboratory, digitisation a",
      .of = &sb_case_column, .full = {0.02, 0.01}, .quick = {0.02},
      .errors = {{"impulse", "%", "impulse 0.32 to 1.3 s, digitisation a", NULL},
                 {"peak", "%", "peak force, digitisation a", NULL},
                 {"force, RMS", "%", "RMS until 1.3 s, digitisation a", NULL}}},
     {.name = "solitary-wave", .title = "Solitary wave over fifty depths, 2D",
-     .what = "against Keulegan's height, the exact wave's celerity",
+     .what = "difference from Keulegan's height and from the celerity of the exact wave",
      .of = &sb_case_solitary_wave, .full = {0.12, 0.06, 0.03}, .quick = {0.12},
      .errors = {{"wave height", "%", "height loss beyond Keulegan", NULL},
                 {"celerity", "%", "celerity", NULL}}},
     {.name = "run-up", .title = "Solitary wave that breaks on a beach, 2D",
-     .what = "against the laboratory",
+     .what = "difference from the laboratory",
      .of = &sb_case_runup_breaking, .full = {0.1, 0.06, 0.03}, .quick = {0.1},
      .errors = {{"run-up", "%", "run-up R/d", NULL}}},
     {.name = "plant", .title = "A 25 m wave at a coastal plant, 90 s",
-     .what = "against the default preset's run at the reference spacing; impulse and peak are horizontal, of "
-             "twelve buildings: sum of the differences over the sum of the reference's",
+     .what = "difference from the run of the default preset at the reference spacing; impulse and peak are horizontal, for "
+             "twelve buildings: sum of the differences divided by the sum of the reference values",
      .of = &plant, .full = {8, 5, 4}, .quick = {12}, .full_reference = 2, .quick_reference = 6,
      .settings = sb_trial_settings,
      .errors = {{"impulse", "%", "#, impulse", buildings},
@@ -61,8 +62,8 @@ static double value_of(const sb_figures *figures, const char *pattern, const cha
     return f ? f->value : (double)NAN;
 }
 
-static double against(const sb_error_measure *m, const sb_figures *figures, const sb_figures *const *references,
-                      size_t count)
+static double difference_from(const sb_error_measure *m, const sb_figures *figures, const sb_figures *const *references,
+                              size_t count)
 {
     static const char *const one[] = {"", NULL};
     double differences = 0, sum = 0;
@@ -78,7 +79,7 @@ static double against(const sb_error_measure *m, const sb_figures *figures, cons
 double sb_subject_error(const sb_error_measure *measure, const sb_figures *figures, const sb_figures *const *references,
                         size_t reference_count)
 {
-    if (reference_count) return against(measure, figures, references, reference_count);
+    if (reference_count) return difference_from(measure, figures, references, reference_count);
     const sb_figure *f = sb_figures_find(figures, measure->quantity);
     return f ? fabs(f->error) : (double)NAN;
 }

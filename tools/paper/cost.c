@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Adds one stage's seconds where they belong. */
+/* Adds the time of one stage to its part of the cost. */
 static void sort_in(sb_cost *cost, const char *name, double seconds)
 {
     if (strncmp(name, "pressure\"", 9) == 0)
@@ -30,7 +30,7 @@ sb_status sb_cost_read(const char *summary, sb_cost *cost, sb_error *error)
                       .sweeps = sb_json_number_in(summary, "mean_iterations"),
                       .setup = sb_json_number_in(summary, "wall_setup_s"),
                       .settling = sb_json_number_in(summary, "wall_settling_s")};
-    if (cost->settling < 1e-3) cost->settling = 0; /* there was none: what is left is the clock's */
+    if (cost->settling < 1e-3) cost->settling = 0; /* no settling: the rest is the resolution of the clock */
     const char *end = stages ? strchr(stages, ']') : NULL;
     if (!end) return sb_fail(error, SB_BAD_INPUT, "summary.json: no list of stages");
     for (const char *at = strstr(stages, name); at && at < end; at = strstr(at + 1, name))

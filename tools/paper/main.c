@@ -1,4 +1,4 @@
-/* The published studies of time step, tolerance and spacing on our own plant. */
+/* tools/paper-studies: repeats the published studies of time step, tolerance and spacing on our plant. */
 #include "arguments.h"
 #include "studies.h"
 
@@ -18,17 +18,17 @@ typedef struct options {
 
 static const char help[] =
     "usage: tools/paper-studies [OPTIONS]\n"
-    "Runs the studies of Sampath et al. (2016, Tables 1 to 10) on assets/scenes/plant.yaml and sets\n"
-    "the figures beside theirs: time step, tolerance, and spacings of 5, 4, 3 and 2 m; of 1 m some\n"
-    "steps, the rest extrapolated and marked so.\n\n"
-    "  --quick          all spacings four times as wide; the report goes to OUT/quick\n"
-    "  --jobs N         N runs at a time with one thread each; 1: one with all cores (1)\n"
-    "  --report-only    runs nothing; remakes the report from what was run\n"
-    "  --out DIR        where runs are kept (build/paper-studies)\n"
-    "  --report DIR     where the report goes (docs/results)\n"
-    "  --shorebreak F   the program that runs (the one built beside this)\n"
+    "Repeats the studies of Sampath et al. (2016, Tables 1 to 10) with assets/scenes/plant.yaml and\n"
+    "compares the figures with the published ones: time step, tolerance, and spacings of 5, 4, 3 and\n"
+    "2 m. At 1 m, some steps are run and the rest is extrapolated, as the report says.\n\n"
+    "  --quick          spacings four times as large; the report goes to OUT/quick\n"
+    "  --jobs N         N runs at a time with one thread each; 1: one run with all cores (1)\n"
+    "  --report-only    runs nothing; writes the report again from stored runs\n"
+    "  --out DIR        folder of stored runs (build/paper-studies)\n"
+    "  --report DIR     folder of the report (docs/results)\n"
+    "  --shorebreak F   program that runs the scene (the one built beside this tool)\n"
     "  --help, --version\n\n"
-    "Finished runs are kept and not repeated while program and scene stay the same.\n"
+    "Finished runs are stored and not repeated as long as program and scene stay the same.\n"
     "Exit status: 0 done, 1 bad input, 2 a run failed, 130 stopped.\n";
 
 static sb_status parse(int count, char **arguments, options *o, sb_error *error)

@@ -1,4 +1,4 @@
-/* Our figures beside the published ones. */
+/* Writes our figures beside the published ones. */
 #include "studies.h"
 
 #include "report.h"
@@ -6,10 +6,10 @@
 #include <math.h>
 #include <stdio.h>
 
-/* A line of a table: ours, or the paper's. */
+/* A row of a table: ours, or that of the paper. */
 typedef struct line {
-    const char *whose;
-    double varied; /* what the set varies */
+    const char *source;
+    double varied; /* parameter that the set varies */
     double fluid, boundary, step, sweeps, total, structure, query, advection, pressure, settling, other, steps, cores;
 } line;
 
@@ -22,7 +22,7 @@ static double varied_of(const sb_published *p, int set)
     return values[set];
 }
 
-/* What a set leaves out is that of the run that all sets share. */
+/* A value that the set does not print is that of the run that all sets share. */
 static double or_shared(double value, double shared)
 {
     return isnan(value) ? shared : value;
@@ -42,9 +42,9 @@ static line published_line(const sb_published *p, int set)
                   SB_PUBLISHED_CORES};
 }
 
-static line our_line(const sb_cost *c, const char *whose, double varied)
+static line our_line(const sb_cost *c, const char *source, double varied)
 {
-    return (line){whose,       varied,      c->fluid,     c->boundary, c->simulated / c->steps,
+    return (line){source,      varied,      c->fluid,     c->boundary, c->simulated / c->steps,
                   c->sweeps,   c->total,    c->structure, c->query,    c->advection,
                   c->pressure, c->settling, c->other,     c->steps,    c->threads};
 }
@@ -71,7 +71,7 @@ static void put_line(FILE *out, const line *l)
     double sweep = 1e9 * l->pressure / (l->fluid * l->steps * l->sweeps);
     fputs("|", out);
     put_number(out, l->varied);
-    fprintf(out, " %s |", l->whose);
+    fprintf(out, " %s |", l->source);
     put_count(out, l->fluid);
     put_count(out, l->boundary);
     const double numbers[] = {l->step,     l->sweeps,
@@ -88,16 +88,17 @@ static void put_line(FILE *out, const line *l)
 
 static void put_table_head(FILE *out, const char *varied)
 {
-    fprintf(out,
-            "| %s | | N_f | N_b | Δt (s) | sweeps | settling (s) | other (s) | T (s) | T_c | T_q | T_a | T_p | T_p "
-            "(%%) | ns per "
-            "particle and step | × cores | of that neighbours | × cores | ns per particle and sweep | × cores |\n",
-            varied);
+    fprintf(
+        out,
+        "| %s | source | N_f | N_b | Δt (s) | sweeps | settling (s) | other (s) | T (s) | T_c | T_q | T_a | T_p | T_p "
+        "(%%) | ns per particle and step | × cores | neighbours only | × cores | ns per particle and sweep | × "
+        "cores |\n",
+        varied);
     for (int i = 0; i < 20; i++) fputs("|---", out);
     fputs("|\n", out);
 }
 
-/* The finest spacing's whole run from its few steps, with the steps and sweeps of the next. */
+/* Extrapolates the run at the finest spacing from its few steps, with the steps and sweeps of the next spacing. */
 static bool extrapolate(const sb_paper_studies *s, sb_cost *whole)
 {
     const sb_paper_trial *few = sb_paper_row(s, 12, true), *next = sb_paper_row(s, 13, true);
@@ -111,15 +112,14 @@ static void put_extrapolated(FILE *out, const sb_paper_studies *s)
     const sb_paper_trial *few = sb_paper_row(s, 12, true), *next = sb_paper_row(s, 13, true);
     sb_cost whole;
     if (!extrapolate(s, &whole)) {
-        fputs("\nThe finest spacing is not extrapolated: its steps, or the run at the next spacing, are "
-              "missing.\n",
-              out);
+        fputs("\nThe finest spacing is not extrapolated: its steps or the run at the next spacing are missing.\n", out);
         return;
     }
     fprintf(out,
-            "\n**Extrapolated**, not run: %g m, 90 s. %.0f steps at %g m cost %.3g s each at %.1f sweeps; "
-            "with the steps of the %g m run times\n%g and its %.1f sweeps the whole takes %.3g s, %.3g h, and %.3g s "
-            "of set-up (paper: 233317 s on %d cores).\n",
+            "\n**Extrapolated**, not run: %g m, 90 s. %.0f steps at %g m took %.3g s each, with %.1f sweeps. With the "
+            "steps "
+            "of the %g m run\ntimes %g and its %.1f sweeps, the whole run takes %.3g s (%.3g h), plus %.3g s of set-up "
+            "(paper: 233317 s on %d cores).\n",
             few->spacing, few->cost.steps, few->spacing, few->cost.total / few->cost.steps, few->cost.sweeps,
             next->spacing, next->spacing / few->spacing, next->cost.sweeps, whole.total, whole.total / 3600,
             few->cost.setup, SB_PUBLISHED_CORES);
@@ -130,12 +130,13 @@ static void put_set(FILE *out, const sb_paper_studies *s, int set)
     static const char *const varied[] = {"λ_max (1/s)", "slots", "ξ (%)", "δr (m)"};
     fprintf(out, "\n## %s (%s)\n\n", sb_published_sets[set].title, sb_published_sets[set].tables);
     if (set == SB_SET_TABLE)
-        fputs("There is no such choice here. Cells have the edge of the support radius; the table of used "
-              "cells has the smallest\npower of two of slots that is at least twice their number, so it is "
-              "at most half full and never larger than four slots per\nused cell. Static walls have a "
-              "table of their own, built once. The counterpart is what search costs, per particle, beside "
-              "what\nit cost there at every size, *of that neighbours* in the table:\n\n",
-              out);
+        fputs(
+            "shorebreak has no such parameter. Cells have the edge of the support radius. The number of slots in the "
+            "table of used cells\nis the smallest power of two that is at least twice the number of cells, so that the "
+            "table is at most half full and has at\nmost four slots per used cell. Static walls have their own table, "
+            "built once. The table below compares the cost of the\nneighbour search per particle (*neighbours only*) "
+            "with the published cost at every size:\n\n",
+            out);
     sb_cost whole;
     put_table_head(out, varied[set]);
     for (const int *n = sb_published_sets[set].numbers; *n; n++) {
@@ -165,29 +166,32 @@ static void put_set(FILE *out, const sb_paper_studies *s, int set)
 static const char reading[] =
     "Published figures: Sampath, Montanari, Akinci, Prescott and Smith (2016), *Large-scale solitary wave "
     "simulation with implicit\nincompressible SPH*, on 20 cores at 2.8 GHz. Ours run `assets/scenes/"
-    "plant.yaml` without pictures and stream. The two plants\nare not the same meshes, and our sea "
-    "holds the same volume at every spacing, where theirs loses a gap along its walls: compare\nper "
-    "particle, and per core (*× cores*).\nThe machines differ: a ratio of two times is one of machines and programs "
-    "together.\nT_c: sort; T_q: neighbours (ours sums densities in the same "
-    "pass); T_p: the solve; T_a: all\nother stages; T is their sum. Beside it stand what brings the "
-    "water to rest (*settling*), which the published\nruns and the preset `paper` do not do, and set-up, measuring and "
-    "files (*other*). Where the paper prints no "
-    "mean time step, per-particle figures take that of its run No. 2.\nSweeps are iterations of the "
-    "solver. The paper's average error counts under-dense particles against compressed ones; ours, "
-    "one-sided,\nis stricter at the same ξ (docs/method.md, section 5).\n";
+    "plant.yaml` without pictures and stream.\n\n"
+    "- The meshes of the two plants differ. Our sea has the same volume at every spacing, theirs loses a gap along its "
+    "walls.\n  Compare figures per particle and per core (*× cores*).\n"
+    "- The machines differ: a ratio of two times compares machines and programs together.\n"
+    "- T_c: sort. T_q: neighbours (ours computes densities in the same pass). T_p: the solve. T_a: all other stages. "
+    "T: "
+    "their\n  sum. Settling, which the published runs and the preset `paper` do not have, is separate, and so are "
+    "set-up, "
+    "measuring\n  and files (*other*).\n"
+    "- If the paper prints no mean time step, figures per particle use that of its run No. 2.\n"
+    "- Sweeps are iterations of the solver. The paper's average error balances under-dense particles against "
+    "compressed "
+    "ones.\n  Ours counts only compression and is stricter at the same ξ (docs/method.md, section 5).\n";
 
 static void put_report(FILE *out, const sb_paper_studies *s)
 {
     fprintf(out,
-            "# The published studies on our plant%s\n\nMade by `tools/paper-studies`; docs/studies.md "
-            "says how.\n\n",
+            "# The published studies on our plant%s\n\nMade by `tools/paper-studies`. docs/studies.md explains the "
+            "method.\n\n",
             s->scale > 1 ? ", quick form" : "");
     sb_trials_origin(out, s->store, s->trials, s->count, s->command);
     fputs(reading, out);
     if (s->scale != 1)
         fprintf(out,
-                "\n**Quick form**: all our spacings are %g times the published ones (Table 8: %g m "
-                "stands beside 4 m).\nOnly figures per particle can be compared.\n",
+                "\n**Quick form**: all our spacings are %g times the published ones (Table 8: %g m is compared with "
+                "4 m). Compare only\nfigures per particle.\n",
                 s->scale, 4 * s->scale);
     for (int set = 0; sb_published_sets[set].title; set++) put_set(out, s, set);
     fputc('\n', out);

@@ -1,6 +1,6 @@
 /* The runs that Sampath, Montanari, Akinci, Prescott and Smith (2016), "Large-scale solitary wave
-   simulation with implicit incompressible SPH", report in their Tables 1 to 10: a plant under a 25 m
-   wave, 90 s, on two Xeon E5-2680 v2 of ten cores each. */
+   simulation with implicit incompressible SPH", report in their Tables 1 to 10: a plant and a 25 m wave, 90 s, on two
+   Xeon E5-2680 v2 of ten cores each. */
 #ifndef SB_PAPER_PUBLISHED_H
 #define SB_PAPER_PUBLISHED_H
 
@@ -25,7 +25,7 @@ extern const sb_published sb_published_runs[];
 /* The run of that number; NULL: none. */
 const sb_published *sb_published_find(int number);
 
-/* The four sets, in the order of the tables; numbers ended by 0. */
+/* The four sets in the order of the tables. numbers: ended by 0. */
 typedef struct sb_published_set {
     const char *title; /* NULL ends the list */
     const char *tables;

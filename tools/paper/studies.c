@@ -15,13 +15,13 @@ static const sb_case plant = {.name = "plant",
                               .scene = "../scenes/plant.yaml",
                               .evaluate = sb_quantities_of};
 
-/* A run of some steps only: the whole would take days. */
+/* Whether only some steps are run, because the whole run would take days. */
 static bool is_few(const sb_published *p)
 {
     return p->spacing < 2;
 }
 
-/* The size of its hash table sets it apart, and we have no choice of that. */
+/* Whether the run differs only in the size of its hash table, which shorebreak has no parameter for. */
 static bool only_table_differs(const sb_published *p)
 {
     return p->number >= 5 && p->number <= 7;
@@ -52,7 +52,7 @@ static void add(sb_paper_studies *s, const sb_published *like, bool paper)
 void sb_paper_begin(sb_paper_studies *s, const sb_store *store, double scale, const char *command)
 {
     *s = (sb_paper_studies){.store = store, .scale = scale, .command = command};
-    /* The widest spacing first: who stops early has most of the tables. */
+    /* The coarsest spacing first, so that most tables are complete early. */
     for (const int *n = sb_published_sets[SB_SET_SPACING].numbers; *n; n++) {
         const sb_published *shared = sb_published_find(*n);
         for (const sb_published *p = sb_published_runs; p->number; p++)

@@ -1,4 +1,4 @@
-/* The published runs on our own plant, and the report beside the published figures. */
+/* The published runs on our plant, and the report that compares the figures. */
 #ifndef SB_PAPER_STUDIES_H
 #define SB_PAPER_STUDIES_H
 
@@ -10,35 +10,35 @@ enum { SB_PAPER_TRIALS = 24, SB_PAPER_SETTINGS = 8, SB_PAPER_TEXT = 64 };
 
 /* One run of ours. */
 typedef struct sb_paper_trial {
-    int number;     /* of the published run it goes beside */
-    bool paper;     /* the preset */
-    bool few;       /* some steps only */
+    int number;     /* of the published run to compare with */
+    bool paper;     /* preset `paper` */
+    bool few;       /* only some steps */
     double spacing; /* m, scaled */
     sb_plan plan;
     char texts[4][SB_PAPER_TEXT];
     const char *settings[SB_PAPER_SETTINGS];
-    sb_cost cost; /* when its trial is done */
+    sb_cost cost; /* if its trial is done */
 } sb_paper_trial;
 
 typedef struct sb_paper_studies {
     const sb_store *store;
     const char *command;
-    double scale; /* of all spacings; 1: as published */
+    double scale; /* factor of all spacings; 1: as published */
     size_t count;
     sb_paper_trial rows[SB_PAPER_TRIALS];
-    sb_result trials[SB_PAPER_TRIALS]; /* row by row */
+    sb_result trials[SB_PAPER_TRIALS]; /* of each row */
 } sb_paper_studies;
 
-/* Lays out the runs; 1 m runs 20 steps only. The struct must stay where it is. */
+/* Prepares the runs; at 1 m only 20 steps. The struct must not move afterwards. */
 void sb_paper_begin(sb_paper_studies *studies, const sb_store *store, double scale, const char *command);
-/* Reads the costs of the trials that are done. */
+/* Reads the costs of the finished trials. */
 sb_status sb_paper_costs(sb_paper_studies *studies, sb_error *error);
 void sb_paper_free(sb_paper_studies *studies);
 
 /* The row of a published number; NULL: none, or not done. */
 const sb_paper_trial *sb_paper_row(const sb_paper_studies *studies, int number, bool paper);
 
-/* folder/paper-studies.md and paper-studies.csv, each whole or not at all. */
+/* Writes folder/paper-studies.md and paper-studies.csv, each whole or not at all. */
 sb_status sb_paper_write(const sb_paper_studies *studies, const char *folder, sb_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-/* A resolution study of any scene. */
+/* tools/study: a resolution study of any scene. */
 #include "quantity.h"
 #include "study_report.h"
 
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What the scene becomes for the runs: one case, a plan per spacing. */
+/* The scene as a case, with a plan per spacing. */
 typedef struct subject {
     char scene[SB_PATH_MAX], name[SB_NAME_MAX], out[SB_PATH_MAX];
     sb_case of;
@@ -26,7 +26,7 @@ static void name_it(subject *s)
     if (dot && dot != s->name) *dot = '\0';
 }
 
-/* The preset that is asked for, or else the scene's own. */
+/* The requested preset, or else that of the scene. */
 static sb_status find_preset(const subject *s, const sb_study_options *o, bool *paper, sb_error *error)
 {
     sb_scene scene = {0};
@@ -71,8 +71,8 @@ static sb_status report(const subject *s, const sb_study_options *o, const sb_st
     bool any = false;
     for (size_t i = 0; i < s->count; i++) any |= s->trials[i].state == SB_RESULT_DONE;
     if (!count && any)
-        status = sb_fail(error, SB_BAD_INPUT, "%s: nothing measured has %s", s->name,
-                         o->pattern_count ? "a name asked for by --quantity" : "a value");
+        status = sb_fail(error, SB_BAD_INPUT, "%s: no measured quantity has %s", s->name,
+                         o->pattern_count ? "a name that matches --quantity" : "a value");
     if (count) sb_study_table(stdout, &study, rows, count);
     if (status == SB_OK) status = sb_study_write(&study, rows, count, store->out, error);
     if (status == SB_OK) printf("%s/study.md\n", store->out);
@@ -80,7 +80,7 @@ static sb_status report(const subject *s, const sb_study_options *o, const sb_st
     return status;
 }
 
-/* A scene that no run could read is bad input, said before anything runs. */
+/* Checks that the scene can be read, before anything runs. */
 static sb_status check(const sb_store *store, const subject *s, sb_error *error)
 {
     char folder[SB_PATH_MAX];

@@ -2,18 +2,19 @@
 
 #include <math.h>
 
-static const double CREDIBLE = 2;  /* of the discretisation: a larger one is chance */
-static const double SLOWEST = 0.5; /* below it the value at spacing 0 is anywhere [Oberkampf and Roy 2010, 8.8.3] */
+static const double CREDIBLE = 2; /* order of the discretisation; a larger one is by chance */
+static const double SLOWEST =
+    0.5; /* below it there is no reliable value at spacing 0 [Oberkampf and Roy 2010, 8.8.3] */
 static const double SAFETY = 1.25; /* three spacings; 3 with two (Roache 1994) */
 
-/* By how much the coarse difference exceeds the fine one at order p. */
+/* Ratio of the coarse to the fine difference at order p. */
 static double ratio_at(double p, double fine, double coarse)
 {
     double share = p > 0 ? (pow(coarse, p) - 1) / (pow(fine, p) - 1) : log(coarse) / log(fine);
     return pow(fine, p) * share;
 }
 
-/* The order at which differences have this ratio: ratio_at rises with p. NaN: none above 0. */
+/* The order at which the differences have this ratio; ratio_at rises with p. NaN: no order above 0. */
 static double order_of(double ratio, double fine, double coarse)
 {
     double low = 0, high = SB_ORDER_LARGEST;
@@ -38,7 +39,7 @@ size_t sb_finest_levels(const sb_level *levels, size_t count, size_t chosen[3])
     return found;
 }
 
-/* Where too few seeds ran to tell a standard error, the largest of the others' stands in. */
+/* A level with too few seeds for a standard error gets the largest one of the others. */
 static size_t finest(const sb_level *levels, size_t count, sb_level chosen[3])
 {
     size_t index[3], found = sb_finest_levels(levels, count, index);
@@ -101,7 +102,7 @@ sb_convergence sb_converge(const sb_level *levels, size_t count)
     c.kind = SB_ORDER_OBSERVED;
     const double credible = fmin(c.order, CREDIBLE);
     c.extrapolated = l[2].value - fine / (pow(fine_ratio, credible) - 1);
-    /* A fine difference that is small by chance must not make the bar small: what the coarse one leads to expect. */
+    /* A fine difference may be small by chance; the error bar uses the one expected from the coarse difference. */
     const double expected = coarse / ratio_at(credible, fine_ratio, coarse_ratio);
     c.uncertainty = hypot(SAFETY * expected / (pow(fine_ratio, credible) - 1), noise);
     return c;
@@ -120,7 +121,7 @@ sb_order_range sb_order_over_seeds(const double spacing[3], const double *const 
                 tried++;
                 double order = order_of((a - b) / (b - c), fine, coarse);
                 if (isnan(order)) continue;
-                r.low = fmin(r.low, order); /* fmin and fmax pass over NaN */
+                r.low = fmin(r.low, order); /* fmin and fmax ignore NaN */
                 r.high = fmax(r.high, order);
                 observed++;
             }
@@ -144,9 +145,9 @@ const char *sb_order_remark(sb_order_kind kind)
     static const char *const remarks[] = {
         [SB_ORDER_OBSERVED] = "",
         [SB_ORDER_ASSUMED] = "two spacings: first order assumed",
-        [SB_ORDER_NOISE] = "order not observable: a difference is none, or within the seeds' scatter",
+        [SB_ORDER_NOISE] = "order not observable: a difference is 0 or within the scatter of the seeds",
         [SB_ORDER_OSCILLATING] = "order not observable: the differences change sign",
-        [SB_ORDER_SLOW] = "order below 0.5: no value at spacing 0 can be told",
+        [SB_ORDER_SLOW] = "order below 0.5: no reliable value at spacing 0",
         [SB_ORDER_DIVERGING] = "order not observable: the differences do not shrink",
         [SB_ORDER_MISSING] = "not measured at two spacings",
     };

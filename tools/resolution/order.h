@@ -6,20 +6,20 @@
 
 #include <stddef.h>
 
-/* No order above this is looked for: it stands for itself and all larger ones. */
+/* Largest order that is determined; it stands for all larger ones. */
 #define SB_ORDER_LARGEST 10.0
 
 /* A quantity at one spacing. */
 typedef struct sb_level {
     double spacing; /* m, > 0 */
     double value;   /* mean over the start seeds; NaN: could not be measured */
-    double error;   /* standard error of that mean; NaN: one seed only, so unknown */
+    double error;   /* standard error of that mean; NaN: unknown, as with one seed */
 } sb_level;
 
 typedef enum sb_order_kind {
     SB_ORDER_OBSERVED,    /* the differences shrink with the spacing */
     SB_ORDER_ASSUMED,     /* two spacings: first order is assumed */
-    SB_ORDER_NOISE,       /* a difference is none, or no larger than what start seeds do */
+    SB_ORDER_NOISE,       /* a difference is 0, or within the scatter of start seeds */
     SB_ORDER_OSCILLATING, /* the differences change sign */
     SB_ORDER_SLOW,        /* an order below 0.5 */
     SB_ORDER_DIVERGING,   /* the differences do not shrink */
@@ -33,30 +33,32 @@ typedef struct sb_convergence {
     double uncertainty;  /* half width of the error bar of the finest value, in its unit; NaN: none */
 } sb_convergence;
 
-/* From the levels, coarse to fine; the three finest that have a value count.
-   Observed: uncertainty 1.25 |finest - extrapolated|; above order 2, 1.25 times the error that the coarser difference
-   leads to expect at order 2, for a fine one that is smaller is chance.
-   Assumed: 3 times the first-order estimate. Noise: the range of the values and twice the standard
-   error of the finest. Slow: 3 times the range, or the distance at order 0.5 if that is more. Oscillating, diverging: 3
-   times the range. Where the standard error is known, it is added (root of the sum of squares), but for noise; a level
-   whose own is not known has the largest of the others. */
+/* Convergence of the levels, coarse to fine, from the three finest that have a value. The uncertainty is
+   - observed: 1.25 |finest - extrapolated|; above order 2, 1.25 times the error expected from the coarse difference at
+     order 2, because a smaller fine difference is by chance,
+   - assumed: 3 times the first-order estimate,
+   - noise: the range of the values plus twice the standard error of the finest,
+   - slow: 3 times the range, or 3 times the distance at order 0.5 if that is larger,
+   - oscillating, diverging: 3 times the range.
+   Except for noise, a known standard error is added (root of the sum of squares). A level without a known standard
+   error gets the largest one of the others. */
 sb_convergence sb_converge(const sb_level *levels, size_t count);
 
-/* Which levels these are, coarse to fine; returns how many. */
+/* Indices of these levels, coarse to fine; returns their number. */
 size_t sb_finest_levels(const sb_level *levels, size_t count, size_t chosen[3]);
 
-/* What single seeds give: the order of every combination of one value per spacing of the three
-   finest. `values[l]` has seeds[l] values, NaN: none. low and high: the smallest and largest observed order,
-   NaN when there is none; share: of the combinations of values in which an order is observed; NaN: there are none. */
+/* Orders of single seeds: of every combination of one value for each of the three finest spacings. `values[l]` has
+   seeds[l] values; NaN: none. low and high: smallest and largest observed order; NaN: none. share: fraction of the
+   combinations with an observed order; NaN: no combinations. */
 typedef struct sb_order_range {
     double low, high, share;
 } sb_order_range;
 sb_order_range sb_order_over_seeds(const double spacing[3], const double *const values[3], const size_t seeds[3]);
 
-/* Mean of the values that are no NaN, and its standard error (NaN below two of them). */
+/* Mean of the values that are not NaN, and its standard error (NaN for fewer than two values). */
 void sb_mean_of(const double *values, size_t count, double *mean, double *error);
 
-/* "first order assumed" and so on; "" when observed. */
+/* Remark such as "first order assumed"; "": observed. */
 const char *sb_order_remark(sb_order_kind kind);
 
 #endif

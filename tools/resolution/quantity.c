@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* A table of the run; false (and SB_OK) when the run has none. */
+/* Reads a table of the run; false (and SB_OK) if the run has none. */
 static bool open_table(const sb_case_run *run, const char *name, sb_sheet *sheet, sb_status *status, sb_error *error)
 {
     char path[SB_PATH_MAX];
@@ -17,12 +17,12 @@ static bool open_table(const sb_case_run *run, const char *name, sb_sheet *sheet
     return *status == SB_OK;
 }
 
-/* Whether the row is the first of what its second column names. */
+/* Whether the row is the first with the name in its second column. */
 static bool is_first(const sb_sheet *sheet, size_t row)
 {
     for (size_t r = 0; r < row; r++) {
         if (strcmp(sb_sheet_text(sheet, r, 1), sb_sheet_text(sheet, row, 1)) == 0) return false;
-        /* All names come at the first time. */
+        /* All names have rows at the first time. */
         if (strcmp(sb_sheet_text(sheet, r, 0), sb_sheet_text(sheet, row, 0)) != 0) return false;
     }
     return true;
@@ -40,7 +40,7 @@ typedef struct load {
     double impulse[3], peak; /* N s, N */
 } load;
 
-/* Rows are means over the interval that ends at their time. */
+/* Impulse and peak on one body. Rows are means over the interval that ends at their time. */
 static load load_on(const sb_sheet *sheet, const char *name)
 {
     static const char *const names[3] = {"Fx_N", "Fy_N", "Fz_N"};
@@ -79,7 +79,7 @@ static sb_status add_forces(const sb_case_run *run, sb_figures *figures, sb_erro
     return status;
 }
 
-/* The largest or the last value of a column, of every name in a table. */
+/* Adds the largest or the last value of a column for every name in a table. */
 static sb_status add_column(const sb_case_run *run, const char *table, const char *column, const char *what,
                             const char *unit, bool last, double shift, sb_figures *figures, sb_error *error)
 {

@@ -1,4 +1,4 @@
-/* The quantities of a study, gathered from its runs. */
+/* Collects the quantities of a study from its runs. */
 #include "study_report.h"
 
 #include "base/memory.h"
@@ -20,7 +20,7 @@ static sb_status begin(const sb_study *study, const sb_figure *figure, sb_study_
     return row->values ? SB_OK : sb_fail_memory(error, "a study");
 }
 
-/* Values of all trials, their means, and what they say of convergence. */
+/* Fills in the values of all trials, their means and their convergence. */
 static void fill(const sb_study *study, sb_study_row *row)
 {
     const sb_study_options *o = study->options;
@@ -57,7 +57,7 @@ sb_status sb_study_rows(const sb_study *study, sb_study_row **rows, size_t *coun
         const sb_result *t = &study->trials[i];
         for (size_t k = 0; t->state == SB_RESULT_DONE && k < t->figures.count; k++) {
             const sb_figure *f = &t->figures.rows[k];
-            if (!sb_study_wants(study->options, f->quantity) || is_known(*rows, *count, f->quantity)) continue;
+            if (!sb_study_selects(study->options, f->quantity) || is_known(*rows, *count, f->quantity)) continue;
             if (sb_grow((void **)rows, &capacity, *count + 1, sizeof **rows) != 0)
                 status = sb_fail_memory(error, "a study");
             if (status == SB_OK) status = begin(study, f, &(*rows)[*count], error);

@@ -9,20 +9,21 @@
 
 const char sb_study_help[] =
     "usage: tools/study SCENE --resolutions A,B,C [OPTIONS]\n"
-    "Runs a scene at several spacings and start seeds; tells the order of convergence, the value\n"
-    "extrapolated to spacing 0 and an error bar, for the load on every body, gauges' crests, run-up\n"
-    "and volumes through planes. Leaves study.md, runs.csv, orders.csv and study.png.\n\n"
+    "Runs a scene at several spacings and start seeds. Reports the order of convergence, the value\n"
+    "extrapolated to spacing 0 and an error bar, for the load on every body, crests at gauges, run-up\n"
+    "and volumes through planes. Writes study.md, runs.csv, orders.csv and study.png.\n\n"
     "  --resolutions A,B,C  spacings in m; three or more for an observed order\n"
-    "  --seeds N            start seeds at each spacing (1); two or more for the scatter\n"
-    "  --set KEY=VALUE      as of `shorebreak run`; may be given again\n"
+    "  --seeds N            start seeds at each spacing (1); two or more show the scatter\n"
+    "  --set KEY=VALUE      as in `shorebreak run`; may be repeated\n"
     "  --preset NAME        default or paper\n"
-    "  --quantity PATTERN   only these: a part of the name, or with * and ? all of it; again for more\n"
-    "  --out DIR            where runs are kept and the report goes (runs/study/<scene>)\n"
-    "  --jobs N             N runs at a time with one thread each; 1: one with all cores (1)\n"
-    "  --report-only        runs nothing; remakes the report from what was run\n"
-    "  --shorebreak F       the program that runs (the one built beside this)\n"
+    "  --quantity PATTERN   only matching quantities: a part of the name, or the whole name with * and ?;\n"
+    "                       may be repeated\n"
+    "  --out DIR            folder of stored runs and of the report (runs/study/<scene>)\n"
+    "  --jobs N             N runs at a time with one thread each; 1: one run with all cores (1)\n"
+    "  --report-only        runs nothing; writes the report again from stored runs\n"
+    "  --shorebreak F       program that runs the scene (the one built beside this tool)\n"
     "  --help, --version\n\n"
-    "Finished runs are kept and not repeated while program and scene stay the same.\n"
+    "Finished runs are stored and not repeated as long as program and scene stay the same.\n"
     "Exit status: 0 done, 1 bad input, 2 a run failed, 130 stopped.\n";
 
 static sb_status take_spacings(void *user, const char *text, sb_error *error)
@@ -33,9 +34,9 @@ static sb_status take_spacings(void *user, const char *text, sb_error *error)
         char *end;
         double spacing = strtod(at, &end);
         if (end == at || !(spacing > 0) || !isfinite(spacing) || (*end && *end != ','))
-            return sb_fail(error, SB_BAD_INPUT, "--resolutions %.200s: expected metres > 0, as 4,3,2", text);
+            return sb_fail(error, SB_BAD_INPUT, "--resolutions %.200s: expected metres > 0, for example 4,3,2", text);
         if (o->spacing_count == SB_STUDY_LEVELS)
-            return sb_fail(error, SB_BAD_INPUT, "--resolutions: more than %d", SB_STUDY_LEVELS);
+            return sb_fail(error, SB_BAD_INPUT, "--resolutions: expected at most %d spacings", SB_STUDY_LEVELS);
         o->spacings[o->spacing_count++] = spacing;
         if (!*end) break;
         at = end + 1;
@@ -51,7 +52,7 @@ static sb_status take_spacings(void *user, const char *text, sb_error *error)
     return SB_OK;
 }
 
-/* These the study gives itself. */
+/* The study sets these keys itself. */
 static sb_status take_set(void *user, const char *text, sb_error *error)
 {
     sb_study_options *o = user;
@@ -60,9 +61,10 @@ static sb_status take_set(void *user, const char *text, sb_error *error)
     if (!equals || equals == text) return sb_fail(error, SB_BAD_INPUT, "--set %.200s: expected KEY=VALUE", text);
     for (size_t i = 0; i < sizeof own / sizeof *own; i++)
         if (strncmp(text, own[i], strlen(own[i])) == 0)
-            return sb_fail(error, SB_BAD_INPUT, "--set %.200s: --resolutions, --seeds and --preset say this", text);
+            return sb_fail(error, SB_BAD_INPUT, "--set %.200s: use --resolutions, --seeds or --preset for this key",
+                           text);
     if (o->set_count == SB_STUDY_SETS)
-        return sb_fail(error, SB_BAD_INPUT, "--set: more than %d of them", SB_STUDY_SETS);
+        return sb_fail(error, SB_BAD_INPUT, "--set: expected at most %d settings", SB_STUDY_SETS);
     o->sets[o->set_count++] = text;
     return SB_OK;
 }
@@ -81,7 +83,7 @@ static sb_status take_pattern(void *user, const char *pattern, sb_error *error)
 {
     sb_study_options *o = user;
     if (o->pattern_count == SB_STUDY_PATTERNS)
-        return sb_fail(error, SB_BAD_INPUT, "--quantity: more than %d", SB_STUDY_PATTERNS);
+        return sb_fail(error, SB_BAD_INPUT, "--quantity: expected at most %d patterns", SB_STUDY_PATTERNS);
     o->patterns[o->pattern_count++] = pattern;
     return SB_OK;
 }
@@ -89,7 +91,7 @@ static sb_status take_pattern(void *user, const char *pattern, sb_error *error)
 static sb_status take_scene(void *user, const char *path, sb_error *error)
 {
     sb_study_options *o = user;
-    if (o->scene) return sb_fail(error, SB_BAD_INPUT, "%.200s: one scene only", path);
+    if (o->scene) return sb_fail(error, SB_BAD_INPUT, "%.200s: expected only one scene", path);
     o->scene = path;
     return SB_OK;
 }
@@ -115,13 +117,13 @@ sb_status sb_study_parse(int count, char **arguments, sb_study_options *o, sb_er
                                   .command_size = sizeof o->command};
     sb_status status = sb_command_line_read(&line, count, arguments, error);
     if (status != SB_OK || o->help) return status;
-    if (!o->scene) return sb_fail(error, SB_BAD_INPUT, "no scene named; see --help");
+    if (!o->scene) return sb_fail(error, SB_BAD_INPUT, "no scene given; see --help");
     return o->spacing_count > 1
                ? SB_OK
-               : sb_fail(error, SB_BAD_INPUT, "--resolutions: expected two spacings or more, as 4,3,2");
+               : sb_fail(error, SB_BAD_INPUT, "--resolutions: expected two spacings or more, for example 4,3,2");
 }
 
-bool sb_study_wants(const sb_study_options *o, const char *quantity)
+bool sb_study_selects(const sb_study_options *o, const char *quantity)
 {
     for (size_t i = 0; i < o->pattern_count; i++)
         if (fnmatch(o->patterns[i], quantity, 0) == 0 || strstr(quantity, o->patterns[i])) return true;

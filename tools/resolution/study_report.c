@@ -10,7 +10,7 @@
 
 enum { PANELS = 8 };
 
-/* "1.234 ± 0.005", or without error what is known. */
+/* Writes "1.234 ± 0.005", or the value alone if the error is unknown. */
 static void put_with_error(FILE *out, double value, double error)
 {
     char text[48];
@@ -38,7 +38,7 @@ void sb_study_table(FILE *out, const sb_study *study, const sb_study_row *rows, 
     char text[48];
     fputs("| quantity | unit |", out);
     for (size_t l = 0; l < o->spacing_count; l++) fprintf(out, " %g m |", o->spacings[l]);
-    fputs(" order | at spacing 0 | error bar of the finest | |\n|---|---|", out);
+    fputs(" order | at spacing 0 | error bar of the finest | remark |\n|---|---|", out);
     for (size_t l = 0; l < o->spacing_count + 4; l++) fputs("---|", out);
     fputc('\n', out);
     for (size_t i = 0; i < count; i++) {
@@ -74,18 +74,21 @@ static void put_runs(FILE *out, const sb_study *study)
 }
 
 static const char reading[] =
-    "\nValues are means over the start seeds, ± the standard error of the mean. The order is that of "
-    "the differences between\nthe three finest spacings (Celik et al. 2008), in brackets its range "
-    "over all combinations of single seeds and the share of\nthem that have one. The value at spacing "
-    "0 is Richardson's. The error bar is 1.25 times the distance to it (Roache's grid\nconvergence "
-    "index), above order 2 what the coarser difference leads to expect at order 2; with two spacings 3 times the "
-    "first-order "
-    "estimate; where no order is\nobservable, or one below 0.5, 3 times the range of the three values or more; within "
-    "the seeds' "
-    "scatter, their range and twice the standard error.\nPeaks are of forces averaged over "
-    "`measure.interval`: keep it the same.\n";
+    "\n- Values are means over the start seeds, ± the standard error of the mean.\n"
+    "- The order is that of the differences between the three finest spacings (Celik et al. 2008). Brackets contain "
+    "its\n"
+    "  range over all combinations of single seeds, and the percentage of combinations that have an order.\n"
+    "- The value at spacing 0 is Richardson's extrapolation.\n"
+    "- The error bar is 1.25 times the distance to that value (Roache's grid convergence index). Above order 2 it is "
+    "what\n"
+    "  the coarser difference leads to expect at order 2. With two spacings it is 3 times the first-order estimate. If "
+    "no\n"
+    "  order is observable, or one below 0.5, it is 3 times the range of the three values or more. Within the scatter "
+    "of\n"
+    "  the seeds it is their range plus twice the standard error.\n"
+    "- Peaks are those of forces averaged over `measure.interval`: use the same interval for all spacings.\n";
 
-/* From the finest value to the one at spacing 0, and what the finest may be off by. */
+/* Adds the line from the finest value to that at spacing 0, and the error bar of the finest value. */
 static sb_status add_bar(const sb_study_row *row, const sb_level *finest, sb_curve *limit, sb_curve *bar,
                          sb_error *error)
 {
@@ -151,7 +154,7 @@ static void put_report(FILE *out, const sb_study *study, const sb_study_row *row
         fprintf(out, "\nNo plot: %s.\n", no_plot->text);
     else
         fprintf(out, "\n![value over spacing](study.png)\n%s",
-                count > PANELS ? "\nThe picture has the first eight; `--quantity` chooses others.\n" : "");
+                count > PANELS ? "\nThe picture shows the first eight quantities; `--quantity` selects others.\n" : "");
     put_runs(out, study);
 }
 

@@ -28,13 +28,13 @@ sb_status sb_trials_make(const sb_store *store, sb_result *trials, size_t count,
     return status;
 }
 
-/* Others computed beside this run: its time is not to be believed. */
+/* Whether other programs ran at the same time, so that the run time is not reliable. */
 static bool disturbed(const sb_result *trial)
 {
     return trial->state == SB_RESULT_DONE && trial->run.load > (double)sysconf(_SC_NPROCESSORS_ONLN) + 0.5;
 }
 
-/* What it is, with the numerics that its plan sets, and the load that it met. */
+/* Writes label, numerics of the plan, and load of the machine. */
 static void put_trial(FILE *out, const sb_result *trial)
 {
     static const char numerics[] = "numerics.";
@@ -46,7 +46,7 @@ static void put_trial(FILE *out, const sb_result *trial)
     fprintf(out, " (load %.2g)", trial->run.load);
 }
 
-/* The load and, where it was too high, the runs that it was too high for. */
+/* Writes the largest load, and the runs with a too high load. */
 static void put_load(FILE *out, const sb_result *trials, size_t count)
 {
     enum { NAMED = 6 };
@@ -55,31 +55,33 @@ static void put_load(FILE *out, const sb_result *trials, size_t count)
     for (size_t i = 0; i < count; i++)
         if (trials[i].state == SB_RESULT_DONE) most = fmax(most, trials[i].run.load);
     if (isnan(most))
-        fputs("- load of the machine: not known\n", out);
+        fputs("- load of the machine: unknown\n", out);
     else
         fprintf(out, "- load of the machine: at most %.2g\n", most);
     for (size_t i = 0; i < count; i++) {
         if (!disturbed(&trials[i]) || high++ >= NAMED) continue;
-        fputs(high == 1 ? "- **provisional times**, because others computed on this machine meanwhile: " : "; ", out);
+        fputs(high == 1 ? "- **provisional times**, because other programs ran on the machine at the same time: "
+                        : "; ",
+              out);
         put_trial(out, &trials[i]);
     }
-    if (high > NAMED) fprintf(out, "; and of %zu more runs", high - NAMED);
+    if (high > NAMED) fprintf(out, "; and %zu more runs", high - NAMED);
     if (high) fputc('\n', out);
 }
 
-/* "a, b": every machine or commit that any of the runs has; each once. */
+/* Writes every machine or commit of the runs once. */
 static void put_all_of(FILE *out, const sb_result *trials, size_t count, bool machines)
 {
     for (size_t i = 0; i < count; i++) {
         const char *own = machines ? trials[i].run.machine : trials[i].run.commit;
-        bool told = trials[i].state != SB_RESULT_DONE, first = true;
+        bool listed = trials[i].state != SB_RESULT_DONE, first = true;
         for (size_t k = 0; k < i; k++) {
             const char *other = machines ? trials[k].run.machine : trials[k].run.commit;
             if (trials[k].state != SB_RESULT_DONE) continue;
             first = false;
-            told |= strcmp(own, other) == 0;
+            listed |= strcmp(own, other) == 0;
         }
-        if (!told) fprintf(out, "%s%s", first ? "" : "; ", own);
+        if (!listed) fprintf(out, "%s%s", first ? "" : "; ", own);
     }
 }
 
