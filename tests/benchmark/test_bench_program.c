@@ -1,4 +1,5 @@
-/* Each section once at its quick size: that the tables hold what the report looks up, and that work repeats. */
+/* Tests of the sections of tools/bench at quick sizes: tables have the rows of the report, and repeats do the same
+ * work. */
 #include "limits.h"
 #include "report.h"
 #include "subject.h"
@@ -38,7 +39,7 @@ static double median_of(const sb_bench_rows *rows, const char *subject, const ch
     return row->median;
 }
 
-static void kernels_stand_beside_the_machine(void **state)
+static void test_kernels_have_limits_of_machine(void **state)
 {
     (void)state;
     static const char *const names[] = {
@@ -56,7 +57,7 @@ static void kernels_stand_beside_the_machine(void **state)
     sb_bench_rows_free(&rows);
 }
 
-static void scaling_has_both_teams(void **state)
+static void test_scaling_has_both_thread_counts(void **state)
 {
     (void)state;
     sb_bench_rows rows = rows_of("scaling");
@@ -66,8 +67,8 @@ static void scaling_has_both_teams(void **state)
     sb_bench_rows_free(&rows);
 }
 
-/* The bytes of a field are exact, whatever the machine is doing. */
-static void memory_adds_up(void **state)
+/* The bytes of a field are exact on any machine. */
+static void test_memory_of_arrays(void **state)
 {
     (void)state;
     sb_bench_rows rows = rows_of("memory");
@@ -80,7 +81,7 @@ static void memory_adds_up(void **state)
     sb_bench_rows_free(&rows);
 }
 
-/* In a process of its own: the sections fork, which OpenMP must not have run before. */
+/* Runs in its own process: the sections fork, and OpenMP must not have been used before. */
 static int repeat_twice(void)
 {
     sb_bench_subject subject;
@@ -101,7 +102,7 @@ static int repeat_twice(void)
     return wrong;
 }
 
-static void repeats_do_the_same_work_or_fail(void **state)
+static void test_repeats_must_do_same_work(void **state)
 {
     (void)state;
     int ended;
@@ -116,10 +117,10 @@ static void repeats_do_the_same_work_or_fail(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(kernels_stand_beside_the_machine),
-        cmocka_unit_test(scaling_has_both_teams),
-        cmocka_unit_test(memory_adds_up),
-        cmocka_unit_test(repeats_do_the_same_work_or_fail),
+        cmocka_unit_test(test_kernels_have_limits_of_machine),
+        cmocka_unit_test(test_scaling_has_both_thread_counts),
+        cmocka_unit_test(test_memory_of_arrays),
+        cmocka_unit_test(test_repeats_must_do_same_work),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

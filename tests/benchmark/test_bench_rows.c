@@ -1,5 +1,4 @@
-/* Tables of the benchmark: statistics, look-up, CSV there and back, one report of several machines, the command line.
- */
+/* Tests of tools/bench: statistics, look-up, CSV files, report of several machines, command line. */
 #include "limits.h"
 #include "machine.h"
 #include "options.h"
@@ -43,7 +42,7 @@ static sb_bench_samples samples_of(const double *values, int count)
     return samples;
 }
 
-static void statistics_are_of_the_sorted_samples(void **state)
+static void test_statistics_of_samples(void **state)
 {
     (void)state;
     const double odd[] = {9, 2, 4}, even[] = {8, 2, 4, 3};
@@ -60,7 +59,7 @@ static void statistics_are_of_the_sorted_samples(void **state)
     sb_bench_rows_free(&rows);
 }
 
-static void tables_come_back_as_they_were_written(void **state)
+static void test_tables_are_read_as_written(void **state)
 {
     (void)state;
     sb_bench_rows rows = {0}, back;
@@ -85,7 +84,7 @@ static void tables_come_back_as_they_were_written(void **state)
     assert_false(found);
 }
 
-static void foreign_tables_are_refused(void **state)
+static void test_foreign_tables_are_refused(void **state)
 {
     (void)state;
     sb_bench_rows rows;
@@ -143,7 +142,7 @@ static void write_kernels(const char *path, const char *origin, double copy)
     sb_bench_rows_free(&rows);
 }
 
-/* Where the text goes on behind it. */
+/* Expects a text; returns a pointer behind it. */
 static const char *expect_in(const char *text, const char *expected)
 {
     const char *at = strstr(text, expected);
@@ -151,7 +150,7 @@ static const char *expect_in(const char *text, const char *expected)
     return at + strlen(expected);
 }
 
-static void figures_are_judged(void **state)
+static void test_figures_are_judged(void **state)
 {
     (void)state;
     write_scaling("machine: abacus, 2 cores\ncommit: abc\nmeasured: 2 threads\n");
@@ -160,12 +159,12 @@ static void figures_are_judged(void **state)
                     "abc |\n");
     expect_in(text, "1 M particles |  | 0.909 |  | ≥ 0.9 | 0.95 | within | abc |\n");
     expect_in(text, "| 1000000 | 2 | 66 | 0.909 |\n");
-    assert_null(strstr(text, "conical island")); /* what is not measured has no line */
+    assert_null(strstr(text, "conical island")); /* a figure that was not measured has no row */
     sb_free(text);
 }
 
-/* The same 40 ns: 800 bytes of a machine that copies 20 GB/s, 2000 of one that copies 50. */
-static void each_machine_has_its_own_tables(void **state)
+/* 40 ns are 800 bytes for a machine that copies 20 GB/s, 2000 bytes for one that copies 50 GB/s. */
+static void test_each_machine_has_its_own_tables(void **state)
 {
     (void)state;
     write_kernels("out/bench/abacus/kernels.csv", "machine: abacus, 2 cores\ncommit: abc\n", 20);
@@ -176,19 +175,19 @@ static void each_machine_has_its_own_tables(void **state)
     at = expect_in(at, "### scaling");
     at = expect_in(at, "\n## slide rule, 2 cores; copy bandwidth 50 GB/s on 2 threads\n");
     at = expect_in(at, "| 40 ns | 2 | kB per particle | ≤ 0.95 | 0.84 | **missed** | def |");
-    assert_null(strstr(at, "### scaling")); /* the abacus' own */
+    assert_null(strstr(at, "### scaling")); /* only the abacus has this table */
     sb_free(text);
     assert_int_equal(remove("out/bench/abacus/kernels.csv"), 0);
     assert_int_equal(remove("out/bench/slide-rule/kernels.csv"), 0);
 }
 
-/* 9 s for 1000 particles: 1800 kB each of a machine that copies 0.2 GB/s. */
-static void a_time_needs_a_bandwidth_to_be_judged(void **state)
+/* 9 s for 1000 particles: 1800 kB per particle for a machine that copies 0.2 GB/s. */
+static void test_times_are_judged_only_with_bandwidth(void **state)
 {
     (void)state;
     sb_bench_rows rows = {0};
     assert_int_equal(
-        sb_bench_add_value(&rows, "conical island", 1000, 2, "wall time per simulated second", "s", 9, NULL), SB_OK);
+        sb_bench_add_value(&rows, "conical island", 1000, 2, "run time per simulated second", "s", 9, NULL), SB_OK);
     assert_int_equal(sb_bench_write(&rows, "commit: abc\n", "out/bench/slide-rule/island.csv", NULL), SB_OK);
     sb_bench_rows_free(&rows);
     char *text = report_text();
@@ -203,7 +202,7 @@ static void a_time_needs_a_bandwidth_to_be_judged(void **state)
     assert_int_equal(remove("out/bench/slide-rule/island.csv"), 0);
 }
 
-static void tables_of_another_machine_are_kept(void **state)
+static void test_tables_of_other_machine_are_not_replaced(void **state)
 {
     (void)state;
     sb_error error = {0};
@@ -214,12 +213,13 @@ static void tables_of_another_machine_are_kept(void **state)
     assert_int_equal(sb_bench_same_machine("out/bench/abacus", &one_thread, &error), SB_OK);
     assert_int_equal(sb_bench_same_machine("out/bench/slide-rule", &far, &error), SB_OK); /* no tables yet */
     assert_int_equal(sb_bench_same_machine("out/bench/abacus", &far, &error), SB_BAD_INPUT);
-    expect_in(error.text, "out/bench/abacus: its tables are of a machine that copies 20 GB/s, this one copies 30 GB/s");
+    expect_in(error.text,
+              "out/bench/abacus: its tables are of a machine that copies 20 GB/s, this machine copies 30 GB/s");
     expect_in(error.text, "--machine NAME");
     assert_int_equal(remove("out/bench/abacus/kernels.csv"), 0);
 }
 
-static void folders_are_named_by_the_processor(void **state)
+static void test_folder_name_from_processor(void **state)
 {
     (void)state;
     char name[128];
@@ -227,18 +227,18 @@ static void folders_are_named_by_the_processor(void **state)
     assert_string_equal(name, "intel-xeon-gold-6230-2-1ghz-2-cores");
 }
 
-static void the_delivered_report_is_that_of_the_delivered_tables(void **state)
+static void test_delivered_report_matches_delivered_tables(void **state)
 {
     (void)state;
     assert_int_equal(system("mkdir kept && cp -r " SB_SOURCE_DIR "/docs/results/bench kept/"), 0);
     assert_int_equal(sb_bench_report("kept", NULL), SB_OK);
     char *made = text_of("kept/benchmarks.md"), *delivered = text_of(SB_SOURCE_DIR "/docs/results/benchmarks.md");
-    if (!strstr(made, "No plot")) assert_string_equal(made, delivered); /* where there is gnuplot */
+    if (!strstr(made, "No plot")) assert_string_equal(made, delivered); /* if gnuplot is installed */
     sb_free(made);
     sb_free(delivered);
 }
 
-static void quick_forms_are_not_judged(void **state)
+static void test_quick_forms_are_not_judged(void **state)
 {
     (void)state;
     write_scaling("measured: 2 threads, 2 repeats, quick; load\n");
@@ -258,7 +258,7 @@ static sb_status parse(const char *text, sb_bench_options *o, sb_error *error)
     return sb_bench_parse(count, arguments, o, error);
 }
 
-static void options_choose_sections(void **state)
+static void test_options_select_sections(void **state)
 {
     (void)state;
     sb_bench_options o;
@@ -276,7 +276,7 @@ static void options_choose_sections(void **state)
         {"--repeats 0", "--repeats: 0 is not a number from 1 to 100"},
         {"--repeats 101", "101 is not a number"},
         {"--threads two", "--threads: two is not a number"},
-        {"--machine ../x", "--machine: \"../x\": expected small letters, digits and -"},
+        {"--machine ../x", "--machine: \"../x\": expected lower-case letters, digits and -"},
         {"--out", "--out: expected a value"}};
     for (size_t w = 0; w < sizeof wrong / sizeof wrong[0]; w++) {
         assert_int_equal(parse(wrong[w][0], &o, &error), SB_BAD_INPUT);
@@ -284,7 +284,7 @@ static void options_choose_sections(void **state)
     }
 }
 
-static void busy_others_are_seen(void **state)
+static void test_use_by_other_programs(void **state)
 {
     (void)state;
     const sb_bench_clock from = {.wall = 10, .busy = 100, .own = 5}, to = {.wall = 12, .busy = 103, .own = 7};
@@ -297,18 +297,18 @@ static void busy_others_are_seen(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(statistics_are_of_the_sorted_samples),
-        cmocka_unit_test(tables_come_back_as_they_were_written),
-        cmocka_unit_test(foreign_tables_are_refused),
-        cmocka_unit_test(figures_are_judged),
-        cmocka_unit_test(each_machine_has_its_own_tables),
-        cmocka_unit_test(a_time_needs_a_bandwidth_to_be_judged),
-        cmocka_unit_test(tables_of_another_machine_are_kept),
-        cmocka_unit_test(folders_are_named_by_the_processor),
-        cmocka_unit_test(the_delivered_report_is_that_of_the_delivered_tables),
-        cmocka_unit_test(quick_forms_are_not_judged),
-        cmocka_unit_test(options_choose_sections),
-        cmocka_unit_test(busy_others_are_seen),
+        cmocka_unit_test(test_statistics_of_samples),
+        cmocka_unit_test(test_tables_are_read_as_written),
+        cmocka_unit_test(test_foreign_tables_are_refused),
+        cmocka_unit_test(test_figures_are_judged),
+        cmocka_unit_test(test_each_machine_has_its_own_tables),
+        cmocka_unit_test(test_times_are_judged_only_with_bandwidth),
+        cmocka_unit_test(test_tables_of_other_machine_are_not_replaced),
+        cmocka_unit_test(test_folder_name_from_processor),
+        cmocka_unit_test(test_delivered_report_matches_delivered_tables),
+        cmocka_unit_test(test_quick_forms_are_not_judged),
+        cmocka_unit_test(test_options_select_sections),
+        cmocka_unit_test(test_use_by_other_programs),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -1,5 +1,5 @@
-/* The same bits for 1, 2, 3 and 8 threads, with consumers and without, on this instruction set: a column and the plant,
-   coarse. */
+/* Tests that runs have the same bits with 1, 2, 3 and 8 threads, with and without consumers, on this instruction set:
+   the column and the plant at coarse spacings. */
 #include "app/program.h"
 
 #include "base/memory.h"
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Names of the program's sets and of the compiler's: what has no vectors beyond the processor's first is "default". */
+/* Name of the instruction set of this program; "default": the basic set of the processor. */
 #ifdef SB_INSTRUCTIONS
 #define SET SB_INSTRUCTIONS
 #else
@@ -29,12 +29,12 @@ static const char settle[] = "numerics.settle_steps=20";
 
 static uint64_t count_steps(void)
 {
-    const char *wish = getenv("SB_BITS_STEPS");
-    return wish && *wish ? strtoull(wish, NULL, 10) : 30;
+    const char *value = getenv("SB_BITS_STEPS");
+    return value && *value ? strtoull(value, NULL, 10) : 30;
 }
 
-/* The set that the program picks here. */
-static const char *picked(void)
+/* The instruction set that shorebreak selects on this machine. */
+static const char *selected_set(void)
 {
 #ifdef SB_INSTRUCTIONS
     __builtin_cpu_init();
@@ -46,9 +46,9 @@ static const char *picked(void)
 #endif
 }
 
-static bool offered(void)
+static bool is_available(void)
 {
-    return strcmp(picked(), "x86-64-v4") == 0 || strcmp(SET, picked()) == 0 || strcmp(SET, "x86-64") == 0;
+    return strcmp(selected_set(), "x86-64-v4") == 0 || strcmp(SET, selected_set()) == 0 || strcmp(SET, "x86-64") == 0;
 }
 
 typedef struct end {
@@ -56,7 +56,7 @@ typedef struct end {
     double time; /* s */
 } end;
 
-static end run_alone(const sb_scene *scene, const sb_model *model, int threads)
+static end run_simulation(const sb_scene *scene, const sb_model *model, int threads)
 {
     sb_sim *sim = NULL;
     sb_error error = {0};
@@ -65,18 +65,20 @@ static end run_alone(const sb_scene *scene, const sb_model *model, int threads)
     if (status == SB_OK) status = sb_sim_settle(sim, &error);
     for (uint64_t step = count_steps(); step > 0 && status == SB_OK; step--) status = sb_sim_step(sim, &error);
     if (status != SB_OK) fail_msg("%s", error.text);
-    const end reached = {sb_sim_hash(sim), sb_sim_report(sim)->time};
+    const end final = {sb_sim_hash(sim), sb_sim_report(sim)->time};
     sb_sim_destroy(sim);
-    return reached;
+    return final;
 }
 
-/* The program as far as that, with everything that reads frames or with nothing. */
-static void check_program(size_t s, end reached, bool consumers, const char *threads)
+/* Runs shorebreak to the same time, with all consumers of frames or without any. */
+static void check_program(size_t s, end final, bool consumers, const char *threads)
 {
     char until[40], hash[32], frames[3][192];
-    snprintf(until, sizeof until, "%.17g", reached.time);
-    const double interval = consumers ? reached.time / 5 : 0;
-    const double pictures = getenv("SB_BITS_STEPS") ? interval : 0; /* dear: test_consumers_hash has some every day */
+    snprintf(until, sizeof until, "%.17g", final.time);
+    const double interval = consumers ? final.time / 5 : 0;
+    const double pictures = getenv("SB_BITS_STEPS")
+                                ? interval
+                                : 0; /* pictures take long; test_consumers_hash draws some in every test run */
     snprintf(frames[0], sizeof frames[0],
              "render={interval: %.6g, width: 64, height: 36, video: false, cameras: [{name: c, eye: [0, -500, 500], "
              "target: [0, 0, 0]}]}",
@@ -92,9 +94,9 @@ static void check_program(size_t s, end reached, bool consumers, const char *thr
     assert_int_equal(sscanf(value, "\"%31[0-9a-f]\"", hash), 1);
     sb_free(text);
     assert_near(json_number_of("bits/summary.json", "steps"), (double)count_steps(), 0);
-    if (strtoull(hash, NULL, 16) != reached.hash)
-        fail_msg("%s: %s threads %s consumers: the program ends as %s, expected %016llx", scenes[s].name, threads,
-                 consumers ? "with" : "without", hash, (unsigned long long)reached.hash);
+    if (strtoull(hash, NULL, 16) != final.hash)
+        fail_msg("%s: %s threads %s consumers: the state hash of shorebreak is %s, expected %016llx", scenes[s].name,
+                 threads, consumers ? "with" : "without", hash, (unsigned long long) final.hash);
 }
 
 static void check_scene(size_t s)
@@ -110,26 +112,26 @@ static void check_scene(size_t s)
     if (sb_scene_read(scenes[s].file, NULL, overrides, 2, &scene, &error) != SB_OK ||
         sb_model_build(&scene, &model, &error) != SB_OK)
         fail_msg("%s", error.text);
-    const end alone = run_alone(&scene, &model, 1);
+    const end alone = run_simulation(&scene, &model, 1);
     printf("%s, %s: %016llx after %llu steps, %g s\n", SET, scenes[s].name, (unsigned long long)alone.hash,
            (unsigned long long)count_steps(), alone.time);
     for (size_t c = 0; c < sizeof counts / sizeof *counts; c++)
-        if (run_alone(&scene, &model, counts[c]).hash != alone.hash)
+        if (run_simulation(&scene, &model, counts[c]).hash != alone.hash)
             fail_msg("%s: %d threads give another state", scenes[s].name, counts[c]);
     sb_model_free(&model);
     sb_scene_free(&scene);
-    if (strcmp(SET, picked()) != 0) return;
+    if (strcmp(SET, selected_set()) != 0) return;
     check_program(s, alone, false, "1");
     check_program(s, alone, true, "3");
 }
 
-static void a_column(void **state)
+static void test_column(void **state)
 {
     (void)state;
     check_scene(0);
 }
 
-static void the_plant(void **state)
+static void test_plant(void **state)
 {
     (void)state;
     check_scene(1);
@@ -138,9 +140,9 @@ static void the_plant(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_column),
-        cmocka_unit_test(the_plant),
+        cmocka_unit_test(test_column),
+        cmocka_unit_test(test_plant),
     };
-    if (!offered()) return 77; /* no instructions for this processor */
+    if (!is_available()) return 77; /* the processor does not have this instruction set */
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
 }

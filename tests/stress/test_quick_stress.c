@@ -29,7 +29,7 @@ static int stress(const char *arguments)
     snprintf(all, sizeof all, "--jobs 1 %s", arguments);
     const int status = tool_run("shorebreak-stress", all);
     sb_free(output);
-    output = tool_text("said");
+    output = tool_text("output");
     assert_non_null(output);
     return status;
 }
@@ -92,8 +92,8 @@ static void test_trials_are_stored(void **state)
     (void)state;
     assert_passes("jet");
     assert_null(strstr(output, "exit status"));
-    assert_true(tool_says("out/quick/stability.md", "slice-into-corner"));
-    assert_true(tool_says("out/quick/stability.md", "not run")); /* other cases */
+    assert_true(tool_contains("out/quick/stability.md", "slice-into-corner"));
+    assert_true(tool_contains("out/quick/stability.md", "not run")); /* other cases */
 }
 
 static void test_bad_command_lines_are_refused(void **state)

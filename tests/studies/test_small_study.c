@@ -52,41 +52,41 @@ static void test_vertical_impulse_is_weight_times_duration(void **state)
 static void test_report_has_every_kind_of_quantity(void **state)
 {
     (void)state;
-    assert_true(tool_says("out/study.md", "study.png") || tool_says("out/study.md", "No plot"));
-    assert_true(tool_says("out/study.md", "| tank, impulse |"));
-    assert_true(tool_says("out/study.md", "| tank, peak |"));
-    assert_true(tool_says("out/study.md", "| g1, crest |"));
-    assert_true(tool_says("out/study.md", "two spacings: first order assumed"));
-    assert_true(tool_says("out/orders.csv", "two spacings: first order assumed"));
+    assert_true(tool_contains("out/study.md", "study.png") || tool_contains("out/study.md", "No plot"));
+    assert_true(tool_contains("out/study.md", "| tank, impulse |"));
+    assert_true(tool_contains("out/study.md", "| tank, peak |"));
+    assert_true(tool_contains("out/study.md", "| g1, crest |"));
+    assert_true(tool_contains("out/study.md", "two spacings: first order assumed"));
+    assert_true(tool_contains("out/orders.csv", "two spacings: first order assumed"));
 }
 
 static void test_runs_are_stored_and_patterns_select(void **state)
 {
     (void)state;
     assert_int_equal(study(TINY " --quantity 'g?, *' --quantity 'tank, peak'"), 0);
-    assert_false(tool_says("said", "flat, 0.1 m:"));
-    assert_true(tool_says("said", "| g2, crest |"));
-    assert_true(tool_says("said", "| tank, peak |"));
-    assert_false(tool_says("said", "| tank, impulse |"));
+    assert_false(tool_contains("output", "flat, 0.1 m:"));
+    assert_true(tool_contains("output", "| g2, crest |"));
+    assert_true(tool_contains("output", "| tank, peak |"));
+    assert_false(tool_contains("output", "| tank, impulse |"));
     assert_int_equal(study(TINY " --quantity nothing"), 1);
-    assert_true(tool_says("said", "--quantity"));
+    assert_true(tool_contains("output", "--quantity"));
 }
 
 static void test_bad_command_lines_are_refused(void **state)
 {
     (void)state;
     assert_int_equal(study(SCENE), 1);
-    assert_true(tool_says("said", "expected two spacings or more"));
+    assert_true(tool_contains("output", "expected two spacings or more"));
     assert_int_equal(study(SCENE " --resolutions 0.1,x"), 1);
-    assert_true(tool_says("said", "--resolutions 0.1,x: expected metres > 0"));
+    assert_true(tool_contains("output", "--resolutions 0.1,x: expected metres > 0"));
     assert_int_equal(study(SCENE " --resolutions 0.1,0.2,0.1"), 1);
-    assert_true(tool_says("said", "0.1 is given twice"));
+    assert_true(tool_contains("output", "0.1 is given twice"));
     assert_int_equal(study(SCENE " --resolutions 0.2,0.1 --set resolution=1"), 1);
-    assert_true(tool_says("said", "use --resolutions, --seeds or --preset for this key"));
+    assert_true(tool_contains("output", "use --resolutions, --seeds or --preset for this key"));
     assert_int_equal(study(SCENE " --resolutions 0.2,0.1 --set nothing.there=1"), 1);
-    assert_true(tool_says("said", "nothing"));
+    assert_true(tool_contains("output", "nothing"));
     assert_int_equal(study("/nowhere.yaml --resolutions 0.2,0.1"), 1);
-    assert_true(tool_says("said", "/nowhere.yaml: no such file"));
+    assert_true(tool_contains("output", "/nowhere.yaml: no such file"));
 }
 
 int main(void)

@@ -1,5 +1,4 @@
-/* What `cmake --install` leaves in an empty folder is complete: programs run, scenes find their
-   meshes. */
+/* Tests of `cmake --install` into an empty folder: programs run, scenes find their meshes. */
 #include "base/file.h"
 #include "scene/scene.h"
 
@@ -42,7 +41,7 @@ static const char *installed(const char *name)
     return path;
 }
 
-static void test_programs_are_there_and_run(void **state)
+static void test_programs_are_installed_and_run(void **state)
 {
     (void)state;
     assert_int_equal(run("'%2$s/bin/%1$s' --version >/dev/null", "shorebreak-make-plant"), 0);
@@ -68,7 +67,7 @@ static void test_scenes_find_their_meshes(void **state)
     sb_scene_free(&scene);
 }
 
-static void test_licence_and_message_types_are_there(void **state)
+static void test_licence_and_message_types_are_installed(void **state)
 {
     (void)state;
     static const char *const files[] = {"share/doc/shorebreak/LICENSE", "share/shorebreak/meshes/README.md",
@@ -80,9 +79,9 @@ static void test_licence_and_message_types_are_there(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_programs_are_there_and_run),
+        cmocka_unit_test(test_programs_are_installed_and_run),
         cmocka_unit_test(test_scenes_find_their_meshes),
-        cmocka_unit_test(test_licence_and_message_types_are_there),
+        cmocka_unit_test(test_licence_and_message_types_are_installed),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

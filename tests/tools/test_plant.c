@@ -1,4 +1,4 @@
-/* The plant maker: the mesh it writes is the coast that the scenes count on. */
+/* Tests of tools/make-plant: the meshes have the geometry that the scenes assume. */
 #include "base/file.h"
 #include "base/memory.h"
 #include "form.h"
@@ -60,11 +60,11 @@ static sb_mesh_report diagnosed(const plant *made, const char *name)
 static void test_names_are_unique_and_complete(void **state)
 {
     const plant *made = *state;
-    static const char *const wanted[] = {"terrain",   "breakwater-north", "breakwater-south", "quay",      "intake",
-                                         "reactor-1", "reactor-2",        "reactor-3",        "reactor-4", "reactor-5",
-                                         "reactor-6", "turbine-1",        "turbine-2",        "turbine-3", "turbine-4",
-                                         "turbine-5", "turbine-6",        "stack-1",          "tank-1",    "cavity"};
-    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) assert_non_null(find(made, wanted[i]));
+    static const char *const expected[] = {
+        "terrain",   "breakwater-north", "breakwater-south", "quay",      "intake",    "reactor-1", "reactor-2",
+        "reactor-3", "reactor-4",        "reactor-5",        "reactor-6", "turbine-1", "turbine-2", "turbine-3",
+        "turbine-4", "turbine-5",        "turbine-6",        "stack-1",   "tank-1",    "cavity"};
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) assert_non_null(find(made, expected[i]));
     for (size_t i = 0; i < made->count; i++)
         for (size_t k = 0; k < i; k++) assert_string_not_equal(made->meshes[i].name, made->meshes[k].name);
     assert_string_equal(made->meshes[0].name, "terrain");
@@ -90,7 +90,7 @@ static void test_forms_have_the_volume_of_their_formula(void **state)
     sb_error error = {0};
     sb_mesh mesh = {0};
     sb_mesh_report report;
-    /* A ring as concave as the cavity's: 30 x 20 less a pocket of 10 x 10. */
+    /* A concave ring like that of the cavity: 30 x 20 minus a pocket of 10 x 10. */
     sb_ring low = {.count = 8, .x = {0, 20, 20, 0, 0, 10, 10, 0}, .y = {0, 0, 30, 30, 20, 20, 10, 10}};
     sb_ring rings[2] = {low, low};
     rings[1].z = 7;
@@ -168,7 +168,7 @@ static void test_buildings_are_rooted_and_apart(void **state)
         for (size_t k = 1; k < i; k++) {
             sb_mesh_report b;
             assert_int_equal(sb_mesh_diagnose(&made->meshes[k], &b, NULL), SB_OK);
-            if (a.min.x <= 860 || b.min.x <= 860) continue; /* the waterfront's structures meet */
+            if (a.min.x <= 860 || b.min.x <= 860) continue; /* the structures of the waterfront touch */
             double dx = fmax(a.min.x - b.max.x, b.min.x - a.max.x);
             double dy = fmax(a.min.y - b.max.y, b.min.y - a.max.y);
             if (dx < 12 && dy < 12)
@@ -185,7 +185,7 @@ typedef struct column {
     double ground;
     int count;
     double z[CROSSINGS]; /* of solids' surfaces */
-    int way[CROSSINGS];  /* -1 where the line upwards enters a solid, +1 where it leaves */
+    int way[CROSSINGS];  /* -1: the upward line enters a solid, +1: it leaves a solid */
 } column;
 
 static void strike(column *columns, const sb_mesh *mesh, const uint32_t triangle[3], bool ground)
@@ -197,7 +197,7 @@ static void strike(column *columns, const sb_mesh *mesh, const uint32_t triangle
     if (area == 0) return;
     for (int i = (int)fmax(0, low.x / CELL - 1); i < COLUMNS_X && i * CELL < high.x; i++)
         for (int j = (int)fmax(0, low.y / CELL - 1); j < COLUMNS_Y && j * CELL < high.y; j++) {
-            /* Off the grid of the mesh's own lines, so that no column meets an edge. */
+            /* Off the grid lines of the mesh, so that no column meets an edge. */
             double x = (i + 0.4987) * CELL, y = (j + 0.5021) * CELL;
             double u = ((x - a.x) * (c.y - a.y) - (c.x - a.x) * (y - a.y)) / area;
             double v = ((b.x - a.x) * (y - a.y) - (x - a.x) * (b.y - a.y)) / area;
@@ -219,14 +219,14 @@ static double wet(const column *at)
 {
     double step = 0.05, sum = 0;
     for (double z = -step / 2; z > at->ground; z -= step) {
-        int inside = 0; /* surfaces above: each solid left above the point counts one */
+        int inside = 0; /* number of solids that contain the point, from the surfaces above it */
         for (int k = 0; k < at->count; k++) inside += at->z[k] > z ? at->way[k] : 0;
         sum += inside > 0 ? 0 : step;
     }
     return sum;
 }
 
-static void test_the_sea_holds_18_million_cubic_metres(void **state)
+static void test_sea_has_18_million_cubic_metres(void **state)
 {
     const plant *made = *state;
     column *columns = sb_alloc(COLUMNS_X * COLUMNS_Y, sizeof *columns);
@@ -239,13 +239,13 @@ static void test_the_sea_holds_18_million_cubic_metres(void **state)
     sb_free(columns);
     print_message("still water: %.4g m^3\n", volume);
     assert_true(fabs(volume - 18.0e6) < 0.02 * 18.0e6);
-    /* Nothing landward of the shore lies below the sea, except inside the quay. */
+    /* Landward of the shore nothing is below sea level, except inside the quay. */
     for (double x = 801; x < 1300; x += 3)
         for (double y = 1; y < 1150; y += 3)
             if (x > 822 || y < 234 || y > 856) assert_true(sb_plant_ground(&made->options, x, y) > 0);
 }
 
-static void test_options_are_honoured(void **state)
+static void test_options_set_heights(void **state)
 {
     (void)state;
     sb_error error = {0};
@@ -269,7 +269,7 @@ static void test_options_are_honoured(void **state)
     sb_plant_free(made.meshes, made.count);
 }
 
-static void test_extreme_heights_still_close(void **state)
+static void test_extreme_heights_give_closed_meshes(void **state)
 {
     (void)state;
     for (const sb_plant_option *row = sb_plant_option_table; row->name; row++)
@@ -287,7 +287,7 @@ static void test_extreme_heights_still_close(void **state)
         }
 }
 
-static void test_senseless_heights_are_refused(void **state)
+static void test_invalid_heights_are_refused(void **state)
 {
     (void)state;
     sb_error error = {0};
@@ -335,7 +335,7 @@ static const char *const parts[] = {"terrain",  "breakwaters", "waterfront", "re
                                     "turbines", "stacks",      "tanks",      "annexes"};
 enum { PARTS = sizeof parts / sizeof *parts };
 
-static void test_the_program_writes_the_committed_meshes(void **state)
+static void test_program_writes_committed_meshes(void **state)
 {
     (void)state;
     char folder[] = "/tmp/sb-plant-XXXXXX", path[128];
@@ -362,7 +362,7 @@ static void test_the_program_writes_the_committed_meshes(void **state)
     assert_true(total <= 400000);
 }
 
-static void test_the_program_refuses_bad_arguments(void **state)
+static void test_program_refuses_bad_arguments(void **state)
 {
     (void)state;
     assert_int_equal(run("--help"), 0);
@@ -375,7 +375,7 @@ static void test_the_program_refuses_bad_arguments(void **state)
     assert_int_equal(run("--out /nonexistent/plant.obj"), 2);
 }
 
-/* Imports a file and checks its bodies against those that were made; returns how many. */
+/* Imports a file and compares its bodies with those that were made; returns their number. */
 static size_t compare(const plant *made, const char *path)
 {
     sb_error error = {0};
@@ -395,7 +395,7 @@ static size_t compare(const plant *made, const char *path)
     return count;
 }
 
-static void test_the_import_gives_the_same_bodies(void **state)
+static void test_import_gives_same_bodies(void **state)
 {
     const plant *made = *state;
     size_t count = 0;
@@ -425,14 +425,14 @@ int main(void)
         cmocka_unit_test(test_six_reactors_of_45_m_with_halls_on_the_sea_side),
         cmocka_unit_test(test_heights_of_coast_and_structures),
         cmocka_unit_test(test_buildings_are_rooted_and_apart),
-        cmocka_unit_test(test_the_sea_holds_18_million_cubic_metres),
-        cmocka_unit_test(test_options_are_honoured),
-        cmocka_unit_test(test_extreme_heights_still_close),
-        cmocka_unit_test(test_senseless_heights_are_refused),
+        cmocka_unit_test(test_sea_has_18_million_cubic_metres),
+        cmocka_unit_test(test_options_set_heights),
+        cmocka_unit_test(test_extreme_heights_give_closed_meshes),
+        cmocka_unit_test(test_invalid_heights_are_refused),
         cmocka_unit_test(test_every_failed_allocation_is_reported),
-        cmocka_unit_test(test_the_program_writes_the_committed_meshes),
-        cmocka_unit_test(test_the_program_refuses_bad_arguments),
-        cmocka_unit_test(test_the_import_gives_the_same_bodies),
+        cmocka_unit_test(test_program_writes_committed_meshes),
+        cmocka_unit_test(test_program_refuses_bad_arguments),
+        cmocka_unit_test(test_import_gives_same_bodies),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -34,7 +34,7 @@ int tool_end(void)
 int tool_run(const char *program, const char *arguments)
 {
     char command[4096];
-    snprintf(command, sizeof command, "'%s/%s' %s --out '%s/out' >'%s/said' 2>&1", SB_BINARY_DIR, program, arguments,
+    snprintf(command, sizeof command, "'%s/%s' %s --out '%s/out' >'%s/output' 2>&1", SB_BINARY_DIR, program, arguments,
              folder, folder);
     const int how = system(command);
     return WIFEXITED(how) ? WEXITSTATUS(how) : -1;
@@ -54,10 +54,10 @@ char *tool_text(const char *name)
     return sb_file_read(tool_path(name), 1 << 20, &text, &length, NULL) == SB_OK ? text : NULL;
 }
 
-bool tool_says(const char *name, const char *words)
+bool tool_contains(const char *name, const char *expected)
 {
     char *text = tool_text(name);
-    const bool found = text && strstr(text, words);
+    const bool found = text && strstr(text, expected);
     sb_free(text);
     return found;
 }

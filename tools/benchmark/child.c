@@ -9,7 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* What goes through the pipe before the rows. */
+/* Sent through the pipe before the rows. */
 typedef struct reply {
     sb_status status;
     sb_error error;
@@ -21,7 +21,7 @@ static _Noreturn void child(int to, sb_bench_work *work, const void *context)
     sb_bench_rows rows = {0};
     reply answer = {.status = SB_OK};
     prctl(PR_SET_PDEATHSIG, SIGTERM);
-    signal(SIGINT, SIG_DFL); /* there is nothing to keep */
+    signal(SIGINT, SIG_DFL); /* the child has nothing to save */
     signal(SIGTERM, SIG_DFL);
     FILE *out = fdopen(to, "wb");
     answer.status = work(context, &rows, &answer.error);
@@ -38,7 +38,7 @@ static sb_status receive(int from, sb_bench_rows *rows, sb_error *error)
     reply answer;
     sb_status status = SB_OK;
     if (!in || fread(&answer, sizeof answer, 1, in) != 1)
-        status = sb_fail(error, SB_FAILED, "the measuring process ended without an answer");
+        status = sb_fail(error, SB_FAILED, "the measuring process ended without a result");
     else if (answer.status != SB_OK) {
         *error = answer.error;
         status = answer.status;
@@ -46,7 +46,7 @@ static sb_status receive(int from, sb_bench_rows *rows, sb_error *error)
     for (size_t i = 0; status == SB_OK && i < answer.count; i++) {
         sb_bench_row row;
         if (fread(&row, sizeof row, 1, in) != 1)
-            status = sb_fail(error, SB_FAILED, "the measuring process ended in its answer");
+            status = sb_fail(error, SB_FAILED, "the measuring process ended before its result was complete");
         else
             status = sb_bench_append(rows, &row, 1, error);
     }
@@ -60,7 +60,7 @@ static sb_status receive(int from, sb_bench_rows *rows, sb_error *error)
 sb_status sb_bench_in_child(sb_bench_work *work, const void *context, sb_bench_rows *rows, sb_error *error)
 {
     int ends[2], ended = 0;
-    if (pipe(ends) != 0) return sb_fail(error, SB_FAILED, "no pipe to a measuring process");
+    if (pipe(ends) != 0) return sb_fail(error, SB_FAILED, "cannot make a pipe to a measuring process");
     fflush(NULL);
     const pid_t process = fork();
     if (process == 0) {
@@ -70,11 +70,11 @@ sb_status sb_bench_in_child(sb_bench_work *work, const void *context, sb_bench_r
     close(ends[1]);
     if (process < 0) {
         close(ends[0]);
-        return sb_fail(error, SB_FAILED, "no measuring process");
+        return sb_fail(error, SB_FAILED, "cannot start a measuring process");
     }
     sb_status status = receive(ends[0], rows, error);
     waitpid(process, &ended, 0);
-    if (sb_stop_signal()) return sb_stop_fail(error, "while it measured");
+    if (sb_stop_signal()) return sb_stop_fail(error, "while measuring");
     if (WIFSIGNALED(ended))
         return sb_fail(error, SB_FAILED, "the measuring process ended by signal %d (memory?)", WTERMSIG(ended));
     return status;

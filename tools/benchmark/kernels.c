@@ -1,4 +1,4 @@
-/* The stages of a step and the passes of a pressure iteration, in a basin of water at rest. */
+/* Measures the stages of a step and the passes of a pressure iteration, in a basin of water at rest. */
 #include "base/clock.h"
 #include "base/memory.h"
 #include "child.h"
@@ -11,20 +11,20 @@
 #include <omp.h>
 #include <string.h>
 
-/* The passes of one iteration, timed one by one. */
+/* Passes of one iteration, each timed separately. */
 enum pass { LOAD, ACCELERATION, DIVERGENCE, JUDGEMENT, PASSES };
 enum { ITERATIONS = 10 };
 
-/* The least that a pass must move and compute: bytes that no cache of the usual size keeps until they are needed
-   again (fields once per particle, lists once per pair; a neighbour's record is taken to be in a cache), and
-   operations on floats. */
+/* Smallest traffic and work of a pass. Bytes: those that a usual cache does not keep until they are needed again
+   (fields once per particle, lists once per pair; the record of a neighbour is assumed to be in a cache). Operations:
+   on floats. */
 typedef struct work {
     const char *name;
     double bytes_particle, bytes_pair, operations_pair;
 } work;
 
 static const work works[] = {
-    /* lists written; of the particles tested 1 in 5 is a neighbour; 8 operations for each, 25 for a kernel */
+    /* lists are written; 1 in 5 tested particles is a neighbour; 8 operations per test, 25 per kernel */
     {"neighbours", 16 + 40 + 12, 4, 5 * 8 + 25},
     /* three passes: moments, their mean, the force */
     {"stress_correction", 16 + 6 + 20 + 36 + 6 + 20 + 36 + 6 + 32, 12, 21 + 13 + 33},
@@ -86,7 +86,7 @@ static sb_status measure(sb_bench_subject *subject, int repeats, times *t, sb_er
     return status;
 }
 
-/* A pass's rows: per particle, per pair, and its share of what memory and arithmetic would allow. */
+/* Adds the rows of a pass: per particle, per pair, and its fractions of memory bandwidth and of arithmetic speed. */
 static sb_status add_pass(sb_bench_rows *rows, const char *name, size_t n, double pairs,
                           const sb_bench_samples *samples, const sb_bench_request *request, sb_error *error)
 {
@@ -110,7 +110,7 @@ static sb_status add_pass(sb_bench_rows *rows, const char *name, size_t n, doubl
     return status;
 }
 
-/* Of two stages, or one: neighbour search and sort are judged together. */
+/* Sum of one or two stages: neighbour search and sort are judged together. */
 static sb_bench_samples sum_of(const times *t, const sb_stage_time *stages, size_t count, const char *a, const char *b)
 {
     sb_bench_samples sum = {.count = 0};
@@ -148,7 +148,7 @@ static sb_status add_all(const sb_bench_subject *subject, const times *t, const 
     };
     for (size_t p = 0; status == SB_OK && p < sizeof passes / sizeof passes[0]; p++)
         status = add_pass(rows, passes[p].name, n, pairs, passes[p].samples, request, error);
-    if (status == SB_OK) /* the stage is its iterations, a first guess and a last acceleration */
+    if (status == SB_OK) /* the stage contains the iterations, a first guess and a last acceleration */
         status = sb_bench_add(rows, SB_BENCH_ITERATION, n, omp_get_max_threads(), SB_BENCH_PER_PARTICLE, "ns",
                               &pressure, 1e9 / ((double)n * ITERATIONS), error);
     return status;

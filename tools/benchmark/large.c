@@ -1,4 +1,4 @@
-/* The plant at 1 m: whether it can be set up and stepped at all on a small machine. */
+/* Measures the plant at 1 m: set-up, steps and memory on a small machine. */
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/memory.h"
@@ -26,7 +26,7 @@ static sb_status add_all(const sb_bench_subject *subject, bool quick, double sec
         {"boundary particles", "1", (double)subject->model.wall_count},
         {"memory of the simulation", "B/particle", (double)sb_sim_bytes(subject->sim) / (double)n},
         {"peak memory", "B/particle", (double)sb_memory_peak() / (double)n},
-        {"peak memory in all", "MB", 1e-6 * (double)sb_memory_peak()},
+        {"total peak memory", "MB", 1e-6 * (double)sb_memory_peak()},
     };
     sb_status status = SB_OK;
     for (size_t v = 0; v < sizeof values / sizeof values[0] && status == SB_OK; v++)

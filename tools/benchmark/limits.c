@@ -12,14 +12,14 @@
 typedef float wide __attribute__((vector_size(64)));
 
 enum {
-    CHAINS = 8, /* independent sums: as many as it takes to hide an operation's latency */
+    CHAINS = 8, /* independent sums, enough to hide the latency of an operation */
     TURNS = 2000000,
     LANES = sizeof(wide) / sizeof(float),
-    MEGABYTES = 256, /* of each array: many times the last cache */
+    MEGABYTES = 256, /* of each array: many times the last-level cache */
     MEGABYTES_QUICK = 16,
 };
 
-/* Products and sums that nothing waits for but their own chain. */
+/* Products and sums in independent chains. */
 SB_MULTIVERSION
 static float multiply_and_add(size_t turns, float factor)
 {
@@ -46,7 +46,7 @@ static double arithmetic_once(float *kept)
     return 2.0 * LANES * CHAINS * TURNS * omp_get_max_threads() / (sb_clock() - start);
 }
 
-/* Each thread on its own part, with the library's copy. */
+/* Each thread copies its own part with memcpy. */
 static double copy_once(float *to, const float *from, size_t count)
 {
     const double start = sb_clock();
@@ -89,7 +89,7 @@ static sb_status measure(const void *context, sb_bench_rows *rows, sb_error *err
         const double copied = copy_once(arrays[0], arrays[1], count);
         const double added = triad_once(arrays[2], arrays[0], arrays[1], count);
         const double computed = arithmetic_once(&kept);
-        if (r == 0) continue; /* the first touches pages and wakes threads */
+        if (r == 0) continue; /* the first repeat touches pages and starts threads */
         sb_bench_sample(&copy, copied);
         sb_bench_sample(&triad, added);
         sb_bench_sample(&arithmetic, computed);
@@ -121,8 +121,8 @@ sb_status sb_bench_same_machine(const char *folder, const sb_bench_request *requ
     if (status == SB_OK && kept && kept->threads == request->threads &&
         (now > most * kept->median || kept->median > most * now))
         status = sb_fail(error, SB_BAD_INPUT,
-                         "%.400s: its tables are of a machine that copies %.3g GB/s, this one copies %.3g GB/s: stop "
-                         "other programs, or give this machine a folder of its own with --machine NAME",
+                         "%.400s: its tables are of a machine that copies %.3g GB/s, this machine copies %.3g GB/s: "
+                         "stop other programs, or use another folder for this machine with --machine NAME",
                          folder, kept->median, now);
     sb_bench_tables_free(&tables);
     return status;

@@ -8,7 +8,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-/* Time spent on anything but idling and waiting for disks, from the first line of /proc/stat. */
+/* Busy time of the machine, without idle and disk-wait time, from the first line of /proc/stat. */
 static double machine_busy(void)
 {
     unsigned long long user = 0, nice = 0, system = 0, idle = 0, wait = 0, irq = 0, soft = 0, steal = 0;
@@ -55,7 +55,7 @@ static double gigabytes(void)
     return (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE) / 1e9;
 }
 
-/* Letters and digits, with one '-' for what stands between them; what is in parentheses is left out. */
+/* Keeps letters and digits, with one '-' for other characters; omits parentheses and their contents. */
 void sb_bench_folder(const char *machine, char name[128])
 {
     size_t used = 0;

@@ -1,4 +1,4 @@
-/* Command line of the benchmark. */
+/* tools/bench: measures run time and memory; writes tables and the report. */
 #include "limits.h"
 #include "machine.h"
 #include "options.h"
@@ -17,15 +17,15 @@
 static void warn_of_others(double others)
 {
     if (others > SB_BENCH_QUIET)
-        fprintf(stderr, "bench: warning: other programs keep %.1f cores busy: times are not to be trusted\n", others);
+        fprintf(stderr, "bench: warning: other programs use %.1f cores: times are not reliable\n", others);
 }
 
-/* Measures one section and writes its table. whence: machine, compiler, commit. check: that kept tables are of this
-   machine. */
+/* Measures one section and writes its table. build: lines with machine, compiler and commit. check: whether to check
+   that the kept tables are of this machine. */
 static sb_status measure(const sb_bench_section *section, sb_bench_request *request, const char *folder, bool check,
-                         const char *whence, sb_error *error)
+                         const char *build, sb_error *error)
 {
-    char path[SB_PATH_MAX], name[SB_BENCH_NAME], origin[2048], date[32], busy[64] = "use by other programs not known";
+    char path[SB_PATH_MAX], name[SB_BENCH_NAME], origin[2048], date[32], busy[64] = "use by other programs unknown";
     sb_bench_rows rows = {0};
     const double load = sb_bench_load();
     const time_t now = time(NULL);
@@ -39,7 +39,7 @@ static sb_status measure(const sb_bench_section *section, sb_bench_request *requ
     const double others = sb_bench_others(from, to);
     if (others >= 0) snprintf(busy, sizeof busy, "other programs kept %.2f cores busy", others);
     snprintf(origin, sizeof origin,
-             "%smeasured: %s UTC, %d threads, %d repeats (whole runs: one)%s; load average before %.2f; %s\n", whence,
+             "%smeasured: %s UTC, %d threads, %d repeats (whole runs: one)%s; load average before %.2f; %s\n", build,
              date, request->threads, request->repeats, request->quick ? SB_BENCH_QUICKLY : "", load, busy);
     fputs(origin, stdout);
     warn_of_others(others);
@@ -53,7 +53,7 @@ static sb_status measure(const sb_bench_section *section, sb_bench_request *requ
 
 static sb_status measure_all(const sb_bench_options *o, const char *out, sb_error *error)
 {
-    char bench[SB_PATH_MAX], folder[SB_PATH_MAX], machine[128], name[128], whence[1024];
+    char bench[SB_PATH_MAX], folder[SB_PATH_MAX], machine[128], name[128], build[1024];
     sb_bench_request request = {
         .assets = SB_SOURCE_DIR "/assets", .repeats = o->repeats, .threads = o->threads, .quick = o->quick};
     sb_origin_machine(machine);
@@ -61,10 +61,10 @@ static sb_status measure_all(const sb_bench_options *o, const char *out, sb_erro
     sb_status status = sb_path_join(bench, out, "bench", error);
     if (status == SB_OK) status = sb_path_join(folder, bench, o->machine ? o->machine : name, error);
     if (status == SB_OK) status = sb_make_directories(folder, error);
-    sb_bench_origin(whence, sizeof whence, SB_SOURCE_DIR); /* before tables change what git sees */
+    sb_bench_origin(build, sizeof build, SB_SOURCE_DIR); /* before tables change the state of git */
     for (size_t s = 0; s < o->count && status == SB_OK; s++)
-        status = sb_stop_signal() ? sb_stop_fail(error, "before all was measured")
-                                  : measure(o->sections[s], &request, folder, !o->machine && !o->quick, whence, error);
+        status = sb_stop_signal() ? sb_stop_fail(error, "before all sections were measured")
+                                  : measure(o->sections[s], &request, folder, !o->machine && !o->quick, build, error);
     return status;
 }
 

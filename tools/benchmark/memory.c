@@ -1,4 +1,4 @@
-/* What a fluid particle takes: all in by the program itself, and array by array; and what dry land costs. */
+/* Measures memory per fluid particle, in total by the program itself and by array, and the cost of dry land. */
 #include "base/memory.h"
 #include "base/file.h"
 #include "child.h"
@@ -9,11 +9,11 @@
 
 #include <omp.h>
 
-/* TURNS: per repeat asked for, since what is looked for is smaller than the spread of a few. */
+/* TURNS: turns per requested repeat, because the difference is smaller than the spread of a few repeats. */
 enum { DRY_STEPS = 4, TURNS = 3 };
 
-/* The program as a user runs it, for a few steps. */
-static sb_status all_in(const sb_bench_request *request, sb_bench_rows *rows, sb_error *error)
+/* Runs the program as a user does, for a few steps. */
+static sb_status whole_program(const sb_bench_request *request, sb_bench_rows *rows, sb_error *error)
 {
     char scene[SB_PATH_MAX], *summary;
     sb_bench_program run = {
@@ -101,8 +101,8 @@ static sb_status make_shore(const sb_bench_request *request, bool long_land, sb_
     return status;
 }
 
-/* Both take turns, so that what else the machine does meets both alike, and each is first as often; of every turn the
-   time that the land adds, per particle. */
+/* Both shores take turns, and are first equally often, so that other programs affect both alike. Each turn gives the
+   time per particle that the land adds. */
 static sb_status take_turns(sb_bench_subject shore[2], int repeats, sb_bench_rows *rows, sb_error *error)
 {
     static const char *const names[] = {"shore", "shore with ten times the land"};
@@ -153,7 +153,7 @@ static sb_status dry_land(const void *context, sb_bench_rows *rows, sb_error *er
 
 sb_status sb_bench_memory(const sb_bench_request *request, sb_bench_rows *rows, sb_error *error)
 {
-    sb_status status = all_in(request, rows, error);
+    sb_status status = whole_program(request, rows, error);
     if (status == SB_OK) status = sb_bench_in_child(arrays, request, rows, error);
     if (status == SB_OK) status = sb_bench_in_child(dry_land, request, rows, error);
     return status;

@@ -1,4 +1,4 @@
-/* The command line of the benchmark. */
+/* Command line of tools/bench. */
 #ifndef SB_BENCHMARK_OPTIONS_H
 #define SB_BENCHMARK_OPTIONS_H
 
@@ -16,7 +16,7 @@ typedef struct sb_bench_options {
 
 extern const char sb_bench_help[];
 
-/* SB_BAD_INPUT names what is wrong. */
+/* SB_BAD_INPUT: the error names the argument. */
 sb_status sb_bench_parse(int count, char **arguments, sb_bench_options *options, sb_error *error);
 
 #endif

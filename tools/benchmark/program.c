@@ -21,14 +21,14 @@ static int remove_one(const char *path, const struct stat *status, int kind, str
     return remove(path);
 }
 
-/* Waits for its end; a wish to stop is passed on, in case that it went to this process alone. False: how it ended is
-   not known. */
+/* Waits for the end of the process; a signal to stop is passed on, in case only this process got it. False: the exit
+   status is unknown. */
 static bool wait_for(pid_t process, int *ended)
 {
-    bool told = false;
+    bool signalled = false;
     for (pid_t found; (found = waitpid(process, ended, WNOHANG)) != process;) {
         if (found < 0 && errno != EINTR) return false;
-        if (sb_stop_signal() && !told) told = kill(process, SIGTERM) == 0;
+        if (sb_stop_signal() && !signalled) signalled = kill(process, SIGTERM) == 0;
         usleep(10000);
     }
     return true;
@@ -36,18 +36,18 @@ static bool wait_for(pid_t process, int *ended)
 
 static sb_status start_and_wait(const char *program, const char *const *arguments, const char *folder, sb_error *error)
 {
-    char said[SB_PATH_MAX], how[32], words[400];
+    char output[SB_PATH_MAX], how[32], last_line[400];
     pid_t process;
-    sb_status status = sb_path_join(said, folder, "said.txt", error);
-    if (status == SB_OK) status = sb_process_start(program, arguments, said, SIGTERM, &process, error);
+    sb_status status = sb_path_join(output, folder, "output.txt", error);
+    if (status == SB_OK) status = sb_process_start(program, arguments, output, SIGTERM, &process, error);
     if (status != SB_OK) return status;
     int ended = 0;
     const bool known = wait_for(process, &ended);
-    if (sb_stop_signal()) return sb_stop_fail(error, "while shorebreak ran");
+    if (sb_stop_signal()) return sb_stop_fail(error, "while shorebreak was running");
     if (known && WIFEXITED(ended) && WEXITSTATUS(ended) == 0) return SB_OK;
     sb_process_describe(ended, how);
-    sb_process_last_line(said, "it said nothing", words, sizeof words);
-    return sb_fail(error, SB_FAILED, "%.400s: ended with %s: %s", program, how, words);
+    sb_process_last_line(output, "no output", last_line, sizeof last_line);
+    return sb_fail(error, SB_FAILED, "%.400s: ended with %s: %s", program, how, last_line);
 }
 
 static sb_status run_in(const sb_bench_program *run, const char *folder, sb_error *error)

@@ -1,4 +1,4 @@
-/* The program itself, run as a user runs it, without pictures, plots or particle files. */
+/* Runs shorebreak as a user does, without pictures, plots or particle files. */
 #ifndef SB_BENCHMARK_PROGRAM_H
 #define SB_BENCHMARK_PROGRAM_H
 
@@ -6,15 +6,15 @@
 
 enum { SB_BENCH_SETTINGS_MAX = 16 };
 
-/* One run: KEY=VALUE settings as --set takes them, ended by NULL. preset: NULL: the scene's. */
+/* One run. settings: KEY=VALUE as for --set, ended by NULL. preset: NULL: that of the scene. */
 typedef struct sb_bench_program {
     const char *scene, *preset;
     int threads;
     const char *settings[SB_BENCH_SETTINGS_MAX];
 } sb_bench_program;
 
-/* Runs shorebreak, the one beside this program, in a folder that is taken away again. *summary: the text of its
-   summary.json; free with sb_free. SB_FAILED with the run's own message. */
+/* Runs the shorebreak beside this program in a temporary folder. *summary: text of its summary.json; free with sb_free.
+   SB_FAILED: the run failed; the error contains its message. */
 sb_status sb_bench_program_run(const sb_bench_program *run, char **summary, sb_error *error);
 
 #endif

@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* "12.4 (12.3, +8 %)": median, least, and how far the most is above that; of what may be negative the most itself. */
+/* Writes "12.4 (12.3, +8 %)": median, smallest, and how far the largest is above it; if values may be negative, the
+ * largest. */
 static void put_spread(FILE *file, const sb_bench_row *row)
 {
     fprintf(file, "%.4g", row->median);
@@ -37,7 +38,7 @@ static void put_kernels(FILE *file, const sb_bench_rows *rows)
             const sb_bench_row *pairs = sb_bench_find(rows, "basin", row->particles, 0, "pairs per particle");
             fprintf(file, "\n%zu particles, %d threads, %.1f pairs per particle:\n\n", row->particles, row->threads,
                     pairs ? pairs->median : (double)NAN);
-            fputs("| kernel | ns per particle | ns per pair | of bandwidth, % | of arithmetic, % |\n"
+            fputs("| kernel | ns per particle | ns per pair | % of bandwidth | % of arithmetic |\n"
                   "|---|---|---|---|---|\n",
                   file);
         }
@@ -57,10 +58,10 @@ static bool is_machine(const sb_bench_row *row)
     return strcmp(row->subject, SB_BENCH_MACHINE) == 0;
 }
 
-/* What the machine could do at the time, in one line. */
+/* Limits of the machine at that time, in one line. */
 static void put_machine(FILE *file, const sb_bench_rows *rows)
 {
-    const char *between = "\nThe machine:";
+    const char *between = "\nMachine limits:";
     for (size_t i = 0; i < rows->count; i++) {
         const sb_bench_row *row = &rows->rows[i];
         if (!is_machine(row)) continue;
@@ -80,7 +81,7 @@ static void put_subjects(FILE *file, const sb_bench_rows *rows)
         const sb_bench_row *row = &rows->rows[i];
         if (is_machine(row)) continue;
         if (strcmp(row->subject, before) != 0)
-            fprintf(file, "\n%s: %zu fluid particles, %d threads\n\n| quantity | unit | |\n|---|---|---|\n",
+            fprintf(file, "\n%s: %zu fluid particles, %d threads\n\n| quantity | unit | value |\n|---|---|---|\n",
                     row->subject, row->particles, row->threads);
         before = row->subject;
         fprintf(file, "| %s | %s | ", row->quantity, strcmp(row->unit, "1") == 0 ? "" : row->unit);
@@ -103,11 +104,11 @@ static void put_scaling(FILE *file, const sb_bench_rows *rows)
         else
             fprintf(file, " | %.3f |\n", share);
     }
-    fprintf(file, "\nFrom the smallest to the largest the cost per particle grows %.2f times.\n",
+    fprintf(file, "\nThe cost per particle of the largest size is %.2f times that of the smallest.\n",
             sb_bench_growth(rows));
 }
 
-/* What gnuplot was given stands in the table already. */
+/* Removes the input of gnuplot, which the table also contains. */
 static void remove_plot_input(const char *folder)
 {
     static const char *const names[] = {"scaling.gp", "scaling.dat"};
@@ -139,13 +140,13 @@ static sb_status draw_scaling(const sb_bench_rows *rows, const char *folder, con
     return status;
 }
 
-/* Scaling has a picture; where it cannot be drawn the reason stands in its place. */
+/* Writes the picture of the scaling, or the reason why it cannot be drawn. */
 static void put_picture(FILE *file, const sb_bench_table *table, const char *folder, const char *name)
 {
     char absolute[SB_PATH_MAX], picture[SB_PATH_MAX];
     sb_error reason = {0};
     sb_status status = SB_OK;
-    if (!realpath(folder, absolute)) /* as the plot wants it */
+    if (!realpath(folder, absolute)) /* the plot needs an absolute path */
         status = sb_fail(&reason, SB_FAILED, "%.400s: no such folder", folder);
     if (status == SB_OK) status = sb_path_join(picture, absolute, "scaling.png", &reason);
     if (status == SB_OK) status = draw_scaling(&table->rows, absolute, picture, &reason);
@@ -190,7 +191,7 @@ void sb_bench_tables_free(sb_bench_tables *tables)
     tables->count = 0;
 }
 
-/* All of one machine: its name and bandwidth, targets, section by section. Nothing where no table is found. */
+/* Writes all sections of one machine, after its name, bandwidth and targets. Nothing if there are no tables. */
 static void put_all(FILE *file, const sb_bench_tables *tables, const char *folder, const char *name)
 {
     static const char key[] = "machine: ";
@@ -241,14 +242,17 @@ sb_status sb_bench_report(const char *out, sb_error *error)
     sb_atomic_file file;
     sb_status status = sb_atomic_open_in(&file, out, "benchmarks.md", error);
     if (status != SB_OK) return status;
-    fputs("# Benchmarks\n\n"
-          "What the simulation costs, machine by machine. Made by `tools/bench`; how to read and repeat the figures:\n"
-          "[performance.md](../performance.md). Each table holds figures of one machine only. Figures are medians; in "
-          "brackets stand\nthe least and how far the most lies above it. Each section names its commit and the load of "
-          "the machine: where other\nprograms kept cores busy, do not trust its times.\n\n"
-          "A time is judged as a ratio, so that the targets hold on any machine: time × copy bandwidth, the kilobytes "
-          "that the\nmachine could have copied meanwhile, per fluid particle.\n",
-          file.stream);
+    fputs(
+        "# Benchmarks\n\n"
+        "Run time and memory of the simulation, machine by machine. Made by `tools/bench`; "
+        "[performance.md](../performance.md) explains\nhow to read and repeat the figures.\n\n"
+        "- Each table is of one machine.\n"
+        "- Figures are medians. Brackets contain the smallest value and by how much the largest exceeds it.\n"
+        "- Each section names its commit and the load of the machine. If other programs used cores, its times are not "
+        "reliable.\n"
+        "- A time is judged as a ratio, so that targets hold on any machine: time × copy bandwidth per fluid particle. "
+        "This is\n  the number of kilobytes that the machine could have copied in the same time.\n",
+        file.stream);
     status = put_machines(file.stream, out, error);
     if (status == SB_OK) return sb_atomic_commit(&file, 0, error);
     sb_atomic_abort(&file);

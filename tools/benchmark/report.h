@@ -1,4 +1,4 @@
-/* benchmarks.md, made of the kept rows of each machine. */
+/* Writes benchmarks.md from the kept rows of each machine. */
 #ifndef SB_BENCHMARK_REPORT_H
 #define SB_BENCHMARK_REPORT_H
 
@@ -14,18 +14,18 @@ typedef struct sb_bench_table {
     sb_bench_rows rows;
 } sb_bench_table;
 
-/* Marks the origin of a quick form's table. */
+/* Marks the origin of a table of a quick form. */
 #define SB_BENCH_QUICKLY ", quick"
 
 enum { SB_BENCH_TABLES_MAX = 16 };
 
-/* Those of one machine. */
+/* The tables of one machine. */
 typedef struct sb_bench_tables {
     size_t count;
     sb_bench_table table[SB_BENCH_TABLES_MAX];
 } sb_bench_tables;
 
-/* Reads FOLDER/<section>.csv, those that there are. Zero-initialised is empty; free in any case. */
+/* Reads all existing FOLDER/<section>.csv. Zero-initialise the tables before, free them in any case. */
 sb_status sb_bench_tables_read(sb_bench_tables *tables, const char *folder, sb_error *error);
 void sb_bench_tables_free(sb_bench_tables *tables);
 
@@ -33,15 +33,16 @@ void sb_bench_tables_free(sb_bench_tables *tables);
    (without gnuplot: no picture). */
 sb_status sb_bench_report(const char *out, sb_error *error);
 
-/* Inside the report. */
+/* Parts of the report. */
 
-/* What the targets say about one machine: figure, time, judged ratio, target, stretch target, result. */
+/* Writes the table of targets of one machine: figure, time, judged ratio, target, stretch target, result. */
 void sb_bench_put_targets(FILE *file, const sb_bench_tables *tables);
-/* The copy bandwidth measured with that table; else, or with NULL, with another one of the same machine. NULL: none. */
+/* Copy bandwidth measured with that table or, failing that or with NULL, with another one of the machine. NULL: none.
+ */
 const sb_bench_row *sb_bench_copy(const sb_bench_tables *tables, const sb_bench_table *table);
-/* The largest basin's cost per particle over the smallest's, on the most threads; NaN: not measured. */
+/* Cost per particle of the largest basin divided by that of the smallest, with most threads; NaN: not measured. */
 double sb_bench_growth(const sb_bench_rows *scaling);
-/* Parallel efficiency from one thread to that many; NaN: not measured. */
+/* Parallel efficiency of that many threads; NaN: not measured. */
 double sb_bench_efficiency(const sb_bench_rows *scaling, size_t particles, int threads);
 
 #endif

@@ -25,7 +25,7 @@ static int ascending(const void *a, const void *b)
 sb_status sb_bench_append(sb_bench_rows *to, const sb_bench_row *rows, size_t count, sb_error *error)
 {
     if (sb_grow((void **)&to->rows, &to->capacity, to->count + count, sizeof *to->rows) != 0)
-        return sb_fail_memory(error, "what was measured");
+        return sb_fail_memory(error, "measured rows");
     for (size_t i = 0; i < count; i++) to->rows[to->count++] = rows[i];
     return SB_OK;
 }
@@ -125,7 +125,7 @@ static sb_status read_origin(const char *path, char *origin, size_t size, sb_err
     return status;
 }
 
-/* A count in a column; SB_BAD_INPUT names the line. */
+/* Reads a count from a column. SB_BAD_INPUT: the error names the row. */
 static sb_status count_of(const sb_sheet *sheet, size_t r, size_t column, const char *path, size_t *count,
                           sb_error *error)
 {

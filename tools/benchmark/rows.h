@@ -1,4 +1,4 @@
-/* What was measured: rows of one table, kept as CSV. */
+/* Measured values: rows of one table, stored as CSV. */
 #ifndef SB_BENCHMARK_ROWS_H
 #define SB_BENCHMARK_ROWS_H
 
@@ -12,7 +12,7 @@ enum { SB_BENCH_NAME = 64, SB_BENCH_REPEATS_MAX = 100 };
 /* One quantity of one subject, over repeats of the same work. */
 typedef struct sb_bench_row {
     char subject[SB_BENCH_NAME]; /* a kernel, a scene, "machine" */
-    size_t particles;            /* fluid particles; 0: none of the matter */
+    size_t particles;            /* fluid particles; 0: not applicable */
     int threads;
     char quantity[SB_BENCH_NAME]; /* "time per particle", "memory", ... */
     char unit[SB_BENCH_NAME];
@@ -20,7 +20,7 @@ typedef struct sb_bench_row {
     int repeats;
 } sb_bench_row;
 
-/* Zero-initialised is empty. */
+/* A zero-initialised table is empty. */
 typedef struct sb_bench_rows {
     size_t count, capacity;
     sb_bench_row *rows;
@@ -32,28 +32,28 @@ typedef struct sb_bench_samples {
     int count;
 } sb_bench_samples;
 
-/* Beyond SB_BENCH_REPEATS_MAX samples are left out. */
+/* Adds a sample; samples beyond SB_BENCH_REPEATS_MAX are ignored. */
 void sb_bench_sample(sb_bench_samples *samples, double value);
 
-/* NaN without samples. */
+/* NaN: no samples. */
 double sb_bench_median(const sb_bench_samples *samples);
 
-/* Least, median and most of the samples, each times `factor`. SB_FAILED without memory. */
+/* Adds smallest value, median and largest value of the samples, each times `factor`. SB_FAILED: out of memory. */
 sb_status sb_bench_add(sb_bench_rows *rows, const char *subject, size_t particles, int threads, const char *quantity,
                        const char *unit, const sb_bench_samples *samples, double factor, sb_error *error);
-/* A quantity that needs no repeats. */
+/* Adds a quantity without repeats. */
 sb_status sb_bench_add_value(sb_bench_rows *rows, const char *subject, size_t particles, int threads,
                              const char *quantity, const char *unit, double value, sb_error *error);
 sb_status sb_bench_append(sb_bench_rows *to, const sb_bench_row *rows, size_t count, sb_error *error);
 void sb_bench_rows_free(sb_bench_rows *rows);
 
-/* The row of that subject and quantity; particles 0 or threads 0: of any. Of several the first. NULL: none. */
+/* The first row of that subject and quantity; particles 0 or threads 0: any. NULL: none. */
 const sb_bench_row *sb_bench_find(const sb_bench_rows *rows, const char *subject, size_t particles, int threads,
                                   const char *quantity);
 
-/* A CSV file, whole or not at all; each line of `origin` stands before it behind '#'. */
+/* Writes a CSV file, whole or not at all, after the lines of `origin`, each with a leading '#'. */
 sb_status sb_bench_write(const sb_bench_rows *rows, const char *origin, const char *path, sb_error *error);
-/* Reads it back. *found false, and no error, when there is no such file. origin: the lines behind '#', of at most
+/* Reads such a file. *found: false, without error, if the file does not exist. origin: the lines with '#', at most
    `size` bytes. */
 sb_status sb_bench_read(sb_bench_rows *rows, char *origin, size_t size, bool *found, const char *path, sb_error *error);
 

@@ -1,4 +1,4 @@
-/* Whole runs by the program itself, once each: wall time as a user has it, set-up and measuring included. */
+/* Measures whole runs of the program, once each: the run time of a user, including set-up and measuring. */
 #include "base/file.h"
 #include "base/memory.h"
 #include "program.h"
@@ -36,8 +36,8 @@ static const plan plans[] = {
      "resolution=0.03",
      "duration=0.05",
      {NULL}},
-    {"column at 1 cm, held tighter",
-     "column but coarser, held tighter",
+    {"column at 1 cm, shorter step",
+     "column but coarser, shorter step",
      "scenes/dam-break-column.yaml",
      NULL,
      "resolution=0.01",
@@ -79,9 +79,9 @@ static sb_status one_run(const sb_bench_request *request, const plan *p, sb_benc
         const char *quantity, *unit;
         double value;
     } values[] = {
-        {"wall time", "s", wall},
+        {"run time", "s", wall},
         {"simulated time", "s", simulated},
-        {"wall time per simulated second", "s", wall / simulated},
+        {"run time per simulated second", "s", wall / simulated},
         {"steps", "1", sb_json_number_in(summary, "steps")},
         {"iterations per step", "1", sb_json_number_in(summary, "mean_iterations")},
         {"compression, mean", "%", 100 * sb_json_number_in(summary, "compression_mean")},

@@ -1,4 +1,4 @@
-/* Whole steps of ten iterations in basins of many sizes, on one thread and on more. */
+/* Measures whole steps of ten iterations in basins of several sizes, with one thread and more. */
 #include "base/file.h"
 #include "child.h"
 #include "sections.h"
@@ -29,7 +29,7 @@ static sb_status with_threads(sb_bench_subject *subject, int threads, int repeat
                         1e9 / ((double)n * STEPS), error);
 }
 
-/* The state is made once; all repeats, on any number of threads, must lead to the same bits. */
+/* The state is made once; all repeats, with any number of threads, must give the same bits. */
 static sb_status one_size(const void *context_, sb_bench_rows *rows, sb_error *error)
 {
     const context *c = context_;

@@ -1,4 +1,4 @@
-/* The scenes delivered, as they are but for a shorter settling: steps from one saved state, stage by stage. */
+/* Measures the delivered scenes with a shorter settling: steps from a saved state, stage by stage. */
 #include "base/file.h"
 #include "base/memory.h"
 #include "child.h"
@@ -8,10 +8,10 @@
 #include <omp.h>
 #include <stdio.h>
 
-/* Steps before the state is kept, and steps of a repeat. */
+/* A scene: steps before the state is saved, and steps of a repeat. */
 typedef struct plan {
     const char *name, *file;
-    const char *resolution, *quick_resolution; /* m; NULL: the scene's own */
+    const char *resolution, *quick_resolution; /* m; NULL: that of the scene */
     int before, steps;
 } plan;
 
@@ -29,11 +29,11 @@ typedef struct context {
 
 typedef struct times {
     sb_bench_samples step, stage[SB_STAGES_MAX];
-    double simulated; /* s of the scene's clock in the steps of one repeat */
+    double simulated; /* simulated s of the steps of one repeat */
     double iterations;
 } times;
 
-/* Iterations and simulated time of the steps that are timed. */
+/* Counts iterations and simulated time of the timed steps. */
 static sb_status count_work(sb_bench_subject *subject, int steps, times *t, sb_error *error)
 {
     sb_status status = sb_bench_restore(subject, error);
@@ -86,7 +86,7 @@ static sb_status add_all(const char *name, const sb_bench_subject *subject, int 
         {"boundary particles", "1", (double)subject->model.wall_count},
         {"memory of the simulation", "B/particle", (double)sb_sim_bytes(subject->sim) / (double)n},
         {"peak memory", "B/particle", (double)subject->peak / (double)n},
-        {"peak memory in all", "MB", 1e-6 * (double)subject->peak},
+        {"total peak memory", "MB", 1e-6 * (double)subject->peak},
         {"set-up", "s", subject->setup},
     };
     for (size_t v = 0; v < sizeof values / sizeof values[0] && status == SB_OK; v++)

@@ -5,14 +5,14 @@
 #include <string.h>
 
 const sb_bench_section sb_bench_sections[] = {
-    {"kernels", "each stage and pass of a step against this machine's limits", true, sb_bench_kernels},
-    {"scenes", "whole steps of the scenes delivered, stage by stage", true, sb_bench_scenes},
+    {"kernels", "each stage and pass of a step, compared with this machine's limits", true, sb_bench_kernels},
+    {"scenes", "whole steps of the delivered scenes, stage by stage", true, sb_bench_scenes},
     {"scaling", "cost per particle by number of particles and of threads", true, sb_bench_scaling},
-    {"memory", "bytes per particle, array by array, and what dry terrain costs", true, sb_bench_memory},
+    {"memory", "bytes per particle, array by array, and the cost of dry land", true, sb_bench_memory},
     {"large", "the plant at 1 m: set-up, 20 steps, peak memory (minutes, and about 10 GB)", false, sb_bench_large},
-    {"runs", "whole runs of the plant at 4 m, by both presets, and of the column at 1 cm (tens of minutes)", false,
+    {"runs", "whole runs of the plant at 4 m by both presets, and of the column at 1 cm (tens of minutes)", false,
      sb_bench_runs},
-    {"island", "the conical island of the validation, a whole run (an hour or more)", false, sb_bench_island},
+    {"island", "a whole run of the conical island of the validation (an hour or more)", false, sb_bench_island},
     {.name = NULL},
 };
 

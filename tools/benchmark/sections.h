@@ -1,4 +1,4 @@
-/* What the benchmark measures, section by section. Each writes one CSV file; the report is made of all. */
+/* The sections of the benchmark. Each writes one CSV file; the report is made from all of them. */
 #ifndef SB_BENCHMARK_SECTIONS_H
 #define SB_BENCHMARK_SECTIONS_H
 
@@ -6,13 +6,13 @@
 
 #include <stddef.h>
 
-/* How a section is asked for. */
+/* Parameters of a section. */
 typedef struct sb_bench_request {
     const char *assets;      /* folder with benchmark/ and scenes/ */
-    int repeats;             /* of each measure, >= 1 */
-    int threads;             /* the most to use */
-    bool quick;              /* small sizes: for a look, and for tests of the program itself */
-    double copy, arithmetic; /* what the machine can do, by sb_bench_limits: B/s, operations on floats per second */
+    int repeats;             /* of each measurement, >= 1 */
+    int threads;             /* largest number to use */
+    bool quick;              /* small sizes, for a first look and for tests */
+    double copy, arithmetic; /* limits of the machine, by sb_bench_limits: B/s, operations on floats per second */
 } sb_bench_request;
 
 typedef sb_status sb_bench_run(const sb_bench_request *request, sb_bench_rows *rows, sb_error *error);
@@ -23,7 +23,7 @@ typedef struct sb_bench_section {
     sb_bench_run *run;
 } sb_bench_section;
 
-/* Ended by a row whose name is NULL. */
+/* Ended by a row with name NULL. */
 extern const sb_bench_section sb_bench_sections[];
 /* The section of that name, or NULL. */
 const sb_bench_section *sb_bench_section_find(const char *name);
@@ -31,10 +31,10 @@ const sb_bench_section *sb_bench_section_find(const char *name);
 sb_bench_run sb_bench_kernels, sb_bench_scaling, sb_bench_scenes, sb_bench_memory, sb_bench_large, sb_bench_runs,
     sb_bench_island;
 
-/* The text "resolution=..." that gives the basin about so many particles. */
+/* Writes the spacing with which the basin has about so many particles. */
 void sb_bench_basin(size_t particles, char resolution[32]);
 
-/* The names of what is measured, as rows have them and the report looks them up. */
+/* Names in the rows by which the report finds them. */
 #define SB_BENCH_PER_PARTICLE "time per particle"
 #define SB_BENCH_STEP "whole step"
 #define SB_BENCH_ITERATION "pressure iteration"

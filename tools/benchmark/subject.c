@@ -74,7 +74,7 @@ sb_status sb_bench_repeat(sb_bench_subject *subject, int steps, double *seconds,
     if (status != SB_OK) return status;
     const uint64_t hash = sb_sim_hash(sim);
     if (subject->result && hash != subject->result)
-        return sb_fail(error, SB_FAILED, "%d steps from one state led to the hashes %016llx and %016llx", steps,
+        return sb_fail(error, SB_FAILED, "%d steps from the same state gave the hashes %016llx and %016llx", steps,
                        (unsigned long long)subject->result, (unsigned long long)hash);
     subject->result = hash;
     return SB_OK;

@@ -1,4 +1,4 @@
-/* The targets, and what one machine's tables say about them. */
+/* The targets, and the results of one machine's tables. */
 #include "report.h"
 
 #include <math.h>
@@ -17,13 +17,13 @@ typedef struct target {
 
 static const target targets[] = {
     {"plant at 4 m, preset `paper`, per simulated second", "kB per particle", 447, 298, false, true, "runs",
-     "plant at 4 m; paper", "wall time per simulated second", 1},
+     "plant at 4 m; paper", "run time per simulated second", 1},
     {"plant at 4 m, preset `default`, per simulated second", "kB per particle", 164, 67, false, true, "runs",
-     "plant at 4 m; default", "wall time per simulated second", 1},
-    {"column at 1 cm, tighter setting, per simulated second", "kB per particle", 9310, 4650, false, true, "runs",
-     "column at 1 cm, held tighter", "wall time per simulated second", 1},
-    {"the same: mean compression (target: that of SPlisHSPlasH's DFSPH)", "%", 0.044, 0.044, false, false, "runs",
-     "column at 1 cm, held tighter", "compression, mean", 1},
+     "plant at 4 m; default", "run time per simulated second", 1},
+    {"column at 1 cm, shorter step, per simulated second", "kB per particle", 9310, 4650, false, true, "runs",
+     "column at 1 cm, shorter step", "run time per simulated second", 1},
+    {"column at 1 cm, shorter step: mean compression (target: that of SPlisHSPlasH's DFSPH)", "%", 0.044, 0.044, false,
+     false, "runs", "column at 1 cm, shorter step", "compression, mean", 1},
     {"pressure iteration, fluid and walls, 1 M particles", "kB per particle", 0.95, 0.84, false, true, "kernels",
      SB_BENCH_ITERATION, SB_BENCH_PER_PARTICLE, 1},
     {"whole step of 10 iterations, 1 M particles", "kB per particle", 16.8, 12.2, false, true, "kernels", SB_BENCH_STEP,
@@ -36,15 +36,15 @@ static const target targets[] = {
     {"memory of the whole program, plant at 4 m", "B per particle", 450, 300, false, false, "memory",
      "plant at 4 m by the program", "peak memory", 1},
     {"plant at 1 m: set-up", "kB per particle", 314, 314, false, true, "large", "plant at 1 m", "set-up", 1},
-    {"plant at 1 m: peak memory of 20 steps", "GiB", 9, 6, false, false, "large", "plant at 1 m", "peak memory in all",
+    {"plant at 1 m: peak memory of 20 steps", "GiB", 9, 6, false, false, "large", "plant at 1 m", "total peak memory",
      1e6 / 1073741824},
-    {"ten times more dry terrain adds", "%", 2, 0, false, false, "memory", "shore with ten times the land",
+    {"time added by ten times more dry terrain", "%", 2, 0, false, false, "memory", "shore with ten times the land",
      "time added", 1},
     {"conical island, per simulated second", "kB per particle", 2910, 1450, false, true, "island", "conical island",
-     "wall time per simulated second", 1},
+     "run time per simulated second", 1},
 };
 
-/* Quick forms are no measure of anything. */
+/* The table of a section; quick forms are not judged. */
 static const sb_bench_table *table_of(const sb_bench_tables *tables, const char *section)
 {
     for (size_t t = 0; t < tables->count; t++)
@@ -54,7 +54,7 @@ static const sb_bench_table *table_of(const sb_bench_tables *tables, const char 
     return NULL;
 }
 
-/* Kernels come in sizes: the row nearest to a million particles; of rows without particles the last. */
+/* Of several sizes, the row nearest to a million particles; of rows without particles, the last. */
 static const sb_bench_row *look_up(const sb_bench_rows *rows, const char *subject, const char *quantity)
 {
     const sb_bench_row *best = NULL;
@@ -97,12 +97,12 @@ double sb_bench_efficiency(const sb_bench_rows *scaling, size_t particles, int t
     return one && many && threads > 1 ? one->median / (threads * many->median) : (double)NAN;
 }
 
-/* A figure with the least and the most of its repeats; those equal it where it has none. */
+/* A figure with the smallest and the largest value of its repeats; both equal it if there are none. */
 typedef struct figure {
     double value, least, most;
 } figure;
 
-/* Figures that are worked out of several rows. */
+/* Figures that are computed from several rows. */
 static figure derived(const target *g, const sb_bench_rows *scaling)
 {
     const sb_bench_row *row = look_up(scaling, SB_BENCH_STEP, SB_BENCH_PER_PARTICLE);
@@ -124,7 +124,7 @@ static void put_figure(FILE *file, figure f)
     if (f.least < f.most) fprintf(file, " (%.*g to %.*g)", digits, f.least, digits, f.most);
 }
 
-/* What stands behind "commit: " in the lines of where a table is from. */
+/* Writes the commit from the origin of a table. */
 static void put_commit(FILE *file, const sb_bench_table *table)
 {
     static const char key[] = "commit: ";
@@ -141,7 +141,7 @@ static const char *verdict(const target *g, double value)
                                                : "**missed**";
 }
 
-/* One line; nothing where it is not measured. A time stands in its own unit, too. */
+/* Writes one row, or nothing if the figure was not measured. A time is also written in its unit. */
 static void put_target(FILE *file, const target *g, const sb_bench_tables *tables)
 {
     const sb_bench_table *table = table_of(tables, g->section);
@@ -171,7 +171,8 @@ static void put_target(FILE *file, const target *g, const sb_bench_tables *table
 
 void sb_bench_put_targets(FILE *file, const sb_bench_tables *tables)
 {
-    fputs("| figure | time (least to most) | judged (least to most) | unit | target | stretch target | result | commit "
+    fputs("| figure | time (smallest to largest) | judged value (smallest to largest) | unit | target | stretch target "
+          "| result | commit "
           "|\n|---|---|---|---|---|---|---|---|\n",
           file);
     for (size_t i = 0; i < sizeof targets / sizeof targets[0]; i++) put_target(file, &targets[i], tables);

@@ -76,7 +76,7 @@ static double turn(const sb_ring *ring, size_t a, size_t b, size_t c)
            (ring->x[c] - ring->x[a]) * (ring->y[b] - ring->y[a]);
 }
 
-/* No other corner of what is left lies in the triangle a b c, its rim included. */
+/* Whether no other remaining corner lies in the triangle a b c or on its edges. */
 static bool is_ear(const sb_ring *ring, const size_t *left, size_t count, size_t at)
 {
     size_t a = left[(at + count - 1) % count], b = left[at], c = left[(at + 1) % count];
@@ -90,7 +90,7 @@ static bool is_ear(const sb_ring *ring, const size_t *left, size_t count, size_t
     return true;
 }
 
-/* Closes a ring by cutting ears; up: seen from above, else from below. */
+/* Closes a ring by ear clipping. up: the face is visible from above, else from below. */
 static void cap(sb_form *form, const sb_ring *ring, uint32_t first, bool up)
 {
     size_t left[SB_FORM_CORNERS], count = ring->count;
@@ -130,8 +130,8 @@ void sb_form_loft(sb_form *form, const sb_ring *rings, size_t count)
     cap(form, &rings[count - 1], first + (uint32_t)(count - 1) * corners, true);
 }
 
-/* Unit direction of the line's piece i. */
-static void piece(const sb_dike *dike, size_t i, double out[2])
+/* Unit direction of segment i of the line. */
+static void direction_of(const sb_dike *dike, size_t i, double out[2])
 {
     double dx = dike->line[i + 1][0] - dike->line[i][0];
     double dy = dike->line[i + 1][1] - dike->line[i][1];
@@ -145,15 +145,15 @@ void sb_form_dike(sb_form *form, const sb_dike *dike)
     uint32_t first = (uint32_t)form->mesh.vertex_count;
     for (size_t i = 0; i < dike->count; i++) {
         double before[2], after[2];
-        piece(dike, i > 0 ? i - 1 : 0, before);
-        piece(dike, i + 1 < dike->count ? i : dike->count - 2, after);
-        /* The mitre keeps both pieces' widths: m = (n1 + n2) / (1 + n1.n2), n left of the line. */
+        direction_of(dike, i > 0 ? i - 1 : 0, before);
+        direction_of(dike, i + 1 < dike->count ? i : dike->count - 2, after);
+        /* The mitre keeps the width of both segments: m = (n1 + n2) / (1 + n1.n2), n to the left of the line. */
         double scale = 1 / (1 + before[0] * after[0] + before[1] * after[1]);
         double mx = -(before[1] + after[1]) * scale, my = (before[0] + after[0]) * scale;
-        double reach = dike->slope * (dike->crest - dike->foot[i]);
-        double out = i == 0 ? -reach : i + 1 == dike->count ? reach : 0; /* the head's own slope */
+        double run = dike->slope * (dike->crest - dike->foot[i]);
+        double out = i == 0 ? -run : i + 1 == dike->count ? run : 0; /* slope of the head */
         double x = dike->line[i][0], y = dike->line[i][1], half = dike->width / 2;
-        double fx = x + out * after[0], fy = y + out * after[1], wide = half + reach;
+        double fx = x + out * after[0], fy = y + out * after[1], wide = half + run;
         sb_form_vertex(form, sb_vec(fx + wide * mx, fy + wide * my, dike->foot[i]));
         sb_form_vertex(form, sb_vec(x + half * mx, y + half * my, dike->crest));
         sb_form_vertex(form, sb_vec(x - half * mx, y - half * my, dike->crest));

@@ -5,7 +5,7 @@
 #include "base/vec.h"
 #include "geometry/mesh.h"
 
-/* A mesh being built. The first failed allocation sticks: later calls do nothing. */
+/* A mesh being built. After a failed allocation, later calls do nothing. */
 typedef struct sb_form {
     sb_mesh mesh;
     size_t vertex_capacity, triangle_capacity;
@@ -17,7 +17,7 @@ void sb_form_triangle(sb_form *form, uint32_t a, uint32_t b, uint32_t c);
 /* a b c d counter-clockwise seen from outside, split along a-c. */
 void sb_form_quad(sb_form *form, uint32_t a, uint32_t b, uint32_t c, uint32_t d);
 
-/* The finished mesh with its name moves to *mesh; SB_FAILED without memory, *mesh untouched. */
+/* Moves the finished mesh with its name to *mesh. SB_FAILED: out of memory; *mesh is unchanged. */
 sb_status sb_form_finish(sb_form *form, const char *name, sb_mesh *mesh, sb_error *error);
 
 /* A horizontal outline, counter-clockwise from above. */
@@ -31,12 +31,12 @@ typedef struct sb_ring {
 sb_ring sb_ring_rectangle(double x_min, double x_max, double y_min, double y_max, double z);
 sb_ring sb_ring_circle(double x, double y, double radius, double z);
 
-/* A solid through rings from the lowest to the highest, all with the same corner count, the two end
-   rings closed by flat faces; rings may be concave. */
+/* A solid through rings from the lowest to the highest, all with the same number of corners. The two end rings are
+   closed by flat faces. Rings may be concave. */
 void sb_form_loft(sb_form *form, const sb_ring *rings, size_t count);
 
-/* A dike of trapezoid section along a line of at least two points: flat crest at height `crest` and
-   of full `width`, sides and both heads falling 1 : slope down to foot[i] at point i. */
+/* A dike of trapezoidal section along a line of at least two points. Its crest is flat, at height `crest` and with the
+   full `width`; sides and heads fall 1 : slope to foot[i] at point i. */
 typedef struct sb_dike {
     const double (*line)[2]; /* m, the crest's axis */
     const double *foot;      /* m, lowest level at each point */

@@ -1,6 +1,6 @@
-/* Where each building stands. North is -y, as seen by someone who stands in the sea and looks at
-   the plant: units 6 and 5 to the right, then 1 to 4. Neighbours keep 14 m apart or more, so that
-   water can pass between them at 6 m. All are rooted below the ground they stand on. */
+/* Positions of the buildings. North is -y. Seen from the sea, units 6 and 5 are on the right, then units 1 to 4.
+   Buildings are at least 14 m apart, so that water can pass between them at a spacing of 6 m. All extend below the
+   ground. */
 #include "plant.h"
 
 #include "base/memory.h"
@@ -49,8 +49,8 @@ static void add_box(plant_site *site, const char *name, const double x[2], const
     add_loft(site, name, rings, 2);
 }
 
-/* A reactor building 45 m square whose two top floors step back by 3 m, and before it the turbine
-   hall: an annex on the sea side, the hall itself, a hipped roof. */
+/* A reactor building, 45 m square, with its two top floors set back by 3 m. On its sea side the turbine hall: an annex,
+   the hall and a hipped roof. */
 static void add_unit(plant_site *site, int number, double y)
 {
     char name[SB_NAME_MAX];
@@ -89,7 +89,7 @@ static void add_tank(plant_site *site, int number, double x, double y)
     add_loft(site, name, rings, 3);
 }
 
-/* An upright prism over an outline. */
+/* A vertical prism over an outline. */
 static void add_prism(plant_site *site, const char *name, sb_ring outline, double low, double high)
 {
     sb_ring rings[] = {outline, outline};
@@ -98,7 +98,7 @@ static void add_prism(plant_site *site, const char *name, sb_ring outline, doubl
     add_loft(site, name, rings, 2);
 }
 
-/* In the harbour: the quay's wall, and before it the intake, a comb whose bays face the sea. */
+/* In the harbour: the wall of the quay, and in front of it the intake, a comb with bays towards the sea. */
 static void add_waterfront(plant_site *site)
 {
     const sb_plant_options *options = site->options;
@@ -110,7 +110,7 @@ static void add_waterfront(plant_site *site)
     add_prism(site, "intake", comb, low, options->quay + 1);
 }
 
-/* Three walls around a pocket that is open towards the sea. */
+/* Three walls around a space that is open towards the sea. */
 static void add_cavity(plant_site *site)
 {
     double grade = site->options->grade;
@@ -119,7 +119,7 @@ static void add_cavity(plant_site *site)
     add_prism(site, "cavity", walls, grade - ROOT, grade + 18);
 }
 
-/* Two arms of rubble from the shore around the harbour; their heads leave an entrance of 100 m. */
+/* Two breakwaters from the shore around the harbour, with an entrance of 100 m between their heads. */
 static void add_breakwaters(plant_site *site)
 {
     static const double north[][2] = {{852, 200}, {800, 200}, {700, 200}, {640, 270}, {620, 450}};
@@ -132,7 +132,7 @@ static void add_breakwaters(plant_site *site)
         double foot[5];
         for (size_t i = 0; i < 5; i++)
             foot[i] = sb_plant_ground(site->options, arms[a].line[i][0], arms[a].line[i][1]) - 3;
-        /* On land the foot may lie high; it must still be below the crest. */
+        /* On land the ground may be high; the foot must be below the crest. */
         for (size_t i = 0; i < 5; i++) foot[i] = foot[i] < -3 ? foot[i] : -3;
         sb_dike dike = {arms[a].line, foot, 5, site->options->breakwater, 12, 1.5};
         sb_form form = {0};

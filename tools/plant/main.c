@@ -1,4 +1,4 @@
-/* Command line of the plant maker. */
+/* tools/make-plant: writes the coastal plant as a mesh. */
 #include "plant.h"
 
 #include <math.h>
@@ -12,8 +12,8 @@ static void usage(FILE *out)
     fprintf(out, "usage: make-plant [--out FILE | --parts FOLDER] [--HEIGHT METRES]...\n"
                  "Writes a coastal nuclear plant as one mesh (Wavefront OBJ), every building an "
                  "object.\n\n"
-                 "  --out FILE          where to write (plant.obj)\n"
-                 "  --parts FOLDER      a file for each part instead: terrain, reactors, ...\n");
+                 "  --out FILE          file to write (plant.obj)\n"
+                 "  --parts FOLDER      writes one file per part instead: terrain, reactors, ...\n");
     for (const sb_plant_option *row = sb_plant_option_table; row->name; row++)
         fprintf(out, "  --%-17s %s (%g; %g to %g)\n", row->name, row->summary, row->value, row->least, row->most);
     fprintf(out, "  --help, --version\n");
@@ -25,7 +25,7 @@ static int bad(const char *what, const char *which)
     return SB_BAD_INPUT;
 }
 
-/* Sets the height called name; NULL when done, else what is wrong. */
+/* Sets the height of that name. Returns NULL, or what is wrong. */
 static const char *set_height(sb_plant_options *options, const char *name, const char *text)
 {
     for (const sb_plant_option *row = sb_plant_option_table; row->name; row++) {
@@ -70,7 +70,7 @@ int main(int argc, char **argv)
             return 0;
         }
         if (strncmp(argv[i], "--", 2) != 0) return bad("not an option", argv[i]);
-        if (i + 1 == argc) return bad("a value is missing or there is no such option", argv[i]);
+        if (i + 1 == argc) return bad("expected a value, or no such option", argv[i]);
         const char *name = argv[i] + 2, *value = argv[++i];
         if (strcmp(name, "out") == 0 || strcmp(name, "parts") == 0) {
             path = value;

@@ -8,7 +8,7 @@
 
 #include <stddef.h>
 
-/* Where the terrain ends: the domain's ground plan, the paddle's 20 m behind x = 0 included. */
+/* Extent of the terrain, including the 20 m of the paddle behind x = 0. */
 #define SB_PLANT_X_MIN (-20.0)
 #define SB_PLANT_X_MAX 1300.0
 #define SB_PLANT_Y_MAX 1150.0
@@ -37,27 +37,26 @@ extern const sb_plant_option sb_plant_option_table[];
 
 sb_plant_options sb_plant_defaults(void);
 
-/* SB_BAD_INPUT when a height is out of its range or two of them contradict each other. */
+/* SB_BAD_INPUT: a height is out of its range, or two heights contradict each other. */
 sb_status sb_plant_check(const sb_plant_options *options, sb_error *error);
 
 /* Height of the ground at (x, y), before any building. */
 double sb_plant_ground(const sb_plant_options *options, double x, double y);
 
-/* The ground as a sheet named "terrain", normals up, on the grid that sb_plant_ground is sampled
- * at. */
+/* The ground as an open surface named "terrain" with upward normals, sampled from sb_plant_ground on a grid. */
 sb_status sb_plant_terrain(const sb_plant_options *options, sb_mesh *mesh, sb_error *error);
 
-/* Terrain first, then each building: a closed mesh with its own name, normals outward. The caller
-   owns *meshes: sb_plant_free. On error nothing is left behind. */
+/* Builds the terrain, then each building as a closed mesh with its name and outward normals. The caller frees *meshes
+   with sb_plant_free. On error there is nothing to free. */
 sb_status sb_plant_build(const sb_plant_options *options, sb_mesh **meshes, size_t *count, sb_error *error);
 void sb_plant_free(sb_mesh *meshes, size_t count);
 
-/* Writes Wavefront OBJ with one object per mesh, the options in its head; whole or not at all. */
+/* Writes Wavefront OBJ with one object per mesh and the options in its head, whole or not at all. */
 sb_status sb_plant_write(const sb_plant_options *options, const sb_mesh *meshes, size_t count, const char *path,
                          sb_error *error);
 
-/* The same bodies, a file for each part of the plant in `folder` (made when missing): terrain,
-   breakwaters, waterfront, reactors, turbines, stacks, tanks, annexes. */
+/* Writes the same bodies with one file per part of the plant into `folder` (made if missing): terrain, breakwaters,
+   waterfront, reactors, turbines, stacks, tanks, annexes. */
 sb_status sb_plant_write_parts(const sb_plant_options *options, const sb_mesh *meshes, size_t count, const char *folder,
                                sb_error *error);
 

@@ -1,5 +1,5 @@
-/* The ground: a sea bed falling away from a straight shore, a dredged harbour, the plant's terrace
-   cut into the coast, and hills behind and beside it. */
+/* The ground: a sea bed that descends from a straight shore, a dredged harbour, the terrace of the plant in the coast,
+   and hills behind and beside it. */
 #include "plant.h"
 
 #include "base/memory.h"
@@ -11,7 +11,7 @@
 /* Plan of the harbour basin and of the terrace. The levels change in steps between these lines. */
 static const double basin_y[4] = {235, 250, 840, 855};   /* bank, floor ... floor, bank */
 static const double terrace_y[4] = {130, 195, 905, 970}; /* hillside, flat ... flat, hillside */
-static const double terrace_x[2] = {1030, 1105};         /* flat up to, hill from */
+static const double terrace_x[2] = {1030, 1105};         /* end of the flat part, start of the hill */
 
 static double clamp01(double t)
 {
@@ -64,8 +64,7 @@ static double basin(double y)
     return ramp(y, basin_y[0], basin_y[1]) * (1 - ramp(y, basin_y[2], basin_y[3]));
 }
 
-/* The untouched coast: a narrow beach, bluffs, and a plateau that nowhere rises above the hill
- * level. */
+/* The coast without the plant: a narrow beach, bluffs, and a plateau not above the hill level. */
 static double coast(const sb_plant_options *options, double x, double y)
 {
     double beach = 2.5 * ramp(x, SB_PLANT_SHORE, 820);
@@ -76,8 +75,8 @@ static double coast(const sb_plant_options *options, double x, double y)
     return height < options->hill ? height : options->hill;
 }
 
-/* The terrace and what leads up to it: quay apron, revetment, grade. Behind the quay's wall the
-   ground climbs steeply, hidden in it. */
+/* The terrace and its seaward side: quay apron, revetment, grade. Behind the wall of the quay the ground rises steeply,
+   hidden inside it. */
 static double terrace(const sb_plant_options *options, double x, double y)
 {
     double apron = options->quay - 0.5;
@@ -100,8 +99,7 @@ double sb_plant_ground(const sb_plant_options *options, double x, double y)
     return mix(coast(options, x, y), terrace(options, x, y), along * across);
 }
 
-/* Grid lines from breaks[0] to the last break, each gap cut evenly into steps of at most step[i].
- */
+/* Grid lines from breaks[0] to the last break; each gap is divided evenly into steps of at most step[i]. */
 static size_t lines(const double *breaks, const double *step, size_t count, double *out)
 {
     size_t n = 0;
@@ -114,8 +112,7 @@ static size_t lines(const double *breaks, const double *step, size_t count, doub
     return n;
 }
 
-/* Of the two ways to split a grid cell, along the diagonal that is the more level: ridges and quay
-   edges come out straight. */
+/* Splits a grid cell along the more level diagonal, so that ridges and quay edges are straight. */
 static void cell(sb_form *form, uint32_t a, uint32_t b, uint32_t c, uint32_t d)
 {
     const sb_vec3 *v = form->mesh.vertices;

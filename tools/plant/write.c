@@ -1,4 +1,4 @@
-/* The plant as Wavefront OBJ. Two decimals are enough: a centimetre on a coast. */
+/* Writes the plant as Wavefront OBJ, with coordinates rounded to a centimetre. */
 #include "plant.h"
 
 #include "base/file.h"
@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A coordinate rounded to centimetres without idle zeros ("12.5", "-38", "0"). */
+/* A coordinate rounded to centimetres without trailing zeros ("12.5", "-38", "0"). */
 static const char *number(double value, char out[32])
 {
     double rounded = round(value * 100) / 100;
@@ -29,8 +29,7 @@ static void write_head(const sb_plant_options *options, FILE *stream)
     fprintf(stream, "\n");
 }
 
-/* The part of the plant that a body belongs to is a file of its own, so that a scene can give each
-   part its role and colour. */
+/* The part of the plant to which a body belongs. Each part is a file, so that a scene can set its role and colour. */
 static const struct {
     const char *prefix, *part;
 } parts[] = {
@@ -61,7 +60,7 @@ static void write_mesh(const sb_mesh *mesh, size_t base, FILE *stream)
     }
 }
 
-/* Those meshes that belong to the part, or all when it is NULL. */
+/* Writes the meshes of the part; NULL: all. */
 static sb_status write_file(const sb_plant_options *options, const sb_mesh *meshes, size_t count, const char *part,
                             const char *path, sb_error *error)
 {
