@@ -78,7 +78,7 @@ static void test_end_is_judged(void **state)
     (void)state;
     const struct {
         unsigned how, may;
-        const char *said;
+        const char *last_line;
         bool fails;
     } rows[] = {
         {0, SB_ENDS_WELL, "", true},
@@ -92,7 +92,7 @@ static void test_end_is_judged(void **state)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         const sb_trial trial = {.name = "end", .ends = rows[i].may};
         sb_judged judged = {.trial = &trial, .outcome = {.there = true, .how = rows[i].how}};
-        snprintf(judged.outcome.said, sizeof judged.outcome.said, "%s", rows[i].said);
+        snprintf(judged.outcome.last_line, sizeof judged.outcome.last_line, "%s", rows[i].last_line);
         sb_judge_common(&judged);
         if (judged.fails != rows[i].fails) fail_msg("row %zu: \"%s\"", i, judged.why);
     }

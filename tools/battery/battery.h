@@ -2,7 +2,7 @@
 #ifndef SB_BATTERY_BATTERY_H
 #define SB_BATTERY_BATTERY_H
 
-#include "crew.h"
+#include "runner.h"
 
 enum { SB_STRESSES_MAX = 64 };
 
@@ -29,12 +29,12 @@ typedef struct sb_stress_results {
 } sb_stress_results;
 
 /* Reads the stored trials of a case and judges them. */
-sb_status sb_stress_collect(const sb_workbench *bench, const sb_stress *of, bool quick, sb_stress_results *results,
+sb_status sb_stress_collect(const sb_trial_store *store, const sb_stress *of, bool quick, sb_stress_results *results,
                             sb_error *error);
 void sb_stress_results_free(sb_stress_results *results);
 
 /* Writes folder/stability.md, whole or not at all. */
-sb_status sb_stability_write(const sb_workbench *bench, const sb_stress_results *cases, size_t count, bool quick,
+sb_status sb_stability_write(const sb_trial_store *store, const sb_stress_results *cases, size_t count, bool quick,
                              const char *command, const char *folder, sb_error *error);
 
 #endif

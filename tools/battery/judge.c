@@ -47,11 +47,11 @@ double sb_energy_of(const sb_judged *judged, bool end)
 static void judge_end(sb_judged *judged)
 {
     const sb_outcome *o = &judged->outcome;
-    sb_require(judged, o->how & judged->trial->ends, "%s: %.200s", o->ended, o->said);
+    sb_require(judged, o->how & judged->trial->ends, "%s: %.200s", o->ended, o->last_line);
     /* A refusal or failure gives its reason in one line. */
     if (o->how & (SB_ENDS_REFUSED | SB_ENDS_FAILED))
-        sb_require(judged, strncmp(o->said, "shorebreak: ", 12) == 0 && strlen(o->said) > 20,
-                   "no reason given: \"%.100s\"", o->said);
+        sb_require(judged, strncmp(o->last_line, "shorebreak: ", 12) == 0 && strlen(o->last_line) > 20,
+                   "no reason given: \"%.100s\"", o->last_line);
     sb_require(judged, !o->not_a_number[0], "not a number in %s", o->not_a_number);
 }
 

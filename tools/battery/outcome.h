@@ -7,12 +7,12 @@
 #include "trial.h"
 
 typedef struct sb_outcome {
-    bool there;      /* the trial was run */
-    unsigned how;    /* one SB_ENDS_ bit; 0: it crashed or hung */
-    char ended[64];  /* the same as text: "exit status 0", "signal 11", "hung" */
-    char said[400];  /* last line of its output */
-    char commit[64]; /* of the program's source */
-    double wall;     /* s */
+    bool there;          /* the trial was run */
+    unsigned how;        /* one SB_ENDS_ bit; 0: it crashed or hung */
+    char ended[64];      /* the same as text: "exit status 0", "signal 11", "hung" */
+    char last_line[400]; /* last line of its output */
+    char commit[64];     /* of the program's source */
+    double wall;         /* s */
     char folder[SB_PATH_MAX];
     char *summary;         /* text of summary.json; NULL: none */
     char not_a_number[96]; /* first table with NaN or inf, and its line; "": none */

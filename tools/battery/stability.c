@@ -36,7 +36,7 @@ static void put_summary(FILE *out, const sb_stress_results *cases, size_t count)
     fputc('\n', out);
 }
 
-static void put_head(FILE *out, const sb_workbench *bench, const sb_stress_results *cases, size_t count, bool quick,
+static void put_head(FILE *out, const sb_trial_store *store, const sb_stress_results *cases, size_t count, bool quick,
                      const char *command)
 {
     size_t run = 0, failed = 0, planned = 0;
@@ -48,7 +48,7 @@ static void put_head(FILE *out, const sb_workbench *bench, const sb_stress_resul
     fprintf(out,
             "# Stability%s\n\nCommit %s, %s.\nMade by `%s` ([explanation](%s)).\n\n"
             "%zu trials planned, %zu run, %zu passed, **%zu failed**.\n\n",
-            quick ? ", quick forms" : "", bench->commit, bench->machine, command,
+            quick ? ", quick forms" : "", store->commit, store->machine, command,
             quick ? "../../stability.md" : "../stability.md", planned, run, run - failed, failed);
     fputs("Common rules for every trial:\n\n"
           "- It ends in time and in an allowed way. A refusal or failure gives its reason in one line.\n"
@@ -104,15 +104,15 @@ static void put_case(FILE *out, const sb_stress_results *r, const char *commit)
     fputc('\n', out);
 }
 
-sb_status sb_stability_write(const sb_workbench *bench, const sb_stress_results *cases, size_t count, bool quick,
+sb_status sb_stability_write(const sb_trial_store *store, const sb_stress_results *cases, size_t count, bool quick,
                              const char *command, const char *folder, sb_error *error)
 {
     sb_atomic_file file;
     sb_status status = sb_make_directories(folder, error);
     if (status == SB_OK) status = sb_atomic_open_in(&file, folder, "stability.md", error);
     if (status != SB_OK) return status;
-    put_head(file.stream, bench, cases, count, quick, command);
+    put_head(file.stream, store, cases, count, quick, command);
     put_summary(file.stream, cases, count);
-    for (size_t c = 0; c < count; c++) put_case(file.stream, &cases[c], bench->commit);
+    for (size_t c = 0; c < count; c++) put_case(file.stream, &cases[c], store->commit);
     return sb_atomic_commit(&file, 0, error);
 }

@@ -36,7 +36,7 @@ static void judge_meshes(sb_judged *all, size_t count)
         sb_judged *j = &all[i];
         if (!j->outcome.there) continue;
         if (j->outcome.how == SB_ENDS_REFUSED) {
-            sb_note(j, "refused: %.180s", j->outcome.said);
+            sb_note(j, "refused: %.180s", j->outcome.last_line);
             continue;
         }
         const double along = sb_outcome_vector(&j->outcome, "column", "impulse_vector_Ns").x;
@@ -229,7 +229,7 @@ static void judge_leaving(sb_judged *all, size_t count)
         sb_judged *j = &all[i];
         if (!j->outcome.there) continue;
         if (j->outcome.how == SB_ENDS_FAILED && j->trial->ends != SB_ENDS_FAILED) {
-            sb_note(j, "%.200s", j->outcome.said); /* the program refuses speeds that are too high */
+            sb_note(j, "%.200s", j->outcome.last_line); /* the program refuses speeds that are too high */
             continue;
         }
         const double left = sb_outcome_number(&j->outcome, "left_domain");
@@ -239,7 +239,7 @@ static void judge_leaving(sb_judged *all, size_t count)
         sb_require(j, left > 0, "no particle is counted as having left");
         sb_require(j, placed == left, "%g particles are counted by side", placed);
         if (j->trial->ends == SB_ENDS_FAILED)
-            sb_require(j, strstr(j->outcome.said, "all water has left the domain"), "the run does not report it");
+            sb_require(j, strstr(j->outcome.last_line, "all water has left the domain"), "the run does not report it");
     }
 }
 

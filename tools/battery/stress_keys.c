@@ -174,7 +174,7 @@ static void judge(sb_judged *all, size_t count)
                 : j->outcome.how == SB_ENDS_FAILED  ? "failed"
                 : j->outcome.how == SB_ENDS_STOPPED ? "stopped after SIGTERM"
                                                     : j->outcome.ended);
-        if (j->outcome.how & (SB_ENDS_REFUSED | SB_ENDS_FAILED)) sb_note(j, "%.180s", j->outcome.said + 12);
+        if (j->outcome.how & (SB_ENDS_REFUSED | SB_ENDS_FAILED)) sb_note(j, "%.180s", j->outcome.last_line + 12);
     }
 }
 

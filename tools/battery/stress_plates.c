@@ -80,7 +80,7 @@ static void judge(sb_judged *all, size_t count)
         const sb_outcome *o = &j->outcome;
         if (!o->there) continue;
         if (o->how == SB_ENDS_REFUSED) {
-            sb_note(j, "refused: %.180s", o->said);
+            sb_note(j, "refused: %.180s", o->last_line);
             continue;
         }
         const bool both = strstr(j->trial->name, "two-levels"), trough = strstr(j->trial->name, "trough");

@@ -62,7 +62,7 @@ static void judge_steps(sb_judged *all, size_t count)
         char name[SB_TRIAL_NAME];
         if (!o->there) continue;
         if (o->how == SB_ENDS_REFUSED) {
-            sb_note(j, "refused: %.180s", o->said);
+            sb_note(j, "refused: %.180s", o->last_line);
             continue;
         }
         snprintf(name, sizeof name, "%.*s-dt-x0.25", (int)strcspn(j->trial->name, "-"), j->trial->name);

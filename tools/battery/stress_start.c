@@ -216,8 +216,8 @@ static void judge_sampling(sb_judged *all, size_t count)
         const sb_outcome *o = &j->outcome;
         if (!o->there) continue;
         if (o->how == SB_ENDS_FAILED && (j->trial->ends & SB_ENDS_FAILED)) {
-            sb_note(j, "failed: %.180s", o->said);
-            sb_require(j, strstr(o->said, "step 0: more than"), "it fails for another reason");
+            sb_note(j, "failed: %.180s", o->last_line);
+            sb_require(j, strstr(o->last_line, "step 0: more than"), "it fails for another reason");
             continue;
         }
         const double speed = sb_outcome_number(o, "late_rms_speed") / sb_outcome_number(o, "wave_speed");

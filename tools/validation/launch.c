@@ -14,18 +14,18 @@
 enum { ARGUMENTS = 2 * SB_SETTINGS_MAX + 16 };
 
 typedef struct job {
-    pid_t process; /* 0: the place is free */
+    pid_t process; /* 0: the slot is free */
     const sb_request *request;
     char folder[SB_PATH_MAX];
     double start;
 } job;
 
-typedef struct crew {
+typedef struct launcher {
     const sb_store *store;
     job *jobs;
     int size, busy;
     size_t failed;
-} crew;
+} launcher;
 
 static const char output_name[] = "output.txt";
 
@@ -62,7 +62,7 @@ static sb_status start(const sb_store *store, const char *scene, job *j, bool al
 }
 
 /* A scene that cannot be read counts as a failed run; the others continue. */
-static sb_status refuse(crew *c, const sb_request *request, sb_error *error)
+static sb_status refuse(launcher *c, const sb_request *request, sb_error *error)
 {
     char label[96];
     sb_request_label(request, true, label);
@@ -72,7 +72,7 @@ static sb_status refuse(crew *c, const sb_request *request, sb_error *error)
     return SB_OK;
 }
 
-static sb_status begin(crew *c, const sb_request *request, job *j, sb_error *error)
+static sb_status begin(launcher *c, const sb_request *request, job *j, sb_error *error)
 {
     char scene[SB_PATH_MAX];
     *j = (job){.request = request, .start = sb_clock()};
@@ -91,7 +91,7 @@ static double seconds(const struct timeval *time)
     return (double)time->tv_sec + 1e-6 * (double)time->tv_usec;
 }
 
-static sb_status end(crew *c, job *j, int how, const struct rusage *used, sb_error *error)
+static sb_status end(launcher *c, job *j, int how, const struct rusage *used, sb_error *error)
 {
     char label[96], path[SB_PATH_MAX], ended[32], last_line[512], reason[640];
     sb_request_label(j->request, true, label);
@@ -116,7 +116,7 @@ static sb_status end(crew *c, job *j, int how, const struct rusage *used, sb_err
 }
 
 /* Waits for one run to end. */
-static sb_status wait_one(crew *c, sb_error *error)
+static sb_status wait_one(launcher *c, sb_error *error)
 {
     int how, signalled = 0;
     pid_t process;
@@ -130,14 +130,14 @@ static sb_status wait_one(crew *c, sb_error *error)
     return process < 0 ? sb_fail(error, SB_FAILED, "cannot wait for a run: %s", strerror(errno)) : SB_OK;
 }
 
-static job *free_place(crew *c)
+static job *free_place(launcher *c)
 {
     for (int i = 0; i < c->size; i++)
         if (!c->jobs[i].process) return &c->jobs[i];
     return NULL;
 }
 
-static sb_status work(crew *c, const sb_request *requests, size_t count, sb_error *error)
+static sb_status work(launcher *c, const sb_request *requests, size_t count, sb_error *error)
 {
     char folder[SB_PATH_MAX];
     sb_status status = SB_OK;
@@ -158,7 +158,7 @@ sb_status sb_launch(const sb_store *store, const sb_request *requests, size_t co
                     sb_error *error)
 {
     struct sigaction now = {.sa_handler = stop}, interrupt, terminate;
-    crew c = {.store = store, .size = jobs, .jobs = sb_alloc((size_t)jobs, sizeof(job))};
+    launcher c = {.store = store, .size = jobs, .jobs = sb_alloc((size_t)jobs, sizeof(job))};
     if (!c.jobs) return sb_fail_memory(error, "runs");
     stopped_by = 0;
     sigaction(SIGINT, &now, &interrupt);

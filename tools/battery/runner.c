@@ -1,4 +1,4 @@
-#include "workbench.h"
+#include "trial_store.h"
 
 #include "base/clock.h"
 #include "base/memory.h"
@@ -22,7 +22,7 @@ static const double stop_time = 60;                  /* s that a run may take to
 static const rlim_t address_space = (rlim_t)4 << 30; /* bytes; a trial must not exhaust the machine's memory */
 
 typedef struct worker {
-    pid_t process; /* 0: the place is free */
+    pid_t process; /* 0: the slot is free */
     const sb_job *job;
     sb_outcome outcome;
     double start;
@@ -44,11 +44,11 @@ static void redirect(const char *path, int flags, int to)
 }
 
 /* In the child process: runs shorebreak on the trial's scene. */
-static _Noreturn void run_program(const sb_workbench *bench, const sb_trial *t, const char *folder)
+static _Noreturn void run_program(const sb_trial_store *store, const sb_trial *t, const char *folder)
 {
     char *arguments[ARGUMENTS], scene[SB_PATH_MAX];
     int count = 0;
-    if (sb_path_join(scene, bench->assets, t->scene, NULL) != SB_OK) _exit(126);
+    if (sb_path_join(scene, store->assets, t->scene, NULL) != SB_OK) _exit(126);
     const char *const first[] = {"shorebreak", t->kind == SB_TRIAL_CHECK ? "check" : "run", scene};
     const char *const more[] = {"--quiet", "--out", folder};
     for (int i = 0; i < 3; i++) arguments[count++] = (char *)first[i];
@@ -58,23 +58,23 @@ static _Noreturn void run_program(const sb_workbench *bench, const sb_trial *t, 
         arguments[count++] = (char *)t->settings[i];
     }
     arguments[count] = NULL;
-    execv(bench->program, arguments);
+    execv(store->program, arguments);
     _exit(127);
 }
 
 /* In the child process: runs the simulation step by step; the message and exit status at its end are those of
  * shorebreak. */
-static _Noreturn void drive(const sb_workbench *bench, const sb_trial *t, const char *folder)
+static _Noreturn void drive(const sb_trial_store *store, const sb_trial *t, const char *folder)
 {
     sb_error error = {0};
     omp_set_num_threads(1);
-    sb_status status = sb_drive_run(t, bench->assets, folder, &error);
+    sb_status status = sb_drive_run(t, store->assets, folder, &error);
     if (status != SB_OK) fprintf(stderr, "shorebreak: %s\n", error.text);
     fflush(NULL);
     _exit((int)status);
 }
 
-static _Noreturn void child(const sb_workbench *bench, const sb_trial *t, const char *folder)
+static _Noreturn void child(const sb_trial_store *store, const sb_trial *t, const char *folder)
 {
     char output[SB_PATH_MAX + 16];
     const struct rlimit most = {address_space, address_space}, none = {0, 0};
@@ -89,21 +89,21 @@ static _Noreturn void child(const sb_workbench *bench, const sb_trial *t, const 
     setrlimit(RLIMIT_CORE, &none);
     setenv("OMP_NUM_THREADS", "1", 1);
     setenv("OMP_WAIT_POLICY", "passive", 1);
-    if (t->kind == SB_TRIAL_DRIVEN) drive(bench, t, folder);
-    run_program(bench, t, folder);
+    if (t->kind == SB_TRIAL_DRIVEN) drive(store, t, folder);
+    run_program(store, t, folder);
 }
 
-static sb_status begin(const sb_workbench *bench, const sb_job *job, worker *w, sb_error *error)
+static sb_status begin(const sb_trial_store *store, const sb_job *job, worker *w, sb_error *error)
 {
     *w = (worker){.job = job, .start = sb_clock()};
-    sb_status status = sb_workbench_folder(bench, job, w->outcome.folder, error);
-    if (status == SB_OK) status = sb_workbench_clear(w->outcome.folder, error);
+    sb_status status = sb_trial_store_folder(store, job, w->outcome.folder, error);
+    if (status == SB_OK) status = sb_trial_store_clear(w->outcome.folder, error);
     if (status == SB_OK) status = sb_process_claim(w->outcome.folder, error);
     if (status != SB_OK) return status;
     fflush(NULL);
     pid_t process = fork();
     if (process < 0) return sb_fail(error, SB_FAILED, "cannot start a trial: %s", strerror(errno));
-    if (process == 0) child(bench, job->trial, w->outcome.folder);
+    if (process == 0) child(store, job->trial, w->outcome.folder);
     w->process = process;
     return SB_OK;
 }
@@ -118,7 +118,7 @@ static void read_last_line(sb_outcome *o)
         line[strcspn(line, "\r\n")] = '\0';
         bool warning = strncmp(line, "shorebreak: warning:", 20) == 0;
         if (!line[0] || (warning && no_warning)) continue;
-        snprintf(o->said, sizeof o->said, "%.399s", line);
+        snprintf(o->last_line, sizeof o->last_line, "%.399s", line);
         no_warning = !warning;
     }
     if (in) fclose(in);
@@ -150,18 +150,18 @@ static void classify(worker *w, int how)
         snprintf(o->ended, sizeof o->ended, "signal %d", WTERMSIG(how));
 }
 
-static sb_status end(const sb_workbench *bench, worker *w, int how, sb_error *error)
+static sb_status end(const sb_trial_store *store, worker *w, int how, sb_error *error)
 {
     w->process = 0;
     if (stopped_by) return SB_OK;
     if (WIFEXITED(how) && WEXITSTATUS(how) >= 126 && WEXITSTATUS(how) <= 127)
-        return sb_fail(error, SB_FAILED, "%.400s: cannot be started", bench->program);
+        return sb_fail(error, SB_FAILED, "%.400s: cannot be started", store->program);
     w->outcome.there = true;
     w->outcome.wall = sb_clock() - w->start;
     classify(w, how);
     read_last_line(&w->outcome);
     printf("%s %s: %s, %.1f s\n", w->job->of->name, w->job->trial->name, w->outcome.ended, w->outcome.wall);
-    return sb_workbench_keep(bench, w->job, &w->outcome, error);
+    return sb_trial_store_write(store, w->job, &w->outcome, error);
 }
 
 /* Sends SIGTERM to a run whose time is over; kills one that hangs. */
@@ -179,7 +179,7 @@ static void watch(worker *w)
 }
 
 /* Checks all runs once; returns whether one has ended. */
-static bool poll_once(const sb_workbench *bench, worker *workers, int jobs, sb_status *status, sb_error *error)
+static bool poll_once(const sb_trial_store *store, worker *workers, int jobs, sb_status *status, sb_error *error)
 {
     bool ended = false;
     for (int i = 0; i < jobs; i++) {
@@ -187,7 +187,7 @@ static bool poll_once(const sb_workbench *bench, worker *workers, int jobs, sb_s
         if (!workers[i].process) continue;
         watch(&workers[i]);
         if (waitpid(workers[i].process, &how, WNOHANG) != workers[i].process) continue;
-        sb_status kept = end(bench, &workers[i], how, *status == SB_OK ? error : NULL);
+        sb_status kept = end(store, &workers[i], how, *status == SB_OK ? error : NULL);
         if (*status == SB_OK) *status = kept;
         ended = true;
     }
@@ -201,7 +201,7 @@ static int find_place(const worker *workers, int jobs, bool busy)
     return -1;
 }
 
-sb_status sb_crew_run(const sb_workbench *bench, const sb_job *work, size_t count, int jobs, sb_error *error)
+sb_status sb_runner_run(const sb_trial_store *store, const sb_job *work, size_t count, int jobs, sb_error *error)
 {
     struct sigaction now = {.sa_handler = stop}, interrupt, terminate;
     worker *workers = sb_alloc((size_t)jobs, sizeof *workers);
@@ -211,14 +211,14 @@ sb_status sb_crew_run(const sb_workbench *bench, const sb_job *work, size_t coun
     sigaction(SIGTERM, &now, &terminate);
     sb_status status = SB_OK;
     for (size_t i = 0; i < count && status == SB_OK && !stopped_by; i++) {
-        if (sb_workbench_has(bench, &work[i])) continue;
+        if (sb_trial_store_has(store, &work[i])) continue;
         int place;
         while ((place = find_place(workers, jobs, false)) < 0)
-            if (!poll_once(bench, workers, jobs, &status, error)) usleep(POLL);
-        if (status == SB_OK && !stopped_by) status = begin(bench, &work[i], &workers[place], error);
+            if (!poll_once(store, workers, jobs, &status, error)) usleep(POLL);
+        if (status == SB_OK && !stopped_by) status = begin(store, &work[i], &workers[place], error);
     }
     while (find_place(workers, jobs, true) >= 0)
-        if (!poll_once(bench, workers, jobs, &status, error)) usleep(POLL);
+        if (!poll_once(store, workers, jobs, &status, error)) usleep(POLL);
     sigaction(SIGINT, &interrupt, NULL);
     sigaction(SIGTERM, &terminate, NULL);
     sb_free(workers);
