@@ -1,4 +1,4 @@
-/* Any paddle from a table of lines "t x" (s after the start, m), as measured in a flume. */
+/* A paddle that follows a table of lines "t x" (s after the start, m), for example one measured in a flume. */
 #include "base/columns.h"
 #include "base/file.h"
 #include "base/memory.h"
@@ -27,8 +27,8 @@ static void destroy(void *state)
     sb_free(law);
 }
 
-/* A decimal number at *at, which moves behind it and what parts it from the next, blanks or one comma or semicolon; -1
- * when there is none or it is out of range. */
+/* Reads a decimal number at *at and moves *at behind it and behind its separator: blanks, or one comma or semicolon.
+   Returns -1 if there is no number or it is out of range. */
 static int read_number(char **at, double *value)
 {
     char *end = *at + strcspn(*at, " \t\r,;");
@@ -40,7 +40,7 @@ static int read_number(char **at, double *value)
     return stop == end && fabs(*value) <= NUMBER_LIMIT ? 0 : -1;
 }
 
-/* One line may name the columns, before the first row. */
+/* Reads a line of column names, of which one is allowed, before the first row. */
 static sb_status read_header(table *law, const char *line, const char *path, size_t number, sb_error *error)
 {
     const char *unit = sb_columns_unit(line, strlen(line));
@@ -50,7 +50,7 @@ static sb_status read_header(table *law, const char *line, const char *path, siz
                    number, unit);
 }
 
-/* One line without its newline; a comment or an empty line adds nothing. */
+/* Reads one line without its newline. A comment or an empty line adds no knot. */
 static sb_status read_line(table *law, char *line, const char *path, size_t number, sb_error *error)
 {
     char *at = line + strspn(line, " \t\r");
@@ -96,9 +96,9 @@ static sb_status read_lines(table *law, char *text, const char *path, sb_error *
     return SB_OK;
 }
 
-/* Slopes of a cubic that is monotone wherever the table is (Steffen 1990, eq. 11): the parabola's
-   slope through three knots, bounded by the neighbouring chords, and 0 at a turning point. At rest
-   at both ends, so that the speed has no jump there either. */
+/* Finds the slopes of a cubic that is monotone wherever the table is (Steffen 1990, eq. 11): the slope of the parabola
+   through three knots, limited by the slopes of the neighbouring chords, and 0 at a turning point. The slopes at both
+   ends are 0, so that the speed has no jump there. */
 static void find_slopes(table *law)
 {
     knot *k = law->knots;
@@ -165,7 +165,7 @@ static double duration(const void *state)
 
 const sb_wavemaker sb_wavemaker_file = {
     .name = "file",
-    .summary = "any paddle from a table of times and displacements",
+    .summary = "paddle that follows a table of times and displacements",
     .reference = "interpolation: Steffen 1990",
     .needs = SB_WM_FILE,
     .create = create,
