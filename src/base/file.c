@@ -1,3 +1,4 @@
+/* Files that are complete or absent, directories, and paths. */
 #include "base/file.h"
 
 #include "base/input.h"
@@ -87,7 +88,8 @@ sb_status sb_atomic_open_in(sb_atomic_file *file, const char *folder, const char
     return status == SB_OK ? sb_atomic_open(file, path, error) : status;
 }
 
-/* Makes a rename last through a power cut. Not every file system can, and the file is whole either way. */
+/* Makes a rename survive a power failure. Not every file system supports this, and the file is complete in either case.
+ */
 static void sync_folder_of(const char *path)
 {
     char folder[SB_PATH_MAX];
@@ -101,7 +103,7 @@ sb_status sb_atomic_commit(sb_atomic_file *file, int durable, sb_error *error)
     file->stream = NULL;
     errno = 0;
     int bad = fflush(stream) != 0 || ferror(stream) || (durable && fsync(fileno(stream)) != 0);
-    int reason = errno ? errno : EIO; /* an earlier write's is not known any more */
+    int reason = errno ? errno : EIO; /* the errno of an earlier failed write is no longer available */
     if (fclose(stream) != 0 && !bad) {
         bad = 1;
         reason = errno;

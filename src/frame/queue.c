@@ -80,7 +80,7 @@ bool sb_frame_queue_push(sb_frame_queue *queue, const sb_frame *frame)
         pthread_cond_signal(&queue->has_frame);
     }
     pthread_mutex_unlock(&queue->lock);
-    /* Freeing a large frame takes time: not with the lock held. */
+    /* Freeing a large frame takes time, so it is done without the lock. */
     sb_frame_release(oldest);
     return open;
 }
