@@ -1,4 +1,4 @@
-/* What the two halves of an archive agree on. Inside src/base. */
+/* Layout of an archive, shared by archive_write.c and archive_read.c. Internal to src/base. */
 #ifndef SB_BASE_ARCHIVE_LAYOUT_H
 #define SB_BASE_ARCHIVE_LAYOUT_H
 
@@ -17,10 +17,10 @@ enum {
     SB_SECTION_HEAD = SB_ARCHIVE_NAME + 16 /* name, length, checksum */
 };
 
-/* The byte before each value. */
+/* The byte that precedes each value and states its kind. */
 enum { SB_VALUE_COUNT = 'c', SB_VALUE_REAL = 'r', SB_VALUE_FLAG = 'f', SB_VALUE_LIST = 'l' };
 
-/* Of a section with this head and content. */
+/* Checksum of the section whose head and content begin at `head`. */
 static inline uint64_t sb_archive_sum(const unsigned char *head, uint64_t length)
 {
     const unsigned char *content = head + SB_SECTION_HEAD;

@@ -1,3 +1,4 @@
+/* Reads archives: checks the whole file first, then reads section by section. */
 #include "base/archive.h"
 
 #include "base/archive_layout.h"
@@ -17,7 +18,7 @@ static uint64_t word_at(const unsigned char *bytes)
     return word;
 }
 
-/* A name as text: what is not printable, as in a file of another kind, becomes a dot. */
+/* Copies a name as text. Bytes that are not printable, as in a file of another kind, become dots. */
 static void copy_name(char out[SB_ARCHIVE_NAME + 1], const unsigned char *bytes)
 {
     size_t length = strnlen((const char *)bytes, SB_ARCHIVE_NAME);
@@ -44,21 +45,21 @@ static sb_status check_head(const sb_archive_in *in, const char *kind, uint32_t 
     return SB_OK;
 }
 
-/* The section at *at, which moves past it. */
+/* Checks the section at *at and moves *at past it. */
 static sb_status check_section(const sb_archive_in *in, size_t *at, char name[SB_ARCHIVE_NAME + 1], sb_error *error)
 {
     const size_t left = in->length - *at;
     if (left < SB_SECTION_HEAD)
-        return sb_fail(error, SB_BAD_INPUT, "%s: cut short at byte %zu, expected a section", in->name, in->length);
+        return sb_fail(error, SB_BAD_INPUT, "%s: truncated at byte %zu, expected a section", in->name, in->length);
     const unsigned char *head = in->bytes + *at;
     const uint64_t length = word_at(head + SB_ARCHIVE_NAME);
     copy_name(name, head);
     if (length > left - SB_SECTION_HEAD)
         return sb_fail(error, SB_BAD_INPUT,
-                       "%s: cut short or damaged: section \"%s\" at byte %zu has %zu bytes left, expected %llu",
+                       "%s: truncated or damaged: section \"%s\" at byte %zu has %zu bytes left, expected %llu",
                        in->name, name, *at, left - SB_SECTION_HEAD, (unsigned long long)length);
     if (sb_archive_sum(head, length) != word_at(head + SB_ARCHIVE_NAME + 8))
-        return sb_fail(error, SB_BAD_INPUT, "%s: damaged: the checksum of section \"%s\" at byte %zu does not fit",
+        return sb_fail(error, SB_BAD_INPUT, "%s: damaged: the checksum of section \"%s\" at byte %zu is wrong",
                        in->name, name, *at);
     *at += SB_SECTION_HEAD + length;
     return SB_OK;
@@ -89,7 +90,7 @@ sb_status sb_archive_open(sb_archive_in *in, const char *path, const char *kind,
     size_t length;
     *in = (sb_archive_in){0};
     sb_status status = sb_file_read(path, (size_t)1 << 40, &bytes, &length, error);
-    /* A file that is there and cannot be read now is not thereby damaged. */
+    /* A file that exists but cannot be read at the moment need not be damaged. */
     if (status == SB_BAD_INPUT && errno != 0 && errno != ENOENT && errno != EISDIR) {
         if (error) error->status = SB_FAILED;
         return SB_FAILED;
@@ -147,16 +148,16 @@ sb_status sb_archive_leave(sb_archive_in *in, sb_error *error)
 
 /* ---- values ---- */
 
-static const char *kind_word(int kind)
+static const char *kind_name(int kind)
 {
     return kind == SB_VALUE_COUNT  ? "a count"
            : kind == SB_VALUE_REAL ? "a number"
            : kind == SB_VALUE_FLAG ? "a flag"
            : kind == SB_VALUE_LIST ? "a list"
-                                   : "nothing known";
+                                   : "an unknown kind of value";
 }
 
-/* The next `length` bytes, or NULL, the reason being kept. */
+/* Returns the next `length` bytes, or NULL after storing the error. */
 static const unsigned char *next(sb_archive_in *in, size_t length)
 {
     if (in->error.status != SB_OK) return NULL;
@@ -169,12 +170,12 @@ static const unsigned char *next(sb_archive_in *in, size_t length)
     return here;
 }
 
-/* The `length` bytes of a value of this kind. */
+/* Returns the `length` bytes of a value of this kind, or NULL. */
 static const unsigned char *value(sb_archive_in *in, int kind, size_t length)
 {
     const unsigned char *mark = next(in, 1);
     if (mark && *mark != kind)
-        sb_archive_refuse(in, "%s at byte %zu, expected %s", kind_word(*mark), in->at - 1, kind_word(kind));
+        sb_archive_refuse(in, "%s at byte %zu, expected %s", kind_name(*mark), in->at - 1, kind_name(kind));
     return next(in, length);
 }
 

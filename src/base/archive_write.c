@@ -1,3 +1,4 @@
+/* Writes archives to memory or to a file. */
 #include "base/archive.h"
 
 #include "base/archive_layout.h"
@@ -7,9 +8,9 @@
 #include <errno.h>
 #include <string.h>
 
-/* ---- where bytes go: a file, or memory ---- */
+/* ---- output to a file or to memory ---- */
 
-/* 0, or errno. */
+/* Returns 0, or errno. */
 static int put_bytes(sb_archive_out *out, const void *bytes, size_t length)
 {
     if (out->file.stream) return fwrite(bytes, 1, length, out->file.stream) == length ? 0 : errno;
@@ -25,8 +26,8 @@ static void emit(sb_archive_out *out, const void *bytes, size_t length)
     if (!out->reason) out->used += length;
 }
 
-/* Bytes that were emitted before, anew. */
-static void amend(sb_archive_out *out, size_t at, const void *bytes, size_t length)
+/* Overwrites bytes that were emitted before. */
+static void overwrite(sb_archive_out *out, size_t at, const void *bytes, size_t length)
 {
     FILE *stream = out->file.stream;
     if (out->reason) return;
@@ -41,19 +42,19 @@ static void amend(sb_archive_out *out, size_t at, const void *bytes, size_t leng
 
 static void flush_block(sb_archive_out *out)
 {
-    if (out->in_hand == 0) return;
-    out->sum = sb_hash(out->sum, out->block, out->in_hand);
-    emit(out, out->block, out->in_hand);
-    out->in_hand = 0;
+    if (out->pending == 0) return;
+    out->sum = sb_hash(out->sum, out->block, out->pending);
+    emit(out, out->block, out->pending);
+    out->pending = 0;
 }
 
 static void append(sb_archive_out *out, const void *bytes, size_t length)
 {
     const unsigned char *from = bytes;
     while (length > 0) {
-        const size_t room = sizeof out->block - out->in_hand, part = length < room ? length : room;
-        memcpy(out->block + out->in_hand, from, part);
-        out->in_hand += part;
+        const size_t room = sizeof out->block - out->pending, part = length < room ? length : room;
+        memcpy(out->block + out->pending, from, part);
+        out->pending += part;
         from += part;
         length -= part;
         if (part == room) flush_block(out);
@@ -65,14 +66,14 @@ static void append_word(sb_archive_out *out, uint64_t word)
     append(out, &word, sizeof word);
 }
 
-/* Fills in what the open section's head could not know. */
+/* Writes the length and the checksum, which are known only at the section's end, into the open section's head. */
 static void close_section(sb_archive_out *out)
 {
     flush_block(out);
     if (out->section == 0) return;
     uint64_t words[2] = {out->used - out->section - SB_SECTION_HEAD};
     words[1] = sb_hash(out->sum, &words[0], sizeof words[0]);
-    amend(out, out->section + SB_ARCHIVE_NAME, words, sizeof words);
+    overwrite(out, out->section + SB_ARCHIVE_NAME, words, sizeof words);
     out->section = 0;
 }
 
@@ -93,7 +94,7 @@ static void begin(sb_archive_out *out, const char *kind, uint32_t version)
     const uint32_t words[2] = {version, SB_ARCHIVE_ORDER};
     char name[SB_ARCHIVE_NAME] = {0};
     memcpy(name, kind, strnlen(kind, sizeof name));
-    out->used = out->section = out->in_hand = 0;
+    out->used = out->section = out->pending = 0;
     out->reason = 0;
     emit(out, name, sizeof name);
     emit(out, words, sizeof words);

@@ -1,10 +1,11 @@
-/* Wall time, for reports only: nothing that steers a run may read it. */
+/* Elapsed time on the clock. It is for reports and for timeouts of connections and threads only: no decision of the
+   simulation may depend on it. */
 #ifndef SB_BASE_CLOCK_H
 #define SB_BASE_CLOCK_H
 
 #include <time.h>
 
-/* Seconds of a monotonic clock. */
+/* Returns the seconds of a monotonic clock. */
 static inline double sb_clock(void)
 {
     struct timespec now;

@@ -1,4 +1,4 @@
-/* Files that are either whole or absent, and the few path helpers around them. */
+/* Writes files that are either complete or absent, reads files, and handles paths. */
 #ifndef SB_BASE_FILE_H
 #define SB_BASE_FILE_H
 
@@ -9,23 +9,23 @@
 
 #define SB_PATH_MAX 4096
 
-/* A file written beside its final name and renamed when complete. */
+/* A file that is written under a temporary name and renamed when it is complete. */
 typedef struct sb_atomic_file {
     FILE *stream; /* write here; NULL when closed */
     char path[SB_PATH_MAX];
     char temporary[SB_PATH_MAX + 8];
 } sb_atomic_file;
 
-/* What stands at a path, by its mode, as "a FIFO"; NULL: a regular file. */
+/* Returns the kind of file that a mode stands for, such as "a FIFO"; NULL for a regular file. */
 const char *sb_file_kind(mode_t mode);
 
-/* SB_FAILED where something else than a regular file stands at the path: what is written there is renamed to it. */
+/* SB_FAILED if the path exists and is not a regular file: a new file would be renamed to it. */
 sb_status sb_file_replaceable(const char *path, sb_error *error);
 
-/* A file to write, as fopen with mode "w", "a" or "r+" opens it, but regular files of one name only: never through a
-   symbolic link or another name, for what a run writes stays in its directory; never a FIFO or a device, which could
-   keep it waiting. SB_FAILED names the path and the reason; *stream is then NULL, and errno the system's, or EEXIST for
-   what stands there. */
+/* Opens a file for writing as fopen does with mode "w", "a" or "r+", but only a regular file with one name. A symbolic
+   link or a second hard link is refused, so that a run writes only into its own directory. A FIFO or a device is
+   refused because it could block the run. SB_FAILED names the path and the reason; *stream is then NULL, and errno is
+   set, EEXIST if another kind of file is there. */
 sb_status sb_file_open(const char *path, const char *mode, FILE **stream, sb_error *error);
 
 /* Opens "<path>.tmp" for writing. SB_FAILED names the path and the system's reason. */
@@ -34,44 +34,44 @@ sb_status sb_atomic_open(sb_atomic_file *file, const char *path, sb_error *error
 /* The same for folder/name. */
 sb_status sb_atomic_open_in(sb_atomic_file *file, const char *folder, const char *name, sb_error *error);
 
-/* Flushes, syncs (file and folder) when `durable`, closes and renames to the final name; on any failure removes the
-   temporary and says why. */
+/* Flushes the file, syncs it and its folder if `durable`, closes it and renames it to the final name. On any failure it
+   removes the temporary file and names the reason. */
 sb_status sb_atomic_commit(sb_atomic_file *file, int durable, sb_error *error);
 
-/* Closes and removes the temporary; fine on a closed file. */
+/* Closes and removes the temporary file. Has no effect on a closed file. */
 void sb_atomic_abort(sb_atomic_file *file);
 
-/* The first bytes of a regular file, as many as there are; none of anything else. */
+/* Reads the first bytes of a regular file, at most `size`, and returns their number; 0 for any other kind of file. */
 size_t sb_file_start(const char *path, char *bytes, size_t size);
 
-/* Puts what the system holds of a file, or of a folder's names, on disk. 0, or -1 with errno. */
+/* Flushes the system's cached data of a file, or of a folder's entries, to disk. Returns 0, or -1 with errno. */
 int sb_file_sync(const char *path);
 
-/* Makes the directory and all missing parents. SB_BAD_INPUT when one of them is there and is no directory. */
+/* Makes the directory and all missing parents. SB_BAD_INPUT if one of them exists and is not a directory. */
 sb_status sb_make_directories(const char *path, sb_error *error);
 
-/* directory/name into path, and makes the directory and the folders below it that name goes through; SB_FAILED where
-   one of those below is a symbolic link or no folder. */
+/* Writes directory/name to path and makes that directory with all missing parents. SB_FAILED if a component of `name`
+   is a symbolic link or not a directory. */
 sb_status sb_make_folder(char path[SB_PATH_MAX], const char *directory, const char *name, sb_error *error);
 
-/* Whether the name is a number above `after`, of six digits at least, and the suffix; or that of any number and
-   ".tmp", which was being written. */
+/* Returns whether the name consists of a number above `after`, of at least six digits, and the suffix; or of any such
+   number, the suffix and ".tmp", as a killed run leaves it. */
 int sb_is_numbered(const char *name, const char *suffix, unsigned long long after);
 
-/* Removes the files of a folder that are so named. A missing folder is fine. */
+/* Removes the files of a folder whose names are so numbered. A missing folder is not an error. */
 sb_status sb_remove_numbered(const char *folder, const char *suffix, unsigned long long after, sb_error *error);
 
-/* base/name into out; an absolute name stands alone. SB_BAD_INPUT when longer than SB_PATH_MAX. */
+/* Writes base/name to out, or `name` alone if it is absolute. SB_BAD_INPUT if the result is longer than SB_PATH_MAX. */
 sb_status sb_path_join(char out[SB_PATH_MAX], const char *base, const char *name, sb_error *error);
 
-/* The folder part of path ("." when it has none). */
+/* Writes the folder part of path to out, "." if it has none. */
 void sb_path_folder(char out[SB_PATH_MAX], const char *path);
 
-/* The whole file as a zero-terminated string of *length bytes, at most `limit`; free with sb_free. Where it cannot be
-   read, errno is the system's reason, else 0. */
+/* Reads the whole file as a zero-terminated string of *length bytes, at most `limit`. The caller frees it with sb_free.
+   If the system cannot read the file, errno is the system's reason; for any other error errno is 0. */
 sb_status sb_file_read(const char *path, size_t limit, char **text, size_t *length, sb_error *error);
 
-/* The same without the byte-order mark that some editors and spreadsheets put before UTF-8. */
+/* The same, without the byte-order mark that some editors and spreadsheets put before UTF-8. */
 sb_status sb_text_read(const char *path, size_t limit, char **text, size_t *length, sb_error *error);
 
 #endif

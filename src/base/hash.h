@@ -31,10 +31,11 @@ static inline uint64_t sb_hash(uint64_t seed, const void *bytes, size_t length)
     return sb_hash_mix(hash ^ tail);
 }
 
-/* The hash of bytes that come piece by piece, the same wherever they are cut. Zero-initialised has none so far. */
+/* A hash over bytes that are added piece by piece; it does not depend on how they are divided into pieces. A
+   zero-initialised struct contains no bytes. */
 typedef struct sb_running_hash {
-    uint64_t blocks; /* of all whole blocks */
-    size_t in_hand;  /* bytes of the next one */
+    uint64_t blocks; /* hash of all complete blocks */
+    size_t pending;  /* bytes in the block that is being filled */
     unsigned char block[1024];
 } sb_running_hash;
 
@@ -42,21 +43,21 @@ static inline void sb_hash_add(sb_running_hash *hash, const void *bytes, size_t 
 {
     const unsigned char *at = bytes;
     while (length > 0) {
-        const size_t room = sizeof hash->block - hash->in_hand, piece = length < room ? length : room;
-        memcpy(hash->block + hash->in_hand, at, piece);
-        hash->in_hand += piece;
+        const size_t room = sizeof hash->block - hash->pending, piece = length < room ? length : room;
+        memcpy(hash->block + hash->pending, at, piece);
+        hash->pending += piece;
         at += piece;
         length -= piece;
-        if (hash->in_hand < sizeof hash->block) continue;
+        if (hash->pending < sizeof hash->block) continue;
         hash->blocks = sb_hash(hash->blocks, hash->block, sizeof hash->block);
-        hash->in_hand = 0;
+        hash->pending = 0;
     }
 }
 
-/* Of all bytes so far; more may come. */
+/* Returns the hash of all bytes so far. More bytes may be added afterwards. */
 static inline uint64_t sb_hash_sum(const sb_running_hash *hash)
 {
-    return sb_hash(hash->blocks, hash->block, hash->in_hand);
+    return sb_hash(hash->blocks, hash->block, hash->pending);
 }
 
 #endif

@@ -1,3 +1,4 @@
+/* Loads shared libraries when they are needed. */
 #include "base/library.h"
 
 #include <dlfcn.h>
@@ -14,7 +15,7 @@ sb_status sb_library_load(const char *file, const sb_library_function *functions
         void *found = dlsym(library, functions[f].name);
         if (!found)
             return sb_fail(error, SB_FAILED, "%s: has no %s, expected another version", file, functions[f].name);
-        /* ISO C has no cast from a pointer to data to one to a function. */
+        /* ISO C does not define a cast from a data pointer to a function pointer. */
         memcpy(functions[f].pointer, &found, sizeof found);
     }
     return SB_OK;

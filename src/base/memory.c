@@ -1,3 +1,4 @@
+/* Allocates heap memory, with failures on request for tests. */
 #include "base/memory.h"
 
 #include <malloc.h>
@@ -19,7 +20,7 @@ bool sb_memory_fail_pending(void)
     return atomic_load(&countdown) > 0;
 }
 
-static int told_to_fail(void)
+static int must_fail(void)
 {
     return atomic_load_explicit(&countdown, memory_order_relaxed) > 0 && atomic_fetch_sub(&countdown, 1) == 1;
 }
@@ -27,7 +28,7 @@ static int told_to_fail(void)
 void *sb_alloc_untouched(size_t count, size_t size)
 {
     size_t bytes;
-    if (__builtin_mul_overflow(count, size, &bytes) || bytes > SIZE_MAX - 64 || told_to_fail()) return NULL;
+    if (__builtin_mul_overflow(count, size, &bytes) || bytes > SIZE_MAX - 64 || must_fail()) return NULL;
     return aligned_alloc(64, (bytes + 64) / 64 * 64);
 }
 
@@ -40,7 +41,7 @@ void *sb_alloc(size_t count, size_t size)
 
 void sb_memory_return_blocks(void)
 {
-    mallopt(M_MMAP_THRESHOLD, 1 << 20); /* left alone it grows up to 32 MB with each block freed */
+    mallopt(M_MMAP_THRESHOLD, 1 << 20); /* by default the threshold grows with each freed block, up to 32 MB */
 }
 
 void sb_free(void *pointer)

@@ -1,4 +1,4 @@
-/* How much memory there is to have: of the machine, of the control group (a container's share), of the process. */
+/* Finds the available memory of the machine, of the control group (a container's limit) and of the process. */
 #include "base/memory.h"
 
 #include <stdint.h>
@@ -26,7 +26,7 @@ static size_t of_machine(void)
     return found ? (size_t)kilobytes * 1024 : unknown;
 }
 
-/* The number in a file; "max" and whatever else is none is unknown. */
+/* Reads the number in a file. "max" and any other text that is not a number mean unknown. */
 static size_t number_in(const char *folder, const char *name)
 {
     char path[512];
@@ -45,7 +45,8 @@ static size_t left_of(const char *folder, const char *limit, const char *use)
     return most > used ? most - used : 0;
 }
 
-/* The group's own folder, or the top one, as which a container sees its own. */
+/* Reads the process's own control group and the root group: within a container, the root folder is the container's own
+   group. */
 static size_t of_group(void)
 {
     FILE *file = fopen("/proc/self/cgroup", "r");

@@ -1,4 +1,4 @@
-/* What a run leaves out because its scene needs none of it, and what that saves. */
+/* A calculation that a run skips because its scene does not need it, and what this saves. */
 #ifndef SB_BASE_SKIPPED_H
 #define SB_BASE_SKIPPED_H
 
@@ -6,8 +6,8 @@
 
 typedef struct sb_skipped {
     const char *what; /* "turbulence: none, no strain rates"; NULL ends a list */
-    int passes;       /* over all pairs of neighbours, in each step */
-    size_t bytes;     /* of memory; 0: nothing that is known beforehand */
+    int passes;       /* saved passes over all pairs of neighbours, per step */
+    size_t bytes;     /* saved memory; 0: not known beforehand */
 } sb_skipped;
 
 #endif

@@ -1,3 +1,4 @@
+/* Fills errors. */
 #include "base/status.h"
 
 #include <stdarg.h>

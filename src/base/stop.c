@@ -1,10 +1,11 @@
+/* Notes the signals that request a stop. */
 #include "base/stop.h"
 
 #include <signal.h>
 #include <stdatomic.h>
 #include <stddef.h>
 
-/* Lock-free, as a handler needs; and read by all threads. */
+/* Atomic: a signal handler needs a lock-free variable, and all threads read it. */
 static atomic_int noted;
 
 static void note(int number)
@@ -12,7 +13,7 @@ static void note(int number)
     atomic_store_explicit(&noted, number, memory_order_relaxed);
 }
 
-/* When a terminal closes, its shell and the kernel may both say so: the second word is no impatience. */
+/* When a terminal closes, both its shell and the kernel may send SIGHUP, so a second one must not end the process. */
 static void watch_terminal(void)
 {
     struct sigaction before, action = {.sa_handler = note, .sa_flags = SA_RESTART};
@@ -27,9 +28,9 @@ void sb_stop_watch(void)
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     watch_terminal();
-    /* A file that may not grow is a full disk: the write fails, and that is reported. */
+    /* A file that exceeds the size limit is treated like a full disk: the write fails, and the failure is reported. */
     signal(SIGXFSZ, SIG_IGN);
-    /* Whoever read the progress is gone: no reason to stop computing. */
+    /* The end of the process that reads the progress output is no reason to stop the run. */
     signal(SIGPIPE, SIG_IGN);
 }
 

@@ -1,21 +1,22 @@
-/* Ctrl-C, SIGTERM and a closed terminal as a wish: a run reads it between its steps, long work before the first step
- * within its loops. */
+/* Treats Ctrl-C, SIGTERM and a closed terminal as a request to stop. A run checks for the request between its steps,
+   and long work before the first step checks within its loops. */
 #ifndef SB_BASE_STOP_H
 #define SB_BASE_STOP_H
 
 #include "base/status.h"
 
-/* From now on SIGINT, SIGTERM and SIGHUP are only noted; a second one of the first two ends the process at once. SIGHUP
-   stays ignored where it was, as by nohup. Writing to what nobody reads any more fails and does not end the process. */
+/* From now on SIGINT, SIGTERM and SIGHUP are only noted. A second SIGINT or SIGTERM ends the process at once. SIGHUP
+   stays ignored if it was ignored before, as by nohup. Writing to a closed pipe fails and does not end the process. */
 void sb_stop_watch(void);
 
-/* The signal noted, or 0. Never 0 again once it was not; any thread may ask, and it costs next to nothing. */
+/* Returns the noted signal, or 0. Once a signal is noted, the result stays nonzero. Any thread may call this; it costs
+   one atomic load. */
 int sb_stop_signal(void);
 
-/* SB_INTERRUPTED: "stopped by a signal" and during what. */
+/* Fails with SB_INTERRUPTED, "stopped by a signal" and what was interrupted. */
 sb_status sb_stop_fail(sb_error *error, const char *during);
 
-/* As in status.h. */
+/* For clang's analyzer, as in status.h. */
 #ifdef __clang_analyzer__
 #define sb_stop_fail(error, during) ((void)(sb_stop_fail)(error, during), SB_INTERRUPTED)
 #endif

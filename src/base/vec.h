@@ -1,4 +1,4 @@
-/* Three doubles with a name. */
+/* Vectors of three doubles. */
 #ifndef SB_BASE_VEC_H
 #define SB_BASE_VEC_H
 
@@ -41,7 +41,7 @@ static inline double sb_norm(sb_vec3 a)
 {
     return sqrt(sb_dot(a, a));
 }
-/* a / |a|; the zero vector stays zero. */
+/* Returns a / |a|; the zero vector stays zero. */
 static inline sb_vec3 sb_normalize(sb_vec3 a)
 {
     double length = sb_norm(a);

@@ -33,8 +33,8 @@ static void damaged_ones_are_passed_over(void **state)
     size_t length;
     char *bytes = bytes_of(newest, &length);
     goes_on_from_the_one_before(newest, bytes, 0, "has 0 bytes");
-    goes_on_from_the_one_before(newest, bytes, length / 2, "cut short");
-    goes_on_from_the_one_before(newest, bytes, length - 1, "cut short");
+    goes_on_from_the_one_before(newest, bytes, length / 2, "truncated");
+    goes_on_from_the_one_before(newest, bytes, length - 1, "truncated");
     bytes[length / 2] ^= 4;
     goes_on_from_the_one_before(newest, bytes, length, "damaged: the checksum of section");
     bytes[length / 2] ^= 4;
@@ -59,7 +59,7 @@ static void no_part_may_be_missing(void **state)
         put_bytes(newest, bytes, at);
         outcome o = RUN(1, "run", "measured.yaml", "--out", "ends", "--quiet", "--resume");
         assert_one_line(o.err, "no checkpoint to go on from: ends/checkpoints/");
-        assert_contains(o.err, "cut short");
+        assert_contains(o.err, "truncated");
         outcome_free(&o);
         memcpy(&size, bytes + at + 8, sizeof size);
         at += 24 + size;

@@ -1,4 +1,5 @@
-/* Archives: what is written is read; what is damaged anywhere, or read otherwise than written, is refused. */
+/* Archives: the values that were written are read back; damage at any byte, and reads that do not match the written
+   values, are errors. */
 #include "../check.h"
 #include "base/archive.h"
 #include "base/file.h"
@@ -32,7 +33,7 @@ static void fill(sb_archive_out *out)
     sb_put_list(out, NULL, 0, 12);
 }
 
-/* The whole archive as bytes; free with sb_free. */
+/* Writes an archive and returns it as bytes; the caller frees them with sb_free. */
 static char *bytes_of(size_t *length)
 {
     sb_archive_out out = {0};
@@ -62,7 +63,7 @@ static int teardown(void **state)
     return rmdir(folder);
 }
 
-static void what_is_written_is_read(void **state)
+static void written_values_are_read_back(void **state)
 {
     (void)state;
     size_t length;
@@ -70,7 +71,7 @@ static void what_is_written_is_read(void **state)
     sb_archive_in in;
     sb_error error = {0};
     if (sb_archive_open(&in, path, "TEST", 7, &error) != SB_OK) fail_msg("%s", error.text);
-    /* Sections are found in any order. */
+    /* Sections can be read in any order. */
     assert_int_equal(sb_archive_enter(&in, "eightchr", &error), SB_OK);
     for (int i = 0; i < NUMBERS; i++) {
         double read = sb_take_real(&in);
@@ -100,16 +101,16 @@ static void what_is_written_is_read(void **state)
     sb_archive_in_free(&in);
 }
 
-static void expect_refusal(const char *bytes, size_t length, const char *words)
+static void expect_refusal(const char *bytes, size_t length, const char *message)
 {
     sb_archive_in in;
     sb_error error = {0};
     assert_int_equal(sb_archive_parse(&in, "a", bytes, length, "TEST", 7, &error), SB_BAD_INPUT);
-    if (strncmp(error.text, "a: ", 3) != 0 || !strstr(error.text, words)) fail_msg("%s", error.text);
+    if (strncmp(error.text, "a: ", 3) != 0 || !strstr(error.text, message)) fail_msg("%s", error.text);
     sb_archive_in_free(&in);
 }
 
-static void every_length_but_its_own_is_refused(void **state)
+static void truncated_or_longer_archives_are_refused(void **state)
 {
     (void)state;
     size_t length;
@@ -117,7 +118,7 @@ static void every_length_but_its_own_is_refused(void **state)
     char *more = calloc(length + 1, 1);
     assert_non_null(more);
     for (size_t cut = 0; cut < length; cut++) {
-        char *exact = malloc(cut + !cut); /* a sanitizer sees a look beyond it */
+        char *exact = malloc(cut + !cut); /* of exactly this size, so that a sanitizer detects a read beyond the end */
         assert_non_null(exact);
         memcpy(exact, bytes, cut);
         expect_refusal(exact, cut, "");
@@ -150,7 +151,7 @@ static void every_flipped_bit_is_refused(void **state)
     sb_free(bytes);
 }
 
-/* Each reads the first section in one wrong way. */
+/* Each function reads the first section in one wrong way. */
 static void read_a_number(sb_archive_in *in)
 {
     sb_take_real(in);
@@ -186,12 +187,12 @@ static void read_too_little(sb_archive_in *in)
     sb_take_count(in, UINT64_MAX);
 }
 
-static void reading_otherwise_is_refused(void **state)
+static void reads_that_do_not_match_are_refused(void **state)
 {
     (void)state;
     static const struct {
         void (*read)(sb_archive_in *in);
-        const char *words;
+        const char *message;
     } cases[] = {{read_a_number, "a count at byte "},
                  {read_too_much, "0 bytes left, expected 1"},
                  {read_a_small_count, "expected at most 5"},
@@ -206,10 +207,10 @@ static void reading_otherwise_is_refused(void **state)
         sb_error error = {0};
         assert_int_equal(sb_archive_enter(&in, "first", &error), SB_OK);
         cases[c].read(&in);
-        if (in.error.status != SB_OK) /* and stays so */
+        if (in.error.status != SB_OK) /* all later reads fail, too */
             assert_true(sb_take_real(&in) == 0 && !sb_take_flag(&in) && sb_take_count(&in, 3) == 0);
         assert_int_equal(sb_archive_leave(&in, &error), SB_BAD_INPUT);
-        if (!strstr(error.text, cases[c].words) || !strstr(error.text, "section \"first\""))
+        if (!strstr(error.text, cases[c].message) || !strstr(error.text, "section \"first\""))
             fail_msg("%zu: %s", c, error.text);
     }
     sb_archive_in_free(&in);
@@ -223,8 +224,9 @@ static double *large_list(void)
     return large;
 }
 
-/* Sections of no block, one block and several, to the byte, and lists that begin anywhere in one. */
-static void memory_and_file_are_the_same(void **state)
+/* Sections of zero, one and several blocks, and of one byte less than a block, with lists that begin anywhere in a
+   block. */
+static void memory_and_file_have_equal_bytes(void **state)
 {
     (void)state;
     static const size_t lengths[] = {0, SB_ARCHIVE_BLOCK - 17, SB_ARCHIVE_BLOCK - 16, 3 * SB_ARCHIVE_BLOCK, 400001};
@@ -259,7 +261,7 @@ static void memory_and_file_are_the_same(void **state)
     for (int o = 0; o < 2; o++) sb_archive_out_free(&out[o]);
 }
 
-static void without_memory_it_fails(void **state)
+static void out_of_memory_is_an_error(void **state)
 {
     (void)state;
     double *large = large_list();
@@ -281,7 +283,7 @@ static void without_memory_it_fails(void **state)
         assert_int_equal(status, SB_FAILED);
         assert_non_null(strstr(error.text, "out of memory"));
     }
-    fail_msg("it never had memory enough");
+    fail_msg("no allocation succeeded within 100 attempts");
 }
 
 static bool is_there(const char *suffix)
@@ -291,8 +293,8 @@ static bool is_there(const char *suffix)
     return access(name, F_OK) == 0;
 }
 
-/* However large it is, a file needs no memory of its own. */
-static void a_file_needs_no_memory(void **state)
+/* An archive that is written to a file needs no allocation, whatever its size. */
+static void writing_to_a_file_allocates_no_memory(void **state)
 {
     (void)state;
     sb_archive_out out = {0};
@@ -311,8 +313,9 @@ static void a_file_needs_no_memory(void **state)
     sb_free(large);
 }
 
-/* A disk that fills up: the one before stays, nothing half-written is left. One given up leaves nothing either. */
-static void a_full_disk_leaves_the_one_before(void **state)
+/* When the disk is full, the older archive stays and no partial file is left. A discarded archive leaves no file
+   either. */
+static void a_full_disk_keeps_the_older_archive(void **state)
 {
     (void)state;
     struct rlimit before, small;
@@ -350,14 +353,14 @@ static void a_full_disk_leaves_the_one_before(void **state)
     sb_free(bytes);
 }
 
-static void a_place_that_cannot_be_written_is_named(void **state)
+static void an_unwritable_path_is_named(void **state)
 {
     (void)state;
     sb_archive_out out = {0};
     sb_error error = {0};
     assert_int_equal(sb_archive_create(&out, "/nonexistent/a", "TEST", 7, &error), SB_FAILED);
     assert_non_null(strstr(error.text, "/nonexistent/a: cannot write: No such file"));
-    /* The next one is whole again. */
+    /* The next archive is complete. */
     assert_int_equal(sb_archive_create(&out, path, "TEST", 7, &error), SB_OK);
     fill(&out);
     assert_int_equal(sb_archive_close(&out, &error), SB_OK);
@@ -371,15 +374,15 @@ static void a_place_that_cannot_be_written_is_named(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_written_is_read),
-        cmocka_unit_test(every_length_but_its_own_is_refused),
+        cmocka_unit_test(written_values_are_read_back),
+        cmocka_unit_test(truncated_or_longer_archives_are_refused),
         cmocka_unit_test(every_flipped_bit_is_refused),
-        cmocka_unit_test(reading_otherwise_is_refused),
-        cmocka_unit_test(memory_and_file_are_the_same),
-        cmocka_unit_test(without_memory_it_fails),
-        cmocka_unit_test(a_file_needs_no_memory),
-        cmocka_unit_test(a_full_disk_leaves_the_one_before),
-        cmocka_unit_test(a_place_that_cannot_be_written_is_named),
+        cmocka_unit_test(reads_that_do_not_match_are_refused),
+        cmocka_unit_test(memory_and_file_have_equal_bytes),
+        cmocka_unit_test(out_of_memory_is_an_error),
+        cmocka_unit_test(writing_to_a_file_allocates_no_memory),
+        cmocka_unit_test(a_full_disk_keeps_the_older_archive),
+        cmocka_unit_test(an_unwritable_path_is_named),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

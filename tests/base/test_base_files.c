@@ -1,4 +1,4 @@
-/* Files are whole or absent; paths join; directories come with their parents. */
+/* Files are complete or absent; paths are joined; directories are made with their parents. */
 #include "../check.h"
 #include "base/file.h"
 #include "base/input.h"
@@ -23,7 +23,7 @@ static int make_folder(void **state)
 static int remove_folder(void **state)
 {
     (void)state;
-    return rmdir(folder); /* fails, and so tells, when a test left something behind */
+    return rmdir(folder); /* fails if a test has left a file behind */
 }
 
 static const char *at(const char *name)
@@ -58,7 +58,7 @@ static void check_text(const char *name, const char *expected)
     sb_free(text);
 }
 
-static void commit_shows_the_file_at_once(void **state)
+static void commit_renames_the_complete_file(void **state)
 {
     (void)state;
     for (int durable = 0; durable <= 1; durable++) {
@@ -92,7 +92,7 @@ static void abort_keeps_the_old_file(void **state)
     assert_int_equal(unlink(at("b")), 0);
 }
 
-static void failures_leave_nothing_and_say_why(void **state)
+static void failures_leave_no_file_and_name_the_reason(void **state)
 {
     (void)state;
     sb_atomic_file file = {0};
@@ -118,7 +118,7 @@ static void failures_leave_nothing_and_say_why(void **state)
     assert_int_equal(sb_atomic_open(&file, long_path, &error), SB_BAD_INPUT);
 }
 
-static void numbered_files_go_from_a_number_on(void **state)
+static void numbered_files_above_a_number_are_removed(void **state)
 {
     (void)state;
     static const char *const names[] = {"000001.a",     "000002.a", "000003.a", "000000004.a", "000002.a.tmp",
@@ -127,13 +127,13 @@ static void numbered_files_go_from_a_number_on(void **state)
     for (size_t n = 0; n < sizeof names / sizeof *names; n++) write_whole(names[n], "", 0);
     assert_int_equal(sb_remove_numbered(folder, ".a", 2, NULL), SB_OK);
     for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
-        if (exists(names[n]) != stays[n]) fail_msg("%s should %s", names[n], stays[n] ? "stay" : "go");
+        if (exists(names[n]) != stays[n]) fail_msg("%s should %s", names[n], stays[n] ? "stay" : "be removed");
         unlink(at(names[n]));
     }
     assert_int_equal(sb_remove_numbered(at("none"), ".a", 0, NULL), SB_OK);
 }
 
-/* A full disk shows only when the buffer is flushed. */
+/* A full disk is detected only when the buffer is flushed. */
 static void full_disk_is_an_error(void **state)
 {
     (void)state;
@@ -151,7 +151,7 @@ static void full_disk_is_an_error(void **state)
     assert_false(exists("c.tmp"));
 }
 
-static void directories_come_with_their_parents(void **state)
+static void directories_are_made_with_their_parents(void **state)
 {
     (void)state;
     assert_int_equal(sb_make_directories(at("p/q/r"), NULL), SB_OK);
@@ -169,8 +169,8 @@ static void directories_come_with_their_parents(void **state)
     assert_int_equal(rmdir(at("p")), 0);
 }
 
-/* None of them is written to, removed or waited for. */
-static void only_files_of_their_own_are_opened(void **state)
+/* Other kinds of files are not written to or removed, and opening them does not block. */
+static void only_regular_files_with_one_name_are_opened(void **state)
 {
     (void)state;
     static const char *const kinds[] = {"a symbolic link", "a directory", "a FIFO", "a device", "2 names (hard links)"};
@@ -184,7 +184,7 @@ static void only_files_of_their_own_are_opened(void **state)
         if (k == 0) assert_int_equal(symlink("target", path), 0);
         if (k == 1) assert_int_equal(mkdir(path, 0700), 0);
         if (k == 2) assert_int_equal(mkfifo(path, 0600), 0);
-        if (k == 3 && mknod(path, S_IFCHR | 0600, makedev(1, 3)) != 0) continue; /* only root may */
+        if (k == 3 && mknod(path, S_IFCHR | 0600, makedev(1, 3)) != 0) continue; /* only root may create a device */
         if (k == 4) assert_int_equal(link(target, path), 0);
         assert_int_equal(lstat(path, &before), 0);
         for (size_t m = 0; m < sizeof modes / sizeof *modes; m++) {
@@ -198,7 +198,7 @@ static void only_files_of_their_own_are_opened(void **state)
         sb_atomic_file file;
         sb_error error = {0};
         const sb_status status = sb_atomic_open(&file, path, &error);
-        assert_int_equal(status, k == 4 ? SB_OK : SB_FAILED); /* a rename takes one name only */
+        assert_int_equal(status, k == 4 ? SB_OK : SB_FAILED); /* a rename replaces only one of the names */
         if (status == SB_OK)
             sb_atomic_abort(&file);
         else
@@ -211,7 +211,7 @@ static void only_files_of_their_own_are_opened(void **state)
     assert_int_equal(unlink(at("target")), 0);
 }
 
-static void paths_join_and_part(void **state)
+static void paths_are_joined_and_split(void **state)
 {
     (void)state;
     char out[SB_PATH_MAX], name[SB_PATH_MAX + 1];
@@ -222,7 +222,7 @@ static void paths_join_and_part(void **state)
     memset(name, 'n', SB_PATH_MAX);
     name[SB_PATH_MAX] = '\0';
     assert_int_equal(sb_path_join(out, "a", name, NULL), SB_BAD_INPUT);
-    name[SB_PATH_MAX - 3] = '\0'; /* "a/" and 4093 more: exactly full with its zero */
+    name[SB_PATH_MAX - 3] = '\0'; /* "a/", 4093 characters and the zero fill the buffer exactly */
     assert_int_equal(sb_path_join(out, "a", name, NULL), SB_OK);
     sb_path_folder(out, "a/b/c.obj");
     assert_string_equal(out, "a/b");
@@ -232,7 +232,7 @@ static void paths_join_and_part(void **state)
     assert_string_equal(out, "/");
 }
 
-static void reading_has_its_limits(void **state)
+static void reading_is_limited_in_size(void **state)
 {
     (void)state;
     char *text;
@@ -254,7 +254,7 @@ static void reading_has_its_limits(void **state)
     assert_int_equal(unlink(at("d")), 0);
 }
 
-static void text_comes_without_its_mark(void **state)
+static void text_is_read_without_a_byte_order_mark(void **state)
 {
     (void)state;
     static const char *const pairs[][2] = {{"\xef\xbb\xbftext", "text"},
@@ -274,7 +274,7 @@ static void text_comes_without_its_mark(void **state)
     assert_int_equal(unlink(at("m")), 0);
 }
 
-static void long_files_are_read_whole(void **state)
+static void long_files_are_read_completely(void **state)
 {
     (void)state;
     enum { LENGTH = 200000 };
@@ -292,7 +292,7 @@ static void long_files_are_read_whole(void **state)
     assert_int_equal(unlink(at("e")), 0);
 }
 
-static void expect_no_input(const char *path, const char *why)
+static void expect_no_input(const char *path, const char *reason)
 {
     char *text;
     size_t length;
@@ -302,12 +302,13 @@ static void expect_no_input(const char *path, const char *why)
     assert_int_equal(sb_input_open(path, &stream, &error), SB_BAD_INPUT);
     assert_null(stream);
     assert_int_equal(errno, 0);
-    if (!strstr(error.text, path) || !strstr(error.text, why)) fail_msg("\"%s\" does not say \"%s\"", error.text, why);
+    if (!strstr(error.text, path) || !strstr(error.text, reason))
+        fail_msg("\"%s\" does not contain \"%s\"", error.text, reason);
     assert_int_equal(sb_file_read(path, 1000, &text, &length, &error), SB_BAD_INPUT);
     assert_null(text);
 }
 
-/* Opened as other programs do, a pipe would wait for its writer and a device never end. */
+/* A plain open would wait for the writer of a FIFO, and a device has no end. */
 static void inputs_are_regular_files(void **state)
 {
     (void)state;
@@ -320,7 +321,7 @@ static void inputs_are_regular_files(void **state)
     expect_no_input(at("link"), "is a FIFO, expected a regular file");
     assert_int_equal(unlink(at("link")), 0);
     assert_int_equal(unlink(at("pipe")), 0);
-    /* Links to files are fine. */
+    /* Links to regular files are accepted. */
     write_whole("file", "text", 0);
     assert_int_equal(symlink("file", at("soft")), 0);
     snprintf(target, sizeof target, "%s", at("file"));
@@ -329,7 +330,7 @@ static void inputs_are_regular_files(void **state)
     check_text("hard", "text");
     assert_int_equal(unlink(at("soft")), 0);
     assert_int_equal(unlink(at("hard")), 0);
-    /* A size without anything behind it is refused before it is read. */
+    /* A sparse file is refused by its size before it is read. */
     char *text;
     size_t length;
     sb_error error = {0};
@@ -344,17 +345,17 @@ static void inputs_are_regular_files(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(commit_shows_the_file_at_once),
+        cmocka_unit_test(commit_renames_the_complete_file),
         cmocka_unit_test(abort_keeps_the_old_file),
-        cmocka_unit_test(failures_leave_nothing_and_say_why),
-        cmocka_unit_test(numbered_files_go_from_a_number_on),
+        cmocka_unit_test(failures_leave_no_file_and_name_the_reason),
+        cmocka_unit_test(numbered_files_above_a_number_are_removed),
         cmocka_unit_test(full_disk_is_an_error),
-        cmocka_unit_test(directories_come_with_their_parents),
-        cmocka_unit_test(only_files_of_their_own_are_opened),
-        cmocka_unit_test(paths_join_and_part),
-        cmocka_unit_test(reading_has_its_limits),
-        cmocka_unit_test(text_comes_without_its_mark),
-        cmocka_unit_test(long_files_are_read_whole),
+        cmocka_unit_test(directories_are_made_with_their_parents),
+        cmocka_unit_test(only_regular_files_with_one_name_are_opened),
+        cmocka_unit_test(paths_are_joined_and_split),
+        cmocka_unit_test(reading_is_limited_in_size),
+        cmocka_unit_test(text_is_read_without_a_byte_order_mark),
+        cmocka_unit_test(long_files_are_read_completely),
         cmocka_unit_test(inputs_are_regular_files),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

@@ -1,4 +1,4 @@
-/* Libraries loaded on demand: a function of one works; what is missing is named. */
+/* Libraries loaded on demand: a loaded function works; a missing library or function is named in the error. */
 #include "../check.h"
 #include "base/library.h"
 
@@ -15,7 +15,7 @@ static void a_function_of_a_library_works(void **state)
     assert_true(cosine(0) == 1);
 }
 
-static void what_is_missing_is_named(void **state)
+static void a_missing_library_or_function_is_named(void **state)
 {
     (void)state;
     double (*function)(double) = NULL;
@@ -34,7 +34,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_function_of_a_library_works),
-        cmocka_unit_test(what_is_missing_is_named),
+        cmocka_unit_test(a_missing_library_or_function_is_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -16,7 +16,7 @@ static void memory_is_zeroed_and_aligned(void **state)
         assert_non_null(bytes);
         assert_int_equal((uintptr_t)bytes % 64, 0);
         for (size_t i = 0; i < 3 * count; i++) assert_int_equal(bytes[i], 0);
-        memset(bytes, 0xff, 3 * count); /* so that reused memory would show */
+        memset(bytes, 0xff, 3 * count); /* so that a missing initialisation of reused memory is detected */
         sb_free(bytes);
     }
     sb_free(NULL);
@@ -98,7 +98,7 @@ static void errors_hold_one_line(void **state)
     assert_string_equal(error.text, "x: 7 is too many");
     assert_int_equal(sb_fail_memory(&error, "particles"), SB_FAILED);
     assert_string_equal(error.text, "out of memory for particles");
-    assert_int_equal(sb_fail(NULL, SB_FAILED, "nobody listens"), SB_FAILED);
+    assert_int_equal(sb_fail(NULL, SB_FAILED, "no error struct"), SB_FAILED);
     char text[3000];
     memset(text, 'y', sizeof text);
     text[sizeof text - 1] = '\0';
@@ -112,8 +112,8 @@ static void check_all_differ(const uint64_t *hashes, size_t count)
         for (size_t j = 0; j < i; j++) assert_true(hashes[i] != hashes[j]);
 }
 
-/* Every flipped bit, every seed, and every length of the same bytes changes the hash. */
-static void hashes_tell_bytes_apart(void **state)
+/* The hash changes with every flipped bit, with the seed, and with the length of the same bytes. */
+static void different_bytes_have_different_hashes(void **state)
 {
     (void)state;
     enum { LENGTH = 29, BITS = 8 * LENGTH };
@@ -130,15 +130,15 @@ static void hashes_tell_bytes_apart(void **state)
     check_all_differ(hashes, LENGTH + 1);
     for (size_t seed = 0; seed < 100; seed++) hashes[seed] = sb_hash(seed, bytes, LENGTH);
     check_all_differ(hashes, 100);
-    /* Unaligned bytes hash as aligned ones do. */
+    /* The hash does not depend on the alignment. */
     memcpy(bytes, "xabcdefghijklmnopqrstuvwxyz", 27);
     unsigned char shifted[LENGTH];
     memcpy(shifted, bytes + 1, 20);
     assert_true(sb_hash(5, bytes + 1, 20) == sb_hash(5, shifted, 20));
 }
 
-/* Bytes hash the same in one piece and in any others; sums on the way change nothing. */
-static void pieces_hash_as_the_whole(void **state)
+/* The hash does not depend on how the bytes are divided into pieces. Reading the hash in between does not change it. */
+static void hashes_do_not_depend_on_pieces(void **state)
 {
     (void)state;
     enum { LENGTH = 5000 };
@@ -177,7 +177,7 @@ static void random_numbers_are_uniform_and_repeatable(void **state)
     assert_true(sb_random(0, 0) != sb_random(0, 1));
 }
 
-static void vectors_obey_their_rules(void **state)
+static void vector_functions_are_correct(void **state)
 {
     (void)state;
     sb_vec3 a = sb_vec(1, -2, 3), b = sb_vec(4, 5, -6), c = sb_cross(a, b);
@@ -195,11 +195,16 @@ static void vectors_obey_their_rules(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(memory_is_zeroed_and_aligned),     cmocka_unit_test(absurd_sizes_are_refused),
-        cmocka_unit_test(the_chosen_allocation_fails_once), cmocka_unit_test(growing_keeps_the_contents),
-        cmocka_unit_test(memory_figures_are_plausible),     cmocka_unit_test(errors_hold_one_line),
-        cmocka_unit_test(hashes_tell_bytes_apart),          cmocka_unit_test(random_numbers_are_uniform_and_repeatable),
-        cmocka_unit_test(vectors_obey_their_rules),         cmocka_unit_test(pieces_hash_as_the_whole),
+        cmocka_unit_test(memory_is_zeroed_and_aligned),
+        cmocka_unit_test(absurd_sizes_are_refused),
+        cmocka_unit_test(the_chosen_allocation_fails_once),
+        cmocka_unit_test(growing_keeps_the_contents),
+        cmocka_unit_test(memory_figures_are_plausible),
+        cmocka_unit_test(errors_hold_one_line),
+        cmocka_unit_test(different_bytes_have_different_hashes),
+        cmocka_unit_test(random_numbers_are_uniform_and_repeatable),
+        cmocka_unit_test(vector_functions_are_correct),
+        cmocka_unit_test(hashes_do_not_depend_on_pieces),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,11 +1,11 @@
-/* What a message quotes cannot give orders to a terminal. */
+/* Text that a message quotes cannot send control sequences to a terminal. */
 #include "../check.h"
 
 #include "base/status.h"
 
 #include <string.h>
 
-static void control_characters_are_taken_out(void **state)
+static void control_characters_are_replaced(void **state)
 {
     (void)state;
     static const struct {
@@ -19,8 +19,8 @@ static void control_characters_are_taken_out(void **state)
         {"\xc2\xa0\xc3\xa9 \xe2\x82\xac", "\xc2\xa0\xc3\xa9 \xe2\x82\xac"},
         {"\xe2\x80\xaetxt.\xe2\x81\xa6\xd8\x9c\xe2\x80\x8f", "???txt.????????"},
         {"\xe2\x80\x90 \xe2\x80\xaf \xe2\x81\xa5", "\xe2\x80\x90 \xe2\x80\xaf \xe2\x81\xa5"},
-        {"cut short \xe2\x80", "cut short \xe2\x80"},
-        {"cut short \xc2", "cut short \xc2"},
+        {"truncated \xe2\x80", "truncated \xe2\x80"},
+        {"truncated \xc2", "truncated \xc2"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         sb_error error = {0};
@@ -32,6 +32,6 @@ static void control_characters_are_taken_out(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(control_characters_are_taken_out)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(control_characters_are_replaced)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
