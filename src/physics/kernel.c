@@ -1,8 +1,9 @@
+/* The table of smoothing kernels, and their values in SI units. */
 #include "physics/kernel.h"
 
 #include <string.h>
 
-/* A new kernel is one file that defines sb_kernel_<name>, and one ROW here. */
+/* To add a kernel, define sb_kernel_<name> in a file of its own and add one ROW here. */
 #define ROWS(ROW)                                                                                                      \
     ROW(cubic)                                                                                                         \
     ROW(wendland_c2)                                                                                                   \

@@ -1,4 +1,4 @@
-/* Smoothing kernels W(r) with support radius h, as rows of one table. */
+/* Smoothing kernels W(r) with support radius h. Each kernel is one row of a table. */
 #ifndef SB_PHYSICS_KERNEL_H
 #define SB_PHYSICS_KERNEL_H
 
@@ -7,16 +7,16 @@
 /* Shapes in q = r/h on [0, 1]; W = alpha w(q)/h^d, W' = alpha w'(q)/h^(d+1), d the dimension. */
 typedef struct sb_kernel {
     const char *name, *summary, *reference;
-    double support;            /* the h/spacing it is meant for */
+    double support;            /* recommended ratio of support radius to particle spacing */
     double alpha[4];           /* normalisation in 1D, 2D, 3D at [1], [2], [3] */
     double (*shape)(double q); /* w, dimensionless */
-    double (*slope)(double q); /* dw/dq <= 0; over q it is bounded and nowhere steeper than at q = 0 */
+    double (*slope)(double q); /* dw/dq <= 0; (dw/dq)/q is bounded and has its largest magnitude at q = 0 */
 } sb_kernel;
 
-/* All kernels, ended by NULL. */
+/* All kernels; the last entry is NULL. */
 extern const sb_kernel *const sb_kernels[];
 
-/* The kernel of that name, or NULL. */
+/* Returns the kernel of that name, or NULL. */
 const sb_kernel *sb_kernel_find(const char *name);
 
 /* W in 1/m^d and W' in 1/m^(d+1); 0 for r >= h. */

@@ -1,5 +1,5 @@
-/* Wendland's kernels, the polynomials of 2D and 3D. 1D keeps their shape (its own family is of
-   lower degree) with alpha from the exact integral, 2/3 for C2 and 16/27 for C4. */
+/* Wendland's kernels for 2D and 3D. In 1D the same polynomials are used (Wendland's own 1D family is of lower degree);
+   alpha then follows from the exact integral of the shape, 2/3 for C2 and 16/27 for C4. */
 #include "physics/kernel.h"
 
 #include <math.h>
@@ -32,7 +32,7 @@ static double slope_c4(double q)
 
 const sb_kernel sb_kernel_wendland_c2 = {
     .name = "wendland-c2",
-    .summary = "Wendland C2, support 3 spacings: no pairing, twice the neighbours and more",
+    .summary = "Wendland C2, support 3 spacings: no pairing, more than twice the neighbours of the cubic spline",
     .reference = "Wendland 1995; Dehnen & Aly 2012, table 1",
     .support = 3,
     .alpha = {0, 3.0 / 2.0, 7 / M_PI, 21 / (2 * M_PI)},
@@ -42,7 +42,7 @@ const sb_kernel sb_kernel_wendland_c2 = {
 
 const sb_kernel sb_kernel_wendland_c4 = {
     .name = "wendland-c4",
-    .summary = "Wendland C4, support 3.5 spacings: smoothest and dearest",
+    .summary = "Wendland C4, support 3.5 spacings: smoothest, highest run time",
     .reference = "Wendland 1995; Dehnen & Aly 2012, table 1",
     .support = 3.5,
     .alpha = {0, 27.0 / 16.0, 9 / M_PI, 495 / (32 * M_PI)},

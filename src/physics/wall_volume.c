@@ -1,20 +1,23 @@
+/* Computes the factors gamma and bend of the wall volume. */
 #include "physics/wall_volume.h"
 
 #include <math.h>
 
-/* From the same demand as gamma, beside edges of 90 degrees: least squares give 2 to 10 at convex ones and 9 to 22 at
-   concave ones, over lattices laid along the walls and turned at random; round walls down to 3 spacings agree. */
+/* Fitted to the same balance as gamma, at edges of 90 degrees: least squares give 2 to 10 at convex edges and 9 to 22
+   at concave edges, for lattices that are aligned with the walls or turned at random. Round walls with radii down to 3
+   spacings give similar values. */
 static const double BEND = 8;
 
-/* Sums over a square lattice of a plane's places (a row in 2D), `step` spacings from each other, `apart` from a place
-   over one of them (at: 0) or over the middle between them (0.5): of W, or of the part of grad W across the plane. */
+/* Sums W (slope: 0), or the component of grad W normal to the plane (slope: 1), over the points of a square lattice in
+   a plane (a row in 2D) whose spacing is `step`. The sum is taken at the distance `apart` from the plane, above a
+   lattice point (at: 0) or above the middle between lattice points (at: 0.5). Lengths are in particle spacings. */
 static double over_plane(const sb_kernel *kernel, int dimension, double support, double step, double apart, double at,
                          int slope)
 {
-    const int reach = (int)ceil(support / step), depth = dimension == 2 ? 0 : reach;
+    const int radius = (int)ceil(support / step), depth = dimension == 2 ? 0 : radius;
     const double aside = dimension == 2 ? 0 : at;
     double sum = 0;
-    for (int x = -reach; x <= reach; x++)
+    for (int x = -radius; x <= radius; x++)
         for (int y = -depth; y <= depth; y++) {
             const double dx = step * (x + at), dy = step * (y + aside), r = sqrt(apart * apart + dx * dx + dy * dy);
             if (!slope)
@@ -32,7 +35,8 @@ double sb_wall_gamma(const sb_kernel *kernel, int dimension, double support, dou
     double product = 0, square = 0;
     for (int k = 0; k < layers; k++) {
         const double wall = over_plane(kernel, dimension, support, spacing, k + 0.5 + offset, 0.5, 1) / own;
-        double water = 0; /* a full lattice has none: what the layers above have, those missing below had */
+        /* On a full lattice the sum is 0, so the layers above contribute as much as the missing layers below would. */
+        double water = 0;
         for (int other = k + 1; other <= layers; other++)
             water += over_plane(kernel, dimension, support, 1, other, 0, 1);
         product += wall * 2 * water;

@@ -1,9 +1,11 @@
+/* Solitary, standing and damped waves by wave theory. */
 #include "physics/wave_theory.h"
 
 #include <math.h>
 #include <stdbool.h>
 
-/* Lengths in depths, speeds in sqrt(gh): e = H/h, S = sech^2(alpha xi), T = tanh(alpha xi), whose squares add to 1. */
+/* Dimensionless terms of a solitary wave; lengths are in depths, speeds in sqrt(gh): e = H/h, s = sech^2(alpha xi), t =
+   tanh(alpha xi), s + t^2 = 1. */
 typedef struct phase {
     double e, alpha, s, t;
 } phase;
@@ -13,7 +15,7 @@ static phase phase_at(const sb_solitary *wave, double xi)
     const double e = wave->height / wave->depth, first = sqrt(0.75 * e);
     const bool third = wave->theory == SB_SOLITARY_THIRD_ORDER;
     const double alpha = third ? first * (1 + e * (-5 / 8.0 + e * 71 / 128.0)) : first;
-    const double sech = 1 / cosh(alpha * xi / wave->depth); /* underflows to 0 far away, which is right */
+    const double sech = 1 / cosh(alpha * xi / wave->depth); /* underflows to the limit 0 far from the crest */
     return (phase){e, alpha, sech * sech, tanh(alpha * xi / wave->depth)};
 }
 
@@ -33,7 +35,7 @@ double sb_solitary_elevation(const sb_solitary *wave, double xi)
     return wave->height * s * (1 + beyond);
 }
 
-/* u uniform over the depth, u = C eta/(h + eta); w from continuity. */
+/* u = C eta/(h + eta) is uniform over the depth; w follows from continuity. */
 static void first_order(const sb_solitary *wave, const phase *p, double z, double *u, double *w)
 {
     const double h = wave->depth, eta = wave->height * p->s, celerity = sb_solitary_celerity(wave);

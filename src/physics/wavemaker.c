@@ -1,9 +1,10 @@
+/* The table of paddle laws, and the motion of a paddle in scene time. */
 #include "physics/wavemaker.h"
 
 #include <math.h>
 #include <string.h>
 
-/* A new law is one file that defines sb_wavemaker_<name>, and one ROW here. */
+/* To add a law, define sb_wavemaker_<name> in a file of its own and add one ROW here. */
 #define ROWS(ROW)                                                                                                      \
     ROW(goring)                                                                                                        \
     ROW(goring_rayleigh)                                                                                               \
@@ -46,7 +47,8 @@ sb_status sb_wavemaker_check(const sb_wavemaker_parameters *parameters, sb_error
     if (needs & SB_WM_FILE && !(parameters->file && *parameters->file))
         return sb_fail(error, SB_BAD_INPUT, "wave maker %s: no file, expected a time-displacement table", law);
     if (!isfinite(parameters->start))
-        return sb_fail(error, SB_BAD_INPUT, "wave maker %s: start is %g s, expected a time", law, parameters->start);
+        return sb_fail(error, SB_BAD_INPUT, "wave maker %s: start is %g s, expected a finite number", law,
+                       parameters->start);
     if (parameters->after == SB_AFTER_RETURN && !(parameters->return_time > 0 && isfinite(parameters->return_time)))
         return sb_fail(error, SB_BAD_INPUT, "wave maker %s: return_time is %g s, expected more than 0", law,
                        parameters->return_time);
@@ -69,8 +71,8 @@ sb_status sb_paddle_create(const sb_wavemaker_parameters *parameters, sb_paddle 
     return SB_OK;
 }
 
-/* The way back is S (1 - 3s^2 + 2s^3), s the share of return_time that has gone: at rest at both
-   ends, at most 1.5 S/return_time in between. */
+/* The return motion is S (1 - 3s^2 + 2s^3), where s is the fraction of return_time that has passed. The paddle is at
+   rest at both ends; its largest speed is 1.5 S/return_time. */
 double sb_paddle_displacement(const sb_paddle *paddle, double t)
 {
     t -= paddle->start;

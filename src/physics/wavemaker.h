@@ -1,5 +1,5 @@
-/* Paddle laws: displacement along the paddle's direction as a function of time, as rows of one table.
-   A new law is one file and one row (docs/adding-a-wavemaker.md). */
+/* Paddle laws: the displacement along the paddle's direction as a function of time. Each law is one row of a table.
+   docs/adding-a-wavemaker.md describes how to add a law. */
 #ifndef SB_PHYSICS_WAVEMAKER_H
 #define SB_PHYSICS_WAVEMAKER_H
 
@@ -11,7 +11,7 @@ typedef struct sb_wavemaker sb_wavemaker;
 
 typedef enum sb_after_stroke { SB_AFTER_STAY, SB_AFTER_RETURN } sb_after_stroke;
 
-/* Values out of the scene; each law says which it needs. */
+/* Values from the scene. Each law states which of them it needs. */
 typedef struct sb_wavemaker_parameters {
     const sb_wavemaker *kind;
     double start;   /* s, when the motion begins */
@@ -22,35 +22,35 @@ typedef struct sb_wavemaker_parameters {
     double gravity; /* m/s^2, from the scene */
     char *file;     /* absolute path of a time-displacement table */
     sb_after_stroke after;
-    double return_time; /* s, of the slow way back, when after is RETURN */
+    double return_time; /* s, duration of the slow return, when after is RETURN */
 } sb_wavemaker_parameters;
 
 enum { SB_WM_HEIGHT = 1, SB_WM_DEPTH = 2, SB_WM_STROKE = 4, SB_WM_SPEED = 8, SB_WM_FILE = 16 };
 
 struct sb_wavemaker {
     const char *name, *summary, *reference;
-    unsigned needs; /* SB_WM_* bits: keys that the scene must give; the others are refused */
-    /* Makes *state (may stay NULL) from values that sb_wavemaker_check has passed; refuses what else
-       is senseless, with one line in *error. */
+    unsigned needs; /* SB_WM_* bits: keys that the scene must give; other keys are an error */
+    /* Creates *state (may stay NULL) from values that sb_wavemaker_check has accepted. Values that this law cannot use
+       are an error, with one line in *error. */
     sb_status (*create)(const sb_wavemaker_parameters *parameters, void **state, sb_error *error);
     /* Displacement X in m at t seconds after the start; 0 for t <= 0; constant beyond duration. */
     double (*displacement)(const void *state, double t);
-    /* Seconds the stroke takes. */
+    /* Duration of the stroke, s. */
     double (*duration)(const void *state);
     void (*destroy)(void *state);
-    /* A warning when the theory is out of its range, else NULL (static text). May be NULL. */
+    /* Returns a warning (static text) when the theory is not valid for the parameters, else NULL. May be NULL. */
     const char *(*warning)(const sb_wavemaker_parameters *parameters);
 };
 
-/* All laws, ended by NULL. */
+/* All laws; the last entry is NULL. */
 extern const sb_wavemaker *const sb_wavemakers[];
 const sb_wavemaker *sb_wavemaker_find(const char *name);
 
-/* SB_BAD_INPUT unless every value that the law needs is finite and above 0 (a file: named), the start
-   finite, and return_time above 0 where it is used. sb_paddle_create begins with it. */
+/* Checks the parameters. SB_BAD_INPUT unless every value that the law needs is finite and above 0 (a file: its name is
+   given), the start is finite, and return_time is above 0 where it is used. sb_paddle_create calls this first. */
 sb_status sb_wavemaker_check(const sb_wavemaker_parameters *parameters, sb_error *error);
 
-/* A law at work: created from parameters, start and what follows the stroke included. */
+/* A paddle that moves by a law, with the start of its motion and what it does after the stroke. */
 typedef struct sb_paddle {
     const sb_wavemaker *kind;
     void *state;
@@ -60,7 +60,7 @@ typedef struct sb_paddle {
 } sb_paddle;
 
 sb_status sb_paddle_create(const sb_wavemaker_parameters *parameters, sb_paddle *paddle, sb_error *error);
-/* Displacement in m at scene time t; continuous, with continuous speed on the way back. */
+/* Returns the displacement in m at scene time t. It is continuous, and its speed is continuous during the return. */
 double sb_paddle_displacement(const sb_paddle *paddle, double t);
 void sb_paddle_destroy(sb_paddle *paddle);
 

@@ -1,5 +1,5 @@
-/* A dam gate: pulled at constant speed over its stroke, as the weight-driven gates of experiments
-   are after their first millimetres. The start is sudden, for no water is pushed. */
+/* A dam gate that is pulled at constant speed over its stroke, as the weight-driven gates of experiments are after
+   their first millimetres. The start may be sudden because the gate does not push water. */
 #include "base/memory.h"
 #include "physics/wavemaker.h"
 
@@ -32,7 +32,7 @@ static double duration(const void *state)
 const sb_wavemaker sb_wavemaker_gate = {
     .name = "gate",
     .summary = "dam gate pulled at constant speed over its stroke",
-    .reference = "a mechanism, not a theory",
+    .reference = "prescribed motion without a wave theory",
     .needs = SB_WM_STROKE | SB_WM_SPEED,
     .create = create,
     .displacement = displacement,

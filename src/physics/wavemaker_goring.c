@@ -1,6 +1,6 @@
-/* Solitary waves by Goring's method [G78]: the paddle moves with the depth-averaged water beside
-   it, dX/dt = C eta/(h + eta), eta = H sech^2(kappa(Ct - X)), which integrates to X = H/(kappa h)
-   tanh(kappa(Ct - X)) [S16 eqs. 41-47, eq. 46 with tanh]. */
+/* Solitary waves by Goring's method [G78]: the paddle moves with the depth-averaged velocity of the water next to it,
+   dX/dt = C eta/(h + eta), eta = H sech^2(kappa(Ct - X)), which integrates to X = H/(kappa h) tanh(kappa(Ct - X)) [S16
+   eqs. 41-47, eq. 46 with tanh]. */
 #include "physics/wavemaker_goring.h"
 
 #include "base/memory.h"
@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stddef.h>
 
-/* Share of T at either end in which the motion is eased from and to rest. */
+/* Fraction of T at each end over which the motion starts from rest and stops smoothly. */
 static const double ease = 1.0 / 8.0;
 
 sb_goring sb_goring_of(double height, double depth, double gravity, bool rayleigh)
@@ -22,8 +22,8 @@ sb_goring sb_goring_of(double height, double depth, double gravity, bool rayleig
     return law;
 }
 
-/* theta + ratio tanh(theta) = y by Newton. The left side is odd and concave for theta > 0, so from
-   y/(1+ratio), below the root, the steps rise to it and never overshoot. */
+/* Solves theta + ratio tanh(theta) = y by Newton's method. The left side is odd and concave for theta > 0, so the
+   iteration starts below the root, at y/(1+ratio), and rises to it without overshooting. */
 static double solve_phase(double y, double ratio)
 {
     double magnitude = fabs(y), theta = magnitude / (1 + ratio);
@@ -40,7 +40,7 @@ double sb_goring_paddle(const sb_goring *law, double t, double *speed)
 {
     double y = law->kappa * law->celerity * (t - law->period / 2);
     double theta = solve_phase(y, law->ratio);
-    double eta = law->ratio / (cosh(theta) * cosh(theta)); /* over h */
+    double eta = law->ratio / (cosh(theta) * cosh(theta)); /* in units of h */
     if (speed) *speed = law->celerity * eta / (1 + eta);
     return (y - theta) / law->kappa + law->stroke / 2;
 }
@@ -72,15 +72,15 @@ static sb_status create_rayleigh(const sb_wavemaker_parameters *parameters, void
     return make(parameters, true, state, error);
 }
 
-/* The cubic that leaves 0 at rest and reaches `value` with `speed` after `length`. */
+/* The cubic that starts at 0 at rest and arrives at `value` with `speed` after `length`. */
 static double ease_in(double t, double length, double value, double speed)
 {
     double s = t / length;
     return s * s * (3 * value - speed * length + s * (speed * length - 2 * value));
 }
 
-/* T cuts the law's infinite tails at 0.05 % of S and 0.3 % of the top speed: a cubic over T/8 at
-   either end turns these jumps into a start and a stop at rest, from 0 to S exactly. */
+/* The law's motion extends over infinite time; T truncates it at 0.05 % of S and 0.3 % of the largest speed. A cubic
+   over T/8 at each end removes the resulting jumps: the paddle moves from rest at exactly 0 to rest at exactly S. */
 static double displacement(const void *state, double t)
 {
     const sb_goring *law = state;
@@ -109,8 +109,8 @@ static const char *warn_boussinesq(const sb_wavemaker_parameters *parameters)
     const char *breaking = warn_breaking(parameters);
     if (breaking) return breaking;
     return parameters->height > 0.3 * parameters->depth
-               ? "wave height above 0.3 of the depth: Boussinesq's profile sheds a tail, "
-                 "goring-rayleigh makes a cleaner wave"
+               ? "wave height above 0.3 of the depth: Boussinesq's profile sheds trailing waves; "
+                 "goring-rayleigh reduces them"
                : NULL;
 }
 

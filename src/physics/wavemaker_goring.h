@@ -1,4 +1,4 @@
-/* Goring's law for a piston that makes a solitary wave, before its ends are eased. */
+/* Goring's law for a piston that makes a solitary wave, without the smooth start and stop that the wave makers add. */
 #ifndef SB_PHYSICS_WAVEMAKER_GORING_H
 #define SB_PHYSICS_WAVEMAKER_GORING_H
 
@@ -12,12 +12,12 @@ typedef struct sb_goring {
     double period;   /* s, T = 2/(kappa C) (3.80 + H/h) */
 } sb_goring;
 
-/* The constants of the paddle for a wave of height H on depth h, m: C = sqrt(g(h + H)), and Boussinesq's kappa^2 =
-   3H/(4h^3) or Rayleigh's 3H/(4h^2(h + H)) [G78; S16 eqs. 43, 44, 48, 49]. */
+/* Returns the constants of the paddle for a wave of height H on depth h, m: C = sqrt(g(h + H)), and Boussinesq's
+   kappa^2 = 3H/(4h^3) or Rayleigh's kappa^2 = 3H/(4h^2(h + H)) [G78; S16 eqs. 43, 44, 48, 49]. */
 sb_goring sb_goring_of(double height, double depth, double gravity, bool rayleigh);
 
-/* The law X(t - T/2) + S/2 in m, any t in s: S/2 tanh(3.80) below and above S/2 at t = 0 and T, and
-   speed in m/s. */
+/* Returns the displacement X(t - T/2) + S/2 in m for any t in s, and the speed in m/s if it is not NULL. At t = 0 and T
+   the displacement is S/2 tanh(3.80) below and above S/2. */
 double sb_goring_paddle(const sb_goring *law, double t, double *speed);
 
 #endif

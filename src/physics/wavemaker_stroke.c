@@ -1,16 +1,16 @@
-/* A piston given by its stroke and its speed, to be calibrated to the wave wanted [T19, section 4].
-   The paper leaves the start and the stop open; here both are smooth. */
+/* A piston that is defined by its stroke and its speed, which are calibrated to the required wave [T19, section 4]. The
+   paper does not define the start and the stop; here both are smooth. */
 #include "base/memory.h"
 #include "physics/wavemaker.h"
 
 #include <math.h>
 
-/* Share of the stroke that speeding up and slowing down take together. */
+/* Fraction of the stroke that the acceleration and the deceleration take together. */
 static const double ramp_share = 0.2;
 
 typedef struct piston {
-    double stroke, speed; /* m, m/s: travel and top speed */
-    double ramp;          /* s, of speeding up, and of slowing down */
+    double stroke, speed; /* m, m/s: travel and largest speed */
+    double ramp;          /* s, duration of the acceleration, and of the deceleration */
     double duration;      /* s */
 } piston;
 
@@ -27,7 +27,7 @@ static sb_status create(const sb_wavemaker_parameters *parameters, void **state,
     return SB_OK;
 }
 
-/* Speed V sin^2(pi t/(2 tau)) over the ramp tau: travel V/2 (t - tau/pi sin(pi t/tau)). */
+/* Travel during the ramp tau: the speed is V sin^2(pi t/(2 tau)), the travel V/2 (t - tau/pi sin(pi t/tau)). */
 static double speed_up(const piston *law, double t)
 {
     return law->speed / 2 * (t - law->ramp / M_PI * sin(M_PI * t / law->ramp));

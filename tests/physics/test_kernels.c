@@ -52,7 +52,7 @@ static void slope_is_the_derivative(void **state)
             }
 }
 
-static void falls_and_ends_at_the_support(void **state)
+static void decreases_to_zero_at_the_support_radius(void **state)
 {
     (void)state;
     for (const sb_kernel *const *row = sb_kernels; *row; row++)
@@ -83,7 +83,7 @@ static double lattice_sum(const sb_kernel *kernel, int dimension, double support
     return sum;
 }
 
-static void lattice_sums_are_those_known(void **state)
+static void lattice_sums_equal_known_values(void **state)
 {
     (void)state;
     const sb_kernel *cubic = sb_kernel_find("cubic"), *c2 = sb_kernel_find("wendland-c2");
@@ -92,7 +92,7 @@ static void lattice_sums_are_those_known(void **state)
     assert_near(lattice_sum(c2, 3, 2), 1.034, 5e-4);
 }
 
-static void lattice_keeps_its_density_at_the_meant_support(void **state)
+static void lattice_has_unit_density_at_the_recommended_support(void **state)
 {
     (void)state;
     for (const sb_kernel *const *row = sb_kernels; *row; row++)
@@ -100,14 +100,14 @@ static void lattice_keeps_its_density_at_the_meant_support(void **state)
             assert_near(lattice_sum(*row, dimension, (*row)->support), 1, 6e-3);
 }
 
-/* One particle alone: density 8/pi / 2^3 of the rest density [the figure 0.318]. */
-static void lone_particle_has_its_known_density(void **state)
+/* A single particle without neighbours has 8/pi / 2^3 = 0.318 of the rest density. */
+static void single_particle_has_its_known_density(void **state)
 {
     (void)state;
     assert_near(sb_kernel_value(sb_kernel_find("cubic"), 3, 2, 0), 0.318310, 5e-7);
 }
 
-/* Slopes over q are stored as shares of the one at q = 0. */
+/* The simulation stores (dw/dq)/q as a fraction of its value at q = 0. */
 static void slope_over_q_is_bounded(void **state)
 {
     (void)state;
@@ -127,11 +127,11 @@ int main(void)
         cmocka_unit_test(names_are_unique_and_found),
         cmocka_unit_test(integrates_to_one),
         cmocka_unit_test(slope_is_the_derivative),
-        cmocka_unit_test(falls_and_ends_at_the_support),
+        cmocka_unit_test(decreases_to_zero_at_the_support_radius),
         cmocka_unit_test(slope_over_q_is_bounded),
-        cmocka_unit_test(lattice_sums_are_those_known),
-        cmocka_unit_test(lattice_keeps_its_density_at_the_meant_support),
-        cmocka_unit_test(lone_particle_has_its_known_density),
+        cmocka_unit_test(lattice_sums_equal_known_values),
+        cmocka_unit_test(lattice_has_unit_density_at_the_recommended_support),
+        cmocka_unit_test(single_particle_has_its_known_density),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

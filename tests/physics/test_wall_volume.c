@@ -1,25 +1,25 @@
-/* Boundary particles' volumes: what a lattice at rest over a plane asks for, and what edges do. */
+/* Wall volumes of boundary particles: the balance of a lattice at rest above a plane, and the effect of edges. */
 #include "../check.h"
 #include "base/vec.h"
 #include "physics/wall_volume.h"
 
 #include <stdio.h>
 
-enum { REACH = 8 };
+enum { RANGE = 8 };
 
-/* What is over, of 2 sum_j V grad W + B, 1/spacing, for the water's place k layers from a plane, in the direction
-   across; each neighbour by itself. */
-static double left_over(const sb_kernel *kernel, int dimension, double support, double offset, double gamma, int k)
+/* The component of 2 sum_j V grad W + B normal to a plane wall, 1/spacing, for a fluid particle of the k-th layer from
+   the wall, summed directly over its neighbours. */
+static double residual(const sb_kernel *kernel, int dimension, double support, double offset, double gamma, int k)
 {
-    const int depth = dimension == 2 ? 0 : REACH;
+    const int depth = dimension == 2 ? 0 : RANGE;
     const double aside = dimension == 2 ? 0 : 0.5;
     double own = 0, water = 0, wall = 0;
-    for (int x = -REACH; x <= REACH; x++)
+    for (int x = -RANGE; x <= RANGE; x++)
         for (int y = -depth; y <= depth; y++) {
             own += sb_kernel_value(kernel, dimension, support, sb_norm(sb_vec(x, y, 0)));
             const sb_vec3 to_wall = sb_vec(x + 0.5, y + aside, k + 0.5 + offset);
             wall += sb_kernel_slope(kernel, dimension, support, sb_norm(to_wall)) * to_wall.z / sb_norm(to_wall);
-            for (int layer = 0; layer <= k + REACH; layer++) {
+            for (int layer = 0; layer <= k + RANGE; layer++) {
                 const sb_vec3 d = sb_vec(x, y, k - layer);
                 if (sb_norm(d) > 0) water += sb_kernel_slope(kernel, dimension, support, sb_norm(d)) * d.z / sb_norm(d);
             }
@@ -30,28 +30,28 @@ static double left_over(const sb_kernel *kernel, int dimension, double support, 
 static double worst(const sb_kernel *kernel, int dimension, double support, double offset, double gamma)
 {
     double most = 0;
-    for (int k = 0; k < 4; k++) most = fmax(most, fabs(left_over(kernel, dimension, support, offset, gamma, k)));
+    for (int k = 0; k < 4; k++) most = fmax(most, fabs(residual(kernel, dimension, support, offset, gamma, k)));
     return most;
 }
 
-/* With the kernel of the defaults and the offset that suits it best, a hundredth of what a layer of water weighs per
-   spacing of depth; a twentieth more or less gamma
-   leaves three times as much. */
-static void a_lattice_rests_on_a_plane(void **state)
+/* With the default kernel and the offset that fits it best, the residual is below a hundredth of the weight of one
+   layer of water per spacing of depth. A gamma that is 5 % larger or smaller gives more than three times the residual.
+   */
+static void a_lattice_on_a_plane_is_at_rest(void **state)
 {
     (void)state;
     const sb_kernel *kernel = sb_kernel_find("wendland-c2");
     for (int dimension = 2; dimension <= 3; dimension++) {
         const double gamma = sb_wall_gamma(kernel, dimension, 3, 0.575, 1);
         const double best = worst(kernel, dimension, 3, 0.575, gamma);
-        printf("%dD: gamma %.4f, left over %.4f\n", dimension, gamma, best);
+        printf("%dD: gamma %.4f, residual %.4f\n", dimension, gamma, best);
         assert_true(best < 0.01);
         assert_true(worst(kernel, dimension, 3, 0.575, 0.95 * gamma) > 3 * best);
         assert_true(worst(kernel, dimension, 3, 0.575, 1.05 * gamma) > 3 * best);
     }
 }
 
-/* Least squares: no other gamma leaves a smaller sum of squares, whatever kernel and offset. */
+/* Least squares: for each kernel and offset, a gamma that is 1 % larger or smaller gives a larger sum of squares. */
 static void gamma_is_the_best_one(void **state)
 {
     (void)state;
@@ -60,16 +60,16 @@ static void gamma_is_the_best_one(void **state)
             for (double offset = 0.4; offset < 0.9; offset += 0.1) {
                 const double gamma = sb_wall_gamma(*row, dimension, (*row)->support, offset, 1);
                 double sum[3] = {0};
-                for (int way = 0; way < 3; way++)
+                for (int trial = 0; trial < 3; trial++)
                     for (int k = 0; k < 4; k++)
-                        sum[way] +=
-                            pow(left_over(*row, dimension, (*row)->support, offset, gamma * (0.99 + 0.01 * way), k), 2);
+                        sum[trial] += pow(
+                            residual(*row, dimension, (*row)->support, offset, gamma * (0.99 + 0.01 * trial), k), 2);
                 assert_true(gamma > 0.1 && sum[1] < sum[0] && sum[1] < sum[2]);
             }
 }
 
-/* What stands for a wall hardly depends on how densely it is sampled. */
-static void gamma_is_that_of_the_wall(void **state)
+/* gamma depends little on the spacing of the boundary particles. */
+static void gamma_depends_little_on_the_wall_spacing(void **state)
 {
     (void)state;
     const sb_kernel *kernel = sb_kernel_find("wendland-c2");
@@ -80,7 +80,7 @@ static void gamma_is_that_of_the_wall(void **state)
     }
 }
 
-static void planes_are_left_alone_and_edges_are_not(void **state)
+static void bend_is_one_on_planes_and_differs_at_edges(void **state)
 {
     (void)state;
     assert_near(sb_wall_bend(0), 1, 0);
@@ -92,9 +92,9 @@ static void planes_are_left_alone_and_edges_are_not(void **state)
     assert_true(sb_wall_bends_with(1) && sb_wall_bends_with(0) && !sb_wall_bends_with(-1));
 }
 
-/* The edge that a floor and a wall make, of lines of particles laid square; water in the quarter between: with the
-   bend, what is left over within two spacings of it is less than without. */
-static double beside_an_edge(bool bend)
+/* The concave edge of a floor and a wall, both lines of boundary particles, with water in the quarter between them.
+   Returns the root mean square residual within two spacings of the edge, with or without the bend. */
+static double residual_at_an_edge(bool bend)
 {
     const sb_kernel *kernel = sb_kernel_find("wendland-c2");
     const double offset = 0.575, gamma = sb_wall_gamma(kernel, 2, 3, offset, 1);
@@ -136,20 +136,22 @@ static double beside_an_edge(bool bend)
     return sqrt(sum / 4);
 }
 
-static void an_edge_bears_its_water(void **state)
+static void the_bend_reduces_the_residual_at_an_edge(void **state)
 {
     (void)state;
-    const double without = beside_an_edge(false), with = beside_an_edge(true);
-    printf("left over at an edge: %.4f, with the bend %.4f\n", without, with);
+    const double without = residual_at_an_edge(false), with = residual_at_an_edge(true);
+    printf("residual at an edge: %.4f, with the bend %.4f\n", without, with);
     assert_true(with < 0.6 * without);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_lattice_rests_on_a_plane), cmocka_unit_test(gamma_is_the_best_one),
-        cmocka_unit_test(gamma_is_that_of_the_wall),  cmocka_unit_test(planes_are_left_alone_and_edges_are_not),
-        cmocka_unit_test(an_edge_bears_its_water),
+        cmocka_unit_test(a_lattice_on_a_plane_is_at_rest),
+        cmocka_unit_test(gamma_is_the_best_one),
+        cmocka_unit_test(gamma_depends_little_on_the_wall_spacing),
+        cmocka_unit_test(bend_is_one_on_planes_and_differs_at_edges),
+        cmocka_unit_test(the_bend_reduces_the_residual_at_an_edge),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

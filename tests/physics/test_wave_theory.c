@@ -1,4 +1,4 @@
-/* Closed-form waves against the laws they come from. */
+/* Closed-form waves compared with the laws that they are derived from. */
 #include "../check.h"
 #include "physics/wave_theory.h"
 
@@ -23,13 +23,13 @@ static void solitary_profile(void **state)
     assert_near(sb_solitary_elevation(&high, 0), 0.3, 1e-15);
     assert_near(sb_solitary_elevation(&high, 1), sb_solitary_elevation(&high, -1), 1e-15);
     assert_true(sb_solitary_elevation(&high, 1e6) == 0);
-    /* Boussinesq's half width for a low one, [S16, eq. 43] */
+    /* The half width of a low wave is Boussinesq's [S16, eq. 43]. */
     const double half = acosh(sqrt(2)) / sqrt(0.75e-4);
     assert_near(sb_solitary_elevation(&low, half) / 0.5e-4, 1, 1e-3);
 }
 
-/* M = (16 e/3)^(1/2) (1 + 3 e/8) of water above the still level, per metre of crest [Longuet-Higgins & Fenton 1974, the
-   series' first terms]: 2 % more at e = 0.3. */
+/* The volume of water above the still-water level per metre of crest is (16 e/3)^(1/2) (1 + 3 e/8) [Longuet-Higgins &
+   Fenton 1974, first terms of the series]; the actual volume is 2 % larger at e = 0.3. */
 static void solitary_volume(void **state)
 {
     (void)state;
@@ -39,18 +39,18 @@ static void solitary_volume(void **state)
     assert_near(sum, sqrt(1.6 / 3) * (1 + 0.3 / 8), 0.005);
 }
 
-/* Largest breach of what a wave of constant form in perfect water keeps, over sqrt(gh) and h: of volume in the water;
-   of volume and of energy on its surface. */
-typedef struct breach {
+/* The largest violation of the conservation laws by a wave of constant form in inviscid water, in units of sqrt(gh) and
+   h: of volume within the water, of the flux through its surface, and of energy on its surface. */
+typedef struct violation {
     double volume, through, energy;
-} breach;
+} violation;
 
-static breach breach_of(double height, sb_solitary_theory theory)
+static violation violation_of(double height, sb_solitary_theory theory)
 {
     const double d = 1e-4;
     const sb_solitary wave = {.height = height, .depth = 1, .gravity = 1, .theory = theory};
     const double celerity = sb_solitary_celerity(&wave);
-    breach b = {0};
+    violation b = {0};
     for (double xi = -8; xi <= 8; xi += 0.11) {
         double ahead, behind, above, below, u, w, unused;
         for (double z = 0.05; z < 1; z += 0.19) {
@@ -70,8 +70,8 @@ static breach breach_of(double height, sb_solitary_theory theory)
     return b;
 }
 
-/* Boussinesq's: [S16, eqs. 42 to 44]; volume and what passes through its surface are kept to the last digit, energy is
- * not. */
+/* Boussinesq's wave [S16, eqs. 42 to 44] conserves volume, and has no flux through its surface, up to rounding errors.
+   It does not conserve energy. */
 static void boussinesqs_wave(void **state)
 {
     (void)state;
@@ -82,15 +82,16 @@ static void boussinesqs_wave(void **state)
     double u, w;
     sb_solitary_velocity(&wave, 0, 0.5, &u, &w);
     assert_near(u, 3.57113 * 0.3 / 1.3, 1e-5);
-    const breach b = breach_of(0.3, SB_SOLITARY_BOUSSINESQ), third = breach_of(0.3, SB_SOLITARY_THIRD_ORDER);
+    const violation b = violation_of(0.3, SB_SOLITARY_BOUSSINESQ), third = violation_of(0.3, SB_SOLITARY_THIRD_ORDER);
     assert_true(b.volume < 1e-7 && b.through < 1e-7 && b.energy > 2 * third.energy);
 }
 
-/* A wave of the first order breaches energy by the square of its height, this one all by the fourth power. */
-static void solitary_wave_keeps_volume_and_energy_to_third_order(void **state)
+/* The energy error of a first-order wave is proportional to the square of its height. All errors of the third-order
+   wave are proportional to the fourth power. */
+static void solitary_wave_conserves_volume_and_energy_to_third_order(void **state)
 {
     (void)state;
-    const breach high = breach_of(0.2, SB_SOLITARY_THIRD_ORDER), low = breach_of(0.1, SB_SOLITARY_THIRD_ORDER);
+    const violation high = violation_of(0.2, SB_SOLITARY_THIRD_ORDER), low = violation_of(0.1, SB_SOLITARY_THIRD_ORDER);
     assert_true(high.volume < 1.4e-3 && high.through < 1.7e-3 && high.energy < 3.5e-3);
     assert_true(low.volume < high.volume / 14 && low.through < high.through / 14 && low.energy < high.energy / 14);
 }
@@ -136,7 +137,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(solitary_celerity), cmocka_unit_test(solitary_profile),
-        cmocka_unit_test(solitary_volume),   cmocka_unit_test(solitary_wave_keeps_volume_and_energy_to_third_order),
+        cmocka_unit_test(solitary_volume),   cmocka_unit_test(solitary_wave_conserves_volume_and_energy_to_third_order),
         cmocka_unit_test(boussinesqs_wave),  cmocka_unit_test(solitary_bed_and_crest),
         cmocka_unit_test(standing_wave),     cmocka_unit_test(keulegan_damping),
     };

@@ -1,4 +1,4 @@
-/* Every row of the table of paddle laws, Goring's check values, and what follows the stroke. */
+/* Every paddle law of the table, Goring's check values, and the motion after the stroke. */
 #include "../check.h"
 #include "base/memory.h"
 #include "physics/wavemaker.h"
@@ -27,7 +27,7 @@ static int make_good_table(void **state)
     return 0;
 }
 
-/* Values that suit every law; each reads those it needs. */
+/* Values that are valid for every law; each law reads those that it needs. */
 static sb_wavemaker_parameters good_parameters(const sb_wavemaker *kind)
 {
     return (sb_wavemaker_parameters){
@@ -70,8 +70,8 @@ static void every_law_starts_at_zero_and_stays_at_its_end(void **state)
     }
 }
 
-/* No jump larger than the law's own top speed allows, at steps far finer than a simulation's; and,
-   but for the gate, no jump in speed either. */
+/* At steps far smaller than those of a simulation, the displacement has no jump larger than the law's largest speed
+   allows. Except for the gate, the speed has no jump either. */
 static void every_law_is_continuous(void **state)
 {
     (void)state;
@@ -93,7 +93,7 @@ static void every_law_is_continuous(void **state)
     }
 }
 
-static void every_law_refuses_what_it_needs_and_lacks(void **state)
+static void every_law_refuses_missing_or_invalid_parameters(void **state)
 {
     (void)state;
     const double bad[] = {0, -1, (double)NAN, HUGE_VAL};
@@ -115,7 +115,7 @@ static void every_law_refuses_what_it_needs_and_lacks(void **state)
             }
 }
 
-/* Makes the law once with every allocation failing in turn, then whole, and destroys it. */
+/* Creates the law with each allocation failing in turn, then without a failure, and destroys it. */
 static void make_and_destroy(const sb_wavemaker *kind)
 {
     sb_wavemaker_parameters parameters = good_parameters(kind);
@@ -132,7 +132,7 @@ static void make_and_destroy(const sb_wavemaker *kind)
     sb_paddle_destroy(&paddle);
 }
 
-/* The smallest block is 64 bytes: one lost per round would show as 6400. */
+/* The smallest block is 64 bytes, so a leak of one block per round amounts to 6400 bytes. */
 static void every_law_leaks_nothing(void **state)
 {
     (void)state;
@@ -161,7 +161,7 @@ static void goring_check_values(void **state)
         assert_near(law.period, cases[c].period, 5.1e-6);
         for (int i = 0; i <= 4; i++)
             assert_near(sb_goring_paddle(&law, i * law.period / 4, NULL), cases[c].paddle[i], 5.1e-6);
-        /* The row eases the ends only: exact at T/4, T/2, 3T/4. */
+        /* The smooth start and stop change only the ends: the displacement is exact at T/4, T/2 and 3T/4. */
         sb_wavemaker_parameters parameters = good_parameters(sb_wavemaker_find("goring"));
         parameters.height = cases[c].height;
         parameters.depth = cases[c].depth;
@@ -210,7 +210,7 @@ static void goring_top_speed(void **state)
     }
 }
 
-static void goring_knows_its_range(void **state)
+static void goring_warns_outside_of_its_range(void **state)
 {
     (void)state;
     const sb_wavemaker *kind = sb_wavemaker_find("goring");
@@ -246,7 +246,7 @@ static void stroke_runs_at_its_speed(void **state)
     assert_near(paddle.duration, 1.2 * 1.2 / 0.8, 1e-12);
     assert_near(paddle.stroke_end, 1.2, 1e-15);
     assert_near(speed_at(&paddle, paddle.duration / 2), 0.8, 1e-8);
-    assert_near(speed_at(&paddle, 0.15), 0.4, 1e-7); /* half way up the ramp */
+    assert_near(speed_at(&paddle, 0.15), 0.4, 1e-7); /* in the middle of the acceleration */
     assert_near(speed_at(&paddle, paddle.duration), 0, 1e-5);
     sb_paddle_destroy(&paddle);
 }
@@ -283,7 +283,7 @@ static void file_passes_through_its_rows(void **state)
     sb_paddle_destroy(&paddle);
 }
 
-/* Where the table is a smooth motion, the cubic gives its speed. */
+/* For a table of a smooth motion, the cubic interpolation gives the correct speed. */
 static void file_gives_the_speed_of_a_smooth_table(void **state)
 {
     (void)state;
@@ -421,12 +421,12 @@ int main(void)
         cmocka_unit_test(names_are_unique_and_found),
         cmocka_unit_test(every_law_starts_at_zero_and_stays_at_its_end),
         cmocka_unit_test(every_law_is_continuous),
-        cmocka_unit_test(every_law_refuses_what_it_needs_and_lacks),
+        cmocka_unit_test(every_law_refuses_missing_or_invalid_parameters),
         cmocka_unit_test(every_law_leaks_nothing),
         cmocka_unit_test(goring_check_values),
         cmocka_unit_test(goring_solves_its_equation),
         cmocka_unit_test(goring_top_speed),
-        cmocka_unit_test(goring_knows_its_range),
+        cmocka_unit_test(goring_warns_outside_of_its_range),
         cmocka_unit_test(stroke_runs_at_its_speed),
         cmocka_unit_test(gate_is_pulled_at_constant_speed),
         cmocka_unit_test(file_passes_through_its_rows),
