@@ -1,3 +1,4 @@
+/* Creates frames and counts the references to them. */
 #include "frame/frame.h"
 
 #include "base/memory.h"
@@ -14,7 +15,7 @@ static void destroy(sb_frame *frame)
 
 sb_frame *sb_frame_create(size_t count, size_t body_count)
 {
-    /* 3 * count floats must not overflow before the allocator can see it. */
+    /* The product 3 * count is computed here, so the allocator cannot detect its overflow. */
     if (count > SIZE_MAX / (3 * sizeof(float))) return NULL;
     sb_frame *frame = sb_alloc(1, sizeof *frame);
     if (!frame) return NULL;
@@ -33,7 +34,7 @@ sb_frame *sb_frame_create(size_t count, size_t body_count)
     return frame;
 }
 
-/* The count of holders is the one part of a published frame that changes, hence the casts. */
+/* The reference count is the only part of a published frame that changes, hence the casts. */
 const sb_frame *sb_frame_retain(const sb_frame *frame)
 {
     if (frame) ((sb_frame *)frame)->references++;

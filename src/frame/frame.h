@@ -1,4 +1,5 @@
-/* An immutable snapshot of a run, shared by reference among its consumers (files, pictures, stream). */
+/* A frame: an immutable copy of the simulation's state at one time, shared by reference among its consumers (files,
+   pictures, stream). */
 #ifndef SB_FRAME_FRAME_H
 #define SB_FRAME_FRAME_H
 
@@ -13,7 +14,7 @@ typedef struct sb_frame_body {
     char name[64];
     sb_vec3 displacement;  /* m since t = 0 */
     sb_vec3 force, moment; /* N, Nm: mean over the last finished interval */
-    bool report;
+    bool report;           /* forces on this body are reported to the user */
 } sb_frame_body;
 
 typedef struct sb_frame_status {
@@ -26,10 +27,11 @@ typedef struct sb_frame_status {
     uint64_t lost_particles;
 } sb_frame_status;
 
-/* Read-only once published. Arrays of `count`: position[3*i] is relative to origin. */
+/* Read-only once published. The arrays have one entry (or 3 floats) per particle; position[3*i] is relative to origin.
+ */
 typedef struct sb_frame {
     sb_frame_status status;
-    uint64_t index;  /* 1, 2, ... in the run, whichever consumer asked for it */
+    uint64_t index;  /* 1, 2, ... over all frames of the run, for all consumers together */
     sb_vec3 origin;  /* m, added to every position */
     double spacing;  /* m */
     size_t count;    /* fluid particles */
@@ -42,9 +44,10 @@ typedef struct sb_frame {
     _Atomic int references;
 } sb_frame;
 
-/* A frame with all arrays allocated and one reference, for its maker to fill. NULL without memory. */
+/* Creates a frame with all arrays allocated and one reference; the caller fills the arrays. NULL if memory runs out. */
 sb_frame *sb_frame_create(size_t count, size_t body_count);
-/* One more holder; returns the frame. Release frees with the last. NULL is fine. */
+/* sb_frame_retain adds a reference and returns the frame. sb_frame_release removes one and frees the frame with the
+   last. NULL has no effect. */
 const sb_frame *sb_frame_retain(const sb_frame *frame);
 void sb_frame_release(const sb_frame *frame);
 

@@ -1,3 +1,4 @@
+/* Frames and their reference counts; queues between threads. */
 #include "base/clock.h"
 #include "base/memory.h"
 #include "frame/queue.h"
@@ -18,7 +19,7 @@ static sb_frame *numbered(uint64_t index)
     return frame;
 }
 
-static void frame_counts_its_holders(void **state)
+static void frame_counts_its_references(void **state)
 {
     (void)state;
     sb_frame *frame = sb_frame_create(5, 2);
@@ -79,7 +80,7 @@ static void drops_the_oldest(void **state)
     sb_frame_queue_destroy(queue);
 }
 
-static void destroy_releases_what_is_left(void **state)
+static void destroy_releases_the_remaining_frames(void **state)
 {
     (void)state;
     sb_frame_queue *queue = sb_frame_queue_create(3, SB_QUEUE_WAIT);
@@ -143,7 +144,7 @@ static void waiting_loses_nothing_between_threads(void **state)
     struct consumer consumer;
     produce(SB_QUEUE_WAIT, 500, &consumer);
     assert_int_equal(consumer.count, 300);
-    /* 297 pauses of 0.5 ms at least lie between the first and the last push. */
+    /* At least 297 pauses of 0.5 ms lie between the first push and the last. */
     assert_true(sb_frame_queue_waited(consumer.queue) > 0.1);
     sb_frame_queue_destroy(consumer.queue);
 }
@@ -184,10 +185,10 @@ static void closing_wakes_a_waiting_push(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(frame_counts_its_holders),
+        cmocka_unit_test(frame_counts_its_references),
         cmocka_unit_test(frame_fails_cleanly_without_memory),
         cmocka_unit_test(drops_the_oldest),
-        cmocka_unit_test(destroy_releases_what_is_left),
+        cmocka_unit_test(destroy_releases_the_remaining_frames),
         cmocka_unit_test(waiting_loses_nothing_between_threads),
         cmocka_unit_test(dropping_never_waits),
         cmocka_unit_test(closing_wakes_a_waiting_push),
