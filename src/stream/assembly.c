@@ -1,3 +1,4 @@
+/* Counts complete and partial frames of a particle stream. */
 #include "stream/assembly.h"
 
 #include "base/memory.h"
@@ -30,7 +31,7 @@ sb_status sb_assembly_add(sb_assembly *assembly, const sb_particles_message *chu
     }
     if (chunk->chunk_count != assembly->chunk_count || chunk->total != assembly->total ||
         assembly->seen[chunk->chunk]) {
-        assembly->chunks_odd++;
+        assembly->chunks_ignored++;
         return SB_OK;
     }
     assembly->seen[chunk->chunk] = 1;

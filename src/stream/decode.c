@@ -1,3 +1,4 @@
+/* Decodes messages from untrusted bytes. */
 #include "stream/decode.h"
 
 #include "shorebreak_forces_t.h"
@@ -7,25 +8,24 @@
 #include <math.h>
 #include <string.h>
 
-/* LCM's own decoders allocate and copy by counts they do not check, so a message is read here,
-   field by field, and no byte is touched that is not there. The first trouble sticks; reads after
-   it give 0. */
+/* A position in a message. LCM's own decoders allocate and copy by counts that they do not check, so messages are read
+   here, field by field, without access beyond their end. The first problem is kept; reads after it return 0. */
 typedef struct reader {
     const unsigned char *at;
     size_t left;
-    const char *trouble; /* static text, NULL: none */
+    const char *problem; /* static text, NULL: none */
 } reader;
 
-static void refuse(reader *in, const char *trouble)
+static void refuse(reader *in, const char *problem)
 {
-    if (!in->trouble) in->trouble = trouble;
+    if (!in->problem) in->problem = problem;
 }
 
-/* The next `bytes` bytes, or NULL. */
+/* Returns the next `bytes` bytes, or NULL. */
 static const unsigned char *take(reader *in, size_t bytes)
 {
-    if (in->trouble || bytes > in->left) {
-        refuse(in, "it ends too early for its counts");
+    if (in->problem || bytes > in->left) {
+        refuse(in, "it ends before the last value that its counts require");
         return NULL;
     }
     const unsigned char *at = in->at;
@@ -87,30 +87,30 @@ static void take_floats(reader *in, float *out, size_t count)
     }
 }
 
-/* An LCM string: its length with the zero, its bytes, the zero. */
+/* Reads an LCM string: the length including the terminating zero, the bytes, the zero. */
 static void take_name(reader *in, char name[SB_STREAM_NAME])
 {
     int32_t length = take_int32(in);
     if (length < 1 || length > SB_STREAM_NAME) {
-        refuse(in, "a name is not of 0 to 63 bytes");
+        refuse(in, "the length of a name is not 0 to 63 bytes");
         return;
     }
     const unsigned char *at = take(in, (size_t)length);
     if (!at) return;
     if (memchr(at, 0, (size_t)length) != at + length - 1) {
-        refuse(in, "a name is not ended by its zero");
+        refuse(in, "a name is not terminated by a zero at its length");
         return;
     }
-    /* Names end up on terminals: escape sequences must not. */
+    /* Names are printed on terminals, so they must not contain escape sequences. */
     for (int32_t i = 0; i < length - 1; i++) name[i] = (char)(at[i] >= 0x20 && at[i] < 0x7f ? at[i] : '?');
     name[length - 1] = 0;
 }
 
-static int32_t take_count(reader *in, int32_t most, const char *trouble)
+static int32_t take_count(reader *in, int32_t most, const char *problem)
 {
     int32_t count = take_int32(in);
     if (count < 0 || count > most) {
-        refuse(in, trouble);
+        refuse(in, problem);
         return 0;
     }
     return count;
@@ -120,15 +120,15 @@ static reader open_message(const void *buffer, size_t size, int64_t fingerprint)
 {
     reader in = {.at = buffer, .left = size};
     if (size > SB_STREAM_MESSAGE_MAX) refuse(&in, "it is larger than 60 kB");
-    if (take_int64(&in) != fingerprint) refuse(&in, "its fingerprint is that of another type or version");
+    if (take_int64(&in) != fingerprint) refuse(&in, "its fingerprint belongs to another type or version");
     return in;
 }
 
 static sb_status close_message(reader *in, const char *type, size_t size, sb_error *error)
 {
     if (in->left > 0) refuse(in, "bytes are left over");
-    if (in->trouble)
-        return sb_fail(error, SB_BAD_INPUT, "%s message of %zu bytes refused: %s", type, size, in->trouble);
+    if (in->problem)
+        return sb_fail(error, SB_BAD_INPUT, "%s message of %zu bytes refused: %s", type, size, in->problem);
     return SB_OK;
 }
 
@@ -164,12 +164,12 @@ sb_status sb_stream_decode_forces(const void *buffer, size_t size, sb_forces_mes
     message.frame = take_int64(&in);
     message.time = take_double(&in);
     message.total = take_count(&in, INT32_MAX, "the number of bodies is negative");
-    message.first = take_count(&in, message.total, "the first body is not one of them");
+    message.first = take_count(&in, message.total, "the index of its first body is outside of the run's bodies");
     int32_t left = message.total - message.first;
     message.count = take_count(&in, left < SB_STREAM_BODIES ? left : SB_STREAM_BODIES,
-                               "it has more bodies than there are or than fit");
-    if (take_int32(&in) != 3 * message.count) refuse(&in, "its components are not three per body");
-    size_t count = in.trouble ? 0 : (size_t)message.count;
+                               "it has more bodies than the run or than a message can contain");
+    if (take_int32(&in) != 3 * message.count) refuse(&in, "its number of components is not three per body");
+    size_t count = in.problem ? 0 : (size_t)message.count;
     for (size_t i = 0; i < count; i++) take_name(&in, message.names[i]);
     const unsigned char *flags = take(&in, count);
     for (size_t i = 0; flags && i < count; i++) message.reported[i] = flags[i] != 0;
@@ -181,22 +181,23 @@ sb_status sb_stream_decode_forces(const void *buffer, size_t size, sb_forces_mes
     return status;
 }
 
-/* Chunks of a frame lie end to end: the first begins at 0, the last ends at the total. */
+/* Checks that the chunk fits into its frame: the chunks follow each other without gaps, the first begins at 0 and the
+   last ends at the total. */
 static void check_chunk(reader *in, const sb_particles_message *message)
 {
     if (message->frame < 0 || message->decimation < 1 || !(message->spacing > 0))
-        refuse(in, "frame, decimation or spacing is not positive");
+        refuse(in, "frame is negative, decimation is below 1, or spacing is not above 0");
     if (message->chunk_count < 1 || message->chunk_count > SB_STREAM_CHUNKS_MAX || message->chunk < 0 ||
         message->chunk >= message->chunk_count)
-        refuse(in, "its chunk is not one of the frame's");
+        refuse(in, "its chunk number is outside of the frame's chunks");
     if (message->total < 0 || message->first < 0 || message->first > message->total ||
         message->count > message->total - message->first)
-        refuse(in, "its particles are not among the frame's");
-    if (in->trouble) return;
+        refuse(in, "its particles are outside of the frame's particles");
+    if (in->problem) return;
     bool last = message->chunk == message->chunk_count - 1;
     if ((message->chunk == 0) != (message->first == 0) || last != (message->first + message->count == message->total) ||
         (message->count == 0) != (message->total == 0))
-        refuse(in, "its chunk and its particles disagree");
+        refuse(in, "its particles do not match its chunk number");
 }
 
 sb_status sb_stream_decode_particles(const void *buffer, size_t size, sb_particles_message *out, sb_error *error)
@@ -212,10 +213,10 @@ sb_status sb_stream_decode_particles(const void *buffer, size_t size, sb_particl
     message.decimation = take_int32(&in);
     take_doubles(&in, message.origin, 3);
     message.spacing = take_double(&in);
-    message.count = take_count(&in, SB_STREAM_CHUNK, "it has more particles than fit");
-    if (take_int32(&in) != 3 * message.count) refuse(&in, "its components are not three per particle");
+    message.count = take_count(&in, SB_STREAM_CHUNK, "it has more particles than a message can contain");
+    if (take_int32(&in) != 3 * message.count) refuse(&in, "its number of components is not three per particle");
     check_chunk(&in, &message);
-    size_t count = in.trouble ? 0 : (size_t)message.count;
+    size_t count = in.problem ? 0 : (size_t)message.count;
     take_floats(&in, message.position, 3 * count);
     take_floats(&in, message.velocity, 3 * count);
     take_floats(&in, message.pressure, count);

@@ -1,4 +1,4 @@
-/* Messages of a run as plain structs, read from bytes that nobody vouches for. */
+/* Decodes the messages of a run from untrusted bytes into plain structs. */
 #ifndef SB_STREAM_DECODE_H
 #define SB_STREAM_DECODE_H
 
@@ -9,14 +9,14 @@
 #include <stdint.h>
 
 enum {
-    SB_STREAM_MESSAGE_MAX = 60000, /* bytes: larger messages lose fragments on stock sockets */
+    SB_STREAM_MESSAGE_MAX = 60000, /* bytes: larger messages lose fragments with default socket buffers */
     SB_STREAM_CHUNK = 2139,        /* particles that fit into one message */
     SB_STREAM_BODIES = 400,        /* bodies that fit into one message, with the longest names */
     SB_STREAM_CHUNKS_MAX = 1 << 20,
-    SB_STREAM_NAME = 64 /* bytes of a name with its zero */
+    SB_STREAM_NAME = 64 /* bytes of a name with its terminating zero */
 };
 
-/* SI units; fields as in lcmtypes. Names are printable ASCII, anything else shown as '?'. */
+/* Fields as in lcmtypes, in SI units. Names are printable ASCII; other bytes are replaced by '?'. */
 typedef struct sb_status_message {
     char run[SB_STREAM_NAME];
     int64_t step;
@@ -47,9 +47,9 @@ typedef struct sb_particles_message {
     float position[3 * SB_STREAM_CHUNK], velocity[3 * SB_STREAM_CHUNK], pressure[SB_STREAM_CHUNK];
 } sb_particles_message;
 
-/* Each reads one message of `size` bytes. SB_BAD_INPUT, *out untouched, when the type's fingerprint
-   is another one, a count disagrees with the size or with another count, a name is not terminated,
-   a number is not finite, or bytes are left over. error may be NULL. */
+/* Each function decodes one message of `size` bytes. SB_BAD_INPUT, with *out unchanged, if the fingerprint is that of
+   another type, a count contradicts the size or another count, a name is not terminated, a number is not finite, or
+   bytes are left over. error may be NULL. */
 sb_status sb_stream_decode_status(const void *buffer, size_t size, sb_status_message *out, sb_error *error);
 sb_status sb_stream_decode_forces(const void *buffer, size_t size, sb_forces_message *out, sb_error *error);
 sb_status sb_stream_decode_particles(const void *buffer, size_t size, sb_particles_message *out, sb_error *error);

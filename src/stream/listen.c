@@ -1,3 +1,4 @@
+/* Subscribes to a run's channels and passes decoded messages to callbacks. */
 #include "stream/listen.h"
 
 #include "base/clock.h"
@@ -9,7 +10,7 @@
 #include <poll.h>
 #include <stdlib.h>
 
-/* A frame of 2 M particles in chunks; LCM's stock queue of 30 drops the rest silently. */
+/* Enough for the chunks of a frame of 2 M particles. LCM's default queue of 30 messages silently drops the rest. */
 enum { QUEUE_MESSAGES = 1000 };
 
 struct sb_listener {
@@ -17,14 +18,14 @@ struct sb_listener {
     sb_listener_calls calls;
     sb_listener_counters count;
     bool ended;
-    union { /* only one message is alive at a time */
+    union { /* only one message is in use at a time */
         sb_status_message status;
         sb_forces_message forces;
         sb_particles_message particles;
     } message;
 };
 
-static void book(sb_listener *listener, const lcm_recv_buf_t *received, sb_status status)
+static void count_message(sb_listener *listener, const lcm_recv_buf_t *received, sb_status status)
 {
     listener->count.messages++;
     listener->count.bytes += received->data_size;
@@ -37,7 +38,7 @@ static void on_status(const lcm_recv_buf_t *received, const char *channel, void 
     sb_listener *listener = user;
     sb_status_message *message = &listener->message.status;
     sb_status status = sb_stream_decode_status(received->data, received->data_size, message, NULL);
-    book(listener, received, status);
+    count_message(listener, received, status);
     if (status == SB_OK && listener->calls.status) listener->calls.status(listener->calls.user, message);
 }
 
@@ -47,7 +48,7 @@ static void on_forces(const lcm_recv_buf_t *received, const char *channel, void 
     sb_listener *listener = user;
     sb_forces_message *message = &listener->message.forces;
     sb_status status = sb_stream_decode_forces(received->data, received->data_size, message, NULL);
-    book(listener, received, status);
+    count_message(listener, received, status);
     if (status == SB_OK && listener->calls.forces) listener->calls.forces(listener->calls.user, message);
 }
 
@@ -57,12 +58,12 @@ static void on_particles(const lcm_recv_buf_t *received, const char *channel, vo
     sb_listener *listener = user;
     sb_particles_message *message = &listener->message.particles;
     sb_status status = sb_stream_decode_particles(received->data, received->data_size, message, NULL);
-    book(listener, received, status);
+    count_message(listener, received, status);
     if (status == SB_OK && listener->calls.particles) listener->calls.particles(listener->calls.user, message);
 }
 
-/* LCM takes channel names as regular expressions: a prefix stands for itself. */
-static void quote(const char *channel, char pattern[2 * sizeof(sb_channel)])
+/* LCM interprets channel names as regular expressions. Escapes a name so that it matches literally. */
+static void escape(const char *channel, char pattern[2 * sizeof(sb_channel)])
 {
     for (; *channel; channel++) {
         if ((unsigned char)*channel < 0x80 && !isalnum((unsigned char)*channel) && *channel != '_') *pattern++ = '\\';
@@ -74,29 +75,30 @@ static void quote(const char *channel, char pattern[2 * sizeof(sb_channel)])
 static sb_status subscribe(sb_listener *listener, const sb_channel channels[SB_CHANNELS], sb_error *error)
 {
     static const lcm_msg_handler_t handlers[SB_CHANNELS] = {on_status, on_forces, on_particles};
-    /* The first subscription starts LCM's receiver and its test of the route. */
-    char complaint[160];
+    /* The first subscription starts LCM's receiver and its test of the route, which print to stderr. */
+    char reason[160];
     sb_stderr_catch hold = sb_stderr_hold();
     int subscribed = 0;
     for (; subscribed < SB_CHANNELS; subscribed++) {
         char pattern[2 * sizeof(sb_channel)];
-        quote(channels[subscribed], pattern);
+        escape(channels[subscribed], pattern);
         lcm_subscription_t *made = lcm_subscribe(listener->lcm, pattern, handlers[subscribed], listener);
         if (!made) break;
         lcm_subscription_set_queue_capacity(made, QUEUE_MESSAGES);
     }
-    sb_stderr_release(&hold, complaint, sizeof complaint);
+    sb_stderr_release(&hold, reason, sizeof reason);
     if (subscribed == SB_CHANNELS) return SB_OK;
     return sb_fail(error, SB_FAILED, "LCM cannot subscribe to %s (%s)", channels[subscribed],
-                   *complaint ? complaint : "no reason given");
+                   *reason ? reason : "no reason given");
 }
 
 sb_status sb_listener_create(const char *url, const char *prefix, const sb_listener_calls *calls,
                              sb_listener **listener, sb_error *error)
 {
     sb_channel channels[SB_CHANNELS];
-    const char *preset = getenv("LCM_DEFAULT_URL");
-    if ((!url || !*url) && (!preset || !*preset)) url = "udpm://239.255.76.67:7667?recv_buf_size=4000000";
+    const char *from_environment = getenv("LCM_DEFAULT_URL");
+    if ((!url || !*url) && (!from_environment || !*from_environment))
+        url = "udpm://239.255.76.67:7667?recv_buf_size=4000000";
     sb_listener *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, "the listener");
     made->calls = *calls;

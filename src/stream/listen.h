@@ -1,4 +1,4 @@
-/* The receiving end: hands a run's messages, checked and decoded, to callbacks. */
+/* Receives a run's messages, checks and decodes them, and passes them to callbacks. */
 #ifndef SB_STREAM_LISTEN_H
 #define SB_STREAM_LISTEN_H
 
@@ -7,7 +7,7 @@
 
 typedef struct sb_listener sb_listener;
 
-/* Called from sb_listener_poll; the message lives until the callback returns. Any may be NULL. */
+/* Callbacks, called from sb_listener_poll. A message is valid until the callback returns. Any callback may be NULL. */
 typedef struct sb_listener_calls {
     void *user;
     void (*status)(void *user, const sb_status_message *message);
@@ -15,18 +15,18 @@ typedef struct sb_listener_calls {
     void (*particles)(void *user, const sb_particles_message *message);
 } sb_listener_calls;
 
-/* url NULL or empty: LCM_DEFAULT_URL, else multicast as the publisher's default with a large
-   receive buffer; "file://LOG" replays what lcm-logger wrote. prefix NULL or empty: "shorebreak".
-   SB_FAILED with the remedy when there is no provider. */
+/* Creates a listener. url NULL or empty: LCM_DEFAULT_URL if it is set, else the publisher's default multicast address
+   with a large receive buffer; "file://LOG" replays a log of lcm-logger. prefix NULL or empty: "shorebreak". SB_FAILED,
+   with the remedy, if the provider cannot be opened. */
 sb_status sb_listener_create(const char *url, const char *prefix, const sb_listener_calls *calls,
                              sb_listener **listener, sb_error *error);
 void sb_listener_destroy(sb_listener *listener);
 
-/* Handles what arrives for `seconds`, less when a signal comes. SB_INTERRUPTED when the source has
-   ended (a log at its end, a server gone), SB_OK otherwise, also when nothing came. */
+/* Handles the messages that arrive within `seconds`; a signal ends the wait earlier. SB_INTERRUPTED if the source has
+   ended (the end of a log, a lost server), SB_OK otherwise, also if no message arrived. */
 sb_status sb_listener_poll(sb_listener *listener, double seconds);
 
-/* messages and bytes arrived, and of these the messages that were refused. */
+/* Messages and bytes received, and the number of these messages that were refused as invalid. */
 typedef struct sb_listener_counters {
     uint64_t messages, bytes, refused;
 } sb_listener_counters;

@@ -1,3 +1,4 @@
+/* Channel names, and LCM's output on stderr. */
 #include "stream/provider.h"
 
 #include <fcntl.h>
@@ -23,7 +24,7 @@ sb_stderr_catch sb_stderr_hold(void)
 {
     sb_stderr_catch hold = {-1, -1};
     fflush(stderr);
-    int caught = memfd_create("lcm-complaints", MFD_CLOEXEC);
+    int caught = memfd_create("lcm-messages", MFD_CLOEXEC);
     int saved = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
     if (caught < 0 || saved < 0 || dup2(caught, STDERR_FILENO) < 0) {
         if (caught >= 0) close(caught);
@@ -44,7 +45,7 @@ void sb_stderr_release(sb_stderr_catch *hold, char *line, size_t size)
     ssize_t length = pread(hold->caught, line, size - 1, 0);
     line[length > 0 ? length : 0] = 0;
     char *end = line;
-    for (char *at = line; *at; at++) { /* runs of white space and controls become one blank */
+    for (char *at = line; *at; at++) { /* a sequence of white space and control characters becomes one blank */
         int blank = (unsigned char)*at <= ' ' || *at == 0x7f;
         if (!blank)
             *end++ = *at;

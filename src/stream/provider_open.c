@@ -1,5 +1,5 @@
-/* Opening a provider, which over TCP waits for the other end's greeting for as long as that takes: in a thread, so that
-   no run waits for a peer that is stopped. */
+/* Opens a provider. Over TCP, LCM waits without a limit for the greeting of the other end, so the provider is opened in
+   a thread of its own: a run does not wait for a peer that is stopped. */
 #include "stream/provider.h"
 
 #include "base/clock.h"
@@ -14,10 +14,10 @@
 
 #define ROUTE_REMEDY "a multicast route is needed: ip link set lo multicast on; ip route add 224.0.0.0/4 dev lo"
 
-/* s; a provider that can be had is there within milliseconds. */
-static const double PATIENCE = 5;
+/* s; a provider that is available opens within milliseconds. */
+static const double TIMEOUT = 5;
 
-/* Shared by who asks and the thread that opens; the one that is last frees it. */
+/* Shared by the caller and the thread that opens the provider; the one that finishes last frees it. */
 typedef struct opening {
     pthread_mutex_t lock;
     bool done, abandoned;
@@ -47,7 +47,7 @@ static void *open_it(void *argument)
     return NULL;
 }
 
-/* Signals are for the main thread; one of a closed connection is for nobody. */
+/* Starts the thread with all signals blocked: the main thread handles them. */
 static bool start(opening *o, pthread_t *thread)
 {
     sigset_t all, old;
@@ -58,12 +58,13 @@ static bool start(opening *o, pthread_t *thread)
     return !refused;
 }
 
-/* Whether the thread ended in time; if not, what it opens later is its own to close. */
+/* Waits for the thread and returns whether it ended in time. If not, the thread closes by itself what it opens later.
+ */
 static bool wait_for(opening *o, pthread_t thread)
 {
     enum { POLL = 1000 }; /* us */
     bool done = false;
-    for (const double end = sb_clock() + PATIENCE; !done;) {
+    for (const double end = sb_clock() + TIMEOUT; !done;) {
         const bool late = sb_clock() > end;
         pthread_mutex_lock(&o->lock);
         done = o->done;
@@ -79,14 +80,14 @@ static bool wait_for(opening *o, pthread_t thread)
     return true;
 }
 
-static sb_status explain(const char *url, const char *complaint, sb_error *error)
+static sb_status explain(const char *url, const char *reason, sb_error *error)
 {
     const bool multicast = strncmp(url, "udpm://", 7) == 0;
     return sb_fail(
-        error, SB_FAILED, "LCM cannot open \"%.200s\" (%s); %s", url, *complaint ? complaint : "no reason given",
+        error, SB_FAILED, "LCM cannot open \"%.200s\" (%s); %s", url, *reason ? reason : "no reason given",
         multicast
             ? ROUTE_REMEDY
-            : "expected udpm://239.255.76.67:7667?ttl=0, tcpq://127.0.0.1:7700 or another provider of the network");
+            : "expected udpm://239.255.76.67:7667?ttl=0, tcpq://127.0.0.1:7700 or another network provider");
 }
 
 sb_status sb_provider_open(const char *url, lcm_t **lcm, sb_error *error)
@@ -101,19 +102,20 @@ sb_status sb_provider_open(const char *url, lcm_t **lcm, sb_error *error)
         free_opening(o);
         return sb_fail_memory(error, "opening LCM");
     }
-    char complaint[160];
+    char reason[160];
     pthread_t thread;
     sb_stderr_catch hold = sb_stderr_hold();
     const bool started = start(o, &thread), ended = started && wait_for(o, thread);
-    sb_stderr_release(&hold, complaint, sizeof complaint);
+    sb_stderr_release(&hold, reason, sizeof reason);
     if (started && !ended)
         return sb_fail(error, SB_FAILED,
-                       "LCM cannot open \"%.200s\": no answer within %g s, expected a peer that greets", named,
-                       PATIENCE);
+                       "LCM cannot open \"%.200s\": no answer within %g s, expected the greeting of an LCM server",
+                       named, TIMEOUT);
     lcm_t *opened = o->lcm;
     free_opening(o);
-    if (!started) return sb_fail(error, SB_FAILED, "LCM cannot open \"%.200s\": the system refuses a thread", named);
-    if (!opened) return explain(named, complaint, error);
+    if (!started)
+        return sb_fail(error, SB_FAILED, "LCM cannot open \"%.200s\": the system cannot start a thread", named);
+    if (!opened) return explain(named, reason, error);
     *lcm = opened;
     return SB_OK;
 }

@@ -1,3 +1,4 @@
+/* Encodes and publishes status, forces and particles. */
 #include "stream/stream.h"
 
 #include "base/hash.h"
@@ -26,10 +27,10 @@ struct sb_stream {
     char run[SB_STREAM_NAME];
     double interval;
     uint64_t decimation;
-    int64_t last_interval; /* number of the interval whose particles went out last; -1: none yet */
+    int64_t last_interval; /* number of the interval whose particles were sent last; -1: none yet */
     _Atomic int64_t frame, fluid_particles;
     _Atomic uint64_t messages, bytes, errors;
-    /* Scratch of the streamer's thread. */
+    /* Buffers of the stream's thread. */
     unsigned char buffer[SB_STREAM_MESSAGE_MAX];
     float position[3 * SB_STREAM_CHUNK], velocity[3 * SB_STREAM_CHUNK], pressure[SB_STREAM_CHUNK];
     char *names[SB_STREAM_BODIES];
@@ -79,15 +80,16 @@ sb_stream_counters sb_stream_count(const sb_stream *stream)
     return (sb_stream_counters){.messages = stream->messages, .bytes = stream->bytes, .errors = stream->errors};
 }
 
-/* Sends what an encoder left: `size` bytes, or a negative size when it failed. */
+/* Sends an encoded message of `size` bytes; a negative size means that the encoder failed. */
 static void send_message(sb_stream *stream, int channel, const void *buffer, int size)
 {
-    /* A provider over TCP whose peer is gone raises SIGPIPE, which must not end the run. */
+    /* A provider over TCP raises SIGPIPE when its peer has closed the connection. This must not end the run. */
     sigset_t pipe_signal, before;
     sigemptyset(&pipe_signal);
     sigaddset(&pipe_signal, SIGPIPE);
     pthread_sigmask(SIG_BLOCK, &pipe_signal, &before);
-    /* A peer that stopped reading blocks for ever: here, and only here, the thread may be cancelled. */
+    /* A peer that has stopped reading blocks the call without a limit, so the thread may be cancelled here, and only
+       here. */
     int state;
     pthread_setcancelstate(PTHREAD_CANCEL_ENABLE, &state);
     bool sent = size > 0 && lcm_publish(stream->lcm, stream->channels[channel], buffer, (unsigned)size) == 0;
@@ -163,8 +165,8 @@ static void publish_forces(sb_stream *stream, const sb_frame *frame)
     } while (first < frame->body_count);
 }
 
-/* One particle in `decimation`, by its id: the same ones in every frame, and no lattice plane is
-   favoured, as taking every n-th of a lattice would. */
+/* Selects one particle in `decimation` by a hash of its id: the same particles in every frame, and, unlike every n-th
+   particle of a lattice, without preference for a lattice plane. */
 static bool streamed(const sb_stream *stream, const sb_frame *frame, size_t particle)
 {
     return stream->decimation == 1 || sb_hash_mix(frame->id[particle]) % stream->decimation == 0;
@@ -212,11 +214,11 @@ static void publish_particles(sb_stream *stream, const sb_frame *frame)
     if (filled > 0 || total == 0) send_chunk(stream, &message, (int32_t)filled);
 }
 
-/* Whether a new interval has begun since particles went out. Frames may come at any pace. */
+/* Returns whether a new interval has begun since particles were last sent. Frames may come at any interval. */
 static bool particles_due(sb_stream *stream, double time)
 {
     if (!(stream->interval > 0)) return true;
-    /* A frame meant for k intervals may be short of it by rounding. */
+    /* Rounding may put the time of a frame slightly before the multiple of the interval that it belongs to. */
     double number = floor(time / stream->interval + 1e-6);
     if (!(number > (double)stream->last_interval) || number > 0x1p62) return false;
     stream->last_interval = (int64_t)number;

@@ -1,5 +1,5 @@
-/* LCM messages as a subscriber gets them. The input is a row of messages, each after its length in
-   two bytes, high one first; every one is taken for each type, and chunks of particles are booked. */
+/* Fuzzes LCM messages as a subscriber receives them. The input is a sequence of messages, each preceded by its length
+   in two bytes, high byte first. Every message is decoded as each type, and chunks of particles are counted. */
 #include "fuzz.h"
 
 #include "stream/assembly.h"
@@ -66,7 +66,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         data += 2;
         size -= 2;
         if (length > size) length = size;
-        /* A block of exactly that size: a byte read beyond it shows. */
+        /* A block of exactly that size, so that a sanitizer detects a read beyond the end. */
         uint8_t *exact = malloc(length ? length : 1);
         FUZZ_CHECK(exact);
         memcpy(exact, data, length);

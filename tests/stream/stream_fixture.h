@@ -1,4 +1,4 @@
-/* What the stream's tests share: a frame of known random content, and a stream over memq. */
+/* Functions that the stream's tests share: a frame of known random content, and a stream over memq. */
 #ifndef SB_TESTS_STREAM_FIXTURE_H
 #define SB_TESTS_STREAM_FIXTURE_H
 
@@ -76,7 +76,7 @@ static inline sb_stream *fixture_stream(const char *url, double interval, int de
     return stream;
 }
 
-/* Handles all messages waiting in a memq stream. */
+/* Handles all waiting messages of a memq stream. */
 static inline void fixture_drain(sb_stream *stream)
 {
     while (lcm_handle_timeout(sb_stream_provider(stream), 0) > 0)

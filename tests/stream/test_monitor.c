@@ -1,4 +1,4 @@
-/* The monitor program, run as its users run it: on a log, on a terminal, on bad options. */
+/* Runs the monitor program with a log, on a terminal, and with bad options. */
 #include "stream_fixture.h"
 
 #include "base/clock.h"
@@ -19,7 +19,7 @@ static char output[1 << 16]; /* stdout and stderr of the last run */
 static char log_path[] = "/tmp/sb-monitor-XXXXXX";
 static char log_url[64];
 
-/* Runs the monitor with these arguments; its exit code, 128 + signal when it was killed. */
+/* Runs the monitor with these arguments. Returns its exit code, or 128 + signal if it was killed. */
 static int monitor(const char *arguments)
 {
     char command[512];
@@ -42,7 +42,7 @@ static void shows_not(const char *text)
     if (strstr(output, text)) fail_msg("\"%s\" is in:\n%s", text, output);
 }
 
-/* Two frames of a run, with trash on the same channels after each. */
+/* Records two frames of a run, each followed by invalid messages on the same channels. */
 static int record_log(void **state)
 {
     (void)state;
@@ -61,11 +61,11 @@ static int record_log(void **state)
         frame->bodies[1].force = frame->bodies[3].force = frame->bodies[4].force = sb_vec(1e6, 0, 0);
         sb_stream_publish(stream, frame);
         sb_frame_release(frame);
-        unsigned char trash[300];
-        for (size_t i = 0; i < sizeof trash; i++) trash[i] = (unsigned char)sb_hash_mix(i);
-        lcm_publish(lcm, "test_status", trash, sizeof trash);
-        lcm_publish(lcm, "test_forces", trash, 7);
-        lcm_publish(lcm, "test_particles", trash, 0);
+        unsigned char invalid[300];
+        for (size_t i = 0; i < sizeof invalid; i++) invalid[i] = (unsigned char)sb_hash_mix(i);
+        lcm_publish(lcm, "test_status", invalid, sizeof invalid);
+        lcm_publish(lcm, "test_forces", invalid, 7);
+        lcm_publish(lcm, "test_particles", invalid, 0);
     }
     sb_stream_destroy(stream);
     return 0;
@@ -90,7 +90,7 @@ static void shows_a_recorded_run(void **state)
     shows("refused 6");
     shows("frames  2 complete  0 partial  chunks lost 0");
     shows("|Fxy| MN");
-    /* |(-3, 4)| = 5 now, half of the peak; the escape sequence in its name is harmless. */
+    /* The force is |(-3, 4)| = 5 now, half of the peak. The escape sequence in the name is replaced. */
     shows("reactor?[31m");
     shows("5.00     10.00     -3.00     +4.00     +7.00");
     shows("##############.............|");
@@ -110,7 +110,7 @@ static void once_shows_the_first_status(void **state)
     shows("10.00     10.00     -6.00     +8.00     +7.00");
     snprintf(arguments, sizeof arguments, "--prefix other --once --url %s", log_url);
     assert_int_equal(monitor(arguments), 1);
-    shows("no status came");
+    shows("no status message received");
 }
 
 static void options_are_checked(void **state)
@@ -126,19 +126,19 @@ static void options_are_checked(void **state)
     assert_int_equal(monitor("--url"), 1);
     shows("--url: a value is missing");
     assert_int_equal(monitor("--colour"), 1);
-    shows("--colour: no such option");
+    shows("--colour: unknown option");
     assert_int_equal(monitor("--url udpm://999.1.1.1:7667"), 1);
     shows("ip link set lo multicast on; ip route add 224.0.0.0/4 dev lo");
 }
 
-static void says_when_nothing_comes(void **state)
+static void reports_when_no_data_arrive(void **state)
 {
     (void)state;
     assert_int_equal(monitor("--url memq:// --plain --duration 5.5"), 0);
-    assert_string_equal(output, "no data since 5 s\n");
+    assert_string_equal(output, "no data for 5 s\n");
 }
 
-/* Reads the terminal until `text` is there or 5 s are over. */
+/* Reads the terminal until `text` appears, for at most 5 s. Returns whether it appeared. */
 static bool await_text(int terminal, const char *text)
 {
     size_t length = 0;
@@ -180,20 +180,20 @@ static void ctrl_c_restores_the_terminal(void **state)
     assert_int_equal(WEXITSTATUS(status), 0);
 }
 
-/* A message in three packets, the second of which says that its bytes lie 16 before the message: LCM's receiver writes
- * them there. */
-static void send_stray_packets(void)
+/* Sends the first two packets of a message of three. The second states an offset of -16, where LCM's receiver then
+   writes its bytes. */
+static void send_forged_packets(void)
 {
     static const char channel[] = "shorebreak_status";
-    const uint32_t places[2] = {0, 0xfffffff0U};
+    const uint32_t offsets[2] = {0, 0xfffffff0U};
     struct sockaddr_in to = {.sin_family = AF_INET, .sin_port = htons(STRAY_PORT)};
     inet_pton(AF_INET, "239.255.76.68", &to.sin_addr);
     const int out = socket(AF_INET, SOCK_DGRAM, 0);
-    const unsigned char near = 0;
-    setsockopt(out, IPPROTO_IP, IP_MULTICAST_TTL, &near, sizeof near);
+    const unsigned char this_host = 0;
+    setsockopt(out, IPPROTO_IP, IP_MULTICAST_TTL, &this_host, sizeof this_host);
     for (uint16_t k = 0; k < 2; k++) {
         char packet[256] = {0};
-        const uint32_t head[4] = {htonl(0x4c433033), htonl(7), htonl(1U << 20), htonl(places[k])};
+        const uint32_t head[4] = {htonl(0x4c433033), htonl(7), htonl(1U << 20), htonl(offsets[k])};
         const uint16_t part[2] = {htons(k), htons(3)};
         memcpy(packet, head, sizeof head);
         memcpy(packet + 16, part, sizeof part);
@@ -204,14 +204,14 @@ static void send_stray_packets(void)
     close(out);
 }
 
-/* Without a route for multicast the monitor ends with that word, and there is nothing to see. */
-static void survives_what_crashes_its_receiver(void **state)
+/* Skipped where the monitor ends because there is no multicast route. */
+static void restarts_after_a_crash_of_its_receiver(void **state)
 {
     (void)state;
     const pid_t sender = fork();
     if (sender == 0) {
         usleep(700000);
-        send_stray_packets();
+        send_forged_packets();
         _exit(0);
     }
     char options[128];
@@ -222,15 +222,15 @@ static void survives_what_crashes_its_receiver(void **state)
     if (code == 1 && strstr(output, "multicast")) skip();
     assert_int_equal(code, 0);
     assert_true(sb_clock() - begun >= 2.4);
-    if (!strstr(output, "listening anew")) print_message("this LCM holds against stray packets\n");
+    if (!strstr(output, "restarting it")) print_message("this version of LCM does not crash on forged packets\n");
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shows_a_recorded_run),         cmocka_unit_test(once_shows_the_first_status),
-        cmocka_unit_test(options_are_checked),          cmocka_unit_test(says_when_nothing_comes),
-        cmocka_unit_test(ctrl_c_restores_the_terminal), cmocka_unit_test(survives_what_crashes_its_receiver),
+        cmocka_unit_test(options_are_checked),          cmocka_unit_test(reports_when_no_data_arrive),
+        cmocka_unit_test(ctrl_c_restores_the_terminal), cmocka_unit_test(restarts_after_a_crash_of_its_receiver),
     };
     return cmocka_run_group_tests(tests, record_log, remove_log);
 }

@@ -1,9 +1,9 @@
-/* A subscriber's count of frames and chunks when some are missing, doubled or at odds. */
+/* A subscriber's counts of frames and chunks when chunks are missing, duplicated or contradictory. */
 #include "stream_fixture.h"
 
 #include "stream/assembly.h"
 
-static sb_particles_message chunk; /* large; only its head matters here */
+static sb_particles_message chunk; /* static because it is large; only its counts are used here */
 
 static void add(sb_assembly *assembly, int64_t frame, int32_t index, int32_t count)
 {
@@ -22,7 +22,7 @@ static void whole_frames(void **state)
         for (int32_t i = 0; i < 5; i++) add(&assembly, frame, i, 5);
     assert_int_equal(assembly.frames_complete, 3);
     assert_int_equal(assembly.chunks, 15);
-    assert_int_equal(assembly.chunks_lost + assembly.frames_partial + assembly.chunks_odd, 0);
+    assert_int_equal(assembly.chunks_lost + assembly.frames_partial + assembly.chunks_ignored, 0);
     sb_assembly_free(&assembly);
     assert_int_equal(assembly.frames_complete, 0);
 }
@@ -47,14 +47,14 @@ static void gaps(void **state)
     sb_assembly_free(&assembly);
 }
 
-static void doubled_and_at_odds(void **state)
+static void duplicates_and_contradictions(void **state)
 {
     (void)state;
     sb_assembly assembly = {0};
     add(&assembly, 1, 0, 3);
     add(&assembly, 1, 0, 3);
     add(&assembly, 1, 7, 9); /* the same frame with another number of chunks */
-    assert_int_equal(assembly.chunks_odd, 2);
+    assert_int_equal(assembly.chunks_ignored, 2);
     assert_int_equal(assembly.received, 1);
     add(&assembly, 1, 1, 3);
     add(&assembly, 1, 2, 3);
@@ -84,7 +84,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(whole_frames),
         cmocka_unit_test(gaps),
-        cmocka_unit_test(doubled_and_at_odds),
+        cmocka_unit_test(duplicates_and_contradictions),
         cmocka_unit_test(without_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

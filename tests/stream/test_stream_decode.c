@@ -1,5 +1,5 @@
-/* Decoders against bytes that nobody vouches for. Under ASan/UBSan every overread is an error, as
-   each message lies in a block of exactly its size. */
+/* Decoders with invalid and forged messages. Each message is in a block of exactly its size, so that ASan and UBSan
+   detect every read beyond its end. */
 #include "stream_fixture.h"
 
 #include "shorebreak_forces_t.h"
@@ -16,7 +16,7 @@ typedef struct message {
 
 enum { STATUS, FORCES, PARTICLES, TYPES };
 static message good[TYPES];
-/* Where the counts are, and names: offsets into good[]. */
+/* Offsets of the counts and names in the messages of good[]. */
 enum { STATUS_RUN = 8, FORCES_TOTAL = 24, FORCES_N = 32, FORCES_NAME = 40 };
 enum { PARTICLES_CHUNK = 24, PARTICLES_TOTAL = 32, PARTICLES_FIRST = 40, PARTICLES_COUNT = 84 };
 
@@ -41,7 +41,7 @@ static int capture_all(void **state)
     return good[STATUS].size && good[FORCES].size && good[PARTICLES].size ? 0 : -1;
 }
 
-/* Decodes as `type` from a block of exactly that size; checks what every success promises. */
+/* Decodes the bytes as `type` from a block of exactly that size, and checks a successful result. */
 static sb_status decode(int type, const unsigned char *bytes, size_t size, sb_error *error)
 {
     static union {
@@ -71,11 +71,11 @@ static sb_status decode(int type, const unsigned char *bytes, size_t size, sb_er
     return status;
 }
 
-static void refused(int type, const message *bad, const char *word)
+static void refused(int type, const message *bad, const char *reason)
 {
     sb_error error = {0};
     assert_int_equal(decode(type, bad->bytes, bad->size, &error), SB_BAD_INPUT);
-    if (!strstr(error.text, word)) fail_msg("\"%s\" does not say \"%s\"", error.text, word);
+    if (!strstr(error.text, reason)) fail_msg("\"%s\" does not contain \"%s\"", error.text, reason);
 }
 
 static void put32(message *to, size_t at, uint32_t value)
@@ -131,22 +131,22 @@ static void hostile_counts(void **state)
             put32(&bad, places[p].at, counts[c]);
             bool same = memcmp(&bad, &good[places[p].type], sizeof bad) == 0;
             assert_int_equal(decode(places[p].type, bad.bytes, bad.size, NULL), same ? SB_OK : SB_BAD_INPUT);
-            /* Both counts together, three to one: only the size can tell. */
+            /* Both counts changed consistently, three to one: only the size reveals the error. */
             put32(&bad, places[p].at + 4, 3 * counts[c]);
             if (places[p].at == FORCES_N || places[p].at == PARTICLES_COUNT)
                 assert_int_equal(decode(places[p].type, bad.bytes, bad.size, NULL), SB_BAD_INPUT);
         }
 }
 
-static void odd_contents(void **state)
+static void invalid_contents(void **state)
 {
     (void)state;
     message bad = good[FORCES];
     bad.bytes[FORCES_NAME + 4 + 3] = 0;
-    refused(FORCES, &bad, "not ended by its zero");
+    refused(FORCES, &bad, "not terminated by a zero");
     bad = good[STATUS];
     bad.bytes[STATUS_RUN + 4 + strlen("a run")] = 'x';
-    refused(STATUS, &bad, "not ended by its zero");
+    refused(STATUS, &bad, "not terminated by a zero");
     bad = good[STATUS];
     put32(&bad, STATUS_RUN + 4 + strlen("a run") + 1 + 8, 0x7ff80000); /* time becomes NaN */
     refused(STATUS, &bad, "not finite");
@@ -161,7 +161,7 @@ static void odd_contents(void **state)
     assert_string_equal(out.run, "?[2J?");
 }
 
-static void failure_leaves_the_output_alone(void **state)
+static void failure_leaves_the_output_unchanged(void **state)
 {
     (void)state;
     sb_status_message out, before;
@@ -181,18 +181,18 @@ static uint32_t draw(uint32_t below)
 static void mutate(message *victim)
 {
     switch (draw(4)) {
-    case 0: /* some flipped bits */
+    case 0: /* flip bits */
         for (uint32_t n = 1 + draw(8); n > 0; n--)
             victim->bytes[draw((uint32_t)victim->size)] ^= (unsigned char)(1u << draw(8));
         break;
-    case 1: /* an aligned word of the header becomes anything */
+    case 1: /* replace an aligned word of the header by a random value */
         put32(victim, 8 + 4 * draw(30), draw(2) ? draw(UINT32_MAX) : draw(300));
         break;
-    case 2: /* random bytes behind a true fingerprint, of any length */
+    case 2: /* random bytes of random length after the correct fingerprint */
         victim->size = 8 + draw(600);
         for (size_t i = 8; i < victim->size; i++) victim->bytes[i] = (unsigned char)draw(draw(2) ? 256 : 3);
         break;
-    default: /* a stretch of it moved, then cut */
+    default: /* move a range of bytes, then truncate */
         if (victim->size > 80) memmove(victim->bytes + 8 + draw(30), victim->bytes + 8 + draw(30), victim->size - 80);
         victim->size -= draw((uint32_t)victim->size);
     }
@@ -209,7 +209,7 @@ static void seeded_mutations(void **state)
         accepted += decode(type, victim.bytes, victim.size, NULL) == SB_OK;
         decode((int)draw(TYPES), victim.bytes, victim.size, NULL);
     }
-    /* Flipped bits in plain values are no error; wrong lengths always are. */
+    /* Flipped bits in plain values are not an error; wrong lengths always are. */
     assert_in_range(accepted, 500, 10000);
 }
 
@@ -219,8 +219,8 @@ int main(void)
         cmocka_unit_test(good_messages_pass),
         cmocka_unit_test(truncated_and_padded),
         cmocka_unit_test(hostile_counts),
-        cmocka_unit_test(odd_contents),
-        cmocka_unit_test(failure_leaves_the_output_alone),
+        cmocka_unit_test(invalid_contents),
+        cmocka_unit_test(failure_leaves_the_output_unchanged),
         cmocka_unit_test(seeded_mutations),
     };
     return cmocka_run_group_tests(tests, capture_all, NULL);

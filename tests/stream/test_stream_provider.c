@@ -1,4 +1,4 @@
-/* Providers that are missing, broken or stalled: an error that says what to do, or a count. */
+/* Providers that are missing, broken or stalled give an error with the remedy, or are counted. */
 #include "stream_fixture.h"
 
 #include "base/clock.h"
@@ -22,9 +22,9 @@ static sb_status create(const char *url, const char *prefix, sb_error *error)
     return status;
 }
 
-static void contains(const char *text, const char *word)
+static void contains(const char *text, const char *part)
 {
-    if (!strstr(text, word)) fail_msg("\"%s\" does not say \"%s\"", text, word);
+    if (!strstr(text, part)) fail_msg("\"%s\" does not contain \"%s\"", text, part);
 }
 
 static void bad_urls_give_the_remedy(void **state)
@@ -60,7 +60,7 @@ static void environment_names_the_default(void **state)
     unsetenv("LCM_DEFAULT_URL");
 }
 
-static void complaints_stay_off_stderr(void **state)
+static void messages_of_lcm_stay_off_stderr(void **state)
 {
     (void)state;
     FILE *file = tmpfile();
@@ -81,7 +81,7 @@ static void complaints_stay_off_stderr(void **state)
     fclose(file);
 }
 
-/* A process in a network of its own, where there is no route at all. 77: not allowed here. */
+/* Runs in a network namespace without any route. Returns 77 if the system does not allow one. */
 static int without_network(void)
 {
     if (unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0 && unshare(CLONE_NEWNET) != 0) return 77;
@@ -124,7 +124,7 @@ static void refused_messages_are_counted(void **state)
     sb_stream_publish(stream, frame);
     assert_int_equal(sb_stream_count(stream).messages, 3);
     sb_stream_destroy(stream);
-    snprintf(url, sizeof url, "file://%s?mode=r", path); /* a log being read takes no messages */
+    snprintf(url, sizeof url, "file://%s?mode=r", path); /* a log that is open for reading accepts no messages */
     stream = fixture_stream(url, 0, 1);
     sb_stream_publish(stream, frame);
     sb_stream_counters count = sb_stream_count(stream);
@@ -142,7 +142,8 @@ static void ignore(const lcm_recv_buf_t *received, const char *channel, void *us
     (void)user;
 }
 
-/* 30 frames of 50 k particles to someone who never looks: the time is that of the pauses. */
+/* Publishes 30 frames of 50 k particles to a subscriber that never handles a message: the pauses alone determine the
+   duration. */
 static void publish_to_stalled(sb_stream *stream)
 {
     sb_frame *frame = fixture_frame(1, 0, 50000, 5);
@@ -183,9 +184,9 @@ static void stalled_subscriber_over_udp(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_urls_give_the_remedy),     cmocka_unit_test(environment_names_the_default),
-        cmocka_unit_test(complaints_stay_off_stderr),   cmocka_unit_test(no_route_gives_the_remedy),
-        cmocka_unit_test(refused_messages_are_counted), cmocka_unit_test(stalled_subscriber_in_memory),
+        cmocka_unit_test(bad_urls_give_the_remedy),        cmocka_unit_test(environment_names_the_default),
+        cmocka_unit_test(messages_of_lcm_stay_off_stderr), cmocka_unit_test(no_route_gives_the_remedy),
+        cmocka_unit_test(refused_messages_are_counted),    cmocka_unit_test(stalled_subscriber_in_memory),
         cmocka_unit_test(stalled_subscriber_over_udp),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,4 +1,4 @@
-/* What a stream sends is what a subscriber reads, message by message, bit by bit. */
+/* A subscriber decodes exactly the bits that a stream sends. */
 #include "stream_fixture.h"
 
 #include "shorebreak_forces_t.h"
@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-/* Everything that one subscriber of all channels has seen. */
-typedef struct seen {
+/* The messages that one subscriber of all channels has received. */
+typedef struct received_data {
     size_t statuses, forces, chunks, largest;
     sb_status_message status;
     sb_forces_message force;
@@ -16,15 +16,15 @@ typedef struct seen {
     size_t particles;
     float *position, *velocity, *pressure; /* of all chunks in order */
     size_t capacity;
-} seen;
+} received_data;
 
 static void on_status(const lcm_recv_buf_t *received, const char *channel, void *user)
 {
-    seen *all = user;
+    received_data *all = user;
     assert_string_equal(channel, "test_status");
     assert_int_equal(sb_stream_decode_status(received->data, received->data_size, &all->status, NULL), SB_OK);
     all->statuses++;
-    /* The generated decoder is the second opinion. */
+    /* The decoder that lcm-gen generates must give the same values. */
     shorebreak_status_t other = {0};
     assert_true(shorebreak_status_t_decode(received->data, 0, (int)received->data_size, &other) > 0);
     assert_string_equal(other.run, all->status.run);
@@ -44,7 +44,7 @@ static void on_status(const lcm_recv_buf_t *received, const char *channel, void 
 
 static void on_forces(const lcm_recv_buf_t *received, const char *channel, void *user)
 {
-    seen *all = user;
+    received_data *all = user;
     assert_string_equal(channel, "test_forces");
     if (received->data_size > all->largest) all->largest = received->data_size;
     assert_int_equal(sb_stream_decode_forces(received->data, received->data_size, &all->force, NULL), SB_OK);
@@ -68,7 +68,7 @@ static void on_forces(const lcm_recv_buf_t *received, const char *channel, void 
 
 static void on_particles(const lcm_recv_buf_t *received, const char *channel, void *user)
 {
-    seen *all = user;
+    received_data *all = user;
     assert_string_equal(channel, "test_particles");
     if (received->data_size > all->largest) all->largest = received->data_size;
     sb_particles_message *chunk = &all->chunk;
@@ -93,9 +93,9 @@ static void on_particles(const lcm_recv_buf_t *received, const char *channel, vo
     shorebreak_particles_t_decode_cleanup(&other);
 }
 
-static seen *watch(sb_stream *stream, size_t capacity)
+static received_data *watch(sb_stream *stream, size_t capacity)
 {
-    seen *all = sb_alloc(1, sizeof *all);
+    received_data *all = sb_alloc(1, sizeof *all);
     assert_non_null(all);
     all->capacity = capacity;
     all->position = sb_alloc(3 * capacity, sizeof(float));
@@ -109,7 +109,7 @@ static seen *watch(sb_stream *stream, size_t capacity)
     return all;
 }
 
-static void forget(seen *all)
+static void free_received(received_data *all)
 {
     sb_free(all->position);
     sb_free(all->velocity);
@@ -152,7 +152,7 @@ static void all_types_arrive_unchanged(void **state)
     (void)state;
     enum { PARTICLES = 100000, BODIES = 17 };
     sb_stream *stream = fixture_stream("memq://", 0, 1);
-    seen *all = watch(stream, PARTICLES);
+    received_data *all = watch(stream, PARTICLES);
     sb_frame *frame = fixture_frame(5, 12.5, PARTICLES, BODIES);
     sb_stream_publish(stream, frame);
     fixture_drain(stream);
@@ -178,7 +178,7 @@ static void all_types_arrive_unchanged(void **state)
     assert_true(count.bytes > 28 * PARTICLES);
     sb_frame_release(frame);
     sb_stream_destroy(stream);
-    forget(all);
+    free_received(all);
 }
 
 static void empty_frames_and_many_bodies(void **state)
@@ -186,7 +186,7 @@ static void empty_frames_and_many_bodies(void **state)
     (void)state;
     enum { BODIES = 2 * SB_STREAM_BODIES + 5 };
     sb_stream *stream = fixture_stream("memq://", 0, 1);
-    seen *all = watch(stream, 1);
+    received_data *all = watch(stream, 1);
     sb_frame *frame = fixture_frame(1, 0, 0, BODIES);
     for (size_t b = 0; b < BODIES; b++) /* the longest names */
         memset(frame->bodies[b].name, 'n', sizeof frame->bodies[b].name - 1);
@@ -208,14 +208,14 @@ static void empty_frames_and_many_bodies(void **state)
     assert_int_equal(all->force.total, 0);
     sb_frame_release(frame);
     sb_stream_destroy(stream);
-    forget(all);
+    free_received(all);
 }
 
-static void status_alone_needs_no_frame(void **state)
+static void status_is_sent_without_a_frame(void **state)
 {
     (void)state;
     sb_stream *stream = fixture_stream("memq://", 0, 1);
-    seen *all = watch(stream, 1);
+    received_data *all = watch(stream, 1);
     sb_frame_status status = {.step = 9, .time = 1.5, .duration = 3, .eta_seconds = (double)NAN};
     sb_stream_status(stream, &status);
     fixture_drain(stream);
@@ -225,10 +225,10 @@ static void status_alone_needs_no_frame(void **state)
     assert_true(all->status.eta_seconds < 0);
     assert_int_equal(all->forces + all->chunks, 0);
     sb_stream_destroy(stream);
-    forget(all);
+    free_received(all);
 }
 
-/* The x of the streamed particles tells which ones they were. */
+/* The x coordinate of a streamed particle identifies it. */
 static int by_x(const void *a, const void *b)
 {
     float left = *(const float *)a, right = *(const float *)b;
@@ -240,7 +240,7 @@ static void decimation_keeps_the_same_particles(void **state)
     (void)state;
     enum { PARTICLES = 60000, EVERY = 7 };
     sb_stream *stream = fixture_stream("memq://", 0, EVERY);
-    seen *all = watch(stream, PARTICLES);
+    received_data *all = watch(stream, PARTICLES);
     sb_frame *frame = fixture_frame(1, 0, PARTICLES, 0);
     for (size_t i = 0; i < PARTICLES; i++) frame->position[3 * i] = (float)i;
     sb_stream_publish(stream, frame);
@@ -251,7 +251,7 @@ static void decimation_keeps_the_same_particles(void **state)
     float *first = sb_alloc(first_count, sizeof *first);
     for (size_t i = 0; i < first_count; i++) first[i] = all->position[3 * i];
 
-    /* The simulation re-sorts its particles: the same ids come from other places. */
+    /* The simulation sorts its particles, so the same ids are at other indices. */
     for (size_t i = 0; i < PARTICLES; i++) {
         frame->id[i] = (uint32_t)(PARTICLES - 1 - i);
         frame->position[3 * i] = (float)frame->id[i];
@@ -267,7 +267,7 @@ static void decimation_keeps_the_same_particles(void **state)
     sb_free(first);
     sb_frame_release(frame);
     sb_stream_destroy(stream);
-    forget(all);
+    free_received(all);
 }
 
 static void particles_come_once_per_interval(void **state)
@@ -278,7 +278,7 @@ static void particles_come_once_per_interval(void **state)
         size_t chunks;
     } steps[] = {{0, 1}, {0.2, 1}, {0.5 - 1e-9, 2}, {0.5, 2}, {0.9, 2}, {2.75, 3}, {2.9, 3}, {3.01, 4}};
     sb_stream *stream = fixture_stream("memq://", 0.5, 1);
-    seen *all = watch(stream, 1000);
+    received_data *all = watch(stream, 1000);
     for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
         sb_frame *frame = fixture_frame(i + 1, steps[i].time, 10, 1);
         all->particles = 0;
@@ -290,14 +290,14 @@ static void particles_come_once_per_interval(void **state)
         assert_int_equal(all->forces, i + 1);
     }
     sb_stream_destroy(stream);
-    forget(all);
+    free_received(all);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_types_arrive_unchanged),       cmocka_unit_test(empty_frames_and_many_bodies),
-        cmocka_unit_test(status_alone_needs_no_frame),      cmocka_unit_test(decimation_keeps_the_same_particles),
+        cmocka_unit_test(status_is_sent_without_a_frame),   cmocka_unit_test(decimation_keeps_the_same_particles),
         cmocka_unit_test(particles_come_once_per_interval),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

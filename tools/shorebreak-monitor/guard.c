@@ -1,3 +1,4 @@
+/* Restarts a child process when it crashes. */
 #include "guard.h"
 
 #include <errno.h>
@@ -9,14 +10,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* s between one crash and the next start: who sends without end is not answered by forking without end. */
+/* s between a crash and the next start, so that a sender of endless bad packets does not cause endless forking. */
 enum { PAUSE = 1 };
 
-static volatile sig_atomic_t child, asked;
+static volatile sig_atomic_t child, stop_requested;
 
-static void pass_on(int number)
+static void forward_signal(int number)
 {
-    asked = 1;
+    stop_requested = 1;
     if (child > 0) kill((pid_t)child, number);
 }
 
@@ -27,7 +28,7 @@ static bool is_crash(int status)
     return number == SIGSEGV || number == SIGBUS || number == SIGABRT || number == SIGILL || number == SIGFPE;
 }
 
-/* Waits for the child, however often a signal comes between. */
+/* Waits for the child, also when signals interrupt the wait. */
 static int await_child(void)
 {
     int status = 0;
@@ -51,18 +52,18 @@ static void start(int (*work)(void *), void *argument, const sigset_t *before, p
 int sb_guard(int (*work)(void *), void *argument, void (*after_crash)(void))
 {
     const pid_t own = getpid();
-    const struct sigaction action = {.sa_handler = pass_on};
-    sigset_t ends, before;
-    sigemptyset(&ends);
-    sigaddset(&ends, SIGINT);
-    sigaddset(&ends, SIGTERM);
-    sigaddset(&ends, SIGHUP);
+    const struct sigaction action = {.sa_handler = forward_signal};
+    sigset_t stop_signals, before;
+    sigemptyset(&stop_signals);
+    sigaddset(&stop_signals, SIGINT);
+    sigaddset(&stop_signals, SIGTERM);
+    sigaddset(&stop_signals, SIGHUP);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     sigaction(SIGHUP, &action, NULL);
     for (;;) {
         fflush(NULL);
-        sigprocmask(SIG_BLOCK, &ends, &before); /* none is lost before the child is known */
+        sigprocmask(SIG_BLOCK, &stop_signals, &before); /* no signal is lost before `child` is set */
         const pid_t made = fork();
         if (made == 0) start(work, argument, &before, own);
         child = made;
@@ -71,8 +72,8 @@ int sb_guard(int (*work)(void *), void *argument, void (*after_crash)(void))
         const int status = await_child();
         if (!is_crash(status)) return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
         after_crash();
-        if (asked) return 1;
+        if (stop_requested) return 1;
         sleep(PAUSE);
-        if (asked) return 0;
+        if (stop_requested) return 0;
     }
 }

@@ -1,12 +1,12 @@
-/* LCM puts messages of several packets together in a thread of its own, and versions up to 1.3.1 at least take a
-   packet's word for where its bytes belong: a stranger's two packets end the process. So the watching is done in a
-   child. */
+/* Runs the monitor in a child process that is restarted when it crashes. LCM assembles messages from several packets in
+   a thread of its own, and at least versions up to 1.3.1 do not check the offset that a packet states: two forged
+   packets can crash the process. */
 #ifndef SB_MONITOR_GUARD_H
 #define SB_MONITOR_GUARD_H
 
-/* Runs work(argument) in a child process, anew each time a crash ends it; after_crash then tells the user and mends the
-   terminal. Signals that ask for an end reach the child. The exit code of the last child; without a process to be had
-   that of the work done here. */
+/* Runs work(argument) in a child process, and again after each crash; after_crash is called first, to inform the user
+   and to restore the terminal. SIGINT, SIGTERM and SIGHUP are forwarded to the child. Returns the exit code of the last
+   child. If no child can be created, the work runs in this process, and its exit code is returned. */
 int sb_guard(int (*work)(void *), void *argument, void (*after_crash)(void));
 
 #endif

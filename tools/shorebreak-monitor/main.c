@@ -1,4 +1,4 @@
-/* Watches a run over LCM and shows it as a live table. */
+/* Receives a run's stream over LCM and shows it as a live table. */
 #include "guard.h"
 #include "options.h"
 #include "state.h"
@@ -18,7 +18,7 @@
 #define REDRAW_SECONDS 0.2
 #define LINE_SECONDS 1.0
 #define SILENCE_SECONDS 5.0
-/* Forces and the first chunks follow a status at once. */
+/* Forces and the first chunks follow a status immediately. */
 #define ONCE_SECONDS 0.25
 
 #define ENTER_SCREEN "\x1b[?1049h\x1b[?25l\x1b[2J"
@@ -28,13 +28,13 @@ typedef struct monitor {
     sb_monitor_options options;
     sb_monitor_state state;
     sb_table_style style;
-    bool screen;            /* the terminal is ours */
-    double begun;           /* sb_clock(), by which --duration counts */
-    double line_time;       /* of the last plain line, sb_clock() */
-    uint64_t line_statuses; /* statuses there were at that time */
-    bool told_silence;
+    bool screen;            /* the table takes the whole terminal */
+    double begun;           /* sb_clock() at the start, for --duration */
+    double line_time;       /* sb_clock() at the last plain line */
+    uint64_t line_statuses; /* number of statuses at that time */
+    bool silence_reported;
     double first_status; /* sb_clock(), 0: none yet */
-    bool sated;          /* --once: the second status came; nothing after it counts */
+    bool once_complete;  /* --once: the second status arrived; it and all later messages are ignored */
 } monitor;
 
 static volatile sig_atomic_t stopped;
@@ -48,8 +48,8 @@ static void stop(int signal_number)
 static void on_status(void *user, const sb_status_message *message)
 {
     monitor *self = user;
-    self->sated |= self->options.once && self->first_status > 0;
-    if (self->sated) return;
+    self->once_complete |= self->options.once && self->first_status > 0;
+    if (self->once_complete) return;
     if (!(self->first_status > 0)) self->first_status = sb_clock();
     sb_monitor_on_status(&self->state, message);
 }
@@ -57,13 +57,13 @@ static void on_status(void *user, const sb_status_message *message)
 static void on_forces(void *user, const sb_forces_message *message)
 {
     monitor *self = user;
-    if (!self->sated) sb_monitor_on_forces(&self->state, message);
+    if (!self->once_complete) sb_monitor_on_forces(&self->state, message);
 }
 
 static void on_particles(void *user, const sb_particles_message *message)
 {
     monitor *self = user;
-    if (!self->sated) sb_monitor_on_particles(&self->state, message);
+    if (!self->once_complete) sb_monitor_on_particles(&self->state, message);
 }
 
 static void measure_terminal(sb_table_style *style)
@@ -74,7 +74,7 @@ static void measure_terminal(sb_table_style *style)
     style->height = known ? size.ws_row : 0;
 }
 
-/* Whole screens go out in one piece, lest the eye see half of one. */
+/* Writes the whole screen at once, so that the terminal never shows a partial table. */
 static void redraw(monitor *self, double now)
 {
     char *text = NULL;
@@ -97,10 +97,10 @@ static void print_lines(monitor *self, double now)
     sb_monitor_state *state = &self->state;
     double silent = now - state->last_data;
     if (silent < SILENCE_SECONDS)
-        self->told_silence = false;
-    else if (!self->told_silence) {
-        printf("no data since %.0f s\n", silent);
-        self->told_silence = true;
+        self->silence_reported = false;
+    else if (!self->silence_reported) {
+        printf("no data for %.0f s\n", silent);
+        self->silence_reported = true;
     }
     if (state->has_status && state->statuses != self->line_statuses && now - self->line_time >= LINE_SECONDS) {
         sb_table_line(stdout, state);
@@ -113,7 +113,7 @@ static void print_lines(monitor *self, double now)
 static bool finished(const monitor *self, double now)
 {
     const sb_monitor_options *options = &self->options;
-    return stopped || self->sated || (options->duration > 0 && now - self->begun >= options->duration) ||
+    return stopped || self->once_complete || (options->duration > 0 && now - self->begun >= options->duration) ||
            (options->once && self->first_status > 0 && now - self->first_status >= ONCE_SECONDS);
 }
 
@@ -162,34 +162,34 @@ static int run(void *argument)
     if (self->screen) fputs(ENTER_SCREEN, stdout);
     watch(self, listener);
     if (self->screen) fputs(LEAVE_SCREEN, stdout);
-    /* The last table stays to be read. */
+    /* Print the last table so that it remains visible. */
     self->style.line_end = "";
     self->style.height = 0;
     if (self->state.has_status) sb_table_draw(stdout, &self->state, &self->style, sb_clock());
     sb_listener_destroy(listener);
     sb_monitor_state_free(&self->state);
     if (self->options.once && !(self->first_status > 0)) {
-        fprintf(stderr, "shorebreak-monitor: no status came\n");
+        fprintf(stderr, "shorebreak-monitor: no status message received\n");
         return 1;
     }
     return 0;
 }
 
-/* A screen that the dead child had taken is given back. */
-static void tell_crash(void)
+/* Restores the terminal, which the crashed child could not do. */
+static void report_crash(void)
 {
     if (isatty(STDOUT_FILENO)) fputs(LEAVE_SCREEN, stdout);
     fflush(stdout);
-    fputs("shorebreak-monitor: a message from the network crashed LCM's receiver; listening anew\n", stderr);
+    fputs("shorebreak-monitor: a message from the network crashed LCM's receiver; restarting it\n", stderr);
 }
 
-int main(int count, char **words)
+int main(int count, char **arguments)
 {
     setlocale(LC_CTYPE, "");
-    char trouble[256];
+    char problem[256];
     sb_monitor_options options;
-    if (!sb_monitor_options_read(count, words, &options, trouble)) {
-        fprintf(stderr, "shorebreak-monitor: %s\n", trouble);
+    if (!sb_monitor_options_read(count, arguments, &options, problem)) {
+        fprintf(stderr, "shorebreak-monitor: %s\n", problem);
         return 1;
     }
     if (options.help || options.version) {
@@ -206,7 +206,7 @@ int main(int count, char **words)
     }
     self->options = options;
     self->begun = sb_clock();
-    int code = sb_guard(run, self, tell_crash);
+    int code = sb_guard(run, self, report_crash);
     sb_free(self);
     return fflush(stdout) == 0 ? code : 1;
 }

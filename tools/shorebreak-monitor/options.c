@@ -8,18 +8,18 @@
 const char sb_monitor_help[] =
     "Usage: shorebreak-monitor [--url URL] [--prefix NAME] [--once] [--duration S] [--plain]\n"
     "\n"
-    "Shows a run live: progress, forces on bodies, and what of its particle stream arrives.\n"
+    "Shows a run while it computes: progress, forces on bodies, and the losses of its particle stream.\n"
     "\n"
     "  --url URL       LCM provider, as stream.url of the scene (default: LCM_DEFAULT_URL, else\n"
-    "                  udpm://239.255.76.67:7667); file://LOG replays what lcm-logger wrote\n"
-    "  --prefix NAME   of the channels, as stream.prefix of the scene (default: shorebreak)\n"
-    "  --once          show the first status and what belongs to it, then exit\n"
+    "                  udpm://239.255.76.67:7667); file://LOG replays a log of lcm-logger\n"
+    "  --prefix NAME   prefix of the channels, as stream.prefix of the scene (default: shorebreak)\n"
+    "  --once          show the first status with its forces and particle counts, then exit\n"
     "  --duration S    exit after S seconds\n"
-    "  --plain         lines instead of a live table (the default when not on a terminal)\n"
-    "  --help          this text\n"
-    "  --version       the version\n"
+    "  --plain         print lines instead of a live table (the default when not on a terminal)\n"
+    "  --help          print this text\n"
+    "  --version       print the version\n"
     "\n"
-    "Ctrl-C ends it. Exit code 0: done; 1: bad option, no provider, or --once saw no status.\n";
+    "Ctrl-C ends the program. Exit code 0: done; 1: bad option, no provider, or no status with --once.\n";
 
 static bool read_duration(const char *text, double *seconds)
 {
@@ -28,7 +28,7 @@ static bool read_duration(const char *text, double *seconds)
     return end != text && !*end && isfinite(*seconds) && *seconds > 0;
 }
 
-bool sb_monitor_options_read(int count, char **words, sb_monitor_options *options, char trouble[256])
+bool sb_monitor_options_read(int count, char **arguments, sb_monitor_options *options, char problem[256])
 {
     *options = (sb_monitor_options){0};
     const char *duration = NULL;
@@ -42,22 +42,22 @@ bool sb_monitor_options_read(int count, char **words, sb_monitor_options *option
     const size_t known_count = sizeof known / sizeof *known;
     for (int i = 1; i < count; i++) {
         size_t k = 0;
-        while (k < known_count && strcmp(words[i], known[k].name) != 0) k++;
+        while (k < known_count && strcmp(arguments[i], known[k].name) != 0) k++;
         if (k == known_count) {
-            snprintf(trouble, 256, "%.100s: no such option; see --help", words[i]);
+            snprintf(problem, 256, "%.100s: unknown option; see --help", arguments[i]);
             return false;
         }
         if (known[k].flag) {
             *known[k].flag = true;
         } else if (i + 1 < count) {
-            *known[k].value = words[++i];
+            *known[k].value = arguments[++i];
         } else {
-            snprintf(trouble, 256, "%s: a value is missing", known[k].name);
+            snprintf(problem, 256, "%s: a value is missing", known[k].name);
             return false;
         }
     }
     if (duration && !read_duration(duration, &options->duration)) {
-        snprintf(trouble, 256, "--duration: \"%.100s\" is not a number of seconds above 0", duration);
+        snprintf(problem, 256, "--duration: \"%.100s\" is not a number of seconds above 0", duration);
         return false;
     }
     return true;

@@ -1,4 +1,4 @@
-/* The monitor's command line. */
+/* Reads the monitor's command line. */
 #ifndef SB_MONITOR_OPTIONS_H
 #define SB_MONITOR_OPTIONS_H
 
@@ -11,8 +11,8 @@ typedef struct sb_monitor_options {
     bool help, version;
 } sb_monitor_options;
 
-/* False with a line in `trouble` on a bad command line. */
-bool sb_monitor_options_read(int count, char **words, sb_monitor_options *options, char trouble[256]);
+/* Returns false, with a one-line message in `problem`, if the command line is wrong. */
+bool sb_monitor_options_read(int count, char **arguments, sb_monitor_options *options, char problem[256]);
 
 extern const char sb_monitor_help[];
 

@@ -59,7 +59,7 @@ void sb_monitor_on_forces(void *user, const sb_forces_message *message)
             state->peak = fmax(state->peak, body->horizontal);
             for (int k = 0; k < 3; k++) state->peak_component = fmax(state->peak_component, fabs(body->force[k]));
         }
-        /* Rows between are those of a lost message: empty until it comes again. */
+        /* The rows before this one belong to a lost message. They stay empty until it is sent again. */
         while (state->body_count < row) state->bodies[state->body_count++] = (sb_monitor_body){0};
         if (state->body_count == row) state->body_count = row + 1;
     }
@@ -69,7 +69,7 @@ void sb_monitor_on_particles(void *user, const sb_particles_message *message)
 {
     sb_monitor_state *state = user;
     state->last_data = sb_clock();
-    if (sb_assembly_add(&state->assembly, message) != SB_OK) state->assembly.chunks_odd++;
+    if (sb_assembly_add(&state->assembly, message) != SB_OK) state->assembly.chunks_ignored++;
 }
 
 void sb_monitor_state_sample(sb_monitor_state *state, sb_listener_counters count, double now)

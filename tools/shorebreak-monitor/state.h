@@ -1,4 +1,4 @@
-/* All that the monitor knows of a run, gathered from its messages. */
+/* The state of a run as the monitor knows it from the messages received so far. */
 #ifndef SB_MONITOR_STATE_H
 #define SB_MONITOR_STATE_H
 
@@ -12,21 +12,21 @@ typedef struct sb_monitor_body {
     bool reported;
     double force[3];   /* N */
     double horizontal; /* N, sqrt(Fx^2 + Fy^2) */
-    double peak;       /* N, largest of that so far */
+    double peak;       /* N, largest horizontal force so far */
 } sb_monitor_body;
 
 typedef struct sb_monitor_state {
     bool has_status;
     sb_status_message status;
-    uint64_t statuses;   /* received of this run */
+    uint64_t statuses;   /* number of statuses received from this run */
     size_t body_count;   /* rows in use */
-    size_t bodies_total; /* of the run; may be more than there are rows */
+    size_t bodies_total; /* number of bodies of the run, which may exceed SB_MONITOR_BODIES */
     sb_monitor_body bodies[SB_MONITOR_BODIES];
-    double peak; /* N, largest horizontal force on any reported body so far */
-    double peak_component;
+    double peak;           /* N, largest horizontal force on any reported body so far */
+    double peak_component; /* N, largest magnitude of any force component of a reported body so far */
     sb_assembly assembly;
     double started, last_data; /* s, sb_clock() */
-    /* Counters at moments of the last seconds, for rates. */
+    /* Counters at several times within the last seconds, for the rates. */
     struct {
         double time;
         sb_listener_counters count;
@@ -36,17 +36,17 @@ typedef struct sb_monitor_state {
     sb_listener_counters count;
 } sb_monitor_state;
 
-/* Empties the state; frees what an earlier run left. */
+/* Clears the state and frees its memory. */
 void sb_monitor_state_start(sb_monitor_state *state, double now);
 void sb_monitor_state_free(sb_monitor_state *state);
 
-/* Callbacks for a listener; user is the state. A new run (another name, or a step that goes back)
-   clears peaks, bodies and chunk counts. */
+/* Callbacks for a listener; user is the state. A new run (another name, or a step that goes back) clears peaks, bodies
+   and chunk counts. */
 void sb_monitor_on_status(void *user, const sb_status_message *message);
 void sb_monitor_on_forces(void *user, const sb_forces_message *message);
 void sb_monitor_on_particles(void *user, const sb_particles_message *message);
 
-/* Takes the counters into the rates, a mean over the last 2 s; call it several times per second. */
+/* Updates the rates, which are means over the last 2 s, with new counters. To be called several times per second. */
 void sb_monitor_state_sample(sb_monitor_state *state, sb_listener_counters count, double now);
 
 #endif

@@ -52,7 +52,7 @@ static void draw_title(canvas *to, const sb_monitor_state *state, double now)
     if (state->has_status && progress(&state->status) >= 1)
         fprintf(to->out, "%scomplete%s", paint(to, GREEN), plain(to));
     else if (silent >= STALE_SECONDS)
-        fprintf(to->out, "%sno data since %.0f s%s%s", paint(to, RED), floor(silent), plain(to),
+        fprintf(to->out, "%sno data for %.0f s%s%s", paint(to, RED), floor(silent), plain(to),
                 state->has_status ? "" : ": is a run streaming to this URL and prefix?");
     else if (!state->has_status)
         fprintf(to->out, "waiting for a run");
@@ -73,8 +73,9 @@ static void draw_status(canvas *to, const sb_status_message *status)
     fprintf(to->out, "%s%s%s %5.1f %%  %s of %s s  ETA %s", paint(to, CYAN), bar, plain(to), 100 * progress(status),
             time, end, eta);
     end_row(to);
-    fprintf(to->out, "step %lld  dt %.4g ms  iterations %d  density error %.3g %%  wall %s", (long long)status->step,
-            1e3 * status->time_step, (int)status->iterations, 100 * status->density_error, wall);
+    fprintf(to->out, "step %lld  dt %.4g ms  iterations %d  density error %.3g %%  run time %s",
+            (long long)status->step, 1e3 * status->time_step, (int)status->iterations, 100 * status->density_error,
+            wall);
     end_row(to);
     fprintf(to->out, "max speed %.4g m/s  particles %lld  %slost %lld%s", status->max_speed,
             (long long)status->fluid_particles, status->lost_particles ? paint(to, RED) : "",
@@ -126,7 +127,7 @@ static void draw_body(canvas *to, const sb_monitor_state *state, const sb_monito
 
 static void draw_forces(canvas *to, const sb_monitor_state *state)
 {
-    /* 20 name, 2 x 10 magnitude and peak, 3 x 10 components, 2 blanks; then bars as they fit. */
+    /* Columns: 20 for the name, 2 x 10 for magnitude and peak, 3 x 10 for components, 2 blanks; bars take the rest. */
     int room = to->style->width - NAME_COLUMNS - 2 - 50;
     int component_columns = 3 * (2 * HALF_BAR + 2);
     bool components = room >= component_columns + 12;

@@ -60,7 +60,7 @@ void sb_text_bar(char *out, int cells, double share, double mark, bool utf8)
 void sb_text_signed_bar(char *out, int half, double share, bool utf8)
 {
     int filled = (int)lround(clamped(fabs(share)) * half);
-    if (filled == 0 && fabs(share) * half > 0.05) filled = 1; /* a small force still shows its sign */
+    if (filled == 0 && fabs(share) * half > 0.05) filled = 1; /* one cell shows the sign of a small force */
     *out = 0;
     for (int i = -half; i <= half; i++) {
         bool on = share < 0 ? i < 0 && i >= -filled : i > 0 && i <= filled;
