@@ -1,3 +1,4 @@
+/* Interpolates the camera's keys and computes the view matrices. */
 #include "render/camera.h"
 
 #include <stdbool.h>
@@ -11,7 +12,7 @@
 #include <cglm/cglm.h>
 #pragma GCC diagnostic pop
 
-/* The seven numbers of a key, so that one formula serves them all. */
+/* A key as an array of seven numbers, all of which are interpolated by one formula. */
 enum { NUMBERS = 7 };
 
 static void to_numbers(const sb_camera_key *key, double out[NUMBERS])
@@ -26,7 +27,8 @@ static sb_camera_key from_numbers(double time, const double n[NUMBERS])
     return (sb_camera_key){time, sb_vec(n[0], n[1], n[2]), sb_vec(n[3], n[4], n[5]), n[6]};
 }
 
-/* Slopes at key k: central difference over uneven times, zero at the ends of the path. */
+/* Slopes at key k: the difference of the neighbouring keys over their time difference, zero at both ends of the path.
+ */
 static void slopes(const sb_camera *camera, size_t k, double out[NUMBERS])
 {
     memset(out, 0, NUMBERS * sizeof *out);
@@ -55,7 +57,7 @@ sb_camera_key sb_camera_at(const sb_camera *camera, double time)
     for (int i = 0; i < NUMBERS; i++)
         mixed[i] = a[i] + (b[i] - a[i]) * rise + span * (slope_a[i] * out + slope_b[i] * in);
     sb_camera_key key = from_numbers(time, mixed);
-    /* A path that swings wide must not turn the lens inside out. */
+    /* The spline may overshoot its keys; the angle must stay within 0 and 180 degrees. */
     key.fov = key.fov < 1 ? 1 : key.fov > 170 ? 170 : key.fov;
     return key;
 }
@@ -72,7 +74,7 @@ static void clip_planes(sb_view *view, sb_vec3 min, sb_vec3 max)
     double size = sb_norm(sb_sub(max, min));
     if (!(far > 0)) far = size > 0 ? size : 1;
     far *= 1.01;
-    /* 24 bits of depth resolve far / 2000 well. */
+    /* A depth buffer of 24 bits has enough resolution if near is at least far / 2000. */
     near *= 0.95;
     view->near = near > far / 2000 ? near : far / 2000;
     view->far = far;
@@ -84,7 +86,7 @@ sb_view sb_view_create(const sb_camera_key *key, double aspect, sb_vec3 min, sb_
     view.tangent = tan(key->fov * 0.5 * 3.14159265358979323846 / 180);
     view.back = sb_normalize(sb_sub(key->eye, key->target));
     if (sb_norm(view.back) < 0.5) view.back = sb_vec(0, -1, 0);
-    /* Looking straight down, +y is up in the picture. */
+    /* For a view straight down, +y points up in the picture. */
     sb_vec3 upward = fabs(view.back.z) > 0.9999 ? sb_vec(0, 1, 0) : sb_vec(0, 0, 1);
     view.right = sb_normalize(sb_cross(upward, view.back));
     view.up = sb_cross(view.back, view.right);

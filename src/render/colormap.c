@@ -1,9 +1,10 @@
+/* The colour map for the water's speed. */
 #include "render/colormap.h"
 
 #include <math.h>
 
-/* The path in CIELAB: L* is linear by construction; a* and b* bend from navy over cyan to white and
-   stay inside the sRGB gamut, so that nothing is clipped. */
+/* The map in CIELAB: L* is linear by construction; a* and b* go from navy over cyan to white within the sRGB gamut, so
+   that no colour is clipped. */
 static const double lightness_low = 21, lightness_high = 97;
 enum { KNOTS = 6 };
 static const double path_a[KNOTS] = {9, 3, -6, -17, -14, -1};

@@ -1,8 +1,8 @@
-/* The colours of speed: still water a deep sea blue, fast water bright as foam. */
+/* The colour map for the water's speed, from dark blue (still water) to white (fast water). */
 #ifndef SB_RENDER_COLORMAP_H
 #define SB_RENDER_COLORMAP_H
 
-/* sRGB 0..1 at t in 0..1 (clamped; NaN gives t = 0). CIE lightness rises evenly with t. */
+/* Writes the sRGB colour 0..1 at t in 0..1 (clamped; NaN gives t = 0). The CIE lightness rises linearly with t. */
 void sb_colormap(double t, float rgb[3]);
 
 #endif

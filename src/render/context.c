@@ -1,4 +1,4 @@
-/* The only file that knows OSMesa. */
+/* Creates OpenGL contexts by OSMesa. No other file calls OSMesa. */
 #include "render/context.h"
 
 #include "base/library.h"
@@ -10,16 +10,17 @@
 #include <stdlib.h>
 
 #ifdef __SANITIZE_ADDRESS__
-/* Mesa 22.3 never frees the small record of a destroyed context's buffer: not ours to report. */
+/* Mesa 22.3 never frees the small record of a destroyed context's buffer. This leak is not in this project. */
 const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void)
 {
     return "leak:libOSMesa.so\n";
 }
 
-/* Libraries that are loaded late have their thread-local storage on the heap. Where it begins 16 bytes into a page, one
-   time in 256, the sanitizer takes what lies before it for a record of glibc 2.19 and looks for pointers at the address
-   it finds there: its leak check dies. So it shall not look at such storage; all else is searched as ever. */
+/* Libraries that are loaded at run time have their thread-local storage on the heap. If it begins 16 bytes into a page,
+   which happens one time in 256, the sanitizer interprets the bytes before it as a record of glibc 2.19 and searches
+   for pointers at the address that it finds there, which crashes its leak check. This option excludes such storage from
+   the search and nothing else. */
 const char *__asan_default_options(void);
 const char *__asan_default_options(void)
 {
@@ -27,7 +28,7 @@ const char *__asan_default_options(void)
 }
 #endif
 
-/* OSMesa wants a buffer of its own to be current; nothing is drawn into it. */
+/* OSMesa requires a buffer to make a context current. Nothing is drawn into it. */
 enum { SIDE = 8 };
 
 struct sb_context {
@@ -37,12 +38,12 @@ struct sb_context {
 
 sb_gl_functions sb_gl;
 
-/* Of OSMesa itself; and how looking for it all went. */
+/* The functions of OSMesa, and the error if they could not be loaded. */
 static struct {
     __typeof__(OSMesaCreateContextAttribs) *create;
     __typeof__(OSMesaMakeCurrent) *make_current;
     __typeof__(OSMesaDestroyContext) *destroy;
-    sb_error trouble;
+    sb_error error;
 } mesa;
 
 static void load(void)
@@ -54,7 +55,7 @@ static void load(void)
                                              SB_GL_FUNCTIONS(SB_GL_FIND)
 #undef SB_GL_FIND
     };
-    sb_library_load("libOSMesa.so.8", functions, sizeof functions / sizeof functions[0], &mesa.trouble);
+    sb_library_load("libOSMesa.so.8", functions, sizeof functions / sizeof functions[0], &mesa.error);
 }
 
 sb_status sb_context_create(sb_context **context, sb_error *error)
@@ -63,8 +64,8 @@ sb_status sb_context_create(sb_context **context, sb_error *error)
     /* The simulation wants the processors too: two rasteriser threads unless the user says else. */
     setenv("LP_NUM_THREADS", "2", 0);
     pthread_once(&once, load);
-    if (mesa.trouble.status != SB_OK)
-        return sb_fail(error, SB_FAILED, "pictures cannot be drawn without OSMesa: %.900s", mesa.trouble.text);
+    if (mesa.error.status != SB_OK)
+        return sb_fail(error, SB_FAILED, "pictures cannot be drawn without OSMesa: %.900s", mesa.error.text);
     sb_context *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, "the drawing context");
     static const int attributes[] = {OSMESA_FORMAT,
@@ -81,7 +82,7 @@ sb_status sb_context_create(sb_context **context, sb_error *error)
     made->mesa = mesa.create(attributes, NULL);
     if (!made->mesa) {
         sb_free(made);
-        return sb_fail(error, SB_FAILED, "OSMesa gives no OpenGL 3.3 core context: pictures cannot be drawn");
+        return sb_fail(error, SB_FAILED, "OSMesa cannot create an OpenGL 3.3 core context: pictures cannot be drawn");
     }
     *context = made;
     return SB_OK;

@@ -1,3 +1,4 @@
+/* Computes the density of water on a grid. */
 #include "render/density.h"
 
 #include "base/memory.h"
@@ -6,8 +7,8 @@
 
 static const double cell_spacings = 1.5;
 static const double nodes_max = 2.5e7;
-/* Empty nodes on each side: room for the spreading, the smoothing, and none to run into the next
- * row. */
+/* Empty nodes on each side: one for the distribution to nodes, one for the smoothing, and one that keeps the smoothing
+   from mixing neighbouring rows. */
 enum { MARGIN = 3 };
 
 static bool bounds(const sb_frame *frame, float min[3], float max[3])
@@ -29,9 +30,9 @@ static bool bounds(const sb_frame *frame, float min[3], float max[3])
 
 static sb_status lay_grid(sb_density *density, const float min[3], const float max[3], double spacing, sb_error *error)
 {
-    const double least = 1e-30; /* finer ones floats cannot tell */
+    const double least = 1e-30; /* single precision cannot resolve smaller cells */
     double cell = fmax(cell_spacings * spacing, least);
-    /* One stray particle may stretch the box: a coarser grid stays true, only less sharp. */
+    /* A single distant particle may enlarge the box. A coarser grid remains correct, but less sharp. */
     for (double total = HUGE_VAL;; cell *= 1.25) {
         total = 1;
         for (int a = 0; a < 3; a++) total *= floor((double)(max[a] - min[a]) / cell) + 2 * MARGIN + 1;
@@ -51,7 +52,8 @@ static sb_status lay_grid(sb_density *density, const float min[3], const float m
     return SB_OK;
 }
 
-/* The node below a place and how far beyond it the place is; false outside. */
+/* Finds the grid cell of a point: its lowest node, and the position within the cell as fractions of its side. Returns
+   false outside of the grid. */
 static bool locate(const sb_density *density, const float place[3], size_t *node, float share[3])
 {
     size_t stride = 1;
@@ -92,7 +94,8 @@ static void spread(sb_density *density, const sb_frame *frame)
     }
 }
 
-/* Quarter, half, quarter along one axis: the empty margin makes rows run into zeros only. */
+/* Smooths along one axis with the weights 1/4, 1/2, 1/4. At the ends of a row the neighbours are the zeros of the
+   margin. */
 static void smooth(const float *restrict in, float *restrict out, size_t count, size_t stride)
 {
     memset(out, 0, stride * sizeof *out);

@@ -1,3 +1,4 @@
+/* Draws text with a stroke font. */
 #include "render/font.h"
 
 #include "base/memory.h"
@@ -5,9 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Strokes of ' ' to '~'. A stroke is a row of points, two characters each: x (0..8) and y (0..f;
-   base line 3, small letters up to 9, capitals up to c); strokes are parted by blanks; '~' bends
-   the stroke smoothly through its points. */
+/* Strokes of ' ' to '~'. A stroke is a sequence of points of two characters each: x (0..8) and y (0..f; the base line
+   is at 3, small letters end at 9, capitals at c). Blanks separate strokes. A '~' before a stroke makes it a smooth
+   curve through its points. */
 static const char *const glyphs[] = {
     "",                                        /* space */
     "0c06 0304141303",                         /* ! */
@@ -116,8 +117,7 @@ static int digit(char c)
     return c <= '9' ? c - '0' : c - 'a' + 10;
 }
 
-/* The next character's glyph, NULL at the end; the bytes that continue a UTF-8 character are
- * skipped. */
+/* Returns the next character's glyph, NULL at the end. The continuation bytes of UTF-8 characters are skipped. */
 static const char *next_glyph(const char **text)
 {
     while (((unsigned char)**text & 0xC0) == 0x80) ++*text;
@@ -149,18 +149,18 @@ double sb_font_width(const char *text, double height)
     return units > 0 ? (units - gap) * height / capital : 0;
 }
 
-/* Distances to the nearest stroke, on a rectangle of the image. */
+/* Distance of each pixel to the nearest stroke, on a rectangle of the image, px. */
 struct field {
     int x0, y0, width, height;
     float *distance;
 };
 
-static void draw_segment(struct field *field, double ax, double ay, double bx, double by, double reach)
+static void draw_segment(struct field *field, double ax, double ay, double bx, double by, double radius)
 {
-    int x_low = (int)floor(fmin(ax, bx) - reach) - field->x0;
-    int x_high = (int)ceil(fmax(ax, bx) + reach) - field->x0;
-    int y_low = (int)floor(fmin(ay, by) - reach) - field->y0;
-    int y_high = (int)ceil(fmax(ay, by) + reach) - field->y0;
+    int x_low = (int)floor(fmin(ax, bx) - radius) - field->x0;
+    int x_high = (int)ceil(fmax(ax, bx) + radius) - field->x0;
+    int y_low = (int)floor(fmin(ay, by) - radius) - field->y0;
+    int y_high = (int)ceil(fmax(ay, by) + radius) - field->y0;
     double dx = bx - ax, dy = by - ay, square = dx * dx + dy * dy;
     for (int y = y_low > 0 ? y_low : 0; y <= y_high && y < field->height; y++)
         for (int x = x_low > 0 ? x_low : 0; x <= x_high && x < field->width; x++) {
@@ -173,18 +173,18 @@ static void draw_segment(struct field *field, double ax, double ay, double bx, d
         }
 }
 
-/* Catmull-Rom through four numbers, between the middle two. */
+/* Catmull-Rom interpolation between the middle two of four numbers. */
 static double bend(double a, double b, double c, double d, double s)
 {
     return b + 0.5 * s * (c - a + s * (2 * a - 5 * b + 4 * c - d + s * (3 * (b - c) + d - a)));
 }
 
-static void draw_stroke(struct field *field, double (*points)[2], int count, int smooth, double reach)
+static void draw_stroke(struct field *field, double (*points)[2], int count, int smooth, double radius)
 {
     if (count == 1 || !smooth) {
         for (int i = 0; i + 1 < count || i == 0; i++)
             draw_segment(field, points[i][0], points[i][1], points[count > 1 ? i + 1 : 0][0],
-                         points[count > 1 ? i + 1 : 0][1], reach);
+                         points[count > 1 ? i + 1 : 0][1], radius);
         return;
     }
     int closed = points[0][0] == points[count - 1][0] && points[0][1] == points[count - 1][1];
@@ -196,14 +196,14 @@ static void draw_stroke(struct field *field, double (*points)[2], int count, int
         for (int k = 1; k <= BENDS; k++) {
             double s = (double)k / BENDS;
             double to[2] = {bend(a[0], b[0], c[0], d[0], s), bend(a[1], b[1], c[1], d[1], s)};
-            draw_segment(field, from[0], from[1], to[0], to[1], reach);
+            draw_segment(field, from[0], from[1], to[0], to[1], radius);
             from[0] = to[0];
             from[1] = to[1];
         }
     }
 }
 
-static void draw_glyph(struct field *field, const char *glyph, double x, double y, double unit, double reach)
+static void draw_glyph(struct field *field, const char *glyph, double x, double y, double unit, double radius)
 {
     while (*glyph) {
         int smooth = *glyph == '~', count = 0;
@@ -212,7 +212,7 @@ static void draw_glyph(struct field *field, const char *glyph, double x, double 
             points[count][0] = x + unit * digit(glyph[0]);
             points[count][1] = y - unit * (digit(glyph[1]) - base);
         }
-        draw_stroke(field, points, count, smooth, reach);
+        draw_stroke(field, points, count, smooth, radius);
         glyph += *glyph == ' ';
     }
 }
@@ -227,10 +227,10 @@ sb_status sb_font_draw(sb_image *image, double x, double y, double height, const
 {
     static const float dark[3] = {0.02f, 0.05f, 0.09f};
     double unit = height / capital, pen = 0.55 * unit < 0.6 ? 0.6 : 0.55 * unit;
-    double rim = pen + 0.30 * height, reach = rim + 1;
-    struct field field = {.x0 = (int)floor(x - reach), .y0 = (int)floor(y - height - 2 * unit - reach)};
-    int right = (int)ceil(x + sb_font_width(text, height) + reach);
-    int bottom = (int)ceil(y + base * unit + reach);
+    double rim = pen + 0.30 * height, radius = rim + 1;
+    struct field field = {.x0 = (int)floor(x - radius), .y0 = (int)floor(y - height - 2 * unit - radius)};
+    int right = (int)ceil(x + sb_font_width(text, height) + radius);
+    int bottom = (int)ceil(y + base * unit + radius);
     field.x0 = field.x0 > 0 ? field.x0 : 0;
     field.y0 = field.y0 > 0 ? field.y0 : 0;
     field.width = (right < image->width ? right : image->width) - field.x0;
@@ -239,9 +239,9 @@ sb_status sb_font_draw(sb_image *image, double x, double y, double height, const
     size_t count = (size_t)field.width * (size_t)field.height;
     field.distance = sb_alloc(count, sizeof *field.distance);
     if (!field.distance) return sb_fail_memory(error, "text in a picture");
-    for (size_t i = 0; i < count; i++) field.distance[i] = (float)(reach + 1);
+    for (size_t i = 0; i < count; i++) field.distance[i] = (float)(radius + 1);
     for (const char *glyph; (glyph = next_glyph(&text)) != NULL;) {
-        draw_glyph(&field, glyph, x, y, unit, reach);
+        draw_glyph(&field, glyph, x, y, unit, radius);
         x += unit * glyph_advance(glyph);
     }
     for (size_t i = 0; i < count; i++) {

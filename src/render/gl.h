@@ -1,9 +1,9 @@
-/* The functions of OpenGL 3.3 core that the passes call, found in the library when the first context is made: a run
-   without pictures maps neither OSMesa nor the compiler behind it. */
+/* The functions of OpenGL 3.3 core that the renderer calls. They are loaded from the library when the first context is
+   created: a run without pictures loads neither OSMesa nor its compiler. */
 #ifndef SB_RENDER_GL_H
 #define SB_RENDER_GL_H
 
-#define GL_GLEXT_PROTOTYPES /* for the types of the members below; nothing links against them */
+#define GL_GLEXT_PROTOTYPES /* for the types of the members below; the prototypes are not linked */
 #include <GL/glcorearb.h>
 
 /* clang-format off */
@@ -26,7 +26,7 @@ typedef struct sb_gl_functions {
 #undef SB_GL_MEMBER
 } sb_gl_functions;
 
-/* Filled by the first sb_context_create that succeeds, the same for all contexts. */
+/* Set by the first successful sb_context_create; the same for all contexts. */
 extern sb_gl_functions sb_gl;
 
 #endif

@@ -1,3 +1,4 @@
+/* Allocates pictures. */
 #include "render/image.h"
 
 #include "base/memory.h"

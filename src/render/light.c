@@ -1,3 +1,4 @@
+/* Computes the shadow map and the ground map, and defines the shaders' light model. */
 #include "render/light.h"
 
 #include "base/memory.h"
@@ -7,7 +8,8 @@
 
 enum { SHADOW_SIDE = 2048, GROUND_SIDE = 512 };
 
-/* Unit; high from the side, so that waves and walls alike get a bright and a dark face. */
+/* Unit vector towards the sun. It is high and to the side, so that both waves and walls have a bright and a dark face.
+ */
 static const float sun[3] = {0.30f, -0.62f, 0.725f};
 
 const char sb_light_source[] = "uniform vec3 eye, sun, ground_frame;\n"
@@ -22,8 +24,9 @@ const char sb_light_source[] = "uniform vec3 eye, sun, ground_frame;\n"
                                "  c += g * vec3(0.10, 0.08, 0.05);\n"
                                "  return mix(c, vec3(0.47, 0.53, 0.58), 1.0 - exp(-3.0 * down));\n"
                                "}\n"
-                               /* How open a place is: on the ground what the map says there, on a wall what the ground
-                                  before it says, rising to a free view with height over that ground. */
+                               /* Fraction of the sky that is visible from a point: on the ground the value of the
+                                  ground map, on a wall the value of the ground in front of it; it rises to 1 with the
+                                  height above that ground. */
                                "float openness(vec3 p, vec3 n) {\n"
                                "  vec2 out_of_wall = n.xy * (1.5 / (512.0 * ground_frame.z));\n"
                                "  vec2 map = texture(ground_map, (p.xy + out_of_wall - ground_frame.xy) * "
@@ -45,7 +48,8 @@ const char sb_light_source[] = "uniform vec3 eye, sun, ground_frame;\n"
                                "}\n"
                                "vec4 encoded(vec3 color) { return vec4(sqrt(clamp(color, 0.0, 1.0)), 1.0); }\n";
 
-/* An orthographic clip matrix looking along -back that holds the box, in origin-relative metres. */
+/* Writes the orthographic clip matrix of a view along -back that encloses the box, which is in m relative to the
+   origin. */
 static void ortho_clip(sb_vec3 right, sb_vec3 up, sb_vec3 back, sb_vec3 min, sb_vec3 max, float clip[16])
 {
     const sb_vec3 axes[3] = {right, up, back};
@@ -99,7 +103,7 @@ static sb_status draw_depth_map(const sb_meshes *meshes, GLuint texture, int sid
 static float horizon(const float *height, int n, double cell, int x, int y, int dx, int dy)
 {
     double steepest = 0, length = sqrt((double)(dx * dx + dy * dy)) * cell;
-    /* Steps grow as they leave: near walls matter most. */
+    /* The steps grow with the distance, because near walls have the largest effect. */
     for (int step = 1; step <= 24; step += 1 + step / 3) {
         int px = x + step * dx, py = y + step * dy;
         if (px < 0 || py < 0 || px >= n || py >= n) break;
@@ -136,7 +140,7 @@ static void soften(const float *in, int n, float *out)
         }
 }
 
-/* Heights of the bodies seen from straight above, then what each spot sees of the sky. */
+/* Draws the bodies' heights as seen from above, and computes from them the visible fraction of the sky. */
 static sb_status make_ground(const sb_meshes *meshes, sb_vec3 min, sb_vec3 max, sb_light *light, sb_error *error)
 {
     enum { N = GROUND_SIDE, CELLS = N * N };
@@ -160,7 +164,7 @@ static sb_status make_ground(const sb_meshes *meshes, sb_vec3 min, sb_vec3 max, 
     if (status != SB_OK) goto done;
     sb_gl.BindTexture(GL_TEXTURE_2D, depth);
     sb_gl.GetTexImage(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT, GL_FLOAT, height);
-    /* clip z = 2 depth - 1 = clip[10] z + clip[14]; where nothing is, the ground is far below. */
+    /* clip z = 2 depth - 1 = clip[10] z + clip[14]; where there is no body, this gives the lowest height. */
     for (size_t i = 0; i < CELLS; i++) height[i] = (2 * height[i] - 1 - clip[14]) / clip[10];
     sb_light_openness(height, N, side / N, map);
     soften(map, N, open);
@@ -169,7 +173,7 @@ static sb_status make_ground(const sb_meshes *meshes, sb_vec3 min, sb_vec3 max, 
         map[2 * i + 1] = open[i];
     }
     light->ground = sb_texture_create(GL_RG32F, N, N, GL_RG, GL_FLOAT, map, GL_LINEAR);
-    /* ortho_clip leaves a margin of one per cent around. */
+    /* ortho_clip adds a margin of one per cent. */
     light->ground_frame[0] = (float)(min.x - 0.005 * side);
     light->ground_frame[1] = (float)(min.y - 0.005 * side);
     light->ground_frame[2] = (float)(1 / (1.01 * side));
@@ -191,7 +195,7 @@ static sb_status make_shadow(const sb_meshes *meshes, sb_vec3 min, sb_vec3 max, 
                                       NULL, GL_LINEAR);
     sb_gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
     sb_gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-    /* From -1..1 to 0..1. */
+    /* Scales from -1..1 to 0..1. */
     for (int i = 0; i < 16; i++) light->to_shadow[i] = i % 4 == 3 ? clip[i] : 0.5f * clip[i] + (i >= 12 ? 0.5f : 0);
     return draw_depth_map(meshes, light->shadow, SHADOW_SIDE, clip, error);
 }

@@ -1,3 +1,4 @@
+/* Uploads the bodies' meshes and draws their faces, edges and depths. */
 #include "render/meshes.h"
 
 #include "base/memory.h"
@@ -8,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* One corner of a triangle; `kind` in the colour's alpha: 0 plain, 255 coloured as terrain. */
+/* One corner of a triangle. The alpha of its colour is 0 for a plain colour and 255 for the colours of terrain. */
 struct corner {
     float position[3];
     signed char normal[4];
@@ -30,7 +31,7 @@ struct sb_meshes {
     struct part *parts;
     GLuint face_array, face_buffer, line_array, line_buffer;
     GLuint face_program, depth_program, line_program;
-    GLuint speckles; /* a smooth noise that repeats, 64 periods on a side */
+    GLuint speckles; /* a periodic texture of smooth noise, 64 random values on a side */
 };
 
 static const double crease = 32; /* degrees */
@@ -49,8 +50,8 @@ static const char face_vertex[] = "layout(location = 0) in vec3 position;\n"
                                   "  gl_Position = clip * vec4(place, 1.0);\n"
                                   "}\n";
 
-/* Terrain without a colour of its own: sand around the water line, meadow above it, rock where it
-   is steep, and a coarse noise so that large slopes do not look like plastic. */
+/* Terrain without a colour in the scene: sand around the still-water level, grass above it, rock where it is steep, and
+   a coarse noise that gives large slopes a texture. */
 static const char face_fragment[] =
     "in vec3 place, slope;\n"
     "in vec4 paint;\n"
@@ -111,7 +112,7 @@ static void relative(float out[3], sb_vec3 at, sb_vec3 origin)
     out[2] = (float)(at.z - origin.z);
 }
 
-/* Where the vertices of all bodies are gathered before they go to OpenGL. */
+/* The vertices of all bodies, collected before they are uploaded to OpenGL. */
 struct upload {
     struct corner *corners;
     size_t corner_count, corner_capacity;
@@ -179,7 +180,7 @@ static void send(sb_meshes *meshes, const struct upload *upload)
     sb_gl.BindVertexArray(0);
 }
 
-/* Random values on a lattice that wraps, blended smoothly between. */
+/* Makes a texture of random values on a periodic grid with smooth interpolation between them. */
 static sb_status make_speckles(sb_meshes *meshes, sb_error *error)
 {
     enum { LATTICE = 64, FINE = 4, SIDE = LATTICE * FINE };
@@ -289,7 +290,7 @@ void sb_meshes_draw_depth(const sb_meshes *meshes, const float clip[16])
     sb_uniform_mat4(meshes->depth_program, "clip", clip);
     sb_gl.BindVertexArray(meshes->face_array);
     for (size_t i = 0; i < meshes->part_count; i++) {
-        /* Light falls through what is seen through. */
+        /* One-sided bodies are transparent from behind, so they cast no shadow. */
         if (meshes->parts[i].moves || meshes->parts[i].one_sided) continue;
         set_shift(meshes->depth_program, &meshes->parts[i], NULL);
         sb_gl.DrawArrays(GL_TRIANGLES, meshes->parts[i].first_corner, meshes->parts[i].corners);
@@ -307,8 +308,8 @@ void sb_meshes_draw_faces(const sb_meshes *meshes, const sb_light *light, const 
     sb_uniform_mat4(program, "clip", clip);
     sb_uniform_texture(program, "speckles", 0, meshes->speckles);
     sb_uniform_float(program, "sea_level", light->sea_level - meshes->origin.z);
-    /* The height over which terrain goes from sand to meadow scales with the scene: 10 m at a
-       plant, centimetres in a flume. */
+    /* The height over which terrain changes from sand to grass scales with the scene: 10 m at a plant, centimetres in a
+       flume. */
     sb_uniform_float(program, "unit", light->size / 175);
     sb_gl.Enable(GL_DEPTH_TEST);
     sb_gl.DepthFunc(GL_LESS);
@@ -316,7 +317,7 @@ void sb_meshes_draw_faces(const sb_meshes *meshes, const sb_light *light, const 
     sb_gl.BindVertexArray(meshes->face_array);
     for (size_t i = 0; i < meshes->part_count; i++) {
         const struct part *part = &meshes->parts[i];
-        /* Tanks and walls are seen through from behind, so that their water shows. */
+        /* Tanks and walls are transparent from behind, so that the water in them is visible. */
         if (part->one_sided)
             sb_gl.Enable(GL_CULL_FACE);
         else

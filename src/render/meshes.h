@@ -1,4 +1,4 @@
-/* The solid bodies of a scene as triangles and lines ready to draw. */
+/* Draws the solid bodies of a scene as triangles and lines. */
 #ifndef SB_RENDER_MESHES_H
 #define SB_RENDER_MESHES_H
 
@@ -10,18 +10,18 @@
 
 typedef struct sb_meshes sb_meshes;
 
-/* Uploads every body that has triangles; their vertices become single precision relative to
-   `origin` (m, scene). Needs the context. The model is not needed afterwards. */
+/* Uploads every body that has triangles. The vertices are stored in single precision relative to `origin` (m, scene).
+   The context must be current. The model is not used afterwards. */
 sb_status sb_meshes_create(const sb_model *model, sb_vec3 origin, sb_meshes **meshes, sb_error *error);
 void sb_meshes_destroy(sb_meshes *meshes);
 
-/* Only the depth of the closed bodies and terrain that never move, under the given clip matrix. */
+/* Draws only the depth of the closed bodies and of the terrain that never move, with the given clip matrix. */
 void sb_meshes_draw_depth(const sb_meshes *meshes, const float clip[16]);
 
-/* Lit faces, moving bodies displaced as the frame says (matched by order, else by name). */
+/* Draws the lit faces. Moving bodies are displaced by the frame's displacements (matched by index, else by name). */
 void sb_meshes_draw_faces(const sb_meshes *meshes, const sb_light *light, const sb_view *view, const sb_frame *frame);
 
-/* Feature edges as thin dark lines over what lies at their depth. */
+/* Draws the feature edges as thin dark lines; nearer surfaces hide them. */
 void sb_meshes_draw_edges(const sb_meshes *meshes, const sb_view *view, const sb_frame *frame);
 
 #endif

@@ -1,3 +1,4 @@
+/* Finds the normals and the feature edges of a mesh. */
 #include "render/outline.h"
 
 #include "base/memory.h"
@@ -5,9 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Faces around each welded vertex v: faces[first[v]] .. faces[first[v + 1] - 1]. */
+/* The faces around each welded vertex v: faces[first[v]] .. faces[first[v + 1] - 1]. Vertices at the same position are
+   welded: they are represented by one of them. */
 struct topology {
-    uint32_t *weld; /* the representative vertex at the same place */
+    uint32_t *weld; /* per vertex: its representative */
     sb_vec3 *area;  /* per face: normal times twice the area */
     size_t *first;
     uint32_t *faces;
@@ -26,7 +28,8 @@ static int compare_places(const void *a, const void *b)
     return p->vertex < q->vertex ? -1 : p->vertex > q->vertex;
 }
 
-/* Exact places up to a millionth of the mesh's size, so that rounding in a file welds too. */
+/* Positions are compared after rounding to a millionth of the mesh's size, so that vertices that differ by a file's
+   rounding are welded, too. */
 static sb_status weld(const sb_mesh *mesh, uint32_t *weld_to, sb_error *error)
 {
     size_t count = mesh->vertex_count;

@@ -1,4 +1,4 @@
-/* What a drawn mesh needs beyond its triangles: smooth normals and the edges an eye looks for. */
+/* Computes smooth normals and feature edges of a mesh for drawing. */
 #ifndef SB_RENDER_OUTLINE_H
 #define SB_RENDER_OUTLINE_H
 
@@ -10,8 +10,8 @@ typedef struct sb_outline {
     uint32_t (*edges)[2]; /* vertex indices of the mesh; owned */
 } sb_outline;
 
-/* Vertices at one place count as one. Faces that meet at less than `crease` degrees share a smooth
-   normal; edges that are sharper, open or shared by more than two faces become lines. */
+/* Vertices at the same position are treated as one. Faces that meet at less than `crease` degrees share a smooth
+   normal. Edges that are sharper, open or shared by more than two faces are feature edges. */
 sb_status sb_outline_create(const sb_mesh *mesh, double crease, sb_outline *outline, sb_error *error);
 void sb_outline_free(sb_outline *outline);
 

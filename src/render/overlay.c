@@ -1,3 +1,4 @@
+/* Draws title, time and colour legend. */
 #include "render/overlay.h"
 
 #include "render/colormap.h"

@@ -1,4 +1,4 @@
-/* The only file that knows libpng. */
+/* Writes pictures as PNG. No other file calls libpng. */
 #include "render/image.h"
 
 #include "base/file.h"
@@ -9,7 +9,7 @@
 #include <setjmp.h>
 #include <string.h>
 
-/* libpng reports by calling back and must not return from an error. */
+/* libpng reports an error to a callback that must not return. */
 struct reporter {
     jmp_buf jump;
     char text[200];
@@ -28,7 +28,7 @@ static void on_warning(png_structp png, png_const_charp text)
     (void)text;
 }
 
-/* A text chunk, the first one after the header: by it a run tells its pictures from other people's. */
+/* The first chunk after the header is a text chunk by which a run recognises its own pictures. */
 static const char software[] = "Software", own_name[] = "shorebreak";
 
 bool sb_png_is_own(const char *start, size_t length)
@@ -39,7 +39,7 @@ bool sb_png_is_own(const char *start, size_t length)
     return length >= 8 && memcmp(start, "\x89PNG\r\n\x1a\n", 8) == 0 && memmem(start, length, mark, sizeof mark - 1);
 }
 
-/* No objects with destructors live across the jump: 1 when all rows are written. */
+/* Writes the picture. Returns 1 when all rows are written, 0 after an error. */
 static int write_rows(png_structp png, png_infop info, FILE *stream, const sb_image *image, struct reporter *reporter)
 {
     if (setjmp(reporter->jump)) return 0;

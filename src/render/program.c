@@ -1,3 +1,4 @@
+/* Compiles shaders and wraps OpenGL calls. */
 #include "render/program.h"
 
 static const char version[] = "#version 330 core\n";
@@ -109,7 +110,7 @@ sb_status sb_framebuffer_check(const char *name, sb_error *error)
 
 void sb_attribute(GLuint slot, GLint size, GLenum type, GLboolean normalized, GLsizei stride, size_t offset)
 {
-    /* OpenGL passes an offset in a pointer's place. NOLINTNEXTLINE(performance-no-int-to-ptr) */
+    /* OpenGL expects the offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr) */
     sb_gl.VertexAttribPointer(slot, size, type, normalized, stride, (const void *)offset);
     sb_gl.EnableVertexAttribArray(slot);
 }

@@ -1,3 +1,4 @@
+/* Draws a frame in passes: water, faces, sky, edges, overlay. */
 #include "render/renderer.h"
 
 #include "base/memory.h"
@@ -12,14 +13,14 @@ struct sb_renderer {
     const sb_scene *scene;
     int width, height;
     sb_vec3 min, max; /* m, scene: domain and meshes */
-    double speed_max; /* m/s, at the top of the colour map */
+    double speed_max; /* m/s, at the upper end of the colour map */
     sb_context *context;
     GLuint framebuffer, color, depth_stencil;
     sb_meshes *meshes;
     sb_light light;
     sb_sky sky;
     sb_water water;
-    unsigned char *pixels; /* RGBA from the bottom up, as OpenGL gives them */
+    unsigned char *pixels; /* RGBA, rows from the bottom up as read from OpenGL */
 };
 
 static sb_status make_framebuffer(sb_renderer *r, sb_error *error)
@@ -56,7 +57,7 @@ static double sea_level(const sb_scene *scene)
     return level;
 }
 
-/* With the context entered. */
+/* The context must be current. */
 static sb_status make_passes(sb_renderer *r, const sb_model *model, sb_error *error)
 {
     sb_status status = make_framebuffer(r, error);
@@ -106,7 +107,7 @@ static sb_status draw_passes(sb_renderer *r, const sb_frame *frame, const sb_vie
     sb_gl.ClearDepth(1);
     sb_gl.ClearStencil(0);
     sb_gl.Clear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
-    /* Water first: the ground beneath it then costs no shading. */
+    /* The water is drawn first, so that the ground beneath it is not shaded. */
     sb_status status = sb_water_lay(&r->water, frame, view, r->speed_max, error);
     if (status != SB_OK) return status;
     sb_gl.BindFramebuffer(GL_FRAMEBUFFER, r->framebuffer);
@@ -119,9 +120,9 @@ static sb_status draw_passes(sb_renderer *r, const sb_frame *frame, const sb_vie
     sb_water_shade(&r->water, frame, &r->light, view, r->framebuffer);
     sb_meshes_draw_edges(r->meshes, view, frame);
     sb_gl.ReadPixels(0, 0, r->width, r->height, GL_RGBA, GL_UNSIGNED_BYTE, r->pixels);
-    GLenum trouble = sb_gl.GetError();
-    if (trouble == GL_OUT_OF_MEMORY) return sb_fail_memory(error, "drawing");
-    if (trouble != GL_NO_ERROR) return sb_fail(error, SB_FAILED, "OpenGL error 0x%04x while drawing", trouble);
+    GLenum code = sb_gl.GetError();
+    if (code == GL_OUT_OF_MEMORY) return sb_fail_memory(error, "drawing");
+    if (code != GL_NO_ERROR) return sb_fail(error, SB_FAILED, "OpenGL error 0x%04x while drawing", code);
     return SB_OK;
 }
 

@@ -1,3 +1,4 @@
+/* Draws the background. */
 #include "render/sky.h"
 
 static const char fragment[] = "in vec2 screen;\n"
@@ -6,7 +7,7 @@ static const char fragment[] = "in vec2 screen;\n"
                                "uniform vec2 lens;\n"
                                "void main() {\n"
                                "  vec3 d = normalize(right * screen.x * lens.x + up * screen.y * lens.y - back);\n"
-                               /* Dither by an ordered pattern: a smooth gradient in 8 bits would show bands. */
+                               /* Ordered dithering hides the bands of a smooth gradient in 8 bits. */
                                "  ivec2 p = ivec2(gl_FragCoord.xy) & 3;\n"
                                "  float noise = float((p.x * 5 + p.y * 11 + (p.x ^ p.y) * 3) & 15) / 16.0 - 0.47;\n"
                                "  color = encoded(sky(d)) + noise / 255.0;\n"

@@ -1,3 +1,4 @@
+/* Anti-aliasing of a finished picture. */
 #include "render/soften.h"
 
 #include <stddef.h>
@@ -5,7 +6,7 @@
 
 enum { LEAST_CONTRAST = 14 };
 
-/* Green counts double, as the eye has it. */
+/* Brightness. Green has double weight because the eye is most sensitive to it. */
 static int luma(const unsigned char *pixel)
 {
     return (pixel[0] + 2 * pixel[1] + pixel[2]) >> 2;
@@ -21,8 +22,8 @@ static int smaller(int a, int b)
     return a < b ? a : b;
 }
 
-/* The share in 1/256 by which a pixel takes the colour across the edge: none where it agrees with
-   the mean around it, up to half where it sticks out, as the end of a stair's step does. */
+/* The weight, in 1/256, of the colour across the edge: none for a pixel that equals the mean of its neighbours, up to
+   half for a pixel that differs from them, as at the corners of a jagged edge. */
 static int share(int here, int north, int south, int west, int east, int contrast)
 {
     int away = abs((north + south + west + east + 2) / 4 - here);

@@ -1,11 +1,11 @@
-/* From what OpenGL gives to a picture, its stairs along edges softened. */
+/* Converts the pixels of OpenGL to a picture and smooths jagged edges. */
 #ifndef SB_RENDER_SOFTEN_H
 #define SB_RENDER_SOFTEN_H
 
 #include "render/image.h"
 
-/* rgba: image->width * image->height pixels from the bottom row up. Pixels that stick out of their
-   surroundings across an edge are blended over it; flat places are copied as they are. */
+/* rgba: image->width * image->height pixels, rows from the bottom up. Pixels that differ from their neighbours at an
+   edge are blended with the colour across it; all other pixels are copied unchanged. */
 void sb_soften(const unsigned char *rgba, sb_image *image);
 
 #endif

@@ -1,10 +1,11 @@
+/* Selects the visible particles. */
 #include "render/visible.h"
 
 #include "base/memory.h"
 
-/* Water this dense, this many spacings towards the eye, hides a particle. */
+/* A particle is hidden if the density at a distance of cover_spacings towards the eye is above this. */
 static const float dense = 0.68f, cover_spacings = 1.6f;
-/* The density from which a particle is no drop by itself. */
+/* The density at and above which a particle is not drawn as a single drop. */
 static const float crowd_density = 0.35f;
 
 /* The eye and the side planes of the view, relative to the frame's origin. */
@@ -42,8 +43,8 @@ static bool outside(const struct lens *lens, const float *to_eye)
            fabsf(dot3(to_eye, lens->right)) > half * lens->aspect + lens->margin * (1 + lens->tangent * lens->aspect);
 }
 
-/* Against the gradient of the density a little above the particle: a single layer of water on land
-   has no gradient within itself. */
+/* The normal is opposite to the gradient of the density slightly above the particle, because the gradient vanishes
+   within a single layer of particles on land. */
 static void surface_normal(const sb_density *density, const float *p, float spacing, const float *to_eye,
                            signed char normal[4])
 {
@@ -89,8 +90,8 @@ sb_status sb_visible_collect(sb_visible *visible, const sb_frame *frame, const s
 {
     visible->count = 0;
     if (!(frame->spacing > 0) || !(speed_max > 0))
-        return sb_fail(error, SB_BAD_INPUT, "frame: spacing %g m and top speed %g m/s, expected > 0", frame->spacing,
-                       speed_max);
+        return sb_fail(error, SB_BAD_INPUT, "frame: spacing %g m and largest speed %g m/s, expected > 0",
+                       frame->spacing, speed_max);
     if (sb_grow((void **)&visible->points, &visible->capacity, frame->count, sizeof *visible->points) != 0)
         return sb_fail_memory(error, "the visible particles");
     sb_status status = sb_density_build(&visible->density, frame, error);

@@ -1,3 +1,4 @@
+/* Draws the water's surface: spheres, smoothing of their depths, shading. */
 #include "render/water.h"
 
 #include "render/colormap.h"
@@ -7,14 +8,14 @@
 
 enum { COLORS = 256 };
 
-/* Spheres overlap, so that a calm surface closes; smoothing takes their bumps away. */
+/* The spheres overlap, so that a calm surface has no holes. Smoothing removes their curvature. */
 static const double radius_spacings = 0.8;
-/* Depths farther apart than this belong to different sheets of water. */
-static const double sheet_spacings = 5;
+/* Depths that differ by more than this belong to different surfaces. */
+static const double jump_spacings = 5;
 static const double smooth_spacings = 1.1; /* standard deviation */
 
 static const char sphere_vertex[] = "layout(location = 0) in vec3 position;\n"
-                                    "layout(location = 1) in vec2 trait;\n" /* share of the top speed, crowd */
+                                    "layout(location = 1) in vec2 trait;\n" /* fraction of speed_max, crowd */
                                     "layout(location = 2) in vec3 normal;\n"
                                     "uniform mat4 view, projection;\n"
                                     "uniform float radius, pixels;\n" /* pixels: of one metre at one metre */
@@ -28,7 +29,7 @@ static const char sphere_vertex[] = "layout(location = 0) in vec3 position;\n"
                                     "  gl_PointSize = clamp(2.0 * drop.y * pixels / drop.x, 1.5, 255.0);\n"
                                     "}\n";
 
-/* A surface in a crowd has the crowd's normal, a drop by itself that of its own sphere. */
+/* The normal of a particle that is surrounded by others is the surface's; that of a single drop is the sphere's. */
 static const char sphere_fragment[] =
     "flat in vec4 drop;\n"
     "flat in vec3 slope;\n"
@@ -44,19 +45,19 @@ static const char sphere_fragment[] =
     "  gl_FragDepth = 0.5 + 0.5 * (clip.x + clip.y / z);\n"
     "}\n";
 
-/* One direction of a Gaussian that stops at jumps in depth; the reach follows the size that a
-   particle has in the picture, and a surface seen edge on may fall away faster. */
+/* One direction of a Gaussian filter that does not smooth across jumps in depth. Its width is proportional to the size
+   of a particle in the picture. The allowed change in depth is larger where the surface is seen at a small angle. */
 static const char smooth_fragment[] = "out vec4 surface;\n"
                                       "uniform sampler2D source;\n"
                                       "uniform ivec2 step_by;\n"
-                                      "uniform float spread, sheet, longest;\n" /* px m; m; px */
+                                      "uniform float spread, limit, longest;\n" /* px m; m; px */
                                       "void main() {\n"
                                       "  ivec2 p = ivec2(gl_FragCoord.xy);\n"
                                       "  vec4 c = texelFetch(source, p, 0);\n"
                                       "  float sigma = min(spread / c.x, longest);\n"
                                       "  float stride = max(1.0, sigma * 0.6);\n"
                                       "  float fall = -0.5 * stride * stride / (sigma * sigma);\n"
-                                      "  float tilt = sqrt(max(1.0 - dot(c.zw, c.zw), 0.02)) / sheet;\n"
+                                      "  float tilt = sqrt(max(1.0 - dot(c.zw, c.zw), 0.02)) / limit;\n"
                                       "  vec4 sum = c;\n"
                                       "  float total = 1.0;\n"
                                       "  for (int i = 1; i <= 3; i++) {\n"
@@ -212,7 +213,7 @@ static void smooth_surface(const sb_water *water, const sb_frame *frame, const s
     sb_gl.Clear(GL_COLOR_BUFFER_BIT);
     sb_gl.UseProgram(program);
     sb_uniform_float(program, "depth", 0);
-    sb_uniform_float(program, "sheet", sheet_spacings * frame->spacing);
+    sb_uniform_float(program, "limit", jump_spacings * frame->spacing);
     sb_uniform_float(program, "longest", water->height / 24.0);
     double spread = smooth_spacings * frame->spacing * water->height / (2 * view->tangent);
     for (int pass = 0; pass < 2; pass++) {

@@ -1,3 +1,4 @@
+/* The camera's path through its keys, and the view matrices. */
 #include "render/camera.h"
 
 #include <setjmp.h>
@@ -44,7 +45,7 @@ static void path_passes_keys_with_continuous_velocity(void **state)
         near_vec(in, out, 1e-2);
         if (k == 0 || k == 3) near_vec(out, sb_vec(0, 0, 0), 1e-2);
     }
-    /* The central difference over uneven times. */
+    /* The slope at a key is the difference of its neighbours over their time difference. */
     sb_vec3 slope = sb_scale(sb_sub(sb_camera_at(&camera, 2 + d).eye, keys[1].eye), 1 / d);
     near_vec(slope, sb_vec(60.0 / 7, -5.0 / 7, 20.0 / 7), 1e-2);
     near_vec(sb_camera_at(&camera, -1).eye, keys[0].eye, 0);
@@ -75,13 +76,13 @@ static sb_vec3 project(const sb_view *view, sb_vec3 origin, sb_vec3 point)
     return sb_scale(sb_vec(clip[0], clip[1], clip[2]), 1 / clip[3]);
 }
 
-static void view_projects_as_a_lens_does(void **state)
+static void view_projects_points_correctly(void **state)
 {
     (void)state;
     sb_camera_key key = {0, {0, -100, 0}, {0, 0, 0}, 90};
     sb_view view = sb_view_create(&key, 2, sb_vec(-50, -50, -50), sb_vec(50, 50, 50));
     near_vec(sb_vec(project(&view, sb_vec(0, 0, 0), sb_vec(0, 0, 0)).x, 0, 0), sb_vec(0, 0, 0), 1e-6);
-    /* 90 degrees from top to bottom: 100 m up at 100 m is the picture's upper edge. */
+    /* The vertical angle is 90 degrees, so a height of 100 m at a distance of 100 m is at the picture's upper edge. */
     sb_vec3 corner = project(&view, sb_vec(0, 0, 0), sb_vec(200, 0, 100));
     assert_true(fabs(corner.x - 1) < 1e-5 && fabs(corner.y - 1) < 1e-5);
     /* The whole box lies between the clip planes. */
@@ -119,7 +120,7 @@ int main(void)
         cmocka_unit_test(fixed_camera_stays),
         cmocka_unit_test(path_passes_keys_with_continuous_velocity),
         cmocka_unit_test(two_keys_ease_in_and_out),
-        cmocka_unit_test(view_projects_as_a_lens_does),
+        cmocka_unit_test(view_projects_points_correctly),
         cmocka_unit_test(view_keeps_its_precision_far_away),
         cmocka_unit_test(looking_straight_down_works),
     };

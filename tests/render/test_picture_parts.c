@@ -1,4 +1,4 @@
-/* The parts of a picture that need no OpenGL: colours, letters, files, edges, density, light. */
+/* The parts of the renderer that do not use OpenGL: colours, letters, files, edges, density, light. */
 #include "base/memory.h"
 #include "render/colormap.h"
 #include "render/density.h"
@@ -34,7 +34,7 @@ static double lightness(const float rgb[3])
     return 116 * (y > cube ? cbrt(y) : y / (3 * 36.0 / 841) + 4.0 / 29) - 16;
 }
 
-static void colormap_rises_evenly_in_lightness(void **state)
+static void colormap_lightness_rises_linearly(void **state)
 {
     (void)state;
     enum { STEPS = 64 };
@@ -50,7 +50,7 @@ static void colormap_rises_evenly_in_lightness(void **state)
         double rise = lightness(rgb) - last;
         assert_true(rise > 0.9 * mean && rise < 1.1 * mean);
         last += rise;
-        for (int c = 0; c < 3; c++) assert_true(rgb[c] > 0 && rgb[c] < 1); /* nothing clipped */
+        for (int c = 0; c < 3; c++) assert_true(rgb[c] > 0 && rgb[c] < 1); /* no component is clipped */
     }
     float low[3], high[3];
     sb_colormap(-3, low);
@@ -107,7 +107,7 @@ static int inked(const sb_image *image, int x0, int x1)
     return count;
 }
 
-static void every_letter_leaves_its_own_ink(void **state)
+static void every_letter_has_its_own_pixels(void **state)
 {
     (void)state;
     enum { SIDE = 48 };
@@ -125,14 +125,14 @@ static void every_letter_leaves_its_own_ink(void **state)
         for (char other = '!'; other < c; other++)
             assert_true(memcmp(seen[(int)c], seen[(int)other], SIDE * SIDE * 3) != 0);
     }
-    /* What lies outside the picture is cut off, not written. */
+    /* Text outside of the picture is cut off and not written to memory. */
     for (double x = -60; x < 100; x += 13)
         for (double y = -30; y < 100; y += 13)
             assert_int_equal(sb_font_draw(&image, x, y, 20, white, "Wg", &error), SB_OK);
     sb_image_free(&image);
 }
 
-static void text_width_is_where_the_ink_ends(void **state)
+static void text_ends_at_its_width(void **state)
 {
     (void)state;
     const float white[3] = {1, 1, 1};
@@ -146,13 +146,13 @@ static void text_width_is_where_the_ink_ends(void **state)
     int end = (int)(20 + width);
     assert_true(inked(&image, end - 3, end + 3) > 20);
     assert_int_equal(inked(&image, end + 4, 400), 0);
-    /* One mark for one character of two bytes. */
+    /* A character of two bytes is drawn as one '?'. */
     assert_true(sb_font_width("\xc3\xa4", 20) == sb_font_width("?", 20));
     assert_true(sb_font_width("", 20) == 0);
     sb_image_free(&image);
 }
 
-static void softening_blends_stairs_only(void **state)
+static void softening_changes_only_jagged_edges(void **state)
 {
     (void)state;
     enum { SIDE = 32 };
@@ -160,7 +160,7 @@ static void softening_blends_stairs_only(void **state)
     sb_image image = {0};
     sb_error error = {0};
     assert_int_equal(sb_image_resize(&image, SIDE, SIDE, &error), SB_OK);
-    /* White above a line that rises by one in four; the first row of rgba is the lowest. */
+    /* White above a line with a slope of one in four; the first row of rgba is the lowest. */
     for (int y = 0; y < SIDE; y++)
         for (int x = 0; x < SIDE; x++) memset(rgba + 4 * (y * SIDE + x), y > 12 + x / 4 ? 255 : 0, 4);
     sb_soften(rgba, &image);
@@ -183,7 +183,7 @@ static void ticks_are_round_numbers(void **state)
     assert_true(fabs(sb_overlay_tick(5, 5) - 1) < 1e-12);
     assert_true(fabs(sb_overlay_tick(0.83, 5) - 0.2) < 1e-12);
     assert_true(fabs(sb_overlay_tick(2200, 5) - 500) < 1e-9);
-    /* The smallest and largest speeds there are: fewer ticks, no endless ones. */
+    /* The smallest and largest representable speeds give fewer ticks and no endless loop. */
     sb_image image = {0};
     sb_error error = {0};
     assert_int_equal(sb_image_resize(&image, 640, 360, &error), SB_OK);
@@ -195,7 +195,7 @@ static void ticks_are_round_numbers(void **state)
 
 static sb_mesh cube(void)
 {
-    /* Corners doubled, as meshes with a normal per face have them. */
+    /* Each face has its own corners, as in meshes with one normal per face. */
     static sb_vec3 vertices[36];
     static uint32_t triangles[12][3];
     static const int corner[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
@@ -220,8 +220,7 @@ static void outline_finds_the_edges_of_a_cube(void **state)
     for (size_t i = 0; i < 36; i++)
         assert_true(fabsf(outline.normals[i][0]) + fabsf(outline.normals[i][1]) + fabsf(outline.normals[i][2]) == 1);
     sb_outline_free(&outline);
-    /* Without its lid (two triangles) the rim stays; smoother than 100 degrees, only the rim does.
-     */
+    /* Without its top (two triangles), and with a crease angle of 100 degrees, only the four open edges are left. */
     mesh.triangle_count = 10;
     assert_int_equal(sb_outline_create(&mesh, 100, &outline, &error), SB_OK);
     assert_int_equal(outline.edge_count, 4);
@@ -267,13 +266,14 @@ static void density_is_one_inside(void **state)
     assert_true(sb_density_at(&density, 6, 6, 14) < 0.01f);
     assert_true(sb_density_at(&density, 600, 6, 6) == 0);
     assert_true(sb_density_at(&density, (double)NAN, 6, 6) == 0);
-    /* One particle gone astray costs sharpness, not memory; one lost to infinity costs nothing. */
+    /* A distant particle reduces the resolution and does not increase the memory. A particle at infinity is left out.
+     */
     frame->position[0] = 9e6f;
     frame->position[4] = NAN;
     frame->position[8] = INFINITY;
     assert_int_equal(sb_density_build(&density, frame, &error), SB_OK);
     assert_true(density.n[0] * density.n[1] * density.n[2] < 30000000);
-    frame->spacing = 5e-324; /* as a file may say */
+    frame->spacing = 5e-324; /* a file may contain this value */
     assert_int_equal(sb_density_build(&density, frame, &error), SB_OK);
     sb_density_free(&density);
     sb_frame_release(frame);
@@ -292,14 +292,14 @@ static void only_the_surface_is_visible(void **state)
     for (size_t i = 0; i < visible.count; i++) {
         const sb_visible_point *point = &visible.points[i];
         top += point->position[2] == 19.5f;
-        /* From above, nothing below the fifth layer shows but the sides. */
+        /* From above, only particles at the sides are visible below the fifth layer. */
         bool side = point->position[0] < 1.6f || point->position[0] > 17.9f || point->position[1] < 1.6f ||
                     point->position[1] > 17.9f;
         assert_true(side || point->position[2] >= 17.5f);
         if (!side) assert_true(point->normal[2] > 120);
     }
     assert_int_equal(top, 40 * 40);
-    /* Turned away, the camera sees nothing. */
+    /* A camera that is turned away sees no particle. */
     key.target.z = 100;
     view = sb_view_create(&key, 1, sb_vec(0, 0, 0), sb_vec(20, 20, 20));
     assert_int_equal(sb_visible_collect(&visible, frame, &view, 1, &error), SB_OK);
@@ -310,14 +310,14 @@ static void only_the_surface_is_visible(void **state)
     sb_frame_release(frame);
 }
 
-static void walls_take_half_the_sky(void **state)
+static void walls_hide_half_the_sky(void **state)
 {
     (void)state;
     enum { N = 128 };
     static float height[N * N], open[N * N];
     for (int i = 0; i < N * N; i++) height[i] = i % N >= 96 ? 1000 : 0;
     sb_light_openness(height, N, 1, open);
-    assert_true(open[32 * N + 40] > 0.99f); /* beyond the reach of the search */
+    assert_true(open[32 * N + 40] > 0.99f); /* beyond the range of the search */
     assert_true(open[32 * N + 100] == 1);   /* on the top */
     assert_true(fabsf(open[32 * N + 95] - 0.55f) < 0.06f);
     assert_true(open[32 * N + 88] >= open[32 * N + 95]);
@@ -326,17 +326,17 @@ static void walls_take_half_the_sky(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(colormap_rises_evenly_in_lightness),
+        cmocka_unit_test(colormap_lightness_rises_linearly),
         cmocka_unit_test(png_round_trip),
         cmocka_unit_test(image_sizes_are_checked),
-        cmocka_unit_test(every_letter_leaves_its_own_ink),
-        cmocka_unit_test(text_width_is_where_the_ink_ends),
-        cmocka_unit_test(softening_blends_stairs_only),
+        cmocka_unit_test(every_letter_has_its_own_pixels),
+        cmocka_unit_test(text_ends_at_its_width),
+        cmocka_unit_test(softening_changes_only_jagged_edges),
         cmocka_unit_test(ticks_are_round_numbers),
         cmocka_unit_test(outline_finds_the_edges_of_a_cube),
         cmocka_unit_test(density_is_one_inside),
         cmocka_unit_test(only_the_surface_is_visible),
-        cmocka_unit_test(walls_take_half_the_sky),
+        cmocka_unit_test(walls_hide_half_the_sky),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

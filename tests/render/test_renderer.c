@@ -1,3 +1,4 @@
+/* Pictures of small scenes: which pixels show water, walls, moving bodies and text. */
 #include "base/memory.h"
 #include "render/renderer.h"
 
@@ -21,7 +22,7 @@ struct stage {
     sb_frame *frame;
 };
 
-/* A box as tests need it: outward faces, seen from the water. */
+/* A box whose faces point outward, towards the water. */
 static sb_mesh box(sb_vec3 min, sb_vec3 max)
 {
     static const uint32_t faces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
@@ -128,7 +129,7 @@ static int differences(const sb_image *a, const sb_image *b, int x0, int y0, int
     return count;
 }
 
-static void water_shows_where_water_is(void **state)
+static void water_is_drawn_at_its_position(void **state)
 {
     (void)state;
     struct stage stage;
@@ -148,7 +149,7 @@ static void water_shows_where_water_is(void **state)
                 assert_int_equal(differ(&wet, &bare, x, y), 0);
             }
         }
-    assert_true(blue > 35 * 35 * 9 / 10); /* the rest may be glints of the sun */
+    assert_true(blue > 35 * 35 * 9 / 10); /* the remaining pixels may be reflections of the sun */
     /* Fast water is bright. */
     for (size_t i = 0; i < stage.frame->count; i++) stage.frame->velocity[3 * i + 1] = -10;
     sb_image fast = picture(&stage, stage.frame);
@@ -172,7 +173,7 @@ static void a_wall_hides_the_water_behind_it(void **state)
     sb_image wet = picture(&stage, stage.frame), bare = picture(&stage, dry);
     assert_int_equal(differences(&wet, &bare, 0, 0, WIDTH / 2 - 2, HEIGHT, 0), 0);
     assert_true(differences(&wet, &bare, WIDTH / 2 + 2, 45, WIDTH / 2 + 18, 75, 20) == 16 * 30);
-    /* The wall itself is drawn, and is no water. */
+    /* The wall itself is drawn and does not have the water's colour. */
     const unsigned char *rgb = pixel(&wet, WIDTH / 2 - 20, HEIGHT / 2);
     assert_true(rgb[0] + 10 > rgb[2]);
     sb_image_free(&wet);
@@ -181,12 +182,12 @@ static void a_wall_hides_the_water_behind_it(void **state)
     clear_stage(&stage);
 }
 
-static void a_sheet_is_seen_through_from_behind(void **state)
+static void an_open_mesh_is_transparent_from_behind(void **state)
 {
     (void)state;
     struct stage stage;
     set_stage(&stage, sb_vec(0, 0, 0), HEIGHT);
-    /* Only the far face of a box turned inside out looks at the camera: a tank. */
+    /* A box with inward faces is a tank: only its far faces point towards the camera. */
     add_wall(&stage, sb_vec(-6, -6, -6), sb_vec(6, 6, 6));
     for (size_t i = 0; i < 12; i++) {
         uint32_t *t = stage.body.mesh.triangles[i], first = t[0];
@@ -206,7 +207,7 @@ static void a_sheet_is_seen_through_from_behind(void **state)
     clear_stage(&stage);
 }
 
-static void far_from_the_origin_looks_the_same(void **state)
+static void pictures_do_not_depend_on_the_origin(void **state)
 {
     (void)state;
     struct stage near_stage, far_stage;
@@ -296,7 +297,7 @@ static void bad_sizes_and_cameras_are_refused(void **state)
     clear_stage(&stage);
 }
 
-static void writing_covers_only_its_corners(void **state)
+static void text_covers_only_the_corners(void **state)
 {
     (void)state;
     struct stage stage;
@@ -332,7 +333,7 @@ static void *draw_elsewhere(void *argument)
     return NULL;
 }
 
-static void any_thread_draws_the_same(void **state)
+static void any_thread_draws_the_same_picture(void **state)
 {
     (void)state;
     struct stage stage;
@@ -388,14 +389,14 @@ static void running_out_of_memory_is_an_error(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(water_shows_where_water_is),
+        cmocka_unit_test(water_is_drawn_at_its_position),
         cmocka_unit_test(a_wall_hides_the_water_behind_it),
-        cmocka_unit_test(a_sheet_is_seen_through_from_behind),
-        cmocka_unit_test(far_from_the_origin_looks_the_same),
+        cmocka_unit_test(an_open_mesh_is_transparent_from_behind),
+        cmocka_unit_test(pictures_do_not_depend_on_the_origin),
         cmocka_unit_test(a_moving_body_moves),
         cmocka_unit_test(bad_sizes_and_cameras_are_refused),
-        cmocka_unit_test(writing_covers_only_its_corners),
-        cmocka_unit_test(any_thread_draws_the_same),
+        cmocka_unit_test(text_covers_only_the_corners),
+        cmocka_unit_test(any_thread_draws_the_same_picture),
         cmocka_unit_test(running_out_of_memory_is_an_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
