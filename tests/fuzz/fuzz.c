@@ -1,3 +1,4 @@
+/* Files, edits and checks for the fuzz targets. */
 #include "fuzz.h"
 
 #include "base/archive_layout.h"
@@ -19,7 +20,7 @@ static void clean_up(void)
     rmdir(folder);
 }
 
-/* In memory where the system has such a folder: thousands of files a second. */
+/* Makes the folder in /dev/shm if possible, because thousands of files per second are written to it. */
 static void make_folder(void)
 {
     struct stat found;

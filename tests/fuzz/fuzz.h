@@ -1,5 +1,5 @@
-/* What the fuzz targets share. A target is LLVMFuzzerTestOneInput in a file of its own: libFuzzer
-   drives it in the preset fuzz, replay.c runs the committed inputs in every other build. */
+/* Functions that the fuzz targets share. A target is a file that defines LLVMFuzzerTestOneInput. In the preset fuzz,
+   libFuzzer calls it; in all other builds replay.c calls it with the committed inputs. */
 #ifndef SB_TESTS_FUZZ_H
 #define SB_TESTS_FUZZ_H
 
@@ -12,7 +12,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* Ends the program, which counts as a finding. */
+/* Aborts the program if the condition is false, which the fuzzer records as a finding. */
 #define FUZZ_CHECK(condition)                                                                                          \
     do {                                                                                                               \
         if (!(condition)) {                                                                                            \
@@ -21,18 +21,18 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
         }                                                                                                              \
     } while (0)
 
-/* Writes the bytes to a file of that name in a folder of this process; its path, valid until the
-   next call. The folder goes when the process ends. */
+/* Writes the bytes to a file of that name in a folder of this process, which is removed when the process ends. Returns
+   its path, which is valid until the next call. */
 const char *fuzz_save(const char *name, const uint8_t *data, size_t size);
 
-/* Changes bytes (at least one) as a row of edits says, each of an offset (two bytes, low one first), a length and so
-   many bytes to put there. */
+/* Applies a sequence of edits to bytes (size at least 1). Each edit consists of an offset (two bytes, low byte first),
+   a length, and as many bytes to write there. */
 void fuzz_edit(uint8_t *bytes, size_t size, const uint8_t *edits, size_t left);
 
-/* Makes the head and the checksums of an archive (base/archive.h) right, as far as its sections hang together. */
+/* Corrects the head and the checksums of an archive (base/archive.h), up to the first section whose length is wrong. */
 void fuzz_repair(uint8_t *bytes, size_t size, const char *kind, uint32_t version);
 
-/* Checks what every refusal promises: a failure's status, and one line without control characters. */
+/* Checks the requirements of every error: the status of a failure, and one line without control characters. */
 void fuzz_check_refusal(sb_status status, const sb_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-/* A terrain grid, taken for each of its two formats. */
+/* Fuzzes terrain grids. The input is read as each of the two formats. */
 #include "fuzz.h"
 
 #include "geometry/mesh.h"

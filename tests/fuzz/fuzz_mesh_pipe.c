@@ -1,4 +1,4 @@
-/* What the mesh child sends, taken over by the process that asked for the mesh. */
+/* Fuzzes the data that the mesh-reading child process sends to its parent. */
 #include "fuzz.h"
 
 #include "base/clock.h"
@@ -17,7 +17,7 @@ static void check_places(const sb_mesh *mesh)
         FUZZ_CHECK(mesh->triangles[k / 3][k % 3] < mesh->vertex_count);
 }
 
-/* As they come, and after what is done with a solid's: faces turned, holes closed. */
+/* Checks the meshes as received, and after the orientation and the closing that a solid's meshes undergo. */
 static void check_meshes(sb_mesh *meshes, size_t count)
 {
     FUZZ_CHECK(count > 0);

@@ -1,6 +1,6 @@
-/* Damages sound mesh files of every format and imports them: fuzz_meshes FILES SEED. Each must give
-   sound meshes or one clear line, within its limits, and leave no process behind. The last line sums
-   up; the status is 0 when nothing was wrong. */
+/* Damages valid mesh files of every format at random and imports them: fuzz_meshes FILES SEED. Each import must give
+   valid meshes or a one-line error within the limits, and leave no process behind. The last line is a summary; the exit
+   status is 0 if no import was wrong. */
 #include "fuzz.h"
 
 #include "base/clock.h"
@@ -14,10 +14,10 @@
 #include <string.h>
 #include <sys/wait.h>
 
-/* Numbers at which counts, offsets and coordinates tip over. */
-static const char *const words[] = {"4294967295",           "-1",         "nan", "1e400", "-1e-320", "2147483648",
-                                    "99999999999999999999", "0",          "\n",  "{",     "}",       "\"",
-                                    "\xff\xff\xff\xff",     "end_header", "<p>"};
+/* Texts that are likely to cause errors: limits of counts, offsets and coordinates, and delimiters. */
+static const char *const tokens[] = {"4294967295",           "-1",         "nan", "1e400", "-1e-320", "2147483648",
+                                     "99999999999999999999", "0",          "\n",  "{",     "}",       "\"",
+                                     "\xff\xff\xff\xff",     "end_header", "<p>"};
 
 typedef struct dice {
     uint64_t seed, throws;
@@ -52,7 +52,7 @@ static void damage_once(sample_text *text, dice *d)
     size_t length = 1 + roll(d, sizeof copy - 1);
     if (length > text->length - at) length = text->length - at;
     memcpy(copy, text->bytes + at, length);
-    const char *word = words[roll(d, sizeof words / sizeof *words)];
+    const char *token = tokens[roll(d, sizeof tokens / sizeof *tokens)];
     switch (roll(d, 12)) {
     case 1:
         text->bytes[at] = (char)(text->bytes[at] ^ (1 << roll(d, 8)));
@@ -68,20 +68,20 @@ static void damage_once(sample_text *text, dice *d)
         break;
     case 5:
     case 6:
-    case 7: /* a number or a word in place of another */
+    case 7: /* replace a number or a word */
         erase(text, at, strcspn(copy, " \n,<>\"") < length ? strcspn(copy, " \n,<>\"") : length);
-        insert(text, at, word, strlen(word));
+        insert(text, at, token, strlen(token));
         break;
     case 8:
-        text->length = at;
-        break; /* the file ends */
+        text->length = at; /* truncate the file */
+        break;
     default:
         text->bytes[at] = (char)roll(d, 256);
         break;
     }
 }
 
-/* Imports the n-th damaged file of that seed; adds to the outcomes. Returns the seconds it took. */
+/* Imports the n-th damaged file of the seed and counts the outcome. Returns the duration in s. */
 static double try_file(uint64_t seed, long n, long outcomes[3])
 {
     static const sb_mesh_limits limits = {.memory = 1u << 28, .seconds = 2};
@@ -94,14 +94,14 @@ static double try_file(uint64_t seed, long n, long outcomes[3])
     const char *path = fuzz_save(format->name, (const uint8_t *)text.bytes, text.length);
     sb_mesh *meshes = NULL;
     size_t found = 0;
-    sb_error why = {0};
+    sb_error error = {0};
     double begin = sb_clock();
-    sb_status status = sb_mesh_import_within(path, &limits, &meshes, &found, &why);
+    sb_status status = sb_mesh_import_within(path, &limits, &meshes, &found, &error);
     double took = sb_clock() - begin;
-    sample_outcome outcome = sample_judge(path, status, meshes, found, &why);
+    sample_outcome outcome = sample_judge(path, status, meshes, found, &error);
     ++outcomes[outcome];
     if (outcome == SAMPLE_WRONG)
-        printf("file %ld of seed %llu: status %d, %s\n", n, (unsigned long long)seed, (int)status, why.text);
+        printf("file %ld of seed %llu: status %d, %s\n", n, (unsigned long long)seed, (int)status, error.text);
     return took;
 }
 
@@ -112,7 +112,7 @@ int main(int count, char **arguments)
     double longest = 0;
     for (long n = 0; n < files; ++n) longest = fmax(longest, try_file(seed, n, outcomes));
     bool left = waitpid(-1, NULL, WNOHANG) != -1 || errno != ECHILD;
-    if (left) puts("a child is left behind");
+    if (left) puts("a child process is left behind");
     printf("%ld refused, %ld read, %ld wrong, longest %.1f s\n", outcomes[SAMPLE_REFUSED], outcomes[SAMPLE_SOUND],
            outcomes[SAMPLE_WRONG], longest);
     return outcomes[SAMPLE_WRONG] == 0 && !left ? 0 : 1;

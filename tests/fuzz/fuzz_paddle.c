@@ -1,4 +1,4 @@
-/* A paddle's table of times and displacements: what is read must move by finite amounts. */
+/* Fuzzes a paddle's table of times and displacements: a table that is read must give finite displacements. */
 #include "fuzz.h"
 
 #include "base/file.h"
@@ -21,7 +21,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     FUZZ_CHECK(paddle.duration > 0 && isfinite(paddle.duration));
     for (int i = -1; i <= 65; ++i) FUZZ_CHECK(isfinite(sb_paddle_displacement(&paddle, paddle.duration * i / 64)));
-    for (int i = 0; i < 1075; ++i) /* rows may lie as close as numbers can */
+    for (int i = 0; i < 1075; ++i) /* rows may differ by the smallest representable time */
         FUZZ_CHECK(isfinite(sb_paddle_displacement(&paddle, ldexp(paddle.duration, -i))));
     sb_paddle_destroy(&paddle);
     return 0;

@@ -1,5 +1,5 @@
-/* A particle file. An input that begins with 'e' is a row of edits to a sound one; any other is the file itself. What
-   is read has finite numbers, and comes back the same when it is written and read again. */
+/* Fuzzes a particle file. An input that begins with 'e' is a sequence of edits to a valid file; any other input is the
+   file itself. A frame that is read must have finite numbers, and must not change when it is written and read again. */
 #include "fuzz.h"
 
 #include "base/file.h"
@@ -10,10 +10,10 @@
 #include <stdbool.h>
 #include <string.h>
 
-static char *sound;
+static char *valid;
 static size_t length;
 
-static void make_sound(void)
+static void make_valid(void)
 {
     char path[SB_PATH_MAX];
     sb_frame *frame = sb_frame_create(3, 2);
@@ -24,9 +24,9 @@ static void make_sound(void)
     for (size_t i = 0; i < 9; i++) frame->position[i] = (float)i;
     snprintf(frame->bodies[0].name, sizeof frame->bodies[0].name, "reactor");
     frame->bodies[1].force = sb_vec(1e6, 0, 0);
-    snprintf(path, sizeof path, "%s", fuzz_save("sound.vtp", NULL, 0));
+    snprintf(path, sizeof path, "%s", fuzz_save("valid.vtp", NULL, 0));
     FUZZ_CHECK(sb_vtp_write(path, frame, frame->index, NULL) == SB_OK);
-    FUZZ_CHECK(sb_file_read(path, 1 << 20, &sound, &length, NULL) == SB_OK);
+    FUZZ_CHECK(sb_file_read(path, 1 << 20, &valid, &length, NULL) == SB_OK);
     sb_frame_release(frame);
 }
 
@@ -58,12 +58,12 @@ static void check_again(const sb_frame *frame)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    if (!sound) make_sound();
+    if (!valid) make_valid();
     const bool edits = size > 0 && data[0] == 'e';
     const size_t bytes = edits ? length : size;
     uint8_t *file = malloc(bytes ? bytes : 1);
     FUZZ_CHECK(file);
-    if (bytes) memcpy(file, edits ? (const uint8_t *)sound : data, bytes);
+    if (bytes) memcpy(file, edits ? (const uint8_t *)valid : data, bytes);
     if (edits) fuzz_edit(file, bytes, data + 1, size - 1);
     sb_frame *frame = NULL;
     sb_error error = {0};

@@ -1,7 +1,7 @@
-/* The file that a run is resumed from, as the program takes it: whose it is, what was spent and counted, the tables'
-   marks, the particle files so far, and the state. An input that begins with 'e' is a row of edits to a sound one of a
-   step, with 's' to one of water that comes to rest; any other is the file itself. Each is tried as it is, and once
-   more with its checksums made right. */
+/* Fuzzes the checkpoint that a run is resumed from, as the program reads it: the identity of the run, its times and
+   counters, the positions in the tables, the particle files so far, and the state. An input that begins with 'e' is a
+   sequence of edits to a valid checkpoint of a step, one that begins with 's' to a valid checkpoint of the settling.
+   Any other input is the file itself. Each input is loaded as it is, and again with corrected checksums. */
 #include "app/checkpoint_parts.h"
 #include "base/memory.h"
 #include "fuzz.h"
@@ -17,7 +17,7 @@ static const char text[] = "dimensions: 2\n"
                            "numerics: {settle_steps: 20}\n"
                            "measure: {interval: 0.01, gauges: [{name: g, x: 0.3}]}\n"
                            "output: {particle_interval: 0.02, plots: false}\n"
-                           "render: {speed_max: 2}\n"; /* else a run works it out */
+                           "render: {speed_max: 2}\n"; /* by default it depends on the model */
 
 typedef struct bytes {
     uint8_t *data;
@@ -66,7 +66,7 @@ static void write_file(const char *path, bytes content)
     FUZZ_CHECK(fclose(file) == 0);
 }
 
-/* A simulation that has taken no step, as a run has that is to go on. */
+/* Creates a simulation that has made no step, as a run does before it resumes. */
 static void make_simulation(void)
 {
     sb_error error = {0};
@@ -83,7 +83,7 @@ static void save_third(void *context, int done, int most, double speed)
     if (done == 3) sb_checkpoint_write_settling(&taker);
 }
 
-/* A run's directory with its tables, and both kinds of checkpoint. */
+/* Makes a run folder with its tables and both kinds of checkpoint. */
 static void make(void)
 {
     const sb_run_manner quiet = {.quiet = true};
@@ -112,30 +112,30 @@ static void make(void)
     must(sb_measure_create(&scene, &taker.model, taker.sim, &taker.measure, &error), &error);
 }
 
-static void try_bytes(bool rests, bytes content, bool sound)
+static void try_bytes(bool settles, bytes content, bool valid)
 {
     sb_error error = {0};
-    write_file(rests ? settling_path : step_path, content);
-    const sb_status status = rests ? sb_checkpoint_load_settling(&taker, &error) : sb_checkpoint_load(&taker, &error);
+    write_file(settles ? settling_path : step_path, content);
+    const sb_status status = settles ? sb_checkpoint_load_settling(&taker, &error) : sb_checkpoint_load(&taker, &error);
     if (status != SB_OK) fuzz_check_refusal(status, &error);
-    if (sound) must(status, &error);
+    if (valid) must(status, &error);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     if (!taker.sim) make();
-    const bool rests = size > 0 && data[0] == 's', edits = rests || (size > 0 && data[0] == 'e');
-    const bytes *whole = rests ? &settling : &step;
+    const bool settles = size > 0 && data[0] == 's', edits = settles || (size > 0 && data[0] == 'e');
+    const bytes *whole = settles ? &settling : &step;
     bytes tried = {.count = edits ? whole->count : size};
     tried.data = malloc(tried.count ? tried.count : 1);
     FUZZ_CHECK(tried.data);
     memcpy(tried.data, edits ? whole->data : data, tried.count);
     if (edits) fuzz_edit(tried.data, tried.count, data + 1, size - 1);
-    try_bytes(rests, tried, false);
+    try_bytes(settles, tried, false);
     fuzz_repair(tried.data, tried.count, SB_CHECKPOINT_KIND, SB_CHECKPOINT_FORMAT);
-    try_bytes(rests, tried, false);
+    try_bytes(settles, tried, false);
     free(tried.data);
-    /* Whatever was refused, the sound one is taken afterwards. */
-    try_bytes(rests, *whole, true);
+    /* After any error, the valid checkpoint can still be loaded. */
+    try_bytes(settles, *whole, true);
     return 0;
 }

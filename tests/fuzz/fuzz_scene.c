@@ -1,4 +1,4 @@
-/* Scene text. What is read must, written out, read back as the same scene. */
+/* Fuzzes the text of a scene. A scene that is read must not change when it is written and read again. */
 #include "fuzz.h"
 
 #include "base/file.h"
@@ -9,7 +9,7 @@
 
 enum { WRITTEN_MAX = 64 << 20 };
 
-/* The scene as it is written, less the comment lines: they name the file it came from. */
+/* Writes the scene to a file and returns its text. */
 static char *write_out(const sb_scene *scene, const char *name)
 {
     char path[SB_PATH_MAX];
@@ -22,6 +22,7 @@ static char *write_out(const sb_scene *scene, const char *name)
     return text;
 }
 
+/* Skips the comment lines at the beginning, which name the file that the scene was read from. */
 static const char *body_of(const char *text)
 {
     while (*text == '#') {

@@ -1,4 +1,5 @@
-/* Runs a target on the files and folders named, once each: the committed inputs, as a test. */
+/* Calls a target once for each of the named files and each file of the named folders. Tests run it on the committed
+   inputs. */
 #include "fuzz.h"
 
 #include "base/file.h"
@@ -18,7 +19,7 @@ static void run_file(const char *path)
         fprintf(stderr, "%s\n", error.text);
         exit(1);
     }
-    /* A block of exactly that size, so that a sanitizer sees each byte read beyond it. */
+    /* A block of exactly that size, so that a sanitizer detects a read beyond the end. */
     uint8_t *exact = malloc(size ? size : 1);
     FUZZ_CHECK(exact);
     for (size_t i = 0; i < size; ++i) exact[i] = (uint8_t)bytes[i];

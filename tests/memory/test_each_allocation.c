@@ -1,5 +1,5 @@
-/* The n-th allocation of a whole run fails: the run says so, and what it had is given back. One n in STRIDE; all of
- * them when SB_EACH_ALLOCATION is "all". */
+/* Makes the n-th allocation of a whole run fail: the run must report it and free all of its memory. One n in STRIDE is
+   tested; all of them if SB_EACH_ALLOCATION is "all". */
 #include "../check.h"
 
 #include "app/run.h"
@@ -19,7 +19,7 @@
 
 enum { STRIDE = 37, RUNS_MAX = 100000 };
 
-/* Blocks of src/base/memory.c that are in use: it alone calls these two in this project. */
+/* Number of blocks that src/base/memory.c has in use. No other file of the project calls these two functions. */
 static atomic_long blocks;
 void *__real_aligned_alloc(size_t alignment, size_t size);
 void __real_free(void *pointer);
@@ -83,13 +83,14 @@ static sb_status run_with(const sb_override *override, const sb_run_manner *mann
     return status;
 }
 
-/* One whole run, from the scene's text on. */
+/* Runs a scene from its text to the end. */
 static sb_status run_once(sb_error *error)
 {
     return run_with(NULL, &(sb_run_manner){.overwrite = true, .quiet = true}, error);
 }
 
-/* One that writes checkpoints, and one that goes on from one: without memory for writing one the run goes on. */
+/* A run that writes checkpoints, and one that resumes from a checkpoint. A run continues if memory for writing a
+   checkpoint runs out. */
 static const sb_override checkpoints = {"output.checkpoint.steps", "2"};
 
 static sb_status run_saved(sb_error *error)
@@ -102,7 +103,7 @@ static sb_status run_resumed(sb_error *error)
     return run_with(&checkpoints, &(sb_run_manner){.quiet = true, .resume = true}, error);
 }
 
-/* A picture of the model at rest. */
+/* Draws a picture of the model at rest. */
 static sb_status draw_once(sb_error *error)
 {
     sb_scene scene = {0};
@@ -127,53 +128,53 @@ static sb_status draw_once(sb_error *error)
     return status;
 }
 
-static void check_refusal(long n, sb_status status, bool may_go_on, const sb_error *error)
+static void check_failure(long n, sb_status status, bool may_continue, const sb_error *error)
 {
-    if (may_go_on && status == SB_OK) return;
+    if (may_continue && status == SB_OK) return;
     if (status != SB_FAILED || !strstr(error->text, "out of memory"))
         fail_msg("allocation %ld: status %d, \"%s\"", n, (int)status, error->text);
 }
 
-/* The work's status; its warnings, which are many here, go nowhere. */
+/* Calls the work with stderr discarded, because it prints many warnings here. Returns its status. */
 static sb_status quietly(sb_status (*work)(sb_error *), sb_error *error)
 {
-    int loud = dup(STDERR_FILENO), null = open("/dev/null", O_WRONLY);
+    int saved = dup(STDERR_FILENO), null = open("/dev/null", O_WRONLY);
     dup2(null, STDERR_FILENO);
     close(null);
     sb_status status = work(error);
-    dup2(loud, STDERR_FILENO);
-    close(loud);
+    dup2(saved, STDERR_FILENO);
+    close(saved);
     return status;
 }
 
-/* Runs with each n-th allocation refused until a run needs fewer than n. Returns that n. may_go_on: what was refused
-   may be something to do without. */
-static long refuse_each(sb_status (*work)(sb_error *), long first, long stride, bool may_go_on)
+/* Runs with the n-th allocation failing, for increasing n, until a run makes fewer than n allocations. Returns that n.
+   may_continue: the work may succeed without the failed allocation. */
+static long fail_each(sb_status (*work)(sb_error *), long first, long stride, bool may_continue)
 {
     for (long n = first; n < RUNS_MAX; n += stride) {
         sb_error error = {0};
         long before = atomic_load(&blocks);
         sb_memory_fail_at(n);
         sb_status status = quietly(work, &error);
-        bool refused = !sb_memory_fail_pending();
+        bool failed = !sb_memory_fail_pending();
         sb_memory_fail_at(0);
         if (atomic_load(&blocks) != before)
             fail_msg("allocation %ld: %ld blocks left", n, atomic_load(&blocks) - before);
-        if (!refused) {
+        if (!failed) {
             if (status != SB_OK) fail_msg("%s", error.text);
             print_message("%ld allocations\n", n - 1);
             return n;
         }
-        check_refusal(n, status, may_go_on, &error);
+        check_failure(n, status, may_continue, &error);
     }
-    fail_msg("no end of allocations");
+    fail_msg("more than %d allocations", RUNS_MAX);
     return 0;
 }
 
 static long chosen_stride(void)
 {
-    const char *wish = getenv("SB_EACH_ALLOCATION");
-    return wish && strcmp(wish, "all") == 0 ? 1 : STRIDE;
+    const char *requested = getenv("SB_EACH_ALLOCATION");
+    return requested && strcmp(requested, "all") == 0 ? 1 : STRIDE;
 }
 
 static void test_a_run(void **state)
@@ -181,7 +182,7 @@ static void test_a_run(void **state)
     (void)state;
     sb_error error = {0};
     if (run_once(&error) != SB_OK) fail_msg("%s", error.text);
-    assert_true(refuse_each(run_once, 1, chosen_stride(), false) > 300);
+    assert_true(fail_each(run_once, 1, chosen_stride(), false) > 300);
 }
 
 static void test_checkpoints(void **state)
@@ -189,8 +190,8 @@ static void test_checkpoints(void **state)
     (void)state;
     sb_error error = {0};
     if (run_saved(&error) != SB_OK) fail_msg("%s", error.text);
-    assert_true(refuse_each(run_resumed, 1, chosen_stride(), true) > 100);
-    assert_true(refuse_each(run_saved, 1, chosen_stride(), true) > 300);
+    assert_true(fail_each(run_resumed, 1, chosen_stride(), true) > 100);
+    assert_true(fail_each(run_saved, 1, chosen_stride(), true) > 300);
 }
 
 static void test_a_picture(void **state)
@@ -199,7 +200,7 @@ static void test_a_picture(void **state)
     sb_error error = {0};
     nftw(out_path, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
     if (draw_once(&error) != SB_OK) fail_msg("%s", error.text);
-    assert_true(refuse_each(draw_once, 1, chosen_stride(), false) > 30);
+    assert_true(fail_each(draw_once, 1, chosen_stride(), false) > 30);
 }
 
 static int make_folder(void **state)

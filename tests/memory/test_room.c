@@ -1,4 +1,4 @@
-/* A scene that needs more memory than there is says so, with figures, before it starts. */
+/* A scene that needs more memory than is available fails before it starts, with an error that states both amounts. */
 #include "../check.h"
 
 #include "app/room.h"
@@ -11,7 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* 3D: a sheet of water on the floor of a wide domain, as coasts are. */
+/* 3D: a thin layer of water on the floor of a wide domain, as on a coast. */
 static const char text[] = "resolution: 0.05\n"
                            "duration: 1\n"
                            "domain: {min: [0, 0, 0], max: [4, 4, 4]}\n"
@@ -45,9 +45,9 @@ static void test_too_fine_a_spacing(void **state)
     const double finer = pow(0.05 / 1e-4, 3) * (double)fluid;
     assert_int_equal(build("0.0001", &fluid, &error), SB_BAD_INPUT);
     assert_non_null(strstr(error.text, "GB are free"));
-    const char *said = strstr(error.text, "makes about ");
-    assert_non_null(said);
-    assert_near(strtod(said + 12, NULL) / finer, 1, 0.15);
+    const char *found = strstr(error.text, "makes about ");
+    assert_non_null(found);
+    assert_near(strtod(found + 12, NULL) / finer, 1, 0.15);
 }
 
 static void test_a_run_beyond_memory(void **state)
@@ -58,13 +58,13 @@ static void test_a_run_beyond_memory(void **state)
     sb_error error = {0};
     assert_int_equal(sb_room_check(&scene, &small, &error), SB_OK);
     assert_int_equal(sb_room_check(&scene, &large, &error), SB_FAILED);
-    const char *said = strstr(error.text, "needs about ");
-    assert_non_null(said);
-    assert_near(strtod(said + 12, NULL) / (sb_room_needed(&scene, &large) / 1e9), 1, 0.01);
+    const char *found = strstr(error.text, "needs about ");
+    assert_non_null(found);
+    assert_near(strtod(found + 12, NULL) / (sb_room_needed(&scene, &large) / 1e9), 1, 0.01);
     assert_non_null(strstr(error.text, "GB are free"));
 }
 
-static void test_outputs_take_room(void **state)
+static void test_outputs_need_memory(void **state)
 {
     (void)state;
     sb_scene scene = {.dimensions = 3, .resolution = 1, .numerics.support = 2.5};
@@ -74,7 +74,7 @@ static void test_outputs_take_room(void **state)
     const double files = sb_room_needed(&scene, &model);
     assert_near(files - bare, 18e6 * 32 * 3, 1e6);
     scene.output.checkpoint.minutes = 10;
-    assert_near(sb_room_needed(&scene, &model), files, 0); /* written as it is read */
+    assert_near(sb_room_needed(&scene, &model), files, 0); /* a checkpoint is written without a copy in memory */
     sb_camera camera = {0};
     scene.render =
         (sb_render_settings){.interval = 1, .width = 7680, .height = 4320, .cameras = &camera, .camera_count = 1};
@@ -89,12 +89,12 @@ static void test_outputs_take_room(void **state)
     assert_int_equal(sb_room_waiting(0), 3);
 }
 
-/* In a process of its own, whose limit ends with it. */
+/* Tested in a child process, because the limit cannot be raised again. */
 static void test_limits_of_the_process(void **state)
 {
     (void)state;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    skip(); /* they map terabytes */
+    skip(); /* sanitizers map terabytes of address space */
 #endif
     assert_true(sb_memory_available() > 0);
     pid_t child = fork();
@@ -104,9 +104,9 @@ static void test_limits_of_the_process(void **state)
         size_t left = setrlimit(RLIMIT_AS, &limit) == 0 ? sb_memory_available() : 0;
         _exit(left > 0 && left < (size_t)600 << 20 ? 0 : 1);
     }
-    int how;
-    assert_int_equal(waitpid(child, &how, 0), child);
-    assert_true(WIFEXITED(how) && WEXITSTATUS(how) == 0);
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
 }
 
 int main(void)
@@ -114,7 +114,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_too_fine_a_spacing),
         cmocka_unit_test(test_a_run_beyond_memory),
-        cmocka_unit_test(test_outputs_take_room),
+        cmocka_unit_test(test_outputs_need_memory),
         cmocka_unit_test(test_limits_of_the_process),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
