@@ -88,8 +88,7 @@ sb_status sb_atomic_open_in(sb_atomic_file *file, const char *folder, const char
     return status == SB_OK ? sb_atomic_open(file, path, error) : status;
 }
 
-/* Makes a rename survive a power failure. Not every file system supports this, and the file is complete in either case.
- */
+/* Makes a rename survive a power failure. Not every file system supports this; the file is complete in either case. */
 static void sync_folder_of(const char *path)
 {
     char folder[SB_PATH_MAX];

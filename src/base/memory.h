@@ -33,8 +33,7 @@ void sb_memory_fail_at(long n);
 bool sb_memory_fail_pending(void);
 
 /* Returns the bytes that the process can still allocate: the least of the memory that the machine has without swapping
-   (MemAvailable), the rest of its control group's limit, and the rest of its own address-space limit. 0 when unknown.
-   */
+   (MemAvailable), of the rest of its control group's limit, and of the rest of its address-space limit. 0: unknown. */
 size_t sb_memory_available(void);
 
 /* Returns the highest resident size of the process so far, in bytes. */

@@ -14,7 +14,7 @@ static size_t least(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-static size_t of_machine(void)
+static size_t machine_available(void)
 {
     FILE *file = fopen("/proc/meminfo", "r");
     char line[128];
@@ -38,7 +38,7 @@ static size_t number_in(const char *folder, const char *name)
     return found ? (size_t)bytes : unknown;
 }
 
-static size_t left_of(const char *folder, const char *limit, const char *use)
+static size_t remaining(const char *folder, const char *limit, const char *use)
 {
     size_t most = number_in(folder, limit), used = number_in(folder, use);
     if (most == unknown || used == unknown) return unknown;
@@ -47,29 +47,29 @@ static size_t left_of(const char *folder, const char *limit, const char *use)
 
 /* Reads the process's own control group and the root group: within a container, the root folder is the container's own
    group. */
-static size_t of_group(void)
+static size_t group_available(void)
 {
     FILE *file = fopen("/proc/self/cgroup", "r");
     char line[400];
-    size_t left = least(left_of("/sys/fs/cgroup", "memory.max", "memory.current"),
-                        left_of("/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes"));
+    size_t left = least(remaining("/sys/fs/cgroup", "memory.max", "memory.current"),
+                        remaining("/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes"));
     while (file && fgets(line, sizeof line, file)) {
         char folder[480];
         line[strcspn(line, "\n")] = '\0';
         const char *of_all = strstr(line, "::"), *of_memory = strstr(line, ":memory:");
         if (of_all) {
             snprintf(folder, sizeof folder, "/sys/fs/cgroup%s", of_all + 2);
-            left = least(left, left_of(folder, "memory.max", "memory.current"));
+            left = least(left, remaining(folder, "memory.max", "memory.current"));
         } else if (of_memory) {
             snprintf(folder, sizeof folder, "/sys/fs/cgroup/memory%s", of_memory + 8);
-            left = least(left, left_of(folder, "memory.limit_in_bytes", "memory.usage_in_bytes"));
+            left = least(left, remaining(folder, "memory.limit_in_bytes", "memory.usage_in_bytes"));
         }
     }
     if (file) fclose(file);
     return left;
 }
 
-static size_t of_process(void)
+static size_t process_available(void)
 {
     struct rlimit limit;
     unsigned long pages = 0;
@@ -83,6 +83,6 @@ static size_t of_process(void)
 
 size_t sb_memory_available(void)
 {
-    size_t left = least(of_machine(), least(of_group(), of_process()));
+    size_t left = least(machine_available(), least(group_available(), process_available()));
     return left == unknown ? 0 : left;
 }

@@ -27,8 +27,7 @@ typedef struct sb_frame_status {
     uint64_t lost_particles;
 } sb_frame_status;
 
-/* Read-only once published. The arrays have one entry (or 3 floats) per particle; position[3*i] is relative to origin.
- */
+/* Read-only once published. The arrays have one entry (or 3 floats) per particle; positions are relative to origin. */
 typedef struct sb_frame {
     sb_frame_status status;
     uint64_t index;  /* 1, 2, ... over all frames of the run, for all consumers together */

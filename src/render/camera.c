@@ -27,8 +27,7 @@ static sb_camera_key from_numbers(double time, const double n[NUMBERS])
     return (sb_camera_key){time, sb_vec(n[0], n[1], n[2]), sb_vec(n[3], n[4], n[5]), n[6]};
 }
 
-/* Slopes at key k: the difference of the neighbouring keys over their time difference, zero at both ends of the path.
- */
+/* Slopes at key k: the difference of the neighbouring keys over their time difference; zero at both ends. */
 static void slopes(const sb_camera *camera, size_t k, double out[NUMBERS])
 {
     memset(out, 0, NUMBERS * sizeof *out);

@@ -28,7 +28,7 @@ static bool bounds(const sb_frame *frame, float min[3], float max[3])
     return min[0] <= max[0];
 }
 
-static sb_status lay_grid(sb_density *density, const float min[3], const float max[3], double spacing, sb_error *error)
+static sb_status make_grid(sb_density *density, const float min[3], const float max[3], double spacing, sb_error *error)
 {
     const double least = 1e-30; /* single precision cannot resolve smaller cells */
     double cell = fmax(cell_spacings * spacing, least);
@@ -108,7 +108,7 @@ sb_status sb_density_build(sb_density *density, const sb_frame *frame, sb_error 
     density->n[0] = density->n[1] = density->n[2] = 1;
     float min[3], max[3];
     if (!bounds(frame, min, max)) return SB_OK;
-    sb_status status = lay_grid(density, min, max, frame->spacing, error);
+    sb_status status = make_grid(density, min, max, frame->spacing, error);
     if (status != SB_OK) return status;
     spread(density, frame);
     size_t stride = 1, count = density->n[0] * density->n[1] * density->n[2];

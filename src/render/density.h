@@ -1,11 +1,10 @@
-/* The density of water on a grid around a frame's particles. It distinguishes the inside of the water from its surface.
- */
+/* The density of water on a grid around a frame's particles. It shows which particles are at the water's surface. */
 #ifndef SB_RENDER_DENSITY_H
 #define SB_RENDER_DENSITY_H
 
 #include "frame/frame.h"
 
-/* Reused from frame to frame to reuse its memory. A zeroed struct is empty. */
+/* Kept from frame to frame, so that its memory is reused. A zeroed struct is empty. */
 typedef struct sb_density {
     float min[3], cell, inverse; /* m, relative to the frame's origin; 1/m */
     size_t n[3];                 /* nodes */

@@ -8,8 +8,7 @@
 
 enum { SHADOW_SIDE = 2048, GROUND_SIDE = 512 };
 
-/* Unit vector towards the sun. It is high and to the side, so that both waves and walls have a bright and a dark face.
- */
+/* Unit vector towards the sun. It is high and to the side, so that waves and walls have a bright and a dark face. */
 static const float sun[3] = {0.30f, -0.62f, 0.725f};
 
 const char sb_light_source[] = "uniform vec3 eye, sun, ground_frame;\n"

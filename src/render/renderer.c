@@ -108,7 +108,7 @@ static sb_status draw_passes(sb_renderer *r, const sb_frame *frame, const sb_vie
     sb_gl.ClearStencil(0);
     sb_gl.Clear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     /* The water is drawn first, so that the ground beneath it is not shaded. */
-    sb_status status = sb_water_lay(&r->water, frame, view, r->speed_max, error);
+    sb_status status = sb_water_draw_depth(&r->water, frame, view, r->speed_max, error);
     if (status != SB_OK) return status;
     sb_gl.BindFramebuffer(GL_FRAMEBUFFER, r->framebuffer);
     sb_gl.Enable(GL_STENCIL_TEST);

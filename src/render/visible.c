@@ -43,8 +43,8 @@ static bool outside(const struct lens *lens, const float *to_eye)
            fabsf(dot3(to_eye, lens->right)) > half * lens->aspect + lens->margin * (1 + lens->tangent * lens->aspect);
 }
 
-/* The normal is opposite to the gradient of the density slightly above the particle, because the gradient vanishes
-   within a single layer of particles on land. */
+/* The normal is opposite to the density gradient. The gradient is taken slightly above the particle, because it
+   vanishes within a single layer of particles on land. */
 static void surface_normal(const sb_density *density, const float *p, float spacing, const float *to_eye,
                            signed char normal[4])
 {

@@ -15,7 +15,7 @@ typedef struct sb_visible_point {
     signed char normal[4]; /* points out of the water, length 127, scene axes */
 } sb_visible_point;
 
-/* Reused from frame to frame to reuse its memory. A zeroed struct is empty. */
+/* Kept from frame to frame, so that its memory is reused. A zeroed struct is empty. */
 typedef struct sb_visible {
     size_t count, capacity;
     sb_visible_point *points;

@@ -237,7 +237,8 @@ static void shade(const sb_water *water, const sb_light *light, const sb_view *v
     sb_fullscreen_draw(water->empty);
 }
 
-sb_status sb_water_lay(sb_water *water, const sb_frame *frame, const sb_view *view, double speed_max, sb_error *error)
+sb_status sb_water_draw_depth(sb_water *water, const sb_frame *frame, const sb_view *view, double speed_max,
+                              sb_error *error)
 {
     sb_status status = sb_visible_collect(&water->visible, frame, view, speed_max, error);
     if (status == SB_OK && water->visible.count > 0) draw_spheres(water, frame, view);

@@ -22,7 +22,8 @@ void sb_water_destroy(sb_water *water);
 
 /* Draws the visible particles into the shared depth buffer, which must be clear, and marks their pixels with stencil 1.
    Nearer objects that are drawn afterwards must reset the stencil to 0. */
-sb_status sb_water_lay(sb_water *water, const sb_frame *frame, const sb_view *view, double speed_max, sb_error *error);
+sb_status sb_water_draw_depth(sb_water *water, const sb_frame *frame, const sb_view *view, double speed_max,
+                              sb_error *error);
 
 /* Draws the marked pixels of `target`: the smoothed surface with light and haze. target stays bound. */
 void sb_water_shade(const sb_water *water, const sb_frame *frame, const sb_light *light, const sb_view *view,

@@ -58,8 +58,7 @@ static bool start(opening *o, pthread_t *thread)
     return !refused;
 }
 
-/* Waits for the thread and returns whether it ended in time. If not, the thread closes by itself what it opens later.
- */
+/* Waits for the thread and returns whether it ended in time. If not, the thread itself closes what it opens later. */
 static bool wait_for(opening *o, pthread_t thread)
 {
     enum { POLL = 1000 }; /* us */

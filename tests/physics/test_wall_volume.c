@@ -35,8 +35,7 @@ static double worst(const sb_kernel *kernel, int dimension, double support, doub
 }
 
 /* With the default kernel and the offset that fits it best, the residual is below a hundredth of the weight of one
-   layer of water per spacing of depth. A gamma that is 5 % larger or smaller gives more than three times the residual.
-   */
+   layer of water per spacing of depth. A gamma that is 5 % larger or smaller gives over three times the residual. */
 static void a_lattice_on_a_plane_is_at_rest(void **state)
 {
     (void)state;

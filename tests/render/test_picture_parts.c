@@ -266,8 +266,7 @@ static void density_is_one_inside(void **state)
     assert_true(sb_density_at(&density, 6, 6, 14) < 0.01f);
     assert_true(sb_density_at(&density, 600, 6, 6) == 0);
     assert_true(sb_density_at(&density, (double)NAN, 6, 6) == 0);
-    /* A distant particle reduces the resolution and does not increase the memory. A particle at infinity is left out.
-     */
+    /* A distant particle makes the grid coarser, but not larger. A particle at infinity is left out. */
     frame->position[0] = 9e6f;
     frame->position[4] = NAN;
     frame->position[8] = INFINITY;
