@@ -14,7 +14,8 @@ sb_status sb_library_load(const char *file, const sb_library_function *functions
     for (size_t f = 0; f < count; f++) {
         void *found = dlsym(library, functions[f].name);
         if (!found)
-            return sb_fail(error, SB_FAILED, "%s: has no %s, expected another version", file, functions[f].name);
+            return sb_fail(error, SB_FAILED, "%s: function %s is missing, expected another version of the library",
+                           file, functions[f].name);
         /* ISO C does not define a cast from a data pointer to a function pointer. */
         memcpy(functions[f].pointer, &found, sizeof found);
     }

@@ -99,6 +99,7 @@ static sb_status draw_depth_map(const sb_meshes *meshes, GLuint texture, int sid
     return status;
 }
 
+/* Returns the sine of the largest elevation angle of the surroundings in one direction (dx, dy), seen from a cell. */
 static float horizon(const float *height, int n, double cell, int x, int y, int dx, int dy)
 {
     double steepest = 0, length = sqrt((double)(dx * dx + dy * dy)) * cell;

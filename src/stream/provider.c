@@ -14,7 +14,8 @@ sb_status sb_provider_channels(const char *prefix, sb_channel channels[SB_CHANNE
     for (int i = 0; i < SB_CHANNELS; i++) {
         int length = snprintf(channels[i], sizeof channels[i], "%s_%s", prefix, names[i]);
         if (length < 0 || (size_t)length >= sizeof channels[i])
-            return sb_fail(error, SB_BAD_INPUT, "stream prefix \"%s\": the channel %s_%s is longer than LCM's %d bytes",
+            return sb_fail(error, SB_BAD_INPUT,
+                           "stream prefix \"%s\": the channel name %s_%s is longer than LCM's limit of %d bytes",
                            prefix, prefix, names[i], LCM_MAX_CHANNEL_NAME_LENGTH);
     }
     return SB_OK;

@@ -32,7 +32,7 @@ static void free_opening(opening *o)
     sb_free(o);
 }
 
-static void *open_it(void *argument)
+static void *open_provider(void *argument)
 {
     opening *o = argument;
     lcm_t *lcm = lcm_create(o->url);
@@ -53,7 +53,7 @@ static bool start(opening *o, pthread_t *thread)
     sigset_t all, old;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &old);
-    const int refused = pthread_create(thread, NULL, open_it, o);
+    const int refused = pthread_create(thread, NULL, open_provider, o);
     pthread_sigmask(SIG_SETMASK, &old, NULL);
     return !refused;
 }

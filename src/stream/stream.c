@@ -21,7 +21,7 @@
 enum { CHUNK_PAUSE_NS = 100000, STATUS_BYTES = 512 };
 
 struct sb_stream {
-    sb_stream *abandoned_before;
+    sb_stream *previous_abandoned;
     lcm_t *lcm;
     sb_channel channels[SB_CHANNELS];
     char run[SB_STREAM_NAME];
@@ -72,7 +72,7 @@ void sb_stream_destroy(sb_stream *stream)
 void sb_stream_abandon(sb_stream *stream)
 {
     static _Atomic(sb_stream *) last;
-    stream->abandoned_before = atomic_exchange(&last, stream);
+    stream->previous_abandoned = atomic_exchange(&last, stream);
 }
 
 sb_stream_counters sb_stream_count(const sb_stream *stream)

@@ -44,7 +44,7 @@ static void bad_urls_give_the_remedy(void **state)
     char prefix[64] = {0};
     memset(prefix, 'p', sizeof prefix - 1);
     assert_int_equal(create("memq://", prefix, &error), SB_BAD_INPUT);
-    contains(error.text, "longer than LCM's 63 bytes");
+    contains(error.text, "longer than LCM's limit of 63 bytes");
     assert_int_equal(create("memq://", "", &error), SB_OK);
 }
 
