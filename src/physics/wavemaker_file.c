@@ -124,7 +124,7 @@ static sb_status create(const sb_wavemaker_parameters *parameters, void **state,
     if (!made)
         status = sb_fail_memory(error, path);
     else if (strlen(text) != length)
-        status = sb_fail(error, SB_BAD_INPUT, "%.500s: holds a zero byte, expected plain text", path);
+        status = sb_fail(error, SB_BAD_INPUT, "%.500s: contains a zero byte, expected plain text", path);
     else
         status = read_lines(made, text, path, error);
     sb_free(text);
