@@ -23,7 +23,7 @@ const char *sb_file_kind(mode_t mode)
                             : "a device";
 }
 
-/* What was found at the path is no file to write. errno tells the caller that the message is complete. */
+/* Fails because the file found at the path must not be written. errno EEXIST marks the message as complete. */
 static sb_status refuse(const char *path, const struct stat *found, sb_error *error)
 {
     const char *kind = sb_file_kind(found->st_mode);
@@ -44,7 +44,7 @@ sb_status sb_file_replaceable(const char *path, sb_error *error)
     return lstat(path, &found) == 0 && sb_file_kind(found.st_mode) ? refuse(path, &found, error) : SB_OK;
 }
 
-/* Without waiting for the other end of a FIFO, and truncated only once it is known to be a file of its own. */
+/* Does not wait for the other end of a FIFO, and truncates only a regular file with one name. */
 sb_status sb_file_open(const char *path, const char *mode, FILE **stream, sb_error *error)
 {
     const int kind = mode[0] == 'w' ? O_WRONLY | O_CREAT : mode[0] == 'a' ? O_WRONLY | O_CREAT | O_APPEND : O_RDWR;
@@ -144,7 +144,7 @@ int sb_file_sync(const char *path)
     return status;
 }
 
-/* Keeps errno. */
+/* Does not change errno. */
 static int is_directory(const char *path)
 {
     struct stat found;
@@ -195,7 +195,7 @@ sb_status sb_make_folder(char path[SB_PATH_MAX], const char *directory, const ch
 
 int sb_is_numbered(const char *name, const char *suffix, unsigned long long after)
 {
-    enum { DIGITS = 6 }; /* at least: as all numbers of files are written */
+    enum { DIGITS = 6 }; /* all numbers in file names are written with at least six digits */
     const size_t digits = strspn(name, "0123456789"), length = strlen(suffix);
     const char *rest = name + digits + length;
     if (digits < DIGITS || strncmp(name + digits, suffix, length) != 0 || (*rest && strcmp(rest, ".tmp") != 0))
