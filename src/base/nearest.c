@@ -1,9 +1,10 @@
+/* Finds the name that is most similar to a misspelt one. */
 #include "base/nearest.h"
 
 #include <stdint.h>
 #include <string.h>
 
-/* Levenshtein's distance, or a large number for long words. */
+/* Returns the Levenshtein distance of two names, or SIZE_MAX if one of them is long. */
 static size_t distance(const char *a, const char *b)
 {
     enum { LONGEST = 40 };
@@ -29,10 +30,10 @@ sb_nearest sb_nearest_to(const char *name)
     return (sb_nearest){.name = name, .distance = length < 5 ? 3 : length / 2 + 1};
 }
 
-void sb_nearest_try(sb_nearest *nearest, const char *word)
+void sb_nearest_try(sb_nearest *nearest, const char *candidate)
 {
-    const size_t away = distance(nearest->name, word);
-    if (away >= nearest->distance) return;
-    nearest->distance = away;
-    nearest->found = word;
+    const size_t changes = distance(nearest->name, candidate);
+    if (changes >= nearest->distance) return;
+    nearest->distance = changes;
+    nearest->found = candidate;
 }

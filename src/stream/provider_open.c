@@ -82,11 +82,10 @@ static bool wait_for(opening *o, pthread_t thread)
 static sb_status explain(const char *url, const char *reason, sb_error *error)
 {
     const bool multicast = strncmp(url, "udpm://", 7) == 0;
-    return sb_fail(
-        error, SB_FAILED, "LCM cannot open \"%.200s\" (%s); %s", url, *reason ? reason : "no reason given",
-        multicast
-            ? ROUTE_REMEDY
-            : "expected udpm://239.255.76.67:7667?ttl=0, tcpq://127.0.0.1:7700 or another network provider");
+    return sb_fail(error, SB_FAILED, "LCM cannot open \"%.200s\" (%s); %s", url, *reason ? reason : "no reason given",
+                   multicast
+                       ? ROUTE_REMEDY
+                       : "expected udpm://239.255.76.67:7667?ttl=0, tcpq://127.0.0.1:7700 or another network provider");
 }
 
 sb_status sb_provider_open(const char *url, lcm_t **lcm, sb_error *error)
