@@ -245,7 +245,8 @@ static sb_status unreadable(const char *path, int reason, sb_error *error)
     return SB_BAD_INPUT;
 }
 
-/* A size is easily set, also by who has no disk for it: memory is asked about what would fill it. */
+/* Checks a file's size before it is read. A sparse file can be larger than its disk, so a large size is also compared
+   with the available memory. */
 static sb_status check_size(const char *path, off_t size, size_t limit, sb_error *error)
 {
     static const off_t small = (off_t)1 << 28;
@@ -266,7 +267,7 @@ sb_status sb_file_read(const char *path, size_t limit, char **text, size_t *leng
     int reason = 0;
     sb_status status = sb_input_open(path, &file, error);
     if (status != SB_OK) return status;
-    /* What is too large by its size need not be read to its limit first. */
+    /* A file that is too large is refused before it is read. */
     if (fstat(fileno(file), &about) == 0 && about.st_size > 0) status = check_size(path, about.st_size, limit, error);
     if (status != SB_OK) {
         fclose(file);
