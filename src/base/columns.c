@@ -1,3 +1,4 @@
+/* Recognises the header line of a table of numbers. */
 #include "base/columns.h"
 
 #include <ctype.h>
@@ -7,18 +8,18 @@
 
 bool sb_columns_header(const char *line, size_t length)
 {
-    static const char apart[] = " \t\r,;";
+    static const char separators[] = " \t\r,;";
     size_t words = 0;
     for (size_t at = 0; at < length;) {
         char word[64] = "", *after;
         size_t used = 0;
-        if (strchr(apart, line[at])) {
+        if (strchr(separators, line[at])) {
             ++at;
             continue;
         }
-        for (; at < length && !strchr(apart, line[at]); ++at)
+        for (; at < length && !strchr(separators, line[at]); ++at)
             if (used < sizeof word - 1) word[used++] = line[at];
-        (void)strtod(word, &after); /* "nan" and "inf" are numbers here: no line of data is taken for a header */
+        (void)strtod(word, &after); /* "nan" and "inf" are numbers, so that a line of data is not taken for a header */
         if (*after == '\0') return false;
         ++words;
     }

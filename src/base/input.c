@@ -1,3 +1,4 @@
+/* Opens regular files for reading. */
 #include "base/input.h"
 
 #include "base/file.h"
@@ -26,10 +27,10 @@ sb_status sb_input_descriptor(const char *path, int *file, sb_error *error)
 {
     struct stat found;
     *file = -1;
-    /* Opening a device may have an effect by itself. */
+    /* The kind is checked first, because opening a device may have an effect by itself. */
     if (stat(path, &found) != 0) return unreadable(path, errno, error);
     if (!S_ISREG(found.st_mode)) return irregular(path, found.st_mode, error);
-    /* Another file may stand there by now: opening that does not wait either. */
+    /* Another file may have taken its place, so the open must not block, and the kind is checked again. */
     const int opened = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
     if (opened < 0) return unreadable(path, errno, error);
     const int reason = fstat(opened, &found) == 0 ? 0 : errno;

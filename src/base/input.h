@@ -1,4 +1,4 @@
-/* Opening what a user names as an input: a regular file and nothing else. */
+/* Opens an input that a user names, which must be a regular file. */
 #ifndef SB_BASE_INPUT_H
 #define SB_BASE_INPUT_H
 
@@ -6,9 +6,9 @@
 
 #include <stdio.h>
 
-/* A descriptor to read `path` from, closed on exec. Links are followed. A directory, FIFO, device or socket is
-   refused without opening it, so that no input waits for a writer, and none is without an end. SB_BAD_INPUT names the
-   path and the reason; *file is then -1, and errno the system's reason, or 0. */
+/* Opens a descriptor to read `path`, which is closed on exec. Links are followed. A directory, FIFO, device or socket
+   is refused without opening it, because a FIFO could block the program and a device may have no end. SB_BAD_INPUT
+   names the path and the reason; *file is then -1, and errno is the system's reason, or 0. */
 sb_status sb_input_descriptor(const char *path, int *file, sb_error *error);
 
 /* The same as a stream. */

@@ -5,7 +5,8 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Bytes of a character that controls a terminal or turns the direction of text round; 0: none. */
+/* Returns the number of bytes of a character that controls a terminal or changes the direction of text; 0 for any other
+   character. */
 static int control_length(const unsigned char *c)
 {
     if (*c < ' ' || *c == 0x7f) return 1;

@@ -301,7 +301,7 @@ static void file_gives_the_speed_of_a_smooth_table(void **state)
     sb_paddle_destroy(&paddle);
 }
 
-/* As spreadsheets and other programs write tables. */
+/* The formats in which spreadsheets and other programs write tables. */
 static void file_reads_headers_and_commas(void **state)
 {
     (void)state;
