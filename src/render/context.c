@@ -3,6 +3,7 @@
 
 #include "base/library.h"
 #include "base/memory.h"
+#include "base/threads.h"
 #include "render/gl.h"
 
 #include <GL/osmesa.h>
@@ -58,12 +59,31 @@ static void load(void)
     sb_library_load("libOSMesa.so.8", functions, sizeof functions / sizeof functions[0], &mesa.error);
 }
 
+/* The simulation needs the processors, too: two rasteriser threads unless the user sets another number. Mesa starts as
+   many again for compute shaders, and one for its cache of shaders. If only some of the rasteriser's threads can be
+   started, Mesa 22.3 waits for the others without end in the first picture. It then gets no threads and draws in the
+   thread that calls it. */
+static void choose_threads(void)
+{
+    enum { CHOSEN = 2, MOST = 32 };
+    setenv("LP_NUM_THREADS", "2", 0);
+    const char *text = getenv("LP_NUM_THREADS");
+    const long requested = text ? strtol(text, NULL, 10) : CHOSEN;
+    const int threads = requested < 0 ? 0 : requested > MOST ? MOST : (int)requested, needed = 2 * threads + 1;
+    if (threads > 0 && sb_threads_allowed(needed) < needed) setenv("LP_NUM_THREADS", "0", 1);
+}
+
+/* The library first: it takes address space, and so do threads. */
+static void prepare(void)
+{
+    load();
+    if (mesa.error.status == SB_OK) choose_threads();
+}
+
 sb_status sb_context_create(sb_context **context, sb_error *error)
 {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
-    /* The simulation wants the processors too: two rasteriser threads unless the user says else. */
-    setenv("LP_NUM_THREADS", "2", 0);
-    pthread_once(&once, load);
+    pthread_once(&once, prepare);
     if (mesa.error.status != SB_OK)
         return sb_fail(error, SB_FAILED, "pictures cannot be drawn without OSMesa: %.900s", mesa.error.text);
     sb_context *made = sb_alloc(1, sizeof *made);
