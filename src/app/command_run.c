@@ -6,6 +6,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 static const char help[] =
     "usage: shorebreak run SCENE [OPTIONS]\n"
@@ -44,6 +45,7 @@ int sb_command_run(int count, char **arguments)
     sb_options options;
     sb_error error = {0};
     sb_scene scene = {0};
+    bool left = false;
     unsigned accepted = SB_OPT_OUT | SB_OPT_UNTIL | SB_OPT_THREADS | SB_OPT_PRESET | SB_OPT_SET | SB_OPT_QUIET |
                         SB_OPT_PROFILE | SB_OPT_RESUME | SB_OPT_OVERWRITE | SB_OPT_OTHER_BUILD;
     sb_status status = sb_options_parse(count, arguments, accepted, "scene", &options, &error);
@@ -66,10 +68,15 @@ int sb_command_run(int count, char **arguments)
                                       .overwrite = options.overwrite,
                                       .other_build = options.other_build,
                                       .quiet = options.quiet,
-                                      .profile = options.profile};
+                                      .profile = options.profile,
+                                      .left = &left};
         status = sb_run(&scene, out, &manner, &error);
     }
     if (status != SB_OK) fprintf(stderr, "shorebreak: %s\n", error.text);
+    if (left) { /* a library's clean-up at exit could wait for the thread, or be used by it */
+        fflush(NULL);
+        _exit(exit_status(status));
+    }
     sb_scene_free(&scene);
     sb_options_free(&options);
     return exit_status(status);

@@ -1,21 +1,32 @@
 #include "app/consumer.h"
 
 #include "base/clock.h"
+#include "base/stop.h"
 
+#include <errno.h>
 #include <math.h>
 #include <signal.h>
 #include <unistd.h>
 
-/* Trouble begins with the first failure, and is over with the first frame that went well. */
-static void note(sb_consumer *consumer, bool good, bool is_frame)
+/* Trouble begins with the first failure, and is over with the first frame that went well. With the lock. */
+static void note_locked(sb_consumer *consumer, const sb_error *reason, uint64_t missed)
 {
     sb_trouble *trouble = &consumer->trouble;
-    pthread_mutex_lock(&consumer->lock);
     const bool lasts = trouble->turns % 2;
-    if (!good && !lasts) trouble->latest = consumer->reason;
-    if (!good && is_frame && trouble->missed++ == 0) trouble->first = consumer->reason;
-    trouble->turns += good == lasts;
+    if (reason && !lasts) trouble->latest = *reason;
+    if (reason && missed > 0 && trouble->missed == 0) trouble->first = *reason;
+    trouble->missed += missed;
+    trouble->turns += !reason == lasts;
+}
+
+/* What came of an open or a frame. False: the consumer was given up meanwhile. */
+static bool note(sb_consumer *consumer, bool good, bool is_frame)
+{
+    pthread_mutex_lock(&consumer->lock);
+    const bool left = consumer->left;
+    if (!left) note_locked(consumer, good ? NULL : &consumer->reason, !good && is_frame);
     pthread_mutex_unlock(&consumer->lock);
+    return !left;
 }
 
 static bool is_open(sb_consumer *consumer)
@@ -29,11 +40,11 @@ static void *serve(void *argument)
     const sb_consumer_work *work = &consumer->work;
     pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, NULL);
     bool open = is_open(consumer);
-    if (!open) note(consumer, false, false);
+    if (!open && !note(consumer, false, false)) return NULL;
     while ((consumer->frame = sb_frame_queue_pop(consumer->queue))) {
         open = open || is_open(consumer);
         const bool good = open && work->handle(work->state, consumer->frame, &consumer->reason) == SB_OK;
-        note(consumer, good, true);
+        if (!note(consumer, good, true)) return NULL;
         consumer->handled += good;
         sb_frame_release(consumer->frame);
         pthread_mutex_lock(&consumer->lock);
@@ -55,7 +66,7 @@ sb_status sb_consumer_start(sb_consumer *consumer, const sb_consumer_work *work,
     consumer->queue = sb_frame_queue_create(capacity, policy);
     if (!consumer->queue) return sb_fail_memory(error, "a frame queue");
     pthread_mutex_init(&consumer->lock, NULL);
-    pthread_cond_init(&consumer->idle, NULL);
+    sb_clock_init_condition(&consumer->idle);
     /* Signals are for the main thread. */
     sigset_t all, old;
     sigfillset(&all);
@@ -81,12 +92,6 @@ bool sb_consumer_due(const sb_consumer *consumer, double time)
     return consumer->started && time + ROUNDING * consumer->interval >= consumer->next;
 }
 
-void sb_consumer_feed(sb_consumer *consumer, const sb_frame *frame)
-{
-    consumer->fed += sb_frame_queue_push(consumer->queue, frame);
-    consumer->next = consumer->interval * (floor(frame->status.time / consumer->interval + ROUNDING) + 1);
-}
-
 sb_trouble sb_consumer_trouble(sb_consumer *consumer)
 {
     if (!consumer->started) return consumer->trouble;
@@ -96,44 +101,136 @@ sb_trouble sb_consumer_trouble(sb_consumer *consumer)
     return trouble;
 }
 
-void sb_consumer_drain(sb_consumer *consumer)
+/* ---- waiting for it ---- */
+
+static const double SLICE = 0.1; /* s between two looks */
+
+/* What the thread was last seen to do, and for how long nothing. */
+typedef struct watch {
+    uint64_t done;
+    double processor, idle; /* s */
+} watch;
+
+/* s of processor that its thread has used; 0 where that cannot be known. */
+static double processor_time(const sb_consumer *consumer)
 {
-    if (!consumer->started) return;
-    pthread_mutex_lock(&consumer->lock);
-    while (consumer->done < consumer->fed) pthread_cond_wait(&consumer->idle, &consumer->lock);
-    pthread_mutex_unlock(&consumer->lock);
+    clockid_t clock;
+    struct timespec used;
+    if (pthread_getcpuclockid(consumer->thread, &clock) != 0 || clock_gettime(clock, &used) != 0) return 0;
+    return (double)used.tv_sec + 1e-9 * (double)used.tv_nsec;
 }
 
-/* Whether the thread is through with all it has while there is patience. */
+/* Its frames, those that it has not begun and the one in its hands, are missed. */
+static void give_up(sb_consumer *consumer, double seconds)
+{
+    sb_error reason = {0};
+    sb_fail(&reason, SB_FAILED, "no progress for %g s", seconds);
+    pthread_mutex_lock(&consumer->lock);
+    consumer->left = true;
+    note_locked(consumer, &reason, consumer->fed - consumer->done);
+    pthread_mutex_unlock(&consumer->lock);
+    consumer->given_up = true;
+    sb_frame_queue_close(consumer->queue);
+    for (const sb_frame *frame; (frame = sb_frame_queue_pop(consumer->queue));) sb_frame_release(frame);
+}
+
+/* After so many seconds of waiting, counted and not measured: a process that was stopped for an hour has waited no
+   longer. Gives the consumer up when its deadline is over. */
+static void watch_on(sb_consumer *consumer, watch *w, double seconds)
+{
+    static const double SHARE = 0.01; /* of a processor: less is no progress */
+    double deadline = consumer->work.deadline > 0 ? consumer->work.deadline : SB_CONSUMER_DEADLINE;
+    if (sb_stop_signal()) deadline = fmin(deadline, SB_CONSUMER_STOP_DEADLINE);
+    const double processor = processor_time(consumer);
+    pthread_mutex_lock(&consumer->lock);
+    const uint64_t done = consumer->done;
+    pthread_mutex_unlock(&consumer->lock);
+    const bool goes_on = done != w->done || processor - w->processor > SHARE * seconds;
+    *w = (watch){done, processor, goes_on ? 0 : w->idle + seconds};
+    if (w->idle >= deadline) give_up(consumer, deadline);
+}
+
+void sb_consumer_feed(sb_consumer *consumer, const sb_frame *frame)
+{
+    watch w = {0};
+    while (!consumer->given_up && !sb_frame_queue_wait(consumer->queue, SLICE)) watch_on(consumer, &w, SLICE);
+    const bool pushed = sb_frame_queue_push(consumer->queue, frame);
+    pthread_mutex_lock(&consumer->lock);
+    consumer->fed += pushed;
+    consumer->trouble.missed += !pushed;
+    pthread_mutex_unlock(&consumer->lock);
+    consumer->next = consumer->interval * (floor(frame->status.time / consumer->interval + ROUNDING) + 1);
+}
+
+void sb_consumer_drain(sb_consumer *consumer)
+{
+    watch w = {0};
+    if (!consumer->started) return;
+    while (!consumer->given_up) {
+        const struct timespec end = sb_clock_after(SLICE);
+        int late = 0;
+        pthread_mutex_lock(&consumer->lock);
+        while (consumer->done < consumer->fed && !late)
+            late = pthread_cond_timedwait(&consumer->idle, &consumer->lock, &end);
+        pthread_mutex_unlock(&consumer->lock);
+        if (!late) return;
+        watch_on(consumer, &w, SLICE);
+    }
+}
+
+/* Whether the thread is through with all it has: within its patience, or while it makes progress. */
 static bool ends_in_time(sb_consumer *consumer)
 {
     enum { POLL = 5000 }; /* us */
     const double end = sb_clock() + consumer->work.patience;
-    for (;;) {
+    for (watch w = {0}; !consumer->given_up;) {
         pthread_mutex_lock(&consumer->lock);
         const bool through = consumer->ended;
         pthread_mutex_unlock(&consumer->lock);
-        if (through || !(consumer->work.patience > 0)) return true;
-        if (sb_clock() > end) return false;
+        if (through) return true;
+        if (consumer->work.patience > 0 && sb_clock() > end) return false;
         usleep(POLL);
+        if (!(consumer->work.patience > 0)) watch_on(consumer, &w, 1e-6 * POLL);
     }
+    return false;
+}
+
+/* Cancels the thread, which ends at once where it allows that. False: it is still there. */
+static bool cancel(sb_consumer *consumer)
+{
+    enum { POLL = 5000 }; /* us */
+    void *result = NULL;
+    int busy;
+    pthread_cancel(consumer->thread);
+    const double end = sb_clock() + consumer->work.patience;
+    while ((busy = pthread_tryjoin_np(consumer->thread, &result)) == EBUSY && sb_clock() < end) usleep(POLL);
+    if (busy) return false;
+    if (result == PTHREAD_CANCELED) {
+        sb_frame_release(consumer->frame);
+        if (consumer->work.abandon) consumer->work.abandon(consumer->work.state);
+    }
+    return true;
 }
 
 void sb_consumer_stop(sb_consumer *consumer)
 {
     if (!consumer->started) return;
     sb_frame_queue_close(consumer->queue);
-    consumer->given_up = !ends_in_time(consumer);
-    if (consumer->given_up) pthread_cancel(consumer->thread);
-    void *end;
-    pthread_join(consumer->thread, &end);
-    if (end == PTHREAD_CANCELED) {
-        sb_frame_release(consumer->frame);
-        if (consumer->work.abandon) consumer->work.abandon(consumer->work.state);
+    if (ends_in_time(consumer)) {
+        pthread_join(consumer->thread, NULL);
+    } else if (!consumer->given_up) {
+        consumer->given_up = true;
+        if (!cancel(consumer)) give_up(consumer, 2 * consumer->work.patience);
     }
+    if (consumer->left) return; /* its queue and its lock stay with the thread */
     sb_frame_queue_destroy(consumer->queue);
     pthread_cond_destroy(&consumer->idle);
     pthread_mutex_destroy(&consumer->lock);
     consumer->queue = NULL;
     consumer->started = false;
+}
+
+bool sb_consumer_left(const sb_consumer *consumer)
+{
+    return consumer->left;
 }

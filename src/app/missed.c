@@ -22,7 +22,8 @@ static void tell(run *r, int c)
     const char *name = r->consumers[c].work.name;
     if (trouble.turns == r->told[c]) return;
     if (beginnings(trouble.turns) > beginnings(r->told[c]))
-        sb_run_warn(r, "%s: %.900s; the run goes on, and each later frame is tried", name, trouble.latest.text);
+        sb_run_warn(r, "%s: %.900s; the run goes on%s", name, trouble.latest.text,
+                    r->consumers[c].given_up ? " without them" : ", and each later frame is tried");
     if (trouble.turns % 2 == 0) {
         const uint64_t missed = sb_missed_sum(r, c).count;
         sb_run_warn(r, "%s: written again, %" PRIu64 " %s", name, missed, are_missing(missed));

@@ -124,6 +124,18 @@ static void save_at_end(run *r, sb_status status, sb_error *error)
                  "; to go on: shorebreak run %.200s/scene.yaml --out %.200s --resume", r->directory, r->directory);
 }
 
+/* What threads of consumers use: it stays where one of them is still there. */
+static void release_shared(run *r, bool *left)
+{
+    for (int c = 0; c < CONSUMERS; c++) {
+        if (!sb_consumer_left(&r->consumers[c])) continue;
+        if (left) *left = true;
+        return;
+    }
+    sb_pvd_free(&r->recorder.pvd); /* of a run that was not gone on with: no thread had it */
+    sb_model_free(&r->model);
+}
+
 sb_status sb_run(const sb_scene *scene, const char *directory, const sb_run_manner *manner, sb_error *error)
 {
     run r = {.resolved = *scene, .directory = directory, .lock = -1};
@@ -138,10 +150,9 @@ sb_status sb_run(const sb_scene *scene, const char *directory, const sb_run_mann
     sb_run_finish(&r, &status, &local);
     if (manner->profile && r.sim) print_profile(&r);
     sb_checkpoint_end(&r);
-    sb_pvd_free(&r.recorder.pvd); /* of a run that was not gone on with: no thread had it */
     sb_measure_destroy(r.measure);
     sb_sim_destroy(r.sim);
-    sb_model_free(&r.model);
+    release_shared(&r, manner->left);
     sb_run_files_free(&r.left);
     if (r.lock >= 0) close(r.lock);
     if (status != SB_OK && error) *error = local;

@@ -14,6 +14,8 @@ typedef struct sb_run_manner {
     bool other_build; /* resumes from a checkpoint of another build, too, with a warning */
     bool quiet;       /* no progress */
     bool profile;     /* the stage table at the end */
+    bool *left;       /* set when a thread that makes no progress is still there at the end: leave by _exit, and free
+                         nothing that the run was given; NULL: nobody asks */
 } sb_run_manner;
 
 /* Runs the scene into the directory. SB_BAD_INPUT also when that holds a run which is neither resumed nor overwritten,

@@ -141,8 +141,9 @@ static void stop_consumers(run *r, sb_status *status, sb_error *error)
         sb_runlog_event(r->log, "consumer", "%s: %llu frames, %llu missed, %llu dropped, simulation waited %.2f s",
                         consumer->work.name, (unsigned long long)consumer->handled,
                         (unsigned long long)consumer->trouble.missed, (unsigned long long)dropped, waited);
-        if (consumer->given_up)
-            sb_run_warn(r, "%s: given up after %g s with its last frames: what it writes to takes nothing more",
+        if (consumer->given_up && consumer->work.patience > 0)
+            sb_run_warn(r,
+                        "%s: gave up after %g s: the receiver accepts no more data, and the last frames are not sent",
                         consumer->work.name, consumer->work.patience);
         sb_error reason = {0};
         keep_first(status, error, sb_missed_judge(r, c, &reason), &reason);

@@ -34,7 +34,7 @@ sb_frame_queue *sb_frame_queue_create(size_t capacity, sb_queue_policy policy)
     queue->capacity = capacity;
     pthread_mutex_init(&queue->lock, NULL);
     pthread_cond_init(&queue->has_frame, NULL);
-    pthread_cond_init(&queue->has_room, NULL);
+    sb_clock_init_condition(&queue->has_room);
     return queue;
 }
 
@@ -57,19 +57,40 @@ void sb_frame_queue_destroy(sb_frame_queue *queue)
     sb_free(queue);
 }
 
+static bool has_room(const sb_frame_queue *queue)
+{
+    return queue->closed || queue->count < queue->capacity || queue->policy != SB_QUEUE_WAIT;
+}
+
 static void wait_for_room(sb_frame_queue *queue)
 {
-    if (queue->closed || queue->count < queue->capacity) return;
+    if (has_room(queue)) return;
     double start = sb_clock();
-    while (!queue->closed && queue->count == queue->capacity) pthread_cond_wait(&queue->has_room, &queue->lock);
+    while (!has_room(queue)) pthread_cond_wait(&queue->has_room, &queue->lock);
     queue->waited += sb_clock() - start;
+}
+
+bool sb_frame_queue_wait(sb_frame_queue *queue, double seconds)
+{
+    pthread_mutex_lock(&queue->lock);
+    bool room = has_room(queue);
+    if (!room) {
+        const double start = sb_clock();
+        const struct timespec end = sb_clock_after(seconds);
+        int late = 0;
+        while (!has_room(queue) && !late) late = pthread_cond_timedwait(&queue->has_room, &queue->lock, &end);
+        queue->waited += sb_clock() - start;
+        room = has_room(queue);
+    }
+    pthread_mutex_unlock(&queue->lock);
+    return room;
 }
 
 bool sb_frame_queue_push(sb_frame_queue *queue, const sb_frame *frame)
 {
     const sb_frame *oldest = NULL;
     pthread_mutex_lock(&queue->lock);
-    if (queue->policy == SB_QUEUE_WAIT) wait_for_room(queue);
+    wait_for_room(queue);
     bool open = !queue->closed;
     if (open) {
         if (queue->count == queue->capacity) {

@@ -22,6 +22,10 @@ void sb_frame_queue_destroy(sb_frame_queue *queue);
    if the queue is closed, also when it is closed during the wait for room. */
 bool sb_frame_queue_push(sb_frame_queue *queue, const sb_frame *frame);
 
+/* Waits at most so many seconds until there is room, so that a push would not wait. Returns whether there is. The time
+   counts as waiting in push. */
+bool sb_frame_queue_wait(sb_frame_queue *queue, double seconds);
+
 /* Waits for the next frame and removes it, oldest first; the caller must release it. NULL once the queue is closed and
    empty. */
 const sb_frame *sb_frame_queue_pop(sb_frame_queue *queue);

@@ -113,7 +113,8 @@ static void check_subscriber(bool dies, const char *words)
 static void a_subscriber_that_stops(void **state)
 {
     (void)state;
-    check_subscriber(false, "stream: given up after 5 s with its last frames: what it writes to takes nothing more");
+    check_subscriber(false,
+                     "stream: gave up after 5 s: the receiver accepts no more data, and the last frames are not sent");
 }
 
 static void a_subscriber_that_dies(void **state)
