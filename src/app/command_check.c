@@ -2,6 +2,7 @@
 #include "app/fit.h"
 #include "app/options.h"
 #include "app/room.h"
+#include "app/team.h"
 #include "app/warnings.h"
 #include "geometry/model.h"
 #include "output/json.h"
@@ -52,6 +53,7 @@ static void visit_warnings(const sb_scene *scene, const sb_model *model, sb_warn
 {
     for (size_t w = 0; w < model->warning_count; w++) visit(context, model->warnings[w]);
     sb_scene_warnings(scene, visit, context);
+    sb_team_warnings(visit, context);
     /* A warning only: the run may be for another machine. */
     sb_error room = {0};
     if (sb_room_check(scene, model, &room) != SB_OK) visit(context, room.text);

@@ -14,7 +14,7 @@ static const char help[] =
     "run.jsonl and summary.json.\n\n"
     "  --out DIR            results go here (default: runs/<name of the scene file>)\n"
     "  --until T            stop at T seconds instead of the scene's duration\n"
-    "  --threads N          of the simulation (default: all cores)\n"
+    "  --threads N          of the simulation (default: one on each core that it may use)\n"
     "  --preset NAME        numerics: default or paper (default: the scene's)\n"
     "  --set KEY=VALUE      change a key of the scene, e.g. --set resolution=5; may be repeated\n"
     "  --overwrite          replace the run that DIR holds; without it, or --resume, such a DIR is refused, and so is\n"

@@ -1,5 +1,6 @@
 #include "app/commands.h"
 #include "app/options.h"
+#include "app/team.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "geometry/model.h"
@@ -54,6 +55,12 @@ static sb_status keep_scene(const char *scene, const char *out, sb_error *error)
     return sb_fail(error, SB_BAD_INPUT, "--out %.500s: is the scene itself, expected another file", out);
 }
 
+static void warn(void *context, const char *text)
+{
+    (void)context;
+    fprintf(stderr, "shorebreak: warning: %s\n", text);
+}
+
 int sb_command_sample(int count, char **arguments)
 {
     sb_options options;
@@ -68,6 +75,7 @@ int sb_command_sample(int count, char **arguments)
     }
     if (status == SB_OK && !options.out) status = sb_fail(&error, SB_BAD_INPUT, "sample: no --out FILE.vtp given");
     if (status == SB_OK) status = sb_options_scene(&options, options.positional, &scene, &error);
+    if (status == SB_OK) sb_team_warnings(warn, NULL);
     if (status == SB_OK) status = keep_scene(options.positional, options.out, &error);
     if (status == SB_OK) status = sb_model_build(&scene, &model, &error);
     if (status == SB_OK) status = write_model(&model, options.out, &error);

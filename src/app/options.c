@@ -1,10 +1,10 @@
 #include "app/options.h"
 
+#include "app/team.h"
 #include "base/memory.h"
 #include "base/nearest.h"
 
 #include <math.h>
-#include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -157,6 +157,8 @@ void sb_options_free(sb_options *options)
 
 sb_status sb_options_scene(const sb_options *options, const char *path, sb_scene *scene, sb_error *error)
 {
-    if (options->threads > 0) omp_set_num_threads(options->threads);
-    return sb_scene_read(path, options->preset, options->overrides, options->override_count, scene, error);
+    const sb_status status =
+        sb_scene_read(path, options->preset, options->overrides, options->override_count, scene, error);
+    if (status == SB_OK) sb_team_choose(scene, options->threads);
+    return status;
 }

@@ -14,7 +14,7 @@ typedef struct sb_options {
     const char *out;        /* --out */
     const char *preset;     /* --preset */
     const char *camera;     /* --camera */
-    int threads;            /* --threads; 0: as OpenMP has it */
+    int threads;            /* --threads; 0: OMP_NUM_THREADS, or one on each core */
     bool quiet, json, profile, resume, overwrite, other_build, help;
     size_t override_count;
     sb_override overrides[SB_OVERRIDES_MAX];

@@ -3,6 +3,7 @@
 #include "app/lock.h"
 #include "app/room.h"
 #include "app/run_state.h"
+#include "app/team.h"
 #include "app/warnings.h"
 #include "output/summary.h"
 
@@ -308,6 +309,7 @@ sb_status sb_run_start(run *r, const sb_run_manner *manner, sb_error *error)
     if (status == SB_OK && from == SETTLING) status = sb_checkpoint_load_settling(r, error);
     if (status == SB_OK) status = take_directory(r, from, error);
     name_consumers(r);
+    if (status == SB_OK) sb_team_warnings(warn, r);
     if (status == SB_OK && from != CHECKPOINT) status = start_consumers(r, error);
     if (status != SB_OK) return give_up(r, status);
     sb_model_forget_start(&r->model);

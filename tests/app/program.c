@@ -8,6 +8,7 @@
 #include <dirent.h>
 #include <fcntl.h>
 #include <ftw.h>
+#include <grp.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -137,6 +138,23 @@ static void redirect_to_nobody(void)
     close(ends[1]);
 }
 
+/* 0: the test's own user, without a limit. */
+static rlim_t processes_most;
+
+/* A user that nobody else is, for processes are counted by user; and its folder. The program may lie where this user
+   must not look: it is opened before. */
+static void change_user(char **list)
+{
+    const uid_t user = 1000000000 + (uid_t)getppid();
+    const struct rlimit limit = {processes_most, processes_most};
+    int program = open(SB_BINARY_DIR "/shorebreak", O_RDONLY);
+    if (program < 0 || chown(folder, user, user) != 0 || chdir(folder) != 0 || setgroups(0, NULL) != 0 ||
+        setresgid(user, user, user) != 0 || setrlimit(RLIMIT_NPROC, &limit) != 0 || setresuid(user, user, user) != 0)
+        _exit(98);
+    fexecve(program, list, environ);
+    _exit(99);
+}
+
 static pid_t start(const char *const *arguments, bool heard)
 {
     char *list[ARGUMENTS] = {(char *)"shorebreak"};
@@ -156,6 +174,7 @@ static pid_t start(const char *const *arguments, bool heard)
         redirect("stdout.txt", STDOUT_FILENO);
         redirect("stderr.txt", STDERR_FILENO);
         if (!heard) redirect_to_nobody();
+        if (processes_most > 0) change_user(list);
         if (chdir(folder) == 0) execv(SB_BINARY_DIR "/shorebreak", list);
         _exit(99);
     }
@@ -203,6 +222,21 @@ outcome program_run_limited(rlim_t bytes, const char *const *arguments)
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
     pid_t process = program_start(arguments);
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &kept), 0);
+    return program_finish(process);
+}
+
+bool program_can_change_user(void)
+{
+    return geteuid() == 0;
+}
+
+outcome program_run_crowded(rlim_t processes, const char *const *arguments)
+{
+    assert_int_equal(chmod(in_folder("tank2.yaml"), 0644), 0);
+    assert_int_equal(chmod(in_folder("tank3.yaml"), 0644), 0);
+    processes_most = processes;
+    pid_t process = program_start(arguments);
+    processes_most = 0;
     return program_finish(process);
 }
 

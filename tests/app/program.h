@@ -39,6 +39,10 @@ outcome program_finish(pid_t process);
 outcome program_run(const char *const *arguments);
 /* Where no file may be longer than this: as on a disk that is full. */
 outcome program_run_limited(rlim_t bytes, const char *const *arguments);
+/* Whether other users may be taken on, as root may: such users' processes can be limited, root's cannot. */
+bool program_can_change_user(void);
+/* As a user of its own that may have so many processes and threads. */
+outcome program_run_crowded(rlim_t processes, const char *const *arguments);
 void outcome_free(outcome *o);
 
 /* Runs and fails the test, with what was said, unless the exit status is the one expected. */
