@@ -92,9 +92,9 @@ sb_status sb_room_check(const sb_scene *scene, const sb_model *model, sb_error *
 {
     const double needed = sb_room_needed(scene, model), there = (double)sb_memory_available();
     const double held = (double)model->fluid_count * MODEL_FLUID_BYTES + (double)model->wall_count * MODEL_WALL_BYTES;
-    if (!(there > 0) || needed - held <= there) return SB_OK;
+    if (!(there > 0) || needed <= (1 - SB_MEMORY_SPARE) * (held + there)) return SB_OK;
     return sb_fail(error, SB_FAILED,
-                   "needs about %.3g GB of memory for %zu fluid and %zu boundary particles, and %.3g GB are free: "
-                   "expected a larger resolution",
+                   "needs about %.3g GB of memory for %zu fluid and %zu boundary particles, and %.3g GB are available, "
+                   "of which a fifth is left free: expected a larger resolution",
                    needed / 1e9, model->fluid_count, model->wall_count, (held + there) / 1e9);
 }

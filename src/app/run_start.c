@@ -157,7 +157,7 @@ static sb_status build_model(run *r, bool resume, sb_error *error)
     sb_status status = sb_fit_check(r->scene, error);
     if (status != SB_OK) return status;
     sb_run_say(r, "sampling surfaces and filling the sea");
-    status = sb_model_build(r->scene, &r->model, error);
+    status = sb_model_build_for(r->scene, sb_room_needed, &r->model, error);
     if (status == SB_OK) status = sb_room_check(r->scene, &r->model, error);
     if (status != SB_OK) return status;
     for (size_t w = 0; w < r->model.warning_count; w++)

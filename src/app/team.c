@@ -47,8 +47,8 @@ int sb_team_cores(void)
     return cores > 1 ? (int)cores : 1;
 }
 
-/* Threads that the scene's outputs take beside the simulation's; pictures do with one. At least one: processes that read
-   meshes and draw plots count as well. */
+/* Threads that the scene's outputs take beside the simulation's; pictures do with one. At least one: processes that
+   read meshes and draw plots count as well. */
 static int count_others(const sb_scene *scene)
 {
     enum { STREAM_THREADS = 2 }; /* one opens the provider, one publishes */

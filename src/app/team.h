@@ -5,7 +5,8 @@
 #include "app/warnings.h"
 
 /* Once, before the first parallel loop: `threads` as asked for, 0 for one on each core that this process may use; fewer
-   where the system does not allow so many beside those that the scene's outputs need, for OpenMP would end the process. */
+   where the system does not allow so many beside those that the scene's outputs need, for OpenMP would end the process.
+ */
 void sb_team_choose(const sb_scene *scene, int threads);
 
 /* Cores that this process may use: of the machine, by its affinity, by the quota of its control group. At least 1. */

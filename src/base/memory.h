@@ -36,6 +36,9 @@ bool sb_memory_fail_pending(void);
    (MemAvailable), of the rest of its control group's limit, and of the rest of its address-space limit. 0: unknown. */
 size_t sb_memory_available(void);
 
+/* Fraction of the available memory that no scene may plan to use: estimates are rough, and other programs grow. */
+#define SB_MEMORY_SPARE 0.2
+
 /* Returns the highest resident size of the process so far, in bytes. */
 size_t sb_memory_peak(void);
 

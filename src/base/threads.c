@@ -41,7 +41,8 @@ int sb_threads_allowed(int wanted)
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &old);
     pthread_mutex_lock(&lock);
-    while (count < wanted && count < SB_THREADS_MOST && pthread_create(&threads[count], NULL, wait_for_end, &lock) == 0) count++;
+    while (count < wanted && count < SB_THREADS_MOST && pthread_create(&threads[count], NULL, wait_for_end, &lock) == 0)
+        count++;
     pthread_mutex_unlock(&lock);
     for (int t = 0; t < count; t++) pthread_join(threads[t], NULL);
     pthread_sigmask(SIG_SETMASK, &old, NULL);

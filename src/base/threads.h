@@ -4,8 +4,8 @@
 
 enum { SB_THREADS_MOST = 1200 };
 
-/* Starts up to `wanted` threads at once, SB_THREADS_MOST at most, which do nothing, and ends them: how many the limits of processes and of memory
-   allow at this moment, besides those that run. */
+/* Starts up to `wanted` threads at once, SB_THREADS_MOST at most, which do nothing, and ends them: how many the limits
+   of processes and of memory allow at this moment, besides those that run. */
 int sb_threads_allowed(int wanted);
 
 #endif

@@ -150,10 +150,11 @@ static sb_status check_room(const char *path, const sb_grid *grid, sb_error *err
 {
     const double node = sizeof(double) + sizeof(uint32_t) + sizeof(sb_vec3);
     const double needed = node * (double)grid->columns * (double)grid->rows, there = (double)sb_memory_available();
-    if (!(there > 0) || needed < there) return SB_OK;
+    if (!(there > 0) || needed < (1 - SB_MEMORY_SPARE) * there) return SB_OK;
     return sb_fail(error, SB_BAD_INPUT,
-                   "%.500s: %zu x %zu grid lines take %.3g GB of memory, and %.3g GB are free; expected fewer", path,
-                   grid->columns, grid->rows, needed / 1e9, there / 1e9);
+                   "%.500s: %zu x %zu grid lines take %.3g GB of memory, and %.3g GB are available, of which a fifth "
+                   "is left free; expected fewer",
+                   path, grid->columns, grid->rows, needed / 1e9, there / 1e9);
 }
 
 sb_status sb_grid_read_points(const char *path, const char *text, sb_grid *grid, sb_error *error)

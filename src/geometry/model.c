@@ -4,10 +4,15 @@
 
 sb_status sb_model_build(const sb_scene *scene, sb_model *model, sb_error *error)
 {
+    return sb_model_build_for(scene, NULL, model, error);
+}
+
+sb_status sb_model_build_for(const sb_scene *scene, sb_model_need *need, sb_model *model, sb_error *error)
+{
     sb_model made = {.dimensions = 0};
     sb_model_space space = {.count = 0};
     sb_status status = sb_model_import_bodies(scene, &made, error);
-    if (status == SB_OK) status = sb_model_room(scene, &made, error);
+    if (status == SB_OK) status = sb_model_room(scene, &made, need, error);
     if (status == SB_OK) status = sb_model_space_create(&made, scene, &space, error);
     /* The sea first: a scene whose sea escapes need not wait for its walls. */
     if (status == SB_OK) status = sb_model_fill(scene, &space, &made, error);

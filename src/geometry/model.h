@@ -52,6 +52,12 @@ static inline double sb_model_wave_speed(const sb_scene *scene, const sb_model *
    than half a spacing, which water would pass. On error *model is untouched; SB_INTERRUPTED when the process is to stop
    (base/stop.h). Deterministic for any thread count. */
 sb_status sb_model_build(const sb_scene *scene, sb_model *model, sb_error *error);
+
+/* The same for a caller that goes on to take `need` bytes for such a model, of which it is given counts, bodies and
+   extent: SB_BAD_INPUT, from a coarse look before much is allocated, where more is needed than is available less
+   SB_MEMORY_SPARE of it. NULL: nothing but the model. */
+typedef double sb_model_need(const sb_scene *scene, const sb_model *model);
+sb_status sb_model_build_for(const sb_scene *scene, sb_model_need *need, sb_model *model, sb_error *error);
 void sb_model_free(sb_model *model);
 
 /* Of all that a simulation and its measurements start from: two models with one hash run alike. */

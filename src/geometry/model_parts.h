@@ -69,9 +69,9 @@ sb_status sb_model_warn_of_wave(const sb_scene *scene, const sb_wave_room *room,
 sb_status sb_model_sample(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 sb_status sb_model_fill(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 
-/* SB_BAD_INPUT, with the figures, when the particles of these bodies and their water would take more memory
-   than there is. */
-sb_status sb_model_room(const sb_scene *scene, const sb_model *bodies, sb_error *error);
+/* SB_BAD_INPUT, with the figures and a spacing that would do, when the particles of these bodies and their water would
+   take more memory than there is to plan with: as sb_model_build_for. */
+sb_status sb_model_room(const sb_scene *scene, const sb_model *bodies, sb_model_need *need, sb_error *error);
 
 /* model_data.c: one more line of warning; SB_FAILED without memory. */
 sb_status sb_model_warn(sb_model *model, sb_error *error, const char *format, ...)
