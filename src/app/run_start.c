@@ -212,9 +212,19 @@ static void watch_settling(void *context, int done, int most, double speed)
     if (sb_checkpoint_due(r, (uint64_t)done)) sb_checkpoint_write_settling(r);
 }
 
+/* Water that falls or rushes on goes at about 2 sqrt(gD). */
+static void plan(run *r)
+{
+    int done = 0;
+    const double dt = sb_sim_longest_step(r->scene, &r->model, 2 * sb_model_wave_speed(r->scene, &r->model));
+    sb_sim_settling(r->sim, &done);
+    sb_progress_plan(&r->progress, sb_sim_settle_expected(r->scene), done, ceil(r->scene->duration / dt));
+}
+
 /* Water at rest, tables with their first rows. */
 static sb_status begin(run *r, sb_error *error)
 {
+    plan(r);
     if (sb_sim_settles(r->scene)) sb_run_say(r, "settling");
     sb_status status = sb_sim_settle_watched(r->sim, watch_settling, r, error);
     sb_progress_settled(&r->progress);

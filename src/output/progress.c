@@ -72,14 +72,34 @@ static void end_line(sb_progress *progress)
     fflush(progress->stream);
 }
 
+void sb_progress_plan(sb_progress *progress, int settling, int done, double steps)
+{
+    progress->settling_begun = sb_clock();
+    progress->settling_before = done;
+    progress->settling_steps = settling;
+    progress->steps = steps;
+}
+
+/* By the speed of settling so far. Where it ends is known once `most` is less than it was expected to be. */
+static void estimate_settling(sb_progress *progress, double now, int done, int most)
+{
+    const int made = done - progress->settling_before;
+    const double expected = fmin(fmax(progress->settling_steps, done), most);
+    if (made > 0 && progress->steps > 0)
+        progress->eta = (now - progress->settling_begun) / made * (expected - done + progress->steps);
+}
+
 void sb_progress_settling(void *context, int done, int most, double speed)
 {
     sb_progress *progress = context;
-    char wall[32];
-    if (!is_time(progress, sb_clock())) return;
+    char wall[32], eta[32];
+    const double now = sb_clock();
+    estimate_settling(progress, now, done, most);
+    if (!is_time(progress, now)) return;
     sb_progress_duration(wall, sb_progress_wall(progress));
-    fprintf(progress->stream, "%ssettling: step %d of at most %d  %.3f m/s  %s so far%s",
-            progress->terminal ? "\r" : "", done, most, speed, wall, progress->terminal ? "\033[K" : "\n");
+    sb_progress_duration(eta, progress->eta < 0 ? (double)NAN : progress->eta);
+    fprintf(progress->stream, "%ssettling: step %d of at most %d  %.3f m/s  %s so far, %s left%s",
+            progress->terminal ? "\r" : "", done, most, speed, wall, eta, progress->terminal ? "\033[K" : "\n");
     fflush(progress->stream);
     progress->open = progress->terminal;
 }

@@ -15,6 +15,9 @@ typedef struct sb_progress {
     double started, shown;
     double mark_wall[2], mark_time[2]; /* an older and a newer point, to tell the recent speed */
     double eta;
+    double settling_begun;        /* wall, when this process began to settle; 0: it has not */
+    int settling_before;          /* steps of settling that were done by then */
+    double settling_steps, steps; /* as many as are expected, of settling and of the run */
 } sb_progress;
 
 /* stream NULL: quiet, only the ETA is kept. Lines come every 0.2 s on a terminal,
@@ -23,6 +26,10 @@ void sb_progress_begin(sb_progress *progress, FILE *stream, double duration);
 
 /* The run goes on from this time, not from 0. */
 void sb_progress_resume(sb_progress *progress, double time);
+
+/* What is to come: steps of settling, of which `done` were made by earlier processes, then steps of the run. Before the
+   first call of sb_progress_settling, for the ETA while the water settles; a step of either counts alike. */
+void sb_progress_plan(sb_progress *progress, int settling, int done, double steps);
 
 /* Call after each step of the settling before t = 0 (sb_settle_watch; the context is the progress), then once when it
    is over. */

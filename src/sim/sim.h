@@ -50,6 +50,8 @@ void sb_sim_destroy(sb_sim *sim);
 bool sb_sim_settles(const sb_scene *scene);
 /* Largest number of settling steps; water that is calm earlier takes fewer. */
 int sb_sim_settle_most(const sb_scene *scene);
+/* As many as a scene of this kind takes; about. */
+int sb_sim_settle_expected(const sb_scene *scene);
 
 /* Settling, if the scene has it: brings the water to rest with paddles at rest, holding the surface of an initial wave,
    then gives it the scene's velocities. Time stays 0. A simulation that was saved during settling continues there. */

@@ -175,7 +175,14 @@ static void check_in_json(void **state)
     assert_near(strtod(json_find(o.out, "fluid_particles"), NULL), 384, 0);
     assert_true(strtod(json_find(o.out, "memory_bytes"), NULL) > 384 * 100);
     assert_contains(o.out, "\"post\"");
-    assert_true(strtod(json_find(o.out, "settling_steps_most"), NULL) > 0);
+    assert_near(strtod(json_find(o.out, "settling_steps_most"), NULL), 50, 0);
+    assert_near(strtod(json_find(o.out, "settling_steps"), NULL), 50, 0); /* boxes: each of them */
+    const double settled = strtod(json_find(o.out, "run_time_s"), NULL);
+    outcome_free(&o);
+    /* Settling is part of the run time. */
+    o = RUN(0, "check", "tank3.yaml", "--json", "--set", "numerics.settle_steps=0");
+    assert_near(strtod(json_find(o.out, "settling_steps"), NULL), 0, 0);
+    assert_true(strtod(json_find(o.out, "run_time_s"), NULL) < settled);
     outcome_free(&o);
     /* The steps are those of a run. */
     o = RUN(0, "check", "tank3.yaml", "--json", "--set", "numerics.time_step_max=1e-4");

@@ -4,6 +4,7 @@
 #include "output/runlog.h"
 #include "output/summary.h"
 
+#include "../check.h"
 #include "folder.h"
 #include "json_check.h"
 
@@ -287,13 +288,22 @@ static void progress_tells_of_settling(void **state)
     FILE *stream = fopen(in_folder("settling"), "w");
     sb_progress progress;
     sb_progress_begin(&progress, stream, 90);
+    sb_progress_plan(&progress, 300, 2, 1000);
+    progress.settling_begun -= 10;
     sb_progress_settling(&progress, 3, 500, 0.2); /* too early for a line */
+    assert_near(sb_progress_eta(&progress), 10 * (297 + 1000), 1000);
     progress.shown -= 11;
     sb_progress_settling(&progress, 4, 500, 0.25);
+    sb_progress_settling(&progress, 102, 500, 0.25); /* 0.1 s each, 198 to go and the run */
+    assert_near(sb_progress_eta(&progress), 0.1 * (198 + 1000), 10);
+    sb_progress_settling(&progress, 102, 132, 0.25); /* calm early */
+    assert_near(sb_progress_eta(&progress), 0.1 * (30 + 1000), 10);
+    sb_progress_settling(&progress, 402, 500, 0.25); /* beyond what was expected */
+    assert_near(sb_progress_eta(&progress), 0.025 * 1000, 2.5);
     sb_progress_settled(&progress);
     fclose(stream);
     char *text = text_of("settling");
-    assert_string_equal(text, "settling: step 4 of at most 500  0.250 m/s  0s so far\n");
+    assert_string_equal(text, "settling: step 4 of at most 500  0.250 m/s  0s so far, 1h 48m left\n");
     sb_free(text);
 }
 
