@@ -19,7 +19,8 @@ static const char help[] =
 
 /* Costs measured with tools/bench on two cores at 2.5 GHz; they scale an estimate, nothing else. One thread, per fluid
    particle, in 2D and 3D: a particle has a sixth of the neighbours in 2D, and as many walls about it. */
-static const double SECONDS_PER_STEP[] = {0.7e-6, 1.2e-6}, SECONDS_PER_PICTURE = 0.2;
+static const double SECONDS_PER_STEP[] = {0.7e-6, 1.2e-6};
+static const double SECONDS_PER_PICTURE = 0.03, SECONDS_PER_DRAWN = 2e-6; /* of each; per fluid particle in it */
 static const double PARTICLE_FILE_BYTES = 52, PICTURE_BYTES = 7e5, CHECKPOINT_BYTES = 40;
 
 typedef struct estimate {
@@ -40,8 +41,8 @@ static estimate make_estimate(const sb_scene *scene, const sb_model *model)
     double saved = wish->minutes > 0 || wish->steps > 0 ? wish->keep : 0;
     double steps = ceil(scene->duration / dt), ghosts = sb_room_ghosts(scene, model);
     int settling = sb_sim_settle_expected(scene);
-    double work =
-        (steps + settling) * fluid * SECONDS_PER_STEP[scene->dimensions == 3] + pictures * SECONDS_PER_PICTURE;
+    double work = (steps + settling) * fluid * SECONDS_PER_STEP[scene->dimensions == 3] +
+                  pictures * (SECONDS_PER_PICTURE + SECONDS_PER_DRAWN * fluid);
     return (estimate){
         .steps = steps,
         .time_step = dt,
