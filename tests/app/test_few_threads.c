@@ -12,8 +12,9 @@
 
 static outcome run_crowded(rlim_t processes, const char *threads)
 {
-    return program_run_crowded(processes, (const char *const[]){"run", "tank3.yaml", "--out", "crowded", "--quiet",
-                                                                "--until", "0.1", "--threads", threads, NULL});
+    return program_run_crowded(processes,
+                               (const char *const[]){"run", "tank3.yaml", "--out", "crowded", "--quiet", "--until",
+                                                     "0.1", "--overwrite", "--threads", threads, NULL});
 }
 
 /* The run ends, with all its pictures or with the reason. */
