@@ -35,9 +35,9 @@ sb_status sb_cloud_query(sb_cloud *cloud, const sb_sim *sim, sb_vec3 min, sb_vec
 sb_status sb_cloud_add(sb_cloud *cloud, const sb_sim *sim, sb_vec3 min, sb_vec3 max, double lag, sb_error *error)
 {
     const size_t before = cloud->count;
-    double reach = lag > 0 ? lag * sb_sim_report(sim)->max_speed : 0;
-    sb_vec3 wide_min = sb_sub(min, sb_vec(reach, reach, reach));
-    sb_vec3 wide_max = sb_add(max, sb_vec(reach, reach, reach));
+    double range = lag > 0 ? lag * sb_sim_report(sim)->max_speed : 0;
+    sb_vec3 wide_min = sb_sub(min, sb_vec(range, range, range));
+    sb_vec3 wide_max = sb_add(max, sb_vec(range, range, range));
     size_t found;
     for (;;) {
         sb_fluid_sample *free = cloud->samples ? cloud->samples + before : NULL;
@@ -96,8 +96,8 @@ static size_t lower_bound(const sb_cloud_slot *slots, size_t count, uint64_t key
 
 enum { CELL_BITS = 20 };
 
-/* Cells are numbered from 1, so that the neighbour below never wraps. z runs fastest: three cells
-   above each other are one range of keys. */
+/* Cells are numbered from 1, so that the index of the cell below never wraps. z runs fastest: three cells above each
+   other are one range of keys. */
 static uint64_t cell_key(uint64_t x, uint64_t y, uint64_t z)
 {
     return x << 2 * CELL_BITS | y << CELL_BITS | z;
@@ -130,7 +130,8 @@ static sb_status sort_into_cells(sb_cloud *cloud, double link, sb_error *error)
     return SB_OK;
 }
 
-/* Joins the particle of slot s with all nearer than link in the nine columns of cells around it. */
+/* Joins the particle of slot s with all particles nearer than link in the nine columns of cells around it. Only slots
+   before s are visited; later slots join this one themselves. */
 static void join_neighbours(sb_cloud *cloud, size_t s, double link)
 {
     uint32_t i = cloud->slots[s].index;
@@ -139,7 +140,7 @@ static void join_neighbours(sb_cloud *cloud, size_t s, double link)
     for (uint64_t cx = x - 1; cx <= x + 1; cx++)
         for (uint64_t cy = y - 1; cy <= y + 1; cy++) {
             uint64_t first = cell_key(cx, cy, z - 1), last = cell_key(cx, cy, z + 1);
-            if (first > key) return; /* later slots join this one themselves */
+            if (first > key) return;
             for (size_t t = lower_bound(cloud->slots, s, first); t < s && cloud->slots[t].key <= last; t++) {
                 uint32_t j = cloud->slots[t].index;
                 sb_vec3 d = sb_sub(cloud->samples[i].position, cloud->samples[j].position);
@@ -148,7 +149,7 @@ static void join_neighbours(sb_cloud *cloud, size_t s, double link)
         }
 }
 
-/* Of at least two samples. */
+/* Finds the root of the largest group. Needs at least two samples. */
 static sb_status find_largest(sb_cloud *cloud, double link, bool by_weight, uint32_t *found, sb_error *error)
 {
     sb_status status = sort_into_cells(cloud, link, error);
@@ -205,8 +206,8 @@ sb_status sb_cloud_mark_largest(sb_cloud *cloud, double link, sb_error *error)
     return status;
 }
 
-/* Others nearer than link to the sample of slot s, counted up to `enough`. With a stack, all of them are marked, and
-   the slots of those that were not go on top of it. */
+/* Counts the other samples nearer than link to the sample of slot s, and stops at `enough`. With a stack, marks all of
+   them and pushes the slots of the newly marked ones. */
 static size_t visit_near(sb_cloud *cloud, size_t s, double link, size_t enough, uint32_t *stack, size_t *top)
 {
     const sb_vec3 at = cloud->samples[cloud->slots[s].index].position;
@@ -235,7 +236,7 @@ sb_status sb_cloud_spread(sb_cloud *cloud, double link, size_t least, sb_error *
     if (cloud->count < 2) return SB_OK;
     sb_status status = sort_into_cells(cloud, link, error);
     if (status != SB_OK) return status;
-    /* Each sample gets on the stack once at most: when it is marked, or now. */
+    /* Each sample is pushed at most once: here if it is marked already, else when it becomes marked. */
     uint32_t *stack = cloud->parents;
     size_t top = 0;
     for (size_t s = 0; s < cloud->count; s++)

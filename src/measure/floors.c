@@ -4,11 +4,11 @@
 
 #include <stdlib.h>
 
-/* Spacings between boundary particles: one of a sheet is always as near as that; the nearest of a sheet that ends at a
-   gauge beside it is wall_offset spacings away, by default more. */
+/* Search radius in wall spacings. At least one boundary particle of a surface below the gauge is within it. A surface
+   that ends at the gauge is not found: its nearest boundary particle is wall_offset spacings away, by default more. */
 static const double NEAR = 0.72;
 
-/* Spacings: two floors with less between them are one. */
+/* Spacings: two floors with a smaller vertical distance count as one. */
 static const double STOREY = 1.5;
 
 void sb_floors_free(sb_floors *floors)
@@ -26,14 +26,14 @@ static int from_the_top(const void *left, const void *right)
 sb_status sb_floors_find(const sb_scene *scene, const sb_model *model, double x, double y, sb_floors *floors,
                          sb_error *error)
 {
-    const double reach = NEAR * scene->numerics.wall_spacing * scene->resolution;
+    const double radius = NEAR * scene->numerics.wall_spacing * scene->resolution;
     const double offset = scene->numerics.wall_offset * scene->resolution;
     for (size_t b = 0; b < model->body_count && model->wall_normal; b++) {
         const sb_model_body *body = &model->bodies[b];
         if (body->wavemaker >= 0) continue;
         for (size_t i = body->begin; i < body->begin + body->count; i++) {
             const sb_vec3 at = model->wall_position[i], normal = model->wall_normal[i];
-            if (!(normal.z > 0.5) || hypot(at.x - x, at.y - y) > reach) continue;
+            if (!(normal.z > 0.5) || hypot(at.x - x, at.y - y) > radius) continue;
             if (sb_grow((void **)&floors->z, &floors->capacity, floors->count + 1, sizeof *floors->z) != 0)
                 return sb_fail_memory(error, "floors under a gauge");
             floors->z[floors->count++] = at.z + offset;

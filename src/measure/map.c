@@ -1,13 +1,13 @@
-/* Maps of greatest depth, speed, momentum flux and of arrival times. Each particle counts as a
-   square of one spacing on the ground, shared among the cells it covers: volume is kept exactly and
-   cells finer than the spacing work too. */
+/* Maps of greatest depth, speed and momentum flux, and of arrival times. Each particle is a square of
+   one spacing in plan, distributed over the cells that it covers. Volume is therefore conserved exactly, and cells may
+   be smaller than the spacing. */
 #include "base/memory.h"
 #include "measure/parts.h"
 
 #include <omp.h>
 #include <string.h>
 
-/* Per cell, gathered in one reading: volume and its moments with the horizontal velocity. */
+/* Sums over a cell's particles at one instant: volume, and volume times the horizontal velocity and its square. */
 typedef struct cell_sum {
     float volume, x, y, square;
 } cell_sum;
@@ -17,8 +17,8 @@ struct sb_map_field {
     float *depth, *speed, *flux, *arrival, *start;
     cell_sum *sums;
     double spacing, threshold, pause, next;
-    double low[2], high[2]; /* m along x and y: of the domain */
-    double length[2];       /* m, after which it repeats; 0: it does not */
+    double low[2], high[2]; /* m, of the domain along x and y */
+    double length[2];       /* m, period of the domain; 0: not periodic */
     bool flat;
 };
 
@@ -40,13 +40,13 @@ void sb_map_destroy(sb_map_field *map)
     sb_free(map);
 }
 
-/* Cells [from, to) along x and y that one thread gathers. A cell's sums are added up in the particles' order whoever
-   gathers it, so they have the same bits for any number of threads. */
+/* Cells [from, to) along x and y that one thread sums. Each thread adds the particles in their order, so a cell's sums
+   have the same bits for any number of threads. */
 typedef struct window {
     double from[2], to[2];
 } window;
 
-/* Along y, or along x where that is all there is. */
+/* Divides the rows among the threads; in 2D, the columns. */
 static window window_of(const sb_map_field *map, int thread, int threads)
 {
     const int axis = map->flat ? 0 : 1;
@@ -67,7 +67,7 @@ static inline double most(double a, double b)
     return a > b ? a : b;
 }
 
-/* Adds one particle to those cells under its square that are in the window. */
+/* Adds one particle to the cells of the window that its square covers. */
 static void deposit(sb_map_field *map, const window *w, const sb_fluid_sample *sample)
 {
     const sb_map_record *grid = &map->result;
@@ -84,8 +84,8 @@ static void deposit(sb_map_field *map, const window *w, const sb_fluid_sample *s
     const double first = x0 > w->from[0] ? (double)(int64_t)x0 : w->from[0], end = least(x1, w->to[0]);
     for (double j = y0 > w->from[1] ? (double)(int64_t)y0 : w->from[1]; j < y1 && j < w->to[1]; j++)
         for (double i = first; i < end; i++) {
-            double share = (least(x1, i + 1) - most(x0, i)) * (least(y1, j + 1) - most(y0, j)) / area;
-            float part = (float)(share * volume);
+            double fraction = (least(x1, i + 1) - most(x0, i)) * (least(y1, j + 1) - most(y0, j)) / area;
+            float part = (float)(fraction * volume);
             cell_sum *sum = &map->sums[(size_t)j * grid->columns + (size_t)i];
             sum->volume += part;
             sum->x += part * (float)u;
@@ -94,19 +94,19 @@ static void deposit(sb_map_field *map, const window *w, const sb_fluid_sample *s
         }
 }
 
-/* The way to a particle's image whose square is partly in the domain, as its own is; 0: none is. */
-static double way_to_image(const sb_map_field *map, int axis, double at)
+/* Distance from a particle to its periodic image if the image's square is partly in the domain too; otherwise 0. */
+static double image_offset(const sb_map_field *map, int axis, double at)
 {
     double length = map->length[axis], half = map->spacing / 2;
     if (!(length > 0)) return 0;
     return at - half < map->low[axis] ? length : at + half > map->low[axis] + length ? -length : 0;
 }
 
-/* Adds one particle, and what of it lies beyond a periodic side at the other. */
+/* Adds one particle and those of its periodic images that are partly in the domain. */
 static void deposit_all(sb_map_field *map, const window *w, sb_fluid_sample sample)
 {
-    double dx = way_to_image(map, 0, sample.position.x);
-    double dy = way_to_image(map, 1, sample.position.y);
+    double dx = image_offset(map, 0, sample.position.x);
+    double dy = image_offset(map, 1, sample.position.y);
     deposit(map, w, &sample);
     sample.position.x += dx;
     if (dx != 0) deposit(map, w, &sample);
@@ -127,7 +127,7 @@ static void gather(sb_map_field *map, const sb_sim *sim)
     }
 }
 
-/* How much of the i-th cell from `start` on lies in the domain, m; all of it where none does. */
+/* Width of the i-th cell from `start` that lies in the domain, m; the whole cell's width if none of it does. */
 static double width_in_domain(const sb_map_field *map, int axis, double start, size_t i)
 {
     const double cell = map->result.cell, from = start + (double)i * cell;
@@ -135,7 +135,7 @@ static double width_in_domain(const sb_map_field *map, int axis, double start, s
     return width > 1e-6 * cell ? width : cell;
 }
 
-/* Ground that water can stand on in a cell, bodies not looked at: m^2, in 2D m. */
+/* Plan area of a cell within the domain, m^2 (m in 2D). Bodies are ignored. */
 static float area_of(const sb_map_field *map, size_t i)
 {
     const sb_map_record *grid = &map->result;
@@ -149,7 +149,7 @@ static void raise(float *value, float to)
         *value = to;
 }
 
-/* Speeds are taken where water is at least half a spacing deep: a single drop is no flow. */
+/* Speeds are recorded only where the water is at least half a spacing deep: a single drop is not a flow. */
 static void record(sb_map_field *map, double time)
 {
     size_t cells = map->result.columns * map->result.rows;
@@ -179,25 +179,26 @@ static sb_status allocate(sb_map_field *map, sb_error *error)
     return map->sums ? SB_OK : sb_fail_memory(error, "measure.map");
 }
 
-sb_status sb_map_create(const sb_sight *sight, sb_map_field **map, sb_error *error)
+sb_status sb_map_create(const sb_measure_view *view, sb_map_field **map, sb_error *error)
 {
-    const sb_scene *scene = sight->scene;
-    const sb_map *wish = &scene->measure.map;
+    const sb_scene *scene = view->scene;
+    const sb_map *request = &scene->measure.map;
     sb_map_field *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, "measure.map");
     made->flat = scene->dimensions == 2;
     made->spacing = scene->resolution;
-    made->threshold = wish->threshold;
-    made->result = (sb_map_record){.columns = cells_between(wish->x_min, wish->x_max, wish->cell),
-                                   .rows = made->flat ? 1 : cells_between(wish->y_min, wish->y_max, wish->cell),
-                                   .x_min = wish->x_min,
-                                   .y_min = made->flat ? 0 : wish->y_min,
-                                   .cell = wish->cell};
-    made->low[0] = sight->min.x;
-    made->low[1] = sight->min.y;
-    made->high[0] = sight->max.x;
-    made->high[1] = sight->max.y;
-    for (int axis = 0; axis < 2; axis++) made->length[axis] = sb_repeat_length(scene, sight->min, sight->max, axis);
+    made->threshold = request->threshold;
+    made->result =
+        (sb_map_record){.columns = cells_between(request->x_min, request->x_max, request->cell),
+                        .rows = made->flat ? 1 : cells_between(request->y_min, request->y_max, request->cell),
+                        .x_min = request->x_min,
+                        .y_min = made->flat ? 0 : request->y_min,
+                        .cell = request->cell};
+    made->low[0] = view->min.x;
+    made->low[1] = view->min.y;
+    made->high[0] = view->max.x;
+    made->high[1] = view->max.y;
+    for (int axis = 0; axis < 2; axis++) made->length[axis] = sb_repeat_length(scene, view->min, view->max, axis);
     sb_status status = allocate(made, error);
     if (status != SB_OK) {
         sb_map_destroy(made);
@@ -207,16 +208,16 @@ sb_status sb_map_create(const sb_sight *sight, sb_map_field **map, sb_error *err
     made->result.speed = made->speed;
     made->result.flux = made->flux;
     made->result.arrival = made->arrival;
-    /* No wave here runs faster than sqrt(2 g z) for the height of the domain: half of the time
-       it needs for a cell, so that nothing passes between two readings. */
-    double height = sight->max.z - sight->min.z;
+    /* No wave is faster than sqrt(2 g z) for the domain's height z. The pause is half the time that such a wave takes
+       to cross a cell, so that no wave is missed between two readings. */
+    double height = view->max.z - view->min.z;
     double fastest = sqrt(2 * scene->fluid.gravity * (height > 0 ? height : made->spacing));
-    made->pause = fmax(0.5 * wish->cell / fastest, 0);
-    double time = sb_sim_report(sight->sim)->time;
-    gather(made, sight->sim);
+    made->pause = fmax(0.5 * request->cell / fastest, 0);
+    double time = sb_sim_report(view->sim)->time;
+    gather(made, view->sim);
     for (size_t i = 0; i < made->result.columns * made->result.rows; i++)
         made->start[i] = made->sums[i].volume / area_of(made, i);
-    /* Where water stands from the start it need not arrive. */
+    /* A cell that is wet at the start has the start as its arrival time. */
     for (size_t i = 0; i < made->result.columns * made->result.rows; i++)
         if (made->start[i] >= (float)made->threshold) made->arrival[i] = (float)time;
     record(made, time);

@@ -14,27 +14,27 @@ static void *append(sb_measure *measure, int kind)
     return (char *)l->items + l->count++ * record_size[kind];
 }
 
-static sb_vec3 between(sb_vec3 a, sb_vec3 b, double share)
+static sb_vec3 between(sb_vec3 a, sb_vec3 b, double fraction)
 {
-    return sb_madd(a, share, sb_sub(b, a));
+    return sb_madd(a, fraction, sb_sub(b, a));
 }
 
-static sb_body_impulse impulse_at(const sb_body_impulse *a, const sb_body_impulse *b, double share)
+static sb_body_impulse impulse_at(const sb_body_impulse *a, const sb_body_impulse *b, double fraction)
 {
-    return (sb_body_impulse){.pressure = between(a->pressure, b->pressure, share),
-                             .friction = between(a->friction, b->friction, share),
-                             .moment = between(a->moment, b->moment, share)};
+    return (sb_body_impulse){.pressure = between(a->pressure, b->pressure, fraction),
+                             .friction = between(a->friction, b->friction, fraction),
+                             .moment = between(a->moment, b->moment, fraction)};
 }
 
-/* The interval's mean forces, its end lying at `share` of the last step. */
-static sb_status record_forces(sb_measure *measure, const sb_sim *sim, double time, double share, sb_error *error)
+/* Records the mean forces of the interval that ends at the given fraction of the last step. */
+static sb_status record_forces(sb_measure *measure, const sb_sim *sim, double time, double fraction, sb_error *error)
 {
     double rate = 1 / measure->interval;
     for (size_t b = 0; b < measure->model->body_count; b++) {
         sb_body_record *body = &measure->bodies[b];
         body_state *state = &measure->states[b];
         if (!body->report) continue;
-        sb_body_impulse end = impulse_at(&state->last, sb_sim_impulse(sim, b), share);
+        sb_body_impulse end = impulse_at(&state->last, sb_sim_impulse(sim, b), fraction);
         sb_force_record *record = append(measure, FORCES);
         if (!record) return sb_fail_memory(error, "force records");
         record->body = b;
@@ -55,21 +55,21 @@ static sb_status record_forces(sb_measure *measure, const sb_sim *sim, double ti
     return SB_OK;
 }
 
-static sb_status record_flows(sb_measure *measure, double time, double share, sb_error *error)
+static sb_status record_flows(sb_measure *measure, double time, double fraction, sb_error *error)
 {
     for (size_t i = 0; i < measure->scene->measure.plane_count; i++) {
         plane_state *plane = &measure->planes[i];
         sb_flow_record *record = append(measure, FLOWS);
         if (!record) return sb_fail_memory(error, "flow records");
-        double volume = plane->last + share * (plane->now - plane->last);
+        double volume = plane->last + fraction * (plane->now - plane->last);
         *record = (sb_flow_record){i, time, volume, (volume - plane->boundary) / measure->interval};
         plane->boundary = volume;
     }
     return SB_OK;
 }
 
-/* Gauges, probes and run-up lines as they are at one instant. */
-static sb_status record_instants(sb_measure *measure, const sb_sight *sight, double time, sb_error *error)
+/* Records gauges, probes and run-up lines at one instant. */
+static sb_status record_instants(sb_measure *measure, const sb_measure_view *view, double time, sb_error *error)
 {
     const sb_measure_settings *settings = &measure->scene->measure;
     const sb_sea *sea = &measure->scene->sea;
@@ -80,7 +80,7 @@ static sb_status record_instants(sb_measure *measure, const sb_sight *sight, dou
         record->gauge = i;
         record->time = time;
         double water = 0;
-        status = sb_gauge_read(sight, settings->gauges[i].x, settings->gauges[i].y, &measure->floors[i], &record->z,
+        status = sb_gauge_read(view, settings->gauges[i].x, settings->gauges[i].y, &measure->floors[i], &record->z,
                                &water, error);
         record->eta = sea->present ? record->z - sea->level : (double)NAN;
         gauge_state *state = &measure->gauges[i];
@@ -94,15 +94,15 @@ static sb_status record_instants(sb_measure *measure, const sb_sight *sight, dou
         if (!record) return sb_fail_memory(error, "probe records");
         record->probe = i;
         record->time = time;
-        status = sb_probe_read(sight, &settings->probes[i], measure->patches[i], &record->velocity, &record->pressure,
-                               error);
+        status =
+            sb_probe_read(view, &settings->probes[i], measure->patches[i], &record->velocity, &record->pressure, error);
     }
     for (size_t i = 0; status == SB_OK && i < settings->runup_count; i++) {
         sb_runup_record *record = append(measure, RUNUPS);
         if (!record) return sb_fail_memory(error, "run-up records");
         record->line = i;
         record->time = time;
-        status = sb_runup_read(sight, &settings->runups[i], record, error);
+        status = sb_runup_read(view, &settings->runups[i], record, error);
     }
     return status;
 }
@@ -123,22 +123,22 @@ static sb_status record_energy(sb_measure *measure, const sb_sim *sim, sb_error 
     return SB_OK;
 }
 
-static sb_status record_layers(sb_measure *measure, const sb_sight *sight, sb_error *error)
+static sb_status record_layers(sb_measure *measure, const sb_measure_view *view, sb_error *error)
 {
     for (size_t b = 0; b < measure->model->body_count; b++) {
         if (!measure->states[b].faces) continue;
         double layers;
-        sb_status status = sb_face_layers(sight, &measure->states[b].footprint, sb_sim_body_displacement(sight->sim, b),
-                                          &layers, error);
+        sb_status status =
+            sb_face_layers(view, &measure->states[b].footprint, sb_sim_body_displacement(view->sim, b), &layers, error);
         if (status != SB_OK) return status;
         if (layers > measure->bodies[b].layers) measure->bodies[b].layers = layers;
     }
     return SB_OK;
 }
 
-static sb_sight sight_of(sb_measure *measure, const sb_sim *sim, double lag)
+static sb_measure_view view_of(sb_measure *measure, const sb_sim *sim, double lag)
 {
-    return (sb_sight){measure->scene, sim, measure->model->min, measure->model->max, lag, &measure->cloud};
+    return (sb_measure_view){measure->scene, sim, measure->model->min, measure->model->max, lag, &measure->cloud};
 }
 
 static void publish(sb_measure *measure)
@@ -183,7 +183,7 @@ static sb_status prepare_bodies(sb_measure *measure, const sb_sim *sim, sb_error
         body_state *state = &measure->states[b];
         measure->bodies[b].report = body->report;
         state->start = state->boundary = state->last = *sb_sim_impulse(sim, b);
-        /* A terrain has no faces to stand at. */
+        /* A terrain has no faces at which water could stand. */
         state->faces = body->report && body->count > 0 && body->role != SB_ROLE_TERRAIN;
         measure->bodies[b].layers = state->faces ? 0 : (double)NAN;
         if (state->faces) state->footprint = sb_footprint_of(measure->model, b);
@@ -191,14 +191,14 @@ static sb_status prepare_bodies(sb_measure *measure, const sb_sim *sim, sb_error
     return SB_OK;
 }
 
-static sb_status prepare_fields(sb_measure *measure, const sb_sight *sight, sb_error *error)
+static sb_status prepare_fields(sb_measure *measure, const sb_measure_view *view, sb_error *error)
 {
     const sb_measure_settings *settings = &measure->scene->measure;
     sb_status status = SB_OK;
     if (settings->plane_count) {
         measure->planes = sb_alloc(settings->plane_count, sizeof *measure->planes);
-        measure->gates = sb_alloc(settings->plane_count, sizeof(sb_gate *));
-        if (!measure->planes || !measure->gates) return sb_fail_memory(error, "measure.planes");
+        measure->counters = sb_alloc(settings->plane_count, sizeof(sb_plane_counter *));
+        if (!measure->planes || !measure->counters) return sb_fail_memory(error, "measure.planes");
     }
     if (settings->gauge_count) {
         measure->floors = sb_alloc(settings->gauge_count, sizeof *measure->floors);
@@ -215,8 +215,8 @@ static sb_status prepare_fields(sb_measure *measure, const sb_sight *sight, sb_e
     for (size_t i = 0; status == SB_OK && i < settings->probe_count; i++)
         status = sb_patch_create(measure->scene, measure->model, &settings->probes[i], &measure->patches[i], error);
     for (size_t i = 0; status == SB_OK && i < settings->plane_count; i++)
-        status = sb_gate_create(sight, &settings->planes[i], &measure->gates[i], error);
-    if (status == SB_OK && settings->map.present) status = sb_map_create(sight, &measure->map, error);
+        status = sb_plane_counter_create(view, &settings->planes[i], &measure->counters[i], error);
+    if (status == SB_OK && settings->map.present) status = sb_map_create(view, &measure->map, error);
     return status;
 }
 
@@ -230,12 +230,12 @@ sb_status sb_measure_create(const sb_scene *scene, const sb_model *model, const 
     made->interval = scene->measure.interval;
     made->time = sb_sim_report(sim)->time;
     made->next = (uint64_t)floor(made->time / made->interval + 1e-9) + 1;
-    sb_sight sight = sight_of(made, sim, 0);
+    sb_measure_view view = view_of(made, sim, 0);
     sb_status status = prepare_bodies(made, sim, error);
-    if (status == SB_OK) status = prepare_fields(made, &sight, error);
-    if (status == SB_OK) status = record_instants(made, &sight, made->time, error);
+    if (status == SB_OK) status = prepare_fields(made, &view, error);
+    if (status == SB_OK) status = record_instants(made, &view, made->time, error);
     if (status == SB_OK) status = record_flows(made, made->time, 0, error);
-    if (status == SB_OK) status = record_layers(made, &sight, error);
+    if (status == SB_OK) status = record_layers(made, &view, error);
     if (status == SB_OK) status = record_energy(made, sim, error);
     if (status != SB_OK) {
         sb_measure_destroy(made);
@@ -250,8 +250,8 @@ sb_status sb_measure_create(const sb_scene *scene, const sb_model *model, const 
 void sb_measure_destroy(sb_measure *measure)
 {
     if (!measure) return;
-    for (size_t i = 0; measure->gates && i < measure->scene->measure.plane_count; i++)
-        sb_gate_destroy(measure->gates[i]);
+    for (size_t i = 0; measure->counters && i < measure->scene->measure.plane_count; i++)
+        sb_plane_counter_destroy(measure->counters[i]);
     for (int k = 0; k < LISTS; k++) sb_free(measure->lists[k].items);
     for (size_t i = 0; measure->patches && i < measure->scene->measure.probe_count; i++)
         sb_patch_destroy(measure->patches[i]);
@@ -260,7 +260,7 @@ void sb_measure_destroy(sb_measure *measure)
     sb_free(measure->floors);
     sb_free(measure->gauges);
     sb_free(measure->patches);
-    sb_free(measure->gates);
+    sb_free(measure->counters);
     sb_free(measure->planes);
     sb_free(measure->states);
     sb_free(measure->bodies);
@@ -269,32 +269,32 @@ void sb_measure_destroy(sb_measure *measure)
     sb_free(measure);
 }
 
-/* All that is due at `time`, which lies `lag` seconds before the step's end. */
+/* Makes all records that are due at `time`, an instant within the last step. */
 static sb_status record_boundary(sb_measure *measure, const sb_sim *sim, double time, sb_error *error)
 {
     double now = sb_sim_report(sim)->time, taken = now - measure->time;
-    double share = taken > 0 ? (time - measure->time) / taken : 1;
-    share = share < 0 ? 0 : share > 1 ? 1 : share;
-    sb_sight sight = sight_of(measure, sim, (1 - share) * taken);
-    sb_status status = record_forces(measure, sim, time, share, error);
-    if (status == SB_OK) status = record_flows(measure, time, share, error);
-    if (status == SB_OK) status = record_instants(measure, &sight, time, error);
+    double fraction = taken > 0 ? (time - measure->time) / taken : 1;
+    fraction = fraction < 0 ? 0 : fraction > 1 ? 1 : fraction;
+    sb_measure_view view = view_of(measure, sim, (1 - fraction) * taken);
+    sb_status status = record_forces(measure, sim, time, fraction, error);
+    if (status == SB_OK) status = record_flows(measure, time, fraction, error);
+    if (status == SB_OK) status = record_instants(measure, &view, time, error);
     return status;
 }
 
-/* Closes the step: what is now becomes what was. */
+/* Ends the step: its values become those of the last step. */
 static void advance(sb_measure *measure, const sb_sim *sim)
 {
     measure->time = sb_sim_report(sim)->time;
     for (size_t b = 0; b < measure->model->body_count; b++) {
         body_state *state = &measure->states[b];
         state->last = *sb_sim_impulse(sim, b);
-        /* Over the finished intervals, so that it is the sum of the rows times the interval. */
-        const sb_body_impulse *reached = measure->bodies[b].report ? &state->boundary : &state->last;
-        sb_vec3 end = sb_add(reached->pressure, reached->friction);
+        /* The impulse covers the finished intervals, so that it equals the sum of the rows times the interval. */
+        const sb_body_impulse *finished = measure->bodies[b].report ? &state->boundary : &state->last;
+        sb_vec3 end = sb_add(finished->pressure, finished->friction);
         sb_vec3 start = sb_add(state->start.pressure, state->start.friction);
         measure->bodies[b].impulse = sb_sub(end, start);
-        measure->bodies[b].moment = sb_sub(reached->moment, state->start.moment);
+        measure->bodies[b].moment = sb_sub(finished->moment, state->start.moment);
     }
     for (size_t i = 0; i < measure->scene->measure.plane_count; i++) measure->planes[i].last = measure->planes[i].now;
 }
@@ -313,15 +313,15 @@ sb_status sb_measure_step(sb_measure *measure, const sb_sim *sim, sb_error *erro
 {
     sb_status status = SB_OK;
     for (int k = 0; k < LISTS; k++) measure->lists[k].count = 0;
-    sb_sight sight = sight_of(measure, sim, 0);
+    sb_measure_view view = view_of(measure, sim, 0);
     for (size_t i = 0; status == SB_OK && i < measure->scene->measure.plane_count; i++)
-        status = sb_gate_step(measure->gates[i], &sight, &measure->planes[i].now, error);
+        status = sb_plane_counter_step(measure->counters[i], &view, &measure->planes[i].now, error);
     if (measure->map) sb_map_step(measure->map, sim);
     measure->momentum_imbalance = fmax(measure->momentum_imbalance, sb_sim_report(sim)->momentum_imbalance);
     const bool any = due(measure, sim);
     for (; status == SB_OK && due(measure, sim); measure->next++)
         status = record_boundary(measure, sim, (double)measure->next * measure->interval, error);
-    if (status == SB_OK && any) status = record_layers(measure, &sight, error);
+    if (status == SB_OK && any) status = record_layers(measure, &view, error);
     if (status == SB_OK && any) status = record_energy(measure, sim, error);
     advance(measure, sim);
     publish(measure);
@@ -368,7 +368,7 @@ size_t sb_measure_bytes(const sb_measure *measure)
     bytes += measure->model->body_count * (sizeof *measure->states + sizeof *measure->bodies);
     for (int k = 0; k < LISTS; k++) bytes += measure->lists[k].capacity * record_size[k];
     for (size_t i = 0; i < measure->scene->measure.plane_count; i++)
-        bytes += sizeof *measure->planes + sb_gate_bytes(measure->gates[i]);
+        bytes += sizeof *measure->planes + sb_plane_counter_bytes(measure->counters[i]);
     for (size_t i = 0; i < measure->scene->measure.probe_count; i++)
         bytes += sizeof(sb_patch *) + sb_patch_bytes(measure->patches[i]);
     return bytes + (measure->map ? sb_map_bytes(measure->map) : 0);

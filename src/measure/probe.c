@@ -1,10 +1,10 @@
-/* Velocity and pressure at a point by a weighted fit through the particles around it. */
+/* Velocity and pressure at a point, by a weighted fit to the particles around it. */
 #include "measure/parts.h"
 #include "measure/patch.h"
 
 enum { TERMS = 4 };
 
-#define WIDENED 1.5 /* of the radius, where the layer at a wall is left out */
+#define WIDENED 1.5 /* factor on the radius where the first layer at a wall is ignored */
 
 /* Solves A x = e0 (A symmetric, n x n) by elimination; false when a pivot falls below `least`. */
 static bool solve_first_unit(double a[TERMS][TERMS], int n, double least, double x[TERMS])
@@ -25,85 +25,87 @@ static bool solve_first_unit(double a[TERMS][TERMS], int n, double least, double
     return true;
 }
 
-/* 1 and the offset in radii; the horizontal axis that 2D lacks is left out. */
-static int basis(const sb_sight *sight, sb_vec3 offset, double radius, double terms[TERMS])
+/* The basis functions: 1 and the offset in radii along each axis; in 2D without y. Returns their number. */
+static int basis(const sb_measure_view *view, sb_vec3 offset, double radius, double terms[TERMS])
 {
     int n = 0;
     terms[n++] = 1;
     terms[n++] = offset.x / radius;
     terms[n++] = offset.z / radius;
-    if (sight->scene->dimensions == 3) terms[n++] = offset.y / radius;
+    if (view->scene->dimensions == 3) terms[n++] = offset.y / radius;
     return n;
 }
 
-static double share_of(const sb_sight *sight, const sb_fluid_sample *sample, sb_vec3 at, double radius,
-                       const double c[TERMS])
+static double coefficient_of(const sb_measure_view *view, const sb_fluid_sample *sample, sb_vec3 at, double radius,
+                             const double c[TERMS])
 {
-    double terms[TERMS], share = 0;
-    int n = basis(sight, sb_sub(sample->position, at), radius, terms);
-    for (int k = 0; k < n; k++) share += c[k] * terms[k];
-    return share * sample->density;
+    double terms[TERMS], sum = 0;
+    int n = basis(view, sb_sub(sample->position, at), radius, terms);
+    for (int k = 0; k < n; k++) sum += c[k] * terms[k];
+    return sum * sample->density;
 }
 
-/* Coefficients c with value = sum_j w_j f_j (c . basis_j): the moving least-squares fit that is
-   exact for linear fields, or the Shepard mean unless `linear` and where that fit would magnify the
-   particles' noise. Extrapolating from two layers to their wall, 1.5 f1 - 0.5 f2, has sum |share|
-   = 2. */
-static void fit(const sb_sight *sight, sb_vec3 at, double radius, bool linear, double c[TERMS])
+/* Finds the coefficients c with value = sum_j w_j f_j (c . basis_j). If `linear`, they are those of the moving
+   least-squares fit, which is exact for linear fields. Otherwise, or where that fit would amplify the particles' noise,
+   they give the Shepard mean. The amplification is the sum of the absolute coefficients of all particles; an
+   extrapolation from two layers to their wall, 1.5 f1 - 0.5 f2, has 2. */
+static void fit(const sb_measure_view *view, sb_vec3 at, double radius, bool linear, double c[TERMS])
 {
-    const sb_cloud *cloud = sight->cloud;
-    double moments[TERMS][TERMS] = {0}, total = 0, terms[TERMS], magnified = 0;
+    const sb_cloud *cloud = view->cloud;
+    double moments[TERMS][TERMS] = {0}, total = 0, terms[TERMS], amplification = 0;
     int n = 0;
     for (size_t i = 0; i < cloud->count; i++) {
         double weight = cloud->samples[i].density;
-        n = basis(sight, sb_sub(cloud->samples[i].position, at), radius, terms);
+        n = basis(view, sb_sub(cloud->samples[i].position, at), radius, terms);
         total += weight;
         for (int k = 0; k < n; k++)
             for (int l = 0; l < n; l++) moments[k][l] += weight * terms[k] * terms[l];
     }
     if (linear && solve_first_unit(moments, n, 1e-9 * total, c)) {
-        for (size_t i = 0; i < cloud->count; i++) magnified += fabs(share_of(sight, &cloud->samples[i], at, radius, c));
-        if (magnified <= 2.5) return;
+        for (size_t i = 0; i < cloud->count; i++)
+            amplification += fabs(coefficient_of(view, &cloud->samples[i], at, radius, c));
+        if (amplification <= 2.5) return;
     }
     for (int k = 0; k < TERMS; k++) c[k] = 0;
     c[0] = 1 / total;
 }
 
-/* Keeps particles within the radius, their kernel weight going to .density. False: dry. */
-static bool weigh(const sb_sight *sight, const sb_probe *probe, const sb_patch *patch, double radius)
+/* Keeps the particles within the radius and stores their kernel weight in .density. False: the probe is dry. */
+static bool weigh(const sb_measure_view *view, const sb_probe *probe, const sb_patch *patch, double radius)
 {
-    sb_cloud *cloud = sight->cloud;
-    const sb_vec3 outlook = sb_patch_outlook(patch);
-    double nearest = radius, spacing = sight->scene->resolution;
+    sb_cloud *cloud = view->cloud;
+    const sb_vec3 wetness_point = sb_patch_wetness_point(patch);
+    double nearest = radius, spacing = view->scene->resolution;
     size_t kept = 0;
     for (size_t i = 0; i < cloud->count; i++) {
         sb_fluid_sample sample = cloud->samples[i];
         double distance = sb_norm(sb_sub(sample.position, probe->at));
         if (distance >= radius) continue;
-        nearest = fmin(nearest, sb_norm(sb_sub(sample.position, outlook)));
-        sample.density = sight->scene->numerics.kernel->shape(distance / radius);
+        nearest = fmin(nearest, sb_norm(sb_sub(sample.position, wetness_point)));
+        sample.density = view->scene->numerics.kernel->shape(distance / radius);
         cloud->samples[kept++] = sample;
     }
     cloud->count = kept;
-    /* In a corner of walls the nearest lattice point is 0.87 spacings away, on a wall 0.5..0.87, from the outlook less;
-       farther off, the probe looks out of the water. One or two particles are a drop. */
-    return kept > (size_t)sight->scene->dimensions - 1 && nearest < 1.1 * spacing;
+    /* In a corner of walls the nearest lattice point is 0.87 spacings away from the probe, on a wall 0.5..0.87, and
+       less from the wetness point. If the nearest particle is farther away, the probe is out of the water. One or two
+       particles are a drop. */
+    return kept > (size_t)view->scene->dimensions - 1 && nearest < 1.1 * spacing;
 }
 
-/* The fit's value of the velocity. */
-static sb_vec3 velocity_at(const sb_sight *sight, sb_vec3 at, double radius)
+/* The velocity by the linear fit. */
+static sb_vec3 velocity_at(const sb_measure_view *view, sb_vec3 at, double radius)
 {
     double c[TERMS];
     sb_vec3 v = {0, 0, 0};
-    fit(sight, at, radius, true, c);
-    for (size_t i = 0; i < sight->cloud->count; i++) {
-        const sb_fluid_sample *sample = &sight->cloud->samples[i];
-        v = sb_madd(v, share_of(sight, sample, at, radius, c), sample->velocity);
+    fit(view, at, radius, true, c);
+    for (size_t i = 0; i < view->cloud->count; i++) {
+        const sb_fluid_sample *sample = &view->cloud->samples[i];
+        v = sb_madd(v, coefficient_of(view, sample, at, radius, c), sample->velocity);
     }
     return v;
 }
 
-/* Leaves out the layer that touches a wall; false when there was none. */
+/* Removes the first layer at a wall from the cloud; false when there was none. */
 static bool drop_first_layer(sb_cloud *cloud, const sb_patch *patch)
 {
     size_t kept = 0, before = cloud->count;
@@ -113,59 +115,59 @@ static bool drop_first_layer(sb_cloud *cloud, const sb_patch *patch)
     return kept < before;
 }
 
-static double pressure_at(const sb_sight *sight, sb_vec3 at, double radius, bool linear)
+static double pressure_at(const sb_measure_view *view, sb_vec3 at, double radius, bool linear)
 {
-    double c[TERMS], p = 0, weight = sight->scene->fluid.density * sight->scene->fluid.gravity;
-    fit(sight, at, radius, linear, c);
-    for (size_t i = 0; i < sight->cloud->count; i++) {
-        const sb_fluid_sample *sample = &sight->cloud->samples[i];
-        /* Hydrostatic correction: the Shepard mean, too, is exact in water at rest. */
+    double c[TERMS], p = 0, weight = view->scene->fluid.density * view->scene->fluid.gravity;
+    fit(view, at, radius, linear, c);
+    for (size_t i = 0; i < view->cloud->count; i++) {
+        const sb_fluid_sample *sample = &view->cloud->samples[i];
+        /* With this hydrostatic correction the Shepard mean, too, is exact in water at rest. */
         double here = sample->pressure + weight * (sample->position.z - at.z);
-        p += share_of(sight, sample, at, radius, c) * here;
+        p += coefficient_of(view, sample, at, radius, c) * here;
     }
     return p > 0 ? p : 0;
 }
 
-static sb_status look(const sb_sight *sight, sb_vec3 at, double radius, sb_error *error)
+static sb_status query_around(const sb_measure_view *view, sb_vec3 at, double radius, sb_error *error)
 {
-    sb_vec3 reach = sb_vec(radius, radius, radius);
-    return sb_cloud_query(sight->cloud, sight->sim, sb_sub(at, reach), sb_add(at, reach), sight->lag, error);
+    sb_vec3 half = sb_vec(radius, radius, radius);
+    return sb_cloud_query(view->cloud, view->sim, sb_sub(at, half), sb_add(at, half), view->lag, error);
 }
 
-/* Near a wall the fit reaches farther, for the layers that are left, and is the mean: the second
-   layer is too low and a slope would carry that on (at rest, in the second
-   layer: mean -5 % in 3D and -12 % in 2D, linear -9 % and -29 %). In a film, where nothing
-   is left, the first layer must do. */
-static sb_status read_pressure(const sb_sight *sight, const sb_probe *probe, const sb_patch *patch, double radius,
+/* Near a wall the first layer is ignored, the radius is larger to include the remaining layers, and the fit is the
+   mean: the second layer's pressure is too low, and a linear fit would extrapolate that (at rest, in the second layer:
+   mean -5 % in 3D and -12 % in 2D, linear -9 % and -29 %). In a film that has only the first layer, that layer is used.
+ */
+static sb_status read_pressure(const sb_measure_view *view, const sb_probe *probe, const sb_patch *patch, double radius,
                                double *pressure, sb_error *error)
 {
-    if (drop_first_layer(sight->cloud, patch)) {
+    if (drop_first_layer(view->cloud, patch)) {
         double far = WIDENED * radius;
-        sb_status status = look(sight, probe->at, far, error);
+        sb_status status = query_around(view, probe->at, far, error);
         if (status != SB_OK) return status;
-        bool wet = weigh(sight, probe, patch, far);
-        drop_first_layer(sight->cloud, patch);
-        if (wet && sight->cloud->count > (size_t)sight->scene->dimensions) {
-            *pressure = pressure_at(sight, probe->at, far, false);
+        bool wet = weigh(view, probe, patch, far);
+        drop_first_layer(view->cloud, patch);
+        if (wet && view->cloud->count > (size_t)view->scene->dimensions) {
+            *pressure = pressure_at(view, probe->at, far, false);
             return SB_OK;
         }
-        status = look(sight, probe->at, radius, error);
-        if (status != SB_OK || !weigh(sight, probe, patch, radius)) return status;
+        status = query_around(view, probe->at, radius, error);
+        if (status != SB_OK || !weigh(view, probe, patch, radius)) return status;
     }
-    *pressure = pressure_at(sight, probe->at, radius, true);
+    *pressure = pressure_at(view, probe->at, radius, true);
     return SB_OK;
 }
 
-sb_status sb_probe_read(const sb_sight *sight, const sb_probe *probe, const sb_patch *patch, sb_vec3 *velocity,
+sb_status sb_probe_read(const sb_measure_view *view, const sb_probe *probe, const sb_patch *patch, sb_vec3 *velocity,
                         double *pressure, sb_error *error)
 {
-    const sb_scene *scene = sight->scene;
+    const sb_scene *scene = view->scene;
     double radius = probe->radius > 0 ? probe->radius : scene->numerics.support * scene->resolution;
     *velocity = sb_vec((double)NAN, (double)NAN, (double)NAN);
     *pressure = (double)NAN;
-    sb_status status = look(sight, probe->at, radius, error);
-    if (status != SB_OK || !weigh(sight, probe, patch, radius)) return status;
-    *velocity = velocity_at(sight, probe->at, radius);
-    if (sb_patch_on_wall(patch)) return sb_patch_pressure(patch, sight, pressure, error);
-    return read_pressure(sight, probe, patch, radius, pressure, error);
+    sb_status status = query_around(view, probe->at, radius, error);
+    if (status != SB_OK || !weigh(view, probe, patch, radius)) return status;
+    *velocity = velocity_at(view, probe->at, radius);
+    if (sb_patch_on_wall(patch)) return sb_patch_pressure(patch, view, pressure, error);
+    return read_pressure(view, probe, patch, radius, pressure, error);
 }

@@ -1,4 +1,4 @@
-/* What a run measured, as plain records: made by measure.h, written by src/output. */
+/* The measurements of a run as plain records: made by measure.h, written by src/output. */
 #ifndef SB_MEASURE_RECORDS_H
 #define SB_MEASURE_RECORDS_H
 
@@ -35,25 +35,25 @@ typedef struct sb_flow_record {
     double time, volume, flux; /* s, m^3, m^3/s (m^2, m^2/s in 2D) */
 } sb_flow_record;
 
-/* The run-up along a line: the highest point and the front of the water that is connected with that at its first end.
-   See runup.c. */
+/* The run-up along a line: the highest point and the front of the water that is connected with the water at the line's
+   first end. See runup.c. */
 typedef struct sb_runup_record {
     size_t line;
     double time;   /* s */
-    sb_vec3 place; /* m; z is the water's upper face; NaN where no such water is */
-    double front;  /* m from the first end, 0 to the line's length; NaN where no water at all is */
-    double apart;  /* m of the line over which only other water lies: puddles, thin films, drops */
+    sb_vec3 place; /* m; z is the top of the water; NaN when there is no such water */
+    double front;  /* m from the first end, 0 to the line's length; NaN when there is no water at all */
+    double apart;  /* m of the line that only unconnected water covers: puddles, thin films, drops */
 } sb_runup_record;
 
-/* At the end of the first step that reached a multiple of the interval. */
+/* At the end of the first step that passed a multiple of the interval. */
 typedef struct sb_energy_record {
     double time, kinetic, potential, mass; /* s, J, J, kg */
     sb_vec3 momentum;                      /* kg m/s */
     sb_ledger ledger;                      /* J since the start */
-    double momentum_imbalance;             /* largest of a step since the last row */
+    double momentum_imbalance;             /* largest value of any step since the last row */
 } sb_energy_record;
 
-/* Everything the last step brought; arrays are valid until the next one. */
+/* All records of the last step; the arrays are valid until the next one. */
 typedef struct sb_measure_records {
     size_t force_count, gauge_count, probe_count, flow_count, runup_count, energy_count;
     const sb_force_record *forces;
@@ -64,7 +64,7 @@ typedef struct sb_measure_records {
     const sb_energy_record *energies;
 } sb_measure_records;
 
-/* One body over the whole run. */
+/* Totals of one body over the whole run. */
 typedef struct sb_body_record {
     bool report;
     double peak, peak_time;  /* N, s: greatest |F| among interval means, and that interval's end */
@@ -73,7 +73,7 @@ typedef struct sb_body_record {
     double layers;           /* greatest flow depth at its faces in spacings; NaN: not assessed */
 } sb_body_record;
 
-/* Spacings of water at a face below which its force is not to be trusted. */
+/* Flow depth at a body in spacings below which its force is flagged as unreliable. */
 #define SB_LAYERS_TRUSTED 4.0
 
 /* Greatest values on a horizontal grid, row 0 at y_min. NaN: never wet (arrival: never arrived). */
@@ -83,7 +83,8 @@ typedef struct sb_map_record {
     const float *depth;        /* m */
     const float *speed;        /* m/s, of the depth-averaged horizontal velocity */
     const float *flux;         /* m^3/s^2, depth times mean square of the horizontal speed */
-    const float *arrival;      /* s, when the depth at the start, or later the rise above it, first met the threshold */
+    const float
+        *arrival; /* s, when the depth at the start, or later the rise above it, was first at least the threshold */
 } sb_map_record;
 
 #endif

@@ -1,52 +1,54 @@
-/* Run-up: the highest point and the front of the water that is connected with the water a line starts in.
+/* Run-up along a line: the highest point and the front of the water that is connected with the water at the line's
+   start.
 
-   Connected is what particles reach from one to the next by steps shorter than the support radius h: water further
-   apart exerts no force on each other. A step starts only at a particle with at least half a layer of water around it:
-   as many others within h as half a layer has, so that a film too thin to be resolved (or drops that happen to fly in a
-   row) ends the run-up and counts as water apart. The front moves with the water then: a film of a quarter of a layer
-   breaks and closes at random, and the front with it, by hundreds of spacings from row to row.
+   Two particles are connected if a chain of particles with distances below the support radius h joins them: particles
+   farther apart exert no forces on each other. The chain continues only from a particle that has at least as many
+   others within h as half a layer of water has. A film too thin to be resolved (or drops that happen to fly in a row)
+   therefore ends the run-up and counts as unconnected water. Otherwise the front would be erratic: a film of a quarter
+   of a layer breaks and closes at random, and the front would jump by hundreds of spacings from row to row.
 
-   The line starts in the water within h of its first end or before it, on its extension to the domain's side: on a line
-   that starts on land the run-up is that of the sea before it, and nothing until that arrives. Where no water is there,
-   as before a line that starts behind a wave maker, the largest body of water along it counts. */
+   The connected water begins within h of the line's first end or before it, on the line's extension to the domain's
+   side. On a line that starts on land the run-up is that of the sea before the line, and there is none until that water
+   arrives. If there is no water before the line, for instance because the line starts behind a wave maker, the largest
+   body of water along the line is used. */
 #include "measure/parts.h"
 
 #include <stdlib.h>
 
-/* Support radii beside the line in which water may find its way around a gap. */
-static const double DETOUR = 2;
+/* Half-width of the strip in support radii within which connected water may flow around a gap in the line. */
+static const double STRIP = 2;
 
-/* Of the line, in plan. */
+/* The line in plan. */
 typedef struct course {
     double ax, ay, length, ux, uy; /* first end, m, unit direction */
     double before;                 /* m from the first end back to the domain's side */
 } course;
 
-/* How far it is from a place back against the direction u to the side of [min, max]; HUGE_VAL: never. */
+/* Distance from a point against the direction u to the side of [min, max]; HUGE_VAL if u is 0. */
 static double back_to_side(double place, double u, double min, double max)
 {
     if (u > 0) return (place - min) / u;
     return u < 0 ? (place - max) / u : HUGE_VAL;
 }
 
-static course course_of(const sb_sight *sight, const sb_runup_line *line)
+static course course_of(const sb_measure_view *view, const sb_runup_line *line)
 {
-    bool flat = sight->scene->dimensions == 2;
+    bool flat = view->scene->dimensions == 2;
     double dx = line->bx - line->ax, dy = flat ? 0 : line->by - line->ay, length = hypot(dx, dy);
     course c = {line->ax, flat ? 0 : line->ay, length, dx / length, dy / length, 0};
-    double before = fmin(back_to_side(c.ax, c.ux, sight->min.x, sight->max.x),
-                         back_to_side(c.ay, c.uy, sight->min.y, sight->max.y));
+    double before =
+        fmin(back_to_side(c.ax, c.ux, view->min.x, view->max.x), back_to_side(c.ay, c.uy, view->min.y, view->max.y));
     c.before = fmax(before, 0); /* a line may start outside */
     return c;
 }
 
-/* How far along the line, from its first end. */
+/* Distance along the line from its first end, m. */
 static double along(const course *c, sb_vec3 at)
 {
     return (at.x - c->ax) * c->ux + (at.y - c->ay) * c->uy;
 }
 
-/* To the nearest place between `first` and the line's end. */
+/* Distance along the line to its point nearest to `at`, limited to the part from `first` to the line's end. */
 static double nearest_along(const course *c, sb_vec3 at, double first)
 {
     return fmin(fmax(along(c, at), first), c->length);
@@ -58,17 +60,17 @@ static double distance_to(const course *c, sb_vec3 at, double first)
     return hypot(at.x - c->ax - t * c->ux, at.y - c->ay - t * c->uy);
 }
 
-/* Adds the particles within `width` of the line from `first` on and nearest to its part from `start` to `end`. */
-static sb_status look_at_part(const sb_sight *sight, const course *c, double first, double start, double end,
-                              double width, sb_error *error)
+/* Adds the particles within `width` of the line whose nearest point, not before `first`, lies from `start` to `end`. */
+static sb_status add_part(const sb_measure_view *view, const course *c, double first, double start, double end,
+                          double width, sb_error *error)
 {
     double x0 = c->ax + start * c->ux, x1 = c->ax + end * c->ux, y0 = c->ay + start * c->uy, y1 = c->ay + end * c->uy;
-    double spacing = sight->scene->resolution;
-    sb_vec3 min = sb_vec(fmin(x0, x1) - width, fmin(y0, y1) - width, sight->min.z - spacing);
-    sb_vec3 max = sb_vec(fmax(x0, x1) + width, fmax(y0, y1) + width, sight->max.z + spacing);
-    sb_cloud *cloud = sight->cloud;
+    double spacing = view->scene->resolution;
+    sb_vec3 min = sb_vec(fmin(x0, x1) - width, fmin(y0, y1) - width, view->min.z - spacing);
+    sb_vec3 max = sb_vec(fmax(x0, x1) + width, fmax(y0, y1) + width, view->max.z + spacing);
+    sb_cloud *cloud = view->cloud;
     size_t kept = cloud->count;
-    sb_status status = sb_cloud_add(cloud, sight->sim, min, max, sight->lag, error);
+    sb_status status = sb_cloud_add(cloud, view->sim, min, max, view->lag, error);
     if (status != SB_OK) return status;
     for (size_t i = kept; i < cloud->count; i++) {
         sb_vec3 place = cloud->samples[i].position;
@@ -80,47 +82,49 @@ static sb_status look_at_part(const sb_sight *sight, const course *c, double fir
     return SB_OK;
 }
 
-/* From `first`, in parts, each with its own box: that around a slanting line would hold most of the scene. */
-static sb_status look_along(const sb_sight *sight, const course *c, double first, double width, sb_error *error)
+/* Fills the cloud with the particles within `width` of the line from `first` on. The line is divided into parts with a
+   box each, because a single box around an oblique line could contain most of the scene. */
+static sb_status query_along(const sb_measure_view *view, const course *c, double first, double width, sb_error *error)
 {
     double parts = ceil((c->length - first) / (8 * width));
     sb_status status = SB_OK;
-    sight->cloud->count = 0;
+    view->cloud->count = 0;
     for (double k = 0; status == SB_OK && k < parts; k++) {
         double start = first + k / parts * (c->length - first);
         double end = k + 1 < parts ? first + (k + 1) / parts * (c->length - first) : c->length;
-        status = look_at_part(sight, c, first, start, end, width, error);
+        status = add_part(view, c, first, start, end, width, error);
     }
     return status;
 }
 
-/* Others within the support radius of a particle in half a layer, a lattice of one spacing: of a disc or, in 2D, of a
-   line. */
+/* Number of other particles within the support radius in half a layer: half of a lattice disc, in 2D of a lattice line.
+ */
 static size_t half_a_layer(const sb_scene *scene)
 {
     double s = scene->numerics.support;
     return (size_t)ceil(scene->dimensions == 2 ? s : M_PI / 2 * s * s) - 1;
 }
 
-/* Whether any water lies before the first end, back to the domain's side. Takes the cloud. */
-static sb_status look_before(const sb_sight *sight, const course *c, double width, bool *any, sb_error *error)
+/* Whether there is any water between the first end and the domain's side before it. Overwrites the cloud. */
+static sb_status find_water_before(const sb_measure_view *view, const course *c, double width, bool *any,
+                                   sb_error *error)
 {
     course back = {c->ax, c->ay, c->before, -c->ux, -c->uy, 0};
-    sb_status status = c->before > 0 ? look_along(sight, &back, 0, width, error) : SB_OK;
+    sb_status status = c->before > 0 ? query_along(view, &back, 0, width, error) : SB_OK;
     *any = false;
-    for (size_t i = 0; status == SB_OK && c->before > 0 && i < sight->cloud->count; i++)
-        *any = *any || along(c, sight->cloud->samples[i].position) <= 0;
+    for (size_t i = 0; status == SB_OK && c->before > 0 && i < view->cloud->count; i++)
+        *any = *any || along(c, view->cloud->samples[i].position) <= 0;
     return status;
 }
 
-/* Fills the cloud with the water around the line and marks what is connected with the water it starts in. */
-static sb_status mark_connected(const sb_sight *sight, const course *c, sb_error *error)
+/* Fills the cloud with the water around the line and marks what is connected with the water at the line's start. */
+static sb_status mark_connected(const sb_measure_view *view, const course *c, sb_error *error)
 {
-    sb_cloud *cloud = sight->cloud;
-    double spacing = sight->scene->resolution, support = sight->scene->numerics.support * spacing;
-    double width = spacing + DETOUR * support;
+    sb_cloud *cloud = view->cloud;
+    double spacing = view->scene->resolution, support = view->scene->numerics.support * spacing;
+    double width = spacing + STRIP * support;
     bool any = false, before = false;
-    sb_status status = look_along(sight, c, -support, width, error);
+    sb_status status = query_along(view, c, -support, width, error);
     if (status == SB_OK) status = sb_cloud_unmark(cloud, error);
     for (size_t i = 0; status == SB_OK && i < cloud->count; i++) {
         cloud->marks[i] = along(c, cloud->samples[i].position) <= support;
@@ -128,23 +132,23 @@ static sb_status mark_connected(const sb_sight *sight, const course *c, sb_error
     }
     if (status != SB_OK || cloud->count == 0) return status;
     if (!any) {
-        status = look_before(sight, c, width, &before, error);
-        if (status == SB_OK) status = look_along(sight, c, -support, width, error); /* the cloud was taken */
+        status = find_water_before(view, c, width, &before, error);
+        if (status == SB_OK) status = query_along(view, c, -support, width, error); /* the cloud was overwritten */
         if (status == SB_OK) status = sb_cloud_unmark(cloud, error);
         if (status == SB_OK && !before) status = sb_cloud_mark_largest(cloud, SB_LINK * spacing, error);
     }
-    return status == SB_OK ? sb_cloud_spread(cloud, support, half_a_layer(sight->scene), error) : status;
+    return status == SB_OK ? sb_cloud_spread(cloud, support, half_a_layer(view->scene), error) : status;
 }
 
-/* A particle on the line: how far along, and whether it is of the run-up. */
-typedef struct wet {
+/* A particle on the line: its distance along the line, m, and whether it is connected. */
+typedef struct line_particle {
     double at;
     bool connected;
-} wet;
+} line_particle;
 
-static wet wet_of(const sb_fluid_sample *sample)
+static line_particle line_particle_of(const sb_fluid_sample *sample)
 {
-    return (wet){sample->pressure, sample->density > 0};
+    return (line_particle){sample->pressure, sample->density > 0};
 }
 
 static int compare_along(const void *left, const void *right)
@@ -165,7 +169,7 @@ static sb_vec3 highest(const sb_cloud *cloud, const course *c, double first, dou
     return best;
 }
 
-/* Keeps the particles within one spacing of the line in their order along it, as wet_of reads them. */
+/* Keeps the particles within one spacing of the line, sorted along it, in the form that line_particle_of reads. */
 static void keep_line(sb_cloud *cloud, const course *c, double spacing)
 {
     size_t kept = 0;
@@ -180,21 +184,22 @@ static void keep_line(sb_cloud *cloud, const course *c, double spacing)
     if (kept > 1) qsort(cloud->samples, kept, sizeof *cloud->samples, compare_along);
 }
 
-/* Length of the line, m, that particles apart cover and no connected one does; each covers `half` to both sides. */
+/* Length of the line, m, that unconnected particles cover and connected ones do not. Each particle covers `half` to
+   both sides. */
 static double length_apart(const sb_cloud *cloud, const course *c, double half)
 {
     double sum = 0, covered = 0, last = -HUGE_VAL;
-    size_t next = 0; /* the next connected one */
+    size_t next = 0; /* index of the next connected particle */
     for (size_t i = 0; i < cloud->count; i++) {
-        const wet w = wet_of(&cloud->samples[i]);
+        const line_particle w = line_particle_of(&cloud->samples[i]);
         if (w.connected) {
             last = w.at;
             continue;
         }
-        while (next < cloud->count && (next <= i || !wet_of(&cloud->samples[next]).connected)) next++;
+        while (next < cloud->count && (next <= i || !line_particle_of(&cloud->samples[next]).connected)) next++;
         double from = fmax(fmax(covered, w.at - half), last + half);
         double to = fmin(w.at + half, c->length);
-        if (next < cloud->count) to = fmin(to, wet_of(&cloud->samples[next]).at - half);
+        if (next < cloud->count) to = fmin(to, line_particle_of(&cloud->samples[next]).at - half);
         if (!(to > from)) continue;
         sum += to - from;
         covered = to;
@@ -202,19 +207,22 @@ static double length_apart(const sb_cloud *cloud, const course *c, double half)
     return sum;
 }
 
-sb_status sb_runup_read(const sb_sight *sight, const sb_runup_line *line, sb_runup_record *record, sb_error *error)
+sb_status sb_runup_read(const sb_measure_view *view, const sb_runup_line *line, sb_runup_record *record,
+                        sb_error *error)
 {
-    const double spacing = sight->scene->resolution, half = 0.5 * spacing;
-    const course c = course_of(sight, line);
-    sb_cloud *cloud = sight->cloud;
-    sb_status status = mark_connected(sight, &c, error);
+    const double spacing = view->scene->resolution, half = 0.5 * spacing;
+    const course c = course_of(view, line);
+    sb_cloud *cloud = view->cloud;
+    sb_status status = mark_connected(view, &c, error);
     if (status != SB_OK) return status;
     sb_vec3 place = highest(cloud, &c, 0, spacing);
-    if (isnan(place.z)) place = highest(cloud, &c, -sight->scene->numerics.support * spacing, spacing);
+    if (isnan(place.z)) place = highest(cloud, &c, -view->scene->numerics.support * spacing, spacing);
     keep_line(cloud, &c, spacing);
     double front = 0;
-    for (size_t i = 0; i < cloud->count; i++)
-        if (wet_of(&cloud->samples[i]).connected) front = fmin(wet_of(&cloud->samples[i]).at + half, c.length);
+    for (size_t i = 0; i < cloud->count; i++) {
+        const line_particle p = line_particle_of(&cloud->samples[i]);
+        if (p.connected) front = fmin(p.at + half, c.length);
+    }
     record->place = sb_vec(place.x, place.y, place.z + half); /* the upper face of that particle's volume */
     record->front = cloud->count == 0 && isnan(place.z) ? (double)NAN : fmax(front, 0);
     record->apart = length_apart(cloud, &c, half);

@@ -1,9 +1,9 @@
-/* What is measured, on its way into an archive and back: totals, maxima, intervals in progress, when what is due. */
+/* Saves and loads the state of the measurements: totals, maxima, intervals in progress and due times. */
 #include "measure/state.h"
 
 #define SECTION "measure"
 
-/* An impulse is nine doubles, a body's record is taken apart. */
+/* An impulse is saved as nine doubles. */
 enum { IMPULSE = sizeof(sb_body_impulse) / sizeof(double) };
 
 static void put_bodies(const sb_measure *measure, sb_archive_out *out)
@@ -28,7 +28,8 @@ static void put_bodies(const sb_measure *measure, sb_archive_out *out)
 static void take_bodies(sb_measure *measure, sb_archive_in *in)
 {
     const size_t count = measure->model->body_count;
-    if (sb_take_count(in, SIZE_MAX) != count) sb_archive_refuse(in, "forces on other bodies, expected %zu", count);
+    if (sb_take_count(in, SIZE_MAX) != count)
+        sb_archive_refuse(in, "forces on a different number of bodies, expected %zu", count);
     for (size_t b = 0; b < count; b++) {
         body_state *state = &measure->states[b];
         sb_body_record *body = &measure->bodies[b];
@@ -55,7 +56,7 @@ void sb_measure_save(const sb_measure *measure, sb_archive_out *out)
     sb_put_count(out, measure->scene->measure.plane_count);
     for (size_t i = 0; i < measure->scene->measure.plane_count; i++) {
         sb_put_list(out, &measure->planes[i], sizeof measure->planes[i] / sizeof(double), sizeof(double));
-        sb_gate_save(measure->gates[i], out);
+        sb_plane_counter_save(measure->counters[i], out);
     }
     sb_put_count(out, measure->scene->measure.gauge_count);
     for (size_t i = 0; i < measure->scene->measure.gauge_count; i++) {
@@ -71,10 +72,10 @@ static sb_status take_planes(sb_measure *measure, sb_archive_in *in, sb_error *e
     const size_t count = measure->scene->measure.plane_count;
     sb_status status = SB_OK;
     if (sb_take_count(in, SIZE_MAX) != count)
-        sb_archive_refuse(in, "volumes through other planes, expected %zu", count);
+        sb_archive_refuse(in, "a different number of flow planes, expected %zu", count);
     for (size_t i = 0; status == SB_OK && i < count; i++) {
         sb_take_list(in, &measure->planes[i], sizeof measure->planes[i] / sizeof(double), sizeof(double));
-        status = sb_gate_load(measure->gates[i], in, error);
+        status = sb_plane_counter_load(measure->counters[i], in, error);
     }
     return status;
 }
@@ -82,7 +83,8 @@ static sb_status take_planes(sb_measure *measure, sb_archive_in *in, sb_error *e
 static void take_gauges(sb_measure *measure, sb_archive_in *in)
 {
     const size_t count = measure->scene->measure.gauge_count;
-    if (sb_take_count(in, SIZE_MAX) != count) sb_archive_refuse(in, "other gauges, expected %zu", count);
+    if (sb_take_count(in, SIZE_MAX) != count)
+        sb_archive_refuse(in, "a different number of gauges, expected %zu", count);
     for (size_t i = 0; i < count; i++) {
         measure->gauges[i].seen = sb_take_flag(in);
         measure->gauges[i].thin = sb_take_real(in);
@@ -103,11 +105,11 @@ sb_status sb_measure_load(sb_measure *measure, sb_archive_in *in, sb_error *erro
     measure->time = sb_take_real(in);
     measure->next = sb_take_count(in, (uint64_t)1 << 53);
     measure->momentum_imbalance = sb_take_real(in);
-    /* The rows up to the time are written, and the next is not far: else a step would write rows without end. */
-    const double reached = (double)measure->next * measure->interval;
-    if (!(measure->time >= 0 && reached > measure->time * (1 - 1e-6) - measure->interval &&
-          reached <= measure->time * (1 + 1e-6) + 2 * measure->interval))
-        sb_archive_refuse(in, "the next rows at %g s, the time being %g s", reached, measure->time);
+    /* The next row lies within about an interval of the time. Otherwise a step would write rows without end. */
+    const double due = (double)measure->next * measure->interval;
+    if (!(measure->time >= 0 && due > measure->time * (1 - 1e-6) - measure->interval &&
+          due <= measure->time * (1 + 1e-6) + 2 * measure->interval))
+        sb_archive_refuse(in, "the next rows at %g s, but the time is %g s", due, measure->time);
     take_bodies(measure, in);
     status = take_planes(measure, in, error);
     if (status != SB_OK) return status;

@@ -1,11 +1,11 @@
-/* The measurements' insides. Inside src/measure. */
+/* The state of the measurements. Private to src/measure. */
 #ifndef SB_MEASURE_STATE_H
 #define SB_MEASURE_STATE_H
 
 #include "measure/measure.h"
 #include "measure/parts.h"
 
-/* One growing list of records. */
+/* A growing list of records. */
 typedef struct list {
     void *items;
     size_t count, capacity;
@@ -17,14 +17,14 @@ enum { FORCES, GAUGES, PROBES, FLOWS, RUNUPS, ENERGIES, LISTS };
 typedef struct body_state {
     sb_body_impulse start, boundary, last;
     sb_footprint footprint;
-    bool faces; /* flow depth is taken */
+    bool faces; /* whether flow depth at the body is measured */
 } body_state;
 
 typedef struct plane_state {
     double boundary, last, now;
 } plane_state; /* m^3 passed so far */
 
-/* Of a gauge over all rows: whether it had a value, and the deepest water while it had none, m. */
+/* A gauge over all rows: whether it ever had a value, and the greatest depth while it had none, m. */
 typedef struct gauge_state {
     bool seen;
     double thin;
@@ -36,12 +36,12 @@ struct sb_measurements {
     const sb_scene *scene;
     const sb_model *model;
     double interval, time;     /* s; time: of the last step's end */
-    double momentum_imbalance; /* largest of a step since the last row */
+    double momentum_imbalance; /* largest value of any step since the last row */
     uint64_t next;             /* the next row lies at next * interval */
     body_state *states;
     sb_body_record *bodies;
     plane_state *planes;
-    sb_gate **gates;
+    sb_plane_counter **counters;
     sb_floors *floors; /* one per gauge */
     gauge_state *gauges;
     sb_patch **patches; /* one per probe */

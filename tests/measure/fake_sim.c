@@ -68,9 +68,9 @@ void fake_world_free(fake_world *world)
     sb_cloud_free(&world->cloud);
 }
 
-sb_sight fake_sight(fake_world *world)
+sb_measure_view fake_view(fake_world *world)
 {
-    return (sb_sight){&world->scene, &world->sim, world->model.min, world->model.max, 0, &world->cloud};
+    return (sb_measure_view){&world->scene, &world->sim, world->model.min, world->model.max, 0, &world->cloud};
 }
 
 void fake_add(sb_sim *sim, sb_vec3 position, sb_vec3 velocity, double pressure)

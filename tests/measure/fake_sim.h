@@ -1,4 +1,4 @@
-/* A simulation made of whatever particles and impulses a test puts into it. */
+/* A fake simulation: it contains the particles and impulses that a test puts into it. */
 #ifndef SB_TESTS_FAKE_SIM_H
 #define SB_TESTS_FAKE_SIM_H
 
@@ -27,7 +27,7 @@ typedef struct fake_world {
 
 void fake_world_make(fake_world *world, int dimensions, double spacing, sb_vec3 min, sb_vec3 max);
 void fake_world_free(fake_world *world);
-sb_sight fake_sight(fake_world *world);
+sb_measure_view fake_view(fake_world *world);
 
 void fake_add(sb_sim *sim, sb_vec3 position, sb_vec3 velocity, double pressure);
 

@@ -1,4 +1,4 @@
-/* The measures across periodic sides: what stands there reads what it would read elsewhere. */
+/* Measurements at periodic sides give the same values as elsewhere. */
 #include "base/random.h"
 #include "measure/measure.h"
 #include "sim/tank.h"
@@ -29,9 +29,8 @@ static void step(sb_sim *sim, sb_measure *measure)
     assert_int_equal(sb_measure_step(measure, sim, &error), SB_OK);
 }
 
-/* A slab of still water, rolled so that what was in its middle is at its sides: the same readings.
- */
-static void gauges_and_probes_see_across(void **state)
+/* A slab of still water is shifted so that its middle lies at its periodic sides: the values stay the same. */
+static void gauges_and_probes_read_across_periodic_sides(void **state)
 {
     (void)state;
     double eta[PLACES], pressure[PLACES][2];
@@ -70,9 +69,9 @@ static void gauges_and_probes_see_across(void **state)
     for (int p = 0; p < 2; p++) assert_near(pressure[AT_SIDE][p], pressure[INSIDE][p], 1e-3 * pressure[INSIDE][p]);
 }
 
-/* A stream brings the same volume through a plane in a side, just beside it and anywhere; the map
-   keeps all water, and sees no seam. */
-static void planes_and_maps_see_across(void **state)
+/* A uniform flow passes the same volume through planes at a side, near it and elsewhere. The map contains all water and
+   shows no difference at the sides. */
+static void planes_and_maps_read_across_periodic_sides(void **state)
 {
     (void)state;
     tank t;
@@ -104,17 +103,17 @@ static void planes_and_maps_see_across(void **state)
     printf("map: %.6f m3, depths %.4f to %.4f m\n", water, least, most);
     assert_near(water, 0.24, 1e-6);
     assert_true(least > 0.58 && most < 0.62);
-    /* Twice round in x. */
+    /* Twice through the period in x. */
     while (sb_sim_report(sim)->time < 2.01) step(sim, measure);
     const sb_energy e = sb_sim_energy(sim);
     double volume[PLANES] = {0};
-    double reached = 0;
-    while (reached < 2.249) {
+    double time = 0;
+    while (time < 2.249) {
         step(sim, measure);
         const sb_measure_records *r = sb_measure_latest(measure);
         for (size_t i = 0; i < r->flow_count; i++) {
             volume[r->flows[i].plane] = r->flows[i].volume;
-            reached = r->flows[i].time;
+            time = r->flows[i].time;
         }
     }
     double through = 0.24 * e.momentum.x / e.mass * 2.25;
@@ -133,8 +132,8 @@ int main(void)
 {
     omp_set_num_threads(1);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(gauges_and_probes_see_across),
-        cmocka_unit_test(planes_and_maps_see_across),
+        cmocka_unit_test(gauges_and_probes_read_across_periodic_sides),
+        cmocka_unit_test(planes_and_maps_read_across_periodic_sides),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

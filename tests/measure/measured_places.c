@@ -1,5 +1,5 @@
-/* What is read where it is hard to read: probes in corners and on thin plates, gauges over decks and beside walls, map
-   cells that the domain cuts. Water at rest in 2D; a spacing is 2.5 cm. */
+/* Measurements at difficult positions: probes in corners and on thin plates, gauges over decks and beside walls, map
+   cells that the domain cuts. Water at rest in 2D; the spacing is 2.5 cm. */
 #include "base/memory.h"
 #include "geometry/model.h"
 #include "measure/measure.h"
@@ -17,7 +17,7 @@
 
 enum { PLACES = 8 };
 
-/* Means over the second half of a second at rest. */
+/* Means over 0.5 s to 1 s at rest. */
 typedef struct readings {
     double eta[PLACES], pressure[PLACES];
     float depth[PLACES];
@@ -81,18 +81,18 @@ static readings at_rest(const char *text)
     return r;
 }
 
-/* Pressures at heights z under a level, within a share of what is told. */
-static void check_pressures(const readings *r, const double *z, int count, double level, double share)
+/* Compares the pressures at heights z with the hydrostatic ones below a level; tolerance: relative. */
+static void check_pressures(const readings *r, const double *z, int count, double level, double tolerance)
 {
     for (int k = 0; k < count; k++) {
         const double expected = 9810 * (level - z[k]);
         print_message("z = %.4f m: %.0f Pa, hydrostatic %.0f\n", z[k], r->pressure[k], expected);
-        assert_true(fabs(r->pressure[k] / expected - 1) < share);
+        assert_true(fabs(r->pressure[k] / expected - 1) < tolerance);
     }
 }
 
-/* The sheet of boundary particles goes on behind the floor, where no water is. */
-static void probes_in_corners_read_what_water_bears(void **state)
+/* The boundary surface continues behind the floor, where there is no water. */
+static void probes_in_corners_read_hydrostatic_pressure(void **state)
 {
     (void)state;
     static const double z[] = {0, 0.0125, 0.025, 0.05, 0, 0, 0};
@@ -106,8 +106,8 @@ static void probes_in_corners_read_what_water_bears(void **state)
     check_pressures(&r, z, 7, 0.5, 0.12);
 }
 
-/* A tread runs into the riser behind it and ends at the one before it, which is turned the same way. */
-static void probes_on_stairs_read_what_water_bears(void **state)
+/* A tread ends at two risers with the same normal: the riser at its back crosses it, the one at its front does not. */
+static void probes_on_stairs_read_hydrostatic_pressure(void **state)
 {
     (void)state;
     static const double z[] = {0.15, 0.15, 0.3, 0.15};
@@ -121,8 +121,8 @@ static void probes_on_stairs_read_what_water_bears(void **state)
     check_pressures(&r, z, 4, 0.6, 0.05);
 }
 
-/* The wall opposite, two spacings away, is none that the sheet runs into. */
-static void a_probe_in_a_narrow_channel_reads_what_water_bears(void **state)
+/* The opposite wall, two spacings away, is not a crossing wall. */
+static void a_probe_in_a_narrow_channel_reads_hydrostatic_pressure(void **state)
 {
     (void)state;
     static const double z[] = {0.2, 0.3};
@@ -135,8 +135,9 @@ static void a_probe_in_a_narrow_channel_reads_what_water_bears(void **state)
     check_pressures(&r, z, 2, 0.5, 0.1);
 }
 
-/* A tread of two and a half spacings is nearly all edge, which reads low: low, but no nonsense. */
-static void a_probe_on_a_narrow_tread_reads_no_nonsense(void **state)
+/* A tread of two and a half spacings consists almost of edges only, where pressures are too low: here by less than 40
+ * %. */
+static void a_probe_on_a_narrow_tread_reads_low_within_bounds(void **state)
 {
     (void)state;
     static const double z[] = {0.15};
@@ -147,8 +148,8 @@ static void a_probe_on_a_narrow_tread_reads_no_nonsense(void **state)
     check_pressures(&r, z, 1, 0.6, 0.4);
 }
 
-/* Both sides of a plate thinner than the support radius bear the water before it. */
-static void probes_on_thin_plates_read_what_water_bears(void **state)
+/* Both sides of a plate thinner than the support radius carry the force of the water in front of it. */
+static void probes_on_thin_plates_read_hydrostatic_pressure(void **state)
 {
     (void)state;
     static const double z[] = {0.1, 0.2, 0.3};
@@ -161,7 +162,7 @@ static void probes_on_thin_plates_read_what_water_bears(void **state)
     check_pressures(&r, z, 3, 0.5, 0.05);
 }
 
-/* Over the deck, at its ends, beside it; the map's last cell is cut by the domain, at 2 m. */
+/* Gauges over the deck, at its ends and beside it. The domain's side at 2 m cuts the map's last cell. */
 static void a_gauge_over_a_deck_reads_the_surface(void **state)
 {
     (void)state;
@@ -176,7 +177,7 @@ static void a_gauge_over_a_deck_reads_the_surface(void **state)
         assert_true(fabs(r.eta[k] - 0.6) < 0.3 * SPACING);
     }
     for (int k = 0; k < 6; k++) {
-        if (k == 2 || k == 3) continue; /* the deck takes its part there */
+        if (k == 2 || k == 3) continue; /* the deck occupies a part of these cells */
         assert_true(fabs((double)r.depth[k] - 0.6) < 0.5 * SPACING);
     }
 }
@@ -191,7 +192,7 @@ static void a_gauge_over_a_dry_deck_reads_the_water_below(void **state)
     assert_true(fabs(r.eta[0] - 0.3) < 0.3 * SPACING);
 }
 
-/* Deep water three spacings away, behind a wall, weighs less than the shallow water at the gauge. */
+/* Shallow water at the gauge has more weight than deep water three spacings away, behind a wall. */
 static void a_gauge_at_a_wall_reads_its_own_side(void **state)
 {
     (void)state;
@@ -203,7 +204,7 @@ static void a_gauge_at_a_wall_reads_its_own_side(void **state)
     assert_true(fabs(r.eta[1] - 0.6) < 0.5 * SPACING);
 }
 
-/* A puddle on the plateau has more particles on the last lines than the sea. */
+/* On the last lines the puddle on the plateau has more particles than the sea. */
 static void a_puddle_on_a_plateau_is_not_the_runup(void **state)
 {
     (void)state;
@@ -229,7 +230,7 @@ static void a_puddle_on_a_plateau_is_not_the_runup(void **state)
         print_message("front %.4f m, top %.4f m, apart %.4f m\n", r->front, r->place.z, r->apart);
         assert_true(fabs(r->front - (1 - scene.measure.runups[i].ax)) < 0.5 * SPACING);
         assert_true(fabs(r->place.z - 0.3) < 0.5 * SPACING);
-        assert_true(fabs(r->apart - 0.6) < 3 * SPACING); /* its end sags while it settles */
+        assert_true(fabs(r->apart - 0.6) < 3 * SPACING); /* the puddle's end spreads during settling */
     }
     sb_measure_destroy(measure);
     sb_sim_destroy(sim);
@@ -241,11 +242,11 @@ int main(void)
 {
     omp_set_num_threads(1); /* some thousand particles */
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(probes_in_corners_read_what_water_bears),
-        cmocka_unit_test(probes_on_stairs_read_what_water_bears),
-        cmocka_unit_test(a_probe_in_a_narrow_channel_reads_what_water_bears),
-        cmocka_unit_test(a_probe_on_a_narrow_tread_reads_no_nonsense),
-        cmocka_unit_test(probes_on_thin_plates_read_what_water_bears),
+        cmocka_unit_test(probes_in_corners_read_hydrostatic_pressure),
+        cmocka_unit_test(probes_on_stairs_read_hydrostatic_pressure),
+        cmocka_unit_test(a_probe_in_a_narrow_channel_reads_hydrostatic_pressure),
+        cmocka_unit_test(a_probe_on_a_narrow_tread_reads_low_within_bounds),
+        cmocka_unit_test(probes_on_thin_plates_read_hydrostatic_pressure),
         cmocka_unit_test(a_gauge_over_a_deck_reads_the_surface),
         cmocka_unit_test(a_gauge_over_a_dry_deck_reads_the_water_below),
         cmocka_unit_test(a_gauge_at_a_wall_reads_its_own_side),

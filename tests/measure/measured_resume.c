@@ -1,4 +1,4 @@
-/* Measurements that go on from a saved state bring the same records as those that were never disturbed. */
+/* Measurements that continue from a saved state give the same records as uninterrupted ones. */
 #include "../check.h"
 #include "base/hash.h"
 #include "measure/measure.h"
@@ -11,10 +11,10 @@ enum { BEFORE = 60, AFTER = 60 };
 
 static const sb_gauge gauges[] = {{"wet", 0.33, 0}, {"dry", 1.7, 0}};
 static const sb_probe probes[] = {{"inside", {0.5, 0, 0.3}, 0}, {"wall", {2, 0, 0.1}, 0}};
-static const sb_flow_plane planes[] = {{"gate", 1.1, 0, 1.1, 1, -1, 4}, {"lip", 1.3, 0, 1.3, 1, 0.2, 4}};
+static const sb_flow_plane planes[] = {{"plane", 1.1, 0, 1.1, 1, -1, 4}, {"lip", 1.3, 0, 1.3, 1, 0.2, 4}};
 static const sb_runup_line lines[] = {{"floor", 0, 0, 2, 0}};
 
-/* A column that has begun to fall. */
+/* A water column that has begun to collapse. */
 static void make(tank *t)
 {
     tank_make(t, 2, 0.05, sb_vec(2, 0, 1.5), 1, 0.8, 0.05);
@@ -32,7 +32,7 @@ static void make(tank *t)
     };
 }
 
-/* Continues a hash over all that a step brought; counts the rows of flows. */
+/* Continues a hash over all records of a step; counts the flow rows. */
 static uint64_t hash_records(uint64_t hash, const sb_measure_records *r, size_t *flows)
 {
     hash = sb_hash(hash, r->forces, r->force_count * sizeof *r->forces);
@@ -115,14 +115,14 @@ static void check(int before)
     tank_free(&t);
 }
 
-/* Wherever within an interval it is cut: what is in progress differs. */
-static void rows_go_on(void **state)
+/* Saved at several times within an interval: the state of the interval in progress differs. */
+static void rows_continue_after_resume(void **state)
 {
     (void)state;
     for (int before = BEFORE; before < BEFORE + 6; before++) check(before);
 }
 
-static void measurements_of_others_are_refused(void **state)
+static void measurements_of_another_scene_are_refused(void **state)
 {
     (void)state;
     tank t, other;
@@ -136,8 +136,8 @@ static void measurements_of_others_are_refused(void **state)
     save(sim, measure, &out);
     sb_measure_destroy(measure);
     sb_sim_destroy(sim);
-    static const char *const words[] = {"volumes through other planes, expected 1", "expected none",
-                                        "a list of 20 elements", "the next rows at "};
+    static const char *const messages[] = {"a different number of flow planes, expected 1", "expected none",
+                                           "a list of 20 elements", "the next rows at "};
     for (int k = 0; k < 4; k++) {
         sb_archive_in in;
         sb_error error = {0};
@@ -149,7 +149,7 @@ static void measurements_of_others_are_refused(void **state)
         create(&other, &sim, &measure);
         assert_int_equal(sb_archive_parse(&in, "saved", out.bytes, out.used, "TEST", 1, NULL), SB_OK);
         assert_int_equal(sb_measure_load(measure, &in, &error), SB_BAD_INPUT);
-        if (!strstr(error.text, words[k])) fail_msg("%d: %s", k, error.text);
+        if (!strstr(error.text, messages[k])) fail_msg("%d: %s", k, error.text);
         sb_measure_destroy(measure);
         sb_sim_destroy(sim);
         tank_free(&other);
@@ -160,10 +160,10 @@ static void measurements_of_others_are_refused(void **state)
 
 int main(void)
 {
-    omp_set_num_threads(1); /* a few hundred particles are quicker alone */
+    omp_set_num_threads(1); /* a few hundred particles are faster on one thread */
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rows_go_on),
-        cmocka_unit_test(measurements_of_others_are_refused),
+        cmocka_unit_test(rows_continue_after_resume),
+        cmocka_unit_test(measurements_of_another_scene_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* The measures on the real simulation: a small tank at rest, and a column that falls. In 2D. */
+/* Measurements of the real simulation in 2D: a small tank at rest and a collapsing column. */
 #include "measure/measure.h"
 #include "sim/tank.h"
 
@@ -25,7 +25,7 @@ static void collect(sums *s, const sb_measure_records *r)
     }
 }
 
-static void a_tank_at_rest_reads_right(void **state)
+static void a_tank_at_rest_reads_hydrostatic_values(void **state)
 {
     (void)state;
     tank t;
@@ -68,12 +68,12 @@ static double beyond(const sb_sim *sim, double x)
     return (double)count * SPACING * SPACING;
 }
 
-static void a_plane_loses_no_particle(void **state)
+static void a_plane_counts_every_particle(void **state)
 {
     (void)state;
     tank t;
     tank_make(&t, 2, SPACING, sb_vec(4, 1, 2), 1, 1, 0);
-    sb_flow_plane plane = {"gate", 1.5, 0, 1.5, 1, -1, 4};
+    sb_flow_plane plane = {"plane", 1.5, 0, 1.5, 1, -1, 4};
     t.scene.measure = (sb_measure_settings){.interval = 0.01, .plane_count = 1, .planes = &plane};
     sb_sim *sim;
     sb_measure *measure;
@@ -98,9 +98,8 @@ static void a_plane_loses_no_particle(void **state)
     tank_free(&t);
 }
 
-/* A column falls and strikes the far wall: probes a spacing apart up the wall, each standing for
-   one spacing of it, bear together what the body bears. What they lack is the push of contact on
-   single drops, some per cent of the impulse. */
+/* A column collapses and strikes the far wall. Probes stand a spacing apart along the wall, each for one spacing of it.
+   Their sum is the body's force, except for the contact force on single drops, some per cent of the impulse. */
 static void wall_probes_add_up_to_the_force(void **state)
 {
     (void)state;
@@ -130,7 +129,7 @@ static void wall_probes_add_up_to_the_force(void **state)
         }
     }
     print_message("probes %.0f N s/m, body %.0f N s/m, at most %.0f N/m\n", borne, force, greatest);
-    assert_true(greatest > 5000); /* it struck */
+    assert_true(greatest > 5000); /* the water struck the wall */
     assert_true(fabs(borne / force - 1) < 0.05);
     sb_measure_destroy(measure);
     sb_sim_destroy(sim);
@@ -139,10 +138,10 @@ static void wall_probes_add_up_to_the_force(void **state)
 
 int main(void)
 {
-    omp_set_num_threads(1); /* a few hundred particles are quicker alone */
+    omp_set_num_threads(1); /* a few hundred particles are faster on one thread */
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_tank_at_rest_reads_right),
-        cmocka_unit_test(a_plane_loses_no_particle),
+        cmocka_unit_test(a_tank_at_rest_reads_hydrostatic_values),
+        cmocka_unit_test(a_plane_counts_every_particle),
         cmocka_unit_test(wall_probes_add_up_to_the_force),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,4 +1,4 @@
-/* Volume through planes, run-up, maps, and the depth of water at faces. */
+/* Volume through planes, run-up, maps, and flow depth at faces. */
 #include "fake_sim.h"
 
 #include <setjmp.h>
@@ -14,16 +14,16 @@ static void drift(sb_sim *sim, sb_vec3 velocity)
 
 static double passed(fake_world *world, const sb_flow_plane *plane, sb_vec3 velocity, double dt, int steps)
 {
-    sb_sight sight = fake_sight(world);
-    sb_gate *gate;
+    sb_measure_view view = fake_view(world);
+    sb_plane_counter *counter;
     double volume = 0;
     drift(&world->sim, velocity);
-    assert_int_equal(sb_gate_create(&sight, plane, &gate, NULL), SB_OK);
+    assert_int_equal(sb_plane_counter_create(&view, plane, &counter, NULL), SB_OK);
     for (int k = 0; k < steps; k++) {
         fake_step(&world->sim, dt);
-        assert_int_equal(sb_gate_step(gate, &sight, &volume, NULL), SB_OK);
+        assert_int_equal(sb_plane_counter_step(counter, &view, &volume, NULL), SB_OK);
     }
-    sb_gate_destroy(gate);
+    sb_plane_counter_destroy(counter);
     return volume;
 }
 
@@ -31,25 +31,25 @@ static void plane_counts_every_particle_once(void **state)
 {
     (void)state;
     /* From (5, 2) to (5, 8), heights 1 to 4: +x is to the right. */
-    const sb_flow_plane plane = {"gate", 5, 2, 5, 8, 1, 4};
+    const sb_flow_plane plane = {"plane", 5, 2, 5, 8, 1, 4};
     fake_world world;
     fake_world_make(&world, 3, 0.5, sb_vec(-5, 0, 0), sb_vec(30, 10, 10));
     fake_fill(&world, sb_vec(0, 0, 0), sb_vec(4, 10, 6), 0, 0, 0, 1);
-    /* The block of 4 x 6 x 3 m in front of the opening passes, whatever the steps. */
+    /* The block of 4 x 6 x 3 m in front of the opening passes, for any step length. */
     assert_true(fabs(passed(&world, &plane, sb_vec(3, 0, 0), 0.11, 40) - 72) < 1e-9);
     assert_true(fabs(passed(&world, &plane, sb_vec(-2, 0, 0), 0.07, 200) + 72) < 1e-9);
     fake_world_free(&world);
 }
 
-static void slanting_plane_has_the_same_flux(void **state)
+static void an_oblique_plane_has_the_same_flux(void **state)
 {
     (void)state;
-    const sb_flow_plane plane = {"gate", 8, 2, 5, 8, -1, 20};
-    const sb_flow_plane turned = {"gate", 5, 8, 8, 2, -1, 20};
+    const sb_flow_plane plane = {"plane", 8, 2, 5, 8, -1, 20};
+    const sb_flow_plane turned = {"plane", 5, 8, 8, 2, -1, 20};
     fake_world world;
     fake_world_make(&world, 3, 0.5, sb_vec(-5, 0, 0), sb_vec(30, 10, 10));
     fake_fill(&world, sb_vec(0, 0, 0), sb_vec(4, 10, 6), 0, 0, 0.1, 1);
-    /* The slant passes 6 m of y; jitter decides on particles at its two ends only. */
+    /* The oblique plane spans 6 m of y. Jitter changes the count only at its two ends. */
     assert_true(fabs(passed(&world, &plane, sb_vec(3, 0, 0), 0.11, 60) - 4 * 6 * 6) < 6);
     assert_true(fabs(passed(&world, &turned, sb_vec(-3, 0, 0), 0.1, 60) - 4 * 6 * 6) < 6);
     fake_world_free(&world);
@@ -58,7 +58,7 @@ static void slanting_plane_has_the_same_flux(void **state)
 static void plane_in_two_dimensions(void **state)
 {
     (void)state;
-    const sb_flow_plane plane = {"gate", 5, 0, 5, 1, 0, 3};
+    const sb_flow_plane plane = {"plane", 5, 0, 5, 1, 0, 3};
     fake_world world;
     fake_world_make(&world, 2, 0.25, sb_vec(-5, 0, 0), sb_vec(30, 0, 10));
     fake_fill(&world, sb_vec(0, 0, 0), sb_vec(4, 0, 4), 0, 0, 0, 1);
@@ -71,51 +71,53 @@ static void runup_is_the_top_of_connected_water(void **state)
     (void)state;
     fake_world world;
     fake_world_make(&world, 3, 0.5, sb_vec(0, 0, 0), sb_vec(40, 10, 20));
-    /* A sheet two layers thick up a 1:4 slope, until x = 20, and a drop above it. */
+    /* A film two layers thick on a 1:4 slope up to x = 20, and a drop above it. */
     for (double x = 0.25; x < 20; x += 0.5)
         for (double y = 0.25; y < 10; y += 0.5)
             for (int k = 0; k < 2; k++)
                 fake_add(&world.sim, sb_vec(x, y, 0.25 * x + 0.25 + 0.5 * k), sb_vec(0, 0, 0), 0);
     fake_add(&world.sim, sb_vec(12, 5, 15), sb_vec(0, 0, 0), 0);
     const sb_runup_line line = {"beach", 0, 5, 40, 5};
-    sb_sight sight = fake_sight(&world);
+    sb_measure_view view = fake_view(&world);
     sb_runup_record record;
-    assert_int_equal(sb_runup_read(&sight, &line, &record, NULL), SB_OK);
+    assert_int_equal(sb_runup_read(&view, &line, &record, NULL), SB_OK);
     assert_true(fabs(record.place.x - 19.75) < 1e-9);
     assert_true(fabs(record.place.z - (0.25 * 19.75 + 1.0)) < 1e-9);
     assert_true(fabs(record.front - 20) < 1e-9);
     const sb_runup_line away = {"away", 30, 5, 40, 5};
-    assert_int_equal(sb_runup_read(&sight, &away, &record, NULL), SB_OK);
+    assert_int_equal(sb_runup_read(&view, &away, &record, NULL), SB_OK);
     assert_true(isnan(record.place.z) && isnan(record.front));
     fake_world_free(&world);
 }
 
-/* Water of a known extent, particles displaced by up to 0.2 spacings: so near is the front told,
-   whichever way the line runs, and the drop ahead of it does not count. */
-static void front_is_the_reach_of_connected_water(void **state)
+/* Water of a known extent, particles displaced by up to 0.2 spacings: the front is correct to this distance in every
+   direction of the line, and the drop ahead of it does not count. */
+static void front_is_the_extent_of_connected_water(void **state)
 {
     (void)state;
     for (int k = 0; k < 40; k++) {
         int dimensions = 2 + k % 2;
-        double reach = 6 + 0.5 * (k % 10), spacing = 0.5;
+        double extent = 6 + 0.5 * (k % 10), spacing = 0.5;
         fake_world world;
         fake_world_make(&world, dimensions, spacing, sb_vec(-20, 0, 0), sb_vec(20, 10, 20));
-        bool back = k % 4 >= 2; /* the water, too, then lies on the other side */
-        fake_fill(&world, sb_vec(back ? -reach : 0, 0, 0), sb_vec(back ? 0 : reach, 10, 1), 0, 0, 0.2, (uint64_t)k + 1);
-        fake_add(&world.sim, sb_vec(back ? -reach - 2 : reach + 2, dimensions == 2 ? 0 : 5, 0.25), sb_vec(0, 0, 0), 0);
+        bool back = k % 4 >= 2; /* the water then lies on the other side, too */
+        fake_fill(&world, sb_vec(back ? -extent : 0, 0, 0), sb_vec(back ? 0 : extent, 10, 1), 0, 0, 0.2,
+                  (uint64_t)k + 1);
+        fake_add(&world.sim, sb_vec(back ? -extent - 2 : extent + 2, dimensions == 2 ? 0 : 5, 0.25), sb_vec(0, 0, 0),
+                 0);
         const sb_runup_line line = {"floor", back ? 2 : -2, 5, back ? -20 : 20, 5};
         const sb_runup_line little = {"little", 0, 5, back ? -5 : 5, 5};
-        sb_sight sight = fake_sight(&world);
+        sb_measure_view view = fake_view(&world);
         sb_runup_record record;
-        assert_int_equal(sb_runup_read(&sight, &line, &record, NULL), SB_OK);
-        assert_true(fabs(record.front - (reach + 2)) <= 0.2 * spacing);
-        assert_int_equal(sb_runup_read(&sight, &little, &record, NULL), SB_OK);
+        assert_int_equal(sb_runup_read(&view, &line, &record, NULL), SB_OK);
+        assert_true(fabs(record.front - (extent + 2)) <= 0.2 * spacing);
+        assert_int_equal(sb_runup_read(&view, &little, &record, NULL), SB_OK);
         assert_true(fabs(record.front - 5) < 1e-9);
         fake_world_free(&world);
     }
 }
 
-/* One layer whose particles have drifted 1.8 spacings apart is water still; at 2.1 it is drops. */
+/* A layer whose particles are 1.8 spacings apart is still connected; at 2.1 spacings they are drops. */
 static void front_follows_a_thin_film(void **state)
 {
     (void)state;
@@ -126,17 +128,17 @@ static void front_follows_a_thin_film(void **state)
         fake_fill(&world, sb_vec(0, 0, 0), sb_vec(6, 0, 1), 0, 0, 0, 1);
         for (int k = 1; k <= 5; k++) fake_add(&world.sim, sb_vec(last + k * gap, 0, 0.25), sb_vec(0, 0, 0), 0);
         const sb_runup_line line = {"floor", 0, 0, 40, 0};
-        sb_sight sight = fake_sight(&world);
+        sb_measure_view view = fake_view(&world);
         sb_runup_record record;
-        assert_int_equal(sb_runup_read(&sight, &line, &record, NULL), SB_OK);
+        assert_int_equal(sb_runup_read(&view, &line, &record, NULL), SB_OK);
         double front = (torn ? last : last + 5 * gap) + spacing / 2;
         assert_true(fabs(record.front - front) < 1e-9);
         fake_world_free(&world);
     }
 }
 
-/* A block of 4 x 6 x 3 m over the grid: depth 3 inside; volume is kept for any cell size. */
-static void map_keeps_volume(void **state)
+/* A block of 4 x 6 x 3 m over the grid: depth 3 inside; volume is conserved for any cell size. */
+static void map_conserves_volume(void **state)
 {
     (void)state;
     const double cells[] = {0.13, 0.5, 1, 2, 3.3};
@@ -146,9 +148,9 @@ static void map_keeps_volume(void **state)
         fake_fill(&world, sb_vec(3, 3, 0), sb_vec(7, 9, 3), 0, 0, 0, 1);
         drift(&world.sim, sb_vec(3, 4, 1));
         world.scene.measure.map = (sb_map){true, 0, 0, 12, 12, cells[c], 0.5};
-        sb_sight sight = fake_sight(&world);
+        sb_measure_view view = fake_view(&world);
         sb_map_field *map;
-        assert_int_equal(sb_map_create(&sight, &map, NULL), SB_OK);
+        assert_int_equal(sb_map_create(&view, &map, NULL), SB_OK);
         const sb_map_record *result = sb_map_result(map);
         double volume = 0, deepest = 0;
         for (size_t i = 0; i < result->columns * result->rows; i++) {
@@ -167,7 +169,7 @@ static void map_keeps_volume(void **state)
     }
 }
 
-static void map_tells_arrival(void **state)
+static void map_contains_arrival_times(void **state)
 {
     (void)state;
     fake_world world;
@@ -175,41 +177,41 @@ static void map_tells_arrival(void **state)
     fake_fill(&world, sb_vec(0, 0, 0), sb_vec(4, 4, 3), 0, 0, 0, 1);
     drift(&world.sim, sb_vec(2, 0, 0));
     world.scene.measure.map = (sb_map){true, 0, 0, 20, 4, 1, 1.5};
-    sb_sight sight = fake_sight(&world);
+    sb_measure_view view = fake_view(&world);
     sb_map_field *map;
-    assert_int_equal(sb_map_create(&sight, &map, NULL), SB_OK);
+    assert_int_equal(sb_map_create(&view, &map, NULL), SB_OK);
     for (int k = 0; k < 600; k++) {
         fake_step(&world.sim, 0.01);
         sb_map_step(map, &world.sim);
     }
     const sb_map_record *result = sb_map_result(map);
-    /* Cell 10 is half full (threshold 1.5 of 3 m) when the front reaches x = 10.5. */
+    /* Cell 10 is half full (threshold 1.5 of 3 m) when the front is at x = 10.5. */
     assert_true(fabs((double)result->arrival[2 * 20 + 10] - (10.5 - 4) / 2) < 0.06);
-    assert_true(isnan(result->arrival[2 * 20 + 19])); /* not reached */
+    assert_true(isnan(result->arrival[2 * 20 + 19])); /* never wet */
     assert_true(result->arrival[2 * 20 + 1] == 0);    /* wet from the start */
     assert_true(isnan(result->depth[2 * 20 + 19]));
     sb_map_destroy(map);
     fake_world_free(&world);
 }
 
-static void faces_tell_the_depth(void **state)
+static void flow_depth_at_faces(void **state)
 {
     (void)state;
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
         fake_world world;
         fake_world_make(&world, dimensions, 0.5, sb_vec(0, 0, 0), sb_vec(20, 20, 10));
         fake_fill(&world, sb_vec(0, 0, 0), sb_vec(8, 20, 3), 0, 0, 0, 1); /* 6 layers */
-        sb_sight sight = fake_sight(&world);
+        sb_measure_view view = fake_view(&world);
         double layers;
         /* A building whose seaward face is at x = 8: its particles lie half a spacing inside. */
         const sb_footprint building = {{8.25, 5.25, 0}, {14.75, 14.75, 8}};
-        assert_int_equal(sb_face_layers(&sight, &building, sb_vec(0, 0, 0), &layers, NULL), SB_OK);
+        assert_int_equal(sb_face_layers(&view, &building, sb_vec(0, 0, 0), &layers, NULL), SB_OK);
         assert_true(fabs(layers - 6) < 0.7);
-        assert_int_equal(sb_face_layers(&sight, &building, sb_vec(5, 0, 0), &layers, NULL), SB_OK);
+        assert_int_equal(sb_face_layers(&view, &building, sb_vec(5, 0, 0), &layers, NULL), SB_OK);
         assert_true(layers == 0);
-        /* The tank around the water sees it from the inside. */
+        /* The tank around the water has the water inside. */
         const sb_footprint tank = {{-0.25, -0.25, -0.25}, {20.25, 20.25, 9}};
-        assert_int_equal(sb_face_layers(&sight, &tank, sb_vec(0, 0, 0), &layers, NULL), SB_OK);
+        assert_int_equal(sb_face_layers(&view, &tank, sb_vec(0, 0, 0), &layers, NULL), SB_OK);
         assert_true(fabs(layers - 6) < 0.7);
         fake_world_free(&world);
     }
@@ -219,14 +221,14 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plane_counts_every_particle_once),
-        cmocka_unit_test(slanting_plane_has_the_same_flux),
+        cmocka_unit_test(an_oblique_plane_has_the_same_flux),
         cmocka_unit_test(plane_in_two_dimensions),
         cmocka_unit_test(runup_is_the_top_of_connected_water),
-        cmocka_unit_test(front_is_the_reach_of_connected_water),
+        cmocka_unit_test(front_is_the_extent_of_connected_water),
         cmocka_unit_test(front_follows_a_thin_film),
-        cmocka_unit_test(map_keeps_volume),
-        cmocka_unit_test(map_tells_arrival),
-        cmocka_unit_test(faces_tell_the_depth),
+        cmocka_unit_test(map_conserves_volume),
+        cmocka_unit_test(map_contains_arrival_times),
+        cmocka_unit_test(flow_depth_at_faces),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* Surface gauges find a level that the test knows, within 0.1 spacing, wherever they stand. */
+/* Surface gauges find a known level within 0.1 spacing, at any position. */
 #include "fake_sim.h"
 
 #include "base/random.h"
@@ -11,10 +11,10 @@
 
 static double read_at(fake_world *world, double x, double y)
 {
-    sb_sight sight = fake_sight(world);
+    sb_measure_view view = fake_view(world);
     sb_error error = {0};
     double eta, water;
-    assert_int_equal(sb_gauge_read(&sight, x, y, &(sb_floors){0}, &eta, &water, &error), SB_OK);
+    assert_int_equal(sb_gauge_read(&view, x, y, &(sb_floors){0}, &eta, &water, &error), SB_OK);
     return eta;
 }
 
@@ -59,7 +59,7 @@ static void still_level_is_unbiased_with_jitter(void **state)
             double worst, mean;
             still_water(dimensions, 0.31, 9, jitter, &worst, &mean);
             print_message("%dD jitter %.1f: worst %.3f, mean %+.4f spacings\n", dimensions, jitter, worst, mean);
-            /* One gauge in a rough surface sees that surface: the mean must not be off. */
+            /* A single gauge follows the rough surface; the mean over gauges must be correct. */
             assert_true(fabs(mean) < 0.02);
             assert_true(worst < (dimensions == 3 ? 0.1 : 0.15));
         }
@@ -76,7 +76,7 @@ static void thin_layers_keep_their_level(void **state)
     }
 }
 
-static void walls_do_not_pull_the_level(void **state)
+static void walls_do_not_change_the_level(void **state)
 {
     (void)state;
     fake_world world;
@@ -131,7 +131,7 @@ static void dry_is_nan(void **state)
     fake_world_free(&world);
 }
 
-/* Of a layer with every third particle alone is left: no surface, but a third of a spacing of water. */
+/* A layer that keeps only every third particle has no surface, but a third of a spacing of water. */
 static void water_too_thin_for_a_surface_is_measured(void **state)
 {
     (void)state;
@@ -140,9 +140,9 @@ static void water_too_thin_for_a_surface_is_measured(void **state)
     double eta = 0, water = 0;
     fake_world_make(&world, 2, 0.5, sb_vec(0, 0, 0), sb_vec(40, 0, 20));
     for (int k = 0; k < 24; k++) fake_add(&world.sim, sb_vec(0.25 + 1.5 * k, 0, 0.25), sb_vec(0, 0, 0), 0);
-    sb_sight sight = fake_sight(&world);
+    sb_measure_view view = fake_view(&world);
     for (double x = 8; x < 24; x += 0.37) {
-        assert_int_equal(sb_gauge_read(&sight, x, 0, &(sb_floors){0}, &eta, &water, &error), SB_OK);
+        assert_int_equal(sb_gauge_read(&view, x, 0, &(sb_floors){0}, &eta, &water, &error), SB_OK);
         assert_true(isnan(eta));
         assert_true(fabs(water - 0.5 / 3) < 0.02);
     }
@@ -156,7 +156,7 @@ int main(void)
         cmocka_unit_test(still_level_is_unbiased_with_jitter),
         cmocka_unit_test(thin_layers_keep_their_level),
         cmocka_unit_test(water_too_thin_for_a_surface_is_measured),
-        cmocka_unit_test(walls_do_not_pull_the_level),
+        cmocka_unit_test(walls_do_not_change_the_level),
         cmocka_unit_test(slope_is_followed),
         cmocka_unit_test(spray_does_not_count),
         cmocka_unit_test(dry_is_nan),

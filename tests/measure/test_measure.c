@@ -1,4 +1,4 @@
-/* Intervals, forces, and what runs over the whole simulation. */
+/* Intervals, forces, and totals over the whole run. */
 #include "fake_sim.h"
 
 #include "base/memory.h"
@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-/* A world with two reporting bodies and one that does not. */
+/* A scene with two reporting bodies and one that does not report. */
 static void make_world(fake_world *world, sb_model_body bodies[3])
 {
     fake_world_make(world, 3, 1, sb_vec(0, 0, 0), sb_vec(20, 20, 20));
@@ -38,7 +38,7 @@ static void impulse_of_all_rows_is_the_integral(void **state)
     double sum = 0, sum_moment = 0, expected = 0;
     size_t rows = 0;
     for (uint64_t k = 0; rows < 2 * 50; k++) {
-        /* Some steps are shorter than the interval, some hold several of its multiples. */
+        /* Some steps are shorter than the interval, some contain several of its multiples. */
         double dt = k % 7 == 3 ? 0.37 : 0.03 + 0.02 * sb_random(5, k);
         double force = 100 * sin((double)k) + 50, before = world.sim.report.time;
         push(&world.sim.impulses[0], dt, force);
@@ -65,7 +65,7 @@ static void impulse_of_all_rows_is_the_integral(void **state)
     }
     assert_true(sum != 0);
     const sb_body_record *body = sb_measure_bodies(measure);
-    assert_true(fabs(body[0].impulse.x - sum) < 1e-9); /* what lies beyond the last row waits for the next */
+    assert_true(fabs(body[0].impulse.x - sum) < 1e-9); /* what comes after the last row is counted by the next */
     assert_true(fabs(body[2].impulse.x + sum) < 1e-9);
     assert_true(body[1].peak == 0 && !body[1].report);
     sb_measure_destroy(measure);
@@ -81,7 +81,7 @@ static void peak_is_of_interval_means(void **state)
     sb_measure *measure;
     assert_int_equal(sb_measure_create(&world.scene, &world.model, &world.sim, &measure, NULL), SB_OK);
     for (int k = 0; k < 40; k++) {
-        /* A blow of one 0.025 s step is a quarter of its force over 0.1 s. */
+        /* A force during one step of 0.025 s has a quarter of its value as mean over 0.1 s. */
         world.sim.impulses[0].pressure.x += 0.025 * (k == 17 ? 400 : 0);
         fake_step(&world.sim, 0.025);
         assert_int_equal(sb_measure_step(measure, &world.sim, NULL), SB_OK);
@@ -102,8 +102,7 @@ static void peak_is_of_interval_means(void **state)
     fake_world_free(&world);
 }
 
-/* Water that rises at 0.7 m/s: readings must belong to the exact multiple, not to the step's end.
- */
+/* Water that rises at 0.7 m/s: values must belong to the exact multiple of the interval, not to the step's end. */
 static void instants_lie_on_multiples(void **state)
 {
     (void)state;
@@ -146,7 +145,7 @@ static void instants_lie_on_multiples(void **state)
     fake_world_free(&world);
 }
 
-/* Water that was put into boxes has no still-water level to be above. */
+/* In a scene with boxes of water only there is no still-water level. */
 static void without_a_level_there_is_no_elevation_above_it(void **state)
 {
     (void)state;
@@ -165,7 +164,7 @@ static void without_a_level_there_is_no_elevation_above_it(void **state)
     fake_world_free(&world);
 }
 
-static void nothing_asked_is_nothing_held(void **state)
+static void nothing_requested_allocates_nothing(void **state)
 {
     (void)state;
     fake_world world;
@@ -182,7 +181,7 @@ static void nothing_asked_is_nothing_held(void **state)
     fake_world_free(&world);
 }
 
-/* Every allocation fails once: an error, no leak (seen by the sanitizer), no crash. */
+/* Every allocation fails once: an error, no leak (the sanitizer checks), no crash. */
 static void survives_failing_memory(void **state)
 {
     (void)state;
@@ -191,7 +190,7 @@ static void survives_failing_memory(void **state)
     make_world(&world, bodies);
     fake_fill(&world, sb_vec(0, 0, 0), sb_vec(10, 10, 5), 0, 0, 0, 1);
     sb_gauge gauge = {"g", 5, 5};
-    sb_flow_plane plane = {"gate", 5, 0, 5, 10, 0, 10};
+    sb_flow_plane plane = {"plane", 5, 0, 5, 10, 0, 10};
     sb_measure_settings *settings = &world.scene.measure;
     settings->gauges = &gauge;
     settings->gauge_count = 1;
@@ -225,7 +224,7 @@ int main(void)
         cmocka_unit_test(peak_is_of_interval_means),
         cmocka_unit_test(instants_lie_on_multiples),
         cmocka_unit_test(without_a_level_there_is_no_elevation_above_it),
-        cmocka_unit_test(nothing_asked_is_nothing_held),
+        cmocka_unit_test(nothing_requested_allocates_nothing),
         cmocka_unit_test(survives_failing_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

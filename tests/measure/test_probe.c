@@ -1,4 +1,4 @@
-/* Probes are exact for fields that vary linearly, also at walls and surfaces. */
+/* Probes are exact for linear fields, also at walls and free surfaces. */
 #include "fake_sim.h"
 
 #include "base/memory.h"
@@ -21,11 +21,11 @@ static void set_flow(sb_sim *sim)
 
 static void read_probe(fake_world *world, sb_vec3 at, double radius, sb_vec3 *velocity, double *p)
 {
-    sb_sight sight = fake_sight(world);
+    sb_measure_view view = fake_view(world);
     sb_probe probe = {"p", at, radius};
     sb_patch *patch;
     assert_int_equal(sb_patch_create(&world->scene, &world->model, &probe, &patch, NULL), SB_OK);
-    assert_int_equal(sb_probe_read(&sight, &probe, patch, velocity, p, NULL), SB_OK);
+    assert_int_equal(sb_probe_read(&view, &probe, patch, velocity, p, NULL), SB_OK);
     sb_patch_destroy(patch);
 }
 
@@ -43,7 +43,7 @@ static void check_linear(int dimensions, double jitter)
         read_probe(&world, places[i], i == 0 ? 1.3 : 0, &v, &p);
         assert_true(sb_norm(sb_sub(v, expected)) < 1e-9);
         double depth = 6 - places[i].z;
-        /* The surface cuts pressure off at 0, so that only below it is the field linear. */
+        /* Pressure is 0 above the surface, so the field is linear only below it. */
         assert_true(fabs(p - 9810 * depth) < (i == 3 ? 0.1 * 9810 : 1e-6 * 9810));
     }
     fake_world_free(&world);
@@ -69,7 +69,7 @@ static void one_layer_falls_back_to_the_mean(void **state)
     double p;
     read_probe(&world, sb_vec(4, 4, 0), 0, &v, &p);
     assert_true(fabs(v.x - 2) < 1e-12 && fabs(v.y) < 1e-12);
-    assert_true(fabs(p - 9810) < 1e-6); /* carried down half a spacing by rho g */
+    assert_true(fabs(p - 9810) < 1e-6); /* extrapolated down by half a spacing with rho g */
     fake_world_free(&world);
 }
 
@@ -150,7 +150,7 @@ static void wall_pressure_is_force_over_area(void **state)
             read_probe(&world, sb_vec(x, y, 0.1), 1.7, &v, &p);
             assert_true(fabs(p / expected - 1) < 0.02);
         }
-        /* Where the floor ends, half the disk counts, not the whole. */
+        /* At the floor's end only half the disk counts. */
         read_probe(&world, sb_vec(0.1, dimensions == 2 ? 0 : 4, 0), 0, &v, &p);
         assert_true(fabs(p / expected - 1) < 0.25);
         sb_free(world.model.wall_position);
@@ -159,8 +159,8 @@ static void wall_pressure_is_force_over_area(void **state)
     }
 }
 
-/* Above the floor the overloaded layer beside it is left out. */
-static void near_a_wall_the_first_layer_is_left_out(void **state)
+/* The first layer above the floor, whose pressure is too high, is ignored. */
+static void near_a_wall_the_first_layer_is_ignored(void **state)
 {
     (void)state;
     fake_world world;
@@ -186,7 +186,7 @@ int main(void)
         cmocka_unit_test(one_layer_falls_back_to_the_mean),
         cmocka_unit_test(dry_is_nan),
         cmocka_unit_test(wall_pressure_is_force_over_area),
-        cmocka_unit_test(near_a_wall_the_first_layer_is_left_out),
+        cmocka_unit_test(near_a_wall_the_first_layer_is_ignored),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

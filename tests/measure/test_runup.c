@@ -1,4 +1,4 @@
-/* Run-up lines: what of the water on a line is the run-up, and what lies apart from it. Spacing 0.5 m, support 1 m. */
+/* Run-up lines: which water on a line belongs to the run-up, and which is unconnected. Spacing 0.5 m, support 1 m. */
 #include "fake_sim.h"
 
 #include "base/random.h"
@@ -28,18 +28,18 @@ static void row(sb_vec3 first, sb_vec3 step, int count, fake_world *world)
 static sb_runup_record read_line(fake_world *world, double from, double to)
 {
     const sb_runup_line line = {"line", from, 5, to, 5};
-    sb_sight sight = fake_sight(world);
+    sb_measure_view view = fake_view(world);
     sb_runup_record record = {0};
-    assert_int_equal(sb_runup_read(&sight, &line, &record, NULL), SB_OK);
+    assert_int_equal(sb_runup_read(&view, &line, &record, NULL), SB_OK);
     return record;
 }
 
-/* A sea of 20 m and, 10 m behind, a puddle as long as the sea on the line is, and higher. */
+/* A sea of 20 m and, 10 m behind it, a puddle that is as long as the sea on the line, and higher. */
 static void a_puddle_is_not_the_runup(void **state)
 {
     (void)state;
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
-        /* In the sea, at its edge, just and well ahead of it. */
+        /* The line starts in the sea, at its edge, just ahead of it and well ahead of it. */
         static const double from[] = {10, 20, 20.5, 25};
         fake_world world;
         make_world(&world, dimensions);
@@ -56,19 +56,19 @@ static void a_puddle_is_not_the_runup(void **state)
     }
 }
 
-/* The first water that comes from before the line counts; a puddle that it meets is the run-up from then on. */
-static void a_line_on_land_waits_for_the_sea(void **state)
+/* Water that comes from before the line counts. A puddle that it meets belongs to the run-up from then on. */
+static void a_line_on_land_is_empty_until_the_sea_arrives(void **state)
 {
     (void)state;
-    static const double reached[] = {20, 24.5, 26, 29, 29.5, 30};
+    static const double extent[] = {20, 24.5, 26, 29, 29.5, 30};
     for (int k = 0; k < 6; k++) {
         fake_world world;
         make_world(&world, 2);
-        fill(&world, 0, reached[k], 0, 1);
+        fill(&world, 0, extent[k], 0, 1);
         fill(&world, 30, 45, 0, 1);
         const sb_runup_record r = read_line(&world, 25, 55);
-        const double gap = 30 - reached[k] + SPACING; /* between particles */
-        assert_true(fabs(r.front - (gap < 1 ? 20 : fmax(reached[k] - 25, 0))) < 1e-9);
+        const double gap = 30 - extent[k] + SPACING; /* between particles */
+        assert_true(fabs(r.front - (gap < 1 ? 20 : fmax(extent[k] - 25, 0))) < 1e-9);
         assert_true(fabs(r.apart - (gap < 1 ? 0 : 15)) < 1e-9);
         fake_world_free(&world);
     }
@@ -90,8 +90,8 @@ static void no_water_is_an_empty_row(void **state)
     fake_world_free(&world);
 }
 
-/* A tongue one layer thick, in 3D a few particles wide: a gap less than the support radius does not end it. */
-static void a_gap_within_the_support_radius_is_none(void **state)
+/* A film one layer thick, in 3D a few particles wide: a gap smaller than the support radius does not end it. */
+static void a_gap_within_the_support_radius_does_not_count(void **state)
 {
     (void)state;
     for (int dimensions = 2; dimensions <= 3; dimensions++)
@@ -110,8 +110,8 @@ static void a_gap_within_the_support_radius_is_none(void **state)
         }
 }
 
-/* Behind a wall 2 m thick and as high as the sea: apart, until water stands over the wall. */
-static void a_splash_over_a_wall_is_apart_until_water_is_over_it(void **state)
+/* Water behind a wall 2 m thick and as high as the sea is unconnected until water stands over the wall. */
+static void a_splash_over_a_wall_is_unconnected_until_water_is_over_it(void **state)
 {
     (void)state;
     for (int over = 0; over < 2; over++) {
@@ -119,7 +119,7 @@ static void a_splash_over_a_wall_is_apart_until_water_is_over_it(void **state)
         make_world(&world, 3);
         fill(&world, 0, 20, 0, 3);
         fill(&world, 22, 26, 0, 3);
-        fake_add(&world.sim, sb_vec(21, 5, 5), sb_vec(5, 0, 0), 0); /* on its way */
+        fake_add(&world.sim, sb_vec(21, 5, 5), sb_vec(5, 0, 0), 0); /* a drop in flight */
         if (over) fill(&world, 0, 26, 3, 3.5);
         const sb_runup_record r = read_line(&world, 10, 55);
         assert_true(fabs(r.front - (over ? 16 : 10)) < 1e-9);
@@ -128,8 +128,8 @@ static void a_splash_over_a_wall_is_apart_until_water_is_over_it(void **state)
     }
 }
 
-/* Ahead of two layers a film of a fifth of one, at random: in some starts it hangs together for metres. It is none of
-   the run-up in any, but for what lies within a support radius. */
+/* A random film of a fifth of a layer ahead of two layers: for some seeds it is connected over metres. It never belongs
+   to the run-up, except within a support radius. */
 static void a_film_too_thin_does_not_move_the_front(void **state)
 {
     (void)state;
@@ -150,7 +150,7 @@ static void a_film_too_thin_does_not_move_the_front(void **state)
     assert_true(apart > 5);
 }
 
-/* Where two parts of the line meet, 0.2 m ahead of the two layers, the thin film's particles count once. */
+/* Where two parts of the line meet, 0.2 m ahead of the two layers, the film's particles count once. */
 static void parts_of_a_line_count_no_particle_twice(void **state)
 {
     (void)state;
@@ -160,11 +160,11 @@ static void parts_of_a_line_count_no_particle_twice(void **state)
     for (double x = 20.5; x < 30; x += 0.9)
         for (double y = 0.5; y < 10; y += 0.9) fake_add(&world.sim, sb_vec(x, y, 0.25), sb_vec(0, 0, 0), 0);
     const sb_runup_record r = read_line(&world, 10, 31.4);
-    assert_true(fabs(r.front - 11.65) < 1e-9); /* the first row has the sea around it, and leads to the second */
+    assert_true(fabs(r.front - 11.65) < 1e-9); /* the first row is surrounded by the sea and connects the second */
     fake_world_free(&world);
 }
 
-/* No water before the first end, the first of it 0.85 m ahead, and a puddle that is larger. */
+/* No water before the first end; the nearest water is 0.85 m ahead, and a puddle is larger. */
 static void a_line_starts_in_water_within_the_support_radius(void **state)
 {
     (void)state;
@@ -178,8 +178,8 @@ static void a_line_starts_in_water_within_the_support_radius(void **state)
     fake_world_free(&world);
 }
 
-/* A pillar that is wider than what is looked at for the front: the water beside it leads around. */
-static void water_beside_a_line_leads_around_a_gap(void **state)
+/* A pillar that is wider than the strip around the front: the water beside it is connected around it. */
+static void water_beside_a_line_connects_around_a_gap(void **state)
 {
     (void)state;
     fake_world world;
@@ -195,8 +195,8 @@ static void water_beside_a_line_leads_around_a_gap(void **state)
     fake_world_free(&world);
 }
 
-/* Looked at in parts: each particle once. */
-static void a_slanting_line_is_read_like_another(void **state)
+/* An oblique line is read in parts; each particle counts once. */
+static void an_oblique_line_is_read_like_any_other(void **state)
 {
     (void)state;
     fake_world world;
@@ -204,10 +204,10 @@ static void a_slanting_line_is_read_like_another(void **state)
     fake_fill(&world, sb_vec(0, 0, 0), sb_vec(40, 60, 1), 0, 0, 0, 1);
     fake_fill(&world, sb_vec(48, 0, 0), sb_vec(60, 60, 1), 0, 0, 0, 1);
     const sb_runup_line line = {"line", 1, 1, 59, 59};
-    sb_sight sight = fake_sight(&world);
+    sb_measure_view view = fake_view(&world);
     sb_runup_record r;
-    assert_int_equal(sb_runup_read(&sight, &line, &r, NULL), SB_OK);
-    /* The edges cross the line at 45 degrees: particles a spacing to both sides of it are that much ahead. */
+    assert_int_equal(sb_runup_read(&view, &line, &r, NULL), SB_OK);
+    /* The edges cross the line at 45 degrees: particles a spacing to one side of it are a spacing ahead. */
     assert_true(fabs(r.front - 39 * sqrt(2)) <= 2 * SPACING);
     assert_true(fabs(r.apart - 11 * sqrt(2)) <= 2 * SPACING);
     assert_true(fabs(r.place.z - 1) < 1e-9);
@@ -218,15 +218,15 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_puddle_is_not_the_runup),
-        cmocka_unit_test(a_line_on_land_waits_for_the_sea),
+        cmocka_unit_test(a_line_on_land_is_empty_until_the_sea_arrives),
         cmocka_unit_test(no_water_is_an_empty_row),
-        cmocka_unit_test(a_gap_within_the_support_radius_is_none),
-        cmocka_unit_test(a_splash_over_a_wall_is_apart_until_water_is_over_it),
+        cmocka_unit_test(a_gap_within_the_support_radius_does_not_count),
+        cmocka_unit_test(a_splash_over_a_wall_is_unconnected_until_water_is_over_it),
         cmocka_unit_test(a_film_too_thin_does_not_move_the_front),
         cmocka_unit_test(parts_of_a_line_count_no_particle_twice),
         cmocka_unit_test(a_line_starts_in_water_within_the_support_radius),
-        cmocka_unit_test(water_beside_a_line_leads_around_a_gap),
-        cmocka_unit_test(a_slanting_line_is_read_like_another),
+        cmocka_unit_test(water_beside_a_line_connects_around_a_gap),
+        cmocka_unit_test(an_oblique_line_is_read_like_any_other),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
