@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 enum { FORCES, GAUGES, PROBES, ENERGY, OVERTOPPING, RUNUP, TABLES };
-_Static_assert((int)TABLES == (int)SB_CSV_TABLES, "marks of all tables");
+_Static_assert((int)TABLES == (int)SB_CSV_TABLES, "one mark per table");
 
 typedef struct table {
     sb_hashed_file file;
@@ -51,7 +51,8 @@ static const struct {
     [RUNUP] = {"time_s,line,x_m,y_m,z_m,front_m,apart_m", "time_s,line,x_m,y_m,z_m,front_m,apart_m"},
 };
 
-/* The first failed file's message, or SB_OK. Rows in a file without a name would be lost without a word. */
+/* The message of the first file that failed, or SB_OK. A removed file is an error too: its rows would be lost silently.
+ */
 static sb_status check(const sb_csv *csv, sb_error *error)
 {
     for (int k = 0; k < TABLES; k++) {
@@ -85,7 +86,7 @@ static const char *header_of(const sb_scene *scene, int k)
     return scene->dimensions == 2 ? formats[k].flat_header : formats[k].header;
 }
 
-/* Rows of one version under the columns of another would be read as what they are not. */
+/* Rows of this version must not follow the column names of another version. */
 static sb_status check_header(const char *path, const char *expected, sb_error *error)
 {
     char found[1024] = "";
@@ -98,7 +99,7 @@ static sb_status check_header(const char *path, const char *expected, sb_error *
     if (strcmp(found, expected) == 0) return SB_OK;
     return sb_fail(error, SB_BAD_INPUT,
                    "%.300s:1: has the columns `%.200s` of another version, expected `%.200s`: "
-                   "start the run anew in another folder, or resume it with the version that began it",
+                   "start a new run in another folder, or resume this one with the version that started it",
                    path, found, expected);
 }
 
@@ -114,7 +115,7 @@ static bool has_table(const sb_scene *scene, int k)
     return k == OVERTOPPING ? scene->measure.plane_count > 0 : k == RUNUP ? scene->measure.runup_count > 0 : true;
 }
 
-/* marks NULL: from nothing. */
+/* marks NULL: creates new tables. */
 static sb_status open_tables(const char *directory, const sb_scene *scene, const sb_model *model,
                              const sb_csv_marks *marks, sb_csv **csv, sb_error *error)
 {
@@ -178,7 +179,7 @@ sb_status sb_csv_sync(sb_csv *csv, sb_csv_marks *marks, sb_error *error)
     return SB_OK;
 }
 
-/* Quoted only when it must be (RFC 4180). */
+/* Quoted only where RFC 4180 requires it. */
 static void put_name(FILE *stream, const char *name)
 {
     if (!strpbrk(name, ",\"\r\n")) {
@@ -193,7 +194,7 @@ static void put_name(FILE *stream, const char *name)
     fputc('"', stream);
 }
 
-/* Time has three digits more than the rest: a day at 0.1 ms steps still counts right. */
+/* Time has three more digits than other values: it resolves steps of 0.1 ms over a day. */
 static void begin_row(FILE *stream, double time, const char *name)
 {
     fprintf(stream, "%.12g", time);
@@ -211,7 +212,7 @@ static void put(FILE *stream, double value)
         fprintf(stream, ",%.9g", value + 0.0); /* + 0.0: no "-0" */
 }
 
-/* Potential energy is large beside its changes. */
+/* Potential energy needs more digits, because it is much larger than its changes. */
 static void put_fine(FILE *stream, double value)
 {
     fprintf(stream, ",%.12g", value);

@@ -1,5 +1,5 @@
-/* The tables of a run: one row per item and instant, appended and flushed at each interval, so that
-   a stopped run leaves whole files. In 2D the columns of extensive quantities end in _per_m. */
+/* The tables of a run: one row per item and instant, appended and flushed at each interval, so that a stopped run
+   leaves complete files. In 2D the names of columns with extensive quantities end in _per_m. */
 #ifndef SB_OUTPUT_CSV_H
 #define SB_OUTPUT_CSV_H
 
@@ -11,37 +11,37 @@
 
 typedef struct sb_csv sb_csv;
 
-/* The tables that a run may have: <name>.csv, ended by NULL. */
+/* The tables that a run may have, <name>.csv; the list ends with NULL. */
 enum { SB_CSV_TABLES = 6 };
 extern const char *const sb_csv_names[SB_CSV_TABLES + 1];
 
-/* Starts forces.csv, gauges.csv, probes.csv, energy.csv and, when the scene has planes or lines,
+/* Creates forces.csv, gauges.csv, probes.csv, energy.csv and, when the scene has planes or lines,
    overtopping.csv and runup.csv in the directory (which exists). scene and model must outlive it.
    SB_FAILED names the file and the system's reason. */
 sb_status sb_csv_open(const char *directory, const sb_scene *scene, const sb_model *model, sb_csv **csv,
                       sb_error *error);
 
-/* Where a resumed run goes on writing: how long each table is, in bytes, and their hash. 0: a table that this scene has
-   not. */
+/* Where a resumed run continues to write: each table's length in bytes and its hash. 0: the scene does not have this
+   table. */
 typedef struct sb_csv_marks {
     uint64_t bytes[SB_CSV_TABLES], hash[SB_CSV_TABLES];
 } sb_csv_marks;
 
-/* Puts all rows on disk and marks where the tables end. SB_FAILED when the disk refuses. */
+/* Writes all rows to disk and marks the ends of the tables. SB_FAILED on a write error. */
 sb_status sb_csv_sync(sb_csv *csv, sb_csv_marks *marks, sb_error *error);
 
-/* Whether the directory has this scene's tables, each beginning with what was written up to its mark and having
-   this version's columns. SB_BAD_INPUT names the first that does not. */
+/* Checks that the directory has this scene's tables, that each is unchanged up to its mark, and that it has this
+   version's columns. SB_BAD_INPUT names the first table for which this does not hold. */
 sb_status sb_csv_check(const char *directory, const sb_scene *scene, const sb_csv_marks *marks, sb_error *error);
 
-/* As sb_csv_open, but goes on with the tables that are there, cut at their marks, which sb_csv_check has passed. */
+/* As sb_csv_open, but continues the existing tables, cut at their marks. Call sb_csv_check first. */
 sb_status sb_csv_resume(const char *directory, const sb_scene *scene, const sb_model *model, const sb_csv_marks *marks,
                         sb_csv **csv, sb_error *error);
 
-/* Appends the rows; flushes when there were any. SB_FAILED when the disk refuses, or when a table was removed. */
+/* Appends the rows, and flushes if there are any. SB_FAILED on a write error, or if a table was removed. */
 sb_status sb_csv_write(sb_csv *csv, const sb_measure_records *records, sb_error *error);
 
-/* Closes all files and frees; a late write error is SB_FAILED. NULL is fine. */
+/* Closes all files and frees; SB_FAILED on a late write error. NULL is allowed. */
 sb_status sb_csv_close(sb_csv *csv, sb_error *error);
 
 #endif

@@ -6,12 +6,12 @@
 #include <stdbool.h>
 #include <unistd.h>
 
-/* Only what has arrived counts. */
+/* Writes to the file. Only bytes that were written count in the length and the hash. */
 static ssize_t take(void *cookie, const char *bytes, size_t count)
 {
     sb_hashed_file *file = cookie;
     size_t done = 0;
-    /* The stream forgets what it could not hand on: what comes after a gap would be glued to a torn line. */
+    /* After an error the stream drops what it could not write; later text would be joined to an incomplete line. */
     if (file->failed) {
         errno = file->failed;
         return 0;
@@ -46,7 +46,7 @@ static sb_status make_stream(sb_hashed_file *file, const char *path, sb_error *e
     return file->stream ? SB_OK : cannot("write", path, SB_FAILED, error);
 }
 
-/* Hashes the first `length` bytes; *found is less where there are fewer. 0, or -1 with errno. */
+/* Hashes the first `length` bytes; *found is smaller if the file is shorter. Returns 0, or -1 with errno. */
 static int hash_start(FILE *file, uint64_t length, sb_running_hash *hash, uint64_t *found)
 {
     char bytes[16384];
@@ -81,12 +81,11 @@ sb_status sb_hashed_check(const char *path, uint64_t length, uint64_t hash, sb_e
     fclose(file);
     if (status != SB_OK) return status;
     if (length == 0 || found < length)
-        return sb_fail(error, SB_BAD_INPUT,
-                       "%.500s: has %llu bytes, expected the %llu that the checkpoint goes on from", path,
-                       (unsigned long long)found, (unsigned long long)length);
+        return sb_fail(error, SB_BAD_INPUT, "%.500s: has %llu bytes, expected the %llu that the checkpoint recorded",
+                       path, (unsigned long long)found, (unsigned long long)length);
     if (sb_hash_sum(&there) != hash)
         return sb_fail(error, SB_BAD_INPUT,
-                       "%.500s: was changed since the run wrote it, expected its first %llu bytes as they were", path,
+                       "%.500s: was changed since the run wrote it, expected its first %llu bytes unchanged", path,
                        (unsigned long long)length);
     return SB_OK;
 }
@@ -100,7 +99,7 @@ sb_status sb_hashed_resume(sb_hashed_file *file, const char *path, uint64_t leng
     if (hash_start(file->file, length, &file->hash, &file->length) != 0)
         status = cannot("read", path, SB_FAILED, error);
     else if (file->length < length)
-        status = sb_fail(error, SB_FAILED, "%.500s: became shorter than %llu bytes meanwhile", path,
+        status = sb_fail(error, SB_FAILED, "%.500s: became shorter than %llu bytes after it was checked", path,
                          (unsigned long long)length);
     else if (ftruncate(fileno(file->file), (off_t)length) != 0 || lseek(fileno(file->file), 0, SEEK_END) < 0)
         status = cannot("write", path, SB_FAILED, error);
@@ -122,7 +121,7 @@ int sb_hashed_close(sb_hashed_file *file)
         result = EOF;
         reason = file->failed;
     }
-    /* A full disk lets a file become shorter; one that does not leaves the reason as it is. */
+    /* Shortening a file succeeds on a full disk. If it does not, the first reason is kept. */
     if (result != 0 && file->file && ftruncate(fileno(file->file), (off_t)file->whole) != 0 && reason == 0)
         reason = errno;
     if (file->file && fclose(file->file) != 0 && result == 0) {

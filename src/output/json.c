@@ -3,7 +3,7 @@
 #include <assert.h>
 #include <inttypes.h>
 
-/* Length of the valid UTF-8 sequence at text, 0 when it is none. */
+/* Length of the valid UTF-8 sequence at text; 0 if it is not valid. */
 static size_t sequence_length(const unsigned char *text)
 {
     size_t length = text[0] < 0x80   ? 1
@@ -47,7 +47,7 @@ static void new_line(const sb_json *json)
     for (int i = 0; i < json->depth; i++) fputs("  ", json->stream);
 }
 
-/* What comes before every value: comma, line, key. */
+/* Writes what precedes every value: comma, line break, key. */
 static void lead(sb_json *json, const char *key)
 {
     if (json->depth > 0) {

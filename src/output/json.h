@@ -1,4 +1,4 @@
-/* Writes JSON to a stream: escaped, non-finite numbers as null, commas in the right places. */
+/* Writes JSON to a stream: escapes texts, separates values, and writes numbers that are not finite as null. */
 #ifndef SB_OUTPUT_JSON_H
 #define SB_OUTPUT_JSON_H
 
@@ -10,7 +10,8 @@
 
 enum { SB_JSON_DEPTH = 16 };
 
-/* Give keys inside objects, NULL inside arrays and at the top. Stream errors stay in the stream. */
+/* key: the value's key inside of an object; NULL inside of an array and at the top level. Write errors are left in the
+   stream. */
 typedef struct sb_json {
     FILE *stream;
     bool pretty; /* one value per line, indented; else all on one line */
@@ -23,7 +24,7 @@ void sb_json_begin(sb_json *json, FILE *stream, bool pretty);
 /* bracket: '{' or '['. */
 void sb_json_open(sb_json *json, const char *key, char bracket);
 void sb_json_close(sb_json *json);
-/* NULL text gives null. Bytes that are no UTF-8 become U+FFFD. */
+/* NULL is written as null. Bytes that are not UTF-8 become U+FFFD. */
 void sb_json_text(sb_json *json, const char *key, const char *text);
 void sb_json_number(sb_json *json, const char *key, double value);
 void sb_json_count(sb_json *json, const char *key, uint64_t value);

@@ -43,7 +43,7 @@ static int draw_map(const char *program, const char *directory, size_t k, const 
             "(%.12g-($2+0.5)*%.12g):($3==-9999?NaN:$3) with image\n",
             maps[k].name, x, cell, y + rows * cell, cell);
     sb_status status = fclose(out) == 0 ? sb_plot_draw(program, directory, "maps", maps[k].name, &error)
-                                        : sb_fail(&error, SB_FAILED, "cannot write its script");
+                                        : sb_fail(&error, SB_FAILED, "cannot write the gnuplot script");
     unlink(script);
     if (status != SB_OK)
         sb_runlog_warning(log, "maps/%s.png: %s", maps[k].name, error.text);

@@ -1,4 +1,4 @@
-/* Plots of the tables over time, a line for each body, gauge, probe, plane or line. */
+/* Plots of the tables over time, with a curve for each body, gauge, probe, plane or run-up line. */
 #include "base/file.h"
 #include "base/memory.h"
 #include "output/plot_parts.h"
@@ -7,17 +7,17 @@
 #include <string.h>
 #include <unistd.h>
 
-/* One pair of axes: the value is the norm of up to three columns, or with `signed_value` the first
-   of them; `change`: its difference from the first row. */
+/* One pair of axes. The value is the norm of up to three columns, with `signed_value` the first column, with `change`
+   the difference of the first column from its first row. */
 typedef struct panel {
     const char *label, *unit;
-    bool scaled;    /* unit takes k, M, G, T */
+    bool scaled;    /* the unit may have a prefix k, M, G, T */
     bool extensive; /* per metre in 2D */
     bool signed_value, change;
     int columns[3]; /* 0: none */
 } panel;
 
-/* Scenes that a plot is for: elevations are above the still-water level where there is one. */
+/* Scenes for which a plot is drawn: elevations are above the still-water level if the scene has one. */
 typedef enum scenes { ALL_SCENES, WITH_LEVEL, WITHOUT_LEVEL } scenes;
 
 typedef struct plot {
@@ -60,15 +60,15 @@ static const plot plots[] = {
      {{"volume", "m^3", false, true, true, false, {2}}, {"flux", "m^3/s", false, true, true, false, {3}}},
      ALL_SCENES},
     {"runup",
-     "Run-up, and water apart from it",
+     "Run-up and unconnected water",
      true,
      {{"run-up, absolute z", "m", false, false, true, false, {4}},
       {"front from first end", "m", false, false, true, false, {5}},
-      {"length of water apart", "m", false, false, true, false, {6}}},
+      {"length of unconnected water", "m", false, false, true, false, {6}}},
      ALL_SCENES},
 };
 
-/* Fewer lines than colours; more could not be told apart. */
+/* More curves could not be distinguished. */
 enum { MAX_LINES = 12, MAX_PANELS = 3 };
 
 static double value_of(const panel *p, const sb_series_row *row, const sb_series_row *first)
@@ -81,7 +81,7 @@ static double value_of(const panel *p, const sb_series_row *row, const sb_series
     return sqrt(square);
 }
 
-/* Greatest |value| of every name in the first panel; over all names and for each panel in `top`. */
+/* Finds the greatest |value| of every name in the first panel, and in `top` that over all names for each panel. */
 static void find_peaks(const plot *what, const sb_series *series, double *peaks, double top[MAX_PANELS])
 {
     for (size_t i = 0; i < series->row_count; i++)
@@ -93,7 +93,7 @@ static void find_peaks(const plot *what, const sb_series *series, double *peaks,
         }
 }
 
-/* Marks the MAX_LINES names with the greatest peaks: peaks of the others become -1. */
+/* Selects the MAX_LINES names with the greatest peaks: the peaks of the others become -1. Returns their number. */
 static size_t choose(double *peaks, size_t count)
 {
     size_t chosen = count;
@@ -107,7 +107,7 @@ static size_t choose(double *peaks, size_t count)
     return chosen;
 }
 
-/* A block per chosen name: time and one column per panel, already scaled. */
+/* Writes a block per selected name: time and one column per panel, already scaled. */
 static void write_data(FILE *stream, const plot *what, const sb_series *series, const double *peaks,
                        const double scale[MAX_PANELS])
 {
@@ -228,8 +228,8 @@ static sb_status draw_series(const char *program, const char *directory, const p
     return status;
 }
 
-/* Whether any row has a number: probes and lines that no water came to have none, and a picture of them is blank. */
-static bool anything_in(const plot *what, const sb_series *series)
+/* Whether any row has a value. Probes and lines that stay dry have none, and their plot would be empty. */
+static bool has_values(const plot *what, const sb_series *series)
 {
     for (size_t i = 0; i < series->row_count; i++)
         for (int k = 0; k < MAX_PANELS && what->panels[k].label; k++)
@@ -247,8 +247,8 @@ static int draw_plot(const char *program, const char *directory, const plot *wha
     if (access(path, R_OK) != 0) return 0;
     sb_status status = sb_series_read(path, what->named, &series, &error);
     int drawn = 0;
-    if (status == SB_OK && series.row_count > 1 && !anything_in(what, &series)) {
-        sb_runlog_event(log, "skipped", "plots/%s.png: nothing but dry places in %s.csv", what->name, what->name);
+    if (status == SB_OK && series.row_count > 1 && !has_values(what, &series)) {
+        sb_runlog_event(log, "skipped", "plots/%s.png: %s.csv contains dry places only", what->name, what->name);
     } else if (status == SB_OK && series.row_count > 1) {
         status = draw_series(program, directory, what, scene, &series, &error);
         drawn = status == SB_OK;

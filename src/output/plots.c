@@ -51,7 +51,7 @@ int sb_plots_write(const char *directory, const sb_scene *scene, sb_runlog *log)
     char program[SB_PATH_MAX], path[SB_PATH_MAX];
     sb_error error = {0};
     if (!sb_tool_find("gnuplot", program)) {
-        sb_runlog_event(log, "skipped", "plots: gnuplot is not there");
+        sb_runlog_event(log, "skipped", "plots: gnuplot was not found");
         return 0;
     }
     if (sb_make_folder(path, directory, "plots", &error) != SB_OK) {

@@ -14,7 +14,7 @@ static double stage_sum(const sb_profile *p)
     return sum;
 }
 
-/* Steps before t = 0: the first stage was called in each step, of either kind. */
+/* Number of settling steps. The first stage is called once in each step, before and after t = 0. */
 static uint64_t settling_steps(const sb_profile *p)
 {
     const uint64_t calls = p->stage_count > 0 ? p->stages[0].calls : 0;
@@ -34,16 +34,17 @@ static void print_stages(FILE *out, const sb_profile *p, double sum, double part
 static void print_skipped(FILE *out, const sb_profile *p)
 {
     const sb_saved saved = sb_saved_sum(p->skipped, SB_PROFILE_LISTS, p->stages, p->stage_count);
-    fprintf(out, "left out, for the scene needs none of it:\n");
+    fprintf(out, "not computed, because the scene does not need it:\n");
     for (size_t list = 0; list < SB_PROFILE_LISTS; list++)
         for (const sb_skipped *of = p->skipped[list]; of && of->what; of++) {
             fprintf(out, "  %s", of->what);
-            if (of->passes > 0) fprintf(out, "; %d pass%s over pairs per step", of->passes, of->passes > 1 ? "es" : "");
+            if (of->passes > 0)
+                fprintf(out, "; %d pass%s over particle pairs per step", of->passes, of->passes > 1 ? "es" : "");
             if (of->bytes > 0) fprintf(out, "; %.3g MB", 1e-6 * (double)of->bytes);
             fputc('\n', out);
         }
-    fprintf(out, "saved: %d passes over pairs per step, about %.3g s so far; %.3g MB\n", saved.passes, saved.seconds,
-            1e-6 * (double)saved.bytes);
+    fprintf(out, "saved: %d pass%s over particle pairs per step, about %.3g s so far; %.3g MB\n", saved.passes,
+            saved.passes == 1 ? "" : "es", saved.seconds, 1e-6 * (double)saved.bytes);
 }
 
 void sb_profile_print(FILE *out, const sb_profile *p)
@@ -52,11 +53,12 @@ void sb_profile_print(FILE *out, const sb_profile *p)
     const double sum = stage_sum(p);
     const double particle_steps = p->particle_steps + (double)settling * (double)p->settling_particles;
     print_stages(out, p, sum, particle_steps);
-    fprintf(out,
-            "%llu steps after %llu of settling, %.1f iterations per step, %.4g particle-steps per second, %d threads\n",
-            (unsigned long long)p->steps, (unsigned long long)settling, ratio((double)p->iterations, (double)p->steps),
-            ratio(particle_steps, sum), p->threads);
-    fprintf(out, "%.3f s in all: %.3f s set-up, %.3f s settling, %.3f s outside stages; %.4g s simulated\n", p->wall,
+    fprintf(
+        out,
+        "%llu steps after %llu settling steps, %.1f iterations per step, %.4g particle-steps per second, %d thread%s\n",
+        (unsigned long long)p->steps, (unsigned long long)settling, ratio((double)p->iterations, (double)p->steps),
+        ratio(particle_steps, sum), p->threads, p->threads == 1 ? "" : "s");
+    fprintf(out, "%.3f s in total: %.3f s set-up, %.3f s settling, %.3f s outside stages; %.4g s simulated\n", p->wall,
             p->setup, p->settling, p->wall > p->setup + sum ? p->wall - p->setup - sum : 0, p->simulated);
     fprintf(out, "memory: simulation %.1f MB, peak of the process %.1f MB\n", (double)p->bytes / 1e6,
             (double)sb_memory_peak() / 1e6);

@@ -44,7 +44,7 @@ double sb_progress_eta(const sb_progress *progress)
     return progress->eta;
 }
 
-/* The speed of the last 15 to 30 s: a wave ashore runs slower than a calm sea. */
+/* Estimates the end from the speed of the last 15 to 30 s, because steps become slower when the wave strikes land. */
 static void estimate(sb_progress *progress, double now, double time)
 {
     enum { WINDOW = 15 };
@@ -80,7 +80,7 @@ void sb_progress_plan(sb_progress *progress, int settling, int done, double step
     progress->steps = steps;
 }
 
-/* By the speed of settling so far. Where it ends is known once `most` is less than it was expected to be. */
+/* Estimates the end from the time per settling step so far. The number of settling steps is at most `most`. */
 static void estimate_settling(sb_progress *progress, double now, int done, int most)
 {
     const int made = done - progress->settling_before;
@@ -98,7 +98,7 @@ void sb_progress_settling(void *context, int done, int most, double speed)
     if (!is_time(progress, now)) return;
     sb_progress_duration(wall, sb_progress_wall(progress));
     sb_progress_duration(eta, progress->eta < 0 ? (double)NAN : progress->eta);
-    fprintf(progress->stream, "%ssettling: step %d of at most %d  %.3f m/s  %s so far, %s left%s",
+    fprintf(progress->stream, "%ssettling: step %d of at most %d  max %.3f m/s  %s elapsed, %s left%s",
             progress->terminal ? "\r" : "", done, most, speed, wall, eta, progress->terminal ? "\033[K" : "\n");
     fflush(progress->stream);
     progress->open = progress->terminal;
@@ -115,10 +115,10 @@ static void print(sb_progress *progress, const sb_step_report *report)
     sb_progress_duration(eta, progress->eta < 0 ? (double)NAN : progress->eta);
     sb_progress_duration(wall, sb_progress_wall(progress));
     double percent = progress->duration > 0 ? 100 * report->time / progress->duration : 100;
-    fprintf(progress->stream, "%s%5.1f %%  t %.3f s  dt %.4f s  %d iterations  %.1f m/s  %s so far, %s left%s",
+    fprintf(progress->stream, "%s%5.1f %%  t %.3f s  dt %.4f s  %d iterations  max %.1f m/s  %s elapsed, %s left%s",
             progress->terminal ? "\r" : "", percent < 100 ? percent : 100, report->time, report->time_step,
             report->iterations, report->max_speed, wall, eta, progress->terminal ? "\033[K" : "\n");
-    fflush(progress->stream); /* that nobody may read any more: a run does not end for that */
+    fflush(progress->stream); /* errors are ignored: the run continues without a reader */
     progress->open = progress->terminal;
 }
 

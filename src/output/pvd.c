@@ -18,7 +18,8 @@ static sb_status append(sb_pvd *pvd, double time, const char *file, size_t lengt
 {
     if (length == 0 || length >= sizeof pvd->entries->file || memchr(file, '"', length) || memchr(file, '<', length) ||
         memchr(file, '&', length))
-        return sb_fail(error, SB_BAD_INPUT, "%.*s: not a file name for a pvd", length < 300 ? (int)length : 300, file);
+        return sb_fail(error, SB_BAD_INPUT, "%.*s: not a valid file name in a pvd", length < 300 ? (int)length : 300,
+                       file);
     if (sb_grow((void **)&pvd->entries, &pvd->capacity, pvd->count + 1, sizeof *pvd->entries) != 0)
         return sb_fail_memory(error, "list of particle files");
     sb_pvd_entry *entry = &pvd->entries[pvd->count++];
@@ -61,7 +62,7 @@ static sb_status parse(const char *path, const char *text, sb_pvd *pvd, sb_error
 {
     static const char before[] = "<DataSet timestep=\"", between[] = "\" part=\"0\" file=\"";
     if (!strstr(text, "type=\"Collection\"") || !strstr(text, "</Collection>"))
-        return sb_fail(error, SB_BAD_INPUT, "%.500s: not a whole list of particle files", path);
+        return sb_fail(error, SB_BAD_INPUT, "%.500s: not a complete list of particle files", path);
     for (const char *at = text; (at = strstr(at, before));) {
         char *rest;
         double time = strtod(at + strlen(before), &rest);

@@ -18,9 +18,9 @@ struct sb_runlog {
     FILE *stream;
     char path[SB_PATH_MAX];
     double opened;
-    off_t whole; /* up to the end of the last line */
+    off_t whole; /* length up to the end of the last complete line */
     int reason;  /* errno of the first failure, 0: none */
-    bool lost;   /* removed, and could not be made anew */
+    bool lost;   /* removed, and could not be created again */
     pthread_mutex_t mutex;
 };
 
@@ -46,8 +46,8 @@ sb_status sb_runlog_open(const char *path, sb_runlog **log, sb_error *error)
     return open_log(path, "w", log, error);
 }
 
-/* Cuts the file after its last whole line. */
-static sb_status drop_torn_line(const char *path, sb_error *error)
+/* Cuts the file after its last complete line. */
+static sb_status drop_incomplete_line(const char *path, sb_error *error)
 {
     FILE *file;
     sb_status status = sb_file_open(path, "r+", &file, error);
@@ -62,7 +62,7 @@ static sb_status drop_torn_line(const char *path, sb_error *error)
 
 sb_status sb_runlog_append(const char *path, sb_runlog **log, sb_error *error)
 {
-    sb_status status = drop_torn_line(path, error);
+    sb_status status = drop_incomplete_line(path, error);
     return status == SB_OK ? open_log(path, "a", log, error) : status;
 }
 
@@ -78,18 +78,18 @@ bool sb_runlog_remade(sb_runlog *log)
     if (!log) return false;
     pthread_mutex_lock(&log->mutex);
     const bool gone = !log->lost && fstat(fileno(log->stream), &found) == 0 && found.st_nlink == 0;
-    FILE *anew = NULL;
-    log->lost |= gone && sb_file_open(log->path, "a", &anew, NULL) != SB_OK;
-    if (anew) {
+    FILE *created = NULL;
+    log->lost |= gone && sb_file_open(log->path, "a", &created, NULL) != SB_OK;
+    if (created) {
         fclose(log->stream); /* each line was flushed */
-        log->stream = anew;
-        log->whole = fseeko(anew, 0, SEEK_END) == 0 ? ftello(anew) : 0;
+        log->stream = created;
+        log->whole = fseeko(created, 0, SEEK_END) == 0 ? ftello(created) : 0;
     }
     pthread_mutex_unlock(&log->mutex);
     return gone;
 }
 
-static sb_status verdict(const sb_runlog *log, sb_error *error)
+static sb_status write_status(const sb_runlog *log, sb_error *error)
 {
     return log->reason ? sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", log->path, strerror(log->reason))
                        : SB_OK;
@@ -99,7 +99,7 @@ sb_status sb_runlog_check(sb_runlog *log, sb_error *error)
 {
     if (!log) return SB_OK;
     pthread_mutex_lock(&log->mutex);
-    sb_status status = verdict(log, error);
+    sb_status status = write_status(log, error);
     pthread_mutex_unlock(&log->mutex);
     return status;
 }
@@ -108,13 +108,13 @@ sb_status sb_runlog_close(sb_runlog *log, sb_error *error)
 {
     if (!log) return SB_OK;
     if (fclose(log->stream) != 0 && !log->reason) log->reason = errno;
-    sb_status status = verdict(log, error);
+    sb_status status = write_status(log, error);
     pthread_mutex_destroy(&log->mutex);
     sb_free(log);
     return status;
 }
 
-/* Between begin and end the log is locked and *json stands inside the line's object. */
+/* Between begin and end the log is locked and *json is inside of the line's object. */
 static void begin(sb_runlog *log, sb_json *json, const char *event)
 {
     pthread_mutex_lock(&log->mutex);
@@ -125,8 +125,9 @@ static void begin(sb_runlog *log, sb_json *json, const char *event)
     sb_json_number(json, "wall_s", sb_clock() - log->opened);
 }
 
-/* A line is whole or absent: a full disk lets a file become shorter, and may have room for the next one. */
-static void take_back(sb_runlog *log)
+/* Removes an incomplete line after a write error. Shortening succeeds on a full disk, and the next line may fit again.
+ */
+static void remove_line(sb_runlog *log)
 {
     if (!log->reason) log->reason = errno ? errno : EIO;
     __fpurge(log->stream);
@@ -138,13 +139,13 @@ static void end(sb_runlog *log, sb_json *json)
 {
     sb_json_close(json);
     if (fflush(log->stream) != 0 || ferror(log->stream))
-        take_back(log);
+        remove_line(log);
     else
         log->whole = ftello(log->stream);
     pthread_mutex_unlock(&log->mutex);
 }
 
-/* All keys of the block, as the scene's table has them. */
+/* Writes all keys of the `numerics` block in the order of the scene's table. */
 static void put_numerics(sb_json *json, const sb_numerics *numerics)
 {
     sb_json_open(json, "numerics", '{');
@@ -172,7 +173,7 @@ static void put_numerics(sb_json *json, const sb_numerics *numerics)
         case SB_KEY_KERNEL:
             sb_json_text(json, key->name, numerics->kernel ? numerics->kernel->name : NULL);
             break;
-        default: /* no such key is in that block */
+        default: /* the block has no other types */
             break;
         }
     }

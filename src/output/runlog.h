@@ -1,5 +1,5 @@
-/* run.jsonl: what happened in a run, one JSON object per line with "event" and "wall_s" (seconds
-   since the log was opened). Any thread may write. Write errors are kept until asked for. */
+/* Writes run.jsonl, the log of a run: one JSON object per line with "event" and "wall_s" (seconds since the log was
+   opened). Any thread may write. Write errors are kept until sb_runlog_check. */
 #ifndef SB_OUTPUT_RUNLOG_H
 #define SB_OUTPUT_RUNLOG_H
 
@@ -11,16 +11,16 @@
 
 typedef struct sb_runlog sb_runlog;
 
-/* Everything below takes a NULL log and then does nothing. */
+/* All functions below accept a NULL log and then do nothing. */
 sb_status sb_runlog_open(const char *path, sb_runlog **log, sb_error *error);
 
-/* Goes on with a log that is there, or starts one; a line that a killed run left unfinished is dropped. */
+/* Continues an existing log, or creates one. An incomplete last line of a killed run is removed. */
 sb_status sb_runlog_append(const char *path, sb_runlog **log, sb_error *error);
 
-/* Puts what was written on disk. SB_FAILED when that cannot be done. */
+/* Writes all lines to disk. SB_FAILED on an error. */
 sb_status sb_runlog_sync(sb_runlog *log, sb_error *error);
 
-/* Whether the file was removed since it was opened; it is then made anew, where that can be done, and said so once. */
+/* Whether the file was removed since it was opened. It is then created again if possible. True once per removal. */
 bool sb_runlog_remade(sb_runlog *log);
 
 /* SB_FAILED when a line could not be written. */
@@ -32,9 +32,9 @@ sb_status sb_runlog_close(sb_runlog *log, sb_error *error);
 /* "start": version, scene, threads, particles, memory, numerics chosen, the model's warnings. */
 void sb_runlog_start(sb_runlog *log, const sb_scene *scene, const sb_model *model, int threads, size_t bytes);
 
-/* "skipped", one line for each of the list. */
+/* "skipped", one line for each entry of the list. */
 void sb_runlog_skipped(sb_runlog *log, const sb_skipped *list);
-/* "saved": what all of that came to. */
+/* "saved": the sum of these savings. */
 void sb_runlog_saved(sb_runlog *log, const sb_saved *saved);
 
 /* "warning" with a text. */
@@ -46,7 +46,7 @@ void sb_runlog_event(sb_runlog *log, const char *event, const char *format, ...)
 /* The periodic "step" line. */
 typedef struct sb_runlog_state {
     const sb_step_report *report;
-    const sb_energy *energy;     /* NULL: left out */
+    const sb_energy *energy;     /* NULL: not written */
     const sb_stage_time *stages; /* seconds since the start */
     size_t stage_count;
     bool has_hash;
@@ -54,8 +54,8 @@ typedef struct sb_runlog_state {
 } sb_runlog_state;
 void sb_runlog_step(sb_runlog *log, const sb_runlog_state *state);
 
-/* "body": how many particles deep the flow at each reporting body's face was, and whether that
-   is too coarse to trust. */
+/* "body": the flow depth at each reporting body's faces in spacings, and whether that is too small for a reliable
+   force. */
 void sb_runlog_bodies(sb_runlog *log, const sb_model *model, const sb_body_record *bodies);
 
 /* "end": "done", "interrupted" or "failed" with the reason (may be NULL). */

@@ -14,8 +14,7 @@ void sb_series_free(sb_series *series)
     *series = (sb_series){0};
 }
 
-/* Takes one field off *at (unquoting it) into out; moves *at behind its comma, to NULL at the end.
- */
+/* Copies the field at *at into out, without quotes. Moves *at behind its comma; NULL at the line's end. */
 static void take_field(const char **at, const char *end, char *out, size_t size)
 {
     const char *c = *at;
@@ -40,7 +39,7 @@ static void take_field(const char **at, const char *end, char *out, size_t size)
 static sb_status find_name(sb_series *series, const char *name, size_t *index, sb_error *error)
 {
     size_t n = series->name_count;
-    /* Rows come in cycles: the name after the last one found is the likely one. */
+    /* Names repeat in the same order, so the name after the last one is tried first. */
     size_t guess = series->row_count ? series->rows[series->row_count - 1].name + 1 : 0;
     for (size_t k = 0; k < n; k++) {
         *index = (guess + k) % n;

@@ -1,4 +1,4 @@
-/* A CSV file of ours, read back as named series for plotting. Inside src/output. */
+/* Reads a table of the run back as named series for plotting. Private to src/output. */
 #ifndef SB_OUTPUT_SERIES_H
 #define SB_OUTPUT_SERIES_H
 
@@ -9,7 +9,7 @@
 
 enum { SB_SERIES_COLUMNS = 14, SB_SERIES_NAME = 64 };
 
-/* Row-wise values; [0] is the time, [k] the k-th column of the file; NaN where it is empty. */
+/* One row: values[0] is the time, values[k] column k of the file (from 0); NaN where it is empty. */
 typedef struct sb_series_row {
     size_t name;
     double values[SB_SERIES_COLUMNS];
@@ -21,8 +21,8 @@ typedef struct sb_series {
     sb_series_row *rows;
 } sb_series;
 
-/* named: the second column is a name, as in all tables but energy.csv (there one series "" is
-   made). Incomplete lines are ignored. */
+/* named: the second column is a name, as in all tables except energy.csv, which becomes one series "". Incomplete lines
+   are ignored. */
 sb_status sb_series_read(const char *path, bool named, sb_series *series, sb_error *error);
 void sb_series_free(sb_series *series);
 

@@ -1,4 +1,4 @@
-/* summary.json: one run in one object. */
+/* Writes summary.json: the results of one run as one object. */
 #ifndef SB_OUTPUT_SUMMARY_H
 #define SB_OUTPUT_SUMMARY_H
 
@@ -8,22 +8,22 @@
 #include "scene/scene.h"
 #include "sim/sim.h"
 
-/* What one stage took: in all, and of that while the water came to rest. */
+/* Run time of one stage: total, and the part in settling. */
 typedef struct sb_stage_spent {
     char name[24];
     double seconds, settling_seconds; /* of wall time */
     uint64_t calls, settling_calls;
 } sb_stage_spent;
 
-/* What a run took, in all the processes that worked on it. */
+/* Run time of a run, summed over all processes that worked on it. */
 typedef struct sb_spent {
-    double wall, processor; /* s; processor time is of all threads */
-    double setup, settling; /* s of wall time: until the first step, in each process; bringing the water to rest */
+    double wall, processor; /* s; processor time is summed over all threads */
+    double setup, settling; /* s of wall time: before the first step, in each process; in settling */
     size_t stage_count;
     sb_stage_spent stage[SB_STAGES_MAX];
 } sb_spent;
 
-/* Zero or NULL where a run never came that far. Pointers are read during the call only. */
+/* Members are zero or NULL if the run ended before they were known. Pointers are read during the call only. */
 typedef struct sb_summary {
     const sb_scene *scene;
     const sb_model *model;
@@ -32,34 +32,34 @@ typedef struct sb_summary {
     sb_spent spent;
     double simulated;                    /* s */
     uint64_t steps, iterations;          /* iterations: sum over all steps */
-    double compression, compression_max; /* sum over the steps, and the worst: as in sb_step_report */
+    double compression, compression_max; /* sum over the steps, and the maximum: as in sb_step_report */
     uint64_t capped_steps;               /* pressure solves that stopped above their tolerance */
     size_t fluid_particles;              /* at the start */
     size_t bytes;                        /* heap bytes of the simulation */
     uint64_t lost, left_domain;          /* through walls; through open sides */
-    const sb_departures *departures;     /* by which side, and the first few */
-    bool has_inside;                     /* the two below were asked for */
-    uint64_t inside, crossed;            /* particles whose centre lies within a solid at the end: at all; deeper
+    const sb_departures *departures;     /* counts per side, and the first few particles */
+    bool has_inside;                     /* the two below are known */
+    uint64_t inside, crossed;            /* particles whose centre lies within a solid at the end: all; those deeper
                                             than its boundary particles */
     int threads;
     const sb_body_record *bodies;              /* one per body of the model; NULL: none */
     sb_energy first, last;                     /* energies at the start and at the end */
-    const sb_ledger *work;                     /* where energy went between; NULL: no simulation was made */
+    const sb_ledger *work;                     /* energy ledger; NULL: there was no simulation */
     uint64_t hash;                             /* of the final state */
     uint64_t frames, pictures;                 /* particle files and pictures written */
-    uint64_t frames_missing, pictures_missing; /* that could not be */
+    uint64_t frames_missing, pictures_missing; /* that could not be written */
 } sb_summary;
 
-/* An object of energies, J, mass, kg, and momentum, kg m/s. */
+/* Writes an object of energies, J, mass, kg, and momentum, kg m/s. */
 void sb_summary_put_energy(sb_json *json, const char *key, const sb_energy *energy);
-/* The object "energy_work": the sums of energy.csv's columns, J. */
+/* Writes the object "energy_work": the final values of energy.csv's ledger columns, J. */
 void sb_summary_put_work(sb_json *json, const sb_ledger *work);
 
-/* The same file while the run goes on: version, preset, title and the status "running", so that a run which never comes
-   to its end is not taken for an earlier one that did. */
+/* Writes the file of a run in progress: version, preset, title and the status "running". A killed run is then not
+   mistaken for an earlier run that finished. */
 sb_status sb_summary_write_running(const char *path, const sb_scene *scene, sb_error *error);
 
-/* Writes the file whole or not at all. In 2D forces, impulses and energies are per metre of width
+/* Writes the file completely or not at all. In 2D forces, impulses and energies are per metre of width
    and "per_metre" is true. */
 sb_status sb_summary_write(const char *path, const sb_summary *summary, sb_error *error);
 

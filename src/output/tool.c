@@ -23,7 +23,7 @@ bool sb_tool_find(const char *name, char path[SB_PATH_MAX])
         size_t length = strcspn(at, ":");
         struct stat status;
         int written = snprintf(path, SB_PATH_MAX, "%.*s/%s", (int)length, at, name);
-        /* The tool is started in another directory, where a relative place is another one. */
+        /* The tool is started in another directory, where a relative path would mean another file. */
         if (*at == '/' && written < SB_PATH_MAX && access(path, X_OK) == 0 && stat(path, &status) == 0 &&
             S_ISREG(status.st_mode))
             return true;
@@ -32,7 +32,7 @@ bool sb_tool_find(const char *name, char path[SB_PATH_MAX])
     return false;
 }
 
-/* The last non-empty line in the stream, cut to fit. */
+/* Copies the last non-empty line of the stream, cut to `size`. */
 static void last_line(FILE *stream, char *line, size_t size)
 {
     char buffer[512];
@@ -70,18 +70,18 @@ static int spawn(const char *path, char *const *arguments, const char *folder, i
     return result;
 }
 
-/* For how much longer a tool may work once someone wishes the run to stop. */
+/* How long a tool may continue after a request to stop the run. */
 static const double GRACE = 5; /* s */
 
-/* Waits for the child's end, and brings it about when patience is over. False: someone else has collected it. */
+/* Waits for the child's end, and kills it when GRACE has passed. False: its exit status was collected elsewhere. */
 static bool wait_for(pid_t child, int *ended)
 {
     const struct timespec pause = {0, 10000000};
-    double noted = 0;
+    double requested = 0;
     for (pid_t found; (found = waitpid(child, ended, WNOHANG)) != child;) {
         if (found < 0 && errno != EINTR) return false;
-        if (sb_stop_signal() && !(noted > 0)) noted = sb_clock();
-        if (noted > 0 && sb_clock() > noted + GRACE) kill(-child, SIGKILL);
+        if (sb_stop_signal() && !(requested > 0)) requested = sb_clock();
+        if (requested > 0 && sb_clock() > requested + GRACE) kill(-child, SIGKILL);
         nanosleep(&pause, NULL);
     }
     return true;
@@ -89,25 +89,26 @@ static bool wait_for(pid_t child, int *ended)
 
 sb_status sb_tool_run(const char *path, char *const *arguments, const char *folder, sb_error *error)
 {
-    FILE *said = tmpfile();
-    if (!said) return sb_fail(error, SB_FAILED, "%s: no temporary file: %s", arguments[0], strerror(errno));
+    FILE *output = tmpfile();
+    if (!output)
+        return sb_fail(error, SB_FAILED, "%s: cannot create a temporary file: %s", arguments[0], strerror(errno));
     pid_t child;
-    int result = spawn(path, arguments, folder, fileno(said), &child);
+    int result = spawn(path, arguments, folder, fileno(output), &child);
     if (result != 0) {
-        fclose(said);
+        fclose(output);
         return sb_fail(error, SB_FAILED, "%s: cannot start: %s", arguments[0], strerror(result));
     }
     int ended = 0;
     sb_status status = SB_OK;
     if (!wait_for(child, &ended)) {
-        status = sb_fail(error, SB_FAILED, "%s: how it ended is not known", arguments[0]);
+        status = sb_fail(error, SB_FAILED, "%s: its exit status is not known", arguments[0]);
     } else if (!WIFEXITED(ended) || WEXITSTATUS(ended) != 0) {
         char line[256];
-        last_line(said, line, sizeof line);
+        last_line(output, line, sizeof line);
         status =
             sb_fail(error, SB_FAILED, "%s: ended with %s %d: %s", arguments[0], WIFEXITED(ended) ? "status" : "signal",
                     WIFEXITED(ended) ? WEXITSTATUS(ended) : WTERMSIG(ended), line);
     }
-    fclose(said);
+    fclose(output);
     return status;
 }

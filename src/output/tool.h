@@ -1,4 +1,4 @@
-/* Runs another program (gnuplot, ffmpeg) without a shell. Inside src/output. */
+/* Runs another program (gnuplot, ffmpeg) without a shell. Private to src/output. */
 #ifndef SB_OUTPUT_TOOL_H
 #define SB_OUTPUT_TOOL_H
 
@@ -6,12 +6,12 @@
 
 #include <stdbool.h>
 
-/* Looks the program up on PATH; false when it is not there. */
+/* Searches the program on PATH; false if it is not found. */
 bool sb_tool_find(const char *name, char path[SB_PATH_MAX]);
 
-/* Runs `path` with arguments (ended by NULL, [0] being its name) in `folder`, silent, in a process
-   group of its own so that Ctrl-C lets it finish, and waits: once a wish to stop is noted (base/stop.h) five seconds,
-   then it is killed. SB_FAILED names the program, how it ended and the last line it said. */
+/* Runs `path` with arguments (ended by NULL; [0] is its name) in `folder`, without output, in its own process group so
+   that Ctrl-C does not stop it, and waits for its end. Five seconds after a request to stop (base/stop.h) it is killed.
+   SB_FAILED names the program, its exit status or signal, and the last line of its output. */
 sb_status sb_tool_run(const char *path, char *const *arguments, const char *folder, sb_error *error);
 
 #endif

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* frames/<camera>/%06d.png with every % of the name doubled, as the pattern wants it. */
+/* frames/<camera>/%06d.png with every % of the name doubled, as ffmpeg's pattern requires. */
 static bool pattern_of(char out[SB_PATH_MAX], const char *camera)
 {
     size_t n = (size_t)snprintf(out, SB_PATH_MAX, "frames/");
@@ -26,7 +26,7 @@ static sb_status check_pictures(const char *directory, const char *camera, uint6
         snprintf(name, sizeof name, "frames/%.90s/%06llu.png", camera, (unsigned long long)number);
         status = sb_path_join(path, directory, name, error);
         if (status == SB_OK && access(path, F_OK) != 0)
-            status = sb_fail(error, SB_FAILED, "not made: picture %llu of %llu is gone; expected %s",
+            status = sb_fail(error, SB_FAILED, "not made: picture %llu of %llu is missing, expected %s",
                              (unsigned long long)number, (unsigned long long)count, name);
     }
     return status;
@@ -38,17 +38,16 @@ bool sb_video_write(const char *directory, const char *camera, uint64_t count, i
     char from[SB_PATH_MAX], to[SB_PATH_MAX], name[SB_PATH_MAX];
     sb_error error = {0};
     if (!sb_tool_find("ffmpeg", program)) {
-        sb_runlog_event(log, "skipped", "%s.mp4: ffmpeg is not there", camera);
+        sb_runlog_event(log, "skipped", "%s.mp4: ffmpeg was not found", camera);
         return false;
     }
     snprintf(speed, sizeof speed, "%d", rate);
-    /* file: keeps ffmpeg from taking a name with a colon for a protocol */
-    /* no camera's name begins with a dot */
+    /* "file:" prevents that ffmpeg takes a name with a colon for a protocol. No camera's name begins with a dot. */
     snprintf(part, sizeof part, "file:.%s.part.mp4", camera);
     snprintf(name, sizeof name, "%s.mp4", camera);
     char *const arguments[] = {"ffmpeg", "-y", "-nostdin", "-loglevel", "error", "-framerate", speed, "-i", pattern,
                                "-c:v", "libx264", "-preset", "veryfast", "-crf", "20", "-pix_fmt", "yuv420p",
-                               /* yuv420p wants even sides */
+                               /* yuv420p requires even sides */
                                "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-movflags", "+faststart", part, NULL};
     sb_status status = SB_OK;
     if (!pattern_of(pattern, camera)) status = sb_fail(&error, SB_FAILED, "%.64s...: name too long", camera);
@@ -56,7 +55,7 @@ bool sb_video_write(const char *directory, const char *camera, uint64_t count, i
     if (status == SB_OK) status = sb_path_join(from, directory, part + strlen("file:"), &error);
     if (status == SB_OK) status = sb_path_join(to, directory, name, &error);
     if (status == SB_OK) status = sb_file_replaceable(to, &error);
-    if (status == SB_OK) unlink(from); /* one that outlived a killed run may still be writing it */
+    if (status == SB_OK) unlink(from); /* an ffmpeg left by a killed run may still be writing to it */
     if (status == SB_OK) status = sb_tool_run(program, arguments, directory, &error);
     if (status == SB_OK && rename(from, to) != 0)
         status = sb_fail(&error, SB_FAILED, "%.500s: %s", to, strerror(errno));

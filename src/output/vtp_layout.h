@@ -1,4 +1,4 @@
-/* What writer and reader of particle files agree on. Inside src/output. */
+/* The layout that the writer and the reader of particle files share. Private to src/output. */
 #ifndef SB_OUTPUT_VTP_LAYOUT_H
 #define SB_OUTPUT_VTP_LAYOUT_H
 
@@ -18,7 +18,7 @@ enum {
     SB_VTP_STATUS_COUNT
 };
 
-/* How every file begins: what is read back has to begin with the same bytes. */
+/* The first bytes of every file; the reader requires them. */
 #define SB_VTP_HEAD                                                                                                    \
     "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "                 \
     "header_type=\"UInt64\">\n"

@@ -59,12 +59,13 @@ static sb_status read_header(source *file, sb_error *error)
     if (fseeko(file->stream, 0, SEEK_END) != 0) return damaged(file, error, "not seekable");
     file->end = (uint64_t)ftello(file->stream);
     /* 24 bytes of position each: a count that the file cannot hold must not be allocated. */
-    if (file->points > (file->end - file->base) / 24) return damaged(file, error, "shorter than its particles");
+    if (file->points > (file->end - file->base) / 24)
+        return damaged(file, error, "too short for its number of particles");
     return SB_OK;
 }
 
-/* Puts the stream at the data of an array and checks that it has `tuples` tuples (0: any, returned)
-   of that type and that many components, all inside the file. */
+/* Moves the stream to the data of an array. Checks that the array has `tuples` tuples (0: any number, returned) of this
+   type and number of components, all within the file. */
 static sb_status find_array(source *file, const char *name, const char *type, uint64_t size, uint64_t components,
                             uint64_t *tuples, sb_error *error)
 {
@@ -100,7 +101,7 @@ static sb_status read_array(source *file, const char *name, const char *type, ui
     return status;
 }
 
-/* Absolute doubles on file become floats relative to the frame's origin. */
+/* Converts the file's absolute doubles to floats relative to the frame's origin. */
 static sb_status read_points(source *file, sb_frame *frame, sb_error *error)
 {
     uint64_t tuples = file->points;
@@ -176,7 +177,7 @@ static sb_status read_fields(source *file, sb_frame *frame, sb_error *error)
         !to_count(values[SB_VTP_STEP], &now->step) || !isfinite(values[SB_VTP_TIME]) ||
         !to_count(values[SB_VTP_LOST], &now->lost_particles) || !to_count(values[SB_VTP_INDEX], &frame->index) ||
         !to_count(values[SB_VTP_ITERATIONS], &iterations) || iterations > INT32_MAX)
-        return damaged(file, error, "senseless values in its field data");
+        return damaged(file, error, "invalid values in its field data");
     now->time = values[SB_VTP_TIME];
     now->duration = values[SB_VTP_DURATION];
     now->time_step = values[SB_VTP_TIME_STEP];
@@ -186,7 +187,7 @@ static sb_status read_fields(source *file, sb_frame *frame, sb_error *error)
     now->wall_seconds = values[SB_VTP_WALL];
     now->eta_seconds = values[SB_VTP_ETA];
     for (size_t k = 0; k < SB_VTP_STATUS_COUNT; k++)
-        if (!isfinite(values[k])) return damaged(file, error, "a status value that is no number");
+        if (!isfinite(values[k])) return damaged(file, error, "a status value that is not a finite number");
     return SB_OK;
 }
 
@@ -197,16 +198,16 @@ static bool all_finite(const float *values, size_t count)
     return true;
 }
 
-/* What is drawn from a frame, and written into tables, counts on numbers that are some. */
+/* Rendering and tables require finite numbers. */
 static sb_status check_numbers(const source *file, const sb_frame *frame, sb_error *error)
 {
     if (!all_finite(frame->position, 3 * frame->count) || !all_finite(frame->velocity, 3 * frame->count) ||
         !all_finite(frame->pressure, frame->count))
-        return damaged(file, error, "particles whose position, velocity or pressure is no number");
+        return damaged(file, error, "particles whose position, velocity or pressure is not finite");
     for (size_t b = 0; b < frame->body_count; b++) {
         const sb_frame_body *body = &frame->bodies[b];
         if (!sb_isfinite(body->displacement) || !sb_isfinite(body->force) || !sb_isfinite(body->moment))
-            return damaged(file, error, "a body whose place or load is no number");
+            return damaged(file, error, "a body whose displacement, force or moment is not finite");
     }
     return SB_OK;
 }

@@ -7,7 +7,7 @@
 #include <inttypes.h>
 #include <string.h>
 
-static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the files say LittleEndian");
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the files are little-endian");
 
 /* Produces `count` tuples from `first` on into buffer. */
 typedef void (*producer)(const void *source, size_t first, size_t count, void *buffer);
@@ -109,7 +109,8 @@ static void write_data(FILE *stream, const array *item, void *buffer)
 static sb_status write_file(const char *path, const layout *file, sb_error *error)
 {
     if (file->points > INT32_MAX)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s: %zu points, at most %d fit", path, file->points, INT32_MAX);
+        return sb_fail(error, SB_BAD_INPUT, "%.500s: has %zu points, expected at most %d", path, file->points,
+                       INT32_MAX);
     sb_atomic_file out;
     sb_status status = sb_atomic_open(&out, path, error);
     if (status != SB_OK) return status;
@@ -125,7 +126,7 @@ static sb_status write_file(const char *path, const layout *file, sb_error *erro
     return sb_atomic_commit(&out, 0, error);
 }
 
-/* The three arrays every file ends with. */
+/* The three arrays at the end of every file. */
 static void add_geometry(layout *file, const void *source, producer produce)
 {
     add(file, (array){"Points", "Float64", 8, 3, file->points, source, produce});
@@ -133,7 +134,7 @@ static void add_geometry(layout *file, const void *source, producer produce)
     add(file, (array){"offsets", "Int32", 4, 1, file->points, NULL, produce_next});
 }
 
-/* The bodies' records as arrays of one kind each. */
+/* The bodies' records as one array per quantity. */
 typedef struct body_columns {
     double *displacement, *force, *moment;
     uint8_t *report;
@@ -224,7 +225,7 @@ sb_status sb_vtp_write(const char *path, const sb_frame *frame, uint64_t index, 
 sb_status sb_vtp_write_points(const char *path, size_t count, const sb_vec3 *positions, const sb_vec3 *normals,
                               const int32_t *bodies, sb_error *error)
 {
-    static_assert(sizeof(sb_vec3) == 3 * sizeof(double), "vectors are written as they lie");
+    static_assert(sizeof(sb_vec3) == 3 * sizeof(double), "vectors are written without conversion");
     layout file = {.points = count};
     if (normals) add(&file, (array){"normal", "Float64", 8, 3, count, normals, NULL});
     if (bodies) add(&file, (array){"body", "Int32", 4, 1, count, bodies, NULL});

@@ -331,7 +331,7 @@ static void profile_says_where_time_went_and_changes_nothing(void **state)
                                         "\npressure ",
                                         "\nall stages ",
                                         " iterations per step, ",
-                                        " particle-steps per second, 1 threads\n",
+                                        " particle-steps per second, 1 thread\n",
                                         "\nmemory: simulation ",
                                         "\n  stream: off, no LCM thread\n"};
     for (size_t w = 0; w < sizeof words / sizeof words[0]; w++) assert_contains(o.out, words[w]);

@@ -140,7 +140,7 @@ static void pictures_taken_away_are_missed(void **state)
     outcome_free(&o);
     char *log = text_of("robbed/run.jsonl");
     assert_contains(log, "frames/side/000002.png");
-    if (strstr(log, "\"video\"")) assert_contains(log, "side.mp4: not made: picture 2 of 5 is gone");
+    if (strstr(log, "\"video\"")) assert_contains(log, "side.mp4: not made: picture 2 of 5 is missing");
     sb_free(log);
 }
 

@@ -160,7 +160,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_fifth_is_left_free), /* first: a fork has none of the threads that OpenMP has started */
         cmocka_unit_test(test_too_fine_a_spacing),   cmocka_unit_test(test_a_run_beyond_memory),
-        cmocka_unit_test(test_outputs_need_memory),    cmocka_unit_test(test_limits_of_the_process),
+        cmocka_unit_test(test_outputs_need_memory),  cmocka_unit_test(test_limits_of_the_process),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

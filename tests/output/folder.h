@@ -1,4 +1,4 @@
-/* A folder of its own for each test program, and what it holds. */
+/* A temporary folder for each test program, and its files. */
 #ifndef SB_TESTS_FOLDER_H
 #define SB_TESTS_FOLDER_H
 

@@ -1,4 +1,4 @@
-/* A strict little JSON reader: says whether a text is valid, and finds values by key. */
+/* A small strict JSON reader: checks that a text is valid, and finds values by key. */
 #ifndef SB_TESTS_JSON_CHECK_H
 #define SB_TESTS_JSON_CHECK_H
 
@@ -60,7 +60,7 @@ static inline const char *json_number_text(const char *at)
     return end;
 }
 
-/* The end of the value at `at`, NULL when it is no JSON. */
+/* The end of the value at `at`; NULL if it is not JSON. */
 static const char *json_value(const char *at)
 {
     at = json_space(at);
@@ -73,14 +73,14 @@ static const char *json_value(const char *at)
     return json_number_text(at);
 }
 
-/* One value and nothing but space behind it. */
+/* Whether the text is one value, followed by blanks only. */
 static inline bool json_valid(const char *text)
 {
     const char *end = json_value(text);
     return end && *json_space(end) == '\0';
 }
 
-/* The text behind the first "key": anywhere, NULL when there is none. */
+/* The text after the first "key": at any depth; NULL if there is none. */
 static inline const char *json_find(const char *text, const char *key)
 {
     size_t length = strlen(key);

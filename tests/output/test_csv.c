@@ -1,4 +1,4 @@
-/* The tables: headers to the byte, rows, gaps, names that need quoting, full disks. */
+/* The tables: exact headers, rows, empty fields, names that need quotes, full disks. */
 #include "output/csv.h"
 
 #include "folder.h"
@@ -44,13 +44,13 @@ static void expect(const char *name, const char *text)
     sb_free(found);
 }
 
-static void headers_are_the_contract(void **state)
+static void headers_are_exact(void **state)
 {
     (void)state;
     sb_scene scene = make_scene(3, true);
     sb_csv *csv;
     assert_int_equal(sb_csv_open(folder, &scene, &model, &csv, NULL), SB_OK);
-    /* Not closed yet: a stopped run has them too. */
+    /* The file is not closed yet: a stopped run has the rows too. */
     expect("forces.csv", "time_s,body,Fx_N,Fy_N,Fz_N,Mx_Nm,My_Nm,Mz_Nm,Fx_pressure_N,Fy_pressure_N,"
                          "Fz_pressure_N,Fx_friction_N,Fy_friction_N,Fz_friction_N\n");
     expect("gauges.csv", "time_s,gauge,eta_m,z_m\n");
@@ -72,7 +72,7 @@ static void headers_are_the_contract(void **state)
     assert_true(access(in_folder("runup.csv"), F_OK) != 0);
 }
 
-static void rows_are_there_at_once(void **state)
+static void rows_are_flushed_at_once(void **state)
 {
     (void)state;
     sb_scene scene = make_scene(3, true);
@@ -122,7 +122,7 @@ static void tables_read_back_as_series(void **state)
     sb_series_free(&series);
 }
 
-/* Flips one bit; twice is as before. */
+/* Flips one bit; a second call restores it. */
 static void change_byte(const char *name, long at)
 {
     FILE *file = fopen(in_folder(name), "r+");
@@ -134,8 +134,8 @@ static void change_byte(const char *name, long at)
     assert_int_equal(fclose(file), 0);
 }
 
-/* Rows written after the marks were taken go; what follows comes once. */
-static void tables_go_on_from_their_marks(void **state)
+/* Rows after the marks are removed; the rows that follow are written once. */
+static void tables_continue_from_their_marks(void **state)
 {
     (void)state;
     sb_scene scene = make_scene(3, false);
@@ -159,14 +159,14 @@ static void tables_go_on_from_their_marks(void **state)
     assert_int_equal(sb_csv_sync(csv, &marks, NULL), SB_OK);
     expect("gauges.csv", "time_s,gauge,eta_m,z_m\n0,offshore,1,1\n0.2,offshore,3,3\n");
     assert_int_equal(marks.bytes[1], strlen("time_s,gauge,eta_m,z_m\n0,offshore,1,1\n0.2,offshore,3,3\n"));
-    /* One that someone changed meanwhile is none to go on with, nor is its length all that counts. */
+    /* A table that was changed is refused, even if its length is the same. */
     assert_int_equal(sb_csv_check(folder, &scene, &marks, &error), SB_OK);
     change_byte("gauges.csv", 25);
     assert_int_equal(sb_csv_check(folder, &scene, &marks, &error), SB_BAD_INPUT);
     assert_non_null(strstr(error.text, "gauges.csv: was changed since the run wrote it, expected its first 55 bytes"));
     change_byte("gauges.csv", 25);
     assert_int_equal(sb_csv_check(folder, &scene, &marks, &error), SB_OK);
-    /* A table that was removed while it is written is no place for rows. */
+    /* Writing to a table that was removed is an error. */
     unlink(in_folder("gauges.csv"));
     assert_int_equal(sb_csv_write(csv, &one, &error), SB_FAILED);
     assert_non_null(strstr(error.text, "gauges.csv: was removed while the run wrote it"));
@@ -178,8 +178,8 @@ static void tables_go_on_from_their_marks(void **state)
     assert_non_null(strstr(error.text, "forces.csv: has "));
 }
 
-/* Rows of this version under the columns of one that had no z_m would be read as what they are not. */
-static void other_columns_are_not_gone_on_with(void **state)
+/* A table with the columns of another version, here without z_m, is not continued. */
+static void other_columns_are_not_continued(void **state)
 {
     (void)state;
     static const char old[] = "time_s,gauge,eta_m\n0,offshore,1\n";
@@ -202,7 +202,7 @@ static void other_columns_are_not_gone_on_with(void **state)
     marks.hash[1] = sb_hash_sum(&hash);
     assert_int_equal(sb_csv_check(folder, &scene, &marks, &error), SB_BAD_INPUT);
     assert_non_null(strstr(error.text, "gauges.csv:1: has the columns `time_s,gauge,eta_m` of another version, "
-                                       "expected `time_s,gauge,eta_m,z_m`: start the run anew"));
+                                       "expected `time_s,gauge,eta_m,z_m`: start a new run"));
     expect("gauges.csv", old);
 }
 
@@ -214,7 +214,7 @@ static void a_full_disk_is_a_failed_run(void **state)
     sb_error error = {0};
     struct rlimit kept;
     assert_int_equal(getrlimit(RLIMIT_FSIZE, &kept), 0);
-    const struct rlimit limit = {100, kept.rlim_max}; /* of a file's bytes: the first header has more */
+    const struct rlimit limit = {100, kept.rlim_max}; /* bytes per file: the first header is longer */
     signal(SIGXFSZ, SIG_IGN);
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
     sb_status status = sb_csv_open(folder, &scene, &model, &csv, &error);
@@ -225,8 +225,8 @@ static void a_full_disk_is_a_failed_run(void **state)
     assert_non_null(strstr(error.text, "/nonexistent/folder"));
 }
 
-/* What a stream could not hand on it forgets: later lines would be glued to a torn one. */
-static void nothing_follows_a_gap(void **state)
+/* After a write error nothing is written: later lines would be joined to an incomplete one. */
+static void nothing_is_written_after_an_error(void **state)
 {
     (void)state;
     sb_hashed_file file;
@@ -273,10 +273,14 @@ static void no_table_is_written_through_a_link(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(headers_are_the_contract),    cmocka_unit_test(rows_are_there_at_once),
-        cmocka_unit_test(tables_read_back_as_series),  cmocka_unit_test(tables_go_on_from_their_marks),
-        cmocka_unit_test(a_full_disk_is_a_failed_run), cmocka_unit_test(no_table_is_written_through_a_link),
-        cmocka_unit_test(nothing_follows_a_gap),       cmocka_unit_test(other_columns_are_not_gone_on_with),
+        cmocka_unit_test(headers_are_exact),
+        cmocka_unit_test(rows_are_flushed_at_once),
+        cmocka_unit_test(tables_read_back_as_series),
+        cmocka_unit_test(tables_continue_from_their_marks),
+        cmocka_unit_test(a_full_disk_is_a_failed_run),
+        cmocka_unit_test(no_table_is_written_through_a_link),
+        cmocka_unit_test(nothing_is_written_after_an_error),
+        cmocka_unit_test(other_columns_are_not_continued),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-static void the_checker_refuses_what_is_wrong(void **state)
+static void the_checker_refuses_invalid_json(void **state)
 {
     (void)state;
     const char *const good[] = {"{}", "[1, -2.5e3, null]", "{\"a\": \"\\u00e4\\n\"}"};
@@ -42,7 +42,7 @@ static void writes(FILE *stream, bool pretty)
     sb_json_close(&json);
 }
 
-static void what_is_written_is_json(void **state)
+static void the_output_is_valid_json(void **state)
 {
     (void)state;
     for (int pretty = 0; pretty < 2; pretty++) {
@@ -69,8 +69,8 @@ static void what_is_written_is_json(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_checker_refuses_what_is_wrong),
-        cmocka_unit_test(what_is_written_is_json),
+        cmocka_unit_test(the_checker_refuses_invalid_json),
+        cmocka_unit_test(the_output_is_valid_json),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

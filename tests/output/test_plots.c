@@ -1,4 +1,4 @@
-/* Plots from made-up tables, and films, where the programs for them are there. */
+/* Plots from invented tables, and videos, if gnuplot and ffmpeg are installed. */
 #include "output/csv.h"
 #include "output/esri.h"
 #include "output/plots.h"
@@ -84,8 +84,8 @@ static bool is_png(const char *name)
     return got == 8 && large && memcmp(start, "\x89PNG\r\n\x1a\n", 8) == 0;
 }
 
-/* A tool is started in another directory, where a relative place is another one. */
-static void relative_places_are_no_paths(void **state)
+/* A tool is started in another directory, where a relative path would mean another file. */
+static void relative_folders_on_path_are_ignored(void **state)
 {
     (void)state;
     char kept[4096], path[SB_PATH_MAX], relative[SB_PATH_MAX + 8];
@@ -127,7 +127,7 @@ static void pictures_are_drawn(void **state)
     assert_true(access(in_folder("plots/forces.dat"), F_OK) != 0);
 }
 
-static void dry_places_have_no_picture(void **state)
+static void dry_places_have_no_plot(void **state)
 {
     (void)state;
     char program[SB_PATH_MAX];
@@ -143,7 +143,7 @@ static void dry_places_have_no_picture(void **state)
     assert_int_equal(sb_runlog_close(log, NULL), SB_OK);
     char *text = text_of("run.jsonl");
     if (strstr(text, "warning")) fail_msg("%s", text);
-    assert_non_null(strstr(text, "nothing but dry places in probes.csv"));
+    assert_non_null(strstr(text, "probes.csv contains dry places only"));
     sb_free(text);
     assert_true(access(in_folder("plots/probes.png"), F_OK) != 0);
 }
@@ -156,44 +156,44 @@ static void write_text(const char *name, const char *text)
     assert_int_equal(fclose(file), 0);
 }
 
-/* A gnuplot that shows what it was asked for. */
-static void plots_say_what_they_show(void **state)
+/* A fake gnuplot that copies its script and data to a file. */
+static void plots_have_the_right_titles(void **state)
 {
     (void)state;
     char bin[SB_PATH_MAX];
     char *path = sb_strdup(getenv("PATH"));
     assert_int_equal(sb_make_directories(in_folder("bin"), NULL), SB_OK);
-    write_text("bin/gnuplot", "#!/bin/sh\n/bin/cat \"$1\" \"${1%.gp}.dat\" >>asked\necho >plots/part.png\n");
+    write_text("bin/gnuplot", "#!/bin/sh\n/bin/cat \"$1\" \"${1%.gp}.dat\" >>drawn\necho >plots/part.png\n");
     assert_int_equal(chmod(in_folder("bin/gnuplot"), 0700), 0);
     snprintf(bin, sizeof bin, "%s", in_folder("bin"));
     write_text("gauges.csv", "time_s,gauge,eta_m,z_m\n0,offshore,0.5,2.5\n1,offshore,0.25,2.25\n");
     write_text("runup.csv", "time_s,line,x_m,y_m,z_m,front_m,apart_m\n0,beach,1,2,3,4,7\n1,beach,1,2,3,5,8\n");
     for (int level = 0; level < 2; level++) {
         sb_runlog *log;
-        unlink(in_folder("asked"));
+        unlink(in_folder("drawn"));
         scene.sea = (sb_sea){.present = level, .level = 2};
-        assert_int_equal(sb_runlog_open(in_folder("said.jsonl"), &log, NULL), SB_OK);
+        assert_int_equal(sb_runlog_open(in_folder("titles.jsonl"), &log, NULL), SB_OK);
         setenv("PATH", bin, 1);
         sb_plots_write(folder, &scene, log);
         setenv("PATH", path, 1);
         assert_int_equal(sb_runlog_close(log, NULL), SB_OK);
-        char *asked = text_of("asked");
-        assert_non_null(asked);
-        assert_true((strstr(asked, "'elevation above still water (m)'") != NULL) == level);
-        assert_true((strstr(asked, "\n0 0.5\n1 0.25\n") != NULL) == level);
-        assert_true((strstr(asked, "'absolute elevation z (m)'") != NULL) == !level);
-        assert_true((strstr(asked, "\n0 2.5\n1 2.25\n") != NULL) == !level);
-        assert_non_null(strstr(asked, "'run-up, absolute z (m)'"));
-        assert_non_null(strstr(asked, "'front from first end (m)'"));
-        assert_non_null(strstr(asked, "'length of water apart (m)'"));
-        assert_non_null(strstr(asked, "\n0 3 4 7\n1 3 5 8\n"));
-        sb_free(asked);
+        char *drawn = text_of("drawn");
+        assert_non_null(drawn);
+        assert_true((strstr(drawn, "'elevation above still water (m)'") != NULL) == level);
+        assert_true((strstr(drawn, "\n0 0.5\n1 0.25\n") != NULL) == level);
+        assert_true((strstr(drawn, "'absolute elevation z (m)'") != NULL) == !level);
+        assert_true((strstr(drawn, "\n0 2.5\n1 2.25\n") != NULL) == !level);
+        assert_non_null(strstr(drawn, "'run-up, absolute z (m)'"));
+        assert_non_null(strstr(drawn, "'front from first end (m)'"));
+        assert_non_null(strstr(drawn, "'length of unconnected water (m)'"));
+        assert_non_null(strstr(drawn, "\n0 3 4 7\n1 3 5 8\n"));
+        sb_free(drawn);
     }
     scene.sea = (sb_sea){0};
     sb_free(path);
 }
 
-static void absent_programs_are_said(void **state)
+static void missing_programs_are_reported(void **state)
 {
     (void)state;
     char *path = sb_strdup(getenv("PATH"));
@@ -206,13 +206,13 @@ static void absent_programs_are_said(void **state)
     sb_free(path);
     assert_int_equal(sb_runlog_close(log, NULL), SB_OK);
     char *text = text_of("absent.jsonl");
-    assert_non_null(strstr(text, "gnuplot is not there"));
-    assert_non_null(strstr(text, "ffmpeg is not there"));
+    assert_non_null(strstr(text, "gnuplot was not found"));
+    assert_non_null(strstr(text, "ffmpeg was not found"));
     assert_null(strstr(text, "warning"));
     sb_free(text);
 }
 
-static void failing_programs_are_told(void **state)
+static void failing_programs_are_reported(void **state)
 {
     (void)state;
     sb_error error = {0};
@@ -225,8 +225,8 @@ static void failing_programs_are_told(void **state)
     assert_int_equal(sb_tool_run("/nonexistent", good, folder, &error), SB_FAILED);
 }
 
-/* A picture from gnuplot, three times, is enough of a film; odd sides and a strange name. */
-static void films_are_joined(void **state)
+/* A video of three copies of one picture, with odd sides and an unusual name. */
+static void videos_are_joined(void **state)
 {
     (void)state;
     char gnuplot[SB_PATH_MAX], ffmpeg[SB_PATH_MAX];
@@ -245,12 +245,13 @@ static void films_are_joined(void **state)
     assert_int_equal(sb_runlog_open(in_folder("film.jsonl"), &log, NULL), SB_OK);
     bool made = sb_video_write(folder, "50% 'off'", 3, 30, log);
     assert_false(sb_video_write(folder, "no such camera", 3, 30, log));
-    assert_false(sb_video_write(folder, "50% 'off'", 4, 30, log)); /* one is gone, and the film of three stays */
+    assert_false(
+        sb_video_write(folder, "50% 'off'", 4, 30, log)); /* a picture is missing, and the video of three stays */
     assert_int_equal(sb_runlog_close(log, NULL), SB_OK);
     char *text = text_of("film.jsonl");
     if (!made) fail_msg("%s", text);
     assert_non_null(strstr(text, "no such camera.mp4"));
-    assert_non_null(strstr(text, "picture 4 of 4 is gone"));
+    assert_non_null(strstr(text, "picture 4 of 4 is missing"));
     sb_free(text);
     struct stat status;
     assert_int_equal(stat(in_folder("50% 'off'.mp4"), &status), 0);
@@ -262,10 +263,13 @@ static void films_are_joined(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(relative_places_are_no_paths), cmocka_unit_test(pictures_are_drawn),
-        cmocka_unit_test(dry_places_have_no_picture),   cmocka_unit_test(absent_programs_are_said),
-        cmocka_unit_test(failing_programs_are_told),    cmocka_unit_test(films_are_joined),
-        cmocka_unit_test(plots_say_what_they_show),
+        cmocka_unit_test(relative_folders_on_path_are_ignored),
+        cmocka_unit_test(pictures_are_drawn),
+        cmocka_unit_test(dry_places_have_no_plot),
+        cmocka_unit_test(missing_programs_are_reported),
+        cmocka_unit_test(failing_programs_are_reported),
+        cmocka_unit_test(videos_are_joined),
+        cmocka_unit_test(plots_have_the_right_titles),
     };
     return cmocka_run_group_tests(tests, folder_make, getenv("SB_KEEP_TEST_FILES") ? NULL : folder_remove);
 }

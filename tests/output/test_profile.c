@@ -34,7 +34,7 @@ static const sb_profile profile = {
     .steps = 15,
     .iterations = 60,
     .particle_steps = 15e3,
-    .settling_particles = 1000, /* in five steps: 20 000 particle-steps in all */
+    .settling_particles = 1000, /* in five steps: 20 000 particle-steps in total */
     .setup = 0.5,
     .settling = 0.75,
     .wall = 3,
@@ -44,47 +44,49 @@ static const sb_profile profile = {
     .skipped = {none, NULL, off},
 };
 
-static void shares_and_costs_count_settling_in(void **state)
+static void fractions_and_costs_include_settling(void **state)
 {
     (void)state;
     char *text = printed(&profile);
     assert_says(text, "sort                      20      0.250   12.5%               12500.00\n");
     assert_says(text, "pressure                  20      1.250   62.5%               62500.00\n");
     assert_says(text, "all stages                        2.000  100.0%              100000.00\n");
-    assert_says(text, "15 steps after 5 of settling, 4.0 iterations per step, "
+    assert_says(text, "15 steps after 5 settling steps, 4.0 iterations per step, "
                       "1e+04 particle-steps per second, 2 threads\n");
-    assert_says(text, "3.000 s in all: 0.500 s set-up, 0.750 s settling, 0.500 s outside stages; 1.5 s simulated\n");
+    assert_says(text, "3.000 s in total: 0.500 s set-up, 0.750 s settling, 0.500 s outside stages; 1.5 s simulated\n");
     assert_says(text, "simulation 2.5 MB, peak of the process ");
     free(text);
 }
 
-static void what_was_left_out_stands_with_a_pass_of_pairs(void **state)
+static void skipped_terms_are_listed_with_their_savings(void **state)
 {
     (void)state;
     char *text = printed(&profile);
-    assert_says(text, "  stress correction: off; 3 passes over pairs per step\n"
-                      "  turbulence: none; 1 pass over pairs per step; 2.5 MB\n  stream: off\n");
-    assert_says(text, "saved: 4 passes over pairs per step, about 2 s so far; 2.5 MB\n"); /* as long as the source */
+    assert_says(text, "  stress correction: off; 3 passes over particle pairs per step\n"
+                      "  turbulence: none; 1 pass over particle pairs per step; 2.5 MB\n  stream: off\n");
+    assert_says(
+        text,
+        "saved: 4 passes over particle pairs per step, about 2 s so far; 2.5 MB\n"); /* 4 times the stage source */
     free(text);
 }
 
-static void a_run_without_steps_divides_by_nothing(void **state)
+static void a_run_without_steps_does_not_divide_by_zero(void **state)
 {
     (void)state;
     const sb_profile empty = {.threads = 1};
     char *text = printed(&empty);
     assert_null(strstr(text, "nan"));
     assert_null(strstr(text, "inf"));
-    assert_says(text, "0 steps after 0 of settling");
+    assert_says(text, "0 steps after 0 settling steps");
     free(text);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shares_and_costs_count_settling_in),
-        cmocka_unit_test(what_was_left_out_stands_with_a_pass_of_pairs),
-        cmocka_unit_test(a_run_without_steps_divides_by_nothing),
+        cmocka_unit_test(fractions_and_costs_include_settling),
+        cmocka_unit_test(skipped_terms_are_listed_with_their_savings),
+        cmocka_unit_test(a_run_without_steps_does_not_divide_by_zero),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

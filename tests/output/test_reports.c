@@ -42,7 +42,7 @@ static sb_scene make_scene(void)
                       .numerics = {.preset = SB_PRESET_PAPER, .density = SB_DENSITY_COMPLETED, .solver = SB_SOLVER_CG}};
 }
 
-static void summary_has_the_promised_keys(void **state)
+static void summary_has_the_documented_keys(void **state)
 {
     (void)state;
     const char *const keys[] = {"wall_s",
@@ -109,13 +109,13 @@ static void summary_has_the_promised_keys(void **state)
     assert_true(strtod(json_find(text, "peak_time_s"), NULL) == 31.2);
     assert_true(strncmp(json_find(text, "preset"), "\"paper\"", 7) == 0);
     assert_true(strncmp(json_find(text, "too_coarse"), "true", 4) == 0);
-    assert_null(strstr(text, "floor")); /* does not report */
+    assert_null(strstr(text, "floor")); /* this body does not report */
     sb_free(text);
     sb_error error = {0};
     assert_int_equal(sb_summary_write("/nonexistent/s.json", &summary, &error), SB_FAILED);
 }
 
-static void a_run_that_never_began_has_a_summary(void **state)
+static void a_run_that_did_not_start_has_a_summary(void **state)
 {
     (void)state;
     sb_scene scene = make_scene();
@@ -181,8 +181,8 @@ static void every_line_of_the_log_is_json(void **state)
     sb_runlog_warning(NULL, "no log, no harm");
 }
 
-/* A killed run leaves half a line: the next one begins where that did. */
-static void a_log_goes_on_after_its_last_whole_line(void **state)
+/* A killed run leaves an incomplete line, which the next line replaces. */
+static void a_log_continues_after_its_last_complete_line(void **state)
 {
     (void)state;
     static const char *const torn[] = {"{\"event\":\"a\"}\n{\"event\":\"b\"}\n{\"ev", "{\"event\":\"a\"}\n", "{\"ev",
@@ -207,11 +207,11 @@ static void a_log_goes_on_after_its_last_whole_line(void **state)
     }
     unlink(in_folder("torn.jsonl"));
     sb_runlog *log;
-    assert_int_equal(sb_runlog_append(in_folder("torn.jsonl"), &log, NULL), SB_OK); /* none is a new one */
+    assert_int_equal(sb_runlog_append(in_folder("torn.jsonl"), &log, NULL), SB_OK); /* a missing log is created */
     assert_int_equal(sb_runlog_close(log, NULL), SB_OK);
 }
 
-static void a_full_disk_shows_in_the_log(void **state)
+static void a_full_disk_is_reported_by_the_log(void **state)
 {
     (void)state;
     struct rlimit kept, none;
@@ -221,7 +221,7 @@ static void a_full_disk_shows_in_the_log(void **state)
     assert_int_equal(getrlimit(RLIMIT_FSIZE, &kept), 0);
     none = kept;
     none.rlim_cur = 0;
-    signal(SIGXFSZ, SIG_IGN); /* as a run has it: the write fails instead */
+    signal(SIGXFSZ, SIG_IGN); /* as in a run: the write fails instead */
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &none), 0);
     sb_runlog_warning(log, "x");
     const sb_status status = sb_runlog_check(log, &error), closed = sb_runlog_close(log, NULL);
@@ -231,7 +231,7 @@ static void a_full_disk_shows_in_the_log(void **state)
     assert_int_equal(closed, SB_FAILED);
 }
 
-static void grids_have_north_on_top(void **state)
+static void grids_begin_with_the_northernmost_row(void **state)
 {
     (void)state;
     const float values[] = {1, 2, 3, 4, 5, NAN};
@@ -247,14 +247,14 @@ static void grids_have_north_on_top(void **state)
     }
 }
 
-static void progress_speaks_when_asked(void **state)
+static void progress_prints_when_due(void **state)
 {
     (void)state;
     FILE *stream = fopen(in_folder("progress"), "w");
     sb_progress progress;
     sb_step_report report = {.time = 22.5, .time_step = 0.05, .iterations = 4};
     sb_progress_begin(&progress, stream, 90);
-    assert_true(sb_progress_eta(&progress) < 0); /* nobody knows yet */
+    assert_true(sb_progress_eta(&progress) < 0); /* not known yet */
     usleep(20000);
     sb_progress_update(&progress, &report); /* too early for a line */
     double wall = sb_progress_wall(&progress), eta = sb_progress_eta(&progress);
@@ -282,7 +282,7 @@ static void progress_speaks_when_asked(void **state)
     assert_string_equal(words, "?");
 }
 
-static void progress_tells_of_settling(void **state)
+static void progress_prints_settling(void **state)
 {
     (void)state;
     FILE *stream = fopen(in_folder("settling"), "w");
@@ -294,26 +294,30 @@ static void progress_tells_of_settling(void **state)
     assert_near(sb_progress_eta(&progress), 10 * (297 + 1000), 1000);
     progress.shown -= 11;
     sb_progress_settling(&progress, 4, 500, 0.25);
-    sb_progress_settling(&progress, 102, 500, 0.25); /* 0.1 s each, 198 to go and the run */
+    sb_progress_settling(&progress, 102, 500, 0.25); /* 0.1 s each; 198 steps of settling and the run remain */
     assert_near(sb_progress_eta(&progress), 0.1 * (198 + 1000), 10);
-    sb_progress_settling(&progress, 102, 132, 0.25); /* calm early */
+    sb_progress_settling(&progress, 102, 132, 0.25); /* a smaller largest number of steps */
     assert_near(sb_progress_eta(&progress), 0.1 * (30 + 1000), 10);
-    sb_progress_settling(&progress, 402, 500, 0.25); /* beyond what was expected */
+    sb_progress_settling(&progress, 402, 500, 0.25); /* more steps than expected */
     assert_near(sb_progress_eta(&progress), 0.025 * 1000, 2.5);
     sb_progress_settled(&progress);
     fclose(stream);
     char *text = text_of("settling");
-    assert_string_equal(text, "settling: step 4 of at most 500  0.250 m/s  0s so far, 1h 48m left\n");
+    assert_string_equal(text, "settling: step 4 of at most 500  max 0.250 m/s  0s elapsed, 1h 48m left\n");
     sb_free(text);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(summary_has_the_promised_keys), cmocka_unit_test(a_run_that_never_began_has_a_summary),
-        cmocka_unit_test(every_line_of_the_log_is_json), cmocka_unit_test(a_log_goes_on_after_its_last_whole_line),
-        cmocka_unit_test(a_full_disk_shows_in_the_log),  cmocka_unit_test(grids_have_north_on_top),
-        cmocka_unit_test(progress_speaks_when_asked),    cmocka_unit_test(progress_tells_of_settling),
+        cmocka_unit_test(summary_has_the_documented_keys),
+        cmocka_unit_test(a_run_that_did_not_start_has_a_summary),
+        cmocka_unit_test(every_line_of_the_log_is_json),
+        cmocka_unit_test(a_log_continues_after_its_last_complete_line),
+        cmocka_unit_test(a_full_disk_is_reported_by_the_log),
+        cmocka_unit_test(grids_begin_with_the_northernmost_row),
+        cmocka_unit_test(progress_prints_when_due),
+        cmocka_unit_test(progress_prints_settling),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

@@ -1,4 +1,4 @@
-/* Particle files come back as they went, far from the origin too; damaged ones are refused. */
+/* Particle files are read back equal, also far from the origin; damaged files are refused. */
 #include "output/pvd.h"
 #include "output/vtp.h"
 
@@ -85,7 +85,7 @@ static void round_trip(void **state)
     }
 }
 
-/* What ParaView relies on: offsets that point at length words, absolute doubles, and verts. */
+/* The layout that ParaView requires: offsets that point to the arrays' lengths, absolute doubles, and verts. */
 static void layout_is_what_the_header_says(void **state)
 {
     (void)state;
@@ -134,8 +134,7 @@ static void write_bytes(const char *name, const char *bytes, size_t length)
     fclose(stream);
 }
 
-/* Every length cut off, and every byte of the header changed: an error or a frame, never a crash.
- */
+/* Files cut at every length, and with each byte of the header changed: an error or a frame, never a crash. */
 static void damaged_files_are_refused(void **state)
 {
     (void)state;
@@ -160,7 +159,7 @@ static void damaged_files_are_refused(void **state)
     assert_non_null(stream);
     setvbuf(stream, NULL, _IONBF, 0);
     for (size_t i = 0; i < header + 300; i++)
-        for (int k = 0; k < 3; k++) { /* twice changed, then as it was */
+        for (int k = 0; k < 3; k++) { /* changed twice, then restored */
             sb_frame *read = NULL;
             fseek(stream, (long)i, SEEK_SET);
             fputc(k == 0 ? bytes[i] ^ 0x81 : k == 1 ? '9' : bytes[i], stream);
@@ -182,8 +181,8 @@ static void damaged_files_are_refused(void **state)
     sb_frame_release(frame);
 }
 
-/* Each value of each kind in turn is none. */
-static void numbers_that_are_none_are_refused(void **state)
+/* Each value of each kind in turn is not a number. */
+static void values_that_are_not_finite_are_refused(void **state)
 {
     (void)state;
     sb_frame *frame = make_frame(20, 2);
@@ -217,8 +216,8 @@ static void numbers_that_are_none_are_refused(void **state)
     sb_frame_release(frame);
 }
 
-/* Where the status says 7 it is made to say 7.5. */
-static void half_steps_are_refused(void **state)
+/* A step number in the status that is not a whole number is refused. */
+static void fractional_counts_are_refused(void **state)
 {
     (void)state;
     sb_frame *frame = make_frame(20, 2), *read = NULL;
@@ -311,8 +310,8 @@ int main(void)
         cmocka_unit_test(round_trip),
         cmocka_unit_test(layout_is_what_the_header_says),
         cmocka_unit_test(damaged_files_are_refused),
-        cmocka_unit_test(half_steps_are_refused),
-        cmocka_unit_test(numbers_that_are_none_are_refused),
+        cmocka_unit_test(fractional_counts_are_refused),
+        cmocka_unit_test(values_that_are_not_finite_are_refused),
         cmocka_unit_test(failing_memory_is_an_error),
         cmocka_unit_test(bare_points),
         cmocka_unit_test(pvd_lists_real_times),
