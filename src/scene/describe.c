@@ -8,8 +8,8 @@ typedef struct walk {
     void *context;
 } walk;
 
-/* The default as the reference shows it. */
-static void say_default(const sb_key *key, char *out, size_t size)
+/* Formats the default as docs/scene.md shows it. */
+static void format_default(const sb_key *key, char *out, size_t size)
 {
     const char *usual = sb_key_default(key, SB_PRESET_DEFAULT);
     const char *paper = sb_key_default(key, SB_PRESET_PAPER);
@@ -33,9 +33,9 @@ static void walk_key(const walk *to, const sb_key *key, const char *prefix, cons
 {
     char path[200], fallback[200], range[300];
     snprintf(path, sizeof path, "%s%s%s", prefix, *prefix ? "." : "", key->name);
-    say_default(key, fallback, sizeof fallback);
+    format_default(key, fallback, sizeof fallback);
     sb_key_range(key, range, sizeof range);
-    /* Words of "only" that repeat the block's own purpose are for errors, not for the reference. */
+    /* An "only" that repeats the block's purpose is used in errors, but not in docs/scene.md. */
     const char *condition = key->only ? key->only : only;
     sb_scene_key row = {
         .path = path,

@@ -53,12 +53,12 @@ const char *sb_key_default(const sb_key *key, sb_preset preset)
     return key->flags & SB_KEY_PRESET ? sb_preset_value(preset, key->name) : key->fallback;
 }
 
-typedef struct phrase {
+typedef struct text_buffer {
     char *out;
     size_t size, used;
-} phrase;
+} text_buffer;
 
-__attribute__((format(printf, 2, 3))) static void say(phrase *text, const char *format, ...)
+__attribute__((format(printf, 2, 3))) static void add(text_buffer *text, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -68,98 +68,97 @@ __attribute__((format(printf, 2, 3))) static void say(phrase *text, const char *
     if (text->used >= text->size) text->used = text->size - 1;
 }
 
-static void say_words(phrase *text, const char *const *words)
+static void add_choices(text_buffer *text, const char *const *names)
 {
-    for (size_t i = 0; words[i]; i++) say(text, "%s%s", i == 0 ? "" : words[i + 1] ? ", " : " or ", words[i]);
+    for (size_t i = 0; names[i]; i++) add(text, "%s%s", i == 0 ? "" : names[i + 1] ? ", " : " or ", names[i]);
 }
 
-static void say_kernels(phrase *text)
+static void add_kernels(text_buffer *text)
 {
     for (size_t i = 0; sb_kernels[i]; i++)
-        say(text, "%s%s", i == 0 ? "" : sb_kernels[i + 1] ? ", " : " or ", sb_kernels[i]->name);
+        add(text, "%s%s", i == 0 ? "" : sb_kernels[i + 1] ? ", " : " or ", sb_kernels[i]->name);
 }
 
-static void say_laws(phrase *text)
+static void add_laws(text_buffer *text)
 {
     for (size_t i = 0; sb_wavemakers[i]; i++)
-        say(text, "%s%s", i == 0 ? "" : sb_wavemakers[i + 1] ? ", " : " or ", sb_wavemakers[i]->name);
+        add(text, "%s%s", i == 0 ? "" : sb_wavemakers[i + 1] ? ", " : " or ", sb_wavemakers[i]->name);
 }
 
-static void say_range(phrase *text, const sb_key *key)
+static void add_range(text_buffer *text, const sb_key *key)
 {
     bool low = key->min > -HUGE_VAL, high = key->max < HUGE_VAL;
     bool plain = !(key->flags & (SB_KEY_ABOVE | SB_KEY_BELOW));
     if (low && high && plain) {
-        say(text, "%.10g to %.10g", key->min, key->max);
+        add(text, "%.10g to %.10g", key->min, key->max);
         return;
     }
-    if (low) say(text, "%s %.10g", key->flags & SB_KEY_ABOVE ? ">" : ">=", key->min);
-    if (high) say(text, "%s%s %.10g", low ? " and " : "", key->flags & SB_KEY_BELOW ? "<" : "<=", key->max);
+    if (low) add(text, "%s %.10g", key->flags & SB_KEY_ABOVE ? ">" : ">=", key->min);
+    if (high) add(text, "%s%s %.10g", low ? " and " : "", key->flags & SB_KEY_BELOW ? "<" : "<=", key->max);
 }
 
-static const char *unit_words(const char *unit)
+static const char *unit_name(const char *unit)
 {
     static const struct {
-        const char *unit, *words;
+        const char *unit, *name;
     } units[] = {{"m", "metres"}, {"s", "seconds"}, {"deg", "degrees"}, {"px", "pixels"}};
     for (size_t i = 0; i < sizeof units / sizeof *units; i++)
-        if (strcmp(units[i].unit, unit) == 0) return units[i].words;
+        if (strcmp(units[i].unit, unit) == 0) return units[i].name;
     return unit;
 }
 
-static void say_number(phrase *text, const sb_key *key)
+static void add_number(text_buffer *text, const sb_key *key)
 {
-    const char *word = key->type == SB_KEY_NUMBER ? "a number" : "a whole number";
     if (key->unit)
-        say(text, "%s", unit_words(key->unit));
+        add(text, "%s", unit_name(key->unit));
     else
-        say(text, "%s", word);
+        add(text, "%s", key->type == SB_KEY_NUMBER ? "a number" : "a whole number");
     if (key->min > -HUGE_VAL || key->max < HUGE_VAL) {
-        say(text, "%s", key->flags & (SB_KEY_ABOVE | SB_KEY_BELOW) || key->max == HUGE_VAL ? " " : " from ");
-        say_range(text, key);
+        add(text, "%s", key->flags & (SB_KEY_ABOVE | SB_KEY_BELOW) || key->max == HUGE_VAL ? " " : " from ");
+        add_range(text, key);
     }
 }
 
 void sb_key_expectation(const sb_key *key, int dimensions, char *out, size_t size)
 {
-    phrase text = {.out = out, .size = size};
+    text_buffer text = {.out = out, .size = size};
     out[0] = '\0';
     bool flat = dimensions == 2 && !(key->flags & SB_KEY_FULL);
     switch (key->type) {
     case SB_KEY_NUMBER:
     case SB_KEY_INTEGER:
-        say_number(&text, key);
+        add_number(&text, key);
         break;
     case SB_KEY_SEED:
-        say(&text, "a whole number from 0 to 2^64 - 1");
+        add(&text, "a whole number from 0 to 2^64 - 1");
         break;
     case SB_KEY_SWITCH:
-        say(&text, "true or false");
+        add(&text, "true or false");
         break;
     case SB_KEY_TEXT:
-        say(&text, "text");
+        add(&text, "text");
         break;
     case SB_KEY_NAME:
-        say(&text, "a name of letters, digits, _ . and -, at most %d long", SB_NAME_MAX - 1);
+        add(&text, "a name of letters, digits, _ . and -, at most %d long", SB_NAME_MAX - 1);
         break;
     case SB_KEY_FILE:
-        say(&text, "a file, relative to the scene file");
+        add(&text, "a file, relative to the scene file");
         break;
     case SB_KEY_VECTOR:
-        say(&text, "%s", flat ? "[x, z]" : "[x, y, z]");
-        if (key->unit) say(&text, " in %s", unit_words(key->unit));
+        add(&text, "%s", flat ? "[x, z]" : "[x, y, z]");
+        if (key->unit) add(&text, " in %s", unit_name(key->unit));
         break;
     case SB_KEY_PLACE:
-        say(&text, "%s in metres", dimensions == 2 ? "[x]" : "[x, y]");
+        add(&text, "%s in metres", dimensions == 2 ? "[x]" : "[x, y]");
         break;
     case SB_KEY_COLOR:
-        say(&text, "[red, green, blue], each 0 to 1");
+        add(&text, "[red, green, blue], each 0 to 1");
         break;
     case SB_KEY_BLOCK:
-        say(&text, "a block of keys");
+        add(&text, "a block of keys");
         break;
     case SB_KEY_LIST:
-        say(&text, "a list");
+        add(&text, "a list");
         break;
     case SB_KEY_CHOICE:
     case SB_KEY_LETTER:
@@ -172,7 +171,7 @@ void sb_key_expectation(const sb_key *key, int dimensions, char *out, size_t siz
 
 void sb_key_range(const sb_key *key, char *out, size_t size)
 {
-    phrase text = {.out = out, .size = size};
+    text_buffer text = {.out = out, .size = size};
     out[0] = '\0';
     switch (key->type) {
     case SB_KEY_NUMBER:
@@ -180,26 +179,26 @@ void sb_key_range(const sb_key *key, char *out, size_t size)
     case SB_KEY_VECTOR:
     case SB_KEY_PLACE:
         if (key->min == -HUGE_VAL && key->max == HUGE_VAL)
-            say(&text, "any");
+            add(&text, "any");
         else
-            say_range(&text, key);
-        if (key->flags & SB_KEY_UNIT) say(&text, ", not all 0");
+            add_range(&text, key);
+        if (key->flags & SB_KEY_UNIT) add(&text, ", not all 0");
         break;
     case SB_KEY_SEED:
-        say(&text, "0 to 2^64 - 1");
+        add(&text, "0 to 2^64 - 1");
         break;
     case SB_KEY_CHOICE:
     case SB_KEY_LETTER:
-        say_words(&text, key->words);
+        add_choices(&text, key->words);
         break;
     case SB_KEY_KERNEL:
-        say_kernels(&text);
+        add_kernels(&text);
         break;
     case SB_KEY_LAW:
-        say_laws(&text);
+        add_laws(&text);
         break;
     case SB_KEY_COLOR:
-        say(&text, "0 to 1");
+        add(&text, "0 to 1");
         break;
     case SB_KEY_SWITCH:
     case SB_KEY_TEXT:

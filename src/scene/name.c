@@ -16,8 +16,8 @@ static void trim(char *name)
     name[length] = '\0';
 }
 
-/* A byte that goes on with a character of UTF-8. */
-static bool goes_on(char byte)
+/* Whether the byte continues a UTF-8 character. */
+static bool is_continuation(char byte)
 {
     return ((unsigned char)byte & 0xc0) == 0x80;
 }
@@ -32,8 +32,8 @@ bool sb_name_fit(char *name)
             *to++ = *from;
             continue;
         }
-        /* One for a character, however many bytes it has. */
-        for (int more = (unsigned char)*from >= 0x80 ? 3 : 0; more > 0 && goes_on(from[1]); --more) ++from;
+        /* One "_" per character, for any number of bytes. */
+        for (int more = (unsigned char)*from >= 0x80 ? 3 : 0; more > 0 && is_continuation(from[1]); --more) ++from;
         *to++ = '_';
         replaced = true;
     }

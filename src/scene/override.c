@@ -11,7 +11,7 @@ static bool ends_segment(char c)
     return c == '\0' || c == '.' || c == '[';
 }
 
-/* The item whose name leads `rest`: the longest, since names may hold dots. */
+/* The item with whose name `rest` begins; the longest such name, because names may contain dots. */
 static sb_yaml *item_by_name(const sb_yaml *list, const char *rest, size_t *used)
 {
     sb_yaml *found = NULL;
@@ -28,7 +28,7 @@ static sb_yaml *item_by_name(const sb_yaml *list, const char *rest, size_t *used
     return found;
 }
 
-/* "3" or "[3]" */
+/* The item by its index, "3" or "[3]". */
 static sb_yaml *item_by_index(const sb_yaml *list, const char *rest, size_t *used)
 {
     bool bracket = rest[0] == '[';

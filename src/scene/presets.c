@@ -3,7 +3,7 @@
 #include <string.h>
 
 /* One row per key of `numerics`; the columns are in the order of sb_preset. After a change here,
-   run test_scene_docs with SB_UPDATE_DOCS=1 to bring docs/scene.md up to date. */
+   run test_scene_docs with SB_UPDATE_DOCS=1 to update docs/scene.md. */
 /* clang-format off */
 static const struct {
     const char *key, *value[2];

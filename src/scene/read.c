@@ -33,11 +33,12 @@ sb_status sb_reader_interval(sb_reader *reader, const sb_yaml *map, const char *
 {
     double most = 1e7;
     if (interval <= 0 || reader->scene->duration / interval <= most) return SB_OK;
-    return sb_reader_fail(reader, map, key, "%g s fits more than %g times into %g s, expected more", interval, most,
-                          reader->scene->duration);
+    return sb_reader_fail(reader, map, key,
+                          "%g s fits more than %g times into the duration of %g s, expected a longer interval",
+                          interval, most, reader->scene->duration);
 }
 
-/* Lengthens the path by ".name" or "[index]"; returns the length to cut it to afterwards. */
+/* Appends ".name" or "[index]" to the path. Returns the old length, to which the caller cuts it afterwards. */
 static size_t path_push(sb_reader *reader, const char *name, size_t index)
 {
     size_t length = strlen(reader->path), rest = sizeof reader->path - length;
@@ -85,7 +86,7 @@ static sb_status refuse_same_name(sb_reader *reader, const sb_yaml *list, const 
             if (strcmp(name, items + j * table->size + table->keys[0].offset) != 0) continue;
             path_push(reader, NULL, i);
             return sb_reader_fail(reader, &list->items[i], table->keys[0].name,
-                                  "%s is the name of item %zu already, expected one of its own", name, j);
+                                  "%s is already the name of item %zu, expected a unique name", name, j);
         }
     return SB_OK;
 }
@@ -119,7 +120,7 @@ static sb_status read_list(sb_reader *reader, const sb_yaml *list, const sb_key 
     return status == SB_OK ? refuse_same_name(reader, list, key->table, items) : status;
 }
 
-/* Reads the text of a default as if it stood in the scene. */
+/* Reads the text of a default as if it were written in the scene. */
 static sb_status read_default(sb_reader *reader, const sb_key *key, void *field)
 {
     const char *text = sb_key_default(key, reader->scene->numerics.preset);
@@ -240,7 +241,7 @@ static sb_status read_tree(const char *path, const char *preset_name, const sb_o
     sb_free(text);
     if (status == SB_OK && root->kind != SB_YAML_MAP)
         status = sb_fail(error, SB_BAD_INPUT,
-                         "%.500s:%d:%d: the scene is no block of keys, "
+                         "%.500s:%d:%d: the scene is not a block of keys, "
                          "expected lines \"key: value\"",
                          path, root->line, root->column);
     if (status == SB_OK) status = apply_overrides(root, preset_name, overrides, override_count, error);
@@ -251,7 +252,7 @@ sb_status sb_scene_read(const char *path, const char *preset_name, const sb_over
                         sb_scene *scene, sb_error *error)
 {
     sb_scene built;
-    memset(&built, 0, sizeof built); /* padding, too: equal scenes have equal bytes */
+    memset(&built, 0, sizeof built); /* including padding: equal scenes have equal bytes */
     built.dimensions = 3;
     sb_yaml root = {0};
     sb_reader reader = {.file = path, .scene = &built, .error = error};
@@ -268,7 +269,7 @@ sb_status sb_scene_read(const char *path, const char *preset_name, const sb_over
         return status;
     }
     sb_scene_free(&built);
-    if (error) sb_one_line(error->text); /* keys and values are quoted, and may hold anything */
+    if (error) sb_one_line(error->text); /* the message quotes keys and values, which may contain line breaks */
     return status;
 }
 

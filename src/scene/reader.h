@@ -1,4 +1,4 @@
-/* Reading a YAML tree into structs by the key tables, with errors that name place and key. */
+/* Reads a YAML tree into structs by the key tables. Errors name the place and the key. */
 #ifndef SB_SCENE_READER_H
 #define SB_SCENE_READER_H
 
@@ -8,24 +8,24 @@
 struct sb_reader {
     const char *file;         /* the scene file, as given */
     char folder[SB_PATH_MAX]; /* absolute folder of it */
-    sb_scene *scene;          /* being built */
+    sb_scene *scene;          /* that is being read */
     char path[512];           /* of the block or the value being read: "bodies[2].file" */
     sb_error *error;
 };
 
-/* Fails with "file:line:column: path.key: ..." ("--set: ..." for an override). The place is that
-   of key's value in map, else of map itself; key NULL: the place is map's, the path as it is. */
+/* Fails with "file:line:column: path.key: ..." ("--set: ..." for an override). The place is that of the key's value in
+   map, or that of map if the key is missing or NULL. With key NULL the message has reader->path only. */
 sb_status sb_reader_fail(sb_reader *reader, const sb_yaml *map, const char *key, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* Reads one value into its field; reader->path is at the value. */
+/* Reads one value into its field. reader->path must name the value. */
 sb_status sb_reader_value(sb_reader *reader, const sb_yaml *node, const sb_key *key, void *field);
 
-/* Reads a map (a node of another kind is an error) into item, zeroed before; reader->path is at
-   the block. What is allocated before a failure hangs in item: sb_table_free it. */
+/* Reads a map (a node of another kind is an error) into item, which must be zeroed. reader->path must name the block.
+   After a failure item owns what was allocated: call sb_table_free. */
 sb_status sb_reader_block(sb_reader *reader, const sb_yaml *map, const sb_table *table, void *item);
 
-/* Whether the run's duration holds a sane number of intervals; 0 (off) passes. */
+/* Refuses an interval that fits too often into the run's duration. 0 (off) is allowed. */
 sb_status sb_reader_interval(sb_reader *reader, const sb_yaml *map, const char *key, double interval);
 
 /* Applies --set KEY=VALUE to the tree. */

@@ -1,5 +1,5 @@
-/* A scene as the user wrote it, every default filled in: const for everything downstream.
-   SI units; z is up; gravity points to -z. In 2D the plane is x-z and y is 0 everywhere. */
+/* A scene with all defaults filled in. Other modules do not change it. SI units; z is up; gravity points to -z. In 2D
+   the plane is x-z and y is 0 everywhere. */
 #ifndef SB_SCENE_SCENE_H
 #define SB_SCENE_SCENE_H
 
@@ -29,7 +29,7 @@ typedef struct sb_domain {
     sb_side_kind side[SB_SIDES]; /* periodic: pairs along x or y */
 } sb_domain;
 
-/* The sea: all space below `level` reachable from `seed`. */
+/* The sea: all space below `level` that is connected with `seed`. */
 typedef struct sb_sea {
     bool present;
     double level; /* m, still-water level */
@@ -47,7 +47,7 @@ typedef enum sb_initial_wave_kind { SB_INITIAL_NONE, SB_INITIAL_SOLITARY, SB_INI
 typedef struct sb_initial_wave {
     sb_initial_wave_kind kind;
     double height;             /* m: solitary wave height H, or standing-wave amplitude */
-    double depth;              /* m, still depth the theory is taken at */
+    double depth;              /* m, still-water depth of the wave theory */
     double position;           /* m, x of the crest */
     double wavelength;         /* m, standing wave only */
     int direction;             /* +1 towards +x, -1 towards -x */
@@ -62,17 +62,17 @@ typedef enum sb_time_step_rule {
 } sb_time_step_rule;
 typedef enum sb_tolerance_rule {
     SB_TOLERANCE_DENSITY, /* tolerance is a relative density error */
-    SB_TOLERANCE_PRESSURE /* tolerance * (dt sqrt(gD)/spacing)^2 is */
+    SB_TOLERANCE_PRESSURE /* tolerance * (dt sqrt(gD)/spacing)^2 is the relative density error */
 } sb_tolerance_rule;
 
 typedef enum sb_density_form {
-    SB_DENSITY_SUMMED,   /* the kernel sum as it is [S16 eq. 3] */
-    SB_DENSITY_COMPLETED /* with what the surface cuts off and walls put in, at the start (sim/deficit.h) */
+    SB_DENSITY_SUMMED,   /* the density sum alone [S16 eq. 3] */
+    SB_DENSITY_COMPLETED /* the density sum plus the density correction (sim/density_correction.h) */
 } sb_density_form;
 
 typedef enum sb_wall_shear {
     SB_SHEAR_NONE,
-    SB_SHEAR_SMOOTH /* the law of the smooth wall, with the fluid's viscosity */
+    SB_SHEAR_SMOOTH /* law of the wall for smooth walls, with the fluid's viscosity */
 } sb_wall_shear;
 
 typedef enum sb_turbulence {
@@ -80,7 +80,7 @@ typedef enum sb_turbulence {
     SB_TURBULENCE_SPS /* sub-particle-scale eddy viscosity [W eq. 9] */
 } sb_turbulence;
 
-/* Numerics: the preset gives the defaults, the scene may override each. */
+/* Numerical parameters. The preset gives the defaults, which the scene may override. */
 typedef struct sb_numerics {
     sb_preset preset;
     const sb_kernel *kernel;
@@ -91,25 +91,25 @@ typedef struct sb_numerics {
     double tolerance; /* mean of max(0, predicted excess density)/rest density */
     int min_iterations, max_iterations;
     double relaxation;        /* omega of Jacobi */
-    double warm_start;        /* share of the last pressure the solve starts from */
-    double source_relaxation; /* beta: share of the density error mended in one step */
+    double warm_start;        /* fraction of the last pressure from which a solve starts */
+    double source_relaxation; /* beta: fraction of the density error that one step corrects */
     double cfl;               /* lambda_CFL */
     sb_time_step_rule time_step_rule;
     double time_step_factor;     /* lambda_max (1/s) or C, by the rule */
-    double time_step_max;        /* s; 0: no further bound */
-    double stress_correction;    /* share of the packing's own stress that is taken away; 0: term is off */
+    double time_step_max;        /* s; 0: no other limit */
+    double stress_correction;    /* fraction of the deviatoric particle-packing stress that is removed; 0: off */
     double artificial_viscosity; /* alpha of Monaghan's viscosity; 0: term is off */
     double wall_friction;        /* sigma; 0: term is off */
     sb_wall_shear wall_shear;
     sb_turbulence turbulence;
     double smagorinsky;  /* C_s of the eddy viscosity */
-    double sound_speed;  /* m/s in the two above; 0: 10 sqrt(g D) */
-    double wall_gamma;   /* factor on the boundary particles' volume; 0: of the lattice */
+    double sound_speed;  /* m/s, in artificial viscosity and wall friction; 0: 10 sqrt(g D) */
+    double wall_gamma;   /* factor on the wall volume; 0: computed from a lattice */
     double wall_spacing; /* spacings between boundary particles */
-    double wall_offset;  /* spacings that their sheet lies behind the physical wall */
-    double jitter;       /* spacings, amplitude of the start's random displacement */
+    double wall_offset;  /* spacings from the physical wall back to its boundary particles */
+    double jitter;       /* spacings, amplitude of the random displacement at the start */
     uint64_t seed;       /* of that displacement */
-    int settle_steps;    /* most damped steps before t = 0; 0: none */
+    int settle_steps;    /* largest number of settling steps before t = 0; 0: none */
 } sb_numerics;
 
 typedef enum sb_shape {
@@ -117,18 +117,18 @@ typedef enum sb_shape {
     SB_SHAPE_GRID, /* terrain heights: ESRI ASCII or x y z */
     SB_SHAPE_BOX,
     SB_SHAPE_CYLINDER, /* upright, closed */
-    SB_SHAPE_PLANE,    /* a rectangle, solid behind its normal */
+    SB_SHAPE_PLANE,    /* a rectangle; solid on the side away from its normal */
     SB_SHAPE_BASIN     /* open-topped tank: solid outside of [min, max] */
 } sb_shape;
 
 typedef enum sb_role {
-    SB_ROLE_SOLID,  /* closed; inside by winding number */
-    SB_ROLE_TERRAIN /* a sheet; solid is all below it */
+    SB_ROLE_SOLID,  /* a closed surface; the winding number decides what is inside */
+    SB_ROLE_TERRAIN /* a surface of the ground; solid everywhere below it */
 } sb_role;
 
 typedef enum sb_positive {
-    SB_POSITIVE_UP,  /* a grid's numbers are heights */
-    SB_POSITIVE_DOWN /* they are depths */
+    SB_POSITIVE_UP,  /* a grid's values are heights */
+    SB_POSITIVE_DOWN /* a grid's values are depths */
 } sb_positive;
 
 typedef struct sb_body {
@@ -137,14 +137,14 @@ typedef struct sb_body {
     sb_role role;
     bool report; /* has rows in forces.csv */
     bool has_moment_point;
-    sb_vec3 moment_point; /* default: footprint centre at its lowest level */
-    float color[3];       /* for pictures; < 0: chosen by role */
+    sb_vec3 moment_point; /* default: centre of the footprint at the lowest level */
+    float color[3];       /* in pictures; < 0: chosen by role */
     /* mesh and grid */
     char *file;           /* absolute path */
     char up;              /* 'y' or 'z': the file's up axis */
     double scale;         /* metres per file unit */
-    bool split;           /* named nodes become bodies of their own */
-    sb_positive positive; /* which way a grid's numbers count */
+    bool split;           /* each named node becomes a body */
+    sb_positive positive; /* direction in which a grid's values are positive */
     double datum;         /* m, added to a grid's heights */
     /* transform, applied in this order after scale and up-axis */
     sb_vec3 rotate;    /* degrees about x, then y, then z */
@@ -154,7 +154,7 @@ typedef struct sb_body {
     sb_vec3 center;        /* cylinder: centre of its base; plane: its centre */
     double radius, height; /* cylinder */
     sb_vec3 normal;        /* plane, towards the water */
-    double width, length;  /* plane: horizontal extent, and extent across it */
+    double width, length;  /* plane: horizontal extent, and extent perpendicular to it */
 } sb_body;
 
 /* A body's motion along `direction`: the law's displacement(t - start). */
@@ -162,7 +162,7 @@ typedef struct sb_wavemaker_use {
     char name[SB_NAME_MAX];
     char body[SB_NAME_MAX];
     sb_vec3 direction;           /* unit */
-    sb_wavemaker_parameters law; /* kind, height, depth, stroke, ..., what follows the stroke */
+    sb_wavemaker_parameters law; /* kind, height, depth, stroke, ..., motion after the stroke */
 } sb_wavemaker_use;
 
 typedef struct sb_gauge {
@@ -174,13 +174,12 @@ typedef struct sb_probe {
     sb_vec3 at;
     double radius; /* 0: support radius */
 } sb_probe;
-/* A vertical plane from (ax, ay) to (bx, by), z_min..z_max; flow to the left of a->b is negative, to the right
- * positive. */
+/* A vertical plane from (ax, ay) to (bx, by), z_min..z_max. Flow to the right of a->b is positive. */
 typedef struct sb_flow_plane {
     char name[SB_NAME_MAX];
     double ax, ay, bx, by, z_min, z_max;
 } sb_flow_plane;
-/* Run-up is the highest wet z within one spacing of the line from (ax, ay) to (bx, by). */
+/* A line from (ax, ay) to (bx, by). Run-up is the highest z of connected water within one spacing of it. */
 typedef struct sb_runup_line {
     char name[SB_NAME_MAX];
     double ax, ay, bx, by;
@@ -189,7 +188,7 @@ typedef struct sb_runup_line {
 typedef struct sb_map {
     bool present;
     double x_min, y_min, x_max, y_max, cell; /* m */
-    double threshold;                        /* m of depth at the start, or later of rise above it, that is "arrival" */
+    double threshold; /* m; water has arrived when the depth at the start, or later its rise, is this */
 } sb_map;
 
 typedef struct sb_measure {
@@ -220,8 +219,8 @@ typedef struct sb_render_settings {
     double interval;   /* s between pictures; 0: off */
     int width, height; /* px */
     double speed_max;  /* m/s at the top of the colour map; 0: 2 sqrt(g D) of the scene */
-    int video_rate;    /* pictures per second of film */
-    bool video;        /* join pictures to <camera>.mp4 where ffmpeg is there */
+    int video_rate;    /* pictures per second of video */
+    bool video;        /* join pictures to <camera>.mp4 if ffmpeg is installed */
     size_t camera_count;
     sb_camera *cameras;
 } sb_render_settings;
@@ -236,9 +235,9 @@ typedef struct sb_stream_settings {
 
 /* When the state is saved for --resume. Both 0: never. */
 typedef struct sb_checkpoint_settings {
-    double minutes; /* of wall time between two; 0: by steps only */
-    int steps;      /* between two; 0: by time only */
-    int keep;       /* how many of the last stay */
+    double minutes; /* wall time between two checkpoints; 0: by steps only */
+    int steps;      /* steps between two checkpoints; 0: by time only */
+    int keep;       /* number of latest checkpoints that are kept */
 } sb_checkpoint_settings;
 
 typedef struct sb_output_settings {
@@ -270,16 +269,17 @@ typedef struct sb_scene {
     sb_output_settings output;
 } sb_scene;
 
-/* Whether the domain repeats along an axis (0, 1, 2); never across a 2D slice. */
+/* Whether the domain is periodic along an axis (0, 1, 2). In 2D it is never periodic along y. */
 static inline bool sb_scene_repeats(const sb_scene *scene, int axis)
 {
     return scene->domain.side[2 * axis] == SB_SIDE_PERIODIC && !(scene->dimensions == 2 && axis == 1);
 }
 
-/* "x_min" and so on, as in a scene. */
+/* The sides' names in a scene: "x_min" and so on. */
 extern const char *const sb_side_names[SB_SIDES];
 
-/* m/s: faster water has diverged. A hundred times what falls from half of the domain's height. */
+/* Speed above which the simulation counts as diverged, m/s: 100 times that of a fall from half of the domain's height.
+ */
 static inline double sb_scene_speed_limit(const sb_scene *scene)
 {
     return 100 * sqrt(scene->fluid.gravity * (scene->domain.max.z - scene->domain.min.z));
@@ -291,38 +291,38 @@ typedef struct sb_override {
     const char *key, *value;
 } sb_override;
 
-/* Reads, applies the overrides and the preset (preset_name NULL: the scene's own), checks all.
-   On error *scene is untouched and *error holds "file:line:column: key: what is wrong, what was
-   expected" ("--set: key: ..." for an override). */
+/* Reads a scene, applies the preset (preset_name NULL: the scene's own) and the overrides, and checks all values. On an
+   error *scene is unchanged and *error contains "file:line:column: key: what is wrong, what was expected" ("--set: key:
+   ..." for an override). */
 sb_status sb_scene_read(const char *path, const char *preset_name, const sb_override *overrides, size_t override_count,
                         sb_scene *scene, sb_error *error);
 
-/* How the first line of such a scene begins. */
+/* The beginning of the first line of a scene that sb_scene_write wrote. */
 #define SB_SCENE_WRITTEN "# A scene as shorebreak"
 
-/* Writes the scene with every default, so that reading it gives the same scene. Paths absolute. */
+/* Writes the scene with all defaults and absolute paths. Reading it gives the same scene. */
 sb_status sb_scene_write(const sb_scene *scene, const char *path, sb_error *error);
 
-/* What a run's state, measurements and frames follow from, as text to compare: the scene with every default,
-   without the keys that change none of them (duration, stream, what is done at the end), its files by their names
-   and a hash of what is in them. Free with sb_free. SB_BAD_INPUT names a file that cannot be read. */
+/* Writes everything that determines a run's state, measurements and frames as text, so that two scenes can be compared:
+   the scene with all defaults, without the keys that change none of these (duration, stream, output at the end), and
+   its files as names and hashes of their contents. Free with sb_free. SB_BAD_INPUT names a file that cannot be read. */
 sb_status sb_scene_identity(const sb_scene *scene, char **text, sb_error *error);
 
-/* One key of a scene, for the reference. Texts are valid during the visit only. */
+/* One key of a scene, for docs/scene.md. Texts are valid during the visit only. */
 typedef struct sb_scene_key {
     const char *path;     /* "bodies[].scale" */
     const char *unit;     /* "m"; empty: none */
-    const char *fallback; /* its default, in YAML or in words; empty when there is none */
+    const char *fallback; /* its default, as YAML or as a description; empty: none */
     const char *range;    /* "> 0", "wall or open" */
     const char *doc;      /* a sentence or two */
-    const char *only;     /* "shape cylinder": when it applies; NULL: always */
-    bool required;        /* whenever it applies */
+    const char *only;     /* the case in which it applies, "shape cylinder"; NULL: always */
+    bool required;        /* if it applies */
 } sb_scene_key;
 
-/* Visits every key, blocks and lists before what is in them, in the order they are written. */
+/* Visits all keys in the order in which they are written, blocks and lists before their contents. */
 void sb_scene_keys(void (*visit)(void *context, const sb_scene_key *key), void *context);
 
-/* Frees all the scene owns and zeroes it; fine on a zeroed scene. */
+/* Frees all that the scene owns and zeroes it. Allowed on a zeroed scene. */
 void sb_scene_free(sb_scene *scene);
 
 #endif

@@ -3,10 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-static const char *const shape_words[] = {"mesh", "grid", "box", "cylinder", "plane", "basin", NULL};
-static const char *const role_words[] = {"solid", "terrain", NULL};
-static const char *const positive_words[] = {"up", "down", NULL};
-static const char *const up_words[] = {"z", "y", NULL};
+static const char *const shape_names[] = {"mesh", "grid", "box", "cylinder", "plane", "basin", NULL};
+static const char *const role_names[] = {"solid", "terrain", NULL};
+static const char *const positive_names[] = {"up", "down", NULL};
+static const char *const up_names[] = {"z", "y", NULL};
 
 enum {
     MESH = 1 << SB_SHAPE_MESH,
@@ -31,17 +31,17 @@ static unsigned variant(const void *item, const sb_yaml *map)
 static const sb_key keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_body, name), .flags = SB_KEY_REQUIRED,
      .doc = "Unique name of the body; it appears in tables and channels."},
-    {.name = "shape", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_body, shape), .words = shape_words,
+    {.name = "shape", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_body, shape), .words = shape_names,
      .flags = SB_KEY_REQUIRED, .doc = "Shape of the body; see above."},
-    {.name = "role", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_body, role), .words = role_words,
-     .derived = "terrain for a grid, else solid",
+    {.name = "role", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_body, role), .words = role_names,
+     .derived = "terrain for a grid, otherwise solid",
      .doc = "`solid`: a closed surface, solid inside. `terrain`: a surface of the ground, solid "
             "everywhere below it (mesh, grid and plane only)."},
     {.name = "report", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_body, report),
      .derived = "true for a solid, false for terrain",
      .doc = "Whether forces.csv contains this body."},
     {.name = "moment_point", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_body, moment_point), .unit = "m",
-     SB_KEY_ANY, .applies = MOMENT, .derived = "centre of its footprint at its lowest level, y = 0 in 2D",
+     SB_KEY_ANY, .applies = MOMENT, .derived = "centre of the footprint at the body's lowest level; y = 0 in 2D",
      .only = "moments",
      .doc = "Point that moments are taken about. It does not move with the body."},
     {.name = "color", .type = SB_KEY_COLOR, SB_KEY_AT(sb_body, color), .min = 0, .max = 1,
@@ -50,7 +50,7 @@ static const sb_key keys[] = {
     {.name = "file", .type = SB_KEY_FILE, SB_KEY_AT(sb_body, file), .flags = SB_KEY_REQUIRED,
      .applies = MESH | GRID, .only = "shape mesh or grid",
      .doc = "Mesh (OBJ, STL, PLY, glTF/GLB, DAE), or heights (ESRI ASCII .asc, GeoClaw topotype 1 to 3, lines of x y z)."},
-    {.name = "up", .type = SB_KEY_LETTER, SB_KEY_AT(sb_body, up), .words = up_words,
+    {.name = "up", .type = SB_KEY_LETTER, SB_KEY_AT(sb_body, up), .words = up_names,
      .fallback = "z", .applies = MESH, .only = "shape mesh", .doc = "The file's upward axis."},
     {.name = "scale", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_body, scale), .unit = "m",
      SB_KEY_POSITIVE, .fallback = "1", .applies = MESH | GRID, .only = "shape mesh or grid",
@@ -58,7 +58,7 @@ static const sb_key keys[] = {
     {.name = "split", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_body, split), .fallback = "false",
      .applies = MESH, .only = "shape mesh",
      .doc = "Whether each named node of the file becomes a body of its own."},
-    {.name = "positive", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_body, positive), .words = positive_words,
+    {.name = "positive", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_body, positive), .words = positive_names,
      .fallback = "up", .applies = GRID, .only = "shape grid",
      .doc = "Direction of the file's numbers: `up` for heights, `down` for depths."},
     {.name = "datum", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_body, datum), .unit = "m", SB_KEY_ANY,
@@ -84,7 +84,7 @@ static const sb_key keys[] = {
      .doc = "Vector towards the water, of any length. The space behind the plane is solid."},
     {.name = "width", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_body, width), .unit = "m", .min = 0,
      .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED_3D, .applies = PLANE,
-     .derived = "across the slice", .only = "shape plane",
+     .derived = "the slice's width", .only = "shape plane",
      .doc = "Horizontal extent of the plane."},
     {.name = "length", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_body, length), .unit = "m", .min = 0,
      .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .applies = PLANE,
@@ -113,19 +113,20 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
     if (!(present & COLOR)) body->color[0] = body->color[1] = body->color[2] = -1;
     if (!sb_yaml_child(map, "role")) body->role = body->shape == SB_SHAPE_GRID ? SB_ROLE_TERRAIN : SB_ROLE_SOLID;
     if (body->role == SB_ROLE_TERRAIN && !(shape & (MESH | GRID | PLANE)))
-        return sb_reader_fail(reader, map, "role", "a %s is no terrain, expected solid", shape_words[body->shape]);
+        return sb_reader_fail(reader, map, "role", "a %s cannot be terrain, expected solid", shape_names[body->shape]);
     if (body->role == SB_ROLE_SOLID && body->shape == SB_SHAPE_GRID)
-        return sb_reader_fail(reader, map, "role", "a grid is a sheet, expected terrain");
+        return sb_reader_fail(reader, map, "role",
+                              "a grid is a surface of the ground and cannot be solid, expected terrain");
     if (!sb_yaml_child(map, "report")) body->report = body->role == SB_ROLE_SOLID;
-    /* A slice at y = 0 goes through bodies given by x and z only. */
-    double reach = 2 * scene->numerics.support * scene->resolution;
+    /* Bodies that are given by x and z only extend across the slice at y = 0. */
+    double half_width = 2 * scene->numerics.support * scene->resolution;
     if (scene->dimensions == 2 && shape & (BOX | BASIN) && body->min.y == 0 && body->max.y == 0) {
-        body->min.y = -reach;
-        body->max.y = reach;
+        body->min.y = -half_width;
+        body->max.y = half_width;
     }
-    if (scene->dimensions == 2 && shape & PLANE && !sb_yaml_child(map, "width")) body->width = 2 * reach;
+    if (scene->dimensions == 2 && shape & PLANE && !sb_yaml_child(map, "width")) body->width = 2 * half_width;
     if (shape & (BOX | BASIN) && !extents_ordered(body))
-        return sb_reader_fail(reader, map, "max", "does not lie above min, expected min < max");
+        return sb_reader_fail(reader, map, "max", "is not above min, expected min < max");
     return SB_OK;
 }
 

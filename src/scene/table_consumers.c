@@ -23,11 +23,11 @@ static sb_status finish_view(sb_reader *reader, const sb_yaml *map, void *item)
 {
     const sb_camera_key *key = item;
     if (sb_norm(sb_sub(key->target, key->eye)) > 0) return SB_OK;
-    return sb_reader_fail(reader, map, "target", "is the same point as eye, expected another");
+    return sb_reader_fail(reader, map, "target", "is the same point as eye, expected a different point");
 }
 
 static const sb_table path_table = {SB_KEY_ROWS(path_keys), .size = sizeof(sb_camera_key), .finish = finish_view};
-/* A fixed camera: the same without its time. */
+/* The keys of a fixed camera: the same without the time. */
 static const sb_table view_table = {
     .keys = path_keys + 1, .count = sizeof path_keys / sizeof *path_keys - 1, .size = sizeof(sb_camera_key)};
 
@@ -61,8 +61,8 @@ static sb_status finish_camera(sb_reader *reader, const sb_yaml *map, void *item
     for (size_t i = 1; i < camera->key_count; i++)
         if (!(camera->keys[i].time > camera->keys[i - 1].time))
             return sb_reader_fail(reader, map, "path",
-                                  "time %g s of entry %zu is not later than %g s before it, "
-                                  "expected times that rise",
+                                  "time %g s of entry %zu is not later than %g s of the entry before, "
+                                  "expected increasing times",
                                   camera->keys[i].time, i, camera->keys[i - 1].time);
     return SB_OK;
 }
@@ -98,7 +98,8 @@ static sb_status finish_render(sb_reader *reader, const sb_yaml *map, void *item
 {
     const sb_render_settings *render = item;
     if (render->interval > 0 && render->camera_count == 0)
-        return sb_reader_fail(reader, map, "cameras", "there is none, expected one as render.interval is not 0");
+        return sb_reader_fail(reader, map, "cameras",
+                              "has no camera, expected at least one because render.interval is not 0");
     return sb_reader_interval(reader, map, "interval", render->interval);
 }
 
@@ -126,14 +127,15 @@ enum { PREFIX_MAX = 63 - 10 }; /* the longest channel: <prefix>_particles */
 static sb_status finish_stream(sb_reader *reader, const sb_yaml *map, void *item)
 {
     const sb_stream_settings *stream = item;
-    /* A scene may come from anyone; LCM would overwrite the file it names, wherever that is. */
+    /* A scene may come from an untrusted source, and LCM would overwrite the file that it names, in any folder. */
     if (strncasecmp(stream->url + strspn(stream->url, " "), "file:", 5) == 0)
         return sb_reader_fail(reader, map, "url",
-                              "%.80s would write outside of the output folder, expected a provider of the network; "
-                              "lcm-logger keeps a log, or LCM_DEFAULT_URL names one",
+                              "%.80s would write outside of the output folder, expected a network provider; "
+                              "record a log with lcm-logger, or name a file in LCM_DEFAULT_URL",
                               stream->url);
     if (strlen(stream->prefix) > PREFIX_MAX)
-        return sb_reader_fail(reader, map, "prefix", "%zu letters, expected at most %d, for LCM's channels have 63",
+        return sb_reader_fail(reader, map, "prefix",
+                              "has %zu characters, expected at most %d: a channel name of LCM has at most 63",
                               strlen(stream->prefix), PREFIX_MAX);
     return sb_reader_interval(reader, map, "interval", stream->interval);
 }

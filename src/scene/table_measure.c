@@ -58,17 +58,17 @@ static sb_status finish_probe(sb_reader *reader, const sb_yaml *map, void *item)
 
 static const sb_table probe_table = {SB_KEY_ROWS(probe_keys), .size = sizeof(sb_probe), .finish = finish_probe};
 
-/* Whether two stretches have nothing in common. */
-static bool apart(double a0, double a1, double b0, double b1)
+/* Whether two intervals are disjoint. */
+static bool disjoint(double a0, double a1, double b0, double b1)
 {
     return !(fmax(a0, a1) >= b0 && fmin(a0, a1) <= b1);
 }
 
-/* Whether the rectangle about two points has something of the domain. */
+/* Whether the rectangle between two points overlaps the domain. */
 static bool meets_domain(const sb_scene *scene, double ax, double ay, double bx, double by)
 {
     const sb_domain *d = &scene->domain;
-    return !apart(ax, bx, d->min.x, d->max.x) && (scene->dimensions == 2 || !apart(ay, by, d->min.y, d->max.y));
+    return !disjoint(ax, bx, d->min.x, d->max.x) && (scene->dimensions == 2 || !disjoint(ay, by, d->min.y, d->max.y));
 }
 
 /* clang-format off */
@@ -78,7 +78,7 @@ static const sb_key plane_keys[] = {
     {.name = "from", .type = SB_KEY_PLACE, SB_KEY_AT(sb_flow_plane, ax), .unit = "m", SB_KEY_ANY,
      .flags = SB_KEY_REQUIRED, .doc = "One end of the plane's footprint, [x, y]; [x] in 2D."},
     {.name = "to", .type = SB_KEY_PLACE, SB_KEY_AT(sb_flow_plane, bx), .unit = "m", SB_KEY_ANY,
-     .flags = SB_KEY_REQUIRED_3D, .derived = "from",
+     .flags = SB_KEY_REQUIRED_3D, .derived = "as `from`",
      .doc = "The other end. Flow to the right, seen from the first end, is positive (+x in 2D)."},
     {.name = "z_min", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_flow_plane, z_min), .unit = "m",
      SB_KEY_ANY, .derived = "z of domain.min", .doc = "Lower edge of the plane."},
@@ -87,8 +87,7 @@ static const sb_key plane_keys[] = {
 };
 /* clang-format on */
 
-/* In 2D a plane is one metre of the slice's depth, so that volumes are per metre; what was given besides x says
- * nothing. */
+/* In 2D a plane is one metre wide in y, so that volumes are per metre. Only its x is used. */
 static void flatten_plane(const sb_yaml *map, sb_flow_plane *plane)
 {
     if (!sb_yaml_child(map, "to")) plane->bx = plane->ax;
@@ -111,8 +110,8 @@ static sb_status finish_plane(sb_reader *reader, const sb_yaml *map, void *item)
                               "x differs from that of from, expected the same "
                               "in 2D");
     if (plane->ax == plane->bx && plane->ay == plane->by)
-        return sb_reader_fail(reader, map, "to", "is the same point as from, expected another");
-    if (apart(plane->z_min, plane->z_max, scene->domain.min.z, scene->domain.max.z))
+        return sb_reader_fail(reader, map, "to", "is the same point as from, expected a different point");
+    if (disjoint(plane->z_min, plane->z_max, scene->domain.min.z, scene->domain.max.z))
         return refuse_outside(reader, map, sb_yaml_child(map, "z_min") ? "z_min" : "z_max");
     return meets_domain(scene, plane->ax, plane->ay, plane->bx, plane->by) ? SB_OK
                                                                            : refuse_outside(reader, map, "from");
@@ -138,7 +137,7 @@ static sb_status finish_runup(sb_reader *reader, const sb_yaml *map, void *item)
     const sb_runup_line *line = item;
     const sb_scene *scene = reader->scene;
     if (line->ax == line->bx && (scene->dimensions == 2 || line->ay == line->by))
-        return sb_reader_fail(reader, map, "to", "%s, expected another",
+        return sb_reader_fail(reader, map, "to", "%s, expected a different point",
                               scene->dimensions == 2 ? "has the same x as from" : "is the same point as from");
     return meets_domain(scene, line->ax, line->ay, line->bx, line->by) ? SB_OK : refuse_outside(reader, map, "from");
 }
@@ -171,7 +170,7 @@ static void fill_map(const sb_scene *scene, const sb_yaml *map, sb_map *grid)
     }
     if (!sb_yaml_child(map, "cell")) grid->cell = 2 * scene->resolution;
     if (!sb_yaml_child(map, "threshold")) grid->threshold = scene->resolution;
-    if (scene->dimensions == 2) { /* one row of cells along the slice */
+    if (scene->dimensions == 2) { /* one row of cells */
         grid->y_min = -0.5 * grid->cell;
         grid->y_max = 0.5 * grid->cell;
     }
@@ -184,10 +183,9 @@ static sb_status finish_map(sb_reader *reader, const sb_yaml *map, void *item)
     fill_map(reader->scene, map, grid);
     grid->present = true;
     double width = grid->x_max - grid->x_min, height = grid->y_max - grid->y_min;
-    if (!(width > 0 && height > 0))
-        return sb_reader_fail(reader, map, "max", "does not lie above min, expected min < max");
+    if (!(width > 0 && height > 0)) return sb_reader_fail(reader, map, "max", "is not above min, expected min < max");
     if (!(ceil(width / grid->cell) * ceil(height / grid->cell) <= most))
-        return sb_reader_fail(reader, map, "cell", "%g m would make more than %g cells, expected longer cells",
+        return sb_reader_fail(reader, map, "cell", "%g m would make more than %g cells, expected larger cells",
                               grid->cell, most);
     return meets_domain(reader->scene, grid->x_min, grid->y_min, grid->x_max, grid->y_max)
                ? SB_OK

@@ -3,13 +3,13 @@
 #include <limits.h>
 #include <math.h>
 
-static const char *const preset_words[] = {"default", "paper", NULL};
-static const char *const solver_words[] = {"jacobi", "chebyshev", "cg", NULL};
-static const char *const tolerance_words[] = {"density", "pressure", NULL};
-static const char *const density_words[] = {"summed", "completed", NULL};
-static const char *const shear_words[] = {"none", "smooth", NULL};
-static const char *const turbulence_words[] = {"none", "sps", NULL};
-static const char *const step_words[] = {"paper", "depth", NULL};
+static const char *const preset_names[] = {"default", "paper", NULL};
+static const char *const solver_names[] = {"jacobi", "chebyshev", "cg", NULL};
+static const char *const tolerance_names[] = {"density", "pressure", NULL};
+static const char *const density_names[] = {"summed", "completed", NULL};
+static const char *const shear_names[] = {"none", "smooth", NULL};
+static const char *const turbulence_names[] = {"none", "sps", NULL};
+static const char *const step_names[] = {"paper", "depth", NULL};
 
 #define NUMBER(key, unit_, min_, max_, flags_, doc_)                                                                   \
     {                                                                                                                  \
@@ -30,19 +30,19 @@ static const char *const step_words[] = {"paper", "depth", NULL};
 /* clang-format off */
 static const sb_key keys[] = {
     {.name = "preset", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_numerics, preset),
-     .words = preset_words, .fallback = "default",
+     .words = preset_names, .fallback = "default",
      .doc = "Set of defaults for the keys that this block does not give. `default` is the best "
             "known set over several cases; `paper` follows Sampath et al."},
     {.name = "kernel", .type = SB_KEY_KERNEL, SB_KEY_AT(sb_numerics, kernel),
      .flags = SB_KEY_PRESET, .doc = "Kernel; `shorebreak list kernels` describes the kernels."},
     NUMBER(support, "spacings", 1.5, 4, 0,
            "Support radius: distance within which particles interact."),
-    CHOICE(density, density_words,
+    CHOICE(density, density_names,
            "`summed`: density from the kernel sum alone. `completed`: with the density "
            "correction, which compensates the kernel's missing part at the surface and its "
            "overlap with walls."),
-    CHOICE(solver, solver_words, "Method of the pressure solve."),
-    CHOICE(tolerance_rule, tolerance_words,
+    CHOICE(solver, solver_names, "Method of the pressure solve."),
+    CHOICE(tolerance_rule, tolerance_names,
            "`density`: the tolerance is a relative density error. `pressure`: it is a fraction of "
            "the still water's pressure, and the density error follows from the time step."),
     NUMBER(tolerance, NULL, 0, 1, SB_KEY_ABOVE | SB_KEY_BELOW,
@@ -57,7 +57,7 @@ static const sb_key keys[] = {
            "Fraction of the density error that one step corrects."),
     NUMBER(cfl, NULL, 0, 1, SB_KEY_ABOVE,
            "Fraction of the support radius that a particle may travel in one step."),
-    CHOICE(time_step_rule, step_words,
+    CHOICE(time_step_rule, step_names,
            "Rule for the longest time step: `paper`: time_step_factor h/g; `depth`: "
            "time_step_factor h/sqrt(g D)."),
     NUMBER(time_step_factor, NULL, 0, 10, SB_KEY_ABOVE,
@@ -71,10 +71,10 @@ static const sb_key keys[] = {
            "Coefficient alpha of Monaghan's artificial viscosity; 0 leaves the term out."),
     NUMBER(wall_friction, NULL, 0, 10, 0,
            "Coefficient sigma of the artificial wall friction; 0 leaves the term out."),
-    CHOICE(wall_shear, shear_words,
+    CHOICE(wall_shear, shear_names,
            "`smooth`: walls exert shear by the law of the smooth wall, with the fluid's "
            "viscosity. `none`: free slip."),
-    CHOICE(turbulence, turbulence_words,
+    CHOICE(turbulence, turbulence_names,
            "`sps`: sub-particle-scale turbulence, an eddy viscosity from the strain rate. `none` "
            "leaves it out."),
     NUMBER(smagorinsky, NULL, 0, 0.25, SB_KEY_ABOVE,
@@ -106,7 +106,7 @@ static const sb_removed_key removed[] = {
     {NULL, NULL},
 };
 
-static const double GAMMA_MIN = 0.1; /* below, walls leak */
+static const double GAMMA_MIN = 0.1; /* below this, water passes walls */
 
 static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
 {

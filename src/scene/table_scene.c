@@ -4,11 +4,11 @@
 
 const char *const sb_side_names[SB_SIDES] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
 
-static const char *const side_words[] = {"wall", "open", "periodic", NULL};
+static const char *const side_kind_names[] = {"wall", "open", "periodic", NULL};
 
 #define SIDE(index, side, fallback_, doc_)                                                                             \
     {                                                                                                                  \
-        .name = side, .type = SB_KEY_CHOICE, .offset = (index) * sizeof(sb_side_kind), .words = side_words,            \
+        .name = side, .type = SB_KEY_CHOICE, .offset = (index) * sizeof(sb_side_kind), .words = side_kind_names,       \
         .fallback = fallback_, .doc = doc_                                                                             \
     }
 
@@ -32,12 +32,12 @@ static sb_status finish_sides(sb_reader *reader, const sb_yaml *map, void *item)
             continue;
         if (i == SB_Z_MIN || i == SB_Z_MAX)
             return sb_reader_fail(reader, map, side_keys[i].name,
-                                  "water would fall through floor and lid for ever, expected wall "
-                                  "or open; only x and y may be periodic");
+                                  "z cannot be periodic, because water would fall without end, expected wall "
+                                  "or open");
         if (side[other] != SB_SIDE_PERIODIC)
             return sb_reader_fail(reader, map, side_keys[i].name,
                                   "periodic, but %s is %s, expected both periodic or neither", side_keys[other].name,
-                                  side_words[side[other]]);
+                                  side_kind_names[side[other]]);
     }
     return SB_OK;
 }
@@ -55,7 +55,7 @@ static const sb_key domain_keys[] = {
 };
 /* clang-format on */
 
-/* In spacings: numbers of 53 bits are a millionth of one apart there. */
+/* Distance from 0 in spacings at which neighbouring doubles are a millionth of a spacing apart. */
 static const double FARTHEST = 1e-6 * 0x1p52;
 
 static sb_status finish_domain(sb_reader *reader, const sb_yaml *map, void *item)
@@ -67,19 +67,19 @@ static sb_status finish_domain(sb_reader *reader, const sb_yaml *map, void *item
     for (size_t i = 0; i < 3; i++) {
         if (i == 1 && scene->dimensions == 2) continue;
         if (!(extent[i] > 0) || !isfinite(extent[i]))
-            return sb_reader_fail(reader, map, "max", "%c does not lie above that of domain.min, expected min < max",
+            return sb_reader_fail(reader, map, "max", "%c is not above that of domain.min, expected min < max",
                                   "xyz"[i]);
         /* Cell numbers of the neighbour search have 21 bits per axis. */
         if (extent[i] / scene->resolution > 1e6)
             return sb_reader_fail(reader, map, "max",
-                                  "%g m in %c are %.3g times the resolution of %g m, expected at "
+                                  "%g m in %c is %.3g times the resolution of %g m, expected at "
                                   "most 1e+06 times",
                                   extent[i], "xyz"[i], extent[i] / scene->resolution, scene->resolution);
         const double least[] = {domain->min.x, domain->min.y, domain->min.z};
         const double farthest = fmax(fabs(least[i]), fabs(least[i] + extent[i]));
         if (farthest > FARTHEST * spacing)
             return sb_reader_fail(reader, map, "max",
-                                  "%c reaches to %g m, where numbers are further apart than a millionth of the "
+                                  "%c extends to %g m, where numbers have steps larger than a millionth of the "
                                   "resolution of %g m, expected less than %g m from 0",
                                   "xyz"[i], farthest, spacing, FARTHEST * spacing);
     }
@@ -150,8 +150,8 @@ static sb_status finish_scene(sb_reader *reader, const sb_yaml *map, void *item)
     double support = scene->numerics.support * scene->resolution;
     if (support > least)
         return sb_reader_fail(reader, map, "resolution",
-                              "%g m is too coarse: particles see %g m far and the domain is only "
-                              "%g m across, expected at most %g m",
+                              "%g m is too coarse: the support radius is %g m and the domain is only "
+                              "%g m wide, expected at most %g m",
                               scene->resolution, support, least, least / scene->numerics.support);
     return SB_OK;
 }

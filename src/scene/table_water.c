@@ -2,15 +2,15 @@
 
 #include <math.h>
 
-/* Whether min < max in all axes that count; the key at fault is max. */
+/* Checks min < max in all axes of the scene's dimensions. An error names the key max. */
 static sb_status ordered(sb_reader *reader, const sb_yaml *map, sb_vec3 min, sb_vec3 max)
 {
     bool flat = reader->scene->dimensions == 2;
     if (min.x < max.x && min.z < max.z && (flat || min.y < max.y)) return SB_OK;
-    return sb_reader_fail(reader, map, "max", "does not lie above min, expected min < max");
+    return sb_reader_fail(reader, map, "max", "is not above min, expected min < max");
 }
 
-/* Whether a point lies in the domain, its walls included. */
+/* Whether a point is in the domain or on its sides. */
 static bool in_domain(const sb_scene *scene, sb_vec3 point)
 {
     const sb_domain *domain = &scene->domain;
@@ -51,7 +51,7 @@ static sb_status finish_box(sb_reader *reader, const sb_yaml *map, void *item)
     const double speed = sb_norm(box->velocity), limit = sb_scene_speed_limit(reader->scene);
     if (!(speed <= limit))
         return sb_reader_fail(reader, map, "velocity",
-                              "%g m/s is faster than any water here may get, expected at most %.4g m/s, 100 times "
+                              "%g m/s is above the speed limit of the scene, expected at most %.4g m/s, 100 times "
                               "sqrt(gravity * height of the domain)",
                               speed, limit);
     return SB_OK;
@@ -59,8 +59,8 @@ static sb_status finish_box(sb_reader *reader, const sb_yaml *map, void *item)
 
 static const sb_table box_table = {SB_KEY_ROWS(box_keys), .size = sizeof(sb_fluid_box), .finish = finish_box};
 
-static const char *const theory_words[] = {"third-order", "boussinesq", NULL};
-static const char *const wave_words[] = {"none", "solitary", "standing", NULL};
+static const char *const theory_names[] = {"third-order", "boussinesq", NULL};
+static const char *const wave_names[] = {"none", "solitary", "standing", NULL};
 enum { SOLITARY = 1 << SB_INITIAL_SOLITARY, STANDING = 1 << SB_INITIAL_STANDING };
 
 static unsigned wave_variant(const void *item, const sb_yaml *map)
@@ -71,7 +71,7 @@ static unsigned wave_variant(const void *item, const sb_yaml *map)
 
 /* clang-format off */
 static const sb_key wave_keys[] = {
-    {.name = "kind", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_initial_wave, kind), .words = wave_words,
+    {.name = "kind", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_initial_wave, kind), .words = wave_names,
      .fallback = "none", .doc = "Wave that is on the water at the start."},
     {.name = "height", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_wave, height), .unit = "m",
      .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
@@ -92,7 +92,7 @@ static const sb_key wave_keys[] = {
     {.name = "direction", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_initial_wave, direction), .min = -1,
      .max = 1, .fallback = "1", .applies = SOLITARY, .only = "kind solitary",
      .doc = "Direction of travel: 1 towards +x, -1 towards -x; 0 is an error."},
-    {.name = "theory", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_initial_wave, theory), .words = theory_words,
+    {.name = "theory", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_initial_wave, theory), .words = theory_names,
      .fallback = "third-order", .applies = SOLITARY, .only = "kind solitary",
      .doc = "Order of the theory in height over depth: `third-order`, valid to 0.4, or "
             "`boussinesq`, first order, as many experiments are defined. High `boussinesq` waves "
@@ -100,24 +100,26 @@ static const sb_key wave_keys[] = {
 };
 /* clang-format on */
 
-/* Of the depth [Longuet-Higgins and Fenton 1974: 0.827; Hunter and Vanden-Broeck 1983: 0.8332]. */
+/* Greatest height of a solitary wave over its depth [Longuet-Higgins and Fenton 1974: 0.827; Hunter and Vanden-Broeck
+ * 1983: 0.8332]. */
 static const double HIGHEST = 0.8332;
 
 static sb_status finish_wave(sb_reader *reader, const sb_yaml *map, void *item)
 {
     const sb_initial_wave *wave = item;
     if (wave->kind == SB_INITIAL_SOLITARY && wave->direction == 0)
-        return sb_reader_fail(reader, map, "direction", "0 is no direction, expected 1 or -1");
+        return sb_reader_fail(reader, map, "direction", "0 is not a direction, expected 1 or -1");
     if (wave->kind == SB_INITIAL_SOLITARY && wave->height > HIGHEST * wave->depth * (1 + 1e-9))
-        return sb_reader_fail(reader, map, "height",
-                              "%g m on %g m: no solitary wave is higher than %g of its depth, expected at most %g m",
-                              wave->height, wave->depth, HIGHEST, HIGHEST * wave->depth);
+        return sb_reader_fail(
+            reader, map, "height",
+            "%g m in a depth of %g m: a solitary wave cannot be higher than %g of its depth, expected at most %g m",
+            wave->height, wave->depth, HIGHEST, HIGHEST * wave->depth);
     if (wave->kind == SB_INITIAL_STANDING && wave->height >= wave->depth)
-        return sb_reader_fail(reader, map, "height", "%g m would bare the bed, expected less than the depth of %g m",
+        return sb_reader_fail(reader, map, "height", "%g m would uncover the bed, expected less than the depth of %g m",
                               wave->height, wave->depth);
     if (wave->kind == SB_INITIAL_STANDING && wave->wavelength < 2 * reader->scene->resolution)
         return sb_reader_fail(reader, map, "wavelength",
-                              "%g m is shorter than particles can show, expected at least two spacings, %g m",
+                              "%g m is too short to be resolved, expected at least two spacings, %g m",
                               wave->wavelength, 2 * reader->scene->resolution);
     return SB_OK;
 }
@@ -156,7 +158,7 @@ static sb_status finish_water(sb_reader *reader, const sb_yaml *map, void *item)
     const sb_domain *domain = &scene->domain;
     sea->present = water_variant(scene, map) & SEA;
     if (!sea->present && scene->box_count == 0)
-        return sb_reader_fail(reader, map, NULL, "holds no water, expected level and seed, or boxes");
+        return sb_reader_fail(reader, map, NULL, "contains no water, expected level and seed, or boxes");
     if (!sea->present) return SB_OK;
     if (!(sea->level > domain->min.z && sea->level <= domain->max.z))
         return sb_reader_fail(reader, map, "level", "%g m is outside of the domain, expected metres > %g and <= %g",

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-static const char *const after_words[] = {"stay", "return", NULL};
+static const char *const after_names[] = {"stay", "return", NULL};
 
 enum { RETURNS = 1 << 16 };
 
@@ -34,23 +34,23 @@ static const sb_key keys[] = {
      .doc = "Direction of the motion, of any length."},
     {.name = "start", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wavemaker_use, law.start), .unit = "s",
      SB_KEY_NOT_NEGATIVE, .fallback = "0", .doc = "Time at which the motion begins."},
-    LAW_NUMBER(height, "m", SB_WM_HEIGHT, "laws that take a wave height", "Wave height H."),
-    LAW_NUMBER(depth, "m", SB_WM_DEPTH, "laws that take a depth",
+    LAW_NUMBER(height, "m", SB_WM_HEIGHT, "laws that need a wave height", "Wave height H."),
+    LAW_NUMBER(depth, "m", SB_WM_DEPTH, "laws that need a depth",
            "Still-water depth at the paddle."),
-    LAW_NUMBER(stroke, "m", SB_WM_STROKE, "laws that take a stroke",
+    LAW_NUMBER(stroke, "m", SB_WM_STROKE, "laws that need a stroke",
            "Total displacement of the stroke."),
-    LAW_NUMBER(speed, "m/s", SB_WM_SPEED, "laws that take a speed", "Top speed of the stroke."),
+    LAW_NUMBER(speed, "m/s", SB_WM_SPEED, "laws that need a speed", "Top speed of the stroke."),
     {.name = "file", .type = SB_KEY_FILE, SB_KEY_AT(sb_wavemaker_use, law.file),
-     .flags = SB_KEY_REQUIRED, .applies = SB_WM_FILE, .only = "laws that take a file",
+     .flags = SB_KEY_REQUIRED, .applies = SB_WM_FILE, .only = "laws that need a file",
      .doc = "Table of times and displacements."},
     {.name = "after", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_wavemaker_use, law.after),
-     .words = after_words, .fallback = "stay",
+     .words = after_names, .fallback = "stay",
      .doc = "Motion after the stroke: `stay` at its end, or `return` to the start."},
     LAW_NUMBER(return_time, "s", RETURNS, "after: return", "Duration of the return."),
 };
 /* clang-format on */
 
-/* With a split mesh, bodies' names are known only when its file is read: the model checks them. */
+/* The names of a split mesh are known only when its file is read; the model checks those. */
 static bool body_may_exist(const sb_scene *scene, const char *name)
 {
     for (size_t i = 0; i < scene->body_count; i++)
@@ -58,7 +58,7 @@ static bool body_may_exist(const sb_scene *scene, const char *name)
     return false;
 }
 
-/* A paddle would have to come back in at the other side, and push its own wake. */
+/* A paddle must not move through periodic sides: it would enter again at the other side, into its own wake. */
 static sb_status check_direction(sb_reader *reader, const sb_yaml *map, const sb_wavemaker_use *use)
 {
     const double along[] = {use->direction.x, use->direction.y};
@@ -76,10 +76,10 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
     sb_wavemaker_use *use = item;
     const sb_scene *scene = reader->scene;
     if (!body_may_exist(scene, use->body))
-        return sb_reader_fail(reader, map, "body", "no body is named %s, expected one of bodies", use->body);
+        return sb_reader_fail(reader, map, "body", "no body is named %s, expected the name of a body", use->body);
     for (const sb_wavemaker_use *other = scene->wavemakers; other < use; other++)
         if (strcmp(other->body, use->body) == 0)
-            return sb_reader_fail(reader, map, "body", "%s is moved by %s already, expected one wave maker per body",
+            return sb_reader_fail(reader, map, "body", "%s is already moved by %s, expected one wave maker per body",
                                   use->body, other->name);
     sb_status status = check_direction(reader, map, use);
     if (status != SB_OK) return status;

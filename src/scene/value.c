@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* What is wrong, and what the key wants. */
+/* Fails with what is wrong and what the key accepts. */
 static sb_status refuse(sb_reader *reader, const sb_yaml *node, const sb_key *key, const char *what)
 {
     char expected[300];
@@ -27,7 +27,7 @@ static sb_status refuse_text(sb_reader *reader, const sb_yaml *node, const sb_ke
     return refuse(reader, node, key, text);
 }
 
-static sb_status want_scalar(sb_reader *reader, const sb_yaml *node, const sb_key *key)
+static sb_status require_scalar(sb_reader *reader, const sb_yaml *node, const sb_key *key)
 {
     if (node->kind == SB_YAML_LIST) return refuse(reader, node, key, "is a list");
     if (node->kind == SB_YAML_MAP) return refuse(reader, node, key, "is a block of keys");
@@ -40,22 +40,22 @@ static bool in_range(const sb_key *key, double value)
     return key->flags & SB_KEY_BELOW ? value < key->max : value <= key->max;
 }
 
-static bool says_not_finite(const char *text)
+static bool is_not_finite(const char *text)
 {
-    static const char *const words[] = {"nan", ".nan", "inf", ".inf", "infinity"};
+    static const char *const names[] = {"nan", ".nan", "inf", ".inf", "infinity"};
     text += *text == '-' || *text == '+';
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strcasecmp(text, words[i]) == 0) return true;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcasecmp(text, names[i]) == 0) return true;
     return false;
 }
 
-/* strtod alone would take nan, inf, hexadecimal numbers and leading blanks. */
+/* strtod alone would accept nan, inf, hexadecimal numbers and leading blanks. */
 static sb_status read_number(sb_reader *reader, const sb_yaml *node, const sb_key *key, double *value)
 {
-    sb_status status = want_scalar(reader, node, key);
+    sb_status status = require_scalar(reader, node, key);
     if (status != SB_OK) return status;
     if (node->quoted) return refuse_text(reader, node, key, "is quoted text, not a number");
-    if (says_not_finite(node->text)) return refuse_text(reader, node, key, "is not finite");
+    if (is_not_finite(node->text)) return refuse_text(reader, node, key, "is not finite");
     char *end;
     double number = strtod(node->text, &end);
     if (node->text[strspn(node->text, "0123456789+-.eE")] != '\0' || *end != '\0')
@@ -79,7 +79,7 @@ static sb_status read_integer(sb_reader *reader, const sb_yaml *node, const sb_k
 
 static sb_status read_seed(sb_reader *reader, const sb_yaml *node, const sb_key *key, uint64_t *value)
 {
-    sb_status status = want_scalar(reader, node, key);
+    sb_status status = require_scalar(reader, node, key);
     if (status != SB_OK) return status;
     errno = 0;
     if (node->quoted || node->text[strspn(node->text, "0123456789")] != '\0')
@@ -92,7 +92,7 @@ static sb_status read_seed(sb_reader *reader, const sb_yaml *node, const sb_key 
 
 static sb_status read_switch(sb_reader *reader, const sb_yaml *node, const sb_key *key, bool *value)
 {
-    sb_status status = want_scalar(reader, node, key);
+    sb_status status = require_scalar(reader, node, key);
     if (status != SB_OK) return status;
     bool on = strcmp(node->text, "true") == 0;
     if (node->quoted || (!on && strcmp(node->text, "false") != 0)) return refuse_text(reader, node, key, "is neither");
@@ -100,15 +100,15 @@ static sb_status read_switch(sb_reader *reader, const sb_yaml *node, const sb_ke
     return SB_OK;
 }
 
-/* What is told to a terminal gives it no orders: none of the control characters of ASCII but the tab, nor those from
-   U+0080 to U+009F. */
-static sb_status want_one_line(sb_reader *reader, const sb_yaml *node)
+/* Texts are printed on terminals and must not control them. Control characters of ASCII other than the tab, and those
+   from U+0080 to U+009F, are refused. */
+static sb_status require_one_line(sb_reader *reader, const sb_yaml *node)
 {
     const unsigned char *c = (const unsigned char *)node->text;
     for (; *c; c++) {
         const bool high = c[0] == 0xc2 && c[1] >= 0x80 && c[1] < 0xa0;
         if (high || (*c < ' ' && *c != '\t') || *c == 127)
-            return sb_reader_fail(reader, node, NULL, "holds the control character %d, expected text on one line",
+            return sb_reader_fail(reader, node, NULL, "contains the control character %d, expected text on one line",
                                   high ? c[1] : c[0]);
     }
     return SB_OK;
@@ -122,13 +122,13 @@ static sb_status copy_text(sb_reader *reader, const char *text, char **value)
 
 static sb_status read_name(sb_reader *reader, const sb_yaml *node, const sb_key *key, char *value)
 {
-    sb_status status = want_scalar(reader, node, key);
+    sb_status status = require_scalar(reader, node, key);
     if (status != SB_OK) return status;
     size_t length = strlen(node->text);
     if (length == 0) return refuse(reader, node, key, "is empty");
     if (length >= SB_NAME_MAX) return refuse_text(reader, node, key, "is too long");
     if (strspn(node->text, sb_name_letters) != length)
-        return refuse_text(reader, node, key, "has a character that no file name should have");
+        return refuse_text(reader, node, key, "has a character that is not allowed in a name");
     if (node->text[0] == '.' || node->text[0] == '-')
         return refuse_text(reader, node, key, "starts with a dot or a dash");
     memcpy(value, node->text, length + 1);
@@ -137,7 +137,7 @@ static sb_status read_name(sb_reader *reader, const sb_yaml *node, const sb_key 
 
 static sb_status read_file(sb_reader *reader, const sb_yaml *node, const sb_key *key, char **value)
 {
-    sb_status status = want_scalar(reader, node, key);
+    sb_status status = require_scalar(reader, node, key);
     if (status != SB_OK) return status;
     if (node->text[0] == '\0') return refuse(reader, node, key, "is empty");
     char path[SB_PATH_MAX];
@@ -152,15 +152,15 @@ static sb_status read_file(sb_reader *reader, const sb_yaml *node, const sb_key 
     return copy_text(reader, path, value);
 }
 
-/* Reads the items of a list of `wanted` numbers, the path naming the item at fault. */
-static sb_status read_numbers(sb_reader *reader, const sb_yaml *node, const sb_key *key, const double *wanted_end,
+/* Reads the numbers of a list into values..end. In an error the path names the item. */
+static sb_status read_numbers(sb_reader *reader, const sb_yaml *node, const sb_key *key, const double *end,
                               double *values)
 {
     size_t length = strlen(reader->path);
     sb_key item = *key;
     item.type = SB_KEY_NUMBER;
     sb_status status = SB_OK;
-    for (size_t i = 0; status == SB_OK && values + i < wanted_end; i++) {
+    for (size_t i = 0; status == SB_OK && values + i < end; i++) {
         snprintf(reader->path + length, sizeof reader->path - length, "[%zu]", i);
         status = read_number(reader, &node->items[i], &item, &values[i]);
     }
@@ -173,7 +173,7 @@ static sb_status make_unit(sb_reader *reader, const sb_yaml *node, const sb_key 
     double length = sb_norm(*vector);
     if (!(length > 0) || !isfinite(length))
         return refuse(reader, node, key, "is not a direction: its length must be a number > 0");
-    /* What is a unit vector already keeps its bits, so that a written scene reads back equal. */
+    /* A unit vector keeps its bits, so that a written scene is read back equal. */
     if (fabs(length - 1) > 1e-12) *vector = sb_scale(*vector, 1 / length);
     return SB_OK;
 }
@@ -223,9 +223,9 @@ static sb_status read_color(sb_reader *reader, const sb_yaml *node, const sb_key
     return status;
 }
 
-static sb_status read_word(sb_reader *reader, const sb_yaml *node, const sb_key *key, void *field)
+static sb_status read_choice(sb_reader *reader, const sb_yaml *node, const sb_key *key, void *field)
 {
-    sb_status status = want_scalar(reader, node, key);
+    sb_status status = require_scalar(reader, node, key);
     if (status != SB_OK) return status;
     if (key->type == SB_KEY_KERNEL) {
         const sb_kernel *kernel = sb_kernel_find(node->text);
@@ -272,10 +272,10 @@ sb_status sb_reader_value(sb_reader *reader, const sb_yaml *node, const sb_key *
     case SB_KEY_LETTER:
     case SB_KEY_KERNEL:
     case SB_KEY_LAW:
-        return read_word(reader, node, key, field);
+        return read_choice(reader, node, key, field);
     case SB_KEY_TEXT: {
-        sb_status status = want_scalar(reader, node, key);
-        if (status == SB_OK) status = want_one_line(reader, node);
+        sb_status status = require_scalar(reader, node, key);
+        if (status == SB_OK) status = require_one_line(reader, node);
         return status == SB_OK ? copy_text(reader, node->text, field) : status;
     }
     case SB_KEY_BLOCK:

@@ -13,12 +13,12 @@ typedef struct writer {
     int indent;
     bool dash;       /* the next key is the first of a list item */
     bool unwritable; /* a text is not UTF-8 */
-    bool identity;   /* what tells two scenes apart, rather than a scene to read */
+    bool identity;   /* writes the scene's identity instead of a scene */
     sb_status status;
-    sb_error error; /* of the first file that could not be hashed */
+    sb_error error; /* of the first file that could not be read */
 } writer;
 
-/* The shortest of the decimal forms that read back to the same number. */
+/* Writes the shortest decimal form that is read back as the same number. */
 static void put_number(FILE *stream, double number)
 {
     char text[40];
@@ -29,7 +29,7 @@ static void put_number(FILE *stream, double number)
     fputs(text, stream);
 }
 
-/* The code point at *text, which moves past it; -1 when the bytes are not UTF-8. */
+/* Returns the code point at *text and moves *text behind it; -1 if the bytes are not UTF-8. */
 static long next_code(const char **text)
 {
     const unsigned char *at = (const unsigned char *)*text;
@@ -46,7 +46,7 @@ static long next_code(const char **text)
     return code < least[more] || surrogate || code > 0x10ffff ? -1 : code;
 }
 
-/* In double quotes; what YAML would refuse or fold is escaped. */
+/* Writes the text in double quotes. Characters that YAML would refuse or fold are escaped. */
 static void put_text(writer *out, const char *text)
 {
     text = text ? text : "";
@@ -104,7 +104,7 @@ static sb_status hash_file(const char *path, uint64_t *hash, sb_error *error)
     return bad ? sb_fail(error, SB_BAD_INPUT, "%.500s: cannot read", path) : SB_OK;
 }
 
-/* A file is what is in it, wherever it lies. */
+/* A file is identified by its name and contents, not by its folder. */
 static void put_file_identity(writer *out, const char *path)
 {
     uint64_t hash = 0;
@@ -224,7 +224,7 @@ static void put_rows(writer *out, const sb_table *table, const void *item)
             put_row(out, &table->keys[i], item);
 }
 
-/* A stream into memory: what is written, without an end mark. */
+/* A text in memory to which a stream writes. */
 typedef struct memory_text {
     char *bytes;
     size_t length, capacity;
@@ -272,8 +272,8 @@ sb_status sb_scene_write(const sb_scene *scene, const char *path, sb_error *erro
         sb_atomic_abort(&file);
         return sb_fail(error, SB_BAD_INPUT,
                        "%.300s: a title, file name or address in the scene is not UTF-8, which "
-                       "YAML needs",
+                       "YAML requires",
                        path);
     }
-    return sb_atomic_commit(&file, 1, error); /* a resumed run begins with it */
+    return sb_atomic_commit(&file, 1, error); /* synchronised to disk, because a resumed run reads it */
 }

@@ -10,7 +10,7 @@ enum {
     NODES_MAX = 100000,
     DEPTH_MAX = 32,
     KEYS_MAX = 1000,
-    /* libyaml takes time quadratic in these two; no scene comes near. The outermost bracket may be the document. */
+    /* libyaml's time is quadratic in these two; no scene comes near them. The outermost bracket may be the document. */
     BRACKETS_MAX = DEPTH_MAX + 1,
     ANCHORS_MAX = 1000
 };
@@ -48,7 +48,7 @@ static sb_status load_scalar(loader *load, const yaml_node_t *node, char **text)
     if (!is_tag(node, YAML_STR_TAG))
         return fail_mark(load, node->start_mark, (const char *)node->tag, ": YAML tags are not used in a scene");
     if (strlen(value) != node->data.scalar.length)
-        return fail_mark(load, node->start_mark, "text holds a zero byte", "");
+        return fail_mark(load, node->start_mark, "text contains a zero byte", "");
     *text = sb_strdup(value);
     return *text ? SB_OK : sb_fail_memory(load->error, "the scene's YAML tree");
 }
@@ -79,7 +79,7 @@ static sb_status load_pair(loader *load, const yaml_node_pair_t *pair, int depth
 {
     const yaml_node_t *key = yaml_document_get_node(load->document, pair->key);
     if (key->type != YAML_SCALAR_NODE)
-        return fail_mark(load, key->start_mark, "a key that is a list or a block", ", expected a word");
+        return fail_mark(load, key->start_mark, "a key that is a list or a block", ", expected a name");
     sb_yaml *child = &map->items[map->count++];
     child->key_line = (int)key->start_mark.line + 1;
     child->key_column = (int)key->start_mark.column + 1;
@@ -103,16 +103,14 @@ static sb_status load_map(loader *load, const yaml_node_t *node, int depth, sb_y
     return status;
 }
 
-/* An alias is the same index again: its copy counts against NODES_MAX, and a loop against
-   DEPTH_MAX. */
+/* An alias has the index of its anchor. Its copy counts against NODES_MAX, and a loop against DEPTH_MAX. */
 static sb_status load_node(loader *load, int index, int depth, sb_yaml *out)
 {
     const yaml_node_t *node = yaml_document_get_node(load->document, index);
     if (depth > DEPTH_MAX)
-        return fail_mark(load, node->start_mark, "nested deeper than 32 levels", ", or an alias that holds itself");
+        return fail_mark(load, node->start_mark, "nested deeper than 32 levels", ", or an alias that contains itself");
     if (++load->nodes > NODES_MAX)
-        return fail_mark(load, node->start_mark, "more than 100000 values",
-                         ", aliases counted as often as they are used");
+        return fail_mark(load, node->start_mark, "more than 100000 values", ", with aliases counted at each use");
     if (load->source.placed) {
         out->line = (int)node->start_mark.line + 1;
         out->column = (int)node->start_mark.column + 1;
@@ -130,7 +128,7 @@ static sb_status load_node(loader *load, int index, int depth, sb_yaml *out)
     return load_scalar(load, node, &out->text);
 }
 
-/* Line and column (from 0) of a byte, for errors that libyaml places by offset only. */
+/* Line and column (from 0) of a byte, for errors whose place libyaml reports as an offset. */
 static yaml_mark_t mark_of(const char *text, size_t length, size_t offset)
 {
     yaml_mark_t mark = {0};
@@ -166,8 +164,8 @@ static sb_status explain(const yaml_parser_t *parser, sb_yaml_source source, con
     return fail_at(source, mark.line, mark.column, "not valid YAML: ", problem, error);
 }
 
-/* Counts as libyaml's scanner finds them, so that brackets in comments and quoted texts are none; text that cannot be
-   scanned is left to the parser, which says why. The scanner looks ahead by a kilobyte at most. */
+/* Counts brackets and anchors with libyaml's scanner, which ignores those in comments and quoted texts. If a text
+   cannot be scanned, the parser reports why. The scanner reads ahead by a kilobyte at most. */
 static sb_status prescan(sb_yaml_source source, const char *text, size_t length, sb_error *error)
 {
     size_t depth = 0, anchors = 0;

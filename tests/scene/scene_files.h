@@ -15,7 +15,7 @@
     "dimensions: 2\nresolution: 0.1\nduration: 1\ndomain: {min: [0, 0], max: [2, 1]}\n"                                \
     "water: {level: 0.5, seed: [1, 0.2]}\n"
 
-/* Writes text to a new file, its name into path. */
+/* Writes text to a new file and stores its name in path. */
 static inline void scene_file(const char *text, char path[256])
 {
     snprintf(path, 256, "%s/scene-XXXXXX", SB_BINARY_DIR);
@@ -37,7 +37,7 @@ static inline sb_status scene_read_text(const char *text, const char *preset, co
     return status;
 }
 
-/* Fails the test, with the message, when the text is refused. */
+/* Fails the test with the message if the text is refused. */
 static inline void scene_must_read(const char *text, const char *preset, const sb_override *overrides, size_t count,
                                    sb_scene *scene)
 {

@@ -1,4 +1,4 @@
-/* Every file of tests/scene/bad is refused, with the message its first line expects. */
+/* Every file of tests/scene/bad is refused with the message in its first line. */
 #include "../check.h"
 #include "base/memory.h"
 #include "scene/scene.h"
@@ -86,7 +86,7 @@ static void check_text(const char *bytes, size_t length, const char *expected)
     if (!strstr(error.text, expected)) fail_msg("%s\nexpected: %s", error.text, expected);
 }
 
-/* What a text file with a comment cannot hold. */
+/* Bad inputs that a text file with a comment cannot contain. */
 static void test_generated(void **state)
 {
     (void)state;

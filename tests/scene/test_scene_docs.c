@@ -1,5 +1,5 @@
-/* docs/scene.md documents every key: its tables, between marks "<!-- keys: block -->" and
-   "<!-- end -->", are what the key tables say. SB_UPDATE_DOCS=1 rewrites them instead. */
+/* docs/scene.md documents every key: its tables, between the marks "<!-- keys: block -->" and "<!-- end -->", agree
+   with the key tables. SB_UPDATE_DOCS=1 rewrites them instead. */
 #include "../check.h"
 #include "base/file.h"
 #include "base/memory.h"
@@ -58,7 +58,7 @@ static void add_row(void *context, const sb_scene_key *key)
     all->bare += bare || no_default;
 }
 
-/* The text between the block's marks; NULL when they are not there. */
+/* The text between the block's marks; NULL if they are missing. */
 static char *find_table(char *docs, const char *name, size_t *length)
 {
     char mark[160];
@@ -116,7 +116,7 @@ static void test_every_key(void **state)
     sb_free(all.blocks);
 }
 
-/* Kernels and laws are rows of tables elsewhere: a new one is to be named in the reference. */
+/* Kernels and laws are rows of other tables; docs/scene.md must name each of them. */
 static void test_every_row(void **state)
 {
     (void)state;
@@ -132,7 +132,7 @@ static void test_every_row(void **state)
     sb_free(docs);
 }
 
-/* The example in the docs is a scene. */
+/* The example in docs/scene.md is a valid scene. */
 static void test_example(void **state)
 {
     (void)state;

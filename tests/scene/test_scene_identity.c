@@ -1,4 +1,5 @@
-/* What tells two scenes apart for a run that goes on: all that its state follows from, and nothing else. */
+/* The identity of a scene, by which a resumed run is checked: it contains everything that determines the state, and
+   nothing else. */
 #include "base/memory.h"
 #include "scene_files.h"
 
@@ -7,7 +8,7 @@
 
 #define MOTION "0 0\n1 0.1\n"
 
-/* A scene whose terrain and paddle come from files, of these contents, in a folder of its own. */
+/* A scene whose terrain and paddle are files with these contents, in its own folder. */
 static char *identity_of(const char *heights, const char *motion, const char *key, const char *value)
 {
     char folder[256], path[3][300], text[2048];
@@ -46,7 +47,7 @@ static char *identity_of(const char *heights, const char *motion, const char *ke
     return identity;
 }
 
-static void test_what_counts(void **state)
+static void test_keys_of_the_identity(void **state)
 {
     (void)state;
     static const struct {
@@ -86,6 +87,6 @@ static void test_what_counts(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_what_counts)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_keys_of_the_identity)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* Every allocation of a read may fail: an error each time, nothing lost (leaks show under ASan). */
+/* Each allocation of a read fails once: an error each time, and no leak (checked by ASan). */
 #include "base/memory.h"
 #include "scene_files.h"
 

@@ -1,4 +1,4 @@
-/* --set KEY=VALUE: places by dots, indices and names, with the same checks as the file's keys. */
+/* --set KEY=VALUE: keys by dots, indices and names, with the same checks as in the file. */
 #include "scene_files.h"
 
 #include <string.h>

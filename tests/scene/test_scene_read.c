@@ -1,5 +1,4 @@
-/* What a scene means: values, defaults, the two dimensions, defaults that follow from other keys.
- */
+/* Reading a scene: values, defaults, 2D and 3D, and defaults that depend on other keys. */
 #include "scene_files.h"
 
 #include <string.h>
@@ -48,7 +47,7 @@ static void test_periodic_sides(void **state)
     assert_true(!sb_scene_repeats(&scene, 0) && sb_scene_repeats(&scene, 1));
     assert_false(sb_scene_repeats(&scene, 2));
     sb_scene_free(&scene);
-    /* Across a slice sides mean nothing, alone or not. */
+    /* In 2D the sides in y have no effect, alone or both. */
     scene_must_read("dimensions: 2\nresolution: 0.1\nduration: 1\n"
                     "domain: {min: [0, 0], max: [2, 1], sides: {y_max: periodic, "
                     "x_min: periodic, x_max: periodic}}\n"
@@ -196,7 +195,7 @@ static void test_aliases(void **state)
     sb_scene_free(&scene);
 }
 
-/* As some editors write; what is wrong is still found where it is. */
+/* Some editors write a byte order mark; errors still have the right place. */
 static void test_a_byte_order_mark(void **state)
 {
     (void)state;
@@ -241,8 +240,8 @@ static void test_presets(void **state)
     sb_scene_free(&mixed);
 }
 
-/* What guards the parser counts brackets and anchors, and none that stand in comments, texts or blocks of text. */
-static void test_brackets_that_are_none(void **state)
+/* The check before the parser counts brackets and anchors, but not those in comments, quoted texts or text blocks. */
+static void test_brackets_in_texts_do_not_count(void **state)
 {
     (void)state;
     char text[16384] = SCENE_HEAD "# ", title[64];
@@ -270,7 +269,7 @@ int main(void)
         cmocka_unit_test(test_aliases),
         cmocka_unit_test(test_a_byte_order_mark),
         cmocka_unit_test(test_presets),
-        cmocka_unit_test(test_brackets_that_are_none),
+        cmocka_unit_test(test_brackets_in_texts_do_not_count),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* A written scene reads back equal, for every scene of the project and for one with everything. */
+/* A written scene is read back equal, for every scene of the project and for one with all keys. */
 #include "scene_files.h"
 
 #include <glob.h>
