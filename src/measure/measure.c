@@ -85,9 +85,9 @@ static sb_status record_instants(sb_measure *measure, const sb_measure_view *vie
         record->eta = sea->present ? record->z - sea->level : (double)NAN;
         gauge_state *state = &measure->gauges[i];
         if (isnan(record->z))
-            state->thin = fmax(state->thin, water);
+            state->deepest = fmax(state->deepest, water);
         else
-            state->seen = true;
+            state->had_value = true;
     }
     for (size_t i = 0; status == SB_OK && i < settings->probe_count; i++) {
         sb_probe_record *record = append(measure, PROBES);
@@ -346,7 +346,7 @@ const sb_map_record *sb_measure_map(const sb_measure *measure)
 double sb_measure_gauge_missed(const sb_measure *measure, size_t gauge)
 {
     const gauge_state *state = &measure->gauges[gauge];
-    return state->seen ? 0 : state->thin;
+    return state->had_value ? 0 : state->deepest;
 }
 
 void sb_measure_fill_frame(const sb_measure *measure, sb_frame *frame)

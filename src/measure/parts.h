@@ -22,8 +22,8 @@ static inline double sb_repeat_length(const sb_scene *scene, sb_vec3 min, sb_vec
     return sb_scene_repeats(scene, axis) ? length : 0;
 }
 
-/* Distance below which particles are connected, in spacings. It exceeds the diagonal of a lattice face, 1.41; the next
-   distance in a lattice, 1.73, would bridge a missing layer. */
+/* Distance below which particles are connected, in spacings. It exceeds the diagonal of a lattice face, 1.41. With
+   the next distance in a lattice, 1.73, particles would be connected across a missing layer. */
 #define SB_LINK 1.5
 
 /* Absolute elevation z of the free surface at (x, y) in m, NaN when dry. floors are those of (x, y). See gauge.c for
@@ -52,8 +52,7 @@ void sb_plane_counter_destroy(sb_plane_counter *counter);
 sb_status sb_plane_counter_step(sb_plane_counter *counter, const sb_measure_view *view, double *volume,
                                 sb_error *error);
 size_t sb_plane_counter_bytes(const sb_plane_counter *counter);
-/* Saves the particles near the plane within a section of an archive, and loads them into a counter of the same plane.
- */
+/* Saves the particles near the plane in a section of an archive, and loads them into a counter of the same plane. */
 void sb_plane_counter_save(const sb_plane_counter *counter, sb_archive_out *out);
 sb_status sb_plane_counter_load(sb_plane_counter *counter, sb_archive_in *in, sb_error *error);
 

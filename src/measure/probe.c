@@ -136,8 +136,7 @@ static sb_status query_around(const sb_measure_view *view, sb_vec3 at, double ra
 
 /* Near a wall the first layer is ignored, the radius is larger to include the remaining layers, and the fit is the
    mean: the second layer's pressure is too low, and a linear fit would extrapolate that (at rest, in the second layer:
-   mean -5 % in 3D and -12 % in 2D, linear -9 % and -29 %). In a film that has only the first layer, that layer is used.
- */
+   mean -5 % in 3D and -12 % in 2D, linear -9 % and -29 %). In a film of only one layer, that layer is used. */
 static sb_status read_pressure(const sb_measure_view *view, const sb_probe *probe, const sb_patch *patch, double radius,
                                double *pressure, sb_error *error)
 {

@@ -97,8 +97,7 @@ static sb_status query_along(const sb_measure_view *view, const course *c, doubl
     return status;
 }
 
-/* Number of other particles within the support radius in half a layer: half of a lattice disc, in 2D of a lattice line.
- */
+/* Number of other particles within the support radius in half a layer: half of a disc of a lattice, in 2D of a line. */
 static size_t half_a_layer(const sb_scene *scene)
 {
     double s = scene->numerics.support;

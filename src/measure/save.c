@@ -60,8 +60,8 @@ void sb_measure_save(const sb_measure *measure, sb_archive_out *out)
     }
     sb_put_count(out, measure->scene->measure.gauge_count);
     for (size_t i = 0; i < measure->scene->measure.gauge_count; i++) {
-        sb_put_flag(out, measure->gauges[i].seen);
-        sb_put_real(out, measure->gauges[i].thin);
+        sb_put_flag(out, measure->gauges[i].had_value);
+        sb_put_real(out, measure->gauges[i].deepest);
     }
     sb_put_flag(out, measure->map != NULL);
     if (measure->map) sb_map_save(measure->map, out);
@@ -86,8 +86,8 @@ static void take_gauges(sb_measure *measure, sb_archive_in *in)
     if (sb_take_count(in, SIZE_MAX) != count)
         sb_archive_refuse(in, "a different number of gauges, expected %zu", count);
     for (size_t i = 0; i < count; i++) {
-        measure->gauges[i].seen = sb_take_flag(in);
-        measure->gauges[i].thin = sb_take_real(in);
+        measure->gauges[i].had_value = sb_take_flag(in);
+        measure->gauges[i].deepest = sb_take_real(in);
     }
 }
 

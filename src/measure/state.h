@@ -26,8 +26,8 @@ typedef struct plane_state {
 
 /* A gauge over all rows: whether it ever had a value, and the greatest depth while it had none, m. */
 typedef struct gauge_state {
-    bool seen;
-    double thin;
+    bool had_value;
+    double deepest;
 } gauge_state;
 
 enum { MAX_SKIPPED = 8 };

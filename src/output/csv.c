@@ -51,8 +51,7 @@ static const struct {
     [RUNUP] = {"time_s,line,x_m,y_m,z_m,front_m,apart_m", "time_s,line,x_m,y_m,z_m,front_m,apart_m"},
 };
 
-/* The message of the first file that failed, or SB_OK. A removed file is an error too: its rows would be lost silently.
- */
+/* The message of the first file that failed, or SB_OK. A removed file is an error too: its rows would be lost. */
 static sb_status check(const sb_csv *csv, sb_error *error)
 {
     for (int k = 0; k < TABLES; k++) {

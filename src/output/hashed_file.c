@@ -28,7 +28,7 @@ static ssize_t take(void *cookie, const char *bytes, size_t count)
     sb_hash_add(&file->hash, bytes, done);
     for (size_t i = done; i > 0; i--)
         if (bytes[i - 1] == '\n') {
-            file->whole = file->length + i;
+            file->complete = file->length + i;
             break;
         }
     file->length += done;
@@ -105,7 +105,7 @@ sb_status sb_hashed_resume(sb_hashed_file *file, const char *path, uint64_t leng
         status = cannot("write", path, SB_FAILED, error);
     else
         status = make_stream(file, path, error);
-    file->whole = length;
+    file->complete = length;
     if (status != SB_OK) sb_hashed_close(file);
     return status;
 }
@@ -122,7 +122,7 @@ int sb_hashed_close(sb_hashed_file *file)
         reason = file->failed;
     }
     /* Shortening a file succeeds on a full disk. If it does not, the first reason is kept. */
-    if (result != 0 && file->file && ftruncate(fileno(file->file), (off_t)file->whole) != 0 && reason == 0)
+    if (result != 0 && file->file && ftruncate(fileno(file->file), (off_t)file->complete) != 0 && reason == 0)
         reason = errno;
     if (file->file && fclose(file->file) != 0 && result == 0) {
         result = EOF;

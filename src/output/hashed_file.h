@@ -11,7 +11,7 @@ typedef struct sb_hashed_file {
     FILE *stream; /* to write to; NULL: closed */
     FILE *file;   /* the underlying file */
     uint64_t length;
-    uint64_t whole;       /* length up to the end of the last complete line */
+    uint64_t complete;    /* length up to the end of the last complete line */
     sb_running_hash hash; /* of what was flushed, like the lengths */
     int failed;           /* errno of the first write error, after which nothing is written; 0: none */
 } sb_hashed_file;

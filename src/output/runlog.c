@@ -18,9 +18,9 @@ struct sb_runlog {
     FILE *stream;
     char path[SB_PATH_MAX];
     double opened;
-    off_t whole; /* length up to the end of the last complete line */
-    int reason;  /* errno of the first failure, 0: none */
-    bool lost;   /* removed, and could not be created again */
+    off_t complete; /* length up to the end of the last complete line */
+    int reason;     /* errno of the first failure, 0: none */
+    bool lost;      /* removed, and could not be created again */
     pthread_mutex_t mutex;
 };
 
@@ -35,7 +35,7 @@ static sb_status open_log(const char *path, const char *mode, sb_runlog **log, s
         return status;
     }
     made->opened = sb_clock();
-    if (fseeko(made->stream, 0, SEEK_END) == 0) made->whole = ftello(made->stream);
+    if (fseeko(made->stream, 0, SEEK_END) == 0) made->complete = ftello(made->stream);
     pthread_mutex_init(&made->mutex, NULL);
     *log = made;
     return SB_OK;
@@ -77,16 +77,16 @@ bool sb_runlog_remade(sb_runlog *log)
     struct stat found;
     if (!log) return false;
     pthread_mutex_lock(&log->mutex);
-    const bool gone = !log->lost && fstat(fileno(log->stream), &found) == 0 && found.st_nlink == 0;
+    const bool removed = !log->lost && fstat(fileno(log->stream), &found) == 0 && found.st_nlink == 0;
     FILE *created = NULL;
-    log->lost |= gone && sb_file_open(log->path, "a", &created, NULL) != SB_OK;
+    log->lost |= removed && sb_file_open(log->path, "a", &created, NULL) != SB_OK;
     if (created) {
         fclose(log->stream); /* each line was flushed */
         log->stream = created;
-        log->whole = fseeko(created, 0, SEEK_END) == 0 ? ftello(created) : 0;
+        log->complete = fseeko(created, 0, SEEK_END) == 0 ? ftello(created) : 0;
     }
     pthread_mutex_unlock(&log->mutex);
-    return gone;
+    return removed;
 }
 
 static sb_status write_status(const sb_runlog *log, sb_error *error)
@@ -125,14 +125,13 @@ static void begin(sb_runlog *log, sb_json *json, const char *event)
     sb_json_number(json, "wall_s", sb_clock() - log->opened);
 }
 
-/* Removes an incomplete line after a write error. Shortening succeeds on a full disk, and the next line may fit again.
- */
+/* Removes an incomplete line after a write error. Shortening works on a full disk, and the next line may fit again. */
 static void remove_line(sb_runlog *log)
 {
     if (!log->reason) log->reason = errno ? errno : EIO;
     __fpurge(log->stream);
     clearerr(log->stream);
-    if (ftruncate(fileno(log->stream), log->whole) == 0) (void)fseeko(log->stream, log->whole, SEEK_SET);
+    if (ftruncate(fileno(log->stream), log->complete) == 0) (void)fseeko(log->stream, log->complete, SEEK_SET);
 }
 
 static void end(sb_runlog *log, sb_json *json)
@@ -141,7 +140,7 @@ static void end(sb_runlog *log, sb_json *json)
     if (fflush(log->stream) != 0 || ferror(log->stream))
         remove_line(log);
     else
-        log->whole = ftello(log->stream);
+        log->complete = ftello(log->stream);
     pthread_mutex_unlock(&log->mutex);
 }
 

@@ -278,8 +278,7 @@ static inline bool sb_scene_repeats(const sb_scene *scene, int axis)
 /* The sides' names in a scene: "x_min" and so on. */
 extern const char *const sb_side_names[SB_SIDES];
 
-/* Speed above which the simulation counts as diverged, m/s: 100 times that of a fall from half of the domain's height.
- */
+/* Speed above which a simulation counts as diverged, m/s: 100 times that of a fall from half the domain's height. */
 static inline double sb_scene_speed_limit(const sb_scene *scene)
 {
     return 100 * sqrt(scene->fluid.gravity * (scene->domain.max.z - scene->domain.min.z));

@@ -100,8 +100,8 @@ static const sb_key wave_keys[] = {
 };
 /* clang-format on */
 
-/* Greatest height of a solitary wave over its depth [Longuet-Higgins and Fenton 1974: 0.827; Hunter and Vanden-Broeck
- * 1983: 0.8332]. */
+/* Greatest height of a solitary wave over its depth [Longuet-Higgins and Fenton 1974: 0.827; Hunter and
+   Vanden-Broeck 1983: 0.8332]. */
 static const double HIGHEST = 0.8332;
 
 static sb_status finish_wave(sb_reader *reader, const sb_yaml *map, void *item)

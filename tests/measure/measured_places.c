@@ -135,8 +135,7 @@ static void a_probe_in_a_narrow_channel_reads_hydrostatic_pressure(void **state)
     check_pressures(&r, z, 2, 0.5, 0.1);
 }
 
-/* A tread of two and a half spacings consists almost of edges only, where pressures are too low: here by less than 40
- * %. */
+/* A tread of two and a half spacings consists almost only of edges. Its pressure is too low, but by less than 40 %. */
 static void a_probe_on_a_narrow_tread_reads_low_within_bounds(void **state)
 {
     (void)state;

@@ -113,7 +113,7 @@ static void wall_probes_add_up_to_the_force(void **state)
     t.scene.measure = (sb_measure_settings){.interval = 0.002, .probe_count = PROBES, .probes = probes};
     sb_sim *sim = tank_sim(&t);
     sb_measure *measure;
-    double borne = 0, force = 0, greatest = 0;
+    double probe_impulse = 0, force = 0, greatest = 0;
     assert_non_null(sim);
     assert_int_equal(sb_measure_create(&t.scene, &t.model, sim, &measure, NULL), SB_OK);
     while (sb_sim_report(sim)->time < 1.2) {
@@ -121,16 +121,16 @@ static void wall_probes_add_up_to_the_force(void **state)
         assert_int_equal(sb_measure_step(measure, sim, NULL), SB_OK);
         const sb_measure_records *r = sb_measure_latest(measure);
         for (size_t i = 0; i < r->probe_count; i++)
-            borne += isnan(r->probes[i].pressure) ? 0 : r->probes[i].pressure * spacing * 0.002;
+            probe_impulse += isnan(r->probes[i].pressure) ? 0 : r->probes[i].pressure * spacing * 0.002;
         for (size_t i = 0; i < r->force_count; i++) {
             if (r->forces[i].body != 0) continue;
             force += r->forces[i].force.x * 0.002;
             greatest = fmax(greatest, r->forces[i].force.x);
         }
     }
-    print_message("probes %.0f N s/m, body %.0f N s/m, at most %.0f N/m\n", borne, force, greatest);
+    print_message("probes %.0f N s/m, body %.0f N s/m, at most %.0f N/m\n", probe_impulse, force, greatest);
     assert_true(greatest > 5000); /* the water struck the wall */
-    assert_true(fabs(borne / force - 1) < 0.05);
+    assert_true(fabs(probe_impulse / force - 1) < 0.05);
     sb_measure_destroy(measure);
     sb_sim_destroy(sim);
     tank_free(&t);

@@ -67,9 +67,9 @@ static const char *json_value(const char *at)
     if (*at == '{') return json_members(at + 1, '}', true);
     if (*at == '[') return json_members(at + 1, ']', false);
     if (*at == '"') return json_string(at);
-    const char *const words[] = {"true", "false", "null"};
+    const char *const literals[] = {"true", "false", "null"};
     for (int i = 0; i < 3; i++)
-        if (strncmp(at, words[i], strlen(words[i])) == 0) return at + strlen(words[i]);
+        if (strncmp(at, literals[i], strlen(literals[i])) == 0) return at + strlen(literals[i]);
     return json_number_text(at);
 }
 

@@ -19,9 +19,9 @@ static char *printed(const sb_profile *profile)
     return text;
 }
 
-static void assert_says(const char *text, const char *words)
+static void assert_contains(const char *text, const char *expected)
 {
-    if (!strstr(text, words)) fail_msg("\"%s\" is not in\n%s", words, text);
+    if (!strstr(text, expected)) fail_msg("\"%s\" is not in\n%s", expected, text);
 }
 
 static const sb_stage_time stages[] = {{"sort", 0.25, 20}, {"source", 0.5, 20}, {"pressure", 1.25, 20}};
@@ -48,13 +48,14 @@ static void fractions_and_costs_include_settling(void **state)
 {
     (void)state;
     char *text = printed(&profile);
-    assert_says(text, "sort                      20      0.250   12.5%               12500.00\n");
-    assert_says(text, "pressure                  20      1.250   62.5%               62500.00\n");
-    assert_says(text, "all stages                        2.000  100.0%              100000.00\n");
-    assert_says(text, "15 steps after 5 settling steps, 4.0 iterations per step, "
-                      "1e+04 particle-steps per second, 2 threads\n");
-    assert_says(text, "3.000 s in total: 0.500 s set-up, 0.750 s settling, 0.500 s outside stages; 1.5 s simulated\n");
-    assert_says(text, "simulation 2.5 MB, peak of the process ");
+    assert_contains(text, "sort                      20      0.250   12.5%               12500.00\n");
+    assert_contains(text, "pressure                  20      1.250   62.5%               62500.00\n");
+    assert_contains(text, "all stages                        2.000  100.0%              100000.00\n");
+    assert_contains(text, "15 steps after 5 settling steps, 4.0 iterations per step, "
+                          "1e+04 particle-steps per second, 2 threads\n");
+    assert_contains(text,
+                    "3.000 s in total: 0.500 s set-up, 0.750 s settling, 0.500 s outside stages; 1.5 s simulated\n");
+    assert_contains(text, "simulation 2.5 MB, peak of the process ");
     free(text);
 }
 
@@ -62,9 +63,9 @@ static void skipped_terms_are_listed_with_their_savings(void **state)
 {
     (void)state;
     char *text = printed(&profile);
-    assert_says(text, "  stress correction: off; 3 passes over particle pairs per step\n"
-                      "  turbulence: none; 1 pass over particle pairs per step; 2.5 MB\n  stream: off\n");
-    assert_says(
+    assert_contains(text, "  stress correction: off; 3 passes over particle pairs per step\n"
+                          "  turbulence: none; 1 pass over particle pairs per step; 2.5 MB\n  stream: off\n");
+    assert_contains(
         text,
         "saved: 4 passes over particle pairs per step, about 2 s so far; 2.5 MB\n"); /* 4 times the stage source */
     free(text);
@@ -77,7 +78,7 @@ static void a_run_without_steps_does_not_divide_by_zero(void **state)
     char *text = printed(&empty);
     assert_null(strstr(text, "nan"));
     assert_null(strstr(text, "inf"));
-    assert_says(text, "0 steps after 0 settling steps");
+    assert_contains(text, "0 steps after 0 settling steps");
     free(text);
 }
 

@@ -93,7 +93,7 @@ static void summary_has_the_documented_keys(void **state)
     char *text = text_of("summary.json");
     assert_true(json_valid(text));
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
-        if (!json_find(text, keys[i])) fail_msg("summary.json lacks %s", keys[i]);
+        if (!json_find(text, keys[i])) fail_msg("summary.json has no key %s", keys[i]);
     }
     assert_true(strtod(json_find(text, "mean_iterations"), NULL) == 2.5);
     assert_true(strtod(json_find(text, "compression_mean"), NULL) == 0.125); /* of four steps */
@@ -273,13 +273,13 @@ static void progress_prints_when_due(void **state)
     sb_progress_settled(&progress);
     sb_progress_update(&progress, &report);
     sb_progress_end(&progress, &report);
-    char words[32];
-    sb_progress_duration(words, 3725);
-    assert_string_equal(words, "1h 02m");
-    sb_progress_duration(words, 185);
-    assert_string_equal(words, "3m 05s");
-    sb_progress_duration(words, (double)NAN);
-    assert_string_equal(words, "?");
+    char duration[32];
+    sb_progress_duration(duration, 3725);
+    assert_string_equal(duration, "1h 02m");
+    sb_progress_duration(duration, 185);
+    assert_string_equal(duration, "3m 05s");
+    sb_progress_duration(duration, (double)NAN);
+    assert_string_equal(duration, "?");
 }
 
 static void progress_prints_settling(void **state)

@@ -120,14 +120,14 @@ static void test_every_key(void **state)
 static void test_every_row(void **state)
 {
     (void)state;
-    char *docs, word[80];
+    char *docs, name[80];
     size_t length;
     sb_error error = {0};
     assert_int_equal(sb_file_read(DOCS, 1u << 20, &docs, &length, &error), SB_OK);
     for (size_t i = 0; sb_kernels[i]; i++) assert_non_null(strstr(docs, sb_kernels[i]->name));
     for (size_t i = 0; sb_wavemakers[i]; i++) {
-        snprintf(word, sizeof word, "`%s`", sb_wavemakers[i]->name);
-        assert_non_null(strstr(docs, word));
+        snprintf(name, sizeof name, "`%s`", sb_wavemakers[i]->name);
+        assert_non_null(strstr(docs, name));
     }
     sb_free(docs);
 }

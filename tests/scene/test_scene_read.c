@@ -142,11 +142,11 @@ static void test_two_dimensions(void **state)
     assert_near(scene.domain.max.y, 0, 0);
     assert_near(scene.domain.max.z, 1, 0);
     assert_near(scene.sea.seed.z, 0.2, 0);
-    double reach = 2 * scene.numerics.support * 0.1;
-    assert_near(scene.bodies[0].min.y, -reach, 0);
-    assert_near(scene.bodies[0].max.y, reach, 0);
+    double half_width = 2 * scene.numerics.support * 0.1;
+    assert_near(scene.bodies[0].min.y, -half_width, 0);
+    assert_near(scene.bodies[0].max.y, half_width, 0);
     assert_near(scene.bodies[1].max.y, 4, 0);
-    assert_near(scene.bodies[2].width, 2 * reach, 0);
+    assert_near(scene.bodies[2].width, 2 * half_width, 0);
     assert_near(scene.bodies[2].normal.z, 1, 0);
     assert_near(scene.wavemakers[0].direction.z, 1, 0);
     assert_near(scene.wavemakers[0].law.gravity, 9.81, 0);

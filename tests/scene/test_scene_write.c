@@ -147,17 +147,17 @@ static void test_scenes_of_the_project(void **state)
 static void fill_in(const char *mesh, char *text, size_t size)
 {
     const struct {
-        const char *word, *with;
-    } words[] = {{"FILE", mesh}, {"KERNEL", sb_kernels[1]->name}};
+        const char *key, *value;
+    } texts[] = {{"FILE", mesh}, {"KERNEL", sb_kernels[1]->name}};
     size_t used = 0;
     for (const char *at = everything; *at;) {
         size_t i = 0;
-        while (i < 2 && strncmp(at, words[i].word, strlen(words[i].word)) != 0) i++;
+        while (i < 2 && strncmp(at, texts[i].key, strlen(texts[i].key)) != 0) i++;
         if (i < 2)
-            used += (size_t)snprintf(text + used, size - used, "%s", words[i].with);
+            used += (size_t)snprintf(text + used, size - used, "%s", texts[i].value);
         else
             text[used++] = *at;
-        at += i < 2 ? strlen(words[i].word) : 1;
+        at += i < 2 ? strlen(texts[i].key) : 1;
         assert_true(used < size - 1);
     }
     text[used] = '\0';
