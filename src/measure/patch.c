@@ -309,15 +309,16 @@ static void set_volumes(sb_patch *patch, const sb_scene *scene)
     double h = n->support * scene->resolution;
     for (size_t i = 0; i < patch->count; i++) {
         const patch_wall *at = &patch->walls[i];
-        double sum = 0, bulge = 0;
+        double sum = 0, curvature = 0;
         for (size_t k = 0; k < patch->count; k++) {
             const sb_vec3 d = sb_sub(patch->walls[k].position, at->position);
             const double w = sb_kernel_value(n->kernel, scene->dimensions, h, sb_norm(d));
             sum += w;
-            if (sb_wall_bends_with(sb_dot(at->normal, patch->walls[k].normal))) bulge += w * sb_dot(d, at->normal) / h;
+            if (sb_wall_curvature_includes(sb_dot(at->normal, patch->walls[k].normal)))
+                curvature += w * sb_dot(d, at->normal) / h;
         }
-        const double bend = of_lattice ? sb_wall_bend(bulge / sum) : 1;
-        patch->walls[i].psi = gamma * scene->fluid.density / sum * bend;
+        const double factor = of_lattice ? sb_wall_curvature_factor(curvature / sum) : 1;
+        patch->walls[i].psi = gamma * scene->fluid.density / sum * factor;
     }
 }
 

@@ -1,4 +1,4 @@
-/* Computes the factors gamma and bend of the wall volume. */
+/* Computes the factors gamma and curvature_factor of the wall volume. */
 #include "physics/wall_volume.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 /* Fitted to the same balance as gamma, at edges of 90 degrees: least squares give 2 to 10 at convex edges and 9 to 22
    at concave edges, for lattices that are aligned with the walls or turned at random. Round walls with radii down to 3
    spacings give similar values. */
-static const double BEND = 8;
+static const double CURVATURE_COEFFICIENT = 8;
 
 /* Sums W (slope: 0), or the component of grad W normal to the plane (slope: 1), over the points of a square lattice in
    a plane (a row in 2D) whose spacing is `step`. The sum is taken at the distance `apart` from the plane, above a
@@ -45,7 +45,7 @@ double sb_wall_gamma(const sb_kernel *kernel, int dimension, double support, dou
     return square > 0 ? product / square : 1;
 }
 
-double sb_wall_bend(double bulge)
+double sb_wall_curvature_factor(double curvature)
 {
-    return 1 + BEND * bulge * fabs(bulge);
+    return 1 + CURVATURE_COEFFICIENT * curvature * fabs(curvature);
 }

@@ -1,5 +1,6 @@
-/* The wall volume psi of a boundary particle, which is its mass in the density sum: psi_b = gamma rho_0 bend / sum_k
-   W_bk over the boundary particles k within the support radius, b included [A12], [S16, eq. 30 with gamma and bend]. */
+/* The wall volume psi of a boundary particle, which is its mass in the density sum: psi_b = gamma rho_0
+   curvature_factor / sum_k W_bk over the boundary particles k within the support radius, b included [A12], [S16, eq.
+   30 with gamma and curvature_factor]. */
 #ifndef SB_PHYSICS_WALL_VOLUME_H
 #define SB_PHYSICS_WALL_VOLUME_H
 
@@ -10,14 +11,15 @@
    support, offset and the spacing of the boundary particles are in particle spacings of the water. */
 double sb_wall_gamma(const sb_kernel *kernel, int dimension, double support, double offset, double spacing);
 
-/* Returns the ratio of the wall volume at a bend of the boundary surface to the wall volume on a plane. bulge is sum_k
-   W_bk (x_k - x_b).n_b / (h sum_k W_bk) over those k whose normals do not oppose n_b (the unit normal of b, towards the
-   water). It is negative on convex walls: -0.13 at a straight edge, -0.19 at a corner of three faces. */
-double sb_wall_bend(double bulge);
+/* Returns the ratio of the wall volume where the boundary surface is curved to the wall volume on a plane. curvature
+   is s_b = sum_k W_bk (x_k - x_b).n_b / (h sum_k W_bk) over those k whose normals do not oppose n_b (the unit normal
+   of b, towards the water). It is negative on convex walls: -0.13 at a straight edge, -0.19 at a corner of three
+   faces. */
+double sb_wall_curvature_factor(double curvature);
 
-/* Returns whether k is included in the bulge of b, given the scalar product of their normals. This excludes the far
-   face of a thin wall. */
-static inline int sb_wall_bends_with(double normals)
+/* Returns whether k is included in the curvature of b, given the scalar product of their normals. This excludes the
+   far face of a thin wall. */
+static inline int sb_wall_curvature_includes(double normals)
 {
     return normals > -0.1;
 }

@@ -30,7 +30,7 @@ static void add_sums(const sb_sim *sim, const sb_wall_set *set, sb_record at, si
                     const double w =
                         sb_kernel_value(sim->scene->numerics.kernel, sim->constant.dimension, h, sqrt(r2) * quantum);
                     s->kernel += w;
-                    if (sb_wall_bends_with((double)sb_sum3(normal * set->normal[k])))
+                    if (sb_wall_curvature_includes((double)sb_sum3(normal * set->normal[k])))
                         s->curvature -= w * (double)sb_sum3(normal * d) * quantum / h;
                 }
             }
@@ -53,7 +53,7 @@ int sb_wall_volumes(const sb_sim *sim, sb_wall_set *set, bool only_own)
         add_sums(sim, set, set->record[i], i, only_own, &s);
         int images = sim->space.repeats ? sb_space_images(&sim->space, set->record[i], image) : 0;
         for (int k = 0; k < images; k++) add_sums(sim, set, image[k], i, only_own, &s);
-        psi[i] = (float)(scale / s.kernel * (of_lattice ? sb_wall_bend(s.curvature / s.kernel) : 1));
+        psi[i] = (float)(scale / s.kernel * (of_lattice ? sb_wall_curvature_factor(s.curvature / s.kernel) : 1));
     }
     for (size_t i = 0; i < set->count; i++) sb_carry(&set->record[i], psi[i]);
     sb_free(psi);

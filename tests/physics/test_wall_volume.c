@@ -79,21 +79,21 @@ static void gamma_depends_little_on_the_wall_spacing(void **state)
     }
 }
 
-static void bend_is_one_on_planes_and_differs_at_edges(void **state)
+static void curvature_factor_is_one_on_planes_and_differs_at_edges(void **state)
 {
     (void)state;
-    assert_near(sb_wall_bend(0), 1, 0);
-    for (double bulge = 0.05; bulge < 0.21; bulge += 0.05) {
-        assert_true(sb_wall_bend(bulge) > sb_wall_bend(bulge - 0.05));
-        assert_near(sb_wall_bend(bulge) + sb_wall_bend(-bulge), 2, 1e-12);
-        assert_true(sb_wall_bend(-bulge) > 0.5);
+    assert_near(sb_wall_curvature_factor(0), 1, 0);
+    for (double curvature = 0.05; curvature < 0.21; curvature += 0.05) {
+        assert_true(sb_wall_curvature_factor(curvature) > sb_wall_curvature_factor(curvature - 0.05));
+        assert_near(sb_wall_curvature_factor(curvature) + sb_wall_curvature_factor(-curvature), 2, 1e-12);
+        assert_true(sb_wall_curvature_factor(-curvature) > 0.5);
     }
-    assert_true(sb_wall_bends_with(1) && sb_wall_bends_with(0) && !sb_wall_bends_with(-1));
+    assert_true(sb_wall_curvature_includes(1) && sb_wall_curvature_includes(0) && !sb_wall_curvature_includes(-1));
 }
 
 /* The concave edge of a floor and a wall, both lines of boundary particles, with water in the quarter between them.
-   Returns the root mean square residual within two spacings of the edge, with or without the bend. */
-static double residual_at_an_edge(bool bend)
+   Returns the root mean square residual within two spacings of the edge, with or without the curvature factor. */
+static double residual_at_an_edge(bool curved)
 {
     const sb_kernel *kernel = sb_kernel_find("wendland-c2");
     const double offset = 0.575, gamma = sb_wall_gamma(kernel, 2, 3, offset, 1);
@@ -107,14 +107,14 @@ static double residual_at_an_edge(bool bend)
         normal[2 * i + 1] = sb_vec(1, 0, 0);
     }
     for (int b = 0; b < 2 * SIDE; b++) {
-        double all = 0, bulge = 0;
+        double all = 0, curvature = 0;
         for (int k = 0; k < 2 * SIDE; k++) {
             const sb_vec3 d = sb_sub(at[k], at[b]);
             const double w = sb_kernel_value(kernel, 2, 3, sb_norm(d));
             all += w;
-            bulge += w * sb_dot(d, normal[b]) / 3;
+            curvature += w * sb_dot(d, normal[b]) / 3;
         }
-        psi[b] = gamma / all * (bend ? sb_wall_bend(bulge / all) : 1);
+        psi[b] = gamma / all * (curved ? sb_wall_curvature_factor(curvature / all) : 1);
     }
     for (int x = 0; x < 2; x++)
         for (int z = 0; z < 2; z++) {
@@ -135,11 +135,11 @@ static double residual_at_an_edge(bool bend)
     return sqrt(sum / 4);
 }
 
-static void the_bend_reduces_the_residual_at_an_edge(void **state)
+static void the_curvature_factor_reduces_the_residual_at_an_edge(void **state)
 {
     (void)state;
     const double without = residual_at_an_edge(false), with = residual_at_an_edge(true);
-    printf("residual at an edge: %.4f, with the bend %.4f\n", without, with);
+    printf("residual at an edge: %.4f, with the curvature factor %.4f\n", without, with);
     assert_true(with < 0.6 * without);
 }
 
@@ -149,8 +149,8 @@ int main(void)
         cmocka_unit_test(a_lattice_on_a_plane_is_at_rest),
         cmocka_unit_test(gamma_is_the_best_one),
         cmocka_unit_test(gamma_depends_little_on_the_wall_spacing),
-        cmocka_unit_test(bend_is_one_on_planes_and_differs_at_edges),
-        cmocka_unit_test(the_bend_reduces_the_residual_at_an_edge),
+        cmocka_unit_test(curvature_factor_is_one_on_planes_and_differs_at_edges),
+        cmocka_unit_test(the_curvature_factor_reduces_the_residual_at_an_edge),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
