@@ -243,7 +243,7 @@ static sb_status begin(run *r, sb_error *error)
     sb_sim_find_virial_pressures(r->sim);
     status = sb_measure_create(r->scene, &r->model, r->sim, &r->measure, error);
     if (status != SB_OK) return status;
-    sb_model_forget_particles(&r->model);
+    sb_model_free_particles(&r->model);
     sb_runlog_skipped(r->log, sb_measure_skipped(r->measure));
     r->first_energy = sb_sim_energy(r->sim);
     status = sb_csv_open(r->directory, r->scene, &r->model, &r->csv, error);
@@ -280,7 +280,7 @@ static sb_status go_on(run *r, sb_error *error)
     if (status == SB_OK) status = sb_checkpoint_load(r, error);
     if (status == SB_OK) status = check_end(r, error);
     if (status != SB_OK) return give_up(r, status);
-    sb_model_forget_particles(&r->model);
+    sb_model_free_particles(&r->model);
     r->setup_seconds = sb_progress_wall(&r->progress);
     const sb_step_report *report = sb_sim_report(r->sim);
     const bool over = report->time >= r->scene->duration * (1 - 1e-12);
@@ -322,7 +322,7 @@ sb_status sb_run_start(run *r, const sb_run_manner *manner, sb_error *error)
     if (status == SB_OK) sb_team_warnings(warn, r);
     if (status == SB_OK && from != CHECKPOINT) status = start_consumers(r, error);
     if (status != SB_OK) return give_up(r, status);
-    sb_model_forget_start(&r->model);
+    sb_model_free_start(&r->model);
     if (from == CHECKPOINT) return go_on(r, error);
     status = write_running(r, error);
     if (status != SB_OK) return status;

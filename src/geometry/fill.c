@@ -1,3 +1,4 @@
+/* Fills the sea and the boxes of water one after another, and removes particles where they overlap. */
 #include "geometry/fill.h"
 
 #include "base/memory.h"
@@ -8,8 +9,8 @@
 
 #include <string.h>
 
-/* In spacings: where waters meet, a later particle this near to an earlier one is its double. */
-static const double double_distance = 0.7;
+/* In particle spacings: a particle nearer than this to a particle of an earlier sea or box is a duplicate. */
+static const double duplicate_distance = 0.7;
 
 void sb_fluid_free(sb_fluid *fluid)
 {
@@ -21,7 +22,7 @@ void sb_fluid_free(sb_fluid *fluid)
     *fluid = (sb_fluid){0};
 }
 
-/* Particles of `fluid` within the box [min, max], for questions of distance. */
+/* Adds the particles of `fluid` within the box [min, max] to a set for distance queries. */
 static int gather(const sb_fluid *fluid, sb_vec3 min, sb_vec3 max, sb_sample_set *set)
 {
     for (size_t i = 0; i < fluid->count; ++i) {
@@ -33,24 +34,25 @@ static int gather(const sb_fluid *fluid, sb_vec3 min, sb_vec3 max, sb_sample_set
     return 0;
 }
 
-/* Drops from `more` what earlier waters hold already, or what is too near to their particles. */
-static int drop_doubles(const sb_columns *waters, size_t water_count, const sb_fluid *fluid, double spacing,
-                        sb_fluid *more)
+/* Removes from `more` the particles that lie in an earlier sea or box or too near to a particle of it. */
+static int drop_duplicates(const sb_columns *waters, size_t water_count, const sb_fluid *fluid, double spacing,
+                           sb_fluid *more)
 {
     sb_vec3 min = sb_vec(HUGE_VAL, HUGE_VAL, HUGE_VAL), max = sb_scale(min, -1);
     for (size_t i = 0; i < more->count; ++i) {
         min = sb_min(min, more->position[i]);
         max = sb_max(max, more->position[i]);
     }
-    sb_vec3 reach = {spacing, spacing, spacing};
+    sb_vec3 margin = {spacing, spacing, spacing};
     sb_sample_set set = {.cell = spacing, .origin = min};
-    int failed = more->count > 0 && gather(fluid, sb_sub(min, reach), sb_add(max, reach), &set);
+    int failed = more->count > 0 && gather(fluid, sb_sub(min, margin), sb_add(max, margin), &set);
     size_t kept = 0;
     for (size_t i = 0; i < more->count && !failed; ++i) {
         failed = sb_stop_signal();
-        bool doubled = sb_sample_set_any(&set, more->position[i], double_distance * spacing);
-        for (size_t w = 0; w < water_count && !doubled; ++w) doubled = sb_columns_hold(waters + w, more->position[i]);
-        if (doubled) continue;
+        bool duplicate = sb_sample_set_any(&set, more->position[i], duplicate_distance * spacing);
+        for (size_t w = 0; w < water_count && !duplicate; ++w)
+            duplicate = sb_columns_hold(waters + w, more->position[i]);
+        if (duplicate) continue;
         more->position[kept] = more->position[i];
         more->velocity[kept] = more->velocity[i];
         more->pressure[kept++] = more->pressure[i];
@@ -70,7 +72,7 @@ static void *join(const void *a, size_t a_count, const void *b, size_t b_count, 
     return both;
 }
 
-/* Moves `more` to the end of `fluid`. */
+/* Appends `more` to `fluid` and empties `more`. */
 static int append(sb_fluid *fluid, sb_fluid *more)
 {
     sb_fluid both = {.count = fluid->count + more->count, .still_depth = fmax(fluid->still_depth, more->still_depth)};
@@ -94,7 +96,8 @@ static int append(sb_fluid *fluid, sb_fluid *more)
     return 0;
 }
 
-static void shake(const sb_scene *scene, sb_fluid *fluid)
+/* Displaces the particles at random, by at most `jitter` spacings along each axis. */
+static void displace(const sb_scene *scene, sb_fluid *fluid)
 {
     double size = scene->numerics.jitter * scene->resolution;
     uint64_t seed = scene->numerics.seed;
@@ -108,7 +111,7 @@ static void shake(const sb_scene *scene, sb_fluid *fluid)
     }
 }
 
-/* Adds the sea (box NULL) or one box; its columns join those of the waters before. */
+/* Adds the sea (box NULL) or one box. Its columns are appended to `waters`, those of the earlier sea and boxes. */
 static sb_status add_water(const sb_scene *scene, const sb_fill_solid *solids, size_t count, const sb_fluid_box *box,
                            sb_columns *waters, size_t *water_count, sb_fluid *fluid, sb_box_share *share,
                            sb_wave_room *wave, sb_error *error)
@@ -123,9 +126,10 @@ static sb_status add_water(const sb_scene *scene, const sb_fill_solid *solids, s
     if (status == SB_OK) sb_columns_wave(c, wave);
     if (status == SB_OK) status = sb_columns_particles(c, &more, error);
     if (share) share->room = more.count;
-    if (status == SB_OK && fluid->count > 0 && drop_doubles(waters, *water_count - 1, fluid, scene->resolution, &more))
+    if (status == SB_OK && fluid->count > 0 &&
+        drop_duplicates(waters, *water_count - 1, fluid, scene->resolution, &more))
         status = sb_fail_memory(error, "water");
-    if (share) share->got = more.count;
+    if (share) share->received = more.count;
     if (status == SB_OK && append(fluid, &more)) status = sb_fail_memory(error, "water");
     sb_fluid_free(&more);
     return status;
@@ -154,7 +158,7 @@ sb_status sb_fill_water(const sb_scene *scene, const sb_fill_solid *solids, size
     }
     made.boxes = boxes;
     made.wave = wave;
-    shake(scene, &made);
+    displace(scene, &made);
     *fluid = made;
     return SB_OK;
 }

@@ -1,5 +1,5 @@
-/* Rays through the solids cut columns of space into runs; rays along rows find the thin walls that
-   stand between two columns. */
+/* Divides the space into vertical columns. Vertical rays through the solids cut each column into runs that are free
+   of solids. Horizontal rays along rows of cells find thin walls between two columns. */
 #include "geometry/fill_parts.h"
 
 #include "base/memory.h"
@@ -10,14 +10,14 @@
 
 enum { CHUNK = 512 };
 
-/* In spacings: crossings nearer than this are one; shorter runs are none. */
+/* In spacings: crossings nearer than same_crossing count as one; runs shorter than run_min are dropped. */
 static const double same_crossing = 1e-7, run_min = 1e-4;
 
 typedef struct chunk {
     double *hit;
     size_t hit_count, hit_capacity;
     sb_run *run;
-    size_t *of_column; /* runs of each column */
+    size_t *of_column; /* number of runs of each column */
     size_t run_count, run_capacity;
     int failed;
 } chunk;
@@ -49,7 +49,7 @@ bool sb_columns_clear(const sb_columns *c, sb_vec3 from, sb_vec3 to)
     return true;
 }
 
-/* Distances along a ray to all surfaces, sorted. Fails without memory, or when the run is to stop. */
+/* Finds the sorted distances along a ray to all surfaces. Fails without memory, or when the process is to stop. */
 static void find_crossings(const sb_columns *c, sb_vec3 from, sb_vec3 direction, double length, chunk *work)
 {
     work->hit_count = 0;
@@ -76,7 +76,7 @@ static void find_crossings(const sb_columns *c, sb_vec3 from, sb_vec3 direction,
     }
 }
 
-/* The run between two heights, its layers those whose centre lies between them below the level. */
+/* Returns the run between two heights. Its layers are those below the water level whose centres lie in it. */
 static sb_run make_run(const sb_columns *c, double low, double high, bool surface)
 {
     double cap = high < c->level ? high : c->level;
@@ -91,7 +91,7 @@ static sb_run make_run(const sb_columns *c, double low, double high, bool surfac
                     .surface = surface};
 }
 
-/* Cuts one column, looking up from its bottom. */
+/* Cuts one column into runs, from its bottom upwards. */
 static void cut_column(const sb_columns *c, int64_t i, int64_t j, chunk *work)
 {
     sb_vec3 from = sb_columns_center(c, i, j, 0);
@@ -125,7 +125,7 @@ static void cut_chunk(const sb_columns *c, size_t begin, size_t end, chunk *work
     }
 }
 
-/* Strings the chunks' runs together. */
+/* Joins the chunks' runs in the order of the columns. */
 static int join_chunks(sb_columns *c, const chunk *chunks, size_t count)
 {
     for (size_t k = 0; k < count; ++k) {
@@ -184,8 +184,8 @@ static void block(sb_columns *c, int64_t i, int64_t j, int64_t layer, uint8_t bi
     }
 }
 
-/* One row of cell centres along x or y: a crossing blocks the step between the centres beside it.
- */
+/* Marks the crossings along one row of cell centres in x or y. A crossing blocks the step between the two centres
+   beside it. */
 static void block_row(sb_columns *c, bool along_x, int64_t across, int64_t layer, chunk *work)
 {
     int64_t count = along_x ? c->nx : c->ny;
@@ -195,7 +195,7 @@ static void block_row(sb_columns *c, bool along_x, int64_t across, int64_t layer
     from = sb_madd(from, -0.5 * step, direction);
     find_crossings(c, from, direction, step * (double)count, work);
     for (size_t k = 0; k < work->hit_count && !work->failed; ++k) {
-        /* -1 and count - 1: beyond the end, or the step across a periodic side. */
+        /* -1 and count - 1: beyond the end of the row, or the step across a periodic side. */
         int64_t at = (int64_t)floor(work->hit[k] / step - 0.5);
         at = at < 0 ? count - 1 : at;
         if (along_x)
@@ -219,7 +219,8 @@ static int block_rows(sb_columns *c)
     return failed;
 }
 
-/* Columns across one extent: whole ones, as near to the spacing as can be. */
+/* Returns the number of columns across an extent. *step is the width of a column, as near to the spacing as a whole
+   number of columns allows. */
 static int64_t fit(double extent, double spacing, double *step)
 {
     double count = fmax(round(extent / spacing), 1);

@@ -1,5 +1,5 @@
-/* The sea spreads from its seed, run by run: to a neighbour column where some layer is free on both
-   sides and no thin wall stands between. */
+/* Flood fill of the sea from its seed, run by run. It spreads to a run of a neighbouring column where some layer is
+   free in both runs and no thin wall lies between them. */
 #include "geometry/fill_parts.h"
 
 #include "base/memory.h"
@@ -8,7 +8,7 @@
 #include <string.h>
 
 typedef struct front {
-    size_t *column, *run; /* where to go on from */
+    size_t *column, *run; /* columns and runs from which to continue */
     size_t count, column_capacity, run_capacity;
 } front;
 
@@ -22,7 +22,7 @@ static int front_push(front *f, size_t column, size_t run)
     return 0;
 }
 
-/* Some layer leads from run a, whose cells hold the bit of this step, to run b. */
+/* Whether some layer connects run a, whose cells hold the bit of this step, with run b. */
 static bool joined(const sb_columns *c, const sb_run *a, const sb_run *b, uint8_t bit)
 {
     int32_t low = a->first > b->first ? a->first : b->first;
@@ -33,7 +33,8 @@ static bool joined(const sb_columns *c, const sb_run *a, const sb_run *b, uint8_
     return false;
 }
 
-/* Wets what run `from` leads to in one neighbour column; `ahead`: towards +x or +y. */
+/* Marks the runs of one neighbouring column that are connected with run `from` as wet. ahead: the neighbour lies
+   towards +x or +y. */
 static int spread(sb_columns *c, front *f, size_t from, size_t to_column, bool ahead, uint8_t bit)
 {
     for (size_t r = c->begin[to_column]; r < c->begin[to_column + 1]; ++r) {
@@ -54,7 +55,7 @@ static sb_status escapes(sb_vec3 at, int side, sb_error *error)
                    sb_side_names[side], at.x, at.y, at.z);
 }
 
-/* A wet run beside an open side must have something between itself and it. */
+/* Requires a solid between each layer of a wet run and the open side beside it. */
 static sb_status check_side(const sb_columns *c, const sb_run *run, int64_t i, int64_t j, int side, sb_error *error)
 {
     static const sb_vec3 out[4] = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}};
@@ -66,7 +67,7 @@ static sb_status check_side(const sb_columns *c, const sb_run *run, int64_t i, i
     return SB_OK;
 }
 
-/* Goes on from one run to the four columns around it. */
+/* Continues from one run to the four neighbouring columns. */
 static sb_status visit(sb_columns *c, front *f, size_t column, size_t run, sb_error *error)
 {
     const sb_side_kind *side = c->scene->domain.side;
@@ -105,7 +106,8 @@ static sb_status check_seed(const sb_columns *c, sb_vec3 seed, sb_error *error)
     return SB_OK;
 }
 
-/* The nearest cell, of those around the seed, with nothing between; false: there is none. */
+/* Finds the cell nearest to the seed, in its own and the surrounding columns, that no surface separates from it.
+   Returns false if there is none. */
 static bool find_start(const sb_columns *c, sb_vec3 seed, size_t *start_column, size_t *start_run)
 {
     int64_t si = (int64_t)floor((seed.x - c->x) / c->dx);

@@ -1,5 +1,5 @@
-/* From wet runs to particles: each run is divided evenly from its floor to its surface, into as
-   many layers as its volume holds on average. */
+/* Places the particles of wet runs. Each run is divided evenly from its floor to its surface, into the number of
+   layers that its volume holds on average. */
 #include "geometry/fill_parts.h"
 
 #include "base/memory.h"
@@ -8,12 +8,12 @@
 
 #include <string.h>
 
-/* In spacings: no particle starts nearer to a surface than this; thinner water has none. */
+/* In spacings: no particle starts nearer than `clearance` to a surface; water thinner than `film` gets no particle. */
 static const double clearance = 0.3, film = 0.25;
 
-/* Even over the columns and never in step with them (Roberts's sequence, the golden ratio in 2D),
-   so that the columns that round up are spread over any region like its rounded-off volume. Whole
-   numbers within a hundredth stay whole. */
+/* Returns the fraction of a layer from which the number of layers of a column is rounded up. The thresholds are
+   evenly distributed over the columns and not periodic in them (Roberts's sequence, the golden ratio in 2D), so that
+   in any region the rounding up compensates the rounding down. Whole numbers stay whole within a hundredth. */
 static double threshold(const sb_columns *c, int64_t i, int64_t j)
 {
     double at =
@@ -23,8 +23,8 @@ static double threshold(const sb_columns *c, int64_t i, int64_t j)
 
 static const int steps[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
 
-/* The wet run of a column nearby that shares most of this run's height, or NULL; *outside: there is
-   no such column. */
+/* Returns the wet run of a neighbouring column that overlaps most with this run's height, or NULL. *outside: there
+   is no such column. */
 static const sb_run *neighbour(const sb_columns *c, int64_t i, int64_t j, const sb_run *run, bool *outside)
 {
     *outside = i < 0 || j < 0 || i >= c->nx || j >= c->ny;
@@ -42,9 +42,8 @@ static const sb_run *neighbour(const sb_columns *c, int64_t i, int64_t j, const 
     return found;
 }
 
-/* Where the depth changes gently from column to column its rounding evens out by itself, and the
-   columns are the more regular for it; on a level or a steep floor the threshold has to see to it.
- */
+/* Whether the depth changes gently from column to column. The rounding errors then cancel without a threshold, and
+   the particles are more regular. On a level or steep floor the threshold is needed. */
 static bool evens_out(const sb_columns *c, int64_t i, int64_t j, const sb_run *run)
 {
     double most = 0, height = run->high - run->low;
@@ -64,7 +63,8 @@ static size_t layers_of(const sb_columns *c, int64_t i, int64_t j, const sb_run 
     return (size_t)floor(particles + (evens_out(c, i, j, run) ? 0.5 : threshold(c, i, j)));
 }
 
-/* The stretch of a run that has open water on all four sides: nothing to keep clear of there. */
+/* Finds the part of a run that has open water on all four sides, where particles need no check of their distance to
+   surfaces. */
 static void open_part(const sb_columns *c, int64_t i, int64_t j, const sb_run *run, double *low, double *high)
 {
     *low = run->low;
@@ -80,7 +80,7 @@ static void open_part(const sb_columns *c, int64_t i, int64_t j, const sb_run *r
     }
 }
 
-/* Moves a particle off the surfaces it is too near to. */
+/* Moves a particle away from surfaces that are nearer than `clearance`. */
 static sb_vec3 keep_clear(const sb_columns *c, sb_vec3 at)
 {
     double least = clearance * c->spacing;
@@ -137,7 +137,7 @@ static int allocate(sb_fluid *fluid)
     return fluid->position && fluid->velocity && fluid->pressure ? 0 : -1;
 }
 
-/* All particles, the first of each column being given. */
+/* Places all particles. first: index of the first particle of each column. */
 static sb_status place(const sb_columns *c, const size_t *first, sb_fluid *fluid, sb_error *error)
 {
     const size_t columns = (size_t)(c->nx * c->ny);

@@ -1,19 +1,20 @@
-/* What an initial solitary wave has above the still-water level, and how much of it the water has room for. */
+/* Measures an initial solitary wave above the still-water level, and how much of it the water contains. */
 #include "geometry/fill_parts.h"
 
-/* Of the wave's height: where it is lower, it counts as not there. */
+/* Fractions of the wave's height. Where the wave is lower than `faint`, its width is not measured. Where it is lower
+   than `vanishing`, its volume is not summed. */
 static const double faint = 0.01, vanishing = 1e-6;
-/* Of the wave's volume: what may lie beyond each of its two ends. */
+/* Fraction of the wave's volume that may lie beyond each of its two ends. */
 static const double tail = 0.005;
 enum { STEPS_MAX = 1000000 };
 
-/* Height of the wave above the still-water level at a distance from the crest, as far as the domain's top lets it. */
+/* Height of the wave above the still-water level at a distance from the crest, limited by the domain's top. */
 static double rise_at(const sb_columns *c, double distance)
 {
     return fmin(sb_columns_surface(c, c->scene->wave.position + distance), c->top) - c->level;
 }
 
-/* Area of the whole wave in the plane x-z, and the distance from the crest to each of its ends. */
+/* Measures the area of the whole wave in the plane x-z, and the distance from the crest to its ends. */
 static void measure_whole(const sb_columns *c, sb_wave_room *room)
 {
     const double least = vanishing * c->scene->wave.height;
@@ -25,7 +26,7 @@ static void measure_whole(const sb_columns *c, sb_wave_room *room)
     }
     room->area = 2 * half;
     for (sum = 0; steps > 0 && sum < tail * room->area; --steps) sum += rise_at(c, steps * c->spacing) * c->spacing;
-    room->reach = (steps + 1) * c->spacing;
+    room->extent = (steps + 1) * c->spacing;
 }
 
 void sb_columns_wave(const sb_columns *c, sb_wave_room *room)

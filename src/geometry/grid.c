@@ -1,4 +1,4 @@
-/* Terrain grids as sheet meshes. */
+/* Imports terrain grids as open surface meshes. */
 #include "geometry/grid.h"
 
 #include "base/file.h"
@@ -9,9 +9,9 @@
 
 static const size_t file_limit = (size_t)4 << 30;
 
-/* Up to two triangles of the square whose lower left node is `node`, counter-clockwise seen from
-   above. The square is cut along the diagonal that climbs less, which keeps ridges and valleys; one
-   hole among its corners leaves one triangle. */
+/* Cuts the square whose lower left node is `node` into at most two triangles, counter-clockwise seen from above. The
+   cut runs along the diagonal with the smaller difference in height, which keeps ridges and valleys. With one hole
+   among its corners the square gives one triangle. */
 static size_t cut_square(const sb_grid *grid, size_t node, size_t triangles[2][3])
 {
     const size_t corner[4] = {node, node + 1, node + 1 + grid->columns, node + grid->columns};
@@ -25,7 +25,7 @@ static size_t cut_square(const sb_grid *grid, size_t node, size_t triangles[2][3
         }
     }
     if (holes > 1) return 0;
-    /* The cut runs from corner `from` to the one across; a hole must lie off it. */
+    /* The cut runs from corner `from` to the opposite corner. A hole must not lie on it. */
     size_t from = holes ? (hole + 1) % 4 : fabs(z[0] - z[2]) <= fabs(z[1] - z[3]) ? 0 : 1;
     for (size_t k = 0; k < 3; ++k) {
         triangles[0][k] = corner[(from + k) % 4];
@@ -42,7 +42,7 @@ static size_t count_triangles(const sb_grid *grid)
     return count;
 }
 
-/* Nodes that a triangle uses get their vertex, in the order of the nodes. */
+/* Fills the mesh. Each node that a triangle uses becomes a vertex, in the order of the nodes. */
 static void fill_mesh(const sb_grid *grid, double datum, uint32_t *vertex_of, sb_mesh *mesh)
 {
     size_t triangle = 0, triangles[2][3];
@@ -68,7 +68,7 @@ static void fill_mesh(const sb_grid *grid, double datum, uint32_t *vertex_of, sb
     mesh->vertex_count = mesh->node_count = vertices;
 }
 
-/* Where no height is. */
+/* Lists the nodes without a height. */
 static sb_status list_holes(const sb_grid *grid, sb_mesh *mesh, sb_error *error)
 {
     size_t count = 0;
@@ -84,7 +84,7 @@ static sb_status list_holes(const sb_grid *grid, sb_mesh *mesh, sb_error *error)
     return SB_OK;
 }
 
-/* Numbers near the largest there are may add up to infinity. */
+/* Adding the datum to numbers near DBL_MAX may give infinity. */
 static sb_status check_range(const char *path, const sb_mesh *mesh, sb_error *error)
 {
     for (size_t i = 0; i < mesh->vertex_count; ++i)
@@ -98,7 +98,8 @@ static sb_status make_mesh(const char *path, const sb_grid *grid, double datum, 
 {
     size_t triangles = count_triangles(grid);
     if (triangles == 0)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s: no three neighbouring heights in it, expected terrain", path);
+        return sb_fail(error, SB_BAD_INPUT, "%.500s: the file has no three neighbouring heights, expected terrain",
+                       path);
     uint32_t *vertex_of = sb_alloc(grid->rows * grid->columns, sizeof *vertex_of);
     if (!vertex_of) return sb_fail_memory(error, "a terrain grid");
     sb_mesh made;
@@ -118,7 +119,7 @@ static sb_status make_mesh(const char *path, const sb_grid *grid, double datum, 
 
 typedef sb_status read_grid(const char *path, const char *text, sb_grid *grid, sb_error *error);
 
-/* By the ending of the file's name; those in tt and topotype are GeoClaw's. */
+/* Chooses the reader by the file name's extension. The extensions with tt and topotype are GeoClaw's. */
 static read_grid *reader_of(const char *path)
 {
     static const struct {

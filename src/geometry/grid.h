@@ -1,5 +1,4 @@
-/* Terrain heights on a regular grid, between their file formats and a mesh. Private to
-   src/geometry/grid*.c. */
+/* Terrain heights on a regular grid, the step between the file formats and a mesh. Private to src/geometry/grid*.c. */
 #ifndef SB_GEOMETRY_GRID_H
 #define SB_GEOMETRY_GRID_H
 
@@ -8,15 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Heights at (x + i dx, y + j dy), i < columns, j < rows, j = 0 being the southernmost row;
-   NAN: a hole. Owned. */
+/* Heights at (x + i dx, y + j dy), i < columns, j < rows. Row j = 0 is the southernmost. NAN marks a hole. Owned. */
 typedef struct sb_grid {
     size_t columns, rows;
     double x, y, dx, dy; /* file units */
     double *heights;     /* [j * columns + i] */
 } sb_grid;
 
-/* A text grid, read word by word; "#" begins a comment that ends with the line. */
+/* A text grid that is read token by token. "#" begins a comment that ends with the line. */
 typedef struct sb_grid_text {
     const char *path, *at;
     size_t line;
@@ -27,20 +25,20 @@ typedef struct sb_grid_header {
     double x, y, dx, dy, nodata; /* x, y: of the south-western node; file units */
 } sb_grid_header;
 
-/* Length of the next word, which begins at from->at; 0 at the end of the text. */
-size_t sb_grid_word(sb_grid_text *from);
+/* Advances from->at to the next token and returns its length; 0 at the end of the text. */
+size_t sb_grid_token(sb_grid_text *from);
 
-/* The next word as a number, `nan` among them; SB_BAD_INPUT with its line and `what` was expected. */
+/* Reads the next token as a number, including `nan`. SB_BAD_INPUT gives its line and `what` was expected. */
 sb_status sb_grid_number(sb_grid_text *from, const char *what, double *value, sb_error *error);
 
-/* Lines "key value", as of ESRI, or "value key", as of GeoClaw, up to the first height. */
+/* Reads header lines "key value" (ESRI) or "value key" (GeoClaw), up to the first height. */
 sb_status sb_grid_read_header(sb_grid_text *from, sb_grid_header *head, sb_error *error);
 
-/* Both read the zero-terminated text of the file `path`; SB_BAD_INPUT "path:line: ...". */
+/* Both read the zero-terminated text of the file `path`. SB_BAD_INPUT "path:line: ...". */
 sb_status sb_grid_read_ascii(const char *path, const char *text, sb_grid *grid, sb_error *error);
 sb_status sb_grid_read_points(const char *path, const char *text, sb_grid *grid, sb_error *error);
 
-/* As strtod, but of decimal digits alone: 0x10 is 0 and something. */
+/* Like strtod, but for decimal numbers only: of 0x10 it reads the 0. */
 static inline double sb_decimal(const char *text, char **end)
 {
     const char *digits = text + strspn(text, " \t\r\n\v\f");
@@ -51,7 +49,7 @@ static inline double sb_decimal(const char *text, char **end)
     return 0;
 }
 
-/* Most nodes of a grid: the vertices of its mesh need 32-bit numbers, and memory. */
+/* Largest number of nodes of a grid. It keeps vertex numbers within 32 bits and limits memory. */
 enum { SB_GRID_NODES_MAX = 1 << 28 };
 
 #endif

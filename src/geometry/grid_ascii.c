@@ -1,5 +1,5 @@
-/* Grids of rows: a header, then the heights from north to south, each row from west to east, in lines of any length. So
-   ESRI's ASCII grids are written, and GeoClaw's topotypes 2 (a height in each line) and 3. */
+/* Reads grids of rows: a header, then the heights from north to south, each row from west to east, in lines of any
+   length. These are ESRI's ASCII grids and GeoClaw's topotypes 2 (one height per line) and 3. */
 #include "base/memory.h"
 #include "base/stop.h"
 #include "geometry/grid.h"
@@ -7,7 +7,7 @@
 #include <ctype.h>
 #include <strings.h>
 
-size_t sb_grid_word(sb_grid_text *from)
+size_t sb_grid_token(sb_grid_text *from)
 {
     for (;; ++from->at) {
         if (*from->at == '#') from->at += strcspn(from->at, "\n");
@@ -16,16 +16,16 @@ size_t sb_grid_word(sb_grid_text *from)
     }
 }
 
-/* Programs write a missing height as nan, with a sign where the processor made it. */
-static bool is_nan(const char *word, size_t length)
+/* A missing height may be written as nan, with a sign on some processors. */
+static bool is_nan(const char *token, size_t length)
 {
-    const size_t sign = *word == '-' || *word == '+';
-    return length == sign + 3 && strncasecmp(word + sign, "nan", 3) == 0;
+    const size_t sign = *token == '-' || *token == '+';
+    return length == sign + 3 && strncasecmp(token + sign, "nan", 3) == 0;
 }
 
 sb_status sb_grid_number(sb_grid_text *from, const char *what, double *value, sb_error *error)
 {
-    const size_t length = sb_grid_word(from);
+    const size_t length = sb_grid_token(from);
     char *end;
     *value = sb_decimal(from->at, &end);
     if (length == 0)
@@ -48,8 +48,8 @@ static sb_status read_heights(sb_grid_text *from, const sb_grid_header *head, sb
             if (*to == head->nodata || isnan(*to)) *to = (double)NAN;
         }
     }
-    if (sb_grid_word(from) > 0)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: more numbers than the %zu x %zu of the header", from->path,
+    if (sb_grid_token(from) > 0)
+        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: more numbers than the header's %zu x %zu heights", from->path,
                        from->line, grid->columns, grid->rows);
     return SB_OK;
 }
@@ -61,10 +61,11 @@ sb_status sb_grid_read_ascii(const char *path, const char *text, sb_grid *grid, 
     sb_status status = sb_grid_read_header(&from, &head, error);
     if (status != SB_OK) return status;
     sb_grid made = {.columns = head.columns, .rows = head.rows, .x = head.x, .y = head.y, .dx = head.dx, .dy = head.dy};
-    /* A height takes two characters or more: no text is long enough for a made-up size. */
+    /* A height takes two or more characters. A size that the text cannot hold is refused before memory is allocated
+       for it. */
     if (made.columns * made.rows > strlen(from.at))
-        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: too short for the %zu x %zu of its header", path, from.line,
-                       made.columns, made.rows);
+        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: the file is too short for the header's %zu x %zu heights",
+                       path, from.line, made.columns, made.rows);
     made.heights = sb_alloc_untouched(made.columns * made.rows, sizeof *made.heights);
     if (!made.heights) return sb_fail_memory(error, "a terrain grid");
     status = read_heights(&from, &head, &made, error);

@@ -1,4 +1,4 @@
-/* The header of a grid of rows. ESRI writes a key and its value, GeoClaw a value and its key. */
+/* Reads the header of a grid of rows. ESRI writes a key and its value, GeoClaw a value and its key. */
 #include "geometry/grid.h"
 
 #include <ctype.h>
@@ -18,11 +18,11 @@ typedef enum key {
     KEYS
 } key;
 
-/* The first word of a key is the one that messages use. */
+/* Names of the keys. Messages use the first name of a key. */
 static const struct {
-    const char *word;
+    const char *name;
     key key;
-} words[] = {
+} names[] = {
     {"ncols", KEY_NCOLS},
     {"mx", KEY_NCOLS},
     {"nrows", KEY_NROWS},
@@ -42,9 +42,9 @@ static const struct {
     {"nodata", KEY_NODATA},
 };
 
-enum { WORDS = sizeof words / sizeof *words };
+enum { NAMES = sizeof names / sizeof *names };
 
-/* Of a header without the line, which the format lets it do without. */
+/* The value that marks missing heights when the header does not state one. */
 static const double default_nodata = -9999;
 
 typedef struct header {
@@ -52,11 +52,11 @@ typedef struct header {
     double value[KEYS];
 } header;
 
-static const char *word_of(key of)
+static const char *name_of(key of)
 {
     size_t i = 0;
-    while (words[i].key != of) ++i;
-    return words[i].word;
+    while (names[i].key != of) ++i;
+    return names[i].name;
 }
 
 static int shown(size_t length)
@@ -64,35 +64,35 @@ static int shown(size_t length)
     return (int)(length < 40 ? length : 40);
 }
 
-static bool is_nan(const char *word, size_t length)
+static bool is_nan(const char *token, size_t length)
 {
-    return length == 3 && strncasecmp(word, "nan", 3) == 0;
+    return length == 3 && strncasecmp(token, "nan", 3) == 0;
 }
 
-static bool is_key(const char *word, size_t length)
+static bool is_key(const char *token, size_t length)
 {
-    return length > 0 && isalpha((unsigned char)*word) && !is_nan(word, length);
+    return length > 0 && isalpha((unsigned char)*token) && !is_nan(token, length);
 }
 
-/* Takes the key that begins at from->at, not its value. */
+/* Reads the key that begins at from->at, without its value. */
 static sb_status take_key(sb_grid_text *from, size_t length, const header *head, key *found, sb_error *error)
 {
     size_t i = 0;
-    while (i < WORDS && !(strlen(words[i].word) == length && strncasecmp(from->at, words[i].word, length) == 0)) ++i;
-    if (i == WORDS)
+    while (i < NAMES && !(strlen(names[i].name) == length && strncasecmp(from->at, names[i].name, length) == 0)) ++i;
+    if (i == NAMES)
         return sb_fail(error, SB_BAD_INPUT,
                        "%.500s:%zu: \"%.*s\", expected ncols, nrows, xllcorner, xllcenter or xlower, yllcorner, "
                        "yllcenter or ylower, cellsize or dx and dy, nodata_value, then heights",
                        from->path, from->line, shown(length), from->at);
-    *found = words[i].key;
+    *found = names[i].key;
     if (head->has[*found])
         return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: a second %s, expected one", from->path, from->line,
-                       word_of(*found));
+                       name_of(*found));
     from->at += length;
     return SB_OK;
 }
 
-/* The next word of the same line, as a number, when it is one; it is not taken. */
+/* Reads the next token of the same line if it is a number, without advancing. */
 static bool peek_number(const char *at, const char **after, double *value)
 {
     char *end;
@@ -116,7 +116,7 @@ static void put(header *head, key of, double value)
     head->value[of] = value;
 }
 
-/* "cellsize dx dy": the steps may differ. */
+/* "cellsize dx dy": the two steps may differ. */
 static void put_cellsize(header *head, double dx, double dy)
 {
     put(head, KEY_DX, dx);
@@ -140,7 +140,7 @@ static sb_status read_key_first(sb_grid_text *from, size_t length, header *head,
     return SB_OK;
 }
 
-/* Whether the line has one or two numbers and then a key, and if so takes them; else nothing. */
+/* Reads the line if it has one or two numbers followed by a key, and sets *taken. Otherwise nothing is read. */
 static sb_status read_value_first(sb_grid_text *from, header *head, bool *taken, sb_error *error)
 {
     key found;
@@ -160,7 +160,7 @@ static sb_status read_value_first(sb_grid_text *from, header *head, bool *taken,
     if (status != SB_OK) return status;
     if (count == 2 && found != KEY_CELLSIZE)
         return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: two numbers before %s, expected one", from->path, from->line,
-                       word_of(found));
+                       name_of(found));
     if (count == 2)
         put_cellsize(head, values[0], values[1]);
     else
@@ -173,7 +173,7 @@ static sb_status read_lines(sb_grid_text *from, header *head, sb_error *error)
     size_t length;
     bool taken = true;
     sb_status status = SB_OK;
-    while (status == SB_OK && taken && (length = sb_grid_word(from)) > 0)
+    while (status == SB_OK && taken && (length = sb_grid_token(from)) > 0)
         if (is_key(from->at, length))
             status = read_key_first(from, length, head, error);
         else
@@ -214,16 +214,16 @@ static sb_status check_numbers(const sb_grid_text *from, const header *head, sb_
     const double columns = head->value[KEY_NCOLS], rows = head->value[KEY_NROWS];
     if (!is_count(columns) || !is_count(rows) || columns * rows > SB_GRID_NODES_MAX)
         return sb_fail(error, SB_BAD_INPUT,
-                       "%.500s:%zu: ncols %g, nrows %g, expected whole numbers from 2 on, at most "
-                       "%d together",
+                       "%.500s:%zu: ncols %g, nrows %g, expected whole numbers of at least 2 "
+                       "with a product of at most %d",
                        from->path, from->line, columns, rows, SB_GRID_NODES_MAX);
     for (key k = KEY_XLLCORNER; k <= KEY_DY; ++k)
         if (head->has[k] && !isfinite(head->value[k]))
             return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: %s is not a number, expected one", from->path, from->line,
-                           word_of(k));
+                           name_of(k));
     for (key k = KEY_CELLSIZE; k <= KEY_DY; ++k)
         if (head->has[k] && !(head->value[k] > 0))
-            return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: %s %g, expected > 0", from->path, from->line, word_of(k),
+            return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: %s %g, expected > 0", from->path, from->line, name_of(k),
                            head->value[k]);
     return SB_OK;
 }
@@ -233,9 +233,9 @@ sb_status sb_grid_read_header(sb_grid_text *from, sb_grid_header *head, sb_error
     header read = {0};
     sb_status status = read_lines(from, &read, error);
     if (status != SB_OK) return status;
-    const char *lacking = missing(&read);
-    if (lacking)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: the header ends without %s", from->path, from->line, lacking);
+    const char *absent = missing(&read);
+    if (absent)
+        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: the header ends without %s", from->path, from->line, absent);
     status = check_both(from, &read, error);
     if (status == SB_OK) status = check_numbers(from, &read, error);
     if (status != SB_OK) return status;

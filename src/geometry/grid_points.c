@@ -1,4 +1,4 @@
-/* Lines "x y z" that make up a regular grid, in any order. */
+/* Reads lines "x y z" that form a regular grid, in any order. */
 #include "base/columns.h"
 #include "base/memory.h"
 #include "base/stop.h"
@@ -8,8 +8,8 @@
 #include <string.h>
 #include <strings.h>
 
-/* Coordinates closer than this part of their range are one grid line; and a coordinate may be off
-   its line by this part of the step, as rounding in the file leaves it. */
+/* Coordinates that differ by less than same_line of their range lie on one grid line. A coordinate may differ from
+   its grid line by off_line of the step, because of rounding in the file. */
 static const double same_line = 1e-6, off_line = 0.05;
 
 typedef struct point {
@@ -21,16 +21,16 @@ typedef struct cloud {
     const char *path;
     point *points;
     size_t count, capacity;
-    bool header; /* a line that names the columns was read */
+    bool header; /* a line with the columns' names was read */
 } cloud;
 
-/* Grid lines along one axis: low + i step, i < count. */
+/* Grid lines along one axis at low + i step, i < count. */
 typedef struct axis {
     double low, step;
     size_t count;
 } axis;
 
-/* One line may name the columns, before the first point. */
+/* Reads the line that may give the columns' names before the first point. */
 static sb_status read_header(cloud *all, const char *text, size_t length, size_t line, sb_error *error)
 {
     const size_t skip = strspn(text, " \t\"'");
@@ -55,7 +55,7 @@ static sb_status read_line(cloud *all, const char *text, size_t length, size_t l
     for (int k = 0; k < 3; ++k) {
         char *after;
         read.at[k] = sb_decimal(at, &after);
-        /* strtod skips line ends: a number of the next line is none of this one. */
+        /* strtod skips line ends, so the number must lie within this line. */
         const bool number = isfinite(read.at[k]) || (k == 2 && isnan(read.at[k])); /* a height may be missing */
         if (after == at || after > end || !number || (after < end && !strchr(blank, *after)))
             return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: \"%.*s\", expected x y z", all->path, line,
@@ -63,8 +63,8 @@ static sb_status read_line(cloud *all, const char *text, size_t length, size_t l
         at = after + strspn(after, blank);
     }
     if (at < end)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: \"%.*s\" after x y z, expected no more", all->path, line,
-                       (int)(end - at < 40 ? end - at : 40), at);
+        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: \"%.*s\" after x y z, expected the end of the line", all->path,
+                       line, (int)(end - at < 40 ? end - at : 40), at);
     all->points[all->count++] = read;
     return SB_OK;
 }
@@ -87,8 +87,8 @@ static int compare_numbers(const void *left, const void *right)
     return a < b ? -1 : a > b;
 }
 
-/* The lines that the coordinates lie on. The usual gap is the median one; gaps of several steps
-   are counted as such, and the step is the range over all of them, so that rounding cancels. */
+/* Finds the grid lines that the coordinates lie on. The median gap is taken as one step, and larger gaps as
+   multiples of it. The step is the range divided by the number of steps, so that rounding cancels. */
 static sb_status find_axis(const cloud *all, int k, axis *found, sb_error *error)
 {
     double *sorted = sb_alloc_untouched(all->count, sizeof *sorted);
@@ -101,7 +101,7 @@ static sb_status find_axis(const cloud *all, int k, axis *found, sb_error *error
     for (size_t i = 1; i < all->count; ++i) {
         double here = sorted[i];
         if (here - last > same_line * range) {
-            sorted[gaps++] = here - last; /* the array's start is read already */
+            sorted[gaps++] = here - last; /* this part of the array was read already */
             last = here;
         }
     }
@@ -111,13 +111,13 @@ static sb_status find_axis(const cloud *all, int k, axis *found, sb_error *error
     sb_free(sorted);
     if (!(steps >= 1 && steps < SB_GRID_NODES_MAX))
         return sb_fail(error, SB_BAD_INPUT,
-                       "%.500s: %zu points with %zu values of %c, expected those of a regular grid", all->path,
+                       "%.500s: %zu points with %zu values of %c, expected the points of a regular grid", all->path,
                        all->count, gaps + 1, "xyz"[k]);
     *found = (axis){low, range / steps, (size_t)steps + 1};
     return SB_OK;
 }
 
-/* The number of the grid line that `value` is on, or count when it is on none. */
+/* Returns the number of the grid line that `value` lies on, or count if it lies on none. */
 static size_t line_of(const axis *lines, double value)
 {
     double place = (value - lines->low) / lines->step, nearest = round(place);
@@ -145,7 +145,7 @@ static sb_status place_points(const cloud *all, const axis axes[2], sb_grid *gri
     return SB_OK;
 }
 
-/* Few points may lie on many grid lines: heights, vertices and places of holes are of all of them. */
+/* A few points may span many grid lines, and memory is needed for the heights, vertices and holes of all of them. */
 static sb_status check_room(const char *path, const sb_grid *grid, sb_error *error)
 {
     const double node = sizeof(double) + sizeof(uint32_t) + sizeof(sb_vec3);
@@ -168,7 +168,7 @@ sb_status sb_grid_read_points(const char *path, const char *text, sb_grid *grid,
     for (int k = 0; k < 2 && status == SB_OK; ++k) status = find_axis(&all, k, &axes[k], error);
     if (status != SB_OK) goto done;
     made = (sb_grid){axes[0].count, axes[1].count, axes[0].low, axes[1].low, axes[0].step, axes[1].step, NULL};
-    /* A coast may fill little of its rectangle, but scattered points fill next to nothing. */
+    /* A coastline may fill little of its rectangle, but scattered points fill almost none of their grid. */
     if (made.columns * made.rows > SB_GRID_NODES_MAX || made.columns * made.rows / 100 > all.count) {
         status = sb_fail(error, SB_BAD_INPUT,
                          "%.500s: %zu points would lie on %zu x %zu grid lines, expected a regular "

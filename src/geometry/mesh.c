@@ -1,3 +1,4 @@
+/* Allocates and frees meshes. */
 #include "geometry/mesh.h"
 
 #include "base/memory.h"

@@ -1,14 +1,14 @@
-/* From a body of the scene to its meshes: shape, units and axes, transform, names. */
+/* Makes the meshes of a body of the scene: shape, units and axes, transform, names. */
 #include "base/memory.h"
 #include "geometry/mesh.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* Chord error of round shapes, in spacings: small beside the distance rules of the sampling. */
+/* Chord error of round shapes in spacings: small compared with the distance rules of the sampling. */
 static const double chord_error = 0.02;
 
-/* About x, then y, then z, by degrees. */
+/* Rotates about x, then y, then z. */
 static sb_vec3 rotate(sb_vec3 p, const double cosine[3], const double sine[3])
 {
     p = sb_vec(p.x, cosine[0] * p.y - sine[0] * p.z, sine[0] * p.y + cosine[0] * p.z);
@@ -16,7 +16,8 @@ static sb_vec3 rotate(sb_vec3 p, const double cosine[3], const double sine[3])
     return sb_vec(cosine[2] * p.x - sine[2] * p.y, sine[2] * p.x + cosine[2] * p.y, p.z);
 }
 
-/* Exact at whole quarter turns, so that turned boxes keep their faces in the axes' planes. */
+/* Computes the cosine and sine. They are exact for multiples of 90 degrees, so that the faces of turned boxes stay
+   parallel to the axes. */
 static void turn_of(double degrees, double *cosine, double *sine)
 {
     double quarters = degrees / 90;
@@ -31,7 +32,8 @@ static void turn_of(double degrees, double *cosine, double *sine)
     *sine = sin(degrees * M_PI / 180);
 }
 
-/* Half of single precision's last digit, of the largest number, in metres: what importers keep of a file. */
+/* Returns half a unit in the last place of the largest coordinate in single precision, in metres. Importers store
+   coordinates in single precision. */
 static double rounding(const sb_body *body, const sb_mesh *mesh)
 {
     double largest = 0;
@@ -42,7 +44,7 @@ static double rounding(const sb_body *body, const sb_mesh *mesh)
     return 0x1p-24 * largest * body->scale;
 }
 
-/* In spacings: mesh files are not rounded by more. */
+/* In spacings: largest rounding error of a mesh file's coordinates that is accepted. */
 static const double coarsest = 0.25;
 
 static sb_status check_rounding(const sb_body *body, double spacing, sb_mesh *meshes, size_t count, sb_error *error)
@@ -50,10 +52,11 @@ static sb_status check_rounding(const sb_body *body, double spacing, sb_mesh *me
     for (size_t i = 0; i < count && body->shape == SB_SHAPE_MESH; ++i) {
         meshes[i].rounded = rounding(body, &meshes[i]);
         if (meshes[i].rounded > coarsest * spacing)
-            return sb_fail(error, SB_BAD_INPUT,
-                           "%.300s: its places are so far from 0 that reading rounds them by %.2g m, %.2g spacings: "
-                           "expected them near 0 in the file, moved to their place by translate",
-                           body->file, meshes[i].rounded, meshes[i].rounded / spacing);
+            return sb_fail(
+                error, SB_BAD_INPUT,
+                "%.300s: its coordinates are so far from 0 that single precision rounds them by %.2g m (%.2g "
+                "spacings): expected coordinates near 0 in the file, and the body moved by translate",
+                body->file, meshes[i].rounded, meshes[i].rounded / spacing);
     }
     return SB_OK;
 }
@@ -76,7 +79,7 @@ static void transform(const sb_body *body, sb_mesh *mesh)
     }
 }
 
-/* The body's meshes as its shape or file gives them. */
+/* Makes the body's meshes in the coordinates of its shape or file. */
 static sb_status make(const sb_body *body, double spacing, sb_mesh **meshes, size_t *count, sb_error *error)
 {
     if (body->shape == SB_SHAPE_MESH) return sb_mesh_import(body->file, meshes, count, error);
@@ -111,7 +114,7 @@ static sb_status make(const sb_body *body, double spacing, sb_mesh **meshes, siz
     return SB_OK;
 }
 
-/* Puts all meshes into the first. */
+/* Merges all meshes into the first. */
 static sb_status merge(sb_mesh *meshes, size_t *count, sb_error *error)
 {
     if (*count <= 1) return SB_OK;
@@ -146,7 +149,7 @@ static sb_status merge(sb_mesh *meshes, size_t *count, sb_error *error)
     return SB_OK;
 }
 
-/* Only mesh files need it: shapes and grids are made the right way round. */
+/* Orients the meshes of mesh files. Shapes and grids are made with the right orientation. */
 static sb_status orient(const sb_body *body, sb_mesh *meshes, size_t count, sb_error *error)
 {
     sb_status status = SB_OK;
@@ -163,7 +166,8 @@ static sb_status close_holes(const sb_body *body, sb_mesh *meshes, size_t count,
     return status;
 }
 
-/* Whether a mesh before `count` has the name; for one whose own name was replaced, whether any has it by its own. */
+/* Whether a mesh before `count` has the name. For a mesh whose own name was replaced: also whether any mesh of the
+   file has it as its own name. */
 static bool taken(const sb_mesh *meshes, size_t count, size_t all, bool replaced, const char *name)
 {
     for (size_t i = 0; i < (replaced ? all : count); ++i)
@@ -171,8 +175,8 @@ static bool taken(const sb_mesh *meshes, size_t count, size_t all, bool replaced
     return false;
 }
 
-/* Gives names to meshes without one, and a number to the second of a name: the numbers of a run of equal names, as
-   tools write them, rise on. */
+/* Names the meshes: those without a name get the body's, and repeated names get a number. Within a run of equal
+   names, as tools write them, the numbers ascend. */
 static void set_names(const sb_body *body, sb_mesh *meshes, size_t count)
 {
     char last[SB_NAME_MAX] = "";
@@ -189,13 +193,13 @@ static void set_names(const sb_body *body, sb_mesh *meshes, size_t count)
     }
 }
 
-/* A scene of more bodies than that is none: their names are compared with each other. */
+/* Largest number of parts. Each part's name is compared with all others. */
 enum { PARTS_MAX = 10000 };
 
 static sb_status check_parts(const sb_body *body, size_t count, sb_error *error)
 {
     if (!body->split || count <= PARTS_MAX) return SB_OK;
-    return sb_fail(error, SB_BAD_INPUT, "%.500s: %zu parts, expected at most %d of a body that is split", body->file,
+    return sb_fail(error, SB_BAD_INPUT, "%.500s: %zu parts, expected at most %d in a body with split", body->file,
                    count, PARTS_MAX);
 }
 
@@ -207,15 +211,15 @@ sb_status sb_mesh_from_body(const sb_body *body, double spacing, sb_mesh **meshe
     size_t made_count = 0;
     sb_status status = SB_OK;
     if (from_file && !body->file)
-        status = sb_fail(&reason, SB_BAD_INPUT, "no file, expected one");
+        status = sb_fail(&reason, SB_BAD_INPUT, "it has no file, expected one");
     else if (from_file && !(isfinite(body->scale) && body->scale > 0))
         status = sb_fail(&reason, SB_BAD_INPUT, "scale %g, expected > 0", body->scale);
     if (status == SB_OK) status = make(body, spacing, &made, &made_count, &reason);
     if (status == SB_OK) status = check_parts(body, made_count, &reason);
     if (status == SB_OK) status = check_rounding(body, spacing, made, made_count, &reason);
     for (size_t i = 0; i < made_count; ++i) transform(body, &made[i]);
-    /* Each solid part for itself, one may be inside out; but the parts of a terrain together, a
-       quay wall alone does not know which way is up. */
+    /* Each solid part is oriented separately, since one part may be inside out. The parts of a terrain are oriented
+       together, since the orientation of a single upright wall is unknown. */
     if (status == SB_OK && body->role == SB_ROLE_SOLID) status = orient(body, made, made_count, &reason);
     if (status == SB_OK && !body->split) status = merge(made, &made_count, &reason);
     if (status == SB_OK && body->role == SB_ROLE_SOLID) status = close_holes(body, made, made_count, &reason);

@@ -1,4 +1,4 @@
-/* Forks the child that reads a mesh file, fences it in, and says how it ended. */
+/* Forks the child process that reads a mesh file, limits what it may do, and reports how it ended. */
 #include "geometry/mesh_child.h"
 
 #include "base/clock.h"
@@ -19,21 +19,22 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* The child's descriptors. */
+/* File descriptors in the child. */
 enum { OWN_PIPE = 3, OWN_FILE, OWN_ABOVE };
 
-/* On the clock the child may take longer than on the processor: the disk, and other programs. */
-enum { PATIENCE = 5 };
+/* Elapsed time may exceed processor time because of the disk and other programs: the limit of elapsed time in units
+   of the limit of processor time. */
+enum { CLOCK_FACTOR = 5 };
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-enum { LIMIT_MEMORY = 0 }; /* sanitizers map terabytes, which they never touch */
+enum { LIMIT_MEMORY = 0 }; /* sanitizers map terabytes without using them */
 #else
 enum { LIMIT_MEMORY = 1 };
 #endif
 
 /* ------------------------------------------------------------------ the child, after the fork */
 
-/* At `most` the kernel says no, or for processor time sends SIGXCPU; a unit later it kills. */
+/* At `most` the kernel refuses memory, or sends SIGXCPU for processor time. One unit later it kills the process. */
 static void limit(__rlimit_resource_t what, rlim_t most)
 {
     struct rlimit now;
@@ -43,7 +44,7 @@ static void limit(__rlimit_resource_t what, rlim_t most)
     setrlimit(what, &now);
 }
 
-/* The parent's handlers must not run here; Ctrl-C and a closed terminal are the parent's to act on. */
+/* Removes the parent's signal handlers. Only the parent acts on Ctrl-C and on a closed terminal. */
 static void reset_signals(void)
 {
     for (int number = 1; number < NSIG; ++number)
@@ -62,21 +63,21 @@ static _Noreturn void run_child(const char *path, int mesh, int to, const sb_mes
     int null = open("/dev/null", O_RDWR);
     if (null < 0 || dup2(null, STDIN_FILENO) < 0 || dup2(null, STDOUT_FILENO) < 0 || dup2(null, STDERR_FILENO) < 0)
         _exit(1);
-    /* Both are above these numbers here: run_reader sees to that. All else the parent had open goes. */
+    /* run_reader gives both descriptors higher numbers than these. All other descriptors of the parent are closed. */
     if (dup2(to, OWN_PIPE) < 0 || dup2(mesh, OWN_FILE) < 0) _exit(1);
     close_range(OWN_FILE + 1, ~0U, 0);
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_FSIZE, 0);
     limit(RLIMIT_CPU, limits->seconds);
     if (LIMIT_MEMORY) limit(RLIMIT_AS, mapped + limits->memory);
-    alarm(limits->seconds * PATIENCE);
+    alarm(limits->seconds * CLOCK_FACTOR);
     sb_mesh_send_file(path, OWN_FILE, OWN_PIPE);
     _exit(0);
 }
 
 /* ----------------------------------------------------------------------------- the parent */
 
-/* Address space of this process in bytes, which a forked child begins with. */
+/* Returns this process's address space in bytes, with which a forked child begins. */
 static uint64_t mapped_bytes(void)
 {
     unsigned long pages = 0;
@@ -87,8 +88,8 @@ static uint64_t mapped_bytes(void)
     return (uint64_t)pages * (uint64_t)sysconf(_SC_PAGESIZE);
 }
 
-/* Ends the child if it still runs, and collects it. Someone else may have done that (SIGCHLD
-   ignored, or a handler that waits for all): then how it ended stays unknown, 0. */
+/* Waits for the child and returns its status; `stop` kills it first. Returns 0 if the status is unknown because
+   another part of the process has collected the child (SIGCHLD ignored, or a handler that waits for all children). */
 static int finish_child(const sb_mesh_link *from, bool stop)
 {
     if (stop && (from->watch < 0 || pidfd_send_signal(from->watch, SIGKILL, NULL, 0) != 0)) kill(from->child, SIGKILL);
@@ -104,27 +105,28 @@ static sb_status explain_end(const sb_mesh_link *from, int how, const sb_mesh_li
     bool late = from->end == SB_MESH_LINK_LATE || by == SIGALRM;
     if (late || by == SIGXCPU)
         return sb_fail(error, SB_BAD_INPUT,
-                       "%.500s: still not read after %u s%s, expected a sound "
+                       "%.500s: reading it timed out after %u s%s, expected a valid "
                        "mesh file",
-                       from->path, late ? limits->seconds * PATIENCE : limits->seconds,
+                       from->path, late ? limits->seconds * CLOCK_FACTOR : limits->seconds,
                        late ? "" : " of processor time");
     if (by)
         return sb_fail(error, SB_BAD_INPUT,
-                       "%.500s: reading it crashed (%s), expected a sound mesh file that fits in "
-                       "%.1f GiB",
+                       "%.500s: reading it crashed (%s), expected a valid mesh file that needs at most "
+                       "%.1f GiB of memory",
                        from->path, strsignal(by), (double)limits->memory / 0x1p30);
-    return sb_fail(error, SB_BAD_INPUT, "%.500s: reading it ended early, expected a sound mesh file", from->path);
+    return sb_fail(error, SB_BAD_INPUT, "%.500s: reading it ended early, expected a valid mesh file", from->path);
 }
 
-/* Forks with all signals held, so that no handler of the parent runs in the child. */
+/* Forks with all signals blocked, so that no handler of the parent runs in the child. */
 static sb_status run_reader(const char *path, int mesh, const sb_mesh_limits *limits, sb_mesh_link *from,
                             sb_error *error)
 {
     int ends[2];
     uint64_t mapped = mapped_bytes();
     if (pipe2(ends, O_CLOEXEC) != 0)
-        return sb_fail(error, SB_FAILED, "%.500s: no pipe to its reader: %s", path, strerror(errno));
-    /* Standard streams may be closed: the child's end must not be taken for one of them. */
+        return sb_fail(error, SB_FAILED, "%.500s: cannot create a pipe to the process that reads it: %s", path,
+                       strerror(errno));
+    /* If the parent's standard streams are closed, the pipe may have one of their numbers. It is moved above them. */
     int high = fcntl(ends[1], F_DUPFD_CLOEXEC, OWN_ABOVE), file = fcntl(mesh, F_DUPFD_CLOEXEC, OWN_ABOVE);
     close(ends[1]);
     sigset_t all, before;
@@ -138,14 +140,14 @@ static sb_status run_reader(const char *path, int mesh, const sb_mesh_limits *li
     if (file >= 0) close(file);
     if (child < 0) {
         close(ends[0]);
-        return sb_fail(error, SB_FAILED, "%.500s: no process to read it: %s", path, strerror(reason));
+        return sb_fail(error, SB_FAILED, "%.500s: cannot start a process that reads it: %s", path, strerror(reason));
     }
     int watch = pidfd_open(child, 0);
     *from = (sb_mesh_link){.path = path,
                            .child = child,
                            .pipe = ends[0],
                            .watch = watch,
-                           .deadline = sb_clock() + limits->seconds * PATIENCE + 1,
+                           .deadline = sb_clock() + limits->seconds * CLOCK_FACTOR + 1,
                            .room = limits->memory};
     return SB_OK;
 }
@@ -159,7 +161,7 @@ static bool has_known_ending(const char *path)
     return false;
 }
 
-/* Opens the mesh: what is read is then the file whose size was seen. */
+/* Opens the mesh file. The file that is read is thus the file whose size was checked. */
 static sb_status open_mesh(const char *path, int *mesh, uint64_t *size, sb_error *error)
 {
     struct stat found;
@@ -215,7 +217,7 @@ sb_status sb_mesh_import(const char *path, sb_mesh **meshes, size_t *count, sb_e
     uint64_t size = 0;
     sb_status status = open_mesh(path, &mesh, &size, error);
     if (status != SB_OK) return status;
-    /* A million triangles take 1 to 3 s; a small glTF may name a large buffer file. */
+    /* A million triangles take 1 to 3 s. A small glTF file may refer to a large buffer file. */
     const uint64_t megabytes = size >> 20;
     const sb_mesh_limits limits = {.memory = UINT64_C(4) << 30,
                                    .seconds = 20 + (megabytes < 600 ? (unsigned)megabytes : 600)};

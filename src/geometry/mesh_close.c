@@ -1,5 +1,5 @@
-/* Closes holes of one triangle: three open edges that run in a ring miss the face between them, and nothing else.
-   Larger holes are left to the winding number, for what their author meant there is not known. */
+/* Closes holes of one triangle: three open edges in a closed loop, between which exactly one face is missing. Larger
+   holes stay open and the winding number decides what is inside, because the intended surface there is unknown. */
 #include "base/memory.h"
 #include "geometry/mesh_edges.h"
 #include "geometry/mesh_weld.h"
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* As its triangle runs through it. */
+/* An open edge, in the direction in which its triangle traverses it. */
 typedef struct rim {
     uint32_t from, to, triangle;
 } rim;
@@ -32,7 +32,7 @@ static size_t collect_rims(const sb_mesh_edges *edges, rim *rims)
     return count;
 }
 
-/* The only open edge that starts at a vertex; NULL where there is none, or a choice. */
+/* Returns the only open edge that starts at a vertex; NULL if there is none or more than one. */
 static const rim *next_rim(const rim *rims, size_t count, uint32_t from)
 {
     size_t low = 0, high = count;
@@ -55,8 +55,8 @@ static sb_vec3 normal_of(const sb_mesh *mesh, const uint32_t corner[3])
     return length > 0 ? sb_scale(n, 1 / length) : n;
 }
 
-/* The face that a ring misses. What would lie back to back with a neighbour closes nothing: the ring is the rim of a
-   sheet, or of one triangle. */
+/* Finds the missing face of a loop. If the face would lie back to back with a neighbour, the loop is the border of
+   an open surface or of a single triangle, and it stays open. */
 static bool missing_face(const sb_mesh *mesh, const rim *rims, size_t count, const rim *first, uint32_t face[3])
 {
     static const double FOLDED = -0.99; /* cosine between normals */

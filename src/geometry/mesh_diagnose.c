@@ -1,3 +1,4 @@
+/* Finds the faults of a mesh and corrects the orientation of its faces. */
 #include "base/memory.h"
 #include "geometry/mesh_edges.h"
 #include "geometry/mesh_weld.h"
@@ -5,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Bounds of what triangles use, area, and the volume by tetrahedra from the middle of the bounds,
-   which keeps the digits of meshes far from the origin. */
+/* Measures the bounds of the triangles, the area, and the volume as a sum of tetrahedra. The tetrahedra start from
+   the middle of the bounds, which keeps the precision of meshes far from the origin. */
 static void measure(const sb_mesh *mesh, sb_mesh_report *report, sb_vec3 *area_vector)
 {
     report->min = sb_vec(HUGE_VAL, HUGE_VAL, HUGE_VAL);
@@ -133,10 +134,10 @@ sb_status sb_mesh_orient(sb_mesh *mesh, sb_role role, sb_error *error)
     sb_vec3 area_vector;
     sb_mesh_report report = {0};
     measure(mesh, &report, &area_vector);
-    /* A closed terrain has no area vector to go by: then its volume tells, as for a solid. What
-       stands upright, and a sheet of role SOLID, keep what their author gave them. */
+    /* The area vector of a closed terrain is zero. Its volume then gives the orientation, as for a solid. Upright
+       surfaces, and open surfaces of role SOLID, keep the orientation of their file. */
     double facing = sb_norm(area_vector) / report.area, up = area_vector.z / report.area;
-    bool by_volume = role == SB_ROLE_SOLID ? !mesh->sheet && facing < 0.9 : facing < 1e-6;
+    bool by_volume = role == SB_ROLE_SOLID ? !mesh->open_surface && facing < 0.9 : facing < 1e-6;
     bool wrong = by_volume ? report.volume < 0 : role == SB_ROLE_TERRAIN && up < -0.05;
     if (wrong) {
         for (size_t i = 0; i < mesh->triangle_count; ++i) turn(mesh, i);

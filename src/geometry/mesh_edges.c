@@ -1,3 +1,4 @@
+/* Finds a mesh's edges and the triangles whose orientation is opposite to that of their neighbours. */
 #include "geometry/mesh_edges.h"
 
 #include "base/memory.h"
@@ -5,7 +6,8 @@
 
 #include <stdlib.h>
 
-/* A triangle's leader within its surface, and whether it faces the other way than the leader. */
+/* The representative (leader) of a triangle's surface in a union-find, and whether the triangle is oriented opposite
+   to it. */
 typedef struct link {
     uint32_t leader;
     bool opposite;
@@ -35,7 +37,7 @@ static void collect_edges(const sb_mesh *mesh, const uint32_t *first, sb_mesh_ed
     qsort(edges->edges, edges->count, sizeof *edges->edges, compare_edges);
 }
 
-/* The leader of triangle i, which is its own; the links passed get shorter on the way. */
+/* Finds the leader of triangle i. A leader is its own leader. The links on the way are shortened. */
 static link find_leader(link *links, uint32_t i)
 {
     link found = {i, false};
@@ -48,7 +50,7 @@ static link find_leader(link *links, uint32_t i)
     return found;
 }
 
-/* Joins two neighbours; the lower leader stays, so that numbering does not hang on the order. */
+/* Joins the surfaces of two neighbours. The lower leader stays, so that the numbering does not depend on the order. */
 static void join(link *links, uint32_t a, uint32_t b, bool opposite)
 {
     link one = find_leader(links, a), two = find_leader(links, b);
@@ -60,8 +62,8 @@ static void join(link *links, uint32_t a, uint32_t b, bool opposite)
         links[one.leader] = (link){two.leader, between};
 }
 
-/* Two triangles that share an edge run through it in opposite directions when they face the same
-   way. Edges of three or more say nothing. */
+/* Marks flipped triangles. Two triangles that share an edge traverse it in opposite directions if their orientation
+   agrees. Edges with three or more triangles are ignored. */
 static int find_flipped(size_t triangles, sb_mesh_edges *edges)
 {
     link *links = sb_alloc_untouched(triangles, sizeof *links);
@@ -83,8 +85,8 @@ static int find_flipped(size_t triangles, sb_mesh_edges *edges)
     }
     for (size_t i = 0; i < triangles; ++i) {
         link found = find_leader(links, (uint32_t)i);
-        bool lesser_is_opposite = sides[found.leader][1] <= sides[found.leader][0];
-        edges->flipped[i] = found.opposite == lesser_is_opposite;
+        bool smaller_is_opposite = sides[found.leader][1] <= sides[found.leader][0];
+        edges->flipped[i] = found.opposite == smaller_is_opposite;
         edges->flipped_count += edges->flipped[i];
     }
     sb_free(links);

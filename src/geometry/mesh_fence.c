@@ -1,5 +1,6 @@
-/* By system calls of their own: the C library has no functions for Landlock, and a library for seccomp is not worth one
-   list. Whoever gains control of the parser by a crafted file gains no more than the mesh's folder. */
+/* Restricts the process by system calls: the C library has no functions for Landlock, and a library for seccomp is
+   not justified by one list. A crafted file that gains control of the parser thus gains access to the mesh's folder
+   at most. */
 #include "geometry/mesh_fence.h"
 
 #include "geometry/mesh.h"
@@ -24,8 +25,8 @@
 
 /* ------------------------------------------------------------------------------ Landlock */
 
-/* All rights that the kernel's version knows, so that none is left open: 13 in the first, one more in the second
-   (refer), third (truncate) and fifth (ioctl on devices). */
+/* Returns all access rights that this Landlock version handles, so that none stays allowed: 13 in version 1, and one
+   more in versions 2 (refer), 3 (truncate) and 5 (ioctl on devices). */
 static uint64_t rights_of(long version)
 {
     uint64_t rights = (UINT64_C(1) << 13) - 1;
@@ -59,23 +60,24 @@ static void fence_files(const char *folder)
 
 #ifdef OWN_ARCHITECTURE
 
-#define WORD(member) BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, member))
+#define LOAD(member) BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, member))
 #define ALLOW BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW)
 #define REFUSE BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EPERM)
 #define CALL(name) BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_##name, 0, 1), ALLOW
-/* Allowed when none of the flags, argument `n`, writes or makes a file; the low half of the argument has them all. */
+/* Allows a call if none of its flags, argument `n`, writes or creates a file. All these flags are in the low half of
+   the argument. */
 #define OPEN(name, n)                                                                                                  \
-    BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_##name, 0, 4), WORD(args[n]),                                              \
+    BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_##name, 0, 4), LOAD(args[n]),                                              \
         BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, O_ACCMODE | O_CREAT | O_TRUNC | O_APPEND | (O_TMPFILE & ~O_DIRECTORY), 1, \
                  0),                                                                                                   \
         ALLOW, REFUSE
 
-/* What parsing takes: memory, reading, the pipe, time, and ending, by a crash too. The sanitizers' runtimes take a few
-   more, which harm nobody. */
-static const struct sock_filter allowed[] = {WORD(arch),
+/* The system calls that parsing needs: memory, reading, the pipe, time, and termination, also by a crash. The
+   sanitizers' runtimes need a few more, which are harmless. */
+static const struct sock_filter allowed[] = {LOAD(arch),
                                              BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, OWN_ARCHITECTURE, 1, 0),
                                              REFUSE,
-                                             WORD(nr),
+                                             LOAD(nr),
                                              OPEN(openat, 2),
 #ifdef SYS_open
                                              OPEN(open, 1),
@@ -148,7 +150,7 @@ static void fence_calls(void) {}
 
 void sb_mesh_fence(const char *folder)
 {
-    /* Without privileges to gain, an unprivileged process may fence itself in. */
+    /* The kernel lets an unprivileged process restrict itself only after no_new_privs. */
     if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return;
     fence_files(folder);
     fence_calls();

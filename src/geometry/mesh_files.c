@@ -1,6 +1,6 @@
-/* Files as assimp asks for them. A mesh may name others (buffers, materials): a file from a stranger would choose what
-   of this machine becomes vertices. So a name is resolved, links included, and has to lead to a regular file within the
-   folder of the mesh. */
+/* Opens files for assimp. A mesh may refer to other files (buffers, materials), and a file from an untrusted source
+   could thereby read any file of this machine. Each name is therefore resolved, including links, and must lead to a
+   regular file in the mesh's folder. */
 #include "geometry/mesh_files.h"
 
 #include "base/input.h"
@@ -16,10 +16,10 @@
 #include <unistd.h>
 
 typedef struct opened {
-    struct aiFile file; /* first, since assimp hands back its address */
+    struct aiFile file; /* first member, since assimp passes its address back */
     int descriptor;
-    bool own;    /* the descriptor is closed with the file */
-    char *bytes; /* the content, where it differs from the file's; else NULL */
+    bool own;    /* the descriptor is closed together with the file */
+    char *bytes; /* the content to deliver if it differs from the file's; else NULL */
     size_t size, at;
 } opened;
 
@@ -41,7 +41,7 @@ static size_t read_bytes(opened *from, char *to, size_t wanted)
     return got;
 }
 
-/* As fread. */
+/* Like fread. */
 static size_t read_items(struct aiFile *file, char *to, size_t size, size_t count)
 {
     opened *from = (opened *)file;
@@ -70,7 +70,7 @@ static size_t size_of(struct aiFile *file)
     return ((opened *)file)->size;
 }
 
-/* As fseek: the offset is signed by what assimp means. */
+/* Like fseek. Assimp passes negative offsets as unsigned numbers. */
 static aiReturn seek(struct aiFile *file, size_t offset, enum aiOrigin origin)
 {
     opened *of = (opened *)file;
@@ -92,15 +92,15 @@ static void refuse(sb_mesh_files *files, const char *name, const char *how, cons
     snprintf(files->refusal, sizeof files->refusal, "it refers to the file \"%.200s\"%s%s", name, how, kind);
 }
 
-/* What the mesh calls the file: the name without the folder that assimp puts before it. */
+/* Returns the file's name as the mesh gives it, without the folder that assimp prepends. */
 static const char *own_name(const sb_mesh_files *files, const char *name)
 {
     const size_t length = strlen(files->folder);
     return strncmp(name, files->folder, length) == 0 && name[length] == '/' ? name + length + 1 : name;
 }
 
-/* The descriptor of a file that lies in the folder, or -1; a name that leads nowhere is no refusal: assimp tries names,
-   and does without a material that is missing. */
+/* Returns the descriptor of a file in the folder, or -1. A name that does not exist is not a refusal, because assimp
+   tries several names and can do without a missing material. */
 static int open_within(sb_mesh_files *files, const char *name)
 {
     char joined[SB_PATH_MAX], resolved[SB_PATH_MAX];
@@ -110,7 +110,7 @@ static int open_within(sb_mesh_files *files, const char *name)
     const size_t length = strcmp(files->root, "/") == 0 ? 0 : strlen(files->root);
     if (sb_path_join(joined, files->root, own, NULL) != SB_OK || !realpath(joined, resolved)) return -1;
     if (strncmp(resolved, files->root, length) != 0 || (resolved[length] != '/' && resolved[length] != '\0')) {
-        refuse(files, own, " outside of its folder, expected all its files in that folder", "");
+        refuse(files, own, " outside of its folder, expected all files in that folder", "");
         return -1;
     }
     if (stat(resolved, &about) == 0 && !S_ISREG(about.st_mode))

@@ -1,5 +1,4 @@
-/* The files that the child opens for assimp: those of the mesh's folder, and no others. Private to
-   src/geometry/mesh*.c. */
+/* Opens files for assimp in the child process: those of the mesh's folder only. Private to src/geometry/mesh*.c. */
 #ifndef SB_GEOMETRY_MESH_FILES_H
 #define SB_GEOMETRY_MESH_FILES_H
 
@@ -8,15 +7,15 @@
 #include <assimp/cfileio.h>
 
 typedef struct sb_mesh_files {
-    struct aiFileIO io;       /* for aiImportFileEx; first, since assimp hands back its address */
-    const char *path;         /* of the mesh, as assimp is given it */
+    struct aiFileIO io;       /* for aiImportFileEx; first member, since assimp passes its address back */
+    const char *path;         /* of the mesh, as passed to assimp */
     int mesh;                 /* open descriptor of it */
-    char folder[SB_PATH_MAX]; /* of the mesh, as its path begins */
+    char folder[SB_PATH_MAX]; /* of the mesh, as in its path */
     char root[SB_PATH_MAX];   /* the same without links */
-    char refusal[400];        /* why the first file that was not opened is refused, or "" */
+    char refusal[400];        /* why the first refused file was refused, or "" */
 } sb_mesh_files;
 
-/* SB_BAD_INPUT when the mesh's folder cannot be found. `path` stays the caller's. */
+/* Initialises *files. SB_BAD_INPUT if the mesh's folder cannot be found. `path` must outlive *files. */
 sb_status sb_mesh_files_begin(sb_mesh_files *files, const char *path, int mesh, sb_error *error);
 
 #endif

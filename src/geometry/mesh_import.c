@@ -1,5 +1,5 @@
-/* Only this file and mesh_files.c know assimp. They run in a child process (mesh_child.c): a file that makes
-   assimp crash or hang costs that child only. */
+/* Reads a mesh file with assimp. Only this file and mesh_files.c use assimp. They run in a child process
+   (mesh_child.c): a file that makes assimp crash or hang ends only that child. */
 #include "base/library.h"
 #include "base/memory.h"
 #include "geometry/mesh_child.h"
@@ -14,7 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Looked up in the child, so that the parent never maps the library nor what it pulls in. */
+/* Functions that are looked up in the child, so that the parent never maps the library and its dependencies. */
 typedef struct assimp {
     __typeof__(aiCreatePropertyStore) *create_settings;
     __typeof__(aiSetImportPropertyInteger) *set_integer;
@@ -22,7 +22,7 @@ typedef struct assimp {
     __typeof__(aiGetErrorString) *error;
 } assimp;
 
-/* p -> m p + t, in double: the files' floats are not rounded twice. */
+/* The transform p -> m p + t, in double precision so that the files' single-precision numbers are not rounded twice. */
 typedef struct placement {
     double m[3][3], t[3];
 } placement;
@@ -30,7 +30,7 @@ typedef struct placement {
 typedef struct sender {
     const struct aiScene *scene;
     int pipe;
-    bool failed; /* trouble was told, or nobody listens */
+    bool failed; /* a failure was sent, or the pipe is closed */
 } sender;
 
 static void send_bytes(sender *to, const void *bytes, size_t size)
@@ -54,15 +54,15 @@ static void send_record(sender *to, sb_mesh_record_kind kind, uint64_t vertices,
     if (length > sizeof record.name - 1) {
         length = sizeof record.name - 1;
         while (length > 0 && ((unsigned char)name[length] & 0xc0) == 0x80)
-            --length; /* cut between characters, not within one of several bytes */
+            --length; /* cuts between characters, not within a character of several bytes */
     }
     memcpy(record.name, name, length);
     send_bytes(to, &record, sizeof record);
 }
 
-static void send_trouble(sender *to, const char *text)
+static void send_failure(sender *to, const char *text)
 {
-    send_record(to, SB_MESH_RECORD_TROUBLE, strlen(text), 0, "");
+    send_record(to, SB_MESH_RECORD_FAILURE, strlen(text), 0, "");
     send_bytes(to, text, strlen(text));
     to->failed = true;
 }
@@ -104,11 +104,11 @@ static const struct aiMesh *mesh_of(const sender *to, const struct aiNode *node,
     return to->scene->mMeshes[node->mMeshes[i]];
 }
 
-/* Copies a node's triangles, numbering the vertices of its parts on. Bad indices become
+/* Copies a node's triangles. The vertices of its parts are numbered consecutively. Invalid indices become
    UINT32_MAX, which the parent refuses. */
 static void gather(const sender *to, const struct aiNode *node, const placement *at, sb_mesh *mesh)
 {
-    const int second = mirrors(at) ? 2 : 1; /* a mirrored triangle would look inwards */
+    const int second = mirrors(at) ? 2 : 1; /* a mirrored triangle would face inwards */
     size_t vertex = 0, triangle = 0;
     for (unsigned i = 0; i < node->mNumMeshes; ++i) {
         const struct aiMesh *part = mesh_of(to, node, i);
@@ -132,7 +132,7 @@ static void send_node_mesh(sender *to, const struct aiNode *node, const placemen
     size_t vertices = 0, triangles = 0;
     for (unsigned i = 0; i < node->mNumMeshes; ++i) {
         if (node->mMeshes[i] >= to->scene->mNumMeshes) {
-            send_trouble(to, "a node refers to a mesh that is not there");
+            send_failure(to, "a node refers to a mesh that does not exist");
             return;
         }
         const struct aiMesh *part = mesh_of(to, node, i);
@@ -142,7 +142,7 @@ static void send_node_mesh(sender *to, const struct aiNode *node, const placemen
     if (triangles == 0) return;
     sb_mesh mesh;
     if (vertices >= UINT32_MAX || sb_mesh_alloc(&mesh, vertices, triangles, NULL) != SB_OK) {
-        send_trouble(to, "too many vertices");
+        send_failure(to, "too many vertices");
         return;
     }
     gather(to, node, at, &mesh);
@@ -152,8 +152,8 @@ static void send_node_mesh(sender *to, const struct aiNode *node, const placemen
     sb_mesh_free(&mesh);
 }
 
-/* A node without a name goes by that of the one above. The file's own name, which assimp gives to
-   the root, and its placeholders are none. */
+/* Returns a node's name, or for a node without a name that of its parent. The file's name, which assimp gives to the
+   root, and assimp's placeholders do not count as names. */
 static const char *name_of(const struct aiNode *node, const char *above)
 {
     const char *own = node->mName.data;
@@ -185,7 +185,7 @@ static sb_status load(assimp *ai, sb_error *error)
 static const struct aiScene *read_scene(const assimp *ai, sb_mesh_files *files)
 {
     struct aiPropertyStore *settings = ai->create_settings();
-    /* Lines and points bound nothing. Axes stay the file's own: the scene says which is up. */
+    /* Lines and points enclose nothing. The axes stay those of the file, because the scene gives the upward axis. */
     ai->set_integer(settings, AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     ai->set_integer(settings, AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
     ai->set_integer(settings, AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, 1);
@@ -202,20 +202,20 @@ void sb_mesh_send_file(const char *path, int mesh, int pipe)
     sb_status status = load(&ai, &error);
     if (status == SB_OK) status = sb_mesh_files_begin(&files, path, mesh, &error);
     if (status != SB_OK) {
-        send_trouble(&to, error.text);
+        send_failure(&to, error.text);
         return;
     }
     sb_mesh_fence(files.root);
     to.scene = read_scene(&ai, &files);
     if (files.refusal[0]) {
-        send_trouble(&to, files.refusal);
+        send_failure(&to, files.refusal);
         return;
     }
     if (!to.scene) {
-        /* This one of assimp's messages would tell the path a second time. */
+        /* This message of assimp would repeat the path. */
         const char *reason = ai.error();
         bool unknown = strncmp(reason, "No suitable reader", 18) == 0;
-        send_trouble(&to, unknown ? "its content is not of the format its name says" : reason);
+        send_failure(&to, unknown ? "its content does not match the format that its name gives" : reason);
         return;
     }
     const placement file = {.m = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};

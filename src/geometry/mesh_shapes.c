@@ -1,4 +1,4 @@
-/* Analytic shapes as meshes, with as few triangles as they need. */
+/* Makes meshes of analytic shapes with as few triangles as possible. */
 #include "geometry/mesh.h"
 
 #include <math.h>
@@ -6,21 +6,21 @@
 
 enum { SEGMENTS_MIN = 12, SEGMENTS_MAX = 8192 };
 
-/* Vertex i of a box is at max in x, y, z by the bits 1, 2, 4 of i. */
+/* Sets the corners of a box. Bits 1, 2, 4 of a vertex number i select max instead of min in x, y, z. */
 static void set_corners(sb_mesh *mesh, sb_vec3 min, sb_vec3 max)
 {
     for (int i = 0; i < 8; ++i)
         mesh->vertices[i] = sb_vec(i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z);
 }
 
-/* Two triangles of the quadrilateral a b c d, counter-clockwise as they come. */
+/* Divides the quadrilateral a b c d into two triangles of the same orientation. */
 static void set_quad(uint32_t (*triangles)[3], const uint32_t corner[4])
 {
     const uint32_t two[2][3] = {{corner[0], corner[1], corner[2]}, {corner[0], corner[2], corner[3]}};
     memcpy(triangles, two, sizeof two);
 }
 
-/* Counter-clockwise seen from outside: the floor, four sides, and last the lid. */
+/* Faces counter-clockwise seen from outside: the floor, four sides, and last the lid. */
 static const uint32_t box_faces[6][4] = {{0, 2, 3, 1}, {0, 1, 5, 4}, {1, 3, 7, 5},
                                          {3, 2, 6, 7}, {2, 0, 4, 6}, {4, 5, 7, 6}};
 
@@ -54,13 +54,13 @@ sb_status sb_mesh_basin(sb_vec3 min, sb_vec3 max, sb_mesh *mesh, sb_error *error
         const uint32_t *out = box_faces[face];
         set_quad(basin.triangles + 2 * face, (const uint32_t[4]){out[3], out[2], out[1], out[0]});
     }
-    basin.sheet = true;
+    basin.open_surface = true;
     *mesh = basin;
     return SB_OK;
 }
 
-/* Segments whose sagitta r (1 - cos(pi / n)) stays below the tolerance; a multiple of four, so that
-   the polygon reaches the full radius along both axes. */
+/* Returns the number of segments whose sagitta r (1 - cos(pi / n)) stays below the tolerance. It is a multiple of
+   four, so that the polygon has the full radius along both axes. */
 static size_t segment_count(double radius, double tolerance)
 {
     double share = tolerance / radius;
@@ -81,7 +81,7 @@ sb_status sb_mesh_cylinder(sb_vec3 base, double radius, double height, double to
     sb_mesh cylinder;
     sb_status status = sb_mesh_alloc(&cylinder, 2 * n + 2, 4 * n, error);
     if (status != SB_OK) return status;
-    /* Ring below: 0..n-1, ring above: n..2n-1, then the centres of both discs. */
+    /* Lower ring: 0..n-1, upper ring: n..2n-1, then the centres of both discs. */
     const uint32_t ring = (uint32_t)n, below = 2 * ring, above = below + 1;
     for (uint32_t i = 0; i < ring; ++i) {
         double angle = 2 * M_PI * i / ring;
@@ -111,7 +111,7 @@ sb_status sb_mesh_plane(sb_vec3 center, sb_vec3 normal, double width, double len
     sb_mesh plane;
     sb_status status = sb_mesh_alloc(&plane, 4, 2, error);
     if (status != SB_OK) return status;
-    /* A level plane has no horizontal direction of its own: its width is along x. */
+    /* A horizontal plane has no horizontal direction of its own. Its width is along x. */
     sb_vec3 across = sb_cross(sb_vec(0, 0, 1), n);
     sb_vec3 u = sb_norm(across) > 1e-9 ? sb_normalize(across) : sb_vec(1, 0, 0);
     sb_vec3 v = sb_cross(n, u);
@@ -120,7 +120,7 @@ sb_status sb_mesh_plane(sb_vec3 center, sb_vec3 normal, double width, double len
         plane.vertices[i] = sb_madd(at, i & 2 ? length / 2 : -length / 2, v);
     }
     set_quad(plane.triangles, (const uint32_t[4]){0, 1, 3, 2});
-    plane.sheet = true;
+    plane.open_surface = true;
     *mesh = plane;
     return SB_OK;
 }

@@ -1,19 +1,19 @@
-/* Walls below the open edges of a terrain: what lies below its sheet is solid, and where the sheet ends so does the
-   solid, in a face that the file does not have. */
+/* Adds walls below the open edges of a terrain. The ground below a terrain's surface is solid. Where the surface
+   ends, the solid ends in a vertical face that the file does not contain. */
 #include "base/memory.h"
 #include "geometry/mesh_edges.h"
 
 #include <string.h>
 
-/* An open edge as its triangle runs through it, seen from above with the sheet on its left. */
+/* An open edge in the direction in which its triangle traverses it. Seen from above, the surface lies to its left. */
 typedef struct end_edge {
     uint32_t from, to;
 } end_edge;
 
-/* Cosine to the horizontal: a face this near to upright looks neither up nor down. */
+/* Cosine of the normal to the vertical: a face closer to vertical than this faces neither upwards nor downwards. */
 static const double upright = 1e-9;
 
-static bool looks_down(const sb_mesh *mesh, uint32_t triangle)
+static bool faces_down(const sb_mesh *mesh, uint32_t triangle)
 {
     const uint32_t *of = mesh->triangles[triangle];
     const sb_vec3 a = mesh->vertices[of[0]];
@@ -21,7 +21,7 @@ static bool looks_down(const sb_mesh *mesh, uint32_t triangle)
     return normal.z < -upright * sb_norm(normal);
 }
 
-/* The open edges that are ends. */
+/* Collects the open edges that need a wall. */
 static size_t collect_ends(const sb_mesh *mesh, const sb_mesh_edges *edges, sb_mesh_ends *ends, void *context,
                            end_edge *found)
 {
@@ -30,14 +30,14 @@ static size_t collect_ends(const sb_mesh *mesh, const sb_mesh_edges *edges, sb_m
         const sb_mesh_edge *e = edges->edges + i;
         end = sb_mesh_edge_run(edges, i);
         if (end - i > 1) continue;
-        const bool forward = e->forward != looks_down(mesh, e->triangle);
+        const bool forward = e->forward != faces_down(mesh, e->triangle);
         const end_edge one = {forward ? e->low : e->high, forward ? e->high : e->low};
         if (ends(context, mesh->vertices[one.from], mesh->vertices[one.to])) found[count++] = one;
     }
     return count;
 }
 
-/* The vertex below another; neighbouring walls share it, so that they meet in an edge. */
+/* Returns the vertex below another one. Neighbouring walls share it, so that they meet in an edge. */
 static uint32_t foot_of(sb_mesh *mesh, uint32_t *foot, uint32_t top, double floor, double depth)
 {
     if (foot[top] != 0) return foot[top];
@@ -48,9 +48,9 @@ static uint32_t foot_of(sb_mesh *mesh, uint32_t *foot, uint32_t top, double floo
     return foot[top];
 }
 
-/* Two triangles below each end, towards the outside. */
-static sb_status hang(const sb_mesh *mesh, const end_edge *ends, size_t count, double floor, double depth, sb_mesh *out,
-                      sb_error *error)
+/* Adds two triangles below each edge, which face outwards. */
+static sb_status add_walls(const sb_mesh *mesh, const end_edge *ends, size_t count, double floor, double depth,
+                           sb_mesh *out, sb_error *error)
 {
     if (mesh->vertex_count + 2 * count >= UINT32_MAX)
         return sb_fail(error, SB_BAD_INPUT, "%zu vertices, expected fewer than 2^32", mesh->vertex_count + 2 * count);
@@ -87,7 +87,7 @@ sb_status sb_mesh_skirt(sb_mesh *mesh, sb_mesh_ends *ends, void *context, double
     sb_mesh_edges_free(&edges);
     if (count > 0) {
         sb_mesh whole = {.vertex_count = 0};
-        status = hang(mesh, found, count, floor, depth, &whole, error);
+        status = add_walls(mesh, found, count, floor, depth, &whole, error);
         if (status == SB_OK) {
             const sb_vec3 from = mesh->vertices[found[0].from], to = mesh->vertices[found[0].to];
             sb_free(mesh->vertices);

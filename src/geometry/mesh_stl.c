@@ -1,5 +1,6 @@
-/* assimp takes an STL file for binary only when its size is exactly that of its triangles, for text only when it begins
-   with "solid" in small letters, and refuses a text that begins with an empty solid. */
+/* Converts STL files to the form that assimp accepts. Assimp recognises an STL file as binary only if its size is
+   exactly that of its triangles, and as text only if it begins with "solid" in lower case. It refuses a text that
+   begins with an empty solid. */
 #include "geometry/mesh_stl.h"
 
 #include "base/memory.h"
@@ -27,8 +28,8 @@ static size_t read_all(int file, char *bytes, size_t size)
     return got;
 }
 
-/* A binary file has zeros in its first bytes: the number of triangles is below 2^24 in all but giants, and their
-   numbers have some, too. */
+/* Whether the bytes are text. A binary file has zeros in its first bytes: its number of triangles is below 2^24 in
+   practice, and its numbers contain zeros, too. */
 static bool is_text(const char *bytes, size_t size)
 {
     while (size > 0 && (bytes[size - 1] == '\0' || bytes[size - 1] == '\x1a')) --size; /* padding */
@@ -70,7 +71,7 @@ static bool is_word(const text *of, size_t at, size_t end, const char *word)
     return strlen(word) == end - at && strncasecmp(of->bytes + at, word, end - at) == 0;
 }
 
-/* Makes a keyword's letters small. */
+/* Converts a keyword to lower case. */
 static void lower(text *of, size_t at, size_t end)
 {
     static const char *const words[] = {"solid", "endsolid", "facet",  "endfacet", "outer",
@@ -88,16 +89,16 @@ static bool begins_line(const text *of, size_t at)
     return at == 0 || of->bytes[at - 1] == '\n';
 }
 
-/* Line ends, too: assimp looks for "solid" behind blanks of one line only. */
+/* Overwrites with blanks, also line ends: assimp looks for "solid" only after blanks of the same line. */
 static void blank(text *of, size_t from, size_t to)
 {
     memset(of->bytes + from, ' ', to - from);
     of->changed |= to > from;
 }
 
-/* Word by word, as assimp reads: a name is one word behind "solid", and all of the line behind "endsolid". Solids that
-   end, or are followed by another, without a facet become blank. Returns the number of solids, and of those with a
-   facet in *full. */
+/* Corrects the text word by word, as assimp reads it: after "solid" one word is the name, after "endsolid" the rest
+   of the line. Solids without a facet are overwritten with blanks. Returns the number of solids; *full is the number
+   of solids with a facet. */
 static size_t correct_words(text *of, size_t *full)
 {
     size_t solids = 0, begin = 0, end = 0;
@@ -132,7 +133,7 @@ static void correct_text(int file, char **bytes, size_t size, char *refusal, siz
     static const char mark[] = "\xef\xbb\xbf";
     text whole = {.bytes = sb_alloc_untouched(size, 1)};
     size_t full = 0;
-    if (!whole.bytes) return; /* assimp will want the same memory, and say so */
+    if (!whole.bytes) return; /* assimp then fails for lack of memory and reports that */
     whole.size = read_all(file, whole.bytes, size);
     if (whole.size == size) {
         if (size >= 3 && memcmp(whole.bytes, mark, 3) == 0) blank(&whole, 0, 3);

@@ -1,4 +1,4 @@
-/* STL files as others write them, made into what assimp takes. Private to src/geometry/mesh*.c. */
+/* Converts STL files of other programs to the form that assimp accepts. Private to src/geometry/mesh*.c. */
 #ifndef SB_GEOMETRY_MESH_STL_H
 #define SB_GEOMETRY_MESH_STL_H
 
@@ -7,10 +7,10 @@
 
 bool sb_mesh_is_stl(const char *name);
 
-/* What to give for the STL file in place of its own content: *bytes, owned by the caller (sb_free), or NULL for the
-   file's own bytes, and their number in *size. Bytes after the triangles of a binary file are left out; in a text file
-   words in capitals are made small, and solids without a facet blank. A file that cannot be one has the cause in
-   `refusal`. */
+/* Provides the content to read in place of the STL file's own: *bytes, owned by the caller (sb_free), or NULL for
+   the file's own bytes. *size is their number. Bytes after the triangles of a binary file are left out. In a text
+   file keywords are converted to lower case, and solids without a facet are overwritten with blanks. If the file
+   cannot be an STL file, `refusal` gives the cause. */
 void sb_mesh_stl_content(int file, char **bytes, size_t *size, char *refusal, size_t room);
 
 #endif

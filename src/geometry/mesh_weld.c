@@ -1,3 +1,4 @@
+/* Merges vertices of a mesh that lie at the same place. */
 #include "geometry/mesh_weld.h"
 
 #include "base/hash.h"
@@ -54,7 +55,7 @@ sb_status sb_mesh_weld(sb_mesh *mesh, sb_error *error)
     uint32_t *first = sb_alloc_untouched(mesh->vertex_count, sizeof *first);
     uint32_t *place = sb_alloc(mesh->vertex_count, sizeof *place);
     if (!first || !place || sb_mesh_find_twins(mesh, first)) {
-        status = sb_fail_memory(error, "joining the vertices of a mesh");
+        status = sb_fail_memory(error, "merging the vertices of a mesh");
         goto done;
     }
     size_t triangles = 0;

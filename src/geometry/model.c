@@ -1,4 +1,4 @@
-/* The way from a scene to a model, stage by stage. */
+/* Builds a model from a scene, stage by stage. */
 #include "base/stop.h"
 #include "geometry/model_parts.h"
 
@@ -14,7 +14,7 @@ sb_status sb_model_build_for(const sb_scene *scene, sb_model_need *need, sb_mode
     sb_status status = sb_model_import_bodies(scene, &made, error);
     if (status == SB_OK) status = sb_model_room(scene, &made, need, error);
     if (status == SB_OK) status = sb_model_space_create(&made, scene, &space, error);
-    /* The sea first: a scene whose sea escapes need not wait for its walls. */
+    /* The sea comes first: if it escapes, the walls need not be sampled. */
     if (status == SB_OK) status = sb_model_fill(scene, &space, &made, error);
     if (status == SB_OK) status = sb_model_sample(scene, &space, &made, error);
     if (status == SB_OK) status = sb_model_check_sides(scene, &space, &made, error);
@@ -22,7 +22,7 @@ sb_status sb_model_build_for(const sb_scene *scene, sb_model_need *need, sb_mode
     sb_model_space_free(&space);
     if (status != SB_OK) {
         sb_model_free(&made);
-        /* Whatever a stage made of it. */
+        /* The stop replaces any error that a stage reported because of it. */
         return sb_stop_signal() ? sb_stop_fail(error, "while the model was built: nothing is computed yet") : status;
     }
     *model = made;

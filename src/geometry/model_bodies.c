@@ -1,4 +1,4 @@
-/* The bodies of a scene: meshes under unique names, colours, wavemakers, moment points. */
+/* Imports the bodies of a scene: meshes with unique names, colours, wave makers, moment points. */
 #include "geometry/model_parts.h"
 
 #include "base/memory.h"
@@ -11,7 +11,8 @@ static const float solid_color[3] = {0.74F, 0.72F, 0.68F};
 static const float terrain_color[3] = {0.60F, 0.54F, 0.42F};
 static const float moving_color[3] = {0.80F, 0.52F, 0.25F};
 
-/* Index of the wavemaker that moves the part by its own name, or else the whole body of the scene; -1: none. */
+/* Returns the index of the wave maker that moves the part by its own name, or else of the one that moves the whole
+   body of the scene; -1: none. */
 static int find_wavemaker(const sb_scene *scene, const char *body, const char *part)
 {
     int whole = -1;
@@ -22,7 +23,7 @@ static int find_wavemaker(const sb_scene *scene, const char *body, const char *p
     return whole;
 }
 
-/* In 2D the plane y = 0 is all there is. */
+/* Returns the middle of the mesh's extent in x and y, at its lowest z. In 2D y is 0. */
 static sb_vec3 footprint_center(const sb_mesh *mesh, int dimensions)
 {
     sb_vec3 min = sb_vec(HUGE_VAL, HUGE_VAL, HUGE_VAL), max = sb_scale(min, -1);
@@ -40,7 +41,7 @@ static bool name_taken(const sb_model *model, const char *name)
     return false;
 }
 
-/* The name, or with "-2", "-3", ... the first that is free. */
+/* Chooses the wanted name, or if it is used the first free one with "-2", "-3", ... appended. */
 static void choose_name(const sb_model *model, const char *wanted, char name[SB_NAME_MAX])
 {
     snprintf(name, SB_NAME_MAX, "%s", wanted);
@@ -70,10 +71,11 @@ static void describe(const sb_scene *scene, const sb_body *from, sb_model_body *
     memcpy(body->color, from->color[0] < 0 ? color : from->color, sizeof body->color);
 }
 
-/* In spacings: farther out than that rounding bends what is near, too. */
+/* In spacings: largest distance of a body from the domain. Beyond it rounding distorts nearby parts of the mesh as
+   well. */
 static const double FARTHEST = 1e8;
 
-static sb_status check_reach(const sb_scene *scene, const sb_model_body *body, sb_error *error)
+static sb_status check_extent(const sb_scene *scene, const sb_model_body *body, sb_error *error)
 {
     const double most = FARTHEST * scene->resolution;
     for (size_t i = 0; i < body->mesh.vertex_count; ++i) {
@@ -81,30 +83,32 @@ static sb_status check_reach(const sb_scene *scene, const sb_model_body *body, s
         const sb_vec3 out = sb_max(sb_sub(scene->domain.min, at), sb_sub(at, scene->domain.max));
         const double far = fmax(out.x, fmax(scene->dimensions == 2 ? 0 : out.y, out.z));
         if (!sb_isfinite(at) || !(far <= most))
-            return sb_fail(error, SB_BAD_INPUT,
-                           "body \"%s\" reaches to (%g, %g, %g) m: expected no more than %g m from the domain, 1e8 "
-                           "spacings%s",
-                           body->name, at.x, at.y, at.z, most,
-                           body->mesh.node_count > 0 ? "; does the file name the value of its missing heights (nodata)?"
-                                                     : "");
+            return sb_fail(
+                error, SB_BAD_INPUT,
+                "body \"%s\" extends to (%g, %g, %g) m: expected at most %g m, 1e8 spacings, from the "
+                "domain%s",
+                body->name, at.x, at.y, at.z, most,
+                body->mesh.node_count > 0 ? "; does the file state the value of its missing heights (nodata)?" : "");
     }
     return SB_OK;
 }
 
-/* A part named as another body of the scene would take its rows, and its wave maker. */
+/* A part with the name of another body of the scene would take over that body's rows and wave maker. */
 static sb_status check_name(const sb_scene *scene, const sb_body *from, const char *part, sb_error *error)
 {
     for (size_t i = 0; i < scene->body_count && from->split; ++i)
         if (scene->bodies + i != from && !strcmp(scene->bodies[i].name, part))
-            return sb_fail(error, SB_BAD_INPUT,
-                           "body \"%s\": %.200s has a part named \"%s\", and so is another body of the scene: expected "
-                           "another name of either",
-                           from->name, from->file ? from->file : "it", part);
+            return sb_fail(
+                error, SB_BAD_INPUT,
+                "body \"%s\": %.200s has a part named \"%s\", which is also the name of another body of the scene: "
+                "expected different names",
+                from->name, from->file ? from->file : "it", part);
     return SB_OK;
 }
 
-/* One warning for a file: how many of its parts' names no body may have, and what some of them became. */
-static sb_status tell_names(const sb_body *from, const sb_mesh *meshes, size_t count, sb_model *model, sb_error *error)
+/* Warns once per file how many part names contain characters that a body's name may not have, with examples of their
+   replacements. */
+static sb_status warn_names(const sb_body *from, const sb_mesh *meshes, size_t count, sb_model *model, sb_error *error)
 {
     enum { SHOWN = 4 };
     char list[600] = "", original[100];
@@ -124,7 +128,7 @@ static sb_status tell_names(const sb_body *from, const sb_mesh *meshes, size_t c
         from->name, replaced, list, replaced > SHOWN ? ", ..." : "");
 }
 
-/* The meshes of one body of the scene, each as a body of the model. */
+/* Adds the meshes of one body of the scene, each as a body of the model. */
 static sb_status add_meshes(const sb_scene *scene, const sb_body *from, sb_model *model, size_t *capacity,
                             sb_error *error)
 {
@@ -132,7 +136,7 @@ static sb_status add_meshes(const sb_scene *scene, const sb_body *from, sb_model
     size_t count = 0;
     sb_status status = sb_mesh_from_body(from, scene->resolution, &meshes, &count, error);
     if (status != SB_OK) return status;
-    status = tell_names(from, meshes, count, model, error);
+    status = warn_names(from, meshes, count, model, error);
     for (size_t i = 0; i < count && status == SB_OK; ++i) {
         status = check_name(scene, from, meshes[i].name, error);
         if (status != SB_OK) break;
@@ -142,9 +146,9 @@ static sb_status add_meshes(const sb_scene *scene, const sb_body *from, sb_model
         }
         sb_model_body *body = model->bodies + model->body_count - 1;
         body->mesh = meshes[i];
-        meshes[i] = (sb_mesh){.sheet = false};
+        meshes[i] = (sb_mesh){.open_surface = false};
         describe(scene, from, body);
-        status = check_reach(scene, body, error);
+        status = check_extent(scene, body, error);
     }
     for (size_t i = 0; i < count; ++i) sb_mesh_free(meshes + i);
     sb_free(meshes);

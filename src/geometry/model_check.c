@@ -1,5 +1,5 @@
-/* What a user should know before running: holes in meshes, plates and water too thin for the
- * spacing, steps too long. */
+/* Warns of faults of meshes, of plates and water that are too thin for the spacing, and of time steps that are too
+   long. */
 #include "geometry/model_parts.h"
 #include "physics/wavemaker.h"
 
@@ -8,12 +8,12 @@
 
 enum { DEPTH_MIN = 4, HEIGHT_MIN = 5 };
 
-/* In h/sqrt(g D). A column collapsing with steps of twice this has fallen an eighth less than with short ones after
-   0.9 sqrt(D/g), with this long ones 2 % less; with three times this, a quarter, and some of it has passed a wall
-   (tools/stress time-step). */
+/* In h/sqrt(g D). With steps of twice LONGEST_STEP a collapsing column has fallen an eighth less after 0.9 sqrt(D/g)
+   than with short steps, and 2 % less with steps of LONGEST_STEP. With three times LONGEST_STEP it has fallen a
+   quarter less, and some of it has passed a wall (tools/stress time-step). */
 static const double LONGEST_STEP = 0.3, REFUSED_STEP = 0.6;
 
-/* In spacings: a mesh file that reading rounds by more is told. */
+/* In spacings: rounding errors of a mesh file's coordinates from this size on are reported. */
 static const double ROUNDED = 0.01;
 
 static sb_status check_mesh(const sb_model_body *body, sb_model *model, sb_error *error)
@@ -21,37 +21,37 @@ static sb_status check_mesh(const sb_model_body *body, sb_model *model, sb_error
     const sb_mesh *mesh = &body->mesh;
     sb_status status = SB_OK;
     if (mesh->rounded > ROUNDED * model->spacing)
-        status =
-            sb_model_warn(model, error,
-                          "body \"%s\": its file's places are so far from 0 that reading rounds them by %.2g m, %.2g "
-                          "spacings: expected them near 0 in the file, moved to their place by translate",
-                          body->name, mesh->rounded, mesh->rounded / model->spacing);
+        status = sb_model_warn(
+            model, error,
+            "body \"%s\": its file's coordinates are so far from 0 that single precision rounds them by %.2g m "
+            "(%.2g spacings): expected coordinates near 0 in the file, and the body moved by translate",
+            body->name, mesh->rounded, mesh->rounded / model->spacing);
     if (mesh->dropped > 0 && status == SB_OK)
         status =
             sb_model_warn(model, error, "body \"%s\": %zu faces without area are left out", body->name, mesh->dropped);
     if (mesh->turned > 0 && status == SB_OK)
-        status = sb_model_warn(model, error, "body \"%s\": %zu faces looked away from the water and were turned",
+        status = sb_model_warn(model, error, "body \"%s\": %zu faces pointed away from the water and were reversed",
                                body->name, mesh->turned);
     if (mesh->closed > 0 && status == SB_OK)
         status =
             sb_model_warn(model, error, "body \"%s\": %zu holes of one triangle are closed", body->name, mesh->closed);
-    if (body->role != SB_ROLE_SOLID || mesh->sheet || status != SB_OK) return status;
+    if (body->role != SB_ROLE_SOLID || mesh->open_surface || status != SB_OK) return status;
     sb_mesh_report report;
     status = sb_mesh_diagnose(mesh, &report, error);
     if (report.open_edges > 0 && status == SB_OK)
         status = sb_model_warn(model, error,
                                "body \"%s\" is not watertight: %zu open edges, the first at (%g, "
-                               "%g, %g); its inside is taken by winding number",
+                               "%g, %g); its inside is determined by the winding number",
                                body->name, report.open_edges, report.first_open_edge.x, report.first_open_edge.y,
                                report.first_open_edge.z);
     if (report.flipped_faces > 0 && status == SB_OK)
         status = sb_model_warn(model, error,
-                               "body \"%s\": %zu faces look the other way than their neighbours, "
+                               "body \"%s\": %zu faces are oriented opposite to their neighbours, "
                                "the first at (%g, %g, %g)",
                                body->name, report.flipped_faces, report.first_flipped_face.x,
                                report.first_flipped_face.y, report.first_flipped_face.z);
     if (report.doubled_faces > 0 && status == SB_OK)
-        status = sb_model_warn(model, error, "body \"%s\": %zu faces lie twice in the same place", body->name,
+        status = sb_model_warn(model, error, "body \"%s\": %zu faces duplicate other faces", body->name,
                                report.doubled_faces);
     return status;
 }
@@ -60,16 +60,17 @@ static sb_status check_height(const sb_model *model, const char *what, const cha
                               sb_error *error)
 {
     if (!(height > 0) || height >= HEIGHT_MIN * model->spacing) return SB_OK;
-    return sb_model_warn(to, error, "%s%s%s%s: a wave height of %g m is %.2g particles: expected %d or more", what,
-                         name ? " \"" : "", name ? name : "", name ? "\"" : "", height, height / model->spacing,
+    return sb_model_warn(to, error, "%s%s%s%s: a wave height of %g m is %.2g particle spacings: expected %d or more",
+                         what, name ? " \"" : "", name ? name : "", name ? "\"" : "", height, height / model->spacing,
                          HEIGHT_MIN);
 }
 
-/* In spacings and of the depth: what a law's still depth may be off by, for floors are uneven. NEAR: as far from a
-   crest or a paddle's face its water is looked at, in spacings. */
+/* DEPTH_SLACK (spacings) and DEPTH_SHARE (of the depth): difference between a law's still-water depth and the actual
+   one that is accepted, because floors are uneven. NEAR (spacings): distance from a crest or a paddle's face within
+   which the depth is measured. */
 static const double DEPTH_SLACK = 1.5, DEPTH_SHARE = 0.05, NEAR = 3;
 
-/* Still depth of the water between two places along a direction; 0: there is none. */
+/* Returns the still-water depth between two positions along a direction; 0: there is no water. */
 static double depth_between(const sb_scene *scene, const sb_model *model, sb_vec3 along, double from, double to)
 {
     double lowest = (double)INFINITY;
@@ -87,11 +88,12 @@ static sb_status check_depth(sb_model *model, const char *what, const char *name
     if (there == 0) return sb_model_warn(model, error, "%s%s: no water is there at t = 0", what, name);
     if (fabs(depth - there) <= fmax(DEPTH_SLACK * model->spacing, DEPTH_SHARE * there)) return SB_OK;
     return sb_model_warn(model, error,
-                         "%s%s: its depth is %g m, but the water there is about %.2g m deep: another wave comes of it",
+                         "%s%s: its depth is %g m, but the water there is about %.2g m deep: the wave will differ from "
+                         "the one requested",
                          what, name, depth, there);
 }
 
-/* What a wave or a wave maker takes for the still depth, held against the water that is there. */
+/* Compares the still-water depth that waves and wave makers assume with the depth of the water there. */
 static sb_status check_depths(const sb_scene *scene, sb_model *model, sb_error *error)
 {
     const sb_initial_wave *wave = &scene->wave;
@@ -126,13 +128,14 @@ static sb_status check_water(const sb_scene *scene, sb_model *model, sb_error *e
 {
     if (model->fluid_count == 0)
         return sb_model_warn(model, error,
-                             "nothing is wet: expected a sea or a box of water at least half a "
+                             "the scene has no water: expected a sea or a box of water at least half a "
                              "spacing (%g m) deep",
                              0.5 * model->spacing);
     sb_status status = SB_OK;
     if (model->still_depth < DEPTH_MIN * model->spacing)
-        status = sb_model_warn(model, error, "the water is at most %g m deep, %.2g particles: expected %d or more",
-                               model->still_depth, model->still_depth / model->spacing, DEPTH_MIN);
+        status =
+            sb_model_warn(model, error, "the water is at most %g m deep, %.2g particle spacings: expected %d or more",
+                          model->still_depth, model->still_depth / model->spacing, DEPTH_MIN);
     if (status == SB_OK && scene->wave.kind != SB_INITIAL_NONE)
         status = check_height(model, "initial wave", NULL, scene->wave.height, model, error);
     for (size_t i = 0; i < scene->wavemaker_count && status == SB_OK; ++i)
@@ -147,11 +150,11 @@ static sb_status check_steps(const sb_scene *scene, sb_model *model, sb_error *e
     if (n->time_step_rule != SB_TIME_STEP_DEPTH || n->time_step_factor <= LONGEST_STEP * (1 + 1e-6)) return SB_OK;
     if (n->time_step_factor > REFUSED_STEP * (1 + 1e-6))
         return sb_fail(error, SB_BAD_INPUT,
-                       "%.300s: numerics.time_step_factor %g: with steps that long water falls tenths too late and "
-                       "passes walls, expected %g or less under time_step_rule depth",
+                       "%.300s: numerics.time_step_factor %g: with steps this long water falls tens of per cent too "
+                       "slowly and passes walls, expected %g or less under time_step_rule depth",
                        scene->path ? scene->path : "the scene", n->time_step_factor, REFUSED_STEP);
     return sb_model_warn(model, error,
-                         "numerics.time_step_factor %g: with steps that long water falls too late by several per cent, "
+                         "numerics.time_step_factor %g: with steps this long water falls several per cent too slowly, "
                          "expected %g or less",
                          n->time_step_factor, LONGEST_STEP);
 }
@@ -163,17 +166,17 @@ sb_status sb_model_check(const sb_scene *scene, const sb_model_space *space, sb_
         sb_model_body *body = model->bodies + i;
         if (body->mesh.triangle_count == 0) continue;
         status = check_mesh(body, model, error);
-        if (status == SB_OK) status = sb_model_warn_of_ends(scene, body, model, error);
+        if (status == SB_OK) status = sb_model_warn_ends(scene, body, model, error);
         if (status == SB_OK) status = sb_model_check_thickness(scene, space, model, body, error);
-        if (status == SB_OK) status = sb_model_warn_of_place(scene, body, space->solid[i], model, error);
+        if (status == SB_OK) status = sb_model_warn_place(scene, body, space->solid[i], model, error);
     }
-    if (status == SB_OK) status = sb_model_warn_of_thin(scene, model, error);
-    if (status == SB_OK) status = sb_model_warn_of_shared(scene, model, error);
-    if (status == SB_OK) status = sb_model_warn_of_ground(scene, space, model, error);
-    if (status == SB_OK) status = sb_model_warn_of_open(scene, space, model, error);
-    if (status == SB_OK) status = sb_model_warn_of_gauges(scene, space, model, error);
-    if (status == SB_OK) status = sb_model_warn_of_clad(scene, model, error);
-    if (status == SB_OK) status = sb_model_warn_of_strokes(scene, space, model, error);
+    if (status == SB_OK) status = sb_model_warn_thin(scene, model, error);
+    if (status == SB_OK) status = sb_model_warn_shared(scene, model, error);
+    if (status == SB_OK) status = sb_model_warn_ground(scene, space, model, error);
+    if (status == SB_OK) status = sb_model_warn_open(scene, space, model, error);
+    if (status == SB_OK) status = sb_model_warn_gauges(scene, space, model, error);
+    if (status == SB_OK) status = sb_model_warn_clad(scene, model, error);
+    if (status == SB_OK) status = sb_model_warn_strokes(scene, space, model, error);
     if (status == SB_OK) status = check_steps(scene, model, error);
     return status == SB_OK ? check_water(scene, model, error) : status;
 }

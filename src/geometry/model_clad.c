@@ -1,5 +1,5 @@
-/* Bodies at rest whose surface lies close behind that of another: within the support radius of the water both take its
-   load, and neither force is that of the body alone. */
+/* Warns of static bodies whose surface lies close behind that of another static body (cladding). Within the support
+   radius of the water both surfaces carry its load, and neither force is that of the body alone. */
 #include "base/memory.h"
 #include "geometry/model_parts.h"
 #include "geometry/sample_set.h"
@@ -7,27 +7,28 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Looking the same way: the cosine between two normals. In spacings: BESIDE along the face, CLOSEST behind it; as near
-   as FIRST to a face its water is. SHARE of a face that has to be concerned. */
+/* SAME_WAY: cosine between two normals that point the same way. In spacings: BESIDE, distance along the face;
+   CLOSEST, distance behind it; FIRST, distance of the nearest water from a face. SHARE: fraction of a face that must
+   be affected. */
 static const double SAME_WAY = 0.9, BESIDE = 0.75, CLOSEST = 0.05, FIRST = 0.5, SHARE = 0.2;
 
-/* Faces by the axis and sign that their normal is nearest to. */
+/* A body's particles are counted in six faces, by the axis and sign nearest to their normal. */
 enum { FACES = 6 };
 
 typedef struct search {
     const sb_model *model;
-    double depth;   /* m: what is farther behind a surface takes no load */
-    size_t *totals; /* FACES per body: its particles */
-    size_t *found;  /* FACES per body: particles of the present one that the body has a surface behind */
-    size_t *behind; /* FACES per body: particles of the body that are behind the present one */
-    size_t *seen;   /* per boundary particle: counted in `behind` of the body before this number */
-    sb_vec3 *min;   /* per body: the extent of its particles, m */
+    double depth;   /* m: a surface farther behind another one carries no load */
+    size_t *totals; /* FACES per body: number of its particles */
+    size_t *found;  /* FACES per body: particles of the front body behind which this body has a surface */
+    size_t *behind; /* FACES per body: particles of this body that lie behind the front body */
+    size_t *seen;   /* per boundary particle: number of the front body for which it was last counted in `behind` */
+    sb_vec3 *min;   /* per body: extent of its particles, m */
     sb_vec3 *max;
-    sb_vec3 *place; /* per body: of the first found */
+    sb_vec3 *place; /* per body: place of the particle with the smallest distance, m */
     double *nearest;
     size_t pairs;
-    char first[700];  /* the first pair: front, rear, place */
-    char others[600]; /* further ones, as far as there is room */
+    char first[700];  /* text of the first pair: front, rear, place */
+    char others[600]; /* further pairs, as many as fit */
     size_t named;
 } search;
 
@@ -39,7 +40,7 @@ static int face_of(sb_vec3 normal)
     return 2 * axis + (along > 0);
 }
 
-static bool takes_part(const sb_model_body *body)
+static bool is_checked(const sb_model_body *body)
 {
     return body->wavemaker < 0 && body->count > 0;
 }
@@ -50,13 +51,13 @@ static bool overlap(sb_vec3 min, sb_vec3 max, sb_vec3 other_min, sb_vec3 other_m
            max.y >= other_min.y && max.z >= other_min.z;
 }
 
-/* The other bodies' particles near the front one, each with its own index as source. */
+/* Collects the other bodies' particles near the front body. Each has its own index as source. */
 static int gather(const search *s, size_t front, sb_vec3 min, sb_vec3 max, sb_sample_set *near)
 {
     const sb_model *model = s->model;
     for (size_t b = 0; b < model->body_count; b++) {
         const sb_model_body *body = &model->bodies[b];
-        if (b == front || !takes_part(body) || !(body->report || model->bodies[front].report) ||
+        if (b == front || !is_checked(body) || !(body->report || model->bodies[front].report) ||
             !overlap(min, max, s->min[b], s->max[b]))
             continue;
         for (size_t i = body->begin; i < body->begin + body->count; i++) {
@@ -75,7 +76,7 @@ static size_t body_of(const sb_model *model, size_t particle)
     return b;
 }
 
-/* The particle behind this one that looks the same way, and how deep; SIZE_MAX: there is none. */
+/* Returns the particle behind this one whose normal points the same way, and its depth; SIZE_MAX: none. */
 static size_t look_behind(const search *s, const sb_sample_set *near, sb_vec3 at, sb_vec3 normal, double *depth)
 {
     const double spacing = s->model->spacing;
@@ -112,7 +113,7 @@ static void count_behind(search *s, const sb_model_body *front, const sb_sample_
     }
 }
 
-static bool matters(const search *s, size_t front, size_t rear)
+static bool is_affected(const search *s, size_t front, size_t rear)
 {
     for (size_t f = 0; f < FACES; f++) {
         const size_t found = s->found[FACES * rear + f], behind = s->behind[FACES * rear + f];
@@ -123,7 +124,7 @@ static bool matters(const search *s, size_t front, size_t rear)
     return false;
 }
 
-static void note(search *s, const sb_model_body *front, const sb_model_body *rear, sb_vec3 place, double depth)
+static void add_pair(search *s, const sb_model_body *front, const sb_model_body *rear, sb_vec3 place, double depth)
 {
     const size_t length = strlen(s->others);
     if (s->pairs++ == 0) {
@@ -140,7 +141,7 @@ static void note(search *s, const sb_model_body *front, const sb_model_body *rea
     s->named++;
 }
 
-static sb_status look(search *s, size_t front, sb_error *error)
+static sb_status check_body(search *s, size_t front, sb_error *error)
 {
     const sb_model *model = s->model;
     const sb_model_body *body = &model->bodies[front];
@@ -158,7 +159,7 @@ static sb_status look(search *s, size_t front, sb_error *error)
     count_behind(s, body, &near);
     sb_sample_set_free(&near);
     for (size_t b = 0; b < model->body_count; b++)
-        if (matters(s, front, b)) note(s, body, &model->bodies[b], s->place[b], s->nearest[b]);
+        if (is_affected(s, front, b)) add_pair(s, body, &model->bodies[b], s->place[b], s->nearest[b]);
     return SB_OK;
 }
 
@@ -175,12 +176,12 @@ static void measure_bodies(search *s)
     }
 }
 
-static sb_status look_at_all(search *s, sb_error *error)
+static sb_status check_all(search *s, sb_error *error)
 {
     sb_status status = SB_OK;
     measure_bodies(s);
     for (size_t b = 0; b < s->model->body_count && status == SB_OK; b++)
-        if (takes_part(&s->model->bodies[b])) status = look(s, b, error);
+        if (is_checked(&s->model->bodies[b])) status = check_body(s, b, error);
     return status;
 }
 
@@ -210,18 +211,19 @@ static void release(search *s)
     sb_free(s->nearest);
 }
 
-sb_status sb_model_warn_of_clad(const sb_scene *scene, sb_model *model, sb_error *error)
+sb_status sb_model_warn_clad(const sb_scene *scene, sb_model *model, sb_error *error)
 {
     const sb_numerics *n = &scene->numerics;
     search s = {.model = model, .depth = (n->support - n->wall_offset - FIRST) * model->spacing};
     char more[40] = "";
-    sb_status status = allocate(&s) != 0 ? sb_fail_memory(error, "surfaces behind surfaces") : look_at_all(&s, error);
+    sb_status status = allocate(&s) != 0 ? sb_fail_memory(error, "surfaces behind surfaces") : check_all(&s, error);
     if (s.pairs > s.named + 1) snprintf(more, sizeof more, " and %zu more", s.pairs - s.named - 1);
     if (status == SB_OK && s.pairs > 0)
-        status = sb_model_warn(model, error,
-                               "%s: both take the load of the same water, so the force on each is wrong and the sum of "
-                               "their forces is right; expected one body, or %.3g m or more between the surfaces%s%s",
-                               s.first, s.depth, s.others, more);
+        status =
+            sb_model_warn(model, error,
+                          "%s: both carry the load of the same water, so the force on each is wrong, but the sum "
+                          "of their forces is right; expected one body, or %.3g m or more between the surfaces%s%s",
+                          s.first, s.depth, s.others, more);
     release(&s);
     return status;
 }

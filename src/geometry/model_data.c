@@ -1,3 +1,4 @@
+/* Frees models and their parts, and adds warnings. */
 #include "base/memory.h"
 #include "geometry/model_parts.h"
 
@@ -12,11 +13,11 @@ void sb_model_free(sb_model *model)
     sb_free(model->bodies);
     sb_free(model->shallow);
     sb_free(model->warnings);
-    sb_model_forget_particles(model);
+    sb_model_free_particles(model);
     *model = (sb_model){.dimensions = 0};
 }
 
-void sb_model_forget_start(sb_model *model)
+void sb_model_free_start(sb_model *model)
 {
     bool still = true;
     for (size_t i = 0; model->fluid_velocity && i < model->fluid_count && still; i++)
@@ -30,7 +31,7 @@ void sb_model_forget_start(sb_model *model)
     model->fluid_velocity = NULL;
 }
 
-void sb_model_forget_particles(sb_model *model)
+void sb_model_free_particles(sb_model *model)
 {
     sb_free(model->fluid_position);
     sb_free(model->fluid_velocity);

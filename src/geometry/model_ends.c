@@ -1,24 +1,25 @@
-/* Where terrain ends within the domain: it gets walls there, and is told of. What lies below a terrain is solid;
-   without a wall at its rim water would come in from the side, and out through a floor that has no particles below
-   solids. */
+/* Adds walls where terrain ends within the domain, and warns of them. The ground below a terrain is solid. Without a
+   wall at its border, water would enter from the side and leave through the floor, which has no boundary particles
+   below solids. */
 #include "geometry/model_parts.h"
 
 #include "base/memory.h"
 
 #include <stdio.h>
 
-/* In spacings: as far outwards from the rim, and as far below it, is asked whether something solid goes on. A crack
-   that narrow lets nothing in, and a step that low needs no wall: both sheets reach across. */
+/* In spacings: a solid is looked for ASIDE outwards from the border and BELOW it. A gap narrower than that lets no
+   water in, and a step lower than that needs no wall, because the boundary surfaces of both sides cover it. */
 static const double ASIDE = 0.05, BELOW = 0.5;
-/* In spacings, more than the support: as far below the domain's floor, or the rim, the walls go on. */
+/* In spacings, added to the support radius: depth to which the walls continue below the domain's floor or the
+   border, whichever is lower. */
 static const double FARTHER = 4;
 enum { PROBES_MAX = 10000, LEVELS_MAX = 1000 };
 
-/* What stays in its place; the solids are made when the first rim is within the domain. */
+/* The static bodies. Their solids are created when the first border within the domain is found. */
 typedef struct ground {
     const sb_scene *scene;
     const sb_model *model;
-    sb_solid **solid; /* per body, NULL: it moves */
+    sb_solid **solid; /* per body, NULL: it moves or has no mesh */
     bool made;
     sb_status status;
     sb_error *error;
@@ -38,7 +39,8 @@ static void make_solids(ground *g)
     }
 }
 
-/* Within something; *terrain: all that is below is so, too. */
+/* Whether the point lies inside a static solid. *terrain: it lies below a terrain, so everything below it is solid,
+   too. */
 static bool in_solid(ground *g, sb_vec3 at, bool *terrain)
 {
     bool found = *terrain = false;
@@ -51,7 +53,7 @@ static bool in_solid(ground *g, sb_vec3 at, bool *terrain)
     return found;
 }
 
-/* Cuts [*low, *high] of from + t way to what lies within the domain along one axis. */
+/* Reduces [*low, *high] to the range of t for which from + t way lies within the domain along one axis. */
 static void cut(double from, double way, double min, double max, double *low, double *high)
 {
     if (way == 0) {
@@ -63,7 +65,8 @@ static void cut(double from, double way, double min, double max, double *low, do
     *high = fmin(*high, fmax(a, b));
 }
 
-/* Whether water may stand beside the rim here, at any height below it: within the domain, and no solid goes on. */
+/* Whether water can stand beside the border here, at any height below it: the point is within the domain, and no
+   solid continues there. */
 static bool is_open(ground *g, sb_vec3 at, sb_vec3 outwards)
 {
     const sb_scene *s = g->scene;
@@ -79,7 +82,7 @@ static bool is_open(ground *g, sb_vec3 at, sb_vec3 outwards)
     return false;
 }
 
-/* sb_mesh_ends: the edge bounds the ground somewhere within the domain. */
+/* sb_mesh_ends: whether water can stand beside the edge anywhere within the domain. */
 static bool ends_here(void *context, sb_vec3 from, sb_vec3 to)
 {
     ground *g = context;
@@ -120,7 +123,7 @@ sb_status sb_model_end_terrain(const sb_scene *scene, sb_model *model, sb_error 
     return g.status;
 }
 
-/* Of a grid's missing heights those within the domain, for the end of a line; empty: there are none. */
+/* Describes the missing heights of a grid within the domain, as the end of a warning; empty if there are none. */
 static void describe_holes(const sb_scene *scene, const sb_mesh *mesh, char *text, size_t size)
 {
     const sb_vec3 min = scene->domain.min, max = scene->domain.max;
@@ -138,15 +141,16 @@ static void describe_holes(const sb_scene *scene, const sb_mesh *mesh, char *tex
                  count, count > 1 ? "s" : "", mesh->holes[first].x, mesh->holes[first].y);
 }
 
-sb_status sb_model_warn_of_ends(const sb_scene *scene, const sb_model_body *body, sb_model *model, sb_error *error)
+sb_status sb_model_warn_ends(const sb_scene *scene, const sb_model_body *body, sb_model *model, sb_error *error)
 {
     const sb_mesh *mesh = &body->mesh;
     char holes[160];
     if (mesh->ends == 0) return SB_OK;
     describe_holes(scene, mesh, holes, sizeof holes);
-    return sb_model_warn(model, error,
-                         "body \"%s\": the ground ends within the domain, at %zu open edge%s, the first at (%g, %g, "
-                         "%g): a wall goes down there, and water stands beside it down to the domain's floor%s",
-                         body->name, mesh->ends, mesh->ends > 1 ? "s" : "", mesh->first_end.x, mesh->first_end.y,
-                         mesh->first_end.z, holes);
+    return sb_model_warn(
+        model, error,
+        "body \"%s\": the ground ends within the domain, at %zu open edge%s, the first at (%g, %g, "
+        "%g): a wall is added below each, and the water beside that wall extends down to the domain's floor%s",
+        body->name, mesh->ends, mesh->ends > 1 ? "s" : "", mesh->first_end.x, mesh->first_end.y, mesh->first_end.z,
+        holes);
 }

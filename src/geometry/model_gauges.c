@@ -1,16 +1,16 @@
-/* Gauges over still water too thin to have a surface. */
+/* Warns of gauges over still water that is too shallow to have a surface. */
 #include "base/memory.h"
 #include "geometry/model_parts.h"
 
 #include <stdio.h>
 
-/* In spacings: still water thinner than this has too few particles that hang together for a gauge, in 2D and in 3D; and
-   as far around a gauge it may find others. */
+/* In spacings: still water shallower than this (in 2D and in 3D) has too few connected particles for a gauge.
+   AROUND: distance from a gauge within which it may use other particles. */
 static const double THIN_FLAT = 0.7, THIN = 0.5, AROUND = 2;
-/* In spacings: a gauge over less than this stands on the shore. */
+/* In spacings: a gauge over shallower water stands on the shore. */
 static const double DAMP = 0.05;
 
-/* The highest still-water level over a place; -INFINITY: no water is described there. */
+/* Returns the highest still-water level at a position; -INFINITY: the scene has no water there. */
 static double level_over(const sb_scene *scene, double x, double y)
 {
     double level = scene->sea.present ? scene->sea.level : -(double)INFINITY;
@@ -22,7 +22,7 @@ static double level_over(const sb_scene *scene, double x, double y)
     return fmin(level, scene->domain.max.z);
 }
 
-/* From a level down to what is solid, m; 0: the level is within that. */
+/* Returns the depth from a water level to the solid below, m; 0: the level is inside a solid. */
 static double depth_below(const sb_model *model, const sb_model_space *space, sb_vec3 at)
 {
     double depth = at.z - model->min.z;
@@ -35,19 +35,19 @@ static double depth_below(const sb_model *model, const sb_model_space *space, sb
     return depth;
 }
 
-/* Mean depth of the water that is around, m. */
+/* Returns the mean depth of the water around a position, m. */
 static double depth_around(const sb_model *model, double x, double y)
 {
-    const double reach = AROUND * model->spacing;
+    const double range = AROUND * model->spacing;
     size_t count = 0;
     for (size_t i = 0; i < model->fluid_count; ++i) {
         const sb_vec3 at = model->fluid_position[i];
-        count += fabs(at.x - x) < reach && (model->dimensions == 2 || fabs(at.y - y) < reach);
+        count += fabs(at.x - x) < range && (model->dimensions == 2 || fabs(at.y - y) < range);
     }
     return (double)count * model->spacing / (2 * AROUND) / (model->dimensions == 2 ? 1 : 2 * AROUND);
 }
 
-/* The depth of still water over a gauge that is too thin for it, m; 0: it is not, or there is none. */
+/* Returns the still-water depth at a gauge if it is too shallow for it, m; else, or without water, 0. */
 static double thin_depth(const sb_scene *scene, const sb_model_space *space, const sb_model *model,
                          const sb_gauge *gauge)
 {
@@ -61,7 +61,7 @@ static double thin_depth(const sb_scene *scene, const sb_model_space *space, con
     return depth > DAMP * model->spacing && depth < least && depth_around(model, x, y) < least ? depth : 0;
 }
 
-sb_status sb_model_warn_of_gauges(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
+sb_status sb_model_warn_gauges(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
 {
     const sb_measure_settings *settings = &scene->measure;
     char others[600] = "", more[40] = "";
@@ -88,6 +88,6 @@ sb_status sb_model_warn_of_gauges(const sb_scene *scene, const sb_model_space *s
     return sb_model_warn(
         model, error,
         "gauge \"%s\": the still water there is %.2g m deep, less than the spacing of %g m: its values "
-        "stay empty until deeper water comes; expected a resolution of %.2g m or less to see it%s%s",
+        "stay empty until the water is deeper; expected a resolution of %.2g m or less%s%s",
         settings->gauges[first].name, depth, model->spacing, depth, others, more);
 }

@@ -1,22 +1,23 @@
-/* Ground at another depth than was meant: missing heights whose value the file does not give, and ground below the
-   domain's floor. */
+/* Warns of ground at an unintended depth: missing heights that the file does not mark, and ground below the domain's
+   floor. */
 #include "base/memory.h"
 #include "geometry/model_parts.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* A height is taken for missing where it is farther from all others than so many times their range and than so many
+/* A height counts as missing if it is farther from all others than this many times their range and than this many
    times the domain's height. */
 static const double FAR_OFF = 10;
 
-/* Heights of a grid's nodes within the domain, ascending; owned. */
+/* Heights of a grid's nodes within the domain, in ascending order. Owned. */
 typedef struct heights {
     double *z;
-    size_t count, first, end; /* [first, end): those that belong to the domain's ground */
+    size_t count, first, end; /* [first, end): those of the domain's ground */
 } heights;
 
-/* Nodes outside of the domain count as well where a triangle of theirs is partly within. */
+/* Whether a triangle is partly within the domain. Nodes outside of the domain count, too, if one of their triangles
+   is. */
 static bool is_within(const sb_scene *scene, const sb_mesh *mesh, size_t triangle)
 {
     const uint32_t *of = mesh->triangles[triangle];
@@ -36,7 +37,8 @@ static int compare_numbers(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
-/* Of the groups of heights with wide gaps between them, the one within the domain with most nodes. */
+/* Selects the domain's ground: of the groups of heights that are separated by wide gaps, the one within the domain's
+   range with the most nodes. */
 static void find_ground(const sb_domain *domain, heights *all)
 {
     const double gap = FAR_OFF * (domain->max.z - domain->min.z);
@@ -66,7 +68,7 @@ static sb_status sort_heights(const sb_scene *scene, const sb_mesh *mesh, uint8_
     return SB_OK;
 }
 
-/* *lowest: of the heights that are trusted. */
+/* *lowest: the lowest height that is not taken for a missing one. */
 static sb_status check_heights(const sb_scene *scene, const sb_model_body *body, double *lowest, sb_model *model,
                                sb_error *error)
 {
@@ -93,7 +95,7 @@ static sb_status check_heights(const sb_scene *scene, const sb_model_body *body,
                 model, error,
                 "body \"%s\": %zu of its grid's nodes within the domain %s at z = %g m%s, far %s all others, which are "
                 "from %g to %g m; the first is at (%g, %g): most likely missing heights (nodata) whose value the file "
-                "does not give; expected their NODATA_value in the header, or no lines for them in an .xyz file",
+                "does not state; expected their NODATA_value in the header, or no lines for them in an .xyz file",
                 body->name, count, count > 1 ? "are" : "is", least, most > least ? " and more" : "",
                 most < low     ? "below"
                 : least > high ? "above"
@@ -105,14 +107,14 @@ static sb_status check_heights(const sb_scene *scene, const sb_model_body *body,
     return status;
 }
 
-/* Most places at which the ground below the domain's floor is looked for. In spacings: water so near to the floor
-   stands on it; ground that is no farther below the floor is no matter. */
+/* PLACES_MAX: largest number of places at which ground below the domain's floor is looked for. In spacings: water
+   within ON_FLOOR of the floor stands on it; ground less than BELOW below the floor is ignored. */
 enum { PLACES_MAX = 20000 };
 static const double ON_FLOOR = 1, BELOW = 0.25;
 
-/* Straight down from the water on the domain's floor to the ground, which is no deeper than `bottom`: the deepest
-   place, of those above `lowest`; false: there is none below *deepest. */
-static bool sound(const sb_model *model, const sb_solid *solid, double bottom, double lowest, sb_vec3 *deepest)
+/* Searches vertically below the water on the domain's floor for the deepest ground between `bottom` and `lowest`.
+   Returns false if none lies below *deepest. */
+static bool find_deepest(const sb_model *model, const sb_solid *solid, double bottom, double lowest, sb_vec3 *deepest)
 {
     const double floor = model->min.z, top = floor + ON_FLOOR * model->spacing;
     size_t places = 0, place = 0;
@@ -138,8 +140,8 @@ static sb_status check_floor(const sb_model_body *body, const sb_mesh *mesh, con
     double bottom = floor;
     sb_vec3 deepest = {0, 0, floor - BELOW * model->spacing};
     for (size_t i = 0; i < mesh->vertex_count; ++i) bottom = fmin(bottom, mesh->vertices[i].z);
-    if (!solid || !(bottom < deepest.z) || !sound(model, solid, bottom, lowest, &deepest)) return SB_OK;
-    /* A corner of the ground may be between the places; but not the foot of a wall at its end. */
+    if (!solid || !(bottom < deepest.z) || !find_deepest(model, solid, bottom, lowest, &deepest)) return SB_OK;
+    /* A corner of the ground may lie between the places. The lower edge of an added wall does not count. */
     for (size_t i = 0; i < mesh->vertex_count && body->mesh.ends == 0; ++i) {
         const sb_vec3 at = mesh->vertices[i];
         const bool within = at.x >= model->min.x && at.x <= model->max.x &&
@@ -147,14 +149,14 @@ static sb_status check_floor(const sb_model_body *body, const sb_mesh *mesh, con
         if (within && at.z >= lowest && at.z < deepest.z) deepest = at;
     }
     return sb_model_warn(model, error,
-                         "body \"%s\": its ground under the water is as low as z = %.4g m, near (%.4g, %.4g), and the "
-                         "domain's floor is at %g m: the water stands on that floor and is %.3g m less deep; expected "
-                         "domain.min of z = %.4g m or lower",
+                         "body \"%s\": its ground below the water is as low as z = %.4g m, near (%.4g, %.4g), but the "
+                         "domain's floor is at %g m: the water stands on that floor and is %.3g m shallower; expected "
+                         "domain.min with z = %.4g m or lower",
                          body->name, deepest.z, deepest.x, model->dimensions == 2 ? 0 : deepest.y, floor,
                          floor - deepest.z, deepest.z);
 }
 
-sb_status sb_model_warn_of_ground(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
+sb_status sb_model_warn_ground(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
 {
     sb_status status = SB_OK;
     for (size_t b = 0; b < model->body_count && status == SB_OK; ++b) {

@@ -1,3 +1,4 @@
+/* Computes the hash of a model. */
 #include "base/hash.h"
 #include "geometry/model.h"
 

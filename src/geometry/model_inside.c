@@ -1,9 +1,9 @@
-/* Whether any point is within a solid: an answer that knows nothing of boundary particles. */
+/* Finds points inside solids, independently of the boundary particles. */
 #include "geometry/model_parts.h"
 
-/* The body that holds the point by more than tolerance, or SIZE_MAX. */
-static size_t holder(const sb_model *model, const sb_model_space *space, sb_vec3 point, const sb_vec3 *displacement,
-                     double tolerance)
+/* Returns the body that contains the point by more than tolerance, or SIZE_MAX. */
+static size_t containing_body(const sb_model *model, const sb_model_space *space, sb_vec3 point,
+                              const sb_vec3 *displacement, double tolerance)
 {
     for (size_t b = 0; b < space->count; ++b) {
         sb_vec3 at = displacement ? sb_sub(point, displacement[b]) : point;
@@ -31,7 +31,7 @@ sb_status sb_model_first_inside(const sb_model *model, const float *position, si
     size_t found = 0, first = SIZE_MAX;
 #pragma omp parallel for schedule(dynamic, 1024) reduction(+ : found) reduction(min : first)
     for (size_t i = 0; i < count; ++i) {
-        size_t body = holder(model, &space, point_at(position, i, origin), displacement, tolerance);
+        size_t body = containing_body(model, &space, point_at(position, i, origin), displacement, tolerance);
         if (body == SIZE_MAX) continue;
         ++found;
         first = i < first ? i : first;
@@ -39,7 +39,7 @@ sb_status sb_model_first_inside(const sb_model *model, const float *position, si
     *report = (sb_inside_report){.count = found, .first = first, .body = SIZE_MAX};
     if (found > 0) {
         sb_vec3 at = point_at(position, first, origin);
-        report->body = holder(model, &space, at, displacement, tolerance);
+        report->body = containing_body(model, &space, at, displacement, tolerance);
         if (displacement) at = sb_sub(at, displacement[report->body]);
         report->depth = sb_solid_distance(space.solid[report->body], at, 1e30, NULL, NULL);
     }

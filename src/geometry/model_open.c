@@ -1,14 +1,14 @@
-/* Water that stands at an open side at the start: a sea is refused there, a box of water runs off. */
+/* Warns of water that stands at an open side at the start. A sea there is refused; a box of water flows out. */
 #include "geometry/model_parts.h"
 
 #include <stdio.h>
 
-/* In spacings: a particle so near to a side has the next column's place beyond it. */
+/* In spacings: beside a particle this near to a side, the next column lies beyond that side. */
 static const double BESIDE = 0.75;
 
 static const sb_vec3 outwards[SB_SIDES] = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}};
 
-/* How far the side is from a place within the domain. */
+/* Returns the distance of a point within the domain from a side. */
 static double distance_to(const sb_model *model, int side, sb_vec3 at)
 {
     const sb_vec3 low = sb_sub(at, model->min), high = sb_sub(model->max, at);
@@ -25,7 +25,7 @@ static bool is_clear(const sb_model *model, const sb_model_space *space, sb_vec3
     return true;
 }
 
-/* The box of water that holds the place, or the count of boxes. */
+/* Returns the box of water that contains the point, or the number of boxes. */
 static size_t box_of(const sb_scene *scene, sb_vec3 at)
 {
     size_t i = 0;
@@ -63,7 +63,7 @@ static sb_status check_side(const sb_scene *scene, const sb_model_space *space, 
         name, sb_side_names[side], first.x, first.y, first.z, high - low + model->spacing);
 }
 
-sb_status sb_model_warn_of_open(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
+sb_status sb_model_warn_open(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
 {
     sb_status status = SB_OK;
     for (int side = 0; side < SB_Z_MAX && status == SB_OK; ++side) {

@@ -1,10 +1,10 @@
-/* From surfaces and the sea to particles. */
+/* Places the boundary particles of surfaces and the fluid particles of the water. */
 #include "base/memory.h"
 #include "geometry/fill.h"
 #include "geometry/model_parts.h"
 #include "geometry/sample.h"
 
-/* Those of the bodies that have a surface at all. */
+/* Samples the bodies that have a surface. */
 sb_status sb_model_sample(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
 {
     const sb_sample_settings settings = {
@@ -39,7 +39,7 @@ sb_status sb_model_sample(const sb_scene *scene, const sb_model_space *space, sb
     return SB_OK;
 }
 
-/* Boxes that are not what their writer will have meant. */
+/* Warns of boxes that are probably not as intended. */
 static sb_status check_boxes(const sb_scene *scene, const sb_fluid *fluid, sb_model *model, sb_error *error)
 {
     sb_status status = SB_OK;
@@ -50,11 +50,11 @@ static sb_status check_boxes(const sb_scene *scene, const sb_fluid *fluid, sb_mo
                                    "water.boxes[%zu] has no room for water: solids fill it, or it is thinner than a "
                                    "spacing",
                                    i);
-        else if (share->got == 0 || (share->got < share->room && sb_norm(scene->boxes[i].velocity) > 0))
+        else if (share->received == 0 || (share->received < share->room && sb_norm(scene->boxes[i].velocity) > 0))
             status = sb_model_warn(model, error,
-                                   "water.boxes[%zu]: %zu of its %zu particles are in water that stands before "
-                                   "it in the scene, whose level and velocity they keep",
-                                   i, share->room - share->got, share->room);
+                                   "water.boxes[%zu]: %zu of its %zu particles lie in water that comes earlier "
+                                   "in the scene, and have the level and velocity of that water",
+                                   i, share->room - share->received, share->room);
     }
     return status;
 }
@@ -64,7 +64,7 @@ sb_status sb_model_fill(const sb_scene *scene, const sb_model_space *space, sb_m
     sb_fill_solid *solids = sb_alloc(space->count, sizeof *solids);
     if (!solids) return sb_fail_memory(error, "solids");
     size_t count = 0;
-    /* Not the domain's own walls: columns end there anyway. */
+    /* Without the domain's own walls: the columns end there in any case. */
     for (size_t i = 0; i < space->count; ++i)
         if (space->solid[i] && model->bodies[i].mesh.triangle_count > 0)
             solids[count++] = (sb_fill_solid){space->solid[i], model->bodies[i].name};
@@ -78,7 +78,7 @@ sb_status sb_model_fill(const sb_scene *scene, const sb_model_space *space, sb_m
     model->fluid_pressure = fluid.pressure;
     model->still_depth = fluid.still_depth;
     status = check_boxes(scene, &fluid, model, error);
-    if (status == SB_OK) status = sb_model_warn_of_wave(scene, &fluid.wave, model, error);
+    if (status == SB_OK) status = sb_model_warn_wave(scene, &fluid.wave, model, error);
     sb_free(fluid.boxes);
     return status;
 }

@@ -1,14 +1,14 @@
-/* Bodies that no water can reach, most often because a file's unit is not the metre. */
+/* Warns of bodies that no water can reach, most often because the unit of a file is not the metre. */
 #include "geometry/model_parts.h"
 
 #include <stdio.h>
 
-/* Of a file's unit, in metres: what it usually is. */
+/* Usual units of files, in metres. */
 static const double usual[] = {1e-3, 1, 1e-2, 0.0254, 0.3048, 1e3};
 
-/* Times the domain that a body may be large. In spacings: a body smaller than TINY has no shape; one so large as SEEN
-   has. */
-static const double MANY = 100, TINY = 1, SEEN = 2;
+/* MANY: multiple of the domain's size above which a body is reported. In spacings: a body smaller than TINY is not
+   represented; a body larger than RESOLVED is. */
+static const double MANY = 100, TINY = 1, RESOLVED = 2;
 
 typedef struct extent {
     sb_vec3 min, max;
@@ -19,7 +19,7 @@ static sb_vec3 size_of(extent of)
     return sb_sub(of.max, of.min);
 }
 
-/* Of its three sizes, or in 2D two, the largest. */
+/* Returns the largest of its three sizes (two in 2D). */
 static double largest(const sb_model *model, sb_vec3 size)
 {
     return fmax(fmax(size.x, model->dimensions == 2 ? 0 : size.y), size.z);
@@ -32,7 +32,7 @@ static bool is_apart(const sb_model *model, extent of)
            of.max.z <= model->min.z || (!flat && (of.min.y >= model->max.y || of.max.y <= model->min.y));
 }
 
-/* Whether the body would be within the domain's range, scaled by a further factor from where its file's origin is. */
+/* Whether the body would lie within the domain's range if its file were scaled by a further factor. */
 static bool would_fit(const sb_model *model, const sb_body *from, extent of, double factor)
 {
     const sb_vec3 raise = sb_vec(0, 0, from->shape == SB_SHAPE_GRID ? from->datum : 0);
@@ -40,11 +40,12 @@ static bool would_fit(const sb_model *model, const sb_body *from, extent of, dou
     const extent scaled = {sb_madd(origin, factor, sb_sub(of.min, origin)),
                            sb_madd(origin, factor, sb_sub(of.max, origin))};
     const sb_vec3 size = size_of(scaled), room = sb_sub(model->max, model->min);
-    return !is_apart(model, scaled) && largest(model, size) > SEEN * model->spacing && size.x <= room.x &&
+    return !is_apart(model, scaled) && largest(model, size) > RESOLVED * model->spacing && size.x <= room.x &&
            size.z <= room.z && (model->dimensions == 2 || size.y <= room.y);
 }
 
-/* The scale that would bring it there, for the end of a line; empty: none of the usual ones does. */
+/* Writes the scale that would bring the body into the domain, as the end of a warning; empty if none of the usual
+   units does. */
 static void advise(const sb_scene *scene, const sb_model *model, const sb_model_body *body, extent of, char *text,
                    size_t size)
 {
@@ -61,8 +62,8 @@ static void advise(const sb_scene *scene, const sb_model *model, const sb_model_
     }
 }
 
-sb_status sb_model_warn_of_place(const sb_scene *scene, const sb_model_body *body, const sb_solid *solid,
-                                 sb_model *model, sb_error *error)
+sb_status sb_model_warn_place(const sb_scene *scene, const sb_model_body *body, const sb_solid *solid, sb_model *model,
+                              sb_error *error)
 {
     const sb_mesh *mesh = &body->mesh;
     extent of = {mesh->vertices[0], mesh->vertices[0]};
@@ -72,7 +73,7 @@ sb_status sb_model_warn_of_place(const sb_scene *scene, const sb_model_body *bod
         of.max = sb_max(of.max, mesh->vertices[i]);
     }
     const sb_vec3 size = size_of(of);
-    const bool apart = is_apart(model, of), closed = body->role == SB_ROLE_SOLID && !mesh->sheet;
+    const bool apart = is_apart(model, of), closed = body->role == SB_ROLE_SOLID && !mesh->open_surface;
     const bool large = closed && largest(model, size) > MANY * largest(model, sb_sub(model->max, model->min));
     const bool small = closed && largest(model, size) < TINY * model->spacing;
     if (apart || large || small) advise(scene, model, body, of, advice, sizeof advice);
@@ -88,7 +89,8 @@ sb_status sb_model_warn_of_place(const sb_scene *scene, const sb_model_body *bod
                              size.x, size.y, size.z, of.min.x, of.min.y, of.min.z, of.max.x, of.max.y, of.max.z,
                              advice);
     if ((!large && !small) || (large && !advice[0])) return SB_OK;
-    return sb_model_warn(
-        model, error, "body \"%s\" is %g x %g x %g m, %s%s", body->name, size.x, size.y, size.z,
-        large ? "more than a hundred times the domain" : "smaller than the spacing: water hardly meets it", advice);
+    return sb_model_warn(model, error, "body \"%s\" is %g x %g x %g m, %s%s", body->name, size.x, size.y, size.z,
+                         large ? "more than a hundred times the domain"
+                               : "smaller than the spacing: it hardly affects the water",
+                         advice);
 }

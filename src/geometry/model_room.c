@@ -1,24 +1,25 @@
-/* Whether there is memory for a model, before much of it is taken. */
+/* Checks that there is enough memory for a model, before most of it is allocated. */
 #include "base/memory.h"
 #include "geometry/model_parts.h"
 
-/* Bytes of a model's fluid particle: position, velocity, pressure; of a column of water while it is cut into runs; and
-   of a boundary particle while it is sampled: the particle twice, and its place in the search for neighbours, which
-   grows by doubling (up to 205 were measured). */
+/* Bytes per fluid particle of a model (position, velocity, pressure), per column of water while columns are cut into
+   runs, and per boundary particle while it is sampled (two copies, and its entry in the neighbour search, which
+   grows by doubling; up to 205 were measured). */
 static const double fluid_bytes = 56, column_bytes = 100, wall_bytes = 220;
 
-/* Cells of the coarse look. */
-static const double look_cells = 1e5;
+/* Number of cells of the coarse model. */
+static const double coarse_cells = 1e5;
 
 typedef struct counts {
     double fluid, walls, columns;
 } counts;
 
-/* A model of few particles, each of which stands for ratio^d of water or ratio^(d-1) of wall. */
-static sb_status look(const sb_scene *scene, const sb_model *bodies, double ratio, counts *found)
+/* Counts the particles by a coarse model, in which each particle represents ratio^d fluid particles or ratio^(d-1)
+   boundary particles. */
+static sb_status count_coarsely(const sb_scene *scene, const sb_model *bodies, double ratio, counts *found)
 {
     sb_scene coarse = *scene;
-    sb_model model = *bodies; /* its bodies are shared, and sampled anew afterwards; warnings are its own */
+    sb_model model = *bodies; /* the bodies are shared and sampled again later; the warnings are not shared */
     model.warnings = NULL;
     model.warning_count = 0;
     sb_model_space space = {.count = 0};
@@ -45,7 +46,8 @@ static double columns_of(const sb_scene *scene, sb_vec3 min, sb_vec3 max)
     return ceil((max.x - min.x) / spacing) * (scene->dimensions == 3 ? ceil((max.y - min.y) / spacing) : 1);
 }
 
-/* At most so many particles of each kind as there are cells, and a column of water for each of the domain's. */
+/* Returns upper bounds: one particle of each kind per cell, and for the sea and each box one column of water per
+   column of the domain. */
 static counts at_most(const sb_scene *scene)
 {
     const sb_vec3 min = scene->domain.min, max = scene->domain.max;
@@ -61,7 +63,8 @@ static double count_columns(const sb_scene *scene)
     return count;
 }
 
-/* To place them, where several waters are joined by a copy; or what the caller goes on to take. */
+/* Returns the bytes for placing the particles (twice those of the fluid if the sea and boxes are joined by a copy),
+   or those that the caller needs, whichever are more. */
 static double bytes_of(const sb_scene *scene, const sb_model *bodies, sb_model_need *need, counts n)
 {
     const double waters = (double)scene->box_count + scene->sea.present > 1 ? 2 : 1;
@@ -74,8 +77,8 @@ static double bytes_of(const sb_scene *scene, const sb_model *bodies, sb_model_n
     return need ? fmax(placing, need(scene, &full)) : placing;
 }
 
-/* The spacing at which they fit, rounded up to two digits. */
-static double fitting(const sb_scene *scene, const sb_model *bodies, sb_model_need *need, counts n, double room)
+/* Returns the spacing at which the particles fit into memory, rounded up to two digits. */
+static double fitting_spacing(const sb_scene *scene, const sb_model *bodies, sb_model_need *need, counts n, double room)
 {
     sb_scene other = *scene;
     const int d = scene->dimensions;
@@ -93,11 +96,11 @@ sb_status sb_model_room(const sb_scene *scene, const sb_model *bodies, sb_model_
     const double there = (double)sb_memory_available(), room = (1 - SB_MEMORY_SPARE) * there;
     const counts most = at_most(scene);
     if (!(there > 0) || bytes_of(scene, bodies, need, most) < room) return SB_OK;
-    /* Most scenes are less full: the question is worth a coarse look. One that fails there, as a sea may that leaks
-       through what is thin, is left to say so itself. */
+    /* Most scenes fill less than all cells, so a coarse model gives a better estimate. If building it fails, for
+       example because the sea leaks through a thin wall, the actual model reports that. */
     counts found;
-    const double ratio = fmax(1, pow(most.fluid / look_cells, 1.0 / scene->dimensions));
-    if (look(scene, bodies, ratio, &found) != SB_OK) return SB_OK;
+    const double ratio = fmax(1, pow(most.fluid / coarse_cells, 1.0 / scene->dimensions));
+    if (count_coarsely(scene, bodies, ratio, &found) != SB_OK) return SB_OK;
     found.columns = count_columns(scene);
     const double bytes = bytes_of(scene, bodies, need, found);
     if (bytes < room) return SB_OK;
@@ -106,5 +109,5 @@ sb_status sb_model_room(const sb_scene *scene, const sb_model *bodies, sb_model_
         "%.300s: resolution: %g m makes about %.2g fluid and %.2g boundary particles: %s takes about %.3g GB "
         "of memory, and %.3g GB are available, of which a fifth is left free; expected %g m or more",
         scene->path ? scene->path : "the scene", scene->resolution, found.fluid, found.walls,
-        need ? "a run" : "placing them", bytes / 1e9, there / 1e9, fitting(scene, bodies, need, found, room));
+        need ? "a run" : "placing them", bytes / 1e9, there / 1e9, fitting_spacing(scene, bodies, need, found, room));
 }

@@ -1,15 +1,15 @@
-/* Moving faces that stand before a wall, or in its plane: as long as both are within a support radius of the water,
-   both bear it. */
+/* Warns of moving faces in front of a wall or in its plane: while both are within the support radius of the water,
+   both carry its load. */
 #include "geometry/model_parts.h"
 #include "geometry/sample_set.h"
 
-/* Looking the same way: the cosine between two normals. BESIDE: in spacings, along the face. */
+/* SAME_WAY: cosine between two normals that point the same way. BESIDE: distance along the face, in spacings. */
 static const double SAME_WAY = 0.9, BESIDE = 0.75;
 
-/* One in so many of a body's particles in front of a wall are no matter of an edge. */
+/* A body is reported if at least one in OF_EACH of its particles is in front of a wall. Fewer occur at edges. */
 enum { OF_EACH = 20 };
 
-/* Static particles near a box. */
+/* Collects the static particles near a box. */
 static int gather(const sb_model *model, sb_vec3 min, sb_vec3 max, sb_sample_set *near)
 {
     for (size_t b = 0; b < model->body_count; b++) {
@@ -25,10 +25,10 @@ static int gather(const sb_model *model, sb_vec3 min, sb_vec3 max, sb_sample_set
     return 0;
 }
 
-/* The static body whose face is behind this particle; SIZE_MAX: none within reach. */
-static size_t behind(const sb_sample_set *near, sb_vec3 at, sb_vec3 normal, double spacing, double reach)
+/* Returns the static body with a face behind this particle within the depth `limit`; SIZE_MAX: none. */
+static size_t behind(const sb_sample_set *near, sb_vec3 at, sb_vec3 normal, double spacing, double limit)
 {
-    for (double depth = 0; near->sample && depth <= reach; depth += spacing) {
+    for (double depth = 0; near->sample && depth <= limit; depth += spacing) {
         size_t index = 0;
         const sb_vec3 there = sb_madd(at, -depth, normal);
         if (!(sb_sample_set_nearest(near, there, BESIDE * spacing, &index) < BESIDE * spacing)) continue;
@@ -38,21 +38,21 @@ static size_t behind(const sb_sample_set *near, sb_vec3 at, sb_vec3 normal, doub
     return SIZE_MAX;
 }
 
-static sb_status look(const sb_scene *scene, sb_model *model, const sb_model_body *body, sb_sample_set *near,
-                      sb_error *error)
+static sb_status check_body(const sb_scene *scene, sb_model *model, const sb_model_body *body, sb_sample_set *near,
+                            sb_error *error)
 {
-    const double reach = scene->numerics.support * model->spacing;
+    const double support = scene->numerics.support * model->spacing;
     sb_vec3 min = model->wall_position[body->begin], max = min, first = min;
     for (size_t i = body->begin; i < body->begin + body->count; i++) {
         min = sb_min(min, model->wall_position[i]);
         max = sb_max(max, model->wall_position[i]);
     }
-    const sb_vec3 margin = sb_vec(2 * reach, 2 * reach, 2 * reach);
+    const sb_vec3 margin = sb_vec(2 * support, 2 * support, 2 * support);
     near->origin = sb_sub(min, margin);
     if (gather(model, near->origin, sb_add(max, margin), near) != 0) return sb_fail_memory(error, "walls behind walls");
     size_t count = 0, wall = SIZE_MAX;
     for (size_t i = body->begin; i < body->begin + body->count; i++) {
-        const size_t found = behind(near, model->wall_position[i], model->wall_normal[i], model->spacing, reach);
+        const size_t found = behind(near, model->wall_position[i], model->wall_normal[i], model->spacing, support);
         if (found == SIZE_MAX) continue;
         if (count++ > 0) continue;
         wall = found;
@@ -61,20 +61,21 @@ static sb_status look(const sb_scene *scene, sb_model *model, const sb_model_bod
     if (OF_EACH * count < body->count || wall == SIZE_MAX) return SB_OK;
     return sb_model_warn(
         model, error,
-        "body \"%s\" moves, and near (%g, %g, %g) its face stands in front of \"%s\", which looks the same "
-        "way, or in its plane: until they are %g m apart both bear the water, and the force on the "
-        "moving one is told too small; expected a wall %g m or more behind the face",
-        body->name, first.x, first.y, first.z, model->bodies[wall].name, reach, reach);
+        "body \"%s\" moves, and near (%g, %g, %g) its face is in front of \"%s\" or in its plane, and both face the "
+        "same "
+        "way: until they are %g m apart both carry the load of the water, and the moving body's force is "
+        "underestimated; expected a wall %g m or more behind the face",
+        body->name, first.x, first.y, first.z, model->bodies[wall].name, support, support);
 }
 
-sb_status sb_model_warn_of_shared(const sb_scene *scene, sb_model *model, sb_error *error)
+sb_status sb_model_warn_shared(const sb_scene *scene, sb_model *model, sb_error *error)
 {
     sb_status status = SB_OK;
     for (size_t b = 0; b < model->body_count && status == SB_OK; b++) {
         const sb_model_body *body = &model->bodies[b];
         if (body->wavemaker < 0 || body->count == 0) continue;
         sb_sample_set near = {.cell = model->spacing};
-        status = look(scene, model, body, &near, error);
+        status = check_body(scene, model, body, &near, error);
         sb_sample_set_free(&near);
     }
     return status;

@@ -1,12 +1,12 @@
-/* Where the domain repeats, solids have to go on at the other side. */
+/* Checks that solids continue across periodic sides. */
 #include "geometry/model_parts.h"
 
 enum { PLACES_MAX = 256 };
 
-/* In spacings: how far within the sides to look. */
+/* In spacings: distance from the sides at which solids are looked for. */
 static const double within = 1e-3;
 
-/* The domain's own walls aside. */
+/* Whether the point is inside a solid, without the domain's own walls. */
 static bool is_solid(const sb_model *model, const sb_model_space *space, sb_vec3 at)
 {
     for (size_t b = 0; b < space->count; ++b)
@@ -15,14 +15,14 @@ static bool is_solid(const sb_model *model, const sb_model_space *space, sb_vec3
     return false;
 }
 
-/* Places across one extent, a spacing apart or more. */
+/* Returns the number of points across one extent, at least a spacing apart. */
 static size_t places(double extent, double spacing)
 {
     double count = ceil(extent / spacing - 1e-9);
     return count < 1 ? 1 : count > PLACES_MAX ? PLACES_MAX : (size_t)count;
 }
 
-/* Points on the two sides along one axis, i across and k up. */
+/* Points on the two opposite sides along one axis, numbered i across and k up. */
 typedef struct sides {
     const sb_model *model;
     int axis;
@@ -63,8 +63,8 @@ static sb_status check_axis(const sb_model_space *space, sb_model *model, int ax
     bool upper = is_solid(model, space, point_on(&s, first % s.across, first / s.across, true));
     sb_vec3 at = point_on(&s, first % s.across, first / s.across, upper);
     return sb_model_warn(model, error,
-                         "solids do not go on across the periodic sides in %c: at %zu of %zu "
-                         "places, the first near (%g, %g, %g), one is solid and the other is not",
+                         "solids do not continue across the periodic sides in %c: at %zu of %zu "
+                         "places, the first near (%g, %g, %g), one side is solid and the other is not",
                          "xy"[axis], count, all, at.x, at.y, at.z);
 }
 

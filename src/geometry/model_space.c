@@ -1,4 +1,4 @@
-/* Solids for all bodies of a model, the domain's walls as a sheet that faces inwards. */
+/* Creates the solids of all bodies of a model. The domain's walls are an open surface that faces inwards. */
 #include "geometry/model_parts.h"
 
 #include "base/memory.h"
@@ -6,8 +6,8 @@
 
 #include <string.h>
 
-/* Corners by the bits x, y, z; each side's counter-clockwise from within, in the order of SB_X_MIN.
- */
+/* Corners of each side, counter-clockwise seen from inside, in the order of sb_side. Bits 1, 2, 4 of a corner's
+   number select max in x, y, z. */
 static const uint32_t side_corners[SB_SIDES][4] = {{0, 2, 6, 4}, {1, 5, 7, 3}, {0, 4, 5, 1},
                                                    {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 6, 7, 5}};
 
@@ -22,7 +22,7 @@ static sb_status domain_mesh(const sb_scene *scene, sb_mesh *mesh, sb_error *err
         made.vertices[i] =
             sb_vec(i & 1 ? max.x : min.x, flat ? (i & 2 ? 1 : -1) : (i & 2 ? max.y : min.y), i & 4 ? max.z : min.z);
     made.triangle_count = 0;
-    made.sheet = true;
+    made.open_surface = true;
     for (int side = 0; side < SB_SIDES; ++side) {
         if (scene->domain.side[side] != SB_SIDE_WALL || (flat && (side == SB_Y_MIN || side == SB_Y_MAX))) continue;
         const uint32_t *c = side_corners[side];
@@ -34,19 +34,19 @@ static sb_status domain_mesh(const sb_scene *scene, sb_mesh *mesh, sb_error *err
     return SB_OK;
 }
 
-/* Long against anything in the scene, so that a cut's winding number is that of an endless strip.
- */
+/* Returns a width that is large compared with the scene, so that a section's winding number is that of an infinite
+   strip. */
 static double strip_width(const sb_model *model)
 {
     return 1e3 * (model->max.x - model->min.x + model->max.z - model->min.z);
 }
 
-/* The mesh to ask: the body's own, or its section; and its solid. */
+/* Sets the mesh for queries (the body's own or its section) and creates its solid. */
 static sb_status add_solid(const sb_model *model, const sb_scene *scene, size_t index, sb_model_space *space,
                            sb_error *error)
 {
     const sb_model_body *body = model->bodies + index;
-    sb_mesh walls = {.sheet = true};
+    sb_mesh walls = {.open_surface = true};
     bool is_domain = body->mesh.triangle_count == 0;
     if (is_domain && !scene) return SB_OK;
     sb_status status = is_domain ? domain_mesh(scene, &walls, error) : SB_OK;

@@ -1,18 +1,18 @@
-/* Where strokes take their bodies: faster than any wave in their water, or into what stands in their way. */
+/* Warns of strokes that are faster than waves in their water, and of strokes that run into other bodies. */
 #include "geometry/model_parts.h"
 #include "physics/wavemaker.h"
 
 #include <math.h>
 
-/* Times the speed of long waves that no paddle in water needs: most likely a slip of units. */
+/* Multiple of the speed of long waves that no paddle needs. A faster one most likely has wrong units. */
 static const double FAST = 3;
 
-/* Cosine: a face's particles that look where it goes lead. One in so many of them within another body is no matter of
-   an edge; so deep, in spacings, it is no matter of sampling. */
+/* AHEAD: cosine from which a particle's normal points along the motion. A body is reported if one in OF_EACH of
+   these particles enters another body; fewer occur at edges. DEEP: depth in spacings that sampling does not explain. */
 static const double AHEAD = 0.9, DEEP = 1;
 enum { OF_EACH = 20, TIMES = 2000, PLACES = 16 };
 
-/* A stroke as far as the run sees it. */
+/* The part of a stroke within the run's duration. */
 typedef struct stroke {
     double fastest, when; /* m/s, s */
     double least, most;   /* m, of the displacement */
@@ -63,9 +63,9 @@ static bool beyond_walls(const sb_domain *domain, int dimensions, sb_vec3 at, do
     return false;
 }
 
-/* The body at rest that holds the place by `depth` or more; SIZE_MAX: none does. */
-static size_t holder(const sb_scene *scene, const sb_model *model, const sb_model_space *space, sb_vec3 at,
-                     double depth)
+/* Returns the static body that contains the point by `depth` or more; SIZE_MAX: none. */
+static size_t containing_body(const sb_scene *scene, const sb_model *model, const sb_model_space *space, sb_vec3 at,
+                              double depth)
 {
     if (model->dimensions == 2) at.y = 0;
     for (size_t b = 0; b < space->count; b++) {
@@ -79,44 +79,48 @@ static size_t holder(const sb_scene *scene, const sb_model *model, const sb_mode
     return SIZE_MAX;
 }
 
-/* A body moved by `shift`: what of its leading face is within others then, and was not at the start. */
-static size_t count_held(const sb_scene *scene, const sb_model_space *space, const sb_model *model,
-                         const sb_model_body *body, sb_vec3 shift, size_t *leading, size_t *other)
+/* Counts the particles of a body's leading face that are inside other bodies once it has moved by `shift`, and were
+   not at the start. */
+static size_t count_inside(const sb_scene *scene, const sb_model_space *space, const sb_model *model,
+                           const sb_model_body *body, sb_vec3 shift, size_t *leading, size_t *other)
 {
     const double depth = DEEP * model->spacing, offset = scene->numerics.wall_offset * model->spacing;
     const sb_vec3 way = sb_normalize(shift);
-    size_t held = 0, lead = 0, least = SIZE_MAX;
-#pragma omp parallel for schedule(dynamic, 256) reduction(+ : held, lead) reduction(min : least)
+    size_t inside = 0, lead = 0, least = SIZE_MAX;
+#pragma omp parallel for schedule(dynamic, 256) reduction(+ : inside, lead) reduction(min : least)
     for (size_t i = body->begin; i < body->begin + body->count; i++) {
         const sb_vec3 face = sb_madd(model->wall_position[i], offset, model->wall_normal[i]);
-        if (sb_dot(model->wall_normal[i], way) < AHEAD || holder(scene, model, space, face, 0) != SIZE_MAX) continue;
+        if (sb_dot(model->wall_normal[i], way) < AHEAD || containing_body(scene, model, space, face, 0) != SIZE_MAX)
+            continue;
         lead++;
-        const size_t found = holder(scene, model, space, sb_add(face, shift), depth);
-        held += found != SIZE_MAX;
+        const size_t found = containing_body(scene, model, space, sb_add(face, shift), depth);
+        inside += found != SIZE_MAX;
         least = found < least ? found : least;
     }
     *leading = lead;
     *other = least;
-    return held;
+    return inside;
 }
 
 static sb_status check_way(const sb_scene *scene, const sb_model_space *space, const sb_model_body *body,
-                           sb_vec3 direction, double reach, sb_model *model, sb_error *error)
+                           sb_vec3 direction, double travel, sb_model *model, sb_error *error)
 {
     for (int k = 1; k <= PLACES; k++) {
-        const double displacement = reach * k / PLACES;
+        const double displacement = travel * k / PLACES;
         size_t leading, other;
-        const size_t held = count_held(scene, space, model, body, sb_scale(direction, displacement), &leading, &other);
-        if (held == 0 || OF_EACH * held < leading) continue;
-        return sb_model_warn(model, error,
-                             "body \"%s\" runs into \"%s\": moved by %.3g m of its %.3g m a part of its face is within "
-                             "it, and the water between them has nowhere to go",
-                             body->name, model->bodies[other].name, displacement, reach);
+        const size_t inside =
+            count_inside(scene, space, model, body, sb_scale(direction, displacement), &leading, &other);
+        if (inside == 0 || OF_EACH * inside < leading) continue;
+        return sb_model_warn(
+            model, error,
+            "body \"%s\" runs into \"%s\": after %.3g m of its travel of %.3g m, part of its face is inside "
+            "that body, and the water between them cannot escape",
+            body->name, model->bodies[other].name, displacement, travel);
     }
     return SB_OK;
 }
 
-sb_status sb_model_warn_of_strokes(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
+sb_status sb_model_warn_strokes(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
 {
     sb_status status = SB_OK;
     for (size_t w = 0; w < scene->wavemaker_count && status == SB_OK; w++) {
@@ -127,10 +131,10 @@ sb_status sb_model_warn_of_strokes(const sb_scene *scene, const sb_model_space *
         for (size_t b = 0; b < model->body_count && status == SB_OK; b++) {
             const sb_model_body *body = &model->bodies[b];
             if (body->wavemaker != (int)w) continue;
-            const double reach[2] = {whole.most, whole.least};
+            const double travel[2] = {whole.most, whole.least};
             for (int way = 0; way < 2 && status == SB_OK; way++)
-                if (fabs(reach[way]) > model->spacing)
-                    status = check_way(scene, space, body, maker->direction, reach[way], model, error);
+                if (fabs(travel[way]) > model->spacing)
+                    status = check_way(scene, space, body, maker->direction, travel[way], model, error);
         }
     }
     return status;

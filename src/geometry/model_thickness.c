@@ -1,28 +1,28 @@
-/* Bodies so thin that water on their one side feels water on the other, or would pass. */
+/* Finds bodies so thin that the water on one side interacts with the water on the other side, or passes through. */
 #include "geometry/model_parts.h"
 
 #include <stdio.h>
 
 enum { RAYS_MAX = 4000, BINS = 64 };
 
-/* Share of a body's surface that has to be thin before it counts as a plate, and the cosine between
-   its two faces there: sharp edges are none. */
+/* thin_share: fraction of a body's surface that must be thin for a plate. opposite: cosine between its two faces
+   there, which excludes sharp edges. */
 static const double thin_share = 0.05, opposite = -0.8;
 
-/* In spacings: a plate of half a spacing holds water, one of a quarter lets it pass (docs/stability.md).
-   A plate is at least a spacing wide along its faces, over more than half of its surface: water goes
-   around a slender column anyway, and what merely has thin parts is no plate. */
+/* In spacings: a plate of half a spacing holds water, one of a quarter lets it pass (docs/stability.md). A plate is
+   at least a spacing wide along its faces, over more than half of its surface. Water flows around a slender column
+   in any case, and a body with a few thin parts is not a plate. */
 static const double thin_limit = 0.499, plate_width = 1, bulk_share = 0.5;
 
-/* What rays straight behind a body's faces have met, in m². */
+/* Areas in m², by what rays straight behind a body's faces meet. */
 typedef struct thickness {
     double area, thin[BINS]; /* by depth up to the support radius */
-    double leaky;            /* thinner than the limit, and water may come to both sides */
-    double leaky_depth;      /* that area's mean depth times the area */
+    double leaky;            /* thinner than the limit, with room for water on both sides */
+    double leaky_depth;      /* mean depth of that area times the area */
     double limit;            /* m */
 } thickness;
 
-/* Whether water could ever be there: in the domain, and in no solid. */
+/* Whether water can be at the point: inside the domain and outside of all solids. */
 static bool is_open(const sb_model *model, const sb_model_space *space, sb_vec3 at)
 {
     if (model->dimensions == 2) at.y = 0;
@@ -34,8 +34,8 @@ static bool is_open(const sb_model *model, const sb_model_space *space, sb_vec3 
     return true;
 }
 
-/* Whether the body is a plate around a point within it, whose faces look along the normal: wide in all directions
-   across that. */
+/* Whether the body is a plate around a point inside it with the faces' normal: wide in all directions perpendicular
+   to the normal. */
 static bool is_wide(const sb_model *model, const sb_solid *solid, sb_vec3 at, sb_vec3 normal)
 {
     enum { DIRECTIONS = 4 };
@@ -53,7 +53,7 @@ static bool is_wide(const sb_model *model, const sb_solid *solid, sb_vec3 at, sb
     return true;
 }
 
-/* Straight behind the middle of one triangle. */
+/* Casts a ray straight behind the middle of one triangle and adds the triangle's area. */
 static void look_behind(const sb_model *model, const sb_model_space *space, const sb_solid *solid,
                         const sb_vec3 corner[3], thickness *found)
 {
@@ -88,7 +88,7 @@ static void find_thickness(const sb_model *model, const sb_model_space *space, c
     }
 }
 
-/* The depth that thin_share of the area stays below, at most the limit. */
+/* Returns the depth below which the fraction thin_share of the area lies, at most the limit. */
 static double plate_thickness(const thickness *found)
 {
     double sum = 0;
@@ -107,7 +107,7 @@ static double support_radius(const sb_scene *scene) /* m */
 static sb_status refuse(const sb_scene *scene, const char *name, double thick, sb_error *error)
 {
     return sb_fail(error, SB_BAD_INPUT,
-                   "%.300s: body \"%s\": about %.3g m thick over most of its surface, and water passes what is thinner "
+                   "%.300s: body \"%s\": about %.3g m thick over most of its surface, and water passes a plate thinner "
                    "than half the spacing (%.3g m), expected a thicker body, or a resolution of %.3g m or less",
                    scene->path ? scene->path : "the scene", name, thick, 0.5 * scene->resolution, 2 * thick);
 }
@@ -115,7 +115,7 @@ static sb_status refuse(const sb_scene *scene, const char *name, double thick, s
 sb_status sb_model_check_thickness(const sb_scene *scene, const sb_model_space *space, const sb_model *model,
                                    sb_model_body *body, sb_error *error)
 {
-    if (body->role != SB_ROLE_SOLID || body->mesh.sheet || body->mesh.triangle_count == 0) return SB_OK;
+    if (body->role != SB_ROLE_SOLID || body->mesh.open_surface || body->mesh.triangle_count == 0) return SB_OK;
     thickness found = {.limit = support_radius(scene)};
     sb_solid *solid = NULL;
     sb_status status = sb_solid_create(&body->mesh, body->role, &solid, error);
@@ -128,7 +128,7 @@ sb_status sb_model_check_thickness(const sb_scene *scene, const sb_model_space *
     return SB_OK;
 }
 
-/* Of the thin bodies the thinnest; NULL: there is none. count: all of them. */
+/* Returns the thinnest of the thin bodies; NULL: none. count: number of thin bodies. */
 static const sb_model_body *find_thinnest(const sb_model *model, size_t *count)
 {
     const sb_model_body *thinnest = NULL;
@@ -142,7 +142,7 @@ static const sb_model_body *find_thinnest(const sb_model *model, size_t *count)
     return thinnest;
 }
 
-sb_status sb_model_warn_of_thin(const sb_scene *scene, sb_model *model, sb_error *error)
+sb_status sb_model_warn_thin(const sb_scene *scene, sb_model *model, sb_error *error)
 {
     size_t left, length = 0;
     const sb_model_body *thinnest = find_thinnest(model, &left);
@@ -159,6 +159,6 @@ sb_status sb_model_warn_of_thin(const sb_scene *scene, sb_model *model, sb_error
     if (left > 0) snprintf(others + length, sizeof others - length, " and %zu more", left);
     return sb_model_warn(model, error,
                          "body \"%s\" is about %.2g m thick, less than the support radius of %.3g m: water "
-                         "on one side pushes water on the other%s",
+                         "on one side exerts forces on water on the other side%s",
                          thinnest->name, thinnest->thin, support_radius(scene), others);
 }

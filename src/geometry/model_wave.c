@@ -1,28 +1,28 @@
-/* Initial waves that are cut off: beyond a side, in a body, on land. */
+/* Warns of initial waves that are cut off: beyond a side, inside a body, or on land. */
 #include "geometry/model_parts.h"
 
 #include <stdio.h>
 
-/* Share of the wave's volume that may be missing without a warning. */
+/* Fraction of the wave's volume that may be missing without a warning. */
 static const double MISSING = 0.01;
 
-/* A position that keeps the wave within the water; or why there is none. */
+/* Writes a position at which the whole wave is within the water, or why there is none. */
 static void advise(const sb_scene *scene, const sb_wave_room *room, char *text, size_t size)
 {
-    const double step = scene->resolution, least = step * ceil((room->low + room->reach) / step),
-                 most = step * floor((room->high - room->reach) / step);
+    const double step = scene->resolution, least = step * ceil((room->low + room->extent) / step),
+                 most = step * floor((room->high - room->extent) / step);
     if (least > most)
-        snprintf(text, size, "the wave is %.3g m long, the water %.3g m: expected longer water", 2 * room->reach,
+        snprintf(text, size, "the wave is %.3g m long, the water %.3g m: expected longer water", 2 * room->extent,
                  room->high - room->low);
     else if (scene->wave.position < least)
         snprintf(text, size, "expected water.wave.position %g m or more", least);
     else if (scene->wave.position > most)
         snprintf(text, size, "expected water.wave.position %g m or less", most);
     else
-        snprintf(text, size, "expected a position with nothing but water within %.3g m of the crest", room->reach);
+        snprintf(text, size, "expected a position with nothing but water within %.3g m of the crest", room->extent);
 }
 
-sb_status sb_model_warn_of_wave(const sb_scene *scene, const sb_wave_room *room, sb_model *model, sb_error *error)
+sb_status sb_model_warn_wave(const sb_scene *scene, const sb_wave_room *room, sb_model *model, sb_error *error)
 {
     char advice[160];
     if (!room->wet || !(room->area > 0)) return SB_OK;

@@ -1,3 +1,4 @@
+/* Samples surfaces as boundary particles: all static surfaces together, then each moving one alone. */
 #include "geometry/sample_parts.h"
 
 #include "base/memory.h"
@@ -5,8 +6,8 @@
 
 #include <string.h>
 
-/* In spacings: of two moving bodies' particles this near to each other the second is a double. One that lies where a
-   static one does is none: it goes away, and takes the water along. */
+/* In spacings: a particle of a moving body this near to one of another moving body is a duplicate. A particle of a
+   moving body at the place of a static one is kept, because it moves away and takes the water along. */
 static const double same_place = 1e-3;
 
 void sb_samples_free(sb_samples *samples)
@@ -18,13 +19,13 @@ void sb_samples_free(sb_samples *samples)
     *samples = (sb_samples){0};
 }
 
-/* Samples the present group into sampler->set. */
+/* Samples the current group into sampler->set. */
 static int sample_group(sb_sampler *sampler)
 {
     return sb_sample_lattices(sampler) || sb_sample_grow(sampler) || sb_sample_voids(sampler);
 }
 
-/* Appends what the group found, but for doubles of what is there already; near: m, 0: there are none. */
+/* Appends the group's particles except duplicates of earlier ones. near: distance of duplicates, m; 0: keep all. */
 static int collect(sb_sample_set *found, double near, sb_sample_set *all)
 {
     for (size_t i = 0; i < found->count; ++i)
@@ -35,7 +36,7 @@ static int collect(sb_sample_set *found, double near, sb_sample_set *all)
     return 0;
 }
 
-/* Static surfaces together, then each moving one alone. */
+/* Samples the static surfaces together, then each moving surface alone. */
 static int sample_groups(sb_sampler *sampler, sb_sample_set *all)
 {
     sampler->moving = false;
@@ -58,8 +59,8 @@ static int sample_groups(sb_sampler *sampler, sb_sample_set *all)
     return failed;
 }
 
-/* Whether a particle belongs to the domain: what is beyond a side at which that repeats is the
-   image of what is before the other. */
+/* Whether a particle belongs to the domain. A particle beyond a periodic side is the image of a particle within the
+   opposite side. */
 static bool belongs(const sb_sample_settings *settings, sb_vec3 at)
 {
     for (int axis = 0; axis < 3; ++axis)
@@ -67,7 +68,7 @@ static bool belongs(const sb_sample_settings *settings, sb_vec3 at)
     return true;
 }
 
-/* Drops what does not belong. */
+/* Removes the particles that do not belong to the domain. */
 static void clip(const sb_sample_settings *settings, sb_sample_set *all)
 {
     size_t kept = 0;
@@ -76,7 +77,7 @@ static void clip(const sb_sample_settings *settings, sb_sample_set *all)
     all->count = kept;
 }
 
-/* Sorts the particles by source, each source's in the order they were found. */
+/* Sorts the particles by source. Those of one source stay in the order in which they were found. */
 static int sort_out(const sb_sample_set *all, size_t source_count, sb_samples *out)
 {
     *out = (sb_samples){.count = all->count, .source_count = source_count};
@@ -101,7 +102,7 @@ sb_status sb_sample_surfaces(const sb_sample_settings *settings, const sb_sample
                              sb_samples *samples, sb_error *error)
 {
     sb_sampler sampler = {.settings = *settings};
-    /* Cells of one spacing: questions reach less far, so they look into 27 at most. */
+    /* With cells of one spacing, a query searches at most 27 cells, because its radius is smaller than a spacing. */
     sb_sample_set all = {.cell = settings->spacing, .origin = settings->min};
     sampler.set = all;
     sb_samples made = {0};
@@ -114,7 +115,7 @@ sb_status sb_sample_surfaces(const sb_sample_settings *settings, const sb_sample
     }
     int failed = status == SB_OK && sample_groups(&sampler, &all);
     if (status == SB_OK && !failed) {
-        clip(settings, &all); /* its questions of distance are over */
+        clip(settings, &all); /* the set is not searched afterwards */
         sb_sample_round_edges(&sampler, &all);
         failed = sb_stop_signal() || sort_out(&all, count, &made);
     }

@@ -1,16 +1,17 @@
-/* Normals along the convex edges of solids: the particles there stand for both faces, whichever face's they were
-   placed as. */
+/* Sets the normals along the convex edges of solids to the mean of the faces there, so that they do not depend on
+   which face a particle was placed for. */
 #include "geometry/sample_parts.h"
 
 #include "base/stop.h"
 
-/* In offsets: how far a place is drawn back to ask for its next face, and how far that may be. */
-static const double drawn_back = 0.2, in_reach = 1.3;
-/* Cosines: normals this near are one face's; faces that look away from each other more than this bound a plate. */
+/* In offsets: distance by which a point is moved back to find its next face, and largest distance of that face. */
+static const double step_back = 0.2, search_limit = 1.3;
+/* Cosines: normals closer than same_face belong to one face; faces whose normals oppose each other more than `plate`
+   are the two sides of a plate. */
 static const double same_face = 0.95, plate = -0.5;
 enum { FACES = 3 };
 
-/* The face nearest to a place that water may stand before; false: none in reach. */
+/* Finds the nearest exposed face within `limit`. Returns false if there is none. */
 static bool face_near(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, double limit, sb_vec3 *normal)
 {
     sb_vec3 nearest;
@@ -26,18 +27,19 @@ static bool is_new(const sb_vec3 *faces, int count, sb_vec3 normal)
     return true;
 }
 
-/* The mean of the faces at the offset from a place; each is found by drawing the place back from those known. */
+/* Returns the mean normal of the faces at the offset from a particle. Each face is found by moving the point back
+   from those already found. */
 static sb_vec3 normal_of(const sb_sampler *sampler, const sb_sample *sample)
 {
     const double offset = sampler->settings.offset;
-    const double step = drawn_back * offset, reach = in_reach * offset;
+    const double step = step_back * offset, limit = search_limit * offset;
     sb_vec3 faces[FACES], sum = sample->normal;
-    /* A chain in a concave edge has its mitre's normal, which is no face's. */
-    if (!face_near(sampler, sample->source, sb_madd(sample->at, step, sum), reach, faces) ||
+    /* A particle in a concave edge has the mean normal of the edge, which is the normal of no face. */
+    if (!face_near(sampler, sample->source, sb_madd(sample->at, step, sum), limit, faces) ||
         sb_dot(faces[0], sum) < same_face)
         return sample->normal;
     int count = 1;
-    while (count < FACES && face_near(sampler, sample->source, sb_madd(sample->at, -step, sum), reach, &faces[count]) &&
+    while (count < FACES && face_near(sampler, sample->source, sb_madd(sample->at, -step, sum), limit, &faces[count]) &&
            is_new(faces, count, faces[count]))
         sum = sb_add(sum, faces[count++]);
     return sb_normalize(sum);

@@ -1,5 +1,5 @@
-/* Curved surfaces: what is accepted grows like a crystal. Every particle proposes neighbours one
-   spacing away along the sheet, those of a block of particles being placed in parallel. */
+/* Samples curved surfaces by growth. Each accepted particle proposes neighbours one spacing away along the boundary
+   surface. The proposals of a block of particles are computed in parallel. */
 #include "geometry/sample_parts.h"
 
 #include "base/memory.h"
@@ -12,8 +12,7 @@ typedef struct proposals {
     sb_sample sample[PROPOSALS];
 } proposals;
 
-/* A neighbour's direction within a particle's tangent plane, so that growth carries a lattice on.
- */
+/* Returns a neighbour's direction in a particle's tangent plane, so that growth continues an existing lattice. */
 static sb_vec3 find_axis(const sb_sampler *sampler, size_t index)
 {
     const sb_sample *s = sampler->set.sample + index;
@@ -49,7 +48,7 @@ static void propose(const sb_sampler *sampler, size_t index, proposals *out)
     }
 }
 
-/* One seed for each connected part that has no particle yet. */
+/* Adds one seed particle for each connected part that has no particle yet. */
 static int plant_seeds(sb_sampler *sampler, uint32_t index)
 {
     const sb_surface *surface = sampler->surfaces + index;

@@ -1,5 +1,5 @@
-/* Regular points first: lattices on planes, and chains along concave edges; candidates are placed in parallel and
-   accepted in their order. */
+/* Places regular points first: lattices on planes, and rows along concave edges. Candidates are placed in parallel
+   and accepted in their order. */
 #include "geometry/sample_parts.h"
 
 #include "base/memory.h"
@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-/* Normals whose mitre would reach too far have none. */
+/* Cosine between two normals: below it the mitre point is too far away and is not used. */
 static const double mitre_cosine = -0.7;
 
 int sb_candidate_flush(sb_sampler *sampler, sb_candidate_batch *batch)
@@ -20,11 +20,11 @@ int sb_candidate_flush(sb_sampler *sampler, sb_candidate_batch *batch)
         batch->good[i] = false;
         if (sb_stop_signal()) continue;
         if (c->placed) {
-            batch->good[i] = sb_sample_fits(sampler, c->surface, c->at, c->inward, c->reach);
+            batch->good[i] = sb_sample_fits(sampler, c->surface, c->at, c->inward, c->offset);
             continue;
         }
-        /* What another solid covers waits for the filling of voids: a slope that runs on just below
-           a deck would else take the deck's places. */
+        /* Points that another solid covers are left to the filling of voids. Otherwise a slope that continues just
+           below a deck would take the deck's places. */
         batch->good[i] = sb_sample_exposed(sampler, c->surface, c->at, sb_scale(c->inward, -1)) &&
                          sb_sample_place(sampler, c->surface, c->at, c->inward, &placed, &margin) == SB_PLACED;
         if (batch->good[i]) c->at = placed;
@@ -46,7 +46,7 @@ int sb_candidate_push(sb_sampler *sampler, sb_candidate_batch *batch, sb_candida
     return batch->count == SB_SAMPLE_BATCH ? sb_candidate_flush(sampler, batch) : 0;
 }
 
-/* The triangle's corners in lattice steps. */
+/* Converts the triangle's corners to lattice steps. */
 static void to_lattice(const sb_lattice *l, const sb_vec3 corner[3], double u[3], double v[3])
 {
     for (int i = 0; i < 3; ++i) {
@@ -56,12 +56,12 @@ static void to_lattice(const sb_lattice *l, const sb_vec3 corner[3], double u[3]
     }
 }
 
-/* In lattice steps: rounding must not lose a point on an edge. */
+/* In lattice steps: tolerance that keeps points on an edge despite rounding. */
 static const double slack = 1e-9;
 
-/* Half the extent, and the middle, of all that is sampled, along a direction: what lies farther outside of the domain
-   than a support radius is dropped, and needs no look. */
-static void seen_along(const sb_sample_settings *settings, sb_vec3 along, double *middle, double *half)
+/* Computes the middle and half the extent of the sampled region along a direction. Particles farther outside of the
+   domain than a support radius are dropped, so they need not be generated. */
+static void region_along(const sb_sample_settings *settings, sb_vec3 along, double *middle, double *half)
 {
     const double margin = settings->support + settings->offset + 4 * settings->spacing;
     sb_vec3 size = sb_scale(sb_sub(settings->max, settings->min), 0.5);
@@ -70,18 +70,18 @@ static void seen_along(const sb_sample_settings *settings, sb_vec3 along, double
     *half = fabs(along.x) * (size.x + margin) + fabs(along.y) * (size.y + margin) + fabs(along.z) * (size.z + margin);
 }
 
-/* Cuts [low, high], in steps along a direction from a point on, to what is seen. */
-static void cut_to_seen(const sb_sample_settings *settings, sb_vec3 from, sb_vec3 along, double step, double *low,
-                        double *high)
+/* Reduces [low, high], in steps along a direction from a point, to the sampled region. */
+static void cut_to_region(const sb_sample_settings *settings, sb_vec3 from, sb_vec3 along, double step, double *low,
+                          double *high)
 {
     double middle, half;
-    seen_along(settings, along, &middle, &half);
+    region_along(settings, along, &middle, &half);
     middle -= sb_dot(from, along);
     *low = fmax(*low, (middle - half) / step);
     *high = fmin(*high, (middle + half) / step);
 }
 
-/* The stretch of u that a row shares with the triangle; it meets at least one edge. */
+/* Computes the range of u that a row shares with the triangle. The row meets at least one edge. */
 static void span_row(const double u[3], const double v[3], double row, double *first, double *last)
 {
     *first = HUGE_VAL;
@@ -97,7 +97,7 @@ static void span_row(const double u[3], const double v[3], double row, double *f
     }
 }
 
-/* Lattice points within one triangle, row by row. */
+/* Adds the lattice points within one triangle, row by row. */
 static int scan_triangle(sb_sampler *sampler, sb_candidate_batch *batch, const sb_lattice *l, const sb_vec3 corner[3],
                          sb_candidate candidate)
 {
@@ -106,9 +106,9 @@ static int scan_triangle(sb_sampler *sampler, sb_candidate_batch *batch, const s
     double low = fmin(v[0], fmin(v[1], v[2])), high = fmax(v[0], fmax(v[1], v[2]));
     double area = (u[1] - u[0]) * (v[2] - v[0]) - (u[2] - u[0]) * (v[1] - v[0]);
     if (!(fabs(area) > 1e-12)) return 0;
-    double seen_first = -HUGE_VAL, seen_last = HUGE_VAL;
-    cut_to_seen(&sampler->settings, l->origin, l->v, l->step_v, &low, &high);
-    cut_to_seen(&sampler->settings, l->origin, l->u, l->step_u, &seen_first, &seen_last);
+    double region_first = -HUGE_VAL, region_last = HUGE_VAL;
+    cut_to_region(&sampler->settings, l->origin, l->v, l->step_v, &low, &high);
+    cut_to_region(&sampler->settings, l->origin, l->u, l->step_u, &region_first, &region_last);
     if (!(low <= high)) return 0;
     int64_t end = (int64_t)floor(high - 0.5 + slack);
     for (int64_t n = (int64_t)ceil(low - 0.5 - slack); n <= end; ++n) {
@@ -116,8 +116,8 @@ static int scan_triangle(sb_sampler *sampler, sb_candidate_batch *batch, const s
         double first, last;
         if (sb_stop_signal()) return -1;
         span_row(u, v, row, &first, &last);
-        first = fmax(first, seen_first);
-        last = fmin(last, seen_last);
+        first = fmax(first, region_first);
+        last = fmin(last, region_last);
         if (!(first <= last)) continue;
         int64_t stop = (int64_t)floor(last - 0.5 + slack);
         for (int64_t m = (int64_t)ceil(first - 0.5 - slack); m <= stop; ++m) {
@@ -156,7 +156,7 @@ static int scan_faces(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t i
     return failed;
 }
 
-/* Evenly along a straight edge, in step with the world's lattice where it follows an axis. */
+/* Adds points evenly along a straight edge, on the global lattice if the edge is parallel to an axis. */
 static int scan_line(sb_sampler *sampler, sb_candidate_batch *batch, sb_vec3 a, sb_vec3 b, sb_candidate candidate)
 {
     double spacing = sampler->settings.spacing, length = sb_norm(sb_sub(b, a));
@@ -168,7 +168,7 @@ static int scan_line(sb_sampler *sampler, sb_candidate_batch *batch, sb_vec3 a, 
         begin = step * (ceil(from / step - 0.5 - slack) + 0.5) - from;
     }
     double low = 0, high = floor((length - begin) / step + 1e-9);
-    cut_to_seen(&sampler->settings, sb_madd(a, begin, along), along, step, &low, &high);
+    cut_to_region(&sampler->settings, sb_madd(a, begin, along), along, step, &low, &high);
     if (!(low <= high)) return 0;
     const int64_t end = (int64_t)floor(high);
     for (int64_t n = (int64_t)ceil(low); n <= end; ++n) {
@@ -179,7 +179,7 @@ static int scan_line(sb_sampler *sampler, sb_candidate_batch *batch, sb_vec3 a, 
     return 0;
 }
 
-/* Where the two sheets along a concave edge meet: a chain at the mitre. */
+/* Adds a row of points where the boundary surfaces of the two faces at a concave edge meet (at the mitre). */
 static int scan_crease(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t index, const sb_crease *crease)
 {
     double cosine = sb_dot(crease->normal[0], crease->normal[1]);
@@ -190,7 +190,7 @@ static int scan_crease(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t 
                               .inward = sb_scale(sb_normalize(sum), -1),
                               .surface = index,
                               .placed = true,
-                              .reach = offset};
+                              .offset = offset};
     if (sampler->settings.dimensions == 2) {
         sb_vec3 at = sb_scale(sb_add(crease->a, crease->b), 0.5);
         candidate.at = sb_add(candidate.at, sb_vec(at.x, 0, at.z));
@@ -199,7 +199,7 @@ static int scan_crease(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t 
     return scan_line(sampler, batch, crease->a, crease->b, candidate);
 }
 
-/* Where three sheets meet: the point at the offset behind all three planes. */
+/* Adds the point where the boundary surfaces of three faces meet: at the offset behind all three planes. */
 static int scan_cap(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t index, const sb_cap *cap)
 {
     const sb_vec3 *n = cap->normal;
@@ -211,11 +211,11 @@ static int scan_cap(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t ind
                                             .inward = sb_scale(sb_normalize(sum), volume > 0 ? -1 : 1),
                                             .surface = index,
                                             .placed = true,
-                                            .reach = offset});
+                                            .offset = offset});
 }
 
-/* The curve in y = 0: each strip of a section is two triangles, its piece lies at half its height.
- */
+/* Samples the curve in y = 0. Each strip of a section is two triangles, and its piece of the curve lies at half the
+   strip's width. */
 static int scan_strips(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t index)
 {
     const sb_surface *surface = sampler->surfaces + index;

@@ -1,13 +1,14 @@
-/* Where the sheet is: a point of a surface goes behind it by the offset, or to the middle of what
-   is thinner than twice that, or nowhere. */
+/* Places the points of the boundary surface. A surface point goes behind the surface by the offset, or to the middle
+   of a part that is thinner than twice the offset, or it gets no particle. */
 #include "geometry/sample_parts.h"
 
-/* In offsets: nearer than this to another face, a point is beyond the sheet's own edge. */
+/* In offsets: a point nearer than this to another face lies beyond the border of its own face's boundary surface. */
 static const double crowded_share = 0.9;
-/* Cosine between normals: faces that look away from each other bound something thin, others meet.
- */
+/* Cosine between normals: faces whose normals oppose each other more than this are the two sides of a thin part;
+   others meet in an edge. */
 static const double thin_cosine = -0.5;
-/* In spacings, more than the offset: what lies this deep under what stands on it meets no water. */
+/* In spacings, in addition to the offset: a surface this deep below a solid that stands on it has no contact with
+   water. */
 static const double burial = 0.25;
 enum { THIN_STEPS = 8 };
 
@@ -20,7 +21,7 @@ static bool inside_box(const sb_surface *surface, sb_vec3 at, double margin)
 static bool contains(const sb_surface *surface, sb_vec3 at)
 {
     if (surface->bounded) {
-        /* A terrain reaches down without end. */
+        /* A terrain extends downwards without limit. */
         bool beside = at.x < surface->min.x || at.x > surface->max.x || at.y < surface->min.y ||
                       at.y > surface->max.y || at.z > surface->max.z;
         if (beside || (surface->source->role == SB_ROLE_SOLID && at.z < surface->min.z)) return false;
@@ -28,20 +29,21 @@ static bool contains(const sb_surface *surface, sb_vec3 at)
     return sb_solid_contains(surface->source->solid, at);
 }
 
-/* Other surfaces that may hide a point of this one: static ones, from static ones. */
-static bool may_hide(const sb_sampler *sampler, uint32_t surface, uint32_t other)
+/* Whether another surface may cover a point of this one. Only static surfaces do, and only static ones are covered. */
+static bool may_cover(const sb_sampler *sampler, uint32_t surface, uint32_t other)
 {
     return other != surface && !sampler->surfaces[surface].source->moving && !sampler->surfaces[other].source->moving;
 }
 
-/* A terrain's own wall goes on below ground that is lower. */
+/* Whether a surface can bury parts of itself: a wall added at the end of a terrain continues below lower ground. */
 static bool buries_itself(const sb_sampler *sampler, uint32_t surface)
 {
     return sb_surface_mesh(sampler->surfaces + surface)->ends > 0;
 }
 
-/* Within another solid there is a ball that touches the surface from the water's side, so wide that the other's own
-   sheet, which the water meets, is nearer to it than this surface. */
+/* A point is buried if a ball that touches the surface from the water's side lies inside another solid. The ball is
+   so large that the other solid's boundary surface, which is in contact with the water, is nearer to it than this
+   surface. */
 bool sb_sample_buried(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_vec3 inward, double radius)
 {
     if (sampler->surfaces[surface].source->moving) return false;
@@ -56,8 +58,8 @@ bool sb_sample_buried(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, s
     sb_vec3 center = sb_madd(at, -(1 + 1e-6) * ball, inward);
     for (uint32_t i = 0; i < sampler->surface_count; ++i) {
         const sb_surface *other = sampler->surfaces + i;
-        if ((may_hide(sampler, surface, i) || (i == surface && buries_itself(sampler, i))) && contains(other, center) &&
-            sb_solid_distance(other->source->solid, center, ball, NULL, NULL) >= ball)
+        if ((may_cover(sampler, surface, i) || (i == surface && buries_itself(sampler, i))) &&
+            contains(other, center) && sb_solid_distance(other->source->solid, center, ball, NULL, NULL) >= ball)
             return true;
     }
     return false;
@@ -67,18 +69,18 @@ bool sb_sample_exposed(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, 
 {
     sb_vec3 front = sb_madd(at, 0.02 * sampler->settings.spacing, normal);
     for (uint32_t i = 0; i < sampler->surface_count; ++i)
-        if (may_hide(sampler, surface, i) && contains(sampler->surfaces + i, front)) return false;
+        if (may_cover(sampler, surface, i) && contains(sampler->surfaces + i, front)) return false;
     return true;
 }
 
-/* The mesh's normal, turned towards the water. */
+/* Returns the mesh's normal turned towards the water. */
 static sb_vec3 water_normal(const sb_surface *surface, sb_vec3 normal)
 {
     if (surface->source->role == SB_ROLE_TERRAIN) return normal.z < -SB_SAMPLE_UPRIGHT ? sb_scale(normal, -1) : normal;
     return sb_scale(normal, surface->sign);
 }
 
-/* Whether a place lies in a side at which the domain repeats. */
+/* Whether a point lies in a periodic side. */
 static bool in_side(const sb_sample_settings *settings, sb_vec3 at)
 {
     bool in = false;
@@ -88,28 +90,28 @@ static bool in_side(const sb_sample_settings *settings, sb_vec3 at)
     return in;
 }
 
-/* The step that takes a place at least `distance` into the domain, where this repeats. */
-static sb_vec3 way_in(const sb_sample_settings *settings, sb_vec3 at, double distance)
+/* Returns the step that moves a point at least `distance` inside the domain along its periodic axes. */
+static sb_vec3 step_inside(const sb_sample_settings *settings, sb_vec3 at, double distance)
 {
     double step[3] = {0};
     for (int axis = 0; axis < 3; ++axis) {
-        double lack = distance + sb_sample_beyond(settings, at, axis);
+        double depth = distance + sb_sample_beyond(settings, at, axis);
         double low = sb_sample_along(at, axis) - sb_sample_along(settings->min, axis);
         double high = sb_sample_along(settings->max, axis) - sb_sample_along(at, axis);
-        if (settings->repeats[axis] && lack > 0) step[axis] = low < high ? lack : -lack;
+        if (settings->repeats[axis] && depth > 0) step[axis] = low < high ? depth : -depth;
     }
     return sb_vec(step[0], step[1], step[2]);
 }
 
-/* From where a surface is asked about, moved by `step`. */
-typedef struct asking {
+/* A query for the nearest point of a surface; the point at `at` is moved by `step`. */
+typedef struct query {
     const sb_sampler *sampler;
     uint32_t surface;
     sb_vec3 at, step;
-} asking;
+} query;
 
-/* The normal towards the water; where faces have both orientations, towards the one who asks. */
-static sb_vec3 facing(const asking *a, sb_vec3 place, sb_vec3 normal)
+/* Returns the normal towards the water; if the surface's orientation is inconsistent, towards the query's point. */
+static sb_vec3 facing(const query *a, sb_vec3 place, sb_vec3 normal)
 {
     const sb_surface *on = a->sampler->surfaces + a->surface;
     normal = water_normal(on, normal);
@@ -118,7 +120,7 @@ static sb_vec3 facing(const asking *a, sb_vec3 place, sb_vec3 normal)
 
 static bool is_exposed(const void *context, sb_vec3 nearest, sb_vec3 normal)
 {
-    const asking *a = context;
+    const query *a = context;
     const sb_vec3 place = sb_sub(nearest, a->step);
     return sb_sample_exposed(a->sampler, a->surface, place, facing(a, place, normal));
 }
@@ -128,10 +130,10 @@ double sb_sample_distance(const sb_sampler *sampler, uint32_t surface, sb_vec3 a
 {
     const sb_sample_settings *settings = &sampler->settings;
     const sb_solid *solid = sampler->surfaces[surface].source->solid;
-    asking a = {.sampler = sampler, .surface = surface, .at = at};
+    query a = {.sampler = sampler, .surface = surface, .at = at};
     double distance = sb_solid_distance_where(solid, at, limit, is_exposed, &a, nearest, normal);
     if (distance < limit && in_side(settings, *nearest)) {
-        a.step = way_in(settings, at, limit);
+        a.step = step_inside(settings, at, limit);
         distance = sb_solid_distance_where(solid, sb_add(at, a.step), limit, is_exposed, &a, nearest, normal);
         *nearest = sb_sub(*nearest, a.step);
     }
@@ -139,13 +141,13 @@ double sb_sample_distance(const sb_sampler *sampler, uint32_t surface, sb_vec3 a
     return distance;
 }
 
-/* The distance from a point of the sheet to the nearest exposed surface, at most limit. */
+/* Returns the distance from a point of the boundary surface to the nearest exposed surface, at most limit. */
 static double clearance(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, double limit, sb_vec3 *nearest,
                         sb_vec3 *normal)
 {
     double best = limit;
     for (uint32_t i = 0; i < sampler->surface_count; ++i) {
-        if ((i != surface && !may_hide(sampler, surface, i)) || !inside_box(sampler->surfaces + i, at, best)) continue;
+        if ((i != surface && !may_cover(sampler, surface, i)) || !inside_box(sampler->surfaces + i, at, best)) continue;
         sb_vec3 place, toward;
         double distance = sb_sample_distance(sampler, i, at, best, &place, &toward);
         if (distance >= best) continue;
@@ -156,11 +158,11 @@ static double clearance(const sb_sampler *sampler, uint32_t surface, sb_vec3 at,
     return best;
 }
 
-bool sb_sample_fits(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_vec3 inward, double reach)
+bool sb_sample_fits(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_vec3 inward, double offset)
 {
     sb_vec3 nearest, normal;
-    double least = crowded_share * reach;
-    return !sb_sample_buried(sampler, surface, sb_madd(at, -reach, inward), inward, 0) &&
+    double least = crowded_share * offset;
+    return !sb_sample_buried(sampler, surface, sb_madd(at, -offset, inward), inward, 0) &&
            !(clearance(sampler, surface, at, least, &nearest, &normal) < least);
 }
 
@@ -169,21 +171,22 @@ sb_placement sb_sample_place(const sb_sampler *sampler, uint32_t surface, sb_vec
 {
     *margin = 0;
     if (sb_sample_buried(sampler, surface, at, inward, 0)) return SB_BURIED;
-    double reach = sampler->settings.offset;
+    double offset = sampler->settings.offset;
     for (int step = 0; step < THIN_STEPS; ++step) {
-        *placed = sb_madd(at, reach, inward);
+        *placed = sb_madd(at, offset, inward);
         sb_vec3 nearest, normal;
-        double limit = reach * (1 - 1e-3);
+        double limit = offset * (1 - 1e-3);
         double room = clearance(sampler, surface, *placed, limit, &nearest, &normal);
         if (!(room < limit)) break;
         sb_vec3 chord = sb_sub(nearest, at);
         double along = sb_dot(chord, inward);
         if (-sb_dot(normal, inward) >= thin_cosine || !(along > 0)) {
-            *margin = crowded_share * reach - room;
+            *margin = crowded_share * offset - room;
             return *margin > 0 ? SB_CROWDED : SB_PLACED;
         }
-        /* The far side of something thin: the ball through both places lies in its middle. */
-        reach = sb_dot(chord, chord) / (2 * along);
+        /* The nearest face is the far side of a thin part. The ball through both points has its centre in the middle
+           of the part. */
+        offset = sb_dot(chord, chord) / (2 * along);
     }
     return SB_PLACED;
 }

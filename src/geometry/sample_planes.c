@@ -1,19 +1,19 @@
-/* Which lattice each plane of a surface takes: where its rows lie, and how far apart they are. */
+/* Chooses the lattice of each plane of a surface: the position of its rows and their distance. */
 #include "geometry/sample_parts.h"
 
 #include "base/memory.h"
 
-/* A lattice projected along an axis stays dense enough up to this tilt (half a cell's diagonal
-   below SB_SAMPLE_FILL). */
+/* Cosine up to which a lattice projected along an axis stays dense enough (half a cell's diagonal below
+   SB_SAMPLE_FILL). */
 static const double projected_cosine = 0.93;
-/* In spacings: a tilted plane smaller than this has no lattice of its own. */
+/* In spacings: a tilted plane smaller than this gets no lattice of its own. */
 static const double fitted_extent = 6;
-/* In spacings, steps of rows spread evenly: nearer ones are not accepted, and cells of wider ones would be filled. */
+/* In spacings: limits of the step of evenly spread rows. Nearer rows would not be accepted, and the cells of wider
+   ones would be filled. */
 static const double narrow = SB_SAMPLE_LATTICE, wide = 1.08;
-/* Cosine between the normals of faces that stand upright on each other. */
+/* Cosine between the normals of faces that count as perpendicular to each other. */
 static const double upright = 0.05;
 
-/* Step near the spacing that divides `length` evenly; the spacing itself when none is near. */
 double sb_sample_fitted_step(double length, double spacing)
 {
     double pieces = round(length / spacing);
@@ -21,7 +21,6 @@ double sb_sample_fitted_step(double length, double spacing)
     return step > 0.92 * spacing && step < 1.08 * spacing ? step : spacing;
 }
 
-/* Of the world's lattice along an axis: between sides at which the domain repeats it fits. */
 double sb_sample_axis_step(const sb_sample_settings *settings, int axis)
 {
     double length = sb_sample_along(sb_sub(settings->max, settings->min), axis);
@@ -44,7 +43,7 @@ int sb_sample_dominant(sb_vec3 n)
     return z >= x && z >= y ? 2 : x >= y ? 0 : 1;
 }
 
-/* Bounds of a plane's triangles along u and v, and at which of them it ends in an edge with water on both sides. */
+/* Bounds of a plane's triangles along u and v, and which of these bounds are edges with water on both sides. */
 enum { LOW = 1, HIGH = 2 };
 typedef struct extent {
     sb_vec3 u, v;
@@ -64,7 +63,7 @@ typedef struct rows {
     double origin, step;
 } rows;
 
-/* The world's along an axis, else spread evenly. */
+/* Rows of the global lattice along an axis, otherwise evenly spread rows. */
 static rows rows_between(const sb_sample_settings *settings, sb_vec3 axis, double min, double max)
 {
     if (sb_sample_is_axis(axis))
@@ -72,8 +71,9 @@ static rows rows_between(const sb_sample_settings *settings, sb_vec3 axis, doubl
     return (rows){min, sb_sample_fitted_step(max - min, settings->spacing)};
 }
 
-/* Where a solid's face ends in an edge, a row goes along that behind both faces, whose rows then are the same; the
-   others are spread evenly from there, to the other edge or half a step before an end that is none, on the ground. */
+/* Rows of a solid's face. At an edge one row lies at the offset behind both faces, so that the rows of the two faces
+   coincide there. The other rows are spread evenly from there to the opposite edge, or, if the opposite end is not
+   an edge but on the ground, to half a step before it. */
 static rows rows_along(const sb_sample_settings *settings, sb_vec3 axis, double min, double max, unsigned edges)
 {
     const double spacing = settings->spacing, offset = settings->offset;
@@ -105,7 +105,7 @@ static sb_lattice choose_lattice(const sb_sample_settings *settings, sb_vec3 n, 
     return (sb_lattice){e->u, e->v, origin, u.step, v.step, true};
 }
 
-/* Bounds of all planes of a surface, by their first triangle. */
+/* Measures the bounds of all planes of a surface, at index of their first triangle. */
 static void measure_planes(const sb_surface *surface, extent *extents)
 {
     const sb_mesh *mesh = sb_surface_mesh(surface);
@@ -126,14 +126,14 @@ static void measure_planes(const sb_surface *surface, extent *extents)
     }
 }
 
-/* Which end of [min, max] an edge lies at: one bit, or none. */
+/* Returns the end of [min, max] at which an edge lies as one bit, or 0. */
 static unsigned end_of(double a, double b, double min, double max, double near)
 {
     if (fabs(a - min) < near && fabs(b - min) < near) return LOW;
     return fabs(a - max) < near && fabs(b - max) < near ? HIGH : 0;
 }
 
-/* Marks the ends at edges with faces that stand upright on the plane. */
+/* Marks the ends at edges with faces that are perpendicular to the plane. */
 static void find_ends(const sb_sampler *sampler, uint32_t index, extent *extents)
 {
     const sb_surface *surface = sampler->surfaces + index;

@@ -1,5 +1,5 @@
-/* 2D scenes are the cut of their meshes with the plane y = 0. The cut becomes a mesh of strips
-   across that plane, so that distances, rays and insides are asked for as in 3D. */
+/* Cuts a mesh with the plane y = 0 for 2D scenes. The section is a mesh of strips perpendicular to that plane, so
+   that distances, rays and inside tests work as in 3D. */
 #include "geometry/sample.h"
 
 #include "base/memory.h"
@@ -9,7 +9,7 @@ static double side_of(sb_vec3 a)
     return a.y >= 0 ? 1 : -1;
 }
 
-/* Where the edge crosses y = 0: the same bits from either end. */
+/* Returns the point where the edge crosses y = 0, with the same bits in either direction of the edge. */
 static sb_vec3 crossing(sb_vec3 a, sb_vec3 b)
 {
     sb_vec3 low = a.y < b.y ? a : b, high = a.y < b.y ? b : a;
@@ -17,7 +17,8 @@ static sb_vec3 crossing(sb_vec3 a, sb_vec3 b)
     return sb_vec(low.x + t * (high.x - low.x), 0, low.z + t * (high.z - low.z));
 }
 
-/* The piece of a triangle in y = 0, its normal to the left of a->b seen along +y; false: none. */
+/* Cuts a triangle with y = 0. Its normal is to the left of the piece from a to b seen along +y. Returns false if
+   there is no piece. */
 static bool cut(const sb_mesh *mesh, size_t t, sb_vec3 piece[2])
 {
     const sb_vec3 c[3] = {mesh->vertices[mesh->triangles[t][0]], mesh->vertices[mesh->triangles[t][1]],
@@ -58,7 +59,7 @@ sb_status sb_section_mesh(const sb_mesh *mesh, double half_width, sb_mesh *secti
     sb_status status = sb_mesh_alloc(&made, 4 * count, 2 * count, error);
     if (status != SB_OK) return status;
     made.vertex_count = made.triangle_count = 0;
-    made.sheet = mesh->sheet;
+    made.open_surface = mesh->open_surface;
     made.ends = mesh->ends;
     for (size_t t = 0; t < mesh->triangle_count; ++t)
         if (cut(mesh, t, piece)) add_strip(&made, piece, half_width);

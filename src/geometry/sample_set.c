@@ -1,3 +1,4 @@
+/* Implements the set of boundary particles by a hash table of blocks of cells. */
 #include "geometry/sample_set.h"
 
 #include "base/hash.h"
@@ -16,8 +17,7 @@ static place cell_of(const sb_sample_set *set, sb_vec3 at)
                    (int64_t)floor((at.z - set->origin.z) / set->cell)};
 }
 
-/* 21 bits per axis: blocks more than 2^21 apart share a key, which costs time but no correctness.
- */
+/* 21 bits per axis: blocks more than 2^21 apart share a key, which costs time but does not change results. */
 static uint64_t key_of(int64_t x, int64_t y, int64_t z)
 {
     const uint64_t mask = (1u << 21) - 1;
@@ -99,7 +99,7 @@ int sb_sample_set_add(sb_sample_set *set, const sb_sample *sample)
     return 0;
 }
 
-/* The nearest sample of one cell's chain, when nearer than *best2. */
+/* Finds the nearest sample of one cell's list if it is nearer than *best2. */
 static void scan_chain(const sb_sample_set *set, uint32_t head, sb_vec3 at, double *best2, size_t *index)
 {
     for (; head; head = set->next[head - 1]) {
@@ -117,8 +117,8 @@ static double search(const sb_sample_set *set, sb_vec3 at, double limit, bool an
     double best2 = limit * limit;
     *index = SIZE_MAX;
     if (set->count == 0) return best2;
-    const sb_vec3 reach = {limit, limit, limit};
-    const place low = cell_of(set, sb_sub(at, reach)), high = cell_of(set, sb_add(at, reach));
+    const sb_vec3 margin = {limit, limit, limit};
+    const place low = cell_of(set, sb_sub(at, margin)), high = cell_of(set, sb_add(at, margin));
     for (int64_t bz = low.z >> 2; bz <= high.z >> 2; ++bz)
         for (int64_t by = low.y >> 2; by <= high.y >> 2; ++by)
             for (int64_t bx = low.x >> 2; bx <= high.x >> 2; ++bx) {

@@ -1,5 +1,4 @@
-/* Accepted boundary particles with a hash of 4 x 4 x 4 blocks of cells for questions of distance.
- */
+/* The set of accepted boundary particles, with a hash of 4 x 4 x 4 blocks of cells for distance queries. */
 #ifndef SB_GEOMETRY_SAMPLE_SET_H
 #define SB_GEOMETRY_SAMPLE_SET_H
 
@@ -16,13 +15,13 @@ typedef struct sb_sample {
     uint32_t source;
 } sb_sample;
 
-/* Zeroed but for cell and origin: an empty set. Owned. */
+/* A set. Zeroed except for cell and origin it is empty. Arrays are owned. */
 typedef struct sb_sample_set {
-    double cell;    /* m; questions reach no farther than a few cells */
+    double cell;    /* m; the radius of a query should be a few cells at most */
     sb_vec3 origin; /* m */
     size_t count, sample_capacity, next_capacity;
     sb_sample *sample;
-    uint32_t *next; /* per sample: index + 1 of the one before it in its cell */
+    uint32_t *next; /* per sample: index + 1 of the previous one in its cell */
     size_t block_count, block_capacity;
     uint32_t (*block)[SB_SAMPLE_BLOCK]; /* index + 1 of the last sample of each cell */
     size_t table_size;                  /* a power of two */
@@ -32,10 +31,10 @@ typedef struct sb_sample_set {
 
 void sb_sample_set_free(sb_sample_set *set);
 
-/* 0, or -1 without memory (the set is as it was). */
+/* Adds a sample. Returns 0, or -1 without memory (the set is then unchanged). */
 int sb_sample_set_add(sb_sample_set *set, const sb_sample *sample);
 
-/* Distance to the nearest sample, at most limit; its index in *index (may be NULL) when nearer. */
+/* Returns the distance to the nearest sample, at most limit; its index in *index (may be NULL) if nearer. */
 double sb_sample_set_nearest(const sb_sample_set *set, sb_vec3 at, double limit, size_t *index);
 
 /* Whether any sample is nearer than radius. */

@@ -1,5 +1,5 @@
-/* What a mesh looks like to the sampling: which way its faces look, which of them share a plane,
-   and where the sheet has to go round a concave edge or corner. */
+/* Derives from a mesh what the sampling needs: the orientation of its faces, which of them share a plane, and where
+   the boundary surface has to go round a concave edge or corner. */
 #include "geometry/sample_parts.h"
 
 #include "base/memory.h"
@@ -8,12 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* In spacings: creases whose arc is shorter than this need no points of their own. */
+/* In spacings: creases with a shorter arc on the boundary surface need no points of their own. */
 static const double arc_min = 0.006;
-/* Normals around a corner count as one when their cosine is above this. */
+/* Cosine above which normals around a corner count as one. */
 static const double same_normal = 0.97;
 static const double same_plane = 1 - 1e-9;
-/* Cosine between normals: faces more alike than this bend too little for an edge. */
+/* Cosine between normals above which an edge is too flat to count as a ridge. */
 static const double ridge_cosine = 0.9;
 
 typedef struct spoke {
@@ -38,7 +38,7 @@ static sb_vec3 centroid(const sb_mesh *mesh, size_t t)
     return sb_scale(sb_add(corner(mesh, t, 0), sb_add(corner(mesh, t, 1), corner(mesh, t, 2))), 1.0 / 3);
 }
 
-/* Turns the normals of faces whose water lies behind them, by asking the solid on both sides. */
+/* Turns the normals of faces towards the water, by checking which side of a face is inside the solid. */
 static void orient_faces(sb_surface *surface, double step)
 {
     const sb_mesh *mesh = sb_surface_mesh(surface);
@@ -74,9 +74,9 @@ static void orient(sb_surface *surface, const sb_mesh_edges *list, double spacin
         surface->bounded = true;
         for (size_t t = 0; t < mesh->triangle_count; ++t)
             if (surface->normal[t].z < -SB_SAMPLE_UPRIGHT) surface->normal[t] = sb_scale(surface->normal[t], -1);
-    } else if (!mesh->sheet && (open || surface->mixed)) {
+    } else if (!mesh->open_surface && (open || surface->mixed)) {
         orient_faces(surface, 1e-3 * spacing);
-    } else if (!mesh->sheet) {
+    } else if (!mesh->open_surface) {
         surface->bounded = true;
         surface->sign = volume < 0 ? -1 : 1;
         for (size_t t = 0; volume < 0 && t < mesh->triangle_count; ++t)
@@ -93,7 +93,7 @@ static uint32_t find_root(uint32_t *parent, uint32_t i)
     return i;
 }
 
-/* The smaller number stays the root, so that a set is named by its first triangle. */
+/* The smaller number stays the root, so that a set is numbered by its first triangle. */
 static void unite(uint32_t *parent, uint32_t a, uint32_t b)
 {
     a = find_root(parent, a);
@@ -104,8 +104,8 @@ static void unite(uint32_t *parent, uint32_t a, uint32_t b)
         parent[a] = b;
 }
 
-/* The corner of triangle t opposite to edge e rises above the other face's plane: water lies in the
-   smaller angle between them. */
+/* Whether an edge is concave: the corner of the triangle opposite to the edge is above the other face's plane, so
+   the water lies in the smaller angle between the faces. */
 static bool is_concave(const sb_surface *surface, const sb_mesh_edge *e, const sb_mesh_edge *other)
 {
     const sb_mesh *mesh = sb_surface_mesh(surface);
@@ -118,7 +118,8 @@ static bool is_concave(const sb_surface *surface, const sb_mesh_edge *e, const s
     return rise > 0;
 }
 
-/* A mesh may hold faces twice, so more than two may meet in one edge; of a great many the first are looked at. */
+/* A mesh may contain duplicate faces, so more than two faces may meet in one edge. At most this many of them are
+   considered. */
 enum { MEETING_MAX = 16 };
 
 static void join_planes(sb_surface *surface, const sb_mesh_edge *edge, const sb_mesh_edge *end)
@@ -129,11 +130,11 @@ static void join_planes(sb_surface *surface, const sb_mesh_edge *edge, const sb_
                 unite(surface->region, one->triangle, other->triangle);
 }
 
-/* Convex edges between any two of the faces that meet in [edge, end). */
+/* Adds convex edges between any two of the faces that meet in [edge, end). */
 static int add_ridges(sb_surface *surface, const sb_mesh_edge *edge, const sb_mesh_edge *end)
 {
     const sb_mesh *mesh = sb_surface_mesh(surface);
-    if (surface->source->role != SB_ROLE_SOLID || mesh->sheet || surface->mixed) return 0;
+    if (surface->source->role != SB_ROLE_SOLID || mesh->open_surface || surface->mixed) return 0;
     for (const sb_mesh_edge *one = edge; one < end; ++one)
         for (const sb_mesh_edge *other = one + 1; other < end; ++other) {
             const sb_vec3 first = surface->normal[one->triangle], second = surface->normal[other->triangle];
@@ -149,7 +150,7 @@ static int add_ridges(sb_surface *surface, const sb_mesh_edge *edge, const sb_me
     return 0;
 }
 
-/* Planes, parts and creases from the pairs of faces that share an edge. */
+/* Finds planes, parts and creases from the pairs of faces that share an edge. */
 static int join_faces(sb_surface *surface, const sb_mesh_edges *list, const sb_sample_settings *settings)
 {
     const sb_mesh *mesh = sb_surface_mesh(surface);
@@ -201,13 +202,13 @@ static size_t add_normal(sb_vec3 *normals, size_t count, sb_vec3 normal)
     return count;
 }
 
-/* Corners where creases meet: a fan of caps over the normals around each. */
+/* Finds the corners where creases meet, and adds a fan of caps over the normals around each. */
 static int find_caps(sb_surface *surface, const sb_mesh_edges *list)
 {
     const sb_mesh *mesh = sb_surface_mesh(surface);
     spoke *spokes = sb_alloc_untouched(2 * surface->crease_count, sizeof *spokes);
     if (!spokes) return -1;
-    /* Creases come in the order of the edges: their welded ends are found by walking both. */
+    /* The creases are in the order of the edges. Their merged vertices are found by traversing both lists. */
     size_t count = 0, c = 0;
     for (size_t i = 0; i < list->count && c < surface->crease_count; ++i) {
         const sb_mesh_edge *edge = list->edges + i;
@@ -242,7 +243,7 @@ void sb_surface_free(sb_surface *surface)
     *surface = (sb_surface){0};
 }
 
-/* A face in a side at which the domain repeats: the solid goes on behind it, at the other side. */
+/* Whether a face lies in a periodic side, behind which the solid continues at the opposite side. */
 static bool on_side(const sb_sample_settings *settings, const sb_vec3 corners[3])
 {
     const double slack = SB_SAMPLE_SIDE * settings->spacing;

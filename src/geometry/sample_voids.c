@@ -1,5 +1,5 @@
-/* What is still too far from any particle: the sheet is halved again and again until each piece is
-   covered, nowhere, or has room for a particle at its centre. */
+/* Finds and fills voids, points of the boundary surface that are too far from any particle. The boundary surface is
+   bisected repeatedly until each piece is covered, needs no particle, or has room for one at its centre. */
 #include "geometry/sample_parts.h"
 
 #include "base/memory.h"
@@ -8,12 +8,11 @@
 #include <stdlib.h>
 
 enum { DEPTH_MAX = 96, BLOCKS = 256, BLOCK = 64 };
-/* In spacings: pieces smaller than this are not looked into any further; larger ones than the other
-   are shared among threads. */
+/* In spacings: pieces smaller than piece_min are not divided further; pieces larger than piece_max are divided among
+   threads. */
 static const double piece_min = 0.003, piece_max = 12;
 
-/* A point of the surface and the direction into the solid there; three of them span a piece, two a
-   line. */
+/* A point of the surface and the direction into the solid there. Three points span a piece, two a line. */
 typedef struct corner {
     sb_vec3 at, inward;
 } corner;
@@ -24,7 +23,7 @@ typedef struct piece {
     uint32_t surface;
 } piece;
 
-/* The centre of a piece that is far from all particles; the rest of the piece is still unknown. */
+/* The centre of a piece that is far from all particles. The rest of the piece is not examined yet. */
 typedef struct hole {
     piece piece;
     sb_sample sample;
@@ -58,19 +57,19 @@ static corner center_of(const piece *p)
     return (corner){at, sb_normalize(sb_add(c[0].inward, sb_add(c[1].inward, c[2].inward)))};
 }
 
-static sb_vec3 sheet_of(const sb_sampler *sampler, corner c)
+static sb_vec3 on_boundary(const sb_sampler *sampler, corner c)
 {
     return sb_madd(c.at, sampler->settings.offset, c.inward);
 }
 
-/* Halves a piece at its longest side, measured on the sheet. */
+/* Bisects a piece at its longest side, measured on the boundary surface. */
 static void halve(const sb_sampler *sampler, const piece *p, piece half[2])
 {
     int sides = p->corners == 2 ? 1 : 3, longest = 0;
     double best = -1;
     for (int i = 0; i < sides; ++i) {
-        sb_vec3 a = sheet_of(sampler, p->corner[i]);
-        double length = sb_norm(sb_sub(sheet_of(sampler, p->corner[(i + 1) % p->corners]), a));
+        sb_vec3 a = on_boundary(sampler, p->corner[i]);
+        double length = sb_norm(sb_sub(on_boundary(sampler, p->corner[(i + 1) % p->corners]), a));
         if (length > best) {
             best = length;
             longest = i;
@@ -83,32 +82,32 @@ static void halve(const sb_sampler *sampler, const piece *p, piece half[2])
     half[1].corner[longest] = middle;
 }
 
-/* One particle's ball holds all corners: then, being convex, it holds the flat piece between them;
-   a round one bulges out of it by no more than its sagitta. */
+/* Whether the ball around one particle contains all corners. It is convex, so it then contains the flat piece
+   between them. A curved piece projects from that by at most its sagitta, which is subtracted. */
 static bool in_ball(const sb_sampler *sampler, const piece *p, corner center, sb_vec3 particle, double cover)
 {
     for (int i = 0; i < p->corners; ++i) {
         sb_vec3 turn = sb_sub(p->corner[i].inward, center.inward);
-        double reach = cover - 0.5 * sampler->settings.offset * sb_dot(turn, turn);
-        sb_vec3 arm = sb_sub(sheet_of(sampler, p->corner[i]), particle);
-        if (!(reach > 0 && sb_dot(arm, arm) <= reach * reach)) return false;
+        double radius = cover - 0.5 * sampler->settings.offset * sb_dot(turn, turn);
+        sb_vec3 arm = sb_sub(on_boundary(sampler, p->corner[i]), particle);
+        if (!(radius > 0 && sb_dot(arm, arm) <= radius * radius)) return false;
     }
     return true;
 }
 
-/* A piece none of whose sheet may be near a particle: a hole when its centre belongs to the sheet
-   and is far from all; returns true when it has to be halved. */
+/* Examines a piece whose centre, moved by the offset, is far from all particles. It is a hole if the centre's place
+   on the boundary surface is far from all particles, too. Returns true if it must be bisected. */
 static bool examine_far(const sb_sampler *sampler, const piece *p, corner c, double radius, hole_list *list)
 {
     double spacing = sampler->settings.spacing, cover = SB_SAMPLE_COVER * spacing, margin;
     sb_vec3 at;
     sb_placement placement = sb_sample_place(sampler, p->surface, c.at, c.inward, &at, &margin);
-    /* What is buried need not be so to the last point; what is crowded ends a tenth of the offset
-       beyond the sheet's edge. */
+    /* A piece with a buried centre may have points that are not buried. A crowded part ends a tenth of the offset
+       beyond the border of the boundary surface. */
     if (placement == SB_BURIED)
         return radius > 0.2 * spacing && !sb_sample_buried(sampler, p->surface, c.at, c.inward, radius);
     if (placement == SB_CROWDED) return radius > margin && radius > 0.06 * sampler->settings.offset;
-    /* In a thin part the sheet is elsewhere, and no larger than the surface over it. */
+    /* In a thin part the boundary surface lies elsewhere, and is no larger than the surface over it. */
     double distance = sb_sample_set_nearest(&sampler->set, at, cover, NULL);
     if (distance + radius <= cover) return false;
     if (distance < SB_SAMPLE_FILL * spacing) return radius > piece_min * spacing;
@@ -120,19 +119,19 @@ static bool examine_far(const sb_sampler *sampler, const piece *p, corner c, dou
     return false;
 }
 
-/* Looks at one piece: returns true when it has to be halved. */
+/* Examines one piece. Returns true if it must be bisected. */
 static bool examine(const sb_sampler *sampler, const piece *p, hole_list *list)
 {
     double spacing = sampler->settings.spacing, cover = SB_SAMPLE_COVER * spacing;
     corner c = center_of(p);
-    sb_vec3 at = sheet_of(sampler, c);
+    sb_vec3 at = on_boundary(sampler, c);
     double radius2 = 0;
     for (int i = 0; i < p->corners; ++i) {
-        sb_vec3 arm = sb_sub(sheet_of(sampler, p->corner[i]), at);
+        sb_vec3 arm = sb_sub(on_boundary(sampler, p->corner[i]), at);
         radius2 = fmax(radius2, sb_dot(arm, arm));
     }
     double radius = sqrt(radius2);
-    /* Pieces that only luck would find covered are not asked about. */
+    /* A piece this large is hardly ever covered by one particle, so the search for it is skipped. */
     if (radius >= 0.8 * cover)
         return radius < 1.5 * spacing || !sb_sample_buried(sampler, p->surface, c.at, c.inward, radius);
     size_t nearest;
@@ -164,8 +163,8 @@ static sb_vec3 flat(sb_vec3 a)
     return sb_vec(a.x, 0, a.z);
 }
 
-/* Pieces of a surface: its triangles (in 2D every other one, as its strip's line), the rounds of
-   its creases (two each; in 2D one), its caps. */
+/* Returns the number of pieces of a surface: its triangles (in 2D every other one, as its strip's line), the arcs of
+   its creases (two pieces each; in 2D one), and its caps. */
 static size_t piece_count(const sb_sampler *sampler, const sb_surface *surface)
 {
     size_t triangles = sb_surface_mesh(surface)->triangle_count;
@@ -217,7 +216,7 @@ static bool piece_solid(const sb_surface *surface, size_t i, piece *p)
     return true;
 }
 
-/* Pieces waiting to be searched side by side. */
+/* Pieces that are to be searched in parallel. */
 typedef struct work {
     size_t count;
     piece *piece; /* BLOCKS * BLOCK */
@@ -233,7 +232,7 @@ static int join(hole_list *all, const hole_list *found)
     return 0;
 }
 
-/* Searches all waiting pieces; what they show goes to the common list in their order. */
+/* Searches all waiting pieces. The holes are added to the common list in the pieces' order. */
 static int work_flush(const sb_sampler *sampler, work *w)
 {
 #pragma omp parallel for schedule(dynamic, 1)
@@ -261,7 +260,7 @@ static double size_of(const piece *p)
     return size;
 }
 
-/* Large pieces are cut first, so that no thread has all the work. */
+/* Divides large pieces first, so that the work is spread over the threads. */
 static int work_cut(const sb_sampler *sampler, work *w, const piece *whole)
 {
     piece stack[DEPTH_MAX + 2];
@@ -303,7 +302,7 @@ static int compare_holes(const void *left, const void *right)
     return (a->order > b->order) - (a->order < b->order);
 }
 
-/* Fills the largest holes first. */
+/* Adds particles in the holes, the largest hole first. */
 static int fill(sb_sampler *sampler, hole_list *all)
 {
     double least = SB_SAMPLE_FILL * sampler->settings.spacing;
@@ -329,7 +328,7 @@ int sb_sample_voids(sb_sampler *sampler)
     for (uint32_t i = sampler->first; i < sampler->last && !failed; ++i)
         if (sb_sampler_takes(sampler, i)) failed = search_surface(sampler, i, w);
     failed = failed || work_flush(sampler, w) || fill(sampler, &all);
-    /* Filling covers, it uncovers nothing: only pieces with holes are looked at again. */
+    /* A particle that is added never uncovers a piece, so only pieces with holes are searched again. */
     while (!failed && all.count > 0) {
         hole_list swap = last;
         last = all;

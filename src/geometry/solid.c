@@ -1,10 +1,11 @@
+/* Creates solids and decides whether a point is inside them. */
 #include "geometry/solid.h"
 
 #include "base/memory.h"
 #include "geometry/solid_tree.h"
 
-/* Above this share of |sum of area vectors| in the area, a mesh can enclose nothing to speak of. */
-static const double sheet_share = 0.9;
+/* Fraction |sum of area vectors| / area above which a mesh encloses no significant volume. */
+static const double open_share = 0.9;
 
 sb_status sb_solid_create(const sb_mesh *mesh, sb_role role, sb_solid **solid, sb_error *error)
 {
@@ -18,8 +19,8 @@ sb_status sb_solid_create(const sb_mesh *mesh, sb_role role, sb_solid **solid, s
         return status;
     }
     double area = sb_solid_build_dipoles(made);
-    made->sheet = mesh->sheet || sb_norm(made->dipoles[0].area) > sheet_share * area;
-    if (role == SB_ROLE_SOLID && !made->sheet) {
+    made->open_surface = mesh->open_surface || sb_norm(made->dipoles[0].area) > open_share * area;
+    if (role == SB_ROLE_SOLID && !made->open_surface) {
         sb_mesh_report report;
         status = sb_mesh_diagnose(mesh, &report, error);
         if (status != SB_OK) {
@@ -41,8 +42,8 @@ void sb_solid_destroy(sb_solid *solid)
     sb_free(solid);
 }
 
-/* On which side of the edge from a to b the point p lies, seen from above: exactly opposite for the
-   edge from b to a, so that no point falls between two triangles that share an edge. */
+/* Returns on which side of the edge from a to b the point p lies, seen from above. The result for the edge from b to
+   a is exactly opposite, so that no point falls between two triangles that share an edge. */
 static double side(sb_vec3 a, sb_vec3 b, sb_vec3 p)
 {
     bool swap = b.x < a.x || (b.x == a.x && b.y < a.y);
@@ -51,14 +52,14 @@ static double side(sb_vec3 a, sb_vec3 b, sb_vec3 p)
     return swap ? -s : s;
 }
 
-/* How much higher than p the triangle is at (x, y); positive or negative sides count as within. */
+/* Returns the height of the triangle above p at (x, y). The sides may be all positive or all negative. */
 static double height_above(const sb_solid_triangle *t, sb_vec3 p, double ab, double bc, double ca)
 {
     double whole = ab + bc + ca;
     return bc / whole * (t->a.z - p.z) + ca / whole * (t->b.z - p.z) + ab / whole * (t->c.z - p.z);
 }
 
-/* The triangle covers p from above: it holds (x, y), its border included, and is higher there. */
+/* Whether the triangle is above p: it contains (x, y), including its border, and is higher there. */
 static bool covers(const sb_solid_triangle *t, sb_vec3 p)
 {
     double ab = side(t->a, t->b, p), bc = side(t->b, t->c, p), ca = side(t->c, t->a, p);
@@ -66,16 +67,16 @@ static bool covers(const sb_solid_triangle *t, sb_vec3 p)
     return ab + bc + ca != 0 && height_above(t, p, ab, bc, ca) > 0;
 }
 
-/* +1 or -1 for the side, never 0: on the line it is that of a point a hair further along x, and a
-   hair of that hair along y. So each point belongs to one triangle of those around it. */
+/* Returns +1 or -1 for the side, never 0. A point on the line is treated as shifted infinitesimally along x, and by
+   a smaller infinitesimal along y. Each point thus belongs to exactly one of the triangles around it. */
 static int strict_side(double s, sb_vec3 a, sb_vec3 b)
 {
     double tie = s != 0 ? s : a.y != b.y ? a.y - b.y : b.x - a.x;
     return tie > 0 ? 1 : -1;
 }
 
-/* What the triangle adds to the winding number of p when it is straight above: 1 when it looks up,
-   -1 when it looks down. */
+/* Returns the triangle's contribution to the winding number of p if it is straight above p: 1 if it faces upwards,
+   -1 if it faces downwards. */
 static int crossing(const sb_solid_triangle *t, sb_vec3 p)
 {
     double ab = side(t->a, t->b, p), bc = side(t->b, t->c, p), ca = side(t->c, t->a, p);
@@ -107,7 +108,7 @@ static bool below_surface(const sb_solid *solid, sb_vec3 p)
     return false;
 }
 
-/* Winding number of a closed mesh, whole and without rounding: the crossings straight above. */
+/* Returns the winding number for a closed mesh, exactly, as the sum of the crossings straight above. */
 static int closed_winding(const sb_solid *solid, sb_vec3 p)
 {
     uint32_t stack[SB_SOLID_STACK] = {0};
@@ -128,7 +129,7 @@ static int closed_winding(const sb_solid *solid, sb_vec3 p)
 bool sb_solid_contains(const sb_solid *solid, sb_vec3 point)
 {
     if (solid->role == SB_ROLE_TERRAIN) return below_surface(solid, point);
-    if (solid->sheet) return sb_solid_behind(solid, point);
+    if (solid->open_surface) return sb_solid_behind(solid, point);
     if (sb_solid_box_distance2(solid->nodes, point) > 0) return false;
     return solid->closed ? closed_winding(solid, point) != 0 : fabs(sb_solid_winding(solid, point)) > 0.5;
 }

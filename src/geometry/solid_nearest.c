@@ -1,6 +1,7 @@
+/* Finds the nearest point of a mesh, and on which side of an open surface a point lies. */
 #include "geometry/solid_tree.h"
 
-/* Point of the segment from a to b nearest to p. */
+/* Returns the point of the segment from a to b nearest to p. */
 static sb_vec3 nearest_on_segment(sb_vec3 a, sb_vec3 b, sb_vec3 p)
 {
     sb_vec3 along = sb_sub(b, a);
@@ -15,8 +16,8 @@ static double distance2(sb_vec3 a, sb_vec3 b)
     return sb_dot(d, d);
 }
 
-/* With p projected to a + (v ab + w ac) / size, the nearest point is that one when it lies within
-   the triangle; else it lies on one of the edges that p is beyond. */
+/* The projection of p is a + (v ab + w ac) / size. It is the nearest point if it lies within the triangle; otherwise
+   the nearest point lies on one of the edges that the projection is beyond. */
 sb_vec3 sb_solid_nearest_on(const sb_solid_triangle *t, sb_vec3 p)
 {
     sb_vec3 ab = sb_sub(t->b, t->a), ac = sb_sub(t->c, t->a), ap = sb_sub(p, t->a);
@@ -47,8 +48,8 @@ static sb_vec3 normal_of(const sb_solid_triangle *t)
     return sb_normalize(sb_solid_area_vector(t));
 }
 
-/* Walks the tree from near to far and keeps the nearest triangle that counts (NULL: all do); on a tie the first one
-   met. */
+/* Traverses the tree from near to far and keeps the nearest triangle that counts (NULL: all do). On a tie the first
+   triangle is kept. */
 static const sb_solid_triangle *find_nearest(const sb_solid *solid, sb_vec3 point, sb_solid_counts *counts,
                                              const void *context, double *limit2, sb_vec3 *nearest)
 {
@@ -104,8 +105,8 @@ double sb_solid_distance(const sb_solid *solid, sb_vec3 point, double limit, sb_
     return sb_solid_distance_where(solid, point, limit, NULL, NULL, nearest, normal);
 }
 
-/* The angle that a triangle fills around a point on it: its own angle at a corner, half a turn on
-   an edge, a turn within. `near` is how close counts as on. */
+/* Returns the angle that a triangle fills around a point on it: its angle at a corner, half a turn on an edge, a
+   full turn inside. `near` is the tolerance of "on". */
 static double angle_at(const sb_solid_triangle *t, sb_vec3 at, double near)
 {
     const sb_vec3 corner[3] = {t->a, t->b, t->c};
@@ -120,8 +121,8 @@ static double angle_at(const sb_solid_triangle *t, sb_vec3 at, double near)
     return 2 * M_PI;
 }
 
-/* The surface's point nearest to another: the sum of its triangles' normals there by the angles that they fill, and
-   the sum of the angles. */
+/* The point of the surface nearest to another one, the sum of its triangles' normals there weighted by the angles
+   that they fill, and the sum of these angles. */
 typedef struct foot {
     sb_vec3 at, normal;
     double angle;
@@ -132,7 +133,7 @@ static bool find_foot(const sb_solid *solid, sb_vec3 point, foot *out)
     double nearest2 = HUGE_VAL;
     sb_vec3 at;
     if (!find_nearest(solid, point, NULL, NULL, &nearest2, &at)) return false;
-    /* All triangles that hold the nearest point, up to the rounding of coordinates of this size. */
+    /* Finds all triangles that contain the nearest point, within the rounding of coordinates of this size. */
     sb_vec3 size =
         sb_max(sb_max(solid->nodes->max, sb_scale(solid->nodes->min, -1)), sb_max(point, sb_scale(point, -1)));
     double near = 1e-12 * sb_norm(size);
@@ -169,5 +170,5 @@ bool sb_solid_behind(const sb_solid *solid, sb_vec3 point)
 bool sb_solid_beside(const sb_solid *solid, sb_vec3 point)
 {
     foot f;
-    return solid->sheet && find_foot(solid, point, &f) && f.angle < 1.01 * M_PI;
+    return solid->open_surface && find_foot(solid, point, &f) && f.angle < 1.01 * M_PI;
 }

@@ -1,10 +1,10 @@
+/* Casts rays against a mesh. */
 #include "geometry/solid_tree.h"
 
-/* Room for rounding, relative to the triangle: a ray through a shared edge must not slip through.
- */
+/* Tolerance relative to the triangle: a ray through a shared edge must not pass between its two triangles. */
 static const double slack = 1e-10;
 
-/* Distance along the ray at which it enters the node's box, or HUGE_VAL when it misses. */
+/* Returns the distance along the ray at which it enters the node's box, or HUGE_VAL if it misses. */
 static double enter(const sb_solid_node *node, sb_vec3 origin, sb_vec3 inverse, double limit)
 {
     double begin = 0, end = limit;
@@ -13,7 +13,7 @@ static double enter(const sb_solid_node *node, sb_vec3 origin, sb_vec3 inverse, 
     const double high[3] = {(node->max.x - origin.x) * inverse.x, (node->max.y - origin.y) * inverse.y,
                             (node->max.z - origin.z) * inverse.z};
     for (int axis = 0; axis < 3; ++axis) {
-        /* 0 * inf: the ray runs within this face of the box, which does not bound it. */
+        /* 0 * inf: the ray lies in this face of the box, which therefore does not bound it. */
         if (isnan(low[axis]) || isnan(high[axis])) continue;
         double first = low[axis] < high[axis] ? low[axis] : high[axis];
         double last = low[axis] < high[axis] ? high[axis] : low[axis];
@@ -23,7 +23,7 @@ static double enter(const sb_solid_node *node, sb_vec3 origin, sb_vec3 inverse, 
     return begin <= end * (1 + slack) ? begin : (double)HUGE_VAL;
 }
 
-/* Distance along the ray to the triangle from either side, or a negative number. */
+/* Returns the distance along the ray to the triangle from either side, or a negative number. */
 static double hit(const sb_solid_triangle *t, sb_vec3 origin, sb_vec3 direction)
 {
     sb_vec3 ab = sb_sub(t->b, t->a), ac = sb_sub(t->c, t->a);

@@ -1,3 +1,4 @@
+/* Builds the bounding-volume tree of a mesh by median splits. */
 #include "geometry/solid_tree.h"
 
 #include "base/memory.h"
@@ -14,13 +15,13 @@ typedef struct builder {
     uint32_t node_count;
 } builder;
 
-/* Ties go by number, so that the order of equal centres does not hang on the sort. */
+/* Ties are resolved by number, so that the order of equal centres does not depend on the sort. */
 static bool before(const item *a, const item *b, int axis)
 {
     return a->center[axis] < b->center[axis] || (a->center[axis] == b->center[axis] && a->triangle < b->triangle);
 }
 
-/* Quickselect: the element of rank k of [0, count) comes to its place, smaller ones before it. */
+/* Quickselect: moves the element of rank k of [0, count) to its place and smaller elements before it. */
 static void select_rank(item *items, size_t count, size_t k, int axis)
 {
     size_t low = 0, high = count - 1;
@@ -73,7 +74,7 @@ static void fill_leaf(builder *b, sb_solid_node *node, size_t begin, size_t coun
     }
 }
 
-/* Builds the node of items [begin, begin + count) and all below it; the depth is log2(count). */
+/* Builds the node of items [begin, begin + count) and its descendants; the depth is log2(count). */
 static uint32_t build_node(builder *b, size_t begin, size_t count)
 {
     uint32_t self = b->node_count++;
@@ -82,7 +83,7 @@ static uint32_t build_node(builder *b, size_t begin, size_t count)
         fill_leaf(b, node, begin, count);
         return self;
     }
-    /* Left gets a whole number of leaves, so that all leaves but the last are full. */
+    /* The left child gets a whole number of leaves, so that all leaves except the last are full. */
     size_t leaves = (count + SB_SOLID_LEAF - 1) / SB_SOLID_LEAF;
     size_t half = leaves / 2 * SB_SOLID_LEAF;
     select_rank(b->items + begin, count, half, widest_axis(b->items + begin, count));

@@ -1,26 +1,25 @@
-/* Inside of sb_solid: a flat bounding-volume tree over triangles. Private to src/geometry/solid*.c.
- */
+/* The bounding-volume tree over the triangles of a sb_solid, in a flat array. Private to src/geometry/solid*.c. */
 #ifndef SB_GEOMETRY_SOLID_TREE_H
 #define SB_GEOMETRY_SOLID_TREE_H
 
 #include "geometry/solid.h"
 
-/* Median splits keep the depth below 32 for any index a uint32_t can hold. */
+/* Median splits keep the depth below 32 for any number that a uint32_t can hold. */
 enum { SB_SOLID_LEAF = 4, SB_SOLID_STACK = 64 };
 
 typedef struct sb_solid_triangle {
     sb_vec3 a, b, c;
 } sb_solid_triangle;
 
-/* Depth-first order: the left child follows its parent. count > 0: a leaf of triangles
-   [first, first + count); else first is the right child. */
+/* A node. Nodes are in depth-first order, so the left child follows its parent. count > 0: a leaf with triangles
+   [first, first + count); otherwise first is the right child. */
 typedef struct sb_solid_node {
     sb_vec3 min, max;
     uint32_t first, count;
 } sb_solid_node;
 
-/* What a node looks like from afar: area vector in m^2 at its area-weighted centre, and the radius
-   around that centre which holds all of it. */
+/* A node seen from far away: area vector in m^2 at its area-weighted centre, and the radius of a ball around that
+   centre which contains the node. */
 typedef struct sb_solid_dipole {
     sb_vec3 center, area;
     double radius;
@@ -29,17 +28,17 @@ typedef struct sb_solid_dipole {
 struct sb_solid {
     const sb_mesh *mesh;
     sb_role role;
-    bool sheet;                   /* open: inside is behind its normals */
-    bool closed;                  /* watertight: the winding number is whole, and counted instead of summed */
+    bool open_surface;            /* an open surface: inside means behind its normals */
+    bool closed;                  /* watertight: the winding number is an integer and is counted instead of summed */
     sb_solid_triangle *triangles; /* in leaf order */
     sb_solid_node *nodes;
     sb_solid_dipole *dipoles; /* one per node */
 };
 
-/* Fills triangles and nodes from the mesh; the same tree on every run. */
+/* Fills triangles and nodes from the mesh. The tree is the same in every run. */
 sb_status sb_solid_build_tree(sb_solid *solid, sb_error *error);
 
-/* Fills dipoles from the tree; returns the whole area in m^2. */
+/* Fills dipoles from the tree. Returns the total area in m^2. */
 double sb_solid_build_dipoles(sb_solid *solid);
 
 /* Half the cross product of two edges: area times unit normal. */
@@ -48,10 +47,10 @@ static inline sb_vec3 sb_solid_area_vector(const sb_solid_triangle *t)
     return sb_scale(sb_cross(sb_sub(t->b, t->a), sb_sub(t->c, t->a)), 0.5);
 }
 
-/* The point of the triangle nearest to p. */
+/* Returns the point of the triangle nearest to p. */
 sb_vec3 sb_solid_nearest_on(const sb_solid_triangle *t, sb_vec3 p);
 
-/* Squared distance from p to a node's box. */
+/* Returns the squared distance from p to a node's box. */
 static inline double sb_solid_box_distance2(const sb_solid_node *node, sb_vec3 p)
 {
     sb_vec3 outside = sb_max(sb_sub(node->min, p), sb_sub(p, node->max));
@@ -59,8 +58,8 @@ static inline double sb_solid_box_distance2(const sb_solid_node *node, sb_vec3 p
     return sb_dot(outside, outside);
 }
 
-/* Behind the angle-weighted normal at the nearest point [Baerentzen, Aanaes 2005]; for open sheets.
- */
+/* Whether the point is behind the angle-weighted normal at the nearest point [Baerentzen, Aanaes 2005]; for open
+   surfaces. */
 bool sb_solid_behind(const sb_solid *solid, sb_vec3 point);
 
 #endif

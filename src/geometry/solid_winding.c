@@ -1,19 +1,18 @@
-/* Generalised winding numbers with far nodes taken as dipoles: Barill, Dickson, Schmidt, Levin and
-   Jacobson, "Fast winding numbers for soups and clouds", ACM Transactions on Graphics 37(4), 2018.
- */
+/* Computes generalised winding numbers with dipoles for distant nodes: Barill, Dickson, Schmidt, Levin and Jacobson,
+   "Fast winding numbers for soups and clouds", ACM Transactions on Graphics 37(4), 2018. */
 #include "geometry/solid_tree.h"
 
-/* A node counts as far when it is this many of its radii away: with the dipole alone the error of
-   the whole sum then stays below 0.01, as the test measures. */
+/* A node counts as distant from this many of its radii on. The error of the whole sum then stays below 0.01, as the
+   test measures. */
 static const double far_factor = 4;
 
-/* The smallest ball around `center` that surely holds the node's box. */
-static double reach(const sb_solid_node *node, sb_vec3 center)
+/* Returns the radius of a ball around `center` that contains the node's box. */
+static double ball_radius(const sb_solid_node *node, sb_vec3 center)
 {
     return sb_norm(sb_max(sb_sub(node->max, center), sb_sub(center, node->min)));
 }
 
-/* Fills the dipoles of a node and of all below it; returns the node's area in m^2. */
+/* Fills the dipoles of a node and its descendants. Returns the node's area in m^2. */
 static double fill_dipole(sb_solid *solid, uint32_t index)
 {
     const sb_solid_node *node = solid->nodes + index;
@@ -39,7 +38,7 @@ static double fill_dipole(sb_solid *solid, uint32_t index)
         }
     }
     sb_vec3 center = area > 0 ? sb_scale(moment, 1 / area) : sb_scale(sb_add(node->min, node->max), 0.5);
-    solid->dipoles[index] = (sb_solid_dipole){center, sum, reach(node, center)};
+    solid->dipoles[index] = (sb_solid_dipole){center, sum, ball_radius(node, center)};
     return area;
 }
 
@@ -48,8 +47,8 @@ double sb_solid_build_dipoles(sb_solid *solid)
     return fill_dipole(solid, 0);
 }
 
-/* Solid angle of a triangle seen from p, positive when p sees its back: tan(angle / 2) =
-   a . (b x c) / (|a||b||c| + (a.b)|c| + (b.c)|a| + (c.a)|b|)   [van Oosterom, Strackee 1983]. */
+/* Returns the solid angle of a triangle seen from p, positive if p is on its back side: tan(angle / 2) = a . (b x c)
+   / (|a||b||c| + (a.b)|c| + (b.c)|a| + (c.a)|b|) [van Oosterom, Strackee 1983]. */
 static double solid_angle(const sb_solid_triangle *t, sb_vec3 p)
 {
     sb_vec3 a = sb_sub(t->a, p), b = sb_sub(t->b, p), c = sb_sub(t->c, p);

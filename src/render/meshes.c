@@ -136,7 +136,7 @@ static sb_status gather(const sb_model_body *body, sb_vec3 origin, struct upload
     }
     snprintf(part->name, sizeof part->name, "%s", body->name);
     part->moves = body->wavemaker >= 0;
-    part->one_sided = mesh->sheet && body->role != SB_ROLE_TERRAIN;
+    part->one_sided = mesh->open_surface && body->role != SB_ROLE_TERRAIN;
     part->line_alpha = body->role == SB_ROLE_TERRAIN ? 0.25f : 0.75f;
     part->first_corner = (GLint)upload->corner_count;
     part->first_line = (GLint)upload->end_count;

@@ -37,8 +37,8 @@ typedef struct sb_body_impulse {
 } sb_body_impulse;
 
 /* Creates a simulation. scene and model must outlive it: it reads names, wave makers and, until it has settled, the
-   initial velocities. The exceptions are the parts that sb_model_forget_start frees, and, after settling,
-   sb_model_forget_particles. */
+   initial velocities. The exceptions are the parts that sb_model_free_start frees, and, after settling,
+   sb_model_free_particles. */
 sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **sim, sb_error *error);
 /* The time step (s) for water with this maximum speed (m/s): an estimate that needs no simulation. */
 double sb_sim_longest_step(const sb_scene *scene, const sb_model *model, double speed);

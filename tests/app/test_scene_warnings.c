@@ -36,7 +36,7 @@ static void check_and_run_say_the_same(void **state)
         {TANK "domain: {min: [0, -0.5], max: [3, 1]}\nwater: {level: 0, seed: [1.5, -0.2]}\n"
               "bodies: [{name: bed, shape: plane, role: terrain, center: [1.5, 0, -1], normal: [0, 0, 1], width: 9, "
               "length: 9}]\n",
-         "body \"bed\": its ground under the water is as low as z = -1 m", "the domain's floor is at -0.5 m"},
+         "body \"bed\": its ground below the water is as low as z = -1 m", "the domain's floor is at -0.5 m"},
         {TANK "domain: {min: [0, 0], max: [2, 1], sides: {x_max: open}}\n"
               "water: {boxes: [{min: [0, 0], max: [2, 0.4]}]}\n",
          "water.boxes[0]: its water stands at the open side x_max", "expected a wall"},

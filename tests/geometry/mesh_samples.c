@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A cube of side 2 from (0, 0, 0), counter-clockwise seen from outside. */
+/* A cube with side 2 and one corner at (0, 0, 0), counter-clockwise seen from outside. */
 static const int cube_vertices[8][3] = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0},
                                         {0, 0, 2}, {2, 0, 2}, {0, 2, 2}, {2, 2, 2}};
 static const int cube_triangles[12][3] = {{0, 2, 3}, {0, 3, 1}, {0, 1, 5}, {0, 5, 4}, {1, 3, 7}, {1, 7, 5},
@@ -86,15 +86,15 @@ static void add_base64(sample_text *to, const unsigned char *bytes, size_t count
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (size_t i = 0; i < count; i += 3) {
-        unsigned word = (unsigned)bytes[i] << 16;
-        word |= i + 1 < count ? (unsigned)bytes[i + 1] << 8 : 0;
-        word |= i + 2 < count ? bytes[i + 2] : 0;
-        add(to, "%c%c%c%c", digits[word >> 18], digits[word >> 12 & 63], i + 1 < count ? digits[word >> 6 & 63] : '=',
-            i + 2 < count ? digits[word & 63] : '=');
+        unsigned triple = (unsigned)bytes[i] << 16;
+        triple |= i + 1 < count ? (unsigned)bytes[i + 1] << 8 : 0;
+        triple |= i + 2 < count ? bytes[i + 2] : 0;
+        add(to, "%c%c%c%c", digits[triple >> 18], digits[triple >> 12 & 63],
+            i + 1 < count ? digits[triple >> 6 & 63] : '=', i + 2 < count ? digits[triple & 63] : '=');
     }
 }
 
-/* One mesh used by two nodes, the second below a turned and shifted one and mirrored. */
+/* Writes a glTF file in which two nodes use one mesh. The second is mirrored and below a shifted node. */
 static size_t make_gltf_json(sample_text *to, bool binary, unsigned char buffer[168])
 {
     for (int i = 0; i < 24; ++i) {

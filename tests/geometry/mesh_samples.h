@@ -1,4 +1,4 @@
-/* A small sound file of every mesh format, and what an import may answer to a damaged one. */
+/* Small valid files of every mesh format, and the check of an import of a damaged one. */
 #ifndef SB_TESTS_MESH_SAMPLES_H
 #define SB_TESTS_MESH_SAMPLES_H
 
@@ -18,18 +18,18 @@ typedef struct sample_format {
 enum { SAMPLE_FORMATS = 7 };
 extern const sample_format sample_formats[SAMPLE_FORMATS];
 
-/* Those that tests change by hand: two cubes; one cube; one cube 7 m up. */
+/* Files that tests modify: two cubes; one cube; one cube at a height of 7 m. */
 void sample_make_obj(sample_text *to);
 void sample_make_stl_binary(sample_text *to);
 void sample_make_dae(sample_text *to);
 
-/* Frees what sb_mesh_import gave. */
+/* Frees the result of sb_mesh_import. */
 void sample_free(sb_mesh *meshes, size_t count);
 
 typedef enum sample_outcome { SAMPLE_SOUND, SAMPLE_REFUSED, SAMPLE_WRONG } sample_outcome;
 
-/* SOUND: meshes that hold what is promised, freed here. REFUSED: bad input, and one line that begins
-   with the path. WRONG: anything else. */
+/* SOUND: valid meshes, which are freed here. REFUSED: bad input with a message of one line that begins with the
+   path. WRONG: anything else. */
 sample_outcome sample_judge(const char *path, sb_status status, sb_mesh *meshes, size_t count, const sb_error *why);
 
 #endif

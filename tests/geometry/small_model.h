@@ -1,4 +1,4 @@
-/* A small scene that the tests of the model change, and the model built of it. */
+/* A small scene that the tests of the model modify, and the model built from it. */
 #ifndef SB_TESTS_SMALL_MODEL_H
 #define SB_TESTS_SMALL_MODEL_H
 
@@ -64,7 +64,7 @@ static sb_body *add_box(const char *name, sb_vec3 min, sb_vec3 max)
     return body;
 }
 
-/* A mesh in a file, or what the caller makes of it. */
+/* Adds a body with a mesh file; the caller may change its shape. */
 static inline sb_body *add_file(const char *name, char *path)
 {
     sb_body *body = add_box(name, sb_vec(0, 0, 0), sb_vec(0, 0, 0));

@@ -1,4 +1,4 @@
-/* Water: volumes, levels, boxes, waves, and seas that escape. */
+/* Tests the filling with water: volumes, levels, boxes, waves, and seas that escape. */
 #include "base/memory.h"
 #include "geometry/model.h"
 #include "physics/wave_theory.h"
@@ -20,7 +20,7 @@ static sb_fluid_box boxes[4];
 static sb_model model;
 static sb_error error;
 
-/* A closed tank open at its top, filled from its middle. */
+/* A tank that is open at its top and filled from its middle. */
 static int set_up(void **state)
 {
     (void)state;
@@ -98,7 +98,7 @@ static void refuse(const char *first, const char *second)
     assert_non_null(strstr(error.text, second));
 }
 
-/* Least distance between two particles. */
+/* Smallest distance between two particles. */
 static double closest(void)
 {
     double best = HUGE_VAL;
@@ -110,7 +110,7 @@ static double closest(void)
     return sqrt(best);
 }
 
-static void a_tank_is_a_lattice(void **state)
+static void a_tank_is_filled_with_a_lattice(void **state)
 {
     (void)state;
     build();
@@ -164,12 +164,12 @@ static void solids_displace_water(void **state)
         assert_false(p.x > 5.2 && p.x < 8.3 && p.y > 3.1 && p.y < 6.7);
         assert_false(p.x > 12 && p.z < 1.3);
         assert_false(p.x > 15 && p.z < 2.6);
-        /* Nothing starts nearer to a face than 0.3 spacings. */
+        /* No particle starts nearer than 0.3 spacings to a face. */
         assert_false(p.x > 5.2 - 0.149 && p.x < 8.3 + 0.149 && p.y > 3.1 && p.y < 6.7);
     }
 }
 
-static void slopes_hold_their_wedge(void **state)
+static void a_wedge_over_a_slope_has_its_volume(void **state)
 {
     (void)state;
     /* A beach of 1:4 from x = 4 up to the shore at x = 20. */
@@ -208,13 +208,13 @@ static void a_wall_thinner_than_a_cell_holds_the_sea(void **state)
     build();
     volume_within(9.9 * 10 * 4, 0.02);
     for (size_t i = 0; i < model.fluid_count; ++i) assert_true(model.fluid_position[i].x < 9.9);
-    /* With a door in it, the sea is on both sides. */
+    /* With an opening in the dam the sea is on both sides. */
     bodies[0].max.y = 8;
     build();
     volume_within(800, 0.02);
 }
 
-static void a_sea_that_escapes_says_where(void **state)
+static void a_sea_that_escapes_is_refused_with_the_place(void **state)
 {
     (void)state;
     scene.domain.side[SB_X_MAX] = SB_SIDE_OPEN;
@@ -248,7 +248,7 @@ static void boxes_have_level_and_velocity(void **state)
         assert_true(model.fluid_velocity[i].x == 1 && model.fluid_velocity[i].z == 0.5);
         assert_true(model.fluid_position[i].x < 5);
     }
-    /* A second one that shares half of the first, and a block standing in it. */
+    /* A second box that shares half of the first, and a solid block in it. */
     boxes[1] = (sb_fluid_box){{2.5, 0, 0}, {10, 10, 6}, 3.2, {0, 0, 0}};
     scene.box_count = 2;
     add_box("block", sb_vec(7, 2, -1), sb_vec(9, 4, 7));
@@ -370,14 +370,14 @@ int main(void)
 {
 #define CASE(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
     const struct CMUnitTest tests[] = {
-        CASE(a_tank_is_a_lattice),
+        CASE(a_tank_is_filled_with_a_lattice),
         CASE(odd_levels_keep_volume_and_surface),
         CASE(odd_walls_keep_volume),
         CASE(solids_displace_water),
-        CASE(slopes_hold_their_wedge),
+        CASE(a_wedge_over_a_slope_has_its_volume),
         CASE(a_basin_and_a_round_pool),
         CASE(a_wall_thinner_than_a_cell_holds_the_sea),
-        CASE(a_sea_that_escapes_says_where),
+        CASE(a_sea_that_escapes_is_refused_with_the_place),
         CASE(bad_seeds_are_refused),
         CASE(boxes_have_level_and_velocity),
         CASE(a_box_on_the_sea),

@@ -1,4 +1,4 @@
-/* Terrain grids: both formats, holes, strict errors with their line, and a measured sea bed. */
+/* Tests terrain grids: both formats, holes, errors with their line, and a measured sea bed. */
 #include "base/memory.h"
 #include "geometry/mesh.h"
 #include "geometry/solid.h"
@@ -67,11 +67,11 @@ static void test_ascii(void **state)
                              0.5);
     assert_int_equal(mesh.vertex_count, 6);
     assert_int_equal(mesh.triangle_count, 4);
-    assert_true(has_vertex(&mesh, 105, 215, 1.5)); /* the first number is the north-west */
+    assert_true(has_vertex(&mesh, 105, 215, 1.5)); /* the first number is the north-western node */
     assert_true(has_vertex(&mesh, 125, 205, 6.5));
     check_looks_up(&mesh, 200);
     sb_mesh_free(&mesh);
-    /* A hole costs the squares around it, but leaves the half of each that it does not touch. */
+    /* A hole removes from each square around it the half that touches it. */
     mesh = read_grid("h.ASC",
                      "ncols 3\r\nnrows 3\r\nxllcenter 0\r\nyllcenter 0\r\ncellsize 2\r\n"
                      "nodata_value -1\r\n1 1 1\r\n1 -1 1\r\n1 1 -1.0\r\n",
@@ -84,7 +84,7 @@ static void test_ascii(void **state)
     assert_int_equal(mesh.hole_count, 2);
     assert_true(mesh.holes[0].x == 4 && mesh.holes[0].y == 0 && mesh.holes[1].x == 2 && mesh.holes[1].y == 2);
     sb_mesh_free(&mesh);
-    /* The line may be left out: then it is -9999. */
+    /* Without this line the value is -9999. */
     mesh = read_grid("n.asc", "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 1 -9999\n1 1 1\n", 0);
     assert_int_equal(mesh.vertex_count, 5);
     assert_int_equal(mesh.hole_count, 1);
@@ -100,7 +100,7 @@ static void test_ascii(void **state)
 static void test_points(void **state)
 {
     (void)state;
-    /* Steps of 1/3 and 50, rounded, in no order, one point missing. */
+    /* Steps of 1/3 and 50, rounded, in no particular order, with one point missing. */
     sb_mesh mesh = read_grid("p.xyz",
                              "# easting northing height\n"
                              "0.667 150 6\n0 100 1\n\n1.000,100,4\n0.333 100 2\r\n0.667;100;3\n"
@@ -127,7 +127,7 @@ static void expect_refusal(const char *name, const char *text, const char *why)
     assert_int_equal(mesh.vertex_count, 77);
 }
 
-/* As spreadsheets write. */
+/* Spreadsheets write a byte-order mark. */
 static void test_a_byte_order_mark(void **state)
 {
     (void)state;
@@ -159,7 +159,8 @@ static void test_bad_ascii(void **state)
     expect_refusal("b.asc", "ncols 2.5\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3 4", "ncols 2.5");
     expect_refusal("b.asc", "ncols 1\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2", "ncols 1");
     expect_refusal("b.asc", "ncols 1e9\nnrows 1e9\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2", "ncols 1e+09");
-    expect_refusal("b.asc", "ncols 9000\nnrows 9000\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2", ":6: too short");
+    expect_refusal("b.asc", "ncols 9000\nnrows 9000\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2",
+                   ":6: the file is too short");
     expect_refusal("b.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize -1\n1 2 3 4", "cellsize -1");
     expect_refusal("b.asc", "xllcenter 1\n" HEAD "1 2 3 4", "both corner and center");
     expect_refusal("b.asc", HEAD "1 2\n3 x4\n", ":7: \"x4\"");
@@ -204,7 +205,7 @@ static void test_bad_points(void **state)
     expect_refusal("b.xyz", "0 0 1\n1 1 1\n1e6 1e6 1\n", "expected");
 }
 
-/* Six nodes, the north-western of 1, and steps of 10 and 20. */
+/* Expects six nodes, the north-western with height 1, and steps of 10 and 20. */
 static void expect_six(const char *name, const char *text, double x, double y)
 {
     sb_mesh mesh = read_grid(name, text, 0);
@@ -219,7 +220,7 @@ static void test_unequal_steps(void **state)
     expect_six("s.asc", "ncols 3\nnrows 2\nxllcorner 100\nyllcorner 200\ndx 10\ndy 20\n1 2 3\n4 5 6\n", 105, 210);
     expect_six("s.asc", "ncols 3\nnrows 2\nxllcenter 100\nyllcenter 200\nDX 10.0\nDY 20.0\n1 2 3\n4 5 6\n", 100, 200);
     expect_six("s.asc", "ncols 3\nnrows 2\nxllcorner 1\nyllcorner 2\ncellsize 10 20\n1 2 3\n4 5 6\n", 6, 12);
-    /* Equal ones are a cellsize. */
+    /* Equal steps are a cellsize. */
     sb_mesh mesh = read_grid("e.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ndx 2\ndy 2\n1 2\n3 4\n", 0);
     assert_true(has_vertex(&mesh, 1, 3, 1) && has_vertex(&mesh, 3, 1, 4));
     sb_mesh_free(&mesh);
@@ -243,7 +244,7 @@ static void test_missing_heights_and_comments(void **state)
     sb_mesh_free(&mesh);
 }
 
-/* As GeoClaw's topotools writes them, and its pages show them. */
+/* Files as GeoClaw's topotools writes them and its documentation shows them. */
 static void test_geoclaw(void **state)
 {
     (void)state;
@@ -318,7 +319,7 @@ static void test_measured_sea_bed(void **state)
     check_looks_up(&mesh, 44.0 * 26.0);
     sb_solid *solid;
     assert_int_equal(sb_solid_create(&mesh, SB_ROLE_TERRAIN, &solid, &error), SB_OK);
-    /* The cone stands at (17, 0) with its top 0.366 m above still water; beside it is the flat. */
+    /* The cone stands at (17, 0) with its top 0.366 m above the still-water level. Beside it the bed is flat. */
     double top = 5 - sb_solid_raycast(solid, sb_vec(17, 0, 5), sb_vec(0, 0, -1), 10);
     double flat = 5 - sb_solid_raycast(solid, sb_vec(5, 0, 5), sb_vec(0, 0, -1), 10);
     assert_true(fabs(top - 0.366) < 0.01 && fabs(flat + 0.78) < 0.02);

@@ -1,8 +1,7 @@
-/* Scenes that could run, but most likely not as their writer meant them: each has a line that says so, and the same
-   scene as it was meant has none. */
+/* Tests the warnings of scenes that could run but are probably not as intended. The corrected scene has no warning. */
 #include "small_model.h"
 
-/* The warning that holds both texts; fails without one. */
+/* Returns the warning that contains both texts, and fails if there is none. */
 static const char *warning(const char *first, const char *second)
 {
     for (size_t i = 0; i < model.warning_count; ++i)
@@ -19,7 +18,7 @@ static double number_after(const char *text, const char *mark)
     return strtod(at + strlen(mark), NULL);
 }
 
-/* 60 m by 3 m, 3 m deep: 99 % of a wave of 1 m are within 18 m of its crest. */
+/* Makes a flume 60 m by 3 m with water 3 m deep. 99 % of a wave of 1 m are within 18 m of its crest. */
 static void make_flume(void)
 {
     scene.domain.max = sb_vec(60, 3, 5);
@@ -47,7 +46,7 @@ static void waves_that_are_cut_off_are_reported(void **state)
                 const char *line = warning("water.wave: ", "cut off");
                 assert_true(fabs(number_after(line, "water.wave: ") - sides[k].percent) <= 1);
                 assert_non_null(strstr(line, sides[k].advice));
-                /* What is advised is enough, and three metres less are not. */
+                /* The recommended position is sufficient, and three metres less are not. */
                 scene.wave.position = number_after(line, "expected water.wave.position ");
                 build();
                 assert_false(warned("water.wave", "cut off"));
@@ -62,7 +61,7 @@ static void waves_cut_by_bodies_and_land_are_reported(void **state)
 {
     (void)state;
     make_flume();
-    /* Ground that falls from the left side to the floor at x = 30 m: its shore is at x = 19.1 m. */
+    /* Ground that slopes down from the left side to the floor at x = 30 m: its shore is at x = 19.1 m. */
     char path[] = SB_BINARY_DIR "/test_meant_shore.obj";
     FILE *file = fopen(path, "w");
     assert_non_null(file);
@@ -78,7 +77,7 @@ static void waves_cut_by_bodies_and_land_are_reported(void **state)
     assert_true(fabs(number_after(line, "the water extends from x = ") - 19.5) <= 0.5);
     scene.body_count = 0;
     bodies[0] = (sb_body){.role = SB_ROLE_SOLID};
-    /* A pillar at the crest, of half the width and a tenth of the wave's length; and a pier beside the water. */
+    /* A pillar at the crest with half the width and a tenth of the wave's length, and a pier beside the water. */
     scene.wave.position = 30;
     scene.sea.seed.x = 20;
     add_box("pillar", sb_vec(28.5, 0.75, -1), sb_vec(31.5, 2.25, 6));
@@ -89,7 +88,7 @@ static void waves_cut_by_bodies_and_land_are_reported(void **state)
     scene.sea.seed.y = 2.5;
     build();
     assert_false(warned("water.wave", "cut off"));
-    /* Too short for any place. */
+    /* The water is too short for any position. */
     scene.domain.max.x = 20;
     scene.body_count = 0;
     scene.sea.seed = sb_vec(10, 1, 1);
@@ -99,7 +98,7 @@ static void waves_cut_by_bodies_and_land_are_reported(void **state)
     remove(path);
 }
 
-/* Water presses on what lies behind a face, too, as long as it is within the support radius: here to 0.5 m. */
+/* Water also exerts a force on a surface behind a face, up to the support radius: here to a depth of 0.5 m. */
 static void surfaces_close_behind_others_are_reported(void **state)
 {
     (void)state;
@@ -110,9 +109,9 @@ static void surfaces_close_behind_others_are_reported(void **state)
         {{7.3, -1, -1}, {11, 7, 6}, true},    /* behind the whole face */
         {{7.4, 2, -1}, {9, 4, 2}, true},      /* behind a part of it */
         {{7.6, -1, -1}, {11, 7, 6}, false},   /* deeper */
-        {{6.7, 2, -1}, {9, 4, 2}, true},      /* before it: then the core is the cladding */
+        {{6.7, 2, -1}, {9, 4, 2}, true},      /* in front of it: then the core is the cladding */
         {{7, 4.5, -1}, {9, 7, 6}, false},     /* beside it */
-        {{7.3, 4.5, -1}, {9, 7, 6}, false},   /* beside it and set back */
+        {{7.3, 4.5, -1}, {9, 7, 6}, false},   /* beside it and further back */
         {{7.3, -1, 3.4}, {9, 4.5, 6}, false}, /* on it */
     };
     for (int dimensions = 2; dimensions <= 3; ++dimensions)
@@ -125,18 +124,18 @@ static void surfaces_close_behind_others_are_reported(void **state)
             add_box("core", cores[k].min, cores[k].max);
             if (dimensions == 2) bodies[1].min.y = -1;
             build();
-            assert_int_equal(warned("sum of their forces", ""), cores[k].shared);
+            assert_int_equal(warned("the sum of their forces", ""), cores[k].shared);
             if (!cores[k].shared) continue;
             const char *line = warning("\"front\"", "\"core\"");
             assert_true(fabs(number_after(line, "lies about ") - fabs(cores[k].min.x - 7)) < 0.01);
             assert_int_equal(strstr(line, "\"core\"") > strstr(line, "\"front\""), cores[k].min.x > 7);
-            bodies[0].report = false; /* nobody reads these forces */
+            bodies[0].report = false; /* these forces are not reported */
             build();
-            assert_false(warned("sum of their forces", ""));
+            assert_false(warned("the sum of their forces", ""));
         }
 }
 
-/* Many of them share a line, and none is left out of the count. */
+/* All pairs share one warning, and the count includes those that are not named. */
 static void many_surfaces_behind_others_share_a_line(void **state)
 {
     (void)state;
@@ -148,14 +147,14 @@ static void many_surfaces_behind_others_share_a_line(void **state)
         add_box(name, sb_vec(7.4, 2 * k, -1), sb_vec(9, 2 * k + 1, 6));
     }
     build();
-    const char *line = warning("sum of their forces", "; likewise");
+    const char *line = warning("the sum of their forces", "; likewise");
     int named = 0;
     for (const char *at = line; (at = strstr(at, "a-name")) != NULL; at++) named++;
     assert_true(named > 1 && named < 12);
     assert_int_equal(named + (int)number_after(strstr(line, "; likewise"), " and "), 12);
 }
 
-/* A grid of 6 by 4 nodes, 2 m apart, whose heights are 0 but for what stands at two of them. */
+/* Adds a grid of 6 by 4 nodes, 2 m apart, whose heights are 0 except at two of them. */
 static sb_body *add_grid(char *path, const char *nodata, const char *first, const char *second)
 {
     FILE *file = fopen(path, "w");
@@ -194,7 +193,7 @@ static void unmarked_missing_heights_are_reported(void **state)
         build();
         assert_int_equal(warned("\"ground\"", "NODATA_value"), cases[k].expected != NULL);
         if (cases[k].expected) assert_non_null(strstr(warning("\"ground\"", "1.1 to "), cases[k].expected));
-        /* A missing height is not reported as the ground's lowest height, too. */
+        /* A missing height is not also reported as the ground's lowest height. */
         assert_false(warned("domain's floor is", ""));
     }
     /* The same two places outside of the domain, at (4, 4) and (6, 2). */
@@ -218,7 +217,7 @@ static void ground_below_the_floor_is_reported(void **state)
     static char path[] = SB_BINARY_DIR "/test_meant_floor.obj";
     FILE *file = fopen(path, "w");
     assert_non_null(file);
-    /* From 2 m at the left side to -10 m at x = 6 m, and on from there to the other. */
+    /* The ground slopes from 2 m at the left side to -10 m at x = 6 m and is level from there on. */
     fputs("v 0 -9 2\nv 6 -9 -10\nv 20 -9 -10\nv 0 12 2\nv 6 12 -10\nv 20 12 -10\nf 1 2 5 4\nf 2 3 6 5\n", file);
     fclose(file);
     add_file("bed", path)->role = SB_ROLE_TERRAIN;
@@ -238,7 +237,7 @@ static void ground_below_the_floor_is_reported(void **state)
         assert_true(fabs(model.still_depth - 13) < 1e-9);
         assert_false(warned("\"bed\"", "domain's floor"));
     }
-    /* The ground is below the floor where no water is: behind a dam. */
+    /* The ground is below the floor only behind a dam, where there is no water. */
     scene.dimensions = 3;
     scene.domain.min.z = -5;
     add_box("dam", sb_vec(3, -1, -12), sb_vec(30, 7, 6));
@@ -266,7 +265,7 @@ static void water_at_an_open_side_is_reported(void **state)
             build();
             assert_false(warned("open side", ""));
         }
-    /* Held by a dam, or a metre away from the side: then it breaks and runs, as meant. */
+    /* Water held by a dam, or a metre away from the side, from where it flows as intended. */
     scene.dimensions = 3;
     scene.domain.side[SB_X_MAX] = SB_SIDE_OPEN;
     bodies[0].min.x = 9;
@@ -278,7 +277,7 @@ static void water_at_an_open_side_is_reported(void **state)
     box.max.x = 9;
     build();
     assert_false(warned("open side", ""));
-    /* A sea that a sill holds, and a wave that is higher than the sill: its sea ends there. */
+    /* A sea that a sill holds, and a wave that is higher than the sill, which cuts it off. */
     scene.box_count = 0;
     scene.sea.present = true;
     scene.domain.max.x = 60;
@@ -293,7 +292,7 @@ static void water_at_an_open_side_is_reported(void **state)
     assert_false(warned("open side", ""));
 }
 
-/* A house of 2 m by 2 m by 4 m in its file's unit, at (5, 2, 0) once that is metres. */
+/* Adds a house of 2 m by 2 m by 4 m in the unit of its file, at (5, 2, 0) in metres. */
 static sb_body *add_house(char *path, double unit)
 {
     static const int faces[6][4] = {{4, 3, 2, 1}, {5, 6, 7, 8}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 4, 8, 7}, {4, 1, 5, 8}};
@@ -329,14 +328,14 @@ static void bodies_that_no_water_reaches_are_reported(void **state)
         assert_false(warned("\"house\"", "no surface"));
         assert_int_equal(model.bodies[0].source, 0);
     }
-    /* In its unit, but elsewhere: no scale helps. */
+    /* In the right unit, but elsewhere: no scale helps. */
     scene.body_count = 0;
     add_house(path, 1)->translate.x = 90;
     build();
     const char *line = warning("\"house\"", "outside of the domain");
     assert_non_null(strstr(line, "2 x 2 x 4 m, from (95, 2, 0) to (97, 4, 4)"));
     assert_null(strstr(line, "scale"));
-    /* Within another. */
+    /* Inside another body. */
     bodies[0].translate.x = 0;
     add_box("hill", sb_vec(4, 1, -1), sb_vec(8, 5, 5));
     build();
@@ -348,7 +347,8 @@ static void bodies_that_no_water_reaches_are_reported(void **state)
 static void gauges_over_thin_water_are_reported(void **state)
 {
     (void)state;
-    /* A step up to so many spacings of water, its gauge 3 m up from the edge; and one over deep water. */
+    /* A step over which the water is `depth` spacings deep, with a gauge 3 m behind its edge, and a gauge over deep
+       water. */
     static const struct {
         double depth;
         bool thin;

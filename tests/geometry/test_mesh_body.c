@@ -1,4 +1,4 @@
-/* Analytic shapes, and bodies of a scene as meshes in its axes. */
+/* Tests analytic shapes, and bodies of a scene as meshes in the scene's axes. */
 #include "base/memory.h"
 #include "geometry/mesh.h"
 #include "geometry/model.h"
@@ -58,13 +58,13 @@ static void test_shapes(void **state)
     assert_true(near(sb_normalize(normal), sb_vec(0, -1, 0)));
     sb_mesh_free(&mesh);
 
-    /* A basin's normals look into the tank: its walls count negative, and its lid is missing. */
+    /* A basin's normals point into the tank. The volume of its walls is negative, and its lid is missing. */
     assert_int_equal(sb_mesh_basin(sb_vec(0, 0, 0), sb_vec(2, 3, 4), &mesh, &error), SB_OK);
     report = diagnose(&mesh);
     assert_int_equal(report.open_edges, 4);
     assert_int_equal(report.flipped_faces, 0);
     assert_true(fabs(report.area - 46) < 1e-12 && report.volume < 0);
-    assert_true(mesh.sheet);
+    assert_true(mesh.open_surface);
     sb_mesh_free(&mesh);
 }
 
@@ -100,7 +100,7 @@ static void free_all(sb_mesh *meshes, size_t count)
 static void test_rotation_order(void **state)
 {
     (void)state;
-    /* x then y then z: (1, 0, 0) stays, then goes to -z, and stays. */
+    /* x then y then z: (1, 0, 0) is unchanged, then goes to -z, and is unchanged. */
     sb_body body = {.name = "rod",
                     .shape = SB_SHAPE_BOX,
                     .min = {1, 2, 3},
@@ -109,7 +109,7 @@ static void test_rotation_order(void **state)
                     .translate = {100, 0, 0}};
     sb_mesh *meshes = from_body(&body, 1);
     sb_mesh_report report = diagnose(meshes);
-    /* (x, y, z) -> (x, -z, y) -> (y, -z, -x): exactly, as quarter turns are. */
+    /* (x, y, z) -> (x, -z, y) -> (y, -z, -x), exactly, because the angles are quarter turns. */
     assert_true(near(report.min, sb_vec(102, -6, -2)) && near(report.max, sb_vec(104, -3, -1)));
     assert_true(meshes[0].vertices[0].x == 102 && meshes[0].vertices[0].z == -1);
     assert_true(fabs(report.volume - 6) < 1e-12);
@@ -138,7 +138,7 @@ static void test_mesh_file_body(void **state)
     int made = mkstemps(path, 4);
     assert_true(made >= 0);
     close(made);
-    /* Two tetrahedra in an y-up file of centimetres, the second inside out, names alike. */
+    /* Two tetrahedra with the same name in a y-up file in centimetres; the second is inside out. */
     write_file(path, "v 0 0 0\nv 100 0 0\nv 0 100 0\nv 0 0 100\n"
                      "o tower\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
                      "v 300 0 0\nv 400 0 0\nv 300 100 0\nv 300 0 100\n"
@@ -188,7 +188,7 @@ static void test_mesh_file_body(void **state)
     remove(path);
 }
 
-/* A name that the file has of its own is not taken by one that was replaced, whichever comes first. */
+/* A name of the file keeps its part, even if another part's replaced name is the same and comes first. */
 static void test_part_names(void **state)
 {
     (void)state;
@@ -246,13 +246,14 @@ static void test_part_names(void **state)
     for (int side = 0; side < SB_SIDES; ++side) scene.domain.side[side] = SB_SIDE_OPEN;
     sb_model model;
     if (sb_model_import_bodies(&scene, &model, &error) != SB_OK) fail_msg("%s", error.text);
-    const char *told = NULL;
+    const char *names_warning = NULL;
     for (size_t i = 0; i < model.warning_count; ++i)
-        if (strstr(model.warnings[i], "part names")) told = model.warnings[i];
-    assert_non_null(told);
-    assert_string_equal(told, "body \"plant\": 11 part names contain characters other than letters, digits, _ . and -, "
-                              "which are replaced by _: \"..\" becomes \"_.\", \"=cmd|x\" becomes \"_cmd_x\", \"`id`\" "
-                              "becomes \"_id_\", \"-rf\" becomes \"_rf\", ...");
+        if (strstr(model.warnings[i], "part names")) names_warning = model.warnings[i];
+    assert_non_null(names_warning);
+    assert_string_equal(names_warning,
+                        "body \"plant\": 11 part names contain characters other than letters, digits, _ . and -, "
+                        "which are replaced by _: \"..\" becomes \"_.\", \"=cmd|x\" becomes \"_cmd_x\", \"`id`\" "
+                        "becomes \"_id_\", \"-rf\" becomes \"_rf\", ...");
     sb_model_free(&model);
     remove(path);
 }

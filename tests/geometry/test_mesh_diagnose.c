@@ -1,4 +1,4 @@
-/* Counts of what is wrong with a mesh, and the mending of orientation and doubled vertices. */
+/* Tests the diagnosis of faulty meshes, and the correction of orientation, duplicate vertices and small holes. */
 #include "base/memory.h"
 #include "geometry/mesh.h"
 
@@ -27,7 +27,7 @@ static void flip(sb_mesh *mesh, size_t i)
     mesh->triangles[i][2] = swapped;
 }
 
-/* The same triangles, each with three vertices of its own. */
+/* Returns the same triangles, each with three vertices of its own. */
 static sb_mesh unweld(sb_mesh mesh)
 {
     sb_mesh soup;
@@ -43,7 +43,7 @@ static sb_mesh unweld(sb_mesh mesh)
 static void test_sound_box(void **state)
 {
     (void)state;
-    /* Far away, where careless sums lose the volume's digits. */
+    /* Far from the origin, where simple sums lose the digits of the volume. */
     sb_mesh box = unweld(make_box(sb_vec(1e6, -2e6, 0), sb_vec(1e6 + 2, -2e6 + 3, 4)));
     sb_mesh_report report;
     assert_int_equal(sb_mesh_diagnose(&box, &report, NULL), SB_OK);
@@ -97,7 +97,7 @@ static void test_each_fault(void **state)
     assert_true(report.area == 0 && report.volume == 0);
 }
 
-static void test_orientation_is_mended(void **state)
+static void test_orientation_is_corrected(void **state)
 {
     (void)state;
     sb_mesh_report report;
@@ -116,14 +116,14 @@ static void test_orientation_is_mended(void **state)
     assert_true(report.watertight && fabs(report.volume - 1) < 1e-12);
     sb_mesh_free(&box);
 
-    sb_mesh sheet;
-    assert_int_equal(sb_mesh_plane(sb_vec(0, 0, 0), sb_vec(0.2, 0, -1), 2, 2, &sheet, &error), SB_OK);
-    sheet.sheet = false;
-    assert_int_equal(sb_mesh_orient(&sheet, SB_ROLE_SOLID, &error), SB_OK);
-    assert_int_equal(sheet.turned, 0);
-    assert_int_equal(sb_mesh_orient(&sheet, SB_ROLE_TERRAIN, &error), SB_OK);
-    assert_int_equal(sheet.turned, 2);
-    sb_mesh_free(&sheet);
+    sb_mesh open;
+    assert_int_equal(sb_mesh_plane(sb_vec(0, 0, 0), sb_vec(0.2, 0, -1), 2, 2, &open, &error), SB_OK);
+    open.open_surface = false;
+    assert_int_equal(sb_mesh_orient(&open, SB_ROLE_SOLID, &error), SB_OK);
+    assert_int_equal(open.turned, 0);
+    assert_int_equal(sb_mesh_orient(&open, SB_ROLE_TERRAIN, &error), SB_OK);
+    assert_int_equal(open.turned, 2);
+    sb_mesh_free(&open);
 }
 
 static void test_weld(void **state)
@@ -144,7 +144,7 @@ static void test_weld(void **state)
     sb_mesh_free(&box);
 }
 
-/* The first triangles alone, closed as far as it goes; how many were added. */
+/* Closes the holes of a mesh of the first triangles, and returns how many triangles were added. */
 static size_t closed_of(sb_mesh *mesh, size_t triangles)
 {
     mesh->triangle_count = triangles;
@@ -166,23 +166,24 @@ static void test_holes_of_one_triangle_are_closed(void **state)
         assert_true(fabs(report.volume - 24) < 1e-9);
         sb_mesh_free(&box);
     }
-    /* A whole side, a sheet of one triangle, and a flat one of three whose rim is a triangle stay open. */
+    /* A missing side, an open surface of one triangle, and a flat one of three triangles whose border is a triangle
+       stay open. */
     sb_mesh box = make_box(sb_vec(0, 0, 0), sb_vec(2, 3, 4));
     assert_int_equal(closed_of(&box, 10), 0);
     assert_int_equal(closed_of(&box, 1), 0);
     sb_mesh_free(&box);
     static const sb_vec3 places[] = {{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {1, 1, 0}};
     static const uint32_t fan[3][3] = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-    sb_mesh sheet;
-    assert_int_equal(sb_mesh_alloc(&sheet, 4, 3, &error), SB_OK);
-    memcpy(sheet.vertices, places, sizeof places);
-    memcpy(sheet.triangles, fan, sizeof fan);
-    assert_int_equal(closed_of(&sheet, 3), 0);
-    sheet.vertices[3].z = 1; /* a pyramid without its base is not */
-    assert_int_equal(closed_of(&sheet, 3), 1);
-    assert_int_equal(sb_mesh_diagnose(&sheet, &report, NULL), SB_OK);
+    sb_mesh open;
+    assert_int_equal(sb_mesh_alloc(&open, 4, 3, &error), SB_OK);
+    memcpy(open.vertices, places, sizeof places);
+    memcpy(open.triangles, fan, sizeof fan);
+    assert_int_equal(closed_of(&open, 3), 0);
+    open.vertices[3].z = 1; /* a pyramid without its base does not stay open */
+    assert_int_equal(closed_of(&open, 3), 1);
+    assert_int_equal(sb_mesh_diagnose(&open, &report, NULL), SB_OK);
     assert_true(report.watertight && fabs(report.volume - 1.5) < 1e-12);
-    sb_mesh_free(&sheet);
+    sb_mesh_free(&open);
 }
 
 static void test_without_memory(void **state)
@@ -212,7 +213,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sound_box),
         cmocka_unit_test(test_each_fault),
-        cmocka_unit_test(test_orientation_is_mended),
+        cmocka_unit_test(test_orientation_is_corrected),
         cmocka_unit_test(test_weld),
         cmocka_unit_test(test_holes_of_one_triangle_are_closed),
         cmocka_unit_test(test_without_memory),

@@ -1,5 +1,5 @@
-/* What the child that reads a mesh may not do: open files beside the mesh's folder, wait for a writer, be deaf to a
- * signal; and what the kernel keeps it from. */
+/* Tests the restrictions of the child that reads a mesh: it opens no files outside of the mesh's folder, does not
+   wait for a writer, and ends on a signal. Also tests the kernel's restrictions. */
 #include "base/clock.h"
 #include "base/stop.h"
 #include "geometry/mesh.h"
@@ -73,7 +73,7 @@ static void expect_count(const char *path, size_t expected)
     sample_free(meshes, count);
 }
 
-/* A triangle whose three corners are 36 bytes of the buffer. */
+/* Writes a glTF file with a triangle whose three corners are 36 bytes of the buffer. */
 static const char *gltf(const char *name, const char *uri)
 {
     char text[1024];
@@ -108,8 +108,8 @@ static void files_of_the_folder_are_read(void **state)
     expect_count(gltf("in/link.gltf", "link.bin"), 1);
     save_text("in/paint.mtl", "newmtl red\nKd 1 0 0\n");
     expect_count(obj("in/paint.obj", "paint.mtl"), 1);
-    expect_count(obj("in/unpainted.obj", "missing.mtl"), 1); /* its colours are the scene's anyway */
-    /* The mesh itself may be reached by a link, and by a path from the current directory. */
+    expect_count(obj("in/unpainted.obj", "missing.mtl"), 1); /* the colours come from the scene in any case */
+    /* The mesh itself may be given by a link, and by a path relative to the current directory. */
     assert_int_equal(symlink("../near.gltf", path_of("in/sub/linked.gltf")), 0);
     save("in/sub/near.bin", corners, sizeof corners);
     expect_count(path_of("in/sub/linked.gltf"), 1);
@@ -125,7 +125,7 @@ static void files_of_the_folder_are_read(void **state)
 static void files_elsewhere_are_refused(void **state)
 {
     (void)state;
-    static const char *const why = "outside of its folder, expected all its files in that folder";
+    static const char *const why = "outside of its folder, expected all files in that folder";
     char absolute[600];
     save("out.bin", corners, sizeof corners);
     save_text("out.mtl", "newmtl red\nKd 1 0 0\n");
@@ -140,13 +140,13 @@ static void files_elsewhere_are_refused(void **state)
     expect_refusal(gltf("in/password.gltf", "../../../../../../../../etc/passwd"), why);
     snprintf(absolute, sizeof absolute, "%s", path_of("out.bin"));
     expect_refusal(gltf("in/absolute.gltf", absolute), "");
-    /* A folder whose name only begins alike is another. */
+    /* A folder whose name has the same beginning is another folder. */
     assert_int_equal(mkdir(path_of("inner"), 0700), 0);
     save("inner/near.bin", corners, sizeof corners);
     expect_refusal(gltf("in/alike.gltf", "../inner/near.bin"), why);
 }
 
-static void what_is_no_file_is_refused(void **state)
+static void other_than_regular_files_are_refused(void **state)
 {
     (void)state;
     assert_int_equal(mkfifo(path_of("in/pipe.bin"), 0600), 0);
@@ -161,7 +161,8 @@ static void what_is_no_file_is_refused(void **state)
     expect_refusal(gltf("in/zero.gltf", "zero.bin"), "outside of its folder");
 }
 
-/* In a process of its own, as sb_mesh_fence cannot be taken back: 0, or the number of what was possible. */
+/* Runs in a process of its own, because sb_mesh_fence cannot be undone. Returns 0, or the number of an operation
+   that succeeded. */
 static int try_behind_fence(void)
 {
     char byte;
@@ -182,7 +183,7 @@ static int try_behind_fence(void)
     return kill(getppid(), 0) == 0 ? 8 : 0;
 }
 
-static void the_kernel_fences_too(void **state)
+static void the_kernel_restricts_the_child(void **state)
 {
     (void)state;
     const char *gaps = sb_mesh_fence_gaps();
@@ -198,8 +199,8 @@ static void the_kernel_fences_too(void **state)
     assert_int_equal(WEXITSTATUS(how), 0);
 }
 
-/* A child that neither writes nor ends, as one that parses for minutes. */
-static void a_signal_is_heard_while_a_mesh_is_read(void **state)
+/* The child neither writes nor ends, like one that parses for minutes. */
+static void a_signal_interrupts_the_import(void **state)
 {
     (void)state;
     const pid_t process = fork();
@@ -239,11 +240,9 @@ static int remove_folder(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(files_of_the_folder_are_read),
-        cmocka_unit_test(files_elsewhere_are_refused),
-        cmocka_unit_test(what_is_no_file_is_refused),
-        cmocka_unit_test(the_kernel_fences_too),
-        cmocka_unit_test(a_signal_is_heard_while_a_mesh_is_read),
+        cmocka_unit_test(files_of_the_folder_are_read),         cmocka_unit_test(files_elsewhere_are_refused),
+        cmocka_unit_test(other_than_regular_files_are_refused), cmocka_unit_test(the_kernel_restricts_the_child),
+        cmocka_unit_test(a_signal_interrupts_the_import),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

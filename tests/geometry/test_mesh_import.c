@@ -1,4 +1,4 @@
-/* Every mesh format, written here as a small file; then broken ones, and random damage to all. */
+/* Tests the import of small files of every mesh format, of broken files, and of files with random damage. */
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/memory.h"
@@ -50,7 +50,7 @@ static const char *save_text(const char *name, const char *text)
     return save(name, &whole);
 }
 
-/* Imports what must be a cube each, watertight, of the given corner and volume. */
+/* Expects a watertight cube with the given corner and volume. */
 static void check_cube(const sb_mesh *mesh, sb_vec3 min, double volume)
 {
     sb_mesh_report report;
@@ -82,7 +82,7 @@ static void test_every_format(void **state)
     }
 }
 
-/* Whatever a DAE says of its up axis, its coordinates stay; its unit makes them metres. */
+/* The up axis of a DAE does not change its coordinates. Its unit converts them to metres. */
 static void test_dae_axes_and_unit(void **state)
 {
     (void)state;
@@ -158,7 +158,7 @@ static void test_cut_and_garbage(void **state)
         char name[64];
         sample_text text = {.length = 0}, garbage = {.length = 600};
         sample_formats[i].make(&text);
-        /* Enough is left to look like the format, too little for one triangle. */
+        /* Enough bytes are left to recognise the format, but not for one triangle. */
         text.length = text.length / 20;
         snprintf(name, sizeof name, "cut-%s", sample_formats[i].name);
         expect_refusal(save(name, &text), "");
@@ -184,7 +184,7 @@ static void test_degenerate_triangles_are_counted(void **state)
     sample_free(meshes, count);
 }
 
-/* Changes up to eight bytes of one format's file and reads that. */
+/* Changes up to eight bytes of one format's file and imports it. */
 static sample_outcome read_damaged(size_t which, uint64_t round)
 {
     const sb_mesh_limits limits = {.memory = 1u << 28, .seconds = 1};
@@ -208,7 +208,7 @@ static sample_outcome read_damaged(size_t which, uint64_t round)
     return result;
 }
 
-/* Whatever comes of damage must be a sound mesh or one clear line, within the limits. */
+/* A damaged file must give a valid mesh or a message of one line, within the limits. */
 static void test_random_damage(void **state)
 {
     (void)state;
@@ -229,7 +229,7 @@ static void test_random_damage(void **state)
     assert_true(results[SAMPLE_SOUND] > 20 && results[SAMPLE_REFUSED] > 20);
 }
 
-static void test_names_are_made_fit(void **state)
+static void test_invalid_names_are_replaced(void **state)
 {
     (void)state;
     const char *path = save_text("names.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\no a,b\\c\nf 1 2 3\n"
@@ -263,7 +263,7 @@ static void reap_all(int number)
     while (waitpid(-1, NULL, WNOHANG) > 0) continue;
 }
 
-/* The program around us may ignore ended children, reap them itself, or be interrupted by them. */
+/* The calling program may ignore ended children, collect them itself, or be interrupted by their signals. */
 static void test_signals_and_threads(void **state)
 {
     (void)state;
@@ -324,7 +324,7 @@ static void test_nothing_is_left_behind(void **state)
     expect_refusal(save_text("bad.ply", "ply\nnothing"), "");
     assert_int_equal(open_files(), before);
     assert_int_equal(waitpid(-1, NULL, WNOHANG), -1);
-    /* Without memory the failure is told and nothing leaks (the sanitizer watches). */
+    /* Without memory the failure is reported and nothing leaks (the sanitizer checks that). */
     int failures = 0;
     for (long n = 1; n < 12; ++n) {
         sb_mesh *meshes = NULL;
@@ -363,7 +363,7 @@ int main(void)
         cmocka_unit_test(test_cut_and_garbage),
         cmocka_unit_test(test_degenerate_triangles_are_counted),
         cmocka_unit_test(test_random_damage),
-        cmocka_unit_test(test_names_are_made_fit),
+        cmocka_unit_test(test_invalid_names_are_replaced),
         cmocka_unit_test(test_signals_and_threads),
         cmocka_unit_test(test_nothing_is_left_behind),
     };

@@ -1,4 +1,4 @@
-/* The whole model of small scenes: bodies, names, the inside test, no memory. */
+/* Tests whole models of small scenes: bodies, names, the inside test, and failing allocations. */
 #include "small_model.h"
 
 static void bodies_and_their_particles(void **state)
@@ -26,7 +26,8 @@ static void bodies_and_their_particles(void **state)
     assert_int_equal(b[1].begin, b[0].count);
     assert_int_equal(b[2].begin, b[1].begin + b[1].count);
     assert_int_equal(b[2].begin + b[2].count, model.wall_count);
-    /* Floor with its rim, but for four below the block, and four walls of ten rows, from half a spacing behind. */
+    /* The floor with its rim, except four particles below the block, and four walls of ten rows, from half a spacing
+       behind the surface on. */
     assert_int_equal(b[2].count, 22 * 14 - 4 + 10 * 2 * (22 + 14 - 2));
     for (size_t i = b[2].begin; i < model.wall_count; ++i) {
         sb_vec3 p = model.wall_position[i];
@@ -64,7 +65,7 @@ static void a_wavemaker_needs_its_body(void **state)
     assert_non_null(strstr(error.text, "nobody"));
 }
 
-/* A wave maker of a part's own goes before that of the whole, in whatever order they stand. */
+/* A wave maker of a part has precedence over that of the whole body, in any order. */
 static void parts_may_have_wavemakers_of_their_own(void **state)
 {
     (void)state;
@@ -99,8 +100,8 @@ static void parts_may_have_wavemakers_of_their_own(void **state)
     remove(path);
 }
 
-/* Places that are no numbers any more after all turns and scales. */
-static void bodies_of_no_place_are_refused(void **state)
+/* Coordinates that are not finite after rotation and scaling. */
+static void bodies_without_finite_coordinates_are_refused(void **state)
 {
     (void)state;
     char path[] = SB_BINARY_DIR "/test_model_nowhere.xyz";
@@ -123,9 +124,9 @@ static void bodies_of_no_place_are_refused(void **state)
     remove(path);
 }
 
-/* A paddle whose face lies in the plane of the tank's end has all its particles, and so has the tank; that both bear
-   the water is told. */
-static void a_moving_face_in_a_walls_plane_is_there(void **state)
+/* A paddle whose face lies in the plane of the tank's end has all its particles, and so has the tank. A warning says
+   that both carry the load of the water. */
+static void a_moving_face_in_a_walls_plane_is_sampled(void **state)
 {
     (void)state;
     static const double fronts[] = {0, 0.5, 2}; /* m; the support radius is 1 */
@@ -182,7 +183,7 @@ static void points_inside_are_found(void **state)
     assert_int_equal(sb_model_first_inside(&model, at, n, origin, NULL, 0.1, &report, &error), SB_OK);
     assert_int_equal(report.count, 0);
     assert_true(report.first == SIZE_MAX && report.body == SIZE_MAX);
-    /* Two into the block, one of them by less than the tolerance. */
+    /* Two points inside the block, one of them by less than the tolerance. */
     const float deep[3] = {9, 2, 0}, shallow[3] = {8.05F, 2, 0};
     memcpy(at + 3 * 17, shallow, sizeof shallow);
     memcpy(at + 3 * 40, deep, sizeof deep);
@@ -191,15 +192,15 @@ static void points_inside_are_found(void **state)
     assert_int_equal(report.first, 40);
     assert_int_equal(report.body, 0);
     assert_true(fabs(report.depth - 1) < 1e-5);
-    /* The block moved 1.5 m ahead holds other points. */
+    /* The block moved by 1.5 m contains other points. */
     sb_vec3 moved[2] = {{1.5, 0, 0}, {0, 0, 0}};
     assert_int_equal(sb_model_first_inside(&model, at, n, origin, moved, 0.1, &report, &error), SB_OK);
     assert_int_equal(report.count, 3 * 4 * 6);
     sb_free(at);
 }
 
-/* A sheet has a front and a back, and neither beyond its rim. */
-static void beside_a_sheet_is_not_within(void **state)
+/* An open surface has a front and a back. A point beyond its border is neither. */
+static void a_point_beside_an_open_surface_is_not_inside(void **state)
 {
     (void)state;
     sb_body *slope = add_box("slope", sb_vec(0, 0, 0), sb_vec(0, 0, 0));
@@ -209,7 +210,8 @@ static void beside_a_sheet_is_not_within(void **state)
     slope->width = 2;
     slope->length = 2;
     build();
-    /* Behind its middle, behind near an edge, before it; then beyond an edge and a corner, each a metre on. */
+    /* Points behind its middle, behind near an edge, and in front of it; then beyond an edge and a corner, each a
+       metre away. */
     static const struct {
         float at[3];
         size_t within;
@@ -223,25 +225,25 @@ static void beside_a_sheet_is_not_within(void **state)
     }
 }
 
-static void a_start_is_forgotten_unless_it_moves(void **state)
+static void the_start_is_freed_except_nonzero_velocities(void **state)
 {
     (void)state;
     build();
     const size_t n = model.fluid_count;
     assert_non_null(model.fluid_velocity);
     model.fluid_velocity[n - 1].x = -1e-3;
-    sb_model_forget_start(&model);
+    sb_model_free_start(&model);
     assert_null(model.fluid_position);
     assert_null(model.fluid_pressure);
     assert_non_null(model.fluid_velocity);
     model.fluid_velocity[n - 1].x = 0;
-    sb_model_forget_start(&model);
+    sb_model_free_start(&model);
     assert_null(model.fluid_velocity);
-    sb_model_forget_start(&model);
+    sb_model_free_start(&model);
     assert_int_equal(model.fluid_count, n);
     const size_t walls = model.wall_count;
     assert_non_null(model.wall_position);
-    sb_model_forget_particles(&model);
+    sb_model_free_particles(&model);
     assert_null(model.wall_position);
     assert_null(model.wall_normal);
     assert_int_equal(model.wall_count, walls);
@@ -254,14 +256,14 @@ static void two_dimensions_have_no_side_walls(void **state)
     scene.resolution = 0.1;
     sb_body *block = add_box("block", sb_vec(5, -1, 0), sb_vec(7, 1, 1));
     build();
-    /* Its sides and top; below it are floor and block no more than where its sides end. */
+    /* The block's sides and top. Below it, the floor and the block have no particles except where its sides end. */
     assert_int_equal(model.bodies[0].count, 2 * 10 + 18);
     size_t count = model.bodies[1].count;
     assert_int_equal(count, 102 - 18 + 2 * 50);
     for (size_t i = 0; i < model.wall_count; ++i)
         for (size_t j = i + 1; j < model.wall_count; ++j)
             assert_true(sb_norm(sb_sub(model.wall_position[i], model.wall_position[j])) > 0.07);
-    /* A turned block, measured along its outline half a spacing within. */
+    /* A rotated block, measured along its outline half a spacing inside. */
     block->rotate = sb_vec(0, 30, 0);
     block->translate = sb_vec(0, 0, 4);
     build();
@@ -297,7 +299,7 @@ static void no_memory_is_an_error(void **state)
         sb_status status = sb_model_build(&scene, &made, &error);
         sb_memory_fail_at(0);
         if (status == SB_OK) {
-            /* The n-th allocation may be one that can be done without: a mesh's diagnosis. */
+            /* The n-th allocation may be dispensable: that of a mesh's diagnosis. */
             assert_int_equal(made.wall_count, walls);
             assert_int_equal(made.fluid_count, water);
             bool complete = made.warning_count == model.warning_count;
@@ -319,12 +321,12 @@ int main(void)
         CASE(names_are_unique),
         CASE(a_wavemaker_needs_its_body),
         CASE(parts_may_have_wavemakers_of_their_own),
-        CASE(bodies_of_no_place_are_refused),
+        CASE(bodies_without_finite_coordinates_are_refused),
         CASE(open_sides_have_no_wall),
-        CASE(a_moving_face_in_a_walls_plane_is_there),
+        CASE(a_moving_face_in_a_walls_plane_is_sampled),
         CASE(points_inside_are_found),
-        CASE(beside_a_sheet_is_not_within),
-        CASE(a_start_is_forgotten_unless_it_moves),
+        CASE(a_point_beside_an_open_surface_is_not_inside),
+        CASE(the_start_is_freed_except_nonzero_velocities),
         CASE(two_dimensions_have_no_side_walls),
         CASE(no_memory_is_an_error),
     };

@@ -1,9 +1,7 @@
-/* What a model is told of before it runs, and what is refused: too coarse, too thin, not as its writer will have meant
- * it. */
+/* Tests the warnings and refusals of a model: too coarse, too thin, or probably not as intended. */
 #include "small_model.h"
 
-/* A mesh file in metres, z up, as a body. */
-static void warnings_say_what_is_too_coarse(void **state)
+static void too_coarse_scenes_give_warnings(void **state)
 {
     (void)state;
     build();
@@ -18,11 +16,11 @@ static void warnings_say_what_is_too_coarse(void **state)
     assert_true(warned("\"plate\"", "about 0.4"));
     assert_false(warned("\"block\"", "thick"));
     assert_true(warned("\"far\"", "no surface"));
-    assert_true(warned("1.5 m deep", "3 particles"));
-    assert_true(warned("initial wave", "0.6 particles"));
+    assert_true(warned("1.5 m deep", "3 particle spacings"));
+    assert_true(warned("initial wave", "0.6 particle spacings"));
     scene.sea.present = false;
     build();
-    assert_true(warned("nothing is wet", ""));
+    assert_true(warned("the scene has no water", ""));
     scene.numerics.time_step_rule = SB_TIME_STEP_DEPTH;
     scene.numerics.time_step_factor = 0.3;
     build();
@@ -37,7 +35,7 @@ static void warnings_say_what_is_too_coarse(void **state)
     assert_non_null(strstr(error.text, "expected 0.6"));
 }
 
-static void waves_are_held_against_the_water_there(void **state)
+static void depths_of_waves_are_compared_with_the_water(void **state)
 {
     (void)state;
     /* The sea is 3 m deep below a lid at 5 m. */
@@ -79,12 +77,12 @@ static void waves_are_held_against_the_water_there(void **state)
     assert_true(warned("\"push\" moves", "units"));
 }
 
-static void strokes_into_other_bodies_are_told(void **state)
+static void strokes_into_other_bodies_are_reported(void **state)
 {
     (void)state;
     static const struct {
         double back, stroke,
-            wall; /* m: the paddle's rear face, its way, and the face of a block before its front at 3 m */
+            wall; /* m: the paddle's rear face, its stroke, and the face of a block in front of its front at 3 m */
         const char *expected;
     } cases[] = {{1, 1.5, 5, NULL},
                  {1, 4, 5, "runs into \"block\""},
@@ -108,7 +106,7 @@ static void strokes_into_other_bodies_are_told(void **state)
         assert_int_equal(warned("\"paddle\"", "runs into"), cases[k].expected != NULL);
         if (cases[k].expected) assert_true(warned("\"paddle\"", cases[k].expected));
     }
-    /* A run that ends before the stroke gets there. */
+    /* A run that ends before the stroke reaches the block. */
     wavemaker.direction.x = 1;
     wavemaker.law.stroke = 9;
     scene.duration = 1;
@@ -116,7 +114,7 @@ static void strokes_into_other_bodies_are_told(void **state)
     assert_false(warned("\"paddle\"", "runs into"));
 }
 
-static void boxes_that_get_no_water_of_their_own_are_told(void **state)
+static void boxes_without_water_of_their_own_are_reported(void **state)
 {
     (void)state;
     sb_fluid_box box = {.min = {4, 1, 0}, .max = {6, 3, 2}, .level = 2, .velocity = {1, 0, 0}};
@@ -132,7 +130,7 @@ static void boxes_that_get_no_water_of_their_own_are_told(void **state)
     assert_true(warned("water.boxes[0]", "no room"));
 }
 
-static void faces_without_area_are_told(void **state)
+static void faces_without_area_are_reported(void **state)
 {
     (void)state;
     char path[] = "/tmp/shorebreak-model-XXXXXX.obj";
@@ -146,13 +144,13 @@ static void faces_without_area_are_told(void **state)
     unlink(path);
 }
 
-/* A plant has dozens of them: one line, the thinnest first. */
+/* A plant has dozens of thin bodies. They share one warning, the thinnest first. */
 static void thin_bodies_share_a_line(void **state)
 {
     (void)state;
     add_box("wall", sb_vec(3, 1, 0), sb_vec(3.6, 5, 4));
     build();
-    assert_true(warned("body \"wall\" is about 0.6", "pushes water on the other"));
+    assert_true(warned("body \"wall\" is about 0.6", "exerts forces on water on the other side"));
     assert_false(warned("likewise", ""));
     add_box("plate", sb_vec(5, 1, 0), sb_vec(5.4, 5, 4));
     add_box("hall", sb_vec(7, 1, 0), sb_vec(7.8, 5, 4));
@@ -161,7 +159,7 @@ static void thin_bodies_share_a_line(void **state)
     assert_true(warned("body \"plate\" is about 0.4", "; likewise \"wall\" 0.61 m, \"hall\" 0.8"));
 }
 
-static void thin_bodies_beyond_a_line_are_counted(void **state)
+static void thin_bodies_that_are_not_named_are_counted(void **state)
 {
     (void)state;
     const int count = sizeof bodies / sizeof *bodies;
@@ -180,7 +178,7 @@ static void thin_bodies_beyond_a_line_are_counted(void **state)
     assert_int_equal(named + more, count);
 }
 
-/* The scene has one body more: it is refused by name, with its thickness. */
+/* Expects that the model with the body added last is refused with its name and thickness, and removes that body. */
 static void check_leaks(const char *name, const char *thickness)
 {
     sb_model_free(&model);
@@ -217,7 +215,7 @@ static void plates_that_hold_are_not_refused(void **state)
     build();
     assert_true(warned("\"half\"", "thick"));
     bodies[0].max.x = 5.24;
-    /* A pavement, a lining of the wall, a plate out of the domain: water comes to one side at most. */
+    /* A pavement, a lining of the wall, and a plate outside of the domain: water can be on one side at most. */
     add_box("ground", sb_vec(4, 0, -1), sb_vec(9, 6, 1));
     bodies[0].min = sb_vec(4, 1, 0.9);
     bodies[0].max = sb_vec(9, 5, 1.1);
@@ -230,7 +228,7 @@ static void plates_that_hold_are_not_refused(void **state)
     build();
 }
 
-/* Water goes around them. */
+/* Water flows around slender columns. */
 static void slender_columns_are_not_refused(void **state)
 {
     (void)state;
@@ -245,8 +243,8 @@ static void slender_columns_are_not_refused(void **state)
     assert_true(warned("\"pole\"", "thick"));
 }
 
-/* A body is more than its fins. */
-static void thin_parts_are_only_warned_of(void **state)
+/* The fins are a small part of the body. */
+static void thin_parts_give_a_warning_only(void **state)
 {
     (void)state;
     char path[] = SB_BINARY_DIR "/test_model_fin.obj";
@@ -269,7 +267,8 @@ static void thin_parts_are_only_warned_of(void **state)
     remove(path);
 }
 
-/* A box of 2 m by 2 m by 4 m in a file, from x on, its part named; the body has it at (5, 2, 0). */
+/* Adds a box of 2 m by 2 m by 4 m from a file in which it begins at x and its part has the given name. The body has
+   it at (5, 2, 0). */
 static sb_body *add_file_box(char *path, const char *part, double x)
 {
     static const int faces[6][4] = {{4, 3, 2, 1}, {5, 6, 7, 8}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 4, 8, 7}, {4, 1, 5, 8}};
@@ -285,8 +284,8 @@ static sb_body *add_file_box(char *path, const char *part, double x)
     return body;
 }
 
-/* Importers keep a file's numbers in single precision: 0.03 m at 500 km, 0.25 m at 4150 km. */
-static void meshes_far_from_zero_are_told_or_refused(void **state)
+/* Importers store coordinates in single precision, which rounds by 0.03 m at 500 km and 0.25 m at 4150 km. */
+static void meshes_far_from_zero_are_reported_or_refused(void **state)
 {
     (void)state;
     static char path[] = SB_BINARY_DIR "/test_model_far.obj";
@@ -298,7 +297,7 @@ static void meshes_far_from_zero_are_told_or_refused(void **state)
         sb_status status = sb_model_build(&scene, &model, &error);
         assert_int_equal(status, k == 3 ? SB_BAD_INPUT : SB_OK);
         if (k == 3)
-            assert_non_null(strstr(error.text, "test_model_far.obj: its places are so far from 0"));
+            assert_non_null(strstr(error.text, "test_model_far.obj: its coordinates are so far from 0"));
         else
             assert_int_equal(warned("\"house\"", "so far from 0"), k == 2);
     }
@@ -316,11 +315,11 @@ static void parts_named_as_other_bodies_are_refused(void **state)
         sb_model_free(&model);
         assert_int_equal(sb_model_build(&scene, &model, &error), same ? SB_BAD_INPUT : SB_OK);
     }
-    assert_non_null(strstr(error.text, "has a part named \"pillar\", and so is another body"));
+    assert_non_null(strstr(error.text, "has a part named \"pillar\", which is also the name of another body"));
     remove(path);
 }
 
-static void holes_in_a_mesh_are_named(void **state)
+static void holes_in_a_mesh_are_reported(void **state)
 {
     (void)state;
     char path[] = SB_BINARY_DIR "/test_model_open.obj";
@@ -344,20 +343,20 @@ static void holes_in_a_mesh_are_named(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        CASE(warnings_say_what_is_too_coarse),
-        CASE(faces_without_area_are_told),
-        CASE(waves_are_held_against_the_water_there),
-        CASE(strokes_into_other_bodies_are_told),
-        CASE(boxes_that_get_no_water_of_their_own_are_told),
+        CASE(too_coarse_scenes_give_warnings),
+        CASE(faces_without_area_are_reported),
+        CASE(depths_of_waves_are_compared_with_the_water),
+        CASE(strokes_into_other_bodies_are_reported),
+        CASE(boxes_without_water_of_their_own_are_reported),
         CASE(thin_bodies_share_a_line),
-        CASE(thin_bodies_beyond_a_line_are_counted),
-        CASE(meshes_far_from_zero_are_told_or_refused),
+        CASE(thin_bodies_that_are_not_named_are_counted),
+        CASE(meshes_far_from_zero_are_reported_or_refused),
         CASE(parts_named_as_other_bodies_are_refused),
-        CASE(holes_in_a_mesh_are_named),
+        CASE(holes_in_a_mesh_are_reported),
         CASE(plates_that_water_passes_are_refused),
         CASE(plates_that_hold_are_not_refused),
         CASE(slender_columns_are_not_refused),
-        CASE(thin_parts_are_only_warned_of),
+        CASE(thin_parts_give_a_warning_only),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

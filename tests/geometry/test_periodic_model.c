@@ -1,5 +1,4 @@
-/* Models with periodic sides: no walls there, water and boundary particles that go on across them.
- */
+/* Tests models with periodic sides: there are no walls there, and water and boundary particles continue across them. */
 #include "../check.h"
 #include "geometry/model.h"
 
@@ -63,7 +62,7 @@ static size_t warnings_of(const char *text)
     return count;
 }
 
-/* Least distance of two points, images in y included. */
+/* Smallest distance of two points, including images in y. */
 static double closest(const sb_vec3 *point, size_t count, double width)
 {
     double best = HUGE_VAL;
@@ -77,7 +76,7 @@ static double closest(const sb_vec3 *point, size_t count, double width)
     return best;
 }
 
-/* In rows of one step from side to side. */
+/* Checks that points lie in rows with one step from side to side. */
 static void check_rows(const sb_vec3 *point, size_t count, double step)
 {
     for (size_t i = 0; i < count; ++i) {
@@ -99,7 +98,7 @@ static void a_flume_has_rows_across(void **state)
         check_rows(model.wall_position, model.wall_count, step);
         check_rows(model.fluid_position, model.fluid_count, step);
         for (size_t b = 0; b < model.wall_count; ++b) assert_near(model.wall_normal[b].y, 0, 1e-9);
-        /* Floor with its rims, and two walls of 16 rows. */
+        /* The floor with its rims, and two walls of 16 rows. */
         assert_int_equal(model.wall_count, (size_t)rows * (42 + 2 * 16));
         assert_near((double)model.fluid_count * 0.125, 20 * widths[w] * 4, 0.5);
         assert_true(closest(model.wall_position, model.wall_count, widths[w]) > 0.7 * 0.5);
@@ -108,8 +107,8 @@ static void a_flume_has_rows_across(void **state)
     }
 }
 
-/* Boundary particles in lattices: not those between the sill and the floor below; of the sill's top
-   alone where the offset is no half, for lattices do not meet at edges then. */
+/* Counts the boundary particles on lattices, without those between the sill and the floor below it. If the offset is
+   not a half, lattices do not meet at edges, and only those of the sill's top are counted. */
 static size_t regular(sb_vec3 *point)
 {
     size_t count = 0;
@@ -124,8 +123,8 @@ static size_t regular(sb_vec3 *point)
     return count;
 }
 
-/* A sill across the flume is the same whether it ends at the sides or goes on beyond them. */
-static void a_sill_goes_on(void **state)
+/* A sill across the flume gives the same particles whether it ends at the sides or continues beyond them. */
+static void a_sill_continues_across_sides(void **state)
 {
     (void)state;
     static sb_vec3 point[2][4000];
@@ -153,8 +152,8 @@ static void a_sill_goes_on(void **state)
     }
 }
 
-/* In two dimensions, along x: a bed from side to side is one row, with nothing at its ends. */
-static void a_flat_bed_goes_on(void **state)
+/* In 2D along x: a bed from side to side is one row, with no particles at its ends. */
+static void a_flat_bed_continues_across_sides(void **state)
 {
     (void)state;
     set_up(2);
@@ -181,7 +180,7 @@ static void a_sea_is_filled_across_sides(void **state)
 {
     (void)state;
     set_up(6);
-    /* The seed's part and the other one meet across the sides only. */
+    /* The part with the seed and the other part are connected across the sides only. */
     add_box("dike", sb_vec(0, 2, 0), sb_vec(20, 2.5, 8));
     scene.sea.seed = sb_vec(3, 1, 3);
     build();
@@ -191,13 +190,13 @@ static void a_sea_is_filled_across_sides(void **state)
     assert_near((double)model.fluid_count * 0.125, 20 * 2 * 4, 1);
 }
 
-static void what_does_not_go_on_is_told(void **state)
+static void solids_that_do_not_continue_are_reported(void **state)
 {
     (void)state;
     set_up(4);
     add_box("pillar", sb_vec(10, 3, -1), sb_vec(11, 5, 9));
     build();
-    assert_int_equal(warnings_of("solids do not go on across the periodic sides in y"), 1);
+    assert_int_equal(warnings_of("solids do not continue across the periodic sides in y"), 1);
     assert_int_equal(warnings_of("at 32 of 640 places, the first near (10.25, 3.99"), 1);
     for (size_t b = 0; b < model.wall_count; ++b)
         assert_true(model.wall_position[b].y >= 0 && model.wall_position[b].y < 4);
@@ -210,10 +209,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(a_flume_has_rows_across, tear_down),
-        cmocka_unit_test_teardown(a_sill_goes_on, tear_down),
-        cmocka_unit_test_teardown(a_flat_bed_goes_on, tear_down),
+        cmocka_unit_test_teardown(a_sill_continues_across_sides, tear_down),
+        cmocka_unit_test_teardown(a_flat_bed_continues_across_sides, tear_down),
         cmocka_unit_test_teardown(a_sea_is_filled_across_sides, tear_down),
-        cmocka_unit_test_teardown(what_does_not_go_on_is_told, tear_down),
+        cmocka_unit_test_teardown(solids_that_do_not_continue_are_reported, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

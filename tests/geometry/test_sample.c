@@ -1,5 +1,4 @@
-/* The distance rules of boundary particles, measured on shapes with edges, curves, seams and
- * plates. */
+/* Tests the distance rules of boundary particles on shapes with edges, curves, seams and plates. */
 #include "test_sample.h"
 
 #include <omp.h>
@@ -21,7 +20,7 @@ static void box(size_t k, sb_vec3 min, sb_vec3 max)
     s.count = k + 1;
 }
 
-/* Checks the rules on the surface itself and half a spacing behind it; at most `density`. */
+/* Checks the rules on the surface itself and half a spacing behind it. The density may be at most `density`. */
 static void check_both(const char *name, double density)
 {
     test_sample(&s, 0);
@@ -36,7 +35,7 @@ static void box_keeps_the_lattice(void **state)
     (void)state;
     box(0, sb_vec(0, 0, 0), sb_vec(10, 8, 6));
     check_both("box", 1.06);
-    /* 10 x 8 x 6 cells, half a spacing behind: the shell of the lattice and nothing else. */
+    /* 10 x 8 x 6 cells, half a spacing behind the surface: exactly the shell of the lattice. */
     assert_int_equal(s.samples.count, 10 * 8 * 6 - 8 * 6 * 4);
     for (size_t i = 0; i < s.samples.count; ++i) {
         sb_vec3 p = s.samples.position[i];
@@ -45,14 +44,14 @@ static void box_keeps_the_lattice(void **state)
     }
 }
 
-/* Distances below a box's six faces, by axis: how many are near, and the sum of their normals. */
-static int faces_near(sb_vec3 at, sb_vec3 min, sb_vec3 max, double reach, sb_vec3 *sum)
+/* Counts the faces of a box that are near to a point below them, and sums their normals. */
+static int faces_near(sb_vec3 at, sb_vec3 min, sb_vec3 max, double limit, sb_vec3 *sum)
 {
     const double below[] = {at.x - min.x, max.x - at.x, at.y - min.y, max.y - at.y, at.z - min.z, max.z - at.z};
     double normal[3] = {0};
     int near = 0;
     for (int f = 0; f < 6; ++f) {
-        if (below[f] > reach) continue;
+        if (below[f] > limit) continue;
         normal[f / 2] += f % 2 ? 1 : -1;
         near++;
     }
@@ -60,9 +59,9 @@ static int faces_near(sb_vec3 at, sb_vec3 min, sb_vec3 max, double reach, sb_vec
     return near;
 }
 
-/* Whichever face was sampled first, an edge's particles look away from both, so that a box seen in a mirror is the same
-   to the water. */
-static void edges_look_away_from_both_faces(void **state)
+/* The normal of a particle at an edge is the mean of both faces', whichever face was sampled first. A box and its
+   mirror image thus act alike on the water. */
+static void normals_at_edges_are_the_mean_of_both_faces(void **state)
 {
     (void)state;
     const sb_vec3 min = sb_vec(0.3, 0.2, 0.1), max = sb_vec(8, 7.4, 6.6);
@@ -92,7 +91,7 @@ static int compare_places(const void *left, const void *right)
     return 0;
 }
 
-/* The particles of the second box, in an order of their own. */
+/* Collects the particles of the second box and sorts them. */
 static size_t places_of_column(sb_vec3 *at, size_t most)
 {
     const size_t begin = s.samples.begin[1], count = s.samples.count - begin;
@@ -102,7 +101,7 @@ static size_t places_of_column(sb_vec3 *at, size_t most)
     return count;
 }
 
-/* Off the world's lattice, whichever face was sampled first: where two faces meet they share a row. */
+/* Off the global lattice, and whichever face was sampled first: where two faces meet they share a row. */
 static void the_order_of_faces_changes_nothing(void **state)
 {
     (void)state;
@@ -171,7 +170,7 @@ static void basins_close_their_corners(void **state)
     s.count = 1;
     assert_int_equal(sb_mesh_basin(sb_vec(0, 0, 0), sb_vec(12, 8, 6), &s.mesh[0], &error), SB_OK);
     check_both("basin", 1.1);
-    /* Floor with its rim, and four walls of six rows. */
+    /* The floor with its rim, and four walls of six rows. */
     assert_int_equal(s.samples.count, 14 * 10 + 6 * 2 * (14 + 10 - 2));
     test_surfaces_free(&s);
     s.count = 1;
@@ -180,7 +179,7 @@ static void basins_close_their_corners(void **state)
     check_both("turned basin", 1.3);
 }
 
-static void plates_become_one_sheet(void **state)
+static void plates_get_one_layer(void **state)
 {
     (void)state;
     box(0, sb_vec(0, 0, 0), sb_vec(1, 10, 8));
@@ -223,7 +222,7 @@ static void bodies_share_their_seams(void **state)
     check_both("overlapping boxes", 1.3);
 }
 
-static void nothing_where_no_water_comes(void **state)
+static void no_particles_where_no_water_comes(void **state)
 {
     (void)state;
     box(0, sb_vec(0, 0, 0), sb_vec(20, 20, 20));
@@ -231,7 +230,7 @@ static void nothing_where_no_water_comes(void **state)
     test_sample(&s, 0.5);
     assert_int_equal(s.samples.begin[1], s.samples.count);
     test_surfaces_free(&s);
-    /* The same box inside, but moving: what moves may come out. */
+    /* The same box inside, but moving: a moving body may come out. */
     box(0, sb_vec(0, 0, 0), sb_vec(20, 20, 20));
     box(1, sb_vec(6, 6, 6), sb_vec(12, 12, 12));
     s.moving[1] = true;
@@ -239,9 +238,10 @@ static void nothing_where_no_water_comes(void **state)
     assert_int_equal(s.samples.count - s.samples.begin[1], 6 * 6 * 6 - 4 * 4 * 4);
 }
 
-/* Ground and what stands on it, in it, and flush with it: as where a single solid ends, no particle lies farther from
-   all water than the sheet's corner and a quarter of a spacing, and no place of the corner is bare. */
-static void nothing_below_what_stands(void **state)
+/* Ground with solids that stand on it, in it, and flush with it. As at the end of a single solid, no particle lies
+   farther from all water than the boundary surface's corner and a quarter of a spacing, and no part of the corner is
+   without particles. */
+static void no_particles_below_standing_solids(void **state)
 {
     (void)state;
     for (int deep = 0; deep <= 2; ++deep) {
@@ -249,11 +249,12 @@ static void nothing_below_what_stands(void **state)
         box(1, sb_vec(6.2, 7.1, deep == 2 ? -4.3 : -0.4 * deep), sb_vec(13.4, 12.9, 5));
         test_sample(&s, 0.6);
         test_check(&s, "a building on its ground");
-        const double reach = sb_norm(sb_vec(0.6, 0.6 + 0.25 + 0.2, 0)); /* the last: so that chance finds the water */
+        /* 0.2 more than the rule, because a random search finds the water only approximately. */
+        const double limit = sb_norm(sb_vec(0.6, 0.6 + 0.25 + 0.2, 0));
         for (size_t i = 0; i < s.samples.count; ++i) {
             bool near = false;
             for (uint64_t n = 0; n < 4000 && !near; ++n) {
-                const sb_vec3 at = sb_madd(s.samples.position[i], reach, sb_normalize(test_random(5, n)));
+                const sb_vec3 at = sb_madd(s.samples.position[i], limit, sb_normalize(test_random(5, n)));
                 near = !sb_solid_contains(s.solid[0], at) && !sb_solid_contains(s.solid[1], at);
             }
             assert_true(near);
@@ -262,7 +263,7 @@ static void nothing_below_what_stands(void **state)
     }
 }
 
-/* Takes the faces that look down away, as scanned buildings have none. */
+/* Removes the faces that face downwards, which scanned buildings do not have. */
 static void open_below(sb_mesh *mesh)
 {
     size_t kept = 0;
@@ -275,9 +276,9 @@ static void open_below(sb_mesh *mesh)
     mesh->triangle_count = kept;
 }
 
-/* A face on the ground meets no water: it neither takes particles nor lets the sheet of the walls go on to their own
-   edges above it. So nothing changes when it is taken away. */
-static void faces_on_the_ground_do_nothing(void **state)
+/* A face on the ground has no contact with water. It gets no particles, and does not affect those of the walls that
+   end at it. So nothing changes if it is removed. */
+static void faces_on_the_ground_change_nothing(void **state)
 {
     (void)state;
     const double offset = 0.75;
@@ -317,7 +318,7 @@ static void moving_bodies_are_sampled_alone(void **state)
     box(0, sb_vec(5.3, 0, 0), sb_vec(9.3, 8, 6));
     test_sample(&s, 0.5);
     assert_int_equal(s.samples.count, alone);
-    /* Faces that touch at the start part later: both have all their particles. */
+    /* Faces that touch at the start separate later: both have all their particles. */
     test_surfaces_free(&s);
     box(0, sb_vec(5, 0, 0), sb_vec(9, 8, 6));
     test_sample(&s, 0);
@@ -334,7 +335,7 @@ static void moving_bodies_are_sampled_alone(void **state)
     assert_true(touching[0] >= 48 && touching[1] >= 48);
 }
 
-static void normals_look_at_the_water(void **state)
+static void normals_point_to_the_water(void **state)
 {
     (void)state;
     s.count = 1;
@@ -344,7 +345,7 @@ static void normals_look_at_the_water(void **state)
         assert_true(fabs(sb_norm(s.samples.normal[i]) - 1) < 1e-9);
         assert_true(sb_dot(s.samples.normal[i], sb_normalize(s.samples.position[i])) > 0.95);
     }
-    /* The same ball with all its faces turned inside out. */
+    /* The same ball with all its faces inside out. */
     size_t count = s.samples.count;
     test_surfaces_free(&s);
     s.count = 1;
@@ -425,19 +426,19 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(box_keeps_the_lattice, tear_down),
-        cmocka_unit_test_teardown(edges_look_away_from_both_faces, tear_down),
+        cmocka_unit_test_teardown(normals_at_edges_are_the_mean_of_both_faces, tear_down),
         cmocka_unit_test_teardown(the_order_of_faces_changes_nothing, tear_down),
         cmocka_unit_test_teardown(boxes_off_the_lattice, tear_down),
         cmocka_unit_test_teardown(round_shapes, tear_down),
         cmocka_unit_test_teardown(basins_close_their_corners, tear_down),
-        cmocka_unit_test_teardown(plates_become_one_sheet, tear_down),
+        cmocka_unit_test_teardown(plates_get_one_layer, tear_down),
         cmocka_unit_test_teardown(terrains, tear_down),
         cmocka_unit_test_teardown(bodies_share_their_seams, tear_down),
-        cmocka_unit_test_teardown(nothing_where_no_water_comes, tear_down),
-        cmocka_unit_test_teardown(nothing_below_what_stands, tear_down),
-        cmocka_unit_test_teardown(faces_on_the_ground_do_nothing, tear_down),
+        cmocka_unit_test_teardown(no_particles_where_no_water_comes, tear_down),
+        cmocka_unit_test_teardown(no_particles_below_standing_solids, tear_down),
+        cmocka_unit_test_teardown(faces_on_the_ground_change_nothing, tear_down),
         cmocka_unit_test_teardown(moving_bodies_are_sampled_alone, tear_down),
-        cmocka_unit_test_teardown(normals_look_at_the_water, tear_down),
+        cmocka_unit_test_teardown(normals_point_to_the_water, tear_down),
         cmocka_unit_test_teardown(threads_change_nothing, tear_down),
         cmocka_unit_test_teardown(far_from_the_origin, tear_down),
         cmocka_unit_test_teardown(no_memory_is_an_error, tear_down),

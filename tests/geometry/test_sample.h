@@ -1,4 +1,4 @@
-/* Measures what the sampling promises, by brute force over random points of the sheet. */
+/* Measures the properties of sampled surfaces by brute force over random points of the boundary surface. */
 #ifndef TEST_SAMPLE_H
 #define TEST_SAMPLE_H
 
@@ -29,9 +29,9 @@ typedef struct test_surfaces {
 } test_surfaces;
 
 typedef struct test_rules {
-    double nearest;  /* least distance between two particles */
-    double farthest; /* from a point of the sheet to its nearest particle */
-    double density;  /* particles per area of the sheet, by share of tested points */
+    double nearest;  /* smallest distance between two particles */
+    double farthest; /* largest distance from a point of the boundary surface to its nearest particle */
+    double density;  /* particles per area of the boundary surface, estimated by the fraction of tested points */
     size_t tested;
 } test_rules;
 
@@ -41,7 +41,7 @@ static inline sb_vec3 test_random(uint64_t seed, uint64_t i)
                   2 * sb_random(seed, 3 * i + 2) - 1);
 }
 
-/* Samples at spacing 1 with the domain around all meshes. */
+/* Samples at spacing 1 in a domain around all meshes. */
 static inline void test_sample(test_surfaces *s, double offset)
 {
     sb_error error = {0};
@@ -107,8 +107,8 @@ static inline sb_vec3 test_on_triangle(const sb_mesh *mesh, size_t t, uint64_t i
     return sb_madd(sb_madd(a, u, sb_sub(mesh->vertices[c[1]], a)), v, sb_sub(mesh->vertices[c[2]], a));
 }
 
-/* A place of a surface, its normal towards the water, that another solid covers so far around that no water comes
-   near. */
+/* Whether a point of a surface, with its normal towards the water, is covered by another solid so far around that no
+   water comes near. */
 static inline bool test_buried(const test_surfaces *s, size_t k, sb_vec3 foot, sb_vec3 normal)
 {
     const double ball = s->settings.offset + 0.25;
@@ -120,9 +120,10 @@ static inline bool test_buried(const test_surfaces *s, size_t k, sb_vec3 foot, s
     return false;
 }
 
-/* A random point of the sheet: the place `offset` behind the surface nearest to some point in the
-   solid; false when that is no part of the sheet (nearer to other faces, round an open rim). */
-static inline bool test_sheet_point(const test_surfaces *s, size_t k, size_t t, uint64_t i, sb_vec3 *at)
+/* Finds a random point of the boundary surface: the place `offset` behind the surface nearest to some point inside
+   the solid. Returns false if that is not part of the boundary surface (nearer to other faces, or beyond an open
+   border). */
+static inline bool test_boundary_point(const test_surfaces *s, size_t k, size_t t, uint64_t i, sb_vec3 *at)
 {
     double d = s->settings.offset;
     const sb_vec3 on = test_on_triangle(&s->mesh[k], t, i);
@@ -134,7 +135,7 @@ static inline bool test_sheet_point(const test_surfaces *s, size_t k, size_t t, 
     sb_vec3 margin = sb_vec(0.01, 0.01, 0.01);
     sb_vec3 low = sb_add(s->settings.min, margin), high = sb_sub(s->settings.max, margin);
     bool rim = s->role == SB_ROLE_TERRAIN ? foot.x < low.x || foot.y < low.y || foot.x > high.x || foot.y > high.y
-                                          : s->mesh[k].sheet && foot.z > high.z;
+                                          : s->mesh[k].open_surface && foot.z > high.z;
     if (distance < 0.02 * d || rim || test_buried(s, k, foot, sb_scale(sb_sub(foot, x), 1 / distance))) return false;
     *at = sb_madd(foot, d / distance, sb_sub(x, foot));
     for (size_t j = 0; j < s->count; ++j)
@@ -160,7 +161,7 @@ static inline test_rules test_measure(const test_surfaces *s, size_t points_per_
             owed += test_area(&s->mesh[k], t) * (double)points_per_area;
             for (; owed > 0; owed -= 1, ++i) {
                 sb_vec3 at;
-                if (!test_sheet_point(s, k, t, i, &at)) continue;
+                if (!test_boundary_point(s, k, t, i, &at)) continue;
                 ++rules.tested;
                 rules.farthest = fmax(rules.farthest, sb_sample_set_nearest(&set, at, 3, NULL));
             }
@@ -171,7 +172,7 @@ static inline test_rules test_measure(const test_surfaces *s, size_t points_per_
     return rules;
 }
 
-/* The two rules, and no particle in the water. */
+/* Checks the two distance rules, and that no particle is in the water. */
 static inline test_rules test_check(const test_surfaces *s, const char *name)
 {
     test_rules rules = test_measure(s, 150);
@@ -200,7 +201,7 @@ static inline void test_rotate(sb_mesh *mesh, double about_z, double about_y)
     }
 }
 
-/* A ball of n bands; every ring has 2 n corners. */
+/* Makes a ball of n bands; every ring has 2 n corners. */
 static inline void test_ball(double radius, uint32_t n, sb_mesh *mesh)
 {
     sb_error error;
@@ -220,7 +221,7 @@ static inline void test_ball(double radius, uint32_t n, sb_mesh *mesh)
     mesh->triangle_count = t;
 }
 
-/* A rolling sheet of (length/cell)^2 cells whose steepest slope is about `slope`. */
+/* Makes a hilly surface of (length/cell)^2 cells whose steepest slope is about `slope`. */
 static inline void test_hills(double length, double cell, double slope, double wave, sb_mesh *mesh)
 {
     sb_error error;

@@ -1,4 +1,4 @@
-/* Distance, rays, winding numbers and inside-tests against sums over all triangles. */
+/* Tests distance, rays, winding numbers and inside tests against sums over all triangles. */
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/random.h"
@@ -28,7 +28,7 @@ static sb_vec3 random_point(uint64_t seed, uint64_t index, sb_vec3 min, sb_vec3 
                   min.z + (max.z - min.z) * sb_random(seed, 3 * index + 2));
 }
 
-/* A bumpy ball of 2 * rings * 2 rings triangles around (3, -2, 1), radius about 1. */
+/* Makes an uneven ball of 2 * rings * 2 rings triangles around (3, -2, 1) with a radius of about 1. */
 static void make_ball(uint32_t rings, sb_mesh *mesh)
 {
     uint32_t around = 2 * rings;
@@ -96,8 +96,8 @@ static double exact_winding(const sb_mesh *mesh, sb_vec3 p)
     return sum / (4 * M_PI);
 }
 
-/* Nearest distance by minimising over a triangle the slow way: the plane if it projects inside by
-   barycentric coordinates, else the three edges. */
+/* Computes the smallest distance directly for each triangle: to the plane if the projection is inside by barycentric
+   coordinates, else to the three edges. */
 static double exact_distance(const sb_mesh *mesh, sb_vec3 p)
 {
     double best = HUGE_VAL;
@@ -135,7 +135,7 @@ static void test_winding_is_the_exact_sum(void **state)
         sb_vec3 p = random_point(1, i, sb_vec(1, -4, -1), sb_vec(5, 0, 3));
         double off = fabs(sb_solid_winding(solid, p) - exact_winding(&mesh, p));
         worst = off > worst ? off : worst;
-        /* A hair beside a triangle's centre, on alternating sides. */
+        /* Just beside a triangle's centre, on alternating sides. */
         sb_vec3 v[3];
         corners_of(&mesh, i % mesh.triangle_count, v);
         sb_vec3 center = sb_scale(sb_add(v[0], sb_add(v[1], v[2])), 1.0 / 3);
@@ -223,7 +223,7 @@ static void test_terrain_is_solid_below(void **state)
     sb_solid *solid;
     assert_ok(sb_solid_create(&mesh, SB_ROLE_TERRAIN, &solid, &error));
     for (uint64_t i = 0; i < 4000; ++i) {
-        /* Every other point sits on a grid line or node, where triangles meet. */
+        /* Every other point lies on a grid line or node, where triangles meet. */
         double x = N * sb_random(5, 3 * i), y = N * sb_random(5, 3 * i + 1);
         x = i % 2 ? floor(x) : x;
         y = i % 4 == 1 ? floor(y) : y;
@@ -239,7 +239,7 @@ static void test_terrain_is_solid_below(void **state)
     assert_false(sb_solid_contains(solid, sb_vec(1e6 + 5, -2e6 + N + 0.1, -50)));
     sb_solid_destroy(solid);
     sb_mesh_free(&mesh);
-    /* A closed block as terrain: solid within, and below too. */
+    /* A closed block as terrain: solid inside it, and below it, too. */
     assert_ok(sb_mesh_box(sb_vec(0, 0, -1), sb_vec(4, 4, 2), &mesh, &error));
     assert_ok(sb_solid_create(&mesh, SB_ROLE_TERRAIN, &solid, &error));
     assert_true(sb_solid_contains(solid, sb_vec(2, 2, 1.9)));
@@ -250,7 +250,7 @@ static void test_terrain_is_solid_below(void **state)
     sb_mesh_free(&mesh);
 }
 
-/* Points in line with corners, edges and faces of a closed mesh, where rays meet many triangles. */
+/* Points that are aligned with corners, edges and faces of a closed mesh, where rays hit many triangles. */
 static void test_aligned_points(void **state)
 {
     (void)state;
@@ -299,7 +299,7 @@ static void test_flipped_and_broken_boxes(void **state)
         sb_vec3 p = random_point(6, i, sb_vec(-0.5, -0.5, -0.5), sb_vec(1.5, 1.5, 1.5));
         bool inside = p.x > 0 && p.x < 1 && p.y > 0 && p.y < 1 && p.z > 0 && p.z < 1;
         assert_int_equal(sb_solid_contains(solid[0], p), inside);
-        /* Where the lid is missing, the water may bulge in by up to half the opening. */
+        /* Where the lid is missing, the outside may extend into the box by up to half the opening. */
         if (!inside || p.z < 0.5) assert_int_equal(sb_solid_contains(solid[1], p), inside);
     }
     for (int i = 0; i < 2; ++i) sb_solid_destroy(solid[i]);
@@ -307,7 +307,7 @@ static void test_flipped_and_broken_boxes(void **state)
     sb_mesh_free(&open);
 }
 
-static void test_sheets_are_solid_behind(void **state)
+static void test_open_surfaces_are_solid_behind(void **state)
 {
     (void)state;
     sb_mesh basin, plane, patch;
@@ -324,12 +324,12 @@ static void test_sheets_are_solid_behind(void **state)
         bool behind = p.z - 1 - p.x < 0;
         assert_int_equal(sb_solid_contains(solid[1], p), behind);
     }
-    /* Edges and corners, where the nearest triangle alone would decide wrongly. */
+    /* Edges and corners, where the nearest triangle alone would give a wrong result. */
     assert_true(sb_solid_contains(solid[0], sb_vec(1.1, 2.1, -0.1)));
     assert_true(sb_solid_contains(solid[0], sb_vec(1.3, 2.01, 0.5)));
-    /* An unmarked sheet that faces one way is known by that. */
+    /* A surface that is not marked as open is recognised if its triangles face one way. */
     for (size_t i = 0; i < patch.vertex_count; ++i) patch.vertices[i].z *= 0.05;
-    assert_false(patch.sheet);
+    assert_false(patch.open_surface);
     assert_ok(sb_solid_create(&patch, SB_ROLE_SOLID, &solid[2], &error));
     assert_true(sb_solid_contains(solid[2], sb_vec(3, 3, -2)));
     assert_false(sb_solid_contains(solid[2], sb_vec(3, 3, 2)));
@@ -394,7 +394,7 @@ static void test_large_terrain_is_fast(void **state)
         double x = N * sb_random(9, 2 * i), y = N * sb_random(9, 2 * i + 1);
         sum += sb_solid_distance(solid, sb_vec(x, y, hill(x, y) + 4 * sb_random(10, i) - 2), 3, NULL, NULL);
     }
-    double asked = sb_clock();
+    double queried = sb_clock();
     size_t inside = 0;
     for (uint64_t i = 0; i < QUERIES; ++i) {
         double x = N * sb_random(9, 2 * i), y = N * sb_random(9, 2 * i + 1);
@@ -402,7 +402,7 @@ static void test_large_terrain_is_fast(void **state)
     }
     double contained = sb_clock();
     print_message("terrain of %zu triangles: tree %.0f ms, %.0f k distances/s, %.0f k inside/s\n", mesh.triangle_count,
-                  1e3 * (built - begin), QUERIES / (asked - built) / 1e3, QUERIES / (contained - asked) / 1e3);
+                  1e3 * (built - begin), QUERIES / (queried - built) / 1e3, QUERIES / (contained - queried) / 1e3);
     assert_true(sum / QUERIES > 0.5 && sum / QUERIES < 1);
     assert_in_range(inside, QUERIES * 48 / 100, QUERIES * 52 / 100);
     sb_solid_destroy(solid);
@@ -419,7 +419,7 @@ int main(void)
         cmocka_unit_test(test_terrain_is_solid_below),
         cmocka_unit_test(test_aligned_points),
         cmocka_unit_test(test_flipped_and_broken_boxes),
-        cmocka_unit_test(test_sheets_are_solid_behind),
+        cmocka_unit_test(test_open_surfaces_are_solid_behind),
         cmocka_unit_test(test_cylinder_contains),
         cmocka_unit_test(test_bad_meshes_are_refused),
         cmocka_unit_test(test_large_terrain_is_fast),

@@ -1,4 +1,4 @@
-/* STL files as others write them, and clear words about those that are none. */
+/* Tests STL files as other programs write them, and the messages for files that are not STL. */
 #include "base/memory.h"
 #include "geometry/mesh.h"
 #include "mesh_samples.h"
@@ -26,7 +26,7 @@ static void save(const void *bytes, size_t length)
     assert_int_equal(fclose(file), 0);
 }
 
-/* The meshes' names, joined by commas; the first has `triangles`. */
+/* Expects the meshes' names, joined by commas. The first mesh has `triangles` triangles. */
 static void expect_read(const char *names, size_t triangles)
 {
     char found[128] = "";
@@ -62,7 +62,7 @@ static void text_is_read_as_others_read_it(void **state)
 {
     (void)state;
     expect_text("solid Good\n" FACET "endsolid Good\n", "Good", 1);
-    /* Empty solids before, between and behind. */
+    /* Empty solids before, between and after others. */
     expect_text("solid none\nendsolid none\nsolid Good\n" FACET "endsolid Good\n", "Good", 1);
     expect_text("solid\nendsolid\n\nsolid a\n" FACET "endsolid a\nsolid no\nendsolid no\nsolid b\n" FACET OTHER
                 "endsolid b\nsolid\nendsolid\n",
@@ -72,13 +72,13 @@ static void text_is_read_as_others_read_it(void **state)
     expect_text("solid all facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet "
                 "endsolid all",
                 "all", 1);
-    /* Blank lines and a byte-order mark before. */
+    /* Blank lines and a byte-order mark at the start. */
     expect_text("\n\n  solid Good\n" FACET "endsolid Good\n", "Good", 1);
     expect_text("\xef\xbb\xbfsolid Good\n" FACET "endsolid Good\n", "Good", 1);
     expect_text("solid solid\r\n" FACET OTHER "endsolid solid\r\n", "solid", 2);
 }
 
-static void capitals_are_read(void **state)
+static void upper_case_keywords_are_read(void **state)
 {
     (void)state;
     char text[1024];
@@ -135,7 +135,7 @@ int main(void)
     if (file < 0 || close(file) != 0) return 1;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(text_is_read_as_others_read_it),
-        cmocka_unit_test(capitals_are_read),
+        cmocka_unit_test(upper_case_keywords_are_read),
         cmocka_unit_test(binary_is_read_as_others_read_it),
         cmocka_unit_test(the_cause_is_named),
     };

@@ -1,4 +1,4 @@
-/* A signal while a model is built: whatever stage it falls into, the answer is SB_INTERRUPTED and there is no model. */
+/* Tests a signal while a model is built: at any stage the result is SB_INTERRUPTED and there is no model. */
 #include "base/clock.h"
 #include "base/stop.h"
 #include "geometry/model.h"
@@ -37,7 +37,8 @@ static sb_scene make_scene(double resolution)
     return scene;
 }
 
-/* In a process of its own: its exit status says what came of a build told to stop `delay` seconds after it began. */
+/* Builds a model in a process of its own, which is stopped `delay` seconds after the start. The exit status gives
+   the result. */
 static int build_and_stop(const sb_scene *scene, double delay)
 {
     sb_model model = {.spacing = 77};
@@ -58,7 +59,7 @@ static int build_and_stop(const sb_scene *scene, double delay)
     return clean ? SB_INTERRUPTED : 99;
 }
 
-static void any_moment_is_a_clean_end(void **state)
+static void a_stop_at_any_time_is_clean(void **state)
 {
     (void)state;
     const sb_scene scene = make_scene(0.15);
@@ -76,7 +77,7 @@ static void any_moment_is_a_clean_end(void **state)
         if (process == 0) _exit(build_and_stop(&scene, whole * k / MOMENTS));
         assert_int_equal(waitpid(process, &how, 0), process);
         if (!WIFEXITED(how) || (WEXITSTATUS(how) != SB_INTERRUPTED && WEXITSTATUS(how) != SB_OK))
-            fail_msg("told after %d of %d of the time: %s %d", k, MOMENTS, WIFEXITED(how) ? "exit status" : "signal",
+            fail_msg("stopped after %d of %d of the time: %s %d", k, MOMENTS, WIFEXITED(how) ? "exit status" : "signal",
                      WIFEXITED(how) ? WEXITSTATUS(how) : WTERMSIG(how));
         stopped += WEXITSTATUS(how) == SB_INTERRUPTED;
     }
@@ -85,6 +86,6 @@ static void any_moment_is_a_clean_end(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(any_moment_is_a_clean_end)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_stop_at_any_time_is_clean)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

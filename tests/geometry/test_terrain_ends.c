@@ -1,17 +1,18 @@
-/* Terrain that ends within the domain: at a hole, short of a side, between two strips. Whether walls stand at its rim
-   is asked of the boundary particles alone: no way leads past them from the sea to below the domain's floor. */
+/* Tests terrain that ends within the domain: at a hole, before a side, between two strips. Whether there are walls
+   at its border is checked with the boundary particles alone: no path leads past them from the sea to below the
+   domain's floor. */
 #include "small_model.h"
 
 static const double ground = 1.5; /* m: three spacings above the floor */
 
-/* In spacings. Places of a sheet have a particle within 0.75, so a way through one comes as near as that and half a
- * step. */
+/* In spacings. Every point of a boundary surface has a particle within 0.75 spacings, so a path through one comes as
+   near as that plus half a step. */
 enum { STEPS = 4 };
 static const double blocked = 0.9;
 
 static char path[64];
 
-/* Heights on squares of 1 m from (x, y) on, `missing` the number of the node without one. */
+/* Adds a grid with nodes 1 m apart from (x, y) on; `missing` is the number of the node without a height. */
 static sb_body *add_grid(double x, double y, int columns, int rows, double height, int missing)
 {
     snprintf(path, sizeof path, "ends-%d-%zu.asc", (int)getpid(), scene.body_count);
@@ -36,7 +37,7 @@ static void build_once(void)
     remove(path);
 }
 
-/* Lattice of the flood: the domain and two metres below it. */
+/* Lattice of the flood fill: the domain and two metres below it. */
 typedef struct lattice {
     int nx, ny, nz;
     double step;
@@ -59,17 +60,17 @@ static int clamp(double x, int count)
     return x < 0 ? 0 : x > count - 1 ? count - 1 : (int)x;
 }
 
-static void block(const lattice *l, sb_vec3 wall, double reach)
+static void block(const lattice *l, sb_vec3 wall, double radius)
 {
     const sb_vec3 from = sb_scale(sb_sub(wall, place(l, 0, 0, 0)), 1 / l->step);
-    const double r = reach / l->step + 1;
+    const double r = radius / l->step + 1;
     for (int k = clamp(from.z - r, l->nz); k <= clamp(from.z + r, l->nz); k++)
         for (int j = clamp(from.y - r, l->ny); j <= clamp(from.y + r, l->ny); j++)
             for (int i = clamp(from.x - r, l->nx); i <= clamp(from.x + r, l->nx); i++)
-                if (sb_norm(sb_sub(place(l, i, j, k), wall)) < reach) *at(l, i, j, k) = 1;
+                if (sb_norm(sb_sub(place(l, i, j, k), wall)) < radius) *at(l, i, j, k) = 1;
 }
 
-/* Whether a way leads from the sea's seed to below the floor. */
+/* Whether a path leads from the sea's seed to below the floor. */
 static bool leaks(void)
 {
     const double step = scene.resolution / STEPS;
@@ -107,8 +108,8 @@ static bool leaks(void)
     return out;
 }
 
-/* Boundary particles of a body that look along a direction. */
-static size_t looking(const sb_model_body *body, sb_vec3 way)
+/* Counts the boundary particles of a body whose normals point along a direction. */
+static size_t facing(const sb_model_body *body, sb_vec3 way)
 {
     size_t count = 0;
     for (size_t i = body->begin; i < body->begin + body->count; i++) count += sb_dot(model.wall_normal[i], way) > 0.9;
@@ -121,10 +122,10 @@ static void ground_that_reaches_the_sides_has_no_walls(void **state)
     add_grid(-1, -1, 13, 9, ground, -1);
     build_once();
     assert_int_equal(model.bodies[0].mesh.ends, 0);
-    assert_int_equal(looking(model.bodies, sb_vec(1, 0, 0)), 0);
+    assert_int_equal(facing(model.bodies, sb_vec(1, 0, 0)), 0);
     assert_false(warned("ends within the domain", ""));
     assert_false(leaks());
-    scene.body_count = 0; /* and just reaches them */
+    scene.body_count = 0; /* and it just reaches the sides */
     add_grid(0, 0, 11, 7, ground, -1);
     build_once();
     assert_int_equal(model.bodies[0].mesh.ends, 0);
@@ -138,16 +139,16 @@ static void a_hole_has_walls(void **state)
     add_grid(-1, -1, 13, 9, ground, 4 * 13 + 6); /* from the north-west: (5, 3) */
     build_once();
     const sb_model_body *body = model.bodies;
-    assert_int_equal(body->mesh.ends, 4); /* each square around it keeps the half that it does not touch */
+    assert_int_equal(body->mesh.ends, 4); /* each square around it keeps the half that does not touch it */
     assert_true(warned("\"ground\": the ground ends within the domain, at 4 open edges", "no height"));
     assert_true(warned("nodata) at 1 node, the first at (5, 3)", ""));
     const double half = sqrt(0.5);
     for (int way = 0; way < 4; way++)
-        assert_true(looking(body, sb_vec(way & 1 ? half : -half, way & 2 ? half : -half, 0)) > 4);
+        assert_true(facing(body, sb_vec(way & 1 ? half : -half, way & 2 ? half : -half, 0)) > 4);
     assert_false(leaks());
 }
 
-static void ground_that_ends_short_has_a_wall(void **state)
+static void ground_that_ends_before_a_side_has_a_wall(void **state)
 {
     (void)state;
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
@@ -158,15 +159,15 @@ static void ground_that_ends_short_has_a_wall(void **state)
         assert_int_equal(model.bodies[0].mesh.ends, dimensions == 2 ? 1 : 8 - 2);
         assert_true(warned("ends within the domain", dimensions == 2 ? "(7, " : "(7, 0.5, 1.5)"));
         assert_false(warned("no height", ""));
-        assert_true(looking(model.bodies, sb_vec(1, 0, 0)) >= (dimensions == 2 ? 2 : 2 * 12));
-        /* None farther below the floor than where its own particles take over. */
+        assert_true(facing(model.bodies, sb_vec(1, 0, 0)) >= (dimensions == 2 ? 2 : 2 * 12));
+        /* No particle is farther below the floor than where the floor's own particles begin. */
         for (size_t i = 0; i < model.bodies[0].count; i++)
             assert_true(model.wall_position[i].z > scene.domain.min.z - 2 * scene.resolution);
         assert_false(leaks());
     }
 }
 
-static void strips_have_walls_where_nothing_goes_on(void **state)
+static void strips_have_walls_where_no_solid_continues(void **state)
 {
     (void)state;
     scene.sea.seed = sb_vec(2, 1, 2.6);
@@ -182,31 +183,31 @@ static void strips_have_walls_where_nothing_goes_on(void **state)
     build();
     assert_int_equal(model.bodies[0].mesh.ends, 1);
     assert_int_equal(model.bodies[1].mesh.ends, 1);
-    assert_true(looking(model.bodies, sb_vec(0, 1, 0)) > 30);
-    assert_true(looking(model.bodies + 1, sb_vec(0, -1, 0)) > 30);
+    assert_true(facing(model.bodies, sb_vec(0, 1, 0)) > 30);
+    assert_true(facing(model.bodies + 1, sb_vec(0, -1, 0)) > 30);
     assert_false(leaks());
-    bodies[1].center.y = 4; /* the other's ground goes on where the first's ends */
+    bodies[1].center.y = 4; /* the other strip continues where the first ends */
     build();
     assert_int_equal(model.bodies[0].mesh.ends + model.bodies[1].mesh.ends, 0);
     assert_false(warned("ends within the domain", ""));
     assert_false(leaks());
-    scene.body_count = 1; /* a quay that stands there hides the end, too */
+    scene.body_count = 1; /* a quay that stands there closes the end, too */
     sb_body *quay = add_box("quay", sb_vec(-1, 2, -1), sb_vec(11, 4, 2.5));
     quay->role = SB_ROLE_SOLID;
     build();
     assert_int_equal(model.bodies[0].mesh.ends, 0);
     assert_false(leaks());
-    quay->min.z = 1; /* but not one that water gets below */
+    quay->min.z = 1; /* but not a quay that water can flow under */
     build();
     assert_int_equal(model.bodies[0].mesh.ends, 1);
     assert_false(leaks());
 }
 
-static void walls_stop_where_ground_goes_on_below(void **state)
+static void walls_end_where_ground_continues_below(void **state)
 {
     (void)state;
     scene.sea.seed = sb_vec(2, 3, 2.6);
-    add_grid(-1, -1, 9, 9, 2, -1)->name[0] = 'u'; /* to x = 7, and lower ground throughout */
+    add_grid(-1, -1, 9, 9, 2, -1)->name[0] = 'u'; /* to x = 7, with lower ground throughout */
     sb_model_free(&model);
     char upper[64];
     memcpy(upper, path, sizeof upper);
@@ -216,7 +217,7 @@ static void walls_stop_where_ground_goes_on_below(void **state)
     remove(upper);
     assert_int_equal(model.bodies[0].mesh.ends, 6);
     assert_int_equal(model.bodies[1].mesh.ends, 0);
-    assert_true(looking(model.bodies, sb_vec(1, 0, 0)) > 12);
+    assert_true(facing(model.bodies, sb_vec(1, 0, 0)) > 12);
     for (size_t i = 0; i < model.bodies[0].count; i++) assert_true(model.wall_position[i].z > 0);
     assert_false(leaks());
 }
@@ -225,8 +226,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         CASE(ground_that_reaches_the_sides_has_no_walls), CASE(a_hole_has_walls),
-        CASE(ground_that_ends_short_has_a_wall),          CASE(strips_have_walls_where_nothing_goes_on),
-        CASE(walls_stop_where_ground_goes_on_below),
+        CASE(ground_that_ends_before_a_side_has_a_wall),  CASE(strips_have_walls_where_no_solid_continues),
+        CASE(walls_end_where_ground_continues_below),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

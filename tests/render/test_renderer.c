@@ -194,9 +194,9 @@ static void an_open_mesh_is_transparent_from_behind(void **state)
         t[0] = t[1];
         t[1] = first;
     }
-    stage.body.mesh.sheet = true;
+    stage.body.mesh.open_surface = true;
     sb_image tank = picture(&stage, stage.frame);
-    stage.body.mesh.sheet = false;
+    stage.body.mesh.open_surface = false;
     sb_image closed = picture(&stage, stage.frame);
     const unsigned char *in = pixel(&tank, WIDTH / 2, HEIGHT / 2);
     const unsigned char *out = pixel(&closed, WIDTH / 2, HEIGHT / 2);
