@@ -1,4 +1,4 @@
-# What `cmake --install` puts where: programs into bin, the rest below share/shorebreak.
+# Installs the programs into bin and everything else below share/shorebreak.
 include(GNUInstallDirs)
 set(share ${CMAKE_INSTALL_DATADIR}/shorebreak)
 
@@ -7,7 +7,7 @@ foreach(program shorebreak shorebreak-make-plant)
         install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
     endif()
 endforeach()
-# Scenes name their meshes relative to themselves: the two folders stay side by side.
+# Scenes refer to their meshes by relative paths, so the two folders stay next to each other.
 install(DIRECTORY assets/scenes assets/meshes DESTINATION ${share})
 install(DIRECTORY lcmtypes DESTINATION ${share} FILES_MATCHING PATTERN "*.lcm")
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} OPTIONAL FILES_MATCHING PATTERN "*.md"

@@ -1,5 +1,5 @@
-# Writes OUT, a C file with one text: a hash of the sources below ROOT/src that compute, and HOW they are compiled.
-# Run at build time; what is unchanged is not written.
+# Writes OUT, a C file with one text: a hash of the sources below ROOT/src that determine results, and HOW they are
+# compiled. It runs at build time. An unchanged file is not written again.
 cmake_minimum_required(VERSION 3.25)
 set(sources "")
 foreach(folder base/vec.h base/random.h physics geometry sim measure)
