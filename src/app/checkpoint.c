@@ -26,13 +26,13 @@ sb_status sb_checkpoint_settling_path(const run *r, char path[SB_PATH_MAX], sb_e
     return sb_path_join(path, r->checkpoints.folder, SB_CHECKPOINT_SETTLING SB_CHECKPOINT_SUFFIX, error);
 }
 
-bool sb_checkpoint_settling_there(const run *r)
+bool sb_checkpoint_settling_exists(const run *r)
 {
     char path[SB_PATH_MAX];
     return sb_checkpoint_settling_path(r, path, NULL) == SB_OK && access(path, F_OK) == 0;
 }
 
-/* And one that was being written when its run was killed. */
+/* Also removes the temporary file of a run that was killed while it wrote one. */
 static sb_status remove_settling(const run *r, sb_error *error)
 {
     static const char *const names[] = {SB_CHECKPOINT_SETTLING SB_CHECKPOINT_SUFFIX,
@@ -53,7 +53,7 @@ static int newest_first(const void *left, const void *right)
     return (a < b) - (a > b);
 }
 
-/* The step in a checkpoint's name. */
+/* Reads the step from a checkpoint's file name. */
 static bool is_checkpoint(const char *name, uint64_t *step)
 {
     char *end;
@@ -96,7 +96,7 @@ sb_status sb_checkpoint_count(const run *r, size_t *count, sb_error *error)
     return status;
 }
 
-/* Removes those that come after the first `keep` of the list, newest first. */
+/* Removes all checkpoints except the newest `keep`. */
 static sb_status remove_older(const run *r, size_t keep, sb_error *error)
 {
     char path[SB_PATH_MAX];
@@ -112,21 +112,22 @@ static sb_status remove_older(const run *r, size_t keep, sb_error *error)
     return status;
 }
 
-void sb_checkpoint_forget_later(run *r)
+void sb_checkpoint_remove_later(run *r)
 {
     sb_error reason = {0};
-    if (sb_remove_numbered(r->checkpoints.folder, SB_CHECKPOINT_SUFFIX, r->checkpoints.steps_then, &reason) != SB_OK)
+    if (sb_remove_numbered(r->checkpoints.folder, SB_CHECKPOINT_SUFFIX, r->checkpoints.last_step, &reason) != SB_OK)
         sb_run_warn(r, "%s", reason.text);
 }
 
-/* ---- beginning and end ---- */
+/* ---- begin and end ---- */
 
 sb_status sb_checkpoint_begin(run *r, sb_error *error)
 {
-    const sb_checkpoint_settings *wish = &r->scene->output.checkpoint;
+    const sb_checkpoint_settings *settings = &r->scene->output.checkpoint;
     struct stat found;
-    r->checkpoints = (sb_checkpoints){
-        .on = wish->steps > 0 || wish->minutes > 0, .any_build = r->checkpoints.any_build, .written = sb_clock()};
+    r->checkpoints = (sb_checkpoints){.on = settings->steps > 0 || settings->minutes > 0,
+                                      .any_build = r->checkpoints.any_build,
+                                      .written = sb_clock()};
     sb_build_numerics(r->checkpoints.build);
     sb_status status = sb_run_path(r, "checkpoints", r->checkpoints.folder, error);
     if (status == SB_OK && lstat(r->checkpoints.folder, &found) == 0 && S_ISLNK(found.st_mode))
@@ -153,9 +154,9 @@ void sb_checkpoint_end(run *r)
 
 bool sb_checkpoint_due(const run *r, uint64_t step)
 {
-    const sb_checkpoint_settings *wish = &r->scene->output.checkpoint;
-    return (wish->steps > 0 && step % (uint64_t)wish->steps == 0) ||
-           (wish->minutes > 0 && sb_clock() - r->checkpoints.written >= 60 * wish->minutes);
+    const sb_checkpoint_settings *settings = &r->scene->output.checkpoint;
+    return (settings->steps > 0 && step % (uint64_t)settings->steps == 0) ||
+           (settings->minutes > 0 && sb_clock() - r->checkpoints.written >= 60 * settings->minutes);
 }
 
 static void put_origin(const run *r, sb_archive_out *out)
@@ -189,38 +190,39 @@ static void put_run(run *r, const sb_csv_marks *tables, sb_archive_out *out)
     sb_recorder_save(&r->recorder, out);
 }
 
-/* Of a file that a user took away. The next checkpoint does not look for it again. */
-static void tell_gone(run *r, const sb_gone *gone)
+/* Warns once of files that a user removed. The next checkpoint does not look for them again. */
+static void report_gone(run *r, const sb_gone *gone)
 {
     if (gone->count == 1)
-        sb_run_warn(r, "%.500s: is not there any more; the run goes on without it", gone->first);
+        sb_run_warn(r, "%.500s: was removed during the run; the run continues without it", gone->first);
     else if (gone->count > 1)
-        sb_run_warn(r, "%.500s and %" PRIu64 " more: are not there any more; the run goes on without them", gone->first,
-                    gone->count - 1);
+        sb_run_warn(r, "%.500s and %" PRIu64 " more: were removed during the run; the run continues without them",
+                    gone->first, gone->count - 1);
 }
 
-/* What the checkpoint relies on is on disk before it is. */
-static sb_status settle_files(run *r, sb_csv_marks *tables, sb_error *error)
+/* Syncs to disk all files that the checkpoint relies on, before the checkpoint is written. */
+static sb_status sync_files(run *r, sb_csv_marks *tables, sb_error *error)
 {
-    sb_run_keep_log(r);
+    sb_run_ensure_log(r);
     sb_consumer_drain(&r->consumers[RECORDER]);
     sb_consumer_drain(&r->consumers[PICTURES]);
     sb_status status = sb_csv_sync(r->csv, tables, error);
     sb_gone files = {0}, pictures = {0};
     if (status == SB_OK) status = sb_recorder_sync(&r->recorder, &files, error);
-    if (status == SB_OK) tell_gone(r, &files);
+    if (status == SB_OK) report_gone(r, &files);
     if (status == SB_OK) status = sb_pictures_sync(&r->pictures, &pictures, error);
-    if (status == SB_OK) tell_gone(r, &pictures);
-    if (status == SB_OK) (void)sb_file_sync(r->directory); /* names of new files; not every file system can */
+    if (status == SB_OK) report_gone(r, &pictures);
+    if (status == SB_OK) (void)sb_file_sync(r->directory); /* names of new files; not every file system supports this */
     return status == SB_OK ? sb_runlog_sync(r->log, error) : status;
 }
 
-/* Someone may have removed it. The run's own directory is not made anew: there, nothing else is left either. */
-static sb_status keep_folder(run *r, sb_error *error)
+/* Makes the folder again if someone removed it. A run directory that was removed is not made again, because all of the
+   run's other files are lost too. */
+static sb_status ensure_folder(run *r, sb_error *error)
 {
     struct stat found = {0};
     if (mkdir(r->checkpoints.folder, 0777) == 0) {
-        sb_run_warn(r, "%.500s: was removed during the run; it was made again", r->checkpoints.folder);
+        sb_run_warn(r, "%.500s: was removed during the run; it has been made again", r->checkpoints.folder);
         return SB_OK;
     }
     if (errno != EEXIST)
@@ -235,8 +237,8 @@ static sb_status write_now(run *r, char path[SB_PATH_MAX], size_t *bytes, sb_err
 {
     sb_archive_out out = {0};
     sb_csv_marks tables;
-    sb_status status = settle_files(r, &tables, error);
-    if (status == SB_OK) status = keep_folder(r, error);
+    sb_status status = sync_files(r, &tables, error);
+    if (status == SB_OK) status = ensure_folder(r, error);
     if (status == SB_OK) status = sb_checkpoint_path(r, sb_sim_report(r->sim)->step, path, error);
     if (status == SB_OK) status = sb_archive_create(&out, path, SB_CHECKPOINT_KIND, SB_CHECKPOINT_FORMAT, error);
     if (status != SB_OK) return status;
@@ -256,13 +258,13 @@ void sb_checkpoint_write(run *r)
     char path[SB_PATH_MAX];
     size_t bytes = 0;
     sb_error reason = {0};
-    if (!c->on || (c->current && c->steps_then == report->step)) return;
+    if (!c->on || (c->current && c->last_step == report->step)) return;
     const double start = sb_clock();
     c->current = write_now(r, path, &bytes, &reason) == SB_OK;
     c->written = sb_clock();
-    c->steps_then = report->step;
+    c->last_step = report->step;
     if (!c->current) {
-        sb_run_warn(r, "no checkpoint at step %" PRIu64 ", the run goes on: %s", report->step, reason.text);
+        sb_run_warn(r, "no checkpoint at step %" PRIu64 ", the run continues: %s", report->step, reason.text);
         return;
     }
     sb_runlog_event(r->log, "checkpoint", "step %" PRIu64 ", t = %.9g s, %zu bytes in %.3f s: %.500s", report->step,
@@ -272,14 +274,14 @@ void sb_checkpoint_write(run *r)
     if (removed != SB_OK) sb_run_warn(r, "%s", reason.text);
 }
 
-/* ---- while the water comes to rest ---- */
+/* ---- during settling ---- */
 
 static sb_status write_settling(run *r, size_t *bytes, sb_error *error)
 {
     char path[SB_PATH_MAX];
     sb_archive_out out = {0};
     sb_status status = sb_checkpoint_settling_path(r, path, error);
-    if (status == SB_OK) status = keep_folder(r, error);
+    if (status == SB_OK) status = ensure_folder(r, error);
     if (status == SB_OK) status = sb_archive_create(&out, path, SB_CHECKPOINT_KIND, SB_CHECKPOINT_FORMAT, error);
     if (status != SB_OK) return status;
     put_origin(r, &out);
@@ -299,7 +301,7 @@ void sb_checkpoint_write_settling(run *r)
     int done;
     if (!c->on || !sb_sim_settling(r->sim, &done)) return;
     const double start = sb_clock();
-    const sb_spent before = r->before; /* what is saved counts all that was spent so far as settling's */
+    const sb_spent before = r->before; /* the file counts all time spent so far as settling */
     r->settling_seconds = sb_progress_wall(&r->progress) - r->setup_seconds;
     sb_spent_settled(r);
     const sb_status status = write_settling(r, &bytes, &reason);
@@ -310,5 +312,5 @@ void sb_checkpoint_write_settling(run *r)
         sb_runlog_event(r->log, "checkpoint", "settling, step %d, %zu bytes in %.3f s: settling.state", done, bytes,
                         c->written - start);
     else
-        sb_run_warn(r, "no checkpoint while the water comes to rest, the run goes on: %s", reason.text);
+        sb_run_warn(r, "no checkpoint during settling, the run continues: %s", reason.text);
 }

@@ -1,6 +1,6 @@
-/* Checkpoints of a run: DIR/checkpoints/<step>.state, and settling.state before the first of them, from which --resume
-   goes on bit for bit (docs/checkpoints.md).
-   Writing one reads the run only; nothing that it does can fail the run. */
+/* Checkpoints of a run: DIR/checkpoints/<step>.state, and settling.state during settling. --resume continues a run from
+   its newest checkpoint with the same bits (docs/checkpoints.md).
+   Writing a checkpoint does not change the run. A checkpoint that cannot be written does not fail the run. */
 #ifndef SB_APP_CHECKPOINT_H
 #define SB_APP_CHECKPOINT_H
 
@@ -13,53 +13,54 @@
 typedef struct run run; /* app/run_state.h */
 
 typedef struct sb_checkpoints {
-    bool on; /* the scene asks for them */
+    bool on; /* the scene requests checkpoints */
     char folder[SB_PATH_MAX];
-    char *identity;            /* of the scene */
-    uint64_t model;            /* hash of what was sampled */
-    char build[SB_BUILD_TEXT]; /* of this program's numerics */
-    bool any_build;            /* another build's will do as well */
-    double written;            /* s on the clock, of the last attempt */
-    uint64_t steps_then;       /* step of the last one */
-    bool current;              /* there is one of steps_then */
-    bool settling;             /* the last one written is of the water that comes to rest */
+    char *identity;            /* identifies the scene */
+    uint64_t model;            /* hash of the sampled particles */
+    char build[SB_BUILD_TEXT]; /* identifies this program's numerics */
+    bool any_build;            /* checkpoints of other builds are accepted */
+    double written;            /* clock time of the last attempt, s */
+    uint64_t last_step;        /* step of the last attempt, or of the checkpoint that was loaded */
+    bool current;              /* a checkpoint of last_step exists */
+    bool settling;             /* the last checkpoint was written during settling */
 } sb_checkpoints;
 
-/* Where they go, and whether the scene wants any. */
+/* Finds the folder, and whether the scene requests checkpoints. */
 sb_status sb_checkpoint_begin(run *r, sb_error *error);
 
-/* How many the directory holds. Fails when that cannot be told. */
+/* Counts the checkpoints in the run directory. Fails when the folder cannot be read. */
 sb_status sb_checkpoint_count(const run *r, size_t *count, sb_error *error);
 
-/* Once scene and model are final: what they are told apart by. */
+/* Computes what identifies the scene and the model. Call it once both are final. */
 sb_status sb_checkpoint_identify(run *r, sb_error *error);
 
-/* Whether one is due at this step: by steps, or by the wall clock, which decides when to look at the state and nothing
-   else. */
+/* Whether a checkpoint is due at this step, by the number of steps or by the wall clock. The wall clock decides only
+   when the state is read. */
 bool sb_checkpoint_due(const run *r, uint64_t step);
 
-/* Saves the state between two steps and removes the oldest but the last K; a failure is a warning, and those written
-   before stay. Does nothing when they are off, or when this step has one. */
+/* Saves the state between two steps, then keeps the scene's number of newest checkpoints and removes older ones. A
+   failure gives a warning and keeps the earlier checkpoints. Does nothing when checkpoints are off, or when this step
+   has one already. */
 void sb_checkpoint_write(run *r);
 
-/* The same while the water comes to rest, when there are no tables, frames or measurements yet. Goes with the first
-   checkpoint of a step. */
+/* Saves the state during settling, when there are no tables, frames or measurements yet. The first checkpoint of a
+   step removes this file. */
 void sb_checkpoint_write_settling(run *r);
 
-/* Whether there is one of those. */
-bool sb_checkpoint_settling_there(const run *r);
+/* Whether the file of the settling exists. */
+bool sb_checkpoint_settling_exists(const run *r);
 
-/* Loads it into a simulation just made. Statuses as sb_checkpoint_load. */
+/* Loads the file of the settling into a new simulation. Same statuses as sb_checkpoint_load. */
 sb_status sb_checkpoint_load_settling(run *r, sb_error *error);
 
-/* Loads the newest checkpoint that is whole and of this program, build, scene and model into the run's simulation,
-   measurements and counters; says why others were refused. Touches no file. SB_BAD_INPUT when none can be used,
-   SB_FAILED without memory, or when the newest cannot be read for the moment, as from a disk that errs: simulation and
-   measurements are then worth nothing. */
+/* Loads the newest checkpoint that is undamaged and of this program, build, scene and model into the run's simulation,
+   measurements and counters. Warns why newer ones were refused. Changes no file. SB_BAD_INPUT when no checkpoint can be
+   used; SB_FAILED when memory runs out or the newest cannot be read for now, for example after a disk error. On
+   failure, the contents of simulation and measurements are undefined. */
 sb_status sb_checkpoint_load(run *r, sb_error *error);
 
-/* After a load: removes checkpoints of later steps, which were refused. */
-void sb_checkpoint_forget_later(run *r);
+/* Removes the checkpoints of later steps than the one loaded, which were refused. */
+void sb_checkpoint_remove_later(run *r);
 
 void sb_checkpoint_end(run *r);
 

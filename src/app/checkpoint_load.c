@@ -1,4 +1,4 @@
-/* Going on from a checkpoint: the newest one that is whole, of this program and build, and of this scene. */
+/* Resuming from the newest checkpoint that is undamaged, of this program and build, and of this scene. */
 #include "app/checkpoint_parts.h"
 
 #include "base/memory.h"
@@ -6,7 +6,7 @@
 #include <inttypes.h>
 #include <string.h>
 
-/* The first line in which two texts differ, cut to fit; false when they are one. */
+/* Finds the first line in which two texts differ, cut to fit; false when the texts are equal. */
 static bool first_difference(const char *a, const char *b, char line[2][200])
 {
     while (*a && *b) {
@@ -22,21 +22,21 @@ static bool first_difference(const char *a, const char *b, char line[2][200])
     return *a || *b;
 }
 
-/* Another build's numbers would do, but not to the same bits: only when asked for. */
-static sb_status judge_build(run *r, const sb_archive_in *in, const char *build, sb_error *error)
+/* A checkpoint of another build can be used, but the bits then differ: it is accepted only with --other-build. */
+static sb_status check_build(run *r, const sb_archive_in *in, const char *build, sb_error *error)
 {
     sb_error other = {0};
     if (strcmp(build, r->checkpoints.build) == 0) return SB_OK;
-    sb_fail(&other, SB_BAD_INPUT, "%.300s: written by a build with other numerics (%.200s), this one's are (%.200s)",
+    sb_fail(&other, SB_BAD_INPUT, "%.300s: written by a build with other numerics (%.200s); this build has (%.200s)",
             in->name, build, r->checkpoints.build);
     if (!r->checkpoints.any_build)
-        return sb_fail(error, SB_BAD_INPUT, "%s; --other-build goes on all the same, no longer bit for bit",
+        return sb_fail(error, SB_BAD_INPUT, "%s; to resume from it anyway, no longer bit for bit, add --other-build",
                        other.text);
-    sb_run_warn(r, "%s: gone on with, no longer bit for bit", other.text);
+    sb_run_warn(r, "%s: the run resumes from it, no longer bit for bit", other.text);
     return SB_OK;
 }
 
-/* Whether it is of this program, build, scene and model. */
+/* Checks that the checkpoint is of this program, build, scene and model. */
 static sb_status check_origin(run *r, sb_archive_in *in, sb_error *error)
 {
     char line[2][200];
@@ -49,15 +49,15 @@ static sb_status check_origin(run *r, sb_archive_in *in, sb_error *error)
         status =
             sb_fail(error, SB_BAD_INPUT, "%s: written by shorebreak %.40s, expected " SB_VERSION, in->name, version);
     else if (status == SB_OK && first_difference(identity, r->checkpoints.identity, line))
-        status = sb_fail(error, SB_BAD_INPUT, "%s: of another scene: it has \"%s\" where this one has \"%s\"", in->name,
-                         line[0], line[1]);
+        status = sb_fail(error, SB_BAD_INPUT, "%s: of another scene: it has \"%s\" where this scene has \"%s\"",
+                         in->name, line[0], line[1]);
     else if (status == SB_OK && model != r->checkpoints.model)
         status =
             sb_fail(error, SB_BAD_INPUT,
                     "%s: of another model: its particles at the start hash to %016" PRIx64 ", expected %016" PRIx64,
                     in->name, model, r->checkpoints.model);
     else if (status == SB_OK)
-        status = judge_build(r, in, build, error);
+        status = check_build(r, in, build, error);
     sb_free(version);
     sb_free(build);
     sb_free(identity);
@@ -83,7 +83,7 @@ static sb_status take_run(run *r, sb_archive_in *in, sb_error *error)
     sb_take_list(in, r->tables.bytes, SB_CSV_TABLES, sizeof *r->tables.bytes);
     sb_take_list(in, r->tables.hash, SB_CSV_TABLES, sizeof *r->tables.hash);
     sb_missed_load(r, in);
-    r->pictures.count = sb_take_count(in, UINT32_MAX); /* the next checkpoint looks for all of them again */
+    r->pictures.count = sb_take_count(in, UINT32_MAX); /* the next checkpoint syncs all of them again */
     status = sb_recorder_load(&r->recorder, in, error);
     if (status == SB_OK) status = sb_archive_leave(in, error);
     return status == SB_OK ? sb_csv_check(r->directory, r->scene, &r->tables, error) : status;
@@ -115,7 +115,7 @@ static sb_status load_settling(run *r, const char *path, sb_error *error)
     if (status == SB_OK) status = sb_sim_load(r->sim, &in, error);
     sb_archive_in_free(&in);
     if (status == SB_OK && !sb_sim_settling(r->sim, &done))
-        status = sb_fail(error, SB_BAD_INPUT, "%.500s: its water has come to rest, expected some that has not", path);
+        status = sb_fail(error, SB_BAD_INPUT, "%.500s: its settling has ended, expected a state during settling", path);
     return status;
 }
 
@@ -127,7 +127,7 @@ sb_status sb_checkpoint_load_settling(run *r, sb_error *error)
     if (status != SB_OK) return status;
     status = load_settling(r, path, &reason);
     if (status == SB_OK) return SB_OK;
-    return sb_fail(error, status, status == SB_BAD_INPUT ? "no checkpoint to go on from: %.900s" : "%.900s",
+    return sb_fail(error, status, status == SB_BAD_INPUT ? "no checkpoint to resume from: %.900s" : "%.900s",
                    reason.text);
 }
 
@@ -146,17 +146,17 @@ sb_status sb_checkpoint_load(run *r, sb_error *error)
         const sb_status found = load(r, path, &reason);
         loaded = found == SB_OK;
         if (!loaded && i == 0) newest = reason;
-        if (found == SB_FAILED) { /* for want of memory: no fault of the checkpoint's */
+        if (found == SB_FAILED) { /* no memory, or a read error: the checkpoint itself may be good */
             status = found;
             if (error) *error = reason;
         } else if (!loaded && i + 1 < count) {
-            sb_run_warn(r, "%s; trying the one before", reason.text);
+            sb_run_warn(r, "%s; trying the previous checkpoint", reason.text);
         }
     }
     sb_free(steps);
     if (status == SB_OK && !loaded)
-        return sb_fail(error, SB_BAD_INPUT, "no checkpoint to go on from: %.900s", newest.text);
-    r->checkpoints.steps_then = sb_sim_report(r->sim)->step;
+        return sb_fail(error, SB_BAD_INPUT, "no checkpoint to resume from: %.900s", newest.text);
+    r->checkpoints.last_step = sb_sim_report(r->sim)->step;
     r->checkpoints.current = loaded;
     return status;
 }

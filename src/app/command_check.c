@@ -12,15 +12,17 @@
 #include <omp.h>
 #include <stdio.h>
 
-static const char help[] =
-    "usage: shorebreak check SCENE [--json] [--preset NAME] [--set KEY=VALUE]... [--threads N]\n"
-    "Builds what a run would build, without running: particles, memory, steps, time and disk estimated,\n"
-    "and warnings.\n";
+static const char help[] = "usage: shorebreak check SCENE [--json] [--preset NAME] [--set KEY=VALUE]... [--threads N]\n"
+                           "Builds the particles of a scene without running it. Prints their number, estimates of "
+                           "memory, steps, run time and\n"
+                           "disk space, and warnings.\n";
 
-/* Costs measured with tools/bench on two cores at 2.5 GHz; they scale an estimate, nothing else. One thread, per fluid
-   particle, in 2D and 3D: a particle has a sixth of the neighbours in 2D, and as many walls about it. */
+/* Costs measured with tools/bench on two cores at 2.5 GHz. They are used for estimates only. Seconds of one thread per
+   step and fluid particle, in 2D and 3D: in 2D a particle has a sixth of the neighbours, but as many wall neighbours.
+ */
 static const double SECONDS_PER_STEP[] = {0.7e-6, 1.2e-6};
-static const double SECONDS_PER_PICTURE = 0.03, SECONDS_PER_DRAWN = 2e-6; /* of each; per fluid particle in it */
+static const double SECONDS_PER_PICTURE = 0.03,
+                    SECONDS_PER_DRAWN = 2e-6; /* per picture; per fluid particle in a picture */
 static const double PARTICLE_FILE_BYTES = 52, PICTURE_BYTES = 7e5, CHECKPOINT_BYTES = 40;
 
 typedef struct estimate {
@@ -30,15 +32,15 @@ typedef struct estimate {
 
 static estimate make_estimate(const sb_scene *scene, const sb_model *model)
 {
-    /* Water that falls or rushes on goes at about 2 sqrt(gD). */
+    /* Falling or surging water has a speed of about 2 sqrt(gD). */
     double dt = sb_sim_longest_step(scene, model, 2 * sb_model_wave_speed(scene, model));
     double fluid = (double)model->fluid_count;
     double files = scene->output.particle_interval > 0 ? scene->duration / scene->output.particle_interval + 1 : 0;
     double pictures = scene->render.interval > 0
                           ? (scene->duration / scene->render.interval + 1) * (double)scene->render.camera_count
                           : 0;
-    const sb_checkpoint_settings *wish = &scene->output.checkpoint;
-    double saved = wish->minutes > 0 || wish->steps > 0 ? wish->keep : 0;
+    const sb_checkpoint_settings *settings = &scene->output.checkpoint;
+    double saved = settings->minutes > 0 || settings->steps > 0 ? settings->keep : 0;
     double steps = ceil(scene->duration / dt), ghosts = sb_room_ghosts(scene, model);
     int settling = sb_sim_settle_expected(scene);
     double work = (steps + settling) * fluid * SECONDS_PER_STEP[scene->dimensions == 3] +
@@ -60,7 +62,7 @@ static void visit_warnings(const sb_scene *scene, const sb_model *model, sb_warn
     for (size_t w = 0; w < model->warning_count; w++) visit(context, model->warnings[w]);
     sb_scene_warnings(scene, visit, context);
     sb_team_warnings(visit, context);
-    /* A warning only: the run may be for another machine. */
+    /* Only a warning, because the run may be meant for another machine. */
     sb_error room = {0};
     if (sb_room_check(scene, model, &room) != SB_OK) visit(context, room.text);
 }
@@ -87,9 +89,9 @@ static void report_text(const sb_scene *scene, const sb_model *model, const esti
     printf("  memory             about %.0f MB\n", e->memory / 1e6);
     printf("  steps              about %.0f of %.3g s\n", e->steps, e->time_step);
     if (e->settling > 0)
-        printf("  settling           about %d steps before them, %d at most\n", e->settling, e->settling_most);
+        printf("  settling           about %d steps before t = 0, at most %d\n", e->settling, e->settling_most);
     printf("  run time           about %.0f s on %d threads%s\n", e->seconds, omp_get_max_threads(),
-           e->settling > 0 ? ", settling included" : "");
+           e->settling > 0 ? ", including settling" : "");
     printf("  disk               about %.0f MB\n", e->disk / 1e6);
     visit_warnings(scene, model, print_line, NULL);
 }

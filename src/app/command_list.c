@@ -9,7 +9,7 @@
 #include <string.h>
 
 static const char help[] = "usage: shorebreak list kernels|wavemakers|solvers|presets\n"
-                           "Prints what there is to choose from, with its source.\n";
+                           "Prints the available choices, each with its source.\n";
 
 static void row(const char *name, const char *summary, const char *reference)
 {
@@ -35,8 +35,8 @@ static void list_solvers(void)
 
 static void list_presets(void)
 {
-    row("default", "the best found over several cases", "docs/method.md");
-    row("paper", "as published, errata mended", "Sampath et al. 2016");
+    row("default", "the most accurate values found over several cases", "docs/method.md");
+    row("paper", "as published, with errata corrected", "Sampath et al. 2016");
 }
 
 static const struct {

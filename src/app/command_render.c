@@ -14,16 +14,17 @@
 static const char help[] =
     "usage: shorebreak render RUN_DIR [--camera NAME] [--set KEY=VALUE]... [--out DIR] [--quiet]\n"
     "Draws pictures from the particle files of a run (output.particle_interval), without simulating.\n\n"
-    "  --camera NAME    one of the scene's cameras (default: all)\n"
-    "  --set KEY=VALUE  change the picture, e.g. --set render.width=1920, or a whole new set of cameras:\n"
+    "  --camera NAME    draw the pictures of this camera only (default: all of the scene's cameras)\n"
+    "  --set KEY=VALUE  change a key of the scene, e.g. --set render.width=1920, or replace the cameras:\n"
     "                   --set 'render.cameras=[{name: top, eye: [0, 0, 900], target: [400, 1, 0]}]'\n"
-    "  --out DIR        frames/<camera>/ goes here (default: RUN_DIR, once the run has ended)\n";
+    "  --out DIR        write frames/<camera>/ to DIR (default: RUN_DIR, once the run has ended)\n"
+    "  --quiet          print no progress\n";
 
 static sb_status choose_camera(const sb_scene *scene, const char *name, int *camera, sb_error *error)
 {
     *camera = -1;
     if (scene->render.camera_count == 0)
-        return sb_fail(error, SB_BAD_INPUT, "the run's scene has no camera: give one by --set render.cameras=...");
+        return sb_fail(error, SB_BAD_INPUT, "the run's scene has no camera: add one with --set render.cameras=...");
     if (!name) return SB_OK;
     for (size_t c = 0; c < scene->render.camera_count; c++)
         if (strcmp(scene->render.cameras[c].name, name) == 0) *camera = (int)c;
@@ -60,7 +61,7 @@ static void make_videos(const char *directory, const sb_scene *scene, int camera
             sb_video_write(directory, scene->render.cameras[c].name, count, scene->render.video_rate, NULL);
 }
 
-/* Before any of the run's files is read: a FIFO among them would keep this waiting. */
+/* Call this before any of the run's files is read: reading a FIFO among them would block. */
 static sb_status check_run(const char *run, sb_error *error)
 {
     sb_run_files files;
@@ -69,7 +70,7 @@ static sb_status check_run(const char *run, sb_error *error)
     return status;
 }
 
-/* Earlier pictures are replaced, other people's are not. */
+/* Earlier pictures of shorebreak are replaced. Files of other origin are not: the command is refused. */
 static sb_status check_place(const char *directory, const sb_scene *scene, int camera, sb_error *error)
 {
     sb_run_files files;
@@ -77,7 +78,7 @@ static sb_status check_place(const char *directory, const sb_scene *scene, int c
     if (status == SB_OK && files.foreign[0])
         status = sb_fail(error, SB_BAD_INPUT,
                          "%.500s/%.300s: was not written by shorebreak, and render would overwrite it; name another "
-                         "directory by --out",
+                         "directory with --out",
                          directory, files.foreign);
     sb_run_files_free(&files);
     return status;
@@ -98,7 +99,7 @@ static sb_status render(const sb_options *options, sb_error *error)
     if (status == SB_OK) status = choose_camera(&scene, options->camera, &camera, error);
     if (status == SB_OK) status = sb_pvd_read(list_path, &list, error);
     if (status == SB_OK) status = sb_make_directories(directory, error);
-    if (status == SB_OK) status = sb_lock_directory(directory, "a folder of its own by --out", &lock, error);
+    if (status == SB_OK) status = sb_lock_directory(directory, "another directory given with --out", &lock, error);
     if (status == SB_OK) status = check_place(directory, &scene, camera, error);
     if (status == SB_OK) status = sb_model_import_bodies(&scene, &model, error);
     if (status == SB_OK) {

@@ -12,19 +12,20 @@ static const char help[] =
     "usage: shorebreak run SCENE [OPTIONS]\n"
     "Simulates the scene and writes forces.csv, gauges.csv, probes.csv, pictures, particle files, plots,\n"
     "run.jsonl and summary.json.\n\n"
-    "  --out DIR            results go here (default: runs/<name of the scene file>)\n"
+    "  --out DIR            write the results to DIR (default: runs/<name of the scene file>)\n"
     "  --until T            stop at T seconds instead of the scene's duration\n"
-    "  --threads N          of the simulation (default: one on each core that it may use)\n"
-    "  --preset NAME        numerics: default or paper (default: the scene's)\n"
+    "  --threads N          number of simulation threads (default: one per available core)\n"
+    "  --preset NAME        numerical parameters: default or paper (default: the scene's preset)\n"
     "  --set KEY=VALUE      change a key of the scene, e.g. --set resolution=5; may be repeated\n"
-    "  --overwrite          replace the run that DIR holds; without it, or --resume, such a DIR is refused, and so is\n"
-    "                       one that holds other files and no run\n"
-    "  --resume             go on from the newest checkpoint in DIR, bit for bit; without one, from the beginning\n"
-    "  --other-build        with --resume: also from a checkpoint of another build, then no longer bit for bit\n"
-    "  --quiet              no progress\n"
-    "  --profile            at the end, where the time went, stage by stage\n";
+    "  --overwrite          replace the run in DIR; without --overwrite or --resume, DIR must not hold a run;\n"
+    "                       a DIR that holds other files and no run is always refused\n"
+    "  --resume             continue from the newest checkpoint in DIR, with the same bits as an uninterrupted run;\n"
+    "                       without a checkpoint, start from the beginning\n"
+    "  --other-build        with --resume: also accept a checkpoint of another build; the bits may then differ\n"
+    "  --quiet              print no progress\n"
+    "  --profile            at the end, print the time that each stage took\n";
 
-/* runs/<scene file without folder and .yaml> */
+/* The default directory: runs/<scene file without folder and .yaml>. */
 static void default_out(char out[SB_PATH_MAX], const char *scene)
 {
     const char *slash = strrchr(scene, '/');
@@ -45,7 +46,7 @@ int sb_command_run(int count, char **arguments)
     sb_options options;
     sb_error error = {0};
     sb_scene scene = {0};
-    bool left = false;
+    bool thread_remains = false;
     unsigned accepted = SB_OPT_OUT | SB_OPT_UNTIL | SB_OPT_THREADS | SB_OPT_PRESET | SB_OPT_SET | SB_OPT_QUIET |
                         SB_OPT_PROFILE | SB_OPT_RESUME | SB_OPT_OVERWRITE | SB_OPT_OTHER_BUILD;
     sb_status status = sb_options_parse(count, arguments, accepted, "scene", &options, &error);
@@ -55,25 +56,26 @@ int sb_command_run(int count, char **arguments)
     }
     char out[SB_PATH_MAX];
     if (status == SB_OK && options.other_build && !options.resume)
-        status = sb_fail(&error, SB_BAD_INPUT, "--other-build: only together with --resume");
+        status = sb_fail(&error, SB_BAD_INPUT, "--other-build: expected only together with --resume");
     if (status == SB_OK && options.overwrite && options.resume)
-        status = sb_fail(&error, SB_BAD_INPUT, "--overwrite: not together with --resume, which keeps the run");
+        status =
+            sb_fail(&error, SB_BAD_INPUT, "--overwrite: cannot be used together with --resume, which keeps the run");
     if (status == SB_OK) status = sb_options_scene(&options, options.positional, &scene, &error);
     if (status == SB_OK) {
         if (options.out)
             snprintf(out, sizeof out, "%s", options.out);
         else
             default_out(out, options.positional);
-        const sb_run_manner manner = {.resume = options.resume,
-                                      .overwrite = options.overwrite,
-                                      .other_build = options.other_build,
-                                      .quiet = options.quiet,
-                                      .profile = options.profile,
-                                      .left = &left};
-        status = sb_run(&scene, out, &manner, &error);
+        const sb_run_options run_options = {.resume = options.resume,
+                                            .overwrite = options.overwrite,
+                                            .other_build = options.other_build,
+                                            .quiet = options.quiet,
+                                            .profile = options.profile,
+                                            .thread_remains = &thread_remains};
+        status = sb_run(&scene, out, &run_options, &error);
     }
     if (status != SB_OK) fprintf(stderr, "shorebreak: %s\n", error.text);
-    if (left) { /* a library's clean-up at exit could wait for the thread, or be used by it */
+    if (thread_remains) { /* a library's exit handler could wait for that thread, or free memory that it uses */
         fflush(NULL);
         _exit(exit_status(status));
     }

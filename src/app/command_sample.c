@@ -12,9 +12,9 @@
 
 static const char help[] =
     "usage: shorebreak sample SCENE --out FILE.vtp [--preset NAME] [--set KEY=VALUE]... [--threads N]\n"
-    "Writes the boundary particles (body >= 0) and fluid particles (body -1) that a run would start from.\n"
-    "Boundary particles lie numerics.wall_offset spacings behind the surfaces; with\n"
-    "--set numerics.wall_offset=0 they lie on them.\n";
+    "Writes the boundary particles (body >= 0) and fluid particles (body -1) from which a run would start.\n"
+    "Boundary particles lie numerics.wall_offset spacings behind the physical surfaces; with\n"
+    "--set numerics.wall_offset=0 they lie on the surfaces.\n";
 
 static sb_status write_model(const sb_model *model, const char *path, sb_error *error)
 {
@@ -44,15 +44,15 @@ done:
     return status;
 }
 
-/* One slip of the keyboard must not cost a scene, and a wrong place not the sampling. */
-static sb_status keep_scene(const char *scene, const char *out, sb_error *error)
+/* Refuses an output path that would overwrite the scene or cannot be written, before the sampling starts. */
+static sb_status check_output_path(const char *scene, const char *out, sb_error *error)
 {
     struct stat from, to;
     sb_error reason = {0};
     if (sb_file_replaceable(out, &reason) != SB_OK) return sb_fail(error, SB_BAD_INPUT, "--out %s", reason.text);
     if (stat(scene, &from) != 0 || stat(out, &to) != 0 || from.st_dev != to.st_dev || from.st_ino != to.st_ino)
         return SB_OK;
-    return sb_fail(error, SB_BAD_INPUT, "--out %.500s: is the scene itself, expected another file", out);
+    return sb_fail(error, SB_BAD_INPUT, "--out %.500s: is the scene file, expected another file", out);
 }
 
 static void warn(void *context, const char *text)
@@ -76,7 +76,7 @@ int sb_command_sample(int count, char **arguments)
     if (status == SB_OK && !options.out) status = sb_fail(&error, SB_BAD_INPUT, "sample: no --out FILE.vtp given");
     if (status == SB_OK) status = sb_options_scene(&options, options.positional, &scene, &error);
     if (status == SB_OK) sb_team_warnings(warn, NULL);
-    if (status == SB_OK) status = keep_scene(options.positional, options.out, &error);
+    if (status == SB_OK) status = check_output_path(options.positional, options.out, &error);
     if (status == SB_OK) status = sb_model_build(&scene, &model, &error);
     if (status == SB_OK) status = write_model(&model, options.out, &error);
     if (status == SB_OK)

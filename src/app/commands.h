@@ -1,4 +1,4 @@
-/* The commands: each takes what follows its name and returns the process's exit status. */
+/* The commands. Each takes the arguments after its name and returns the exit status of the process. */
 #ifndef SB_APP_COMMANDS_H
 #define SB_APP_COMMANDS_H
 

@@ -8,25 +8,25 @@
 #include <signal.h>
 #include <unistd.h>
 
-/* Trouble begins with the first failure, and is over with the first frame that went well. With the lock. */
+/* Trouble begins with the first failure and ends with the first frame that succeeds. The caller holds the lock. */
 static void note_locked(sb_consumer *consumer, const sb_error *reason, uint64_t missed)
 {
     sb_trouble *trouble = &consumer->trouble;
-    const bool lasts = trouble->turns % 2;
+    const bool lasts = trouble->changes % 2;
     if (reason && !lasts) trouble->latest = *reason;
     if (reason && missed > 0 && trouble->missed == 0) trouble->first = *reason;
     trouble->missed += missed;
-    trouble->turns += !reason == lasts;
+    trouble->changes += !reason == lasts;
 }
 
-/* What came of an open or a frame. False: the consumer was given up meanwhile. */
+/* Records the result of an open or a frame. False: the consumer was abandoned in the meantime. */
 static bool note(sb_consumer *consumer, bool good, bool is_frame)
 {
     pthread_mutex_lock(&consumer->lock);
-    const bool left = consumer->left;
-    if (!left) note_locked(consumer, good ? NULL : &consumer->reason, !good && is_frame);
+    const bool abandoned = consumer->abandoned;
+    if (!abandoned) note_locked(consumer, good ? NULL : &consumer->reason, !good && is_frame);
     pthread_mutex_unlock(&consumer->lock);
-    return !left;
+    return !abandoned;
 }
 
 static bool is_open(sb_consumer *consumer)
@@ -84,7 +84,7 @@ sb_status sb_consumer_start(sb_consumer *consumer, const sb_consumer_work *work,
     return SB_OK;
 }
 
-/* Steps that end on a multiple of the interval may fall short of it by what sums round. */
+/* A step that ends on a multiple of the interval may end slightly before it, because sums of time steps are rounded. */
 static const double ROUNDING = 1e-9;
 
 bool sb_consumer_due(const sb_consumer *consumer, double time)
@@ -101,17 +101,17 @@ sb_trouble sb_consumer_trouble(sb_consumer *consumer)
     return trouble;
 }
 
-/* ---- waiting for it ---- */
+/* ---- waiting for a consumer ---- */
 
-static const double SLICE = 0.1; /* s between two looks */
+static const double SLICE = 0.1; /* s between two checks of progress */
 
-/* What the thread was last seen to do, and for how long nothing. */
+/* The progress of the thread at the last check, and how long it has made none. */
 typedef struct watch {
     uint64_t done;
     double processor, idle; /* s */
 } watch;
 
-/* s of processor that its thread has used; 0 where that cannot be known. */
+/* Processor time of the consumer's thread, s; 0 where the system does not report it. */
 static double processor_time(const sb_consumer *consumer)
 {
     clockid_t clock;
@@ -120,13 +120,13 @@ static double processor_time(const sb_consumer *consumer)
     return (double)used.tv_sec + 1e-9 * (double)used.tv_nsec;
 }
 
-/* Its frames, those that it has not begun and the one in its hands, are missed. */
+/* Abandons the thread. The frame that it works on and those that it has not begun count as missed. */
 static void give_up(sb_consumer *consumer, double seconds)
 {
     sb_error reason = {0};
     sb_fail(&reason, SB_FAILED, "no progress for %g s", seconds);
     pthread_mutex_lock(&consumer->lock);
-    consumer->left = true;
+    consumer->abandoned = true;
     note_locked(consumer, &reason, consumer->fed - consumer->done);
     pthread_mutex_unlock(&consumer->lock);
     consumer->given_up = true;
@@ -134,11 +134,12 @@ static void give_up(sb_consumer *consumer, double seconds)
     for (const sb_frame *frame; (frame = sb_frame_queue_pop(consumer->queue));) sb_frame_release(frame);
 }
 
-/* After so many seconds of waiting, counted and not measured: a process that was stopped for an hour has waited no
-   longer. Gives the consumer up when its deadline is over. */
+/* Checks the progress after `seconds` of waiting, and abandons the consumer when its deadline is over. The waiting is
+   counted in slices and not measured by the clock, so that the time for which the process was suspended does not count.
+ */
 static void watch_on(sb_consumer *consumer, watch *w, double seconds)
 {
-    static const double SHARE = 0.01; /* of a processor: less is no progress */
+    static const double SHARE = 0.01; /* of a processor: a smaller share counts as no progress */
     double deadline = consumer->work.deadline > 0 ? consumer->work.deadline : SB_CONSUMER_DEADLINE;
     if (sb_stop_signal()) deadline = fmin(deadline, SB_CONSUMER_STOP_DEADLINE);
     const double processor = processor_time(consumer);
@@ -178,31 +179,31 @@ void sb_consumer_drain(sb_consumer *consumer)
     }
 }
 
-/* Whether the thread is through with all it has: within its patience, or while it makes progress. */
+/* Waits until the thread has ended: for its stop_timeout, or as long as it makes progress. False: it has not ended. */
 static bool ends_in_time(sb_consumer *consumer)
 {
     enum { POLL = 5000 }; /* us */
-    const double end = sb_clock() + consumer->work.patience;
+    const double end = sb_clock() + consumer->work.stop_timeout;
     for (watch w = {0}; !consumer->given_up;) {
         pthread_mutex_lock(&consumer->lock);
         const bool through = consumer->ended;
         pthread_mutex_unlock(&consumer->lock);
         if (through) return true;
-        if (consumer->work.patience > 0 && sb_clock() > end) return false;
+        if (consumer->work.stop_timeout > 0 && sb_clock() > end) return false;
         usleep(POLL);
-        if (!(consumer->work.patience > 0)) watch_on(consumer, &w, 1e-6 * POLL);
+        if (!(consumer->work.stop_timeout > 0)) watch_on(consumer, &w, 1e-6 * POLL);
     }
     return false;
 }
 
-/* Cancels the thread, which ends at once where it allows that. False: it is still there. */
+/* Cancels the thread, which ends at once where it permits cancellation. False: it still exists. */
 static bool cancel(sb_consumer *consumer)
 {
     enum { POLL = 5000 }; /* us */
     void *result = NULL;
     int busy;
     pthread_cancel(consumer->thread);
-    const double end = sb_clock() + consumer->work.patience;
+    const double end = sb_clock() + consumer->work.stop_timeout;
     while ((busy = pthread_tryjoin_np(consumer->thread, &result)) == EBUSY && sb_clock() < end) usleep(POLL);
     if (busy) return false;
     if (result == PTHREAD_CANCELED) {
@@ -220,9 +221,9 @@ void sb_consumer_stop(sb_consumer *consumer)
         pthread_join(consumer->thread, NULL);
     } else if (!consumer->given_up) {
         consumer->given_up = true;
-        if (!cancel(consumer)) give_up(consumer, 2 * consumer->work.patience);
+        if (!cancel(consumer)) give_up(consumer, 2 * consumer->work.stop_timeout);
     }
-    if (consumer->left) return; /* its queue and its lock stay with the thread */
+    if (consumer->abandoned) return; /* the thread may still use its queue and its lock */
     sb_frame_queue_destroy(consumer->queue);
     pthread_cond_destroy(&consumer->idle);
     pthread_mutex_destroy(&consumer->lock);
@@ -230,7 +231,7 @@ void sb_consumer_stop(sb_consumer *consumer)
     consumer->started = false;
 }
 
-bool sb_consumer_left(const sb_consumer *consumer)
+bool sb_consumer_thread_remains(const sb_consumer *consumer)
 {
-    return consumer->left;
+    return consumer->abandoned;
 }

@@ -1,4 +1,4 @@
-/* The three consumers a run can have. Their states live in the run and outlive the threads. */
+/* The three consumers that a run can have. Their states are part of the run and outlive the threads. */
 #ifndef SB_APP_CONSUMERS_H
 #define SB_APP_CONSUMERS_H
 
@@ -18,11 +18,12 @@
 typedef struct sb_recorder {
     const char *directory;
     sb_pvd pvd;
-    uint64_t count, synced; /* files written; of these, on disk for certain */
+    uint64_t count, synced; /* files written; of these, synced to disk */
 } sb_recorder;
 sb_consumer_work sb_recorder_work(sb_recorder *recorder);
-/* While its thread is idle or not there: puts what was written on disk, all but what is gone; the list, within a
-   section of an archive, and back, before the thread begins, which then removes files that the list does not know. */
+/* Call these while the thread is idle or not started. sync syncs the written files to disk and counts those that were
+   removed. save and load write and read the list of files within a section of an archive. Load the list before the
+   thread starts: the thread then removes files that are not in the list. */
 sb_status sb_recorder_sync(sb_recorder *recorder, sb_gone *gone, sb_error *error);
 void sb_recorder_save(const sb_recorder *recorder, sb_archive_out *out);
 sb_status sb_recorder_load(sb_recorder *recorder, sb_archive_in *in, sb_error *error);
@@ -31,23 +32,23 @@ sb_status sb_recorder_load(sb_recorder *recorder, sb_archive_in *in, sb_error *e
 typedef struct sb_pictures {
     const sb_scene *scene;
     const sb_model *model;
-    const char *directory; /* frames/ is made in it */
+    const char *directory; /* the folder that contains frames/ */
     int camera;
     sb_renderer *renderer;
     sb_image image;
-    uint64_t count, synced; /* by camera: pictures drawn; of these, on disk for certain */
-    bool cleared;           /* pictures beyond the count are gone */
+    uint64_t count, synced; /* pictures of each camera; of these, synced to disk */
+    bool cleared;           /* pictures beyond the count have been removed */
 } sb_pictures;
 sb_consumer_work sb_pictures_work(sb_pictures *pictures);
-/* While its thread is idle or not there: puts what was drawn on disk, all but what is gone. The thread
-   removes pictures beyond its count: one that goes on when it begins, a new one when its first picture is there. */
+/* Call this while the thread is idle or not started: syncs the pictures to disk and counts those that were removed. The
+   thread removes pictures beyond its count: at its start when the run was resumed, else with its first picture. */
 sb_status sb_pictures_sync(sb_pictures *pictures, sb_gone *gone, sb_error *error);
 
 /* LCM */
 typedef struct sb_streamer {
     sb_stream *stream;
     sb_runlog *log;
-    sb_stream_counters counters; /* up to the last frame; the first trouble is logged, once */
+    sb_stream_counters counters; /* up to the last frame; the first error is logged once */
 } sb_streamer;
 sb_consumer_work sb_streamer_work(sb_streamer *streamer);
 

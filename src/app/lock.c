@@ -7,7 +7,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-/* One that is just being killed may need a moment. */
+/* Tries for two seconds, because a process that is being killed may still hold the lock. */
 sb_status sb_lock_directory(const char *directory, const char *expected, int *lock, sb_error *error)
 {
     enum { TRIES = 20, PAUSE = 100000 }; /* microseconds between them */
@@ -16,8 +16,9 @@ sb_status sb_lock_directory(const char *directory, const char *expected, int *lo
     for (int t = 0; t < TRIES; t++) {
         if (flock(*lock, LOCK_EX | LOCK_NB) == 0) return SB_OK;
         if (errno != EWOULDBLOCK && errno != EINTR) {
-            fprintf(stderr, "shorebreak: warning: %.500s: cannot be locked (%s): keep other runs from it\n", directory,
-                    strerror(errno));
+            fprintf(stderr,
+                    "shorebreak: warning: %.500s: cannot be locked (%s): make sure that no other run writes there\n",
+                    directory, strerror(errno));
             return SB_OK;
         }
         usleep(PAUSE);

@@ -15,13 +15,15 @@
 static const struct {
     const char *name, *summary;
     int (*run)(int count, char **arguments);
-    bool answers; /* what it prints is what it is for; the others' is progress, which may go unheard */
+    bool result_on_stdout; /* its output is its result; other commands print progress, which may be lost without an
+                              error */
 } commands[] = {
     {"run", "simulate a scene, measure forces, draw pictures, stream", sb_command_run, false},
-    {"check", "say what a scene would build and cost, without running it", sb_command_check, true},
+    {"check", "print the particles, estimated cost and warnings of a scene, without running it", sb_command_check,
+     true},
     {"sample", "write a scene's boundary and fluid particles for ParaView", sb_command_sample, false},
     {"render", "draw pictures from a finished run's particle files", sb_command_render, false},
-    {"list", "kernels, wave makers, solvers and presets there are", sb_command_list, true},
+    {"list", "list the available kernels, wave makers, solvers and presets", sb_command_list, true},
 };
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
 
@@ -29,8 +31,8 @@ static void usage(FILE *stream)
 {
     fprintf(stream, "usage: shorebreak COMMAND [ARGUMENTS]\n\n");
     for (int c = 0; c < COMMANDS; c++) fprintf(stream, "  %-8s %s\n", commands[c].name, commands[c].summary);
-    fprintf(stream, "\nshorebreak COMMAND --help tells more; --version the version.\n"
-                    "Exit status: 0 all done, 1 bad input, 2 the run failed, 129, 130 or 143 stopped by a signal.\n");
+    fprintf(stream, "\nshorebreak COMMAND --help describes a command; shorebreak --version prints the version.\n"
+                    "Exit status: 0 success, 1 bad input, 2 failure; 129, 130 or 143: stopped by a signal.\n");
 }
 
 static void no_such(const char *name)
@@ -46,8 +48,8 @@ static void no_such(const char *name)
     fprintf(stderr, "shorebreak: %s\n", error.text);
 }
 
-/* Exit status, when all else is well. */
-static int finish_answer(void)
+/* Exit status of a command that succeeded: 2 when its result could not be written. */
+static int flush_stdout(void)
 {
     errno = 0;
     if (fflush(stdout) == 0 && !ferror(stdout)) return 0;
@@ -57,26 +59,26 @@ static int finish_answer(void)
 
 static bool returned;
 
-/* A library that ends the process, as OpenMP's does when the system refuses it a thread, does so with status 1, which
-   is for bad input. */
-static void judge_exit(int status, void *unused)
+/* A library may end the process: OpenMP does so when the system refuses a thread. Its exit status is 1, which means bad
+   input here, so it is replaced by 2. */
+static void correct_exit_status(int status, void *unused)
 {
     (void)unused;
     if (returned || status == 0) return;
     fprintf(stderr, "shorebreak: a library ended the program for the reason above; if the system refused a thread, use "
-                    "fewer by --threads\n");
+                    "fewer with --threads\n");
     _exit(2);
 }
 
-/* OpenMP threads that spin while they wait take the cores that pictures and stream need, and libgomp
-   reads how long they may spin only when the process starts: start once more with a short spin. */
+/* OpenMP threads that spin while they wait use the cores that pictures and stream need. libgomp reads the length of the
+   spin only when the process starts, so the program executes itself again with a short spin. */
 static void limit_spinning(char **arguments)
 {
     if (getenv("OMP_WAIT_POLICY") || getenv("GOMP_SPINCOUNT")) return;
     if (setenv("GOMP_SPINCOUNT", "20000", 1) == 0) execv("/proc/self/exe", arguments);
 }
 
-/* Where a standard stream is closed, the first file opened would take its place, and get what is said there. */
+/* When a standard stream is closed, the next file that is opened gets its descriptor and would receive its output. */
 static void keep_standard_streams(void)
 {
     int file;
@@ -106,10 +108,10 @@ int main(int count, char **arguments)
             }
         limit_spinning(arguments);
         sb_memory_return_blocks();
-        on_exit(judge_exit, NULL);
+        on_exit(correct_exit_status, NULL);
         const int status = commands[c].run(count - 2, arguments + 2);
         returned = true;
-        return commands[c].answers && status == 0 ? finish_answer() : status;
+        return commands[c].result_on_stdout && status == 0 ? flush_stdout() : status;
     }
     if (*name)
         no_such(name);

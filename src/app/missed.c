@@ -5,10 +5,10 @@
 
 #include <inttypes.h>
 
-/* Turns are odd when trouble begins: how many of the first ones did. */
-static uint64_t beginnings(uint64_t turns)
+/* How often trouble began among the first changes: odd changes are beginnings. */
+static uint64_t beginnings(uint64_t changes)
 {
-    return (turns + 1) / 2;
+    return (changes + 1) / 2;
 }
 
 static const char *are_missing(uint64_t count)
@@ -16,24 +16,24 @@ static const char *are_missing(uint64_t count)
     return count == 1 ? "frame is missing" : "frames are missing";
 }
 
-static void tell(run *r, int c)
+static void report_consumer(run *r, int c)
 {
     const sb_trouble trouble = sb_consumer_trouble(&r->consumers[c]);
     const char *name = r->consumers[c].work.name;
-    if (trouble.turns == r->told[c]) return;
-    if (beginnings(trouble.turns) > beginnings(r->told[c]))
-        sb_run_warn(r, "%s: %.900s; the run goes on%s", name, trouble.latest.text,
+    if (trouble.changes == r->reported[c]) return;
+    if (beginnings(trouble.changes) > beginnings(r->reported[c]))
+        sb_run_warn(r, "%s: %.900s; the run continues%s", name, trouble.latest.text,
                     r->consumers[c].given_up ? " without them" : ", and each later frame is tried");
-    if (trouble.turns % 2 == 0) {
+    if (trouble.changes % 2 == 0) {
         const uint64_t missed = sb_missed_sum(r, c).count;
-        sb_run_warn(r, "%s: written again, %" PRIu64 " %s", name, missed, are_missing(missed));
+        sb_run_warn(r, "%s: written again; %" PRIu64 " %s", name, missed, are_missing(missed));
     }
-    r->told[c] = trouble.turns;
+    r->reported[c] = trouble.changes;
 }
 
-void sb_missed_tell(run *r)
+void sb_missed_report(run *r)
 {
-    for (int c = 0; c < CONSUMERS; c++) tell(r, c);
+    for (int c = 0; c < CONSUMERS; c++) report_consumer(r, c);
 }
 
 sb_missed sb_missed_sum(run *r, int consumer)
@@ -45,14 +45,15 @@ sb_missed sb_missed_sum(run *r, int consumer)
     return sum;
 }
 
-sb_status sb_missed_judge(run *r, int consumer, sb_error *error)
+sb_status sb_missed_check(run *r, int consumer, sb_error *error)
 {
     const sb_consumer *c = &r->consumers[consumer];
     const sb_missed sum = sb_missed_sum(r, consumer);
     if (sum.count > 0)
         return sb_fail(error, SB_FAILED, "%s: %.900s; %" PRIu64 " %s", c->work.name, sum.reason, sum.count,
                        are_missing(sum.count));
-    return c->trouble.turns % 2 ? sb_fail(error, SB_FAILED, "%s: %.900s", c->work.name, c->trouble.latest.text) : SB_OK;
+    return c->trouble.changes % 2 ? sb_fail(error, SB_FAILED, "%s: %.900s", c->work.name, c->trouble.latest.text)
+                                  : SB_OK;
 }
 
 void sb_missed_save(run *r, sb_archive_out *out)

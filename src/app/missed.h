@@ -1,5 +1,5 @@
-/* Frames that came to no file and no picture: told when it happens, and kept from process to process of a run, so that
-   one that misses any never ends as if all were there. */
+/* Missed frames: frames of which no particle file or picture could be written. They are reported when they occur and
+   saved in checkpoints, so that a run with missed frames ends as failed even after it was resumed. */
 #ifndef SB_APP_MISSED_H
 #define SB_APP_MISSED_H
 
@@ -10,22 +10,22 @@
 
 typedef struct run run; /* app/run_state.h */
 
-/* Of one consumer. */
+/* The missed frames of one consumer. */
 typedef struct sb_missed {
     uint64_t count;
     char reason[sizeof((sb_error *)0)->text]; /* of the first one */
 } sb_missed;
 
-/* Warns of consumers that have begun to miss frames since it was last called, and of those that have ceased to. */
-void sb_missed_tell(run *r);
+/* Warns of consumers that began to fail, or worked again, since the last call. */
+void sb_missed_report(run *r);
 
-/* Of all processes of the run so far. */
+/* The sum over all processes of the run so far. */
 sb_missed sb_missed_sum(run *r, int consumer);
 
-/* SB_FAILED when any are missing, or when the trouble of a consumer that is stopped never ended: why. */
-sb_status sb_missed_judge(run *r, int consumer, sb_error *error);
+/* SB_FAILED with the reason when frames are missing, or when the consumer, which is stopped, ended in trouble. */
+sb_status sb_missed_check(run *r, int consumer, sb_error *error);
 
-/* Within a section of an archive, and back. */
+/* Write and read the missed frames within a section of an archive. */
 void sb_missed_save(run *r, sb_archive_out *out);
 void sb_missed_load(run *r, sb_archive_in *in);
 

@@ -81,7 +81,7 @@ static sb_status take(sb_options *options, unsigned bit, const char *value, sb_e
         double until = strtod(value, &end);
         if (end == value || *end || !isfinite(until) || until <= 0)
             return sb_fail(error, SB_BAD_INPUT, "--until %.100s: expected seconds > 0", value);
-        /* Through the same checks as the scene's own duration. */
+        /* As an override it passes the same checks as the scene's own duration. */
         snprintf(duration, sizeof duration, "duration=%.17g", until);
         return add_override(options, duration, error);
     }
@@ -111,10 +111,11 @@ static sb_status refuse_flag(const char *argument, unsigned accepted, sb_error *
     sb_nearest nearest = sb_nearest_to(name);
     for (size_t f = 0; f < sizeof flags / sizeof flags[0]; f++)
         if (flags[f].bit & accepted) sb_nearest_try(&nearest, flags[f].name);
-    return nearest.found
-               ? sb_fail(error, SB_BAD_INPUT, "%.200s: no such option here, did you mean %s? --help lists all",
-                         argument, nearest.found)
-               : sb_fail(error, SB_BAD_INPUT, "%.200s: no such option here; --help lists them", argument);
+    return nearest.found ? sb_fail(error, SB_BAD_INPUT,
+                                   "%.200s: not an option of this command, did you mean %s? --help lists the options",
+                                   argument, nearest.found)
+                         : sb_fail(error, SB_BAD_INPUT,
+                                   "%.200s: not an option of this command; --help lists the options", argument);
 }
 
 sb_status sb_options_parse(int count, char **arguments, unsigned accepted, const char *what, sb_options *options,
@@ -129,8 +130,8 @@ sb_status sb_options_parse(int count, char **arguments, unsigned accepted, const
         }
         if (argument[0] != '-') {
             if (options->positional)
-                return sb_fail(error, SB_BAD_INPUT, "%.200s: one %s is enough, and %.200s was given", argument, what,
-                               options->positional);
+                return sb_fail(error, SB_BAD_INPUT, "%.200s: expected one %s, and %.200s was given before", argument,
+                               what, options->positional);
             options->positional = argument;
             continue;
         }
@@ -145,7 +146,7 @@ sb_status sb_options_parse(int count, char **arguments, unsigned accepted, const
         sb_status status = take(options, found->bit, value, error);
         if (status != SB_OK) return status;
     }
-    if (!options->positional) return sb_fail(error, SB_BAD_INPUT, "no %s given; --help tells how", what);
+    if (!options->positional) return sb_fail(error, SB_BAD_INPUT, "no %s given; --help describes the command", what);
     return SB_OK;
 }
 

@@ -1,4 +1,4 @@
-/* The command line, common to all commands. */
+/* The command line options of all commands. */
 #ifndef SB_APP_OPTIONS_H
 #define SB_APP_OPTIONS_H
 
@@ -14,14 +14,14 @@ typedef struct sb_options {
     const char *out;        /* --out */
     const char *preset;     /* --preset */
     const char *camera;     /* --camera */
-    int threads;            /* --threads; 0: OMP_NUM_THREADS, or one on each core */
+    int threads;            /* --threads; 0: OMP_NUM_THREADS, or one per core */
     bool quiet, json, profile, resume, overwrite, other_build, help;
     size_t override_count;
     sb_override overrides[SB_OVERRIDES_MAX];
-    char *texts[SB_OVERRIDES_MAX]; /* owned copies that the overrides' keys live in */
+    char *texts[SB_OVERRIDES_MAX]; /* owned copies; the overrides point into them */
 } sb_options;
 
-/* What a command takes beyond --help, as bits. */
+/* The options that a command accepts in addition to --help, as bits. */
 enum {
     SB_OPT_OUT = 1,
     SB_OPT_UNTIL = 2,
@@ -37,12 +37,12 @@ enum {
     SB_OPT_OVERWRITE = 2048
 };
 
-/* arguments: those after the command's name. what: the positional's name, for messages. */
+/* Parses the arguments after the command's name. what: the name of the positional argument in messages. */
 sb_status sb_options_parse(int count, char **arguments, unsigned accepted, const char *what, sb_options *options,
                            sb_error *error);
 void sb_options_free(sb_options *options);
 
-/* Reads the scene that the options name, with their preset and overrides. */
+/* Reads the scene with the preset and overrides of the options, and sets the number of threads. */
 sb_status sb_options_scene(const sb_options *options, const char *path, sb_scene *scene, sb_error *error);
 
 #endif

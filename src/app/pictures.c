@@ -1,4 +1,4 @@
-/* Frames into PNG pictures, one folder per camera. */
+/* Draws frames as PNG pictures, one folder per camera. */
 #include "app/consumers.h"
 
 #include <string.h>
@@ -10,11 +10,11 @@ static bool wanted(const sb_pictures *pictures, size_t camera)
     return pictures->camera < 0 || (size_t)pictures->camera == camera;
 }
 
-/* How far this thread, and those of the graphics library that it starts, stand back behind the simulation's, which
-   wait for each other at every barrier. */
+/* Niceness of this thread and of those that its graphics library starts. The simulation's threads wait for each other
+   at every barrier, so they take precedence. */
 enum { NICENESS = 10 };
 
-/* Folders, and in them no pictures but those that count. */
+/* Makes the folders and removes the pictures beyond the count. */
 static sb_status clear_later(sb_pictures *pictures, sb_error *error)
 {
     const sb_render_settings *render = &pictures->scene->render;
@@ -33,12 +33,12 @@ static sb_status clear_later(sb_pictures *pictures, sb_error *error)
 static sb_status open_pictures(void *state, sb_error *error)
 {
     sb_pictures *pictures = state;
-    setpriority(PRIO_PROCESS, 0, NICENESS); /* refused: drawn as before */
+    setpriority(PRIO_PROCESS, 0, NICENESS); /* if refused, the niceness stays as it is */
     sb_status status = pictures->count > 0 ? clear_later(pictures, error) : SB_OK;
     return status == SB_OK ? sb_renderer_create(pictures->scene, pictures->model, &pictures->renderer, error) : status;
 }
 
-/* Where the next picture of a camera goes. */
+/* The path of a camera's next picture. */
 static sb_status name_next(const sb_pictures *pictures, size_t camera, char path[SB_PATH_MAX], sb_error *error)
 {
     char name[128];
@@ -54,7 +54,7 @@ static sb_status draw_each(sb_pictures *pictures, const sb_frame *frame, sb_erro
         if (!wanted(pictures, c)) continue;
         sb_status status = name_next(pictures, c, path, error);
         if (status == SB_OK) status = sb_renderer_draw(pictures->renderer, frame, c, &pictures->image, error);
-        /* Earlier pictures stay until there is one to take their place. */
+        /* Pictures of an earlier command stay until the first new picture is drawn. */
         if (status == SB_OK && !pictures->cleared) status = clear_later(pictures, error);
         if (status == SB_OK) status = sb_png_write(path, &pictures->image, error);
         if (status != SB_OK) return status;
@@ -62,8 +62,8 @@ static sb_status draw_each(sb_pictures *pictures, const sb_frame *frame, sb_erro
     return SB_OK;
 }
 
-/* One camera's picture without the others' would make its film longer than theirs. */
-static void take_back(const sb_pictures *pictures)
+/* Removes the pictures of a frame that not all cameras could draw, so that all films have the same length. */
+static void remove_incomplete(const sb_pictures *pictures)
 {
     char path[SB_PATH_MAX];
     for (size_t c = 0; pictures->cleared && c < pictures->scene->render.camera_count; c++)
@@ -77,11 +77,11 @@ static sb_status draw(void *state, const sb_frame *frame, sb_error *error)
     if (status == SB_OK)
         pictures->count++;
     else
-        take_back(pictures);
+        remove_incomplete(pictures);
     return status;
 }
 
-/* One camera's folder and the pictures in it that are not on disk for certain. */
+/* Syncs a camera's folder and its pictures that have not been synced yet. */
 static sb_status sync_camera(const sb_pictures *pictures, const char *camera, sb_gone *gone, sb_error *error)
 {
     char name[128];

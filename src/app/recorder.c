@@ -1,4 +1,4 @@
-/* Frames into particle files for ParaView. */
+/* Writes frames as particle files for ParaView. */
 #include "app/consumers.h"
 #include "output/vtp.h"
 
@@ -12,7 +12,7 @@ static void name_of(uint64_t number, char name[64])
     snprintf(name, 64, "particles/%06" PRIu64 ".vtp", number);
 }
 
-/* The list first: it never names a file that is not written yet, or that is about to be removed here. */
+/* Writes the list before files are removed, so that it never names a file that does not exist. */
 static sb_status start_list(const sb_recorder *recorder, sb_error *error)
 {
     char list[SB_PATH_MAX];
@@ -43,7 +43,7 @@ static sb_status record(void *state, const sb_frame *frame, sb_error *error)
     if (status == SB_OK) status = sb_vtp_write(path, frame, number, error);
     if (status != SB_OK) return status;
     status = sb_pvd_add(&recorder->pvd, list, frame->status.time, name, error);
-    if (status != SB_OK) (void)unlink(path); /* the list does not have it */
+    if (status != SB_OK) (void)unlink(path); /* the list does not name it */
     recorder->count += status == SB_OK;
     return status;
 }
@@ -53,7 +53,7 @@ sb_status sb_recorder_sync(sb_recorder *recorder, sb_gone *gone, sb_error *error
     char name[64] = "particles";
     const uint64_t first = recorder->synced;
     for (uint64_t number = first; number <= recorder->count && recorder->count > first; number++) {
-        if (number > first) name_of(number, name); /* the first turn is the folder's */
+        if (number > first) name_of(number, name); /* the first iteration syncs the folder */
         sb_status status = sb_written_sync(recorder->directory, name, gone, error);
         if (status != SB_OK) return status;
     }

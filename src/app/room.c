@@ -4,21 +4,21 @@
 
 #include <math.h>
 
-/* Costs measured with tools/bench: of the program before any particle, and of its graphics library; of water, per
-   particle and per neighbour of each; of walls, per particle; of an image beyond periodic sides, its fields. */
+/* Memory measured with tools/bench: of the program without particles and of its graphics library; per fluid particle,
+   per neighbour of a fluid particle, per boundary particle, and per ghost particle. */
 static const double IMPULSE_BYTES = 9 * 8 / 1024.0; /* per particle and body: nine sums per block of 1024 */
 static const double PROGRAM_BYTES = 1e7, GRAPHICS_BYTES = 5e7, FLUID_BYTES = 166, PAIR_BYTES = 4.3, WALL_BYTES = 48,
                     GHOST_BYTES = 90;
 
-/* Of a picture's pixel: two layers of water at 16 bytes, colour, depth, what is read back, what is written. Of a node
-   of the grid by which pictures find the surface, of which there are two; nodes lie 1.5 spacings apart, farther where
-   that would be too many; it grows by doubling. Of a map's cell. */
+/* Per pixel of a picture: two layers of water at 16 bytes, colour, depth, the pixels that are read back and those that
+   are written. Per node of the two grids in which pictures find the surface: nodes are 1.5 spacings apart, or farther
+   where there would be too many; the arrays grow by doubling. Per cell of a map. */
 static const double PIXEL_BYTES = 47, NODE_BYTES = 16, NODE_SPACINGS = 1.5, NODES_MAX = 2.5e7, MAP_CELL_BYTES = 36;
 
-/* What the model holds of that already. */
+/* The part of it that the model has allocated already. */
 static const double MODEL_FLUID_BYTES = 56, MODEL_WALL_BYTES = 48;
 
-/* A frame's particle; how many frames may wait, and the bytes that they may hold. */
+/* Per particle of a frame; the largest size and number of the frames that may wait. */
 static const double FRAME_BYTES = 32, WAITING_BYTES = 256e6;
 enum { MOST_WAITING = 3 };
 
@@ -43,14 +43,14 @@ double sb_room_ghosts(const sb_scene *scene, const sb_model *model)
     return (all - 1) * (double)model->fluid_count;
 }
 
-/* Neighbours of a particle within the water. */
+/* Neighbours of a fluid particle away from the water's boundaries. */
 static double count_neighbours(const sb_scene *scene)
 {
     const double s = scene->numerics.support, pi = 3.14159265358979;
     return scene->dimensions == 2 ? pi * s * s : 4 * pi / 3 * s * s * s;
 }
 
-/* Frames at once: those that wait, the one that is written or drawn, the one that waits for room. */
+/* Frames that exist at once: those in the queue, the one that is written or drawn, the one that waits for the queue. */
 static double count_frames(const sb_scene *scene, const sb_model *model)
 {
     const bool some = scene->output.particle_interval > 0 || scene->stream.enabled ||
@@ -67,9 +67,9 @@ static double count_nodes(const sb_scene *scene, const sb_model *model)
 
 static double picture_bytes(const sb_scene *scene, const sb_model *model)
 {
-    const sb_render_settings *wish = &scene->render;
-    if (!(wish->interval > 0) || wish->camera_count == 0) return 0;
-    return GRAPHICS_BYTES + PIXEL_BYTES * wish->width * wish->height + NODE_BYTES * count_nodes(scene, model);
+    const sb_render_settings *settings = &scene->render;
+    if (!(settings->interval > 0) || settings->camera_count == 0) return 0;
+    return GRAPHICS_BYTES + PIXEL_BYTES * settings->width * settings->height + NODE_BYTES * count_nodes(scene, model);
 }
 
 static double map_bytes(const sb_scene *scene)
@@ -95,6 +95,6 @@ sb_status sb_room_check(const sb_scene *scene, const sb_model *model, sb_error *
     if (!(there > 0) || needed <= (1 - SB_MEMORY_SPARE) * (held + there)) return SB_OK;
     return sb_fail(error, SB_FAILED,
                    "needs about %.3g GB of memory for %zu fluid and %zu boundary particles, and %.3g GB are available, "
-                   "of which a fifth is left free: expected a larger resolution",
+                   "of which a fifth is left free: expected a coarser resolution",
                    needed / 1e9, model->fluid_count, model->wall_count, (held + there) / 1e9);
 }

@@ -9,9 +9,9 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { LOG_STEPS = 100 }; /* steps between the log's periodic lines */
+enum { LOG_STEPS = 100 }; /* steps between the periodic lines of the log */
 
-/* One snapshot for all consumers that are due. */
+/* Makes one snapshot and gives it to all consumers that are due. */
 static sb_status feed(run *r, sb_error *error)
 {
     double time = sb_sim_report(r->sim)->time;
@@ -31,8 +31,8 @@ static sb_status feed(run *r, sb_error *error)
     return SB_OK;
 }
 
-/* The first few particles that leave, each with its place; that one passed a wall is a warning. */
-static void tell_departures(run *r)
+/* Reports the first few particles that left, each with its position. A particle that passed a wall gives a warning. */
+static void report_departures(run *r)
 {
     const sb_departures *all = sb_sim_departures(r->sim);
     for (; r->departures < all->count; r->departures++) {
@@ -60,14 +60,14 @@ static sb_status one_step(run *r, sb_error *error)
     r->steps++;
     r->particle_steps += (double)report->fluid_count;
     r->capped += report->capped;
-    tell_departures(r);
+    report_departures(r);
     if (sb_measure_reads_pressures(r->measure, r->sim)) sb_sim_find_virial_pressures(r->sim);
     status = sb_measure_step(r->measure, r->sim, error);
     if (status == SB_OK) status = sb_csv_write(r->csv, sb_measure_latest(r->measure), error);
     if (status == SB_OK) status = feed(r, error);
-    sb_missed_tell(r);
+    sb_missed_report(r);
     if (report->step % LOG_STEPS == 0) {
-        sb_run_keep_log(r);
+        sb_run_ensure_log(r);
         sb_run_log_step(r);
     }
     if (status == SB_OK) status = sb_runlog_check(r->log, error);
@@ -79,7 +79,7 @@ static sb_status one_step(run *r, sb_error *error)
 static sb_status advance(run *r, sb_error *error)
 {
     sb_status status = feed(r, error);
-    tell_departures(r);
+    report_departures(r);
     while (status == SB_OK && sb_sim_report(r->sim)->time < r->scene->duration * (1 - 1e-12)) {
         if (sb_stop_signal())
             return sb_fail(error, SB_INTERRUPTED, "stopped by a signal at t = %g s", sb_sim_report(r->sim)->time);
@@ -109,7 +109,7 @@ static void print_profile(const run *r)
     sb_profile_print(stdout, &profile);
 }
 
-/* A run that was stopped says how to go on; one whose water had not come to rest yet, too. */
+/* Saves a checkpoint, also during settling, and adds to the message of a stopped run how to resume it. */
 static void save_at_end(run *r, sb_status status, sb_error *error)
 {
     int done;
@@ -121,39 +121,39 @@ static void save_at_end(run *r, sb_status status, sb_error *error)
     const size_t length = strlen(error->text);
     if (status == SB_INTERRUPTED && (r->checkpoints.current || r->checkpoints.settling))
         snprintf(error->text + length, sizeof error->text - length,
-                 "; to go on: shorebreak run %.200s/scene.yaml --out %.200s --resume", r->directory, r->directory);
+                 "; to resume: shorebreak run %.200s/scene.yaml --out %.200s --resume", r->directory, r->directory);
 }
 
-/* What threads of consumers use: it stays where one of them is still there. */
-static void release_shared(run *r, bool *left)
+/* Frees what the threads of consumers use, unless one of them still exists. */
+static void release_shared(run *r, bool *thread_remains)
 {
     for (int c = 0; c < CONSUMERS; c++) {
-        if (!sb_consumer_left(&r->consumers[c])) continue;
-        if (left) *left = true;
+        if (!sb_consumer_thread_remains(&r->consumers[c])) continue;
+        if (thread_remains) *thread_remains = true;
         return;
     }
-    sb_pvd_free(&r->recorder.pvd); /* of a run that was not gone on with: no thread had it */
+    sb_pvd_free(&r->recorder.pvd); /* of a run that was not resumed: no thread has used it */
     sb_model_free(&r->model);
 }
 
-sb_status sb_run(const sb_scene *scene, const char *directory, const sb_run_manner *manner, sb_error *error)
+sb_status sb_run(const sb_scene *scene, const char *directory, const sb_run_options *options, sb_error *error)
 {
     run r = {.resolved = *scene, .directory = directory, .lock = -1};
     r.scene = &r.resolved;
-    r.checkpoints.any_build = manner->other_build;
+    r.checkpoints.any_build = options->other_build;
     sb_error local = {0};
-    sb_progress_begin(&r.progress, manner->quiet ? NULL : stdout, scene->duration);
+    sb_progress_begin(&r.progress, options->quiet ? NULL : stdout, scene->duration);
     sb_stop_watch();
-    sb_status status = sb_run_start(&r, manner, &local);
+    sb_status status = sb_run_start(&r, options, &local);
     if (status == SB_OK) status = advance(&r, &local);
     save_at_end(&r, status, &local);
     sb_run_finish(&r, &status, &local);
-    if (manner->profile && r.sim) print_profile(&r);
+    if (options->profile && r.sim) print_profile(&r);
     sb_checkpoint_end(&r);
     sb_measure_destroy(r.measure);
     sb_sim_destroy(r.sim);
-    release_shared(&r, manner->left);
-    sb_run_files_free(&r.left);
+    release_shared(&r, options->thread_remains);
+    sb_run_files_free(&r.earlier);
     if (r.lock >= 0) close(r.lock);
     if (status != SB_OK && error) *error = local;
     return status;

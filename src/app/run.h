@@ -1,4 +1,4 @@
-/* One run from scene to summary: wires simulation, measurements, files and consumers. No physics. */
+/* One run from scene to summary: connects simulation, measurements, files and consumers. Contains no physics. */
 #ifndef SB_APP_RUN_H
 #define SB_APP_RUN_H
 
@@ -7,21 +7,21 @@
 
 #include <stdbool.h>
 
-/* How a run begins, and what it says on stdout. */
-typedef struct sb_run_manner {
-    bool resume;      /* goes on from the directory's newest checkpoint; from the beginning where there is none */
-    bool overwrite;   /* replaces the run that the directory holds; not together with resume */
-    bool other_build; /* resumes from a checkpoint of another build, too, with a warning */
-    bool quiet;       /* no progress */
-    bool profile;     /* the stage table at the end */
-    bool *left;       /* set when a thread that makes no progress is still there at the end: leave by _exit, and free
-                         nothing that the run was given; NULL: nobody asks */
-} sb_run_manner;
+/* How a run begins, and what it prints on stdout. */
+typedef struct sb_run_options {
+    bool resume;          /* continues from the directory's newest checkpoint; without one, starts from the beginning */
+    bool overwrite;       /* replaces the run in the directory; cannot be combined with resume */
+    bool other_build;     /* accepts a checkpoint of another build, with a warning */
+    bool quiet;           /* prints no progress */
+    bool profile;         /* prints the times of the stages at the end */
+    bool *thread_remains; /* set when a thread without progress still exists at the end: end the process by _exit, and
+                   free nothing that the run was given; may be NULL */
+} sb_run_options;
 
-/* Runs the scene into the directory. SB_BAD_INPUT also when that holds a run which is neither resumed nor overwritten,
-   or files and no run, or when there are checkpoints to resume from and none can be used: the directory's files are
-   then as they were, but for the log. SB_INTERRUPTED when a signal ended it, all files being complete; SB_FAILED with
-   the reason otherwise, the last good state written. */
-sb_status sb_run(const sb_scene *scene, const char *directory, const sb_run_manner *manner, sb_error *error);
+/* Runs the scene and writes its files into the directory. SB_BAD_INPUT also when the directory holds a run that is
+   neither resumed nor overwritten, or holds files and no run, or when none of its checkpoints can be used. The
+   directory's files are then unchanged, except for the log. SB_INTERRUPTED when a signal ended the run; all files are
+   then complete. SB_FAILED with the reason otherwise; the last good state is then written. */
+sb_status sb_run(const sb_scene *scene, const char *directory, const sb_run_options *options, sb_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-/* What a directory holds before a run begins there, and removing what an earlier run left. */
+/* Examines a directory before a run begins there, and removes the files of an earlier run. */
 #include "app/run_files.h"
 
 #include "base/memory.h"
@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Bytes at the start of directory/name, as a text; -1 where it is no regular file. */
+/* Reads the first bytes of directory/name as text and returns their number; -1 when it is not a regular file. */
 static long start_of(const char *directory, const char *name, char *text, size_t size)
 {
     char path[SB_PATH_MAX];
@@ -22,7 +22,7 @@ static long start_of(const char *directory, const char *name, char *text, size_t
     return (long)got;
 }
 
-/* A run that is killed while it writes its first file leaves no more than this. */
+/* The only file in the directory of a run that was killed while it wrote its first file. */
 static const char beginning[] = "scene.yaml.tmp";
 
 static bool is_empty(const char *directory, char name[SB_RUN_NAME_MAX])
@@ -52,7 +52,7 @@ sb_run_holds sb_run_directory_holds(const char *directory, char name[SB_RUN_NAME
     return strstr(text, "\"status\": \"done\"") ? SB_HOLDS_FINISHED : SB_HOLDS_UNFINISHED;
 }
 
-/* Of a run's folders, if it is empty. */
+/* Removes the folder of a run's file, if it is empty. */
 static void remove_folder_of(const char *directory, const char *path)
 {
     char folder[SB_PATH_MAX];

@@ -21,11 +21,11 @@ static const char *const folders[] = {
 enum { FOLDERS = sizeof folders / sizeof *folders };
 
 enum {
-    KEPT = 1 /* overwritten by the next run, not removed before */,
-    GROWS = 2 /* written in place: under a further name another file would change */
+    KEPT = 1 /* overwritten by the next run, not removed first */,
+    GROWS = 2 /* written in place, so that a file with several names (hard links) would change under each name */
 };
 
-/* names + ending, and how such a file begins: nothing of the user's goes. */
+/* The files of a run: names + ending, and the first bytes, by which a user's file of the same name is recognised. */
 static const struct {
     place in;
     const char *const *names, *ending, *start;
@@ -52,10 +52,10 @@ static const struct {
     const char *ending, *start;
 } numbered[] = {{PARTICLES, ".vtp", "<?xml"}, {CHECKPOINTS, SB_CHECKPOINT_SUFFIX, SB_CHECKPOINT_KIND}};
 
-/* What a file's name says of it. */
+/* What is known about a file from its name. */
 typedef struct kind {
-    bool named;        /* a run names its files like this one */
-    const char *start; /* how it begins; NULL: see own */
+    bool named;        /* a run writes files of this name */
+    const char *start; /* its first bytes; NULL: see own */
     bool own;
     unsigned how;
 } kind;
@@ -63,13 +63,13 @@ typedef struct kind {
 typedef struct finder {
     const char *directory;
     const sb_scene *scene; /* may be NULL */
-    int camera;            /* the only one that is drawn; < 0: all */
-    char *earlier;         /* the text of the earlier run's scene.yaml from its cameras on; NULL: none */
+    int camera;            /* the only camera that is drawn; < 0: all */
+    char *earlier;         /* the earlier run's scene.yaml from its cameras on; NULL: none */
     sb_run_files *files;
     sb_error *error;
 } finder;
 
-/* An empty file is anyone's: a full disk leaves it. */
+/* An empty file counts as the run's, because a full disk leaves empty files. */
 static bool begins_with(const char *path, const char *start)
 {
     char bytes[64];
@@ -93,12 +93,12 @@ static bool has_camera(const finder *f, const char *name)
     return false;
 }
 
-/* Pictures of versions that did not mark them are told by the camera. */
+/* Older versions did not mark their pictures. These are recognised by the camera. */
 static bool earlier_camera(const finder *f, const char *name)
 {
-    char words[SB_RUN_NAME_MAX];
-    snprintf(words, sizeof words, "name: \"%.255s\"\n", name);
-    return f->earlier && strstr(f->earlier, words);
+    char line[SB_RUN_NAME_MAX];
+    snprintf(line, sizeof line, "name: \"%.255s\"\n", name);
+    return f->earlier && strstr(f->earlier, line);
 }
 
 static bool is_marked(const char *path)
@@ -107,7 +107,7 @@ static bool is_marked(const char *path)
     return sb_png_is_own(bytes, sb_file_start(path, bytes, sizeof bytes));
 }
 
-/* Whether a run, or render, has drawn pictures for this camera. */
+/* Whether `run` or `render` has drawn pictures of this camera. */
 static bool own_camera(const finder *f, const char *name)
 {
     char folder[SB_PATH_MAX], path[SB_PATH_MAX];
@@ -124,7 +124,7 @@ static bool own_camera(const finder *f, const char *name)
     return own;
 }
 
-/* <camera>.mp4, or .<camera>.part.mp4, which was being made. */
+/* <camera>.mp4, or .<camera>.part.mp4, an unfinished film. */
 static kind kind_of_film(const finder *f, const char *name)
 {
     const bool part = name[0] == '.';
@@ -202,7 +202,7 @@ static sb_status note(const finder *f, place in, const char *camera, const char 
     if (f->scene && what.how & GROWS && found.st_nlink > 1)
         return sb_fail(f->error, SB_FAILED,
                        "%.500s: has %lu names (hard links), and the run would change the file under each of them; "
-                       "expected a file with one name: copy it",
+                       "expected a file with one name: replace it by a copy",
                        path, (unsigned long)found.st_nlink);
     if (!(what.start ? begins_with(path, what.start) : what.own)) {
         if (!f->files->foreign[0]) snprintf(f->files->foreign, SB_RUN_NAME_MAX, "%s", path + strlen(f->directory) + 1);
@@ -235,7 +235,7 @@ static sb_status look_at(const finder *f, place in, const char *camera, const ch
     return note(f, in, camera, path, name);
 }
 
-/* camera NULL: the folder of all cameras' folders. */
+/* camera NULL: frames/, the folder that contains the cameras' folders. */
 static sb_status look_into(const finder *f, place in, const char *camera, const char *folder)
 {
     const struct dirent *entry;
@@ -250,9 +250,9 @@ static sb_status look_into(const finder *f, place in, const char *camera, const 
     return status;
 }
 
-/* ---- the whole ---- */
+/* ---- the whole directory ---- */
 
-/* The cameras of the scene that the earlier run wrote. */
+/* Reads the cameras from the scene.yaml of the earlier run. */
 static sb_status read_earlier(finder *f, char **text)
 {
     char path[SB_PATH_MAX];

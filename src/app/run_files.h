@@ -1,5 +1,5 @@
-/* What a directory holds that a run would write into: the files of an earlier run, told by name and by how they begin,
-   and whatever else is there. */
+/* The contents of a directory before a run writes into it: the files of an earlier run, which are recognised by their
+   name and first bytes, and other files. */
 #ifndef SB_APP_RUN_FILES_H
 #define SB_APP_RUN_FILES_H
 
@@ -8,20 +8,20 @@
 
 #include <stddef.h>
 
-/* The mark of a run's directory is its log, run.jsonl, or its scene.yaml. */
+/* A run directory is recognised by its log, run.jsonl, or by its scene.yaml. */
 typedef enum sb_run_holds {
-    SB_HOLDS_NOTHING,    /* hidden files do not count */
-    SB_HOLDS_OTHERS,     /* files, and no mark of a run */
+    SB_HOLDS_NOTHING,    /* hidden files are ignored */
+    SB_HOLDS_OTHERS,     /* files, but no log or scene.yaml of a run */
     SB_HOLDS_CLAIM,      /* an empty log: a run that has not begun */
-    SB_HOLDS_UNFINISHED, /* a run that did not come to its end */
+    SB_HOLDS_UNFINISHED, /* a run that did not finish */
     SB_HOLDS_FINISHED,
 } sb_run_holds;
 
-#define SB_RUN_LOG_START "{\"event\":" /* how run.jsonl begins */
+#define SB_RUN_LOG_START "{\"event\":" /* the first bytes of run.jsonl */
 
-enum { SB_RUN_NAME_MAX = 320 }; /* of a file below the directory, cut to fit */
+enum { SB_RUN_NAME_MAX = 320 }; /* a path below the directory, cut to fit */
 
-/* name: the first of the other files, for SB_HOLDS_OTHERS. */
+/* name: for SB_HOLDS_OTHERS, one of the other files. */
 sb_run_holds sb_run_directory_holds(const char *directory, char name[SB_RUN_NAME_MAX]);
 
 typedef struct sb_run_files {
@@ -29,19 +29,20 @@ typedef struct sb_run_files {
     size_t count, capacity;
     size_t others; /* files and folders that no run writes */
     char first_other[SB_RUN_NAME_MAX];
-    char foreign[SB_RUN_NAME_MAX]; /* the first file where this scene's run would write that no run wrote; "": none */
+    char foreign[SB_RUN_NAME_MAX]; /* the first file that this scene's run would overwrite and that no run wrote; "":
+                                      none */
 } sb_run_files;
 
-/* Looks through the directory. SB_FAILED also when something else than a regular file stands where a run writes one,
-   or, for a table or the log, a file that has further names. scene: of the run that would write;
-   NULL: none, the files are read only. */
+/* Lists the files in the directory. SB_FAILED also when something other than a regular file has the name of a file that
+   a run writes, or when a table or the log has several names (hard links). scene: the scene of the run that will write;
+   NULL: the files are only read. */
 sb_status sb_run_files_find(const char *directory, const sb_scene *scene, sb_run_files *files, sb_error *error);
 
-/* The same for the pictures and films of the scene's cameras alone. camera: of one of them; < 0: of all. */
+/* Lists only the pictures and films of the scene's cameras. camera: of this camera; < 0: of all cameras. */
 sb_status sb_run_files_find_pictures(const char *directory, const sb_scene *scene, int camera, sb_run_files *files,
                                      sb_error *error);
 
-/* Removes a run's files, and the folders that are empty then. */
+/* Removes a run's files, and folders that are empty afterwards. */
 sb_status sb_run_files_remove(const char *directory, const sb_run_files *files, sb_error *error);
 
 void sb_run_files_free(sb_run_files *files);

@@ -1,4 +1,4 @@
-/* After the last step: what the run leaves behind, whole, however it ended. */
+/* After the last step: completes all files of the run, however it ended. */
 #include "app/run_state.h"
 #include "base/memory.h"
 #include "base/stop.h"
@@ -19,7 +19,7 @@ static void keep_first(sb_status *status, sb_error *error, sb_status found, cons
     *error = *reason;
 }
 
-/* What came of leaving out what the scene needs not. */
+/* Logs the time and memory saved by leaving out what the scene does not need. */
 static void log_saved(run *r)
 {
     const sb_skipped *const lists[] = {sb_sim_skipped(r->sim), r->measure ? sb_measure_skipped(r->measure) : NULL,
@@ -30,7 +30,7 @@ static void log_saved(run *r)
     sb_runlog_saved(r->log, &saved);
 }
 
-/* The state before the step that failed, for a look at what went wrong. */
+/* Writes the state before the step that failed, so that the user can examine the failure. */
 static void write_last_state(run *r)
 {
     char path[SB_PATH_MAX];
@@ -46,7 +46,7 @@ static void write_last_state(run *r)
     sb_frame_release(frame);
 }
 
-/* An independent look at the walls: winding numbers of the meshes, not boundary particles. */
+/* Counts the particles within solids by the winding numbers of the meshes, independently of boundary particles. */
 static sb_status count_inside(run *r, sb_error *error)
 {
     sb_frame *frame = sb_sim_snapshot(r->sim);
@@ -54,17 +54,17 @@ static sb_status count_inside(run *r, sb_error *error)
     sb_inside_report any = {0}, deep = {0};
     sb_status status = SB_OK;
     if (!frame || !displacement) {
-        status = sb_fail_memory(error, "the look at the walls");
+        status = sb_fail_memory(error, "the count of particles within solids");
         goto done;
     }
     for (size_t b = 0; b < r->model.body_count; b++) displacement[b] = frame->bodies[b].displacement;
-    /* The sheet of boundary particles lies behind the wall by the offset; beyond it water has crossed. */
-    double sheet = fmax(r->scene->numerics.wall_offset, 0.5) * r->scene->resolution;
+    /* Boundary particles lie behind the physical surface by the offset; a particle beyond them has crossed the wall. */
+    double boundary_depth = fmax(r->scene->numerics.wall_offset, 0.5) * r->scene->resolution;
     status =
         sb_model_first_inside(&r->model, frame->position, frame->count, frame->origin, displacement, 0, &any, error);
     if (status == SB_OK)
-        status = sb_model_first_inside(&r->model, frame->position, frame->count, frame->origin, displacement, sheet,
-                                       &deep, error);
+        status = sb_model_first_inside(&r->model, frame->position, frame->count, frame->origin, displacement,
+                                       boundary_depth, &deep, error);
     if (status != SB_OK) goto done;
     r->inside_known = true;
     r->inside = any.count;
@@ -83,7 +83,8 @@ done:
     return status;
 }
 
-/* Forces and depths are short of what walls let through; beyond this share they are wrong, and the run has failed. */
+/* Largest share of the particles that may be lost through walls. Lost water reduces forces and depths; above this share
+   they count as wrong, and the run fails. */
 static const double LOST_MAX = 0.01;
 
 static uint64_t lost_of(const run *r, char *text, size_t size)
@@ -94,8 +95,8 @@ static uint64_t lost_of(const run *r, char *text, size_t size)
     return lost;
 }
 
-/* Before the summary, which is to say so. Whether the run fails by it. */
-static bool judge_lost(const run *r, sb_status *status, sb_error *error)
+/* Fails the run when too much water was lost; returns whether it does. Call it before the summary is written. */
+static bool check_lost(const run *r, sb_status *status, sb_error *error)
 {
     char text[120];
     const double lost = (double)lost_of(r, text, sizeof text);
@@ -106,16 +107,17 @@ static bool judge_lost(const run *r, sb_status *status, sb_error *error)
     return fails;
 }
 
-static void tell_lost(run *r)
+static void report_lost(run *r)
 {
     char text[120];
     if (lost_of(r, text, sizeof text) > 0) sb_run_warn(r, "%s", text);
 }
 
-/* In spacings: what is thinner is a drop or two. */
+/* Particle spacings. A thinner layer is only single particles. */
 static const double FILM = 0.25;
 
-/* Gauges that stayed empty though water came; those over water that was thin from the start have a warning already. */
+/* Warns of gauges that recorded no value although water arrived. Gauges over water that was thin at the start have a
+   warning already. */
 static void warn_of_gauges(run *r)
 {
     const sb_measure_settings *settings = &r->scene->measure;
@@ -124,8 +126,8 @@ static void warn_of_gauges(run *r)
         if (!(depth > FILM * r->scene->resolution) || (r->model.shallow && r->model.shallow[i])) continue;
         sb_run_warn(
             r,
-            "gauge \"%s\": all its values are empty, though water came: it was at most about %.2g m deep there, "
-            "too thin for the spacing of %g m; expected a resolution of about %.2g m or less to see it",
+            "gauge \"%s\": all its values are empty although water arrived: it was at most about %.2g m deep there, "
+            "too thin for the particle spacing of %g m; expected a resolution of about %.2g m or less",
             settings->gauges[i].name, depth, r->scene->resolution, depth);
     }
 }
@@ -141,14 +143,14 @@ static void stop_consumers(run *r, sb_status *status, sb_error *error)
         sb_runlog_event(r->log, "consumer", "%s: %llu frames, %llu missed, %llu dropped, simulation waited %.2f s",
                         consumer->work.name, (unsigned long long)consumer->handled,
                         (unsigned long long)consumer->trouble.missed, (unsigned long long)dropped, waited);
-        if (consumer->given_up && consumer->work.patience > 0)
+        if (consumer->given_up && consumer->work.stop_timeout > 0)
             sb_run_warn(r,
-                        "%s: gave up after %g s: the receiver accepts no more data, and the last frames are not sent",
-                        consumer->work.name, consumer->work.patience);
+                        "%s: timed out after %g s: the receiver accepts no more data, and the last frames are not sent",
+                        consumer->work.name, consumer->work.stop_timeout);
         sb_error reason = {0};
-        keep_first(status, error, sb_missed_judge(r, c, &reason), &reason);
+        keep_first(status, error, sb_missed_check(r, c, &reason), &reason);
     }
-    sb_missed_tell(r);
+    sb_missed_report(r);
 }
 
 static void write_summary(run *r, sb_status *status, sb_error *error)
@@ -189,31 +191,34 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
     summary.work = sb_sim_ledger(r->sim);
     sb_status found = sb_run_path(r, "summary.json", path, &reason);
     if (found == SB_OK) found = sb_summary_write(path, &summary, &reason);
-    /* What went wrong before stays the reason; this is told all the same, for the file that is there says "running". */
+    /* An earlier failure stays the reason. This failure is still reported, because the summary on disk says "running".
+     */
     if (found != SB_OK && *status == SB_FAILED) sb_run_warn(r, "%s", reason.text);
     keep_first(status, error, found, &reason);
 }
 
-/* From all pictures so far: minutes of work, which one who stops a run does not wait for, and which is done over when
-   it goes on. */
+/* Makes films from all pictures. This can take minutes, so a run that was stopped by a signal skips it; the films are
+   made when the run is resumed. */
 static sb_status make_films(const run *r, sb_status status, sb_error *error)
 {
     if (r->scene->render.camera_count == 0 || r->pictures.count <= 1 || !r->scene->render.video) return SB_OK;
     if (status == SB_INTERRUPTED) {
-        sb_runlog_event(r->log, "skipped", "films: the run was stopped; they are made when it has gone on to its end");
+        sb_runlog_event(r->log, "skipped", "films: the run was stopped; they are made when it is resumed and ends");
         return SB_OK;
     }
     for (size_t c = 0; c < r->scene->render.camera_count && !sb_stop_signal(); c++)
         sb_video_write(r->directory, r->scene->render.cameras[c].name, r->pictures.count, r->scene->render.video_rate,
                        r->log);
-    return sb_stop_signal() ? sb_stop_fail(error, "while films were made, all else is done: --resume makes them")
-                            : SB_OK;
+    return sb_stop_signal()
+               ? sb_stop_fail(error,
+                              "while films were made; all other files are complete, and --resume makes the films")
+               : SB_OK;
 }
 
 void sb_run_finish(run *r, sb_status *status, sb_error *error)
 {
     sb_error reason = {0};
-    sb_run_keep_log(r);
+    sb_run_ensure_log(r);
     if (r->sim && *status == SB_FAILED) write_last_state(r);
     stop_consumers(r, status, error);
     if (r->sim) keep_first(status, error, count_inside(r, &reason), &reason);
@@ -229,12 +234,12 @@ void sb_run_finish(run *r, sb_status *status, sb_error *error)
         const sb_map_record *map = sb_measure_map(r->measure);
         if (map) keep_first(status, error, sb_maps_write(r->directory, map, &reason), &reason);
     }
-    const bool leaked = judge_lost(r, status, error);
-    if (r->sim) /* before what takes long: someone may lose patience */
+    const bool leaked = check_lost(r, status, error);
+    if (r->sim) /* before plots and films, which take long: a user may stop the process then */
         write_summary(r, status, error);
     if (r->measure && r->scene->output.plots) sb_plots_write(r->directory, r->scene, r->log);
     keep_first(status, error, make_films(r, *status, &reason), &reason);
-    if (!leaked) tell_lost(r); /* else the reason is the last line */
+    if (!leaked) report_lost(r); /* otherwise the failure's reason is the last line */
     sb_runlog_end(r->log, *status, *status == SB_OK ? NULL : error->text);
     keep_first(status, error, sb_runlog_close(r->log, &reason), &reason);
 }

@@ -1,4 +1,4 @@
-/* What would keep a run from writing its files, found before it begins. */
+/* Checks before a run begins that it can write its files. */
 #include "app/run_state.h"
 
 #include <errno.h>
@@ -7,57 +7,57 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Without --resume or --overwrite, which say what is meant. */
+/* Refuses a directory that holds a run, when neither --resume nor --overwrite is given. */
 static sb_status refuse_run(const run *r, bool finished, sb_error *error)
 {
     return finished ? sb_fail(error, SB_BAD_INPUT,
                               "%.500s: holds a finished run; add --overwrite to replace it, --resume with a later "
-                              "--until to continue it, or name another directory by --out",
+                              "--until to continue it, or name another directory with --out",
                               r->directory)
                     : sb_fail(error, SB_BAD_INPUT,
                               "%.500s: holds an unfinished run; add --resume to continue it, --overwrite to replace "
-                              "it, or name another directory by --out",
+                              "it, or name another directory with --out",
                               r->directory);
 }
 
-static sb_status judge_holding(const run *r, const sb_run_manner *manner, sb_run_holds holds, const char *name,
-                               sb_error *error)
+static sb_status check_contents(const run *r, const sb_run_options *options, sb_run_holds holds, const char *name,
+                                sb_error *error)
 {
     const bool finished = holds == SB_HOLDS_FINISHED, begun = finished || holds == SB_HOLDS_UNFINISHED;
     if (holds == SB_HOLDS_OTHERS)
         return sb_fail(error, SB_BAD_INPUT,
-                       "%.500s: holds \"%.200s\" but no run of shorebreak; name an empty or a new directory by --out",
+                       "%.500s: holds \"%.200s\" but no run of shorebreak; name an empty or a new directory with --out",
                        r->directory, name);
-    return begun && !manner->resume && !manner->overwrite ? refuse_run(r, finished, error) : SB_OK;
+    return begun && !options->resume && !options->overwrite ? refuse_run(r, finished, error) : SB_OK;
 }
 
-sb_status sb_run_admit(run *r, const sb_run_manner *manner, sb_error *error)
+sb_status sb_run_check_directory(run *r, const sb_run_options *options, sb_error *error)
 {
     char name[SB_RUN_NAME_MAX];
     size_t count = 0;
     if (access(r->directory, W_OK | X_OK) != 0)
         return sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", r->directory, strerror(errno));
     const sb_run_holds holds = sb_run_directory_holds(r->directory, name);
-    sb_status status = judge_holding(r, manner, holds, name, error);
-    if (status == SB_OK) status = sb_run_files_find(r->directory, r->scene, &r->left, error);
-    if (!manner->overwrite) r->left.others = 0; /* only who replaces a run may wonder what stays of it */
-    if (status == SB_OK && manner->resume) status = sb_checkpoint_count(r, &count, error);
-    const bool continues = manner->resume && (count > 0 || sb_checkpoint_settling_there(r));
-    if (status == SB_OK && !continues && r->left.foreign[0])
+    sb_status status = check_contents(r, options, holds, name, error);
+    if (status == SB_OK) status = sb_run_files_find(r->directory, r->scene, &r->earlier, error);
+    if (!options->overwrite) r->earlier.others = 0; /* they are reported only when a run is replaced */
+    if (status == SB_OK && options->resume) status = sb_checkpoint_count(r, &count, error);
+    const bool continues = options->resume && (count > 0 || sb_checkpoint_settling_exists(r));
+    if (status == SB_OK && !continues && r->earlier.foreign[0])
         status =
             sb_fail(error, SB_BAD_INPUT,
                     "%.500s/%.300s: was not written by shorebreak, and the run would overwrite it; move it away, or "
-                    "name another directory by --out",
-                    r->directory, r->left.foreign);
-    if (status == SB_OK && manner->resume && holds == SB_HOLDS_FINISHED && !continues)
+                    "name another directory with --out",
+                    r->directory, r->earlier.foreign);
+    if (status == SB_OK && options->resume && holds == SB_HOLDS_FINISHED && !continues)
         status = sb_fail(error, SB_BAD_INPUT,
                          "%.500s: holds a finished run and no checkpoint to continue from; add --overwrite to "
-                         "replace it, or name another directory by --out",
+                         "replace it, or name another directory with --out",
                          r->directory);
     return status;
 }
 
-/* A folder that is made when it has its first file, or is there already. */
+/* Checks a folder of the run, if it exists; otherwise it is made with its first file. */
 static sb_status check_folder(const run *r, const char *name, sb_error *error)
 {
     char path[SB_PATH_MAX];
@@ -74,7 +74,7 @@ static sb_status check_folder(const run *r, const char *name, sb_error *error)
     return SB_OK;
 }
 
-sb_status sb_run_folders_free(const run *r, sb_error *error)
+sb_status sb_run_check_folders(const run *r, sb_error *error)
 {
     const sb_scene *scene = r->scene;
     const bool draws = scene->render.interval > 0 && scene->render.camera_count > 0;

@@ -1,4 +1,4 @@
-/* Before the first step. */
+/* Everything before the first step. */
 #include "app/fit.h"
 #include "app/lock.h"
 #include "app/room.h"
@@ -18,7 +18,7 @@ static sb_status write_scene(const run *r, sb_error *error)
     return status == SB_OK ? sb_scene_write(r->scene, path, error) : status;
 }
 
-/* From now on until the end. */
+/* Writes a summary with the status "running", which stays until the run ends. */
 static sb_status write_running(const run *r, sb_error *error)
 {
     char path[SB_PATH_MAX];
@@ -26,21 +26,21 @@ static sb_status write_running(const run *r, sb_error *error)
     return status == SB_OK ? sb_summary_write_running(path, r->scene, error) : status;
 }
 
-/* What a run begins from. */
+/* The state from which a run begins. */
 typedef enum origin {
     NOTHING,    /* a new run */
-    SETTLING,   /* water that was coming to rest, and nothing measured yet */
-    CHECKPOINT, /* a step */
+    SETTLING,   /* a state during settling, without measurements */
+    CHECKPOINT, /* a checkpoint of a step */
 } origin;
 
-/* Without a checkpoint there is nothing to go on from. */
+/* Finds the state from which to begin. Without a checkpoint the run starts from the beginning. */
 static sb_status look_for_checkpoints(const run *r, bool resume, origin *from, sb_error *error)
 {
     size_t found = 0;
     sb_status status = resume ? sb_checkpoint_count(r, &found, error) : SB_OK;
     *from = !resume || status != SB_OK ? NOTHING : found > 0 ? CHECKPOINT : SETTLING;
-    if (*from == SETTLING && !sb_checkpoint_settling_there(r)) {
-        sb_run_say(r, "%s: no checkpoint to go on from, so the run starts from the beginning", r->directory);
+    if (*from == SETTLING && !sb_checkpoint_settling_exists(r)) {
+        sb_run_report(r, "%s: no checkpoint to resume from; the run starts from the beginning", r->directory);
         *from = NOTHING;
     }
     return status;
@@ -48,27 +48,27 @@ static sb_status look_for_checkpoints(const run *r, bool resume, origin *from, s
 
 static sb_status clear_earlier_run(run *r, sb_error *error)
 {
-    if (r->left.count > 0)
-        sb_run_say(r, "%s: the files of the earlier run are removed, for a new one in its place", r->directory);
-    return sb_run_files_remove(r->directory, &r->left, error);
+    if (r->earlier.count > 0)
+        sb_run_report(r, "%s: the files of the earlier run are removed, and a new run starts", r->directory);
+    return sb_run_files_remove(r->directory, &r->earlier, error);
 }
 
-/* Two runs in one directory would spoil each other's files. */
-static sb_status open_directory(run *r, const sb_run_manner *manner, origin *from, sb_error *error)
+/* Locks the directory, because two runs would overwrite each other's files, and checks that the run may use it. */
+static sb_status open_directory(run *r, const sb_run_options *options, origin *from, sb_error *error)
 {
     sb_status status = sb_make_directories(r->directory, error);
-    if (status == SB_OK) status = sb_lock_directory(r->directory, "a directory of its own", &r->lock, error);
+    if (status == SB_OK) status = sb_lock_directory(r->directory, "another directory", &r->lock, error);
     if (status == SB_OK) status = sb_checkpoint_begin(r, error);
-    if (status == SB_OK) status = sb_run_admit(r, manner, error);
-    return status == SB_OK ? look_for_checkpoints(r, manner->resume, from, error) : status;
+    if (status == SB_OK) status = sb_run_check_directory(r, options, error);
+    return status == SB_OK ? look_for_checkpoints(r, options->resume, from, error) : status;
 }
 
-/* The files of an earlier run go once there is a simulation to run, unless this one goes on with them. */
+/* Removes the files of an earlier run, unless it is resumed. Call it once the simulation has been made. */
 static sb_status take_directory(run *r, origin from, sb_error *error)
 {
     char path[SB_PATH_MAX];
     const bool resume = from != NOTHING;
-    /* First what may fail: then the earlier run is still there. */
+    /* What may fail comes first, so that a failure leaves the earlier run in place. */
     sb_status status = from == CHECKPOINT ? SB_OK : write_scene(r, error);
     if (status == SB_OK && !resume) status = clear_earlier_run(r, error);
     if (status == SB_OK) status = sb_run_path(r, "run.jsonl", path, error);
@@ -78,7 +78,7 @@ static sb_status take_directory(run *r, origin from, sb_error *error)
     return status;
 }
 
-/* The colour map's top is the scene's, not each picture's: later pictures of this run shall match. */
+/* The top of the colour map depends on the scene, not on each picture, so that all pictures of a run match. */
 static void resolve(run *r)
 {
     if (!(r->resolved.render.speed_max > 0))
@@ -118,12 +118,12 @@ static void note_off(run *r)
     else if (!scene->render.video)
         r->off[n++].what = "films: off, pictures are not joined";
     if (!scene->output.plots) r->off[n++].what = "plots: off, tables are not drawn";
-    if (!r->checkpoints.on) r->off[n++].what = "checkpoints: off, none on a signal either, --resume starts anew";
+    if (!r->checkpoints.on) r->off[n++].what = "checkpoints: off, also on a signal; --resume starts from the beginning";
     r->off[n].what = NULL;
 }
 
-/* In a new run before the water comes to rest, so that the renderer is made meanwhile; in one that goes on once the
-   checkpoint has said what files there are. */
+/* Starts the consumers: in a new run before settling, so that the renderer is made during settling; in a resumed run
+   after the checkpoint was loaded, which lists the files that exist. */
 static sb_status start_consumers(run *r, sb_error *error)
 {
     const sb_scene *scene = r->scene;
@@ -156,7 +156,7 @@ static sb_status build_model(run *r, bool resume, sb_error *error)
 {
     sb_status status = sb_fit_check(r->scene, error);
     if (status != SB_OK) return status;
-    sb_run_say(r, "sampling surfaces and filling the sea");
+    sb_run_report(r, "sampling surfaces and filling the domain with water");
     status = sb_model_build_for(r->scene, sb_room_needed, &r->model, error);
     if (status == SB_OK) status = sb_room_check(r->scene, &r->model, error);
     if (status != SB_OK) return status;
@@ -166,12 +166,13 @@ static sb_status build_model(run *r, bool resume, sb_error *error)
     return r->checkpoints.on || resume ? sb_checkpoint_identify(r, error) : SB_OK;
 }
 
-/* And what else would keep a run from its first step, as long as an earlier one's files are there. */
+/* Makes the simulation and checks all that could prevent the first step, before the files of an earlier run are
+ * removed. */
 static sb_status make_simulation(run *r, bool resume, sb_error *error)
 {
     sb_status status = sb_sim_create(r->scene, &r->model, &r->sim, error);
     if (status == SB_OK && !resume) status = sb_sim_check_start(r->sim, error);
-    return status == SB_OK ? sb_run_folders_free(r, error) : status;
+    return status == SB_OK ? sb_run_check_folders(r, error) : status;
 }
 
 static void warn(void *context, const char *text)
@@ -189,15 +190,15 @@ static void note_mesh_guards(run *r)
 
 static void note_start(run *r)
 {
-    sb_run_say(r, "%zu fluid and %zu boundary particles, %zu bodies", r->model.fluid_count, r->model.wall_count,
-               r->model.body_count);
+    sb_run_report(r, "%zu fluid and %zu boundary particles, %zu bodies", r->model.fluid_count, r->model.wall_count,
+                  r->model.body_count);
     sb_runlog_start(r->log, r->scene, &r->model, omp_get_max_threads(), sb_sim_bytes(r->sim));
     sb_scene_warnings(r->scene, warn, r);
-    if (r->left.others == 1)
-        sb_run_warn(r, "%.500s/%.300s: is not a file of a run; it stays", r->directory, r->left.first_other);
-    else if (r->left.others > 1)
-        sb_run_warn(r, "%.500s/%.300s and %zu more: are not files of a run; they stay", r->directory,
-                    r->left.first_other, r->left.others - 1);
+    if (r->earlier.others == 1)
+        sb_run_warn(r, "%.500s/%.300s: is not a file of a run; it is kept", r->directory, r->earlier.first_other);
+    else if (r->earlier.others > 1)
+        sb_run_warn(r, "%.500s/%.300s and %zu more: are not files of a run; they are kept", r->directory,
+                    r->earlier.first_other, r->earlier.others - 1);
     sb_runlog_event(r->log, "build", "%s", r->checkpoints.build);
     sb_runlog_skipped(r->log, r->off);
     note_mesh_guards(r);
@@ -212,7 +213,7 @@ static void watch_settling(void *context, int done, int most, double speed)
     if (sb_checkpoint_due(r, (uint64_t)done)) sb_checkpoint_write_settling(r);
 }
 
-/* Water that falls or rushes on goes at about 2 sqrt(gD). */
+/* Estimates the number of steps. Falling or surging water has a speed of about 2 sqrt(gD). */
 static void plan(run *r)
 {
     int done = 0;
@@ -221,18 +222,18 @@ static void plan(run *r)
     sb_progress_plan(&r->progress, sb_sim_settle_expected(r->scene), done, ceil(r->scene->duration / dt));
 }
 
-/* Water at rest, tables with their first rows. */
+/* Settles the water, starts the measurements and writes the first rows of the tables. */
 static sb_status begin(run *r, sb_error *error)
 {
     plan(r);
-    if (sb_sim_settles(r->scene)) sb_run_say(r, "settling");
+    if (sb_sim_settles(r->scene)) sb_run_report(r, "settling");
     sb_status status = sb_sim_settle_watched(r->sim, watch_settling, r, error);
     sb_progress_settled(&r->progress);
-    sb_progress_resume(&r->progress, 0); /* settling says nothing of the speed of steps */
+    sb_progress_resume(&r->progress, 0); /* the time of settling does not count in the speed of steps */
     r->settling_seconds = sb_progress_wall(&r->progress) - r->setup_seconds;
     sb_spent_settled(r);
     if (sb_sim_report(r->sim)->lost > 0)
-        sb_run_warn(r, "%llu of %zu particles were lost through walls of the domain while the water came to rest",
+        sb_run_warn(r, "%llu of %zu particles were lost through walls of the domain during settling",
                     (unsigned long long)sb_sim_report(r->sim)->lost, r->model.fluid_count);
     if (status != SB_OK) return status;
     if (sb_sim_settles(r->scene)) {
@@ -251,7 +252,7 @@ static sb_status begin(run *r, sb_error *error)
     return status;
 }
 
-/* Nothing to report on, and what is there stays as it is. */
+/* Frees the simulation, so that the end of the run writes no report and the files stay as they are. */
 static sb_status give_up(run *r, sb_status status)
 {
     sb_measure_destroy(r->measure);
@@ -261,20 +262,20 @@ static sb_status give_up(run *r, sb_status status)
     return status;
 }
 
-/* A run goes over its end by less than a step; one that has gone further cannot have been meant to end there, and its
-   scene, written anew, would say what never was. */
+/* A run passes its end by less than a step. A checkpoint further beyond the requested end is refused, because the new
+   scene.yaml would state an end at which the run did not stop. */
 static sb_status check_end(const run *r, sb_error *error)
 {
     const sb_step_report *report = sb_sim_report(r->sim);
     const double before = report->time - report->time_step;
     if (before <= r->scene->duration * (1 + 1e-9)) return SB_OK;
     return sb_fail(error, SB_BAD_INPUT,
-                   "duration: %.9g s, expected at least the %.9g s that the run in %.500s has reached",
+                   "duration: %.9g s, expected at least %.9g s, the time that the run in %.500s has simulated",
                    r->scene->duration, report->time, r->directory);
 }
 
-/* The state of a checkpoint, and the files as they were when it was written. */
-static sb_status go_on(run *r, sb_error *error)
+/* Loads a checkpoint and restores the files to what they were when it was written. */
+static sb_status resume_run(run *r, sb_error *error)
 {
     sb_status status = sb_measure_create(r->scene, &r->model, r->sim, &r->measure, error);
     if (status == SB_OK) status = sb_checkpoint_load(r, error);
@@ -285,35 +286,35 @@ static sb_status go_on(run *r, sb_error *error)
     const sb_step_report *report = sb_sim_report(r->sim);
     const bool over = report->time >= r->scene->duration * (1 - 1e-12);
     sb_progress_resume(&r->progress, report->time);
-    sb_run_say(r, "going on from step %llu, t = %.9g s%s", (unsigned long long)report->step, report->time,
-               over ? ": the run is finished; a longer duration, as by --until, would go on" : "");
+    sb_run_report(r, "resuming from step %llu, t = %.9g s%s", (unsigned long long)report->step, report->time,
+                  over ? ": the run is finished; set a longer duration, e.g. with --until, to continue it" : "");
     sb_runlog_event(r->log, "resumed", "step %llu, t = %.9g s, with %d threads, state %016llx",
                     (unsigned long long)report->step, report->time, omp_get_max_threads(),
                     (unsigned long long)sb_sim_hash(r->sim));
-    r->departures = sb_sim_departures(r->sim)->count; /* told when they left */
-    status = write_running(r, error); /* first what may fail: the files still belong to the earlier end */
+    r->departures = sb_sim_departures(r->sim)->count; /* these were reported when they left */
+    status = write_running(r, error);                 /* may fail, so it comes before files are changed */
     if (status != SB_OK) return give_up(r, status);
-    sb_checkpoint_forget_later(r);
+    sb_checkpoint_remove_later(r);
     status = write_scene(r, error);
     if (status == SB_OK) status = sb_csv_resume(r->directory, r->scene, &r->model, &r->tables, &r->csv, error);
     return status == SB_OK ? start_consumers(r, error) : status;
 }
 
-/* The log has the rest from the process that began. */
+/* Reports that settling is resumed. The log has the start of the run already. */
 static void note_settling(run *r)
 {
     int done;
     sb_sim_settling(r->sim, &done);
-    sb_run_say(r, "going on from step %d of the settling before t = 0", done);
+    sb_run_report(r, "resuming from step %d of settling, before t = 0", done);
     sb_runlog_event(r->log, "resumed", "step %d of settling, with %d threads, state %016llx", done,
                     omp_get_max_threads(), (unsigned long long)sb_sim_hash(r->sim));
     r->setup_seconds = sb_progress_wall(&r->progress);
 }
 
-sb_status sb_run_start(run *r, const sb_run_manner *manner, sb_error *error)
+sb_status sb_run_start(run *r, const sb_run_options *options, sb_error *error)
 {
     origin from = NOTHING;
-    sb_status status = open_directory(r, manner, &from, error);
+    sb_status status = open_directory(r, options, &from, error);
     if (status == SB_OK) status = build_model(r, from != NOTHING, error);
     if (status == SB_OK) status = make_simulation(r, from != NOTHING, error);
     if (status == SB_OK && from == SETTLING) status = sb_checkpoint_load_settling(r, error);
@@ -323,7 +324,7 @@ sb_status sb_run_start(run *r, const sb_run_manner *manner, sb_error *error)
     if (status == SB_OK && from != CHECKPOINT) status = start_consumers(r, error);
     if (status != SB_OK) return give_up(r, status);
     sb_model_free_start(&r->model);
-    if (from == CHECKPOINT) return go_on(r, error);
+    if (from == CHECKPOINT) return resume_run(r, error);
     status = write_running(r, error);
     if (status != SB_OK) return status;
     if (from == SETTLING)

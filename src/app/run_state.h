@@ -1,4 +1,4 @@
-/* The insides of a run, seen by the files run*.c and checkpoint*.c only. */
+/* The internal state of a run. Private to src/app. */
 #ifndef SB_APP_RUN_STATE_H
 #define SB_APP_RUN_STATE_H
 
@@ -17,11 +17,11 @@ enum { RECORDER, PICTURES, STREAMER, CONSUMERS };
 enum { SB_RUN_OFF_MAX = 6 };
 
 struct run {
-    sb_scene resolved;     /* a shallow copy of the caller's, with what only the model can tell */
-    const sb_scene *scene; /* it */
+    sb_scene resolved;     /* a shallow copy of the caller's scene, with values that depend on the model */
+    const sb_scene *scene; /* points to resolved */
     const char *directory;
-    int lock;          /* descriptor of the directory, locked for this run; -1: not yet */
-    sb_run_files left; /* what the directory held before the run began */
+    int lock;             /* descriptor of the locked directory; -1: not locked yet */
+    sb_run_files earlier; /* the files in the directory before the run began */
     sb_model model;
     sb_sim *sim;
     sb_measure *measure;
@@ -31,53 +31,53 @@ struct run {
     sb_recorder recorder;
     sb_pictures pictures;
     sb_streamer streamer;
-    sb_consumer consumers[CONSUMERS]; /* those the scene asks for are started */
-    double due[CONSUMERS];            /* s simulated, of their first frames */
-    sb_missed missed[CONSUMERS];      /* by them, in earlier processes of this run */
-    uint64_t told[CONSUMERS];         /* turns of their troubles that were told */
+    sb_consumer consumers[CONSUMERS]; /* those that the scene requests are started */
+    double due[CONSUMERS];            /* simulated time of their first frames, s */
+    sb_missed missed[CONSUMERS];      /* frames missed in earlier processes of this run */
+    uint64_t reported[CONSUMERS];     /* changes of their trouble that were reported */
     sb_checkpoints checkpoints;
-    sb_csv_marks tables; /* those that a resumed run goes on with */
+    sb_csv_marks tables; /* lengths and hashes of the tables that a resumed run continues */
     sb_energy first_energy;
     uint64_t iterations, capped, frames;
-    double compression, compression_max; /* sum over the steps, and the worst: as in sb_step_report */
-    size_t departures;                   /* of the first few, those that the log has */
-    sb_spent before;                     /* what earlier processes of this run took; of this one, what settling did */
-    uint64_t steps, iterations_before;   /* steps of this process; iterations before it */
+    double compression, compression_max; /* sum over the steps and maximum, as in sb_step_report */
+    size_t departures;                   /* number of departures that were reported */
+    sb_spent before; /* time of earlier processes of this run; and of this one's settling, per stage */
+    uint64_t steps, iterations_before; /* steps of this process; iterations before it */
     double particle_steps, setup_seconds, settling_seconds;
-    sb_skipped off[SB_RUN_OFF_MAX + 1]; /* what else than simulation and measurements is left out */
+    sb_skipped off[SB_RUN_OFF_MAX + 1]; /* parts other than simulation and measurements that are left out */
     bool inside_known;
     uint64_t inside, crossed; /* particles within solids at the end */
 };
 
-/* run_start.c: directory, log, model, simulation, measurements, consumers, tables; from nothing, or, to resume and
-   where there are checkpoints, from the newest that can be used. */
-sb_status sb_run_start(run *r, const sb_run_manner *manner, sb_error *error);
+/* run_start.c: prepares directory, log, model, simulation, measurements, consumers and tables. Begins from the newest
+   usable checkpoint when the run is resumed and has one, else from the beginning. */
+sb_status sb_run_start(run *r, const sb_run_options *options, sb_error *error);
 
-/* run_obstacles.c: whether a run that begins in this manner may write into its directory: that is empty, or holds a run
-   that it resumes or overwrites; nothing of another kind, and no other file, stands where it would write. Fills
-   r->left. SB_BAD_INPUT or SB_FAILED says what stands against it. */
-sb_status sb_run_admit(run *r, const sb_run_manner *manner, sb_error *error);
+/* run_obstacles.c: checks that a run with these options may write into its directory. The directory must be empty or
+   hold a run that is resumed or overwritten, and no file of other origin or kind may be in the place of a file that the
+   run writes. Fills r->earlier. SB_BAD_INPUT or SB_FAILED with the reason otherwise. */
+sb_status sb_run_check_directory(run *r, const sb_run_options *options, sb_error *error);
 
-/* run_obstacles.c: whether any run could write into the folders that its scene needs. SB_FAILED says which is no folder
-   of the run's own, or closed to it. */
-sb_status sb_run_folders_free(const run *r, sb_error *error);
+/* run_obstacles.c: checks that the run can write into the folders that its scene needs. SB_FAILED names the first
+   folder that is not a directory, is a symbolic link, or cannot be written to. */
+sb_status sb_run_check_folders(const run *r, sb_error *error);
 
-/* run_finish.c: whatever came before, leaves whole files; the first failure stays in *status and *error. */
+/* run_finish.c: completes all files, however the run ended. *status and *error keep the first failure. */
 void sb_run_finish(run *r, sb_status *status, sb_error *error);
 
-/* ---- run_tell.c ---- */
+/* ---- run_report.c ---- */
 
-/* A name within the run's directory. */
+/* The path of a file in the run's directory. */
 sb_status sb_run_path(const run *r, const char *name, char path[SB_PATH_MAX], sb_error *error);
-/* A line on stdout, unless the run is quiet. */
-void sb_run_say(const run *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* A line on stderr and in the log. */
+/* Prints a line on stdout, unless the run is quiet. */
+void sb_run_report(const run *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* Writes a warning to stderr and to the log. */
 void sb_run_warn(run *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* A log that was removed is made anew, with a warning. */
-void sb_run_keep_log(run *r);
-/* The log's periodic line, with the state's hash. */
+/* Makes the log again if it was removed, with a warning. */
+void sb_run_ensure_log(run *r);
+/* Writes the periodic line of the log, with the state hash. */
 void sb_run_log_step(run *r);
-/* Seconds of wall time, earlier processes of this run included. */
+/* Wall time of all processes of this run, s. */
 double sb_run_wall(const run *r);
 
 #endif

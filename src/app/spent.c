@@ -11,7 +11,7 @@ static double seconds_of(struct timeval time)
     return (double)time.tv_sec + 1e-6 * (double)time.tv_usec;
 }
 
-/* s of this process, all its threads. */
+/* Processor time of all threads of this process, s. */
 static double processor_time(void)
 {
     struct rusage usage;
@@ -19,7 +19,7 @@ static double processor_time(void)
     return seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
 }
 
-/* The stage's place in the table, made if need be; NULL: the table is full. */
+/* Finds the stage in the table, or adds it; NULL: the table is full. */
 static sb_stage_spent *stage_named(sb_spent *spent, const char *name)
 {
     for (size_t s = 0; s < spent->stage_count; s++)

@@ -1,4 +1,4 @@
-/* The time that a run has taken, in all the processes that worked on it: one that is resumed goes on counting. */
+/* The time that a run has taken, summed over all its processes: a resumed run continues the sums. */
 #ifndef SB_APP_SPENT_H
 #define SB_APP_SPENT_H
 
@@ -7,13 +7,13 @@
 
 struct run;
 
-/* Notes what the stages have taken when the water has come to rest. */
+/* Records the time of the stages so far as time of settling. Call it at the end of settling. */
 void sb_spent_settled(struct run *r);
 
-/* All of it so far. */
+/* The sums so far. */
 sb_spent sb_spent_sum(const struct run *r);
 
-/* The same in a checkpoint; loaded, it is what earlier processes took. */
+/* Write the sums to a checkpoint and read them as the time of earlier processes. */
 void sb_spent_save(const struct run *r, sb_archive_out *out);
 void sb_spent_load(struct run *r, sb_archive_in *in);
 

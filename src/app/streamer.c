@@ -1,8 +1,8 @@
-/* Frames onto LCM channels. */
+/* Publishes frames on LCM channels. */
 #include "app/consumers.h"
 
-/* s at the end of a run for what a provider still has to take. */
-static const double PATIENCE = 5;
+/* Time at the end of a run in which the provider may accept the last messages, s. */
+static const double STOP_TIMEOUT = 5;
 
 static sb_status publish(void *state, const sb_frame *frame, sb_error *error)
 {
@@ -12,7 +12,7 @@ static sb_status publish(void *state, const sb_frame *frame, sb_error *error)
     sb_stream_publish(streamer->stream, frame);
     streamer->counters = sb_stream_count(streamer->stream);
     if (streamer->counters.errors > 0 && !had_trouble)
-        sb_runlog_warning(streamer->log, "stream: the provider refused messages at t = %g s; the run goes on",
+        sb_runlog_warning(streamer->log, "stream: the provider refused messages at t = %g s; the run continues",
                           frame->status.time);
     return SB_OK;
 }
@@ -38,5 +38,5 @@ sb_consumer_work sb_streamer_work(sb_streamer *streamer)
                               .handle = publish,
                               .close = close_streamer,
                               .abandon = abandon_streamer,
-                              .patience = PATIENCE};
+                              .stop_timeout = STOP_TIMEOUT};
 }

@@ -8,10 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Set by sb_team_choose: OpenMP's own settings are as wide. */
-static int asked;
+/* The number of threads that was requested. Static, because OpenMP's setting is global too. */
+static int requested;
 
-/* Cores' worth of time that a control group allows; INFINITY: no limit is known. */
+/* The processor time that a control group allows, in cores; INFINITY: no limit is known. */
 static double quota_of(const char *folder)
 {
     char path[512];
@@ -23,7 +23,7 @@ static double quota_of(const char *folder)
     return found ? quota / period : (double)INFINITY;
 }
 
-/* The group's own folder, or the top one, as which a container sees its own. */
+/* Reads the folder of the process's group, and the top folder, which is the own group's within a container. */
 static double quota_of_group(void)
 {
     double quota = quota_of("/sys/fs/cgroup");
@@ -47,8 +47,8 @@ int sb_team_cores(void)
     return cores > 1 ? (int)cores : 1;
 }
 
-/* Threads that the scene's outputs take beside the simulation's; pictures do with one. At least one: processes that
-   read meshes and draw plots count as well. */
+/* Threads that the scene's outputs need in addition to the simulation's; pictures need at least one. The count is at
+   least one, because processes that read meshes and draw plots count as well. */
 static int count_others(const sb_scene *scene)
 {
     enum { STREAM_THREADS = 2 }; /* one opens the provider, one publishes */
@@ -64,26 +64,26 @@ void sb_team_choose(const sb_scene *scene, int threads)
         omp_set_num_threads(threads);
     else if (!getenv("OMP_NUM_THREADS"))
         omp_set_num_threads(sb_team_cores());
-    asked = omp_get_max_threads();
-    const int others = count_others(scene), allowed = 1 + sb_threads_allowed(asked - 1 + others) - others;
-    if (allowed < asked) omp_set_num_threads(allowed > 1 ? allowed : 1);
+    requested = omp_get_max_threads();
+    const int others = count_others(scene), allowed = 1 + sb_threads_allowed(requested - 1 + others) - others;
+    if (allowed < requested) omp_set_num_threads(allowed > 1 ? allowed : 1);
 }
 
 void sb_team_warnings(sb_warning_visit *visit, void *context)
 {
     char text[256];
     const int threads = omp_get_max_threads(), cores = sb_team_cores();
-    if (threads < asked) {
+    if (threads < requested) {
         snprintf(text, sizeof text,
                  "threads: the system allows %d of %d (see ulimit -u for processes, ulimit -v for memory): the "
                  "simulation uses %d",
-                 threads, asked, threads);
+                 threads, requested, threads);
         visit(context, text);
     }
     if (threads > cores) {
         snprintf(text, sizeof text,
-                 "threads: %d on %d %s, where they wait for each other: expected --threads %d, or less beside other "
-                 "programs",
+                 "threads: %d threads on %d %s wait for each other: expected --threads %d, or fewer if other programs "
+                 "are running",
                  threads, cores, cores == 1 ? "core" : "cores", cores);
         visit(context, text);
     }

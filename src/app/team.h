@@ -1,18 +1,18 @@
-/* How many threads the simulation gets. Results are the same bits for any number of them. */
+/* The number of threads of the simulation. Any number gives the same bits. */
 #ifndef SB_APP_TEAM_H
 #define SB_APP_TEAM_H
 
 #include "app/warnings.h"
 
-/* Once, before the first parallel loop: `threads` as asked for, 0 for one on each core that this process may use; fewer
-   where the system does not allow so many beside those that the scene's outputs need, for OpenMP would end the process.
- */
+/* Sets the number of threads. Call it once, before the first parallel loop. `threads` is the requested number; 0: one
+   per core that this process may use. The number is smaller when the system does not allow so many threads in addition
+   to those of the scene's outputs, because OpenMP would end the process. */
 void sb_team_choose(const sb_scene *scene, int threads);
 
-/* Cores that this process may use: of the machine, by its affinity, by the quota of its control group. At least 1. */
+/* Number of cores that this process may use, by its affinity and the quota of its control group. At least 1. */
 int sb_team_cores(void);
 
-/* Of threads that the system did not allow, and of more threads than cores. */
+/* Warns when the system allowed fewer threads than requested, and when there are more threads than cores. */
 void sb_team_warnings(sb_warning_visit *visit, void *context);
 
 #endif

@@ -16,18 +16,18 @@ void sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *con
     }
     const sb_initial_wave *wave = &scene->wave;
     const bool first = wave->theory == SB_SOLITARY_BOUSSINESQ;
-    const double good = first ? 0.3 : 0.4; /* of the depth */
+    const double good = first ? 0.3 : 0.4; /* largest accurate height, as a fraction of the depth */
     if (wave->kind == SB_INITIAL_SOLITARY && wave->height > good * wave->depth) {
-        snprintf(
-            text, sizeof text,
-            "water.wave.height: %g m is %.2g of the depth: the theory %s is good to %g, and the wave will shed water",
-            wave->height, wave->height / wave->depth, first ? "boussinesq" : "third-order", good);
+        snprintf(text, sizeof text,
+                 "water.wave.height: %g m is %.2g of the depth: the theory %s is accurate up to %g; the wave will shed "
+                 "water",
+                 wave->height, wave->height / wave->depth, first ? "boussinesq" : "third-order", good);
         visit(context, text);
     }
     if (scene->measure.interval > scene->duration) {
         snprintf(text, sizeof text,
-                 "measure.interval: %g s is longer than the run of %g s: forces.csv gets no row, the other tables but "
-                 "the one at t = 0",
+                 "measure.interval: %g s is longer than the run of %g s: forces.csv gets no row, and the other tables "
+                 "only the row at t = 0",
                  scene->measure.interval, scene->duration);
         visit(context, text);
     }

@@ -1,4 +1,4 @@
-/* What a scene deserves a word for before it runs, though it can: `check` and `run` both tell. */
+/* Warnings about a scene that can run but is probably not what the user meant. `check` and `run` both print them. */
 #ifndef SB_APP_WARNINGS_H
 #define SB_APP_WARNINGS_H
 
@@ -6,7 +6,7 @@
 
 typedef void sb_warning_visit(void *context, const char *text);
 
-/* Each a line without its end. What the meshes and the sampling gave cause for stands in the model's warnings. */
+/* Calls visit for each warning, a line without its newline. Warnings about meshes and sampling are in the model. */
 void sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context);
 
 #endif

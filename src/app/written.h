@@ -1,4 +1,4 @@
-/* Files that a run has written, put on disk before a checkpoint relies on them. */
+/* Syncs the files that a run has written to disk, before a checkpoint relies on them. */
 #ifndef SB_APP_WRITTEN_H
 #define SB_APP_WRITTEN_H
 
@@ -6,14 +6,14 @@
 
 #include <stdint.h>
 
-/* Those that someone took away before: they are no longer the run's concern. */
+/* Written files that someone removed. They are reported and then ignored. */
 typedef struct sb_gone {
     uint64_t count;
     char first[SB_PATH_MAX];
 } sb_gone;
 
-/* Puts directory/name, a file or the names of a folder, on disk; notes one that is not there any more. SB_FAILED when
-   the disk refuses. */
+/* Syncs directory/name, a file or a folder, to disk, and counts it in `gone` when it no longer exists. SB_FAILED when
+   it cannot be synced. */
 sb_status sb_written_sync(const char *directory, const char *name, sb_gone *gone, sb_error *error);
 
 #endif

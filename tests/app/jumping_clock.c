@@ -1,5 +1,5 @@
-/* Preloaded into a program: the time of day jumps by half a day, ahead and back, at every look; the monotonic clock is
-   the system's. */
+/* A library to preload into a program: the time of day jumps by half a day, forwards or backwards, at each call. The
+   monotonic clock is unchanged. */
 #define _GNU_SOURCE
 #include <stdatomic.h>
 #include <sys/syscall.h>

@@ -65,7 +65,7 @@ void assert_same_file(const char *a, const char *b, const char *name)
     sb_free(text[1]);
 }
 
-/* Particle files carry the wall time: all else is compared. */
+/* Particle files contain the wall time; everything else is compared. */
 static void assert_same_particles(const char *a, const char *b)
 {
     sb_pvd list = {0};
@@ -131,10 +131,10 @@ int list_checkpoints(const char *run, char names[16][64])
     return count;
 }
 
-int count_of(const char *text, const char *words)
+int count_of(const char *text, const char *part)
 {
     int count = 0;
-    for (; (text = strstr(text, words)); text += strlen(words)) count++;
+    for (; (text = strstr(text, part)); text += strlen(part)) count++;
     return count;
 }
 

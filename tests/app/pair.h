@@ -1,32 +1,32 @@
-/* Two runs that must have given the same, and the files of a run with checkpoints. */
+/* Compares two runs that must have equal results, and handles the files of a run with checkpoints. */
 #ifndef SB_TESTS_APP_PAIR_H
 #define SB_TESTS_APP_PAIR_H
 
 #include "program.h"
 
-/* Checkpoints at every third step, and none by the clock. */
+/* Checkpoints at every third step, none by the clock. */
 #define EVERY_THREE "output.checkpoint={steps: 3, minutes: 0}"
 
-/* As program_setup, with measured.yaml too: all that can be measured, and a paddle that still moves when the run is
-   cut. */
+/* As program_setup, with measured.yaml in addition: a scene with all kinds of measurements, and a paddle that still
+   moves when the run is interrupted. */
 int pair_setup(void **state);
 
-/* The tables and maps of a run of measured.yaml, ended by NULL. */
+/* The tables and maps of a run of measured.yaml; the list ends with NULL. */
 extern const char *const pair_tables[];
 
 /* Fails unless the file of that name has the same bytes in both runs' folders. */
 void assert_same_file(const char *a, const char *b, const char *name);
 
-/* Fails unless both runs ended in the same state, with the same numbers in their summaries, the same files (ended by
-   NULL) and the same particles. */
+/* Fails unless both runs ended in the same state, with the same numbers in their summaries, the same `files` (a list
+   that ends with NULL) and the same particles. */
 void assert_same_run(const char *a, const char *b, const char *const *files);
 
-/* Names of a run's checkpoints in order, oldest first; returns how many. */
+/* Lists the names of a run's checkpoints, oldest first; returns their number. */
 int list_checkpoints(const char *run, char names[16][64]);
 
-int count_of(const char *text, const char *words);
+int count_of(const char *text, const char *part);
 
-/* A file of the folder, with zeros in it; free with sb_free. */
+/* Read and write a file of the folder that may contain zeros. Free the result of bytes_of with sb_free. */
 char *bytes_of(const char *name, size_t *length);
 void put_bytes(const char *name, const char *bytes, size_t length);
 

@@ -16,7 +16,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static const double PATIENCE = 300; /* s: far more than any run here takes, sanitizers on a busy machine included */
+static const double TIMEOUT = 300; /* s; far more than any run here takes, also with sanitizers on a busy machine */
 enum { ARGUMENTS = 32 };
 
 const char tank_2d[] = "title: Tank in 2D\n"
@@ -129,8 +129,8 @@ static void redirect(const char *name, int descriptor)
     close(file);
 }
 
-/* What is written there is refused. */
-static void redirect_to_nobody(void)
+/* Writing to it fails. */
+static void redirect_to_closed_pipe(void)
 {
     int ends[2];
     if (pipe(ends) != 0 || dup2(ends[1], STDOUT_FILENO) < 0 || dup2(ends[1], STDERR_FILENO) < 0) _exit(99);
@@ -141,8 +141,8 @@ static void redirect_to_nobody(void)
 /* 0: the test's own user, without a limit. */
 static rlim_t processes_most;
 
-/* A user that nobody else is, for processes are counted by user; and its folder. The program may lie where this user
-   must not look: it is opened before. */
+/* Changes to a user ID that no one else has, because the system counts processes per user, and to the folder, which
+   this user then owns. The program is opened first, because this user may not be allowed to read its folder. */
 static void change_user(char **list)
 {
     const uid_t user = 1000000000 + (uid_t)getppid();
@@ -155,7 +155,7 @@ static void change_user(char **list)
     _exit(99);
 }
 
-static pid_t start(const char *const *arguments, bool heard)
+static pid_t start(const char *const *arguments, bool has_reader)
 {
     char *list[ARGUMENTS] = {(char *)"shorebreak"};
     size_t count = 1;
@@ -165,15 +165,16 @@ static pid_t start(const char *const *arguments, bool heard)
     }
     setenv("OMP_NUM_THREADS", "1", 1);
     setenv("OMP_WAIT_POLICY", "passive", 1);
-    setenv("LSAN_OPTIONS", "print_suppressions=0", 1); /* a sanitizer's table is no message of ours */
+    setenv("LSAN_OPTIONS", "print_suppressions=0",
+           1); /* a sanitizer's table would be mixed with the program's messages */
     fflush(NULL);
     pid_t process = fork();
     assert_true(process >= 0);
     if (process == 0) {
-        prctl(PR_SET_PDEATHSIG, SIGKILL); /* a test that fails leaves none behind */
+        prctl(PR_SET_PDEATHSIG, SIGKILL); /* a failing test leaves no process running */
         redirect("stdout.txt", STDOUT_FILENO);
         redirect("stderr.txt", STDERR_FILENO);
-        if (!heard) redirect_to_nobody();
+        if (!has_reader) redirect_to_closed_pipe();
         if (processes_most > 0) change_user(list);
         if (chdir(folder) == 0) execv(SB_BINARY_DIR "/shorebreak", list);
         _exit(99);
@@ -186,7 +187,7 @@ pid_t program_start(const char *const *arguments)
     return start(arguments, true);
 }
 
-pid_t program_start_unheard(const char *const *arguments)
+pid_t program_start_without_reader(const char *const *arguments)
 {
     return start(arguments, false);
 }
@@ -194,13 +195,13 @@ pid_t program_start_unheard(const char *const *arguments)
 outcome program_finish(pid_t process)
 {
     int how = 0;
-    double deadline = sb_clock() + PATIENCE;
+    double deadline = sb_clock() + TIMEOUT;
     pid_t ended = 0;
     while ((ended = waitpid(process, &how, WNOHANG)) == 0 && sb_clock() < deadline) usleep(2000);
     if (ended == 0) {
         kill(process, SIGKILL);
         waitpid(process, &how, 0);
-        fail_msg("the program did not end within %g s", PATIENCE);
+        fail_msg("the program did not end within %g s", TIMEOUT);
     }
     assert_int_equal(ended, process);
     return (outcome){.status = WIFEXITED(how) ? WEXITSTATUS(how) : 128 + WTERMSIG(how),
@@ -253,30 +254,30 @@ outcome program_expect(int status, const char *const *arguments)
     if (o.status != status) {
         print_error("shorebreak");
         for (size_t i = 0; arguments[i]; i++) print_error(" %s", arguments[i]);
-        fail_msg("exit status %d, expected %d; it said:\n%s%s", o.status, status, o.out, o.err);
+        fail_msg("exit status %d, expected %d; its output:\n%s%s", o.status, status, o.out, o.err);
     }
     return o;
 }
 
-void assert_contains(const char *text, const char *words)
+void assert_contains(const char *text, const char *expected)
 {
-    if (!strstr(text, words)) fail_msg("\"%s\" is not in:\n%s", words, text);
+    if (!strstr(text, expected)) fail_msg("\"%s\" is not in:\n%s", expected, text);
 }
 
-void assert_one_line(const char *text, const char *words)
+void assert_one_line(const char *text, const char *expected)
 {
     const char *end = strchr(text, '\n');
     if (!end || end[1] != '\0') fail_msg("expected one line, not:\n%s", text);
     if (strncmp(text, "shorebreak: ", 12) != 0) fail_msg("no \"shorebreak: \" before %s", text);
-    assert_contains(text, words);
+    assert_contains(text, expected);
 }
 
 double json_number_of(const char *name, const char *key)
 {
     char *text = text_of(name);
-    if (!json_valid(text)) fail_msg("%s is no valid JSON:\n%s", name, text);
+    if (!json_valid(text)) fail_msg("%s is not valid JSON:\n%s", name, text);
     const char *value = json_find(text, key);
-    if (!value || !json_number_text(value)) fail_msg("%s: %s is no number there", name, key);
+    if (!value || !json_number_text(value)) fail_msg("%s: %s is not a number", name, key);
     double number = strtod(value, NULL);
     sb_free(text);
     return number;

@@ -1,4 +1,4 @@
-/* Every scene that is delivered passes the check as it is, and runs a few steps when coarse. */
+/* Every delivered scene passes `check` unchanged, and runs a few steps at a coarse spacing. */
 #include "program.h"
 
 #include "../output/json_check.h"
@@ -10,7 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Coarser by this: the plant at 6 m becomes one of some thousand particles. */
+/* Factor on the particle spacing: the plant at 6 m then has some thousand particles. */
 static const double COARSER = 2.5;
 enum { STEPS = 4 };
 

@@ -1,4 +1,4 @@
-/* What may go wrong around a run: it goes on, or stops with a reason, and what was written is whole. */
+/* Failures outside a run: the run continues, or stops with a reason, and all written files are complete. */
 #include "program.h"
 
 #include "../output/json_check.h"
@@ -19,15 +19,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static void assert_ended(const char *summary, const char *words)
+static void assert_ended(const char *summary, const char *expected)
 {
     char *text = text_of(summary);
     assert_true(json_valid(text));
-    assert_contains(text, words);
+    assert_contains(text, expected);
     sb_free(text);
 }
 
-/* Starts a run without an end, and waits for its third particle file. */
+/* Starts a very long run and waits for its third particle file. */
 static pid_t start_endless(const char *run, const char *more)
 {
     pid_t process = program_start((const char *const[]){"run", "tank2.yaml", "--out", run, "--quiet", "--until", "1000",
@@ -48,11 +48,11 @@ static uint32_t read_word(int from)
     return ntohl(word);
 }
 
-/* Takes one publisher of LCM's TCP provider, greets it, reads a little, then stops for good or dies. */
+/* Accepts one publisher of LCM's TCP provider, completes the handshake, reads a little, then stops for good or ends. */
 static _Noreturn void subscribe(int listening, bool dies)
 {
     static char bytes[4096];
-    prctl(PR_SET_PDEATHSIG, SIGKILL); /* stopped, it would outlive a test that fails, and hold its output open */
+    prctl(PR_SET_PDEATHSIG, SIGKILL); /* a stopped process would outlive a failing test and keep its output open */
     int from = accept(listening, NULL, NULL);
     const uint32_t greeting[2] = {htonl(0x287617fa), htonl(0x0100)};
     if (from < 0 || read_word(from) != 0x287617fb || read_word(from) != 0x0100) _exit(1);
@@ -66,7 +66,7 @@ static _Noreturn void subscribe(int listening, bool dies)
     _exit(0);
 }
 
-/* A socket that listens; *port is where. Its buffer is small, so that what nobody reads soon blocks. */
+/* Opens a listening socket at *port. Its buffer is small, so that data that no one reads soon blocks the sender. */
 static int start_listening(unsigned *port)
 {
     struct sockaddr_in at = {.sin_family = AF_INET, .sin_addr.s_addr = htonl(INADDR_LOOPBACK)};
@@ -91,7 +91,7 @@ static pid_t start_subscriber(bool dies, unsigned *port)
     return process;
 }
 
-static void check_subscriber(bool dies, const char *words)
+static void check_subscriber(bool dies, const char *expected)
 {
     unsigned port;
     char url[96];
@@ -101,7 +101,7 @@ static void check_subscriber(bool dies, const char *words)
     outcome o = RUN(0, "run", "tank2.yaml", "--out", "streamed", "--quiet", "--overwrite", "--until", "0.2", "--set",
                     url, "--set", "resolution=0.01", "--set", "output.particle_interval=0.05");
     char *log = text_of("streamed/run.jsonl");
-    assert_contains(log, words);
+    assert_contains(log, expected);
     assert_contains(log, "\"status\":\"done\"");
     sb_free(log);
     outcome_free(&o);
@@ -113,8 +113,8 @@ static void check_subscriber(bool dies, const char *words)
 static void a_subscriber_that_stops(void **state)
 {
     (void)state;
-    check_subscriber(false,
-                     "stream: gave up after 5 s: the receiver accepts no more data, and the last frames are not sent");
+    check_subscriber(
+        false, "stream: timed out after 5 s: the receiver accepts no more data, and the last frames are not sent");
 }
 
 static void a_subscriber_that_dies(void **state)
@@ -123,7 +123,7 @@ static void a_subscriber_that_dies(void **state)
     check_subscriber(true, "stream: the provider refused messages at t = ");
 }
 
-/* The system takes the connection, and nobody greets: as with a server that was stopped before the run. */
+/* The system accepts the connection, but there is no handshake, as with a server that was stopped before the run. */
 static void a_peer_that_never_answers(void **state)
 {
     (void)state;
@@ -140,7 +140,7 @@ static void a_peer_that_never_answers(void **state)
     assert_near(json_number_of("mute/summary.json", "particle_files"), 4, 0);
 }
 
-/* What the warning suggests instead is what a scene may have. */
+/* A scene may use each provider that the warning suggests. */
 static void suggested_providers_are_accepted(void **state)
 {
     (void)state;
@@ -164,7 +164,7 @@ static void suggested_providers_are_accepted(void **state)
 
 /* ---- threads ---- */
 
-/* OpenMP's library ends the process itself, with the status of bad input. */
+/* The OpenMP library ends the process itself, with the exit status of bad input. */
 static void a_thread_that_is_refused(void **state)
 {
     (void)state;
@@ -178,15 +178,15 @@ static void a_thread_that_is_refused(void **state)
 
 /* ---- pictures ---- */
 
-/* The run goes on to its end without pictures, and says why; all else is there. */
-static void check_no_pictures(const char *run, const char *words)
+/* The run continues to its end without pictures and reports why. All other files exist. */
+static void check_no_pictures(const char *run, const char *expected)
 {
     char name[96];
     outcome o = RUN(2, "run", "tank3.yaml", "--out", run, "--quiet");
-    assert_contains(o.err, words);
+    assert_contains(o.err, expected);
     outcome_free(&o);
     snprintf(name, sizeof name, "%s/summary.json", run);
-    assert_ended(name, words);
+    assert_ended(name, expected);
     assert_near(json_number_of(name, "particle_files"), 4, 0);
     assert_near(json_number_of(name, "pictures"), 0, 0);
     assert_true(json_number_of(name, "simulated_s") > 0.29);
@@ -253,7 +253,7 @@ static void no_room_for_pictures(void **state)
     assert_false(any_ending("narrow", ".tmp"));
 }
 
-/* Where nobody may make a directory, root neither: refused before anything is computed, and in one line. */
+/* In a place where not even root can make a directory, the run is refused in one line before anything is computed. */
 static void a_directory_that_cannot_be_made(void **state)
 {
     (void)state;
@@ -265,8 +265,8 @@ static void a_directory_that_cannot_be_made(void **state)
     outcome_free(&o);
 }
 
-/* The directory is removed while the run writes: it stops and says so. */
-static void a_directory_that_vanishes(void **state)
+/* The directory is removed during the run: the run stops and reports it. */
+static void a_directory_that_is_removed(void **state)
 {
     (void)state;
     char command[2200];
@@ -281,7 +281,7 @@ static void a_directory_that_vanishes(void **state)
     outcome_free(&o);
 }
 
-/* Stops the process while no file of its run is half written: one that was would stay under its temporary name. */
+/* Suspends the process while no file of its run is half written, because such a file would keep its temporary name. */
 static void hold_between_files(pid_t process, const char *run)
 {
     for (double end = sb_clock() + 30; sb_clock() < end; usleep(1000)) {
@@ -293,22 +293,22 @@ static void hold_between_files(pid_t process, const char *run)
         assert_int_equal(kill(process, SIGCONT), 0);
     }
     kill(process, SIGKILL);
-    fail_msg("%s: always a file half written", run);
+    fail_msg("%s: a file is always half written", run);
 }
 
-/* However long a busy machine takes. */
-static void wait_for_word(const char *log, const char *words)
+/* Waits until the file contains the text, also on a busy machine. */
+static void wait_for_text(const char *log, const char *expected)
 {
     bool there = false;
     for (double end = sb_clock() + 30; !there && sb_clock() < end; usleep(20000)) {
         char *text = text_of(log);
-        there = strstr(text, words);
+        there = strstr(text, expected);
         sb_free(text);
     }
     assert_true(there);
 }
 
-/* Moved elsewhere: particle files have no folder any more. What is there is whole. */
+/* The directory is moved: particle files no longer have a folder. The files that exist are complete. */
 static void a_directory_that_moves(void **state)
 {
     (void)state;
@@ -316,7 +316,7 @@ static void a_directory_that_moves(void **state)
     hold_between_files(process, "here");
     assert_int_equal(rename(in_folder("here"), in_folder("there")), 0);
     assert_int_equal(kill(process, SIGCONT), 0);
-    wait_for_word("there/run.jsonl", "particle files: here/particles");
+    wait_for_text("there/run.jsonl", "particle files: here/particles");
     kill(process, SIGTERM);
     outcome o = program_finish(process);
     assert_true(o.status == 2);
@@ -336,8 +336,8 @@ static void a_directory_that_moves(void **state)
 
 /* ---- closed streams ---- */
 
-/* What is said goes nowhere, and not into the first files that the run opens. */
-static void closed_streams_spoil_no_file(void **state)
+/* Messages are lost, and are not written into the first files that the run opens. */
+static void closed_standard_streams_damage_no_file(void **state)
 {
     (void)state;
     char command[2200];
@@ -374,13 +374,13 @@ static void copy_hash(const char *summary, char hash[32])
     sb_free(text);
 }
 
-/* Half a day ahead or back at every look at the time of day: no checkpoint comes early or late, none of it is in what
-   was reported, and the state is the same. */
+/* The time of day jumps by half a day at each call: no checkpoint is early or late, no reported time contains the
+   jumps, and the state is the same. */
 static void a_clock_that_jumps(void **state)
 {
     (void)state;
 #if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
-    skip(); /* a sanitizer's library has to be the first one loaded */
+    skip(); /* a sanitizer's library must be loaded first */
 #endif
     char hash[2][32];
     RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "steady", "--set", "output.checkpoint.minutes=600");
@@ -412,9 +412,9 @@ int main(void)
         cmocka_unit_test(no_room_for_particle_files),
         cmocka_unit_test(no_room_for_pictures),
         cmocka_unit_test(a_directory_that_cannot_be_made),
-        cmocka_unit_test(a_directory_that_vanishes),
+        cmocka_unit_test(a_directory_that_is_removed),
         cmocka_unit_test(a_directory_that_moves),
-        cmocka_unit_test(closed_streams_spoil_no_file),
+        cmocka_unit_test(closed_standard_streams_damage_no_file),
         cmocka_unit_test(a_clock_that_jumps),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);

@@ -1,4 +1,6 @@
-/* Checkpoints that are damaged, of another scene, or of another build: refused with a word, the one before is used. */
+/* Checkpoints that are damaged, of another scene or of another build are refused with a message; the previous one is
+ * used.
+ */
 #include "pair.h"
 
 #include "base/archive_layout.h"
@@ -10,19 +12,20 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The newest checkpoint of "hurt" is replaced; the one before is used, with a word, and the end is the same. */
-static void goes_on_from_the_one_before(const char *newest, const char *bytes, size_t length, const char *words)
+/* Replaces the newest checkpoint of "hurt": the previous one is used, with a warning, and the run ends in the same
+ * state. */
+static void resumes_from_the_previous_one(const char *newest, const char *bytes, size_t length, const char *expected)
 {
     put_bytes(newest, bytes, length);
     outcome o = RUN(0, "run", "measured.yaml", "--out", "hurt", "--quiet", "--resume", "--set", EVERY_THREE);
     assert_contains(o.err, "shorebreak: warning: hurt/checkpoints/");
-    assert_contains(o.err, words);
-    assert_contains(o.err, "; trying the one before");
+    assert_contains(o.err, expected);
+    assert_contains(o.err, "; trying the previous checkpoint");
     outcome_free(&o);
     assert_same_run("sound", "hurt", pair_tables);
 }
 
-static void damaged_ones_are_passed_over(void **state)
+static void damaged_checkpoints_are_skipped(void **state)
 {
     (void)state;
     char names[16][64], newest[128];
@@ -32,19 +35,19 @@ static void damaged_ones_are_passed_over(void **state)
     snprintf(newest, sizeof newest, "hurt/checkpoints/%s", names[1]);
     size_t length;
     char *bytes = bytes_of(newest, &length);
-    goes_on_from_the_one_before(newest, bytes, 0, "has 0 bytes");
-    goes_on_from_the_one_before(newest, bytes, length / 2, "truncated");
-    goes_on_from_the_one_before(newest, bytes, length - 1, "truncated");
+    resumes_from_the_previous_one(newest, bytes, 0, "has 0 bytes");
+    resumes_from_the_previous_one(newest, bytes, length / 2, "truncated");
+    resumes_from_the_previous_one(newest, bytes, length - 1, "truncated");
     bytes[length / 2] ^= 4;
-    goes_on_from_the_one_before(newest, bytes, length, "damaged: the checksum of section");
+    resumes_from_the_previous_one(newest, bytes, length, "damaged: the checksum of section");
     bytes[length / 2] ^= 4;
     bytes[8] ^= 1;
-    goes_on_from_the_one_before(newest, bytes, length, "version 11 of the format, expected 10");
+    resumes_from_the_previous_one(newest, bytes, length, "version 11 of the format, expected 10");
     sb_free(bytes);
 }
 
-/* Refused at the end of every section, and with every byte of its head or any section's head changed. */
-static void no_part_may_be_missing(void **state)
+/* A checkpoint that is cut off at the start of any of its sections is refused. */
+static void truncated_checkpoints_are_refused(void **state)
 {
     (void)state;
     char names[16][64], newest[128];
@@ -58,7 +61,7 @@ static void no_part_may_be_missing(void **state)
         uint64_t size;
         put_bytes(newest, bytes, at);
         outcome o = RUN(1, "run", "measured.yaml", "--out", "ends", "--quiet", "--resume");
-        assert_one_line(o.err, "no checkpoint to go on from: ends/checkpoints/");
+        assert_one_line(o.err, "no checkpoint to resume from: ends/checkpoints/");
         assert_contains(o.err, "truncated");
         outcome_free(&o);
         memcpy(&size, bytes + at + 8, sizeof size);
@@ -77,19 +80,20 @@ static void other_scenes_are_refused(void **state)
 {
     (void)state;
     static const struct {
-        const char *set, *words;
+        const char *set, *expected;
     } cases[] = {
-        {"resolution=0.04", "of another scene: it has \"resolution: 0.05 # m\" where this one has \"resolution: 0.04"},
+        {"resolution=0.04",
+         "of another scene: it has \"resolution: 0.05 # m\" where this scene has \"resolution: 0.04"},
         {"measure.interval=0.05", "\"interval: 0.03"},
         {"bodies.step.max=[1.81, 0.2]", "\"max: [1.8"},
-        {"numerics.seed=2", "\"seed: 1\" where this one has \"seed: 2\""},
+        {"numerics.seed=2", "\"seed: 1\" where this scene has \"seed: 2\""},
     };
     RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "other", "--quiet", "--until", "0.1");
     char *scene = text_of("other/scene.yaml"), *forces = text_of("other/forces.csv");
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         outcome o = RUN(1, "run", "measured.yaml", "--out", "other", "--quiet", "--resume", "--set", cases[c].set);
-        assert_one_line(o.err, "no checkpoint to go on from: other/checkpoints/");
-        assert_contains(o.err, cases[c].words);
+        assert_one_line(o.err, "no checkpoint to resume from: other/checkpoints/");
+        assert_contains(o.err, cases[c].expected);
         outcome_free(&o);
     }
     char *scene_now = text_of("other/scene.yaml"), *forces_now = text_of("other/forces.csv");
@@ -99,15 +103,16 @@ static void other_scenes_are_refused(void **state)
     sb_free(scene_now);
     sb_free(forces);
     sb_free(forces_now);
-    /* A table that was cut by someone cannot be gone on with. */
+    /* A run whose table was shortened cannot be resumed. */
     assert_int_equal(truncate(in_folder("other/gauges.csv"), 30), 0);
     outcome o = RUN(1, "run", "measured.yaml", "--out", "other", "--quiet", "--resume", "--until", "0.2");
     assert_contains(o.err, "other/gauges.csv: has 30 bytes, expected the ");
     outcome_free(&o);
 }
 
-/* Cut at its old length, a table whose lines have got other ends, as editors give them, would end in a row that never
-   was. */
+/* A table with other line ends, as some editors write them, would end within a row if it were cut at its recorded
+ * length.
+ */
 static void an_edited_table_is_refused(void **state)
 {
     (void)state;
@@ -123,7 +128,7 @@ static void an_edited_table_is_refused(void **state)
     char *scene_now = text_of("edited/scene.yaml"), *forces_now = text_of("edited/forces.csv");
     assert_string_equal(scene, scene_now);
     assert_string_equal(torn, forces_now);
-    write_text("edited/forces.csv", forces); /* as it was */
+    write_text("edited/forces.csv", forces); /* the original */
     RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "edited", "--quiet", "--resume", "--until", "0.2");
     RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "unread", "--quiet", "--until", "0.2");
     assert_same_run("unread", "edited", pair_tables);
@@ -134,14 +139,14 @@ static void an_edited_table_is_refused(void **state)
     sb_free(torn);
 }
 
-/* The first digit of the hash of the sources, where a checkpoint names them; the section's checksum is made right. */
+/* Changes the first digit of the hash of the sources in a checkpoint, and corrects the checksum of the section. */
 static void change_build(char *bytes, size_t length)
 {
-    static const char words[] = "sources ";
+    static const char expected[] = "sources ";
     uint64_t section;
-    char *at = memmem(bytes, length, words, sizeof words - 1);
+    char *at = memmem(bytes, length, expected, sizeof expected - 1);
     assert_non_null(at);
-    at += sizeof words - 1;
+    at += sizeof expected - 1;
     *at = *at == '0' ? '1' : '0';
     unsigned char *head = (unsigned char *)bytes + SB_ARCHIVE_HEAD;
     memcpy(&section, head + SB_ARCHIVE_NAME, sizeof section);
@@ -150,7 +155,8 @@ static void change_build(char *bytes, size_t length)
     memcpy(head + SB_ARCHIVE_NAME + sizeof section, &sum, sizeof sum);
 }
 
-/* Another build's checkpoint is refused, naming both, unless it is asked for; here the numbers are the same ones. */
+/* A checkpoint of another build is refused, with the names of both builds, unless --other-build is given. Here the two
+   builds compute the same numbers. */
 static void other_builds_are_refused(void **state)
 {
     (void)state;
@@ -166,7 +172,7 @@ static void other_builds_are_refused(void **state)
     sb_free(bytes);
     outcome o = RUN(1, "run", "measured.yaml", "--out", "built", "--quiet", "--until", "0.2", "--resume");
     assert_one_line(o.err, "written by a build with other numerics (sources ");
-    assert_contains(o.err, "this one's are (sources ");
+    assert_contains(o.err, "this build has (sources ");
     assert_contains(o.err, "--other-build");
     outcome_free(&o);
     o = RUN(0, "run", "measured.yaml", "--out", "built", "--quiet", "--until", "0.2", "--resume", "--other-build");
@@ -177,7 +183,7 @@ static void other_builds_are_refused(void **state)
     RUN_AND_FORGET(1, "run", "measured.yaml", "--out", "built", "--other-build");
 }
 
-/* Names the numerics of a tree with these files; returns the text. */
+/* Generates numerics.c for a source tree with this step.c; returns its text. */
 static char *numerics_of(const char *source)
 {
     write_text("tree/src/sim/step.c", source);
@@ -208,9 +214,9 @@ static void a_changed_source_is_another_build(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(damaged_ones_are_passed_over), cmocka_unit_test(no_part_may_be_missing),
-        cmocka_unit_test(an_edited_table_is_refused),   cmocka_unit_test(other_scenes_are_refused),
-        cmocka_unit_test(other_builds_are_refused),     cmocka_unit_test(a_changed_source_is_another_build),
+        cmocka_unit_test(damaged_checkpoints_are_skipped), cmocka_unit_test(truncated_checkpoints_are_refused),
+        cmocka_unit_test(an_edited_table_is_refused),      cmocka_unit_test(other_scenes_are_refused),
+        cmocka_unit_test(other_builds_are_refused),        cmocka_unit_test(a_changed_source_is_another_build),
     };
     return cmocka_run_group_tests(tests, pair_setup, program_teardown);
 }

@@ -1,4 +1,4 @@
-/* Runs with checkpoints whose disk is full, whose directory is another run's, whose tables are taken away. */
+/* Runs with checkpoints: full disks, a directory that another run uses, and files that are removed during the run. */
 #include "pair.h"
 
 #include "base/clock.h"
@@ -11,11 +11,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The checkpoint is the longest of the files: it fails alone, the run goes on, and those before stay. */
+/* The checkpoint is the longest file, so only it cannot be written: the run continues, and earlier checkpoints stay. */
 static void a_checkpoint_that_fails_is_a_warning(void **state)
 {
     (void)state;
-    char names[16][64], left[16][64], words[128];
+    char names[16][64], left[16][64], expected[128];
     RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "full", "--quiet", "--until", "0.05", "--set",
                    "output.particle_interval=0");
     assert_int_equal(list_checkpoints("full", names), 1);
@@ -27,10 +27,11 @@ static void a_checkpoint_that_fails_is_a_warning(void **state)
         (const char *const[]){"run", "measured.yaml", "--out", "full", "--quiet", "--resume", "--until", "0.1", "--set",
                               "output.particle_interval=0", "--set", "output.checkpoint.steps=1", NULL});
     assert_int_equal(o.status, 0);
-    /* The first one due is at the step after the one that the run went on from. */
-    snprintf(words, sizeof words, "shorebreak: warning: no checkpoint at step %ld, the run goes on: full/checkpoints/",
+    /* The first checkpoint is due one step after the step from which the run was resumed. */
+    snprintf(expected, sizeof expected,
+             "shorebreak: warning: no checkpoint at step %ld, the run continues: full/checkpoints/",
              strtol(names[0], NULL, 10) + 1);
-    if (strncmp(o.err, words, strlen(words)) != 0) fail_msg("expected \"%s\" first in:\n%s", words, o.err);
+    if (strncmp(o.err, expected, strlen(expected)) != 0) fail_msg("expected \"%s\" first in:\n%s", expected, o.err);
     assert_contains(o.err, "cannot write: File too large");
     outcome_free(&o);
     assert_int_equal(list_checkpoints("full", left), 1);
@@ -45,9 +46,9 @@ static void assert_last_line_is_whole(const char *name)
     sb_free(text);
 }
 
-/* A table that cannot be written ends the run, and all of them end with a whole row; with room again it goes on as if
-   nothing had been. */
-static void a_full_disk_ends_the_run_and_it_goes_on(void **state)
+/* A table that cannot be written ends the run, and all tables end with a complete row. With space on the disk, the run
+   resumes and ends as an uninterrupted one. */
+static void a_full_disk_ends_the_run_and_it_resumes(void **state)
 {
     (void)state;
     RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "roomy", "--quiet", "--set", "measure.interval=0.002");
@@ -69,7 +70,7 @@ static void a_full_disk_ends_the_run_and_it_goes_on(void **state)
     assert_same_run("roomy", "tight", pair_tables);
 }
 
-/* A second run in the same directory is refused before it touches anything. */
+/* A second run in the same directory is refused before it changes anything. */
 static void one_run_at_a_time(void **state)
 {
     (void)state;
@@ -110,8 +111,8 @@ static void removed_tables_end_the_run(void **state)
     outcome_free(&o);
 }
 
-/* The folder of the checkpoints, and the log: without them a run could not go on, or not be told for one. */
-static void what_was_removed_is_made_again(void **state)
+/* The folder of the checkpoints and the log: without them a run could not be resumed or recognised. */
+static void removed_folders_and_logs_are_made_again(void **state)
 {
     (void)state;
     char names[16][64];
@@ -125,7 +126,8 @@ static void what_was_removed_is_made_again(void **state)
     assert_int_equal(kill(process, SIGTERM), 0);
     outcome o = program_finish(process);
     assert_int_equal(o.status, 143);
-    assert_int_equal(count_of(o.err, "warning: swept/checkpoints: was removed during the run; it was made again"), 1);
+    assert_int_equal(count_of(o.err, "warning: swept/checkpoints: was removed during the run; it has been made again"),
+                     1);
     assert_int_equal(
         count_of(o.err, "warning: swept/run.jsonl: was removed during the run; its earlier lines are lost"), 1);
     outcome_free(&o);
@@ -136,32 +138,33 @@ static void what_was_removed_is_made_again(void **state)
     sb_free(log);
 }
 
-/* What a user moves away while the run goes on is told once; checkpoints are written all the same, the one on a signal
-   included. */
-static void files_taken_away_are_told_once(void **state)
+/* A file that a user removes during the run is reported once. Checkpoints are still written, including the one on a
+   signal. */
+static void removed_files_are_reported_once(void **state)
 {
     (void)state;
     static const struct {
-        const char *scene, *taken, *later;
+        const char *scene, *removed, *later;
     } cases[] = {{"measured.yaml", "particles/000002.vtp", "particles/000003.vtp"},
                  {"tank3.yaml", "frames/side/000002.png", "frames/front/000003.png"}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        char names[16][64], words[96], until[32];
+        char names[16][64], expected[96], until[32];
         const char *run = k ? "thinned" : "picked";
         pid_t process = program_start((const char *const[]){"run", cases[k].scene, "--out", run, "--quiet", "--until",
                                                             "1000", "--set", "output.checkpoint.minutes=600", NULL});
         for (double end = sb_clock() + 30; !exists(in_run(run, cases[k].later)) && sb_clock() < end;) usleep(2000);
-        assert_int_equal(unlink(in_folder("%s", in_run(run, cases[k].taken))), 0);
+        assert_int_equal(unlink(in_folder("%s", in_run(run, cases[k].removed))), 0);
         assert_int_equal(kill(process, SIGTERM), 0);
         outcome o = program_finish(process);
         assert_int_equal(o.status, 143);
-        snprintf(words, sizeof words, "warning: %s: is not there any more", in_run(run, cases[k].taken));
-        assert_int_equal(count_of(o.err, words), 1);
+        snprintf(expected, sizeof expected, "warning: %s: was removed during the run; the run continues without it",
+                 in_run(run, cases[k].removed));
+        assert_int_equal(count_of(o.err, expected), 1);
         outcome_free(&o);
         assert_int_equal(list_checkpoints(run, names), 1);
         snprintf(until, sizeof until, "%.9g", json_number_of(in_run(run, "summary.json"), "simulated_s") * (1 - 1e-6));
         o = RUN(0, "run", cases[k].scene, "--out", run, "--resume", "--until", until);
-        assert_contains(o.out, "going on from step ");
+        assert_contains(o.out, "resuming from step ");
         assert_string_equal(o.err, "");
         outcome_free(&o);
     }
@@ -171,11 +174,11 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_checkpoint_that_fails_is_a_warning),
-        cmocka_unit_test(a_full_disk_ends_the_run_and_it_goes_on),
+        cmocka_unit_test(a_full_disk_ends_the_run_and_it_resumes),
         cmocka_unit_test(one_run_at_a_time),
         cmocka_unit_test(removed_tables_end_the_run),
-        cmocka_unit_test(what_was_removed_is_made_again),
-        cmocka_unit_test(files_taken_away_are_told_once),
+        cmocka_unit_test(removed_folders_and_logs_are_made_again),
+        cmocka_unit_test(removed_files_are_reported_once),
     };
     return cmocka_run_group_tests(tests, pair_setup, program_teardown);
 }

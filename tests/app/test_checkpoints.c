@@ -1,4 +1,5 @@
-/* Runs that go on from a checkpoint end as those that were never disturbed: state, tables, pictures, particle files. */
+/* Runs that are resumed from a checkpoint end as uninterrupted ones: same state, tables, pictures and particle files.
+ */
 #include "pair.h"
 
 #include "base/clock.h"
@@ -10,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-static void each_solver_goes_on(void **state)
+static void each_solver_resumes(void **state)
 {
     (void)state;
     static const char *const solvers[] = {"numerics.solver=jacobi", "numerics.solver=chebyshev", "numerics.solver=cg"};
@@ -22,7 +23,7 @@ static void each_solver_goes_on(void **state)
                        "--resume", "--threads", "2");
         RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "parts", "--quiet", "--set", solvers[s], "--resume");
         assert_same_run("whole", "parts", pair_tables);
-        /* Times are counted on, too. */
+        /* The counts of calls and steps continue, too. */
         static const char *const counts[] = {"calls", "settling_calls", "steps"};
         for (int c = 0; c < 3; c++)
             assert_near(json_number_of("parts/summary.json", counts[c]),
@@ -38,7 +39,7 @@ static void each_solver_goes_on(void **state)
     }
 }
 
-static void a_run_in_3d_with_pictures_goes_on(void **state)
+static void a_run_in_3d_with_pictures_resumes(void **state)
 {
     (void)state;
     static const char *const files[] = {
@@ -50,14 +51,14 @@ static void a_run_in_3d_with_pictures_goes_on(void **state)
         RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "whole3", "--quiet", "--overwrite", "--set", set);
         RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "parts3", "--quiet", "--overwrite", "--set", set, "--until",
                        "0.17");
-        /* The run's own scene will do as well: it names the same files, and what was set. */
+        /* The run's own scene.yaml can be used as well: it names the same files and contains the overrides. */
         RUN_AND_FORGET(0, "run", "parts3/scene.yaml", "--out", "parts3", "--quiet", "--resume", "--until", "0.3");
         assert_same_run("whole3", "parts3", files);
     }
 }
 
-/* Nor does it matter who listened before the cut: particle files are counted by themselves. */
-static void a_stream_leaves_no_trace(void **state)
+/* A stream before the interruption does not matter either: particle files are counted separately. */
+static void a_stream_changes_nothing(void **state)
 {
     (void)state;
     RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "mute", "--quiet", "--until", "0.35");
@@ -86,7 +87,7 @@ static void checkpoints_change_nothing(void **state)
     sb_free(log);
 }
 
-static void the_last_ones_are_kept(void **state)
+static void the_newest_ones_are_kept(void **state)
 {
     (void)state;
     char names[16][64], last[64];
@@ -98,25 +99,25 @@ static void the_last_ones_are_kept(void **state)
     assert_string_equal(names[2], last);
     snprintf(last, sizeof last, "%09d.state", (steps - 1) / 4 * 4);
     assert_string_equal(names[1], last);
-    /* A new run there begins anew and says so. */
+    /* A new run in the directory reports that it replaces the earlier one. */
     outcome o = RUN(0, "run", "measured.yaml", "--out", "kept", "--overwrite", "--until", "0.02", "--set",
                     "output.checkpoint={steps: 1000, minutes: 0}");
-    assert_contains(o.out, "kept: the files of the earlier run are removed, for a new one in its place");
+    assert_contains(o.out, "kept: the files of the earlier run are removed, and a new run starts");
     outcome_free(&o);
     assert_int_equal(list_checkpoints("kept", names), 1);
     assert_true(strcmp(names[0], last) < 0);
 }
 
-static void without_a_checkpoint_it_begins(void **state)
+static void without_a_checkpoint_the_run_starts(void **state)
 {
     (void)state;
     outcome o = RUN(0, "run", "measured.yaml", "--out", "nothing", "--until", "0.05", "--resume");
-    assert_contains(o.out, "nothing: no checkpoint to go on from, so the run starts from the beginning");
+    assert_contains(o.out, "nothing: no checkpoint to resume from; the run starts from the beginning");
     outcome_free(&o);
     assert_true(exists("nothing/summary.json"));
 }
 
-/* A sea whose settling takes a second or more. */
+/* A scene whose settling takes a second or more. */
 static const char resting[] = "resolution: 0.06\n"
                               "duration: 0.1\n"
                               "domain: {min: [0, 0, 0], max: [4, 1, 1]}\n"
@@ -126,7 +127,7 @@ static const char resting[] = "resolution: 0.06\n"
                               "output: {plots: false, particle_interval: 0.05, checkpoint: {steps: 5, minutes: 0}}\n";
 static const char *const resting_tables[] = {"forces.csv", "gauges.csv", "energy.csv", NULL};
 
-/* Begins in `directory`, and is sent the signal once settling has been saved. Returns its exit status. */
+/* Starts a run in `directory` and sends the signal once settling has been saved. Returns the exit status. */
 static int cut_while_settling(const char *directory, int signal)
 {
     char saved[64];
@@ -136,13 +137,13 @@ static int cut_while_settling(const char *directory, int signal)
     assert_int_equal(kill(process, signal), 0);
     outcome o = program_finish(process);
     const int status = o.status;
-    if (signal == SIGTERM) assert_contains(o.err, "while the water came to rest: nothing is computed yet; to go on:");
+    if (signal == SIGTERM) assert_contains(o.err, "while the water came to rest: nothing is computed yet; to resume:");
     outcome_free(&o);
     assert_true(exists(saved));
     return status;
 }
 
-static void a_run_goes_on_with_settling(void **state)
+static void a_run_resumes_settling(void **state)
 {
     (void)state;
     char names[16][64];
@@ -150,8 +151,8 @@ static void a_run_goes_on_with_settling(void **state)
     RUN_AND_FORGET(0, "run", "resting.yaml", "--out", "rested", "--quiet");
     assert_int_equal(cut_while_settling("resting", SIGTERM), 128 + SIGTERM);
     outcome o = RUN(0, "run", "resting.yaml", "--out", "resting", "--resume");
-    assert_contains(o.out, "going on from step ");
-    assert_contains(o.out, " of the settling before t = 0");
+    assert_contains(o.out, "resuming from step ");
+    assert_contains(o.out, " of settling, before t = 0");
     outcome_free(&o);
     assert_same_run("rested", "resting", resting_tables);
     assert_int_equal(list_checkpoints("resting", names), 2);
@@ -159,55 +160,54 @@ static void a_run_goes_on_with_settling(void **state)
     cut_while_settling("killed", SIGKILL);
     RUN_AND_FORGET(0, "run", "resting.yaml", "--out", "killed", "--quiet", "--resume");
     assert_same_run("rested", "killed", resting_tables);
-    /* One that is damaged, or of another scene, is refused, and nothing is touched. */
+    /* A file that is damaged or of another scene is refused, and nothing is changed. */
     cut_while_settling("damaged", SIGKILL);
     char *before = text_of("damaged/run.jsonl");
     o = RUN(1, "run", "measured.yaml", "--out", "damaged", "--quiet", "--resume");
-    assert_contains(o.err, "no checkpoint to go on from: damaged/checkpoints/settling.state: of another scene");
+    assert_contains(o.err, "no checkpoint to resume from: damaged/checkpoints/settling.state: of another scene");
     outcome_free(&o);
     write_text("damaged/checkpoints/settling.state", "SBSTATE, or so");
     o = RUN(1, "run", "resting.yaml", "--out", "damaged", "--quiet", "--resume");
-    assert_contains(o.err, "no checkpoint to go on from: damaged/checkpoints/settling.state: ");
+    assert_contains(o.err, "no checkpoint to resume from: damaged/checkpoints/settling.state: ");
     outcome_free(&o);
     char *after = text_of("damaged/run.jsonl");
     assert_string_equal(before, after);
     sb_free(before);
     sb_free(after);
-    /* A longer run is the same one. */
+    /* A run with a longer duration can be resumed. */
     cut_while_settling("longer", SIGKILL);
     RUN_AND_FORGET(0, "run", "resting.yaml", "--out", "longer", "--quiet", "--resume", "--until", "0.15");
     char *scene = text_of("longer/scene.yaml");
     assert_contains(scene, "duration: 0.15");
     sb_free(scene);
-    /* And a new run clears it away. */
+    /* A new run removes the file. */
     cut_while_settling("anew", SIGKILL);
     RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "anew", "--quiet", "--overwrite", "--until", "0.02", "--set",
                    "output.checkpoint.minutes=0");
     assert_false(exists("anew/checkpoints/settling.state") || exists("anew/checkpoints/settling.state.tmp"));
 }
 
-static void a_finished_run_says_so(void **state)
+static void a_finished_run_is_reported(void **state)
 {
     (void)state;
     RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "done", "--quiet", "--until", "0.2");
     RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "again", "--quiet", "--until", "0.2");
     outcome o = RUN(0, "run", "measured.yaml", "--out", "again", "--until", "0.2", "--resume");
-    assert_contains(o.out, "the run is finished; a longer duration, as by --until, would go on");
+    assert_contains(o.out, "the run is finished; set a longer duration, e.g. with --until, to continue it");
     outcome_free(&o);
     assert_same_run("done", "again", pair_tables);
 }
 
-/* What has been computed cannot be meant to end earlier: nothing is touched, the scene that the run wrote least of all.
- */
+/* An end before the time that was simulated is refused, and no file is changed, in particular not scene.yaml. */
 static void an_end_that_has_passed_is_refused(void **state)
 {
     (void)state;
     RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "past", "--quiet", "--until", "0.2");
     char *scene = text_of("past/scene.yaml"), *summary = text_of("past/summary.json");
     outcome o = RUN(1, "run", "measured.yaml", "--out", "past", "--resume", "--until", "0.05");
-    assert_one_line(o.err, "duration: 0.05 s, expected at least the 0.20");
-    assert_contains(o.err, " s that the run in past has reached");
-    assert_null(strstr(o.out, "going on"));
+    assert_one_line(o.err, "duration: 0.05 s, expected at least 0.20");
+    assert_contains(o.err, " s, the time that the run in past has simulated");
+    assert_null(strstr(o.out, "resuming"));
     outcome_free(&o);
     char *scene_now = text_of("past/scene.yaml"), *summary_now = text_of("past/summary.json");
     assert_string_equal(scene, scene_now);
@@ -232,7 +232,7 @@ static void a_signal_leaves_a_checkpoint(void **state)
         assert_int_equal(kill(process, signals[s]), 0);
         outcome o = program_finish(process);
         assert_int_equal(o.status, 128 + signals[s]);
-        assert_one_line(o.err, "; to go on: shorebreak run cut/scene.yaml --out cut --resume");
+        assert_one_line(o.err, "; to resume: shorebreak run cut/scene.yaml --out cut --resume");
         outcome_free(&o);
         assert_int_equal(list_checkpoints("cut", names), 1);
         const double steps = json_number_of("cut/summary.json", "steps");
@@ -251,14 +251,14 @@ static void a_signal_leaves_a_checkpoint(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_solver_goes_on),
-        cmocka_unit_test(a_run_in_3d_with_pictures_goes_on),
-        cmocka_unit_test(a_stream_leaves_no_trace),
+        cmocka_unit_test(each_solver_resumes),
+        cmocka_unit_test(a_run_in_3d_with_pictures_resumes),
+        cmocka_unit_test(a_stream_changes_nothing),
         cmocka_unit_test(checkpoints_change_nothing),
-        cmocka_unit_test(the_last_ones_are_kept),
-        cmocka_unit_test(without_a_checkpoint_it_begins),
-        cmocka_unit_test(a_run_goes_on_with_settling),
-        cmocka_unit_test(a_finished_run_says_so),
+        cmocka_unit_test(the_newest_ones_are_kept),
+        cmocka_unit_test(without_a_checkpoint_the_run_starts),
+        cmocka_unit_test(a_run_resumes_settling),
+        cmocka_unit_test(a_finished_run_is_reported),
         cmocka_unit_test(an_end_that_has_passed_is_refused),
         cmocka_unit_test(a_signal_leaves_a_checkpoint),
     };

@@ -1,4 +1,4 @@
-/* Commands and options: what they say, and the status they end with. */
+/* Commands and options: their output and exit status. */
 #include "program.h"
 
 #include "base/clock.h"
@@ -48,7 +48,7 @@ static void version_everywhere(void **state)
     }
 }
 
-static void no_command_is_told_how(void **state)
+static void without_a_command_usage_is_printed(void **state)
 {
     (void)state;
     outcome o = program_expect(1, (const char *const[]){NULL});
@@ -57,17 +57,17 @@ static void no_command_is_told_how(void **state)
     outcome_free(&o);
 }
 
-/* Arguments parted by blanks, and words that the one line must have. */
+/* Arguments, separated by blanks, and a text that the one-line message must contain. */
 static const struct {
-    const char *arguments, *words;
+    const char *arguments, *expected;
 } mistakes[] = {
     {"frobnicate", "frobnicate: no such command"},
     {"chekc tank2.yaml", "chekc: no such command, did you mean check?"},
     {"runs tank2.yaml", "runs: no such command, did you mean run?"},
-    {"run tank2.yaml --resum", "--resum: no such option here, did you mean --resume?"},
-    {"run tank2.yaml --untill=3", "--untill=3: no such option here, did you mean --until?"},
-    {"run tank2.yaml --over-write", "--over-write: no such option here, did you mean --overwrite?"},
-    {"check tank2.yaml --threds 2", "--threds: no such option here, did you mean --threads?"},
+    {"run tank2.yaml --resum", "--resum: not an option of this command, did you mean --resume?"},
+    {"run tank2.yaml --untill=3", "--untill=3: not an option of this command, did you mean --until?"},
+    {"run tank2.yaml --over-write", "--over-write: not an option of this command, did you mean --overwrite?"},
+    {"check tank2.yaml --threds 2", "--threds: not an option of this command, did you mean --threads?"},
     {"run tank2.yaml --set resolutoin=1", "did you mean resolution?"},
     {"run tank2.yaml --set numerics.kernel=cubc", "expected cubic"},
     {"list kernel", "did you mean kernels?"},
@@ -78,11 +78,11 @@ static const struct {
     {"sample --out x.vtp", "no scene given"},
     {"render", "no run directory given"},
     {"list", "no table given"},
-    {"run tank2.yaml tank3.yaml", "tank3.yaml: one scene is enough"},
-    {"run tank2.yaml --nope", "--nope: no such option"},
-    {"run tank2.yaml --json", "--json: no such option"},
-    {"check tank2.yaml --quiet", "--quiet: no such option"},
-    {"check tank2.yaml --profile", "--profile: no such option"},
+    {"run tank2.yaml tank3.yaml", "tank3.yaml: expected one scene"},
+    {"run tank2.yaml --nope", "--nope: not an option of this command"},
+    {"run tank2.yaml --json", "--json: not an option of this command"},
+    {"check tank2.yaml --quiet", "--quiet: not an option of this command"},
+    {"check tank2.yaml --profile", "--profile: not an option of this command"},
     {"run tank2.yaml --quiet=yes", "--quiet=yes: takes no value"},
     {"run tank2.yaml --out", "--out: needs a value"},
     {"run tank2.yaml --set", "--set: needs a value"},
@@ -121,14 +121,14 @@ static void mistakes_get_one_line(void **state)
         snprintf(text, sizeof text, "%s", mistakes[m].arguments);
         for (char *word = strtok(text, " "); word; word = strtok(NULL, " ")) list[count++] = word;
         outcome o = program_expect(1, list);
-        assert_one_line(o.err, mistakes[m].words);
+        assert_one_line(o.err, mistakes[m].expected);
         assert_string_equal(o.out, "");
         outcome_free(&o);
     }
     assert_false(exists("runs"));
 }
 
-static void lists_name_what_there_is(void **state)
+static void lists_name_all_choices(void **state)
 {
     (void)state;
     static const char *const tables[][6] = {
@@ -149,7 +149,7 @@ static void lists_name_what_there_is(void **state)
     }
 }
 
-static void check_tells_what_would_be_built(void **state)
+static void check_reports_the_model(void **state)
 {
     (void)state;
     outcome o = RUN(0, "check", "tank3.yaml");
@@ -179,12 +179,12 @@ static void check_in_json(void **state)
     assert_near(strtod(json_find(o.out, "settling_steps"), NULL), 50, 0); /* boxes: each of them */
     const double settled = strtod(json_find(o.out, "run_time_s"), NULL);
     outcome_free(&o);
-    /* Settling is part of the run time. */
+    /* The run time includes settling. */
     o = RUN(0, "check", "tank3.yaml", "--json", "--set", "numerics.settle_steps=0");
     assert_near(strtod(json_find(o.out, "settling_steps"), NULL), 0, 0);
     assert_true(strtod(json_find(o.out, "run_time_s"), NULL) < settled);
     outcome_free(&o);
-    /* The steps are those of a run. */
+    /* The estimate uses the time step of a run. */
     o = RUN(0, "check", "tank3.yaml", "--json", "--set", "numerics.time_step_max=1e-4");
     assert_near(strtod(json_find(o.out, "time_step_s"), NULL), 1e-4, 1e-12);
     assert_near(strtod(json_find(o.out, "steps"), NULL), 3000, 1);
@@ -192,7 +192,7 @@ static void check_in_json(void **state)
     o = RUN(0, "check", "tank3.yaml", "--json", "--set", "numerics.artificial_viscosity=10");
     assert_true(strtod(json_find(o.out, "time_step_s"), NULL) < 2e-4);
     outcome_free(&o);
-    /* One particle deep: too coarse, which is a warning and no error. */
+    /* Water one particle deep is too coarse, which gives a warning and no error. */
     o = RUN(0, "check", "tank3.yaml", "--json", "--set", "resolution=0.25");
     assert_true(json_valid(o.out));
     assert_true(*json_find(o.out, "warnings") == '[');
@@ -200,25 +200,25 @@ static void check_in_json(void **state)
     outcome_free(&o);
 }
 
-/* An answer that nobody can have got is no success. */
-static void an_answer_that_is_lost_is_told(void **state)
+/* A command whose result cannot be written fails. */
+static void a_lost_result_is_an_error(void **state)
 {
     (void)state;
-    static const char *const asked[] = {"check tank3.yaml --json", "list kernels"};
-    for (size_t i = 0; i < sizeof asked / sizeof *asked; i++) {
+    static const char *const requests[] = {"check tank3.yaml --json", "list kernels"};
+    for (size_t i = 0; i < sizeof requests / sizeof *requests; i++) {
         char command[2200];
         snprintf(command, sizeof command, "cd '%s' && '%s/shorebreak' %s >/dev/full 2>lost.txt", in_folder("."),
-                 SB_BINARY_DIR, asked[i]);
+                 SB_BINARY_DIR, requests[i]);
         const int how = system(command);
         assert_true(WIFEXITED(how) && WEXITSTATUS(how) == 2);
-        char *said = text_of("lost.txt");
-        assert_one_line(said, "standard output: cannot write: No space left on device");
-        sb_free(said);
+        char *message = text_of("lost.txt");
+        assert_one_line(message, "standard output: cannot write: No space left on device");
+        sb_free(message);
     }
 }
 
-/* What runs, but not as its writer will have meant it, is told before and while it runs. */
-static void a_scene_of_doubtful_use_is_warned_of(void **state)
+/* A scene that can run but is probably not what the user meant gives a warning in `check` and in `run`. */
+static void a_doubtful_scene_gives_a_warning(void **state)
 {
     (void)state;
     static const char longer[] = "measure.interval: 7 s is longer than the run of ", slow[] = "measure.interval=7";
@@ -234,14 +234,13 @@ static void a_scene_of_doubtful_use_is_warned_of(void **state)
     assert_contains(log, longer);
     sb_free(log);
     o = RUN(0, "check", "tank3.yaml", "--set", "water.wave={kind: solitary, height: 0.2, depth: 0.4}");
-    assert_contains(o.out, "the theory third-order is good to 0.4");
+    assert_contains(o.out, "the theory third-order is accurate up to 0.4");
     outcome_free(&o);
     o = RUN(0, "run", "tank3.yaml", "--until=0.05", "--out=slow", "--overwrite", "--quiet");
     assert_null(strstr(o.err, "warning"));
     outcome_free(&o);
 }
 
-/* Particles of each kind in the file's Int32 array "body". */
 static double memory_with_support(const char *support)
 {
     outcome o = RUN(0, "check", "tank3.yaml", "--json", "--set", support);
@@ -252,7 +251,7 @@ static double memory_with_support(const char *support)
     return bytes;
 }
 
-/* Most memory goes into lists of neighbours: 384 particles with 4 pi/3 s^3 of them. */
+/* Most memory is used by neighbour lists: 384 particles with 4 pi/3 s^3 neighbours each. */
 static void check_counts_neighbours_as_memory(void **state)
 {
     (void)state;
@@ -260,6 +259,7 @@ static void check_counts_neighbours_as_memory(void **state)
     assert_true(more > 384 * 79.5 * 4 && more < 384 * 79.6 * 4.5);
 }
 
+/* Counts the particles of each kind in the file's Int32 array "body". */
 static void count_bodies(const char *path, size_t points, size_t *walls, size_t *fluid)
 {
     FILE *file = fopen(path, "rb");
@@ -301,14 +301,14 @@ static void sample_writes_the_particles(void **state)
     assert_int_equal(found_walls, walls);
     assert_int_equal(found_fluid, fluid);
     o = RUN(1, "sample", "tank3.yaml", "--out", "tank3.yaml");
-    assert_one_line(o.err, "--out tank3.yaml: is the scene itself, expected another file");
+    assert_one_line(o.err, "--out tank3.yaml: is the scene file, expected another file");
     outcome_free(&o);
     o = RUN(2, "sample", "tank3.yaml", "--out", "tank3.yaml/sample.vtp");
     assert_one_line(o.err, "tank3.yaml/sample.vtp: ");
     outcome_free(&o);
 }
 
-/* The state's hash, as its hex digits in summary.json. */
+/* Copies the hex digits of the state hash from summary.json. */
 static void copy_hash(const char *summary, char hash[32])
 {
     char *text = text_of(summary);
@@ -318,7 +318,7 @@ static void copy_hash(const char *summary, char hash[32])
     sb_free(text);
 }
 
-static void profile_says_where_time_went_and_changes_nothing(void **state)
+static void profile_prints_times_and_changes_nothing(void **state)
 {
     (void)state;
     char hashes[2][32];
@@ -326,15 +326,15 @@ static void profile_says_where_time_went_and_changes_nothing(void **state)
     assert_string_equal(o.out, "");
     outcome_free(&o);
     o = RUN(0, "run", "tank2.yaml", "--until", "0.05", "--quiet", "--profile", "--out", "profiled");
-    static const char *const words[] = {"ns per particle-step\n",
-                                        "\nneighbours ",
-                                        "\npressure ",
-                                        "\nall stages ",
-                                        " iterations per step, ",
-                                        " particle-steps per second, 1 thread\n",
-                                        "\nmemory: simulation ",
-                                        "\n  stream: off, no LCM thread\n"};
-    for (size_t w = 0; w < sizeof words / sizeof words[0]; w++) assert_contains(o.out, words[w]);
+    static const char *const expected[] = {"ns per particle-step\n",
+                                           "\nneighbours ",
+                                           "\npressure ",
+                                           "\nall stages ",
+                                           " iterations per step, ",
+                                           " particle-steps per second, 1 thread\n",
+                                           "\nmemory: simulation ",
+                                           "\n  stream: off, no LCM thread\n"};
+    for (size_t w = 0; w < sizeof expected / sizeof expected[0]; w++) assert_contains(o.out, expected[w]);
     outcome_free(&o);
     copy_hash("plain/summary.json", hashes[0]);
     copy_hash("profiled/summary.json", hashes[1]);
@@ -360,21 +360,23 @@ static void bad_scene_gives_its_place(void **state)
     assert_false(exists("b"));
 }
 
-/* What leaks is not run; `sample` still shows it. */
-/* What lies out of sight costs nothing; what lies so far that rounding bends the rest is refused. */
-static void bodies_may_reach_far_but_not_without_end(void **state)
+/* The part of a body outside the domain costs nothing. A body so far away that rounding would change the rest is
+ * refused.
+ */
+static void bodies_may_extend_far_within_a_limit(void **state)
 {
     (void)state;
     const double begin = sb_clock();
     outcome o = RUN(0, "check", "tank3.yaml", "--set", "bodies[0].max=[1e6, 0.6, 0.8]");
     outcome_free(&o);
-    assert_true(sb_clock() - begin < 20); /* and not days */
+    assert_true(sb_clock() - begin < 20); /* s; sampling the whole body would take days */
     o = RUN(1, "check", "tank3.yaml", "--set", "bodies[0].max=[1e20, 0.6, 0.8]");
     assert_one_line(
         o.err, "body \"post\" extends to (1e+20, 0.3, 0) m: expected at most 1e+07 m, 1e8 spacings, from the domain");
     outcome_free(&o);
 }
 
+/* `run` and `check` refuse walls through which water would pass; `sample` still writes their particles. */
 static void walls_that_would_leak_are_refused(void **state)
 {
     (void)state;
@@ -382,14 +384,14 @@ static void walls_that_would_leak_are_refused(void **state)
     for (int run = 0; run < 2; run++) {
         outcome o = run ? RUN(1, "run", "tank3.yaml", "--out", "leak", "--set", set)
                         : RUN(1, "check", "tank3.yaml", "--set", set);
-        assert_one_line(o.err, "tank3.yaml: numerics.wall_offset: 0.1 spacings, and water passes walls whose particles "
-                               "lie so near to their surface, expected 0.25 or more");
+        assert_one_line(o.err, "tank3.yaml: numerics.wall_offset: 0.1 spacings: water passes walls whose boundary "
+                               "particles are this close to their surface, expected 0.25 or more");
         outcome_free(&o);
     }
     RUN_AND_FORGET(0, "sample", "tank3.yaml", "--out", "leak.vtp", "--set", set);
 }
 
-/* What the loader maps for every run: graphics and mesh formats come when something asks for them. */
+/* Libraries for graphics and mesh formats are loaded only when they are needed. */
 static void the_program_starts_without_graphics(void **state)
 {
     (void)state;
@@ -408,18 +410,18 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(help_everywhere),
         cmocka_unit_test(version_everywhere),
-        cmocka_unit_test(no_command_is_told_how),
+        cmocka_unit_test(without_a_command_usage_is_printed),
         cmocka_unit_test(mistakes_get_one_line),
-        cmocka_unit_test(lists_name_what_there_is),
-        cmocka_unit_test(check_tells_what_would_be_built),
+        cmocka_unit_test(lists_name_all_choices),
+        cmocka_unit_test(check_reports_the_model),
         cmocka_unit_test(check_in_json),
-        cmocka_unit_test(an_answer_that_is_lost_is_told),
-        cmocka_unit_test(a_scene_of_doubtful_use_is_warned_of),
+        cmocka_unit_test(a_lost_result_is_an_error),
+        cmocka_unit_test(a_doubtful_scene_gives_a_warning),
         cmocka_unit_test(check_counts_neighbours_as_memory),
         cmocka_unit_test(sample_writes_the_particles),
-        cmocka_unit_test(profile_says_where_time_went_and_changes_nothing),
+        cmocka_unit_test(profile_prints_times_and_changes_nothing),
         cmocka_unit_test(bad_scene_gives_its_place),
-        cmocka_unit_test(bodies_may_reach_far_but_not_without_end),
+        cmocka_unit_test(bodies_may_extend_far_within_a_limit),
         cmocka_unit_test(walls_that_would_leak_are_refused),
         cmocka_unit_test(the_program_starts_without_graphics),
     };

@@ -1,4 +1,4 @@
-/* A consumer's thread that makes no progress is given up; one that is slow is waited for. */
+/* A consumer without progress is abandoned; a slow one is waited for. */
 #include "app/consumer.h"
 
 #include "../check.h"
@@ -8,20 +8,20 @@
 
 static const double DEADLINE = 0.3; /* s */
 
-/* One that hangs holds it; the test frees it at its end. */
-typedef struct hands {
+/* State of a consumer. It hangs by waiting for the lock, which the test releases at its end. */
+typedef struct worker {
     pthread_mutex_t lock;
-    int frames;   /* that it has begun */
-    int hangs_at; /* the frame it never ends; 0: none */
-    double busy;  /* s of processor that each frame takes */
+    int frames;   /* frames that it has begun */
+    int hangs_at; /* the frame in which it hangs; 0: none */
+    double busy;  /* processor time of each frame, s */
     bool closed;
-} hands;
+} worker;
 
 static sb_status handle(void *state, const sb_frame *frame, sb_error *error)
 {
     (void)frame;
     (void)error;
-    hands *h = state;
+    worker *h = state;
     struct timespec used;
     double begin = -1, now;
     if (++h->frames == h->hangs_at) pthread_mutex_lock(&h->lock);
@@ -33,15 +33,15 @@ static sb_status handle(void *state, const sb_frame *frame, sb_error *error)
     return SB_OK;
 }
 
-static void close_hands(void *state)
+static void close_worker(void *state)
 {
-    ((hands *)state)->closed = true;
+    ((worker *)state)->closed = true;
 }
 
-static void start(sb_consumer *consumer, hands *h)
+static void start(sb_consumer *consumer, worker *h)
 {
     const sb_consumer_work work = {
-        .name = "pictures", .state = h, .handle = handle, .close = close_hands, .deadline = DEADLINE};
+        .name = "pictures", .state = h, .handle = handle, .close = close_worker, .deadline = DEADLINE};
     sb_error error = {0};
     pthread_mutex_init(&h->lock, NULL);
     pthread_mutex_lock(&h->lock);
@@ -58,13 +58,13 @@ static void feed(sb_consumer *consumer, int count)
     }
 }
 
-/* What was given up is told, and its thread, should it go on after all, neither takes a frame nor closes. */
-static void check_given_up(sb_consumer *consumer, hands *h, uint64_t missed)
+/* An abandoned consumer is reported. If its thread continues later, it takes no frame and does not call close. */
+static void check_given_up(sb_consumer *consumer, worker *h, uint64_t missed)
 {
     const sb_trouble trouble = sb_consumer_trouble(consumer);
-    assert_true(consumer->given_up && sb_consumer_left(consumer));
+    assert_true(consumer->given_up && sb_consumer_thread_remains(consumer));
     assert_int_equal(trouble.missed, missed);
-    assert_int_equal(trouble.turns, 1);
+    assert_int_equal(trouble.changes, 1);
     assert_string_equal(trouble.latest.text, "no progress for 0.3 s");
     if (missed > 0) assert_string_equal(trouble.first.text, trouble.latest.text);
     pthread_mutex_unlock(&h->lock);
@@ -79,11 +79,11 @@ static void check_given_up(sb_consumer *consumer, hands *h, uint64_t missed)
 static void feeding_one_that_hangs(void **state)
 {
     (void)state;
-    hands h = {.hangs_at = 2};
+    worker h = {.hangs_at = 2};
     sb_consumer consumer;
     start(&consumer, &h);
     const double begin = sb_clock();
-    feed(&consumer, 7); /* one is ended, one in its hands, two wait, three find no room */
+    feed(&consumer, 7); /* one is finished, one hangs, two wait, three do not fit into the queue */
     assert_true(sb_clock() - begin >= DEADLINE);
     sb_consumer_drain(&consumer);
     sb_consumer_stop(&consumer);
@@ -93,7 +93,7 @@ static void feeding_one_that_hangs(void **state)
 static void draining_one_that_hangs(void **state)
 {
     (void)state;
-    hands h = {.hangs_at = 1};
+    worker h = {.hangs_at = 1};
     sb_consumer consumer;
     start(&consumer, &h);
     feed(&consumer, 2);
@@ -104,7 +104,7 @@ static void draining_one_that_hangs(void **state)
 static void stopping_one_that_hangs(void **state)
 {
     (void)state;
-    hands h = {.hangs_at = 3};
+    worker h = {.hangs_at = 3};
     sb_consumer consumer;
     start(&consumer, &h);
     feed(&consumer, 3);
@@ -112,11 +112,11 @@ static void stopping_one_that_hangs(void **state)
     check_given_up(&consumer, &h, 1);
 }
 
-/* Each frame takes more than the deadline: nothing is missed. */
+/* Each frame takes longer than the deadline, with progress: nothing is missed. */
 static void one_that_is_slow(void **state)
 {
     (void)state;
-    hands h = {.busy = 2 * DEADLINE};
+    worker h = {.busy = 2 * DEADLINE};
     sb_consumer consumer;
     start(&consumer, &h);
     feed(&consumer, 4);
@@ -126,7 +126,7 @@ static void one_that_is_slow(void **state)
     sb_consumer_stop(&consumer);
     assert_int_equal(consumer.handled, 5);
     assert_true(h.closed);
-    assert_false(consumer.given_up || sb_consumer_left(&consumer));
+    assert_false(consumer.given_up || sb_consumer_thread_remains(&consumer));
     assert_int_equal(sb_consumer_trouble(&consumer).missed, 0);
 }
 

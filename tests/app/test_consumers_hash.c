@@ -1,4 +1,4 @@
-/* Neither consumers nor the number of threads change a bit of the state a run ends with. */
+/* Neither consumers nor the number of threads change a bit of a run's final state. */
 #include "program.h"
 
 #include "../output/json_check.h"
@@ -61,7 +61,7 @@ static void the_stream_changes_nothing(void **state)
     hash_of("sent", hash);
     assert_string_equal(hash, plain);
     char *log = text_of("sent/run.jsonl");
-    assert_contains(log, "\"stream: "); /* it was on: its count of frames stands in the log */
+    assert_contains(log, "\"stream: "); /* the log contains its number of frames */
     assert_null(strstr(log, "stream: off"));
     assert_null(strstr(log, "stream: 0 frames"));
     sb_free(log);
@@ -81,8 +81,8 @@ static void threads_change_nothing(void **state)
     }
 }
 
-/* The hash is of the state: another state has another. */
-static void the_hash_sees_the_state(void **state)
+/* Different states have different hashes. */
+static void the_hash_depends_on_the_state(void **state)
 {
     (void)state;
     char hash[32];
@@ -98,7 +98,7 @@ int main(void)
         cmocka_unit_test(pictures_and_files_change_nothing),
         cmocka_unit_test(the_stream_changes_nothing),
         cmocka_unit_test(threads_change_nothing),
-        cmocka_unit_test(the_hash_sees_the_state),
+        cmocka_unit_test(the_hash_depends_on_the_state),
     };
     return cmocka_run_group_tests(tests, setup, program_teardown);
 }

@@ -1,4 +1,4 @@
-/* A run that diverges says where and when, and leaves its last good state. */
+/* A run that diverges reports where and when, and writes its last good state. */
 #include "program.h"
 
 #include "../output/json_check.h"
@@ -16,7 +16,7 @@ typedef struct failure {
     double time, x, y, z;
 } failure;
 
-/* Step, time and place out of the one line. */
+/* Reads step, time and position from the message. */
 static failure read_failure(const char *line)
 {
     failure f;
@@ -24,11 +24,11 @@ static failure read_failure(const char *line)
     int found = sscanf(line, "shorebreak: step %llu, t = %lf s", &f.step, &f.time);
     const char *place = strstr(line, " at (");
     if (found != 2 || !place || sscanf(place, " at (%lf, %lf, %lf) m", &f.x, &f.y, &f.z) != 3)
-        fail_msg("neither step nor place in %s", line);
+        fail_msg("no step or position in %s", line);
     return f;
 }
 
-/* The last line of stderr: warnings may stand before it. */
+/* The last line of stderr; warnings may precede it. */
 static const char *last_line(char *text)
 {
     size_t length = strlen(text);
@@ -38,7 +38,7 @@ static const char *last_line(char *text)
     return before ? before + 1 : text;
 }
 
-/* It holds all particles but those that the run counted as gone. */
+/* The file contains all particles except those that the run counted as lost or left. */
 static void check_last_good(const char *run, size_t count, double time)
 {
     char summary[64];
@@ -80,7 +80,7 @@ static void check_summary(const char *run)
     sb_free(text);
 }
 
-static void senseless_start_fails_at_once(void **state)
+static void an_extreme_start_fails_at_once(void **state)
 {
     (void)state;
     outcome o = RUN(2, "run", "tank2.yaml", "--out", "start", "--quiet", "--set", "water.boxes.0.velocity=[300, 0]");
@@ -94,8 +94,8 @@ static void senseless_start_fails_at_once(void **state)
     assert_false(any_ending("start", ".tmp"));
 }
 
-/* A paddle that starts at 100 km/s after a tenth of a second of sense. */
-static void violent_paddle_fails_on_the_way(void **state)
+/* A paddle that starts at 100 km/s after a tenth of a second. */
+static void an_extreme_paddle_fails_during_the_run(void **state)
 {
     (void)state;
     write_text("paddle.yaml", "dimensions: 2\n"
@@ -119,7 +119,7 @@ static void violent_paddle_fails_on_the_way(void **state)
     outcome_free(&o);
     check_last_good("blow", 300, f.time);
     check_summary("blow");
-    /* What was done before stays: files of 0, 0.04 and 0.08 s, rows up to the blow. */
+    /* Earlier results stay: particle files of 0, 0.04 and 0.08 s, rows up to the failure. */
     for (int i = 1; i <= 3; i++) {
         sb_frame *frame = NULL;
         assert_int_equal(sb_vtp_read(in_folder("blow/particles/%06d.vtp", i), &frame, NULL), SB_OK);
@@ -134,8 +134,8 @@ static void violent_paddle_fails_on_the_way(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(senseless_start_fails_at_once),
-        cmocka_unit_test(violent_paddle_fails_on_the_way),
+        cmocka_unit_test(an_extreme_start_fails_at_once),
+        cmocka_unit_test(an_extreme_paddle_fails_during_the_run),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
 }

@@ -1,4 +1,4 @@
-/* Where the system allows few threads, and where one that was counted on never comes. */
+/* Systems that allow few threads, and a thread that cannot be started and for which a library waits. */
 #include "program.h"
 
 #include "base/clock.h"
@@ -17,7 +17,7 @@ static outcome run_crowded(rlim_t processes, const char *threads)
                                                      "0.1", "--overwrite", "--threads", threads, NULL});
 }
 
-/* The run ends, with all its pictures or with the reason. */
+/* The run ends with all its pictures, or with the reason. */
 static void each_limit_of_processes(void **state)
 {
     (void)state;
@@ -42,36 +42,37 @@ static void each_limit_of_processes(void **state)
     outcome_free(&o);
 }
 
-static void more_threads_than_cores_are_warned_of_once(void **state)
+static void more_threads_than_cores_give_one_warning(void **state)
 {
     (void)state;
-    char threads[32], words[64];
+    char threads[32], expected[64];
     snprintf(threads, sizeof threads, "%ld", sysconf(_SC_NPROCESSORS_CONF) + 1);
-    snprintf(words, sizeof words, "threads: %s on ", threads);
+    snprintf(expected, sizeof expected, "threads: %s on ", threads);
     outcome o = RUN(0, "run", "tank2.yaml", "--out", "many", "--quiet", "--until", "0.01", "--threads", threads);
-    const char *first = strstr(o.err, words);
+    const char *first = strstr(o.err, expected);
     assert_non_null(first);
-    assert_null(strstr(first + 1, words));
+    assert_null(strstr(first + 1, expected));
     outcome_free(&o);
     char *log = text_of("many/run.jsonl");
-    assert_contains(log, words);
+    assert_contains(log, expected);
     sb_free(log);
     o = RUN(0, "check", "tank2.yaml", "--threads", threads);
-    assert_contains(o.out, words);
+    assert_contains(o.out, expected);
     outcome_free(&o);
     o = RUN(0, "check", "tank2.yaml", "--threads", "1");
     assert_null(strstr(o.out, "threads: "));
     outcome_free(&o);
 }
 
-/* One that a signal stops does not wait for a picture that never comes; and says so ever after. */
-static void a_picture_that_never_comes(void **state)
+/* A run that is stopped by a signal does not wait for a picture that hangs, and still reports it after it was resumed.
+ */
+static void a_picture_that_hangs(void **state)
 {
     (void)state;
 #if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
-    skip(); /* a sanitizer's library has to be the first one loaded */
+    skip(); /* a sanitizer's library must be loaded first */
 #endif
-    static const char words[] = "pictures: no progress for 5 s; ";
+    static const char expected[] = "pictures: no progress for 5 s; ";
     assert_int_equal(setenv("LD_PRELOAD", SB_BINARY_DIR "/libhanging_pictures.so", 1), 0);
     const pid_t process = program_start((const char *const[]){"run", "tank3.yaml", "--out", "hung", "--quiet", NULL});
     unsetenv("LD_PRELOAD");
@@ -81,12 +82,12 @@ static void a_picture_that_never_comes(void **state)
     outcome o = program_finish(process);
     assert_true(sb_clock() - start < 20);
     assert_int_equal(o.status, 2);
-    assert_contains(o.err, "shorebreak: warning: pictures: no progress for 5 s; the run goes on without them\n");
+    assert_contains(o.err, "shorebreak: warning: pictures: no progress for 5 s; the run continues without them\n");
     outcome_free(&o);
     assert_near(json_number_of("hung/summary.json", "pictures_missing"), 4, 0);
     assert_near(json_number_of("hung/summary.json", "pictures"), 0, 0);
     o = RUN(2, "run", "tank3.yaml", "--out", "hung", "--quiet", "--resume", "--until", "0.4");
-    assert_one_line(o.err, words);
+    assert_one_line(o.err, expected);
     outcome_free(&o);
     assert_near(json_number_of("hung/summary.json", "pictures"), 1, 0);
 }
@@ -94,8 +95,8 @@ static void a_picture_that_never_comes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(more_threads_than_cores_are_warned_of_once),
-        cmocka_unit_test(a_picture_that_never_comes),
+        cmocka_unit_test(more_threads_than_cores_give_one_warning),
+        cmocka_unit_test(a_picture_that_hangs),
         cmocka_unit_test(each_limit_of_processes),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);

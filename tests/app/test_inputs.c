@@ -1,4 +1,5 @@
-/* Inputs that are no regular files, or slow, given to the real program: one line with the place, at once. */
+/* Inputs that are not regular files, or are slow to read: the program refuses them at once, in one line with the place.
+ */
 #include "program.h"
 
 #include "base/clock.h"
@@ -11,11 +12,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* s; a refusal takes none, but other programs may. A pipe would be waited for, and a device be read, far longer. */
+/* s; a refusal is immediate, but the machine may be busy. Waiting for a pipe or reading a device takes far longer. */
 static const double PROMPT = 10;
 
 typedef enum kind { PIPE, FOLDER, DEVICE, KINDS } kind;
-static const char *const words[KINDS] = {"a FIFO", "a directory", "a device"};
+static const char *const kind_names[KINDS] = {"a FIFO", "a directory", "a device"};
 
 static void put(const char *name, kind of)
 {
@@ -24,26 +25,26 @@ static void put(const char *name, kind of)
     assert_int_equal(made, 0);
 }
 
-static void take_away(const char *name)
+static void remove_place(const char *name)
 {
     assert_int_equal(remove(in_folder("%s", name)), 0);
 }
 
-/* A refusal and one line that holds the file's name and `expected`. */
+/* The program refuses the file in one line that contains its name and `expected`. */
 static void expect_refusal(const char *name, const char *expected, const char *const *arguments)
 {
     const double begin = sb_clock();
     const pid_t process = program_start(arguments);
     outcome o = program_finish(process);
     if (sb_clock() - begin > PROMPT) fail_msg("%s: refused after %g s", name, sb_clock() - begin);
-    /* 1, or 2 where the run's own file is replaced. */
+    /* 1, or 2 when a file of the run itself is replaced. */
     if (o.status != 1 && o.status != 2) fail_msg("%s: exit status %d: %s", name, o.status, o.err);
     assert_one_line(o.err, name);
     assert_contains(o.err, expected);
     outcome_free(&o);
 }
 
-/* The tank in 3D with other bodies, and nothing that follows them. */
+/* The tank in 3D with other bodies, without the keys after `bodies`. */
 static void write_scene(const char *name, const char *bodies)
 {
     char text[1024];
@@ -58,17 +59,17 @@ static void a_scene_is_a_file(void **state)
     (void)state;
     for (kind k = 0; k < KINDS; k++) {
         put("odd.yaml", k);
-        expect_refusal("odd.yaml", words[k], (const char *const[]){"check", "odd.yaml", NULL});
-        expect_refusal("odd.yaml", words[k], (const char *const[]){"run", "odd.yaml", "--out", "none", NULL});
-        expect_refusal("odd.yaml", words[k],
+        expect_refusal("odd.yaml", kind_names[k], (const char *const[]){"check", "odd.yaml", NULL});
+        expect_refusal("odd.yaml", kind_names[k], (const char *const[]){"run", "odd.yaml", "--out", "none", NULL});
+        expect_refusal("odd.yaml", kind_names[k],
                        (const char *const[]){"sample", "odd.yaml", "--out", "particles.vtp", NULL});
-        take_away("odd.yaml");
+        remove_place("odd.yaml");
     }
     expect_refusal("/dev/tty", "a device", (const char *const[]){"check", "/dev/tty", NULL});
     assert_false(exists("none/run.jsonl"));
 }
 
-static void what_a_scene_names_is_a_file(void **state)
+static void files_named_in_a_scene_are_regular(void **state)
 {
     (void)state;
     static const char *const bodies[] = {"  - {name: odd, shape: mesh, file: odd.obj}\n",
@@ -81,12 +82,12 @@ static void what_a_scene_names_is_a_file(void **state)
         for (kind k = 0; k < KINDS; k++) {
             write_scene("names.yaml", bodies[f]);
             put(files[f], k);
-            expect_refusal("names.yaml:", words[k], (const char *const[]){"check", "names.yaml", NULL});
-            take_away(files[f]);
+            expect_refusal("names.yaml:", kind_names[k], (const char *const[]){"check", "names.yaml", NULL});
+            remove_place(files[f]);
         }
 }
 
-/* A part of a mesh that lies elsewhere is not read, whatever it holds. */
+/* A part of a mesh outside of the mesh's folder is not read. */
 static void a_mesh_reads_its_own_folder(void **state)
 {
     (void)state;
@@ -100,16 +101,16 @@ static void a_mesh_reads_its_own_folder(void **state)
         put("odd.mtl", k);
         snprintf(mesh, sizeof mesh, "mtllib odd.mtl\n%s", shape);
         write_text("odd.obj", mesh);
-        expect_refusal("odd.obj", k == DEVICE ? "outside of its folder" : words[k],
+        expect_refusal("odd.obj", k == DEVICE ? "outside of its folder" : kind_names[k],
                        (const char *const[]){"check", "mesh.yaml", NULL});
-        take_away("odd.mtl");
+        remove_place("odd.mtl");
     }
 }
 
-/* A link is no file of a run, whatever it leads to. */
-static const char *const own_words[KINDS] = {"a FIFO", "a directory", ", expected a "};
+/* A symbolic link is never accepted as a file of a run. */
+static const char *const run_file_kinds[KINDS] = {"a FIFO", "a directory", ", expected a "};
 
-static void what_render_and_resume_read_are_files(void **state)
+static void files_that_render_and_resume_read_are_regular(void **state)
 {
     (void)state;
     RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "done", "--quiet", "--set", "render.interval=0");
@@ -118,8 +119,9 @@ static void what_render_and_resume_read_are_files(void **state)
         for (kind k = 0; k < KINDS; k++) {
             assert_int_equal(rename(in_folder("%s", files[f]), in_folder("kept")), 0);
             put(files[f], k);
-            expect_refusal(files[f], own_words[k], (const char *const[]){"render", "done", "--out", "drawn", NULL});
-            take_away(files[f]);
+            expect_refusal(files[f], run_file_kinds[k],
+                           (const char *const[]){"render", "done", "--out", "drawn", NULL});
+            remove_place(files[f]);
             assert_int_equal(rename(in_folder("kept"), in_folder("%s", files[f])), 0);
         }
     expect_refusal("done/scene.yaml", "Not a directory", (const char *const[]){"render", "done/scene.yaml", NULL});
@@ -137,15 +139,15 @@ static void a_checkpoint_is_a_file(void **state)
     closedir(directory);
     assert_true(exists(name));
     for (kind k = 0; k < KINDS; k++) {
-        take_away(name);
+        remove_place(name);
         put(name, k);
-        expect_refusal(name, own_words[k],
+        expect_refusal(name, run_file_kinds[k],
                        (const char *const[]){"run", "tank2.yaml", "--out", "saved", "--resume", NULL});
     }
 }
 
-/* A file that its library reads for ever: a list of vertices without its head's end. */
-static void a_slow_mesh_does_not_keep_a_signal(void **state)
+/* A file that the library reads for a very long time: a list of vertices whose header does not end. */
+static void a_slow_mesh_does_not_delay_a_signal(void **state)
 {
     (void)state;
     static const int signals[] = {SIGINT, SIGTERM};
@@ -157,7 +159,7 @@ static void a_slow_mesh_does_not_keep_a_signal(void **state)
         const double begin = sb_clock();
         assert_int_equal(kill(process, signals[s]), 0);
         outcome o = program_finish(process);
-        /* Half a second is what a user is promised; a machine under load is given more, and reading takes 20 s. */
+        /* Users are promised half a second. The limit allows for a busy machine; reading the file takes 20 s. */
         if (sb_clock() - begin > 4) fail_msg("it took %g s to stop", sb_clock() - begin);
         if (o.status != 128 + signals[s]) fail_msg("exit status %d: %s", o.status, o.err);
         assert_one_line(o.err, "stopped by a signal while the model was built: nothing is computed yet");
@@ -168,9 +170,9 @@ static void a_slow_mesh_does_not_keep_a_signal(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_scene_is_a_file),           cmocka_unit_test(what_a_scene_names_is_a_file),
-        cmocka_unit_test(a_mesh_reads_its_own_folder), cmocka_unit_test(what_render_and_resume_read_are_files),
-        cmocka_unit_test(a_checkpoint_is_a_file),      cmocka_unit_test(a_slow_mesh_does_not_keep_a_signal),
+        cmocka_unit_test(a_scene_is_a_file),           cmocka_unit_test(files_named_in_a_scene_are_regular),
+        cmocka_unit_test(a_mesh_reads_its_own_folder), cmocka_unit_test(files_that_render_and_resume_read_are_regular),
+        cmocka_unit_test(a_checkpoint_is_a_file),      cmocka_unit_test(a_slow_mesh_does_not_delay_a_signal),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
 }

@@ -1,5 +1,5 @@
-/* Water that passes walls of the domain: scenes that once leaked hold theirs, and a run that loses some says so last.
- */
+/* Water that passes walls of the domain: scenes that once leaked no longer do, and a run that loses water reports it in
+   its last line. */
 #include "program.h"
 
 #include "base/memory.h"
@@ -17,7 +17,7 @@ static void write_scene(const char *name, double duration, const char *body)
     write_text(name, text);
 }
 
-/* A post without a height takes the ground away around it, down to the domain's floor. */
+/* A node without a height removes the ground around it, down to the domain's floor. */
 static void ground_with_a_hole_holds_the_sea(void **state)
 {
     (void)state;
@@ -49,7 +49,7 @@ static const char *last_line(char *text)
     return before ? before + 1 : text;
 }
 
-/* A block on the floor whose one side is missing: the water within stands on no boundary particles. */
+/* A block on the floor with one open side: there are no boundary particles under the water within it. */
 static void much_lost_water_fails_the_run(void **state)
 {
     (void)state;
@@ -57,7 +57,7 @@ static void much_lost_water_fails_the_run(void **state)
                            "v 2 1.5 0.8\nv 1 1.5 0.8\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\n");
     write_scene("open.yaml", 0.05, "shape: mesh, file: open.obj");
     outcome o = RUN(2, "run", "open.yaml", "--out", "open", "--quiet");
-    assert_contains(o.err, "were lost through walls of the domain while the water came to rest\n");
+    assert_contains(o.err, "were lost through walls of the domain during settling\n");
     const char *last = last_line(o.err);
     unsigned long long lost = 0, all = 0;
     assert_int_equal(sscanf(last, "shorebreak: %llu of %llu particles were lost", &lost, &all), 2);
@@ -73,8 +73,8 @@ static void much_lost_water_fails_the_run(void **state)
     sb_free(log);
 }
 
-/* The same in the small. */
-static void little_lost_water_is_told_last(void **state)
+/* The same with a small block. */
+static void little_lost_water_is_reported_last(void **state)
 {
     (void)state;
     write_scene("little.yaml", 0.05, "shape: mesh, file: open.obj, scale: 0.5, translate: [1, 0.7, -0.2]");
@@ -97,7 +97,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ground_with_a_hole_holds_the_sea),
         cmocka_unit_test(much_lost_water_fails_the_run),
-        cmocka_unit_test(little_lost_water_is_told_last),
+        cmocka_unit_test(little_lost_water_is_reported_last),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
 }

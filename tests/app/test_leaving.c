@@ -1,4 +1,4 @@
-/* Water that leaves is counted by side and placed; a run that goes on knows of what left before. */
+/* Particles that leave are counted by side, the first with their positions; a resumed run keeps the counts. */
 #include "program.h"
 
 #include "../output/json_check.h"
@@ -10,7 +10,7 @@
 
 #define OPEN "--set", "bodies=[]", "--set", "domain.sides={x_max: open}"
 
-/* The number behind a key, looked for behind another one. */
+/* The number at `key`, searched for after the text `within`. */
 static double number_behind(const char *text, const char *within, const char *key)
 {
     const char *at = strstr(text, within);
@@ -20,10 +20,10 @@ static double number_behind(const char *text, const char *within, const char *ke
     return strtod(value, NULL);
 }
 
-static int count_of(const char *text, const char *words)
+static int count_of(const char *text, const char *part)
 {
     int count = 0;
-    for (; (text = strstr(text, words)); text += strlen(words)) count++;
+    for (; (text = strstr(text, part)); text += strlen(part)) count++;
     return count;
 }
 
@@ -48,7 +48,7 @@ static void each_is_counted_and_the_first_are_placed(void **state)
     assert_near(number_behind(text, "left_by_side", "z_max"), 0, 0);
     assert_int_equal(count_of(strstr(text, "\"first_left\""), "\"side\": \"x_max\""), 8);
     assert_int_equal(count_of(log, "left through the open side x_max at t = "), 8);
-    /* The first is a step's way beyond the side. */
+    /* The first particle is at most one step's distance beyond the side. */
     const char *place = json_find(strstr(text, "\"first_left\""), "position_m");
     const double x = strtod(place + strcspn(place, "-.0123456789"), NULL);
     const double speed = number_behind(text, "first_left", "speed_m_s");
@@ -70,7 +70,7 @@ static void none_is_a_row_of_zeros(void **state)
     sb_free(log);
 }
 
-static void a_run_that_goes_on_knows_them(void **state)
+static void a_resumed_run_keeps_them(void **state)
 {
     (void)state;
     char whole[4096], parts[4096];
@@ -89,7 +89,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_is_counted_and_the_first_are_placed),
         cmocka_unit_test(none_is_a_row_of_zeros),
-        cmocka_unit_test(a_run_that_goes_on_knows_them),
+        cmocka_unit_test(a_resumed_run_keeps_them),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
 }

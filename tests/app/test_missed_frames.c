@@ -1,4 +1,4 @@
-/* Frames that cannot be written: told when it happens, tried again, and never forgotten. */
+/* Frames that cannot be written are reported when it happens, later frames are tried, and the failure is kept. */
 #include "program.h"
 
 #include "../output/json_check.h"
@@ -13,39 +13,39 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* From now on no file of the process gets longer than this: a particle file does not fit, tables and log do. */
+/* Limits the length of the process's files from now on: tables and log fit, a particle file does not. */
 static void limit_files(pid_t process, rlim_t bytes)
 {
     const struct rlimit limit = {bytes, RLIM_INFINITY};
     assert_int_equal(prlimit(process, RLIMIT_FSIZE, &limit, NULL), 0);
 }
 
-static void wait_for(const char *name, const char *words)
+static void wait_for(const char *name, const char *expected)
 {
     for (double end = sb_clock() + 60; sb_clock() < end; usleep(2000)) {
         char *text = exists(name) ? text_of(name) : NULL;
-        const bool there = text && strstr(text, words);
+        const bool there = text && strstr(text, expected);
         sb_free(text);
         if (there) return;
     }
-    fail_msg("no \"%s\" in %s within a minute", words, name);
+    fail_msg("no \"%s\" in %s within a minute", expected, name);
 }
 
-static void check_summary(const char *words)
+static void check_summary(const char *expected)
 {
     char *text = text_of("short/summary.json");
     assert_contains(text, "\"status\": \"failed\"");
-    assert_contains(text, words);
+    assert_contains(text, expected);
     sb_free(text);
 }
 
-/* No room for a while: the frames of that time are missing, those after it are there, and the run says so, at once and
-   whenever it is gone on with. */
+/* The disk is full for a while: the frames of that time are missing, later ones exist. The run reports it at once, and
+   again whenever it is resumed. */
 static void a_disk_that_is_full_for_a_while(void **state)
 {
     (void)state;
-    static const char again[] = "particle files: written again, ", reason[] = ": cannot write: File too large; ";
-    char until[64], words[96];
+    static const char again[] = "particle files: written again; ", reason[] = ": cannot write: File too large; ";
+    char until[64], expected[96];
     const pid_t process = program_start((const char *const[]){
         "run", "tank2.yaml", "--out", "short", "--quiet", "--until", "1000", "--set", "resolution=0.02", "--set",
         "output.particle_interval=0.02", "--set", "domain.max=[2, 2]", NULL});
@@ -58,16 +58,16 @@ static void a_disk_that_is_full_for_a_while(void **state)
     outcome o = program_finish(process);
     assert_int_equal(o.status, 2);
     assert_contains(o.err, "shorebreak: warning: particle files: short/particles/");
-    assert_contains(o.err, "the run goes on, and each later frame is tried\n");
+    assert_contains(o.err, "the run continues, and each later frame is tried\n");
     const char *first = strstr(o.err, reason);
     assert_non_null(first);
-    assert_null(strstr(strstr(first, again) + 1, "warning")); /* each is told once */
+    assert_null(strstr(strstr(first, again) + 1, "warning")); /* each is reported once */
     outcome_free(&o);
 
     const double missing = json_number_of("short/summary.json", "particle_files_missing");
     assert_true(missing >= 1);
-    snprintf(words, sizeof words, "%s%.0f frame", reason, missing);
-    check_summary(words);
+    snprintf(expected, sizeof expected, "%s%.0f frame", reason, missing);
+    check_summary(expected);
     sb_pvd list = {0};
     assert_int_equal(sb_pvd_read(in_folder("short/particles.pvd"), &list, NULL), SB_OK);
     assert_near(json_number_of("short/summary.json", "particle_files"), (double)list.count, 0);
@@ -79,23 +79,22 @@ static void a_disk_that_is_full_for_a_while(void **state)
     snprintf(until, sizeof until, "%.9g", end + 0.05);
     o = RUN(2, "run", "tank2.yaml", "--out", "short", "--quiet", "--resume", "--until", until, "--set",
             "resolution=0.02", "--set", "output.particle_interval=0.02", "--set", "domain.max=[2, 2]");
-    assert_one_line(o.err, words);
+    assert_one_line(o.err, expected);
     outcome_free(&o);
     assert_near(json_number_of("short/summary.json", "particle_files_missing"), missing, 0);
-    check_summary(words);
+    check_summary(expected);
 }
 
-/* A folder of which it can be seen that nothing will go into it is refused before the run begins, and before one goes
-   on. */
-static void folders_that_take_nothing_are_refused(void **state)
+/* A folder that cannot be written to is refused before a run begins or is resumed. */
+static void unwritable_folders_are_refused(void **state)
 {
     (void)state;
     static const char *const folders[] = {"particles", "frames", "frames/front", "maps"};
     for (size_t k = 0; k < 2 * sizeof folders / sizeof *folders; k++) {
-        char words[128], command[1200], place[64];
+        char expected[128], command[1200], place[64];
         const char *folder = folders[k / 2];
         assert_int_equal(mkdir(in_folder("blocked"), 0700), 0);
-        write_text("blocked/run.jsonl", ""); /* a run's directory */
+        write_text("blocked/run.jsonl", ""); /* marks a run directory */
         if (strchr(folder, '/')) assert_int_equal(mkdir(in_folder("blocked/frames"), 0700), 0);
         snprintf(place, sizeof place, "blocked/%s", folder);
         if (k % 2)
@@ -103,9 +102,9 @@ static void folders_that_take_nothing_are_refused(void **state)
         else
             assert_int_equal(symlink("nowhere", in_folder("%s", place)), 0);
         outcome o = RUN(2, "run", "tank3.yaml", "--out", "blocked", "--quiet", "--set", "measure.map={}");
-        snprintf(words, sizeof words, "%s: is %s, expected a directory of the run's own", place,
+        snprintf(expected, sizeof expected, "%s: is %s, expected a directory of the run's own", place,
                  k % 2 ? "not a directory" : "a symbolic link");
-        assert_one_line(o.err, words);
+        assert_one_line(o.err, expected);
         outcome_free(&o);
         assert_false(exists("blocked/scene.yaml"));
         char *log = text_of("blocked/run.jsonl");
@@ -127,9 +126,9 @@ static void folders_that_take_nothing_are_refused(void **state)
     sb_free(scene_now);
 }
 
-/* Pictures that someone has taken away meanwhile, as `render` into the run's folder does, are missed, and no film that
-   ends where they are missing passes for the whole. */
-static void pictures_taken_away_are_missed(void **state)
+/* Pictures that were removed, for example by `render` into the run's folder, are reported, and no film is made that
+   would end at the first missing picture. */
+static void removed_pictures_are_reported(void **state)
 {
     (void)state;
     RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "robbed", "--quiet", "--set", "render.video=true");
@@ -144,7 +143,7 @@ static void pictures_taken_away_are_missed(void **state)
     sb_free(log);
 }
 
-/* Steps that end on the very multiples of the interval, but for what sums round: a frame for each. */
+/* Steps that end on multiples of the interval, up to rounding, give one frame each. */
 static void no_frame_is_lost_to_rounding(void **state)
 {
     (void)state;
@@ -159,8 +158,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_disk_that_is_full_for_a_while),
-        cmocka_unit_test(folders_that_take_nothing_are_refused),
-        cmocka_unit_test(pictures_taken_away_are_missed),
+        cmocka_unit_test(unwritable_folders_are_refused),
+        cmocka_unit_test(removed_pictures_are_reported),
         cmocka_unit_test(no_frame_is_lost_to_rounding),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);

@@ -1,4 +1,4 @@
-/* Which directories a run takes for its own: nothing is lost but what the user names. */
+/* The directories into which a run writes: only files that the user names for replacement are lost. */
 #include "program.h"
 
 #include "base/clock.h"
@@ -23,12 +23,12 @@ static int add_one(const char *path, const struct stat *info, int kind, struct F
     FILE *file = kind == FTW_F ? fopen(path, "rb") : NULL;
     for (size_t got; file && (got = fread(bytes, 1, sizeof bytes, file)) > 0;) one = sb_hash(one, bytes, got);
     if (file) fclose(file);
-    all += one; /* in whatever order they are found */
+    all += one; /* independent of the order of the files */
     files += kind == FTW_F;
     return 0;
 }
 
-/* Of names and contents below a folder. */
+/* A hash of the names and contents of all files below a folder. */
 static uint64_t hash_all(const char *name)
 {
     all = files = 0;
@@ -41,7 +41,7 @@ static void make_folders(const char *const *names)
     for (; *names; names++) assert_int_equal(mkdir(in_folder("%s", *names), 0777), 0);
 }
 
-/* Named as a run names its files, and none of them written by one. */
+/* Files with the names of a run's files that no run has written. */
 static void other_peoples_files_are_left_alone(void **state)
 {
     (void)state;
@@ -69,12 +69,12 @@ static void other_peoples_files_are_left_alone(void **state)
     for (size_t w = 0; w < sizeof ways / sizeof *ways; w++) {
         outcome o = RUN(1, "run", "tank3.yaml", "--out", "alien", ways[w]);
         assert_one_line(o.err, "alien: holds \"");
-        assert_contains(o.err, "\" but no run of shorebreak; name an empty or a new directory by --out");
+        assert_contains(o.err, "\" but no run of shorebreak; name an empty or a new directory with --out");
         outcome_free(&o);
         assert_true(hash_all("alien") == before);
     }
     RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "r", "--quiet", "--until", "0.02");
-    /* The log of a run does not make the rest its own. */
+    /* The log of a run does not make the other files the run's. */
     char *log = text_of("r/run.jsonl");
     write_text("alien/run.jsonl", log);
     sb_free(log);
@@ -85,8 +85,8 @@ static void other_peoples_files_are_left_alone(void **state)
     assert_true(hash_all("alien") == marked);
 }
 
-/* A run that is there is lost by --overwrite alone. */
-static void a_run_is_replaced_when_asked_for(void **state)
+/* Only --overwrite replaces an earlier run. */
+static void a_run_is_replaced_on_request(void **state)
 {
     (void)state;
     RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "dear", "--quiet", "--until", "0.1");
@@ -96,11 +96,11 @@ static void a_run_is_replaced_when_asked_for(void **state)
     assert_string_equal(o.out, "");
     outcome_free(&o);
     o = RUN(1, "run", "tank3.yaml", "--out", "dear", "--resume", "--overwrite");
-    assert_one_line(o.err, "--overwrite: not together with --resume");
+    assert_one_line(o.err, "--overwrite: cannot be used together with --resume");
     outcome_free(&o);
     assert_true(hash_all("dear") == before);
     o = RUN(0, "run", "tank3.yaml", "--out", "dear", "--until", "0.1", "--overwrite");
-    assert_contains(o.out, "dear: the files of the earlier run are removed, for a new one in its place\n");
+    assert_contains(o.out, "dear: the files of the earlier run are removed, and a new run starts\n");
     assert_string_equal(o.err, "");
     outcome_free(&o);
     RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "like", "--until", "0.1");
@@ -128,11 +128,11 @@ static void a_run_that_has_not_ended_is_kept(void **state)
                     "cut: holds an unfinished run; add --resume to continue it, --overwrite to replace it, or name");
     outcome_free(&o);
     assert_true(hash_all("cut") == before);
-    /* It left no checkpoint: from the beginning. */
+    /* It wrote no checkpoint, so it starts from the beginning. */
     RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "cut", "--quiet", "--until", "0.1", "--resume");
 }
 
-/* Without a checkpoint --resume begins anew, which would cost what is finished. */
+/* Without a checkpoint, --resume starts from the beginning, which would lose the finished run. */
 static void a_finished_run_without_checkpoints_is_kept(void **state)
 {
     (void)state;
@@ -145,8 +145,8 @@ static void a_finished_run_without_checkpoints_is_kept(void **state)
     assert_true(hash_all("bare") == before);
 }
 
-/* Who puts files beside a run's first makes its log. */
-static void an_empty_log_claims_a_directory(void **state)
+/* A user may prepare a directory with other files by making an empty log. */
+static void an_empty_log_marks_a_run_directory(void **state)
 {
     (void)state;
     make_folders((const char *const[]){"claimed", NULL});
@@ -160,8 +160,8 @@ static void an_empty_log_claims_a_directory(void **state)
     sb_free(text);
 }
 
-/* Killed before anything else was written. */
-static void a_scene_half_written_is_no_ones(void **state)
+/* A run was killed before it wrote anything else. */
+static void a_half_written_scene_is_replaced(void **state)
 {
     (void)state;
     make_folders((const char *const[]){"early", NULL});
@@ -170,8 +170,8 @@ static void a_scene_half_written_is_no_ones(void **state)
     assert_false(exists("early/scene.yaml.tmp"));
 }
 
-/* Pictures of versions that did not mark them are told by the cameras of the run's scene. */
-static void an_older_runs_pictures_are_known(void **state)
+/* Older versions did not mark their pictures. These are recognised by the cameras of the run's scene. */
+static void an_older_runs_pictures_are_recognised(void **state)
 {
     (void)state;
     RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "older", "--quiet", "--until", "0.12");
@@ -185,7 +185,8 @@ static void render_replaces_its_own_pictures_only(void **state)
 {
     (void)state;
     RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "drawn", "--quiet", "--until", "0.12");
-    assert_int_equal(link(in_folder("drawn/forces.csv"), in_folder("kept.csv")), 0); /* it is not written to */
+    assert_int_equal(link(in_folder("drawn/forces.csv"), in_folder("kept.csv")),
+                     0); /* a table that the command does not write to */
     make_folders((const char *const[]){"album", "album/frames", "album/frames/front", NULL});
     write_text("album/frames/front/000009.png", "my picture\n");
     write_text("album/notes.txt", "mine\n");
@@ -205,12 +206,12 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(other_peoples_files_are_left_alone),
-        cmocka_unit_test(a_run_is_replaced_when_asked_for),
+        cmocka_unit_test(a_run_is_replaced_on_request),
         cmocka_unit_test(a_run_that_has_not_ended_is_kept),
         cmocka_unit_test(a_finished_run_without_checkpoints_is_kept),
-        cmocka_unit_test(an_empty_log_claims_a_directory),
-        cmocka_unit_test(a_scene_half_written_is_no_ones),
-        cmocka_unit_test(an_older_runs_pictures_are_known),
+        cmocka_unit_test(an_empty_log_marks_a_run_directory),
+        cmocka_unit_test(a_half_written_scene_is_replaced),
+        cmocka_unit_test(an_older_runs_pictures_are_recognised),
         cmocka_unit_test(render_replaces_its_own_pictures_only),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);

@@ -1,5 +1,5 @@
-/* Something else than a regular file in the place of each file that a run, render or sample writes: refused with its
-   place, at once, and left as it is. */
+/* Something other than a regular file in the place of each file that run, render or sample writes: the command refuses
+   it at once, with its path, and does not change it. */
 #include "program.h"
 
 #include "base/clock.h"
@@ -18,7 +18,7 @@ enum { LINK, FIFO, DEVICE, FOLDER, HARD_LINK, KINDS };
 static const char *const kinds[KINDS] = {"a symbolic link", "a FIFO", "a device", "a directory",
                                          "2 names (hard links)"};
 
-static char places[64][96]; /* below the run's directory */
+static char places[64][96]; /* paths below the run directory */
 static size_t count;
 
 static bool has_tool(const char *command)
@@ -31,13 +31,14 @@ static int add_place(const char *path, const struct stat *info, int kind, struct
     (void)info;
     (void)where;
     const char *name = path + strlen(in_folder("r/"));
-    if (kind != FTW_F || strstr(name, "000003.") || strstr(name, "000002.")) return 0; /* as the first of their kind */
+    if (kind != FTW_F || strstr(name, "000003.") || strstr(name, "000002."))
+        return 0; /* the first of each kind is enough */
     if (count == sizeof places / sizeof *places) return -1;
     snprintf(places[count++], sizeof *places, "%.95s", name);
     return 0;
 }
 
-/* A run that writes all there is to write, and a list of it. */
+/* Makes a run that writes all kinds of files, and lists them. */
 static int setup(void **state)
 {
     if (program_setup(state) != 0) return -1;
@@ -46,7 +47,7 @@ static int setup(void **state)
                    "measure.runups=[{name: r, from: [0.2, 0.4], to: [2.4, 0.4]}]", "--set", "output.plots=true",
                    "--set", "render.video=true");
     if (nftw(in_folder("r"), add_place, 16, FTW_PHYS) != 0) return -1;
-    /* Written beside the final names, or in failure or while a run begins only. */
+    /* Temporary files, and files that are written only after a failure or at the start of a run. */
     static const char *const more[] = {"scene.yaml.tmp",
                                        "summary.json.tmp",
                                        "particles.pvd.tmp",
@@ -82,7 +83,7 @@ static void every_kind_of_file_is_on_the_list(void **state)
     for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
         bool found = false;
         for (size_t k = 0; k < count; k++) found = found || strcmp(places[k], names[n]) == 0;
-        if (!found) fail_msg("%s is not tried", names[n]);
+        if (!found) fail_msg("%s is not tested", names[n]);
     }
     size_t films = 0, plots = 0, checkpoints = 0;
     for (size_t k = 0; k < count; k++) {
@@ -95,7 +96,7 @@ static void every_kind_of_file_is_on_the_list(void **state)
     assert_true(checkpoints >= 1);
 }
 
-/* False where it cannot be made: only root makes devices. */
+/* Returns false when it cannot be made: only root can make devices. */
 static bool put(int kind, const char *path)
 {
     switch (kind) {
@@ -121,7 +122,7 @@ static void check_refused(const char *place, int kind, const char *path, const c
     assert_contains(o.err, place);
     assert_contains(o.err, kinds[kind]);
     outcome_free(&o);
-    if (sb_clock() - start > 30) fail_msg("%s as %s kept it waiting", place, kinds[kind]);
+    if (sb_clock() - start > 30) fail_msg("%s as %s blocked the program", place, kinds[kind]);
     assert_int_equal(lstat(path, &after), 0);
     assert_true(before.st_ino == after.st_ino && before.st_mode == after.st_mode);
     char *text = text_of("precious");
@@ -129,7 +130,7 @@ static void check_refused(const char *place, int kind, const char *path, const c
     sb_free(text);
 }
 
-/* Tables and the log are written in place: a further name of theirs is another file that would change. */
+/* Tables and the log are written in place, so a file that is linked to them would change. */
 static bool grows(const char *place)
 {
     return strstr(place, ".csv") || strcmp(place, "run.jsonl") == 0;
@@ -156,7 +157,7 @@ static void a_run_is_refused(void **state)
             assert_int_equal(remove(path), 0);
             if (was) assert_int_equal(rename(aside, path), 0);
         }
-    RUN_AND_FORGET(0, "run", "r/scene.yaml", "--out", "r", "--quiet", "--resume"); /* all is as it was */
+    RUN_AND_FORGET(0, "run", "r/scene.yaml", "--out", "r", "--quiet", "--resume"); /* nothing has changed */
 }
 
 static void render_and_sample_are_refused(void **state)
@@ -186,8 +187,8 @@ static void render_and_sample_are_refused(void **state)
     }
 }
 
-/* A place taken while the run goes on: it comes to its end, says so, and its summary does not claim a good one. */
-static void a_summary_that_cannot_be_written_is_told(void **state)
+/* The summary's path is blocked during the run: the run ends and reports it, and the summary does not claim success. */
+static void a_summary_that_cannot_be_written_is_reported(void **state)
 {
     (void)state;
     RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "late", "--quiet", "--until", "0.1");
@@ -217,7 +218,7 @@ int main(void)
         cmocka_unit_test(every_kind_of_file_is_on_the_list),
         cmocka_unit_test(a_run_is_refused),
         cmocka_unit_test(render_and_sample_are_refused),
-        cmocka_unit_test(a_summary_that_cannot_be_written_is_told),
+        cmocka_unit_test(a_summary_that_cannot_be_written_is_reported),
     };
     return cmocka_run_group_tests(tests, setup, program_teardown);
 }

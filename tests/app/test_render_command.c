@@ -1,4 +1,4 @@
-/* Pictures from the particle files of a run, after it. */
+/* Pictures drawn from the particle files of a finished run. */
 #include "program.h"
 
 #include "base/clock.h"
@@ -16,7 +16,7 @@ enum { WIDTH = 160, HEIGHT = 90, FRAMES = 4, BYTES = 3 * WIDTH * HEIGHT };
 
 typedef unsigned char picture[BYTES];
 
-/* One run with pictures, whose particle files have the same times. */
+/* Makes a run whose pictures and particle files have the same times. */
 static int setup(void **state)
 {
     if (program_setup(state) != 0) return -1;
@@ -35,7 +35,7 @@ static void read_picture(const char *path, picture pixels, int width, int height
     assert_true(png_image_finish_read(&image, NULL, pixels, 0, NULL));
 }
 
-/* Share of the pixels whose colours differ by more than a few steps. */
+/* Fraction of the pixels whose colours differ by more than a few levels. */
 static double difference(const picture a, const picture b)
 {
     size_t unlike = 0;
@@ -64,7 +64,7 @@ static void one_camera_into_another_folder(void **state)
         double unlike = difference(drawn, during);
         if (unlike > 0.01) fail_msg("picture %d: %g of the pixels differ from the run's", i, unlike);
     }
-    /* Other cameras, other pictures: else the comparison would say nothing. */
+    /* Pictures of different cameras must differ, otherwise the comparison would prove nothing. */
     read_picture(in_folder("r/frames/front/%06d.png", FRAMES), during, WIDTH, HEIGHT);
     assert_true(difference(drawn, during) > 0.1);
 }
@@ -107,15 +107,15 @@ static void into_the_run_itself(void **state)
     assert_true(exists("bare/frames/side/000001.png"));
 }
 
-/* While a run goes on its pictures are its own; another folder will do. */
-static void beside_a_run_that_goes_on(void **state)
+/* During a run, `render` cannot draw into its directory, but can draw into another one. */
+static void during_a_run(void **state)
 {
     (void)state;
     pid_t process =
         program_start((const char *const[]){"run", "tank3.yaml", "--out", "busy", "--quiet", "--until", "1000", NULL});
     for (double end = sb_clock() + 30; !exists("busy/frames/front/000002.png") && sb_clock() < end;) usleep(2000);
     outcome o = RUN(1, "render", "busy", "--quiet");
-    assert_one_line(o.err, "busy: another run or render is writing there, expected a folder of its own by --out");
+    assert_one_line(o.err, "busy: another run or render is writing there, expected another directory given with --out");
     outcome_free(&o);
     assert_true(exists("busy/frames/side/000001.png") && exists("busy/frames/front/000001.png"));
     RUN_AND_FORGET(0, "render", "busy", "--quiet", "--camera", "side", "--out", "beside");
@@ -152,13 +152,13 @@ static void no_particle_files(void **state)
     outcome_free(&o);
 }
 
-static void copy_with(const char *from, const char *to, size_t keep, size_t spoil)
+static void copy_with(const char *from, const char *to, size_t keep, size_t damaged)
 {
     char *bytes;
     size_t length;
     assert_int_equal(sb_file_read(in_folder("%s", from), 1 << 24, &bytes, &length, NULL), SB_OK);
-    assert_true(keep <= length && spoil < length);
-    if (spoil > 0) bytes[spoil] = '#';
+    assert_true(keep <= length && damaged < length);
+    if (damaged > 0) bytes[damaged] = '#';
     FILE *file = fopen(in_folder("%s", to), "wb");
     assert_non_null(file);
     assert_int_equal(fwrite(bytes, 1, keep > 0 ? keep : length, file), keep > 0 ? keep : length);
@@ -171,15 +171,15 @@ static void damaged_particle_file(void **state)
     (void)state;
     RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "hurt", "--quiet", "--until", "0.2", "--set", "render.interval=0");
     static const struct {
-        size_t keep, spoil;
-    } wounds[] = {{4000, 0}, {100, 0}, {0, 35}};
-    for (size_t w = 0; w < sizeof wounds / sizeof wounds[0]; w++) {
-        copy_with("r/particles/000002.vtp", "hurt/particles/000002.vtp", wounds[w].keep, wounds[w].spoil);
+        size_t keep, damaged;
+    } damages[] = {{4000, 0}, {100, 0}, {0, 35}};
+    for (size_t w = 0; w < sizeof damages / sizeof damages[0]; w++) {
+        copy_with("r/particles/000002.vtp", "hurt/particles/000002.vtp", damages[w].keep, damages[w].damaged);
         outcome o = RUN(1, "render", "hurt", "--out", "worse", "--quiet");
         assert_one_line(o.err, "hurt/particles/000002.vtp: ");
         outcome_free(&o);
     }
-    /* Before the first picture, those of an earlier command stay. */
+    /* Until the first new picture, those of an earlier command stay. */
     assert_true(exists("worse/frames/side/000001.png"));
     copy_with("r/particles/000001.vtp", "hurt/particles/000001.vtp", 300, 0);
     RUN_AND_FORGET(1, "render", "hurt", "--out", "worse", "--quiet");
@@ -203,7 +203,7 @@ int main(void)
         cmocka_unit_test(all_cameras_without_a_choice),
         cmocka_unit_test(a_new_camera),
         cmocka_unit_test(into_the_run_itself),
-        cmocka_unit_test(beside_a_run_that_goes_on),
+        cmocka_unit_test(during_a_run),
         cmocka_unit_test(unknown_camera),
         cmocka_unit_test(no_particle_files),
         cmocka_unit_test(damaged_particle_file),

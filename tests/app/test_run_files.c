@@ -1,4 +1,4 @@
-/* The files of a run: that they are there, and that they say what the contract says. */
+/* The files of a run: they exist, and their contents are as documented. */
 #include "program.h"
 
 #include "../output/json_check.h"
@@ -17,7 +17,7 @@
 
 enum { NUMBERS = 13 }; /* time and twelve components */
 
-static char names_there[64][160]; /* names of files */
+static char names_there[64][160]; /* names of the files found */
 static size_t count_there;
 
 typedef struct force_row {
@@ -32,7 +32,8 @@ static const char forces_2d[] = "time_s,body,Fx_N_per_m,Fy_N_per_m,Fz_N_per_m,Mx
                                 "Fx_pressure_N_per_m,Fy_pressure_N_per_m,Fz_pressure_N_per_m,Fx_friction_N_per_m,"
                                 "Fy_friction_N_per_m,Fz_friction_N_per_m\n";
 
-/* One run of each tank, looked at by most tests; all steps of 1/200 s, so that 0.3 s end one. */
+/* Makes one run of each tank, used by most tests. The 3D run has steps of at most 1/200 s, so that a step ends at 0.3
+ * s. */
 static int setup(void **state)
 {
     if (program_setup(state) != 0) return -1;
@@ -41,17 +42,17 @@ static int setup(void **state)
     return 0;
 }
 
-/* What follows the header, which must be this one. */
+/* The rows after the header, which must be this one. */
 static const char *rows_of(const char *text, const char *header)
 {
-    if (strncmp(text, header, strlen(header)) != 0) fail_msg("not the header expected:\n%s", text);
+    if (strncmp(text, header, strlen(header)) != 0) fail_msg("not the expected header:\n%s", text);
     return text + strlen(header);
 }
 
 static const char *next_line(const char *line)
 {
     const char *end = strchr(line, '\n');
-    if (!end) fail_msg("a line without an end: %s", line);
+    if (!end) fail_msg("a line without a newline: %s", line);
     return end + 1;
 }
 
@@ -116,7 +117,7 @@ static void scene_is_written_as_resolved(void **state)
         "density:", "viscosity:", "kernel:", "wall_gamma:", "sides:", "decimation:", "video_rate:"};
     for (size_t d = 0; d < sizeof defaults / sizeof defaults[0]; d++) assert_contains(text, defaults[d]);
     sb_free(text);
-    /* The same run comes of it. */
+    /* The written scene gives the same run. */
     RUN_AND_FORGET(0, "run", "r3/scene.yaml", "--out", "again", "--quiet");
     assert_int_equal(sb_scene_read(in_folder("again/scene.yaml"), NULL, NULL, 0, &again, &error), SB_OK);
     assert_string_equal(first.title, again.title);
@@ -153,11 +154,11 @@ static void forces_have_a_row_per_body_and_interval(void **state)
     for (size_t i = 0; i < 12; i++) {
         assert_near(rows[i].value[0], 0.05 * (double)(1 + i / 2), 1e-12);
         assert_string_equal(rows[i].body, i % 2 ? "sill" : "post");
-        for (int k = 1; k <= 3; k++) /* the whole is pressure and friction */
+        for (int k = 1; k <= 3; k++) /* the total is the sum of pressure and friction */
             assert_near(rows[i].value[k], rows[i].value[k + 6] + rows[i].value[k + 9],
                         1e-6 * (1 + fabs(rows[i].value[k])));
     }
-    assert_true(rows[10].value[1] > 0); /* the water pushes the post ahead */
+    assert_true(rows[10].value[1] > 0); /* the water pushes the post in the +x direction */
     assert_int_equal(read_forces("r2/forces.csv", forces_2d, rows, 64), 6);
     for (size_t i = 0; i < 6; i++) {
         assert_near(rows[i].value[0], 0.05 * (double)(1 + i), 1e-12);
@@ -209,7 +210,7 @@ static void gauges_are_empty_where_dry(void **state)
         int length = 0;
         assert_int_equal(sscanf(line, "%lf,%63[^,],%n", &time, name, &length), 2);
         bool is_dry = strcmp(name, "dry") == 0;
-        assert_int_equal(line[length], ','); /* no still-water level to be above */
+        assert_int_equal(line[length], ','); /* the scene has no still-water level, so eta is empty */
         if (is_dry)
             assert_int_equal(line[length + 1], '\n');
         else
@@ -247,7 +248,7 @@ static void particle_files_and_their_list(void **state)
     assert_int_equal(list.count, 4);
     for (size_t i = 0; i < list.count; i++) {
         sb_frame *frame = NULL;
-        /* The first state at or after its time: one step late at most. */
+        /* The first state at or after the due time: at most one step late. */
         assert_in_range(1000 * list.entries[i].time + 1e-6, 100 * i, 100 * i + 5);
         assert_int_equal(sb_vtp_read(in_folder("r3/%s", list.entries[i].file), &frame, &error), SB_OK);
         assert_near(frame->status.time, list.entries[i].time, 1e-9);
@@ -310,7 +311,7 @@ static void until_set_and_preset_count(void **state)
     sb_scene_free(&scene);
 }
 
-/* The tank as a slab: its sill goes on from side to side. */
+/* The tank as a periodic slab: its sill continues across the sides. */
 static void periodic_sides_run(void **state)
 {
     (void)state;
@@ -340,7 +341,7 @@ static int list_one(const char *path, const struct stat *info, int kind, struct 
     return 0;
 }
 
-/* What a run with everything has left, and the user's files beside it, when one with nothing begins in its place. */
+/* A run with all outputs, with the user's files beside it, is replaced by a run without optional outputs. */
 static void an_earlier_run_leaves_nothing(void **state)
 {
     (void)state;
@@ -367,7 +368,7 @@ static void an_earlier_run_leaves_nothing(void **state)
     }
     outcome o = RUN(0, "run", "tank2.yaml", "--out", "used", "--quiet", "--overwrite", "--until", "0.02", "--set",
                     "output={particle_interval: 0, plots: false, checkpoint: {minutes: 0}}");
-    assert_contains(o.err, " and 8 more: are not files of a run; they stay\n");
+    assert_contains(o.err, " and 8 more: are not files of a run; they are kept\n");
     outcome_free(&o);
     RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "anew", "--quiet", "--until", "0.02", "--set",
                    "output={particle_interval: 0, plots: false, checkpoint: {minutes: 0}}");
@@ -382,8 +383,9 @@ static void an_earlier_run_leaves_nothing(void **state)
     }
     for (size_t k = 0; k < sizeof own / sizeof *own; k++)
         if (access(in_folder("used/%s", own[k]), F_OK) != 0) fail_msg("%s was removed", own[k]);
-    RUN_AND_FORGET(1, "render", "used", "--set",
-                   "render.cameras=[{name: a, eye: [1, -3, 1], target: [1, 0, 0]}]"); /* no old water */
+    RUN_AND_FORGET(
+        1, "render", "used", "--set",
+        "render.cameras=[{name: a, eye: [1, -3, 1], target: [1, 0, 0]}]"); /* no particle files of the earlier run */
 }
 
 static void out_has_a_default(void **state)
@@ -395,7 +397,7 @@ static void out_has_a_default(void **state)
     assert_true(exists("runs/tank2/summary.json"));
 }
 
-/* Only the scene's ending goes, not all from the first dot on: wave-0.1 and wave-0.2 are two runs. */
+/* Only the scene's ending is removed, not everything after the first dot: wave-0.1 and wave-0.2 are two runs. */
 static void out_keeps_the_dots_of_a_name(void **state)
 {
     (void)state;
@@ -406,8 +408,8 @@ static void out_keeps_the_dots_of_a_name(void **state)
     assert_true(exists("runs/wave-0.1m/summary.json"));
 }
 
-/* A run that cannot begin costs nothing of the one before; the scene that it was given stays, too. */
-static void what_cannot_begin_costs_nothing(void **state)
+/* A run that cannot begin leaves the earlier run and its own scene file unchanged. */
+static void a_refused_run_keeps_the_earlier_run(void **state)
 {
     (void)state;
     RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "dear", "--quiet", "--until", "0.02");
@@ -437,14 +439,14 @@ static void what_cannot_begin_costs_nothing(void **state)
     write_text("home/scene.yaml", scene);
     o = RUN(1, "run", "home/scene.yaml", "--out", "home", "--quiet");
     assert_one_line(o.err,
-                    "home: holds \"scene.yaml\" but no run of shorebreak; name an empty or a new directory by --out");
+                    "home: holds \"scene.yaml\" but no run of shorebreak; name an empty or a new directory with --out");
     outcome_free(&o);
     char *scene_now = text_of("home/scene.yaml");
     assert_string_equal(scene, scene_now);
     sb_free(scene);
     sb_free(scene_now);
     RUN_AND_FORGET(0, "run", "dear/scene.yaml", "--out", "own", "--quiet");
-    RUN_AND_FORGET(0, "run", "own/scene.yaml", "--out", "own", "--quiet", "--overwrite"); /* its own */
+    RUN_AND_FORGET(0, "run", "own/scene.yaml", "--out", "own", "--quiet", "--overwrite"); /* its own scene */
 }
 
 static void unwritable_out_fails(void **state)
@@ -476,7 +478,7 @@ int main(void)
         cmocka_unit_test(an_earlier_run_leaves_nothing),
         cmocka_unit_test(out_has_a_default),
         cmocka_unit_test(out_keeps_the_dots_of_a_name),
-        cmocka_unit_test(what_cannot_begin_costs_nothing),
+        cmocka_unit_test(a_refused_run_keeps_the_earlier_run),
         cmocka_unit_test(unwritable_out_fails),
     };
     return cmocka_run_group_tests(tests, setup, program_teardown);

@@ -1,4 +1,5 @@
-/* What a scene most likely was not meant to be: `check` and `run` both print it, and the run's log has it. */
+/* Warnings about scenes that are probably not what the user meant: `check` and `run` print them, and the log has them.
+ */
 #include "program.h"
 
 #include "base/memory.h"
@@ -8,7 +9,7 @@
 #define TANK                                                                                                           \
     "title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\nmeasure: {interval: 0.01}\noutput: {plots: false}\n"
 
-/* The lines that hold both texts. */
+/* Number of lines that contain both texts. */
 static int lines_with(const char *text, const char *first, const char *second)
 {
     int count = 0;
@@ -20,7 +21,7 @@ static int lines_with(const char *text, const char *first, const char *second)
     return count;
 }
 
-static void check_and_run_say_the_same(void **state)
+static void check_and_run_give_the_same_warnings(void **state)
 {
     (void)state;
     static const struct {
@@ -59,8 +60,8 @@ static void check_and_run_say_the_same(void **state)
     }
 }
 
-/* A third of a spacing over a shelf is known before. Two particles on the floor are a spacing deep by the scene, and
-   too few to have a surface: that is known at the end. */
+/* Water a third of a particle spacing deep over a shelf is known before the run. Two particles on the floor are a
+   spacing deep by the scene, but too few for a surface elevation: this is known only at the end. */
 static void gauges_that_stay_empty_are_reported_once(void **state)
 {
     (void)state;
@@ -78,9 +79,9 @@ static void gauges_that_stay_empty_are_reported_once(void **state)
         o = RUN(0, "run", "thin.yaml", "--out=thin", "--quiet", "--overwrite", "--set", gauges, "--set",
                 "numerics.settle_steps=0");
         assert_int_equal(lines_with(o.err, "gauge \"thin\"", "expected a resolution of "), 1);
-        assert_int_equal(lines_with(o.err, "gauge \"thin\"", "all its values are empty, though water came"), late);
+        assert_int_equal(lines_with(o.err, "gauge \"thin\"", "all its values are empty, although water arrived"), late);
         assert_null(strstr(o.err, "deep\""));
-        assert_int_equal(strstr(o.err, "\"dry\"") != NULL, !late); /* it is on the shelf, too */
+        assert_int_equal(strstr(o.err, "\"dry\"") != NULL, !late); /* this gauge is on the shelf, too */
         outcome_free(&o);
         char *log = text_of("thin/run.jsonl");
         assert_int_equal(lines_with(log, "gauge \\\"thin\\\"", "expected a resolution of "), 1);
@@ -91,7 +92,7 @@ static void gauges_that_stay_empty_are_reported_once(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(check_and_run_say_the_same),
+        cmocka_unit_test(check_and_run_give_the_same_warnings),
         cmocka_unit_test(gauges_that_stay_empty_are_reported_once),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);

@@ -1,5 +1,5 @@
-/* Ctrl-C, SIGTERM and a closed terminal end a run between two steps, with all of its files complete, or before the
- * first. */
+/* Ctrl-C, SIGTERM and a closed terminal end a run between two steps, or before the first step, with all files complete.
+ */
 #include "program.h"
 
 #include "../output/json_check.h"
@@ -22,8 +22,8 @@ static void wait_for_file(const char *name)
     if (!exists(name)) fail_msg("no %s within 30 s", name);
 }
 
-/* Starts a run without an end, under a sky so high (`top`) that no spray leaves through it however late the run is
- * stopped, and waits until it has written `file`, within it. */
+/* Starts a very long run and waits until it has written `file` in its directory. `top` raises the top of the domain, so
+   that no particle leaves through it before the run is stopped. */
 static pid_t start_endless(const char *scene, const char *top, const char *run, const char *file)
 {
     pid_t process = program_start((const char *const[]){"run", scene, "--out", run, "--set", "duration=1000", "--set",
@@ -39,7 +39,7 @@ static pid_t start_endless(const char *scene, const char *top, const char *run, 
     return process;
 }
 
-/* Every line ends, and all lines have as many commas as the header. */
+/* Each line ends with a newline and has as many commas as the header. */
 static void check_table(const char *name)
 {
     char *text = text_of(name);
@@ -69,7 +69,7 @@ static void check_particles(const char *run, size_t count)
         assert_int_equal(frame->count, count);
         sb_frame_release(frame);
     }
-    /* And no file that the list does not know. */
+    /* There is no file that the list does not name. */
     assert_false(access(in_folder("%s/particles/%06zu.vtp", run, list.count + 1), F_OK) == 0);
     sb_pvd_free(&list);
 }
@@ -126,12 +126,12 @@ static void terminate_ends_with_143(void **state)
     (void)state;
     pid_t process = start_endless("tank3.yaml", "domain.max=[2.6, 0.8, 2]", "ended", "frames/front/000003.png");
     check_stopped("ended", process, SIGTERM, 384);
-    /* Who stops a run does not wait for films. */
+    /* A run that is stopped makes no films. */
     assert_false(any_ending("ended", ".mp4"));
     char *log = text_of("ended/run.jsonl");
     assert_contains(log, "films: the run was stopped");
     sb_free(log);
-    /* Each picture is whole: it ends as PNG does. */
+    /* Each picture is complete: it has the last bytes of a PNG file. */
     for (int i = 1; i <= 3; i++) {
         char tail[12] = {0};
         FILE *file = fopen(in_folder("ended/frames/side/%06d.png", i), "rb");
@@ -143,7 +143,7 @@ static void terminate_ends_with_143(void **state)
     }
 }
 
-/* Until `file` holds `event`. */
+/* Waits until `file` contains `event`. */
 static void wait_for(const char *file, const char *event)
 {
     bool there = false;
@@ -157,28 +157,28 @@ static void wait_for(const char *file, const char *event)
     usleep(500000);
 }
 
-static void check_heard(pid_t process, const char *words)
+static void check_stops_soon(pid_t process, const char *expected)
 {
-    static const double PROMPT = 20; /* s: a step of the settling may take one, sanitizers included */
-    const double told = sb_clock();
+    static const double PROMPT = 20; /* s; a settling step may take a second with sanitizers */
+    const double sent = sb_clock();
     assert_int_equal(kill(process, SIGTERM), 0);
     outcome o = program_finish(process);
-    if (sb_clock() - told > PROMPT) fail_msg("it took %g s to stop", sb_clock() - told);
+    if (sb_clock() - sent > PROMPT) fail_msg("it took %g s to stop", sb_clock() - sent);
     if (o.status != 128 + SIGTERM) fail_msg("exit status %d: %s", o.status, o.err);
-    assert_one_line(o.err, words);
+    assert_one_line(o.err, expected);
     outcome_free(&o);
 }
 
-/* Long before the first step a run hears as well; and while there is no model yet, an earlier run's files stay. */
-static void a_model_in_the_making_hears(void **state)
+/* A signal also stops a run long before its first step. Until the model is built, an earlier run's files stay. */
+static void a_signal_stops_building_the_model(void **state)
 {
     (void)state;
     RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "early", "--quiet", "--until", "0.02");
     char *log = text_of("early/run.jsonl"), *forces = text_of("early/forces.csv");
     pid_t process = program_start((const char *const[]){"run", "tank3.yaml", "--out", "early", "--overwrite", "--set",
-                                                        "resolution=0.004", NULL}); /* seconds */
+                                                        "resolution=0.004", NULL}); /* building it takes seconds */
     usleep(800000);
-    check_heard(process, "stopped by a signal while the model was built: nothing is computed yet");
+    check_stops_soon(process, "stopped by a signal while the model was built: nothing is computed yet");
     char *log_then = text_of("early/run.jsonl"), *forces_then = text_of("early/forces.csv");
     assert_string_equal(log, log_then);
     assert_string_equal(forces, forces_then);
@@ -188,7 +188,7 @@ static void a_model_in_the_making_hears(void **state)
     sb_free(forces_then);
 }
 
-static void water_coming_to_rest_hears(void **state)
+static void a_signal_stops_settling(void **state)
 {
     (void)state;
     RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "early", "--quiet", "--overwrite", "--until", "0.02");
@@ -197,19 +197,19 @@ static void water_coming_to_rest_hears(void **state)
         program_start((const char *const[]){"run", "tank2.yaml", "--out", "early", "--overwrite", "--set",
                                             "domain.max=[250, 1]", "--set", "water.boxes[0].max=[225, 0.6]", NULL});
     wait_for("early/run.jsonl", "\"start\"");
-    check_heard(process, "stopped by a signal while the water came to rest: nothing is computed yet");
+    check_stops_soon(process, "stopped by a signal while the water came to rest: nothing is computed yet");
     char *log = text_of("early/run.jsonl");
     assert_contains(log, "\"interrupted\"");
     sb_free(log);
     assert_false(any_ending("early", ".tmp"));
-    /* Its summary stands alone, without an earlier run's tables. */
+    /* Only its own summary is there, without tables of the earlier run. */
     char *text = text_of("early/summary.json");
     assert_contains(text, "\"interrupted\"");
     sb_free(text);
     assert_false(exists("early/forces.csv") || exists("early/energy.csv") || exists("early/particles.pvd"));
 }
 
-/* A terminal that closes may say so twice. */
+/* A terminal that closes may send the signal several times. */
 static void a_closed_terminal_ends_with_129(void **state)
 {
     (void)state;
@@ -218,7 +218,7 @@ static void a_closed_terminal_ends_with_129(void **state)
     check_stopped("hung", process, SIGHUP, 300);
 }
 
-static void nohup_is_heard(void **state)
+static void nohup_is_respected(void **state)
 {
     (void)state;
     signal(SIGHUP, SIG_IGN); /* inherited */
@@ -229,11 +229,11 @@ static void nohup_is_heard(void **state)
     check_stopped("kept", process, SIGTERM, 300);
 }
 
-/* Whoever read its progress is gone: a run goes on to its end, or saves its state when it is told to stop. */
-static void a_run_that_nobody_hears_goes_on(void **state)
+/* The reader of the progress is gone: a run continues to its end, or saves its state when a signal stops it. */
+static void a_run_without_readers_continues(void **state)
 {
     (void)state;
-    pid_t process = program_start_unheard((const char *const[]){"run", "tank2.yaml", "--out", "alone", NULL});
+    pid_t process = program_start_without_reader((const char *const[]){"run", "tank2.yaml", "--out", "alone", NULL});
     outcome o = program_finish(process);
     assert_int_equal(o.status, 0);
     outcome_free(&o);
@@ -241,7 +241,7 @@ static void a_run_that_nobody_hears_goes_on(void **state)
     assert_contains(summary, "\"status\": \"done\"");
     sb_free(summary);
 
-    process = program_start_unheard(
+    process = program_start_without_reader(
         (const char *const[]){"run", "tank2.yaml", "--out", "alone", "--until", "1000", "--resume", NULL});
     wait_for_file("alone/particles/000008.vtp");
     assert_int_equal(kill(process, SIGINT), 0);
@@ -251,9 +251,9 @@ static void a_run_that_nobody_hears_goes_on(void **state)
     check_reports("alone", "\"end\"");
     const double end = json_number_of("alone/summary.json", "simulated_s");
     char until[32];
-    snprintf(until, sizeof until, "%.12g", end * (1 - 1e-6)); /* rounded up it would be one step more */
+    snprintf(until, sizeof until, "%.12g", end * (1 - 1e-6)); /* rounded up, it would need one more step */
     o = RUN(0, "run", "tank2.yaml", "--out", "alone", "--until", until, "--resume");
-    assert_contains(o.out, "going on from step ");
+    assert_contains(o.out, "resuming from step ");
     outcome_free(&o);
     assert_near(json_number_of("alone/summary.json", "simulated_s"), end, 0); /* its state was saved */
 }
@@ -264,7 +264,7 @@ static void write_program(const char *name, const char *text)
     assert_int_equal(chmod(in_folder("%s", name), 0700), 0);
 }
 
-/* Whoever stops a run while films are made waits no longer than a film may take, and gets them when it goes on. */
+/* A signal stops a run while it makes films; the films are made when the run is resumed. */
 static void films_are_stopped_and_made_later(void **state)
 {
     (void)state;
@@ -294,8 +294,8 @@ static void films_are_stopped_and_made_later(void **state)
     sb_free(kept);
 }
 
-/* A scene that a stopped run leaves behind can be drawn. */
-static void what_is_left_can_be_drawn(void **state)
+/* The particle files of a stopped run can be drawn. */
+static void a_stopped_run_can_be_drawn(void **state)
 {
     (void)state;
     RUN_AND_FORGET(0, "render", "ended", "--camera", "side", "--out", "drawn", "--quiet");
@@ -305,11 +305,11 @@ static void what_is_left_can_be_drawn(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(interrupt_ends_with_130),         cmocka_unit_test(terminate_ends_with_143),
-        cmocka_unit_test(what_is_left_can_be_drawn),       cmocka_unit_test(films_are_stopped_and_made_later),
-        cmocka_unit_test(a_model_in_the_making_hears),     cmocka_unit_test(water_coming_to_rest_hears),
-        cmocka_unit_test(a_closed_terminal_ends_with_129), cmocka_unit_test(nohup_is_heard),
-        cmocka_unit_test(a_run_that_nobody_hears_goes_on),
+        cmocka_unit_test(interrupt_ends_with_130),           cmocka_unit_test(terminate_ends_with_143),
+        cmocka_unit_test(a_stopped_run_can_be_drawn),        cmocka_unit_test(films_are_stopped_and_made_later),
+        cmocka_unit_test(a_signal_stops_building_the_model), cmocka_unit_test(a_signal_stops_settling),
+        cmocka_unit_test(a_closed_terminal_ends_with_129),   cmocka_unit_test(nohup_is_respected),
+        cmocka_unit_test(a_run_without_readers_continues),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
 }

@@ -1,4 +1,4 @@
-/* The state at t = 0 is the scene's: settling must not use up a dam, a wave or a velocity. */
+/* The state at t = 0 is that of the scene: settling must not change a dam, a wave or a velocity. */
 #include "program.h"
 
 #include "../output/json_check.h"
@@ -20,7 +20,7 @@ static void start_of(const char *scene, double *z, double *kinetic)
     assert_non_null(comma);
     *z = strtod(comma + 1, NULL);
     sb_free(text);
-    *kinetic = json_number_of("s/summary.json", "kinetic_J"); /* the first one: energy_start */
+    *kinetic = json_number_of("s/summary.json", "kinetic_J"); /* the first value is energy_start */
 }
 
 static void a_dam_stands(void **state)
@@ -46,7 +46,7 @@ static void a_wave_stands_and_moves(void **state)
              " measure: {interval: 0.01, gauges: [{name: g, x: 4}]}}\n",
              &z, &kinetic);
     assert_near(z, 0.65, 0.025);
-    assert_near(kinetic, 174, 20); /* as it is without settling */
+    assert_near(kinetic, 174, 20); /* the value without settling */
 }
 
 /* Kinetic energy (J) in the last row of energy.csv. */
@@ -64,7 +64,7 @@ static double last_kinetic(const char *scene)
     return kinetic;
 }
 
-/* Unsettled, the lattice's own fall into place would be 249 J/m here; the wave has 0.2 by then. */
+/* Without settling, the rearrangement of the lattice would give 249 J/m here; the wave has 0.2 J/m at that time. */
 static void a_wave_starts_quietly(void **state)
 {
     (void)state;
@@ -77,7 +77,7 @@ static void a_wave_starts_quietly(void **state)
     assert_near(kinetic, 0.2, 0.15);
 }
 
-/* A dam's fall, 1.4 J/m by then; unsettled 13. */
+/* The collapsing dam has 1.4 J/m at that time; without settling it would have 13 J/m. */
 static void a_dam_starts_quietly(void **state)
 {
     (void)state;

@@ -86,7 +86,7 @@ static void save_third(void *context, int done, int most, double speed)
 /* Makes a run folder with its tables and both kinds of checkpoint. */
 static void make(void)
 {
-    const sb_run_manner quiet = {.quiet = true};
+    const sb_run_options quiet = {.quiet = true};
     sb_error error = {0};
     uint64_t *steps;
     size_t count;

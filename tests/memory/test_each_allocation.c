@@ -74,7 +74,7 @@ static int remove_entry(const char *path, const struct stat *about, int kind, st
     return remove(path);
 }
 
-static sb_status run_with(const sb_override *override, const sb_run_manner *manner, sb_error *error)
+static sb_status run_with(const sb_override *override, const sb_run_options *manner, sb_error *error)
 {
     sb_scene scene = {0};
     sb_status status = sb_scene_read(scene_path, NULL, override, override != NULL, &scene, error);
@@ -86,7 +86,7 @@ static sb_status run_with(const sb_override *override, const sb_run_manner *mann
 /* Runs a scene from its text to the end. */
 static sb_status run_once(sb_error *error)
 {
-    return run_with(NULL, &(sb_run_manner){.overwrite = true, .quiet = true}, error);
+    return run_with(NULL, &(sb_run_options){.overwrite = true, .quiet = true}, error);
 }
 
 /* A run that writes checkpoints, and one that resumes from a checkpoint. A run continues if memory for writing a
@@ -95,12 +95,12 @@ static const sb_override checkpoints = {"output.checkpoint.steps", "2"};
 
 static sb_status run_saved(sb_error *error)
 {
-    return run_with(&checkpoints, &(sb_run_manner){.overwrite = true, .quiet = true}, error);
+    return run_with(&checkpoints, &(sb_run_options){.overwrite = true, .quiet = true}, error);
 }
 
 static sb_status run_resumed(sb_error *error)
 {
-    return run_with(&checkpoints, &(sb_run_manner){.quiet = true, .resume = true}, error);
+    return run_with(&checkpoints, &(sb_run_options){.quiet = true, .resume = true}, error);
 }
 
 /* Draws a picture of the model at rest. */

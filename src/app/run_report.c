@@ -1,4 +1,4 @@
-/* What a run says, on the terminal and in its log, and where its files are. */
+/* Messages of a run to the terminal and its log, and the paths of its files. */
 #include "app/run_state.h"
 
 #include <stdarg.h>
@@ -9,7 +9,7 @@ sb_status sb_run_path(const run *r, const char *name, char path[SB_PATH_MAX], sb
     return sb_path_join(path, r->directory, name, error);
 }
 
-void sb_run_say(const run *r, const char *format, ...)
+void sb_run_report(const run *r, const char *format, ...)
 {
     va_list arguments;
     if (!r->progress.stream) return;
@@ -30,7 +30,7 @@ void sb_run_warn(run *r, const char *format, ...)
     fprintf(stderr, "shorebreak: warning: %s\n", text);
 }
 
-void sb_run_keep_log(run *r)
+void sb_run_ensure_log(run *r)
 {
     if (sb_runlog_remade(r->log))
         sb_run_warn(r, "%.500s/run.jsonl: was removed during the run; its earlier lines are lost", r->directory);
