@@ -47,7 +47,7 @@ static void more_threads_than_cores_give_one_warning(void **state)
     (void)state;
     char threads[32], expected[64];
     snprintf(threads, sizeof threads, "%ld", sysconf(_SC_NPROCESSORS_CONF) + 1);
-    snprintf(expected, sizeof expected, "threads: %s on ", threads);
+    snprintf(expected, sizeof expected, "threads: %s threads on ", threads);
     outcome o = RUN(0, "run", "tank2.yaml", "--out", "many", "--quiet", "--until", "0.01", "--threads", threads);
     const char *first = strstr(o.err, expected);
     assert_non_null(first);

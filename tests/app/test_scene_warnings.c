@@ -79,7 +79,7 @@ static void gauges_that_stay_empty_are_reported_once(void **state)
         o = RUN(0, "run", "thin.yaml", "--out=thin", "--quiet", "--overwrite", "--set", gauges, "--set",
                 "numerics.settle_steps=0");
         assert_int_equal(lines_with(o.err, "gauge \"thin\"", "expected a resolution of "), 1);
-        assert_int_equal(lines_with(o.err, "gauge \"thin\"", "all its values are empty, although water arrived"), late);
+        assert_int_equal(lines_with(o.err, "gauge \"thin\"", "all its values are empty although water arrived"), late);
         assert_null(strstr(o.err, "deep\""));
         assert_int_equal(strstr(o.err, "\"dry\"") != NULL, !late); /* this gauge is on the shelf, too */
         outcome_free(&o);
