@@ -75,7 +75,7 @@ static void correct_exit_status(int status, void *unused)
 static void limit_spinning(char **arguments)
 {
     if (getenv("OMP_WAIT_POLICY") || getenv("GOMP_SPINCOUNT")) return;
-    if (setenv("GOMP_SPINCOUNT", "20000", 1) == 0) execv("/proc/self/exe", arguments);
+    if (setenv("GOMP_SPINCOUNT", "1000", 1) == 0) execv("/proc/self/exe", arguments);
 }
 
 /* When a standard stream is closed, the next file that is opened gets its descriptor and would receive its output. */
