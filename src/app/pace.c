@@ -19,11 +19,9 @@ static sb_scene make_tank(const sb_scene *scene)
         tank.domain.min.y = 0;
         tank.domain.max.y = width * spacing;
     }
-    for (int side = 0; side < SB_SIDES; side++)
-        tank.domain.side[side] = side == SB_Z_MAX ? SB_SIDE_OPEN : SB_SIDE_WALL;
-    tank.sea = (sb_sea){.present = true,
-                        .level = depth * spacing,
-                        .seed = {2.5 * spacing, flat ? 0 : 2.5 * spacing, 2.5 * spacing}};
+    for (int side = 0; side < SB_SIDES; side++) tank.domain.side[side] = side == SB_Z_MAX ? SB_SIDE_OPEN : SB_SIDE_WALL;
+    tank.sea = (sb_sea){
+        .present = true, .level = depth * spacing, .seed = {2.5 * spacing, flat ? 0 : 2.5 * spacing, 2.5 * spacing}};
     tank.wave = (sb_initial_wave){.kind = SB_INITIAL_NONE};
     tank.box_count = tank.body_count = tank.wavemaker_count = 0;
     tank.numerics.settle_steps = 0;

@@ -10,6 +10,10 @@ static const double usual[] = {1e-3, 1, 1e-2, 0.0254, 0.3048, 1e3};
    represented; a body larger than RESOLVED is. */
 static const double MANY = 100, TINY = 1, RESOLVED = 2;
 
+/* A body whose size is within this factor of the domain's has the right unit: the nearest of the usual ones, the foot,
+   would change it by 3.3. */
+static const double ALIKE = 3;
+
 typedef struct extent {
     sb_vec3 min, max;
 } extent;
@@ -52,6 +56,8 @@ static void advise(const sb_scene *scene, const sb_model *model, const sb_model_
     const sb_body *from = body->source < scene->body_count ? &scene->bodies[body->source] : NULL;
     text[0] = 0;
     if (!from || (from->shape != SB_SHAPE_MESH && from->shape != SB_SHAPE_GRID)) return;
+    const double ratio = largest(model, size_of(of)) / largest(model, sb_sub(model->max, model->min));
+    if (ratio < ALIKE && ratio > 1 / ALIKE) return;
     for (size_t i = 0; i < sizeof usual / sizeof *usual; ++i) {
         const double factor = usual[i] / from->scale;
         if (usual[i] == from->scale || !would_fit(model, from, of, factor)) continue;

@@ -335,6 +335,11 @@ static void bodies_that_no_water_reaches_are_reported(void **state)
     const char *line = warning("\"house\"", "outside of the domain");
     assert_non_null(strstr(line, "2 x 2 x 4 m, from (95, 2, 0) to (97, 4, 4)"));
     assert_null(strstr(line, "scale"));
+    /* The same below the floor, where a scale of a foot would bring it back. */
+    bodies[0].translate = sb_vec(0, 0, -9);
+    build();
+    assert_null(strstr(warning("\"house\"", "outside of the domain"), "scale"));
+    bodies[0].translate.z = 0;
     /* Inside another body. */
     bodies[0].translate.x = 0;
     add_box("hill", sb_vec(4, 1, -1), sb_vec(8, 5, 5));
