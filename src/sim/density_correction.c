@@ -20,7 +20,7 @@ bool sb_density_correction_on(const sb_scene *scene)
 
 void sb_density_correction_clear(sb_sim *sim)
 {
-    for (size_t i = 0; sim->density_correction && i < sim->model->fluid_count; i++) sim->density_correction[i] = NAN;
+    for (size_t i = 0; sim->density_correction && i < sim->n; i++) sim->density_correction[i] = NAN;
 }
 
 /* The c_i of a particle after this step. own: its c_i before, NAN in the first step; density: the density sum;
@@ -44,7 +44,7 @@ sb_status sb_stage_density_correction(sb_sim *sim, sb_error *error)
     const float share = (float)fmin(crossed / CROSSED, 1);
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) {
-        float *own = &sim->density_correction[sim->id[i]];
+        float *own = &sim->density_correction[i];
         *own = corrected(&sim->constant, *own, sim->density[i], sim->source[i], sim->residual[i], share);
         sim->density[i] += *own;
     }

@@ -1,14 +1,26 @@
 /* Forces of the water on bodies over one step: the reaction to every wall term that accelerated the water
    [A12, eq. 10]. The momenta of water and bodies therefore balance to round-off. */
+#include "base/memory.h"
 #include "sim/contact.h"
 #include "sim/ledger.h"
 #include "sim/stages.h"
+#include "sim/sums.h"
 #include "sim/wall_drag.h"
 #include "sim/wall_entry.h"
 
 #include <string.h>
 
-enum { VALUES = 9 }; /* per body: pressure and friction, N, and moment, N m: three components each */
+enum { VALUES = SB_FORCE_VALUES, WORKS = 3, GROUPS = 8 /* per unit of work */ };
+
+/* Forces on bodies, summed by one thread. */
+typedef struct forces {
+    double *sum;           /* of the present group: sum[body][VALUES] */
+    uint32_t *body;        /* those that the group acts on */
+    size_t count;          /* of them */
+    bool *acted_on;        /* per body */
+    sb_exact *all;         /* of all groups so far: all[body][VALUES] */
+    sb_exact works[WORKS]; /* friction, contact, contact_bodies of sb_ledger_sums */
+} forces;
 
 /* Vector from an image of a boundary particle to the original. A force across a periodic side acts on the original. */
 static sb_vec3 to_original(const sb_space *space, sb_record image)
@@ -22,8 +34,9 @@ static sb_vec3 to_original(const sb_space *space, sb_record image)
    acting at the fluid particle it keeps the moments of water and bodies balanced. */
 typedef struct tally {
     const sb_sim *sim;
-    double *sum, press, mass; /* sum[body][VALUES]; press: m q */
-    sb_vec3 at, shift;        /* m: of the fluid particle, and to the original */
+    forces *to;
+    double press, mass; /* press: m q */
+    sb_vec3 at, shift;  /* m: of the fluid particle, and to the original */
     uint32_t body;
     sb_f4 pushed, drag;
 } tally;
@@ -41,9 +54,13 @@ static void add_to(double value[3], sb_vec3 v)
 }
 
 /* Adds a force on a body. pressure, drag: N; at: m, the point of application. */
-SB_APART void add(const sb_sim *sim, double *sum, uint32_t body, sb_vec3 at, sb_vec3 pressure, sb_vec3 drag)
+SB_APART void add(const sb_sim *sim, forces *to, uint32_t body, sb_vec3 at, sb_vec3 pressure, sb_vec3 drag)
 {
-    double *value = sum + (size_t)VALUES * body;
+    double *value = to->sum + (size_t)VALUES * body;
+    if (!to->acted_on[body]) {
+        to->acted_on[body] = true;
+        to->body[to->count++] = body;
+    }
     add_to(value, pressure);
     add_to(value + 3, drag);
     add_to(value + 6, sb_cross(sb_sub(at, sim->model->bodies[body].moment_point), sb_add(pressure, drag)));
@@ -51,7 +68,7 @@ SB_APART void add(const sb_sim *sim, double *sum, uint32_t body, sb_vec3 at, sb_
 
 static void flush(tally *t)
 {
-    add(t->sim, t->sum, t->body, sb_add(t->at, t->shift), vector(t->pushed, t->press), vector(t->drag, -t->mass));
+    add(t->sim, t->to, t->body, sb_add(t->at, t->shift), vector(t->pushed, t->press), vector(t->drag, -t->mass));
     t->pushed = t->drag = (sb_f4){0};
 }
 
@@ -65,16 +82,16 @@ static void turn_to(tally *t, const sb_wall_set *set, uint32_t wall)
     t->shift = shift;
 }
 
-static void add_push(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 push, double *sum)
+static void add_push(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 push, forces *to)
 {
     const sb_record record = sb_wall_set_of(sim, wall)->record[sb_wall_particle(wall)];
     sb_vec3 at = sb_space_position(&sim->space, sim->position[i]);
     if (sim->space.repeats) at = sb_add(at, to_original(&sim->space, record));
-    add(sim, sum, sb_wall_body(sim, wall), at, push, (sb_vec3){0});
+    add(sim, to, sb_wall_body(sim, wall), at, push, (sb_vec3){0});
 }
 
 /* Resolves contact of particle i; the bodies receive the reactions. */
-SB_APART void contact(sb_sim *sim, size_t i, double *sum, sb_ledger_sums *ledger)
+SB_APART void contact(sb_sim *sim, size_t i, forces *to, double works[WORKS])
 {
     const sb_f4 start = ((const sb_f4 *)sim->scratch)[i];
     sb_f4 velocity = sim->acceleration[i];
@@ -87,10 +104,10 @@ SB_APART void contact(sb_sim *sim, size_t i, double *sum, sb_ledger_sums *ledger
         /* The push is along the wall's normal through the particle, so that it may act at the particle. */
         const sb_vec3 push = vector(pushes[k].change, scale);
         const sb_f4 body = sb_wall_velocity(sim, wall);
-        add_push(sim, i, wall, push, sum);
-        ledger->contact_bodies += sb_ledger_work((sb_f4){0}, pushes[k].change, body, body);
+        add_push(sim, i, wall, push, to);
+        works[2] += sb_ledger_work((sb_f4){0}, pushes[k].change, body, body);
     }
-    ledger->contact += sb_ledger_work(sim->acceleration[i], velocity, start, velocity);
+    works[1] += sb_ledger_work(sim->acceleration[i], velocity, start, velocity);
     velocity[3] = sim->acceleration[i][3];
     sim->acceleration[i] = velocity;
 }
@@ -105,16 +122,16 @@ static bool one_body(const sb_sim *sim, const uint32_t *index, size_t count)
     return same;
 }
 
-/* Adds the forces of particle i's pressure and drag on bodies to sum[body][VALUES]. Returns the sum of
-   sb_wall_drag_four; law: NULL without drag. */
-SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_wall_drag *law, double *sum)
+/* Adds the forces of particle i's pressure and drag on bodies. Returns the sum of sb_wall_drag_four; law: NULL without
+   drag. */
+SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_wall_drag *law, forces *to)
 {
     const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
     const float *slope = sim->wall_pairs.slope + sim->wall_pairs.first[i];
     const size_t count = sim->wall_pairs.count[i];
     const double mass = (double)sim->constant.mass;
     const sb_f4 *velocity = sim->scratch; /* at the step's start */
-    tally t = {.sim = sim, .sum = sum, .press = mass * (double)sim->unknown[i], .mass = mass};
+    tally t = {.sim = sim, .to = to, .press = mass * (double)sim->unknown[i], .mass = mass};
     sb_f4 drag = {0}, part[4];
     t.at = sb_space_position(&sim->space, sim->position[i]);
     if (count > 0) t.body = sb_wall_body(sim, index[0]);
@@ -140,26 +157,69 @@ SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_wall_drag *law, doub
     return drag;
 }
 
-/* Adds forces (N) and moments (N m) of one block of particles on bodies to sum[body][VALUES], and the work of friction
-   and contact to the block's ledger. */
+/* Adds forces (N) and moments (N m) of one group on bodies, and the works of friction and contact. */
 SB_MULTIVERSION
-static void do_block(sb_sim *sim, size_t block, double *sum, const sb_wall_drag *law)
+static void do_group(sb_sim *sim, const sb_group *group, const sb_wall_drag *law, forces *to)
 {
-    sb_ledger_sums *ledger = &sim->block_ledger[block];
     const sb_f4 *velocity = sim->scratch; /* at the step's start */
-    for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
+    double works[WORKS] = {0};
+    bool beside_wall = false;
+    for (size_t i = group->first; i < group->end; i++) {
         if (sim->wall_pairs.count[i] == 0) continue;
-        const sb_f4 drag = react(sim, i, law->on ? law : NULL, sum);
-        contact(sim, i, sum, ledger);
-        if (law->on) ledger->friction += sb_ledger_work((sb_f4){0}, drag, velocity[i], sim->acceleration[i]);
+        beside_wall = true;
+        const sb_f4 drag = react(sim, i, law->on ? law : NULL, to);
+        contact(sim, i, to, works);
+        if (law->on) works[0] += sb_ledger_work((sb_f4){0}, drag, velocity[i], sim->acceleration[i]);
     }
+    if (!beside_wall) return;
+    for (int k = 0; k < WORKS; k++) sb_exact_add(&to->works[k], works[k]);
+    for (size_t b = 0; b < to->count; b++) {
+        double *sum = to->sum + (size_t)VALUES * to->body[b];
+        sb_exact *all = to->all + (size_t)VALUES * to->body[b];
+        for (int v = 0; v < VALUES; v++) sb_exact_add(&all[v], sum[v]);
+        memset(sum, 0, VALUES * sizeof *sum);
+        to->acted_on[to->body[b]] = false;
+    }
+    to->count = 0;
 }
 
-static bool touches_walls(const sb_sim *sim, size_t block)
+static void forces_free(forces *f)
 {
-    for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++)
-        if (sim->wall_pairs.count[i] > 0) return true;
-    return false;
+    sb_free(f->sum);
+    sb_free(f->body);
+    sb_free(f->acted_on);
+    sb_free(f->all);
+}
+
+/* Returns 0, or -1 without memory. */
+static int forces_create(forces *f, size_t bodies)
+{
+    *f = (forces){.sum = sb_alloc(bodies * VALUES, sizeof *f->sum),
+                  .body = sb_alloc(bodies, sizeof *f->body),
+                  .acted_on = sb_alloc(bodies, sizeof *f->acted_on),
+                  .all = sb_alloc(bodies * VALUES, sizeof *f->all)};
+    return f->sum && f->body && f->acted_on && f->all ? 0 : -1;
+}
+
+/* Sums of all threads into `total`. False: a thread has no memory for its own. */
+static bool sum_forces(sb_sim *sim, const sb_wall_drag *law, forces *total)
+{
+    const size_t groups = sim->groups.count, bodies = sim->model->body_count;
+    bool enough = true;
+#pragma omp parallel reduction(&& : enough)
+    {
+        forces own;
+        enough = forces_create(&own, bodies) == 0;
+#pragma omp for schedule(dynamic, GROUPS)
+        for (size_t g = 0; g < groups; g++)
+            if (enough) do_group(sim, &sim->groups.group[g], law, &own);
+        if (enough) {
+            sb_sums_merge(total->all, own.all, bodies * VALUES);
+            sb_sums_merge(total->works, own.works, WORKS);
+        }
+        forces_free(&own);
+    }
+    return enough;
 }
 
 /* Adds a force's values over dt (s) to a body's impulse. */
@@ -172,24 +232,20 @@ static void add_impulse(sb_body_impulse *total, double dt, const double *s)
 
 sb_status sb_stage_impulse(sb_sim *sim, sb_error *error)
 {
-    (void)error;
-    const size_t bodies = sim->model->body_count, blocks = sb_blocks(sim);
+    const size_t bodies = sim->model->body_count;
     const sb_wall_drag law = sb_wall_drag_make(sim);
-#pragma omp parallel for schedule(dynamic, 4)
-    for (size_t b = 0; b < blocks; b++) {
-        sim->block_ledger[b] = (sb_ledger_sums){0};
-        sim->block_touched[b] = touches_walls(sim, b);
-        if (!sim->block_touched[b]) continue;
-        double *sum = sim->block_impulse + b * bodies * VALUES;
-        memset(sum, 0, bodies * VALUES * sizeof *sum);
-        do_block(sim, b, sum, &law);
+    forces total;
+    if (forces_create(&total, bodies) != 0 || !sum_forces(sim, &law, &total)) {
+        forces_free(&total);
+        return sb_fail_memory(error, "forces on bodies");
     }
+    for (size_t v = 0; v < bodies * VALUES; v++) sim->body_force[v] = sb_exact_value(&total.all[v]);
+    sim->step_sums.friction = sb_exact_value(&total.works[0]);
+    sim->step_sums.contact = sb_exact_value(&total.works[1]);
+    sim->step_sums.contact_bodies = sb_exact_value(&total.works[2]);
+    forces_free(&total);
     if (sim->settling) return SB_OK;
-    const double dt = sim->report.time_step;
-    for (size_t b = 0; b < blocks; b++) {
-        if (!sim->block_touched[b]) continue;
-        for (size_t body = 0; body < bodies; body++)
-            add_impulse(&sim->impulse[body], dt, sim->block_impulse + (b * bodies + body) * VALUES);
-    }
+    for (size_t body = 0; body < bodies; body++)
+        add_impulse(&sim->impulse[body], sim->report.time_step, sim->body_force + body * VALUES);
     return SB_OK;
 }

@@ -1,6 +1,7 @@
 /* The symplectic update [S16, eqs. 17, 18]. */
 #include "sim/ledger.h"
 #include "sim/stages.h"
+#include "sim/sums.h"
 
 #include <math.h>
 
@@ -50,16 +51,16 @@ SB_INLINE sb_f4 moving_velocity(const sb_sim *sim, size_t i, sb_f4 start, sb_f4 
     return sim->diagonal[i] > 0 ? end : (start + end) * sb_splat(0.5f);
 }
 
-/* Moves the particles of a block. Returns their largest squared speed, after contact resolution. book: whether to enter
-   the block's work in the ledger. */
-SB_INLINE float move_block(sb_sim *sim, size_t block, bool book)
+/* Moves the particles of a group. Returns their largest squared speed, after contact resolution. book: whether to
+   compute the group's terms of the ledger. */
+SB_INLINE float move_group(sb_sim *sim, const sb_group *group, bool book, double terms[SB_TALLY_TERMS])
 {
     const sb_f4 *start = sim->scratch;
     sb_ledger_tally tally = {0};
     const float step = sim->settling == SB_START_TRIAL ? 0 : (float)(sim->report.time_step / sim->space.quantum);
     const sb_f4 keep = sim->settling == SB_CREEPING ? (sb_f4){0, 0, 0, 1} : sb_splat(1);
     float top = 0;
-    for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
+    for (size_t i = group->first; i < group->end; i++) {
         sb_f4 v = sim->acceleration[i];
         const sb_f4 way = book ? moving_velocity(sim, i, start[i], v) : v;
         const uint32_t height = sim->position[i][2];
@@ -71,14 +72,14 @@ SB_INLINE float move_block(sb_sim *sim, size_t block, bool book)
         float square = sb_sum3(v * v);
         top = square > top ? square : top;
     }
-    if (book) sb_ledger_store(&tally, &sim->block_ledger[block]);
+    if (book) sb_ledger_terms(&tally, terms);
     return top;
 }
 
 SB_MULTIVERSION
-static float move(sb_sim *sim, size_t block)
+static double move(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_MAX])
 {
-    return sim->settling ? move_block(sim, block, false) : move_block(sim, block, true);
+    return (double)(sim->settling ? move_group(sim, group, false, terms) : move_group(sim, group, true, terms));
 }
 
 sb_status sb_sim_diverged(const sb_sim *sim, size_t particle, sb_f4 velocity, sb_error *error)
@@ -101,19 +102,28 @@ static sb_status diverged(sb_sim *sim, fastest top, sb_error *error)
     return sb_sim_diverged(sim, top.particle, (sb_f4){sqrtf(top.square)}, error);
 }
 
+/* The faster of two. NaN counts as the fastest, and of equal speeds the first particle's, so that the result does not
+   depend on the threads. */
+static fastest faster(fastest a, fastest b)
+{
+    if (isnan(a.square) || isnan(b.square))
+        return isnan(a.square) && (!isnan(b.square) || a.particle < b.particle) ? a : b;
+    if (a.square == b.square) return a.particle < b.particle ? a : b;
+    return a.square > b.square ? a : b;
+}
+
 sb_status sb_stage_accelerate(sb_sim *sim, sb_error *error)
 {
     const size_t blocks = sb_blocks(sim);
-    fastest top = {0, 0};
-#pragma omp parallel for schedule(static)
-    for (size_t b = 0; b < blocks; b++) {
-        fastest found = accelerate(sim, b);
-        sim->partial[2 * b] = (double)found.square;
-        sim->partial[2 * b + 1] = (double)found.particle;
+    fastest top = {0, SIZE_MAX};
+#pragma omp parallel
+    {
+        fastest own = {0, SIZE_MAX};
+#pragma omp for schedule(static) nowait
+        for (size_t b = 0; b < blocks; b++) own = faster(own, accelerate(sim, b));
+#pragma omp critical(sb_fastest)
+        top = faster(top, own);
     }
-    for (size_t b = 0; b < blocks && !isnan(top.square); b++)
-        if (!(sim->partial[2 * b] <= (double)top.square))
-            top = (fastest){(float)sim->partial[2 * b], (size_t)sim->partial[2 * b + 1]};
     if (!(top.square <= sim->constant.speed_limit * sim->constant.speed_limit)) return diverged(sim, top, error);
     return SB_OK;
 }
@@ -121,13 +131,14 @@ sb_status sb_stage_accelerate(sb_sim *sim, sb_error *error)
 sb_status sb_stage_move(sb_sim *sim, sb_error *error)
 {
     (void)error;
-    const size_t blocks = sb_blocks(sim);
-#pragma omp parallel for schedule(static)
-    for (size_t b = 0; b < blocks; b++) sim->partial[b] = (double)move(sim, b);
+    double sum[SB_TALLY_TERMS];
+    const double top = sb_sum_groups(sim, SB_TALLY_TERMS, move, sum);
+    sb_ledger_sums *s = &sim->step_sums;
+    double *const sums[SB_TALLY_TERMS] = {&s->forces,  &s->solve,   &s->fall,    &s->rise,
+                                          &s->gain[0], &s->gain[1], &s->gain[2], &s->size};
+    for (size_t k = 0; k < SB_TALLY_TERMS; k++) *sums[k] = sum[k];
     if (!sim->settling) sb_ledger_close(sim);
-    double top = 0;
-    for (size_t b = 0; b < blocks; b++) top = sim->partial[b] > top ? sim->partial[b] : top;
-    sim->report.max_speed = sqrt(top);
+    sim->report.max_speed = sqrt(fmax(top, 0));
     sim->report.time += sim->settling ? 0 : sim->report.time_step;
     sim->report.step += !sim->settling;
     return SB_OK;

@@ -1,22 +1,6 @@
 #include "sim/ledger.h"
 
-static sb_ledger_sums sum_blocks(const sb_sim *sim)
-{
-    sb_ledger_sums all = {0};
-    for (size_t b = 0; b < sb_blocks(sim); b++) {
-        const sb_ledger_sums *s = &sim->block_ledger[b];
-        all.forces += s->forces;
-        all.solve += s->solve;
-        all.fall += s->fall;
-        all.rise += s->rise;
-        for (int axis = 0; axis < 3; axis++) all.gain[axis] += s->gain[axis];
-        all.size += s->size;
-        all.friction += s->friction;
-        all.contact += s->contact;
-        all.contact_bodies += s->contact_bodies;
-    }
-    return all;
-}
+#include "base/exact.h"
 
 /* Sum of the forces (N) on all bodies, and their power (W) on the moving bodies. */
 typedef struct body_sums {
@@ -26,27 +10,22 @@ typedef struct body_sums {
 
 static body_sums sum_bodies(const sb_sim *sim)
 {
-    enum { VALUES = 9 };
-    const size_t bodies = sim->model->body_count;
     body_sums all = {0};
-    for (size_t b = 0; b < sb_blocks(sim); b++) {
-        if (!sim->block_touched[b]) continue;
-        for (size_t body = 0; body < bodies; body++) {
-            const double *s = sim->block_impulse + (b * bodies + body) * VALUES;
-            const sb_vec3 pressure = sb_vec(s[0], s[1], s[2]), friction = sb_vec(s[3], s[4], s[5]);
-            all.force = sb_add(all.force, sb_add(pressure, friction));
-            if (sim->moving_of_body[body] == UINT32_MAX) continue;
-            const sb_vec3 velocity = sim->moving[sim->moving_of_body[body]].velocity;
-            all.pressure += sb_dot(pressure, velocity);
-            all.friction += sb_dot(friction, velocity);
-        }
+    for (size_t body = 0; body < sim->model->body_count; body++) {
+        const double *s = sim->body_force + body * SB_FORCE_VALUES;
+        const sb_vec3 pressure = sb_vec(s[0], s[1], s[2]), friction = sb_vec(s[3], s[4], s[5]);
+        all.force = sb_add(all.force, sb_add(pressure, friction));
+        if (sim->moving_of_body[body] == UINT32_MAX) continue;
+        const sb_vec3 velocity = sim->moving[sim->moving_of_body[body]].velocity;
+        all.pressure += sb_dot(pressure, velocity);
+        all.friction += sb_dot(friction, velocity);
     }
     return all;
 }
 
 void sb_ledger_close(sb_sim *sim)
 {
-    const sb_ledger_sums s = sum_blocks(sim);
+    const sb_ledger_sums s = sim->step_sums;
     const body_sums bodies = sum_bodies(sim);
     const double m = (double)sim->constant.mass, g = (double)sim->constant.gravity;
     const double dt = (double)(float)sim->report.time_step; /* in the precision that advanced the velocities */
@@ -70,9 +49,11 @@ void sb_ledger_leave(sb_sim *sim, size_t first, size_t end)
 {
     const double m = (double)sim->constant.mass, g = (double)sim->constant.gravity;
     const double base = sim->model->min.z - sim->space.origin.z;
+    sb_exact left = {0};
     for (size_t i = first; i < end; i++) {
         const sb_f4 v = sim->velocity[i];
         const double square = sb_ledger_work((sb_f4){0}, v, v, v);
-        sim->ledger.left -= m * (0.5 * square + g * (sim->position[i][2] * sim->space.quantum - base));
+        sb_exact_add(&left, m * (0.5 * square + g * (sim->position[i][2] * sim->space.quantum - base)));
     }
+    sim->ledger.left -= sb_exact_value(&left);
 }

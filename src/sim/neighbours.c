@@ -126,8 +126,7 @@ sb_status sb_stage_neighbours(sb_sim *sim, sb_error *error)
     for (;;) {
         bool too_small;
         unsigned full;
-        if (sb_groups_build(sim) != 0 || attempt(sim, &too_small, &full) != 0)
-            return sb_fail_memory(error, "neighbour lists");
+        if (attempt(sim, &too_small, &full) != 0) return sb_fail_memory(error, "neighbour lists");
         if (full) return refuse(sim, full, error);
         if (!too_small) return SB_OK;
         if (sim->pairs.used > UINT32_MAX / 2 || sim->wall_pairs.used > UINT32_MAX / 2)

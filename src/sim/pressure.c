@@ -2,6 +2,7 @@
 #include "sim/pressure.h"
 
 #include "sim/stages.h"
+#include "sim/sums.h"
 
 #include <math.h>
 
@@ -20,39 +21,33 @@ double sb_pressure_spectrum(const sb_sim *sim)
     return DISORDER * sim->constant.spectrum;
 }
 
-/* Computes b_i = beta (rho_0 - rho_i) - dt div_i of one block, with v* and the walls' velocities. sim->source holds
-   div_i on entry. partial: sum and maximum of the density above the rest density. */
-static void source_block(const sb_sim *sim, size_t block, double *partial)
+/* Computes b_i = beta (rho_0 - rho_i) - dt div_i of one group, with v* and the walls' velocities. sim->source holds
+   div_i on entry. Sums the density above the rest density, and returns the largest. */
+static double source_group(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_MAX])
 {
     const float dt = (float)sim->report.time_step, rest = sim->constant.rest_density;
     const float beta = (float)sim->scene->numerics.source_relaxation;
     double excess = 0;
     float worst = 0;
-    for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
+    for (size_t i = group->first; i < group->end; i++) {
         const float deficit = rest - sim->density[i];
         sim->source[i] = beta * deficit - dt * (sim->source[i] - sim->wall[i][3]);
         excess += deficit < 0 ? (double)-deficit : 0;
         worst = -deficit > worst ? -deficit : worst;
     }
-    partial[0] = excess;
-    partial[1] = (double)worst;
+    terms[0] = excess;
+    return (double)worst;
 }
 
 sb_status sb_stage_source(sb_sim *sim, sb_error *error)
 {
     (void)error;
-    const size_t blocks = sb_blocks(sim);
     const double rest = (double)sim->constant.rest_density;
-    double excess = 0, worst = 0;
+    double excess;
     sb_divergence(sim, sim->velocity, 1, sim->source);
-#pragma omp parallel for schedule(static)
-    for (size_t b = 0; b < blocks; b++) source_block(sim, b, sim->partial + 2 * b);
-    for (size_t b = 0; b < blocks; b++) {
-        excess += sim->partial[2 * b];
-        worst = fmax(worst, sim->partial[2 * b + 1]);
-    }
+    const double worst = sb_sum_groups(sim, 1, source_group, &excess);
     sim->report.compression = sim->n ? excess / ((double)sim->n * rest) : 0;
-    sim->report.compression_max = worst / rest;
+    sim->report.compression_max = fmax(worst, 0) / rest;
     return SB_OK;
 }
 
@@ -93,7 +88,7 @@ sb_status sb_stage_pressure(sb_sim *sim, sb_error *error)
     return sb_pressure_solvers[sim->scene->numerics.solver]->solve(sim, error);
 }
 
-/* Sums over a block. sums: max(0, e), and |e| of active particles, one particle after the other. By lanes: number of
+/* Sums over a group. sums: max(0, e), and |e| of active particles, one particle after the other. By lanes: number of
    active particles, and largest e. */
 typedef struct judgement {
     double sums __attribute__((vector_size(16)));
@@ -122,15 +117,18 @@ SB_INLINE void judge_four(judgement *j, sb_f4 error, sb_f4 diagonal, sb_f4 unkno
 
 SB_INLINE sb_f4 four_of(const float *field)
 {
-    return *(const sb_f4 *)field;
+    sb_f4 four; /* groups begin anywhere */
+    memcpy(&four, field, sizeof four);
+    return four;
 }
 
-static void judge_block(const sb_sim *sim, size_t block, double *partial)
+/* Sums max(0, e), |e| over active particles, and the number of these. Returns the largest e. */
+static double judge_group(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_MAX])
 {
     const float *residual = sim->residual, *diagonal = sim->diagonal, *unknown = sim->unknown;
     judgement j = {0};
-    const size_t end = sb_block_end(sim, block);
-    size_t i = block * SB_BLOCK;
+    const size_t end = group->end;
+    size_t i = group->first;
     for (; i + 4 <= end; i += 4) judge_four(&j, four_of(residual + i), four_of(diagonal + i), four_of(unknown + i));
     if (i < end) {
         sb_f4 last[3] = {0};
@@ -140,30 +138,21 @@ static void judge_block(const sb_sim *sim, size_t block, double *partial)
         judge_four(&j, last[0], last[1], last[2]);
     }
     const sb_f4 worst = j.worst;
-    partial[0] = j.sums[0];
-    partial[1] = j.sums[1];
-    partial[2] = (double)(j.active[0] + j.active[1] + j.active[2] + j.active[3]);
-    partial[3] = (double)fmaxf(fmaxf(worst[0], worst[1]), fmaxf(worst[2], worst[3]));
+    terms[0] = j.sums[0];
+    terms[1] = j.sums[1];
+    terms[2] = (double)(j.active[0] + j.active[1] + j.active[2] + j.active[3]);
+    return (double)fmaxf(fmaxf(worst[0], worst[1]), fmaxf(worst[2], worst[3]));
 }
 
 sb_pressure_error sb_pressure_judge(sb_sim *sim)
 {
-    const size_t blocks = sb_blocks(sim);
     const double rest = (double)sim->constant.rest_density;
-    double excess = 0, active = 0, count = 0, worst = 0;
-#pragma omp parallel for schedule(static)
-    for (size_t b = 0; b < blocks; b++) judge_block(sim, b, sim->partial + 4 * b);
-    for (size_t b = 0; b < blocks; b++) {
-        const double *p = sim->partial + 4 * b;
-        excess += p[0];
-        active += p[1];
-        count += p[2];
-        worst = p[3] > worst ? p[3] : worst;
-    }
+    double sum[3]; /* excess, active, count */
+    const double worst = sb_sum_groups(sim, 3, judge_group, sum);
     sb_pressure_error error = {
-        .mean = sim->n ? excess / ((double)sim->n * rest) : 0,
-        .active = count > 0 ? active / (count * rest) : 0,
-        .max = worst / rest,
+        .mean = sim->n ? sum[0] / ((double)sim->n * rest) : 0,
+        .active = sum[2] > 0 ? sum[1] / (sum[2] * rest) : 0,
+        .max = fmax(worst, 0) / rest,
     };
     sim->report.iterations++;
     sim->report.error_mean = error.mean;
@@ -194,6 +183,7 @@ bool sb_pressure_done(sb_sim *sim, const sb_pressure_error *error)
     else if (n->tolerance_rule == SB_TOLERANCE_PRESSURE && sim->report.iterations < sim->last_sweeps)
         enough = error->mean <= SOONER * tolerance;
     if (enough && sim->report.iterations >= n->min_iterations) return true;
-    sim->report.capped = sim->report.iterations >= n->max_iterations;
+    /* An error that is no number ends the solve; the new velocities will show that the run has diverged. */
+    sim->report.capped = sim->report.iterations >= n->max_iterations || isnan(error->mean);
     return sim->report.capped;
 }

@@ -1,8 +1,10 @@
 /* Conjugate gradients with proportioning and gradient projection (MPRGP) for q >= 0, scaled by the
    diagonal D = -a_ii: minimises f(q) = -q.A q/2 + b.q, whose gradient is -e. */
 #include "sim/pressure.h"
+#include "sim/sums.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Length of a projection step in units of 1/D. From 2/lambda_max of D^-1 A on, the shortest modes would grow. With wide
    supports that limit is below this value. */
@@ -21,10 +23,13 @@ typedef struct sums {
     double feasible;      /* longest step that keeps q >= 0 */
 } sums;
 
-static void sum_block(const sb_sim *sim, size_t block, double *partial)
+enum { SUMS = 4 };
+
+/* Sums the first members of `sums`. Returns less the group's `feasible`. */
+static double sum_group(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_MAX])
 {
     double free = 0, chopped = 0, slope = 0, curvature = 0, feasible = (double)INFINITY;
-    for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
+    for (size_t i = group->first; i < group->end; i++) {
         if (sim->diagonal[i] == 0) continue;
         double e = (double)sim->residual[i], d = (double)sim->direction[i];
         double q = (double)sim->unknown[i];
@@ -36,25 +41,16 @@ static void sum_block(const sb_sim *sim, size_t block, double *partial)
         curvature -= d * (double)sim->product[i];
         if (d < 0 && q < -feasible * d) feasible = -q / d;
     }
-    const double values[5] = {free, chopped, slope, curvature, feasible};
-    for (int v = 0; v < 5; v++) partial[v] = values[v];
+    const double values[SUMS] = {free, chopped, slope, curvature};
+    memcpy(terms, values, sizeof values);
+    return -feasible;
 }
 
 static sums sum_all(sb_sim *sim)
 {
-    const size_t blocks = sb_blocks(sim);
-    sums s = {.feasible = (double)INFINITY};
-#pragma omp parallel for schedule(static)
-    for (size_t b = 0; b < blocks; b++) sum_block(sim, b, sim->partial + 5 * b);
-    for (size_t b = 0; b < blocks; b++) {
-        const double *p = sim->partial + 5 * b;
-        s.free += p[0];
-        s.chopped += p[1];
-        s.slope += p[2];
-        s.curvature += p[3];
-        s.feasible = fmin(s.feasible, p[4]);
-    }
-    return s;
+    double sum[SUMS];
+    const double feasible = -sb_sum_groups(sim, SUMS, sum_group, sum);
+    return (sums){.free = sum[0], .chopped = sum[1], .slope = sum[2], .curvature = sum[3], .feasible = feasible};
 }
 
 /* direction = D^-1 (gradient on the free set, or on the chopped set) + gamma direction. */
@@ -95,20 +91,19 @@ static void project(sb_sim *sim)
     }
 }
 
+static double conjugation_terms(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_MAX])
+{
+    for (size_t i = group->first; i < group->end; i++)
+        if (sim->unknown[i] > 0 && sim->diagonal[i] > 0)
+            terms[0] += (double)sim->residual[i] / (double)sim->diagonal[i] * (double)sim->product[i];
+    return 0;
+}
+
 /* Coefficient that makes the next direction conjugate to the last: (D^-1 phi) . A d / (d . A d). */
 static double conjugation(sb_sim *sim, double curvature)
 {
-    const size_t blocks = sb_blocks(sim);
-    double sum = 0;
-#pragma omp parallel for schedule(static)
-    for (size_t b = 0; b < blocks; b++) {
-        double part = 0;
-        for (size_t i = b * SB_BLOCK; i < sb_block_end(sim, b); i++)
-            if (sim->unknown[i] > 0 && sim->diagonal[i] > 0)
-                part += (double)sim->residual[i] / (double)sim->diagonal[i] * (double)sim->product[i];
-        sim->partial[b] = part;
-    }
-    for (size_t b = 0; b < blocks; b++) sum += sim->partial[b];
+    double sum;
+    sb_sum_groups(sim, 1, conjugation_terms, &sum);
     return sum / curvature;
 }
 

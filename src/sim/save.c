@@ -2,6 +2,7 @@
    anew: cells, ghosts, neighbours, densities. Wall tables follow from the bodies' displacements. Stage times belong to
    the process and are not saved. */
 #include "base/archive.h"
+#include "base/memory.h"
 #include "sim/departures.h"
 #include "sim/state.h"
 
@@ -83,8 +84,8 @@ void sb_sim_save(const sb_sim *sim, sb_archive_out *out)
     sb_put_list(out, sim->position, sim->n, sizeof *sim->position);
     sb_put_list(out, sim->velocity, sim->n, sizeof *sim->velocity);
     sb_put_list(out, sim->id, sim->n, sizeof *sim->id);
-    sb_put_list(out, sim->density_correction, sim->density_correction ? sim->model->fluid_count : 0,
-                sizeof *sim->density_correction);
+    sb_put_list(out, sim->density_correction, sim->density_correction ? sim->n : 0, sizeof *sim->density_correction);
+    sb_put_list(out, sim->start_velocity, sim->start_velocity ? sim->n : 0, sizeof *sim->start_velocity);
     sb_put_list(out, sim->impulse, sim->model->body_count, sizeof *sim->impulse);
     sb_put_list(out, &sim->ledger, sizeof sim->ledger / sizeof(double), sizeof(double));
     sb_put_count(out, sim->moving_count);
@@ -117,7 +118,7 @@ static void take_particles(sb_sim *sim, sb_archive_in *in)
 
 static void take_corrections(sb_sim *sim, sb_archive_in *in)
 {
-    const size_t n = sim->density_correction ? sim->model->fluid_count : 0;
+    const size_t n = sim->density_correction ? sim->n : 0;
     sb_take_list(in, sim->density_correction, n, sizeof *sim->density_correction);
     for (size_t i = 0; i < n; i++) {
         if (!isinf(sim->density_correction[i])) continue;
@@ -160,6 +161,11 @@ sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
     sb_departures_load(sim, in);
     take_particles(sim, in);
     take_corrections(sim, in);
+    if (!sim->settle.under_way) {
+        sb_free(sim->start_velocity);
+        sim->start_velocity = NULL;
+    }
+    sb_take_list(in, sim->start_velocity, sim->start_velocity ? sim->n : 0, sizeof *sim->start_velocity);
     sb_take_list(in, sim->impulse, sim->model->body_count, sizeof *sim->impulse);
     sb_take_list(in, &sim->ledger, sizeof sim->ledger / sizeof(double), sizeof(double));
     take_moving(sim, in);
@@ -171,6 +177,7 @@ sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
     if (status == SB_OK) status = sb_walls_restore(sim, error);
     /* The lists and cells belong to the old particles: there are none until the next step. */
     sim->lists_current = sim->virial_known = false;
+    sim->groups.count = 0;
     if (sb_cells_build(&sim->cells, sim->position, 0, sim->space.shift) != 0 && status == SB_OK)
         status = sb_fail_memory(error, "cells");
     return status;

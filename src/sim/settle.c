@@ -1,5 +1,6 @@
 /* Settling: damped steps before t = 0 in which the initial lattice comes to rest (docs/method.md, section 10). Without
    settling the lattice would rearrange itself during the run, and its noise would hide a wave. */
+#include "base/memory.h"
 #include "base/stop.h"
 #include "physics/wave_theory.h"
 #include "sim/state.h"
@@ -74,12 +75,10 @@ static void set_velocity(sb_sim *sim, size_t i, sb_f4 v)
 /* Sets the velocities of the scene. */
 static void set_scene_velocities(sb_sim *sim)
 {
-    const sb_vec3 *given = sim->model->fluid_velocity;
     sim->report.max_speed = 0;
-    for (size_t i = 0; i < sim->n; i++) {
-        const sb_vec3 v = given ? given[sim->id[i]] : (sb_vec3){0};
-        set_velocity(sim, i, (sb_f4){(float)v.x, (float)v.y, (float)v.z, 0});
-    }
+    for (size_t i = 0; i < sim->n; i++) set_velocity(sim, i, sim->start_velocity ? sim->start_velocity[i] : (sb_f4){0});
+    sb_free(sim->start_velocity);
+    sim->start_velocity = NULL;
 }
 
 /* Sets the velocities of water that starts from rest to minus half of the velocity change of one step. Particles move

@@ -9,6 +9,7 @@
 #include "sim/sort.h"
 #include "sim/stages.h"
 #include "sim/stress_correction.h"
+#include "sim/sums.h"
 #include "sim/turbulence.h"
 #include "sim/wall_drag.h"
 
@@ -16,10 +17,16 @@
 #include <omp.h>
 #include <string.h>
 
+static bool starts_in_motion(const sb_model *model)
+{
+    for (size_t i = 0; i < model->fluid_count; i++)
+        if (sb_norm(model->fluid_velocity[i]) > 0) return true;
+    return false;
+}
+
 static int allocate(sb_sim *sim, size_t n, size_t bodies)
 {
     const sb_numerics *numerics = &sim->scene->numerics;
-    size_t blocks = n / SB_BLOCK + 1;
     const sb_pressure_solver *solver = sb_pressure_solvers[numerics->solver];
     struct {
         void *field;
@@ -28,6 +35,7 @@ static int allocate(sb_sim *sim, size_t n, size_t bodies)
     } rows[] = {
         {&sim->position, n, 16, true},
         {&sim->velocity, n, 16, true},
+        {&sim->start_velocity, n, 16, sb_sim_settles(sim->scene) && starts_in_motion(sim->model)},
         {&sim->id, n, 4, true},
         {&sim->density_correction, n, 4, sb_density_correction_on(sim->scene)},
         {&sim->acceleration, n, 16, true},
@@ -46,11 +54,8 @@ static int allocate(sb_sim *sim, size_t n, size_t bodies)
         {&sim->pairs.count, n, 2, true},
         {&sim->wall_pairs.first, n, 4, true},
         {&sim->wall_pairs.count, n, 2, true},
-        {&sim->partial, blocks, 40, true},
-        {&sim->block_touched, blocks, 1, true},
-        {&sim->block_impulse, blocks * bodies, 72, true},
+        {&sim->body_force, bodies * SB_FORCE_VALUES, 8, true},
         {&sim->impulse, bodies, sizeof *sim->impulse, true},
-        {&sim->block_ledger, blocks, sizeof *sim->block_ledger, true},
     };
     for (size_t r = 0; r < sizeof rows / sizeof rows[0]; r++) {
         if (!rows[r].needed) continue;
@@ -89,6 +94,7 @@ static void fill_particles(sb_sim *sim)
         sim->position[i] = sb_space_record(&sim->space, model->fluid_position[i]);
         sim->velocity[i] = (sb_f4){(float)v.x, (float)v.y, (float)v.z, (float)model->fluid_pressure[i]};
         sim->id[i] = (uint32_t)i;
+        if (sim->start_velocity) sim->start_velocity[i] = (sb_f4){(float)v.x, (float)v.y, (float)v.z, 0};
     }
     double top = 0;
     for (size_t i = 0; i < n; i++) top = fmax(top, sb_norm(model->fluid_velocity[i]));
@@ -187,27 +193,10 @@ static void free_lists(sb_sim *sim)
 void sb_sim_destroy(sb_sim *sim)
 {
     if (!sim) return;
-    void *fields[] = {sim->position,
-                      sim->velocity,
-                      sim->id,
-                      sim->density_correction,
-                      sim->acceleration,
-                      sim->wall,
-                      sim->density,
-                      sim->eddy,
-                      sim->diagonal,
-                      sim->source,
-                      sim->unknown,
-                      sim->residual,
-                      sim->direction,
-                      sim->product,
-                      sim->scratch,
-                      sim->wall_drag,
-                      sim->partial,
-                      sim->block_touched,
-                      sim->block_impulse,
-                      sim->impulse,
-                      sim->block_ledger};
+    void *fields[] = {sim->position,     sim->velocity,  sim->start_velocity, sim->id,        sim->density_correction,
+                      sim->acceleration, sim->wall,      sim->density,        sim->eddy,      sim->diagonal,
+                      sim->source,       sim->unknown,   sim->residual,       sim->direction, sim->product,
+                      sim->scratch,      sim->wall_drag, sim->body_force,     sim->impulse};
     for (size_t f = 0; f < sizeof fields / sizeof fields[0]; f++) sb_free(fields[f]);
     free_lists(sim);
     sb_cells_free(&sim->cells);
@@ -237,48 +226,55 @@ sb_vec3 sb_sim_body_displacement(const sb_sim *sim, size_t body)
     return m == UINT32_MAX ? (sb_vec3){0} : sb_scale(sim->moving[m].direction, sim->moving[m].next_displacement);
 }
 
+/* Adds one particle at a time, so that the sums do not depend on the groups, which a state just loaded does not have.
+ */
 sb_energy sb_sim_energy(const sb_sim *sim)
 {
-    const size_t blocks = sb_blocks(sim);
-    sb_energy e = {0};
-    double *partial = sim->partial;
-#pragma omp parallel for schedule(static)
-    for (size_t b = 0; b < blocks; b++) {
-        double square = 0, height = 0, x = 0, y = 0, z = 0;
-        for (size_t i = b * SB_BLOCK; i < sb_block_end(sim, b); i++) {
-            sb_f4 v = sim->velocity[i];
-            square += (double)v[0] * (double)v[0] + (double)v[1] * (double)v[1] + (double)v[2] * (double)v[2];
-            height += (double)sim->position[i][2];
-            x += (double)v[0];
-            y += (double)v[1];
-            z += (double)v[2];
+    enum { SQUARE, X, Y, Z, SUMS };
+    sb_exact sum[SUMS] = {0};
+    uint64_t height = 0; /* quanta */
+#pragma omp parallel reduction(+ : height)
+    {
+        sb_exact own[SUMS] = {0};
+#pragma omp for schedule(static) nowait
+        for (size_t i = 0; i < sim->n; i++) {
+            const sb_f4 v = sim->velocity[i];
+            const double x = (double)v[0], y = (double)v[1], z = (double)v[2];
+            sb_exact_add(&own[SQUARE], x * x + y * y + z * z);
+            sb_exact_add(&own[X], x);
+            sb_exact_add(&own[Y], y);
+            sb_exact_add(&own[Z], z);
+            height += sim->position[i][2];
         }
-        const double values[5] = {square, height, x, y, z};
-        memcpy(partial + 5 * b, values, sizeof values);
+        sb_sums_merge(sum, own, SUMS);
     }
-    const double mass = (double)sim->constant.mass;
-    for (size_t b = 0; b < blocks; b++) {
-        e.kinetic += 0.5 * mass * partial[5 * b];
-        e.potential += partial[5 * b + 1];
-        e.momentum = sb_madd(e.momentum, mass, sb_vec(partial[5 * b + 2], partial[5 * b + 3], partial[5 * b + 4]));
-    }
-    const double count = (double)sim->n;
-    e.mass = mass * count;
-    double base = sim->model->min.z - sim->space.origin.z;
-    e.potential = mass * (double)sim->constant.gravity * (e.potential * sim->space.quantum - count * base);
-    return e;
+    const double mass = (double)sim->constant.mass, count = (double)sim->n;
+    const double base = sim->model->min.z - sim->space.origin.z;
+    const sb_vec3 velocity = sb_vec(sb_exact_value(&sum[X]), sb_exact_value(&sum[Y]), sb_exact_value(&sum[Z]));
+    return (sb_energy){
+        .kinetic = 0.5 * mass * sb_exact_value(&sum[SQUARE]),
+        .potential = mass * (double)sim->constant.gravity * ((double)height * sim->space.quantum - count * base),
+        .momentum = sb_scale(velocity, mass),
+        .mass = mass * count,
+    };
+}
+
+/* Hash of one particle's state. The sum of all does not depend on their order. */
+static uint64_t particle_hash(const sb_sim *sim, size_t i)
+{
+    const uint32_t place[4] = {sim->position[i][0], sim->position[i][1], sim->position[i][2], sim->id[i]};
+    uint64_t hash = sb_hash(0, place, sizeof place);
+    hash = sb_hash(hash, &sim->velocity[i], sizeof sim->velocity[i]);
+    if (sim->density_correction) hash = sb_hash(hash, &sim->density_correction[i], sizeof *sim->density_correction);
+    return hash;
 }
 
 uint64_t sb_sim_hash(const sb_sim *sim)
 {
-    uint64_t hash = sb_hash(0, &sim->n, sizeof sim->n);
-    for (size_t i = 0; i < sim->n; i++) {
-        uint32_t xyz[4] = {sim->position[i][0], sim->position[i][1], sim->position[i][2], sim->id[i]};
-        hash = sb_hash(hash, xyz, sizeof xyz);
-        hash = sb_hash(hash, &sim->velocity[i], sizeof sim->velocity[i]);
-        if (sim->density_correction)
-            hash = sb_hash(hash, &sim->density_correction[sim->id[i]], sizeof *sim->density_correction);
-    }
+    uint64_t particles = 0;
+#pragma omp parallel for schedule(static) reduction(+ : particles)
+    for (size_t i = 0; i < sim->n; i++) particles += particle_hash(sim, i);
+    uint64_t hash = sb_hash(sb_hash(0, &sim->n, sizeof sim->n), &particles, sizeof particles);
     hash = sb_hash(hash, sim->impulse, sim->model->body_count * sizeof *sim->impulse);
     hash = sb_hash(hash, &sim->ledger, sizeof sim->ledger);
     hash = sb_hash(hash, &sim->report.time, sizeof sim->report.time);

@@ -1,6 +1,7 @@
 /* The stage sort: particles that left the domain return through periodic sides or are removed; the others are sorted
    along the Z-curve of their cells. */
 #include "base/memory.h"
+#include "sim/around.h"
 #include "sim/departures.h"
 #include "sim/ledger.h"
 #include "sim/sort.h"
@@ -72,19 +73,58 @@ static void permute(sb_sim *sim, const uint64_t *words)
 {
     sb_f4 *velocity = sim->scratch;
     sb_record *position = (sb_record *)sim->acceleration;
-    uint32_t *id = (uint32_t *)sim->residual; /* computed anew after the sort */
+    /* Fields that are computed anew after the sort. */
+    uint32_t *id = (uint32_t *)sim->residual;
+    float *correction = sim->source;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < sim->n; i++) {
         size_t from = sb_word_index(words[i]);
         position[i] = sim->position[from];
         velocity[i] = sim->velocity[from];
         id[i] = sim->id[from];
+        if (sim->density_correction) correction[i] = sim->density_correction[from];
     }
     sim->scratch = sim->velocity;
     sim->velocity = velocity;
     sim->acceleration = (sb_f4 *)sim->position;
     sim->position = position;
     memcpy(sim->id, id, sim->n * sizeof *id);
+    if (sim->density_correction) memcpy(sim->density_correction, correction, sim->n * sizeof *correction);
+    if (!sim->start_velocity) return;
+    sb_f4 *start = sim->scratch;
+    for (size_t i = 0; i < sim->n; i++) start[i] = sim->start_velocity[sb_word_index(words[i])];
+    memcpy(sim->start_velocity, start, sim->n * sizeof *start);
+}
+
+static void swap_particles(sb_sim *sim, size_t a, size_t b)
+{
+#define SWAP(type, field)                                                                                              \
+    do {                                                                                                               \
+        const type other = (field)[a];                                                                                 \
+        (field)[a] = (field)[b];                                                                                       \
+        (field)[b] = other;                                                                                            \
+    } while (0)
+    SWAP(sb_record, sim->position);
+    SWAP(sb_f4, sim->velocity);
+    SWAP(uint32_t, sim->id);
+    if (sim->density_correction) SWAP(float, sim->density_correction);
+    if (sim->start_velocity) SWAP(sb_f4, sim->start_velocity);
+#undef SWAP
+}
+
+/* Orders particles [begin, end) by id. Those that were in one cell before are in order already. */
+static void order_by_id(sb_sim *sim, size_t begin, size_t end)
+{
+    for (size_t i = begin + 1; i < end; i++)
+        for (size_t k = i; k > begin && sim->id[k - 1] > sim->id[k]; k--) swap_particles(sim, k - 1, k);
+}
+
+/* The order within a cell does not depend on history, and so neither does that of neighbours. */
+static void order_cells(sb_sim *sim)
+{
+    const sb_cells *cells = &sim->cells;
+#pragma omp parallel for schedule(static, 64)
+    for (size_t c = 0; c < cells->count; c++) order_by_id(sim, cells->begin[c], cells->begin[c + 1]);
 }
 
 sb_status sb_stage_sort(sb_sim *sim, sb_error *error)
@@ -95,11 +135,12 @@ sb_status sb_stage_sort(sb_sim *sim, sb_error *error)
         sb_sort(sim->sort_a, sim->sort_b, sim->n, SB_INDEX_BITS, SB_INDEX_BITS + sim->space.key_bits);
     if (!sorted) return sb_fail_memory(error, "sorting");
     permute(sim, sorted);
-    for (size_t i = stay; i < sim->n; i++) /* in the order of their numbers before the sort */
-        sb_departures_note(sim, outside(sim, &b, sim->position[i]), i);
-    if (!sim->settling) sb_ledger_leave(sim, stay, sim->n); /* their keys are the largest */
+    order_by_id(sim, stay, sim->n); /* their keys are the largest */
+    for (size_t i = stay; i < sim->n; i++) sb_departures_note(sim, outside(sim, &b, sim->position[i]), i);
+    if (!sim->settling) sb_ledger_leave(sim, stay, sim->n);
     sim->n = stay;
     if (sb_cells_build(&sim->cells, sim->position, sim->n, sim->space.shift) != 0)
         return sb_fail_memory(error, "cells");
-    return SB_OK;
+    order_cells(sim);
+    return sb_groups_build(sim) == 0 ? SB_OK : sb_fail_memory(error, "groups of particles");
 }

@@ -12,11 +12,26 @@
 #include "sim/walls.h"
 
 enum {
-    SB_BLOCK = 1024 /* particles per unit of work and per partial sum: fixed, so that sums always have the same order */
+    SB_BLOCK = 1024 /* particles per unit of work */
 };
 
-struct sb_ledger_sums; /* sim/ledger.h */
-struct sb_passes;      /* sim/passes.h */
+enum { SB_FORCE_VALUES = 9 }; /* of a body: pressure and drag, N, and moment, N m: three components each */
+
+/* Sums over all particles in one step, per unit of mass. v is the velocity at the step's start, after the stress
+   correction; v* that before the pressure; w that at the step's end. With u = (v + w)/2 a change d of the velocity does
+   the work d.u. */
+typedef struct sb_ledger_sums {
+    double forces;         /* (v* - v).u: gravity, viscosity, friction */
+    double solve;          /* (w - v*).u: pressure and contact */
+    double fall;           /* z component of u, m/s */
+    double rise;           /* change of z in the step, quanta */
+    double gain[3], size;  /* w - v, and |w - v| */
+    double friction;       /* part of the forces, over dt */
+    double contact;        /* part of the solve */
+    double contact_bodies; /* work of moving bodies by contact */
+} sb_ledger_sums;
+
+struct sb_passes; /* sim/passes.h */
 
 enum { SB_SIM_SKIPPED_MAX = 15 };
 
@@ -29,10 +44,11 @@ struct sb_sim {
 
     /* persistent fields, n entries each; the sort reorders them together */
     size_t n;
-    size_t capacity;     /* entries of position, velocity, acceleration and scratch: n and the ghosts */
-    sb_record *position; /* quanta; last lane: argument of the pressure operator */
-    sb_f4 *velocity;     /* m/s; last lane: pressure in Pa, the next step's warm start */
-    uint32_t *id;
+    size_t capacity;           /* entries of position, velocity, acceleration and scratch: n and the ghosts */
+    sb_record *position;       /* quanta; last lane: argument of the pressure operator */
+    sb_f4 *velocity;           /* m/s; last lane: pressure in Pa, the next step's warm start */
+    uint32_t *id;              /* a particle keeps its number, and no number is used twice */
+    sb_f4 *start_velocity;     /* m/s, at t = 0; NULL after settling, and where all are 0 */
     float *density_correction; /* c_i by id, kg/m^3 (sim/density_correction.h); NULL: off. NAN: not known yet */
 
     /* fields of one step */
@@ -59,7 +75,6 @@ struct sb_sim {
     sb_pairs wall_pairs;
     uint64_t *sort_a, *sort_b; /* in the memory of `wall`, which is computed after the sort */
     void *scratch;             /* 16 bytes per particle, for the permutation */
-    double *partial;           /* per block, 5 values: partial sums */
 
     sb_wall_set walls[SB_WALL_SETS];
     sb_record *moving_rest; /* boundary particles of moving bodies at displacement 0 */
@@ -70,11 +85,10 @@ struct sb_sim {
     sb_moving_body *moving;   /* bodies */
     uint32_t *moving_of_body; /* model body -> index into moving, UINT32_MAX: static */
 
-    double *block_impulse; /* per block and body 9 values, of one step */
-    unsigned char *block_touched;
+    double *body_force;       /* per body SB_FORCE_VALUES values, of one step */
     sb_body_impulse *impulse; /* per body */
 
-    struct sb_ledger_sums *block_ledger; /* per block, of one step */
+    sb_ledger_sums step_sums; /* of one step */
     sb_ledger ledger;
     sb_vec3 stress_gain; /* kg m/s, momentum from the stress correction in one step: only round-off */
 

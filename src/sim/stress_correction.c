@@ -14,6 +14,7 @@
 #include "sim/ledger.h"
 #include "sim/pressure.h"
 #include "sim/stages.h"
+#include "sim/sums.h"
 
 enum { GROUPS = 8 }; /* per unit of work */
 
@@ -151,22 +152,21 @@ static void accelerate(sb_sim *sim, const sb_group *group, float dt)
     }
 }
 
-/* Sums over one block's changes of velocity: work (per unit of mass), momentum, and the first particle that is too fast
-   afterwards (n: none). */
-enum { SUMS = 5 };
+enum { SUMS = 4 };
 
-static void sum_changes(const sb_sim *sim, size_t block)
+/* Sums one group's changes of velocity: work (per unit of mass), momentum. Returns less the number of the first
+   particle that is too fast afterwards, -INFINITY if none is. */
+static double sum_changes(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_MAX])
 {
     const sb_f4 *next = sim->scratch;
     const float limit = sim->constant.speed_limit * sim->constant.speed_limit;
-    double *sum = sim->partial + SUMS * block;
-    sum[0] = sum[1] = sum[2] = sum[3] = 0;
-    sum[4] = (double)sim->n;
-    for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {
-        if (!(sb_sum3(next[i] * next[i]) <= limit) && sum[4] == (double)sim->n) sum[4] = (double)i;
-        sum[0] += sb_ledger_work(sim->velocity[i], next[i], sim->velocity[i], next[i]);
-        for (int axis = 0; axis < 3; axis++) sum[1 + axis] += (double)next[i][axis] - (double)sim->velocity[i][axis];
+    double fast = (double)INFINITY;
+    for (size_t i = group->first; i < group->end; i++) {
+        if (!(sb_sum3(next[i] * next[i]) <= limit)) fast = fmin(fast, (double)i);
+        terms[0] += sb_ledger_work(sim->velocity[i], next[i], sim->velocity[i], next[i]);
+        for (int axis = 0; axis < 3; axis++) terms[1 + axis] += (double)next[i][axis] - (double)sim->velocity[i][axis];
     }
+    return -fast;
 }
 
 bool sb_stress_correction_on(const sb_scene *scene)
@@ -183,7 +183,7 @@ static void swap(sb_f4 **a, void **b)
 
 sb_status sb_stage_stress_correction(sb_sim *sim, sb_error *error)
 {
-    const size_t groups = sim->groups.count, blocks = sb_blocks(sim);
+    const size_t groups = sim->groups.count;
     const float dt = (float)sim->report.time_step, share = (float)sim->scene->numerics.stress_correction;
 #pragma omp parallel for schedule(dynamic, GROUPS)
     for (size_t g = 0; g < groups; g++) find_strain(sim, &sim->groups.group[g], share);
@@ -196,20 +196,13 @@ sb_status sb_stage_stress_correction(sb_sim *sim, sb_error *error)
     sb_pressure_load(sim, sim->source);
 #pragma omp parallel for schedule(dynamic, GROUPS)
     for (size_t g = 0; g < groups; g++) accelerate(sim, &sim->groups.group[g], dt);
-#pragma omp parallel for schedule(static)
-    for (size_t b = 0; b < blocks; b++) sum_changes(sim, b);
+    double sum[SUMS];
+    const double fast = -sb_sum_groups(sim, SUMS, sum_changes, sum);
+    if (fast < (double)sim->n)
+        return sb_sim_diverged(sim, (size_t)fast, ((const sb_f4 *)sim->scratch)[(size_t)fast], error);
     const double mass = (double)sim->constant.mass;
-    double work = 0;
-    sb_vec3 gain = {0};
-    for (size_t b = 0; b < blocks; b++) {
-        const double *sum = sim->partial + SUMS * b;
-        const size_t fast = (size_t)sum[4];
-        if (fast < sim->n) return sb_sim_diverged(sim, fast, ((const sb_f4 *)sim->scratch)[fast], error);
-        work += sum[0];
-        gain = sb_add(gain, sb_vec(sum[1], sum[2], sum[3]));
-    }
-    sim->ledger.stress += sim->settling ? 0 : mass * work;
-    sim->stress_gain = sb_scale(gain, mass);
+    sim->ledger.stress += sim->settling ? 0 : mass * sum[0];
+    sim->stress_gain = sb_scale(sb_vec(sum[1], sum[2], sum[3]), mass);
     swap(&sim->velocity, &sim->scratch);
     sb_ghosts_refresh(sim, sim->velocity);
     return SB_OK;

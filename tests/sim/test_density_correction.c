@@ -62,6 +62,15 @@ static void it_is_determined_once(void **state)
     tank_free(&t);
 }
 
+/* The correction of the particle with that id. */
+static float *correction_of(sb_sim *sim, uint32_t id)
+{
+    for (size_t i = 0; i < sim->n; i++)
+        if (sim->id[i] == id) return &sim->density_correction[i];
+    fail_msg("no particle %u", id);
+    return NULL;
+}
+
 /* A particle in the bulk with the correction of a surface, or with an excess, returns to the bounds of the bulk. A
    particle at the surface keeps its correction. */
 static void it_returns_to_the_bulk_value(void **state)
@@ -70,7 +79,7 @@ static void it_returns_to_the_bulk_value(void **state)
     tank t;
     sb_sim *sim = water_in(&t, 2, SB_DENSITY_COMPLETED, 0);
     assert_int_equal(tank_steps(sim, 1), 0);
-    size_t bulk[2] = {SIZE_MAX, SIZE_MAX}, surface = SIZE_MAX;
+    uint32_t bulk[2] = {UINT32_MAX, UINT32_MAX}, surface = UINT32_MAX;
     for (size_t i = 0; i < sim->n; i++) {
         const sb_vec3 at = sb_space_position(&sim->space, sim->position[i]);
         if (fabs(at.x - 0.325) < 0.02 && fabs(at.z - 0.325) < 0.02) bulk[0] = sim->id[i];
@@ -78,14 +87,14 @@ static void it_returns_to_the_bulk_value(void **state)
         if (fabs(at.x - 0.525) < 0.02 && fabs(at.z - DEPTH) < 0.04) surface = sim->id[i];
     }
     assert_true(bulk[0] < sim->n && bulk[1] < sim->n && surface < sim->n);
-    const float rest = sim->constant.rest_density, kept = sim->density_correction[surface];
+    const float rest = sim->constant.rest_density, kept = *correction_of(sim, surface);
     assert_true(kept > 0.2f * rest);
-    sim->density_correction[bulk[0]] = 0.2f * rest;
-    sim->density_correction[bulk[1]] = -0.2f * rest;
+    *correction_of(sim, bulk[0]) = 0.2f * rest;
+    *correction_of(sim, bulk[1]) = -0.2f * rest;
     assert_int_equal(tank_steps(sim, 120), 0);
-    assert_true(sim->density_correction[bulk[0]] < 0.005f * rest);
-    assert_true(sim->density_correction[bulk[1]] > -0.012f * rest);
-    assert_true(sim->density_correction[surface] == kept);
+    assert_true(*correction_of(sim, bulk[0]) < 0.005f * rest);
+    assert_true(*correction_of(sim, bulk[1]) > -0.012f * rest);
+    assert_true(*correction_of(sim, surface) == kept);
     sb_sim_destroy(sim);
     tank_free(&t);
 }
