@@ -6,7 +6,7 @@ foreach(folder base/vec.h base/random.h physics geometry sim measure)
     if(folder MATCHES "\\.h$")
         list(APPEND sources src/${folder})
     else()
-        file(GLOB found RELATIVE ${ROOT} ${ROOT}/src/${folder}/*.c ${ROOT}/src/${folder}/*.h
+        file(GLOB_RECURSE found RELATIVE ${ROOT} ${ROOT}/src/${folder}/*.c ${ROOT}/src/${folder}/*.h
              ${ROOT}/src/${folder}/CMakeLists.txt)
         list(APPEND sources ${found})
     endif()

@@ -5,7 +5,7 @@
 #include "app/room.h"
 #include "app/team.h"
 #include "app/warnings.h"
-#include "geometry/model.h"
+#include "geometry/model/model.h"
 #include "output/json.h"
 #include "sim/sim.h"
 

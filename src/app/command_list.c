@@ -3,7 +3,7 @@
 #include "base/nearest.h"
 #include "physics/kernel.h"
 #include "physics/wavemaker.h"
-#include "sim/pressure.h"
+#include "sim/pressure/pressure.h"
 
 #include <stdio.h>
 #include <string.h>

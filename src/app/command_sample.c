@@ -3,7 +3,7 @@
 #include "app/team.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "geometry/model.h"
+#include "geometry/model/model.h"
 #include "output/vtp.h"
 
 #include <stdio.h>

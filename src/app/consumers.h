@@ -6,7 +6,7 @@
 #include "app/written.h"
 #include "base/archive.h"
 #include "base/file.h"
-#include "geometry/model.h"
+#include "geometry/model/model.h"
 #include "output/pvd.h"
 #include "output/runlog.h"
 #include "render/image.h"

@@ -1,7 +1,7 @@
 #include "app/pace.h"
 
 #include "base/clock.h"
-#include "geometry/model.h"
+#include "geometry/model/model.h"
 #include "sim/sim.h"
 
 enum { SWEEPS = 8, WARM_UP = 3, STEPS = 10 };

@@ -2,7 +2,7 @@
 #ifndef SB_APP_ROOM_H
 #define SB_APP_ROOM_H
 
-#include "geometry/model.h"
+#include "geometry/model/model.h"
 
 /* Estimated number of ghost particles: evenly spread water within a support radius of periodic sides. */
 double sb_room_ghosts(const sb_scene *scene, const sb_model *model);

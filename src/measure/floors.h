@@ -3,7 +3,7 @@
 #ifndef SB_MEASURE_FLOORS_H
 #define SB_MEASURE_FLOORS_H
 
-#include "geometry/model.h"
+#include "geometry/model/model.h"
 
 /* Elevations z (m) of upward faces of bodies that do not move, from the top downwards. Zero-initialised: none. */
 typedef struct sb_floors {

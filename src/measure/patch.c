@@ -4,8 +4,8 @@
    of the first layer at a wall is therefore far from the hydrostatic one (measured in a tank at rest, kernel cubic,
    support 2, gamma 0.7: 1.9 times the hydrostatic pressure in the first layer, 0.85 in the second, 1.02 in the third),
    while the force on the wall is correct to a fraction of a per cent. A probe on a wall therefore reads the force on a
-   small patch of the wall. The virial pressure of the first layer (src/sim/virial_pressure.c) is closer, but still some
-   per cent too high: a probe near a wall ignores that layer. */
+   small patch of the wall. The virial pressure of the first layer (src/sim/terms/virial_pressure.c) is closer, but
+   still some per cent too high: a probe near a wall ignores that layer. */
 #include "measure/patch.h"
 
 #include "base/memory.h"

@@ -5,7 +5,7 @@
 
 #include "base/archive.h"
 #include "base/status.h"
-#include "geometry/model.h"
+#include "geometry/model/model.h"
 #include "measure/records.h"
 #include "scene/scene.h"
 

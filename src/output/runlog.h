@@ -3,7 +3,7 @@
 #ifndef SB_OUTPUT_RUNLOG_H
 #define SB_OUTPUT_RUNLOG_H
 
-#include "geometry/model.h"
+#include "geometry/model/model.h"
 #include "measure/records.h"
 #include "output/saved.h"
 #include "scene/scene.h"

@@ -2,7 +2,7 @@
 #ifndef SB_OUTPUT_SUMMARY_H
 #define SB_OUTPUT_SUMMARY_H
 
-#include "geometry/model.h"
+#include "geometry/model/model.h"
 #include "measure/records.h"
 #include "output/json.h"
 #include "scene/scene.h"

@@ -3,7 +3,7 @@
 #define SB_RENDER_MESHES_H
 
 #include "frame/frame.h"
-#include "geometry/model.h"
+#include "geometry/model/model.h"
 #include "render/camera.h"
 #include "render/light.h"
 #include "render/program.h"

@@ -2,7 +2,7 @@
 #ifndef SB_RENDER_OUTLINE_H
 #define SB_RENDER_OUTLINE_H
 
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 
 typedef struct sb_outline {
     float (*normals)[3]; /* unit, one per triangle corner: 3 * triangle_count; owned */

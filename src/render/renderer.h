@@ -3,7 +3,7 @@
 #define SB_RENDER_RENDERER_H
 
 #include "frame/frame.h"
-#include "geometry/model.h"
+#include "geometry/model/model.h"
 #include "render/image.h"
 
 typedef struct sb_renderer sb_renderer;

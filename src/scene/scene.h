@@ -67,7 +67,7 @@ typedef enum sb_tolerance_rule {
 
 typedef enum sb_density_form {
     SB_DENSITY_SUMMED,   /* the density sum alone [S16 eq. 3] */
-    SB_DENSITY_COMPLETED /* the density sum plus the density correction (sim/density_correction.h) */
+    SB_DENSITY_COMPLETED /* the density sum plus the density correction (sim/terms/density_correction.h) */
 } sb_density_form;
 
 typedef enum sb_wall_shear {

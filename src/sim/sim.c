@@ -1,17 +1,17 @@
 /* Creation and destruction of a simulation, and its simple accessors. */
 #include "base/hash.h"
 #include "base/memory.h"
-#include "sim/density_correction.h"
-#include "sim/ledger.h"
-#include "sim/passes.h"
-#include "sim/pressure.h"
-#include "sim/searcher.h"
-#include "sim/sort.h"
-#include "sim/stages.h"
-#include "sim/stress_correction.h"
-#include "sim/sums.h"
-#include "sim/turbulence.h"
-#include "sim/wall_drag.h"
+#include "sim/exchange/sums.h"
+#include "sim/passes/passes.h"
+#include "sim/pressure/pressure.h"
+#include "sim/search/searcher.h"
+#include "sim/search/sort.h"
+#include "sim/step/ledger.h"
+#include "sim/step/stages.h"
+#include "sim/terms/density_correction.h"
+#include "sim/terms/stress_correction.h"
+#include "sim/terms/turbulence.h"
+#include "sim/walls/drag.h"
 
 #include <math.h>
 #include <omp.h>

@@ -7,7 +7,7 @@
 #include "base/skipped.h"
 #include "base/status.h"
 #include "frame/frame.h"
-#include "geometry/model.h"
+#include "geometry/model/model.h"
 #include "scene/scene.h"
 
 typedef struct sb_sim sb_sim;

@@ -186,7 +186,7 @@ static void other_builds_are_refused(void **state)
 /* Generates numerics.c for a source tree with this step.c; returns its text. */
 static char *numerics_of(const char *source)
 {
-    write_text("tree/src/sim/step.c", source);
+    write_text("tree/src/sim/step/step.c", source);
     char command[1024];
     snprintf(command, sizeof command,
              "cmake -D ROOT=%s -D OUT=%s -D 'HOW=GNU 1.2 \"-O3\"' -P " SB_SOURCE_DIR "/cmake/numerics.cmake",
@@ -198,7 +198,7 @@ static char *numerics_of(const char *source)
 static void a_changed_source_is_another_build(void **state)
 {
     (void)state;
-    static const char *const folders[] = {"tree/src/sim", "tree/src/base"};
+    static const char *const folders[] = {"tree/src/sim/step", "tree/src/base"};
     for (int f = 0; f < 2; f++) assert_int_equal(sb_make_directories(in_folder("%s", folders[f]), NULL), SB_OK);
     write_text("tree/src/base/vec.h", "");
     write_text("tree/src/base/random.h", "");

@@ -1,7 +1,7 @@
 /* Fuzzes terrain grids. The input is read as each of the two formats. */
 #include "fuzz.h"
 
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 
 static void import(const char *name, const uint8_t *data, size_t size)
 {

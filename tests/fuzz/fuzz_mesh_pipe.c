@@ -3,7 +3,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "geometry/mesh_child.h"
+#include "geometry/mesh/child.h"
 #include "scene/name.h"
 
 #include <string.h>

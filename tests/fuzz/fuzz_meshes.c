@@ -5,7 +5,7 @@
 
 #include "base/clock.h"
 #include "base/random.h"
-#include "geometry/mesh_child.h"
+#include "geometry/mesh/child.h"
 #include "mesh_samples.h"
 
 #include <errno.h>

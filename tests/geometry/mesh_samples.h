@@ -2,7 +2,7 @@
 #ifndef SB_TESTS_MESH_SAMPLES_H
 #define SB_TESTS_MESH_SAMPLES_H
 
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 
 typedef struct sample_text {
     char bytes[16384];

@@ -3,7 +3,7 @@
 #define SB_TESTS_SMALL_MODEL_H
 
 #include "base/memory.h"
-#include "geometry/model.h"
+#include "geometry/model/model.h"
 #include "physics/wavemaker.h"
 
 #include <setjmp.h>

@@ -1,6 +1,6 @@
 /* Tests the filling with water: volumes, levels, boxes, waves, and seas that escape. */
 #include "base/memory.h"
-#include "geometry/model.h"
+#include "geometry/model/model.h"
 #include "physics/wave_theory.h"
 
 #include <omp.h>

@@ -1,7 +1,7 @@
 /* Tests terrain grids: both formats, holes, errors with their line, and a measured sea bed. */
 #include "base/memory.h"
-#include "geometry/mesh.h"
-#include "geometry/solid.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/solid/solid.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

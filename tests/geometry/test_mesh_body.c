@@ -1,7 +1,7 @@
 /* Tests analytic shapes, and bodies of a scene as meshes in the scene's axes. */
 #include "base/memory.h"
-#include "geometry/mesh.h"
-#include "geometry/model.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/model/model.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

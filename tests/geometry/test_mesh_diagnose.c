@@ -1,6 +1,6 @@
 /* Tests the diagnosis of faulty meshes, and the correction of orientation, duplicate vertices and small holes. */
 #include "base/memory.h"
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

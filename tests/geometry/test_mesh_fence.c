@@ -2,9 +2,9 @@
    wait for a writer, and ends on a signal. Also tests the kernel's restrictions. */
 #include "base/clock.h"
 #include "base/stop.h"
-#include "geometry/mesh.h"
-#include "geometry/mesh_child.h"
-#include "geometry/mesh_fence.h"
+#include "geometry/mesh/child.h"
+#include "geometry/mesh/fence.h"
+#include "geometry/mesh/mesh.h"
 #include "mesh_samples.h"
 
 #include <errno.h>

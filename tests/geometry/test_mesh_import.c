@@ -3,8 +3,8 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/random.h"
-#include "geometry/mesh.h"
-#include "geometry/mesh_child.h"
+#include "geometry/mesh/child.h"
+#include "geometry/mesh/mesh.h"
 #include "mesh_samples.h"
 
 #include <dirent.h>

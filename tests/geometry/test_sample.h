@@ -4,8 +4,8 @@
 
 #include "base/memory.h"
 #include "base/random.h"
-#include "geometry/sample.h"
-#include "geometry/sample_set.h"
+#include "geometry/sampling/sample.h"
+#include "geometry/sampling/set.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

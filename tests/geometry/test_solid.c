@@ -2,7 +2,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/random.h"
-#include "geometry/solid.h"
+#include "geometry/solid/solid.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

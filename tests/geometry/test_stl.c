@@ -1,6 +1,6 @@
 /* Tests STL files as other programs write them, and the messages for files that are not STL. */
 #include "base/memory.h"
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 #include "mesh_samples.h"
 
 #include <ctype.h>

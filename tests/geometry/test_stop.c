@@ -1,7 +1,7 @@
 /* Tests a signal while a model is built: at any stage the result is SB_INTERRUPTED and there is no model. */
 #include "base/clock.h"
 #include "base/stop.h"
-#include "geometry/model.h"
+#include "geometry/model/model.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,7 +1,7 @@
 /* Measurements at difficult positions: probes in corners and on thin plates, gauges over decks and beside walls, map
    cells that the domain cuts. Water at rest in 2D; the spacing is 2.5 cm. */
 #include "base/memory.h"
-#include "geometry/model.h"
+#include "geometry/model/model.h"
 #include "measure/measure.h"
 
 #include <setjmp.h>

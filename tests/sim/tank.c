@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 #include "base/random.h"
-#include "sim/stages.h"
+#include "sim/step/stages.h"
 
 #include <assert.h>
 #include <stdio.h>

@@ -3,9 +3,9 @@
 #define SB_TESTS_TANK_H
 
 #include "base/archive.h"
-#include "geometry/model.h"
+#include "geometry/model/model.h"
 #include "scene/scene.h"
-#include "sim/state.h"
+#include "sim/state/state.h"
 
 typedef struct tank {
     sb_scene scene;

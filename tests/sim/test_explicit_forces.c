@@ -2,7 +2,7 @@
 #include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
-#include "sim/stages.h"
+#include "sim/step/stages.h"
 #include "sim/tank.h"
 #include "sim/twin.h"
 

@@ -2,10 +2,10 @@
    and known flows have known entries. */
 #include "../check.h"
 #include "base/memory.h"
-#include "sim/pressure.h"
-#include "sim/stages.h"
+#include "sim/pressure/pressure.h"
+#include "sim/step/stages.h"
 #include "sim/tank.h"
-#include "sim/turbulence.h"
+#include "sim/terms/turbulence.h"
 #include "sim/twin.h"
 
 #include <float.h>

@@ -1,7 +1,7 @@
 /* Lists, densities, wall vectors, the diagonal and the wall volumes compared with brute force in double precision. */
 #include "../check.h"
 #include "base/memory.h"
-#include "sim/stages.h"
+#include "sim/step/stages.h"
 #include "sim/tank.h"
 #include "sim/twin.h"
 

@@ -2,8 +2,8 @@
 #include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
-#include "sim/pressure.h"
-#include "sim/stages.h"
+#include "sim/pressure/pressure.h"
+#include "sim/step/stages.h"
 #include "sim/tank.h"
 
 #include <omp.h>

@@ -1,7 +1,7 @@
 /* A simulation that loads a saved state continues bit for bit like the saved one; an impossible state is refused. */
 #include "../check.h"
 #include "base/memory.h"
-#include "sim/pressure.h"
+#include "sim/pressure/pressure.h"
 #include "sim/tank.h"
 
 #include <omp.h>

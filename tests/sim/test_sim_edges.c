@@ -1,7 +1,7 @@
 /* The simulation of unusual scenes: one particle, none, two at one position; and runs that fail. */
 #include "../check.h"
 #include "base/memory.h"
-#include "sim/pressure.h"
+#include "sim/pressure/pressure.h"
 #include "sim/tank.h"
 
 #include <omp.h>

@@ -1,6 +1,6 @@
 /* Spray that hits walls: it does not pass them, and it loses energy. */
 #include "../check.h"
-#include "sim/pressure.h"
+#include "sim/pressure/pressure.h"
 #include "sim/tank.h"
 
 #include <stdio.h>

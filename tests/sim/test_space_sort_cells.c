@@ -2,9 +2,9 @@
 #include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
-#include "sim/cells.h"
-#include "sim/sort.h"
-#include "sim/space.h"
+#include "sim/search/cells.h"
+#include "sim/search/sort.h"
+#include "sim/state/space.h"
 #include "sim/tank.h"
 
 #include <omp.h>

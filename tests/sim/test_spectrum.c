@@ -2,7 +2,7 @@
    must stay below that for every kernel and support radius. */
 #include "../check.h"
 #include "base/memory.h"
-#include "sim/pressure.h"
+#include "sim/pressure/pressure.h"
 #include "sim/tank.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* Water at rest stays at rest, exerts its weight, and keeps its level. */
 #include "../check.h"
-#include "sim/pressure.h"
+#include "sim/pressure/pressure.h"
 #include "sim/tank.h"
 
 #include <stdio.h>

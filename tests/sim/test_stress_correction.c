@@ -3,9 +3,9 @@
 #include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
-#include "sim/pressure.h"
-#include "sim/stress_correction.h"
+#include "sim/pressure/pressure.h"
 #include "sim/tank.h"
+#include "sim/terms/stress_correction.h"
 #include "sim/twin.h"
 
 #include <stdio.h>
@@ -27,7 +27,7 @@ static sb_sim *prepare_with_pressures(tank *t)
 
 typedef double tensor[3][3];
 
-/* E_i by its definition in src/sim/stress_correction.c. */
+/* E_i by its definition in src/sim/terms/stress_correction.c. */
 static void strain(const twin *copy, size_t i, tensor s)
 {
     const sb_reference *r = &copy->reference;

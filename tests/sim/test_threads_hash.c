@@ -1,6 +1,6 @@
 /* The same bits for any number of threads: the complete state after many steps. */
 #include "../check.h"
-#include "sim/pressure.h"
+#include "sim/pressure/pressure.h"
 #include "sim/tank.h"
 
 #include <omp.h>

@@ -3,9 +3,9 @@
 #include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
-#include "sim/stages.h"
+#include "sim/step/stages.h"
 #include "sim/tank.h"
-#include "sim/turbulence.h"
+#include "sim/terms/turbulence.h"
 #include "sim/twin.h"
 
 #include <stdio.h>

@@ -2,10 +2,10 @@
 #include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
-#include "sim/stages.h"
+#include "sim/step/stages.h"
 #include "sim/tank.h"
 #include "sim/twin.h"
-#include "sim/wall_drag.h"
+#include "sim/walls/drag.h"
 
 #include <stdio.h>
 

@@ -1,7 +1,7 @@
 #include "sim/twin.h"
 
 #include "base/memory.h"
-#include "sim/around.h"
+#include "sim/search/around.h"
 
 #include <math.h>
 #include <string.h>

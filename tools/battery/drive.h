@@ -4,7 +4,7 @@
 #ifndef SB_BATTERY_DRIVE_H
 #define SB_BATTERY_DRIVE_H
 
-#include "geometry/model.h"
+#include "geometry/model/model.h"
 #include "output/json.h"
 #include "scene/scene.h"
 #include "sim/sim.h"

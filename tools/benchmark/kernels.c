@@ -3,7 +3,7 @@
 #include "base/memory.h"
 #include "child.h"
 #include "sections.h"
-#include "sim/pressure.h"
+#include "sim/pressure/pressure.h"
 #include "subject.h"
 
 #include "base/file.h"

@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "child.h"
 #include "report.h"
-#include "sim/simd.h"
+#include "sim/state/simd.h"
 
 #include <omp.h>
 #include <string.h>

@@ -3,9 +3,9 @@
 #define SB_BENCHMARK_SUBJECT_H
 
 #include "base/archive.h"
-#include "geometry/model.h"
+#include "geometry/model/model.h"
 #include "rows.h"
-#include "sim/state.h"
+#include "sim/state/state.h"
 
 typedef struct sb_bench_subject {
     sb_scene scene;

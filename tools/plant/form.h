@@ -3,7 +3,7 @@
 #define SB_TOOLS_FORM_H
 
 #include "base/vec.h"
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 
 /* A mesh being built. After a failed allocation, later calls do nothing. */
 typedef struct sb_form {

@@ -4,7 +4,7 @@
 #define SB_TOOLS_PLANT_H
 
 #include "base/status.h"
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 
 #include <stddef.h>
 

@@ -1,0 +1,69 @@
+/* Columns of water, from which fill.h places particles. Private to src/geometry/fill*.c. */
+#ifndef SB_GEOMETRY_FILL_PARTS_H
+#define SB_GEOMETRY_FILL_PARTS_H
+
+#include "geometry/filling/fill.h"
+
+/* Part of one column that is free of solids. Its cells are the layers whose centres lie in it. */
+typedef struct sb_run {
+    double low, high;     /* m */
+    size_t cell;          /* index of its first layer in sb_columns.cells */
+    int32_t first, count; /* layers */
+    bool surface;         /* `high` is the free surface */
+    bool wet;
+} sb_run;
+
+/* Bits of a cell: a surface stands between its centre and that of the next column along x or y. */
+enum { SB_CELL_BLOCK_X = 1, SB_CELL_BLOCK_Y = 2 };
+
+/* A rectangle of columns. dx and dy are as near to the spacing as whole numbers of columns allow. Layers are counted
+   upwards from `base` and end at the water level. Arrays are owned. */
+typedef struct sb_columns {
+    const sb_scene *scene;
+    const sb_fill_solid *solids;
+    size_t solid_count;
+    double spacing, x, y, dx, dy; /* m; (x, y) is the lower corner */
+    int64_t nx, ny;
+    double bottom, base, level, top; /* m; there is no water above top */
+    int32_t layers;
+    bool waves;       /* the scene's initial wave shapes this water */
+    sb_vec3 velocity; /* m/s */
+    size_t *begin;    /* nx * ny + 1: first run of each column; its runs are sorted from below */
+    size_t run_count, cell_count;
+    sb_run *runs;
+    uint8_t *cells;
+} sb_columns;
+
+/* Builds the columns of the domain below the sea's level, or those of a box below its own level. */
+sb_status sb_columns_build(const sb_scene *scene, const sb_fill_solid *solids, size_t solid_count,
+                           const sb_fluid_box *box, sb_columns *columns, sb_error *error);
+void sb_columns_free(sb_columns *columns);
+
+/* Centre of a layer's cell in a column. */
+static inline sb_vec3 sb_columns_center(const sb_columns *c, int64_t i, int64_t j, int64_t layer)
+{
+    bool flat = c->scene->dimensions == 2;
+    return sb_vec(c->x + ((double)i + 0.5) * c->dx, flat ? 0 : c->y + ((double)j + 0.5) * c->dy,
+                  c->base + ((double)layer + 0.5) * c->spacing);
+}
+
+/* Level of the water's surface at x, initial wave included, in m. */
+double sb_columns_surface(const sb_columns *columns, double x);
+
+/* Whether the point lies in a wet run of these columns. */
+bool sb_columns_hold(const sb_columns *columns, sb_vec3 at);
+
+/* Whether no surface lies between two points. */
+bool sb_columns_clear(const sb_columns *columns, sb_vec3 from, sb_vec3 to);
+
+/* Marks the runs that are connected with the sea's seed as wet. */
+sb_status sb_columns_flood(sb_columns *columns, sb_error *error);
+
+/* Adds the part of the scene's initial solitary wave that these columns contain. Call it after their runs are
+   marked. */
+void sb_columns_wave(const sb_columns *columns, sb_wave_room *room);
+
+/* Places the particles of all wet runs, in the order of the columns, and sets still_depth. */
+sb_status sb_columns_particles(const sb_columns *columns, sb_fluid *fluid, sb_error *error);
+
+#endif

@@ -1,0 +1,182 @@
+/* Warns of faults of meshes, of plates and water that are too thin for the spacing, and of time steps that are too
+   long. */
+#include "geometry/model/parts.h"
+#include "physics/wavemaker.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { DEPTH_MIN = 4, HEIGHT_MIN = 5 };
+
+/* In h/sqrt(g D). With steps of twice LONGEST_STEP a collapsing column has fallen an eighth less after 0.9 sqrt(D/g)
+   than with short steps, and 2 % less with steps of LONGEST_STEP. With three times LONGEST_STEP it has fallen a
+   quarter less, and some of it has passed a wall (tools/stress time-step). */
+static const double LONGEST_STEP = 0.3, REFUSED_STEP = 0.6;
+
+/* In spacings: rounding errors of a mesh file's coordinates from this size on are reported. */
+static const double ROUNDED = 0.01;
+
+static sb_status check_mesh(const sb_model_body *body, sb_model *model, sb_error *error)
+{
+    const sb_mesh *mesh = &body->mesh;
+    sb_status status = SB_OK;
+    if (mesh->rounded > ROUNDED * model->spacing)
+        status = sb_model_warn(
+            model, error,
+            "body \"%s\": its file's coordinates are so far from 0 that single precision rounds them by %.2g m "
+            "(%.2g spacings): expected coordinates near 0 in the file, and the body moved by translate",
+            body->name, mesh->rounded, mesh->rounded / model->spacing);
+    if (mesh->dropped > 0 && status == SB_OK)
+        status =
+            sb_model_warn(model, error, "body \"%s\": %zu faces without area are left out", body->name, mesh->dropped);
+    if (mesh->turned > 0 && status == SB_OK)
+        status = sb_model_warn(model, error, "body \"%s\": %zu faces pointed away from the water and were reversed",
+                               body->name, mesh->turned);
+    if (mesh->closed > 0 && status == SB_OK)
+        status =
+            sb_model_warn(model, error, "body \"%s\": %zu holes of one triangle are closed", body->name, mesh->closed);
+    if (body->role != SB_ROLE_SOLID || mesh->open_surface || status != SB_OK) return status;
+    sb_mesh_report report;
+    status = sb_mesh_diagnose(mesh, &report, error);
+    if (report.open_edges > 0 && status == SB_OK)
+        status = sb_model_warn(model, error,
+                               "body \"%s\" is not watertight: %zu open edges, the first at (%g, "
+                               "%g, %g); its inside is determined by the winding number",
+                               body->name, report.open_edges, report.first_open_edge.x, report.first_open_edge.y,
+                               report.first_open_edge.z);
+    if (report.flipped_faces > 0 && status == SB_OK)
+        status = sb_model_warn(model, error,
+                               "body \"%s\": %zu faces are oriented opposite to their neighbours, "
+                               "the first at (%g, %g, %g)",
+                               body->name, report.flipped_faces, report.first_flipped_face.x,
+                               report.first_flipped_face.y, report.first_flipped_face.z);
+    if (report.doubled_faces > 0 && status == SB_OK)
+        status = sb_model_warn(model, error, "body \"%s\": %zu faces duplicate other faces", body->name,
+                               report.doubled_faces);
+    return status;
+}
+
+static sb_status check_height(const sb_model *model, const char *what, const char *name, double height, sb_model *to,
+                              sb_error *error)
+{
+    if (!(height > 0) || height >= HEIGHT_MIN * model->spacing) return SB_OK;
+    return sb_model_warn(to, error, "%s%s%s%s: a wave height of %g m is %.2g particle spacings: expected %d or more",
+                         what, name ? " \"" : "", name ? name : "", name ? "\"" : "", height, height / model->spacing,
+                         HEIGHT_MIN);
+}
+
+/* DEPTH_SLACK (spacings) and DEPTH_SHARE (of the depth): difference between a law's still-water depth and the actual
+   one that is accepted, because floors are uneven. NEAR (spacings): distance from a crest or a paddle's face within
+   which the depth is measured. */
+static const double DEPTH_SLACK = 1.5, DEPTH_SHARE = 0.05, NEAR = 3;
+
+/* Returns the still-water depth between two positions along a direction; 0: there is no water. */
+static double depth_between(const sb_scene *scene, const sb_model *model, sb_vec3 along, double from, double to)
+{
+    double lowest = (double)INFINITY;
+    for (size_t i = 0; i < model->fluid_count; i++) {
+        const sb_vec3 at = model->fluid_position[i];
+        const double where = sb_dot(at, along);
+        if (where >= from && where <= to && at.z < lowest) lowest = at.z;
+    }
+    return fmax(scene->sea.level - lowest + 0.5 * model->spacing, 0);
+}
+
+static sb_status check_depth(sb_model *model, const char *what, const char *name, double depth, double there,
+                             sb_error *error)
+{
+    if (there == 0) return sb_model_warn(model, error, "%s%s: no water is there at t = 0", what, name);
+    if (fabs(depth - there) <= fmax(DEPTH_SLACK * model->spacing, DEPTH_SHARE * there)) return SB_OK;
+    return sb_model_warn(model, error,
+                         "%s%s: its depth is %g m, but the water there is about %.2g m deep: the wave will differ from "
+                         "the one requested",
+                         what, name, depth, there);
+}
+
+/* Compares the still-water depth that waves and wave makers assume with the depth of the water there. */
+static sb_status check_depths(const sb_scene *scene, sb_model *model, sb_error *error)
+{
+    const sb_initial_wave *wave = &scene->wave;
+    const double near = NEAR * model->spacing;
+    sb_status status = SB_OK;
+    if (wave->kind == SB_INITIAL_SOLITARY && scene->sea.present)
+        status = check_depth(model, "water.wave", " at its crest", wave->depth,
+                             depth_between(scene, model, sb_vec(1, 0, 0), wave->position - near, wave->position + near),
+                             error);
+    if (status == SB_OK && wave->kind != SB_INITIAL_NONE && scene->sea.present &&
+        scene->sea.level + wave->height > scene->domain.max.z)
+        status = sb_model_warn(model, error,
+                               "water.wave: its crest at z = %g m is above the domain's top, %g m: it is cut off",
+                               scene->sea.level + wave->height, scene->domain.max.z);
+    for (size_t w = 0; w < scene->wavemaker_count && status == SB_OK && scene->sea.present; w++) {
+        const sb_wavemaker_use *maker = &scene->wavemakers[w];
+        double front = -(double)INFINITY;
+        char name[SB_NAME_MAX + 4];
+        for (size_t b = 0; b < model->body_count; b++)
+            for (size_t i = model->bodies[b].begin; i < model->bodies[b].begin + model->bodies[b].count; i++)
+                if (model->bodies[b].wavemaker == (int)w && sb_dot(model->wall_normal[i], maker->direction) > 0.9)
+                    front = fmax(front, sb_dot(model->wall_position[i], maker->direction));
+        if (!(maker->law.depth > 0) || !isfinite(front)) continue;
+        snprintf(name, sizeof name, " \"%s\"", maker->name);
+        status = check_depth(model, "wavemaker", name, maker->law.depth,
+                             depth_between(scene, model, maker->direction, front, front + near), error);
+    }
+    return status;
+}
+
+static sb_status check_water(const sb_scene *scene, sb_model *model, sb_error *error)
+{
+    if (model->fluid_count == 0)
+        return sb_model_warn(model, error,
+                             "the scene has no water: expected a sea or a box of water at least half a "
+                             "spacing (%g m) deep",
+                             0.5 * model->spacing);
+    sb_status status = SB_OK;
+    if (model->still_depth < DEPTH_MIN * model->spacing)
+        status =
+            sb_model_warn(model, error, "the water is at most %g m deep, %.2g particle spacings: expected %d or more",
+                          model->still_depth, model->still_depth / model->spacing, DEPTH_MIN);
+    if (status == SB_OK && scene->wave.kind != SB_INITIAL_NONE)
+        status = check_height(model, "initial wave", NULL, scene->wave.height, model, error);
+    for (size_t i = 0; i < scene->wavemaker_count && status == SB_OK; ++i)
+        status =
+            check_height(model, "wavemaker", scene->wavemakers[i].name, scene->wavemakers[i].law.height, model, error);
+    return status == SB_OK ? check_depths(scene, model, error) : status;
+}
+
+static sb_status check_steps(const sb_scene *scene, sb_model *model, sb_error *error)
+{
+    const sb_numerics *n = &scene->numerics;
+    if (n->time_step_rule != SB_TIME_STEP_DEPTH || n->time_step_factor <= LONGEST_STEP * (1 + 1e-6)) return SB_OK;
+    if (n->time_step_factor > REFUSED_STEP * (1 + 1e-6))
+        return sb_fail(error, SB_BAD_INPUT,
+                       "%.300s: numerics.time_step_factor %g: with steps this long water falls tens of per cent too "
+                       "slowly and passes walls, expected %g or less under time_step_rule depth",
+                       scene->path ? scene->path : "the scene", n->time_step_factor, REFUSED_STEP);
+    return sb_model_warn(model, error,
+                         "numerics.time_step_factor %g: with steps this long water falls several per cent too slowly, "
+                         "expected %g or less",
+                         n->time_step_factor, LONGEST_STEP);
+}
+
+sb_status sb_model_check(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
+{
+    sb_status status = SB_OK;
+    for (size_t i = 0; i < model->body_count && status == SB_OK; ++i) {
+        sb_model_body *body = model->bodies + i;
+        if (body->mesh.triangle_count == 0) continue;
+        status = check_mesh(body, model, error);
+        if (status == SB_OK) status = sb_model_warn_ends(scene, body, model, error);
+        if (status == SB_OK) status = sb_model_check_thickness(scene, space, model, body, error);
+        if (status == SB_OK) status = sb_model_warn_place(scene, body, space->solid[i], model, error);
+    }
+    if (status == SB_OK) status = sb_model_warn_thin(scene, model, error);
+    if (status == SB_OK) status = sb_model_warn_shared(scene, model, error);
+    if (status == SB_OK) status = sb_model_warn_ground(scene, space, model, error);
+    if (status == SB_OK) status = sb_model_warn_open(scene, space, model, error);
+    if (status == SB_OK) status = sb_model_warn_gauges(scene, space, model, error);
+    if (status == SB_OK) status = sb_model_warn_clad(scene, model, error);
+    if (status == SB_OK) status = sb_model_warn_strokes(scene, space, model, error);
+    if (status == SB_OK) status = check_steps(scene, model, error);
+    return status == SB_OK ? check_water(scene, model, error) : status;
+}

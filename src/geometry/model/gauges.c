@@ -1,0 +1,93 @@
+/* Warns of gauges over still water that is too shallow to have a surface. */
+#include "base/memory.h"
+#include "geometry/model/parts.h"
+
+#include <stdio.h>
+
+/* In spacings: still water shallower than this (in 2D and in 3D) has too few connected particles for a gauge.
+   AROUND: distance from a gauge within which it may use other particles. */
+static const double THIN_FLAT = 0.7, THIN = 0.5, AROUND = 2;
+/* In spacings: a gauge over shallower water stands on the shore. */
+static const double DAMP = 0.05;
+
+/* Returns the highest still-water level at a position; -INFINITY: the scene has no water there. */
+static double level_over(const sb_scene *scene, double x, double y)
+{
+    double level = scene->sea.present ? scene->sea.level : -(double)INFINITY;
+    for (size_t i = 0; i < scene->box_count; ++i) {
+        const sb_fluid_box *box = &scene->boxes[i];
+        if (x > box->min.x && x < box->max.x && (scene->dimensions == 2 || (y > box->min.y && y < box->max.y)))
+            level = fmax(level, box->level);
+    }
+    return fmin(level, scene->domain.max.z);
+}
+
+/* Returns the depth from a water level to the solid below, m; 0: the level is inside a solid. */
+static double depth_below(const sb_model *model, const sb_model_space *space, sb_vec3 at)
+{
+    double depth = at.z - model->min.z;
+    for (size_t b = 0; b < space->count; ++b) {
+        if (!space->solid[b] || model->bodies[b].mesh.triangle_count == 0) continue;
+        if (sb_solid_contains(space->solid[b], at)) return 0;
+        const double below = sb_solid_raycast(space->solid[b], at, sb_vec(0, 0, -1), depth);
+        if (below > 0) depth = below;
+    }
+    return depth;
+}
+
+/* Returns the mean depth of the water around a position, m. */
+static double depth_around(const sb_model *model, double x, double y)
+{
+    const double range = AROUND * model->spacing;
+    size_t count = 0;
+    for (size_t i = 0; i < model->fluid_count; ++i) {
+        const sb_vec3 at = model->fluid_position[i];
+        count += fabs(at.x - x) < range && (model->dimensions == 2 || fabs(at.y - y) < range);
+    }
+    return (double)count * model->spacing / (2 * AROUND) / (model->dimensions == 2 ? 1 : 2 * AROUND);
+}
+
+/* Returns the still-water depth at a gauge if it is too shallow for it, m; else, or without water, 0. */
+static double thin_depth(const sb_scene *scene, const sb_model_space *space, const sb_model *model,
+                         const sb_gauge *gauge)
+{
+    const bool flat = scene->dimensions == 2;
+    const double x = gauge->x, y = flat ? 0 : gauge->y, level = level_over(scene, x, y);
+    const double least = (flat ? THIN_FLAT : THIN) * model->spacing;
+    if (!(level > model->min.z) || x < model->min.x || x > model->max.x ||
+        (!flat && (y < model->min.y || y > model->max.y)))
+        return 0;
+    const double depth = depth_below(model, space, sb_vec(x, y, level));
+    return depth > DAMP * model->spacing && depth < least && depth_around(model, x, y) < least ? depth : 0;
+}
+
+sb_status sb_model_warn_gauges(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
+{
+    const sb_measure_settings *settings = &scene->measure;
+    char others[600] = "", more[40] = "";
+    size_t first = SIZE_MAX, left = 0, length = 0;
+    double depth = 0;
+    if (settings->gauge_count == 0) return SB_OK;
+    model->shallow = sb_alloc(settings->gauge_count, sizeof *model->shallow);
+    if (!model->shallow) return sb_fail_memory(error, "gauges");
+    for (size_t i = 0; i < settings->gauge_count; ++i) {
+        const double here = thin_depth(scene, space, model, &settings->gauges[i]);
+        model->shallow[i] = here > 0;
+        if (here > 0 && first == SIZE_MAX) {
+            first = i;
+            depth = here;
+        } else if (here > 0 && length + SB_NAME_MAX + 32 < sizeof others) {
+            length += (size_t)snprintf(others + length, sizeof others - length, "%s \"%s\" %.2g m",
+                                       length == 0 ? "; likewise" : ",", settings->gauges[i].name, here);
+        } else {
+            left += here > 0;
+        }
+    }
+    if (first == SIZE_MAX) return SB_OK;
+    if (left > 0) snprintf(more, sizeof more, " and %zu more", left);
+    return sb_model_warn(
+        model, error,
+        "gauge \"%s\": the still water there is %.2g m deep, less than the spacing of %g m: its values "
+        "stay empty until the water is deeper; expected a resolution of %.2g m or less%s%s",
+        settings->gauges[first].name, depth, model->spacing, depth, others, more);
+}

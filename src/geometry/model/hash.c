@@ -1,0 +1,25 @@
+/* Computes the hash of a model. */
+#include "base/hash.h"
+#include "geometry/model/model.h"
+
+#include <string.h>
+
+uint64_t sb_model_hash(const sb_model *model)
+{
+    uint64_t hash = sb_hash(0, &model->min, sizeof model->min);
+    hash = sb_hash(hash, &model->max, sizeof model->max);
+    hash = sb_hash(hash, &model->still_depth, sizeof model->still_depth);
+    hash = sb_hash(hash, model->fluid_position, model->fluid_count * sizeof *model->fluid_position);
+    hash = sb_hash(hash, model->fluid_velocity, model->fluid_count * sizeof *model->fluid_velocity);
+    hash = sb_hash(hash, model->fluid_pressure, model->fluid_count * sizeof *model->fluid_pressure);
+    hash = sb_hash(hash, model->wall_position, model->wall_count * sizeof *model->wall_position);
+    if (model->wall_normal) hash = sb_hash(hash, model->wall_normal, model->wall_count * sizeof *model->wall_normal);
+    for (size_t b = 0; b < model->body_count; b++) {
+        const sb_model_body *body = &model->bodies[b];
+        const uint64_t facts[] = {body->begin, body->count, (uint64_t)body->wavemaker, body->report};
+        hash = sb_hash(hash, body->name, strlen(body->name));
+        hash = sb_hash(hash, facts, sizeof facts);
+        hash = sb_hash(hash, &body->moment_point, sizeof body->moment_point);
+    }
+    return hash;
+}

@@ -1,0 +1,30 @@
+/* Builds a model from a scene, stage by stage. */
+#include "base/stop.h"
+#include "geometry/model/parts.h"
+
+sb_status sb_model_build(const sb_scene *scene, sb_model *model, sb_error *error)
+{
+    return sb_model_build_for(scene, NULL, model, error);
+}
+
+sb_status sb_model_build_for(const sb_scene *scene, sb_model_need *need, sb_model *model, sb_error *error)
+{
+    sb_model made = {.dimensions = 0};
+    sb_model_space space = {.count = 0};
+    sb_status status = sb_model_import_bodies(scene, &made, error);
+    if (status == SB_OK) status = sb_model_room(scene, &made, need, error);
+    if (status == SB_OK) status = sb_model_space_create(&made, scene, &space, error);
+    /* The sea comes first: if it escapes, the walls need not be sampled. */
+    if (status == SB_OK) status = sb_model_fill(scene, &space, &made, error);
+    if (status == SB_OK) status = sb_model_sample(scene, &space, &made, error);
+    if (status == SB_OK) status = sb_model_check_sides(scene, &space, &made, error);
+    if (status == SB_OK) status = sb_model_check(scene, &space, &made, error);
+    sb_model_space_free(&space);
+    if (status != SB_OK) {
+        sb_model_free(&made);
+        /* The stop replaces any error that a stage reported because of it. */
+        return sb_stop_signal() ? sb_stop_fail(error, "while the model was built: nothing is computed yet") : status;
+    }
+    *model = made;
+    return SB_OK;
+}

@@ -1,0 +1,97 @@
+/* The model from which a simulation starts: bodies sampled as boundary particles, and water as fluid particles. It
+   is plain data; this header needs no mesh library. The domain's sides of kind wall form one last body named
+   "domain" without a mesh. */
+#ifndef SB_GEOMETRY_MODEL_H
+#define SB_GEOMETRY_MODEL_H
+
+#include "geometry/mesh/mesh.h"
+#include "scene/scene.h"
+
+#include <math.h>
+
+/* A rigid body. Its boundary particles are [begin, begin + count) of the model's. */
+typedef struct sb_model_body {
+    char name[SB_NAME_MAX];
+    size_t begin, count;
+    int wavemaker; /* index into scene.wavemakers, -1: static */
+    size_t source; /* index into scene.bodies, SIZE_MAX: the domain's sides */
+    bool report;   /* has rows in forces.csv */
+    sb_role role;
+    sb_vec3 moment_point; /* m */
+    float color[3];
+    double thin;  /* m, its thickness if that is less than the support radius; else 0 */
+    sb_mesh mesh; /* scene coordinates at t = 0; empty for domain sides */
+} sb_model_body;
+
+typedef struct sb_model {
+    sb_vec3 min, max; /* m, the domain; min is the origin of stored positions */
+    int dimensions;
+    double spacing;     /* m */
+    double still_depth; /* m, D: the largest still depth of water */
+    size_t fluid_count;
+    sb_vec3 *fluid_position; /* m */
+    sb_vec3 *fluid_velocity; /* m/s; NULL: freed, all zero */
+    double *fluid_pressure;  /* Pa, initial guess: hydrostatic */
+    size_t wall_count;
+    sb_vec3 *wall_position; /* m, on the boundary surface, at t = 0 */
+    sb_vec3 *wall_normal;   /* unit, towards the water */
+    size_t body_count;
+    sb_model_body *bodies;
+    bool *shallow; /* per gauge of the scene: a warning reports that its still water is too shallow; NULL: there are no
+                      gauges */
+    size_t warning_count;
+    char **warnings; /* one line each */
+} sb_model;
+
+/* Returns the speed of long waves sqrt(g D) in m/s, for a depth D of at least one spacing. */
+static inline double sb_model_wave_speed(const sb_scene *scene, const sb_model *model)
+{
+    return sqrt(scene->fluid.gravity * fmax(model->still_depth, scene->resolution));
+}
+
+/* Builds the model: imports the bodies, places the water and samples the boundary particles. model->warnings report
+   what is too coarse or too thin for reliable results, and inputs that are probably mistakes. SB_BAD_INPUT for a
+   plate thinner than half a spacing, which water would pass. SB_INTERRUPTED if the process is to stop (base/stop.h).
+   On error *model is unchanged. The result is the same for any number of threads. */
+sb_status sb_model_build(const sb_scene *scene, sb_model *model, sb_error *error);
+
+/* Like sb_model_build, for a caller that will allocate `need` bytes for such a model, whose counts, bodies and
+   extent are passed to `need`. SB_BAD_INPUT if more memory is needed than is available less the fraction
+   SB_MEMORY_SPARE of it. This is estimated from a coarse model before much memory is allocated. need NULL: the model
+   alone. */
+typedef double sb_model_need(const sb_scene *scene, const sb_model *model);
+sb_status sb_model_build_for(const sb_scene *scene, sb_model_need *need, sb_model *model, sb_error *error);
+void sb_model_free(sb_model *model);
+
+/* Returns a hash of all parts of the model on which the simulation and its measurements depend. Runs of two models
+   with the same hash give the same results. */
+uint64_t sb_model_hash(const sb_model *model);
+
+/* Frees the initial positions and pressures of the fluid particles, and their velocities if all are zero (then
+   NULL). A simulation that was created from the model no longer needs them. fluid_count stays. Compute a hash of the
+   model before. */
+void sb_model_free_start(sb_model *model);
+
+/* Frees all remaining arrays of the fluid and boundary particles. They are not needed after the water has settled
+   and the measurements are set up. Both counts stay. */
+void sb_model_free_particles(sb_model *model);
+
+/* Imports the bodies alone, in the same order, with meshes, colours and wave makers but without particles. Pictures
+   of a finished run need these. On error *model is unchanged. */
+sb_status sb_model_import_bodies(const sb_scene *scene, sb_model *model, sb_error *error);
+
+/* Result of a search for points inside solids. */
+typedef struct sb_inside_report {
+    size_t count;
+    size_t first, body; /* index of the first such point and of its body; SIZE_MAX: none */
+    double depth;       /* m, depth of that point below the body's surface */
+} sb_inside_report;
+
+/* Checks for each point (xyz, relative to origin) whether it lies inside a body by more than tolerance (m). This
+   verifies that no water has passed a wall, independently of the boundary particles. A point beside an open surface,
+   beyond its border, is not inside it. displacement: per body, m; NULL: none has moved. */
+sb_status sb_model_first_inside(const sb_model *model, const float *position, size_t count, sb_vec3 origin,
+                                const sb_vec3 *displacement, double tolerance, sb_inside_report *report,
+                                sb_error *error);
+
+#endif

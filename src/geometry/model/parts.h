@@ -1,0 +1,82 @@
+/* Functions that the files of the model share. Private to src/geometry/model*.c. */
+#ifndef SB_GEOMETRY_MODEL_PARTS_H
+#define SB_GEOMETRY_MODEL_PARTS_H
+
+#include "geometry/filling/fill.h"
+#include "geometry/model/model.h"
+#include "geometry/solid/solid.h"
+
+/* Meshes for spatial queries (in 2D their section with y = 0) and their solids, one per body of the model including
+   the domain's. In 2D a body that the plane y = 0 does not cut has no solid. */
+typedef struct sb_model_space {
+    size_t count;
+    sb_mesh *section;     /* owned, in 2D and for the domain; else empty */
+    const sb_mesh **mesh; /* the section or the body's own */
+    sb_solid **solid;
+} sb_model_space;
+
+sb_status sb_model_space_create(const sb_model *model, const sb_scene *domain_of, sb_model_space *space,
+                                sb_error *error);
+void sb_model_space_free(sb_model_space *space);
+
+/* Warns if solids at one periodic side do not continue at the opposite side. */
+sb_status sb_model_check_sides(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
+
+/* Adds warnings of what is too coarse or too thin for reliable results, and of inputs that are probably mistakes. */
+sb_status sb_model_check(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
+
+/* ends.c: adds walls where terrain ends within the domain, and warns of a body that has such walls. */
+sb_status sb_model_end_terrain(const sb_scene *scene, sb_model *model, sb_error *error);
+sb_status sb_model_warn_ends(const sb_scene *scene, const sb_model_body *body, sb_model *model, sb_error *error);
+
+/* Sets body->thin. SB_BAD_INPUT if more than half of the body's surface belongs to a plate thinner than half a
+   spacing with room for water on both sides. */
+sb_status sb_model_check_thickness(const sb_scene *scene, const sb_model_space *space, const sb_model *model,
+                                   sb_model_body *body, sb_error *error);
+
+/* Adds one warning for all bodies thinner than the support radius. */
+sb_status sb_model_warn_thin(const sb_scene *scene, sb_model *model, sb_error *error);
+
+/* Adds a warning for each moving body whose face is less than a support radius in front of a wall that faces the
+   same way. */
+sb_status sb_model_warn_shared(const sb_scene *scene, sb_model *model, sb_error *error);
+
+/* Adds one warning for all static bodies whose surface lies so close behind that of another that both carry its
+   load. */
+sb_status sb_model_warn_clad(const sb_scene *scene, sb_model *model, sb_error *error);
+
+/* Adds a warning for each grid with missing heights that are not marked as such, and for each terrain below the
+   domain's floor where water is. */
+sb_status sb_model_warn_ground(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
+
+/* Adds a warning for each open side at which water stands. */
+sb_status sb_model_warn_open(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
+
+/* Adds a warning for a body that no water can reach, with the scale that would bring its file into the domain.
+   solid: NULL in 2D if the plane y = 0 does not cut the body. */
+sb_status sb_model_warn_place(const sb_scene *scene, const sb_model_body *body, const sb_solid *solid, sb_model *model,
+                              sb_error *error);
+
+/* Adds one warning for all gauges over still water that is too shallow for them. Sets model->shallow. */
+sb_status sb_model_warn_gauges(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
+
+/* Adds a warning for each wave maker that is too fast for its water, and for each moving body that runs into
+   another. */
+sb_status sb_model_warn_strokes(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
+
+/* Adds a warning for an initial solitary wave of which more than 1 % is cut off. */
+sb_status sb_model_warn_wave(const sb_scene *scene, const sb_wave_room *room, sb_model *model, sb_error *error);
+
+/* particles.c: places the boundary particles and the fluid particles. */
+sb_status sb_model_sample(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
+sb_status sb_model_fill(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
+
+/* SB_BAD_INPUT, with the figures and a spacing that would fit, if the particles of these bodies and their water need
+   more memory than may be planned with (see sb_model_build_for). */
+sb_status sb_model_room(const sb_scene *scene, const sb_model *bodies, sb_model_need *need, sb_error *error);
+
+/* data.c: adds a warning. SB_FAILED without memory. */
+sb_status sb_model_warn(sb_model *model, sb_error *error, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+#endif

@@ -1,0 +1,152 @@
+/* Ghost particles at periodic sides: images of the particles within a support radius of such a side, one domain length
+   away. Every pass over neighbours reads them. They have their own cells, so that the order and the cells of the fluid
+   particles are the same as without ghosts. */
+#include "base/memory.h"
+#include "sim/search/sort.h"
+#include "sim/state/state.h"
+#include "sim/step/stages.h"
+
+#include <string.h>
+
+/* Moves a field of `size` bytes per particle, `used` of them in use, into a longer array. */
+static int lengthen(void **field, size_t used, size_t capacity, size_t size)
+{
+    void *longer = sb_alloc_untouched(capacity, size);
+    if (!longer) return -1;
+    memcpy(longer, *field, used * size);
+    sb_free(*field);
+    *field = longer;
+    return 0;
+}
+
+/* Makes room for `beyond` entries after the fluid particles; all entries keep their values. Returns 0, or -1 without
+   memory. */
+static int make_room(sb_sim *sim, size_t beyond)
+{
+    if (sim->n + beyond <= sim->capacity) return 0;
+    const size_t used = sim->n + sim->ghosts.count, capacity = sim->n + beyond + beyond / 8 + 64;
+    if (lengthen((void **)&sim->position, used, capacity, 16) != 0 ||
+        lengthen((void **)&sim->velocity, used, capacity, 16) != 0 ||
+        lengthen((void **)&sim->acceleration, used, capacity, 16) != 0 ||
+        lengthen(&sim->scratch, used, capacity, 16) != 0 ||
+        (sim->eddy && lengthen((void **)&sim->eddy, used, capacity, 4) != 0))
+        return -1;
+    sim->bytes_fixed += (sim->eddy ? 68u : 64u) * (capacity - sim->capacity);
+    sim->capacity = capacity;
+    return 0;
+}
+
+static int reserve(sb_sim *sim, size_t ghosts)
+{
+    sb_ghosts *g = &sim->ghosts;
+    if (sb_grow((void **)&g->of, &g->of_capacity, ghosts, sizeof *g->of) != 0 ||
+        sb_grow((void **)&g->words, &g->words_capacity, ghosts, sizeof *g->words) != 0 ||
+        sb_grow((void **)&g->other, &g->other_capacity, ghosts, sizeof *g->other) != 0)
+        return -1;
+    return make_room(sim, ghosts);
+}
+
+/* Sets first[b] to the number of ghosts of the blocks before b. Returns the number of all ghosts. */
+static size_t count_images(const sb_sim *sim, size_t *first)
+{
+    const size_t blocks = sb_blocks(sim);
+#pragma omp parallel for schedule(static)
+    for (size_t b = 0; b < blocks; b++) {
+        sb_record image[SB_IMAGES_MAX];
+        size_t found = 0;
+        for (size_t i = b * SB_BLOCK; i < sb_block_end(sim, b); i++)
+            found += (size_t)sb_space_images(&sim->space, sim->position[i], image);
+        first[b + 1] = found;
+    }
+    for (size_t b = 0; b < blocks; b++) first[b + 1] += first[b];
+    return first[blocks];
+}
+
+/* Makes the images in the order of their originals, each with the original's index in the last lane, and the words to
+   sort them by. */
+static void make_images(sb_sim *sim, const size_t *first, sb_record *made)
+{
+    const size_t blocks = sb_blocks(sim);
+#pragma omp parallel for schedule(static)
+    for (size_t b = 0; b < blocks; b++) {
+        sb_record image[SB_IMAGES_MAX];
+        size_t at = first[b];
+        for (size_t i = b * SB_BLOCK; i < sb_block_end(sim, b); i++) {
+            int images = sb_space_images(&sim->space, sim->position[i], image);
+            for (int k = 0; k < images; k++, at++) {
+                made[at] = image[k];
+                made[at][3] = (uint32_t)i;
+                sim->ghosts.words[at] = sb_sort_word(sb_space_key(&sim->space, image[k]), at);
+            }
+        }
+    }
+}
+
+static void place(sb_sim *sim, const uint64_t *sorted, const sb_record *made)
+{
+    const size_t count = sim->ghosts.count;
+    sb_record *position = sim->position + sim->n;
+#pragma omp parallel for schedule(static)
+    for (size_t g = 0; g < count; g++) {
+        sb_record ghost = made[sb_word_index(sorted[g])];
+        sim->ghosts.of[g] = ghost[3];
+        ghost[3] = 0;
+        position[g] = ghost;
+    }
+}
+
+/* Returns 0, or -1 without memory. */
+static int build(sb_sim *sim, const size_t *first, size_t count)
+{
+    sb_ghosts *g = &sim->ghosts;
+    if (reserve(sim, count) != 0) return -1;
+    sb_record *made = (sb_record *)sim->acceleration + sim->n; /* unused until the pressure is solved */
+    make_images(sim, first, made);
+    const uint64_t *sorted = sb_sort(g->words, g->other, count, SB_INDEX_BITS, SB_INDEX_BITS + sim->space.key_bits);
+    if (!sorted) return -1;
+    g->count = count;
+    place(sim, sorted, made);
+    sb_ghosts_refresh(sim, sim->velocity);
+    return sb_cells_build(&g->cells, sim->position + sim->n, count, sim->space.shift);
+}
+
+sb_status sb_stage_ghosts(sb_sim *sim, sb_error *error)
+{
+    if (!sim->space.repeats) return SB_OK;
+    sim->ghosts.count = 0;
+    size_t *first = sb_alloc(sb_blocks(sim) + 1, sizeof *first);
+    if (!first) return sb_fail_memory(error, "ghosts");
+    const size_t count = count_images(sim, first);
+    sb_status status = SB_OK;
+    if (count >= (size_t)1 << SB_INDEX_BITS)
+        status = sb_fail(error, SB_FAILED, "%zu images beyond periodic sides: expected fewer than 2^%d", count,
+                         SB_INDEX_BITS);
+    else if (count > 0 && build(sim, first, count) != 0)
+        status = sb_fail_memory(error, "ghosts");
+    sb_free(first);
+    return status;
+}
+
+void sb_ghosts_refresh(const sb_sim *sim, sb_f4 *field)
+{
+    const size_t count = sim->ghosts.count;
+    const uint32_t *of = sim->ghosts.of;
+    sb_f4 *ghost = field + sim->n;
+    if (count == 0) return;
+#pragma omp parallel for schedule(static)
+    for (size_t g = 0; g < count; g++) ghost[g] = field[of[g]];
+}
+
+void sb_ghosts_refresh_values(const sb_sim *sim, float *field)
+{
+    const size_t count = sim->ghosts.count;
+    for (size_t g = 0; g < count; g++) field[sim->n + g] = field[sim->ghosts.of[g]];
+}
+
+void sb_ghosts_destroy(sb_sim *sim)
+{
+    sb_free(sim->ghosts.of);
+    sb_free(sim->ghosts.words);
+    sb_free(sim->ghosts.other);
+    sb_cells_free(&sim->ghosts.cells);
+}

@@ -1,0 +1,30 @@
+#include "sim/exchange/sums.h"
+
+#include <math.h>
+
+void sb_sums_merge(sb_exact *total, const sb_exact *own, size_t count)
+{
+#pragma omp critical(sb_sums)
+    for (size_t k = 0; k < count; k++) sb_exact_merge(&total[k], &own[k]);
+}
+
+double sb_sum_groups(sb_sim *sim, size_t count, sb_group_terms *of, double *total)
+{
+    const size_t groups = sim->groups.count;
+    sb_exact sum[SB_SUMS_MAX] = {0};
+    double largest = -(double)INFINITY;
+#pragma omp parallel reduction(max : largest)
+    {
+        sb_exact own[SB_SUMS_MAX] = {0};
+#pragma omp for schedule(static) nowait
+        for (size_t g = 0; g < groups; g++) {
+            double terms[SB_SUMS_MAX] = {0};
+            const double found = of(sim, &sim->groups.group[g], terms);
+            largest = found > largest ? found : largest;
+            for (size_t k = 0; k < count; k++) sb_exact_add(&own[k], terms[k]);
+        }
+        sb_sums_merge(sum, own, count);
+    }
+    for (size_t k = 0; k < count; k++) total[k] = sb_exact_value(&sum[k]);
+    return largest;
+}

@@ -1,0 +1,22 @@
+/* Sums over all particles that have the same bits however the particles are divided among threads or domains. Terms are
+   summed within a group in the order of its particles, which is the same wherever the group lies, and exactly across
+   groups. */
+#ifndef SB_SIM_SUMS_H
+#define SB_SIM_SUMS_H
+
+#include "base/exact.h"
+#include "sim/state/state.h"
+
+enum { SB_SUMS_MAX = 8 };
+
+/* Sums over the particles of one group, into terms. Returns a value whose maximum over all groups is wanted. */
+typedef double sb_group_terms(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_MAX]);
+
+/* total[k]: sum over all groups of terms[k], k < count <= SB_SUMS_MAX; NaN where a term is no finite number. Returns
+   the largest value that `of` returned, -INFINITY without groups. */
+double sb_sum_groups(sb_sim *sim, size_t count, sb_group_terms *of, double *total);
+
+/* Adds `count` sums of one thread to those of all. Called in a parallel region. */
+void sb_sums_merge(sb_exact *total, const sb_exact *own, size_t count);
+
+#endif

@@ -1,0 +1,152 @@
+/* Conjugate gradients with proportioning and gradient projection (MPRGP) for q >= 0, scaled by the
+   diagonal D = -a_ii: minimises f(q) = -q.A q/2 + b.q, whose gradient is -e. */
+#include "sim/exchange/sums.h"
+#include "sim/pressure/pressure.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Length of a projection step in units of 1/D. From 2/lambda_max of D^-1 A on, the shortest modes would grow. With wide
+   supports that limit is below this value. */
+static const double PROJECTION = 0.55;
+
+static float projection(const sb_sim *sim)
+{
+    return (float)fmin(PROJECTION, 2 / sb_pressure_spectrum(sim));
+}
+
+/* Inner products of one sweep. */
+typedef struct sums {
+    double free, chopped; /* |phi|^2_D, |beta|^2_D: gradient on q > 0, and inward gradient on q = 0 */
+    double slope;         /* e . direction */
+    double curvature;     /* - direction . A direction */
+    double feasible;      /* longest step that keeps q >= 0 */
+} sums;
+
+enum { SUMS = 4 };
+
+/* Sums the first members of `sums`. Returns less the group's `feasible`. */
+static double sum_group(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_MAX])
+{
+    double free = 0, chopped = 0, slope = 0, curvature = 0, feasible = (double)INFINITY;
+    for (size_t i = group->first; i < group->end; i++) {
+        if (sim->diagonal[i] == 0) continue;
+        double e = (double)sim->residual[i], d = (double)sim->direction[i];
+        double q = (double)sim->unknown[i];
+        if (q > 0)
+            free += e * e / (double)sim->diagonal[i];
+        else if (e > 0)
+            chopped += e * e / (double)sim->diagonal[i];
+        slope += e * d;
+        curvature -= d * (double)sim->product[i];
+        if (d < 0 && q < -feasible * d) feasible = -q / d;
+    }
+    const double values[SUMS] = {free, chopped, slope, curvature};
+    memcpy(terms, values, sizeof values);
+    return -feasible;
+}
+
+static sums sum_all(sb_sim *sim)
+{
+    double sum[SUMS];
+    const double feasible = -sb_sum_groups(sim, SUMS, sum_group, sum);
+    return (sums){.free = sum[0], .chopped = sum[1], .slope = sum[2], .curvature = sum[3], .feasible = feasible};
+}
+
+/* direction = D^-1 (gradient on the free set, or on the chopped set) + gamma direction. */
+static void aim(sb_sim *sim, bool chopped, float gamma)
+{
+    const size_t n = sim->n;
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < n; i++) {
+        float e = sim->residual[i];
+        bool active = chopped ? sim->unknown[i] == 0 && e > 0 : sim->unknown[i] > 0;
+        float d = active && sim->diagonal[i] > 0 ? e / sim->diagonal[i] : 0;
+        sim->direction[i] = gamma != 0 ? d + gamma * sim->direction[i] : d;
+    }
+}
+
+/* q += length direction, e += length A direction. */
+static void advance(sb_sim *sim, float length)
+{
+    const size_t n = sim->n;
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < n; i++) {
+        float q = sim->unknown[i] + length * sim->direction[i];
+        sim->unknown[i] = q > 0 ? q : 0;
+        sim->residual[i] += length * sim->product[i];
+    }
+}
+
+/* A clamped step along the free gradient: the active set may change much at once. */
+static void project(sb_sim *sim)
+{
+    const size_t n = sim->n;
+    const float length = projection(sim);
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < n; i++) {
+        if (sim->unknown[i] == 0 || sim->diagonal[i] == 0) continue;
+        float q = sim->unknown[i] + length * sim->residual[i] / sim->diagonal[i];
+        sim->unknown[i] = q > 0 ? q : 0;
+    }
+}
+
+static double conjugation_terms(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_MAX])
+{
+    for (size_t i = group->first; i < group->end; i++)
+        if (sim->unknown[i] > 0 && sim->diagonal[i] > 0)
+            terms[0] += (double)sim->residual[i] / (double)sim->diagonal[i] * (double)sim->product[i];
+    return 0;
+}
+
+/* Coefficient that makes the next direction conjugate to the last: (D^-1 phi) . A d / (d . A d). */
+static double conjugation(sb_sim *sim, double curvature)
+{
+    double sum;
+    sb_sum_groups(sim, 1, conjugation_terms, &sum);
+    return sum / curvature;
+}
+
+static sb_status solve(sb_sim *sim, sb_error *error)
+{
+    (void)error;
+    sb_pressure_residual(sim);
+    sb_pressure_error judged = sb_pressure_judge(sim);
+    aim(sim, false, 0);
+    while (!sb_pressure_done(sim, &judged)) {
+        sums s = sum_all(sim);
+        bool chopped = s.chopped > s.free;
+        if (chopped) aim(sim, true, 0);
+        sb_pressure_load(sim, sim->direction);
+        sb_pressure_product(sim, sim->product);
+        s = sum_all(sim);
+        if (!(s.curvature > 0)) { /* no further descent */
+            sim->report.capped = !(judged.mean <= sim->report.tolerance);
+            break;
+        }
+        double best = s.slope / s.curvature;
+        if (chopped || best <= s.feasible) {
+            advance(sim, (float)best);
+            aim(sim, false, chopped ? 0 : (float)conjugation(sim, s.curvature));
+        } else {
+            advance(sim, (float)s.feasible);
+            project(sim);
+            sb_pressure_residual(sim);
+            sim->report.iterations++;
+            aim(sim, false, 0);
+        }
+        judged = sb_pressure_judge(sim);
+    }
+    sb_pressure_load(sim, sim->unknown);
+    sb_pressure_accelerate(sim);
+    return SB_OK;
+}
+
+const sb_pressure_solver sb_solver_cg = {
+    .name = "cg",
+    .summary = "conjugate gradients with projection (MPRGP), Jacobi-scaled",
+    .reference = "Dostal and Schoeberl 2005",
+    .needs_direction = true,
+    .needs_product = true,
+    .solve = solve,
+};

@@ -1,0 +1,51 @@
+/* The pressure problem of one step and its solvers.
+   Unknown q = p/rho^2 >= 0; A q = dt^2 div(G q) is symmetric and negative semidefinite; with
+   e = A q - b (predicted excess density) the solution has q >= 0, e <= 0, q e = 0. */
+#ifndef SB_SIM_PRESSURE_H
+#define SB_SIM_PRESSURE_H
+
+#include "sim/state/state.h"
+
+/* Error of the present iterate. */
+typedef struct sb_pressure_error {
+    double mean;   /* of max(0, e) over all particles, relative to the rest density */
+    double active; /* of |e| over particles with q > 0, relative */
+    double max;    /* of max(0, e), relative */
+} sb_pressure_error;
+
+/* A solver starts from sim->unknown and sim->source, and leaves its iterate in sim->unknown. It updates
+   sim->report.iterations and error_* by sb_pressure_judge. */
+typedef struct sb_pressure_solver {
+    const char *name, *summary, *reference;
+    bool needs_direction, needs_product; /* fields needed in addition to residual */
+    sb_status (*solve)(sb_sim *sim, sb_error *error);
+} sb_pressure_solver;
+
+/* Rows in the order of enum sb_solver. */
+extern const sb_pressure_solver *const sb_pressure_solvers[];
+extern const sb_pressure_solver sb_solver_jacobi, sb_solver_chebyshev, sb_solver_cg;
+
+/* Largest eigenvalue of D^-1 A that the solvers assume: that of a full lattice with a margin for disorder and walls. */
+double sb_pressure_spectrum(const sb_sim *sim);
+
+/* Copies a field into the last lane of the records: the argument of the next product. */
+void sb_pressure_load(sb_sim *sim, const float *argument);
+/* acceleration = G argument: a_i = -[sum_j m (q_i + q_j) grad W_ij + q_i B_i]. */
+void sb_pressure_accelerate(sb_sim *sim);
+/* out = factor [sum_j m (f_i - f_j) . grad W_ij + f_i . B_i] for a field f such as the velocity. */
+void sb_divergence(sb_sim *sim, const sb_f4 *field, float factor, float *out);
+/* The second pass of a product: out = dt^2 [sum_j m (a_i - a_j) . grad W_ij + a_i . B_i]. The accelerations of the
+   ghosts must be up to date. */
+void sb_pressure_diverge(sb_sim *sim, float *out);
+/* out = A argument, both passes: dt^2 [sum_j m (a_i - a_j) . grad W_ij + a_i . B_i]. */
+void sb_pressure_product(sb_sim *sim, float *out);
+
+/* residual = A unknown - source. Leaves the acceleration G unknown in sim->acceleration. */
+void sb_pressure_residual(sb_sim *sim);
+
+/* Computes the errors of the residual field, and adds one iteration to the report. */
+sb_pressure_error sb_pressure_judge(sb_sim *sim);
+/* Whether the tolerance is met or max_iterations have been done; sets the report's `capped` in the second case. */
+bool sb_pressure_done(sb_sim *sim, const sb_pressure_error *error);
+
+#endif

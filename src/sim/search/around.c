@@ -1,0 +1,30 @@
+#include "sim/search/around.h"
+
+#include "base/memory.h"
+
+/* Cells whose indices differ only in their last bits follow one another in the Z-order. */
+static uint64_t block_of(uint64_t code)
+{
+    return code & ~sb_cell_step(1, 1, 1);
+}
+
+int sb_groups_build(sb_sim *sim)
+{
+    const sb_cells *cells = &sim->cells;
+    sb_groups *groups = &sim->groups;
+    groups->count = 0;
+    for (size_t c = 0; c < cells->count; c++) {
+        if (c > 0 && block_of(cells->code[c]) == block_of(cells->code[c - 1])) continue;
+        if (sb_grow((void **)&groups->group, &groups->capacity, groups->count + 1, sizeof *groups->group) != 0)
+            return -1;
+        groups->group[groups->count++] = (sb_group){.first = cells->begin[c], .end = (uint32_t)sim->n};
+        if (groups->count > 1) groups->group[groups->count - 2].end = cells->begin[c];
+    }
+    return 0;
+}
+
+void sb_groups_destroy(sb_sim *sim)
+{
+    sb_free(sim->groups.group);
+    sb_free(sim->groups.run);
+}

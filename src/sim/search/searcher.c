@@ -1,0 +1,266 @@
+#include "sim/search/searcher.h"
+
+#include "base/memory.h"
+#include "sim/search/kernel_batch.h"
+#include "sim/search/vicinity.h"
+#include "sim/walls/entry.h"
+
+#include <math.h>
+
+enum {
+    MOST = 32767, /* largest stored slope */
+};
+
+_Static_assert((int)SB_WALLS_AROUND_MAX <= (int)SB_CANDIDATES_MAX, "capacity of the search for hits");
+
+/* Boundary particles around one cell as offsets from the cell's corner, in quanta. */
+typedef struct surroundings {
+    size_t count;
+    float x[SB_WALLS_AROUND_MAX + SB_HIT_SPARE], y[SB_WALLS_AROUND_MAX + SB_HIT_SPARE],
+        z[SB_WALLS_AROUND_MAX + SB_HIT_SPARE];
+    sb_f4 place[SB_WALLS_AROUND_MAX];
+    float weight[SB_WALLS_AROUND_MAX];
+    uint32_t index[SB_WALLS_AROUND_MAX];
+} surroundings;
+
+struct sb_searcher {
+    sb_vicinity vicinity;
+    surroundings wall;
+    sb_hits hits;
+    const sb_kernel *kernel;
+    sb_kernel_batch *batch;
+    sb_find_hits *find_hits;
+    float q_scale;     /* (quantum / h)^2 */
+    float value_scale; /* alpha / h^d */
+    float slope_scale; /* alpha quantum / h^(d+2): W'/r per quantum */
+    float to_units;    /* a slope of the kernel in stored units */
+    unsigned full;     /* see sb_searcher_full */
+};
+
+/* ---- walls around a cell ---- */
+
+SB_INLINE void gather_cell(surroundings *s, const sb_record *record, uint32_t begin, uint32_t end, sb_record corner,
+                           uint32_t base)
+{
+    if (s->count + (end - begin) > SB_WALLS_AROUND_MAX) {
+        s->count = SB_WALLS_AROUND_MAX + 1;
+        return;
+    }
+    for (uint32_t k = begin; k < end; k++) {
+        sb_f4 d = sb_offset(record[k], corner);
+        s->x[s->count] = d[0];
+        s->y[s->count] = d[1];
+        s->z[s->count] = d[2];
+        s->place[s->count] = d;
+        s->weight[s->count] = sb_carried_value(record[k]);
+        s->index[s->count++] = base + k;
+    }
+}
+
+/* Gathers the boundary particles in the 27 (2D: 9) cells around that of particle i, in a fixed order. */
+static void gather_walls(const sb_sim *sim, sb_searcher *w, size_t i, sb_record corner)
+{
+    const int layers = sim->constant.dimension == 2 ? 0 : 1;
+    const uint64_t code = sb_cell_code(sim->position[i], sim->space.shift);
+    w->wall.count = 0;
+    for (uint32_t s = 0; s < SB_WALL_SETS; s++) {
+        const sb_wall_set *set = &sim->walls[s];
+        if (!sb_walls_near(set, &sim->space, sim->position[i])) continue;
+        for (int dz = -1; dz <= 1; dz++)
+            for (int dy = -layers; dy <= layers; dy++)
+                for (int dx = -1; dx <= 1; dx++) {
+                    int64_t cell = sb_cells_find(&set->cells, code + sb_cell_step(dx, dy, dz));
+                    if (cell >= 0 && w->wall.count <= SB_WALLS_AROUND_MAX)
+                        gather_cell(&w->wall, set->record, set->cells.begin[cell], set->cells.begin[cell + 1], corner,
+                                    sb_wall_entry(s, 0));
+                }
+    }
+    if (w->wall.count > SB_WALLS_AROUND_MAX) {
+        w->full |= SB_FULL_WALLS;
+        w->wall.count = 0;
+    }
+}
+
+/* ---- one particle ---- */
+
+SB_INLINE void find_hits(sb_searcher *w, const sb_candidates *of, const sb_candidate_range *range, size_t ranges,
+                         sb_f4 self, uint32_t skip)
+{
+    sb_hits *h = &w->hits;
+    size_t n = w->find_hits(of, range, ranges, h, self, w->q_scale, skip);
+    if (n >= SB_LIST_MAX) w->full |= SB_FULL_LIST;
+    h->count = n < SB_LIST_MAX ? n : SB_LIST_MAX;
+    h->padded = (h->count + SB_HIT_LANES - 1) / SB_HIT_LANES * SB_HIT_LANES;
+    for (size_t k = h->count; k < h->padded; k++) {
+        h->x[k] = h->y[k] = h->z[k] = 0;
+        h->q2[k] = 1;
+        h->candidate[k] = skip;
+    }
+}
+
+/* Rounds slopes of the kernel to storable roots, and replaces them by the squares of these roots, so that all uses of a
+   pair have the same number. */
+SB_MULTIVERSION
+static void round_slopes(float *restrict slope, float *restrict root, size_t count, float to_units)
+{
+    const float most = (float)MOST;
+#pragma omp simd
+    for (size_t k = 0; k < count; k++) {
+        const float rounded = (float)(int)(sqrtf(slope[k] * to_units) + 0.5f);
+        root[k] = rounded < most ? rounded : most;
+        slope[k] = root[k] * root[k];
+    }
+}
+
+/* Sums over the fluid neighbours of one particle: part of the density, S_i, and sum |m grad W|^2. */
+SB_INLINE void fluid_sums(sb_searcher *w, float mass, float unit, float *density, sb_f4 *sum, float *squares)
+{
+    sb_hits *h = &w->hits;
+    sb_f8 value = {0}, x = {0}, y = {0}, z = {0}, square = {0};
+    w->batch(w->kernel, h->q2, h->padded, h->value, h->slope);
+    for (size_t k = 0; k < h->padded; k += SB_HIT_LANES) value += *(const sb_f8 *)(h->value + k);
+    round_slopes(h->slope, h->root, h->padded, w->to_units);
+    for (size_t k = 0; k < h->padded; k += SB_HIT_LANES) {
+        const sb_f8 slope = *(const sb_f8 *)(h->slope + k) * unit;
+        x += slope * *(const sb_f8 *)(h->x + k);
+        y += slope * *(const sb_f8 *)(h->y + k);
+        z += slope * *(const sb_f8 *)(h->z + k);
+        square += slope * slope * *(const sb_f8 *)(h->q2 + k);
+    }
+    *density += mass * w->value_scale * sb_sum8(&value);
+    *sum += (sb_f4){sb_sum8(&x), sb_sum8(&y), sb_sum8(&z), 0};
+    *squares = sb_sum8(&square) / w->q_scale;
+}
+
+/* Sums over the boundary particles around one particle: part of the density, and B_i = sum_b psi_b grad W_ib with the
+   flux sum_b psi_b v_b . grad W_ib of moving walls in the last lane. */
+SB_INLINE void wall_sums(const sb_sim *sim, sb_searcher *w, float *density, sb_f4 *wall)
+{
+    sb_hits *h = &w->hits;
+    float value = 0;
+    sb_f4 sum = {0};
+    w->batch(w->kernel, h->q2, h->count, h->value, h->slope);
+    for (size_t k = 0; k < h->count; k++) {
+        const uint32_t index = w->wall.index[h->candidate[k]];
+        const float weight = w->wall.weight[h->candidate[k]];
+        const float slope = h->slope[k] * weight * w->slope_scale;
+        sb_f4 gradient = {slope * h->x[k], slope * h->y[k], slope * h->z[k], 0};
+        h->slope[k] = slope;
+        h->candidate[k] = index;
+        value += weight * h->value[k];
+        if (sb_wall_moves(index)) gradient[3] = sb_sum3(sb_wall_velocity(sim, index) * gradient);
+        sum += gradient;
+    }
+    *density += w->value_scale * value;
+    *wall = sum;
+}
+
+/* Searches the neighbours of particle i and fills in its fields. candidate: its index in the vicinity; cell: the corner
+   of its cell. */
+SB_INLINE void one_particle(sb_sim *sim, sb_searcher *w, sb_list_builder *lists, const sb_group *group, size_t i,
+                            uint32_t candidate, sb_record cell)
+{
+    const sb_constants *c = &sim->constant;
+    const sb_vicinity *v = &w->vicinity;
+    float density = c->mass * w->value_scale * (float)sim->scene->numerics.kernel->shape(0);
+    float squares = 0;
+    sb_f4 sum = {0}, wall = {0}, self = sb_offset(sim->position[i], group->corner);
+    sb_candidate_range range[SB_VICINITY_ROWS];
+    const size_t ranges = sb_vicinity_candidates(sim, v, self, range);
+    find_hits(w, &(sb_candidates){v->x, v->y, v->z, v->place}, range, ranges, self, candidate);
+    fluid_sums(w, c->mass, sim->pairs.unit, &density, &sum, &squares);
+    sb_list_water(lists, &w->hits, sim, i);
+    sim->wall_pairs.count[i] = 0;
+    const float fluid_density = density;
+    if (sim->density_correction) sim->residual[i] = sb_sum3(sum * sum);
+    if (w->wall.count > 0) {
+        const sb_candidate_range all = {0, (uint32_t)w->wall.count};
+        find_hits(w, &(sb_candidates){w->wall.x, w->wall.y, w->wall.z, w->wall.place}, &all, 1,
+                  sb_offset(sim->position[i], cell), UINT32_MAX);
+        if (w->hits.count > 0) {
+            wall_sums(sim, w, &density, &wall);
+            sb_list_walls(lists, &w->hits, sim, i);
+        }
+    }
+    float diagonal = squares;
+    for (int axis = 0; axis < 3; axis++) diagonal += (sum[axis] + wall[axis]) * (sum[axis] + wall[axis]);
+    sim->density[i] = density;
+    if (sim->density_correction) sim->source[i] = density - fluid_density;
+    sim->wall[i] = wall;
+    sim->diagonal[i] = diagonal > 1e-6f * c->full_diagonal ? diagonal : 0;
+}
+
+SB_MULTIVERSION
+static void search_group(sb_sim *sim, sb_searcher *w, sb_list_builder *lists, sb_group *group)
+{
+    const int shift = sim->space.shift;
+    uint64_t last = UINT64_MAX;
+    uint32_t candidate = 0;
+    sb_record cell = {0};
+    for (size_t i = group->first; i < group->end; i++) {
+        const uint64_t code = sb_cell_code(sim->position[i], shift);
+        if (code != last) {
+            const sb_record here = sim->position[i];
+            cell = (sb_record){here[0] >> shift << shift, here[1] >> shift << shift, here[2] >> shift << shift, 0};
+            candidate = sb_vicinity_cell(sim, &w->vicinity, i);
+            gather_walls(sim, w, i, cell);
+        }
+        last = code;
+        one_particle(sim, w, lists, group, i, candidate++, cell);
+    }
+}
+
+void sb_search_group(sb_sim *sim, sb_searcher *w, sb_list_builder *lists, sb_group *group)
+{
+    sb_vicinity_gather(sim, group, &w->vicinity);
+    if (w->vicinity.count > SB_AROUND_MAX) {
+        w->full |= SB_FULL_AROUND;
+        return;
+    }
+    sb_list_runs(lists, &w->vicinity, group);
+    search_group(sim, w, lists, group);
+}
+
+static float slope_scale(const sb_sim *sim)
+{
+    const int d = sim->constant.dimension;
+    return (float)(sim->scene->numerics.kernel->alpha[d] * sim->space.quantum /
+                   pow((double)sim->constant.support, d + 2));
+}
+
+float sb_lists_unit(const sb_sim *sim)
+{
+    const sb_kernel *kernel = sim->scene->numerics.kernel;
+    const float coincident = 0;
+    float value, steepest;
+    sb_kernel_batch_for(kernel)(kernel, &coincident, 1, &value, &steepest);
+    return sim->constant.mass * slope_scale(sim) * steepest / ((float)MOST * (float)MOST);
+}
+
+sb_searcher *sb_searcher_create(const sb_sim *sim)
+{
+    sb_searcher *w = sb_alloc_untouched(1, sizeof *w);
+    if (!w) return NULL;
+    const sb_kernel *kernel = sim->scene->numerics.kernel;
+    const int d = sim->constant.dimension;
+    const double h = (double)sim->constant.support, quantum = sim->space.quantum;
+    w->full = 0;
+    w->kernel = kernel;
+    w->batch = sb_kernel_batch_for(kernel);
+    w->find_hits = sb_find_hits_choose();
+    w->q_scale = (float)(quantum / h * (quantum / h));
+    w->value_scale = (float)(kernel->alpha[d] / pow(h, d));
+    w->slope_scale = slope_scale(sim);
+    w->to_units = sim->constant.mass * w->slope_scale / sim->pairs.unit;
+    return w;
+}
+
+unsigned sb_searcher_full(const sb_searcher *w)
+{
+    return w->full;
+}
+
+void sb_searcher_free(sb_searcher *w)
+{
+    sb_free(w);
+}

@@ -1,0 +1,30 @@
+#include "sim/state/constants.h"
+
+#include "sim/state/lattice.h"
+
+#include <math.h>
+
+sb_constants sb_constants_of(const sb_scene *scene, const sb_model *model)
+{
+    double dr = scene->resolution, g = scene->fluid.gravity;
+    double mass = scene->fluid.density * (scene->dimensions == 2 ? dr * dr : dr * dr * dr);
+    double wave_speed = g > 0 ? sb_model_wave_speed(scene, model) : 1;
+    double sound = scene->numerics.sound_speed > 0 ? scene->numerics.sound_speed : 10 * wave_speed;
+    return (sb_constants){
+        .dimension = scene->dimensions,
+        .spacing = (float)dr,
+        .support = (float)(scene->numerics.support * dr),
+        .rest_density = (float)scene->fluid.density,
+        .mass = (float)mass,
+        .gravity = (float)g,
+        .wave_speed = (float)wave_speed,
+        .sound_speed = (float)sound,
+        .viscosity = (float)scene->fluid.viscosity,
+        .full_diagonal = (float)sb_lattice_diagonal(scene, mass),
+        .spectrum = sb_lattice_spectrum(scene),
+        .bulk_deficit = (float)(scene->fluid.density * (1 - sb_lattice_density(scene))),
+        .surface_deficit =
+            (float)(sb_lattice_truncation(scene) * pow(scene->numerics.support * dr, 2) / scene->fluid.density),
+        .speed_limit = (float)fmax(100 * wave_speed, sb_scene_speed_limit(scene)),
+    };
+}

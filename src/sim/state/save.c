@@ -1,0 +1,184 @@
+/* Saves the state between two steps into an archive and loads it again. The archive has no data that a step computes
+   anew: cells, ghosts, neighbours, densities. Wall tables follow from the bodies' displacements. Stage times belong to
+   the process and are not saved. */
+#include "base/archive.h"
+#include "base/memory.h"
+#include "sim/search/departures.h"
+#include "sim/state/state.h"
+
+#include <math.h>
+
+#define SECTION "sim"
+
+static void put_report(sb_archive_out *out, const sb_step_report *r)
+{
+    sb_put_count(out, r->step);
+    sb_put_count(out, (uint64_t)r->iterations);
+    sb_put_flag(out, r->capped);
+    const double reals[] = {r->time,      r->time_step,   r->tolerance,       r->error_mean, r->error_active,
+                            r->error_max, r->compression, r->compression_max, r->max_speed,  r->momentum_imbalance};
+    sb_put_list(out, reals, sizeof reals / sizeof *reals, sizeof *reals);
+}
+
+static void take_report(sb_archive_in *in, sb_step_report *r)
+{
+    double reals[10];
+    r->step = sb_take_count(in, UINT64_MAX);
+    r->iterations = (int)sb_take_count(in, INT32_MAX);
+    r->capped = sb_take_flag(in);
+    sb_take_list(in, reals, sizeof reals / sizeof *reals, sizeof *reals);
+    double *const fields[] = {&r->time,         &r->time_step,         &r->tolerance,   &r->error_mean,
+                              &r->error_active, &r->error_max,         &r->compression, &r->compression_max,
+                              &r->max_speed,    &r->momentum_imbalance};
+    for (size_t f = 0; f < sizeof fields / sizeof *fields; f++) *fields[f] = reals[f];
+    const bool sane = r->time >= 0 && isfinite(r->time) && r->time_step >= 0 && isfinite(r->time_step) &&
+                      r->max_speed >= 0 && isfinite(r->max_speed);
+    if (!sane)
+        sb_archive_refuse(in, "time %g s, step %g s, speed %g m/s: expected finite numbers >= 0", r->time, r->time_step,
+                          r->max_speed);
+}
+
+static void put_settle(sb_archive_out *out, const sb_settle *settle)
+{
+    sb_put_flag(out, settle->under_way);
+    if (!settle->under_way) return;
+    const int counts[] = {settle->done, settle->most, settle->turn, settle->calm};
+    for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) sb_put_real(out, counts[k]);
+    sb_put_real(out, settle->kinetic);
+}
+
+/* Reads a whole number within +-2^30. */
+static int take_steps(sb_archive_in *in)
+{
+    const double value = sb_take_real(in);
+    if (fabs(value) <= 0x1p30 && value == floor(value)) return (int)value;
+    sb_archive_refuse(in, "%g settling steps, expected a whole number", value);
+    return 0;
+}
+
+static void take_settle(sb_archive_in *in, const sb_scene *scene, sb_settle *settle)
+{
+    *settle = (sb_settle){.under_way = sb_take_flag(in)};
+    if (!settle->under_way) return;
+    settle->done = take_steps(in);
+    settle->most = take_steps(in);
+    settle->turn = take_steps(in);
+    settle->calm = take_steps(in);
+    settle->kinetic = sb_take_real(in);
+    const int most = scene->numerics.settle_steps;
+    if (sb_settle_over(settle))
+        sb_archive_refuse(in, "settling has ended at step %d: expected settling in progress", settle->done);
+    if (settle->done < 0 || settle->calm < 0 || settle->most > most || isnan(settle->kinetic))
+        sb_archive_refuse(in, "settling step %d of at most %d: expected at most %d steps", settle->done, settle->most,
+                          most);
+}
+
+void sb_sim_save(const sb_sim *sim, sb_archive_out *out)
+{
+    sb_archive_section(out, SECTION);
+    put_report(out, &sim->report);
+    put_settle(out, &sim->settle);
+    sb_put_count(out, sim->left_domain);
+    sb_put_count(out, sim->lost);
+    sb_departures_save(sim, out);
+    sb_put_list(out, sim->position, sim->n, sizeof *sim->position);
+    sb_put_list(out, sim->velocity, sim->n, sizeof *sim->velocity);
+    sb_put_list(out, sim->id, sim->n, sizeof *sim->id);
+    sb_put_list(out, sim->density_correction, sim->density_correction ? sim->n : 0, sizeof *sim->density_correction);
+    sb_put_list(out, sim->start_velocity, sim->start_velocity ? sim->n : 0, sizeof *sim->start_velocity);
+    sb_put_list(out, sim->impulse, sim->model->body_count, sizeof *sim->impulse);
+    sb_put_list(out, &sim->ledger, sizeof sim->ledger / sizeof(double), sizeof(double));
+    sb_put_count(out, sim->moving_count);
+    for (size_t m = 0; m < sim->moving_count; m++) {
+        sb_put_real(out, sim->moving[m].displacement);
+        sb_put_real(out, sim->moving[m].next_displacement);
+        sb_put_vector(out, sim->moving[m].velocity);
+    }
+    sb_put_count(out, sb_sim_hash(sim));
+}
+
+static void take_particles(sb_sim *sim, sb_archive_in *in)
+{
+    const size_t n = sb_take_length(in, sizeof *sim->position, sim->model->fluid_count);
+    sb_take_list(in, sim->position, n, sizeof *sim->position);
+    sb_take_list(in, sim->velocity, n, sizeof *sim->velocity);
+    sb_take_list(in, sim->id, n, sizeof *sim->id);
+    for (size_t i = 0; i < n; i++) {
+        const sb_record at = sim->position[i];
+        if (at[0] >= SB_POSITION_END || at[1] >= SB_POSITION_END || at[2] >= SB_POSITION_END ||
+            sim->id[i] >= sim->model->fluid_count)
+            sb_archive_refuse(in,
+                              "particle %u at (%u, %u, %u) quanta: expected a particle number below %zu and "
+                              "coordinates below %u",
+                              sim->id[i], at[0], at[1], at[2], sim->model->fluid_count, SB_POSITION_END);
+    }
+    sim->n = in->error.status == SB_OK ? n : 0;
+    sim->report.fluid_count = sim->n;
+}
+
+static void take_corrections(sb_sim *sim, sb_archive_in *in)
+{
+    const size_t n = sim->density_correction ? sim->n : 0;
+    sb_take_list(in, sim->density_correction, n, sizeof *sim->density_correction);
+    for (size_t i = 0; i < n; i++) {
+        if (!isinf(sim->density_correction[i])) continue;
+        sb_archive_refuse(in, "density correction of particle %zu is %g kg/m^3, expected a finite value", i,
+                          (double)sim->density_correction[i]);
+        return;
+    }
+}
+
+/* In quanta: the largest displacement of a body, far outside of any domain. */
+static const double FARTHEST = 1e15;
+
+static void take_moving(sb_sim *sim, sb_archive_in *in)
+{
+    if (sb_take_count(in, SIZE_MAX) != sim->moving_count)
+        sb_archive_refuse(in, "different number of moving bodies, expected %zu", sim->moving_count);
+    for (size_t m = 0; m < sim->moving_count; m++) {
+        sb_moving_body *moving = &sim->moving[m];
+        moving->displacement = sb_take_real(in);
+        moving->next_displacement = sb_take_real(in);
+        moving->velocity = sb_take_vector(in);
+        const double farthest = fmax(fabs(moving->displacement), fabs(moving->next_displacement));
+        if (farthest < FARTHEST * sim->space.quantum && !isnan(moving->displacement) &&
+            !isnan(moving->next_displacement) && sb_isfinite(moving->velocity))
+            continue;
+        sb_archive_refuse(in, "moving body %zu is displaced by %g m, expected less than %g m and finite velocities", m,
+                          moving->displacement, FARTHEST * sim->space.quantum);
+        moving->displacement = 0;
+    }
+}
+
+sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
+{
+    sb_status status = sb_archive_enter(in, SECTION, error);
+    if (status != SB_OK) return status;
+    take_report(in, &sim->report);
+    take_settle(in, sim->scene, &sim->settle);
+    sim->left_domain = sim->report.left_domain = sb_take_count(in, UINT64_MAX);
+    sim->lost = sim->report.lost = sb_take_count(in, UINT64_MAX);
+    sb_departures_load(sim, in);
+    take_particles(sim, in);
+    take_corrections(sim, in);
+    if (!sim->settle.under_way) {
+        sb_free(sim->start_velocity);
+        sim->start_velocity = NULL;
+    }
+    sb_take_list(in, sim->start_velocity, sim->start_velocity ? sim->n : 0, sizeof *sim->start_velocity);
+    sb_take_list(in, sim->impulse, sim->model->body_count, sizeof *sim->impulse);
+    sb_take_list(in, &sim->ledger, sizeof sim->ledger / sizeof(double), sizeof(double));
+    take_moving(sim, in);
+    const uint64_t expected = sb_take_count(in, UINT64_MAX), hash = sb_sim_hash(sim);
+    if (in->error.status == SB_OK && hash != expected)
+        sb_archive_refuse(in, "state hash is %016llx, expected %016llx", (unsigned long long)hash,
+                          (unsigned long long)expected);
+    if (status == SB_OK) status = sb_archive_leave(in, error);
+    if (status == SB_OK) status = sb_walls_restore(sim, error);
+    /* The lists and cells belong to the old particles: there are none until the next step. */
+    sim->lists_current = sim->virial_known = false;
+    sim->groups.count = 0;
+    if (sb_cells_build(&sim->cells, sim->position, 0, sim->space.shift) != 0 && status == SB_OK)
+        status = sb_fail_memory(error, "cells");
+    return status;
+}

@@ -1,0 +1,170 @@
+/* Output of the simulation: frames for consumers, samples for gauges and probes. */
+#include "sim/state/state.h"
+
+#include <math.h>
+#include <stdio.h>
+
+typedef struct particle {
+    sb_record position;
+    sb_f4 velocity;          /* last lane: the solver pressure */
+    float pressure, density; /* pressure: the virial pressure if known, else the solver pressure */
+    uint32_t id;
+} particle;
+
+static particle particle_at(const sb_sim *sim, size_t i)
+{
+    const float pressure = sim->virial_known ? sim->residual[i] : sim->velocity[i][3];
+    return (particle){sim->position[i], sim->velocity[i], pressure, sim->density[i], sim->id[i]};
+}
+
+sb_frame *sb_sim_snapshot(const sb_sim *sim)
+{
+    const sb_model *model = sim->model;
+    const size_t count = sim->n;
+    sb_frame *frame = sb_frame_create(count, model->body_count);
+    if (!frame) return NULL;
+    const sb_vec3 shift = sb_sub(sim->space.origin, model->min);
+    const double quantum = sim->space.quantum;
+    frame->origin = model->min;
+    frame->spacing = sim->scene->resolution;
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < count; i++) {
+        const particle p = particle_at(sim, i);
+        sb_record x = sb_space_wrap(&sim->space, p.position);
+        frame->position[3 * i] = (float)(x[0] * quantum + shift.x);
+        frame->position[3 * i + 1] = (float)(x[1] * quantum + shift.y);
+        frame->position[3 * i + 2] = (float)(x[2] * quantum + shift.z);
+        for (size_t axis = 0; axis < 3; axis++) frame->velocity[3 * i + axis] = p.velocity[axis];
+        frame->pressure[i] = p.pressure;
+        frame->id[i] = p.id;
+    }
+    for (size_t b = 0; b < model->body_count; b++) {
+        sb_frame_body *body = &frame->bodies[b];
+        snprintf(body->name, sizeof body->name, "%s", model->bodies[b].name);
+        body->displacement = sb_sim_body_displacement(sim, b);
+        body->report = model->bodies[b].report;
+    }
+    frame->status = (sb_frame_status){
+        .step = sim->report.step,
+        .time = sim->report.time,
+        .duration = sim->scene->duration,
+        .time_step = sim->report.time_step,
+        .iterations = sim->report.iterations,
+        .density_error = sim->report.error_mean,
+        .max_speed = sim->report.max_speed,
+        .lost_particles = sim->lost,
+    };
+    return frame;
+}
+
+static sb_fluid_sample sample_at(const sb_sim *sim, size_t i, sb_vec3 position)
+{
+    const particle p = particle_at(sim, i);
+    const sb_f4 v = p.velocity;
+    /* Density sums do not exist before the first step. */
+    const double density = (double)(p.density > 0 ? p.density : sim->constant.rest_density);
+    return (sb_fluid_sample){
+        .position = position,
+        .velocity = sb_vec((double)v[0], (double)v[1], (double)v[2]),
+        .pressure = (double)p.pressure,
+        .density = density,
+        .push = (double)v[3] / (density * density),
+        .id = p.id,
+    };
+}
+
+sb_fluid_sample sb_sim_particle(const sb_sim *sim, size_t i)
+{
+    sb_record place = sb_space_wrap(&sim->space, particle_at(sim, i).position);
+    return sample_at(sim, i, sb_space_position(&sim->space, place));
+}
+
+/* Cell index of a coordinate, limited to the grid. */
+static int64_t cell_index(const sb_space *space, double distance, int axis)
+{
+    double index = floor(distance / space->cell);
+    double most = (double)((int64_t)1 << space->bits[axis]) - 1;
+    return (int64_t)(index < 0 ? 0 : index > most ? most : index);
+}
+
+/* Least range of images beyond a periodic side, in spacings: gauges need four, and particles move within a step. */
+static const double IMAGES_RANGE = 8;
+
+typedef struct query {
+    sb_vec3 min, max;
+    sb_fluid_sample *samples;
+    size_t capacity, found;
+} query;
+
+static bool within(const query *q, sb_vec3 p)
+{
+    return p.x >= q->min.x && p.y >= q->min.y && p.z >= q->min.z && p.x <= q->max.x && p.y <= q->max.y &&
+           p.z <= q->max.z;
+}
+
+/* Position of a particle's image, `away` quanta from it. */
+static sb_vec3 image_place(const sb_space *space, sb_record record, const int64_t away[3])
+{
+    return sb_vec(space->origin.x + (double)(record[0] + away[0]) * space->quantum,
+                  space->origin.y + (double)(record[1] + away[1]) * space->quantum,
+                  space->origin.z + (double)(record[2] + away[2]) * space->quantum);
+}
+
+/* Finds the particles of one cell, numbered from `base`, whose images are in the box. */
+static void query_cell(const sb_sim *sim, query *q, const sb_cells *cells, uint64_t code, size_t base,
+                       const int64_t away[3])
+{
+    const int64_t cell = sb_cells_find(cells, code);
+    if (cell < 0) return;
+    for (size_t i = base + cells->begin[cell]; i < base + cells->begin[cell + 1]; i++) {
+        const sb_vec3 p = image_place(&sim->space, particle_at(sim, i).position, away);
+        if (!within(q, p)) continue;
+        if (q->found < q->capacity) q->samples[q->found] = sample_at(sim, i, p);
+        q->found++;
+    }
+}
+
+/* Finds the particles whose images, `away` quanta from them, are in the box. */
+static void query_images(const sb_sim *sim, query *q, const int64_t away[3])
+{
+    const sb_space *space = &sim->space;
+    /* The cells are those of the step's start: search as far around as a particle can have moved since. */
+    const double margin = sim->report.max_speed * sim->report.time_step + space->quantum;
+    const sb_vec3 low = sb_sub(q->min, space->origin), high = sb_sub(q->max, space->origin);
+    const double from[3] = {low.x, low.y, low.z}, to[3] = {high.x, high.y, high.z};
+    int64_t a[3], b[3];
+    for (int axis = 0; axis < 3; axis++) {
+        const double shift = (double)away[axis] * space->quantum;
+        const double least = from[axis] - shift - margin, most = to[axis] - shift + margin;
+        const double side = sb_space_low(space) * space->quantum, length = space->period[axis] * space->quantum;
+        if (length > 0 && (most < side || least > side + length)) return;
+        a[axis] = cell_index(space, least, axis);
+        b[axis] = cell_index(space, most, axis);
+    }
+    for (int64_t z = a[2]; z <= b[2]; z++)
+        for (int64_t y = a[1]; y <= b[1]; y++)
+            for (int64_t x = a[0]; x <= b[0]; x++) {
+                uint64_t code = (uint64_t)x | (uint64_t)y << 21 | (uint64_t)z << 42;
+                query_cell(sim, q, &sim->cells, code, 0, away);
+            }
+}
+
+size_t sb_sim_query(const sb_sim *sim, sb_vec3 min, sb_vec3 max, sb_fluid_sample *samples, size_t capacity)
+{
+    query q = {min, max, samples, capacity, 0};
+    int64_t period[3], most[3], away[3];
+    for (int axis = 0; axis < 3; axis++) {
+        period[axis] = sim->space.period[axis];
+        double length = (double)period[axis] * sim->space.quantum;
+        most[axis] = length > 0 ? 1 + (int64_t)ceil(IMAGES_RANGE * sim->scene->resolution / length) : 0;
+    }
+    for (int64_t z = -most[2]; z <= most[2]; z++)
+        for (int64_t y = -most[1]; y <= most[1]; y++)
+            for (int64_t x = -most[0]; x <= most[0]; x++) {
+                away[0] = x * period[0];
+                away[1] = y * period[1];
+                away[2] = z * period[2];
+                query_images(sim, &q, away);
+            }
+    return q.found;
+}

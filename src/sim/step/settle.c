@@ -1,0 +1,195 @@
+/* Settling: damped steps before t = 0 in which the initial lattice comes to rest (docs/method.md, section 10). Without
+   settling the lattice would rearrange itself during the run, and its noise would hide a wave. */
+#include "base/memory.h"
+#include "base/stop.h"
+#include "physics/wave_theory.h"
+#include "sim/state/state.h"
+
+#include <math.h>
+
+/* Settling begins with creeping steps: a lattice that is too dense at a wall would otherwise be thrown off it. Boxes of
+   water have unsupported sides: they creep for a few steps more and have no further stage. CALM_STEPS: calm steps in a
+   row that end settling; a single one may be a reversal of the motion. */
+enum { CREEP_FIRST = 40, CREEP_BOXES = 50, CALM_STEPS = 10 };
+
+static const double CALM = 0.002; /* highest speed of calm water, over sqrt(g D) */
+
+/* Number of last steps. Damped steps start their solves from the full last pressures, which halves the number of
+   sweeps but leaves some residual motion. The last steps use the run's own warm start and remove it. */
+enum { CALM_LAST = 30 };
+
+/* Water over rough ground always keeps some residual motion. When TRIAL_STEPS steps have reduced its kinetic energy by
+   less than three tenths, further steps have little effect. */
+enum { TRIAL_STEPS = 60 };
+static const double STILL_FALLING = 0.7;
+
+bool sb_sim_settles(const sb_scene *scene)
+{
+    return scene->numerics.settle_steps > 0;
+}
+
+int sb_sim_settle_most(const sb_scene *scene)
+{
+    const int steps = scene->numerics.settle_steps;
+    return scene->box_count > 0 && steps > CREEP_BOXES ? CREEP_BOXES : steps;
+}
+
+/* A sea is judged every TRIAL_STEPS. Of the scenes of assets/scenes at 13 spacings, 2 to 20 particles deep, two were
+   over at the second trial, four at the third, six at the fourth, one at the fifth. */
+enum { TRIALS_EXPECTED = 4 };
+
+int sb_sim_settle_expected(const sb_scene *scene)
+{
+    const int most = sb_sim_settle_most(scene), sea = CREEP_FIRST + TRIALS_EXPECTED * TRIAL_STEPS + CALM_LAST;
+    return scene->box_count > 0 || most < sea ? most : sea;
+}
+
+bool sb_settle_over(const sb_settle *settle)
+{
+    return settle->done >= settle->most || settle->calm >= CALM_STEPS;
+}
+
+float sb_settle_wave_acceleration(const sb_sim *sim, sb_record at)
+{
+    const sb_initial_wave *wave = &sim->scene->wave;
+    const double gravity = sim->scene->fluid.gravity, step = 1e-4 * wave->depth;
+    if (wave->kind == SB_INITIAL_NONE || sim->settling == SB_START_TRIAL) return 0;
+    const double x = sb_space_position(&sim->space, at).x - wave->position;
+    const sb_solitary solitary = {wave->height, wave->depth, gravity, wave->theory};
+    const bool travels = wave->kind == SB_INITIAL_SOLITARY;
+    const double ahead = travels ? sb_solitary_elevation(&solitary, x + step)
+                                 : sb_standing_elevation(wave->height, wave->wavelength, x + step);
+    const double behind = travels ? sb_solitary_elevation(&solitary, x - step)
+                                  : sb_standing_elevation(wave->height, wave->wavelength, x - step);
+    return (float)(gravity * (ahead - behind) / (2 * step));
+}
+
+/* Sets a velocity; the pressure in the last lane does not change. */
+static void set_velocity(sb_sim *sim, size_t i, sb_f4 v)
+{
+    v[3] = sim->velocity[i][3];
+    sim->velocity[i] = v;
+    sim->report.max_speed = fmax(sim->report.max_speed, sqrt((double)sb_sum3(v * v)));
+}
+
+/* Sets the velocities of the scene. */
+static void set_scene_velocities(sb_sim *sim)
+{
+    sim->report.max_speed = 0;
+    for (size_t i = 0; i < sim->n; i++) set_velocity(sim, i, sim->start_velocity ? sim->start_velocity[i] : (sb_f4){0});
+    sb_free(sim->start_velocity);
+    sim->start_velocity = NULL;
+}
+
+/* Sets the velocities of water that starts from rest to minus half of the velocity change of one step. Particles move
+   with the velocity at the end of a step, so that velocities belong to times half a step before the positions, as in a
+   leapfrog scheme. Otherwise all motion would begin half a step early (docs/decisions/0021). Calm water stays at rest,
+   and so does a particle without neighbours, which moves with the mean of the velocities before and after a step. */
+static sb_status set_half_step_back(sb_sim *sim, sb_error *error)
+{
+    const float least = (float)CALM * sim->constant.wave_speed;
+    sim->settling = SB_START_TRIAL;
+    const sb_status status = sb_sim_step(sim, error);
+    sim->settling = SB_RUNNING;
+    sim->report.max_speed = 0;
+    for (size_t i = 0; status == SB_OK && i < sim->n; i++) {
+        const sb_f4 change = sim->velocity[i];
+        const bool begins = sim->diagonal[i] > 0 && sb_sum3(change * change) > least * least;
+        set_velocity(sim, i, change * sb_splat(begins ? -0.5f : 0));
+    }
+    return status;
+}
+
+sb_rest sb_sim_rest(const sb_sim *sim)
+{
+    const sb_settle *settle = &sim->settle;
+    const char *ended = settle->calm >= CALM_STEPS                      ? "calm"
+                        : settle->most < sb_sim_settle_most(sim->scene) ? "further steps would change little"
+                                                                        : "largest number of steps done";
+    return (sb_rest){settle->done, settle->speed, ended};
+}
+
+bool sb_sim_settling(const sb_sim *sim, int *done)
+{
+    *done = sim->settle.done;
+    return sim->settle.under_way;
+}
+
+sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
+{
+    return sb_sim_settle_watched(sim, NULL, NULL, error);
+}
+
+static void begin(sb_sim *sim)
+{
+    const int steps = sim->scene->numerics.settle_steps;
+    sim->settle = (sb_settle){.under_way = true,
+                              .most = sb_sim_settle_most(sim->scene),
+                              .turn = steps - CALM_LAST,
+                              .kinetic = (double)INFINITY};
+    for (size_t i = 0; i < sim->n; i++) sim->velocity[i] = (sb_f4){0, 0, 0, sim->velocity[i][3]};
+    sim->report.max_speed = 0;
+}
+
+/* Whether the damped steps are over: the water is calm, or further damped steps would change little. */
+static bool judge_trial(sb_sim *sim)
+{
+    sb_settle *settle = &sim->settle;
+    bool done = settle->calm == CALM_STEPS;
+    if ((settle->done - CREEP_FIRST) % TRIAL_STEPS == 0) {
+        const double kinetic = sb_sim_energy(sim).kinetic;
+        done |= kinetic > STILL_FALLING * settle->kinetic;
+        settle->kinetic = kinetic;
+    }
+    return done;
+}
+
+static sb_status one_step(sb_sim *sim, sb_error *error)
+{
+    sb_settle *settle = &sim->settle;
+    const double calm = CALM * (double)sim->constant.wave_speed;
+    const int s = settle->done;
+    sim->settling = sim->scene->box_count > 0 || s < CREEP_FIRST ? SB_CREEPING
+                    : s < settle->turn                           ? SB_DAMPING
+                                                                 : SB_CALMING;
+    const sb_status status = sb_sim_step(sim, error);
+    if (status != SB_OK) return status;
+    settle->done++;
+    settle->speed = sim->report.max_speed;
+    settle->calm = settle->speed < calm ? settle->calm + 1 : 0;
+    if (sim->settling == SB_DAMPING && judge_trial(sim)) {
+        settle->turn = settle->done;
+        settle->most = settle->done + CALM_LAST;
+        settle->calm = 0;
+    }
+    return SB_OK;
+}
+
+/* Gives the settled water the velocities of the scene. */
+static sb_status finish(sb_sim *sim, sb_error *error)
+{
+    sb_status status = SB_OK;
+    sim->settle.under_way = false;
+    set_scene_velocities(sim);
+    if ((sim->scene->box_count > 0 || sim->scene->wave.kind != SB_INITIAL_NONE) && sim->report.max_speed == 0)
+        status = set_half_step_back(sim, error);
+    sim->report.time_step = 0; /* nothing has moved with these velocities: passes that look back find no motion */
+    return status;
+}
+
+sb_status sb_sim_settle_watched(sb_sim *sim, sb_settle_watch *watch, void *context, sb_error *error)
+{
+    sb_settle *settle = &sim->settle;
+    if (!sb_sim_settles(sim->scene)) return SB_OK;
+    sb_status status = SB_OK;
+    if (!settle->under_way) begin(sim);
+    while (status == SB_OK && !sb_settle_over(settle) && !sb_stop_signal()) {
+        status = one_step(sim, error);
+        const bool between = status == SB_OK && !sb_settle_over(settle);
+        if (watch && between) watch(context, settle->done, settle->most, settle->speed);
+    }
+    sim->settling = SB_RUNNING;
+    if (status == SB_OK && !sb_settle_over(settle))
+        status = sb_stop_fail(error, "while the water came to rest: nothing is computed yet");
+    return status == SB_OK ? finish(sim, error) : status;
+}

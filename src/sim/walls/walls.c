@@ -1,0 +1,250 @@
+/* Boundary particles [A12]. The search table of the static ones is built once; that of the moving ones is rebuilt only
+   while they move. */
+#include "base/hash.h"
+#include "base/memory.h"
+#include "sim/search/sort.h"
+#include "sim/state/state.h"
+#include "sim/step/stages.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- Z-order blocks near walls: one look-up recognises a cell without walls ---- */
+
+enum { NEAR_SHIFT = 6 }; /* 4 x 4 x 4 cells */
+
+static bool near_insert(sb_wall_set *set, uint64_t block)
+{
+    uint64_t at = sb_hash_mix(block) & set->near_mask;
+    for (;; at = (at + 1) & set->near_mask) {
+        if (set->near[at] == block + 1) return false;
+        if (set->near[at] == 0) {
+            set->near[at] = block + 1;
+            return true;
+        }
+    }
+}
+
+bool sb_walls_near(const sb_wall_set *set, const sb_space *space, sb_record record)
+{
+    if (set->count == 0) return false;
+    uint64_t block = sb_space_key(space, record) >> NEAR_SHIFT;
+    for (uint64_t at = sb_hash_mix(block) & set->near_mask;; at = (at + 1) & set->near_mask) {
+        if (set->near[at] == block + 1) return true;
+        if (set->near[at] == 0) return false;
+    }
+}
+
+static uint64_t block_beside(const sb_space *space, sb_record record, int dx, int dy, int dz)
+{
+    uint32_t cell = (uint32_t)1 << space->shift;
+    sb_record beside = record + (sb_record){(uint32_t)dx * cell, (uint32_t)dy * cell, (uint32_t)dz * cell, 0};
+    return sb_space_key(space, beside) >> NEAR_SHIFT;
+}
+
+static int near_build(sb_wall_set *set, const sb_space *space)
+{
+    size_t slots = 64, used = 0;
+    for (;;) {
+        sb_free(set->near);
+        set->near = sb_alloc(slots, sizeof *set->near);
+        set->near_mask = slots - 1;
+        if (!set->near) return -1;
+        used = 0;
+        for (size_t c = 0; c < set->cells.count && 2 * used < slots; c++)
+            for (int d = 0; d < 27 && 2 * used < slots; d++)
+                used += near_insert(
+                    set, block_beside(space, set->record[set->cells.begin[c]], d % 3 - 1, d / 3 % 3 - 1, d / 9 - 1));
+        if (2 * used < slots) return 0;
+        slots *= 4;
+    }
+}
+
+/* ---- tables ---- */
+
+/* Sorts set->record and set->body along the Z-curve and builds the cells. */
+static int table_build(sb_wall_set *set, const sb_space *space)
+{
+    size_t n = set->count;
+    uint64_t *words = sb_alloc_untouched(n, sizeof *words), *other = sb_alloc_untouched(n, sizeof *words);
+    sb_record *record = sb_alloc_untouched(n, sizeof *record);
+    uint32_t *body = sb_alloc_untouched(n, sizeof *body);
+    sb_f4 *normal = sb_alloc_untouched(n, sizeof *normal);
+    int status = -1;
+    if (!words || !other || !record || !body || !normal) goto done;
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < n; i++) words[i] = sb_sort_word(sb_space_key(space, set->record[i]), i);
+    const uint64_t *sorted = sb_sort(words, other, n, SB_INDEX_BITS, SB_INDEX_BITS + space->key_bits);
+    if (!sorted) goto done;
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < n; i++) {
+        size_t from = sb_word_index(sorted[i]);
+        record[i] = set->record[from];
+        body[i] = set->body[from];
+        normal[i] = set->normal[from];
+    }
+    memcpy(set->record, record, n * sizeof *record);
+    memcpy(set->body, body, n * sizeof *body);
+    memcpy(set->normal, normal, n * sizeof *normal);
+    status = sb_cells_build(&set->cells, set->record, n, space->shift);
+done:
+    sb_free(words);
+    sb_free(other);
+    sb_free(record);
+    sb_free(body);
+    sb_free(normal);
+    return status;
+}
+
+/* Whether a boundary particle lies on the grid of cells. One that was clamped to the lower edge does not. */
+static bool on_grid(const sb_space *space, sb_record record)
+{
+    for (int axis = 0; axis < 3; axis++)
+        if (record[axis] == 0 || record[axis] >> space->shift >> space->bits[axis] != 0) return false;
+    return true;
+}
+
+/* Copies the boundary particles of the static or the moving bodies into a set. Boundary particles off the grid are left
+   out: they are more than two cells outside of the domain and meet no water, and keys are unique only on the grid. */
+static int copy_set(sb_sim *sim, bool moving, sb_wall_set *set)
+{
+    const sb_model *model = sim->model;
+    for (size_t b = 0; b < model->body_count; b++)
+        if ((model->bodies[b].wavemaker >= 0) == moving) set->count += model->bodies[b].count;
+    set->record = sb_alloc_untouched(set->count, sizeof *set->record);
+    set->body = sb_alloc_untouched(set->count, sizeof *set->body);
+    set->normal = sb_alloc(set->count, sizeof *set->normal);
+    if (!set->record || !set->body || !set->normal) return -1;
+    size_t at = 0;
+    for (size_t b = 0; b < model->body_count; b++) {
+        const sb_model_body *body = &model->bodies[b];
+        if ((body->wavemaker >= 0) != moving) continue;
+        for (size_t i = body->begin; i < body->begin + body->count; i++) {
+            sb_record record = sb_space_record(&sim->space, model->wall_position[i]);
+            if (!on_grid(&sim->space, record)) continue;
+            set->record[at] = record;
+            if (model->wall_normal) {
+                sb_vec3 normal = model->wall_normal[i];
+                set->normal[at] = (sb_f4){(float)normal.x, (float)normal.y, (float)normal.z, 0};
+            }
+            set->body[at++] = (uint32_t)b;
+        }
+    }
+    set->count = at;
+    return 0;
+}
+
+static sb_status create_paddles(sb_sim *sim, sb_error *error)
+{
+    const sb_model *model = sim->model;
+    sim->moving_of_body = sb_alloc(model->body_count, sizeof *sim->moving_of_body);
+    sim->moving = sb_alloc(model->body_count, sizeof *sim->moving);
+    if (!sim->moving_of_body || !sim->moving) return sb_fail_memory(error, "moving bodies");
+    for (size_t b = 0; b < model->body_count; b++) {
+        sim->moving_of_body[b] = UINT32_MAX;
+        if (model->bodies[b].wavemaker < 0) continue;
+        const sb_wavemaker_use *use = &sim->scene->wavemakers[model->bodies[b].wavemaker];
+        sb_moving_body *moving = &sim->moving[sim->moving_count];
+        moving->direction = use->direction;
+        sb_status status = sb_paddle_create(&use->law, &moving->paddle, error);
+        if (status != SB_OK) return status;
+        sim->moving_of_body[b] = (uint32_t)sim->moving_count++;
+    }
+    return SB_OK;
+}
+
+sb_status sb_walls_create(sb_sim *sim, sb_error *error)
+{
+    sb_status status = create_paddles(sim, error);
+    if (status != SB_OK) return status;
+    if (sim->model->wall_count >= (size_t)1 << SB_INDEX_BITS)
+        return sb_fail(error, SB_BAD_INPUT, "%zu boundary particles: expected fewer than %d", sim->model->wall_count,
+                       1 << SB_INDEX_BITS);
+    for (int s = 0; s < SB_WALL_SETS; s++) {
+        sb_wall_set *set = &sim->walls[s];
+        if (copy_set(sim, s == SB_MOVING, set) != 0 || table_build(set, &sim->space) != 0 ||
+            sb_wall_volumes(sim, set, s == SB_MOVING) != 0)
+            return sb_fail_memory(error, "boundary particles");
+        if (sim->space.repeats && (sb_wall_images(set, &sim->space) != 0 || table_build(set, &sim->space) != 0))
+            return sb_fail_memory(error, "images of boundary particles");
+        if (near_build(set, &sim->space) != 0) return sb_fail_memory(error, "boundary particles");
+    }
+    const sb_wall_set *set = &sim->walls[SB_MOVING];
+    sim->moving_rest_count = set->count;
+    sim->moving_rest = sb_alloc_untouched(set->count, sizeof *sim->moving_rest);
+    sim->moving_rest_body = sb_alloc_untouched(set->count, sizeof *sim->moving_rest_body);
+    sim->moving_rest_normal = sb_alloc_untouched(set->count, sizeof *sim->moving_rest_normal);
+    if (!sim->moving_rest || !sim->moving_rest_body || !sim->moving_rest_normal)
+        return sb_fail_memory(error, "moving boundary particles");
+    for (size_t i = 0; i < set->count; i++) {
+        sim->moving_rest[i] = set->record[i];
+        sim->moving_rest_body[i] = set->body[i];
+        sim->moving_rest_normal[i] = set->normal[i];
+    }
+    return SB_OK;
+}
+
+void sb_walls_destroy(sb_sim *sim)
+{
+    for (int s = 0; s < SB_WALL_SETS; s++) {
+        sb_free(sim->walls[s].record);
+        sb_free(sim->walls[s].body);
+        sb_free(sim->walls[s].normal);
+        sb_free(sim->walls[s].near);
+        sb_cells_free(&sim->walls[s].cells);
+    }
+    for (size_t m = 0; m < sim->moving_count; m++) sb_paddle_destroy(&sim->moving[m].paddle);
+    sb_free(sim->moving);
+    sb_free(sim->moving_of_body);
+    sb_free(sim->moving_rest);
+    sb_free(sim->moving_rest_body);
+    sb_free(sim->moving_rest_normal);
+}
+
+/* ---- moving ---- */
+
+/* Places the moving set at the bodies' present displacements. Boundary particles that have left the grid of cells (a
+   gate pulled out of the domain) meet no water and are left out. */
+static void place(sb_sim *sim)
+{
+    sb_wall_set *set = &sim->walls[SB_MOVING];
+    set->count = 0;
+    for (size_t i = 0; i < sim->moving_rest_count; i++) {
+        const sb_moving_body *moving = &sim->moving[sim->moving_of_body[sim->moving_rest_body[i]]];
+        sb_vec3 shift = sb_scale(moving->direction, moving->displacement / sim->space.quantum);
+        if (!(sb_norm(shift) < SB_POSITION_END)) continue;
+        sb_record step = {(uint32_t)(int32_t)nearbyint(shift.x), (uint32_t)(int32_t)nearbyint(shift.y),
+                          (uint32_t)(int32_t)nearbyint(shift.z), 0};
+        sb_record placed = sim->moving_rest[i] + step;
+        if (!sb_space_inside(&sim->space, placed)) continue;
+        sb_carry(&placed, sb_carried_value(sim->moving_rest[i]));
+        set->record[set->count] = placed;
+        set->normal[set->count] = sim->moving_rest_normal[i];
+        set->body[set->count++] = sim->moving_rest_body[i];
+    }
+}
+
+sb_status sb_stage_walls(sb_sim *sim, sb_error *error)
+{
+    double time = sim->report.time, dt = sim->report.time_step;
+    bool moved = false;
+    for (size_t m = 0; m < sim->moving_count; m++) {
+        sb_moving_body *moving = &sim->moving[m];
+        double here = sim->settling ? 0 : sb_paddle_displacement(&moving->paddle, time);
+        double there = sim->settling ? 0 : sb_paddle_displacement(&moving->paddle, time + dt);
+        moved |= here != moving->displacement;
+        moving->displacement = here;
+        moving->next_displacement = there;
+        moving->velocity = sb_scale(moving->direction, (there - here) / dt);
+    }
+    return moved ? sb_walls_restore(sim, error) : SB_OK;
+}
+
+sb_status sb_walls_restore(sb_sim *sim, sb_error *error)
+{
+    if (sim->moving_count == 0) return SB_OK;
+    place(sim);
+    if (table_build(&sim->walls[SB_MOVING], &sim->space) != 0 || near_build(&sim->walls[SB_MOVING], &sim->space) != 0)
+        return sb_fail_memory(error, "moving boundary particles");
+    return SB_OK;
+}

@@ -1,0 +1,46 @@
+/* Boundary particles [A12]: the static ones, and those of moving bodies. */
+#ifndef SB_SIM_WALLS_H
+#define SB_SIM_WALLS_H
+
+#include "physics/wavemaker.h"
+#include "sim/search/cells.h"
+#include "sim/sim.h"
+#include "sim/state/space.h"
+
+/* Boundary particles that share one search table: all static ones, or all moving ones, images beyond periodic sides
+   included. */
+typedef struct sb_wall_set {
+    size_t count;
+    sb_record *record; /* sorted by cell; last lane: psi_b in kg (kg/m in 2D) */
+    uint32_t *body;    /* model body of each */
+    sb_f4 *normal;     /* unit, towards the water; 0 0 0 if the model has none */
+    sb_cells cells;
+    uint64_t *near; /* hash set of Z-order blocks with walls in or beside them */
+    uint64_t near_mask;
+} sb_wall_set;
+
+enum { SB_STATIC, SB_MOVING, SB_WALL_SETS };
+
+/* A moving body: its law of motion and its present displacement. */
+typedef struct sb_moving_body {
+    sb_paddle paddle;
+    sb_vec3 direction;
+    double displacement, next_displacement; /* m, at t and t + dt */
+    sb_vec3 velocity;                       /* m/s, between them */
+} sb_moving_body;
+
+sb_status sb_walls_create(sb_sim *sim, sb_error *error);
+void sb_walls_destroy(sb_sim *sim);
+/* sim/walls/volumes.c: psi_b = gamma rho_0 / sum_k W_bk over the boundary particles k of `set` within h, b included
+   [A12, eq. 4; S16, eq. 30]. only_own: only over those of the same body. The set must not have images yet. Returns 0,
+   or -1 without memory. */
+int sb_wall_volumes(const sb_sim *sim, sb_wall_set *set, bool only_own);
+/* Adds the images beyond periodic sides, with the volume, body and normal of their originals. Returns 0, or -1 without
+   memory. */
+int sb_wall_images(sb_wall_set *set, const sb_space *space);
+/* Rebuilds the table of the moving bodies after their displacements have been set. */
+sb_status sb_walls_restore(sb_sim *sim, sb_error *error);
+/* Whether a cell may have boundary particles of the set within the support radius. */
+bool sb_walls_near(const sb_wall_set *set, const sb_space *space, sb_record record);
+
+#endif
