@@ -308,7 +308,7 @@ sb_status tank_load(sb_sim *sim, const sb_archive_out *out, sb_error *error)
 int tank_prepare(sb_sim *sim, double dt)
 {
     sb_error error = {0};
-    sim->report.time_step = dt;
+    sim->state.time_step = dt;
     if (sb_stage_walls(sim, &error) == SB_OK && sb_stage_sort(sim, &error) == SB_OK &&
         sb_stage_ghosts(sim, &error) == SB_OK && sb_stage_neighbours(sim, &error) == SB_OK)
         return 0;

@@ -5,7 +5,7 @@
 #include "base/archive.h"
 #include "geometry/model/model.h"
 #include "scene/scene.h"
-#include "sim/state/state.h"
+#include "sim/simulation.h"
 
 typedef struct tank {
     sb_scene scene;

@@ -23,7 +23,7 @@ static size_t moved_from_rest(const sb_sim *sim, double *most)
 {
     size_t count = 0;
     *most = 0;
-    for (size_t i = 0; i < sim->n; i++) {
+    for (size_t i = 0; i < sim->state.n; i++) {
         sb_f4 v = {0};
         sb_contact_push pushes[SB_CONTACT_PUSHES_MAX];
         if (sb_contact_resolve(sim, i, &v, pushes) == 0) continue;
@@ -41,10 +41,10 @@ static void only_settling_moves_out_water_at_rest(void **state)
         sb_sim *sim = crowded(&t, dimensions);
         double most;
         const size_t beside = 2 * 8 * (dimensions == 3 ? 8 : 1);
-        assert_int_equal(sim->settling, SB_RUNNING);
+        assert_ptr_equal(sim->policy, &sb_policy_run);
         const size_t running = moved_from_rest(sim, &most);
         assert_true(most < 1e-9);
-        sim->settling = SB_CREEPING;
+        sim->policy = &sb_policy_creep;
         const size_t settling = moved_from_rest(sim, &most);
         printf("%dD: %zu stopped in a run, %zu moved out in settling, %.3g m/s at most\n", dimensions, running,
                settling, most);
@@ -62,7 +62,7 @@ static void approaching_particles_are_stopped_without_energy_gain(void **state)
     sb_sim *sim = crowded(&t, 3);
     size_t stopped = 0;
     double all_before = 0, all_after = 0;
-    for (size_t i = 0; i < sim->n; i++) {
+    for (size_t i = 0; i < sim->state.n; i++) {
         const sb_f4 start = {(float)(6 * sb_random(5, 3 * i) - 3), (float)(6 * sb_random(5, 3 * i + 1) - 3),
                              (float)(6 * sb_random(5, 3 * i + 2) - 3), 0};
         sb_f4 v = start, sum = start;

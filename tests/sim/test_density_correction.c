@@ -33,11 +33,11 @@ static void lattice_is_at_rest_density(void **state)
         sb_error error = {0};
         float least = INFINITY;
         assert_int_equal(tank_prepare(sim, 1e-3), 0);
-        for (size_t i = 0; i < sim->n; i++) least = fminf(least, sim->density[i]);
+        for (size_t i = 0; i < sim->state.n; i++) least = fminf(least, sim->work.density[i]);
         assert_true(least < 0.8f * sim->constant.rest_density); /* the sums at the surface */
         assert_int_equal(sb_stage_density_correction(sim, &error), SB_OK);
-        for (size_t i = 0; i < sim->n; i++)
-            assert_true(fabsf(sim->density[i] / sim->constant.rest_density - 1) < 1e-6f);
+        for (size_t i = 0; i < sim->state.n; i++)
+            assert_true(fabsf(sim->work.density[i] / sim->constant.rest_density - 1) < 1e-6f);
         sb_sim_destroy(sim);
         tank_free(&t);
     }
@@ -50,13 +50,13 @@ static void it_is_determined_once(void **state)
     tank t;
     sb_sim *sim = water_in(&t, 2, SB_DENSITY_COMPLETED, 0);
     assert_int_equal(tank_steps(sim, 1), 0);
-    for (size_t i = 0; i < sim->n; i++)
-        sim->position[i][2] += (uint32_t)(0.01 / sim->space.quantum); /* off the floor, otherwise unchanged */
+    for (size_t i = 0; i < sim->state.n; i++)
+        sim->state.position[i][2] += (uint32_t)(0.01 / sim->space.quantum); /* off the floor, otherwise unchanged */
     sb_error error = {0};
     assert_int_equal(tank_prepare(sim, 1e-3), 0);
     assert_int_equal(sb_stage_density_correction(sim, &error), SB_OK);
     float least = INFINITY;
-    for (size_t i = 0; i < sim->n; i++) least = fminf(least, sim->density[i]);
+    for (size_t i = 0; i < sim->state.n; i++) least = fminf(least, sim->work.density[i]);
     assert_true(least < 0.97f * sim->constant.rest_density);
     sb_sim_destroy(sim);
     tank_free(&t);
@@ -65,8 +65,8 @@ static void it_is_determined_once(void **state)
 /* The correction of the particle with that id. */
 static float *correction_of(sb_sim *sim, uint32_t id)
 {
-    for (size_t i = 0; i < sim->n; i++)
-        if (sim->id[i] == id) return &sim->density_correction[i];
+    for (size_t i = 0; i < sim->state.n; i++)
+        if (sim->state.id[i] == id) return &sim->state.density_correction[i];
     fail_msg("no particle %u", id);
     return NULL;
 }
@@ -80,13 +80,13 @@ static void it_returns_to_the_bulk_value(void **state)
     sb_sim *sim = water_in(&t, 2, SB_DENSITY_COMPLETED, 0);
     assert_int_equal(tank_steps(sim, 1), 0);
     uint32_t bulk[2] = {UINT32_MAX, UINT32_MAX}, surface = UINT32_MAX;
-    for (size_t i = 0; i < sim->n; i++) {
-        const sb_vec3 at = sb_space_position(&sim->space, sim->position[i]);
-        if (fabs(at.x - 0.325) < 0.02 && fabs(at.z - 0.325) < 0.02) bulk[0] = sim->id[i];
-        if (fabs(at.x - 0.675) < 0.02 && fabs(at.z - 0.325) < 0.02) bulk[1] = sim->id[i];
-        if (fabs(at.x - 0.525) < 0.02 && fabs(at.z - DEPTH) < 0.04) surface = sim->id[i];
+    for (size_t i = 0; i < sim->state.n; i++) {
+        const sb_vec3 at = sb_space_position(&sim->space, sim->state.position[i]);
+        if (fabs(at.x - 0.325) < 0.02 && fabs(at.z - 0.325) < 0.02) bulk[0] = sim->state.id[i];
+        if (fabs(at.x - 0.675) < 0.02 && fabs(at.z - 0.325) < 0.02) bulk[1] = sim->state.id[i];
+        if (fabs(at.x - 0.525) < 0.02 && fabs(at.z - DEPTH) < 0.04) surface = sim->state.id[i];
     }
-    assert_true(bulk[0] < sim->n && bulk[1] < sim->n && surface < sim->n);
+    assert_true(bulk[0] < sim->state.n && bulk[1] < sim->state.n && surface < sim->state.n);
     const float rest = sim->constant.rest_density, kept = *correction_of(sim, surface);
     assert_true(kept > 0.2f * rest);
     *correction_of(sim, bulk[0]) = 0.2f * rest;
@@ -130,7 +130,7 @@ static void it_costs_nothing_when_off(void **state)
         tank t;
         sb_sim *sim = water_in(&t, 2, on ? SB_DENSITY_COMPLETED : SB_DENSITY_SUMMED, 0);
         assert_int_equal(tank_steps(sim, 1), 0);
-        assert_true((sim->density_correction != NULL) == on && tank_has_stage(sim, "density_correction") == on);
+        assert_true((sim->state.density_correction != NULL) == on && tank_has_stage(sim, "density_correction") == on);
         assert_true(tank_skips(sim, "density correction") == !on);
         sb_sim_destroy(sim);
         tank_free(&t);

@@ -37,10 +37,10 @@ static void begin(setup *s, int dimensions, double alpha, double sigma, double n
     s->sim = tank_sim(&s->tank);
     assert_non_null(s->sim);
     assert_int_equal(tank_prepare(s->sim, 1), 0);
-    assert_true(s->sim->moving[0].velocity.x > 0.3);
+    assert_true(s->sim->walls.moving[0].velocity.x > 0.3);
     assert_int_equal(twin_make(s->sim, &s->twin), 0);
-    s->expected = sb_alloc(s->sim->n, sizeof *s->expected);
-    s->rho = sb_alloc(s->sim->n, sizeof *s->rho);
+    s->expected = sb_alloc(s->sim->state.n, sizeof *s->expected);
+    s->rho = sb_alloc(s->sim->state.n, sizeof *s->rho);
     assert_true(s->expected && s->rho);
     sb_reference_density(&s->twin.reference, s->rho);
 }
@@ -65,13 +65,13 @@ static void check(int dimensions, double alpha, double sigma, double nu)
     sb_error error = {0};
     assert_int_equal(sb_stage_forces(s.sim, &error), SB_OK);
     twin_gap gap = {0};
-    for (size_t i = 0; i < sim->n; i++) {
-        sb_f4 v = sim->velocity[i];
+    for (size_t i = 0; i < sim->state.n; i++) {
+        sb_f4 v = sim->work.predicted[i];
         sb_vec3 start = s.twin.velocity[i], a = s.expected[i];
         twin_compare(&gap, i, (double)v[0] - start.x, a.x);
         twin_compare(&gap, i, (double)v[1] - start.y, a.y);
         twin_compare(&gap, i, (double)v[2] - start.z, a.z - 9.81);
-        assert_true(v[3] == (float)s.tank.model.fluid_pressure[sim->id[i]]);
+        assert_true(v[3] == (float)s.tank.model.fluid_pressure[sim->state.id[i]]);
     }
     printf("%dD alpha %g, sigma %g, nu %g: worst %.2g of the largest, %.3g m/s^2\n", dimensions, alpha, sigma, nu,
            twin_relative(&gap), gap.scale);
@@ -99,12 +99,12 @@ static void forces_on_bodies_are_the_reference(void **state)
     begin(&s, 3, 0.5, 2, 0);
     sb_sim *sim = s.sim;
     sb_error error = {0};
-    double *q = sb_alloc(sim->n, sizeof *q);
+    double *q = sb_alloc(sim->state.n, sizeof *q);
     assert_non_null(q);
     assert_int_equal(sb_stage_forces(sim, &error), SB_OK);
-    for (size_t i = 0; i < sim->n; i++) {
-        sim->unknown[i] = (float)(0.01 * sb_random(8, i));
-        q[i] = (double)sim->unknown[i];
+    for (size_t i = 0; i < sim->state.n; i++) {
+        sim->work.unknown[i] = (float)(0.01 * sb_random(8, i));
+        q[i] = (double)sim->work.unknown[i];
     }
     assert_int_equal(sb_stage_impulse(sim, &error), SB_OK);
     sb_vec3 center[2] = {0}, force[2] = {0}, torque[2] = {0}, drag[2] = {0};
@@ -147,10 +147,11 @@ static void shear_decays_as_documented(void **state)
         assert_int_equal(sb_stage_forces(sim, &error), SB_OK);
         sb_vec3 half = sb_vec(0.55, dimensions == 2 ? 0 : 0.55, 0.55);
         size_t count = 0;
-        for (size_t i = 0; i < sim->n; i++) {
+        for (size_t i = 0; i < sim->state.n; i++) {
             sb_fluid_sample p = sb_sim_particle(sim, i);
             if (sb_norm(sb_sub(p.position, half)) > 0.12) continue;
-            double z = p.position.z, decay = (p.velocity.x - 100 * z * z) / (200 * nu);
+            double z = p.position.z, after = (double)sim->work.predicted[i][0];
+            double decay = (after - 100 * z * z) / (200 * nu);
             assert_near(decay, share, 0.01);
             count++;
         }

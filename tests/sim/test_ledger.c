@@ -113,7 +113,7 @@ static void what_leaves_is_accounted_for(void **state)
     double left = 0, mass = (double)sim->constant.mass;
     for (int s = 0; s < 200; s++) {
         /* The next step removes the particles that are outside now. */
-        for (size_t i = 0; i < sim->n; i++) {
+        for (size_t i = 0; i < sim->state.n; i++) {
             sb_fluid_sample p = sb_sim_particle(sim, i);
             if (p.position.x > 1.6) left += mass * (sb_dot(p.velocity, p.velocity) / 2 + 9.81 * p.position.z);
         }
@@ -134,40 +134,37 @@ typedef struct works {
 static double work(const sb_sim *sim, const twin *before, const sb_vec3 *acceleration)
 {
     double all = 0;
-    for (size_t i = 0; i < sim->n; i++) {
-        sb_vec3 end = wide(sim->velocity[i]);
+    for (size_t i = 0; i < sim->state.n; i++) {
+        sb_vec3 end = wide(sim->state.velocity[i]);
         all += 0.5 * sb_dot(acceleration[i], sb_add(before->velocity[i], end));
     }
-    return all * (double)sim->constant.mass * sim->report.time_step;
+    return all * (double)sim->constant.mass * sim->state.time_step;
 }
 
-static works by_reference(const sb_sim *sim, const twin *before)
+/* eddy: the step's eddy viscosities. */
+static works by_reference(const sb_sim *sim, const twin *before, const double *eddy)
 {
     const sb_reference *r = &before->reference;
-    const size_t n = sim->n;
-    double *rho = sb_alloc(n, sizeof *rho), *eddy = sb_alloc(n, sizeof *eddy);
-    double *q = sb_alloc(n, sizeof *q);
+    const size_t n = sim->state.n;
+    double *rho = sb_alloc(n, sizeof *rho), *q = sb_alloc(n, sizeof *q);
     sb_vec3 *viscous = sb_alloc(n, sizeof *viscous), *friction = sb_alloc(n, sizeof *friction);
     sb_vec3 *push = sb_alloc(n, sizeof *push);
-    assert_true(rho && eddy && q && viscous && friction && push);
+    assert_true(rho && q && viscous && friction && push);
     sb_reference_density(r, rho);
-    for (size_t i = 0; i < n; i++) {
-        eddy[i] = (double)sim->eddy[i];
-        q[i] = (double)sim->unknown[i];
-    }
+    for (size_t i = 0; i < n; i++) q[i] = (double)sim->work.unknown[i];
     sb_reference_viscosity(r, rho, viscous);
     sb_reference_unswitched(r, rho, sim->scene->fluid.viscosity, eddy, viscous);
     sb_vec3 center[2] = {{0}}, drag[2] = {{0}}, force[2] = {{0}}, torque[2] = {{0}};
     sb_reference_friction(r, rho, friction, center, drag, torque);
     sb_reference_pressure_acceleration(r, q, push);
     sb_reference_pressure_forces(r, q, center, force, torque);
-    const double dt = sim->report.time_step;
-    const sb_vec3 paddle = sim->moving[0].velocity;
+    const double dt = sim->state.time_step;
+    const sb_vec3 paddle = sim->walls.moving[0].velocity;
     const double given = dt * sb_dot(drag[1], paddle), pushed = dt * sb_dot(force[1], paddle);
     double pressure_by_error = 0;
     for (size_t i = 0; i < n; i++) {
-        double change = sb_dot(push[i], sb_sub(wide(sim->velocity[i]), before->velocity[i]));
-        double excess = sim->scene->numerics.source_relaxation * (1000 - rho[i]) + (double)sim->residual[i];
+        double change = sb_dot(push[i], sb_sub(wide(sim->state.velocity[i]), before->velocity[i]));
+        double excess = sim->scene->numerics.source_relaxation * (1000 - rho[i]) + (double)sim->work.residual[i];
         pressure_by_error -= (double)sim->constant.mass * (q[i] * excess + 0.5 * dt * change);
     }
     works w = {.pressure_by_error = pressure_by_error,
@@ -176,7 +173,6 @@ static works by_reference(const sb_sim *sim, const twin *before)
                .pressure = work(sim, before, push) + pushed,
                .bodies = -given - pushed};
     sb_free(rho);
-    sb_free(eddy);
     sb_free(q);
     sb_free(viscous);
     sb_free(friction);
@@ -188,9 +184,8 @@ static void entries_are_the_works_of_their_terms(void **state)
 {
     (void)state;
     const sb_wavemaker_parameters law = stroke_law();
-    sb_status (*const stages[])(sb_sim *, sb_error *) = {sb_stage_turbulence, sb_stage_forces,     sb_stage_source,
-                                                         sb_stage_pressure,   sb_stage_accelerate, sb_stage_impulse,
-                                                         sb_stage_move};
+    sb_status (*const stages[])(sb_sim *, sb_error *) = {sb_stage_forces,     sb_stage_source,  sb_stage_pressure,
+                                                         sb_stage_accelerate, sb_stage_impulse, sb_stage_move};
     tank t;
     twin before;
     tank_make(&t, 3, 0.1, sb_vec(1.5, 0.6, 1.2), 1, 0.9, 0.1);
@@ -202,14 +197,19 @@ static void entries_are_the_works_of_their_terms(void **state)
     sb_sim *sim = tank_sim(&t);
     assert_non_null(sim);
     assert_int_equal(tank_steps(sim, 25), 0);
-    assert_int_equal(tank_prepare(sim, sim->report.time_step), 0);
-    assert_true(sim->moving[0].velocity.x > 0.3);
+    assert_int_equal(tank_prepare(sim, sim->state.time_step), 0);
+    assert_true(sim->walls.moving[0].velocity.x > 0.3);
     assert_int_equal(twin_make(sim, &before), 0);
     sb_ledger l = *sb_sim_ledger(sim);
     sb_error error = {0};
+    double *eddy = sb_alloc(sim->state.n, sizeof *eddy);
+    assert_non_null(eddy);
+    assert_int_equal(sb_stage_turbulence(sim, &error), SB_OK);
+    for (size_t i = 0; i < sim->state.n; i++) eddy[i] = (double)sim->work.eddy[i];
     for (size_t s = 0; s < sizeof stages / sizeof *stages; s++) assert_int_equal(stages[s](sim, &error), SB_OK);
     const sb_ledger *now = sb_sim_ledger(sim);
-    works w = by_reference(sim, &before);
+    works w = by_reference(sim, &before, eddy);
+    sb_free(eddy);
     const double entered[] = {now->viscosity - l.viscosity, now->friction - l.friction, now->pressure - l.pressure,
                               now->bodies - l.bodies};
     const double expected[] = {w.viscosity, w.friction, w.pressure, w.bodies};
@@ -250,10 +250,10 @@ static void a_falling_drop_has_its_known_entries(void **state)
     while (l->contact == 0 && falling++ < 400) {
         assert_int_equal(tank_steps(sim, 1), 0);
         if (l->contact != 0) break;
-        double v = sb_norm(sb_sim_particle(sim, 0).velocity), dt = sim->report.time_step;
+        double v = sb_norm(sb_sim_particle(sim, 0).velocity), dt = sim->state.time_step;
         /* Each step rounds the displacement to a quantum and the velocity to a float. */
         double rounding = 9.81 * sim->space.quantum / 2 + v * v * (double)FLT_EPSILON / 2;
-        if (sim->diagonal[0] > 0)
+        if (sim->work.diagonal[0] > 0)
             expected -= 9.81 * dt * (v - speed) / 2;
         else
             free++;
@@ -293,20 +293,20 @@ static void a_swept_drop_has_the_paddles_work(void **state)
     double mass = (double)sim->constant.mass, given = 0, contact = 0, pressure = 0;
     sb_error error = {0};
     for (int step = 0; step < 30; step++) {
-        sb_vec3 before = wide(sim->velocity[0]);
+        sb_vec3 before = wide(sim->state.velocity[0]);
         for (size_t s = 0; s < sizeof stages / sizeof *stages; s++) assert_int_equal(stages[s](sim, &error), SB_OK);
-        sb_vec3 pushed = wide(sim->acceleration[0]), paddle = sim->moving[0].velocity;
+        sb_vec3 pushed = wide(sim->work.end_velocity[0]), paddle = sim->walls.moving[0].velocity;
         assert_int_equal(sb_stage_impulse(sim, &error), SB_OK);
         assert_int_equal(sb_stage_move(sim, &error), SB_OK);
-        sb_vec3 after = wide(sim->velocity[0]);
+        sb_vec3 after = wide(sim->state.velocity[0]);
         sb_vec3 slip = sb_sub(sb_scale(sb_add(before, after), 0.5), paddle);
         given += mass * sb_dot(sb_sub(after, before), paddle);
         pressure += mass * sb_dot(sb_sub(pushed, before), slip);
         contact += mass * sb_dot(sb_sub(after, pushed), slip);
     }
     printf("a drop of 1 kg accelerated to %.3g m/s: paddle %.4g J, contact %.4g, pressure %.4g\n",
-           (double)sim->velocity[0][0], l->bodies, l->contact, l->pressure);
-    assert_true(sim->velocity[0][0] > 0.9f && contact < -0.01 && pressure < -0.01);
+           (double)sim->state.velocity[0][0], l->bodies, l->contact, l->pressure);
+    assert_true(sim->state.velocity[0][0] > 0.9f && contact < -0.01 && pressure < -0.01);
     assert_near(l->bodies, given, 1e-6 * given);
     assert_near(l->contact, contact, -1e-6 * contact);
     assert_near(l->pressure, pressure, -1e-6 * pressure);

@@ -21,7 +21,7 @@ static account take(const sb_sim *sim, record *r, double *pushed)
     account a = {0};
     double m = (double)sim->constant.mass;
     *pushed = 0;
-    for (size_t i = 0; i < sim->n; i++) {
+    for (size_t i = 0; i < sim->state.n; i++) {
         sb_fluid_sample s = sb_sim_particle(sim, i);
         a.momentum = sb_madd(a.momentum, m, s.velocity);
         a.spin = sb_madd(a.spin, m, sb_cross(s.position, s.velocity));
@@ -60,7 +60,7 @@ static balance follow(const tank *t, int steps, double arm)
 {
     sb_sim *sim = tank_sim(t);
     assert_non_null(sim);
-    record r = {sb_alloc(sim->n, sizeof(sb_vec3)), sim->n};
+    record r = {sb_alloc(sim->state.n, sizeof(sb_vec3)), sim->state.n};
     assert_non_null(r.velocity);
     balance worst = {0};
     double pushed;
@@ -68,7 +68,7 @@ static balance follow(const tank *t, int steps, double arm)
     impulses given = sum_impulses(sim);
     for (int s = 0; s < steps; s++) {
         assert_int_equal(tank_steps(sim, 1), 0);
-        double dt = sim->report.time_step, g = t->scene.fluid.gravity;
+        double dt = sim->state.time_step, g = t->scene.fluid.gravity;
         account after = take(sim, &r, &pushed);
         impulses now = sum_impulses(sim);
         sb_vec3 weight = sb_vec(0, 0, -g * dt * after.mass);
@@ -83,7 +83,7 @@ static balance follow(const tank *t, int steps, double arm)
         given = now;
     }
     worst.friction = sb_norm(given.friction);
-    assert_int_equal(sim->n, t->model.fluid_count);
+    assert_int_equal(sim->state.n, t->model.fluid_count);
     assert_int_equal(sb_sim_report(sim)->lost + sb_sim_report(sim)->left_domain, 0);
     assert_true(sb_sim_report(sim)->max_speed > 0.5);
     sb_free(r.velocity);

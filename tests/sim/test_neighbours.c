@@ -36,10 +36,10 @@ static void begin(setup *s, int dimensions, const char *kernel)
     tank_add_plate(&s->tank, "paddle", 0.2, 0, 1, sb_vec(1, 0, 0), paddle_law());
     s->sim = tank_sim(&s->tank);
     assert_non_null(s->sim);
-    s->sim->report.time = 0.4;
+    s->sim->state.time = 0.4;
     assert_int_equal(tank_prepare(s->sim, 0.01), 0);
-    assert_true(s->sim->moving[0].displacement > 0.1);
-    assert_true(s->sim->moving[0].velocity.x > 0.5);
+    assert_true(s->sim->walls.moving[0].displacement > 0.1);
+    assert_true(s->sim->walls.moving[0].velocity.x > 0.5);
     assert_int_equal(twin_make(s->sim, &s->twin), 0);
 }
 
@@ -90,7 +90,7 @@ static size_t check_list(const setup *s, size_t i, bool walls)
 
 static void check_lists(const setup *s)
 {
-    size_t pairs = 0, walls = 0, edge = 0, n = s->sim->n;
+    size_t pairs = 0, walls = 0, edge = 0, n = s->sim->state.n;
     for (size_t i = 0; i < n; i++) {
         edge += check_list(s, i, false) + check_list(s, i, true);
     }
@@ -108,7 +108,7 @@ static void check_slopes(const setup *s)
     const sb_sim *sim = s->sim;
     twin_gap wall = {0};
     double worst = 0, unit = (double)sim->pairs.unit;
-    for (size_t i = 0; i < sim->n; i++)
+    for (size_t i = 0; i < sim->state.n; i++)
         for (int walls = 0; walls < 2; walls++)
             for (size_t k = 0; k < twin_listed(sim, i, walls); k++) {
                 const twin_entry entry = twin_list(sim, i, walls, k);
@@ -133,13 +133,13 @@ static void check_sums(const setup *s)
 {
     const sb_reference *r = &s->twin.reference;
     const sb_sim *sim = s->sim;
-    size_t n = sim->n;
+    size_t n = sim->state.n;
     double *rho = sb_alloc(n, sizeof *rho), *diagonal = sb_alloc(n, sizeof *diagonal);
     assert_true(rho && diagonal);
     sb_reference_density(r, rho);
     sb_reference_diagonal(r, diagonal);
     twin_gap density = {0}, vector = {0}, flux = {0};
-    double dt2 = sim->report.time_step * sim->report.time_step, worst = 0;
+    double dt2 = sim->state.time_step * sim->state.time_step, worst = 0;
     for (size_t i = 0; i < n; i++) {
         sb_vec3 b = {0, 0, 0};
         double flow = 0;
@@ -148,19 +148,19 @@ static void check_sums(const setup *s)
             b = sb_madd(b, s->twin.psi[pair->other], pair->gradient);
             flow += s->twin.psi[pair->other] * sb_dot(s->twin.wall_velocity[pair->other], pair->gradient);
         }
-        twin_compare(&density, i, (double)sim->density[i], rho[i]);
-        twin_compare(&vector, i, (double)sim->wall[i][0], b.x);
-        twin_compare(&vector, i, (double)sim->wall[i][1], b.y);
-        twin_compare(&vector, i, (double)sim->wall[i][2], b.z);
-        twin_compare(&flux, i, (double)sim->wall[i][3], flow);
+        twin_compare(&density, i, (double)sim->work.density[i], rho[i]);
+        twin_compare(&vector, i, (double)sim->work.wall[i][0], b.x);
+        twin_compare(&vector, i, (double)sim->work.wall[i][1], b.y);
+        twin_compare(&vector, i, (double)sim->work.wall[i][2], b.z);
+        twin_compare(&flux, i, (double)sim->work.wall[i][3], flow);
         double expected = -diagonal[i] / dt2;
-        assert_true(sim->diagonal[i] > 0 || expected < 1.001e-6 * (double)sim->constant.full_diagonal);
-        if (sim->diagonal[i] > 0) worst = fmax(worst, fabs((double)sim->diagonal[i] / expected - 1));
+        assert_true(sim->work.diagonal[i] > 0 || expected < 1.001e-6 * (double)sim->constant.full_diagonal);
+        if (sim->work.diagonal[i] > 0) worst = fmax(worst, fabs((double)sim->work.diagonal[i] / expected - 1));
     }
     printf("density: worst %.2g, B: %.2g, wall flux: %.2g, diagonal: %.2g of each\n", twin_relative(&density),
            twin_relative(&vector), twin_relative(&flux), worst);
     assert_true(density.scale > 500 && vector.scale > 0);
-    assert_true(flux.scale > 0 || sim->moving_count == 0);
+    assert_true(flux.scale > 0 || sim->walls.moving_count == 0);
     assert_true(twin_relative(&density) < 1e-6);
     assert_true(twin_relative(&vector) < 1e-6);
     assert_true(twin_relative(&flux) < 1e-6);
@@ -222,7 +222,7 @@ static void lists_do_not_depend_on_the_pool(void **state)
     (void)state;
     setup s;
     begin(&s, 3, "cubic");
-    size_t n = s.sim->n, used = s.sim->pairs.used;
+    size_t n = s.sim->state.n, used = s.sim->pairs.used;
     size_t *count = sb_alloc(n, sizeof *count);
     assert_non_null(count);
     for (size_t i = 0; i < n; i++) count[i] = s.sim->pairs.count[i];
@@ -257,7 +257,7 @@ static size_t check_against_model(const setup *s)
     size_t pairs = 0, beside = 0;
     for (size_t b = 0; b < m->wall_count; b++) {
         sb_vec3 x = m->wall_position[b];
-        for (size_t i = 0; i < s->sim->n; i++) pairs += sb_norm(sb_sub(t->position[i], x)) < h;
+        for (size_t i = 0; i < s->sim->state.n; i++) pairs += sb_norm(sb_sub(t->position[i], x)) < h;
         sb_vec3 inside = sb_max(m->min, sb_min(m->max, x));
         if (sb_norm(sb_sub(x, inside)) >= h) continue;
         beside++;
@@ -292,13 +292,13 @@ static void walls_beyond_the_domain_hide_nothing(void **state)
     s.sim = tank_sim(&s.tank);
     assert_non_null(s.sim);
     assert_int_equal(tank_prepare(s.sim, 0.01), 0);
-    const sb_cells *cells = &s.sim->walls[SB_STATIC].cells;
+    const sb_cells *cells = &s.sim->walls.set[SB_STATIC].cells;
     for (size_t c = 0; c < cells->count; c++)
         for (size_t d = 0; d < c; d++) assert_true(cells->code[c] != cells->code[d]);
     assert_int_equal(twin_make(s.sim, &s.twin), 0);
     check_lists(&s);
     check_sums(&s);
-    assert_int_equal(check_against_model(&s), s.twin.reference.wall_start[s.sim->n]);
+    assert_int_equal(check_against_model(&s), s.twin.reference.wall_start[s.sim->state.n]);
     end(&s);
 }
 
@@ -323,9 +323,9 @@ static void collapse_and_missing_memory_are_distinguished(void **state)
     end(&s);
     /* All water at one position: more particles than lists can hold. */
     begin(&s, 3, "cubic");
-    assert_true(s.sim->n > 1024);
-    for (size_t i = 0; i < s.sim->n; i++) s.sim->position[i] = s.sim->position[0];
-    s.sim->report.time_step = 0.01;
+    assert_true(s.sim->state.n > 1024);
+    for (size_t i = 0; i < s.sim->state.n; i++) s.sim->state.position[i] = s.sim->state.position[0];
+    s.sim->state.time_step = 0.01;
     assert_int_equal(sb_stage_sort(s.sim, &error), SB_OK);
     assert_int_equal(sb_stage_neighbours(s.sim, &error), SB_FAILED);
     assert_non_null(strstr(error.text, "collapsed"));

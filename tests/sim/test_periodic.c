@@ -21,7 +21,7 @@ typedef struct setup {
 
 static void allocate(setup *s)
 {
-    s->n = s->sim->n;
+    s->n = s->sim->state.n;
     double **fields[] = {&s->rho, &s->x, &s->product, &s->source};
     for (size_t f = 0; f < sizeof fields / sizeof *fields; f++) {
         *fields[f] = sb_alloc(s->n, sizeof(double));
@@ -48,9 +48,9 @@ static void begin(setup *s, int dimensions, bool x, bool y, sb_vec3 size)
     s->tank.scene.numerics.wall_friction = 1;
     s->sim = tank_sim(&s->tank);
     assert_non_null(s->sim);
-    s->sim->report.time = 0.4;
+    s->sim->state.time = 0.4;
     assert_int_equal(tank_prepare(s->sim, 1), 0);
-    assert_int_equal(s->sim->n, s->tank.model.fluid_count);
+    assert_int_equal(s->sim->state.n, s->tank.model.fluid_count);
     assert_int_equal(twin_make(s->sim, &s->twin), 0);
     assert_int_equal(s->twin.reference.cloud.wall_count, s->tank.model.wall_count);
     allocate(s);
@@ -71,7 +71,7 @@ static void end(setup *s)
 static size_t pairs_listed(const sb_sim *sim, bool walls)
 {
     size_t count = 0;
-    for (size_t i = 0; i < sim->n; i++)
+    for (size_t i = 0; i < sim->state.n; i++)
         for (size_t k = 0; k < twin_listed(sim, i, walls); k++) count += !twin_list(sim, i, walls, k).padding;
     return count;
 }
@@ -93,12 +93,13 @@ static void check_sums(setup *s)
             b = sb_madd(b, s->twin.psi[pair->other], pair->gradient);
             flow += s->twin.psi[pair->other] * sb_dot(s->twin.wall_velocity[pair->other], pair->gradient);
         }
-        twin_compare(&density, i, (double)sim->density[i], s->rho[i]);
-        twin_compare(&vector, i, (double)sim->wall[i][0], b.x);
-        twin_compare(&vector, i, (double)sim->wall[i][1], b.y);
-        twin_compare(&vector, i, (double)sim->wall[i][2], b.z);
-        twin_compare(&flux, i, (double)sim->wall[i][3], flow);
-        if (sim->diagonal[i] > 0) diagonal = fmax(diagonal, fabs((double)sim->diagonal[i] / -s->product[i] - 1));
+        twin_compare(&density, i, (double)sim->work.density[i], s->rho[i]);
+        twin_compare(&vector, i, (double)sim->work.wall[i][0], b.x);
+        twin_compare(&vector, i, (double)sim->work.wall[i][1], b.y);
+        twin_compare(&vector, i, (double)sim->work.wall[i][2], b.z);
+        twin_compare(&flux, i, (double)sim->work.wall[i][3], flow);
+        if (sim->work.diagonal[i] > 0)
+            diagonal = fmax(diagonal, fabs((double)sim->work.diagonal[i] / -s->product[i] - 1));
     }
     printf("%zu particles, %zu ghosts, %zu pairs, %zu with walls; density %.2g, B %.2g, flux %.2g, "
            "diagonal %.2g\n",
@@ -108,7 +109,7 @@ static void check_sums(setup *s)
     assert_near((double)pairs, (double)r->fluid_start[s->n], 4);
     assert_near((double)walls, (double)r->wall_start[s->n], 4);
     assert_true(sim->ghosts.count > 0 && pairs > 5 * s->n && walls > 0);
-    assert_true(flux.scale > 0 || sim->moving_count == 0);
+    assert_true(flux.scale > 0 || sim->walls.moving_count == 0);
     assert_true(twin_relative(&density) < 1e-6 && twin_relative(&vector) < 1e-6);
     assert_true(twin_relative(&flux) < 1e-6 && diagonal < 1e-5);
 }
@@ -145,15 +146,15 @@ static void check_forces(setup *s)
     for (size_t i = 0; i < s->n; i++) {
         sb_vec3 v = s->twin.velocity[i], a = s->acceleration[i];
         sb_vec3 expected = sb_add(v, sb_add(a, sb_vec(0, 0, -9.81)));
-        twin_compare(&push, i, (double)sim->velocity[i][0] - v.x, a.x);
-        twin_compare(&push, i, (double)sim->velocity[i][1] - v.y, a.y);
-        twin_compare(&push, i, (double)sim->velocity[i][2] - v.z, a.z - 9.81);
+        twin_compare(&push, i, (double)sim->work.predicted[i][0] - v.x, a.x);
+        twin_compare(&push, i, (double)sim->work.predicted[i][1] - v.y, a.y);
+        twin_compare(&push, i, (double)sim->work.predicted[i][2] - v.z, a.z - 9.81);
         s->twin.velocity[i] = expected;
     }
     assert_int_equal(sb_stage_source(sim, &error), SB_OK);
     sb_reference_source(&s->twin.reference, s->rho, s->twin.velocity, sim->scene->numerics.source_relaxation,
                         s->source);
-    for (size_t i = 0; i < s->n; i++) twin_compare(&source, i, (double)sim->source[i], s->source[i]);
+    for (size_t i = 0; i < s->n; i++) twin_compare(&source, i, (double)sim->work.source[i], s->source[i]);
     printf("  forces %.2g, source %.2g\n", twin_relative(&push), twin_relative(&source));
     double above = 0, worst = 0;
     const double rest = (double)sim->constant.rest_density;
@@ -179,7 +180,7 @@ static void check_operator(setup *s)
     sb_pressure_product(s->sim, fast);
     twin_gap push = {0}, product = {0};
     for (size_t i = 0; i < s->n; i++) {
-        sb_f4 a = s->sim->acceleration[i];
+        sb_f4 a = s->sim->work.acceleration[i];
         twin_compare(&push, i, (double)a[0], s->acceleration[i].x);
         twin_compare(&push, i, (double)a[1], s->acceleration[i].y);
         twin_compare(&push, i, (double)a[2], s->acceleration[i].z);
@@ -228,7 +229,7 @@ static outcome solve_once(const tank *t)
 {
     sb_sim *sim = tank_sim(t);
     assert_non_null(sim);
-    outcome o = {.n = sim->n};
+    outcome o = {.n = sim->state.n};
     double **fields[] = {&o.density, &o.pressure, &o.speed[0], &o.speed[1], &o.speed[2]};
     for (size_t f = 0; f < sizeof fields / sizeof *fields; f++) {
         *fields[f] = sb_alloc(o.n, sizeof(double));
@@ -237,10 +238,10 @@ static outcome solve_once(const tank *t)
     assert_int_equal(tank_steps(sim, 1), 0);
     assert_int_equal(sb_sim_report(sim)->iterations, t->scene.numerics.max_iterations);
     for (size_t i = 0; i < o.n; i++) {
-        uint32_t id = sim->id[i];
-        o.density[id] = (double)sim->density[i];
-        o.pressure[id] = (double)sim->velocity[i][3];
-        for (int axis = 0; axis < 3; axis++) o.speed[axis][id] = (double)sim->velocity[i][axis];
+        uint32_t id = sim->state.id[i];
+        o.density[id] = (double)sim->work.density[i];
+        o.pressure[id] = (double)sim->state.velocity[i][3];
+        for (int axis = 0; axis < 3; axis++) o.speed[axis][id] = (double)sim->state.velocity[i][axis];
     }
     o.impulse = *sb_sim_impulse(sim, 0);
     sb_sim_destroy(sim);

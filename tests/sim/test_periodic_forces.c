@@ -11,14 +11,14 @@
 static double follow_momentum(sb_sim *sim, int steps)
 {
     double m = (double)sim->constant.mass, worst = 0;
-    sb_vec3 *before = sb_alloc(sim->n, sizeof *before);
+    sb_vec3 *before = sb_alloc(sim->state.n, sizeof *before);
     assert_non_null(before);
     sb_vec3 last = {0};
     for (int s = 0; s <= steps; s++) {
         if (s > 0) assert_int_equal(tank_steps(sim, 1), 0);
         sb_vec3 sum = {0};
         double pushed = 0, moving = 0;
-        for (size_t i = 0; i < sim->n; i++) {
+        for (size_t i = 0; i < sim->state.n; i++) {
             sb_fluid_sample p = sb_sim_particle(sim, i);
             sum = sb_madd(sum, m, p.velocity);
             pushed += m * sb_norm(sb_sub(p.velocity, before[p.id]));
@@ -29,7 +29,7 @@ static double follow_momentum(sb_sim *sim, int steps)
             const sb_body_impulse *given = sb_sim_impulse(sim, b);
             sum = sb_add(sum, sb_add(given->pressure, given->friction));
         }
-        sum.z += m * (double)sim->n * sim->scene->fluid.gravity * sim->report.time;
+        sum.z += m * (double)sim->state.n * sim->scene->fluid.gravity * sim->state.time;
         if (s > 0) worst = fmax(worst, sb_norm(sb_sub(sum, last)) / fmax(pushed, 0.1 * moving));
         last = sum;
     }
@@ -67,7 +67,7 @@ static void momentum_is_kept_across_sides(void **state)
             double worst = follow_momentum(sim, 60);
             printf("%dD, %s: momentum within %.2g of sum |m a| dt\n", dimensions,
                    bodies ? "floor and sill" : "water alone", worst);
-            assert_int_equal(sim->n, t.model.fluid_count);
+            assert_int_equal(sim->state.n, t.model.fluid_count);
             assert_true(worst < 1e-6);
             sb_sim_destroy(sim);
             tank_free(&t);
@@ -97,7 +97,7 @@ static void a_drop_meets_a_wall_beyond_the_side(void **state)
             while (sb_sim_report(sim)->time < 0.3) assert_int_equal(tank_steps(sim, 1), 0);
             double x = sb_sim_particle(sim, 0).position.x;
             const sb_body_impulse *push = sb_sim_impulse(sim, wall);
-            assert_int_equal(sim->n, 1);
+            assert_int_equal(sim->state.n, 1);
             assert_true(way > 0 ? x > 1.9 || x < plane : x < 0.1 || x > plane);
             double lost = 9 * way - sb_sim_particle(sim, 0).velocity.x;
             assert_near(push->pressure.x, mass * lost, 1e-4 * mass * 9);

@@ -24,14 +24,14 @@ static void a_stream_goes_round(void **state)
     double before = sb_sim_energy(sim).momentum.x / sb_sim_energy(sim).mass;
     while (sb_sim_report(sim)->time < 2) {
         assert_int_equal(tank_steps(sim, 1), 0);
-        for (size_t i = 0; i < sim->n; i++) {
+        for (size_t i = 0; i < sim->state.n; i++) {
             double x = sb_sim_particle(sim, i).position.x;
             assert_true(x >= 0 && x < 1);
         }
     }
     double after = sb_sim_energy(sim).momentum.x / sb_sim_energy(sim).mass;
     printf("mean speed %.6f, after three rounds %.6f m/s\n", before, after);
-    assert_int_equal(sim->n, t.model.fluid_count);
+    assert_int_equal(sim->state.n, t.model.fluid_count);
     assert_int_equal(sb_sim_report(sim)->lost + sb_sim_report(sim)->left_domain, 0);
     assert_near(after, before, 0.01 * before);
     sb_sim_destroy(sim);
@@ -46,10 +46,10 @@ static flow flow_at(sb_sim *sim, double time)
 {
     while (sb_sim_report(sim)->time < time) assert_int_equal(tank_steps(sim, 1), 0);
     flow f = {0};
-    for (size_t i = 0; i < sim->n; i++) {
+    for (size_t i = 0; i < sim->state.n; i++) {
         double x = sb_sim_particle(sim, i).position.x;
         f.front = fmax(f.front, x);
-        f.middle += x / (double)sim->n;
+        f.middle += x / (double)sim->state.n;
     }
     return f;
 }
@@ -77,7 +77,7 @@ static void break_dam(double width, flow flows[TIMES])
         flows[k] = flow_at(sim, times[k]);
         printf("width %g at %.2f s: front %.3f, mean %.4f m\n", width, times[k], flows[k].front, flows[k].middle);
     }
-    assert_int_equal(sim->n, t.model.fluid_count);
+    assert_int_equal(sim->state.n, t.model.fluid_count);
     sb_sim_destroy(sim);
     tank_free(&t);
 }
@@ -125,7 +125,7 @@ static uint64_t run(const tank *t, int threads)
     sb_sim *sim = tank_sim(t);
     assert_non_null(sim);
     assert_int_equal(tank_steps(sim, 40), 0);
-    assert_true(sim->n > (size_t)SB_BLOCK && sim->ghosts.count > (size_t)SB_BLOCK);
+    assert_true(sim->state.n > (size_t)SB_BLOCK && sim->ghosts.count > (size_t)SB_BLOCK);
     uint64_t hash = sb_sim_hash(sim);
     sb_sim_destroy(sim);
     return hash;
@@ -165,7 +165,7 @@ static void check_box(const sb_sim *sim, sb_vec3 min, sb_vec3 max)
     sb_vec3 size = sb_vec(sim->space.period[0] * quantum, sim->space.period[1] * quantum, 0);
     size_t expected = 0, count = sb_sim_query(sim, min, max, found, 16384);
     double sum = 0, found_sum = 0;
-    for (size_t i = 0; i < sim->n; i++)
+    for (size_t i = 0; i < sim->state.n; i++)
         for (int x = -2; x <= 2; x++)
             for (int y = -5; y <= 5; y++) {
                 sb_fluid_sample s = sb_sim_particle(sim, i);
@@ -227,11 +227,11 @@ static void no_side_costs_nothing(void **state)
         sb_sim *sim = tank_sim(&t);
         assert_non_null(sim);
         size_t before = sb_sim_bytes(sim);
-        assert_int_equal(sim->capacity, sim->n);
+        assert_int_equal(sim->state.capacity, sim->state.n);
         sb_error error = {0};
-        sim->report.time_step = 0.01;
+        sim->state.time_step = 0.01;
         assert_int_equal(sb_stage_ghosts(sim, &error), SB_OK);
-        bool none = sim->ghosts.count == 0 && !sim->ghosts.of && sim->capacity == sim->n;
+        bool none = sim->ghosts.count == 0 && !sim->ghosts.of && sim->state.capacity == sim->state.n;
         assert_true(none == !periodic && skips_ghosts(sim) == !periodic);
         assert_true((sb_sim_bytes(sim) > before) == (periodic != 0));
         sb_sim_destroy(sim);

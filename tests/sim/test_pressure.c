@@ -37,13 +37,17 @@ static void begin(setup *s, int dimensions)
     s->sim = tank_sim(&s->tank);
     assert_non_null(s->sim);
     assert_int_equal(tank_steps(s->sim, 12), 0);
-    assert_int_equal(tank_prepare(s->sim, s->sim->report.time_step), 0);
+    assert_int_equal(tank_prepare(s->sim, s->sim->state.time_step), 0);
     sb_error error = {0};
     assert_int_equal(sb_stage_forces(s->sim, &error), SB_OK);
     assert_int_equal(sb_stage_source(s->sim, &error), SB_OK);
-    s->n = s->sim->n;
+    s->n = s->sim->state.n;
     assert_int_equal(s->n, s->tank.model.fluid_count);
     assert_int_equal(twin_make(s->sim, &s->twin), 0);
+    for (size_t i = 0; i < s->n; i++) {
+        const sb_f4 v = s->sim->work.predicted[i];
+        s->twin.velocity[i] = sb_vec((double)v[0], (double)v[1], (double)v[2]);
+    }
     s->acceleration = sb_alloc(s->n, sizeof *s->acceleration);
     double **fields[] = {&s->x, &s->y, &s->product, &s->source, &s->solution};
     for (size_t f = 0; f < sizeof fields / sizeof *fields; f++) {
@@ -51,7 +55,7 @@ static void begin(setup *s, int dimensions)
         assert_non_null(*fields[f]);
     }
     assert_non_null(s->acceleration);
-    for (size_t i = 0; i < s->n; i++) s->source[i] = (double)s->sim->source[i];
+    for (size_t i = 0; i < s->n; i++) s->source[i] = (double)s->sim->work.source[i];
 }
 
 static void end(setup *s)
@@ -70,7 +74,7 @@ static void fill_random(double *field, size_t n, uint64_t seed)
     for (size_t i = 0; i < n; i++) field[i] = (double)(float)sb_random(seed, i);
 }
 
-/* out = A argument by the simulation; leaves the acceleration in sim->acceleration. */
+/* out = A argument by the simulation; leaves the acceleration in sim->work.acceleration. */
 static void fast_product(setup *s, const double *argument, double *out)
 {
     float *narrow = sb_alloc(s->n, sizeof *narrow), *result = sb_alloc(s->n, sizeof *result);
@@ -110,7 +114,7 @@ static void check_operator(setup *s)
     fast_product(s, s->x, fast);
     twin_gap product = {0}, push = {0};
     for (size_t i = 0; i < s->n; i++) {
-        sb_f4 a = s->sim->acceleration[i];
+        sb_f4 a = s->sim->work.acceleration[i];
         twin_compare(&product, i, fast[i], s->product[i]);
         twin_compare(&push, i, (double)a[0], s->acceleration[i].x);
         twin_compare(&push, i, (double)a[1], s->acceleration[i].y);
@@ -132,7 +136,7 @@ static void check_operator(setup *s)
 /* (A e_i)_i is the diagonal of the neighbour pass and of the reference. */
 static void check_diagonal(setup *s)
 {
-    double dt2 = s->sim->report.time_step * s->sim->report.time_step, worst = 0, formula = 0;
+    double dt2 = s->sim->state.time_step * s->sim->state.time_step, worst = 0, formula = 0;
     sb_reference_diagonal(&s->twin.reference, s->y);
     size_t flying = 0;
     memset(s->x, 0, s->n * sizeof *s->x);
@@ -140,7 +144,7 @@ static void check_diagonal(setup *s)
         s->x[i] = 1;
         fast_product(s, s->x, s->product);
         s->x[i] = 0;
-        double stored = -(double)s->sim->diagonal[i] * dt2;
+        double stored = -(double)s->sim->work.diagonal[i] * dt2;
         if (stored == 0) {
             flying++;
             assert_true(fabs(s->product[i]) <= 1e-6 * (double)s->sim->constant.full_diagonal * dt2);
@@ -162,7 +166,7 @@ static sb_pressure_error true_error(setup *s, const double *q)
     double active = 0;
     sb_reference_apply(&s->twin.reference, q, s->acceleration, s->product);
     for (size_t i = 0; i < s->n; i++) {
-        if (s->sim->diagonal[i] == 0) continue;
+        if (s->sim->work.diagonal[i] == 0) continue;
         double e = s->product[i] - s->source[i];
         error.mean += fmax(0, e) / ((double)s->n * 1000);
         error.max = fmax(error.max, e / 1000);
@@ -183,13 +187,13 @@ static void solve(setup *s, sb_solver solver, double tolerance, int most, double
     n->max_iterations = most;
     n->warm_start = 1;
     sb_error error = {0};
-    assert_int_equal(tank_prepare(s->sim, s->sim->report.time_step), 0);
+    assert_int_equal(tank_prepare(s->sim, s->sim->state.time_step), 0);
     for (size_t i = 0; i < s->n; i++) {
-        double rho = (double)s->sim->density[i];
-        s->sim->velocity[i][3] = (float)(share * s->solution[i] * rho * rho);
+        double rho = (double)s->sim->work.density[i];
+        s->sim->state.velocity[i][3] = (float)(share * s->solution[i] * rho * rho);
     }
     assert_int_equal(sb_stage_pressure(s->sim, &error), SB_OK);
-    for (size_t i = 0; i < s->n; i++) s->x[i] = (double)s->sim->unknown[i];
+    for (size_t i = 0; i < s->n; i++) s->x[i] = (double)s->sim->work.unknown[i];
 }
 
 static const char *name_of(sb_solver solver)
@@ -220,9 +224,9 @@ static void check_outcome(setup *s)
     twin_gap push = {0};
     sb_reference_pressure_acceleration(&s->twin.reference, s->x, s->acceleration);
     for (size_t i = 0; i < s->n; i++) {
-        sb_f4 a = s->sim->acceleration[i];
+        sb_f4 a = s->sim->work.acceleration[i];
         assert_true(s->x[i] >= 0);
-        assert_true(s->sim->diagonal[i] > 0 || s->x[i] == 0);
+        assert_true(s->sim->work.diagonal[i] > 0 || s->x[i] == 0);
         twin_compare(&push, i, (double)a[0], s->acceleration[i].x);
         twin_compare(&push, i, (double)a[2], s->acceleration[i].z);
     }
@@ -249,12 +253,12 @@ static void check_solver(setup *s, sb_solver solver)
     assert_true(last < 1e-5);
     /* From the solution itself it takes the smallest number of iterations and keeps the solution. */
     solve(s, solver, 1e-6, 5000, 1);
-    assert_int_equal(s->sim->report.iterations, s->tank.scene.numerics.min_iterations);
+    assert_int_equal(s->sim->work.solve.iterations, s->tank.scene.numerics.min_iterations);
     assert_true(gap_to_solution(s) < 1e-5);
     /* The limit of iterations is respected and reported. */
     solve(s, solver, 1e-9, 7, 0);
-    assert_true(s->sim->report.capped && s->sim->report.error_mean > 1e-9);
-    assert_in_range(s->sim->report.iterations, 7, 8);
+    assert_true(s->sim->work.solve.capped && s->sim->report.error_mean > 1e-9);
+    assert_in_range(s->sim->work.solve.iterations, 7, 8);
     check_report(s, 1e-3);
     check_outcome(s);
 }
@@ -316,9 +320,9 @@ static void an_early_stop_needs_a_margin(void **state)
         assert_non_null(sim);
         const sb_pressure_error error = {.mean = 1e-4 * cases[i].mean, .active = 1e-4 * cases[i].active};
         t.scene.numerics.tolerance_rule = cases[i].rule;
-        sim->report.tolerance = 1e-4;
-        sim->report.iterations = cases[i].iterations;
-        sim->last_sweeps = cases[i].before;
+        sim->work.solve.tolerance = 1e-4;
+        sim->work.solve.iterations = cases[i].iterations;
+        sim->work.solve.last = cases[i].before;
         assert_int_equal(sb_pressure_done(sim, &error), cases[i].done);
         sb_sim_destroy(sim);
         tank_free(&t);
@@ -330,8 +334,8 @@ static void by_form(setup *s, const sb_passes *form, sb_f4 *acceleration, float 
 {
     s->sim->passes = form;
     sb_pressure_accelerate(s->sim);
-    sb_divergence(s->sim, s->sim->acceleration, 0.5f, divergence);
-    memcpy(acceleration, s->sim->acceleration, s->n * sizeof *acceleration);
+    sb_divergence(s->sim, s->sim->work.acceleration, 0.5f, divergence);
+    memcpy(acceleration, s->sim->work.acceleration, s->n * sizeof *acceleration);
 }
 
 /* The passes with vectors of 64 bytes give the same bits as those with 32 bytes. */
@@ -349,8 +353,8 @@ static void both_forms_of_the_passes_agree(void **state)
             d[form] = sb_alloc(s.n, sizeof *d[form]);
             assert_true(a[form] && d[form]);
         }
-        for (size_t i = 0; i < s.n; i++) s.sim->unknown[i] = (float)sb_random(9, i);
-        sb_pressure_load(s.sim, s.sim->unknown);
+        for (size_t i = 0; i < s.n; i++) s.sim->work.unknown[i] = (float)sb_random(9, i);
+        sb_pressure_load(s.sim, s.sim->work.unknown);
         by_form(&s, &sb_passes_narrow, a[0], d[0]);
         by_form(&s, sb_passes_wide(), a[1], d[1]);
         assert_memory_equal(a[0], a[1], s.n * sizeof *a[0]);
@@ -371,33 +375,33 @@ static void errors_are_summed_in_order(void **state)
     setup s;
     begin(&s, 3);
     const double rest = (double)s.sim->constant.rest_density;
-    for (s.sim->n = s.n - 3; s.sim->n <= s.n; s.sim->n++) {
+    for (s.sim->state.n = s.n - 3; s.sim->state.n <= s.n; s.sim->state.n++) {
         double excess = 0, active = 0, worst = 0, part[2] = {0};
         size_t count = 0;
-        for (size_t i = 0; i < s.sim->n; i++) {
-            s.sim->residual[i] = (float)(sb_random(3, i) - 0.5);
-            s.sim->unknown[i] = i % 3 == 0 ? 0 : 1;
-            if (i % 7 == 0) s.sim->diagonal[i] = 0;
+        for (size_t i = 0; i < s.sim->state.n; i++) {
+            s.sim->work.residual[i] = (float)(sb_random(3, i) - 0.5);
+            s.sim->work.unknown[i] = i % 3 == 0 ? 0 : 1;
+            if (i % 7 == 0) s.sim->work.diagonal[i] = 0;
             if (i % SB_BLOCK == 0) {
                 excess += part[0];
                 active += part[1];
                 part[0] = part[1] = 0;
             }
-            if (s.sim->diagonal[i] == 0) continue;
-            const double e = (double)s.sim->residual[i];
+            if (s.sim->work.diagonal[i] == 0) continue;
+            const double e = (double)s.sim->work.residual[i];
             part[0] += e > 0 ? e : 0;
             worst = e > worst ? e : worst;
-            if (s.sim->unknown[i] > 0) {
+            if (s.sim->work.unknown[i] > 0) {
                 part[1] += fabs(e);
                 count++;
             }
         }
         const sb_pressure_error error = sb_pressure_judge(s.sim);
-        assert_true(error.mean == (excess + part[0]) / ((double)s.sim->n * rest));
+        assert_true(error.mean == (excess + part[0]) / ((double)s.sim->state.n * rest));
         assert_true(error.active == (active + part[1]) / ((double)count * rest));
         assert_true(error.max == worst / rest);
     }
-    s.sim->n = s.n;
+    s.sim->state.n = s.n;
     end(&s);
 }
 

@@ -40,11 +40,11 @@ static void check_box(const sb_sim *sim, sb_vec3 min, sb_vec3 max, bool *listed)
 static void check_samples(const sb_sim *sim)
 {
     sb_vec3 min = {0.2, -1, 0.1}, max = {0.7, 2, 0.6};
-    size_t count = sb_sim_query(sim, min, max, found, 4096), n = sim->n;
+    size_t count = sb_sim_query(sim, min, max, found, 4096), n = sim->state.n;
     assert_true(count > 20);
     for (size_t k = 0; k < count; k++) {
         size_t i = 0;
-        while (i < n && sim->id[i] != found[k].id) i++;
+        while (i < n && sim->state.id[i] != found[k].id) i++;
         sb_fluid_sample s = sb_sim_particle(sim, i);
         assert_memory_equal(&s.position, &found[k].position, sizeof s.position);
         assert_memory_equal(&s.velocity, &found[k].velocity, sizeof s.velocity);
@@ -61,7 +61,7 @@ static void check_samples(const sb_sim *sim)
 
 static void check_boxes(const sb_sim *sim)
 {
-    bool *listed = sb_alloc(sim->n, sizeof *listed);
+    bool *listed = sb_alloc(sim->state.n, sizeof *listed);
     assert_non_null(listed);
     sb_vec3 size = sb_sub(sim->model->max, sim->model->min);
     for (uint64_t b = 0; b < 200; b++) {
@@ -72,7 +72,7 @@ static void check_boxes(const sb_sim *sim)
         c = sb_add(sim->model->min, sb_vec(u[3] * size.x, u[4] * size.y, u[5] * size.z));
         check_box(sim, sb_min(a, c), sb_max(a, c), listed);
         /* A thin box around one particle, which may have left its cell since the sort. */
-        sb_vec3 x = sb_sim_particle(sim, (size_t)(sb_random(b, 9) * (double)sim->n)).position;
+        sb_vec3 x = sb_sim_particle(sim, (size_t)(sb_random(b, 9) * (double)sim->state.n)).position;
         sb_vec3 thin = sb_vec(1e-6, 1e-6, 1e-6);
         check_box(sim, sb_sub(x, thin), sb_add(x, thin), listed);
     }
@@ -85,7 +85,7 @@ static void check_energy(const sb_sim *sim)
 {
     sb_energy e = sb_sim_energy(sim), sum = {0};
     double m = (double)sim->constant.mass;
-    for (size_t i = 0; i < sim->n; i++) {
+    for (size_t i = 0; i < sim->state.n; i++) {
         sb_fluid_sample s = sb_sim_particle(sim, i);
         sum.kinetic += 0.5 * m * sb_dot(s.velocity, s.velocity);
         sum.potential += m * 9.81 * (s.position.z - sim->model->min.z);
@@ -104,10 +104,10 @@ static void check_frame(const sb_sim *sim, size_t paddle)
 {
     sb_frame *f = sb_sim_snapshot(sim);
     assert_non_null(f);
-    assert_int_equal(f->count, sim->n);
+    assert_int_equal(f->count, sim->state.n);
     assert_int_equal(f->body_count, sim->model->body_count);
-    assert_true(f->spacing == sim->scene->resolution && f->status.time == sim->report.time);
-    assert_true(f->status.step == sim->report.step && f->status.max_speed == sim->report.max_speed);
+    assert_true(f->spacing == sim->scene->resolution && f->status.time == sim->state.time);
+    assert_true(f->status.step == sim->state.step && f->status.max_speed == sim->state.max_speed);
     double worst = 0;
     for (size_t i = 0; i < f->count; i++) {
         sb_fluid_sample s = sb_sim_particle(sim, i);

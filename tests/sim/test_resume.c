@@ -181,7 +181,7 @@ static void settling_is_not_saved_at_its_end(void **state)
     listener l = {.sim = sim, .at = steps};
     assert_int_equal(sb_sim_settle_watched(sim, save_at, &l, &error), SB_OK);
     assert_false(l.saved);
-    sim->settle.under_way = true; /* as an earlier version of the program saved it */
+    sim->state.settle.under_way = true; /* as an earlier version of the program saved it */
     tank_save(sim, &late);
     sb_sim *again = tank_sim(&t);
     assert_int_equal(tank_load(again, &late, &error), SB_BAD_INPUT);
@@ -250,15 +250,15 @@ static void impossible_states_are_refused(void **state)
         size_t size;
         const char *text;
     } cases[] = {
-        {&sim->report.time, &(double){(double)NAN}, 8, "expected finite numbers"},
-        {&sim->report.max_speed, &(double){-1}, 8, "expected finite numbers"},
-        {&sim->id[2], &(uint32_t){25}, 4, "particle 25 at"},
-        {(uint32_t *)&sim->position[7] + 2, &(uint32_t){0x80000000u}, 4, "coordinates below 2147483648"},
-        {&sim->moving[0].displacement, &(double){1e300}, 8, "moving body 0 is displaced by 1e+300 m"},
-        {&sim->moving[0].displacement, &(double){(double)NAN}, 8, "moving body 0 is displaced by nan m"},
-        {&sim->settle, &(sb_settle){.under_way = true, .done = 3, .most = 1 << 20}, sizeof(sb_settle),
+        {&sim->state.time, &(double){(double)NAN}, 8, "expected finite numbers"},
+        {&sim->state.max_speed, &(double){-1}, 8, "expected finite numbers"},
+        {&sim->state.id[2], &(uint32_t){25}, 4, "particle 25 at"},
+        {(uint32_t *)&sim->state.position[7] + 2, &(uint32_t){0x80000000u}, 4, "coordinates below 2147483648"},
+        {&sim->walls.moving[0].displacement, &(double){1e300}, 8, "moving body 0 is displaced by 1e+300 m"},
+        {&sim->walls.moving[0].displacement, &(double){(double)NAN}, 8, "moving body 0 is displaced by nan m"},
+        {&sim->state.settle, &(sb_settle){.under_way = true, .done = 3, .most = 1 << 20}, sizeof(sb_settle),
          "settling step 3 of at most 1048576: expected at most"},
-        {&sim->moving_count, &(size_t){0}, 8, "different number of moving bodies, expected 1"},
+        {&sim->walls.moving_count, &(size_t){0}, 8, "different number of moving bodies, expected 1"},
     };
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         unsigned char kept[sizeof(sb_settle)];

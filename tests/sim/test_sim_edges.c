@@ -17,8 +17,8 @@ static sb_sim *make(const tank *t)
 
 static sb_fluid_sample by_id(const sb_sim *sim, uint32_t id)
 {
-    for (size_t i = 0; i < sim->n; i++)
-        if (sim->id[i] == id) return sb_sim_particle(sim, i);
+    for (size_t i = 0; i < sim->state.n; i++)
+        if (sim->state.id[i] == id) return sb_sim_particle(sim, i);
     fail_msg("particle %u is gone", id);
     return (sb_fluid_sample){0};
 }
@@ -57,7 +57,7 @@ static void a_lone_particle_flies_a_parabola(void **state)
 
 static void check_finite(const sb_sim *sim)
 {
-    for (size_t i = 0; i < sim->n; i++) {
+    for (size_t i = 0; i < sim->state.n; i++) {
         sb_fluid_sample p = sb_sim_particle(sim, i);
         assert_true(sb_isfinite(p.position) && sb_isfinite(p.velocity));
         assert_true(isfinite(p.pressure) && isfinite(p.density));
@@ -82,7 +82,7 @@ static void coincident_particles_do_no_harm(void **state)
         assert_int_equal(tank_steps(sim, 60), 0);
         check_finite(sim);
         const sb_step_report *r = sb_sim_report(sim);
-        assert_int_equal(sim->n + r->left_domain + r->lost, t.model.fluid_count);
+        assert_int_equal(sim->state.n + r->left_domain + r->lost, t.model.fluid_count);
         sb_sim_destroy(sim);
         tank_free(&t);
     }
@@ -113,7 +113,7 @@ static void what_leaves_is_counted(void **state)
     assert_int_equal(r->left_domain, 3);
     assert_int_equal(r->lost, 1);
     assert_int_equal(r->fluid_count, n - 4);
-    assert_int_equal(sim->n, n - 4);
+    assert_int_equal(sim->state.n, n - 4);
     for (uint32_t id = 0; id < n; id++)
         if (id < 3 || id > 6) assert_true(by_id(sim, id).position.z < 1);
     assert_near(sb_sim_energy(sim).mass, 10.0 * (double)(n - 4), 1e-3);
@@ -222,12 +222,13 @@ static void check_divergence(double speed, double pressure, const char *why)
     sb_sim *sim = make(&t);
     assert_int_equal(tank_steps(sim, 4), 0);
     size_t hit = 0;
-    while (sim->id[hit] != 42) hit++;
-    sim->velocity[hit][0] = (float)speed;
-    for (size_t i = 0; i < sim->n && pressure > 0; i++) sim->velocity[i][3] = (float)(pressure * (double)(i + 1));
+    while (sim->state.id[hit] != 42) hit++;
+    sim->state.velocity[hit][0] = (float)speed;
+    for (size_t i = 0; i < sim->state.n && pressure > 0; i++)
+        sim->state.velocity[i][3] = (float)(pressure * (double)(i + 1));
     sb_vec3 at = sb_sim_particle(sim, hit).position, where = {0};
     sb_vec3 sum_before = {0}, sum_after = {0};
-    for (size_t i = 0; i < sim->n; i++)
+    for (size_t i = 0; i < sim->state.n; i++)
         if (i != hit) sum_before = sb_add(sum_before, sb_sim_particle(sim, i).velocity);
     double time = sb_sim_report(sim)->time;
     sb_error error = {0};
@@ -242,8 +243,8 @@ static void check_divergence(double speed, double pressure, const char *why)
         assert_true(sb_norm(sb_sub(where, at)) < 0.25);
     }
     assert_true(sb_sim_report(sim)->time == time && sb_sim_report(sim)->step == 4);
-    assert_int_equal(sim->n, t.model.fluid_count);
-    for (size_t i = 0; i < sim->n; i++) {
+    assert_int_equal(sim->state.n, t.model.fluid_count);
+    for (size_t i = 0; i < sim->state.n; i++) {
         sb_fluid_sample p = sb_sim_particle(sim, i);
         assert_true(sb_isfinite(p.position));
         if (p.id != 42) sum_after = sb_add(sum_after, p.velocity);
@@ -252,9 +253,9 @@ static void check_divergence(double speed, double pressure, const char *why)
     assert_near(sb_norm(sb_sub(by_id(sim, 42).position, at)), 0, 0);
     sb_frame *frame = sb_sim_snapshot(sim);
     assert_non_null(frame);
-    assert_int_equal(frame->count, sim->n);
+    assert_int_equal(frame->count, sim->state.n);
     sb_frame_release(frame);
-    assert_int_equal(sb_sim_query(sim, t.model.min, t.model.max, NULL, 0), sim->n);
+    assert_int_equal(sb_sim_query(sim, t.model.min, t.model.max, NULL, 0), sim->state.n);
     sb_sim_destroy(sim);
     tank_free(&t);
 }
@@ -392,15 +393,15 @@ static void a_gate_leaves_the_domain(void **state)
     sb_sim *sim = make(&t);
     double front = 0;
     while (sb_sim_report(sim)->time < 0.1) assert_int_equal(tank_steps(sim, 1), 0);
-    for (size_t i = 0; i < sim->n; i++) front = fmax(front, sb_sim_particle(sim, i).position.x);
+    for (size_t i = 0; i < sim->state.n; i++) front = fmax(front, sb_sim_particle(sim, i).position.x);
     assert_true(front < 0.56);
     assert_true(sb_sim_impulse(sim, gate)->pressure.x > 0);
-    size_t count = sim->walls[SB_MOVING].count;
+    size_t count = sim->walls.set[SB_MOVING].count;
     assert_int_equal(count, 20);
-    while (sim->walls[SB_MOVING].count > 0) {
+    while (sim->walls.set[SB_MOVING].count > 0) {
         assert_int_equal(tank_steps(sim, 1), 0);
-        assert_true(sim->walls[SB_MOVING].count <= count);
-        count = sim->walls[SB_MOVING].count;
+        assert_true(sim->walls.set[SB_MOVING].count <= count);
+        count = sim->walls.set[SB_MOVING].count;
         assert_true(sb_sim_report(sim)->time < 0.5);
     }
     assert_true(sb_sim_body_displacement(sim, gate).z > 1);
@@ -409,7 +410,7 @@ static void a_gate_leaves_the_domain(void **state)
     assert_true(sb_sim_impulse(sim, gate)->pressure.x == push.x);
     assert_near(sb_sim_body_displacement(sim, gate).z, 8 * (sb_sim_report(sim)->time - 0.1), 1e-9);
     front = 0;
-    for (size_t i = 0; i < sim->n; i++) front = fmax(front, sb_sim_particle(sim, i).position.x);
+    for (size_t i = 0; i < sim->state.n; i++) front = fmax(front, sb_sim_particle(sim, i).position.x);
     printf("the front is at x = %.2f m at %.2f s\n", front, sb_sim_report(sim)->time);
     assert_true(front > 1.2);
     assert_int_equal(sb_sim_report(sim)->lost, 0);

@@ -25,7 +25,7 @@ static void check_drop(sb_solver solver, sb_vec3 velocity)
     sb_sim *sim = make(&t);
     double mass = sb_sim_energy(sim).mass, speed = sb_norm(velocity);
     while (sb_sim_report(sim)->time < 0.4) assert_int_equal(tank_steps(sim, 1), 0);
-    assert_int_equal(sim->n, 1);
+    assert_int_equal(sim->state.n, 1);
     sb_fluid_sample p = sb_sim_particle(sim, 0);
     assert_true(p.position.x > -0.01 && p.position.y > -0.01 && p.position.z > -0.01);
     assert_true(p.position.x < 1.01 && p.position.y < 1.01);
@@ -50,7 +50,7 @@ static void a_drop_does_not_pass_walls(void **state)
 static double energy_from(const sb_sim *sim, uint32_t first)
 {
     double sum = 0, mass = (double)sim->constant.mass;
-    for (size_t i = 0; i < sim->n; i++) {
+    for (size_t i = 0; i < sim->state.n; i++) {
         sb_fluid_sample p = sb_sim_particle(sim, i);
         if (p.id >= first) sum += mass * (0.5 * sb_dot(p.velocity, p.velocity) + 9.81 * p.position.z);
     }
@@ -90,7 +90,7 @@ static void check_lump(sb_solver solver, size_t side)
     printf("%s, %zu^3 drops with a pool of %zu: energy at most %.4f, then %.3f of the start's\n",
            sb_pressure_solvers[solver]->name, side, pool, most / start, last / start);
     assert_true(most < 1.001 * start && last < 0.7 * start);
-    assert_int_equal(sim->n, m->fluid_count);
+    assert_int_equal(sim->state.n, m->fluid_count);
     sb_sim_destroy(sim);
     tank_free(&t);
 }

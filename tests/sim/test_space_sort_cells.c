@@ -106,12 +106,12 @@ static void a_run_far_away_is_the_same_run(void **state)
     assert_non_null(b);
     assert_int_equal(tank_steps(a, STEPS), 0);
     assert_int_equal(tank_steps(b, STEPS), 0);
-    assert_int_equal(a->n, near.model.fluid_count);
-    assert_int_equal(b->n, a->n);
-    for (size_t i = 0; i < a->n; i++) {
-        assert_memory_equal(&a->position[i], &b->position[i], 12);
-        assert_memory_equal(&a->velocity[i], &b->velocity[i], 16);
-        assert_int_equal(a->id[i], b->id[i]);
+    assert_int_equal(a->state.n, near.model.fluid_count);
+    assert_int_equal(b->state.n, a->state.n);
+    for (size_t i = 0; i < a->state.n; i++) {
+        assert_memory_equal(&a->state.position[i], &b->state.position[i], 12);
+        assert_memory_equal(&a->state.velocity[i], &b->state.velocity[i], 16);
+        assert_int_equal(a->state.id[i], b->state.id[i]);
     }
     assert_true(a->report.time == b->report.time);
     assert_true(a->report.max_speed > 0.1);

@@ -11,22 +11,22 @@
 /* Largest eigenvalue of D^-1 A by power iteration. */
 static double largest(sb_sim *sim)
 {
-    float *v = sb_alloc(sim->n, sizeof *v), *product = sb_alloc(sim->n, sizeof *product);
+    float *v = sb_alloc(sim->state.n, sizeof *v), *product = sb_alloc(sim->state.n, sizeof *product);
     assert_true(v && product);
-    for (size_t i = 0; i < sim->n; i++) v[i] = (float)((double)(i * 7919 % 1000) / 500 - 1);
+    for (size_t i = 0; i < sim->state.n; i++) v[i] = (float)((double)(i * 7919 % 1000) / 500 - 1);
     double value = 0;
     for (int round = 0; round < 200; round++) {
         double before = 0, after = 0;
         sb_pressure_load(sim, v);
         sb_pressure_product(sim, product);
-        for (size_t i = 0; i < sim->n; i++) {
-            const float next = sim->diagonal[i] > 0 ? -product[i] / sim->diagonal[i] : 0;
+        for (size_t i = 0; i < sim->state.n; i++) {
+            const float next = sim->work.diagonal[i] > 0 ? -product[i] / sim->work.diagonal[i] : 0;
             before += (double)v[i] * (double)v[i];
             after += (double)next * (double)next;
             v[i] = next;
         }
         value = sqrt(after / before);
-        for (size_t i = 0; i < sim->n; i++) v[i] /= (float)sqrt(after);
+        for (size_t i = 0; i < sim->state.n; i++) v[i] /= (float)sqrt(after);
     }
     sb_free(v);
     sb_free(product);

@@ -47,7 +47,7 @@ static rest watch(const tank *t, double duration)
     r.level /= all;
     r.patch = -patch.z / all;
     r.force = sb_scale(sb_add(patch, sb_sim_impulse(sim, TANK)->pressure), 1 / (all * weight));
-    assert_int_equal(sim->n, t->model.fluid_count);
+    assert_int_equal(sim->state.n, t->model.fluid_count);
     assert_int_equal(sb_sim_report(sim)->lost + sb_sim_report(sim)->left_domain, 0);
     sb_sim_destroy(sim);
     return r;

@@ -9,20 +9,20 @@ enum { BEFORE = 5, AFTER = 20 };
 
 static void swap_particles(sb_sim *sim, size_t a, size_t b)
 {
-    const sb_record position = sim->position[a];
-    const sb_f4 velocity = sim->velocity[a];
-    const uint32_t id = sim->id[a];
-    sim->position[a] = sim->position[b], sim->position[b] = position;
-    sim->velocity[a] = sim->velocity[b], sim->velocity[b] = velocity;
-    sim->id[a] = sim->id[b], sim->id[b] = id;
-    if (!sim->density_correction) return;
-    const float correction = sim->density_correction[a];
-    sim->density_correction[a] = sim->density_correction[b], sim->density_correction[b] = correction;
+    const sb_record position = sim->state.position[a];
+    const sb_f4 velocity = sim->state.velocity[a];
+    const uint32_t id = sim->state.id[a];
+    sim->state.position[a] = sim->state.position[b], sim->state.position[b] = position;
+    sim->state.velocity[a] = sim->state.velocity[b], sim->state.velocity[b] = velocity;
+    sim->state.id[a] = sim->state.id[b], sim->state.id[b] = id;
+    if (!sim->state.density_correction) return;
+    const float correction = sim->state.density_correction[a];
+    sim->state.density_correction[a] = sim->state.density_correction[b], sim->state.density_correction[b] = correction;
 }
 
 static void shuffle(sb_sim *sim, uint64_t seed)
 {
-    for (size_t i = sim->n; i-- > 1;) swap_particles(sim, i, sb_hash_mix(seed + i) % (i + 1));
+    for (size_t i = sim->state.n; i-- > 1;) swap_particles(sim, i, sb_hash_mix(seed + i) % (i + 1));
 }
 
 /* Steps one run as it is, and others shuffled before each step. */

@@ -20,7 +20,7 @@ static sb_sim *prepare_with_pressures(tank *t)
     t->scene.numerics.stress_correction = 0.75;
     sb_sim *sim = tank_sim(t);
     assert_non_null(sim);
-    for (size_t i = 0; i < sim->n; i++) sim->velocity[i][3] = (float)(1e4 * sb_random(7, i));
+    for (size_t i = 0; i < sim->state.n; i++) sim->state.velocity[i][3] = (float)(1e4 * sb_random(7, i));
     assert_int_equal(tank_prepare(sim, STEP), 0);
     return sim;
 }
@@ -53,7 +53,7 @@ static void stress(const sb_sim *sim, const twin *copy, const tensor *e, size_t 
 {
     const sb_reference *r = &copy->reference;
     const double unit = (double)sim->pairs.unit / sim->space.quantum / r->mass, own = 32767.0 * 32767.0;
-    const double q = (double)sim->velocity[i][3] / pow((double)sim->density[i], 2);
+    const double q = (double)sim->state.velocity[i][3] / pow((double)sim->work.density[i], 2);
     double weights = own;
     for (int k = 0; k < 9; k++) s[k / 3][k % 3] = own * e[i][k / 3][k % 3];
     for (size_t p = r->fluid_start[i]; p < r->fluid_start[i + 1]; p++) {
@@ -79,20 +79,20 @@ static void a_random_cloud_is_the_reference(void **state)
         tank_scatter(&t, 5, 1);
         sb_sim *sim = prepare_with_pressures(&t);
         assert_int_equal(twin_make(sim, &copy), 0);
-        tensor *e = sb_alloc(sim->n, sizeof *e), *s = sb_alloc(sim->n, sizeof *s);
+        tensor *e = sb_alloc(sim->state.n, sizeof *e), *s = sb_alloc(sim->state.n, sizeof *s);
         assert_non_null(e);
         assert_non_null(s);
         size_t strained = 0;
-        for (size_t i = 0; i < sim->n; i++) {
+        for (size_t i = 0; i < sim->state.n; i++) {
             strain(&copy, i, e[i]);
             strained += e[i][0][0] != 0;
         }
-        for (size_t i = 0; i < sim->n; i++) stress(sim, &copy, (const tensor *)e, i, s[i]);
+        for (size_t i = 0; i < sim->state.n; i++) stress(sim, &copy, (const tensor *)e, i, s[i]);
         sb_error error = {0};
         assert_int_equal(sb_stage_stress_correction(sim, &error), SB_OK);
         twin_gap gap = {0};
         const sb_reference *r = &copy.reference;
-        for (size_t i = 0; i < sim->n; i++) {
+        for (size_t i = 0; i < sim->state.n; i++) {
             double a[3] = {0};
             for (size_t k = r->fluid_start[i]; k < r->fluid_start[i + 1]; k++) {
                 const size_t j = r->fluid[k].other;
@@ -103,11 +103,11 @@ static void a_random_cloud_is_the_reference(void **state)
                                (s[i][row][2] + s[j][row][2]) * g.z);
             }
             const sb_vec3 before = copy.velocity[i];
-            twin_compare(&gap, i, (double)sim->velocity[i][0] - before.x, a[0]);
-            twin_compare(&gap, i, (double)sim->velocity[i][1] - before.y, a[1]);
-            twin_compare(&gap, i, (double)sim->velocity[i][2] - before.z, a[2]);
+            twin_compare(&gap, i, (double)sim->state.velocity[i][0] - before.x, a[0]);
+            twin_compare(&gap, i, (double)sim->state.velocity[i][1] - before.y, a[1]);
+            twin_compare(&gap, i, (double)sim->state.velocity[i][2] - before.z, a[2]);
         }
-        printf("%dD, %zu particles, %zu strained: %.2g of %.3g m/s\n", dimensions, sim->n, strained,
+        printf("%dD, %zu particles, %zu strained: %.2g of %.3g m/s\n", dimensions, sim->state.n, strained,
                twin_relative(&gap), gap.scale);
         assert_true(strained > 30 && gap.scale > 0.5 && twin_relative(&gap) < 1e-5);
         sb_free(e);
@@ -129,23 +129,26 @@ static void momentum_and_ledger(void **state)
         sb_sim *sim = prepare_with_pressures(&t);
         sb_error error = {0};
         const double before = sb_sim_energy(sim).kinetic;
+        sb_f4 *start = sb_alloc(sim->state.n, sizeof *start);
+        assert_non_null(start);
+        memcpy(start, sim->state.velocity, sim->state.n * sizeof *start);
         assert_int_equal(sb_stage_stress_correction(sim, &error), SB_OK);
-        const sb_f4 *start = sim->scratch;
         sb_vec3 push = {0};
         double all = 0;
-        for (size_t i = 0; i < sim->n; i++) {
-            const sb_f4 change = sim->velocity[i] - start[i];
+        for (size_t i = 0; i < sim->state.n; i++) {
+            const sb_f4 change = sim->state.velocity[i] - start[i];
             const sb_vec3 a = sb_vec((double)change[0], (double)change[1], (double)change[2]);
             push = sb_add(push, a);
             all += sb_norm(a);
-            assert_true(sim->velocity[i][3] == start[i][3]);
+            assert_true(sim->state.velocity[i][3] == start[i][3]);
         }
         const double gain = sb_sim_energy(sim).kinetic - before;
         printf("%dD: momentum %.2g of sum |a|, energy %.6g J\n", dimensions, sb_norm(push) / all, gain);
         assert_true(all > 1 && sb_norm(push) < 2e-7 * all);
-        assert_near(sim->ledger.stress, gain, 1e-9 * fabs(gain));
-        assert_near(sb_norm(sim->stress_gain), (double)sim->constant.mass * sb_norm(push),
+        assert_near(sim->state.ledger.stress, gain, 1e-9 * fabs(gain));
+        assert_near(sb_norm(sim->work.stress_gain), (double)sim->constant.mass * sb_norm(push),
                     1e-6 * (double)sim->constant.mass * all);
+        sb_free(start);
         sb_sim_destroy(sim);
         tank_free(&t);
     }
@@ -169,7 +172,7 @@ static void only_a_strained_lattice_is_corrected(void **state)
             sb_error error = {0};
             assert_int_equal(sb_stage_stress_correction(sim, &error), SB_OK);
             double most = 0;
-            for (size_t i = 0; i < sim->n; i++) most = fmax(most, fabs((double)sim->velocity[i][0]));
+            for (size_t i = 0; i < sim->state.n; i++) most = fmax(most, fabs((double)sim->state.velocity[i][0]));
             printf("%dD, stretched by %g: %.3g m/s\n", dimensions, stretch, most);
             assert_true(strained ? most > 0.1 : most < 1e-4);
             sb_sim_destroy(sim);
@@ -187,22 +190,23 @@ static double acceleration_along(const tank *t, int axis, bool corrected)
     assert_int_equal(tank_prepare(sim, STEP), 0);
     size_t middle = 0;
     double nearest = (double)INFINITY;
-    for (size_t i = 0; i < sim->n; i++) {
-        const sb_vec3 at = sb_space_position(&sim->space, sim->position[i]);
+    for (size_t i = 0; i < sim->state.n; i++) {
+        const sb_vec3 at = sb_space_position(&sim->space, sim->state.position[i]);
         const double q = 1e-3 * (1 + (axis == 0 ? at.x : at.z));
         const double off = sb_norm(sb_sub(at, sb_scale(sb_add(t->model.min, t->model.max), 0.5)));
-        sim->velocity[i] = (sb_f4){0, 0, 0, (float)q * sim->density[i] * sim->density[i]};
-        sim->unknown[i] = (float)q;
+        sim->state.velocity[i] = (sb_f4){0, 0, 0, (float)q * sim->work.density[i] * sim->work.density[i]};
         if (off < nearest) {
             nearest = off;
             middle = i;
         }
     }
     if (corrected) assert_int_equal(sb_stage_stress_correction(sim, &error), SB_OK);
-    sb_pressure_load(sim, sim->unknown);
+    for (size_t i = 0; i < sim->state.n; i++)
+        sim->work.unknown[i] = sim->state.velocity[i][3] / (sim->work.density[i] * sim->work.density[i]);
+    sb_pressure_load(sim, sim->work.unknown);
     sb_pressure_accelerate(sim);
     const int lane = axis == 0 ? 0 : 2;
-    const double all = (double)sim->acceleration[middle][lane] + (double)sim->velocity[middle][lane] / STEP;
+    const double all = (double)sim->work.acceleration[middle][lane] + (double)sim->state.velocity[middle][lane] / STEP;
     sb_sim_destroy(sim);
     return all;
 }

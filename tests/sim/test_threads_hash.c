@@ -14,7 +14,7 @@ static uint64_t run(const tank *t, int threads)
     sb_sim *sim = tank_settled(t);
     assert_int_equal(tank_steps(sim, STEPS), 0);
     assert_int_equal(sb_sim_report(sim)->step, STEPS);
-    assert_true(sim->n > 2 * (size_t)SB_BLOCK);
+    assert_true(sim->state.n > 2 * (size_t)SB_BLOCK);
     uint64_t hash = sb_sim_hash(sim);
     sb_sim_destroy(sim);
     return hash;
@@ -75,17 +75,17 @@ static void the_hash_covers_the_state(void **state)
     assert_non_null(sim);
     assert_int_equal(tank_steps(sim, 3), 0);
     uint64_t hash = sb_sim_hash(sim);
-    size_t last = sim->n - 1;
+    size_t last = sim->state.n - 1;
     struct {
         void *at;
         size_t size;
-    } parts[] = {{&sim->position[last], 12},
-                 {&sim->velocity[last], 16},
-                 {&sim->id[0], 4},
-                 {&sim->impulse[0].moment, sizeof(sb_vec3)},
-                 {&sim->ledger.left, sizeof(double)},
-                 {&sim->report.time, sizeof(double)},
-                 {&sim->report.step, sizeof(uint64_t)}};
+    } parts[] = {{&sim->state.position[last], 12},
+                 {&sim->state.velocity[last], 16},
+                 {&sim->state.id[0], 4},
+                 {&sim->state.impulse[0].moment, sizeof(sb_vec3)},
+                 {&sim->state.ledger.left, sizeof(double)},
+                 {&sim->state.time, sizeof(double)},
+                 {&sim->state.step, sizeof(uint64_t)}};
     for (size_t p = 0; p < sizeof parts / sizeof *parts; p++)
         for (size_t byte = 0; byte < parts[p].size; byte++) {
             unsigned char *at = (unsigned char *)parts[p].at + byte;

@@ -10,11 +10,11 @@
 static double virial(const sb_sim *sim, const twin *copy, size_t i)
 {
     const sb_reference *r = &copy->reference;
-    const double q = (double)sim->unknown[i];
+    const double q = (double)sim->work.unknown[i];
     double sum = 0;
     for (size_t k = r->fluid_start[i]; k < r->fluid_start[i + 1]; k++)
-        sum +=
-            r->mass * (q + (double)sim->unknown[r->fluid[k].other]) * sb_dot(r->fluid[k].offset, r->fluid[k].gradient);
+        sum += r->mass * (q + (double)sim->work.unknown[r->fluid[k].other]) *
+               sb_dot(r->fluid[k].offset, r->fluid[k].gradient);
     for (size_t k = r->wall_start[i]; k < r->wall_start[i + 1]; k++)
         sum += q * copy->psi[r->wall[k].other] * sb_dot(r->wall[k].offset, r->wall[k].gradient);
     return -0.5 * r->cloud.rest_density * sum / r->cloud.dimension;
@@ -36,20 +36,20 @@ static void a_random_cloud_is_the_reference(void **state)
         sb_sim *sim = tank_sim(&t);
         assert_non_null(sim);
         assert_int_equal(tank_prepare(sim, 1e-3), 0);
-        for (size_t i = 0; i < sim->n; i++) sim->unknown[i] = (float)sb_random(7, i);
+        for (size_t i = 0; i < sim->state.n; i++) sim->work.unknown[i] = (float)sb_random(7, i);
         assert_int_equal(twin_make(sim, &copy), 0);
-        for (size_t i = 0; i < sim->n; i++)
+        for (size_t i = 0; i < sim->state.n; i++)
             for (int axis = 0; axis < 3; axis++)
-                sim->position[i][axis] +=
-                    (uint32_t)(int32_t)lrint((double)sim->velocity[i][axis] * 1e-3 / sim->space.quantum);
-        sim->lists_current = true;
+                sim->state.position[i][axis] +=
+                    (uint32_t)(int32_t)lrint((double)sim->state.velocity[i][axis] * 1e-3 / sim->space.quantum);
+        sim->work.lists_current = true;
         sb_sim_find_virial_pressures(sim);
         size_t beside = 0;
-        for (size_t i = 0; i < sim->n; i++) {
+        for (size_t i = 0; i < sim->state.n; i++) {
             beside += copy.reference.wall_start[i] < copy.reference.wall_start[i + 1];
             twin_compare(&gap, i, sb_sim_particle(sim, i).pressure, virial(sim, &copy, i));
         }
-        printf("%dD, %zu particles, %zu beside walls: %.2g of %.3g Pa\n", dimensions, sim->n, beside,
+        printf("%dD, %zu particles, %zu beside walls: %.2g of %.3g Pa\n", dimensions, sim->state.n, beside,
                twin_relative(&gap), gap.scale);
         assert_true(beside > 30 && gap.scale > 1e5 && twin_relative(&gap) < 2e-5);
         twin_free(&copy);
@@ -65,7 +65,7 @@ static void deviation(const sb_sim *sim, double depth, double width, double *mea
     const double weight = 1000 * 9.81, support = (double)sim->constant.support;
     size_t count = 0;
     *mean = *square = 0;
-    for (size_t i = 0; i < sim->n; i++) {
+    for (size_t i = 0; i < sim->state.n; i++) {
         const sb_fluid_sample p = sb_sim_particle(sim, i);
         if (p.position.z < support || p.position.z > depth - support || p.position.x < support ||
             p.position.x > width - support)
@@ -129,8 +129,8 @@ static void initial_velocities_do_not_change_pressures(void **state)
         sim[k] = tank_settled(&t[k]);
         sb_sim_find_virial_pressures(sim[k]);
     }
-    assert_int_equal(sim[0]->n, sim[1]->n);
-    for (size_t i = 0; i < sim[0]->n; i++) {
+    assert_int_equal(sim[0]->state.n, sim[1]->state.n);
+    for (size_t i = 0; i < sim[0]->state.n; i++) {
         const sb_fluid_sample rest = sb_sim_particle(sim[0], i), moves = sb_sim_particle(sim[1], i);
         assert_true(rest.velocity.x == 0 && moves.velocity.x == 2);
         assert_true(moves.pressure == rest.pressure);
@@ -153,12 +153,12 @@ static void only_current_lists_are_used(void **state)
     assert_non_null(again);
     sb_sim_find_virial_pressures(sim); /* no step was done yet */
     assert_int_equal(tank_steps(sim, 30), 0);
-    const float solved = sim->velocity[0][3];
+    const float solved = sim->state.velocity[0][3];
     assert_true(sb_sim_particle(sim, 0).pressure == (double)solved);
     sb_sim_find_virial_pressures(sim);
     const double virial_sums = sb_sim_particle(sim, 0).pressure;
     assert_true(virial_sums != (double)solved);
-    sim->unknown[0] *= 2;
+    sim->work.unknown[0] *= 2;
     sb_sim_find_virial_pressures(sim);
     assert_true(sb_sim_particle(sim, 0).pressure == virial_sums);
     sb_archive_out out = {0};
@@ -166,7 +166,7 @@ static void only_current_lists_are_used(void **state)
     tank_save(sim, &out);
     assert_int_equal(tank_load(again, &out, &error), SB_OK);
     sb_sim_find_virial_pressures(again);
-    assert_true(sb_sim_particle(again, 0).pressure == (double)again->velocity[0][3]);
+    assert_true(sb_sim_particle(again, 0).pressure == (double)again->state.velocity[0][3]);
     sb_archive_out_free(&out);
     sb_sim_destroy(sim);
     sb_sim_destroy(again);

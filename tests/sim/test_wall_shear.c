@@ -51,8 +51,8 @@ static void check(int dimensions, double nu)
     assert_non_null(sim);
     assert_int_equal(tank_prepare(sim, 1), 0);
     assert_int_equal(twin_make(sim, &other), 0);
-    sb_vec3 *expected = sb_alloc(sim->n, sizeof *expected), *apart = sb_alloc(sim->n, sizeof *apart);
-    double *rho = sb_alloc(sim->n, sizeof *rho);
+    sb_vec3 *expected = sb_alloc(sim->state.n, sizeof *expected), *apart = sb_alloc(sim->state.n, sizeof *apart);
+    double *rho = sb_alloc(sim->state.n, sizeof *rho);
     assert_true(expected && apart && rho);
     sb_vec3 center[3] = {0}, drag[3] = {0}, torque[3] = {0};
     sb_reference_density(&other.reference, rho);
@@ -64,8 +64,8 @@ static void check(int dimensions, double nu)
     assert_int_equal(sb_stage_forces(sim, &error), SB_OK);
     twin_gap gap = {0};
     double sheared = 0;
-    for (size_t i = 0; i < sim->n; i++) {
-        const sb_f4 v = sim->velocity[i];
+    for (size_t i = 0; i < sim->state.n; i++) {
+        const sb_f4 v = sim->work.predicted[i];
         const sb_vec3 start = other.velocity[i], a = sb_add(expected[i], apart[i]);
         twin_compare(&gap, i, (double)v[0] - start.x, a.x);
         twin_compare(&gap, i, (double)v[1] - start.y, a.y);

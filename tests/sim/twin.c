@@ -17,7 +17,7 @@ static size_t copy_walls(const sb_sim *sim, twin *t)
 {
     size_t at = 0;
     for (int s = 0; s < SB_WALL_SETS; s++) {
-        const sb_wall_set *set = &sim->walls[s];
+        const sb_wall_set *set = &sim->walls.set[s];
         for (size_t b = 0; b < set->count; b++) {
             if (is_image(sim, set->record[b])) continue;
             t->wall_position[at] = sb_space_position(&sim->space, set->record[b]);
@@ -25,7 +25,8 @@ static size_t copy_walls(const sb_sim *sim, twin *t)
             t->body[at] = set->body[b];
             sb_f4 normal = set->normal[b];
             t->wall_normal[at] = sb_vec((double)normal[0], (double)normal[1], (double)normal[2]);
-            if (s == SB_MOVING) t->wall_velocity[at] = sim->moving[sim->moving_of_body[set->body[b]]].velocity;
+            if (s == SB_MOVING)
+                t->wall_velocity[at] = sim->walls.moving[sim->walls.moving_of_body[set->body[b]]].velocity;
             at++;
         }
         if (s == SB_STATIC) t->static_count = at;
@@ -39,14 +40,14 @@ static void take_slopes(const sb_sim *sim, twin *t)
 {
     const sb_reference *r = &t->reference;
     const double quantum = sim->space.quantum, near = 1e-3 * r->cloud.spacing;
-    for (size_t i = 0; i < sim->n && sim->groups.count > 0; i++)
+    for (size_t i = 0; i < sim->state.n && sim->groups.count > 0; i++)
         for (size_t k = 0; k < twin_listed(sim, i, false); k++) {
             const twin_entry entry = twin_list(sim, i, false, k);
-            const size_t ghost = entry.other - sim->n;
-            const size_t other = entry.other < sim->n        ? entry.other
+            const size_t ghost = entry.other - sim->state.n;
+            const size_t other = entry.other < sim->state.n  ? entry.other
                                  : ghost < sim->ghosts.count ? sim->ghosts.of[ghost]
                                                              : i;
-            const sb_f4 d = sb_offset(sim->position[i], sim->position[entry.other]);
+            const sb_f4 d = sb_offset(sim->state.position[i], sim->state.position[entry.other]);
             const sb_vec3 offset = sb_scale(sb_vec((double)d[0], (double)d[1], (double)d[2]), quantum);
             for (size_t p = r->fluid_start[i]; p < r->fluid_start[i + 1] && !entry.padding; p++)
                 if (r->fluid[p].other == other && sb_norm(sb_sub(r->fluid[p].offset, offset)) < near)
@@ -57,7 +58,7 @@ static void take_slopes(const sb_sim *sim, twin *t)
 int twin_make(const sb_sim *sim, twin *t)
 {
     const sb_numerics *numerics = &sim->scene->numerics;
-    size_t n = sim->n, walls = sim->walls[SB_STATIC].count + sim->walls[SB_MOVING].count;
+    size_t n = sim->state.n, walls = sim->walls.set[SB_STATIC].count + sim->walls.set[SB_MOVING].count;
     twin made = {0};
     made.position = sb_alloc(n, sizeof(sb_vec3));
     made.velocity = sb_alloc(n, sizeof(sb_vec3));
@@ -75,8 +76,8 @@ int twin_make(const sb_sim *sim, twin *t)
         double quantum = sim->space.quantum;
         const uint32_t *period = sim->space.period;
         for (size_t i = 0; i < n; i++) {
-            sb_f4 v = sim->velocity[i];
-            made.position[i] = sb_space_position(&sim->space, sim->position[i]);
+            sb_f4 v = sim->state.velocity[i];
+            made.position[i] = sb_space_position(&sim->space, sim->state.position[i]);
             made.velocity[i] = sb_vec((double)v[0], (double)v[1], (double)v[2]);
         }
         sb_reference_cloud cloud = {
@@ -85,7 +86,7 @@ int twin_make(const sb_sim *sim, twin *t)
             .h = numerics->support * sim->scene->resolution,
             .spacing = sim->scene->resolution,
             .rest_density = sim->scene->fluid.density,
-            .time_step = sim->report.time_step,
+            .time_step = sim->state.time_step,
             .fluid_count = n,
             .position = made.position,
             .velocity = made.velocity,

@@ -3,7 +3,7 @@
 #define SB_TESTS_TWIN_H
 
 #include "reference/reference.h"
-#include "sim/state/state.h"
+#include "sim/simulation.h"
 
 /* Fluid particles are in the simulation's order. Boundary particles are those of the static set, then those of the
    moving set, without the images beyond periodic sides, which the reference makes itself. */

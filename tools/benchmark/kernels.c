@@ -52,11 +52,11 @@ static void time_passes(sb_sim *sim, double seconds[PASSES])
 {
     double at[PASSES + 1];
     at[LOAD] = sb_clock();
-    sb_pressure_load(sim, sim->unknown);
+    sb_pressure_load(sim, sim->work.unknown);
     at[ACCELERATION] = sb_clock();
     sb_pressure_accelerate(sim);
     at[DIVERGENCE] = sb_clock();
-    sb_pressure_diverge(sim, sim->residual);
+    sb_pressure_diverge(sim, sim->work.residual);
     at[JUDGEMENT] = sb_clock();
     sb_pressure_judge(sim);
     at[PASSES] = sb_clock();
@@ -127,7 +127,7 @@ static sb_status add_all(const sb_bench_subject *subject, const times *t, const 
                          sb_bench_rows *rows, sb_error *error)
 {
     const sb_stage_time *stages;
-    const size_t n = subject->sim->n, count = sb_sim_stages(subject->sim, &stages);
+    const size_t n = subject->sim->state.n, count = sb_sim_stages(subject->sim, &stages);
     const double pairs = 4 * (double)subject->sim->pairs.used / (double)n;
     const sb_bench_samples search = sum_of(t, stages, count, "sort", "neighbours");
     const sb_bench_samples pressure = sum_of(t, stages, count, "pressure", NULL);

@@ -14,7 +14,7 @@ static sb_status add_all(const sb_bench_subject *subject, bool quick, double sec
                          sb_error *error)
 {
     const char *name = quick ? "plant but coarser" : "plant at 1 m";
-    const size_t n = subject->sim->n;
+    const size_t n = subject->sim->state.n;
     const int threads = omp_get_max_threads();
     const struct {
         const char *quantity, *unit;

@@ -37,11 +37,11 @@ static sb_status add_arrays(const char *name, const sb_bench_subject *subject, s
 {
     const sb_sim *sim = subject->sim;
     const sb_model *model = &subject->model;
-    const double n = (double)sim->n;
+    const double n = (double)sim->state.n;
     double walls = 0;
     for (int s = 0; s < SB_WALL_SETS; s++)
-        walls += (double)(sb_cells_bytes(&sim->walls[s].cells) + sim->walls[s].count * 36 +
-                          (sim->walls[s].near_mask + 1) * 8);
+        walls += (double)(sb_cells_bytes(&sim->walls.set[s].cells) + sim->walls.set[s].count * 36 +
+                          (sim->walls.set[s].near_mask + 1) * 8);
     const struct {
         const char *name;
         double bytes;
@@ -51,9 +51,9 @@ static sb_status add_arrays(const char *name, const sb_bench_subject *subject, s
         {"groups",
          (double)(sizeof *sim->groups.group * sim->groups.capacity + sizeof *sim->groups.run * sim->groups.room)},
         {"wall pair lists", 8 * (double)sim->wall_pairs.capacity},
-        {"fields of particles", (double)sim->bytes_fixed},
+        {"fields of particles", (double)(sb_state_bytes(&sim->state) + sim->work.bytes)},
         {"cells", (double)sb_cells_bytes(&sim->cells)},
-        {"boundary particles", walls + 36 * (double)sim->moving_rest_count},
+        {"boundary particles", walls + 36 * (double)sim->walls.rest.count},
         {"model: fluid particles", (model->fluid_position ? 24 * n : 0) + (model->fluid_velocity ? 24 * n : 0) +
                                        (model->fluid_pressure ? 8 * n : 0)},
         {"model: boundary particles", (model->wall_position ? 24 : 0) * (double)model->wall_count +
@@ -61,10 +61,10 @@ static sb_status add_arrays(const char *name, const sb_bench_subject *subject, s
     };
     sb_status status = SB_OK;
     for (size_t a = 0; a < sizeof arrays / sizeof arrays[0] && status == SB_OK; a++)
-        status = sb_bench_add_value(rows, name, sim->n, omp_get_max_threads(), arrays[a].name, "B/particle",
+        status = sb_bench_add_value(rows, name, sim->state.n, omp_get_max_threads(), arrays[a].name, "B/particle",
                                     arrays[a].bytes / n, error);
     if (status == SB_OK)
-        status = sb_bench_add_value(rows, name, sim->n, omp_get_max_threads(), "pairs per particle", "1",
+        status = sb_bench_add_value(rows, name, sim->state.n, omp_get_max_threads(), "pairs per particle", "1",
                                     4 * (double)sim->pairs.used / n, error);
     return status;
 }
@@ -115,12 +115,12 @@ static sb_status take_turns(sb_bench_subject shore[2], int repeats, sb_bench_row
             const int s = (turn + k) % 2;
             status = sb_bench_repeat(&shore[s], DRY_STEPS, &each[s], NULL, error);
             sb_bench_sample(&samples[s], each[s]);
-            each[s] /= (double)shore[s].sim->n;
+            each[s] /= (double)shore[s].sim->state.n;
         }
         sb_bench_sample(&added, each[1] / each[0] - 1);
     }
     for (int s = 0; s < 2 && status == SB_OK; s++) {
-        const size_t n = shore[s].sim->n;
+        const size_t n = shore[s].sim->state.n;
         const double walls = (double)shore[s].model.wall_count, bytes = (double)sb_sim_bytes(shore[s].sim);
         status = sb_bench_add(rows, names[s], n, omp_get_max_threads(), SB_BENCH_STEP, "ns", &samples[s],
                               1e9 / ((double)n * DRY_STEPS), error);
@@ -132,7 +132,8 @@ static sb_status take_turns(sb_bench_subject shore[2], int repeats, sb_bench_row
                                         "B/particle", bytes / (double)n, error);
     }
     if (status != SB_OK) return status;
-    return sb_bench_add(rows, names[1], shore[1].sim->n, omp_get_max_threads(), "time added", "%", &added, 100, error);
+    return sb_bench_add(rows, names[1], shore[1].sim->state.n, omp_get_max_threads(), "time added", "%", &added, 100,
+                        error);
 }
 
 static sb_status dry_land(const void *context, sb_bench_rows *rows, sb_error *error)

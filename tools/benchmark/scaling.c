@@ -24,7 +24,7 @@ static sb_status with_threads(sb_bench_subject *subject, int threads, int repeat
         sb_bench_sample(&samples, seconds);
     }
     if (status != SB_OK) return status;
-    const size_t n = subject->sim->n;
+    const size_t n = subject->sim->state.n;
     return sb_bench_add(rows, SB_BENCH_STEP, n, threads, SB_BENCH_PER_PARTICLE, "ns", &samples,
                         1e9 / ((double)n * STEPS), error);
 }

@@ -61,7 +61,7 @@ static sb_status add_all(const char *name, const sb_bench_subject *subject, int 
                          sb_bench_rows *rows, sb_error *error)
 {
     const sb_stage_time *stages;
-    const size_t n = subject->sim->n, count = sb_sim_stages(subject->sim, &stages);
+    const size_t n = subject->sim->state.n, count = sb_sim_stages(subject->sim, &stages);
     const int threads = omp_get_max_threads();
     const double particle_steps = (double)n * steps;
     char quantity[SB_BENCH_NAME];

@@ -5,7 +5,7 @@
 #include "base/archive.h"
 #include "geometry/model/model.h"
 #include "rows.h"
-#include "sim/state/state.h"
+#include "sim/simulation.h"
 
 typedef struct sb_bench_subject {
     sb_scene scene;

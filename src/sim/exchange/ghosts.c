@@ -3,37 +3,17 @@
    particles are the same as without ghosts. */
 #include "base/memory.h"
 #include "sim/search/sort.h"
-#include "sim/state/state.h"
+#include "sim/simulation.h"
 #include "sim/step/stages.h"
 
-#include <string.h>
-
-/* Moves a field of `size` bytes per particle, `used` of them in use, into a longer array. */
-static int lengthen(void **field, size_t used, size_t capacity, size_t size)
-{
-    void *longer = sb_alloc_untouched(capacity, size);
-    if (!longer) return -1;
-    memcpy(longer, *field, used * size);
-    sb_free(*field);
-    *field = longer;
-    return 0;
-}
-
-/* Makes room for `beyond` entries after the fluid particles; all entries keep their values. Returns 0, or -1 without
-   memory. */
+/* Makes room for `beyond` entries after the fluid particles. Returns 0, or -1 without memory. */
 static int make_room(sb_sim *sim, size_t beyond)
 {
-    if (sim->n + beyond <= sim->capacity) return 0;
-    const size_t used = sim->n + sim->ghosts.count, capacity = sim->n + beyond + beyond / 8 + 64;
-    if (lengthen((void **)&sim->position, used, capacity, 16) != 0 ||
-        lengthen((void **)&sim->velocity, used, capacity, 16) != 0 ||
-        lengthen((void **)&sim->acceleration, used, capacity, 16) != 0 ||
-        lengthen(&sim->scratch, used, capacity, 16) != 0 ||
-        (sim->eddy && lengthen((void **)&sim->eddy, used, capacity, 4) != 0))
-        return -1;
-    sim->bytes_fixed += (sim->eddy ? 68u : 64u) * (capacity - sim->capacity);
-    sim->capacity = capacity;
-    return 0;
+    sb_state *state = &sim->state;
+    if (state->n + beyond <= state->capacity) return 0;
+    const size_t capacity = state->n + beyond + beyond / 8 + 64;
+    if (sb_state_lengthen(state, state->n, capacity) != 0) return -1;
+    return sb_work_create(sim, state->owned, capacity); /* nothing in it is alive */
 }
 
 static int reserve(sb_sim *sim, size_t ghosts)
@@ -55,7 +35,7 @@ static size_t count_images(const sb_sim *sim, size_t *first)
         sb_record image[SB_IMAGES_MAX];
         size_t found = 0;
         for (size_t i = b * SB_BLOCK; i < sb_block_end(sim, b); i++)
-            found += (size_t)sb_space_images(&sim->space, sim->position[i], image);
+            found += (size_t)sb_space_images(&sim->space, sim->state.position[i], image);
         first[b + 1] = found;
     }
     for (size_t b = 0; b < blocks; b++) first[b + 1] += first[b];
@@ -72,7 +52,7 @@ static void make_images(sb_sim *sim, const size_t *first, sb_record *made)
         sb_record image[SB_IMAGES_MAX];
         size_t at = first[b];
         for (size_t i = b * SB_BLOCK; i < sb_block_end(sim, b); i++) {
-            int images = sb_space_images(&sim->space, sim->position[i], image);
+            int images = sb_space_images(&sim->space, sim->state.position[i], image);
             for (int k = 0; k < images; k++, at++) {
                 made[at] = image[k];
                 made[at][3] = (uint32_t)i;
@@ -85,7 +65,7 @@ static void make_images(sb_sim *sim, const size_t *first, sb_record *made)
 static void place(sb_sim *sim, const uint64_t *sorted, const sb_record *made)
 {
     const size_t count = sim->ghosts.count;
-    sb_record *position = sim->position + sim->n;
+    sb_record *position = sim->state.position + sim->state.n;
 #pragma omp parallel for schedule(static)
     for (size_t g = 0; g < count; g++) {
         sb_record ghost = made[sb_word_index(sorted[g])];
@@ -100,14 +80,14 @@ static int build(sb_sim *sim, const size_t *first, size_t count)
 {
     sb_ghosts *g = &sim->ghosts;
     if (reserve(sim, count) != 0) return -1;
-    sb_record *made = (sb_record *)sim->acceleration + sim->n; /* unused until the pressure is solved */
+    sb_record *made = sim->work.images;
     make_images(sim, first, made);
     const uint64_t *sorted = sb_sort(g->words, g->other, count, SB_INDEX_BITS, SB_INDEX_BITS + sim->space.key_bits);
     if (!sorted) return -1;
     g->count = count;
     place(sim, sorted, made);
-    sb_ghosts_refresh(sim, sim->velocity);
-    return sb_cells_build(&g->cells, sim->position + sim->n, count, sim->space.shift);
+    sb_ghosts_refresh(sim, sim->state.velocity);
+    return sb_cells_build(&g->cells, sim->state.position + sim->state.n, count, sim->space.shift);
 }
 
 sb_status sb_stage_ghosts(sb_sim *sim, sb_error *error)
@@ -131,7 +111,7 @@ void sb_ghosts_refresh(const sb_sim *sim, sb_f4 *field)
 {
     const size_t count = sim->ghosts.count;
     const uint32_t *of = sim->ghosts.of;
-    sb_f4 *ghost = field + sim->n;
+    sb_f4 *ghost = field + sim->state.n;
     if (count == 0) return;
 #pragma omp parallel for schedule(static)
     for (size_t g = 0; g < count; g++) ghost[g] = field[of[g]];
@@ -140,7 +120,7 @@ void sb_ghosts_refresh(const sb_sim *sim, sb_f4 *field)
 void sb_ghosts_refresh_values(const sb_sim *sim, float *field)
 {
     const size_t count = sim->ghosts.count;
-    for (size_t g = 0; g < count; g++) field[sim->n + g] = field[sim->ghosts.of[g]];
+    for (size_t g = 0; g < count; g++) field[sim->state.n + g] = field[sim->ghosts.of[g]];
 }
 
 void sb_ghosts_destroy(sb_sim *sim)

@@ -5,7 +5,7 @@
 #define SB_SIM_SUMS_H
 
 #include "base/exact.h"
-#include "sim/state/state.h"
+#include "sim/simulation.h"
 
 enum { SB_SUMS_MAX = 8 };
 

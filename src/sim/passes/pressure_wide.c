@@ -62,8 +62,8 @@ WIDE static void accelerate_group(sb_sim *sim, const sb_group *group)
             const __m512 weight = _mm512_mul_ps(both, four_slopes(four->slope));
             total = _mm512_fmadd_ps(_mm512_sub_ps(self, at), weight, total);
         }
-        const sb_f4 sum = fold(total) * sb_splat(sim->pairs.unit) + sb_splat(own[3]) * sim->wall[i];
-        sim->acceleration[i] = (sb_f4){-sum[0], -sum[1], -sum[2], 0};
+        const sb_f4 sum = fold(total) * sb_splat(sim->pairs.unit) + sb_splat(own[3]) * sim->work.wall[i];
+        sim->work.acceleration[i] = (sb_f4){-sum[0], -sum[1], -sum[2], 0};
     }
 }
 
@@ -83,7 +83,7 @@ WIDE static void diverge_group(sb_sim *sim, const sb_group *group, const sb_f4 *
             const __m512 weight = _mm512_mul_ps(_mm512_sub_ps(own, value), four_slopes(four->slope));
             total = _mm512_fmadd_ps(_mm512_sub_ps(self, at), weight, total);
         }
-        out[i] = factor * sb_sum3(fold(total) * sb_splat(sim->pairs.unit) + field[i] * sim->wall[i]);
+        out[i] = factor * sb_sum3(fold(total) * sb_splat(sim->pairs.unit) + field[i] * sim->work.wall[i]);
     }
 }
 

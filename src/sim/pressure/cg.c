@@ -30,15 +30,15 @@ static double sum_group(sb_sim *sim, const sb_group *group, double terms[SB_SUMS
 {
     double free = 0, chopped = 0, slope = 0, curvature = 0, feasible = (double)INFINITY;
     for (size_t i = group->first; i < group->end; i++) {
-        if (sim->diagonal[i] == 0) continue;
-        double e = (double)sim->residual[i], d = (double)sim->direction[i];
-        double q = (double)sim->unknown[i];
+        if (sim->work.diagonal[i] == 0) continue;
+        double e = (double)sim->work.residual[i], d = (double)sim->work.direction[i];
+        double q = (double)sim->work.unknown[i];
         if (q > 0)
-            free += e * e / (double)sim->diagonal[i];
+            free += e * e / (double)sim->work.diagonal[i];
         else if (e > 0)
-            chopped += e * e / (double)sim->diagonal[i];
+            chopped += e * e / (double)sim->work.diagonal[i];
         slope += e * d;
-        curvature -= d * (double)sim->product[i];
+        curvature -= d * (double)sim->work.product[i];
         if (d < 0 && q < -feasible * d) feasible = -q / d;
     }
     const double values[SUMS] = {free, chopped, slope, curvature};
@@ -56,46 +56,46 @@ static sums sum_all(sb_sim *sim)
 /* direction = D^-1 (gradient on the free set, or on the chopped set) + gamma direction. */
 static void aim(sb_sim *sim, bool chopped, float gamma)
 {
-    const size_t n = sim->n;
+    const size_t n = sim->state.n;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) {
-        float e = sim->residual[i];
-        bool active = chopped ? sim->unknown[i] == 0 && e > 0 : sim->unknown[i] > 0;
-        float d = active && sim->diagonal[i] > 0 ? e / sim->diagonal[i] : 0;
-        sim->direction[i] = gamma != 0 ? d + gamma * sim->direction[i] : d;
+        float e = sim->work.residual[i];
+        bool active = chopped ? sim->work.unknown[i] == 0 && e > 0 : sim->work.unknown[i] > 0;
+        float d = active && sim->work.diagonal[i] > 0 ? e / sim->work.diagonal[i] : 0;
+        sim->work.direction[i] = gamma != 0 ? d + gamma * sim->work.direction[i] : d;
     }
 }
 
 /* q += length direction, e += length A direction. */
 static void advance(sb_sim *sim, float length)
 {
-    const size_t n = sim->n;
+    const size_t n = sim->state.n;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) {
-        float q = sim->unknown[i] + length * sim->direction[i];
-        sim->unknown[i] = q > 0 ? q : 0;
-        sim->residual[i] += length * sim->product[i];
+        float q = sim->work.unknown[i] + length * sim->work.direction[i];
+        sim->work.unknown[i] = q > 0 ? q : 0;
+        sim->work.residual[i] += length * sim->work.product[i];
     }
 }
 
 /* A clamped step along the free gradient: the active set may change much at once. */
 static void project(sb_sim *sim)
 {
-    const size_t n = sim->n;
+    const size_t n = sim->state.n;
     const float length = projection(sim);
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) {
-        if (sim->unknown[i] == 0 || sim->diagonal[i] == 0) continue;
-        float q = sim->unknown[i] + length * sim->residual[i] / sim->diagonal[i];
-        sim->unknown[i] = q > 0 ? q : 0;
+        if (sim->work.unknown[i] == 0 || sim->work.diagonal[i] == 0) continue;
+        float q = sim->work.unknown[i] + length * sim->work.residual[i] / sim->work.diagonal[i];
+        sim->work.unknown[i] = q > 0 ? q : 0;
     }
 }
 
 static double conjugation_terms(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_MAX])
 {
     for (size_t i = group->first; i < group->end; i++)
-        if (sim->unknown[i] > 0 && sim->diagonal[i] > 0)
-            terms[0] += (double)sim->residual[i] / (double)sim->diagonal[i] * (double)sim->product[i];
+        if (sim->work.unknown[i] > 0 && sim->work.diagonal[i] > 0)
+            terms[0] += (double)sim->work.residual[i] / (double)sim->work.diagonal[i] * (double)sim->work.product[i];
     return 0;
 }
 
@@ -117,11 +117,11 @@ static sb_status solve(sb_sim *sim, sb_error *error)
         sums s = sum_all(sim);
         bool chopped = s.chopped > s.free;
         if (chopped) aim(sim, true, 0);
-        sb_pressure_load(sim, sim->direction);
-        sb_pressure_product(sim, sim->product);
+        sb_pressure_load(sim, sim->work.direction);
+        sb_pressure_product(sim, sim->work.product);
         s = sum_all(sim);
         if (!(s.curvature > 0)) { /* no further descent */
-            sim->report.capped = !(judged.mean <= sim->report.tolerance);
+            sim->work.solve.capped = !(judged.mean <= sim->work.solve.tolerance);
             break;
         }
         double best = s.slope / s.curvature;
@@ -132,12 +132,12 @@ static sb_status solve(sb_sim *sim, sb_error *error)
             advance(sim, (float)s.feasible);
             project(sim);
             sb_pressure_residual(sim);
-            sim->report.iterations++;
+            sim->work.solve.iterations++;
             aim(sim, false, 0);
         }
         judged = sb_pressure_judge(sim);
     }
-    sb_pressure_load(sim, sim->unknown);
+    sb_pressure_load(sim, sim->work.unknown);
     sb_pressure_accelerate(sim);
     return SB_OK;
 }

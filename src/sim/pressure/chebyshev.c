@@ -22,7 +22,7 @@ typedef struct polynomial {
 
 static double lower_end(const sb_sim *sim)
 {
-    const double n = sim->last_sweeps;
+    const double n = sim->work.solve.last;
     if (sim->constant.dimension == 2) return IN_2D;
     return n > 0 ? fmin(fmax(SHARE / (n * n), SMALLEST_MIN), SMALLEST_MAX) : START;
 }
@@ -36,9 +36,9 @@ static polynomial begin(double largest, double smallest)
 /* q += move, move = keep times the last move + step times the scaled residual. */
 static void sweep(sb_sim *sim, polynomial *p)
 {
-    const size_t n = sim->n;
-    const float *restrict residual = sim->residual, *restrict diagonal = sim->diagonal;
-    float *restrict unknown = sim->unknown, *restrict direction = sim->direction;
+    const size_t n = sim->state.n;
+    const float *restrict residual = sim->work.residual, *restrict diagonal = sim->work.diagonal;
+    float *restrict unknown = sim->work.unknown, *restrict direction = sim->work.direction;
     const double next = 1 / (2 * p->theta / p->delta - p->rho);
     const bool first = p->first;
     const float keep = first ? 0 : (float)(next * p->rho);

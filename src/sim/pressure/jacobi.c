@@ -14,15 +14,15 @@ static sb_status solve(sb_sim *sim, sb_error *error)
     (void)error;
     const float omega = factor(sim);
     for (;;) {
-        const size_t n = sim->n;
+        const size_t n = sim->state.n;
         sb_pressure_residual(sim);
         sb_pressure_error judged = sb_pressure_judge(sim);
         if (sb_pressure_done(sim, &judged)) return SB_OK;
 #pragma omp parallel for schedule(static)
         for (size_t i = 0; i < n; i++) {
-            if (sim->diagonal[i] == 0) continue;
-            float q = sim->unknown[i] + omega * sim->residual[i] / sim->diagonal[i];
-            sim->unknown[i] = q > 0 ? q : 0;
+            if (sim->work.diagonal[i] == 0) continue;
+            float q = sim->work.unknown[i] + omega * sim->work.residual[i] / sim->work.diagonal[i];
+            sim->work.unknown[i] = q > 0 ? q : 0;
         }
     }
 }

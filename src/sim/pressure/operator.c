@@ -7,8 +7,8 @@
 
 void sb_pressure_load(sb_sim *sim, const float *argument)
 {
-    const size_t n = sim->n;
-    sb_record *position = sim->position;
+    const size_t n = sim->state.n;
+    sb_record *position = sim->state.position;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) sb_carry(&position[i], argument[i]);
     const size_t ghosts = sim->ghosts.count;
@@ -58,8 +58,8 @@ static void accelerate_group(sb_sim *sim, const sb_group *group)
             even += (self - a) * ((q + sb_carried8(a)) * two_slopes(four->slope));
             odd += (self - b) * ((q + sb_carried8(b)) * two_slopes(four->slope + 2));
         }
-        const sb_f4 sum = fold(even + odd) * sb_splat(sim->pairs.unit) + sb_splat(own[3]) * sim->wall[i];
-        sim->acceleration[i] = (sb_f4){-sum[0], -sum[1], -sum[2], 0};
+        const sb_f4 sum = fold(even + odd) * sb_splat(sim->pairs.unit) + sb_splat(own[3]) * sim->work.wall[i];
+        sim->work.acceleration[i] = (sb_f4){-sum[0], -sum[1], -sum[2], 0};
     }
 }
 
@@ -79,7 +79,7 @@ static void diverge_group(sb_sim *sim, const sb_group *group, const sb_f4 *field
             even += sb_lower(a, b) * (sb_upper(a, b) * two_slopes(four->slope));
             odd += sb_lower(c, d) * (sb_upper(c, d) * two_slopes(four->slope + 2));
         }
-        out[i] = factor * sb_sum3(fold(even + odd) * sb_splat(sim->pairs.unit) + field[i] * sim->wall[i]);
+        out[i] = factor * sb_sum3(fold(even + odd) * sb_splat(sim->pairs.unit) + field[i] * sim->work.wall[i]);
     }
 }
 
@@ -101,22 +101,22 @@ void sb_divergence(sb_sim *sim, const sb_f4 *field, float factor, float *out)
 
 void sb_pressure_diverge(sb_sim *sim, float *out)
 {
-    const float dt = (float)sim->report.time_step;
-    sb_divergence(sim, sim->acceleration, dt * dt, out);
+    const float dt = (float)sim->state.time_step;
+    sb_divergence(sim, sim->work.acceleration, dt * dt, out);
 }
 
 void sb_pressure_product(sb_sim *sim, float *out)
 {
     sb_pressure_accelerate(sim);
-    sb_ghosts_refresh(sim, sim->acceleration);
+    sb_ghosts_refresh(sim, sim->work.acceleration);
     sb_pressure_diverge(sim, out);
 }
 
 void sb_pressure_residual(sb_sim *sim)
 {
-    const size_t n = sim->n;
-    sb_pressure_load(sim, sim->unknown);
-    sb_pressure_product(sim, sim->residual);
+    const size_t n = sim->state.n;
+    sb_pressure_load(sim, sim->work.unknown);
+    sb_pressure_product(sim, sim->work.residual);
 #pragma omp parallel for schedule(static)
-    for (size_t i = 0; i < n; i++) sim->residual[i] -= sim->source[i];
+    for (size_t i = 0; i < n; i++) sim->work.residual[i] -= sim->work.source[i];
 }

@@ -21,17 +21,17 @@ double sb_pressure_spectrum(const sb_sim *sim)
     return DISORDER * sim->constant.spectrum;
 }
 
-/* Computes b_i = beta (rho_0 - rho_i) - dt div_i of one group, with v* and the walls' velocities. sim->source holds
-   div_i on entry. Sums the density above the rest density, and returns the largest. */
+/* Computes b_i = beta (rho_0 - rho_i) - dt div_i of one group, with v* and the walls' velocities. sim->work.source
+   holds div_i on entry. Sums the density above the rest density, and returns the largest. */
 static double source_group(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_MAX])
 {
-    const float dt = (float)sim->report.time_step, rest = sim->constant.rest_density;
+    const float dt = (float)sim->state.time_step, rest = sim->constant.rest_density;
     const float beta = (float)sim->scene->numerics.source_relaxation;
     double excess = 0;
     float worst = 0;
     for (size_t i = group->first; i < group->end; i++) {
-        const float deficit = rest - sim->density[i];
-        sim->source[i] = beta * deficit - dt * (sim->source[i] - sim->wall[i][3]);
+        const float deficit = rest - sim->work.density[i];
+        sim->work.source[i] = beta * deficit - dt * (sim->work.source[i] - sim->work.wall[i][3]);
         excess += deficit < 0 ? (double)-deficit : 0;
         worst = -deficit > worst ? -deficit : worst;
     }
@@ -44,9 +44,9 @@ sb_status sb_stage_source(sb_sim *sim, sb_error *error)
     (void)error;
     const double rest = (double)sim->constant.rest_density;
     double excess;
-    sb_divergence(sim, sim->velocity, 1, sim->source);
+    sb_divergence(sim, sim->work.predicted, 1, sim->work.source);
     const double worst = sb_sum_groups(sim, 1, source_group, &excess);
-    sim->report.compression = sim->n ? excess / ((double)sim->n * rest) : 0;
+    sim->report.compression = sim->state.n ? excess / ((double)sim->state.n * rest) : 0;
     sim->report.compression_max = fmax(worst, 0) / rest;
     return SB_OK;
 }
@@ -57,16 +57,17 @@ sb_status sb_stage_source(sb_sim *sim, sb_error *error)
    throw it back faster than it came. The mean error of all the water does not show such an error. */
 static void set_initial_guess(sb_sim *sim)
 {
-    const size_t n = sim->n;
-    const float share = sim->settling == SB_DAMPING ? 1 : (float)sim->scene->numerics.warm_start;
-    const float dt2 = (float)(sim->report.time_step * sim->report.time_step);
+    const size_t n = sim->state.n;
+    const float own = sim->policy->warm_start;
+    const float share = own < 0 ? (float)sim->scene->numerics.warm_start : own;
+    const float dt2 = (float)(sim->state.time_step * sim->state.time_step);
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) {
-        float p = sim->velocity[i][3], rho = sim->density[i];
+        float p = sim->state.velocity[i][3], rho = sim->work.density[i];
         float q = share * p / (rho * rho);
-        sim->diagonal[i] *= dt2;
-        if (sim->pairs.count[i] == 0) q = -sim->source[i] / sim->diagonal[i];
-        sim->unknown[i] = sim->diagonal[i] > 0 && q > 0 ? q : 0;
+        sim->work.diagonal[i] *= dt2;
+        if (sim->pairs.count[i] == 0) q = -sim->work.source[i] / sim->work.diagonal[i];
+        sim->work.unknown[i] = sim->work.diagonal[i] > 0 && q > 0 ? q : 0;
     }
 }
 
@@ -74,18 +75,19 @@ static double tolerance(const sb_sim *sim)
 {
     const sb_numerics *n = &sim->scene->numerics;
     if (n->tolerance_rule == SB_TOLERANCE_DENSITY) return n->tolerance;
-    double courant = sim->report.time_step * (double)sim->constant.wave_speed / (double)sim->constant.spacing;
+    double courant = sim->state.time_step * (double)sim->constant.wave_speed / (double)sim->constant.spacing;
     return n->tolerance * courant * courant;
 }
 
 sb_status sb_stage_pressure(sb_sim *sim, sb_error *error)
 {
     set_initial_guess(sim);
-    sim->last_sweeps = sim->report.iterations;
-    sim->report.iterations = 0;
-    sim->report.capped = false;
-    sim->report.tolerance = tolerance(sim);
-    return sb_pressure_solvers[sim->scene->numerics.solver]->solve(sim, error);
+    sim->work.solve = (sb_solve){.last = sim->state.sweeps, .tolerance = tolerance(sim)};
+    const sb_status status = sb_pressure_solvers[sim->scene->numerics.solver]->solve(sim, error);
+    sim->state.sweeps = sim->work.solve.iterations;
+    sim->report.tolerance = sim->work.solve.tolerance;
+    sim->report.capped = sim->work.solve.capped;
+    return status;
 }
 
 /* Sums over a group. sums: max(0, e), and |e| of active particles, one particle after the other. By lanes: number of
@@ -125,7 +127,7 @@ SB_INLINE sb_f4 four_of(const float *field)
 /* Sums max(0, e), |e| over active particles, and the number of these. Returns the largest e. */
 static double judge_group(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_MAX])
 {
-    const float *residual = sim->residual, *diagonal = sim->diagonal, *unknown = sim->unknown;
+    const float *residual = sim->work.residual, *diagonal = sim->work.diagonal, *unknown = sim->work.unknown;
     judgement j = {0};
     const size_t end = group->end;
     size_t i = group->first;
@@ -150,11 +152,11 @@ sb_pressure_error sb_pressure_judge(sb_sim *sim)
     double sum[3]; /* excess, active, count */
     const double worst = sb_sum_groups(sim, 3, judge_group, sum);
     sb_pressure_error error = {
-        .mean = sim->n ? sum[0] / ((double)sim->n * rest) : 0,
+        .mean = sim->state.n ? sum[0] / ((double)sim->state.n * rest) : 0,
         .active = sum[2] > 0 ? sum[1] / (sum[2] * rest) : 0,
         .max = fmax(worst, 0) / rest,
     };
-    sim->report.iterations++;
+    sim->work.solve.iterations++;
     sim->report.error_mean = error.mean;
     sim->report.error_active = error.active;
     sim->report.error_max = error.max;
@@ -176,14 +178,14 @@ static const double PRESSED = 4;
 bool sb_pressure_done(sb_sim *sim, const sb_pressure_error *error)
 {
     const sb_numerics *n = &sim->scene->numerics;
-    const double tolerance = sim->report.tolerance;
+    const double tolerance = sim->work.solve.tolerance;
     bool enough = error->mean <= tolerance;
     if (n->tolerance_rule == SB_TOLERANCE_PRESSURE && sim->constant.dimension == 2)
         enough &= error->active <= PRESSED * tolerance;
-    else if (n->tolerance_rule == SB_TOLERANCE_PRESSURE && sim->report.iterations < sim->last_sweeps)
+    else if (n->tolerance_rule == SB_TOLERANCE_PRESSURE && sim->work.solve.iterations < sim->work.solve.last)
         enough = error->mean <= SOONER * tolerance;
-    if (enough && sim->report.iterations >= n->min_iterations) return true;
+    if (enough && sim->work.solve.iterations >= n->min_iterations) return true;
     /* An error that is no number ends the solve; the new velocities will show that the run has diverged. */
-    sim->report.capped = sim->report.iterations >= n->max_iterations || isnan(error->mean);
-    return sim->report.capped;
+    sim->work.solve.capped = sim->work.solve.iterations >= n->max_iterations || isnan(error->mean);
+    return sim->work.solve.capped;
 }

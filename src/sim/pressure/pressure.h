@@ -4,7 +4,7 @@
 #ifndef SB_SIM_PRESSURE_H
 #define SB_SIM_PRESSURE_H
 
-#include "sim/state/state.h"
+#include "sim/simulation.h"
 
 /* Error of the present iterate. */
 typedef struct sb_pressure_error {
@@ -13,8 +13,8 @@ typedef struct sb_pressure_error {
     double max;    /* of max(0, e), relative */
 } sb_pressure_error;
 
-/* A solver starts from sim->unknown and sim->source, and leaves its iterate in sim->unknown. It updates
-   sim->report.iterations and error_* by sb_pressure_judge. */
+/* A solver starts from sim->work.unknown and sim->work.source, and leaves its iterate in sim->work.unknown. It updates
+   sim->work.solve.iterations and error_* by sb_pressure_judge. */
 typedef struct sb_pressure_solver {
     const char *name, *summary, *reference;
     bool needs_direction, needs_product; /* fields needed in addition to residual */
@@ -40,7 +40,7 @@ void sb_pressure_diverge(sb_sim *sim, float *out);
 /* out = A argument, both passes: dt^2 [sum_j m (a_i - a_j) . grad W_ij + a_i . B_i]. */
 void sb_pressure_product(sb_sim *sim, float *out);
 
-/* residual = A unknown - source. Leaves the acceleration G unknown in sim->acceleration. */
+/* residual = A unknown - source. Leaves the acceleration G unknown in sim->work.acceleration. */
 void sb_pressure_residual(sb_sim *sim);
 
 /* Computes the errors of the residual field, and adds one iteration to the report. */

@@ -17,7 +17,7 @@ int sb_groups_build(sb_sim *sim)
         if (c > 0 && block_of(cells->code[c]) == block_of(cells->code[c - 1])) continue;
         if (sb_grow((void **)&groups->group, &groups->capacity, groups->count + 1, sizeof *groups->group) != 0)
             return -1;
-        groups->group[groups->count++] = (sb_group){.first = cells->begin[c], .end = (uint32_t)sim->n};
+        groups->group[groups->count++] = (sb_group){.first = cells->begin[c], .end = (uint32_t)sim->state.n};
         if (groups->count > 1) groups->group[groups->count - 2].end = cells->begin[c];
     }
     return 0;

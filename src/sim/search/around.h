@@ -5,7 +5,7 @@
 #ifndef SB_SIM_AROUND_H
 #define SB_SIM_AROUND_H
 
-#include "sim/state/state.h"
+#include "sim/simulation.h"
 
 enum {
     SB_AROUND_MAX = 16383, /* records around a group: four times the index must fit 16 bits; 1000 are normal */
@@ -36,7 +36,7 @@ SB_INLINE void sb_around(const sb_sim *sim, const sb_group *group, sb_f4 *out)
     const sb_two_records corner = __builtin_shufflevector(c, c, 0, 1, 2, 3, 0, 1, 2, 3);
     const sb_run *run = sim->groups.run + group->run;
     for (size_t r = 0; r < group->runs; r++) {
-        const sb_record *record = sim->position + run[r].begin, *end = record + run[r].count;
+        const sb_record *record = sim->state.position + run[r].begin, *end = record + run[r].count;
         for (; end - record >= 2; record += 2, out += 2)
             *(sb_two_values *)out = SB_OFFSETS_CARRYING(*(const sb_two_records *)record, corner);
         if (record < end) *out++ = sb_offset_carrying(*record, c);
@@ -50,7 +50,7 @@ SB_INLINE void sb_around_with(const sb_sim *sim, const sb_group *group, const sb
     const sb_two_records corner = __builtin_shufflevector(c, c, 0, 1, 2, 3, 0, 1, 2, 3);
     const sb_run *run = sim->groups.run + group->run;
     for (size_t r = 0; r < group->runs; r++) {
-        const sb_record *record = sim->position + run[r].begin, *end = record + run[r].count;
+        const sb_record *record = sim->state.position + run[r].begin, *end = record + run[r].count;
         const sb_f4 *value = field + run[r].begin;
         for (; end - record >= 2; record += 2, value += 2, out += 4) {
             const sb_two_values a = SB_OFFSETS_CARRYING(*(const sb_two_records *)record, corner);
@@ -76,7 +76,7 @@ SB_INLINE void sb_around_last(const sb_sim *sim, const sb_group *group, const fl
 /* Particle i of the group in the form that sb_around writes. */
 SB_INLINE sb_f4 sb_in_group(const sb_sim *sim, const sb_group *group, size_t i)
 {
-    return sb_offset_carrying(sim->position[i], group->corner);
+    return sb_offset_carrying(sim->state.position[i], group->corner);
 }
 
 /* A neighbour's record in the output of sb_around. sb_at_with: its record, then its value, in the output of

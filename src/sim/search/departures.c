@@ -4,20 +4,20 @@
 
 const sb_departures *sb_sim_departures(const sb_sim *sim)
 {
-    return &sim->departures;
+    return &sim->state.departures;
 }
 
 void sb_departures_note(sb_sim *sim, sb_exit way, size_t particle)
 {
-    sb_departures *all = &sim->departures;
-    const sb_f4 v = sim->velocity[particle];
+    sb_departures *all = &sim->state.departures;
+    const sb_f4 v = sim->state.velocity[particle];
     all->by_side[way.side]++;
     if (all->count == SB_DEPARTURES) return;
     all->first[all->count++] = (sb_departure){
-        .time = sim->report.time,
-        .position = sb_space_position(&sim->space, sim->position[particle]),
+        .time = sim->state.time,
+        .position = sb_space_position(&sim->space, sim->state.position[particle]),
         .speed = (double)sqrtf(sb_sum3(v * v)),
-        .particle = sim->id[particle],
+        .particle = sim->state.id[particle],
         .side = way.side,
         .lost = way.lost,
     };
@@ -25,7 +25,7 @@ void sb_departures_note(sb_sim *sim, sb_exit way, size_t particle)
 
 void sb_departures_save(const sb_sim *sim, sb_archive_out *out)
 {
-    const sb_departures *all = &sim->departures;
+    const sb_departures *all = &sim->state.departures;
     sb_put_list(out, all->by_side, SB_SIDES, sizeof *all->by_side);
     sb_put_count(out, all->count);
     for (size_t i = 0; i < all->count; i++) {
@@ -41,7 +41,7 @@ void sb_departures_save(const sb_sim *sim, sb_archive_out *out)
 
 void sb_departures_load(sb_sim *sim, sb_archive_in *in)
 {
-    sb_departures *all = &sim->departures;
+    sb_departures *all = &sim->state.departures;
     sb_take_list(in, all->by_side, SB_SIDES, sizeof *all->by_side);
     all->count = (size_t)sb_take_count(in, SB_DEPARTURES);
     for (size_t i = 0; i < all->count; i++) {

@@ -2,7 +2,7 @@
 #ifndef SB_SIM_DEPARTURES_H
 #define SB_SIM_DEPARTURES_H
 
-#include "sim/state/state.h"
+#include "sim/simulation.h"
 
 /* The side that a particle is beyond, and whether that side is a wall. side < 0: the particle is inside the domain. */
 typedef struct sb_exit {

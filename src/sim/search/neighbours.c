@@ -110,7 +110,7 @@ static int enlarge(sb_sim *sim)
 static sb_status refuse(const sb_sim *sim, unsigned full, sb_error *error)
 {
     static const char *const dense = "the water has collapsed, or the boundary particles are too dense";
-    const unsigned long long step = (unsigned long long)sim->report.step;
+    const unsigned long long step = (unsigned long long)sim->state.step;
     if (full & SB_FULL_WALLS)
         return sb_fail(error, SB_FAILED,
                        "step %llu: more than %d boundary particles within one cell and its neighbour cells: walls are "

@@ -61,11 +61,11 @@ SB_INLINE void gather_cell(surroundings *s, const sb_record *record, uint32_t be
 static void gather_walls(const sb_sim *sim, sb_searcher *w, size_t i, sb_record corner)
 {
     const int layers = sim->constant.dimension == 2 ? 0 : 1;
-    const uint64_t code = sb_cell_code(sim->position[i], sim->space.shift);
+    const uint64_t code = sb_cell_code(sim->state.position[i], sim->space.shift);
     w->wall.count = 0;
     for (uint32_t s = 0; s < SB_WALL_SETS; s++) {
-        const sb_wall_set *set = &sim->walls[s];
-        if (!sb_walls_near(set, &sim->space, sim->position[i])) continue;
+        const sb_wall_set *set = &sim->walls.set[s];
+        if (!sb_walls_near(set, &sim->space, sim->state.position[i])) continue;
         for (int dz = -1; dz <= 1; dz++)
             for (int dy = -layers; dy <= layers; dy++)
                 for (int dx = -1; dx <= 1; dx++) {
@@ -164,7 +164,7 @@ SB_INLINE void one_particle(sb_sim *sim, sb_searcher *w, sb_list_builder *lists,
     const sb_vicinity *v = &w->vicinity;
     float density = c->mass * w->value_scale * (float)sim->scene->numerics.kernel->shape(0);
     float squares = 0;
-    sb_f4 sum = {0}, wall = {0}, self = sb_offset(sim->position[i], group->corner);
+    sb_f4 sum = {0}, wall = {0}, self = sb_offset(sim->state.position[i], group->corner);
     sb_candidate_range range[SB_VICINITY_ROWS];
     const size_t ranges = sb_vicinity_candidates(sim, v, self, range);
     find_hits(w, &(sb_candidates){v->x, v->y, v->z, v->place}, range, ranges, self, candidate);
@@ -172,11 +172,11 @@ SB_INLINE void one_particle(sb_sim *sim, sb_searcher *w, sb_list_builder *lists,
     sb_list_water(lists, &w->hits, sim, i);
     sim->wall_pairs.count[i] = 0;
     const float fluid_density = density;
-    if (sim->density_correction) sim->residual[i] = sb_sum3(sum * sum);
+    if (sim->work.water_squared) sim->work.water_squared[i] = sb_sum3(sum * sum);
     if (w->wall.count > 0) {
         const sb_candidate_range all = {0, (uint32_t)w->wall.count};
         find_hits(w, &(sb_candidates){w->wall.x, w->wall.y, w->wall.z, w->wall.place}, &all, 1,
-                  sb_offset(sim->position[i], cell), UINT32_MAX);
+                  sb_offset(sim->state.position[i], cell), UINT32_MAX);
         if (w->hits.count > 0) {
             wall_sums(sim, w, &density, &wall);
             sb_list_walls(lists, &w->hits, sim, i);
@@ -184,10 +184,10 @@ SB_INLINE void one_particle(sb_sim *sim, sb_searcher *w, sb_list_builder *lists,
     }
     float diagonal = squares;
     for (int axis = 0; axis < 3; axis++) diagonal += (sum[axis] + wall[axis]) * (sum[axis] + wall[axis]);
-    sim->density[i] = density;
-    if (sim->density_correction) sim->source[i] = density - fluid_density;
-    sim->wall[i] = wall;
-    sim->diagonal[i] = diagonal > 1e-6f * c->full_diagonal ? diagonal : 0;
+    sim->work.density[i] = density;
+    if (sim->work.wall_density) sim->work.wall_density[i] = density - fluid_density;
+    sim->work.wall[i] = wall;
+    sim->work.diagonal[i] = diagonal > 1e-6f * c->full_diagonal ? diagonal : 0;
 }
 
 SB_MULTIVERSION
@@ -198,9 +198,9 @@ static void search_group(sb_sim *sim, sb_searcher *w, sb_list_builder *lists, sb
     uint32_t candidate = 0;
     sb_record cell = {0};
     for (size_t i = group->first; i < group->end; i++) {
-        const uint64_t code = sb_cell_code(sim->position[i], shift);
+        const uint64_t code = sb_cell_code(sim->state.position[i], shift);
         if (code != last) {
-            const sb_record here = sim->position[i];
+            const sb_record here = sim->state.position[i];
             cell = (sb_record){here[0] >> shift << shift, here[1] >> shift << shift, here[2] >> shift << shift, 0};
             candidate = sb_vicinity_cell(sim, &w->vicinity, i);
             gather_walls(sim, w, i, cell);

@@ -13,6 +13,11 @@ static inline uint64_t sb_sort_word(uint64_t key, size_t index)
     return key << SB_INDEX_BITS | index;
 }
 
+static inline uint64_t sb_word_key(uint64_t word)
+{
+    return word >> SB_INDEX_BITS;
+}
+
 static inline size_t sb_word_index(uint64_t word)
 {
     return word & (((uint64_t)1 << SB_INDEX_BITS) - 1);

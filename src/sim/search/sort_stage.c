@@ -1,15 +1,13 @@
 /* The stage sort: particles that left the domain return through periodic sides or are removed; the others are sorted
    along the Z-curve of their cells. */
-#include "base/memory.h"
 #include "sim/search/around.h"
 #include "sim/search/departures.h"
 #include "sim/search/sort.h"
-#include "sim/state/state.h"
+#include "sim/simulation.h"
 #include "sim/step/ledger.h"
 #include "sim/step/stages.h"
 
-#include <math.h>
-#include <string.h>
+#include <omp.h>
 
 /* Bounds of the domain in quanta. Beyond a wall side a particle counts as lost only from one support radius on. No
    particle is beyond a periodic side. */
@@ -53,94 +51,100 @@ static size_t make_words(sb_sim *sim, const bounds *b)
     const bool repeats = sim->space.repeats;
     uint64_t left = 0, lost = 0;
 #pragma omp parallel for schedule(static) reduction(+ : left, lost)
-    for (size_t i = 0; i < sim->n; i++) {
-        if (repeats) sim->position[i] = sb_space_wrap(&sim->space, sim->position[i]);
-        const sb_exit way = outside(sim, b, sim->position[i]);
+    for (size_t i = 0; i < sim->state.n; i++) {
+        if (repeats) sim->state.position[i] = sb_space_wrap(&sim->space, sim->state.position[i]);
+        const sb_exit way = outside(sim, b, sim->state.position[i]);
         left += way.side >= 0 && !way.lost;
         lost += way.side >= 0 && way.lost;
-        uint64_t key = way.side >= 0 ? gone : sb_space_key(&sim->space, sim->position[i]);
-        sim->sort_a[i] = sb_sort_word(key, i);
+        uint64_t key = way.side >= 0 ? gone : sb_space_key(&sim->space, sim->state.position[i]);
+        sim->work.sort_words[i] = sb_sort_word(key, i);
     }
-    sim->left_domain += left;
-    sim->lost += lost;
-    sim->report.left_domain = sim->left_domain;
-    sim->report.lost = sim->lost;
-    sim->report.fluid_count = sim->n - left - lost;
-    return sim->n - left - lost;
+    sim->state.left_domain += left;
+    sim->state.lost += lost;
+    return sim->state.n - left - lost;
+}
+
+/* Orders the words of one cell, [begin, end), by the ids of their particles. Those that were in one cell before are in
+   order already. */
+static void order_by_id(uint64_t *words, size_t begin, size_t end, const uint32_t *id)
+{
+    for (size_t i = begin + 1; i < end; i++) {
+        const uint64_t word = words[i];
+        const uint32_t own = id[sb_word_index(word)];
+        size_t k = i;
+        for (; k > begin && id[sb_word_index(words[k - 1])] > own; k--) words[k] = words[k - 1];
+        words[k] = word;
+    }
+}
+
+/* The first word from `at` on that begins a cell, or n. */
+static size_t cell_from(const uint64_t *words, size_t at, size_t n)
+{
+    while (at > 0 && at < n && sb_word_key(words[at]) == sb_word_key(words[at - 1])) at++;
+    return at < n ? at : n;
+}
+
+/* Orders the particles of each cell by id, so that their order, and that of neighbours, does not depend on history.
+   Particles outside of the domain have one key, the largest. */
+static void order_cells(const sb_sim *sim, uint64_t *words)
+{
+    const size_t n = sim->state.n;
+#pragma omp parallel
+    {
+        const size_t thread = (size_t)omp_get_thread_num(), threads = (size_t)omp_get_num_threads();
+        size_t at = cell_from(words, n * thread / threads, n);
+        const size_t end = cell_from(words, n * (thread + 1) / threads, n);
+#pragma omp barrier /* no thread reads another one's words from here on */
+        while (at < end) {
+            size_t next = at + 1;
+            while (next < end && sb_word_key(words[next]) == sb_word_key(words[at])) next++;
+            order_by_id(words, at, next, sim->state.id);
+            at = next;
+        }
+    }
+}
+
+static void permute_4(uint32_t *field, uint32_t *sorted, const uint64_t *words, size_t n)
+{
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < n; i++) sorted[i] = field[sb_word_index(words[i])];
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < n; i++) field[i] = sorted[i];
+}
+
+static void permute_16(sb_record *field, sb_record *sorted, const uint64_t *words, size_t n)
+{
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < n; i++) sorted[i] = field[sb_word_index(words[i])];
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < n; i++) field[i] = sorted[i];
 }
 
 static void permute(sb_sim *sim, const uint64_t *words)
 {
-    sb_f4 *velocity = sim->scratch;
-    sb_record *position = (sb_record *)sim->acceleration;
-    /* Fields that are computed anew after the sort. */
-    uint32_t *id = (uint32_t *)sim->residual;
-    float *correction = sim->source;
-#pragma omp parallel for schedule(static)
-    for (size_t i = 0; i < sim->n; i++) {
-        size_t from = sb_word_index(words[i]);
-        position[i] = sim->position[from];
-        velocity[i] = sim->velocity[from];
-        id[i] = sim->id[from];
-        if (sim->density_correction) correction[i] = sim->density_correction[from];
+    for (const sb_state_field *f = sb_state_fields; f->name; f++) {
+        void *entries = sb_state_entries(&sim->state, f);
+        if (!entries) continue;
+        if (f->size == 4)
+            permute_4(entries, (uint32_t *)sim->work.sorted, words, sim->state.n);
+        else
+            permute_16(entries, sim->work.sorted, words, sim->state.n);
     }
-    sim->scratch = sim->velocity;
-    sim->velocity = velocity;
-    sim->acceleration = (sb_f4 *)sim->position;
-    sim->position = position;
-    memcpy(sim->id, id, sim->n * sizeof *id);
-    if (sim->density_correction) memcpy(sim->density_correction, correction, sim->n * sizeof *correction);
-    if (!sim->start_velocity) return;
-    sb_f4 *start = sim->scratch;
-    for (size_t i = 0; i < sim->n; i++) start[i] = sim->start_velocity[sb_word_index(words[i])];
-    memcpy(sim->start_velocity, start, sim->n * sizeof *start);
-}
-
-static void swap_particles(sb_sim *sim, size_t a, size_t b)
-{
-#define SWAP(type, field)                                                                                              \
-    do {                                                                                                               \
-        const type other = (field)[a];                                                                                 \
-        (field)[a] = (field)[b];                                                                                       \
-        (field)[b] = other;                                                                                            \
-    } while (0)
-    SWAP(sb_record, sim->position);
-    SWAP(sb_f4, sim->velocity);
-    SWAP(uint32_t, sim->id);
-    if (sim->density_correction) SWAP(float, sim->density_correction);
-    if (sim->start_velocity) SWAP(sb_f4, sim->start_velocity);
-#undef SWAP
-}
-
-/* Orders particles [begin, end) by id. Those that were in one cell before are in order already. */
-static void order_by_id(sb_sim *sim, size_t begin, size_t end)
-{
-    for (size_t i = begin + 1; i < end; i++)
-        for (size_t k = i; k > begin && sim->id[k - 1] > sim->id[k]; k--) swap_particles(sim, k - 1, k);
-}
-
-/* The order within a cell does not depend on history, and so neither does that of neighbours. */
-static void order_cells(sb_sim *sim)
-{
-    const sb_cells *cells = &sim->cells;
-#pragma omp parallel for schedule(static, 64)
-    for (size_t c = 0; c < cells->count; c++) order_by_id(sim, cells->begin[c], cells->begin[c + 1]);
 }
 
 sb_status sb_stage_sort(sb_sim *sim, sb_error *error)
 {
     const bounds b = domain_bounds(sim);
     const size_t stay = make_words(sim, &b);
-    const uint64_t *sorted =
-        sb_sort(sim->sort_a, sim->sort_b, sim->n, SB_INDEX_BITS, SB_INDEX_BITS + sim->space.key_bits);
+    uint64_t *sorted = sb_sort(sim->work.sort_words, sim->work.sort_other, sim->state.n, SB_INDEX_BITS,
+                               SB_INDEX_BITS + sim->space.key_bits);
     if (!sorted) return sb_fail_memory(error, "sorting");
+    order_cells(sim, sorted);
     permute(sim, sorted);
-    order_by_id(sim, stay, sim->n); /* their keys are the largest */
-    for (size_t i = stay; i < sim->n; i++) sb_departures_note(sim, outside(sim, &b, sim->position[i]), i);
-    if (!sim->settling) sb_ledger_leave(sim, stay, sim->n);
-    sim->n = stay;
-    if (sb_cells_build(&sim->cells, sim->position, sim->n, sim->space.shift) != 0)
+    for (size_t i = stay; i < sim->state.n; i++) sb_departures_note(sim, outside(sim, &b, sim->state.position[i]), i);
+    if (sim->policy->runs) sb_ledger_leave(sim, stay, sim->state.n);
+    sim->state.n = stay;
+    if (sb_cells_build(&sim->cells, sim->state.position, sim->state.n, sim->space.shift) != 0)
         return sb_fail_memory(error, "cells");
-    order_cells(sim);
     return sb_groups_build(sim) == 0 ? SB_OK : sb_fail_memory(error, "groups of particles");
 }

@@ -6,9 +6,9 @@ static void find_cells(const sb_sim *sim, const sb_group *group, sb_vicinity *v)
     const int shift = sim->space.shift;
     uint32_t high[3];
     for (int axis = 0; axis < 3; axis++) {
-        v->low[axis] = high[axis] = sim->position[group->first][axis] >> shift;
+        v->low[axis] = high[axis] = sim->state.position[group->first][axis] >> shift;
         for (size_t i = group->first + 1; i < group->end; i++) {
-            const uint32_t at = sim->position[i][axis] >> shift;
+            const uint32_t at = sim->state.position[i][axis] >> shift;
             v->low[axis] = at < v->low[axis] ? at : v->low[axis];
             high[axis] = at > high[axis] ? at : high[axis];
         }
@@ -18,7 +18,7 @@ static void find_cells(const sb_sim *sim, const sb_group *group, sb_vicinity *v)
     }
 }
 
-/* Appends the records of one cell: the entries from base + begin on of sim->position. */
+/* Appends the records of one cell: the entries from base + begin on of sim->state.position. */
 SB_INLINE void add_cell(const sb_sim *sim, sb_vicinity *v, sb_record corner, const sb_cells *cells, uint64_t code,
                         size_t base)
 {
@@ -29,7 +29,7 @@ SB_INLINE void add_cell(const sb_sim *sim, sb_vicinity *v, sb_record corner, con
         v->count = SB_AROUND_MAX + 1;
         return;
     }
-    const sb_record *record = sim->position + begin;
+    const sb_record *record = sim->state.position + begin;
     for (uint32_t k = 0; k < count; k++) {
         const sb_f4 offset = sb_offset(record[k], corner);
         v->x[v->count + k] = offset[0];
@@ -67,9 +67,9 @@ void sb_vicinity_gather(const sb_sim *sim, sb_group *group, sb_vicinity *v)
     const sb_record corner = {v->low[0] << shift, v->low[1] << shift, v->low[2] << shift, 0};
     v->parts = v->count = v->runs = 0;
     for (size_t i = group->first; i < group->end; i++)
-        at_edge |= sim->ghosts.count > 0 && sb_space_at_edge(&sim->space, sim->position[i]);
+        at_edge |= sim->ghosts.count > 0 && sb_space_at_edge(&sim->space, sim->state.position[i]);
     add_part(sim, v, corner, &sim->cells, 0);
-    if (at_edge) add_part(sim, v, corner, &sim->ghosts.cells, sim->n);
+    if (at_edge) add_part(sim, v, corner, &sim->ghosts.cells, sim->state.n);
     group->corner = corner;
 }
 
@@ -119,6 +119,6 @@ size_t sb_vicinity_candidates(const sb_sim *sim, const sb_vicinity *v, sb_f4 sel
 uint32_t sb_vicinity_cell(const sb_sim *sim, const sb_vicinity *v, size_t i)
 {
     uint32_t cell[3];
-    for (int axis = 0; axis < 3; axis++) cell[axis] = (sim->position[i][axis] >> sim->space.shift) - v->low[axis];
+    for (int axis = 0; axis < 3; axis++) cell[axis] = (sim->state.position[i][axis] >> sim->space.shift) - v->low[axis];
     return v->start[0][index_of(v, cell)];
 }

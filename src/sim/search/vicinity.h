@@ -15,7 +15,7 @@ typedef struct sb_vicinity {
     size_t parts, count;                                      /* count above SB_AROUND_MAX: too many */
     uint32_t start[SB_VICINITY_PARTS][SB_VICINITY_CELLS + 1]; /* candidates of a cell: [start, next start) */
     size_t runs;
-    sb_run run[SB_VICINITY_PARTS * SB_VICINITY_CELLS]; /* the same, as entries of sim->position */
+    sb_run run[SB_VICINITY_PARTS * SB_VICINITY_CELLS]; /* the same, as entries of sim->state.position */
     float x[SB_AROUND_MAX + SB_HIT_SPARE], y[SB_AROUND_MAX + SB_HIT_SPARE], z[SB_AROUND_MAX + SB_HIT_SPARE];
     sb_f4 place[SB_AROUND_MAX]; /* the same coordinates, one record each */
 } sb_vicinity;

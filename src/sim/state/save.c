@@ -3,39 +3,45 @@
    the process and are not saved. */
 #include "base/archive.h"
 #include "base/memory.h"
+#include "sim/report/report.h"
 #include "sim/search/departures.h"
-#include "sim/state/state.h"
+#include "sim/simulation.h"
 
 #include <math.h>
 
 #define SECTION "sim"
 
-static void put_report(sb_archive_out *out, const sb_step_report *r)
+/* Number of reals that put_progress writes. */
+enum { PROGRESS_REALS = 10 };
+
+/* Writes the scalars of the state, and the last step's errors, which a resumed run reports until its next step. */
+static void put_progress(sb_archive_out *out, const sb_state *s, const sb_step_report *r)
 {
-    sb_put_count(out, r->step);
-    sb_put_count(out, (uint64_t)r->iterations);
+    sb_put_count(out, s->step);
+    sb_put_count(out, (uint64_t)s->sweeps);
     sb_put_flag(out, r->capped);
-    const double reals[] = {r->time,      r->time_step,   r->tolerance,       r->error_mean, r->error_active,
-                            r->error_max, r->compression, r->compression_max, r->max_speed,  r->momentum_imbalance};
-    sb_put_list(out, reals, sizeof reals / sizeof *reals, sizeof *reals);
+    const double reals[PROGRESS_REALS] = {s->time,         s->time_step,         r->tolerance,   r->error_mean,
+                                          r->error_active, r->error_max,         r->compression, r->compression_max,
+                                          s->max_speed,    r->momentum_imbalance};
+    sb_put_list(out, reals, PROGRESS_REALS, sizeof *reals);
 }
 
-static void take_report(sb_archive_in *in, sb_step_report *r)
+static void take_progress(sb_archive_in *in, sb_state *s, sb_step_report *r)
 {
-    double reals[10];
-    r->step = sb_take_count(in, UINT64_MAX);
-    r->iterations = (int)sb_take_count(in, INT32_MAX);
+    double reals[PROGRESS_REALS];
+    s->step = sb_take_count(in, UINT64_MAX);
+    s->sweeps = (int)sb_take_count(in, INT32_MAX);
     r->capped = sb_take_flag(in);
-    sb_take_list(in, reals, sizeof reals / sizeof *reals, sizeof *reals);
-    double *const fields[] = {&r->time,         &r->time_step,         &r->tolerance,   &r->error_mean,
-                              &r->error_active, &r->error_max,         &r->compression, &r->compression_max,
-                              &r->max_speed,    &r->momentum_imbalance};
-    for (size_t f = 0; f < sizeof fields / sizeof *fields; f++) *fields[f] = reals[f];
-    const bool sane = r->time >= 0 && isfinite(r->time) && r->time_step >= 0 && isfinite(r->time_step) &&
-                      r->max_speed >= 0 && isfinite(r->max_speed);
+    sb_take_list(in, reals, PROGRESS_REALS, sizeof *reals);
+    double *const fields[PROGRESS_REALS] = {
+        &s->time,      &s->time_step,   &r->tolerance,       &r->error_mean, &r->error_active,
+        &r->error_max, &r->compression, &r->compression_max, &s->max_speed,  &r->momentum_imbalance};
+    for (size_t f = 0; f < PROGRESS_REALS; f++) *fields[f] = reals[f];
+    const bool sane = s->time >= 0 && isfinite(s->time) && s->time_step >= 0 && isfinite(s->time_step) &&
+                      s->max_speed >= 0 && isfinite(s->max_speed);
     if (!sane)
-        sb_archive_refuse(in, "time %g s, step %g s, speed %g m/s: expected finite numbers >= 0", r->time, r->time_step,
-                          r->max_speed);
+        sb_archive_refuse(in, "time %g s, step %g s, speed %g m/s: expected finite numbers >= 0", s->time, s->time_step,
+                          s->max_speed);
 }
 
 static void put_settle(sb_archive_out *out, const sb_settle *settle)
@@ -76,56 +82,54 @@ static void take_settle(sb_archive_in *in, const sb_scene *scene, sb_settle *set
 void sb_sim_save(const sb_sim *sim, sb_archive_out *out)
 {
     sb_archive_section(out, SECTION);
-    put_report(out, &sim->report);
-    put_settle(out, &sim->settle);
-    sb_put_count(out, sim->left_domain);
-    sb_put_count(out, sim->lost);
+    put_progress(out, &sim->state, &sim->report);
+    put_settle(out, &sim->state.settle);
+    sb_put_count(out, sim->state.left_domain);
+    sb_put_count(out, sim->state.lost);
     sb_departures_save(sim, out);
-    sb_put_list(out, sim->position, sim->n, sizeof *sim->position);
-    sb_put_list(out, sim->velocity, sim->n, sizeof *sim->velocity);
-    sb_put_list(out, sim->id, sim->n, sizeof *sim->id);
-    sb_put_list(out, sim->density_correction, sim->density_correction ? sim->n : 0, sizeof *sim->density_correction);
-    sb_put_list(out, sim->start_velocity, sim->start_velocity ? sim->n : 0, sizeof *sim->start_velocity);
-    sb_put_list(out, sim->impulse, sim->model->body_count, sizeof *sim->impulse);
-    sb_put_list(out, &sim->ledger, sizeof sim->ledger / sizeof(double), sizeof(double));
-    sb_put_count(out, sim->moving_count);
-    for (size_t m = 0; m < sim->moving_count; m++) {
-        sb_put_real(out, sim->moving[m].displacement);
-        sb_put_real(out, sim->moving[m].next_displacement);
-        sb_put_vector(out, sim->moving[m].velocity);
+    for (const sb_state_field *f = sb_state_fields; f->name; f++) {
+        const void *entries = sb_state_entries(&sim->state, f);
+        sb_put_list(out, entries, entries ? sim->state.n : 0, f->size);
+    }
+    sb_put_list(out, sim->state.impulse, sim->model->body_count, sizeof *sim->state.impulse);
+    sb_put_list(out, &sim->state.ledger, sizeof sim->state.ledger / sizeof(double), sizeof(double));
+    sb_put_count(out, sim->walls.moving_count);
+    for (size_t m = 0; m < sim->walls.moving_count; m++) {
+        sb_put_real(out, sim->walls.moving[m].displacement);
+        sb_put_real(out, sim->walls.moving[m].next_displacement);
+        sb_put_vector(out, sim->walls.moving[m].velocity);
     }
     sb_put_count(out, sb_sim_hash(sim));
 }
 
-static void take_particles(sb_sim *sim, sb_archive_in *in)
+/* Refuses impossible values of particle fields. */
+static void check_particles(const sb_sim *sim, size_t n, sb_archive_in *in)
 {
-    const size_t n = sb_take_length(in, sizeof *sim->position, sim->model->fluid_count);
-    sb_take_list(in, sim->position, n, sizeof *sim->position);
-    sb_take_list(in, sim->velocity, n, sizeof *sim->velocity);
-    sb_take_list(in, sim->id, n, sizeof *sim->id);
+    const sb_state *state = &sim->state;
     for (size_t i = 0; i < n; i++) {
-        const sb_record at = sim->position[i];
+        const sb_record at = state->position[i];
         if (at[0] >= SB_POSITION_END || at[1] >= SB_POSITION_END || at[2] >= SB_POSITION_END ||
-            sim->id[i] >= sim->model->fluid_count)
+            state->id[i] >= sim->model->fluid_count)
             sb_archive_refuse(in,
                               "particle %u at (%u, %u, %u) quanta: expected a particle number below %zu and "
                               "coordinates below %u",
-                              sim->id[i], at[0], at[1], at[2], sim->model->fluid_count, SB_POSITION_END);
+                              state->id[i], at[0], at[1], at[2], sim->model->fluid_count, SB_POSITION_END);
+        if (state->density_correction && isinf(state->density_correction[i]))
+            sb_archive_refuse(in, "density correction of particle %zu is %g kg/m^3, expected a finite value", i,
+                              (double)state->density_correction[i]);
     }
-    sim->n = in->error.status == SB_OK ? n : 0;
-    sim->report.fluid_count = sim->n;
 }
 
-static void take_corrections(sb_sim *sim, sb_archive_in *in)
+static void take_particles(sb_sim *sim, sb_archive_in *in)
 {
-    const size_t n = sim->density_correction ? sim->n : 0;
-    sb_take_list(in, sim->density_correction, n, sizeof *sim->density_correction);
-    for (size_t i = 0; i < n; i++) {
-        if (!isinf(sim->density_correction[i])) continue;
-        sb_archive_refuse(in, "density correction of particle %zu is %g kg/m^3, expected a finite value", i,
-                          (double)sim->density_correction[i]);
-        return;
+    sb_state *state = &sim->state;
+    const size_t n = sb_take_length(in, sizeof *state->position, sim->model->fluid_count);
+    for (const sb_state_field *f = sb_state_fields; f->name; f++) {
+        void *entries = sb_state_entries(state, f);
+        sb_take_list(in, entries, entries ? n : 0, f->size);
     }
+    check_particles(sim, n, in);
+    state->n = in->error.status == SB_OK ? n : 0;
 }
 
 /* In quanta: the largest displacement of a body, far outside of any domain. */
@@ -133,10 +137,10 @@ static const double FARTHEST = 1e15;
 
 static void take_moving(sb_sim *sim, sb_archive_in *in)
 {
-    if (sb_take_count(in, SIZE_MAX) != sim->moving_count)
-        sb_archive_refuse(in, "different number of moving bodies, expected %zu", sim->moving_count);
-    for (size_t m = 0; m < sim->moving_count; m++) {
-        sb_moving_body *moving = &sim->moving[m];
+    if (sb_take_count(in, SIZE_MAX) != sim->walls.moving_count)
+        sb_archive_refuse(in, "different number of moving bodies, expected %zu", sim->walls.moving_count);
+    for (size_t m = 0; m < sim->walls.moving_count; m++) {
+        sb_moving_body *moving = &sim->walls.moving[m];
         moving->displacement = sb_take_real(in);
         moving->next_displacement = sb_take_real(in);
         moving->velocity = sb_take_vector(in);
@@ -154,20 +158,18 @@ sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
 {
     sb_status status = sb_archive_enter(in, SECTION, error);
     if (status != SB_OK) return status;
-    take_report(in, &sim->report);
-    take_settle(in, sim->scene, &sim->settle);
-    sim->left_domain = sim->report.left_domain = sb_take_count(in, UINT64_MAX);
-    sim->lost = sim->report.lost = sb_take_count(in, UINT64_MAX);
+    take_progress(in, &sim->state, &sim->report);
+    take_settle(in, sim->scene, &sim->state.settle);
+    sim->state.left_domain = sb_take_count(in, UINT64_MAX);
+    sim->state.lost = sb_take_count(in, UINT64_MAX);
     sb_departures_load(sim, in);
-    take_particles(sim, in);
-    take_corrections(sim, in);
-    if (!sim->settle.under_way) {
-        sb_free(sim->start_velocity);
-        sim->start_velocity = NULL;
+    if (!sim->state.settle.under_way) {
+        sb_free(sim->state.start_velocity);
+        sim->state.start_velocity = NULL;
     }
-    sb_take_list(in, sim->start_velocity, sim->start_velocity ? sim->n : 0, sizeof *sim->start_velocity);
-    sb_take_list(in, sim->impulse, sim->model->body_count, sizeof *sim->impulse);
-    sb_take_list(in, &sim->ledger, sizeof sim->ledger / sizeof(double), sizeof(double));
+    take_particles(sim, in);
+    sb_take_list(in, sim->state.impulse, sim->model->body_count, sizeof *sim->state.impulse);
+    sb_take_list(in, &sim->state.ledger, sizeof sim->state.ledger / sizeof(double), sizeof(double));
     take_moving(sim, in);
     const uint64_t expected = sb_take_count(in, UINT64_MAX), hash = sb_sim_hash(sim);
     if (in->error.status == SB_OK && hash != expected)
@@ -176,9 +178,10 @@ sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
     if (status == SB_OK) status = sb_archive_leave(in, error);
     if (status == SB_OK) status = sb_walls_restore(sim, error);
     /* The lists and cells belong to the old particles: there are none until the next step. */
-    sim->lists_current = sim->virial_known = false;
+    sim->work.lists_current = sim->work.virial_known = false;
+    sb_report_update(sim);
     sim->groups.count = 0;
-    if (sb_cells_build(&sim->cells, sim->position, 0, sim->space.shift) != 0 && status == SB_OK)
+    if (sb_cells_build(&sim->cells, sim->state.position, 0, sim->space.shift) != 0 && status == SB_OK)
         status = sb_fail_memory(error, "cells");
     return status;
 }

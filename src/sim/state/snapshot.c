@@ -1,5 +1,5 @@
 /* Output of the simulation: frames for consumers, samples for gauges and probes. */
-#include "sim/state/state.h"
+#include "sim/simulation.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -13,14 +13,14 @@ typedef struct particle {
 
 static particle particle_at(const sb_sim *sim, size_t i)
 {
-    const float pressure = sim->virial_known ? sim->residual[i] : sim->velocity[i][3];
-    return (particle){sim->position[i], sim->velocity[i], pressure, sim->density[i], sim->id[i]};
+    const float pressure = sim->work.virial_known ? sim->work.virial[i] : sim->state.velocity[i][3];
+    return (particle){sim->state.position[i], sim->state.velocity[i], pressure, sim->work.density[i], sim->state.id[i]};
 }
 
 sb_frame *sb_sim_snapshot(const sb_sim *sim)
 {
     const sb_model *model = sim->model;
-    const size_t count = sim->n;
+    const size_t count = sim->state.n;
     sb_frame *frame = sb_frame_create(count, model->body_count);
     if (!frame) return NULL;
     const sb_vec3 shift = sb_sub(sim->space.origin, model->min);
@@ -45,14 +45,14 @@ sb_frame *sb_sim_snapshot(const sb_sim *sim)
         body->report = model->bodies[b].report;
     }
     frame->status = (sb_frame_status){
-        .step = sim->report.step,
-        .time = sim->report.time,
+        .step = sim->state.step,
+        .time = sim->state.time,
         .duration = sim->scene->duration,
-        .time_step = sim->report.time_step,
-        .iterations = sim->report.iterations,
+        .time_step = sim->state.time_step,
+        .iterations = sim->state.sweeps,
         .density_error = sim->report.error_mean,
-        .max_speed = sim->report.max_speed,
-        .lost_particles = sim->lost,
+        .max_speed = sim->state.max_speed,
+        .lost_particles = sim->state.lost,
     };
     return frame;
 }
@@ -62,7 +62,7 @@ static sb_fluid_sample sample_at(const sb_sim *sim, size_t i, sb_vec3 position)
     const particle p = particle_at(sim, i);
     const sb_f4 v = p.velocity;
     /* Density sums do not exist before the first step. */
-    const double density = (double)(p.density > 0 ? p.density : sim->constant.rest_density);
+    const double density = (double)(sim->work.lists_current ? p.density : sim->constant.rest_density);
     return (sb_fluid_sample){
         .position = position,
         .velocity = sb_vec((double)v[0], (double)v[1], (double)v[2]),
@@ -129,7 +129,7 @@ static void query_images(const sb_sim *sim, query *q, const int64_t away[3])
 {
     const sb_space *space = &sim->space;
     /* The cells are those of the step's start: search as far around as a particle can have moved since. */
-    const double margin = sim->report.max_speed * sim->report.time_step + space->quantum;
+    const double margin = sim->state.max_speed * sim->state.time_step + space->quantum;
     const sb_vec3 low = sb_sub(q->min, space->origin), high = sb_sub(q->max, space->origin);
     const double from[3] = {low.x, low.y, low.z}, to[3] = {high.x, high.y, high.z};
     int64_t a[3], b[3];

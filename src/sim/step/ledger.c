@@ -12,11 +12,11 @@ static body_sums sum_bodies(const sb_sim *sim)
 {
     body_sums all = {0};
     for (size_t body = 0; body < sim->model->body_count; body++) {
-        const double *s = sim->body_force + body * SB_FORCE_VALUES;
+        const double *s = sim->work.body_force + body * SB_FORCE_VALUES;
         const sb_vec3 pressure = sb_vec(s[0], s[1], s[2]), friction = sb_vec(s[3], s[4], s[5]);
         all.force = sb_add(all.force, sb_add(pressure, friction));
-        if (sim->moving_of_body[body] == UINT32_MAX) continue;
-        const sb_vec3 velocity = sim->moving[sim->moving_of_body[body]].velocity;
+        if (sim->walls.moving_of_body[body] == UINT32_MAX) continue;
+        const sb_vec3 velocity = sim->walls.moving[sim->walls.moving_of_body[body]].velocity;
         all.pressure += sb_dot(pressure, velocity);
         all.friction += sb_dot(friction, velocity);
     }
@@ -25,13 +25,13 @@ static body_sums sum_bodies(const sb_sim *sim)
 
 void sb_ledger_close(sb_sim *sim)
 {
-    const sb_ledger_sums s = sim->step_sums;
+    const sb_ledger_sums s = sim->work.sums;
     const body_sums bodies = sum_bodies(sim);
     const double m = (double)sim->constant.mass, g = (double)sim->constant.gravity;
-    const double dt = (double)(float)sim->report.time_step; /* in the precision that advanced the velocities */
+    const double dt = (double)(float)sim->state.time_step; /* in the precision that advanced the velocities */
     const double friction = m * s.friction * dt;
-    const bool viscous = sim->scene->numerics.artificial_viscosity > 0 || sim->constant.viscosity > 0 || sim->eddy;
-    sb_ledger *ledger = &sim->ledger;
+    const bool viscous = sim->scene->numerics.artificial_viscosity > 0 || sim->constant.viscosity > 0 || sim->work.eddy;
+    sb_ledger *ledger = &sim->state.ledger;
     ledger->bodies -= dt * (bodies.pressure + bodies.friction);
     /* Without viscosity this value is only the rounding of v*. */
     *(viscous ? &ledger->viscosity : &ledger->integration) += m * (s.forces + g * dt * s.fall) - friction;
@@ -39,9 +39,9 @@ void sb_ledger_close(sb_sim *sim)
     ledger->pressure += m * (s.solve - s.contact + s.contact_bodies) + dt * bodies.pressure;
     ledger->contact += m * (s.contact - s.contact_bodies);
     ledger->integration += m * g * (s.rise * sim->space.quantum - dt * s.fall);
-    const double weight = m * g * (double)sim->n;
+    const double weight = m * g * (double)sim->state.n;
     const sb_vec3 gain = sb_scale(sb_vec(s.gain[0], s.gain[1], s.gain[2]), m);
-    sb_vec3 off = sb_madd(sb_add(gain, sim->stress_gain), dt, sb_add(bodies.force, sb_vec(0, 0, weight)));
+    sb_vec3 off = sb_madd(sb_add(gain, sim->work.stress_gain), dt, sb_add(bodies.force, sb_vec(0, 0, weight)));
     sim->report.momentum_imbalance = s.size > 0 ? sb_norm(off) / (m * s.size) : 0;
 }
 
@@ -51,9 +51,9 @@ void sb_ledger_leave(sb_sim *sim, size_t first, size_t end)
     const double base = sim->model->min.z - sim->space.origin.z;
     sb_exact left = {0};
     for (size_t i = first; i < end; i++) {
-        const sb_f4 v = sim->velocity[i];
+        const sb_f4 v = sim->state.velocity[i];
         const double square = sb_ledger_work((sb_f4){0}, v, v, v);
-        sb_exact_add(&left, m * (0.5 * square + g * (sim->position[i][2] * sim->space.quantum - base)));
+        sb_exact_add(&left, m * (0.5 * square + g * (sim->state.position[i][2] * sim->space.quantum - base)));
     }
-    sim->ledger.left -= sb_exact_value(&left);
+    sim->state.ledger.left -= sb_exact_value(&left);
 }

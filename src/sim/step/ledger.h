@@ -3,7 +3,7 @@
 #ifndef SB_SIM_LEDGER_H
 #define SB_SIM_LEDGER_H
 
-#include "sim/state/state.h"
+#include "sim/simulation.h"
 
 #include <math.h>
 
@@ -50,7 +50,8 @@ SB_INLINE void sb_ledger_terms(const sb_ledger_tally *t, double terms[SB_TALLY_T
     terms[7] = t->size;
 }
 
-/* Ends the step: computes sim->ledger and the report's momentum balance from the step's sums and the body forces. */
+/* Ends the step: computes sim->state.ledger and the report's momentum balance from the step's sums and the body forces.
+ */
 void sb_ledger_close(sb_sim *sim);
 
 /* Enters the energy of particles [first, end), which leave the domain. */

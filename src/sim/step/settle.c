@@ -3,7 +3,8 @@
 #include "base/memory.h"
 #include "base/stop.h"
 #include "physics/wave_theory.h"
-#include "sim/state/state.h"
+#include "sim/report/report.h"
+#include "sim/simulation.h"
 
 #include <math.h>
 
@@ -53,7 +54,7 @@ float sb_settle_wave_acceleration(const sb_sim *sim, sb_record at)
 {
     const sb_initial_wave *wave = &sim->scene->wave;
     const double gravity = sim->scene->fluid.gravity, step = 1e-4 * wave->depth;
-    if (wave->kind == SB_INITIAL_NONE || sim->settling == SB_START_TRIAL) return 0;
+    if (wave->kind == SB_INITIAL_NONE || !sim->policy->holds_wave) return 0;
     const double x = sb_space_position(&sim->space, at).x - wave->position;
     const sb_solitary solitary = {wave->height, wave->depth, gravity, wave->theory};
     const bool travels = wave->kind == SB_INITIAL_SOLITARY;
@@ -67,18 +68,19 @@ float sb_settle_wave_acceleration(const sb_sim *sim, sb_record at)
 /* Sets a velocity; the pressure in the last lane does not change. */
 static void set_velocity(sb_sim *sim, size_t i, sb_f4 v)
 {
-    v[3] = sim->velocity[i][3];
-    sim->velocity[i] = v;
-    sim->report.max_speed = fmax(sim->report.max_speed, sqrt((double)sb_sum3(v * v)));
+    v[3] = sim->state.velocity[i][3];
+    sim->state.velocity[i] = v;
+    sim->state.max_speed = fmax(sim->state.max_speed, sqrt((double)sb_sum3(v * v)));
 }
 
 /* Sets the velocities of the scene. */
 static void set_scene_velocities(sb_sim *sim)
 {
-    sim->report.max_speed = 0;
-    for (size_t i = 0; i < sim->n; i++) set_velocity(sim, i, sim->start_velocity ? sim->start_velocity[i] : (sb_f4){0});
-    sb_free(sim->start_velocity);
-    sim->start_velocity = NULL;
+    sim->state.max_speed = 0;
+    for (size_t i = 0; i < sim->state.n; i++)
+        set_velocity(sim, i, sim->state.start_velocity ? sim->state.start_velocity[i] : (sb_f4){0});
+    sb_free(sim->state.start_velocity);
+    sim->state.start_velocity = NULL;
 }
 
 /* Sets the velocities of water that starts from rest to minus half of the velocity change of one step. Particles move
@@ -88,13 +90,13 @@ static void set_scene_velocities(sb_sim *sim)
 static sb_status set_half_step_back(sb_sim *sim, sb_error *error)
 {
     const float least = (float)CALM * sim->constant.wave_speed;
-    sim->settling = SB_START_TRIAL;
+    sim->policy = &sb_policy_start_trial;
     const sb_status status = sb_sim_step(sim, error);
-    sim->settling = SB_RUNNING;
-    sim->report.max_speed = 0;
-    for (size_t i = 0; status == SB_OK && i < sim->n; i++) {
-        const sb_f4 change = sim->velocity[i];
-        const bool begins = sim->diagonal[i] > 0 && sb_sum3(change * change) > least * least;
+    sim->policy = &sb_policy_run;
+    sim->state.max_speed = 0;
+    for (size_t i = 0; status == SB_OK && i < sim->state.n; i++) {
+        const sb_f4 change = sim->state.velocity[i];
+        const bool begins = sim->work.diagonal[i] > 0 && sb_sum3(change * change) > least * least;
         set_velocity(sim, i, change * sb_splat(begins ? -0.5f : 0));
     }
     return status;
@@ -102,7 +104,7 @@ static sb_status set_half_step_back(sb_sim *sim, sb_error *error)
 
 sb_rest sb_sim_rest(const sb_sim *sim)
 {
-    const sb_settle *settle = &sim->settle;
+    const sb_settle *settle = &sim->state.settle;
     const char *ended = settle->calm >= CALM_STEPS                      ? "calm"
                         : settle->most < sb_sim_settle_most(sim->scene) ? "further steps would change little"
                                                                         : "largest number of steps done";
@@ -111,8 +113,8 @@ sb_rest sb_sim_rest(const sb_sim *sim)
 
 bool sb_sim_settling(const sb_sim *sim, int *done)
 {
-    *done = sim->settle.done;
-    return sim->settle.under_way;
+    *done = sim->state.settle.done;
+    return sim->state.settle.under_way;
 }
 
 sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
@@ -123,18 +125,19 @@ sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
 static void begin(sb_sim *sim)
 {
     const int steps = sim->scene->numerics.settle_steps;
-    sim->settle = (sb_settle){.under_way = true,
-                              .most = sb_sim_settle_most(sim->scene),
-                              .turn = steps - CALM_LAST,
-                              .kinetic = (double)INFINITY};
-    for (size_t i = 0; i < sim->n; i++) sim->velocity[i] = (sb_f4){0, 0, 0, sim->velocity[i][3]};
-    sim->report.max_speed = 0;
+    sim->state.settle = (sb_settle){.under_way = true,
+                                    .most = sb_sim_settle_most(sim->scene),
+                                    .turn = steps - CALM_LAST,
+                                    .kinetic = (double)INFINITY};
+    for (size_t i = 0; i < sim->state.n; i++) sim->state.velocity[i] = (sb_f4){0, 0, 0, sim->state.velocity[i][3]};
+    sim->state.max_speed = 0;
+    sb_report_update(sim);
 }
 
 /* Whether the damped steps are over: the water is calm, or further damped steps would change little. */
 static bool judge_trial(sb_sim *sim)
 {
-    sb_settle *settle = &sim->settle;
+    sb_settle *settle = &sim->state.settle;
     bool done = settle->calm == CALM_STEPS;
     if ((settle->done - CREEP_FIRST) % TRIAL_STEPS == 0) {
         const double kinetic = sb_sim_energy(sim).kinetic;
@@ -146,18 +149,18 @@ static bool judge_trial(sb_sim *sim)
 
 static sb_status one_step(sb_sim *sim, sb_error *error)
 {
-    sb_settle *settle = &sim->settle;
+    sb_settle *settle = &sim->state.settle;
     const double calm = CALM * (double)sim->constant.wave_speed;
     const int s = settle->done;
-    sim->settling = sim->scene->box_count > 0 || s < CREEP_FIRST ? SB_CREEPING
-                    : s < settle->turn                           ? SB_DAMPING
-                                                                 : SB_CALMING;
+    sim->policy = sim->scene->box_count > 0 || s < CREEP_FIRST ? &sb_policy_creep
+                  : s < settle->turn                           ? &sb_policy_damp
+                                                               : &sb_policy_calm;
     const sb_status status = sb_sim_step(sim, error);
     if (status != SB_OK) return status;
     settle->done++;
-    settle->speed = sim->report.max_speed;
+    settle->speed = sim->state.max_speed;
     settle->calm = settle->speed < calm ? settle->calm + 1 : 0;
-    if (sim->settling == SB_DAMPING && judge_trial(sim)) {
+    if (sim->policy == &sb_policy_damp && judge_trial(sim)) {
         settle->turn = settle->done;
         settle->most = settle->done + CALM_LAST;
         settle->calm = 0;
@@ -169,17 +172,18 @@ static sb_status one_step(sb_sim *sim, sb_error *error)
 static sb_status finish(sb_sim *sim, sb_error *error)
 {
     sb_status status = SB_OK;
-    sim->settle.under_way = false;
+    sim->state.settle.under_way = false;
     set_scene_velocities(sim);
-    if ((sim->scene->box_count > 0 || sim->scene->wave.kind != SB_INITIAL_NONE) && sim->report.max_speed == 0)
+    if ((sim->scene->box_count > 0 || sim->scene->wave.kind != SB_INITIAL_NONE) && sim->state.max_speed == 0)
         status = set_half_step_back(sim, error);
-    sim->report.time_step = 0; /* nothing has moved with these velocities: passes that look back find no motion */
+    sim->state.time_step = 0; /* nothing has moved with these velocities: passes that look back find no motion */
+    sb_report_update(sim);
     return status;
 }
 
 sb_status sb_sim_settle_watched(sb_sim *sim, sb_settle_watch *watch, void *context, sb_error *error)
 {
-    sb_settle *settle = &sim->settle;
+    sb_settle *settle = &sim->state.settle;
     if (!sb_sim_settles(sim->scene)) return SB_OK;
     sb_status status = SB_OK;
     if (!settle->under_way) begin(sim);
@@ -188,7 +192,7 @@ sb_status sb_sim_settle_watched(sb_sim *sim, sb_settle_watch *watch, void *conte
         const bool between = status == SB_OK && !sb_settle_over(settle);
         if (watch && between) watch(context, settle->done, settle->most, settle->speed);
     }
-    sim->settling = SB_RUNNING;
+    sim->policy = &sb_policy_run;
     if (status == SB_OK && !sb_settle_over(settle))
         status = sb_stop_fail(error, "while the water came to rest: nothing is computed yet");
     return status == SB_OK ? finish(sim, error) : status;

@@ -5,14 +5,6 @@
 #include "sim/sim.h"
 #include "sim/state/simd.h"
 
-enum sb_settling {
-    SB_RUNNING,     /* not settling: time advances */
-    SB_DAMPING,     /* each step removes part of the velocity; an acceleration holds an initial wave */
-    SB_CALMING,     /* the same, at the end of settling: solves start with the run's own warm start */
-    SB_CREEPING,    /* each step removes all of the velocity */
-    SB_START_TRIAL, /* one step that moves nothing and determines the change of the velocities at t = 0 */
-};
-
 /* Progress of settling between two of its steps. */
 typedef struct sb_settle {
     bool under_way;

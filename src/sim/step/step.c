@@ -1,6 +1,6 @@
 /* The time step as a table: one row per stage, and one loop that runs and times the stages. */
 #include "base/clock.h"
-#include "sim/pressure/pressure.h"
+#include "sim/report/report.h"
 #include "sim/step/stages.h"
 #include "sim/terms/density_correction.h"
 #include "sim/terms/stress_correction.h"
@@ -8,27 +8,40 @@
 
 typedef struct stage {
     const char *name;
+    sb_phase phase; /* the first of its phases */
     sb_status (*run)(sb_sim *sim, sb_error *error);
     bool (*needed)(const sb_scene *scene); /* NULL: always */
 } stage;
 
 static const stage stages[] = {
-    {"time_step", sb_stage_time_step, NULL},   /* dt from the present speeds */
-    {"walls", sb_stage_walls, NULL},           /* paddles at t, their velocity to t + dt */
-    {"sort", sb_stage_sort, NULL},             /* wrap at periodic sides; Z-order, cells */
-    {"ghosts", sb_stage_ghosts, NULL},         /* images beyond periodic sides */
-    {"neighbours", sb_stage_neighbours, NULL}, /* lists, density, wall vectors, diagonal */
-    {"density_correction", sb_stage_density_correction,
-     sb_density_correction_on}, /* density sums at surfaces and walls */
-    {"stress_correction", sb_stage_stress_correction,
-     sb_stress_correction_on},                             /* removes deviatoric stress of the particle packing */
-    {"turbulence", sb_stage_turbulence, sb_turbulence_on}, /* eddy viscosity from the strain rate */
-    {"forces", sb_stage_forces, NULL},                     /* v* = v + dt (g + viscosity + friction) */
-    {"source", sb_stage_source, NULL},                     /* b = beta (rho_0 - rho) - dt div v* */
-    {"pressure", sb_stage_pressure, NULL},                 /* q >= 0, A q <= b, and its acceleration */
-    {"accelerate", sb_stage_accelerate, NULL},             /* v at t + dt */
-    {"impulse", sb_stage_impulse, NULL},                   /* contact with walls, reactions on bodies */
-    {"move", sb_stage_move, NULL},                         /* x at t + dt */
+    /* dt from the present speeds */
+    {"time_step", SB_PHASES, sb_stage_time_step, NULL},
+    /* paddles at t, their velocity to t + dt */
+    {"walls", SB_PHASES, sb_stage_walls, NULL},
+    /* wrap at periodic sides; Z-order, cells */
+    {"sort", SB_PHASE_SORT, sb_stage_sort, NULL},
+    /* images beyond periodic sides */
+    {"ghosts", SB_PHASE_GHOSTS, sb_stage_ghosts, NULL},
+    /* lists, density, wall vectors, diagonal */
+    {"neighbours", SB_PHASE_NEIGHBOURS, sb_stage_neighbours, NULL},
+    /* density sums at surfaces and walls */
+    {"density_correction", SB_PHASE_DENSITY_CORRECTION, sb_stage_density_correction, sb_density_correction_on},
+    /* removes deviatoric stress of the particle packing */
+    {"stress_correction", SB_PHASE_STRAIN, sb_stage_stress_correction, sb_stress_correction_on},
+    /* eddy viscosity from the strain rate */
+    {"turbulence", SB_PHASE_TURBULENCE, sb_stage_turbulence, sb_turbulence_on},
+    /* v* = v + dt (g + viscosity + friction) */
+    {"forces", SB_PHASE_FORCES, sb_stage_forces, NULL},
+    /* b = beta (rho_0 - rho) - dt div v* */
+    {"source", SB_PHASE_SOURCE, sb_stage_source, NULL},
+    /* q >= 0, A q <= b, and its acceleration */
+    {"pressure", SB_PHASE_PRESSURE, sb_stage_pressure, NULL},
+    /* v at t + dt */
+    {"accelerate", SB_PHASE_ACCELERATE, sb_stage_accelerate, NULL},
+    /* contact with walls, reactions on bodies */
+    {"impulse", SB_PHASE_IMPULSE, sb_stage_impulse, NULL},
+    /* x at t + dt */
+    {"move", SB_PHASE_MOVE, sb_stage_move, NULL},
 };
 enum { STAGES = sizeof stages / sizeof stages[0] };
 _Static_assert((int)STAGES <= (int)SB_STAGES_MAX, "stage table");
@@ -37,37 +50,41 @@ _Static_assert((int)STAGES <= (int)SB_STAGES_MAX, "stage table");
 /* Debug builds check after every stage that all numbers are finite. */
 static sb_status check_finite(const sb_sim *sim, const char *stage_name, sb_error *error)
 {
-    for (size_t i = 0; i < sim->n; i++)
+    for (size_t i = 0; i < sim->state.n; i++)
         for (int axis = 0; axis < 4; axis++)
-            if (!isfinite(sim->velocity[i][axis]))
+            if (!isfinite(sim->state.velocity[i][axis]))
                 return sb_fail(error, SB_FAILED, "step %llu: stage %s left particle %u without a finite velocity",
-                               (unsigned long long)sim->report.step, stage_name, sim->id[i]);
+                               (unsigned long long)sim->state.step, stage_name, sim->state.id[i]);
     return SB_OK;
 }
 #endif
 
-sb_status sb_sim_step(sb_sim *sim, sb_error *error)
+static sb_status run_stages(sb_sim *sim, sb_error *error)
 {
-    const stage *run[STAGES];
+    sb_status status = SB_OK;
     size_t count = 0;
-    sim->lists_current = sim->virial_known = false;
-    for (size_t s = 0; s < STAGES; s++) {
+    for (size_t s = 0; s < STAGES && status == SB_OK; s++) {
         if (stages[s].needed && !stages[s].needed(sim->scene)) continue;
-        sim->stage[count].name = stages[s].name;
-        run[count++] = &stages[s];
-    }
-    sim->stage_count = count;
-    for (size_t s = 0; s < count; s++) {
-        double start = sb_clock();
-        sb_status status = run[s]->run(sim, error);
-        sim->stage[s].seconds += sb_clock() - start;
-        sim->stage[s].calls++;
-        if (status != SB_OK) return status;
+        sb_stage_time *time = &sim->stage[count++];
+        const double start = sb_clock();
+        sb_work_enter(sim, stages[s].phase);
+        status = stages[s].run(sim, error);
+        time->name = stages[s].name;
+        time->seconds += sb_clock() - start;
+        time->calls++;
 #ifdef SB_DEBUG
-        status = check_finite(sim, run[s]->name, error);
-        if (status != SB_OK) return status;
+        if (status == SB_OK) status = check_finite(sim, stages[s].name, error);
 #endif
     }
-    sim->lists_current = true;
-    return SB_OK;
+    sim->stage_count = count > sim->stage_count ? count : sim->stage_count;
+    return status;
+}
+
+sb_status sb_sim_step(sb_sim *sim, sb_error *error)
+{
+    sim->work.lists_current = sim->work.virial_known = false;
+    const sb_status status = run_stages(sim, error);
+    sim->work.lists_current = status == SB_OK;
+    sb_report_update(sim);
+    return status;
 }

@@ -1,16 +1,8 @@
 /* The choice of the time step [S16, eqs. 10-12] (docs/method.md, section 8). */
-#include "sim/state/state.h"
+#include "sim/simulation.h"
 #include "sim/step/stages.h"
 
 #include <math.h>
-
-/* Factor on the step that waves permit, for damped steps. Damped water moves in proportion to dt^2, and it is slow
-   enough for longer steps. */
-static const double SETTLE_STEP = 1.5;
-
-/* Longest creeping step in spacings over sqrt(g D). A step of any length removes the same fraction of a density error,
-   but unsupported water falls in proportion to dt^2 (docs/decisions/0021). */
-static const double CREEP_STEP = 0.15;
 
 /* The CFL limit. Water at rest starts to move by gravity, which then determines the limit [S16, eq. 11]. */
 static double cfl_step(const sb_numerics *n, const sb_constants *c, double speed)
@@ -22,12 +14,12 @@ static double cfl_step(const sb_numerics *n, const sb_constants *c, double speed
 
 static double top_speed(const sb_sim *sim)
 {
-    double speed = sim->report.max_speed;
+    double speed = sim->state.max_speed;
     double probe = 1e-3 * (double)sim->constant.spacing / (double)sim->constant.wave_speed;
-    for (size_t m = 0; m < sim->moving_count && !sim->settling; m++) {
-        const sb_paddle *paddle = &sim->moving[m].paddle;
+    for (size_t m = 0; m < sim->walls.moving_count && sim->policy->runs; m++) {
+        const sb_paddle *paddle = &sim->walls.moving[m].paddle;
         double moved =
-            sb_paddle_displacement(paddle, sim->report.time + probe) - sb_paddle_displacement(paddle, sim->report.time);
+            sb_paddle_displacement(paddle, sim->state.time + probe) - sb_paddle_displacement(paddle, sim->state.time);
         speed = fmax(speed, fabs(moved) / probe);
     }
     return speed;
@@ -69,8 +61,7 @@ double sb_sim_longest_step(const sb_scene *scene, const sb_model *model, double 
 
 static double step_of(const sb_sim *sim)
 {
-    return longest_step(&sim->scene->numerics, &sim->constant, top_speed(sim),
-                        sim->settling == SB_DAMPING ? SETTLE_STEP : 1);
+    return longest_step(&sim->scene->numerics, &sim->constant, top_speed(sim), sim->policy->step_factor);
 }
 
 static double least_step(const sb_sim *sim)
@@ -94,13 +85,13 @@ sb_status sb_stage_time_step(sb_sim *sim, sb_error *error)
     const double dt = step_of(sim), least = least_step(sim);
     if (!(dt > 0) || !isfinite(dt))
         return sb_fail(error, SB_FAILED, "step %llu, t = %g s: time step is %g s: the run has diverged",
-                       (unsigned long long)sim->report.step, sim->report.time, dt);
+                       (unsigned long long)sim->state.step, sim->state.time, dt);
     if (dt < least)
         return sb_fail(error, SB_FAILED,
                        "step %llu, t = %g s: time step is %g s, expected at least %.3g s: the run has diverged, or a "
                        "key of numerics limits the step too much",
-                       (unsigned long long)sim->report.step, sim->report.time, dt, least);
+                       (unsigned long long)sim->state.step, sim->state.time, dt, least);
     const double crossing = (double)sim->constant.spacing / (double)sim->constant.wave_speed;
-    sim->report.time_step = sim->settling == SB_CREEPING ? fmin(dt, CREEP_STEP * crossing) : dt;
+    sim->state.time_step = fmin(dt, sim->policy->longest_step * crossing);
     return SB_OK;
 }

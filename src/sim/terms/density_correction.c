@@ -20,7 +20,7 @@ bool sb_density_correction_on(const sb_scene *scene)
 
 void sb_density_correction_clear(sb_sim *sim)
 {
-    for (size_t i = 0; sim->density_correction && i < sim->n; i++) sim->density_correction[i] = NAN;
+    for (size_t i = 0; sim->state.density_correction && i < sim->state.n; i++) sim->state.density_correction[i] = NAN;
 }
 
 /* The c_i of a particle after this step. own: its c_i before, NAN in the first step; density: the density sum;
@@ -39,14 +39,15 @@ static float corrected(const sb_constants *c, float own, float density, float by
 sb_status sb_stage_density_correction(sb_sim *sim, sb_error *error)
 {
     (void)error;
-    const size_t n = sim->n;
-    const double crossed = sim->report.time_step * (double)sim->constant.wave_speed / (double)sim->constant.support;
+    const size_t n = sim->state.n;
+    const double crossed = sim->state.time_step * (double)sim->constant.wave_speed / (double)sim->constant.support;
     const float share = (float)fmin(crossed / CROSSED, 1);
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) {
-        float *own = &sim->density_correction[i];
-        *own = corrected(&sim->constant, *own, sim->density[i], sim->source[i], sim->residual[i], share);
-        sim->density[i] += *own;
+        float *own = &sim->state.density_correction[i];
+        *own = corrected(&sim->constant, *own, sim->work.density[i], sim->work.wall_density[i],
+                         sim->work.water_squared[i], share);
+        sim->work.density[i] += *own;
     }
     return SB_OK;
 }

@@ -8,9 +8,9 @@
 #ifndef SB_SIM_DENSITY_CORRECTION_H
 #define SB_SIM_DENSITY_CORRECTION_H
 
-#include "sim/state/state.h"
+#include "sim/simulation.h"
 
-/* Whether the scene uses the density correction. If not, sim->density_correction is NULL and no stage runs. */
+/* Whether the scene uses the density correction. If not, sim->state.density_correction is NULL and no stage runs. */
 bool sb_density_correction_on(const sb_scene *scene);
 
 /* Marks all corrections as not yet known, as before the first step. */

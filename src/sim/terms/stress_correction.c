@@ -48,7 +48,7 @@ SB_INLINE moments gather(const sb_sim *sim, const sb_group *group, const sb_f4 *
     return (moments){p[0], p[1], p[2], p[3], q[0], q[1]};
 }
 
-/* E_i: xx into residual, the others into acceleration as yy, xy, xz, yz. */
+/* E_i as strain_xx, and yy, xy, xz, yz as strain. */
 SB_MULTIVERSION
 static void find_strain(sb_sim *sim, const sb_group *group, float share)
 {
@@ -58,14 +58,14 @@ static void find_strain(sb_sim *sim, const sb_group *group, float share)
     const float unit = -sim->pairs.unit * (float)sim->space.quantum / sim->constant.rest_density;
     sb_around(sim, group, around);
     for (size_t i = group->first; i < group->end; i++) {
-        sim->residual[i] = 0;
-        sim->acceleration[i] = (sb_f4){0};
+        sim->work.strain_xx[i] = 0;
+        sim->work.strain[i] = (sb_f4){0};
         if (sim->wall_pairs.count[i] > 0) continue;
         const moments m = gather(sim, group, around, i);
         const float mean = part * (m.xx + m.yy + m.zz), off = -share / mean;
         if (!(unit * mean >= FULL)) continue;
-        sim->residual[i] = share + off * m.xx;
-        sim->acceleration[i] = (sb_f4){flat ? 0 : share + off * m.yy, off * m.xy, off * m.xz, off * m.yz};
+        sim->work.strain_xx[i] = share + off * m.xx;
+        sim->work.strain[i] = (sb_f4){flat ? 0 : share + off * m.yy, off * m.xy, off * m.xz, off * m.yz};
     }
 }
 
@@ -79,22 +79,22 @@ SB_INLINE bool any_around(const sb_sim *sim, const sb_group *group, const sb_f4 
     return (bits[0] | bits[1] | bits[2] | bits[3]) != 0;
 }
 
-/* S_i: xx into source, the others into scratch. The weights of the mean are the slopes; the weight of the particle's
+/* S_i, in the same form. The weights of the mean are the slopes; the weight of the particle's
    own E_i is the slope of a coincident particle. */
 SB_MULTIVERSION
 static void find_stress(sb_sim *sim, const sb_group *group)
 {
     _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
-    sb_f4 *stress = sim->scratch;
-    sb_around_with(sim, group, sim->acceleration, around);
+    sb_f4 *stress = sim->work.stress;
+    sb_around_with(sim, group, sim->work.strain, around);
     const bool any = any_around(sim, group, around);
     for (size_t i = group->first; i < group->end; i++) {
         stress[i] = (sb_f4){0};
-        sim->source[i] = 0;
+        sim->work.stress_xx[i] = 0;
         if (!any) continue;
         const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
-        const sb_f4 own = {0, 0, 0, sim->residual[i]};
-        sb_f8 even = sb_join(own, sim->acceleration[i]) * sb_splat8(OWN), odd = {0};
+        const sb_f4 own = {0, 0, 0, sim->work.strain_xx[i]};
+        sb_f8 even = sb_join(own, sim->work.strain[i]) * sb_splat8(OWN), odd = {0};
         sb_f4 weights = {OWN};
         for (; four < end; four++) {
             const sb_f4 slope = sb_slopes(four);
@@ -106,25 +106,25 @@ static void find_stress(sb_sim *sim, const sb_group *group)
             weights += slope;
         }
         const sb_f8 sum = even + odd;
-        const float density = sim->density[i], q = sim->velocity[i][3] / (density * density);
+        const float density = sim->work.density[i], q = sim->state.velocity[i][3] / (density * density);
         const float factor = q / (sb_sum3(weights) + weights[3]);
         stress[i] = __builtin_shufflevector(sum, sum, 4, 5, 6, 7) * sb_splat(factor);
-        sim->source[i] = sum[3] * factor;
+        sim->work.stress_xx[i] = sum[3] * factor;
     }
 }
 
-/* The velocity after the correction, into scratch. The pressure in its last lane does not change. */
+/* The velocity after the correction. The pressure in its last lane does not change. */
 SB_MULTIVERSION
 static void accelerate(sb_sim *sim, const sb_group *group, float dt)
 {
     _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
-    sb_f4 *next = sim->scratch;
-    sb_around_with(sim, group, sim->acceleration, around);
+    sb_f4 *next = sim->work.corrected;
+    sb_around_with(sim, group, sim->work.stress, around);
     const bool any = any_around(sim, group, around);
     for (size_t i = group->first; i < group->end; i++) {
-        next[i] = sim->velocity[i];
+        next[i] = sim->state.velocity[i];
         if (!any) continue;
-        const sb_f4 self = sb_in_group(sim, group, i), own = sim->acceleration[i];
+        const sb_f4 self = sb_in_group(sim, group, i), own = sim->work.stress[i];
         const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
         sb_f4 sum_x = {0}, sum_y = {0}, sum_z = {0};
         for (; four < end; four += 2) {
@@ -158,13 +158,14 @@ enum { SUMS = 4 };
    particle that is too fast afterwards, -INFINITY if none is. */
 static double sum_changes(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_MAX])
 {
-    const sb_f4 *next = sim->scratch;
+    const sb_f4 *next = sim->work.corrected;
     const float limit = sim->constant.speed_limit * sim->constant.speed_limit;
     double fast = (double)INFINITY;
     for (size_t i = group->first; i < group->end; i++) {
         if (!(sb_sum3(next[i] * next[i]) <= limit)) fast = fmin(fast, (double)i);
-        terms[0] += sb_ledger_work(sim->velocity[i], next[i], sim->velocity[i], next[i]);
-        for (int axis = 0; axis < 3; axis++) terms[1 + axis] += (double)next[i][axis] - (double)sim->velocity[i][axis];
+        terms[0] += sb_ledger_work(sim->state.velocity[i], next[i], sim->state.velocity[i], next[i]);
+        for (int axis = 0; axis < 3; axis++)
+            terms[1 + axis] += (double)next[i][axis] - (double)sim->state.velocity[i][axis];
     }
     return -fast;
 }
@@ -174,36 +175,32 @@ bool sb_stress_correction_on(const sb_scene *scene)
     return scene->numerics.stress_correction > 0;
 }
 
-static void swap(sb_f4 **a, void **b)
-{
-    sb_f4 *other = *a;
-    *a = *b;
-    *b = other;
-}
-
 sb_status sb_stage_stress_correction(sb_sim *sim, sb_error *error)
 {
     const size_t groups = sim->groups.count;
-    const float dt = (float)sim->report.time_step, share = (float)sim->scene->numerics.stress_correction;
+    const float dt = (float)sim->state.time_step, share = (float)sim->scene->numerics.stress_correction;
 #pragma omp parallel for schedule(dynamic, GROUPS)
     for (size_t g = 0; g < groups; g++) find_strain(sim, &sim->groups.group[g], share);
-    sb_ghosts_refresh(sim, sim->acceleration);
-    sb_pressure_load(sim, sim->residual);
+    sb_ghosts_refresh(sim, sim->work.strain);
+    sb_pressure_load(sim, sim->work.strain_xx);
+    sb_work_enter(sim, SB_PHASE_STRESS);
 #pragma omp parallel for schedule(dynamic, GROUPS)
     for (size_t g = 0; g < groups; g++) find_stress(sim, &sim->groups.group[g]);
-    swap(&sim->acceleration, &sim->scratch);
-    sb_ghosts_refresh(sim, sim->acceleration);
-    sb_pressure_load(sim, sim->source);
+    sb_ghosts_refresh(sim, sim->work.stress);
+    sb_pressure_load(sim, sim->work.stress_xx);
+    sb_work_enter(sim, SB_PHASE_CORRECTED);
 #pragma omp parallel for schedule(dynamic, GROUPS)
     for (size_t g = 0; g < groups; g++) accelerate(sim, &sim->groups.group[g], dt);
     double sum[SUMS];
     const double fast = -sb_sum_groups(sim, SUMS, sum_changes, sum);
-    if (fast < (double)sim->n)
-        return sb_sim_diverged(sim, (size_t)fast, ((const sb_f4 *)sim->scratch)[(size_t)fast], error);
+    if (fast < (double)sim->state.n)
+        return sb_sim_diverged(sim, (size_t)fast, sim->work.corrected[(size_t)fast], error);
     const double mass = (double)sim->constant.mass;
-    sim->ledger.stress += sim->settling ? 0 : mass * sum[0];
-    sim->stress_gain = sb_scale(sb_vec(sum[1], sum[2], sum[3]), mass);
-    swap(&sim->velocity, &sim->scratch);
-    sb_ghosts_refresh(sim, sim->velocity);
+    sim->state.ledger.stress += sim->policy->runs ? mass * sum[0] : 0;
+    sim->work.stress_gain = sb_scale(sb_vec(sum[1], sum[2], sum[3]), mass);
+    const size_t n = sim->state.n;
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < n; i++) sim->state.velocity[i] = sim->work.corrected[i];
+    sb_ghosts_refresh(sim, sim->state.velocity);
     return SB_OK;
 }

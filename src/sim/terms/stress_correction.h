@@ -4,14 +4,14 @@
 #ifndef SB_SIM_STRESS_CORRECTION_H
 #define SB_SIM_STRESS_CORRECTION_H
 
-#include "sim/state/state.h"
+#include "sim/simulation.h"
 
 /* Whether the scene uses the correction. If not, no stage runs. */
 bool sb_stress_correction_on(const sb_scene *scene);
 
 /* Adds the correction to the velocities of one step, from the pressures of the last step and the present neighbour
-   lists. Momentum is conserved. The work is entered in the ledger. Overwrites acceleration, residual, source and
-   scratch. Fails, without changing velocities, if a particle would be too fast. */
+   lists. Momentum is conserved. The work is entered in the ledger. Fails, without changing velocities, if a particle
+   would be too fast. */
 sb_status sb_stage_stress_correction(sb_sim *sim, sb_error *error);
 
 #endif

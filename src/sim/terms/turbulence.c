@@ -35,7 +35,7 @@ SB_INLINE sb_f4 sum_lanes(sb_f4 a, sb_f4 b, sb_f4 c, sb_f4 d)
 /* around: sb_around_with velocities. */
 SB_INLINE moments gather(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i)
 {
-    const sb_f4 self = sb_in_group(sim, group, i), v = sim->velocity[i], unit = sb_splat(-sim->pairs.unit);
+    const sb_f4 self = sb_in_group(sim, group, i), v = sim->state.velocity[i], unit = sb_splat(-sim->pairs.unit);
     const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
     sb_f4 xx = {0}, xy = {0}, xz = {0}, yy = {0}, yz = {0}, zz = {0};
     sb_f4 ux = {0}, uy = {0}, uz = {0}, vx = {0}, vy = {0}, vz = {0}, wx = {0}, wy = {0}, wz = {0};
@@ -80,7 +80,7 @@ SB_INLINE float strain_rate(const sb_sim *sim, const sb_group *group, const sb_f
     if (flat) m.place[1][1] = 1;
     const float determinant = adjugate(m.place, inverse);
     const bool corrected = determinant > THINNEST;
-    const float factor = corrected ? 1 / (determinant * scale * (float)sim->space.quantum) : 1 / sim->density[i];
+    const float factor = corrected ? 1 / (determinant * scale * (float)sim->space.quantum) : 1 / sim->work.density[i];
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++)
             gradient[a][b] = factor * (corrected ? m.velocity[a][0] * inverse[0][b] + m.velocity[a][1] * inverse[1][b] +
@@ -101,7 +101,7 @@ SB_INLINE float wall_distance(const sb_sim *sim, size_t i, float offset)
     for (size_t k = 0; k < sim->wall_pairs.count[i]; k++) {
         const sb_wall_set *set = sb_wall_set_of(sim, index[k]);
         const uint32_t b = sb_wall_particle(index[k]);
-        const sb_f4 d = sb_offset(sim->position[i], set->record[b]), normal = set->normal[b];
+        const sb_f4 d = sb_offset(sim->state.position[i], set->record[b]), normal = set->normal[b];
         const float square = sb_sum3(d * d);
         if (square >= nearest) continue;
         nearest = square;
@@ -118,11 +118,11 @@ static void do_group(sb_sim *sim, const sb_group *group)
     const sb_numerics *n = &sim->scene->numerics;
     const float longest = (float)n->smagorinsky * sim->constant.spacing;
     const float offset = (float)n->wall_offset * sim->constant.spacing;
-    sb_around_with(sim, group, sim->velocity, around);
+    sb_around_with(sim, group, sim->state.velocity, around);
     for (size_t i = group->first; i < group->end; i++) {
         const float near = KARMAN * wall_distance(sim, i, offset);
         const float length = near < longest ? near : longest;
-        sim->eddy[i] = length * length * strain_rate(sim, group, around, i);
+        sim->work.eddy[i] = length * length * strain_rate(sim, group, around, i);
     }
 }
 
@@ -137,6 +137,6 @@ sb_status sb_stage_turbulence(sb_sim *sim, sb_error *error)
     const size_t groups = sim->groups.count;
 #pragma omp parallel for schedule(dynamic, GROUPS)
     for (size_t g = 0; g < groups; g++) do_group(sim, &sim->groups.group[g]);
-    sb_ghosts_refresh_values(sim, sim->eddy);
+    sb_ghosts_refresh_values(sim, sim->work.eddy);
     return SB_OK;
 }

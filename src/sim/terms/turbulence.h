@@ -3,12 +3,12 @@
 #ifndef SB_SIM_TURBULENCE_H
 #define SB_SIM_TURBULENCE_H
 
-#include "sim/state/state.h"
+#include "sim/simulation.h"
 
-/* Whether the scene uses turbulence. If not, sim->eddy is NULL and no stage runs. */
+/* Whether the scene uses turbulence. If not, sim->work.eddy is NULL and no stage runs. */
 bool sb_turbulence_on(const sb_scene *scene);
 
-/* Computes sim->eddy from the velocities after the stress correction, the neighbour lists and the densities. Never
+/* Computes sim->work.eddy from the velocities after the stress correction, the neighbour lists and the densities. Never
    fails. */
 sb_status sb_stage_turbulence(sb_sim *sim, sb_error *error);
 

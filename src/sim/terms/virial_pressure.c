@@ -15,12 +15,12 @@ enum { GROUPS = 8 }; /* per unit of work */
    back: -dt in quanta per m/s. */
 SB_INLINE sb_f4 entry(const sb_sim *sim, const sb_group *group, size_t e, sb_f4 back)
 {
-    sb_f4 at = sb_offset(sim->position[e], group->corner);
-    if (e < sim->n) {
-        at += sim->velocity[e] * back;
-        at[3] = sim->unknown[e];
+    sb_f4 at = sb_offset(sim->state.position[e], group->corner);
+    if (e < sim->state.n) {
+        at += sim->state.velocity[e] * back;
+        at[3] = sim->work.unknown[e];
     } else
-        at[3] = sim->unknown[sim->ghosts.of[e - sim->n]];
+        at[3] = sim->work.unknown[sim->ghosts.of[e - sim->state.n]];
     return at;
 }
 
@@ -43,7 +43,7 @@ static void find_pressures(sb_sim *sim, const sb_group *group)
 {
     _Alignas(64) sb_f4 around[SB_AROUND_MAX];
     const float quantum = (float)sim->space.quantum;
-    const sb_f4 back = sb_splat(-(float)sim->report.time_step / quantum);
+    const sb_f4 back = sb_splat(-(float)sim->state.time_step / quantum);
     const float factor = -0.5f * sim->constant.rest_density * quantum / (float)sim->constant.dimension;
     const sb_run *run = sim->groups.run + group->run;
     sb_f4 *at = around;
@@ -60,15 +60,15 @@ static void find_pressures(sb_sim *sim, const sb_group *group)
             sum += (d.w + sb_splat(self[3])) * sb_slopes(four) * (x * x + y * y + z * z);
         }
         const float water = ((sum[0] + sum[1]) + (sum[2] + sum[3])) * sim->pairs.unit;
-        sim->residual[i] = factor * (water + self[3] * by_walls(sim, group, i, self));
+        sim->work.virial[i] = factor * (water + self[3] * by_walls(sim, group, i, self));
     }
 }
 
 void sb_sim_find_virial_pressures(sb_sim *sim)
 {
-    if (!sim->lists_current || sim->virial_known) return;
+    if (!sim->work.lists_current || sim->work.virial_known) return;
     const size_t groups = sim->groups.count;
 #pragma omp parallel for schedule(dynamic, GROUPS)
     for (size_t g = 0; g < groups; g++) find_pressures(sim, &sim->groups.group[g]);
-    sim->virial_known = true;
+    sim->work.virial_known = true;
 }

@@ -59,13 +59,14 @@ SB_INLINE eight_pairs find_pairs(const own_part *own, const sb_f4 *around, const
 
 /* -sum_j m Pi_ij grad W_ij, eight neighbours at a time, added up four after four. around: output of sb_around_with for
    the velocities, with densities in the last lane of the records. x . v and r^2 are in quanta; their quotient is
-   converted by 1/quantum. eddies: the last lane of the velocities contains sim->eddy. */
+   converted by 1/quantum. eddies: the last lane of the velocities contains sim->work.eddy. */
 SB_INLINE sb_f4 fluid_part(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i, const factors *f,
                            bool eddies)
 {
-    const sb_f4 at = sb_in_group(sim, group, i), of = sim->velocity[i];
-    const own_part own = {sb_spread(at, 0), sb_spread(at, 1), sb_spread(at, 2), sb_spread(at, 3),
-                          sb_spread(of, 0), sb_spread(of, 1), sb_spread(of, 2), sb_splat8(eddies ? sim->eddy[i] : 0)};
+    const sb_f4 at = sb_in_group(sim, group, i), of = sim->state.velocity[i];
+    const own_part own = {
+        sb_spread(at, 0), sb_spread(at, 1), sb_spread(at, 2), sb_spread(at, 3),
+        sb_spread(of, 0), sb_spread(of, 1), sb_spread(of, 2), sb_splat8(eddies ? sim->work.eddy[i] : 0)};
     const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
     sb_f4 x = {0}, y = {0}, z = {0};
     for (; four < end; four += 2) {
@@ -89,7 +90,7 @@ SB_INLINE sb_f4 wall_part(const sb_sim *sim, size_t i, const sb_wall_drag *law)
     const float *slope = sim->wall_pairs.slope + sim->wall_pairs.first[i];
     sb_f4 sum = {0}, part[4];
     for (size_t k = 0; k < sim->wall_pairs.count[i]; k += 4) {
-        sb_wall_drag_four(sim, i, sim->velocity[i], index + k, slope + k, law, part);
+        sb_wall_drag_four(sim, i, sim->state.velocity[i], index + k, slope + k, law, part);
         for (int pair = 0; pair < 4; pair++) sum += part[pair];
     }
     return sum;
@@ -99,20 +100,20 @@ SB_MULTIVERSION
 static void do_group(sb_sim *sim, const sb_group *group, const factors *f, bool viscous, const sb_wall_drag *law)
 {
     _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
-    const float dt = (float)sim->report.time_step;
-    sb_f4 *next = sim->scratch;
-    if (viscous) sb_around_with(sim, group, sim->velocity, around);
-    if (sim->eddy) sb_around_last(sim, group, sim->eddy, around);
+    const float dt = (float)sim->state.time_step;
+    sb_f4 *next = sim->work.predicted;
+    if (viscous) sb_around_with(sim, group, sim->state.velocity, around);
+    if (sim->work.eddy) sb_around_last(sim, group, sim->work.eddy, around);
     for (size_t i = group->first; i < group->end; i++) {
-        sb_f4 a = {sim->settling ? sb_settle_wave_acceleration(sim, sim->position[i]) : 0, 0, -sim->constant.gravity,
-                   0};
-        if (sim->eddy)
+        sb_f4 a = {sim->policy->holds_wave ? sb_settle_wave_acceleration(sim, sim->state.position[i]) : 0, 0,
+                   -sim->constant.gravity, 0};
+        if (sim->work.eddy)
             a += fluid_part(sim, group, around, i, f, true);
         else if (viscous)
             a += fluid_part(sim, group, around, i, f, false);
-        if (law->on && sim->wall_pairs.count[i] > 0) a += sim->wall_drag[i] = wall_part(sim, i, law);
+        if (law->on && sim->wall_pairs.count[i] > 0) a += sim->work.wall_drag[i] = wall_part(sim, i, law);
         a[3] = 0;
-        next[i] = sim->velocity[i] + a * sb_splat(dt);
+        next[i] = sim->state.velocity[i] + a * sb_splat(dt);
     }
 }
 
@@ -121,14 +122,11 @@ sb_status sb_stage_forces(sb_sim *sim, sb_error *error)
     (void)error;
     const factors f = make_factors(sim);
     const sb_wall_drag law = sb_wall_drag_make(sim);
-    const bool viscous = f.artificial > 0 || f.physical > 0 || sim->eddy;
+    const bool viscous = f.artificial > 0 || f.physical > 0 || sim->work.eddy;
     const size_t groups = sim->groups.count;
-    if (viscous) sb_pressure_load(sim, sim->density);
+    if (viscous) sb_pressure_load(sim, sim->work.density);
 #pragma omp parallel for schedule(dynamic, GROUPS)
     for (size_t g = 0; g < groups; g++) do_group(sim, &sim->groups.group[g], &f, viscous, &law);
-    sb_f4 *old = sim->velocity;
-    sim->velocity = sim->scratch;
-    sim->scratch = old;
-    sb_ghosts_refresh(sim, sim->velocity);
+    sb_ghosts_refresh(sim, sim->work.predicted);
     return SB_OK;
 }

@@ -7,10 +7,8 @@
 /* Distances in particle spacings, added to wall_offset.
    PLANE: smallest distance of a particle from the boundary surface, about where water at rest lies between boundary
    particles.
-   BALL: smallest distance from any single boundary particle. It protects ridges, where the mean plane lies too low.
-   RELEASE: distance per step by which settling moves out a particle that starts closer. During the run such a particle
-   may not come any closer, and only pressure moves it out, so that contact resolution adds no energy. */
-static const float PLANE = 0.05f, BALL = 0.2f, RELEASE = 0.005f;
+   BALL: smallest distance from any single boundary particle. It protects ridges, where the mean plane lies too low. */
+static const float PLANE = 0.05f, BALL = 0.2f;
 
 /* The wall around the position at the step's end. Lengths in quanta. */
 typedef struct wall_view {
@@ -41,7 +39,7 @@ SB_INLINE void weigh_four(const sb_sim *sim, size_t i, size_t first, sb_f4 step,
         const sb_wall_set *set = sb_wall_set_of(sim, index[k]);
         const uint32_t b = sb_wall_particle(index[k]);
         s->normal[k] = &set->normal[b];
-        s->here[k] = sb_offset(sim->position[i], set->record[b]);
+        s->here[k] = sb_offset(sim->state.position[i], set->record[b]);
         s->there[k] = s->here[k] + step - sb_wall_velocity(sim, index[k]) * sb_splat(to_quanta);
     }
     const sb_four at = sb_transpose(s->there[0], s->there[1], s->there[2], s->there[3]);
@@ -100,10 +98,10 @@ SB_INLINE float smaller(float a, float b)
 SB_MULTIVERSION
 size_t sb_contact_resolve(const sb_sim *sim, size_t i, sb_f4 *velocity, sb_contact_push pushes[SB_CONTACT_PUSHES_MAX])
 {
-    const float to_quanta = (float)(sim->report.time_step / sim->space.quantum);
+    const float to_quanta = (float)(sim->state.time_step / sim->space.quantum);
     const float spacing = sim->constant.spacing / (float)sim->space.quantum;
     const float surface = (float)sim->scene->numerics.wall_offset;
-    const float release = sim->settling ? RELEASE * spacing : 0;
+    const float release = sim->policy->release * spacing;
     size_t count = 0;
     while (count < SB_CONTACT_PUSHES_MAX) {
         const wall_view v = find_wall(sim, i, *velocity, to_quanta);

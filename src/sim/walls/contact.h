@@ -4,7 +4,7 @@
 #ifndef SB_SIM_CONTACT_H
 #define SB_SIM_CONTACT_H
 
-#include "sim/state/state.h"
+#include "sim/simulation.h"
 
 enum { SB_CONTACT_PUSHES_MAX = 3 }; /* a corner of three walls needs one for each wall */
 

@@ -48,7 +48,7 @@ SB_INLINE sb_wall_four sb_gather_walls(const sb_sim *sim, size_t i, sb_f4 veloci
     for (size_t k = 0; k < 4; k++) {
         const sb_wall_set *set = sb_wall_set_of(sim, wall[k]);
         const uint32_t b = sb_wall_particle(wall[k]);
-        d[k] = sb_offset(sim->position[i], set->record[b]);
+        d[k] = sb_offset(sim->state.position[i], set->record[b]);
         n[k] = set->normal[b];
         v[k] = velocity - sb_wall_velocity(sim, wall[k]);
     }
@@ -83,7 +83,7 @@ SB_INLINE void sb_wall_drag_four(const sb_sim *sim, size_t i, sb_f4 velocity, co
     sb_four sum = {.x = {0}, .y = {0}, .z = {0}};
     if (law->friction > 0) {
         const sb_f4 approach = sb_dot4(of.velocity, of.offset);
-        const sb_f4 weight = (sb_dot4(of.offset, of.offset) + sb_splat(law->epsilon)) * sb_splat(sim->density[i]);
+        const sb_f4 weight = (sb_dot4(of.offset, of.offset) + sb_splat(law->epsilon)) * sb_splat(sim->work.density[i]);
         const sb_f4 factor =
             sb_select(approach < (sb_f4){0}, sb_splat(law->friction) * approach * slopes / weight, (sb_f4){0});
         sum = (sb_four){.x = of.offset.x * factor, .y = of.offset.y * factor, .z = of.offset.z * factor};

@@ -3,8 +3,8 @@
 #ifndef SB_SIM_WALL_ENTRY_H
 #define SB_SIM_WALL_ENTRY_H
 
+#include "sim/simulation.h"
 #include "sim/state/simd.h"
-#include "sim/state/state.h"
 
 enum { SB_WALL_SET_SHIFT = 31 };
 
@@ -25,7 +25,7 @@ SB_INLINE uint32_t sb_wall_particle(uint32_t entry)
 
 SB_INLINE const sb_wall_set *sb_wall_set_of(const sb_sim *sim, uint32_t entry)
 {
-    return &sim->walls[entry >> SB_WALL_SET_SHIFT];
+    return &sim->walls.set[entry >> SB_WALL_SET_SHIFT];
 }
 
 /* Index of the model's body that the boundary particle belongs to. */
@@ -38,7 +38,7 @@ SB_INLINE uint32_t sb_wall_body(const sb_sim *sim, uint32_t entry)
 SB_INLINE sb_f4 sb_wall_velocity(const sb_sim *sim, uint32_t entry)
 {
     if (!sb_wall_moves(entry)) return (sb_f4){0};
-    const sb_vec3 v = sim->moving[sim->moving_of_body[sb_wall_body(sim, entry)]].velocity;
+    const sb_vec3 v = sim->walls.moving[sim->walls.moving_of_body[sb_wall_body(sim, entry)]].velocity;
     return (sb_f4){(float)v.x, (float)v.y, (float)v.z, 0};
 }
 

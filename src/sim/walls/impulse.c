@@ -85,7 +85,7 @@ static void turn_to(tally *t, const sb_wall_set *set, uint32_t wall)
 static void add_push(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 push, forces *to)
 {
     const sb_record record = sb_wall_set_of(sim, wall)->record[sb_wall_particle(wall)];
-    sb_vec3 at = sb_space_position(&sim->space, sim->position[i]);
+    sb_vec3 at = sb_space_position(&sim->space, sim->state.position[i]);
     if (sim->space.repeats) at = sb_add(at, to_original(&sim->space, record));
     add(sim, to, sb_wall_body(sim, wall), at, push, (sb_vec3){0});
 }
@@ -93,11 +93,11 @@ static void add_push(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 push, f
 /* Resolves contact of particle i; the bodies receive the reactions. */
 SB_APART void contact(sb_sim *sim, size_t i, forces *to, double works[WORKS])
 {
-    const sb_f4 start = ((const sb_f4 *)sim->scratch)[i];
-    sb_f4 velocity = sim->acceleration[i];
+    const sb_f4 start = sim->state.velocity[i];
+    sb_f4 velocity = sim->work.end_velocity[i];
     sb_contact_push pushes[SB_CONTACT_PUSHES_MAX];
     const size_t count = sb_contact_resolve(sim, i, &velocity, pushes);
-    const double scale = -(double)sim->constant.mass / sim->report.time_step;
+    const double scale = -(double)sim->constant.mass / sim->state.time_step;
     if (count == 0) return;
     for (size_t k = 0; k < count; k++) {
         const uint32_t wall = pushes[k].wall;
@@ -107,9 +107,9 @@ SB_APART void contact(sb_sim *sim, size_t i, forces *to, double works[WORKS])
         add_push(sim, i, wall, push, to);
         works[2] += sb_ledger_work((sb_f4){0}, pushes[k].change, body, body);
     }
-    works[1] += sb_ledger_work(sim->acceleration[i], velocity, start, velocity);
-    velocity[3] = sim->acceleration[i][3];
-    sim->acceleration[i] = velocity;
+    works[1] += sb_ledger_work(sim->work.end_velocity[i], velocity, start, velocity);
+    velocity[3] = sim->work.end_velocity[i][3];
+    sim->work.end_velocity[i] = velocity;
 }
 
 /* Whether all boundary particles of a list belong to one body. Always false with periodic sides, where forces on images
@@ -130,14 +130,14 @@ SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_wall_drag *law, forc
     const float *slope = sim->wall_pairs.slope + sim->wall_pairs.first[i];
     const size_t count = sim->wall_pairs.count[i];
     const double mass = (double)sim->constant.mass;
-    const sb_f4 *velocity = sim->scratch; /* at the step's start */
-    tally t = {.sim = sim, .to = to, .press = mass * (double)sim->unknown[i], .mass = mass};
+    const sb_f4 *velocity = sim->state.velocity; /* at the step's start */
+    tally t = {.sim = sim, .to = to, .press = mass * (double)sim->work.unknown[i], .mass = mass};
     sb_f4 drag = {0}, part[4];
-    t.at = sb_space_position(&sim->space, sim->position[i]);
+    t.at = sb_space_position(&sim->space, sim->state.position[i]);
     if (count > 0) t.body = sb_wall_body(sim, index[0]);
     if (one_body(sim, index, count)) { /* the usual case: the sums exist already */
-        t.pushed = sim->wall[i];
-        drag = t.drag = law ? sim->wall_drag[i] : (sb_f4){0};
+        t.pushed = sim->work.wall[i];
+        drag = t.drag = law ? sim->work.wall_drag[i] : (sb_f4){0};
         flush(&t);
         return drag;
     }
@@ -147,7 +147,7 @@ SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_wall_drag *law, forc
         const sb_wall_set *set = sb_wall_set_of(sim, index[k]);
         const uint32_t wall = sb_wall_particle(index[k]);
         turn_to(&t, set, wall);
-        t.pushed += sb_offset(sim->position[i], set->record[wall]) * sb_splat(slope[k]);
+        t.pushed += sb_offset(sim->state.position[i], set->record[wall]) * sb_splat(slope[k]);
         if (law) {
             drag += part[k % 4];
             t.drag += part[k % 4];
@@ -161,7 +161,7 @@ SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_wall_drag *law, forc
 SB_MULTIVERSION
 static void do_group(sb_sim *sim, const sb_group *group, const sb_wall_drag *law, forces *to)
 {
-    const sb_f4 *velocity = sim->scratch; /* at the step's start */
+    const sb_f4 *velocity = sim->state.velocity; /* at the step's start */
     double works[WORKS] = {0};
     bool beside_wall = false;
     for (size_t i = group->first; i < group->end; i++) {
@@ -169,7 +169,7 @@ static void do_group(sb_sim *sim, const sb_group *group, const sb_wall_drag *law
         beside_wall = true;
         const sb_f4 drag = react(sim, i, law->on ? law : NULL, to);
         contact(sim, i, to, works);
-        if (law->on) works[0] += sb_ledger_work((sb_f4){0}, drag, velocity[i], sim->acceleration[i]);
+        if (law->on) works[0] += sb_ledger_work((sb_f4){0}, drag, velocity[i], sim->work.end_velocity[i]);
     }
     if (!beside_wall) return;
     for (int k = 0; k < WORKS; k++) sb_exact_add(&to->works[k], works[k]);
@@ -239,13 +239,13 @@ sb_status sb_stage_impulse(sb_sim *sim, sb_error *error)
         forces_free(&total);
         return sb_fail_memory(error, "forces on bodies");
     }
-    for (size_t v = 0; v < bodies * VALUES; v++) sim->body_force[v] = sb_exact_value(&total.all[v]);
-    sim->step_sums.friction = sb_exact_value(&total.works[0]);
-    sim->step_sums.contact = sb_exact_value(&total.works[1]);
-    sim->step_sums.contact_bodies = sb_exact_value(&total.works[2]);
+    for (size_t v = 0; v < bodies * VALUES; v++) sim->work.body_force[v] = sb_exact_value(&total.all[v]);
+    sim->work.sums.friction = sb_exact_value(&total.works[0]);
+    sim->work.sums.contact = sb_exact_value(&total.works[1]);
+    sim->work.sums.contact_bodies = sb_exact_value(&total.works[2]);
     forces_free(&total);
-    if (sim->settling) return SB_OK;
+    if (!sim->policy->runs) return SB_OK;
     for (size_t body = 0; body < bodies; body++)
-        add_impulse(&sim->impulse[body], sim->report.time_step, sim->body_force + body * VALUES);
+        add_impulse(&sim->state.impulse[body], sim->state.time_step, sim->work.body_force + body * VALUES);
     return SB_OK;
 }

@@ -1,7 +1,7 @@
 /* Wall volumes psi of boundary particles [A12] (docs/method.md, M16, M16a), and images beyond periodic sides. */
 #include "base/memory.h"
 #include "physics/wall_volume.h"
-#include "sim/state/state.h"
+#include "sim/simulation.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "sim/search/sort.h"
-#include "sim/state/state.h"
+#include "sim/simulation.h"
 #include "sim/step/stages.h"
 
 #include <math.h>
@@ -137,18 +137,18 @@ static int copy_set(sb_sim *sim, bool moving, sb_wall_set *set)
 static sb_status create_paddles(sb_sim *sim, sb_error *error)
 {
     const sb_model *model = sim->model;
-    sim->moving_of_body = sb_alloc(model->body_count, sizeof *sim->moving_of_body);
-    sim->moving = sb_alloc(model->body_count, sizeof *sim->moving);
-    if (!sim->moving_of_body || !sim->moving) return sb_fail_memory(error, "moving bodies");
+    sim->walls.moving_of_body = sb_alloc(model->body_count, sizeof *sim->walls.moving_of_body);
+    sim->walls.moving = sb_alloc(model->body_count, sizeof *sim->walls.moving);
+    if (!sim->walls.moving_of_body || !sim->walls.moving) return sb_fail_memory(error, "moving bodies");
     for (size_t b = 0; b < model->body_count; b++) {
-        sim->moving_of_body[b] = UINT32_MAX;
+        sim->walls.moving_of_body[b] = UINT32_MAX;
         if (model->bodies[b].wavemaker < 0) continue;
         const sb_wavemaker_use *use = &sim->scene->wavemakers[model->bodies[b].wavemaker];
-        sb_moving_body *moving = &sim->moving[sim->moving_count];
+        sb_moving_body *moving = &sim->walls.moving[sim->walls.moving_count];
         moving->direction = use->direction;
         sb_status status = sb_paddle_create(&use->law, &moving->paddle, error);
         if (status != SB_OK) return status;
-        sim->moving_of_body[b] = (uint32_t)sim->moving_count++;
+        sim->walls.moving_of_body[b] = (uint32_t)sim->walls.moving_count++;
     }
     return SB_OK;
 }
@@ -161,7 +161,7 @@ sb_status sb_walls_create(sb_sim *sim, sb_error *error)
         return sb_fail(error, SB_BAD_INPUT, "%zu boundary particles: expected fewer than %d", sim->model->wall_count,
                        1 << SB_INDEX_BITS);
     for (int s = 0; s < SB_WALL_SETS; s++) {
-        sb_wall_set *set = &sim->walls[s];
+        sb_wall_set *set = &sim->walls.set[s];
         if (copy_set(sim, s == SB_MOVING, set) != 0 || table_build(set, &sim->space) != 0 ||
             sb_wall_volumes(sim, set, s == SB_MOVING) != 0)
             return sb_fail_memory(error, "boundary particles");
@@ -169,17 +169,17 @@ sb_status sb_walls_create(sb_sim *sim, sb_error *error)
             return sb_fail_memory(error, "images of boundary particles");
         if (near_build(set, &sim->space) != 0) return sb_fail_memory(error, "boundary particles");
     }
-    const sb_wall_set *set = &sim->walls[SB_MOVING];
-    sim->moving_rest_count = set->count;
-    sim->moving_rest = sb_alloc_untouched(set->count, sizeof *sim->moving_rest);
-    sim->moving_rest_body = sb_alloc_untouched(set->count, sizeof *sim->moving_rest_body);
-    sim->moving_rest_normal = sb_alloc_untouched(set->count, sizeof *sim->moving_rest_normal);
-    if (!sim->moving_rest || !sim->moving_rest_body || !sim->moving_rest_normal)
+    const sb_wall_set *set = &sim->walls.set[SB_MOVING];
+    sim->walls.rest.count = set->count;
+    sim->walls.rest.record = sb_alloc_untouched(set->count, sizeof *sim->walls.rest.record);
+    sim->walls.rest.body = sb_alloc_untouched(set->count, sizeof *sim->walls.rest.body);
+    sim->walls.rest.normal = sb_alloc_untouched(set->count, sizeof *sim->walls.rest.normal);
+    if (!sim->walls.rest.record || !sim->walls.rest.body || !sim->walls.rest.normal)
         return sb_fail_memory(error, "moving boundary particles");
     for (size_t i = 0; i < set->count; i++) {
-        sim->moving_rest[i] = set->record[i];
-        sim->moving_rest_body[i] = set->body[i];
-        sim->moving_rest_normal[i] = set->normal[i];
+        sim->walls.rest.record[i] = set->record[i];
+        sim->walls.rest.body[i] = set->body[i];
+        sim->walls.rest.normal[i] = set->normal[i];
     }
     return SB_OK;
 }
@@ -187,18 +187,18 @@ sb_status sb_walls_create(sb_sim *sim, sb_error *error)
 void sb_walls_destroy(sb_sim *sim)
 {
     for (int s = 0; s < SB_WALL_SETS; s++) {
-        sb_free(sim->walls[s].record);
-        sb_free(sim->walls[s].body);
-        sb_free(sim->walls[s].normal);
-        sb_free(sim->walls[s].near);
-        sb_cells_free(&sim->walls[s].cells);
+        sb_free(sim->walls.set[s].record);
+        sb_free(sim->walls.set[s].body);
+        sb_free(sim->walls.set[s].normal);
+        sb_free(sim->walls.set[s].near);
+        sb_cells_free(&sim->walls.set[s].cells);
     }
-    for (size_t m = 0; m < sim->moving_count; m++) sb_paddle_destroy(&sim->moving[m].paddle);
-    sb_free(sim->moving);
-    sb_free(sim->moving_of_body);
-    sb_free(sim->moving_rest);
-    sb_free(sim->moving_rest_body);
-    sb_free(sim->moving_rest_normal);
+    for (size_t m = 0; m < sim->walls.moving_count; m++) sb_paddle_destroy(&sim->walls.moving[m].paddle);
+    sb_free(sim->walls.moving);
+    sb_free(sim->walls.moving_of_body);
+    sb_free(sim->walls.rest.record);
+    sb_free(sim->walls.rest.body);
+    sb_free(sim->walls.rest.normal);
 }
 
 /* ---- moving ---- */
@@ -207,31 +207,31 @@ void sb_walls_destroy(sb_sim *sim)
    gate pulled out of the domain) meet no water and are left out. */
 static void place(sb_sim *sim)
 {
-    sb_wall_set *set = &sim->walls[SB_MOVING];
+    sb_wall_set *set = &sim->walls.set[SB_MOVING];
     set->count = 0;
-    for (size_t i = 0; i < sim->moving_rest_count; i++) {
-        const sb_moving_body *moving = &sim->moving[sim->moving_of_body[sim->moving_rest_body[i]]];
+    for (size_t i = 0; i < sim->walls.rest.count; i++) {
+        const sb_moving_body *moving = &sim->walls.moving[sim->walls.moving_of_body[sim->walls.rest.body[i]]];
         sb_vec3 shift = sb_scale(moving->direction, moving->displacement / sim->space.quantum);
         if (!(sb_norm(shift) < SB_POSITION_END)) continue;
         sb_record step = {(uint32_t)(int32_t)nearbyint(shift.x), (uint32_t)(int32_t)nearbyint(shift.y),
                           (uint32_t)(int32_t)nearbyint(shift.z), 0};
-        sb_record placed = sim->moving_rest[i] + step;
+        sb_record placed = sim->walls.rest.record[i] + step;
         if (!sb_space_inside(&sim->space, placed)) continue;
-        sb_carry(&placed, sb_carried_value(sim->moving_rest[i]));
+        sb_carry(&placed, sb_carried_value(sim->walls.rest.record[i]));
         set->record[set->count] = placed;
-        set->normal[set->count] = sim->moving_rest_normal[i];
-        set->body[set->count++] = sim->moving_rest_body[i];
+        set->normal[set->count] = sim->walls.rest.normal[i];
+        set->body[set->count++] = sim->walls.rest.body[i];
     }
 }
 
 sb_status sb_stage_walls(sb_sim *sim, sb_error *error)
 {
-    double time = sim->report.time, dt = sim->report.time_step;
+    double time = sim->state.time, dt = sim->state.time_step;
     bool moved = false;
-    for (size_t m = 0; m < sim->moving_count; m++) {
-        sb_moving_body *moving = &sim->moving[m];
-        double here = sim->settling ? 0 : sb_paddle_displacement(&moving->paddle, time);
-        double there = sim->settling ? 0 : sb_paddle_displacement(&moving->paddle, time + dt);
+    for (size_t m = 0; m < sim->walls.moving_count; m++) {
+        sb_moving_body *moving = &sim->walls.moving[m];
+        double here = sim->policy->runs ? sb_paddle_displacement(&moving->paddle, time) : 0;
+        double there = sim->policy->runs ? sb_paddle_displacement(&moving->paddle, time + dt) : 0;
         moved |= here != moving->displacement;
         moving->displacement = here;
         moving->next_displacement = there;
@@ -242,9 +242,10 @@ sb_status sb_stage_walls(sb_sim *sim, sb_error *error)
 
 sb_status sb_walls_restore(sb_sim *sim, sb_error *error)
 {
-    if (sim->moving_count == 0) return SB_OK;
+    if (sim->walls.moving_count == 0) return SB_OK;
     place(sim);
-    if (table_build(&sim->walls[SB_MOVING], &sim->space) != 0 || near_build(&sim->walls[SB_MOVING], &sim->space) != 0)
+    if (table_build(&sim->walls.set[SB_MOVING], &sim->space) != 0 ||
+        near_build(&sim->walls.set[SB_MOVING], &sim->space) != 0)
         return sb_fail_memory(error, "moving boundary particles");
     return SB_OK;
 }

@@ -29,6 +29,22 @@ typedef struct sb_moving_body {
     sb_vec3 velocity;                       /* m/s, between them */
 } sb_moving_body;
 
+/* Boundary particles of moving bodies at displacement 0. */
+typedef struct sb_moving_rest {
+    size_t count;
+    sb_record *record;
+    uint32_t *body;
+    sb_f4 *normal;
+} sb_moving_rest;
+
+typedef struct sb_walls {
+    sb_wall_set set[SB_WALL_SETS];
+    sb_moving_rest rest;
+    size_t moving_count;
+    sb_moving_body *moving;   /* bodies */
+    uint32_t *moving_of_body; /* model body -> index into moving, UINT32_MAX: static */
+} sb_walls;
+
 sb_status sb_walls_create(sb_sim *sim, sb_error *error);
 void sb_walls_destroy(sb_sim *sim);
 /* sim/walls/volumes.c: psi_b = gamma rho_0 / sum_k W_bk over the boundary particles k of `set` within h, b included

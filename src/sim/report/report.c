@@ -1,0 +1,75 @@
+#include "sim/report/report.h"
+
+#include "sim/pressure/pressure.h"
+#include "sim/terms/density_correction.h"
+#include "sim/terms/stress_correction.h"
+#include "sim/terms/turbulence.h"
+#include "sim/walls/drag.h"
+
+void sb_report_update(sb_sim *sim)
+{
+    sb_step_report *report = &sim->report;
+    const sb_state *state = &sim->state;
+    report->step = state->step;
+    report->time = state->time;
+    report->time_step = state->time_step;
+    report->iterations = state->sweeps;
+    report->max_speed = state->max_speed;
+    report->fluid_count = state->n;
+    report->left_domain = state->left_domain;
+    report->lost = state->lost;
+}
+
+const sb_step_report *sb_sim_report(const sb_sim *sim)
+{
+    return &sim->report;
+}
+
+/* Appends a line to the list of skipped parts. passes: per step, over all pairs; bytes: per particle. */
+static void skip(sb_sim *sim, size_t *count, const char *what, int passes, size_t bytes)
+{
+    if (*count < SB_SIM_SKIPPED_MAX)
+        sim->skipped[(*count)++] = (sb_skipped){what, passes, bytes * sim->model->fluid_count};
+}
+
+void sb_report_skipped(sb_sim *sim)
+{
+    enum { CORRECTION_PASSES = 3 }; /* moments, their mean, the force */
+    const sb_numerics *n = &sim->scene->numerics;
+    size_t s = 0;
+    if (!(n->artificial_viscosity > 0) && !(sim->constant.viscosity > 0) && !sb_turbulence_on(sim->scene))
+        skip(sim, &s, "viscosity: both coefficients are 0, no pass over particle pairs", 1, 0);
+    if (!sb_stress_correction_on(sim->scene))
+        skip(sim, &s, "stress correction: off, no passes over particle pairs for it", CORRECTION_PASSES, 0);
+    if (!sb_turbulence_on(sim->scene))
+        skip(sim, &s, "turbulence: none, no strain rates and no memory for eddy viscosities", 1, sb_work_cost(sim->scene, "eddy"));
+    if (!sb_density_correction_on(sim->scene))
+        skip(sim, &s, "density correction: off (density: summed), no memory for it", 0,
+             sizeof *sim->state.density_correction);
+    if (!(n->wall_friction > 0)) skip(sim, &s, "wall friction: the coefficient is 0", 0, 0);
+    if (!sb_shear_on(sim->scene))
+        skip(sim, &s, n->wall_shear == SB_SHEAR_NONE ? "wall shear: none" : "wall shear: the fluid has no viscosity", 0,
+             sb_work_cost(sim->scene, "wall_drag"));
+    if (!sim->space.repeats) skip(sim, &s, "periodic sides: none, no ghost particles", 0, 0);
+    if (sim->walls.moving_count == 0) skip(sim, &s, "moving walls: no body moves", 0, 0);
+    if (sim->constant.dimension == 2) skip(sim, &s, "third dimension: 2D scene, 9 cells searched instead of 27", 0, 0);
+    if (!sb_pressure_solvers[n->solver]->needs_direction)
+        skip(sim, &s, "search direction: no memory, the solver does not use one", 0, sb_work_cost(sim->scene, "direction"));
+    if (!sb_pressure_solvers[n->solver]->needs_product)
+        skip(sim, &s, "product with the search direction: no memory, the solver does not use one", 0,
+             sb_work_cost(sim->scene, "product"));
+    if (!sb_sim_settles(sim->scene))
+        skip(sim, &s, "settling: settle_steps is 0, the water starts from the initial lattice", 0, 0);
+    sim->skipped[s] = (sb_skipped){.what = NULL};
+}
+
+size_t sb_sim_stages(const sb_sim *sim, const sb_stage_time **stages)
+{
+    *stages = sim->stage;
+    return sim->stage_count;
+}
+
+const sb_skipped *sb_sim_skipped(const sb_sim *sim)
+{
+    return sim->skipped;
+}

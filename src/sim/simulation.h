@@ -1,0 +1,62 @@
+/* The simulation's structure, private to src/sim. A stage reads the constant parts, the state and the workspace, and
+   writes the state and the workspace. Nothing reads the report, which is for output only. */
+#ifndef SB_SIM_SIMULATION_H
+#define SB_SIM_SIMULATION_H
+
+#include "sim/exchange/ghosts.h"
+#include "sim/search/cells.h"
+#include "sim/search/pairs.h"
+#include "sim/sim.h"
+#include "sim/state/constants.h"
+#include "sim/state/space.h"
+#include "sim/state/state.h"
+#include "sim/state/work.h"
+#include "sim/step/policy.h"
+#include "sim/walls/walls.h"
+
+enum {
+    SB_BLOCK = 1024, /* particles per unit of work */
+    SB_SIM_SKIPPED_MAX = 15
+};
+
+struct sb_passes; /* sim/passes/passes.h */
+
+struct sb_sim {
+    /* constant */
+    const sb_scene *scene;
+    const sb_model *model;
+    sb_constants constant;
+    sb_space space;
+    const struct sb_passes *passes; /* of the pressure solve, in the implementation for this processor */
+
+    sb_state state;
+    const sb_step_policy *policy; /* of the present step */
+    sb_walls walls;
+
+    /* of one step */
+    sb_work work;
+    sb_cells cells;
+    sb_ghosts ghosts;
+    sb_groups groups;
+    sb_lists pairs;
+    sb_pairs wall_pairs;
+
+    /* output only */
+    sb_step_report report;
+    sb_stage_time stage[SB_STAGES_MAX];
+    size_t stage_count;
+    sb_skipped skipped[SB_SIM_SKIPPED_MAX + 1];
+};
+
+static inline size_t sb_blocks(const sb_sim *sim)
+{
+    return (sim->state.n + SB_BLOCK - 1) / SB_BLOCK;
+}
+
+static inline size_t sb_block_end(const sb_sim *sim, size_t block)
+{
+    size_t end = (block + 1) * SB_BLOCK;
+    return end < sim->state.n ? end : sim->state.n;
+}
+
+#endif

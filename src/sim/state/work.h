@@ -1,0 +1,128 @@
+/* The workspace of a step: the arrays that its stages hand on to each other. They share one block of memory. Each array
+   is a view with a lifetime, from the phase that writes it to the last phase that reads it; views whose lifetimes
+   overlap have separate memory. Nothing in it outlives the step but what a snapshot or a query reads. */
+#ifndef SB_SIM_WORK_H
+#define SB_SIM_WORK_H
+
+#include "base/exact.h"
+#include "sim/sim.h"
+#include "sim/state/simd.h"
+
+/* The phases of a step, in order: its stages, of which the stress correction has three. */
+typedef enum sb_phase {
+    SB_PHASE_SORT,
+    SB_PHASE_GHOSTS,
+    SB_PHASE_NEIGHBOURS,
+    SB_PHASE_DENSITY_CORRECTION,
+    SB_PHASE_STRAIN, /* stress correction: strain, stress, velocities */
+    SB_PHASE_STRESS,
+    SB_PHASE_CORRECTED,
+    SB_PHASE_TURBULENCE,
+    SB_PHASE_FORCES,
+    SB_PHASE_SOURCE,
+    SB_PHASE_PRESSURE,
+    SB_PHASE_ACCELERATE,
+    SB_PHASE_IMPULSE,
+    SB_PHASE_MOVE,
+    SB_PHASE_AFTER, /* snapshots and queries between two steps */
+    SB_PHASES
+} sb_phase;
+
+/* Sums over all particles in one step, per unit of mass. v is the velocity at the step's start, after the stress
+   correction; v* that before the pressure; w that at the step's end. With u = (v + w)/2 a change d of the velocity does
+   the work d.u. */
+typedef struct sb_ledger_sums {
+    double forces;         /* (v* - v).u: gravity, viscosity, friction */
+    double solve;          /* (w - v*).u: pressure and contact */
+    double fall;           /* z component of u, m/s */
+    double rise;           /* change of z in the step, quanta */
+    double gain[3], size;  /* w - v, and |w - v| */
+    double friction;       /* part of the forces, over dt */
+    double contact;        /* part of the solve */
+    double contact_bodies; /* work of moving bodies by contact */
+} sb_ledger_sums;
+
+/* Progress of the step's pressure solve. */
+typedef struct sb_solve {
+    int iterations, last; /* so far; those of the step before, 0: no step before */
+    double tolerance;     /* relative density error at which it stops */
+    bool capped;          /* it stopped at max_iterations above its tolerance */
+} sb_solve;
+
+enum { SB_FORCE_VALUES = 9 }; /* of a body: pressure and drag, N, and moment, N m: three components each */
+
+/* A particle's strain or stress without trace: xx, and yy, xy, xz, yz. In views that neighbours read xx is carried by
+   the records (sb_pressure_load). */
+typedef struct sb_work {
+    uint64_t *sort_words, *sort_other; /* keys and indices */
+    sb_record *sorted; /* one state field of any type, in its new order */
+    sb_record *images;                 /* beyond periodic sides, in the order of their originals */
+
+    sb_f4 *wall;          /* sum_b psi_b grad W_ib; last lane: sum_b psi_b v_b . grad W_ib */
+    float *density;       /* kg/m^3, density correction included */
+    float *wall_density;  /* kg/m^3, the walls' part of it */
+    float *water_squared; /* |sum_j m grad W_ij|^2 */
+    float *diagonal;      /* -a_ii > 0 for q as unknown; over dt^2 before the stage pressure; 0: no pressure here */
+
+    float *strain_xx, *stress_xx;
+    sb_f4 *strain, *stress;
+    sb_f4 *corrected; /* m/s, velocity after the stress correction */
+
+    float *eddy;      /* m^2/s, nu_t at the step's start; NULL without a turbulence model */
+    sb_f4 *wall_drag; /* m/s^2, by friction and shear of walls, for particles beside walls; NULL without drag */
+    sb_f4 *predicted; /* m/s, v*: the velocity before the pressure */
+
+    float *source;       /* b_i, kg/m^3 */
+    float *unknown;      /* q = p / rho^2 */
+    float *residual;     /* e_i = (A q)_i - b_i */
+    float *direction;    /* search direction of the solver; NULL: it needs none */
+    float *product;      /* A times the argument; NULL: not needed */
+    sb_f4 *acceleration; /* m/s^2, by the pressure argument; last lane 0 */
+    sb_f4 *end_velocity; /* m/s, at t + dt; last lane: pressure in Pa */
+    float *virial;       /* Pa, virial pressures (sim/terms/virial_pressure.c) */
+
+    double *body_force; /* per body SB_FORCE_VALUES values */
+    sb_ledger_sums sums;
+    sb_vec3 stress_gain; /* kg m/s, momentum from the stress correction: only round-off */
+    sb_solve solve;
+    bool lists_current; /* the lists and densities belong to the present particles */
+    bool virial_known;
+
+    void *block; /* of all views */
+    size_t bytes;
+} sb_work;
+
+/* One view. Its phases include both ends. */
+typedef struct sb_work_view {
+    const char *name, *unit;
+    size_t pointer; /* offset of the typed pointer in sb_sim */
+    size_t size;    /* bytes of an entry */
+    bool ghosts;    /* whether it has entries for ghosts */
+    sb_phase first, last;
+    /* Name of a view whose memory it takes over: entry i is written after entry i of the other has been read for the
+       last time. NULL: none. */
+    const char *replaces;
+    bool (*needed)(const sb_scene *scene); /* NULL: always */
+} sb_work_view;
+
+/* Ends with a row without name. */
+extern const sb_work_view sb_work_views[];
+
+/* Allocates the block and places the views in it: `owned` entries, `capacity` of those with ghosts. A block that exists
+   is freed first. Returns 0, or -1 without memory. */
+int sb_work_create(sb_sim *sim, size_t owned, size_t capacity);
+void sb_work_destroy(sb_sim *sim);
+/* Bytes per particle that a view which the scene does not need would add; 0 if it would share memory with others. */
+size_t sb_work_cost(const sb_scene *scene, const char *name);
+
+#ifdef SB_DEBUG
+/* Fills the views that begin in a phase with NaN, so that a stage that reads what nothing has written is found. */
+void sb_work_enter(sb_sim *sim, sb_phase phase);
+#else
+static inline void sb_work_enter(sb_sim *sim, sb_phase phase)
+{
+    (void)sim, (void)phase;
+}
+#endif
+
+#endif

@@ -1,0 +1,31 @@
+/* What a step does: whether it is a step of the run, or one of the kinds of step that bring the water to rest before
+   t = 0 (docs/method.md, section 10). A stage asks the policy and never which kind of step this is. */
+#ifndef SB_SIM_POLICY_H
+#define SB_SIM_POLICY_H
+
+#include <stdbool.h>
+
+typedef struct sb_step_policy {
+    const char *name;
+    bool runs;           /* time advances, paddles move; ledger, impulses on bodies and departures' energy are booked */
+    bool holds_wave;     /* an acceleration holds the surface of an initial wave */
+    bool moves;          /* particles move */
+    float keep;          /* fraction of the velocity that remains before the particles move */
+    float keep_after;    /* fraction of it that remains after they have moved */
+    float warm_start;    /* fraction of the last pressures from which the solve starts; < 0: numerics.warm_start */
+    double step_factor;  /* on the time step that waves permit */
+    double longest_step; /* particle spacings over sqrt(g D) */
+    float release;       /* particle spacings by which contact moves out a particle that is too close to a wall */
+} sb_step_policy;
+
+extern const sb_step_policy sb_policy_run;
+/* Settling: each step removes part of the velocity. */
+extern const sb_step_policy sb_policy_damp;
+/* The same at the end of settling: solves start with the run's own warm start. */
+extern const sb_step_policy sb_policy_calm;
+/* Settling: each step removes all of the velocity. */
+extern const sb_step_policy sb_policy_creep;
+/* One step that moves nothing and determines the change of the velocities at t = 0. */
+extern const sb_step_policy sb_policy_start_trial;
+
+#endif
