@@ -1,8 +1,8 @@
 /* Creation and destruction of a simulation, and its simple accessors. */
 #include "base/memory.h"
+#include "sim/passes/cpu/searcher.h"
 #include "sim/passes/passes.h"
 #include "sim/report/report.h"
-#include "sim/search/searcher.h"
 #include "sim/search/sort.h"
 #include "sim/step/stages.h"
 #include "sim/terms/density_correction.h"

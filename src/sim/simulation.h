@@ -27,7 +27,7 @@ struct sb_sim {
     const sb_model *model;
     sb_constants constant;
     sb_space space;
-    const struct sb_passes *passes; /* of the pressure solve, in the implementation for this processor */
+    const struct sb_passes *passes; /* over pairs, in the form for this processor */
 
     sb_state state;
     const sb_step_policy *policy; /* of the present step */

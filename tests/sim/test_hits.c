@@ -1,6 +1,6 @@
 /* The search for hits among candidates: the implementation for this processor finds the same hits as the portable one,
    bit for bit and in the same order, and writes nowhere else. */
-#include "sim/search/hits.h"
+#include "sim/passes/cpu/hits.h"
 
 #include "../check.h"
 #include "base/memory.h"

@@ -3,6 +3,7 @@
 #include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "sim/passes/passes.h"
 #include "sim/pressure/pressure.h"
 #include "sim/tank.h"
 #include "sim/terms/stress_correction.h"
@@ -204,7 +205,7 @@ static double acceleration_along(const tank *t, int axis, bool corrected)
     for (size_t i = 0; i < sim->state.n; i++)
         sim->work.unknown[i] = sim->state.velocity[i][3] / (sim->work.density[i] * sim->work.density[i]);
     sb_pressure_load(sim, sim->work.unknown);
-    sb_pressure_accelerate(sim);
+    sim->passes->accelerate(sim);
     const int lane = axis == 0 ? 0 : 2;
     const double all = (double)sim->work.acceleration[middle][lane] + (double)sim->state.velocity[middle][lane] / STEP;
     sb_sim_destroy(sim);

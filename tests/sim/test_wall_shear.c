@@ -2,10 +2,10 @@
 #include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "sim/passes/cpu/drag.h"
 #include "sim/step/stages.h"
 #include "sim/tank.h"
 #include "sim/twin.h"
-#include "sim/walls/drag.h"
 
 #include <stdio.h>
 

@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "child.h"
 #include "sections.h"
+#include "sim/passes/passes.h"
 #include "sim/pressure/pressure.h"
 #include "subject.h"
 
@@ -54,7 +55,7 @@ static void time_passes(sb_sim *sim, double seconds[PASSES])
     at[LOAD] = sb_clock();
     sb_pressure_load(sim, sim->work.unknown);
     at[ACCELERATION] = sb_clock();
-    sb_pressure_accelerate(sim);
+    sim->passes->accelerate(sim);
     at[DIVERGENCE] = sb_clock();
     sb_pressure_diverge(sim, sim->work.residual);
     at[JUDGEMENT] = sb_clock();

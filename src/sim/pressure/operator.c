@@ -1,8 +1,5 @@
-/* The two passes of a pressure iteration, and the products and residuals computed by them. A neighbour takes one record
-   from a copy in the first-level cache and 4 bytes of a list. Walls are one vector per particle and cost nothing per
-   neighbour. */
+/* The pressure operator: products and residuals, by the two passes of a pressure iteration. */
 #include "sim/passes/passes.h"
-#include "sim/passes/simd_wide.h"
 #include "sim/pressure/pressure.h"
 
 void sb_pressure_load(sb_sim *sim, const float *argument)
@@ -18,96 +15,15 @@ void sb_pressure_load(sb_sim *sim, const float *argument)
     for (size_t g = 0; g < ghosts; g++) sb_carry(&position[n + g], argument[of[g]]);
 }
 
-enum { GROUPS = 8 }; /* per unit of work */
-
-/* The records of two neighbours. */
-SB_INLINE sb_f8 two(const sb_f4 *around, const uint16_t *place)
-{
-    return sb_join(*sb_at(around, place[0]), *sb_at(around, place[1]));
-}
-
-/* The slopes of two neighbours, each in four lanes. The second one is 2^32 times too large, which saves a shift. */
-SB_INLINE sb_f8 two_slopes(const uint16_t *slope)
-{
-    int32_t pair;
-    memcpy(&pair, slope, sizeof pair);
-    const sb_i8 mask = {0x7fff, 0x7fff, 0x7fff, 0x7fff, 0x7fff0000, 0x7fff0000, 0x7fff0000, 0x7fff0000};
-    const sb_f8 root = __builtin_convertvector((sb_i8){pair, pair, pair, pair, pair, pair, pair, pair} & mask, sb_f8);
-    return root * root;
-}
-
-/* Sum of the two halves of a vector that was weighted by two_slopes. */
-SB_INLINE sb_f4 fold(sb_f8 v)
-{
-    return __builtin_shufflevector(v, v, 0, 1, 2, 3) + __builtin_shufflevector(v, v, 4, 5, 6, 7) * sb_splat(0x1p-32f);
-}
-
-SB_MULTIVERSION
-static void accelerate_group(sb_sim *sim, const sb_group *group)
-{
-    _Alignas(64) sb_f4 around[SB_AROUND_MAX];
-    sb_around(sim, group, around);
-    for (size_t i = group->first; i < group->end; i++) {
-        const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
-        const sb_f4 own = sb_in_group(sim, group, i);
-        const sb_f8 self = sb_join(own, own), q = sb_carried8(self);
-        sb_f8 even = {0}, odd = {0};
-        for (; four < end; four++) {
-            sb_prefetch(four);
-            const sb_f8 a = two(around, four->place), b = two(around, four->place + 2);
-            even += (self - a) * ((q + sb_carried8(a)) * two_slopes(four->slope));
-            odd += (self - b) * ((q + sb_carried8(b)) * two_slopes(four->slope + 2));
-        }
-        const sb_f4 sum = fold(even + odd) * sb_splat(sim->pairs.unit) + sb_splat(own[3]) * sim->work.wall[i];
-        sim->work.acceleration[i] = (sb_f4){-sum[0], -sum[1], -sum[2], 0};
-    }
-}
-
-SB_MULTIVERSION
-static void diverge_group(sb_sim *sim, const sb_group *group, const sb_f4 *field, float factor, float *out)
-{
-    _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
-    sb_around_with(sim, group, field, around);
-    for (size_t i = group->first; i < group->end; i++) {
-        const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
-        const sb_f8 self = sb_join(sb_in_group(sim, group, i), field[i]);
-        sb_f8 even = {0}, odd = {0};
-        for (; four < end; four++) {
-            sb_prefetch(four);
-            const sb_f8 a = self - *sb_both_at(around, four->place[0]), b = self - *sb_both_at(around, four->place[1]);
-            const sb_f8 c = self - *sb_both_at(around, four->place[2]), d = self - *sb_both_at(around, four->place[3]);
-            even += sb_lower(a, b) * (sb_upper(a, b) * two_slopes(four->slope));
-            odd += sb_lower(c, d) * (sb_upper(c, d) * two_slopes(four->slope + 2));
-        }
-        out[i] = factor * sb_sum3(fold(even + odd) * sb_splat(sim->pairs.unit) + field[i] * sim->work.wall[i]);
-    }
-}
-
-const sb_passes sb_passes_narrow = {accelerate_group, diverge_group};
-
-void sb_pressure_accelerate(sb_sim *sim)
-{
-    const size_t groups = sim->groups.count;
-#pragma omp parallel for schedule(dynamic, GROUPS)
-    for (size_t g = 0; g < groups; g++) sim->passes->accelerate(sim, &sim->groups.group[g]);
-}
-
-void sb_divergence(sb_sim *sim, const sb_f4 *field, float factor, float *out)
-{
-    const size_t groups = sim->groups.count;
-#pragma omp parallel for schedule(dynamic, GROUPS)
-    for (size_t g = 0; g < groups; g++) sim->passes->diverge(sim, &sim->groups.group[g], field, factor, out);
-}
-
 void sb_pressure_diverge(sb_sim *sim, float *out)
 {
     const float dt = (float)sim->state.time_step;
-    sb_divergence(sim, sim->work.acceleration, dt * dt, out);
+    sim->passes->diverge(sim, sim->work.acceleration, dt * dt, out);
 }
 
 void sb_pressure_product(sb_sim *sim, float *out)
 {
-    sb_pressure_accelerate(sim);
+    sim->passes->accelerate(sim);
     sb_ghosts_refresh(sim, sim->work.acceleration);
     sb_pressure_diverge(sim, out);
 }

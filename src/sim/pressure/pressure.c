@@ -2,6 +2,7 @@
 #include "sim/pressure/pressure.h"
 
 #include "sim/exchange/sums.h"
+#include "sim/passes/passes.h"
 #include "sim/step/stages.h"
 
 #include <math.h>
@@ -44,7 +45,7 @@ sb_status sb_stage_source(sb_sim *sim, sb_error *error)
     (void)error;
     const double rest = (double)sim->constant.rest_density;
     double excess;
-    sb_divergence(sim, sim->work.predicted, 1, sim->work.source);
+    sim->passes->diverge(sim, sim->work.predicted, 1, sim->work.source);
     const double worst = sb_sum_groups(sim, 1, source_group, &excess);
     sim->report.compression = sim->state.n ? excess / ((double)sim->state.n * rest) : 0;
     sim->report.compression_max = fmax(worst, 0) / rest;

@@ -30,10 +30,6 @@ double sb_pressure_spectrum(const sb_sim *sim);
 
 /* Copies a field into the last lane of the records: the argument of the next product. */
 void sb_pressure_load(sb_sim *sim, const float *argument);
-/* acceleration = G argument: a_i = -[sum_j m (q_i + q_j) grad W_ij + q_i B_i]. */
-void sb_pressure_accelerate(sb_sim *sim);
-/* out = factor [sum_j m (f_i - f_j) . grad W_ij + f_i . B_i] for a field f such as the velocity. */
-void sb_divergence(sb_sim *sim, const sb_f4 *field, float factor, float *out);
 /* The second pass of a product: out = dt^2 [sum_j m (a_i - a_j) . grad W_ij + a_i . B_i]. The accelerations of the
    ghosts must be up to date. */
 void sb_pressure_diverge(sb_sim *sim, float *out);

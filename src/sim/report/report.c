@@ -42,7 +42,8 @@ void sb_report_skipped(sb_sim *sim)
     if (!sb_stress_correction_on(sim->scene))
         skip(sim, &s, "stress correction: off, no passes over particle pairs for it", CORRECTION_PASSES, 0);
     if (!sb_turbulence_on(sim->scene))
-        skip(sim, &s, "turbulence: none, no strain rates and no memory for eddy viscosities", 1, sb_work_cost(sim->scene, "eddy"));
+        skip(sim, &s, "turbulence: none, no strain rates and no memory for eddy viscosities", 1,
+             sb_work_cost(sim->scene, "eddy"));
     if (!sb_density_correction_on(sim->scene))
         skip(sim, &s, "density correction: off (density: summed), no memory for it", 0,
              sizeof *sim->state.density_correction);
@@ -54,7 +55,8 @@ void sb_report_skipped(sb_sim *sim)
     if (sim->walls.moving_count == 0) skip(sim, &s, "moving walls: no body moves", 0, 0);
     if (sim->constant.dimension == 2) skip(sim, &s, "third dimension: 2D scene, 9 cells searched instead of 27", 0, 0);
     if (!sb_pressure_solvers[n->solver]->needs_direction)
-        skip(sim, &s, "search direction: no memory, the solver does not use one", 0, sb_work_cost(sim->scene, "direction"));
+        skip(sim, &s, "search direction: no memory, the solver does not use one", 0,
+             sb_work_cost(sim->scene, "direction"));
     if (!sb_pressure_solvers[n->solver]->needs_product)
         skip(sim, &s, "product with the search direction: no memory, the solver does not use one", 0,
              sb_work_cost(sim->scene, "product"));

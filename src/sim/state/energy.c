@@ -38,10 +38,12 @@ sb_energy sb_sim_energy(const sb_sim *sim)
 /* Hash of one particle's state. The sum of all does not depend on their order. */
 static uint64_t particle_hash(const sb_sim *sim, size_t i)
 {
-    const uint32_t place[4] = {sim->state.position[i][0], sim->state.position[i][1], sim->state.position[i][2], sim->state.id[i]};
+    const uint32_t place[4] = {sim->state.position[i][0], sim->state.position[i][1], sim->state.position[i][2],
+                               sim->state.id[i]};
     uint64_t hash = sb_hash(0, place, sizeof place);
     hash = sb_hash(hash, &sim->state.velocity[i], sizeof sim->state.velocity[i]);
-    if (sim->state.density_correction) hash = sb_hash(hash, &sim->state.density_correction[i], sizeof *sim->state.density_correction);
+    if (sim->state.density_correction)
+        hash = sb_hash(hash, &sim->state.density_correction[i], sizeof *sim->state.density_correction);
     return hash;
 }
 

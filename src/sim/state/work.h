@@ -55,7 +55,7 @@ enum { SB_FORCE_VALUES = 9 }; /* of a body: pressure and drag, N, and moment, N 
    the records (sb_pressure_load). */
 typedef struct sb_work {
     uint64_t *sort_words, *sort_other; /* keys and indices */
-    sb_record *sorted; /* one state field of any type, in its new order */
+    sb_record *sorted;                 /* one state field of any type, in its new order */
     sb_record *images;                 /* beyond periodic sides, in the order of their originals */
 
     sb_f4 *wall;          /* sum_b psi_b grad W_ib; last lane: sum_b psi_b v_b . grad W_ib */

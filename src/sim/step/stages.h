@@ -14,8 +14,7 @@ sb_status sb_stage_walls(sb_sim *sim, sb_error *error);
 sb_status sb_stage_sort(sb_sim *sim, sb_error *error);
 /* sim/exchange/ghosts.c: makes ghost particles at periodic sides, with positions and velocities. */
 sb_status sb_stage_ghosts(sb_sim *sim, sb_error *error);
-/* sim/search/neighbours.c: computes lists, densities, wall vectors and the diagonal in one pass. For the density
-   correction it leaves the walls' part of the densities in `source` and |sum_j m grad W_ij|^2 in `residual`. */
+/* sim/search/neighbours.c: computes lists, densities, wall vectors and the diagonal in one pass. */
 sb_status sb_stage_neighbours(sb_sim *sim, sb_error *error);
 /* sim/terms/viscosity.c: v* = v + dt (g + viscosity + wall friction). */
 sb_status sb_stage_forces(sb_sim *sim, sb_error *error);

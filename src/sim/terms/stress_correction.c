@@ -1,156 +1,10 @@
-/* Under the pressure q_i the neighbourhood of a particle has the stress sigma_i = -rho^2 q_i M_i with
-   M_i = -(1/rho_0) sum_j m x_ij (x) grad W_ij (docs/method.md, M15d). Its deviatoric part, -rho^2 q_i (M_i - t_i 1)
-   with t_i the mean of the diagonal of M_i, is due to the particle packing alone. The stage removes it by the pair
-   force of the pressure gradient, with a tensor in the place of q (M15e):
-
-       dv_i/dt = -sum_j m (S_i + S_j) grad W_ij,   S_i = q_i <E>_i,   E_i = c (1 - M_i / t_i)
-
-   The remaining part is of second order: M (1 + E) = t (1 - e^2) with e = M/t - 1. <> is a mean over the neighbours. It
-   leaves differences between adjacent particles in place, because these keep the packing ordered. E has no trace, so
-   that five numbers represent it. */
 #include "sim/terms/stress_correction.h"
 
 #include "sim/exchange/sums.h"
-#include "sim/passes/eights.h"
+#include "sim/passes/passes.h"
 #include "sim/pressure/pressure.h"
 #include "sim/step/ledger.h"
 #include "sim/step/stages.h"
-
-enum { GROUPS = 8 }; /* per unit of work */
-
-/* Least t_i of a particle that is corrected. Below it the free surface is near, and M_i shows the surface instead of
-   the packing. */
-static const float FULL = 0.9f;
-
-/* Weight of the particle itself in the mean: the slope of a coincident particle in units of sb_lists.unit. */
-static const float OWN = 32767.0f * 32767.0f;
-
-/* Sums over neighbours of slope x (x) x, quanta^2. */
-typedef struct moments {
-    float xx, yy, zz, xy, xz, yz;
-} moments;
-
-SB_INLINE moments gather(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i)
-{
-    const sb_f4 self = sb_in_group(sim, group, i);
-    const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
-    sb_f4 xx = {0}, yy = {0}, zz = {0}, xy = {0}, xz = {0}, yz = {0};
-    for (; four < end; four++) {
-        sb_prefetch(four);
-        const sb_four d = sb_transpose(self - *sb_at(around, four->place[0]), self - *sb_at(around, four->place[1]),
-                                       self - *sb_at(around, four->place[2]), self - *sb_at(around, four->place[3]));
-        const sb_f4 slope = sb_slopes(four), x = d.x * slope, y = d.y * slope;
-        xx += x * d.x, xy += x * d.y, xz += x * d.z;
-        yy += y * d.y, yz += y * d.z, zz += d.z * slope * d.z;
-    }
-    const sb_four a = sb_transpose(xx, yy, zz, xy), b = sb_transpose(xz, yz, (sb_f4){0}, (sb_f4){0});
-    const sb_f4 p = a.x + a.y + a.z + a.w, q = b.x + b.y + b.z + b.w;
-    return (moments){p[0], p[1], p[2], p[3], q[0], q[1]};
-}
-
-/* E_i as strain_xx, and yy, xy, xz, yz as strain. */
-SB_MULTIVERSION
-static void find_strain(sb_sim *sim, const sb_group *group, float share)
-{
-    _Alignas(64) sb_f4 around[SB_AROUND_MAX];
-    const bool flat = sim->constant.dimension == 2;
-    const float part = flat ? 0.5f : 1 / 3.0f;
-    const float unit = -sim->pairs.unit * (float)sim->space.quantum / sim->constant.rest_density;
-    sb_around(sim, group, around);
-    for (size_t i = group->first; i < group->end; i++) {
-        sim->work.strain_xx[i] = 0;
-        sim->work.strain[i] = (sb_f4){0};
-        if (sim->wall_pairs.count[i] > 0) continue;
-        const moments m = gather(sim, group, around, i);
-        const float mean = part * (m.xx + m.yy + m.zz), off = -share / mean;
-        if (!(unit * mean >= FULL)) continue;
-        sim->work.strain_xx[i] = share + off * m.xx;
-        sim->work.strain[i] = (sb_f4){flat ? 0 : share + off * m.yy, off * m.xy, off * m.xz, off * m.yz};
-    }
-}
-
-/* Whether any of the tensors that sb_around_with copied is not 0. In shallow water and beside walls all are 0. */
-SB_INLINE bool any_around(const sb_sim *sim, const sb_group *group, const sb_f4 *around)
-{
-    const uint32_t count = sb_around_count(sim, group);
-    sb_i4 bits = {0};
-    for (uint32_t k = 0; k < count; k++)
-        bits |= ((sb_i4)around[2 * k] & (sb_i4){0, 0, 0, -1}) | (sb_i4)around[2 * k + 1];
-    return (bits[0] | bits[1] | bits[2] | bits[3]) != 0;
-}
-
-/* S_i, in the same form. The weights of the mean are the slopes; the weight of the particle's
-   own E_i is the slope of a coincident particle. */
-SB_MULTIVERSION
-static void find_stress(sb_sim *sim, const sb_group *group)
-{
-    _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
-    sb_f4 *stress = sim->work.stress;
-    sb_around_with(sim, group, sim->work.strain, around);
-    const bool any = any_around(sim, group, around);
-    for (size_t i = group->first; i < group->end; i++) {
-        stress[i] = (sb_f4){0};
-        sim->work.stress_xx[i] = 0;
-        if (!any) continue;
-        const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
-        const sb_f4 own = {0, 0, 0, sim->work.strain_xx[i]};
-        sb_f8 even = sb_join(own, sim->work.strain[i]) * sb_splat8(OWN), odd = {0};
-        sb_f4 weights = {OWN};
-        for (; four < end; four++) {
-            const sb_f4 slope = sb_slopes(four);
-            sb_prefetch(four);
-            even += *sb_both_at(around, four->place[0]) * sb_splat8(slope[0]);
-            odd += *sb_both_at(around, four->place[1]) * sb_splat8(slope[1]);
-            even += *sb_both_at(around, four->place[2]) * sb_splat8(slope[2]);
-            odd += *sb_both_at(around, four->place[3]) * sb_splat8(slope[3]);
-            weights += slope;
-        }
-        const sb_f8 sum = even + odd;
-        const float density = sim->work.density[i], q = sim->state.velocity[i][3] / (density * density);
-        const float factor = q / (sb_sum3(weights) + weights[3]);
-        stress[i] = __builtin_shufflevector(sum, sum, 4, 5, 6, 7) * sb_splat(factor);
-        sim->work.stress_xx[i] = sum[3] * factor;
-    }
-}
-
-/* The velocity after the correction. The pressure in its last lane does not change. */
-SB_MULTIVERSION
-static void accelerate(sb_sim *sim, const sb_group *group, float dt)
-{
-    _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
-    sb_f4 *next = sim->work.corrected;
-    sb_around_with(sim, group, sim->work.stress, around);
-    const bool any = any_around(sim, group, around);
-    for (size_t i = group->first; i < group->end; i++) {
-        next[i] = sim->state.velocity[i];
-        if (!any) continue;
-        const sb_f4 self = sb_in_group(sim, group, i), own = sim->work.stress[i];
-        const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
-        sb_f4 sum_x = {0}, sum_y = {0}, sum_z = {0};
-        for (; four < end; four += 2) {
-            const bool two = four + 1 < end;
-            const sb_four_pairs *other = two ? four + 1 : four;
-            sb_prefetch(four);
-            const sb_eight at = sb_eight_with(around, four, other, 0), s = sb_eight_with(around, four, other, 1);
-            const sb_f8 slope = sb_eight_slopes(four, other);
-            const sb_f8 x = (sb_spread(self, 0) - at.x) * slope, y = (sb_spread(self, 1) - at.y) * slope;
-            const sb_f8 z = (sb_spread(self, 2) - at.z) * slope;
-            const sb_f8 xx = sb_spread(self, 3) + at.w, yy = sb_spread(own, 0) + s.x, xy = sb_spread(own, 1) + s.y;
-            const sb_f8 xz = sb_spread(own, 2) + s.z, yz = sb_spread(own, 3) + s.w;
-            const sb_f8 a_x = xx * x + xy * y + xz * z, a_y = xy * x + yy * y + yz * z;
-            const sb_f8 a_z = xz * x + yz * y - (xx + yy) * z;
-            sum_x += sb_first4(a_x);
-            sum_y += sb_first4(a_y);
-            sum_z += sb_first4(a_z);
-            if (!two) break;
-            sum_x += sb_second4(a_x);
-            sum_y += sb_second4(a_y);
-            sum_z += sb_second4(a_z);
-        }
-        const sb_four t = sb_transpose(sum_x, sum_y, sum_z, (sb_f4){0});
-        next[i] -= (t.x + t.y + t.z + t.w) * sb_splat(dt * sim->pairs.unit);
-    }
-}
 
 enum { SUMS = 4 };
 
@@ -177,20 +31,15 @@ bool sb_stress_correction_on(const sb_scene *scene)
 
 sb_status sb_stage_stress_correction(sb_sim *sim, sb_error *error)
 {
-    const size_t groups = sim->groups.count;
-    const float dt = (float)sim->state.time_step, share = (float)sim->scene->numerics.stress_correction;
-#pragma omp parallel for schedule(dynamic, GROUPS)
-    for (size_t g = 0; g < groups; g++) find_strain(sim, &sim->groups.group[g], share);
+    sim->passes->strain(sim);
     sb_ghosts_refresh(sim, sim->work.strain);
     sb_pressure_load(sim, sim->work.strain_xx);
     sb_work_enter(sim, SB_PHASE_STRESS);
-#pragma omp parallel for schedule(dynamic, GROUPS)
-    for (size_t g = 0; g < groups; g++) find_stress(sim, &sim->groups.group[g]);
+    sim->passes->stress(sim);
     sb_ghosts_refresh(sim, sim->work.stress);
     sb_pressure_load(sim, sim->work.stress_xx);
     sb_work_enter(sim, SB_PHASE_CORRECTED);
-#pragma omp parallel for schedule(dynamic, GROUPS)
-    for (size_t g = 0; g < groups; g++) accelerate(sim, &sim->groups.group[g], dt);
+    sim->passes->correct(sim);
     double sum[SUMS];
     const double fast = -sb_sum_groups(sim, SUMS, sum_changes, sum);
     if (fast < (double)sim->state.n)

@@ -1,10 +1,25 @@
 /* The deviatoric stress correction, applied before each solve (docs/method.md, section 6; docs/decisions/0015). In a
    sheared particle packing the pressure acts more strongly along one direction than along another. In water it does
-   not. */
+   not.
+
+   Under the pressure q_i the neighbourhood of a particle has the stress sigma_i = -rho^2 q_i M_i with
+   M_i = -(1/rho_0) sum_j m x_ij (x) grad W_ij (docs/method.md, M15d). Its deviatoric part, -rho^2 q_i (M_i - t_i 1)
+   with t_i the mean of the diagonal of M_i, is due to the particle packing alone. The stage removes it by the pair
+   force of the pressure gradient, with a tensor in the place of q (M15e):
+
+       dv_i/dt = -sum_j m (S_i + S_j) grad W_ij,   S_i = q_i <E>_i,   E_i = c (1 - M_i / t_i)
+
+   The remaining part is of second order: M (1 + E) = t (1 - e^2) with e = M/t - 1. <> is a mean over the neighbours. It
+   leaves differences between adjacent particles in place, because these keep the packing ordered. E has no trace, so
+   that five numbers represent it. */
 #ifndef SB_SIM_STRESS_CORRECTION_H
 #define SB_SIM_STRESS_CORRECTION_H
 
 #include "sim/simulation.h"
+
+/* Least t_i of a particle that is corrected. Below it the free surface is near, and M_i shows the surface instead of
+   the packing. */
+static const float SB_STRESS_FULL = 0.9f;
 
 /* Whether the scene uses the correction. If not, no stage runs. */
 bool sb_stress_correction_on(const sb_scene *scene);

@@ -1,27 +1,16 @@
 /* The stage forces: v* = v + dt (g + Monaghan viscosity [S16, eq. 14] + physical and eddy viscosity + wall friction and
    wall shear). */
-#include "sim/passes/eights.h"
+#include "sim/passes/passes.h"
 #include "sim/pressure/pressure.h"
 #include "sim/step/stages.h"
-#include "sim/walls/drag.h"
 
-enum { GROUPS = 8 }; /* per unit of work */
-
-/* Factors of one step. */
-typedef struct factors {
-    float artificial; /* 2 alpha h c_s; over (rho_i + rho_j) it is the nu of eq. 14 */
-    float physical;   /* 4 (d + 2) nu, over (rho_i + rho_j): acts on all pairs */
-    float eddy;       /* 2 (d + 2), times nu_t,i + nu_t,j: the same for the eddy viscosity */
-    float epsilon;    /* 0.01 h^2 in quanta^2 */
-    float inverse_quantum;
-} factors;
-
-static factors make_factors(const sb_sim *sim)
+static sb_viscous factors_of(const sb_sim *sim)
 {
     const sb_numerics *n = &sim->scene->numerics;
     const sb_constants *c = &sim->constant;
     double h_quanta = (double)c->support / sim->space.quantum;
-    return (factors){
+    return (sb_viscous){
+        .on = n->artificial_viscosity > 0 || c->viscosity > 0 || sim->work.eddy,
         .artificial = 2.0f * (float)n->artificial_viscosity * c->support * c->sound_speed,
         .physical = 4.0f * (float)(c->dimension + 2) * c->viscosity,
         .eddy = 2.0f * (float)(c->dimension + 2),
@@ -30,103 +19,13 @@ static factors make_factors(const sb_sim *sim)
     };
 }
 
-/* The values of a particle itself in its pairs, repeated in all lanes. */
-typedef struct own_part {
-    sb_f8 x, y, z, density;
-    sb_f8 u, v, w, eddy;
-} own_part;
-
-/* Eight pairs: the offsets, and their factors. */
-typedef struct eight_pairs {
-    sb_f8 x, y, z, pi;
-} eight_pairs;
-
-SB_INLINE eight_pairs find_pairs(const own_part *own, const sb_f4 *around, const sb_four_pairs *one,
-                                 const sb_four_pairs *other, const factors *f, bool eddies)
-{
-    const sb_eight at = sb_eight_with(around, one, other, 0), of = sb_eight_with(around, one, other, 1);
-    const sb_f8 x = own->x - at.x, y = own->y - at.y, z = own->z - at.z;
-    const sb_f8 u = own->u - of.x, v = own->v - of.y, w = own->w - of.z;
-    const sb_f8 weight = sb_eight_slopes(one, other);
-    const sb_f8 approach = u * x + v * y + w * z;
-    const sb_f8 r2 = x * x + y * y + z * z;
-    sb_f8 physical = sb_splat8(f->physical);
-    if (eddies) physical += (own->eddy + of.w) * sb_splat8(f->eddy);
-    const sb_f8 factor = sb_select8(approach < (sb_f8){0}, physical + sb_splat8(f->artificial), physical);
-    const sb_f8 both = own->density + at.w;
-    return (eight_pairs){x, y, z, factor * approach * weight / ((r2 + sb_splat8(f->epsilon)) * both)};
-}
-
-/* -sum_j m Pi_ij grad W_ij, eight neighbours at a time, added up four after four. around: output of sb_around_with for
-   the velocities, with densities in the last lane of the records. x . v and r^2 are in quanta; their quotient is
-   converted by 1/quantum. eddies: the last lane of the velocities contains sim->work.eddy. */
-SB_INLINE sb_f4 fluid_part(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i, const factors *f,
-                           bool eddies)
-{
-    const sb_f4 at = sb_in_group(sim, group, i), of = sim->state.velocity[i];
-    const own_part own = {
-        sb_spread(at, 0), sb_spread(at, 1), sb_spread(at, 2), sb_spread(at, 3),
-        sb_spread(of, 0), sb_spread(of, 1), sb_spread(of, 2), sb_splat8(eddies ? sim->work.eddy[i] : 0)};
-    const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
-    sb_f4 x = {0}, y = {0}, z = {0};
-    for (; four < end; four += 2) {
-        const bool two = four + 1 < end;
-        const eight_pairs e = find_pairs(&own, around, four, two ? four + 1 : four, f, eddies);
-        x += sb_first4(e.x) * sb_first4(e.pi);
-        y += sb_first4(e.y) * sb_first4(e.pi);
-        z += sb_first4(e.z) * sb_first4(e.pi);
-        if (!two) break;
-        x += sb_second4(e.x) * sb_second4(e.pi);
-        y += sb_second4(e.y) * sb_second4(e.pi);
-        z += sb_second4(e.z) * sb_second4(e.pi);
-    }
-    const sb_four sum = sb_transpose(x, y, z, (sb_f4){0});
-    return (sum.x + sum.y + sum.z + sum.w) * sb_splat(sim->pairs.unit * f->inverse_quantum);
-}
-
-SB_INLINE sb_f4 wall_part(const sb_sim *sim, size_t i, const sb_wall_drag *law)
-{
-    const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
-    const float *slope = sim->wall_pairs.slope + sim->wall_pairs.first[i];
-    sb_f4 sum = {0}, part[4];
-    for (size_t k = 0; k < sim->wall_pairs.count[i]; k += 4) {
-        sb_wall_drag_four(sim, i, sim->state.velocity[i], index + k, slope + k, law, part);
-        for (int pair = 0; pair < 4; pair++) sum += part[pair];
-    }
-    return sum;
-}
-
-SB_MULTIVERSION
-static void do_group(sb_sim *sim, const sb_group *group, const factors *f, bool viscous, const sb_wall_drag *law)
-{
-    _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
-    const float dt = (float)sim->state.time_step;
-    sb_f4 *next = sim->work.predicted;
-    if (viscous) sb_around_with(sim, group, sim->state.velocity, around);
-    if (sim->work.eddy) sb_around_last(sim, group, sim->work.eddy, around);
-    for (size_t i = group->first; i < group->end; i++) {
-        sb_f4 a = {sim->policy->holds_wave ? sb_settle_wave_acceleration(sim, sim->state.position[i]) : 0, 0,
-                   -sim->constant.gravity, 0};
-        if (sim->work.eddy)
-            a += fluid_part(sim, group, around, i, f, true);
-        else if (viscous)
-            a += fluid_part(sim, group, around, i, f, false);
-        if (law->on && sim->wall_pairs.count[i] > 0) a += sim->work.wall_drag[i] = wall_part(sim, i, law);
-        a[3] = 0;
-        next[i] = sim->state.velocity[i] + a * sb_splat(dt);
-    }
-}
-
 sb_status sb_stage_forces(sb_sim *sim, sb_error *error)
 {
     (void)error;
-    const factors f = make_factors(sim);
+    const sb_viscous viscous = factors_of(sim);
     const sb_wall_drag law = sb_wall_drag_make(sim);
-    const bool viscous = f.artificial > 0 || f.physical > 0 || sim->work.eddy;
-    const size_t groups = sim->groups.count;
-    if (viscous) sb_pressure_load(sim, sim->work.density);
-#pragma omp parallel for schedule(dynamic, GROUPS)
-    for (size_t g = 0; g < groups; g++) do_group(sim, &sim->groups.group[g], &f, viscous, &law);
+    if (viscous.on) sb_pressure_load(sim, sim->work.density);
+    sim->passes->forces(sim, &viscous, &law);
     sb_ghosts_refresh(sim, sim->work.predicted);
     return SB_OK;
 }

@@ -2,7 +2,7 @@
 #ifndef SB_SIM_LISTS_H
 #define SB_SIM_LISTS_H
 
-#include "sim/search/vicinity.h"
+#include "sim/passes/cpu/vicinity.h"
 
 typedef struct sb_list_builder {
     sb_four_pairs *four;

@@ -1,4 +1,4 @@
-#include "sim/search/vicinity.h"
+#include "sim/passes/cpu/vicinity.h"
 
 /* Finds the range of cells of the group's particles and their neighbour cells. */
 static void find_cells(const sb_sim *sim, const sb_group *group, sb_vicinity *v)

@@ -1,4 +1,4 @@
-#include "sim/search/lists.h"
+#include "sim/passes/cpu/lists.h"
 
 #include "base/memory.h"
 

@@ -1,4 +1,4 @@
-#include "sim/search/kernel_batch.h"
+#include "sim/passes/cpu/kernel_batch.h"
 
 #include "sim/state/simd.h"
 

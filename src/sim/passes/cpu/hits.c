@@ -1,4 +1,4 @@
-#include "sim/search/hits.h"
+#include "sim/passes/cpu/hits.h"
 
 #include <math.h>
 

@@ -2,8 +2,8 @@
 #ifndef SB_SIM_VICINITY_H
 #define SB_SIM_VICINITY_H
 
+#include "sim/passes/cpu/hits.h"
 #include "sim/search/around.h"
-#include "sim/search/hits.h"
 
 /* Parts: fluid particles, then ghost particles beyond periodic sides. */
 enum { SB_VICINITY_PARTS = 2, SB_VICINITY_CELLS = 64, SB_VICINITY_ROWS = 9 * SB_VICINITY_PARTS };

@@ -4,7 +4,7 @@
 #ifndef SB_SIM_EIGHTS_H
 #define SB_SIM_EIGHTS_H
 
-#include "sim/passes/simd_wide.h"
+#include "sim/passes/cpu/simd_wide.h"
 #include "sim/search/around.h"
 
 /* Eight records transposed into lanes of x, y, z and w: those of the first four, then those of the second four. */

@@ -1,15 +1,11 @@
-#include "sim/search/searcher.h"
+#include "sim/passes/cpu/searcher.h"
 
 #include "base/memory.h"
-#include "sim/search/kernel_batch.h"
-#include "sim/search/vicinity.h"
+#include "sim/passes/cpu/kernel_batch.h"
+#include "sim/passes/cpu/vicinity.h"
 #include "sim/walls/entry.h"
 
 #include <math.h>
-
-enum {
-    MOST = 32767, /* largest stored slope */
-};
 
 _Static_assert((int)SB_WALLS_AROUND_MAX <= (int)SB_CANDIDATES_MAX, "capacity of the search for hits");
 
@@ -23,7 +19,7 @@ typedef struct surroundings {
     uint32_t index[SB_WALLS_AROUND_MAX];
 } surroundings;
 
-struct sb_searcher {
+typedef struct searcher {
     sb_vicinity vicinity;
     surroundings wall;
     sb_hits hits;
@@ -34,8 +30,8 @@ struct sb_searcher {
     float value_scale; /* alpha / h^d */
     float slope_scale; /* alpha quantum / h^(d+2): W'/r per quantum */
     float to_units;    /* a slope of the kernel in stored units */
-    unsigned full;     /* see sb_searcher_full */
-};
+    unsigned full;     /* limits that this group exceeded */
+} searcher;
 
 /* ---- walls around a cell ---- */
 
@@ -58,7 +54,7 @@ SB_INLINE void gather_cell(surroundings *s, const sb_record *record, uint32_t be
 }
 
 /* Gathers the boundary particles in the 27 (2D: 9) cells around that of particle i, in a fixed order. */
-static void gather_walls(const sb_sim *sim, sb_searcher *w, size_t i, sb_record corner)
+static void gather_walls(const sb_sim *sim, searcher *w, size_t i, sb_record corner)
 {
     const int layers = sim->constant.dimension == 2 ? 0 : 1;
     const uint64_t code = sb_cell_code(sim->state.position[i], sim->space.shift);
@@ -83,7 +79,7 @@ static void gather_walls(const sb_sim *sim, sb_searcher *w, size_t i, sb_record 
 
 /* ---- one particle ---- */
 
-SB_INLINE void find_hits(sb_searcher *w, const sb_candidates *of, const sb_candidate_range *range, size_t ranges,
+SB_INLINE void find_hits(searcher *w, const sb_candidates *of, const sb_candidate_range *range, size_t ranges,
                          sb_f4 self, uint32_t skip)
 {
     sb_hits *h = &w->hits;
@@ -103,7 +99,7 @@ SB_INLINE void find_hits(sb_searcher *w, const sb_candidates *of, const sb_candi
 SB_MULTIVERSION
 static void round_slopes(float *restrict slope, float *restrict root, size_t count, float to_units)
 {
-    const float most = (float)MOST;
+    const float most = (float)SB_ROOT_MAX;
 #pragma omp simd
     for (size_t k = 0; k < count; k++) {
         const float rounded = (float)(int)(sqrtf(slope[k] * to_units) + 0.5f);
@@ -113,7 +109,7 @@ static void round_slopes(float *restrict slope, float *restrict root, size_t cou
 }
 
 /* Sums over the fluid neighbours of one particle: part of the density, S_i, and sum |m grad W|^2. */
-SB_INLINE void fluid_sums(sb_searcher *w, float mass, float unit, float *density, sb_f4 *sum, float *squares)
+SB_INLINE void fluid_sums(searcher *w, float mass, float unit, float *density, sb_f4 *sum, float *squares)
 {
     sb_hits *h = &w->hits;
     sb_f8 value = {0}, x = {0}, y = {0}, z = {0}, square = {0};
@@ -134,7 +130,7 @@ SB_INLINE void fluid_sums(sb_searcher *w, float mass, float unit, float *density
 
 /* Sums over the boundary particles around one particle: part of the density, and B_i = sum_b psi_b grad W_ib with the
    flux sum_b psi_b v_b . grad W_ib of moving walls in the last lane. */
-SB_INLINE void wall_sums(const sb_sim *sim, sb_searcher *w, float *density, sb_f4 *wall)
+SB_INLINE void wall_sums(const sb_sim *sim, searcher *w, float *density, sb_f4 *wall)
 {
     sb_hits *h = &w->hits;
     float value = 0;
@@ -157,7 +153,7 @@ SB_INLINE void wall_sums(const sb_sim *sim, sb_searcher *w, float *density, sb_f
 
 /* Searches the neighbours of particle i and fills in its fields. candidate: its index in the vicinity; cell: the corner
    of its cell. */
-SB_INLINE void one_particle(sb_sim *sim, sb_searcher *w, sb_list_builder *lists, const sb_group *group, size_t i,
+SB_INLINE void one_particle(sb_sim *sim, searcher *w, sb_list_builder *lists, const sb_group *group, size_t i,
                             uint32_t candidate, sb_record cell)
 {
     const sb_constants *c = &sim->constant;
@@ -191,7 +187,7 @@ SB_INLINE void one_particle(sb_sim *sim, sb_searcher *w, sb_list_builder *lists,
 }
 
 SB_MULTIVERSION
-static void search_group(sb_sim *sim, sb_searcher *w, sb_list_builder *lists, sb_group *group)
+static void search_group(sb_sim *sim, searcher *w, sb_list_builder *lists, sb_group *group)
 {
     const int shift = sim->space.shift;
     uint64_t last = UINT64_MAX;
@@ -210,15 +206,15 @@ static void search_group(sb_sim *sim, sb_searcher *w, sb_list_builder *lists, sb
     }
 }
 
-void sb_search_group(sb_sim *sim, sb_searcher *w, sb_list_builder *lists, sb_group *group)
+unsigned sb_search_group(sb_sim *sim, void *of, sb_list_builder *lists, sb_group *group)
 {
+    searcher *w = of;
+    w->full = 0;
     sb_vicinity_gather(sim, group, &w->vicinity);
-    if (w->vicinity.count > SB_AROUND_MAX) {
-        w->full |= SB_FULL_AROUND;
-        return;
-    }
+    if (w->vicinity.count > SB_AROUND_MAX) return SB_FULL_AROUND;
     sb_list_runs(lists, &w->vicinity, group);
     search_group(sim, w, lists, group);
+    return w->full;
 }
 
 static float slope_scale(const sb_sim *sim)
@@ -234,17 +230,16 @@ float sb_lists_unit(const sb_sim *sim)
     const float coincident = 0;
     float value, steepest;
     sb_kernel_batch_for(kernel)(kernel, &coincident, 1, &value, &steepest);
-    return sim->constant.mass * slope_scale(sim) * steepest / ((float)MOST * (float)MOST);
+    return sim->constant.mass * slope_scale(sim) * steepest / ((float)SB_ROOT_MAX * (float)SB_ROOT_MAX);
 }
 
-sb_searcher *sb_searcher_create(const sb_sim *sim)
+void *sb_searcher_create(const sb_sim *sim)
 {
-    sb_searcher *w = sb_alloc_untouched(1, sizeof *w);
+    searcher *w = sb_alloc_untouched(1, sizeof *w);
     if (!w) return NULL;
     const sb_kernel *kernel = sim->scene->numerics.kernel;
     const int d = sim->constant.dimension;
     const double h = (double)sim->constant.support, quantum = sim->space.quantum;
-    w->full = 0;
     w->kernel = kernel;
     w->batch = sb_kernel_batch_for(kernel);
     w->find_hits = sb_find_hits_choose();
@@ -253,14 +248,4 @@ sb_searcher *sb_searcher_create(const sb_sim *sim)
     w->slope_scale = slope_scale(sim);
     w->to_units = sim->constant.mass * w->slope_scale / sim->pairs.unit;
     return w;
-}
-
-unsigned sb_searcher_full(const sb_searcher *w)
-{
-    return w->full;
-}
-
-void sb_searcher_free(sb_searcher *w)
-{
-    sb_free(w);
 }

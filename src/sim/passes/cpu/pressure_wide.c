@@ -1,6 +1,7 @@
 /* The pressure passes with vectors of 64 bytes: the records of four neighbours instead of two. The lanes are the two
    sums of the narrow form side by side, so that both forms add the same terms in the same order. */
-#include "sim/passes/passes.h"
+#include "sim/passes/cpu/cpu.h"
+#include "sim/passes/groups.h"
 
 #if defined(SB_MULTIVERSIONED) || (defined(SB_NATIVE) && defined(__AVX512BW__) && defined(__AVX512DQ__) &&             \
                                    defined(__AVX512VL__) && defined(__FMA__))
@@ -46,8 +47,9 @@ WIDE SB_INLINE sb_f4 fold(__m512 v)
     return (sb_f4)_mm_add_ps(_mm256_castps256_ps128(both), _mm256_extractf128_ps(both, 1));
 }
 
-WIDE static void accelerate_group(sb_sim *sim, const sb_group *group)
+WIDE static void accelerate_group(sb_sim *sim, const sb_group *group, const void *arguments)
 {
+    (void)arguments;
     _Alignas(64) sb_f4 around[SB_AROUND_MAX];
     sb_around(sim, group, around);
     for (size_t i = group->first; i < group->end; i++) {
@@ -67,8 +69,12 @@ WIDE static void accelerate_group(sb_sim *sim, const sb_group *group)
     }
 }
 
-WIDE static void diverge_group(sb_sim *sim, const sb_group *group, const sb_f4 *field, float factor, float *out)
+WIDE static void diverge_group(sb_sim *sim, const sb_group *group, const void *arguments)
 {
+    const sb_divergence *of = arguments;
+    const sb_f4 *field = of->field;
+    const float factor = of->factor;
+    float *out = of->out;
     _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
     sb_around_with(sim, group, field, around);
     for (size_t i = group->first; i < group->end; i++) {
@@ -87,35 +93,44 @@ WIDE static void diverge_group(sb_sim *sim, const sb_group *group, const sb_f4 *
     }
 }
 
-static const sb_passes wide = {accelerate_group, diverge_group};
+static void accelerate(sb_sim *sim)
+{
+    sb_each_group(sim, accelerate_group, NULL);
+}
 
-const sb_passes *sb_passes_wide(void)
+static void diverge(sb_sim *sim, const sb_f4 *field, float factor, float *out)
+{
+    sb_each_group(sim, diverge_group, &(sb_divergence){field, factor, out});
+}
+
+static const sb_passes wide = {
+    .name = "cpu, vectors of 64 bytes",
+    SB_CPU_PASSES,
+    .accelerate = accelerate,
+    .diverge = diverge,
+};
+
+const sb_passes *sb_passes_cpu_wide(void)
 {
     __builtin_cpu_init();
     return __builtin_cpu_supports("x86-64-v4") ? &wide : NULL;
 }
 
-/* Whether this form is the faster one: true for Zen 5 and later, the only AMD processors with this instruction. Their
-   units are as wide as the vectors, and this form was measured to be faster on them. On two Xeons other passes with
-   such vectors were slower (docs/decisions/0012). Processors that were not measured use the narrow form. */
-static bool wide_pays(void)
+/* Zen 5 and later are the only AMD processors with this instruction. Their units are as wide as the vectors, and this
+   form was measured to be faster on them. On two Xeons other passes with such vectors were slower
+   (docs/decisions/0012). Processors that were not measured use the narrow form. */
+bool sb_cpu_wide_pays(void)
 {
     return __builtin_cpu_is("amd") && __builtin_cpu_supports("avx512vp2intersect");
 }
 #else
-const sb_passes *sb_passes_wide(void)
+const sb_passes *sb_passes_cpu_wide(void)
 {
     return NULL;
 }
 
-static bool wide_pays(void)
+bool sb_cpu_wide_pays(void)
 {
     return false;
 }
 #endif
-
-const sb_passes *sb_passes_choose(void)
-{
-    const sb_passes *form = sb_passes_wide();
-    return form && wide_pays() ? form : &sb_passes_narrow;
-}

@@ -1,0 +1,237 @@
+#include "base/memory.h"
+#include "sim/exchange/sums.h"
+#include "sim/passes/cpu/cpu.h"
+#include "sim/passes/cpu/drag.h"
+#include "sim/passes/groups.h"
+#include "sim/step/ledger.h"
+#include "sim/walls/contact.h"
+
+#include <string.h>
+
+enum { VALUES = SB_FORCE_VALUES, WORKS = 3 };
+
+/* Forces on bodies, summed by one thread. */
+typedef struct forces {
+    double *sum;           /* of the present group: sum[body][VALUES] */
+    uint32_t *body;        /* those that the group acts on */
+    size_t count;          /* of them */
+    bool *acted_on;        /* per body */
+    sb_exact *all;         /* of all groups so far: all[body][VALUES] */
+    sb_exact works[WORKS]; /* friction, contact, contact_bodies of sb_ledger_sums */
+} forces;
+
+/* Vector from an image of a boundary particle to the original. A force across a periodic side acts on the original. */
+static sb_vec3 to_original(const sb_space *space, sb_record image)
+{
+    return sb_sub(sb_space_position(space, sb_space_wrap(space, image)), sb_space_position(space, image));
+}
+
+/* Force of one fluid particle on one body: sums over consecutive boundary particles of the body in the particle's list,
+   of slope times offset and of the drag. The force acts at the fluid particle, shifted to the original where it meets
+   an image. A force along the line to a boundary particle has the same moment there. Shear is not along that line;
+   acting at the fluid particle it keeps the moments of water and bodies balanced. */
+typedef struct tally {
+    const sb_sim *sim;
+    forces *to;
+    double press, mass; /* press: m q */
+    sb_vec3 at, shift;  /* m: of the fluid particle, and to the original */
+    uint32_t body;
+    sb_f4 pushed, drag;
+} tally;
+
+static sb_vec3 vector(sb_f4 v, double scale)
+{
+    return sb_vec(scale * (double)v[0], scale * (double)v[1], scale * (double)v[2]);
+}
+
+static void add_to(double value[3], sb_vec3 v)
+{
+    value[0] += v.x;
+    value[1] += v.y;
+    value[2] += v.z;
+}
+
+/* Adds a force on a body. pressure, drag: N; at: m, the point of application. */
+SB_APART void add(const sb_sim *sim, forces *to, uint32_t body, sb_vec3 at, sb_vec3 pressure, sb_vec3 drag)
+{
+    double *value = to->sum + (size_t)VALUES * body;
+    if (!to->acted_on[body]) {
+        to->acted_on[body] = true;
+        to->body[to->count++] = body;
+    }
+    add_to(value, pressure);
+    add_to(value + 3, drag);
+    add_to(value + 6, sb_cross(sb_sub(at, sim->model->bodies[body].moment_point), sb_add(pressure, drag)));
+}
+
+static void flush(tally *t)
+{
+    add(t->sim, t->to, t->body, sb_add(t->at, t->shift), vector(t->pushed, t->press), vector(t->drag, -t->mass));
+    t->pushed = t->drag = (sb_f4){0};
+}
+
+static void turn_to(tally *t, const sb_wall_set *set, uint32_t wall)
+{
+    const uint32_t body = set->body[wall];
+    const sb_vec3 shift = t->sim->space.repeats ? to_original(&t->sim->space, set->record[wall]) : (sb_vec3){0};
+    if (body == t->body && shift.x == t->shift.x && shift.y == t->shift.y && shift.z == t->shift.z) return;
+    flush(t);
+    t->body = body;
+    t->shift = shift;
+}
+
+static void add_push(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 push, forces *to)
+{
+    const sb_record record = sb_wall_set_of(sim, wall)->record[sb_wall_particle(wall)];
+    sb_vec3 at = sb_space_position(&sim->space, sim->state.position[i]);
+    if (sim->space.repeats) at = sb_add(at, to_original(&sim->space, record));
+    add(sim, to, sb_wall_body(sim, wall), at, push, (sb_vec3){0});
+}
+
+/* Resolves contact of particle i; the bodies receive the reactions. */
+SB_APART void contact(sb_sim *sim, size_t i, forces *to, double works[WORKS])
+{
+    const sb_f4 start = sim->state.velocity[i];
+    sb_f4 velocity = sim->work.end_velocity[i];
+    sb_contact_push pushes[SB_CONTACT_PUSHES_MAX];
+    const size_t count = sb_contact_resolve(sim, i, &velocity, pushes);
+    const double scale = -(double)sim->constant.mass / sim->state.time_step;
+    if (count == 0) return;
+    for (size_t k = 0; k < count; k++) {
+        const uint32_t wall = pushes[k].wall;
+        /* The push is along the wall's normal through the particle, so that it may act at the particle. */
+        const sb_vec3 push = vector(pushes[k].change, scale);
+        const sb_f4 body = sb_wall_velocity(sim, wall);
+        add_push(sim, i, wall, push, to);
+        works[2] += sb_ledger_work((sb_f4){0}, pushes[k].change, body, body);
+    }
+    works[1] += sb_ledger_work(sim->work.end_velocity[i], velocity, start, velocity);
+    velocity[3] = sim->work.end_velocity[i][3];
+    sim->work.end_velocity[i] = velocity;
+}
+
+/* Whether all boundary particles of a list belong to one body. Always false with periodic sides, where forces on images
+   act elsewhere. */
+static bool one_body(const sb_sim *sim, const uint32_t *index, size_t count)
+{
+    bool same = !sim->space.repeats;
+    const uint32_t first = count > 0 ? sb_wall_body(sim, index[0]) : 0;
+    for (size_t k = 1; k < count && same; k++) same = sb_wall_body(sim, index[k]) == first;
+    return same;
+}
+
+/* Adds the forces of particle i's pressure and drag on bodies. Returns the sum of sb_wall_drag_four; law: NULL without
+   drag. */
+SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_wall_drag *law, forces *to)
+{
+    const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
+    const float *slope = sim->wall_pairs.slope + sim->wall_pairs.first[i];
+    const size_t count = sim->wall_pairs.count[i];
+    const double mass = (double)sim->constant.mass;
+    const sb_f4 *velocity = sim->state.velocity; /* at the step's start */
+    tally t = {.sim = sim, .to = to, .press = mass * (double)sim->work.unknown[i], .mass = mass};
+    sb_f4 drag = {0}, part[4];
+    t.at = sb_space_position(&sim->space, sim->state.position[i]);
+    if (count > 0) t.body = sb_wall_body(sim, index[0]);
+    if (one_body(sim, index, count)) { /* the usual case: the sums exist already */
+        t.pushed = sim->work.wall[i];
+        drag = t.drag = law ? sim->work.wall_drag[i] : (sb_f4){0};
+        flush(&t);
+        return drag;
+    }
+    for (size_t k = 0; k < count; k++) {
+        if (law && k % 4 == 0) sb_wall_drag_four(sim, i, velocity[i], index + k, slope + k, law, part);
+        if (slope[k] == 0) continue;
+        const sb_wall_set *set = sb_wall_set_of(sim, index[k]);
+        const uint32_t wall = sb_wall_particle(index[k]);
+        turn_to(&t, set, wall);
+        t.pushed += sb_offset(sim->state.position[i], set->record[wall]) * sb_splat(slope[k]);
+        if (law) {
+            drag += part[k % 4];
+            t.drag += part[k % 4];
+        }
+    }
+    flush(&t);
+    return drag;
+}
+
+/* Adds forces (N) and moments (N m) of one group on bodies, and the works of friction and contact. */
+SB_MULTIVERSION
+static void do_group(sb_sim *sim, const sb_group *group, const sb_wall_drag *law, forces *to)
+{
+    const sb_f4 *velocity = sim->state.velocity; /* at the step's start */
+    double works[WORKS] = {0};
+    bool beside_wall = false;
+    for (size_t i = group->first; i < group->end; i++) {
+        if (sim->wall_pairs.count[i] == 0) continue;
+        beside_wall = true;
+        const sb_f4 drag = react(sim, i, law->on ? law : NULL, to);
+        contact(sim, i, to, works);
+        if (law->on) works[0] += sb_ledger_work((sb_f4){0}, drag, velocity[i], sim->work.end_velocity[i]);
+    }
+    if (!beside_wall) return;
+    for (int k = 0; k < WORKS; k++) sb_exact_add(&to->works[k], works[k]);
+    for (size_t b = 0; b < to->count; b++) {
+        double *sum = to->sum + (size_t)VALUES * to->body[b];
+        sb_exact *all = to->all + (size_t)VALUES * to->body[b];
+        for (int v = 0; v < VALUES; v++) sb_exact_add(&all[v], sum[v]);
+        memset(sum, 0, VALUES * sizeof *sum);
+        to->acted_on[to->body[b]] = false;
+    }
+    to->count = 0;
+}
+
+static void forces_free(forces *f)
+{
+    sb_free(f->sum);
+    sb_free(f->body);
+    sb_free(f->acted_on);
+    sb_free(f->all);
+}
+
+/* Returns 0, or -1 without memory. */
+static int forces_create(forces *f, size_t bodies)
+{
+    *f = (forces){.sum = sb_alloc(bodies * VALUES, sizeof *f->sum),
+                  .body = sb_alloc(bodies, sizeof *f->body),
+                  .acted_on = sb_alloc(bodies, sizeof *f->acted_on),
+                  .all = sb_alloc(bodies * VALUES, sizeof *f->all)};
+    return f->sum && f->body && f->acted_on && f->all ? 0 : -1;
+}
+
+/* Sums of all threads into `total`. False: a thread has no memory for its own. */
+static bool sum_forces(sb_sim *sim, const sb_wall_drag *law, forces *total)
+{
+    const size_t groups = sim->groups.count, bodies = sim->model->body_count;
+    bool enough = true;
+#pragma omp parallel reduction(&& : enough)
+    {
+        forces own;
+        enough = forces_create(&own, bodies) == 0;
+#pragma omp for schedule(dynamic, SB_GROUPS_AT_A_TIME)
+        for (size_t g = 0; g < groups; g++)
+            if (enough) do_group(sim, &sim->groups.group[g], law, &own);
+        if (enough) {
+            sb_sums_merge(total->all, own.all, bodies * VALUES);
+            sb_sums_merge(total->works, own.works, WORKS);
+        }
+        forces_free(&own);
+    }
+    return enough;
+}
+
+int sb_cpu_bodies(sb_sim *sim, const sb_wall_drag *law, sb_body_sums *total)
+{
+    forces all;
+    const size_t values = sim->model->body_count * VALUES;
+    int status = forces_create(&all, sim->model->body_count);
+    if (status == 0 && !sum_forces(sim, law, &all)) status = -1;
+    for (size_t v = 0; v < values && status == 0; v++) total->force[v] = sb_exact_value(&all.all[v]);
+    if (status == 0) {
+        total->friction = sb_exact_value(&all.works[0]);
+        total->contact = sb_exact_value(&all.works[1]);
+        total->contact_bodies = sb_exact_value(&all.works[2]);
+    }
+    forces_free(&all);
+    return status;
+}

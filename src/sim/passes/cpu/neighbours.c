@@ -1,0 +1,141 @@
+/* The pass that finds the neighbours of all particles. Each thread searches a few groups at a time and copies their
+   lists into shared pools. */
+#include "base/memory.h"
+#include "sim/passes/cpu/cpu.h"
+#include "sim/passes/cpu/lists.h"
+#include "sim/passes/cpu/searcher.h"
+#include "sim/passes/groups.h"
+
+#include <string.h>
+
+/* Reserves `count` entries of a pool, from *at on. Returns false if the pool is too small; `used` is then the size
+   needed. The place in the pool depends on timing; the contents do not. */
+static bool take(size_t *used, size_t capacity, size_t count, size_t *at)
+{
+    *at = __atomic_fetch_add(used, count, __ATOMIC_RELAXED);
+    return *at + count <= capacity;
+}
+
+/* Copies the lists of groups [begin, end) into the pools. */
+static bool publish(sb_sim *sim, sb_list_builder *lists, size_t begin, size_t end)
+{
+    sb_groups *groups = &sim->groups;
+    size_t four, wall, run;
+    bool room = take(&sim->pairs.used, sim->pairs.capacity, lists->fours, &four);
+    room &= take(&sim->wall_pairs.used, sim->wall_pairs.capacity, lists->walls, &wall);
+    room &= take(&groups->used, groups->room, lists->runs, &run);
+    if (room && lists->fours > 0) memcpy(sim->pairs.four + four, lists->four, lists->fours * sizeof *lists->four);
+    if (room && lists->walls > 0) {
+        memcpy(sim->wall_pairs.index + wall, lists->wall, lists->walls * sizeof *lists->wall);
+        memcpy(sim->wall_pairs.slope + wall, lists->wall_slope, lists->walls * sizeof *lists->wall_slope);
+    }
+    if (room && lists->runs > 0) memcpy(groups->run + run, lists->run, lists->runs * sizeof *lists->run);
+    for (size_t g = begin; g < end; g++) {
+        groups->group[g].run += (uint32_t)run;
+        for (size_t i = groups->group[g].first; i < groups->group[g].end; i++) {
+            sim->pairs.first[i] += (uint32_t)four;
+            sim->wall_pairs.first[i] += (uint32_t)wall;
+        }
+    }
+    lists->fours = lists->walls = lists->runs = 0;
+    return room;
+}
+
+/* One search of all groups. *too_small: a pool was too small; *full: the limits that were exceeded. Returns 0, or -1
+   without memory. */
+static int attempt(sb_sim *sim, const sb_search_form *form, bool *too_small, unsigned *full)
+{
+    unsigned over = 0;
+    bool small = false, memory = false;
+    const size_t groups = sim->groups.count, units = (groups + SB_GROUPS_AT_A_TIME - 1) / SB_GROUPS_AT_A_TIME;
+    sim->pairs.used = sim->wall_pairs.used = sim->groups.used = 0;
+#pragma omp parallel reduction(| : small, over, memory)
+    {
+        void *searcher = form->create(sim);
+        sb_list_builder lists = {.out_of_memory = !searcher};
+#pragma omp for schedule(dynamic, 1)
+        for (size_t u = 0; u < units; u++) {
+            const size_t begin = u * SB_GROUPS_AT_A_TIME;
+            const size_t end = begin + SB_GROUPS_AT_A_TIME < groups ? begin + SB_GROUPS_AT_A_TIME : groups;
+            for (size_t g = begin; g < end && !lists.out_of_memory; g++)
+                over |= form->search(sim, searcher, &lists, &sim->groups.group[g]);
+            if (!lists.out_of_memory) small |= !publish(sim, &lists, begin, end);
+        }
+        memory |= lists.out_of_memory;
+        sb_list_builder_free(&lists);
+        sb_free(searcher);
+    }
+    *too_small = small;
+    *full = over;
+    return memory ? -1 : 0;
+}
+
+/* New size of a pool that was too small. A larger reserve costs memory for the rest of the run, a smaller one another
+   search now and then. */
+static size_t with_reserve(size_t used)
+{
+    return used + used / 32 + 1024;
+}
+
+static int enlarge(sb_sim *sim)
+{
+    sb_lists *water = &sim->pairs;
+    sb_pairs *wall = &sim->wall_pairs;
+    sb_groups *groups = &sim->groups;
+    if (water->used > water->capacity) {
+        const size_t capacity = with_reserve(water->used);
+        sb_free(water->four);
+        water->four = sb_alloc_untouched(capacity, sizeof *water->four);
+        water->capacity = water->four ? capacity : 0;
+    }
+    if (wall->used > wall->capacity) {
+        const size_t capacity = with_reserve(wall->used);
+        sb_free(wall->index);
+        sb_free(wall->slope);
+        wall->index = sb_alloc_untouched(capacity, sizeof *wall->index);
+        wall->slope = sb_alloc_untouched(capacity, sizeof *wall->slope);
+        wall->capacity = wall->index && wall->slope ? capacity : 0;
+    }
+    if (groups->used > groups->room) {
+        const size_t room = with_reserve(groups->used);
+        sb_free(groups->run);
+        groups->run = sb_alloc_untouched(room, sizeof *groups->run);
+        groups->room = groups->run ? room : 0;
+    }
+    return water->used <= water->capacity && wall->used <= wall->capacity && groups->used <= groups->room ? 0 : -1;
+}
+
+static sb_status refuse(const sb_sim *sim, unsigned full, sb_error *error)
+{
+    static const char *const dense = "the water has collapsed, or the boundary particles are too dense";
+    const unsigned long long step = (unsigned long long)sim->state.step;
+    if (full & SB_FULL_WALLS)
+        return sb_fail(error, SB_FAILED,
+                       "step %llu: more than %d boundary particles within one cell and its neighbour cells: walls are "
+                       "too dense, or too many bodies meet there",
+                       step, SB_WALLS_AROUND_MAX);
+    return sb_fail(error, SB_FAILED, "step %llu: more than %d particles around %s: %s", step,
+                   full & SB_FULL_LIST ? SB_LIST_MAX : SB_AROUND_MAX,
+                   full & SB_FULL_LIST ? "one particle" : "a block of eight cells", dense);
+}
+
+sb_status sb_search_all(sb_sim *sim, const sb_search_form *form, sb_error *error)
+{
+    for (;;) {
+        bool too_small;
+        unsigned full;
+        if (attempt(sim, form, &too_small, &full) != 0) return sb_fail_memory(error, "neighbour lists");
+        if (full) return refuse(sim, full, error);
+        if (!too_small) return SB_OK;
+        if (sim->pairs.used > UINT32_MAX / 2 || sim->wall_pairs.used > UINT32_MAX / 2)
+            return sb_fail(error, SB_FAILED, "%zu pairs of neighbours, %zu with walls: expected fewer than 2^33, 2^31",
+                           4 * sim->pairs.used, sim->wall_pairs.used);
+        if (enlarge(sim) != 0) return sb_fail_memory(error, "neighbour lists");
+    }
+}
+
+sb_status sb_cpu_neighbours(sb_sim *sim, sb_error *error)
+{
+    static const sb_search_form form = {sb_searcher_create, sb_search_group};
+    return sb_search_all(sim, &form, error);
+}

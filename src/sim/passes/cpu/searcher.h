@@ -1,0 +1,30 @@
+/* The neighbour search of one thread. One pass over a group computes neighbour lists, density, wall vector and the
+   diagonal of the pressure operator of each particle, because all four need the same offsets. */
+#ifndef SB_SIM_SEARCHER_H
+#define SB_SIM_SEARCHER_H
+
+#include "sim/passes/cpu/lists.h"
+
+enum { SB_WALLS_AROUND_MAX = 4096 }; /* boundary particles in and beside one cell */
+
+/* Limits that were exceeded: neighbours of a particle, boundary particles around a cell, records around a group. */
+enum { SB_FULL_LIST = 1, SB_FULL_WALLS = 2, SB_FULL_AROUND = 4 };
+
+/* A form of the search. */
+typedef struct sb_search_form {
+    void *(*create)(const sb_sim *sim); /* what one thread needs, one block of memory; NULL without memory */
+    /* Appends the group's lists to `lists`, and fills in the fields of its particles. Returns the limits that were
+       exceeded, as bits. */
+    unsigned (*search)(sb_sim *sim, void *searcher, sb_list_builder *lists, sb_group *group);
+} sb_search_form;
+
+void *sb_searcher_create(const sb_sim *sim);
+unsigned sb_search_group(sb_sim *sim, void *searcher, sb_list_builder *lists, sb_group *group);
+
+/* Searches all groups and copies their lists into the shared pools. SB_FAILED if a limit was exceeded. */
+sb_status sb_search_all(sb_sim *sim, const sb_search_form *form, sb_error *error);
+
+/* sb_lists.unit of a simulation: the largest W'/r, that of coincident particles, has the root SB_ROOT_MAX. */
+float sb_lists_unit(const sb_sim *sim);
+
+#endif

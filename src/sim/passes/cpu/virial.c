@@ -1,0 +1,62 @@
+#include "sim/passes/cpu/cpu.h"
+#include "sim/passes/groups.h"
+#include "sim/walls/entry.h"
+
+/* The record of entry e as it was when the lists were made: offset from the group's corner, and q in the last lane.
+   back: -dt in quanta per m/s. */
+SB_INLINE sb_f4 entry(const sb_sim *sim, const sb_group *group, size_t e, sb_f4 back)
+{
+    sb_f4 at = sb_offset(sim->state.position[e], group->corner);
+    if (e < sim->state.n) {
+        at += sim->state.velocity[e] * back;
+        at[3] = sim->work.unknown[e];
+    } else
+        at[3] = sim->work.unknown[sim->ghosts.of[e - sim->state.n]];
+    return at;
+}
+
+/* sum_b psi_b x_ib . grad W_ib in quanta. */
+static float by_walls(const sb_sim *sim, const sb_group *group, size_t i, sb_f4 self)
+{
+    const sb_pairs *pairs = &sim->wall_pairs;
+    float sum = 0;
+    for (size_t k = pairs->first[i]; k < pairs->first[i] + pairs->count[i]; k++) {
+        const uint32_t index = pairs->index[k];
+        const sb_record wall = sb_wall_set_of(sim, index)->record[sb_wall_particle(index)];
+        const sb_f4 d = self - sb_offset(wall, group->corner);
+        sum += pairs->slope[k] * sb_sum3(d * d);
+    }
+    return sum;
+}
+
+SB_MULTIVERSION
+static void find_pressures(sb_sim *sim, const sb_group *group, const void *arguments)
+{
+    (void)arguments;
+    _Alignas(64) sb_f4 around[SB_AROUND_MAX];
+    const float quantum = (float)sim->space.quantum;
+    const sb_f4 back = sb_splat(-(float)sim->state.time_step / quantum);
+    const float factor = -0.5f * sim->constant.rest_density * quantum / (float)sim->constant.dimension;
+    const sb_run *run = sim->groups.run + group->run;
+    sb_f4 *at = around;
+    for (size_t r = 0; r < group->runs; r++)
+        for (size_t k = 0; k < run[r].count; k++) *at++ = entry(sim, group, run[r].begin + k, back);
+    for (size_t i = group->first; i < group->end; i++) {
+        const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
+        const sb_f4 self = entry(sim, group, i, back);
+        sb_f4 sum = {0};
+        for (; four < end; four++) {
+            const sb_four d = sb_transpose(*sb_at(around, four->place[0]), *sb_at(around, four->place[1]),
+                                           *sb_at(around, four->place[2]), *sb_at(around, four->place[3]));
+            const sb_f4 x = d.x - sb_splat(self[0]), y = d.y - sb_splat(self[1]), z = d.z - sb_splat(self[2]);
+            sum += (d.w + sb_splat(self[3])) * sb_slopes(four) * (x * x + y * y + z * z);
+        }
+        const float water = ((sum[0] + sum[1]) + (sum[2] + sum[3])) * sim->pairs.unit;
+        sim->work.virial[i] = factor * (water + self[3] * by_walls(sim, group, i, self));
+    }
+}
+
+void sb_cpu_virial(sb_sim *sim)
+{
+    sb_each_group(sim, find_pressures, NULL);
+}
