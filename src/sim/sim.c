@@ -1,5 +1,6 @@
 /* Creation and destruction of a simulation, and its simple accessors. */
 #include "base/memory.h"
+#include "sim/exchange/exchange.h"
 #include "sim/passes/cpu/searcher.h"
 #include "sim/passes/passes.h"
 #include "sim/report/report.h"
@@ -45,7 +46,7 @@ static void fill_particles(sb_sim *sim)
     double top = 0;
     for (size_t i = 0; i < n; i++) top = fmax(top, sb_norm(model->fluid_velocity[i]));
     sb_density_correction_clear(sim);
-    sim->state.max_speed = top;
+    sim->state.max_speed = sim->exchange->largest(sim, top);
 }
 
 sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **sim, sb_error *error)
@@ -55,6 +56,7 @@ sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **s
     made->scene = scene;
     made->model = model;
     made->passes = sb_passes_choose();
+    made->exchange = &sb_exchange_alone;
     made->policy = &sb_policy_run;
     sb_status status = SB_OK;
     if (model->fluid_count >= (size_t)1 << SB_INDEX_BITS)

@@ -19,7 +19,8 @@ enum {
     SB_SIM_SKIPPED_MAX = 15
 };
 
-struct sb_passes; /* sim/passes/passes.h */
+struct sb_passes;   /* sim/passes/passes.h */
+struct sb_exchange; /* sim/exchange/exchange.h */
 
 struct sb_sim {
     /* constant */
@@ -27,7 +28,8 @@ struct sb_sim {
     const sb_model *model;
     sb_constants constant;
     sb_space space;
-    const struct sb_passes *passes; /* over pairs, in the form for this processor */
+    const struct sb_passes *passes;     /* over pairs, in the form for this processor */
+    const struct sb_exchange *exchange; /* with other domains */
 
     sb_state state;
     const sb_step_policy *policy; /* of the present step */

@@ -3,6 +3,7 @@
 #include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "sim/exchange/exchange.h"
 #include "sim/passes/passes.h"
 #include "sim/pressure/pressure.h"
 #include "sim/step/stages.h"
@@ -47,7 +48,8 @@ typedef struct row {
 
 enum { NEIGHBOURS, STRAIN, STRESS, CORRECT, STRAIN_RATE, FORCES, ACCELERATE, DIVERGE, VIRIAL, BODIES, PASSES };
 
-/* Sums of 80 floats. The roots of slopes are rounded to 15 bits, and one that is half way may round to the other side. */
+/* Sums of 80 floats. The roots of slopes are rounded to 15 bits, and one that is half way may round to the other side.
+ */
 static const double SUM = 3e-6, ROOTS = 1e-4;
 
 static const row rows[PASSES] = {
@@ -81,16 +83,36 @@ static void run(const sb_passes *form, int pass, sb_sim *sim, double *force)
     sb_body_sums sums = {.force = force};
     sb_error error = {0};
     switch (pass) {
-    case NEIGHBOURS: assert_int_equal(form->neighbours(sim, &error), SB_OK); break;
-    case STRAIN: form->strain(sim); break;
-    case STRESS: form->stress(sim); break;
-    case CORRECT: form->correct(sim); break;
-    case STRAIN_RATE: form->strain_rate(sim); break;
-    case FORCES: form->forces(sim, &viscous, &law); break;
-    case ACCELERATE: form->accelerate(sim); break;
-    case DIVERGE: form->diverge(sim, sim->state.velocity, 0.5f, sim->work.source); break;
-    case VIRIAL: form->virial(sim); break;
-    default: assert_int_equal(form->bodies(sim, &law, &sums), 0); break;
+    case NEIGHBOURS:
+        assert_int_equal(form->neighbours(sim, &error), SB_OK);
+        break;
+    case STRAIN:
+        form->strain(sim);
+        break;
+    case STRESS:
+        form->stress(sim);
+        break;
+    case CORRECT:
+        form->correct(sim);
+        break;
+    case STRAIN_RATE:
+        form->strain_rate(sim);
+        break;
+    case FORCES:
+        form->forces(sim, &viscous, &law);
+        break;
+    case ACCELERATE:
+        form->accelerate(sim);
+        break;
+    case DIVERGE:
+        form->diverge(sim, sim->state.velocity, 0.5f, sim->work.source);
+        break;
+    case VIRIAL:
+        form->virial(sim);
+        break;
+    default:
+        assert_int_equal(form->bodies(sim, &law, &sums), 0);
+        break;
     }
 }
 
@@ -111,9 +133,9 @@ static void set_input(int pass, sb_sim *sim)
         if (pass == ACCELERATE || pass == VIRIAL || pass == BODIES) w->unknown[i] = 1e-3f * a;
         if (pass == BODIES) w->end_velocity[i] = sim->state.velocity[i] + (sb_f4){b, 0, c, 0};
     }
-    if (pass == STRESS) sb_ghosts_refresh(sim, w->strain), sb_pressure_load(sim, w->strain_xx);
-    if (pass == CORRECT) sb_ghosts_refresh(sim, w->stress), sb_pressure_load(sim, w->stress_xx);
-    if (pass == FORCES) sb_ghosts_refresh_values(sim, w->eddy), sb_pressure_load(sim, w->density);
+    if (pass == STRESS) sb_refresh(sim, w->strain), sb_pressure_load(sim, w->strain_xx);
+    if (pass == CORRECT) sb_refresh(sim, w->stress), sb_pressure_load(sim, w->stress_xx);
+    if (pass == FORCES) sb_refresh_values(sim, w->eddy), sb_pressure_load(sim, w->density);
     if (pass == ACCELERATE) sb_pressure_load(sim, w->unknown);
 }
 

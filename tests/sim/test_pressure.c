@@ -375,6 +375,7 @@ static void errors_are_summed_in_order(void **state)
     begin(&s, 3);
     const double rest = (double)s.sim->constant.rest_density;
     for (s.sim->state.n = s.n - 3; s.sim->state.n <= s.n; s.sim->state.n++) {
+        s.sim->work.everywhere = s.sim->state.n;
         double excess = 0, active = 0, worst = 0, part[2] = {0};
         size_t count = 0;
         for (size_t i = 0; i < s.sim->state.n; i++) {

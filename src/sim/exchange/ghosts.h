@@ -14,9 +14,6 @@ typedef struct sb_ghosts {
     size_t of_capacity, words_capacity, other_capacity;
 } sb_ghosts;
 
-/* Copies the values of a field (velocity, acceleration, eddy viscosity) from the originals to the ghosts. */
-void sb_ghosts_refresh(const sb_sim *sim, sb_f4 *field);
-void sb_ghosts_refresh_values(const sb_sim *sim, float *field);
 void sb_ghosts_destroy(sb_sim *sim);
 
 #endif

@@ -1,5 +1,7 @@
 #include "sim/exchange/sums.h"
 
+#include "sim/exchange/exchange.h"
+
 #include <math.h>
 
 void sb_sums_merge(sb_exact *total, const sb_exact *own, size_t count)
@@ -25,6 +27,7 @@ double sb_sum_groups(sb_sim *sim, size_t count, sb_group_terms *of, double *tota
         }
         sb_sums_merge(sum, own, count);
     }
+    sim->exchange->sum(sim, sum, count);
     for (size_t k = 0; k < count; k++) total[k] = sb_exact_value(&sum[k]);
-    return largest;
+    return sim->exchange->largest(sim, largest);
 }

@@ -12,8 +12,8 @@ enum { SB_SUMS_MAX = 8 };
 /* Sums over the particles of one group, into terms. Returns a value whose maximum over all groups is wanted. */
 typedef double sb_group_terms(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_MAX]);
 
-/* total[k]: sum over all groups of terms[k], k < count <= SB_SUMS_MAX; NaN where a term is no finite number. Returns
-   the largest value that `of` returned, -INFINITY without groups. */
+/* total[k]: sum over all groups of all domains of terms[k], k < count <= SB_SUMS_MAX; NaN where a term is no finite
+   number. Returns the largest value that `of` returned in any domain, -INFINITY without groups. */
 double sb_sum_groups(sb_sim *sim, size_t count, sb_group_terms *of, double *total);
 
 /* Adds `count` sums of one thread to those of all. Called in a parallel region. */

@@ -1,4 +1,5 @@
 /* The pressure operator: products and residuals, by the two passes of a pressure iteration. */
+#include "sim/exchange/exchange.h"
 #include "sim/passes/passes.h"
 #include "sim/pressure/pressure.h"
 
@@ -8,11 +9,7 @@ void sb_pressure_load(sb_sim *sim, const float *argument)
     sb_record *position = sim->state.position;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) sb_carry(&position[i], argument[i]);
-    const size_t ghosts = sim->ghosts.count;
-    const uint32_t *of = sim->ghosts.of;
-    if (ghosts == 0) return;
-#pragma omp parallel for schedule(static)
-    for (size_t g = 0; g < ghosts; g++) sb_carry(&position[n + g], argument[of[g]]);
+    sb_refresh_carried(sim, argument);
 }
 
 void sb_pressure_diverge(sb_sim *sim, float *out)
@@ -24,7 +21,7 @@ void sb_pressure_diverge(sb_sim *sim, float *out)
 void sb_pressure_product(sb_sim *sim, float *out)
 {
     sim->passes->accelerate(sim);
-    sb_ghosts_refresh(sim, sim->work.acceleration);
+    sb_refresh(sim, sim->work.acceleration);
     sb_pressure_diverge(sim, out);
 }
 

@@ -47,7 +47,7 @@ sb_status sb_stage_source(sb_sim *sim, sb_error *error)
     double excess;
     sim->passes->diverge(sim, sim->work.predicted, 1, sim->work.source);
     const double worst = sb_sum_groups(sim, 1, source_group, &excess);
-    sim->report.compression = sim->state.n ? excess / ((double)sim->state.n * rest) : 0;
+    sim->report.compression = sim->work.everywhere ? excess / ((double)sim->work.everywhere * rest) : 0;
     sim->report.compression_max = fmax(worst, 0) / rest;
     return SB_OK;
 }
@@ -153,7 +153,7 @@ sb_pressure_error sb_pressure_judge(sb_sim *sim)
     double sum[3]; /* excess, active, count */
     const double worst = sb_sum_groups(sim, 3, judge_group, sum);
     sb_pressure_error error = {
-        .mean = sim->state.n ? sum[0] / ((double)sim->state.n * rest) : 0,
+        .mean = sim->work.everywhere ? sum[0] / ((double)sim->work.everywhere * rest) : 0,
         .active = sum[2] > 0 ? sum[1] / (sum[2] * rest) : 0,
         .max = fmax(worst, 0) / rest,
     };

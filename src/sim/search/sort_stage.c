@@ -1,5 +1,6 @@
 /* The stage sort: particles that left the domain return through periodic sides or are removed; the others are sorted
    along the Z-curve of their cells. */
+#include "sim/exchange/exchange.h"
 #include "sim/search/around.h"
 #include "sim/search/departures.h"
 #include "sim/search/sort.h"
@@ -59,8 +60,10 @@ static size_t make_words(sb_sim *sim, const bounds *b)
         uint64_t key = way.side >= 0 ? gone : sb_space_key(&sim->space, sim->state.position[i]);
         sim->work.sort_words[i] = sb_sort_word(key, i);
     }
-    sim->state.left_domain += left;
-    sim->state.lost += lost;
+    uint64_t counts[] = {left, lost};
+    sim->exchange->count(sim, counts, 2);
+    sim->state.left_domain += counts[0];
+    sim->state.lost += counts[1];
     return sim->state.n - left - lost;
 }
 
@@ -143,7 +146,8 @@ sb_status sb_stage_sort(sb_sim *sim, sb_error *error)
     permute(sim, sorted);
     for (size_t i = stay; i < sim->state.n; i++) sb_departures_note(sim, outside(sim, &b, sim->state.position[i]), i);
     if (sim->policy->runs) sb_ledger_leave(sim, stay, sim->state.n);
-    sim->state.n = stay;
+    sim->state.n = sim->work.everywhere = stay;
+    sim->exchange->count(sim, &sim->work.everywhere, 1);
     if (sb_cells_build(&sim->cells, sim->state.position, sim->state.n, sim->space.shift) != 0)
         return sb_fail_memory(error, "cells");
     return sb_groups_build(sim) == 0 ? SB_OK : sb_fail_memory(error, "groups of particles");

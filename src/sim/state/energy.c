@@ -1,5 +1,6 @@
 /* The energy of the water, and the hash of the state. */
 #include "base/hash.h"
+#include "sim/exchange/exchange.h"
 #include "sim/exchange/sums.h"
 
 /* Adds one particle at a time, so that the sums do not depend on the groups, which a state just loaded does not have.
@@ -24,12 +25,15 @@ sb_energy sb_sim_energy(const sb_sim *sim)
         }
         sb_sums_merge(sum, own, SUMS);
     }
-    const double mass = (double)sim->constant.mass, count = (double)sim->state.n;
+    uint64_t counts[] = {height, sim->state.n};
+    sim->exchange->sum(sim, sum, SUMS);
+    sim->exchange->count(sim, counts, 2);
+    const double mass = (double)sim->constant.mass, count = (double)counts[1];
     const double base = sim->model->min.z - sim->space.origin.z;
     const sb_vec3 velocity = sb_vec(sb_exact_value(&sum[X]), sb_exact_value(&sum[Y]), sb_exact_value(&sum[Z]));
     return (sb_energy){
         .kinetic = 0.5 * mass * sb_exact_value(&sum[SQUARE]),
-        .potential = mass * (double)sim->constant.gravity * ((double)height * sim->space.quantum - count * base),
+        .potential = mass * (double)sim->constant.gravity * ((double)counts[0] * sim->space.quantum - count * base),
         .momentum = sb_scale(velocity, mass),
         .mass = mass * count,
     };
@@ -52,7 +56,9 @@ uint64_t sb_sim_hash(const sb_sim *sim)
     uint64_t particles = 0;
 #pragma omp parallel for schedule(static) reduction(+ : particles)
     for (size_t i = 0; i < sim->state.n; i++) particles += particle_hash(sim, i);
-    uint64_t hash = sb_hash(sb_hash(0, &sim->state.n, sizeof sim->state.n), &particles, sizeof particles);
+    uint64_t counts[] = {sim->state.n, particles};
+    sim->exchange->count(sim, counts, 2);
+    uint64_t hash = sb_hash(sb_hash(0, &counts[0], sizeof *counts), &counts[1], sizeof *counts);
     hash = sb_hash(hash, sim->state.impulse, sim->model->body_count * sizeof *sim->state.impulse);
     hash = sb_hash(hash, &sim->state.ledger, sizeof sim->state.ledger);
     hash = sb_hash(hash, &sim->state.time, sizeof sim->state.time);

@@ -81,7 +81,8 @@ typedef struct sb_work {
     sb_f4 *end_velocity; /* m/s, at t + dt; last lane: pressure in Pa */
     float *virial;       /* Pa, virial pressures (sim/terms/virial_pressure.c) */
 
-    double *body_force; /* per body SB_FORCE_VALUES values */
+    uint64_t everywhere; /* owned particles of all domains */
+    double *body_force;  /* per body SB_FORCE_VALUES values, of all domains */
     sb_ledger_sums sums;
     sb_vec3 stress_gain; /* kg m/s, momentum from the stress correction: only round-off */
     sb_solve solve;

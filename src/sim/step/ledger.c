@@ -1,6 +1,6 @@
 #include "sim/step/ledger.h"
 
-#include "base/exact.h"
+#include "sim/exchange/exchange.h"
 
 /* Sum of the forces (N) on all bodies, and their power (W) on the moving bodies. */
 typedef struct body_sums {
@@ -39,7 +39,7 @@ void sb_ledger_close(sb_sim *sim)
     ledger->pressure += m * (s.solve - s.contact + s.contact_bodies) + dt * bodies.pressure;
     ledger->contact += m * (s.contact - s.contact_bodies);
     ledger->integration += m * g * (s.rise * sim->space.quantum - dt * s.fall);
-    const double weight = m * g * (double)sim->state.n;
+    const double weight = m * g * (double)sim->work.everywhere;
     const sb_vec3 gain = sb_scale(sb_vec(s.gain[0], s.gain[1], s.gain[2]), m);
     sb_vec3 off = sb_madd(sb_add(gain, sim->work.stress_gain), dt, sb_add(bodies.force, sb_vec(0, 0, weight)));
     sim->report.momentum_imbalance = s.size > 0 ? sb_norm(off) / (m * s.size) : 0;
@@ -55,5 +55,6 @@ void sb_ledger_leave(sb_sim *sim, size_t first, size_t end)
         const double square = sb_ledger_work((sb_f4){0}, v, v, v);
         sb_exact_add(&left, m * (0.5 * square + g * (sim->state.position[i][2] * sim->space.quantum - base)));
     }
+    sim->exchange->sum(sim, &left, 1);
     sim->state.ledger.left -= sb_exact_value(&left);
 }

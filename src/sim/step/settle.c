@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "base/stop.h"
 #include "physics/wave_theory.h"
+#include "sim/exchange/exchange.h"
 #include "sim/report/report.h"
 #include "sim/simulation.h"
 
@@ -79,6 +80,7 @@ static void set_scene_velocities(sb_sim *sim)
     sim->state.max_speed = 0;
     for (size_t i = 0; i < sim->state.n; i++)
         set_velocity(sim, i, sim->state.start_velocity ? sim->state.start_velocity[i] : (sb_f4){0});
+    sim->state.max_speed = sim->exchange->largest(sim, sim->state.max_speed);
     sb_free(sim->state.start_velocity);
     sim->state.start_velocity = NULL;
 }
@@ -99,6 +101,7 @@ static sb_status set_half_step_back(sb_sim *sim, sb_error *error)
         const bool begins = sim->work.diagonal[i] > 0 && sb_sum3(change * change) > least * least;
         set_velocity(sim, i, change * sb_splat(begins ? -0.5f : 0));
     }
+    sim->state.max_speed = sim->exchange->largest(sim, sim->state.max_speed);
     return status;
 }
 

@@ -1,5 +1,6 @@
 /* The time step as a table: one row per stage, and one loop that runs and times the stages. */
 #include "base/clock.h"
+#include "sim/exchange/exchange.h"
 #include "sim/report/report.h"
 #include "sim/step/stages.h"
 #include "sim/terms/density_correction.h"
@@ -59,6 +60,14 @@ static sb_status check_finite(const sb_sim *sim, const char *stage_name, sb_erro
 }
 #endif
 
+/* The status of a stage in all domains: one that failed ends the step everywhere. */
+static sb_status agree(const sb_sim *sim, const char *stage_name, sb_status own, sb_error *error)
+{
+    if (!sim->exchange->any(sim, own != SB_OK) || own != SB_OK) return own;
+    return sb_fail(error, SB_FAILED, "step %llu: stage %s failed in another part of the domain",
+                   (unsigned long long)sim->state.step + 1, stage_name);
+}
+
 static sb_status run_stages(sb_sim *sim, sb_error *error)
 {
     sb_status status = SB_OK;
@@ -68,7 +77,7 @@ static sb_status run_stages(sb_sim *sim, sb_error *error)
         sb_stage_time *time = &sim->stage[count++];
         const double start = sb_clock();
         sb_work_enter(sim, stages[s].phase);
-        status = stages[s].run(sim, error);
+        status = agree(sim, stages[s].name, stages[s].run(sim, error), error);
         time->name = stages[s].name;
         time->seconds += sb_clock() - start;
         time->calls++;

@@ -1,5 +1,6 @@
 #include "sim/terms/stress_correction.h"
 
+#include "sim/exchange/exchange.h"
 #include "sim/exchange/sums.h"
 #include "sim/passes/passes.h"
 #include "sim/pressure/pressure.h"
@@ -32,11 +33,11 @@ bool sb_stress_correction_on(const sb_scene *scene)
 sb_status sb_stage_stress_correction(sb_sim *sim, sb_error *error)
 {
     sim->passes->strain(sim);
-    sb_ghosts_refresh(sim, sim->work.strain);
+    sb_refresh(sim, sim->work.strain);
     sb_pressure_load(sim, sim->work.strain_xx);
     sb_work_enter(sim, SB_PHASE_STRESS);
     sim->passes->stress(sim);
-    sb_ghosts_refresh(sim, sim->work.stress);
+    sb_refresh(sim, sim->work.stress);
     sb_pressure_load(sim, sim->work.stress_xx);
     sb_work_enter(sim, SB_PHASE_CORRECTED);
     sim->passes->correct(sim);
@@ -50,6 +51,6 @@ sb_status sb_stage_stress_correction(sb_sim *sim, sb_error *error)
     const size_t n = sim->state.n;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) sim->state.velocity[i] = sim->work.corrected[i];
-    sb_ghosts_refresh(sim, sim->state.velocity);
+    sb_refresh(sim, sim->state.velocity);
     return SB_OK;
 }

@@ -1,5 +1,6 @@
 #include "sim/terms/turbulence.h"
 
+#include "sim/exchange/exchange.h"
 #include "sim/passes/passes.h"
 
 bool sb_turbulence_on(const sb_scene *scene)
@@ -11,6 +12,6 @@ sb_status sb_stage_turbulence(sb_sim *sim, sb_error *error)
 {
     (void)error;
     sim->passes->strain_rate(sim);
-    sb_ghosts_refresh_values(sim, sim->work.eddy);
+    sb_refresh_values(sim, sim->work.eddy);
     return SB_OK;
 }

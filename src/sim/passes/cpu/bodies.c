@@ -1,4 +1,5 @@
 #include "base/memory.h"
+#include "sim/exchange/exchange.h"
 #include "sim/exchange/sums.h"
 #include "sim/passes/cpu/cpu.h"
 #include "sim/passes/cpu/drag.h"
@@ -226,6 +227,10 @@ int sb_cpu_bodies(sb_sim *sim, const sb_wall_drag *law, sb_body_sums *total)
     const size_t values = sim->model->body_count * VALUES;
     int status = forces_create(&all, sim->model->body_count);
     if (status == 0 && !sum_forces(sim, law, &all)) status = -1;
+    if (status == 0) {
+        sim->exchange->sum(sim, all.all, values);
+        sim->exchange->sum(sim, all.works, WORKS);
+    }
     for (size_t v = 0; v < values && status == 0; v++) total->force[v] = sb_exact_value(&all.all[v]);
     if (status == 0) {
         total->friction = sb_exact_value(&all.works[0]);

@@ -1,5 +1,5 @@
-/* Drag of walls, four boundary particles at a time. It is used for the acceleration of the water and for the force on the
-   body. */
+/* Drag of walls, four boundary particles at a time. It is used for the acceleration of the water and for the force on
+   the body. */
 #ifndef SB_SIM_CPU_DRAG_H
 #define SB_SIM_CPU_DRAG_H
 

@@ -34,8 +34,7 @@ static void react(sb_sim *sim, size_t i, const sb_wall_drag *law, sb_body_sums *
         drag = sb_add(drag, own);
         act(sim, i, wall.entry, sb_scale(wall.offset, mass * q * wall.slope), sb_scale(own, -mass), total->force);
     }
-    const sb_vec3 both =
-        sb_add(sb_vector_of(sim->state.velocity[i]), sb_vector_of(sim->work.end_velocity[i]));
+    const sb_vec3 both = sb_add(sb_vector_of(sim->state.velocity[i]), sb_vector_of(sim->work.end_velocity[i]));
     if (law->on) total->friction += 0.5 * sb_dot(drag, both);
 }
 

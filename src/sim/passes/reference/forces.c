@@ -105,8 +105,7 @@ sb_vec3 sb_plain_drag(const sb_sim *sim, size_t i, const sb_one_wall *wall, cons
     const double speed = sb_norm(along);
     if (!law->shear || !(height > 0) || !(speed > 0)) return all;
     const double distance = fmax(height - (double)law->offset, (double)law->nearest) * (double)law->quantum;
-    const double stress =
-        wall_law(speed * distance / (double)law->viscosity) * speed / (double)law->rest_density;
+    const double stress = wall_law(speed * distance / (double)law->viscosity) * speed / (double)law->rest_density;
     return sb_madd(all, stress * wall->slope * height, along);
 }
 
@@ -120,8 +119,7 @@ static sb_vec3 viscous_part(const sb_sim *sim, const sb_indices *around, size_t 
         const double approach = sb_dot(v, p.offset), r2 = sb_dot(p.offset, p.offset);
         const double densities = (double)sim->work.density[i] + (double)sb_carried_value(sim->state.position[p.other]);
         double factor = (double)f->physical + (approach < 0 ? (double)f->artificial : 0);
-        if (sim->work.eddy)
-            factor += (double)f->eddy * ((double)sim->work.eddy[i] + (double)sim->work.eddy[p.other]);
+        if (sim->work.eddy) factor += (double)f->eddy * ((double)sim->work.eddy[i] + (double)sim->work.eddy[p.other]);
         factor *= approach * p.slope * (double)f->inverse_quantum / ((r2 + (double)f->epsilon) * densities);
         sum = sb_madd(sum, factor, p.offset);
     }
@@ -149,8 +147,7 @@ static void forces_group(sb_sim *sim, const sb_group *group, const void *argumen
         if (terms->law->on && sim->wall_pairs.count[i] > 0)
             sim->work.wall_drag[i] = (sb_f4){(float)drag.x, (float)drag.y, (float)drag.z, 0};
         const sb_vec3 change = sb_scale(sb_add(a, drag), sim->state.time_step);
-        sim->work.predicted[i] =
-            sim->state.velocity[i] + (sb_f4){(float)change.x, (float)change.y, (float)change.z, 0};
+        sim->work.predicted[i] = sim->state.velocity[i] + (sb_f4){(float)change.x, (float)change.y, (float)change.z, 0};
     }
 }
 

@@ -28,7 +28,8 @@ typedef struct kernel_values {
 static kernel_values kernel_at(const sb_sim *sim, sb_vec3 offset)
 {
     const sb_kernel *kernel = sim->scene->numerics.kernel;
-    const double h = (double)sim->constant.support, r = sb_norm(offset) * sim->space.quantum, near = fmax(r, NEAREST * h);
+    const double h = (double)sim->constant.support, r = sb_norm(offset) * sim->space.quantum,
+                 near = fmax(r, NEAREST * h);
     return (kernel_values){sb_kernel_value(kernel, sim->constant.dimension, h, r),
                            sb_kernel_slope(kernel, sim->constant.dimension, h, near) / near * sim->space.quantum};
 }
@@ -94,8 +95,7 @@ static void add_walls(const sb_sim *sim, size_t i, sb_hits *hits, sums *s)
     for (uint32_t set = 0; set < SB_WALL_SETS; set++)
         for (int dz = -1; dz <= 1; dz++)
             for (int dy = -layers; dy <= layers; dy++)
-                for (int dx = -1; dx <= 1; dx++)
-                    add_wall_cell(sim, set, code + sb_cell_step(dx, dy, dz), i, hits, s);
+                for (int dx = -1; dx <= 1; dx++) add_wall_cell(sim, set, code + sb_cell_step(dx, dy, dz), i, hits, s);
 }
 
 static void set_fields(sb_sim *sim, size_t i, const sums *s)

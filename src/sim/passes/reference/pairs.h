@@ -67,8 +67,8 @@ static inline sb_one_wall sb_wall_at(const sb_sim *sim, size_t i, size_t k)
     const uint32_t entry = sim->wall_pairs.index[at];
     const sb_wall_set *set = sb_wall_set_of(sim, entry);
     const uint32_t b = sb_wall_particle(entry);
-    return (sb_one_wall){entry, (double)sim->wall_pairs.slope[at],
-                         sb_offset_of(sim->state.position[i], set->record[b]), sb_vector_of(set->normal[b]),
+    return (sb_one_wall){entry, (double)sim->wall_pairs.slope[at], sb_offset_of(sim->state.position[i], set->record[b]),
+                         sb_vector_of(set->normal[b]),
                          sb_sub(sb_vector_of(sim->state.velocity[i]), sb_vector_of(sb_wall_velocity(sim, entry)))};
 }
 

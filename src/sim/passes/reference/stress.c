@@ -50,7 +50,8 @@ static void stress_group(sb_sim *sim, const sb_group *group, const void *argumen
     sb_indices_of(sim, group, &around);
     for (size_t i = group->first; i < group->end; i++) {
         double sum[PARTS] = {0}, weights = (double)SB_SLOPE_OWN * (double)sim->pairs.unit;
-        const double density = (double)sim->work.density[i], q = (double)sim->state.velocity[i][3] / (density * density);
+        const double density = (double)sim->work.density[i],
+                     q = (double)sim->state.velocity[i][3] / (density * density);
         add(sim, sim->work.strain, (uint32_t)i, weights, sum);
         for (size_t k = 0; k < sb_pair_count(sim, i); k++) {
             const sb_one_pair p = sb_pair_at(sim, &around, i, k);
@@ -83,12 +84,12 @@ static void correct_group(sb_sim *sim, const sb_group *group, const void *argume
             add(sim, sim->work.stress, (uint32_t)i, 1, s);
             add(sim, sim->work.stress, p.other, 1, s);
             const sb_vec3 x = p.offset;
-            const sb_vec3 push = sb_vec(s[XX] * x.x + s[XY] * x.y + s[XZ] * x.z, s[XY] * x.x + s[YY] * x.y + s[YZ] * x.z,
-                                        s[XZ] * x.x + s[YZ] * x.y - (s[XX] + s[YY]) * x.z);
+            const sb_vec3 push =
+                sb_vec(s[XX] * x.x + s[XY] * x.y + s[XZ] * x.z, s[XY] * x.x + s[YY] * x.y + s[YZ] * x.z,
+                       s[XZ] * x.x + s[YZ] * x.y - (s[XX] + s[YY]) * x.z);
             change = sb_madd(change, -dt * p.slope, push);
         }
-        sim->work.corrected[i] =
-            sim->state.velocity[i] + (sb_f4){(float)change.x, (float)change.y, (float)change.z, 0};
+        sim->work.corrected[i] = sim->state.velocity[i] + (sb_f4){(float)change.x, (float)change.y, (float)change.z, 0};
     }
 }
 

@@ -1,10 +1,11 @@
-/* Ghost particles at periodic sides: images of the particles within a support radius of such a side, one domain length
+/* A simulation without other domains. Ghost particles at periodic sides: images of the particles within a support radius of such a side, one domain length
    away. Every pass over neighbours reads them. They have their own cells, so that the order and the cells of the fluid
    particles are the same as without ghosts. */
 #include "base/memory.h"
+#include "sim/exchange/exchange.h"
 #include "sim/search/sort.h"
-#include "sim/simulation.h"
-#include "sim/step/stages.h"
+
+#include <string.h>
 
 /* Makes room for `beyond` entries after the fluid particles. Returns 0, or -1 without memory. */
 static int make_room(sb_sim *sim, size_t beyond)
@@ -86,11 +87,10 @@ static int build(sb_sim *sim, const size_t *first, size_t count)
     if (!sorted) return -1;
     g->count = count;
     place(sim, sorted, made);
-    sb_ghosts_refresh(sim, sim->state.velocity);
     return sb_cells_build(&g->cells, sim->state.position + sim->state.n, count, sim->space.shift);
 }
 
-sb_status sb_stage_ghosts(sb_sim *sim, sb_error *error)
+static sb_status make_ghosts(sb_sim *sim, sb_error *error)
 {
     if (!sim->space.repeats) return SB_OK;
     sim->ghosts.count = 0;
@@ -107,26 +107,55 @@ sb_status sb_stage_ghosts(sb_sim *sim, sb_error *error)
     return status;
 }
 
-void sb_ghosts_refresh(const sb_sim *sim, sb_f4 *field)
+static void refresh_4(const sb_halo *halo, const uint32_t *of, size_t count)
 {
-    const size_t count = sim->ghosts.count;
-    const uint32_t *of = sim->ghosts.of;
-    sb_f4 *ghost = field + sim->state.n;
-    if (count == 0) return;
 #pragma omp parallel for schedule(static)
-    for (size_t g = 0; g < count; g++) ghost[g] = field[of[g]];
+    for (size_t g = 0; g < count; g++)
+        memcpy((char *)halo->ghosts + g * halo->ghost_stride, (const char *)halo->owned + of[g] * halo->owned_stride, 4);
 }
 
-void sb_ghosts_refresh_values(const sb_sim *sim, float *field)
+static void refresh_16(const sb_halo *halo, const uint32_t *of, size_t count)
 {
-    const size_t count = sim->ghosts.count;
-    for (size_t g = 0; g < count; g++) field[sim->state.n + g] = field[sim->ghosts.of[g]];
+    const sb_f4 *owned = halo->owned;
+    sb_f4 *ghosts = halo->ghosts;
+#pragma omp parallel for schedule(static)
+    for (size_t g = 0; g < count; g++) ghosts[g] = owned[of[g]];
 }
 
-void sb_ghosts_destroy(sb_sim *sim)
+static void refresh(const sb_sim *sim, const sb_halo *halo)
 {
-    sb_free(sim->ghosts.of);
-    sb_free(sim->ghosts.words);
-    sb_free(sim->ghosts.other);
-    sb_cells_free(&sim->ghosts.cells);
+    if (sim->ghosts.count == 0) return;
+    (halo->size == 4 ? refresh_4 : refresh_16)(halo, sim->ghosts.of, sim->ghosts.count);
 }
+
+static void sum(const sb_sim *sim, sb_exact *values, size_t count)
+{
+    (void)sim, (void)values, (void)count;
+}
+
+static void sum_counts(const sb_sim *sim, uint64_t *values, size_t count)
+{
+    (void)sim, (void)values, (void)count;
+}
+
+static double largest(const sb_sim *sim, double value)
+{
+    (void)sim;
+    return value;
+}
+
+static bool any(const sb_sim *sim, bool flag)
+{
+    (void)sim;
+    return flag;
+}
+
+const sb_exchange sb_exchange_alone = {
+    .name = "alone",
+    .make_ghosts = make_ghosts,
+    .refresh = refresh,
+    .sum = sum,
+    .count = sum_counts,
+    .largest = largest,
+    .any = any,
+};
