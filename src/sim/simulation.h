@@ -4,6 +4,7 @@
 #define SB_SIM_SIMULATION_H
 
 #include "sim/exchange/ghosts.h"
+#include "sim/needs.h"
 #include "sim/search/cells.h"
 #include "sim/search/pairs.h"
 #include "sim/sim.h"
@@ -12,7 +13,7 @@
 #include "sim/state/state.h"
 #include "sim/state/work.h"
 #include "sim/step/policy.h"
-#include "sim/walls/walls.h"
+#include "sim/walls/sets.h"
 
 enum {
     SB_BLOCK = 1024, /* particles per unit of work */
@@ -27,6 +28,7 @@ struct sb_sim {
     const sb_scene *scene;
     const sb_model *model;
     sb_constants constant;
+    sb_needs needs;
     sb_space space;
     const struct sb_passes *passes;     /* over pairs, in the form for this processor */
     const struct sb_exchange *exchange; /* with other domains */
@@ -40,8 +42,6 @@ struct sb_sim {
     sb_cells cells;
     sb_ghosts ghosts;
     sb_groups groups;
-    sb_lists pairs;
-    sb_pairs wall_pairs;
 
     /* output only */
     sb_step_report report;

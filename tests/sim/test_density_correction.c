@@ -103,11 +103,13 @@ static void it_returns_to_the_bulk_value(void **state)
 static double rise_by_settling(sb_density_form form)
 {
     tank t;
-    sb_sim *sim = water_in(&t, 2, form, 0.02);
     sb_error error = {0};
+    sb_sim_destroy(water_in(&t, 2, form, 0.02));
+    t.scene.numerics.settle_steps = 300;
+    sb_sim *sim = tank_sim(&t);
+    assert_non_null(sim);
     const double mass = sb_sim_energy(sim).mass * (double)sim->constant.gravity;
     const double before = sb_sim_energy(sim).potential / mass;
-    t.scene.numerics.settle_steps = 300;
     if (sb_sim_settle(sim, &error) != SB_OK) fail_msg("%s", error.text);
     const double after = sb_sim_energy(sim).potential / mass;
     sb_sim_destroy(sim);

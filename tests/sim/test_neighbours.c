@@ -107,7 +107,7 @@ static void check_slopes(const setup *s)
     const sb_reference *r = &s->twin.reference;
     const sb_sim *sim = s->sim;
     twin_gap wall = {0};
-    double worst = 0, unit = (double)sim->pairs.unit;
+    double worst = 0, unit = (double)sim->work.pairs.unit;
     for (size_t i = 0; i < sim->state.n; i++)
         for (int walls = 0; walls < 2; walls++)
             for (size_t k = 0; k < twin_listed(sim, i, walls); k++) {
@@ -222,18 +222,18 @@ static void lists_do_not_depend_on_the_pool(void **state)
     (void)state;
     setup s;
     begin(&s, 3, "cubic");
-    size_t n = s.sim->state.n, used = s.sim->pairs.used;
+    size_t n = s.sim->state.n, used = s.sim->work.pairs.used;
     size_t *count = sb_alloc(n, sizeof *count);
     assert_non_null(count);
-    for (size_t i = 0; i < n; i++) count[i] = s.sim->pairs.count[i];
+    for (size_t i = 0; i < n; i++) count[i] = s.sim->work.pairs.count[i];
     int before = omp_get_max_threads();
     for (int threads = 1; threads <= 3; threads++) {
         omp_set_num_threads(threads);
-        s.sim->pairs.capacity = 10;
+        s.sim->work.pairs.capacity = 10;
         assert_int_equal(tank_prepare(s.sim, 0.01), 0);
-        assert_int_equal(s.sim->pairs.used, used);
-        assert_true(s.sim->pairs.capacity >= used);
-        for (size_t i = 0; i < n; i++) assert_int_equal(s.sim->pairs.count[i], count[i]);
+        assert_int_equal(s.sim->work.pairs.used, used);
+        assert_true(s.sim->work.pairs.capacity >= used);
+        for (size_t i = 0; i < n; i++) assert_int_equal(s.sim->work.pairs.count[i], count[i]);
         check_lists(&s);
     }
     omp_set_num_threads(before);
@@ -311,7 +311,7 @@ static void collapse_and_missing_memory_are_distinguished(void **state)
     int failures = 0;
     for (long n = 1;; n++) {
         error = (sb_error){0};
-        s.sim->pairs.capacity = s.sim->wall_pairs.capacity = 0;
+        s.sim->work.pairs.capacity = s.sim->work.wall_pairs.capacity = 0;
         sb_memory_fail_at(n);
         if (sb_stage_neighbours(s.sim, &error) == SB_OK) break;
         failures++;

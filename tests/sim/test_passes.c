@@ -146,7 +146,7 @@ static size_t copy_view(const sb_sim *sim, const char *name, double *out)
     while (view->name && strcmp(view->name, name) != 0) view++;
     assert_non_null(view->name);
     const float *entries;
-    memcpy(&entries, (const char *)sim + view->pointer, sizeof entries);
+    memcpy(&entries, (const char *)&sim->work + view->pointer, sizeof entries);
     assert_non_null(entries);
     const size_t count = sim->state.n * view->size / sizeof(float);
     const bool pressures = view->size == 16 && strcmp(view->unit, "m/s") == 0;

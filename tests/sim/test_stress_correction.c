@@ -53,7 +53,7 @@ static void strain(const twin *copy, size_t i, tensor s)
 static void stress(const sb_sim *sim, const twin *copy, const tensor *e, size_t i, tensor s)
 {
     const sb_reference *r = &copy->reference;
-    const double unit = (double)sim->pairs.unit / sim->space.quantum / r->mass, own = 32767.0 * 32767.0;
+    const double unit = (double)sim->work.pairs.unit / sim->space.quantum / r->mass, own = 32767.0 * 32767.0;
     const double q = (double)sim->state.velocity[i][3] / pow((double)sim->work.density[i], 2);
     double weights = own;
     for (int k = 0; k < 9; k++) s[k / 3][k % 3] = own * e[i][k / 3][k % 3];

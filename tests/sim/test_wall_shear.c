@@ -131,12 +131,22 @@ static void a_floor_slows_sliding_water(void **state)
 static void it_is_off_without_viscosity(void **state)
 {
     (void)state;
-    sb_scene scene = {.numerics.wall_shear = SB_SHEAR_SMOOTH};
-    assert_false(sb_shear_on(&scene));
-    scene.fluid.viscosity = 1e-6;
-    assert_true(sb_shear_on(&scene));
-    scene.numerics.wall_shear = SB_SHEAR_NONE;
-    assert_false(sb_shear_on(&scene));
+    const struct {
+        enum sb_wall_shear shear;
+        double viscosity;
+        bool on;
+    } cases[] = {{SB_SHEAR_SMOOTH, 0, false}, {SB_SHEAR_SMOOTH, 1e-6, true}, {SB_SHEAR_NONE, 1e-6, false}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        tank t;
+        tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0);
+        t.scene.numerics.wall_shear = cases[k].shear;
+        t.scene.fluid.viscosity = cases[k].viscosity;
+        sb_sim *sim = tank_sim(&t);
+        assert_non_null(sim);
+        assert_true(sim->needs.wall_shear == cases[k].on && (sim->work.wall_drag != NULL) == cases[k].on);
+        sb_sim_destroy(sim);
+        tank_free(&t);
+    }
 }
 
 int main(void)

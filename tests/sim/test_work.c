@@ -10,13 +10,13 @@
 static const char *entries_of(const sb_sim *sim, const sb_work_view *view)
 {
     const char *entries;
-    memcpy(&entries, (const char *)sim + view->pointer, sizeof entries);
+    memcpy(&entries, (const char *)&sim->work + view->pointer, sizeof entries);
     return entries;
 }
 
 static size_t length_of(const sb_sim *sim, const sb_work_view *view)
 {
-    return view->size * (view->ghosts ? sim->state.capacity : sim->state.owned);
+    return view->size * (view->ghosts ? sim->work.capacity : sim->work.owned);
 }
 
 static bool alive_together(const sb_work_view *a, const sb_work_view *b)
@@ -36,7 +36,7 @@ static size_t check_views(const sb_sim *sim)
     const char *block = sim->work.block;
     for (const sb_work_view *a = sb_work_views; a->name; a++) {
         const char *at = entries_of(sim, a);
-        assert_true((at != NULL) == (!a->needed || a->needed(sim->scene)));
+        assert_true((at != NULL) == sb_needed(&sim->needs, a->needed));
         if (!at) continue;
         found++;
         assert_true(at >= block && at + length_of(sim, a) <= block + sim->work.bytes);

@@ -131,7 +131,7 @@ size_t twin_wall(const twin *t, uint32_t listed)
 
 size_t twin_listed(const sb_sim *sim, size_t i, bool walls)
 {
-    return walls ? sim->wall_pairs.count[i] : 4 * (size_t)sim->pairs.count[i];
+    return walls ? sim->work.wall_pairs.count[i] : 4 * (size_t)sim->work.pairs.count[i];
 }
 
 /* The group that particle i belongs to. */
@@ -160,14 +160,14 @@ static uint32_t around_index(const sb_sim *sim, const sb_group *group, uint16_t 
 twin_entry twin_list(const sb_sim *sim, size_t i, bool walls, size_t k)
 {
     if (walls) {
-        const size_t at = sim->wall_pairs.first[i] + k;
-        const double slope = (double)sim->wall_pairs.slope[at];
-        return (twin_entry){sim->wall_pairs.index[at], slope, slope == 0};
+        const size_t at = sim->work.wall_pairs.first[i] + k;
+        const double slope = (double)sim->work.wall_pairs.slope[at];
+        return (twin_entry){sim->work.wall_pairs.index[at], slope, slope == 0};
     }
-    const sb_four_pairs *four = &sim->pairs.four[sim->pairs.first[i] + k / 4];
+    const sb_four_pairs *four = &sim->work.pairs.four[sim->work.pairs.first[i] + k / 4];
     const uint32_t other = around_index(sim, group_of(sim, i), four->place[k % 4]);
     const double root = (double)four->slope[k % 4];
-    return (twin_entry){other, (double)sim->pairs.unit * root * root, other == i};
+    return (twin_entry){other, (double)sim->work.pairs.unit * root * root, other == i};
 }
 
 void twin_compare(twin_gap *gap, size_t at, double a, double b)

@@ -129,7 +129,7 @@ static sb_status add_all(const sb_bench_subject *subject, const times *t, const 
 {
     const sb_stage_time *stages;
     const size_t n = subject->sim->state.n, count = sb_sim_stages(subject->sim, &stages);
-    const double pairs = 4 * (double)subject->sim->pairs.used / (double)n;
+    const double pairs = 4 * (double)subject->sim->work.pairs.used / (double)n;
     const sb_bench_samples search = sum_of(t, stages, count, "sort", "neighbours");
     const sb_bench_samples pressure = sum_of(t, stages, count, "pressure", NULL);
     sb_status status =

@@ -46,11 +46,12 @@ static sb_status add_arrays(const char *name, const sb_bench_subject *subject, s
         const char *name;
         double bytes;
     } arrays[] = {
-        {"pair lists in use", (double)(sizeof *sim->pairs.four * sim->pairs.used)},
-        {"pair lists in reserve", (double)(sizeof *sim->pairs.four * (sim->pairs.capacity - sim->pairs.used))},
+        {"pair lists in use", (double)(sizeof *sim->work.pairs.four * sim->work.pairs.used)},
+        {"pair lists in reserve",
+         (double)(sizeof *sim->work.pairs.four * (sim->work.pairs.capacity - sim->work.pairs.used))},
         {"groups",
          (double)(sizeof *sim->groups.group * sim->groups.capacity + sizeof *sim->groups.run * sim->groups.room)},
-        {"wall pair lists", 8 * (double)sim->wall_pairs.capacity},
+        {"wall pair lists", 8 * (double)sim->work.wall_pairs.capacity},
         {"fields of particles", (double)(sb_state_bytes(&sim->state) + sim->work.bytes)},
         {"cells", (double)sb_cells_bytes(&sim->cells)},
         {"boundary particles", walls + 36 * (double)sim->walls.rest.count},
@@ -65,7 +66,7 @@ static sb_status add_arrays(const char *name, const sb_bench_subject *subject, s
                                     arrays[a].bytes / n, error);
     if (status == SB_OK)
         status = sb_bench_add_value(rows, name, sim->state.n, omp_get_max_threads(), "pairs per particle", "1",
-                                    4 * (double)sim->pairs.used / n, error);
+                                    4 * (double)sim->work.pairs.used / n, error);
     return status;
 }
 

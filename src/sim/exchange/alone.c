@@ -1,6 +1,6 @@
-/* A simulation without other domains. Ghost particles at periodic sides: images of the particles within a support radius of such a side, one domain length
-   away. Every pass over neighbours reads them. They have their own cells, so that the order and the cells of the fluid
-   particles are the same as without ghosts. */
+/* A simulation without other domains. Ghost particles at periodic sides: images of the particles within a support
+   radius of such a side, one domain length away. Every pass over neighbours reads them. They have their own cells, so
+   that the order and the cells of the fluid particles are the same as without ghosts. */
 #include "base/memory.h"
 #include "sim/exchange/exchange.h"
 #include "sim/search/sort.h"
@@ -14,7 +14,7 @@ static int make_room(sb_sim *sim, size_t beyond)
     if (state->n + beyond <= state->capacity) return 0;
     const size_t capacity = state->n + beyond + beyond / 8 + 64;
     if (sb_state_lengthen(state, state->n, capacity) != 0) return -1;
-    return sb_work_create(sim, state->owned, capacity); /* nothing in it is alive */
+    return sb_work_create(&sim->work, &sim->needs, state->owned, capacity); /* nothing in it is alive */
 }
 
 static int reserve(sb_sim *sim, size_t ghosts)
@@ -111,7 +111,8 @@ static void refresh_4(const sb_halo *halo, const uint32_t *of, size_t count)
 {
 #pragma omp parallel for schedule(static)
     for (size_t g = 0; g < count; g++)
-        memcpy((char *)halo->ghosts + g * halo->ghost_stride, (const char *)halo->owned + of[g] * halo->owned_stride, 4);
+        memcpy((char *)halo->ghosts + g * halo->ghost_stride, (const char *)halo->owned + of[g] * halo->owned_stride,
+               4);
 }
 
 static void refresh_16(const sb_halo *halo, const uint32_t *of, size_t count)

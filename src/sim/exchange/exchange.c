@@ -19,8 +19,8 @@ void sb_refresh_carried(sb_sim *sim, const float *values)
 {
     enum { LAST_LANE = 3 * sizeof(float) };
     char *ghosts = (char *)(sim->state.position + sim->state.n) + LAST_LANE;
-    sim->exchange->refresh(
-        sim, &(sb_halo){values, ghosts, sizeof *values, sizeof *sim->state.position, sizeof *values});
+    sim->exchange->refresh(sim,
+                           &(sb_halo){values, ghosts, sizeof *values, sizeof *sim->state.position, sizeof *values});
 }
 
 sb_status sb_stage_ghosts(sb_sim *sim, sb_error *error)

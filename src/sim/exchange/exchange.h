@@ -1,6 +1,7 @@
 /* Everything that crosses the edge of the domain that this simulation computes: the values of ghosts, and sums, maxima
    and flags over all domains. Stages use nothing else for it, so that dividing a run among domains is another row here.
-   Today the simulation is alone: its ghosts are images beyond its own periodic sides, and its sums are the global ones. */
+   Today the simulation is alone: its ghosts are images beyond its own periodic sides, and its sums are the global ones.
+ */
 #ifndef SB_SIM_EXCHANGE_H
 #define SB_SIM_EXCHANGE_H
 
@@ -30,6 +31,8 @@ typedef struct sb_exchange {
 } sb_exchange;
 
 extern const sb_exchange sb_exchange_alone;
+
+void sb_ghosts_destroy(sb_sim *sim);
 
 /* Refresh the ghosts of a field: the entries after the owned ones. */
 void sb_refresh(const sb_sim *sim, sb_f4 *field);

@@ -3,7 +3,6 @@
 #define SB_SIM_GHOSTS_H
 
 #include "sim/search/cells.h"
-#include "sim/sim.h"
 
 /* Ghosts are the entries n to n + count of the arrays that neighbours are read from. */
 typedef struct sb_ghosts {
@@ -13,7 +12,5 @@ typedef struct sb_ghosts {
     uint64_t *words, *other; /* buffers of their sort */
     size_t of_capacity, words_capacity, other_capacity;
 } sb_ghosts;
-
-void sb_ghosts_destroy(sb_sim *sim);
 
 #endif

@@ -3,6 +3,7 @@
 #include "sim/exchange/sums.h"
 #include "sim/passes/passes.h"
 #include "sim/pressure/pressure.h"
+#include "sim/simulation.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,7 @@
 /* Chebyshev semi-iteration on the Jacobi-scaled operator, with the clamp q >= 0. It has no inner products, and so one
    pass over memory less than conjugate gradients, and it converges in spite of the clamp. */
 #include "sim/pressure/pressure.h"
+#include "sim/simulation.h"
 
 #include <math.h>
 

@@ -1,5 +1,6 @@
 /* Relaxed Jacobi with the clamp q >= 0 [I14; S16, Algorithm 2], in residual form. */
 #include "sim/pressure/pressure.h"
+#include "sim/simulation.h"
 
 /* The relaxation factor. Above 2 / (largest eigenvalue) every sweep adds to the error. With wide supports that limit is
    below the usual 0.5. */

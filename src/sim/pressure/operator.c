@@ -2,6 +2,7 @@
 #include "sim/exchange/exchange.h"
 #include "sim/passes/passes.h"
 #include "sim/pressure/pressure.h"
+#include "sim/simulation.h"
 
 void sb_pressure_load(sb_sim *sim, const float *argument)
 {

@@ -1,5 +1,6 @@
 /* The pressure problem of one step: source, initial guess, error of the solve and stopping criterion. */
 #include "sim/pressure/pressure.h"
+#include "sim/simulation.h"
 
 #include "sim/exchange/sums.h"
 #include "sim/passes/passes.h"
@@ -67,7 +68,7 @@ static void set_initial_guess(sb_sim *sim)
         float p = sim->state.velocity[i][3], rho = sim->work.density[i];
         float q = share * p / (rho * rho);
         sim->work.diagonal[i] *= dt2;
-        if (sim->pairs.count[i] == 0) q = -sim->work.source[i] / sim->work.diagonal[i];
+        if (sim->work.pairs.count[i] == 0) q = -sim->work.source[i] / sim->work.diagonal[i];
         sim->work.unknown[i] = sim->work.diagonal[i] > 0 && q > 0 ? q : 0;
     }
 }

@@ -4,7 +4,8 @@
 #ifndef SB_SIM_PRESSURE_H
 #define SB_SIM_PRESSURE_H
 
-#include "sim/simulation.h"
+#include "sim/sim.h"
+#include "sim/state/simd.h"
 
 /* Error of the present iterate. */
 typedef struct sb_pressure_error {

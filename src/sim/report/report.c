@@ -1,11 +1,5 @@
 #include "sim/report/report.h"
 
-#include "sim/pressure/pressure.h"
-#include "sim/terms/density_correction.h"
-#include "sim/terms/stress_correction.h"
-#include "sim/terms/turbulence.h"
-#include "sim/walls/drag.h"
-
 void sb_report_update(sb_sim *sim)
 {
     sb_step_report *report = &sim->report;
@@ -37,30 +31,30 @@ void sb_report_skipped(sb_sim *sim)
     enum { CORRECTION_PASSES = 3 }; /* moments, their mean, the force */
     const sb_numerics *n = &sim->scene->numerics;
     size_t s = 0;
-    if (!(n->artificial_viscosity > 0) && !(sim->constant.viscosity > 0) && !sb_turbulence_on(sim->scene))
+    if (!(n->artificial_viscosity > 0) && !(sim->constant.viscosity > 0) && !sim->needs.turbulence)
         skip(sim, &s, "viscosity: both coefficients are 0, no pass over particle pairs", 1, 0);
-    if (!sb_stress_correction_on(sim->scene))
+    if (!sim->needs.stress_correction)
         skip(sim, &s, "stress correction: off, no passes over particle pairs for it", CORRECTION_PASSES, 0);
-    if (!sb_turbulence_on(sim->scene))
+    if (!sim->needs.turbulence)
         skip(sim, &s, "turbulence: none, no strain rates and no memory for eddy viscosities", 1,
-             sb_work_cost(sim->scene, "eddy"));
-    if (!sb_density_correction_on(sim->scene))
+             sb_work_cost(&sim->needs, "eddy"));
+    if (!sim->needs.density_correction)
         skip(sim, &s, "density correction: off (density: summed), no memory for it", 0,
              sizeof *sim->state.density_correction);
     if (!(n->wall_friction > 0)) skip(sim, &s, "wall friction: the coefficient is 0", 0, 0);
-    if (!sb_shear_on(sim->scene))
+    if (!sim->needs.wall_shear)
         skip(sim, &s, n->wall_shear == SB_SHEAR_NONE ? "wall shear: none" : "wall shear: the fluid has no viscosity", 0,
-             sb_work_cost(sim->scene, "wall_drag"));
+             sb_work_cost(&sim->needs, "wall_drag"));
     if (!sim->space.repeats) skip(sim, &s, "periodic sides: none, no ghost particles", 0, 0);
     if (sim->walls.moving_count == 0) skip(sim, &s, "moving walls: no body moves", 0, 0);
     if (sim->constant.dimension == 2) skip(sim, &s, "third dimension: 2D scene, 9 cells searched instead of 27", 0, 0);
-    if (!sb_pressure_solvers[n->solver]->needs_direction)
+    if (!sim->needs.direction)
         skip(sim, &s, "search direction: no memory, the solver does not use one", 0,
-             sb_work_cost(sim->scene, "direction"));
-    if (!sb_pressure_solvers[n->solver]->needs_product)
+             sb_work_cost(&sim->needs, "direction"));
+    if (!sim->needs.product)
         skip(sim, &s, "product with the search direction: no memory, the solver does not use one", 0,
-             sb_work_cost(sim->scene, "product"));
-    if (!sb_sim_settles(sim->scene))
+             sb_work_cost(&sim->needs, "product"));
+    if (!sim->needs.settling)
         skip(sim, &s, "settling: settle_steps is 0, the water starts from the initial lattice", 0, 0);
     sim->skipped[s] = (sb_skipped){.what = NULL};
 }

@@ -106,7 +106,7 @@ SB_INLINE void sb_prefetch(const sb_four_pairs *four)
     __builtin_prefetch((const void *)((uintptr_t)four + BYTES));
 }
 
-/* Slopes of four neighbours in units of sim->pairs.unit. */
+/* Slopes of four neighbours in units of sim->work.pairs.unit. */
 SB_INLINE sb_f4 sb_slopes(const sb_four_pairs *four)
 {
     typedef uint16_t four_shorts __attribute__((vector_size(8), aligned(2)));

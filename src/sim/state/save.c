@@ -6,6 +6,8 @@
 #include "sim/report/report.h"
 #include "sim/search/departures.h"
 #include "sim/simulation.h"
+#include "sim/step/settle.h"
+#include "sim/walls/walls.h"
 
 #include <math.h>
 

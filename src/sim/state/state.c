@@ -1,31 +1,17 @@
 #include "sim/state/state.h"
 
 #include "base/memory.h"
-#include "sim/terms/density_correction.h"
 
 #include <string.h>
-
-static bool starts_in_motion(const sb_scene *scene, const sb_model *model)
-{
-    bool moves = false;
-    for (size_t i = 0; i < model->fluid_count && !moves; i++) moves = sb_norm(model->fluid_velocity[i]) > 0;
-    return moves && sb_sim_settles(scene);
-}
-
-static bool corrects_density(const sb_scene *scene, const sb_model *model)
-{
-    (void)model;
-    return sb_density_correction_on(scene);
-}
 
 #define FIELD(member) #member, .pointer = offsetof(sb_state, member), .size = sizeof *((sb_state *)0)->member
 
 const sb_state_field sb_state_fields[] = {
-    {FIELD(position), .unit = "quanta", .ghosts = true},
-    {FIELD(velocity), .unit = "m/s", .ghosts = true},
-    {FIELD(id), .unit = ""},
-    {FIELD(density_correction), .unit = "kg/m^3", .needed = corrects_density},
-    {FIELD(start_velocity), .unit = "m/s", .needed = starts_in_motion},
+    {FIELD(position), .unit = "quanta", .ghosts = true, .needed = SB_ALWAYS},
+    {FIELD(velocity), .unit = "m/s", .ghosts = true, .needed = SB_ALWAYS},
+    {FIELD(id), .unit = "", .needed = SB_ALWAYS},
+    {FIELD(density_correction), .unit = "kg/m^3", .needed = SB_NEEDS(density_correction)},
+    {FIELD(start_velocity), .unit = "m/s", .needed = SB_NEEDS(start_velocity)},
     {.name = NULL},
 };
 
@@ -34,13 +20,13 @@ static void set_entries(sb_state *state, const sb_state_field *field, void *entr
     memcpy((char *)state + field->pointer, &entries, sizeof entries);
 }
 
-int sb_state_create(sb_state *state, const sb_scene *scene, const sb_model *model)
+int sb_state_create(sb_state *state, const sb_needs *needs, size_t particles, size_t bodies)
 {
-    state->owned = state->capacity = model->fluid_count;
-    state->impulse = sb_alloc(model->body_count, sizeof *state->impulse);
+    state->owned = state->capacity = particles;
+    state->impulse = sb_alloc(bodies, sizeof *state->impulse);
     if (!state->impulse) return -1;
     for (const sb_state_field *f = sb_state_fields; f->name; f++) {
-        if (f->needed && !f->needed(scene, model)) continue;
+        if (!sb_needed(needs, f->needed)) continue;
         void *entries = sb_alloc(state->owned, f->size);
         if (!entries) return -1;
         set_entries(state, f, entries);

@@ -4,9 +4,19 @@
 #define SB_SIM_STATE_H
 
 #include "base/archive.h"
+#include "sim/needs.h"
 #include "sim/sim.h"
 #include "sim/state/simd.h"
-#include "sim/step/settle.h"
+
+/* Progress of settling between two of its steps. */
+typedef struct sb_settle {
+    bool under_way;
+    int done, most; /* steps */
+    int turn;       /* the step at which the last steps begin */
+    int calm;       /* calm steps in a row */
+    double speed;   /* m/s, highest speed after the last step done; each step sets it, so that no checkpoint has it */
+    double kinetic; /* J, at the last trial; INFINITY: no trial yet */
+} sb_settle;
 
 typedef struct sb_state {
     uint64_t step;          /* steps of the run done */
@@ -37,7 +47,7 @@ typedef struct sb_state_field {
     size_t pointer; /* offset in sb_state */
     size_t size;    /* bytes of an entry: 4 or 16 */
     bool ghosts;    /* whether neighbours read it, so that ghosts have it too */
-    bool (*needed)(const sb_scene *scene, const sb_model *model); /* NULL: always */
+    size_t needed;  /* flag of sb_needs, or SB_ALWAYS */
 } sb_state_field;
 
 /* Ends with a row without name. */
@@ -49,7 +59,7 @@ static inline void *sb_state_entries(const sb_state *state, const sb_state_field
 }
 
 /* Allocates the fields that the scene needs, and the bodies' impulses. Returns 0, or -1 without memory. */
-int sb_state_create(sb_state *state, const sb_scene *scene, const sb_model *model);
+int sb_state_create(sb_state *state, const sb_needs *needs, size_t particles, size_t bodies);
 /* Allocates `capacity` entries for the fields that have ghosts; the first `used` keep their values. Returns 0, or -1
    without memory. */
 int sb_state_lengthen(sb_state *state, size_t used, size_t capacity);

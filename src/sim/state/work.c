@@ -1,60 +1,48 @@
 #include "sim/state/work.h"
 
 #include "base/memory.h"
-#include "sim/pressure/pressure.h"
-#include "sim/simulation.h"
-#include "sim/terms/density_correction.h"
-#include "sim/terms/stress_correction.h"
-#include "sim/terms/turbulence.h"
-#include "sim/walls/drag.h"
 
 #include <assert.h>
 #include <string.h>
 
-static bool solver_needs_direction(const sb_scene *scene)
-{
-    return sb_pressure_solvers[scene->numerics.solver]->needs_direction;
-}
-
-static bool solver_needs_product(const sb_scene *scene)
-{
-    return sb_pressure_solvers[scene->numerics.solver]->needs_product;
-}
-
-#define VIEW(member) .pointer = offsetof(sb_sim, member), .size = sizeof *((sb_sim *)0)->member
-#define WORK(member) #member, VIEW(work.member)
+#define VIEW(member) .pointer = offsetof(sb_work, member), .size = sizeof *((sb_work *)0)->member
+#define WORK(member) #member, VIEW(member)
 #define FROM(phase, end) .first = SB_PHASE_##phase, .last = SB_PHASE_##end
 
 const sb_work_view sb_work_views[] = {
-    {WORK(sort_words), FROM(SORT, SORT), .unit = ""},
-    {WORK(sort_other), FROM(SORT, SORT), .unit = ""},
-    {WORK(sorted), FROM(SORT, SORT), .unit = ""},
-    {WORK(images), FROM(GHOSTS, GHOSTS), .unit = "quanta", .ghosts = true},
-    {"water_lists", VIEW(pairs.first), FROM(NEIGHBOURS, AFTER), .unit = ""},
-    {"water_counts", VIEW(pairs.count), FROM(NEIGHBOURS, AFTER), .unit = ""},
-    {"wall_lists", VIEW(wall_pairs.first), FROM(NEIGHBOURS, AFTER), .unit = ""},
-    {"wall_counts", VIEW(wall_pairs.count), FROM(NEIGHBOURS, AFTER), .unit = ""},
-    {WORK(wall), FROM(NEIGHBOURS, IMPULSE), .unit = "kg/m^4"},
-    {WORK(density), FROM(NEIGHBOURS, AFTER), .unit = "kg/m^3"},
-    {WORK(wall_density), FROM(NEIGHBOURS, DENSITY_CORRECTION), .unit = "kg/m^3", .needed = sb_density_correction_on},
-    {WORK(water_squared), FROM(NEIGHBOURS, DENSITY_CORRECTION), .unit = "kg^2/m^8", .needed = sb_density_correction_on},
-    {WORK(diagonal), FROM(NEIGHBOURS, AFTER), .unit = "kg^2 s^2/m^8"},
-    {WORK(strain_xx), FROM(STRAIN, STRESS), .unit = "1", .needed = sb_stress_correction_on},
-    {WORK(strain), FROM(STRAIN, STRESS), .unit = "1", .ghosts = true, .needed = sb_stress_correction_on},
-    {WORK(stress_xx), FROM(STRESS, CORRECTED), .unit = "Pa m^6/kg^2", .needed = sb_stress_correction_on},
-    {WORK(stress), FROM(STRESS, CORRECTED), .unit = "Pa m^6/kg^2", .ghosts = true, .needed = sb_stress_correction_on},
-    {WORK(corrected), FROM(CORRECTED, CORRECTED), .unit = "m/s", .needed = sb_stress_correction_on},
-    {WORK(eddy), FROM(TURBULENCE, FORCES), .unit = "m^2/s", .ghosts = true, .needed = sb_turbulence_on},
-    {WORK(wall_drag), FROM(FORCES, IMPULSE), .unit = "m/s^2", .needed = sb_wall_drag_on},
-    {WORK(predicted), FROM(FORCES, MOVE), .unit = "m/s", .ghosts = true},
-    {WORK(source), FROM(SOURCE, PRESSURE), .unit = "kg/m^3"},
-    {WORK(unknown), FROM(PRESSURE, AFTER), .unit = "Pa m^6/kg^2"},
-    {WORK(residual), FROM(PRESSURE, PRESSURE), .unit = "kg/m^3"},
-    {WORK(direction), FROM(PRESSURE, PRESSURE), .unit = "Pa m^6/kg^2", .needed = solver_needs_direction},
-    {WORK(product), FROM(PRESSURE, PRESSURE), .unit = "kg/m^3", .needed = solver_needs_product},
-    {WORK(acceleration), FROM(PRESSURE, ACCELERATE), .unit = "m/s^2", .ghosts = true},
-    {WORK(end_velocity), FROM(ACCELERATE, MOVE), .unit = "m/s", .ghosts = true, .replaces = "acceleration"},
-    {WORK(virial), FROM(AFTER, AFTER), .unit = "Pa"},
+    {WORK(sort_words), FROM(SORT, SORT), .unit = "", .needed = SB_ALWAYS},
+    {WORK(sort_other), FROM(SORT, SORT), .unit = "", .needed = SB_ALWAYS},
+    {WORK(sorted), FROM(SORT, SORT), .unit = "", .needed = SB_ALWAYS},
+    {WORK(images), FROM(GHOSTS, GHOSTS), .unit = "quanta", .ghosts = true, .needed = SB_ALWAYS},
+    {"water_lists", VIEW(pairs.first), FROM(NEIGHBOURS, AFTER), .unit = "", .needed = SB_ALWAYS},
+    {"water_counts", VIEW(pairs.count), FROM(NEIGHBOURS, AFTER), .unit = "", .needed = SB_ALWAYS},
+    {"wall_lists", VIEW(wall_pairs.first), FROM(NEIGHBOURS, AFTER), .unit = "", .needed = SB_ALWAYS},
+    {"wall_counts", VIEW(wall_pairs.count), FROM(NEIGHBOURS, AFTER), .unit = "", .needed = SB_ALWAYS},
+    {WORK(wall), FROM(NEIGHBOURS, IMPULSE), .unit = "kg/m^4", .needed = SB_ALWAYS},
+    {WORK(density), FROM(NEIGHBOURS, AFTER), .unit = "kg/m^3", .needed = SB_ALWAYS},
+    {WORK(wall_density), FROM(NEIGHBOURS, DENSITY_CORRECTION), .unit = "kg/m^3",
+     .needed = SB_NEEDS(density_correction)},
+    {WORK(water_squared), FROM(NEIGHBOURS, DENSITY_CORRECTION), .unit = "kg^2/m^8",
+     .needed = SB_NEEDS(density_correction)},
+    {WORK(diagonal), FROM(NEIGHBOURS, AFTER), .unit = "kg^2 s^2/m^8", .needed = SB_ALWAYS},
+    {WORK(strain_xx), FROM(STRAIN, STRESS), .unit = "1", .needed = SB_NEEDS(stress_correction)},
+    {WORK(strain), FROM(STRAIN, STRESS), .unit = "1", .ghosts = true, .needed = SB_NEEDS(stress_correction)},
+    {WORK(stress_xx), FROM(STRESS, CORRECTED), .unit = "Pa m^6/kg^2", .needed = SB_NEEDS(stress_correction)},
+    {WORK(stress), FROM(STRESS, CORRECTED), .unit = "Pa m^6/kg^2", .ghosts = true,
+     .needed = SB_NEEDS(stress_correction)},
+    {WORK(corrected), FROM(CORRECTED, CORRECTED), .unit = "m/s", .needed = SB_NEEDS(stress_correction)},
+    {WORK(eddy), FROM(TURBULENCE, FORCES), .unit = "m^2/s", .ghosts = true, .needed = SB_NEEDS(turbulence)},
+    {WORK(wall_drag), FROM(FORCES, IMPULSE), .unit = "m/s^2", .needed = SB_NEEDS(wall_drag)},
+    {WORK(predicted), FROM(FORCES, MOVE), .unit = "m/s", .ghosts = true, .needed = SB_ALWAYS},
+    {WORK(source), FROM(SOURCE, PRESSURE), .unit = "kg/m^3", .needed = SB_ALWAYS},
+    {WORK(unknown), FROM(PRESSURE, AFTER), .unit = "Pa m^6/kg^2", .needed = SB_ALWAYS},
+    {WORK(residual), FROM(PRESSURE, PRESSURE), .unit = "kg/m^3", .needed = SB_ALWAYS},
+    {WORK(direction), FROM(PRESSURE, PRESSURE), .unit = "Pa m^6/kg^2", .needed = SB_NEEDS(direction)},
+    {WORK(product), FROM(PRESSURE, PRESSURE), .unit = "kg/m^3", .needed = SB_NEEDS(product)},
+    {WORK(acceleration), FROM(PRESSURE, ACCELERATE), .unit = "m/s^2", .ghosts = true, .needed = SB_ALWAYS},
+    {WORK(end_velocity), FROM(ACCELERATE, MOVE), .unit = "m/s", .ghosts = true, .replaces = "acceleration",
+     .needed = SB_ALWAYS},
+    {WORK(virial), FROM(AFTER, AFTER), .unit = "Pa", .needed = SB_ALWAYS},
     {.name = NULL},
 };
 
@@ -86,12 +74,12 @@ static size_t fit(const place *placed, size_t count, const sb_work_view *view)
 }
 
 /* Places the views that the scene needs, and the one named `also`, the largest first. Returns their number. */
-static size_t place_all(const sb_scene *scene, const char *also, place placed[VIEWS])
+static size_t place_all(const sb_needs *needs, const char *also, place placed[VIEWS])
 {
     size_t count = 0;
     for (size_t size = 16; size > 0; size /= 2)
         for (const sb_work_view *v = sb_work_views; v->name; v++)
-            if (v->size == size && (!v->needed || v->needed(scene) || (also && strcmp(v->name, also) == 0))) {
+            if (v->size == size && (sb_needed(needs, v->needed) || (also && strcmp(v->name, also) == 0))) {
                 const size_t at = fit(placed, count, v);
                 placed[count++] = (place){v, at};
             }
@@ -108,57 +96,59 @@ static size_t extent(const place *placed, size_t count, bool ghosts)
     return end;
 }
 
-size_t sb_work_cost(const sb_scene *scene, const char *name)
+size_t sb_work_cost(const sb_needs *needs, const char *name)
 {
     place placed[VIEWS];
     size_t bytes[2];
     for (int with = 0; with < 2; with++) {
-        const size_t count = place_all(scene, with ? name : NULL, placed);
+        const size_t count = place_all(needs, with ? name : NULL, placed);
         bytes[with] = extent(placed, count, false) + extent(placed, count, true);
     }
     return bytes[1] - bytes[0];
 }
 
-static void set_pointer(sb_sim *sim, const sb_work_view *view, void *entries)
+static void set_pointer(sb_work *work, const sb_work_view *view, void *entries)
 {
-    memcpy((char *)sim + view->pointer, &entries, sizeof entries);
+    memcpy((char *)work + view->pointer, &entries, sizeof entries);
 }
 
-int sb_work_create(sb_sim *sim, size_t owned, size_t capacity)
+int sb_work_create(sb_work *work, const sb_needs *needs, size_t owned, size_t capacity)
 {
     enum { ALIGNMENT = 64 };
     place placed[VIEWS];
-    const size_t count = place_all(sim->scene, NULL, placed);
+    const size_t count = place_all(needs, NULL, placed);
     const size_t few = (owned + LANES - 1) / LANES * LANES, many = (capacity + LANES - 1) / LANES * LANES;
     const size_t first_part = extent(placed, count, false) * few;
-    sb_work_destroy(sim);
-    sim->work.bytes = first_part + extent(placed, count, true) * many + ALIGNMENT;
-    sim->work.block = sb_alloc(sim->work.bytes, 1);
-    if (!sim->work.block) return -1;
-    char *base = sim->work.block;
+    sb_work_destroy(work);
+    work->owned = owned;
+    work->capacity = capacity;
+    work->bytes = first_part + extent(placed, count, true) * many + ALIGNMENT;
+    work->block = sb_alloc(work->bytes, 1);
+    if (!work->block) return -1;
+    char *base = work->block;
     base += (ALIGNMENT - (uintptr_t)base % ALIGNMENT) % ALIGNMENT;
     for (size_t k = 0; k < count; k++) {
         const sb_work_view *v = placed[k].view;
-        set_pointer(sim, v, base + (v->ghosts ? first_part + placed[k].at * many : placed[k].at * few));
+        set_pointer(work, v, base + (v->ghosts ? first_part + placed[k].at * many : placed[k].at * few));
     }
     return 0;
 }
 
-void sb_work_destroy(sb_sim *sim)
+void sb_work_destroy(sb_work *work)
 {
-    for (const sb_work_view *v = sb_work_views; v->name; v++) set_pointer(sim, v, NULL);
-    sb_free(sim->work.block);
-    sim->work.block = NULL;
-    sim->work.bytes = 0;
+    for (const sb_work_view *v = sb_work_views; v->name; v++) set_pointer(work, v, NULL);
+    sb_free(work->block);
+    work->block = NULL;
+    work->bytes = 0;
 }
 
 #ifdef SB_DEBUG
-void sb_work_enter(sb_sim *sim, sb_phase phase)
+void sb_work_enter(sb_work *work, sb_phase phase)
 {
     for (const sb_work_view *v = sb_work_views; v->name; v++) {
         void *entries;
-        memcpy(&entries, (const char *)sim + v->pointer, sizeof entries);
-        const size_t count = v->ghosts ? sim->state.capacity : sim->state.owned;
+        memcpy(&entries, (const char *)work + v->pointer, sizeof entries);
+        const size_t count = v->ghosts ? work->capacity : work->owned;
         if (entries && v->first == phase && !v->replaces) memset(entries, 0xff, count * v->size);
     }
 }

@@ -5,8 +5,9 @@
 #define SB_SIM_WORK_H
 
 #include "base/exact.h"
+#include "sim/needs.h"
+#include "sim/search/pairs.h"
 #include "sim/sim.h"
-#include "sim/state/simd.h"
 
 /* The phases of a step, in order: its stages, of which the stress correction has three. */
 typedef enum sb_phase {
@@ -54,6 +55,9 @@ enum { SB_FORCE_VALUES = 9 }; /* of a body: pressure and drag, N, and moment, N 
 /* A particle's strain or stress without trace: xx, and yy, xy, xz, yz. In views that neighbours read xx is carried by
    the records (sb_pressure_load). */
 typedef struct sb_work {
+    sb_lists pairs; /* with fluid particles, and with boundary particles */
+    sb_pairs wall_pairs;
+
     uint64_t *sort_words, *sort_other; /* keys and indices */
     sb_record *sorted;                 /* one state field of any type, in its new order */
     sb_record *images;                 /* beyond periodic sides, in the order of their originals */
@@ -89,21 +93,22 @@ typedef struct sb_work {
     bool lists_current; /* the lists and densities belong to the present particles */
     bool virial_known;
 
-    void *block; /* of all views */
-    size_t bytes;
+    void *block;            /* of all views */
+    size_t bytes;           /* of the block */
+    size_t owned, capacity; /* entries of views without and with ghosts */
 } sb_work;
 
 /* One view. Its phases include both ends. */
 typedef struct sb_work_view {
     const char *name, *unit;
-    size_t pointer; /* offset of the typed pointer in sb_sim */
+    size_t pointer; /* offset of the typed pointer in sb_work */
     size_t size;    /* bytes of an entry */
     bool ghosts;    /* whether it has entries for ghosts */
     sb_phase first, last;
     /* Name of a view whose memory it takes over: entry i is written after entry i of the other has been read for the
        last time. NULL: none. */
     const char *replaces;
-    bool (*needed)(const sb_scene *scene); /* NULL: always */
+    size_t needed; /* flag of sb_needs, or SB_ALWAYS */
 } sb_work_view;
 
 /* Ends with a row without name. */
@@ -111,18 +116,18 @@ extern const sb_work_view sb_work_views[];
 
 /* Allocates the block and places the views in it: `owned` entries, `capacity` of those with ghosts. A block that exists
    is freed first. Returns 0, or -1 without memory. */
-int sb_work_create(sb_sim *sim, size_t owned, size_t capacity);
-void sb_work_destroy(sb_sim *sim);
+int sb_work_create(sb_work *work, const sb_needs *needs, size_t owned, size_t capacity);
+void sb_work_destroy(sb_work *work);
 /* Bytes per particle that a view which the scene does not need would add; 0 if it would share memory with others. */
-size_t sb_work_cost(const sb_scene *scene, const char *name);
+size_t sb_work_cost(const sb_needs *needs, const char *name);
 
 #ifdef SB_DEBUG
 /* Fills the views that begin in a phase with NaN, so that a stage that reads what nothing has written is found. */
-void sb_work_enter(sb_sim *sim, sb_phase phase);
+void sb_work_enter(sb_work *work, sb_phase phase);
 #else
-static inline void sb_work_enter(sb_sim *sim, sb_phase phase)
+static inline void sb_work_enter(sb_work *work, sb_phase phase)
 {
-    (void)sim, (void)phase;
+    (void)work, (void)phase;
 }
 #endif
 

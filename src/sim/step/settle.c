@@ -1,5 +1,6 @@
 /* Settling: damped steps before t = 0 in which the initial lattice comes to rest (docs/method.md, section 10). Without
    settling the lattice would rearrange itself during the run, and its noise would hide a wave. */
+#include "sim/step/settle.h"
 #include "base/memory.h"
 #include "base/stop.h"
 #include "physics/wave_theory.h"
@@ -187,7 +188,7 @@ static sb_status finish(sb_sim *sim, sb_error *error)
 sb_status sb_sim_settle_watched(sb_sim *sim, sb_settle_watch *watch, void *context, sb_error *error)
 {
     sb_settle *settle = &sim->state.settle;
-    if (!sb_sim_settles(sim->scene)) return SB_OK;
+    if (!sim->needs.settling) return SB_OK;
     sb_status status = SB_OK;
     if (!settle->under_way) begin(sim);
     while (status == SB_OK && !sb_settle_over(settle) && !sb_stop_signal()) {

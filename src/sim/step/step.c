@@ -11,38 +11,38 @@ typedef struct stage {
     const char *name;
     sb_phase phase; /* the first of its phases */
     sb_status (*run)(sb_sim *sim, sb_error *error);
-    bool (*needed)(const sb_scene *scene); /* NULL: always */
+    size_t needed; /* flag of sb_needs, or SB_ALWAYS */
 } stage;
 
 static const stage stages[] = {
     /* dt from the present speeds */
-    {"time_step", SB_PHASES, sb_stage_time_step, NULL},
+    {"time_step", SB_PHASES, sb_stage_time_step, SB_ALWAYS},
     /* paddles at t, their velocity to t + dt */
-    {"walls", SB_PHASES, sb_stage_walls, NULL},
+    {"walls", SB_PHASES, sb_stage_walls, SB_ALWAYS},
     /* wrap at periodic sides; Z-order, cells */
-    {"sort", SB_PHASE_SORT, sb_stage_sort, NULL},
+    {"sort", SB_PHASE_SORT, sb_stage_sort, SB_ALWAYS},
     /* images beyond periodic sides */
-    {"ghosts", SB_PHASE_GHOSTS, sb_stage_ghosts, NULL},
+    {"ghosts", SB_PHASE_GHOSTS, sb_stage_ghosts, SB_ALWAYS},
     /* lists, density, wall vectors, diagonal */
-    {"neighbours", SB_PHASE_NEIGHBOURS, sb_stage_neighbours, NULL},
+    {"neighbours", SB_PHASE_NEIGHBOURS, sb_stage_neighbours, SB_ALWAYS},
     /* density sums at surfaces and walls */
-    {"density_correction", SB_PHASE_DENSITY_CORRECTION, sb_stage_density_correction, sb_density_correction_on},
+    {"density_correction", SB_PHASE_DENSITY_CORRECTION, sb_stage_density_correction, SB_NEEDS(density_correction)},
     /* removes deviatoric stress of the particle packing */
-    {"stress_correction", SB_PHASE_STRAIN, sb_stage_stress_correction, sb_stress_correction_on},
+    {"stress_correction", SB_PHASE_STRAIN, sb_stage_stress_correction, SB_NEEDS(stress_correction)},
     /* eddy viscosity from the strain rate */
-    {"turbulence", SB_PHASE_TURBULENCE, sb_stage_turbulence, sb_turbulence_on},
+    {"turbulence", SB_PHASE_TURBULENCE, sb_stage_turbulence, SB_NEEDS(turbulence)},
     /* v* = v + dt (g + viscosity + friction) */
-    {"forces", SB_PHASE_FORCES, sb_stage_forces, NULL},
+    {"forces", SB_PHASE_FORCES, sb_stage_forces, SB_ALWAYS},
     /* b = beta (rho_0 - rho) - dt div v* */
-    {"source", SB_PHASE_SOURCE, sb_stage_source, NULL},
+    {"source", SB_PHASE_SOURCE, sb_stage_source, SB_ALWAYS},
     /* q >= 0, A q <= b, and its acceleration */
-    {"pressure", SB_PHASE_PRESSURE, sb_stage_pressure, NULL},
+    {"pressure", SB_PHASE_PRESSURE, sb_stage_pressure, SB_ALWAYS},
     /* v at t + dt */
-    {"accelerate", SB_PHASE_ACCELERATE, sb_stage_accelerate, NULL},
+    {"accelerate", SB_PHASE_ACCELERATE, sb_stage_accelerate, SB_ALWAYS},
     /* contact with walls, reactions on bodies */
-    {"impulse", SB_PHASE_IMPULSE, sb_stage_impulse, NULL},
+    {"impulse", SB_PHASE_IMPULSE, sb_stage_impulse, SB_ALWAYS},
     /* x at t + dt */
-    {"move", SB_PHASE_MOVE, sb_stage_move, NULL},
+    {"move", SB_PHASE_MOVE, sb_stage_move, SB_ALWAYS},
 };
 enum { STAGES = sizeof stages / sizeof stages[0] };
 _Static_assert((int)STAGES <= (int)SB_STAGES_MAX, "stage table");
@@ -73,10 +73,10 @@ static sb_status run_stages(sb_sim *sim, sb_error *error)
     sb_status status = SB_OK;
     size_t count = 0;
     for (size_t s = 0; s < STAGES && status == SB_OK; s++) {
-        if (stages[s].needed && !stages[s].needed(sim->scene)) continue;
+        if (!sb_needed(&sim->needs, stages[s].needed)) continue;
         sb_stage_time *time = &sim->stage[count++];
         const double start = sb_clock();
-        sb_work_enter(sim, stages[s].phase);
+        sb_work_enter(&sim->work, stages[s].phase);
         status = agree(sim, stages[s].name, stages[s].run(sim, error), error);
         time->name = stages[s].name;
         time->seconds += sb_clock() - start;

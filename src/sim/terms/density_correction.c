@@ -13,11 +13,6 @@ static const float OVERLAP = 0.1f;
 /* A c_i outside of its bounds returns to them within the time in which a long wave crosses this many support radii. */
 static const double CROSSED = 2;
 
-bool sb_density_correction_on(const sb_scene *scene)
-{
-    return scene->numerics.density == SB_DENSITY_COMPLETED;
-}
-
 void sb_density_correction_clear(sb_sim *sim)
 {
     for (size_t i = 0; sim->state.density_correction && i < sim->state.n; i++) sim->state.density_correction[i] = NAN;

@@ -10,9 +10,6 @@
 
 #include "sim/simulation.h"
 
-/* Whether the scene uses the density correction. If not, sim->state.density_correction is NULL and no stage runs. */
-bool sb_density_correction_on(const sb_scene *scene);
-
 /* Marks all corrections as not yet known, as before the first step. */
 void sb_density_correction_clear(sb_sim *sim);
 

@@ -25,21 +25,16 @@ static double sum_changes(sb_sim *sim, const sb_group *group, double terms[SB_SU
     return -fast;
 }
 
-bool sb_stress_correction_on(const sb_scene *scene)
-{
-    return scene->numerics.stress_correction > 0;
-}
-
 sb_status sb_stage_stress_correction(sb_sim *sim, sb_error *error)
 {
     sim->passes->strain(sim);
     sb_refresh(sim, sim->work.strain);
     sb_pressure_load(sim, sim->work.strain_xx);
-    sb_work_enter(sim, SB_PHASE_STRESS);
+    sb_work_enter(&sim->work, SB_PHASE_STRESS);
     sim->passes->stress(sim);
     sb_refresh(sim, sim->work.stress);
     sb_pressure_load(sim, sim->work.stress_xx);
-    sb_work_enter(sim, SB_PHASE_CORRECTED);
+    sb_work_enter(&sim->work, SB_PHASE_CORRECTED);
     sim->passes->correct(sim);
     double sum[SUMS];
     const double fast = -sb_sum_groups(sim, SUMS, sum_changes, sum);

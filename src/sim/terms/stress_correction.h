@@ -21,9 +21,6 @@
    the packing. */
 static const float SB_STRESS_FULL = 0.9f;
 
-/* Whether the scene uses the correction. If not, no stage runs. */
-bool sb_stress_correction_on(const sb_scene *scene);
-
 /* Adds the correction to the velocities of one step, from the pressures of the last step and the present neighbour
    lists. Momentum is conserved. The work is entered in the ledger. Fails, without changing velocities, if a particle
    would be too fast. */

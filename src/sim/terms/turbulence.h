@@ -15,9 +15,6 @@ static const float SB_KARMAN = 0.4f;
    gradient across the film. */
 static const float SB_THINNEST = 0.1f;
 
-/* Whether the scene uses turbulence. If not, sim->work.eddy is NULL and no stage runs. */
-bool sb_turbulence_on(const sb_scene *scene);
-
 /* Computes sim->work.eddy from the velocities after the stress correction, the neighbour lists and the densities. Never
    fails. */
 sb_status sb_stage_turbulence(sb_sim *sim, sb_error *error);

@@ -11,7 +11,7 @@
 void sb_sim_find_virial_pressures(sb_sim *sim)
 {
     if (!sim->work.lists_current || sim->work.virial_known) return;
-    sb_work_enter(sim, SB_PHASE_AFTER);
+    sb_work_enter(&sim->work, SB_PHASE_AFTER);
     sim->passes->virial(sim);
     sim->work.virial_known = true;
 }

@@ -32,9 +32,9 @@ typedef struct four_walls {
 SB_INLINE void weigh_four(const sb_sim *sim, size_t i, size_t first, sb_f4 step, float to_quanta, four_walls *s)
 {
     const float support = sim->constant.support / (float)sim->space.quantum;
-    const uint32_t *index = sim->wall_pairs.index + first;
+    const uint32_t *index = sim->work.wall_pairs.index + first;
     sb_f4 slope;
-    memcpy(&slope, sim->wall_pairs.slope + first, sizeof slope);
+    memcpy(&slope, sim->work.wall_pairs.slope + first, sizeof slope);
     for (size_t k = 0; k < 4; k++) {
         const sb_wall_set *set = sb_wall_set_of(sim, index[k]);
         const uint32_t b = sb_wall_particle(index[k]);
@@ -53,7 +53,7 @@ SB_INLINE void weigh_four(const sb_sim *sim, size_t i, size_t first, sb_f4 step,
 /* Averages the boundary particles of particle i's list. */
 SB_INLINE wall_view find_wall(const sb_sim *sim, size_t i, sb_f4 velocity, float to_quanta)
 {
-    const size_t begin = sim->wall_pairs.first[i], end = begin + sim->wall_pairs.count[i];
+    const size_t begin = sim->work.wall_pairs.first[i], end = begin + sim->work.wall_pairs.count[i];
     const sb_f4 step = velocity * sb_splat(to_quanta);
     sb_f4 normal = {0}, now = {0}, then = {0}, nearest = {0};
     float total = 0, least = 1;
@@ -70,7 +70,7 @@ SB_INLINE wall_view find_wall(const sb_sim *sim, size_t i, sb_f4 velocity, float
                 least = s.q2[k];
                 nearest = s.here[k];
                 v.apart = s.there[k];
-                v.nearest = sim->wall_pairs.index[first + k];
+                v.nearest = sim->work.wall_pairs.index[first + k];
             }
         }
     }

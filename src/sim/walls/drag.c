@@ -9,8 +9,8 @@ sb_wall_drag sb_wall_drag_make(const sb_sim *sim)
     const sb_numerics *n = &sim->scene->numerics;
     const sb_constants *c = &sim->constant;
     const double quantum = sim->space.quantum, h = (double)c->support, spacing = (double)c->spacing;
-    const bool shear = sb_shear_on(sim->scene);
-    return (sb_wall_drag){.on = sb_wall_drag_on(sim->scene),
+    const bool shear = sim->needs.wall_shear;
+    return (sb_wall_drag){.on = sim->needs.wall_drag,
                           .friction = (float)(0.5 * n->wall_friction * h * (double)c->sound_speed / quantum),
                           .epsilon = (float)(0.01 * h * h / (quantum * quantum)),
                           .shear = shear,
@@ -19,14 +19,4 @@ sb_wall_drag sb_wall_drag_make(const sb_sim *sim)
                           .quantum = (float)quantum,
                           .offset = (float)(n->wall_offset * spacing / quantum),
                           .nearest = (float)(NEAREST * spacing / quantum)};
-}
-
-bool sb_shear_on(const sb_scene *scene)
-{
-    return scene->numerics.wall_shear == SB_SHEAR_SMOOTH && scene->fluid.viscosity > 0;
-}
-
-bool sb_wall_drag_on(const sb_scene *scene)
-{
-    return scene->numerics.wall_friction > 0 || sb_shear_on(scene);
 }

@@ -15,12 +15,6 @@ typedef struct sb_wall_drag {
     float quantum, offset, nearest; /* m; quanta: wall offset, and smallest distance from the wall */
 } sb_wall_drag;
 
-/* Whether walls exert shear. */
-bool sb_shear_on(const sb_scene *scene);
-
-/* Whether walls exert friction or shear. */
-bool sb_wall_drag_on(const sb_scene *scene);
-
 sb_wall_drag sb_wall_drag_make(const sb_sim *sim);
 
 #endif

@@ -2,6 +2,7 @@
 #include "base/memory.h"
 #include "physics/wall_volume.h"
 #include "sim/simulation.h"
+#include "sim/walls/walls.h"
 
 #include <math.h>
 #include <string.h>

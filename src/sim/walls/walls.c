@@ -1,5 +1,6 @@
 /* Boundary particles [A12]. The search table of the static ones is built once; that of the moving ones is rebuilt only
    while they move. */
+#include "sim/walls/walls.h"
 #include "base/hash.h"
 #include "base/memory.h"
 #include "sim/search/sort.h"

@@ -125,9 +125,9 @@ static bool one_body(const sb_sim *sim, const uint32_t *index, size_t count)
    drag. */
 SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_wall_drag *law, forces *to)
 {
-    const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
-    const float *slope = sim->wall_pairs.slope + sim->wall_pairs.first[i];
-    const size_t count = sim->wall_pairs.count[i];
+    const uint32_t *index = sim->work.wall_pairs.index + sim->work.wall_pairs.first[i];
+    const float *slope = sim->work.wall_pairs.slope + sim->work.wall_pairs.first[i];
+    const size_t count = sim->work.wall_pairs.count[i];
     const double mass = (double)sim->constant.mass;
     const sb_f4 *velocity = sim->state.velocity; /* at the step's start */
     tally t = {.sim = sim, .to = to, .press = mass * (double)sim->work.unknown[i], .mass = mass};
@@ -164,7 +164,7 @@ static void do_group(sb_sim *sim, const sb_group *group, const sb_wall_drag *law
     double works[WORKS] = {0};
     bool beside_wall = false;
     for (size_t i = group->first; i < group->end; i++) {
-        if (sim->wall_pairs.count[i] == 0) continue;
+        if (sim->work.wall_pairs.count[i] == 0) continue;
         beside_wall = true;
         const sb_f4 drag = react(sim, i, law->on ? law : NULL, to);
         contact(sim, i, to, works);

@@ -47,7 +47,7 @@ SB_INLINE sb_f4 fluid_part(const sb_sim *sim, const sb_group *group, const sb_f4
     const own_part own = {
         sb_spread(at, 0), sb_spread(at, 1), sb_spread(at, 2), sb_spread(at, 3),
         sb_spread(of, 0), sb_spread(of, 1), sb_spread(of, 2), sb_splat8(eddies ? sim->work.eddy[i] : 0)};
-    const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
+    const sb_four_pairs *four = sim->work.pairs.four + sim->work.pairs.first[i], *end = four + sim->work.pairs.count[i];
     sb_f4 x = {0}, y = {0}, z = {0};
     for (; four < end; four += 2) {
         const bool two = four + 1 < end;
@@ -61,15 +61,15 @@ SB_INLINE sb_f4 fluid_part(const sb_sim *sim, const sb_group *group, const sb_f4
         z += sb_second4(e.z) * sb_second4(e.pi);
     }
     const sb_four sum = sb_transpose(x, y, z, (sb_f4){0});
-    return (sum.x + sum.y + sum.z + sum.w) * sb_splat(sim->pairs.unit * f->inverse_quantum);
+    return (sum.x + sum.y + sum.z + sum.w) * sb_splat(sim->work.pairs.unit * f->inverse_quantum);
 }
 
 SB_INLINE sb_f4 wall_part(const sb_sim *sim, size_t i, const sb_wall_drag *law)
 {
-    const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
-    const float *slope = sim->wall_pairs.slope + sim->wall_pairs.first[i];
+    const uint32_t *index = sim->work.wall_pairs.index + sim->work.wall_pairs.first[i];
+    const float *slope = sim->work.wall_pairs.slope + sim->work.wall_pairs.first[i];
     sb_f4 sum = {0}, part[4];
-    for (size_t k = 0; k < sim->wall_pairs.count[i]; k += 4) {
+    for (size_t k = 0; k < sim->work.wall_pairs.count[i]; k += 4) {
         sb_wall_drag_four(sim, i, sim->state.velocity[i], index + k, slope + k, law, part);
         for (int pair = 0; pair < 4; pair++) sum += part[pair];
     }
@@ -95,7 +95,7 @@ static void do_group(sb_sim *sim, const sb_group *group, const void *arguments)
             a += fluid_part(sim, group, around, i, f, true);
         else if (viscous)
             a += fluid_part(sim, group, around, i, f, false);
-        if (law->on && sim->wall_pairs.count[i] > 0) a += sim->work.wall_drag[i] = wall_part(sim, i, law);
+        if (law->on && sim->work.wall_pairs.count[i] > 0) a += sim->work.wall_drag[i] = wall_part(sim, i, law);
         a[3] = 0;
         next[i] = sim->state.velocity[i] + a * sb_splat(dt);
     }

@@ -25,21 +25,21 @@ static void write_fours(sb_four_pairs *four, const sb_hits *h)
 void sb_list_water(sb_list_builder *lists, const sb_hits *hits, sb_sim *sim, size_t i)
 {
     const size_t fours = (hits->count + 3) / 4, written = hits->padded / 4;
-    sim->pairs.first[i] = (uint32_t)lists->fours;
-    sim->pairs.count[i] = 0;
+    sim->work.pairs.first[i] = (uint32_t)lists->fours;
+    sim->work.pairs.count[i] = 0;
     if (sb_grow((void **)&lists->four, &lists->capacity_four, lists->fours + written, sizeof *lists->four) != 0) {
         lists->out_of_memory = true;
         return;
     }
     write_fours(lists->four + lists->fours, hits);
     lists->fours += fours;
-    sim->pairs.count[i] = (uint16_t)fours;
+    sim->work.pairs.count[i] = (uint16_t)fours;
 }
 
 void sb_list_walls(sb_list_builder *lists, const sb_hits *hits, sb_sim *sim, size_t i)
 {
     const size_t padded = (hits->count + 3) / 4 * 4, needed = lists->walls + padded;
-    sim->wall_pairs.first[i] = (uint32_t)lists->walls;
+    sim->work.wall_pairs.first[i] = (uint32_t)lists->walls;
     if (sb_grow((void **)&lists->wall, &lists->capacity_wall, needed, sizeof *lists->wall) != 0 ||
         sb_grow((void **)&lists->wall_slope, &lists->capacity_slope, needed, sizeof *lists->wall_slope) != 0) {
         lists->out_of_memory = true;
@@ -52,7 +52,7 @@ void sb_list_walls(sb_list_builder *lists, const sb_hits *hits, sb_sim *sim, siz
         lists->wall_slope[lists->walls + k] = 0;
     }
     lists->walls = needed;
-    sim->wall_pairs.count[i] = (uint16_t)padded;
+    sim->work.wall_pairs.count[i] = (uint16_t)padded;
 }
 
 void sb_list_runs(sb_list_builder *lists, const sb_vicinity *v, sb_group *group)

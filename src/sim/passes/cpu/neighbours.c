@@ -21,20 +21,20 @@ static bool publish(sb_sim *sim, sb_list_builder *lists, size_t begin, size_t en
 {
     sb_groups *groups = &sim->groups;
     size_t four, wall, run;
-    bool room = take(&sim->pairs.used, sim->pairs.capacity, lists->fours, &four);
-    room &= take(&sim->wall_pairs.used, sim->wall_pairs.capacity, lists->walls, &wall);
+    bool room = take(&sim->work.pairs.used, sim->work.pairs.capacity, lists->fours, &four);
+    room &= take(&sim->work.wall_pairs.used, sim->work.wall_pairs.capacity, lists->walls, &wall);
     room &= take(&groups->used, groups->room, lists->runs, &run);
-    if (room && lists->fours > 0) memcpy(sim->pairs.four + four, lists->four, lists->fours * sizeof *lists->four);
+    if (room && lists->fours > 0) memcpy(sim->work.pairs.four + four, lists->four, lists->fours * sizeof *lists->four);
     if (room && lists->walls > 0) {
-        memcpy(sim->wall_pairs.index + wall, lists->wall, lists->walls * sizeof *lists->wall);
-        memcpy(sim->wall_pairs.slope + wall, lists->wall_slope, lists->walls * sizeof *lists->wall_slope);
+        memcpy(sim->work.wall_pairs.index + wall, lists->wall, lists->walls * sizeof *lists->wall);
+        memcpy(sim->work.wall_pairs.slope + wall, lists->wall_slope, lists->walls * sizeof *lists->wall_slope);
     }
     if (room && lists->runs > 0) memcpy(groups->run + run, lists->run, lists->runs * sizeof *lists->run);
     for (size_t g = begin; g < end; g++) {
         groups->group[g].run += (uint32_t)run;
         for (size_t i = groups->group[g].first; i < groups->group[g].end; i++) {
-            sim->pairs.first[i] += (uint32_t)four;
-            sim->wall_pairs.first[i] += (uint32_t)wall;
+            sim->work.pairs.first[i] += (uint32_t)four;
+            sim->work.wall_pairs.first[i] += (uint32_t)wall;
         }
     }
     lists->fours = lists->walls = lists->runs = 0;
@@ -48,7 +48,7 @@ static int attempt(sb_sim *sim, const sb_search_form *form, bool *too_small, uns
     unsigned over = 0;
     bool small = false, memory = false;
     const size_t groups = sim->groups.count, units = (groups + SB_GROUPS_AT_A_TIME - 1) / SB_GROUPS_AT_A_TIME;
-    sim->pairs.used = sim->wall_pairs.used = sim->groups.used = 0;
+    sim->work.pairs.used = sim->work.wall_pairs.used = sim->groups.used = 0;
 #pragma omp parallel reduction(| : small, over, memory)
     {
         void *searcher = form->create(sim);
@@ -79,8 +79,8 @@ static size_t with_reserve(size_t used)
 
 static int enlarge(sb_sim *sim)
 {
-    sb_lists *water = &sim->pairs;
-    sb_pairs *wall = &sim->wall_pairs;
+    sb_lists *water = &sim->work.pairs;
+    sb_pairs *wall = &sim->work.wall_pairs;
     sb_groups *groups = &sim->groups;
     if (water->used > water->capacity) {
         const size_t capacity = with_reserve(water->used);
@@ -127,9 +127,9 @@ sb_status sb_search_all(sb_sim *sim, const sb_search_form *form, sb_error *error
         if (attempt(sim, form, &too_small, &full) != 0) return sb_fail_memory(error, "neighbour lists");
         if (full) return refuse(sim, full, error);
         if (!too_small) return SB_OK;
-        if (sim->pairs.used > UINT32_MAX / 2 || sim->wall_pairs.used > UINT32_MAX / 2)
+        if (sim->work.pairs.used > UINT32_MAX / 2 || sim->work.wall_pairs.used > UINT32_MAX / 2)
             return sb_fail(error, SB_FAILED, "%zu pairs of neighbours, %zu with walls: expected fewer than 2^33, 2^31",
-                           4 * sim->pairs.used, sim->wall_pairs.used);
+                           4 * sim->work.pairs.used, sim->work.wall_pairs.used);
         if (enlarge(sim) != 0) return sb_fail_memory(error, "neighbour lists");
     }
 }

@@ -33,7 +33,8 @@ static void accelerate_group(sb_sim *sim, const sb_group *group, const void *arg
     _Alignas(64) sb_f4 around[SB_AROUND_MAX];
     sb_around(sim, group, around);
     for (size_t i = group->first; i < group->end; i++) {
-        const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
+        const sb_four_pairs *four = sim->work.pairs.four + sim->work.pairs.first[i],
+                            *end = four + sim->work.pairs.count[i];
         const sb_f4 own = sb_in_group(sim, group, i);
         const sb_f8 self = sb_join(own, own), q = sb_carried8(self);
         sb_f8 even = {0}, odd = {0};
@@ -43,7 +44,7 @@ static void accelerate_group(sb_sim *sim, const sb_group *group, const void *arg
             even += (self - a) * ((q + sb_carried8(a)) * two_slopes(four->slope));
             odd += (self - b) * ((q + sb_carried8(b)) * two_slopes(four->slope + 2));
         }
-        const sb_f4 sum = fold(even + odd) * sb_splat(sim->pairs.unit) + sb_splat(own[3]) * sim->work.wall[i];
+        const sb_f4 sum = fold(even + odd) * sb_splat(sim->work.pairs.unit) + sb_splat(own[3]) * sim->work.wall[i];
         sim->work.acceleration[i] = (sb_f4){-sum[0], -sum[1], -sum[2], 0};
     }
 }
@@ -58,7 +59,8 @@ static void diverge_group(sb_sim *sim, const sb_group *group, const void *argume
     _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
     sb_around_with(sim, group, field, around);
     for (size_t i = group->first; i < group->end; i++) {
-        const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
+        const sb_four_pairs *four = sim->work.pairs.four + sim->work.pairs.first[i],
+                            *end = four + sim->work.pairs.count[i];
         const sb_f8 self = sb_join(sb_in_group(sim, group, i), field[i]);
         sb_f8 even = {0}, odd = {0};
         for (; four < end; four++) {
@@ -68,7 +70,7 @@ static void diverge_group(sb_sim *sim, const sb_group *group, const void *argume
             even += sb_lower(a, b) * (sb_upper(a, b) * two_slopes(four->slope));
             odd += sb_lower(c, d) * (sb_upper(c, d) * two_slopes(four->slope + 2));
         }
-        out[i] = factor * sb_sum3(fold(even + odd) * sb_splat(sim->pairs.unit) + field[i] * sim->work.wall[i]);
+        out[i] = factor * sb_sum3(fold(even + odd) * sb_splat(sim->work.pairs.unit) + field[i] * sim->work.wall[i]);
     }
 }
 

@@ -53,7 +53,8 @@ WIDE static void accelerate_group(sb_sim *sim, const sb_group *group, const void
     _Alignas(64) sb_f4 around[SB_AROUND_MAX];
     sb_around(sim, group, around);
     for (size_t i = group->first; i < group->end; i++) {
-        const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
+        const sb_four_pairs *four = sim->work.pairs.four + sim->work.pairs.first[i],
+                            *end = four + sim->work.pairs.count[i];
         const sb_f4 own = sb_in_group(sim, group, i);
         const __m512 self = _mm512_broadcast_f32x4((__m128)own), q = _mm512_set1_ps(own[3]);
         __m512 total = _mm512_setzero_ps();
@@ -64,7 +65,7 @@ WIDE static void accelerate_group(sb_sim *sim, const sb_group *group, const void
             const __m512 weight = _mm512_mul_ps(both, four_slopes(four->slope));
             total = _mm512_fmadd_ps(_mm512_sub_ps(self, at), weight, total);
         }
-        const sb_f4 sum = fold(total) * sb_splat(sim->pairs.unit) + sb_splat(own[3]) * sim->work.wall[i];
+        const sb_f4 sum = fold(total) * sb_splat(sim->work.pairs.unit) + sb_splat(own[3]) * sim->work.wall[i];
         sim->work.acceleration[i] = (sb_f4){-sum[0], -sum[1], -sum[2], 0};
     }
 }
@@ -78,7 +79,8 @@ WIDE static void diverge_group(sb_sim *sim, const sb_group *group, const void *a
     _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
     sb_around_with(sim, group, field, around);
     for (size_t i = group->first; i < group->end; i++) {
-        const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
+        const sb_four_pairs *four = sim->work.pairs.four + sim->work.pairs.first[i],
+                            *end = four + sim->work.pairs.count[i];
         const __m512 self = _mm512_broadcast_f32x4((__m128)sb_in_group(sim, group, i));
         const __m512 own = _mm512_broadcast_f32x4((__m128)field[i]);
         __m512 total = _mm512_setzero_ps();
@@ -89,7 +91,7 @@ WIDE static void diverge_group(sb_sim *sim, const sb_group *group, const void *a
             const __m512 weight = _mm512_mul_ps(_mm512_sub_ps(own, value), four_slopes(four->slope));
             total = _mm512_fmadd_ps(_mm512_sub_ps(self, at), weight, total);
         }
-        out[i] = factor * sb_sum3(fold(total) * sb_splat(sim->pairs.unit) + field[i] * sim->work.wall[i]);
+        out[i] = factor * sb_sum3(fold(total) * sb_splat(sim->work.pairs.unit) + field[i] * sim->work.wall[i]);
     }
 }
 

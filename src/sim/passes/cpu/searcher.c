@@ -1,4 +1,5 @@
 #include "sim/passes/cpu/searcher.h"
+#include "sim/walls/walls.h"
 
 #include "base/memory.h"
 #include "sim/passes/cpu/kernel_batch.h"
@@ -164,9 +165,9 @@ SB_INLINE void one_particle(sb_sim *sim, searcher *w, sb_list_builder *lists, co
     sb_candidate_range range[SB_VICINITY_ROWS];
     const size_t ranges = sb_vicinity_candidates(sim, v, self, range);
     find_hits(w, &(sb_candidates){v->x, v->y, v->z, v->place}, range, ranges, self, candidate);
-    fluid_sums(w, c->mass, sim->pairs.unit, &density, &sum, &squares);
+    fluid_sums(w, c->mass, sim->work.pairs.unit, &density, &sum, &squares);
     sb_list_water(lists, &w->hits, sim, i);
-    sim->wall_pairs.count[i] = 0;
+    sim->work.wall_pairs.count[i] = 0;
     const float fluid_density = density;
     if (sim->work.water_squared) sim->work.water_squared[i] = sb_sum3(sum * sum);
     if (w->wall.count > 0) {
@@ -246,6 +247,6 @@ void *sb_searcher_create(const sb_sim *sim)
     w->q_scale = (float)(quantum / h * (quantum / h));
     w->value_scale = (float)(kernel->alpha[d] / pow(h, d));
     w->slope_scale = slope_scale(sim);
-    w->to_units = sim->constant.mass * w->slope_scale / sim->pairs.unit;
+    w->to_units = sim->constant.mass * w->slope_scale / sim->work.pairs.unit;
     return w;
 }

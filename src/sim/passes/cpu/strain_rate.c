@@ -21,8 +21,8 @@ SB_INLINE sb_f4 sum_lanes(sb_f4 a, sb_f4 b, sb_f4 c, sb_f4 d)
 /* around: sb_around_with velocities. */
 SB_INLINE moments gather(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i)
 {
-    const sb_f4 self = sb_in_group(sim, group, i), v = sim->state.velocity[i], unit = sb_splat(-sim->pairs.unit);
-    const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
+    const sb_f4 self = sb_in_group(sim, group, i), v = sim->state.velocity[i], unit = sb_splat(-sim->work.pairs.unit);
+    const sb_four_pairs *four = sim->work.pairs.four + sim->work.pairs.first[i], *end = four + sim->work.pairs.count[i];
     sb_f4 xx = {0}, xy = {0}, xz = {0}, yy = {0}, yz = {0}, zz = {0};
     sb_f4 ux = {0}, uy = {0}, uz = {0}, vx = {0}, vy = {0}, vz = {0}, wx = {0}, wy = {0}, wz = {0};
     for (; four < end; four++) {
@@ -82,9 +82,9 @@ SB_INLINE float strain_rate(const sb_sim *sim, const sb_group *group, const sb_f
 /* Distance (m) from the wall at the nearest boundary particle. The boundary surface lies `offset` behind the wall. */
 SB_INLINE float wall_distance(const sb_sim *sim, size_t i, float offset)
 {
-    const uint32_t *index = sim->wall_pairs.index + sim->wall_pairs.first[i];
+    const uint32_t *index = sim->work.wall_pairs.index + sim->work.wall_pairs.first[i];
     float nearest = INFINITY, distance = INFINITY;
-    for (size_t k = 0; k < sim->wall_pairs.count[i]; k++) {
+    for (size_t k = 0; k < sim->work.wall_pairs.count[i]; k++) {
         const sb_wall_set *set = sb_wall_set_of(sim, index[k]);
         const uint32_t b = sb_wall_particle(index[k]);
         const sb_f4 d = sb_offset(sim->state.position[i], set->record[b]), normal = set->normal[b];

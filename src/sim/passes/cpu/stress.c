@@ -12,7 +12,7 @@ typedef struct moments {
 SB_INLINE moments gather(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i)
 {
     const sb_f4 self = sb_in_group(sim, group, i);
-    const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
+    const sb_four_pairs *four = sim->work.pairs.four + sim->work.pairs.first[i], *end = four + sim->work.pairs.count[i];
     sb_f4 xx = {0}, yy = {0}, zz = {0}, xy = {0}, xz = {0}, yz = {0};
     for (; four < end; four++) {
         sb_prefetch(four);
@@ -36,12 +36,12 @@ static void find_strain(sb_sim *sim, const sb_group *group, const void *argument
     _Alignas(64) sb_f4 around[SB_AROUND_MAX];
     const bool flat = sim->constant.dimension == 2;
     const float part = flat ? 0.5f : 1 / 3.0f;
-    const float unit = -sim->pairs.unit * (float)sim->space.quantum / sim->constant.rest_density;
+    const float unit = -sim->work.pairs.unit * (float)sim->space.quantum / sim->constant.rest_density;
     sb_around(sim, group, around);
     for (size_t i = group->first; i < group->end; i++) {
         sim->work.strain_xx[i] = 0;
         sim->work.strain[i] = (sb_f4){0};
-        if (sim->wall_pairs.count[i] > 0) continue;
+        if (sim->work.wall_pairs.count[i] > 0) continue;
         const moments m = gather(sim, group, around, i);
         const float mean = part * (m.xx + m.yy + m.zz), off = -share / mean;
         if (!(unit * mean >= SB_STRESS_FULL)) continue;
@@ -74,7 +74,8 @@ static void find_stress(sb_sim *sim, const sb_group *group, const void *argument
         stress[i] = (sb_f4){0};
         sim->work.stress_xx[i] = 0;
         if (!any) continue;
-        const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
+        const sb_four_pairs *four = sim->work.pairs.four + sim->work.pairs.first[i],
+                            *end = four + sim->work.pairs.count[i];
         const sb_f4 own = {0, 0, 0, sim->work.strain_xx[i]};
         sb_f8 even = sb_join(own, sim->work.strain[i]) * sb_splat8(SB_SLOPE_OWN), odd = {0};
         sb_f4 weights = {SB_SLOPE_OWN};
@@ -109,7 +110,8 @@ static void correct(sb_sim *sim, const sb_group *group, const void *arguments)
         next[i] = sim->state.velocity[i];
         if (!any) continue;
         const sb_f4 self = sb_in_group(sim, group, i), own = sim->work.stress[i];
-        const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
+        const sb_four_pairs *four = sim->work.pairs.four + sim->work.pairs.first[i],
+                            *end = four + sim->work.pairs.count[i];
         sb_f4 sum_x = {0}, sum_y = {0}, sum_z = {0};
         for (; four < end; four += 2) {
             const bool two = four + 1 < end;
@@ -132,7 +134,7 @@ static void correct(sb_sim *sim, const sb_group *group, const void *arguments)
             sum_z += sb_second4(a_z);
         }
         const sb_four t = sb_transpose(sum_x, sum_y, sum_z, (sb_f4){0});
-        next[i] -= (t.x + t.y + t.z + t.w) * sb_splat(dt * sim->pairs.unit);
+        next[i] -= (t.x + t.y + t.z + t.w) * sb_splat(dt * sim->work.pairs.unit);
     }
 }
 

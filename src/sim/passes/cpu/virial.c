@@ -18,7 +18,7 @@ SB_INLINE sb_f4 entry(const sb_sim *sim, const sb_group *group, size_t e, sb_f4 
 /* sum_b psi_b x_ib . grad W_ib in quanta. */
 static float by_walls(const sb_sim *sim, const sb_group *group, size_t i, sb_f4 self)
 {
-    const sb_pairs *pairs = &sim->wall_pairs;
+    const sb_pairs *pairs = &sim->work.wall_pairs;
     float sum = 0;
     for (size_t k = pairs->first[i]; k < pairs->first[i] + pairs->count[i]; k++) {
         const uint32_t index = pairs->index[k];
@@ -42,7 +42,8 @@ static void find_pressures(sb_sim *sim, const sb_group *group, const void *argum
     for (size_t r = 0; r < group->runs; r++)
         for (size_t k = 0; k < run[r].count; k++) *at++ = entry(sim, group, run[r].begin + k, back);
     for (size_t i = group->first; i < group->end; i++) {
-        const sb_four_pairs *four = sim->pairs.four + sim->pairs.first[i], *end = four + sim->pairs.count[i];
+        const sb_four_pairs *four = sim->work.pairs.four + sim->work.pairs.first[i],
+                            *end = four + sim->work.pairs.count[i];
         const sb_f4 self = entry(sim, group, i, back);
         sb_f4 sum = {0};
         for (; four < end; four++) {
@@ -51,7 +52,7 @@ static void find_pressures(sb_sim *sim, const sb_group *group, const void *argum
             const sb_f4 x = d.x - sb_splat(self[0]), y = d.y - sb_splat(self[1]), z = d.z - sb_splat(self[2]);
             sum += (d.w + sb_splat(self[3])) * sb_slopes(four) * (x * x + y * y + z * z);
         }
-        const float water = ((sum[0] + sum[1]) + (sum[2] + sum[3])) * sim->pairs.unit;
+        const float water = ((sum[0] + sum[1]) + (sum[2] + sum[3])) * sim->work.pairs.unit;
         sim->work.virial[i] = factor * (water + self[3] * by_walls(sim, group, i, self));
     }
 }

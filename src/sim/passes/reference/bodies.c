@@ -28,7 +28,7 @@ static void react(sb_sim *sim, size_t i, const sb_wall_drag *law, sb_body_sums *
 {
     const double mass = (double)sim->constant.mass, q = (double)sim->work.unknown[i];
     sb_vec3 drag = {0};
-    for (size_t k = 0; k < sim->wall_pairs.count[i]; k++) {
+    for (size_t k = 0; k < sim->work.wall_pairs.count[i]; k++) {
         const sb_one_wall wall = sb_wall_at(sim, i, k);
         const sb_vec3 own = law->on ? sb_plain_drag(sim, i, &wall, law) : (sb_vec3){0};
         drag = sb_add(drag, own);

@@ -10,7 +10,7 @@
 static double wall_distance(const sb_sim *sim, size_t i)
 {
     double nearest = (double)INFINITY, distance = (double)INFINITY;
-    for (size_t k = 0; k < sim->wall_pairs.count[i]; k++) {
+    for (size_t k = 0; k < sim->work.wall_pairs.count[i]; k++) {
         const sb_one_wall wall = sb_wall_at(sim, i, k);
         const double square = sb_dot(wall.offset, wall.offset);
         if (square >= nearest) continue;
@@ -140,11 +140,11 @@ static void forces_group(sb_sim *sim, const sb_group *group, const void *argumen
         sb_vec3 a = sb_vec(0, 0, -(double)sim->constant.gravity), drag = {0};
         if (sim->policy->holds_wave) a.x += (double)sb_settle_wave_acceleration(sim, sim->state.position[i]);
         if (terms->viscous->on) a = sb_add(a, viscous_part(sim, &around, i, terms->viscous));
-        for (size_t k = 0; k < sim->wall_pairs.count[i] && terms->law->on; k++) {
+        for (size_t k = 0; k < sim->work.wall_pairs.count[i] && terms->law->on; k++) {
             const sb_one_wall wall = sb_wall_at(sim, i, k);
             drag = sb_add(drag, sb_plain_drag(sim, i, &wall, terms->law));
         }
-        if (terms->law->on && sim->wall_pairs.count[i] > 0)
+        if (terms->law->on && sim->work.wall_pairs.count[i] > 0)
             sim->work.wall_drag[i] = (sb_f4){(float)drag.x, (float)drag.y, (float)drag.z, 0};
         const sb_vec3 change = sb_scale(sb_add(a, drag), sim->state.time_step);
         sim->work.predicted[i] = sim->state.velocity[i] + (sb_f4){(float)change.x, (float)change.y, (float)change.z, 0};

@@ -48,7 +48,7 @@ typedef struct sums {
 /* Collects the hits among the records around the group. own: the particle's place among them. */
 static void add_water(const sb_sim *sim, const sb_vicinity *v, sb_vec3 self, size_t own, sb_hits *hits, sums *s)
 {
-    const double mass = (double)sim->constant.mass, unit = (double)sim->pairs.unit;
+    const double mass = (double)sim->constant.mass, unit = (double)sim->work.pairs.unit;
     size_t n = 0;
     for (size_t k = 0; k < v->count; k++) {
         const sb_vec3 d = sb_sub(self, sb_vector_of(v->place[k]));
@@ -132,7 +132,7 @@ static unsigned search(sb_sim *sim, void *of, sb_list_builder *lists, sb_group *
         full |= w->hits.count == SB_LIST_MAX ? SB_FULL_LIST : 0;
         sb_list_water(lists, &w->hits, sim, i);
         add_walls(sim, i, &w->hits, &s);
-        sim->wall_pairs.count[i] = 0;
+        sim->work.wall_pairs.count[i] = 0;
         if (w->hits.count > 0) sb_list_walls(lists, &w->hits, sim, i);
         set_fields(sim, i, &s);
     }

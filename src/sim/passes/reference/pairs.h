@@ -41,15 +41,15 @@ static inline sb_vec3 sb_vector_of(sb_f4 v)
 /* Number of entries of particle i's list; those that pad it have slope 0. */
 static inline size_t sb_pair_count(const sb_sim *sim, size_t i)
 {
-    return 4 * (size_t)sim->pairs.count[i];
+    return 4 * (size_t)sim->work.pairs.count[i];
 }
 
 static inline sb_one_pair sb_pair_at(const sb_sim *sim, const sb_indices *indices, size_t i, size_t k)
 {
-    const sb_four_pairs *four = &sim->pairs.four[sim->pairs.first[i] + k / 4];
+    const sb_four_pairs *four = &sim->work.pairs.four[sim->work.pairs.first[i] + k / 4];
     const double root = (double)four->slope[k % 4];
     const uint32_t other = indices->entry[four->place[k % 4] / SB_PLACE_STEP];
-    return (sb_one_pair){other, root * root * (double)sim->pairs.unit,
+    return (sb_one_pair){other, root * root * (double)sim->work.pairs.unit,
                          sb_offset_of(sim->state.position[i], sim->state.position[other])};
 }
 
@@ -63,12 +63,12 @@ typedef struct sb_one_wall {
 
 static inline sb_one_wall sb_wall_at(const sb_sim *sim, size_t i, size_t k)
 {
-    const size_t at = sim->wall_pairs.first[i] + k;
-    const uint32_t entry = sim->wall_pairs.index[at];
+    const size_t at = sim->work.wall_pairs.first[i] + k;
+    const uint32_t entry = sim->work.wall_pairs.index[at];
     const sb_wall_set *set = sb_wall_set_of(sim, entry);
     const uint32_t b = sb_wall_particle(entry);
-    return (sb_one_wall){entry, (double)sim->wall_pairs.slope[at], sb_offset_of(sim->state.position[i], set->record[b]),
-                         sb_vector_of(set->normal[b]),
+    return (sb_one_wall){entry, (double)sim->work.wall_pairs.slope[at],
+                         sb_offset_of(sim->state.position[i], set->record[b]), sb_vector_of(set->normal[b]),
                          sb_sub(sb_vector_of(sim->state.velocity[i]), sb_vector_of(sb_wall_velocity(sim, entry)))};
 }
 

@@ -80,7 +80,7 @@ static void virial_group(sb_sim *sim, const sb_group *group, const void *argumen
             const sb_vec3 d = sb_sub(own, place_before(sim, group, p.other));
             sum += (unknown_of(sim, (uint32_t)i) + unknown_of(sim, p.other)) * p.slope * sb_dot(d, d);
         }
-        for (size_t k = 0; k < sim->wall_pairs.count[i]; k++) {
+        for (size_t k = 0; k < sim->work.wall_pairs.count[i]; k++) {
             const sb_one_wall wall = sb_wall_at(sim, i, k);
             const sb_record record = sb_wall_set_of(sim, wall.entry)->record[sb_wall_particle(wall.entry)];
             const sb_vec3 d = sb_sub(own, sb_offset_of(record, group->corner));

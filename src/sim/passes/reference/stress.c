@@ -23,7 +23,7 @@ static void strain_group(sb_sim *sim, const sb_group *group, const void *argumen
             yy += factor * x.y * x.y, yz += factor * x.y * x.z, zz += factor * x.z * x.z;
         }
         const double mean = (xx + yy + zz) / d, off = -share / mean;
-        const bool corrected = sim->wall_pairs.count[i] == 0 && mean >= (double)SB_STRESS_FULL;
+        const bool corrected = sim->work.wall_pairs.count[i] == 0 && mean >= (double)SB_STRESS_FULL;
         sim->work.strain_xx[i] = corrected ? (float)(share + off * xx) : 0;
         sim->work.strain[i] = corrected ? (sb_f4){d == 2 ? 0 : (float)(share + off * yy), (float)(off * xy),
                                                   (float)(off * xz), (float)(off * yz)}
@@ -49,7 +49,7 @@ static void stress_group(sb_sim *sim, const sb_group *group, const void *argumen
     sb_indices around;
     sb_indices_of(sim, group, &around);
     for (size_t i = group->first; i < group->end; i++) {
-        double sum[PARTS] = {0}, weights = (double)SB_SLOPE_OWN * (double)sim->pairs.unit;
+        double sum[PARTS] = {0}, weights = (double)SB_SLOPE_OWN * (double)sim->work.pairs.unit;
         const double density = (double)sim->work.density[i],
                      q = (double)sim->state.velocity[i][3] / (density * density);
         add(sim, sim->work.strain, (uint32_t)i, weights, sum);

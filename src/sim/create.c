@@ -3,10 +3,12 @@
 #include "sim/exchange/exchange.h"
 #include "sim/passes/cpu/searcher.h"
 #include "sim/passes/passes.h"
+#include "sim/pressure/pressure.h"
 #include "sim/report/report.h"
 #include "sim/search/sort.h"
 #include "sim/step/stages.h"
 #include "sim/terms/density_correction.h"
+#include "sim/walls/walls.h"
 
 #include <math.h>
 
@@ -22,12 +24,38 @@ static sb_status create_space(sb_sim *sim, sb_error *error)
     return status;
 }
 
+static bool starts_in_motion(const sb_model *model)
+{
+    for (size_t i = 0; i < model->fluid_count; i++)
+        if (sb_norm(model->fluid_velocity[i]) > 0) return true;
+    return false;
+}
+
+static sb_needs needs_of(const sb_scene *scene, const sb_model *model)
+{
+    const sb_numerics *n = &scene->numerics;
+    const sb_pressure_solver *solver = sb_pressure_solvers[n->solver];
+    const bool shear = n->wall_shear == SB_SHEAR_SMOOTH && scene->fluid.viscosity > 0;
+    const bool settling = sb_sim_settles(scene);
+    return (sb_needs){
+        .density_correction = n->density == SB_DENSITY_COMPLETED,
+        .stress_correction = n->stress_correction > 0,
+        .turbulence = n->turbulence == SB_TURBULENCE_SPS,
+        .wall_shear = shear,
+        .wall_drag = shear || n->wall_friction > 0,
+        .settling = settling,
+        .start_velocity = settling && starts_in_motion(model),
+        .direction = solver->needs_direction,
+        .product = solver->needs_product,
+    };
+}
+
 static int allocate(sb_sim *sim)
 {
-    const size_t n = sim->model->fluid_count;
-    sim->work.body_force = sb_alloc(sim->model->body_count * SB_FORCE_VALUES, sizeof *sim->work.body_force);
-    if (!sim->work.body_force || sb_state_create(&sim->state, sim->scene, sim->model) != 0) return -1;
-    return sb_work_create(sim, n, n);
+    const size_t n = sim->model->fluid_count, bodies = sim->model->body_count;
+    sim->work.body_force = sb_alloc(bodies * SB_FORCE_VALUES, sizeof *sim->work.body_force);
+    if (!sim->work.body_force || sb_state_create(&sim->state, &sim->needs, n, bodies) != 0) return -1;
+    return sb_work_create(&sim->work, &sim->needs, n, n);
 }
 
 static void fill_particles(sb_sim *sim)
@@ -58,6 +86,7 @@ sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **s
     made->passes = sb_passes_choose();
     made->exchange = &sb_exchange_alone;
     made->policy = &sb_policy_run;
+    made->needs = needs_of(scene, model);
     sb_status status = SB_OK;
     if (model->fluid_count >= (size_t)1 << SB_INDEX_BITS)
         status = sb_fail(error, SB_BAD_INPUT, "%zu fluid particles: expected fewer than %d", model->fluid_count,
@@ -65,7 +94,7 @@ sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **s
     if (status == SB_OK) {
         made->constant = sb_constants_of(scene, model);
         status = create_space(made, error);
-        made->pairs.unit = sb_lists_unit(made);
+        made->work.pairs.unit = sb_lists_unit(made);
     }
     if (status == SB_OK && allocate(made) != 0) status = sb_fail_memory(error, "fluid particles");
     if (status == SB_OK) status = sb_walls_create(made, error);
@@ -88,9 +117,9 @@ sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **s
 
 static void free_lists(sb_sim *sim)
 {
-    sb_free(sim->pairs.four);
-    sb_free(sim->wall_pairs.index);
-    sb_free(sim->wall_pairs.slope);
+    sb_free(sim->work.pairs.four);
+    sb_free(sim->work.wall_pairs.index);
+    sb_free(sim->work.wall_pairs.slope);
     sb_groups_destroy(sim);
 }
 
@@ -98,7 +127,7 @@ void sb_sim_destroy(sb_sim *sim)
 {
     if (!sim) return;
     sb_state_destroy(&sim->state);
-    sb_work_destroy(sim);
+    sb_work_destroy(&sim->work);
     sb_free(sim->work.body_force);
     free_lists(sim);
     sb_cells_free(&sim->cells);
@@ -130,7 +159,7 @@ size_t sb_sim_bytes(const sb_sim *sim)
     size_t bytes = sb_state_bytes(&sim->state) + sim->work.bytes + sb_cells_bytes(&sim->cells) +
                    sb_cells_bytes(&sim->ghosts.cells);
     bytes += sim->ghosts.of_capacity * 4 + (sim->ghosts.words_capacity + sim->ghosts.other_capacity) * 8;
-    bytes += sim->pairs.capacity * sizeof *sim->pairs.four + sim->wall_pairs.capacity * 8;
+    bytes += sim->work.pairs.capacity * sizeof *sim->work.pairs.four + sim->work.wall_pairs.capacity * 8;
     bytes += sim->groups.capacity * sizeof *sim->groups.group + sim->groups.room * sizeof *sim->groups.run;
     for (int s = 0; s < SB_WALL_SETS; s++)
         bytes += sb_cells_bytes(&sim->walls.set[s].cells) + sim->walls.set[s].count * WALL_BYTES +

@@ -1,0 +1,25 @@
+/* The optional parts that a scene needs. What it does not need costs neither time nor memory. */
+#ifndef SB_SIM_NEEDS_H
+#define SB_SIM_NEEDS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct sb_needs {
+    bool density_correction, stress_correction, turbulence;
+    bool wall_shear, wall_drag; /* drag: shear or friction */
+    bool settling;
+    bool start_velocity;     /* water in motion at t = 0, after settling */
+    bool direction, product; /* fields of the pressure solver */
+} sb_needs;
+
+/* A row that exists if one of these flags is set has the flag's offset, or SB_ALWAYS. */
+enum { SB_ALWAYS = 1000 };
+#define SB_NEEDS(flag) offsetof(sb_needs, flag)
+
+static inline bool sb_needed(const sb_needs *needs, size_t flag)
+{
+    return flag == SB_ALWAYS || *(const bool *)((const char *)needs + flag);
+}
+
+#endif

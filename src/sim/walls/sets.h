@@ -1,0 +1,48 @@
+/* Boundary particles [A12]: the static ones, and those of moving bodies. */
+#ifndef SB_SIM_WALL_SETS_H
+#define SB_SIM_WALL_SETS_H
+
+#include "physics/wavemaker.h"
+#include "sim/search/cells.h"
+#include "sim/sim.h"
+#include "sim/state/space.h"
+
+/* Boundary particles that share one search table: all static ones, or all moving ones, images beyond periodic sides
+   included. */
+typedef struct sb_wall_set {
+    size_t count;
+    sb_record *record; /* sorted by cell; last lane: psi_b in kg (kg/m in 2D) */
+    uint32_t *body;    /* model body of each */
+    sb_f4 *normal;     /* unit, towards the water; 0 0 0 if the model has none */
+    sb_cells cells;
+    uint64_t *near; /* hash set of Z-order blocks with walls in or beside them */
+    uint64_t near_mask;
+} sb_wall_set;
+
+enum { SB_STATIC, SB_MOVING, SB_WALL_SETS };
+
+/* A moving body: its law of motion and its present displacement. */
+typedef struct sb_moving_body {
+    sb_paddle paddle;
+    sb_vec3 direction;
+    double displacement, next_displacement; /* m, at t and t + dt */
+    sb_vec3 velocity;                       /* m/s, between them */
+} sb_moving_body;
+
+/* Boundary particles of moving bodies at displacement 0. */
+typedef struct sb_moving_rest {
+    size_t count;
+    sb_record *record;
+    uint32_t *body;
+    sb_f4 *normal;
+} sb_moving_rest;
+
+typedef struct sb_walls {
+    sb_wall_set set[SB_WALL_SETS];
+    sb_moving_rest rest;
+    size_t moving_count;
+    sb_moving_body *moving;   /* bodies */
+    uint32_t *moving_of_body; /* model body -> index into moving, UINT32_MAX: static */
+} sb_walls;
+
+#endif
