@@ -12,7 +12,7 @@ sb_status sb_stage_walls(sb_sim *sim, sb_error *error);
 /* sim/search/sort_stage.c: wraps or removes particles outside of the domain, sorts the rest along the Z-curve, builds
    the cells. */
 sb_status sb_stage_sort(sb_sim *sim, sb_error *error);
-/* sim/exchange/ghosts.c: makes ghost particles at periodic sides, with positions and velocities. */
+/* sim/exchange/exchange.c: makes ghost particles at periodic sides, with positions and velocities. */
 sb_status sb_stage_ghosts(sb_sim *sim, sb_error *error);
 /* sim/search/neighbours.c: computes lists, densities, wall vectors and the diagonal in one pass. */
 sb_status sb_stage_neighbours(sb_sim *sim, sb_error *error);
