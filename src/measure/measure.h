@@ -3,7 +3,7 @@
 #ifndef SB_MEASURE_MEASURE_H
 #define SB_MEASURE_MEASURE_H
 
-#include "measure/records.h"
+#include "frame/records.h"
 #include "sim/sim.h"
 
 typedef struct sb_measurements sb_measure; /* scene.h already has a struct with the tag sb_measure */

@@ -2,9 +2,9 @@
 #ifndef SB_MEASURE_PARTS_H
 #define SB_MEASURE_PARTS_H
 
+#include "frame/records.h"
 #include "measure/cloud.h"
 #include "measure/floors.h"
-#include "measure/records.h"
 
 /* The simulation and the instant at which a measurement reads it; shared by all measurements. */
 typedef struct sb_measure_view {

@@ -5,8 +5,8 @@
 
 #include "base/archive.h"
 #include "base/status.h"
+#include "frame/records.h"
 #include "geometry/model/model.h"
-#include "measure/records.h"
 #include "scene/scene.h"
 
 typedef struct sb_csv sb_csv;

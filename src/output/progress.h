@@ -2,7 +2,7 @@
 #ifndef SB_OUTPUT_PROGRESS_H
 #define SB_OUTPUT_PROGRESS_H
 
-#include "sim/sim.h"
+#include "frame/step_report.h"
 
 #include <stdio.h>
 

@@ -3,11 +3,11 @@
 #ifndef SB_OUTPUT_RUNLOG_H
 #define SB_OUTPUT_RUNLOG_H
 
+#include "frame/records.h"
+#include "frame/step_report.h"
 #include "geometry/model/model.h"
-#include "measure/records.h"
 #include "output/saved.h"
 #include "scene/scene.h"
-#include "sim/sim.h"
 
 typedef struct sb_runlog sb_runlog;
 

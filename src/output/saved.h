@@ -3,7 +3,7 @@
 #define SB_OUTPUT_SAVED_H
 
 #include "base/skipped.h"
-#include "sim/sim.h"
+#include "frame/stage_time.h"
 
 typedef struct sb_saved {
     int passes;     /* over particle pairs, in each step */

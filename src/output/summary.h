@@ -2,11 +2,12 @@
 #ifndef SB_OUTPUT_SUMMARY_H
 #define SB_OUTPUT_SUMMARY_H
 
+#include "frame/departures.h"
+#include "frame/records.h"
+#include "frame/stage_time.h"
 #include "geometry/model/model.h"
-#include "measure/records.h"
 #include "output/json.h"
 #include "scene/scene.h"
-#include "sim/sim.h"
 
 /* Run time of one stage: total, and the part in settling. */
 typedef struct sb_stage_spent {

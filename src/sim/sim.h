@@ -6,28 +6,15 @@
 #include "base/archive.h"
 #include "base/skipped.h"
 #include "base/status.h"
+#include "frame/departures.h"
+#include "frame/energy.h"
 #include "frame/frame.h"
+#include "frame/stage_time.h"
+#include "frame/step_report.h"
 #include "geometry/model/model.h"
 #include "scene/scene.h"
 
 typedef struct sb_sim sb_sim;
-
-/* Report of the last step. */
-typedef struct sb_step_report {
-    uint64_t step;          /* steps done so far */
-    double time, time_step; /* s: present time, and the last time step; 0 at the start */
-    int iterations;
-    bool capped;                                /* the solve stopped at max_iterations above its tolerance */
-    double tolerance;                           /* relative density error at which the solve stops */
-    double error_mean, error_active, error_max; /* relative: mean over all particles, mean over p > 0, largest */
-    double compression, compression_max; /* relative density above the rest density at the start of the step: mean, and
-                                            largest */
-    double max_speed;                    /* m/s */
-    size_t fluid_count;
-    uint64_t left_domain;      /* particles that left through open sides so far */
-    uint64_t lost;             /* particles that passed a wall side of the domain so far */
-    double momentum_imbalance; /* of this step: |sum m a + sum F on bodies - M g| / sum m |a| */
-} sb_step_report;
 
 /* Impulse and angular impulse on one body since the start. Their difference over an interval, divided by the length of
    the interval, is the mean force. */
@@ -80,43 +67,10 @@ const sb_step_report *sb_sim_report(const sb_sim *sim);
 const sb_body_impulse *sb_sim_impulse(const sb_sim *sim, size_t body);
 sb_vec3 sb_sim_body_displacement(const sb_sim *sim, size_t body);
 
-/* Kinetic and potential energy (J, potential from z = domain min), momentum (kg m/s), mass (kg). */
-typedef struct sb_energy {
-    double kinetic, potential, mass;
-    sb_vec3 momentum;
-} sb_energy;
 sb_energy sb_sim_energy(const sb_sim *sim);
-
-/* Changes of the water's kinetic plus potential energy since t = 0, without settling; J (J/m in 2D). Each entry is an
-   addition to the energy, so that a loss is negative. Their sum is the change of energy, to round-off. */
-typedef struct sb_ledger {
-    double bodies;      /* work of moving bodies on the water */
-    double viscosity;   /* artificial, physical and eddy viscosity */
-    double friction;    /* wall friction and wall shear */
-    double pressure;    /* energy that the solve adds or removes; not physical: water of constant density stores none */
-    double contact;     /* contact resolution */
-    double integration; /* change of potential energy plus the work of gravity: the error of the time integration */
-    double left;        /* minus the energy of particles that left the domain */
-    double stress;      /* deviatoric stress correction */
-} sb_ledger;
+/* Since t = 0. */
 const sb_ledger *sb_sim_ledger(const sb_sim *sim);
 
-/* Particles that left the domain: their number per side, open or wall, and the first few of them, in the order of the
-   steps. Particles that left during settling are included. */
-enum { SB_DEPARTURES = 8 };
-typedef struct sb_departure {
-    double time;      /* s */
-    sb_vec3 position; /* m, the first position outside */
-    double speed;     /* m/s */
-    uint32_t particle;
-    int side;
-    bool lost; /* through a wall side */
-} sb_departure;
-typedef struct sb_departures {
-    uint64_t by_side[SB_SIDES];
-    size_t count;
-    sb_departure first[SB_DEPARTURES];
-} sb_departures;
 const sb_departures *sb_sim_departures(const sb_sim *sim);
 
 /* The state hash. */
@@ -152,14 +106,6 @@ size_t sb_sim_query(const sb_sim *sim, sb_vec3 min, sb_vec3 max, sb_fluid_sample
 /* Particle i < sb_sim_report()->fluid_count in storage order; i is another particle after each step. */
 sb_fluid_sample sb_sim_particle(const sb_sim *sim, size_t i);
 
-enum { SB_STAGES_MAX = 16 };
-
-/* Seconds and calls of each stage in this process, settling included, for the stage table. */
-typedef struct sb_stage_time {
-    const char *name;
-    double seconds;
-    uint64_t calls;
-} sb_stage_time;
 size_t sb_sim_stages(const sb_sim *sim, const sb_stage_time **stages);
 
 /* The instruction set whose code runs here (static text). With another instruction set sums may round differently. */

@@ -1,9 +1,9 @@
-/* The measurements of a run as plain records: made by measure.h, written by src/output. */
-#ifndef SB_MEASURE_RECORDS_H
-#define SB_MEASURE_RECORDS_H
+/* The measurements of a run as plain records: src/measure makes them, src/output writes them. */
+#ifndef SB_FRAME_RECORDS_H
+#define SB_FRAME_RECORDS_H
 
 #include "base/vec.h"
-#include "sim/sim.h"
+#include "frame/energy.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,0 +1,26 @@
+/* The energy of the water, and the ledger of its changes. */
+#ifndef SB_FRAME_ENERGY_H
+#define SB_FRAME_ENERGY_H
+
+#include "base/vec.h"
+
+/* Kinetic and potential energy (J, potential from z = domain min), momentum (kg m/s), mass (kg). */
+typedef struct sb_energy {
+    double kinetic, potential, mass;
+    sb_vec3 momentum;
+} sb_energy;
+
+/* Changes of the water's kinetic plus potential energy since t = 0, without settling; J (J/m in 2D). Each entry is an
+   addition to the energy, so that a loss is negative. Their sum is the change of energy, to round-off. */
+typedef struct sb_ledger {
+    double bodies;      /* work of moving bodies on the water */
+    double viscosity;   /* artificial, physical and eddy viscosity */
+    double friction;    /* wall friction and wall shear */
+    double pressure;    /* energy that the solve adds or removes; not physical: water of constant density stores none */
+    double contact;     /* contact resolution */
+    double integration; /* change of potential energy plus the work of gravity: the error of the time integration */
+    double left;        /* minus the energy of particles that left the domain */
+    double stress;      /* deviatoric stress correction */
+} sb_ledger;
+
+#endif
