@@ -4,8 +4,8 @@
 #include "app/options.h"
 #include "app/run_files.h"
 #include "base/nearest.h"
+#include "output/particle_format.h"
 #include "output/video.h"
-#include "output/vtp.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -36,7 +36,19 @@ static sb_status choose_camera(const sb_scene *scene, const char *name, int *cam
                    nearest.found ? nearest.found : scene->render.cameras[0].name, nearest.found ? "?" : "");
 }
 
-static sb_status draw_all(const char *run, const sb_pvd *list, sb_pictures *pictures, bool quiet, sb_error *error)
+static sb_status read_list(const char *run, const sb_particle_format *format, sb_particle_list *list, sb_error *error)
+{
+    char name[SB_PARTICLE_NAME_MAX], path[SB_PATH_MAX];
+    if (!format->read || !sb_particle_format_list(format, name))
+        return sb_fail(error, SB_BAD_INPUT,
+                       "%.500s: has no particle files that can be read; those of the format %s cannot", run,
+                       format->name);
+    sb_status status = sb_path_join(path, run, name, error);
+    return status == SB_OK ? format->read_list(path, list, error) : status;
+}
+
+static sb_status draw_all(const char *run, const sb_particle_format *format, const sb_particle_list *list,
+                          sb_pictures *pictures, bool quiet, sb_error *error)
 {
     sb_consumer_work work = sb_pictures_work(pictures);
     sb_status status = work.open(pictures, error);
@@ -44,7 +56,7 @@ static sb_status draw_all(const char *run, const sb_pvd *list, sb_pictures *pict
         char path[SB_PATH_MAX];
         sb_frame *frame = NULL;
         status = sb_path_join(path, run, list->entries[i].file, error);
-        if (status == SB_OK) status = sb_vtp_read(path, &frame, error);
+        if (status == SB_OK) status = format->read(path, &frame, error);
         if (status == SB_OK) status = work.handle(pictures, frame, error);
         sb_frame_release(frame);
         if (!quiet && status == SB_OK)
@@ -86,29 +98,29 @@ static sb_status check_place(const char *directory, const sb_scene *scene, int c
 
 static sb_status render(const sb_options *options, sb_error *error)
 {
-    char scene_path[SB_PATH_MAX], list_path[SB_PATH_MAX];
+    char scene_path[SB_PATH_MAX];
     const char *run = options->positional, *directory = options->out ? options->out : run;
     sb_scene scene = {0};
     sb_model model = {0};
-    sb_pvd list = {0};
+    sb_particle_list list = {0};
+    const sb_particle_format *format = sb_particle_format_in(run);
     int camera = -1, lock = -1;
     sb_status status = sb_path_join(scene_path, run, "scene.yaml", error);
-    if (status == SB_OK) status = sb_path_join(list_path, run, "particles.pvd", error);
     if (status == SB_OK && access(run, F_OK) == 0) status = check_run(run, error);
     if (status == SB_OK) status = sb_options_scene(options, scene_path, &scene, error);
     if (status == SB_OK) status = choose_camera(&scene, options->camera, &camera, error);
-    if (status == SB_OK) status = sb_pvd_read(list_path, &list, error);
+    if (status == SB_OK) status = read_list(run, format, &list, error);
     if (status == SB_OK) status = sb_make_directories(directory, error);
     if (status == SB_OK) status = sb_lock_directory(directory, "another directory given with --out", &lock, error);
     if (status == SB_OK) status = check_place(directory, &scene, camera, error);
     if (status == SB_OK) status = sb_model_import_bodies(&scene, &model, error);
     if (status == SB_OK) {
         sb_pictures pictures = {.scene = &scene, .model = &model, .directory = directory, .camera = camera};
-        status = draw_all(run, &list, &pictures, options->quiet, error);
+        status = draw_all(run, format, &list, &pictures, options->quiet, error);
         if (status == SB_OK && pictures.count > 1) make_videos(directory, &scene, camera, pictures.count);
     }
     if (lock >= 0) close(lock);
-    sb_pvd_free(&list);
+    sb_particle_list_free(&list);
     sb_model_free(&model);
     sb_scene_free(&scene);
     return status;

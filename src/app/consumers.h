@@ -7,17 +7,18 @@
 #include "base/archive.h"
 #include "base/file.h"
 #include "geometry/model/model.h"
-#include "output/pvd.h"
+#include "output/particle_format.h"
 #include "output/runlog.h"
 #include "render/image.h"
 #include "render/renderer.h"
 #include "scene/scene.h"
 #include "stream/stream.h"
 
-/* particles/NNNNNN.vtp and particles.pvd */
+/* Particle files and the list of them. */
 typedef struct sb_recorder {
     const char *directory;
-    sb_pvd pvd;
+    const sb_particle_format *format;
+    sb_particle_list list;
     uint64_t count, synced; /* files written; of these, synced to disk */
 } sb_recorder;
 sb_consumer_work sb_recorder_work(sb_recorder *recorder);

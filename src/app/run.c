@@ -132,7 +132,7 @@ static void release_shared(run *r, bool *thread_remains)
         if (thread_remains) *thread_remains = true;
         return;
     }
-    sb_pvd_free(&r->recorder.pvd); /* of a run that was not resumed: no thread has used it */
+    sb_particle_list_free(&r->recorder.list); /* of a run that was not resumed: no thread has used it */
     sb_model_free(&r->model);
 }
 

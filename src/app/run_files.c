@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "output/csv.h"
 #include "output/esri.h"
+#include "output/particle_format.h"
 #include "render/image.h"
 
 #include <dirent.h>
@@ -16,8 +17,11 @@
 
 typedef enum place { CHECKPOINTS, PARTICLES, MAPS, PLOTS, CAMERA, TOP } place;
 
-static const char *const folders[] = {
-    [CHECKPOINTS] = "checkpoints", [PARTICLES] = "particles", [MAPS] = "maps", [PLOTS] = "plots", [CAMERA] = "frames"};
+static const char *const folders[] = {[CHECKPOINTS] = "checkpoints",
+                                      [PARTICLES] = SB_PARTICLE_FOLDER,
+                                      [MAPS] = "maps",
+                                      [PLOTS] = "plots",
+                                      [CAMERA] = "frames"};
 enum { FOLDERS = sizeof folders / sizeof *folders };
 
 enum {
@@ -35,8 +39,6 @@ static const struct {
     {TOP, (const char *const[]){"scene", NULL}, ".yaml", SB_SCENE_WRITTEN, KEPT},
     {TOP, (const char *const[]){"summary", NULL}, ".json", "{", 0},
     {TOP, sb_csv_names, ".csv", "time_s,", GROWS},
-    {TOP, (const char *const[]){"particles", NULL}, ".pvd", "<?xml", 0},
-    {PARTICLES, (const char *const[]){"last-good", NULL}, ".vtp", "<?xml", 0},
     {CHECKPOINTS, (const char *const[]){SB_CHECKPOINT_SETTLING, NULL}, SB_CHECKPOINT_SUFFIX, SB_CHECKPOINT_KIND, 0},
     {MAPS, sb_map_names, ".asc", "ncols", 0},
     {MAPS, sb_map_names, ".png", PNG, 0},
@@ -46,11 +48,6 @@ static const struct {
     {PLOTS, sb_map_names, ".gp", "", 0},
     {PLOTS, (const char *const[]){"part", NULL}, ".png", "", 0},
 };
-
-static const struct {
-    place in;
-    const char *ending, *start;
-} numbered[] = {{PARTICLES, ".vtp", "<?xml"}, {CHECKPOINTS, SB_CHECKPOINT_SUFFIX, SB_CHECKPOINT_KIND}};
 
 /* What is known about a file from its name. */
 typedef struct kind {
@@ -147,26 +144,54 @@ static kind kind_of_picture(const finder *f, const char *camera, const char *pat
 
 /* ---- entries ---- */
 
+/* Whether the first `length` characters of `name` are stem + ending. */
+static bool is_name(const char *name, size_t length, const char *stem, const char *ending)
+{
+    const size_t begin = strlen(stem);
+    return length == begin + strlen(ending) && strncmp(name, stem, begin) == 0 &&
+           strncmp(name + begin, ending, length - begin) == 0;
+}
+
+/* A particle file, or a list of particle files, of any format. length: of the name without ".tmp". */
+static kind kind_of_particles(place in, const char *name, size_t length)
+{
+    for (const sb_particle_format *const *row = sb_particle_formats; *row; row++) {
+        const sb_particle_format *format = *row;
+        if (in == PARTICLES &&
+            (sb_is_numbered(name, format->ending, 0) || is_name(name, length, SB_PARTICLE_LAST_GOOD, format->ending)))
+            return (kind){.named = true, .start = format->start};
+        if (in == TOP && format->list_ending && is_name(name, length, SB_PARTICLE_LIST, format->list_ending))
+            return (kind){.named = true, .start = format->list_start};
+    }
+    return (kind){.named = false};
+}
+
+/* A file that is not a particle file, a picture or a film. length: of the name without ".tmp". */
+static kind kind_of_known(place in, const char *name, size_t length)
+{
+    if (in == CHECKPOINTS && sb_is_numbered(name, SB_CHECKPOINT_SUFFIX, 0))
+        return (kind){.named = true, .start = SB_CHECKPOINT_KIND};
+    for (size_t k = 0; k < sizeof known / sizeof *known; k++)
+        for (size_t n = 0; known[k].in == in && known[k].names[n]; n++)
+            if (is_name(name, length, known[k].names[n], known[k].ending))
+                return (kind){.named = true, .start = known[k].start, .how = known[k].how};
+    return (kind){.named = false};
+}
+
 static kind kind_of(const finder *f, place in, const char *camera, const char *path, const char *name)
 {
     const size_t whole = strlen(name);
     const bool temporary = whole > 4 && strcmp(name + whole - 4, ".tmp") == 0;
     const size_t length = whole - (temporary ? 4 : 0);
     if (in == CAMERA) return kind_of_picture(f, camera, path, name);
-    for (size_t k = 0; k < sizeof numbered / sizeof *numbered; k++)
-        if (numbered[k].in == in && sb_is_numbered(name, numbered[k].ending, 0))
-            return (kind){.named = true, .start = temporary ? "" : numbered[k].start};
-    for (size_t k = 0; k < sizeof known / sizeof *known; k++)
-        for (size_t n = 0; known[k].in == in && known[k].names[n]; n++) {
-            const size_t stem = strlen(known[k].names[n]);
-            if (length != stem + strlen(known[k].ending) || strncmp(name, known[k].names[n], stem) != 0 ||
-                strncmp(name + stem, known[k].ending, length - stem) != 0)
-                continue;
-            return (kind){.named = true,
-                          .start = temporary ? "" : known[k].start,
-                          .how = temporary ? known[k].how & ~(unsigned)KEPT : known[k].how};
-        }
-    return in == TOP ? kind_of_film(f, name) : (kind){.named = false};
+    kind found = kind_of_particles(in, name, length);
+    if (!found.named) found = kind_of_known(in, name, length);
+    if (!found.named) return in == TOP ? kind_of_film(f, name) : found;
+    if (temporary) {
+        found.start = "";
+        found.how &= ~(unsigned)KEPT;
+    }
+    return found;
 }
 
 static void note_other(const finder *f, const char *path)

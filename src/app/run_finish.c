@@ -6,7 +6,6 @@
 #include "output/plots.h"
 #include "output/summary.h"
 #include "output/video.h"
-#include "output/vtp.h"
 
 #include <math.h>
 #include <omp.h>
@@ -33,14 +32,15 @@ static void log_saved(run *r)
 /* Writes the state before the step that failed, so that the user can examine the failure. */
 static void write_last_state(run *r)
 {
-    char path[SB_PATH_MAX];
+    const sb_particle_format *format = r->recorder.format;
+    char path[SB_PATH_MAX], name[SB_PARTICLE_NAME_MAX];
     sb_error reason = {0};
     sb_frame *frame = sb_sim_snapshot(r->sim);
     if (!frame) return;
-    if (sb_make_folder(path, r->directory, "particles", &reason) == SB_OK &&
-        sb_run_path(r, "particles/last-good.vtp", path, &reason) == SB_OK &&
-        sb_vtp_write(path, frame, 0, &reason) == SB_OK)
-        sb_runlog_event(r->log, "last_good_state", "particles/last-good.vtp");
+    sb_particle_format_file(format, 0, name);
+    if (sb_make_folder(path, r->directory, SB_PARTICLE_FOLDER, &reason) == SB_OK &&
+        sb_run_path(r, name, path, &reason) == SB_OK && format->write(path, frame, 0, &reason) == SB_OK)
+        sb_runlog_event(r->log, "last_good_state", "%s", name);
     else
         sb_run_warn(r, "%s", reason.text);
     sb_frame_release(frame);

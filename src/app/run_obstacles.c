@@ -79,7 +79,7 @@ sb_status sb_run_check_folders(const run *r, sb_error *error)
     const sb_scene *scene = r->scene;
     const bool draws = scene->render.interval > 0 && scene->render.camera_count > 0;
     sb_status status = SB_OK;
-    if (scene->output.particle_interval > 0) status = check_folder(r, "particles", error);
+    if (scene->output.particle_interval > 0) status = check_folder(r, SB_PARTICLE_FOLDER, error);
     if (status == SB_OK && scene->measure.map.present) status = check_folder(r, "maps", error);
     if (status == SB_OK && scene->output.plots) status = check_folder(r, "plots", error);
     if (status == SB_OK && draws) status = check_folder(r, "frames", error);

@@ -147,7 +147,7 @@ static sb_status start_consumers(run *r, sb_error *error)
 
 static void name_consumers(run *r)
 {
-    r->recorder = (sb_recorder){.directory = r->directory};
+    r->recorder = (sb_recorder){.directory = r->directory, .format = sb_particle_formats[0]};
     r->pictures = (sb_pictures){.scene = r->scene, .model = &r->model, .directory = r->directory, .camera = -1};
     r->streamer = (sb_streamer){.log = r->log};
 }

@@ -68,7 +68,7 @@ void assert_same_file(const char *a, const char *b, const char *name)
 /* Particle files contain the wall time; everything else is compared. */
 static void assert_same_particles(const char *a, const char *b)
 {
-    sb_pvd list = {0};
+    sb_particle_list list = {0};
     sb_error error = {0};
     assert_same_file(a, b, "particles.pvd");
     assert_int_equal(sb_pvd_read(in_folder("%s/particles.pvd", a), &list, &error), SB_OK);
@@ -87,7 +87,7 @@ static void assert_same_particles(const char *a, const char *b)
         sb_frame_release(two);
     }
     assert_false(access(in_folder("%s/particles/%06zu.vtp", b, list.count + 1), F_OK) == 0);
-    sb_pvd_free(&list);
+    sb_particle_list_free(&list);
 }
 
 static void hash_of(const char *run, char hash[32])

@@ -324,7 +324,7 @@ static void a_directory_that_moves(void **state)
     assert_contains(o.err, "particle files: here/particles");
     outcome_free(&o);
     assert_false(any_ending("there", ".tmp"));
-    sb_pvd list = {0};
+    sb_particle_list list = {0};
     sb_error error = {0};
     assert_int_equal(sb_pvd_read(in_folder("there/particles.pvd"), &list, &error), SB_OK);
     for (size_t i = 0; i < list.count; i++) {
@@ -332,7 +332,7 @@ static void a_directory_that_moves(void **state)
         assert_int_equal(sb_vtp_read(in_folder("there/%s", list.entries[i].file), &frame, &error), SB_OK);
         sb_frame_release(frame);
     }
-    sb_pvd_free(&list);
+    sb_particle_list_free(&list);
 }
 
 /* ---- closed streams ---- */

@@ -68,13 +68,13 @@ static void a_disk_that_is_full_for_a_while(void **state)
     assert_true(missing >= 1);
     snprintf(expected, sizeof expected, "%s%.0f frame", reason, missing);
     check_summary(expected);
-    sb_pvd list = {0};
+    sb_particle_list list = {0};
     assert_int_equal(sb_pvd_read(in_folder("short/particles.pvd"), &list, NULL), SB_OK);
     assert_near(json_number_of("short/summary.json", "particle_files"), (double)list.count, 0);
     const double end = json_number_of("short/summary.json", "simulated_s");
     assert_in_range(list.count + (size_t)missing, (size_t)(end / 0.02) - 1, (size_t)(end / 0.02) + 2);
     assert_true(exists("short/particles/000004.vtp"));
-    sb_pvd_free(&list);
+    sb_particle_list_free(&list);
 
     snprintf(until, sizeof until, "%.9g", end + 0.05);
     o = RUN(2, "run", "tank2.yaml", "--out", "short", "--quiet", "--resume", "--until", until, "--set",

@@ -242,7 +242,7 @@ static void probes_have_all_columns(void **state)
 static void particle_files_and_their_list(void **state)
 {
     (void)state;
-    sb_pvd list = {0};
+    sb_particle_list list = {0};
     sb_error error = {0};
     assert_int_equal(sb_pvd_read(in_folder("r3/particles.pvd"), &list, &error), SB_OK);
     assert_int_equal(list.count, 4);
@@ -255,7 +255,7 @@ static void particle_files_and_their_list(void **state)
         assert_int_equal(frame->count, 384);
         sb_frame_release(frame);
     }
-    sb_pvd_free(&list);
+    sb_particle_list_free(&list);
 }
 
 static void summary_has_its_keys(void **state)

@@ -58,7 +58,7 @@ static void check_table(const char *name)
 
 static void check_particles(const char *run, size_t count)
 {
-    sb_pvd list = {0};
+    sb_particle_list list = {0};
     sb_error error = {0};
     assert_int_equal(sb_pvd_read(in_folder("%s/particles.pvd", run), &list, &error), SB_OK);
     assert_true(list.count >= 3);
@@ -71,7 +71,7 @@ static void check_particles(const char *run, size_t count)
     }
     /* There is no file that the list does not name. */
     assert_false(access(in_folder("%s/particles/%06zu.vtp", run, list.count + 1), F_OK) == 0);
-    sb_pvd_free(&list);
+    sb_particle_list_free(&list);
 }
 
 static void check_reports(const char *run, const char *last_event)

@@ -97,6 +97,7 @@ static void make(void)
     must(sb_run(&scene, directory, &quiet, &error), &error);
     taker.scene = &scene;
     taker.directory = directory;
+    taker.recorder.format = sb_particle_formats[0];
     must(sb_model_build(&scene, &taker.model, &error), &error);
     must(sb_checkpoint_begin(&taker, &error), &error);
     must(sb_checkpoint_identify(&taker, &error), &error);
