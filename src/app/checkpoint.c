@@ -1,5 +1,9 @@
-#include "app/checkpoint_parts.h"
+#include "app/checkpoint.h"
 
+#include "app/checkpoint_parts.h"
+#include "app/missed.h"
+#include "app/run_parts.h"
+#include "app/spent.h"
 #include "base/clock.h"
 #include "base/memory.h"
 

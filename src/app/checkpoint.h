@@ -4,26 +4,7 @@
 #ifndef SB_APP_CHECKPOINT_H
 #define SB_APP_CHECKPOINT_H
 
-#include "app/build.h"
-#include "base/file.h"
-
-#include <stdbool.h>
-#include <stdint.h>
-
-typedef struct run run; /* app/run_state.h */
-
-typedef struct sb_checkpoints {
-    bool on; /* the scene requests checkpoints */
-    char folder[SB_PATH_MAX];
-    char *identity;            /* identifies the scene */
-    uint64_t model;            /* hash of the sampled particles */
-    char build[SB_BUILD_TEXT]; /* identifies this program's numerics */
-    bool any_build;            /* checkpoints of other builds are accepted */
-    double written;            /* clock time of the last attempt, s */
-    uint64_t last_step;        /* step of the last attempt, or of the checkpoint that was loaded */
-    bool current;              /* a checkpoint of last_step exists */
-    bool settling;             /* the last checkpoint was written during settling */
-} sb_checkpoints;
+#include "app/run_state.h"
 
 /* Finds the folder, and whether the scene requests checkpoints. */
 sb_status sb_checkpoint_begin(run *r, sb_error *error);

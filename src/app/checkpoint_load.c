@@ -1,6 +1,9 @@
 /* Resuming from the newest checkpoint that is undamaged, of this program and build, and of this scene. */
+#include "app/checkpoint.h"
 #include "app/checkpoint_parts.h"
-
+#include "app/missed.h"
+#include "app/run_parts.h"
+#include "app/spent.h"
 #include "base/memory.h"
 
 #include <inttypes.h>

@@ -2,13 +2,11 @@
 #ifndef SB_APP_CHECKPOINT_PARTS_H
 #define SB_APP_CHECKPOINT_PARTS_H
 
+#include "app/checkpoint_names.h"
 #include "app/run_state.h"
 
-#define SB_CHECKPOINT_KIND "SBSTATE"
-#define SB_CHECKPOINT_SUFFIX ".state"
 #define SB_CHECKPOINT_SCENE "scene"
 #define SB_CHECKPOINT_RUN "run"
-#define SB_CHECKPOINT_SETTLING "settling"
 
 enum { SB_CHECKPOINT_FORMAT = 11 };
 

@@ -1,6 +1,6 @@
 #include "app/missed.h"
 
-#include "app/run_state.h"
+#include "app/run_parts.h"
 #include "base/memory.h"
 
 #include <inttypes.h>

@@ -3,18 +3,7 @@
 #ifndef SB_APP_MISSED_H
 #define SB_APP_MISSED_H
 
-#include "base/archive.h"
-#include "base/status.h"
-
-#include <stdint.h>
-
-typedef struct run run; /* app/run_state.h */
-
-/* The missed frames of one consumer. */
-typedef struct sb_missed {
-    uint64_t count;
-    char reason[sizeof((sb_error *)0)->text]; /* of the first one */
-} sb_missed;
+#include "app/run_state.h"
 
 /* Warns of consumers that began to fail, or worked again, since the last call. */
 void sb_missed_report(run *r);

@@ -1,5 +1,8 @@
-#include "app/run_state.h"
+#include "app/run.h"
 
+#include "app/checkpoint.h"
+#include "app/missed.h"
+#include "app/run_parts.h"
 #include "base/stop.h"
 #include "output/profile.h"
 

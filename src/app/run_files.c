@@ -1,6 +1,6 @@
 #include "app/run_files.h"
 
-#include "app/checkpoint_parts.h"
+#include "app/checkpoint_names.h"
 #include "base/memory.h"
 #include "output/csv.h"
 #include "output/esri.h"

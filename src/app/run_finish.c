@@ -1,5 +1,7 @@
 /* After the last step: completes all files of the run, however it ended. */
-#include "app/run_state.h"
+#include "app/missed.h"
+#include "app/run_parts.h"
+#include "app/spent.h"
 #include "base/memory.h"
 #include "base/stop.h"
 #include "output/esri.h"

@@ -1,5 +1,7 @@
 /* Checks before a run begins that it can write its files. */
-#include "app/run_state.h"
+#include "app/checkpoint.h"
+#include "app/run.h"
+#include "app/run_parts.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* Messages of a run to the terminal and its log, and the paths of its files. */
-#include "app/run_state.h"
+#include "app/run_parts.h"
 
 #include <stdarg.h>
 #include <stdio.h>

@@ -1,8 +1,11 @@
 /* Everything before the first step. */
+#include "app/checkpoint.h"
 #include "app/fit.h"
 #include "app/lock.h"
 #include "app/room.h"
-#include "app/run_state.h"
+#include "app/run.h"
+#include "app/run_parts.h"
+#include "app/spent.h"
 #include "app/team.h"
 #include "app/warnings.h"
 #include "output/summary.h"

@@ -1,6 +1,6 @@
 #include "app/spent.h"
 
-#include "app/run_state.h"
+#include "app/run_parts.h"
 #include "base/memory.h"
 
 #include <string.h>

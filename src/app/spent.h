@@ -2,19 +2,16 @@
 #ifndef SB_APP_SPENT_H
 #define SB_APP_SPENT_H
 
-#include "base/archive.h"
-#include "output/summary.h"
-
-struct run;
+#include "app/run_state.h"
 
 /* Records the time of the stages so far as time of settling. Call it at the end of settling. */
-void sb_spent_settled(struct run *r);
+void sb_spent_settled(run *r);
 
 /* The sums so far. */
-sb_spent sb_spent_sum(const struct run *r);
+sb_spent sb_spent_sum(const run *r);
 
 /* Write the sums to a checkpoint and read them as the time of earlier processes. */
-void sb_spent_save(const struct run *r, sb_archive_out *out);
-void sb_spent_load(struct run *r, sb_archive_in *in);
+void sb_spent_save(const run *r, sb_archive_out *out);
+void sb_spent_load(run *r, sb_archive_in *in);
 
 #endif
