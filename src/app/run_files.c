@@ -2,8 +2,8 @@
 
 #include "app/checkpoint_names.h"
 #include "base/memory.h"
-#include "output/csv.h"
-#include "output/esri.h"
+#include "output/csv_tables.h"
+#include "output/maps.h"
 #include "output/particle_format.h"
 #include "render/image.h"
 
@@ -29,25 +29,34 @@ enum {
     GROWS = 2 /* written in place, so that a file with several names (hard links) would change under each name */
 };
 
-/* The files of a run: names + ending, and the first bytes, by which a user's file of the same name is recognised. */
+/* The files of a run besides particle files, pictures and films: their names, and the first bytes, by which a user's
+   file of the same name is recognised. */
 static const struct {
     place in;
-    const char *const *names, *ending, *start;
+    const char *name;               /* NULL: several */
+    const char *(*names)(size_t i); /* all names, then NULL */
+    const char *ending, *start;
     unsigned how;
 } known[] = {
-    {TOP, (const char *const[]){"run", NULL}, ".jsonl", SB_RUN_LOG_START, KEPT | GROWS},
-    {TOP, (const char *const[]){"scene", NULL}, ".yaml", SB_SCENE_WRITTEN, KEPT},
-    {TOP, (const char *const[]){"summary", NULL}, ".json", "{", 0},
-    {TOP, sb_csv_names, ".csv", "time_s,", GROWS},
-    {CHECKPOINTS, (const char *const[]){SB_CHECKPOINT_SETTLING, NULL}, SB_CHECKPOINT_SUFFIX, SB_CHECKPOINT_KIND, 0},
-    {MAPS, sb_map_names, ".asc", "ncols", 0},
-    {MAPS, sb_map_names, ".png", PNG, 0},
-    {PLOTS, sb_csv_names, ".png", PNG, 0},
-    {PLOTS, sb_csv_names, ".dat", "", 0},
-    {PLOTS, sb_csv_names, ".gp", "", 0},
-    {PLOTS, sb_map_names, ".gp", "", 0},
-    {PLOTS, (const char *const[]){"part", NULL}, ".png", "", 0},
+    {TOP, "run", NULL, ".jsonl", SB_RUN_LOG_START, KEPT | GROWS},
+    {TOP, "scene", NULL, ".yaml", SB_SCENE_WRITTEN, KEPT},
+    {TOP, "summary", NULL, ".json", "{", 0},
+    {TOP, NULL, sb_csv_name, ".csv", "time_s,", GROWS},
+    {CHECKPOINTS, SB_CHECKPOINT_SETTLING, NULL, SB_CHECKPOINT_SUFFIX, SB_CHECKPOINT_KIND, 0},
+    {MAPS, NULL, sb_map_name, ".asc", "ncols", 0},
+    {MAPS, NULL, sb_map_name, ".png", PNG, 0},
+    {PLOTS, NULL, sb_csv_name, ".png", PNG, 0},
+    {PLOTS, NULL, sb_csv_name, ".dat", "", 0},
+    {PLOTS, NULL, sb_csv_name, ".gp", "", 0},
+    {PLOTS, NULL, sb_map_name, ".gp", "", 0},
+    {PLOTS, "part", NULL, ".png", "", 0},
 };
+
+static const char *known_name(size_t k, size_t i)
+{
+    if (known[k].names) return known[k].names(i);
+    return i == 0 ? known[k].name : NULL;
+}
 
 /* What is known about a file from its name. */
 typedef struct kind {
@@ -172,8 +181,8 @@ static kind kind_of_known(place in, const char *name, size_t length)
     if (in == CHECKPOINTS && sb_is_numbered(name, SB_CHECKPOINT_SUFFIX, 0))
         return (kind){.named = true, .start = SB_CHECKPOINT_KIND};
     for (size_t k = 0; k < sizeof known / sizeof *known; k++)
-        for (size_t n = 0; known[k].in == in && known[k].names[n]; n++)
-            if (is_name(name, length, known[k].names[n], known[k].ending))
+        for (size_t i = 0; known[k].in == in && known_name(k, i); i++)
+            if (is_name(name, length, known_name(k, i), known[k].ending))
                 return (kind){.named = true, .start = known[k].start, .how = known[k].how};
     return (kind){.named = false};
 }

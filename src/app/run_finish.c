@@ -4,7 +4,7 @@
 #include "app/spent.h"
 #include "base/memory.h"
 #include "base/stop.h"
-#include "output/esri.h"
+#include "output/maps.h"
 #include "output/plots.h"
 #include "output/summary.h"
 #include "output/video.h"

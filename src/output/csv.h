@@ -7,13 +7,10 @@
 #include "base/status.h"
 #include "frame/records.h"
 #include "geometry/model/model.h"
+#include "output/csv_tables.h"
 #include "scene/scene.h"
 
 typedef struct sb_csv sb_csv;
-
-/* The tables that a run may have, <name>.csv; the list ends with NULL. */
-enum { SB_CSV_TABLES = 6 };
-extern const char *const sb_csv_names[SB_CSV_TABLES + 1];
 
 /* Creates forces.csv, gauges.csv, probes.csv, energy.csv and, when the scene has planes or lines,
    overtopping.csv and runup.csv in the directory (which exists). scene and model must outlive it.

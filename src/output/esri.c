@@ -18,18 +18,3 @@ sb_status sb_esri_write(const char *path, const sb_map_record *map, const float 
         }
     return sb_atomic_commit(&out, 0, error);
 }
-
-const char *const sb_map_names[SB_MAPS + 1] = {"max_depth", "max_speed", "max_momentum_flux", "arrival_time"};
-
-sb_status sb_maps_write(const char *directory, const sb_map_record *map, sb_error *error)
-{
-    const float *const values[SB_MAPS] = {map->depth, map->speed, map->flux, map->arrival};
-    char path[SB_PATH_MAX], name[64];
-    sb_status status = sb_make_folder(path, directory, "maps", error);
-    for (size_t i = 0; status == SB_OK && i < SB_MAPS; i++) {
-        snprintf(name, sizeof name, "maps/%s.asc", sb_map_names[i]);
-        status = sb_path_join(path, directory, name, error);
-        if (status == SB_OK) status = sb_esri_write(path, map, values[i], error);
-    }
-    return status;
-}

@@ -1,6 +1,6 @@
 /* Plots from invented tables, and videos, if gnuplot and ffmpeg are installed. */
 #include "output/csv.h"
-#include "output/esri.h"
+#include "output/maps.h"
 #include "output/plots.h"
 #include "output/tool.h"
 #include "output/video.h"

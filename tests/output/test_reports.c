@@ -1,5 +1,5 @@
 /* run.jsonl, summary.json, map grids and progress. */
-#include "output/esri.h"
+#include "output/maps.h"
 #include "output/progress.h"
 #include "output/runlog.h"
 #include "output/summary.h"
