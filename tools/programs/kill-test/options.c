@@ -37,7 +37,7 @@ static sb_status take_scene(void *user, const char *path, sb_error *error)
 sb_status sb_kill_options_parse(int count, char **arguments, sb_kill_options *options, sb_error *error)
 {
     bool plain = false;
-    *options = (sb_kill_options){.scene = SB_KILL_SCENE, .out = "runs/kill-test", .kills = 100, .seed = 1};
+    *options = (sb_kill_options){.scene = SB_SOURCE_DIR "/tools/programs/kill-test/scene.yaml", .out = "runs/kill-test", .kills = 100, .seed = 1};
     const sb_argument table[] = {{.name = "--kills", .count = &options->kills, .most = 1e6},
                                  {.name = "--seed", .take = take_seed},
                                  {.name = "--out", .text = &options->out},
