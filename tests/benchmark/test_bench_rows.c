@@ -268,8 +268,8 @@ static void test_options_select_sections(void **state)
     assert_int_equal(parse("scaling kernels scaling --repeats 3 --quick --out x", &o, &error), SB_OK);
     assert_int_equal(o.count, 2);
     assert_string_equal(o.sections[0]->name, "scaling");
-    assert_true(o.repeats == 3 && o.quick);
-    assert_string_equal(o.out, "x");
+    assert_true(o.repeats == 3 && o.common.quick);
+    assert_string_equal(o.common.out, "x");
     static const char *const wrong[][2] = {
         {"pressure", "pressure: no such section"},
         {"--fast", "--fast: no such option"},

@@ -73,7 +73,7 @@ static void test_choices_are_valid(void **state)
         if (sb_contest_begin(&c, s, &store, &(sb_contest_selection){.seeds = 1}, &error) != SB_OK)
             fail_msg("%s", error.text);
         for (size_t i = 0; i < c.trial_count; i++)
-            if (sb_store_folder(&store, &c.trials[i].request, folder, &error) != SB_OK) fail_msg("%s", error.text);
+            if (sb_run_folder(&store, &c.trials[i].request, folder, &error) != SB_OK) fail_msg("%s", error.text);
         sb_contest_free(&c);
     }
 }

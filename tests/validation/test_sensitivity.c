@@ -2,7 +2,7 @@
 #include "check.h"
 
 #include "base/memory.h"
-#include "sensitivity_parts.h"
+#include "sensitivity.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -24,23 +24,23 @@ static void add(sb_result *r, double height, double noise)
 static void test_report_shows_headline_and_largest_error(void **state)
 {
     (void)state;
-    sb_sensitivity_study study = {.count = 1 + SB_SENSITIVITY_PAIR * sb_sensitivity_rows()};
-    study.results = sb_alloc(study.count, sizeof *study.results);
-    assert_non_null(study.results);
-    for (size_t i = 0; i < study.count; i++) study.results[i].request = (sb_request){.of = &of, .plan = &plan};
-    add(&study.results[0], 2.1, 0.25);
-    study.results[0].run.scene.numerics = (sb_numerics){.support = 2.5, .wall_gamma = 1};
-    add(&study.results[1], 1.9, 4);
-    add(&study.results[2], (double)NAN, 0.1);
-    study.results[3].state = SB_RESULT_FAILED;
-    study.results[study.count - 1].request.of = NULL;
-    const sb_case *const cases[] = {&of};
     const sb_store store = {.machine = "a machine", .commit = "abc"};
+    sb_sensitivity_study study = {.store = &store, .command = "a command", .count = 1};
+    const size_t runs = 1 + SB_SENSITIVITY_PAIR * sb_sensitivity_rows();
+    study.runs = sb_alloc(runs, sizeof *study.runs);
+    assert_non_null(study.runs);
+    for (size_t i = 0; i < runs; i++) study.runs[i].request = (sb_request){.of = &of, .plan = &plan};
+    add(&study.runs[0], 2.1, 0.25);
+    study.runs[0].run.scene.numerics = (sb_numerics){.support = 2.5, .wall_gamma = 1};
+    add(&study.runs[1], 1.9, 4);
+    add(&study.runs[2], (double)NAN, 0.1);
+    study.runs[3].state = SB_RESULT_FAILED;
+    study.runs[runs - 1].request.of = NULL;
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     assert_non_null(out);
-    sb_sensitivity_report(out, &store, &study, cases, 1, "a command");
+    sb_sensitivity_report(out, &study);
     assert_int_equal(fclose(out), 0);
     assert_non_null(strstr(text, "| (defaults) | | +5 |\n| (start seed 2 / 3) | 1 | -5 / –! |\n"));
     assert_non_null(strstr(text, "| support | 2.5 | failed / – |\n"));
@@ -49,8 +49,8 @@ static void test_report_shows_headline_and_largest_error(void **state)
         strstr(text, "| (defaults) | | 2 of 2, 0.5× |\n| (start seed 2 / 3) | 1 | 1 of 2, 4× / 1 of 2, none |\n"));
     assert_non_null(strstr(text, "- a: height\n"));
     free(text);
-    for (size_t i = 0; i < study.count; i++) sb_figures_free(&study.results[i].figures);
-    sb_free(study.results);
+    for (size_t i = 0; i < runs; i++) sb_figures_free(&study.runs[i].figures);
+    sb_free(study.runs);
 }
 
 int main(void)

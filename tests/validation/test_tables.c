@@ -2,6 +2,7 @@
 #include "check.h"
 
 #include "base/file.h"
+#include "cases.h"
 #include "request.h"
 #include "results.h"
 #include "sensitivity.h"
@@ -104,12 +105,10 @@ static void test_cases_are_valid(void **state)
             sb_request *requests = NULL;
             sb_error error = {0};
             size_t count = 0, judged = 0;
-            char scene[SB_PATH_MAX];
             assert_int_equal(sb_case_requests(of, quick, &requests, &count, NULL), SB_OK);
-            assert_int_equal(sb_path_join(scene, SB_SOURCE_DIR "/assets/validation", of->scene, NULL), SB_OK);
             for (size_t r = 0; r < count; r++) {
                 uint64_t hash = 0;
-                if (sb_request_hash(&requests[r], scene, &hash, &error) != SB_OK)
+                if (sb_request_hash(&requests[r], SB_SOURCE_DIR "/assets/validation", &hash, &error) != SB_OK)
                     fail_msg("%s: %s", of->name, error.text);
                 /* one set of defaults for all */
                 for (const char *const *more = requests[r].plan->settings; more && *more; more++)
@@ -127,7 +126,7 @@ static void test_hash_depends_on_request(void **state)
     (void)state;
     static const char *const longer[] = {"duration=21", NULL};
     sb_plan plan = {.resolution = 0.05}, other = {.resolution = 0.05, .settings = longer};
-    const char *scene = SB_SOURCE_DIR "/assets/validation/still-water/flat.yaml";
+    const char *assets = SB_SOURCE_DIR "/assets/validation";
     sb_request base = {.of = sb_cases[0], .plan = &plan, .seed = 1}, changed[4];
     for (int i = 0; i < 4; i++) changed[i] = base;
     changed[0].seed = 2;
@@ -135,12 +134,12 @@ static void test_hash_depends_on_request(void **state)
     changed[2].plan = &other;
     snprintf(changed[3].change, sizeof changed[3].change, "numerics.cfl=0.3");
     uint64_t first = 0, again = 0;
-    assert_int_equal(sb_request_hash(&base, scene, &first, NULL), SB_OK);
-    assert_int_equal(sb_request_hash(&base, scene, &again, NULL), SB_OK);
+    assert_int_equal(sb_request_hash(&base, assets, &first, NULL), SB_OK);
+    assert_int_equal(sb_request_hash(&base, assets, &again, NULL), SB_OK);
     assert_true(first == again);
     for (int i = 0; i < 4; i++) {
         uint64_t hash = 0;
-        assert_int_equal(sb_request_hash(&changed[i], scene, &hash, NULL), SB_OK);
+        assert_int_equal(sb_request_hash(&changed[i], assets, &hash, NULL), SB_OK);
         assert_true(hash != first);
     }
 }
@@ -152,14 +151,15 @@ static void test_written_scene_has_same_defaults_hash(void **state)
     char file_name[] = "/tmp/shorebreak-defaults-XXXXXX";
     const char *scene = SB_SOURCE_DIR "/assets/validation/solitary-runup/breaking.yaml";
     const sb_plan plan = {.resolution = 0.05};
-    const sb_request request = {.of = sb_cases[0], .plan = &plan, .seed = 1};
+    const sb_case of = {.name = "breaking", .scene = scene};
+    const sb_request request = {.of = &of, .plan = &plan, .seed = 1};
     const sb_override set[] = {{"resolution", "0.05"}, {"numerics.seed", "1"}, {"output.plots", "false"}};
     uint64_t expected, written_hash;
     sb_scene made, back;
     const int file = mkstemp(file_name);
     assert_true(file >= 0);
     close(file);
-    assert_int_equal(sb_request_defaults_hash(&request, scene, &expected, NULL), SB_OK);
+    assert_int_equal(sb_request_defaults_hash(&request, "", &expected, NULL), SB_OK);
     assert_int_equal(sb_scene_read(scene, "default", set, 3, &made, NULL), SB_OK);
     for (int other = 0; other < 2; other++) {
         made.numerics.artificial_viscosity += other * 1e-4;

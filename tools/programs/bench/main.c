@@ -10,8 +10,6 @@
 #include "base/stop.h"
 
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 static void warn_of_others(double others)
@@ -55,7 +53,7 @@ static sb_status measure_all(const sb_bench_options *o, const char *out, sb_erro
 {
     char bench[SB_PATH_MAX], folder[SB_PATH_MAX], machine[128], name[128], build[1024];
     sb_bench_request request = {
-        .assets = SB_SOURCE_DIR "/assets", .repeats = o->repeats, .threads = o->threads, .quick = o->quick};
+        .assets = SB_SOURCE_DIR "/assets", .repeats = o->repeats, .threads = o->threads, .quick = o->common.quick};
     sb_origin_machine(machine);
     sb_bench_folder(machine, name);
     sb_status status = sb_path_join(bench, out, "bench", error);
@@ -63,15 +61,18 @@ static sb_status measure_all(const sb_bench_options *o, const char *out, sb_erro
     if (status == SB_OK) status = sb_make_directories(folder, error);
     sb_bench_origin(build, sizeof build, SB_SOURCE_DIR); /* before tables change the state of git */
     for (size_t s = 0; s < o->count && status == SB_OK; s++)
-        status = sb_stop_signal() ? sb_stop_fail(error, "before all sections were measured")
-                                  : measure(o->sections[s], &request, folder, !o->machine && !o->quick, build, error);
+        status = sb_stop_signal()
+                     ? sb_stop_fail(error, "before all sections were measured")
+                     : measure(o->sections[s], &request, folder, !o->machine && !o->common.quick, build, error);
     return status;
 }
 
 static sb_status bench(const sb_bench_options *o, sb_error *error)
 {
-    const char *out = o->out ? o->out : o->quick ? SB_SOURCE_DIR "/build/bench" : SB_SOURCE_DIR "/docs/results";
-    sb_status status = o->report_only ? SB_OK : measure_all(o, out, error);
+    const char *out = o->common.out     ? o->common.out
+                      : o->common.quick ? SB_SOURCE_DIR "/build/bench"
+                                        : SB_SOURCE_DIR "/docs/results";
+    sb_status status = o->common.report_only ? SB_OK : measure_all(o, out, error);
     if (status == SB_OK) status = sb_bench_report(out, error);
     if (status == SB_OK) printf("%s/benchmarks.md\n", out);
     return status;
@@ -81,19 +82,9 @@ int main(int count, char **arguments)
 {
     sb_bench_options o;
     sb_error error = {0};
-    setvbuf(stdout, NULL, _IOLBF, 0);
     sb_memory_return_blocks(); /* as shorebreak does */
     sb_stop_watch();
-    if (count == 2 && strcmp(arguments[1], "--version") == 0) {
-        printf("shorebreak-bench %s\n", SB_VERSION);
-        return 0;
-    }
     sb_status status = sb_bench_parse(count, arguments, &o, &error);
-    if (status == SB_OK && o.help) {
-        fputs(sb_bench_help, stdout);
-        return 0;
-    }
-    if (status == SB_OK) status = bench(&o, &error);
-    if (status != SB_OK) fprintf(stderr, "bench: %s\n", error.text);
-    return status == SB_INTERRUPTED ? 130 : (int)status;
+    if (status == SB_OK && !o.common.answered) status = bench(&o, &error);
+    return sb_tool_end("bench", status, 0, &error);
 }

@@ -1,13 +1,10 @@
 #include "options.h"
 
-#include "arguments.h"
-
 #include <string.h>
-#include <unistd.h>
 
 enum { REPEATS = 7, REPEATS_QUICK = 2 };
 
-const char sb_bench_help[] =
+static const char help[] =
     "usage: tools/bench [kernels|scenes|scaling|memory|large|runs|island|all]... [OPTIONS]\n"
     "Measures run time and memory of the simulation on this machine; writes tables and benchmarks.md.\n\n"
     "  kernels        each stage and pass of a step, compared with this machine's limits\n"
@@ -48,24 +45,23 @@ static sb_status take_section(void *user, const char *name, sb_error *error)
 sb_status sb_bench_parse(int count, char **arguments, sb_bench_options *o, sb_error *error)
 {
     *o = (sb_bench_options){.count = 0};
-    const sb_argument options[] = {{.name = "--quick", .flag = &o->quick},
-                                   {.name = "--report-only", .flag = &o->report_only},
-                                   {.name = "--repeats", .count = &o->repeats, .most = SB_BENCH_REPEATS_MAX},
+    const sb_argument options[] = {{.name = "--repeats", .count = &o->repeats, .most = SB_BENCH_REPEATS_MAX},
                                    {.name = "--threads", .count = &o->threads, .most = 1024},
-                                   {.name = "--out", .text = &o->out},
                                    {.name = "--machine", .text = &o->machine}};
-    const sb_command_line line = {.options = options,
+    const sb_command_line line = {.tool = "bench",
+                                  .help = help,
+                                  .has = SB_HAS_QUICK | SB_HAS_REPORT_ONLY | SB_HAS_OUT,
+                                  .options = options,
                                   .option_count = sizeof options / sizeof *options,
                                   .operand = take_section,
-                                  .user = o,
-                                  .help = &o->help};
-    sb_status status = sb_command_line_read(&line, count, arguments, error);
+                                  .user = o};
+    sb_status status = sb_command_line_read(&line, count, arguments, &o->common, error);
     if (status == SB_OK && o->machine &&
         (!*o->machine || strspn(o->machine, "abcdefghijklmnopqrstuvwxyz0123456789-") != strlen(o->machine)))
         status = sb_fail(error, SB_BAD_INPUT, "--machine: \"%.100s\": expected lower-case letters, digits and -",
                          o->machine);
     if (status == SB_OK && o->count == 0) status = take_section(o, "all", error);
-    if (o->repeats == 0) o->repeats = o->quick ? REPEATS_QUICK : REPEATS;
-    if (o->threads == 0) o->threads = (int)sysconf(_SC_NPROCESSORS_ONLN);
+    if (o->repeats == 0) o->repeats = o->common.quick ? REPEATS_QUICK : REPEATS;
+    if (o->threads == 0) o->threads = sb_cores();
     return status;
 }

@@ -2,19 +2,18 @@
 #ifndef SB_BENCHMARK_OPTIONS_H
 #define SB_BENCHMARK_OPTIONS_H
 
+#include "arguments.h"
 #include "sections.h"
 
 enum { SB_BENCH_SECTIONS_MAX = 16 };
 
 typedef struct sb_bench_options {
+    sb_common_options common;
     const sb_bench_section *sections[SB_BENCH_SECTIONS_MAX];
     size_t count;
-    const char *out, *machine; /* --out, --machine; NULL: not given */
-    bool quick, report_only, help;
+    const char *machine; /* --machine; NULL: not given */
     int repeats, threads;
 } sb_bench_options;
-
-extern const char sb_bench_help[];
 
 /* SB_BAD_INPUT: the error names the argument. */
 sb_status sb_bench_parse(int count, char **arguments, sb_bench_options *options, sb_error *error);

@@ -7,6 +7,7 @@
 #include <errno.h>
 #include <math.h>
 #include <stdbool.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { COLORS = 8, GREYS = 2, SHAPES = 4, TEXT = 160 };
@@ -288,4 +289,16 @@ sb_status sb_plot_draw(const sb_plot *plot, const char *folder, const char *name
     snprintf(script, sizeof script, "%s.gp", name);
     char *const arguments[] = {"gnuplot", script, NULL};
     return status == SB_OK ? sb_tool_run(program, arguments, folder, error) : status;
+}
+
+sb_status sb_plot_picture(const sb_plot *plot, const char *out, const char *name, const char *folder, sb_error *error)
+{
+    char plots[SB_PATH_MAX], picture[SB_PATH_MAX + TEXT], real[SB_PATH_MAX];
+    sb_status status = sb_path_join(plots, out, "plots", error);
+    if (status == SB_OK) status = sb_make_directories(plots, error);
+    if (status == SB_OK && !realpath(folder, real))
+        status = sb_fail(error, SB_FAILED, "%.400s: no such folder", folder);
+    if (status != SB_OK) return status;
+    snprintf(picture, sizeof picture, "%s/%s.png", real, name);
+    return sb_plot_draw(plot, plots, name, picture, error);
 }

@@ -12,4 +12,7 @@ void sb_plot_destroy(sb_plot *plot);
    gnuplot is not installed or fails. */
 sb_status sb_plot_draw(const sb_plot *plot, const char *folder, const char *name, const char *picture, sb_error *error);
 
+/* Draws folder/<name>.png by files in out/plots; makes that folder. */
+sb_status sb_plot_picture(const sb_plot *plot, const char *out, const char *name, const char *folder, sb_error *error);
+
 #endif

@@ -1,20 +1,9 @@
 /* tools/paper-studies: repeats the published studies of time step, tolerance and spacing on our plant. */
 #include "arguments.h"
+#include "markdown.h"
 #include "studies.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
 static const double QUICK_SCALE = 4;
-
-typedef struct options {
-    const char *out, *report, *program;
-    bool quick, report_only, help;
-    int jobs;
-    char command[64];
-} options;
 
 static const char help[] =
     "usage: tools/paper-studies [OPTIONS]\n"
@@ -31,57 +20,38 @@ static const char help[] =
     "Finished runs are stored and not repeated as long as program and scene stay the same.\n"
     "Exit status: 0 done, 1 bad input, 2 a run failed, 130 stopped.\n";
 
-static sb_status parse(int count, char **arguments, options *o, sb_error *error)
-{
-    *o = (options){.jobs = 1};
-    const sb_argument table[] = {{.name = "--quick", .flag = &o->quick},
-                                 {.name = "--report-only", .flag = &o->report_only},
-                                 {.name = "--jobs", .count = &o->jobs, .most = 256},
-                                 {.name = "--out", .text = &o->out},
-                                 {.name = "--report", .text = &o->report},
-                                 {.name = "--shorebreak", .text = &o->program}};
-    const sb_command_line line = {.options = table, .option_count = sizeof table / sizeof *table, .help = &o->help};
-    sb_status status = sb_command_line_read(&line, count, arguments, error);
-    snprintf(o->command, sizeof o->command, "tools/paper-studies%s --jobs %d", o->quick ? " --quick" : "", o->jobs);
-    return status;
-}
-
-static sb_status run(const options *o, sb_paper_studies *studies, size_t *failed, sb_error *error)
+static sb_status run(const sb_common_options *o, sb_paper_studies *studies, int *result, sb_error *error)
 {
     sb_store store;
-    char folder[SB_PATH_MAX];
-    sb_status status = sb_trials_store(&store, o->out ? o->out : SB_SOURCE_DIR "/build/paper-studies", o->program,
-                                       SB_SOURCE_DIR, error);
+    char folder[SB_PATH_MAX], command[64];
+    size_t failed = 0;
+    const int jobs = o->jobs ? o->jobs : 1;
+    sb_status status = sb_store_open(&store, o->out ? o->out : SB_SOURCE_DIR "/build/paper-studies", o->program,
+                                     "assets/validation", false, error);
     if (status != SB_OK) return status;
-    sb_paper_begin(studies, &store, o->quick ? QUICK_SCALE : 1, o->command);
-    status = sb_trials_make(&store, studies->trials, studies->count, o->jobs, o->report_only, failed, error);
+    snprintf(command, sizeof command, "tools/paper-studies%s --jobs %d", o->quick ? " --quick" : "", jobs);
+    sb_paper_begin(studies, &store, o->quick ? QUICK_SCALE : 1, command);
+    status = sb_runs_make(&store, studies->trials, studies->count, jobs, o->report_only, &failed, error);
     if (status == SB_OK) status = sb_paper_costs(studies, error);
-    snprintf(folder, sizeof folder, "%s", o->report ? o->report : SB_SOURCE_DIR "/docs/results");
-    if (status == SB_OK && o->quick && !o->report) status = sb_path_join(folder, store.out, "quick", error);
+    if (status == SB_OK) status = sb_report_folder(o, store.out, o->quick ? "quick" : NULL, folder, error);
     if (status == SB_OK) status = sb_paper_write(studies, folder, error);
     if (status == SB_OK) printf("%s/paper-studies.md\n", folder);
+    sb_results_free(studies->trials, studies->count);
+    *result = failed ? SB_FAILED : 0;
     return status;
 }
 
 int main(int count, char **arguments)
 {
     static sb_paper_studies studies;
-    options o;
+    sb_common_options o;
     sb_error error = {0};
-    size_t failed = 0;
-    setvbuf(stdout, NULL, _IOLBF, 0);
-    if (count == 2 && strcmp(arguments[1], "--version") == 0) {
-        printf("shorebreak-paper-studies %s\n", SB_VERSION);
-        return 0;
-    }
-    sb_status status = parse(count, arguments, &o, &error);
-    if (status == SB_OK && o.help) {
-        fputs(help, stdout);
-        return 0;
-    }
-    if (status == SB_OK) status = run(&o, &studies, &failed, &error);
-    sb_paper_free(&studies);
-    if (status != SB_OK) fprintf(stderr, "paper-studies: %s\n", error.text);
-    if (status != SB_OK) return status == SB_INTERRUPTED ? 130 : (int)status;
-    return failed ? SB_FAILED : 0;
+    int result = 0;
+    const sb_command_line line = {.tool = "paper-studies",
+                                  .help = help,
+                                  .has = SB_HAS_QUICK | SB_HAS_REPORT_ONLY | SB_HAS_JOBS | SB_HAS_OUT | SB_HAS_REPORT |
+                                         SB_HAS_PROGRAM};
+    sb_status status = sb_command_line_read(&line, count, arguments, &o, &error);
+    if (status == SB_OK && !o.answered) status = run(&o, &studies, &result, &error);
+    return sb_tool_end("paper-studies", status, result, &error);
 }

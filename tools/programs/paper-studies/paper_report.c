@@ -1,10 +1,9 @@
 /* Writes our figures beside the published ones. */
 #include "studies.h"
 
-#include "report.h"
+#include "markdown.h"
 
 #include <math.h>
-#include <stdio.h>
 
 /* A row of a table: ours, or that of the paper. */
 typedef struct line {
@@ -49,13 +48,6 @@ static line our_line(const sb_cost *c, const char *source, double varied)
                   c->pressure, c->settling, c->other,     c->steps,    c->threads};
 }
 
-static void put_number(FILE *out, double value)
-{
-    char text[48];
-    sb_text_number(text, value);
-    fprintf(out, " %s |", text);
-}
-
 static void put_count(FILE *out, double value)
 {
     if (isnan(value))
@@ -70,7 +62,7 @@ static void put_line(FILE *out, const line *l)
     double query = sb_cost_per_particle_step(l->query, l->fluid, l->steps);
     double sweep = 1e9 * l->pressure / (l->fluid * l->steps * l->sweeps);
     fputs("|", out);
-    put_number(out, l->varied);
+    sb_put_number(out, l->varied);
     fprintf(out, " %s |", l->source);
     put_count(out, l->fluid);
     put_count(out, l->boundary);
@@ -82,7 +74,7 @@ static void put_line(FILE *out, const line *l)
                               work,        work * l->cores,
                               query,       query * l->cores,
                               sweep,       sweep * l->cores};
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) put_number(out, numbers[i]);
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) sb_put_number(out, numbers[i]);
     fputc('\n', out);
 }
 
@@ -94,8 +86,7 @@ static void put_table_head(FILE *out, const char *varied)
         "(%%) | ns per particle and step | × cores | neighbours only | × cores | ns per particle and sweep | × "
         "cores |\n",
         varied);
-    for (int i = 0; i < 20; i++) fputs("|---", out);
-    fputs("|\n", out);
+    sb_put_rule(out, 20);
 }
 
 /* Extrapolates the run at the finest spacing from its few steps, with the steps and sweeps of the next spacing. */
@@ -180,13 +171,14 @@ static const char reading[] =
     "compressed "
     "ones.\n  Ours counts only compression and is stricter at the same ξ (docs/method.md, section 5).\n";
 
-static void put_report(FILE *out, const sb_paper_studies *s)
+static void put_report(FILE *out, const void *studies)
 {
+    const sb_paper_studies *s = studies;
     fprintf(out,
             "# The published studies on our plant%s\n\nMade by `tools/paper-studies`. docs/studies.md explains the "
             "method.\n\n",
             s->scale > 1 ? ", quick form" : "");
-    sb_trials_origin(out, s->store, s->trials, s->count, s->command);
+    sb_runs_origin(out, s->store, s->trials, s->count, s->command);
     fputs(reading, out);
     if (s->scale != 1)
         fprintf(out,
@@ -195,7 +187,7 @@ static void put_report(FILE *out, const sb_paper_studies *s)
                 s->scale, 4 * s->scale);
     for (int set = 0; sb_published_sets[set].title; set++) put_set(out, s, set);
     fputc('\n', out);
-    for (size_t i = 0; i < s->count; i++) sb_trial_problem(out, &s->trials[i]);
+    for (size_t i = 0; i < s->count; i++) sb_runs_problem(out, &s->trials[i]);
 }
 
 static void put_csv_row(FILE *out, const sb_paper_studies *s, size_t i, const char *which, const sb_cost *c)
@@ -209,8 +201,9 @@ static void put_csv_row(FILE *out, const sb_paper_studies *s, size_t i, const ch
             c->pressure, run->cpu, run->load, run->commit, run->machine);
 }
 
-static void put_csv(FILE *out, const sb_paper_studies *s)
+static void put_csv(FILE *out, const void *studies)
 {
+    const sb_paper_studies *s = studies;
     sb_cost whole;
     fputs("published_no,spacing_m,preset,run,fluid,boundary,threads,steps,simulated_s,"
           "sweeps_per_step,settling_s,setup_s,other_s,total_s,structure_s,query_s,advection_s,pressure_s,cpu_s,load,"
@@ -224,19 +217,8 @@ static void put_csv(FILE *out, const sb_paper_studies *s)
     }
 }
 
-static sb_status write_one(const sb_paper_studies *s, const char *folder, const char *name,
-                           void (*put)(FILE *, const sb_paper_studies *), sb_error *error)
-{
-    sb_atomic_file file;
-    sb_status status = sb_atomic_open_in(&file, folder, name, error);
-    if (status != SB_OK) return status;
-    put(file.stream, s);
-    return sb_atomic_commit(&file, 0, error);
-}
-
 sb_status sb_paper_write(const sb_paper_studies *studies, const char *folder, sb_error *error)
 {
-    sb_status status = sb_make_directories(folder, error);
-    if (status == SB_OK) status = write_one(studies, folder, "paper-studies.csv", put_csv, error);
-    return status == SB_OK ? write_one(studies, folder, "paper-studies.md", put_report, error) : status;
+    sb_status status = sb_report_write(folder, "paper-studies.csv", put_csv, studies, error);
+    return status == SB_OK ? sb_report_write(folder, "paper-studies.md", put_report, studies, error) : status;
 }

@@ -33,7 +33,7 @@ static void add(sb_paper_studies *s, const sb_published *like, bool paper)
     size_t used = 0;
     *row = (sb_paper_trial){
         .number = like->number, .paper = paper, .few = is_few(like), .spacing = like->spacing * s->scale};
-    for (size_t i = 0; i < SB_TRIAL_SETTINGS; i++) row->settings[used++] = sb_trial_settings[i];
+    for (size_t i = 0; i < SB_PLAIN_SETTINGS; i++) row->settings[used++] = sb_plain_settings[i];
     if (paper) {
         snprintf(row->texts[0], SB_PAPER_TEXT, "numerics.time_step_factor=%.6g", like->lambda);
         snprintf(row->texts[1], SB_PAPER_TEXT, "numerics.tolerance=%.6g", like->tolerance);
@@ -75,15 +75,6 @@ sb_status sb_paper_costs(sb_paper_studies *s, sb_error *error)
         sb_free(text);
     }
     return status;
-}
-
-void sb_paper_free(sb_paper_studies *s)
-{
-    for (size_t i = 0; i < s->count; i++) {
-        sb_finished_free(&s->trials[i].run);
-        sb_figures_free(&s->trials[i].figures);
-    }
-    s->count = 0;
 }
 
 const sb_paper_trial *sb_paper_row(const sb_paper_studies *s, int number, bool paper)

@@ -4,7 +4,7 @@
 
 #include "cost.h"
 #include "published.h"
-#include "trials.h"
+#include "runs.h"
 
 enum { SB_PAPER_TRIALS = 24, SB_PAPER_SETTINGS = 8, SB_PAPER_TEXT = 64 };
 
@@ -33,7 +33,6 @@ typedef struct sb_paper_studies {
 void sb_paper_begin(sb_paper_studies *studies, const sb_store *store, double scale, const char *command);
 /* Reads the costs of the finished trials. */
 sb_status sb_paper_costs(sb_paper_studies *studies, sb_error *error);
-void sb_paper_free(sb_paper_studies *studies);
 
 /* The row of a published number; NULL: none, or not done. */
 const sb_paper_trial *sb_paper_row(const sb_paper_studies *studies, int number, bool paper);

@@ -2,6 +2,7 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "markdown.h"
 #include "options.h"
 #include "origin.h"
 #include "process.h"
@@ -26,9 +27,9 @@ static sb_status name_files(soak *s, sb_error *error)
     sb_origin_commit(SB_SOURCE_DIR, s->commit);
     sb_status status = sb_process_beside("shorebreak", s->program, error);
     if (status == SB_OK) status = sb_path_join(s->scene, SB_SOURCE_DIR, "assets/scenes/plant.yaml", error);
-    if (status == SB_OK) status = sb_path_join(s->out, s->options.out, "run", error);
-    if (status == SB_OK) status = sb_path_join(s->output, s->options.out, "output.txt", error);
-    return status == SB_OK ? sb_make_directories(s->options.out, error) : status;
+    if (status == SB_OK) status = sb_path_join(s->out, s->options.common.out, "run", error);
+    if (status == SB_OK) status = sb_path_join(s->output, s->options.common.out, "output.txt", error);
+    return status == SB_OK ? sb_make_directories(s->options.common.out, error) : status;
 }
 
 /* Runs until the time is over and a run was resumed, or until a process fails: a resumed run would hide the failure. */
@@ -64,8 +65,11 @@ static sb_status write_reports(const soak *s, bool whole, sb_soak_report *report
         report->frames += s->lives[i].frames;
         report->judged += sb_soak_growth_of(&s->lives[i]).judged;
     }
-    sb_status status = sb_soak_samples_write(report, s->options.out, error);
-    return status == SB_OK ? sb_soak_report_write(report, whole ? s->options.report : s->options.out, error) : status;
+    const char *out = s->options.common.out;
+    char folder[SB_PATH_MAX];
+    sb_status status = sb_report_folder(&s->options.common, NULL, NULL, folder, error);
+    if (status == SB_OK) status = sb_report_write(out, "samples.csv", sb_soak_put_samples, report, error);
+    return status == SB_OK ? sb_report_write(whole ? folder : out, "soak.md", sb_soak_put, report, error) : status;
 }
 
 static int print_result(const soak *s, const sb_soak_report *report)
@@ -93,10 +97,7 @@ int main(int count, char **arguments)
     sb_soak_watch *watch = NULL;
     sb_soak_report report = {0};
     sb_status status = sb_soak_options_parse(count, arguments, &s.options, &error);
-    if (status == SB_OK && s.options.help) {
-        fputs(sb_soak_help, stdout);
-        return 0;
-    }
+    if (status == SB_OK && s.options.common.answered) return 0;
     if (status == SB_OK) status = name_files(&s, &error);
     const sb_soak_run run = {.program = s.program,
                              .scene = s.scene,
@@ -113,8 +114,7 @@ int main(int count, char **arguments)
         sb_status written = write_reports(&s, status == SB_OK, &report, status == SB_OK ? &error : NULL);
         status = status == SB_OK ? written : status;
     }
-    const int result = status == SB_OK ? print_result(&s, &report) : (int)status;
-    if (status != SB_OK) fprintf(stderr, "soak: %s\n", error.text);
+    const int result = sb_tool_end("soak", status, status == SB_OK ? print_result(&s, &report) : 0, &error);
     free_all(&s, watch);
     return result;
 }

@@ -1,10 +1,8 @@
 #include "options.h"
 
-#include "arguments.h"
-
 #include <math.h>
 
-const char sb_soak_help[] =
+static const char help[] =
     "usage: tools/soak [OPTIONS]\n"
     "Runs the plant with pictures, particle files and a live subscriber. Stops the run with SIGTERM and\n"
     "resumes it repeatedly; starts a new run when it has finished. Checks that the memory and the file\n"
@@ -21,19 +19,20 @@ const char sb_soak_help[] =
     "Exit status: 0 nothing grew and nothing failed, 1 bad input, 2 the soak itself failed, 4 something\n"
     "grew or failed, 77 no network route for the subscriber.\n";
 
-sb_status sb_soak_options_parse(int count, char **arguments, sb_soak_options *options, sb_error *error)
+sb_status sb_soak_options_parse(int count, char **arguments, sb_soak_options *o, sb_error *error)
 {
-    *options = (sb_soak_options){
-        .minutes = 60, .spacing = 6, .duration = 300, .out = "runs/soak", .report = SB_SOURCE_DIR "/docs/results"};
-    const sb_argument table[] = {{.name = "--minutes", .number = &options->minutes, .most = 1e6},
-                                 {.name = "--life", .number = &options->life, .most = 1e6},
-                                 {.name = "--spacing", .number = &options->spacing, .most = 1e3},
-                                 {.name = "--duration", .number = &options->duration, .most = 1e6},
-                                 {.name = "--out", .text = &options->out},
-                                 {.name = "--report", .text = &options->report}};
-    const sb_command_line line = {
-        .options = table, .option_count = sizeof table / sizeof *table, .help = &options->help};
-    sb_status status = sb_command_line_read(&line, count, arguments, error);
-    if (!(options->life > 0)) options->life = fmax(6 * options->minutes, 3);
+    *o = (sb_soak_options){.minutes = 60, .spacing = 6, .duration = 300};
+    const sb_argument table[] = {{.name = "--minutes", .number = &o->minutes, .most = 1e6},
+                                 {.name = "--life", .number = &o->life, .most = 1e6},
+                                 {.name = "--spacing", .number = &o->spacing, .most = 1e3},
+                                 {.name = "--duration", .number = &o->duration, .most = 1e6}};
+    const sb_command_line line = {.tool = "soak",
+                                  .help = help,
+                                  .has = SB_HAS_OUT | SB_HAS_REPORT,
+                                  .options = table,
+                                  .option_count = sizeof table / sizeof *table};
+    sb_status status = sb_command_line_read(&line, count, arguments, &o->common, error);
+    if (!o->common.out) o->common.out = "runs/soak";
+    if (!(o->life > 0)) o->life = fmax(6 * o->minutes, 3);
     return status;
 }

@@ -1,6 +1,6 @@
 #include "report.h"
 
-#include "base/file.h"
+#include "markdown.h"
 #include "origin.h"
 
 #include <inttypes.h>
@@ -72,33 +72,25 @@ static void put_sum(FILE *out, const sb_soak_report *r)
             r->failed > 0 || r->frames == 0 ? "**something grew or failed**" : "nothing grew and nothing failed");
 }
 
-sb_status sb_soak_report_write(const sb_soak_report *report, const char *folder, sb_error *error)
+void sb_soak_put(FILE *out, const void *what)
 {
-    sb_atomic_file file;
-    sb_status status = sb_make_directories(folder, error);
-    if (status == SB_OK) status = sb_atomic_open_in(&file, folder, "soak.md", error);
-    if (status != SB_OK) return status;
-    put_head(file.stream, report);
-    put_sum(file.stream, report);
-    fprintf(file.stream,
-            "| start, min | duration, min | run | first step | last step | early, MB | late, MB | peak, MB | "
-            "descriptors early | late | most | frames | chunks lost | end | problem |\n"
-            "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
-    for (size_t i = 0; i < report->count; i++) put_life(file.stream, &report->lives[i]);
-    return sb_atomic_commit(&file, 0, error);
+    const sb_soak_report *report = what;
+    put_head(out, report);
+    put_sum(out, report);
+    fprintf(out, "| start, min | duration, min | run | first step | last step | early, MB | late, MB | peak, MB | "
+                 "descriptors early | late | most | frames | chunks lost | end | problem |\n");
+    sb_put_rule(out, 15);
+    for (size_t i = 0; i < report->count; i++) put_life(out, &report->lives[i]);
 }
 
-sb_status sb_soak_samples_write(const sb_soak_report *report, const char *folder, sb_error *error)
+void sb_soak_put_samples(FILE *out, const void *what)
 {
-    sb_atomic_file file;
-    sb_status status = sb_atomic_open_in(&file, folder, "samples.csv", error);
-    if (status != SB_OK) return status;
-    fprintf(file.stream, "life,wall_s,resident_bytes,descriptors,step\n");
+    const sb_soak_report *report = what;
+    fprintf(out, "life,wall_s,resident_bytes,descriptors,step\n");
     for (size_t i = 0; i < report->count; i++)
         for (size_t k = 0; k < report->lives[i].count; k++) {
             const sb_soak_sample *s = &report->lives[i].samples[k];
-            fprintf(file.stream, "%zu,%.2f,%" PRIu64 ",%u,%" PRIu64 "\n", i + 1, report->lives[i].begun + s->seconds,
+            fprintf(out, "%zu,%.2f,%" PRIu64 ",%u,%" PRIu64 "\n", i + 1, report->lives[i].begun + s->seconds,
                     s->resident, s->descriptors, s->step);
         }
-    return sb_atomic_commit(&file, 0, error);
 }

@@ -5,6 +5,8 @@
 #include "lives.h"
 #include "options.h"
 
+#include <stdio.h>
+
 typedef struct sb_soak_report {
     const sb_soak_options *options;
     const char *commit; /* of the source at the beginning */
@@ -16,9 +18,8 @@ typedef struct sb_soak_report {
     uint64_t frames; /* that the subscriber received completely */
 } sb_soak_report;
 
-/* Writes folder/soak.md, whole or not at all. */
-sb_status sb_soak_report_write(const sb_soak_report *report, const char *folder, sb_error *error);
-/* Writes folder/samples.csv: all samples. */
-sb_status sb_soak_samples_write(const sb_soak_report *report, const char *folder, sb_error *error);
+/* Write soak.md and samples.csv, all samples, of a sb_soak_report. */
+void sb_soak_put(FILE *out, const void *report);
+void sb_soak_put_samples(FILE *out, const void *report);
 
 #endif

@@ -1,17 +1,15 @@
 #include "watch.h"
 
-#include "base/clock.h"
 #include "base/memory.h"
+#include "base/stop.h"
 #include "process.h"
 #include "stream/assembly.h"
 #include "stream/listen.h"
 
-#include <errno.h>
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 struct sb_soak_watch {
@@ -26,14 +24,6 @@ struct sb_soak_watch {
 
 static const double grace = 120;     /* s that a run may take to stop after SIGTERM */
 static const double start_up = 1800; /* s that a run may take to its first frame */
-
-static volatile sig_atomic_t stopped;
-
-static void stop(int number)
-{
-    (void)number;
-    stopped = 1;
-}
 
 static void on_status(void *user, const sb_status_message *message)
 {
@@ -57,14 +47,12 @@ sb_status sb_soak_watch_create(const sb_soak_run *run, sb_soak_watch **watch, sb
     made->run = run;
     snprintf(made->prefix, sizeof made->prefix, "soak-%ld", (long)getpid());
     const sb_listener_calls calls = {.user = made, .status = on_status, .particles = on_particles};
-    const struct sigaction action = {.sa_handler = stop};
     sb_status status = sb_listener_create(NULL, made->prefix, &calls, &made->listener, error);
     if (status != SB_OK) {
         sb_free(made);
         return status;
     }
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
+    sb_stop_watch();
     *watch = made;
     return SB_OK;
 }
@@ -77,52 +65,42 @@ void sb_soak_watch_destroy(sb_soak_watch *watch)
     sb_free(watch);
 }
 
-static sb_status start(const sb_soak_watch *w, bool resume, pid_t *process, sb_error *error)
+static sb_status start(const sb_soak_watch *w, bool resume, sb_process *process, sb_error *error)
 {
     const sb_soak_run *run = w->run;
     char spacing[48], duration[48], prefix[64];
+    const char *const settings[] = {spacing, duration, prefix, "stream.enabled=true"};
     snprintf(spacing, sizeof spacing, "resolution=%.9g", run->spacing);
     snprintf(duration, sizeof duration, "duration=%.9g", run->duration);
     snprintf(prefix, sizeof prefix, "stream.prefix=%s", w->prefix);
-    const char *const arguments[] = {"shorebreak",
-                                     "run",
-                                     run->scene,
-                                     "--quiet",
-                                     "--out",
-                                     run->out,
-                                     "--set",
-                                     spacing,
-                                     "--set",
-                                     duration,
-                                     "--set",
-                                     prefix,
-                                     "--set",
-                                     "stream.enabled=true",
-                                     resume ? "--resume" : "--overwrite",
-                                     NULL};
-    return sb_process_start(run->program, arguments, run->output, SIGTERM, process, error);
+    *process = (sb_process){.program = run->program, .death_signal = SIGTERM, .grace = grace};
+    snprintf(process->output, sizeof process->output, "%s", run->output);
+    sb_process_add(process, "shorebreak", "run", run->scene, "--quiet", "--out", run->out, NULL);
+    sb_process_set(process, settings, sizeof settings / sizeof *settings);
+    sb_process_add(process, resume ? "--resume" : "--overwrite", NULL);
+    return sb_process_start(process, error);
 }
 
 /* Takes a sample if the process still exists. */
-static sb_status take_sample(sb_soak_watch *w, pid_t process, double seconds, sb_error *error)
+static sb_status take_sample(sb_soak_watch *w, const sb_process *process, sb_error *error)
 {
-    sb_soak_sample sample = {.seconds = seconds, .step = w->step};
-    return sb_soak_measure(process, &sample, NULL) == SB_OK ? sb_soak_add(w->life, &sample, error) : SB_OK;
+    sb_soak_sample sample = {.seconds = process->wall, .step = w->step};
+    return sb_soak_measure(process->id, &sample, NULL) == SB_OK ? sb_soak_add(w->life, &sample, error) : SB_OK;
 }
 
 /* After SIGTERM a run ends with 128 + SIGTERM, or with 0 if it had just finished. */
-static void note_end(sb_soak_watch *w, bool stop_sent, bool hung, int how)
+static void note_end(sb_soak_watch *w, const sb_process *process)
 {
-    char ended[32], last_line[200];
-    const int status = WIFEXITED(how) ? WEXITSTATUS(how) : -1;
-    w->life->end = status == 0                            ? SB_SOAK_FINISHED
-                   : stop_sent && status == 128 + SIGTERM ? SB_SOAK_STOPPED
-                                                          : SB_SOAK_FAILED;
+    char reason[240];
+    const int status = sb_process_status(process);
+    w->life->seconds = process->stop_sent ? process->stop_time : process->wall;
+    w->life->end = status == 0                                     ? SB_SOAK_FINISHED
+                   : process->stop_sent && status == 128 + SIGTERM ? SB_SOAK_STOPPED
+                                                                   : SB_SOAK_FAILED;
     if (w->life->end != SB_SOAK_FAILED) return;
-    sb_process_describe(how, ended);
-    sb_process_last_line(w->run->output, "no output", last_line, sizeof last_line);
-    snprintf(w->life->message, sizeof w->life->message, "%sended with %s: %.200s", hung ? "did not stop, " : "", ended,
-             last_line);
+    sb_process_reason(process, ": ", "no output", reason, sizeof reason);
+    snprintf(w->life->message, sizeof w->life->message, "%sended with %s", process->killed ? "did not stop, " : "",
+             reason);
 }
 
 /* Whether the process has run for so many seconds since its first frame. */
@@ -133,47 +111,33 @@ static bool is_time(const sb_soak_watch *w, double now, double seconds, double *
 }
 
 /* Receives messages and takes samples until the process has ended. */
-static sb_status follow(sb_soak_watch *w, pid_t process, double seconds, sb_error *error)
+static sb_status follow(sb_soak_watch *w, sb_process *process, double seconds, sb_error *error)
 {
-    const double start = sb_clock(), pause = fmin(fmax(seconds / 200, 0.02), 2);
+    const double pause = fmin(fmax(seconds / 200, 0.02), 2);
     double first = -1; /* s; time of the first frame */
-    bool stop_sent = false, hung = false;
-    int how = 0;
     sb_status status = SB_OK;
-    for (;;) {
-        const pid_t ended = waitpid(process, &how, WNOHANG);
-        const double now = sb_clock() - start;
-        if (ended == process) {
-            w->life->seconds = stop_sent ? w->life->seconds : now;
-            break;
-        }
-        if (ended < 0 && errno != EINTR) return sb_fail(error, SB_FAILED, "cannot wait for a run: %s", strerror(errno));
-        if (!stop_sent && (stopped || is_time(w, now, seconds, &first) || status != SB_OK)) {
-            stop_sent = kill(process, SIGTERM) == 0;
-            w->life->seconds = now;
-        } else if (stop_sent && !hung && now > w->life->seconds + grace) {
-            hung = kill(process, SIGKILL) == 0;
-        } else if (!stop_sent) {
-            status = take_sample(w, process, now, error);
-        }
+    while (!sb_process_poll(process)) {
+        if (sb_stop_signal() || is_time(w, process->wall, seconds, &first) || status != SB_OK)
+            sb_process_stop(process, SIGTERM);
+        if (!process->stop_sent) status = take_sample(w, process, error);
         sb_listener_poll(w->listener, pause);
     }
-    note_end(w, stop_sent, hung, how);
+    note_end(w, process);
     return status;
 }
 
 sb_status sb_soak_live(sb_soak_watch *w, bool resume, double seconds, sb_soak_life *life, sb_error *error)
 {
-    pid_t process;
+    sb_process process;
     const uint64_t lost = w->assembly.chunks_lost;
     w->frames = w->assembly.frames_complete;
     w->life = life;
     w->step = 0;
     life->resumed = resume;
     sb_status status = start(w, resume, &process, error);
-    if (status == SB_OK) status = follow(w, process, seconds, error);
+    if (status == SB_OK) status = follow(w, &process, seconds, error);
     life->frames = w->assembly.frames_complete - w->frames;
     life->chunks_lost = w->assembly.chunks_lost - lost;
-    if (status == SB_OK && stopped) status = sb_fail(error, SB_INTERRUPTED, "stopped by a signal");
+    if (status == SB_OK && sb_stop_signal()) status = sb_fail(error, SB_INTERRUPTED, "stopped by a signal");
     return status;
 }

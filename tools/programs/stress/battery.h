@@ -1,24 +1,14 @@
-/* Command line and report of tools/stress. */
-#ifndef SB_BATTERY_BATTERY_H
-#define SB_BATTERY_BATTERY_H
+/* The trials of a case with their outcomes, and the report of tools/stress. */
+#ifndef SB_STRESS_BATTERY_H
+#define SB_STRESS_BATTERY_H
 
-#include "runner.h"
+#include "trial_store.h"
 
-enum { SB_STRESSES_MAX = 64 };
+#include <stdio.h>
 
-typedef struct sb_battery_options {
-    const char *out, *report, *program; /* NULL: not given */
-    bool all, quick, list, report_only, help;
-    int jobs;
-    const sb_stress *cases[SB_STRESSES_MAX];
-    size_t count;
-    char command[1024]; /* as it can be repeated on any machine: without folders */
-} sb_battery_options;
-
-extern const char sb_battery_help[];
-
-/* SB_BAD_INPUT: the error names the argument. Options point into the arguments. */
-sb_status sb_battery_parse(int count, char **arguments, sb_battery_options *options, sb_error *error);
+/* Runs all trials that this build has not run, `jobs` at a time with one thread each. Prints on stdout how each ended.
+   A trial that fails is an outcome, not an error. SB_INTERRUPTED after SIGINT or SIGTERM. */
+sb_status sb_trials_run(const sb_store *store, const sb_job *work, size_t count, int jobs, sb_error *error);
 
 /* A case with its judged trials. */
 typedef struct sb_stress_results {
@@ -29,12 +19,19 @@ typedef struct sb_stress_results {
 } sb_stress_results;
 
 /* Reads the stored trials of a case and judges them. */
-sb_status sb_stress_collect(const sb_trial_store *store, const sb_stress *of, bool quick, sb_stress_results *results,
+sb_status sb_stress_collect(const sb_store *store, const sb_stress *of, bool quick, sb_stress_results *results,
                             sb_error *error);
 void sb_stress_results_free(sb_stress_results *results);
 
-/* Writes folder/stability.md, whole or not at all. */
-sb_status sb_stability_write(const sb_trial_store *store, const sb_stress_results *cases, size_t count, bool quick,
-                             const char *command, const char *folder, sb_error *error);
+typedef struct sb_stability {
+    const sb_store *store;
+    const sb_stress_results *cases;
+    size_t count;
+    bool quick;
+    const char *command;
+} sb_stability;
+
+/* Writes stability.md, of a sb_stability. */
+void sb_stability_put(FILE *out, const void *stability);
 
 #endif

@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 
-sb_status sb_stress_collect(const sb_trial_store *store, const sb_stress *of, bool quick, sb_stress_results *results,
+sb_status sb_stress_collect(const sb_store *store, const sb_stress *of, bool quick, sb_stress_results *results,
                             sb_error *error)
 {
     *results = (sb_stress_results){.of = of, .trials.assets = store->assets};
@@ -13,7 +13,7 @@ sb_status sb_stress_collect(const sb_trial_store *store, const sb_stress *of, bo
     for (size_t i = 0; i < count; i++) {
         const sb_job job = {of, &results->trials.list[i]};
         results->judged[i].trial = job.trial;
-        results->judged[i].outcome = sb_trial_store_read(store, &job);
+        results->judged[i].outcome = sb_trial_read(store, &job);
         if (results->judged[i].outcome.there) sb_judge_common(&results->judged[i]);
     }
     if (of->judge) of->judge(results->judged, count);

@@ -1,95 +1,123 @@
 /* tools/stress: runs stress cases and writes the report. */
 #include "battery.h"
-#include "process.h"
+#include "markdown.h"
 
 #include "base/memory.h"
 
 #include <stdio.h>
-#include <string.h>
 
 enum { TRIAL_FAILED = 4 }; /* exit status */
 
-static sb_status run_cases(const sb_trial_store *store, const sb_battery_options *o, sb_error *error)
+typedef struct options {
+    sb_common_options common;
+    sb_selection cases; /* rows of sb_stresses */
+} options;
+
+static const char help[] =
+    "usage: tools/stress [CASE...|--all] [OPTIONS]\n"
+    "Runs stress cases, judges each trial by the rules, and writes the report stability.md.\n\n"
+    "  --all            every case\n"
+    "  --quick          few and cheap forms; the report goes to OUT/quick\n"
+    "  --list           lists the cases\n"
+    "  --report-only    runs nothing; writes the report again from stored trials\n"
+    "  --out DIR        folder of stored trials (build/stress)\n"
+    "  --report DIR     folder of the report (docs/results)\n"
+    "  --jobs N         N trials at a time with one thread each (default: the number of cores)\n"
+    "  --shorebreak F   program that runs the trials (the one built beside this tool)\n"
+    "  --help, --version\n\n"
+    "Trials are stored and not repeated as long as program and scene stay the same.\n"
+    "Exit status: 0 all trials of the named cases pass, 1 bad input, 2 the tool itself failed, 4 a\n"
+    "trial fails, 130 stopped.\n";
+
+static const char *case_name(size_t row)
 {
-    sb_trials trials[SB_STRESSES_MAX] = {{0}};
+    return sb_stresses[row] ? sb_stresses[row]->name : NULL;
+}
+
+static void list(void)
+{
+    for (size_t i = 0; sb_stresses[i]; i++) printf("%-16s %s\n", sb_stresses[i]->name, sb_stresses[i]->title);
+}
+
+static sb_status parse(int count, char **arguments, options *o, sb_error *error)
+{
+    *o = (options){.cases = {.what = "case", .name = case_name}};
+    const sb_command_line line = {.tool = "stress",
+                                  .help = help,
+                                  .list = list,
+                                  .has = SB_HAS_ALL | SB_HAS_QUICK | SB_HAS_LIST | SB_HAS_REPORT_ONLY | SB_HAS_JOBS |
+                                         SB_HAS_OUT | SB_HAS_REPORT | SB_HAS_PROGRAM,
+                                  .selection = &o->cases};
+    sb_status status = sb_command_line_read(&line, count, arguments, &o->common, error);
+    if (status != SB_OK || o->common.answered) return status;
+    if (o->common.all || (o->common.report_only && !o->cases.count)) sb_selection_all(&o->cases);
+    if (!o->common.jobs) o->common.jobs = sb_cores();
+    return sb_selection_check(&o->cases, error);
+}
+
+static sb_status run_cases(const sb_store *store, const options *o, sb_error *error)
+{
+    sb_trials trials[SB_ROWS_MAX] = {{0}};
     sb_job *work = NULL;
     size_t count = 0, capacity = 0;
     sb_status status = SB_OK;
-    for (size_t c = 0; c < o->count && status == SB_OK; c++) {
+    for (size_t c = 0; c < o->cases.count && status == SB_OK; c++) {
+        const sb_stress *of = sb_stresses[o->cases.rows[c]];
         trials[c].assets = store->assets;
-        o->cases[c]->plan(&trials[c], o->quick);
+        of->plan(&trials[c], o->common.quick);
         if (trials[c].incomplete || sb_grow((void **)&work, &capacity, count + trials[c].count, sizeof *work) != 0)
             status = sb_fail_memory(error, "trials");
         for (size_t i = 0; status == SB_OK && i < trials[c].count; i++)
-            work[count++] = (sb_job){o->cases[c], &trials[c].list[i]};
+            work[count++] = (sb_job){of, &trials[c].list[i]};
     }
-    if (status == SB_OK) status = sb_runner_run(store, work, count, o->jobs, error);
-    for (size_t c = 0; c < o->count; c++) sb_trials_free(&trials[c]);
+    if (status == SB_OK) status = sb_trials_run(store, work, count, o->common.jobs, error);
+    for (size_t c = 0; c < o->cases.count; c++) sb_trials_free(&trials[c]);
     sb_free(work);
     return status;
 }
 
-static bool chosen(const sb_battery_options *o, const sb_stress *of)
-{
-    for (size_t k = 0; k < o->count; k++)
-        if (o->cases[k] == of) return true;
-    return false;
-}
-
 /* Writes the report of all cases; prints and counts the failed trials of the named cases. */
-static sb_status report(const sb_trial_store *store, const sb_battery_options *o, size_t *failed, sb_error *error)
+static sb_status report(const sb_store *store, const options *o, size_t *failed, sb_error *error)
 {
-    static sb_stress_results results[SB_STRESSES_MAX];
+    static sb_stress_results results[SB_ROWS_MAX];
     char folder[SB_PATH_MAX];
-    size_t count = 0;
-    sb_status status = SB_OK;
-    for (; status == SB_OK && sb_stresses[count] && count < SB_STRESSES_MAX; count++)
-        status = sb_stress_collect(store, sb_stresses[count], o->quick, &results[count], error);
-    snprintf(folder, sizeof folder, "%s", o->report ? o->report : SB_SOURCE_DIR "/docs/results");
-    if (status == SB_OK && o->quick && !o->report) status = sb_path_join(folder, store->out, "quick", error);
-    if (status == SB_OK) status = sb_stability_write(store, results, count, o->quick, o->command, folder, error);
-    for (size_t c = 0; c < count; c++) {
-        for (size_t i = 0; chosen(o, results[c].of) && results[c].judged && i < results[c].trials.count; i++)
-            if (results[c].judged[i].outcome.there && results[c].judged[i].fails)
-                printf("FAIL %s %s: %s\n", results[c].of->name, results[c].trials.list[i].name,
-                       results[c].judged[i].why);
-        if (chosen(o, results[c].of)) *failed += results[c].failed;
+    sb_stability what = {.store = store, .cases = results, .quick = o->common.quick, .command = o->common.command};
+    sb_status status = sb_report_folder(&o->common, store->out, o->common.quick ? "quick" : NULL, folder, error);
+    for (; status == SB_OK && sb_stresses[what.count]; what.count++)
+        status = sb_stress_collect(store, sb_stresses[what.count], o->common.quick, &results[what.count], error);
+    if (status == SB_OK) status = sb_report_write(folder, "stability.md", sb_stability_put, &what, error);
+    for (size_t c = 0; c < what.count; c++) {
+        const sb_stress_results *r = &results[c];
+        const bool chosen = sb_selection_has(&o->cases, c);
+        for (size_t i = 0; chosen && r->judged && i < r->trials.count; i++)
+            if (r->judged[i].outcome.there && r->judged[i].fails)
+                printf("FAIL %s %s: %s\n", r->of->name, r->trials.list[i].name, r->judged[i].why);
+        if (chosen) *failed += r->failed;
         sb_stress_results_free(&results[c]);
     }
     if (status == SB_OK) printf("%s/stability.md\n", folder);
     return status;
 }
 
-static sb_status stress(const sb_battery_options *o, size_t *failed, sb_error *error)
+static sb_status stress(const options *o, int *result, sb_error *error)
 {
-    static sb_trial_store store;
-    char own[SB_PATH_MAX], program[SB_PATH_MAX];
-    sb_status status = sb_process_beside(NULL, own, error);
-    if (status == SB_OK) status = sb_process_beside("shorebreak", program, error);
-    if (status == SB_OK)
-        status = sb_trial_store_open(&store, o->out ? o->out : SB_SOURCE_DIR "/build/stress",
-                                     o->program ? o->program : program, own, SB_SOURCE_DIR, error);
-    if (status == SB_OK && !o->report_only) status = run_cases(&store, o, error);
-    return status == SB_OK ? report(&store, o, failed, error) : status;
+    static sb_store store;
+    size_t failed = 0;
+    const sb_common_options *c = &o->common;
+    sb_status status = sb_store_open(&store, c->out ? c->out : SB_SOURCE_DIR "/build/stress", c->program,
+                                     "assets/stress", true, error);
+    if (status == SB_OK && !c->report_only) status = run_cases(&store, o, error);
+    if (status == SB_OK) status = report(&store, o, &failed, error);
+    *result = failed ? TRIAL_FAILED : 0;
+    return status;
 }
 
 int main(int count, char **arguments)
 {
-    sb_battery_options o;
+    options o;
     sb_error error = {0};
-    size_t failed = 0;
-    setvbuf(stdout, NULL, _IOLBF, 0);
-    if (count == 2 && strcmp(arguments[1], "--version") == 0) {
-        printf("shorebreak-stress %s\n", SB_VERSION);
-        return 0;
-    }
-    sb_status status = sb_battery_parse(count, arguments, &o, &error);
-    if (status == SB_OK && o.help) fputs(sb_battery_help, stdout);
-    for (size_t i = 0; status == SB_OK && o.list && !o.help && sb_stresses[i]; i++)
-        printf("%-16s %s\n", sb_stresses[i]->name, sb_stresses[i]->title);
-    if (status == SB_OK && (o.help || o.list)) return 0;
-    if (status == SB_OK) status = stress(&o, &failed, &error);
-    if (status != SB_OK) fprintf(stderr, "stress: %s\n", error.text);
-    if (status != SB_OK) return status == SB_INTERRUPTED ? 130 : (int)status;
-    return failed ? TRIAL_FAILED : 0;
+    int result = 0;
+    sb_status status = parse(count, arguments, &o, &error);
+    if (status == SB_OK && !o.common.answered) status = stress(&o, &result, &error);
+    return sb_tool_end("stress", status, result, &error);
 }

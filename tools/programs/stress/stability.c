@@ -1,16 +1,9 @@
 /* Writes stability.md: the rules and the outcome of every trial. */
 #include "battery.h"
+#include "markdown.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <string.h>
-
-static void put_cell(FILE *out, const char *text)
-{
-    fputc(' ', out);
-    for (; *text; text++) fputs(*text == '|' ? "\\|" : (char[]){*text, '\0'}, out);
-    fputs(" |", out);
-}
 
 static void put_count(FILE *out, double value)
 {
@@ -25,31 +18,28 @@ static const char *verdict_of(const sb_stress_results *r)
     return r->failed ? "**FAIL**" : r->run == 0 ? "not run" : r->run < r->trials.count ? "pass so far" : "pass";
 }
 
-static void put_summary(FILE *out, const sb_stress_results *cases, size_t count)
+static void put_summary(FILE *out, const sb_stability *s)
 {
     fputs("| case | passed | result |\n|---|---|---|\n", out);
-    for (size_t c = 0; c < count; c++) {
-        const sb_stress_results *r = &cases[c];
+    for (const sb_stress_results *r = s->cases; r < s->cases + s->count; r++)
         fprintf(out, "| [%s](#%s) | %zu of %zu | %s |\n", r->of->title, r->of->name, r->run - r->failed,
                 r->trials.count, verdict_of(r));
-    }
     fputc('\n', out);
 }
 
-static void put_head(FILE *out, const sb_trial_store *store, const sb_stress_results *cases, size_t count, bool quick,
-                     const char *command)
+static void put_head(FILE *out, const sb_stability *s)
 {
     size_t run = 0, failed = 0, planned = 0;
-    for (size_t c = 0; c < count; c++) {
-        run += cases[c].run;
-        failed += cases[c].failed;
-        planned += cases[c].trials.count;
+    for (size_t c = 0; c < s->count; c++) {
+        run += s->cases[c].run;
+        failed += s->cases[c].failed;
+        planned += s->cases[c].trials.count;
     }
     fprintf(out,
             "# Stability%s\n\nCommit %s, %s.\nMade by `%s` ([explanation](%s)).\n\n"
             "%zu trials planned, %zu run, %zu passed, **%zu failed**.\n\n",
-            quick ? ", quick forms" : "", store->commit, store->machine, command,
-            quick ? "../../stability.md" : "../stability.md", planned, run, run - failed, failed);
+            s->quick ? ", quick forms" : "", s->store->commit, s->store->machine, s->command,
+            s->quick ? "../../stability.md" : "../stability.md", planned, run, run - failed, failed);
     fputs("Common rules for every trial:\n\n"
           "- It ends in time and in an allowed way. A refusal or failure gives its reason in one line.\n"
           "- No table and no particle contains a value that is not a number.\n"
@@ -65,13 +55,13 @@ static void put_row(FILE *out, const sb_judged *j, const char *commit)
 {
     char figure[700];
     fputc('|', out);
-    put_cell(out, j->trial->name);
+    sb_put_cell(out, j->trial->name);
     if (!j->outcome.there) {
         fputs(" | | | | | | not run |\n", out);
         return;
     }
     snprintf(figure, sizeof figure, "%s%s%s", j->figure, j->fails && j->figure[0] ? "; " : "", j->fails ? j->why : "");
-    put_cell(out, figure[0] ? figure : j->outcome.ended);
+    sb_put_cell(out, figure[0] ? figure : j->outcome.ended);
     const bool ran = j->outcome.summary != NULL;
     put_count(out, ran ? sb_outcome_number(&j->outcome, "fluid_particles") : (double)NAN);
     put_count(out, ran ? sb_outcome_number(&j->outcome, "steps") : (double)NAN);
@@ -82,21 +72,10 @@ static void put_row(FILE *out, const sb_judged *j, const char *commit)
     fputs(" |\n", out);
 }
 
-/* A list item per rule; `rules` separates them by "; ". */
-static void put_rules(FILE *out, const char *rules)
-{
-    for (const char *at = rules, *end; *at; at = end) {
-        end = strstr(at, "; ");
-        const size_t length = end ? (size_t)(end - at) : strlen(at);
-        fprintf(out, "- %c%.*s\n", toupper((unsigned char)*at), (int)length - 1, at + 1);
-        end = end ? end + 2 : at + length;
-    }
-}
-
 static void put_case(FILE *out, const sb_stress_results *r, const char *commit)
 {
     fprintf(out, "<a id=\"%s\"></a>\n\n## %s\n\nCase `%s`. Rules:\n\n", r->of->name, r->of->title, r->of->name);
-    put_rules(out, r->of->rules);
+    sb_put_items(out, r->of->rules, true);
     fputs("\n| trial | measured | particles | steps | capped | inside | run time (s) | result |\n"
           "|---|---|---|---|---|---|---|---|\n",
           out);
@@ -104,15 +83,10 @@ static void put_case(FILE *out, const sb_stress_results *r, const char *commit)
     fputc('\n', out);
 }
 
-sb_status sb_stability_write(const sb_trial_store *store, const sb_stress_results *cases, size_t count, bool quick,
-                             const char *command, const char *folder, sb_error *error)
+void sb_stability_put(FILE *out, const void *stability)
 {
-    sb_atomic_file file;
-    sb_status status = sb_make_directories(folder, error);
-    if (status == SB_OK) status = sb_atomic_open_in(&file, folder, "stability.md", error);
-    if (status != SB_OK) return status;
-    put_head(file.stream, store, cases, count, quick, command);
-    put_summary(file.stream, cases, count);
-    for (size_t c = 0; c < count; c++) put_case(file.stream, &cases[c], store->commit);
-    return sb_atomic_commit(&file, 0, error);
+    const sb_stability *s = stability;
+    put_head(out, s);
+    put_summary(out, s);
+    for (size_t c = 0; c < s->count; c++) put_case(out, &s->cases[c], s->store->commit);
 }

@@ -1,19 +1,22 @@
-/* Stores trials and their outcomes. */
-#ifndef SB_BATTERY_TRIAL_STORE_H
-#define SB_BATTERY_TRIAL_STORE_H
+/* Stores trials and their outcomes in OUT/runs/<case>/<trial>/. */
+#ifndef SB_STRESS_TRIAL_STORE_H
+#define SB_STRESS_TRIAL_STORE_H
 
-#include "runner.h"
+#include "store.h"
+#include "stress.h"
 
-sb_status sb_trial_store_folder(const sb_trial_store *store, const sb_job *job, char folder[SB_PATH_MAX],
-                                sb_error *error);
-/* Hash of a request: the scene's text, the files that it names, and all settings. */
-uint64_t sb_trial_store_request_hash(const sb_trial_store *store, const sb_job *job);
+/* A requested trial and its case. */
+typedef struct sb_job {
+    const sb_stress *of;
+    const sb_trial *trial;
+} sb_job;
+
+sb_status sb_trial_folder(const sb_store *store, const sb_job *job, char folder[SB_PATH_MAX], sb_error *error);
 /* Whether the stored outcome is by this build. */
-bool sb_trial_store_has(const sb_trial_store *store, const sb_job *job);
-/* Makes an empty folder for the trial. */
-sb_status sb_trial_store_clear(const char *folder, sb_error *error);
+bool sb_trial_is_stored(const sb_store *store, const sb_job *job);
 /* Writes record.txt. */
-sb_status sb_trial_store_write(const sb_trial_store *store, const sb_job *job, const sb_outcome *outcome,
-                               sb_error *error);
+sb_status sb_trial_write(const sb_store *store, const sb_job *job, const sb_outcome *outcome, sb_error *error);
+/* Reads the stored outcome of a trial, by this build or by another with the same scene and settings. */
+sb_outcome sb_trial_read(const sb_store *store, const sb_job *job);
 
 #endif

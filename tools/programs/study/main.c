@@ -4,7 +4,6 @@
 
 #include "base/memory.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,8 +12,8 @@ typedef struct subject {
     char scene[SB_PATH_MAX], name[SB_NAME_MAX], out[SB_PATH_MAX];
     sb_case of;
     sb_plan plans[SB_STUDY_LEVELS];
-    const char *settings[SB_TRIAL_SETTINGS + SB_STUDY_SETS + 1];
-    sb_result *trials;
+    const char *settings[SB_PLAIN_SETTINGS + SB_STUDY_SETS + 1];
+    sb_result *runs;
     size_t count;
 } subject;
 
@@ -43,19 +42,20 @@ static sb_status begin(subject *s, const sb_study_options *o, sb_error *error)
     bool paper;
     if (!realpath(o->scene, s->scene)) return sb_fail(error, SB_BAD_INPUT, "%.400s: no such file", o->scene);
     name_it(s);
-    snprintf(s->out, sizeof s->out, "%s%s", o->out ? o->out : SB_SOURCE_DIR "/runs/study/", o->out ? "" : s->name);
+    snprintf(s->out, sizeof s->out, "%s%s", o->common.out ? o->common.out : SB_SOURCE_DIR "/runs/study/",
+             o->common.out ? "" : s->name);
     s->of = (sb_case){.name = s->name, .scene = s->scene, .evaluate = sb_quantities_of};
-    for (size_t i = 0; i < SB_TRIAL_SETTINGS; i++) s->settings[i] = sb_trial_settings[i];
-    for (size_t i = 0; i < o->set_count; i++) s->settings[SB_TRIAL_SETTINGS + i] = o->sets[i];
+    for (size_t i = 0; i < SB_PLAIN_SETTINGS; i++) s->settings[i] = sb_plain_settings[i];
+    for (size_t i = 0; i < o->set_count; i++) s->settings[SB_PLAIN_SETTINGS + i] = o->sets[i];
     s->count = o->spacing_count * (size_t)o->seeds;
     const sb_status status = find_preset(s, o, &paper, error);
     if (status != SB_OK) return status;
-    s->trials = sb_alloc(s->count, sizeof *s->trials);
-    if (!s->trials) return sb_fail_memory(error, "a study");
+    s->runs = sb_alloc(s->count, sizeof *s->runs);
+    if (!s->runs) return sb_fail_memory(error, "a study");
     for (size_t i = 0; i < s->count; i++) {
         sb_plan *plan = &s->plans[i / (size_t)o->seeds];
         *plan = (sb_plan){.resolution = o->spacings[i / (size_t)o->seeds], .settings = s->settings};
-        s->trials[i].request =
+        s->runs[i].request =
             (sb_request){.of = &s->of, .plan = plan, .paper = paper, .seed = 1 + (int)(i % (size_t)o->seeds)};
     }
     return SB_OK;
@@ -63,20 +63,17 @@ static sb_status begin(subject *s, const sb_study_options *o, sb_error *error)
 
 static sb_status report(const subject *s, const sb_study_options *o, const sb_store *store, sb_error *error)
 {
-    const sb_study study = {.options = o, .store = store, .trials = s->trials, .count = s->count};
-    sb_study_row *rows;
-    size_t count;
-    sb_status status = sb_study_rows(&study, &rows, &count, error);
-    if (status != SB_OK) return status;
+    sb_study study = {.options = o, .store = store, .runs = s->runs, .count = s->count};
+    sb_status status = sb_study_rows(&study, error);
     bool any = false;
-    for (size_t i = 0; i < s->count; i++) any |= s->trials[i].state == SB_RESULT_DONE;
-    if (!count && any)
+    for (size_t i = 0; i < s->count; i++) any |= s->runs[i].state == SB_RESULT_DONE;
+    if (status == SB_OK && !study.row_count && any)
         status = sb_fail(error, SB_BAD_INPUT, "%s: no measured quantity has %s", s->name,
                          o->pattern_count ? "a name that matches --quantity" : "a value");
-    if (count) sb_study_table(stdout, &study, rows, count);
-    if (status == SB_OK) status = sb_study_write(&study, rows, count, store->out, error);
+    if (study.row_count) sb_study_table(stdout, &study);
+    if (status == SB_OK) status = sb_study_write(&study, error);
     if (status == SB_OK) printf("%s/study.md\n", store->out);
-    sb_study_rows_free(rows, count);
+    sb_study_rows_free(&study);
     return status;
 }
 
@@ -86,17 +83,8 @@ static sb_status check(const sb_store *store, const subject *s, sb_error *error)
     char folder[SB_PATH_MAX];
     sb_status status = SB_OK;
     for (size_t i = 0; status == SB_OK && i < s->count; i++)
-        status = sb_store_folder(store, &s->trials[i].request, folder, error);
+        status = sb_run_folder(store, &s->runs[i].request, folder, error);
     return status;
-}
-
-static void end(subject *s)
-{
-    for (size_t i = 0; s->trials && i < s->count; i++) {
-        sb_finished_free(&s->trials[i].run);
-        sb_figures_free(&s->trials[i].figures);
-    }
-    sb_free(s->trials);
 }
 
 int main(int count, char **arguments)
@@ -106,23 +94,15 @@ int main(int count, char **arguments)
     sb_store store;
     sb_error error = {0};
     size_t failed = 0;
-    setvbuf(stdout, NULL, _IOLBF, 0);
-    if (count == 2 && strcmp(arguments[1], "--version") == 0) {
-        printf("shorebreak-study %s\n", SB_VERSION);
-        return 0;
-    }
     sb_status status = sb_study_parse(count, arguments, &o, &error);
-    if (status == SB_OK && o.help) {
-        fputs(sb_study_help, stdout);
-        return 0;
-    }
+    if (status == SB_OK && o.common.answered) return 0;
     if (status == SB_OK) status = begin(&s, &o, &error);
-    if (status == SB_OK) status = sb_trials_store(&store, s.out, o.program, SB_SOURCE_DIR, &error);
+    if (status == SB_OK) status = sb_store_open(&store, s.out, o.common.program, "assets/validation", false, &error);
     if (status == SB_OK) status = check(&store, &s, &error);
-    if (status == SB_OK) status = sb_trials_make(&store, s.trials, s.count, o.jobs, o.report_only, &failed, &error);
+    if (status == SB_OK)
+        status = sb_runs_make(&store, s.runs, s.count, o.common.jobs, o.common.report_only, &failed, &error);
     if (status == SB_OK) status = report(&s, &o, &store, &error);
-    end(&s);
-    if (status != SB_OK) fprintf(stderr, "study: %s\n", error.text);
-    if (status != SB_OK) return status == SB_INTERRUPTED ? 130 : (int)status;
-    return failed ? SB_FAILED : 0;
+    sb_results_free(s.runs, s.count);
+    sb_free(s.runs);
+    return sb_tool_end("study", status, failed ? SB_FAILED : 0, &error);
 }

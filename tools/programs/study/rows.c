@@ -6,10 +6,10 @@
 #include <math.h>
 #include <string.h>
 
-static bool is_known(const sb_study_row *rows, size_t count, const char *quantity)
+static bool is_known(const sb_study *study, const char *quantity)
 {
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(rows[i].quantity, quantity) == 0) return true;
+    for (size_t i = 0; i < study->row_count; i++)
+        if (strcmp(study->rows[i].quantity, quantity) == 0) return true;
     return false;
 }
 
@@ -20,13 +20,13 @@ static sb_status begin(const sb_study *study, const sb_figure *figure, sb_study_
     return row->values ? SB_OK : sb_fail_memory(error, "a study");
 }
 
-/* Fills in the values of all trials, their means and their convergence. */
+/* Fills in the values of all runs, their means and their convergence. */
 static void fill(const sb_study *study, sb_study_row *row)
 {
     const sb_study_options *o = study->options;
     size_t seeds = (size_t)o->seeds, n = o->spacing_count;
     for (size_t i = 0; i < study->count; i++) {
-        const sb_result *t = &study->trials[i];
+        const sb_result *t = &study->runs[i];
         const sb_figure *f = t->state == SB_RESULT_DONE ? sb_figures_find(&t->figures, row->quantity) : NULL;
         row->values[i] = f ? f->value : (double)NAN;
     }
@@ -47,32 +47,26 @@ static void fill(const sb_study *study, sb_study_row *row)
     row->range = sb_order_over_seeds(spacing, values, counts);
 }
 
-sb_status sb_study_rows(const sb_study *study, sb_study_row **rows, size_t *count, sb_error *error)
+sb_status sb_study_rows(sb_study *study, sb_error *error)
 {
     sb_status status = SB_OK;
     size_t capacity = 0;
-    *rows = NULL;
-    *count = 0;
     for (size_t i = 0; i < study->count; i++) {
-        const sb_result *t = &study->trials[i];
-        for (size_t k = 0; t->state == SB_RESULT_DONE && k < t->figures.count; k++) {
+        const sb_result *t = &study->runs[i];
+        for (size_t k = 0; status == SB_OK && t->state == SB_RESULT_DONE && k < t->figures.count; k++) {
             const sb_figure *f = &t->figures.rows[k];
-            if (!sb_study_selects(study->options, f->quantity) || is_known(*rows, *count, f->quantity)) continue;
-            if (sb_grow((void **)rows, &capacity, *count + 1, sizeof **rows) != 0)
-                status = sb_fail_memory(error, "a study");
-            if (status == SB_OK) status = begin(study, f, &(*rows)[*count], error);
-            if (status != SB_OK) {
-                sb_study_rows_free(*rows, *count);
-                return status;
-            }
-            fill(study, &(*rows)[(*count)++]);
+            if (!sb_study_selects(study->options, f->quantity) || is_known(study, f->quantity)) continue;
+            if (sb_grow((void **)&study->rows, &capacity, study->row_count + 1, sizeof *study->rows) != 0)
+                return sb_fail_memory(error, "a study");
+            status = begin(study, f, &study->rows[study->row_count], error);
+            if (status == SB_OK) fill(study, &study->rows[study->row_count++]);
         }
     }
-    return SB_OK;
+    return status;
 }
 
-void sb_study_rows_free(sb_study_row *rows, size_t count)
+void sb_study_rows_free(sb_study *study)
 {
-    for (size_t i = 0; i < count; i++) sb_free(rows[i].values);
-    sb_free(rows);
+    for (size_t i = 0; i < study->row_count; i++) sb_free(study->rows[i].values);
+    sb_free(study->rows);
 }

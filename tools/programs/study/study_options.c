@@ -1,13 +1,11 @@
 #include "study_options.h"
 
-#include "arguments.h"
-
 #include <fnmatch.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-const char sb_study_help[] =
+static const char help[] =
     "usage: tools/study SCENE --resolutions A,B,C [OPTIONS]\n"
     "Runs a scene at several spacings and start seeds. Reports the order of convergence, the value\n"
     "extrapolated to spacing 0 and an error bar, for the load on every body, crests at gauges, run-up\n"
@@ -98,25 +96,23 @@ static sb_status take_scene(void *user, const char *path, sb_error *error)
 
 sb_status sb_study_parse(int count, char **arguments, sb_study_options *o, sb_error *error)
 {
-    *o = (sb_study_options){.seeds = 1, .jobs = 1, .command = "tools/study"};
+    *o = (sb_study_options){.seeds = 1};
     const sb_argument options[] = {{.name = "--resolutions", .take = take_spacings, .repeated = true},
                                    {.name = "--set", .take = take_set, .repeated = true},
                                    {.name = "--seeds", .count = &o->seeds, .most = SB_STUDY_SEEDS, .repeated = true},
-                                   {.name = "--jobs", .count = &o->jobs, .most = 256, .repeated = true},
                                    {.name = "--preset", .take = take_preset, .repeated = true},
                                    {.name = "--quantity", .take = take_pattern, .repeated = true},
-                                   {.name = "--report-only", .flag = &o->report_only},
-                                   {.name = "--out", .text = &o->out},
-                                   {.name = "--shorebreak", .text = &o->program}};
-    const sb_command_line line = {.options = options,
+                                   {.name = "--report-only", .flag = &o->common.report_only}};
+    const sb_command_line line = {.tool = "study",
+                                  .help = help,
+                                  .has = SB_HAS_JOBS | SB_HAS_OUT | SB_HAS_PROGRAM,
+                                  .options = options,
                                   .option_count = sizeof options / sizeof *options,
                                   .operand = take_scene,
-                                  .user = o,
-                                  .help = &o->help,
-                                  .command = o->command,
-                                  .command_size = sizeof o->command};
-    sb_status status = sb_command_line_read(&line, count, arguments, error);
-    if (status != SB_OK || o->help) return status;
+                                  .user = o};
+    sb_status status = sb_command_line_read(&line, count, arguments, &o->common, error);
+    if (status != SB_OK || o->common.answered) return status;
+    if (!o->common.jobs) o->common.jobs = 1;
     if (!o->scene) return sb_fail(error, SB_BAD_INPUT, "no scene given; see --help");
     return o->spacing_count > 1
                ? SB_OK

@@ -2,25 +2,23 @@
 #ifndef SB_STUDY_OPTIONS_H
 #define SB_STUDY_OPTIONS_H
 
-#include "request.h"
+#include "arguments.h"
 
 enum { SB_STUDY_LEVELS = 12, SB_STUDY_SETS = 24, SB_STUDY_PATTERNS = 16, SB_STUDY_SEEDS = 32 };
 
 typedef struct sb_study_options {
-    const char *scene, *out, *program;
+    sb_common_options common;
+    const char *scene;
     double spacings[SB_STUDY_LEVELS]; /* m, coarse to fine */
     size_t spacing_count;
     const char *sets[SB_STUDY_SETS]; /* KEY=VALUE */
     size_t set_count;
     const char *patterns[SB_STUDY_PATTERNS]; /* of quantities; none selects all */
     size_t pattern_count;
-    int seeds, jobs;
+    int seeds;
     const char *preset; /* NULL: the scene's own */
-    bool paper, report_only, help;
-    char command[1024]; /* as it can be repeated on any machine: without folders */
+    bool paper;
 } sb_study_options;
-
-extern const char sb_study_help[];
 
 /* SB_BAD_INPUT: the error names the argument. Options point into the arguments. */
 sb_status sb_study_parse(int count, char **arguments, sb_study_options *options, sb_error *error);

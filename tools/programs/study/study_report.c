@@ -1,11 +1,10 @@
 #include "study_report.h"
 
 #include "base/memory.h"
+#include "markdown.h"
 #include "plot_draw.h"
-#include "report.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { PANELS = 8 };
@@ -32,24 +31,21 @@ static void put_order(FILE *out, const sb_study_row *row, bool seeds)
     fputs(" |", out);
 }
 
-void sb_study_table(FILE *out, const sb_study *study, const sb_study_row *rows, size_t count)
+void sb_study_table(FILE *out, const sb_study *study)
 {
     const sb_study_options *o = study->options;
     char text[48];
     fputs("| quantity | unit |", out);
     for (size_t l = 0; l < o->spacing_count; l++) fprintf(out, " %g m |", o->spacings[l]);
-    fputs(" order | at spacing 0 | error bar of the finest | remark |\n|---|---|", out);
-    for (size_t l = 0; l < o->spacing_count + 4; l++) fputs("---|", out);
-    fputc('\n', out);
-    for (size_t i = 0; i < count; i++) {
-        const sb_study_row *row = &rows[i];
-        fputs("| ", out);
-        sb_text_cell(out, row->quantity);
-        fprintf(out, " | %s |", row->unit);
+    fputs(" order | at spacing 0 | error bar of the finest | remark |\n", out);
+    sb_put_rule(out, o->spacing_count + 6);
+    for (const sb_study_row *row = study->rows; row < study->rows + study->row_count; row++) {
+        fputc('|', out);
+        sb_put_cell(out, row->quantity);
+        fprintf(out, " %s |", row->unit);
         for (size_t l = 0; l < o->spacing_count; l++) put_with_error(out, row->levels[l].value, row->levels[l].error);
         put_order(out, row, o->seeds > 1);
-        sb_text_number(text, row->convergence.extrapolated);
-        fprintf(out, " %s |", text);
+        sb_put_number(out, row->convergence.extrapolated);
         sb_text_number(text, row->convergence.uncertainty);
         fprintf(out, " ± %s", text);
         if (row->finest > o->spacings[o->spacing_count - 1]) fprintf(out, " (at %g m)", row->finest);
@@ -63,14 +59,14 @@ static void put_runs(FILE *out, const sb_study *study)
           "processor time (s) | load |\n|---|---|---|---|---|---|---|---|\n",
           out);
     for (size_t i = 0; i < study->count; i++) {
-        const sb_result *t = &study->trials[i];
+        const sb_result *t = &study->runs[i];
         if (t->state != SB_RESULT_DONE) continue;
         fprintf(out, "| %g | %d | %zu | %zu | %.2f | %.4g | %.4g | %.2g |\n", t->run.view.resolution, t->request.seed,
                 t->run.view.particles, t->run.view.steps, t->run.view.iterations, t->run.view.wall, t->run.cpu,
                 t->run.load);
     }
     fputc('\n', out);
-    for (size_t i = 0; i < study->count; i++) sb_trial_problem(out, &study->trials[i]);
+    for (size_t i = 0; i < study->count; i++) sb_runs_problem(out, &study->runs[i]);
 }
 
 static const char reading[] =
@@ -124,99 +120,76 @@ static sb_status plot_row(const sb_study *study, const sb_study_row *row, sb_plo
     return status;
 }
 
-static sb_status draw(const sb_study *study, const sb_study_row *rows, size_t count, const char *folder,
-                      sb_error *error)
+static sb_status draw(const sb_study *study, sb_error *error)
 {
-    char plots[SB_PATH_MAX], picture[SB_PATH_MAX], real[SB_PATH_MAX];
     sb_plot *plot = sb_plot_create();
     sb_status status = plot ? SB_OK : sb_fail_memory(error, "a plot");
-    if (status == SB_OK) status = sb_path_join(plots, folder, "plots", error);
-    if (status == SB_OK) status = sb_make_directories(plots, error);
-    if (status == SB_OK && !realpath(folder, real))
-        status = sb_fail(error, SB_FAILED, "%.400s: no such folder", folder);
-    if (status == SB_OK) status = sb_path_join(picture, real, "study.png", error);
-    if (status == SB_OK && !count) status = sb_fail(error, SB_FAILED, "nothing was measured");
-    for (size_t i = 0; status == SB_OK && i < count && i < PANELS; i++) status = plot_row(study, &rows[i], plot, error);
-    if (status == SB_OK) status = sb_plot_draw(plot, plots, "study", picture, error);
+    if (status == SB_OK && !study->row_count) status = sb_fail(error, SB_FAILED, "nothing was measured");
+    for (size_t i = 0; status == SB_OK && i < study->row_count && i < PANELS; i++)
+        status = plot_row(study, &study->rows[i], plot, error);
+    if (status == SB_OK) status = sb_plot_picture(plot, study->store->out, "study", study->store->out, error);
     sb_plot_destroy(plot);
     return status;
 }
 
-static void put_report(FILE *out, const sb_study *study, const sb_study_row *rows, size_t count,
-                       const sb_error *no_plot)
+static void put_report(FILE *out, const void *what)
 {
+    const sb_study *study = what;
     const char *slash = strrchr(study->options->scene, '/');
+    sb_error no_plot = {0};
+    draw(study, &no_plot);
     fprintf(out, "# Resolution study of %s\n\n", slash ? slash + 1 : study->options->scene);
-    sb_trials_origin(out, study->store, study->trials, study->count, study->options->command);
-    sb_study_table(out, study, rows, count);
-    fputs(reading, out);
-    if (no_plot->text[0])
-        fprintf(out, "\nNo plot: %s.\n", no_plot->text);
-    else
-        fprintf(out, "\n![value over spacing](study.png)\n%s",
-                count > PANELS ? "\nThe picture shows the first eight quantities; `--quantity` selects others.\n" : "");
+    sb_runs_origin(out, study->store, study->runs, study->count, study->options->common.command);
+    sb_study_table(out, study);
+    fprintf(out, "%s\n", reading);
+    sb_put_picture(out, &no_plot, "![value over spacing](study.png)\n");
+    if (!no_plot.text[0] && study->row_count > PANELS)
+        fputs("\nThe picture shows the first eight quantities; `--quantity` selects others.\n", out);
     put_runs(out, study);
 }
 
-static void put_number(FILE *out, double value, const char *after)
+static void put_runs_csv(FILE *out, const void *what)
 {
-    if (!isnan(value)) fprintf(out, "%.9g", value);
-    fputs(after, out);
-}
-
-static void put_runs_csv(FILE *out, const sb_study *study, const sb_study_row *rows, size_t count)
-{
+    const sb_study *study = what;
     fputs("quantity,unit,spacing_m,seed,value,particles,steps,sweeps_per_step,run_time_s,cpu_s,load,"
           "commit\n",
           out);
-    for (size_t q = 0; q < count; q++)
+    for (size_t q = 0; q < study->row_count; q++)
         for (size_t i = 0; i < study->count; i++) {
-            const sb_result *t = &study->trials[i];
+            const sb_result *t = &study->runs[i];
+            const sb_study_row *row = &study->rows[q];
             if (t->state != SB_RESULT_DONE) continue;
-            fprintf(out, "\"%s\",%s,%.9g,%d,", rows[q].quantity, rows[q].unit, t->run.view.resolution, t->request.seed);
-            put_number(out, rows[q].values[i], ",");
+            fprintf(out, "\"%s\",%s,%.9g,%d,", row->quantity, row->unit, t->run.view.resolution, t->request.seed);
+            sb_put_field(out, row->values[i]);
             fprintf(out, "%zu,%zu,%.4f,%.3f,", t->run.view.particles, t->run.view.steps, t->run.view.iterations,
                     t->run.view.wall);
-            put_number(out, t->run.cpu, ",");
-            put_number(out, t->run.load, ",");
+            sb_put_field(out, t->run.cpu);
+            sb_put_field(out, t->run.load);
             fprintf(out, "%s\n", t->run.commit);
         }
 }
 
-static void put_orders_csv(FILE *out, const sb_study_row *rows, size_t count)
+static void put_orders_csv(FILE *out, const void *what)
 {
+    const sb_study *study = what;
     fputs("quantity,unit,order,order_low,order_high,order_share,extrapolated,error_bar,remark\n", out);
-    for (size_t q = 0; q < count; q++) {
-        const sb_convergence *c = &rows[q].convergence;
-        fprintf(out, "\"%s\",%s,", rows[q].quantity, rows[q].unit);
-        put_number(out, c->kind == SB_ORDER_OBSERVED ? c->order : (double)NAN, ",");
-        put_number(out, rows[q].range.low, ",");
-        put_number(out, rows[q].range.high, ",");
-        put_number(out, rows[q].range.share, ",");
-        put_number(out, c->extrapolated, ",");
-        put_number(out, c->uncertainty, ",");
+    for (const sb_study_row *row = study->rows; row < study->rows + study->row_count; row++) {
+        const sb_convergence *c = &row->convergence;
+        fprintf(out, "\"%s\",%s,", row->quantity, row->unit);
+        sb_put_field(out, c->kind == SB_ORDER_OBSERVED ? c->order : (double)NAN);
+        sb_put_field(out, row->range.low);
+        sb_put_field(out, row->range.high);
+        sb_put_field(out, row->range.share);
+        sb_put_field(out, c->extrapolated);
+        sb_put_field(out, c->uncertainty);
         fprintf(out, "%s\n", sb_order_remark(c->kind));
     }
 }
 
-sb_status sb_study_write(const sb_study *study, const sb_study_row *rows, size_t count, const char *folder,
-                         sb_error *error)
+sb_status sb_study_write(const sb_study *study, sb_error *error)
 {
-    sb_atomic_file file;
-    sb_error no_plot = {0};
-    draw(study, rows, count, folder, &no_plot);
-    sb_status status = sb_atomic_open_in(&file, folder, "runs.csv", error);
-    if (status == SB_OK) {
-        put_runs_csv(file.stream, study, rows, count);
-        status = sb_atomic_commit(&file, 0, error);
-    }
-    if (status == SB_OK) status = sb_atomic_open_in(&file, folder, "orders.csv", error);
-    if (status == SB_OK) {
-        put_orders_csv(file.stream, rows, count);
-        status = sb_atomic_commit(&file, 0, error);
-    }
-    if (status == SB_OK) status = sb_atomic_open_in(&file, folder, "study.md", error);
-    if (status != SB_OK) return status;
-    put_report(file.stream, study, rows, count, &no_plot);
-    return sb_atomic_commit(&file, 0, error);
+    const char *folder = study->store->out;
+    sb_status status = sb_report_write(folder, "runs.csv", put_runs_csv, study, error);
+    if (status == SB_OK) status = sb_report_write(folder, "orders.csv", put_orders_csv, study, error);
+    return status == SB_OK ? sb_report_write(folder, "study.md", put_report, study, error) : status;
 }

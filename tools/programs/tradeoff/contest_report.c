@@ -1,8 +1,9 @@
 #include "contest_report.h"
 
-#include "base/memory.h"
+#include "markdown.h"
 #include "plot_draw.h"
-#include "report.h"
+
+#include "base/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -40,22 +41,21 @@ static void put_contest(FILE *out, const sb_contest_report *r, const sb_contest 
 {
     const bool cpu = r->cpu;
     fprintf(out, "## %s\n\n", c->subject->title);
-    sb_trials_where(out, r->store, c->trials, c->trial_count);
+    sb_runs_where(out, r->store, c->trials, c->trial_count);
     fprintf(out,
             "Errors: %s.\n\n"
             "| choice | spacing (m) | particles | steps | sweeps per step | %s (s) |",
             c->subject->what, cpu ? "processor time" : "run time");
     for (size_t k = 0; k < c->error_count; k++)
         fprintf(out, " %s (%s) |", c->subject->errors[k].name, c->subject->errors[k].unit);
-    fputs(" front |\n|---|---|---|---|---|---|", out);
-    for (size_t k = 0; k < c->error_count + 1; k++) fputs("---|", out);
-    fputc('\n', out);
+    fputs(" front |\n", out);
+    sb_put_rule(out, c->error_count + 7);
     for (size_t i = 0; i < c->entry_count; i++) put_entry(out, c, &c->entries[i]);
     fputc('\n', out);
     size_t missing = 0, failed = 0, otherwise = 0;
     for (size_t i = 0; i < c->trial_count; i++) {
         missing += c->trials[i].state == SB_RESULT_NOT_RUN;
-        failed += c->trials[i].state == SB_RESULT_FAILED && sb_trial_problem(out, &c->trials[i]);
+        failed += c->trials[i].state == SB_RESULT_FAILED && sb_runs_problem(out, &c->trials[i]);
     }
     for (size_t i = 0; !cpu && i < c->trial_count; i++)
         otherwise += c->trials[i].state == SB_RESULT_DONE && c->trials[i].run.threads != c->threads;
@@ -72,19 +72,6 @@ static const char reading[] =
     "is "
     "not significant. Errors include\nthat of the discretisation: if all choices at a spacing have the same error, the "
     "spacing causes it.\n\n";
-
-static void put_report(FILE *out, const sb_contest_report *r, const sb_error *no_plot)
-{
-    fprintf(out, "# Run time against error%s\n\nMade by `tools/tradeoff`. docs/studies.md explains the method.\n\n",
-            r->quick ? ", quick forms" : "");
-    fprintf(out, "- command: `%s`\n\n", r->command);
-    fputs(reading, out);
-    if (no_plot->text[0])
-        fprintf(out, "No plot: %s.\n\n", no_plot->text);
-    else
-        fputs("![error over run time](tradeoff.png)\n\n", out);
-    for (size_t i = 0; i < r->count; i++) put_contest(out, r, &r->contests[i]);
-}
 
 static int by_time(const void *a, const void *b)
 {
@@ -146,25 +133,33 @@ static sb_status plot_contest(const sb_contest *c, bool cpu, sb_plot *plot, sb_e
     return status;
 }
 
-static sb_status draw(const sb_contest_report *r, const char *folder, sb_error *error)
+static sb_status draw(const sb_contest_report *r, sb_error *error)
 {
-    char plots[SB_PATH_MAX], picture[SB_PATH_MAX], real[SB_PATH_MAX];
     sb_plot *plot = sb_plot_create();
     sb_status status = plot ? SB_OK : sb_fail_memory(error, "a plot");
-    if (status == SB_OK) status = sb_path_join(plots, r->store->out, "plots", error);
-    if (status == SB_OK) status = sb_make_directories(plots, error);
-    if (status == SB_OK && !realpath(folder, real))
-        status = sb_fail(error, SB_FAILED, "%.400s: no such folder", folder);
-    if (status == SB_OK) status = sb_path_join(picture, real, "tradeoff.png", error);
     for (size_t i = 0; status == SB_OK && i < r->count; i++)
         if (has_marks(&r->contests[i])) status = plot_contest(&r->contests[i], r->cpu, plot, error);
-    if (status == SB_OK) status = sb_plot_draw(plot, plots, "tradeoff", picture, error);
+    if (status == SB_OK) status = sb_plot_picture(plot, r->store->out, "tradeoff", r->folder, error);
     sb_plot_destroy(plot);
     return status;
 }
 
-static void put_csv(FILE *out, const sb_contest_report *r)
+static void put_report(FILE *out, const void *report)
 {
+    const sb_contest_report *r = report;
+    sb_error no_plot = {0};
+    draw(r, &no_plot);
+    fprintf(out, "# Run time against error%s\n\nMade by `tools/tradeoff`. docs/studies.md explains the method.\n\n",
+            r->quick ? ", quick forms" : "");
+    fprintf(out, "- command: `%s`\n\n%s", r->command, reading);
+    sb_put_picture(out, &no_plot, "![error over run time](tradeoff.png)\n");
+    fputc('\n', out);
+    for (size_t i = 0; i < r->count; i++) put_contest(out, r, &r->contests[i]);
+}
+
+static void put_csv(FILE *out, const void *report)
+{
+    const sb_contest_report *r = report;
     fputs("scene,choice,spacing_m,seed,threads,particles,steps,sweeps_per_step,run_time_s,cpu_s,load,error,unit,"
           "value,mean,least,most,front,commit,machine\n",
           out);
@@ -188,18 +183,9 @@ static void put_csv(FILE *out, const sb_contest_report *r)
     }
 }
 
-sb_status sb_contest_write(const sb_contest_report *report, const char *folder, sb_error *error)
+sb_status sb_contest_write(sb_contest_report *report, const char *folder, sb_error *error)
 {
-    sb_atomic_file file;
-    sb_error no_plot = {0};
-    sb_status status = sb_make_directories(folder, error);
-    if (status == SB_OK) status = sb_atomic_open_in(&file, folder, "tradeoff.csv", error);
-    if (status != SB_OK) return status;
-    draw(report, folder, &no_plot);
-    put_csv(file.stream, report);
-    status = sb_atomic_commit(&file, 0, error);
-    if (status == SB_OK) status = sb_atomic_open_in(&file, folder, "tradeoff.md", error);
-    if (status != SB_OK) return status;
-    put_report(file.stream, report, &no_plot);
-    return sb_atomic_commit(&file, 0, error);
+    report->folder = folder;
+    sb_status status = sb_report_write(folder, "tradeoff.csv", put_csv, report, error);
+    return status == SB_OK ? sb_report_write(folder, "tradeoff.md", put_report, report, error) : status;
 }

@@ -187,10 +187,7 @@ sb_status sb_contest_judge(sb_contest *c, bool cpu, sb_error *error)
 
 void sb_contest_free(sb_contest *c)
 {
-    for (size_t i = 0; i < c->trial_count; i++) {
-        sb_finished_free(&c->trials[i].run);
-        sb_figures_free(&c->trials[i].figures);
-    }
+    sb_results_free(c->trials, c->trial_count);
     sb_free(c->trials);
     sb_free(c->trial_errors);
     sb_free(c->entries);

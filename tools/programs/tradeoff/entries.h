@@ -3,8 +3,8 @@
 #define SB_CHOICES_ENTRIES_H
 
 #include "choice.h"
+#include "runs.h"
 #include "subject.h"
-#include "trials.h"
 
 enum { SB_ENTRY_SETTINGS = 10, SB_ENTRY_SEEDS = 9, SB_REFERENCE_SEEDS = 2 };
 

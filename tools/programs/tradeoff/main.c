@@ -1,23 +1,14 @@
 /* tools/tradeoff: compares run time and error of choices of solver and parameters. */
 #include "arguments.h"
 #include "contest_report.h"
+#include "markdown.h"
 
 #include "base/memory.h"
 
-#include <stdio.h>
-#include <string.h>
-#include <unistd.h>
-
-enum { SUBJECTS = 16 };
-
 typedef struct options {
-    const char *out, *report, *program;
-    bool report_only, list, help;
+    sb_common_options common;
     sb_contest_selection selection;
-    int jobs;
-    const sb_subject *subjects[SUBJECTS];
-    size_t subject_count;
-    char command[512];
+    sb_selection subjects; /* rows of sb_subjects */
 } options;
 
 static const char help[] =
@@ -41,46 +32,9 @@ static const char help[] =
     "Finished runs are stored and not repeated as long as program and scene stay the same.\n"
     "Exit status: 0 done, 1 bad input, 2 a run failed, 130 stopped.\n";
 
-static sb_status take_subject(void *user, const char *name, sb_error *error)
+static const char *subject_name(size_t row)
 {
-    options *o = user;
-    for (const sb_subject *s = sb_subjects; s->name; s++)
-        if (strcmp(s->name, name) == 0 && o->subject_count < SUBJECTS) {
-            o->subjects[o->subject_count++] = s;
-            return SB_OK;
-        }
-    return sb_fail(error, SB_BAD_INPUT, "%.200s: no such scene; --list shows the scenes", name);
-}
-
-static sb_status parse(int count, char **arguments, options *o, sb_error *error)
-{
-    *o = (options){.command = "tools/tradeoff"};
-    const sb_argument table[] = {
-        {.name = "--quick", .flag = &o->selection.quick, .repeated = true},
-        {.name = "--few", .flag = &o->selection.few, .repeated = true},
-        {.name = "--spacings", .count = &o->selection.spacings, .most = 64, .repeated = true},
-        {.name = "--spacing", .number = &o->selection.spacing, .most = 1e6, .repeated = true},
-        {.name = "--report-only", .flag = &o->report_only},
-        {.name = "--list", .flag = &o->list},
-        {.name = "--seeds", .count = &o->selection.seeds, .most = SB_ENTRY_SEEDS, .repeated = true},
-        {.name = "--references", .count = &o->selection.references, .most = SB_REFERENCE_SEEDS, .repeated = true},
-        {.name = "--jobs", .count = &o->jobs, .most = 256, .repeated = true},
-        {.name = "--out", .text = &o->out},
-        {.name = "--report", .text = &o->report},
-        {.name = "--shorebreak", .text = &o->program}};
-    const sb_command_line line = {.options = table,
-                                  .option_count = sizeof table / sizeof *table,
-                                  .operand = take_subject,
-                                  .user = o,
-                                  .help = &o->help,
-                                  .command = o->command,
-                                  .command_size = sizeof o->command};
-    sb_status status = sb_command_line_read(&line, count, arguments, error);
-    if (!o->selection.seeds) o->selection.seeds = o->selection.quick ? 1 : 3;
-    if (!o->jobs) o->jobs = o->selection.quick ? (int)sysconf(_SC_NPROCESSORS_ONLN) : 1;
-    if (!o->subject_count)
-        for (const sb_subject *s = sb_subjects; s->name; s++) o->subjects[o->subject_count++] = s;
-    return status;
+    return sb_subjects[row].name;
 }
 
 static void list(void)
@@ -91,40 +45,59 @@ static void list(void)
     for (const sb_choice *c = sb_choices; c->name; c++) printf("%c %s\n", c->quick ? '*' : ' ', c->name);
 }
 
-static size_t all_subjects(void)
+static sb_status parse(int count, char **arguments, options *o, sb_error *error)
 {
-    size_t count = 0;
-    while (sb_subjects[count].name) count++;
-    return count;
+    *o = (options){.subjects = {.what = "scene", .name = subject_name}};
+    sb_contest_selection *s = &o->selection;
+    const sb_argument table[] = {
+        {.name = "--few", .flag = &s->few, .repeated = true},
+        {.name = "--spacings", .count = &s->spacings, .most = 64, .repeated = true},
+        {.name = "--spacing", .number = &s->spacing, .most = 1e6, .repeated = true},
+        {.name = "--report-only", .flag = &o->common.report_only},
+        {.name = "--seeds", .count = &s->seeds, .most = SB_ENTRY_SEEDS, .repeated = true},
+        {.name = "--references", .count = &s->references, .most = SB_REFERENCE_SEEDS, .repeated = true}};
+    const sb_command_line line = {.tool = "tradeoff",
+                                  .help = help,
+                                  .list = list,
+                                  .has = SB_HAS_QUICK | SB_HAS_LIST | SB_HAS_JOBS | SB_HAS_OUT | SB_HAS_REPORT |
+                                         SB_HAS_PROGRAM,
+                                  .options = table,
+                                  .option_count = sizeof table / sizeof *table,
+                                  .selection = &o->subjects};
+    sb_status status = sb_command_line_read(&line, count, arguments, &o->common, error);
+    s->quick = o->common.quick;
+    if (!s->seeds) s->seeds = s->quick ? 1 : 3;
+    if (!o->common.jobs) o->common.jobs = s->quick ? sb_cores() : 1;
+    if (!o->subjects.count) sb_selection_all(&o->subjects);
+    return status;
 }
 
 static sb_status report(const options *o, const sb_store *store, const sb_contest *contests, size_t count,
                         sb_error *error)
 {
     char folder[SB_PATH_MAX];
-    const sb_contest_report what = {.store = store,
-                                    .contests = contests,
-                                    .count = count,
-                                    .command = o->command,
-                                    .quick = o->selection.quick,
-                                    .cpu = o->jobs > 1};
-    sb_status status = SB_OK;
-    snprintf(folder, sizeof folder, "%s", o->report ? o->report : SB_SOURCE_DIR "/docs/results");
-    if (!o->report && (o->selection.quick || count < all_subjects()))
-        status = sb_path_join(folder, store->out, o->selection.quick ? "quick" : "some", error);
+    sb_contest_report what = {.store = store,
+                              .contests = contests,
+                              .count = count,
+                              .command = o->common.command,
+                              .quick = o->common.quick,
+                              .cpu = o->common.jobs > 1};
+    const char *below = o->common.quick ? "quick" : sb_subjects[count].name ? "some" : NULL;
+    sb_status status = sb_report_folder(&o->common, store->out, below, folder, error);
     if (status == SB_OK) status = sb_contest_write(&what, folder, error);
     if (status == SB_OK) printf("%s/tradeoff.md\n", folder);
     return status;
 }
 
-static sb_status run(const options *o, sb_contest *contests, size_t *failed, sb_error *error)
+static sb_status run(const options *o, sb_contest *contests, int *result, sb_error *error)
 {
     sb_store store;
-    size_t count = 0;
-    sb_status status =
-        sb_trials_store(&store, o->out ? o->out : SB_SOURCE_DIR "/build/tradeoff", o->program, SB_SOURCE_DIR, error);
-    for (size_t i = 0; status == SB_OK && i < o->subject_count; i++) {
-        status = sb_contest_begin(&contests[count], o->subjects[i], &store, &o->selection, error);
+    const sb_common_options *c = &o->common;
+    size_t count = 0, failed = 0;
+    sb_status status = sb_store_open(&store, c->out ? c->out : SB_SOURCE_DIR "/build/tradeoff", c->program,
+                                     "assets/validation", false, error);
+    for (size_t i = 0; status == SB_OK && i < o->subjects.count; i++) {
+        status = sb_contest_begin(&contests[count], &sb_subjects[o->subjects.rows[i]], &store, &o->selection, error);
         if (status == SB_OK && contests[count].trial_count > 0)
             count++;
         else
@@ -135,35 +108,22 @@ static sb_status run(const options *o, sb_contest *contests, size_t *failed, sb_
                          "--spacing %g: no selected scene has this spacing, expected one of the report's tables (m)",
                          o->selection.spacing);
     for (size_t i = 0; status == SB_OK && i < count; i++) {
-        size_t these = 0;
         status =
-            sb_trials_make(&store, contests[i].trials, contests[i].trial_count, o->jobs, o->report_only, &these, error);
-        *failed += these;
-        if (status == SB_OK) status = sb_contest_judge(&contests[i], o->jobs > 1, error);
+            sb_runs_make(&store, contests[i].trials, contests[i].trial_count, c->jobs, c->report_only, &failed, error);
+        if (status == SB_OK) status = sb_contest_judge(&contests[i], c->jobs > 1, error);
     }
+    *result = failed ? SB_FAILED : 0;
     return status == SB_OK ? report(o, &store, contests, count, error) : status;
 }
 
 int main(int count, char **arguments)
 {
     options o;
-    sb_contest contests[SUBJECTS] = {{0}};
+    sb_contest contests[SB_ROWS_MAX] = {{0}};
     sb_error error = {0};
-    size_t failed = 0;
-    setvbuf(stdout, NULL, _IOLBF, 0);
-    if (count == 2 && strcmp(arguments[1], "--version") == 0) {
-        printf("shorebreak-tradeoff %s\n", SB_VERSION);
-        return 0;
-    }
+    int result = 0;
     sb_status status = parse(count, arguments, &o, &error);
-    if (status == SB_OK && (o.help || o.list)) {
-        if (o.help) fputs(help, stdout);
-        if (!o.help) list();
-        return 0;
-    }
-    if (status == SB_OK) status = run(&o, contests, &failed, &error);
-    for (size_t i = 0; i < SUBJECTS; i++) sb_contest_free(&contests[i]);
-    if (status != SB_OK) fprintf(stderr, "tradeoff: %s\n", error.text);
-    if (status != SB_OK) return status == SB_INTERRUPTED ? 130 : (int)status;
-    return failed ? SB_FAILED : 0;
+    if (status == SB_OK && !o.common.answered) status = run(&o, contests, &result, &error);
+    for (size_t i = 0; i < SB_ROWS_MAX; i++) sb_contest_free(&contests[i]);
+    return sb_tool_end("tradeoff", status, result, &error);
 }

@@ -2,7 +2,7 @@
 
 #include "cases.h"
 #include "quantity.h"
-#include "trials.h"
+#include "runs.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -45,7 +45,7 @@ const sb_subject sb_subjects[] = {
      .what = "difference from the run of the default preset at the reference spacing; impulse and peak are horizontal, for "
              "twelve buildings: sum of the differences divided by the sum of the reference values",
      .of = &plant, .full = {8, 5, 4}, .quick = {12}, .full_reference = 2, .quick_reference = 6,
-     .settings = sb_trial_settings,
+     .settings = sb_plain_settings,
      .errors = {{"impulse", "%", "#, impulse", buildings},
                 {"peak", "%", "#, peak", buildings},
                 {"crest offshore", "%", "offshore, crest", NULL},

@@ -1,8 +1,12 @@
-/* The cases, each in a file case_<name>.c. */
+/* The cases, each in a file case_<name>.c. To add one, write that file with its sb_case, add its line here and to
+   cases.c, and put its scene and reference tables into assets/validation/<folder>/. */
 #ifndef SB_VALIDATION_CASES_H
 #define SB_VALIDATION_CASES_H
 
 #include "case.h"
+
+/* All cases in the order of the report, ended by NULL. */
+extern const sb_case *const sb_cases[];
 
 extern const sb_case sb_case_still_water_flat;
 extern const sb_case sb_case_still_water_box;

@@ -1,11 +1,10 @@
 #include "options.h"
 
-#include "arguments.h"
+#include "cases.h"
 
-#include <string.h>
-#include <unistd.h>
+#include <stdio.h>
 
-const char sb_validate_help[] =
+static const char help[] =
     "usage: tools/validate [CASE...|--all] [OPTIONS]\n"
     "Runs the cases, compares them with experiments and theory, and writes the report.\n\n"
     "  --all            every case\n"
@@ -27,54 +26,35 @@ const char sb_validate_help[] =
     "Exit status: 0 all judged figures within their targets, 1 bad input, 2 a run failed, 4 some\n"
     "figures missed their targets, 130 stopped.\n";
 
-static const sb_case *find_case(const char *name)
+static const char *case_name(size_t row)
 {
-    for (size_t i = 0; sb_cases[i]; i++)
-        if (strcmp(sb_cases[i]->name, name) == 0) return sb_cases[i];
-    return NULL;
+    return sb_cases[row] ? sb_cases[row]->name : NULL;
 }
 
-static sb_status take_case(void *user, const char *name, sb_error *error)
+static void list(void)
 {
-    sb_validate_options *o = user;
-    const sb_case *of = find_case(name);
-    if (!of) return sb_fail(error, SB_BAD_INPUT, "%.200s: no such case; --list shows the cases", name);
-    if (o->count == SB_CASES_MAX) return sb_fail(error, SB_BAD_INPUT, "too many cases");
-    o->cases[o->count++] = of;
-    return SB_OK;
-}
-
-static void take_all(sb_validate_options *o)
-{
-    for (o->count = 0; sb_cases[o->count] && o->count < SB_CASES_MAX; o->count++)
-        o->cases[o->count] = sb_cases[o->count];
+    for (size_t i = 0; sb_cases[i]; i++) printf("%-24s %s\n", sb_cases[i]->name, sb_cases[i]->title);
 }
 
 sb_status sb_validate_parse(int count, char **arguments, sb_validate_options *o, sb_error *error)
 {
-    *o = (sb_validate_options){.command = "tools/validate"};
-    const sb_argument options[] = {{.name = "--all", .flag = &o->all, .repeated = true},
-                                   {.name = "--quick", .flag = &o->quick, .repeated = true},
-                                   {.name = "--list", .flag = &o->list},
-                                   {.name = "--report-only", .flag = &o->report_only, .repeated = true},
-                                   {.name = "--sensitivity", .flag = &o->sensitivity, .repeated = true},
+    *o = (sb_validate_options){.cases = {.what = "case", .name = case_name}};
+    const sb_argument options[] = {{.name = "--sensitivity", .flag = &o->sensitivity, .repeated = true},
                                    {.name = "--spacings", .count = &o->spacings, .most = 64, .repeated = true},
                                    {.name = "--spacing", .number = &o->spacing, .most = 1e6, .repeated = true},
-                                   {.name = "--once", .flag = &o->once, .repeated = true},
-                                   {.name = "--jobs", .count = &o->jobs, .most = 256, .repeated = true},
-                                   {.name = "--out", .text = &o->out},
-                                   {.name = "--report", .text = &o->report},
-                                   {.name = "--shorebreak", .text = &o->program}};
-    const sb_command_line line = {.options = options,
+                                   {.name = "--once", .flag = &o->once, .repeated = true}};
+    const sb_command_line line = {.tool = "validate",
+                                  .help = help,
+                                  .list = list,
+                                  .has = SB_HAS_ALL | SB_HAS_QUICK | SB_HAS_LIST | SB_HAS_REPORT_ONLY | SB_HAS_JOBS |
+                                         SB_HAS_OUT | SB_HAS_REPORT | SB_HAS_PROGRAM,
+                                  .options = options,
                                   .option_count = sizeof options / sizeof *options,
-                                  .operand = take_case,
-                                  .user = o,
-                                  .help = &o->help,
-                                  .command = o->command,
-                                  .command_size = sizeof o->command};
-    sb_status status = sb_command_line_read(&line, count, arguments, error);
-    if (status != SB_OK || o->help || o->list) return status;
-    if (o->all || ((o->report_only || o->sensitivity) && !o->count)) take_all(o);
-    if (!o->jobs) o->jobs = o->quick || o->sensitivity ? (int)sysconf(_SC_NPROCESSORS_ONLN) : 1;
-    return o->count ? SB_OK : sb_fail(error, SB_BAD_INPUT, "no case given; --list shows the cases, --all selects all");
+                                  .selection = &o->cases};
+    sb_common_options *c = &o->common;
+    sb_status status = sb_command_line_read(&line, count, arguments, c, error);
+    if (status != SB_OK || c->answered) return status;
+    if (c->all || ((c->report_only || o->sensitivity) && !o->cases.count)) sb_selection_all(&o->cases);
+    if (!c->jobs) c->jobs = c->quick || o->sensitivity ? sb_cores() : 1;
+    return sb_selection_check(&o->cases, error);
 }

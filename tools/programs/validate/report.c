@@ -3,7 +3,6 @@
 #include "base/memory.h"
 #include "plot_draw.h"
 
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -88,22 +87,19 @@ static void put_head(FILE *out, const sb_report *report)
     put_summary(out, report, limited - passed);
 }
 
-/* Draws the finished runs of the case into `picture`. SB_FAILED: no run, or no plot; the error says which. */
-static sb_status draw(const sb_report *report, const sb_case_results *results, const char *picture, sb_error *error)
+/* Draws the finished runs of the case. SB_FAILED: no run, or no plot; the error says which. */
+static sb_status draw(const sb_report *report, const sb_case_results *results, sb_error *error)
 {
-    char folder[SB_PATH_MAX];
     size_t count = 0;
     sb_case_run *views = sb_alloc(results->count, sizeof *views);
     sb_plot *plot = sb_plot_create();
-    sb_status status = sb_path_join(folder, report->store->out, "plots", error);
-    if (!views || !plot) status = sb_fail_memory(error, "a plot");
+    sb_status status = views && plot ? SB_OK : sb_fail_memory(error, "a plot");
     for (size_t i = 0; views && i < results->count; i++)
         if (results->runs[i].state == SB_RESULT_DONE && !results->runs[i].kept)
             views[count++] = results->runs[i].run.view;
     if (status == SB_OK && count == 0) status = sb_fail(error, SB_FAILED, "nothing has run");
-    if (status == SB_OK) status = sb_make_directories(folder, error);
     if (status == SB_OK) status = results->of->plot(views, count, plot, error);
-    if (status == SB_OK) status = sb_plot_draw(plot, folder, results->of->name, picture, error);
+    if (status == SB_OK) status = sb_plot_picture(plot, report->store->out, results->of->name, report->pictures, error);
     sb_plot_destroy(plot);
     sb_free(views);
     return status;
@@ -121,40 +117,27 @@ static bool all_kept(const sb_case_results *results)
     return any && all;
 }
 
-static void put_case(FILE *out, const sb_report *report, const sb_case_results *results, const char *pictures)
+static void put_case(FILE *out, const sb_report *report, const sb_case_results *results)
 {
-    char name[128], picture[SB_PATH_MAX], relative[160];
+    char picture[SB_PATH_MAX + 128], relative[160];
     sb_error why = {0};
-    snprintf(name, sizeof name, "%.100s.png", results->of->name);
-    snprintf(relative, sizeof relative, "validation/%s", name);
-    sb_status status = sb_path_join(picture, pictures, name, &why);
-    const bool former = status == SB_OK && all_kept(results) && access(picture, R_OK) == 0;
-    if (status == SB_OK && !former) status = draw(report, results, picture, &why);
-    sb_report_case(out, results, status == SB_OK ? relative : NULL);
-    if (status != SB_OK) fprintf(out, "No plot: %s.\n\n", why.text);
+    snprintf(relative, sizeof relative, "validation/%.100s.png", results->of->name);
+    snprintf(picture, sizeof picture, "%s/%.100s.png", report->pictures, results->of->name);
+    if (!all_kept(results) || access(picture, R_OK) != 0) draw(report, results, &why);
+    sb_report_case(out, results, why.text[0] ? NULL : relative);
+    if (why.text[0]) fprintf(out, "No plot: %s.\n\n", why.text);
 }
 
-static sb_status write_csv(const sb_report *report, const char *folder, sb_error *error)
+static void put_report(FILE *out, const void *what)
 {
-    sb_atomic_file file;
-    sb_status status = sb_atomic_open_in(&file, folder, "results.csv", error);
-    if (status != SB_OK) return status;
-    sb_report_csv(file.stream, report);
-    return sb_atomic_commit(&file, 0, error);
+    const sb_report *report = what;
+    put_head(out, report);
+    for (size_t c = 0; c < report->count; c++) put_case(out, report, &report->cases[c]);
 }
 
-sb_status sb_report_write(const sb_report *report, const char *folder, sb_error *error)
+sb_status sb_validation_write(sb_report *report, const char *folder, sb_error *error)
 {
-    char pictures[SB_PATH_MAX], real[SB_PATH_MAX];
-    sb_atomic_file file;
-    sb_status status = sb_path_join(pictures, folder, "validation", error);
-    if (status == SB_OK) status = sb_make_directories(pictures, error);
-    if (status == SB_OK && !realpath(pictures, real))
-        status = sb_fail(error, SB_FAILED, "%.400s: no such folder", pictures);
-    if (status == SB_OK) status = write_csv(report, real, error);
-    if (status == SB_OK) status = sb_atomic_open_in(&file, folder, "validation.md", error);
-    if (status != SB_OK) return status;
-    put_head(file.stream, report);
-    for (size_t c = 0; c < report->count; c++) put_case(file.stream, report, &report->cases[c], real);
-    return sb_atomic_commit(&file, 0, error);
+    sb_status status = sb_path_join(report->pictures, folder, "validation", error);
+    if (status == SB_OK) status = sb_report_write(report->pictures, "results.csv", sb_report_csv, report, error);
+    return status == SB_OK ? sb_report_write(folder, "validation.md", put_report, report, error) : status;
 }

@@ -1,10 +1,9 @@
 /* Writes the report: validation.md with a summary and a section per case, one plot per case, and results.csv. */
-#ifndef SB_VALIDATION_REPORT_H
-#define SB_VALIDATION_REPORT_H
+#ifndef SB_VALIDATE_REPORT_H
+#define SB_VALIDATE_REPORT_H
 
+#include "markdown.h"
 #include "results.h"
-
-#include <stdio.h>
 
 typedef struct sb_report {
     const sb_store *store;
@@ -12,11 +11,12 @@ typedef struct sb_report {
     size_t count;
     const char *command; /* as typed */
     bool quick;
+    char pictures[SB_PATH_MAX]; /* folder of the pictures and of results.csv */
 } sb_report;
 
 /* Writes folder/validation.md, folder/validation/<case>.png and folder/validation/results.csv, each
    whole or not at all. If a plot cannot be drawn, the report says so and the earlier picture stays. */
-sb_status sb_report_write(const sb_report *report, const char *folder, sb_error *error);
+sb_status sb_validation_write(sb_report *report, const char *folder, sb_error *error);
 
 /* Parts of the report. */
 
@@ -26,13 +26,7 @@ void sb_report_case(FILE *out, const sb_case_results *results, const char *pictu
 void sb_report_summary_row(FILE *out, const sb_case_results *results);
 /* Rows of the table of missed figures. */
 void sb_report_missed_rows(FILE *out, const sb_case_results *results);
-/* Rows of results.csv: one per run and figure. */
-void sb_report_csv(FILE *out, const sb_report *report);
-
-/* Text for a table cell. A number has four digits; NaN is an en dash; an error has a sign and a unit. */
-void sb_text_number(char text[48], double value);
-/* Writes a name with the escapes that a table cell needs. */
-void sb_text_cell(FILE *out, const char *name);
-void sb_text_error(char text[48], double error, const char *unit);
+/* Rows of results.csv, of a sb_report: one per run and figure. */
+void sb_report_csv(FILE *out, const void *report);
 
 #endif

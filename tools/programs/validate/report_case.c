@@ -4,34 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-void sb_text_cell(FILE *out, const char *name)
-{
-    for (; *name; name++) fprintf(out, *name == '|' ? "\\%c" : "%c", *name);
-}
-
-void sb_text_number(char text[48], double value)
-{
-    if (isnan(value))
-        snprintf(text, 48, "–");
-    else
-        snprintf(text, 48, "%.4g", value);
-}
-
-void sb_text_error(char text[48], double error, const char *unit)
-{
-    if (isnan(error))
-        snprintf(text, 48, "–");
-    else
-        snprintf(text, 48, "%+.3g%s%s", error, unit[0] ? " " : "", unit);
-}
-
-static void put_cell(FILE *out, const char *text)
-{
-    fputs(" ", out);
-    for (; *text; text++) fputs(*text == '|' ? "\\|" : (char[]){*text, '\0'}, out);
-    fputs(" |", out);
-}
-
 static const char *verdict(const sb_case_results *results, size_t *limited, size_t *passed)
 {
     bool failed = false;
@@ -57,7 +29,7 @@ void sb_report_missed_rows(FILE *out, const sb_case_results *results)
         sb_text_error(error, j.worst, f->error_unit);
         sb_text_number(limit, f->limit);
         fprintf(out, "| %s |", results->of->name);
-        put_cell(out, f->quantity);
+        sb_put_cell(out, f->quantity);
         fprintf(out, " %s | %s%s%s |\n", error, limit, f->error_unit[0] ? " " : "", f->error_unit);
     }
 }
@@ -71,11 +43,11 @@ static void put_headline(FILE *out, const sb_case_results *results, const sb_res
         sb_judgement j = sb_results_judge(results, i);
         sb_text_number(value, j.mean);
         sb_text_error(error, j.worst, j.figure->error_unit);
-        put_cell(out, j.figure->quantity);
+        sb_put_cell(out, j.figure->quantity);
         fprintf(out, " %s%s%s | %s |", value, j.figure->unit[0] ? " " : "", j.figure->unit, error);
         return;
     }
-    put_cell(out, results->of->headline);
+    sb_put_cell(out, results->of->headline);
     fputs(" – | – |", out);
 }
 
@@ -101,7 +73,7 @@ static void put_reference(FILE *out, const sb_figure *f)
     sb_text_number(low, f->low < f->high ? f->low : f->reference);
     sb_text_number(high, f->high);
     snprintf(cell, sizeof cell, "%s%s%s", low, f->low < f->high ? " to " : "", f->low < f->high ? high : "");
-    put_cell(out, cell);
+    sb_put_cell(out, cell);
 }
 
 /* Value of a figure in one run, with the run's reference if it differs from that of the judged run. */
@@ -109,7 +81,7 @@ static void put_value(FILE *out, const sb_result *r, const sb_figure *judged)
 {
     char text[48], reference[48], cell[128];
     if (r->state != SB_RESULT_DONE) {
-        put_cell(out, r->state == SB_RESULT_FAILED ? "failed" : "not run");
+        sb_put_cell(out, r->state == SB_RESULT_FAILED ? "failed" : "not run");
         return;
     }
     const sb_figure *f = sb_figures_find(&r->figures, judged->quantity);
@@ -119,7 +91,7 @@ static void put_value(FILE *out, const sb_result *r, const sb_figure *judged)
         sb_text_number(reference, f->reference);
         snprintf(cell, sizeof cell, "%s (of %s)", text, reference);
     }
-    put_cell(out, cell);
+    sb_put_cell(out, cell);
 }
 
 static bool has_column(const sb_result *r)
@@ -132,15 +104,18 @@ static void put_judgement(FILE *out, const sb_judgement *j, const char *spread)
 {
     char text[48];
     sb_text_error(text, j->worst, j->figure->error_unit);
-    put_cell(out, text);
+    sb_put_cell(out, text);
     if (isnan(j->figure->limit))
         snprintf(text, sizeof text, "–");
     else
         snprintf(text, sizeof text, "%.4g%s%s", j->figure->limit, j->figure->error_unit[0] ? " " : "",
                  j->figure->error_unit);
-    put_cell(out, text);
-    put_cell(out, spread);
-    put_cell(out, isnan(j->figure->limit) ? "reported" : !j->seeds ? "not judged" : j->pass ? "within" : "**missed**");
+    sb_put_cell(out, text);
+    sb_put_cell(out, spread);
+    sb_put_cell(out, isnan(j->figure->limit) ? "reported"
+                     : !j->seeds             ? "not judged"
+                     : j->pass               ? "within"
+                                             : "**missed**");
     fputc('\n', out);
 }
 
@@ -159,26 +134,25 @@ static void put_spread(char *text, size_t room, sb_seed_spread spread, const sb_
 static void put_figures(FILE *out, const sb_case_results *results, const sb_result *of)
 {
     char text[160];
-    int columns = 0;
+    size_t columns = 7;
     fputs("| quantity | unit | reference |", out);
     for (size_t i = 0; i < results->count; i++) {
         const sb_request *request = &results->runs[i].request;
         if (!has_column(&results->runs[i])) continue;
         snprintf(text, sizeof text, "%.6g m%s%s", request->plan->resolution, request->paper ? ", paper" : "",
                  request->plan->judged && !request->paper ? " (judged)" : "");
-        put_cell(out, text);
+        sb_put_cell(out, text);
         columns++;
     }
-    fputs(" error | target | spread | result |\n|---|---|---|", out);
-    for (int i = 0; i < columns + 4; i++) fputs("---|", out);
-    fputc('\n', out);
+    fputs(" error | target | spread | result |\n", out);
+    sb_put_rule(out, columns);
     for (size_t i = 0; i < of->figures.count; i++) {
         const sb_figure *f = &of->figures.rows[i];
         const sb_judgement j =
             sb_results_judged(results) ? sb_results_judge(results, i) : (sb_judgement){.figure = f, .worst = f->error};
         fputc('|', out);
-        put_cell(out, j.figure->quantity);
-        put_cell(out, j.figure->unit);
+        sb_put_cell(out, j.figure->quantity);
+        sb_put_cell(out, j.figure->unit);
         put_reference(out, j.figure);
         for (size_t k = 0; k < results->count; k++)
             if (has_column(&results->runs[k])) put_value(out, &results->runs[k], j.figure);
@@ -190,7 +164,6 @@ static void put_figures(FILE *out, const sb_case_results *results, const sb_resu
 
 static void put_across(FILE *out, const sb_case_results *results)
 {
-    char text[48];
     if (results->problem[0]) fprintf(out, "Across spacings: %s.\n\n", results->problem);
     if (results->across.count == 0) return;
     fputs("| across spacings | unit | reference | value | error | target | spread | result |\n"
@@ -200,12 +173,10 @@ static void put_across(FILE *out, const sb_case_results *results)
         const sb_figure *f = &results->across.rows[i];
         sb_judgement j = {.figure = f, .worst = f->error, .pass = f->pass, .seeds = 1};
         fputc('|', out);
-        put_cell(out, f->quantity);
-        put_cell(out, f->unit);
-        sb_text_number(text, f->reference);
-        put_cell(out, text);
-        sb_text_number(text, f->value);
-        put_cell(out, text);
+        sb_put_cell(out, f->quantity);
+        sb_put_cell(out, f->unit);
+        sb_put_number(out, f->reference);
+        sb_put_number(out, f->value);
         put_judgement(out, &j, "–");
     }
     if (results->across_builds)
@@ -246,23 +217,12 @@ static void put_runs(FILE *out, const sb_case_results *results)
     fputc('\n', out);
 }
 
-/* A list item per target; `targets` separates them by "; ". */
-static void put_targets(FILE *out, const char *targets)
-{
-    for (const char *at = targets, *end; *at; at = end) {
-        end = strstr(at, "; ");
-        const size_t length = end ? (size_t)(end - at) : strlen(at);
-        fprintf(out, "- %.*s\n", (int)length, at);
-        end = end ? end + 2 : at + length;
-    }
-}
-
 void sb_report_case(FILE *out, const sb_case_results *results, const char *picture)
 {
     const sb_result *judged = sb_results_judged(results), *shown = judged ? judged : sb_results_finest(results);
     fprintf(out, "<a id=\"%s\"></a>\n\n## %s\n\nCase `%s`. Targets:\n\n", results->of->name, results->of->title,
             results->of->name);
-    put_targets(out, results->of->targets);
+    sb_put_items(out, results->of->targets, false);
     fprintf(out, "\n%s\n\n", results->of->method);
     if (picture) fprintf(out, "![%s](%s)\n\n", results->of->title, picture);
     if (!judged) fputs("Not run at the judged spacing", out);

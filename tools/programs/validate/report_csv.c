@@ -5,24 +5,18 @@
 #include <inttypes.h>
 #include <math.h>
 
-static void put_number(FILE *out, double value)
-{
-    if (!isnan(value)) fprintf(out, "%.9g", value);
-    fputc(',', out);
-}
-
 static void put_figure(FILE *out, const sb_figure *f)
 {
     sb_sheet_put(out, f->quantity);
     fputc(',', out);
     sb_sheet_put(out, f->unit);
     fputc(',', out);
-    put_number(out, f->reference);
-    put_number(out, f->value);
-    put_number(out, f->error);
+    sb_put_field(out, f->reference);
+    sb_put_field(out, f->value);
+    sb_put_field(out, f->error);
     sb_sheet_put(out, f->error_unit);
     fputc(',', out);
-    put_number(out, f->limit);
+    sb_put_field(out, f->limit);
     fprintf(out, "%s,", isnan(f->limit) ? "reported" : f->pass ? "pass" : "FAIL");
 }
 
@@ -30,8 +24,8 @@ static void put_figure(FILE *out, const sb_figure *f)
 static void put_remarks(FILE *out, const sb_figure *f)
 {
     const bool band = f->low < f->high;
-    put_number(out, band ? f->low : (double)NAN);
-    put_number(out, band ? f->high : (double)NAN);
+    sb_put_field(out, band ? f->low : (double)NAN);
+    sb_put_field(out, band ? f->high : (double)NAN);
     sb_sheet_put(out, f->note);
     fputc('\n', out);
 }
@@ -53,8 +47,9 @@ static void put_run(FILE *out, const sb_result *r)
     }
 }
 
-void sb_report_csv(FILE *out, const sb_report *report)
+void sb_report_csv(FILE *out, const void *what)
 {
+    const sb_report *report = what;
     fputs("case,resolution_m,preset,seed,judged,quantity,unit,reference,value,error,error_unit,"
           "target,verdict,particles,steps,sweeps_per_step,run_time_s,commit,request,defaults,threads,machine,build,"
           "reference_low,reference_high,note\n",

@@ -3,7 +3,6 @@
 #include "kept.h"
 
 #include "base/memory.h"
-#include "record.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -32,68 +31,6 @@ sb_status sb_case_requests(const sb_case *of, bool quick, sb_request **requests,
     *requests = made;
     *count = n;
     return SB_OK;
-}
-
-static double recalled(const char *folder, const char *key)
-{
-    char text[64], *end;
-    sb_record_recall(folder, key, text, sizeof text);
-    double value = strtod(text, &end);
-    return end == text ? (double)NAN : value;
-}
-
-/* Fills in what only the request and the record contain. */
-static void complete(const sb_store *store, sb_result *r)
-{
-    sb_case_run *view = &r->run.view;
-    sb_request_label(&r->request, false, r->run.label);
-    const char *slash = strrchr(r->run.folder, '/'); /* the last part names the program (store.h) */
-    snprintf(r->run.build, sizeof r->run.build, "%.16s", slash ? slash + 1 : r->run.folder);
-    sb_record_recall(r->run.folder, "commit", r->run.commit, sizeof r->run.commit);
-    sb_record_recall(r->run.folder, "machine", r->run.machine, sizeof r->run.machine);
-    if (isnan(r->run.cpu)) r->run.cpu = recalled(r->run.folder, "cpu_s");
-    r->run.load = recalled(r->run.folder, "load");
-    view->of = r->request.of;
-    view->assets = store->assets;
-    view->preset = r->request.paper ? "paper" : "default";
-    view->seed = r->request.seed;
-    view->quick = r->request.quick;
-    view->judged = r->request.plan->judged;
-}
-
-void sb_result_read(const sb_store *store, bool any_build, sb_result *r)
-{
-    char folder[SB_PATH_MAX];
-    sb_error why = {0};
-    r->state = SB_RESULT_NOT_RUN;
-    r->request_hash[0] = '\0';
-    if (sb_store_request_hash(store, &r->request, r->request_hash, &why) != SB_OK ||
-        sb_store_defaults_hash(store, &r->request, &r->defaults_hash, &why) != SB_OK ||
-        sb_store_folder(store, &r->request, folder, &why) != SB_OK) {
-        r->state = SB_RESULT_FAILED;
-        snprintf(r->problem, sizeof r->problem, "%.600s", why.text);
-        return;
-    }
-    /* If this program failed, figures of another program must not hide that. */
-    if (sb_store_failed(store, &r->request, r->problem, sizeof r->problem)) {
-        r->state = SB_RESULT_FAILED;
-        return;
-    }
-    if (!sb_store_find(store, &r->request, any_build, folder)) return;
-    sb_status status = sb_finished_read(&r->run, folder, &why);
-    uint64_t meaning = 0;
-    if (status == SB_OK) status = sb_scene_defaults_hash(&r->run.scene, &meaning, &why);
-    if (status == SB_OK && meaning != r->defaults_hash) {
-        sb_finished_free(&r->run);
-        snprintf(r->problem, sizeof r->problem, " with these defaults");
-        return;
-    }
-    if (status == SB_OK) {
-        complete(store, r);
-        status = r->request.of->evaluate(&r->run.view, &r->figures, &why);
-    }
-    r->state = status == SB_OK ? SB_RESULT_DONE : SB_RESULT_FAILED;
-    if (status != SB_OK) snprintf(r->problem, sizeof r->problem, "%.600s", why.text);
 }
 
 /* Whether the run's files are available. */
@@ -166,12 +103,9 @@ sb_status sb_results_collect(const sb_store *store, const sb_case *of, bool quic
     return status;
 }
 
-void sb_results_free(sb_case_results *results)
+void sb_case_results_free(sb_case_results *results)
 {
-    for (size_t i = 0; i < results->count; i++) {
-        sb_finished_free(&results->runs[i].run);
-        sb_figures_free(&results->runs[i].figures);
-    }
+    sb_results_free(results->runs, results->count);
     sb_figures_free(&results->across);
     sb_free(results->runs);
     *results = (sb_case_results){0};

@@ -2,25 +2,7 @@
 #ifndef SB_VALIDATION_RESULTS_H
 #define SB_VALIDATION_RESULTS_H
 
-#include "run.h"
-#include "store.h"
-
-typedef enum sb_result_state {
-    SB_RESULT_NOT_RUN,
-    SB_RESULT_FAILED, /* the run or reading its files failed; see problem */
-    SB_RESULT_DONE    /* finished, or kept from an earlier report */
-} sb_result_state;
-
-typedef struct sb_result {
-    sb_request request;
-    char request_hash[17];  /* in hexadecimal; "": not known */
-    uint64_t defaults_hash; /* of the scene with every default of this program (request.h) */
-    sb_result_state state;
-    bool kept; /* the figures are those of an earlier report; files and scene are not available (kept.h) */
-    sb_finished run;
-    sb_figures figures;
-    char problem[640];
-} sb_result;
+#include "runs.h"
 
 /* Runs in the order of their requests: the default preset from coarse to fine with seed 1, `paper`, other seeds. */
 typedef struct sb_case_results {
@@ -50,15 +32,11 @@ typedef struct sb_seed_spread {
 /* The runs of a case. Free *requests with sb_free. */
 sb_status sb_case_requests(const sb_case *of, bool quick, sb_request **requests, size_t *count, sb_error *error);
 
-/* Reads the stored run of r->request and computes its figures. any_build: if this build has not run it, the newest run
-   of another build is read. */
-void sb_result_read(const sb_store *store, bool any_build, sb_result *r);
-
 /* Reads all runs of a case with their figures from the store, or else from the table of an earlier report. SB_FAILED:
    out of memory. */
 sb_status sb_results_collect(const sb_store *store, const sb_case *of, bool quick, bool any_build,
                              const struct sb_sheet *former, sb_case_results *results, sb_error *error);
-void sb_results_free(sb_case_results *results);
+void sb_case_results_free(sb_case_results *results);
 
 /* The judged run with seed 1; NULL: not done. */
 const sb_result *sb_results_judged(const sb_case_results *results);

@@ -1,8 +1,9 @@
 /* Effect of a change of every numeric default by 25 % on the figures of the cases. */
-#ifndef SB_VALIDATION_SENSITIVITY_H
-#define SB_VALIDATION_SENSITIVITY_H
+#ifndef SB_VALIDATE_SENSITIVITY_H
+#define SB_VALIDATE_SENSITIVITY_H
 
-#include "results.h"
+#include "options.h"
+#include "runs.h"
 
 /* A numeric default. Its value is read from the scene of a run. */
 typedef struct sb_sensitivity_key {
@@ -22,9 +23,27 @@ void sb_sensitivity_change(const sb_sensitivity_key *key, const sb_numerics *def
 /* The default as text. */
 void sb_sensitivity_text(const sb_sensitivity_key *key, const sb_numerics *defaults, char text[64]);
 
+enum { SB_SENSITIVITY_PAIR = 2 };
+
+/* The runs with the defaults, one per case, and then the changed runs, case by case in pairs: the other start seeds,
+   and each key decreased and increased. A change that changes nothing has no case. */
+typedef struct sb_sensitivity_study {
+    const sb_store *store;
+    const char *command;
+    size_t count; /* of cases */
+    sb_result *runs;
+} sb_sensitivity_study;
+
+/* Number of pairs of a case: one of seeds, then one per key. */
+size_t sb_sensitivity_rows(void);
+/* The pair of a row. */
+sb_result *sb_sensitivity_pair(const sb_sensitivity_study *study, size_t of, size_t row);
+
 /* Runs the judged quick forms of the cases with the defaults and with each change (unless report_only), and writes
-   `path` (Markdown). Statuses as of sb_launch. */
-sb_status sb_sensitivity(const sb_store *store, const sb_case *const *cases, size_t count, int jobs, bool report_only,
-                         const char *command, const char *path, size_t *failed, sb_error *error);
+   sensitivity.md. Statuses as of sb_runs_launch. */
+sb_status sb_sensitivity(const sb_store *store, const sb_validate_options *options, size_t *failed, sb_error *error);
+
+/* Writes the report, of a sb_sensitivity_study. */
+void sb_sensitivity_report(FILE *out, const void *study);
 
 #endif

@@ -1,6 +1,6 @@
 /* Writes the report of the sensitivity study. */
-#include "report.h"
-#include "sensitivity_parts.h"
+#include "markdown.h"
+#include "sensitivity.h"
 
 #include <math.h>
 
@@ -65,38 +65,26 @@ static void put_cell(FILE *out, const sb_result *r, put_run *put)
         fputs(r->request.of && r->state == SB_RESULT_FAILED ? "failed" : "–", out);
 }
 
-static void row_name(char name[96], const sb_sensitivity_study *first, size_t row)
+static void put_table(FILE *out, const sb_sensitivity_study *s, put_run *put)
 {
-    char text[64] = "";
-    if (row == 0) {
-        snprintf(name, 96, "(start seed 2 / 3) | 1");
-        return;
-    }
-    const sb_sensitivity_key *key = &sb_sensitivity_keys[row - 1];
-    if (first->results[0].state == SB_RESULT_DONE)
-        sb_sensitivity_text(key, &first->results[0].run.scene.numerics, text);
-    snprintf(name, 96, "%.24s | %s", key->key, text);
-}
-
-static void put_table(FILE *out, const sb_sensitivity_study *studies, const sb_case *const *cases, size_t count,
-                      put_run *put)
-{
+    char text[64];
     fputs("| key | default |", out);
-    for (size_t c = 0; c < count; c++) fprintf(out, " %s |", cases[c]->name);
-    fputs("\n|---|---|", out);
-    for (size_t c = 0; c < count; c++) fputs("---|", out);
-    fputs("\n| (defaults) | |", out);
-    for (size_t c = 0; c < count; c++) {
+    for (size_t c = 0; c < s->count; c++) sb_put_cell(out, s->runs[c].request.of->name);
+    fputc('\n', out);
+    sb_put_rule(out, 2 + s->count);
+    fputs("| (defaults) | |", out);
+    for (size_t c = 0; c < s->count; c++) {
         fputc(' ', out);
-        put_cell(out, &studies[c].results[0], put);
+        put_cell(out, &s->runs[c], put);
         fputs(" |", out);
     }
     for (size_t row = 0; row < sb_sensitivity_rows(); row++) {
-        char name[96];
-        row_name(name, &studies[0], row);
-        fprintf(out, "\n| %s |", name);
-        for (size_t c = 0; c < count; c++) {
-            const sb_result *pair = &studies[c].results[1 + SB_SENSITIVITY_PAIR * row];
+        const sb_sensitivity_key *key = row ? &sb_sensitivity_keys[row - 1] : NULL;
+        snprintf(text, sizeof text, "%s", key ? "" : "1");
+        if (key && s->runs[0].state == SB_RESULT_DONE) sb_sensitivity_text(key, &s->runs[0].run.scene.numerics, text);
+        fprintf(out, "\n| %s | %s |", key ? key->key : "(start seed 2 / 3)", text);
+        for (size_t c = 0; c < s->count; c++) {
+            const sb_result *pair = sb_sensitivity_pair(s, c, row);
             fputc(' ', out);
             put_cell(out, &pair[0], put);
             fputs(" / ", out);
@@ -108,12 +96,12 @@ static void put_table(FILE *out, const sb_sensitivity_study *studies, const sb_c
 }
 
 /* Lists the headline figures. */
-static void put_headlines(FILE *out, const sb_sensitivity_study *studies, const sb_case *const *cases, size_t count)
+static void put_headlines(FILE *out, const sb_sensitivity_study *s)
 {
-    for (size_t c = 0; c < count; c++) {
-        const sb_result *r = &studies[c].results[0];
-        const sb_figure *f = r->state == SB_RESULT_DONE ? sb_figures_find(&r->figures, cases[c]->headline) : NULL;
-        fprintf(out, "- %s: %s", cases[c]->name, cases[c]->headline);
+    for (const sb_result *r = s->runs; r < s->runs + s->count; r++) {
+        const sb_case *of = r->request.of;
+        const sb_figure *f = r->state == SB_RESULT_DONE ? sb_figures_find(&r->figures, of->headline) : NULL;
+        fprintf(out, "- %s: %s", of->name, of->headline);
         if (f && isnan(f->error)) fprintf(out, ", value in %s", f->unit);
         if (f && !isnan(f->error))
             fprintf(out, ", error%s%s, target %.4g", f->error_unit[0] ? " in " : "", f->error_unit, f->limit);
@@ -122,19 +110,18 @@ static void put_headlines(FILE *out, const sb_sensitivity_study *studies, const 
 }
 
 /* Lists the figure with the largest error relative to its target. */
-static void put_worst(FILE *out, const sb_sensitivity_study *studies, const sb_case *const *cases, size_t count)
+static void put_worst(FILE *out, const sb_sensitivity_study *s)
 {
-    for (size_t c = 0; c < count; c++) {
+    for (const sb_result *r = s->runs; r < s->runs + s->count; r++) {
         size_t judged, passed;
-        const sb_result *r = &studies[c].results[0];
         const sb_figure *f = r->state == SB_RESULT_DONE ? worst_of(&r->figures, &judged, &passed) : NULL;
-        fprintf(out, "- %s: %s\n", cases[c]->name, f ? f->quantity : "–");
+        fprintf(out, "- %s: %s\n", r->request.of->name, f ? f->quantity : "–");
     }
 }
 
-void sb_sensitivity_report(FILE *out, const sb_store *store, const sb_sensitivity_study *studies,
-                           const sb_case *const *cases, size_t count, const char *command)
+void sb_sensitivity_report(FILE *out, const void *study)
 {
+    const sb_sensitivity_study *s = study;
     fprintf(
         out,
         "# Sensitivity to the numeric defaults\n\n"
@@ -145,17 +132,17 @@ void sb_sensitivity_report(FILE *out, const sb_store *store, const sb_sensitivit
         "particles at t = 0. The effect of a default is\nsignificant only if it exceeds that of the start seeds.\n\n"
         "- command: `%s`\n- machine: %s\n- commit: `%s`\n\n"
         "## Errors of the headline figures\n\n! marks an error beyond the target.\n\n",
-        command, store->machine, store->commit);
-    put_table(out, studies, cases, count, put_headline);
-    put_headlines(out, studies, cases, count);
+        s->command, s->store->machine, s->store->commit);
+    put_table(out, s, put_headline);
+    put_headlines(out, s);
     fputs("\n## All judged figures\n\nEach cell shows how many of a run's judged figures are within their targets, and "
           "the "
           "largest error divided by its target\n(none: a figure could not be measured). Figures that need several "
           "spacings are not included.\n\n",
           out);
-    put_table(out, studies, cases, count, put_judged);
+    put_table(out, s, put_judged);
     fputs("Figure with the largest error relative to its target, with the defaults:\n\n", out);
-    put_worst(out, studies, cases, count);
+    put_worst(out, s);
     fputs("\n## Run times (s)\n\n", out);
-    put_table(out, studies, cases, count, put_time);
+    put_table(out, s, put_time);
 }

@@ -53,11 +53,13 @@ static sb_status read_scene(const sb_request *request, const char *scene_path, s
     return sb_scene_read(scene_path, preset, overrides, settings.count, scene, error);
 }
 
-sb_status sb_request_hash(const sb_request *request, const char *scene_path, uint64_t *hash, sb_error *error)
+sb_status sb_request_hash(const sb_request *request, const char *assets, uint64_t *hash, sb_error *error)
 {
+    char path[SB_PATH_MAX];
     sb_scene scene = {0};
-    sb_status status = sb_hash_file(scene_path, hash, error);
-    if (status == SB_OK) status = read_scene(request, scene_path, &scene, hash, error);
+    sb_status status = sb_path_join(path, assets, request->of->scene, error);
+    if (status == SB_OK) status = sb_hash_file(path, hash, error);
+    if (status == SB_OK) status = read_scene(request, path, &scene, hash, error);
     for (size_t b = 0; status == SB_OK && b < scene.body_count; b++)
         if (scene.bodies[b].file) status = sb_hash_file(scene.bodies[b].file, hash, error);
     for (size_t w = 0; status == SB_OK && w < scene.wavemaker_count; w++)
@@ -78,11 +80,13 @@ sb_status sb_scene_defaults_hash(const sb_scene *scene, uint64_t *hash, sb_error
     return status;
 }
 
-sb_status sb_request_defaults_hash(const sb_request *request, const char *scene_path, uint64_t *hash, sb_error *error)
+sb_status sb_request_defaults_hash(const sb_request *request, const char *assets, uint64_t *hash, sb_error *error)
 {
+    char path[SB_PATH_MAX];
     sb_scene scene = {0};
     uint64_t unused = 0;
-    sb_status status = read_scene(request, scene_path, &scene, &unused, error);
+    sb_status status = sb_path_join(path, assets, request->of->scene, error);
+    if (status == SB_OK) status = read_scene(request, path, &scene, &unused, error);
     if (status == SB_OK) status = sb_scene_defaults_hash(&scene, hash, error);
     sb_scene_free(&scene);
     return status;

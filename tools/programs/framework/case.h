@@ -1,6 +1,5 @@
-/* A validation case: a scene, the spacings at which it runs, the figures computed from a finished run, and its plot.
-   To add one, write case_<name>.c with its sb_case, add its line to cases.h and cases.c, and put its scene and
-   reference tables into assets/validation/<folder>/. The framework launches, stores, judges and writes the report. */
+/* A case: a scene, the spacings at which it runs, the figures computed from a finished run, and its plot. A study uses
+   its name, scene and figures. */
 #ifndef SB_VALIDATION_CASE_H
 #define SB_VALIDATION_CASE_H
 
@@ -73,8 +72,5 @@ typedef struct sb_case {
     /* Draws the finished runs. They are sorted from coarse to fine, default before paper, seed 1 before others. */
     sb_status (*plot)(const sb_case_run *runs, size_t count, sb_plot *plot, sb_error *error);
 } sb_case;
-
-/* All cases in the order of the report, ended by NULL. */
-extern const sb_case *const sb_cases[];
 
 #endif

@@ -26,13 +26,13 @@ void sb_request_settings(const sb_request *request, sb_settings *settings);
 /* "still-water-box, 0.05 m, paper, seed 1" for messages, or without the case for plots. */
 void sb_request_label(const sb_request *request, bool with_case, char label[96]);
 
-/* Hash of a request: the scene's text, the files that it names, and all settings. SB_BAD_INPUT: the scene cannot be
-   read with these settings. */
-sb_status sb_request_hash(const sb_request *request, const char *scene_path, uint64_t *hash, sb_error *error);
+/* Continues a hash by the request: the scene's text, the files that it names, and all settings. assets: folder that the
+   scene's path is relative to. SB_BAD_INPUT: the scene cannot be read with these settings. */
+sb_status sb_request_hash(const sb_request *request, const char *assets, uint64_t *hash, sb_error *error);
 
 /* Hash of a scene with every default filled in, without its bodies and wave makers, whose files may have moved. The
    hash of a request and that of a finished run differ if the defaults have changed since the run. */
 sb_status sb_scene_defaults_hash(const sb_scene *scene, uint64_t *hash, sb_error *error);
-sb_status sb_request_defaults_hash(const sb_request *request, const char *scene_path, uint64_t *hash, sb_error *error);
+sb_status sb_request_defaults_hash(const sb_request *request, const char *assets, uint64_t *hash, sb_error *error);
 
 #endif
