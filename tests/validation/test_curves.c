@@ -8,7 +8,7 @@ static sb_curve made_of(size_t count, double step, double (*f)(double))
     sb_curve curve = {0};
     for (size_t i = 0; i < count; i++) {
         double x = (double)i * step;
-        assert_int_equal(sb_curve_add(&curve, x, f(x), NULL), 0);
+        sb_curve_add(&curve, x, f(x));
     }
     return curve;
 }
@@ -44,13 +44,16 @@ static void test_interpolation_is_exact_on_a_line_and_nan_outside(void **state)
 static void test_resampling_keeps_both_ends(void **state)
 {
     (void)state;
-    sb_curve c = made_of(11, 0.1, straight), r = {0};
-    assert_int_equal(sb_curve_resample(&c, 0.2, 0.8, 0.05, &r, NULL), 0);
-    assert_int_equal(r.count, 13);
-    assert_near(r.x[12], 0.8, 1e-12);
-    assert_near(r.y[12], straight(0.8), 1e-12);
+    sb_curve c = made_of(11, 0.1, straight);
+    sb_curves made = {0};
+    const sb_curve *r = sb_curve_resample(&made, &c, 0.2, 0.8, 0.05);
+    assert_int_equal(r->count, 13);
+    assert_near(sb_curve_x(r, 12), 0.8, 1e-12);
+    assert_near(sb_curve_last(r), straight(0.8), 1e-12);
+    assert_near(sb_curve_first(r), straight(0.2), 1e-12);
+    assert_true(isnan(sb_curve_y(r, 13)));
     sb_curve_free(&c);
-    sb_curve_free(&r);
+    assert_true(sb_curves_free(&made));
 }
 
 static void test_sort_is_stable(void **state)
@@ -58,7 +61,7 @@ static void test_sort_is_stable(void **state)
     (void)state;
     static const double xs[] = {2, 1, 2, 0, 1};
     sb_curve c = {0};
-    for (int i = 0; i < 5; i++) assert_int_equal(sb_curve_add(&c, xs[i], i, NULL), 0);
+    for (int i = 0; i < 5; i++) sb_curve_add(&c, xs[i], i);
     sb_curve_sort(&c);
     static const double order[] = {3, 1, 4, 0, 2};
     for (int i = 0; i < 5; i++) assert_near(c.y[i], order[i], 0);
@@ -68,31 +71,30 @@ static void test_sort_is_stable(void **state)
 static void test_filters_match_brute_force(void **state)
 {
     (void)state;
-    sb_curve c = made_of(200, 0.01, wave), mean = {0}, median = {0};
+    sb_curve c = made_of(200, 0.01, wave);
+    sb_curves made = {0};
     for (size_t i = 0; i < c.count; i += 7) c.y[i] += i % 2 ? 3 : -2;
     c.y[50] = (double)NAN;
     const double window = 0.1;
-    assert_int_equal(sb_curve_mean_filter(&c, window, &mean, NULL), 0);
-    assert_int_equal(sb_curve_median_filter(&c, window, &median, NULL), 0);
+    const sb_curve *mean = sb_curve_mean_filter(&made, &c, window), *median = sb_curve_median_filter(&made, &c, window);
     for (size_t i = 0; i < c.count; i++) {
         double sum = 0, below = 0, above = 0, count = 0;
         if (i == 50) {
-            assert_true(isnan(mean.y[i]) && isnan(median.y[i]));
+            assert_true(isnan(mean->y[i]) && isnan(median->y[i]));
             continue;
         }
         for (size_t k = 0; k < c.count; k++) {
             if (isnan(c.y[k]) || fabs(c.x[k] - c.x[i]) > 0.5 * window + 1e-9) continue;
             sum += c.y[k];
             count++;
-            below += c.y[k] < median.y[i];
-            above += c.y[k] > median.y[i];
+            below += c.y[k] < median->y[i];
+            above += c.y[k] > median->y[i];
         }
-        assert_near(mean.y[i], sum / count, 1e-12);
+        assert_near(mean->y[i], sum / count, 1e-12);
         assert_true(below <= count / 2 && above <= count / 2);
     }
     sb_curve_free(&c);
-    sb_curve_free(&mean);
-    sb_curve_free(&median);
+    assert_true(sb_curves_free(&made));
 }
 
 static void test_impulse_is_the_trapezoid_with_interpolated_ends(void **state)
@@ -114,7 +116,7 @@ static void test_moments(void **state)
     sb_curve c = made_of(1000, 0.001, wave), shifted = {0};
     assert_near(sb_curve_mean(&c, 0, 0.9995), 0, 1e-12);
     assert_near(sb_curve_rms(&c, 0, 0.9995), sqrt(0.5), 1e-12);
-    assert_int_equal(sb_curve_copy(&c, &shifted, NULL), 0);
+    sb_curve_sum(&shifted, &c);
     sb_curve_map(&shifted, 1, 0, 2, 7);
     assert_near(sb_curve_deviation(&shifted, 0, 1), 2 * sqrt(0.5), 1e-12);
     sb_curve_map(&shifted, 1, 0, 0.5, -3.5 + 0.25);
@@ -122,6 +124,21 @@ static void test_moments(void **state)
     assert_true(isnan(sb_curve_mean(&c, 5, 6)));
     sb_curve_free(&c);
     sb_curve_free(&shifted);
+}
+
+static void test_sum_takes_the_first_curve_and_adds_others(void **state)
+{
+    (void)state;
+    sb_curve sum = {0}, c = made_of(11, 0.1, straight), shorter = made_of(3, 0.1, wave);
+    sb_curve_sum(&sum, &c);
+    sb_curve_sum(&sum, &shorter);
+    assert_int_equal(sum.count, 11);
+    assert_near(sum.y[2], straight(0.2) + wave(0.2), 1e-12);
+    assert_near(sum.y[3], straight(0.3), 1e-12);
+    assert_true(isnan(sb_curve_first(&(sb_curve){0})) && isnan(sb_curve_last(&(sb_curve){0})));
+    sb_curve_free(&sum);
+    sb_curve_free(&c);
+    sb_curve_free(&shorter);
 }
 
 static void test_peak_of_a_parabola_is_exact_between_points(void **state)
@@ -174,6 +191,7 @@ int main(void)
         cmocka_unit_test(test_filters_match_brute_force),
         cmocka_unit_test(test_impulse_is_the_trapezoid_with_interpolated_ends),
         cmocka_unit_test(test_moments),
+        cmocka_unit_test(test_sum_takes_the_first_curve_and_adds_others),
         cmocka_unit_test(test_peak_of_a_parabola_is_exact_between_points),
         cmocka_unit_test(test_onset_is_between_points_and_after_the_start),
         cmocka_unit_test(test_line_through_points),

@@ -14,9 +14,9 @@ static const sb_case of = {.name = "a", .headline = "height", .quick = &plan};
 static void add(sb_result *r, double height, double noise)
 {
     r->state = SB_RESULT_DONE;
-    assert_int_equal(sb_figure_share(&r->figures, "height", "m", 2, height, 2, 10, NULL, " "), SB_OK);
-    assert_int_equal(sb_figure_below(&r->figures, "noise", "%", noise, 1, NULL, " "), SB_OK);
-    assert_int_equal(sb_figure_report(&r->figures, "pressure", "Pa", (double)NAN, 1e6, NULL, " "), SB_OK);
+    sb_figure_share(&r->figures, "height", "m", 2, height, 2, 10, " ");
+    sb_figure_below(&r->figures, "noise", "%", noise, 1, " ");
+    sb_figure_report(&r->figures, "pressure", "Pa", (double)NAN, 1e6, " ");
 }
 
 /* With the defaults both figures are within their targets. Seed 2 misses one; the height of seed 3 could not be

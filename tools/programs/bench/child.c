@@ -25,6 +25,7 @@ static _Noreturn void child(int to, sb_bench_work *work, const void *context)
     signal(SIGTERM, SIG_DFL);
     FILE *out = fdopen(to, "wb");
     answer.status = work(context, &rows, &answer.error);
+    if (answer.status == SB_OK) answer.status = sb_bench_complete(&rows, &answer.error);
     answer.count = answer.status == SB_OK ? rows.count : 0;
     bool sent = out && fwrite(&answer, sizeof answer, 1, out) == 1;
     sent = sent && fwrite(rows.rows, sizeof *rows.rows, answer.count, out) == answer.count;
@@ -48,8 +49,9 @@ static sb_status receive(int from, sb_bench_rows *rows, sb_error *error)
         if (fread(&row, sizeof row, 1, in) != 1)
             status = sb_fail(error, SB_FAILED, "the measuring process ended before its result was complete");
         else
-            status = sb_bench_append(rows, &row, 1, error);
+            sb_bench_append(rows, &row);
     }
+    if (status == SB_OK) status = sb_bench_complete(rows, error);
     if (in)
         fclose(in);
     else

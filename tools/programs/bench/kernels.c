@@ -88,27 +88,22 @@ static sb_status measure(sb_bench_subject *subject, int repeats, times *t, sb_er
 }
 
 /* Adds the rows of a pass: per particle, per pair, and its fractions of memory bandwidth and of arithmetic speed. */
-static sb_status add_pass(sb_bench_rows *rows, const char *name, size_t n, double pairs,
-                          const sb_bench_samples *samples, const sb_bench_request *request, sb_error *error)
+static void add_pass(sb_bench_rows *rows, const char *name, size_t n, double pairs, const sb_bench_samples *samples,
+                     const sb_bench_request *request)
 {
     const int threads = omp_get_max_threads();
     const double per_particle = 1 / (double)n;
-    sb_status status =
-        sb_bench_add(rows, name, n, threads, SB_BENCH_PER_PARTICLE, "ns", samples, 1e9 * per_particle, error);
+    sb_bench_add(rows, name, n, threads, SB_BENCH_PER_PARTICLE, "ns", samples, 1e9 * per_particle);
     const double median = per_particle * sb_bench_median(samples);
     const work *of = work_of(name);
-    if (!of || !(median > 0)) return status;
+    if (!of || !(median > 0)) return;
     const double bytes = of->bytes_particle + pairs * of->bytes_pair, operations = pairs * of->operations_pair;
-    if (status == SB_OK && of->bytes_pair > 0)
-        status =
-            sb_bench_add(rows, name, n, threads, "time per pair", "ns", samples, 1e9 * per_particle / pairs, error);
-    if (status == SB_OK)
-        status = sb_bench_add_value(rows, name, n, threads, "share of bandwidth", "%",
-                                    100 * bytes / (median * request->copy), error);
-    if (status == SB_OK && operations > 0)
-        status = sb_bench_add_value(rows, name, n, threads, "share of arithmetic", "%",
-                                    100 * operations / (median * request->arithmetic), error);
-    return status;
+    if (of->bytes_pair > 0)
+        sb_bench_add(rows, name, n, threads, "time per pair", "ns", samples, 1e9 * per_particle / pairs);
+    sb_bench_add_value(rows, name, n, threads, "share of bandwidth", "%", 100 * bytes / (median * request->copy));
+    if (operations > 0)
+        sb_bench_add_value(rows, name, n, threads, "share of arithmetic", "%",
+                           100 * operations / (median * request->arithmetic));
 }
 
 /* Sum of one or two stages: neighbour search and sort are judged together. */
@@ -124,18 +119,16 @@ static sb_bench_samples sum_of(const times *t, const sb_stage_time *stages, size
     return sum;
 }
 
-static sb_status add_all(const sb_bench_subject *subject, const times *t, const sb_bench_request *request,
-                         sb_bench_rows *rows, sb_error *error)
+static void add_all(const sb_bench_subject *subject, const times *t, const sb_bench_request *request,
+                    sb_bench_rows *rows)
 {
     const sb_stage_time *stages;
     const size_t n = subject->sim->state.n, count = sb_sim_stages(subject->sim, &stages);
     const double pairs = 4 * (double)subject->sim->work.pairs.used / (double)n;
     const sb_bench_samples search = sum_of(t, stages, count, "sort", "neighbours");
     const sb_bench_samples pressure = sum_of(t, stages, count, "pressure", NULL);
-    sb_status status =
-        sb_bench_add_value(rows, "basin", n, omp_get_max_threads(), "pairs per particle", "1", pairs, error);
-    for (size_t s = 0; status == SB_OK && s < count; s++)
-        status = add_pass(rows, stages[s].name, n, pairs, &t->stage[s], request, error);
+    sb_bench_add_value(rows, "basin", n, omp_get_max_threads(), "pairs per particle", "1", pairs);
+    for (size_t s = 0; s < count; s++) add_pass(rows, stages[s].name, n, pairs, &t->stage[s], request);
     const struct {
         const char *name;
         const sb_bench_samples *samples;
@@ -147,12 +140,11 @@ static sb_status add_all(const sb_bench_subject *subject, const times *t, const 
         {"sort and search", &search},
         {SB_BENCH_STEP, &t->step},
     };
-    for (size_t p = 0; status == SB_OK && p < sizeof passes / sizeof passes[0]; p++)
-        status = add_pass(rows, passes[p].name, n, pairs, passes[p].samples, request, error);
-    if (status == SB_OK) /* the stage contains the iterations, a first guess and a last acceleration */
-        status = sb_bench_add(rows, SB_BENCH_ITERATION, n, omp_get_max_threads(), SB_BENCH_PER_PARTICLE, "ns",
-                              &pressure, 1e9 / ((double)n * ITERATIONS), error);
-    return status;
+    for (size_t p = 0; p < sizeof passes / sizeof passes[0]; p++)
+        add_pass(rows, passes[p].name, n, pairs, passes[p].samples, request);
+    /* The stage contains the iterations, a first guess and a last acceleration. */
+    sb_bench_add(rows, SB_BENCH_ITERATION, n, omp_get_max_threads(), SB_BENCH_PER_PARTICLE, "ns", &pressure,
+                 1e9 / ((double)n * ITERATIONS));
 }
 
 static sb_status one_size(const void *context_, sb_bench_rows *rows, sb_error *error)
@@ -173,7 +165,7 @@ static sb_status one_size(const void *context_, sb_bench_rows *rows, sb_error *e
         status = sb_bench_subject_make(path, overrides, sizeof overrides / sizeof overrides[0], 1, &subject, error);
     if (status == SB_OK) {
         status = measure(&subject, c->request->repeats, t, error);
-        if (status == SB_OK) status = add_all(&subject, t, c->request, rows, error);
+        if (status == SB_OK) add_all(&subject, t, c->request, rows);
         sb_bench_subject_free(&subject);
     }
     sb_free(t);

@@ -10,16 +10,12 @@
 
 enum { STEPS = 20 };
 
-static sb_status add_all(const sb_bench_subject *subject, bool quick, double seconds, sb_bench_rows *rows,
-                         sb_error *error)
+static void add_all(const sb_bench_subject *subject, bool quick, double seconds, sb_bench_rows *rows)
 {
     const char *name = quick ? "plant but coarser" : "plant at 1 m";
     const size_t n = subject->sim->state.n;
     const int threads = omp_get_max_threads();
-    const struct {
-        const char *quantity, *unit;
-        double value;
-    } values[] = {
+    const sb_bench_value values[] = {
         {"set-up", "s", subject->setup},
         {"steps", "1", STEPS},
         {SB_BENCH_STEP, "ns", 1e9 * seconds / ((double)n * STEPS)},
@@ -28,10 +24,7 @@ static sb_status add_all(const sb_bench_subject *subject, bool quick, double sec
         {"peak memory", "B/particle", (double)sb_memory_peak() / (double)n},
         {"total peak memory", "MB", 1e-6 * (double)sb_memory_peak()},
     };
-    sb_status status = SB_OK;
-    for (size_t v = 0; v < sizeof values / sizeof values[0] && status == SB_OK; v++)
-        status = sb_bench_add_value(rows, name, n, threads, values[v].quantity, values[v].unit, values[v].value, error);
-    return status;
+    sb_bench_add_values(rows, name, n, threads, values, sizeof values / sizeof *values);
 }
 
 static sb_status plant(const void *context, sb_bench_rows *rows, sb_error *error)
@@ -46,7 +39,7 @@ static sb_status plant(const void *context, sb_bench_rows *rows, sb_error *error
     if (status != SB_OK) return status;
     const double first = sb_clock();
     for (int s = 0; s < STEPS && status == SB_OK; s++) status = sb_sim_step(subject.sim, error);
-    if (status == SB_OK) status = add_all(&subject, request->quick, sb_clock() - first, rows, error);
+    if (status == SB_OK) add_all(&subject, request->quick, sb_clock() - first, rows);
     sb_bench_subject_free(&subject);
     return status;
 }

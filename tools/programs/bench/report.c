@@ -121,20 +121,20 @@ static sb_status draw_scaling(const sb_bench_rows *rows, const char *folder, con
 {
     sb_plot *plot = sb_plot_create();
     if (!plot) return sb_fail_memory(error, "a plot");
-    sb_status status = sb_plot_panel(plot, "Whole steps of ten iterations", "log10 of the number of particles",
-                                     "ns per particle and step", error);
+    sb_plot_panel(plot, "Whole steps of ten iterations", "log10 of the number of particles",
+                  "ns per particle and step");
     sb_plot_range(plot, (double)NAN, (double)NAN, 0, (double)NAN);
-    for (int threads = 1; threads <= 1024 && status == SB_OK; threads *= 2) {
+    for (int threads = 1; threads <= 1024; threads *= 2) {
         sb_curve curve = {.count = 0};
         char label[64];
         snprintf(label, sizeof label, "%d thread%s", threads, threads > 1 ? "s" : "");
-        for (size_t i = 0; i < rows->count && status == SB_OK; i++)
+        for (size_t i = 0; i < rows->count; i++)
             if (rows->rows[i].threads == threads && !is_machine(&rows->rows[i]))
-                status = sb_curve_add(&curve, log10((double)rows->rows[i].particles), rows->rows[i].median, error);
-        if (status == SB_OK && curve.count > 0) status = sb_plot_curve(plot, SB_PLOT_LINE, label, &curve, error);
+                sb_curve_add(&curve, log10((double)rows->rows[i].particles), rows->rows[i].median);
+        if (curve.count > 0) sb_plot_curve(plot, SB_PLOT_LINE, label, &curve);
         sb_curve_free(&curve);
     }
-    if (status == SB_OK) status = sb_plot_draw(plot, folder, "scaling", picture, error);
+    const sb_status status = sb_plot_draw(plot, folder, "scaling", picture, error);
     remove_plot_input(folder);
     sb_plot_destroy(plot);
     return status;

@@ -22,12 +22,15 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-sb_status sb_bench_append(sb_bench_rows *to, const sb_bench_row *rows, size_t count, sb_error *error)
+void sb_bench_append(sb_bench_rows *to, const sb_bench_row *row)
 {
-    if (sb_grow((void **)&to->rows, &to->capacity, to->count + count, sizeof *to->rows) != 0)
-        return sb_fail_memory(error, "measured rows");
-    for (size_t i = 0; i < count; i++) to->rows[to->count++] = rows[i];
-    return SB_OK;
+    to->incomplete |= sb_grow((void **)&to->rows, &to->capacity, to->count + 1, sizeof *to->rows) != 0;
+    if (!to->incomplete) to->rows[to->count++] = *row;
+}
+
+sb_status sb_bench_complete(const sb_bench_rows *rows, sb_error *error)
+{
+    return rows->incomplete ? sb_fail_memory(error, "measured rows") : SB_OK;
 }
 
 static sb_bench_samples in_order(const sb_bench_samples *samples)
@@ -44,8 +47,8 @@ double sb_bench_median(const sb_bench_samples *samples)
     return n > 0 ? 0.5 * (sorted.value[(n - 1) / 2] + sorted.value[n / 2]) : (double)NAN;
 }
 
-sb_status sb_bench_add(sb_bench_rows *rows, const char *subject, size_t particles, int threads, const char *quantity,
-                       const char *unit, const sb_bench_samples *samples, double factor, sb_error *error)
+void sb_bench_add(sb_bench_rows *rows, const char *subject, size_t particles, int threads, const char *quantity,
+                  const char *unit, const sb_bench_samples *samples, double factor)
 {
     const sb_bench_samples sorted = in_order(samples);
     sb_bench_row row = {.particles = particles, .threads = threads, .repeats = sorted.count};
@@ -56,14 +59,21 @@ sb_status sb_bench_add(sb_bench_rows *rows, const char *subject, size_t particle
     row.least = n > 0 ? factor * sorted.value[0] : (double)NAN;
     row.most = n > 0 ? factor * sorted.value[n - 1] : (double)NAN;
     row.median = factor * sb_bench_median(samples);
-    return sb_bench_append(rows, &row, 1, error);
+    sb_bench_append(rows, &row);
 }
 
-sb_status sb_bench_add_value(sb_bench_rows *rows, const char *subject, size_t particles, int threads,
-                             const char *quantity, const char *unit, double value, sb_error *error)
+void sb_bench_add_value(sb_bench_rows *rows, const char *subject, size_t particles, int threads, const char *quantity,
+                        const char *unit, double value)
 {
     const sb_bench_samples one = {.value = {value}, .count = 1};
-    return sb_bench_add(rows, subject, particles, threads, quantity, unit, &one, 1, error);
+    sb_bench_add(rows, subject, particles, threads, quantity, unit, &one, 1);
+}
+
+void sb_bench_add_values(sb_bench_rows *rows, const char *subject, size_t particles, int threads,
+                         const sb_bench_value *values, size_t count)
+{
+    for (size_t v = 0; v < count; v++)
+        sb_bench_add_value(rows, subject, particles, threads, values[v].quantity, values[v].unit, values[v].value);
 }
 
 void sb_bench_rows_free(sb_bench_rows *rows)
@@ -168,8 +178,9 @@ sb_status sb_bench_read(sb_bench_rows *rows, char *origin, size_t size, bool *fo
         if (status == SB_OK) status = count_of(&sheet, r, 8, path, &repeats, error);
         row.threads = (int)threads;
         row.repeats = (int)repeats;
-        if (status == SB_OK) status = sb_bench_append(rows, &row, 1, error);
+        if (status == SB_OK) sb_bench_append(rows, &row);
     }
+    if (status == SB_OK) status = sb_bench_complete(rows, error);
     sb_sheet_free(&sheet);
     if (status != SB_OK) sb_bench_rows_free(rows);
     return status;

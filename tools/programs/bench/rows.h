@@ -24,6 +24,7 @@ typedef struct sb_bench_row {
 typedef struct sb_bench_rows {
     size_t count, capacity;
     sb_bench_row *rows;
+    bool incomplete;
 } sb_bench_rows;
 
 /* Samples of one quantity. */
@@ -38,13 +39,21 @@ void sb_bench_sample(sb_bench_samples *samples, double value);
 /* NaN: no samples. */
 double sb_bench_median(const sb_bench_samples *samples);
 
-/* Adds smallest value, median and largest value of the samples, each times `factor`. SB_FAILED: out of memory. */
-sb_status sb_bench_add(sb_bench_rows *rows, const char *subject, size_t particles, int threads, const char *quantity,
-                       const char *unit, const sb_bench_samples *samples, double factor, sb_error *error);
-/* Adds a quantity without repeats. */
-sb_status sb_bench_add_value(sb_bench_rows *rows, const char *subject, size_t particles, int threads,
-                             const char *quantity, const char *unit, double value, sb_error *error);
-sb_status sb_bench_append(sb_bench_rows *to, const sb_bench_row *rows, size_t count, sb_error *error);
+/* Adds smallest value, median and largest value of the samples, each times `factor`. */
+void sb_bench_add(sb_bench_rows *rows, const char *subject, size_t particles, int threads, const char *quantity,
+                  const char *unit, const sb_bench_samples *samples, double factor);
+/* Quantities without repeats. */
+typedef struct sb_bench_value {
+    const char *quantity, *unit;
+    double value;
+} sb_bench_value;
+void sb_bench_add_value(sb_bench_rows *rows, const char *subject, size_t particles, int threads, const char *quantity,
+                        const char *unit, double value);
+void sb_bench_add_values(sb_bench_rows *rows, const char *subject, size_t particles, int threads,
+                         const sb_bench_value *values, size_t count);
+void sb_bench_append(sb_bench_rows *to, const sb_bench_row *row);
+/* SB_FAILED: memory was exhausted and rows are missing. */
+sb_status sb_bench_complete(const sb_bench_rows *rows, sb_error *error);
 void sb_bench_rows_free(sb_bench_rows *rows);
 
 /* The first row of that subject and quantity; particles 0 or threads 0: any. NULL: none. */

@@ -75,10 +75,7 @@ static sb_status one_run(const sb_bench_request *request, const plan *p, sb_benc
     const size_t count = fluid > 0 ? (size_t)fluid : 0;
     if (count == 0) status = sb_fail(error, SB_FAILED, "%s: summary.json: no fluid_particles", name);
     const double wall = sb_json_number_in(summary, "wall_s"), simulated = sb_json_number_in(summary, "simulated_s");
-    const struct {
-        const char *quantity, *unit;
-        double value;
-    } values[] = {
+    const sb_bench_value values[] = {
         {"run time", "s", wall},
         {"simulated time", "s", simulated},
         {"run time per simulated second", "s", wall / simulated},
@@ -88,11 +85,10 @@ static sb_status one_run(const sb_bench_request *request, const plan *p, sb_benc
         {"compression, worst particle", "%", 100 * sb_json_number_in(summary, "compression_max")},
         {"peak memory", "B/particle", sb_json_number_in(summary, "peak_memory_bytes") / (double)count},
     };
-    for (size_t v = 0; v < sizeof values / sizeof values[0] && status == SB_OK; v++)
-        status = sb_bench_add_value(rows, name, count, request->threads, values[v].quantity, values[v].unit,
-                                    values[v].value, error);
+    if (status == SB_OK)
+        sb_bench_add_values(rows, name, count, request->threads, values, sizeof values / sizeof *values);
     sb_free(summary);
-    return status;
+    return status == SB_OK ? sb_bench_complete(rows, error) : status;
 }
 
 sb_status sb_bench_runs(const sb_bench_request *request, sb_bench_rows *rows, sb_error *error)

@@ -57,29 +57,21 @@ static sb_status measure(sb_bench_subject *subject, int steps, int repeats, time
     return status;
 }
 
-static sb_status add_all(const char *name, const sb_bench_subject *subject, int steps, const times *t,
-                         sb_bench_rows *rows, sb_error *error)
+static void add_all(const char *name, const sb_bench_subject *subject, int steps, const times *t, sb_bench_rows *rows)
 {
     const sb_stage_time *stages;
     const size_t n = subject->sim->state.n, count = sb_sim_stages(subject->sim, &stages);
     const int threads = omp_get_max_threads();
     const double particle_steps = (double)n * steps;
     char quantity[SB_BENCH_NAME];
-    sb_status status = SB_OK;
-    for (size_t s = 0; s < count && status == SB_OK; s++) {
+    for (size_t s = 0; s < count; s++) {
         snprintf(quantity, sizeof quantity, "stage %s", stages[s].name);
-        status = sb_bench_add(rows, name, n, threads, quantity, "ns", &t->stage[s], 1e9 / particle_steps, error);
+        sb_bench_add(rows, name, n, threads, quantity, "ns", &t->stage[s], 1e9 / particle_steps);
     }
-    if (status == SB_OK)
-        status = sb_bench_add(rows, name, n, threads, SB_BENCH_STEP, "ns", &t->step, 1e9 / particle_steps, error);
-    if (status == SB_OK)
-        status =
-            sb_bench_add(rows, name, n, threads, "time per simulated second", "s", &t->step, 1 / t->simulated, error);
+    sb_bench_add(rows, name, n, threads, SB_BENCH_STEP, "ns", &t->step, 1e9 / particle_steps);
+    sb_bench_add(rows, name, n, threads, "time per simulated second", "s", &t->step, 1 / t->simulated);
     const double median = sb_bench_median(&t->step);
-    const struct {
-        const char *quantity, *unit;
-        double value;
-    } values[] = {
+    const sb_bench_value values[] = {
         {"particle-steps per second", "1/s", median > 0 ? particle_steps / median : 0},
         {"iterations per step", "1", t->iterations / steps},
         {"time step", "s", t->simulated / steps},
@@ -89,9 +81,7 @@ static sb_status add_all(const char *name, const sb_bench_subject *subject, int 
         {"total peak memory", "MB", 1e-6 * (double)subject->peak},
         {"set-up", "s", subject->setup},
     };
-    for (size_t v = 0; v < sizeof values / sizeof values[0] && status == SB_OK; v++)
-        status = sb_bench_add_value(rows, name, n, threads, values[v].quantity, values[v].unit, values[v].value, error);
-    return status;
+    sb_bench_add_values(rows, name, n, threads, values, sizeof values / sizeof *values);
 }
 
 static sb_status one_scene(const void *context_, sb_bench_rows *rows, sb_error *error)
@@ -113,7 +103,7 @@ static sb_status one_scene(const void *context_, sb_bench_rows *rows, sb_error *
     if (status == SB_OK) {
         const int steps = quick ? 2 : p->steps;
         status = measure(&subject, steps, c->request->repeats, t, error);
-        if (status == SB_OK) status = add_all(name, &subject, steps, t, rows, error);
+        if (status == SB_OK) add_all(name, &subject, steps, t, rows);
         sb_bench_subject_free(&subject);
     }
     sb_free(t);

@@ -1,7 +1,7 @@
 /* A case: a scene, the spacings at which it runs, the figures computed from a finished run, and its plot. A study uses
    its name, scene and figures. */
-#ifndef SB_VALIDATION_CASE_H
-#define SB_VALIDATION_CASE_H
+#ifndef SB_FRAMEWORK_CASE_H
+#define SB_FRAMEWORK_CASE_H
 
 #include "figure.h"
 #include "plot.h"
@@ -38,16 +38,27 @@ typedef struct sb_case_run {
     size_t particles, steps;
     const char *label; /* for plots: "0.05 m", "0.05 m, paper", "0.05 m, seed 2" */
     sb_sheet_slot *slot;
+    sb_curves *made; /* curves of the case's functions, freed after them */
+    sb_error *error; /* the first failure of the functions below */
 } sb_case_run;
 
+/* The following functions do nothing after a failure and then return empty curves, whose numbers are NaN, so that a
+   case checks nothing: its figures or plot are not used. */
+
+/* A table of the run; valid until the next table is read. */
+const sb_sheet *sb_run_sheet(const sb_case_run *run, const char *table);
 /* A curve of a table of the run, for example ("forces.csv", "column", "time_s", "Fx_N"); see sheet.h. */
-sb_status sb_run_curve(const sb_case_run *run, const char *table, const char *where, const char *x, const char *y,
-                       sb_curve *curve, sb_error *error);
+sb_curve *sb_run_curve(const sb_case_run *run, const char *table, const char *where, const char *x, const char *y);
 /* A curve of a reference table. table: path relative to assets/validation. where: as in sheet.h. */
-sb_status sb_reference_curve(const sb_case_run *run, const char *table, const char *where, const char *x, const char *y,
-                             sb_curve *curve, sb_error *error);
+sb_curve *sb_reference_curve(const sb_case_run *run, const char *table, const char *where, const char *x,
+                             const char *y);
+/* Frees the curves that were made. The first failure, which is then forgotten. */
+sb_status sb_run_close(const sb_case_run *run, sb_error *error);
+
 /* Adds a run's curve to the plot's panel, in the style of a judged run, another seed, `paper` or another spacing. */
-sb_status sb_plot_run(sb_plot *plot, const sb_case_run *run, const sb_curve *curve, sb_error *error);
+void sb_plot_run(sb_plot *plot, const sb_case_run *run, const sb_curve *curve);
+/* Adds a reference curve through `count` points. */
+void sb_plot_points(sb_plot *plot, const char *label, size_t count, double *x, double *y);
 /* The number of the first key of that name in the run's summary.json; NaN: none. */
 double sb_run_number(const sb_case_run *run, const char *key);
 
@@ -61,16 +72,15 @@ typedef struct sb_case {
     const sb_plan *full, *quick;
     const void *what; /* parameters of a file whose functions serve several cases (run->of->what); or NULL */
 
-    /* Computes the figures of one run, in a stable order. On failure the error names the missing file or column. */
-    sb_status (*evaluate)(const sb_case_run *run, sb_figures *figures, sb_error *error);
+    /* Computes the figures of one run, in a stable order. */
+    void (*evaluate)(const sb_case_run *run, sb_figures *figures);
 
     /* Computes figures that need several runs, such as an order of convergence. runs: finished runs of the default
        preset with seed 1, coarse to fine. of_each: their figures from evaluate. NULL: none. */
-    sb_status (*compare)(const sb_case_run *runs, const sb_figures *of_each, size_t count, sb_figures *figures,
-                         sb_error *error);
+    void (*compare)(const sb_case_run *runs, const sb_figures *of_each, size_t count, sb_figures *figures);
 
     /* Draws the finished runs. They are sorted from coarse to fine, default before paper, seed 1 before others. */
-    sb_status (*plot)(const sb_case_run *runs, size_t count, sb_plot *plot, sb_error *error);
+    void (*plot)(const sb_case_run *runs, size_t count, sb_plot *plot);
 } sb_case;
 
 #endif

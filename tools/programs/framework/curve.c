@@ -13,29 +13,71 @@ void sb_curve_free(sb_curve *curve)
     *curve = (sb_curve){0};
 }
 
-sb_status sb_curve_add(sb_curve *curve, double x, double y, sb_error *error)
+sb_curve *sb_curve_new(sb_curves *list)
+{
+    sb_curve *made = sb_alloc(1, sizeof *made);
+    if (made && sb_grow((void **)&list->list, &list->capacity, list->count + 1, sizeof *list->list) == 0)
+        return list->list[list->count++] = made;
+    sb_free(made);
+    list->spare.incomplete = true;
+    return &list->spare;
+}
+
+bool sb_curves_free(sb_curves *list)
+{
+    bool complete = !list->spare.incomplete;
+    for (size_t i = 0; i < list->count; i++) {
+        complete &= !list->list[i]->incomplete;
+        sb_curve_free(list->list[i]);
+        sb_free(list->list[i]);
+    }
+    sb_curve_free(&list->spare);
+    sb_free(list->list);
+    *list = (sb_curves){0};
+    return complete;
+}
+
+void sb_curve_add(sb_curve *curve, double x, double y)
 {
     size_t needed = curve->count + 1;
     if (sb_grow((void **)&curve->x, &curve->x_capacity, needed, sizeof(double)) != 0 ||
-        sb_grow((void **)&curve->y, &curve->y_capacity, needed, sizeof(double)) != 0)
-        return sb_fail_memory(error, "a curve");
+        sb_grow((void **)&curve->y, &curve->y_capacity, needed, sizeof(double)) != 0) {
+        curve->incomplete = true;
+        return;
+    }
     curve->x[curve->count] = x;
     curve->y[curve->count] = y;
     curve->count = needed;
-    return SB_OK;
 }
 
-sb_status sb_curve_copy(const sb_curve *from, sb_curve *to, sb_error *error)
+double sb_curve_x(const sb_curve *curve, size_t i)
 {
-    sb_curve made = {0};
-    sb_status status = SB_OK;
-    for (size_t i = 0; status == SB_OK && i < from->count; i++)
-        status = sb_curve_add(&made, from->x[i], from->y[i], error);
-    if (status != SB_OK)
-        sb_curve_free(&made);
-    else
-        *to = made;
-    return status;
+    return i < curve->count ? curve->x[i] : (double)NAN;
+}
+
+double sb_curve_y(const sb_curve *curve, size_t i)
+{
+    return i < curve->count ? curve->y[i] : (double)NAN;
+}
+
+double sb_curve_first(const sb_curve *curve)
+{
+    return sb_curve_y(curve, 0);
+}
+
+double sb_curve_last(const sb_curve *curve)
+{
+    return sb_curve_y(curve, curve->count - 1);
+}
+
+void sb_curve_sum(sb_curve *curve, const sb_curve *other)
+{
+    const size_t count = curve->count;
+    for (size_t i = 0; i < other->count; i++)
+        if (!count)
+            sb_curve_add(curve, other->x[i], other->y[i]);
+        else if (i < count)
+            curve->y[i] += other->y[i];
 }
 
 /* Insertion sort: stable, and fast for nearly sorted series. */
@@ -84,21 +126,15 @@ double sb_curve_at(const sb_curve *curve, double x)
     return (1 - share) * curve->y[i] + share * curve->y[i + 1];
 }
 
-sb_status sb_curve_resample(const sb_curve *curve, double first, double last, double step, sb_curve *made,
-                            sb_error *error)
+sb_curve *sb_curve_resample(sb_curves *made, const sb_curve *curve, double first, double last, double step)
 {
-    sb_curve out = {0};
-    sb_status status = SB_OK;
+    sb_curve *out = sb_curve_new(made);
     size_t steps = last >= first ? (size_t)floor((last - first) / step * (1 + 1e-12) + 1e-9) : 0;
-    for (size_t i = 0; status == SB_OK && last >= first && i <= steps; i++) {
+    for (size_t i = 0; last >= first && i <= steps; i++) {
         double x = first + (double)i * step;
-        status = sb_curve_add(&out, x, sb_curve_at(curve, x), error);
+        sb_curve_add(out, x, sb_curve_at(curve, x));
     }
-    if (status != SB_OK)
-        sb_curve_free(&out);
-    else
-        *made = out;
-    return status;
+    return out;
 }
 
 static int compare(const void *left, const void *right)
@@ -121,36 +157,30 @@ static double mean_of(double *values, size_t count)
 }
 
 /* Replaces each value by `reduce` of the values within window/2 that are not NaN. The curve is sorted. */
-static sb_status filter(const sb_curve *curve, double window, double (*reduce)(double *, size_t), sb_curve *made,
-                        sb_error *error)
+static sb_curve *filter(sb_curves *made, const sb_curve *curve, double window, double (*reduce)(double *, size_t))
 {
-    sb_curve out = {0};
+    sb_curve *out = sb_curve_new(made);
     double *near = sb_alloc(curve->count, sizeof *near), half = 0.5 * window * (1 + 1e-9);
-    sb_status status = near ? SB_OK : sb_fail_memory(error, "a filter");
     size_t low = 0, high = 0;
-    for (size_t i = 0; status == SB_OK && i < curve->count; i++) {
+    out->incomplete = !near;
+    for (size_t i = 0; near && i < curve->count; i++) {
         size_t count = 0;
         while (curve->x[low] < curve->x[i] - half) low++;
         while (high < curve->count && curve->x[high] <= curve->x[i] + half) high++;
         for (size_t k = low; k < high; k++)
             if (!isnan(curve->y[k])) near[count++] = curve->y[k];
-        double y = count && !isnan(curve->y[i]) ? reduce(near, count) : (double)NAN;
-        status = sb_curve_add(&out, curve->x[i], y, error);
+        sb_curve_add(out, curve->x[i], count && !isnan(curve->y[i]) ? reduce(near, count) : (double)NAN);
     }
     sb_free(near);
-    if (status != SB_OK)
-        sb_curve_free(&out);
-    else
-        *made = out;
-    return status;
+    return out;
 }
 
-sb_status sb_curve_mean_filter(const sb_curve *curve, double window, sb_curve *made, sb_error *error)
+sb_curve *sb_curve_mean_filter(sb_curves *made, const sb_curve *curve, double window)
 {
-    return filter(curve, window, mean_of, made, error);
+    return filter(made, curve, window, mean_of);
 }
 
-sb_status sb_curve_median_filter(const sb_curve *curve, double window, sb_curve *made, sb_error *error)
+sb_curve *sb_curve_median_filter(sb_curves *made, const sb_curve *curve, double window)
 {
-    return filter(curve, window, median_of, made, error);
+    return filter(made, curve, window, median_of);
 }

@@ -1,22 +1,39 @@
-/* A measured or simulated series y(x), and operations to compare two series. A function that makes a curve returns
-   memory to be freed with sb_curve_free; SB_FAILED: out of memory. x rises strictly unless a comment says otherwise.
-   NaN in y means that nothing was measured; sums omit it. */
-#ifndef SB_COMMON_CURVE_H
-#define SB_COMMON_CURVE_H
+/* A measured or simulated series y(x), and operations to compare two series. x rises strictly unless a comment says
+   otherwise. NaN in y means that nothing was measured; sums omit it. */
+#ifndef SB_FRAMEWORK_CURVE_H
+#define SB_FRAMEWORK_CURVE_H
 
-#include "base/status.h"
-
+#include <stdbool.h>
 #include <stddef.h>
 
 /* A zero-initialised curve is empty. */
 typedef struct sb_curve {
     size_t count, x_capacity, y_capacity;
     double *x, *y;
+    bool incomplete; /* memory was exhausted: points are missing */
 } sb_curve;
 
+/* Curves that are freed together. A zero-initialised list is empty. */
+typedef struct sb_curves {
+    sb_curve **list, spare; /* spare: for all when memory is exhausted */
+    size_t count, capacity;
+} sb_curves;
+
+/* Makes an empty curve in the list. Never NULL. */
+sb_curve *sb_curve_new(sb_curves *list);
+/* Frees all curves. False: memory was exhausted for one of them. */
+bool sb_curves_free(sb_curves *list);
+
 void sb_curve_free(sb_curve *curve);
-sb_status sb_curve_add(sb_curve *curve, double x, double y, sb_error *error);
-sb_status sb_curve_copy(const sb_curve *from, sb_curve *to, sb_error *error);
+void sb_curve_add(sb_curve *curve, double x, double y);
+/* First and last value; NaN: none. */
+double sb_curve_first(const sb_curve *curve);
+double sb_curve_last(const sb_curve *curve);
+/* The coordinates of the point of that index, for example as from sb_curve_highest; NaN: no such point. */
+double sb_curve_x(const sb_curve *curve, size_t i);
+double sb_curve_y(const sb_curve *curve, size_t i);
+/* Adds the values of `other` to those of the same index; takes all of them if the curve is empty. */
+void sb_curve_sum(sb_curve *curve, const sb_curve *other);
 /* Stable sort by x. Equal x are allowed (a digitised cloud of points). */
 void sb_curve_sort(sb_curve *curve);
 /* x <- scale_x x + shift_x; y <- scale_y y + shift_y. */
@@ -24,13 +41,11 @@ void sb_curve_map(sb_curve *curve, double scale_x, double shift_x, double scale_
 
 /* Linear interpolation; NaN outside the curve or next to a NaN. */
 double sb_curve_at(const sb_curve *curve, double x);
-/* Values at first, first + step, ... <= last. */
-sb_status sb_curve_resample(const sb_curve *curve, double first, double last, double step, sb_curve *made,
-                            sb_error *error);
-
+/* The following make a curve in the list `made`. Values at first, first + step, ... <= last. */
+sb_curve *sb_curve_resample(sb_curves *made, const sb_curve *curve, double first, double last, double step);
 /* Centred running mean and median over the points within window/2 of each point's x. Clouds are allowed. */
-sb_status sb_curve_mean_filter(const sb_curve *curve, double window, sb_curve *made, sb_error *error);
-sb_status sb_curve_median_filter(const sb_curve *curve, double window, sb_curve *made, sb_error *error);
+sb_curve *sb_curve_mean_filter(sb_curves *made, const sb_curve *curve, double window);
+sb_curve *sb_curve_median_filter(sb_curves *made, const sb_curve *curve, double window);
 
 /* Over first <= x <= last. Mean, standard deviation and root mean square weight all points equally. The integral is the
    trapezoid rule with interpolated ends. NaN: no points. */

@@ -20,17 +20,17 @@ const sb_figure *sb_figures_find(const sb_figures *figures, const char *quantity
     return NULL;
 }
 
-sb_status sb_figures_add(sb_figures *figures, const sb_figure *figure, sb_error *error)
+void sb_figures_add(sb_figures *figures, const sb_figure *figure)
 {
     if (sb_grow((void **)&figures->rows, &figures->capacity, figures->count + 1, sizeof *figures->rows) != 0)
-        return sb_fail_memory(error, "figures");
-    figures->rows[figures->count++] = *figure;
-    return SB_OK;
+        sb_fail_memory(&figures->error, "figures");
+    else
+        figures->rows[figures->count++] = *figure;
 }
 
 /* Judges and appends a figure. A NaN error misses any target. */
-static sb_status add(sb_figures *figures, sb_figure figure, const char *quantity, const char *unit,
-                     const char *error_unit, sb_error *error, const char *note, va_list arguments)
+static void add(sb_figures *figures, sb_figure figure, const char *quantity, const char *unit, const char *error_unit,
+                const char *note, va_list arguments)
 {
     snprintf(figure.quantity, sizeof figure.quantity, "%s", quantity);
     snprintf(figure.unit, sizeof figure.unit, "%s", unit);
@@ -38,45 +38,42 @@ static sb_status add(sb_figures *figures, sb_figure figure, const char *quantity
     vsnprintf(figure.note, sizeof figure.note, note, arguments);
     double size = figure.one_sided ? figure.error : fabs(figure.error);
     figure.pass = isnan(figure.limit) || size <= figure.limit;
-    return sb_figures_add(figures, &figure, error);
+    sb_figures_add(figures, &figure);
 }
 
-sb_status sb_figure_share(sb_figures *figures, const char *quantity, const char *unit, double reference, double value,
-                          double scale, double limit, sb_error *error, const char *note, ...)
+void sb_figure_share(sb_figures *figures, const char *quantity, const char *unit, double reference, double value,
+                     double scale, double limit, const char *note, ...)
 {
     va_list arguments;
     va_start(arguments, note);
     sb_figure figure = {
         .reference = reference, .value = value, .error = 100 * (value - reference) / scale, .limit = limit};
-    sb_status status = add(figures, figure, quantity, unit, "%", error, note, arguments);
+    add(figures, figure, quantity, unit, "%", note, arguments);
     va_end(arguments);
-    return status;
 }
 
-sb_status sb_figure_difference(sb_figures *figures, const char *quantity, const char *unit, double reference,
-                               double value, double limit, sb_error *error, const char *note, ...)
+void sb_figure_difference(sb_figures *figures, const char *quantity, const char *unit, double reference, double value,
+                          double limit, const char *note, ...)
 {
     va_list arguments;
     va_start(arguments, note);
     sb_figure figure = {.reference = reference, .value = value, .error = value - reference, .limit = limit};
-    sb_status status = add(figures, figure, quantity, unit, unit, error, note, arguments);
+    add(figures, figure, quantity, unit, unit, note, arguments);
     va_end(arguments);
-    return status;
 }
 
-sb_status sb_figure_below(sb_figures *figures, const char *quantity, const char *unit, double value, double limit,
-                          sb_error *error, const char *note, ...)
+void sb_figure_below(sb_figures *figures, const char *quantity, const char *unit, double value, double limit,
+                     const char *note, ...)
 {
     va_list arguments;
     va_start(arguments, note);
     sb_figure figure = {.reference = (double)NAN, .value = value, .error = value, .limit = limit, .one_sided = true};
-    sb_status status = add(figures, figure, quantity, unit, unit, error, note, arguments);
+    add(figures, figure, quantity, unit, unit, note, arguments);
     va_end(arguments);
-    return status;
 }
 
-sb_status sb_figure_band(sb_figures *figures, const char *quantity, const char *unit, double low, double high,
-                         double value, double limit, sb_error *error, const char *note, ...)
+void sb_figure_band(sb_figures *figures, const char *quantity, const char *unit, double low, double high, double value,
+                    double limit, const char *note, ...)
 {
     double outside = 0;
     if (isnan(value)) outside = value;
@@ -86,19 +83,17 @@ sb_status sb_figure_band(sb_figures *figures, const char *quantity, const char *
     va_start(arguments, note);
     sb_figure figure = {
         .reference = 0.5 * (low + high), .low = low, .high = high, .value = value, .error = outside, .limit = limit};
-    sb_status status = add(figures, figure, quantity, unit, "%", error, note, arguments);
+    add(figures, figure, quantity, unit, "%", note, arguments);
     va_end(arguments);
-    return status;
 }
 
-sb_status sb_figure_report(sb_figures *figures, const char *quantity, const char *unit, double reference, double value,
-                           sb_error *error, const char *note, ...)
+void sb_figure_report(sb_figures *figures, const char *quantity, const char *unit, double reference, double value,
+                      const char *note, ...)
 {
     va_list arguments;
     va_start(arguments, note);
     double miss = reference != 0 ? 100 * (value - reference) / fabs(reference) : (double)NAN;
     sb_figure figure = {.reference = reference, .value = value, .error = miss, .limit = (double)NAN};
-    sb_status status = add(figures, figure, quantity, unit, "%", error, note, arguments);
+    add(figures, figure, quantity, unit, "%", note, arguments);
     va_end(arguments);
-    return status;
 }

@@ -1,6 +1,6 @@
 /* Origin of figures: commit of the source, machine, hashes of files. */
-#ifndef SB_COMMON_ORIGIN_H
-#define SB_COMMON_ORIGIN_H
+#ifndef SB_FRAMEWORK_ORIGIN_H
+#define SB_FRAMEWORK_ORIGIN_H
 
 #include "base/status.h"
 

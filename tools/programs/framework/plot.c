@@ -30,6 +30,8 @@ typedef struct panel {
 } panel;
 
 struct sb_plot {
+    bool incomplete; /* memory was exhausted */
+    panel spare;     /* for all when it was */
     size_t panel_count, panel_capacity;
     panel *panels;
 };
@@ -39,72 +41,73 @@ sb_plot *sb_plot_create(void)
     return sb_alloc(1, sizeof(sb_plot));
 }
 
+static void free_layers(panel *p)
+{
+    for (size_t k = 0; k < p->layer_count; k++) {
+        sb_curve_free(&p->layers[k].curve);
+        sb_curve_free(&p->layers[k].high);
+    }
+    sb_free(p->layers);
+}
+
 void sb_plot_destroy(sb_plot *plot)
 {
     if (!plot) return;
-    for (size_t p = 0; p < plot->panel_count; p++) {
-        for (size_t k = 0; k < plot->panels[p].layer_count; k++) {
-            sb_curve_free(&plot->panels[p].layers[k].curve);
-            sb_curve_free(&plot->panels[p].layers[k].high);
-        }
-        sb_free(plot->panels[p].layers);
-    }
+    for (size_t p = 0; p < plot->panel_count; p++) free_layers(&plot->panels[p]);
+    free_layers(&plot->spare);
     sb_free(plot->panels);
     sb_free(plot);
 }
 
-sb_status sb_plot_panel(sb_plot *plot, const char *title, const char *x_label, const char *y_label, sb_error *error)
+static panel *last(sb_plot *plot)
 {
-    if (sb_grow((void **)&plot->panels, &plot->panel_capacity, plot->panel_count + 1, sizeof *plot->panels) != 0)
-        return sb_fail_memory(error, "a plot");
+    return plot->panel_count ? &plot->panels[plot->panel_count - 1] : &plot->spare;
+}
+
+void sb_plot_panel(sb_plot *plot, const char *title, const char *x_label, const char *y_label)
+{
+    plot->incomplete |=
+        sb_grow((void **)&plot->panels, &plot->panel_capacity, plot->panel_count + 1, sizeof *plot->panels) != 0;
+    if (plot->incomplete) return;
     panel *made = &plot->panels[plot->panel_count++];
     *made = (panel){.range = {(double)NAN, (double)NAN, (double)NAN, (double)NAN}};
     snprintf(made->title, sizeof made->title, "%s", title);
     snprintf(made->x_label, sizeof made->x_label, "%s", x_label);
     snprintf(made->y_label, sizeof made->y_label, "%s", y_label);
-    return SB_OK;
 }
 
 void sb_plot_range(sb_plot *plot, double x_min, double x_max, double y_min, double y_max)
 {
-    double *range = plot->panels[plot->panel_count - 1].range;
-    range[0] = x_min;
-    range[1] = x_max;
-    range[2] = y_min;
-    range[3] = y_max;
+    const double range[] = {x_min, x_max, y_min, y_max};
+    memcpy(last(plot)->range, range, sizeof range);
 }
 
 void sb_plot_logarithmic(sb_plot *plot)
 {
-    plot->panels[plot->panel_count - 1].logarithmic = true;
+    last(plot)->logarithmic = true;
 }
 
-static sb_status add(sb_plot *plot, int what, const char *label, const sb_curve *curve, const sb_curve *high,
-                     sb_error *error)
+static void add(sb_plot *plot, int what, const char *label, const sb_curve *curve, const sb_curve *high)
 {
-    panel *p = &plot->panels[plot->panel_count - 1];
-    if (sb_grow((void **)&p->layers, &p->layer_capacity, p->layer_count + 1, sizeof *p->layers) != 0)
-        return sb_fail_memory(error, "a plot");
-    layer *made = &p->layers[p->layer_count];
+    panel *p = last(plot);
+    plot->incomplete |= sb_grow((void **)&p->layers, &p->layer_capacity, p->layer_count + 1, sizeof *p->layers) != 0;
+    if (plot->incomplete) return;
+    layer *made = &p->layers[p->layer_count++];
     *made = (layer){.kind = what};
     snprintf(made->label, sizeof made->label, "%s", label);
-    sb_status status = sb_curve_copy(curve, &made->curve, error);
-    if (status == SB_OK && high) status = sb_curve_copy(high, &made->high, error);
-    if (status != SB_OK)
-        sb_curve_free(&made->curve);
-    else
-        p->layer_count++;
-    return status;
+    sb_curve_sum(&made->curve, curve);
+    if (high) sb_curve_sum(&made->high, high);
+    plot->incomplete |= curve->incomplete || made->curve.incomplete || made->high.incomplete;
 }
 
-sb_status sb_plot_curve(sb_plot *plot, sb_plot_style style, const char *label, const sb_curve *curve, sb_error *error)
+void sb_plot_curve(sb_plot *plot, sb_plot_style style, const char *label, const sb_curve *curve)
 {
-    return add(plot, (int)style, label, curve, NULL, error);
+    add(plot, (int)style, label, curve, NULL);
 }
 
-sb_status sb_plot_band(sb_plot *plot, const char *label, const sb_curve *low, const sb_curve *high, sb_error *error)
+void sb_plot_band(sb_plot *plot, const char *label, const sb_curve *low, const sb_curve *high)
 {
-    return add(plot, BAND, label, low, high, error);
+    add(plot, BAND, label, low, high);
 }
 
 /* Writes a single-quoted gnuplot string. */
@@ -276,6 +279,7 @@ static sb_status finish(FILE *out, const char *name, sb_error *error)
 sb_status sb_plot_draw(const sb_plot *plot, const char *folder, const char *name, const char *picture, sb_error *error)
 {
     char program[SB_PATH_MAX], script[TEXT];
+    if (plot->incomplete) return sb_fail_memory(error, "a plot");
     if (!sb_tool_find("gnuplot", program)) return sb_fail(error, SB_FAILED, "gnuplot is not installed");
     FILE *out = open_in(folder, name, "dat", error);
     if (!out) return SB_FAILED;

@@ -1,6 +1,7 @@
-/* A picture with a column of panels, each with curves, clouds of points and bands, drawn by gnuplot. */
-#ifndef SB_COMMON_PLOT_H
-#define SB_COMMON_PLOT_H
+/* A picture with a column of panels, each with curves, clouds of points and bands, drawn by gnuplot. If memory is
+   exhausted, drawing it fails (plot_draw.h). */
+#ifndef SB_FRAMEWORK_PLOT_H
+#define SB_FRAMEWORK_PLOT_H
 
 #include "curve.h"
 
@@ -22,14 +23,14 @@ typedef enum sb_plot_style {
 } sb_plot_style;
 
 /* Begins a panel, to which the following calls add. */
-sb_status sb_plot_panel(sb_plot *plot, const char *title, const char *x_label, const char *y_label, sb_error *error);
+void sb_plot_panel(sb_plot *plot, const char *title, const char *x_label, const char *y_label);
 /* Bounds of the panel's axes; NaN: from the data. */
 void sb_plot_range(sb_plot *plot, double x_min, double x_max, double y_min, double y_max);
 /* Makes both axes logarithmic; points not above 0 are omitted. */
 void sb_plot_logarithmic(sb_plot *plot);
 /* Copies the points. Layers of a style get colours in order, starting again in each panel. */
-sb_status sb_plot_curve(sb_plot *plot, sb_plot_style style, const char *label, const sb_curve *curve, sb_error *error);
+void sb_plot_curve(sb_plot *plot, sb_plot_style style, const char *label, const sb_curve *curve);
 /* Fills the area between two curves over the same x: a percentile band or an uncertainty. */
-sb_status sb_plot_band(sb_plot *plot, const char *label, const sb_curve *low, const sb_curve *high, sb_error *error);
+void sb_plot_band(sb_plot *plot, const char *label, const sb_curve *low, const sb_curve *high);
 
 #endif

@@ -1,7 +1,8 @@
 /* Creates and draws plots. */
-#ifndef SB_COMMON_PLOT_DRAW_H
-#define SB_COMMON_PLOT_DRAW_H
+#ifndef SB_FRAMEWORK_PLOT_DRAW_H
+#define SB_FRAMEWORK_PLOT_DRAW_H
 
+#include "base/status.h"
 #include "plot.h"
 
 /* Makes an empty plot; NULL: out of memory. */

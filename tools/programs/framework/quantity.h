@@ -1,7 +1,7 @@
 /* Quantities of a resolution study of any scene: load on every body, crest at every gauge, run-up lines, volumes
    through planes. */
-#ifndef SB_STUDY_QUANTITY_H
-#define SB_STUDY_QUANTITY_H
+#ifndef SB_FRAMEWORK_QUANTITY_H
+#define SB_FRAMEWORK_QUANTITY_H
 
 #include "case.h"
 
@@ -12,6 +12,6 @@
    runup.csv    "run-up height", "run-up front" (m)
    overtopping.csv  "volume" at the end (m^3)
    A table that does not exist is skipped; a quantity without a value is NaN. */
-sb_status sb_quantities_of(const sb_case_run *run, sb_figures *figures, sb_error *error);
+void sb_quantities_of(const sb_case_run *run, sb_figures *figures);
 
 #endif

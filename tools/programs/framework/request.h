@@ -1,6 +1,6 @@
 /* A requested run: a case at one spacing, preset and seed. */
-#ifndef SB_VALIDATION_REQUEST_H
-#define SB_VALIDATION_REQUEST_H
+#ifndef SB_FRAMEWORK_REQUEST_H
+#define SB_FRAMEWORK_REQUEST_H
 
 #include "case.h"
 

@@ -25,35 +25,55 @@ static sb_status fill(sb_sheet_slot *slot, const char *path, sb_error *error)
     return slot->path ? SB_OK : sb_fail_memory(error, path);
 }
 
-static sb_status curve_of(sb_sheet_slot *slot, const char *folder, const char *table, const char *where, const char *x,
-                          const char *y, sb_curve *curve, sb_error *error)
+/* Reads a table of a folder into the slot, unless something failed before. */
+static const sb_sheet *open_sheet(const sb_case_run *run, sb_sheet_slot *slot, const char *folder, const char *table)
 {
+    static const sb_sheet none;
     char path[SB_PATH_MAX];
-    sb_error why = {0};
-    sb_status status = sb_path_join(path, folder, table, error);
-    if (status == SB_OK) status = fill(slot, path, error);
-    if (status != SB_OK) return status;
-    status = sb_sheet_curve(&slot->sheet, where, x, y, curve, &why);
-    if (status != SB_OK) sb_fail(error, status, "%.400s: %.400s", path, why.text);
-    return status;
+    if (run->error->status != SB_OK || sb_path_join(path, folder, table, run->error) != SB_OK ||
+        fill(slot, path, run->error) != SB_OK)
+        return &none;
+    return &slot->sheet;
 }
 
-sb_status sb_run_curve(const sb_case_run *run, const char *table, const char *where, const char *x, const char *y,
-                       sb_curve *curve, sb_error *error)
+static sb_curve *curve_of(const sb_case_run *run, sb_sheet_slot *slot, const char *folder, const char *table,
+                          const char *where, const char *x, const char *y)
 {
-    return curve_of(run->slot, run->folder, table, where, x, y, curve, error);
+    sb_error why = {0};
+    sb_curve *curve = sb_curve_new(run->made);
+    const sb_sheet *sheet = open_sheet(run, slot, folder, table);
+    if (run->error->status == SB_OK && sb_sheet_curve(sheet, where, x, y, curve, &why) != SB_OK)
+        sb_fail(run->error, why.status, "%.400s: %.400s", slot->path, why.text);
+    return curve;
 }
 
-sb_status sb_reference_curve(const sb_case_run *run, const char *table, const char *where, const char *x, const char *y,
-                             sb_curve *curve, sb_error *error)
+const sb_sheet *sb_run_sheet(const sb_case_run *run, const char *table)
+{
+    return open_sheet(run, run->slot, run->folder, table);
+}
+
+sb_curve *sb_run_curve(const sb_case_run *run, const char *table, const char *where, const char *x, const char *y)
+{
+    return curve_of(run, run->slot, run->folder, table, where, x, y);
+}
+
+sb_curve *sb_reference_curve(const sb_case_run *run, const char *table, const char *where, const char *x, const char *y)
 {
     sb_sheet_slot own = {0};
-    sb_status status = curve_of(&own, run->assets, table, where, x, y, curve, error);
+    sb_curve *curve = curve_of(run, &own, run->assets, table, where, x, y);
     empty(&own);
-    return status;
+    return curve;
 }
 
-sb_status sb_plot_run(sb_plot *plot, const sb_case_run *run, const sb_curve *curve, sb_error *error)
+sb_status sb_run_close(const sb_case_run *run, sb_error *error)
+{
+    const sb_error first = *run->error;
+    *run->error = (sb_error){0};
+    if (!sb_curves_free(run->made)) return sb_fail_memory(error, "a curve");
+    return first.status == SB_OK ? SB_OK : sb_fail(error, first.status, "%s", first.text);
+}
+
+void sb_plot_run(sb_plot *plot, const sb_case_run *run, const sb_curve *curve)
 {
     sb_plot_style style = SB_PLOT_LINE;
     if (strcmp(run->preset, "paper") == 0)
@@ -62,7 +82,12 @@ sb_status sb_plot_run(sb_plot *plot, const sb_case_run *run, const sb_curve *cur
         style = SB_PLOT_SEED;
     else if (run->judged)
         style = SB_PLOT_JUDGED;
-    return sb_plot_curve(plot, style, run->label, curve, error);
+    sb_plot_curve(plot, style, run->label, curve);
+}
+
+void sb_plot_points(sb_plot *plot, const char *label, size_t count, double *x, double *y)
+{
+    sb_plot_curve(plot, SB_PLOT_REFERENCE, label, &(sb_curve){.count = count, .x = x, .y = y});
 }
 
 static sb_status summary_text(const char *folder, char **text, sb_error *error)
@@ -102,7 +127,9 @@ sb_status sb_finished_read(sb_finished *run, const char *folder, sb_error *error
                               .particles = (size_t)sb_json_number_in(text, "fluid_particles"),
                               .steps = (size_t)sb_json_number_in(text, "steps"),
                               .label = run->label,
-                              .slot = &run->slot};
+                              .slot = &run->slot,
+                              .made = &run->made,
+                              .error = &run->error};
     run->cpu = sb_json_number_in(text, "processor_seconds");
     run->threads = (int)sb_json_number_in(text, "threads");
     sb_free(text);
@@ -112,5 +139,6 @@ sb_status sb_finished_read(sb_finished *run, const char *folder, sb_error *error
 void sb_finished_free(sb_finished *run)
 {
     empty(&run->slot);
+    sb_curves_free(&run->made);
     sb_scene_free(&run->scene);
 }

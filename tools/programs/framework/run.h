@@ -1,6 +1,6 @@
 /* A finished run with the data that sb_case_run points to. */
-#ifndef SB_VALIDATION_RUN_H
-#define SB_VALIDATION_RUN_H
+#ifndef SB_FRAMEWORK_RUN_H
+#define SB_FRAMEWORK_RUN_H
 
 #include "base/file.h"
 #include "case.h"
@@ -15,6 +15,8 @@ typedef struct sb_finished {
         load; /* processor time of all processes of the run, s; load of the machine at its end; NaN: not known */
     sb_scene scene;
     sb_sheet_slot slot;
+    sb_curves made;
+    sb_error error;
     sb_case_run view; /* points into this struct, which must not be copied */
 } sb_finished;
 

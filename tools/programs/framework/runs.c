@@ -134,7 +134,12 @@ void sb_result_read(const sb_store *store, bool any_build, sb_result *r)
     }
     if (status == SB_OK) {
         complete(store, r);
-        status = r->request.of->evaluate(&r->run.view, &r->figures, &why);
+        r->request.of->evaluate(&r->run.view, &r->figures);
+        status = sb_run_close(&r->run.view, &why);
+        if (status == SB_OK && r->figures.error.status != SB_OK) {
+            status = r->figures.error.status;
+            why = r->figures.error;
+        }
     }
     r->state = status == SB_OK ? SB_RESULT_DONE : SB_RESULT_FAILED;
     if (status != SB_OK) snprintf(r->problem, sizeof r->problem, "%.600s", why.text);

@@ -103,7 +103,7 @@ size_t sb_sheet_column(const sb_sheet *sheet, const char *name)
 
 const char *sb_sheet_text(const sb_sheet *sheet, size_t row, size_t column)
 {
-    return sheet->fields[(row + 1) * sheet->columns + column];
+    return row < sheet->rows && column < sheet->columns ? sheet->fields[(row + 1) * sheet->columns + column] : "";
 }
 
 double sb_sheet_number(const sb_sheet *sheet, size_t row, size_t column)
@@ -122,10 +122,10 @@ sb_status sb_sheet_curve(const sb_sheet *sheet, const char *where, const char *x
     sb_status status = SB_OK;
     if (x_column == (size_t)-1 || y_column == (size_t)-1)
         return sb_fail(error, SB_BAD_INPUT, "no column %s", x_column == (size_t)-1 ? x : y);
-    for (size_t row = 0; status == SB_OK && row < sheet->rows; row++)
+    for (size_t row = 0; row < sheet->rows; row++)
         if (!where || (sheet->columns > 1 && strcmp(sb_sheet_text(sheet, row, 1), where) == 0))
-            status = sb_curve_add(&made, sb_sheet_number(sheet, row, x_column), sb_sheet_number(sheet, row, y_column),
-                                  error);
+            sb_curve_add(&made, sb_sheet_number(sheet, row, x_column), sb_sheet_number(sheet, row, y_column));
+    if (made.incomplete) status = sb_fail_memory(error, "a curve");
     if (status == SB_OK && made.count == 0) status = sb_fail(error, SB_BAD_INPUT, "no rows of %s", where ? where : y);
     if (status != SB_OK)
         sb_curve_free(&made);

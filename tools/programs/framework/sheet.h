@@ -1,8 +1,9 @@
 /* Reads CSV files with one header line: the tables of a run, and reference tables, whose leading lines with '#' cite
    their source. */
-#ifndef SB_COMMON_SHEET_H
-#define SB_COMMON_SHEET_H
+#ifndef SB_FRAMEWORK_SHEET_H
+#define SB_FRAMEWORK_SHEET_H
 
+#include "base/status.h"
 #include "curve.h"
 
 #include <stdio.h>
@@ -23,6 +24,7 @@ void sb_sheet_free(sb_sheet *sheet);
 size_t sb_sheet_column(const sb_sheet *sheet, const char *name);
 /* NaN: the field is empty or not a number. */
 double sb_sheet_number(const sb_sheet *sheet, size_t row, size_t column);
+/* "": no such field. */
 const char *sb_sheet_text(const sb_sheet *sheet, size_t row, size_t column);
 
 /* Writes a text as a field, in quotes if needed (RFC 4180). The text has no line break. */

@@ -12,14 +12,16 @@ sb_status sb_stress_collect(const sb_store *store, const sb_stress *of, bool qui
     if (results->trials.incomplete || !results->judged) return sb_fail_memory(error, "trials");
     for (size_t i = 0; i < count; i++) {
         const sb_job job = {of, &results->trials.list[i]};
-        results->judged[i].trial = job.trial;
-        results->judged[i].outcome = sb_trial_read(store, &job);
-        if (results->judged[i].outcome.there) sb_judge_common(&results->judged[i]);
+        results->judged[i] = (sb_judged){.trial = job.trial, .outcome = sb_trial_read(store, &job)};
+        results->judged[i].all = results->judged;
+        results->judged[i].count = count;
     }
-    if (of->judge) of->judge(results->judged, count);
-    for (size_t i = 0; i < count; i++) {
-        results->run += results->judged[i].outcome.there;
-        results->failed += results->judged[i].outcome.there && results->judged[i].fails;
+    for (sb_judged *j = results->judged; j < results->judged + count; j++) {
+        if (!j->outcome.there) continue;
+        sb_judge_common(j);
+        if (of->judge) of->judge(j);
+        results->run++;
+        results->failed += j->fails;
     }
     return SB_OK;
 }

@@ -30,11 +30,25 @@ void sb_note(sb_judged *judged, const char *figure, ...)
     va_end(arguments);
 }
 
-sb_judged *sb_judged_find(sb_judged *all, size_t count, const char *name)
+const sb_judged *sb_judged_find(const sb_judged *judged, const char *name)
 {
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(all[i].trial->name, name) == 0 && all[i].outcome.there) return &all[i];
+    for (const sb_judged *j = judged->all; j < judged->all + judged->count; j++)
+        if (strcmp(j->trial->name, name) == 0 && j->outcome.there) return j;
     return NULL;
+}
+
+sb_range sb_judged_range(const sb_judged *judged, const char *prefix, double (*value)(const sb_judged *judged))
+{
+    sb_range range = {.low = HUGE_VAL, .high = -HUGE_VAL};
+    for (const sb_judged *j = judged->all; j < judged->all + judged->count; j++) {
+        if (!j->outcome.there || strncmp(j->trial->name, prefix, strlen(prefix)) != 0) continue;
+        range.low = fmin(range.low, value(j));
+        range.high = fmax(range.high, value(j));
+        range.mean += value(j);
+        range.count++;
+    }
+    range.mean /= range.count;
+    return range;
 }
 
 double sb_energy_of(const sb_judged *judged, bool end)

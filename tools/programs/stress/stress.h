@@ -10,9 +10,11 @@
 typedef struct sb_judged {
     const sb_trial *trial;
     sb_outcome outcome;
-    bool fails;       /* a rule is violated */
-    char figure[240]; /* measured values, for the table */
-    char why[400];    /* violated rules */
+    bool fails;            /* a rule is violated */
+    char figure[240];      /* measured values, for the table */
+    char why[400];         /* violated rules */
+    struct sb_judged *all; /* trials of the case, in the order planned */
+    size_t count;
 } sb_judged;
 
 typedef struct sb_stress {
@@ -20,9 +22,8 @@ typedef struct sb_stress {
     const char *title; /* its heading */
     const char *rules; /* beside the common rules, separated by "; "; Markdown */
     void (*plan)(sb_trials *trials, bool quick);
-    /* Judges all trials of the case, in the order planned, after the common rules. Trials that were not run have
-       outcome.there false and are skipped. NULL: only the common rules. */
-    void (*judge)(sb_judged *all, size_t count);
+    /* Judges a trial that was run, after the common rules. NULL: only the common rules. */
+    void (*judge)(sb_judged *judged);
 } sb_stress;
 
 /* All cases in the order of the report, ended by NULL. */
@@ -39,8 +40,15 @@ void sb_note(sb_judged *judged, const char *figure, ...) __attribute__((format(p
    particles. All particles are accounted for. A solve that stops above its tolerance is counted. */
 void sb_judge_common(sb_judged *judged);
 
-/* The trial of that name that was run, or NULL. */
-sb_judged *sb_judged_find(sb_judged *all, size_t count, const char *name);
+/* Another trial of the case, of that name, that was run, or NULL. */
+const sb_judged *sb_judged_find(const sb_judged *judged, const char *name);
+
+/* A value over those trials of the case that were run and whose names begin so. */
+typedef struct sb_range {
+    double low, high, mean;
+    int count;
+} sb_range;
+sb_range sb_judged_range(const sb_judged *judged, const char *prefix, double (*value)(const sb_judged *judged));
 /* kinetic_J + potential_J, at the start or the end; the potential energy counts from the domain's floor. */
 double sb_energy_of(const sb_judged *judged, bool end);
 

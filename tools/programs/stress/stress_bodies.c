@@ -20,32 +20,24 @@ static void plan_meshes(sb_trials *trials, bool quick)
     }
 }
 
-static void judge_meshes(sb_judged *all, size_t count)
+static double along(const sb_judged *j)
 {
-    double low = HUGE_VAL, high = -HUGE_VAL, mean = 0;
-    int seeds = 0;
-    for (size_t i = 0; i < count; i++) {
-        if (!all[i].outcome.there || strncmp(all[i].trial->name, "clean", 5) != 0) continue;
-        const double along = sb_outcome_vector(&all[i].outcome, "column", "impulse_vector_Ns").x;
-        low = fmin(low, along);
-        high = fmax(high, along);
-        mean += along / SEEDS;
-        seeds++;
+    return sb_outcome_vector(&j->outcome, "column", "impulse_vector_Ns").x;
+}
+
+static void judge_meshes(sb_judged *j)
+{
+    if (j->outcome.how == SB_ENDS_REFUSED) {
+        sb_note(j, "refused: %.180s", j->outcome.last_line);
+        return;
     }
-    for (size_t i = 0; i < count; i++) {
-        sb_judged *j = &all[i];
-        if (!j->outcome.there) continue;
-        if (j->outcome.how == SB_ENDS_REFUSED) {
-            sb_note(j, "refused: %.180s", j->outcome.last_line);
-            continue;
-        }
-        const double along = sb_outcome_vector(&j->outcome, "column", "impulse_vector_Ns").x;
-        sb_note(j, "impulse %.2f N s", along);
-        if (strncmp(j->trial->name, "clean", 5) == 0) continue;
-        sb_note(j, "sound mesh, five seeds: %.2f to %.2f", low, high);
-        sb_require(j, seeds == SEEDS, "the seeds have not run");
-        sb_require(j, fabs(along - mean) <= high - low, "differs by more than the spread of the seeds");
-    }
+    const sb_range sound = sb_judged_range(j, "clean", along);
+    sb_note(j, "impulse %.2f N s", along(j));
+    if (strncmp(j->trial->name, "clean", 5) == 0) return;
+    sb_note(j, "sound mesh, five seeds: %.2f to %.2f", sound.low, sound.high);
+    sb_require(j, sound.count == SEEDS, "the seeds have not run");
+    sb_require(j, fabs(along(j) - sound.mean) <= sound.high - sound.low,
+               "differs by more than the spread of the seeds");
 }
 
 const sb_stress sb_stress_meshes = {
@@ -113,20 +105,17 @@ static void plan_immersed(sb_trials *trials, bool quick)
     sb_trial_drive(t, &sb_drive_plain, 0);
 }
 
-static void judge_immersed(sb_judged *all, size_t count)
+static void judge_immersed(sb_judged *j)
 {
-    for (size_t i = 0; i < count; i++) {
-        sb_judged *j = &all[i];
-        const sb_outcome *o = &j->outcome;
-        if (!o->there || j->trial->drive == &sb_drive_plain) continue;
-        const double speed = sb_outcome_number(o, "late_rms_speed") / sb_outcome_number(o, "wave_speed");
-        sb_note(j, "mean speed %.2g of √(gD)", speed);
-        sb_require(j, speed < 0.02, "the water does not come to rest");
-        if (!(j->trial->number > 0)) continue;
-        const double share = sb_outcome_number(o, "lift_N") / (1000 * 9.81 * j->trial->number);
-        sb_note(j, "lift %.3f of ρgV", share);
-        sb_require(j, fabs(share - 1) < 0.1, "the lift differs from the weight of the displaced water");
-    }
+    const sb_outcome *o = &j->outcome;
+    if (j->trial->drive == &sb_drive_plain) return;
+    const double speed = sb_outcome_number(o, "late_rms_speed") / sb_outcome_number(o, "wave_speed");
+    sb_note(j, "mean speed %.2g of √(gD)", speed);
+    sb_require(j, speed < 0.02, "the water does not come to rest");
+    if (!(j->trial->number > 0)) return;
+    const double share = sb_outcome_number(o, "lift_N") / (1000 * 9.81 * j->trial->number);
+    sb_note(j, "lift %.3f of ρgV", share);
+    sb_require(j, fabs(share - 1) < 0.1, "the lift differs from the weight of the displaced water");
 }
 
 const sb_stress sb_stress_immersed = {
@@ -183,16 +172,12 @@ static void plan_paddles(sb_trials *trials, bool quick)
     sb_trial_drive(t, &sb_drive_plain, 0);
 }
 
-static void judge_paddles(sb_judged *all, size_t count)
+static void judge_paddles(sb_judged *j)
 {
-    for (size_t i = 0; i < count; i++) {
-        sb_judged *j = &all[i];
-        if (!j->outcome.there) continue;
-        const double off = sb_outcome_number(&j->outcome, "momentum_imbalance");
-        sb_note(j, "top speed %.3g m/s", sb_outcome_number(&j->outcome, "top_speed"));
-        sb_note(j, "momentum balances within %.1e", off);
-        sb_require(j, off < 1e-4, "momentum does not balance");
-    }
+    const double off = sb_outcome_number(&j->outcome, "momentum_imbalance");
+    sb_note(j, "top speed %.3g m/s", sb_outcome_number(&j->outcome, "top_speed"));
+    sb_note(j, "momentum balances within %.1e", off);
+    sb_require(j, off < 1e-4, "momentum does not balance");
 }
 
 const sb_stress sb_stress_paddles = {
@@ -223,24 +208,20 @@ static void plan_leaving(sb_trials *trials, bool quick)
     sb_trial_set(t, "output.particle_interval=0.1");
 }
 
-static void judge_leaving(sb_judged *all, size_t count)
+static void judge_leaving(sb_judged *j)
 {
-    for (size_t i = 0; i < count; i++) {
-        sb_judged *j = &all[i];
-        if (!j->outcome.there) continue;
-        if (j->outcome.how == SB_ENDS_FAILED && j->trial->ends != SB_ENDS_FAILED) {
-            sb_note(j, "%.200s", j->outcome.last_line); /* the program refuses speeds that are too high */
-            continue;
-        }
-        const double left = sb_outcome_number(&j->outcome, "left_domain");
-        double placed = 0;
-        for (int side = 0; side < SB_SIDES; side++)
-            placed += sb_outcome_number_in(&j->outcome, "left_by_side", sb_side_names[side]);
-        sb_require(j, left > 0, "no particle is counted as having left");
-        sb_require(j, placed == left, "%g particles are counted by side", placed);
-        if (j->trial->ends == SB_ENDS_FAILED)
-            sb_require(j, strstr(j->outcome.last_line, "all water has left the domain"), "the run does not report it");
+    if (j->outcome.how == SB_ENDS_FAILED && j->trial->ends != SB_ENDS_FAILED) {
+        sb_note(j, "%.200s", j->outcome.last_line); /* the program refuses speeds that are too high */
+        return;
     }
+    const double left = sb_outcome_number(&j->outcome, "left_domain");
+    double placed = 0;
+    for (int side = 0; side < SB_SIDES; side++)
+        placed += sb_outcome_number_in(&j->outcome, "left_by_side", sb_side_names[side]);
+    sb_require(j, left > 0, "no particle is counted as having left");
+    sb_require(j, placed == left, "%g particles are counted by side", placed);
+    if (j->trial->ends == SB_ENDS_FAILED)
+        sb_require(j, strstr(j->outcome.last_line, "all water has left the domain"), "the run does not report it");
 }
 
 const sb_stress sb_stress_leaving = {

@@ -65,32 +65,28 @@ static sb_vec3 impulse_of(const sb_judged *j)
     return impulse;
 }
 
-static void judge(sb_judged *all, size_t count)
+static double along(const sb_judged *j)
 {
-    double low = HUGE_VAL, high = -HUGE_VAL, side = 0, mean = 0;
-    int seeds = 0;
-    for (size_t i = 0; i < count; i++) {
-        if (!all[i].outcome.there || strncmp(all[i].trial->name, "seed-", 5) != 0) continue;
-        const sb_vec3 impulse = impulse_of(&all[i]);
-        low = fmin(low, impulse.x);
-        high = fmax(high, impulse.x);
-        side = fmax(side, fabs(impulse.y));
-        mean += impulse.x;
-        seeds++;
-    }
-    mean /= seeds;
-    for (size_t i = 0; i < count; i++) {
-        sb_judged *j = &all[i];
-        if (!j->outcome.there) continue;
-        const sb_vec3 impulse = impulse_of(j);
-        sb_note(j, "impulse %.2f N s along the bore, %+.2f across", impulse.x, impulse.y);
-        if (strncmp(j->trial->name, "seed-", 5) == 0) continue;
-        sb_note(j, "five seeds %.2f to %.2f", low, high);
-        sb_require(j, seeds == SEEDS, "the seeds have not run");
-        sb_require(j, fabs(impulse.x - mean) <= high - low, "differs by more than the spread of the seeds");
-        sb_require(j, fabs(impulse.y) <= side + (high - low),
-                   "the transverse impulse differs by more than the spread of the seeds");
-    }
+    return impulse_of(j).x;
+}
+
+static double across(const sb_judged *j)
+{
+    return fabs(impulse_of(j).y);
+}
+
+static void judge(sb_judged *j)
+{
+    const sb_vec3 impulse = impulse_of(j);
+    const sb_range seeds = sb_judged_range(j, "seed-", along), side = sb_judged_range(j, "seed-", across);
+    const double spread = seeds.high - seeds.low;
+    sb_note(j, "impulse %.2f N s along the bore, %+.2f across", impulse.x, impulse.y);
+    if (strncmp(j->trial->name, "seed-", 5) == 0) return;
+    sb_note(j, "five seeds %.2f to %.2f", seeds.low, seeds.high);
+    sb_require(j, seeds.count == SEEDS, "the seeds have not run");
+    sb_require(j, fabs(impulse.x - seeds.mean) <= spread, "differs by more than the spread of the seeds");
+    sb_require(j, fabs(impulse.y) <= side.high + spread,
+               "the transverse impulse differs by more than the spread of the seeds");
 }
 
 const sb_stress sb_stress_frame = {

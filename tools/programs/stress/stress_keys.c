@@ -163,19 +163,15 @@ static void plan(sb_trials *trials, bool quick)
     if (!quick) walk_scene(trials, "keys.yaml", NULL);
 }
 
-static void judge(sb_judged *all, size_t count)
+static void judge(sb_judged *j)
 {
-    for (size_t i = 0; i < count; i++) {
-        sb_judged *j = &all[i];
-        if (!j->outcome.there) continue;
-        sb_note(j, "%s",
-                j->outcome.how == SB_ENDS_WELL      ? "ran"
-                : j->outcome.how == SB_ENDS_REFUSED ? "refused"
-                : j->outcome.how == SB_ENDS_FAILED  ? "failed"
-                : j->outcome.how == SB_ENDS_STOPPED ? "stopped after SIGTERM"
-                                                    : j->outcome.ended);
-        if (j->outcome.how & (SB_ENDS_REFUSED | SB_ENDS_FAILED)) sb_note(j, "%.180s", j->outcome.last_line + 12);
-    }
+    sb_note(j, "%s",
+            j->outcome.how == SB_ENDS_WELL      ? "ran"
+            : j->outcome.how == SB_ENDS_REFUSED ? "refused"
+            : j->outcome.how == SB_ENDS_FAILED  ? "failed"
+            : j->outcome.how == SB_ENDS_STOPPED ? "stopped after SIGTERM"
+                                                : j->outcome.ended);
+    if (j->outcome.how & (SB_ENDS_REFUSED | SB_ENDS_FAILED)) sb_note(j, "%.180s", j->outcome.last_line + 12);
 }
 
 const sb_stress sb_stress_keys = {

@@ -73,25 +73,21 @@ static void plan(sb_trials *trials, bool quick)
     }
 }
 
-static void judge(sb_judged *all, size_t count)
+static void judge(sb_judged *j)
 {
-    for (size_t i = 0; i < count; i++) {
-        sb_judged *j = &all[i];
-        const sb_outcome *o = &j->outcome;
-        if (!o->there) continue;
-        if (o->how == SB_ENDS_REFUSED) {
-            sb_note(j, "refused: %.180s", o->last_line);
-            continue;
-        }
-        const bool both = strstr(j->trial->name, "two-levels"), trough = strstr(j->trial->name, "trough");
-        const double held = level * level - (both ? other * other : 0);
-        const double exact = 0.5 * 1000 * 9.81 * held * (trough ? 0.4 : 1);
-        const double share = sb_outcome_number(o, "force") / exact, crossed = sb_outcome_number(o, "crossed");
-        sb_note(j, "force %.3f of ½ρgD²", share);
-        sb_note(j, "%g particles crossed", crossed);
-        sb_require(j, crossed == 0, "water crosses the plate");
-        sb_require(j, fabs(share - 1) < 0.1, "the force differs from the hydrostatic force");
+    const sb_outcome *o = &j->outcome;
+    if (o->how == SB_ENDS_REFUSED) {
+        sb_note(j, "refused: %.180s", o->last_line);
+        return;
     }
+    const bool both = strstr(j->trial->name, "two-levels"), trough = strstr(j->trial->name, "trough");
+    const double held = level * level - (both ? other * other : 0);
+    const double exact = 0.5 * 1000 * 9.81 * held * (trough ? 0.4 : 1);
+    const double share = sb_outcome_number(o, "force") / exact, crossed = sb_outcome_number(o, "crossed");
+    sb_note(j, "force %.3f of ½ρgD²", share);
+    sb_note(j, "%g particles crossed", crossed);
+    sb_require(j, crossed == 0, "water crosses the plate");
+    sb_require(j, fabs(share - 1) < 0.1, "the force differs from the hydrostatic force");
 }
 
 const sb_stress sb_stress_plates = {

@@ -54,28 +54,24 @@ static void plan_steps(sb_trials *trials, bool quick)
 }
 
 /* Compares the loss of potential energy at that time with that of the shortest step of the same solver. */
-static void judge_steps(sb_judged *all, size_t count)
+static void judge_steps(sb_judged *j)
 {
-    for (size_t i = 0; i < count; i++) {
-        sb_judged *j = &all[i];
-        const sb_outcome *o = &j->outcome;
-        char name[SB_TRIAL_NAME];
-        if (!o->there) continue;
-        if (o->how == SB_ENDS_REFUSED) {
-            sb_note(j, "refused: %.180s", o->last_line);
-            continue;
-        }
-        snprintf(name, sizeof name, "%.*s-dt-x0.25", (int)strcspn(j->trial->name, "-"), j->trial->name);
-        sb_judged *finest = sb_judged_find(all, count, name);
-        const double fine = finest ? sb_outcome_number(&finest->outcome, "fallen_J") : (double)NAN;
-        const double off = sb_outcome_number(o, "fallen_J") / fine - 1;
-        sb_note(j, "fall %+.2f %% relative to the shortest step", 100 * off);
-        sb_note(j, "%.1f sweeps", sb_outcome_number(o, "mean_iterations"));
-        sb_note(j, "remaining density error %.1e", sb_outcome_number(o, "mean_density_error"));
-        if (sb_outcome_number(o, "told") > 0) sb_note(j, "a warning reports that the step is too long");
-        sb_require(j, fabs(off) <= 0.01 * j->trial->number, "differs by more than 1 %% per default step");
-        sb_require(j, sb_outcome_number(o, "energy_peak_J") / sb_energy_of(j, false) < 1.005, "the energy increases");
+    const sb_outcome *o = &j->outcome;
+    char name[SB_TRIAL_NAME];
+    if (o->how == SB_ENDS_REFUSED) {
+        sb_note(j, "refused: %.180s", o->last_line);
+        return;
     }
+    snprintf(name, sizeof name, "%.*s-dt-x0.25", (int)strcspn(j->trial->name, "-"), j->trial->name);
+    const sb_judged *finest = sb_judged_find(j, name);
+    const double fine = finest ? sb_outcome_number(&finest->outcome, "fallen_J") : (double)NAN;
+    const double off = sb_outcome_number(o, "fallen_J") / fine - 1;
+    sb_note(j, "fall %+.2f %% relative to the shortest step", 100 * off);
+    sb_note(j, "%.1f sweeps", sb_outcome_number(o, "mean_iterations"));
+    sb_note(j, "remaining density error %.1e", sb_outcome_number(o, "mean_density_error"));
+    if (sb_outcome_number(o, "told") > 0) sb_note(j, "a warning reports that the step is too long");
+    sb_require(j, fabs(off) <= 0.01 * j->trial->number, "differs by more than 1 %% per default step");
+    sb_require(j, sb_outcome_number(o, "energy_peak_J") / sb_energy_of(j, false) < 1.005, "the energy increases");
 }
 
 const sb_stress sb_stress_steps = {
@@ -112,32 +108,37 @@ static void plan_tolerances(sb_trials *trials, bool quick)
     }
 }
 
-static void judge_tolerances(sb_judged *all, size_t count)
+/* The trial before with the same solver, whose tolerance is looser; NULL: none has run. */
+static const sb_judged *looser_than(const sb_judged *j)
 {
-    const sb_judged *looser = NULL;
-    for (size_t i = 0; i < count; i++) {
-        sb_judged *j = &all[i];
-        const sb_outcome *o = &j->outcome;
-        if (!o->there) continue;
-        const double left = sb_outcome_number(o, "mean_density_error");
-        const double sweeps = sb_outcome_number(o, "mean_iterations");
-        const double share = sb_outcome_number(o, "error_over_tolerance");
-        sb_note(j, "remaining density error %.1e", left);
-        sb_note(j, "%.1f sweeps", sweeps);
-        if (!(j->trial->number > 0)) { /* it cannot converge and must report that */
-            const double capped = sb_outcome_number(o, "capped_steps"), steps_done = sb_outcome_number(o, "steps");
-            sb_require(j, capped > 0.9 * steps_done, "%g of %g steps counted as capped", capped, steps_done);
-            continue;
-        }
-        sb_require(j, share <= 1, "a solve left %g times its tolerance", share);
-        if (looser && looser->trial->number > 0 && looser->trial->number < j->trial->number &&
-            strncmp(looser->trial->name, j->trial->name, strcspn(j->trial->name, "-")) == 0) {
-            sb_require(j, left < sb_outcome_number(&looser->outcome, "mean_density_error"), "the error does not fall");
-            sb_require(j, sweeps > sb_outcome_number(&looser->outcome, "mean_iterations"),
-                       "the sweeps do not increase");
-        }
-        looser = j;
+    const size_t solver = strcspn(j->trial->name, "-");
+    for (size_t i = (size_t)(j - j->all); i-- > 0;) {
+        const sb_judged *other = &j->all[i];
+        if (!other->outcome.there || !(other->trial->number > 0)) continue;
+        const bool same = strncmp(other->trial->name, j->trial->name, solver) == 0;
+        return same && other->trial->number < j->trial->number ? other : NULL;
     }
+    return NULL;
+}
+
+static void judge_tolerances(sb_judged *j)
+{
+    const sb_outcome *o = &j->outcome;
+    const double left = sb_outcome_number(o, "mean_density_error");
+    const double sweeps = sb_outcome_number(o, "mean_iterations");
+    const double share = sb_outcome_number(o, "error_over_tolerance");
+    sb_note(j, "remaining density error %.1e", left);
+    sb_note(j, "%.1f sweeps", sweeps);
+    if (!(j->trial->number > 0)) { /* it cannot converge and must report that */
+        const double capped = sb_outcome_number(o, "capped_steps"), steps_done = sb_outcome_number(o, "steps");
+        sb_require(j, capped > 0.9 * steps_done, "%g of %g steps counted as capped", capped, steps_done);
+        return;
+    }
+    sb_require(j, share <= 1, "a solve left %g times its tolerance", share);
+    const sb_judged *looser = looser_than(j);
+    if (!looser) return;
+    sb_require(j, left < sb_outcome_number(&looser->outcome, "mean_density_error"), "the error does not fall");
+    sb_require(j, sweeps > sb_outcome_number(&looser->outcome, "mean_iterations"), "the sweeps do not increase");
 }
 
 const sb_stress sb_stress_tolerances = {

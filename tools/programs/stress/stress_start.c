@@ -131,29 +131,25 @@ static void plan(sb_trials *trials, bool quick)
     sb_trial_drive(t, &spray, 3000);
 }
 
-static void judge(sb_judged *all, size_t count)
+static void judge(sb_judged *j)
 {
-    for (size_t i = 0; i < count; i++) {
-        sb_judged *j = &all[i];
-        const sb_outcome *o = &j->outcome;
-        if (!o->there) continue;
-        const bool alone = strcmp(j->trial->name, "alone") == 0, flies = strcmp(j->trial->name, "spray") == 0;
-        const double peak = sb_outcome_number(o, "energy_peak_J") / sb_energy_of(j, false);
-        const double speed = sb_outcome_number(o, "late_rms_speed") / sb_outcome_number(o, "wave_speed");
-        if (alone) {
-            const double exact = sb_outcome_number(o, "off_exact");
-            sb_note(j, "distance from the exact parabola %.1e δr", exact);
-            sb_note(j, "g dt t/2 is %.2f δr", sb_outcome_number(o, "first_order"));
-            sb_require(j, exact < 1e-3, "the particle is off the exact parabola");
-            continue;
-        }
-        sb_note(j, "highest energy %.4f of the initial energy", peak);
-        if (!flies) sb_note(j, "mean speed %.2g of √(gD) in the second half", speed);
-        /* Overlapping particles that do not settle are under pressure, which releases more than the initial kinetic
-         * energy. */
-        sb_require(j, peak < (strstr(j->trial->name, "unsettled") ? 1.1 : 1.005), "the energy increases");
-        if (!flies) sb_require(j, speed < 0.02, "the water does not come to rest");
+    const sb_outcome *o = &j->outcome;
+    const bool alone = strcmp(j->trial->name, "alone") == 0, flies = strcmp(j->trial->name, "spray") == 0;
+    const double peak = sb_outcome_number(o, "energy_peak_J") / sb_energy_of(j, false);
+    const double speed = sb_outcome_number(o, "late_rms_speed") / sb_outcome_number(o, "wave_speed");
+    if (alone) {
+        const double exact = sb_outcome_number(o, "off_exact");
+        sb_note(j, "distance from the exact parabola %.1e δr", exact);
+        sb_note(j, "g dt t/2 is %.2f δr", sb_outcome_number(o, "first_order"));
+        sb_require(j, exact < 1e-3, "the particle is off the exact parabola");
+        return;
     }
+    sb_note(j, "highest energy %.4f of the initial energy", peak);
+    if (!flies) sb_note(j, "mean speed %.2g of √(gD) in the second half", speed);
+    /* Overlapping particles that do not settle are under pressure, which releases more than the initial kinetic
+     * energy. */
+    sb_require(j, peak < (strstr(j->trial->name, "unsettled") ? 1.1 : 1.005), "the energy increases");
+    if (!flies) sb_require(j, speed < 0.02, "the water does not come to rest");
 }
 
 const sb_stress sb_stress_start = {
@@ -209,30 +205,26 @@ static void plan_sampling(sb_trials *trials, bool quick)
     }
 }
 
-static void judge_sampling(sb_judged *all, size_t count)
+static void judge_sampling(sb_judged *j)
 {
-    for (size_t i = 0; i < count; i++) {
-        sb_judged *j = &all[i];
-        const sb_outcome *o = &j->outcome;
-        if (!o->there) continue;
-        if (o->how == SB_ENDS_FAILED && (j->trial->ends & SB_ENDS_FAILED)) {
-            sb_note(j, "failed: %.180s", o->last_line);
-            sb_require(j, strstr(o->last_line, "step 0: more than"), "it fails for another reason");
-            continue;
-        }
-        const double speed = sb_outcome_number(o, "late_rms_speed") / sb_outcome_number(o, "wave_speed");
-        const double weight = sb_outcome_number(o, "mass_kg") * sb_outcome_number(o, "gravity");
-        const double height = sb_outcome_number_in(o, "energy_end", "potential_J") / weight;
-        const double spacing = sb_outcome_number(o, "resolution_m");
-        sb_note(j, "mean speed %.2g of √(gD)", speed);
-        sb_require(j, speed < 0.02, "the water does not come to rest");
-        const bool slice = strncmp(j->trial->name, "slice", 5) == 0;
-        const sb_judged *usual = sb_judged_find(all, count, slice ? "slice-x1" : "basin-x1");
-        const double usual_height =
-            usual ? sb_outcome_number_in(&usual->outcome, "energy_end", "potential_J") / weight : (double)NAN;
-        sb_note(j, "centre of mass %+.3f δr from that of the usual sampling", (height - usual_height) / spacing);
-        sb_require(j, fabs(height - usual_height) < 0.25 * spacing, "the centre of mass differs");
+    const sb_outcome *o = &j->outcome;
+    if (o->how == SB_ENDS_FAILED && (j->trial->ends & SB_ENDS_FAILED)) {
+        sb_note(j, "failed: %.180s", o->last_line);
+        sb_require(j, strstr(o->last_line, "step 0: more than"), "it fails for another reason");
+        return;
     }
+    const double speed = sb_outcome_number(o, "late_rms_speed") / sb_outcome_number(o, "wave_speed");
+    const double weight = sb_outcome_number(o, "mass_kg") * sb_outcome_number(o, "gravity");
+    const double height = sb_outcome_number_in(o, "energy_end", "potential_J") / weight;
+    const double spacing = sb_outcome_number(o, "resolution_m");
+    sb_note(j, "mean speed %.2g of √(gD)", speed);
+    sb_require(j, speed < 0.02, "the water does not come to rest");
+    const bool slice = strncmp(j->trial->name, "slice", 5) == 0;
+    const sb_judged *usual = sb_judged_find(j, slice ? "slice-x1" : "basin-x1");
+    const double usual_height =
+        usual ? sb_outcome_number_in(&usual->outcome, "energy_end", "potential_J") / weight : (double)NAN;
+    sb_note(j, "centre of mass %+.3f δr from that of the usual sampling", (height - usual_height) / spacing);
+    sb_require(j, fabs(height - usual_height) < 0.25 * spacing, "the centre of mass differs");
 }
 
 const sb_stress sb_stress_sampling = {

@@ -29,23 +29,19 @@ static void plan(sb_trials *trials, bool quick)
     add(trials, "basin.yaml", "basin-0.1", 0.1, 0.6, 10000);
 }
 
-static void judge(sb_judged *all, size_t count)
+static void judge(sb_judged *j)
 {
-    for (size_t i = 0; i < count; i++) {
-        sb_judged *j = &all[i];
-        const sb_outcome *o = &j->outcome;
-        if (!o->there) continue;
-        const double speed = sb_outcome_number(o, "late_rms_speed") / sb_outcome_number(o, "wave_speed");
-        const double weight = sb_outcome_number(o, "mass_kg") * sb_outcome_number(o, "gravity");
-        const double rise = (sb_outcome_number_in(o, "energy_end", "potential_J") -
-                             sb_outcome_number_in(o, "energy_start", "potential_J")) /
-                            (weight * sb_outcome_number(o, "resolution_m"));
-        sb_note(j, "mean speed %.2g of √(gD)", speed);
-        sb_note(j, "centre of mass moved %+.2g δr", rise);
-        sb_require(j, speed < 0.01, "the water does not come to rest");
-        sb_require(j, fabs(rise) < 0.1, "the centre of mass has moved");
-        sb_require(j, sb_outcome_number(o, "steps") >= 0.99 * j->trial->number, "fewer steps than requested");
-    }
+    const sb_outcome *o = &j->outcome;
+    const double speed = sb_outcome_number(o, "late_rms_speed") / sb_outcome_number(o, "wave_speed");
+    const double weight = sb_outcome_number(o, "mass_kg") * sb_outcome_number(o, "gravity");
+    const double rise = (sb_outcome_number_in(o, "energy_end", "potential_J") -
+                         sb_outcome_number_in(o, "energy_start", "potential_J")) /
+                        (weight * sb_outcome_number(o, "resolution_m"));
+    sb_note(j, "mean speed %.2g of √(gD)", speed);
+    sb_note(j, "centre of mass moved %+.2g δr", rise);
+    sb_require(j, speed < 0.01, "the water does not come to rest");
+    sb_require(j, fabs(rise) < 0.1, "the centre of mass has moved");
+    sb_require(j, sb_outcome_number(o, "steps") >= 0.99 * j->trial->number, "fewer steps than requested");
 }
 
 const sb_stress sb_stress_still = {

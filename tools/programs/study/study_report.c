@@ -84,40 +84,31 @@ static const char reading[] =
     "  the seeds it is their range plus twice the standard error.\n"
     "- Peaks are those of forces averaged over `measure.interval`: use the same interval for all spacings.\n";
 
-/* Adds the line from the finest value to that at spacing 0, and the error bar of the finest value. */
-static sb_status add_bar(const sb_study_row *row, const sb_level *finest, sb_curve *limit, sb_curve *bar,
-                         sb_error *error)
-{
-    const double half = row->convergence.uncertainty;
-    sb_status status = sb_curve_add(limit, finest->spacing, finest->value, error);
-    if (status == SB_OK) status = sb_curve_add(limit, 0, row->convergence.extrapolated, error);
-    if (isnan(half)) return status;
-    if (status == SB_OK) status = sb_curve_add(bar, finest->spacing, finest->value - half, error);
-    return status == SB_OK ? sb_curve_add(bar, finest->spacing, finest->value + half, error) : status;
-}
-
-static sb_status plot_row(const sb_study *study, const sb_study_row *row, sb_plot *plot, sb_error *error)
+static void plot_row(const sb_study *study, const sb_study_row *row, sb_plot *plot)
 {
     const sb_study_options *o = study->options;
-    sb_curve marks = {0}, line = {0}, limit = {0}, bar = {0};
-    sb_status status = sb_plot_panel(plot, row->quantity, "spacing (m)", row->unit, error);
-    if (status == SB_OK) sb_plot_range(plot, 0, (double)NAN, (double)NAN, (double)NAN);
-    for (size_t i = 0; status == SB_OK && i < study->count; i++)
-        status = sb_curve_add(&marks, o->spacings[i / (size_t)o->seeds], row->values[i], error);
-    for (size_t l = 0; status == SB_OK && l < o->spacing_count; l++)
-        status = sb_curve_add(&line, o->spacings[l], row->levels[l].value, error);
-    for (size_t l = 0; status == SB_OK && l < o->spacing_count; l++)
-        if (row->levels[l].spacing == row->finest) status = add_bar(row, &row->levels[l], &limit, &bar, error);
-    if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_MARKS, "seeds", &marks, error);
-    if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_LINE, "mean", &line, error);
-    if (status == SB_OK && bar.count) status = sb_plot_curve(plot, SB_PLOT_LINE, "error bar", &bar, error);
-    if (status == SB_OK && !isnan(row->convergence.extrapolated))
-        status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "extrapolated", &limit, error);
-    sb_curve_free(&marks);
-    sb_curve_free(&line);
-    sb_curve_free(&limit);
-    sb_curve_free(&bar);
-    return status;
+    const double half = row->convergence.uncertainty;
+    sb_curves made = {0};
+    sb_curve *marks = sb_curve_new(&made), *line = sb_curve_new(&made), *limit = sb_curve_new(&made);
+    sb_curve *bar = sb_curve_new(&made);
+    for (size_t i = 0; i < study->count; i++) sb_curve_add(marks, o->spacings[i / (size_t)o->seeds], row->values[i]);
+    for (const sb_level *l = row->levels; l < row->levels + o->spacing_count; l++) {
+        sb_curve_add(line, l->spacing, l->value);
+        if (l->spacing != row->finest) continue;
+        /* The line from the finest value to that at spacing 0, and its error bar. */
+        sb_curve_add(limit, l->spacing, l->value);
+        sb_curve_add(limit, 0, row->convergence.extrapolated);
+        if (isnan(half)) continue;
+        sb_curve_add(bar, l->spacing, l->value - half);
+        sb_curve_add(bar, l->spacing, l->value + half);
+    }
+    sb_plot_panel(plot, row->quantity, "spacing (m)", row->unit);
+    sb_plot_range(plot, 0, (double)NAN, (double)NAN, (double)NAN);
+    sb_plot_curve(plot, SB_PLOT_MARKS, "seeds", marks);
+    sb_plot_curve(plot, SB_PLOT_LINE, "mean", line);
+    if (bar->count) sb_plot_curve(plot, SB_PLOT_LINE, "error bar", bar);
+    if (!isnan(row->convergence.extrapolated)) sb_plot_curve(plot, SB_PLOT_REFERENCE, "extrapolated", limit);
+    sb_curves_free(&made);
 }
 
 static sb_status draw(const sb_study *study, sb_error *error)
@@ -126,7 +117,7 @@ static sb_status draw(const sb_study *study, sb_error *error)
     sb_status status = plot ? SB_OK : sb_fail_memory(error, "a plot");
     if (status == SB_OK && !study->row_count) status = sb_fail(error, SB_FAILED, "nothing was measured");
     for (size_t i = 0; status == SB_OK && i < study->row_count && i < PANELS; i++)
-        status = plot_row(study, &study->rows[i], plot, error);
+        plot_row(study, &study->rows[i], plot);
     if (status == SB_OK) status = sb_plot_picture(plot, study->store->out, "study", study->store->out, error);
     sb_plot_destroy(plot);
     return status;

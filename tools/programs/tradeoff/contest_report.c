@@ -73,43 +73,26 @@ static const char reading[] =
     "not significant. Errors include\nthat of the discretisation: if all choices at a spacing have the same error, the "
     "spacing causes it.\n\n";
 
-static int by_time(const void *a, const void *b)
-{
-    const sb_entry *const *first = a, *const *second = b;
-    return ((*first)->time.mean > (*second)->time.mean) - ((*first)->time.mean < (*second)->time.mean);
-}
-
-static sb_status plot_front(const sb_contest *c, sb_plot *plot, sb_error *error)
+static void plot_front(const sb_contest *c, sb_plot *plot)
 {
     sb_curve curve = {0};
-    size_t count = 0;
-    const sb_entry **front = sb_alloc(c->entry_count, sizeof *front);
-    sb_status status = front ? SB_OK : sb_fail_memory(error, "a front");
-    for (size_t i = 0; front && i < c->entry_count; i++)
-        if (c->entries[i].front) front[count++] = &c->entries[i];
-    if (front) qsort(front, count, sizeof *front, by_time);
-    for (size_t i = 0; status == SB_OK && i < count; i++)
-        status = sb_curve_add(&curve, front[i]->time.mean, front[i]->errors[0].mean, error);
-    if (status == SB_OK && count) status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "Pareto front", &curve, error);
+    for (size_t i = 0; i < c->entry_count; i++)
+        if (c->entries[i].front) sb_curve_add(&curve, c->entries[i].time.mean, c->entries[i].errors[0].mean);
+    sb_curve_sort(&curve);
+    if (curve.count) sb_plot_curve(plot, SB_PLOT_REFERENCE, "Pareto front", &curve);
     sb_curve_free(&curve);
-    sb_free(front);
-    return status;
 }
 
-/* Plots the spacings of a choice as marks of one kind, joined from coarse to fine. A choice that was not run has an
-   empty curve, so that a choice has the same colour in every panel. */
-static sb_status plot_choice(const sb_contest *c, const sb_choice *choice, sb_plot *plot, sb_error *error)
+/* Plots the spacings of a choice as marks of one kind, joined from coarse to fine. */
+static void plot_choice(const sb_contest *c, const sb_choice *choice, sb_plot *plot)
 {
     sb_curve curve = {0};
-    sb_status status = SB_OK;
-    for (size_t i = 0; status == SB_OK && i < c->entry_count; i++) {
+    for (size_t i = 0; i < c->entry_count; i++) {
         double y = c->entries[i].errors[0].mean;
-        if (c->entries[i].choice == choice)
-            status = sb_curve_add(&curve, c->entries[i].time.mean, y > 0 ? y : (double)NAN, error);
+        if (c->entries[i].choice == choice) sb_curve_add(&curve, c->entries[i].time.mean, y > 0 ? y : (double)NAN);
     }
-    if (status == SB_OK && curve.count) status = sb_plot_curve(plot, SB_PLOT_CHAIN, choice->name, &curve, error);
+    if (curve.count) sb_plot_curve(plot, SB_PLOT_CHAIN, choice->name, &curve);
     sb_curve_free(&curve);
-    return status;
 }
 
 static bool has_marks(const sb_contest *c)
@@ -119,18 +102,15 @@ static bool has_marks(const sb_contest *c)
     return false;
 }
 
-static sb_status plot_contest(const sb_contest *c, bool cpu, sb_plot *plot, sb_error *error)
+static void plot_contest(const sb_contest *c, bool cpu, sb_plot *plot)
 {
     char label[96];
     const sb_error_measure *m = &c->subject->errors[0];
     snprintf(label, sizeof label, "error of %.60s (%s)", m->name, m->unit);
-    sb_status status =
-        sb_plot_panel(plot, c->subject->title, cpu ? "processor time (s)" : "run time (s)", label, error);
-    if (status == SB_OK) sb_plot_logarithmic(plot);
-    if (status == SB_OK) status = plot_front(c, plot, error);
-    for (const sb_choice *choice = sb_choices; status == SB_OK && choice->name; choice++)
-        status = plot_choice(c, choice, plot, error);
-    return status;
+    sb_plot_panel(plot, c->subject->title, cpu ? "processor time (s)" : "run time (s)", label);
+    sb_plot_logarithmic(plot);
+    plot_front(c, plot);
+    for (const sb_choice *choice = sb_choices; choice->name; choice++) plot_choice(c, choice, plot);
 }
 
 static sb_status draw(const sb_contest_report *r, sb_error *error)
@@ -138,7 +118,7 @@ static sb_status draw(const sb_contest_report *r, sb_error *error)
     sb_plot *plot = sb_plot_create();
     sb_status status = plot ? SB_OK : sb_fail_memory(error, "a plot");
     for (size_t i = 0; status == SB_OK && i < r->count; i++)
-        if (has_marks(&r->contests[i])) status = plot_contest(&r->contests[i], r->cpu, plot, error);
+        if (has_marks(&r->contests[i])) plot_contest(&r->contests[i], r->cpu, plot);
     if (status == SB_OK) status = sb_plot_picture(plot, r->store->out, "tradeoff", r->folder, error);
     sb_plot_destroy(plot);
     return status;

@@ -21,15 +21,14 @@ static const experiment martin_moyce_small = {
     "dambreak-front/martin-moyce-small.csv", {"", NULL}, 0.05715, 0.21, false, 8};
 static const experiment koshizuka = {"dambreak-front/koshizuka.csv", {"a", "b", NULL}, 0.292, 0.28, false, 8};
 
-static sb_status measured(const sb_case_run *run, const experiment *e, const char *set, sb_curve *curve,
-                          sb_error *error)
+static sb_curve *measured(const sb_case_run *run, const experiment *e, const char *set)
 {
-    return sb_reference_curve(run, e->table, *set ? set : NULL, "time_s", "front_m", curve, error);
+    return sb_reference_curve(run, e->table, *set ? set : NULL, "time_s", "front_m");
 }
 
-static sb_status simulated(const sb_case_run *run, sb_curve *curve, sb_error *error)
+static sb_curve *simulated(const sb_case_run *run)
 {
-    return sb_run_curve(run, "runup.csv", "floor", "time_s", "front_m", curve, error);
+    return sb_run_curve(run, "runup.csv", "floor", "time_s", "front_m");
 }
 
 /* Distances between two fronts at the measured times, and the range of the measured one. */
@@ -60,99 +59,56 @@ static const char *name_of(char text[SB_FIGURE_TEXT], const char *quantity, cons
     return text;
 }
 
-static sb_status add_figures(const experiment *e, const char *set, const sb_curve *front, const sb_curve *reference,
-                             sb_figures *figures, sb_error *error)
+/* The shift with which both fronts pass one depth from the gate at the same time. */
+static double lag_of(const experiment *e, const sb_curve *front, const sb_curve *reference)
 {
-    char name[SB_FIGURE_TEXT];
-    distance d = distance_of(front, reference, e->last);
-    sb_status status = sb_figure_below(
-        figures, name_of(name, "front, mean distance", set), "%", 100 * d.mean / d.range, e->limit, error,
-        "mean |dx| at the measured times until %g s, in %% of the range %.3f m", e->last, d.range);
-    if (status == SB_OK)
-        status = sb_figure_report(figures, name_of(name, "front, largest distance", set), "%", NONE,
-                                  100 * d.largest / d.range, error, "at the same times");
-    return status;
+    return sb_curve_onset(reference, e->depth, 0) - sb_curve_onset(front, e->depth, 0);
 }
 
-/* Adds the shift with which both fronts pass one depth from the gate at the same time and, if figures are judged
-   without the shift, the mean distance with it. */
-static sb_status add_shift(const experiment *e, const char *set, double lag, sb_curve *front, const sb_curve *reference,
-                           sb_figures *figures, sb_error *error)
+/* If figures are judged without the shift, the mean distance with it is reported. */
+static void evaluate_set(const sb_case_run *run, const experiment *e, const char *set, sb_figures *figures)
 {
     char name[SB_FIGURE_TEXT];
-    sb_status status = sb_figure_report(figures, name_of(name, "shift of the clock", set), "s", NONE, lag, error,
-                                        "with this shift both fronts pass %g m at the same time; %s", e->depth,
-                                        e->lag ? "applied" : "not applied");
-    if (status != SB_OK || e->lag) return status;
+    const sb_curve *reference = measured(run, e, set);
+    sb_curve *front = simulated(run);
+    const double lag = lag_of(e, front, reference);
+    if (e->lag) sb_curve_map(front, 1, lag, 1, 0);
+    distance d = distance_of(front, reference, e->last);
+    sb_figure_below(figures, name_of(name, "front, mean distance", set), "%", 100 * d.mean / d.range, e->limit,
+                    "mean |dx| at the measured times until %g s, in %% of the range %.3f m", e->last, d.range);
+    sb_figure_report(figures, name_of(name, "front, largest distance", set), "%", NONE, 100 * d.largest / d.range,
+                     "at the same times");
+    sb_figure_report(figures, name_of(name, "shift of the clock", set), "s", NONE, lag,
+                     "with this shift both fronts pass %g m at the same time; %s", e->depth,
+                     e->lag ? "applied" : "not applied");
+    if (e->lag) return;
     sb_curve_map(front, 1, lag, 1, 0);
-    distance d = distance_of(front, reference, e->last);
-    return sb_figure_report(figures, name_of(name, "front, mean distance if shifted", set), "%", NONE,
-                            100 * d.mean / d.range, error, "with that shift");
+    d = distance_of(front, reference, e->last);
+    sb_figure_report(figures, name_of(name, "front, mean distance if shifted", set), "%", NONE, 100 * d.mean / d.range,
+                     "with that shift");
 }
 
-static sb_status evaluate_set(const sb_case_run *run, const experiment *e, const char *set, sb_figures *figures,
-                              sb_error *error)
-{
-    sb_curve front = {0}, reference = {0};
-    sb_status status = measured(run, e, set, &reference, error);
-    if (status == SB_OK) status = simulated(run, &front, error);
-    if (status == SB_OK) {
-        double lag = sb_curve_onset(&reference, e->depth, 0) - sb_curve_onset(&front, e->depth, 0);
-        if (e->lag) sb_curve_map(&front, 1, lag, 1, 0);
-        status = add_figures(e, set, &front, &reference, figures, error);
-        if (status == SB_OK) status = add_shift(e, set, lag, &front, &reference, figures, error);
-    }
-    sb_curve_free(&front);
-    sb_curve_free(&reference);
-    return status;
-}
-
-static sb_status evaluate(const sb_case_run *run, sb_figures *figures, sb_error *error)
+static void evaluate(const sb_case_run *run, sb_figures *figures)
 {
     const experiment *e = run->of->what;
-    sb_status status = SB_OK;
-    for (int k = 0; status == SB_OK && e->sets[k]; k++) status = evaluate_set(run, e, e->sets[k], figures, error);
-    return status;
-}
-
-static sb_status plot_measured(const sb_case_run *run, const experiment *e, sb_plot *plot, sb_error *error)
-{
-    sb_status status = SB_OK;
-    for (int k = 0; status == SB_OK && e->sets[k]; k++) {
-        char label[SB_FIGURE_TEXT] = "measured";
-        if (*e->sets[k]) snprintf(label, sizeof label, "measured, digitisation %s", e->sets[k]);
-        sb_curve reference = {0};
-        status = measured(run, e, e->sets[k], &reference, error);
-        if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_POINTS, label, &reference, error);
-        sb_curve_free(&reference);
-    }
-    return status;
+    for (int k = 0; e->sets[k]; k++) evaluate_set(run, e, e->sets[k], figures);
 }
 
 /* The clock is shifted as in the figures. */
-static sb_status plot_run(const sb_case_run *run, const experiment *e, sb_plot *plot, sb_error *error)
-{
-    sb_curve front = {0}, reference = {0};
-    sb_status status = measured(run, e, e->sets[0], &reference, error);
-    if (status == SB_OK) status = simulated(run, &front, error);
-    if (status == SB_OK && e->lag) {
-        double lag = sb_curve_onset(&reference, e->depth, 0) - sb_curve_onset(&front, e->depth, 0);
-        sb_curve_map(&front, 1, lag, 1, 0);
-    }
-    if (status == SB_OK) status = sb_plot_run(plot, run, &front, error);
-    sb_curve_free(&front);
-    sb_curve_free(&reference);
-    return status;
-}
-
-static sb_status draw(const sb_case_run *runs, size_t count, sb_plot *plot, sb_error *error)
+static void draw(const sb_case_run *runs, size_t count, sb_plot *plot)
 {
     const experiment *e = runs[0].of->what;
-    sb_status status = sb_plot_panel(plot, "Front of the water", "time [s]", "distance from the gate [m]", error);
+    sb_plot_panel(plot, "Front of the water", "time [s]", "distance from the gate [m]");
     sb_plot_range(plot, 0, 1.1 * e->last, 0, NONE);
-    if (status == SB_OK) status = plot_measured(&runs[0], e, plot, error);
-    for (size_t i = 0; status == SB_OK && i < count; i++) status = plot_run(&runs[i], e, plot, error);
-    return status;
+    for (int k = 0; e->sets[k]; k++) {
+        char label[SB_FIGURE_TEXT];
+        sb_plot_curve(plot, SB_PLOT_POINTS, name_of(label, "measured", e->sets[k]), measured(&runs[0], e, e->sets[k]));
+    }
+    for (size_t i = 0; i < count; i++) {
+        sb_curve *front = simulated(&runs[i]);
+        if (e->lag) sb_curve_map(front, 1, lag_of(e, front, measured(&runs[i], e, e->sets[0])), 1, 0);
+        sb_plot_run(plot, &runs[i], front);
+    }
 }
 
 /* 20, 40 and 80 particles in the depth. */

@@ -30,48 +30,33 @@ enum { PROBES = 3 };
 
 /* Metres above still water. A gauge without water counts as still water: the film there is thinner than a particle.
  */
-static sb_status elevation(const sb_case_run *run, const gauge *g, sb_curve *filtered, sb_error *error)
+static sb_curve *elevation(const sb_case_run *run, const gauge *g)
 {
-    sb_curve raw = {0};
-    sb_status status = sb_run_curve(run, "gauges.csv", g->name, "time_s", "z_m", &raw, error);
-    for (size_t i = 0; i < raw.count; i++) raw.y[i] = isnan(raw.y[i]) ? 0 : raw.y[i] - LEVEL;
-    if (status == SB_OK) status = sb_curve_mean_filter(&raw, FILTER, filtered, error);
-    sb_curve_free(&raw);
-    return status;
+    sb_curve *raw = sb_run_curve(run, "gauges.csv", g->name, "time_s", "z_m");
+    for (size_t i = 0; i < raw->count; i++) raw->y[i] = isnan(raw->y[i]) ? 0 : raw->y[i] - LEVEL;
+    return sb_curve_mean_filter(run->made, raw, FILTER);
 }
 
-static sb_status measured_elevation(const sb_case_run *run, const gauge *g, sb_curve *curve, sb_error *error)
+static sb_curve *velocity(const sb_case_run *run, const char *probe)
 {
-    sb_status status = sb_reference_curve(run, "island/gauges.csv", NULL, "time_s", g->column, curve, error);
-    if (status == SB_OK) sb_curve_map(curve, 1, 0, 1e-3, 0);
-    return status;
+    const sb_curve *raw = sb_run_curve(run, "probes.csv", probe, "time_s", "u_m_s");
+    return sb_curve_mean_filter(run->made, raw, VELOCITY_FILTER);
 }
 
-static sb_status velocity(const sb_case_run *run, const char *probe, sb_curve *filtered, sb_error *error)
+/* In m or m/s; the table is in mm. */
+static sb_curve *measured_of(const sb_case_run *run, const char *table, const char *column)
 {
-    sb_curve raw = {0};
-    sb_status status = sb_run_curve(run, "probes.csv", probe, "time_s", "u_m_s", &raw, error);
-    if (status == SB_OK) status = sb_curve_mean_filter(&raw, VELOCITY_FILTER, filtered, error);
-    sb_curve_free(&raw);
-    return status;
+    sb_curve *curve = sb_reference_curve(run, table, NULL, "time_s", column);
+    sb_curve_map(curve, 1, 0, 1e-3, 0);
+    return curve;
 }
 
-static sb_status measured_velocity(const sb_case_run *run, const char *column, sb_curve *curve, sb_error *error)
-{
-    sb_status status = sb_reference_curve(run, "island/velocities.csv", NULL, "time_s", column, curve, error);
-    if (status == SB_OK) sb_curve_map(curve, 1, 0, 1e-3, 0);
-    return status;
-}
-
-static sb_status add_crest(const gauge *g, const sb_curve *ours, const sb_curve *measured, double end,
-                           sb_figures *figures, sb_error *error)
+static void add_crest(const gauge *g, const sb_curve *ours, const sb_curve *measured, double end, sb_figures *figures)
 {
     char name[SB_FIGURE_TEXT];
-    size_t top = sb_curve_highest(measured, BEGIN, end);
-    double crest = measured->y[top], when = measured->x[top];
-    size_t our_top = sb_curve_highest(ours, BEGIN, end);
-    double our_crest = our_top == (size_t)-1 ? NONE : ours->y[our_top];
-    double our_time = our_top == (size_t)-1 ? NONE : ours->x[our_top];
+    size_t top = sb_curve_highest(measured, BEGIN, end), our_top = sb_curve_highest(ours, BEGIN, end);
+    double crest = sb_curve_y(measured, top), when = sb_curve_x(measured, top);
+    double our_crest = sb_curve_y(ours, our_top), our_time = sb_curve_x(ours, our_top);
     char note[SB_FIGURE_NOTE];
     snprintf(note, sizeof note, "measured at %.2f s, simulated at %.2f s", when, our_time);
     if (!(fabs(our_time - when) <= OTHER_WAVE)) {
@@ -81,113 +66,61 @@ static sb_status add_crest(const gauge *g, const sb_curve *ours, const sb_curve 
         our_crest = NONE;
     }
     snprintf(name, sizeof name, "%s crest", g->name);
-    sb_status status =
-        g->share > 0
-            ? sb_figure_share(figures, name, "m", crest, our_crest, HEIGHT, g->share, error, "relative to H; %s", note)
-            : sb_figure_difference(figures, name, "m", crest, our_crest, 0.04, error, "%s", note);
+    if (g->share > 0)
+        sb_figure_share(figures, name, "m", crest, our_crest, HEIGHT, g->share, "relative to H; %s", note);
+    else
+        sb_figure_difference(figures, name, "m", crest, our_crest, 0.04, "%s", note);
     snprintf(name, sizeof name, "%s arrival", g->name);
-    if (status == SB_OK)
-        status = sb_figure_difference(figures, name, "s", sb_curve_onset(measured, crest / 2, BEGIN),
-                                      sb_curve_onset(ours, crest / 2, BEGIN), 0.15, error,
-                                      "first rise above half of the measured crest");
-    return status;
+    sb_figure_difference(figures, name, "s", sb_curve_onset(measured, crest / 2, BEGIN),
+                         sb_curve_onset(ours, crest / 2, BEGIN), 0.15, "first rise above half of the measured crest");
 }
 
-static sb_status add_gauge(const sb_case_run *run, const gauge *g, sb_figures *figures, sb_error *error)
-{
-    sb_curve ours = {0}, measured = {0};
-    double end = fmin(run->scene->duration, END);
-    sb_status status = measured_elevation(run, g, &measured, error);
-    if (status == SB_OK) status = elevation(run, g, &ours, error);
-    if (status == SB_OK) {
-        size_t top = sb_curve_highest(&measured, BEGIN, END);
-        if (measured.x[top] + 0.3 < end) /* a shortened run ends before later crests */
-            status = add_crest(g, &ours, &measured, end, figures, error);
-    }
-    sb_curve_free(&ours);
-    sb_curve_free(&measured);
-    return status;
-}
-
-static sb_status add_probe(const sb_case_run *run, int k, sb_figures *figures, sb_error *error)
+static void add_probe(const sb_case_run *run, int k, sb_figures *figures)
 {
     char name[SB_FIGURE_TEXT];
-    sb_curve ours = {0}, measured = {0};
-    sb_status status = measured_velocity(run, probes[k][1], &measured, error);
-    if (status == SB_OK) status = velocity(run, probes[k][0], &ours, error);
+    const sb_curve *measured = measured_of(run, "island/velocities.csv", probes[k][1]);
+    const sb_curve *ours = velocity(run, probes[k][0]);
     snprintf(name, sizeof name, "U at %s, RMS difference", probes[k][0]);
-    if (status == SB_OK)
-        status =
-            sb_figure_report(figures, name, "m/s", NONE, sb_curve_rms_difference(&ours, &measured, VELOCITY_BEGIN, END),
-                             error, "0.1 s means from %g s, at the %zu of %zu measured points where both have water",
-                             VELOCITY_BEGIN, sb_curve_shared(&ours, &measured, VELOCITY_BEGIN, END),
-                             sb_curve_shared(&measured, &measured, VELOCITY_BEGIN, END));
+    sb_figure_report(figures, name, "m/s", NONE, sb_curve_rms_difference(ours, measured, VELOCITY_BEGIN, END),
+                     "0.1 s means from %g s, at the %zu of %zu measured points where both have water", VELOCITY_BEGIN,
+                     sb_curve_shared(ours, measured, VELOCITY_BEGIN, END),
+                     sb_curve_shared(measured, measured, VELOCITY_BEGIN, END));
     snprintf(name, sizeof name, "U at %s, largest", probes[k][0]);
-    size_t top = sb_curve_highest(&measured, VELOCITY_BEGIN, END);
-    size_t our_top = sb_curve_highest(&ours, VELOCITY_BEGIN, END);
-    if (status == SB_OK)
-        status = sb_figure_report(figures, name, "m/s", top == (size_t)-1 ? NONE : measured.y[top],
-                                  our_top == (size_t)-1 ? NONE : ours.y[our_top], error, "from 0.1 s means");
-    sb_curve_free(&ours);
-    sb_curve_free(&measured);
-    return status;
+    sb_figure_report(figures, name, "m/s", sb_curve_y(measured, sb_curve_highest(measured, VELOCITY_BEGIN, END)),
+                     sb_curve_y(ours, sb_curve_highest(ours, VELOCITY_BEGIN, END)), "from 0.1 s means");
 }
 
-static sb_status evaluate(const sb_case_run *run, sb_figures *figures, sb_error *error)
+static void evaluate(const sb_case_run *run, sb_figures *figures)
 {
-    sb_status status = SB_OK;
-    for (int k = 0; status == SB_OK && k < GAUGES; k++) status = add_gauge(run, &gauges[k], figures, error);
-    for (int k = 0; status == SB_OK && k < PROBES; k++) status = add_probe(run, k, figures, error);
-    return status;
-}
-
-/* Reads one curve of a run. */
-typedef sb_status (*curve_reader)(const sb_case_run *run, const void *item, sb_curve *curve, sb_error *error);
-
-static sb_status read_elevation(const sb_case_run *run, const void *item, sb_curve *curve, sb_error *error)
-{
-    return elevation(run, item, curve, error);
-}
-
-static sb_status read_velocity(const sb_case_run *run, const void *item, sb_curve *curve, sb_error *error)
-{
-    return velocity(run, item, curve, error);
-}
-
-static sb_status draw_over(const sb_case_run *runs, size_t count, sb_curve *measured, curve_reader reader,
-                           const void *item, sb_plot *plot, sb_error *error)
-{
-    sb_status status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "measured", measured, error);
-    sb_curve_free(measured);
-    for (size_t i = 0; status == SB_OK && i < count; i++) {
-        sb_curve ours = {0};
-        status = reader(&runs[i], item, &ours, error);
-        if (status == SB_OK) status = sb_plot_run(plot, &runs[i], &ours, error);
-        sb_curve_free(&ours);
+    const double end = fmin(run->scene->duration, END);
+    for (const gauge *g = gauges; g < gauges + GAUGES; g++) {
+        const sb_curve *measured = measured_of(run, "island/gauges.csv", g->column);
+        const double top = sb_curve_x(measured, sb_curve_highest(measured, BEGIN, END));
+        /* A shortened run ends before later crests. */
+        if (top + 0.3 < end) add_crest(g, elevation(run, g), measured, end, figures);
     }
-    return status;
+    for (int k = 0; k < PROBES; k++) add_probe(run, k, figures);
 }
 
-static sb_status draw(const sb_case_run *runs, size_t count, sb_plot *plot, sb_error *error)
+static void begin_panel(sb_plot *plot, const char *title, const char *label, const sb_curve *measured)
 {
-    sb_status status = SB_OK;
-    for (int k = 0; status == SB_OK && count && k < GAUGES; k++) {
-        sb_curve measured = {0};
-        status = sb_plot_panel(plot, gauges[k].name, "time [s]", "elevation [m]", error);
-        sb_plot_range(plot, 2, END, NONE, NONE);
-        if (status == SB_OK) status = measured_elevation(&runs[0], &gauges[k], &measured, error);
-        if (status == SB_OK) status = draw_over(runs, count, &measured, read_elevation, &gauges[k], plot, error);
+    sb_plot_panel(plot, title, "time [s]", label);
+    sb_plot_range(plot, 2, END, NONE, NONE);
+    sb_plot_curve(plot, SB_PLOT_REFERENCE, "measured", measured);
+}
+
+static void draw(const sb_case_run *runs, size_t count, sb_plot *plot)
+{
+    for (const gauge *g = gauges; g < gauges + GAUGES; g++) {
+        begin_panel(plot, g->name, "elevation [m]", measured_of(&runs[0], "island/gauges.csv", g->column));
+        for (size_t i = 0; i < count; i++) sb_plot_run(plot, &runs[i], elevation(&runs[i], g));
     }
-    for (int k = 0; status == SB_OK && count && k < PROBES; k++) {
+    for (int k = 0; k < PROBES; k++) {
         char title[SB_FIGURE_TEXT];
-        sb_curve measured = {0};
         snprintf(title, sizeof title, "U at %s", probes[k][0]);
-        status = sb_plot_panel(plot, title, "time [s]", "u [m/s]", error);
-        sb_plot_range(plot, 2, END, NONE, NONE);
-        if (status == SB_OK) status = measured_velocity(&runs[0], probes[k][1], &measured, error);
-        if (status == SB_OK) status = draw_over(runs, count, &measured, read_velocity, probes[k][0], plot, error);
+        begin_panel(plot, title, "u [m/s]", measured_of(&runs[0], "island/velocities.csv", probes[k][1]));
+        for (size_t i = 0; i < count; i++) sb_plot_run(plot, &runs[i], velocity(&runs[i], probes[k][0]));
     }
-    return status;
 }
 
 static const char *const shortened[] = {"duration=6", NULL};

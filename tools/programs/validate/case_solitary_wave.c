@@ -1,5 +1,4 @@
 /* A solitary wave over fifty depths of still water. */
-#include "base/file.h"
 #include "cases.h"
 #include "physics/wave_theory.h"
 
@@ -11,21 +10,18 @@ static const double FIRST = 10, LAST = 60; /* m; the wave is measured between th
 static const double STRETCH = 10;          /* m; length of the fits through heights at either end */
 static const double HALF_WIDTH = 0.25;     /* s; of the parabola at a crest */
 
-/* Crests at the gauges: height above still water, and time, over x. */
-static sb_status find_crests(const sb_case_run *run, sb_curve *heights, sb_curve *times, sb_error *error)
+/* Finds the crests at the gauges: height above still water, and time, over x. */
+static sb_curve *crests(const sb_case_run *run, bool times)
 {
+    sb_curve *found = sb_curve_new(run->made);
     const sb_scene *scene = run->scene;
-    sb_status status = SB_OK;
-    for (size_t g = 0; status == SB_OK && g < scene->measure.gauge_count; g++) {
+    for (size_t g = 0; g < scene->measure.gauge_count; g++) {
         const sb_gauge *gauge = &scene->measure.gauges[g];
-        sb_curve eta = {0};
-        status = sb_run_curve(run, "gauges.csv", gauge->name, "time_s", "z_m", &eta, error);
-        sb_peak crest = sb_curve_peak(&eta, 0, HUGE_VAL, HALF_WIDTH);
-        sb_curve_free(&eta);
-        if (status == SB_OK) status = sb_curve_add(heights, gauge->x, crest.y - scene->sea.level, error);
-        if (status == SB_OK) status = sb_curve_add(times, gauge->x, crest.x, error);
+        const sb_curve *eta = sb_run_curve(run, "gauges.csv", gauge->name, "time_s", "z_m");
+        sb_peak crest = sb_curve_peak(eta, 0, HUGE_VAL, HALF_WIDTH);
+        sb_curve_add(found, gauge->x, times ? crest.x : crest.y - scene->sea.level);
     }
-    return status;
+    return found;
 }
 
 /* Whether each crest is later than the one before. If the wave has decayed to noise, a line through the times of the
@@ -49,24 +45,19 @@ typedef struct journey {
     double leaves, arrives;               /* s */
 } journey;
 
-static sb_status follow(const sb_case_run *run, journey *j, sb_error *error)
+static journey follow(const sb_case_run *run)
 {
     const sb_scene *scene = run->scene;
-    sb_curve heights = {0}, times = {0};
+    const sb_curve *heights = crests(run, false), *times = crests(run, true);
     double a, b;
-    sb_status status = find_crests(run, &heights, &times, error);
-    if (status == SB_OK) {
-        j->first = line_at(&heights, FIRST, FIRST + STRETCH, FIRST);
-        j->last = line_at(&heights, LAST - STRETCH, LAST, LAST);
-        j->damped =
-            sb_keulegan_height(j->first, scene->wave.depth, scene->fluid.viscosity, scene->fluid.gravity, LAST - FIRST);
-        j->celerity = travels(&times) && sb_curve_line(&times, FIRST, LAST, &a, &b) ? 1 / b : (double)NAN;
-        j->leaves = line_at(&times, FIRST, FIRST + STRETCH, FIRST);
-        j->arrives = line_at(&times, LAST - STRETCH, LAST, LAST);
-    }
-    sb_curve_free(&heights);
-    sb_curve_free(&times);
-    return status;
+    journey j = {.first = line_at(heights, FIRST, FIRST + STRETCH, FIRST),
+                 .last = line_at(heights, LAST - STRETCH, LAST, LAST),
+                 .celerity = travels(times) && sb_curve_line(times, FIRST, LAST, &a, &b) ? 1 / b : (double)NAN,
+                 .leaves = line_at(times, FIRST, FIRST + STRETCH, FIRST),
+                 .arrives = line_at(times, LAST - STRETCH, LAST, LAST)};
+    j.damped =
+        sb_keulegan_height(j.first, scene->wave.depth, scene->fluid.viscosity, scene->fluid.gravity, LAST - FIRST);
+    return j;
 }
 
 /* Energy of the wave by Boussinesq, J per metre of width: 8/(3 sqrt 3) rho g (H h)^1.5, half of it kinetic. */
@@ -76,84 +67,61 @@ static double wave_energy(const sb_scene *scene, double height)
 }
 
 /* Change of a column of energy.csv while the wave travels from FIRST to LAST. */
-static double change_of(const sb_sheet *sheet, const char *column, const journey *j)
+static double change_of(const sb_case_run *run, const char *column, const journey *j)
 {
-    sb_curve curve = {0};
-    if (sb_sheet_curve(sheet, NULL, "time_s", column, &curve, NULL) != SB_OK) return (double)NAN;
-    double change = sb_curve_at(&curve, j->arrives) - sb_curve_at(&curve, j->leaves);
-    sb_curve_free(&curve);
-    return change;
+    const sb_curve *curve = sb_run_curve(run, "energy.csv", NULL, "time_s", column);
+    return sb_curve_at(curve, j->arrives) - sb_curve_at(curve, j->leaves);
 }
 
 /* Every column in J other than kinetic and potential energy is an item of the loss. */
-static sb_status figure_items(const sb_sheet *sheet, const journey *j, double energy, sb_figures *figures,
-                              sb_error *error)
+static void figure_items(const sb_case_run *run, const journey *j, double energy, sb_figures *figures)
 {
-    sb_status status = SB_OK;
-    for (size_t k = 0; status == SB_OK && k < sheet->columns; k++) {
+    const sb_sheet *sheet = sb_run_sheet(run, "energy.csv");
+    for (size_t k = 0; k < sheet->columns; k++) {
         char name[SB_FIGURE_TEXT], quantity[SB_FIGURE_TEXT];
         snprintf(name, sizeof name, "%s", sheet->fields[k]);
         char *unit = strstr(name, "_J");
         if (!unit || strncmp(name, "kinetic", 7) == 0 || strncmp(name, "potential", 9) == 0) continue;
-        double change = change_of(sheet, name, j);
+        double change = change_of(run, name, j);
         *unit = '\0';
         snprintf(quantity, sizeof quantity, "energy, item %.60s", name);
-        status = sb_figure_report(figures, quantity, "%", (double)NAN, 100 * change / energy, error,
-                                  "relative to the wave's energy at x = %g m", FIRST);
+        sb_figure_report(figures, quantity, "%", (double)NAN, 100 * change / energy,
+                         "relative to the wave's energy at x = %g m", FIRST);
     }
-    return status;
 }
 
-static sb_status figure_energy(const sb_case_run *run, const journey *j, sb_figures *figures, sb_error *error)
+static void figure_energy(const sb_case_run *run, const journey *j, sb_figures *figures)
 {
-    char path[SB_PATH_MAX];
-    sb_sheet sheet = {0};
-    double energy = wave_energy(run->scene, j->first);
-    sb_status status = sb_path_join(path, run->folder, "energy.csv", error);
-    if (status == SB_OK) status = sb_sheet_read(path, &sheet, error);
-    if (status != SB_OK) return status;
-    double total = change_of(&sheet, "kinetic_J", j) + change_of(&sheet, "potential_J", j);
-    status = sb_figure_report(figures, "energy, change over 50 depths", "%", (double)NAN, 100 * total / energy, error,
-                              "kinetic and potential, relative to the wave's energy at x = %g m (%.0f J/m by theory "
-                              "for its height); Keulegan: %.2f %%. A level lower by 0.001 depths changes it by a third "
-                              "of the wave's energy",
-                              FIRST, energy, 100 * (pow(j->damped / j->first, 1.5) - 1));
-    if (status == SB_OK)
-        status = sb_figure_report(figures, "kinetic energy, change over 50 depths", "%", (double)NAN,
-                                  200 * change_of(&sheet, "kinetic_J", j) / energy, error,
-                                  "relative to half of that energy");
-    if (status == SB_OK)
-        status = sb_figure_report(figures, "energy, change by the loss of height", "%", (double)NAN,
-                                  100 * (pow(j->last / j->first, 1.5) - 1), error,
-                                  "from the heights, for a wave with energy ~ H^1.5");
-    if (status == SB_OK) status = figure_items(&sheet, j, energy, figures, error);
-    sb_sheet_free(&sheet);
-    return status;
+    double energy = wave_energy(run->scene, j->first), kinetic = change_of(run, "kinetic_J", j);
+    double total = kinetic + change_of(run, "potential_J", j);
+    sb_figure_report(figures, "energy, change over 50 depths", "%", (double)NAN, 100 * total / energy,
+                     "kinetic and potential, relative to the wave's energy at x = %g m (%.0f J/m by theory "
+                     "for its height); Keulegan: %.2f %%. A level lower by 0.001 depths changes it by a third "
+                     "of the wave's energy",
+                     FIRST, energy, 100 * (pow(j->damped / j->first, 1.5) - 1));
+    sb_figure_report(figures, "kinetic energy, change over 50 depths", "%", (double)NAN, 200 * kinetic / energy,
+                     "relative to half of that energy");
+    sb_figure_report(figures, "energy, change by the loss of height", "%", (double)NAN,
+                     100 * (pow(j->last / j->first, 1.5) - 1), "from the heights, for a wave with energy ~ H^1.5");
+    figure_items(run, j, energy, figures);
 }
 
-static sb_status evaluate(const sb_case_run *run, sb_figures *figures, sb_error *error)
+static void evaluate(const sb_case_run *run, sb_figures *figures)
 {
     const sb_scene *scene = run->scene;
-    journey j;
-    sb_status status = follow(run, &j, error);
-    if (status != SB_OK) return status;
+    const journey j = follow(run);
     double unit = sqrt(scene->fluid.gravity * scene->wave.depth);
-    status = sb_figure_share(figures, "celerity", "sqrt(g h)", 1.138, j.celerity / unit, 1.138, 1, error,
-                             "line through the times of the crests at gauges every 2 m; no value if a crest is not "
-                             "later than the one before");
-    if (status == SB_OK)
-        status =
-            sb_figure_below(figures, "height loss beyond Keulegan", "%", 100 * (j.damped - j.last) / j.damped, 5, error,
-                            "at x = %g m, from the height at %g m; lines through the crests of the first and last "
-                            "%g m",
-                            LAST, FIRST, STRETCH);
-    if (status == SB_OK)
-        status = sb_figure_report(figures, "height at x = 10 m", "m", scene->wave.height, j.first, error,
-                                  "the initial wave, of third-order theory, is at x = %g m", scene->wave.position);
-    if (status == SB_OK)
-        status = sb_figure_report(figures, "height at x = 60 m", "m", j.damped, j.last, error,
-                                  "reference: Keulegan's damping for nu = %g m^2/s", scene->fluid.viscosity);
-    return status == SB_OK ? figure_energy(run, &j, figures, error) : status;
+    sb_figure_share(figures, "celerity", "sqrt(g h)", 1.138, j.celerity / unit, 1.138, 1,
+                    "line through the times of the crests at gauges every 2 m; no value if a crest is not later than "
+                    "the one before");
+    sb_figure_below(figures, "height loss beyond Keulegan", "%", 100 * (j.damped - j.last) / j.damped, 5,
+                    "at x = %g m, from the height at %g m; lines through the crests of the first and last %g m", LAST,
+                    FIRST, STRETCH);
+    sb_figure_report(figures, "height at x = 10 m", "m", scene->wave.height, j.first,
+                     "the initial wave, of third-order theory, is at x = %g m", scene->wave.position);
+    sb_figure_report(figures, "height at x = 60 m", "m", j.damped, j.last,
+                     "reference: Keulegan's damping for nu = %g m^2/s", scene->fluid.viscosity);
+    figure_energy(run, &j, figures);
 }
 
 static double loss_of(const sb_figures *figures)
@@ -161,73 +129,56 @@ static double loss_of(const sb_figures *figures)
     return sb_figures_find(figures, "height loss beyond Keulegan")->value;
 }
 
-static sb_status compare(const sb_case_run *runs, const sb_figures *of_each, size_t count, sb_figures *figures,
-                         sb_error *error)
+static void compare(const sb_case_run *runs, const sb_figures *of_each, size_t count, sb_figures *figures)
 {
     size_t f = count - 1;
     double ratio = runs[f - 1].resolution / runs[f].resolution;
     double pair = log(loss_of(&of_each[f - 1]) / loss_of(&of_each[f])) / log(ratio);
-    sb_status status = sb_figure_report(figures, "order of convergence, two finest", "", (double)NAN, pair, error,
-                                        "of the height loss beyond Keulegan, which tends to 0");
-    if (status != SB_OK || count < 3) return status;
+    sb_figure_report(figures, "order of convergence, two finest", "", (double)NAN, pair,
+                     "of the height loss beyond Keulegan, which tends to 0");
+    if (count < 3) return;
     double steps =
         (loss_of(&of_each[f - 2]) - loss_of(&of_each[f - 1])) / (loss_of(&of_each[f - 1]) - loss_of(&of_each[f]));
-    return sb_figure_report(
-        figures, "order of convergence, three finest", "", (double)NAN, log(steps) / log(ratio), error,
-        "of the same loss with an unknown limit (Richardson); no value if its differences do not shrink");
+    sb_figure_report(figures, "order of convergence, three finest", "", (double)NAN, log(steps) / log(ratio),
+                     "of the same loss with an unknown limit (Richardson); no value if its differences do not shrink");
 }
 
-static sb_status plot_heights(const sb_case_run *runs, size_t count, sb_plot *plot, sb_error *error)
+static void plot_heights(const sb_case_run *runs, size_t count, sb_plot *plot)
 {
     const sb_scene *scene = runs[0].scene;
-    sb_curve theory = {0};
-    sb_status status = sb_plot_panel(plot, "Height of the crest", "x (m)", "m", error);
-    if (status == SB_OK) sb_plot_range(plot, FIRST, LAST, 0, 0.35);
-    for (double x = FIRST; status == SB_OK && x <= LAST; x += 2)
-        status = sb_curve_add(&theory, x,
-                              sb_keulegan_height(scene->wave.height, scene->wave.depth, scene->fluid.viscosity,
-                                                 scene->fluid.gravity, x - FIRST),
-                              error);
-    if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "Keulegan", &theory, error);
-    sb_curve_free(&theory);
-    for (size_t i = 0; status == SB_OK && i < count; i++) {
-        sb_curve heights = {0}, times = {0};
-        status = find_crests(&runs[i], &heights, &times, error);
-        if (status == SB_OK) status = sb_plot_run(plot, &runs[i], &heights, error);
-        sb_curve_free(&heights);
-        sb_curve_free(&times);
-    }
-    return status;
+    sb_curve *theory = sb_curve_new(runs[0].made);
+    for (double x = FIRST; x <= LAST; x += 2)
+        sb_curve_add(theory, x,
+                     sb_keulegan_height(scene->wave.height, scene->wave.depth, scene->fluid.viscosity,
+                                        scene->fluid.gravity, x - FIRST));
+    sb_plot_panel(plot, "Height of the crest", "x (m)", "m");
+    sb_plot_range(plot, FIRST, LAST, 0, 0.35);
+    sb_plot_curve(plot, SB_PLOT_REFERENCE, "Keulegan", theory);
+    for (size_t i = 0; i < count; i++) sb_plot_run(plot, &runs[i], crests(&runs[i], false));
 }
 
 /* Elevation at the last gauge, with each crest at time 0: the shape of the wave and its trailing waves. */
-static sb_status plot_shapes(const sb_case_run *runs, size_t count, sb_plot *plot, sb_error *error)
+static void plot_shapes(const sb_case_run *runs, size_t count, sb_plot *plot)
 {
     const sb_scene *scene = runs[0].scene;
     sb_solitary wave = {scene->wave.height, scene->wave.depth, scene->fluid.gravity, scene->wave.theory};
     double celerity = sb_solitary_celerity(&wave);
-    sb_curve theory = {0};
-    sb_status status = sb_plot_panel(plot, "Elevation at x = 60 m, each crest at 0", "time (s)", "m", error);
-    if (status == SB_OK) sb_plot_range(plot, -3, 2, -0.05, 0.35);
-    for (int i = -60; status == SB_OK && i <= 40; i++)
-        status = sb_curve_add(&theory, 0.05 * i, sb_solitary_elevation(&wave, -0.05 * i * celerity), error);
-    if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "third order, H = 0.3 m", &theory, error);
-    sb_curve_free(&theory);
-    for (size_t i = 0; status == SB_OK && i < count; i++) {
-        sb_curve eta = {0};
-        status = sb_run_curve(&runs[i], "gauges.csv", "x60", "time_s", "z_m", &eta, error);
-        sb_peak crest = sb_curve_peak(&eta, 0, HUGE_VAL, HALF_WIDTH);
-        sb_curve_map(&eta, 1, -crest.x, 1, -scene->sea.level);
-        if (status == SB_OK) status = sb_plot_run(plot, &runs[i], &eta, error);
-        sb_curve_free(&eta);
+    sb_curve *theory = sb_curve_new(runs[0].made);
+    for (int i = -60; i <= 40; i++) sb_curve_add(theory, 0.05 * i, sb_solitary_elevation(&wave, -0.05 * i * celerity));
+    sb_plot_panel(plot, "Elevation at x = 60 m, each crest at 0", "time (s)", "m");
+    sb_plot_range(plot, -3, 2, -0.05, 0.35);
+    sb_plot_curve(plot, SB_PLOT_REFERENCE, "third order, H = 0.3 m", theory);
+    for (size_t i = 0; i < count; i++) {
+        sb_curve *eta = sb_run_curve(&runs[i], "gauges.csv", "x60", "time_s", "z_m");
+        sb_curve_map(eta, 1, -sb_curve_peak(eta, 0, HUGE_VAL, HALF_WIDTH).x, 1, -scene->sea.level);
+        sb_plot_run(plot, &runs[i], eta);
     }
-    return status;
 }
 
-static sb_status plot(const sb_case_run *runs, size_t count, sb_plot *plot, sb_error *error)
+static void plot(const sb_case_run *runs, size_t count, sb_plot *plot)
 {
-    sb_status status = plot_heights(runs, count, plot, error);
-    return status == SB_OK ? plot_shapes(runs, count, plot, error) : status;
+    plot_heights(runs, count, plot);
+    plot_shapes(runs, count, plot);
 }
 
 static const sb_plan full[] = {{.resolution = 0.06, .paper = true},

@@ -18,147 +18,86 @@ enum { SENSORS = 4 };
 
 /* One sensor: measured median and percentiles, and the simulated pressure on the measured clock. */
 typedef struct pressures {
-    sb_curve median, low, high, simulated;
+    const sb_curve *median, *low, *high;
+    sb_curve *simulated;
 } pressures;
 
-static void pressures_free(pressures *p)
+/* A dry sensor has the pressure of the air, 0. */
+static sb_curve *simulated(const sb_case_run *run, const char *sensor)
 {
-    sb_curve_free(&p->median);
-    sb_curve_free(&p->low);
-    sb_curve_free(&p->high);
-    sb_curve_free(&p->simulated);
+    sb_curve *raw = sb_run_curve(run, "probes.csv", sensor, "time_s", "p_Pa");
+    for (size_t i = 0; i < raw->count; i++) raw->y[i] = isnan(raw->y[i]) ? 0 : raw->y[i];
+    return sb_curve_mean_filter(run->made, raw, FILTER);
 }
 
-/* A dry sensor has the pressure of the air, 0. */
-static sb_status simulated(const sb_case_run *run, const char *sensor, sb_curve *filtered, sb_error *error)
+static sb_curve *measured(const sb_case_run *run, const char *sensor, const char *column)
 {
-    sb_curve raw = {0};
-    sb_status status = sb_run_curve(run, "probes.csv", sensor, "time_s", "p_Pa", &raw, error);
-    for (size_t i = 0; i < raw.count; i++) raw.y[i] = isnan(raw.y[i]) ? 0 : raw.y[i];
-    if (status == SB_OK) status = sb_curve_mean_filter(&raw, FILTER, filtered, error);
-    sb_curve_free(&raw);
-    return status;
+    return sb_reference_curve(run, TABLE, sensor, "time_s", column);
 }
 
 /* Time to be added to that of the simulation. */
-static sb_status shift_of(const sb_case_run *run, double *shift, sb_error *error)
+static double shift_of(const sb_case_run *run)
 {
-    sb_curve measured = {0}, ours = {0};
-    sb_status status = sb_reference_curve(run, TABLE, sensors[0], "time_s", "median_Pa", &measured, error);
-    if (status == SB_OK) status = simulated(run, sensors[0], &ours, error);
-    if (status == SB_OK) *shift = sb_curve_onset(&measured, ARRIVAL, 0) - sb_curve_onset(&ours, ARRIVAL, 0);
-    sb_curve_free(&measured);
-    sb_curve_free(&ours);
-    return status;
+    return sb_curve_onset(measured(run, sensors[0], "median_Pa"), ARRIVAL, 0) -
+           sb_curve_onset(simulated(run, sensors[0]), ARRIVAL, 0);
 }
 
-static sb_status load(const sb_case_run *run, const char *sensor, double shift, pressures *p, sb_error *error)
+static pressures load(const sb_case_run *run, const char *sensor, double shift)
 {
-    *p = (pressures){0};
-    sb_status status = sb_reference_curve(run, TABLE, sensor, "time_s", "median_Pa", &p->median, error);
-    if (status == SB_OK) status = sb_reference_curve(run, TABLE, sensor, "time_s", "low_Pa", &p->low, error);
-    if (status == SB_OK) status = sb_reference_curve(run, TABLE, sensor, "time_s", "high_Pa", &p->high, error);
-    if (status == SB_OK) status = simulated(run, sensor, &p->simulated, error);
-    if (status == SB_OK) sb_curve_map(&p->simulated, 1, shift, 1, 0);
-    if (status != SB_OK) pressures_free(p);
-    return status;
+    const pressures p = {measured(run, sensor, "median_Pa"), measured(run, sensor, "low_Pa"),
+                         measured(run, sensor, "high_Pa"), simulated(run, sensor)};
+    sb_curve_map(p.simulated, 1, shift, 1, 0);
+    return p;
 }
 
-static double highest(const sb_curve *curve, double first, double last)
+static double highest(const sb_curve *curve, double last)
 {
-    size_t top = sb_curve_highest(curve, first, last);
-    return top == (size_t)-1 ? NONE : curve->y[top];
+    return sb_curve_y(curve, sb_curve_highest(curve, 0, last));
 }
 
-/* Adds the peak after a longer filter. */
-static sb_status add_filtered_peak(const pressures *p, const char *sensor, double touch, sb_figures *figures,
-                                   sb_error *error)
+static void add_sensor(const sb_case_run *run, const char *sensor, double shift, sb_figures *figures)
 {
     char name[SB_FIGURE_TEXT];
-    snprintf(name, sizeof name, "%s first peak, 5 ms means", sensor);
-    sb_curve measured = {0}, ours = {0};
-    sb_status status = sb_curve_mean_filter(&p->median, LONG_FILTER, &measured, error);
-    if (status == SB_OK) status = sb_curve_mean_filter(&p->simulated, LONG_FILTER, &ours, error);
-    if (status == SB_OK)
-        status = sb_figure_report(figures, name, "Pa", highest(&measured, 0, touch + FIRST),
-                                  highest(&ours, 0, touch + FIRST), error, "2 ms means, then 5 ms means, of both");
-    sb_curve_free(&measured);
-    sb_curve_free(&ours);
-    return status;
-}
-
-static sb_status add_sensor(const pressures *p, const char *sensor, double shift, sb_figures *figures, sb_error *error)
-{
-    char name[SB_FIGURE_TEXT];
-    double touch = sb_curve_onset(&p->median, TOUCH, 0), end = touch + FIRST;
+    const pressures p = load(run, sensor, shift);
+    double touch = sb_curve_onset(p.median, TOUCH, 0), end = touch + FIRST;
     snprintf(name, sizeof name, "%s first peak", sensor);
-    sb_status status = sb_figure_band(
-        figures, name, "Pa", highest(&p->low, 0, end), highest(&p->high, 0, end), highest(&p->simulated, 0, end), 15,
-        error, "2 ms means; until %.3f s; band %.0f to %.0f Pa, median %.0f Pa; clock shifted by %.4f s", end,
-        highest(&p->low, 0, end), highest(&p->high, 0, end), highest(&p->median, 0, end), shift);
-    if (status == SB_OK) status = add_filtered_peak(p, sensor, touch, figures, error);
-    double impulse = sb_curve_integral(&p->median, touch, end);
+    sb_figure_band(figures, name, "Pa", highest(p.low, end), highest(p.high, end), highest(p.simulated, end), 15,
+                   "2 ms means; until %.3f s; band %.0f to %.0f Pa, median %.0f Pa; clock shifted by %.4f s", end,
+                   highest(p.low, end), highest(p.high, end), highest(p.median, end), shift);
+    snprintf(name, sizeof name, "%s first peak, 5 ms means", sensor);
+    sb_figure_report(figures, name, "Pa", highest(sb_curve_mean_filter(run->made, p.median, LONG_FILTER), end),
+                     highest(sb_curve_mean_filter(run->made, p.simulated, LONG_FILTER), end),
+                     "2 ms means, then 5 ms means, of both");
+    double impulse = sb_curve_integral(p.median, touch, end);
     snprintf(name, sizeof name, "%s impulse of the first 0.15 s", sensor);
-    if (status == SB_OK)
-        status = sb_figure_share(figures, name, "Pa s", impulse, sb_curve_integral(&p->simulated, touch, end), impulse,
-                                 10, error, "from %.3f s on; band %.0f to %.0f Pa s", touch,
-                                 sb_curve_integral(&p->low, touch, end), sb_curve_integral(&p->high, touch, end));
-    double plateau = sb_curve_mean(&p->median, PLATEAU_BEGIN, PLATEAU_END);
+    sb_figure_share(figures, name, "Pa s", impulse, sb_curve_integral(p.simulated, touch, end), impulse, 10,
+                    "from %.3f s on; band %.0f to %.0f Pa s", touch, sb_curve_integral(p.low, touch, end),
+                    sb_curve_integral(p.high, touch, end));
+    double plateau = sb_curve_mean(p.median, PLATEAU_BEGIN, PLATEAU_END);
     snprintf(name, sizeof name, "%s mean from 0.7 to 0.9 s", sensor);
-    if (status == SB_OK)
-        status = sb_figure_share(figures, name, "Pa", plateau, sb_curve_mean(&p->simulated, PLATEAU_BEGIN, PLATEAU_END),
-                                 plateau, 10, error, "band %.0f to %.0f Pa",
-                                 sb_curve_mean(&p->low, PLATEAU_BEGIN, PLATEAU_END),
-                                 sb_curve_mean(&p->high, PLATEAU_BEGIN, PLATEAU_END));
-    return status;
+    sb_figure_share(figures, name, "Pa", plateau, sb_curve_mean(p.simulated, PLATEAU_BEGIN, PLATEAU_END), plateau, 10,
+                    "band %.0f to %.0f Pa", sb_curve_mean(p.low, PLATEAU_BEGIN, PLATEAU_END),
+                    sb_curve_mean(p.high, PLATEAU_BEGIN, PLATEAU_END));
 }
 
-static sb_status evaluate(const sb_case_run *run, sb_figures *figures, sb_error *error)
+static void evaluate(const sb_case_run *run, sb_figures *figures)
 {
-    double shift = NONE;
-    sb_status status = shift_of(run, &shift, error);
-    for (int k = 0; status == SB_OK && k < SENSORS; k++) {
-        pressures p;
-        status = load(run, sensors[k], shift, &p, error);
-        if (status != SB_OK) break;
-        status = add_sensor(&p, sensors[k], shift, figures, error);
-        pressures_free(&p);
-    }
-    return status;
+    const double shift = shift_of(run);
+    for (int k = 0; k < SENSORS; k++) add_sensor(run, sensors[k], shift, figures);
 }
 
-static sb_status draw_run(const sb_case_run *run, const char *sensor, sb_plot *plot, sb_error *error)
-{
-    double shift = NONE;
-    pressures p = {0};
-    sb_status status = shift_of(run, &shift, error);
-    if (status == SB_OK) status = load(run, sensor, shift, &p, error);
-    if (status == SB_OK) status = sb_plot_run(plot, run, &p.simulated, error);
-    pressures_free(&p);
-    return status;
-}
-
-static sb_status draw_measured(const sb_case_run *run, const char *sensor, sb_plot *plot, sb_error *error)
-{
-    pressures p;
-    sb_status status = load(run, sensor, 0, &p, error);
-    if (status == SB_OK) status = sb_plot_band(plot, "measured, 2.5 to 97.5 %", &p.low, &p.high, error);
-    if (status == SB_OK) status = sb_plot_curve(plot, SB_PLOT_REFERENCE, "median", &p.median, error);
-    pressures_free(&p);
-    return status;
-}
-
-static sb_status draw(const sb_case_run *runs, size_t count, sb_plot *plot, sb_error *error)
+static void draw(const sb_case_run *runs, size_t count, sb_plot *plot)
 {
     static const char *const titles[] = {"S1, 3 mm above the floor", "S2, 15 mm", "S3, 30 mm", "S4, 80 mm"};
-    sb_status status = SB_OK;
-    for (int k = 0; status == SB_OK && count && k < SENSORS; k++) {
-        status = sb_plot_panel(plot, titles[k], "time [s]", "pressure, 2 ms means [Pa]", error);
+    for (int k = 0; k < SENSORS; k++) {
+        const pressures p = load(&runs[0], sensors[k], 0);
+        sb_plot_panel(plot, titles[k], "time [s]", "pressure, 2 ms means [Pa]");
         sb_plot_range(plot, 0.4, 0.92, NONE, NONE);
-        if (status == SB_OK) status = draw_measured(&runs[0], sensors[k], plot, error);
-        for (size_t i = 0; status == SB_OK && i < count; i++) status = draw_run(&runs[i], sensors[k], plot, error);
+        sb_plot_band(plot, "measured, 2.5 to 97.5 %", p.low, p.high);
+        sb_plot_curve(plot, SB_PLOT_REFERENCE, "median", p.median);
+        for (size_t i = 0; i < count; i++)
+            sb_plot_run(plot, &runs[i], load(&runs[i], sensors[k], shift_of(&runs[i])).simulated);
     }
-    return status;
 }
 
 static const sb_plan slice_full[] = {{.resolution = 0.012, .paper = true},

@@ -5,8 +5,9 @@
 #include "case.h"
 #include "frame/frame.h"
 
-/* Calls visit for each frame with first <= time <= last. SB_BAD_INPUT: there is none, or one cannot be read. */
-sb_status sb_run_frames(const sb_case_run *run, double first, double last,
-                        void (*visit)(void *context, const sb_frame *frame), void *context, sb_error *error);
+/* Calls visit for each frame with first <= time <= last. The run fails (case.h) if there is none, or one cannot be
+   read. */
+void sb_run_frames(const sb_case_run *run, double first, double last,
+                   void (*visit)(void *context, const sb_frame *frame), void *context);
 
 #endif

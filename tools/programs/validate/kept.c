@@ -34,7 +34,7 @@ static size_t count_of(const sb_sheet *table, size_t row, const char *column)
     return value >= 0 ? (size_t)value : 0;
 }
 
-static sb_status add_row(const sb_sheet *table, size_t row, sb_figures *figures, sb_error *error)
+static void add_row(const sb_sheet *table, size_t row, sb_figures *figures)
 {
     sb_figure f = {.reference = number_of(table, row, "reference"),
                    .value = number_of(table, row, "value"),
@@ -49,7 +49,7 @@ static sb_status add_row(const sb_sheet *table, size_t row, sb_figures *figures,
     snprintf(f.unit, sizeof f.unit, "%s", text_of(table, row, "unit"));
     snprintf(f.error_unit, sizeof f.error_unit, "%s", text_of(table, row, "error_unit"));
     snprintf(f.note, sizeof f.note, "%s", text_of(table, row, "note"));
-    return sb_figures_add(figures, &f, error);
+    sb_figures_add(figures, &f);
 }
 
 static bool of_case(const sb_sheet *table, size_t row, const char *name)
@@ -57,18 +57,17 @@ static bool of_case(const sb_sheet *table, size_t row, const char *name)
     return strcmp(text_of(table, row, "case"), name) == 0;
 }
 
-sb_status sb_kept_read(const sb_sheet *table, sb_result *r, sb_error *error)
+void sb_kept_read(const sb_sheet *table, sb_result *r)
 {
-    sb_status status = SB_OK;
     char defaults[17];
-    if (r->state != SB_RESULT_NOT_RUN || !r->request_hash[0]) return SB_OK;
+    if (r->state != SB_RESULT_NOT_RUN || !r->request_hash[0]) return;
     snprintf(defaults, sizeof defaults, "%016" PRIx64, r->defaults_hash);
-    for (size_t row = 0; status == SB_OK && row < table->rows; row++) {
+    for (size_t row = 0; row < table->rows; row++) {
         if (!of_case(table, row, r->request.of->name) || strcmp(text_of(table, row, "request"), r->request_hash) != 0 ||
             strcmp(text_of(table, row, "defaults"), defaults) != 0)
             continue;
         sb_case_run *view = &r->run.view;
-        status = add_row(table, row, &r->figures, error);
+        add_row(table, row, &r->figures);
         snprintf(r->run.commit, sizeof r->run.commit, "%s", text_of(table, row, "commit"));
         snprintf(r->run.machine, sizeof r->run.machine, "%s", text_of(table, row, "machine"));
         snprintf(r->run.build, sizeof r->run.build, "%s", text_of(table, row, "build"));
@@ -80,14 +79,10 @@ sb_status sb_kept_read(const sb_sheet *table, sb_result *r, sb_error *error)
         r->kept = true;
         r->state = SB_RESULT_DONE;
     }
-    return status;
 }
 
-sb_status sb_kept_across(const sb_sheet *table, const char *name, sb_figures *figures, sb_error *error)
+void sb_kept_across(const sb_sheet *table, const char *name, sb_figures *figures)
 {
-    sb_status status = SB_OK;
-    for (size_t row = 0; status == SB_OK && row < table->rows; row++)
-        if (of_case(table, row, name) && !text_of(table, row, "resolution_m")[0])
-            status = add_row(table, row, figures, error);
-    return status;
+    for (size_t row = 0; row < table->rows; row++)
+        if (of_case(table, row, name) && !text_of(table, row, "resolution_m")[0]) add_row(table, row, figures);
 }

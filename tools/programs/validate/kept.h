@@ -9,10 +9,9 @@
 /* Reads the table in a report's folder; the table is empty if there is none. SB_BAD_INPUT names file and line. */
 sb_status sb_kept_open(const char *report_folder, sb_sheet *table, sb_error *error);
 
-/* If r has not run and the table has its request: fills in the figures and sets r->kept and SB_RESULT_DONE.
-   SB_FAILED: out of memory. */
-sb_status sb_kept_read(const sb_sheet *table, sb_result *r, sb_error *error);
+/* If r has not run and the table has its request: fills in the figures and sets r->kept and SB_RESULT_DONE. */
+void sb_kept_read(const sb_sheet *table, sb_result *r);
 /* Reads the figures that a case derives from several runs. */
-sb_status sb_kept_across(const sb_sheet *table, const char *name, sb_figures *figures, sb_error *error);
+void sb_kept_across(const sb_sheet *table, const char *name, sb_figures *figures);
 
 #endif

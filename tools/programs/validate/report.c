@@ -98,7 +98,11 @@ static sb_status draw(const sb_report *report, const sb_case_results *results, s
         if (results->runs[i].state == SB_RESULT_DONE && !results->runs[i].kept)
             views[count++] = results->runs[i].run.view;
     if (status == SB_OK && count == 0) status = sb_fail(error, SB_FAILED, "nothing has run");
-    if (status == SB_OK) status = results->of->plot(views, count, plot, error);
+    if (status == SB_OK) results->of->plot(views, count, plot);
+    for (size_t i = 0; i < count; i++) {
+        const sb_status closed = sb_run_close(&views[i], status == SB_OK ? error : NULL);
+        if (status == SB_OK) status = closed;
+    }
     if (status == SB_OK) status = sb_plot_picture(plot, report->store->out, results->of->name, report->pictures, error);
     sb_plot_destroy(plot);
     sb_free(views);

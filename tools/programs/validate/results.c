@@ -54,7 +54,6 @@ static bool several_builds(const sb_case_results *results, bool kept)
 
 static void compare_runs(sb_case_results *results, sb_case_run *runs, sb_figures *figures)
 {
-    sb_error why = {0};
     size_t count = 0;
     for (size_t i = 0; i < results->count; i++) {
         const sb_result *r = &results->runs[i];
@@ -64,17 +63,17 @@ static void compare_runs(sb_case_results *results, sb_case_run *runs, sb_figures
     }
     if (count < 2) return;
     results->across_builds = several_builds(results, false);
-    if (results->of->compare(runs, figures, count, &results->across, &why) != SB_OK)
-        snprintf(results->problem, sizeof results->problem, "%.600s", why.text);
+    results->of->compare(runs, figures, count, &results->across);
+    snprintf(results->problem, sizeof results->problem, "%.600s", results->across.error.text);
 }
 
 /* Takes figures across spacings from an earlier report if the judged run is kept, too. */
-static sb_status keep_across(sb_case_results *results, const sb_sheet *former, sb_error *error)
+static void keep_across(sb_case_results *results, const sb_sheet *former)
 {
     const sb_result *judged = sb_results_judged(results);
-    if (results->across.count > 0 || !judged || !judged->kept) return SB_OK;
+    if (results->across.count > 0 || !judged || !judged->kept) return;
     results->across_builds = several_builds(results, true);
-    return sb_kept_across(former, results->of->name, &results->across, error);
+    sb_kept_across(former, results->of->name, &results->across);
 }
 
 sb_status sb_results_collect(const sb_store *store, const sb_case *of, bool quick, bool any_build,
@@ -92,11 +91,11 @@ sb_status sb_results_collect(const sb_store *store, const sb_case *of, bool quic
     for (size_t i = 0; status == SB_OK && i < count; i++) {
         results->runs[i].request = requests[i];
         sb_result_read(store, any_build, &results->runs[i]);
-        if (former) status = sb_kept_read(former, &results->runs[i], error);
+        if (former) sb_kept_read(former, &results->runs[i]);
         results->count++;
     }
     if (status == SB_OK && of->compare) compare_runs(results, views, figures);
-    if (status == SB_OK && former) status = keep_across(results, former, error);
+    if (status == SB_OK && former) keep_across(results, former);
     sb_free(views);
     sb_free(figures);
     sb_free(requests);

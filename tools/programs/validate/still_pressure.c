@@ -1,6 +1,5 @@
 #include "still_pressure.h"
 
-#include "base/memory.h"
 #include "frames.h"
 
 #include <math.h>
@@ -44,85 +43,75 @@ static int is_layer(const profile *p, size_t k)
     return (double)p->count[k] > 0.004 * (double)p->total;
 }
 
-static sb_status read_profile(const sb_case_run *run, profile *p, sb_error *error)
+static void read_profile(const sb_case_run *run, profile *p)
 {
     *p = (profile){.scene = run->scene, .bottom = run->scene->bodies[0].min.z};
-    return sb_run_frames(run, 0.5 * run->scene->duration, HUGE_VAL, add_frame, p, error);
+    sb_run_frames(run, 0.5 * run->scene->duration, HUGE_VAL, add_frame, p);
 }
 
-static sb_status figure_layers(const sb_case_run *run, sb_figures *figures, sb_error *error)
+static double weight_of(const sb_scene *scene)
 {
-    profile *p = sb_alloc(1, sizeof *p);
-    if (!p) return sb_fail_memory(error, "a profile");
-    sb_status status = read_profile(run, p, error);
-    double scale = run->scene->fluid.density * run->scene->fluid.gravity * sb_still_depth(run->scene);
-    double worst = 0;
+    return scene->fluid.density * scene->fluid.gravity;
+}
+
+static void figure_layers(const sb_case_run *run, sb_figures *figures)
+{
+    profile p;
+    double scale = weight_of(run->scene) * sb_still_depth(run->scene), worst = 0;
     size_t at = 0;
+    read_profile(run, &p);
     for (size_t k = 0; k < LAYERS; k++) {
-        if (!is_layer(p, k)) continue;
-        double miss = p->excess[k] / (double)p->count[k];
+        if (!is_layer(&p, k)) continue;
+        double miss = p.excess[k] / (double)p.count[k];
         if (isnan(worst) || fabs(miss) <= fabs(worst)) continue;
         worst = miss;
         at = k;
     }
-    if (status == SB_OK)
-        status =
-            sb_figure_below(figures, "pressure profile, worst layer", "%", 100 * fabs(worst) / scale, 1, error,
-                            "relative to rho g D; means over layers one spacing thick and over the particle files of "
-                            "the second half; largest error in layer %zu from the floor, %+.1f Pa",
-                            at + 1, worst);
-    if (status == SB_OK)
-        status = sb_figure_report(figures, "pressure of single particles, RMS error", "%", (double)NAN,
-                                  100 * sqrt(p->square / (double)p->total) / scale, error,
-                                  "relative to rho g D; same files");
-    sb_free(p);
-    return status;
+    sb_figure_below(figures, "pressure profile, worst layer", "%", 100 * fabs(worst) / scale, 1,
+                    "relative to rho g D; means over layers one spacing thick and over the particle files of the "
+                    "second half; largest error in layer %zu from the floor, %+.1f Pa",
+                    at + 1, worst);
+    sb_figure_report(figures, "pressure of single particles, RMS error", "%", (double)NAN,
+                     100 * sqrt(p.square / (double)p.total) / scale, "relative to rho g D; same files");
 }
 
 /* Pressures at the scene's probes, on walls and in the water. */
-static sb_status figure_probes(const sb_case_run *run, sb_figures *figures, sb_error *error)
+static void figure_probes(const sb_case_run *run, sb_figures *figures)
 {
     const sb_scene *scene = run->scene;
-    double weight = scene->fluid.density * scene->fluid.gravity, worst = 0;
+    double weight = weight_of(scene), worst = 0;
     const char *name = "none";
     for (size_t i = 0; i < scene->measure.probe_count; i++) {
         const sb_probe *probe = &scene->measure.probes[i];
-        sb_curve pressure = {0};
-        sb_status status = sb_run_curve(run, "probes.csv", probe->name, "time_s", "p_Pa", &pressure, error);
-        if (status != SB_OK) return status;
+        const sb_curve *pressure = sb_run_curve(run, "probes.csv", probe->name, "time_s", "p_Pa");
         double miss =
-            sb_curve_mean(&pressure, 0.5 * scene->duration, HUGE_VAL) - weight * (scene->sea.level - probe->at.z);
-        sb_curve_free(&pressure);
+            sb_curve_mean(pressure, 0.5 * scene->duration, HUGE_VAL) - weight * (scene->sea.level - probe->at.z);
         if (!isnan(worst) && !(fabs(miss) <= fabs(worst))) { /* a probe without a value stays the worst */
             worst = miss;
             name = probe->name;
         }
     }
-    return sb_figure_below(
-        figures, "pressure at probes, worst", "%", 100 * fabs(worst) / (weight * sb_still_depth(scene)), 1, error,
-        "relative to rho g D; means over the second half at %zu probes on walls and in the water; largest error "
-        "%+.1f Pa at %s",
-        scene->measure.probe_count, worst, name);
+    sb_figure_below(figures, "pressure at probes, worst", "%", 100 * fabs(worst) / (weight * sb_still_depth(scene)), 1,
+                    "relative to rho g D; means over the second half at %zu probes on walls and in the water; largest "
+                    "error %+.1f Pa at %s",
+                    scene->measure.probe_count, worst, name);
 }
 
-sb_status sb_still_figures(const sb_case_run *run, sb_figures *figures, sb_error *error)
+void sb_still_figures(const sb_case_run *run, sb_figures *figures)
 {
-    sb_status status = figure_probes(run, figures, error);
-    return status == SB_OK ? figure_layers(run, figures, error) : status;
+    figure_probes(run, figures);
+    figure_layers(run, figures);
 }
 
-sb_status sb_still_plot(const sb_case_run *run, sb_plot *plot, sb_error *error)
+void sb_still_plot(const sb_case_run *run, sb_plot *plot)
 {
-    sb_curve curve = {0};
-    double scale = run->scene->fluid.density * run->scene->fluid.gravity * sb_still_depth(run->scene);
-    profile *p = sb_alloc(1, sizeof *p);
-    sb_status status = p ? read_profile(run, p, error) : sb_fail_memory(error, "a profile");
-    for (size_t k = 0; status == SB_OK && k < LAYERS; k++) {
-        double n = (double)p->count[k];
-        if (is_layer(p, k)) status = sb_curve_add(&curve, p->height[k] / n, p->excess[k] / n / scale * 100, error);
+    profile p;
+    sb_curve *curve = sb_curve_new(run->made);
+    double scale = weight_of(run->scene) * sb_still_depth(run->scene);
+    read_profile(run, &p);
+    for (size_t k = 0; k < LAYERS; k++) {
+        double n = (double)p.count[k];
+        if (is_layer(&p, k)) sb_curve_add(curve, p.height[k] / n, p.excess[k] / n / scale * 100);
     }
-    if (status == SB_OK) status = sb_plot_run(plot, run, &curve, error);
-    sb_curve_free(&curve);
-    sb_free(p);
-    return status;
+    sb_plot_run(plot, run, curve);
 }

@@ -7,8 +7,8 @@
 /* Depth (m) of the sea above the floor of the tank. */
 double sb_still_depth(const sb_scene *scene);
 /* Adds the figures of probes and of layers of particles, over the second half of the run. */
-sb_status sb_still_figures(const sb_case_run *run, sb_figures *figures, sb_error *error);
+void sb_still_figures(const sb_case_run *run, sb_figures *figures);
 /* Adds the errors of the layers over height to the plot. */
-sb_status sb_still_plot(const sb_case_run *run, sb_plot *plot, sb_error *error);
+void sb_still_plot(const sb_case_run *run, sb_plot *plot);
 
 #endif
