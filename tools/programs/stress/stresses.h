@@ -1,25 +1,32 @@
-/* The stress cases, each in a file stress_<name>.c. */
-#ifndef SB_BATTERY_STRESSES_H
-#define SB_BATTERY_STRESSES_H
+/* The stress cases, in the order of the report: one row each. To add one, write its sb_stress into a file
+   stress_<name>.c and add its row. */
+#ifndef SB_STRESS_STRESSES_H
+#define SB_STRESS_STRESSES_H
 
 #include "stress.h"
 
-extern const sb_stress sb_stress_still;
-extern const sb_stress sb_stress_plates;
-extern const sb_stress sb_stress_drop;
-extern const sb_stress sb_stress_jet;
-extern const sb_stress sb_stress_flume;
-extern const sb_stress sb_stress_film;
-extern const sb_stress sb_stress_frame;
-extern const sb_stress sb_stress_steps;
-extern const sb_stress sb_stress_tolerances;
-extern const sb_stress sb_stress_start;
-extern const sb_stress sb_stress_sampling;
-extern const sb_stress sb_stress_meshes;
-extern const sb_stress sb_stress_immersed;
-extern const sb_stress sb_stress_paddles;
-extern const sb_stress sb_stress_leaving;
-extern const sb_stress sb_stress_ends;
-extern const sb_stress sb_stress_keys;
+/* clang-format off */
+#define SB_STRESSES(ROW)    \
+    ROW(still)              \
+    ROW(plates)             \
+    ROW(drop)               \
+    ROW(jet)                \
+    ROW(flume)              \
+    ROW(film)               \
+    ROW(frame)              \
+    ROW(steps)              \
+    ROW(tolerances)         \
+    ROW(start)              \
+    ROW(sampling)           \
+    ROW(meshes)             \
+    ROW(paddles)            \
+    ROW(immersed)           \
+    ROW(leaving)            \
+    ROW(ends)               \
+    ROW(keys)
+/* clang-format on */
+
+#define SB_STRESS_DECLARE(name) extern const sb_stress sb_stress_##name;
+SB_STRESSES(SB_STRESS_DECLARE)
 
 #endif

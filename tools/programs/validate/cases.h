@@ -1,28 +1,34 @@
-/* The cases, each in a file case_<name>.c. To add one, write that file with its sb_case, add its line here and to
-   cases.c, and put its scene and reference tables into assets/validation/<folder>/. */
-#ifndef SB_VALIDATION_CASES_H
-#define SB_VALIDATION_CASES_H
+/* The cases, in the order of the report: one row each. To add one, write its sb_case into a file case_<name>.c and add
+   its row. */
+#ifndef SB_VALIDATE_CASES_H
+#define SB_VALIDATE_CASES_H
 
 #include "case.h"
 
-/* All cases in the order of the report, ended by NULL. */
-extern const sb_case *const sb_cases[];
+/* clang-format off */
+#define SB_CASES(ROW)               \
+    ROW(still_water_flat)           \
+    ROW(still_water_box)            \
+    ROW(still_water_basin)          \
+    ROW(standing_wave)              \
+    ROW(solitary_wave)              \
+    ROW(runup_breaking)             \
+    ROW(runup_nonbreaking)          \
+    ROW(front_etsin)                \
+    ROW(front_martin_moyce)         \
+    ROW(front_martin_moyce_small)   \
+    ROW(front_koshizuka)            \
+    ROW(wall_pressure)              \
+    ROW(wall_pressure_3d)           \
+    ROW(column)                     \
+    ROW(island)                     \
+    ROW(energy)
+/* clang-format on */
 
-extern const sb_case sb_case_still_water_flat;
-extern const sb_case sb_case_still_water_box;
-extern const sb_case sb_case_still_water_basin;
-extern const sb_case sb_case_standing_wave;
-extern const sb_case sb_case_solitary_wave;
-extern const sb_case sb_case_runup_breaking;
-extern const sb_case sb_case_runup_nonbreaking;
-extern const sb_case sb_case_energy;
-extern const sb_case sb_case_front_etsin;
-extern const sb_case sb_case_front_martin_moyce;
-extern const sb_case sb_case_front_martin_moyce_small;
-extern const sb_case sb_case_front_koshizuka;
-extern const sb_case sb_case_wall_pressure;
-extern const sb_case sb_case_wall_pressure_3d;
-extern const sb_case sb_case_column;
-extern const sb_case sb_case_island;
+#define SB_CASE_DECLARE(name) extern const sb_case sb_case_##name;
+SB_CASES(SB_CASE_DECLARE)
+
+/* All cases, ended by NULL. */
+extern const sb_case *const sb_cases[];
 
 #endif
