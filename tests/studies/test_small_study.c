@@ -1,5 +1,5 @@
 /* Tests of tools/study with a still tank: impulses equal the weight, finished runs are not repeated, quantities can be
-   selected, bad command lines are refused. */
+   selected, a report stays if nothing is stored, bad command lines are refused. */
 #include "check.h"
 
 #include "sheet.h"
@@ -72,6 +72,15 @@ static void test_runs_are_stored_and_patterns_select(void **state)
     assert_true(tool_contains("output", "--quantity"));
 }
 
+/* No run of this duration is stored. */
+static void test_report_stays_without_runs(void **state)
+{
+    (void)state;
+    assert_int_equal(study(TINY " --set duration=0.25 --report-only"), 0);
+    assert_true(tool_contains("output", "study.md: not changed, because "));
+    assert_true(tool_contains("out/study.md", "| g2, crest |"));
+}
+
 static void test_bad_command_lines_are_refused(void **state)
 {
     (void)state;
@@ -95,6 +104,7 @@ int main(void)
         cmocka_unit_test(test_vertical_impulse_is_weight_times_duration),
         cmocka_unit_test(test_report_has_every_kind_of_quantity),
         cmocka_unit_test(test_runs_are_stored_and_patterns_select),
+        cmocka_unit_test(test_report_stays_without_runs),
         cmocka_unit_test(test_bad_command_lines_are_refused),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

@@ -40,21 +40,21 @@ static void test_stopped_run_is_resumed(void **state)
     (void)state;
     sb_store store;
     sb_error error = {0};
-    size_t failed = 0;
+    const sb_common_options options = {.program = "program", .jobs = 1};
     char place[SB_PATH_MAX];
-    assert_int_equal(sb_store_open(&store, "out", "program", "assets/validation", false, &error), SB_OK);
+    assert_int_equal(sb_store_open(&store, &options, "out", "assets/validation", false, &error), SB_OK);
     const sb_request request = {.of = sb_cases[0], .plan = sb_cases[0]->quick, .quick = true, .seed = 1};
-    assert_int_equal(sb_runs_launch(&store, &request, 1, 1, &failed, &error), SB_INTERRUPTED);
+    assert_int_equal(sb_runs_launch(&store, &request, 1, &error), SB_INTERRUPTED);
     assert_false(sb_run_find(&store, &request, false, place));
     assert_int_equal(sb_run_folder(&store, &request, place, &error), SB_OK);
     assert_int_equal(sb_run_spend(place, 20, &error), SB_OK);
-    assert_int_equal(sb_runs_launch(&store, &request, 1, 1, &failed, &error), SB_OK);
-    assert_int_equal(failed, 0);
+    assert_int_equal(sb_runs_launch(&store, &request, 1, &error), SB_OK);
+    assert_int_equal(store.failed, 0);
     assert_true(sb_run_find(&store, &request, false, place));
     const double spent = sb_record_number(place, "cpu_s");
     assert_true(spent >= 20 && spent < 21);
     /* A third launch runs nothing. */
-    assert_int_equal(sb_runs_launch(&store, &request, 1, 1, &failed, &error), SB_OK);
+    assert_int_equal(sb_runs_launch(&store, &request, 1, &error), SB_OK);
 
     char line[2][2048];
     FILE *arguments = fopen("arguments", "r");

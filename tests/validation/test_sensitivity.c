@@ -24,8 +24,9 @@ static void add(sb_result *r, double height, double noise)
 static void test_report_shows_headline_and_largest_error(void **state)
 {
     (void)state;
-    const sb_store store = {.machine = "a machine", .commit = "abc"};
-    sb_sensitivity_study study = {.store = &store, .command = "a command", .count = 1};
+    const sb_common_options options = {.command = "a command"};
+    const sb_store store = {.options = &options, .machine = "a machine", .commit = "abc"};
+    sb_sensitivity_study study = {.store = &store, .count = 1};
     const size_t runs = 1 + SB_SENSITIVITY_PAIR * sb_sensitivity_rows();
     study.runs = sb_alloc(runs, sizeof *study.runs);
     assert_non_null(study.runs);

@@ -1,7 +1,8 @@
 #include "report.h"
 
-#include "base/file.h"
-#include "plot_draw.h"
+#include "markdown.h"
+#include "plot.h"
+#include "process.h"
 
 #include <dirent.h>
 #include <math.h>
@@ -108,19 +109,10 @@ static void put_scaling(FILE *file, const sb_bench_rows *rows)
             sb_bench_growth(rows));
 }
 
-/* Removes the input of gnuplot, which the table also contains. */
-static void remove_plot_input(const char *folder)
+static sb_status draw_scaling(sb_plot *plot, const void *what, sb_error *error)
 {
-    static const char *const names[] = {"scaling.gp", "scaling.dat"};
-    char path[SB_PATH_MAX];
-    for (size_t n = 0; n < sizeof names / sizeof *names; n++)
-        if (sb_path_join(path, folder, names[n], NULL) == SB_OK) remove(path);
-}
-
-static sb_status draw_scaling(const sb_bench_rows *rows, const char *folder, const char *picture, sb_error *error)
-{
-    sb_plot *plot = sb_plot_create();
-    if (!plot) return sb_fail_memory(error, "a plot");
+    const sb_bench_rows *rows = what;
+    (void)error;
     sb_plot_panel(plot, "Whole steps of ten iterations", "log10 of the number of particles",
                   "ns per particle and step");
     sb_plot_range(plot, (double)NAN, (double)NAN, 0, (double)NAN);
@@ -134,26 +126,19 @@ static sb_status draw_scaling(const sb_bench_rows *rows, const char *folder, con
         if (curve.count > 0) sb_plot_curve(plot, SB_PLOT_LINE, label, &curve);
         sb_curve_free(&curve);
     }
-    const sb_status status = sb_plot_draw(plot, folder, "scaling", picture, error);
-    remove_plot_input(folder);
-    sb_plot_destroy(plot);
-    return status;
+    return SB_OK;
 }
 
-/* Writes the picture of the scaling, or the reason why it cannot be drawn. */
+/* Writes the picture of the scaling, or the reason why it cannot be drawn. The table contains the input of gnuplot. */
 static void put_picture(FILE *file, const sb_bench_table *table, const char *folder, const char *name)
 {
-    char absolute[SB_PATH_MAX], picture[SB_PATH_MAX];
+    char plots[SB_PATH_MAX], text[SB_BENCH_NAME + 128];
     sb_error reason = {0};
-    sb_status status = SB_OK;
-    if (!realpath(folder, absolute)) /* the plot needs an absolute path */
-        status = sb_fail(&reason, SB_FAILED, "%.400s: no such folder", folder);
-    if (status == SB_OK) status = sb_path_join(picture, absolute, "scaling.png", &reason);
-    if (status == SB_OK) status = draw_scaling(&table->rows, absolute, picture, &reason);
-    if (status == SB_OK)
-        fprintf(file, "\n![cost per particle by size and threads](bench/%s/scaling.png)\n", name);
-    else
-        fprintf(file, "\nNo plot: %s.\n", reason.text);
+    sb_plot_picture(draw_scaling, &table->rows, folder, "scaling", folder, &reason);
+    if (sb_path_join(plots, folder, "plots", NULL) == SB_OK) sb_folder_remove(plots, NULL);
+    snprintf(text, sizeof text, "![cost per particle by size and threads](bench/%.127s/scaling.png)\n", name);
+    fputc('\n', file);
+    sb_put_picture(file, &reason, text);
 }
 
 static void put_table(FILE *file, const sb_bench_table *table, const char *folder, const char *name)

@@ -3,22 +3,36 @@
 #include <ctype.h>
 #include <math.h>
 #include <string.h>
-
-sb_status sb_report_folder(const sb_common_options *options, const char *out, const char *below,
-                           char folder[SB_PATH_MAX], sb_error *error)
-{
-    if (!options->report && below) return sb_path_join(folder, out, below, error);
-    return sb_path_join(folder, "", options->report ? options->report : SB_SOURCE_DIR "/docs/results", error);
-}
+#include <unistd.h>
 
 sb_status sb_report_write(const char *folder, const char *name, sb_put *put, const void *report, sb_error *error)
 {
+    char path[SB_PATH_MAX], parent[SB_PATH_MAX];
     sb_atomic_file file;
-    sb_status status = sb_make_directories(folder, error);
-    if (status == SB_OK) status = sb_atomic_open_in(&file, folder, name, error);
+    sb_status status = sb_path_join(path, folder, name, error);
+    if (status != SB_OK) return status;
+    sb_path_folder(parent, path);
+    status = sb_make_directories(parent, error);
+    if (status == SB_OK) status = sb_atomic_open(&file, path, error);
     if (status != SB_OK) return status;
     put(file.stream, report);
     return sb_atomic_commit(&file, 0, error);
+}
+
+sb_status sb_reports_write(const sb_store *store, const sb_report_file *files, const void *report, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    const sb_report_file *last = files;
+    while (last[1].name) last++;
+    sb_status status = sb_path_join(path, store->report, last->name, error);
+    if (status == SB_OK && store->options->report_only && !store->found && access(path, F_OK) == 0) {
+        printf("%s: not changed, because %s contains no run of it\n", path, store->out);
+        return SB_OK;
+    }
+    for (const sb_report_file *f = files; status == SB_OK && f->name; f++)
+        status = sb_report_write(store->report, f->name, f->put, report, error);
+    if (status == SB_OK) printf("%s\n", path);
+    return status;
 }
 
 void sb_text_number(char text[48], double value)

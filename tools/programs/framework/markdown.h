@@ -2,18 +2,20 @@
 #ifndef SB_FRAMEWORK_MARKDOWN_H
 #define SB_FRAMEWORK_MARKDOWN_H
 
-#include "arguments.h"
-#include "base/file.h"
+#include "store.h"
 
 #include <stdio.h>
 
-/* The folder of a report: --report, or `below` of the folder `out` (unless NULL), or else docs/results. */
-sb_status sb_report_folder(const sb_common_options *options, const char *out, const char *below,
-                           char folder[SB_PATH_MAX], sb_error *error);
-
 typedef void sb_put(FILE *out, const void *report);
-/* Writes folder/name by `put`, whole or not at all, and makes the folder. */
+/* Writes folder/name by `put`, whole or not at all, and makes its folder. */
 sb_status sb_report_write(const char *folder, const char *name, sb_put *put, const void *report, sb_error *error);
+/* Writes files into the store's report folder, ended by a row without a name, and prints the path of the last one. An
+   earlier report stays if --report-only is given and the store has no run to report. */
+typedef struct sb_report_file {
+    const char *name;
+    sb_put *put;
+} sb_report_file;
+sb_status sb_reports_write(const sb_store *store, const sb_report_file *files, const void *report, sb_error *error);
 
 /* Text for a table cell. A number has four digits; NaN is an en dash; an error has a sign and a unit. */
 void sb_text_number(char text[48], double value);

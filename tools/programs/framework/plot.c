@@ -1,10 +1,9 @@
 #include "plot.h"
 
 #include "base/memory.h"
+#include "markdown.h"
 #include "output/tool.h"
-#include "plot_draw.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -34,12 +33,9 @@ struct sb_plot {
     panel spare;     /* for all when it was */
     size_t panel_count, panel_capacity;
     panel *panels;
+    const char *name;
+    char picture[SB_PATH_MAX];
 };
-
-sb_plot *sb_plot_create(void)
-{
-    return sb_alloc(1, sizeof(sb_plot));
-}
 
 static void free_layers(panel *p)
 {
@@ -50,13 +46,11 @@ static void free_layers(panel *p)
     sb_free(p->layers);
 }
 
-void sb_plot_destroy(sb_plot *plot)
+static void free_plot(sb_plot *plot)
 {
-    if (!plot) return;
     for (size_t p = 0; p < plot->panel_count; p++) free_layers(&plot->panels[p]);
     free_layers(&plot->spare);
     sb_free(plot->panels);
-    sb_free(plot);
 }
 
 static panel *last(sb_plot *plot)
@@ -241,14 +235,15 @@ static void put_panel(FILE *out, const panel *p, const char *data, size_t first)
     fputc('\n', out);
 }
 
-static void put_script(FILE *out, const sb_plot *plot, const char *name, const char *picture)
+static void put_script(FILE *out, const void *what)
 {
+    const sb_plot *plot = what;
     char data[TEXT];
     size_t first = 0;
-    snprintf(data, sizeof data, "%s.dat", name);
+    snprintf(data, sizeof data, "%s.dat", plot->name);
     fprintf(out, "set terminal pngcairo noenhanced size 900,%zu font 'Sans,10'\nset output ",
             60 + 300 * plot->panel_count);
-    put_quoted(out, picture);
+    put_quoted(out, plot->picture);
     fprintf(out,
             "\nset grid lt 1 lw 0.5 lc rgb '#dddddd'\nset border 3 lc rgb '#555555'\n"
             "set tics nomirror\nset key outside right top Left reverse\nset lmargin 12\n"
@@ -261,48 +256,38 @@ static void put_script(FILE *out, const sb_plot *plot, const char *name, const c
     fputs("unset multiplot\n", out);
 }
 
-static FILE *open_in(const char *folder, const char *name, const char *ending, sb_error *error)
+static void put_all_data(FILE *out, const void *what)
 {
-    char path[SB_PATH_MAX];
-    int length = snprintf(path, sizeof path, "%s/%s.%s", folder, name, ending);
-    FILE *out = length < SB_PATH_MAX ? fopen(path, "w") : NULL;
-    if (!out) sb_fail(error, SB_FAILED, "%.400s: cannot write: %s", path, strerror(errno));
-    return out;
-}
-
-static sb_status finish(FILE *out, const char *name, sb_error *error)
-{
-    int bad = ferror(out);
-    return fclose(out) == 0 && !bad ? SB_OK : sb_fail(error, SB_FAILED, "%s: cannot write the plot's files", name);
-}
-
-sb_status sb_plot_draw(const sb_plot *plot, const char *folder, const char *name, const char *picture, sb_error *error)
-{
-    char program[SB_PATH_MAX], script[TEXT];
-    if (plot->incomplete) return sb_fail_memory(error, "a plot");
-    if (!sb_tool_find("gnuplot", program)) return sb_fail(error, SB_FAILED, "gnuplot is not installed");
-    FILE *out = open_in(folder, name, "dat", error);
-    if (!out) return SB_FAILED;
+    const sb_plot *plot = what;
     for (size_t p = 0; p < plot->panel_count; p++)
         for (size_t k = 0; k < plot->panels[p].layer_count; k++) put_data(out, &plot->panels[p].layers[k]);
-    sb_status status = finish(out, name, error);
-    out = status == SB_OK ? open_in(folder, name, "gp", error) : NULL;
-    if (!out) return SB_FAILED;
-    put_script(out, plot, name, picture);
-    status = finish(out, name, error);
-    snprintf(script, sizeof script, "%s.gp", name);
+}
+
+static sb_status run_gnuplot(const sb_plot *plot, const char *folder, sb_error *error)
+{
+    char program[SB_PATH_MAX], data[TEXT], script[TEXT];
     char *const arguments[] = {"gnuplot", script, NULL};
+    if (!sb_tool_find("gnuplot", program)) return sb_fail(error, SB_FAILED, "gnuplot is not installed");
+    snprintf(data, sizeof data, "%s.dat", plot->name);
+    snprintf(script, sizeof script, "%s.gp", plot->name);
+    sb_status status = sb_report_write(folder, data, put_all_data, plot, error);
+    if (status == SB_OK) status = sb_report_write(folder, script, put_script, plot, error);
     return status == SB_OK ? sb_tool_run(program, arguments, folder, error) : status;
 }
 
-sb_status sb_plot_picture(const sb_plot *plot, const char *out, const char *name, const char *folder, sb_error *error)
+sb_status sb_plot_picture(sb_draw *draw, const void *what, const char *out, const char *name, const char *folder,
+                          sb_error *error)
 {
-    char plots[SB_PATH_MAX], picture[SB_PATH_MAX + TEXT], real[SB_PATH_MAX];
-    sb_status status = sb_path_join(plots, out, "plots", error);
-    if (status == SB_OK) status = sb_make_directories(plots, error);
+    char plots[SB_PATH_MAX], real[SB_PATH_MAX], file[TEXT];
+    sb_plot plot = {.name = name};
+    sb_status status = draw(&plot, what, error);
+    if (status == SB_OK && plot.incomplete) status = sb_fail_memory(error, "a plot");
     if (status == SB_OK && !realpath(folder, real))
         status = sb_fail(error, SB_FAILED, "%.400s: no such folder", folder);
-    if (status != SB_OK) return status;
-    snprintf(picture, sizeof picture, "%s/%s.png", real, name);
-    return sb_plot_draw(plot, plots, name, picture, error);
+    if (status == SB_OK) status = sb_path_join(plots, out, "plots", error);
+    snprintf(file, sizeof file, "%s.png", name);
+    if (status == SB_OK) status = sb_path_join(plot.picture, real, file, error);
+    if (status == SB_OK) status = run_gnuplot(&plot, plots, error);
+    free_plot(&plot);
+    return status;
 }

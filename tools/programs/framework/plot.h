@@ -1,8 +1,9 @@
 /* A picture with a column of panels, each with curves, clouds of points and bands, drawn by gnuplot. If memory is
-   exhausted, drawing it fails (plot_draw.h). */
+   exhausted, drawing it fails. */
 #ifndef SB_FRAMEWORK_PLOT_H
 #define SB_FRAMEWORK_PLOT_H
 
+#include "base/status.h"
 #include "curve.h"
 
 typedef struct sb_plot sb_plot;
@@ -32,5 +33,11 @@ void sb_plot_logarithmic(sb_plot *plot);
 void sb_plot_curve(sb_plot *plot, sb_plot_style style, const char *label, const sb_curve *curve);
 /* Fills the area between two curves over the same x: a percentile band or an uncertainty. */
 void sb_plot_band(sb_plot *plot, const char *label, const sb_curve *low, const sb_curve *high);
+
+/* Draws the picture folder/<name>.png of the plot that `draw` fills in, by gnuplot with files in out/plots, which stay
+   there. SB_FAILED: gnuplot is not installed or fails. */
+typedef sb_status sb_draw(sb_plot *plot, const void *what, sb_error *error);
+sb_status sb_plot_picture(sb_draw *draw, const void *what, const char *out, const char *name, const char *folder,
+                          sb_error *error);
 
 #endif

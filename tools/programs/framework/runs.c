@@ -9,10 +9,8 @@
 #include <string.h>
 
 typedef struct launcher {
-    const sb_store *store;
+    sb_store *store;
     const sb_request *requests;
-    bool alone; /* one run at a time */
-    size_t failed;
     char scene[SB_PATH_MAX], folder[SB_PATH_MAX]; /* of the run that is started, as its settings */
     sb_settings settings;
 } launcher;
@@ -34,7 +32,7 @@ static sb_status begin(void *user, size_t i, sb_process *process, sb_error *erro
     if (status == SB_BAD_INPUT) {
         sb_request_label(request, true, label);
         printf("%s: failed, %s\n", label, error->text);
-        l->failed++;
+        l->store->failed++;
         *error = (sb_error){0};
         return SB_OK;
     }
@@ -50,7 +48,7 @@ static sb_status begin(void *user, size_t i, sb_process *process, sb_error *erro
     sb_process_add(process, "shorebreak", "run", l->scene, "--quiet", "--resume", "--out", folder, NULL);
     sb_process_set(process, l->settings.list, l->settings.count);
     sb_process_add(process, "--preset", request->paper ? "paper" : "default", NULL);
-    if (!l->alone) sb_process_add(process, "--threads", "1", NULL);
+    if (l->store->options->jobs > 1) sb_process_add(process, "--threads", "1", NULL);
     return SB_OK;
 }
 
@@ -71,18 +69,15 @@ static sb_status end(void *user, size_t i, const sb_process *process, bool stopp
     }
     sb_process_reason(process, ": ", "no output", reason, sizeof reason);
     printf("%s: failed, %s\n", label, reason);
-    l->failed++;
+    l->store->failed++;
     return sb_run_fail(folder, reason, error);
 }
 
-sb_status sb_runs_launch(const sb_store *store, const sb_request *requests, size_t count, int jobs, size_t *failed,
-                         sb_error *error)
+sb_status sb_runs_launch(sb_store *store, const sb_request *requests, size_t count, sb_error *error)
 {
-    launcher l = {.store = store, .requests = requests, .alone = jobs == 1};
+    launcher l = {.store = store, .requests = requests};
     const sb_runner runner = {.user = &l, .stop_signal = SIGTERM, .skip = is_stored, .begin = begin, .end = end};
-    const sb_status status = sb_runner_run(&runner, count, jobs, error);
-    *failed += l.failed;
-    return status;
+    return sb_runner_run(&runner, count, store->options->jobs, error);
 }
 
 /* Fills in what only the request and the record contain. */
@@ -104,7 +99,7 @@ static void complete(const sb_store *store, sb_result *r)
     view->judged = r->request.plan->judged;
 }
 
-void sb_result_read(const sb_store *store, bool any_build, sb_result *r)
+void sb_result_read(sb_store *store, bool any_build, sb_result *r)
 {
     char folder[SB_PATH_MAX];
     sb_error why = {0};
@@ -142,6 +137,7 @@ void sb_result_read(const sb_store *store, bool any_build, sb_result *r)
         }
     }
     r->state = status == SB_OK ? SB_RESULT_DONE : SB_RESULT_FAILED;
+    store->found += status == SB_OK;
     if (status != SB_OK) snprintf(r->problem, sizeof r->problem, "%.600s", why.text);
 }
 
@@ -153,9 +149,9 @@ void sb_results_free(sb_result *results, size_t count)
     }
 }
 
-sb_status sb_runs_make(const sb_store *store, sb_result *results, size_t count, int jobs, bool report_only,
-                       size_t *failed, sb_error *error)
+sb_status sb_runs_make(sb_store *store, sb_result *results, size_t count, sb_error *error)
 {
+    const bool report_only = store->options->report_only;
     sb_status status = SB_OK;
     int most = 0;
     size_t taken = 0;
@@ -165,7 +161,7 @@ sb_status sb_runs_make(const sb_store *store, sb_result *results, size_t count, 
     for (int seed = 1; seed <= most; seed++)
         for (size_t i = 0; i < count; i++)
             if (results[i].request.of && results[i].request.seed == seed) requests[taken++] = results[i].request;
-    if (!report_only) status = sb_runs_launch(store, requests, taken, jobs, failed, error);
+    if (!report_only) status = sb_runs_launch(store, requests, taken, error);
     for (size_t i = 0; status == SB_OK && i < count; i++)
         if (results[i].request.of) sb_result_read(store, report_only, &results[i]);
     sb_free(requests);

@@ -24,28 +24,26 @@ typedef struct sb_result {
     char problem[640];
 } sb_result;
 
-/* Runs, in order, every request of which this build has no stored run. jobs 1: one run at a time with all cores;
+/* Runs, in order, every request of which this build has no stored run. --jobs 1: one run at a time with all cores;
    more: that many runs at a time with one thread each. Prints on stdout each run and its run time. A run that was
-   stopped continues from its checkpoint. A failed run is stored as failed and counted in *failed; the others continue.
+   stopped continues from its checkpoint. A failed run is stored as failed and counted; the others continue.
    SB_INTERRUPTED after SIGINT or SIGTERM, which is passed on to the running processes. */
-sb_status sb_runs_launch(const sb_store *store, const sb_request *requests, size_t count, int jobs, size_t *failed,
-                         sb_error *error);
+sb_status sb_runs_launch(sb_store *store, const sb_request *requests, size_t count, sb_error *error);
 
 /* Reads the stored run of r->request and computes its figures. any_build: if this build has not run it, the newest run
    of another build is read. */
-void sb_result_read(const sb_store *store, bool any_build, sb_result *r);
+void sb_result_read(sb_store *store, bool any_build, sb_result *r);
 void sb_results_free(sb_result *results, size_t count);
 
-/* Makes the runs that are not stored (unless report_only) and reads all that are. Runs are in order, but grouped by
-   start seed (1, 2, ...), so that a temporarily slower machine affects all choices alike. Adds to *failed. With
-   report_only, runs of other builds count, too. */
-sb_status sb_runs_make(const sb_store *store, sb_result *results, size_t count, int jobs, bool report_only,
-                       size_t *failed, sb_error *error);
+/* Makes the runs that are not stored (unless --report-only is given) and reads all that are. Runs are in order, but
+   grouped by start seed (1, 2, ...), so that a temporarily slower machine affects all choices alike. With
+   --report-only, runs of other builds count, too. */
+sb_status sb_runs_make(sb_store *store, sb_result *results, size_t count, sb_error *error);
 
 /* Writes machines, commits and load in Markdown; names the runs with provisional times. */
 void sb_runs_where(FILE *out, const sb_store *store, const sb_result *results, size_t count);
 /* The same after a line with the command. */
-void sb_runs_origin(FILE *out, const sb_store *store, const sb_result *results, size_t count, const char *command);
+void sb_runs_origin(FILE *out, const sb_store *store, const sb_result *results, size_t count);
 /* If there are no figures, writes a list item with the reason and returns true. */
 bool sb_runs_problem(FILE *out, const sb_result *result);
 

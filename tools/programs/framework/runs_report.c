@@ -77,9 +77,9 @@ void sb_runs_where(FILE *out, const sb_store *store, const sb_result *results, s
     fputc('\n', out);
 }
 
-void sb_runs_origin(FILE *out, const sb_store *store, const sb_result *results, size_t count, const char *command)
+void sb_runs_origin(FILE *out, const sb_store *store, const sb_result *results, size_t count)
 {
-    fprintf(out, "- command: `%s`\n", command);
+    fprintf(out, "- command: `%s`\n", store->options->command);
     sb_runs_where(out, store, results, count);
 }
 

@@ -10,16 +10,24 @@
 #include <string.h>
 #include <unistd.h>
 
-sb_status sb_store_open(sb_store *store, const char *out, const char *program, const char *assets, bool with_tool,
-                        sb_error *error)
+sb_status sb_store_report(sb_store *store, const char *below, sb_error *error)
 {
-    sb_store made = {0};
+    const char *given = store->options->report;
+    if (!given && below) return sb_path_join(store->report, store->out, below, error);
+    return sb_path_join(store->report, "", given ? given : SB_SOURCE_DIR "/docs/results", error);
+}
+
+sb_status sb_store_open(sb_store *store, const sb_common_options *options, const char *out, const char *assets,
+                        bool with_tool, sb_error *error)
+{
+    sb_store made = {.options = options};
     char beside[SB_PATH_MAX], own[SB_PATH_MAX], real[SB_PATH_MAX];
     sb_status status = sb_process_beside("shorebreak", beside, error);
     if (status == SB_OK) status = sb_process_beside(NULL, own, error);
+    if (options->out) out = options->out;
     if (status == SB_OK) status = sb_make_directories(out, error);
     if (status != SB_OK) return status;
-    program = program ? program : beside;
+    const char *program = options->program ? options->program : beside;
     if (!realpath(out, made.out)) return sb_fail(error, SB_FAILED, "%.400s: %s", out, strerror(errno));
     if (!realpath(program, made.program) || access(made.program, X_OK) != 0)
         return sb_fail(error, SB_BAD_INPUT, "%.400s: no such program", program);
@@ -34,7 +42,7 @@ sb_status sb_store_open(sb_store *store, const char *out, const char *program, c
         sb_origin_commit(SB_SOURCE_DIR, made.commit);
     sb_origin_machine(made.machine);
     *store = made;
-    return SB_OK;
+    return sb_store_report(store, options->quick ? "quick" : NULL, error);
 }
 
 void sb_record_text(const char *folder, const char *key, char *value, size_t size)

@@ -1,6 +1,5 @@
 /* tools/paper-studies: repeats the published studies of time step, tolerance and spacing on our plant. */
 #include "arguments.h"
-#include "markdown.h"
 #include "studies.h"
 
 static const double QUICK_SCALE = 4;
@@ -20,24 +19,20 @@ static const char help[] =
     "Finished runs are stored and not repeated as long as program and scene stay the same.\n"
     "Exit status: 0 done, 1 bad input, 2 a run failed, 130 stopped.\n";
 
-static sb_status run(const sb_common_options *o, sb_paper_studies *studies, int *result, sb_error *error)
+static sb_status run(sb_common_options *o, sb_paper_studies *studies, int *result, sb_error *error)
 {
-    sb_store store;
-    char folder[SB_PATH_MAX], command[64];
-    size_t failed = 0;
-    const int jobs = o->jobs ? o->jobs : 1;
-    sb_status status = sb_store_open(&store, o->out ? o->out : SB_SOURCE_DIR "/build/paper-studies", o->program,
-                                     "assets/validation", false, error);
+    static sb_store store;
+    if (!o->jobs) o->jobs = 1;
+    snprintf(o->command, sizeof o->command, "tools/paper-studies%s --jobs %d", o->quick ? " --quick" : "", o->jobs);
+    sb_status status =
+        sb_store_open(&store, o, SB_SOURCE_DIR "/build/paper-studies", "assets/validation", false, error);
     if (status != SB_OK) return status;
-    snprintf(command, sizeof command, "tools/paper-studies%s --jobs %d", o->quick ? " --quick" : "", jobs);
-    sb_paper_begin(studies, &store, o->quick ? QUICK_SCALE : 1, command);
-    status = sb_runs_make(&store, studies->trials, studies->count, jobs, o->report_only, &failed, error);
+    sb_paper_begin(studies, &store, o->quick ? QUICK_SCALE : 1);
+    status = sb_runs_make(&store, studies->trials, studies->count, error);
     if (status == SB_OK) status = sb_paper_costs(studies, error);
-    if (status == SB_OK) status = sb_report_folder(o, store.out, o->quick ? "quick" : NULL, folder, error);
-    if (status == SB_OK) status = sb_paper_write(studies, folder, error);
-    if (status == SB_OK) printf("%s/paper-studies.md\n", folder);
+    if (status == SB_OK) status = sb_paper_write(studies, error);
     sb_results_free(studies->trials, studies->count);
-    *result = failed ? SB_FAILED : 0;
+    *result = store.failed ? SB_FAILED : 0;
     return status;
 }
 

@@ -178,7 +178,7 @@ static void put_report(FILE *out, const void *studies)
             "# The published studies on our plant%s\n\nMade by `tools/paper-studies`. docs/studies.md explains the "
             "method.\n\n",
             s->scale > 1 ? ", quick form" : "");
-    sb_runs_origin(out, s->store, s->trials, s->count, s->command);
+    sb_runs_origin(out, s->store, s->trials, s->count);
     fputs(reading, out);
     if (s->scale != 1)
         fprintf(out,
@@ -217,8 +217,9 @@ static void put_csv(FILE *out, const void *studies)
     }
 }
 
-sb_status sb_paper_write(const sb_paper_studies *studies, const char *folder, sb_error *error)
+sb_status sb_paper_write(const sb_paper_studies *studies, sb_error *error)
 {
-    sb_status status = sb_report_write(folder, "paper-studies.csv", put_csv, studies, error);
-    return status == SB_OK ? sb_report_write(folder, "paper-studies.md", put_report, studies, error) : status;
+    static const sb_report_file files[] = {
+        {"paper-studies.csv", put_csv}, {"paper-studies.md", put_report}, {NULL, NULL}};
+    return sb_reports_write(studies->store, files, studies, error);
 }

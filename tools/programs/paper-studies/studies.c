@@ -49,9 +49,9 @@ static void add(sb_paper_studies *s, const sb_published *like, bool paper)
     s->trials[s->count++].request = (sb_request){.of = &plant, .plan = &row->plan, .paper = paper, .seed = 1};
 }
 
-void sb_paper_begin(sb_paper_studies *s, const sb_store *store, double scale, const char *command)
+void sb_paper_begin(sb_paper_studies *s, const sb_store *store, double scale)
 {
-    *s = (sb_paper_studies){.store = store, .scale = scale, .command = command};
+    *s = (sb_paper_studies){.store = store, .scale = scale};
     /* The coarsest spacing first, so that most tables are complete early. */
     for (const int *n = sb_published_sets[SB_SET_SPACING].numbers; *n; n++) {
         const sb_published *shared = sb_published_find(*n);

@@ -22,7 +22,6 @@ typedef struct sb_paper_trial {
 
 typedef struct sb_paper_studies {
     const sb_store *store;
-    const char *command;
     double scale; /* factor of all spacings; 1: as published */
     size_t count;
     sb_paper_trial rows[SB_PAPER_TRIALS];
@@ -30,14 +29,14 @@ typedef struct sb_paper_studies {
 } sb_paper_studies;
 
 /* Prepares the runs; at 1 m only 20 steps. The struct must not move afterwards. */
-void sb_paper_begin(sb_paper_studies *studies, const sb_store *store, double scale, const char *command);
+void sb_paper_begin(sb_paper_studies *studies, const sb_store *store, double scale);
 /* Reads the costs of the finished trials. */
 sb_status sb_paper_costs(sb_paper_studies *studies, sb_error *error);
 
 /* The row of a published number; NULL: none, or not done. */
 const sb_paper_trial *sb_paper_row(const sb_paper_studies *studies, int number, bool paper);
 
-/* Writes folder/paper-studies.md and paper-studies.csv, each whole or not at all. */
-sb_status sb_paper_write(const sb_paper_studies *studies, const char *folder, sb_error *error);
+/* Writes paper-studies.md and paper-studies.csv, each whole or not at all. */
+sb_status sb_paper_write(const sb_paper_studies *studies, sb_error *error);
 
 #endif

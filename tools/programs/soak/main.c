@@ -1,11 +1,8 @@
 /* tools/soak: stops and resumes a run for hours; checks that its memory does not grow and that it does not fail. */
 #include "base/clock.h"
-#include "base/file.h"
 #include "base/memory.h"
 #include "markdown.h"
 #include "options.h"
-#include "origin.h"
-#include "process.h"
 #include "report.h"
 #include "watch.h"
 
@@ -15,21 +12,19 @@ enum { PROCESS_FAILED = 4, NO_ROUTE = 77 }; /* exit statuses */
 
 typedef struct soak {
     sb_soak_options options;
-    char program[SB_PATH_MAX], scene[SB_PATH_MAX], out[SB_PATH_MAX], output[SB_PATH_MAX];
+    sb_store store;
+    char scene[SB_PATH_MAX], out[SB_PATH_MAX], output[SB_PATH_MAX];
     sb_soak_life *lives;
     size_t count, capacity;
-    char commit[64];
     double start;
 } soak;
 
 static sb_status name_files(soak *s, sb_error *error)
 {
-    sb_origin_commit(SB_SOURCE_DIR, s->commit);
-    sb_status status = sb_process_beside("shorebreak", s->program, error);
-    if (status == SB_OK) status = sb_path_join(s->scene, SB_SOURCE_DIR, "assets/scenes/plant.yaml", error);
-    if (status == SB_OK) status = sb_path_join(s->out, s->options.common.out, "run", error);
-    if (status == SB_OK) status = sb_path_join(s->output, s->options.common.out, "output.txt", error);
-    return status == SB_OK ? sb_make_directories(s->options.common.out, error) : status;
+    sb_status status = sb_store_open(&s->store, &s->options.common, "runs/soak", "assets/scenes", false, error);
+    if (status == SB_OK) status = sb_path_join(s->scene, s->store.assets, "plant.yaml", error);
+    if (status == SB_OK) status = sb_path_join(s->out, s->store.out, "run", error);
+    return status == SB_OK ? sb_path_join(s->output, s->store.out, "output.txt", error) : status;
 }
 
 /* Runs until the time is over and a run was resumed, or until a process fails: a resumed run would hide the failure. */
@@ -56,7 +51,7 @@ static sb_status write_reports(const soak *s, bool whole, sb_soak_report *report
 {
     char why[400];
     *report = (sb_soak_report){.options = &s->options,
-                               .commit = s->commit,
+                               .store = &s->store,
                                .lives = s->lives,
                                .count = s->count,
                                .seconds = sb_clock() - s->start};
@@ -65,11 +60,9 @@ static sb_status write_reports(const soak *s, bool whole, sb_soak_report *report
         report->frames += s->lives[i].frames;
         report->judged += sb_soak_growth_of(&s->lives[i]).judged;
     }
-    const char *out = s->options.common.out;
-    char folder[SB_PATH_MAX];
-    sb_status status = sb_report_folder(&s->options.common, NULL, NULL, folder, error);
-    if (status == SB_OK) status = sb_report_write(out, "samples.csv", sb_soak_put_samples, report, error);
-    return status == SB_OK ? sb_report_write(whole ? folder : out, "soak.md", sb_soak_put, report, error) : status;
+    const char *out = s->store.out, *folder = whole ? s->store.report : out;
+    sb_status status = sb_report_write(out, "samples.csv", sb_soak_put_samples, report, error);
+    return status == SB_OK ? sb_report_write(folder, "soak.md", sb_soak_put, report, error) : status;
 }
 
 static int print_result(const soak *s, const sb_soak_report *report)
@@ -92,14 +85,15 @@ static void free_all(soak *s, sb_soak_watch *watch)
 
 int main(int count, char **arguments)
 {
-    soak s = {.start = sb_clock()};
+    static soak s;
+    s.start = sb_clock();
     sb_error error = {0};
     sb_soak_watch *watch = NULL;
     sb_soak_report report = {0};
     sb_status status = sb_soak_options_parse(count, arguments, &s.options, &error);
     if (status == SB_OK && s.options.common.answered) return 0;
     if (status == SB_OK) status = name_files(&s, &error);
-    const sb_soak_run run = {.program = s.program,
+    const sb_soak_run run = {.program = s.store.program,
                              .scene = s.scene,
                              .out = s.out,
                              .output = s.output,

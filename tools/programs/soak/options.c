@@ -32,7 +32,6 @@ sb_status sb_soak_options_parse(int count, char **arguments, sb_soak_options *o,
                                   .options = table,
                                   .option_count = sizeof table / sizeof *table};
     sb_status status = sb_command_line_read(&line, count, arguments, &o->common, error);
-    if (!o->common.out) o->common.out = "runs/soak";
     if (!(o->life > 0)) o->life = fmax(6 * o->minutes, 3);
     return status;
 }

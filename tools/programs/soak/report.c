@@ -1,7 +1,6 @@
 #include "report.h"
 
 #include "markdown.h"
-#include "origin.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -9,14 +8,12 @@
 static void put_head(FILE *out, const sb_soak_report *r)
 {
     const sb_soak_options *o = r->options;
-    char machine[128];
-    sb_origin_machine(machine);
     fprintf(out,
             "# Soak test\n\n"
             "Commit %s, %s.\n"
             "Made by `tools/soak --minutes %.4g --spacing %.4g --life %.4g --duration %.4g` "
             "([explanation](../robustness.md#the-soak)).\n\n",
-            r->commit, machine, o->minutes, o->spacing, o->life, o->duration);
+            r->store->commit, r->store->machine, o->minutes, o->spacing, o->life, o->duration);
     fprintf(
         out,
         "The plant runs with pictures, particle files and a live subscriber. It is stopped by SIGTERM and resumed; a "

@@ -4,12 +4,11 @@
 
 #include "lives.h"
 #include "options.h"
-
-#include <stdio.h>
+#include "store.h"
 
 typedef struct sb_soak_report {
     const sb_soak_options *options;
-    const char *commit; /* of the source at the beginning */
+    const sb_store *store;
     const sb_soak_life *lives;
     size_t count;
     double seconds;  /* total run time */

@@ -2,11 +2,10 @@
 
 #include "base/memory.h"
 
-sb_status sb_stress_collect(const sb_store *store, const sb_stress *of, bool quick, sb_stress_results *results,
-                            sb_error *error)
+sb_status sb_stress_collect(sb_store *store, const sb_stress *of, sb_stress_results *results, sb_error *error)
 {
     *results = (sb_stress_results){.of = of, .trials.assets = store->assets};
-    of->plan(&results->trials, quick);
+    of->plan(&results->trials, store->options->quick);
     const size_t count = results->trials.count;
     results->judged = sb_alloc(count, sizeof *results->judged);
     if (results->trials.incomplete || !results->judged) return sb_fail_memory(error, "trials");
@@ -21,6 +20,7 @@ sb_status sb_stress_collect(const sb_store *store, const sb_stress *of, bool qui
         sb_judge_common(j);
         if (of->judge) of->judge(j);
         results->run++;
+        store->found++;
         results->failed += j->fails;
     }
     return SB_OK;

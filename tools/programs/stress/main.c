@@ -1,6 +1,5 @@
 /* tools/stress: runs stress cases and writes the report. */
 #include "battery.h"
-#include "markdown.h"
 
 #include "base/memory.h"
 
@@ -70,32 +69,30 @@ static sb_status run_cases(const sb_store *store, const options *o, sb_error *er
         for (size_t i = 0; status == SB_OK && i < trials[c].count; i++)
             work[count++] = (sb_job){of, &trials[c].list[i]};
     }
-    if (status == SB_OK) status = sb_trials_run(store, work, count, o->common.jobs, error);
+    if (status == SB_OK) status = sb_trials_run(store, work, count, error);
     for (size_t c = 0; c < o->cases.count; c++) sb_trials_free(&trials[c]);
     sb_free(work);
     return status;
 }
 
 /* Writes the report of all cases; prints and counts the failed trials of the named cases. */
-static sb_status report(const sb_store *store, const options *o, size_t *failed, sb_error *error)
+static sb_status report(sb_store *store, const options *o, size_t *failed, sb_error *error)
 {
     static sb_stress_results results[SB_ROWS_MAX];
-    char folder[SB_PATH_MAX];
-    sb_stability what = {.store = store, .cases = results, .quick = o->common.quick, .command = o->common.command};
-    sb_status status = sb_report_folder(&o->common, store->out, o->common.quick ? "quick" : NULL, folder, error);
+    sb_stability what = {.store = store, .cases = results};
+    sb_status status = SB_OK;
     for (; status == SB_OK && sb_stresses[what.count]; what.count++)
-        status = sb_stress_collect(store, sb_stresses[what.count], o->common.quick, &results[what.count], error);
-    if (status == SB_OK) status = sb_report_write(folder, "stability.md", sb_stability_put, &what, error);
-    for (size_t c = 0; c < what.count; c++) {
+        status = sb_stress_collect(store, sb_stresses[what.count], &results[what.count], error);
+    for (size_t c = 0; status == SB_OK && c < what.count; c++) {
         const sb_stress_results *r = &results[c];
         const bool chosen = sb_selection_has(&o->cases, c);
         for (size_t i = 0; chosen && r->judged && i < r->trials.count; i++)
             if (r->judged[i].outcome.there && r->judged[i].fails)
                 printf("FAIL %s %s: %s\n", r->of->name, r->trials.list[i].name, r->judged[i].why);
         if (chosen) *failed += r->failed;
-        sb_stress_results_free(&results[c]);
     }
-    if (status == SB_OK) printf("%s/stability.md\n", folder);
+    if (status == SB_OK) status = sb_stability_write(&what, error);
+    for (size_t c = 0; c < what.count; c++) sb_stress_results_free(&results[c]);
     return status;
 }
 
@@ -103,10 +100,8 @@ static sb_status stress(const options *o, int *result, sb_error *error)
 {
     static sb_store store;
     size_t failed = 0;
-    const sb_common_options *c = &o->common;
-    sb_status status = sb_store_open(&store, c->out ? c->out : SB_SOURCE_DIR "/build/stress", c->program,
-                                     "assets/stress", true, error);
-    if (status == SB_OK && !c->report_only) status = run_cases(&store, o, error);
+    sb_status status = sb_store_open(&store, &o->common, SB_SOURCE_DIR "/build/stress", "assets/stress", true, error);
+    if (status == SB_OK && !o->common.report_only) status = run_cases(&store, o, error);
     if (status == SB_OK) status = report(&store, o, &failed, error);
     *result = failed ? TRIAL_FAILED : 0;
     return status;

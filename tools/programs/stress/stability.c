@@ -38,8 +38,9 @@ static void put_head(FILE *out, const sb_stability *s)
     fprintf(out,
             "# Stability%s\n\nCommit %s, %s.\nMade by `%s` ([explanation](%s)).\n\n"
             "%zu trials planned, %zu run, %zu passed, **%zu failed**.\n\n",
-            s->quick ? ", quick forms" : "", s->store->commit, s->store->machine, s->command,
-            s->quick ? "../../stability.md" : "../stability.md", planned, run, run - failed, failed);
+            s->store->options->quick ? ", quick forms" : "", s->store->commit, s->store->machine,
+            s->store->options->command, s->store->options->quick ? "../../stability.md" : "../stability.md", planned,
+            run, run - failed, failed);
     fputs("Common rules for every trial:\n\n"
           "- It ends in time and in an allowed way. A refusal or failure gives its reason in one line.\n"
           "- No table and no particle contains a value that is not a number.\n"
@@ -83,10 +84,16 @@ static void put_case(FILE *out, const sb_stress_results *r, const char *commit)
     fputc('\n', out);
 }
 
-void sb_stability_put(FILE *out, const void *stability)
+static void put_report(FILE *out, const void *stability)
 {
     const sb_stability *s = stability;
     put_head(out, s);
     put_summary(out, s);
     for (size_t c = 0; c < s->count; c++) put_case(out, &s->cases[c], s->store->commit);
+}
+
+sb_status sb_stability_write(const sb_stability *stability, sb_error *error)
+{
+    static const sb_report_file files[] = {{"stability.md", put_report}, {NULL, NULL}};
+    return sb_reports_write(stability->store, files, stability, error);
 }

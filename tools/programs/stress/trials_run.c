@@ -127,9 +127,9 @@ static sb_status end(void *user, size_t i, const sb_process *process, bool stopp
     return sb_trial_write(b->store, job, &o, error);
 }
 
-sb_status sb_trials_run(const sb_store *store, const sb_job *work, size_t count, int jobs, sb_error *error)
+sb_status sb_trials_run(const sb_store *store, const sb_job *work, size_t count, sb_error *error)
 {
     battery b = {.store = store, .work = work};
     const sb_runner runner = {.user = &b, .stop_signal = SIGKILL, .skip = is_stored, .begin = begin, .end = end};
-    return sb_runner_run(&runner, count, jobs, error);
+    return sb_runner_run(&runner, count, store->options->jobs, error);
 }

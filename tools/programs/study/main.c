@@ -65,14 +65,11 @@ static sb_status report(const subject *s, const sb_study_options *o, const sb_st
 {
     sb_study study = {.options = o, .store = store, .runs = s->runs, .count = s->count};
     sb_status status = sb_study_rows(&study, error);
-    bool any = false;
-    for (size_t i = 0; i < s->count; i++) any |= s->runs[i].state == SB_RESULT_DONE;
-    if (status == SB_OK && !study.row_count && any)
+    if (status == SB_OK && !study.row_count && store->found)
         status = sb_fail(error, SB_BAD_INPUT, "%s: no measured quantity has %s", s->name,
                          o->pattern_count ? "a name that matches --quantity" : "a value");
     if (study.row_count) sb_study_table(stdout, &study);
     if (status == SB_OK) status = sb_study_write(&study, error);
-    if (status == SB_OK) printf("%s/study.md\n", store->out);
     sb_study_rows_free(&study);
     return status;
 }
@@ -91,18 +88,17 @@ int main(int count, char **arguments)
 {
     static subject s;
     sb_study_options o;
-    sb_store store;
+    static sb_store store;
     sb_error error = {0};
-    size_t failed = 0;
     sb_status status = sb_study_parse(count, arguments, &o, &error);
     if (status == SB_OK && o.common.answered) return 0;
     if (status == SB_OK) status = begin(&s, &o, &error);
-    if (status == SB_OK) status = sb_store_open(&store, s.out, o.common.program, "assets/validation", false, &error);
+    if (status == SB_OK) status = sb_store_open(&store, &o.common, s.out, "assets/validation", false, &error);
+    memcpy(store.report, store.out, sizeof store.report);
     if (status == SB_OK) status = check(&store, &s, &error);
-    if (status == SB_OK)
-        status = sb_runs_make(&store, s.runs, s.count, o.common.jobs, o.common.report_only, &failed, &error);
+    if (status == SB_OK) status = sb_runs_make(&store, s.runs, s.count, &error);
     if (status == SB_OK) status = report(&s, &o, &store, &error);
     sb_results_free(s.runs, s.count);
     sb_free(s.runs);
-    return sb_tool_end("study", status, failed ? SB_FAILED : 0, &error);
+    return sb_tool_end("study", status, store.failed ? SB_FAILED : 0, &error);
 }

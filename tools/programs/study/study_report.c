@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 #include "markdown.h"
-#include "plot_draw.h"
+#include "plot.h"
 
 #include <math.h>
 #include <string.h>
@@ -111,16 +111,11 @@ static void plot_row(const sb_study *study, const sb_study_row *row, sb_plot *pl
     sb_curves_free(&made);
 }
 
-static sb_status draw(const sb_study *study, sb_error *error)
+static sb_status draw(sb_plot *plot, const void *what, sb_error *error)
 {
-    sb_plot *plot = sb_plot_create();
-    sb_status status = plot ? SB_OK : sb_fail_memory(error, "a plot");
-    if (status == SB_OK && !study->row_count) status = sb_fail(error, SB_FAILED, "nothing was measured");
-    for (size_t i = 0; status == SB_OK && i < study->row_count && i < PANELS; i++)
-        plot_row(study, &study->rows[i], plot);
-    if (status == SB_OK) status = sb_plot_picture(plot, study->store->out, "study", study->store->out, error);
-    sb_plot_destroy(plot);
-    return status;
+    const sb_study *study = what;
+    for (size_t i = 0; i < study->row_count && i < PANELS; i++) plot_row(study, &study->rows[i], plot);
+    return study->row_count ? SB_OK : sb_fail(error, SB_FAILED, "nothing was measured");
 }
 
 static void put_report(FILE *out, const void *what)
@@ -128,9 +123,9 @@ static void put_report(FILE *out, const void *what)
     const sb_study *study = what;
     const char *slash = strrchr(study->options->scene, '/');
     sb_error no_plot = {0};
-    draw(study, &no_plot);
+    sb_plot_picture(draw, study, study->store->out, "study", study->store->report, &no_plot);
     fprintf(out, "# Resolution study of %s\n\n", slash ? slash + 1 : study->options->scene);
-    sb_runs_origin(out, study->store, study->runs, study->count, study->options->common.command);
+    sb_runs_origin(out, study->store, study->runs, study->count);
     sb_study_table(out, study);
     fprintf(out, "%s\n", reading);
     sb_put_picture(out, &no_plot, "![value over spacing](study.png)\n");
@@ -179,8 +174,7 @@ static void put_orders_csv(FILE *out, const void *what)
 
 sb_status sb_study_write(const sb_study *study, sb_error *error)
 {
-    const char *folder = study->store->out;
-    sb_status status = sb_report_write(folder, "runs.csv", put_runs_csv, study, error);
-    if (status == SB_OK) status = sb_report_write(folder, "orders.csv", put_orders_csv, study, error);
-    return status == SB_OK ? sb_report_write(folder, "study.md", put_report, study, error) : status;
+    static const sb_report_file files[] = {
+        {"runs.csv", put_runs_csv}, {"orders.csv", put_orders_csv}, {"study.md", put_report}, {NULL, NULL}};
+    return sb_reports_write(study->store, files, study, error);
 }

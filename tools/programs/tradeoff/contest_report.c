@@ -1,7 +1,7 @@
 #include "contest_report.h"
 
 #include "markdown.h"
-#include "plot_draw.h"
+#include "plot.h"
 
 #include "base/memory.h"
 
@@ -39,7 +39,7 @@ static void put_entry(FILE *out, const sb_contest *c, const sb_entry *e)
 
 static void put_contest(FILE *out, const sb_contest_report *r, const sb_contest *c)
 {
-    const bool cpu = r->cpu;
+    const bool cpu = sb_contest_cpu(r->store);
     fprintf(out, "## %s\n\n", c->subject->title);
     sb_runs_where(out, r->store, c->trials, c->trial_count);
     fprintf(out,
@@ -113,25 +113,23 @@ static void plot_contest(const sb_contest *c, bool cpu, sb_plot *plot)
     for (const sb_choice *choice = sb_choices; choice->name; choice++) plot_choice(c, choice, plot);
 }
 
-static sb_status draw(const sb_contest_report *r, sb_error *error)
+static sb_status draw(sb_plot *plot, const void *report, sb_error *error)
 {
-    sb_plot *plot = sb_plot_create();
-    sb_status status = plot ? SB_OK : sb_fail_memory(error, "a plot");
-    for (size_t i = 0; status == SB_OK && i < r->count; i++)
-        if (has_marks(&r->contests[i])) plot_contest(&r->contests[i], r->cpu, plot);
-    if (status == SB_OK) status = sb_plot_picture(plot, r->store->out, "tradeoff", r->folder, error);
-    sb_plot_destroy(plot);
-    return status;
+    const sb_contest_report *r = report;
+    (void)error;
+    for (size_t i = 0; i < r->count; i++)
+        if (has_marks(&r->contests[i])) plot_contest(&r->contests[i], sb_contest_cpu(r->store), plot);
+    return SB_OK;
 }
 
 static void put_report(FILE *out, const void *report)
 {
     const sb_contest_report *r = report;
     sb_error no_plot = {0};
-    draw(r, &no_plot);
+    sb_plot_picture(draw, r, r->store->out, "tradeoff", r->store->report, &no_plot);
     fprintf(out, "# Run time against error%s\n\nMade by `tools/tradeoff`. docs/studies.md explains the method.\n\n",
-            r->quick ? ", quick forms" : "");
-    fprintf(out, "- command: `%s`\n\n%s", r->command, reading);
+            r->store->options->quick ? ", quick forms" : "");
+    fprintf(out, "- command: `%s`\n\n%s", r->store->options->command, reading);
     sb_put_picture(out, &no_plot, "![error over run time](tradeoff.png)\n");
     fputc('\n', out);
     for (size_t i = 0; i < r->count; i++) put_contest(out, r, &r->contests[i]);
@@ -163,9 +161,13 @@ static void put_csv(FILE *out, const void *report)
     }
 }
 
-sb_status sb_contest_write(sb_contest_report *report, const char *folder, sb_error *error)
+bool sb_contest_cpu(const sb_store *store)
 {
-    report->folder = folder;
-    sb_status status = sb_report_write(folder, "tradeoff.csv", put_csv, report, error);
-    return status == SB_OK ? sb_report_write(folder, "tradeoff.md", put_report, report, error) : status;
+    return store->options->jobs > 1;
+}
+
+sb_status sb_contest_write(const sb_contest_report *report, sb_error *error)
+{
+    static const sb_report_file files[] = {{"tradeoff.csv", put_csv}, {"tradeoff.md", put_report}, {NULL, NULL}};
+    return sb_reports_write(report->store, files, report, error);
 }

@@ -1,7 +1,6 @@
 /* tools/tradeoff: compares run time and error of choices of solver and parameters. */
 #include "arguments.h"
 #include "contest_report.h"
-#include "markdown.h"
 
 #include "base/memory.h"
 
@@ -72,48 +71,42 @@ static sb_status parse(int count, char **arguments, options *o, sb_error *error)
     return status;
 }
 
-static sb_status report(const options *o, const sb_store *store, const sb_contest *contests, size_t count,
-                        sb_error *error)
+/* Prepares the contests of the selected scenes that have the selected spacing. */
+static sb_status begin(const options *o, const sb_store *store, sb_contest_report *report, sb_contest *contests,
+                       sb_error *error)
 {
-    char folder[SB_PATH_MAX];
-    sb_contest_report what = {.store = store,
-                              .contests = contests,
-                              .count = count,
-                              .command = o->common.command,
-                              .quick = o->common.quick,
-                              .cpu = o->common.jobs > 1};
-    const char *below = o->common.quick ? "quick" : sb_subjects[count].name ? "some" : NULL;
-    sb_status status = sb_report_folder(&o->common, store->out, below, folder, error);
-    if (status == SB_OK) status = sb_contest_write(&what, folder, error);
-    if (status == SB_OK) printf("%s/tradeoff.md\n", folder);
+    sb_status status = SB_OK;
+    for (size_t i = 0; status == SB_OK && i < o->subjects.count; i++) {
+        sb_contest *c = &contests[report->count];
+        status = sb_contest_begin(c, &sb_subjects[o->subjects.rows[i]], store, &o->selection, error);
+        if (status == SB_OK && c->trial_count > 0)
+            report->count++;
+        else
+            sb_contest_free(c);
+    }
+    if (status == SB_OK && report->count == 0)
+        status = sb_fail(error, SB_BAD_INPUT,
+                         "--spacing %g: no selected scene has this spacing, expected one of the report's tables (m)",
+                         o->selection.spacing);
     return status;
 }
 
 static sb_status run(const options *o, sb_contest *contests, int *result, sb_error *error)
 {
-    sb_store store;
-    const sb_common_options *c = &o->common;
-    size_t count = 0, failed = 0;
-    sb_status status = sb_store_open(&store, c->out ? c->out : SB_SOURCE_DIR "/build/tradeoff", c->program,
-                                     "assets/validation", false, error);
-    for (size_t i = 0; status == SB_OK && i < o->subjects.count; i++) {
-        status = sb_contest_begin(&contests[count], &sb_subjects[o->subjects.rows[i]], &store, &o->selection, error);
-        if (status == SB_OK && contests[count].trial_count > 0)
-            count++;
-        else
-            sb_contest_free(&contests[count]);
+    static sb_store store;
+    sb_contest_report report = {.store = &store, .contests = contests};
+    sb_status status =
+        sb_store_open(&store, &o->common, SB_SOURCE_DIR "/build/tradeoff", "assets/validation", false, error);
+    if (status == SB_OK) status = begin(o, &store, &report, contests, error);
+    for (sb_contest *c = contests; status == SB_OK && c < contests + report.count; c++) {
+        status = sb_runs_make(&store, c->trials, c->trial_count, error);
+        if (status == SB_OK) status = sb_contest_judge(c, sb_contest_cpu(&store), error);
     }
-    if (status == SB_OK && count == 0)
-        status = sb_fail(error, SB_BAD_INPUT,
-                         "--spacing %g: no selected scene has this spacing, expected one of the report's tables (m)",
-                         o->selection.spacing);
-    for (size_t i = 0; status == SB_OK && i < count; i++) {
-        status =
-            sb_runs_make(&store, contests[i].trials, contests[i].trial_count, c->jobs, c->report_only, &failed, error);
-        if (status == SB_OK) status = sb_contest_judge(&contests[i], c->jobs > 1, error);
-    }
-    *result = failed ? SB_FAILED : 0;
-    return status == SB_OK ? report(o, &store, contests, count, error) : status;
+    /* A report of some scenes must not replace that of all. */
+    if (status == SB_OK && !o->common.quick && sb_subjects[report.count].name)
+        status = sb_store_report(&store, "some", error);
+    *result = store.failed ? SB_FAILED : 0;
+    return status == SB_OK ? sb_contest_write(&report, error) : status;
 }
 
 int main(int count, char **arguments)

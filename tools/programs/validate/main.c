@@ -43,7 +43,7 @@ static sb_status gather(const sb_case *of, const sb_validate_options *o, int tur
     return status;
 }
 
-static sb_status run_cases(const sb_store *store, const sb_validate_options *o, size_t *failed, sb_error *error)
+static sb_status run_cases(sb_store *store, const sb_validate_options *o, sb_error *error)
 {
     sb_request *all = NULL;
     size_t count = 0, capacity = 0;
@@ -55,29 +55,24 @@ static sb_status run_cases(const sb_store *store, const sb_validate_options *o, 
         status = sb_fail(error, SB_BAD_INPUT,
                          "--spacing %g: no named case has this spacing, expected one of the report's tables (m)",
                          o->spacing);
-    if (status == SB_OK) status = sb_runs_launch(store, all, count, o->common.jobs, failed, error);
+    if (status == SB_OK) status = sb_runs_launch(store, all, count, error);
     sb_free(all);
     return status;
 }
 
 /* Writes the report of all cases, whether run now or not. *missed: judged figures of the named cases that missed. */
-static sb_status report(const sb_store *store, const sb_validate_options *o, size_t *missed, sb_error *error)
+static sb_status report(sb_store *store, const sb_validate_options *o, size_t *missed, sb_error *error)
 {
-    char folder[SB_PATH_MAX];
     sb_case_results results[SB_ROWS_MAX] = {{0}};
-    size_t count = 0;
+    sb_report what = {.store = store, .cases = results};
     sb_sheet former;
-    sb_status status = sb_report_folder(&o->common, store->out, o->common.quick ? "quick" : NULL, folder, error);
-    if (status == SB_OK) status = sb_kept_open(folder, &former, error);
+    sb_status status = sb_kept_open(store->report, &former, error);
     if (status != SB_OK) return status;
-    for (; status == SB_OK && sb_cases[count]; count++)
-        status = sb_results_collect(store, sb_cases[count], o->common.quick, true, &former, &results[count], error);
+    for (; status == SB_OK && sb_cases[what.count]; what.count++)
+        status = sb_results_collect(store, sb_cases[what.count], &former, &results[what.count], error);
     sb_sheet_free(&former);
-    sb_report what = {
-        .store = store, .cases = results, .count = count, .command = o->common.command, .quick = o->common.quick};
-    if (status == SB_OK) status = sb_validation_write(&what, folder, error);
-    if (status == SB_OK) printf("%s/validation.md\n", folder);
-    for (size_t c = 0; c < count; c++) {
+    if (status == SB_OK) status = sb_validation_write(&what, error);
+    for (size_t c = 0; c < what.count; c++) {
         size_t limited, passed;
         sb_results_count(&results[c], &limited, &passed);
         if (sb_selection_has(&o->cases, c)) *missed += limited - passed;
@@ -88,17 +83,14 @@ static sb_status report(const sb_store *store, const sb_validate_options *o, siz
 
 static sb_status validate(const sb_validate_options *o, int *result, sb_error *error)
 {
-    sb_store store;
-    size_t failed = 0, missed = 0;
-    const char *out = o->common.out ? o->common.out : SB_SOURCE_DIR "/build/validation";
-    sb_status status = sb_store_open(&store, out, o->common.program, "assets/validation", false, error);
-    if (status == SB_OK && o->sensitivity)
-        status = sb_sensitivity(&store, o, &failed, error);
-    else if (status == SB_OK) {
-        if (!o->common.report_only) status = run_cases(&store, o, &failed, error);
-        if (status == SB_OK) status = report(&store, o, &missed, error);
-    }
-    *result = failed ? SB_FAILED : missed ? TARGETS_MISSED : 0;
+    static sb_store store;
+    size_t missed = 0;
+    sb_status status =
+        sb_store_open(&store, &o->common, SB_SOURCE_DIR "/build/validation", "assets/validation", false, error);
+    if (status == SB_OK && o->sensitivity) status = sb_sensitivity(&store, &o->cases, error);
+    if (status == SB_OK && !o->sensitivity && !o->common.report_only) status = run_cases(&store, o, error);
+    if (status == SB_OK && !o->sensitivity) status = report(&store, o, &missed, error);
+    *result = store.failed ? SB_FAILED : missed ? TARGETS_MISSED : 0;
     return status;
 }
 

@@ -1,7 +1,7 @@
 #include "report.h"
 
 #include "base/memory.h"
-#include "plot_draw.h"
+#include "plot.h"
 
 #include <string.h>
 #include <unistd.h>
@@ -78,8 +78,8 @@ static void put_head(FILE *out, const sb_report *report)
     fprintf(out,
             "# Validation%s\n\nMade by `tools/validate`. docs/validation.md explains how cases run and how figures are "
             "judged.\nAll cases use the same defaults. Columns marked `paper` show the preset of that name.\n\n",
-            report->quick ? ", quick forms" : "");
-    fprintf(out, "- command: `%s`\n", report->command);
+            report->store->options->quick ? ", quick forms" : "");
+    fprintf(out, "- command: `%s`\n", report->store->options->command);
     put_machines(out, report);
     put_commits(out, report);
     fprintf(out, "- %zu of %zu judged figures are within their targets\n\n", passed, limited);
@@ -88,23 +88,21 @@ static void put_head(FILE *out, const sb_report *report)
 }
 
 /* Draws the finished runs of the case. SB_FAILED: no run, or no plot; the error says which. */
-static sb_status draw(const sb_report *report, const sb_case_results *results, sb_error *error)
+static sb_status draw(sb_plot *plot, const void *what, sb_error *error)
 {
+    const sb_case_results *results = what;
     size_t count = 0;
     sb_case_run *views = sb_alloc(results->count, sizeof *views);
-    sb_plot *plot = sb_plot_create();
-    sb_status status = views && plot ? SB_OK : sb_fail_memory(error, "a plot");
-    for (size_t i = 0; views && i < results->count; i++)
+    if (!views) return sb_fail_memory(error, "a plot");
+    for (size_t i = 0; i < results->count; i++)
         if (results->runs[i].state == SB_RESULT_DONE && !results->runs[i].kept)
             views[count++] = results->runs[i].run.view;
-    if (status == SB_OK && count == 0) status = sb_fail(error, SB_FAILED, "nothing has run");
-    if (status == SB_OK) results->of->plot(views, count, plot);
+    sb_status status = count ? SB_OK : sb_fail(error, SB_FAILED, "nothing has run");
+    if (count) results->of->plot(views, count, plot);
     for (size_t i = 0; i < count; i++) {
         const sb_status closed = sb_run_close(&views[i], status == SB_OK ? error : NULL);
         if (status == SB_OK) status = closed;
     }
-    if (status == SB_OK) status = sb_plot_picture(plot, report->store->out, results->of->name, report->pictures, error);
-    sb_plot_destroy(plot);
     sb_free(views);
     return status;
 }
@@ -123,11 +121,14 @@ static bool all_kept(const sb_case_results *results)
 
 static void put_case(FILE *out, const sb_report *report, const sb_case_results *results)
 {
-    char picture[SB_PATH_MAX + 128], relative[160];
+    char folder[SB_PATH_MAX], picture[SB_PATH_MAX], relative[160];
+    const char *name = results->of->name;
     sb_error why = {0};
-    snprintf(relative, sizeof relative, "validation/%.100s.png", results->of->name);
-    snprintf(picture, sizeof picture, "%s/%.100s.png", report->pictures, results->of->name);
-    if (!all_kept(results) || access(picture, R_OK) != 0) draw(report, results, &why);
+    snprintf(relative, sizeof relative, "validation/%.100s.png", name);
+    sb_status status = sb_path_join(picture, report->store->report, relative, &why);
+    sb_path_folder(folder, picture);
+    if (status == SB_OK && !(all_kept(results) && access(picture, R_OK) == 0))
+        sb_plot_picture(draw, results, report->store->out, name, folder, &why);
     sb_report_case(out, results, why.text[0] ? NULL : relative);
     if (why.text[0]) fprintf(out, "No plot: %s.\n\n", why.text);
 }
@@ -139,9 +140,9 @@ static void put_report(FILE *out, const void *what)
     for (size_t c = 0; c < report->count; c++) put_case(out, report, &report->cases[c]);
 }
 
-sb_status sb_validation_write(sb_report *report, const char *folder, sb_error *error)
+sb_status sb_validation_write(const sb_report *report, sb_error *error)
 {
-    sb_status status = sb_path_join(report->pictures, folder, "validation", error);
-    if (status == SB_OK) status = sb_report_write(report->pictures, "results.csv", sb_report_csv, report, error);
-    return status == SB_OK ? sb_report_write(folder, "validation.md", put_report, report, error) : status;
+    static const sb_report_file files[] = {
+        {"validation/results.csv", sb_report_csv}, {"validation.md", put_report}, {NULL, NULL}};
+    return sb_reports_write(report->store, files, report, error);
 }

@@ -5,18 +5,16 @@
 #include "markdown.h"
 #include "results.h"
 
+/* Validation in its store. */
 typedef struct sb_report {
-    const sb_store *store;
+    sb_store *store;
     const sb_case_results *cases;
     size_t count;
-    const char *command; /* as typed */
-    bool quick;
-    char pictures[SB_PATH_MAX]; /* folder of the pictures and of results.csv */
 } sb_report;
 
-/* Writes folder/validation.md, folder/validation/<case>.png and folder/validation/results.csv, each
-   whole or not at all. If a plot cannot be drawn, the report says so and the earlier picture stays. */
-sb_status sb_validation_write(sb_report *report, const char *folder, sb_error *error);
+/* Writes validation.md, validation/<case>.png and validation/results.csv into the report folder, each whole or not at
+   all. If a plot cannot be drawn, the report says so and the earlier picture stays. */
+sb_status sb_validation_write(const sb_report *report, sb_error *error);
 
 /* Parts of the report. */
 

@@ -76,13 +76,13 @@ static void keep_across(sb_case_results *results, const sb_sheet *former)
     sb_kept_across(former, results->of->name, &results->across);
 }
 
-sb_status sb_results_collect(const sb_store *store, const sb_case *of, bool quick, bool any_build,
-                             const sb_sheet *former, sb_case_results *results, sb_error *error)
+sb_status sb_results_collect(sb_store *store, const sb_case *of, const sb_sheet *former, sb_case_results *results,
+                             sb_error *error)
 {
     sb_request *requests = NULL;
     size_t count = 0;
     *results = (sb_case_results){.of = of};
-    sb_status status = sb_case_requests(of, quick, &requests, &count, error);
+    sb_status status = sb_case_requests(of, store->options->quick, &requests, &count, error);
     if (status != SB_OK) return status;
     sb_case_run *views = sb_alloc(count, sizeof *views);
     sb_figures *figures = sb_alloc(count, sizeof *figures);
@@ -90,12 +90,13 @@ sb_status sb_results_collect(const sb_store *store, const sb_case *of, bool quic
     if (!views || !figures || !results->runs) status = sb_fail_memory(error, "results");
     for (size_t i = 0; status == SB_OK && i < count; i++) {
         results->runs[i].request = requests[i];
-        sb_result_read(store, any_build, &results->runs[i]);
-        if (former) sb_kept_read(former, &results->runs[i]);
+        sb_result_read(store, true, &results->runs[i]);
+        sb_kept_read(former, &results->runs[i]);
+        store->found += results->runs[i].kept;
         results->count++;
     }
     if (status == SB_OK && of->compare) compare_runs(results, views, figures);
-    if (status == SB_OK && former) keep_across(results, former);
+    if (status == SB_OK) keep_across(results, former);
     sb_free(views);
     sb_free(figures);
     sb_free(requests);

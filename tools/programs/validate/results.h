@@ -34,8 +34,8 @@ sb_status sb_case_requests(const sb_case *of, bool quick, sb_request **requests,
 
 /* Reads all runs of a case with their figures from the store, or else from the table of an earlier report. SB_FAILED:
    out of memory. */
-sb_status sb_results_collect(const sb_store *store, const sb_case *of, bool quick, bool any_build,
-                             const struct sb_sheet *former, sb_case_results *results, sb_error *error);
+sb_status sb_results_collect(sb_store *store, const sb_case *of, const struct sb_sheet *former,
+                             sb_case_results *results, sb_error *error);
 void sb_case_results_free(sb_case_results *results);
 
 /* The judged run with seed 1; NULL: not done. */

@@ -43,24 +43,22 @@ static void request_changes(const sb_sensitivity_study *s, size_t of)
         }
 }
 
-sb_status sb_sensitivity(const sb_store *store, const sb_validate_options *o, size_t *failed, sb_error *error)
+sb_status sb_sensitivity(sb_store *store, const sb_selection *cases, sb_error *error)
 {
-    char folder[SB_PATH_MAX];
-    const sb_common_options *c = &o->common;
-    const size_t count = o->cases.count, more = count * SB_SENSITIVITY_PAIR * sb_sensitivity_rows();
-    sb_sensitivity_study s = {.store = store, .command = c->command, .count = count};
+    static const sb_report_file files[] = {{"sensitivity.md", sb_sensitivity_report}, {NULL, NULL}};
+    const size_t count = cases->count, more = count * SB_SENSITIVITY_PAIR * sb_sensitivity_rows();
+    sb_sensitivity_study s = {.store = store, .count = count};
     s.runs = sb_alloc(count + more, sizeof *s.runs);
     if (!s.runs) return sb_fail_memory(error, "studies");
     for (size_t i = 0; i < count; i++) {
-        const sb_case *of = sb_cases[o->cases.rows[i]];
+        const sb_case *of = sb_cases[cases->rows[i]];
         s.runs[i].request = (sb_request){.of = of, .plan = judged_plan(of), .quick = true, .seed = 1};
     }
-    sb_status status = sb_runs_make(store, s.runs, count, c->jobs, c->report_only, failed, error);
+    sb_status status = sb_runs_make(store, s.runs, count, error);
     for (size_t i = 0; i < count; i++) request_changes(&s, i);
-    if (status == SB_OK) status = sb_runs_make(store, s.runs + count, more, c->jobs, c->report_only, failed, error);
-    if (status == SB_OK) status = sb_report_folder(c, store->out, NULL, folder, error);
-    if (status == SB_OK) status = sb_report_write(folder, "sensitivity.md", sb_sensitivity_report, &s, error);
-    if (status == SB_OK) printf("%s/sensitivity.md\n", folder);
+    if (status == SB_OK) status = sb_runs_make(store, s.runs + count, more, error);
+    if (status == SB_OK) status = sb_store_report(store, NULL, error);
+    if (status == SB_OK) status = sb_reports_write(store, files, &s, error);
     sb_results_free(s.runs, count + more);
     sb_free(s.runs);
     return status;

@@ -2,7 +2,6 @@
 #ifndef SB_VALIDATE_SENSITIVITY_H
 #define SB_VALIDATE_SENSITIVITY_H
 
-#include "options.h"
 #include "runs.h"
 
 /* A numeric default. Its value is read from the scene of a run. */
@@ -29,7 +28,6 @@ enum { SB_SENSITIVITY_PAIR = 2 };
    and each key decreased and increased. A change that changes nothing has no case. */
 typedef struct sb_sensitivity_study {
     const sb_store *store;
-    const char *command;
     size_t count; /* of cases */
     sb_result *runs;
 } sb_sensitivity_study;
@@ -39,9 +37,9 @@ size_t sb_sensitivity_rows(void);
 /* The pair of a row. */
 sb_result *sb_sensitivity_pair(const sb_sensitivity_study *study, size_t of, size_t row);
 
-/* Runs the judged quick forms of the cases with the defaults and with each change (unless report_only), and writes
-   sensitivity.md. Statuses as of sb_runs_launch. */
-sb_status sb_sensitivity(const sb_store *store, const sb_validate_options *options, size_t *failed, sb_error *error);
+/* Runs the judged quick forms of the cases with the defaults and with each change (unless --report-only is given), and
+   writes sensitivity.md. Statuses as of sb_runs_launch. */
+sb_status sb_sensitivity(sb_store *store, const sb_selection *cases, sb_error *error);
 
 /* Writes the report, of a sb_sensitivity_study. */
 void sb_sensitivity_report(FILE *out, const void *study);

@@ -132,7 +132,7 @@ void sb_sensitivity_report(FILE *out, const void *study)
         "particles at t = 0. The effect of a default is\nsignificant only if it exceeds that of the start seeds.\n\n"
         "- command: `%s`\n- machine: %s\n- commit: `%s`\n\n"
         "## Errors of the headline figures\n\n! marks an error beyond the target.\n\n",
-        s->command, s->store->machine, s->store->commit);
+        s->store->options->command, s->store->machine, s->store->commit);
     put_table(out, s, put_headline);
     put_headlines(out, s);
     fputs("\n## All judged figures\n\nEach cell shows how many of a run's judged figures are within their targets, and "
