@@ -1,5 +1,6 @@
 /* Tests of the sections of tools/bench at quick sizes: tables have the rows of the report, and repeats do the same
- * work. */
+ * work, failures are reported. */
+#include "child.h"
 #include "limits.h"
 #include "report.h"
 #include "subject.h"
@@ -9,6 +10,7 @@
 #include <math.h>
 #include <omp.h>
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -81,6 +83,33 @@ static void test_memory_of_arrays(void **state)
     sb_bench_rows_free(&rows);
 }
 
+static sb_status fail_here(const sb_bench_request *of, sb_bench_rows *rows, sb_error *error)
+{
+    (void)rows;
+    return sb_fail(error, SB_BAD_INPUT, "%zu particles: no basin", of->particles);
+}
+
+static sb_status crash_here(const sb_bench_request *of, sb_bench_rows *rows, sb_error *error)
+{
+    (void)of;
+    (void)rows;
+    (void)error;
+    kill(getpid(), SIGKILL);
+    return SB_OK;
+}
+
+static void test_failure_in_process_is_reported(void **state)
+{
+    (void)state;
+    static const size_t sizes[] = {7, 9, 0};
+    sb_bench_rows rows = {0};
+    sb_error error = {0};
+    assert_int_equal(sb_bench_sizes(fail_here, &request, sizes, &rows, &error), SB_BAD_INPUT);
+    assert_string_equal(error.text, "7 particles: no basin");
+    assert_int_equal(sb_bench_in_child(crash_here, &request, &rows, &error), SB_FAILED);
+    assert_non_null(strstr(error.text, "ended by signal 9"));
+}
+
 /* Runs in its own process: the sections fork, and OpenMP must not have been used before. */
 static int repeat_twice(void)
 {
@@ -90,7 +119,7 @@ static int repeat_twice(void)
     sb_bench_basin(1000, resolution);
     const sb_override overrides[] = {{"resolution", resolution}, {"numerics.settle_steps", "3"}};
     omp_set_num_threads(1);
-    if (sb_bench_subject_make(SB_SOURCE_DIR "/assets/benchmark/basin.yaml", overrides, 2, 1, &subject, NULL) != SB_OK)
+    if (sb_bench_subject_make(request.assets, "benchmark/basin.yaml", overrides, 2, 1, &subject, NULL) != SB_OK)
         return 1;
     int wrong = sb_bench_repeat(&subject, 2, &seconds, NULL, NULL) != SB_OK;
     omp_set_num_threads(3);
@@ -120,6 +149,7 @@ int main(void)
         cmocka_unit_test(test_kernels_have_limits_of_machine),
         cmocka_unit_test(test_scaling_has_both_thread_counts),
         cmocka_unit_test(test_memory_of_arrays),
+        cmocka_unit_test(test_failure_in_process_is_reported),
         cmocka_unit_test(test_repeats_must_do_same_work),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

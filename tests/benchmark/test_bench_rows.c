@@ -62,7 +62,7 @@ static void test_statistics_of_samples(void **state)
 static void test_tables_are_read_as_written(void **state)
 {
     (void)state;
-    sb_bench_rows rows = {0}, back;
+    sb_bench_rows rows = {0}, back = {0};
     char origin[256];
     bool found;
     for (int i = 0; i < 20; i++)
@@ -85,7 +85,7 @@ static void test_tables_are_read_as_written(void **state)
 static void test_foreign_tables_are_refused(void **state)
 {
     (void)state;
-    sb_bench_rows rows;
+    sb_bench_rows rows = {0};
     sb_error error = {0};
     char origin[64];
     bool found;

@@ -2,12 +2,9 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "child.h"
-#include "sections.h"
 #include "sim/passes/passes.h"
 #include "sim/pressure/pressure.h"
 #include "subject.h"
-
-#include "base/file.h"
 
 #include <omp.h>
 #include <string.h>
@@ -43,11 +40,6 @@ static const work *work_of(const char *name)
         if (strcmp(works[w].name, name) == 0) return &works[w];
     return NULL;
 }
-
-typedef struct context {
-    const sb_bench_request *request;
-    size_t particles;
-} context;
 
 static void time_passes(sb_sim *sim, double seconds[PASSES])
 {
@@ -147,25 +139,15 @@ static void add_all(const sb_bench_subject *subject, const times *t, const sb_be
                  1e9 / ((double)n * ITERATIONS));
 }
 
-static sb_status one_size(const void *context_, sb_bench_rows *rows, sb_error *error)
+static sb_status one_size(const sb_bench_request *request, sb_bench_rows *rows, sb_error *error)
 {
-    const context *c = context_;
-    char path[SB_PATH_MAX], resolution[32];
     sb_bench_subject subject;
     times *t = sb_alloc(1, sizeof *t);
-    sb_bench_basin(c->particles, resolution);
-    const sb_override overrides[] = {{"resolution", resolution},
-                                     {"numerics.settle_steps", "10"},
-                                     {"numerics.min_iterations", "10"},
-                                     {"numerics.max_iterations", "10"}};
-    omp_set_num_threads(c->request->threads);
     if (!t) return sb_fail_memory(error, "samples");
-    sb_status status = sb_path_join(path, c->request->assets, "benchmark/basin.yaml", error);
-    if (status == SB_OK)
-        status = sb_bench_subject_make(path, overrides, sizeof overrides / sizeof overrides[0], 1, &subject, error);
+    sb_status status = sb_bench_basin_make(request, "10", &subject, error);
     if (status == SB_OK) {
-        status = measure(&subject, c->request->repeats, t, error);
-        if (status == SB_OK) add_all(&subject, t, c->request, rows);
+        status = measure(&subject, request->repeats, t, error);
+        if (status == SB_OK) add_all(&subject, t, request, rows);
         sb_bench_subject_free(&subject);
     }
     sb_free(t);
@@ -175,10 +157,5 @@ static sb_status one_size(const void *context_, sb_bench_rows *rows, sb_error *e
 sb_status sb_bench_kernels(const sb_bench_request *request, sb_bench_rows *rows, sb_error *error)
 {
     static const size_t full[] = {200000, 1000000, 0}, quick[] = {8000, 0};
-    sb_status status = SB_OK;
-    for (const size_t *n = request->quick ? quick : full; *n && status == SB_OK; n++) {
-        const context c = {request, *n};
-        status = sb_bench_in_child(one_size, &c, rows, error);
-    }
-    return status;
+    return sb_bench_sizes(one_size, request, request->quick ? quick : full, rows, error);
 }

@@ -1,9 +1,7 @@
 /* Measures the plant at 1 m: set-up, steps and memory on a small machine. */
 #include "base/clock.h"
-#include "base/file.h"
 #include "base/memory.h"
 #include "child.h"
-#include "sections.h"
 #include "subject.h"
 
 #include <omp.h>
@@ -27,15 +25,11 @@ static void add_all(const sb_bench_subject *subject, bool quick, double seconds,
     sb_bench_add_values(rows, name, n, threads, values, sizeof values / sizeof *values);
 }
 
-static sb_status plant(const void *context, sb_bench_rows *rows, sb_error *error)
+static sb_status plant(const sb_bench_request *request, sb_bench_rows *rows, sb_error *error)
 {
-    const sb_bench_request *request = context;
     const sb_override overrides[] = {{"numerics.settle_steps", "0"}, {"resolution", request->quick ? "24" : "1"}};
-    char path[SB_PATH_MAX];
     sb_bench_subject subject = {.sim = NULL};
-    omp_set_num_threads(request->threads);
-    sb_status status = sb_path_join(path, request->assets, "scenes/plant.yaml", error);
-    if (status == SB_OK) status = sb_bench_subject_build(path, overrides, 2, &subject, error);
+    sb_status status = sb_bench_subject_build(request->assets, "scenes/plant.yaml", overrides, 2, &subject, error);
     if (status != SB_OK) return status;
     const double first = sb_clock();
     for (int s = 0; s < STEPS && status == SB_OK; s++) status = sb_sim_step(subject.sim, error);

@@ -72,14 +72,12 @@ static void add(sb_bench_rows *rows, const char *quantity, const char *unit, con
     sb_bench_add(rows, SB_BENCH_MACHINE, 0, omp_get_max_threads(), quantity, unit, samples, 1e-9);
 }
 
-static sb_status measure(const void *context, sb_bench_rows *rows, sb_error *error)
+static sb_status measure(const sb_bench_request *request, sb_bench_rows *rows, sb_error *error)
 {
-    const sb_bench_request *request = context;
     const size_t count = (request->quick ? MEGABYTES_QUICK : MEGABYTES) * (size_t)1000000 / sizeof(float);
     float *arrays[3] = {NULL}, kept = 0;
     sb_bench_samples copy = {.count = 0}, triad = copy, arithmetic = copy;
     sb_status status = SB_OK;
-    omp_set_num_threads(request->threads);
     for (int a = 0; a < 3; a++) {
         arrays[a] = sb_alloc(count, sizeof(float));
         if (!arrays[a]) status = sb_fail_memory(error, "the measure of bandwidth");

@@ -3,7 +3,6 @@
 #include "base/file.h"
 #include "child.h"
 #include "program.h"
-#include "sections.h"
 #include "subject.h"
 #include "summary_text.h"
 
@@ -67,15 +66,11 @@ static void add_arrays(const char *name, const sb_bench_subject *subject, sb_ben
                        4 * (double)sim->work.pairs.used / n);
 }
 
-static sb_status arrays(const void *context, sb_bench_rows *rows, sb_error *error)
+static sb_status arrays(const sb_bench_request *request, sb_bench_rows *rows, sb_error *error)
 {
-    const sb_bench_request *request = context;
     const sb_override overrides[] = {{"resolution", request->quick ? "24" : "4"}, {"numerics.settle_steps", "10"}};
-    char path[SB_PATH_MAX];
     sb_bench_subject subject;
-    omp_set_num_threads(request->threads);
-    sb_status status = sb_path_join(path, request->assets, "scenes/plant.yaml", error);
-    if (status == SB_OK) status = sb_bench_subject_make(path, overrides, 2, 2, &subject, error);
+    sb_status status = sb_bench_subject_make(request->assets, "scenes/plant.yaml", overrides, 2, 2, &subject, error);
     if (status != SB_OK) return status;
     add_arrays(request->quick ? "plant but coarser" : "plant at 4 m", &subject, rows);
     sb_bench_subject_free(&subject);
@@ -86,7 +81,6 @@ static sb_status arrays(const void *context, sb_bench_rows *rows, sb_error *erro
 
 static sb_status make_shore(const sb_bench_request *request, bool long_land, sb_bench_subject *subject, sb_error *error)
 {
-    char path[SB_PATH_MAX];
     const sb_override overrides[] = {{"resolution", request->quick ? "0.2" : "0.06"},
                                      {"numerics.settle_steps", "5"},
                                      {"numerics.min_iterations", "10"},
@@ -94,9 +88,8 @@ static sb_status make_shore(const sb_bench_request *request, bool long_land, sb_
                                      {"domain.max", "[44, 4, 3]"},
                                      {"bodies.land.max", "[44, 4, 1.5]"}};
     const size_t all = sizeof overrides / sizeof overrides[0];
-    sb_status status = sb_path_join(path, request->assets, "benchmark/shore.yaml", error);
-    if (status == SB_OK) status = sb_bench_subject_make(path, overrides, long_land ? all : all - 2, 1, subject, error);
-    return status;
+    return sb_bench_subject_make(request->assets, "benchmark/shore.yaml", overrides, long_land ? all : all - 2, 1,
+                                 subject, error);
 }
 
 /* Both shores take turns, and are first equally often, so that other programs affect both alike. Each turn gives the
@@ -131,11 +124,9 @@ static sb_status take_turns(sb_bench_subject shore[2], int repeats, sb_bench_row
     return SB_OK;
 }
 
-static sb_status dry_land(const void *context, sb_bench_rows *rows, sb_error *error)
+static sb_status dry_land(const sb_bench_request *request, sb_bench_rows *rows, sb_error *error)
 {
-    const sb_bench_request *request = context;
     sb_bench_subject shore[2];
-    omp_set_num_threads(request->threads);
     sb_status status = make_shore(request, false, &shore[0], error);
     if (status != SB_OK) return status;
     status = make_shore(request, true, &shore[1], error);

@@ -162,7 +162,6 @@ sb_status sb_bench_read(sb_bench_rows *rows, char *origin, size_t size, bool *fo
 {
     enum { COLUMNS = 9 };
     sb_sheet sheet = {0};
-    *rows = (sb_bench_rows){0};
     origin[0] = '\0';
     *found = access(path, R_OK) == 0;
     if (!*found) return SB_OK;

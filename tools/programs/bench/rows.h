@@ -62,8 +62,8 @@ const sb_bench_row *sb_bench_find(const sb_bench_rows *rows, const char *subject
 
 /* Writes a CSV file, whole or not at all, after the lines of `origin`, each with a leading '#'. */
 sb_status sb_bench_write(const sb_bench_rows *rows, const char *origin, const char *path, sb_error *error);
-/* Reads such a file. *found: false, without error, if the file does not exist. origin: the lines with '#', at most
-   `size` bytes. */
+/* Appends the rows of such a file. *found: false, without error, if the file does not exist. origin: the lines with
+   '#', at most `size` bytes. */
 sb_status sb_bench_read(sb_bench_rows *rows, char *origin, size_t size, bool *found, const char *path, sb_error *error);
 
 #endif

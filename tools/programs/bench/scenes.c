@@ -1,8 +1,6 @@
 /* Measures the delivered scenes with a shorter settling: steps from a saved state, stage by stage. */
-#include "base/file.h"
 #include "base/memory.h"
 #include "child.h"
-#include "sections.h"
 #include "subject.h"
 
 #include <omp.h>
@@ -21,11 +19,6 @@ static const plan plans[] = {
     {"still water at 4 cm", "scenes/still-water.yaml", NULL, "0.08", 100, 40},
     {"flume (2D) at 5 cm", "scenes/solitary-flume.yaml", NULL, "0.1", 100, 40},
 };
-
-typedef struct context {
-    const sb_bench_request *request;
-    const plan *plan;
-} context;
 
 typedef struct times {
     sb_bench_samples step, stage[SB_STAGES_MAX];
@@ -84,25 +77,22 @@ static void add_all(const char *name, const sb_bench_subject *subject, int steps
     sb_bench_add_values(rows, name, n, threads, values, sizeof values / sizeof *values);
 }
 
-static sb_status one_scene(const void *context_, sb_bench_rows *rows, sb_error *error)
+static sb_status one_scene(const sb_bench_request *request, sb_bench_rows *rows, sb_error *error)
 {
-    const context *c = context_;
-    const plan *p = c->plan;
-    const bool quick = c->request->quick;
+    const plan *p = request->of;
+    const bool quick = request->quick;
+    const int steps = quick ? 2 : p->steps, before = quick ? 2 : p->before;
     const char *resolution = quick ? p->quick_resolution : p->resolution;
     const sb_override overrides[] = {{"numerics.settle_steps", quick ? "5" : "60"}, {"resolution", resolution}};
-    char path[SB_PATH_MAX], name[SB_BENCH_NAME];
+    char name[SB_BENCH_NAME];
     sb_bench_subject subject;
     times *t = sb_alloc(1, sizeof *t);
     if (!t) return sb_fail_memory(error, "samples");
-    omp_set_num_threads(c->request->threads);
     snprintf(name, sizeof name, "%s%s", p->name, quick ? " but coarser" : "");
-    sb_status status = sb_path_join(path, c->request->assets, p->file, error);
-    if (status == SB_OK)
-        status = sb_bench_subject_make(path, overrides, resolution ? 2 : 1, quick ? 2 : p->before, &subject, error);
+    sb_status status =
+        sb_bench_subject_make(request->assets, p->file, overrides, resolution ? 2 : 1, before, &subject, error);
     if (status == SB_OK) {
-        const int steps = quick ? 2 : p->steps;
-        status = measure(&subject, steps, c->request->repeats, t, error);
+        status = measure(&subject, steps, request->repeats, t, error);
         if (status == SB_OK) add_all(name, &subject, steps, t, rows);
         sb_bench_subject_free(&subject);
     }
@@ -112,10 +102,11 @@ static sb_status one_scene(const void *context_, sb_bench_rows *rows, sb_error *
 
 sb_status sb_bench_scenes(const sb_bench_request *request, sb_bench_rows *rows, sb_error *error)
 {
+    sb_bench_request one = *request;
     sb_status status = SB_OK;
     for (size_t p = 0; p < sizeof plans / sizeof plans[0] && status == SB_OK; p++) {
-        const context c = {request, &plans[p]};
-        status = sb_bench_in_child(one_scene, &c, rows, error);
+        one.of = &plans[p];
+        status = sb_bench_in_child(one_scene, &one, rows, error);
     }
     return status;
 }

@@ -13,6 +13,8 @@ typedef struct sb_bench_request {
     int threads;             /* largest number to use */
     bool quick;              /* small sizes, for a first look and for tests */
     double copy, arithmetic; /* limits of the machine, by sb_bench_limits: B/s, operations on floats per second */
+    size_t particles;        /* of the basin, in a section of several sizes */
+    const void *of;          /* what is measured, in a section of several subjects */
 } sb_bench_request;
 
 typedef sb_status sb_bench_run(const sb_bench_request *request, sb_bench_rows *rows, sb_error *error);

@@ -1,17 +1,20 @@
 #include "subject.h"
 
 #include "base/clock.h"
+#include "base/file.h"
 #include "base/memory.h"
 
 static const char KIND[] = "bench"; /* of archives in memory only */
 enum { VERSION = 1 };
 
-sb_status sb_bench_subject_build(const char *path, const sb_override *overrides, size_t count,
+sb_status sb_bench_subject_build(const char *assets, const char *name, const sb_override *overrides, size_t count,
                                  sb_bench_subject *subject, sb_error *error)
 {
+    char path[SB_PATH_MAX];
     const double start = sb_clock();
     *subject = (sb_bench_subject){.sim = NULL};
-    sb_status status = sb_scene_read(path, NULL, overrides, count, &subject->scene, error);
+    sb_status status = sb_path_join(path, assets, name, error);
+    if (status == SB_OK) status = sb_scene_read(path, NULL, overrides, count, &subject->scene, error);
     if (status == SB_OK) status = sb_model_build(&subject->scene, &subject->model, error);
     if (status == SB_OK) status = sb_sim_create(&subject->scene, &subject->model, &subject->sim, error);
     if (status == SB_OK) sb_model_free_start(&subject->model);
@@ -20,10 +23,10 @@ sb_status sb_bench_subject_build(const char *path, const sb_override *overrides,
     return status;
 }
 
-sb_status sb_bench_subject_make(const char *path, const sb_override *overrides, size_t count, int steps,
-                                sb_bench_subject *subject, sb_error *error)
+sb_status sb_bench_subject_make(const char *assets, const char *name, const sb_override *overrides, size_t count,
+                                int steps, sb_bench_subject *subject, sb_error *error)
 {
-    sb_status status = sb_bench_subject_build(path, overrides, count, subject, error);
+    sb_status status = sb_bench_subject_build(assets, name, overrides, count, subject, error);
     if (status != SB_OK) return status;
     status = sb_sim_settle(subject->sim, error);
     for (int s = 0; status == SB_OK && s < steps; s++) status = sb_sim_step(subject->sim, error);
@@ -35,6 +38,19 @@ sb_status sb_bench_subject_make(const char *path, const sb_override *overrides, 
     }
     if (status != SB_OK) sb_bench_subject_free(subject);
     return status;
+}
+
+sb_status sb_bench_basin_make(const sb_bench_request *request, const char *settle_steps, sb_bench_subject *subject,
+                              sb_error *error)
+{
+    char resolution[32];
+    sb_bench_basin(request->particles, resolution);
+    const sb_override overrides[] = {{"resolution", resolution},
+                                     {"numerics.settle_steps", settle_steps},
+                                     {"numerics.min_iterations", "10"},
+                                     {"numerics.max_iterations", "10"}};
+    return sb_bench_subject_make(request->assets, "benchmark/basin.yaml", overrides,
+                                 sizeof overrides / sizeof overrides[0], 1, subject, error);
 }
 
 void sb_bench_subject_free(sb_bench_subject *subject)

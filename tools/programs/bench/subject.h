@@ -4,7 +4,7 @@
 
 #include "base/archive.h"
 #include "geometry/model/model.h"
-#include "rows.h"
+#include "sections.h"
 #include "sim/simulation.h"
 
 typedef struct sb_bench_subject {
@@ -17,13 +17,16 @@ typedef struct sb_bench_subject {
     uint64_t result;      /* hash after the steps of a repeat; 0: no repeat yet */
 } sb_bench_subject;
 
-/* Reads the scene with the overrides and makes its model and simulation. The simulation points into *subject, which
-   must not move. On error there is nothing to free. */
-sb_status sb_bench_subject_build(const char *path, const sb_override *overrides, size_t count,
+/* Reads the scene assets/name with the overrides and makes its model and simulation. The simulation points into
+   *subject, which must not move. On error there is nothing to free. */
+sb_status sb_bench_subject_build(const char *assets, const char *name, const sb_override *overrides, size_t count,
                                  sb_bench_subject *subject, sb_error *error);
 /* The same; then settles the water, makes `steps` steps and saves the state. */
-sb_status sb_bench_subject_make(const char *path, const sb_override *overrides, size_t count, int steps,
-                                sb_bench_subject *subject, sb_error *error);
+sb_status sb_bench_subject_make(const char *assets, const char *name, const sb_override *overrides, size_t count,
+                                int steps, sb_bench_subject *subject, sb_error *error);
+/* The same for the basin with request->particles particles and ten iterations in each step. */
+sb_status sb_bench_basin_make(const sb_bench_request *request, const char *settle_steps, sb_bench_subject *subject,
+                              sb_error *error);
 void sb_bench_subject_free(sb_bench_subject *subject);
 
 /* Restores the saved state, which is checked by its hash. */

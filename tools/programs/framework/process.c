@@ -132,16 +132,27 @@ int sb_process_status(const sb_process *p)
     return WIFEXITED(p->how) ? WEXITSTATUS(p->how) : -1;
 }
 
-void sb_process_reason(const sb_process *p, const char *between, const char *none, char *text, size_t size)
+void sb_process_last_line(const sb_process *p, const char *none, char *text, size_t size)
 {
-    char line[512], last[512];
-    snprintf(last, sizeof last, "%s", none);
+    static const char warning[] = "shorebreak: warning:";
+    char line[512];
+    bool any = false;
+    snprintf(text, size, "%s", none);
     FILE *in = fopen(p->output, "r");
     while (in && fgets(line, sizeof line, in)) {
         line[strcspn(line, "\r\n")] = '\0';
-        if (line[0]) snprintf(last, sizeof last, "%s", line);
+        const bool warns = strncmp(line, warning, sizeof warning - 1) == 0;
+        if (!line[0] || (warns && any)) continue;
+        snprintf(text, size, "%s", line);
+        any = !warns;
     }
     if (in) fclose(in);
+}
+
+void sb_process_reason(const sb_process *p, const char *between, const char *none, char *text, size_t size)
+{
+    char last[512];
+    sb_process_last_line(p, none, last, sizeof last);
     if (WIFEXITED(p->how))
         snprintf(text, size, "status %d%s%s", WEXITSTATUS(p->how), between, last);
     else

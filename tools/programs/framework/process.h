@@ -50,7 +50,9 @@ void sb_process_wait(sb_process *process);
 
 /* Exit status; -1: a signal ended it. */
 int sb_process_status(const sb_process *process);
-/* "status 2: shorebreak: no such file" or "signal 9: no output": how it ended, and the last line of its output. */
+/* The last line of the output that is not a warning, or else the last line; `none`: there is none. */
+void sb_process_last_line(const sb_process *process, const char *none, char *text, size_t size);
+/* "status 2: shorebreak: no such file" or "signal 9: no output": how it ended, and that line. */
 void sb_process_reason(const sb_process *process, const char *between, const char *none, char *text, size_t size);
 
 /* Makes the folder and in it an empty log if there is none. This marks the folder as that of a run for `shorebreak

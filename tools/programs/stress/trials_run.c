@@ -69,22 +69,6 @@ static sb_status begin(void *user, size_t i, sb_process *process, sb_error *erro
     return SB_OK;
 }
 
-/* Reads the last line that is not a warning, or else the last line. */
-static void read_last_line(sb_outcome *o)
-{
-    char path[SB_PATH_MAX], line[512];
-    bool no_warning = false;
-    FILE *in = sb_path_join(path, o->folder, "output.txt", NULL) == SB_OK ? fopen(path, "r") : NULL;
-    while (in && fgets(line, sizeof line, in)) {
-        line[strcspn(line, "\r\n")] = '\0';
-        bool warning = strncmp(line, "shorebreak: warning:", 20) == 0;
-        if (!line[0] || (warning && no_warning)) continue;
-        snprintf(o->last_line, sizeof o->last_line, "%.399s", line);
-        no_warning = !warning;
-    }
-    if (in) fclose(in);
-}
-
 /* Whether SIGTERM ended the run before it had begun its log and handled signals. */
 static bool stopped_early(const sb_process *p, const sb_outcome *o)
 {
@@ -122,7 +106,7 @@ static sb_status end(void *user, size_t i, const sb_process *process, bool stopp
         return sb_fail(error, SB_FAILED, "%.400s: cannot be started", b->store->program);
     sb_path_folder(o.folder, process->output);
     classify(process, &o);
-    read_last_line(&o);
+    sb_process_last_line(process, "", o.last_line, sizeof o.last_line);
     printf("%s %s: %s, %.1f s\n", job->of->name, job->trial->name, o.ended, o.wall);
     return sb_trial_write(b->store, job, &o, error);
 }
