@@ -41,15 +41,6 @@ double sb_bench_others(sb_bench_clock from, sb_bench_clock to)
     return others > 0 ? others / wall : 0;
 }
 
-double sb_bench_load(void)
-{
-    double load = -1;
-    FILE *in = fopen("/proc/loadavg", "r");
-    if (in && fscanf(in, "%lf", &load) != 1) load = -1;
-    if (in) fclose(in);
-    return load;
-}
-
 static double gigabytes(void)
 {
     return (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE) / 1e9;

@@ -16,9 +16,6 @@ sb_bench_clock sb_bench_clock_now(void);
 /* Mean number of cores that other programs used between two readings; negative: unknown. */
 double sb_bench_others(sb_bench_clock from, sb_bench_clock to);
 
-/* Load average over the last minute; negative: unknown. */
-double sb_bench_load(void);
-
 /* Name of the folder of a machine: "AMD EPYC (R), 2 cores" gives amd-epyc-2-cores. */
 void sb_bench_folder(const char *machine, char name[128]);
 

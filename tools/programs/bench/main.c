@@ -25,7 +25,7 @@ static sb_status measure(const sb_bench_section *section, sb_bench_request *requ
 {
     char path[SB_PATH_MAX], name[SB_BENCH_NAME], origin[2048], date[32], busy[64] = "use by other programs unknown";
     sb_bench_rows rows = {0};
-    const double load = sb_bench_load();
+    const double load = sb_origin_load();
     const time_t now = time(NULL);
     strftime(date, sizeof date, "%Y-%m-%d %H:%M", gmtime(&now));
     printf("%s: %s (load average %.2f)\n", section->name, section->summary, load);

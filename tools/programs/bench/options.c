@@ -1,5 +1,7 @@
 #include "options.h"
 
+#include "origin.h"
+
 #include <string.h>
 
 enum { REPEATS = 7, REPEATS_QUICK = 2 };
@@ -62,6 +64,6 @@ sb_status sb_bench_parse(int count, char **arguments, sb_bench_options *o, sb_er
                          o->machine);
     if (status == SB_OK && o->count == 0) status = take_section(o, "all", error);
     if (o->repeats == 0) o->repeats = o->common.quick ? REPEATS_QUICK : REPEATS;
-    if (o->threads == 0) o->threads = sb_cores();
+    if (o->threads == 0) o->threads = sb_origin_cores();
     return status;
 }

@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "sheet.h"
+#include "statistics.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -16,12 +17,6 @@ void sb_bench_sample(sb_bench_samples *samples, double value)
     if (samples->count < SB_BENCH_REPEATS_MAX) samples->value[samples->count++] = value;
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 void sb_bench_append(sb_bench_rows *to, const sb_bench_row *row)
 {
     to->incomplete |= sb_grow((void **)&to->rows, &to->capacity, to->count + 1, sizeof *to->rows) != 0;
@@ -33,31 +28,23 @@ sb_status sb_bench_complete(const sb_bench_rows *rows, sb_error *error)
     return rows->incomplete ? sb_fail_memory(error, "measured rows") : SB_OK;
 }
 
-static sb_bench_samples in_order(const sb_bench_samples *samples)
-{
-    sb_bench_samples sorted = *samples;
-    qsort(sorted.value, (size_t)sorted.count, sizeof sorted.value[0], ascending);
-    return sorted;
-}
-
 double sb_bench_median(const sb_bench_samples *samples)
 {
-    const sb_bench_samples sorted = in_order(samples);
-    const int n = sorted.count;
-    return n > 0 ? 0.5 * (sorted.value[(n - 1) / 2] + sorted.value[n / 2]) : (double)NAN;
+    sb_bench_samples sorted = *samples;
+    return sb_median(sorted.value, (size_t)sorted.count);
 }
 
 void sb_bench_add(sb_bench_rows *rows, const char *subject, size_t particles, int threads, const char *quantity,
                   const char *unit, const sb_bench_samples *samples, double factor)
 {
-    const sb_bench_samples sorted = in_order(samples);
-    sb_bench_row row = {.particles = particles, .threads = threads, .repeats = sorted.count};
+    sb_spread spread = sb_spread_none;
+    sb_bench_row row = {.particles = particles, .threads = threads, .repeats = samples->count};
     snprintf(row.subject, sizeof row.subject, "%s", subject);
     snprintf(row.quantity, sizeof row.quantity, "%s", quantity);
     snprintf(row.unit, sizeof row.unit, "%s", unit);
-    const int n = sorted.count;
-    row.least = n > 0 ? factor * sorted.value[0] : (double)NAN;
-    row.most = n > 0 ? factor * sorted.value[n - 1] : (double)NAN;
+    for (int i = 0; i < samples->count; i++) sb_spread_add(&spread, factor * samples->value[i]);
+    row.least = spread.low;
+    row.most = spread.high;
     row.median = factor * sb_bench_median(samples);
     sb_bench_append(rows, &row);
 }

@@ -18,7 +18,7 @@ typedef struct sb_bench_subject {
 } sb_bench_subject;
 
 /* Reads the scene assets/name with the overrides and makes its model and simulation. The simulation points into
-   *subject, which must not move. On error there is nothing to free. */
+ *subject, which must not move. On error there is nothing to free. */
 sb_status sb_bench_subject_build(const char *assets, const char *name, const sb_override *overrides, size_t count,
                                  sb_bench_subject *subject, sb_error *error);
 /* The same; then settles the water, makes `steps` steps and saves the state. */

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* A command line while it is read. */
 typedef struct reading {
@@ -157,11 +156,6 @@ bool sb_selection_has(const sb_selection *s, size_t row)
     for (size_t k = 0; k < s->count; k++)
         if (s->rows[k] == row) return true;
     return false;
-}
-
-int sb_cores(void)
-{
-    return (int)sysconf(_SC_NPROCESSORS_ONLN);
 }
 
 int sb_tool_end(const char *tool, sb_status status, int result, const sb_error *error)

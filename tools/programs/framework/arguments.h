@@ -75,9 +75,6 @@ void sb_selection_all(sb_selection *selection);
 sb_status sb_selection_check(const sb_selection *selection, sb_error *error);
 bool sb_selection_has(const sb_selection *selection, size_t row);
 
-/* Number of cores. */
-int sb_cores(void);
-
 /* What main returns: `result`, or 130 if the tool was stopped, or the status, whose error is printed. */
 int sb_tool_end(const char *tool, sb_status status, int result, const sb_error *error);
 

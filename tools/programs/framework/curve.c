@@ -1,5 +1,7 @@
 #include "curve.h"
 
+#include "statistics.h"
+
 #include "base/memory.h"
 
 #include <math.h>
@@ -137,18 +139,6 @@ sb_curve *sb_curve_resample(sb_curves *made, const sb_curve *curve, double first
     return out;
 }
 
-static int compare(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
-static double median_of(double *values, size_t count)
-{
-    qsort(values, count, sizeof *values, compare);
-    return count % 2 ? values[count / 2] : 0.5 * (values[count / 2 - 1] + values[count / 2]);
-}
-
 static double mean_of(double *values, size_t count)
 {
     double sum = 0;
@@ -157,7 +147,8 @@ static double mean_of(double *values, size_t count)
 }
 
 /* Replaces each value by `reduce` of the values within window/2 that are not NaN. The curve is sorted. */
-static sb_curve *filter(sb_curves *made, const sb_curve *curve, double window, double (*reduce)(double *, size_t))
+static sb_curve *filter(sb_curves *made, const sb_curve *curve, double window,
+                        double (*reduce)(double *values, size_t count))
 {
     sb_curve *out = sb_curve_new(made);
     double *near = sb_alloc(curve->count, sizeof *near), half = 0.5 * window * (1 + 1e-9);
@@ -182,5 +173,5 @@ sb_curve *sb_curve_mean_filter(sb_curves *made, const sb_curve *curve, double wi
 
 sb_curve *sb_curve_median_filter(sb_curves *made, const sb_curve *curve, double window)
 {
-    return filter(made, curve, window, median_of);
+    return filter(made, curve, window, sb_median);
 }

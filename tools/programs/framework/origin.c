@@ -4,7 +4,9 @@
 #include "base/hash.h"
 #include "base/memory.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -48,7 +50,18 @@ void sb_origin_machine(char machine[128])
         break;
     }
     if (in) fclose(in);
-    snprintf(machine, 128, "%s, %ld cores", model, sysconf(_SC_NPROCESSORS_ONLN));
+    snprintf(machine, 128, "%s, %d cores", model, sb_origin_cores());
+}
+
+int sb_origin_cores(void)
+{
+    return (int)sysconf(_SC_NPROCESSORS_ONLN);
+}
+
+double sb_origin_load(void)
+{
+    double load;
+    return getloadavg(&load, 1) == 1 ? load : (double)NAN;
 }
 
 sb_status sb_hash_file(const char *path, uint64_t *hash, sb_error *error)

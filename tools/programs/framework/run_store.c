@@ -1,6 +1,7 @@
 #include "run_store.h"
 
 #include "base/memory.h"
+#include "origin.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -94,11 +95,10 @@ static void find_sources(const char *folder, char text[64])
 sb_status sb_run_finish(const sb_store *store, const char *folder, double cpu, sb_error *error)
 {
     char sources[64];
-    double load;
     find_sources(folder, sources);
-    if (getloadavg(&load, 1) != 1) load = (double)NAN;
     return sb_record_write(folder, SB_RECORD_NAME, error, "commit: %s\nmachine: %s\ncpu_s: %.6g\nload: %.3g\n",
-                           store->commit[0] ? store->commit : sources, store->machine, spent(folder) + cpu, load);
+                           store->commit[0] ? store->commit : sources, store->machine, spent(folder) + cpu,
+                           sb_origin_load());
 }
 
 sb_status sb_run_forget(const char *folder, sb_error *error)

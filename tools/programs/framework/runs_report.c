@@ -1,8 +1,9 @@
 #include "runs.h"
 
+#include "origin.h"
+
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
 const char *const sb_plain_settings[] = {"render.interval=0", "stream.enabled=false", "output.particle_interval=0",
                                          NULL};
@@ -10,7 +11,7 @@ const char *const sb_plain_settings[] = {"render.interval=0", "stream.enabled=fa
 /* Whether other programs ran at the same time, so that the run time is not reliable. */
 static bool disturbed(const sb_result *result)
 {
-    return result->state == SB_RESULT_DONE && result->run.load > (double)sysconf(_SC_NPROCESSORS_ONLN) + 0.5;
+    return result->state == SB_RESULT_DONE && result->run.load > sb_origin_cores() + 0.5;
 }
 
 /* Writes label, numerics of the plan, and load of the machine. */

@@ -1,6 +1,7 @@
 #include "lives.h"
 
 #include "base/memory.h"
+#include "statistics.h"
 
 #include <dirent.h>
 #include <inttypes.h>
@@ -55,12 +56,6 @@ sb_status sb_soak_add(sb_soak_life *life, const sb_soak_sample *sample, sb_error
     return SB_OK;
 }
 
-static int ascending(const void *left, const void *right)
-{
-    const double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
 /* Time of the first sample after a streamed step; the end of the process if there is none. */
 static double first_streamed(const sb_soak_life *life)
 {
@@ -83,10 +78,8 @@ static bool middle(const sb_soak_life *life, double from, double to, double *res
     }
     const bool enough = n >= FEWEST;
     if (enough) {
-        qsort(bytes, n, sizeof *bytes, ascending);
-        qsort(open, n, sizeof *open, ascending);
-        *resident = bytes[n / 2];
-        *descriptors = open[n / 2];
+        *resident = sb_median(bytes, n);
+        *descriptors = sb_median(open, n);
     }
     sb_free(bytes);
     sb_free(open);

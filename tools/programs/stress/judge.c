@@ -37,18 +37,12 @@ const sb_judged *sb_judged_find(const sb_judged *judged, const char *name)
     return NULL;
 }
 
-sb_range sb_judged_range(const sb_judged *judged, const char *prefix, double (*value)(const sb_judged *judged))
+sb_spread sb_judged_spread(const sb_judged *judged, const char *prefix, double (*value)(const sb_judged *judged))
 {
-    sb_range range = {.low = HUGE_VAL, .high = -HUGE_VAL};
-    for (const sb_judged *j = judged->all; j < judged->all + judged->count; j++) {
-        if (!j->outcome.there || strncmp(j->trial->name, prefix, strlen(prefix)) != 0) continue;
-        range.low = fmin(range.low, value(j));
-        range.high = fmax(range.high, value(j));
-        range.mean += value(j);
-        range.count++;
-    }
-    range.mean /= range.count;
-    return range;
+    sb_spread spread = sb_spread_none;
+    for (const sb_judged *j = judged->all; j < judged->all + judged->count; j++)
+        if (j->outcome.there && strncmp(j->trial->name, prefix, strlen(prefix)) == 0) sb_spread_add(&spread, value(j));
+    return spread;
 }
 
 double sb_energy_of(const sb_judged *judged, bool end)

@@ -1,5 +1,6 @@
 /* tools/stress: runs stress cases and writes the report. */
 #include "battery.h"
+#include "origin.h"
 
 #include "base/memory.h"
 
@@ -50,7 +51,7 @@ static sb_status parse(int count, char **arguments, options *o, sb_error *error)
     sb_status status = sb_command_line_read(&line, count, arguments, &o->common, error);
     if (status != SB_OK || o->common.answered) return status;
     if (o->common.all || (o->common.report_only && !o->cases.count)) sb_selection_all(&o->cases);
-    if (!o->common.jobs) o->common.jobs = sb_cores();
+    if (!o->common.jobs) o->common.jobs = sb_origin_cores();
     return sb_selection_check(&o->cases, error);
 }
 

@@ -1,9 +1,10 @@
 /* A stress case: its trials, and the rules by which their outcomes are judged. To add one, write stress_<name>.c with
-   its sb_stress, add its line to stresses.h and stresses.c, and put its scene into assets/stress. */
+   its sb_stress, add its row to stresses.h, and put its scene into assets/stress. */
 #ifndef SB_BATTERY_STRESS_H
 #define SB_BATTERY_STRESS_H
 
 #include "outcome.h"
+#include "statistics.h"
 #include "trial.h"
 
 /* A trial with its judgement. */
@@ -44,11 +45,7 @@ void sb_judge_common(sb_judged *judged);
 const sb_judged *sb_judged_find(const sb_judged *judged, const char *name);
 
 /* A value over those trials of the case that were run and whose names begin so. */
-typedef struct sb_range {
-    double low, high, mean;
-    int count;
-} sb_range;
-sb_range sb_judged_range(const sb_judged *judged, const char *prefix, double (*value)(const sb_judged *judged));
+sb_spread sb_judged_spread(const sb_judged *judged, const char *prefix, double (*value)(const sb_judged *judged));
 /* kinetic_J + potential_J, at the start or the end; the potential energy counts from the domain's floor. */
 double sb_energy_of(const sb_judged *judged, bool end);
 

@@ -31,7 +31,7 @@ static void judge_meshes(sb_judged *j)
         sb_note(j, "refused: %.180s", j->outcome.last_line);
         return;
     }
-    const sb_range sound = sb_judged_range(j, "clean", along);
+    const sb_spread sound = sb_judged_spread(j, "clean", along);
     sb_note(j, "impulse %.2f N s", along(j));
     if (strncmp(j->trial->name, "clean", 5) == 0) return;
     sb_note(j, "sound mesh, five seeds: %.2f to %.2f", sound.low, sound.high);

@@ -78,7 +78,7 @@ static double across(const sb_judged *j)
 static void judge(sb_judged *j)
 {
     const sb_vec3 impulse = impulse_of(j);
-    const sb_range seeds = sb_judged_range(j, "seed-", along), side = sb_judged_range(j, "seed-", across);
+    const sb_spread seeds = sb_judged_spread(j, "seed-", along), side = sb_judged_spread(j, "seed-", across);
     const double spread = seeds.high - seeds.low;
     sb_note(j, "impulse %.2f N s along the bore, %+.2f across", impulse.x, impulse.y);
     if (strncmp(j->trial->name, "seed-", 5) == 0) return;

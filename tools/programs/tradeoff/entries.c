@@ -91,17 +91,6 @@ sb_status sb_contest_begin(sb_contest *c, const sb_subject *subject, const sb_st
     return SB_OK;
 }
 
-static void add_value(sb_spread *spread, double value, double *known)
-{
-    if (isnan(value)) return;
-    spread->mean = *known > 0 ? (spread->mean * *known + value) / (*known + 1) : value;
-    spread->low = fmin(spread->low, value); /* ignores NaN */
-    spread->high = fmax(spread->high, value);
-    ++*known;
-}
-
-static const sb_spread no_values = {(double)NAN, (double)NAN, (double)NAN};
-
 /* A run time counts only for runs with the largest number of threads: others ran with other --jobs. */
 static double time_of(const sb_result *trial, bool cpu, int threads)
 {
@@ -125,17 +114,15 @@ static double error_of(const sb_contest *c, const sb_entry *e, size_t trial, siz
 static void judge_entry(const sb_contest *c, sb_entry *e, bool cpu, const sb_figures *const *references, size_t count,
                         bool missing)
 {
-    double known = 0;
-    e->time = no_values;
+    e->time = sb_spread_none;
     for (size_t i = e->first; i < e->first + e->seeds; i++)
-        if (c->trials[i].state == SB_RESULT_DONE) add_value(&e->time, time_of(&c->trials[i], cpu, c->threads), &known);
+        if (c->trials[i].state == SB_RESULT_DONE) sb_spread_add(&e->time, time_of(&c->trials[i], cpu, c->threads));
     for (size_t k = 0; k < c->error_count; k++) {
-        known = 0;
-        e->errors[k] = no_values;
+        e->errors[k] = sb_spread_none;
         for (size_t i = e->first; i < e->first + e->seeds; i++) {
             const bool done = !missing && c->trials[i].state == SB_RESULT_DONE;
             c->trial_errors[i][k] = done ? error_of(c, e, i, k, references, count) : (double)NAN;
-            add_value(&e->errors[k], c->trial_errors[i][k], &known);
+            sb_spread_add(&e->errors[k], c->trial_errors[i][k]);
         }
     }
 }

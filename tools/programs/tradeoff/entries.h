@@ -4,25 +4,21 @@
 
 #include "choice.h"
 #include "runs.h"
+#include "statistics.h"
 #include "subject.h"
 
 enum { SB_ENTRY_SETTINGS = 10, SB_ENTRY_SEEDS = 9, SB_REFERENCE_SEEDS = 2 };
-
-/* Over the seeds; NaN: no seed has run. */
-typedef struct sb_spread {
-    double mean, low, high;
-} sb_spread;
 
 /* One choice at one spacing. */
 typedef struct sb_entry {
     const sb_choice *choice; /* NULL: the reference run */
     sb_plan plan;
     const char *settings[SB_ENTRY_SETTINGS];
-    char change[SB_CHOICE_TEXT]; /* the setting in the labels of its runs; "": none */
-    size_t first, seeds;         /* its trials */
-    sb_spread time;              /* s; run time, or processor time if runs shared the machine */
-    sb_spread errors[SB_SUBJECT_ERRORS];
-    bool front; /* on the front of time and first error */
+    char change[SB_CHOICE_TEXT];         /* the setting in the labels of its runs; "": none */
+    size_t first, seeds;                 /* its trials */
+    sb_spread time;                      /* over the seeds, s; run time, or processor time if runs shared the machine */
+    sb_spread errors[SB_SUBJECT_ERRORS]; /* over the seeds */
+    bool front;                          /* on the front of time and first error */
 } sb_entry;
 
 typedef struct sb_contest {

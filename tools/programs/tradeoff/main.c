@@ -1,6 +1,7 @@
 /* tools/tradeoff: compares run time and error of choices of solver and parameters. */
 #include "arguments.h"
 #include "contest_report.h"
+#include "origin.h"
 
 #include "base/memory.h"
 
@@ -66,7 +67,7 @@ static sb_status parse(int count, char **arguments, options *o, sb_error *error)
     sb_status status = sb_command_line_read(&line, count, arguments, &o->common, error);
     s->quick = o->common.quick;
     if (!s->seeds) s->seeds = s->quick ? 1 : 3;
-    if (!o->common.jobs) o->common.jobs = s->quick ? sb_cores() : 1;
+    if (!o->common.jobs) o->common.jobs = s->quick ? sb_origin_cores() : 1;
     if (!o->subjects.count) sb_selection_all(&o->subjects);
     return status;
 }

@@ -1,6 +1,7 @@
 #include "options.h"
 
 #include "cases.h"
+#include "origin.h"
 
 #include <stdio.h>
 
@@ -55,6 +56,6 @@ sb_status sb_validate_parse(int count, char **arguments, sb_validate_options *o,
     sb_status status = sb_command_line_read(&line, count, arguments, c, error);
     if (status != SB_OK || c->answered) return status;
     if (c->all || ((c->report_only || o->sensitivity) && !o->cases.count)) sb_selection_all(&o->cases);
-    if (!c->jobs) c->jobs = c->quick || o->sensitivity ? sb_cores() : 1;
+    if (!c->jobs) c->jobs = c->quick || o->sensitivity ? sb_origin_cores() : 1;
     return sb_selection_check(&o->cases, error);
 }
