@@ -100,6 +100,8 @@ static void test_cases_are_valid(void **state)
         const sb_case *of = sb_cases[i];
         assert_non_null(of->evaluate);
         assert_non_null(of->plot);
+        /* The last row ends a list. */
+        assert_true(of->full[SB_PLANS_MAX].resolution == 0 && of->quick[SB_PLANS_MAX].resolution == 0);
         for (size_t k = 0; k < i; k++) assert_string_not_equal(of->name, sb_cases[k]->name);
         for (int quick = 0; quick < 2; quick++) {
             sb_request *requests = NULL;

@@ -62,6 +62,7 @@ void sb_plot_points(sb_plot *plot, const char *label, size_t count, double *x, d
 /* The number of the first key of that name in the run's summary.json; NaN: none. */
 double sb_run_number(const sb_case_run *run, const char *key);
 
+enum { SB_PLANS_MAX = 4 };
 typedef struct sb_case {
     const char *name;     /* on the command line and in file names; stable */
     const char *title;    /* its heading */
@@ -69,7 +70,7 @@ typedef struct sb_case {
     const char *method;   /* Markdown: reference, windows, filters, rule for a time lag, definitions */
     const char *scene;    /* relative to assets/validation */
     const char *headline; /* quantity of the figure that represents the case in summaries */
-    const sb_plan *full, *quick;
+    sb_plan full[SB_PLANS_MAX + 1], quick[SB_PLANS_MAX + 1]; /* spacings, coarse to fine */
     const void *what; /* parameters of a file whose functions serve several cases (run->of->what); or NULL */
 
     /* Computes the figures of one run, in a stable order. */

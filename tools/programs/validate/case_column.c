@@ -128,12 +128,6 @@ static void draw(const sb_case_run *runs, size_t count, sb_plot *plot)
     }
 }
 
-static const sb_plan full[] = {{.resolution = 0.02, .paper = true},
-                               {.resolution = 0.01, .paper = true, .seeds = 3},
-                               {.resolution = 0.005, .judged = true, .seeds = 3},
-                               {.resolution = 0}};
-static const sb_plan quick[] = {{.resolution = 0.02, .judged = true}, {.resolution = 0}};
-
 const sb_case sb_case_column = {
     .name = "column",
     .title = "Dam-break bore against a square column",
@@ -147,7 +141,9 @@ const sb_case sb_case_column = {
         "and are omitted. The velocity of\nthe bore is compared from its arrival, too.",
     .scene = "column/column.yaml",
     .headline = "peak force, digitisation a",
-    .full = full,
-    .quick = quick,
+    .full = {{.resolution = 0.02, .paper = true},
+             {.resolution = 0.01, .paper = true, .seeds = 3},
+             {.resolution = 0.005, .judged = true, .seeds = 3}},
+    .quick = {{.resolution = 0.02, .judged = true}},
     .evaluate = evaluate,
     .plot = draw};

@@ -15,6 +15,7 @@ typedef struct experiment {
     double limit;        /* target: mean distance in % of the range */
 } experiment;
 
+/* Cases run with 20, 40 and 80 particles in the depth. */
 static const experiment etsin = {"dambreak-front/etsin.csv", {"", NULL}, 0.3, 0.44, true, 3};
 static const experiment martin_moyce = {"dambreak-front/martin-moyce.csv", {"a", "b", NULL}, 0.114, 0.32, false, 8};
 static const experiment martin_moyce_small = {
@@ -111,28 +112,6 @@ static void draw(const sb_case_run *runs, size_t count, sb_plot *plot)
     }
 }
 
-/* 20, 40 and 80 particles in the depth. */
-static const sb_plan etsin_full[] = {{.resolution = 0.015, .paper = true},
-                                     {.resolution = 0.0075, .paper = true},
-                                     {.resolution = 0.00375, .judged = true, .seeds = 3},
-                                     {.resolution = 0}};
-static const sb_plan etsin_quick[] = {{.resolution = 0.0075, .judged = true}, {.resolution = 0}};
-static const sb_plan martin_moyce_full[] = {{.resolution = 0.0057, .paper = true},
-                                            {.resolution = 0.00285, .paper = true},
-                                            {.resolution = 0.001425, .judged = true, .seeds = 3},
-                                            {.resolution = 0}};
-static const sb_plan martin_moyce_quick[] = {{.resolution = 0.00285, .judged = true}, {.resolution = 0}};
-static const sb_plan martin_moyce_small_full[] = {{.resolution = 0.0028575, .paper = true},
-                                                  {.resolution = 0.00142875, .paper = true},
-                                                  {.resolution = 0.000714375, .judged = true, .seeds = 3},
-                                                  {.resolution = 0}};
-static const sb_plan martin_moyce_small_quick[] = {{.resolution = 0.00142875, .judged = true}, {.resolution = 0}};
-static const sb_plan koshizuka_full[] = {{.resolution = 0.0146, .paper = true},
-                                         {.resolution = 0.0073, .paper = true},
-                                         {.resolution = 0.00365, .judged = true, .seeds = 3},
-                                         {.resolution = 0}};
-static const sb_plan koshizuka_quick[] = {{.resolution = 0.0073, .judged = true}, {.resolution = 0}};
-
 const sb_case sb_case_front_etsin = {
     .name = "dambreak-front-etsin",
     .title = "Dam-break front, ETSIN (column 0.60 m by 0.30 m)",
@@ -146,8 +125,10 @@ const sb_case sb_case_front_etsin = {
         "time. Walls are free-slip; the gate disappears at t = 0.",
     .scene = "dambreak-front/etsin.yaml",
     .headline = "front, mean distance",
-    .full = etsin_full,
-    .quick = etsin_quick,
+    .full = {{.resolution = 0.015, .paper = true},
+             {.resolution = 0.0075, .paper = true},
+             {.resolution = 0.00375, .judged = true, .seeds = 3}},
+    .quick = {{.resolution = 0.0075, .judged = true}},
     .what = &etsin,
     .evaluate = evaluate,
     .plot = draw};
@@ -159,8 +140,10 @@ const sb_case sb_case_front_martin_moyce = {
     .method = "As for ETSIN, without a shift of the clock: mean distance at the measured points until 0.32 s.",
     .scene = "dambreak-front/martin-moyce.yaml",
     .headline = "front, mean distance, digitisation a",
-    .full = martin_moyce_full,
-    .quick = martin_moyce_quick,
+    .full = {{.resolution = 0.0057, .paper = true},
+             {.resolution = 0.00285, .paper = true},
+             {.resolution = 0.001425, .judged = true, .seeds = 3}},
+    .quick = {{.resolution = 0.00285, .judged = true}},
     .what = &martin_moyce,
     .evaluate = evaluate,
     .plot = draw};
@@ -172,8 +155,10 @@ const sb_case sb_case_front_martin_moyce_small = {
     .method = "As for ETSIN, without a shift of the clock: mean distance at all measured points.",
     .scene = "dambreak-front/martin-moyce-small.yaml",
     .headline = "front, mean distance",
-    .full = martin_moyce_small_full,
-    .quick = martin_moyce_small_quick,
+    .full = {{.resolution = 0.0028575, .paper = true},
+             {.resolution = 0.00142875, .paper = true},
+             {.resolution = 0.000714375, .judged = true, .seeds = 3}},
+    .quick = {{.resolution = 0.00142875, .judged = true}},
     .what = &martin_moyce_small,
     .evaluate = evaluate,
     .plot = draw};
@@ -185,8 +170,10 @@ const sb_case sb_case_front_koshizuka = {
     .method = "As for ETSIN, without a shift of the clock: mean distance at the measured points until 0.28 s.",
     .scene = "dambreak-front/koshizuka.yaml",
     .headline = "front, mean distance, digitisation a",
-    .full = koshizuka_full,
-    .quick = koshizuka_quick,
+    .full = {{.resolution = 0.0146, .paper = true},
+             {.resolution = 0.0073, .paper = true},
+             {.resolution = 0.00365, .judged = true, .seeds = 3}},
+    .quick = {{.resolution = 0.0073, .judged = true}},
     .what = &koshizuka,
     .evaluate = evaluate,
     .plot = draw};

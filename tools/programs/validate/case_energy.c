@@ -114,12 +114,6 @@ static void plot(const sb_case_run *runs, size_t count, sb_plot *plot)
     plot_items(chosen, plot);
 }
 
-static const sb_plan full[] = {{.resolution = 0.04, .paper = true},
-                               {.resolution = 0.02, .paper = true, .judged = true, .seeds = 3},
-                               {.resolution = 0.0125},
-                               {.resolution = 0}};
-static const sb_plan quick[] = {{.resolution = 0.04, .judged = true}, {.resolution = 0}};
-
 const sb_case sb_case_energy = {
     .name = "momentum-energy",
     .title = "Momentum and energy of a collapsing column",
@@ -129,7 +123,9 @@ const sb_case sb_case_energy = {
               "Energy is\nkinetic plus potential energy above the floor, one row of energy.csv per step; no filter.",
     .scene = "energy/collapse.yaml",
     .headline = "energy, largest rise over 50 steps",
-    .full = full,
-    .quick = quick,
+    .full = {{.resolution = 0.04, .paper = true},
+             {.resolution = 0.02, .paper = true, .judged = true, .seeds = 3},
+             {.resolution = 0.0125}},
+    .quick = {{.resolution = 0.04, .judged = true}},
     .evaluate = evaluate,
     .plot = plot};

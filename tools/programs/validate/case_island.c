@@ -126,12 +126,6 @@ static void draw(const sb_case_run *runs, size_t count, sb_plot *plot)
 static const char *const shortened[] = {"duration=6", NULL};
 static const char *const pictures[] = {"render.interval=0.1", NULL};
 
-static const sb_plan full[] = {{.resolution = 0.19, .paper = true},
-                               {.resolution = 0.095, .paper = true, .seeds = 3},
-                               {.resolution = 0.0475, .judged = true, .settings = pictures},
-                               {.resolution = 0}};
-static const sb_plan quick[] = {{.resolution = 0.19, .judged = true, .settings = shortened}, {.resolution = 0}};
-
 const sb_case sb_case_island = {
     .name = "island",
     .title = "Solitary wave over a shelf with a conical island",
@@ -152,7 +146,9 @@ const sb_case sb_case_island = {
         "height on the way to them, not the wave\n  that was made.",
     .scene = "island/island.yaml",
     .headline = "WG1 crest",
-    .full = full,
-    .quick = quick,
+    .full = {{.resolution = 0.19, .paper = true},
+             {.resolution = 0.095, .paper = true, .seeds = 3},
+             {.resolution = 0.0475, .judged = true, .settings = pictures}},
+    .quick = {{.resolution = 0.19, .judged = true, .settings = shortened}},
     .evaluate = evaluate,
     .plot = draw};

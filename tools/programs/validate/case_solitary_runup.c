@@ -124,22 +124,9 @@ static void plot_breaking(const sb_case_run *runs, size_t count, sb_plot *plot)
     for (int i = 0; i < TIMES; i++) plot_profile(runs, count, times[i], plot);
 }
 
-static const sb_plan breaking_full[] = {{.resolution = 0.06, .paper = true},
-                                        {.resolution = 0.03, .paper = true},
-                                        {.resolution = 0.02, .judged = true, .seeds = 3},
-                                        {.resolution = 0}};
-static const sb_plan breaking_quick[] = {{.resolution = 0.05, .judged = true}, {.resolution = 0}};
-
-/* The preset `paper` at the second spacing would take about five hours of one thread. */
-static const sb_plan nonbreaking_full[] = {{.resolution = 0.02, .paper = true, .seeds = 3},
-                                           {.resolution = 0.0133},
-                                           {.resolution = 0.01, .judged = true},
-                                           {.resolution = 0}};
 /* A wave of H/d = 0.1 is enough particles high in a cheap run. */
 static const char *const higher[] = {"water.wave.height=0.1", "water.wave.position=-27.8039", "domain.min=[-40, -1]",
                                      "duration=18.5", NULL};
-static const sb_plan nonbreaking_quick[] = {{.resolution = 0.05, .judged = true, .settings = higher},
-                                            {.resolution = 0}};
 
 const sb_case sb_case_runup_breaking = {
     .name = "runup-breaking",
@@ -155,8 +142,10 @@ const sb_case sb_case_runup_breaking = {
         "surface is the beach.",
     .scene = "solitary-runup/breaking.yaml",
     .headline = "run-up R/d",
-    .full = breaking_full,
-    .quick = breaking_quick,
+    .full = {{.resolution = 0.06, .paper = true},
+             {.resolution = 0.03, .paper = true},
+             {.resolution = 0.02, .judged = true, .seeds = 3}},
+    .quick = {{.resolution = 0.05, .judged = true}},
     .evaluate = evaluate_breaking,
     .plot = plot_breaking};
 
@@ -171,7 +160,10 @@ const sb_case sb_case_runup_nonbreaking = {
         "spacing, which takes one and a half hours of one thread; the\nnext spacing would take five.",
     .scene = "solitary-runup/nonbreaking.yaml",
     .headline = "run-up R/d",
-    .full = nonbreaking_full,
-    .quick = nonbreaking_quick,
+    /* The preset `paper` at the second spacing would take about five hours of one thread. */
+    .full = {{.resolution = 0.02, .paper = true, .seeds = 3},
+             {.resolution = 0.0133},
+             {.resolution = 0.01, .judged = true}},
+    .quick = {{.resolution = 0.05, .judged = true, .settings = higher}},
     .evaluate = evaluate_nonbreaking,
     .plot = plot_runup};

@@ -181,12 +181,6 @@ static void plot(const sb_case_run *runs, size_t count, sb_plot *plot)
     plot_shapes(runs, count, plot);
 }
 
-static const sb_plan full[] = {{.resolution = 0.06, .paper = true},
-                               {.resolution = 0.03, .paper = true, .seeds = 3},
-                               {.resolution = 0.015, .judged = true, .seeds = 3},
-                               {.resolution = 0}};
-static const sb_plan quick[] = {{.resolution = 0.06, .judged = true}, {.resolution = 0}};
-
 const sb_case sb_case_solitary_wave = {
     .name = "solitary-wave",
     .title = "Solitary wave over fifty depths",
@@ -199,8 +193,10 @@ const sb_case sb_case_solitary_wave = {
         "elevation; no other filter, no time shift.",
     .scene = "solitary-wave/solitary-wave.yaml",
     .headline = "height loss beyond Keulegan",
-    .full = full,
-    .quick = quick,
+    .full = {{.resolution = 0.06, .paper = true},
+             {.resolution = 0.03, .paper = true, .seeds = 3},
+             {.resolution = 0.015, .judged = true, .seeds = 3}},
+    .quick = {{.resolution = 0.06, .judged = true}},
     .evaluate = evaluate,
     .compare = compare,
     .plot = plot};

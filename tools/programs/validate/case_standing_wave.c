@@ -152,12 +152,6 @@ static void plot(const sb_case_run *runs, size_t count, sb_plot *plot)
     for (size_t i = 0; i < count; i++) sb_plot_run(plot, &runs[i], shape(&runs[i], 1));
 }
 
-static const sb_plan full[] = {{.resolution = 0.05, .paper = true},
-                               {.resolution = 0.025, .paper = true},
-                               {.resolution = 0.0125, .judged = true, .seeds = 3},
-                               {.resolution = 0}};
-static const sb_plan quick[] = {{.resolution = 0.05}, {.resolution = 0.04, .judged = true}, {.resolution = 0}};
-
 const sb_case sb_case_standing_wave = {
     .name = "standing-wave",
     .title = "Standing wave over ten periods",
@@ -171,8 +165,10 @@ const sb_case sb_case_standing_wave = {
         "m. Forty gauges are projected on cos(n pi x/2); the wave is\nn = 2. No filter, no time shift.",
     .scene = "standing-wave/standing-wave.yaml",
     .headline = "period",
-    .full = full,
-    .quick = quick,
+    .full = {{.resolution = 0.05, .paper = true},
+             {.resolution = 0.025, .paper = true},
+             {.resolution = 0.0125, .judged = true, .seeds = 3}},
+    .quick = {{.resolution = 0.05}, {.resolution = 0.04, .judged = true}},
     .evaluate = evaluate,
     .compare = compare,
     .plot = plot};

@@ -119,14 +119,7 @@ static void draw(const sb_case_run *runs, size_t count, sb_plot *plot)
     "Reference: hydrostatics. The water rests for 20 s, after the settling of the defaults. D is the still-water\n"    \
     "depth. The weight is that of all particles. Forces are summed over all bodies that touch water."
 
-static const sb_plan flat_full[] = {{.resolution = 0.1, .paper = true},
-                                    {.resolution = 0.05, .paper = true, .judged = true, .seeds = 3},
-                                    {.resolution = 0.025},
-                                    {.resolution = 0}};
-static const sb_plan flat_quick[] = {{.resolution = 0.05, .judged = true}, {.resolution = 0}};
-static const sb_plan box_quick[] = {{.resolution = 0.1, .judged = true}, {.resolution = 0}};
 static const char *const shorter[] = {"duration=8", NULL};
-static const sb_plan basin_quick[] = {{.resolution = 0.075, .judged = true, .settings = shorter}, {.resolution = 0}};
 
 const sb_case sb_case_still_water_flat = {.name = "still-water-2d",
                                           .title = "Still water in a slice of a tank",
@@ -134,8 +127,10 @@ const sb_case sb_case_still_water_flat = {.name = "still-water-2d",
                                           .method = METHOD,
                                           .scene = "still-water/flat.yaml",
                                           .headline = "force on all bodies, standard deviation",
-                                          .full = flat_full,
-                                          .quick = flat_quick,
+                                          .full = {{.resolution = 0.1, .paper = true},
+                                                   {.resolution = 0.05, .paper = true, .judged = true, .seeds = 3},
+                                                   {.resolution = 0.025}},
+                                          .quick = {{.resolution = 0.05, .judged = true}},
                                           .evaluate = evaluate_tank,
                                           .plot = draw};
 
@@ -145,8 +140,10 @@ const sb_case sb_case_still_water_box = {.name = "still-water-box",
                                          .method = METHOD,
                                          .scene = "still-water/box.yaml",
                                          .headline = "force on all bodies, standard deviation",
-                                         .full = flat_full,
-                                         .quick = box_quick,
+                                         .full = {{.resolution = 0.1, .paper = true},
+                                                  {.resolution = 0.05, .paper = true, .judged = true, .seeds = 3},
+                                                  {.resolution = 0.025}},
+                                         .quick = {{.resolution = 0.1, .judged = true}},
                                          .evaluate = evaluate_tank,
                                          .plot = draw};
 
@@ -156,7 +153,9 @@ const sb_case sb_case_still_water_basin = {.name = "still-water-basin",
                                            .method = METHOD,
                                            .scene = "still-water/basin.yaml",
                                            .headline = "force on all bodies, standard deviation",
-                                           .full = flat_full,
-                                           .quick = basin_quick,
+                                           .full = {{.resolution = 0.1, .paper = true},
+                                                    {.resolution = 0.05, .paper = true, .judged = true, .seeds = 3},
+                                                    {.resolution = 0.025}},
+                                           .quick = {{.resolution = 0.075, .judged = true, .settings = shorter}},
                                            .evaluate = evaluate_basin,
                                            .plot = draw};

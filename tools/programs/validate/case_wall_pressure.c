@@ -100,17 +100,6 @@ static void draw(const sb_case_run *runs, size_t count, sb_plot *plot)
     }
 }
 
-static const sb_plan slice_full[] = {{.resolution = 0.012, .paper = true},
-                                     {.resolution = 0.006, .paper = true},
-                                     {.resolution = 0.003, .judged = true, .seeds = 3},
-                                     {.resolution = 0}};
-static const sb_plan slice_quick[] = {{.resolution = 0.006, .judged = true}, {.resolution = 0}};
-static const sb_plan tank_full[] = {{.resolution = 0.012, .paper = true},
-                                    {.resolution = 0.006, .paper = true, .seeds = 3},
-                                    {.resolution = 0.003, .judged = true},
-                                    {.resolution = 0}};
-static const sb_plan tank_quick[] = {{.resolution = 0.012, .judged = true}, {.resolution = 0}};
-
 #define TARGETS                                                                                                        \
     "first peak at S1 to S4: in the measured band or within 15 % of its edge; impulse of the first 0.15 s at S1 to "   \
     "S4: "                                                                                                             \
@@ -135,8 +124,10 @@ const sb_case sb_case_wall_pressure = {
         "S1 to S3\n  than hydrostatic pressure. No smooth flow of water does both.",
     .scene = "wall-pressure/slice.yaml",
     .headline = "S2 first peak",
-    .full = slice_full,
-    .quick = slice_quick,
+    .full = {{.resolution = 0.012, .paper = true},
+             {.resolution = 0.006, .paper = true},
+             {.resolution = 0.003, .judged = true, .seeds = 3}},
+    .quick = {{.resolution = 0.006, .judged = true}},
     .evaluate = evaluate,
     .plot = draw};
 
@@ -147,7 +138,9 @@ const sb_case sb_case_wall_pressure_3d = {
     .method = "As in the vertical slice, but in the whole tank, 0.15 m wide, with sensors at mid-width.",
     .scene = "wall-pressure/tank.yaml",
     .headline = "S2 first peak",
-    .full = tank_full,
-    .quick = tank_quick,
+    .full = {{.resolution = 0.012, .paper = true},
+             {.resolution = 0.006, .paper = true, .seeds = 3},
+             {.resolution = 0.003, .judged = true}},
+    .quick = {{.resolution = 0.012, .judged = true}},
     .evaluate = evaluate,
     .plot = draw};
