@@ -12,7 +12,7 @@ static sb_status run_in(const sb_bench_program *run, const char *folder, sb_erro
 {
     static const char *const quiet[] = {"render.interval=0", "output.plots=false", "output.particle_interval=0"};
     char program[SB_PATH_MAX], threads[16], out[SB_PATH_MAX], reason[512];
-    sb_process process = {.program = program, .death_signal = SIGTERM};
+    sb_process process = {.death_signal = SIGTERM};
     size_t count = 0;
     sb_status status = sb_process_beside("shorebreak", program, error);
     if (status == SB_OK) status = sb_path_join(out, folder, "run", error);
@@ -20,7 +20,8 @@ static sb_status run_in(const sb_bench_program *run, const char *folder, sb_erro
     if (status != SB_OK) return status;
     snprintf(threads, sizeof threads, "%d", run->threads);
     while (count < SB_BENCH_SETTINGS_MAX && run->settings[count]) count++;
-    sb_process_add(&process, program, "run", run->scene, "--quiet", "--out", out, "--threads", threads, NULL);
+    sb_process_shorebreak(&process, program, run->scene, out);
+    sb_process_add(&process, "--threads", threads, NULL);
     sb_process_set(&process, quiet, sizeof quiet / sizeof *quiet);
     sb_process_set(&process, run->settings, count);
     if (run->preset) sb_process_add(&process, "--preset", run->preset, NULL);

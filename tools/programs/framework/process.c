@@ -28,6 +28,12 @@ void sb_process_add(sb_process *p, ...)
     va_end(arguments);
 }
 
+void sb_process_shorebreak(sb_process *p, const char *program, const char *scene, const char *out)
+{
+    p->program = program;
+    sb_process_add(p, "shorebreak", "run", scene, "--quiet", "--out", out, NULL);
+}
+
 void sb_process_set(sb_process *p, const char *const *settings, size_t count)
 {
     for (size_t i = 0; i < count; i++) sb_process_add(p, "--set", settings[i], NULL);

@@ -33,6 +33,8 @@ typedef struct sb_process {
 
 /* Adds arguments, ended by NULL. They must exist until the start. */
 void sb_process_add(sb_process *process, ...) __attribute__((sentinel));
+/* Adds the arguments of `shorebreak run SCENE --quiet --out OUT`. */
+void sb_process_shorebreak(sb_process *process, const char *program, const char *scene, const char *out);
 /* Adds --set KEY=VALUE for each setting. */
 void sb_process_set(sb_process *process, const char *const *settings, size_t count);
 

@@ -42,10 +42,10 @@ static sb_status begin(void *user, size_t i, sb_process *process, sb_error *erro
     if (status == SB_OK) status = sb_run_forget(folder, error);
     if (status != SB_OK) return status;
     sb_request_settings(request, &l->settings);
-    process->program = l->store->program;
     process->death_signal = SIGTERM;
     /* A run that was stopped left a checkpoint, from which it resumes. */
-    sb_process_add(process, "shorebreak", "run", l->scene, "--quiet", "--resume", "--out", folder, NULL);
+    sb_process_shorebreak(process, l->store->program, l->scene, folder);
+    sb_process_add(process, "--resume", NULL);
     sb_process_set(process, l->settings.list, l->settings.count);
     sb_process_add(process, "--preset", request->paper ? "paper" : "default", NULL);
     if (l->store->options->jobs > 1) sb_process_add(process, "--threads", "1", NULL);

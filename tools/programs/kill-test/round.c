@@ -10,10 +10,10 @@
 static sb_status watch(const sb_kill_run *run, double seconds, bool *killed, double *wall, sb_error *error)
 {
     char reason[512];
-    sb_process process = {.program = run->program, .death_signal = SIGKILL, .time_limit = seconds};
+    sb_process process = {.death_signal = SIGKILL, .time_limit = seconds};
     snprintf(process.output, sizeof process.output, "%.4000s.txt", run->out);
-    sb_process_add(&process, "shorebreak", "run", run->scene, "--out", run->out, "--quiet", "--resume", "--set",
-                   run->pictures ? "render.interval=0.2" : "render.interval=0", NULL);
+    sb_process_shorebreak(&process, run->program, run->scene, run->out);
+    sb_process_add(&process, "--resume", "--set", run->pictures ? "render.interval=0.2" : "render.interval=0", NULL);
     sb_status status = sb_process_start(&process, error);
     if (status != SB_OK) return status;
     sb_process_wait(&process);

@@ -73,9 +73,9 @@ static sb_status start(const sb_soak_watch *w, bool resume, sb_process *process,
     snprintf(spacing, sizeof spacing, "resolution=%.9g", run->spacing);
     snprintf(duration, sizeof duration, "duration=%.9g", run->duration);
     snprintf(prefix, sizeof prefix, "stream.prefix=%s", w->prefix);
-    *process = (sb_process){.program = run->program, .death_signal = SIGTERM, .grace = grace};
+    *process = (sb_process){.death_signal = SIGTERM, .grace = grace};
     snprintf(process->output, sizeof process->output, "%s", run->output);
-    sb_process_add(process, "shorebreak", "run", run->scene, "--quiet", "--out", run->out, NULL);
+    sb_process_shorebreak(process, run->program, run->scene, run->out);
     sb_process_set(process, settings, sizeof settings / sizeof *settings);
     sb_process_add(process, resume ? "--resume" : "--overwrite", NULL);
     return sb_process_start(process, error);

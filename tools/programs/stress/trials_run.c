@@ -63,8 +63,10 @@ static sb_status begin(void *user, size_t i, sb_process *process, sb_error *erro
     process->grace = stop_time;
     process->work = t->kind == SB_TRIAL_DRIVEN ? drive : NULL;
     process->context = b;
-    sb_process_add(process, "shorebreak", t->kind == SB_TRIAL_CHECK ? "check" : "run", b->scene, NULL);
-    if (t->kind == SB_TRIAL_RUN) sb_process_add(process, "--quiet", "--out", b->folder, NULL);
+    if (t->kind == SB_TRIAL_CHECK)
+        sb_process_add(process, "shorebreak", "check", b->scene, NULL);
+    else
+        sb_process_shorebreak(process, b->store->program, b->scene, b->folder);
     for (size_t k = 0; k < t->setting_count; k++) sb_process_add(process, "--set", t->settings[k], NULL);
     return SB_OK;
 }

@@ -20,12 +20,6 @@ static sb_curve *mechanical(const sb_case_run *run)
     return energy;
 }
 
-/* An item of the loss: a column in J that is neither kinetic nor potential energy. */
-static bool is_item(const char *column)
-{
-    return strstr(column, "_J") && strncmp(column, "kinetic", 7) != 0 && strncmp(column, "potential", 9) != 0;
-}
-
 /* Change of a column from its first to its last row. */
 static double change_of(const sb_sheet *sheet, const char *column)
 {
@@ -38,11 +32,10 @@ static void figure_items(const sb_sheet *sheet, double lost, double scale, sb_fi
     double sum = 0;
     size_t items = 0;
     for (size_t k = 0; k < sheet->columns; k++) {
-        char quantity[SB_FIGURE_TEXT];
-        const char *column = sheet->fields[k];
-        if (!is_item(column)) continue;
-        double change = change_of(sheet, column);
-        snprintf(quantity, sizeof quantity, "energy, item %.*s", (int)(strstr(column, "_J") - column), column);
+        char name[SB_FIGURE_TEXT], quantity[SB_FIGURE_TEXT];
+        if (!sb_energy_item(sheet, k, name)) continue;
+        double change = change_of(sheet, sheet->fields[k]);
+        snprintf(quantity, sizeof quantity, "energy, item %.60s", name);
         sb_figure_report(figures, quantity, "%", (double)NAN, 100 * change / scale,
                          "relative to the energy at the start; over the whole run");
         sum += change;
@@ -90,12 +83,10 @@ static void plot_items(const sb_case_run *run, sb_plot *plot)
     const sb_sheet *sheet = sb_run_sheet(run, "energy.csv");
     snprintf(title, sizeof title, "What changed it, %.100s", run->label);
     for (size_t k = 0; k < sheet->columns; k++) {
-        const char *column = sheet->fields[k];
-        if (!is_item(column)) continue;
-        snprintf(label, sizeof label, "%.*s", (int)(strstr(column, "_J") - column), column);
+        if (!sb_energy_item(sheet, k, label)) continue;
         if (!panel) sb_plot_panel(plot, title, "time (s)", "over the start's");
         panel = true;
-        sb_curve *item = column_of(run, column);
+        sb_curve *item = column_of(run, sheet->fields[k]);
         sb_curve_map(item, 1, 0, 1 / start, 0);
         sb_plot_curve(plot, SB_PLOT_LINE, label, item);
     }

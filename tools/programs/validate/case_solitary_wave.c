@@ -73,17 +73,13 @@ static double change_of(const sb_case_run *run, const char *column, const journe
     return sb_curve_at(curve, j->arrives) - sb_curve_at(curve, j->leaves);
 }
 
-/* Every column in J other than kinetic and potential energy is an item of the loss. */
 static void figure_items(const sb_case_run *run, const journey *j, double energy, sb_figures *figures)
 {
     const sb_sheet *sheet = sb_run_sheet(run, "energy.csv");
     for (size_t k = 0; k < sheet->columns; k++) {
         char name[SB_FIGURE_TEXT], quantity[SB_FIGURE_TEXT];
-        snprintf(name, sizeof name, "%s", sheet->fields[k]);
-        char *unit = strstr(name, "_J");
-        if (!unit || strncmp(name, "kinetic", 7) == 0 || strncmp(name, "potential", 9) == 0) continue;
-        double change = change_of(run, name, j);
-        *unit = '\0';
+        if (!sb_energy_item(sheet, k, name)) continue;
+        double change = change_of(run, sheet->fields[k], j);
         snprintf(quantity, sizeof quantity, "energy, item %.60s", name);
         sb_figure_report(figures, quantity, "%", (double)NAN, 100 * change / energy,
                          "relative to the wave's energy at x = %g m", FIRST);

@@ -31,4 +31,8 @@ SB_CASES(SB_CASE_DECLARE)
 /* All cases, ended by NULL. */
 extern const sb_case *const sb_cases[];
 
+/* Name of column k of energy.csv, without its unit, if it is an item of the change of energy: a column in J that is
+   neither kinetic nor potential energy. Otherwise false. */
+bool sb_energy_item(const sb_sheet *energy, size_t k, char name[SB_FIGURE_TEXT]);
+
 #endif
