@@ -1,6 +1,7 @@
 #include "program.h"
 
 #include "process.h"
+#include "summary_text.h"
 
 #include "base/stop.h"
 
@@ -37,11 +38,10 @@ static sb_status run_in(const sb_bench_program *run, const char *folder, sb_erro
 sb_status sb_bench_program_run(const sb_bench_program *run, char **summary, sb_error *error)
 {
     char path[SB_PATH_MAX], folder[] = "/tmp/shorebreak-bench-XXXXXX";
-    size_t length;
     if (!mkdtemp(folder)) return sb_fail(error, SB_FAILED, "%s: cannot make a folder", folder);
     sb_status status = run_in(run, folder, error);
-    if (status == SB_OK) status = sb_path_join(path, folder, "run/summary.json", error);
-    if (status == SB_OK) status = sb_file_read(path, (size_t)1 << 26, summary, &length, error);
+    if (status == SB_OK) status = sb_path_join(path, folder, "run", error);
+    if (status == SB_OK) status = sb_summary_read(path, summary, error);
     sb_folder_remove(folder, NULL);
     return status;
 }

@@ -17,7 +17,7 @@ void sb_bench_sample(sb_bench_samples *samples, double value)
     if (samples->count < SB_BENCH_REPEATS_MAX) samples->value[samples->count++] = value;
 }
 
-void sb_bench_append(sb_bench_rows *to, const sb_bench_row *row)
+static void append(sb_bench_rows *to, const sb_bench_row *row)
 {
     to->incomplete |= sb_grow((void **)&to->rows, &to->capacity, to->count + 1, sizeof *to->rows) != 0;
     if (!to->incomplete) to->rows[to->count++] = *row;
@@ -46,7 +46,7 @@ void sb_bench_add(sb_bench_rows *rows, const char *subject, size_t particles, in
     row.least = spread.low;
     row.most = spread.high;
     row.median = factor * sb_bench_median(samples);
-    sb_bench_append(rows, &row);
+    append(rows, &row);
 }
 
 void sb_bench_add_value(sb_bench_rows *rows, const char *subject, size_t particles, int threads, const char *quantity,
@@ -164,7 +164,7 @@ sb_status sb_bench_read(sb_bench_rows *rows, char *origin, size_t size, bool *fo
         if (status == SB_OK) status = count_of(&sheet, r, 8, path, &repeats, error);
         row.threads = (int)threads;
         row.repeats = (int)repeats;
-        if (status == SB_OK) sb_bench_append(rows, &row);
+        if (status == SB_OK) append(rows, &row);
     }
     if (status == SB_OK) status = sb_bench_complete(rows, error);
     sb_sheet_free(&sheet);

@@ -51,7 +51,6 @@ void sb_bench_add_value(sb_bench_rows *rows, const char *subject, size_t particl
                         const char *unit, double value);
 void sb_bench_add_values(sb_bench_rows *rows, const char *subject, size_t particles, int threads,
                          const sb_bench_value *values, size_t count);
-void sb_bench_append(sb_bench_rows *to, const sb_bench_row *row);
 /* SB_FAILED: memory was exhausted and rows are missing. */
 sb_status sb_bench_complete(const sb_bench_rows *rows, sb_error *error);
 void sb_bench_rows_free(sb_bench_rows *rows);

@@ -59,8 +59,6 @@ sb_status sb_run_close(const sb_case_run *run, sb_error *error);
 void sb_plot_run(sb_plot *plot, const sb_case_run *run, const sb_curve *curve);
 /* Adds a reference curve through `count` points. */
 void sb_plot_points(sb_plot *plot, const char *label, size_t count, double *x, double *y);
-/* The number of the first key of that name in the run's summary.json; NaN: none. */
-double sb_run_number(const sb_case_run *run, const char *key);
 
 enum { SB_PLANS_MAX = 4 };
 typedef struct sb_case {

@@ -31,26 +31,31 @@ void sb_request_label(const sb_request *request, bool with_case, char label[96])
              request->change);
 }
 
-/* Reads the scene with all settings; continues the hash over the settings. */
-static sb_status read_scene(const sb_request *request, const char *scene_path, sb_scene *scene, uint64_t *hash,
-                            sb_error *error)
+sb_status sb_settings_scene(const char *path, const char *preset, const char *const *settings, size_t count,
+                            sb_scene *scene, sb_error *error)
 {
-    sb_settings settings;
     sb_override overrides[SB_SETTINGS_MAX];
     char texts[SB_SETTINGS_MAX][512];
-    const char *preset = request->paper ? "paper" : "default";
-    sb_request_settings(request, &settings);
-    *hash = sb_hash(*hash, preset, strlen(preset));
-    for (size_t i = 0; i < settings.count; i++) {
-        *hash = sb_hash(*hash, settings.list[i], strlen(settings.list[i]));
-        snprintf(texts[i], sizeof texts[i], "%s", settings.list[i]);
+    for (size_t i = 0; i < count; i++) {
+        snprintf(texts[i], sizeof texts[i], "%s", settings[i]);
         char *equals = strchr(texts[i], '=');
-        if (!equals)
-            return sb_fail(error, SB_BAD_INPUT, "%s: %s: expected KEY=VALUE", request->of->name, settings.list[i]);
+        if (!equals) return sb_fail(error, SB_BAD_INPUT, "%.400s: %s: expected KEY=VALUE", path, settings[i]);
         *equals = '\0';
         overrides[i] = (sb_override){.key = texts[i], .value = equals + 1};
     }
-    return sb_scene_read(scene_path, preset, overrides, settings.count, scene, error);
+    return sb_scene_read(path, preset, overrides, count, scene, error);
+}
+
+/* Reads the scene with all settings; continues the hash over the settings. */
+static sb_status read_scene(const sb_request *request, const char *path, sb_scene *scene, uint64_t *hash,
+                            sb_error *error)
+{
+    sb_settings settings;
+    const char *preset = request->paper ? "paper" : "default";
+    sb_request_settings(request, &settings);
+    *hash = sb_hash(*hash, preset, strlen(preset));
+    for (size_t i = 0; i < settings.count; i++) *hash = sb_hash(*hash, settings.list[i], strlen(settings.list[i]));
+    return sb_settings_scene(path, preset, settings.list, settings.count, scene, error);
 }
 
 sb_status sb_request_hash(const sb_request *request, const char *assets, uint64_t *hash, sb_error *error)

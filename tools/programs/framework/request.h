@@ -23,6 +23,9 @@ typedef struct sb_settings {
     size_t count;
 } sb_settings;
 void sb_request_settings(const sb_request *request, sb_settings *settings);
+/* Reads a scene with at most SB_SETTINGS_MAX settings. preset: NULL: that of the scene. */
+sb_status sb_settings_scene(const char *path, const char *preset, const char *const *settings, size_t count,
+                            sb_scene *scene, sb_error *error);
 /* "still-water-box, 0.05 m, paper, seed 1" for messages, or without the case for plots. */
 void sb_request_label(const sb_request *request, bool with_case, char label[96]);
 

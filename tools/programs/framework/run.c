@@ -90,23 +90,6 @@ void sb_plot_points(sb_plot *plot, const char *label, size_t count, double *x, d
     sb_plot_curve(plot, SB_PLOT_REFERENCE, label, &(sb_curve){.count = count, .x = x, .y = y});
 }
 
-static sb_status summary_text(const char *folder, char **text, sb_error *error)
-{
-    char path[SB_PATH_MAX];
-    size_t length;
-    sb_status status = sb_path_join(path, folder, "summary.json", error);
-    return status == SB_OK ? sb_file_read(path, (size_t)1 << 26, text, &length, error) : status;
-}
-
-double sb_run_number(const sb_case_run *run, const char *key)
-{
-    char *text = NULL;
-    if (summary_text(run->folder, &text, NULL) != SB_OK) return (double)NAN;
-    double value = sb_json_number_in(text, key);
-    sb_free(text);
-    return value;
-}
-
 sb_status sb_finished_read(sb_finished *run, const char *folder, sb_error *error)
 {
     char path[SB_PATH_MAX], *text = NULL;
@@ -114,7 +97,7 @@ sb_status sb_finished_read(sb_finished *run, const char *folder, sb_error *error
     snprintf(run->folder, sizeof run->folder, "%s", folder);
     sb_status status = sb_path_join(path, folder, "scene.yaml", error);
     if (status == SB_OK) status = sb_scene_read(path, NULL, NULL, 0, &run->scene, error);
-    if (status == SB_OK) status = summary_text(folder, &text, error);
+    if (status == SB_OK) status = sb_summary_read(folder, &text, error);
     if (status != SB_OK) {
         sb_finished_free(run);
         return status;

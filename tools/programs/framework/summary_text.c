@@ -1,8 +1,18 @@
 #include "summary_text.h"
 
+#include "base/file.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+sb_status sb_summary_read(const char *folder, char **text, sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    size_t length;
+    sb_status status = sb_path_join(path, folder, "summary.json", error);
+    return status == SB_OK ? sb_file_read(path, (size_t)1 << 26, text, &length, error) : status;
+}
 
 double sb_json_number_in(const char *text, const char *key)
 {

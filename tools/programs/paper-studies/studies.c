@@ -1,6 +1,7 @@
 #include "studies.h"
 
 #include "quantity.h"
+#include "summary_text.h"
 
 #include "base/memory.h"
 
@@ -65,11 +66,9 @@ sb_status sb_paper_costs(sb_paper_studies *s, sb_error *error)
 {
     sb_status status = SB_OK;
     for (size_t i = 0; status == SB_OK && i < s->count; i++) {
-        char path[SB_PATH_MAX], *text;
-        size_t length;
+        char *text;
         if (s->trials[i].state != SB_RESULT_DONE) continue;
-        status = sb_path_join(path, s->trials[i].run.folder, "summary.json", error);
-        if (status == SB_OK) status = sb_file_read(path, (size_t)1 << 26, &text, &length, error);
+        status = sb_summary_read(s->trials[i].run.folder, &text, error);
         if (status != SB_OK) return status;
         status = sb_cost_read(text, &s->rows[i].cost, error);
         sb_free(text);

@@ -95,10 +95,7 @@ static void look_for_bad_numbers(sb_outcome *outcome, const char *name)
 
 void sb_outcome_read(sb_outcome *outcome)
 {
-    char path[SB_PATH_MAX];
-    size_t length;
-    if (sb_path_join(path, outcome->folder, "summary.json", NULL) == SB_OK)
-        sb_file_read(path, (size_t)1 << 24, &outcome->summary, &length, NULL);
+    sb_summary_read(outcome->folder, &outcome->summary, NULL);
     DIR *folder = opendir(outcome->folder);
     for (struct dirent *entry; folder && (entry = readdir(folder));) {
         size_t n = strlen(entry->d_name);

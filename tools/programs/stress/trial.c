@@ -1,5 +1,6 @@
 #include "trial.h"
 
+#include "request.h"
 #include "scene/presets.h"
 
 #include "base/file.h"
@@ -51,17 +52,11 @@ void sb_trials_free(sb_trials *trials)
 
 sb_status sb_trial_scene(const sb_trial *trial, const char *assets, sb_scene *scene, sb_error *error)
 {
-    char path[SB_PATH_MAX], texts[SB_TRIAL_SETTINGS][SB_TRIAL_TEXT];
-    sb_override overrides[SB_TRIAL_SETTINGS];
-    for (size_t i = 0; i < trial->setting_count; i++) {
-        memcpy(texts[i], trial->settings[i], sizeof texts[i]);
-        char *equals = strchr(texts[i], '=');
-        if (!equals) return sb_fail(error, SB_BAD_INPUT, "%s: %s: expected KEY=VALUE", trial->name, texts[i]);
-        *equals = '\0';
-        overrides[i] = (sb_override){.key = texts[i], .value = equals + 1};
-    }
+    char path[SB_PATH_MAX];
+    const char *settings[SB_TRIAL_SETTINGS];
+    for (size_t i = 0; i < trial->setting_count; i++) settings[i] = trial->settings[i];
     sb_status status = sb_path_join(path, assets, trial->scene, error);
-    return status == SB_OK ? sb_scene_read(path, NULL, overrides, trial->setting_count, scene, error) : status;
+    return status == SB_OK ? sb_settings_scene(path, NULL, settings, trial->setting_count, scene, error) : status;
 }
 
 double sb_trial_default(const char *key)

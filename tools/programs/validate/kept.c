@@ -18,14 +18,12 @@ sb_status sb_kept_open(const char *report_folder, sb_sheet *table, sb_error *err
 
 static const char *text_of(const sb_sheet *table, size_t row, const char *column)
 {
-    const size_t at = sb_sheet_column(table, column);
-    return at == (size_t)-1 ? "" : sb_sheet_text(table, row, at);
+    return sb_sheet_text(table, row, sb_sheet_column(table, column));
 }
 
 static double number_of(const sb_sheet *table, size_t row, const char *column)
 {
-    const size_t at = sb_sheet_column(table, column);
-    return at == (size_t)-1 ? (double)NAN : sb_sheet_number(table, row, at);
+    return sb_sheet_number(table, row, sb_sheet_column(table, column));
 }
 
 static size_t count_of(const sb_sheet *table, size_t row, const char *column)
