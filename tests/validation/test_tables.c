@@ -62,6 +62,27 @@ static void test_row_with_missing_fields_is_refused(void **state)
     assert_int_equal(sb_sheet_read(written(""), &sheet, &error), SB_BAD_INPUT);
 }
 
+/* A case does not check its curves: after a missing column all are empty, and the end of the case reports it once. */
+static void test_missing_column_is_reported_at_end(void **state)
+{
+    (void)state;
+    sb_curves made = {0};
+    sb_sheet_slot slot = {0};
+    sb_error first = {0}, why = {0};
+    const sb_case_run run = {.folder = "/tmp", .slot = &slot, .made = &made, .error = &first};
+    const char *table = strrchr(written("t,a\n0,1\n"), '/') + 1;
+    assert_int_equal(sb_run_curve(&run, table, NULL, "t", "a")->count, 1);
+    assert_true(isnan(sb_curve_last(sb_run_curve(&run, table, NULL, "t", "b"))));
+    assert_int_equal(sb_run_curve(&run, table, NULL, "t", "a")->count, 0);
+    assert_int_equal(sb_run_sheet(&run, table)->rows, 0);
+    assert_int_equal(sb_run_close(&run, &why), SB_BAD_INPUT);
+    assert_non_null(strstr(why.text, "no column b"));
+    assert_int_equal(sb_run_curve(&run, table, NULL, "t", "a")->count, 1);
+    assert_int_equal(sb_run_close(&run, &why), SB_OK);
+    sb_sheet_free(&slot.sheet);
+    sb_free(slot.path);
+}
+
 static int tables;
 
 /* A table cites its source, has numbers in all columns other than that of names, and is small. */
@@ -212,6 +233,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_table_columns_are_read),
         cmocka_unit_test(test_row_with_missing_fields_is_refused),
+        cmocka_unit_test(test_missing_column_is_reported_at_end),
         cmocka_unit_test(test_reference_tables_are_valid),
         cmocka_unit_test(test_cases_are_valid),
         cmocka_unit_test(test_hash_depends_on_request),
