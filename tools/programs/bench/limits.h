@@ -1,6 +1,6 @@
 /* Measures the limits of this machine before each section, for comparison with its figures. */
-#ifndef SB_BENCHMARK_LIMITS_H
-#define SB_BENCHMARK_LIMITS_H
+#ifndef SB_BENCH_LIMITS_H
+#define SB_BENCH_LIMITS_H
 
 #include "sections.h"
 

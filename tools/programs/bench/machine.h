@@ -1,6 +1,6 @@
 /* The machine on which figures are measured, and its use by other programs. */
-#ifndef SB_BENCHMARK_MACHINE_H
-#define SB_BENCHMARK_MACHINE_H
+#ifndef SB_BENCH_MACHINE_H
+#define SB_BENCH_MACHINE_H
 
 #include <stddef.h>
 

@@ -1,6 +1,6 @@
 /* Command line of tools/bench. */
-#ifndef SB_BENCHMARK_OPTIONS_H
-#define SB_BENCHMARK_OPTIONS_H
+#ifndef SB_BENCH_OPTIONS_H
+#define SB_BENCH_OPTIONS_H
 
 #include "arguments.h"
 #include "sections.h"

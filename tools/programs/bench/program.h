@@ -1,6 +1,6 @@
 /* Runs shorebreak as a user does, without pictures, plots or particle files. */
-#ifndef SB_BENCHMARK_PROGRAM_H
-#define SB_BENCHMARK_PROGRAM_H
+#ifndef SB_BENCH_PROGRAM_H
+#define SB_BENCH_PROGRAM_H
 
 #include "base/status.h"
 

@@ -1,6 +1,6 @@
 /* Writes benchmarks.md from the kept rows of each machine. */
-#ifndef SB_BENCHMARK_REPORT_H
-#define SB_BENCHMARK_REPORT_H
+#ifndef SB_BENCH_REPORT_H
+#define SB_BENCH_REPORT_H
 
 #include "sections.h"
 

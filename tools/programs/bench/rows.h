@@ -1,6 +1,6 @@
 /* Measured values: rows of one table, stored as CSV. */
-#ifndef SB_BENCHMARK_ROWS_H
-#define SB_BENCHMARK_ROWS_H
+#ifndef SB_BENCH_ROWS_H
+#define SB_BENCH_ROWS_H
 
 #include "base/status.h"
 

@@ -1,6 +1,6 @@
 /* The sections of the benchmark. Each writes one CSV file; the report is made from all of them. */
-#ifndef SB_BENCHMARK_SECTIONS_H
-#define SB_BENCHMARK_SECTIONS_H
+#ifndef SB_BENCH_SECTIONS_H
+#define SB_BENCH_SECTIONS_H
 
 #include "rows.h"
 

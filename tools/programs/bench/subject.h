@@ -1,6 +1,6 @@
 /* A simulation in a saved state from which every repeat starts. */
-#ifndef SB_BENCHMARK_SUBJECT_H
-#define SB_BENCHMARK_SUBJECT_H
+#ifndef SB_BENCH_SUBJECT_H
+#define SB_BENCH_SUBJECT_H
 
 #include "base/archive.h"
 #include "geometry/model/model.h"

@@ -1,6 +1,6 @@
 /* Compares two folders of runs file by file. */
-#ifndef SB_KILLING_COMPARE_H
-#define SB_KILLING_COMPARE_H
+#ifndef SB_KILL_TEST_COMPARE_H
+#define SB_KILL_TEST_COMPARE_H
 
 #include "base/status.h"
 

@@ -1,6 +1,6 @@
 /* One run, killed or undisturbed. */
-#ifndef SB_KILLING_ROUND_H
-#define SB_KILLING_ROUND_H
+#ifndef SB_KILL_TEST_ROUND_H
+#define SB_KILL_TEST_ROUND_H
 
 #include "base/status.h"
 

@@ -1,6 +1,6 @@
 /* Closed forms as triangles: prisms, lofts and dikes. */
-#ifndef SB_TOOLS_FORM_H
-#define SB_TOOLS_FORM_H
+#ifndef SB_MAKE_PLANT_FORM_H
+#define SB_MAKE_PLANT_FORM_H
 
 #include "base/vec.h"
 #include "geometry/mesh/mesh.h"

@@ -1,7 +1,7 @@
 /* A coastal nuclear plant after the pattern of Fukushima Daiichi, made from a few heights.
    Metres; x from the paddle (0) to the hills, y along the shore, z = 0 is still water. */
-#ifndef SB_TOOLS_PLANT_H
-#define SB_TOOLS_PLANT_H
+#ifndef SB_MAKE_PLANT_PLANT_H
+#define SB_MAKE_PLANT_PLANT_H
 
 #include "base/status.h"
 #include "geometry/mesh/mesh.h"

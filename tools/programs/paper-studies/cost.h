@@ -1,6 +1,6 @@
 /* Run time of a run, divided as in the paper. */
-#ifndef SB_PAPER_COST_H
-#define SB_PAPER_COST_H
+#ifndef SB_PAPER_STUDIES_COST_H
+#define SB_PAPER_STUDIES_COST_H
 
 #include "base/status.h"
 

@@ -1,8 +1,8 @@
 /* The runs that Sampath, Montanari, Akinci, Prescott and Smith (2016), "Large-scale solitary wave
    simulation with implicit incompressible SPH", report in their Tables 1 to 10: a plant and a 25 m wave, 90 s, on two
    Xeon E5-2680 v2 of ten cores each. */
-#ifndef SB_PAPER_PUBLISHED_H
-#define SB_PAPER_PUBLISHED_H
+#ifndef SB_PAPER_STUDIES_PUBLISHED_H
+#define SB_PAPER_STUDIES_PUBLISHED_H
 
 #include <stddef.h>
 

@@ -1,6 +1,6 @@
 /* The published runs on our plant, and the report that compares the figures. */
-#ifndef SB_PAPER_STUDIES_H
-#define SB_PAPER_STUDIES_H
+#ifndef SB_PAPER_STUDIES_STUDIES_H
+#define SB_PAPER_STUDIES_STUDIES_H
 
 #include "cost.h"
 #include "published.h"

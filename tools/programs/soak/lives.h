@@ -1,6 +1,6 @@
 /* Memory and descriptors of a run's processes, measured from outside, and their limits. */
-#ifndef SB_SOAKING_LIVES_H
-#define SB_SOAKING_LIVES_H
+#ifndef SB_SOAK_LIVES_H
+#define SB_SOAK_LIVES_H
 
 #include "base/status.h"
 

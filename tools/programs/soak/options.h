@@ -1,6 +1,6 @@
 /* Command line of tools/soak. */
-#ifndef SB_SOAKING_OPTIONS_H
-#define SB_SOAKING_OPTIONS_H
+#ifndef SB_SOAK_OPTIONS_H
+#define SB_SOAK_OPTIONS_H
 
 #include "arguments.h"
 

@@ -1,6 +1,6 @@
 /* Writes the results of a soak as tables. */
-#ifndef SB_SOAKING_REPORT_H
-#define SB_SOAKING_REPORT_H
+#ifndef SB_SOAK_REPORT_H
+#define SB_SOAK_REPORT_H
 
 #include "lives.h"
 #include "options.h"

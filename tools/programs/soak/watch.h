@@ -1,6 +1,6 @@
 /* The subscriber and the process that it watches. */
-#ifndef SB_SOAKING_WATCH_H
-#define SB_SOAKING_WATCH_H
+#ifndef SB_SOAK_WATCH_H
+#define SB_SOAK_WATCH_H
 
 #include "lives.h"
 

@@ -1,8 +1,8 @@
 /* Driven runs advance the simulation step by step. They serve for starts that a scene cannot describe, and for checks
    of every step: finite numbers, particles within solids, solves that stop above their tolerance without reporting it.
  */
-#ifndef SB_BATTERY_DRIVE_H
-#define SB_BATTERY_DRIVE_H
+#ifndef SB_STRESS_DRIVE_H
+#define SB_STRESS_DRIVE_H
 
 #include "geometry/model/model.h"
 #include "output/json.h"

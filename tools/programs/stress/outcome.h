@@ -1,6 +1,6 @@
 /* Outcome of a trial. */
-#ifndef SB_BATTERY_OUTCOME_H
-#define SB_BATTERY_OUTCOME_H
+#ifndef SB_STRESS_OUTCOME_H
+#define SB_STRESS_OUTCOME_H
 
 #include "base/file.h"
 #include "curve.h"

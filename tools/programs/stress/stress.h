@@ -1,7 +1,7 @@
 /* A stress case: its trials, and the rules by which their outcomes are judged. To add one, write stress_<name>.c with
    its sb_stress, add its row to stresses.h, and put its scene into assets/stress. */
-#ifndef SB_BATTERY_STRESS_H
-#define SB_BATTERY_STRESS_H
+#ifndef SB_STRESS_STRESS_H
+#define SB_STRESS_STRESS_H
 
 #include "outcome.h"
 #include "statistics.h"

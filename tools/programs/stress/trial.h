@@ -1,6 +1,6 @@
 /* A trial: one run of a stress case, by the program itself or driven step by step. */
-#ifndef SB_BATTERY_TRIAL_H
-#define SB_BATTERY_TRIAL_H
+#ifndef SB_STRESS_TRIAL_H
+#define SB_STRESS_TRIAL_H
 
 #include "drive.h"
 

@@ -1,6 +1,6 @@
 /* Command line of tools/study. */
-#ifndef SB_STUDY_OPTIONS_H
-#define SB_STUDY_OPTIONS_H
+#ifndef SB_STUDY_STUDY_OPTIONS_H
+#define SB_STUDY_STUDY_OPTIONS_H
 
 #include "arguments.h"
 

@@ -1,6 +1,6 @@
 /* Writes the report of a resolution study. */
-#ifndef SB_STUDY_REPORT_H
-#define SB_STUDY_REPORT_H
+#ifndef SB_STUDY_STUDY_REPORT_H
+#define SB_STUDY_STUDY_REPORT_H
 
 #include "order.h"
 #include "runs.h"

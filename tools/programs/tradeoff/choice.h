@@ -1,6 +1,6 @@
 /* The choices of solver and parameters that are compared: one row each. */
-#ifndef SB_CHOICES_CHOICE_H
-#define SB_CHOICES_CHOICE_H
+#ifndef SB_TRADEOFF_CHOICE_H
+#define SB_TRADEOFF_CHOICE_H
 
 #include "scene/scene.h"
 

@@ -1,6 +1,6 @@
 /* Writes run time and error of the choices as Markdown, CSV and picture. */
-#ifndef SB_CHOICES_CONTEST_REPORT_H
-#define SB_CHOICES_CONTEST_REPORT_H
+#ifndef SB_TRADEOFF_CONTEST_REPORT_H
+#define SB_TRADEOFF_CONTEST_REPORT_H
 
 #include "entries.h"
 

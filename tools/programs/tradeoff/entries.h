@@ -1,6 +1,6 @@
 /* Runs of a subject: every choice at every spacing with every seed, and their results. */
-#ifndef SB_CHOICES_ENTRIES_H
-#define SB_CHOICES_ENTRIES_H
+#ifndef SB_TRADEOFF_ENTRIES_H
+#define SB_TRADEOFF_ENTRIES_H
 
 #include "choice.h"
 #include "runs.h"

@@ -1,6 +1,6 @@
 /* The Pareto front of time and error. Pure functions. */
-#ifndef SB_CHOICES_PARETO_H
-#define SB_CHOICES_PARETO_H
+#ifndef SB_TRADEOFF_PARETO_H
+#define SB_TRADEOFF_PARETO_H
 
 #include <stdbool.h>
 #include <stddef.h>

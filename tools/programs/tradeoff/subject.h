@@ -1,6 +1,6 @@
 /* The scenes for which choices are compared, and the errors of each: one row each. */
-#ifndef SB_CHOICES_SUBJECT_H
-#define SB_CHOICES_SUBJECT_H
+#ifndef SB_TRADEOFF_SUBJECT_H
+#define SB_TRADEOFF_SUBJECT_H
 
 #include "case.h"
 

@@ -1,6 +1,6 @@
 /* Reads the particle files of a run in order. */
-#ifndef SB_VALIDATION_FRAMES_H
-#define SB_VALIDATION_FRAMES_H
+#ifndef SB_VALIDATE_FRAMES_H
+#define SB_VALIDATE_FRAMES_H
 
 #include "case.h"
 #include "frame/frame.h"

@@ -1,7 +1,7 @@
 /* Reads the figures of runs whose files are not available from the results.csv of an earlier report. A full set takes
    many hours, so that several machines share it. Figures are used only if the request and the defaults are the same. */
-#ifndef SB_VALIDATION_KEPT_H
-#define SB_VALIDATION_KEPT_H
+#ifndef SB_VALIDATE_KEPT_H
+#define SB_VALIDATE_KEPT_H
 
 #include "results.h"
 #include "sheet.h"

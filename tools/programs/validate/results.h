@@ -1,6 +1,6 @@
 /* Results of a case: the figures of its runs, and their judgement at the judged spacing. */
-#ifndef SB_VALIDATION_RESULTS_H
-#define SB_VALIDATION_RESULTS_H
+#ifndef SB_VALIDATE_RESULTS_H
+#define SB_VALIDATE_RESULTS_H
 
 #include "runs.h"
 

@@ -1,6 +1,6 @@
 /* Compares pressures of water at rest with rho g (level - z). The scene's first body is the tank. */
-#ifndef SB_VALIDATION_STILL_PRESSURE_H
-#define SB_VALIDATION_STILL_PRESSURE_H
+#ifndef SB_VALIDATE_STILL_PRESSURE_H
+#define SB_VALIDATE_STILL_PRESSURE_H
 
 #include "case.h"
 

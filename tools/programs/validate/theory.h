@@ -1,6 +1,6 @@
 /* Theory of the cases, beyond src/physics/wave_theory.h. */
-#ifndef SB_VALIDATION_THEORY_H
-#define SB_VALIDATION_THEORY_H
+#ifndef SB_VALIDATE_THEORY_H
+#define SB_VALIDATE_THEORY_H
 
 #include "scene/scene.h"
 
