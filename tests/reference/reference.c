@@ -23,19 +23,22 @@ static int find_images(const sb_reference_cloud *cloud, sb_vec3 at, sb_vec3 imag
     return count;
 }
 
-void sb_reference_psi(const sb_reference_cloud *cloud, double gamma, double *psi)
+void sb_reference_psi(const sb_reference_cloud *cloud, double gamma, bool curved, double *psi)
 {
     for (size_t b = 0; b < cloud->wall_count; b++) {
-        double sum = 0;
+        double sum = 0, bend = 0;
         for (size_t k = 0; k < cloud->wall_count; k++) {
             sb_vec3 image[IMAGES];
             int images = find_images(cloud, cloud->wall_position[k], image);
             for (int m = 0; m < images; m++) {
-                double r = sb_norm(sb_sub(cloud->wall_position[b], image[m]));
-                sum += sb_kernel_value(cloud->kernel, cloud->dimension, cloud->h, r);
+                const sb_vec3 offset = sb_sub(image[m], cloud->wall_position[b]);
+                const double w = sb_kernel_value(cloud->kernel, cloud->dimension, cloud->h, sb_norm(offset));
+                sum += w;
+                if (curved && sb_dot(cloud->wall_normal[k], cloud->wall_normal[b]) > -0.1)
+                    bend += w * sb_dot(offset, cloud->wall_normal[b]) / cloud->h;
             }
         }
-        psi[b] = gamma * cloud->rest_density / sum;
+        psi[b] = gamma * cloud->rest_density / sum * (1 + 8 * bend / sum * fabs(bend / sum));
     }
 }
 

@@ -6,6 +6,8 @@
 #include "base/vec.h"
 #include "physics/kernel.h"
 
+#include <stdbool.h>
+
 #include <stddef.h>
 #include <stdint.h>
 
@@ -44,9 +46,10 @@ typedef struct sb_reference {
     size_t *fluid_start, *wall_start;
 } sb_reference;
 
-/* psi_b = gamma rho0 / sum_k W_bk over all boundary particles, b included. Uses only the cloud's wall positions,
+/* psi_b = gamma rho0 / sum_k W_bk over all boundary particles, b included; times the factor of docs/method.md (M16a) if
+   `curved`. Uses only the cloud's wall positions, normals (if `curved`),
    period, kernel, dimension, h and rest density. */
-void sb_reference_psi(const sb_reference_cloud *cloud, double gamma, double *psi);
+void sb_reference_psi(const sb_reference_cloud *cloud, double gamma, bool curved, double *psi);
 
 /* Finds the pairs by testing all. Returns 0, or -1 without memory. The cloud's arrays must outlive the reference. */
 int sb_reference_create(const sb_reference_cloud *cloud, sb_reference *reference);

@@ -70,7 +70,7 @@ static sb_reference make_box(int dimension)
     for (int k = 0; k < high; k++)
         for (int j = dimension == 3 ? -2 : 0; j < (dimension == 3 ? deep + 2 : 1); j++)
             add_wall(&cloud, sb_scale(sb_vec(-0.97, j, k), d), 1);
-    sb_reference_psi(&cloud, 0.8, psi);
+    sb_reference_psi(&cloud, 0.8, false, psi);
     sb_reference reference;
     assert_int_equal(sb_reference_create(&cloud, &reference), 0);
     return reference;
@@ -104,9 +104,9 @@ static void plane_has_its_known_volume(void **state)
     sb_reference_cloud cloud = empty_cloud(3, 0.5);
     for (int i = -4; i <= 4; i++)
         for (int j = -4; j <= 4; j++) add_wall(&cloud, sb_vec(0.5 * i, 0.5 * j, 3), 0);
-    sb_reference_psi(&cloud, 1, psi);
+    sb_reference_psi(&cloud, 1, false, psi);
     assert_near(psi[40] / (1000 * 0.125), 1.427, 5e-4);
-    sb_reference_psi(&cloud, 0.7, psi);
+    sb_reference_psi(&cloud, 0.7, false, psi);
     assert_near(psi[40] / (1000 * 0.125), 0.7 * 1.427, 5e-4);
 }
 

@@ -9,30 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BODIES_MAX = 4 };
-
-static void set_numerics(sb_numerics *n)
-{
-    *n = (sb_numerics){
-        .kernel = sb_kernel_find("cubic"),
-        .support = 2,
-        .solver = SB_SOLVER_CHEBYSHEV,
-        .tolerance_rule = SB_TOLERANCE_PRESSURE,
-        .tolerance = 0.005,
-        .min_iterations = 2,
-        .max_iterations = 500,
-        .relaxation = 0.5,
-        .warm_start = 0.9,
-        .source_relaxation = 0.3,
-        .cfl = 0.4,
-        .time_step_rule = SB_TIME_STEP_DEPTH,
-        .time_step_factor = 0.1,
-        .artificial_viscosity = 0.01,
-        .wall_gamma = 0.7,
-        .wall_offset = 0.5,
-        .wall_spacing = 1,
-    };
-}
+enum { BODIES_MAX = 4, SB_TANK_TEXT = 128 };
 
 /* Ends the test program if a condition does not hold, regardless of NDEBUG. */
 static void need(bool condition)
@@ -50,112 +27,113 @@ static void add_wall(tank *t, sb_vec3 at, sb_vec3 normal)
     m->wall_position[m->wall_count++] = at;
 }
 
-/* Component of the inward direction along one axis, for a position of the shell. */
-static double inward(long index, long n)
+/* The numerics of tank_cubic. */
+static const sb_override cubic[] = {
+    {"numerics.kernel", "cubic"},
+    {"numerics.support", "2"},
+    {"numerics.density", "summed"},
+    {"numerics.tolerance", "0.005"},
+    {"numerics.warm_start", "0.9"},
+    {"numerics.source_relaxation", "0.3"},
+    {"numerics.time_step_factor", "0.1"},
+    {"numerics.stress_correction", "0"},
+    {"numerics.artificial_viscosity", "0.01"},
+    {"numerics.wall_shear", "none"},
+    {"numerics.wall_gamma", "0.7"},
+    {"numerics.wall_offset", "0.5"},
+    {"numerics.wall_spacing", "1"},
+    {"numerics.settle_steps", "0"},
+    {"fluid.viscosity", "0"},
+};
+enum { CUBIC = sizeof cubic / sizeof *cubic };
+
+/* Text of a vector in a scene: two components in 2D. */
+static void write_vector(char text[SB_TANK_TEXT], int dimensions, sb_vec3 v)
 {
-    return (index == -1) - (index == n);
+    if (dimensions == 2)
+        snprintf(text, SB_TANK_TEXT, "[%.17g, %.17g]", v.x, v.z);
+    else
+        snprintf(text, SB_TANK_TEXT, "[%.17g, %.17g, %.17g]", v.x, v.y, v.z);
 }
 
-/* A lattice position: the middle of cell (x, y, z); y is 0 in 2D. */
-static sb_vec3 place(const tank *t, double x, double y, double z)
+/* Reads the scene with the tank's sizes, and builds the model of it as the program does. */
+static void build(tank *t)
 {
-    sb_vec3 middle = sb_vec(x + 0.5, t->scene.dimensions == 2 ? 0 : y + 0.5, z + 0.5);
-    return sb_scale(middle, t->scene.resolution);
+    const tank_form *f = &t->form;
+    char flat[8], spacing[32], max[SB_TANK_TEXT], low[SB_TANK_TEXT], high[SB_TANK_TEXT], inside[SB_TANK_TEXT],
+        water[3 * SB_TANK_TEXT], jitter[32], sides[SB_TANK_TEXT];
+    snprintf(flat, sizeof flat, "%d", f->dimensions);
+    snprintf(spacing, sizeof spacing, "%.17g", f->spacing);
+    snprintf(jitter, sizeof jitter, "%.17g", f->jitter);
+    write_vector(max, f->dimensions, f->size);
+    write_vector(low, f->dimensions, sb_vec(0, 0, 0));
+    write_vector(inside, f->dimensions, sb_vec(f->size.x / 2, f->size.y / 2, f->depth / 2));
+    write_vector(high, f->dimensions, sb_vec(f->wet_length, f->size.y, f->depth));
+    if (f->wet_length == f->size.x && f->depth < f->size.z)
+        snprintf(water, sizeof water, "{level: %.17g, seed: %s}", f->depth, inside);
+    else
+        snprintf(water, sizeof water, "{boxes: [{min: %s, max: %s}]}", low, high);
+    snprintf(sides, sizeof sides, "{x_min: %s, x_max: %s, y_min: %s, y_max: %s, z_max: wall}",
+             f->repeats[0] ? "periodic" : "wall", f->repeats[0] ? "periodic" : "wall",
+             f->repeats[1] ? "periodic" : "wall", f->repeats[1] ? "periodic" : "wall");
+    sb_override set[7 + CUBIC] = {{"dimensions", flat},       {"resolution", spacing}, {"domain.min", low},
+                                  {"domain.max", max},        {"domain.sides", sides}, {"water", water},
+                                  {"numerics.jitter", jitter}};
+    for (size_t k = 0; k < CUBIC; k++) set[7 + k] = cubic[k];
+    sb_error error = {0};
+    if (sb_scene_read(SB_SOURCE_DIR "/tests/sim/tank.yaml", f->preset, set, f->cubic ? 7 + CUBIC : 7, &t->scene,
+                      &error) != SB_OK ||
+        sb_model_build(&t->scene, &t->model, &error) != SB_OK)
+        fprintf(stderr, "no tank: %s\n", error.text);
+    need(t->model.body_count == 1);
+    t->scene.domain.side[SB_Z_MAX] = SB_SIDE_OPEN; /* water that is past the lid has left */
+    t->wall_capacity = t->normal_capacity = t->model.wall_count;
+    sb_model_body *bodies = sb_alloc(BODIES_MAX, sizeof *bodies);
+    t->scene.wavemakers = sb_alloc(BODIES_MAX, sizeof *t->scene.wavemakers);
+    need(bodies && t->scene.wavemakers);
+    bodies[0] = t->model.bodies[0];
+    sb_free(t->model.bodies);
+    t->model.bodies = bodies;
 }
 
-/* Adds the shell of a lattice box: all positions with the index -1 or n along an axis. */
-static void add_shell(tank *t, const long n[3])
+static void rebuild(tank *t)
 {
-    bool flat = t->scene.dimensions == 2;
-    long y0 = flat ? 0 : -1, y1 = flat ? 0 : n[1];
-    for (long x = -1; x <= n[0]; x++)
-        for (long y = y0; y <= y1; y++)
-            for (long z = -1; z <= n[2]; z++)
-                if (x == -1 || x == n[0] || z == -1 || z == n[2] || (!flat && (y == -1 || y == n[1])))
-                    add_wall(t, place(t, (double)x, (double)y, (double)z),
-                             sb_vec(inward(x, n[0]), flat ? 0 : inward(y, n[1]), inward(z, n[2])));
-}
-
-static void fill_water(tank *t, const long wet[3], double depth, double jitter)
-{
-    sb_model *m = &t->model;
-    size_t count = (size_t)(wet[0] * wet[1] * wet[2]);
-    m->fluid_position = sb_alloc(count, sizeof *m->fluid_position);
-    m->fluid_velocity = sb_alloc(count, sizeof *m->fluid_velocity);
-    m->fluid_pressure = sb_alloc(count, sizeof *m->fluid_pressure);
-    need(m->fluid_position && m->fluid_velocity && m->fluid_pressure);
-    for (long x = 0; x < wet[0]; x++)
-        for (long y = 0; y < wet[1]; y++)
-            for (long z = 0; z < wet[2]; z++) {
-                size_t i = m->fluid_count++;
-                double d[3];
-                for (uint64_t axis = 0; axis < 3; axis++) d[axis] = jitter * (2 * sb_random(7, 3 * i + axis) - 1);
-                m->fluid_position[i] = place(t, (double)x + d[0], (double)y + d[1], (double)z + d[2]);
-                m->fluid_pressure[i] = 1000 * 9.81 * (depth - m->fluid_position[i].z);
-            }
+    const tank_form form = t->form;
+    tank_free(t);
+    t->form = form;
+    build(t);
 }
 
 void tank_make(tank *t, int dimensions, double dr, sb_vec3 size, double wet_length, double depth, double jitter)
 {
-    *t = (tank){0};
-    sb_scene *s = &t->scene;
-    sb_model *m = &t->model;
-    s->dimensions = dimensions;
-    s->resolution = dr;
-    s->duration = 1;
-    s->fluid = (sb_fluid_properties){.density = 1000, .gravity = 9.81};
-    set_numerics(&s->numerics);
-    s->domain.max = size;
-    s->domain.side[SB_Z_MAX] = SB_SIDE_OPEN;
-    m->max = size;
-    m->still_depth = depth;
-    const long n[3] = {lround(size.x / dr), lround(size.y / dr), lround(size.z / dr)};
-    const long wet[3] = {lround(wet_length / dr), dimensions == 2 ? 1 : n[1], lround(depth / dr)};
-    m->bodies = sb_alloc(BODIES_MAX, sizeof *m->bodies);
-    s->wavemakers = sb_alloc(BODIES_MAX, sizeof *s->wavemakers);
-    need(m->bodies && s->wavemakers);
-    fill_water(t, wet, depth, jitter);
-    add_shell(t, n);
-    m->body_count = 1;
-    m->bodies[0] = (sb_model_body){.count = m->wall_count, .wavemaker = -1, .report = true};
-    snprintf(m->bodies[0].name, sizeof m->bodies[0].name, "tank");
+    *t = (tank){.form = {"default", dimensions, dr, size, wet_length, depth, jitter, {false, false}, false}};
+    build(t);
+}
+
+void tank_cubic(tank *t)
+{
+    t->form.cubic = true;
+    rebuild(t);
+}
+
+void tank_paper(tank *t)
+{
+    t->form.preset = "paper";
+    rebuild(t);
 }
 
 void tank_free(tank *t)
 {
-    sb_free(t->model.fluid_position);
-    sb_free(t->model.fluid_velocity);
-    sb_free(t->model.fluid_pressure);
-    sb_free(t->model.wall_position);
-    sb_free(t->model.wall_normal);
-    sb_free(t->model.bodies);
-    sb_free(t->scene.wavemakers);
+    sb_model_free(&t->model);
+    t->scene.measure = (sb_measure_settings){0}; /* the test's */
+    sb_scene_free(&t->scene);
     *t = (tank){0};
-}
-
-static double along(sb_vec3 v, int axis)
-{
-    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
 void tank_repeat(tank *t, int axis)
 {
-    sb_model *m = &t->model;
-    size_t kept = 0;
-    t->scene.domain.side[2 * axis] = t->scene.domain.side[2 * axis + 1] = SB_SIDE_PERIODIC;
-    for (size_t k = 0; k < m->body_count; k++) {
-        sb_model_body *body = &m->bodies[k];
-        const size_t begin = kept;
-        for (size_t b = body->begin; b < body->begin + body->count; b++) {
-            double at = along(m->wall_position[b], axis);
-            if (at < along(m->min, axis) || at >= along(m->max, axis)) continue;
-            m->wall_normal[kept] = m->wall_normal[b];
-            m->wall_position[kept++] = m->wall_position[b];
-        }
-        body->begin = begin;
-        body->count = kept - begin;
-    }
-    m->wall_count = kept;
+    t->form.repeats[axis] = true;
+    rebuild(t);
 }
 
 static double rolled(double at, double by, double min, double max)
@@ -242,7 +220,7 @@ size_t tank_add_plate(tank *t, const char *name, double x, double z_min, double 
     sb_model *m = &t->model;
     sb_scene *s = &t->scene;
     need(m->body_count < BODIES_MAX);
-    double dr = s->resolution;
+    const double dr = s->resolution * s->numerics.wall_spacing;
     sb_model_body *body = &m->bodies[m->body_count];
     *body = (sb_model_body){.begin = m->wall_count, .wavemaker = -1, .report = true};
     snprintf(body->name, sizeof body->name, "%s", name);
@@ -250,8 +228,10 @@ size_t tank_add_plate(tank *t, const char *name, double x, double z_min, double 
     long high = lround((z_max - z_min) / dr);
     for (long y = 0; y < across; y++)
         for (long z = 0; z < high; z++)
-            add_wall(t, sb_vec(x, s->dimensions == 2 ? 0 : ((double)y + 0.5) * dr, z_min + ((double)z + 0.5) * dr),
-                     sb_vec(1, 0, 0));
+            add_wall(
+                t,
+                sb_vec(x, s->dimensions == 2 ? 0 : m->min.y + ((double)y + 0.5) * dr, z_min + ((double)z + 0.5) * dr),
+                sb_vec(1, 0, 0));
     body->count = m->wall_count - body->begin;
     if (law) {
         body->wavemaker = (int)s->wavemaker_count;

@@ -7,18 +7,36 @@
 #include "scene/scene.h"
 #include "sim/simulation.h"
 
+/* What a tank is made from. */
+typedef struct tank_form {
+    const char *preset;
+    int dimensions;
+    double spacing;
+    sb_vec3 size;
+    double wet_length, depth, jitter;
+    bool repeats[2];
+    bool cubic;
+} tank_form;
+
 typedef struct tank {
+    tank_form form;
     sb_scene scene;
     sb_model model;
     size_t wall_capacity, normal_capacity;
 } tank;
 
-/* Makes a closed box of `size` (m) with water to `depth` over x in [0, wet_length]. The boundary surfaces lie half a
-   spacing behind the walls and belong to one body "tank". dimensions 2: y is ignored. jitter: in spacings. */
+/* Makes a closed box of `size` (m) with water to `depth` over x in [0, wet_length]. Scene and model are those of the
+   program for such a domain with the default preset: a sea if the water extends to all sides, else a box of water.
+   Their one body is "domain". dimensions 2: y is ignored. jitter: in spacings. */
 void tank_make(tank *t, int dimensions, double spacing, sb_vec3 size, double wet_length, double depth, double jitter);
+/* Makes a tank of the same form again, with the preset `paper`. Later changes of scene and model are lost. */
+void tank_paper(tank *t);
+/* The same with the cubic kernel, a support of two spacings, and the summed density, in fluid without viscosity: for
+   tests whose expected values hold for these only. */
+void tank_cubic(tank *t);
 void tank_free(tank *t);
 
-/* Makes the sides across an axis (0: x, 1: y) periodic, and removes the walls there. */
+/* Makes the tank again with periodic sides across an axis (0: x, 1: y). Later changes of scene and model are lost. */
 void tank_repeat(tank *t, int axis);
 /* Shifts water and boundary particles within a periodic tank; what leaves at one side returns at the other. */
 void tank_roll(tank *t, sb_vec3 by);

@@ -11,6 +11,7 @@
 static sb_sim *crowded(tank *t, int dimensions)
 {
     tank_make(t, dimensions, 0.1, sb_vec(0.8, 0.8, 1.2), 0.8, 0.8, 0);
+    tank_cubic(t);
     tank_add_plate(t, "plate", 0.4, 0, 1, sb_vec(0, 0, 0), NULL);
     sb_sim *sim = tank_sim(t);
     assert_non_null(sim);

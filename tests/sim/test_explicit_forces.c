@@ -24,6 +24,7 @@ static void begin(setup *s, int dimensions, double alpha, double sigma, double n
         .kind = sb_wavemaker_find("stroke"), .stroke = 0.5, .speed = 0.9, .gravity = 9.81};
     bool flat = dimensions == 2;
     tank_make(&s->tank, dimensions, 0.1, sb_vec(2, flat ? 0 : 0.7, 1.5), 1.2, 0.9, 0.2);
+    tank_cubic(&s->tank);
     tank_add_plate(&s->tank, "paddle", -0.05, 0, 1.2, sb_vec(1, 0, 0), &law);
     s->tank.scene.numerics.artificial_viscosity = alpha;
     s->tank.scene.numerics.wall_friction = sigma;
@@ -107,7 +108,8 @@ static void forces_on_bodies_are_the_reference(void **state)
         q[i] = (double)sim->work.unknown[i];
     }
     assert_int_equal(sb_stage_impulse(sim, &error), SB_OK);
-    sb_vec3 center[2] = {0}, force[2] = {0}, torque[2] = {0}, drag[2] = {0};
+    const sb_vec3 center[2] = {sim->model->bodies[0].moment_point, sim->model->bodies[1].moment_point};
+    sb_vec3 force[2] = {0}, torque[2] = {0}, drag[2] = {0};
     sb_reference_pressure_forces(&s.twin.reference, q, center, force, torque);
     sb_reference_friction(&s.twin.reference, s.rho, s.expected, center, drag, torque);
     for (size_t b = 0; b < 2; b++) {
@@ -132,6 +134,7 @@ static void shear_decays_as_documented(void **state)
         const double share = dimensions == 2 ? 0.65 : 0.70, nu = 0.01;
         tank t;
         tank_make(&t, dimensions, 0.1, sb_vec(1.1, 1.1, 1.1), 1.1, 1.1, 0);
+        tank_cubic(&t);
         sb_model *m = &t.model;
         t.scene.numerics.artificial_viscosity = 0;
         t.scene.fluid.viscosity = nu;

@@ -67,6 +67,7 @@ static void a_bore_on_a_column_is_accounted_for(void **state)
     (void)state;
     tank t;
     tank_make(&t, 3, 0.1, sb_vec(2, 0.7, 1.5), 0.8, 1, 0.1);
+    tank_cubic(&t);
     add_terms(&t);
     tank_add_plate(&t, "column", 1.45, 0, 0.8, sb_vec(0, 0, 0), NULL);
     sb_ledger l = follow(&t, 150, "column");
@@ -88,6 +89,7 @@ static void a_paddle_flume_is_accounted_for(void **state)
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
         tank t;
         tank_make(&t, dimensions, 0.1, sb_vec(4, 0.5, 1.5), 4, 1, 0.1);
+        tank_cubic(&t);
         add_terms(&t);
         tank_add_plate(&t, "paddle", -0.05, 0, 1.4, sb_vec(1, 0, 0), &law);
         sb_ledger l = follow(&t, 100, dimensions == 2 ? "flume 2D" : "flume 3D");
@@ -105,6 +107,7 @@ static void what_leaves_is_accounted_for(void **state)
     (void)state;
     tank t;
     tank_make(&t, 2, 0.05, sb_vec(3, 0, 1.2), 1, 1, 0.1);
+    tank_cubic(&t);
     t.scene.domain.max.x = 1.6;
     t.scene.domain.side[SB_X_MAX] = SB_SIDE_OPEN;
     sb_ledger l = follow(&t, 200, "outflow");
@@ -189,6 +192,7 @@ static void entries_are_the_works_of_their_terms(void **state)
     tank t;
     twin before;
     tank_make(&t, 3, 0.1, sb_vec(1.5, 0.6, 1.2), 1, 0.9, 0.1);
+    tank_cubic(&t);
     add_terms(&t);
     tank_add_plate(&t, "paddle", -0.05, 0, 1.1, sb_vec(1, 0, 0), &law);
     sb_free(
@@ -235,6 +239,7 @@ static void a_falling_drop_has_its_known_entries(void **state)
     (void)state;
     tank t;
     tank_make(&t, 3, 0.1, sb_vec(1, 1, 2), 1, 0.1, 0);
+    tank_cubic(&t);
     sb_model *m = &t.model;
     m->fluid_count = 1;
     m->fluid_position[0] = sb_vec(0.53, 0.47, 1.03);
@@ -282,6 +287,7 @@ static void a_swept_drop_has_the_paddles_work(void **state)
     const sb_wavemaker_parameters law = stroke_law();
     tank t;
     tank_make(&t, 3, 0.1, sb_vec(2, 1, 1), 1, 0.1, 0);
+    tank_cubic(&t);
     tank_add_plate(&t, "paddle", 0.3, 0, 1, sb_vec(1, 0, 0), &law);
     t.model.fluid_count = 1;
     t.model.fluid_position[0] = sb_vec(0.42, 0.47, 0.53);
@@ -319,6 +325,7 @@ static void settling_is_not_entered(void **state)
     (void)state;
     tank t;
     tank_make(&t, 2, 0.1, sb_vec(1, 0, 1.5), 1, 1, 0.1);
+    tank_cubic(&t);
     t.scene.numerics.settle_steps = 20;
     t.scene.numerics.stress_correction = 1;
     sb_sim *sim = tank_sim(&t);

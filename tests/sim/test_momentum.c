@@ -113,6 +113,7 @@ static void a_flat_dam_break_balances(void **state)
     for (sb_solver solver = SB_SOLVER_JACOBI; solver <= SB_SOLVER_CG; solver++) {
         tank t;
         tank_make(&t, 2, 0.05, sb_vec(2, 0, 2), 1, 1, 0.1);
+        tank_cubic(&t);
         add_terms(&t, solver);
         t.model.bodies[0].moment_point = sb_vec(1, 0, 0.3);
         check(&t, 1, "2D");
@@ -128,6 +129,7 @@ static void a_dam_break_with_bodies_balances(void **state)
         .kind = sb_wavemaker_find("stroke"), .stroke = 0.3, .speed = 1, .gravity = 9.81};
     tank t;
     tank_make(&t, 3, 0.1, sb_vec(2, 0.7, 1.5), 1, 1, 0.1);
+    tank_cubic(&t);
     add_terms(&t, SB_SOLVER_CG);
     size_t sill = tank_add_plate(&t, "sill", 1.45, 0, 0.4, sb_vec(0, 0, 0), NULL);
     size_t paddle = tank_add_plate(&t, "paddle", -0.05, 0, 1.2, sb_vec(1, 0, 0), &law);
@@ -145,6 +147,7 @@ static void the_stress_correction_balances(void **state)
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
         tank t;
         tank_make(&t, dimensions, 0.1, sb_vec(3, 1, 2), 1.5, 1.5, 0.1);
+        tank_cubic(&t);
         add_terms(&t, SB_SOLVER_CHEBYSHEV);
         t.scene.numerics.stress_correction = 1;
         const balance b = follow(&t, 50, 1);

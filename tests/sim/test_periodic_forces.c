@@ -45,6 +45,7 @@ static void momentum_is_kept_across_sides(void **state)
             bool flat = dimensions == 2;
             tank t;
             tank_make(&t, dimensions, 0.1, sb_vec(1.2, flat ? 0 : 0.4, bodies ? 2 : 4), 1.2, 1, 0.1);
+            tank_cubic(&t);
             tank_repeat(&t, 0);
             if (!flat) tank_repeat(&t, 1);
             t.scene.numerics.artificial_viscosity = 0.05;
@@ -83,6 +84,7 @@ static void a_drop_meets_a_wall_beyond_the_side(void **state)
         for (int dimensions = 2; dimensions <= 3; dimensions++) {
             tank t;
             tank_make(&t, dimensions, 0.1, sb_vec(2, 0.8, 2), 0.1, 0.1, 0);
+            tank_cubic(&t);
             tank_repeat(&t, 0);
             t.scene.fluid.gravity = 0;
             double plane = way > 0 ? 0.03 : 1.97;
@@ -117,6 +119,7 @@ static void a_push_across_acts_at_the_body(void **state)
     for (int beside = 0; beside <= 1; beside++) {
         tank t;
         tank_make(&t, 3, 0.1, sb_vec(2, 0.4, 1), 2, 0.6, 0.1);
+        tank_cubic(&t);
         tank_repeat(&t, 0);
         tank_repeat(&t, 1);
         size_t wall = tank_add_plate(&t, "plane", 1, 0, 1, sb_vec(0, 0, 0), NULL);

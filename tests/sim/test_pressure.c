@@ -30,6 +30,7 @@ static void begin(setup *s, int dimensions)
     bool flat = dimensions == 2;
     sb_vec3 size = flat ? sb_vec(3, 0, 2) : sb_vec(2, 0.8, 1.5);
     tank_make(&s->tank, dimensions, flat ? 0.05 : 0.1, size, flat ? 2 : 1.4, flat ? 1.4 : 1.2, 0.1);
+    tank_cubic(&s->tank);
     s->tank.scene.numerics.solver = SB_SOLVER_CG;
     s->tank.scene.numerics.wall_friction = 0.05;
     s->tank.model.fluid_position[0] = sb_vec(size.x - 0.33, size.y / 2, size.z - 0.3);
@@ -315,6 +316,7 @@ static void an_early_stop_needs_a_margin(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         tank t;
         tank_make(&t, cases[i].dimensions, 0.1, sb_vec(1, 1, 1), 1, 0.5, 0);
+        tank_cubic(&t);
         t.scene.numerics.min_iterations = 2;
         sb_sim *sim = tank_sim(&t);
         assert_non_null(sim);

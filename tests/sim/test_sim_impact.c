@@ -18,6 +18,7 @@ static void check_drop(sb_solver solver, sb_vec3 velocity)
 {
     tank t;
     tank_make(&t, 3, 0.1, sb_vec(1, 1, 2), 0.1, 0.1, 0);
+    tank_cubic(&t);
     t.scene.numerics.solver = solver;
     t.model.fluid_count = 1;
     t.model.fluid_position[0] = sb_vec(0.5, 0.5, 0.5);
@@ -63,6 +64,7 @@ static void check_lump(sb_solver solver, size_t side)
 {
     tank t;
     tank_make(&t, 3, 0.1, sb_vec(2.4, 0.8, 1.6), 2.4, 1.6, 0.05);
+    tank_cubic(&t);
     t.scene.numerics.solver = solver;
     t.model.still_depth = 0.6;
     sb_model *m = &t.model;

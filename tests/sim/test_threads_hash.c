@@ -6,7 +6,7 @@
 #include <omp.h>
 #include <stdio.h>
 
-enum { STEPS = 60 };
+enum { STEPS = 40 };
 
 static uint64_t run(const tank *t, int threads)
 {

@@ -41,6 +41,7 @@ static void a_random_cloud_is_the_reference(void **state)
         twin copy;
         sb_vec3 size = dimensions == 2 ? sb_vec(2, 0, 2) : sb_vec(1.2, 0.8, 0.8);
         tank_make(&t, dimensions, 0.1, size, size.x, 0.5 * size.z, 0);
+        tank_cubic(&t);
         tank_scatter(&t, 5, 1);
         tank_add_plate(&t, "paddle", 0.5, 0, 0.6, sb_vec(1, 0, 0), &law);
         turn_on(&t);
@@ -103,6 +104,7 @@ static void linear_flows_are_exact(void **state)
         for (size_t f = 0; f < sizeof flows / sizeof *flows; f++) {
             tank t;
             tank_make(&t, dimensions, 0.1, sb_vec(1, 0.8, 1), 0.8, 0.8, 0.1);
+            tank_cubic(&t);
             turn_on(&t);
             stir(&t, flows[f]);
             sb_sim *sim = prepared(&t);
@@ -129,6 +131,7 @@ static void walls_reduce_it(void **state)
     for (double d = 0.05; d >= 0; d -= 0.005) { /* from the wall, dr/2 in front of the boundary surface */
         tank t;
         tank_make(&t, 3, dr, sb_vec(1, 0.8, 1), 1, 0.8, 0);
+        tank_cubic(&t);
         turn_on(&t);
         sb_model *m = &t.model;
         size_t moved = m->fluid_count;
@@ -164,6 +167,7 @@ static void shear_decays_as_documented(void **state)
         const double share = dimensions == 2 ? 0.65 : 0.70, c = 1000;
         tank t;
         tank_make(&t, dimensions, 0.1, sb_vec(1.1, 1.1, 2.1), 1.1, 2.1, 0);
+        tank_cubic(&t);
         turn_on(&t);
         sb_model *m = &t.model;
         for (size_t i = 0; i < m->fluid_count; i++)
@@ -193,6 +197,7 @@ static void stress_conserves_momentum_and_removes_energy(void **state)
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
         tank t;
         tank_make(&t, dimensions, 0.1, sb_vec(1, 0.8, 1), 1, 1, 0.2);
+        tank_cubic(&t);
         tank_scatter(&t, 9, 2);
         turn_on(&t);
         sb_sim *sim = prepared(&t);
@@ -225,6 +230,7 @@ static void it_costs_nothing_when_off(void **state)
     for (int on = 0; on < 2; on++) {
         tank t;
         tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0.1);
+        tank_cubic(&t);
         if (on) turn_on(&t);
         sb_sim *sim = tank_sim(&t);
         assert_non_null(sim);

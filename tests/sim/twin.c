@@ -1,6 +1,7 @@
 #include "sim/twin.h"
 
 #include "base/memory.h"
+#include "physics/wall_volume.h"
 #include "sim/search/around.h"
 
 #include <math.h>
@@ -109,6 +110,13 @@ int twin_make(const sb_sim *sim, twin *t)
     else
         *t = made;
     return status;
+}
+
+double twin_gamma(const sb_sim *sim)
+{
+    const sb_numerics *n = &sim->scene->numerics;
+    if (n->wall_gamma > 0) return n->wall_gamma;
+    return sb_wall_gamma(n->kernel, sim->scene->dimensions, n->support, n->wall_offset, n->wall_spacing);
 }
 
 void twin_free(twin *t)

@@ -20,6 +20,9 @@ typedef struct twin {
 int twin_make(const sb_sim *sim, twin *t);
 void twin_free(twin *t);
 
+/* The factor gamma of the simulation's wall volumes: the scene's, or that of a lattice. */
+double twin_gamma(const sb_sim *sim);
+
 /* The twin's boundary particle for an index in the simulation's wall lists. Not for periodic sides. */
 size_t twin_wall(const twin *t, uint32_t listed);
 
