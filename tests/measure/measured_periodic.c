@@ -77,7 +77,7 @@ static void planes_and_maps_read_across_periodic_sides(void **state)
     (void)state;
     tank t;
     sb_vec3 size = {1, 0.4, 1};
-    tank_make(&t, 3, SPACING, size, 1, 0.6, 0.02);
+    tank_make(&t, 3, SPACING, size, 1, 0.6, 0.01);
     tank_cubic(&t);
     tank_repeat(&t, 0);
     tank_repeat(&t, 1);

@@ -92,6 +92,7 @@ static void build(tank *t)
     t->scene.wavemakers = sb_alloc(BODIES_MAX, sizeof *t->scene.wavemakers);
     need(bodies && t->scene.wavemakers);
     bodies[0] = t->model.bodies[0];
+    bodies[0].report = true;
     sb_free(t->model.bodies);
     t->model.bodies = bodies;
 }
