@@ -64,7 +64,9 @@ static double last_kinetic(const char *scene)
     return kinetic;
 }
 
-/* Without settling, the rearrangement of the lattice would give 249 J/m here; the wave has 0.2 J/m at that time. */
+/* Linear theory: E sin^2(omega t) with E = rho g a^2 L/4 = 12.26 J/m and omega = 5.541 /s. Velocities belong to half a
+   step before the row's time of 0.024 s, except in the water that starts as calm: the value is between those of theory
+   at 0.021 and 0.024 s, 0.165 and 0.2156 J/m. Without settling, the rearrangement of the lattice would give 249 J/m. */
 static void a_wave_starts_quietly(void **state)
 {
     (void)state;
@@ -74,7 +76,8 @@ static void a_wave_starts_quietly(void **state)
                                   " water: {level: 1, seed: [1, 0.5],\n"
                                   "         wave: {kind: standing, height: 0.05, depth: 1, wavelength: 2}},\n"
                                   " measure: {interval: 0.012}}\n");
-    assert_near(kinetic, 0.2, 0.15);
+    printf("kinetic energy of the wave: %.4f J/m\n", kinetic);
+    assert_true(kinetic > 0.165 && kinetic < 0.2156);
 }
 
 /* The collapsing dam has 1.4 J/m at that time; without settling it would have 13 J/m. */
