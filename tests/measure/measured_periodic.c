@@ -38,7 +38,6 @@ static void gauges_and_probes_read_across_periodic_sides(void **state)
         tank t;
         sb_vec3 size = {1, 0.4, 1};
         tank_make(&t, 3, SPACING, size, 1, 0.6, 0.1);
-        tank_cubic(&t);
         tank_repeat(&t, 0);
         tank_repeat(&t, 1);
         sb_vec3 at = {0.5, 0.2, 0};
@@ -78,7 +77,6 @@ static void planes_and_maps_read_across_periodic_sides(void **state)
     tank t;
     sb_vec3 size = {1, 0.4, 1};
     tank_make(&t, 3, SPACING, size, 1, 0.6, 0.01);
-    tank_cubic(&t);
     tank_repeat(&t, 0);
     tank_repeat(&t, 1);
     sb_model *m = &t.model;

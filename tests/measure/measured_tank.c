@@ -31,7 +31,6 @@ static void a_tank_at_rest_reads_hydrostatic_values(void **state)
     tank t;
     sb_vec3 size = {2, 1, 2};
     tank_make(&t, 2, SPACING, size, 2, 1, 0);
-    tank_cubic(&t);
     sb_gauge gauge = {"middle", 1.03, 0};
     sb_probe probes[] = {{"inside", {1, 0, 0.5}, 0}, {"floor", {0.9, 0, 0}, 0}, {"wall", {0, 0, 0.4}, 0}};
     t.scene.measure =
@@ -74,7 +73,6 @@ static void a_plane_counts_every_particle(void **state)
     (void)state;
     tank t;
     tank_make(&t, 2, SPACING, sb_vec(4, 1, 2), 1, 1, 0);
-    tank_cubic(&t);
     sb_flow_plane plane = {"plane", 1.5, 0, 1.5, 1, -1, 4};
     t.scene.measure = (sb_measure_settings){.interval = 0.01, .plane_count = 1, .planes = &plane};
     sb_sim *sim;
@@ -109,7 +107,6 @@ static void wall_probes_add_up_to_the_force(void **state)
     const double spacing = 0.05;
     tank t;
     tank_make(&t, 2, spacing, sb_vec(2, 1, 2), 1, 1, 0);
-    tank_cubic(&t);
     tank_split_patch(&t, sb_vec(2, -1, 0), sb_vec(3, 1, 2));
     sb_probe probes[PROBES];
     for (int k = 0; k < PROBES; k++) probes[k] = (sb_probe){"wall", {2, 0, (k + 0.5) * spacing}, 0};

@@ -17,7 +17,6 @@ static void a_stream_goes_round(void **state)
     (void)state;
     tank t;
     tank_make(&t, 2, 0.05, sb_vec(1, 0, 1), 1, 0.6, 0.02);
-    tank_cubic(&t);
     tank_repeat(&t, 0);
     for (size_t i = 0; i < t.model.fluid_count; i++) t.model.fluid_velocity[i].x = 1.5;
     sb_sim *sim = tank_sim(&t);
@@ -59,7 +58,6 @@ static flow flow_at(sb_sim *sim, double time)
 static sb_sim *make_flume(tank *t, double width, double length)
 {
     tank_make(t, width > 0 ? 3 : 2, 0.05, sb_vec(length, width, 1.5), 1, 1, 0.02);
-    tank_cubic(t);
     if (width > 0) tank_repeat(t, 1);
     t->scene.numerics.wall_gamma = 0.8;
     t->scene.numerics.settle_steps = 100;
@@ -140,7 +138,6 @@ static void threads_make_no_difference(void **state)
     int before = omp_get_max_threads();
     tank t;
     tank_make(&t, 3, 1.0 / 16, sb_vec(1.5, 0.3, 1.2), 1.5, 0.8, 0.1);
-    tank_cubic(&t);
     tank_repeat(&t, 0);
     tank_repeat(&t, 1);
     t.scene.numerics.wall_friction = 0.05;
@@ -192,7 +189,6 @@ static void queries_find_images_across_sides(void **state)
     (void)state;
     tank t;
     tank_make(&t, 3, 0.1, sb_vec(1.2, 0.3, 1), 1.2, 0.6, 0.1);
-    tank_cubic(&t);
     tank_repeat(&t, 0);
     tank_repeat(&t, 1);
     for (size_t i = 0; i < t.model.fluid_count; i++) t.model.fluid_velocity[i] = sb_vec(3, -2, 0);
@@ -227,7 +223,6 @@ static void no_side_costs_nothing(void **state)
     for (int periodic = 0; periodic <= 1; periodic++) {
         tank t;
         tank_make(&t, 3, 0.1, sb_vec(1.2, 0.4, 1), 1.2, 0.6, 0.1);
-        tank_cubic(&t);
         if (periodic) tank_repeat(&t, 1);
         sb_sim *sim = tank_sim(&t);
         assert_non_null(sim);
@@ -249,7 +244,6 @@ static void missing_memory_is_reported(void **state)
     (void)state;
     tank t;
     tank_make(&t, 3, 0.1, sb_vec(1.2, 0.4, 1), 1.2, 0.6, 0.1);
-    tank_cubic(&t);
     tank_repeat(&t, 1);
     bool done = false;
     int reported = 0;

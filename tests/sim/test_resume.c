@@ -52,7 +52,6 @@ static void a_dam_break_with_each_solver(void **state)
     for (sb_solver solver = SB_SOLVER_JACOBI; solver <= SB_SOLVER_CG; solver++) {
         tank t;
         tank_make(&t, 2, 1.0 / 40, sb_vec(2, 0, 1.5), 1, 1.1, 0.1);
-        tank_cubic(&t);
         t.scene.numerics.solver = solver;
         tank_add_terms(&t);
         check(&t, sb_pressure_solvers[solver]->name);
@@ -73,7 +72,6 @@ static void a_paddle_in_motion_and_at_rest(void **state)
                                              .after = SB_AFTER_STAY};
         tank t;
         tank_make(&t, 3, 1.0 / 12, sb_vec(2, 1, 1), 2, 0.75, 0.1);
-        tank_cubic(&t);
         tank_add_plate(&t, "paddle", -1.0 / 24, 0, 0.8, sb_vec(1, 0, 0), &law);
         tank_add_terms(&t);
         check(&t, "paddle");
@@ -86,7 +84,6 @@ static void a_periodic_slab(void **state)
     (void)state;
     tank t;
     tank_make(&t, 3, 0.1, sb_vec(2, 0.5, 1.2), 1, 0.8, 0.1);
-    tank_cubic(&t);
     tank_repeat(&t, 1);
     tank_add_terms(&t);
     check(&t, "slab");
@@ -98,7 +95,6 @@ static void water_that_leaves(void **state)
     (void)state;
     tank t;
     tank_make(&t, 2, 0.05, sb_vec(1, 0, 1), 1, 0.9, 0.1);
-    tank_cubic(&t);
     tank_repeat(&t, 0); /* no walls there */
     t.scene.domain.side[SB_X_MIN] = t.scene.domain.side[SB_X_MAX] = SB_SIDE_OPEN;
     tank_scatter(&t, 3, 3);
@@ -118,7 +114,6 @@ static void flume_make(tank *t, int dimensions, double dr, sb_vec3 size)
     sb_wavemaker_parameters stroke = law;
     stroke.kind = sb_wavemaker_find("stroke");
     tank_make(t, dimensions, dr, size, size.x, 1, 0.02);
-    tank_cubic(t);
     tank_add_plate(t, "paddle", -dr / 2, 0, size.z, sb_vec(1, 0, 0), &stroke);
     t->scene.sea = (sb_sea){.present = true, .level = 1};
     t->scene.numerics.settle_steps = 200;
@@ -209,7 +204,6 @@ static void settling_is_resumed(void **state)
         tank_free(&t);
     }
     tank_make(&t, 3, 0.1, sb_vec(2, 0.5, 1.2), 1, 0.8, 0.1);
-    tank_cubic(&t);
     tank_repeat(&t, 1);
     t.scene.numerics.settle_steps = 100;
     check_settling(&t, 20, "slab");
@@ -223,9 +217,7 @@ static void another_model_is_refused(void **state)
     sb_archive_out out = {0};
     sb_error error = {0};
     tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0.1);
-    tank_cubic(&t);
     tank_make(&other, 2, 0.1, sb_vec(1, 0, 1), 0.4, 0.5, 0.1);
-    tank_cubic(&other);
     sb_sim *sim = tank_sim(&t), *small = tank_sim(&other);
     assert_true(sim && small && tank_steps(sim, 3) == 0);
     tank_save(sim, &out);
@@ -248,7 +240,6 @@ static void impossible_states_are_refused(void **state)
     sb_archive_out good = {0}, bad = {0};
     sb_error error = {0};
     tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0.1);
-    tank_cubic(&t);
     tank_add_plate(&t, "paddle", -0.05, 0, 0.8, sb_vec(1, 0, 0), &law);
     sb_sim *sim = tank_sim(&t);
     assert_true(sim && tank_steps(sim, 3) == 0);

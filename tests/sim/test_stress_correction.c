@@ -76,7 +76,6 @@ static void a_random_cloud_is_the_reference(void **state)
         twin copy;
         const sb_vec3 size = dimensions == 2 ? sb_vec(3, 0, 2) : sb_vec(1.2, 1.2, 1);
         tank_make(&t, dimensions, 0.1, size, size.x, 0.9 * size.z, 0);
-        tank_cubic(&t);
         if (form > 1) tank_repeat(&t, 0);
         tank_scatter(&t, 5, 1);
         sb_sim *sim = prepare_with_pressures(&t);
@@ -127,7 +126,6 @@ static void momentum_and_ledger(void **state)
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
         tank t;
         tank_make(&t, dimensions, 0.1, sb_vec(2, 1.2, 2), 2, 2, 0.2);
-        tank_cubic(&t);
         tank_scatter(&t, 9, 2);
         sb_sim *sim = prepare_with_pressures(&t);
         sb_error error = {0};
@@ -165,7 +163,6 @@ static void only_a_strained_lattice_is_corrected(void **state)
         for (int strained = 0; strained < 2; strained++) {
             tank t;
             tank_make(&t, dimensions, 0.1, sb_vec(2, 1.4, 2), 2, 2, 0);
-            tank_cubic(&t);
             const double middle = 1, stretch = strained ? 1.1 : 1;
             for (size_t i = 0; i < t.model.fluid_count; i++) {
                 sb_vec3 *at = &t.model.fluid_position[i];
@@ -223,7 +220,6 @@ static void a_stretched_lattice_is_isotropic(void **state)
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
         tank t;
         tank_make(&t, dimensions, 0.1, sb_vec(2, 2, 2), 2, 2, 0);
-        tank_cubic(&t);
         for (size_t i = 0; i < t.model.fluid_count; i++) {
             sb_vec3 *at = &t.model.fluid_position[i];
             at->x = 1 + (at->x - 1) / 1.08;
@@ -244,7 +240,6 @@ static void it_costs_nothing_when_off(void **state)
     for (int on = 0; on < 2; on++) {
         tank t;
         tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0.1);
-        tank_cubic(&t);
         t.scene.numerics.stress_correction = on;
         sb_sim *sim = tank_sim(&t);
         assert_non_null(sim);

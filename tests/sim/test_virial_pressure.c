@@ -31,7 +31,6 @@ static void a_random_cloud_is_the_reference(void **state)
         twin_gap gap = {0};
         const sb_vec3 size = dimensions == 2 ? sb_vec(3, 0, 2) : sb_vec(1.2, 1.2, 1);
         tank_make(&t, dimensions, 0.1, size, size.x, 0.9 * size.z, 0);
-        tank_cubic(&t);
         if (form > 1) tank_repeat(&t, 0);
         tank_scatter(&t, 5, 1);
         sb_sim *sim = tank_sim(&t);
@@ -88,7 +87,6 @@ static void water_at_rest_has_hydrostatic_pressure(void **state)
     (void)state;
     tank t;
     tank_make(&t, 2, 0.05, sb_vec(1.2, 0, 1.5), 1.2, 1, 0.05);
-    tank_cubic(&t);
     t.scene.numerics.kernel = sb_kernel_find("wendland-c2");
     t.scene.numerics.support = 2.75;
     t.scene.numerics.density = SB_DENSITY_COMPLETED;
@@ -126,7 +124,6 @@ static void initial_velocities_do_not_change_pressures(void **state)
     tank t[2];
     for (int k = 0; k < 2; k++) {
         tank_make(&t[k], 2, 0.1, sb_vec(2, 0, 1.5), 2, 0.8, 0.05);
-        tank_cubic(&t[k]);
         t[k].scene.numerics.settle_steps = 60;
         for (size_t i = 0; i < t[k].model.fluid_count; i++) t[k].model.fluid_velocity[i].x = k ? 2 : 0;
         sim[k] = tank_settled(&t[k]);
@@ -151,7 +148,6 @@ static void only_current_lists_are_used(void **state)
     (void)state;
     tank t;
     tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 1, 0.8, 0.1);
-    tank_cubic(&t);
     sb_sim *sim = tank_sim(&t), *again = tank_sim(&t);
     assert_non_null(sim);
     assert_non_null(again);
