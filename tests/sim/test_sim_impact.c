@@ -18,7 +18,6 @@ static void check_drop(sb_solver solver, sb_vec3 velocity)
 {
     tank t;
     tank_make(&t, 3, 0.1, sb_vec(1, 1, 2), 0.1, 0.1, 0);
-    tank_cubic(&t);
     t.scene.numerics.solver = solver;
     t.model.fluid_count = 1;
     t.model.fluid_position[0] = sb_vec(0.5, 0.5, 0.5);
@@ -30,7 +29,9 @@ static void check_drop(sb_solver solver, sb_vec3 velocity)
     sb_fluid_sample p = sb_sim_particle(sim, 0);
     assert_true(p.position.x > -0.01 && p.position.y > -0.01 && p.position.z > -0.01);
     assert_true(p.position.x < 1.01 && p.position.y < 1.01);
-    sb_vec3 push = sb_sim_impulse(sim, 0)->pressure;
+    /* In the default preset the wall also receives friction, by the artificial viscosity. */
+    const sb_body_impulse *impulse = sb_sim_impulse(sim, 0);
+    sb_vec3 push = sb_add(impulse->pressure, impulse->friction);
     sb_vec3 gained = sb_scale(sb_sub(p.velocity, velocity), mass);
     gained.z += mass * 9.81 * sb_sim_report(sim)->time;
     assert_near(sb_norm(sb_add(gained, push)), 0, 1e-5 * mass * speed);
@@ -64,7 +65,6 @@ static void check_lump(sb_solver solver, size_t side)
 {
     tank t;
     tank_make(&t, 3, 0.1, sb_vec(2.4, 0.8, 1.6), 2.4, 1.6, 0.05);
-    tank_cubic(&t);
     t.scene.numerics.solver = solver;
     t.model.still_depth = 0.6;
     sb_model *m = &t.model;
