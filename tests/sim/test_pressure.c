@@ -22,15 +22,16 @@ typedef struct setup {
     double *solution;        /* the reference's solution for it */
 } setup;
 
-/* A dam break some steps after its start, up to the source of the next solve. One particle is in free flight. */
-static void begin(setup *s, int dimensions)
+/* A dam break some steps after its start, up to the source of the next solve. One particle is in free flight.
+   cubic: for the comparison with the reference's solution, whose sweeps converge too slowly with the default preset. */
+static void begin(setup *s, int dimensions, bool cubic)
 {
     *s = (setup){0};
     /* More than one block of particles, so that sums over blocks are tested. */
     bool flat = dimensions == 2;
     sb_vec3 size = flat ? sb_vec(3, 0, 2) : sb_vec(2, 0.8, 1.5);
     tank_make(&s->tank, dimensions, flat ? 0.05 : 0.1, size, flat ? 2 : 1.4, flat ? 1.4 : 1.2, 0.1);
-    tank_cubic(&s->tank);
+    if (cubic) tank_cubic(&s->tank);
     s->tank.scene.numerics.solver = SB_SOLVER_CG;
     s->tank.scene.numerics.wall_friction = 0.05;
     s->tank.model.fluid_position[0] = sb_vec(size.x - 0.33, size.y / 2, size.z - 0.3);
@@ -267,7 +268,7 @@ static void check_solver(setup *s, sb_solver solver)
 static void check_all(int dimensions)
 {
     setup s;
-    begin(&s, dimensions);
+    begin(&s, dimensions, true);
     printf("%dD, %zu particles:\n", dimensions, s.n);
     check_source(&s);
     check_operator(&s);
@@ -316,7 +317,6 @@ static void an_early_stop_needs_a_margin(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         tank t;
         tank_make(&t, cases[i].dimensions, 0.1, sb_vec(1, 1, 1), 1, 0.5, 0);
-        tank_cubic(&t);
         t.scene.numerics.min_iterations = 2;
         sb_sim *sim = tank_sim(&t);
         assert_non_null(sim);
@@ -346,7 +346,7 @@ static void both_forms_of_the_passes_agree(void **state)
     if (!sb_passes_cpu_wide()) skip();
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
         setup s;
-        begin(&s, dimensions);
+        begin(&s, dimensions, false);
         sb_f4 *a[2];
         float *d[2];
         for (int form = 0; form < 2; form++) {
@@ -368,39 +368,37 @@ static void both_forms_of_the_passes_agree(void **state)
     }
 }
 
-/* Mean, active and largest error compared with a plain loop in the order of particles, also for blocks that are not
-   full. */
-static void errors_are_summed_in_order(void **state)
+/* Mean, active and largest error compared with a plain loop, also for a last group that is not full. The errors are
+   multiples of 2^-20, so that their sums are exact in any order. */
+static void errors_are_those_of_a_plain_loop(void **state)
 {
     (void)state;
     setup s;
-    begin(&s, 3);
+    begin(&s, 3, false);
     const double rest = (double)s.sim->constant.rest_density;
-    for (s.sim->state.n = s.n - 3; s.sim->state.n <= s.n; s.sim->state.n++) {
+    sb_group *last = &s.sim->groups.group[s.sim->groups.count - 1];
+    const size_t fewest = s.n - 3 > last->first ? s.n - 3 : last->first;
+    for (s.sim->state.n = fewest; s.sim->state.n <= s.n; s.sim->state.n++) {
+        last->end = (uint32_t)s.sim->state.n;
         s.sim->work.everywhere = s.sim->state.n;
-        double excess = 0, active = 0, worst = 0, part[2] = {0};
+        double excess = 0, active = 0, worst = 0;
         size_t count = 0;
         for (size_t i = 0; i < s.sim->state.n; i++) {
-            s.sim->work.residual[i] = (float)(sb_random(3, i) - 0.5);
+            s.sim->work.residual[i] = (float)(ldexp(floor(ldexp(sb_random(3, i), 20)), -20) - 0.5);
             s.sim->work.unknown[i] = i % 3 == 0 ? 0 : 1;
             if (i % 7 == 0) s.sim->work.diagonal[i] = 0;
-            if (i % SB_BLOCK == 0) {
-                excess += part[0];
-                active += part[1];
-                part[0] = part[1] = 0;
-            }
             if (s.sim->work.diagonal[i] == 0) continue;
             const double e = (double)s.sim->work.residual[i];
-            part[0] += e > 0 ? e : 0;
+            excess += e > 0 ? e : 0;
             worst = e > worst ? e : worst;
             if (s.sim->work.unknown[i] > 0) {
-                part[1] += fabs(e);
+                active += fabs(e);
                 count++;
             }
         }
         const sb_pressure_error error = sb_pressure_judge(s.sim);
-        assert_true(error.mean == (excess + part[0]) / ((double)s.sim->state.n * rest));
-        assert_true(error.active == (active + part[1]) / ((double)count * rest));
+        assert_true(error.mean == excess / ((double)s.sim->state.n * rest));
+        assert_true(error.active == active / ((double)count * rest));
         assert_true(error.max == worst / rest);
     }
     s.sim->state.n = s.n;
@@ -414,7 +412,7 @@ int main(void)
         cmocka_unit_test(a_dam_break),
         cmocka_unit_test(an_early_stop_needs_a_margin),
         cmocka_unit_test(both_forms_of_the_passes_agree),
-        cmocka_unit_test(errors_are_summed_in_order),
+        cmocka_unit_test(errors_are_those_of_a_plain_loop),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
