@@ -119,6 +119,24 @@ double twin_gamma(const sb_sim *sim)
     return sb_wall_gamma(n->kernel, sim->scene->dimensions, n->support, n->wall_offset, n->wall_spacing);
 }
 
+/* (M14) with v = (z^2, 0, 0) on a lattice, divided by 2 nu. The density is the lattice's. */
+double twin_lattice_shear(const sb_sim *sim)
+{
+    const sb_numerics *n = &sim->scene->numerics;
+    const int dimension = sim->scene->dimensions, far = (int)ceil(n->support), across = dimension == 3 ? far : 0;
+    double sum = 0, density = 0;
+    for (int i = -far; i <= far; i++)
+        for (int j = -across; j <= across; j++)
+            for (int k = -far; k <= far; k++) {
+                const double r = sqrt(i * i + j * j + k * k);
+                density += sb_kernel_value(n->kernel, dimension, n->support, r);
+                if (r > 0)
+                    sum -= i * i * k * k * sb_kernel_slope(n->kernel, dimension, n->support, r) /
+                           (r * (r * r + 0.01 * n->support * n->support));
+            }
+    return (dimension + 2) * sum / density;
+}
+
 void twin_free(twin *t)
 {
     sb_reference_destroy(&t->reference);

@@ -23,6 +23,9 @@ void twin_free(twin *t);
 /* The factor gamma of the simulation's wall volumes: the scene's, or that of a lattice. */
 double twin_gamma(const sb_sim *sim);
 
+/* The fraction of the viscosity with which shear along an axis of a full lattice decays (docs/method.md, section 6). */
+double twin_lattice_shear(const sb_sim *sim);
+
 /* The twin's boundary particle for an index in the simulation's wall lists. Not for periodic sides. */
 size_t twin_wall(const twin *t, uint32_t listed);
 
