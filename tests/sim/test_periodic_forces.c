@@ -45,7 +45,6 @@ static void momentum_is_kept_across_sides(void **state)
             bool flat = dimensions == 2;
             tank t;
             tank_make(&t, dimensions, 0.1, sb_vec(1.2, flat ? 0 : 0.4, bodies ? 2 : 4), 1.2, 1, 0.1);
-            tank_cubic(&t);
             tank_repeat(&t, 0);
             if (!flat) tank_repeat(&t, 1);
             t.scene.numerics.artificial_viscosity = 0.05;
@@ -75,8 +74,8 @@ static void momentum_is_kept_across_sides(void **state)
         }
 }
 
-/* A drop leaves at one side, returns at the other and meets a wall there. Contact stops it, and the wall receives the
-   impulse. */
+/* A drop leaves at one side, returns at the other and meets a wall there. Pressure and contact stop it, and the wall
+   receives the impulse. */
 static void a_drop_meets_a_wall_beyond_the_side(void **state)
 {
     (void)state;
@@ -84,7 +83,6 @@ static void a_drop_meets_a_wall_beyond_the_side(void **state)
         for (int dimensions = 2; dimensions <= 3; dimensions++) {
             tank t;
             tank_make(&t, dimensions, 0.1, sb_vec(2, 0.8, 2), 0.1, 0.1, 0);
-            tank_cubic(&t);
             tank_repeat(&t, 0);
             t.scene.fluid.gravity = 0;
             double plane = way > 0 ? 0.03 : 1.97;
@@ -100,7 +98,8 @@ static void a_drop_meets_a_wall_beyond_the_side(void **state)
             double x = sb_sim_particle(sim, 0).position.x;
             const sb_body_impulse *push = sb_sim_impulse(sim, wall);
             assert_int_equal(sim->state.n, 1);
-            assert_true(way > 0 ? x > 1.9 || x < plane : x < 0.1 || x > plane);
+            const double gap = fmod(2 + way * (plane - x), 2); /* before the plane, as the drop moves */
+            assert_true(gap > 0 && gap < t.scene.numerics.support * t.scene.resolution);
             double lost = 9 * way - sb_sim_particle(sim, 0).velocity.x;
             assert_near(push->pressure.x, mass * lost, 1e-4 * mass * 9);
             assert_true(fabs(lost) > 4);
@@ -119,7 +118,6 @@ static void a_push_across_acts_at_the_body(void **state)
     for (int beside = 0; beside <= 1; beside++) {
         tank t;
         tank_make(&t, 3, 0.1, sb_vec(2, 0.4, 1), 2, 0.6, 0.1);
-        tank_cubic(&t);
         tank_repeat(&t, 0);
         tank_repeat(&t, 1);
         size_t wall = tank_add_plate(&t, "plane", 1, 0, 1, sb_vec(0, 0, 0), NULL);
