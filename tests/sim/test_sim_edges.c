@@ -23,7 +23,7 @@ static sb_fluid_sample by_id(const sb_sim *sim, uint32_t id)
     return (sb_fluid_sample){0};
 }
 
-/* An isolated particle is subject to gravity only: its own density of 0.3 rho_0 gives no pressure. */
+/* An isolated particle is subject to gravity only: without neighbours it has no pressure. */
 static void a_lone_particle_flies_a_parabola(void **state)
 {
     (void)state;
@@ -31,7 +31,6 @@ static void a_lone_particle_flies_a_parabola(void **state)
         bool flat = dimensions == 2;
         tank t;
         tank_make(&t, dimensions, 0.1, sb_vec(4, 4, 4), 0.5, 0.5, 0);
-        tank_cubic(&t);
         t.model.fluid_count = 1;
         sb_vec3 start = sb_vec(1, flat ? 0 : 1, 2), v0 = sb_vec(1.5, flat ? 0 : 1, 2);
         t.model.fluid_position[0] = start;
@@ -71,7 +70,6 @@ static void coincident_particles_do_no_harm(void **state)
     for (sb_solver solver = SB_SOLVER_JACOBI; solver <= SB_SOLVER_CG; solver++) {
         tank t;
         tank_make(&t, 3, 0.1, sb_vec(0.6, 0.6, 1), 0.6, 0.6, 0.05);
-        tank_cubic(&t);
         t.scene.numerics.solver = solver;
         t.scene.numerics.wall_friction = 0.1;
         t.scene.fluid.viscosity = 1e-4;
@@ -95,16 +93,16 @@ static void what_leaves_is_counted(void **state)
     (void)state;
     tank t;
     tank_make(&t, 2, 0.1, sb_vec(2, 0, 1), 1, 0.5, 0);
-    tank_cubic(&t);
     t.scene.domain.side[SB_X_MAX] = SB_SIDE_OPEN;
     tank_split_patch(&t, sb_vec(-1, -1, 1), sb_vec(3, 1, 2));
     t.model.bodies[0].count = 0; /* no lid */
     size_t n = t.model.fluid_count;
     t.model.fluid_position[3] = sb_vec(1.5, 0, 0.8);
-    t.model.fluid_velocity[3] = sb_vec(0, 0, 3);        /* through the open top */
-    t.model.fluid_position[4] = sb_vec(3, 0, 0.5);      /* beyond the open side from the start */
-    t.model.fluid_position[5] = sb_vec(-0.21, 0, 0.8);  /* beyond a wall by more than the support */
-    t.model.fluid_position[6] = sb_vec(1e12, 0, -1e12); /* beyond the range of stored positions */
+    t.model.fluid_velocity[3] = sb_vec(0, 0, 3);   /* through the open top */
+    t.model.fluid_position[4] = sb_vec(3, 0, 0.5); /* beyond the open side from the start */
+    const double support = t.scene.numerics.support * t.scene.resolution;
+    t.model.fluid_position[5] = sb_vec(-support - 0.01, 0, 0.8); /* beyond a wall by more than the support */
+    t.model.fluid_position[6] = sb_vec(1e12, 0, -1e12);          /* beyond the range of stored positions */
     sb_sim *sim = make(&t);
     const sb_step_report *r = sb_sim_report(sim);
     assert_int_equal(r->left_domain, 2);
@@ -153,7 +151,6 @@ static void a_start_forgotten_is_one_at_rest(void **state)
     for (int forgotten = 0; forgotten < 2; forgotten++) {
         tank t;
         tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 1, 0.6, 0.1);
-        tank_cubic(&t);
         t.scene.numerics.settle_steps = 5;
         sb_sim *sim = make(&t);
         if (forgotten) {
@@ -176,7 +173,6 @@ static void a_block_from_rest_starts_on_time(void **state)
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
         tank t;
         tank_make(&t, dimensions, 0.1, sb_vec(4, 4, 4), 0.5, 0.5, 0.02);
-        tank_cubic(&t);
         t.model.fluid_count = dimensions == 2 ? 25 : 200;
         for (size_t i = 0; i < t.model.fluid_count; i++)
             t.model.fluid_position[i] = sb_add(t.model.fluid_position[i], sb_vec(1, 0, 3));
@@ -207,7 +203,6 @@ static void no_water_is_fine(void **state)
     for (sb_solver solver = SB_SOLVER_JACOBI; solver <= SB_SOLVER_CG; solver++) {
         tank t;
         tank_make(&t, 3, 0.1, sb_vec(0.5, 0.5, 0.5), 0.5, 0.2, 0);
-        tank_cubic(&t);
         t.scene.numerics.solver = solver;
         t.scene.numerics.settle_steps = 3;
         t.model.fluid_count = 0;
@@ -224,7 +219,6 @@ static void check_divergence(double speed, double pressure, const char *why)
 {
     tank t;
     tank_make(&t, 2, 0.1, sb_vec(2, 0, 1.5), 1, 1, 0.1);
-    tank_cubic(&t);
     t.scene.numerics.stress_correction = pressure > 0;
     sb_sim *sim = make(&t);
     assert_int_equal(tank_steps(sim, 4), 0);
@@ -247,7 +241,8 @@ static void check_divergence(double speed, double pressure, const char *why)
     const char *place = strstr(error.text, "at (");
     if (place && speed != 0) {
         assert_int_equal(sscanf(place, "at (%lf, %lf, %lf)", &where.x, &where.y, &where.z), 3);
-        assert_true(sb_norm(sb_sub(where, at)) < 0.25);
+        /* what is not a number spreads to the particle's neighbours */
+        assert_true(sb_norm(sb_sub(where, at)) < t.scene.numerics.support * t.scene.resolution);
     }
     assert_true(sb_sim_report(sim)->time == time && sb_sim_report(sim)->step == 4);
     assert_int_equal(sim->state.n, t.model.fluid_count);
@@ -285,7 +280,6 @@ static void much_viscosity_shortens_the_step(void **state)
     for (int strong = 0; strong <= 2; strong++) {
         tank t;
         tank_make(&t, 2, 0.1, sb_vec(2, 0, 1.5), 0.8, 1, 0.02);
-        tank_cubic(&t);
         if (strong == 1) t.scene.numerics.artificial_viscosity = 10;
         if (strong == 2) t.scene.fluid.viscosity = 1;
         t.scene.numerics.settle_steps = 60; /* an unsettled lattice expands the faster, the shorter its first step */
@@ -313,7 +307,6 @@ static void a_step_that_moves_nothing_is_refused(void **state)
     for (int key = 0; key < 3; key++) {
         tank t;
         tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0);
-        tank_cubic(&t);
         sb_numerics *n = &t.scene.numerics;
         *(key == 0 ? &n->cfl : key == 1 ? &n->time_step_factor : &n->time_step_max) = 1e-300;
         sb_sim *sim = make(&t);
@@ -332,7 +325,6 @@ static void bad_parts_are_refused(void **state)
     sb_wavemaker_parameters law = {.kind = sb_wavemaker_find("stroke"), .stroke = -1, .speed = 1};
     tank t;
     tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0);
-    tank_cubic(&t);
     tank_add_plate(&t, "paddle", -0.05, 0, 1, sb_vec(1, 0, 0), &law);
     sb_error error = {0};
     sb_sim *sim = NULL;
@@ -377,7 +369,6 @@ static void every_failed_allocation_is_survived(void **state)
     const sb_wavemaker_parameters law = {.kind = sb_wavemaker_find("gate"), .stroke = 2, .speed = 3, .gravity = 9.81};
     tank t;
     tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0.1);
-    tank_cubic(&t);
     tank_add_plate(&t, "gate", 0.55, 0, 1, sb_vec(0, 0, 1), &law);
     t.scene.numerics.solver = SB_SOLVER_CG;
     int before = omp_get_max_threads();
@@ -400,7 +391,6 @@ static void a_gate_leaves_the_domain(void **state)
         .kind = sb_wavemaker_find("gate"), .start = 0.1, .stroke = 1000, .speed = 8, .gravity = 9.81};
     tank t;
     tank_make(&t, 2, 0.05, sb_vec(2, 0, 1), 0.5, 0.6, 0.01);
-    tank_cubic(&t);
     size_t gate = tank_add_plate(&t, "gate", 0.525, 0, 1, sb_vec(0, 0, 1), &law);
     sb_sim *sim = make(&t);
     double front = 0;
@@ -409,7 +399,7 @@ static void a_gate_leaves_the_domain(void **state)
     assert_true(front < 0.56);
     assert_true(sb_sim_impulse(sim, gate)->pressure.x > 0);
     size_t count = sim->walls.set[SB_MOVING].count;
-    assert_int_equal(count, 20);
+    assert_int_equal(count, 25); /* 1 m of them, 0.8 spacings apart */
     while (sim->walls.set[SB_MOVING].count > 0) {
         assert_int_equal(tank_steps(sim, 1), 0);
         assert_true(sim->walls.set[SB_MOVING].count <= count);
