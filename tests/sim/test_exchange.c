@@ -1,6 +1,7 @@
 /* All that crosses the edge of a domain goes through the exchange: another implementation sees every refresh, sum,
-   maximum and flag, and determines its result. */
+   maximum and flag, and determines its result. Alone, ghosts have the values of their originals. */
 #include "../check.h"
+#include "base/memory.h"
 #include "sim/exchange/exchange.h"
 #include "sim/tank.h"
 
@@ -76,6 +77,55 @@ static sb_sim *make(tank *t)
     return sim;
 }
 
+/* The particle that the ghost is an image of, by its position. */
+static size_t original_of(const sb_sim *sim, size_t ghost)
+{
+    const sb_record home = sb_space_wrap(&sim->space, sim->state.position[sim->state.n + ghost]);
+    for (size_t i = 0; i < sim->state.n; i++) {
+        const sb_record own = sim->state.position[i];
+        if (own[0] == home[0] && own[1] == home[1] && own[2] == home[2]) return i;
+    }
+    fail_msg("ghost %zu is the image of no particle", ghost);
+    return 0;
+}
+
+/* After a refresh each ghost has the value of the particle that it is an image of, and nothing else has changed. */
+static void ghosts_have_their_originals_values(void **state)
+{
+    (void)state;
+    tank t;
+    sb_sim *sim = make(&t);
+    assert_int_equal(tank_prepare(sim, 0.001), 0);
+    const size_t n = sim->state.n, ghosts = sim->ghosts.count, all = n + ghosts;
+    assert_true(ghosts > 100);
+    float *values = sb_alloc(all + 1, sizeof *values);
+    sb_f4 *vectors = sb_alloc(all + 1, sizeof *vectors);
+    sb_record *before = sb_alloc(ghosts, sizeof *before);
+    assert_true(values && vectors && before);
+    for (size_t i = 0; i <= all; i++) {
+        values[i] = i < n ? (float)i : -1;
+        vectors[i] = i < n ? (sb_f4){(float)i, 1, 2, (float)i} : (sb_f4){-1, -1, -1, -1};
+    }
+    memcpy(before, sim->state.position + n, ghosts * sizeof *before);
+    sb_refresh_values(sim, values);
+    sb_refresh(sim, vectors);
+    sb_refresh_carried(sim, values);
+    for (size_t i = 0; i < n; i++) assert_true(values[i] == (float)i && vectors[i][0] == (float)i);
+    for (size_t g = 0; g < ghosts; g++) {
+        const float expected = (float)original_of(sim, g);
+        const sb_record at = sim->state.position[n + g];
+        assert_true(values[n + g] == expected && sb_carried_value(at) == expected);
+        assert_true(vectors[n + g][0] == expected && vectors[n + g][1] == 1 && vectors[n + g][3] == expected);
+        assert_true(at[0] == before[g][0] && at[1] == before[g][1] && at[2] == before[g][2]);
+    }
+    assert_true(values[all] == -1 && vectors[all][0] == -1);
+    sb_free(values);
+    sb_free(vectors);
+    sb_free(before);
+    sb_sim_destroy(sim);
+    tank_free(&t);
+}
+
 static void a_step_goes_through_the_exchange(void **state)
 {
     (void)state;
@@ -146,6 +196,7 @@ static void a_failure_elsewhere_ends_the_step(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ghosts_have_their_originals_values),
         cmocka_unit_test(a_step_goes_through_the_exchange),
         cmocka_unit_test(sums_are_those_of_all_domains),
         cmocka_unit_test(a_failure_elsewhere_ends_the_step),
