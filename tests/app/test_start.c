@@ -80,16 +80,37 @@ static void a_wave_starts_quietly(void **state)
     assert_true(kinetic > 0.165 && kinetic < 0.2156);
 }
 
-/* The collapsing dam has 1.4 J/m at that time; without settling it would have 13 J/m. */
+/* Kinetic energy (J/m) of a dam of 0.8 m by 0.6 m at a time (s) shortly after its release. The water accelerates by
+   -grad p/rho - g, where p is harmonic, zero at the surface (x = L, z = H), and lets no water through the floor or the
+   wall at x = 0: p/rho = sum_n 2 g (-1)^n/(L k^2) cos(k x) sinh(k (H - z))/cosh(k H), k = (n + 1/2) pi/L. The mean
+   square of the acceleration follows from Green's theorem. In the pressure, L and H are larger by `moved` (m). */
+static double dam_kinetic(double time, double moved)
+{
+    const double length = 0.8 + moved, height = 0.6 + moved, g = 9.81;
+    double held = 0; /* m^2: the part of the area by which pressure reduces the free fall */
+    for (int n = 0; n < 100; n++) {
+        const double k = (n + 0.5) * M_PI / length;
+        held += 2 / length * tanh(k * height) / (k * k * k);
+    }
+    return 0.5 * 1000 * time * time * g * g * (0.8 * 0.6 - held);
+}
+
+/* Velocities belong to half a step before the row's time. In the lattice, the surface at which the pressure is zero is
+   known to half a spacing only. Without settling, the velocities would be those of the row's time, 1.3 J/m; with the
+   summed density, the rearrangement of the lattice would give 25 J/m. */
 static void a_dam_starts_quietly(void **state)
 {
     (void)state;
+    const double spacing = 0.04, step = 0.006;
     double kinetic = last_kinetic("{dimensions: 2, resolution: 0.04, duration: 0.012,\n"
                                   " domain: {min: [0, 0], max: [3, 1]},\n"
                                   " numerics: {time_step_max: 0.006},\n"
                                   " water: {boxes: [{min: [0, 0], max: [0.8, 0.6]}]},\n"
                                   " measure: {interval: 0.012}}\n");
-    assert_near(kinetic, 1.4, 1.1);
+    const double least = dam_kinetic(2 * step - step / 2, spacing / 2);
+    const double most = dam_kinetic(2 * step - step / 2, -spacing / 2);
+    printf("kinetic energy of the dam: %.4f J/m, in theory %.4f to %.4f\n", kinetic, least, most);
+    assert_true(kinetic > least && kinetic < most);
 }
 
 static void a_moving_box_moves(void **state)
