@@ -178,6 +178,7 @@ static void a_block_from_rest_starts_on_time(void **state)
             t.model.fluid_position[i] = sb_add(t.model.fluid_position[i], sb_vec(1, 0, 3));
         t.scene.box_count = 1;
         t.scene.numerics.settle_steps = 20;
+        t.scene.fluid.viscosity = 0; /* in 3D the block extends to two walls, whose shear would slow it */
         sb_sim *sim = make(&t);
         assert_int_equal(sb_sim_settle(sim, NULL), SB_OK);
         const sb_energy start = sb_sim_energy(sim);
@@ -190,7 +191,7 @@ static void a_block_from_rest_starts_on_time(void **state)
         }
         printf("%dD: %llu steps, worst %.2g m from the parabola\n", dimensions,
                (unsigned long long)sb_sim_report(sim)->step, worst);
-        assert_true(worst < 1e-4); /* a start half a step early would give 0.01 m */
+        assert_true(worst < 1e-6); /* float's rounding; a start half a step early would give 0.01 m */
         sb_sim_destroy(sim);
         t.scene.box_count = 0;
         tank_free(&t);
