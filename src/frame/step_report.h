@@ -10,9 +10,10 @@ typedef struct sb_step_report {
     uint64_t step;          /* steps done so far */
     double time, time_step; /* s: present time, and the last time step; 0 at the start */
     int iterations;
-    bool capped;                                /* the solve stopped at max_iterations above its tolerance */
-    double tolerance;                           /* relative density error at which the solve stops */
-    double error_mean, error_active, error_max; /* relative: mean over all particles, mean over p > 0, largest */
+    bool capped;                         /* the solve stopped at max_iterations above its tolerance */
+    double tolerance;                    /* relative density error at which the solve stops */
+    double error_mean, error_max;        /* relative density error of the solve: mean of max(0, e), and largest */
+    double error_residual;               /* natural residual of the solve, relative: mean of |min(D q, -e)| */
     double compression, compression_max; /* relative density above the rest density at the start of the step: mean, and
                                             largest */
     double max_speed;                    /* m/s */

@@ -273,7 +273,7 @@ void sb_runlog_step(sb_runlog *log, const sb_runlog_state *state)
     sb_json_bool(&json, "capped", report->capped);
     sb_json_number(&json, "tolerance", report->tolerance);
     sb_json_number(&json, "error_mean", report->error_mean);
-    sb_json_number(&json, "error_active", report->error_active);
+    sb_json_number(&json, "error_residual", report->error_residual);
     sb_json_number(&json, "error_max", report->error_max);
     sb_json_number(&json, "compression_mean", report->compression);
     sb_json_number(&json, "compression_max", report->compression_max);

@@ -43,10 +43,10 @@ static const sb_key keys[] = {
            "overlap with walls."),
     CHOICE(solver, solver_names, "Method of the pressure solve."),
     CHOICE(tolerance_rule, tolerance_names,
-           "`density`: the tolerance is a relative density error. `pressure`: it is a fraction of "
-           "the still water's pressure, and the density error follows from the time step."),
+           "`density`: the tolerance is a mean relative excess density. `pressure`: it is a fraction of "
+           "the still water's pressure, and the residual that ends a solve follows from the time step."),
     NUMBER(tolerance, NULL, 0, 1, SB_KEY_ABOVE | SB_KEY_BELOW,
-           "Mean excess density at which a solve stops, see `tolerance_rule`."),
+           "Error at which a solve stops, see `tolerance_rule`."),
     COUNT(min_iterations, NULL, 0, 100000, "Smallest number of iterations of a solve."),
     COUNT(max_iterations, NULL, 1, 100000, "Largest number of iterations of a solve."),
     NUMBER(relaxation, NULL, 0, 1, SB_KEY_ABOVE,

@@ -24,9 +24,9 @@ static const struct {
     const char *name, *file, *resolution;
     uint64_t fused, plain;
 } scenes[] = {
-    {"column", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "resolution=0.035", 0xb6b18b5b168e83d3,
-     0x0ce1eefb167430d5},
-    {"plant", SB_SOURCE_DIR "/assets/scenes/plant.yaml", "resolution=20", 0x4eb762e4ee09d49e, 0xf3341b92f594cd1f},
+    {"column", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "resolution=0.035", 0xb3f5747787866dac,
+     0xfaae8c554ecbe164},
+    {"plant", SB_SOURCE_DIR "/assets/scenes/plant.yaml", "resolution=20", 0x1d7ec40a843c4bb0, 0x79bf3f9ede59c087},
 };
 
 static const char settle[] = "numerics.settle_steps=20";

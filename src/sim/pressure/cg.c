@@ -123,7 +123,7 @@ static sb_status solve(sb_sim *sim, sb_error *error)
         sb_pressure_product(sim, sim->work.product);
         s = sum_all(sim);
         if (!(s.curvature > 0)) { /* no further descent */
-            sim->work.solve.capped = !(judged.mean <= sim->work.solve.tolerance);
+            sim->work.solve.capped = !sb_pressure_met(sim, &judged);
             break;
         }
         double best = s.slope / s.curvature;

@@ -7,9 +7,9 @@
 
 /* Lower end of the interval of eigenvalues of D^-1 A for which the polynomial is made. It determines the error modes
    that the sweeps of one solve damp well. A polynomial of degree n damps modes down to about 1/n^2 of the upper end, so
-   that the value is SHARE/n^2 with n the number of sweeps of the step before (docs/decisions/0017). In 2D that gives no
-   gain, and the remaining long modes make the force on a tank noisy. START: used while n is not known. */
-static const double IN_2D = 0.06, START = 0.1, SHARE = 8, SMALLEST_MIN = 0.06, SMALLEST_MAX = 0.2;
+   that the value is SHARE/n^2 with n the number of sweeps of the step before (docs/decisions/0017). START: used while n
+   is not known. */
+static const double START = 0.1, SHARE = 8, SMALLEST_MIN = 0.06, SMALLEST_MAX = 0.2;
 
 /* Violently moving water may have larger eigenvalues. The error then grows from sweep to sweep; when it has grown by
    the factor GROWN, the iteration restarts with a wider interval. */
@@ -24,7 +24,6 @@ typedef struct polynomial {
 static double lower_end(const sb_sim *sim)
 {
     const double n = sim->work.solve.last;
-    if (sim->constant.dimension == 2) return IN_2D;
     return n > 0 ? fmin(fmax(SHARE / (n * n), SMALLEST_MIN), SMALLEST_MAX) : START;
 }
 
@@ -66,11 +65,11 @@ static sb_status solve(sb_sim *sim, sb_error *error)
         sb_pressure_residual(sim);
         const sb_pressure_error judged = sb_pressure_judge(sim);
         if (sb_pressure_done(sim, &judged)) return SB_OK;
-        if (judged.active > GROWN * least) {
+        if (judged.residual > GROWN * least) {
             p = begin(WIDER * p.largest, p.smallest);
-            least = judged.active;
+            least = judged.residual;
         }
-        least = judged.active < least ? judged.active : least;
+        least = judged.residual < least ? judged.residual : least;
         sweep(sim, &p);
     }
 }

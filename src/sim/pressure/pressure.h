@@ -9,9 +9,11 @@
 
 /* Error of the present iterate. */
 typedef struct sb_pressure_error {
-    double mean;   /* of max(0, e) over all particles, relative to the rest density */
-    double active; /* of |e| over particles with q > 0, relative */
-    double max;    /* of max(0, e), relative */
+    double mean; /* of max(0, e) over all particles, relative to the rest density */
+    /* Natural residual of the complementarity problem q >= 0, -e >= 0, q e = 0: mean over all particles of
+       |min(D q, -e)|, with D = -a_ii, relative. It is 0 at the solution only. */
+    double residual;
+    double max; /* of max(0, e), relative */
 } sb_pressure_error;
 
 /* A solver starts from sim->work.unknown and sim->work.source, and leaves its iterate in sim->work.unknown. It updates
@@ -42,6 +44,8 @@ void sb_pressure_residual(sb_sim *sim);
 
 /* Computes the errors of the residual field, and adds one iteration to the report. */
 sb_pressure_error sb_pressure_judge(sb_sim *sim);
+/* Whether the error meets the tolerance. */
+bool sb_pressure_met(const sb_sim *sim, const sb_pressure_error *error);
 /* Whether the tolerance is met or max_iterations have been done; sets the report's `capped` in the second case. */
 bool sb_pressure_done(sb_sim *sim, const sb_pressure_error *error);
 

@@ -22,9 +22,9 @@ static void put_progress(sb_archive_out *out, const sb_state *s, const sb_step_r
     sb_put_count(out, s->step);
     sb_put_count(out, (uint64_t)s->sweeps);
     sb_put_flag(out, r->capped);
-    const double reals[PROGRESS_REALS] = {s->time,         s->time_step,         r->tolerance,   r->error_mean,
-                                          r->error_active, r->error_max,         r->compression, r->compression_max,
-                                          s->max_speed,    r->momentum_imbalance};
+    const double reals[PROGRESS_REALS] = {s->time,           s->time_step,         r->tolerance,   r->error_mean,
+                                          r->error_residual, r->error_max,         r->compression, r->compression_max,
+                                          s->max_speed,      r->momentum_imbalance};
     sb_put_list(out, reals, PROGRESS_REALS, sizeof *reals);
 }
 
@@ -36,7 +36,7 @@ static void take_progress(sb_archive_in *in, sb_state *s, sb_step_report *r)
     r->capped = sb_take_flag(in);
     sb_take_list(in, reals, PROGRESS_REALS, sizeof *reals);
     double *const fields[PROGRESS_REALS] = {
-        &s->time,      &s->time_step,   &r->tolerance,       &r->error_mean, &r->error_active,
+        &s->time,      &s->time_step,   &r->tolerance,       &r->error_mean, &r->error_residual,
         &r->error_max, &r->compression, &r->compression_max, &s->max_speed,  &r->momentum_imbalance};
     for (size_t f = 0; f < PROGRESS_REALS; f++) *fields[f] = reals[f];
     const bool sane = s->time >= 0 && isfinite(s->time) && s->time_step >= 0 && isfinite(s->time_step) &&
@@ -50,7 +50,7 @@ static void put_settle(sb_archive_out *out, const sb_settle *settle)
 {
     sb_put_flag(out, settle->under_way);
     if (!settle->under_way) return;
-    const int counts[] = {settle->done, settle->most, settle->turn, settle->calm};
+    const int counts[] = {settle->done, settle->most, settle->calm};
     for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) sb_put_real(out, counts[k]);
     sb_put_real(out, settle->kinetic);
 }
@@ -70,7 +70,6 @@ static void take_settle(sb_archive_in *in, const sb_scene *scene, sb_settle *set
     if (!settle->under_way) return;
     settle->done = take_steps(in);
     settle->most = take_steps(in);
-    settle->turn = take_steps(in);
     settle->calm = take_steps(in);
     settle->kinetic = sb_take_real(in);
     const int most = scene->numerics.settle_steps;

@@ -12,7 +12,6 @@
 typedef struct sb_settle {
     bool under_way;
     int done, most; /* steps */
-    int turn;       /* the step at which the last steps begin */
     int calm;       /* calm steps in a row */
     double speed;   /* m/s, highest speed after the last step done; each step sets it, so that no checkpoint has it */
     double kinetic; /* J, at the last trial; INFINITY: no trial yet */

@@ -47,6 +47,7 @@ typedef struct sb_ledger_sums {
 typedef struct sb_solve {
     int iterations, last; /* so far; those of the step before, 0: no step before */
     double tolerance;     /* relative density error at which it stops */
+    double first;         /* residual of the initial guess */
     bool capped;          /* it stopped at max_iterations above its tolerance */
 } sb_solve;
 

@@ -16,7 +16,6 @@
    particle may not come any closer, and only pressure moves it out, so that contact resolution adds no energy. */
 #define RELEASE 0.005f
 
-#define SCENE (-1)
 #define ANY INFINITY
 
 const sb_step_policy sb_policy_run = {
@@ -25,32 +24,17 @@ const sb_step_policy sb_policy_run = {
     .moves = true,
     .keep = 1,
     .keep_after = 1,
-    .warm_start = SCENE,
     .step_factor = 1,
     .longest_step = ANY,
 };
 
-/* The full last pressures halve the number of sweeps but leave some residual motion, which the calming steps remove. */
 const sb_step_policy sb_policy_damp = {
     .name = "damping",
     .holds_wave = true,
     .moves = true,
     .keep = DAMPING,
     .keep_after = 1,
-    .warm_start = 1,
     .step_factor = DAMPED_STEP,
-    .longest_step = ANY,
-    .release = RELEASE,
-};
-
-const sb_step_policy sb_policy_calm = {
-    .name = "calming",
-    .holds_wave = true,
-    .moves = true,
-    .keep = DAMPING,
-    .keep_after = 1,
-    .warm_start = SCENE,
-    .step_factor = 1,
     .longest_step = ANY,
     .release = RELEASE,
 };
@@ -61,7 +45,6 @@ const sb_step_policy sb_policy_creep = {
     .moves = true,
     .keep = 1,
     .keep_after = 0,
-    .warm_start = SCENE,
     .step_factor = 1,
     .longest_step = CREEPING_STEP,
     .release = RELEASE,
@@ -72,7 +55,6 @@ const sb_step_policy sb_policy_start_trial = {
     .moves = false,
     .keep = 1,
     .keep_after = 1,
-    .warm_start = SCENE,
     .step_factor = 1,
     .longest_step = ANY,
     .release = RELEASE,

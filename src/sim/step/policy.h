@@ -12,7 +12,6 @@ typedef struct sb_step_policy {
     bool moves;          /* particles move */
     float keep;          /* fraction of the velocity that remains before the particles move */
     float keep_after;    /* fraction of it that remains after they have moved */
-    float warm_start;    /* fraction of the last pressures from which the solve starts; < 0: numerics.warm_start */
     double step_factor;  /* on the time step that waves permit */
     double longest_step; /* particle spacings over sqrt(g D) */
     float release;       /* particle spacings by which contact moves out a particle that is too close to a wall */
@@ -21,8 +20,6 @@ typedef struct sb_step_policy {
 extern const sb_step_policy sb_policy_run;
 /* Settling: each step removes part of the velocity. */
 extern const sb_step_policy sb_policy_damp;
-/* The same at the end of settling: solves start with the run's own warm start. */
-extern const sb_step_policy sb_policy_calm;
 /* Settling: each step removes all of the velocity. */
 extern const sb_step_policy sb_policy_creep;
 /* One step that moves nothing and determines the change of the velocities at t = 0. */

@@ -17,10 +17,6 @@ enum { CREEP_FIRST = 40, CREEP_BOXES = 50, CALM_STEPS = 10 };
 
 static const double CALM = 0.002; /* highest speed of calm water, over sqrt(g D) */
 
-/* Number of last steps. Damped steps start their solves from the full last pressures, which halves the number of
-   sweeps but leaves some residual motion. The last steps use the run's own warm start and remove it. */
-enum { CALM_LAST = 30 };
-
 /* Water over rough ground always keeps some residual motion. When TRIAL_STEPS steps have reduced its kinetic energy by
    less than three tenths, further steps have little effect. */
 enum { TRIAL_STEPS = 60 };
@@ -43,7 +39,7 @@ enum { TRIALS_EXPECTED = 4 };
 
 int sb_sim_settle_expected(const sb_scene *scene)
 {
-    const int most = sb_sim_settle_most(scene), sea = CREEP_FIRST + TRIALS_EXPECTED * TRIAL_STEPS + CALM_LAST;
+    const int most = sb_sim_settle_most(scene), sea = CREEP_FIRST + TRIALS_EXPECTED * TRIAL_STEPS;
     return scene->box_count > 0 || most < sea ? most : sea;
 }
 
@@ -128,47 +124,35 @@ sb_status sb_sim_settle(sb_sim *sim, sb_error *error)
 
 static void begin(sb_sim *sim)
 {
-    const int steps = sim->scene->numerics.settle_steps;
-    sim->state.settle = (sb_settle){.under_way = true,
-                                    .most = sb_sim_settle_most(sim->scene),
-                                    .turn = steps - CALM_LAST,
-                                    .kinetic = (double)INFINITY};
+    sim->state.settle =
+        (sb_settle){.under_way = true, .most = sb_sim_settle_most(sim->scene), .kinetic = (double)INFINITY};
     for (size_t i = 0; i < sim->state.n; i++) sim->state.velocity[i] = (sb_f4){0, 0, 0, sim->state.velocity[i][3]};
     sim->state.max_speed = 0;
     sb_report_update(sim);
 }
 
-/* Whether the damped steps are over: the water is calm, or further damped steps would change little. */
-static bool judge_trial(sb_sim *sim)
+/* Ends settling if further damped steps would change little. */
+static void judge_trial(sb_sim *sim)
 {
     sb_settle *settle = &sim->state.settle;
-    bool done = settle->calm == CALM_STEPS;
-    if ((settle->done - CREEP_FIRST) % TRIAL_STEPS == 0) {
-        const double kinetic = sb_sim_energy(sim).kinetic;
-        done |= kinetic > STILL_FALLING * settle->kinetic;
-        settle->kinetic = kinetic;
-    }
-    return done;
+    if ((settle->done - CREEP_FIRST) % TRIAL_STEPS != 0) return;
+    const double kinetic = sb_sim_energy(sim).kinetic;
+    if (kinetic > STILL_FALLING * settle->kinetic) settle->most = settle->done;
+    settle->kinetic = kinetic;
 }
 
 static sb_status one_step(sb_sim *sim, sb_error *error)
 {
     sb_settle *settle = &sim->state.settle;
     const double calm = CALM * (double)sim->constant.wave_speed;
-    const int s = settle->done;
-    sim->policy = sim->scene->box_count > 0 || s < CREEP_FIRST ? &sb_policy_creep
-                  : s < settle->turn                           ? &sb_policy_damp
-                                                               : &sb_policy_calm;
+    const bool creeps = sim->scene->box_count > 0 || settle->done < CREEP_FIRST;
+    sim->policy = creeps ? &sb_policy_creep : &sb_policy_damp;
     const sb_status status = sb_sim_step(sim, error);
     if (status != SB_OK) return status;
     settle->done++;
     settle->speed = sim->state.max_speed;
     settle->calm = settle->speed < calm ? settle->calm + 1 : 0;
-    if (sim->policy == &sb_policy_damp && judge_trial(sim)) {
-        settle->turn = settle->done;
-        settle->most = settle->done + CALM_LAST;
-        settle->calm = 0;
-    }
+    if (!creeps) judge_trial(sim);
     return SB_OK;
 }
 
