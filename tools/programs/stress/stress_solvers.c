@@ -104,6 +104,8 @@ static void plan_tolerances(sb_trials *trials, bool quick)
         sb_trial_set(t, "numerics.tolerance_rule=density");
         sb_trial_set(t, "numerics.tolerance=1e-9");
         sb_trial_set(t, "numerics.max_iterations=3");
+        sb_trial_set(t,
+                     "numerics.warm_start=0.5"); /* as in the paper: from the full pressure three sweeps add energy */
         sb_trial_drive(t, &drive, 0);
     }
 }

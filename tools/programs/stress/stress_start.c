@@ -104,7 +104,7 @@ static sb_trial *at_rest(sb_trials *trials, const char *name, bool settles)
 {
     sb_trial *t = sb_trial_add(trials, "still.yaml", "%s%s", name, settles ? "" : "-unsettled");
     sb_trial_set(t, "resolution=0.05");
-    sb_trial_set(t, "duration=5");
+    sb_trial_set(t, "duration=10");
     if (!settles) sb_trial_set(t, "numerics.settle_steps=0");
     return t;
 }
