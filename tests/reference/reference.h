@@ -105,11 +105,12 @@ void sb_reference_diagonal(const sb_reference *reference, double *diagonal);
 /* a_ii in the middle of a full lattice, where S_i = 0. */
 double sb_reference_lattice_diagonal(const sb_reference_cloud *cloud);
 
-/* Projected Jacobi iteration for q >= 0, e = A q - b <= 0, q e = 0, from the given q until every particle's
+/* Solves q >= 0, e = A q - b <= 0, q e = 0: q is free or 0 for each particle; conjugate gradients solve e = 0 for the
+   free ones, and then particles with q < 0, or with q = 0 and e > 0, change sides, until every particle's
    |min(q |a_ii|, -e)| <= tolerance rho0. Particles with |a_ii| < 1e-6 of the lattice's have q = 0. Returns the number
-   of sweeps; -1 without memory, -2 if max_sweeps did not suffice. */
-long sb_reference_solve(const sb_reference *reference, const double *source, double omega, double tolerance,
-                        long max_sweeps, double *q);
+   of products A q; -1 without memory, -2 if max_products did not suffice. */
+long sb_reference_solve(const sb_reference *reference, const double *source, double tolerance, long max_products,
+                        double *q);
 
 /* Adds the pressure forces m psi_b q_i grad W_ib in N to force[body], and their torques about
    center[body] to torque[body]. */

@@ -1,7 +1,5 @@
-/* The pressure problem: source, operator A = -dt^2 G^T G, its diagonal, and projected Jacobi iteration. */
+/* The pressure problem: source, operator A = -dt^2 G^T G and its diagonal. */
 #include "reference/reference.h"
-
-#include "base/memory.h"
 
 #include <math.h>
 
@@ -88,37 +86,4 @@ double sb_reference_lattice_diagonal(const sb_reference_cloud *cloud)
                 squares += slope * slope;
             }
     return -cloud->time_step * cloud->time_step * m * m * squares;
-}
-
-long sb_reference_solve(const sb_reference *reference, const double *source, double omega, double tolerance,
-                        long max_sweeps, double *q)
-{
-    size_t n = reference->cloud.fluid_count;
-    double smallest = 1e-6 * fabs(sb_reference_lattice_diagonal(&reference->cloud));
-    double *diagonal = sb_alloc(n, sizeof(double)), *product = sb_alloc(n, sizeof(double));
-    sb_vec3 *acceleration = sb_alloc(n, sizeof(sb_vec3));
-    long sweeps = diagonal && product && acceleration ? 0 : -1;
-    if (sweeps == 0) {
-        sb_reference_diagonal(reference, diagonal);
-        for (size_t i = 0; i < n; i++) q[i] = fabs(diagonal[i]) < smallest ? 0 : q[i];
-    }
-    while (sweeps >= 0) {
-        double worst = 0;
-        sb_reference_apply(reference, q, acceleration, product);
-        for (size_t i = 0; i < n; i++)
-            if (fabs(diagonal[i]) >= smallest)
-                worst = fmax(worst, fabs(fmin(-q[i] * diagonal[i], source[i] - product[i])));
-        if (worst <= tolerance * reference->cloud.rest_density) break;
-        if (sweeps == max_sweeps) {
-            sweeps = -2;
-            break;
-        }
-        for (size_t i = 0; i < n; i++)
-            if (fabs(diagonal[i]) >= smallest) q[i] = fmax(0, q[i] + omega * (source[i] - product[i]) / diagonal[i]);
-        sweeps++;
-    }
-    sb_free(diagonal);
-    sb_free(product);
-    sb_free(acceleration);
-    return sweeps;
 }

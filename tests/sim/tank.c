@@ -3,6 +3,9 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "sim/step/stages.h"
+#include "sim/terms/density_correction.h"
+#include "sim/terms/stress_correction.h"
+#include "sim/terms/turbulence.h"
 
 #include <assert.h>
 #include <stdio.h>
@@ -27,25 +30,7 @@ static void add_wall(tank *t, sb_vec3 at, sb_vec3 normal)
     m->wall_position[m->wall_count++] = at;
 }
 
-/* The numerics of tank_cubic. */
-static const sb_override cubic[] = {
-    {"numerics.kernel", "cubic"},
-    {"numerics.support", "2"},
-    {"numerics.density", "summed"},
-    {"numerics.tolerance", "0.005"},
-    {"numerics.warm_start", "0.9"},
-    {"numerics.source_relaxation", "0.3"},
-    {"numerics.time_step_factor", "0.1"},
-    {"numerics.stress_correction", "0"},
-    {"numerics.artificial_viscosity", "0.01"},
-    {"numerics.wall_shear", "none"},
-    {"numerics.wall_gamma", "0.7"},
-    {"numerics.wall_offset", "0.5"},
-    {"numerics.wall_spacing", "1"},
-    {"numerics.settle_steps", "0"},
-    {"fluid.viscosity", "0"},
-};
-enum { CUBIC = sizeof cubic / sizeof *cubic };
+const char *const tank_preset_names[] = {[SB_PRESET_DEFAULT] = "default", [SB_PRESET_PAPER] = "paper"};
 
 /* Text of a vector in a scene: two components in 2D. */
 static void write_vector(char text[SB_TANK_TEXT], int dimensions, sb_vec3 v)
@@ -76,13 +61,12 @@ static void build(tank *t)
     snprintf(sides, sizeof sides, "{x_min: %s, x_max: %s, y_min: %s, y_max: %s, z_max: wall}",
              f->repeats[0] ? "periodic" : "wall", f->repeats[0] ? "periodic" : "wall",
              f->repeats[1] ? "periodic" : "wall", f->repeats[1] ? "periodic" : "wall");
-    sb_override set[7 + CUBIC] = {{"dimensions", flat},       {"resolution", spacing}, {"domain.min", low},
-                                  {"domain.max", max},        {"domain.sides", sides}, {"water", water},
-                                  {"numerics.jitter", jitter}};
-    for (size_t k = 0; k < CUBIC; k++) set[7 + k] = cubic[k];
+    sb_override set[] = {{"dimensions", flat},       {"resolution", spacing}, {"domain.min", low},
+                         {"domain.max", max},        {"domain.sides", sides}, {"water", water},
+                         {"numerics.jitter", jitter}};
     sb_error error = {0};
-    if (sb_scene_read(SB_SOURCE_DIR "/tests/sim/tank.yaml", f->preset, set, f->cubic ? 7 + CUBIC : 7, &t->scene,
-                      &error) != SB_OK ||
+    if (sb_scene_read(SB_SOURCE_DIR "/tests/sim/tank.yaml", tank_preset_names[f->preset], set, sizeof set / sizeof *set,
+                      &t->scene, &error) != SB_OK ||
         sb_model_build(&t->scene, &t->model, &error) != SB_OK)
         fprintf(stderr, "no tank: %s\n", error.text);
     need(t->model.body_count == 1);
@@ -107,19 +91,13 @@ static void rebuild(tank *t)
 
 void tank_make(tank *t, int dimensions, double dr, sb_vec3 size, double wet_length, double depth, double jitter)
 {
-    *t = (tank){.form = {"default", dimensions, dr, size, wet_length, depth, jitter, {false, false}, false}};
+    *t = (tank){.form = {SB_PRESET_DEFAULT, dimensions, dr, size, wet_length, depth, jitter, {false, false}}};
     build(t);
 }
 
-void tank_cubic(tank *t)
+void tank_use(tank *t, sb_preset preset)
 {
-    t->form.cubic = true;
-    rebuild(t);
-}
-
-void tank_paper(tank *t)
-{
-    t->form.preset = "paper";
+    t->form.preset = preset;
     rebuild(t);
 }
 
@@ -294,6 +272,19 @@ int tank_prepare(sb_sim *sim, double dt)
         sb_stage_ghosts(sim, &error) == SB_OK && sb_stage_neighbours(sim, &error) == SB_OK)
         return 0;
     fprintf(stderr, "no neighbours: %s\n", error.text);
+    return -1;
+}
+
+int tank_prepare_source(sb_sim *sim, double dt)
+{
+    sb_error error = {0};
+    if (tank_prepare(sim, dt) != 0) return -1;
+    if ((!sim->needs.density_correction || sb_stage_density_correction(sim, &error) == SB_OK) &&
+        (!sim->needs.stress_correction || sb_stage_stress_correction(sim, &error) == SB_OK) &&
+        (!sim->needs.turbulence || sb_stage_turbulence(sim, &error) == SB_OK) &&
+        sb_stage_forces(sim, &error) == SB_OK && sb_stage_source(sim, &error) == SB_OK)
+        return 0;
+    fprintf(stderr, "no source: %s\n", error.text);
     return -1;
 }
 

@@ -9,13 +9,12 @@
 
 /* What a tank is made from. */
 typedef struct tank_form {
-    const char *preset;
+    sb_preset preset;
     int dimensions;
     double spacing;
     sb_vec3 size;
     double wet_length, depth, jitter;
     bool repeats[2];
-    bool cubic;
 } tank_form;
 
 typedef struct tank {
@@ -29,11 +28,10 @@ typedef struct tank {
    program for such a domain with the default preset: a sea if the water extends to all sides, else a box of water.
    Their one body is "domain". dimensions 2: y is ignored. jitter: in spacings. */
 void tank_make(tank *t, int dimensions, double spacing, sb_vec3 size, double wet_length, double depth, double jitter);
-/* Makes a tank of the same form again, with the preset `paper`. Later changes of scene and model are lost. */
-void tank_paper(tank *t);
-/* The same with the cubic kernel, a support of two spacings, and the summed density, in fluid without viscosity: for
-   tests whose expected values hold for these only. */
-void tank_cubic(tank *t);
+/* Makes a tank of the same form again, with the numerics of a preset. Later changes of scene and model are lost. */
+void tank_use(tank *t, sb_preset preset);
+/* Names of the presets. Loops over both run from SB_PRESET_DEFAULT to SB_PRESET_PAPER. */
+extern const char *const tank_preset_names[];
 void tank_free(tank *t);
 
 /* Makes the tank again with periodic sides across an axis (0: x, 1: y). Later changes of scene and model are lost. */
@@ -62,6 +60,9 @@ sb_sim *tank_sim(const tank *t);
 sb_sim *tank_settled(const tank *t);
 /* Runs the stages of a step of dt up to the neighbour lists. Returns 0, or -1 with the reason on stderr. */
 int tank_prepare(sb_sim *sim, double dt);
+/* Runs the stages of a step of dt up to the source of its pressure problem. Returns as
+   tank_prepare. */
+int tank_prepare_source(sb_sim *sim, double dt);
 /* Saves the state to an archive, which the caller frees; loads it into a simulation of the same tank. */
 void tank_save(const sb_sim *sim, sb_archive_out *out);
 sb_status tank_load(sb_sim *sim, const sb_archive_out *out, sb_error *error);

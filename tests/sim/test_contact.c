@@ -6,17 +6,14 @@
 
 #include <stdio.h>
 
-enum { DEFAULT, PAPER, PRESETS };
-static const char *const preset_names[PRESETS] = {"default", "paper"};
-
 static const double DR = 0.1, PLATE = 0.4, SIZE = 0.8;
 
 /* A tank of still water with a plate. The nearest water is wall_offset away from the plate, which is 0.05 spacings
    closer than contact resolution permits. */
-static sb_sim *crowded(tank *t, int dimensions, int preset)
+static sb_sim *crowded(tank *t, int dimensions, sb_preset preset)
 {
     tank_make(t, dimensions, DR, sb_vec(SIZE, SIZE, 1.2), SIZE, SIZE, 0);
-    if (preset == PAPER) tank_paper(t);
+    tank_use(t, preset);
     t->scene.numerics.jitter = 0;
     const double shift = (t->scene.numerics.wall_offset - 0.5) * DR;
     for (size_t i = 0; i < t->model.fluid_count; i++)
@@ -56,7 +53,7 @@ static moves moves_from_rest(const sb_sim *sim)
 static void only_settling_moves_out_water_at_rest(void **state)
 {
     (void)state;
-    for (int preset = DEFAULT; preset < PRESETS; preset++)
+    for (sb_preset preset = SB_PRESET_DEFAULT; preset <= SB_PRESET_PAPER; preset++)
         for (int dimensions = 2; dimensions <= 3; dimensions++) {
             tank t;
             sb_sim *sim = crowded(&t, dimensions, preset);
@@ -67,7 +64,7 @@ static void only_settling_moves_out_water_at_rest(void **state)
             sim->policy = &sb_policy_creep;
             const moves settling = moves_from_rest(sim);
             printf("%dD, %s: %zu moved out in settling beside the plate, %zu away from it, %.3g m/s at most\n",
-                   dimensions, preset_names[preset], settling.beside, settling.away, settling.speed);
+                   dimensions, tank_preset_names[preset], settling.beside, settling.away, settling.speed);
             assert_int_equal(settling.beside, beside);
             assert_int_equal(settling.away, 0);
             assert_true(settling.speed > 0 && settling.speed < 0.1); /* a hundredth of a spacing a step at most */
@@ -86,7 +83,7 @@ static double most_gain(const sb_sim *sim, double speed)
     return way * way / (4 * r * r);
 }
 
-static void check_approach(int preset)
+static void check_approach(sb_preset preset)
 {
     tank t;
     sb_sim *sim = crowded(&t, 3, preset);
@@ -108,7 +105,7 @@ static void check_approach(int preset)
         all_before += before;
         all_after += after;
     }
-    printf("%s: %zu stopped, %.3g of their energy left\n", preset_names[preset], stopped, all_after / all_before);
+    printf("%s: %zu stopped, %.3g of their energy left\n", tank_preset_names[preset], stopped, all_after / all_before);
     assert_true(stopped > 50 && all_after < 0.8 * all_before);
     sb_sim_destroy(sim);
     tank_free(&t);
@@ -117,7 +114,7 @@ static void check_approach(int preset)
 static void approaching_particles_are_stopped_without_energy_gain(void **state)
 {
     (void)state;
-    for (int preset = DEFAULT; preset < PRESETS; preset++) check_approach(preset);
+    for (sb_preset preset = SB_PRESET_DEFAULT; preset <= SB_PRESET_PAPER; preset++) check_approach(preset);
 }
 
 int main(void)

@@ -128,12 +128,12 @@ static void forces_on_bodies_are_the_reference(void **state)
 
 /* u = z^2 has u'' = 2, and so the physical term gives 2 nu on a lattice, times a fraction that depends on the kernel.
  */
-static void check_shear(int dimensions, bool paper)
+static void check_shear(int dimensions, sb_preset preset)
 {
     const double nu = 0.01;
     tank t;
     tank_make(&t, dimensions, 0.1, sb_vec(1.1, 1.1, 1.1), 1.1, 1.1, 0);
-    if (paper) tank_paper(&t);
+    tank_use(&t, preset);
     sb_model *m = &t.model;
     t.scene.numerics.artificial_viscosity = 0;
     t.scene.fluid.viscosity = nu;
@@ -148,7 +148,8 @@ static void check_shear(int dimensions, bool paper)
     sb_error error = {0};
     assert_int_equal(sb_stage_forces(sim, &error), SB_OK);
     const double share = twin_lattice_shear(sim);
-    if (paper) assert_near(share, dimensions == 2 ? 0.65 : 0.70, 0.005); /* docs/method.md, section 6 */
+    if (preset == SB_PRESET_PAPER)
+        assert_near(share, dimensions == 2 ? 0.65 : 0.70, 0.005); /* docs/method.md, section 6 */
     sb_vec3 half = sb_vec(0.55, dimensions == 2 ? 0 : 0.55, 0.55);
     size_t count = 0;
     for (size_t i = 0; i < sim->state.n; i++) {
@@ -170,8 +171,8 @@ static void shear_decays_as_documented(void **state)
 {
     (void)state;
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
-        check_shear(dimensions, false);
-        check_shear(dimensions, true);
+        check_shear(dimensions, SB_PRESET_DEFAULT);
+        check_shear(dimensions, SB_PRESET_PAPER);
     }
 }
 

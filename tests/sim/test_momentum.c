@@ -95,12 +95,12 @@ static balance follow(const tank *t, int steps, double arm)
     return worst;
 }
 
-/* Makes a tank with the preset default or paper. The stress correction is off, because it conserves momentum but not
+/* Makes a tank with a preset. The stress correction is off, because it conserves momentum but not
    its moment: the_stress_correction_balances tests it. */
-static void make(tank *t, bool paper, int dimensions, double spacing, sb_vec3 size)
+static void make(tank *t, sb_preset preset, int dimensions, double spacing, sb_vec3 size)
 {
     tank_make(t, dimensions, spacing, size, 1, 1, 0.1);
-    if (paper) tank_paper(t);
+    tank_use(t, preset);
     t->scene.numerics.stress_correction = 0;
 }
 
@@ -116,20 +116,21 @@ static void add_terms(tank *t, sb_solver solver)
 static void check(const tank *t, double arm, const char *name)
 {
     balance b = follow(t, 50, arm);
-    printf("%s: force %.2g, moment %.2g of sum |m a| dt; friction %.3g N s\n", name, b.force, b.moment, b.friction);
+    printf("%dD, %s: force %.2g, moment %.2g of sum |m a| dt; friction %.3g N s\n", t->scene.dimensions, name, b.force,
+           b.moment, b.friction);
     assert_true(b.force < 1e-6 && b.moment < 1e-6 && b.friction > 0);
 }
 
 static void a_flat_dam_break_balances(void **state)
 {
     (void)state;
-    for (int paper = 0; paper <= 1; paper++)
+    for (sb_preset preset = SB_PRESET_DEFAULT; preset <= SB_PRESET_PAPER; preset++)
         for (sb_solver solver = SB_SOLVER_JACOBI; solver <= SB_SOLVER_CG; solver++) {
             tank t;
-            make(&t, paper, 2, 0.05, sb_vec(2, 0, 2));
+            make(&t, preset, 2, 0.05, sb_vec(2, 0, 2));
             add_terms(&t, solver);
             t.model.bodies[0].moment_point = sb_vec(1, 0, 0.3);
-            check(&t, 1, paper ? "2D, paper" : "2D, default");
+            check(&t, 1, tank_preset_names[preset]);
             tank_free(&t);
         }
 }
@@ -140,15 +141,15 @@ static void a_dam_break_with_bodies_balances(void **state)
     (void)state;
     const sb_wavemaker_parameters law = {
         .kind = sb_wavemaker_find("stroke"), .stroke = 0.3, .speed = 1, .gravity = 9.81};
-    for (int paper = 0; paper <= 1; paper++) {
+    for (sb_preset preset = SB_PRESET_DEFAULT; preset <= SB_PRESET_PAPER; preset++) {
         tank t;
-        make(&t, paper, 3, 0.1, sb_vec(2, 0.7, 1.5));
+        make(&t, preset, 3, 0.1, sb_vec(2, 0.7, 1.5));
         add_terms(&t, SB_SOLVER_CG);
         size_t sill = tank_add_plate(&t, "sill", 1.45, 0, 0.4, sb_vec(0, 0, 0), NULL);
         size_t paddle = tank_add_plate(&t, "paddle", -0.05, 0, 1.2, sb_vec(1, 0, 0), &law);
         t.model.bodies[sill].moment_point = sb_vec(1.45, 0.35, 0);
         t.model.bodies[paddle].moment_point = sb_vec(0, 0.35, -3);
-        check(&t, 1, paper ? "3D, paper" : "3D, default");
+        check(&t, 1, tank_preset_names[preset]);
         tank_free(&t);
     }
 }
