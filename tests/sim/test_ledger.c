@@ -1,10 +1,9 @@
 /* The energy ledger: its sum is the change of energy, each entry is the work of its term according to the reference,
    and known flows have known entries. */
-#include "../check.h"
 #include "base/memory.h"
+#include "sim/presets.h"
 #include "sim/pressure/pressure.h"
 #include "sim/step/stages.h"
-#include "sim/tank.h"
 #include "sim/terms/density_correction.h"
 #include "sim/terms/stress_correction.h"
 #include "sim/terms/turbulence.h"
@@ -41,37 +40,38 @@ static void add_terms(tank *t)
 }
 
 /* Advances the tank. Checks after each step that the sum is the change since the start, and that momentum balances. */
-static sb_ledger follow(const tank *t, int steps, const char *name)
+static sb_ledger follow(const tank *t, double until, const char *name)
 {
     sb_sim *sim = tank_sim(t);
     assert_non_null(sim);
     const double start = mechanical(sim);
     double gap = 0, imbalance = 0;
     assert_near(sum(sb_sim_ledger(sim)), 0, 0);
-    for (int s = 0; s < steps; s++) {
+    while (sb_sim_report(sim)->time < until) {
         assert_int_equal(tank_steps(sim, 1), 0);
         gap = fmax(gap, fabs(mechanical(sim) - start - sum(sb_sim_ledger(sim))));
         imbalance = fmax(imbalance, sb_sim_report(sim)->momentum_imbalance);
         assert_true(sb_sim_report(sim)->momentum_imbalance > 0);
     }
     sb_ledger l = *sb_sim_ledger(sim);
-    printf("%s: %.6g J and %.6g: sum off by %.2g of it; bodies %.4g, viscosity %.4g, friction %.4g, "
+    printf("%s, %.3g s: %.6g J and %.6g: sum off by %.2g of it; bodies %.4g, viscosity %.4g, friction %.4g, "
            "pressure %.4g, stress %.4g, contact %.4g, integration %.4g, left %.4g; momentum %.2g\n",
-           name, start, mechanical(sim) - start, gap / start, l.bodies, l.viscosity, l.friction, l.pressure, l.stress,
-           l.contact, l.integration, l.left, imbalance);
-    assert_true(gap < 1e-12 * start && imbalance < 1e-6);
+           name, sb_sim_report(sim)->time, start, mechanical(sim) - start, gap / start, l.bodies, l.viscosity,
+           l.friction, l.pressure, l.stress, l.contact, l.integration, l.left, imbalance);
+    /* Over the short steps of `paper` the velocities of a thin layer change so little that their rounding shows. */
+    assert_true(gap < 1e-12 * start && imbalance < (t->form.preset == SB_PRESET_PAPER ? 1e-5 : 1e-6));
     sb_sim_destroy(sim);
     return l;
 }
 
 static void a_bore_on_a_column_is_accounted_for(void **state)
 {
-    (void)state;
     tank t;
-    tank_make(&t, 3, 0.1, sb_vec(2, 0.7, 1.5), 0.8, 1, 0.1);
+    tank_make(&t, 3, 0.1, sb_vec(2, 0.7, 1.5), 0.8, 1, 0);
+    tank_use(&t, preset_of(state));
     add_terms(&t);
     tank_add_plate(&t, "column", 1.45, 0, 0.8, sb_vec(0, 0, 0), NULL);
-    sb_ledger l = follow(&t, 150, "column");
+    sb_ledger l = follow(&t, 1.2, "column");
     assert_near(l.bodies, 0, 0);
     assert_near(l.left, 0, 0);
     assert_true(l.viscosity < -1 && l.friction < -1 && l.pressure < 0 && l.contact < 0 && l.stress != 0);
@@ -83,6 +83,8 @@ static sb_wavemaker_parameters stroke_law(void)
     return (sb_wavemaker_parameters){.kind = sb_wavemaker_find("stroke"), .stroke = 0.3, .speed = 1, .gravity = 9.81};
 }
 
+/* With the default preset alone: the paddle stands on the boundary particles of the side, and their summed densities
+   would accelerate the water of `paper`. */
 static void a_paddle_flume_is_accounted_for(void **state)
 {
     (void)state;
@@ -92,7 +94,7 @@ static void a_paddle_flume_is_accounted_for(void **state)
         tank_make(&t, dimensions, 0.1, sb_vec(4, 0.5, 1.5), 4, 1, 0.1);
         add_terms(&t);
         tank_add_plate(&t, "paddle", -0.05, 0, 1.4, sb_vec(1, 0, 0), &law);
-        sb_ledger l = follow(&t, 100, dimensions == 2 ? "flume 2D" : "flume 3D");
+        sb_ledger l = follow(&t, 0.8, dimensions == 2 ? "flume 2D" : "flume 3D");
         /* Pushing a metre of water by 0.3 m raises a bore of some 0.3 m times still pressure. */
         double width = dimensions == 2 ? 1 : 0.5;
         assert_true(l.bodies > 1000 * width && l.bodies < 4000 * width);
@@ -104,16 +106,16 @@ static void a_paddle_flume_is_accounted_for(void **state)
 /* Water that leaves through the open side is entered with the energy that it has there. */
 static void what_leaves_is_accounted_for(void **state)
 {
-    (void)state;
     tank t;
-    tank_make(&t, 2, 0.05, sb_vec(3, 0, 1.2), 1, 1, 0.1);
+    tank_make(&t, 2, 0.05, sb_vec(3, 0, 1.2), 1, 1, 0);
+    tank_use(&t, preset_of(state));
     t.scene.domain.max.x = 1.6;
     t.scene.domain.side[SB_X_MAX] = SB_SIDE_OPEN;
-    sb_ledger l = follow(&t, 200, "outflow");
+    sb_ledger l = follow(&t, 1.5, "outflow");
     sb_sim *sim = tank_sim(&t);
     assert_non_null(sim);
     double left = 0, mass = (double)sim->constant.mass;
-    for (int s = 0; s < 200; s++) {
+    while (sb_sim_report(sim)->time < 1.5) {
         /* The next step removes the particles that are outside now. */
         for (size_t i = 0; i < sim->state.n; i++) {
             sb_fluid_sample p = sb_sim_particle(sim, i);
@@ -153,7 +155,8 @@ static works by_reference(const sb_sim *sim, const twin *before, const double *e
     sb_vec3 *push = sb_alloc(n, sizeof *push);
     assert_true(rho && q && viscous && friction && push);
     sb_reference_density(r, rho);
-    for (size_t i = 0; i < n; i++) rho[i] += (double)sim->state.density_correction[i];
+    const float *correction = sim->state.density_correction;
+    for (size_t i = 0; i < n && correction; i++) rho[i] += (double)correction[i];
     for (size_t i = 0; i < n; i++) q[i] = (double)sim->work.unknown[i];
     sb_reference_viscosity(r, rho, viscous);
     sb_reference_unswitched(r, rho, sim->scene->fluid.viscosity, eddy, viscous);
@@ -185,13 +188,13 @@ static works by_reference(const sb_sim *sim, const twin *before, const double *e
 
 static void entries_are_the_works_of_their_terms(void **state)
 {
-    (void)state;
     const sb_wavemaker_parameters law = stroke_law();
     sb_status (*const stages[])(sb_sim *, sb_error *) = {sb_stage_forces,     sb_stage_source,  sb_stage_pressure,
                                                          sb_stage_accelerate, sb_stage_impulse, sb_stage_move};
     tank t;
     twin before;
     tank_make(&t, 3, 0.1, sb_vec(1.5, 0.6, 1.2), 1, 0.9, 0.1);
+    tank_use(&t, preset_of(state));
     add_terms(&t);
     tank_add_plate(&t, "paddle", -0.05, 0, 1.1, sb_vec(1, 0, 0), &law);
     /* Without normals there is no contact resolution, which the reference does not have, and no wall shear, which
@@ -204,7 +207,7 @@ static void entries_are_the_works_of_their_terms(void **state)
     assert_int_equal(tank_prepare(sim, sim->state.time_step), 0);
     assert_true(sim->walls.moving[0].velocity.x > 0.3);
     sb_error error = {0};
-    assert_int_equal(sb_stage_density_correction(sim, &error), SB_OK);
+    if (sim->needs.density_correction) assert_int_equal(sb_stage_density_correction(sim, &error), SB_OK);
     assert_int_equal(sb_stage_stress_correction(sim, &error), SB_OK);
     assert_int_equal(twin_make(sim, &before), 0);
     sb_ledger l = *sb_sim_ledger(sim);
@@ -224,12 +227,12 @@ static void entries_are_the_works_of_their_terms(void **state)
     for (size_t k = 0; k < 4; k++) {
         printf("ledger %.9g J, reference %.9g J\n", entered[k], expected[k]);
         assert_true(fabs(expected[k]) > 1e-3);
-        /* The pressure's entry is the difference of its works on water and bodies. */
-        assert_near(entered[k], expected[k], k == 2 ? 1e-6 * fabs(w.bodies) : 1e-5 * fabs(expected[k]));
+        /* The pressure's entry is a difference of its works on water and bodies. */
+        assert_near(entered[k], expected[k], k == 2 ? 1e-6 * largest : 1e-5 * fabs(expected[k]));
     }
     /* The residual is a difference of float sums as large as the forces on bodies. */
     printf("pressure by (M23b) %.9g J\n", w.pressure_by_error);
-    assert_near(entered[2], w.pressure_by_error, 1e-6 * fabs(w.bodies));
+    assert_near(entered[2], w.pressure_by_error, 1e-6 * largest);
     assert_near(now->contact, l.contact, 0);
     twin_free(&before);
     sb_sim_destroy(sim);
@@ -248,9 +251,9 @@ static double fall_to(const tank *t, double fraction)
    rest. */
 static void a_falling_drop_has_its_known_entries(void **state)
 {
-    (void)state;
     tank t;
     tank_make(&t, 3, 0.1, sb_vec(1, 1, 2), 1, 0.1, 0);
+    tank_use(&t, preset_of(state));
     sb_model *m = &t.model;
     m->fluid_count = 1;
     m->fluid_position[0] = sb_vec(0.53, 0.47, 1.03);
@@ -258,14 +261,16 @@ static void a_falling_drop_has_its_known_entries(void **state)
     t.scene.numerics.time_step_max = 0.002;
     t.scene.numerics.density = SB_DENSITY_SUMMED; /* with the density correction pressure alone stops a drop */
     t.scene.numerics.artificial_viscosity = 0;
+    t.scene.numerics.wall_friction = 0;
     t.scene.fluid.viscosity = 0; /* no wall shear, which would be entered as friction */
     sb_sim *sim = tank_sim(&t);
     assert_non_null(sim);
     const sb_ledger *l = sb_sim_ledger(sim);
     const double start = mechanical(sim);
     double speed = 0, expected = 0, rounding = 0;
-    int falling = 0, free = 0;
-    while (l->contact == 0 && falling++ < 400) {
+    double free = 0; /* s */
+    int falling = 0;
+    while (l->contact == 0 && falling++ < 1000) {
         assert_int_equal(tank_steps(sim, 1), 0);
         if (l->contact != 0) break;
         double v = -sb_sim_particle(sim, 0).velocity.z, dt = sim->state.time_step;
@@ -274,15 +279,15 @@ static void a_falling_drop_has_its_known_entries(void **state)
         if (sim->work.diagonal[0] > 0)
             expected -= 9.81 * dt * (v - speed) / 2;
         else
-            free++;
+            free += dt;
         speed = v;
         assert_near(l->integration, expected, rounding);
         assert_near(fabs(l->viscosity) + fabs(l->friction) + fabs(l->bodies) + fabs(l->left), 0, 0);
     }
-    assert_true(falling > free && falling < 400);
+    assert_true(sim->work.diagonal[0] > 0 && falling < 1000);
     /* The floor's kernel ends at the support radius, and its slope, (1 - r/h)^3, is negligible beyond 0.85 of it. */
     const double dt = t.scene.numerics.time_step_max;
-    assert_true(free * dt > fall_to(&t, 1) - dt && free * dt < fall_to(&t, 0.85) + dt);
+    assert_true(free > fall_to(&t, 1) - dt && free < fall_to(&t, 0.85) + dt);
     assert_int_equal(tank_steps(sim, 100), 0);
     printf("a drop of 1 kg fell for %d steps: %.4g J of %.4g removed by contact, %.4g by pressure\n", falling,
            -l->contact, start - mechanical(sim), -l->pressure);
@@ -296,19 +301,20 @@ static void a_falling_drop_has_its_known_entries(void **state)
    contact lose the part of it that does not move the drop. */
 static void a_swept_drop_has_the_paddles_work(void **state)
 {
-    (void)state;
     sb_status (*const stages[])(sb_sim *, sb_error *) = {sb_stage_time_step,  sb_stage_walls,     sb_stage_sort,
                                                          sb_stage_neighbours, sb_stage_forces,    sb_stage_source,
                                                          sb_stage_pressure,   sb_stage_accelerate};
     const sb_wavemaker_parameters law = stroke_law();
     tank t;
     tank_make(&t, 3, 0.1, sb_vec(2, 1, 1), 1, 0.1, 0);
+    tank_use(&t, preset_of(state));
     tank_add_plate(&t, "paddle", 0.3, 0, 1, sb_vec(1, 0, 0), &law);
     t.model.fluid_count = 1;
     t.model.fluid_position[0] = sb_vec(0.4, 0.47, 0.53);
     t.model.fluid_pressure[0] = 0;
     t.scene.fluid.gravity = 0;
-    t.scene.fluid.viscosity = 0;                  /* no wall shear */
+    t.scene.fluid.viscosity = 0; /* no wall shear */
+    t.scene.numerics.wall_friction = 0;
     t.scene.numerics.density = SB_DENSITY_SUMMED; /* with the density correction pressure alone moves a drop */
     t.scene.numerics.time_step_max = 0.005;
     sb_sim *sim = tank_sim(&t);
@@ -330,19 +336,21 @@ static void a_swept_drop_has_the_paddles_work(void **state)
     }
     printf("a drop of 1 kg accelerated to %.3g m/s: paddle %.4g J, contact %.4g, pressure %.4g\n",
            (double)sim->state.velocity[0][0], l->bodies, l->contact, l->pressure);
-    assert_true(sim->state.velocity[0][0] > 0.9f && contact < -0.01 && pressure < -0.01);
+    assert_true(sim->state.velocity[0][0] > 0.9f && contact < -0.01);
+    /* In `paper` contact alone moves it. */
+    if (preset_of(state) == SB_PRESET_DEFAULT) assert_true(pressure < -0.01);
     assert_near(l->bodies, given, 1e-6 * given);
     assert_near(l->contact, contact, -1e-6 * contact);
-    assert_near(l->pressure, pressure, -1e-6 * pressure);
+    assert_near(l->pressure, pressure, -1e-6 * (pressure + contact));
     sb_sim_destroy(sim);
     tank_free(&t);
 }
 
 static void settling_is_not_entered(void **state)
 {
-    (void)state;
     tank t;
     tank_make(&t, 2, 0.1, sb_vec(1, 0, 1.5), 1, 1, 0.1);
+    tank_use(&t, preset_of(state));
     t.scene.numerics.settle_steps = 20;
     t.scene.numerics.stress_correction = 1;
     sb_sim *sim = tank_sim(&t);
@@ -361,13 +369,13 @@ static void settling_is_not_entered(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_bore_on_a_column_is_accounted_for),
+        in_both_presets(a_bore_on_a_column_is_accounted_for),
         cmocka_unit_test(a_paddle_flume_is_accounted_for),
-        cmocka_unit_test(what_leaves_is_accounted_for),
-        cmocka_unit_test(entries_are_the_works_of_their_terms),
-        cmocka_unit_test(a_falling_drop_has_its_known_entries),
-        cmocka_unit_test(a_swept_drop_has_the_paddles_work),
-        cmocka_unit_test(settling_is_not_entered),
+        in_both_presets(what_leaves_is_accounted_for),
+        in_both_presets(entries_are_the_works_of_their_terms),
+        in_both_presets(a_falling_drop_has_its_known_entries),
+        in_both_presets(a_swept_drop_has_the_paddles_work),
+        in_both_presets(settling_is_not_entered),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,7 @@
 /* A simulation that loads a saved state continues bit for bit like the saved one; an impossible state is refused. */
-#include "../check.h"
 #include "base/memory.h"
+#include "sim/presets.h"
 #include "sim/pressure/pressure.h"
-#include "sim/tank.h"
 
 #include <omp.h>
 #include <stdio.h>
@@ -46,12 +45,14 @@ static void check(const tank *t, const char *name)
     sb_archive_out_free(&out);
 }
 
+/* Each solver with the default preset, and `paper` with its own. */
 static void a_dam_break_with_each_solver(void **state)
 {
-    (void)state;
-    for (sb_solver solver = SB_SOLVER_JACOBI; solver <= SB_SOLVER_CG; solver++) {
+    const sb_solver last = preset_of(state) == SB_PRESET_PAPER ? SB_SOLVER_JACOBI : SB_SOLVER_CG;
+    for (sb_solver solver = SB_SOLVER_JACOBI; solver <= last; solver++) {
         tank t;
         tank_make(&t, 2, 1.0 / 40, sb_vec(2, 0, 1.5), 1, 1.1, 0.1);
+        tank_use(&t, preset_of(state));
         t.scene.numerics.solver = solver;
         tank_add_terms(&t);
         check(&t, sb_pressure_solvers[solver]->name);
@@ -62,7 +63,6 @@ static void a_dam_break_with_each_solver(void **state)
 /* The paddle is saved while it moves, and long after it has stopped at another place. */
 static void a_paddle_in_motion_and_at_rest(void **state)
 {
-    (void)state;
     static const double speeds[] = {0.5, 20};
     for (int k = 0; k < 2; k++) {
         const sb_wavemaker_parameters law = {.kind = sb_wavemaker_find("gate"),
@@ -72,6 +72,7 @@ static void a_paddle_in_motion_and_at_rest(void **state)
                                              .after = SB_AFTER_STAY};
         tank t;
         tank_make(&t, 3, 1.0 / 12, sb_vec(2, 1, 1), 2, 0.75, 0.1);
+        tank_use(&t, preset_of(state));
         tank_add_plate(&t, "paddle", -1.0 / 24, 0, 0.8, sb_vec(1, 0, 0), &law);
         tank_add_terms(&t);
         check(&t, "paddle");
@@ -81,9 +82,9 @@ static void a_paddle_in_motion_and_at_rest(void **state)
 
 static void a_periodic_slab(void **state)
 {
-    (void)state;
     tank t;
     tank_make(&t, 3, 0.1, sb_vec(2, 0.5, 1.2), 1, 0.8, 0.1);
+    tank_use(&t, preset_of(state));
     tank_repeat(&t, 1);
     tank_add_terms(&t);
     check(&t, "slab");
@@ -92,9 +93,9 @@ static void a_periodic_slab(void **state)
 
 static void water_that_leaves(void **state)
 {
-    (void)state;
     tank t;
     tank_make(&t, 2, 0.05, sb_vec(1, 0, 1), 1, 0.9, 0.1);
+    tank_use(&t, preset_of(state));
     tank_repeat(&t, 0); /* no walls there */
     t.scene.domain.side[SB_X_MIN] = t.scene.domain.side[SB_X_MAX] = SB_SIDE_OPEN;
     tank_scatter(&t, 3, 3);
@@ -281,10 +282,10 @@ static void impossible_states_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_dam_break_with_each_solver),
-        cmocka_unit_test(a_paddle_in_motion_and_at_rest),
-        cmocka_unit_test(a_periodic_slab),
-        cmocka_unit_test(water_that_leaves),
+        in_both_presets(a_dam_break_with_each_solver),
+        in_both_presets(a_paddle_in_motion_and_at_rest),
+        in_both_presets(a_periodic_slab),
+        in_both_presets(water_that_leaves),
         cmocka_unit_test(settling_is_resumed),
         cmocka_unit_test(settling_is_not_saved_at_its_end),
         cmocka_unit_test(another_model_is_refused),

@@ -1,7 +1,6 @@
 /* The state after a step does not depend on the order in which the particles were stored before it: neither forces nor
    sums know in which order, or on which processor, particles were kept. */
-#include "../check.h"
-#include "sim/tank.h"
+#include "sim/presets.h"
 
 #include "base/hash.h"
 
@@ -47,10 +46,10 @@ static void check(const tank *t)
 
 static void water_that_collapses(void **state)
 {
-    (void)state;
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
         tank t;
         tank_make(&t, dimensions, 0.1, sb_vec(2, 0.6, 1.2), 0.8, 0.8, 0.1);
+        tank_use(&t, preset_of(state));
         tank_add_terms(&t);
         check(&t);
         tank_free(&t);
@@ -59,9 +58,9 @@ static void water_that_collapses(void **state)
 
 static void water_between_periodic_sides(void **state)
 {
-    (void)state;
     tank t;
     tank_make(&t, 3, 0.1, sb_vec(2, 0.6, 1.2), 1, 0.8, 0.1);
+    tank_use(&t, preset_of(state));
     tank_repeat(&t, 1);
     check(&t);
     tank_free(&t);
@@ -69,13 +68,11 @@ static void water_between_periodic_sides(void **state)
 
 static void each_solver(void **state)
 {
-    (void)state;
     for (sb_solver solver = SB_SOLVER_JACOBI; solver <= SB_SOLVER_CG; solver++) {
         tank t;
         tank_make(&t, 2, 0.05, sb_vec(1.5, 0, 1), 0.6, 0.6, 0.1);
+        tank_use(&t, preset_of(state));
         t.scene.numerics.solver = solver;
-        t.scene.numerics.density = SB_DENSITY_COMPLETED;
-        t.scene.numerics.stress_correction = 1;
         check(&t);
         tank_free(&t);
     }
@@ -84,9 +81,9 @@ static void each_solver(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(water_that_collapses),
-        cmocka_unit_test(water_between_periodic_sides),
-        cmocka_unit_test(each_solver),
+        in_both_presets(water_that_collapses),
+        in_both_presets(water_between_periodic_sides),
+        in_both_presets(each_solver),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
