@@ -11,7 +11,7 @@ static const sb_preset presets_default = SB_PRESET_DEFAULT, presets_paper = SB_P
 #define in_both_presets(test)                                                                                          \
     {#test ", default", test, NULL, NULL, (void *)(uintptr_t)&presets_default},                                        \
     {                                                                                                                  \
-        #test ", paper", test, NULL, NULL, (void *)(uintptr_t)&presets_paper                                           \
+#test ", paper", test, NULL, NULL, (void *)(uintptr_t)&presets_paper                                           \
     }
 
 /* The preset that a test is run with. */

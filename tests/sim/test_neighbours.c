@@ -1,8 +1,7 @@
 /* Lists, densities, wall vectors, the diagonal and the wall volumes compared with brute force in double precision. */
-#include "../check.h"
 #include "base/memory.h"
+#include "sim/presets.h"
 #include "sim/step/stages.h"
-#include "sim/tank.h"
 #include "sim/twin.h"
 
 #include <omp.h>
@@ -24,12 +23,13 @@ static const sb_wavemaker_parameters *paddle_law(void)
 }
 
 /* Water scattered through a tank with a static plate and a moving paddle. kernel NULL: kernel and support of the
-   default preset. */
-static void begin(setup *s, int dimensions, const char *kernel)
+   preset. */
+static void begin(setup *s, int dimensions, sb_preset preset, const char *kernel)
 {
     double dr = 0.1;
     sb_vec3 size = dimensions == 2 ? sb_vec(3.03, 0, 2.04) : sb_vec(1.53, 1.21, 1.04);
     tank_make(&s->tank, dimensions, dr, size, size.x - 0.2, 0.8 * size.z, 0);
+    tank_use(&s->tank, preset);
     if (kernel) {
         s->tank.scene.numerics.kernel = sb_kernel_find(kernel);
         s->tank.scene.numerics.support = s->tank.scene.numerics.kernel->support;
@@ -195,11 +195,11 @@ static void check_volumes(const setup *s)
     sb_free(psi);
 }
 
-static void check_all(int dimensions, const char *kernel)
+static void check_all(int dimensions, sb_preset preset, const char *kernel)
 {
     setup s;
-    begin(&s, dimensions, kernel);
-    printf("%dD, %s:\n", dimensions, kernel ? kernel : "default preset");
+    begin(&s, dimensions, preset, kernel);
+    printf("%dD, %s%s%s:\n", dimensions, tank_preset_names[preset], kernel ? " with " : "", kernel ? kernel : "");
     check_lists(&s);
     check_slopes(&s);
     check_sums(&s);
@@ -209,26 +209,29 @@ static void check_all(int dimensions, const char *kernel)
 
 static void a_flat_cloud_with_walls(void **state)
 {
-    (void)state;
-    check_all(2, NULL);
-    check_all(2, "cubic");
-    check_all(2, "wendland-c2");
+    check_all(2, preset_of(state), NULL);
 }
 
 static void a_cloud_with_walls(void **state)
 {
+    check_all(3, preset_of(state), NULL);
+}
+
+static void other_kernels(void **state)
+{
     (void)state;
-    check_all(3, NULL);
-    check_all(3, "cubic");
-    check_all(3, "wendland-c4");
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        check_all(dimensions, SB_PRESET_DEFAULT, "cubic");
+        check_all(dimensions, SB_PRESET_DEFAULT, "wendland-c2");
+        check_all(dimensions, SB_PRESET_DEFAULT, "wendland-c4");
+    }
 }
 
 /* Lists are built again if their pool was too small, in any order of the threads. */
 static void lists_do_not_depend_on_the_pool(void **state)
 {
-    (void)state;
     setup s;
-    begin(&s, 3, NULL);
+    begin(&s, 3, preset_of(state), NULL);
     size_t n = s.sim->state.n, used = s.sim->work.pairs.used;
     size_t *count = sb_alloc(n, sizeof *count);
     assert_non_null(count);
@@ -285,9 +288,9 @@ static size_t check_against_model(const setup *s)
    their cells have the same keys. */
 static void walls_beyond_the_domain_hide_nothing(void **state)
 {
-    (void)state;
     setup s;
     tank_make(&s.tank, 3, 0.1, sb_vec(2.4, 0.8, 0.8), 2.4, 0.6, 0);
+    tank_use(&s.tank, preset_of(state));
     tank_scatter(&s.tank, 11, 1);
     size_t hill = tank_add_plate(&s.tank, "hill", -3.05, -6, 6, sb_vec(0, 0, 0), NULL);
     for (int far = -2; far <= 6; far++) {
@@ -312,9 +315,8 @@ static void walls_beyond_the_domain_hide_nothing(void **state)
 
 static void collapse_and_missing_memory_are_distinguished(void **state)
 {
-    (void)state;
     setup s;
-    begin(&s, 2, NULL);
+    begin(&s, 2, preset_of(state), NULL);
     sb_error error = {0};
     int failures = 0;
     for (long n = 1;; n++) {
@@ -330,7 +332,7 @@ static void collapse_and_missing_memory_are_distinguished(void **state)
     check_lists(&s);
     end(&s);
     /* All water at one position: more particles than lists can hold. */
-    begin(&s, 3, NULL);
+    begin(&s, 3, preset_of(state), NULL);
     assert_true(s.sim->state.n > 1024);
     for (size_t i = 0; i < s.sim->state.n; i++) s.sim->state.position[i] = s.sim->state.position[0];
     s.sim->state.time_step = 0.01;
@@ -343,11 +345,12 @@ static void collapse_and_missing_memory_are_distinguished(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_flat_cloud_with_walls),
-        cmocka_unit_test(a_cloud_with_walls),
-        cmocka_unit_test(lists_do_not_depend_on_the_pool),
-        cmocka_unit_test(walls_beyond_the_domain_hide_nothing),
-        cmocka_unit_test(collapse_and_missing_memory_are_distinguished),
+        in_both_presets(a_flat_cloud_with_walls),
+        in_both_presets(a_cloud_with_walls),
+        cmocka_unit_test(other_kernels),
+        in_both_presets(lists_do_not_depend_on_the_pool),
+        in_both_presets(walls_beyond_the_domain_hide_nothing),
+        in_both_presets(collapse_and_missing_memory_are_distinguished),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,10 +1,9 @@
 /* Periodic sides compared with the reference, which sums over all images, and with the same scene, shifted. */
-#include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "sim/presets.h"
 #include "sim/pressure/pressure.h"
 #include "sim/step/stages.h"
-#include "sim/tank.h"
 #include "sim/twin.h"
 
 #include <stdio.h>
@@ -33,12 +32,13 @@ static void allocate(setup *s)
 
 /* Water scattered through a tank with a static plate beside the side in x, and a moving paddle if only y is periodic.
    Lengths are no multiples of the spacing. */
-static void begin(setup *s, int dimensions, bool x, bool y, sb_vec3 size)
+static void begin(setup *s, sb_preset preset, int dimensions, bool x, bool y, sb_vec3 size)
 {
     const sb_wavemaker_parameters law = {
         .kind = sb_wavemaker_find("stroke"), .stroke = 0.5, .speed = 0.8, .gravity = 9.81};
     *s = (setup){0};
     tank_make(&s->tank, dimensions, 0.1, size, size.x, 0.8 * size.z, 0);
+    tank_use(&s->tank, preset);
     if (x) tank_repeat(&s->tank, 0);
     if (y) tank_repeat(&s->tank, 1);
     tank_scatter(&s->tank, 5, 1);
@@ -195,10 +195,10 @@ static void check_operator(setup *s)
     sb_free(fast);
 }
 
-static void check(int dimensions, bool x, bool y, sb_vec3 size)
+static void check(sb_preset preset, int dimensions, bool x, bool y, sb_vec3 size)
 {
     setup s;
-    begin(&s, dimensions, x, y, size);
+    begin(&s, preset, dimensions, x, y, size);
     printf("%dD, periodic in%s%s, %g x %g m: ", dimensions, x ? " x" : "", y ? " y" : "", size.x, size.y);
     check_sums(&s);
     check_volumes(&s);
@@ -210,15 +210,15 @@ static void check(int dimensions, bool x, bool y, sb_vec3 size)
 /* Down to a domain of one support radius, in which two particles interact through both sides. */
 static void a_cloud_meets_its_images(void **state)
 {
-    (void)state;
-    check(2, true, false, sb_vec(2.037, 0, 1.5));
-    check(2, true, false, sb_vec(0.275, 0, 1.5));
-    check(3, true, false, sb_vec(1.237, 0.8, 0.8));
-    check(3, false, true, sb_vec(1.2, 0.671, 0.8));
-    check(3, false, true, sb_vec(1.2, 0.4, 0.8));
-    check(3, false, true, sb_vec(1.2, 0.365, 0.8));
-    check(3, true, true, sb_vec(1.013, 0.671, 0.8));
-    check(3, true, true, sb_vec(0.345, 0.275, 0.8));
+    const sb_preset preset = preset_of(state);
+    check(preset, 2, true, false, sb_vec(2.037, 0, 1.5));
+    check(preset, 2, true, false, sb_vec(0.275, 0, 1.5));
+    check(preset, 3, true, false, sb_vec(1.237, 0.8, 0.8));
+    check(preset, 3, false, true, sb_vec(1.2, 0.671, 0.8));
+    check(preset, 3, false, true, sb_vec(1.2, 0.4, 0.8));
+    check(preset, 3, false, true, sb_vec(1.2, 0.365, 0.8));
+    check(preset, 3, true, true, sb_vec(1.013, 0.671, 0.8));
+    check(preset, 3, true, true, sb_vec(0.345, 0.275, 0.8));
 }
 
 /* Fields by particle id after one solve with a fixed number of iterations. */
@@ -276,9 +276,10 @@ static sb_vec3 whole_quanta(const tank *t, sb_vec3 way)
     return sb_vec(quantum * ceil(way.x / quantum), quantum * ceil(way.y / quantum), way.z);
 }
 
-static void make_rolled(tank *t, int dimensions, bool x, bool y, sb_vec3 size)
+static void make_rolled(tank *t, sb_preset preset, int dimensions, bool x, bool y, sb_vec3 size)
 {
     tank_make(t, dimensions, 0.1, size, size.x, 0.7, 0.2);
+    tank_use(t, preset);
     if (x) tank_repeat(t, 0);
     if (y) tank_repeat(t, 1);
 }
@@ -286,13 +287,13 @@ static void make_rolled(tank *t, int dimensions, bool x, bool y, sb_vec3 size)
 /* The position of periodic sides is arbitrary: the shifted scene has the same densities, pressures, velocities and
    forces on static bodies. Periods and shifts are whole quanta, so that all offsets keep their bits. A difference of
    one quantum could round a stored slope differently. */
-static void check_rolled(int dimensions, bool x, bool y, sb_vec3 size)
+static void check_rolled(sb_preset preset, int dimensions, bool x, bool y, sb_vec3 size)
 {
     tank t;
-    make_rolled(&t, dimensions, x, y, size);
+    make_rolled(&t, preset, dimensions, x, y, size);
     size = whole_quanta(&t, size);
     tank_free(&t);
-    make_rolled(&t, dimensions, x, y, size);
+    make_rolled(&t, preset, dimensions, x, y, size);
     t.scene.numerics.tolerance_rule = SB_TOLERANCE_DENSITY;
     t.scene.numerics.tolerance = 1e-30;
     t.scene.numerics.max_iterations = 25;
@@ -324,17 +325,17 @@ static void check_rolled(int dimensions, bool x, bool y, sb_vec3 size)
 
 static void sides_may_be_anywhere(void **state)
 {
-    (void)state;
-    check_rolled(2, true, false, sb_vec(2, 0, 1.2));
-    check_rolled(3, false, true, sb_vec(1.2, 0.4, 1.2));
-    check_rolled(3, true, true, sb_vec(0.8, 0.4, 1.2));
+    const sb_preset preset = preset_of(state);
+    check_rolled(preset, 2, true, false, sb_vec(2, 0, 1.2));
+    check_rolled(preset, 3, false, true, sb_vec(1.2, 0.4, 1.2));
+    check_rolled(preset, 3, true, true, sb_vec(0.8, 0.4, 1.2));
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_cloud_meets_its_images),
-        cmocka_unit_test(sides_may_be_anywhere),
+        in_both_presets(a_cloud_meets_its_images),
+        in_both_presets(sides_may_be_anywhere),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
