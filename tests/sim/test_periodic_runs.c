@@ -1,10 +1,9 @@
 /* Runs with periodic sides: streams, slabs, samples across a side, and the same bits for any number of threads. */
-#include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "sim/presets.h"
 #include "sim/pressure/pressure.h"
 #include "sim/step/stages.h"
-#include "sim/tank.h"
 
 #include <omp.h>
 #include <stdio.h>
@@ -14,10 +13,11 @@
 /* Water flows at one speed over a smooth floor through the periodic sides: no particle is lost or leaves. */
 static void a_stream_goes_round(void **state)
 {
-    (void)state;
     tank t;
     tank_make(&t, 2, 0.05, sb_vec(1, 0, 1), 1, 0.6, 0.02);
+    tank_use(&t, preset_of(state));
     tank_repeat(&t, 0);
+    t.scene.numerics.wall_friction = 0;
     for (size_t i = 0; i < t.model.fluid_count; i++) t.model.fluid_velocity[i].x = 1.5;
     sb_sim *sim = tank_sim(&t);
     assert_non_null(sim);
@@ -55,9 +55,10 @@ static flow flow_at(sb_sim *sim, double time)
 }
 
 /* A metre of water, in two dimensions (width 0) or in a slab without side walls. */
-static sb_sim *make_flume(tank *t, double width, double length)
+static sb_sim *make_flume(tank *t, sb_preset preset, double width, double length)
 {
     tank_make(t, width > 0 ? 3 : 2, 0.05, sb_vec(length, width, 1.5), 1, 1, 0.02);
+    tank_use(t, preset);
     if (width > 0) tank_repeat(t, 1);
     t->scene.numerics.wall_gamma = 0.8;
     t->scene.numerics.settle_steps = 100;
@@ -72,7 +73,7 @@ static const double times[TIMES] = {0.3, 0.35};
 static void break_dam(double width, flow flows[TIMES])
 {
     tank t;
-    sb_sim *sim = make_flume(&t, width, 2.5);
+    sb_sim *sim = make_flume(&t, SB_PRESET_DEFAULT, width, 2.5);
     for (int k = 0; k < TIMES; k++) {
         flows[k] = flow_at(sim, times[k]);
         printf("width %g at %.2f s: front %.3f, mean %.4f m\n", width, times[k], flows[k].front, flows[k].middle);
@@ -103,10 +104,9 @@ static void a_slab_is_a_flume(void **state)
 /* The load on the floor per metre of width is the same. */
 static void the_load_is_proportional_to_the_width(void **state)
 {
-    (void)state;
     for (int slab = 0; slab <= 1; slab++) {
         tank t;
-        sb_sim *sim = make_flume(&t, slab ? 0.2 : 0, 1);
+        sb_sim *sim = make_flume(&t, preset_of(state), slab ? 0.2 : 0, 1);
         sb_error error = {0};
         assert_int_equal(sb_sim_settle(sim, &error), SB_OK);
         flow_at(sim, 0.4);
@@ -133,11 +133,11 @@ static uint64_t run(const tank *t, int threads)
 
 static void threads_make_no_difference(void **state)
 {
-    (void)state;
     const int counts[] = {2, 3, 8};
     int before = omp_get_max_threads();
     tank t;
     tank_make(&t, 3, 1.0 / 16, sb_vec(1.5, 0.3, 1.2), 1.5, 0.8, 0.1);
+    tank_use(&t, preset_of(state));
     tank_repeat(&t, 0);
     tank_repeat(&t, 1);
     t.scene.numerics.wall_friction = 0.05;
@@ -186,9 +186,9 @@ static void check_box(const sb_sim *sim, sb_vec3 min, sb_vec3 max)
 /* Images up to one domain length away in x, and up to eight spacings in y, where the domain is three spacings wide. */
 static void queries_find_images_across_sides(void **state)
 {
-    (void)state;
     tank t;
     tank_make(&t, 3, 0.1, sb_vec(1.2, 0.3, 1), 1.2, 0.6, 0.1);
+    tank_use(&t, preset_of(state));
     tank_repeat(&t, 0);
     tank_repeat(&t, 1);
     for (size_t i = 0; i < t.model.fluid_count; i++) t.model.fluid_velocity[i] = sb_vec(3, -2, 0);
@@ -219,10 +219,10 @@ static bool skips_ghosts(const sb_sim *sim)
 /* Without periodic sides there are no ghosts and no memory for ghosts, and the list of skipped parts says so. */
 static void no_side_costs_nothing(void **state)
 {
-    (void)state;
     for (int periodic = 0; periodic <= 1; periodic++) {
         tank t;
         tank_make(&t, 3, 0.1, sb_vec(1.2, 0.4, 1), 1.2, 0.6, 0.1);
+        tank_use(&t, preset_of(state));
         if (periodic) tank_repeat(&t, 1);
         sb_sim *sim = tank_sim(&t);
         assert_non_null(sim);
@@ -241,9 +241,9 @@ static void no_side_costs_nothing(void **state)
 
 static void missing_memory_is_reported(void **state)
 {
-    (void)state;
     tank t;
     tank_make(&t, 3, 0.1, sb_vec(1.2, 0.4, 1), 1.2, 0.6, 0.1);
+    tank_use(&t, preset_of(state));
     tank_repeat(&t, 1);
     bool done = false;
     int reported = 0;
@@ -266,13 +266,13 @@ static void missing_memory_is_reported(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_stream_goes_round),
+        in_both_presets(a_stream_goes_round),
         cmocka_unit_test(a_slab_is_a_flume),
-        cmocka_unit_test(the_load_is_proportional_to_the_width),
-        cmocka_unit_test(threads_make_no_difference),
-        cmocka_unit_test(queries_find_images_across_sides),
-        cmocka_unit_test(no_side_costs_nothing),
-        cmocka_unit_test(missing_memory_is_reported),
+        in_both_presets(the_load_is_proportional_to_the_width),
+        in_both_presets(threads_make_no_difference),
+        in_both_presets(queries_find_images_across_sides),
+        in_both_presets(no_side_costs_nothing),
+        in_both_presets(missing_memory_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
