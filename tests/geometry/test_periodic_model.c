@@ -1,5 +1,5 @@
 /* Tests models with periodic sides: there are no walls there, and water and boundary particles continue across them. */
-#include "../check.h"
+#include "check.h"
 #include "geometry/model/model.h"
 
 #include <stdio.h>

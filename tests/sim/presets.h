@@ -2,7 +2,7 @@
 #ifndef SB_TESTS_PRESETS_H
 #define SB_TESTS_PRESETS_H
 
-#include "../check.h"
+#include "check.h"
 #include "sim/tank.h"
 
 static const sb_preset presets_default = SB_PRESET_DEFAULT, presets_paper = SB_PRESET_PAPER;

@@ -1,7 +1,7 @@
 #include "sim/pressure_problem.h"
 
-#include "../check.h"
 #include "base/memory.h"
+#include "check.h"
 
 void problem_begin(problem *p, int dimensions, sb_preset preset)
 {

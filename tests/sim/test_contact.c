@@ -1,6 +1,6 @@
 /* Contact resolution stops particles that come too close to a wall, along the wall's normal, and adds no energy. */
-#include "../check.h"
 #include "base/random.h"
+#include "check.h"
 #include "sim/tank.h"
 #include "sim/walls/contact.h"
 

@@ -1,6 +1,6 @@
 /* The density correction: determined on the initial lattice, kept with the particle, returned to the bulk's value in
    the bulk. With it, water at rest keeps its level. */
-#include "../check.h"
+#include "check.h"
 #include "sim/state/lattice.h"
 #include "sim/tank.h"
 #include "sim/terms/density_correction.h"

@@ -1,7 +1,7 @@
 /* All that crosses the edge of a domain goes through the exchange: another implementation sees every refresh, sum,
    maximum and flag, and determines its result. Alone, ghosts have the values of their originals. */
-#include "../check.h"
 #include "base/memory.h"
+#include "check.h"
 #include "sim/exchange/exchange.h"
 #include "sim/tank.h"
 

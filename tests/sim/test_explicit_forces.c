@@ -1,7 +1,7 @@
 /* Gravity, viscosity and wall friction of one step compared with the reference, and the decay of a shear flow. */
-#include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "check.h"
 #include "sim/step/stages.h"
 #include "sim/tank.h"
 #include "sim/twin.h"

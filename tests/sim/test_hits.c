@@ -2,9 +2,9 @@
    bit for bit and in the same order, and writes nowhere else. */
 #include "sim/passes/cpu/hits.h"
 
-#include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "check.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* Balance of linear and angular momentum between water, bodies and gravity, step by step. */
-#include "../check.h"
 #include "base/memory.h"
+#include "check.h"
 #include "sim/tank.h"
 
 #include <stdio.h>

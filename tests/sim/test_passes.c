@@ -1,8 +1,8 @@
 /* Each pass over pairs in each form gives what the reference form gives, for the same input. The reference computes in
    double precision, one pair at a time. */
-#include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "check.h"
 #include "sim/exchange/exchange.h"
 #include "sim/passes/passes.h"
 #include "sim/pressure/pressure.h"

@@ -1,7 +1,7 @@
 /* The pressure problem in float compared with the double-precision reference: source, operator, errors. */
-#include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "check.h"
 #include "sim/passes/passes.h"
 #include "sim/pressure/pressure.h"
 #include "sim/pressure_problem.h"

@@ -1,7 +1,7 @@
 /* Queries, energies and frames compared with a loop over all particles. */
-#include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "check.h"
 #include "sim/tank.h"
 
 #include <stdio.h>

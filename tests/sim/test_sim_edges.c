@@ -1,6 +1,6 @@
 /* The simulation of unusual scenes: one particle, none, two at one position; and runs that fail. */
-#include "../check.h"
 #include "base/memory.h"
+#include "check.h"
 #include "sim/pressure/pressure.h"
 #include "sim/tank.h"
 

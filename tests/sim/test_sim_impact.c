@@ -1,5 +1,5 @@
 /* Spray that hits walls: it does not pass them, and it loses energy. */
-#include "../check.h"
+#include "check.h"
 #include "sim/pressure/pressure.h"
 #include "sim/tank.h"
 

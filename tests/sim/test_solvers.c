@@ -1,5 +1,5 @@
 /* The pressure solvers compared with the reference's solution. */
-#include "../check.h"
+#include "check.h"
 #include "sim/pressure/pressure.h"
 #include "sim/pressure_problem.h"
 #include "sim/step/stages.h"

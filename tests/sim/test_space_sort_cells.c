@@ -1,7 +1,7 @@
 /* Integer positions, their order along the Z-curve, and the table of used cells. */
-#include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "check.h"
 #include "sim/search/cells.h"
 #include "sim/search/sort.h"
 #include "sim/state/space.h"

@@ -1,7 +1,7 @@
 /* The Chebyshev solver assumes a bound of the eigenvalues (sb_pressure_spectrum). Settled water beside walls must stay
    below it for every kernel and support radius. */
-#include "../check.h"
 #include "base/memory.h"
+#include "check.h"
 #include "sim/pressure/pressure.h"
 #include "sim/tank.h"
 

@@ -1,5 +1,5 @@
 /* Water at rest stays at rest, exerts its weight, and keeps its level. */
-#include "../check.h"
+#include "check.h"
 #include "sim/pressure/pressure.h"
 #include "sim/tank.h"
 

@@ -1,8 +1,8 @@
 /* The deviatoric stress correction: compared with a direct evaluation, zero on a lattice, conservation of momentum,
    effect on a stretched lattice, and no cost when off. */
-#include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "check.h"
 #include "sim/passes/passes.h"
 #include "sim/pressure/pressure.h"
 #include "sim/tank.h"

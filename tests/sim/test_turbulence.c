@@ -1,8 +1,8 @@
 /* Eddy viscosity of the sub-particle-scale model: compared with the reference, on linear fields, at walls; the effect
    of its stress; and no cost when off. */
-#include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "check.h"
 #include "sim/step/stages.h"
 #include "sim/tank.h"
 #include "sim/terms/turbulence.h"

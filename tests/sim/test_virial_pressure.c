@@ -1,6 +1,6 @@
 /* The virial pressure: compared with a direct evaluation, in water at rest, and without effect on the state. */
-#include "../check.h"
 #include "base/random.h"
+#include "check.h"
 #include "sim/tank.h"
 #include "sim/twin.h"
 

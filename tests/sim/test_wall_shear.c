@@ -1,7 +1,7 @@
 /* The shear of smooth walls: compared with the reference pair by pair, and as drag on sliding water. */
-#include "../check.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "check.h"
 #include "sim/passes/cpu/drag.h"
 #include "sim/step/stages.h"
 #include "sim/tank.h"

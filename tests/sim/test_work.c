@@ -1,5 +1,5 @@
 /* The workspace: views that are alive in the same phase of a step have separate memory. */
-#include "../check.h"
+#include "check.h"
 #include "sim/pressure/pressure.h"
 #include "sim/simulation.h"
 #include "sim/tank.h"
