@@ -8,6 +8,7 @@
 #include "sim/terms/turbulence.h"
 
 #include <assert.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -127,6 +128,15 @@ static sb_vec3 roll(const tank *t, sb_vec3 at, sb_vec3 by)
     if (sb_scene_repeats(&t->scene, 0)) at.x = rolled(at.x, by.x, m->min.x, m->max.x);
     if (sb_scene_repeats(&t->scene, 1)) at.y = rolled(at.y, by.y, m->min.y, m->max.y);
     return at;
+}
+
+sb_vec3 tank_whole_quanta(const tank *t, sb_vec3 way)
+{
+    sb_sim *sim = tank_sim(t);
+    need(sim != NULL);
+    const double quantum = sim->space.quantum;
+    sb_sim_destroy(sim);
+    return sb_vec(quantum * ceil(way.x / quantum), quantum * ceil(way.y / quantum), way.z);
 }
 
 void tank_roll(tank *t, sb_vec3 by)

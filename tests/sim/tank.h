@@ -38,6 +38,9 @@ void tank_free(tank *t);
 void tank_repeat(tank *t, int axis);
 /* Shifts water and boundary particles within a periodic tank; what leaves at one side returns at the other. */
 void tank_roll(tank *t, sb_vec3 by);
+/* Rounds x and y up to whole quanta of the tank. If periods and shifts are whole quanta, a shifted tank has the same
+   offsets between particles, bit for bit. */
+sb_vec3 tank_whole_quanta(const tank *t, sb_vec3 way);
 
 /* Shifts the whole tank with its water. */
 void tank_shift(tank *t, sb_vec3 by);

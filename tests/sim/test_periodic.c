@@ -266,16 +266,6 @@ static double gap_between(const double *a, const double *b, size_t n)
     return twin_relative(&gap);
 }
 
-/* Rounds up to whole quanta of the tank. */
-static sb_vec3 whole_quanta(const tank *t, sb_vec3 way)
-{
-    sb_sim *sim = tank_sim(t);
-    assert_non_null(sim);
-    const double quantum = sim->space.quantum;
-    sb_sim_destroy(sim);
-    return sb_vec(quantum * ceil(way.x / quantum), quantum * ceil(way.y / quantum), way.z);
-}
-
 static void make_rolled(tank *t, sb_preset preset, int dimensions, bool x, bool y, sb_vec3 size)
 {
     tank_make(t, dimensions, 0.1, size, size.x, 0.7, 0.2);
@@ -291,7 +281,7 @@ static void check_rolled(sb_preset preset, int dimensions, bool x, bool y, sb_ve
 {
     tank t;
     make_rolled(&t, preset, dimensions, x, y, size);
-    size = whole_quanta(&t, size);
+    size = tank_whole_quanta(&t, size);
     tank_free(&t);
     make_rolled(&t, preset, dimensions, x, y, size);
     t.scene.numerics.tolerance_rule = SB_TOLERANCE_DENSITY;
@@ -304,7 +294,7 @@ static void check_rolled(sb_preset preset, int dimensions, bool x, bool y, sb_ve
                                       dimensions == 2 ? 0 : 2 * sb_random(3, 3 * i + 1) - 1, -sb_random(3, 3 * i + 2));
     outcome still = solve_once(&t);
     for (uint64_t k = 0; k < 5; k++) {
-        tank_roll(&t, whole_quanta(&t, sb_vec(size.x * sb_random(k, 0), size.y * sb_random(k, 1), 0)));
+        tank_roll(&t, tank_whole_quanta(&t, sb_vec(size.x * sb_random(k, 0), size.y * sb_random(k, 1), 0)));
         outcome moved = solve_once(&t);
         assert_int_equal(moved.n, still.n);
         double density = gap_between(moved.density, still.density, still.n);
