@@ -1,7 +1,7 @@
 /* The pressure solvers compared with the reference's solution. */
 #include "check.h"
 #include "sim/pressure/pressure.h"
-#include "sim/pressure_problem.h"
+#include "sim/pressure/pressure_problem.h"
 #include "sim/step/stages.h"
 
 #include <stdio.h>

@@ -4,7 +4,7 @@
 #include "check.h"
 #include "sim/passes/passes.h"
 #include "sim/pressure/pressure.h"
-#include "sim/pressure_problem.h"
+#include "sim/pressure/pressure_problem.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "sim/pressure_problem.h"
+#include "sim/pressure/pressure_problem.h"
 
 #include "base/memory.h"
 #include "check.h"
