@@ -63,13 +63,15 @@ static double gap_to_solution(const problem *s)
     return twin_relative(&gap);
 }
 
-/* Checks that the reported errors are correct to `relative` and to the round-off of the float operator. */
+/* Checks that the reported errors are correct to `relative` and to the round-off of the float operator. The solver cg
+   adds each product to its residual, hundreds of times, and with them their round-off: about 4e-9 in the residual. */
 static void check_report(problem *s, double relative)
 {
+    const double share = s->tank.scene.numerics.solver == SB_SOLVER_CG ? 2 : 1;
     const sb_step_report *r = &s->sim->report;
     sb_pressure_error e = true_error(s, s->x);
-    assert_near(r->error_mean, e.mean, relative * e.mean + 2e-9);
-    assert_near(r->error_residual, e.residual, relative * e.residual + 4e-9);
+    assert_near(r->error_mean, e.mean, relative * e.mean + share * 2e-9);
+    assert_near(r->error_residual, e.residual, relative * e.residual + share * 4e-9);
     assert_near(r->error_max, e.max, relative * e.max + 4e-7);
 }
 
