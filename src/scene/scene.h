@@ -70,6 +70,11 @@ typedef enum sb_density_form {
     SB_DENSITY_COMPLETED /* the density sum plus the density correction (sim/terms/density_correction.h) */
 } sb_density_form;
 
+typedef enum sb_wall_form {
+    SB_WALLS_PARTICLES, /* boundary particles act on the pressure [A12] */
+    SB_WALLS_IMAGES     /* images of the water, reflected at the walls' facets (sim/walls/mirrors.h) */
+} sb_wall_form;
+
 typedef enum sb_wall_shear {
     SB_SHEAR_NONE,
     SB_SHEAR_SMOOTH /* law of the wall for smooth walls, with the fluid's viscosity */
@@ -100,6 +105,7 @@ typedef struct sb_numerics {
     double stress_correction;    /* fraction of the deviatoric particle-packing stress that is removed; 0: off */
     double artificial_viscosity; /* alpha of Monaghan's viscosity; 0: term is off */
     double wall_friction;        /* sigma; 0: term is off */
+    sb_wall_form walls;
     sb_wall_shear wall_shear;
     sb_turbulence turbulence;
     double smagorinsky;  /* C_s of the eddy viscosity */

@@ -7,6 +7,7 @@ static const char *const preset_names[] = {"default", "paper", NULL};
 static const char *const solver_names[] = {"jacobi", "chebyshev", "cg", NULL};
 static const char *const tolerance_names[] = {"density", "pressure", NULL};
 static const char *const density_names[] = {"summed", "completed", NULL};
+static const char *const wall_names[] = {"particles", "images", NULL};
 static const char *const shear_names[] = {"none", "smooth", NULL};
 static const char *const turbulence_names[] = {"none", "sps", NULL};
 static const char *const step_names[] = {"paper", "depth", NULL};
@@ -71,6 +72,9 @@ static const sb_key keys[] = {
            "Coefficient alpha of Monaghan's artificial viscosity; 0 leaves the term out."),
     NUMBER(wall_friction, NULL, 0, 10, 0,
            "Coefficient sigma of the artificial wall friction; 0 leaves the term out."),
+    CHOICE(walls, wall_names,
+           "What the pressure meets at walls. `particles`: boundary particles [A12]. `images`: images of the "
+           "water, reflected at the walls' facets."),
     CHOICE(wall_shear, shear_names,
            "`smooth`: walls exert shear by the law of the smooth wall, with the fluid's "
            "viscosity. `none`: free slip."),

@@ -10,6 +10,8 @@ void sb_model_free(sb_model *model)
     if (!model) return;
     for (size_t i = 0; i < model->body_count; ++i) sb_mesh_free(&model->bodies[i].mesh);
     for (size_t i = 0; i < model->warning_count; ++i) sb_free(model->warnings[i]);
+    sb_free(model->facets.facets);
+    sb_free(model->facets.edges);
     sb_free(model->bodies);
     sb_free(model->shallow);
     sb_free(model->warnings);

@@ -19,6 +19,7 @@ sb_status sb_model_build_for(const sb_scene *scene, sb_model_need *need, sb_mode
     if (status == SB_OK) status = sb_model_sample(scene, &space, &made, error);
     if (status == SB_OK) status = sb_model_check_sides(scene, &space, &made, error);
     if (status == SB_OK) status = sb_model_check(scene, &space, &made, error);
+    if (status == SB_OK) status = sb_model_facets(scene, &space, &made, error);
     sb_model_space_free(&space);
     if (status != SB_OK) {
         sb_model_free(&made);

@@ -4,6 +4,7 @@
 #ifndef SB_GEOMETRY_MODEL_H
 #define SB_GEOMETRY_MODEL_H
 
+#include "geometry/facets/facet.h"
 #include "geometry/mesh/mesh.h"
 #include "scene/scene.h"
 
@@ -35,6 +36,7 @@ typedef struct sb_model {
     size_t wall_count;
     sb_vec3 *wall_position; /* m, on the boundary surface, at t = 0 */
     sb_vec3 *wall_normal;   /* unit, towards the water */
+    sb_facets facets;       /* of walls that reflect water; empty with other walls */
     size_t body_count;
     sb_model_body *bodies;
     bool *shallow; /* per gauge of the scene: a warning reports that its still water is too shallow; NULL: there are no

@@ -22,6 +22,10 @@ void sb_model_space_free(sb_model_space *space);
 /* Warns if solids at one periodic side do not continue at the opposite side. */
 sb_status sb_model_check_sides(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 
+/* facets.c: the facets of bodies that water can meet, if walls reflect water. The result is the same for any number of
+   threads. */
+sb_status sb_model_facets(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
+
 /* Adds warnings of what is too coarse or too thin for reliable results, and of inputs that are probably mistakes. */
 sb_status sb_model_check(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 

@@ -1,0 +1,195 @@
+/* Facets of a model: their outlines, what lies behind their edges, and which of them water can meet. */
+#include "base/memory.h"
+#include "geometry/facets/outlines.h"
+#include "geometry/model/parts.h"
+#include "geometry/solid/solid.h"
+
+#include <math.h>
+
+/* In spacings. TOUCHES: surfaces as near as this touch. BEFORE: distance before a facet at which it is tested whether
+   the facet is hidden. */
+static const double TOUCHES = 1e-3, BEFORE = 0.02;
+
+/* Cosine of the bend above which water sees an edge: 45 degrees. */
+static const double BENT = 0.7071;
+
+typedef struct builder {
+    const sb_scene *scene;
+    const sb_model *model;
+    const sb_model_space *space;
+    double spacing;
+    sb_facets *out;
+    size_t capacity, edge_capacity;
+} builder;
+
+/* Whether the body has a mesh of its own; the sides of the domain have none. */
+static bool has_mesh(const builder *b, size_t body)
+{
+    return b->model->bodies[body].mesh.triangle_count > 0;
+}
+
+/* ---- sides of the domain ---- */
+
+static bool is_wall(const builder *b, int side)
+{
+    return b->scene->domain.side[side] == SB_SIDE_WALL && !(b->model->dimensions == 2 && side / 2 == 1);
+}
+
+static sb_vec3 side_normal(int side)
+{
+    const double n = side % 2 ? -1 : 1;
+    return sb_vec(side / 2 == 0 ? n : 0, side / 2 == 1 ? n : 0, side / 2 == 2 ? n : 0);
+}
+
+/* Distance of a point from a side, positive within the domain. */
+static double from_side(const builder *b, int side, sb_vec3 at)
+{
+    return sb_dot(side_normal(side), sb_sub(at, side % 2 ? b->model->max : b->model->min));
+}
+
+static bool outside_walls(const builder *b, sb_vec3 at)
+{
+    for (int side = 0; side < SB_SIDES; side++)
+        if (is_wall(b, side) && from_side(b, side, at) < 0) return true;
+    return false;
+}
+
+/* ---- edges ---- */
+
+/* Which triangles count: those whose normal differs from, or (like) is, that of a facet. */
+typedef struct normals {
+    sb_vec3 normal;
+    bool like;
+} normals;
+
+static bool counts(const void *context, sb_vec3 nearest, sb_vec3 normal)
+{
+    (void)nearest;
+    const normals *of = context;
+    const double along = sb_dot(of->normal, normal);
+    return (along > 1 - 1e-9) == of->like;
+}
+
+static sb_bend bend_of(sb_vec3 normal, sb_vec3 inward, sb_vec3 other)
+{
+    if (sb_dot(normal, other) >= BENT) return SB_BEND_SOFT;
+    return sb_dot(other, inward) > 0 ? SB_BEND_CONCAVE : SB_BEND_CONVEX;
+}
+
+/* The bend towards one body's surface that touches the edge's middle. Returns false if none does. */
+static bool bend_towards(const builder *b, size_t body, const sb_facet *facet, const sb_facet_edge *edge, sb_vec3 at,
+                         sb_bend *bend)
+{
+    const double near = TOUCHES * b->spacing;
+    sb_vec3 normal, nearest;
+    normals which = {facet->normal, false};
+    if (sb_solid_distance_where(b->space->solid[body], at, near, counts, &which, &nearest, &normal) < near) {
+        *bend = bend_of(facet->normal, edge->inward, normal);
+        return true;
+    }
+    which.like = true;
+    const sb_vec3 beyond = sb_madd(at, -2 * near, edge->inward);
+    if (sb_solid_distance_where(b->space->solid[body], beyond, near, counts, &which, &nearest, &normal) < near) {
+        *bend = SB_BEND_SOFT;
+        return true;
+    }
+    return false;
+}
+
+static sb_bend find_bend(const builder *b, const sb_facet *facet, const sb_facet_edge *edge)
+{
+    const sb_vec3 at = sb_scale(sb_add(edge->from, edge->to), 0.5);
+    bool soft = false;
+    for (int side = 0; side < SB_SIDES; side++)
+        if (is_wall(b, side) && from_side(b, side, at) < TOUCHES * b->spacing &&
+            sb_dot(side_normal(side), edge->inward) > 0)
+            return SB_BEND_CONCAVE;
+    for (size_t body = 0; body < b->model->body_count; body++) {
+        if (!has_mesh(b, body) || !b->space->solid[body]) continue;
+        sb_bend bend;
+        if (bend_towards(b, body, facet, edge, at, &bend)) {
+            if (bend == SB_BEND_CONCAVE) return bend;
+            soft |= bend == SB_BEND_SOFT;
+        } else if (body != facet->body && sb_solid_contains(b->space->solid[body], at))
+            return SB_BEND_CONCAVE;
+    }
+    return soft ? SB_BEND_SOFT : SB_BEND_CONVEX;
+}
+
+/* ---- facets ---- */
+
+/* Whether water cannot meet the facet: its middle and its corners lie in other bodies, or outside of the domain. */
+static bool hidden(const builder *b, const sb_outline *o, size_t body, sb_vec3 normal)
+{
+    sb_vec3 middle = {0};
+    for (size_t k = 0; k < o->count; k++) middle = sb_madd(middle, 1.0 / (double)o->count, o->corner[k]);
+    for (size_t k = 0; k <= o->count; k++) {
+        sb_vec3 at = k == o->count ? middle : sb_madd(middle, 0.98, sb_sub(o->corner[k], middle));
+        at = sb_madd(at, BEFORE * b->spacing, normal);
+        bool inside = outside_walls(b, at);
+        for (size_t other = 0; other < b->model->body_count && !inside; other++)
+            inside = other != body && has_mesh(b, other) && b->space->solid[other] &&
+                     b->model->bodies[other].wavemaker < 0 && sb_solid_contains(b->space->solid[other], at);
+        if (!inside) return false;
+    }
+    return true;
+}
+
+static int add(builder *b, const sb_outline *o, size_t body, bool both)
+{
+    sb_facets *out = b->out;
+    if (hidden(b, o, body, o->normal) && (!both || hidden(b, o, body, sb_scale(o->normal, -1)))) return 0;
+    if (sb_grow((void **)&out->facets, &b->capacity, out->count + 1, sizeof *out->facets) != 0 ||
+        sb_grow((void **)&out->edges, &b->edge_capacity, out->edge_count + o->count, sizeof *out->edges) != 0)
+        return -1;
+    const bool flat = b->model->dimensions == 2;
+    sb_facet *f = &out->facets[out->count++];
+    *f = (sb_facet){o->normal,          sb_dot(o->normal, o->corner[0]),
+                    (uint32_t)body,     (uint32_t)out->edge_count,
+                    (uint32_t)o->count, both};
+    for (size_t k = 0; k < o->count; k++) {
+        const sb_vec3 from = o->corner[k], to = flat ? from : o->corner[(k + 1) % o->count];
+        const sb_vec3 along = flat ? sb_sub(o->corner[1 - k], from) : sb_cross(o->normal, sb_sub(to, from));
+        sb_facet_edge *edge = &out->edges[out->edge_count++];
+        *edge = (sb_facet_edge){from, to, sb_normalize(along), SB_BEND_SOFT};
+        edge->bend = find_bend(b, f, edge);
+    }
+    return 0;
+}
+
+static int add_body(builder *b, size_t body)
+{
+    const sb_model_body *of = &b->model->bodies[body];
+    sb_outlines outlines = {0};
+    int status = b->model->dimensions == 2 ? sb_outlines_of_section(b->space->mesh[body], b->spacing, &outlines)
+                                           : sb_outlines_of_mesh(b->space->mesh[body], &outlines);
+    sb_mesh_report report;
+    sb_error error = {0};
+    if (status == 0 && sb_mesh_diagnose(&of->mesh, &report, &error) != SB_OK) status = -1;
+    const bool both = status == 0 && of->role != SB_ROLE_TERRAIN && !of->mesh.open_surface && !report.watertight;
+    for (size_t k = 0; k < outlines.count && status == 0; k++) status = add(b, &outlines.outline[k], body, both);
+    sb_outlines_free(&outlines);
+    return status;
+}
+
+static int add_sides(builder *b, size_t body)
+{
+    for (int side = 0; side < SB_SIDES; side++) {
+        if (!is_wall(b, side)) continue;
+        if (sb_grow((void **)&b->out->facets, &b->capacity, b->out->count + 1, sizeof *b->out->facets) != 0) return -1;
+        const sb_vec3 n = side_normal(side);
+        b->out->facets[b->out->count++] = (sb_facet){
+            .normal = n, .distance = sb_dot(n, side % 2 ? b->model->max : b->model->min), .body = (uint32_t)body};
+    }
+    return 0;
+}
+
+sb_status sb_model_facets(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
+{
+    if (scene->numerics.walls != SB_WALLS_IMAGES) return SB_OK;
+    builder b = {.scene = scene, .model = model, .space = space, .spacing = model->spacing, .out = &model->facets};
+    int status = 0;
+    for (size_t k = 0; k < model->body_count && status == 0; k++)
+        status = has_mesh(&b, k) ? add_body(&b, k) : add_sides(&b, k);
+    return status == 0 ? SB_OK : sb_fail_memory(error, "facets of walls");
+}
