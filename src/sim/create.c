@@ -43,6 +43,7 @@ static sb_needs needs_of(const sb_scene *scene, const sb_model *model)
         .turbulence = n->turbulence == SB_TURBULENCE_SPS,
         .wall_shear = shear,
         .wall_drag = shear || n->wall_friction > 0,
+        .images = n->walls == SB_WALLS_IMAGES,
         .settling = settling,
         .start_velocity = settling && starts_in_motion(model),
         .direction = solver->needs_direction,
@@ -54,7 +55,9 @@ static int allocate(sb_sim *sim)
 {
     const size_t n = sim->model->fluid_count, bodies = sim->model->body_count;
     sim->work.body_force = sb_alloc(bodies * SB_FORCE_VALUES, sizeof *sim->work.body_force);
-    if (!sim->work.body_force || sb_state_create(&sim->state, &sim->needs, n, bodies) != 0) return -1;
+    sim->work.stress_force = sb_alloc(bodies * SB_FORCE_VALUES, sizeof *sim->work.stress_force);
+    if (!sim->work.body_force || !sim->work.stress_force || sb_state_create(&sim->state, &sim->needs, n, bodies) != 0)
+        return -1;
     return sb_work_create(&sim->work, &sim->needs, n, n);
 }
 
@@ -120,6 +123,7 @@ static void free_lists(sb_sim *sim)
     sb_free(sim->work.pairs.four);
     sb_free(sim->work.wall_pairs.index);
     sb_free(sim->work.wall_pairs.slope);
+    sb_free(sim->work.edge_pairs.pair);
     sb_groups_destroy(sim);
 }
 
@@ -129,6 +133,7 @@ void sb_sim_destroy(sb_sim *sim)
     sb_state_destroy(&sim->state);
     sb_work_destroy(&sim->work);
     sb_free(sim->work.body_force);
+    sb_free(sim->work.stress_force);
     free_lists(sim);
     sb_cells_free(&sim->cells);
     sb_ghosts_destroy(sim);

@@ -35,8 +35,9 @@ typedef struct sb_passes {
     void (*strain)(sb_sim *sim);
     /* stress_xx and stress: S_i = q_i <E>_i. Records carry strain_xx. */
     void (*stress)(sb_sim *sim);
-    /* corrected: the velocity after the correction. Records carry stress_xx. */
-    void (*correct)(sb_sim *sim);
+    /* corrected: the velocity after the correction, and with images stress_force. Records carry stress_xx. Returns 0,
+       or -1 without memory. */
+    int (*correct)(sb_sim *sim);
     /* eddy: nu_t = min(C_s dr, kappa d)^2 |S|. */
     void (*strain_rate)(sb_sim *sim);
     /* predicted and wall_drag: v* = v + dt (g + viscosity + drag). Records carry the density if viscous->on. */

@@ -27,4 +27,6 @@ void sb_groups_destroy(sb_sim *sim)
 {
     sb_free(sim->groups.group);
     sb_free(sim->groups.run);
+    sb_free(sim->groups.image);
+    sb_free(sim->groups.plane);
 }

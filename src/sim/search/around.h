@@ -29,7 +29,55 @@ SB_INLINE sb_f4 sb_offset_carrying(sb_record record, sb_record corner)
     __builtin_shufflevector(__builtin_convertvector((sb_two_offsets)((records) - (corner)), sb_two_values),            \
                             (sb_two_values)(records), 0, 1, 2, 11, 4, 5, 6, 15)
 
-/* Copies the records around a group, as offsets from its corner. out: SB_AROUND_MAX. */
+/* A position reflected by a plane; the last lane does not change. */
+SB_INLINE sb_f4 sb_reflect(sb_f4 plane, sb_f4 at)
+{
+    const float twice = 2 * (sb_sum3(plane * at) - plane[3]);
+    return at - plane * (sb_f4){twice, twice, twice, 0};
+}
+
+/* A vector reflected by a plane. */
+SB_INLINE sb_f4 sb_reflect_vector(sb_f4 plane, sb_f4 v)
+{
+    const float twice = 2 * sb_sum3(plane * v);
+    return v - plane * (sb_f4){twice, twice, twice, 0};
+}
+
+/* A symmetric tensor T without trace reflected by a plane, R T R: xx is the last lane of *at, and *rest is yy, xy, xz,
+   yz. In 2D yy = 0. */
+SB_INLINE void sb_reflect_tensor(sb_f4 plane, sb_f4 *at, sb_f4 *rest)
+{
+    const sb_f4 n = plane, t = *rest;
+    const float xx = (*at)[3], zz = -xx - t[0];
+    const sb_f4 through = {xx * n[0] + t[1] * n[1] + t[2] * n[2], t[1] * n[0] + t[0] * n[1] + t[3] * n[2],
+                           t[2] * n[0] + t[3] * n[1] + zz * n[2], 0}; /* T n */
+    const float normal = sb_sum3(n * through);
+    /* T' = T - 2 (n (x) Tn + Tn (x) n) + 4 (n.Tn) n (x) n = T - (n (x) w + w (x) n), w = 2 Tn - 2 (n.Tn) n */
+    const sb_f4 w = (through - n * sb_splat(normal)) * sb_splat(2);
+    (*at)[3] = xx - 2 * n[0] * w[0];
+    *rest = (sb_f4){t[0] - 2 * n[1] * w[1], t[1] - n[0] * w[1] - n[1] * w[0], t[2] - n[0] * w[2] - n[2] * w[0],
+                    t[3] - n[1] * w[2] - n[2] * w[1]};
+}
+
+SB_INLINE sb_f4 sb_path_plane(const sb_group_plane *planes, uint32_t path)
+{
+    return planes[(path & SB_REFLECTION_MASK) - 1].plane;
+}
+
+/* Appends the images to the records around a group. */
+SB_INLINE void sb_around_images(const sb_sim *sim, const sb_group *group, sb_f4 *out)
+{
+    const sb_image *image = sim->groups.image + group->image;
+    const sb_group_plane *planes = sim->groups.plane + group->plane;
+    for (uint32_t k = 0; k < group->images; k++) {
+        sb_f4 at = sb_offset_carrying(sim->state.position[image[k].from], group->corner);
+        for (uint32_t path = image[k].path; path; path >>= SB_REFLECTION_BITS)
+            at = sb_reflect(sb_path_plane(planes, path), at);
+        out[k] = at;
+    }
+}
+
+/* Copies the records around a group, as offsets from its corner, and their images. out: SB_AROUND_MAX. */
 SB_INLINE void sb_around(const sb_sim *sim, const sb_group *group, sb_f4 *out)
 {
     const sb_record c = group->corner;
@@ -41,10 +89,12 @@ SB_INLINE void sb_around(const sb_sim *sim, const sb_group *group, sb_f4 *out)
             *(sb_two_values *)out = SB_OFFSETS_CARRYING(*(const sb_two_records *)record, corner);
         if (record < end) *out++ = sb_offset_carrying(*record, c);
     }
+    if (group->images > 0) sb_around_images(sim, group, out);
 }
 
-/* The same, each record followed by its value of a field. out: 2 SB_AROUND_MAX. */
-SB_INLINE void sb_around_with(const sb_sim *sim, const sb_group *group, const sb_f4 *field, sb_f4 *out)
+/* The records alone, each followed by its value of a field. Returns where the images would begin. out: 2
+   SB_AROUND_MAX. */
+SB_INLINE sb_f4 *sb_around_with(const sb_sim *sim, const sb_group *group, const sb_f4 *field, sb_f4 *out)
 {
     const sb_record c = group->corner;
     const sb_two_records corner = __builtin_shufflevector(c, c, 0, 1, 2, 3, 0, 1, 2, 3);
@@ -61,6 +111,42 @@ SB_INLINE void sb_around_with(const sb_sim *sim, const sb_group *group, const sb
         if (record == end) continue;
         *out++ = sb_offset_carrying(*record, c);
         *out++ = *value;
+    }
+    return out;
+}
+
+/* The same with images, of a field of vectors. */
+SB_INLINE void sb_around_vectors(const sb_sim *sim, const sb_group *group, const sb_f4 *field, sb_f4 *out)
+{
+    out = sb_around_with(sim, group, field, out);
+    const sb_image *image = sim->groups.image + group->image;
+    const sb_group_plane *planes = sim->groups.plane + group->plane;
+    for (uint32_t k = 0; k < group->images; k++, out += 2) {
+        sb_f4 at = sb_offset_carrying(sim->state.position[image[k].from], group->corner), value = field[image[k].from];
+        for (uint32_t path = image[k].path; path; path >>= SB_REFLECTION_BITS) {
+            const sb_f4 plane = sb_path_plane(planes, path);
+            at = sb_reflect(plane, at);
+            value = sb_reflect_vector(plane, value);
+        }
+        out[0] = at;
+        out[1] = value;
+    }
+}
+
+/* The same for tensors in the form of sb_reflect_tensor. */
+SB_INLINE void sb_around_tensors(const sb_sim *sim, const sb_group *group, const sb_f4 *field, sb_f4 *out)
+{
+    out = sb_around_with(sim, group, field, out);
+    const sb_image *image = sim->groups.image + group->image;
+    const sb_group_plane *planes = sim->groups.plane + group->plane;
+    for (uint32_t k = 0; k < group->images; k++, out += 2) {
+        out[0] = sb_offset_carrying(sim->state.position[image[k].from], group->corner);
+        out[1] = field[image[k].from];
+        for (uint32_t path = image[k].path; path; path >>= SB_REFLECTION_BITS) {
+            const sb_f4 plane = sb_path_plane(planes, path);
+            out[0] = sb_reflect(plane, out[0]);
+            sb_reflect_tensor(plane, &out[0], &out[1]);
+        }
     }
 }
 
@@ -115,7 +201,34 @@ SB_INLINE sb_f4 sb_slopes(const sb_four_pairs *four)
     return root * root;
 }
 
-/* Number of records around the group. */
+/* The owned particle that an entry of the arrays around is, or is a ghost of. */
+SB_INLINE uint32_t sb_entry_owner(const sb_sim *sim, uint32_t entry)
+{
+    return entry < sim->state.n ? entry : sim->ghosts.of[entry - sim->state.n];
+}
+
+/* Particle i's pairs at edges: their part of the sum of m (q_i + q_j) grad W, and of the sum of m (f_i - f_j) . grad W.
+   Records carry q. */
+SB_INLINE sb_f4 sb_edges_push(const sb_sim *sim, size_t i, float q)
+{
+    const sb_edge_pair *e = sim->work.edge_pairs.pair + sim->work.edge_pairs.first[i];
+    sb_f4 sum = {0};
+    for (const sb_edge_pair *end = e + sim->work.edge_pairs.count[i]; e < end; e++)
+        sum += e->own * sb_splat(q + sb_carried_value(sim->state.position[e->entry]));
+    sum[3] = 0;
+    return sum;
+}
+
+SB_INLINE float sb_edges_flow(const sb_sim *sim, size_t i, const sb_f4 *field)
+{
+    const sb_edge_pair *e = sim->work.edge_pairs.pair + sim->work.edge_pairs.first[i];
+    float sum = 0;
+    for (const sb_edge_pair *end = e + sim->work.edge_pairs.count[i]; e < end; e++)
+        sum += sb_sum3(e->own * field[i] + e->other * field[e->entry]);
+    return sum;
+}
+
+/* Number of records around the group, without images. */
 SB_INLINE uint32_t sb_around_count(const sb_sim *sim, const sb_group *group)
 {
     uint32_t count = 0;

@@ -11,11 +11,26 @@ typedef struct sb_run {
     uint32_t begin, count;
 } sb_run;
 
+/* A plane of walls near a group: unit normal, and normal . x on it with x in quanta from the group's corner. */
+typedef struct sb_group_plane {
+    sb_f4 plane;
+    uint32_t mirror; /* index into walls.mirrors */
+} sb_group_plane;
+
+/* A record reflected by planes of its group. path: indices of the planes plus 1, the first reflection in the lowest
+   byte; 0: no more. */
+enum { SB_REFLECTIONS_MAX = 4, SB_REFLECTION_BITS = 8, SB_REFLECTION_MASK = 255 };
+typedef struct sb_image {
+    uint32_t from, path;
+} sb_image;
+
 /* Consecutive particles, and the records around them; see sim/search/around.h. */
 typedef struct sb_group {
-    uint32_t first, end; /* particles [first, end) */
-    uint32_t run, runs;  /* records around them, themselves included: runs [run, run + runs) */
-    sb_record corner;    /* quanta: no record around is below it, or four cells or more above it */
+    uint32_t first, end;    /* particles [first, end) */
+    uint32_t run, runs;     /* records around them, themselves included: runs [run, run + runs) */
+    uint32_t image, images; /* images of records around them */
+    uint32_t plane, planes; /* that reflect them */
+    sb_record corner;       /* quanta: no record around is below it, or four cells or more above it */
 } sb_group;
 
 typedef struct sb_groups {
@@ -23,6 +38,10 @@ typedef struct sb_groups {
     size_t count, capacity;
     sb_run *run;
     size_t used, room; /* runs */
+    sb_image *image;
+    size_t images_used, images_room;
+    sb_group_plane *plane;
+    size_t planes_used, planes_room;
 } sb_groups;
 
 /* Four neighbours. place: the argument of sb_at. slope: the root of m W'(r)/r times the quantum over sb_lists.unit,
@@ -39,12 +58,34 @@ static const float SB_SLOPE_OWN = (float)SB_ROOT_MAX * (float)SB_ROOT_MAX;
 /* Fluid neighbours of particle i: groups of four [first[i], first[i] + count[i]). The last group is padded with the
    particle itself at slope 0. */
 typedef struct sb_lists {
-    uint32_t *first; /* n */
-    uint16_t *count; /* n */
+    uint32_t *first;  /* n */
+    uint16_t *count;  /* n */
+    uint16_t *direct; /* n: of the groups of four, those with particles, which come first; then those with images; NULL:
+                         there are no images */
     sb_four_pairs *four;
     size_t used, capacity; /* groups of four */
     float unit;            /* < 0 */
 } sb_lists;
+
+static inline uint16_t sb_direct(const sb_lists *lists, size_t i)
+{
+    return lists->direct ? lists->direct[i] : lists->count[i];
+}
+
+/* What a pair (i, j) has besides its slope where its weight changes with the places of both: m W times the derivative
+   of the weight by x_i (own) and by x_j (other), kg/m^4. mirror: the facet that weighs the path. */
+typedef struct sb_edge_pair {
+    sb_f4 own, other;
+    uint32_t entry, mirror;
+} sb_edge_pair;
+
+/* Such pairs of particle i: [first[i], first[i] + count[i]). */
+typedef struct sb_edge_pairs {
+    uint32_t *first; /* n; NULL: walls do not reflect */
+    uint16_t *count; /* n */
+    sb_edge_pair *pair;
+    size_t used, capacity;
+} sb_edge_pairs;
 
 /* Boundary particles around particle i: [first[i], first[i] + count[i]), padded to a multiple of four with slope 0. */
 typedef struct sb_pairs {

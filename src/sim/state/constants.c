@@ -4,6 +4,22 @@
 
 #include <math.h>
 
+/* Circular frequency of the slowest oscillation of the water: half a wavelength over its longest horizontal extent, at
+   its mean depth. 1/s. */
+static double slowest(const sb_scene *scene, const sb_model *model)
+{
+    const double dr = scene->resolution;
+    if (model->fluid_count == 0 || !model->fluid_position) return 0;
+    sb_vec3 low = model->fluid_position[0], high = low;
+    for (size_t i = 1; i < model->fluid_count; i++) {
+        low = sb_min(low, model->fluid_position[i]);
+        high = sb_max(high, model->fluid_position[i]);
+    }
+    const double x = high.x - low.x + dr, y = scene->dimensions == 2 ? dr : high.y - low.y + dr;
+    const double depth = (double)model->fluid_count * dr * dr * dr / (x * y);
+    return acos(-1) * sqrt(scene->fluid.gravity * depth) / fmax(x, y);
+}
+
 sb_constants sb_constants_of(const sb_scene *scene, const sb_model *model)
 {
     double dr = scene->resolution, g = scene->fluid.gravity;
@@ -18,6 +34,7 @@ sb_constants sb_constants_of(const sb_scene *scene, const sb_model *model)
         .mass = (float)mass,
         .gravity = (float)g,
         .wave_speed = (float)wave_speed,
+        .slowest = (float)slowest(scene, model),
         .sound_speed = (float)sound,
         .viscosity = (float)scene->fluid.viscosity,
         .full_diagonal = (float)sb_lattice_diagonal(scene, mass),

@@ -11,6 +11,7 @@ typedef struct sb_constants {
     float rest_density, mass; /* kg/m^3; kg (kg/m in 2D) */
     float gravity;            /* m/s^2 */
     float wave_speed;         /* m/s, sqrt(g D) */
+    float slowest;            /* 1/s, circular frequency of the water's slowest oscillation */
     float sound_speed;        /* m/s */
     float viscosity;          /* m^2/s, physical */
     float full_diagonal;      /* |a_ii|/dt^2 of a full lattice: the scale of a_ii */

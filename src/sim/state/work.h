@@ -58,12 +58,14 @@ enum { SB_FORCE_VALUES = 9 }; /* of a body: pressure and drag, N, and moment, N 
 typedef struct sb_work {
     sb_lists pairs; /* with fluid particles, and with boundary particles */
     sb_pairs wall_pairs;
+    sb_edge_pairs edge_pairs;
 
     uint64_t *sort_words, *sort_other; /* keys and indices */
     sb_record *sorted;                 /* one state field of any type, in its new order */
     sb_record *images;                 /* beyond periodic sides, in the order of their originals */
 
     sb_f4 *wall;          /* sum_b psi_b grad W_ib; last lane: sum_b psi_b v_b . grad W_ib */
+    sb_f4 *image_push;    /* m/s^2, by the hydrostatic part of the pressure of images; NULL: walls do not reflect */
     float *density;       /* kg/m^3, density correction included */
     float *wall_density;  /* kg/m^3, the walls' part of it */
     float *water_squared; /* |sum_j m grad W_ij|^2 */
@@ -86,8 +88,9 @@ typedef struct sb_work {
     sb_f4 *end_velocity; /* m/s, at t + dt; last lane: pressure in Pa */
     float *virial;       /* Pa, virial pressures (sim/terms/virial_pressure.c) */
 
-    uint64_t everywhere; /* owned particles of all domains */
-    double *body_force;  /* per body SB_FORCE_VALUES values, of all domains */
+    uint64_t everywhere;  /* owned particles of all domains */
+    double *body_force;   /* per body SB_FORCE_VALUES values, of all domains */
+    double *stress_force; /* the same by the stress correction, with images; else 0 */
     sb_ledger_sums sums;
     sb_vec3 stress_gain; /* kg m/s, momentum from the stress correction: only round-off */
     sb_solve solve;

@@ -20,11 +20,19 @@ typedef struct fastest {
     size_t particle;
 } fastest;
 
+/* Fraction of the velocity that remains in this step. With images the damping is critical for the slowest oscillation:
+   more would hold back the water's levels. */
+static float kept(const sb_sim *sim)
+{
+    const bool by_slowest = sim->policy->keep < 1 && sim->needs.images && sim->constant.slowest > 0;
+    return by_slowest ? expf(-2 * sim->constant.slowest * (float)sim->state.time_step) : sim->policy->keep;
+}
+
 SB_MULTIVERSION
 static fastest accelerate(sb_sim *sim, size_t block)
 {
     const sb_f4 dt = sb_splat((float)sim->state.time_step);
-    const sb_f4 damping = sb_splat(sim->policy->keep);
+    const sb_f4 damping = sb_splat(kept(sim));
     const bool flat = sim->constant.dimension == 2;
     fastest top = {0, block * SB_BLOCK};
     for (size_t i = block * SB_BLOCK; i < sb_block_end(sim, block); i++) {

@@ -35,7 +35,7 @@ sb_status sb_stage_stress_correction(sb_sim *sim, sb_error *error)
     sb_refresh(sim, sim->work.stress);
     sb_pressure_load(sim, sim->work.stress_xx);
     sb_work_enter(&sim->work, SB_PHASE_CORRECTED);
-    sim->passes->correct(sim);
+    if (sim->passes->correct(sim) != 0) return sb_fail_memory(error, "forces on bodies");
     double sum[SUMS];
     const double fast = -sb_sum_groups(sim, SUMS, sum_changes, sum);
     if (fast < (double)sim->state.n)

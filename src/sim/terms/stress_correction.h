@@ -18,8 +18,17 @@
 #include "sim/simulation.h"
 
 /* Least t_i of a particle that is corrected. Below it the free surface is near, and M_i shows the surface instead of
-   the packing. */
-static const float SB_STRESS_FULL = 0.9f;
+   the packing. With images the correction acts beside walls, too, where a step from nothing to the whole stirs water at
+   rest over slopes: it begins at LEAST and is whole from WHOLE on. */
+static const float SB_STRESS_FULL = 0.9f, SB_STRESS_LEAST = 0.85f, SB_STRESS_WHOLE = 0.95f;
+
+/* The c of a particle with t_i. */
+static inline float sb_stress_share(const sb_sim *sim, float whole, float t)
+{
+    if (!sim->needs.images) return t >= SB_STRESS_FULL ? whole : 0;
+    const float part = (t - SB_STRESS_LEAST) / (SB_STRESS_WHOLE - SB_STRESS_LEAST);
+    return part >= 1 ? whole : part > 0 ? whole * part : 0;
+}
 
 /* Adds the correction to the velocities of one step, from the pressures of the last step and the present neighbour
    lists. Momentum is conserved. The work is entered in the ledger. Fails, without changing velocities, if a particle

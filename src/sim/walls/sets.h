@@ -37,7 +37,23 @@ typedef struct sb_moving_rest {
     sb_f4 *normal;
 } sb_moving_rest;
 
+struct sb_mirror; /* sim/walls/mirrors.c */
+struct sb_mirror_edge;
+struct sb_mirror_entry;
+
+/* The facets at which water is reflected, and a table of those near each block of 2 x 2 x 2 cells. */
+typedef struct sb_mirrors {
+    size_t count, capacity, edge_count, edge_capacity;
+    struct sb_mirror *mirror;
+    struct sb_mirror_edge *edge;
+    size_t moving_count;
+    uint32_t *moving; /* mirrors of moving bodies; they are in no block */
+    size_t entries, entries_capacity;
+    struct sb_mirror_entry *entry; /* sorted by block */
+} sb_mirrors;
+
 typedef struct sb_walls {
+    sb_mirrors mirrors;
     sb_wall_set set[SB_WALL_SETS];
     sb_moving_rest rest;
     size_t moving_count;

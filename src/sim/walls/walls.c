@@ -6,6 +6,7 @@
 #include "sim/search/sort.h"
 #include "sim/simulation.h"
 #include "sim/step/stages.h"
+#include "sim/walls/mirrors.h"
 
 #include <math.h>
 #include <string.h>
@@ -170,6 +171,7 @@ sb_status sb_walls_create(sb_sim *sim, sb_error *error)
             return sb_fail_memory(error, "images of boundary particles");
         if (near_build(set, &sim->space) != 0) return sb_fail_memory(error, "boundary particles");
     }
+    if (sim->needs.images && (status = sb_mirrors_create(sim, error)) != SB_OK) return status;
     const sb_wall_set *set = &sim->walls.set[SB_MOVING];
     sim->walls.rest.count = set->count;
     sim->walls.rest.record = sb_alloc_untouched(set->count, sizeof *sim->walls.rest.record);
@@ -197,6 +199,7 @@ void sb_walls_destroy(sb_sim *sim)
     for (size_t m = 0; m < sim->walls.moving_count; m++) sb_paddle_destroy(&sim->walls.moving[m].paddle);
     sb_free(sim->walls.moving);
     sb_free(sim->walls.moving_of_body);
+    sb_mirrors_destroy(sim);
     sb_free(sim->walls.rest.record);
     sb_free(sim->walls.rest.body);
     sb_free(sim->walls.rest.normal);

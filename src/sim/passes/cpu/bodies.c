@@ -1,23 +1,19 @@
-#include "base/memory.h"
 #include "sim/exchange/exchange.h"
 #include "sim/exchange/sums.h"
+#include "sim/passes/cpu/body_forces.h"
 #include "sim/passes/cpu/cpu.h"
 #include "sim/passes/cpu/drag.h"
 #include "sim/passes/groups.h"
+#include "sim/search/around.h"
 #include "sim/step/ledger.h"
 #include "sim/walls/contact.h"
+#include "sim/walls/mirrors.h"
 
-#include <string.h>
+enum { WORKS = 3 };
 
-enum { VALUES = SB_FORCE_VALUES, WORKS = 3 };
-
-/* Forces on bodies, summed by one thread. */
+/* Forces on bodies, and works, summed by one thread. */
 typedef struct forces {
-    double *sum;           /* of the present group: sum[body][VALUES] */
-    uint32_t *body;        /* those that the group acts on */
-    size_t count;          /* of them */
-    bool *acted_on;        /* per body */
-    sb_exact *all;         /* of all groups so far: all[body][VALUES] */
+    sb_body_forces on;
     sb_exact works[WORKS]; /* friction, contact, contact_bodies of sb_ledger_sums */
 } forces;
 
@@ -45,24 +41,9 @@ static sb_vec3 vector(sb_f4 v, double scale)
     return sb_vec(scale * (double)v[0], scale * (double)v[1], scale * (double)v[2]);
 }
 
-static void add_to(double value[3], sb_vec3 v)
-{
-    value[0] += v.x;
-    value[1] += v.y;
-    value[2] += v.z;
-}
-
-/* Adds a force on a body. pressure, drag: N; at: m, the point of application. */
 SB_APART void add(const sb_sim *sim, forces *to, uint32_t body, sb_vec3 at, sb_vec3 pressure, sb_vec3 drag)
 {
-    double *value = to->sum + (size_t)VALUES * body;
-    if (!to->acted_on[body]) {
-        to->acted_on[body] = true;
-        to->body[to->count++] = body;
-    }
-    add_to(value, pressure);
-    add_to(value + 3, drag);
-    add_to(value + 6, sb_cross(sb_sub(at, sim->model->bodies[body].moment_point), sb_add(pressure, drag)));
+    sb_body_forces_add(sim, &to->on, body, at, pressure, drag);
 }
 
 static void flush(tally *t)
@@ -111,6 +92,31 @@ SB_APART void contact(sb_sim *sim, size_t i, forces *to, double works[WORKS])
     sim->work.end_velocity[i] = velocity;
 }
 
+/* The same at facets. */
+SB_APART void contact_facets(sb_sim *sim, const sb_group *group, size_t i, forces *to, double works[WORKS])
+{
+    const sb_f4 start = sim->state.velocity[i];
+    const float to_quanta = (float)(sim->state.time_step / sim->space.quantum);
+    const double scale = -(double)sim->constant.mass / sim->state.time_step;
+    sb_f4 velocity = sim->work.end_velocity[i];
+    sb_facet_contact c;
+    int count = 0;
+    for (; count < SB_CONTACT_PUSHES_MAX && sb_mirrors_contact(sim, group, i, velocity, &c); count++) {
+        const sb_group_plane *p = &sim->groups.plane[group->plane + c.plane];
+        const sb_f4 change = p->plane * (sb_f4){1, 1, 1, 0} * sb_splat(c.push / to_quanta);
+        const sb_f4 body = sb_mirror_velocity(sim, p->mirror);
+        const sb_vec3 at =
+            sb_add(sb_space_position(&sim->space, sim->state.position[i]), sb_mirror_shift(sim, p->mirror));
+        add(sim, to, sb_mirror_body(sim, p->mirror), at, vector(change, scale), (sb_vec3){0});
+        works[2] += sb_ledger_work((sb_f4){0}, change, body, body);
+        velocity += change;
+    }
+    if (count == 0) return;
+    works[1] += sb_ledger_work(sim->work.end_velocity[i], velocity, start, velocity);
+    velocity[3] = sim->work.end_velocity[i][3];
+    sim->work.end_velocity[i] = velocity;
+}
+
 /* Whether all boundary particles of a list belong to one body. Always false with periodic sides, where forces on images
    act elsewhere. */
 static bool one_body(const sb_sim *sim, const uint32_t *index, size_t count)
@@ -119,6 +125,39 @@ static bool one_body(const sb_sim *sim, const uint32_t *index, size_t count)
     const uint32_t first = count > 0 ? sb_wall_body(sim, index[0]) : 0;
     for (size_t k = 1; k < count && same; k++) same = sb_wall_body(sim, index[k]) == first;
     return same;
+}
+
+/* Adds the forces on bodies by pairs of particle i with images and by its pairs at edges. Each reflection of a path
+   takes the normal part of the pair's force; what remains acts between the two particles. */
+static void react_images(const sb_sim *sim, const sb_group *group, uint32_t records, size_t i, sb_reactions *reactions,
+                         forces *to)
+{
+    const sb_lists *lists = &sim->work.pairs;
+    const sb_group_plane *planes = sim->groups.plane + group->plane;
+    const sb_vec3 at = sb_space_position(&sim->space, sim->state.position[i]);
+    const sb_f4 self = sb_offset(sim->state.position[i], group->corner);
+    const float own = sim->work.unknown[i], hydrostatic = sb_hydrostatic(sim);
+    for (size_t k = 4 * (size_t)lists->direct[i]; k < 4 * (size_t)lists->count[i]; k++) {
+        const sb_four_pairs *four = &lists->four[lists->first[i] + k / 4];
+        if (four->slope[k % 4] == 0) continue;
+        const sb_image image = sim->groups.image[group->image + four->place[k % 4] / SB_PLACE_STEP - records];
+        const float root = (float)four->slope[k % 4], slope = root * root * lists->unit;
+        const sb_f4 from = sb_offset(sim->state.position[image.from], group->corner);
+        sb_f4 place = from;
+        for (uint32_t path = image.path; path; path >>= SB_REFLECTION_BITS)
+            place = sb_reflect(sb_path_plane(planes, path), place);
+        const float q = own + sim->work.unknown[sb_entry_owner(sim, image.from)];
+        const sb_f4 pull = (self - place) * sb_splat(-slope);
+        sb_reactions_reflected(reactions, planes, image.path, pull * sb_splat(q));
+        sb_reactions_normal(reactions, planes, image.path, pull * sb_splat(hydrostatic * (from[2] - place[2])));
+    }
+    sb_reactions_close(sim, planes, at, reactions, &to->on);
+    for (uint32_t k = 0; k < sim->work.edge_pairs.count[i]; k++) {
+        const sb_edge_pair *e = &sim->work.edge_pairs.pair[sim->work.edge_pairs.first[i] + k];
+        const double q = (double)own + (double)sim->work.unknown[sb_entry_owner(sim, e->entry)];
+        add(sim, to, sb_mirror_body(sim, e->mirror), sb_add(at, sb_mirror_shift(sim, e->mirror)),
+            vector(e->own, (double)sim->constant.mass * q), (sb_vec3){0});
+    }
 }
 
 /* Adds the forces of particle i's pressure and drag on bodies. Returns the sum of sb_wall_drag_four; law: NULL without
@@ -130,7 +169,8 @@ SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_wall_drag *law, forc
     const size_t count = sim->work.wall_pairs.count[i];
     const double mass = (double)sim->constant.mass;
     const sb_f4 *velocity = sim->state.velocity; /* at the step's start */
-    tally t = {.sim = sim, .to = to, .press = mass * (double)sim->work.unknown[i], .mass = mass};
+    tally t = {
+        .sim = sim, .to = to, .press = sim->needs.images ? 0 : mass * (double)sim->work.unknown[i], .mass = mass};
     sb_f4 drag = {0}, part[4];
     t.at = sb_space_position(&sim->space, sim->state.position[i]);
     if (count > 0) t.body = sb_wall_body(sim, index[0]);
@@ -162,42 +202,24 @@ static void do_group(sb_sim *sim, const sb_group *group, const sb_wall_drag *law
 {
     const sb_f4 *velocity = sim->state.velocity; /* at the step's start */
     double works[WORKS] = {0};
+    const uint32_t records = sb_around_count(sim, group);
+    sb_reactions reactions = {0};
     bool beside_wall = false;
     for (size_t i = group->first; i < group->end; i++) {
-        if (sim->work.wall_pairs.count[i] == 0) continue;
+        const bool reflects = sim->needs.images && (sim->work.pairs.count[i] > sim->work.pairs.direct[i] ||
+                                                    sim->work.edge_pairs.count[i] > 0);
+        if (sim->work.wall_pairs.count[i] == 0 && !reflects && group->planes == 0) continue;
         beside_wall = true;
+        if (reflects) react_images(sim, group, records, i, &reactions, to);
+        if (group->planes > 0) contact_facets(sim, group, i, to, works);
+        if (sim->work.wall_pairs.count[i] == 0) continue;
         const sb_f4 drag = react(sim, i, law->on ? law : NULL, to);
-        contact(sim, i, to, works);
+        if (!sim->needs.images) contact(sim, i, to, works);
         if (law->on) works[0] += sb_ledger_work((sb_f4){0}, drag, velocity[i], sim->work.end_velocity[i]);
     }
     if (!beside_wall) return;
     for (int k = 0; k < WORKS; k++) sb_exact_add(&to->works[k], works[k]);
-    for (size_t b = 0; b < to->count; b++) {
-        double *sum = to->sum + (size_t)VALUES * to->body[b];
-        sb_exact *all = to->all + (size_t)VALUES * to->body[b];
-        for (int v = 0; v < VALUES; v++) sb_exact_add(&all[v], sum[v]);
-        memset(sum, 0, VALUES * sizeof *sum);
-        to->acted_on[to->body[b]] = false;
-    }
-    to->count = 0;
-}
-
-static void forces_free(forces *f)
-{
-    sb_free(f->sum);
-    sb_free(f->body);
-    sb_free(f->acted_on);
-    sb_free(f->all);
-}
-
-/* Returns 0, or -1 without memory. */
-static int forces_create(forces *f, size_t bodies)
-{
-    *f = (forces){.sum = sb_alloc(bodies * VALUES, sizeof *f->sum),
-                  .body = sb_alloc(bodies, sizeof *f->body),
-                  .acted_on = sb_alloc(bodies, sizeof *f->acted_on),
-                  .all = sb_alloc(bodies * VALUES, sizeof *f->all)};
-    return f->sum && f->body && f->acted_on && f->all ? 0 : -1;
+    sb_body_forces_close(&to->on);
 }
 
 /* Sums of all threads into `total`. False: a thread has no memory for its own. */
@@ -207,36 +229,36 @@ static bool sum_forces(sb_sim *sim, const sb_wall_drag *law, forces *total)
     bool enough = true;
 #pragma omp parallel reduction(&& : enough)
     {
-        forces own;
-        enough = forces_create(&own, bodies) == 0;
+        forces own = {0};
+        enough = sb_body_forces_create(&own.on, bodies) == 0;
 #pragma omp for schedule(dynamic, SB_GROUPS_AT_A_TIME)
         for (size_t g = 0; g < groups; g++)
             if (enough) do_group(sim, &sim->groups.group[g], law, &own);
         if (enough) {
-            sb_sums_merge(total->all, own.all, bodies * VALUES);
+            sb_sums_merge(total->on.all, own.on.all, bodies * SB_FORCE_VALUES);
             sb_sums_merge(total->works, own.works, WORKS);
         }
-        forces_free(&own);
+        sb_body_forces_free(&own.on);
     }
     return enough;
 }
 
 int sb_cpu_bodies(sb_sim *sim, const sb_wall_drag *law, sb_body_sums *total)
 {
-    forces all;
-    const size_t values = sim->model->body_count * VALUES;
-    int status = forces_create(&all, sim->model->body_count);
+    forces all = {0};
+    const size_t values = sim->model->body_count * SB_FORCE_VALUES;
+    int status = sb_body_forces_create(&all.on, sim->model->body_count);
     if (status == 0 && !sum_forces(sim, law, &all)) status = -1;
     if (status == 0) {
-        sim->exchange->sum(sim, all.all, values);
+        sim->exchange->sum(sim, all.on.all, values);
         sim->exchange->sum(sim, all.works, WORKS);
     }
-    for (size_t v = 0; v < values && status == 0; v++) total->force[v] = sb_exact_value(&all.all[v]);
+    for (size_t v = 0; v < values && status == 0; v++) total->force[v] = sb_exact_value(&all.on.all[v]);
     if (status == 0) {
         total->friction = sb_exact_value(&all.works[0]);
         total->contact = sb_exact_value(&all.works[1]);
         total->contact_bodies = sb_exact_value(&all.works[2]);
     }
-    forces_free(&all);
+    sb_body_forces_free(&all.on);
     return status;
 }

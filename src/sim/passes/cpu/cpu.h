@@ -7,7 +7,7 @@
 sb_status sb_cpu_neighbours(sb_sim *sim, sb_error *error);
 void sb_cpu_strain(sb_sim *sim);
 void sb_cpu_stress(sb_sim *sim);
-void sb_cpu_correct(sb_sim *sim);
+int sb_cpu_correct(sb_sim *sim);
 void sb_cpu_strain_rate(sb_sim *sim);
 void sb_cpu_forces(sb_sim *sim, const sb_viscous *viscous, const sb_wall_drag *law);
 void sb_cpu_accelerate(sb_sim *sim);

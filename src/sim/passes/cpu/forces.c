@@ -47,7 +47,8 @@ SB_INLINE sb_f4 fluid_part(const sb_sim *sim, const sb_group *group, const sb_f4
     const own_part own = {
         sb_spread(at, 0), sb_spread(at, 1), sb_spread(at, 2), sb_spread(at, 3),
         sb_spread(of, 0), sb_spread(of, 1), sb_spread(of, 2), sb_splat8(eddies ? sim->work.eddy[i] : 0)};
-    const sb_four_pairs *four = sim->work.pairs.four + sim->work.pairs.first[i], *end = four + sim->work.pairs.count[i];
+    const sb_four_pairs *four = sim->work.pairs.four + sim->work.pairs.first[i],
+                        *end = four + sb_direct(&sim->work.pairs, i);
     sb_f4 x = {0}, y = {0}, z = {0};
     for (; four < end; four += 2) {
         const bool two = four + 1 < end;
@@ -96,6 +97,7 @@ static void do_group(sb_sim *sim, const sb_group *group, const void *arguments)
         else if (viscous)
             a += fluid_part(sim, group, around, i, f, false);
         if (law->on && sim->work.wall_pairs.count[i] > 0) a += sim->work.wall_drag[i] = wall_part(sim, i, law);
+        if (sim->work.image_push) a += sim->work.image_push[i];
         a[3] = 0;
         next[i] = sim->state.velocity[i] + a * sb_splat(dt);
     }

@@ -22,18 +22,29 @@ static void write_fours(sb_four_pairs *four, const sb_hits *h)
     }
 }
 
-void sb_list_water(sb_list_builder *lists, const sb_hits *hits, sb_sim *sim, size_t i)
+/* Returns the number of groups of four, 0 without memory. */
+static size_t append(sb_list_builder *lists, const sb_hits *hits)
 {
     const size_t fours = (hits->count + 3) / 4, written = hits->padded / 4;
-    sim->work.pairs.first[i] = (uint32_t)lists->fours;
-    sim->work.pairs.count[i] = 0;
     if (sb_grow((void **)&lists->four, &lists->capacity_four, lists->fours + written, sizeof *lists->four) != 0) {
         lists->out_of_memory = true;
-        return;
+        return 0;
     }
     write_fours(lists->four + lists->fours, hits);
     lists->fours += fours;
-    sim->work.pairs.count[i] = (uint16_t)fours;
+    return fours;
+}
+
+void sb_list_water(sb_list_builder *lists, const sb_hits *hits, sb_sim *sim, size_t i)
+{
+    sim->work.pairs.first[i] = (uint32_t)lists->fours;
+    sim->work.pairs.count[i] = (uint16_t)append(lists, hits);
+    if (sim->work.pairs.direct) sim->work.pairs.direct[i] = sim->work.pairs.count[i];
+}
+
+void sb_list_reflected(sb_list_builder *lists, const sb_hits *hits, sb_sim *sim, size_t i)
+{
+    sim->work.pairs.count[i] = (uint16_t)(sim->work.pairs.count[i] + append(lists, hits));
 }
 
 void sb_list_walls(sb_list_builder *lists, const sb_hits *hits, sb_sim *sim, size_t i)
@@ -73,4 +84,7 @@ void sb_list_builder_free(sb_list_builder *lists)
     sb_free(lists->wall);
     sb_free(lists->wall_slope);
     sb_free(lists->run);
+    sb_free(lists->image);
+    sb_free(lists->plane);
+    sb_free(lists->edge);
 }

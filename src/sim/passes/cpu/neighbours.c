@@ -20,24 +20,34 @@ static bool take(size_t *used, size_t capacity, size_t count, size_t *at)
 static bool publish(sb_sim *sim, sb_list_builder *lists, size_t begin, size_t end)
 {
     sb_groups *groups = &sim->groups;
-    size_t four, wall, run;
+    size_t four, wall, run, image, plane, edge;
     bool room = take(&sim->work.pairs.used, sim->work.pairs.capacity, lists->fours, &four);
     room &= take(&sim->work.wall_pairs.used, sim->work.wall_pairs.capacity, lists->walls, &wall);
     room &= take(&groups->used, groups->room, lists->runs, &run);
+    room &= take(&groups->images_used, groups->images_room, lists->images, &image);
+    room &= take(&sim->work.edge_pairs.used, sim->work.edge_pairs.capacity, lists->edges, &edge);
+    room &= take(&groups->planes_used, groups->planes_room, lists->planes, &plane);
     if (room && lists->fours > 0) memcpy(sim->work.pairs.four + four, lists->four, lists->fours * sizeof *lists->four);
     if (room && lists->walls > 0) {
         memcpy(sim->work.wall_pairs.index + wall, lists->wall, lists->walls * sizeof *lists->wall);
         memcpy(sim->work.wall_pairs.slope + wall, lists->wall_slope, lists->walls * sizeof *lists->wall_slope);
     }
     if (room && lists->runs > 0) memcpy(groups->run + run, lists->run, lists->runs * sizeof *lists->run);
+    if (room && lists->images > 0) memcpy(groups->image + image, lists->image, lists->images * sizeof *lists->image);
+    if (room && lists->planes > 0) memcpy(groups->plane + plane, lists->plane, lists->planes * sizeof *lists->plane);
+    if (room && lists->edges > 0)
+        memcpy(sim->work.edge_pairs.pair + edge, lists->edge, lists->edges * sizeof *lists->edge);
     for (size_t g = begin; g < end; g++) {
         groups->group[g].run += (uint32_t)run;
+        groups->group[g].image += (uint32_t)image;
+        groups->group[g].plane += (uint32_t)plane;
         for (size_t i = groups->group[g].first; i < groups->group[g].end; i++) {
             sim->work.pairs.first[i] += (uint32_t)four;
             sim->work.wall_pairs.first[i] += (uint32_t)wall;
+            if (sim->needs.images) sim->work.edge_pairs.first[i] += (uint32_t)edge;
         }
     }
-    lists->fours = lists->walls = lists->runs = 0;
+    lists->fours = lists->walls = lists->runs = lists->images = lists->planes = lists->edges = 0;
     return room;
 }
 
@@ -49,6 +59,7 @@ static int attempt(sb_sim *sim, const sb_search_form *form, bool *too_small, uns
     bool small = false, memory = false;
     const size_t groups = sim->groups.count, units = (groups + SB_GROUPS_AT_A_TIME - 1) / SB_GROUPS_AT_A_TIME;
     sim->work.pairs.used = sim->work.wall_pairs.used = sim->groups.used = 0;
+    sim->groups.images_used = sim->groups.planes_used = sim->work.edge_pairs.used = 0;
 #pragma omp parallel reduction(| : small, over, memory)
     {
         void *searcher = form->create(sim);
@@ -102,7 +113,30 @@ static int enlarge(sb_sim *sim)
         groups->run = sb_alloc_untouched(room, sizeof *groups->run);
         groups->room = groups->run ? room : 0;
     }
-    return water->used <= water->capacity && wall->used <= wall->capacity && groups->used <= groups->room ? 0 : -1;
+    sb_edge_pairs *edges = &sim->work.edge_pairs;
+    if (edges->used > edges->capacity) {
+        const size_t capacity = with_reserve(edges->used);
+        sb_free(edges->pair);
+        edges->pair = sb_alloc_untouched(capacity, sizeof *edges->pair);
+        edges->capacity = edges->pair ? capacity : 0;
+    }
+    if (groups->images_used > groups->images_room) {
+        const size_t room = with_reserve(groups->images_used);
+        sb_free(groups->image);
+        groups->image = sb_alloc_untouched(room, sizeof *groups->image);
+        groups->images_room = groups->image ? room : 0;
+    }
+    if (groups->planes_used > groups->planes_room) {
+        const size_t room = with_reserve(groups->planes_used);
+        sb_free(groups->plane);
+        groups->plane = sb_alloc_untouched(room, sizeof *groups->plane);
+        groups->planes_room = groups->plane ? room : 0;
+    }
+    return water->used <= water->capacity && wall->used <= wall->capacity && groups->used <= groups->room &&
+                   edges->used <= edges->capacity && groups->images_used <= groups->images_room &&
+                   groups->planes_used <= groups->planes_room
+               ? 0
+               : -1;
 }
 
 static sb_status refuse(const sb_sim *sim, unsigned full, sb_error *error)

@@ -50,6 +50,7 @@ WIDE SB_INLINE sb_f4 fold(__m512 v)
 WIDE static void accelerate_group(sb_sim *sim, const sb_group *group, const void *arguments)
 {
     (void)arguments;
+    const bool reflects = sim->needs.images;
     _Alignas(64) sb_f4 around[SB_AROUND_MAX];
     sb_around(sim, group, around);
     for (size_t i = group->first; i < group->end; i++) {
@@ -67,6 +68,7 @@ WIDE static void accelerate_group(sb_sim *sim, const sb_group *group, const void
         }
         const sb_f4 sum = fold(total) * sb_splat(sim->work.pairs.unit) + sb_splat(own[3]) * sim->work.wall[i];
         sim->work.acceleration[i] = (sb_f4){-sum[0], -sum[1], -sum[2], 0};
+        if (reflects && sim->work.edge_pairs.count[i] > 0) sim->work.acceleration[i] -= sb_edges_push(sim, i, own[3]);
     }
 }
 
@@ -76,8 +78,9 @@ WIDE static void diverge_group(sb_sim *sim, const sb_group *group, const void *a
     const sb_f4 *field = of->field;
     const float factor = of->factor;
     float *out = of->out;
+    const bool reflects = sim->needs.images;
     _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
-    sb_around_with(sim, group, field, around);
+    sb_around_vectors(sim, group, field, around);
     for (size_t i = group->first; i < group->end; i++) {
         const sb_four_pairs *four = sim->work.pairs.four + sim->work.pairs.first[i],
                             *end = four + sim->work.pairs.count[i];
@@ -92,6 +95,7 @@ WIDE static void diverge_group(sb_sim *sim, const sb_group *group, const void *a
             total = _mm512_fmadd_ps(_mm512_sub_ps(self, at), weight, total);
         }
         out[i] = factor * sb_sum3(fold(total) * sb_splat(sim->work.pairs.unit) + field[i] * sim->work.wall[i]);
+        if (reflects && sim->work.edge_pairs.count[i] > 0) out[i] += factor * sb_edges_flow(sim, i, field);
     }
 }
 

@@ -22,7 +22,8 @@ SB_INLINE sb_f4 sum_lanes(sb_f4 a, sb_f4 b, sb_f4 c, sb_f4 d)
 SB_INLINE moments gather(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i)
 {
     const sb_f4 self = sb_in_group(sim, group, i), v = sim->state.velocity[i], unit = sb_splat(-sim->work.pairs.unit);
-    const sb_four_pairs *four = sim->work.pairs.four + sim->work.pairs.first[i], *end = four + sim->work.pairs.count[i];
+    const sb_four_pairs *four = sim->work.pairs.four + sim->work.pairs.first[i],
+                        *end = four + sb_direct(&sim->work.pairs, i);
     sb_f4 xx = {0}, xy = {0}, xz = {0}, yy = {0}, yz = {0}, zz = {0};
     sb_f4 ux = {0}, uy = {0}, uz = {0}, vx = {0}, vy = {0}, vz = {0}, wx = {0}, wy = {0}, wz = {0};
     for (; four < end; four++) {

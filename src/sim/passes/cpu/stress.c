@@ -1,4 +1,6 @@
 /* The three passes of the deviatoric stress correction (sim/terms/stress_correction.h). */
+#include "sim/exchange/exchange.h"
+#include "sim/passes/cpu/body_forces.h"
 #include "sim/passes/cpu/cpu.h"
 #include "sim/passes/cpu/eights.h"
 #include "sim/passes/groups.h"
@@ -32,7 +34,7 @@ SB_MULTIVERSION
 static void find_strain(sb_sim *sim, const sb_group *group, const void *arguments)
 {
     (void)arguments;
-    const float share = (float)sim->scene->numerics.stress_correction;
+    const float whole = (float)sim->scene->numerics.stress_correction;
     _Alignas(64) sb_f4 around[SB_AROUND_MAX];
     const bool flat = sim->constant.dimension == 2;
     const float part = flat ? 0.5f : 1 / 3.0f;
@@ -41,10 +43,11 @@ static void find_strain(sb_sim *sim, const sb_group *group, const void *argument
     for (size_t i = group->first; i < group->end; i++) {
         sim->work.strain_xx[i] = 0;
         sim->work.strain[i] = (sb_f4){0};
-        if (sim->work.wall_pairs.count[i] > 0) continue;
+        if (!sim->needs.images && sim->work.wall_pairs.count[i] > 0) continue;
         const moments m = gather(sim, group, around, i);
-        const float mean = part * (m.xx + m.yy + m.zz), off = -share / mean;
-        if (!(unit * mean >= SB_STRESS_FULL)) continue;
+        const float mean = part * (m.xx + m.yy + m.zz);
+        const float share = sb_stress_share(sim, whole, unit * mean), off = -share / mean;
+        if (!(share > 0)) continue;
         sim->work.strain_xx[i] = share + off * m.xx;
         sim->work.strain[i] = (sb_f4){flat ? 0 : share + off * m.yy, off * m.xy, off * m.xz, off * m.yz};
     }
@@ -68,7 +71,7 @@ static void find_stress(sb_sim *sim, const sb_group *group, const void *argument
     (void)arguments;
     _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
     sb_f4 *stress = sim->work.stress;
-    sb_around_with(sim, group, sim->work.strain, around);
+    sb_around_tensors(sim, group, sim->work.strain, around);
     const bool any = any_around(sim, group, around);
     for (size_t i = group->first; i < group->end; i++) {
         stress[i] = (sb_f4){0};
@@ -104,7 +107,7 @@ static void correct(sb_sim *sim, const sb_group *group, const void *arguments)
     const float dt = (float)sim->state.time_step;
     _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
     sb_f4 *next = sim->work.corrected;
-    sb_around_with(sim, group, sim->work.stress, around);
+    sb_around_tensors(sim, group, sim->work.stress, around);
     const bool any = any_around(sim, group, around);
     for (size_t i = group->first; i < group->end; i++) {
         next[i] = sim->state.velocity[i];
@@ -148,7 +151,64 @@ void sb_cpu_stress(sb_sim *sim)
     sb_each_group(sim, find_stress, NULL);
 }
 
-void sb_cpu_correct(sb_sim *sim)
+/* Adds the reactions of walls to the correction of a group's particles by images. */
+static void push_walls(const sb_sim *sim, const sb_group *group, sb_body_forces *to)
+{
+    _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
+    const sb_lists *lists = &sim->work.pairs;
+    const uint32_t records = sb_around_count(sim, group);
+    const sb_group_plane *planes = sim->groups.plane + group->plane;
+    sb_reactions reactions = {0};
+    sb_around_tensors(sim, group, sim->work.stress, around);
+    if (!any_around(sim, group, around)) return;
+    for (size_t i = group->first; i < group->end; i++) {
+        const sb_f4 self = sb_in_group(sim, group, i), own = sim->work.stress[i];
+        const sb_vec3 at = sb_space_position(&sim->space, sim->state.position[i]);
+        for (size_t k = 4 * (size_t)lists->direct[i]; k < 4 * (size_t)lists->count[i]; k++) {
+            const sb_four_pairs *four = &lists->four[lists->first[i] + k / 4];
+            if (four->slope[k % 4] == 0) continue;
+            const uint16_t place = four->place[k % 4];
+            const sb_f4 *other = sb_at_with(around, place), t = own + other[1];
+            const float root = (float)four->slope[k % 4], xx = self[3] + other[0][3];
+            const sb_f4 d = (self - other[0]) * sb_splat(root * root * lists->unit);
+            const sb_f4 a = {xx * d[0] + t[1] * d[1] + t[2] * d[2], t[1] * d[0] + t[0] * d[1] + t[3] * d[2],
+                             t[2] * d[0] + t[3] * d[1] - (xx + t[0]) * d[2], 0};
+            const sb_image image = sim->groups.image[group->image + place / SB_PLACE_STEP - records];
+            sb_reactions_reflected(&reactions, planes, image.path, -a);
+        }
+        sb_reactions_close(sim, planes, at, &reactions, to);
+    }
+    sb_body_forces_close(to);
+}
+
+/* The same for all groups. False: a thread has no memory for its sums. */
+static bool push_all_walls(sb_sim *sim, sb_body_forces *total)
+{
+    const size_t groups = sim->groups.count, bodies = sim->model->body_count;
+    bool enough = true;
+#pragma omp parallel reduction(&& : enough)
+    {
+        sb_body_forces own;
+        enough = sb_body_forces_create(&own, bodies) == 0;
+#pragma omp for schedule(dynamic, SB_GROUPS_AT_A_TIME)
+        for (size_t g = 0; g < groups; g++)
+            if (enough && sim->groups.group[g].images > 0) push_walls(sim, &sim->groups.group[g], &own);
+        if (enough) sb_sums_merge(total->all, own.all, bodies * SB_FORCE_VALUES);
+        sb_body_forces_free(&own);
+    }
+    return enough;
+}
+
+int sb_cpu_correct(sb_sim *sim)
 {
     sb_each_group(sim, correct, NULL);
+    if (!sim->needs.images) return 0;
+    const size_t values = sim->model->body_count * SB_FORCE_VALUES;
+    sb_body_forces all;
+    int status = sb_body_forces_create(&all, sim->model->body_count);
+    if (status == 0 && !push_all_walls(sim, &all)) status = -1;
+    if (status == 0) sim->exchange->sum(sim, all.all, values);
+    for (size_t v = 0; v < values && status == 0; v++) sim->work.stress_force[v] = sb_exact_value(&all.all[v]);
+    sb_body_forces_free(&all);
+    return status;
 }

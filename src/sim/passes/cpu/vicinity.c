@@ -65,7 +65,7 @@ void sb_vicinity_gather(const sb_sim *sim, sb_group *group, sb_vicinity *v)
     bool at_edge = false;
     find_cells(sim, group, v);
     const sb_record corner = {v->low[0] << shift, v->low[1] << shift, v->low[2] << shift, 0};
-    v->parts = v->count = v->runs = 0;
+    v->parts = v->count = v->images = v->runs = 0;
     for (size_t i = group->first; i < group->end; i++)
         at_edge |= sim->ghosts.count > 0 && sb_space_at_edge(&sim->space, sim->state.position[i]);
     add_part(sim, v, corner, &sim->cells, 0);
@@ -88,7 +88,7 @@ SB_INLINE void find_gaps(float in, float edge, float gap2[3])
 }
 
 SB_MULTIVERSION
-size_t sb_vicinity_candidates(const sb_sim *sim, const sb_vicinity *v, sb_f4 self,
+size_t sb_vicinity_candidates(const sb_sim *sim, const sb_vicinity *v, size_t part, size_t last, sb_f4 self,
                               sb_candidate_range range[SB_VICINITY_ROWS])
 {
     const float edge = (float)((int32_t)1 << sim->space.shift);
@@ -103,7 +103,7 @@ size_t sb_vicinity_candidates(const sb_sim *sim, const sb_vicinity *v, sb_f4 sel
     const float left = gap2[0][0], right = gap2[0][2];
     const size_t centre = index_of(v, home);
     size_t ranges = 0;
-    for (size_t part = 0; part < v->parts; part++)
+    for (; part < last; part++)
         for (int dz = -1; dz <= 1; dz++)
             for (int dy = -layers; dy <= layers; dy++) {
                 const float row2 = gap2[2][1 + dz] + gap2[1][1 + dy];

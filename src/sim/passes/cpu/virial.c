@@ -41,6 +41,13 @@ static void find_pressures(sb_sim *sim, const sb_group *group, const void *argum
     sb_f4 *at = around;
     for (size_t r = 0; r < group->runs; r++)
         for (size_t k = 0; k < run[r].count; k++) *at++ = entry(sim, group, run[r].begin + k, back);
+    const sb_image *image = sim->groups.image + group->image;
+    for (uint32_t k = 0; k < group->images; k++) {
+        sb_f4 place = entry(sim, group, image[k].from, back);
+        for (uint32_t path = image[k].path; path; path >>= SB_REFLECTION_BITS)
+            place = sb_reflect(sb_path_plane(sim->groups.plane + group->plane, path), place);
+        *at++ = place;
+    }
     for (size_t i = group->first; i < group->end; i++) {
         const sb_four_pairs *four = sim->work.pairs.four + sim->work.pairs.first[i],
                             *end = four + sim->work.pairs.count[i];
@@ -53,7 +60,8 @@ static void find_pressures(sb_sim *sim, const sb_group *group, const void *argum
             sum += (d.w + sb_splat(self[3])) * sb_slopes(four) * (x * x + y * y + z * z);
         }
         const float water = ((sum[0] + sum[1]) + (sum[2] + sum[3])) * sim->work.pairs.unit;
-        sim->work.virial[i] = factor * (water + self[3] * by_walls(sim, group, i, self));
+        const float walls = sim->needs.images ? 0 : by_walls(sim, group, i, self);
+        sim->work.virial[i] = factor * (water + self[3] * walls);
     }
 }
 

@@ -125,6 +125,7 @@ static unsigned search(sb_sim *sim, void *of, sb_list_builder *lists, sb_group *
     sb_vicinity_gather(sim, group, &w->vicinity);
     if (w->vicinity.count > SB_AROUND_MAX) return SB_FULL_AROUND;
     sb_list_runs(lists, &w->vicinity, group);
+    group->images = group->planes = 0;
     for (size_t i = group->first; i < group->end; i++) {
         sums s = {.density = (double)sim->constant.mass * kernel_at(sim, (sb_vec3){0}).value};
         add_water(sim, &w->vicinity, sb_offset_of(sim->state.position[i], group->corner), own_place(&w->vicinity, i),
@@ -141,6 +142,7 @@ static unsigned search(sb_sim *sim, void *of, sb_list_builder *lists, sb_group *
 
 sb_status sb_plain_neighbours(sb_sim *sim, sb_error *error)
 {
+    if (sim->needs.images) return sb_fail(error, SB_FAILED, "the reference passes have no images of walls");
     static const sb_search_form form = {create, search};
     return sb_search_all(sim, &form, error);
 }

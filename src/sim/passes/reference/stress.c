@@ -12,7 +12,7 @@ static void strain_group(sb_sim *sim, const sb_group *group, const void *argumen
     sb_indices around;
     sb_indices_of(sim, group, &around);
     const int d = sim->constant.dimension;
-    const double share = sim->scene->numerics.stress_correction;
+    const double whole = sim->scene->numerics.stress_correction;
     for (size_t i = group->first; i < group->end; i++) {
         double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
         for (size_t k = 0; k < sb_pair_count(sim, i); k++) {
@@ -22,8 +22,9 @@ static void strain_group(sb_sim *sim, const sb_group *group, const void *argumen
             xx += factor * x.x * x.x, xy += factor * x.x * x.y, xz += factor * x.x * x.z;
             yy += factor * x.y * x.y, yz += factor * x.y * x.z, zz += factor * x.z * x.z;
         }
-        const double mean = (xx + yy + zz) / d, off = -share / mean;
-        const bool corrected = sim->work.wall_pairs.count[i] == 0 && mean >= (double)SB_STRESS_FULL;
+        const double mean = (xx + yy + zz) / d, share = (double)sb_stress_share(sim, (float)whole, (float)mean);
+        const double off = -share / mean;
+        const bool corrected = (sim->needs.images || sim->work.wall_pairs.count[i] == 0) && share > 0;
         sim->work.strain_xx[i] = corrected ? (float)(share + off * xx) : 0;
         sim->work.strain[i] = corrected ? (sb_f4){d == 2 ? 0 : (float)(share + off * yy), (float)(off * xy),
                                                   (float)(off * xz), (float)(off * yz)}
@@ -93,7 +94,8 @@ static void correct_group(sb_sim *sim, const sb_group *group, const void *argume
     }
 }
 
-void sb_plain_correct(sb_sim *sim)
+int sb_plain_correct(sb_sim *sim)
 {
     sb_each_group(sim, correct_group, NULL);
+    return 0;
 }

@@ -1,0 +1,75 @@
+#include "sim/passes/cpu/body_forces.h"
+
+#include "base/memory.h"
+#include "sim/walls/mirrors.h"
+
+#include <string.h>
+
+enum { VALUES = SB_FORCE_VALUES };
+
+int sb_body_forces_create(sb_body_forces *f, size_t bodies)
+{
+    *f = (sb_body_forces){.sum = sb_alloc(bodies * VALUES, sizeof *f->sum),
+                          .body = sb_alloc(bodies, sizeof *f->body),
+                          .acted_on = sb_alloc(bodies, sizeof *f->acted_on),
+                          .all = sb_alloc(bodies * VALUES, sizeof *f->all)};
+    return f->sum && f->body && f->acted_on && f->all ? 0 : -1;
+}
+
+void sb_body_forces_free(sb_body_forces *f)
+{
+    sb_free(f->sum);
+    sb_free(f->body);
+    sb_free(f->acted_on);
+    sb_free(f->all);
+}
+
+static void add_to(double value[3], sb_vec3 v)
+{
+    value[0] += v.x;
+    value[1] += v.y;
+    value[2] += v.z;
+}
+
+void sb_body_forces_add(const sb_sim *sim, sb_body_forces *to, uint32_t body, sb_vec3 at, sb_vec3 pressure,
+                        sb_vec3 drag)
+{
+    double *value = to->sum + (size_t)VALUES * body;
+    if (!to->acted_on[body]) {
+        to->acted_on[body] = true;
+        to->body[to->count++] = body;
+    }
+    add_to(value, pressure);
+    add_to(value + 3, drag);
+    add_to(value + 6, sb_cross(sb_sub(at, sim->model->bodies[body].moment_point), sb_add(pressure, drag)));
+}
+
+void sb_body_forces_close(sb_body_forces *f)
+{
+    for (size_t b = 0; b < f->count; b++) {
+        double *sum = f->sum + (size_t)VALUES * f->body[b];
+        sb_exact *all = f->all + (size_t)VALUES * f->body[b];
+        for (int v = 0; v < VALUES; v++) sb_exact_add(&all[v], sum[v]);
+        memset(sum, 0, VALUES * sizeof *sum);
+        f->acted_on[f->body[b]] = false;
+    }
+    f->count = 0;
+}
+
+void sb_reactions_close(const sb_sim *sim, const sb_group_plane *planes, sb_vec3 at, sb_reactions *r,
+                        sb_body_forces *to)
+{
+    const double mass = (double)sim->constant.mass;
+    for (uint32_t k = 0; k < r->count; k++) {
+        const uint32_t plane = r->plane[k];
+        const sb_group_plane *p = &planes[plane];
+        const double along = mass * (double)r->along[plane];
+        const sb_vec3 push =
+            sb_vec(along * (double)p->plane[0], along * (double)p->plane[1], along * (double)p->plane[2]);
+        sb_body_forces_add(sim, to, sb_mirror_body(sim, p->mirror), sb_add(at, sb_mirror_shift(sim, p->mirror)), push,
+                           (sb_vec3){0});
+        r->known[plane] = false;
+        r->along[plane] = 0;
+    }
+    r->count = 0;
+}

@@ -1,0 +1,82 @@
+/* Forces on bodies, summed by one thread over groups of particles, independent of the order of groups. */
+#ifndef SB_SIM_CPU_BODY_FORCES_H
+#define SB_SIM_CPU_BODY_FORCES_H
+
+#include "sim/exchange/sums.h"
+#include "sim/search/around.h"
+
+typedef struct sb_body_forces {
+    double *sum;    /* of the present group: sum[body][SB_FORCE_VALUES] */
+    uint32_t *body; /* those that the group acts on */
+    size_t count;   /* of them */
+    bool *acted_on; /* per body */
+    sb_exact *all;  /* of all groups so far: all[body][SB_FORCE_VALUES] */
+} sb_body_forces;
+
+/* Returns 0, or -1 without memory. */
+int sb_body_forces_create(sb_body_forces *f, size_t bodies);
+void sb_body_forces_free(sb_body_forces *f);
+
+/* Adds a force on a body. pressure, drag: N; at: m, the point of application. */
+void sb_body_forces_add(const sb_sim *sim, sb_body_forces *to, uint32_t body, sb_vec3 at, sb_vec3 pressure,
+                        sb_vec3 drag);
+/* Ends a group. */
+void sb_body_forces_close(sb_body_forces *f);
+
+/* Reactions of a particle's walls to its accelerations by images, summed by plane of its group. Of a pair that acts
+   from i to its image and from j to the image of i, each reflection takes what it turns round. */
+enum { SB_REACTIONS_MAX = 200 };
+typedef struct sb_reactions {
+    uint32_t count, plane[SB_REACTIONS_MAX]; /* those that react */
+    float along[SB_REACTIONS_MAX];           /* m/s^2 along each plane's normal, by plane; 0 before */
+    bool known[SB_REACTIONS_MAX];
+} sb_reactions;
+
+SB_INLINE void sb_reaction(sb_reactions *r, uint32_t plane, float along)
+{
+    if (!r->known[plane]) {
+        r->known[plane] = true;
+        r->plane[r->count++] = plane;
+    }
+    r->along[plane] += along;
+}
+
+/* Adds the acceleration `a` by an image. */
+SB_INLINE void sb_reactions_reflected(sb_reactions *r, const sb_group_plane *planes, uint32_t path, sb_f4 a)
+{
+    if (path <= SB_REFLECTION_MASK) {
+        sb_reaction(r, path - 1, -sb_sum3(planes[path - 1].plane * a));
+        return;
+    }
+    for (int k = SB_REFLECTIONS_MAX; k-- > 0;) { /* from the particle on: the last reflection of the image first */
+        const uint32_t index = path >> (SB_REFLECTION_BITS * k) & SB_REFLECTION_MASK;
+        if (index == 0) continue;
+        sb_reaction(r, index - 1, -sb_sum3(planes[index - 1].plane * a));
+        a = sb_reflect_vector(planes[index - 1].plane, a);
+    }
+}
+
+/* Adds the parts of the acceleration `a` along the normals of a path's planes. Planes at other than right angles each
+   take what is left. */
+SB_INLINE void sb_reactions_normal(sb_reactions *r, const sb_group_plane *planes, uint32_t path, sb_f4 a)
+{
+    for (; path; path >>= SB_REFLECTION_BITS) {
+        const uint32_t plane = (path & SB_REFLECTION_MASK) - 1;
+        const float along = sb_sum3(planes[plane].plane * a);
+        a -= planes[plane].plane * (sb_f4){along, along, along, 0};
+        sb_reaction(r, plane, -along);
+    }
+}
+
+/* Adds the reactions to the bodies and clears them. at: m, the particle. */
+void sb_reactions_close(const sb_sim *sim, const sb_group_plane *planes, sb_vec3 at, sb_reactions *r,
+                        sb_body_forces *to);
+
+/* By how much q of an image below its original is larger, per quantum: beyond a wall the pressure goes on as in water
+   at rest. With the same pressure on both sides the pressure at a floor would have no gradient. */
+SB_INLINE float sb_hydrostatic(const sb_sim *sim)
+{
+    return sim->constant.gravity * (float)sim->space.quantum / sim->constant.rest_density;
+}
+
+#endif

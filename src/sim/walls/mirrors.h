@@ -1,0 +1,60 @@
+/* Mirrors: the facets of bodies and of the domain's sides, at which water near them is reflected. Lengths in quanta. */
+#ifndef SB_SIM_MIRRORS_H
+#define SB_SIM_MIRRORS_H
+
+#include "sim/simulation.h"
+
+/* The facets near a group of particles, relative to the group's corner. */
+enum { SB_NEAR_MAX = 200, SB_NEAR_EDGES_MAX = 1024 };
+
+typedef struct sb_near_edge {
+    sb_f4 inward; /* unit, in the facet's plane; last lane: inward . x on the edge */
+    sb_bend bend;
+} sb_near_edge;
+
+typedef struct sb_near_facet {
+    sb_f4 plane;          /* unit normal; last lane: normal . x on the plane */
+    uint32_t mirror;      /* index into walls.mirrors.mirror */
+    uint32_t edge, edges; /* soft and convex edges within reach: [edge, edge + edges) of sb_near.edges */
+    bool both;            /* water may be on both sides */
+    bool parts;     /* there is water on both sides near the group: the facet may hide particles from each other */
+    sb_f4 velocity; /* m/s, of the wall */
+} sb_near_facet;
+
+typedef struct sb_near {
+    size_t count, edge_count;
+    bool simple;  /* no facet hides water or another facet */
+    bool oblique; /* some path may be reflected at two facets at other than right angles */
+    bool moves;   /* a facet moves */
+    bool full;    /* more than SB_NEAR_MAX facets or SB_NEAR_EDGES_MAX edges */
+    sb_near_facet facet[SB_NEAR_MAX];
+    sb_near_edge edges[SB_NEAR_EDGES_MAX];
+    bool meets[SB_NEAR_MAX][SB_NEAR_MAX]; /* a path may be reflected at both, one after the other */
+} sb_near;
+
+sb_status sb_mirrors_create(sb_sim *sim, sb_error *error);
+void sb_mirrors_destroy(sb_sim *sim);
+
+/* Finds the facets within a support radius of a group. low, high: the box of its particles, from the corner. */
+void sb_mirrors_near(const sb_sim *sim, const sb_group *group, sb_f4 low, sb_f4 high, sb_near *near);
+
+/* A contact of particle i with the facet of a plane of its group. */
+typedef struct sb_facet_contact {
+    uint32_t plane; /* of the group */
+    float push;     /* quanta, along the plane's normal */
+} sb_facet_contact;
+
+/* Finds a facet that particle i would come too near to, or pass, in this step with this velocity. Where it would pass
+   several, the one that takes the least push: of two facets at a convex edge one push is enough, and at a concave one
+   the next call finds the other. Returns false if there is none. */
+bool sb_mirrors_contact(const sb_sim *sim, const sb_group *group, size_t i, sb_f4 velocity, sb_facet_contact *contact);
+
+/* Velocity of the wall, m/s. */
+sb_f4 sb_mirror_velocity(const sb_sim *sim, uint32_t mirror);
+
+/* Index of the model's body that a mirror belongs to, and the vector from an image of it beyond a periodic side to the
+   original, m. */
+uint32_t sb_mirror_body(const sb_sim *sim, uint32_t mirror);
+sb_vec3 sb_mirror_shift(const sb_sim *sim, uint32_t mirror);
+
+#endif

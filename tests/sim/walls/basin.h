@@ -1,0 +1,21 @@
+/* Scenes with walls that reflect water, for tests. */
+#ifndef SB_TESTS_BASIN_H
+#define SB_TESTS_BASIN_H
+
+#include "sim/tank.h"
+
+typedef struct basin {
+    sb_scene scene;
+    sb_model model;
+    sb_sim *sim;
+} basin;
+
+/* Makes a scene with these keys over those of tests/sim/tank.yaml. Fails the test if it cannot be made. */
+void basin_fill_from(basin *b, const sb_override *set, size_t count);
+/* One with walls that reflect water. density: the rule of numerics.density. */
+void basin_fill(basin *b, int dimensions, const char *spacing, const char *max, const char *water, const char *bodies,
+                const char *density);
+void basin_settle(basin *b);
+void basin_free(basin *b);
+
+#endif
