@@ -34,6 +34,23 @@ static bool is_open(sb_consumer *consumer)
     return !consumer->work.open || consumer->work.open(consumer->work.state, &consumer->reason) == SB_OK;
 }
 
+/* Waits for the next frame. False: there are no more. */
+static bool next_frame(sb_consumer *consumer)
+{
+    const sb_consumer_work *work = &consumer->work;
+    bool closed = false;
+    consumer->frame = NULL;
+    if (!work->idle) {
+        consumer->frame = sb_frame_queue_pop(consumer->queue);
+        return consumer->frame != NULL;
+    }
+    while (!consumer->frame && !closed) {
+        const double pause = work->idle(work->state);
+        consumer->frame = sb_frame_queue_pop_within(consumer->queue, pause, &closed);
+    }
+    return !closed;
+}
+
 static void *serve(void *argument)
 {
     sb_consumer *consumer = argument;
@@ -41,7 +58,7 @@ static void *serve(void *argument)
     pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, NULL);
     bool open = is_open(consumer);
     if (!open && !note(consumer, false, false)) return NULL;
-    while ((consumer->frame = sb_frame_queue_pop(consumer->queue))) {
+    while (next_frame(consumer)) {
         open = open || is_open(consumer);
         const bool good = open && work->handle(work->state, consumer->frame, &consumer->reason) == SB_OK;
         if (!note(consumer, good, true)) return NULL;

@@ -16,12 +16,14 @@
 #define SB_CONSUMER_STOP_DEADLINE 5.0
 
 /* The work of a consumer, all of it in its own thread. When open fails, it is tried again with each frame. When handle
-   fails, that frame is missed, and the next frame is handled as usual. */
+   fails, that frame is missed, and the next frame is handled as usual. handle and idle may be cancelled. */
 typedef struct sb_consumer_work {
     const char *name;
     void *state;
     sb_status (*open)(void *state, sb_error *error);
     sb_status (*handle)(void *state, const sb_frame *frame, sb_error *error);
+    double (*idle)(
+        void *state); /* called while no frame comes: returns the s after which it is called again. NULL: none */
     void (*close)(void *state);
     void (*abandon)(void *state); /* instead of close, called by the thread that stops it, after handle was cancelled */
     double stop_timeout; /* s that stopping waits before it cancels handle; 0: waits as long as there is progress */

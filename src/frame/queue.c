@@ -33,7 +33,7 @@ sb_frame_queue *sb_frame_queue_create(size_t capacity, sb_queue_policy policy)
     queue->policy = policy;
     queue->capacity = capacity;
     pthread_mutex_init(&queue->lock, NULL);
-    pthread_cond_init(&queue->has_frame, NULL);
+    sb_clock_init_condition(&queue->has_frame);
     sb_clock_init_condition(&queue->has_room);
     return queue;
 }
@@ -115,6 +115,23 @@ const sb_frame *sb_frame_queue_pop(sb_frame_queue *queue)
         frame = take(queue);
         pthread_cond_signal(&queue->has_room);
     }
+    pthread_mutex_unlock(&queue->lock);
+    return frame;
+}
+
+const sb_frame *sb_frame_queue_pop_within(sb_frame_queue *queue, double seconds, bool *closed)
+{
+    const sb_frame *frame = NULL;
+    const struct timespec end = sb_clock_after(seconds);
+    int late = 0;
+    pthread_mutex_lock(&queue->lock);
+    while (queue->count == 0 && !queue->closed && !late)
+        late = pthread_cond_timedwait(&queue->has_frame, &queue->lock, &end);
+    if (queue->count) {
+        frame = take(queue);
+        pthread_cond_signal(&queue->has_room);
+    }
+    *closed = !frame && queue->closed;
     pthread_mutex_unlock(&queue->lock);
     return frame;
 }

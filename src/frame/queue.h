@@ -30,6 +30,9 @@ bool sb_frame_queue_wait(sb_frame_queue *queue, double seconds);
    empty. */
 const sb_frame *sb_frame_queue_pop(sb_frame_queue *queue);
 
+/* The same, but waits at most so many seconds. NULL also when they are over; *closed tells which. */
+const sb_frame *sb_frame_queue_pop_within(sb_frame_queue *queue, double seconds, bool *closed);
+
 /* Closes the queue: no more frames can be pushed, and all waiting threads wake up. The frames in the queue can still be
    popped. */
 void sb_frame_queue_close(sb_frame_queue *queue);

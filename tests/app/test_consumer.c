@@ -15,6 +15,7 @@ typedef struct worker {
     int hangs_at; /* the frame in which it hangs; 0: none */
     double busy;  /* processor time of each frame, s */
     bool closed;
+    int idle_calls;
 } worker;
 
 static sb_status handle(void *state, const sb_frame *frame, sb_error *error)
@@ -130,13 +131,34 @@ static void one_that_is_slow(void **state)
     assert_int_equal(sb_consumer_trouble(&consumer).missed, 0);
 }
 
+static double count_call(void *state)
+{
+    ((worker *)state)->idle_calls++;
+    return 0.02;
+}
+
+static void one_that_works_between_frames(void **state)
+{
+    (void)state;
+    sb_consumer consumer;
+    worker h = {0};
+    const sb_consumer_work work = {
+        .name = "stream", .state = &h, .handle = handle, .idle = count_call, .close = close_worker};
+    assert_int_equal(sb_consumer_start(&consumer, &work, 1, 2, SB_QUEUE_DROP_OLDEST, NULL), SB_OK);
+    usleep(300000);
+    feed(&consumer, 1);
+    sb_consumer_stop(&consumer);
+    assert_int_equal(h.frames, 1);
+    assert_in_range(h.idle_calls, 5, 18);
+    assert_true(h.closed);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(feeding_one_that_hangs),
-        cmocka_unit_test(draining_one_that_hangs),
-        cmocka_unit_test(stopping_one_that_hangs),
-        cmocka_unit_test(one_that_is_slow),
+        cmocka_unit_test(feeding_one_that_hangs),        cmocka_unit_test(draining_one_that_hangs),
+        cmocka_unit_test(stopping_one_that_hangs),       cmocka_unit_test(one_that_is_slow),
+        cmocka_unit_test(one_that_works_between_frames),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

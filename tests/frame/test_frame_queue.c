@@ -182,6 +182,27 @@ static void closing_wakes_a_waiting_push(void **state)
     sb_frame_release(frame);
 }
 
+static void a_pop_waits_for_a_limited_time(void **state)
+{
+    (void)state;
+    bool closed = true;
+    sb_frame_queue *queue = sb_frame_queue_create(1, SB_QUEUE_WAIT);
+    sb_frame *frame = numbered(1);
+    const double begun = sb_clock();
+    assert_null(sb_frame_queue_pop_within(queue, 0.05, &closed));
+    assert_false(closed);
+    assert_true(sb_clock() - begun >= 0.05);
+    assert_true(sb_frame_queue_push(queue, frame));
+    sb_frame_queue_close(queue);
+    assert_ptr_equal(sb_frame_queue_pop_within(queue, 5, &closed), frame);
+    assert_false(closed);
+    assert_null(sb_frame_queue_pop_within(queue, 100, &closed));
+    assert_true(closed);
+    sb_frame_release(frame);
+    sb_frame_release(frame);
+    sb_frame_queue_destroy(queue);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -192,6 +213,7 @@ int main(void)
         cmocka_unit_test(waiting_loses_nothing_between_threads),
         cmocka_unit_test(dropping_never_waits),
         cmocka_unit_test(closing_wakes_a_waiting_push),
+        cmocka_unit_test(a_pop_waits_for_a_limited_time),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
