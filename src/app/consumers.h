@@ -47,9 +47,10 @@ sb_status sb_pictures_sync(sb_pictures *pictures, sb_gone *gone, sb_error *error
 
 /* LCM */
 typedef struct sb_streamer {
-    sb_stream *stream;
+    sb_stream *stream; /* NULL: the run does not stream */
     sb_runlog *log;
-    sb_stream_counters counters; /* up to the last frame; the first error is logged once */
+    double time;      /* s, simulated; of the last frame */
+    bool had_trouble; /* the first error is logged once */
 } sb_streamer;
 sb_consumer_work sb_streamer_work(sb_streamer *streamer);
 

@@ -67,6 +67,7 @@ static sb_status one_step(run *r, sb_error *error)
     if (sb_measure_reads_pressures(r->measure, r->sim)) sb_sim_find_virial_pressures(r->sim);
     status = sb_measure_step(r->measure, r->sim, error);
     if (status == SB_OK) status = sb_csv_write(r->csv, sb_measure_latest(r->measure), error);
+    sb_run_inform_stream(r);
     if (status == SB_OK) status = feed(r, error);
     sb_missed_report(r);
     if (report->step % LOG_STEPS == 0) {
@@ -81,6 +82,7 @@ static sb_status one_step(run *r, sb_error *error)
 
 static sb_status advance(run *r, sb_error *error)
 {
+    sb_run_inform_stream(r);
     sb_status status = feed(r, error);
     report_departures(r);
     while (status == SB_OK && sb_sim_report(r->sim)->time < r->scene->duration * (1 - 1e-12)) {

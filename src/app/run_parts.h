@@ -22,6 +22,9 @@ sb_status sb_run_check_folders(const run *r, sb_error *error);
 /* run_finish.c: completes all files, however the run ended. *status and *error keep the first failure. */
 void sb_run_finish(run *r, sb_status *status, sb_error *error);
 
+/* run_stream.c: gives the stream, if there is one, the progress of the run and the rows of the last step. */
+void sb_run_inform_stream(run *r);
+
 /* ---- run_report.c ---- */
 
 /* The path of a file in the run's directory. */

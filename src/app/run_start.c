@@ -13,6 +13,7 @@
 #include <math.h>
 #include <omp.h>
 #include <stdio.h>
+#include <string.h>
 
 static sb_status write_scene(const run *r, sb_error *error)
 {
@@ -88,13 +89,22 @@ static void resolve(run *r)
         r->resolved.render.speed_max = 2 * sb_model_wave_speed(r->scene, &r->model);
 }
 
+/* The title, or else the name of the directory. */
+static const char *run_name(const run *r)
+{
+    const char *slash = strrchr(r->directory, '/');
+    return r->scene->title && *r->scene->title ? r->scene->title : slash && slash[1] ? slash + 1 : r->directory;
+}
+
 static sb_status start_streamer(run *r, sb_error *error)
 {
     sb_error reason = {0};
-    if (sb_stream_create(&r->scene->stream, r->scene->title, &r->streamer.stream, &reason) != SB_OK) {
+    if (sb_stream_create(&r->scene->stream, run_name(r), &r->streamer.stream, &reason) != SB_OK) {
         sb_run_warn(r, "%s", reason.text);
         return SB_OK;
     }
+    if (sb_stream_set_scene(r->streamer.stream, r->scene, &r->model, &reason) != SB_OK)
+        sb_run_warn(r, "stream: no scene message: %.900s", reason.text);
     sb_consumer_work work = sb_streamer_work(&r->streamer);
     const sb_status status = sb_consumer_start(&r->consumers[STREAMER], &work, r->scene->stream.interval,
                                                sb_room_waiting(r->model.fluid_count), SB_QUEUE_DROP_OLDEST, error);
@@ -213,6 +223,7 @@ static void watch_settling(void *context, int done, int most, double speed)
 {
     run *r = context;
     sb_progress_settling(&r->progress, done, most, speed);
+    sb_run_inform_stream(r);
     if (sb_checkpoint_due(r, (uint64_t)done)) sb_checkpoint_write_settling(r);
 }
 

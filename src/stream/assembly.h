@@ -1,25 +1,52 @@
-/* Counts the particle chunks that a subscriber receives: complete frames, partial frames and missing chunks. */
+/* Puts frames together from their parts, and counts complete frames, partial frames and missing parts. */
 #ifndef SB_STREAM_ASSEMBLY_H
 #define SB_STREAM_ASSEMBLY_H
 
 #include "stream/decode.h"
 
-/* A zero-initialised struct is empty. A frame ends when a chunk of another frame arrives. */
+#include <stdbool.h>
+
+/* Particles [first, first + count) of a frame, whose positions are relative to one corner. */
+typedef struct sb_live_part {
+    int64_t first;
+    int32_t count; /* -1: not received */
+    double corner[3];
+} sb_live_part;
+
+/* A frame. Particle i of part p: sb_point_decode(points + 8 i, parts[p].corner, quantum, speed_max, pressure_max). */
+typedef struct sb_live_frame {
+    int64_t frame, step;
+    double time; /* s */
+    int32_t decimation;
+    double spacing, quantum; /* m */
+    double speed_max, pressure_max;
+    int64_t count;
+    int32_t part_count, moved_count;
+    sb_live_part *parts;
+    unsigned char *points; /* SB_STREAM_POINT bytes each */
+    int32_t *moved;        /* indices into the bodies of the scene */
+    double *displacement;  /* m, three per moved body */
+    size_t part_capacity, point_capacity, moved_capacity, displacement_capacity;
+} sb_live_frame;
+
+/* A zero-initialised struct is empty. A frame ends when a part of a later frame arrives. */
 typedef struct sb_assembly {
     uint64_t frames_complete, frames_partial;
-    uint64_t chunks, chunks_lost; /* received; missing from frames that have ended */
-    uint64_t chunks_ignored;      /* duplicates, and chunks that contradict the others of their frame */
-    int64_t frame, total;         /* of the current frame */
-    double time;                  /* s */
-    int32_t chunk_count, received;
-    unsigned char *seen; /* one flag per chunk of the current frame */
-    size_t seen_capacity;
+    uint64_t parts, parts_lost; /* received; missing from frames that have ended */
+    uint64_t parts_ignored;     /* duplicates, late ones, and those that contradict the others of their frame */
+    int32_t received;           /* parts of the present frame */
+    sb_live_frame present;      /* the frame whose parts arrive; part_count 0: none */
+    sb_live_frame newest;       /* the newest complete frame; part_count 0: none */
 } sb_assembly;
 
-/* Counts one chunk. SB_FAILED if memory for the flags runs out; the chunk is then ignored. */
-sb_status sb_assembly_add(sb_assembly *assembly, const sb_particles_message *chunk);
+/* Adds one part. *complete: whether assembly->newest is now another frame. It stays valid until the next one is.
+   SB_FAILED if memory runs out; the part is then ignored. */
+sb_status sb_assembly_add(sb_assembly *assembly, const sb_frame_message *part, bool *complete);
 
-/* Frees the flags and zeroes the counts. */
+/* Forgets the present frame, because its run has ended. The newest frame and the counts stay. */
+void sb_assembly_restart(sb_assembly *assembly);
+
+/* Frees the frames and zeroes the counts. */
 void sb_assembly_free(sb_assembly *assembly);
 
 #endif

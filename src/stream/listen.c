@@ -1,4 +1,4 @@
-/* Subscribes to a run's channels and passes decoded messages to callbacks. */
+/* Subscribes to a run's channels. */
 #include "stream/listen.h"
 
 #include "base/clock.h"
@@ -10,56 +10,22 @@
 #include <poll.h>
 #include <stdlib.h>
 
-/* Enough for the chunks of a frame of 2 M particles. LCM's default queue of 30 messages silently drops the rest. */
+/* Enough for the parts of a frame of 5 M particles. LCM's default queue of 30 messages silently drops the rest. */
 enum { QUEUE_MESSAGES = 1000 };
 
 struct sb_listener {
     lcm_t *lcm;
     sb_listener_calls calls;
-    sb_listener_counters count;
+    sb_channel channels[SB_CHANNELS];
     bool ended;
-    union { /* only one message is in use at a time */
-        sb_status_message status;
-        sb_forces_message forces;
-        sb_particles_message particles;
-    } message;
 };
 
-static void count_message(sb_listener *listener, const lcm_recv_buf_t *received, sb_status status)
+static void on_message(const lcm_recv_buf_t *received, const char *channel, void *user)
 {
-    listener->count.messages++;
-    listener->count.bytes += received->data_size;
-    listener->count.refused += status != SB_OK;
-}
-
-static void on_status(const lcm_recv_buf_t *received, const char *channel, void *user)
-{
-    (void)channel;
-    sb_listener *listener = user;
-    sb_status_message *message = &listener->message.status;
-    sb_status status = sb_stream_decode_status(received->data, received->data_size, message, NULL);
-    count_message(listener, received, status);
-    if (status == SB_OK && listener->calls.status) listener->calls.status(listener->calls.user, message);
-}
-
-static void on_forces(const lcm_recv_buf_t *received, const char *channel, void *user)
-{
-    (void)channel;
-    sb_listener *listener = user;
-    sb_forces_message *message = &listener->message.forces;
-    sb_status status = sb_stream_decode_forces(received->data, received->data_size, message, NULL);
-    count_message(listener, received, status);
-    if (status == SB_OK && listener->calls.forces) listener->calls.forces(listener->calls.user, message);
-}
-
-static void on_particles(const lcm_recv_buf_t *received, const char *channel, void *user)
-{
-    (void)channel;
-    sb_listener *listener = user;
-    sb_particles_message *message = &listener->message.particles;
-    sb_status status = sb_stream_decode_particles(received->data, received->data_size, message, NULL);
-    count_message(listener, received, status);
-    if (status == SB_OK && listener->calls.particles) listener->calls.particles(listener->calls.user, message);
+    const sb_listener *listener = user;
+    const sb_channel_kind kind = sb_channel_find(channel, listener->channels);
+    listener->calls.message(listener->calls.user, kind, received->data, received->data_size,
+                            1e-6 * (double)received->recv_utime);
 }
 
 /* LCM interprets channel names as regular expressions. Escapes a name so that it matches literally. */
@@ -72,39 +38,37 @@ static void escape(const char *channel, char pattern[2 * sizeof(sb_channel)])
     *pattern = 0;
 }
 
-static sb_status subscribe(sb_listener *listener, const sb_channel channels[SB_CHANNELS], sb_error *error)
+static sb_status subscribe(sb_listener *listener, sb_error *error)
 {
-    static const lcm_msg_handler_t handlers[SB_CHANNELS] = {on_status, on_forces, on_particles};
     /* The first subscription starts LCM's receiver and its test of the route, which print to stderr. */
     char reason[160];
     sb_stderr_catch hold = sb_stderr_hold();
     int subscribed = 0;
     for (; subscribed < SB_CHANNELS; subscribed++) {
         char pattern[2 * sizeof(sb_channel)];
-        escape(channels[subscribed], pattern);
-        lcm_subscription_t *made = lcm_subscribe(listener->lcm, pattern, handlers[subscribed], listener);
+        escape(listener->channels[subscribed], pattern);
+        lcm_subscription_t *made = lcm_subscribe(listener->lcm, pattern, on_message, listener);
         if (!made) break;
         lcm_subscription_set_queue_capacity(made, QUEUE_MESSAGES);
     }
     sb_stderr_release(&hold, reason, sizeof reason);
     if (subscribed == SB_CHANNELS) return SB_OK;
-    return sb_fail(error, SB_FAILED, "LCM cannot subscribe to %s (%s)", channels[subscribed],
+    return sb_fail(error, SB_FAILED, "LCM cannot subscribe to %s (%s)", listener->channels[subscribed],
                    *reason ? reason : "no reason given");
 }
 
 sb_status sb_listener_create(const char *url, const char *prefix, const sb_listener_calls *calls,
                              sb_listener **listener, sb_error *error)
 {
-    sb_channel channels[SB_CHANNELS];
     const char *from_environment = getenv("LCM_DEFAULT_URL");
     if ((!url || !*url) && (!from_environment || !*from_environment))
         url = "udpm://239.255.76.67:7667?recv_buf_size=4000000";
     sb_listener *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, "the listener");
     made->calls = *calls;
-    sb_status status = sb_provider_channels(prefix, channels, error);
+    sb_status status = sb_channels_name(prefix, made->channels, error);
     if (status == SB_OK) status = sb_provider_open(url, &made->lcm, error);
-    if (status == SB_OK) status = subscribe(made, (const sb_channel *)channels, error);
+    if (status == SB_OK) status = subscribe(made, error);
     if (status != SB_OK) {
         sb_listener_destroy(made);
         return status;
@@ -129,9 +93,4 @@ sb_status sb_listener_poll(sb_listener *listener, double seconds)
         if (count > 0 && lcm_handle(listener->lcm) != 0) listener->ended = true;
     }
     return listener->ended ? SB_INTERRUPTED : SB_OK;
-}
-
-sb_listener_counters sb_listener_count(const sb_listener *listener)
-{
-    return listener->count;
 }

@@ -1,18 +1,20 @@
-/* Receives a run's messages, checks and decodes them, and passes them to callbacks. */
+/* Receives the messages of a run's channels from LCM. At least versions up to 1.3.1 of LCM can be crashed by forged
+   packets: a program that listens to a network does so in a child process (guard.h). */
 #ifndef SB_STREAM_LISTEN_H
 #define SB_STREAM_LISTEN_H
 
 #include "base/status.h"
-#include "stream/decode.h"
+#include "stream/channel.h"
+
+#include <stddef.h>
 
 typedef struct sb_listener sb_listener;
 
-/* Callbacks, called from sb_listener_poll. A message is valid until the callback returns. Any callback may be NULL. */
+/* message is called from sb_listener_poll with the bytes as they arrived, for example to pass them to sb_live_take.
+   time: s since 1970, of the reception or of the recording. */
 typedef struct sb_listener_calls {
     void *user;
-    void (*status)(void *user, const sb_status_message *message);
-    void (*forces)(void *user, const sb_forces_message *message);
-    void (*particles)(void *user, const sb_particles_message *message);
+    void (*message)(void *user, sb_channel_kind kind, const void *data, size_t size, double time);
 } sb_listener_calls;
 
 /* Creates a listener. url NULL or empty: LCM_DEFAULT_URL if it is set, else the publisher's default multicast address
@@ -25,11 +27,5 @@ void sb_listener_destroy(sb_listener *listener);
 /* Handles the messages that arrive within `seconds`; a signal ends the wait earlier. SB_INTERRUPTED if the source has
    ended (the end of a log, a lost server), SB_OK otherwise, also if no message arrived. */
 sb_status sb_listener_poll(sb_listener *listener, double seconds);
-
-/* Messages and bytes received, and the number of these messages that were refused as invalid. */
-typedef struct sb_listener_counters {
-    uint64_t messages, bytes, refused;
-} sb_listener_counters;
-sb_listener_counters sb_listener_count(const sb_listener *listener);
 
 #endif

@@ -1,24 +1,17 @@
-/* Channel names, and LCM's output on stderr. */
+/* The default provider, and LCM's output on stderr. */
 #include "stream/provider.h"
 
 #include <fcntl.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
-sb_status sb_provider_channels(const char *prefix, sb_channel channels[SB_CHANNELS], sb_error *error)
+const char *sb_provider_url(const char *url)
 {
-    static const char *const names[SB_CHANNELS] = {"status", "forces", "particles"};
-    if (!prefix || !*prefix) prefix = "shorebreak";
-    for (int i = 0; i < SB_CHANNELS; i++) {
-        int length = snprintf(channels[i], sizeof channels[i], "%s_%s", prefix, names[i]);
-        if (length < 0 || (size_t)length >= sizeof channels[i])
-            return sb_fail(error, SB_BAD_INPUT,
-                           "stream prefix \"%s\": the channel name %s_%s is longer than LCM's limit of %d bytes",
-                           prefix, prefix, names[i], LCM_MAX_CHANNEL_NAME_LENGTH);
-    }
-    return SB_OK;
+    if (!url || !*url) url = getenv("LCM_DEFAULT_URL");
+    return url && *url ? url : "udpm://239.255.76.67:7667";
 }
 
 sb_stderr_catch sb_stderr_hold(void)

@@ -8,7 +8,6 @@
 #include <pthread.h>
 #include <signal.h>
 #include <stdbool.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -90,8 +89,7 @@ static sb_status explain(const char *url, const char *reason, sb_error *error)
 
 sb_status sb_provider_open(const char *url, lcm_t **lcm, sb_error *error)
 {
-    const char *named = url && *url ? url : getenv("LCM_DEFAULT_URL");
-    if (!named || !*named) named = "udpm://239.255.76.67:7667";
+    const char *named = sb_provider_url(url);
     opening *o = sb_alloc(1, sizeof *o);
     if (!o) return sb_fail_memory(error, "opening LCM");
     pthread_mutex_init(&o->lock, NULL);

@@ -1,47 +1,38 @@
-/* Encodes and publishes status, forces and particles. */
-#include "stream/stream.h"
+/* Creates a stream, takes values from the run, and sends the status and the scene. */
+#include "stream/stream_state.h"
 
+#include "base/clock.h"
 #include "base/hash.h"
 #include "base/memory.h"
-#include "stream/decode.h"
-#include "stream/provider.h"
+#include "stream/scene_encode.h"
 
-#include "shorebreak_forces_t.h"
-#include "shorebreak_particles_t.h"
+#include "shorebreak_scene_piece_t.h"
 #include "shorebreak_status_t.h"
 
 #include <math.h>
-#include <pthread.h>
-#include <signal.h>
-#include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
+#include <sys/random.h>
 
-enum { CHUNK_PAUSE_NS = 100000, STATUS_BYTES = 512 };
+static const double STATUS_SECONDS = 0.5;
 
-struct sb_stream {
-    sb_stream *previous_abandoned;
-    lcm_t *lcm;
-    sb_channel channels[SB_CHANNELS];
-    char run[SB_STREAM_NAME];
-    double interval;
-    uint64_t decimation;
-    int64_t last_interval; /* number of the interval whose particles were sent last; -1: none yet */
-    _Atomic int64_t frame, fluid_particles;
-    _Atomic uint64_t messages, bytes, errors;
-    /* Buffers of the stream's thread. */
-    unsigned char buffer[SB_STREAM_MESSAGE_MAX];
-    float position[3 * SB_STREAM_CHUNK], velocity[3 * SB_STREAM_CHUNK], pressure[SB_STREAM_CHUNK];
-    char *names[SB_STREAM_BODIES];
-    int8_t reported[SB_STREAM_BODIES];
-    double force[3 * SB_STREAM_BODIES], moment[3 * SB_STREAM_BODIES];
-    double displacement[3 * SB_STREAM_BODIES];
-};
+/* A cycle of all pieces of the scene: one that joins late has them within two seconds. A large scene takes longer, at
+   most CYCLE_BYTES per second. */
+static const double CYCLE_SECONDS = 1.5, CYCLE_BYTES = 12e6;
 
 lcm_t *sb_stream_provider(sb_stream *stream)
 {
-    return stream->lcm;
+    return stream->sender.lcm;
+}
+
+static int64_t draw_run_id(void)
+{
+    uint64_t bits;
+    if (getrandom(&bits, sizeof bits, GRND_NONBLOCK) != (ssize_t)sizeof bits) {
+        const double now = sb_clock(); /* early at boot: the time differs between two runs, too */
+        bits = sb_hash(0, &now, sizeof now);
+    }
+    return (int64_t)(bits & (uint64_t)SB_STREAM_RUN_MAX);
 }
 
 sb_status sb_stream_create(const sb_stream_settings *settings, const char *run_name, sb_stream **stream,
@@ -49,12 +40,15 @@ sb_status sb_stream_create(const sb_stream_settings *settings, const char *run_n
 {
     sb_stream *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, "the stream");
+    pthread_mutex_init(&made->lock, NULL);
     made->interval = settings->interval;
-    made->decimation = settings->decimation > 1 ? (uint64_t)settings->decimation : 1;
+    made->run_id = draw_run_id();
     made->last_interval = -1;
+    made->frame_time = made->status_time = made->cycle_begin = -1;
+    const sb_stream_limits limits = {.decimation = settings->decimation, .bytes_per_second = SB_STREAM_BYTES_MAX};
+    sb_stream_set_limits(made, &limits);
     snprintf(made->run, sizeof made->run, "%s", run_name ? run_name : "");
-    sb_status status = sb_provider_channels(settings->prefix, made->channels, error);
-    if (status == SB_OK) status = sb_provider_open(settings->url, &made->lcm, error);
+    const sb_status status = sb_sender_open(settings->url, settings->prefix, &made->sender, error);
     if (status != SB_OK) {
         sb_stream_destroy(made);
         return status;
@@ -63,9 +57,21 @@ sb_status sb_stream_create(const sb_stream_settings *settings, const char *run_n
     return SB_OK;
 }
 
+static void free_rows(sb_stream_rows *rows)
+{
+    sb_free(rows->forces);
+    sb_free(rows->gauges);
+}
+
 void sb_stream_destroy(sb_stream *stream)
 {
-    if (stream && stream->lcm) lcm_destroy(stream->lcm);
+    if (!stream) return;
+    sb_sender_close(&stream->sender);
+    free_rows(&stream->waiting);
+    free_rows(&stream->sending);
+    sb_points_free(&stream->points);
+    sb_free(stream->encoded);
+    pthread_mutex_destroy(&stream->lock);
     sb_free(stream);
 }
 
@@ -75,161 +81,200 @@ void sb_stream_abandon(sb_stream *stream)
     stream->previous_abandoned = atomic_exchange(&last, stream);
 }
 
+sb_status sb_stream_set_scene(sb_stream *stream, const sb_scene *scene, const sb_model *model, sb_error *error)
+{
+    stream->scene = scene;
+    stream->model = model;
+    stream->progress.status.duration = scene->duration;
+    stream->progress.status.eta_seconds = -1;
+    stream->progress.fluid_particles = model->fluid_count;
+    const sb_status status =
+        sb_scene_encode(scene, model, stream->run_id, stream->run, &stream->encoded, &stream->encoded_size, error);
+    if (status == SB_OK) stream->scene_id = (int64_t)sb_hash(0, stream->encoded, stream->encoded_size);
+    return status;
+}
+
+int64_t sb_stream_run_id(const sb_stream *stream)
+{
+    return stream->run_id;
+}
+
 sb_stream_counters sb_stream_count(const sb_stream *stream)
 {
-    return (sb_stream_counters){.messages = stream->messages, .bytes = stream->bytes, .errors = stream->errors};
+    sb_stream_counters count = sb_sender_count(&stream->sender);
+    count.errors += stream->row_errors;
+    return count;
 }
 
-/* Sends an encoded message of `size` bytes; a negative size means that the encoder failed. */
-static void send_message(sb_stream *stream, int channel, const void *buffer, int size)
+/* ---- values from the run ---- */
+
+void sb_stream_set_progress(sb_stream *stream, const sb_stream_progress *progress)
 {
-    /* A provider over TCP raises SIGPIPE when its peer has closed the connection. This must not end the run. */
-    sigset_t pipe_signal, before;
-    sigemptyset(&pipe_signal);
-    sigaddset(&pipe_signal, SIGPIPE);
-    pthread_sigmask(SIG_BLOCK, &pipe_signal, &before);
-    /* A peer that has stopped reading blocks the call without a limit, so the thread may be cancelled here, and only
-       here. */
-    int state;
-    pthread_setcancelstate(PTHREAD_CANCEL_ENABLE, &state);
-    bool sent = size > 0 && lcm_publish(stream->lcm, stream->channels[channel], buffer, (unsigned)size) == 0;
-    pthread_setcancelstate(state, NULL);
-    if (!sent && !sigismember(&before, SIGPIPE)) sigtimedwait(&pipe_signal, NULL, &(struct timespec){0});
-    pthread_sigmask(SIG_SETMASK, &before, NULL);
-    if (sent) {
-        stream->messages++;
-        stream->bytes += (uint64_t)size;
-    } else {
-        stream->errors++;
+    pthread_mutex_lock(&stream->lock);
+    stream->progress = *progress;
+    pthread_mutex_unlock(&stream->lock);
+}
+
+void sb_stream_set_state(sb_stream *stream, sb_run_state state)
+{
+    pthread_mutex_lock(&stream->lock);
+    stream->state = state;
+    pthread_mutex_unlock(&stream->lock);
+}
+
+void sb_stream_set_limits(sb_stream *stream, const sb_stream_limits *limits)
+{
+    sb_stream_limits set = *limits;
+    if (!(set.rate >= 0) || !isfinite(set.rate)) set.rate = 0;
+    if (set.decimation < 1) set.decimation = 1;
+    if (!(set.bytes_per_second > 0))
+        set.bytes_per_second = 0;
+    else
+        set.bytes_per_second = fmin(fmax(set.bytes_per_second, SB_STREAM_BYTES_MIN), SB_STREAM_BYTES_MAX);
+    pthread_mutex_lock(&stream->lock);
+    stream->limits = set;
+    pthread_mutex_unlock(&stream->lock);
+}
+
+sb_stream_limits sb_stream_get_limits(sb_stream *stream)
+{
+    pthread_mutex_lock(&stream->lock);
+    const sb_stream_limits limits = stream->limits;
+    pthread_mutex_unlock(&stream->lock);
+    return limits;
+}
+
+sb_stream_limits sb_stream_adapt(sb_stream_limits limits, double lost)
+{
+    static const double SOME = 0.002, SLOWER = 0.7, FASTER = 1.05;
+    double pace = limits.bytes_per_second > 0 ? limits.bytes_per_second : SB_STREAM_BYTES_MAX;
+    pace *= lost > SOME ? SLOWER : lost > 0 ? 1 : FASTER;
+    limits.bytes_per_second = fmin(fmax(pace, SB_STREAM_BYTES_MIN), SB_STREAM_BYTES_MAX);
+    return limits;
+}
+
+/* ---- status ---- */
+
+/* The region that is sent: without a limit, the domain. */
+static void put_region(const sb_stream *stream, const sb_stream_limits *limits, shorebreak_status_t *message)
+{
+    const sb_vec3 zero = {0};
+    sb_stream_store(message->region_min, limits->region  ? limits->min
+                                         : stream->scene ? stream->scene->domain.min
+                                                         : zero);
+    sb_stream_store(message->region_max, limits->region  ? limits->max
+                                         : stream->scene ? stream->scene->domain.max
+                                                         : zero);
+}
+
+static void send_status(sb_stream *stream)
+{
+    pthread_mutex_lock(&stream->lock);
+    const sb_stream_progress progress = stream->progress;
+    const sb_stream_limits limits = stream->limits;
+    const sb_run_state state = stream->state;
+    pthread_mutex_unlock(&stream->lock);
+    const sb_frame_status *status = &progress.status;
+    const sb_stream_counters count = sb_stream_count(stream);
+    char *stages[SB_STAGES_MAX];
+    double seconds[SB_STAGES_MAX];
+    for (size_t i = 0; i < progress.stage_count; i++) {
+        stages[i] = (char *)(uintptr_t)progress.stages[i].name; /* the encoder does not write through it */
+        seconds[i] = progress.stages[i].seconds;
     }
-}
-
-void sb_stream_status(sb_stream *stream, const sb_frame_status *status)
-{
-    unsigned char buffer[STATUS_BYTES];
     shorebreak_status_t message = {
+        .version = SB_STREAM_VERSION,
+        .run_id = stream->run_id,
         .run = stream->run,
+        .state = (int8_t)state,
         .step = (int64_t)status->step,
         .time = status->time,
         .duration = status->duration,
         .time_step = status->time_step,
         .iterations = status->iterations,
+        .capped_steps = (int64_t)progress.capped_steps,
         .density_error = status->density_error,
+        .density_error_max = progress.density_error_max,
+        .tolerance = progress.tolerance,
         .max_speed = status->max_speed,
         .wall_seconds = status->wall_seconds,
         .eta_seconds = isfinite(status->eta_seconds) ? status->eta_seconds : -1,
         .lost_particles = (int64_t)status->lost_particles,
-        .fluid_particles = stream->fluid_particles,
+        .fluid_particles = (int64_t)progress.fluid_particles,
         .frame = stream->frame,
+        .messages = (int64_t)count.messages,
+        .bytes = (int64_t)count.bytes,
+        .errors = (int64_t)count.errors,
+        .frames_skipped = (int64_t)(progress.frames_dropped + stream->skipped),
+        .rate = limits.rate,
+        .decimation = limits.decimation,
+        .stage_count = (int32_t)progress.stage_count,
+        .stages = stages,
+        .stage_seconds = seconds,
     };
-    send_message(stream, SB_CHANNEL_STATUS, buffer, shorebreak_status_t_encode(buffer, 0, sizeof buffer, &message));
+    put_region(stream, &limits, &message);
+    sb_sender_send(&stream->sender, SB_CHANNEL_STATUS, stream->buffer,
+                   shorebreak_status_t_encode(stream->buffer, 0, sizeof stream->buffer, &message));
+    stream->status_time = sb_clock();
 }
 
-static void store(double out[3], sb_vec3 vector)
-{
-    out[0] = vector.x;
-    out[1] = vector.y;
-    out[2] = vector.z;
-}
+/* ---- scene ---- */
 
-static void publish_forces(sb_stream *stream, const sb_frame *frame)
+static void send_piece(sb_stream *stream, int32_t piece, int32_t pieces, double pace)
 {
-    size_t first = 0;
-    do {
-        size_t left = frame->body_count - first;
-        size_t count = left < SB_STREAM_BODIES ? left : SB_STREAM_BODIES;
-        for (size_t i = 0; i < count; i++) {
-            sb_frame_body *body = &frame->bodies[first + i];
-            stream->names[i] = body->name;
-            stream->reported[i] = body->report ? 1 : 0;
-            store(&stream->force[3 * i], body->force);
-            store(&stream->moment[3 * i], body->moment);
-            store(&stream->displacement[3 * i], body->displacement);
-        }
-        shorebreak_forces_t message = {
-            .frame = (int64_t)frame->index,
-            .time = frame->status.time,
-            .total = (int32_t)frame->body_count,
-            .first = (int32_t)first,
-            .n = (int32_t)count,
-            .components = (int32_t)(3 * count),
-            .names = stream->names,
-            .reported = stream->reported,
-            .force = stream->force,
-            .moment = stream->moment,
-            .displacement = stream->displacement,
-        };
-        send_message(stream, SB_CHANNEL_FORCES, stream->buffer,
-                     shorebreak_forces_t_encode(stream->buffer, 0, sizeof stream->buffer, &message));
-        first += count;
-    } while (first < frame->body_count);
-}
-
-/* Selects one particle in `decimation` by a hash of its id: the same particles in every frame, and, unlike every n-th
-   particle of a lattice, without preference for a lattice plane. */
-static bool streamed(const sb_stream *stream, const sb_frame *frame, size_t particle)
-{
-    return stream->decimation == 1 || sb_hash_mix(frame->id[particle]) % stream->decimation == 0;
-}
-
-static void send_chunk(sb_stream *stream, shorebreak_particles_t *message, int32_t count)
-{
-    message->count = count;
-    message->components = 3 * count;
-    int size = shorebreak_particles_t_encode(stream->buffer, 0, sizeof stream->buffer, message);
-    if (message->chunk > 0) nanosleep(&(struct timespec){.tv_nsec = CHUNK_PAUSE_NS}, NULL);
-    send_message(stream, SB_CHANNEL_PARTICLES, stream->buffer, size);
-    message->chunk++;
-    message->first += count;
-}
-
-static void publish_particles(sb_stream *stream, const sb_frame *frame)
-{
-    int64_t total = 0;
-    for (size_t i = 0; i < frame->count; i++) total += streamed(stream, frame, i);
-    int64_t chunks = total > 0 ? (total + SB_STREAM_CHUNK - 1) / SB_STREAM_CHUNK : 1;
-    shorebreak_particles_t message = {
-        .frame = (int64_t)frame->index,
-        .time = frame->status.time,
-        .chunk_count = (int32_t)chunks,
-        .total = total,
-        .decimation = (int32_t)stream->decimation,
-        .spacing = frame->spacing,
-        .position = stream->position,
-        .velocity = stream->velocity,
-        .pressure = stream->pressure,
+    const size_t offset = (size_t)piece * SB_STREAM_PIECE, left = stream->encoded_size - offset;
+    shorebreak_scene_piece_t message = {
+        .version = SB_STREAM_VERSION,
+        .run_id = stream->run_id,
+        .scene_id = stream->scene_id,
+        .total = (int64_t)stream->encoded_size,
+        .piece = piece,
+        .piece_count = pieces,
+        .offset = (int64_t)offset,
+        .count = (int32_t)(left < SB_STREAM_PIECE ? left : SB_STREAM_PIECE),
+        .data = stream->encoded + offset,
     };
-    store(message.origin, frame->origin);
-    size_t filled = 0;
-    for (size_t i = 0; i < frame->count; i++) {
-        if (!streamed(stream, frame, i)) continue;
-        memcpy(&stream->position[3 * filled], &frame->position[3 * i], 3 * sizeof(float));
-        memcpy(&stream->velocity[3 * filled], &frame->velocity[3 * i], 3 * sizeof(float));
-        stream->pressure[filled++] = frame->pressure[i];
-        if (filled == SB_STREAM_CHUNK) {
-            send_chunk(stream, &message, (int32_t)filled);
-            filled = 0;
-        }
+    sb_sender_send_paced(&stream->sender, SB_CHANNEL_SCENE, stream->buffer,
+                         shorebreak_scene_piece_t_encode(stream->buffer, 0, sizeof stream->buffer, &message), pace);
+}
+
+/* Sends the pieces that are due. They are spread evenly over a cycle. */
+static void send_pieces(sb_stream *stream, double now)
+{
+    if (!stream->encoded) return;
+    const int32_t pieces = (int32_t)((stream->encoded_size + SB_STREAM_PIECE - 1) / SB_STREAM_PIECE);
+    const double cycle = fmax(CYCLE_SECONDS, (double)stream->encoded_size / CYCLE_BYTES);
+    if (stream->cycle_begin < 0 || now >= stream->cycle_begin + cycle) {
+        stream->cycle_begin = now;
+        stream->next_piece = 0;
     }
-    if (filled > 0 || total == 0) send_chunk(stream, &message, (int32_t)filled);
+    const double pace = sb_stream_get_limits(stream).bytes_per_second;
+    while (stream->next_piece < pieces && now >= stream->cycle_begin + cycle * stream->next_piece / pieces)
+        send_piece(stream, stream->next_piece++, pieces, pace);
 }
 
-/* Returns whether a new interval has begun since particles were last sent. Frames may come at any interval. */
-static bool particles_due(sb_stream *stream, double time)
+/* ---- */
+
+double sb_stream_serve(sb_stream *stream)
 {
-    if (!(stream->interval > 0)) return true;
-    /* Rounding may put the time of a frame slightly before the multiple of the interval that it belongs to. */
-    double number = floor(time / stream->interval + 1e-6);
-    if (!(number > (double)stream->last_interval) || number > 0x1p62) return false;
-    stream->last_interval = (int64_t)number;
-    return true;
+    const double now = sb_clock();
+    sb_stream_send_rows(stream);
+    if (stream->status_time < 0 || now >= stream->status_time + STATUS_SECONDS) send_status(stream);
+    send_pieces(stream, now);
+    return SB_STREAM_SERVE;
 }
 
 void sb_stream_publish(sb_stream *stream, const sb_frame *frame)
 {
-    stream->frame = (int64_t)frame->index;
-    stream->fluid_particles = (int64_t)frame->count;
-    sb_stream_status(stream, &frame->status);
-    publish_forces(stream, frame);
-    if (particles_due(stream, frame->status.time)) publish_particles(stream, frame);
+    send_status(stream);
+    sb_stream_send_rows(stream);
+    sb_stream_send_frame(stream, frame);
+    send_pieces(stream, sb_clock());
+}
+
+void sb_stream_finish(sb_stream *stream)
+{
+    sb_stream_set_state(stream, SB_RUN_DONE);
+    sb_stream_send_rows(stream);
+    send_status(stream);
 }

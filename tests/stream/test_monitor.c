@@ -2,6 +2,7 @@
 #include "stream_fixture.h"
 
 #include "base/clock.h"
+#include "base/hash.h"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -52,22 +53,32 @@ static int record_log(void **state)
     char url[64];
     snprintf(url, sizeof url, "file://%s?mode=w", log_path);
     snprintf(log_url, sizeof log_url, "'file://%s?speed=0'", log_path);
+    fixture_scene f;
+    fixture_scene_make(&f, 6, 2);
+    snprintf(f.model.bodies[0].name, sizeof f.model.bodies[0].name, "reactor\x1b[31m");
     sb_stream *stream = fixture_stream(url, 0, 1);
+    if (sb_stream_set_scene(stream, &f.scene, &f.model, NULL) != SB_OK) return -1;
     lcm_t *lcm = sb_stream_provider(stream);
     for (uint64_t index = 1; index <= 2; index++) {
         sb_frame *frame = fixture_frame(index, 22.5 * (double)index, 5000, 5);
-        snprintf(frame->bodies[0].name, sizeof frame->bodies[0].name, "reactor\x1b[31m");
-        frame->bodies[0].force = sb_vec(-3e6 * (double)(3 - index), 4e6 * (double)(3 - index), 7e6);
-        frame->bodies[1].force = frame->bodies[3].force = frame->bodies[4].force = sb_vec(1e6, 0, 0);
-        sb_stream_publish(stream, frame);
+        sb_force_record forces[4] = {{.body = 0}, {.body = 1}, {.body = 3}, {.body = 4}};
+        for (size_t i = 0; i < 4; i++) {
+            forces[i].time = frame->status.time;
+            forces[i].force =
+                i == 0 ? sb_vec(-3e6 * (double)(3 - index), 4e6 * (double)(3 - index), 7e6) : sb_vec(1e6, 0, 0);
+        }
+        const sb_measure_records rows = {.force_count = 4, .forces = forces};
+        sb_stream_measure(stream, &rows);
+        fixture_publish(stream, frame);
         sb_frame_release(frame);
         unsigned char invalid[300];
         for (size_t i = 0; i < sizeof invalid; i++) invalid[i] = (unsigned char)sb_hash_mix(i);
         lcm_publish(lcm, "test_status", invalid, sizeof invalid);
         lcm_publish(lcm, "test_forces", invalid, 7);
-        lcm_publish(lcm, "test_particles", invalid, 0);
+        lcm_publish(lcm, "test_frame", invalid, 0);
     }
     sb_stream_destroy(stream);
+    fixture_scene_free(&f);
     return 0;
 }
 
@@ -87,8 +98,8 @@ static void shows_a_recorded_run(void **state)
     shows(" 50.0 %  45.00 of 90.00 s  ETA 33 s");
     shows("step 1236  dt 3.1 ms  iterations 17  density error 0.04 %");
     shows("max speed 21.25 m/s  particles 5000  lost 3");
-    shows("refused 6");
-    shows("frames  2 complete  0 partial  chunks lost 0");
+    shows("lost 0  refused 6");
+    shows("frames  2 complete  0 partial  parts lost 0");
     shows("|Fxy| MN");
     /* The force is |(-3, 4)| = 5 now, half of the peak. The escape sequence in the name is replaced. */
     shows("reactor?[31m");

@@ -2,10 +2,6 @@
    detect every read beyond its end. */
 #include "stream_fixture.h"
 
-#include "shorebreak_forces_t.h"
-#include "shorebreak_particles_t.h"
-#include "shorebreak_status_t.h"
-
 #include <math.h>
 #include <stdlib.h>
 
@@ -14,16 +10,22 @@ typedef struct message {
     unsigned char bytes[SB_STREAM_MESSAGE_MAX];
 } message;
 
-enum { STATUS, FORCES, PARTICLES, TYPES };
+enum { TYPES = SB_CHANNELS, STATUS = SB_CHANNEL_STATUS, FORCES = SB_CHANNEL_FORCES, FRAME = SB_CHANNEL_FRAME };
+enum { GAUGES = SB_CHANNEL_GAUGES, SCENE = SB_CHANNEL_SCENE };
 static message good[TYPES];
-/* Offsets of the counts and names in the messages of good[]. */
-enum { STATUS_RUN = 8, FORCES_TOTAL = 24, FORCES_N = 32, FORCES_NAME = 40 };
-enum { PARTICLES_CHUNK = 24, PARTICLES_TOTAL = 32, PARTICLES_FIRST = 40, PARTICLES_COUNT = 84 };
+static message scene; /* the encoded scene, which fits into one piece */
+/* Offsets of the counts and names in the messages of good[]: after fingerprint, version, run id and sequence. */
+enum { VERSION = 8, RUN_ID = 12, BODY = 28 };
+enum { STATUS_RUN = BODY, FORCES_TOTAL = BODY + 8, FORCES_N = BODY + 16, FORCES_NAME = BODY + 24 };
+enum { GAUGES_N = BODY + 16 };
+enum { FRAME_PART = BODY + 24, FRAME_TOTAL = BODY + 32, FRAME_FIRST = BODY + 40, FRAME_MOVED = BODY + 108 };
+enum { FRAME_COUNT = FRAME_MOVED + 8 + 28 }; /* one body has moved */
+enum { PIECE_TOTAL = BODY + 8, PIECE_PIECE = BODY + 16, PIECE_OFFSET = BODY + 24, PIECE_COUNT = BODY + 32 };
 
 static void capture(const lcm_recv_buf_t *received, const char *channel, void *user)
 {
     (void)user;
-    message *to = &good[strstr(channel, "status") ? STATUS : strstr(channel, "forces") ? FORCES : PARTICLES];
+    message *to = &good[sb_channel_guess(channel)];
     to->size = received->data_size;
     memcpy(to->bytes, received->data, received->data_size);
 }
@@ -31,14 +33,42 @@ static void capture(const lcm_recv_buf_t *received, const char *channel, void *u
 static int capture_all(void **state)
 {
     (void)state;
+    fixture_scene f;
+    fixture_scene_make(&f, 4, 3);
     sb_stream *stream = fixture_stream("memq://", 0, 1);
+    sb_stream_set_scene(stream, &f.scene, &f.model, NULL);
     lcm_subscribe(sb_stream_provider(stream), ".*", capture, NULL);
+    sb_measure_records rows = fixture_rows(&f, 4.5);
+    sb_stream_measure(stream, &rows);
+    fixture_rows_free(&rows);
     sb_frame *frame = fixture_frame(3, 4.5, 50, 4);
-    sb_stream_publish(stream, frame);
+    fixture_publish(stream, frame);
     sb_frame_release(frame);
     fixture_drain(stream);
     sb_stream_destroy(stream);
-    return good[STATUS].size && good[FORCES].size && good[PARTICLES].size ? 0 : -1;
+    fixture_scene_free(&f);
+    sb_scene_piece_message piece;
+    if (sb_stream_decode_piece(good[SCENE].bytes, good[SCENE].size, &piece, NULL) != SB_OK) return -1;
+    scene.size = (size_t)piece.count;
+    memcpy(scene.bytes, piece.data, scene.size);
+    for (int type = 0; type < TYPES; type++)
+        if (good[type].size == 0) return -1;
+    return piece.piece_count == 1 ? 0 : -1;
+}
+
+/* A block of exactly that size. */
+static unsigned char *exact_copy(const unsigned char *bytes, size_t size)
+{
+    unsigned char *exact = malloc(size ? size : 1);
+    assert_non_null(exact);
+    memcpy(exact, bytes, size);
+    return exact;
+}
+
+static void check_names(char (*names)[SB_STREAM_NAME], int32_t count)
+{
+    for (int32_t i = 0; i < count; i++)
+        for (const char *at = names[i]; *at; at++) assert_in_range(*at, 0x20, 0x7e);
 }
 
 /* Decodes the bytes as `type` from a block of exactly that size, and checks a successful result. */
@@ -47,27 +77,47 @@ static sb_status decode(int type, const unsigned char *bytes, size_t size, sb_er
     static union {
         sb_status_message status;
         sb_forces_message forces;
-        sb_particles_message particles;
+        sb_gauges_message gauges;
+        sb_frame_message frame;
+        sb_scene_piece_message piece;
     } out;
-    unsigned char *exact = malloc(size ? size : 1);
-    assert_non_null(exact);
-    memcpy(exact, bytes, size);
-    sb_status status;
+    unsigned char *exact = exact_copy(bytes, size);
+    sb_status status = SB_BAD_INPUT;
     if (type == STATUS) {
         status = sb_stream_decode_status(exact, size, &out.status, error);
         if (status == SB_OK) assert_true(isfinite(out.status.time) && strlen(out.status.run) < SB_STREAM_NAME);
     } else if (type == FORCES) {
         status = sb_stream_decode_forces(exact, size, &out.forces, error);
-        for (int32_t i = 0; status == SB_OK && i < 3 * out.forces.count; i++) {
-            assert_true(isfinite(out.forces.force[i]) && isfinite(out.forces.moment[i]));
-            for (const char *at = out.forces.names[i / 3]; *at; at++) assert_in_range(*at, 0x20, 0x7e);
-        }
+        if (status == SB_OK) check_names(out.forces.names, out.forces.count);
+        for (int32_t i = 0; status == SB_OK && i < 3 * out.forces.count; i++)
+            assert_true(isfinite(out.forces.force[i]) && isfinite(out.forces.friction[i]));
+    } else if (type == GAUGES) {
+        status = sb_stream_decode_gauges(exact, size, &out.gauges, error);
+        if (status == SB_OK) check_names(out.gauges.names, out.gauges.count);
+        for (int32_t i = 0; status == SB_OK && i < out.gauges.count; i++) assert_true(isfinite(out.gauges.z[i]));
+    } else if (type == FRAME) {
+        status = sb_stream_decode_frame(exact, size, &out.frame, error);
+        if (status == SB_OK)
+            assert_true(out.frame.points >= exact &&
+                        out.frame.points + SB_STREAM_POINT * out.frame.count <= exact + size);
     } else {
-        status = sb_stream_decode_particles(exact, size, &out.particles, error);
-        for (int32_t i = 0; status == SB_OK && i < 3 * out.particles.count; i++)
-            assert_true(isfinite(out.particles.position[i]) && isfinite(out.particles.velocity[i]));
+        status = sb_stream_decode_piece(exact, size, &out.piece, error);
+        if (status == SB_OK) assert_true(out.piece.data >= exact && out.piece.data + out.piece.count <= exact + size);
     }
     free(exact);
+    return status;
+}
+
+static sb_status decode_scene(const message *bytes, sb_error *error)
+{
+    sb_live_scene out;
+    unsigned char *exact = exact_copy(bytes->bytes, bytes->size);
+    const sb_status status = sb_live_scene_decode(exact, bytes->size, &out, error);
+    free(exact);
+    for (size_t b = 0; status == SB_OK && b < out.body_count; b++)
+        for (size_t c = 0; c < 3 * out.bodies[b].triangle_count; c++)
+            assert_in_range(out.bodies[b].corners[c], 0, out.bodies[b].vertex_count - 1);
+    if (status == SB_OK) sb_live_scene_free(&out);
     return status;
 }
 
@@ -103,38 +153,50 @@ static void truncated_and_padded(void **state)
     }
     message large = {.size = SB_STREAM_MESSAGE_MAX};
     unsigned char *over = calloc(1, 1 << 20);
-    memcpy(over, good[PARTICLES].bytes, good[PARTICLES].size);
-    assert_int_equal(decode(PARTICLES, over, 1 << 20, NULL), SB_BAD_INPUT);
+    memcpy(over, good[FRAME].bytes, good[FRAME].size);
+    assert_int_equal(decode(FRAME, over, 1 << 20, NULL), SB_BAD_INPUT);
     free(over);
     refused(STATUS, &large, "fingerprint");
+}
+
+static void another_version_is_refused(void **state)
+{
+    (void)state;
+    for (int type = 0; type < TYPES; type++) {
+        message other = good[type];
+        put32(&other, VERSION, SB_STREAM_VERSION + 1);
+        refused(type, &other, "its version is not 2");
+        other = good[type];
+        put32(&other, RUN_ID, 0x00200000); /* 2^53 and more */
+        refused(type, &other, "run id");
+    }
 }
 
 static void hostile_counts(void **state)
 {
     (void)state;
-    static const uint32_t counts[] = {0, 1, 5, 51, 2140, 0x7fffffff, 0x80000000, 0xffffffff, 0x55555556, 0xaaaaaaaa};
+    static const uint32_t counts[] = {0, 1, 5, 51, 5601, 0x7fffffff, 0x80000000, 0xffffffff, 0x55555556, 0xaaaaaaaa};
     static const struct {
         int type;
         size_t at;
-    } places[] = {{STATUS, STATUS_RUN},
-                  {FORCES, FORCES_N},
-                  {FORCES, FORCES_N + 4},
-                  {FORCES, FORCES_NAME},
-                  {PARTICLES, PARTICLES_COUNT},
-                  {PARTICLES, PARTICLES_COUNT + 4},
-                  {PARTICLES, PARTICLES_CHUNK + 4},
-                  {PARTICLES, PARTICLES_TOTAL},
-                  {PARTICLES, PARTICLES_FIRST + 4}};
+        uint32_t each; /* the next number is so many times this one; 0: it is not */
+    } places[] = {{STATUS, STATUS_RUN, 0},     {FORCES, FORCES_N, 3},       {FORCES, FORCES_N + 4, 0},
+                  {FORCES, FORCES_NAME, 0},    {GAUGES, GAUGES_N, 0},       {FRAME, FRAME_COUNT, 8},
+                  {FRAME, FRAME_COUNT + 4, 0}, {FRAME, FRAME_MOVED, 3},     {FRAME, FRAME_MOVED + 4, 0},
+                  {FRAME, FRAME_PART + 4, 0},  {FRAME, FRAME_TOTAL, 0},     {FRAME, FRAME_FIRST + 4, 0},
+                  {SCENE, PIECE_TOTAL, 0},     {SCENE, PIECE_TOTAL + 4, 0}, {SCENE, PIECE_PIECE, 0},
+                  {SCENE, PIECE_PIECE + 4, 0}, {SCENE, PIECE_OFFSET, 0},    {SCENE, PIECE_OFFSET + 4, 0},
+                  {SCENE, PIECE_COUNT, 0}};
     for (size_t p = 0; p < sizeof places / sizeof *places; p++)
         for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
             message bad = good[places[p].type];
             put32(&bad, places[p].at, counts[c]);
-            bool same = memcmp(&bad, &good[places[p].type], sizeof bad) == 0;
+            const bool same = memcmp(&bad, &good[places[p].type], sizeof bad) == 0;
             assert_int_equal(decode(places[p].type, bad.bytes, bad.size, NULL), same ? SB_OK : SB_BAD_INPUT);
-            /* Both counts changed consistently, three to one: only the size reveals the error. */
-            put32(&bad, places[p].at + 4, 3 * counts[c]);
-            if (places[p].at == FORCES_N || places[p].at == PARTICLES_COUNT)
-                assert_int_equal(decode(places[p].type, bad.bytes, bad.size, NULL), SB_BAD_INPUT);
+            /* Both counts changed consistently: only the size reveals the error. */
+            if (places[p].each == 0 || same) continue;
+            put32(&bad, places[p].at + 4, places[p].each * counts[c]);
+            assert_int_equal(decode(places[p].type, bad.bytes, bad.size, NULL), SB_BAD_INPUT);
         }
 }
 
@@ -148,17 +210,52 @@ static void invalid_contents(void **state)
     bad.bytes[STATUS_RUN + 4 + strlen("a run")] = 'x';
     refused(STATUS, &bad, "not terminated by a zero");
     bad = good[STATUS];
-    put32(&bad, STATUS_RUN + 4 + strlen("a run") + 1 + 8, 0x7ff80000); /* time becomes NaN */
+    bad.bytes[STATUS_RUN + 4 + strlen("a run") + 1] = 3;
+    refused(STATUS, &bad, "its state is not 0, 1 or 2");
+    bad = good[STATUS];
+    put32(&bad, STATUS_RUN + 4 + strlen("a run") + 1 + 1 + 8, 0x7ff80000); /* time becomes NaN */
     refused(STATUS, &bad, "not finite");
-    bad = good[PARTICLES];
-    put32(&bad, bad.size - 4, 0x7f800000); /* the last pressure becomes infinite */
-    refused(PARTICLES, &bad, "not finite");
+    bad = good[GAUGES];
+    put32(&bad, bad.size - 8, 0x7ff00000); /* the last elevation becomes infinite */
+    refused(GAUGES, &bad, "not finite");
+    bad = good[FRAME];
+    put32(&bad, FRAME_MOVED + 8, 0xffffffff);
+    refused(FRAME, &bad, "the index of a body is negative");
 
     sb_status_message out;
     bad = good[STATUS];
     memcpy(&bad.bytes[STATUS_RUN + 4], "\x1b[2J\xff", 5);
     assert_int_equal(sb_stream_decode_status(bad.bytes, bad.size, &out, NULL), SB_OK);
     assert_string_equal(out.run, "?[2J?");
+}
+
+static void damaged_scenes(void **state)
+{
+    (void)state;
+    sb_error error = {0};
+    assert_int_equal(decode_scene(&scene, &error), SB_OK);
+    for (size_t size = 0; size < scene.size; size++) {
+        const message shorter = scene;
+        unsigned char *exact = exact_copy(shorter.bytes, size);
+        sb_live_scene out;
+        assert_int_equal(sb_live_scene_decode(exact, size, &out, NULL), SB_BAD_INPUT);
+        free(exact);
+    }
+    /* Every aligned and unaligned word as a hostile count: refused, or a value that is not a count. */
+    static const uint32_t words[] = {0x7fffffff, 0x80000000, 0xffffffff, 0x00ffffff};
+    size_t refusals = 0;
+    for (size_t at = 0; at + 4 <= scene.size; at++)
+        for (size_t w = 0; w < sizeof words / sizeof *words; w++) {
+            message bad = scene;
+            put32(&bad, at, words[w]);
+            refusals += decode_scene(&bad, NULL) != SB_OK;
+        }
+    assert_true(refusals > scene.size / 4);
+    for (long n = 1; n <= 12; n++) {
+        sb_memory_fail_at(n);
+        assert_int_equal(decode_scene(&scene, &error), SB_FAILED);
+        sb_memory_fail_at(0);
+    }
 }
 
 static void failure_leaves_the_output_unchanged(void **state)
@@ -186,7 +283,7 @@ static void mutate(message *victim)
             victim->bytes[draw((uint32_t)victim->size)] ^= (unsigned char)(1u << draw(8));
         break;
     case 1: /* replace an aligned word of the header by a random value */
-        put32(victim, 8 + 4 * draw(30), draw(2) ? draw(UINT32_MAX) : draw(300));
+        put32(victim, 8 + 4 * draw(40), draw(2) ? draw(UINT32_MAX) : draw(300));
         break;
     case 2: /* random bytes of random length after the correct fingerprint */
         victim->size = 8 + draw(600);
@@ -208,6 +305,9 @@ static void seeded_mutations(void **state)
         mutate(&victim);
         accepted += decode(type, victim.bytes, victim.size, NULL) == SB_OK;
         decode((int)draw(TYPES), victim.bytes, victim.size, NULL);
+        victim = scene;
+        mutate(&victim);
+        decode_scene(&victim, NULL);
     }
     /* Flipped bits in plain values are not an error; wrong lengths always are. */
     assert_in_range(accepted, 500, 10000);
@@ -218,8 +318,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(good_messages_pass),
         cmocka_unit_test(truncated_and_padded),
+        cmocka_unit_test(another_version_is_refused),
         cmocka_unit_test(hostile_counts),
         cmocka_unit_test(invalid_contents),
+        cmocka_unit_test(damaged_scenes),
         cmocka_unit_test(failure_leaves_the_output_unchanged),
         cmocka_unit_test(seeded_mutations),
     };

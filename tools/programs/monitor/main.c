@@ -1,11 +1,12 @@
 /* Receives a run's stream over LCM and shows it as a live table. */
-#include "guard.h"
 #include "options.h"
 #include "state.h"
 #include "table.h"
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "stream/guard.h"
+#include "stream/listen.h"
 
 #include <langinfo.h>
 #include <locale.h>
@@ -18,7 +19,7 @@
 #define REDRAW_SECONDS 0.2
 #define LINE_SECONDS 1.0
 #define SILENCE_SECONDS 5.0
-/* Forces and the first chunks follow a status immediately. */
+/* The status comes every half second; forces and parts of a frame come with the next interval. */
 #define ONCE_SECONDS 0.25
 
 #define ENTER_SCREEN "\x1b[?1049h\x1b[?25l\x1b[2J"
@@ -27,6 +28,7 @@
 typedef struct monitor {
     sb_monitor_options options;
     sb_monitor_state state;
+    sb_live *live;
     sb_table_style style;
     bool screen;            /* the table takes the whole terminal */
     double begun;           /* sb_clock() at the start, for --duration */
@@ -60,10 +62,28 @@ static void on_forces(void *user, const sb_forces_message *message)
     if (!self->once_complete) sb_monitor_on_forces(&self->state, message);
 }
 
-static void on_particles(void *user, const sb_particles_message *message)
+static void on_part(void *user, const sb_frame_message *message)
 {
     monitor *self = user;
-    if (!self->once_complete) sb_monitor_on_particles(&self->state, message);
+    if (!self->once_complete) sb_monitor_on_part(&self->state, message);
+}
+
+static void on_frame(void *user, const sb_live_frame *frame)
+{
+    monitor *self = user;
+    if (!self->once_complete) sb_monitor_on_frame(&self->state, frame);
+}
+
+static void on_restart(void *user, int64_t run_id)
+{
+    monitor *self = user;
+    if (!self->once_complete) sb_monitor_on_restart(&self->state, run_id);
+}
+
+static void on_message(void *user, sb_channel_kind kind, const void *data, size_t size, double time)
+{
+    const monitor *self = user;
+    if (!self->once_complete) sb_live_take(self->live, kind, data, size, time);
 }
 
 static void measure_terminal(sb_table_style *style)
@@ -123,7 +143,7 @@ static void watch(monitor *self, sb_listener *listener)
     for (double now = sb_clock(); !ended && !finished(self, now); now = sb_clock()) {
         ended = sb_listener_poll(listener, self->options.once ? 0.05 : REDRAW_SECONDS) != SB_OK;
         now = sb_clock();
-        sb_monitor_state_sample(&self->state, sb_listener_count(listener), now);
+        sb_monitor_state_sample(&self->state, sb_live_count(self->live), now);
         if (self->screen)
             redraw(self, now);
         else if (!self->options.once)
@@ -143,14 +163,28 @@ static void choose_style(monitor *self)
     measure_terminal(&self->style);
 }
 
+static sb_status connect(monitor *self, sb_listener **listener, sb_error *error)
+{
+    const sb_live_calls calls = {.user = self,
+                                 .restarted = on_restart,
+                                 .status = on_status,
+                                 .forces = on_forces,
+                                 .part = on_part,
+                                 .frame = on_frame};
+    self->live = sb_live_create(&calls);
+    if (!self->live) return sb_fail_memory(error, "the monitor");
+    const sb_listener_calls messages = {self, on_message};
+    return sb_listener_create(self->options.url, self->options.prefix, &messages, listener, error);
+}
+
 static int run(void *argument)
 {
     monitor *self = argument;
     sb_error error = {0};
     sb_listener *listener = NULL;
-    sb_listener_calls calls = {self, on_status, on_forces, on_particles};
-    if (sb_listener_create(self->options.url, self->options.prefix, &calls, &listener, &error) != SB_OK) {
+    if (connect(self, &listener, &error) != SB_OK) {
         fprintf(stderr, "shorebreak-monitor: %s\n", error.text);
+        sb_live_destroy(self->live);
         return 1;
     }
     struct sigaction action = {.sa_handler = stop};
@@ -167,7 +201,7 @@ static int run(void *argument)
     self->style.height = 0;
     if (self->state.has_status) sb_table_draw(stdout, &self->state, &self->style, sb_clock());
     sb_listener_destroy(listener);
-    sb_monitor_state_free(&self->state);
+    sb_live_destroy(self->live);
     if (self->options.once && !(self->first_status > 0)) {
         fprintf(stderr, "shorebreak-monitor: no status message received\n");
         return 1;

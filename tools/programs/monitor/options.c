@@ -8,7 +8,7 @@
 const char sb_monitor_help[] =
     "Usage: shorebreak-monitor [--url URL] [--prefix NAME] [--once] [--duration S] [--plain]\n"
     "\n"
-    "Shows a run while it computes: progress, forces on bodies, and the losses of its particle stream.\n"
+    "Shows a run while it computes: progress, forces on bodies, and the losses of its stream.\n"
     "\n"
     "  --url URL       LCM provider, as stream.url of the scene (default: LCM_DEFAULT_URL, else\n"
     "                  udpm://239.255.76.67:7667); file://LOG replays a log of lcm-logger\n"

@@ -9,35 +9,37 @@
 
 void sb_monitor_state_start(sb_monitor_state *state, double now)
 {
-    sb_monitor_state_free(state);
     memset(state, 0, sizeof *state);
     state->started = state->last_data = now;
     state->samples[0].time = now;
     state->sample_count = 1;
 }
 
-void sb_monitor_state_free(sb_monitor_state *state)
+void sb_monitor_on_restart(void *user, int64_t run_id)
 {
-    sb_assembly_free(&state->assembly);
-}
-
-static void new_run(sb_monitor_state *state)
-{
+    (void)run_id;
+    sb_monitor_state *state = user;
     state->body_count = state->bodies_total = 0;
     state->peak = state->peak_component = 0;
     state->statuses = 0;
-    sb_assembly_free(&state->assembly);
 }
 
 void sb_monitor_on_status(void *user, const sb_status_message *message)
 {
     sb_monitor_state *state = user;
-    if (state->has_status && (strcmp(state->status.run, message->run) != 0 || message->step < state->status.step))
-        new_run(state);
     state->status = *message;
     state->has_status = true;
     state->statuses++;
     state->last_data = sb_clock();
+}
+
+static void note_force(sb_monitor_state *state, sb_monitor_body *body, const double force[3])
+{
+    memcpy(body->force, force, sizeof body->force);
+    body->horizontal = hypot(force[0], force[1]);
+    body->peak = fmax(body->peak, body->horizontal);
+    state->peak = fmax(state->peak, body->horizontal);
+    for (int k = 0; k < 3; k++) state->peak_component = fmax(state->peak_component, fabs(force[k]));
 }
 
 void sb_monitor_on_forces(void *user, const sb_forces_message *message)
@@ -47,32 +49,32 @@ void sb_monitor_on_forces(void *user, const sb_forces_message *message)
     state->bodies_total = (size_t)message->total;
     const size_t first = (size_t)message->first, count = (size_t)message->count;
     for (size_t i = 0; i < count && first + i < SB_MONITOR_BODIES; i++) {
-        size_t row = first + i;
+        const size_t row = first + i;
         sb_monitor_body *body = &state->bodies[row];
         if (row >= state->body_count || strcmp(body->name, message->names[i]) != 0) *body = (sb_monitor_body){0};
         memcpy(body->name, message->names[i], sizeof body->name);
-        body->reported = message->reported[i];
-        memcpy(body->force, &message->force[3 * i], sizeof body->force);
-        body->horizontal = hypot(body->force[0], body->force[1]);
-        body->peak = fmax(body->peak, body->horizontal);
-        if (body->reported) {
-            state->peak = fmax(state->peak, body->horizontal);
-            for (int k = 0; k < 3; k++) state->peak_component = fmax(state->peak_component, fabs(body->force[k]));
-        }
+        note_force(state, body, &message->force[3 * i]);
         /* The rows before this one belong to a lost message. They stay empty until it is sent again. */
         while (state->body_count < row) state->bodies[state->body_count++] = (sb_monitor_body){0};
         if (state->body_count == row) state->body_count = row + 1;
     }
 }
 
-void sb_monitor_on_particles(void *user, const sb_particles_message *message)
+void sb_monitor_on_part(void *user, const sb_frame_message *message)
 {
+    (void)message;
     sb_monitor_state *state = user;
     state->last_data = sb_clock();
-    if (sb_assembly_add(&state->assembly, message) != SB_OK) state->assembly.chunks_ignored++;
 }
 
-void sb_monitor_state_sample(sb_monitor_state *state, sb_listener_counters count, double now)
+void sb_monitor_on_frame(void *user, const sb_live_frame *frame)
+{
+    sb_monitor_state *state = user;
+    state->frame_time = frame->time;
+    state->frame_particles = frame->count;
+}
+
+void sb_monitor_state_sample(sb_monitor_state *state, sb_live_counts count, double now)
 {
     size_t used = state->sample_count;
     state->count = count;

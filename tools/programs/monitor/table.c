@@ -56,8 +56,14 @@ static void draw_title(canvas *to, const sb_monitor_state *state, double now)
                 state->has_status ? "" : ": is a run streaming to this URL and prefix?");
     else if (!state->has_status)
         fprintf(to->out, "waiting for a run");
+    else if (state->status.state == SB_RUN_PAUSED)
+        fprintf(to->out, "%spaused%s", paint(to, CYAN), plain(to));
+    else if (state->status.state == SB_RUN_DONE)
+        fprintf(to->out, "%sended before its duration%s", paint(to, RED), plain(to));
     else
         fprintf(to->out, "%slive%s", paint(to, GREEN), plain(to));
+    if (state->count.restarts > 0)
+        fprintf(to->out, "  restarted %llu times", (unsigned long long)state->count.restarts);
     end_row(to);
 }
 
@@ -85,20 +91,23 @@ static void draw_status(canvas *to, const sb_status_message *status)
 
 static void draw_stream(canvas *to, const sb_monitor_state *state)
 {
-    const sb_assembly *chunks = &state->assembly;
+    const sb_live_counts *count = &state->count;
     fprintf(to->out, "stream  %.1f messages/s  %.2f MB/s  ", state->message_rate, 1e-6 * state->byte_rate);
-    fprintf(to->out, "%srefused %llu%s", state->count.refused ? paint(to, RED) : "",
-            (unsigned long long)state->count.refused, plain(to));
+    fprintf(to->out, "%slost %llu%s  ", count->lost ? paint(to, RED) : "", (unsigned long long)count->lost, plain(to));
+    fprintf(to->out, "%srefused %llu%s", count->refused ? paint(to, RED) : "", (unsigned long long)count->refused,
+            plain(to));
+    if (count->foreign > 0) fprintf(to->out, "  of another run %llu", (unsigned long long)count->foreign);
     end_row(to);
-    if (chunks->chunks == 0) {
+    if (count->parts == 0) {
         fprintf(to->out, "frames  none yet");
         end_row(to);
         return;
     }
-    fprintf(to->out, "frames  %llu complete  %llu partial  %schunks lost %llu%s",
-            (unsigned long long)chunks->frames_complete, (unsigned long long)chunks->frames_partial,
-            chunks->chunks_lost ? paint(to, RED) : "", (unsigned long long)chunks->chunks_lost, plain(to));
-    fprintf(to->out, "  t %.4g s  %lld particles", chunks->time, (long long)chunks->total);
+    fprintf(to->out, "frames  %llu complete  %llu partial  %sparts lost %llu%s",
+            (unsigned long long)count->frames_complete, (unsigned long long)count->frames_partial,
+            count->parts_lost ? paint(to, RED) : "", (unsigned long long)count->parts_lost, plain(to));
+    if (count->frames_complete > 0)
+        fprintf(to->out, "  t %.4g s  %lld particles", state->frame_time, (long long)state->frame_particles);
     end_row(to);
 }
 
@@ -143,7 +152,6 @@ static void draw_forces(canvas *to, const sb_monitor_state *state)
 
     size_t hidden = state->bodies_total > state->body_count ? state->bodies_total - state->body_count : 0;
     for (size_t i = 0; i < state->body_count; i++) {
-        if (!state->bodies[i].reported) continue;
         if (to->style->height > 0 && to->rows + 2 >= to->style->height)
             hidden++;
         else
@@ -161,9 +169,7 @@ void sb_table_draw(FILE *out, const sb_monitor_state *state, const sb_table_styl
     draw_title(&to, state, now);
     if (state->has_status) draw_status(&to, &state->status);
     draw_stream(&to, state);
-    bool reported = false;
-    for (size_t i = 0; i < state->body_count; i++) reported |= state->bodies[i].reported;
-    if (reported) {
+    if (state->body_count > 0) {
         end_row(&to);
         draw_forces(&to, state);
     }
@@ -176,8 +182,8 @@ void sb_table_line(FILE *out, const sb_monitor_state *state)
     sb_text_duration(eta, sizeof eta, status->eta_seconds);
     fprintf(out,
             "%s  %5.1f %%  t %.6g of %.6g s  step %lld  dt %.4g ms  iterations %d  "
-            "density error %.3g %%  max speed %.4g m/s  ETA %s  chunks lost %llu\n",
+            "density error %.3g %%  max speed %.4g m/s  ETA %s  messages lost %llu\n",
             status->run, 100 * progress(status), status->time, status->duration, (long long)status->step,
             1e3 * status->time_step, (int)status->iterations, 100 * status->density_error, status->max_speed, eta,
-            (unsigned long long)state->assembly.chunks_lost);
+            (unsigned long long)state->count.lost);
 }

@@ -3,8 +3,8 @@
 #include "base/memory.h"
 #include "base/stop.h"
 #include "process.h"
-#include "stream/assembly.h"
 #include "stream/listen.h"
+#include "stream/live.h"
 
 #include <math.h>
 #include <signal.h>
@@ -16,7 +16,7 @@ struct sb_soak_watch {
     const sb_soak_run *run;
     char prefix[32];
     sb_listener *listener;
-    sb_assembly assembly;
+    sb_live *live;
     sb_soak_life *life; /* the current process */
     uint64_t step;      /* the last one that was streamed */
     uint64_t frames;    /* complete frames before the current process */
@@ -33,11 +33,10 @@ static void on_status(void *user, const sb_status_message *message)
     w->life->last_step = w->step;
 }
 
-/* If memory for the flags of a chunk is missing, the chunk counts as lost. */
-static void on_particles(void *user, const sb_particles_message *message)
+static void on_message(void *user, sb_channel_kind kind, const void *data, size_t size, double time)
 {
-    sb_soak_watch *w = user;
-    sb_assembly_add(&w->assembly, message);
+    const sb_soak_watch *w = user;
+    sb_live_take(w->live, kind, data, size, time);
 }
 
 sb_status sb_soak_watch_create(const sb_soak_run *run, sb_soak_watch **watch, sb_error *error)
@@ -46,10 +45,13 @@ sb_status sb_soak_watch_create(const sb_soak_run *run, sb_soak_watch **watch, sb
     if (!made) return sb_fail_memory(error, "the subscriber");
     made->run = run;
     snprintf(made->prefix, sizeof made->prefix, "soak-%ld", (long)getpid());
-    const sb_listener_calls calls = {.user = made, .status = on_status, .particles = on_particles};
-    sb_status status = sb_listener_create(NULL, made->prefix, &calls, &made->listener, error);
+    const sb_live_calls calls = {.user = made, .status = on_status};
+    const sb_listener_calls messages = {.user = made, .message = on_message};
+    made->live = sb_live_create(&calls);
+    sb_status status = made->live ? SB_OK : sb_fail_memory(error, "the subscriber");
+    if (status == SB_OK) status = sb_listener_create(NULL, made->prefix, &messages, &made->listener, error);
     if (status != SB_OK) {
-        sb_free(made);
+        sb_soak_watch_destroy(made);
         return status;
     }
     sb_stop_watch();
@@ -61,7 +63,7 @@ void sb_soak_watch_destroy(sb_soak_watch *watch)
 {
     if (!watch) return;
     sb_listener_destroy(watch->listener);
-    sb_assembly_free(&watch->assembly);
+    sb_live_destroy(watch->live);
     sb_free(watch);
 }
 
@@ -106,7 +108,7 @@ static void note_end(sb_soak_watch *w, const sb_process *process)
 /* Whether the process has run for so many seconds since its first frame. */
 static bool is_time(const sb_soak_watch *w, double now, double seconds, double *first)
 {
-    if (w->assembly.frames_complete > w->frames && *first < 0) *first = now;
+    if (sb_live_count(w->live).frames_complete > w->frames && *first < 0) *first = now;
     return *first < 0 ? now >= seconds + start_up : now - *first >= seconds;
 }
 
@@ -129,15 +131,15 @@ static sb_status follow(sb_soak_watch *w, sb_process *process, double seconds, s
 sb_status sb_soak_live(sb_soak_watch *w, bool resume, double seconds, sb_soak_life *life, sb_error *error)
 {
     sb_process process;
-    const uint64_t lost = w->assembly.chunks_lost;
-    w->frames = w->assembly.frames_complete;
+    const uint64_t lost = sb_live_count(w->live).parts_lost;
+    w->frames = sb_live_count(w->live).frames_complete;
     w->life = life;
     w->step = 0;
     life->resumed = resume;
     sb_status status = start(w, resume, &process, error);
     if (status == SB_OK) status = follow(w, &process, seconds, error);
-    life->frames = w->assembly.frames_complete - w->frames;
-    life->chunks_lost = w->assembly.chunks_lost - lost;
+    life->frames = sb_live_count(w->live).frames_complete - w->frames;
+    life->chunks_lost = sb_live_count(w->live).parts_lost - lost;
     if (status == SB_OK && sb_stop_signal()) status = sb_fail(error, SB_INTERRUPTED, "stopped by a signal");
     return status;
 }

@@ -1,5 +1,5 @@
 /* Restarts a child process when it crashes. */
-#include "guard.h"
+#include "stream/guard.h"
 
 #include <errno.h>
 #include <signal.h>
