@@ -128,8 +128,7 @@ typedef struct watch {
     double processor, idle; /* s */
 } watch;
 
-/* Processor time of the consumer's thread, s; 0 where the system does not report it. */
-static double processor_time(const sb_consumer *consumer)
+double sb_consumer_processor(const sb_consumer *consumer)
 {
     clockid_t clock;
     struct timespec used;
@@ -159,7 +158,7 @@ static void watch_on(sb_consumer *consumer, watch *w, double seconds)
     static const double SHARE = 0.01; /* of a processor: a smaller share counts as no progress */
     double deadline = consumer->work.deadline > 0 ? consumer->work.deadline : SB_CONSUMER_DEADLINE;
     if (sb_stop_signal()) deadline = fmin(deadline, SB_CONSUMER_STOP_DEADLINE);
-    const double processor = processor_time(consumer);
+    const double processor = sb_consumer_processor(consumer);
     pthread_mutex_lock(&consumer->lock);
     const uint64_t done = consumer->done;
     pthread_mutex_unlock(&consumer->lock);

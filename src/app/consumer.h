@@ -77,6 +77,10 @@ void sb_consumer_drain(sb_consumer *consumer);
    instead and calls abandon. The thread of an abandoned consumer remains. Does nothing when it was never started. */
 void sb_consumer_stop(sb_consumer *consumer);
 
+/* Processor time of the consumer's thread, s; 0 where the system does not report it. Call it before sb_consumer_stop.
+ */
+double sb_consumer_processor(const sb_consumer *consumer);
+
 /* Whether the thread of an abandoned consumer still exists. Nothing that it was given may then be freed, and the
    process must end by _exit. */
 bool sb_consumer_thread_remains(const sb_consumer *consumer);

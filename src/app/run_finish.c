@@ -140,11 +140,12 @@ static void stop_consumers(run *r, sb_status *status, sb_error *error)
         sb_consumer *consumer = &r->consumers[c];
         if (!consumer->started) continue;
         uint64_t dropped = sb_frame_queue_dropped(consumer->queue);
-        double waited = sb_frame_queue_waited(consumer->queue);
+        double waited = sb_frame_queue_waited(consumer->queue), processor = sb_consumer_processor(consumer);
         sb_consumer_stop(consumer);
-        sb_runlog_event(r->log, "consumer", "%s: %llu frames, %llu missed, %llu dropped, simulation waited %.2f s",
+        sb_runlog_event(r->log, "consumer",
+                        "%s: %llu frames, %llu missed, %llu dropped, simulation waited %.2f s, processor %.3f s",
                         consumer->work.name, (unsigned long long)consumer->handled,
-                        (unsigned long long)consumer->trouble.missed, (unsigned long long)dropped, waited);
+                        (unsigned long long)consumer->trouble.missed, (unsigned long long)dropped, waited, processor);
         if (consumer->given_up && consumer->work.stop_timeout > 0)
             sb_run_warn(r,
                         "%s: timed out after %g s: the receiver accepts no more data, and the last frames are not sent",

@@ -141,7 +141,7 @@ static void check_part(sb_message_reader *in, const sb_frame_message *m)
 
 static void take_moved(sb_message_reader *in, sb_frame_message *m)
 {
-    m->moved_count = sb_reader_count(in, SB_STREAM_MOVED, "it has more than 500 displaced bodies");
+    m->moved_count = sb_reader_count(in, SB_STREAM_MOVED, "it has more than 100 displaced bodies");
     sb_reader_same(in, 3 * m->moved_count, "its number of components is not three per displaced body");
     if (m->moved_count > 0 && m->part != 0) sb_reader_refuse(in, "displaced bodies are in another part than the first");
     const size_t count = in->problem ? 0 : (size_t)m->moved_count;

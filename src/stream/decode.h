@@ -11,8 +11,8 @@ enum {
     SB_STREAM_VERSION = 2,         /* of the message types */
     SB_STREAM_MESSAGE_MAX = 60000, /* bytes: larger messages lose fragments with default socket buffers */
     SB_STREAM_POINT = 8,           /* bytes of a particle */
-    SB_STREAM_POINTS = 5600,       /* particles that fit into one part of a frame, beside the displaced bodies */
-    SB_STREAM_MOVED = 500,         /* displaced bodies that a frame can list */
+    SB_STREAM_POINTS = 7100,       /* particles that fit into one part of a frame, beside the displaced bodies */
+    SB_STREAM_MOVED = 100,         /* displaced bodies that a frame can list */
     SB_STREAM_PARTS_MAX = 1 << 16, /* parts of a frame */
     SB_STREAM_TOTAL_MAX = 1 << 26, /* particles of a frame */
     SB_STREAM_ROWS = 350,          /* bodies or gauges that fit into one message, with the longest names */

@@ -10,10 +10,10 @@ struct sb_live {
     sb_live_counts counts;
     bool has_run, has_status, ended; /* ended: the run's last status was "done" */
     int64_t run_id;
-    double heard;                    /* time of the run's last message */
-    int64_t first, last;             /* sequence numbers of the run's messages */
-    uint64_t received;               /* of the run, since `first` */
-    uint64_t lost_before;            /* in earlier runs */
+    double heard;         /* time of the run's last message */
+    int64_t first, last;  /* sequence numbers of the run's messages */
+    uint64_t received;    /* of the run, since `first` */
+    uint64_t lost_before; /* in earlier runs */
     sb_status_message status;
     sb_assembly assembly;
     sb_pieces pieces;

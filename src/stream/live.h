@@ -10,8 +10,8 @@
 
 typedef struct sb_live sb_live;
 
-/* Callbacks, called from sb_live_take. A message is valid until the callback returns; scene and frame until the next one
-   is complete. Any callback may be NULL. */
+/* Callbacks, called from sb_live_take. A message is valid until the callback returns; scene and frame until the next
+   one is complete. Any callback may be NULL. */
 typedef struct sb_live_calls {
     void *user;
     /* Messages of another run follow: the run was resumed, or another one began. */

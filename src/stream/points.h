@@ -5,8 +5,8 @@
 #include "frame/frame.h"
 #include "stream/decode.h"
 
-/* Positions are multiples of spacing / SB_POINTS_PER_SPACING from the corner of their part. They are off by at most half
-   of that along each axis: 0.0078 spacings, or 0.0136 as a distance. */
+/* Positions are multiples of spacing / SB_POINTS_PER_SPACING from the corner of their part. They are off by at most
+   half of that along each axis: 0.0078 spacings, or 0.0136 as a distance. */
 enum { SB_POINTS_PER_SPACING = 64 };
 
 /* Which particles of a frame are sent: one in `decimation`, within the region (m). */
@@ -32,8 +32,8 @@ typedef struct sb_points {
     size_t part_capacity, byte_capacity, chosen_capacity;
 } sb_points;
 
-/* Chooses and encodes the particles of a frame. The choice is by a hash of the particle's id: the same particles in every
-   frame, and, unlike every n-th particle of a lattice, without preference for a lattice plane. A part ends after
+/* Chooses and encodes the particles of a frame. The choice is by a hash of the particle's id: the same particles in
+   every frame, and, unlike every n-th particle of a lattice, without preference for a lattice plane. A part ends after
    SB_STREAM_POINTS particles, and where the next one would be more than 65535 quanta away from another one of the part.
    SB_FAILED without memory, or if the frame needs more than SB_STREAM_PARTS_MAX parts. */
 sb_status sb_points_encode(sb_points *points, const sb_frame *frame, const sb_points_choice *choice, sb_error *error);

@@ -128,7 +128,8 @@ sb_message_reader sb_reader_begin(const void *buffer, size_t size, size_t most, 
 {
     sb_message_reader in = {.at = buffer, .left = size};
     if (size > most) sb_reader_refuse(&in, "it is larger than a message of its type can be");
-    if (sb_reader_int64(&in) != fingerprint) sb_reader_refuse(&in, "its fingerprint belongs to another type or version");
+    if (sb_reader_int64(&in) != fingerprint)
+        sb_reader_refuse(&in, "its fingerprint belongs to another type or version");
     sb_reader_same(&in, SB_STREAM_VERSION, "its version is not 2");
     return in;
 }

@@ -44,8 +44,8 @@ typedef struct sb_live_scene {
     sb_live_gauge *gauges;
 } sb_live_scene;
 
-/* Decodes an encoded scene from untrusted bytes. SB_BAD_INPUT as in decode.h, and if a triangle names a vertex that does
-   not exist; SB_FAILED without memory. *out is then unchanged. It has no pointers into the buffer. */
+/* Decodes an encoded scene from untrusted bytes. SB_BAD_INPUT as in decode.h, and if a triangle names a vertex that
+   does not exist; SB_FAILED without memory. *out is then unchanged. It has no pointers into the buffer. */
 sb_status sb_live_scene_decode(const void *buffer, size_t size, sb_live_scene *out, sb_error *error);
 void sb_live_scene_free(sb_live_scene *scene);
 

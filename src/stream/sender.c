@@ -63,8 +63,8 @@ void sb_sender_send_paced(sb_sender *sender, sb_channel_kind channel, unsigned c
     if (sender->paced && bytes_per_second > 0 && size > 0) {
         const double gap = size / bytes_per_second, now = sb_clock();
         if (sender->next > now) wait_until(sender->next);
-        /* A wait that ended late is made up for by one message at most: receivers have room for a few. */
-        sender->next = fmax(sender->next, now - gap) + gap;
+        /* A wait that ended late is hardly made up for: receivers have room for a few messages only. */
+        sender->next = fmax(sender->next, now - gap / 2) + gap;
     }
     sb_sender_send(sender, channel, buffer, size);
 }

@@ -248,7 +248,10 @@ static void send_pieces(sb_stream *stream, double now)
         stream->cycle_begin = now;
         stream->next_piece = 0;
     }
-    const double pace = sb_stream_get_limits(stream).bytes_per_second;
+    /* Faster than the mean, so that the pieces that are due at once are sent before the next ones are. */
+    const double most = sb_stream_get_limits(stream).bytes_per_second;
+    const double pace =
+        fmin(fmax(3 * (double)stream->encoded_size / cycle, 4e6), most > 0 ? most : SB_STREAM_BYTES_MAX);
     while (stream->next_piece < pieces && now >= stream->cycle_begin + cycle * stream->next_piece / pieces)
         send_piece(stream, stream->next_piece++, pieces, pace);
 }

@@ -72,7 +72,7 @@ sb_stream_limits sb_stream_get_limits(sb_stream *stream);
 
 /* The limits to set after subscribers have reported, for the last second or so, that this share of the messages was
    lost (0 to 1): slower when messages are lost, faster again when none are. Only bytes_per_second changes, between
-   SB_STREAM_BYTES_MIN and SB_STREAM_BYTES_MAX: a frame that takes longer to send makes the queue drop others. */
+   SB_STREAM_BYTES_MIN and SB_STREAM_BYTES_MAX: while a frame takes longer to send, the queue drops others. */
 #define SB_STREAM_BYTES_MIN 2e6
 #define SB_STREAM_BYTES_MAX 1.5e8
 sb_stream_limits sb_stream_adapt(sb_stream_limits limits, double lost);

@@ -32,7 +32,18 @@ static int32_t find_moved(const sb_frame *frame, int32_t moved[SB_STREAM_MOVED],
     return count;
 }
 
-static void send_parts(sb_stream *stream, const sb_frame *frame, const sb_stream_limits *limits)
+/* Spreads a frame over most of the time until the next one is expected: a receiver that does not run at once, because
+   the simulation uses all cores, has time to empty its buffer, which holds four messages. */
+static double choose_pace(const sb_stream *stream, double now, double most)
+{
+    static const double SHARE = 0.8, LONGEST = 0.5, FIRST = 0.1, SLOWEST = 4e6; /* of the interval, s, s, bytes/s */
+    const double interval = stream->frame_time >= 0 ? now - stream->frame_time : FIRST;
+    const double spread = fmin(SHARE * interval, LONGEST);
+    const double pace = fmax((double)(SB_STREAM_POINT * stream->points.count) / fmax(spread, 1e-3), SLOWEST);
+    return most > 0 ? fmin(pace, most) : pace;
+}
+
+static void send_parts(sb_stream *stream, const sb_frame *frame, const sb_stream_limits *limits, double pace)
 {
     int32_t moved[SB_STREAM_MOVED];
     double displacement[3 * SB_STREAM_MOVED];
@@ -64,8 +75,7 @@ static void send_parts(sb_stream *stream, const sb_frame *frame, const sb_stream
         message.point_bytes = (int32_t)(SB_STREAM_POINT * part->count);
         message.points = points->bytes + SB_STREAM_POINT * part->first;
         sb_sender_send_paced(&stream->sender, SB_CHANNEL_FRAME, stream->buffer,
-                             shorebreak_frame_t_encode(stream->buffer, 0, sizeof stream->buffer, &message),
-                             limits->bytes_per_second);
+                             shorebreak_frame_t_encode(stream->buffer, 0, sizeof stream->buffer, &message), pace);
         message.moved_count = 0;
         sb_stream_serve(stream); /* a large frame takes longer than the interval of the status */
     }
@@ -89,6 +99,7 @@ void sb_stream_send_frame(sb_stream *stream, const sb_frame *frame)
         return;
     }
     stream->frame = (int64_t)frame->index;
+    const double pace = choose_pace(stream, now, limits.bytes_per_second);
     stream->frame_time = now;
-    send_parts(stream, frame, &limits);
+    send_parts(stream, frame, &limits, pace);
 }

@@ -31,9 +31,9 @@ struct sb_stream {
 
     /* Of the stream's thread. */
     sb_stream_rows sending;
-    int64_t last_interval; /* number of the interval whose particles were sent last; -1: none yet */
-    int64_t frame;         /* the last frame that was sent */
-    uint64_t skipped;      /* frames that the rate left out */
+    int64_t last_interval;          /* number of the interval whose particles were sent last; -1: none yet */
+    int64_t frame;                  /* the last frame that was sent */
+    uint64_t skipped;               /* frames that the rate left out */
     double frame_time, status_time; /* sb_clock() when the last ones were sent; -1: never */
     unsigned char *encoded;         /* the scene; NULL: none */
     size_t encoded_size;

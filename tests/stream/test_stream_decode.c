@@ -175,7 +175,7 @@ static void another_version_is_refused(void **state)
 static void hostile_counts(void **state)
 {
     (void)state;
-    static const uint32_t counts[] = {0, 1, 5, 51, 5601, 0x7fffffff, 0x80000000, 0xffffffff, 0x55555556, 0xaaaaaaaa};
+    static const uint32_t counts[] = {0, 1, 5, 51, 7101, 0x7fffffff, 0x80000000, 0xffffffff, 0x55555556, 0xaaaaaaaa};
     static const struct {
         int type;
         size_t at;

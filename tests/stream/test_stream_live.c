@@ -89,8 +89,8 @@ static void same_scene(const sb_live_scene *got, const fixture_scene *f, int64_t
     assert_true(got->gauges[1].x == 5 && got->gauges[1].y == 7.5);
 }
 
-/* One that joins in the middle of a cycle has the scene, a status and the newest frame's number within two seconds, also
-   while the run is paused and sends no frames. */
+/* One that joins in the middle of a cycle has the scene, a status and the newest frame's number within two seconds,
+   also while the run is paused and sends no frames. */
 static void joins_late(void **state)
 {
     (void)state;

@@ -21,15 +21,15 @@ static void check_errors(const sb_points *points, const sb_frame *frame)
         assert_true(part->count <= SB_STREAM_POINTS);
         next += part->count;
         for (size_t i = part->first; i < next; i++) {
-            const sb_point point =
-                sb_point_decode(points->bytes + SB_STREAM_POINT * i, part->corner, points->quantum,
-                                (double)points->speed_max, (double)points->pressure_max);
+            const sb_point point = sb_point_decode(points->bytes + SB_STREAM_POINT * i, part->corner, points->quantum,
+                                                   (double)points->speed_max, (double)points->pressure_max);
             const float *x = frame->position + 3 * i, *v = frame->velocity + 3 * i;
             const double dx = point.position[0] - frame->origin.x - (double)x[0],
                          dy = point.position[1] - frame->origin.y - (double)x[1],
                          dz = point.position[2] - frame->origin.z - (double)x[2];
             far = fmax(far, sqrt(dx * dx + dy * dy + dz * dz));
-            speed_error = fmax(speed_error, fabs((double)point.speed - sqrt((double)(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]))));
+            speed_error =
+                fmax(speed_error, fabs((double)point.speed - sqrt((double)(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]))));
             pressure_error = fmax(pressure_error, fabs((double)point.pressure - fmax(0, (double)frame->pressure[i])));
         }
     }
@@ -59,7 +59,8 @@ static void long_frames_have_several_corners(void **state)
     (void)state;
     sb_points points = {0};
     sb_frame *frame = fixture_frame(1, 0, 30000, 0);
-    for (size_t i = 0; i < frame->count; i++) frame->position[3 * i] = 0.3F * (float)i; /* 9000 m: 12 times 1024 spacings */
+    for (size_t i = 0; i < frame->count; i++)
+        frame->position[3 * i] = 0.3F * (float)i; /* 9000 m: 12 times 1024 spacings */
     assert_int_equal(sb_points_encode(&points, frame, &everything, NULL), SB_OK);
     assert_in_range(points.part_count, 12, 15);
     check_errors(&points, frame);
@@ -132,8 +133,10 @@ static void without_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(errors_are_as_stated), cmocka_unit_test(long_frames_have_several_corners),
-        cmocka_unit_test(extremes),             cmocka_unit_test(a_region_limits_what_is_sent),
+        cmocka_unit_test(errors_are_as_stated),
+        cmocka_unit_test(long_frames_have_several_corners),
+        cmocka_unit_test(extremes),
+        cmocka_unit_test(a_region_limits_what_is_sent),
         cmocka_unit_test(without_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
