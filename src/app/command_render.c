@@ -2,6 +2,7 @@
 #include "app/consumers.h"
 #include "app/lock.h"
 #include "app/options.h"
+#include "app/render_log.h"
 #include "app/run_files.h"
 #include "base/nearest.h"
 #include "output/particle_format.h"
@@ -9,15 +10,17 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static const char help[] =
-    "usage: shorebreak render RUN_DIR [--camera NAME] [--set KEY=VALUE]... [--out DIR] [--quiet]\n"
-    "Draws pictures from the particle files of a run (output.particle_interval), without simulating.\n\n"
+    "usage: shorebreak render RUN_DIR|LOG [--camera NAME] [--set KEY=VALUE]... [--out DIR] [--quiet]\n"
+    "Draws pictures from the particle files of a run (output.particle_interval), or from a stream that lcm-logger\n"
+    "recorded, without simulating.\n\n"
     "  --camera NAME    draw the pictures of this camera only (default: all of the scene's cameras)\n"
-    "  --set KEY=VALUE  change a key of the scene, e.g. --set render.width=1920, or replace the cameras:\n"
+    "  --set KEY=VALUE  change a key of the run's scene, e.g. --set render.width=1920, or replace the cameras:\n"
     "                   --set 'render.cameras=[{name: top, eye: [0, 0, 900], target: [400, 1, 0]}]'\n"
-    "  --out DIR        write frames/<camera>/ to DIR (default: RUN_DIR, once the run has ended)\n"
+    "  --out DIR        write frames/<camera>/ to DIR (default: RUN_DIR, once the run has ended; LOG-pictures)\n"
     "  --quiet          print no progress\n";
 
 static sb_status choose_camera(const sb_scene *scene, const char *name, int *camera, sb_error *error)
@@ -96,33 +99,67 @@ static sb_status check_place(const char *directory, const sb_scene *scene, int c
     return status;
 }
 
-static sb_status render(const sb_options *options, sb_error *error)
+/* What the pictures are drawn from: the directory of a run, or a log. */
+typedef struct job {
+    const char *source, *directory;
+    bool is_log, quiet;
+    sb_scene scene;
+    sb_model model;
+    const sb_particle_format *format;
+    sb_particle_list list;
+    int camera, lock;
+} job;
+
+static sb_status open_run(job *j, const sb_options *options, sb_error *error)
 {
     char scene_path[SB_PATH_MAX];
-    const char *run = options->positional, *directory = options->out ? options->out : run;
-    sb_scene scene = {0};
-    sb_model model = {0};
-    sb_particle_list list = {0};
-    const sb_particle_format *format = sb_particle_format_in(run);
-    int camera = -1, lock = -1;
-    sb_status status = sb_path_join(scene_path, run, "scene.yaml", error);
-    if (status == SB_OK && access(run, F_OK) == 0) status = check_run(run, error);
-    if (status == SB_OK) status = sb_options_scene(options, scene_path, &scene, error);
-    if (status == SB_OK) status = choose_camera(&scene, options->camera, &camera, error);
-    if (status == SB_OK) status = read_list(run, format, &list, error);
-    if (status == SB_OK) status = sb_make_directories(directory, error);
-    if (status == SB_OK) status = sb_lock_directory(directory, "another directory given with --out", &lock, error);
-    if (status == SB_OK) status = check_place(directory, &scene, camera, error);
-    if (status == SB_OK) status = sb_model_import_bodies(&scene, &model, error);
-    if (status == SB_OK) {
-        sb_pictures pictures = {.scene = &scene, .model = &model, .directory = directory, .camera = camera};
-        status = draw_all(run, format, &list, &pictures, options->quiet, error);
-        if (status == SB_OK && pictures.count > 1) make_videos(directory, &scene, camera, pictures.count);
-    }
-    if (lock >= 0) close(lock);
-    sb_particle_list_free(&list);
-    sb_model_free(&model);
-    sb_scene_free(&scene);
+    j->format = sb_particle_format_in(j->source);
+    sb_status status = sb_path_join(scene_path, j->source, "scene.yaml", error);
+    if (status == SB_OK && access(j->source, F_OK) == 0) status = check_run(j->source, error);
+    if (status == SB_OK) status = sb_options_scene(options, scene_path, &j->scene, error);
+    if (status == SB_OK) status = choose_camera(&j->scene, options->camera, &j->camera, error);
+    return status == SB_OK ? read_list(j->source, j->format, &j->list, error) : status;
+}
+
+static sb_status open_log(job *j, const sb_options *options, sb_error *error)
+{
+    if (options->override_count > 0)
+        return sb_fail(error, SB_BAD_INPUT, "--set %.200s: %.500s is a log, whose scene cannot be changed",
+                       options->overrides[0].key, j->source);
+    const sb_status status = sb_render_log_scene(j->source, &j->scene, &j->model, error);
+    return status == SB_OK ? choose_camera(&j->scene, options->camera, &j->camera, error) : status;
+}
+
+static sb_status draw_job(job *j, sb_error *error)
+{
+    sb_status status = sb_make_directories(j->directory, error);
+    if (status == SB_OK)
+        status = sb_lock_directory(j->directory, "another directory given with --out", &j->lock, error);
+    if (status == SB_OK) status = check_place(j->directory, &j->scene, j->camera, error);
+    if (status == SB_OK && !j->is_log) status = sb_model_import_bodies(&j->scene, &j->model, error);
+    if (status != SB_OK) return status;
+    sb_pictures pictures = {.scene = &j->scene, .model = &j->model, .directory = j->directory, .camera = j->camera};
+    status = j->is_log ? sb_render_log_draw(j->source, &pictures, j->quiet, error)
+                       : draw_all(j->source, j->format, &j->list, &pictures, j->quiet, error);
+    if (status == SB_OK && pictures.count > 1) make_videos(j->directory, &j->scene, j->camera, pictures.count);
+    return status;
+}
+
+static sb_status render(const sb_options *options, sb_error *error)
+{
+    struct stat info;
+    char beside[SB_PATH_MAX];
+    job j = {
+        .source = options->positional, .directory = options->out, .quiet = options->quiet, .camera = -1, .lock = -1};
+    j.is_log = stat(j.source, &info) == 0 && S_ISREG(info.st_mode);
+    snprintf(beside, sizeof beside, "%s%s", j.source, j.is_log ? "-pictures" : "");
+    if (!j.directory) j.directory = beside;
+    sb_status status = j.is_log ? open_log(&j, options, error) : open_run(&j, options, error);
+    if (status == SB_OK) status = draw_job(&j, error);
+    if (j.lock >= 0) close(j.lock);
+    sb_particle_list_free(&j.list);
+    sb_model_free(&j.model);
+    sb_scene_free(&j.scene);
     return status;
 }
 
@@ -131,7 +168,7 @@ int sb_command_render(int count, char **arguments)
     sb_options options;
     sb_error error = {0};
     sb_status status = sb_options_parse(count, arguments, SB_OPT_OUT | SB_OPT_CAMERA | SB_OPT_SET | SB_OPT_QUIET,
-                                        "run directory", &options, &error);
+                                        "run directory or log", &options, &error);
     if (status == SB_OK && options.help) {
         fputs(help, stdout);
         return 0;

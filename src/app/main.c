@@ -22,7 +22,9 @@ static const struct {
     {"check", "print the particles, estimated cost and warnings of a scene, without running it", sb_command_check,
      true},
     {"sample", "write a scene's boundary and fluid particles for ParaView", sb_command_sample, false},
-    {"render", "draw pictures from a finished run's particle files", sb_command_render, false},
+    {"render", "draw pictures from a finished run's particle files, or from a recorded stream", sb_command_render,
+     false},
+    {"replay", "publish a recorded stream again", sb_command_replay, false},
     {"list", "list the available kernels, wave makers, solvers and presets", sb_command_list, true},
 };
 enum { COMMANDS = sizeof commands / sizeof commands[0] };

@@ -28,6 +28,9 @@ static const flag flags[] = {
     {"--resume", SB_OPT_RESUME, false},
     {"--overwrite", SB_OPT_OVERWRITE, false},
     {"--other-build", SB_OPT_OTHER_BUILD, false},
+    {"--url", SB_OPT_URL, true},
+    {"--prefix", SB_OPT_PREFIX, true},
+    {"--speed", SB_OPT_SPEED, true},
 };
 
 static sb_status add_override(sb_options *options, const char *text, sb_error *error)
@@ -53,6 +56,17 @@ static sb_status take(sb_options *options, unsigned bit, const char *value, sb_e
         break;
     case SB_OPT_PRESET:
         options->preset = value;
+        break;
+    case SB_OPT_URL:
+        options->url = value;
+        break;
+    case SB_OPT_PREFIX:
+        options->prefix = value;
+        break;
+    case SB_OPT_SPEED:
+        options->speed = strtod(value, &end);
+        if (end == value || *end || !isfinite(options->speed) || options->speed < 0 || options->speed > 1e6)
+            return sb_fail(error, SB_BAD_INPUT, "--speed %.100s: expected a factor from 0 to 1e6", value);
         break;
     case SB_OPT_CAMERA:
         options->camera = value;
@@ -121,7 +135,7 @@ static sb_status refuse_flag(const char *argument, unsigned accepted, sb_error *
 sb_status sb_options_parse(int count, char **arguments, unsigned accepted, const char *what, sb_options *options,
                            sb_error *error)
 {
-    *options = (sb_options){0};
+    *options = (sb_options){.speed = 1};
     for (int i = 0; i < count; i++) {
         const char *argument = arguments[i];
         if (strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0) {

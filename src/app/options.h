@@ -14,6 +14,9 @@ typedef struct sb_options {
     const char *out;        /* --out */
     const char *preset;     /* --preset */
     const char *camera;     /* --camera */
+    const char *url;        /* --url */
+    const char *prefix;     /* --prefix */
+    double speed;           /* --speed; 1 if it is not given */
     int threads;            /* --threads; 0: OMP_NUM_THREADS, or one per core */
     bool quiet, json, profile, resume, overwrite, other_build, help;
     size_t override_count;
@@ -34,7 +37,10 @@ enum {
     SB_OPT_PROFILE = 256,
     SB_OPT_RESUME = 512,
     SB_OPT_OTHER_BUILD = 1024,
-    SB_OPT_OVERWRITE = 2048
+    SB_OPT_OVERWRITE = 2048,
+    SB_OPT_URL = 4096,
+    SB_OPT_PREFIX = 8192,
+    SB_OPT_SPEED = 16384
 };
 
 /* Parses the arguments after the command's name. what: the name of the positional argument in messages. */

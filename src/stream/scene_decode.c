@@ -9,6 +9,7 @@
 #include <string.h>
 
 /* The fewest bytes that each of these takes in the encoding. A count is checked by them before memory is reserved. */
+enum { SIDE_MAX = 16384 }; /* px */
 enum { BODY_BYTES = 61, CAMERA_BYTES = 77, KEY_BYTES = 64, GAUGE_BYTES = 21, VERTEX_BYTES = 12, TRIANGLE_BYTES = 12 };
 
 /* Reads a count of items that take at least `bytes` each. */
@@ -64,6 +65,10 @@ static void take_camera(sb_message_reader *in, sb_live_camera *camera, bool *no_
         *arrays[a] = make(in, lengths[a] * camera->key_count, sizeof **arrays[a], no_memory);
         if (*arrays[a]) sb_reader_doubles(in, *arrays[a], lengths[a] * camera->key_count);
     }
+    for (size_t i = 0; i < camera->key_count && !in->problem; i++)
+        if (!(camera->fov[i] > 0 && camera->fov[i] < 180) || (i > 0 && camera->time[i] < camera->time[i - 1]))
+            sb_reader_refuse(in,
+                             "an angle of view is not within 0 and 180 degrees, or the keys are not ordered in time");
 }
 
 static void take_facts(sb_message_reader *in, sb_live_scene *scene)
@@ -87,6 +92,8 @@ static void take_facts(sb_message_reader *in, sb_live_scene *scene)
     scene->frame_interval = sb_reader_double(in);
     scene->width = sb_reader_int32(in);
     scene->height = sb_reader_int32(in);
+    if (scene->width < 1 || scene->width > SIDE_MAX || scene->height < 1 || scene->height > SIDE_MAX)
+        sb_reader_refuse(in, "the size of its pictures is outside of its range");
     if (scene->dimensions < 2 || scene->dimensions > 3 || !(scene->spacing > 0) || !(scene->speed_max > 0))
         sb_reader_refuse(in, "dimensions, spacing or the top of the colour map is outside of its range");
     for (int k = 0; k < 3; k++)

@@ -128,6 +128,14 @@ static sb_status encode(const shorebreak_scene_t *message, unsigned char **bytes
     return SB_OK;
 }
 
+static double level_of(const sb_scene *scene)
+{
+    if (scene->sea.present) return scene->sea.level;
+    double level = scene->domain.min.z;
+    for (size_t i = 0; i < scene->box_count; i++) level = fmax(level, scene->boxes[i].level);
+    return level;
+}
+
 sb_status sb_scene_encode(const sb_scene *scene, const sb_model *model, int64_t run_id, const char *run,
                           unsigned char **bytes, size_t *size, sb_error *error)
 {
@@ -145,7 +153,7 @@ sb_status sb_scene_encode(const sb_scene *scene, const sb_model *model, int64_t 
         .gravity = scene->fluid.gravity,
         .density = scene->fluid.density,
         .has_level = scene->sea.present,
-        .level = scene->sea.present ? scene->sea.level : 0,
+        .level = level_of(scene),
         .still_depth = model->still_depth,
         .speed_max = scene->render.speed_max > 0 ? scene->render.speed_max : 2 * sb_model_wave_speed(scene, model),
         .pressure_max = scene->fluid.density * scene->fluid.gravity * depth,

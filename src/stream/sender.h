@@ -15,8 +15,8 @@ typedef struct sb_stream_counters {
     uint64_t messages, bytes, errors;
 } sb_stream_counters;
 
-/* Byte of a message at which its sequence number is: fingerprint, version and run id come before it. */
-enum { SB_SEQUENCE_OFFSET = 20 };
+/* Bytes of a message at which its run id and its sequence number are, after fingerprint and version. */
+enum { SB_RUN_ID_OFFSET = 12, SB_SEQUENCE_OFFSET = 20 };
 
 typedef struct sb_sender {
     lcm_t *lcm;

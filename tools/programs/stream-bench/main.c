@@ -32,7 +32,8 @@ typedef struct options {
 
 static sb_status parse(int count, char **arguments, options *o, sb_error *error)
 {
-    *o = (options){.particles = 1000000, .subscribers = 3, .rate = 10, .seconds = 10, .url = "udpm://239.255.76.67:7667"};
+    *o = (options){
+        .particles = 1000000, .subscribers = 3, .rate = 10, .seconds = 10, .url = "udpm://239.255.76.67:7667"};
     const sb_argument table[] = {{.name = "--particles", .count = &o->particles, .most = SB_STREAM_TOTAL_MAX},
                                  {.name = "--subscribers", .count = &o->subscribers, .most = SUBSCRIBERS_MAX},
                                  {.name = "--rate", .number = &o->rate, .most = 1000},
@@ -74,7 +75,8 @@ typedef struct source {
 
 static void set_source(source *s)
 {
-    s->scene = (sb_scene){.dimensions = 3, .resolution = 1, .duration = 1e6, .fluid = {.density = 1000, .gravity = 9.81}};
+    s->scene =
+        (sb_scene){.dimensions = 3, .resolution = 1, .duration = 1e6, .fluid = {.density = 1000, .gravity = 9.81}};
     s->scene.domain.max = sb_vec(1000, 1000, 20);
     s->model = (sb_model){.spacing = 1, .still_depth = 10, .body_count = BODIES, .bodies = s->bodies};
     for (int b = 0; b < BODIES; b++) {

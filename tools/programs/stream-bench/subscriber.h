@@ -19,8 +19,8 @@ typedef struct sb_bench_subscriber {
     int pipe; /* its end for reading */
 } sb_bench_subscriber;
 
-/* Starts a process that subscribes and receives for at most so many seconds, or until the stream has ended. Returns when
-   it has subscribed. Call it before this process opens LCM. */
+/* Starts a process that subscribes and receives for at most so many seconds, or until the stream has ended. Returns
+   when it has subscribed. Call it before this process opens LCM. */
 sb_status sb_bench_subscribe(const char *url, const char *prefix, double seconds, sb_bench_subscriber *subscriber,
                              sb_error *error);
 /* Waits for its end. SB_FAILED if it ended without a result. */
