@@ -35,8 +35,9 @@ static sb_status finish(const sb_replay *replay, const char *path, sb_error *err
         fprintf(stderr, "shorebreak: warning: %.500s: %llu messages are invalid and are left out\n", path,
                 (unsigned long long)counts.refused);
     if (counts.lost > 0)
-        fprintf(stderr, "shorebreak: warning: %.500s: %llu messages of the run are missing; they were lost before they "
-                        "were recorded\n",
+        fprintf(stderr,
+                "shorebreak: warning: %.500s: %llu messages of the run are missing; they were lost before they "
+                "were recorded\n",
                 path, (unsigned long long)counts.lost);
     if (errors == 0) return SB_OK;
     return sb_fail(error, SB_FAILED, "LCM refused %llu messages", (unsigned long long)errors);
@@ -53,7 +54,8 @@ static sb_status replay_log(const sb_options *options, sb_error *error)
     while (!sb_stop_signal() && sb_replay_run(replay, PROGRESS_SECONDS) == SB_OK)
         if (!options->quiet) print_progress(replay);
     if (!options->quiet) print_progress(replay);
-    status = sb_stop_signal() ? sb_stop_fail(error, "while a log was replayed") : finish(replay, options->positional, error);
+    status =
+        sb_stop_signal() ? sb_stop_fail(error, "while a log was replayed") : finish(replay, options->positional, error);
     sb_replay_destroy(replay);
     return status;
 }
@@ -62,8 +64,8 @@ int sb_command_replay(int count, char **arguments)
 {
     sb_options options;
     sb_error error = {0};
-    sb_status status = sb_options_parse(count, arguments, SB_OPT_SPEED | SB_OPT_URL | SB_OPT_PREFIX | SB_OPT_QUIET, "log",
-                                        &options, &error);
+    sb_status status = sb_options_parse(count, arguments, SB_OPT_SPEED | SB_OPT_URL | SB_OPT_PREFIX | SB_OPT_QUIET,
+                                        "log", &options, &error);
     if (status == SB_OK && options.help) {
         fputs(help, stdout);
         return 0;

@@ -27,7 +27,8 @@ static sb_status add_view(sb_scene *scene, sb_error *error)
     camera->keys = sb_alloc(1, sizeof *camera->keys);
     if (!camera->keys) return sb_fail_memory(error, "a camera");
     camera->key_count = 1;
-    camera->keys[0] = (sb_camera_key){.eye = sb_madd(middle, far, sb_vec(-0.5, -0.8, 0.5)), .target = middle, .fov = 45};
+    camera->keys[0] =
+        (sb_camera_key){.eye = sb_madd(middle, far, sb_vec(-0.5, -0.8, 0.5)), .target = middle, .fov = 45};
     return SB_OK;
 }
 
@@ -75,8 +76,8 @@ static sb_status set_scene(sb_scene *scene, const sb_live_scene *live, sb_error 
     scene->domain.min = vector(live->domain_min);
     scene->domain.max = vector(live->domain_max);
     scene->sea = (sb_sea){.present = live->has_level, .level = live->level};
-    scene->render = (sb_render_settings){
-        .width = live->width, .height = live->height, .speed_max = live->speed_max, .video = true};
+    scene->render =
+        (sb_render_settings){.width = live->width, .height = live->height, .speed_max = live->speed_max, .video = true};
     scene->render.video_rate = (int)fmin(fmax(round(1 / fmax(live->frame_interval, 1 / MOST)), 1), MOST);
     scene->boxes = sb_alloc(1, sizeof *scene->boxes); /* only its level matters */
     if (!scene->title || !scene->boxes) return sb_fail_memory(error, "the scene of a log");

@@ -74,8 +74,8 @@ static sb_status read_log(const char *path, reading *r, sb_error *error)
     }
     if (status == SB_OK) status = r->status;
     if (r->others > 0)
-        fprintf(stderr, "shorebreak: warning: %.500s: %llu frames have another particle spacing and are left out\n", path,
-                (unsigned long long)r->others);
+        fprintf(stderr, "shorebreak: warning: %.500s: %llu frames have another particle spacing and are left out\n",
+                path, (unsigned long long)r->others);
     sb_log_close(log);
     sb_live_destroy(r->live);
     return status;

@@ -24,8 +24,8 @@ typedef struct sb_log_event {
 sb_status sb_log_open(const char *path, sb_log **log, sb_error *error);
 void sb_log_close(sb_log *log);
 
-/* Reads the next message. False: there is none. Messages that are larger than SB_STREAM_MESSAGE_MAX are left out, and so
-   is damage: reading goes on at the next message that begins as one. A message that the end of the file cuts off, as
+/* Reads the next message. False: there is none. Messages that are larger than SB_STREAM_MESSAGE_MAX are left out, and
+   so is damage: reading goes on at the next message that begins as one. A message that the end of the file cuts off, as
    lcm-logger leaves it while it runs, is left out. */
 bool sb_log_next(sb_log *log, sb_log_event *event);
 /* Goes back to the first message. */

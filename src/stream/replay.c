@@ -108,8 +108,7 @@ static void repeat_pieces(sb_replay *r, double now)
         r->cycle_begin = now;
         r->next_piece = 0;
     }
-    while (r->next_piece < r->piece_count &&
-           now >= r->cycle_begin + CYCLE_SECONDS * r->next_piece / r->piece_count) {
+    while (r->next_piece < r->piece_count && now >= r->cycle_begin + CYCLE_SECONDS * r->next_piece / r->piece_count) {
         const kept_message *piece = &r->pieces[r->next_piece++];
         if (piece->size > 0) publish(r, SB_CHANNEL_SCENE, piece->bytes, piece->size);
     }

@@ -1,4 +1,5 @@
-/* A real run, recorded: its rows are those of the tables, its pictures those of the run, and streaming changes no bit. */
+/* A real run, recorded: its rows are those of the tables, its pictures those of the run, and streaming changes no bit.
+ */
 #include "program.h"
 
 #include "base/memory.h"
@@ -161,6 +162,23 @@ static void a_replay_can_be_recorded_again(void **state)
     outcome_free(&o);
 }
 
+/* The example of a subscriber, which uses LCM's own types only. */
+static void the_example_prints_the_run(void **state)
+{
+    (void)state;
+    char command[2048], text[1 << 14];
+    snprintf(command, sizeof command, "exec '%s/example-subscriber' 'file://%s?speed=0' 2>&1", SB_BINARY_DIR,
+             in_folder("run.log"));
+    FILE *pipe = popen(command, "r");
+    assert_non_null(pipe);
+    const size_t length = fread(text, 1, sizeof text - 1, pipe);
+    text[length] = '\0';
+    assert_int_equal(pclose(pipe), 0);
+    assert_contains(text, "Tank in 3D: t = 0 of 0.3 s, step 0\n");
+    assert_contains(text, "  t = 0.3 s: force on post in x: ");
+    assert_contains(text, ", part 1 of 1: 384 particles, the first one at x = ");
+}
+
 typedef unsigned char picture[BYTES];
 
 static void read_picture(const char *path, picture pixels)
@@ -216,9 +234,8 @@ static void pictures_are_those_of_the_run(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rows_are_those_of_the_tables),
-        cmocka_unit_test(streaming_changes_no_bit),
-        cmocka_unit_test(a_replay_can_be_recorded_again),
+        cmocka_unit_test(rows_are_those_of_the_tables),   cmocka_unit_test(streaming_changes_no_bit),
+        cmocka_unit_test(a_replay_can_be_recorded_again), cmocka_unit_test(the_example_prints_the_run),
         cmocka_unit_test(pictures_are_those_of_the_run),
     };
     return cmocka_run_group_tests(tests, setup, program_teardown);

@@ -73,7 +73,8 @@ static size_t count_messages(const char *name, uint64_t *left_out)
     sb_live *live = sb_live_create(&none);
     while (sb_log_next(log, &event)) {
         assert_int_equal(strncmp(event.channel, "test_", 5), 0);
-        assert_int_equal(sb_live_take(live, sb_channel_guess(event.channel), event.data, event.size, event.time), SB_OK);
+        assert_int_equal(sb_live_take(live, sb_channel_guess(event.channel), event.data, event.size, event.time),
+                         SB_OK);
         count++;
     }
     assert_false(sb_log_next(log, &event));
@@ -101,7 +102,7 @@ static void whole_and_damaged_logs(void **state)
     write_other(bytes, size);
     assert_int_equal(count_messages(other, &left_out), MESSAGES - 1);
     bytes[24] = 0x7f; /* and of its data */
-    bytes[2] = 0; /* the file no longer begins as a log */
+    bytes[2] = 0;     /* the file no longer begins as a log */
     write_other(bytes, size);
     sb_log *log;
     sb_error error = {0};
