@@ -65,6 +65,7 @@ static sb_status store_moved(sb_live_frame *frame, const sb_frame_message *part)
     frame->displacement = displacement;
     if (full) return SB_FAILED;
     frame->moved_count = part->moved_count;
+    if (count == 0) return SB_OK; /* the arrays may be NULL */
     memcpy(frame->moved, part->moved, count * sizeof *frame->moved);
     memcpy(frame->displacement, part->displacement, 3 * count * sizeof(double));
     return SB_OK;

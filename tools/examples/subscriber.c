@@ -11,7 +11,8 @@ static void on_status(const lcm_recv_buf_t *buffer, const char *channel, void *u
 {
     shorebreak_status_t m = {0};
     (void)channel;
-    if (shorebreak_status_t_decode(buffer->data, 0, (int)buffer->data_size, &m) < 0) return; /* another type or version */
+    if (shorebreak_status_t_decode(buffer->data, 0, (int)buffer->data_size, &m) < 0)
+        return; /* another type or version */
     printf("%s: t = %g of %g s, step %lld\n", m.run, m.time, m.duration, (long long)m.step);
     *(int *)user = m.state == 2; /* done */
     shorebreak_status_t_decode_cleanup(&m);
@@ -33,8 +34,8 @@ static void on_frame(const lcm_recv_buf_t *buffer, const char *channel, void *us
     if (shorebreak_frame_t_decode(buffer->data, 0, (int)buffer->data_size, &m) < 0) return;
     const unsigned char *p = m.points; /* the first particle: x, y, z of two bytes each, speed, pressure */
     if (m.count > 0)
-        printf("  frame %lld, part %d of %d: %d particles, the first one at x = %.2f m with %.2f m/s\n", (long long)m.frame,
-               m.part + 1, m.part_count, m.count, m.corner[0] + m.quantum * (p[0] + 256 * p[1]),
+        printf("  frame %lld, part %d of %d: %d particles, the first one at x = %.2f m with %.2f m/s\n",
+               (long long)m.frame, m.part + 1, m.part_count, m.count, m.corner[0] + m.quantum * (p[0] + 256 * p[1]),
                m.speed_max * (p[6] / 255.0) * (p[6] / 255.0));
     shorebreak_frame_t_decode_cleanup(&m);
 }
