@@ -128,7 +128,7 @@ sb_status sb_points_encode(sb_points *points, const sb_frame *frame, const sb_po
 {
     points->part_count = 0;
     points->quantum = frame->spacing / SB_POINTS_PER_SPACING;
-    sb_status status = reserve(points, frame->count, error);
+    sb_status status = reserve(points, frame->count + 1, error); /* LCM copies from the array also if it is empty */
     if (status != SB_OK) return status;
     choose(points, frame, choice);
     if (points->count > SB_STREAM_TOTAL_MAX)

@@ -126,6 +126,7 @@ static void compare_part(const lcm_recv_buf_t *received, const char *channel, vo
     sb_frame_message own;
     shorebreak_frame_t other = {0};
     assert_int_equal(sb_stream_decode_frame(received->data, received->data_size, &own, NULL), SB_OK);
+    if (own.count == 0) return; /* LCM's decoder copies to a null pointer then */
     assert_true(shorebreak_frame_t_decode(received->data, 0, (int)received->data_size, &other) > 0);
     assert_int_equal(other.count, own.count);
     assert_int_equal(other.moved_count, own.moved_count);
