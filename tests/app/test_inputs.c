@@ -124,7 +124,8 @@ static void files_that_render_and_resume_read_are_regular(void **state)
             remove_place(files[f]);
             assert_int_equal(rename(in_folder("kept"), in_folder("%s", files[f])), 0);
         }
-    expect_refusal("done/scene.yaml", "Not a directory", (const char *const[]){"render", "done/scene.yaml", NULL});
+    expect_refusal("done/scene.yaml", "does not begin as a log of lcm-logger",
+                   (const char *const[]){"render", "done/scene.yaml", NULL});
 }
 
 static void a_checkpoint_is_a_file(void **state)

@@ -78,6 +78,7 @@ static void set_source(source *s)
     s->scene =
         (sb_scene){.dimensions = 3, .resolution = 1, .duration = 1e6, .fluid = {.density = 1000, .gravity = 9.81}};
     s->scene.domain.max = sb_vec(1000, 1000, 20);
+    s->scene.render = (sb_render_settings){.width = 1280, .height = 720};
     s->model = (sb_model){.spacing = 1, .still_depth = 10, .body_count = BODIES, .bodies = s->bodies};
     for (int b = 0; b < BODIES; b++) {
         snprintf(s->bodies[b].name, sizeof s->bodies[b].name, "building-%d", b);
