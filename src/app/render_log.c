@@ -69,7 +69,7 @@ static sb_status read_log(const char *path, reading *r, sb_error *error)
         status = sb_fail(error, SB_BAD_INPUT, "%.500s: has no complete scene of a run of this version", path);
     while (status == SB_OK && r->status == SB_OK && r->pictures && sb_log_next(log, &event)) {
         const sb_channel_kind kind = sb_channel_guess(event.channel);
-        if (kind == SB_CHANNEL_FRAME || kind == SB_CHANNEL_STATUS)
+        if (kind == SB_CHANNEL_FRAME || kind == SB_CHANNEL_PARITY || kind == SB_CHANNEL_STATUS)
             sb_live_take(r->live, kind, event.data, event.size, event.time);
     }
     if (status == SB_OK) status = r->status;

@@ -94,6 +94,16 @@ static void finish(sb_assembly *assembly, bool *complete)
     *complete = true;
 }
 
+/* Counts a part of the present frame, which may be its last one. */
+static void count_part(sb_assembly *assembly, bool *complete)
+{
+    if (++assembly->received < assembly->present.part_count) return;
+    if (parts_follow(&assembly->present))
+        finish(assembly, complete);
+    else
+        end_frame(assembly);
+}
+
 sb_status sb_assembly_add(sb_assembly *assembly, const sb_frame_message *part, bool *complete)
 {
     sb_live_frame *frame = &assembly->present;
@@ -111,18 +121,56 @@ sb_status sb_assembly_add(sb_assembly *assembly, const sb_frame_message *part, b
         assembly->parts_ignored++;
         return SB_OK;
     }
-    if (part->part == 0 && store_moved(frame, part) != SB_OK) return SB_FAILED;
+    if (assembly->received == 0 && store_moved(frame, part) != SB_OK) return SB_FAILED;
     sb_live_part *to = &frame->parts[part->part];
     *to = (sb_live_part){.first = part->first, .count = part->count};
     memcpy(to->corner, part->corner, sizeof to->corner);
     memcpy(frame->points + SB_STREAM_POINT * part->first, part->points, SB_STREAM_POINT * (size_t)part->count);
     assembly->parts++;
-    if (++assembly->received < frame->part_count) return SB_OK;
-    if (parts_follow(frame))
-        finish(assembly, complete);
-    else
-        end_frame(assembly);
+    count_part(assembly, complete);
     return SB_OK;
+}
+
+/* The only part of the group that has not arrived; -1: none, or several. *other: one that has arrived, or -1. */
+static int32_t find_missing(const sb_live_frame *frame, const sb_parity_message *parity, int32_t *other)
+{
+    int32_t missing = -1;
+    *other = -1;
+    for (int32_t p = parity->group; p < frame->part_count; p += parity->group_count) {
+        if (frame->parts[p].count >= 0) {
+            *other = p;
+            continue;
+        }
+        if (missing >= 0) return -1;
+        missing = p;
+    }
+    return missing;
+}
+
+void sb_assembly_repair(sb_assembly *assembly, const sb_parity_message *parity, bool *complete)
+{
+    sb_live_frame *frame = &assembly->present;
+    int32_t other;
+    *complete = false;
+    if (frame->part_count < 1 || parity->frame != frame->frame || parity->part_count != frame->part_count) return;
+    const int32_t missing = find_missing(frame, parity, &other);
+    const int64_t full = parity->count / SB_STREAM_POINT, first = missing * full, left = frame->count - first;
+    if (missing < 0 || other < 0 || left < 1 || (missing < frame->part_count - 1 && left < full)) return;
+    sb_live_part *to = &frame->parts[missing];
+    const int64_t count = left < full ? left : full;
+    unsigned char *points = frame->points + SB_STREAM_POINT * first;
+    memcpy(points, parity->data, SB_STREAM_POINT * (size_t)count);
+    for (int32_t p = parity->group; p < frame->part_count; p += parity->group_count) {
+        const sb_live_part *part = &frame->parts[p];
+        if (p == missing) continue;
+        const int64_t shared = part->count < count ? part->count : count;
+        const unsigned char *from = frame->points + SB_STREAM_POINT * part->first;
+        for (int64_t i = 0; i < SB_STREAM_POINT * shared; i++) points[i] ^= from[i];
+    }
+    *to = (sb_live_part){.first = first, .count = (int32_t)count};
+    memcpy(to->corner, frame->parts[other].corner, sizeof to->corner);
+    assembly->parts_repaired++;
+    count_part(assembly, complete);
 }
 
 void sb_assembly_restart(sb_assembly *assembly)

@@ -33,6 +33,7 @@ typedef struct sb_live_frame {
 typedef struct sb_assembly {
     uint64_t frames_complete, frames_partial;
     uint64_t parts, parts_lost; /* received; missing from frames that have ended */
+    uint64_t parts_repaired;    /* computed from parity; they are not lost */
     uint64_t parts_ignored;     /* duplicates, late ones, and those that contradict the others of their frame */
     int32_t received;           /* parts of the present frame */
     sb_live_frame present;      /* the frame whose parts arrive; part_count 0: none */
@@ -42,6 +43,9 @@ typedef struct sb_assembly {
 /* Adds one part. *complete: whether assembly->newest is now another frame. It stays valid until the next one is.
    SB_FAILED if memory runs out; the part is then ignored. */
 sb_status sb_assembly_add(sb_assembly *assembly, const sb_frame_message *part, bool *complete);
+
+/* Computes the lost part of a group, if it is the only one. *complete as above. */
+void sb_assembly_repair(sb_assembly *assembly, const sb_parity_message *parity, bool *complete);
 
 /* Forgets the present frame, because its run has ended. The newest frame and the counts stay. */
 void sb_assembly_restart(sb_assembly *assembly);

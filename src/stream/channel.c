@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const endings[SB_CHANNELS] = {"_status", "_forces", "_gauges", "_frame", "_scene"};
+static const char *const endings[SB_CHANNELS] = {"_status", "_forces", "_gauges", "_frame", "_parity", "_scene"};
 
 sb_status sb_channels_name(const char *prefix, sb_channel channels[SB_CHANNELS], sb_error *error)
 {

@@ -4,12 +4,13 @@
 
 #include "base/status.h"
 
-/* <prefix>_status, _forces, _gauges, _frame and _scene. */
+/* <prefix>_status, _forces, _gauges, _frame, _parity and _scene. */
 typedef enum sb_channel_kind {
     SB_CHANNEL_STATUS,
     SB_CHANNEL_FORCES,
     SB_CHANNEL_GAUGES,
     SB_CHANNEL_FRAME,
+    SB_CHANNEL_PARITY,
     SB_CHANNEL_SCENE,
     SB_CHANNELS
 } sb_channel_kind;

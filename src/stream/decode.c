@@ -6,6 +6,7 @@
 #include "shorebreak_forces_t.h"
 #include "shorebreak_frame_t.h"
 #include "shorebreak_gauges_t.h"
+#include "shorebreak_parity_t.h"
 #include "shorebreak_scene_piece_t.h"
 #include "shorebreak_status_t.h"
 
@@ -143,7 +144,6 @@ static void take_moved(sb_message_reader *in, sb_frame_message *m)
 {
     m->moved_count = sb_reader_count(in, SB_STREAM_MOVED, "it has more than 100 displaced bodies");
     sb_reader_same(in, 3 * m->moved_count, "its number of components is not three per displaced body");
-    if (m->moved_count > 0 && m->part != 0) sb_reader_refuse(in, "displaced bodies are in another part than the first");
     const size_t count = in->problem ? 0 : (size_t)m->moved_count;
     sb_reader_int32s(in, m->moved, count);
     for (size_t i = 0; i < count && !in->problem; i++)
@@ -179,6 +179,25 @@ sb_status sb_stream_decode_frame(const void *buffer, size_t size, sb_frame_messa
     m.points = sb_reader_bytes(&in, in.problem ? 0 : SB_STREAM_POINT * (size_t)m.count);
     const sb_status status = sb_reader_end(&in, "frame", size, error);
     if (status == SB_OK) memcpy(out, &m, sizeof m);
+    return status;
+}
+
+sb_status sb_stream_decode_parity(const void *buffer, size_t size, sb_parity_message *out, sb_error *error)
+{
+    sb_message_reader in = sb_reader_begin(buffer, size, SB_STREAM_MESSAGE_MAX, __shorebreak_parity_t_get_hash());
+    sb_parity_message m = {.head = sb_reader_head(&in)};
+    m.frame = sb_reader_int64(&in);
+    m.part_count = sb_reader_int32(&in);
+    m.group = sb_reader_int32(&in);
+    m.group_count = sb_reader_int32(&in);
+    m.count = sb_reader_count(&in, SB_STREAM_POINT * SB_STREAM_POINTS, "it has more bytes than a part can contain");
+    if (m.frame < 1 || m.part_count < 1 || m.part_count > SB_STREAM_PARTS_MAX || m.group_count < 1 ||
+        m.group_count > m.part_count || m.group < 0 || m.group >= m.group_count || m.count < 1 ||
+        m.count % SB_STREAM_POINT != 0)
+        sb_reader_refuse(&in, "its frame, group or number of bytes is outside of its range");
+    m.data = sb_reader_bytes(&in, in.problem ? 0 : (size_t)m.count);
+    const sb_status status = sb_reader_end(&in, "parity", size, error);
+    if (status == SB_OK) *out = m;
     return status;
 }
 

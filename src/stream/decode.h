@@ -91,6 +91,14 @@ typedef struct sb_frame_message {
     const unsigned char *points; /* SB_STREAM_POINT bytes each, within the decoded buffer */
 } sb_frame_message;
 
+typedef struct sb_parity_message {
+    sb_message_head head;
+    int64_t frame;
+    int32_t part_count, group, group_count;
+    int32_t count;             /* bytes: those of a full part */
+    const unsigned char *data; /* within the decoded buffer */
+} sb_parity_message;
+
 typedef struct sb_scene_piece_message {
     sb_message_head head;
     int64_t scene_id, total;
@@ -107,6 +115,7 @@ sb_status sb_stream_decode_status(const void *buffer, size_t size, sb_status_mes
 sb_status sb_stream_decode_forces(const void *buffer, size_t size, sb_forces_message *out, sb_error *error);
 sb_status sb_stream_decode_gauges(const void *buffer, size_t size, sb_gauges_message *out, sb_error *error);
 sb_status sb_stream_decode_frame(const void *buffer, size_t size, sb_frame_message *out, sb_error *error);
+sb_status sb_stream_decode_parity(const void *buffer, size_t size, sb_parity_message *out, sb_error *error);
 sb_status sb_stream_decode_piece(const void *buffer, size_t size, sb_scene_piece_message *out, sb_error *error);
 
 #endif

@@ -22,6 +22,7 @@ struct sb_live {
         sb_forces_message forces;
         sb_gauges_message gauges;
         sb_frame_message part;
+        sb_parity_message parity;
         sb_scene_piece_message piece;
     } message;
 };
@@ -102,6 +103,13 @@ static sb_status take_part(sb_live *live)
     return status;
 }
 
+static void take_parity(sb_live *live)
+{
+    bool complete = false;
+    sb_assembly_repair(&live->assembly, &live->message.parity, &complete);
+    if (complete && live->calls.frame) live->calls.frame(live->calls.user, &live->assembly.newest);
+}
+
 static sb_status take_piece(sb_live *live)
 {
     bool complete = false;
@@ -121,6 +129,8 @@ static sb_status decode(sb_live *live, sb_channel_kind kind, const void *data, s
         return sb_stream_decode_gauges(data, size, &live->message.gauges, NULL);
     case SB_CHANNEL_FRAME:
         return sb_stream_decode_frame(data, size, &live->message.part, NULL);
+    case SB_CHANNEL_PARITY:
+        return sb_stream_decode_parity(data, size, &live->message.parity, NULL);
     case SB_CHANNEL_SCENE:
         return sb_stream_decode_piece(data, size, &live->message.piece, NULL);
     case SB_CHANNELS:
@@ -143,6 +153,9 @@ static sb_status use(sb_live *live, sb_channel_kind kind)
         break;
     case SB_CHANNEL_FRAME:
         return take_part(live);
+    case SB_CHANNEL_PARITY:
+        take_parity(live);
+        break;
     case SB_CHANNEL_SCENE:
         return take_piece(live);
     case SB_CHANNELS:
@@ -185,5 +198,6 @@ sb_live_counts sb_live_count(const sb_live *live)
     counts.frames_partial = live->assembly.frames_partial;
     counts.parts = live->assembly.parts;
     counts.parts_lost = live->assembly.parts_lost;
+    counts.parts_repaired = live->assembly.parts_repaired;
     return counts;
 }

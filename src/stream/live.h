@@ -45,7 +45,7 @@ typedef struct sb_live_counts {
     uint64_t foreign;         /* of another run */
     uint64_t lost;            /* by the sequence numbers: sent by the run since its first message here, and not taken */
     uint64_t restarts;
-    uint64_t frames_complete, frames_partial, parts, parts_lost;
+    uint64_t frames_complete, frames_partial, parts, parts_lost, parts_repaired; /* as in sb_assembly */
 } sb_live_counts;
 sb_live_counts sb_live_count(const sb_live *live);
 

@@ -24,26 +24,6 @@ static sb_status reserve(sb_points *points, size_t count, sb_error *error)
     return full ? sb_fail_memory(error, "the particles of the stream") : SB_OK;
 }
 
-/* Chooses the particles and finds the greatest speed and pressure among them. */
-static void choose(sb_points *points, const sb_frame *frame, const sb_points_choice *choice)
-{
-    const double origin[3] = {frame->origin.x, frame->origin.y, frame->origin.z};
-    const double min[3] = {choice->min.x - origin[0], choice->min.y - origin[1], choice->min.z - origin[2]};
-    const double max[3] = {choice->max.x - origin[0], choice->max.y - origin[1], choice->max.z - origin[2]};
-    points->count = 0;
-    points->speed_max = points->pressure_max = 0;
-    for (size_t i = 0; i < frame->count; i++) {
-        const float *p = frame->position + 3 * i;
-        if (choice->decimation > 1 && sb_hash_mix(frame->id[i]) % choice->decimation != 0) continue;
-        const double x = (double)p[0], y = (double)p[1], z = (double)p[2];
-        if (!(x >= min[0] && x <= max[0] && y >= min[1] && y <= max[1] && z >= min[2] && z <= max[2])) continue;
-        points->chosen[points->count++] = (uint32_t)i;
-        const float speed = speed_of(frame, i);
-        points->speed_max = speed > points->speed_max ? speed : points->speed_max;
-        points->pressure_max = frame->pressure[i] > points->pressure_max ? frame->pressure[i] : points->pressure_max;
-    }
-}
-
 typedef struct box {
     float min[3], max[3];
 } box;
@@ -66,6 +46,29 @@ static bool fits(const box *b, double quantum)
     return true;
 }
 
+/* Chooses the particles; finds their box, and the greatest speed and pressure among them. */
+static void choose(sb_points *points, const sb_frame *frame, const sb_points_choice *choice, box *whole)
+{
+    const double origin[3] = {frame->origin.x, frame->origin.y, frame->origin.z};
+    const double min[3] = {choice->min.x - origin[0], choice->min.y - origin[1], choice->min.z - origin[2]};
+    const double max[3] = {choice->max.x - origin[0], choice->max.y - origin[1], choice->max.z - origin[2]};
+    float fastest = 0;
+    points->count = 0;
+    points->pressure_max = 0;
+    for (size_t i = 0; i < frame->count; i++) {
+        const float *p = frame->position + 3 * i;
+        if (choice->decimation > 1 && sb_hash_mix(frame->id[i]) % choice->decimation != 0) continue;
+        const double x = (double)p[0], y = (double)p[1], z = (double)p[2];
+        if (!(x >= min[0] && x <= max[0] && y >= min[1] && y <= max[1] && z >= min[2] && z <= max[2])) continue;
+        points->chosen[points->count++] = (uint32_t)i;
+        include(whole, p);
+        const float *v = frame->velocity + 3 * i, square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+        fastest = square > fastest ? square : fastest;
+        points->pressure_max = frame->pressure[i] > points->pressure_max ? frame->pressure[i] : points->pressure_max;
+    }
+    points->speed_max = sqrtf(fastest);
+}
+
 static sb_status add_part(sb_points *points, size_t first, size_t count, const box *b, sb_error *error)
 {
     void *parts = points->parts;
@@ -81,22 +84,31 @@ static sb_status add_part(sb_points *points, size_t first, size_t count, const b
     return SB_OK;
 }
 
-/* Cuts the particles into parts. They have one corner where the whole frame allows it. */
-static sb_status cut(sb_points *points, const sb_frame *frame, sb_error *error)
+/* Returns the end of the part that begins at `first`, and its box. */
+static size_t find_end(const sb_points *points, const sb_frame *frame, size_t first, box *b)
 {
-    box whole = nothing;
-    for (size_t i = 0; i < points->count; i++) include(&whole, frame->position + 3 * (size_t)points->chosen[i]);
-    const bool one_corner = points->count == 0 || fits(&whole, points->quantum);
-    sb_status status = points->count == 0 ? add_part(points, 0, 0, &whole, error) : SB_OK;
+    size_t end = first;
+    *b = nothing;
+    for (; end < points->count && end - first < SB_STREAM_POINTS; end++) {
+        box wider = *b;
+        include(&wider, frame->position + 3 * (size_t)points->chosen[end]);
+        if (!fits(&wider, points->quantum)) break;
+        *b = wider;
+    }
+    return end;
+}
+
+/* Cuts the particles into parts. They have one corner where the whole frame allows it. */
+static sb_status cut(sb_points *points, const sb_frame *frame, const box *whole, sb_error *error)
+{
+    if (points->count == 0) return add_part(points, 0, 0, whole, error);
+    const bool one_corner = fits(whole, points->quantum);
+    sb_status status = SB_OK;
     for (size_t first = 0, end = 0; first < points->count && status == SB_OK; first = end) {
-        box b = nothing;
-        for (; end < points->count && end - first < SB_STREAM_POINTS; end++) {
-            box wider = b;
-            include(&wider, frame->position + 3 * (size_t)points->chosen[end]);
-            if (!one_corner && !fits(&wider, points->quantum)) break;
-            b = wider;
-        }
-        status = add_part(points, first, end - first, one_corner ? &whole : &b, error);
+        box b = *whole;
+        end = first + SB_STREAM_POINTS < points->count ? first + SB_STREAM_POINTS : points->count;
+        if (!one_corner) end = find_end(points, frame, first, &b);
+        status = add_part(points, first, end - first, &b, error);
     }
     return status;
 }
@@ -130,11 +142,12 @@ sb_status sb_points_encode(sb_points *points, const sb_frame *frame, const sb_po
     points->quantum = frame->spacing / SB_POINTS_PER_SPACING;
     sb_status status = reserve(points, frame->count + 1, error); /* LCM copies from the array also if it is empty */
     if (status != SB_OK) return status;
-    choose(points, frame, choice);
+    box whole = nothing;
+    choose(points, frame, choice, &whole);
     if (points->count > SB_STREAM_TOTAL_MAX)
         return sb_fail(error, SB_FAILED, "the frame has %zu particles, expected at most %d", points->count,
                        SB_STREAM_TOTAL_MAX);
-    status = cut(points, frame, error);
+    status = cut(points, frame, &whole, error);
     const double origin[3] = {frame->origin.x, frame->origin.y, frame->origin.z};
     for (size_t p = 0; p < points->part_count && status == SB_OK; p++) {
         encode_part(points, frame, &points->parts[p]);

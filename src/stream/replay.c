@@ -91,7 +91,7 @@ static int64_t renumber(int64_t recorded)
 static void publish(sb_replay *r, sb_channel_kind kind, const void *data, size_t size)
 {
     const uint64_t id = __builtin_bswap64((uint64_t)r->run_id);
-    const bool large = kind == SB_CHANNEL_FRAME || kind == SB_CHANNEL_SCENE;
+    const bool large = kind == SB_CHANNEL_FRAME || kind == SB_CHANNEL_PARITY || kind == SB_CHANNEL_SCENE;
     memcpy(r->buffer, data, size);
     memcpy(r->buffer + SB_RUN_ID_OFFSET, &id, sizeof id);
     if (large)

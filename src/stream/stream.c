@@ -44,6 +44,7 @@ sb_status sb_stream_create(const sb_stream_settings *settings, const char *run_n
     made->interval = settings->interval;
     made->run_id = draw_run_id();
     made->last_interval = -1;
+    made->spread = 0.05;
     made->frame_time = made->status_time = made->cycle_begin = -1;
     const sb_stream_limits limits = {.decimation = settings->decimation, .bytes_per_second = SB_STREAM_BYTES_MAX};
     sb_stream_set_limits(made, &limits);

@@ -35,13 +35,15 @@ struct sb_stream {
     int64_t frame;                  /* the last frame that was sent */
     uint64_t skipped;               /* frames that the rate left out */
     double frame_time, status_time; /* sb_clock() when the last ones were sent; -1: never */
+    double frame_end;               /* sb_clock() when all of the last frame was sent */
+    double spread;                  /* s over which the parts of a frame are spread */
     unsigned char *encoded;         /* the scene; NULL: none */
     size_t encoded_size;
     int64_t scene_id;
     double cycle_begin; /* sb_clock() when the present cycle of pieces began; -1: not yet */
     int32_t next_piece;
     sb_points points;
-    unsigned char buffer[SB_STREAM_MESSAGE_MAX];
+    unsigned char buffer[SB_STREAM_MESSAGE_MAX], parity[SB_STREAM_POINT * SB_STREAM_POINTS];
 
     _Atomic uint64_t row_errors;
 };

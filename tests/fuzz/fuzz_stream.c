@@ -97,6 +97,7 @@ static void try_errors(const uint8_t *bytes, size_t size)
         sb_forces_message forces;
         sb_gauges_message gauges;
         sb_frame_message part;
+        sb_parity_message parity;
         sb_scene_piece_message piece;
     } m;
     sb_error errors[SB_CHANNELS] = {0};
@@ -105,7 +106,8 @@ static void try_errors(const uint8_t *bytes, size_t size)
         sb_stream_decode_forces(bytes, size, &m.forces, &errors[1]),
         sb_stream_decode_gauges(bytes, size, &m.gauges, &errors[2]),
         sb_stream_decode_frame(bytes, size, &m.part, &errors[3]),
-        sb_stream_decode_piece(bytes, size, &m.piece, &errors[4]),
+        sb_stream_decode_parity(bytes, size, &m.parity, &errors[4]),
+        sb_stream_decode_piece(bytes, size, &m.piece, &errors[5]),
     };
     for (int i = 0; i < SB_CHANNELS; ++i)
         if (statuses[i] != SB_OK) fuzz_check_refusal(statuses[i], &errors[i]);

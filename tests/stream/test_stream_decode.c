@@ -11,7 +11,7 @@ typedef struct message {
 } message;
 
 enum { TYPES = SB_CHANNELS, STATUS = SB_CHANNEL_STATUS, FORCES = SB_CHANNEL_FORCES, FRAME = SB_CHANNEL_FRAME };
-enum { GAUGES = SB_CHANNEL_GAUGES, SCENE = SB_CHANNEL_SCENE };
+enum { GAUGES = SB_CHANNEL_GAUGES, PARITY = SB_CHANNEL_PARITY, SCENE = SB_CHANNEL_SCENE };
 static message good[TYPES];
 static message scene; /* the encoded scene, which fits into one piece */
 /* Offsets of the counts and names in the messages of good[]: after fingerprint, version, run id and sequence. */
@@ -20,6 +20,7 @@ enum { STATUS_RUN = BODY, FORCES_TOTAL = BODY + 8, FORCES_N = BODY + 16, FORCES_
 enum { GAUGES_N = BODY + 16 };
 enum { FRAME_PART = BODY + 24, FRAME_TOTAL = BODY + 32, FRAME_FIRST = BODY + 40, FRAME_MOVED = BODY + 108 };
 enum { FRAME_COUNT = FRAME_MOVED + 8 + 28 }; /* one body has moved */
+enum { PARITY_PARTS = BODY + 8, PARITY_GROUP = BODY + 12, PARITY_COUNT = BODY + 20 };
 enum { PIECE_TOTAL = BODY + 8, PIECE_PIECE = BODY + 16, PIECE_OFFSET = BODY + 24, PIECE_COUNT = BODY + 32 };
 
 static void capture(const lcm_recv_buf_t *received, const char *channel, void *user)
@@ -44,7 +45,12 @@ static int capture_all(void **state)
     sb_frame *frame = fixture_frame(3, 4.5, 50, 4);
     fixture_publish(stream, frame);
     sb_frame_release(frame);
+    frame = fixture_frame(4, 5, 8 * SB_STREAM_POINTS, 4); /* large enough for parity */
+    const message part = (fixture_drain(stream), good[FRAME]);
+    fixture_publish(stream, frame);
+    sb_frame_release(frame);
     fixture_drain(stream);
+    good[FRAME] = part;
     sb_stream_destroy(stream);
     fixture_scene_free(&f);
     sb_scene_piece_message piece;
@@ -79,6 +85,7 @@ static sb_status decode(int type, const unsigned char *bytes, size_t size, sb_er
         sb_forces_message forces;
         sb_gauges_message gauges;
         sb_frame_message frame;
+        sb_parity_message parity;
         sb_scene_piece_message piece;
     } out;
     unsigned char *exact = exact_copy(bytes, size);
@@ -100,6 +107,9 @@ static sb_status decode(int type, const unsigned char *bytes, size_t size, sb_er
         if (status == SB_OK)
             assert_true(out.frame.points >= exact &&
                         out.frame.points + SB_STREAM_POINT * out.frame.count <= exact + size);
+    } else if (type == PARITY) {
+        status = sb_stream_decode_parity(exact, size, &out.parity, error);
+        if (status == SB_OK) assert_true(out.parity.data + out.parity.count <= exact + size);
     } else {
         status = sb_stream_decode_piece(exact, size, &out.piece, error);
         if (status == SB_OK) assert_true(out.piece.data >= exact && out.piece.data + out.piece.count <= exact + size);
@@ -186,7 +196,7 @@ static void hostile_counts(void **state)
                   {FRAME, FRAME_PART + 4, 0},  {FRAME, FRAME_TOTAL, 0},     {FRAME, FRAME_FIRST + 4, 0},
                   {SCENE, PIECE_TOTAL, 0},     {SCENE, PIECE_TOTAL + 4, 0}, {SCENE, PIECE_PIECE, 0},
                   {SCENE, PIECE_PIECE + 4, 0}, {SCENE, PIECE_OFFSET, 0},    {SCENE, PIECE_OFFSET + 4, 0},
-                  {SCENE, PIECE_COUNT, 0}};
+                  {SCENE, PIECE_COUNT, 0},     {PARITY, PARITY_COUNT, 0}};
     for (size_t p = 0; p < sizeof places / sizeof *places; p++)
         for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
             message bad = good[places[p].type];

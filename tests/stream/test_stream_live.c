@@ -181,6 +181,39 @@ static void losses_are_counted(void **state)
     assert_int_equal(sb_live_get_status(live)->state, SB_RUN_DONE);
 }
 
+/* One part of each group may be lost: the frame is that of the sender. Two parts of a group are lost for good. */
+static void lost_parts_are_repaired(void **state)
+{
+    (void)state;
+    enum { PARTS = 14, GROUPS = 2, FIRST = 1 }; /* a status comes first */
+    static unsigned char sent[SB_STREAM_POINT * SB_STREAM_POINTS * PARTS];
+    kept_count = 0;
+    keep_run(2, PARTS * SB_STREAM_POINTS - 100); /* the last part is not full */
+    const size_t each = 1 + PARTS + GROUPS;
+    assert_int_equal(kept_count, 2 * each + 1);
+    for (size_t i = 0; i < each; i++) assert_int_equal(pass(i, 0), SB_OK);
+    memcpy(sent, sb_live_get_frame(live)->points, sizeof sent - 100 * SB_STREAM_POINT);
+    const size_t lost[] = {0, 7, PARTS - 1, PARTS - 2}; /* two pairs of neighbours in different groups, one by one */
+    for (size_t pair = 0; pair < 2; pair++) {
+        end(state);
+        begin(state);
+        for (size_t i = 0; i < each; i++)
+            if (i != FIRST + lost[2 * pair] && i != FIRST + lost[2 * pair + 1]) assert_int_equal(pass(i, 0), SB_OK);
+        const sb_live_frame *got = sb_live_get_frame(live);
+        assert_non_null(got);
+        assert_memory_equal(got->points, sent, (size_t)got->count * SB_STREAM_POINT);
+        assert_memory_equal(got->parts[lost[2 * pair]].corner, got->parts[1].corner, sizeof got->parts[1].corner);
+        assert_int_equal(frames, 1);
+        assert_int_equal(sb_live_count(live).parts_repaired, 2);
+        assert_int_equal(sb_live_count(live).parts_lost, 0);
+        assert_int_equal(sb_live_count(live).lost, 2);
+    }
+    for (size_t i = each; i < kept_count; i++) /* of the second frame, parts 4 and 6 are of one group */
+        if (i != each + FIRST + 4 && i != each + FIRST + 6) pass(i, 0);
+    assert_int_equal(frames, 1);
+    assert_int_equal(sb_live_count(live).parts_repaired, 2);
+}
+
 static void invalid_messages_have_no_effect(void **state)
 {
     (void)state;
@@ -288,6 +321,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(joins_late, begin, end),
         cmocka_unit_test_setup_teardown(losses_are_counted, begin, end),
+        cmocka_unit_test_setup_teardown(lost_parts_are_repaired, begin, end),
         cmocka_unit_test_setup_teardown(invalid_messages_have_no_effect, begin, end),
         cmocka_unit_test_setup_teardown(follows_one_run_until_it_ends_or_is_silent, begin, end),
         cmocka_unit_test_setup_teardown(another_order_is_no_restart, begin, end),

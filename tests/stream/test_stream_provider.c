@@ -154,7 +154,7 @@ static void publish_to_stalled(sb_stream *stream)
     }
     assert_true(sb_clock() - start < 5);
     assert_int_equal(sb_stream_count(stream).errors, 0);
-    assert_int_equal(sb_stream_count(stream).messages, 30 * (1 + 8));
+    assert_int_equal(sb_stream_count(stream).messages, 30 * (1 + 8 + 1));
     sb_frame_release(frame);
 }
 

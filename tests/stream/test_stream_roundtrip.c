@@ -229,7 +229,7 @@ static void frames_arrive(void **state)
         assert_memory_equal(got->displacement + 3 * m, &frame->bodies[4 * m + 1].displacement, 24);
     }
     assert_in_range(all.largest, 56000, SB_STREAM_MESSAGE_MAX);
-    assert_true(sb_stream_count(stream).bytes < 8.2 * PARTICLES);
+    assert_true(sb_stream_count(stream).bytes < 8.2 * PARTICLES * (1 + 2 / 15.0)); /* parity of 15 parts */
     sb_frame_release(frame);
     end(stream);
 }
