@@ -43,51 +43,81 @@ static bool convex(const merger *m, const uint32_t *vertex, size_t count, sb_vec
     return true;
 }
 
-/* Merges two polygons across the edge from vertex `low` to `high`, if they are coplanar and the result is convex. */
+/* Removes corners at which an outline turns back on itself: polygons that share several edges in a row are joined by
+   one of them, and the others remain. Returns the number of corners left. */
+static uint32_t cut_spikes(uint32_t *vertex, uint32_t count)
+{
+    for (uint32_t k = 0; k < count && count >= 3;) {
+        const uint32_t next = (k + 1) % count, last = (k + count - 1) % count;
+        if (vertex[last] != vertex[next]) {
+            k++;
+            continue;
+        }
+        uint32_t kept = 0; /* the tip, and one of its two equal neighbours */
+        for (uint32_t j = 0; j < count; j++)
+            if (j != k && j != next) vertex[kept++] = vertex[j];
+        count = kept;
+        k = 0;
+    }
+    return count;
+}
+
+/* Merges two polygons across the edge from vertex `low` to `high`, if they are coplanar and the result is convex.
+   Returns whether it did, or -1 without memory. */
 static int merge(merger *m, uint32_t one, uint32_t other, uint32_t low, uint32_t high)
 {
     const uint32_t a = polygon_of(m, one), b = polygon_of(m, other);
     const sb_vec3 n = m->normal[a];
     if (a == b || sb_norm(sb_cross(n, m->normal[b])) > FLAT || sb_dot(n, m->normal[b]) < 0) return 0;
     polygon *p = &m->polygon[a], *q = &m->polygon[b];
-    if (p->count + q->count - 2 > CORNERS_MAX) return 0;
     uint32_t joined[2 * CORNERS_MAX], i = 0, j = 0;
     while (i < p->count && !((p->vertex[i] == low && p->vertex[(i + 1) % p->count] == high) ||
                              (p->vertex[i] == high && p->vertex[(i + 1) % p->count] == low)))
         i++;
     while (j < q->count && q->vertex[j] != p->vertex[i]) j++;
     if (i == p->count || j == q->count) return 0;
-    size_t n_joined = 0;
+    uint32_t n_joined = 0;
     for (uint32_t k = 1; k <= p->count; k++) joined[n_joined++] = p->vertex[(i + k) % p->count];
     for (uint32_t k = 1; k + 1 < q->count; k++) joined[n_joined++] = q->vertex[(j + k) % q->count];
-    if (!convex(m, joined, n_joined, n)) return 0;
+    n_joined = cut_spikes(joined, n_joined);
+    if (n_joined < 3 || n_joined > CORNERS_MAX || !convex(m, joined, n_joined, n)) return 0;
     uint32_t *vertex = sb_alloc(n_joined, sizeof *vertex);
     if (!vertex) return -1;
     memcpy(vertex, joined, n_joined * sizeof *vertex);
     sb_free(p->vertex);
     sb_free(q->vertex);
-    *p = (polygon){(uint32_t)n_joined, vertex};
+    *p = (polygon){n_joined, vertex};
     *q = (polygon){0};
     m->of[b] = a;
-    return 0;
+    return 1;
 }
 
+/* Tries each edge once. Returns as merge. */
+static int merge_some(merger *m, const sb_mesh_edges *edges)
+{
+    int merged = 0;
+    for (size_t e = 0, end; e < edges->count && merged >= 0; e = end) {
+        end = sb_mesh_edge_run(edges, e);
+        const sb_mesh_edge *users = edges->edges + e;
+        if (end - e != 2 || users[0].forward == users[1].forward) continue;
+        const int one = merge(m, users[0].triangle, users[1].triangle, users[0].low, users[0].high);
+        merged = one < 0 ? -1 : merged | one;
+    }
+    return merged;
+}
+
+/* Polygons that have grown may fit together where they did not before. */
 static int merge_all(merger *m)
 {
     sb_mesh_edges edges;
     if (sb_mesh_find_edges(m->mesh, &edges) != 0) return -1;
-    int status = 0;
-    for (size_t e = 0, end; e < edges.count && status == 0; e = end) {
-        end = sb_mesh_edge_run(&edges, e);
-        const sb_mesh_edge *users = edges.edges + e;
-        if (end - e == 2 && users[0].forward != users[1].forward)
-            status = merge(m, users[0].triangle, users[1].triangle, users[0].low, users[0].high);
-    }
+    int merged = 1;
+    while (merged == 1) merged = merge_some(m, &edges);
     sb_mesh_edges_free(&edges);
-    return status;
+    return merged;
 }
 
-/* Appends a polygon without its straight corners. */
+/* Appends a polygon. Straight corners stay: what lies beyond may differ on both sides of them. */
 static int append(sb_outlines *out, const merger *m, const polygon *p, sb_vec3 normal)
 {
     if (sb_grow((void **)&out->outline, &out->capacity, out->count + 1, sizeof *out->outline) != 0) return -1;
@@ -152,19 +182,20 @@ static bool cut(const sb_mesh *mesh, size_t t, sb_vec3 end[2])
     return found == 2 && sb_norm(sb_sub(end[1], end[0])) > 0;
 }
 
-/* Joins the segment to an earlier one that it continues in a straight line. */
-static bool join(sb_outlines *out, const sb_outline *segment, double near)
+/* Joins a segment with earlier ones that continue it in a straight line; these are removed from the list. */
+static void join(sb_outlines *out, sb_vec3 end[2], sb_vec3 normal, double near)
 {
     for (size_t k = out->count; k-- > 0;) {
         sb_outline *o = &out->outline[k];
-        if (sb_dot(o->normal, segment->normal) < 0 || sb_norm(sb_cross(o->normal, segment->normal)) > FLAT) continue;
-        for (int e = 0; e < 2; e++)
-            if (sb_norm(sb_sub(o->corner[e], segment->corner[1 - e])) < near) {
-                o->corner[e] = segment->corner[e];
-                return true;
-            }
+        if (sb_dot(o->normal, normal) < 0 || sb_norm(sb_cross(o->normal, normal)) > FLAT) continue;
+        int e = 0;
+        while (e < 2 && !(sb_norm(sb_sub(o->corner[e], end[1 - e])) < near)) e++;
+        if (e == 2) continue;
+        end[1 - e] = o->corner[1 - e];
+        sb_free(o->corner);
+        memmove(o, o + 1, (--out->count - k) * sizeof *o);
+        k = out->count; /* longer, it may reach others */
     }
-    return false;
 }
 
 int sb_outlines_of_section(const sb_mesh *mesh, double spacing, sb_outlines *out)
@@ -184,8 +215,7 @@ int sb_outlines_of_section(const sb_mesh *mesh, double spacing, sb_outlines *out
             end[0] = end[1];
             end[1] = first;
         }
-        sb_outline segment = {2, end, n};
-        if (join(out, &segment, 1e-6 * spacing)) continue;
+        join(out, end, n, 1e-6 * spacing);
         if (sb_grow((void **)&out->outline, &out->capacity, out->count + 1, sizeof *out->outline) != 0) return -1;
         sb_outline *o = &out->outline[out->count];
         *o = (sb_outline){.count = 2, .normal = n, .corner = sb_alloc(2, sizeof *o->corner)};
