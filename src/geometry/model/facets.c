@@ -18,6 +18,7 @@ typedef struct builder {
     const sb_model *model;
     const sb_model_space *space;
     double spacing;
+    bool *plate; /* by body: water may be on both sides of its surface */
     sb_facets *out;
     size_t capacity, edge_capacity;
 } builder;
@@ -76,7 +77,16 @@ static sb_bend bend_of(sb_vec3 normal, sb_vec3 inward, sb_vec3 other)
     return sb_dot(other, inward) > 0 ? SB_BEND_CONCAVE : SB_BEND_CONVEX;
 }
 
-/* The bend towards one body's surface that touches the edge's middle. Returns false if none does. */
+/* Whether a body fills the corner between a facet and what stands at its edge. A plate fills nothing. */
+static bool fills_corner(const builder *b, size_t body, const sb_facet *facet, const sb_facet_edge *edge, sb_vec3 at)
+{
+    const double away = 2 * TOUCHES * b->spacing;
+    return b->plate[body] ||
+           sb_solid_contains(b->space->solid[body], sb_madd(at, away, sb_sub(facet->normal, edge->inward)));
+}
+
+/* The bend towards one body's surface that touches the edge's middle. Returns false if none does. A side of another
+   body that is hidden, because its top continues the facet, does not count. */
 static bool bend_towards(const builder *b, size_t body, const sb_facet *facet, const sb_facet_edge *edge, sb_vec3 at,
                          sb_bend *bend)
 {
@@ -85,7 +95,7 @@ static bool bend_towards(const builder *b, size_t body, const sb_facet *facet, c
     normals which = {facet->normal, false};
     if (sb_solid_distance_where(b->space->solid[body], at, near, counts, &which, &nearest, &normal) < near) {
         *bend = bend_of(facet->normal, edge->inward, normal);
-        return true;
+        if (*bend != SB_BEND_CONCAVE || body == facet->body || fills_corner(b, body, facet, edge, at)) return true;
     }
     which.like = true;
     const sb_vec3 beyond = sb_madd(at, -2 * near, edge->inward);
@@ -157,17 +167,29 @@ static int add(builder *b, const sb_outline *o, size_t body, bool both)
     return 0;
 }
 
+/* Returns 0, or -1 without memory. */
+static int find_plates(builder *b)
+{
+    b->plate = sb_alloc(b->model->body_count, sizeof *b->plate);
+    if (!b->plate) return -1;
+    for (size_t k = 0; k < b->model->body_count; k++) {
+        const sb_model_body *of = &b->model->bodies[k];
+        sb_mesh_report report;
+        sb_error error = {0};
+        if (!has_mesh(b, k) || of->role == SB_ROLE_TERRAIN || of->mesh.open_surface) continue;
+        if (sb_mesh_diagnose(&of->mesh, &report, &error) != SB_OK) return -1;
+        b->plate[k] = !report.watertight;
+    }
+    return 0;
+}
+
 static int add_body(builder *b, size_t body)
 {
-    const sb_model_body *of = &b->model->bodies[body];
     sb_outlines outlines = {0};
     int status = b->model->dimensions == 2 ? sb_outlines_of_section(b->space->mesh[body], b->spacing, &outlines)
                                            : sb_outlines_of_mesh(b->space->mesh[body], &outlines);
-    sb_mesh_report report;
-    sb_error error = {0};
-    if (status == 0 && sb_mesh_diagnose(&of->mesh, &report, &error) != SB_OK) status = -1;
-    const bool both = status == 0 && of->role != SB_ROLE_TERRAIN && !of->mesh.open_surface && !report.watertight;
-    for (size_t k = 0; k < outlines.count && status == 0; k++) status = add(b, &outlines.outline[k], body, both);
+    for (size_t k = 0; k < outlines.count && status == 0; k++)
+        status = add(b, &outlines.outline[k], body, b->plate[body]);
     sb_outlines_free(&outlines);
     return status;
 }
@@ -188,8 +210,9 @@ sb_status sb_model_facets(const sb_scene *scene, const sb_model_space *space, sb
 {
     if (scene->numerics.walls != SB_WALLS_IMAGES) return SB_OK;
     builder b = {.scene = scene, .model = model, .space = space, .spacing = model->spacing, .out = &model->facets};
-    int status = 0;
+    int status = find_plates(&b);
     for (size_t k = 0; k < model->body_count && status == 0; k++)
         status = has_mesh(&b, k) ? add_body(&b, k) : add_sides(&b, k);
+    sb_free(b.plate);
     return status == 0 ? SB_OK : sb_fail_memory(error, "facets of walls");
 }
