@@ -83,7 +83,7 @@ static void build(void)
     assert_int_equal(status, SB_OK);
 }
 
-static bool warned(const char *first, const char *second)
+static inline bool warned(const char *first, const char *second)
 {
     for (size_t i = 0; i < model.warning_count; ++i)
         if (strstr(model.warnings[i], first) && strstr(model.warnings[i], second)) return true;
