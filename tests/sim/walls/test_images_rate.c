@@ -1,0 +1,185 @@
+/* The divergence is the rate of the density sum at the edges of a plate with water on both sides, and round a moving
+   body: compared with the sums after a small way forth and back. */
+#include "base/memory.h"
+#include "base/random.h"
+#include "check.h"
+#include "sim/passes/passes.h"
+#include "sim/walls/basin.h"
+
+#include <stdio.h>
+#include <unistd.h>
+
+/* Water on a disturbed lattice over the whole basin, outside of the box [from, to]. */
+static void spread(basin *b, double depth, sb_vec3 from, sb_vec3 to)
+{
+    sb_model *m = &b->model;
+    const double s = m->spacing;
+    const bool flat = m->dimensions == 2;
+    const size_t nx = (size_t)lround((m->max.x - m->min.x) / s);
+    const size_t ny = flat ? 1 : (size_t)lround((m->max.y - m->min.y) / s), nz = (size_t)lround(depth / s);
+    size_t n = 0;
+    for (size_t k = 0; k < nx * ny * nz && n < m->fluid_count; k++) {
+        const sb_vec3 at = sb_vec(((double)(k % nx) + 0.3 + 0.4 * sb_random(1, k)) * s,
+                                  flat ? 0 : ((double)(k / nx % ny) + 0.3 + 0.4 * sb_random(2, k)) * s,
+                                  ((double)(k / nx / ny) + 0.3 + 0.4 * sb_random(3, k)) * s);
+        if (!(at.x > from.x && at.y > from.y && at.z > from.z && at.x < to.x && at.y < to.y && at.z < to.z))
+            m->fluid_position[n++] = at;
+    }
+    m->fluid_count = n;
+}
+
+/* A displacement in whole quanta: a smooth field plus noise. */
+static sb_f4 way_of(const sb_sim *sim, sb_vec3 p, uint32_t id, double size)
+{
+    const bool flat = sim->constant.dimension == 2;
+    sb_f4 v = {(float)nearbyint(size * sin(3 * p.x + p.z)), flat ? 0 : (float)nearbyint(size * sin(5 * p.y + p.x)),
+               (float)nearbyint(size * cos(2 * p.x - p.y)), 0};
+    for (int axis = 0; axis < 3; axis++)
+        if (!flat || axis != 1) v[axis] += (float)nearbyint(size * (sb_random((uint64_t)axis + 5, id) - 0.5));
+    return v;
+}
+
+typedef struct motion {
+    double time, dt;
+    sb_record *at; /* by id */
+    sb_f4 *way;
+} motion;
+
+/* Density sums, by id, after `share` steps. */
+static void densities(basin *b, const motion *m, int share, double *out)
+{
+    sb_sim *sim = b->sim;
+    sim->state.time = m->time + share * m->dt;
+    for (size_t i = 0; i < sim->state.n; i++) {
+        const uint32_t id = sim->state.id[i];
+        for (int axis = 0; axis < 3; axis++)
+            sim->state.position[i][axis] = m->at[id][axis] + (uint32_t)(share * (int32_t)m->way[id][axis]);
+    }
+    assert_int_equal(tank_prepare(sim, m->dt), 0);
+    for (size_t i = 0; i < sim->state.n; i++) out[sim->state.id[i]] = (double)sim->work.density[i];
+}
+
+static void compare(basin *b, double time, double dt)
+{
+    sb_sim *sim = b->sim;
+    sim->state.time = time;
+    assert_int_equal(tank_prepare(sim, dt), 0);
+    const size_t n = sim->state.n;
+    motion m = {time, dt, sb_alloc(n, sizeof *m.at), sb_alloc(n, sizeof *m.way)};
+    float *divergence = sb_alloc(n, sizeof *divergence);
+    double *rate = sb_alloc(n, sizeof *rate), *before = sb_alloc(n, sizeof *before),
+           *after = sb_alloc(n, sizeof *after);
+    assert_true(m.at && m.way && divergence && rate && before && after);
+    const double size = floor(2e-3 * b->model.spacing / sim->space.quantum);
+    double flux = 0, worst = 0, largest = 0;
+    for (size_t i = 0; i < n; i++) {
+        const uint32_t id = sim->state.id[i];
+        m.at[id] = sim->state.position[i];
+        sim->work.predicted[i] = m.way[id] = way_of(sim, sb_space_position(&sim->space, m.at[id]), id, size);
+    }
+    sim->passes->diverge(sim, sim->work.predicted, (float)sim->space.quantum, divergence);
+    for (size_t i = 0; i < n; i++) {
+        rate[sim->state.id[i]] = (double)divergence[i] - dt * (double)sim->work.wall[i][3];
+        flux = fmax(flux, fabs(dt * (double)sim->work.wall[i][3]));
+    }
+    printf("  %dD: %zu particles, %zu images, %zu pairs at edges, ", sim->constant.dimension, n,
+           sim->groups.images_used, sim->work.edge_pairs.used);
+    assert_true(sim->groups.images_used > 50 && sim->work.edge_pairs.used > 50);
+    densities(b, &m, -1, before);
+    densities(b, &m, 1, after);
+    size_t at = 0;
+    for (size_t i = 0; i < n; i++) {
+        const double off = fabs(0.5 * (after[i] - before[i]) - rate[i]);
+        if (off > worst) at = i;
+        worst = fmax(worst, off);
+        largest = fmax(largest, fabs(rate[i]));
+    }
+    const sb_vec3 p = sb_space_position(&sim->space, m.at[at]);
+    printf("change of the density %.2g kg/m^3, %.2g by the wall's motion; it differs by %.2g of that at (%.3f %.3f "
+           "%.3f)\n",
+           largest, flux, worst / largest, p.x, p.y, p.z);
+    assert_true(largest > 0.5);
+    assert_true((flux > 0.1 * largest) == (sim->walls.moving_count > 0));
+    assert_true(worst < 2e-3 * largest);
+    sb_free(m.at), sb_free(m.way), sb_free(divergence), sb_free(rate), sb_free(before), sb_free(after);
+}
+
+/* A body that moves through the water, which flows round it. */
+static void a_moving_body(void **state)
+{
+    (void)state;
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        basin b;
+        const bool flat = dimensions == 2;
+        const sb_override set[] = {
+            {"dimensions", flat ? "2" : "3"},
+            {"resolution", flat ? "0.05" : "0.1"},
+            {"domain.min", flat ? "[0, 0]" : "[0, 0, 0]"},
+            {"domain.max", flat ? "[1.6, 1.2]" : "[1.6, 0.9, 1.2]"},
+            {"numerics.density", "summed"},
+            {"numerics.settle_steps", "0"},
+            {"water",
+             flat ? "{boxes: [{min: [0, 0], max: [1.6, 0.9]}]}" : "{boxes: [{min: [0, 0, 0], max: [1.6, 0.9, 0.9]}]}"},
+            {"bodies", flat ? "[{name: paddle, shape: box, min: [0.3, 0], max: [0.6, 0.5]}]"
+                            : "[{name: paddle, shape: box, min: [0.3, 0.2, 0], max: [0.6, 1.2, 0.5]}]"},
+            {"wavemakers", flat
+                               ? "[{name: push, body: paddle, kind: stroke, stroke: 0.5, speed: 0.4, direction: [1, "
+                                 "0]}]"
+                               : "[{name: push, body: paddle, kind: stroke, stroke: 0.5, speed: 0.4, direction: [1, 0, "
+                                 "0]}]"},
+        };
+        basin_build(&b, set, sizeof set / sizeof *set);
+        sb_paddle paddle;
+        assert_int_equal(sb_paddle_create(&b.scene.wavemakers[0].law, &paddle, NULL), SB_OK);
+        const double x = sb_paddle_displacement(&paddle, 0.6);
+        sb_paddle_destroy(&paddle);
+        spread(&b, 0.9, sb_vec(0.3 + x, flat ? -1 : 0.2, -1), sb_vec(0.6 + x, 2, 0.5));
+        basin_start(&b);
+        compare(&b, 0.6, flat ? 2.5e-4 : 5e-4);
+        basin_free(&b);
+    }
+}
+
+/* A plate in the middle of the water, with four edges (2D: two ends). */
+static void a_plate(void **state)
+{
+    (void)state;
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        basin b;
+        const bool flat = dimensions == 2;
+        char path[64], bodies[256];
+        snprintf(path, sizeof path, "%s/images-rate-%d.obj", SB_BINARY_DIR, (int)getpid());
+        FILE *file = fopen(path, "w");
+        assert_non_null(file);
+        fprintf(file, "v 0.8 %g 0.2\nv 0.8 %g 0.2\nv 0.8 %g 0.6\nv 0.8 %g 0.6\nf 1 2 3\nf 1 3 4\n", flat ? -1 : 0.25,
+                flat ? 1 : 0.65, flat ? 1 : 0.65, flat ? -1 : 0.25);
+        assert_int_equal(fclose(file), 0);
+        snprintf(bodies, sizeof bodies, "[{name: plate, shape: mesh, file: %s}]", path);
+        const sb_override set[] = {
+            {"dimensions", flat ? "2" : "3"},
+            {"resolution", flat ? "0.05" : "0.1"},
+            {"domain.min", flat ? "[0, 0]" : "[0, 0, 0]"},
+            {"domain.max", flat ? "[1.6, 1.2]" : "[1.6, 0.9, 1.2]"},
+            {"numerics.density", "summed"},
+            {"water",
+             flat ? "{boxes: [{min: [0, 0], max: [1.6, 0.9]}]}" : "{boxes: [{min: [0, 0, 0], max: [1.6, 0.9, 0.9]}]}"},
+            {"bodies", bodies},
+        };
+        basin_build(&b, set, sizeof set / sizeof *set);
+        remove(path);
+        assert_true(b.model.facets.facets[0].both);
+        spread(&b, 0.9, (sb_vec3){0}, (sb_vec3){0});
+        basin_start(&b);
+        compare(&b, 0, 1e-3);
+        basin_free(&b);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_moving_body),
+        cmocka_unit_test(a_plate),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
