@@ -4,7 +4,6 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -57,7 +56,8 @@ static void a_sea_over_a_slope_rests(void **state)
         {"domain.min", "[0, -12]"},
         {"domain.max", "[160, 8]"},
         {"water", "{level: 0, seed: [20, -2]}"},
-        {"bodies", bodies}, {"numerics.walls", getenv("W")?"particles":"images"},
+        {"bodies", bodies},
+        {"numerics.walls", getenv("W") ? "particles" : "images"},
         {"numerics.walls", "images"},
     };
     basin_fill_from(&b, set, sizeof set / sizeof *set);

@@ -34,12 +34,8 @@ static void fill(basin *b, const char *spacing)
     write_bed(path);
     snprintf(bodies, sizeof bodies, "[{name: bed, shape: mesh, role: terrain, file: %s}]", path);
     const sb_override set[] = {
-        {"dimensions", "2"},
-        {"resolution", spacing},
-        {"domain.min", "[0, -60]"},
-        {"domain.max", "[800, 40]"},
-        {"domain.sides", "{z_max: open}"},
-        {"water", "{level: 0, seed: [100, -10]}"},
+        {"dimensions", "2"},         {"resolution", spacing},           {"domain.min", "[0, -60]"},
+        {"domain.max", "[800, 40]"}, {"domain.sides", "{z_max: open}"}, {"water", "{level: 0, seed: [100, -10]}"},
         {"bodies", bodies},
     };
     basin_build(b, set, sizeof set / sizeof *set);
