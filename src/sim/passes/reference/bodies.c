@@ -1,21 +1,16 @@
 /* The forces of the water on bodies: the reaction of every wall pair, one at a time, on one thread. */
+#include "sim/passes/cpu/body_forces.h"
 #include "sim/passes/reference/pairs.h"
 #include "sim/passes/reference/reference.h"
 #include "sim/step/ledger.h"
 #include "sim/walls/contact.h"
+#include "sim/walls/mirrors.h"
 
 #include <string.h>
 
-/* A force by pressure or contact, and one by drag, of fluid particle i on the body of a wall entry. It acts at the
-   particle, shifted by whole periods to the original if the entry is an image. */
-static void act(const sb_sim *sim, size_t i, uint32_t entry, sb_vec3 pressure, sb_vec3 drag, double *force)
+/* A force by pressure or contact, and one by drag, on a body. at: m. */
+static void act_on(const sb_sim *sim, uint32_t body, sb_vec3 at, sb_vec3 pressure, sb_vec3 drag, double *force)
 {
-    const sb_space *space = &sim->space;
-    const sb_record record = sb_wall_set_of(sim, entry)->record[sb_wall_particle(entry)];
-    const sb_vec3 shift =
-        sb_sub(sb_space_position(space, sb_space_wrap(space, record)), sb_space_position(space, record));
-    const sb_vec3 at = sb_add(sb_space_position(space, sim->state.position[i]), shift);
-    const uint32_t body = sb_wall_body(sim, entry);
     const sb_vec3 arm = sb_sub(at, sim->model->bodies[body].moment_point);
     const sb_vec3 moment = sb_cross(arm, sb_add(pressure, drag));
     const double values[SB_FORCE_VALUES] = {pressure.x, pressure.y, pressure.z, drag.x,  drag.y,
@@ -23,10 +18,108 @@ static void act(const sb_sim *sim, size_t i, uint32_t entry, sb_vec3 pressure, s
     for (int v = 0; v < SB_FORCE_VALUES; v++) force[(size_t)body * SB_FORCE_VALUES + (size_t)v] += values[v];
 }
 
+/* The same of fluid particle i on the body of a wall entry. It acts at the particle, shifted by whole periods to the
+   original if the entry is an image. */
+static void act(const sb_sim *sim, size_t i, uint32_t entry, sb_vec3 pressure, sb_vec3 drag, double *force)
+{
+    const sb_space *space = &sim->space;
+    const sb_record record = sb_wall_set_of(sim, entry)->record[sb_wall_particle(entry)];
+    const sb_vec3 shift =
+        sb_sub(sb_space_position(space, sb_space_wrap(space, record)), sb_space_position(space, record));
+    const sb_vec3 at = sb_add(sb_space_position(space, sim->state.position[i]), shift);
+    act_on(sim, sb_wall_body(sim, entry), at, pressure, drag, force);
+}
+
+/* ---- images ---- */
+
+/* The force `along` times m along a plane's normal. */
+static void push_plane(const sb_sim *sim, const sb_group_plane *plane, sb_vec3 at, double along, double *force)
+{
+    const sb_vec3 push = sb_scale(sb_vector_of(plane->plane), (double)sim->constant.mass * along);
+    act_on(sim, sb_mirror_body(sim, plane->mirror), sb_add(at, sb_mirror_shift(sim, plane->mirror)), push, (sb_vec3){0},
+           force);
+}
+
+void sb_plain_reflect(const sb_sim *sim, const sb_indices *indices, uint32_t path, sb_vec3 at, sb_vec3 a, double *force)
+{
+    const sb_group_plane *plane[SB_REFLECTIONS_MAX];
+    const int count = sb_path_planes(indices, path, plane);
+    for (int k = count; k-- > 0;) { /* from the particle on: the last reflection of the image first */
+        const sb_vec3 n = sb_vector_of(plane[k]->plane);
+        const double along = sb_dot(n, a);
+        push_plane(sim, plane[k], at, -along, force);
+        a = sb_madd(a, -2 * along, n);
+    }
+}
+
+/* The reactions to the hydrostatic part of an image's pressure: each plane takes the normal part of what is left. */
+static void take_normal(const sb_sim *sim, const sb_indices *indices, uint32_t path, sb_vec3 at, sb_vec3 a,
+                        double *force)
+{
+    const sb_group_plane *plane[SB_REFLECTIONS_MAX];
+    const int count = sb_path_planes(indices, path, plane);
+    for (int k = 0; k < count; k++) {
+        const sb_vec3 n = sb_vector_of(plane[k]->plane);
+        const double along = sb_dot(n, a);
+        push_plane(sim, plane[k], at, -along, force);
+        a = sb_madd(a, -along, n);
+    }
+}
+
+static double unknown_of(const sb_sim *sim, uint32_t entry)
+{
+    return (double)sim->work.unknown[sb_entry_owner(sim, entry)];
+}
+
+/* Pressure on walls by pairs of particle i with images, and by its pairs at edges. */
+static void react_images(const sb_sim *sim, const sb_indices *around, size_t i, double *force)
+{
+    const sb_vec3 at = sb_space_position(&sim->space, sim->state.position[i]);
+    const double own = (double)sim->work.unknown[i], hydrostatic = (double)sb_hydrostatic(sim);
+    for (size_t k = sb_direct_count(sim, i); k < sb_pair_count(sim, i); k++) {
+        const sb_one_pair p = sb_pair_at(sim, around, i, k);
+        if (p.slope == 0) continue;
+        const sb_vec3 from = sb_offset_of(sim->state.position[p.other], around->corner);
+        const double head = from.z - sb_image_place(around, p.path, from).z;
+        sb_plain_reflect(sim, around, p.path, at, sb_scale(p.offset, -p.slope * (own + unknown_of(sim, p.other))),
+                         force);
+        take_normal(sim, around, p.path, at, sb_scale(p.offset, -p.slope * hydrostatic * head), force);
+    }
+    for (size_t k = 0; k < sb_edge_count(sim, i); k++) {
+        const sb_edge_pair *e = sb_edge_at(sim, i, k);
+        const double q = own + unknown_of(sim, e->entry);
+        act_on(sim, sb_mirror_body(sim, e->mirror), sb_add(at, sb_mirror_shift(sim, e->mirror)),
+               sb_scale(sb_vector_of(e->own), (double)sim->constant.mass * q), (sb_vec3){0}, force);
+    }
+}
+
+/* Contact with facets. */
+static void contact_facets(sb_sim *sim, const sb_group *group, size_t i, sb_body_sums *total)
+{
+    const sb_f4 start = sim->state.velocity[i], before = sim->work.end_velocity[i];
+    const double dt = sim->state.time_step;
+    const sb_vec3 at = sb_space_position(&sim->space, sim->state.position[i]);
+    sb_f4 velocity = before;
+    sb_facet_contact c;
+    for (int k = 0; k < SB_CONTACT_PUSHES_MAX && sb_mirrors_contact(sim, group, i, velocity, &c); k++) {
+        const sb_group_plane *p = &sim->groups.plane[group->plane + c.plane];
+        const double along = (double)c.push * sim->space.quantum / dt;
+        const sb_vec3 change = sb_scale(sb_vector_of(p->plane), along);
+        push_plane(sim, p, at, -along / dt, total->force);
+        total->contact_bodies += sb_dot(change, sb_vector_of(sb_mirror_velocity(sim, p->mirror)));
+        velocity += (sb_f4){(float)change.x, (float)change.y, (float)change.z, 0};
+    }
+    total->contact += sb_ledger_work(before, velocity, start, velocity);
+    velocity[3] = before[3];
+    sim->work.end_velocity[i] = velocity;
+}
+
+/* ---- boundary particles ---- */
+
 /* Pressure and drag of particle i. */
 static void react(sb_sim *sim, size_t i, const sb_wall_drag *law, sb_body_sums *total)
 {
-    const double mass = (double)sim->constant.mass, q = (double)sim->work.unknown[i];
+    const double mass = (double)sim->constant.mass, q = sim->needs.images ? 0 : (double)sim->work.unknown[i];
     sb_vec3 drag = {0};
     for (size_t k = 0; k < sim->work.wall_pairs.count[i]; k++) {
         const sb_one_wall wall = sb_wall_at(sim, i, k);
@@ -60,9 +153,18 @@ int sb_plain_bodies(sb_sim *sim, const sb_wall_drag *law, sb_body_sums *total)
 {
     memset(total->force, 0, sim->model->body_count * SB_FORCE_VALUES * sizeof *total->force);
     total->friction = total->contact = total->contact_bodies = 0;
-    for (size_t i = 0; i < sim->state.n; i++) {
-        contact(sim, i, total);
-        react(sim, i, law, total);
+    for (size_t g = 0; g < sim->groups.count; g++) {
+        const sb_group *group = &sim->groups.group[g];
+        sb_indices around;
+        sb_indices_of(sim, group, &around);
+        for (size_t i = group->first; i < group->end; i++) {
+            if (sim->needs.images) {
+                react_images(sim, &around, i, total->force);
+                contact_facets(sim, group, i, total);
+            } else
+                contact(sim, i, total);
+            react(sim, i, law, total);
+        }
     }
     return 0;
 }

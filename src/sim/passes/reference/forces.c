@@ -42,7 +42,7 @@ static double strain_rate(const sb_sim *sim, const sb_indices *around, size_t i)
 {
     const bool flat = sim->constant.dimension == 2;
     double place[3][3] = {{0}}, velocity[3][3] = {{0}}, gradient[3][3], square = 0;
-    for (size_t k = 0; k < sb_pair_count(sim, i); k++) {
+    for (size_t k = 0; k < sb_direct_count(sim, i); k++) {
         const sb_one_pair p = sb_pair_at(sim, around, i, k);
         const sb_f4 v = sim->state.velocity[i] - sim->state.velocity[p.other];
         const double x[3] = {p.offset.x, p.offset.y, p.offset.z};
@@ -113,7 +113,7 @@ sb_vec3 sb_plain_drag(const sb_sim *sim, size_t i, const sb_one_wall *wall, cons
 static sb_vec3 viscous_part(const sb_sim *sim, const sb_indices *around, size_t i, const sb_viscous *f)
 {
     sb_vec3 sum = {0};
-    for (size_t k = 0; k < sb_pair_count(sim, i); k++) {
+    for (size_t k = 0; k < sb_direct_count(sim, i); k++) {
         const sb_one_pair p = sb_pair_at(sim, around, i, k);
         const sb_vec3 v = sb_sub(sb_vector_of(sim->state.velocity[i]), sb_vector_of(sim->state.velocity[p.other]));
         const double approach = sb_dot(v, p.offset), r2 = sb_dot(p.offset, p.offset);
@@ -146,6 +146,7 @@ static void forces_group(sb_sim *sim, const sb_group *group, const void *argumen
         }
         if (terms->law->on && sim->work.wall_pairs.count[i] > 0)
             sim->work.wall_drag[i] = (sb_f4){(float)drag.x, (float)drag.y, (float)drag.z, 0};
+        if (sim->needs.images) a = sb_add(a, sb_vector_of(sim->work.image_push[i]));
         const sb_vec3 change = sb_scale(sb_add(a, drag), sim->state.time_step);
         sim->work.predicted[i] = sim->state.velocity[i] + (sb_f4){(float)change.x, (float)change.y, (float)change.z, 0};
     }

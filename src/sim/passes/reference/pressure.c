@@ -17,6 +17,10 @@ static void accelerate_group(sb_sim *sim, const sb_group *group, const void *arg
             const double other = (double)sb_carried_value(sim->state.position[p.other]);
             sum = sb_madd(sum, (own + other) * p.slope, p.offset);
         }
+        for (size_t k = 0; k < sb_edge_count(sim, i); k++) {
+            const sb_edge_pair *e = sb_edge_at(sim, i, k);
+            sum = sb_madd(sum, own + (double)sb_carried_value(sim->state.position[e->entry]), sb_vector_of(e->own));
+        }
         sim->work.acceleration[i] = (sb_f4){(float)-sum.x, (float)-sum.y, (float)-sum.z, 0};
     }
 }
@@ -42,7 +46,13 @@ static void diverge_group(sb_sim *sim, const sb_group *group, const void *argume
         double sum = sb_dot(own, sb_vector_of(sim->work.wall[i]));
         for (size_t k = 0; k < sb_pair_count(sim, i); k++) {
             const sb_one_pair p = sb_pair_at(sim, &around, i, k);
-            sum += p.slope * sb_dot(sb_sub(own, sb_vector_of(of->field[p.other])), p.offset);
+            const sb_vec3 other = sb_image_vector(&around, p.path, sb_vector_of(of->field[p.other]));
+            sum += p.slope * sb_dot(sb_sub(own, other), p.offset);
+        }
+        for (size_t k = 0; k < sb_edge_count(sim, i); k++) {
+            const sb_edge_pair *e = sb_edge_at(sim, i, k);
+            sum +=
+                sb_dot(sb_vector_of(e->own), own) + sb_dot(sb_vector_of(e->other), sb_vector_of(of->field[e->entry]));
         }
         of->out[i] = (float)((double)of->factor * sum);
     }
@@ -77,10 +87,10 @@ static void virial_group(sb_sim *sim, const sb_group *group, const void *argumen
         double sum = 0;
         for (size_t k = 0; k < sb_pair_count(sim, i); k++) {
             const sb_one_pair p = sb_pair_at(sim, &around, i, k);
-            const sb_vec3 d = sb_sub(own, place_before(sim, group, p.other));
+            const sb_vec3 d = sb_sub(own, sb_image_place(&around, p.path, place_before(sim, group, p.other)));
             sum += (unknown_of(sim, (uint32_t)i) + unknown_of(sim, p.other)) * p.slope * sb_dot(d, d);
         }
-        for (size_t k = 0; k < sim->work.wall_pairs.count[i]; k++) {
+        for (size_t k = 0; k < sim->work.wall_pairs.count[i] && !sim->needs.images; k++) {
             const sb_one_wall wall = sb_wall_at(sim, i, k);
             const sb_record record = sb_wall_set_of(sim, wall.entry)->record[sb_wall_particle(wall.entry)];
             const sb_vec3 d = sb_sub(own, sb_offset_of(record, group->corner));

@@ -3,6 +3,8 @@
 #include "sim/passes/reference/reference.h"
 #include "sim/terms/stress_correction.h"
 
+#include <string.h>
+
 /* A symmetric tensor without trace: xx, yy, xy, xz, yz. */
 enum { XX, YY, XY, XZ, YZ, PARTS };
 
@@ -37,11 +39,39 @@ void sb_plain_strain(sb_sim *sim)
     sb_each_group(sim, strain_group, NULL);
 }
 
-/* Adds a tensor times a weight: xx is carried by the record, the other parts are in `rest`. */
-static void add(const sb_sim *sim, const sb_f4 *rest, uint32_t entry, double weight, double sum[PARTS])
+/* The tensor of an entry, reflected by a path: xx is carried by the record, the other parts are in `rest`. */
+static void tensor_of(const sb_sim *sim, const sb_indices *around, const sb_f4 *rest, uint32_t entry, uint32_t path,
+                      double t[3][3])
 {
-    sum[XX] += weight * (double)sb_carried_value(sim->state.position[entry]);
-    for (int part = 0; part < 4; part++) sum[YY + part] += weight * (double)rest[entry][part];
+    const double xx = (double)sb_carried_value(sim->state.position[entry]);
+    const double yy = (double)rest[entry][0], xy = (double)rest[entry][1], xz = (double)rest[entry][2],
+                 yz = (double)rest[entry][3];
+    const double plain[3][3] = {{xx, xy, xz}, {xy, yy, yz}, {xz, yz, -xx - yy}};
+    const sb_vec3 unit[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    double r[3][3]; /* columns: the images of the unit vectors */
+    for (int k = 0; k < 3; k++) {
+        const sb_vec3 image = sb_image_vector(around, path, unit[k]);
+        r[0][k] = image.x, r[1][k] = image.y, r[2][k] = image.z;
+    }
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++) {
+            t[a][b] = 0;
+            for (int c = 0; c < 3; c++)
+                for (int d = 0; d < 3; d++) t[a][b] += r[a][c] * plain[c][d] * r[b][d];
+        }
+}
+
+/* Adds a tensor times a weight. */
+static void add(const sb_sim *sim, const sb_indices *around, const sb_f4 *rest, uint32_t entry, uint32_t path,
+                double weight, double sum[PARTS])
+{
+    double t[3][3];
+    tensor_of(sim, around, rest, entry, path, t);
+    sum[XX] += weight * t[0][0];
+    sum[YY] += weight * t[1][1];
+    sum[XY] += weight * t[0][1];
+    sum[XZ] += weight * t[0][2];
+    sum[YZ] += weight * t[1][2];
 }
 
 static void stress_group(sb_sim *sim, const sb_group *group, const void *arguments)
@@ -53,10 +83,10 @@ static void stress_group(sb_sim *sim, const sb_group *group, const void *argumen
         double sum[PARTS] = {0}, weights = (double)SB_SLOPE_OWN * (double)sim->work.pairs.unit;
         const double density = (double)sim->work.density[i],
                      q = (double)sim->state.velocity[i][3] / (density * density);
-        add(sim, sim->work.strain, (uint32_t)i, weights, sum);
+        add(sim, &around, sim->work.strain, (uint32_t)i, 0, weights, sum);
         for (size_t k = 0; k < sb_pair_count(sim, i); k++) {
             const sb_one_pair p = sb_pair_at(sim, &around, i, k);
-            add(sim, sim->work.strain, p.other, p.slope, sum);
+            add(sim, &around, sim->work.strain, p.other, p.path, p.slope, sum);
             weights += p.slope;
         }
         const double factor = q / weights;
@@ -71,31 +101,53 @@ void sb_plain_stress(sb_sim *sim)
     sb_each_group(sim, stress_group, NULL);
 }
 
+/* -m (S_i + S_j) grad W of one pair. */
+static sb_vec3 correction(const sb_sim *sim, const sb_indices *around, size_t i, const sb_one_pair *p)
+{
+    double s[PARTS] = {0};
+    add(sim, around, sim->work.stress, (uint32_t)i, 0, 1, s);
+    add(sim, around, sim->work.stress, p->other, p->path, 1, s);
+    const sb_vec3 x = p->offset;
+    return sb_scale(sb_vec(s[XX] * x.x + s[XY] * x.y + s[XZ] * x.z, s[XY] * x.x + s[YY] * x.y + s[YZ] * x.z,
+                           s[XZ] * x.x + s[YZ] * x.y - (s[XX] + s[YY]) * x.z),
+                    -p->slope);
+}
+
 static void correct_group(sb_sim *sim, const sb_group *group, const void *arguments)
 {
     (void)arguments;
     sb_indices around;
     sb_indices_of(sim, group, &around);
-    const double dt = sim->state.time_step;
     for (size_t i = group->first; i < group->end; i++) {
-        sb_vec3 change = {0};
+        sb_vec3 sum = {0};
         for (size_t k = 0; k < sb_pair_count(sim, i); k++) {
             const sb_one_pair p = sb_pair_at(sim, &around, i, k);
-            double s[PARTS] = {0};
-            add(sim, sim->work.stress, (uint32_t)i, 1, s);
-            add(sim, sim->work.stress, p.other, 1, s);
-            const sb_vec3 x = p.offset;
-            const sb_vec3 push =
-                sb_vec(s[XX] * x.x + s[XY] * x.y + s[XZ] * x.z, s[XY] * x.x + s[YY] * x.y + s[YZ] * x.z,
-                       s[XZ] * x.x + s[YZ] * x.y - (s[XX] + s[YY]) * x.z);
-            change = sb_madd(change, -dt * p.slope, push);
+            sum = sb_add(sum, correction(sim, &around, i, &p));
         }
+        const sb_vec3 change = sb_scale(sum, sim->state.time_step);
         sim->work.corrected[i] = sim->state.velocity[i] + (sb_f4){(float)change.x, (float)change.y, (float)change.z, 0};
+    }
+}
+
+/* The reactions of the walls to the correction by images. */
+static void push_walls(sb_sim *sim, const sb_group *group)
+{
+    sb_indices around;
+    sb_indices_of(sim, group, &around);
+    for (size_t i = group->first; i < group->end; i++) {
+        const sb_vec3 at = sb_space_position(&sim->space, sim->state.position[i]);
+        for (size_t k = sb_direct_count(sim, i); k < sb_pair_count(sim, i); k++) {
+            const sb_one_pair p = sb_pair_at(sim, &around, i, k);
+            if (p.slope == 0) continue;
+            sb_plain_reflect(sim, &around, p.path, at, correction(sim, &around, i, &p), sim->work.stress_force);
+        }
     }
 }
 
 int sb_plain_correct(sb_sim *sim)
 {
     sb_each_group(sim, correct_group, NULL);
+    memset(sim->work.stress_force, 0, sim->model->body_count * SB_FORCE_VALUES * sizeof *sim->work.stress_force);
+    for (size_t g = 0; g < sim->groups.count && sim->needs.images; g++) push_walls(sim, &sim->groups.group[g]);
     return 0;
 }
