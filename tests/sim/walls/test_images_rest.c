@@ -57,7 +57,6 @@ static void a_sea_over_a_slope_rests(void **state)
         {"domain.max", "[160, 8]"},
         {"water", "{level: 0, seed: [20, -2]}"},
         {"bodies", bodies},
-        {"numerics.walls", getenv("W") ? "particles" : "images"},
         {"numerics.walls", "images"},
     };
     basin_fill_from(&b, set, sizeof set / sizeof *set);
