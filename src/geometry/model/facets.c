@@ -10,6 +10,9 @@
    the facet is hidden. */
 static const double TOUCHES = 1e-3, BEFORE = 0.02;
 
+/* Most points along one axis at which it is tested whether a facet is hidden. */
+enum { SAMPLES_MAX = 64 };
+
 /* Cosine of the bend above which water sees an edge: 45 degrees. */
 static const double BENT = 0.7071;
 
@@ -18,7 +21,9 @@ typedef struct builder {
     const sb_model *model;
     const sb_model_space *space;
     double spacing;
-    bool *plate; /* by body: water may be on both sides of its surface */
+    bool *plate;                 /* by body: water may be on both sides of its surface */
+    const sb_outlines *outlines; /* of the present body */
+    const bool *kept;            /* of them, those that are not hidden */
     sb_facets *out;
     size_t capacity, edge_capacity;
 } builder;
@@ -106,7 +111,34 @@ static bool bend_towards(const builder *b, size_t body, const sb_facet *facet, c
     return false;
 }
 
-static sb_bend find_bend(const builder *b, const sb_facet *facet, const sb_facet_edge *edge)
+/* Whether a point of an outline's plane lies in it or near its border. */
+static bool near_outline(const sb_outline *o, sb_vec3 at, double near)
+{
+    for (size_t k = 0; k < o->count; k++) {
+        const sb_vec3 from = o->corner[k], along = sb_sub(o->corner[(k + 1) % o->count], from);
+        const sb_vec3 inward = o->count == 2 ? along : sb_cross(o->normal, along);
+        if (sb_dot(inward, sb_sub(at, from)) < -near * sb_norm(inward)) return false;
+    }
+    return true;
+}
+
+/* Whether another facet of the same body goes on at the edge of outline `self`, bent by less than 45 degrees. What
+   stands on both covers a part of them, but they remain one surface. */
+static bool goes_on(const builder *b, size_t self, sb_vec3 at)
+{
+    const double near = TOUCHES * b->spacing;
+    const sb_vec3 normal = b->outlines->outline[self].normal;
+    for (size_t k = 0; k < b->outlines->count; k++) {
+        const sb_outline *o = &b->outlines->outline[k];
+        if (k != self && b->kept[k] && sb_dot(o->normal, normal) >= BENT &&
+            fabs(sb_dot(o->normal, sb_sub(at, o->corner[0]))) < near && near_outline(o, at, near))
+            return true;
+    }
+    return false;
+}
+
+/* self: the facet's outline. */
+static sb_bend find_bend(const builder *b, size_t self, const sb_facet *facet, const sb_facet_edge *edge)
 {
     const sb_vec3 at = sb_scale(sb_add(edge->from, edge->to), 0.5);
     bool soft = false;
@@ -117,38 +149,88 @@ static sb_bend find_bend(const builder *b, const sb_facet *facet, const sb_facet
     for (size_t body = 0; body < b->model->body_count; body++) {
         if (!has_mesh(b, body) || !b->space->solid[body]) continue;
         sb_bend bend;
-        if (bend_towards(b, body, facet, edge, at, &bend)) {
-            if (bend == SB_BEND_CONCAVE) return bend;
-            soft |= bend == SB_BEND_SOFT;
-        } else if (body != facet->body && sb_solid_contains(b->space->solid[body], at))
-            return SB_BEND_CONCAVE;
+        if (!bend_towards(b, body, facet, edge, at, &bend)) {
+            if (body == facet->body || !sb_solid_contains(b->space->solid[body], at)) continue;
+            bend = SB_BEND_CONCAVE;
+        }
+        if (bend == SB_BEND_CONCAVE) return body != facet->body && goes_on(b, self, at) ? SB_BEND_SOFT : bend;
+        soft |= bend == SB_BEND_SOFT;
     }
     return soft ? SB_BEND_SOFT : SB_BEND_CONVEX;
 }
 
 /* ---- facets ---- */
 
-/* Whether water cannot meet the facet: its middle and its corners lie in other bodies, or outside of the domain. */
+/* Whether water cannot be at a point before a facet of a body. */
+static bool covered(const builder *b, sb_vec3 at, size_t body)
+{
+    if (outside_walls(b, at)) return true;
+    for (size_t other = 0; other < b->model->body_count; other++)
+        if (other != body && has_mesh(b, other) && b->space->solid[other] && b->model->bodies[other].wavemaker < 0 &&
+            sb_solid_contains(b->space->solid[other], at))
+            return true;
+    return false;
+}
+
+static double component(sb_vec3 v, int axis)
+{
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
+/* The range of an outline's coordinates along an axis, within the domain; and a step through it. */
+typedef struct range {
+    double low, step;
+    int count;
+} range;
+
+static range range_of(const builder *b, const sb_outline *o, int axis)
+{
+    double low = (double)INFINITY, high = -(double)INFINITY;
+    for (size_t k = 0; k < o->count; k++) {
+        low = fmin(low, component(o->corner[k], axis));
+        high = fmax(high, component(o->corner[k], axis));
+    }
+    low = fmax(low, component(b->model->min, axis));
+    high = fmin(high, component(b->model->max, axis));
+    const int count = high > low ? (int)fmin(ceil((high - low) / b->spacing), SAMPLES_MAX) : 0;
+    return (range){low, count > 0 ? (high - low) / count : 0, count};
+}
+
+/* Whether water cannot meet the facet: its middle, its corners and points one spacing apart lie in other bodies, or
+   outside of the domain. */
 static bool hidden(const builder *b, const sb_outline *o, size_t body, sb_vec3 normal)
 {
+    const double before = BEFORE * b->spacing;
     sb_vec3 middle = {0};
     for (size_t k = 0; k < o->count; k++) middle = sb_madd(middle, 1.0 / (double)o->count, o->corner[k]);
-    for (size_t k = 0; k <= o->count; k++) {
-        sb_vec3 at = k == o->count ? middle : sb_madd(middle, 0.98, sb_sub(o->corner[k], middle));
-        at = sb_madd(at, BEFORE * b->spacing, normal);
-        bool inside = outside_walls(b, at);
-        for (size_t other = 0; other < b->model->body_count && !inside; other++)
-            inside = other != body && has_mesh(b, other) && b->space->solid[other] &&
-                     b->model->bodies[other].wavemaker < 0 && sb_solid_contains(b->space->solid[other], at);
-        if (!inside) return false;
+    if (!covered(b, sb_madd(middle, before, normal), body)) return false;
+    for (size_t k = 0; k < o->count; k++) {
+        const sb_vec3 at = sb_madd(middle, 0.98, sb_sub(o->corner[k], middle));
+        if (!covered(b, sb_madd(at, before, normal), body)) return false;
     }
+    /* Points of a lattice in the two other coordinates, in 2D in one. */
+    const double size[3] = {fabs(normal.x), fabs(normal.y), fabs(normal.z)};
+    const int up = size[2] >= size[0] && size[2] >= size[1] ? 2 : size[0] >= size[1] ? 0 : 1;
+    const bool flat = b->model->dimensions == 2;
+    const int one = up == 0 ? (flat ? 2 : 1) : 0, other = up == 2 ? 1 : 2;
+    const range u = range_of(b, o, one), v = flat ? (range){0, 0, 1} : range_of(b, o, other);
+    for (int i = 0; i < u.count; i++)
+        for (int j = 0; j < v.count; j++) {
+            double x[3] = {0};
+            x[one] = u.low + (i + 0.5) * u.step;
+            if (!flat) x[other] = v.low + (j + 0.5) * v.step;
+            const sb_vec3 foot = sb_vec(x[0], x[1], x[2]);
+            x[up] = (sb_dot(normal, o->corner[0]) - sb_dot(normal, foot)) / component(normal, up);
+            const sb_vec3 at = sb_vec(x[0], x[1], x[2]);
+            if (near_outline(o, at, 0) && !covered(b, sb_madd(at, before, normal), body)) return false;
+        }
     return true;
 }
 
-static int add(builder *b, const sb_outline *o, size_t body, bool both)
+static int add(builder *b, size_t outline, size_t body)
 {
     sb_facets *out = b->out;
-    if (hidden(b, o, body, o->normal) && (!both || hidden(b, o, body, sb_scale(o->normal, -1)))) return 0;
+    const sb_outline *o = &b->outlines->outline[outline];
     if (sb_grow((void **)&out->facets, &b->capacity, out->count + 1, sizeof *out->facets) != 0 ||
         sb_grow((void **)&out->edges, &b->edge_capacity, out->edge_count + o->count, sizeof *out->edges) != 0)
         return -1;
@@ -156,13 +238,13 @@ static int add(builder *b, const sb_outline *o, size_t body, bool both)
     sb_facet *f = &out->facets[out->count++];
     *f = (sb_facet){o->normal,          sb_dot(o->normal, o->corner[0]),
                     (uint32_t)body,     (uint32_t)out->edge_count,
-                    (uint32_t)o->count, both};
+                    (uint32_t)o->count, b->plate[body]};
     for (size_t k = 0; k < o->count; k++) {
         const sb_vec3 from = o->corner[k], to = flat ? from : o->corner[(k + 1) % o->count];
         const sb_vec3 along = flat ? sb_sub(o->corner[1 - k], from) : sb_cross(o->normal, sb_sub(to, from));
         sb_facet_edge *edge = &out->edges[out->edge_count++];
         *edge = (sb_facet_edge){from, to, sb_normalize(along), SB_BEND_SOFT};
-        edge->bend = find_bend(b, f, edge);
+        edge->bend = find_bend(b, outline, f, edge);
     }
     return 0;
 }
@@ -188,8 +270,17 @@ static int add_body(builder *b, size_t body)
     sb_outlines outlines = {0};
     int status = b->model->dimensions == 2 ? sb_outlines_of_section(b->space->mesh[body], b->spacing, &outlines)
                                            : sb_outlines_of_mesh(b->space->mesh[body], &outlines);
+    bool *kept = sb_alloc(outlines.count, sizeof *kept);
+    if (!kept) status = -1;
+    for (size_t k = 0; k < outlines.count && status == 0; k++) {
+        const sb_outline *o = &outlines.outline[k];
+        kept[k] = !hidden(b, o, body, o->normal) || (b->plate[body] && !hidden(b, o, body, sb_scale(o->normal, -1)));
+    }
+    b->outlines = &outlines;
+    b->kept = kept;
     for (size_t k = 0; k < outlines.count && status == 0; k++)
-        status = add(b, &outlines.outline[k], body, b->plate[body]);
+        if (kept[k]) status = add(b, k, body);
+    sb_free(kept);
     sb_outlines_free(&outlines);
     return status;
 }

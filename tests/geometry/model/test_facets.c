@@ -200,6 +200,23 @@ static void a_step(void **state)
     assert_int_equal(bends(facet_at(high, Z, sb_vec(6, 3, 2)), SB_BEND_CONVEX), 4);
 }
 
+/* A wall across a bed of two slopes: each slope has water, although its middle and its corners are in the wall or
+   outside of the domain; and the bed goes on below the wall. */
+static void a_wall_on_a_bed(void **state)
+{
+    (void)state;
+    double vertex[6][3] = {{-7, -9, 1}, {-7, 9, 1}, {5, -9, 1}, {5, 9, 1}, {14, -9, 0.6}, {14, 9, 0.6}};
+    int triangle[4][3] = {{0, 2, 3}, {0, 3, 1}, {2, 4, 5}, {2, 5, 3}};
+    add_mesh("bed", 6, vertex, 4, triangle)->role = SB_ROLE_TERRAIN;
+    add_box("wall", sb_vec(4.5, 2, 0), sb_vec(5.5, 4, 5));
+    build_once();
+    const size_t bed = body_of("bed");
+    assert_int_equal(count_of(bed), 2);
+    const sb_vec3 down = sb_normalize(sb_vec(0.4, 0, 9));
+    assert_int_equal(bend(facet_at(bed, Z, sb_vec(1, 1, 1)), minus(X)), SB_BEND_SOFT);
+    assert_int_equal(bends(facet_at(bed, down, sb_vec(9.5, 1, 0.8)), SB_BEND_SOFT), 1);
+}
+
 /* A prism with an L as its base: its top falls into convex pieces, with soft edges between them. */
 static void a_prism_with_an_l_as_its_base(void **state)
 {
@@ -382,6 +399,7 @@ int main(void)
         IMAGES(boxes_in_walls),
         IMAGES(boxes_side_by_side),
         IMAGES(a_step),
+        IMAGES(a_wall_on_a_bed),
         IMAGES(a_prism_with_an_l_as_its_base),
         IMAGES(a_plate),
         IMAGES(a_terrain),
