@@ -37,12 +37,12 @@ static void limits_are_kept(void **state)
     assert_int_equal(sb_find_hits_choose()(&of, range, SB_CANDIDATE_RANGES_MAX, &out->hits, (sb_f4){9, 9, 9, 0}, 1, 7),
                      0);
     assert_true(sb_find_hits_choose()(&of, range, SB_CANDIDATE_RANGES_MAX, &out->hits, (sb_f4){0}, 1, 7) >=
-                SB_LIST_MAX);
+                SB_HITS_MAX);
     const float *const fields[] = {out->hits.x, out->hits.y, out->hits.z, out->hits.q2,
                                    (const float *)out->hits.candidate};
     const uint32_t untouched = 0xa5a5a5a5;
     for (size_t f = 0; f < sizeof fields / sizeof *fields; f++)
-        assert_memory_equal(fields[f] + SB_LIST_MAX + SB_HIT_SPARE - 1, &untouched, sizeof untouched);
+        assert_memory_equal(fields[f] + SB_HITS_MAX + SB_HIT_SPARE - 1, &untouched, sizeof untouched);
     for (int k = 0; k < GUARD; k++) assert_int_equal(out->after[k], 0xa5);
     sb_free(place);
     sb_free(record);
@@ -91,8 +91,8 @@ static void forms_agree(void **state)
                 scatter(c, seed);
                 const size_t n = find(sb_find_hits_portable, c, ranges[s], counts[s], radii[r], one);
                 const size_t m = find(sb_find_hits_choose(), c, ranges[s], counts[s], radii[r], other);
-                if (n >= SB_LIST_MAX) {
-                    assert_true(m >= SB_LIST_MAX);
+                if (n >= SB_HITS_MAX) {
+                    assert_true(m >= SB_HITS_MAX);
                     continue;
                 }
                 assert_int_equal(n, m);

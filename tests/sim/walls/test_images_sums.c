@@ -308,6 +308,39 @@ static void a_lattice_round_a_block(void **state)
     }
 }
 
+/* Four blocks with alleys of one spacing between them and to the walls: of the thousands of images near a crossing,
+   most are hidden. */
+static void alleys_that_cross(void **state)
+{
+    (void)state;
+    basin b;
+    const sb_override set[] = {
+        {"domain.min", "[0, 0, 0]"},
+        {"domain.max", "[0.9, 0.9, 1]"},
+        {"numerics.density", "summed"},
+        {"numerics.jitter", "0"},
+        {"water", "{boxes: [{min: [0, 0, 0], max: [0.9, 0.9, 0.7]}]}"},
+        {"bodies", "[{name: a, shape: box, min: [0.1, 0.1, 0], max: [0.4, 0.4, 0.5]},"
+                   " {name: b, shape: box, min: [0.5, 0.1, 0], max: [0.8, 0.4, 0.5]},"
+                   " {name: c, shape: box, min: [0.1, 0.5, 0], max: [0.4, 0.8, 0.5]},"
+                   " {name: d, shape: box, min: [0.5, 0.5, 0], max: [0.8, 0.8, 0.5]}]"},
+    };
+    basin_build(&b, set, sizeof set / sizeof *set);
+    basin_start(&b);
+    assert_int_equal(tank_prepare(b.sim, 0.01), 0);
+    double least = INFINITY, most = 0;
+    for (size_t i = 0; i < b.sim->state.n; i++) {
+        const double rho = (double)b.sim->work.density[i];
+        if (sb_space_position(&b.sim->space, b.sim->state.position[i]).z > 0.7 - (double)b.sim->constant.support)
+            continue;
+        least = fmin(least, rho);
+        most = fmax(most, rho);
+    }
+    printf("  density %.1f to %.1f kg/m^3; the bulk has 1005.4\n", least, most);
+    assert_true(least > 0.99 * 1005.4 && most < 1.012 * 1005.4);
+    basin_free(&b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -316,6 +349,7 @@ int main(void)
         cmocka_unit_test(a_corner),
         cmocka_unit_test(planes_that_face_each_other),
         cmocka_unit_test(a_lattice_round_a_block),
+        cmocka_unit_test(alleys_that_cross),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,7 +13,7 @@ size_t sb_find_hits_portable(const sb_candidates *of, const sb_candidate_range *
 {
     size_t n = 0;
     for (size_t s = 0; s < ranges; s++)
-        for (uint32_t k = range[s].begin; k < range[s].end && n < SB_LIST_MAX; k++) {
+        for (uint32_t k = range[s].begin; k < range[s].end && n < SB_HITS_MAX; k++) {
             float x = self[0] - of->x[k], y = self[1] - of->y[k], z = self[2] - of->z[k];
             float q2 = fmaf(x, x, fmaf(y, y, z * z)) * scale2;
             h->x[n] = x;
@@ -103,7 +103,7 @@ WIDE static size_t find_avx512(const sb_candidates *of, const sb_candidate_range
     batches b;
     size_t n = 0;
     divide(range, ranges, &b);
-    for (size_t m = 0; m < b.count && n < SB_LIST_MAX; m++) {
+    for (size_t m = 0; m < b.count && n < SB_HITS_MAX; m++) {
         const uint32_t k = b.begin[m];
         const __m512i candidate = _mm512_add_epi32(lanes, _mm512_set1_epi32((int)k));
         const offsets at =

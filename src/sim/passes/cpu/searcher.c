@@ -27,8 +27,8 @@ typedef struct searcher {
     surroundings wall;
     sb_hits hits, reflected;
     sb_images_around images;
-    float force_x[SB_LIST_MAX + SB_HIT_SPARE], force_y[SB_LIST_MAX + SB_HIT_SPARE], force_z[SB_LIST_MAX + SB_HIT_SPARE];
-    size_t edges, edge_own, edge_of[SB_LIST_MAX + SB_HIT_SPARE]; /* pairs at edges of the present particle: the first,
+    float force_x[SB_HITS_MAX + SB_HIT_SPARE], force_y[SB_HITS_MAX + SB_HIT_SPARE], force_z[SB_HITS_MAX + SB_HIT_SPARE];
+    size_t edges, edge_own, edge_of[SB_HITS_MAX + SB_HIT_SPARE]; /* pairs at edges of the present particle: the first,
                                                                     and those with itself and with each hit */
     uint32_t hit_of[SB_AROUND_MAX]; /* candidate -> its hit; valid where that hit is this candidate */
     const sb_kernel *kernel;
@@ -92,8 +92,8 @@ SB_INLINE void find_hits(searcher *w, sb_hits *h, const sb_candidates *of, const
                          size_t ranges, sb_f4 self, uint32_t skip, uint32_t pad)
 {
     size_t n = w->find_hits(of, range, ranges, h, self, w->q_scale, skip);
-    if (n >= SB_LIST_MAX) w->full |= SB_FULL_LIST;
-    h->count = n < SB_LIST_MAX ? n : SB_LIST_MAX;
+    if (n >= SB_HITS_MAX) w->full |= SB_FULL_LIST;
+    h->count = n < SB_HITS_MAX ? n : SB_HITS_MAX;
     h->padded = (h->count + SB_HIT_LANES - 1) / SB_HIT_LANES * SB_HIT_LANES;
     for (size_t k = h->count; k < h->padded; k++) {
         h->x[k] = h->y[k] = h->z[k] = 0;
@@ -372,6 +372,7 @@ static reflections reflect(sb_sim *sim, searcher *w, sb_list_builder *lists, sb_
     add_edges(sim, w, lists, candidate, direct, r, &sums);
     close_edges(sim, w, lists, candidate, &sums);
     drop_weightless(r, candidate);
+    if (r->count >= SB_LIST_MAX) w->full |= SB_FULL_LIST;
     reflected_sums(sim, w, self, candidate, &sums);
     for (size_t k = 0; k < h->count; k++) {
         sums.squares += w->force_x[k] * w->force_x[k] + w->force_y[k] * w->force_y[k] + w->force_z[k] * w->force_z[k];
@@ -413,6 +414,7 @@ SB_INLINE void add_walls(sb_sim *sim, searcher *w, sb_list_builder *lists, size_
     const sb_candidate_range all = {0, (uint32_t)w->wall.count};
     find_hits(w, &w->hits, &(sb_candidates){w->wall.x, w->wall.y, w->wall.z, w->wall.place}, &all, 1,
               sb_offset(sim->state.position[i], cell), UINT32_MAX, UINT32_MAX);
+    if (w->hits.count >= SB_LIST_MAX) w->full |= SB_FULL_LIST;
     if (w->hits.count == 0) return;
     const float without = *density;
     const sb_f4 by_images = *wall;
@@ -439,6 +441,7 @@ SB_INLINE void one_particle(sb_sim *sim, searcher *w, sb_list_builder *lists, co
     sb_hits *h = &w->hits;
     reflections by_images = {0};
     find_hits(w, h, &(sb_candidates){v->x, v->y, v->z, v->place}, range, ranges, self, candidate, candidate);
+    if (h->count >= SB_LIST_MAX) w->full |= SB_FULL_LIST;
     w->batch(w->kernel, h->q2, h->padded, h->value, h->slope);
     if (v->images > 0) {
         sb_images_weigh_direct(sim, &w->images, self, h);
