@@ -1,0 +1,251 @@
+#include "sim/passes/cpu/path_weights.h"
+
+uint32_t sb_about_edges(const sb_near *near, const sb_near_facet *f, sb_f4 at, float above, sb_half_angle *angle)
+{
+    uint32_t edge = f->edge;
+    float least = INFINITY;
+    for (uint32_t k = 0; k < f->edges; k++) {
+        const float inside = sb_within_edge(&near->edges[f->edge + k], at);
+        angle[k] = sb_half_angle_of(inside, above);
+        if (inside >= least) continue;
+        least = inside;
+        edge = f->edge + k;
+    }
+    return edge;
+}
+
+/* exp(-t^2) = e; |error| < 2e-7 [Abramowitz and Stegun 1964, 7.1.26]. */
+static float error_function(float t, float e)
+{
+    const float k = 1 / (1 + 0.3275911f * fabsf(t));
+    const float tail =
+        k * (0.254829592f + k * (-0.284496736f + k * (1.421413741f + k * (-1.453152027f + k * 1.061405429f)))) * e;
+    return t < 0 ? tail - 1 : 1 - tail;
+}
+
+/* Part of a path that passes an edge, as in the diffraction by a half plane [Sommerfeld 1896]: sign -1 for a path that
+   is reflected on the edge's inner side, +1 for one that goes straight past its outer side. di, dj: its derivatives by
+   (o, h) of either end. *before: the path passes the facet itself. */
+static float past_edge(sb_half_angle i, sb_half_angle j, float sign, float transition, float di[2], float dj[2],
+                       bool *before)
+{
+    const float t = 2 * (i.c * j.c + sign * i.s * j.s) / transition;
+    di[0] = di[1] = dj[0] = dj[1] = 0;
+    *before &= t >= 0;
+    if (t > SB_TRANSITION_ENDS) return 1;
+    if (t < -SB_TRANSITION_ENDS) return 0;
+    const float e = expf(-t * t), slope = e / (1.7724539f * transition);
+    const float to_i = slope / (i.rho + 1e-6f * transition), to_j = slope / (j.rho + 1e-6f * transition);
+    di[0] = to_i * (i.c * j.c - sign * i.s * j.s);
+    di[1] = to_i * (i.s * j.c + sign * i.c * j.s);
+    dj[0] = to_j * (j.c * i.c - sign * j.s * i.s);
+    dj[1] = to_j * (j.s * i.c + sign * j.c * i.s);
+    return 0.5f + 0.5f * error_function(t, e);
+}
+
+static const sb_weight WHOLE = {.value = 1}, NONE = {.value = 0};
+
+/* Multiplies a weight by that of one edge or facet. */
+SB_INLINE void multiply(sb_weight *w, float value, sb_f4 own, sb_f4 other)
+{
+    w->own = w->own * sb_splat(value) + own * sb_splat(w->value);
+    w->other = w->other * sb_splat(value) + other * sb_splat(w->value);
+    w->value *= value;
+}
+
+/* Part of the straight line from the particle to `at` that facet f does not hide. */
+static sb_weight past_facet(const sb_weigher *w, const sb_near_facet *f, sb_f4 at)
+{
+    const float hi = sb_before_facet(f, w->self), hj = sb_before_facet(f, at);
+    if (hi * hj >= 0) return WHOLE;
+    const sb_f4 normal = f->plane * (hi > 0 ? (sb_f4){1, 1, 1, 0} : (sb_f4){-1, -1, -1, 0});
+    sb_weight hidden = WHOLE;
+    for (uint32_t k = f->edge; k < f->edge + f->edges; k++) {
+        const sb_near_edge *e = &w->near->edges[k];
+        const sb_f4 inward = e->inward * (sb_f4){1, 1, 1, 0};
+        const float oi = sb_within_edge(e, w->self), oj = sb_within_edge(e, at);
+        float di[2] = {0}, dj[2] = {0};
+        bool before = true;
+        const float past = e->bend == SB_BEND_CONVEX
+                               ? past_edge(sb_half_angle_of(oi, fabsf(hi)), sb_half_angle_of(oj, -fabsf(hj)), 1,
+                                           w->transition, di, dj, &before)
+                               : oi * fabsf(hj) + oj * fabsf(hi) < 0;
+        multiply(&hidden, 1 - past, -(inward * sb_splat(di[0]) + normal * sb_splat(di[1])),
+                 -(inward * sb_splat(dj[0]) + normal * sb_splat(dj[1])));
+    }
+    return (sb_weight){1 - hidden.value, -hidden.own, -hidden.other};
+}
+
+/* Whether reflection at facet a leaves the near edges of facet g where they are. */
+static bool keeps(const sb_near *near, size_t a, const sb_near_facet *g)
+{
+    bool kept = true;
+    for (uint32_t k = g->edge; k < g->edge + g->edges; k++)
+        kept &= fabsf(sb_sum3(near->edges[k].inward * near->facet[a].plane)) < 1e-3f;
+    return kept;
+}
+
+sb_weight sb_past_facets(const sb_weigher *w, const size_t *by, int count, sb_f4 at, size_t *by_facet)
+{
+    sb_weight least = WHOLE;
+    *by_facet = SIZE_MAX;
+    for (size_t k = 0; k < w->near->count; k++) {
+        const sb_near_facet *g = &w->near->facet[k];
+        bool kept = g->parts;
+        for (int m = 0; m < count && kept; m++)
+            kept = k != by[m] && sb_facets_square(w->near, by[m], k) && keeps(w->near, by[m], g);
+        if (!kept) continue;
+        const sb_weight past = past_facet(w, g, at);
+        if (past.value >= least.value) continue;
+        least = past;
+        *by_facet = k;
+    }
+    return least;
+}
+
+static bool inside(const sb_near *near, const sb_near_facet *f, sb_f4 at)
+{
+    for (uint32_t k = f->edge; k < f->edge + f->edges; k++)
+        if (sb_within_edge(&near->edges[k], at) < 0) return false;
+    return true;
+}
+
+/* Whether a facet other than the two given blocks the way from a to b. */
+static bool blocked(const sb_weigher *w, sb_f4 a, sb_f4 b, size_t skip, size_t other)
+{
+    for (size_t k = 0; k < w->near->count; k++) {
+        if (k == skip || k == other) continue;
+        const sb_near_facet *f = &w->near->facet[k];
+        const float s = sb_before_facet(f, a), t = sb_before_facet(f, b);
+        if (!((s > w->eps && t < -w->eps) || (s < -w->eps && t > w->eps))) continue;
+        if (inside(w->near, f, a + (b - a) * sb_splat(s / (s - t)))) return true;
+    }
+    return false;
+}
+
+sb_weight sb_at_facet(const sb_weigher *w, size_t a, sb_other_end j, bool *meets)
+{
+    const sb_near_facet *f = &w->near->facet[a];
+    const float hi = w->at->above[a], hj = j.above;
+    const bool front = f->both ? hi * hj > 0 : hi > 0 && hj > 0;
+    if (!front && (f->edges == 0 || (hi < 0 && hj < 0))) return NONE;
+    sb_weight all = WHOLE;
+    *meets &= front;
+    /* One end behind the plane: the path goes round the edge that this end is nearest to, and before the others. */
+    const uint32_t round = hi * hj < 0 ? (hi < 0 ? w->at->edge[a] : j.edge) : UINT32_MAX;
+    const sb_f4 normal = f->plane * (sb_f4){1, 1, 1, 0};
+    for (uint32_t k = 0; k < f->edges && all.value >= SB_WEIGHT_LEAST; k++) {
+        const bool before = round != UINT32_MAX && f->edge + k != round;
+        const float ti = before && hi < 0 ? -1 : 1, tj = before && hj < 0 ? -1 : 1;
+        sb_half_angle one = w->at->angle[f->edge + k], other = j.angle[k];
+        one.c *= ti;
+        other.c *= tj;
+        float di[2], dj[2];
+        const float value = past_edge(one, other, -1, w->transition, di, dj, meets);
+        if (value == 1) continue;
+        const sb_f4 inward = w->near->edges[f->edge + k].inward * (sb_f4){1, 1, 1, 0};
+        multiply(&all, value, inward * sb_splat(di[0]) + normal * sb_splat(ti * di[1]),
+                 inward * sb_splat(dj[0]) + normal * sb_splat(tj * dj[1]));
+    }
+    return all.value < SB_WEIGHT_LEAST ? NONE : all;
+}
+
+/* Whether a facet that reflections at facet a do not leave where it is blocks the way from one end of a leg to the
+   other. */
+static bool leg_blocked(const sb_weigher *w, size_t a, sb_f4 from, sb_f4 to)
+{
+    for (size_t k = 0; k < w->near->count; k++) {
+        const sb_near_facet *g = &w->near->facet[k];
+        if (k == a || (sb_facets_square(w->near, a, k) && (g->parts || !w->near->meets[a][k]))) continue;
+        const float s = sb_before_facet(g, from), t = sb_before_facet(g, to);
+        if (!((s > w->eps && t < -w->eps) || (s < -w->eps && t > w->eps))) continue;
+        if (inside(w->near, g, from + (to - from) * sb_splat(s / (s - t)))) return true;
+    }
+    return false;
+}
+
+void sb_finish_path(const sb_weigher *w, const size_t *by, int count, sb_f4 source, sb_f4 image, bool meets,
+                    sb_weight_parts *all)
+{
+    if (w->near->simple || all->value < SB_WEIGHT_LEAST) return;
+    size_t hider;
+    const sb_weight past = sb_past_facets(w, by, count, image, &hider);
+    if (hider != SIZE_MAX) sb_take_part(all, hider, past);
+    if (all->value < SB_WEIGHT_LEAST || !meets || count > 1) return;
+    const sb_near_facet *f = &w->near->facet[by[0]];
+    const float hi = sb_before_facet(f, w->self), hj = sb_before_facet(f, source);
+    const sb_f4 c = w->self + (image - w->self) * sb_splat(hi / (hi + hj));
+    if (leg_blocked(w, by[0], w->self, c) || leg_blocked(w, by[0], c, source)) all->value = 0;
+}
+
+/* Reflections at facets at right angles to each other, in any order. */
+static void reflected_squarely(const sb_weigher *w, const size_t *by, int count, sb_f4 source, sb_f4 image,
+                               sb_weight_parts *all)
+{
+    bool meets = true;
+    for (int k = 0; k < count && all->value >= SB_WEIGHT_LEAST; k++) {
+        const sb_near_facet *f = &w->near->facet[by[k]];
+        sb_half_angle angle[SB_NEAR_EDGES_MAX];
+        const float above = sb_before_facet(f, source);
+        const sb_other_end j = {above, sb_about_edges(w->near, f, source, above, angle), angle};
+        sb_take_part(all, by[k], sb_at_facet(w, by[k], j, &meets));
+    }
+    sb_finish_path(w, by, count, source, image, meets, all);
+}
+
+/* Part of a reflection at `at` that the facet has. */
+static float share_of(const sb_weigher *w, const sb_near_facet *f, sb_f4 at)
+{
+    float share = 1;
+    for (uint32_t k = f->edge; k < f->edge + f->edges; k++) {
+        const float y = sb_within_edge(&w->near->edges[k], at) / w->transition;
+        share *= y > 3 ? 1 : y < -3 ? 0 : 0.5f + 0.5f * erff(y);
+    }
+    return share < SB_WEIGHT_LEAST ? 0 : share;
+}
+
+/* Several reflections. at[0]: the particle; at[k]: its image by the first k planes. */
+static float reflected(const sb_weigher *w, const size_t *by, int count, const sb_f4 *at)
+{
+    sb_f4 here = w->self;
+    float share = 1;
+    size_t last = SIZE_MAX;
+    for (int k = count; k >= 1; k--) {
+        const sb_near_facet *f = &w->near->facet[by[k - 1]];
+        const float s = sb_before_facet(f, here), t = sb_before_facet(f, at[k]);
+        if (!(s * t < 0)) return 0;
+        const sb_f4 c = here + (at[k] - here) * sb_splat(s / (s - t));
+        share *= share_of(w, f, c);
+        if (share == 0 || (!w->near->simple && blocked(w, here, c, last, by[k - 1]))) return 0;
+        here = c;
+        last = by[k - 1];
+    }
+    return !w->near->simple && blocked(w, here, at[0], last, SIZE_MAX) ? 0 : share;
+}
+
+void sb_path_weight(const sb_weigher *w, const size_t *by, int count, sb_f4 source, sb_f4 image, sb_weight_parts *all)
+{
+    size_t any[SB_REFLECTIONS_MAX], ordered[SB_REFLECTIONS_MAX];
+    int anys = 0, orders = 0;
+    for (int k = 0; k < count; k++) {
+        bool square_to_all = true;
+        for (int m = 0; m < count; m++) square_to_all &= m == k || sb_facets_square(w->near, by[k], by[m]);
+        if (square_to_all)
+            any[anys++] = by[k];
+        else
+            ordered[orders++] = by[k];
+    }
+    *all = (sb_weight_parts){.value = 1};
+    if (anys > 0) reflected_squarely(w, any, anys, source, image, all);
+    if (orders == 0 || all->value < SB_WEIGHT_LEAST) return;
+    sb_f4 at[SB_REFLECTIONS_MAX + 1];
+    at[0] = source;
+    for (int k = 0; k < anys; k++) at[0] = sb_reflect(w->near->facet[any[k]].plane, at[0]);
+    for (int k = 0; k < orders; k++) at[k + 1] = sb_reflect(w->near->facet[ordered[k]].plane, at[k]);
+    const float others = reflected(w, ordered, orders, at);
+    for (size_t k = 0; k < all->count; k++) {
+        all->part[k].own *= sb_splat(others);
+        all->part[k].other *= sb_splat(others);
+    }
+    all->value *= others;
+}

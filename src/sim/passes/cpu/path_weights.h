@@ -1,0 +1,105 @@
+/* Weights of paths: which part of a path by way of reflections the facets have, and which part other facets hide
+   (docs/method.md, section 7). The weight of a path between i and j is the same seen from either end. */
+#ifndef SB_SIM_CPU_PATH_WEIGHTS_H
+#define SB_SIM_CPU_PATH_WEIGHTS_H
+
+#include "sim/passes/cpu/images.h"
+#include "sim/search/around.h"
+
+#include <math.h>
+
+/* Width of the transition at an edge, in spacings: with it a lattice round an edge of 90 degrees has the density of the
+   bulk (docs/method.md). */
+static const float SB_TRANSITION = 0.35f;
+
+/* In widths: where the transition has ended. */
+static const float SB_TRANSITION_ENDS = 3.5f;
+
+/* Smaller weights are 0. */
+static const float SB_WEIGHT_LEAST = 1e-4f;
+
+enum { SB_SIDE_BITS = 64 }; /* facets whose sides are known as bits */
+
+/* Distance before a facet's plane, within the line of one of its edges; quanta. */
+SB_INLINE float sb_before_facet(const sb_near_facet *f, sb_f4 at)
+{
+    return sb_sum3(f->plane * at) - f->plane[3];
+}
+
+SB_INLINE float sb_within_edge(const sb_near_edge *e, sb_f4 at)
+{
+    return sb_sum3(e->inward * at) - e->inward[3];
+}
+
+/* Whether two facets stand at right angles. */
+SB_INLINE bool sb_facets_square(const sb_near *near, size_t a, size_t b)
+{
+    return fabsf(sb_sum3(near->facet[a].plane * near->facet[b].plane)) < 1e-3f;
+}
+
+SB_INLINE sb_half_angle sb_half_angle_of(float o, float h)
+{
+    const float rho = sqrtf(o * o + h * h);
+    const float c2 = 0.5f * (rho + o), s2 = 0.5f * (rho - o);
+    const float c = c2 > 0 ? sqrtf(c2) : 0, s = s2 > 0 ? sqrtf(s2) : 0;
+    return (sb_half_angle){h < 0 ? -c : c, s, rho};
+}
+
+/* The positions about the edges of facet f of a particle at the distance `above` before it. Returns the edge that it is
+   farthest beyond, or nearest to. */
+uint32_t sb_about_edges(const sb_near *near, const sb_near_facet *f, sb_f4 at, float above, sb_half_angle *angle);
+
+/* A weight and its derivatives by the two ends. */
+typedef struct sb_weight {
+    float value;
+    sb_f4 own, other;
+} sb_weight;
+
+/* The particle from which paths begin. */
+typedef struct sb_weigher {
+    const sb_near *near;
+    sb_f4 self;
+    float transition, eps;
+    sb_standing *at; /* of self */
+} sb_weigher;
+
+/* The other end of a path by one reflection at a facet, or by several at right angles to each other. */
+typedef struct sb_other_end {
+    float above;                /* before the facet */
+    uint32_t edge;              /* that it is farthest beyond, or nearest to */
+    const sb_half_angle *angle; /* about the facet's edges */
+} sb_other_end;
+
+/* Parts of the weight of a path by facet, and their product. */
+typedef struct sb_weight_parts {
+    size_t count, facet[SB_REFLECTIONS_MAX + 1];
+    sb_weight part[SB_REFLECTIONS_MAX + 1];
+    float value;
+} sb_weight_parts;
+
+/* Multiplies by the part that a facet has. */
+SB_INLINE void sb_take_part(sb_weight_parts *all, size_t facet, sb_weight part)
+{
+    all->facet[all->count] = facet;
+    all->part[all->count++] = part;
+    all->value *= part.value;
+}
+
+/* Part of a reflection that facet a has of a path to the end `j`. meets: whether it passes the facet itself; it is
+   cleared if not. */
+sb_weight sb_at_facet(const sb_weigher *w, size_t a, sb_other_end j, bool *meets);
+
+/* Part of the straight line from the particle to `at` that no facet hides which has water on both sides, and which
+   reflections at the `count` facets by[] at right angles leave where it is. *by_facet: the facet that hides most,
+   SIZE_MAX if none does. */
+sb_weight sb_past_facets(const sb_weigher *w, const size_t *by, int count, sb_f4 at, size_t *by_facet);
+
+/* What hides or blocks a path by reflections at right angles, after the parts of its facets. */
+void sb_finish_path(const sb_weigher *w, const size_t *by, int count, sb_f4 source, sb_f4 image, bool meets,
+                    sb_weight_parts *all);
+
+/* Weight of a path by any facets. Facets at right angles to all others of the path come in any order; the others are
+   met one after the other. */
+void sb_path_weight(const sb_weigher *w, const size_t *by, int count, sb_f4 source, sb_f4 image, sb_weight_parts *all);
+
+#endif
