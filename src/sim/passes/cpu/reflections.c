@@ -1,0 +1,240 @@
+/* The pairs of a particle with images. */
+#include "base/memory.h"
+#include "sim/passes/cpu/body_forces.h"
+#include "sim/passes/cpu/search_parts.h"
+
+#include <math.h>
+
+/* A particle's own image at less than one spacing repels it by REPULSION/2 W(0) (1 - r/spacing)^2 besides the kernel,
+   whose slope vanishes at r = 0. Else a particle may pair with its own image (docs/method.md). */
+static const float REPULSION = 2;
+
+/* Pairs at edges below this part of m W(0)/spacing are left out. */
+static const float NEGLIGIBLE = 1e-3f;
+
+/* The entry of a candidate in the arrays that neighbours are read from. */
+static uint32_t entry_of(const sb_vicinity *v, uint32_t candidate)
+{
+    uint32_t before = 0, run = 0;
+    while (candidate >= before + v->run[run].count) before += v->run[run++].count;
+    return v->run[run].begin + candidate - before;
+}
+
+/* Whether a candidate is a hit of the present particle. */
+static bool is_hit(const sb_searcher *w, uint32_t candidate)
+{
+    const uint32_t hit = w->hit_of[candidate];
+    return hit < w->hits.count && w->hits.candidate[hit] == candidate;
+}
+
+/* Removes the weight of images whose originals are not within the support radius: paths round an edge, with one end
+   behind the facet, can be shorter than the straight line. */
+static void require_originals(sb_searcher *w, uint32_t self)
+{
+    sb_hits *h = &w->reflected;
+    for (size_t k = 0; k < h->count; k++) {
+        const uint32_t source = w->images.source[h->candidate[k] - w->vicinity.count];
+        if (source != self && !is_hit(w, source)) h->root[k] = 0;
+    }
+}
+
+/* Adds a pair at an edge: vectors in kg/m^4. Pairs with the same particle by facets of the same body are one: where
+   facets bend little they nearly cancel. */
+static void add_edge(const sb_sim *sim, sb_searcher *w, sb_list_builder *lists, uint32_t self, uint32_t source,
+                     uint32_t facet, sb_f4 own, sb_f4 other, sb_reflections *r)
+{
+    const sb_near_facet *f = &w->images.near.facet[facet];
+    r->flux += sb_sum3((own + other) * f->velocity);
+    size_t *slot = source == self ? &w->edge_own : &w->edge_of[w->hit_of[source]];
+    if (*slot >= w->edges && *slot < lists->edges && lists->edge[*slot].entry == source &&
+        sb_mirror_body(sim, lists->edge[*slot].mirror) == sb_mirror_body(sim, f->mirror)) {
+        lists->edge[*slot].own += own;
+        lists->edge[*slot].other += other;
+        return;
+    }
+    if (sb_grow((void **)&lists->edge, &lists->capacity_edge, lists->edges + 1, sizeof *lists->edge) != 0) {
+        lists->out_of_memory = true;
+        return;
+    }
+    *slot = lists->edges;
+    lists->edge[lists->edges++] = (sb_edge_pair){own, other, source, f->mirror};
+}
+
+/* Completes the pairs at edges of a particle, and sums them. */
+static void close_edges(const sb_sim *sim, sb_searcher *w, sb_list_builder *lists, uint32_t self, sb_reflections *r)
+{
+    const float least = NEGLIGIBLE * sim->constant.mass * w->value_scale / sim->constant.spacing;
+    size_t kept = w->edges;
+    for (size_t k = w->edges; k < lists->edges; k++) {
+        sb_edge_pair e = lists->edge[k];
+        if (sb_sum3(e.own * e.own) + sb_sum3(e.other * e.other) < least * least) continue;
+        r->gradient += e.own;
+        const uint32_t hit = w->hit_of[e.entry];
+        if (e.entry == self)
+            r->doubled += e.other;
+        else {
+            w->force_x[hit] += e.other[0];
+            w->force_y[hit] += e.other[1];
+            w->force_z[hit] += e.other[2];
+        }
+        e.entry = entry_of(&w->vicinity, e.entry);
+        lists->edge[kept++] = e;
+    }
+    lists->edges = kept;
+}
+
+/* Adds the pairs at edges of those weights [from, to) that belong to these hits. */
+static void add_edges(const sb_sim *sim, sb_searcher *w, sb_list_builder *lists, uint32_t self, size_t from,
+                      const sb_hits *h, sb_reflections *r)
+{
+    const float scale = sim->constant.mass * w->value_scale / (float)sim->space.quantum;
+    if (w->images.slopes > SB_WEIGHT_SLOPES_MAX) {
+        w->full |= SB_FULL_LIST;
+        return;
+    }
+    for (size_t k = from; k < w->images.slopes; k++) {
+        const sb_weight_slope *s = &w->images.slope[k];
+        if (h->root[s->hit] == 0) continue;
+        const uint32_t candidate = h->candidate[s->hit];
+        const uint32_t source = s->direct ? candidate : w->images.source[candidate - w->vicinity.count];
+        const sb_f4 whole = sb_splat(scale * h->value[s->hit]);
+        add_edge(sim, w, lists, self, source, s->facet, s->own * whole, s->other * whole, r);
+    }
+}
+
+/* Adds what repels particle i from its own images, to the values of their hits and as pairs at edges. */
+static void repel(const sb_sim *sim, sb_searcher *w, sb_list_builder *lists, uint32_t self, sb_reflections *r)
+{
+    sb_hits *h = &w->reflected;
+    const float end = sim->constant.spacing / sim->constant.support;
+    const float top = REPULSION * (float)w->kernel->shape(0);
+    for (size_t k = 0; k < h->count; k++) {
+        const uint32_t image = h->candidate[k] - (uint32_t)w->vicinity.count, path = w->images.path[image];
+        if (w->images.source[image] != self || h->q2[k] >= end * end || path > SB_REFLECTION_MASK || h->root[k] == 0)
+            continue;
+        const float q = sqrtf(h->q2[k]) + 1e-6f, left = 1 - q / end;
+        const float slope = -top * left / (end * q) * sim->constant.mass * w->slope_scale * h->root[k];
+        const sb_f4 push = (sb_f4){h->x[k], h->y[k], h->z[k], 0} * sb_splat(slope);
+        h->value[k] += 0.5f * top * left * left;
+        r->repulsion += push;
+        add_edge(sim, w, lists, self, self, path - 1, push, push, r);
+    }
+}
+
+/* Velocity of an image by the motion of walls, m/s. */
+static sb_f4 image_velocity(const sb_near *near, uint32_t path)
+{
+    sb_f4 v = {0};
+    for (; path; path >>= SB_REFLECTION_BITS) {
+        const sb_near_facet *f = &near->facet[(path & SB_REFLECTION_MASK) - 1];
+        const float twice = 2 * sb_sum3(f->plane * f->velocity);
+        v = sb_reflect_vector(f->plane, v) + f->plane * (sb_f4){twice, twice, twice, 0};
+    }
+    return v;
+}
+
+/* The parts of a vector along the normals of a path's planes; see sb_reactions_normal. */
+static sb_f4 normal_part(const sb_near *near, uint32_t path, sb_f4 a)
+{
+    sb_f4 all = {0};
+    for (; path; path >>= SB_REFLECTION_BITS) {
+        const sb_f4 plane = near->facet[(path & SB_REFLECTION_MASK) - 1].plane;
+        const float along = sb_sum3(plane * a);
+        const sb_f4 part = plane * (sb_f4){along, along, along, 0};
+        a -= part;
+        all += part;
+    }
+    return all;
+}
+
+/* Removes the hits whose paths have no weight. */
+static void drop_weightless(sb_hits *h, uint32_t pad)
+{
+    size_t kept = 0;
+    for (size_t k = 0; k < h->count; k++) {
+        h->x[kept] = h->x[k], h->y[kept] = h->y[k], h->z[kept] = h->z[k];
+        h->value[kept] = h->value[k], h->slope[kept] = h->slope[k], h->root[kept] = h->root[k];
+        h->candidate[kept] = h->candidate[k];
+        kept += h->root[k] != 0;
+    }
+    h->count = kept;
+    h->padded = (kept + SB_HIT_LANES - 1) / SB_HIT_LANES * SB_HIT_LANES;
+    for (size_t k = kept; k < h->padded; k++) {
+        h->candidate[k] = pad;
+        h->slope[k] = h->root[k] = 0;
+    }
+}
+
+/* Adds the hits of images. The forces on neighbours by the pressure of i are summed by neighbour. */
+static void reflected_sums(const sb_sim *sim, sb_searcher *w, sb_f4 self_place, uint32_t self, sb_reflections *r)
+{
+    sb_hits *h = &w->reflected;
+    const sb_near *near = &w->images.near;
+    float value = 0;
+    for (size_t k = 0; k < h->count; k++) {
+        value += h->value[k] * h->root[k];
+        h->slope[k] *= h->root[k];
+    }
+    r->density = sim->constant.mass * w->value_scale * value;
+    sb_round_slopes(h->slope, h->root, h->padded, w->to_units);
+    for (size_t k = 0; k < h->count; k++) {
+        const uint32_t image = h->candidate[k] - (uint32_t)w->vicinity.count, source = w->images.source[image];
+        const sb_f4 gradient = (sb_f4){h->x[k], h->y[k], h->z[k], 0} * sb_splat(h->slope[k] * sim->work.pairs.unit);
+        r->gradient += gradient;
+        if (source == self) r->doubled += gradient;
+        sb_f4 back = -gradient; /* reflected back, from the image to the neighbour */
+        for (uint32_t path = w->images.path[image], n = SB_REFLECTIONS_MAX; n-- > 0;) {
+            const uint32_t plane = path >> (SB_REFLECTION_BITS * n) & SB_REFLECTION_MASK;
+            if (plane) back = sb_reflect_vector(near->facet[plane - 1].plane, back);
+        }
+        const uint32_t hit = w->hit_of[source];
+        if (source != self) {
+            w->force_x[hit] += back[0];
+            w->force_y[hit] += back[1];
+            w->force_z[hit] += back[2];
+        }
+        const float head = w->vicinity.place[source][2] - (self_place[2] - h->z[k]);
+        if (head != 0)
+            r->push -= normal_part(near, w->images.path[image], gradient * sb_splat(sb_hydrostatic(sim) * head));
+        if (near->moves) r->flux += sb_sum3(gradient * image_velocity(near, w->images.path[image]));
+    }
+}
+
+sb_reflections sb_search_images(const sb_sim *sim, sb_searcher *w, sb_list_builder *lists, sb_f4 self,
+                                uint32_t candidate)
+{
+    const sb_vicinity *v = &w->vicinity;
+    sb_candidate_range range[SB_VICINITY_ROWS];
+    const size_t ranges = sb_vicinity_candidates(sim, v, SB_VICINITY_IMAGES, SB_VICINITY_IMAGES + 1, self, range);
+    sb_hits *h = &w->hits, *r = &w->reflected;
+    sb_reflections sums = {0};
+    const float unit = sim->constant.mass * w->slope_scale;
+    w->edges = lists->edges;
+    w->edge_own = SIZE_MAX;
+    for (size_t k = 0; k < h->count; k++) {
+        const float slope = -unit * h->slope[k] * h->root[k];
+        w->hit_of[h->candidate[k]] = (uint32_t)k;
+        w->edge_of[k] = SIZE_MAX;
+        w->force_x[k] = slope * h->x[k];
+        w->force_y[k] = slope * h->y[k];
+        w->force_z[k] = slope * h->z[k];
+    }
+    add_edges(sim, w, lists, candidate, 0, h, &sums);
+    const size_t direct = w->images.slopes;
+    sb_search_hits(w, r, &(sb_candidates){v->x, v->y, v->z, v->place}, range, ranges, self, UINT32_MAX, candidate);
+    w->batch(w->kernel, r->q2, r->padded, r->value, r->slope);
+    sb_images_weigh(sim, v, &w->images, self, r);
+    require_originals(w, candidate);
+    repel(sim, w, lists, candidate, &sums);
+    add_edges(sim, w, lists, candidate, direct, r, &sums);
+    close_edges(sim, w, lists, candidate, &sums);
+    drop_weightless(r, candidate);
+    if (r->count >= SB_LIST_MAX) w->full |= SB_FULL_LIST;
+    reflected_sums(sim, w, self, candidate, &sums);
+    for (size_t k = 0; k < h->count; k++) {
+        sums.squares += w->force_x[k] * w->force_x[k] + w->force_y[k] * w->force_y[k] + w->force_z[k] * w->force_z[k];
+        h->value[k] *= h->root[k];
+        h->slope[k] *= h->root[k];
+    }
+    return sums;
+}
