@@ -8,6 +8,7 @@
 #include "sim/search/sort.h"
 #include "sim/step/stages.h"
 #include "sim/terms/density_correction.h"
+#include "sim/walls/mirrors.h"
 #include "sim/walls/walls.h"
 
 #include <math.h>
@@ -166,6 +167,8 @@ size_t sb_sim_bytes(const sb_sim *sim)
     bytes += sim->ghosts.of_capacity * 4 + (sim->ghosts.words_capacity + sim->ghosts.other_capacity) * 8;
     bytes += sim->work.pairs.capacity * sizeof *sim->work.pairs.four + sim->work.wall_pairs.capacity * 8;
     bytes += sim->groups.capacity * sizeof *sim->groups.group + sim->groups.room * sizeof *sim->groups.run;
+    bytes += sim->groups.images_room * sizeof *sim->groups.image + sim->groups.planes_room * sizeof *sim->groups.plane;
+    bytes += sim->work.edge_pairs.capacity * sizeof *sim->work.edge_pairs.pair + sb_mirrors_bytes(sim);
     for (int s = 0; s < SB_WALL_SETS; s++)
         bytes += sb_cells_bytes(&sim->walls.set[s].cells) + sim->walls.set[s].count * WALL_BYTES +
                  (sim->walls.set[s].near_mask + 1) * 8;

@@ -12,26 +12,6 @@ static const float BENT = 0.7071f;
 /* In spacings: how far behind a plane water or a facet must be to count as behind it. */
 static const double BEHIND = 0.05;
 
-typedef struct sb_mirror_edge {
-    sb_vec3 from, to, inward;
-    double distance; /* inward . x on the edge */
-    sb_bend bend;
-} sb_mirror_edge;
-
-typedef struct sb_mirror {
-    sb_vec3 normal;
-    double distance; /* normal . x on the plane */
-    uint32_t body, edge, edges;
-    uint32_t moving; /* index into walls.moving, UINT32_MAX: static */
-    bool both;
-    sb_vec3 shift; /* m, from the original to this image beyond a periodic side */
-} sb_mirror;
-
-typedef struct sb_mirror_entry {
-    uint64_t block;
-    uint32_t mirror;
-} sb_mirror_entry;
-
 /* ---- creation ---- */
 
 static sb_vec3 to_quanta(const sb_space *space, sb_vec3 at)
@@ -187,9 +167,24 @@ void sb_mirrors_destroy(sb_sim *sim)
     sb_free(m->entry);
 }
 
+size_t sb_mirrors_bytes(const sb_sim *sim)
+{
+    const sb_mirrors *m = &sim->walls.mirrors;
+    return m->capacity * sizeof *m->mirror + m->edge_capacity * sizeof *m->edge + m->count * sizeof *m->moving +
+           m->entries_capacity * sizeof *m->entry;
+}
+
 uint32_t sb_mirror_body(const sb_sim *sim, uint32_t mirror)
 {
     return sim->walls.mirrors.mirror[mirror].body;
+}
+
+sb_f4 sb_mirror_velocity(const sb_sim *sim, uint32_t mirror)
+{
+    const uint32_t moving = sim->walls.mirrors.mirror[mirror].moving;
+    if (moving == UINT32_MAX) return (sb_f4){0};
+    const sb_vec3 v = sim->walls.moving[moving].velocity;
+    return (sb_f4){(float)v.x, (float)v.y, (float)v.z, 0};
 }
 
 sb_vec3 sb_mirror_shift(const sb_sim *sim, uint32_t mirror)
@@ -205,7 +200,7 @@ typedef struct box {
     double radius;                /* of a ball around the middle that contains all within a support radius */
 } box;
 
-/* Adds the soft and convex edges within reach. Of edges on one line the nearest counts. */
+/* Adds the soft and convex edges near the group. Of edges on one line the nearest counts. */
 static void add_edges(const sb_sim *sim, const box *b, sb_vec3 moved, const sb_mirror *mirror, sb_near *near,
                       sb_near_facet *f)
 {
@@ -321,61 +316,4 @@ void sb_mirrors_near(const sb_sim *sim, const sb_group *group, sb_f4 low, sb_f4 
     for (; at < m->entries && m->entry[at].block == code; at++) consider(sim, &b, m->entry[at].mirror, near);
     for (size_t k = 0; k < m->moving_count; k++) consider(sim, &b, m->moving[k], near);
     relate(sim, near);
-}
-
-/* ---- contact ---- */
-
-/* In spacings. NEAREST: water in motion may come as near to a facet as this; at rest images hold it farther away.
-   PASSED: a particle this far behind a facet has come from elsewhere. */
-static const float NEAREST = 0.1f, PASSED = 0.2f;
-
-sb_f4 sb_mirror_velocity(const sb_sim *sim, uint32_t mirror)
-{
-    const uint32_t moving = sim->walls.mirrors.mirror[mirror].moving;
-    if (moving == UINT32_MAX) return (sb_f4){0};
-    const sb_vec3 v = sim->walls.moving[moving].velocity;
-    return (sb_f4){(float)v.x, (float)v.y, (float)v.z, 0};
-}
-
-/* Whether the foot of the perpendicular from `at` (quanta) lies within the facet. */
-static bool above_facet(const sb_sim *sim, const sb_mirror *mirror, sb_vec3 at)
-{
-    if (mirror->moving != UINT32_MAX) {
-        const sb_moving_body *body = &sim->walls.moving[mirror->moving];
-        at = sb_madd(at, -body->displacement / sim->space.quantum, body->direction);
-    }
-    for (uint32_t k = mirror->edge; k < mirror->edge + mirror->edges; k++) {
-        const sb_mirror_edge *e = &sim->walls.mirrors.edge[k];
-        if (sb_dot(e->inward, at) < e->distance) return false;
-    }
-    return true;
-}
-
-bool sb_mirrors_contact(const sb_sim *sim, const sb_group *group, size_t i, sb_f4 velocity, sb_facet_contact *contact)
-{
-    const sb_group_plane *planes = sim->groups.plane + group->plane;
-    const float to_quanta = (float)(sim->state.time_step / sim->space.quantum);
-    const float spacing = sim->constant.spacing / (float)sim->space.quantum;
-    const float release = sim->policy->release * spacing;
-    const sb_f4 self = sb_offset(sim->state.position[i], group->corner);
-    bool found = false;
-    for (uint32_t p = 0; p < group->planes; p++) {
-        const sb_f4 plane = planes[p].plane;
-        const sb_mirror *mirror = &sim->walls.mirrors.mirror[planes[p].mirror];
-        const sb_f4 way = (velocity - sb_mirror_velocity(sim, planes[p].mirror)) * sb_splat(to_quanta);
-        float before = sb_sum3(plane * self) - plane[3], side = 1;
-        if (mirror->both && before < 0) side = -1;
-        before *= side;
-        const float after = before + side * sb_sum3(plane * way);
-        const float least = before + release < NEAREST * spacing ? before + release : NEAREST * spacing;
-        const float push = least - after;
-        if (!(push > 0) || before < -PASSED * spacing || (found && push >= fabsf(contact->push))) continue;
-        const sb_f4 end = self + velocity * sb_splat(to_quanta);
-        const sb_vec3 at = sb_vec((double)group->corner[0] + (double)end[0], (double)group->corner[1] + (double)end[1],
-                                  (double)group->corner[2] + (double)end[2]);
-        if (!above_facet(sim, mirror, at)) continue;
-        *contact = (sb_facet_contact){p, side * push};
-        found = true;
-    }
-    return found;
 }

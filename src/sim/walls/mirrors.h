@@ -4,6 +4,28 @@
 
 #include "sim/simulation.h"
 
+typedef struct sb_mirror_edge {
+    sb_vec3 from, to, inward;
+    double distance; /* inward . x on the edge */
+    sb_bend bend;
+} sb_mirror_edge;
+
+/* One facet, or an image of it beyond a periodic side, at t = 0. */
+typedef struct sb_mirror {
+    sb_vec3 normal;
+    double distance; /* normal . x on the plane */
+    uint32_t body, edge, edges;
+    uint32_t moving; /* index into walls.moving, UINT32_MAX: static */
+    bool both;
+    sb_vec3 shift; /* m, from the original to this image beyond a periodic side */
+} sb_mirror;
+
+/* A mirror within a support radius of some place in a block of 2 x 2 x 2 cells. */
+typedef struct sb_mirror_entry {
+    uint64_t block;
+    uint32_t mirror;
+} sb_mirror_entry;
+
 /* The facets near a group of particles, relative to the group's corner. */
 enum { SB_NEAR_MAX = 200, SB_NEAR_EDGES_MAX = 1024 };
 
@@ -15,7 +37,7 @@ typedef struct sb_near_edge {
 typedef struct sb_near_facet {
     sb_f4 plane;          /* unit normal; last lane: normal . x on the plane */
     uint32_t mirror;      /* index into walls.mirrors.mirror */
-    uint32_t edge, edges; /* soft and convex edges within reach: [edge, edge + edges) of sb_near.edges */
+    uint32_t edge, edges; /* soft and convex edges near the group: [edge, edge + edges) of sb_near.edges */
     bool both;            /* water may be on both sides */
     bool parts;     /* there is water on both sides near the group: the facet may hide particles from each other */
     sb_f4 velocity; /* m/s, of the wall */
@@ -34,6 +56,7 @@ typedef struct sb_near {
 
 sb_status sb_mirrors_create(sb_sim *sim, sb_error *error);
 void sb_mirrors_destroy(sb_sim *sim);
+size_t sb_mirrors_bytes(const sb_sim *sim);
 
 /* Finds the facets within a support radius of a group. low, high: the box of its particles, from the corner. */
 void sb_mirrors_near(const sb_sim *sim, const sb_group *group, sb_f4 low, sb_f4 high, sb_near *near);

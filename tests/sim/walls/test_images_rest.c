@@ -1,14 +1,13 @@
-/* Walls that reflect water: loads of still water on blocks, and a sea over a slope. */
+/* Walls that reflect water: loads of still water on blocks, and a bed that is too fine. */
 #include "check.h"
 #include "sim/walls/basin.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-/* A block that stands on the floor bears no vertical force, and no horizontal one; two blocks one spacing apart
-   neither, on the mean: the water between them oscillates. */
+/* The force on a block that stands on the floor is 0. So is the mean force on two blocks one spacing apart; the water
+   between them oscillates. */
 static void check_blocks(const char *bodies, const char *max, double most)
 {
     basin b;
@@ -26,7 +25,7 @@ static void check_blocks(const char *bodies, const char *max, double most)
     basin_free(&b);
 }
 
-static void blocks_in_still_water_bear_no_force(void **state)
+static void still_water_exerts_no_force_on_blocks(void **state)
 {
     (void)state;
     check_blocks("[{name: a, shape: box, min: [0.4, 0.3, 0], max: [0.7, 0.6, 0.8]}]", "[1.05, 0.9, 0.8]", 0.02);
@@ -35,54 +34,41 @@ static void blocks_in_still_water_bear_no_force(void **state)
                  "[1.125, 0.9, 0.8]", 0.05);
 }
 
-/* A sea over a slope with a shallow shelf stays at rest, without damping (docs/decisions/0033): the speed of no
-   particle exceeds 4 % of sqrt(gD), the mean speed 0.4 %. */
-static void a_sea_over_a_slope_rests(void **state)
+/* A bed of facets much finer than the particles is refused in one line that names the remedy. */
+static void a_bed_of_too_fine_facets_is_refused(void **state)
 {
     (void)state;
-    char path[] = "/tmp/sb-shelf-XXXXXX.obj", bodies[128];
-    const int file = mkstemps(path, 4);
-    assert_true(file >= 0);
-    static const char *const mesh =
-        "v -20 -9 -7.6\nv -20 9 -7.6\nv 30 -9 -7.6\nv 30 9 -7.6\nv 84 -9 -2.5\nv 84 9 -2.5\nv 124 -9 -1.6\n"
-        "v 124 9 -1.6\nv 190 -9 -1.6\nv 190 9 -1.6\nf 1 3 4 2\nf 3 5 6 4\nf 5 7 8 6\nf 7 9 10 8\n";
-    assert_int_equal(write(file, mesh, strlen(mesh)), (ssize_t)strlen(mesh));
-    close(file);
+    enum { COLUMNS = 40 };
+    char path[256], bodies[512];
+    snprintf(path, sizeof path, "%s/images-fine-%d.obj", SB_BINARY_DIR, (int)getpid());
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    for (int y = 0; y <= COLUMNS; y++)
+        for (int x = 0; x <= COLUMNS; x++)
+            fprintf(file, "v %g %g %g\n", -0.1 + 0.03 * x, -0.1 + 0.03 * y, 0.1 + 0.01 * ((x + y) % 2));
+    for (int y = 0; y < COLUMNS; y++)
+        for (int x = 0; x < COLUMNS; x++) {
+            const int at = y * (COLUMNS + 1) + x + 1, above = at + COLUMNS + 1;
+            fprintf(file, "f %d %d %d\nf %d %d %d\n", at, at + 1, above, at + 1, above + 1, above);
+        }
+    assert_int_equal(fclose(file), 0);
     snprintf(bodies, sizeof bodies, "[{name: bed, shape: mesh, role: terrain, file: %s}]", path);
     basin b;
-    const sb_override set[] = {
-        {"dimensions", "2"},
-        {"resolution", "1.2"},
-        {"domain.min", "[0, -12]"},
-        {"domain.max", "[160, 8]"},
-        {"water", "{level: 0, seed: [20, -2]}"},
-        {"bodies", bodies},
-        {"numerics.walls", "images"},
-    };
-    basin_fill_from(&b, set, sizeof set / sizeof *set);
-    basin_settle(&b);
-    const double wave = (double)b.sim->constant.wave_speed;
-    double fastest = 0, mean = 0;
-    const int steps = 400;
-    for (int k = 0; k < steps; k++) {
-        assert_int_equal(tank_steps(b.sim, 1), 0);
-        const sb_energy e = sb_sim_energy(b.sim);
-        fastest = fmax(fastest, b.sim->state.max_speed);
-        mean += sqrt(2 * e.kinetic / e.mass) / steps;
-    }
-    printf("%zu particles, %.0f s: speeds up to %.2g, mean %.2g of sqrt(gD)\n", b.sim->state.n,
-           sb_sim_report(b.sim)->time, fastest / wave, mean / wave);
-    assert_true(fastest < 0.04 * wave);
-    assert_true(mean < 0.004 * wave);
+    basin_fill(&b, 3, "0.1", "[1, 1, 0.8]", "{level: 0.5, seed: [0.5, 0.5, 0.3]}", bodies, "completed");
+    remove(path);
+    sb_error error = {0};
+    assert_int_equal(sb_sim_step(b.sim, &error), SB_FAILED);
+    printf("%s\n", error.text);
+    assert_non_null(strstr(error.text, "too many facets of walls"));
+    assert_non_null(strstr(error.text, "numerics.walls: particles"));
     basin_free(&b);
-    unlink(path);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(blocks_in_still_water_bear_no_force),
-        cmocka_unit_test(a_sea_over_a_slope_rests),
+        cmocka_unit_test(still_water_exerts_no_force_on_blocks),
+        cmocka_unit_test(a_bed_of_too_fine_facets_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,6 +5,7 @@
 #include "sim/passes/cpu/lists.h"
 #include "sim/passes/cpu/searcher.h"
 #include "sim/passes/groups.h"
+#include "sim/walls/mirrors.h"
 
 #include <string.h>
 
@@ -148,6 +149,12 @@ static sb_status refuse(const sb_sim *sim, unsigned full, sb_error *error)
                        "step %llu: more than %d boundary particles within one cell and its neighbour cells: walls are "
                        "too dense, or too many bodies meet there",
                        step, SB_WALLS_AROUND_MAX);
+    if (full & SB_FULL_FACETS)
+        return sb_fail(error, SB_FAILED,
+                       "step %llu: too many facets of walls within one block of cells, about %g m wide: expected fewer "
+                       "than %d facets and %d images of particles; coarser meshes, wider gaps between bodies, or "
+                       "numerics.walls: particles",
+                       step, 2 * sim->space.cell, SB_NEAR_MAX, SB_AROUND_MAX);
     return sb_fail(error, SB_FAILED, "step %llu: more than %d particles around %s: %s", step,
                    full & SB_FULL_LIST ? SB_LIST_MAX : SB_AROUND_MAX,
                    full & SB_FULL_LIST ? "one particle" : "a block of eight cells", dense);

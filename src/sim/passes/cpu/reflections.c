@@ -89,7 +89,7 @@ static void add_edges(const sb_sim *sim, sb_searcher *w, sb_list_builder *lists,
 {
     const float scale = sim->constant.mass * w->value_scale / (float)sim->space.quantum;
     if (w->images.slopes > SB_WEIGHT_SLOPES_MAX) {
-        w->full |= SB_FULL_LIST;
+        w->full |= SB_FULL_FACETS;
         return;
     }
     for (size_t k = from; k < w->images.slopes; k++) {

@@ -203,7 +203,7 @@ unsigned sb_search_group(sb_sim *sim, void *of, sb_list_builder *lists, sb_group
     w->full = 0;
     sb_vicinity_gather(sim, group, &w->vicinity);
     if (w->vicinity.count > SB_AROUND_MAX) return SB_FULL_AROUND;
-    if (sim->needs.images && !sb_images_gather(sim, group, &w->vicinity, &w->images)) return SB_FULL_AROUND;
+    if (sim->needs.images && !sb_images_gather(sim, group, &w->vicinity, &w->images)) return SB_FULL_FACETS;
     sb_list_runs(lists, &w->vicinity, group);
     const size_t fours = lists->fours;
     search_group(sim, w, lists, group);
