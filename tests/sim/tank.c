@@ -1,5 +1,6 @@
 #include "sim/tank.h"
 
+#include "base/hash.h"
 #include "base/memory.h"
 #include "base/random.h"
 #include "sim/step/stages.h"
@@ -323,4 +324,22 @@ bool tank_skips(const sb_sim *sim, const char *text)
     for (const sb_skipped *line = sb_sim_skipped(sim); line->what; line++)
         if (strstr(line->what, text)) return true;
     return false;
+}
+
+static void swap_particles(sb_sim *sim, size_t a, size_t b)
+{
+    const sb_record position = sim->state.position[a];
+    const sb_f4 velocity = sim->state.velocity[a];
+    const uint32_t id = sim->state.id[a];
+    sim->state.position[a] = sim->state.position[b], sim->state.position[b] = position;
+    sim->state.velocity[a] = sim->state.velocity[b], sim->state.velocity[b] = velocity;
+    sim->state.id[a] = sim->state.id[b], sim->state.id[b] = id;
+    if (!sim->state.density_correction) return;
+    const float correction = sim->state.density_correction[a];
+    sim->state.density_correction[a] = sim->state.density_correction[b], sim->state.density_correction[b] = correction;
+}
+
+void tank_shuffle(sb_sim *sim, uint64_t seed)
+{
+    for (size_t i = sim->state.n; i-- > 1;) swap_particles(sim, i, sb_hash_mix(seed + i) % (i + 1));
 }

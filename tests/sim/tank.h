@@ -72,6 +72,8 @@ sb_status tank_load(sb_sim *sim, const sb_archive_out *out, sb_error *error);
 /* Whether the steps have the stage, and whether the list of skipped parts contains the text. */
 bool tank_has_stage(const sb_sim *sim, const char *name);
 bool tank_skips(const sb_sim *sim, const char *text);
+/* Stores the particles in another order. */
+void tank_shuffle(sb_sim *sim, uint64_t seed);
 /* Runs n whole steps. Returns 0, or -1 with the reason on stderr. */
 int tank_steps(sb_sim *sim, int n);
 

@@ -2,27 +2,7 @@
    sums know in which order, or on which processor, particles were kept. */
 #include "sim/presets.h"
 
-#include "base/hash.h"
-
 enum { BEFORE = 5, AFTER = 20 };
-
-static void swap_particles(sb_sim *sim, size_t a, size_t b)
-{
-    const sb_record position = sim->state.position[a];
-    const sb_f4 velocity = sim->state.velocity[a];
-    const uint32_t id = sim->state.id[a];
-    sim->state.position[a] = sim->state.position[b], sim->state.position[b] = position;
-    sim->state.velocity[a] = sim->state.velocity[b], sim->state.velocity[b] = velocity;
-    sim->state.id[a] = sim->state.id[b], sim->state.id[b] = id;
-    if (!sim->state.density_correction) return;
-    const float correction = sim->state.density_correction[a];
-    sim->state.density_correction[a] = sim->state.density_correction[b], sim->state.density_correction[b] = correction;
-}
-
-static void shuffle(sb_sim *sim, uint64_t seed)
-{
-    for (size_t i = sim->state.n; i-- > 1;) swap_particles(sim, i, sb_hash_mix(seed + i) % (i + 1));
-}
 
 /* Steps one run as it is, and others shuffled before each step. */
 static void check(const tank *t)
@@ -33,7 +13,7 @@ static void check(const tank *t)
         sb_sim *sim = tank_settled(t);
         assert_int_equal(tank_steps(sim, BEFORE), 0);
         for (int step = 0; step < AFTER; step++) {
-            shuffle(sim, seed << 40 | (uint64_t)step << 32);
+            tank_shuffle(sim, seed << 40 | (uint64_t)step << 32);
             assert_int_equal(tank_steps(sim, 1), 0);
         }
         assert_true(sb_sim_hash(sim) == sb_sim_hash(plain));
