@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CORNERS_MAX = 32 };
+enum { CORNERS_MAX = 512 }; /* straight ones included: the surface of a terrain has them by the hundred */
 
 /* Sines of the angles up to which facets are coplanar, and corners straight. */
 static const double FLAT = 1e-5, STRAIGHT = 1e-7;
@@ -16,7 +16,16 @@ static const double FLAT = 1e-5, STRAIGHT = 1e-7;
 typedef struct polygon {
     uint32_t count; /* 0: merged into another */
     uint32_t *vertex;
+    uint32_t grew; /* in which round it last grew */
 } polygon;
+
+/* A corner of two polygons side by side: its vertex, and its place in one of them; those of the other begin at
+   OTHER. */
+typedef struct corner {
+    uint32_t vertex, place;
+} corner;
+
+enum { OTHER = 2 * CORNERS_MAX };
 
 typedef struct merger {
     const sb_mesh *mesh;
@@ -31,12 +40,16 @@ static uint32_t polygon_of(merger *m, uint32_t triangle)
     return triangle;
 }
 
-static bool convex(const merger *m, const uint32_t *vertex, size_t count, sb_vec3 normal)
+/* Whether an outline is convex at those corners whose neighbours are others than in their own polygon, which is
+   convex. */
+static bool convex(const merger *m, const corner *at, uint32_t count, sb_vec3 normal)
 {
-    const sb_vec3 *at = m->mesh->vertices;
-    for (size_t k = 0; k < count; k++) {
-        const sb_vec3 a = sb_sub(at[vertex[(k + 1) % count]], at[vertex[k]]);
-        const sb_vec3 b = sb_sub(at[vertex[(k + 2) % count]], at[vertex[(k + 1) % count]]);
+    for (uint32_t k = 0; k < count; k++) {
+        const corner first = at[k], middle = at[k + 1 < count ? k + 1 : k + 1 - count],
+                     last = at[k + 2 < count ? k + 2 : k + 2 - count];
+        if (middle.place == first.place + 1 && last.place == middle.place + 1) continue;
+        const sb_vec3 x = m->mesh->vertices[middle.vertex];
+        const sb_vec3 a = sb_sub(x, m->mesh->vertices[first.vertex]), b = sb_sub(m->mesh->vertices[last.vertex], x);
         const double turn = sb_dot(normal, sb_cross(a, b)), size = sb_norm(a) * sb_norm(b);
         if (turn < -STRAIGHT * size || (turn < STRAIGHT * size && sb_dot(a, b) < 0)) return false;
     }
@@ -45,62 +58,75 @@ static bool convex(const merger *m, const uint32_t *vertex, size_t count, sb_vec
 
 /* Removes corners at which an outline turns back on itself: polygons that share several edges in a row are joined by
    one of them, and the others remain. Returns the number of corners left. */
-static uint32_t cut_spikes(uint32_t *vertex, uint32_t count)
+static uint32_t cut_spikes(corner *at, uint32_t count)
 {
-    for (uint32_t k = 0; k < count && count >= 3;) {
-        const uint32_t next = (k + 1) % count, last = (k + count - 1) % count;
-        if (vertex[last] != vertex[next]) {
-            k++;
-            continue;
-        }
-        uint32_t kept = 0; /* the tip, and one of its two equal neighbours */
-        for (uint32_t j = 0; j < count; j++)
-            if (j != k && j != next) vertex[kept++] = vertex[j];
-        count = kept;
-        k = 0;
+    uint32_t kept = 0;
+    for (uint32_t k = 0; k < count; k++) { /* of a spike go the tip and one of its two equal neighbours */
+        if (kept >= 2 && at[kept - 2].vertex == at[k].vertex)
+            kept--;
+        else
+            at[kept++] = at[k];
     }
-    return count;
+    uint32_t first = 0;
+    while (kept - first >= 3) { /* where the outline closes */
+        if (at[first + 1].vertex == at[kept - 1].vertex)
+            first++, kept--;
+        else if (at[kept - 2].vertex == at[first].vertex)
+            kept -= 2;
+        else
+            break;
+    }
+    memmove(at, at + first, (kept - first) * sizeof *at);
+    return kept - first;
 }
 
-/* Merges two polygons across the edge from vertex `low` to `high`, if they are coplanar and the result is convex.
-   Returns whether it did, or -1 without memory. */
-static int merge(merger *m, uint32_t one, uint32_t other, uint32_t low, uint32_t high)
+/* The corners of two polygons that share the edge from vertex `low` to `high`, one after the other. Returns their
+   number, 0 if they do not share it. */
+static uint32_t side_by_side(const polygon *p, const polygon *q, uint32_t low, uint32_t high, corner *joined)
 {
-    const uint32_t a = polygon_of(m, one), b = polygon_of(m, other);
-    const sb_vec3 n = m->normal[a];
-    if (a == b || sb_norm(sb_cross(n, m->normal[b])) > FLAT || sb_dot(n, m->normal[b]) < 0) return 0;
-    polygon *p = &m->polygon[a], *q = &m->polygon[b];
-    uint32_t joined[2 * CORNERS_MAX], i = 0, j = 0;
+    uint32_t i = 0, j = 0, n = 0;
     while (i < p->count && !((p->vertex[i] == low && p->vertex[(i + 1) % p->count] == high) ||
                              (p->vertex[i] == high && p->vertex[(i + 1) % p->count] == low)))
         i++;
     while (j < q->count && q->vertex[j] != p->vertex[i]) j++;
     if (i == p->count || j == q->count) return 0;
-    uint32_t n_joined = 0;
-    for (uint32_t k = 1; k <= p->count; k++) joined[n_joined++] = p->vertex[(i + k) % p->count];
-    for (uint32_t k = 1; k + 1 < q->count; k++) joined[n_joined++] = q->vertex[(j + k) % q->count];
-    n_joined = cut_spikes(joined, n_joined);
-    if (n_joined < 3 || n_joined > CORNERS_MAX || !convex(m, joined, n_joined, n)) return 0;
-    uint32_t *vertex = sb_alloc(n_joined, sizeof *vertex);
+    for (uint32_t k = 1; k <= p->count; k++) joined[n++] = (corner){p->vertex[(i + k) % p->count], k};
+    for (uint32_t k = 1; k + 1 < q->count; k++) joined[n++] = (corner){q->vertex[(j + k) % q->count], OTHER + k};
+    return n;
+}
+
+/* Merges two polygons across the edge from vertex `low` to `high`, if they are coplanar and the result is convex. What
+   has not grown since the last round was tried then. Returns whether it did, or -1 without memory. */
+static int merge(merger *m, uint32_t one, uint32_t other, uint32_t low, uint32_t high, uint32_t round)
+{
+    const uint32_t a = polygon_of(m, one), b = polygon_of(m, other);
+    const sb_vec3 n = m->normal[a];
+    polygon *p = &m->polygon[a], *q = &m->polygon[b];
+    if (a == b || (p->grew + 1 < round && q->grew + 1 < round)) return 0;
+    if (sb_norm(sb_cross(n, m->normal[b])) > FLAT || sb_dot(n, m->normal[b]) < 0) return 0;
+    corner joined[2 * CORNERS_MAX];
+    const uint32_t count = cut_spikes(joined, side_by_side(p, q, low, high, joined));
+    if (count < 3 || count > CORNERS_MAX || !convex(m, joined, count, n)) return 0;
+    uint32_t *vertex = sb_alloc(count, sizeof *vertex);
     if (!vertex) return -1;
-    memcpy(vertex, joined, n_joined * sizeof *vertex);
+    for (uint32_t k = 0; k < count; k++) vertex[k] = joined[k].vertex;
     sb_free(p->vertex);
     sb_free(q->vertex);
-    *p = (polygon){n_joined, vertex};
+    *p = (polygon){count, vertex, round};
     *q = (polygon){0};
     m->of[b] = a;
     return 1;
 }
 
 /* Tries each edge once. Returns as merge. */
-static int merge_some(merger *m, const sb_mesh_edges *edges)
+static int merge_some(merger *m, const sb_mesh_edges *edges, uint32_t round)
 {
     int merged = 0;
     for (size_t e = 0, end; e < edges->count && merged >= 0; e = end) {
         end = sb_mesh_edge_run(edges, e);
         const sb_mesh_edge *users = edges->edges + e;
         if (end - e != 2 || users[0].forward == users[1].forward) continue;
-        const int one = merge(m, users[0].triangle, users[1].triangle, users[0].low, users[0].high);
+        const int one = merge(m, users[0].triangle, users[1].triangle, users[0].low, users[0].high, round);
         merged = one < 0 ? -1 : merged | one;
     }
     return merged;
@@ -112,7 +138,7 @@ static int merge_all(merger *m)
     sb_mesh_edges edges;
     if (sb_mesh_find_edges(m->mesh, &edges) != 0) return -1;
     int merged = 1;
-    while (merged == 1) merged = merge_some(m, &edges);
+    for (uint32_t round = 1; merged == 1; round++) merged = merge_some(m, &edges, round);
     sb_mesh_edges_free(&edges);
     return merged;
 }

@@ -10,6 +10,9 @@
    the facet is hidden. */
 static const double TOUCHES = 1e-3, BEFORE = 0.02;
 
+/* Sine of the angle up to which edges are on one line. */
+static const double STRAIGHT = 1e-6;
+
 /* Most points along one axis at which it is tested whether a facet is hidden. */
 enum { SAMPLES_MAX = 64 };
 
@@ -227,6 +230,26 @@ static bool hidden(const builder *b, const sb_outline *o, size_t body, sb_vec3 n
     return true;
 }
 
+/* Whether an edge continues another one on the same line, with the same bend. */
+static bool continues(const sb_facet_edge *last, const sb_facet_edge *next)
+{
+    return last->bend == next->bend && sb_norm(sb_cross(last->inward, next->inward)) < STRAIGHT &&
+           sb_dot(last->inward, next->inward) > 0;
+}
+
+/* Joins the edges of a facet that continue each other. Returns how many are left. */
+static uint32_t join_edges(sb_facet_edge *edge, uint32_t count)
+{
+    uint32_t left = 0;
+    for (uint32_t k = 0; k < count; k++)
+        if (left > 0 && continues(&edge[left - 1], &edge[k]))
+            edge[left - 1].to = edge[k].to;
+        else
+            edge[left++] = edge[k];
+    if (left > 1 && continues(&edge[left - 1], &edge[0])) edge[0].from = edge[--left].from;
+    return left;
+}
+
 static int add(builder *b, size_t outline, size_t body)
 {
     sb_facets *out = b->out;
@@ -246,6 +269,8 @@ static int add(builder *b, size_t outline, size_t body)
         *edge = (sb_facet_edge){from, to, sb_normalize(along), SB_BEND_SOFT};
         edge->bend = find_bend(b, outline, f, edge);
     }
+    if (!flat) f->edges = join_edges(out->edges + f->edge, f->edges);
+    out->edge_count = f->edge + f->edges;
     return 0;
 }
 

@@ -389,6 +389,32 @@ static void many_triangles(void **state)
     assert_true(seconds[1] - seconds[0] < 5);
 }
 
+/* A bed of 17 280 triangles in two planes is two facets: pieces of edges that continue each other are one edge. */
+static void two_planes_of_many_triangles(void **state)
+{
+    (void)state;
+    enum { COLUMNS = 121, ROWS = 73 };
+    snprintf(path, sizeof path, "facets-%d.asc", (int)getpid());
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "ncols %d\nnrows %d\nxllcenter 0\nyllcenter 0\ncellsize %.17g\n", COLUMNS, ROWS,
+            10.0 / (COLUMNS - 1));
+    for (int k = 0; k < COLUMNS * ROWS; k++) fprintf(file, "%.17g\n", 0.5 + 0.01 * fmax(k % COLUMNS - 60, 0));
+    assert_int_equal(fclose(file), 0);
+    sb_body *body = add_file("bed", path);
+    body->shape = SB_SHAPE_GRID;
+    body->role = SB_ROLE_TERRAIN;
+    build_once();
+    const size_t bed = body_of("bed");
+    assert_int_equal(count_of(bed), 2);
+    assert_near(area_of(bed), 30 + 6 * sqrt(25 + 0.36), 1e-6);
+    const sb_facet *level = facet_at(bed, Z, sb_vec(2, 3, 0.5));
+    assert_non_null(level);
+    assert_int_equal(level->edges, 4);
+    assert_int_equal(bend(level, minus(X)), SB_BEND_SOFT);
+    assert_int_equal(bends(level, SB_BEND_CONCAVE), 3);
+}
+
 #define IMAGES(f) cmocka_unit_test_setup_teardown(f, set_up_images, tear_down)
 
 int main(void)
@@ -401,6 +427,7 @@ int main(void)
         IMAGES(a_step),
         IMAGES(a_wall_on_a_bed),
         IMAGES(a_prism_with_an_l_as_its_base),
+        IMAGES(two_planes_of_many_triangles),
         IMAGES(a_plate),
         IMAGES(a_terrain),
         IMAGES(sections),
