@@ -276,16 +276,18 @@ static bool before(const sb_sim *sim, const sb_near_facet *a, const sb_near_face
 
 static void relate(const sb_sim *sim, sb_near *near)
 {
-    near->oblique = false;
+    near->oblique = near->meeting = near->skew = false;
     for (size_t a = 0; a < near->count; a++)
         for (size_t b = 0; b < near->count; b++) {
             const sb_near_facet *one = &near->facet[a], *other = &near->facet[b];
             const float along = sb_sum3(one->plane * other->plane);
             near->meets[a][b] = a != b && along < BENT && (one->both || other->both || before(sim, one, other)) &&
                                 (one->both || other->both || before(sim, other, one));
+            near->meeting |= near->meets[a][b];
             const bool square = fabsf(along) < 1e-3f, facing = along < -0.9f;
             /* Neighbours that bend by less do not hide each other. */
             near->oblique |= near->meets[a][b] && !square && !facing;
+            near->skew |= near->meets[a][b] && !square;
         }
     near->simple = !near->oblique;
 }

@@ -47,6 +47,8 @@ typedef struct sb_near {
     size_t count, edge_count;
     bool simple;  /* no facet hides water or another facet */
     bool oblique; /* some path may be reflected at two facets at other than right angles */
+    bool meeting; /* some path may be reflected at two facets */
+    bool skew;    /* at other than right angles */
     bool moves;   /* a facet moves */
     bool full;    /* more than SB_NEAR_MAX facets or SB_NEAR_EDGES_MAX edges */
     sb_near_facet facet[SB_NEAR_MAX];

@@ -12,10 +12,23 @@ typedef struct gatherer {
     sb_vicinity *v;
     sb_near *near;
     sb_images_around *images;
+    sb_cull *cull;
+    sb_sources *sources;
     float low[3], high[3]; /* of the group's particles */
-    float support2, support;
+    float support2, support, margin;
+    bool before[SB_NEAR_MAX], after[SB_NEAR_MAX]; /* there is water on these sides of facets */
     bool full;
 } gatherer;
+
+/* The first reflections of a path. */
+typedef struct route {
+    sb_f4 at;
+    uint32_t path;
+    int depth;
+    size_t last;
+    bool square; /* all facets stand at right angles to each other, so that the weight is a product of theirs */
+    bool beyond; /* one of them has no part of it */
+} route;
 
 SB_INLINE bool within(const gatherer *g, sb_f4 at)
 {
@@ -39,43 +52,65 @@ static bool goes_on(const sb_near *near, uint32_t path, size_t last, size_t a)
     return true;
 }
 
-static void reflect_all(gatherer *g, sb_f4 at, uint32_t source, uint32_t path, int depth, size_t last)
+/* Whether facet a stands at right angles to all facets of a path. */
+static bool square_to_all(const sb_near *near, uint32_t path, size_t a)
+{
+    bool square = true;
+    for (; path; path >>= SB_REFLECTION_BITS) square &= sb_facets_square(near, (path & SB_REFLECTION_MASK) - 1, a);
+    return square;
+}
+
+/* Notes an image. Returns false if there are too many. */
+static bool add_image(gatherer *g, uint32_t source, const route *to, size_t facet, float above, bool whole)
+{
+    sb_vicinity *v = g->v;
+    sb_images_around *of = g->images;
+    const sb_near_facet *f = &g->near->facet[facet];
+    const size_t k = v->images, c = v->count + k;
+    if (c >= SB_AROUND_MAX) return false;
+    v->x[c] = to->at[0], v->y[c] = to->at[1], v->z[c] = to->at[2];
+    v->place[c] = to->at;
+    of->source[k] = source;
+    of->path[k] = to->path;
+    of->whole[k] = whole;
+    v->images++;
+    if (to->depth > 1) return true;
+    of->above[k] = above;
+    if (of->angle_count + f->edges > SB_HALF_ANGLES_MAX) return false;
+    of->angles[k] = (uint32_t)of->angle_count;
+    of->edge[k] = sb_about_edges(g->near, f, v->place[source], above, of->angle + of->angle_count);
+    of->angle_count += f->edges;
+    return true;
+}
+
+/* Adds the images of source `s` by the paths that go on from here. */
+static void reflect_all(gatherer *g, size_t s, const route *from)
 {
     const sb_near *near = g->near;
-    for (size_t a = 0; a < near->count; a++) {
+    const sb_sources *of = g->sources;
+    for (size_t a = 0; a < near->count && !g->full; a++) {
+        if (from->depth == 0 ? of->apart[a][s] : !goes_on(near, from->path, from->last, a)) continue;
+        if (of->beyond[a][s] && !near->skew) continue;
         const sb_near_facet *f = &near->facet[a];
-        const float above = sb_before_facet(f, at);
+        const float above = sb_before_facet(f, from->at);
         if (fabsf(above) >= g->support) continue;
         const bool soft = f->edges > 0 || f->both;
-        if (above <= 0 && !(soft && (depth == 0 || sb_facets_square(near, last, a)))) continue;
-        if (depth > 0 && !goes_on(near, path, last, a)) continue;
-        const sb_f4 image = sb_reflect(f->plane, at);
-        const uint32_t longer = path | (uint32_t)(a + 1) << (SB_REFLECTION_BITS * depth);
+        const bool square = from->depth == 0 || sb_facets_square(near, from->last, a);
+        if (above <= 0 && !(soft && square)) continue;
+        const route to = {.at = sb_reflect(f->plane, from->at),
+                          .path = from->path | (uint32_t)(a + 1) << (SB_REFLECTION_BITS * from->depth),
+                          .depth = from->depth + 1,
+                          .last = a,
+                          .square = from->square && square_to_all(near, from->path, a),
+                          .beyond = from->beyond || of->beyond[a][s]};
         /* Further reflections take an image farther away. */
-        if (!within(g, image)) continue;
-        sb_vicinity *v = g->v;
-        const size_t k = v->images, c = v->count + k;
-        if (c >= SB_AROUND_MAX) {
+        if (!within(g, to.at)) continue;
+        if (!(to.square && to.beyond) &&
+            !add_image(g, of->candidate[s], &to, a, above, from->depth == 0 && of->whole[a][s])) {
             g->full = true;
             return;
         }
-        v->x[c] = image[0], v->y[c] = image[1], v->z[c] = image[2];
-        v->place[c] = image;
-        g->images->source[k] = source;
-        g->images->path[k] = longer;
-        if (depth == 0) {
-            sb_images_around *of = g->images;
-            of->above[k] = above;
-            if (of->angle_count + f->edges > SB_HALF_ANGLES_MAX) {
-                g->full = true;
-                return;
-            }
-            of->angles[k] = (uint32_t)of->angle_count;
-            of->edge[k] = sb_about_edges(near, f, at, above, of->angle + of->angle_count);
-            of->angle_count += f->edges;
-        }
-        v->images++;
-        if (depth + 1 < SB_REFLECTIONS_MAX && near->count > 1) reflect_all(g, image, source, longer, depth + 1, a);
+        if (to.depth < SB_REFLECTIONS_MAX && near->meeting) reflect_all(g, s, &to);
     }
 }
 
@@ -89,29 +124,51 @@ static void find_box(const sb_sim *sim, const sb_group *group, sb_f4 *low, sb_f4
     }
 }
 
-/* On which sides of the facets each record is, and which facets have water on both sides near the group. */
-static void find_sides(const gatherer *g, float margin)
+/* On which sides of the facets the sources are, and their images. */
+static void reflect_sources(gatherer *g)
 {
     sb_near *near = g->near;
+    sb_sources *of = g->sources;
     const size_t bits = near->count < SB_SIDE_BITS ? near->count : SB_SIDE_BITS;
-    bool before[SB_NEAR_MAX] = {false}, after[SB_NEAR_MAX] = {false};
-    for (size_t c = 0; c < g->v->count; c++) {
-        if (!within(g, g->v->place[c])) continue;
+    if (of->count == 0) return;
+    sb_cull_sources(near, g->cull, of);
+    for (size_t s = 0; s < of->count; s++) {
         uint64_t behind = 0;
         for (size_t a = 0; a < near->count; a++) {
-            const float above = sb_before_facet(&near->facet[a], g->v->place[c]);
-            before[a] |= above > margin;
-            after[a] |= above < -margin;
-            if (a < bits) behind |= (uint64_t)(above <= 0) << a;
+            g->before[a] |= of->above[a][s] > g->margin;
+            g->after[a] |= of->above[a][s] < -g->margin;
+            if (a < bits) behind |= (uint64_t)(of->above[a][s] <= 0) << a;
         }
-        g->images->behind[c] = behind;
+        g->images->behind[of->candidate[s]] = behind;
+        if (!g->full) reflect_all(g, s, &(route){.at = g->v->place[of->candidate[s]], .square = true});
     }
+    of->count = 0;
+}
+
+/* The images of candidates [begin, end). */
+static void reflect_cell(gatherer *g, uint32_t begin, uint32_t end)
+{
+    const sb_vicinity *v = g->v;
+    sb_sources *of = g->sources;
+    for (uint32_t c = begin; c < end; c++) {
+        if (!within(g, v->place[c])) continue;
+        of->x[of->count] = v->x[c], of->y[of->count] = v->y[c], of->z[of->count] = v->z[c];
+        of->candidate[of->count++] = c;
+        if (of->count == SB_SOURCES_MAX) reflect_sources(g);
+    }
+    reflect_sources(g);
+}
+
+/* Which facets have water on both sides near the group. */
+static void find_parts(const gatherer *g)
+{
+    sb_near *near = g->near;
     g->images->parts = 0;
     for (size_t a = 0; a < near->count; a++) {
         sb_near_facet *f = &near->facet[a];
-        f->parts = before[a] && after[a] && (f->edges > 0 || f->both);
+        f->parts = g->before[a] && g->after[a] && (f->edges > 0 || f->both);
         near->simple &= !f->parts;
-        if (a < bits) g->images->parts |= (uint64_t)f->parts << a;
+        if (a < SB_SIDE_BITS) g->images->parts |= (uint64_t)f->parts << a;
     }
 }
 
@@ -128,20 +185,23 @@ bool sb_images_gather(const sb_sim *sim, const sb_group *group, sb_vicinity *v, 
     gatherer g = {.v = v,
                   .near = near,
                   .images = images,
+                  .cull = &images->cull,
+                  .sources = &images->sources,
                   .low = {low[0], low[1], low[2]},
                   .high = {high[0], high[1], high[2]},
                   .support2 = support * support,
-                  .support = support};
-    find_sides(&g, BEHIND * sim->constant.spacing / (float)sim->space.quantum);
+                  .support = support,
+                  .margin = BEHIND * sim->constant.spacing / (float)sim->space.quantum};
+    sb_cull_begin(sim, near, low, high, &images->cull);
+    images->sources.count = 0;
     uint32_t *start = v->start[SB_VICINITY_IMAGES];
     const size_t cells = (size_t)v->cells[0] * v->cells[1] * v->cells[2];
     for (size_t cell = 0; cell < cells; cell++) {
         start[cell] = (uint32_t)(v->count + v->images);
-        for (size_t part = 0; part < v->parts; part++)
-            for (uint32_t c = v->start[part][cell]; c < v->start[part][cell + 1] && !g.full; c++)
-                if (within(&g, v->place[c])) reflect_all(&g, v->place[c], c, 0, 0, 0);
+        for (size_t part = 0; part < v->parts; part++) reflect_cell(&g, v->start[part][cell], v->start[part][cell + 1]);
     }
     start[cells] = (uint32_t)(v->count + v->images);
+    find_parts(&g);
     return !g.full;
 }
 

@@ -3,6 +3,7 @@
 #ifndef SB_SIM_CPU_IMAGES_H
 #define SB_SIM_CPU_IMAGES_H
 
+#include "sim/passes/cpu/cull.h"
 #include "sim/passes/cpu/lists.h"
 #include "sim/walls/mirrors.h"
 
@@ -33,8 +34,11 @@ enum { SB_WEIGHT_SLOPES_MAX = 4096, SB_HALF_ANGLES_MAX = 131072 };
 /* Images around a group: that of candidate count + k of the vicinity is of candidate source[k]. */
 typedef struct sb_images_around {
     sb_near near;
+    sb_cull cull;
+    sb_sources sources; /* of one cell, while images are gathered */
     uint32_t source[SB_AROUND_MAX + SB_HIT_SPARE];
     uint32_t path[SB_AROUND_MAX + SB_HIT_SPARE];
+    bool whole[SB_AROUND_MAX + SB_HIT_SPARE]; /* one reflection, with no edge near its paths */
     /* Of an image by one reflection: the original's distance before the facet, the edge of the facet that it is
        farthest beyond or nearest to, and where its positions about the facet's edges begin. */
     float above[SB_AROUND_MAX + SB_HIT_SPARE];

@@ -86,6 +86,7 @@ void sb_images_weigh(const sb_sim *sim, const sb_vicinity *v, sb_images_around *
         sb_weight_parts all;
         if (path <= SB_REFLECTION_MASK) {
             const bool known =
+                (images->whole[image] && w.at->above[path - 1] > 0) ||
                 plain(&w, path - 1, images->above[image], images->angle + images->angles[image], &hits->root[k]);
             if (known && (hits->root[k] == 0 || near->simple || (!near->oblique && same_sides(images, &w, image))))
                 continue;

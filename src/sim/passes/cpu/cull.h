@@ -1,0 +1,40 @@
+/* Which reflections of a record at single facets can have weight for a particle of a group: most have none, because the
+   path would pass beyond the facet's edges (sim/passes/cpu/path_weights.h). The bounds hold for the box of the group's
+   particles. */
+#ifndef SB_SIM_CPU_CULL_H
+#define SB_SIM_CPU_CULL_H
+
+#include "sim/walls/mirrors.h"
+
+enum { SB_SOURCES_MAX = 64 };
+
+/* |C| and S of sb_half_angle over the box, by edge. */
+typedef struct sb_edge_bounds {
+    float c_near, s_near, c_far, s_far; /* where the box reaches farthest within the edge: least and most |h| */
+    float c_least, s_most;              /* where it reaches least far within */
+    float s_least;
+} sb_edge_bounds;
+
+/* A group's box; lengths in quanta from its corner. */
+typedef struct sb_cull {
+    float low[3], high[3];
+    float support, end, eps; /* end: |C C - S S| at which a transition ends */
+    bool behind[SB_NEAR_MAX]; /* no particle is before the facet */
+    sb_edge_bounds edge[SB_NEAR_EDGES_MAX];
+} sb_cull;
+
+/* Records near a group. By facet: */
+typedef struct sb_sources {
+    size_t count;
+    uint32_t candidate[SB_SOURCES_MAX];
+    float x[SB_SOURCES_MAX], y[SB_SOURCES_MAX], z[SB_SOURCES_MAX];
+    float above[SB_NEAR_MAX][SB_SOURCES_MAX];      /* before the plane */
+    int32_t apart[SB_NEAR_MAX][SB_SOURCES_MAX];    /* the image is not near the group, or there is none */
+    int32_t beyond[SB_NEAR_MAX][SB_SOURCES_MAX];   /* paths by this facet have no weight */
+    int32_t whole[SB_NEAR_MAX][SB_SOURCES_MAX];    /* paths from particles before the facet have the weight 1 there */
+} sb_sources;
+
+void sb_cull_begin(const sb_sim *sim, const sb_near *near, sb_f4 low, sb_f4 high, sb_cull *cull);
+void sb_cull_sources(const sb_near *near, const sb_cull *cull, sb_sources *of);
+
+#endif
