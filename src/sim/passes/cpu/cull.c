@@ -1,5 +1,6 @@
 #include "sim/passes/cpu/cull.h"
 
+#include "sim/passes/cpu/eights.h"
 #include "sim/passes/cpu/path_weights.h"
 
 #include <math.h>
@@ -8,13 +9,19 @@
    radius. */
 static const float MARGIN = 1e-3f, NEARLY = 1e-5f;
 
+/* Loops run over whole vectors. */
+SB_INLINE size_t padded(const sb_sources *of)
+{
+    return (of->count + SB_SOURCE_LANES - 1) / SB_SOURCE_LANES * SB_SOURCE_LANES;
+}
+
 /* The range of n . x - d over the box. */
 static void range_over(const sb_cull *cull, sb_f4 n, float range[2])
 {
     range[0] = range[1] = -n[3];
     for (int axis = 0; axis < 3; axis++) {
-        range[n[axis] < 0] += n[axis] * cull->low[axis];
-        range[n[axis] >= 0] += n[axis] * cull->high[axis];
+        range[n[axis] < 0] += n[axis] * cull->box.low[axis];
+        range[n[axis] >= 0] += n[axis] * cull->box.high[axis];
     }
     range[0] -= cull->eps;
     range[1] += cull->eps;
@@ -26,7 +33,7 @@ void sb_cull_begin(const sb_sim *sim, const sb_near *near, sb_f4 low, sb_f4 high
     cull->support = sim->constant.support / quantum;
     cull->eps = NEARLY * cull->support;
     cull->end = (1 + MARGIN) * 0.5f * SB_TRANSITION_ENDS * SB_TRANSITION * sim->constant.spacing / quantum;
-    for (int axis = 0; axis < 3; axis++) cull->low[axis] = low[axis], cull->high[axis] = high[axis];
+    for (int axis = 0; axis < 3; axis++) cull->box.low[axis] = low[axis], cull->box.high[axis] = high[axis];
     for (size_t a = 0; a < near->count; a++) {
         const sb_near_facet *f = &near->facet[a];
         float h[2];
@@ -54,72 +61,147 @@ SB_MULTIVERSION
 static void at_edges(const sb_near *near, const sb_cull *cull, size_t facet, sb_sources *of)
 {
     const sb_near_facet *f = &near->facet[facet];
-    const size_t n = (of->count + 15) / 16 * 16;
+    const size_t n = padded(of);
     const float end = cull->end, eps = cull->eps;
     const int32_t one_side = f->both ? 0 : -1, behind = cull->behind[facet] ? -1 : 0;
     int32_t *beyond = of->beyond[facet], *whole = of->whole[facet];
-    const float *above = of->above[facet];
+    const float *above = of->above;
     float nearest[SB_SOURCES_MAX], round[SB_SOURCES_MAX], any[SB_SOURCES_MAX];
     for (size_t s = 0; s < n; s++) nearest[s] = any[s] = INFINITY, round[s] = 0;
     for (uint32_t k = f->edge; k < f->edge + f->edges; k++) {
         const sb_f4 in = near->edges[k].inward;
         const sb_edge_bounds b = cull->edge[k];
+        for (size_t from = 0; from < n; from += SB_SOURCE_LANES)
 #pragma omp simd
-        for (size_t s = 0; s < n; s++) {
-            const float o = in[0] * of->x[s] + in[1] * of->y[s] + in[2] * of->z[s] - in[3];
-            const float rho = sqrtf(o * o + above[s] * above[s]);
-            const float c2 = 0.5f * (rho + o), s2 = 0.5f * (rho - o);
-            const float c = sqrtf(c2 > 0 ? c2 : 0), sine = sqrtf(s2 > 0 ? s2 : 0);
-            const float first = c * b.c_near - sine * b.s_near, last = c * b.c_far - sine * b.s_far;
-            const float turn = c * b.c_least + sine * b.s_least;
-            beyond[s] |= -((first > last ? first : last) < -end);
-            whole[s] &= -(c * b.c_least - sine * b.s_most > end);
-            round[s] = o < nearest[s] ? turn : round[s];
-            nearest[s] = o < nearest[s] ? o : nearest[s];
-            any[s] = turn < any[s] ? turn : any[s];
-        }
+            for (size_t s = from; s < from + SB_SOURCE_LANES; s++) {
+                const float o = in[0] * of->x[s] + in[1] * of->y[s] + in[2] * of->z[s] - in[3];
+                const float rho = sqrtf(o * o + above[s] * above[s]);
+                const float c2 = 0.5f * (rho + o), s2 = 0.5f * (rho - o);
+                const float c = sqrtf(c2 > 0 ? c2 : 0), sine = sqrtf(s2 > 0 ? s2 : 0);
+                const float first = c * b.c_near - sine * b.s_near, last = c * b.c_far - sine * b.s_far;
+                const float turn = c * b.c_least + sine * b.s_least;
+                beyond[s] |= -((first > last ? first : last) < -end);
+                whole[s] &= -(c * b.c_least - sine * b.s_most > end);
+                round[s] = o < nearest[s] ? turn : round[s];
+                nearest[s] = o < nearest[s] ? o : nearest[s];
+                any[s] = turn < any[s] ? turn : any[s];
+            }
     }
+    for (size_t from = 0; from < n; from += SB_SOURCE_LANES)
 #pragma omp simd
-    for (size_t s = 0; s < n; s++) {
-        const int32_t hidden = -(above[s] < -eps), open = -(above[s] > eps);
-        /* One end behind the facet: the path goes round the edge that this end is nearest to. */
-        beyond[s] |= one_side & ((hidden & (behind | -(round[s] > end))) | (open & behind & -(any[s] > end)));
+        for (size_t s = from; s < from + SB_SOURCE_LANES; s++) {
+            const int32_t hidden = -(above[s] < -eps), open = -(above[s] > eps);
+            /* One end behind the facet: the path goes round the edge that this end is nearest to. */
+            beyond[s] |= one_side & ((hidden & (behind | -(round[s] > end))) | (open & behind & -(any[s] > end)));
+        }
+}
+
+SB_INLINE sb_f8 larger(sb_f8 a, sb_f8 b)
+{
+    return sb_select8(a > b, a, b);
+}
+
+SB_INLINE sb_f8 outside(float low, float high, sb_f8 x)
+{
+    return larger(larger(sb_splat8(low) - x, x - sb_splat8(high)), (sb_f8){0});
+}
+
+/* Squared distances from the box. */
+SB_INLINE sb_f8 from_box2(const sb_box *box, sb_f8 x, sb_f8 y, sb_f8 z)
+{
+    const sb_f8 dx = outside(box->low[0], box->high[0], x), dy = outside(box->low[1], box->high[1], y);
+    const sb_f8 dz = outside(box->low[2], box->high[2], z);
+    return dx * dx + dy * dy + dz * dz;
+}
+
+SB_INLINE sb_f8 eight_of(const float *at)
+{
+    return *(const sb_f8 *)at;
+}
+
+/* Returns whether any source is near the group. */
+SB_MULTIVERSION
+static bool find_near(const sb_cull *cull, sb_sources *of)
+{
+    const sb_f8 support2 = sb_splat8(cull->support * cull->support);
+    const sb_i8 lanes = {0, 1, 2, 3, 4, 5, 6, 7};
+    sb_i8 any = {0};
+    for (size_t s = 0; s < padded(of); s += SB_SOURCE_LANES) {
+        const sb_f8 far2 = from_box2(&cull->box, eight_of(of->x + s), eight_of(of->y + s), eight_of(of->z + s));
+        const sb_i8 near = (far2 < support2) & (lanes < (int32_t)(of->count - s));
+        *(sb_i8 *)(of->near + s) = near;
+        *(sb_i8 *)(of->none + s) = ~(sb_i8){0};
+        any |= near;
+    }
+    int32_t all = 0;
+    for (int lane = 0; lane < SB_SOURCE_LANES; lane++) all |= any[lane];
+    return all != 0;
+}
+
+/* Keeps the range of distances of sources near the group. */
+SB_INLINE void widen(sb_sources *of, size_t facet, sb_f8 lowest, sb_f8 highest)
+{
+    for (int lane = 0; lane < SB_SOURCE_LANES; lane++) {
+        if (lowest[lane] < of->lowest[facet]) of->lowest[facet] = lowest[lane];
+        if (highest[lane] > of->highest[facet]) of->highest[facet] = highest[lane];
     }
 }
 
 SB_MULTIVERSION
 static void at_facet(const sb_near_facet *f, const sb_cull *cull, size_t facet, sb_sources *of)
 {
-    const size_t n = (of->count + 15) / 16 * 16;
     const sb_f4 plane = f->plane;
-    const float support = cull->support, support2 = (1 + MARGIN) * support * support;
-    const float x0 = cull->low[0], y0 = cull->low[1], z0 = cull->low[2];
-    const float x1 = cull->high[0], y1 = cull->high[1], z1 = cull->high[2];
-    const float least = f->edges > 0 || f->both ? -INFINITY : -cull->eps;
-    int32_t *apart = of->apart[facet], *beyond = of->beyond[facet], *whole = of->whole[facet];
-    float *above = of->above[facet];
-#pragma omp simd
-    for (size_t s = 0; s < n; s++) {
-        const float h = plane[0] * of->x[s] + plane[1] * of->y[s] + plane[2] * of->z[s] - plane[3];
-        const float x = of->x[s] - 2 * h * plane[0], y = of->y[s] - 2 * h * plane[1], z = of->z[s] - 2 * h * plane[2];
-        const float dx = x < x0 ? x0 - x : x > x1 ? x - x1 : 0, dy = y < y0 ? y0 - y : y > y1 ? y - y1 : 0;
-        const float dz = z < z0 ? z0 - z : z > z1 ? z - z1 : 0;
-        above[s] = h;
-        apart[s] = -(dx * dx + dy * dy + dz * dz > support2) | -(h < least);
-        beyond[s] = 0;
-        whole[s] = -(h > 0);
+    const sb_f8 nx = sb_splat8(plane[0]), ny = sb_splat8(plane[1]), nz = sb_splat8(plane[2]);
+    const float reach = (1 + MARGIN) * cull->support;
+    const sb_f8 most = sb_splat8(reach), most2 = most * most;
+    const sb_f8 least = sb_splat8(f->edges > 0 || f->both ? -reach : -cull->eps);
+    const sb_f8 infinite = sb_splat8(INFINITY);
+    sb_f8 lowest = infinite, highest = -infinite;
+    for (size_t s = 0; s < padded(of); s += SB_SOURCE_LANES) {
+        const sb_f8 x = eight_of(of->x + s), y = eight_of(of->y + s), z = eight_of(of->z + s);
+        const sb_f8 h = nx * x + ny * y + nz * z - sb_splat8(plane[3]), twice = h + h;
+        const sb_f8 far2 = from_box2(&cull->box, x - twice * nx, y - twice * ny, z - twice * nz);
+        const sb_i8 near = *(sb_i8 *)(of->near + s);
+        *(sb_f8 *)(of->above + s) = h;
+        *(sb_i8 *)(of->apart[facet] + s) = (far2 > most2) | (h < least) | (h > most);
+        *(sb_i8 *)(of->beyond[facet] + s) = (sb_i8){0};
+        *(sb_i8 *)(of->whole[facet] + s) = h > (sb_f8){0};
+        lowest = -larger(-lowest, -sb_select8(near, h, infinite));
+        highest = larger(highest, sb_select8(near, h, -infinite));
     }
+    widen(of, facet, lowest, highest);
 }
 
-void sb_cull_sources(const sb_near *near, const sb_cull *cull, sb_sources *of)
+SB_MULTIVERSION
+static void find_none(sb_sources *of, size_t facet, bool always)
 {
-    for (size_t s = of->count; s % 16 != 0; s++) {
-        of->x[s] = of->x[0];
-        of->y[s] = of->y[0];
-        of->z[s] = of->z[0];
-    }
+    const sb_i8 counts = {-!always, -!always, -!always, -!always, -!always, -!always, -!always, -!always};
+    for (size_t s = 0; s < padded(of); s += SB_SOURCE_LANES)
+        *(sb_i8 *)(of->none + s) &= *(sb_i8 *)(of->apart[facet] + s) | (*(sb_i8 *)(of->beyond[facet] + s) & counts);
+}
+
+/* Whether all of a cell is farther from the facet's plane than the support radius; then no image is near. */
+static bool far_from(const sb_near_facet *f, const sb_cull *cull, size_t facet, sb_sources *of)
+{
+    const float middle = sb_before_facet(f, of->middle);
+    const float half = of->half * (fabsf(f->plane[0]) + fabsf(f->plane[1]) + fabsf(f->plane[2])) + cull->eps;
+    if (fabsf(middle) - half <= (1 + MARGIN) * cull->support) return false;
+    if (middle < of->lowest[facet]) of->lowest[facet] = middle;
+    if (middle > of->highest[facet]) of->highest[facet] = middle;
+    for (size_t s = 0; s < of->count; s++) of->apart[facet][s] = -1, of->beyond[facet][s] = of->whole[facet][s] = 0;
+    return true;
+}
+
+bool sb_cull_sources(const sb_near *near, const sb_cull *cull, sb_sources *of)
+{
+    if (!find_near(cull, of)) return false;
+    bool any = false;
     for (size_t a = 0; a < near->count; a++) {
+        if (far_from(&near->facet[a], cull, a, of)) continue;
+        any = true;
         at_facet(&near->facet[a], cull, a, of);
         if (near->facet[a].edges > 0) at_edges(near, cull, a, of);
+        find_none(of, a, near->skew);
     }
+    return any;
 }

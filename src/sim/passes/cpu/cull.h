@@ -6,7 +6,7 @@
 
 #include "sim/walls/mirrors.h"
 
-enum { SB_SOURCES_MAX = 64 };
+enum { SB_SOURCES_MAX = 64, SB_SOURCE_LANES = 8 };
 
 /* |C| and S of sb_half_angle over the box, by edge. */
 typedef struct sb_edge_bounds {
@@ -15,26 +15,36 @@ typedef struct sb_edge_bounds {
     float s_least;
 } sb_edge_bounds;
 
-/* A group's box; lengths in quanta from its corner. */
-typedef struct sb_cull {
+typedef struct sb_box {
     float low[3], high[3];
-    float support, end, eps; /* end: |C C - S S| at which a transition ends */
+} sb_box;
+
+/* The box of a group's particles; lengths in quanta from its corner. */
+typedef struct sb_cull {
+    sb_box box;
+    float support, end, eps;  /* end: |C C - S S| at which a transition ends */
     bool behind[SB_NEAR_MAX]; /* no particle is before the facet */
     sb_edge_bounds edge[SB_NEAR_EDGES_MAX];
 } sb_cull;
 
-/* Records near a group. By facet: */
+/* Consecutive records of one cell near a group. x, y, z: SB_HIT_SPARE entries beyond the last can be read. By facet: */
 typedef struct sb_sources {
     size_t count;
-    uint32_t candidate[SB_SOURCES_MAX];
-    float x[SB_SOURCES_MAX], y[SB_SOURCES_MAX], z[SB_SOURCES_MAX];
-    float above[SB_NEAR_MAX][SB_SOURCES_MAX];      /* before the plane */
-    int32_t apart[SB_NEAR_MAX][SB_SOURCES_MAX];    /* the image is not near the group, or there is none */
-    int32_t beyond[SB_NEAR_MAX][SB_SOURCES_MAX];   /* paths by this facet have no weight */
-    int32_t whole[SB_NEAR_MAX][SB_SOURCES_MAX];    /* paths from particles before the facet have the weight 1 there */
+    const float *x, *y, *z;
+    sb_f4 middle;                                             /* of the cell */
+    float half;                                               /* of its edge */
+    _Alignas(32) int32_t near[SB_SOURCES_MAX];                /* within the support radius of the group's box */
+    _Alignas(32) int32_t none[SB_SOURCES_MAX];                /* no facet reflects it towards the group */
+    _Alignas(32) float above[SB_SOURCES_MAX];                 /* before the plane of the last facet */
+    _Alignas(32) int32_t apart[SB_NEAR_MAX][SB_SOURCES_MAX];  /* the image is not near the group, or there is none */
+    _Alignas(32) int32_t beyond[SB_NEAR_MAX][SB_SOURCES_MAX]; /* paths by this facet have no weight */
+    _Alignas(32)
+        int32_t whole[SB_NEAR_MAX][SB_SOURCES_MAX];  /* paths from particles before the facet have the weight 1 there */
+    float lowest[SB_NEAR_MAX], highest[SB_NEAR_MAX]; /* distances before the plane of those near the group, so far */
 } sb_sources;
 
 void sb_cull_begin(const sb_sim *sim, const sb_near *near, sb_f4 low, sb_f4 high, sb_cull *cull);
-void sb_cull_sources(const sb_near *near, const sb_cull *cull, sb_sources *of);
+/* Returns false if there is no image at all. */
+bool sb_cull_sources(const sb_near *near, const sb_cull *cull, sb_sources *of);
 
 #endif

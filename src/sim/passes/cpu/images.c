@@ -14,9 +14,6 @@ typedef struct gatherer {
     sb_images_around *images;
     sb_cull *cull;
     sb_sources *sources;
-    float low[3], high[3]; /* of the group's particles */
-    float support2, support, margin;
-    bool before[SB_NEAR_MAX], after[SB_NEAR_MAX]; /* there is water on these sides of facets */
     bool full;
 } gatherer;
 
@@ -30,15 +27,15 @@ typedef struct route {
     bool beyond; /* one of them has no part of it */
 } route;
 
-SB_INLINE bool within(const gatherer *g, sb_f4 at)
+SB_INLINE bool within(const sb_cull *cull, sb_f4 at)
 {
     float far2 = 0;
     for (int axis = 0; axis < 3; axis++) {
-        const float below = g->low[axis] - at[axis], above = at[axis] - g->high[axis];
+        const float below = cull->box.low[axis] - at[axis], above = at[axis] - cull->box.high[axis];
         const float away = below > above ? below : above;
         far2 += away > 0 ? away * away : 0;
     }
-    return far2 < g->support2;
+    return far2 < cull->support * cull->support;
 }
 
 /* Whether a path may go on to facet a. Reflections at right angles can be exchanged, so that one order is enough. */
@@ -61,30 +58,23 @@ static bool square_to_all(const sb_near *near, uint32_t path, size_t a)
 }
 
 /* Notes an image. Returns false if there are too many. */
-static bool add_image(gatherer *g, uint32_t source, const route *to, size_t facet, float above, bool whole)
+static bool add_image(const gatherer *g, uint32_t source, const route *to, bool whole)
 {
     sb_vicinity *v = g->v;
-    sb_images_around *of = g->images;
-    const sb_near_facet *f = &g->near->facet[facet];
     const size_t k = v->images, c = v->count + k;
     if (c >= SB_AROUND_MAX) return false;
     v->x[c] = to->at[0], v->y[c] = to->at[1], v->z[c] = to->at[2];
     v->place[c] = to->at;
-    of->source[k] = source;
-    of->path[k] = to->path;
-    of->whole[k] = whole;
+    g->images->source[k] = source;
+    g->images->path[k] = to->path;
+    g->images->whole[k] = whole;
+    g->images->angles[k] = SB_ANGLES_UNKNOWN;
     v->images++;
-    if (to->depth > 1) return true;
-    of->above[k] = above;
-    if (of->angle_count + f->edges > SB_HALF_ANGLES_MAX) return false;
-    of->angles[k] = (uint32_t)of->angle_count;
-    of->edge[k] = sb_about_edges(g->near, f, v->place[source], above, of->angle + of->angle_count);
-    of->angle_count += f->edges;
     return true;
 }
 
-/* Adds the images of source `s` by the paths that go on from here. */
-static void reflect_all(gatherer *g, size_t s, const route *from)
+/* Adds the images of a source, which is number `s` of those in hand, by the paths that go on from here. */
+static void reflect_all(gatherer *g, uint32_t source, size_t s, const route *from)
 {
     const sb_near *near = g->near;
     const sb_sources *of = g->sources;
@@ -93,7 +83,7 @@ static void reflect_all(gatherer *g, size_t s, const route *from)
         if (of->beyond[a][s] && !near->skew) continue;
         const sb_near_facet *f = &near->facet[a];
         const float above = sb_before_facet(f, from->at);
-        if (fabsf(above) >= g->support) continue;
+        if (fabsf(above) >= g->cull->support) continue;
         const bool soft = f->edges > 0 || f->both;
         const bool square = from->depth == 0 || sb_facets_square(near, from->last, a);
         if (above <= 0 && !(soft && square)) continue;
@@ -104,13 +94,12 @@ static void reflect_all(gatherer *g, size_t s, const route *from)
                           .square = from->square && square_to_all(near, from->path, a),
                           .beyond = from->beyond || of->beyond[a][s]};
         /* Further reflections take an image farther away. */
-        if (!within(g, to.at)) continue;
-        if (!(to.square && to.beyond) &&
-            !add_image(g, of->candidate[s], &to, a, above, from->depth == 0 && of->whole[a][s])) {
+        if (!within(g->cull, to.at)) continue;
+        if (!(to.square && to.beyond) && !add_image(g, source, &to, from->depth == 0 && of->whole[a][s])) {
             g->full = true;
             return;
         }
-        if (to.depth < SB_REFLECTIONS_MAX && near->meeting) reflect_all(g, s, &to);
+        if (to.depth < SB_REFLECTIONS_MAX && near->meeting) reflect_all(g, source, s, &to);
     }
 }
 
@@ -124,117 +113,116 @@ static void find_box(const sb_sim *sim, const sb_group *group, sb_f4 *low, sb_f4
     }
 }
 
-/* On which sides of the facets the sources are, and their images. */
-static void reflect_sources(gatherer *g)
-{
-    sb_near *near = g->near;
-    sb_sources *of = g->sources;
-    const size_t bits = near->count < SB_SIDE_BITS ? near->count : SB_SIDE_BITS;
-    if (of->count == 0) return;
-    sb_cull_sources(near, g->cull, of);
-    for (size_t s = 0; s < of->count; s++) {
-        uint64_t behind = 0;
-        for (size_t a = 0; a < near->count; a++) {
-            g->before[a] |= of->above[a][s] > g->margin;
-            g->after[a] |= of->above[a][s] < -g->margin;
-            if (a < bits) behind |= (uint64_t)(of->above[a][s] <= 0) << a;
-        }
-        g->images->behind[of->candidate[s]] = behind;
-        if (!g->full) reflect_all(g, s, &(route){.at = g->v->place[of->candidate[s]], .square = true});
-    }
-    of->count = 0;
-}
-
-/* The images of candidates [begin, end). */
+/* The images of candidates [begin, end), which are in one cell. */
 static void reflect_cell(gatherer *g, uint32_t begin, uint32_t end)
 {
     const sb_vicinity *v = g->v;
     sb_sources *of = g->sources;
-    for (uint32_t c = begin; c < end; c++) {
-        if (!within(g, v->place[c])) continue;
-        of->x[of->count] = v->x[c], of->y[of->count] = v->y[c], of->z[of->count] = v->z[c];
-        of->candidate[of->count++] = c;
-        if (of->count == SB_SOURCES_MAX) reflect_sources(g);
+    for (; begin < end; begin += (uint32_t)of->count) {
+        of->count = end - begin < SB_SOURCES_MAX ? end - begin : SB_SOURCES_MAX;
+        of->x = v->x + begin, of->y = v->y + begin, of->z = v->z + begin;
+        if (!sb_cull_sources(g->near, g->cull, of)) continue;
+        for (size_t s = 0; s < of->count && !g->full; s++)
+            if (!of->none[s])
+                reflect_all(g, begin + (uint32_t)s, s, &(route){.at = v->place[begin + s], .square = true});
     }
-    reflect_sources(g);
 }
 
-/* Which facets have water on both sides near the group. */
-static void find_parts(const gatherer *g)
+/* Which facets have water on both sides near the group, and, if any have, on which sides of all facets each record
+   is. margin: distance behind a facet that counts. */
+static void find_parts(const gatherer *g, float margin)
 {
     sb_near *near = g->near;
     g->images->parts = 0;
     for (size_t a = 0; a < near->count; a++) {
         sb_near_facet *f = &near->facet[a];
-        f->parts = g->before[a] && g->after[a] && (f->edges > 0 || f->both);
+        f->parts = g->sources->highest[a] > margin && g->sources->lowest[a] < -margin && (f->edges > 0 || f->both);
         near->simple &= !f->parts;
         if (a < SB_SIDE_BITS) g->images->parts |= (uint64_t)f->parts << a;
+    }
+    if (near->simple) return;
+    const size_t bits = near->count < SB_SIDE_BITS ? near->count : SB_SIDE_BITS;
+    for (size_t c = 0; c < g->v->count; c++) {
+        uint64_t behind = 0;
+        for (size_t a = 0; a < bits; a++)
+            behind |= (uint64_t)(sb_before_facet(&near->facet[a], g->v->place[c]) <= 0) << a;
+        g->images->behind[c] = behind;
     }
 }
 
 bool sb_images_gather(const sb_sim *sim, const sb_group *group, sb_vicinity *v, sb_images_around *images)
 {
     sb_f4 low, high;
-    v->images = images->angle_count = 0;
+    v->images = 0;
+    images->angle_count = 0;
     find_box(sim, group, &low, &high);
     sb_near *near = &images->near;
     sb_mirrors_near(sim, group, low, high, near);
     if (near->full) return false;
     if (near->count == 0) return true;
-    const float support = sim->constant.support / (float)sim->space.quantum;
-    gatherer g = {.v = v,
-                  .near = near,
-                  .images = images,
-                  .cull = &images->cull,
-                  .sources = &images->sources,
-                  .low = {low[0], low[1], low[2]},
-                  .high = {high[0], high[1], high[2]},
-                  .support2 = support * support,
-                  .support = support,
-                  .margin = BEHIND * sim->constant.spacing / (float)sim->space.quantum};
-    sb_cull_begin(sim, near, low, high, &images->cull);
-    images->sources.count = 0;
+    gatherer g = {v, near, images, &images->cull, &images->sources, false};
+    sb_cull_begin(sim, near, low, high, g.cull);
+    for (size_t a = 0; a < near->count; a++) g.sources->lowest[a] = INFINITY, g.sources->highest[a] = -INFINITY;
     uint32_t *start = v->start[SB_VICINITY_IMAGES];
     const size_t cells = (size_t)v->cells[0] * v->cells[1] * v->cells[2];
+    const float edge = (float)((int32_t)1 << sim->space.shift);
+    g.sources->half = 0.5f * edge;
     for (size_t cell = 0; cell < cells; cell++) {
+        const float x = (float)(cell % v->cells[0]), y = (float)(cell / v->cells[0] % v->cells[1]);
+        const float z = (float)(cell / v->cells[0] / v->cells[1]);
+        g.sources->middle = ((sb_f4){x, y, z, 0} + sb_splat(0.5f)) * sb_splat(edge);
         start[cell] = (uint32_t)(v->count + v->images);
         for (size_t part = 0; part < v->parts; part++) reflect_cell(&g, v->start[part][cell], v->start[part][cell + 1]);
     }
     start[cells] = (uint32_t)(v->count + v->images);
-    find_parts(&g);
+    find_parts(&g, BEHIND * sim->constant.spacing / (float)sim->space.quantum);
     return !g.full;
 }
 
 /* ---- lists ---- */
 
+/* The groups of four with images in the list of particle i. */
+SB_INLINE sb_four_pairs *image_fours(const sb_sim *sim, const sb_list_builder *lists, size_t i, size_t *count)
+{
+    const sb_lists *pairs = &sim->work.pairs;
+    *count = pairs->count[i] - pairs->direct[i];
+    return lists->four + pairs->first[i] + pairs->direct[i];
+}
+
 /* Numbers the images that lists refer to, in their order. Returns their number. */
-static uint32_t number_images(sb_list_builder *lists, const sb_vicinity *v, sb_images_around *images, size_t fours)
+static uint32_t number_images(const sb_sim *sim, const sb_group *group, const sb_list_builder *lists,
+                              const sb_vicinity *v, sb_images_around *images)
 {
     uint32_t used = 0;
+    size_t fours;
     for (size_t k = 0; k < v->images; k++) images->number[k] = 0;
-    for (size_t f = fours; f < lists->fours; f++)
-        for (int k = 0; k < 4; k++) {
-            const size_t candidate = lists->four[f].place[k] / SB_PLACE_STEP;
+    for (size_t i = group->first; i < group->end; i++) {
+        const sb_four_pairs *four = image_fours(sim, lists, i, &fours);
+        for (size_t k = 0; k < 4 * fours; k++) {
+            const size_t candidate = four[k / 4].place[k % 4] / SB_PLACE_STEP;
             if (candidate >= v->count) images->number[candidate - v->count] = 1;
         }
+    }
     for (size_t k = 0; k < v->images; k++) images->number[k] = images->number[k] ? used++ : UINT32_MAX;
-    for (size_t f = fours; f < lists->fours; f++)
-        for (int k = 0; k < 4; k++) {
-            const size_t candidate = lists->four[f].place[k] / SB_PLACE_STEP;
-            if (candidate >= v->count)
-                lists->four[f].place[k] = (uint16_t)((v->count + images->number[candidate - v->count]) * SB_PLACE_STEP);
+    for (size_t i = group->first; i < group->end; i++) {
+        sb_four_pairs *four = image_fours(sim, lists, i, &fours);
+        for (size_t k = 0; k < 4 * fours; k++) {
+            const size_t candidate = four[k / 4].place[k % 4] / SB_PLACE_STEP;
+            if (candidate < v->count) continue;
+            four[k / 4].place[k % 4] = (uint16_t)((v->count + images->number[candidate - v->count]) * SB_PLACE_STEP);
         }
+    }
     return used;
 }
 
-void sb_list_images(sb_list_builder *lists, const sb_vicinity *v, sb_images_around *images, size_t fours,
+void sb_list_images(const sb_sim *sim, sb_list_builder *lists, const sb_vicinity *v, sb_images_around *images,
                     sb_group *group)
 {
     group->image = (uint32_t)lists->images;
     group->plane = (uint32_t)lists->planes;
     group->images = group->planes = 0;
-    if (v->images == 0) return;
-    const uint32_t used = number_images(lists, v, images, fours);
+    if (v->images == 0 || lists->out_of_memory) return;
+    const uint32_t used = number_images(sim, group, lists, v, images);
     const size_t planes = images->near.count;
     if (sb_grow((void **)&lists->image, &lists->capacity_image, lists->images + used, sizeof *lists->image) != 0 ||
         sb_grow((void **)&lists->plane, &lists->capacity_plane, lists->planes + planes, sizeof *lists->plane) != 0) {

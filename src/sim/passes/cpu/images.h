@@ -30,6 +30,7 @@ typedef struct sb_standing {
 } sb_standing;
 
 enum { SB_WEIGHT_SLOPES_MAX = 4096, SB_HALF_ANGLES_MAX = 131072 };
+#define SB_ANGLES_UNKNOWN UINT32_MAX
 
 /* Images around a group: that of candidate count + k of the vicinity is of candidate source[k]. */
 typedef struct sb_images_around {
@@ -40,12 +41,12 @@ typedef struct sb_images_around {
     uint32_t path[SB_AROUND_MAX + SB_HIT_SPARE];
     bool whole[SB_AROUND_MAX + SB_HIT_SPARE]; /* one reflection, with no edge near its paths */
     /* Of an image by one reflection: the original's distance before the facet, the edge of the facet that it is
-       farthest beyond or nearest to, and where its positions about the facet's edges begin. */
+       farthest beyond or nearest to, and where its positions about the facet's edges begin; known when needed. */
     float above[SB_AROUND_MAX + SB_HIT_SPARE];
     uint32_t edge[SB_AROUND_MAX + SB_HIT_SPARE], angles[SB_AROUND_MAX + SB_HIT_SPARE];
     size_t angle_count;
     sb_half_angle angle[SB_HALF_ANGLES_MAX];
-    uint64_t behind[SB_AROUND_MAX + SB_HIT_SPARE]; /* of a record: the facets that it is behind, as bits */
+    uint64_t behind[SB_AROUND_MAX + SB_HIT_SPARE]; /* of a record, unless near.simple: the facets that it is behind */
     uint64_t parts;                                /* the facets with water on both sides */
     uint32_t number[SB_AROUND_MAX + SB_HIT_SPARE]; /* of the images that lists refer to */
     sb_standing standing;                          /* of the present particle */
@@ -57,12 +58,13 @@ typedef struct sb_images_around {
 bool sb_images_gather(const sb_sim *sim, const sb_group *group, sb_vicinity *v, sb_images_around *images);
 
 /* Weights of paths from the particle at `self` (from the group's corner), as the root of each hit: for hits of
-   particles the part that no wall hides (first, for each particle), for hits of images that of their path. */
+   particles the part that no wall hides (first, for each particle), for hits of images that of their path. The latter
+   have 1 as their roots before, or 0 where no weight is needed. */
 void sb_images_weigh(const sb_sim *sim, const sb_vicinity *v, sb_images_around *images, sb_f4 self, sb_hits *hits);
 void sb_images_weigh_direct(const sb_sim *sim, sb_images_around *images, sb_f4 self, sb_hits *hits);
 
-/* Appends those images that the lists from `fours` on refer to, and their planes, and numbers the references anew. */
-void sb_list_images(sb_list_builder *lists, const sb_vicinity *v, sb_images_around *images, size_t fours,
+/* Appends those images that the lists of the group refer to, and their planes, and numbers the references anew. */
+void sb_list_images(const sb_sim *sim, sb_list_builder *lists, const sb_vicinity *v, sb_images_around *images,
                     sb_group *group);
 
 #endif

@@ -27,15 +27,18 @@ static bool is_hit(const sb_searcher *w, uint32_t candidate)
     return hit < w->hits.count && w->hits.candidate[hit] == candidate;
 }
 
-/* Removes the weight of images whose originals are not within the support radius: paths round an edge, with one end
-   behind the facet, can be shorter than the straight line. */
-static void require_originals(sb_searcher *w, uint32_t self)
+/* Gives the weight 0 to images whose originals are not within the support radius: paths round an edge, with one end
+   behind the facet, can be shorter than the straight line. Returns whether the particle has images of itself. */
+static bool require_originals(sb_searcher *w, uint32_t self)
 {
     sb_hits *h = &w->reflected;
+    bool own = false;
     for (size_t k = 0; k < h->count; k++) {
         const uint32_t source = w->images.source[h->candidate[k] - w->vicinity.count];
-        if (source != self && !is_hit(w, source)) h->root[k] = 0;
+        own |= source == self;
+        h->root[k] = source == self || is_hit(w, source) ? 1 : 0;
     }
+    return own;
 }
 
 /* Adds a pair at an edge: vectors in kg/m^4. Pairs with the same particle by facets of the same body are one: where
@@ -72,11 +75,8 @@ static void close_edges(const sb_sim *sim, sb_searcher *w, sb_list_builder *list
         const uint32_t hit = w->hit_of[e.entry];
         if (e.entry == self)
             r->doubled += e.other;
-        else {
-            w->force_x[hit] += e.other[0];
-            w->force_y[hit] += e.other[1];
-            w->force_z[hit] += e.other[2];
-        }
+        else
+            w->force[hit] += e.other;
         e.entry = entry_of(&w->vicinity, e.entry);
         lists->edge[kept++] = e;
     }
@@ -134,7 +134,7 @@ static sb_f4 image_velocity(const sb_near *near, uint32_t path)
 }
 
 /* The parts of a vector along the normals of a path's planes; see sb_reactions_normal. */
-static sb_f4 normal_part(const sb_near *near, uint32_t path, sb_f4 a)
+SB_INLINE sb_f4 normal_part(const sb_near *near, uint32_t path, sb_f4 a)
 {
     sb_f4 all = {0};
     for (; path; path >>= SB_REFLECTION_BITS) {
@@ -147,56 +147,72 @@ static sb_f4 normal_part(const sb_near *near, uint32_t path, sb_f4 a)
     return all;
 }
 
-/* Removes the hits whose paths have no weight. */
-static void drop_weightless(sb_hits *h, uint32_t pad)
+/* Removes the hits whose paths have no weight, and weighs the others. Returns the sum of their values. */
+static float take_weights(sb_hits *h, uint32_t pad)
 {
     size_t kept = 0;
+    float value = 0;
     for (size_t k = 0; k < h->count; k++) {
+        const float weight = h->root[k];
         h->x[kept] = h->x[k], h->y[kept] = h->y[k], h->z[kept] = h->z[k];
-        h->value[kept] = h->value[k], h->slope[kept] = h->slope[k], h->root[kept] = h->root[k];
         h->candidate[kept] = h->candidate[k];
-        kept += h->root[k] != 0;
+        h->slope[kept] = h->slope[k] * weight;
+        value += h->value[k] * weight;
+        kept += weight != 0;
     }
     h->count = kept;
     h->padded = (kept + SB_HIT_LANES - 1) / SB_HIT_LANES * SB_HIT_LANES;
     for (size_t k = kept; k < h->padded; k++) {
         h->candidate[k] = pad;
-        h->slope[k] = h->root[k] = 0;
+        h->slope[k] = 0;
     }
+    return value;
+}
+
+/* A vector at an image, reflected back to its original. */
+SB_INLINE sb_f4 reflect_back(const sb_near *near, uint32_t path, sb_f4 v)
+{
+    if (path <= SB_REFLECTION_MASK) return sb_reflect_vector(near->facet[path - 1].plane, v);
+    for (int n = SB_REFLECTIONS_MAX; n-- > 0;) {
+        const uint32_t plane = path >> (SB_REFLECTION_BITS * n) & SB_REFLECTION_MASK;
+        if (plane) v = sb_reflect_vector(near->facet[plane - 1].plane, v);
+    }
+    return v;
 }
 
 /* Adds the hits of images. The forces on neighbours by the pressure of i are summed by neighbour. */
 static void reflected_sums(const sb_sim *sim, sb_searcher *w, sb_f4 self_place, uint32_t self, sb_reflections *r)
 {
-    sb_hits *h = &w->reflected;
+    const sb_hits *h = &w->reflected;
     const sb_near *near = &w->images.near;
-    float value = 0;
+    const float unit = sim->work.pairs.unit, hydrostatic = sb_hydrostatic(sim);
+    sb_f4 sum = r->gradient, push = r->push;
     for (size_t k = 0; k < h->count; k++) {
-        value += h->value[k] * h->root[k];
-        h->slope[k] *= h->root[k];
+        const uint32_t image = h->candidate[k] - (uint32_t)w->vicinity.count;
+        const uint32_t source = w->images.source[image], path = w->images.path[image];
+        const sb_f4 offset = self_place - w->vicinity.place[h->candidate[k]];
+        const sb_f4 gradient = offset * sb_splat(h->slope[k] * unit);
+        sum += gradient;
+        if (source == self)
+            r->doubled += gradient;
+        else
+            w->force[w->hit_of[source]] += reflect_back(near, path, -gradient);
+        const float head = w->vicinity.place[source][2] - (self_place[2] - offset[2]);
+        if (head != 0) push -= normal_part(near, path, gradient * sb_splat(hydrostatic * head));
+        if (near->moves) r->flux += sb_sum3(gradient * image_velocity(near, path));
     }
-    r->density = sim->constant.mass * w->value_scale * value;
-    sb_round_slopes(h->slope, h->root, h->padded, w->to_units);
+    r->gradient = sum;
+    r->push = push;
+}
+
+/* Notes the hits of particles, and the force on each by the pressure of the present particle. */
+static void note_direct(sb_searcher *w, sb_f4 self, float unit)
+{
+    const sb_hits *h = &w->hits;
     for (size_t k = 0; k < h->count; k++) {
-        const uint32_t image = h->candidate[k] - (uint32_t)w->vicinity.count, source = w->images.source[image];
-        const sb_f4 gradient = (sb_f4){h->x[k], h->y[k], h->z[k], 0} * sb_splat(h->slope[k] * sim->work.pairs.unit);
-        r->gradient += gradient;
-        if (source == self) r->doubled += gradient;
-        sb_f4 back = -gradient; /* reflected back, from the image to the neighbour */
-        for (uint32_t path = w->images.path[image], n = SB_REFLECTIONS_MAX; n-- > 0;) {
-            const uint32_t plane = path >> (SB_REFLECTION_BITS * n) & SB_REFLECTION_MASK;
-            if (plane) back = sb_reflect_vector(near->facet[plane - 1].plane, back);
-        }
-        const uint32_t hit = w->hit_of[source];
-        if (source != self) {
-            w->force_x[hit] += back[0];
-            w->force_y[hit] += back[1];
-            w->force_z[hit] += back[2];
-        }
-        const float head = w->vicinity.place[source][2] - (self_place[2] - h->z[k]);
-        if (head != 0)
-            r->push -= normal_part(near, w->images.path[image], gradient * sb_splat(sb_hydrostatic(sim) * head));
-        if (near->moves) r->flux += sb_sum3(gradient * image_velocity(near, w->images.path[image]));
+        w->hit_of[h->candidate[k]] = (uint32_t)k;
+        w->edge_of[k] = SIZE_MAX;
+        w->force[k] = (self - w->vicinity.place[h->candidate[k]]) * sb_splat(-unit * h->slope[k] * h->root[k]);
     }
 }
 
@@ -208,33 +224,28 @@ sb_reflections sb_search_images(const sb_sim *sim, sb_searcher *w, sb_list_build
     const size_t ranges = sb_vicinity_candidates(sim, v, SB_VICINITY_IMAGES, SB_VICINITY_IMAGES + 1, self, range);
     sb_hits *h = &w->hits, *r = &w->reflected;
     sb_reflections sums = {0};
-    const float unit = sim->constant.mass * w->slope_scale;
     w->edges = lists->edges;
     w->edge_own = SIZE_MAX;
-    for (size_t k = 0; k < h->count; k++) {
-        const float slope = -unit * h->slope[k] * h->root[k];
-        w->hit_of[h->candidate[k]] = (uint32_t)k;
-        w->edge_of[k] = SIZE_MAX;
-        w->force_x[k] = slope * h->x[k];
-        w->force_y[k] = slope * h->y[k];
-        w->force_z[k] = slope * h->z[k];
-    }
+    note_direct(w, self, sim->constant.mass * w->slope_scale);
     add_edges(sim, w, lists, candidate, 0, h, &sums);
     const size_t direct = w->images.slopes;
     sb_search_hits(w, r, &(sb_candidates){v->x, v->y, v->z, v->place}, range, ranges, self, UINT32_MAX, candidate);
     w->batch(w->kernel, r->q2, r->padded, r->value, r->slope);
+    const bool own = require_originals(w, candidate);
     sb_images_weigh(sim, v, &w->images, self, r);
-    require_originals(w, candidate);
-    repel(sim, w, lists, candidate, &sums);
+    if (own) repel(sim, w, lists, candidate, &sums);
     add_edges(sim, w, lists, candidate, direct, r, &sums);
     close_edges(sim, w, lists, candidate, &sums);
-    drop_weightless(r, candidate);
+    sums.density = sim->constant.mass * w->value_scale * take_weights(r, candidate);
     if (r->count >= SB_LIST_MAX) w->full |= SB_FULL_LIST;
+    sb_round_slopes(r->slope, r->root, r->padded, w->to_units);
     reflected_sums(sim, w, self, candidate, &sums);
+    float squares = 0;
     for (size_t k = 0; k < h->count; k++) {
-        sums.squares += w->force_x[k] * w->force_x[k] + w->force_y[k] * w->force_y[k] + w->force_z[k] * w->force_z[k];
+        squares += sb_sum3(w->force[k] * w->force[k]);
         h->value[k] *= h->root[k];
         h->slope[k] *= h->root[k];
     }
+    sums.squares = squares;
     return sums;
 }

@@ -23,7 +23,7 @@ typedef struct sb_searcher {
     sb_surroundings wall;
     sb_hits hits, reflected;
     sb_images_around images;
-    float force_x[SB_HITS_MAX + SB_HIT_SPARE], force_y[SB_HITS_MAX + SB_HIT_SPARE], force_z[SB_HITS_MAX + SB_HIT_SPARE];
+    sb_f4 force[SB_HITS_MAX]; /* on each hit, by the pressure of the present particle */
     size_t edges, edge_own, edge_of[SB_HITS_MAX + SB_HIT_SPARE]; /* pairs at edges of the present particle: the first,
                                                                     and those with itself and with each hit */
     uint32_t hit_of[SB_AROUND_MAX]; /* candidate -> its hit; valid where that hit is this candidate */

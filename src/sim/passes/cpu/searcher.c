@@ -205,9 +205,8 @@ unsigned sb_search_group(sb_sim *sim, void *of, sb_list_builder *lists, sb_group
     if (w->vicinity.count > SB_AROUND_MAX) return SB_FULL_AROUND;
     if (sim->needs.images && !sb_images_gather(sim, group, &w->vicinity, &w->images)) return SB_FULL_FACETS;
     sb_list_runs(lists, &w->vicinity, group);
-    const size_t fours = lists->fours;
     search_group(sim, w, lists, group);
-    sb_list_images(lists, &w->vicinity, &w->images, fours, group);
+    sb_list_images(sim, lists, &w->vicinity, &w->images, group);
     return w->full;
 }
 

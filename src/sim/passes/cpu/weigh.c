@@ -60,43 +60,65 @@ SB_INLINE bool plain(const sb_weigher *w, size_t a, float hj, const sb_half_angl
     return inner;
 }
 
+/* Makes room for positions about edges. */
+static size_t forget_angles(sb_images_around *images)
+{
+    for (size_t k = 0; k < SB_AROUND_MAX; k++) images->angles[k] = SB_ANGLES_UNKNOWN;
+    return 0;
+}
+
+/* The original of an image by one reflection at facet a. */
+SB_INLINE sb_other_end other_end(sb_images_around *of, size_t image, size_t a, sb_f4 source)
+{
+    const sb_near *near = &of->near;
+    const sb_near_facet *f = &near->facet[a];
+    if (of->angles[image] == SB_ANGLES_UNKNOWN) {
+        if (of->angle_count + f->edges > SB_HALF_ANGLES_MAX) of->angle_count = forget_angles(of);
+        of->angles[image] = (uint32_t)of->angle_count;
+        of->above[image] = sb_before_facet(f, source);
+        of->edge[image] = sb_about_edges(near, f, source, of->above[image], of->angle + of->angle_count);
+        of->angle_count += f->edges;
+    }
+    return (sb_other_end){of->above[image], of->edge[image], of->angle + of->angles[image]};
+}
+
 /* Weight of a path by one reflection at facet a. */
-static void weigh_single(const sb_images_around *images, const sb_weigher *w, uint32_t image, size_t a, sb_f4 source,
-                         sb_f4 place, sb_weight_parts *all)
+static void weigh_single(sb_images_around *images, const sb_weigher *w, uint32_t image, size_t a, sb_f4 source,
+                         sb_f4 place, sb_hits *hits, size_t k)
 {
     const sb_near *near = w->near;
+    const bool apart = near->simple || (!near->oblique && same_sides(images, w, image));
+    bool known = images->whole[image] && w->at->above[a] > 0;
+    if (known && apart) return;
+    const sb_other_end j = other_end(images, image, a, source);
+    if (!known) known = plain(w, a, j.above, j.angle, &hits->root[k]);
+    if (known && (hits->root[k] == 0 || apart)) return;
     bool meets = true;
-    const sb_other_end j = {images->above[image], images->edge[image], images->angle + images->angles[image]};
-    *all = (sb_weight_parts){.value = 1};
-    sb_take_part(all, a, sb_at_facet(w, a, j, &meets));
-    if (all->value < SB_WEIGHT_LEAST || near->simple || (!near->oblique && same_sides(images, w, image))) return;
-    sb_finish_path(w, &a, 1, source, place, meets, all);
+    sb_weight_parts all = {.value = 1};
+    sb_take_part(&all, a, sb_at_facet(w, a, j, &meets));
+    if (all.value >= SB_WEIGHT_LEAST && !apart) sb_finish_path(w, &a, 1, source, place, meets, &all);
+    set_weight(images, &all, hits, k, false);
 }
 
 void sb_images_weigh(const sb_sim *sim, const sb_vicinity *v, sb_images_around *images, sb_f4 self, sb_hits *hits)
 {
     const sb_near *near = &images->near;
-    for (size_t k = 0; k < hits->count; k++) hits->root[k] = 1;
     if (near->simple && near->edge_count == 0) return;
     const sb_weigher w = weigher_of(sim, images, self); /* it stands where weigh_direct has put it */
     for (size_t k = 0; k < hits->count; k++) {
+        if (hits->root[k] == 0) continue;
         const uint32_t image = hits->candidate[k] - (uint32_t)v->count, path = images->path[image];
         const sb_f4 place = self - (sb_f4){hits->x[k], hits->y[k], hits->z[k], 0};
         const sb_f4 source = v->place[images->source[image]];
-        sb_weight_parts all;
         if (path <= SB_REFLECTION_MASK) {
-            const bool known =
-                (images->whole[image] && w.at->above[path - 1] > 0) ||
-                plain(&w, path - 1, images->above[image], images->angle + images->angles[image], &hits->root[k]);
-            if (known && (hits->root[k] == 0 || near->simple || (!near->oblique && same_sides(images, &w, image))))
-                continue;
-            weigh_single(images, &w, image, path - 1, source, place, &all);
-        } else {
-            size_t by[SB_REFLECTIONS_MAX];
-            int count = 0;
-            for (uint32_t rest = path; rest; rest >>= SB_REFLECTION_BITS) by[count++] = (rest & SB_REFLECTION_MASK) - 1;
-            sb_path_weight(&w, by, count, source, place, &all);
+            weigh_single(images, &w, image, path - 1, source, place, hits, k);
+            continue;
         }
+        sb_weight_parts all;
+        size_t by[SB_REFLECTIONS_MAX];
+        int count = 0;
+        for (uint32_t rest = path; rest; rest >>= SB_REFLECTION_BITS) by[count++] = (rest & SB_REFLECTION_MASK) - 1;
+        sb_path_weight(&w, by, count, source, place, &all);
         set_weight(images, &all, hits, k, false);
     }
 }
