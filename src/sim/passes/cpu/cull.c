@@ -1,9 +1,7 @@
 #include "sim/passes/cpu/cull.h"
 
+#include "sim/passes/cpu/edges.h"
 #include "sim/passes/cpu/eights.h"
-#include "sim/passes/cpu/path_weights.h"
-
-#include <math.h>
 
 /* Of what is compared with bounds, so that round-off does not remove a path: parts of a length, and of a support
    radius. */

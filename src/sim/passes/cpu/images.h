@@ -4,6 +4,7 @@
 #define SB_SIM_CPU_IMAGES_H
 
 #include "sim/passes/cpu/cull.h"
+#include "sim/passes/cpu/edges.h"
 #include "sim/passes/cpu/lists.h"
 #include "sim/walls/mirrors.h"
 
@@ -14,12 +15,6 @@ typedef struct sb_weight_slope {
     uint32_t hit, facet;
     bool direct;
 } sb_weight_slope;
-
-/* A position about an edge: o in the facet's plane from the edge's line, h from the plane, rho from the line. C + iS =
-   sqrt(o + ih), on the two sheets of a half plane. */
-typedef struct sb_half_angle {
-    float c, s, rho;
-} sb_half_angle;
 
 /* A particle's place relative to the facets and their edges. */
 typedef struct sb_standing {

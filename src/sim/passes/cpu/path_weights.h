@@ -6,43 +6,15 @@
 #include "sim/passes/cpu/images.h"
 #include "sim/search/around.h"
 
-#include <math.h>
-
-/* Width of the transition at an edge, in spacings: with it a lattice round an edge of 90 degrees has the density of the
-   bulk (docs/method.md). */
-static const float SB_TRANSITION = 0.35f;
-
-/* In widths: where the transition has ended. */
-static const float SB_TRANSITION_ENDS = 3.5f;
-
 /* Smaller weights are 0. */
 static const float SB_WEIGHT_LEAST = 1e-4f;
 
 enum { SB_SIDE_BITS = 64 }; /* facets whose sides are known as bits */
 
-/* Distance before a facet's plane, within the line of one of its edges; quanta. */
-SB_INLINE float sb_before_facet(const sb_near_facet *f, sb_f4 at)
-{
-    return sb_sum3(f->plane * at) - f->plane[3];
-}
-
-SB_INLINE float sb_within_edge(const sb_near_edge *e, sb_f4 at)
-{
-    return sb_sum3(e->inward * at) - e->inward[3];
-}
-
 /* Whether two facets stand at right angles. */
 SB_INLINE bool sb_facets_square(const sb_near *near, size_t a, size_t b)
 {
     return fabsf(sb_sum3(near->facet[a].plane * near->facet[b].plane)) < 1e-3f;
-}
-
-SB_INLINE sb_half_angle sb_half_angle_of(float o, float h)
-{
-    const float rho = sqrtf(o * o + h * h);
-    const float c2 = 0.5f * (rho + o), s2 = 0.5f * (rho - o);
-    const float c = c2 > 0 ? sqrtf(c2) : 0, s = s2 > 0 ? sqrtf(s2) : 0;
-    return (sb_half_angle){h < 0 ? -c : c, s, rho};
 }
 
 /* The positions about the edges of facet f of a particle at the distance `above` before it. Returns the edge that it is

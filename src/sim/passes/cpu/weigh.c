@@ -108,6 +108,7 @@ void sb_images_weigh(const sb_sim *sim, const sb_vicinity *v, sb_images_around *
     for (size_t k = 0; k < hits->count; k++) {
         if (hits->root[k] == 0) continue;
         const uint32_t image = hits->candidate[k] - (uint32_t)v->count, path = images->path[image];
+        if (near->simple && images->whole[image] && w.at->above[path - 1] > 0) continue; /* most */
         const sb_f4 place = self - (sb_f4){hits->x[k], hits->y[k], hits->z[k], 0};
         const sb_f4 source = v->place[images->source[image]];
         if (path <= SB_REFLECTION_MASK) {

@@ -1,0 +1,41 @@
+/* Positions relative to facets and their edges. */
+#ifndef SB_SIM_CPU_EDGES_H
+#define SB_SIM_CPU_EDGES_H
+
+#include "sim/walls/mirrors.h"
+
+#include <math.h>
+
+/* Width of the transition at an edge, in spacings: with it a lattice round an edge of 90 degrees has the density of the
+   bulk (docs/method.md). */
+static const float SB_TRANSITION = 0.35f;
+
+/* In widths: where the transition has ended. */
+static const float SB_TRANSITION_ENDS = 3.5f;
+
+/* Distance before a facet's plane, within the line of one of its edges; quanta. */
+SB_INLINE float sb_before_facet(const sb_near_facet *f, sb_f4 at)
+{
+    return sb_sum3(f->plane * at) - f->plane[3];
+}
+
+SB_INLINE float sb_within_edge(const sb_near_edge *e, sb_f4 at)
+{
+    return sb_sum3(e->inward * at) - e->inward[3];
+}
+
+/* A position about an edge: o in the facet's plane from the edge's line, h from the plane, rho from the line. C + iS =
+   sqrt(o + ih), on the two sheets of a half plane. */
+typedef struct sb_half_angle {
+    float c, s, rho;
+} sb_half_angle;
+
+SB_INLINE sb_half_angle sb_half_angle_of(float o, float h)
+{
+    const float rho = sqrtf(o * o + h * h);
+    const float c2 = 0.5f * (rho + o), s2 = 0.5f * (rho - o);
+    const float c = c2 > 0 ? sqrtf(c2) : 0, s = s2 > 0 ? sqrtf(s2) : 0;
+    return (sb_half_angle){h < 0 ? -c : c, s, rho};
+}
+
+#endif
