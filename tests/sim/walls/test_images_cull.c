@@ -1,0 +1,119 @@
+/* Tests which images are left out before they are candidates: for facets, groups of particles and sources at random, a
+   reflection that is left out has no weight for any particle of the group, and one that is known as whole has the
+   weight 1. */
+#include "base/random.h"
+#include "check.h"
+#include "sim/passes/cpu/path_weights.h"
+
+#include <stdio.h>
+
+enum { TRIALS = 4000, PARTICLES = 40 };
+
+static sb_near near;
+static sb_cull cull;
+static sb_sources sources;
+static sb_standing standing;
+static float x[2 * SB_SOURCES_MAX], y[2 * SB_SOURCES_MAX], z[2 * SB_SOURCES_MAX];
+static const float SPACING = 1000, SUPPORT = 2750, EDGE = 2750;
+static uint64_t draws;
+
+/* In [from, to). */
+static float draw(float from, float to)
+{
+    return from + (to - from) * (float)sb_random(5, draws++);
+}
+
+static sb_f4 unit(sb_f4 v)
+{
+    return v * sb_splat(1 / sqrtf(sb_sum3(v * v)));
+}
+
+static sb_f4 across(sb_f4 a, sb_f4 b)
+{
+    return (sb_f4){a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0};
+}
+
+/* One facet through a point near the group, with up to four edges that surround some place in its plane. */
+static void make_facet(void)
+{
+    const sb_f4 level = {0, 0, 1, 0}, any = {draw(-1, 1), draw(-1, 1), draw(-1, 1), 0};
+    const sb_f4 n = draws % 3 == 0 ? level : unit(any), u = unit(across(n, (sb_f4){0.3f, 0.8f, 0.5f, 0}));
+    const sb_f4 v = across(n, u), at = {draw(0, 4 * EDGE), draw(0, 4 * EDGE), draw(EDGE, 3 * EDGE), 0};
+    const sb_f4 inward[4] = {u, v, -u, -v};
+    near.count = 1;
+    near.edge_count = (size_t)draw(0, 4.99f);
+    near.facet[0] = (sb_near_facet){.plane = n, .edges = (uint32_t)near.edge_count, .both = draw(0, 1) < 0.3f};
+    near.facet[0].plane[3] = sb_sum3(n * at);
+    for (size_t k = 0; k < near.edge_count; k++) {
+        near.edges[k] = (sb_near_edge){inward[k], SB_BEND_CONVEX};
+        near.edges[k].inward[3] = sb_sum3(inward[k] * at) - draw(0, 3 * SPACING);
+    }
+}
+
+static sb_f4 particle(sb_f4 low, sb_f4 high)
+{
+    return (sb_f4){draw(low[0], high[0]), draw(low[1], high[1]), draw(low[2], high[2]), 0};
+}
+
+/* The weight of the path between two places by the facet. */
+static float weight(sb_f4 self, sb_f4 source)
+{
+    const sb_near_facet *f = &near.facet[0];
+    const sb_weigher w = {&near, self, SB_TRANSITION * SPACING, 1e-3f * SPACING, &standing};
+    sb_half_angle angle[4];
+    bool meets = true;
+    standing.above[0] = sb_before_facet(f, self);
+    standing.edge[0] = sb_about_edges(&near, f, self, standing.above[0], standing.angle);
+    const float above = sb_before_facet(f, source);
+    const sb_other_end j = {above, sb_about_edges(&near, f, source, above, angle), angle};
+    return sb_at_facet(&w, 0, j, &meets).value;
+}
+
+static void what_is_left_out_has_no_weight(void **state)
+{
+    (void)state;
+    static sb_sim sim;
+    sim.constant.spacing = SPACING;
+    sim.constant.support = SUPPORT;
+    sim.space.quantum = 1;
+    size_t beyond = 0, whole = 0, weighed = 0, pairs = 0;
+    for (int trial = 0; trial < TRIALS; trial++) {
+        make_facet();
+        const sb_f4 low = {EDGE + draw(0, EDGE), EDGE + draw(0, EDGE), EDGE + draw(0, EDGE), 0};
+        const sb_f4 high = low + (sb_f4){draw(0, EDGE), draw(0, EDGE), draw(0, EDGE), 0};
+        sources = (sb_sources){.count = 1 + (size_t)draw(0, 40), .x = x, .y = y, .z = z, .half = 0.5f * EDGE};
+        sources.lowest[0] = INFINITY, sources.highest[0] = -INFINITY;
+        const sb_f4 cell = {EDGE * floorf(draw(0, 4)), EDGE * floorf(draw(0, 4)), EDGE * floorf(draw(0, 4)), 0};
+        sources.middle = cell + (sb_f4){0.5f, 0.5f, 0.5f, 0} * sb_splat(EDGE);
+        for (size_t s = 0; s < sources.count; s++)
+            x[s] = cell[0] + draw(0, EDGE), y[s] = cell[1] + draw(0, EDGE), z[s] = cell[2] + draw(0, EDGE);
+        sb_cull_begin(&sim, &near, low, high, &cull);
+        const bool any = sb_cull_sources(&near, &cull, &sources);
+        for (size_t s = 0; s < sources.count; s++) {
+            const sb_f4 source = {x[s], y[s], z[s], 0};
+            const bool none = !any || sources.none[s];
+            for (int p = 0; p < PARTICLES; p++) {
+                const sb_f4 self = particle(low, high);
+                const sb_f4 path = self - sb_reflect(near.facet[0].plane, source), way = self - source;
+                if (sb_sum3(path * path) >= SUPPORT * SUPPORT || sb_sum3(way * way) >= SUPPORT * SUPPORT) continue;
+                const float value = weight(self, source);
+                pairs++;
+                weighed += value > 0;
+                beyond += none;
+                if (none) assert_true(value == 0);
+                if (none || !sources.whole[0][s] || !(standing.above[0] > 0)) continue;
+                whole++;
+                assert_true(value == 1);
+            }
+        }
+    }
+    printf("%zu pairs: %zu have weight, %zu were left out, %zu were known as whole\n", pairs, weighed, beyond, whole);
+    assert_true(beyond > (pairs - weighed) / 4);
+    assert_true(whole > weighed / 10);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_left_out_has_no_weight)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
