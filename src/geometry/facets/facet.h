@@ -10,9 +10,10 @@
 
 /* How the surface goes on beyond an edge of a facet, seen from the water. */
 typedef enum sb_bend {
-    SB_BEND_SOFT,   /* another facet, bent by less than 45 degrees */
-    SB_BEND_CONVEX, /* it turns away by more, or ends: water sees round the edge */
-    SB_BEND_CONCAVE /* it turns towards the water by more, or the domain ends: water sees no edge */
+    SB_BEND_SOFT,    /* another facet, turned away from the water by less than 45 degrees, or not at all */
+    SB_BEND_HOLLOW,  /* another facet, turned towards the water by less than 45 degrees */
+    SB_BEND_CONVEX,  /* it turns away by more, or ends: water sees round the edge */
+    SB_BEND_CONCAVE, /* it turns towards the water by more, or the domain ends: water sees no edge */
 } sb_bend;
 
 typedef struct sb_facet_edge {

@@ -1,5 +1,6 @@
 /* Facets of a model: their outlines, what lies behind their edges, and which of them water can meet. */
 #include "base/memory.h"
+#include "geometry/facets/cuts.h"
 #include "geometry/facets/outlines.h"
 #include "geometry/model/parts.h"
 #include "geometry/solid/solid.h"
@@ -7,14 +8,17 @@
 #include <math.h>
 
 /* In spacings. TOUCHES: surfaces as near as this touch. BEFORE: distance before a facet at which it is tested whether
-   the facet is hidden. */
-static const double TOUCHES = 1e-3, BEFORE = 0.02;
+   the facet is hidden. CUT: shorter lines in which facets of two bodies cross do not count. */
+static const double TOUCHES = 1e-3, BEFORE = 0.02, CUT = 0.02;
 
 /* Sine of the angle up to which edges are on one line. */
 static const double STRAIGHT = 1e-6;
 
 /* Most points along one axis at which it is tested whether a facet is hidden. */
 enum { SAMPLES_MAX = 64 };
+
+/* Sine of the bend up to which a surface is flat. */
+static const double FLAT = 1e-4;
 
 /* Cosine of the bend above which water sees an edge: 45 degrees. */
 static const double BENT = 0.7071;
@@ -25,6 +29,7 @@ typedef struct builder {
     const sb_model_space *space;
     double spacing;
     bool *plate;                 /* by body: water may be on both sides of its surface */
+    sb_outlines *of_body;        /* by body; the domain's sides have none */
     const sb_outlines *outlines; /* of the present body */
     const bool *kept;            /* of them, those that are not hidden */
     sb_facets *out;
@@ -81,8 +86,9 @@ static bool counts(const void *context, sb_vec3 nearest, sb_vec3 normal)
 
 static sb_bend bend_of(sb_vec3 normal, sb_vec3 inward, sb_vec3 other)
 {
-    if (sb_dot(normal, other) >= BENT) return SB_BEND_SOFT;
-    return sb_dot(other, inward) > 0 ? SB_BEND_CONCAVE : SB_BEND_CONVEX;
+    const double towards = sb_dot(other, inward);
+    if (sb_dot(normal, other) >= BENT) return towards > FLAT ? SB_BEND_HOLLOW : SB_BEND_SOFT;
+    return towards > 0 ? SB_BEND_CONCAVE : SB_BEND_CONVEX;
 }
 
 /* Whether a body fills the corner between a facet and what stands at its edge. A plate fills nothing. */
@@ -144,10 +150,10 @@ static bool goes_on(const builder *b, size_t self, sb_vec3 at)
 static sb_bend find_bend(const builder *b, size_t self, const sb_facet *facet, const sb_facet_edge *edge)
 {
     const sb_vec3 at = sb_scale(sb_add(edge->from, edge->to), 0.5);
-    bool soft = false;
+    sb_bend found = SB_BEND_CONVEX;
     for (int side = 0; side < SB_SIDES; side++)
         if (is_wall(b, side) && from_side(b, side, at) < TOUCHES * b->spacing &&
-            sb_dot(side_normal(side), edge->inward) > 0)
+            sb_dot(side_normal(side), edge->inward) > FLAT)
             return SB_BEND_CONCAVE;
     for (size_t body = 0; body < b->model->body_count; body++) {
         if (!has_mesh(b, body) || !b->space->solid[body]) continue;
@@ -157,9 +163,9 @@ static sb_bend find_bend(const builder *b, size_t self, const sb_facet *facet, c
             bend = SB_BEND_CONCAVE;
         }
         if (bend == SB_BEND_CONCAVE) return body != facet->body && goes_on(b, self, at) ? SB_BEND_SOFT : bend;
-        soft |= bend == SB_BEND_SOFT;
+        if (bend == SB_BEND_HOLLOW || (bend == SB_BEND_SOFT && found == SB_BEND_CONVEX)) found = bend;
     }
-    return soft ? SB_BEND_SOFT : SB_BEND_CONVEX;
+    return found;
 }
 
 /* ---- facets ---- */
@@ -290,23 +296,44 @@ static int find_plates(builder *b)
     return 0;
 }
 
+/* Whether a body's surface cuts those of others: closed bodies and terrains that do not move. */
+static bool cuts(const builder *b, size_t body)
+{
+    return has_mesh(b, body) && !b->plate[body] && b->model->bodies[body].wavemaker < 0;
+}
+
+/* Finds the outlines of all bodies. Where surfaces of two bodies meet at less than 45 degrees, they are one bent
+   surface: its facets end at the line in which they meet. */
+static int find_outlines(builder *b)
+{
+    const size_t bodies = b->model->body_count;
+    b->of_body = sb_alloc(bodies, sizeof *b->of_body);
+    int status = b->of_body ? 0 : -1;
+    for (size_t k = 0; k < bodies && status == 0; k++)
+        if (has_mesh(b, k))
+            status = b->model->dimensions == 2 ? sb_outlines_of_section(b->space->mesh[k], b->spacing, &b->of_body[k])
+                                               : sb_outlines_of_mesh(b->space->mesh[k], &b->of_body[k]);
+    for (size_t k = 0; k < bodies && status == 0; k++)
+        for (size_t by = 0; by < bodies && status == 0; by++)
+            if (by != k && cuts(b, k) && cuts(b, by))
+                status = sb_outlines_cut(&b->of_body[k], &b->of_body[by], BENT, CUT * b->spacing);
+    return status;
+}
+
 static int add_body(builder *b, size_t body)
 {
-    sb_outlines outlines = {0};
-    int status = b->model->dimensions == 2 ? sb_outlines_of_section(b->space->mesh[body], b->spacing, &outlines)
-                                           : sb_outlines_of_mesh(b->space->mesh[body], &outlines);
-    bool *kept = sb_alloc(outlines.count, sizeof *kept);
-    if (!kept) status = -1;
-    for (size_t k = 0; k < outlines.count && status == 0; k++) {
-        const sb_outline *o = &outlines.outline[k];
+    const sb_outlines *outlines = &b->of_body[body];
+    bool *kept = sb_alloc(outlines->count, sizeof *kept);
+    int status = kept ? 0 : -1;
+    for (size_t k = 0; k < outlines->count && status == 0; k++) {
+        const sb_outline *o = &outlines->outline[k];
         kept[k] = !hidden(b, o, body, o->normal) || (b->plate[body] && !hidden(b, o, body, sb_scale(o->normal, -1)));
     }
-    b->outlines = &outlines;
+    b->outlines = outlines;
     b->kept = kept;
-    for (size_t k = 0; k < outlines.count && status == 0; k++)
+    for (size_t k = 0; k < outlines->count && status == 0; k++)
         if (kept[k]) status = add(b, k, body);
     sb_free(kept);
-    sb_outlines_free(&outlines);
     return status;
 }
 
@@ -327,8 +354,11 @@ sb_status sb_model_facets(const sb_scene *scene, const sb_model_space *space, sb
     if (scene->numerics.walls != SB_WALLS_IMAGES) return SB_OK;
     builder b = {.scene = scene, .model = model, .space = space, .spacing = model->spacing, .out = &model->facets};
     int status = find_plates(&b);
+    if (status == 0) status = find_outlines(&b);
     for (size_t k = 0; k < model->body_count && status == 0; k++)
         status = has_mesh(&b, k) ? add_body(&b, k) : add_sides(&b, k);
+    for (size_t k = 0; k < model->body_count && b.of_body; k++) sb_outlines_free(&b.of_body[k]);
+    sb_free(b.of_body);
     sb_free(b.plate);
     return status == 0 ? SB_OK : sb_fail_memory(error, "facets of walls");
 }

@@ -4,19 +4,26 @@
 #include <math.h>
 
 /* In spacings. NEAREST: water in motion may come as near to a facet as this; at rest images hold it farther away.
-   PASSED: a particle this far behind a facet has come from elsewhere. */
-static const float NEAREST = 0.1f, PASSED = 0.2f;
+   PASSED: a particle this far behind a facet has come from elsewhere. BEYOND: behind both facets of an edge that turns
+   towards the water, a particle may be beyond both; so far each facet counts as longer there. */
+static const float NEAREST = 0.1f, PASSED = 0.2f, BEYOND = 0.3f;
+
+static bool turns_to_water(sb_bend bend)
+{
+    return bend == SB_BEND_HOLLOW || bend == SB_BEND_CONCAVE;
+}
 
 /* Whether the foot of the perpendicular from `at` (quanta) lies within the facet. */
 static bool above_facet(const sb_sim *sim, const sb_mirror *mirror, sb_vec3 at)
 {
+    const double beyond = (double)(BEYOND * sim->constant.spacing) / sim->space.quantum;
     if (mirror->moving != UINT32_MAX) {
         const sb_moving_body *body = &sim->walls.moving[mirror->moving];
         at = sb_madd(at, -body->displacement / sim->space.quantum, body->direction);
     }
     for (uint32_t k = mirror->edge; k < mirror->edge + mirror->edges; k++) {
         const sb_mirror_edge *e = &sim->walls.mirrors.edge[k];
-        if (sb_dot(e->inward, at) < e->distance) return false;
+        if (sb_dot(e->inward, at) < e->distance - (turns_to_water(e->bend) ? beyond : 0)) return false;
     }
     return true;
 }

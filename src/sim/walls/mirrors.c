@@ -200,7 +200,7 @@ typedef struct box {
     double radius;                /* of a ball around the middle that contains all within a support radius */
 } box;
 
-/* Adds the soft and convex edges near the group. Of edges on one line the nearest counts. */
+/* Adds the edges near the group. Of edges on one line the nearest counts. */
 static void add_edges(const sb_sim *sim, const box *b, sb_vec3 moved, const sb_mirror *mirror, sb_near *near,
                       sb_near_facet *f)
 {
@@ -209,7 +209,7 @@ static void add_edges(const sb_sim *sim, const box *b, sb_vec3 moved, const sb_m
     for (uint32_t k = mirror->edge; k < mirror->edge + mirror->edges; k++) {
         const sb_mirror_edge *e = &sim->walls.mirrors.edge[k];
         const double away = from_segment(sb_add(e->from, moved), sb_add(e->to, moved), b->middle);
-        if (e->bend == SB_BEND_CONCAVE || away > b->radius) continue;
+        if (away > b->radius) continue;
         const sb_near_edge made = {{(float)e->inward.x, (float)e->inward.y, (float)e->inward.z,
                                     (float)(e->distance + sb_dot(e->inward, sb_sub(moved, b->corner)))},
                                    e->bend};

@@ -37,7 +37,7 @@ typedef struct sb_near_edge {
 typedef struct sb_near_facet {
     sb_f4 plane;          /* unit normal; last lane: normal . x on the plane */
     uint32_t mirror;      /* index into walls.mirrors.mirror */
-    uint32_t edge, edges; /* soft and convex edges near the group: [edge, edge + edges) of sb_near.edges */
+    uint32_t edge, edges; /* edges near the group that matter: [edge, edge + edges) of sb_near.edges */
     bool both;            /* water may be on both sides */
     bool parts;     /* there is water on both sides near the group: the facet may hide particles from each other */
     sb_f4 velocity; /* m/s, of the wall */

@@ -6,11 +6,13 @@
 #include <math.h>
 #include <time.h>
 
-static char path[64];
+static char paths[16][64], *path = paths[0]; /* by body */
 
 static int set_up_images(void **state)
 {
     set_up(state);
+    memset(paths, 0, sizeof paths);
+    path = paths[0];
     scene.numerics.walls = SB_WALLS_IMAGES;
     return 0;
 }
@@ -18,7 +20,8 @@ static int set_up_images(void **state)
 /* Adds a body with this surface: vertices, then triangles that count from 0. */
 static sb_body *add_mesh(const char *name, size_t vertices, double vertex[][3], size_t triangles, int triangle[][3])
 {
-    snprintf(path, sizeof path, "facets-%d-%zu.obj", (int)getpid(), scene.body_count);
+    path = paths[scene.body_count];
+    snprintf(path, sizeof paths[0], "facets-%d-%zu.obj", (int)getpid(), scene.body_count);
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     for (size_t v = 0; v < vertices; v++)
@@ -32,7 +35,8 @@ static sb_body *add_mesh(const char *name, size_t vertices, double vertex[][3], 
 static void build_once(void)
 {
     build();
-    remove(path);
+    for (size_t k = 0; k < scene.body_count; k++)
+        if (paths[k][0]) remove(paths[k]);
 }
 
 static size_t body_of(const char *name)
@@ -217,6 +221,33 @@ static void a_wall_on_a_bed(void **state)
     assert_int_equal(bends(facet_at(bed, down, sb_vec(9.5, 1, 0.8)), SB_BEND_SOFT), 1);
 }
 
+/* A dam with gentle slopes across a level bed: where they meet, the facets of both end, and bend towards the water.
+   What the dam covers of the bed is no facet. */
+static void a_dam_across_a_bed(void **state)
+{
+    (void)state;
+    const double slope = M_PI / 6, crest = 2 * tan(slope), toe = 0.5 / tan(slope);
+    double level[4][3] = {{-7, -9, 0.5}, {-7, 9, 0.5}, {14, -9, 0.5}, {14, 9, 0.5}};
+    int two[2][3] = {{0, 2, 3}, {0, 3, 1}};
+    double vertex[6][3] = {{3, -9, 0}, {7, -9, 0}, {5, -9, crest}, {3, 9, 0}, {7, 9, 0}, {5, 9, crest}};
+    int triangle[8][3] = {{0, 1, 2}, {3, 5, 4}, {0, 2, 5}, {0, 5, 3}, {1, 4, 5}, {1, 5, 2}, {0, 3, 4}, {0, 4, 1}};
+    add_mesh("bed", 4, level, 2, two)->role = SB_ROLE_TERRAIN;
+    add_mesh("dam", 6, vertex, 8, triangle);
+    build_once();
+    const size_t bed = body_of("bed"), dam = body_of("dam");
+    assert_int_equal(count_of(bed), 2);
+    assert_int_equal(count_of(dam), 2);
+    assert_near(area_of(bed), 18 * (21 - 4 + 2 * toe), 1e-6);
+    assert_near(area_of(dam), 18 * 2 * (crest - 0.5) / sin(slope), 1e-6);
+    const sb_facet *left = facet_at(bed, Z, sb_vec(1, 3, 0.5)), *right = facet_at(bed, Z, sb_vec(9, 3, 0.5));
+    const sb_vec3 up = sb_vec(-sin(slope), 0, cos(slope));
+    const sb_facet *side = facet_at(dam, up, sb_vec(4.5, 3, 1.5 * tan(slope)));
+    assert_int_equal(bend(left, minus(X)), SB_BEND_HOLLOW);
+    assert_int_equal(bend(right, X), SB_BEND_HOLLOW);
+    assert_int_equal(bend(side, sb_vec(cos(slope), 0, sin(slope))), SB_BEND_HOLLOW);
+    assert_int_equal(bend(side, sb_vec(-cos(slope), 0, -sin(slope))), SB_BEND_CONVEX); /* 60 degrees */
+}
+
 /* A prism with an L as its base: its top falls into convex pieces, with soft edges between them. */
 static void a_prism_with_an_l_as_its_base(void **state)
 {
@@ -282,7 +313,7 @@ static double height_of(int column)
 
 static void add_terrain(double y_min)
 {
-    snprintf(path, sizeof path, "facets-%d.asc", (int)getpid());
+    snprintf(path, sizeof paths[0], "facets-%d.asc", (int)getpid());
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     fprintf(file, "ncols 11\nnrows 7\nxllcenter 0\nyllcenter %g\ncellsize 1\n", y_min);
@@ -313,7 +344,8 @@ static void a_terrain(void **state)
     const sb_facet *slope = facet_at(bed, sb_normalize(sb_vec(-0.2, 0, 1)), sb_vec(3.5, 3, 0.8));
     for (uint32_t e = slope->edge; e < slope->edge + slope->edges; e++) {
         const sb_facet_edge *edge = &model.facets.edges[e];
-        assert_int_equal(edge->bend, fabs(edge->inward.y) > 0.5 ? SB_BEND_CONCAVE : SB_BEND_SOFT);
+        const sb_bend right = edge->inward.x > 0 ? SB_BEND_HOLLOW : SB_BEND_SOFT; /* at its foot and at its top */
+        assert_int_equal(edge->bend, fabs(edge->inward.y) > 0.5 ? SB_BEND_CONCAVE : right);
     }
 }
 
@@ -349,7 +381,8 @@ static void sections(void **state)
     for (int k = 0; k < 10; k++) right += sqrt(1 + pow(height_of(k + 1) - height_of(k), 2));
     assert_near(length, right, 1e-6);
     const sb_facet *slope = facet_at(bed, sb_normalize(sb_vec(-0.2, 0, 1)), sb_vec(3.5, 0, 0.8));
-    assert_int_equal(bends(slope, SB_BEND_SOFT), 2);
+    assert_int_equal(bends(slope, SB_BEND_SOFT), 1);
+    assert_int_equal(bends(slope, SB_BEND_HOLLOW), 1);
     assert_int_equal(bends(facet_at(bed, Z, sb_vec(1, 0, 0.5)), SB_BEND_CONCAVE), 1);
 }
 
@@ -358,7 +391,7 @@ static void many_triangles(void **state)
 {
     (void)state;
     enum { COLUMNS = 251, ROWS = 201 };
-    snprintf(path, sizeof path, "facets-%d.asc", (int)getpid());
+    snprintf(path, sizeof paths[0], "facets-%d.asc", (int)getpid());
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     fprintf(file, "ncols %d\nnrows %d\nxllcenter 0\nyllcenter 0\ncellsize %.17g\n", COLUMNS, ROWS,
@@ -394,7 +427,7 @@ static void two_planes_of_many_triangles(void **state)
 {
     (void)state;
     enum { COLUMNS = 121, ROWS = 73 };
-    snprintf(path, sizeof path, "facets-%d.asc", (int)getpid());
+    snprintf(path, sizeof paths[0], "facets-%d.asc", (int)getpid());
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     fprintf(file, "ncols %d\nnrows %d\nxllcenter 0\nyllcenter 0\ncellsize %.17g\n", COLUMNS, ROWS,
@@ -411,7 +444,7 @@ static void two_planes_of_many_triangles(void **state)
     const sb_facet *level = facet_at(bed, Z, sb_vec(2, 3, 0.5));
     assert_non_null(level);
     assert_int_equal(level->edges, 4);
-    assert_int_equal(bend(level, minus(X)), SB_BEND_SOFT);
+    assert_int_equal(bend(level, minus(X)), SB_BEND_HOLLOW);
     assert_int_equal(bends(level, SB_BEND_CONCAVE), 3);
 }
 
@@ -426,6 +459,7 @@ int main(void)
         IMAGES(boxes_side_by_side),
         IMAGES(a_step),
         IMAGES(a_wall_on_a_bed),
+        IMAGES(a_dam_across_a_bed),
         IMAGES(a_prism_with_an_l_as_its_base),
         IMAGES(two_planes_of_many_triangles),
         IMAGES(a_plate),

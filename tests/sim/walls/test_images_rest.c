@@ -34,6 +34,38 @@ static void still_water_exerts_no_force_on_blocks(void **state)
                  "[1.125, 0.9, 0.8]", 0.05);
 }
 
+/* Mean square of the speed over gD after 200 steps from rest, in water three spacings deep before a pier. */
+static double motion_before_pier(const char *back)
+{
+    basin b;
+    char bodies[512];
+    snprintf(bodies, sizeof bodies,
+             "[{name: quay, shape: box, min: [0.9, -0.1, -0.2], max: [1.3, 1.3, 0.8]},"
+             " {name: pier, shape: box, min: [0.6, 0.525, -0.2], max: [0.9, 0.675, 0.8]}%s]",
+             back);
+    basin_fill(&b, 3, "0.075", "[1.2, 1.2, 0.8]", "{level: 0.225, seed: [0.1, 0.1, 0.1]}", bodies, "completed");
+    basin_settle(&b);
+    assert_int_equal(tank_steps(b.sim, 200), 0);
+    double square = 0;
+    for (size_t i = 0; i < b.sim->state.n; i++) {
+        const sb_f4 v = b.sim->state.velocity[i];
+        square += (double)sb_sum3(v * v) / (double)b.sim->state.n;
+    }
+    basin_free(&b);
+    return square / (9.81 * 0.225);
+}
+
+/* Water before a pier of two spacings does not see the back of the recess behind it, whose plane cuts this water. */
+static void a_pier_hides_the_recess_behind_it(void **state)
+{
+    (void)state;
+    const double alone = motion_before_pier("");
+    const double recess =
+        motion_before_pier(", {name: back, shape: box, min: [0.75, 0.675, -0.2], max: [0.9, 1.3, 0.8]}");
+    printf("speed: %.2g of sqrt(gD), with a recess behind the pier %.2g\n", sqrt(alone), sqrt(recess));
+    assert_true(recess < 2 * alone);
+}
+
 /* A bed of facets much finer than the particles is refused in one line that names the remedy. */
 static void a_bed_of_too_fine_facets_is_refused(void **state)
 {
@@ -68,6 +100,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(still_water_exerts_no_force_on_blocks),
+        cmocka_unit_test(a_pier_hides_the_recess_behind_it),
         cmocka_unit_test(a_bed_of_too_fine_facets_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

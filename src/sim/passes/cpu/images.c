@@ -27,15 +27,15 @@ typedef struct route {
     bool beyond; /* one of them has no part of it */
 } route;
 
-SB_INLINE bool within(const sb_cull *cull, sb_f4 at)
+SB_INLINE bool within(const sb_box *box, float support, sb_f4 at)
 {
     float far2 = 0;
     for (int axis = 0; axis < 3; axis++) {
-        const float below = cull->box.low[axis] - at[axis], above = at[axis] - cull->box.high[axis];
+        const float below = box->low[axis] - at[axis], above = at[axis] - box->high[axis];
         const float away = below > above ? below : above;
         far2 += away > 0 ? away * away : 0;
     }
-    return far2 < cull->support * cull->support;
+    return far2 < support * support;
 }
 
 /* Whether a path may go on to facet a. Reflections at right angles can be exchanged, so that one order is enough. */
@@ -94,7 +94,7 @@ static void reflect_all(gatherer *g, uint32_t source, size_t s, const route *fro
                           .square = from->square && square_to_all(near, from->path, a),
                           .beyond = from->beyond || of->beyond[a][s]};
         /* Further reflections take an image farther away. */
-        if (!within(g->cull, to.at)) continue;
+        if (!within(&g->cull->box, g->cull->support, to.at)) continue;
         if (!(to.square && to.beyond) && !add_image(g, source, &to, from->depth == 0 && of->whole[a][s])) {
             g->full = true;
             return;
@@ -150,6 +150,27 @@ static void find_parts(const gatherer *g, float margin)
     }
 }
 
+/* Removes the concave edges that no water near the group's box is beyond: it then sees no edge. */
+static void drop_edges(const sb_sim *sim, const sb_vicinity *v, const sb_box *box, float margin, sb_near *near)
+{
+    const float support = sim->constant.support / (float)sim->space.quantum;
+    uint32_t kept = 0;
+    for (size_t a = 0; a < near->count; a++) {
+        sb_near_facet *f = &near->facet[a];
+        const uint32_t first = f->edge, end = first + f->edges;
+        f->edge = kept;
+        for (uint32_t k = first; k < end; k++) {
+            const sb_near_edge e = near->edges[k];
+            bool counts = e.bend != SB_BEND_CONCAVE;
+            for (size_t c = 0; c < v->count && !counts; c++)
+                counts = sb_within_edge(&e, v->place[c]) < -margin && within(box, support, v->place[c]);
+            if (counts) near->edges[kept++] = e;
+        }
+        f->edges = kept - f->edge;
+    }
+    near->edge_count = kept;
+}
+
 bool sb_images_gather(const sb_sim *sim, const sb_group *group, sb_vicinity *v, sb_images_around *images)
 {
     sb_f4 low, high;
@@ -160,6 +181,8 @@ bool sb_images_gather(const sb_sim *sim, const sb_group *group, sb_vicinity *v, 
     sb_mirrors_near(sim, group, low, high, near);
     if (near->full) return false;
     if (near->count == 0) return true;
+    const float margin = BEHIND * sim->constant.spacing / (float)sim->space.quantum;
+    drop_edges(sim, v, &(sb_box){{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}, margin, near);
     gatherer g = {v, near, images, &images->cull, &images->sources, false};
     sb_cull_begin(sim, near, low, high, g.cull);
     for (size_t a = 0; a < near->count; a++) g.sources->lowest[a] = INFINITY, g.sources->highest[a] = -INFINITY;
@@ -175,7 +198,7 @@ bool sb_images_gather(const sb_sim *sim, const sb_group *group, sb_vicinity *v, 
         for (size_t part = 0; part < v->parts; part++) reflect_cell(&g, v->start[part][cell], v->start[part][cell + 1]);
     }
     start[cells] = (uint32_t)(v->count + v->images);
-    find_parts(&g, BEHIND * sim->constant.spacing / (float)sim->space.quantum);
+    find_parts(&g, margin);
     return !g.full;
 }
 

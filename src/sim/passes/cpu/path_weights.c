@@ -53,8 +53,22 @@ SB_INLINE void multiply(sb_weight *w, float value, sb_f4 own, sb_f4 other)
     w->value *= value;
 }
 
-/* Part of the straight line from the particle to `at` that facet f does not hide. */
-static sb_weight past_facet(const sb_weigher *w, const sb_near_facet *f, sb_f4 at)
+/* The place where a path by reflections at facets by[] at right angles to facet f meets its plane. at: the path's end,
+   unfolded to a straight line; hi, hj: the distances of both ends before the plane. */
+static sb_f4 meeting(const sb_weigher *w, const size_t *by, int count, sb_f4 at, float hi, float hj)
+{
+    sb_f4 place = w->self + (at - w->self) * sb_splat(hi / (hi - hj));
+    for (int m = 0; m < count; m++) {
+        const sb_near_facet *mirror = &w->near->facet[by[m]];
+        if (sb_before_facet(mirror, place) * sb_before_facet(mirror, w->self) < 0)
+            place = sb_reflect(mirror->plane, place);
+    }
+    return place;
+}
+
+/* Part of the path by reflections at facets by[], unfolded to a straight line from the particle to `at`, that facet f
+   does not hide. */
+static sb_weight past_facet(const sb_weigher *w, const size_t *by, int count, const sb_near_facet *f, sb_f4 at)
 {
     const float hi = sb_before_facet(f, w->self), hj = sb_before_facet(f, at);
     if (hi * hj >= 0) return WHOLE;
@@ -62,6 +76,10 @@ static sb_weight past_facet(const sb_weigher *w, const sb_near_facet *f, sb_f4 a
     sb_weight hidden = WHOLE;
     for (uint32_t k = f->edge; k < f->edge + f->edges; k++) {
         const sb_near_edge *e = &w->near->edges[k];
+        if (e->bend == SB_BEND_CONCAVE) {
+            if (sb_within_edge(e, meeting(w, by, count, at, hi, hj)) < 0) return WHOLE;
+            continue;
+        }
         const sb_f4 inward = e->inward * (sb_f4){1, 1, 1, 0};
         const float oi = sb_within_edge(e, w->self), oj = sb_within_edge(e, at);
         float di[2] = {0}, dj[2] = {0};
@@ -81,7 +99,8 @@ static bool keeps(const sb_near *near, size_t a, const sb_near_facet *g)
 {
     bool kept = true;
     for (uint32_t k = g->edge; k < g->edge + g->edges; k++)
-        kept &= fabsf(sb_sum3(near->edges[k].inward * near->facet[a].plane)) < 1e-3f;
+        kept &= near->edges[k].bend == SB_BEND_CONCAVE ||
+                fabsf(sb_sum3(near->edges[k].inward * near->facet[a].plane)) < 1e-3f;
     return kept;
 }
 
@@ -95,7 +114,7 @@ sb_weight sb_past_facets(const sb_weigher *w, const size_t *by, int count, sb_f4
         for (int m = 0; m < count && kept; m++)
             kept = k != by[m] && sb_facets_square(w->near, by[m], k) && keeps(w->near, by[m], g);
         if (!kept) continue;
-        const sb_weight past = past_facet(w, g, at);
+        const sb_weight past = past_facet(w, by, count, g, at);
         if (past.value >= least.value) continue;
         least = past;
         *by_facet = k;
@@ -140,6 +159,10 @@ sb_weight sb_at_facet(const sb_weigher *w, size_t a, sb_other_end j, bool *meets
         sb_half_angle one = w->at->angle[f->edge + k], other = j.angle[k];
         one.c *= ti;
         other.c *= tj;
+        if (w->near->edges[f->edge + k].bend == SB_BEND_CONCAVE) {
+            if (f->edge + k == round || one.c * other.c < one.s * other.s) return NONE;
+            continue;
+        }
         float di[2], dj[2];
         const float value = past_edge(one, other, -1, w->transition, di, dj, meets);
         if (value == 1) continue;
@@ -199,6 +222,8 @@ static float share_of(const sb_weigher *w, const sb_near_facet *f, sb_f4 at)
     float share = 1;
     for (uint32_t k = f->edge; k < f->edge + f->edges; k++) {
         const float y = sb_within_edge(&w->near->edges[k], at) / w->transition;
+        if (w->near->edges[k].bend == SB_BEND_CONCAVE && y < 0) return 0;
+        if (w->near->edges[k].bend == SB_BEND_CONCAVE) continue;
         share *= y > 3 ? 1 : y < -3 ? 0 : 0.5f + 0.5f * erff(y);
     }
     return share < SB_WEIGHT_LEAST ? 0 : share;

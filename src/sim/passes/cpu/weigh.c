@@ -53,8 +53,9 @@ SB_INLINE bool plain(const sb_weigher *w, size_t a, float hj, const sb_half_angl
     bool inner = true;
     for (uint32_t k = 0; k < f->edges; k++) {
         const float t = own[k].c * angle[k].c - own[k].s * angle[k].s;
-        if (t < -end) return true;
-        inner &= t > end;
+        const bool sharp = w->near->edges[f->edge + k].bend == SB_BEND_CONCAVE;
+        if (t < (sharp ? 0 : -end)) return true;
+        inner &= sharp || t > end;
     }
     *part = 1;
     return inner;
