@@ -207,6 +207,7 @@ static void note_start(run *r)
                   r->model.body_count);
     sb_runlog_start(r->log, r->scene, &r->model, omp_get_max_threads(), sb_sim_bytes(r->sim));
     sb_scene_warnings(r->scene, warn, r);
+    sb_facet_warnings(r->scene, &r->model, warn, r);
     if (r->earlier.others == 1)
         sb_run_warn(r, "%.500s/%.300s: is not a file of a run; it is kept", r->directory, r->earlier.first_other);
     else if (r->earlier.others > 1)

@@ -1,6 +1,7 @@
 #include "app/warnings.h"
 
 #include "physics/wavemaker.h"
+#include "sim/sim.h"
 
 #include <stdio.h>
 
@@ -31,4 +32,19 @@ void sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *con
                  scene->measure.interval, scene->duration);
         visit(context, text);
     }
+}
+
+void sb_facet_warnings(const sb_scene *scene, const sb_model *model, sb_warning_visit *visit, void *context)
+{
+    char text[400], more[64] = "";
+    sb_crowding found;
+    sb_error error = {0};
+    if (sb_sim_find_crowding(scene, model, &found, &error) != SB_OK || found.places == 0) return;
+    if (found.places > 1) snprintf(more, sizeof more, " and in %zu other places", found.places - 1);
+    snprintf(
+        text, sizeof text,
+        "numerics.walls: near (%.4g, %.4g, %.4g)%s there are more than %d facets of walls, or %d edges, around %.3g "
+        "m: the run ends when water comes there; expected coarser meshes, or numerics.walls: particles",
+        found.first.x, found.first.y, found.first.z, more, found.facets, found.edges, found.width);
+    visit(context, text);
 }

@@ -2,11 +2,14 @@
 #ifndef SB_APP_WARNINGS_H
 #define SB_APP_WARNINGS_H
 
-#include "scene/scene.h"
+#include "geometry/model/model.h"
 
 typedef void sb_warning_visit(void *context, const char *text);
 
 /* Calls visit for each warning, a line without its newline. Warnings about meshes and sampling are in the model. */
 void sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context);
+
+/* The same for walls that reflect water and have more facets than the simulation can handle. */
+void sb_facet_warnings(const sb_scene *scene, const sb_model *model, sb_warning_visit *visit, void *context);
 
 #endif

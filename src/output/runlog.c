@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "output/json.h"
+#include "output/trust.h"
 #include "scene/key.h"
 
 #include <errno.h>
@@ -298,12 +299,11 @@ void sb_runlog_step(sb_runlog *log, const sb_runlog_state *state)
 void sb_runlog_bodies(sb_runlog *log, const sb_model *model, const sb_body_record *bodies)
 {
     for (size_t b = 0; log && b < model->body_count; b++) {
-        if (!bodies[b].report || isnan(bodies[b].layers)) continue;
+        if (!bodies[b].report || (isnan(bodies[b].layers) && !(model->bodies[b].gap > 0))) continue;
         sb_json json;
         begin(log, &json, "body");
         sb_json_text(&json, "body", model->bodies[b].name);
-        sb_json_number(&json, "flow_layers", bodies[b].layers);
-        sb_json_bool(&json, "too_coarse", bodies[b].layers > 0 && bodies[b].layers < SB_LAYERS_TRUSTED);
+        sb_trust_put(&json, &model->bodies[b], &bodies[b]);
         end(log, &json);
     }
 }

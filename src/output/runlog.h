@@ -54,8 +54,7 @@ typedef struct sb_runlog_state {
 } sb_runlog_state;
 void sb_runlog_step(sb_runlog *log, const sb_runlog_state *state);
 
-/* "body": the flow depth at each reporting body's faces in spacings, and whether that is too small for a reliable
-   force. */
+/* "body": whether the force on each reporting body is reliable (output/trust.h). */
 void sb_runlog_bodies(sb_runlog *log, const sb_model *model, const sb_body_record *bodies);
 
 /* "end": "done", "interrupted" or "failed" with the reason (may be NULL). */

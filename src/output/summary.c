@@ -2,6 +2,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "output/trust.h"
 
 static double ratio(double a, double b)
 {
@@ -22,8 +23,7 @@ static void put_bodies(sb_json *json, const sb_summary *summary)
         sb_json_vector(json, "impulse_vector_Ns", body->impulse);
         sb_json_vector(json, "moment_impulse_Nms", body->moment);
         sb_json_vector(json, "moment_point_m", summary->model->bodies[b].moment_point);
-        sb_json_number(json, "flow_layers", body->layers);
-        sb_json_bool(json, "too_coarse", body->layers > 0 && body->layers < SB_LAYERS_TRUSTED);
+        sb_trust_put(json, &summary->model->bodies[b], body);
         sb_json_close(json);
     }
     sb_json_close(json);

@@ -119,6 +119,27 @@ sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **s
     return SB_OK;
 }
 
+sb_status sb_sim_find_crowding(const sb_scene *scene, const sb_model *model, sb_crowding *found, sb_error *error)
+{
+    *found = (sb_crowding){.facets = SB_NEAR_MAX, .edges = SB_NEAR_EDGES_MAX};
+    if (model->facets.count == 0) return SB_OK;
+    sb_sim *sim = sb_alloc(1, sizeof *sim);
+    if (!sim) return sb_fail_memory(error, "facets of walls");
+    sim->scene = scene;
+    sim->model = model;
+    sim->constant = sb_constants_of(scene, model);
+    sb_status status = create_space(sim, error);
+    if (status == SB_OK) status = sb_paddles_create(sim, error);
+    if (status == SB_OK) status = sb_mirrors_create(sim, error);
+    if (status == SB_OK) {
+        found->width = 2 * sim->space.cell;
+        found->places = sb_mirrors_crowded(sim, &found->first);
+    }
+    sb_walls_destroy(sim);
+    sb_free(sim);
+    return status;
+}
+
 static void free_lists(sb_sim *sim)
 {
     sb_free(sim->work.pairs.four);

@@ -29,6 +29,15 @@ typedef struct sb_body_impulse {
 sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **sim, sb_error *error);
 /* The time step (s) for water with this maximum speed (m/s): an estimate that needs no simulation. */
 double sb_sim_longest_step(const sb_scene *scene, const sb_model *model, double speed);
+/* With walls that reflect water: places near which there are more facets of walls than the search for neighbours can
+   hold. A run ends when water comes there. */
+typedef struct sb_crowding {
+    size_t places;
+    sb_vec3 first;     /* m */
+    double width;      /* m, of a place */
+    int facets, edges; /* the limits */
+} sb_crowding;
+sb_status sb_sim_find_crowding(const sb_scene *scene, const sb_model *model, sb_crowding *found, sb_error *error);
 /* SB_BAD_INPUT if the scene requires a first step that is too short for the resolution of stored positions. */
 sb_status sb_sim_check_start(const sb_sim *sim, sb_error *error);
 void sb_sim_destroy(sb_sim *sim);

@@ -16,8 +16,9 @@
 
 #include <cmocka.h>
 
-static sb_model_body bodies[] = {
-    {.name = "sea wall", .report = true}, {.name = "floor", .report = false}, {.name = "unit \"1\"", .report = true}};
+static sb_model_body bodies[] = {{.name = "sea wall", .report = true},
+                                 {.name = "floor", .report = false},
+                                 {.name = "unit \"1\"", .report = true, .gap = 0.25}};
 static char *warnings[] = {"body sea wall: 0.3 m thick, thinner than the support"};
 static const sb_model model = {.body_count = 3,
                                .bodies = bodies,
@@ -109,6 +110,9 @@ static void summary_has_the_documented_keys(void **state)
     assert_true(strtod(json_find(text, "peak_time_s"), NULL) == 31.2);
     assert_true(strncmp(json_find(text, "preset"), "\"paper\"", 7) == 0);
     assert_true(strncmp(json_find(text, "too_coarse"), "true", 4) == 0);
+    assert_true(strncmp(json_find(text, "gap_m"), "null", 4) == 0);
+    assert_true(strncmp(json_find(text, "narrow_gap"), "false", 5) == 0);
+    assert_non_null(strstr(text, "\"gap_m\": 0.25"));
     assert_null(strstr(text, "floor")); /* this body does not report */
     sb_free(text);
     sb_error error = {0};
@@ -160,7 +164,7 @@ static void every_line_of_the_log_is_json(void **state)
     char *text = text_of("run.jsonl"), *rest = NULL, last[512] = "";
     size_t lines = 0;
     bool has_left_out = false, has_saved = false;
-    bool has_stage = false, has_version = false, has_body = false, has_density = false;
+    bool has_stage = false, has_version = false, has_body = false, has_gap = false, has_density = false;
     for (char *line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
         assert_true(json_valid(line));
         assert_true(json_find(line, "event") && json_find(line, "wall_s"));
@@ -169,13 +173,16 @@ static void every_line_of_the_log_is_json(void **state)
         has_left_out = has_left_out || strstr(line, "\"probes: none\",\"bytes\":4000}");
         has_saved = has_saved || strstr(line, "\"pair_passes_per_step\":1,\"seconds\":2.5,\"bytes\":4000}");
         has_stage = has_stage || (strstr(line, "\"step\"") && strstr(line, "\"pressure\":3.5"));
-        has_body = has_body || strstr(line, "\"flow_layers\":2.5,\"too_coarse\":true");
+        has_body =
+            has_body || strstr(line, "\"flow_layers\":2.5,\"too_coarse\":true,\"gap_m\":null,\"narrow_gap\":false");
+        has_gap =
+            has_gap || strstr(line, "\"flow_layers\":null,\"too_coarse\":false,\"gap_m\":0.25,\"narrow_gap\":true");
         snprintf(last, sizeof last, "%s", line);
         lines++;
     }
-    assert_int_equal(lines, 1 + 2 + 1 + 400 + 1 + 1 + 1 + 1);
+    assert_int_equal(lines, 1 + 2 + 1 + 400 + 1 + 2 + 1 + 1);
     assert_true(has_left_out && has_saved);
-    assert_true(has_version && has_stage && has_body && has_density);
+    assert_true(has_version && has_stage && has_body && has_gap && has_density);
     assert_non_null(strstr(last, "interrupted"));
     sb_free(text);
     sb_runlog_warning(NULL, "no log, no harm");

@@ -176,6 +176,7 @@ sb_status sb_model_check(const sb_scene *scene, const sb_model_space *space, sb_
     if (status == SB_OK) status = sb_model_warn_open(scene, space, model, error);
     if (status == SB_OK) status = sb_model_warn_gauges(scene, space, model, error);
     if (status == SB_OK) status = sb_model_warn_clad(scene, model, error);
+    if (status == SB_OK) status = sb_model_warn_gaps(scene, space, model, error);
     if (status == SB_OK) status = sb_model_warn_strokes(scene, space, model, error);
     if (status == SB_OK) status = check_steps(scene, model, error);
     return status == SB_OK ? check_water(scene, model, error) : status;

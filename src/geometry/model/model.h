@@ -21,6 +21,7 @@ typedef struct sb_model_body {
     sb_vec3 moment_point; /* m */
     float color[3];
     double thin;  /* m, its thickness if that is less than the support radius; else 0 */
+    double gap;   /* m, the narrowest gap before its surface if walls do not resolve it; else 0 */
     sb_mesh mesh; /* scene coordinates at t = 0; empty for domain sides */
 } sb_model_body;
 

@@ -49,6 +49,13 @@ sb_status sb_model_warn_shared(const sb_scene *scene, sb_model *model, sb_error 
    load. */
 sb_status sb_model_warn_clad(const sb_scene *scene, sb_model *model, sb_error *error);
 
+/* Adds a warning for each pair of bodies (or body with itself) with a gap between them that is too narrow for the
+   walls, and sets body->gap. In spacings, the narrowest gaps that walls of each kind resolve: at them the force on a
+   block in still water beside an alley is within 3 % of a face's load. */
+#define SB_GAP_PARTICLES 1.5
+#define SB_GAP_IMAGES 1.0
+sb_status sb_model_warn_gaps(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
+
 /* Adds a warning for each grid with missing heights that are not marked as such, and for each terrain below the
    domain's floor where water is. */
 sb_status sb_model_warn_ground(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);

@@ -319,3 +319,36 @@ void sb_mirrors_near(const sb_sim *sim, const sb_group *group, sb_f4 low, sb_f4 
     for (size_t k = 0; k < m->moving_count; k++) consider(sim, &b, m->moving[k], near);
     relate(sim, near);
 }
+
+/* The box of a block that water fills. */
+static box box_of(const sb_sim *sim, uint64_t code)
+{
+    const uint64_t mask = ((uint64_t)1 << 21) - 1;
+    const double size = (double)((uint64_t)2 << sim->space.shift), half = 0.5 * size;
+    const bool flat = sim->constant.dimension == 2;
+    box b = {.corner =
+                 sb_vec(size * (double)(code & mask), size * (double)(code >> 21 & mask), size * (double)(code >> 42)),
+             .half = sb_vec(half, flat ? 0 : half, half)};
+    if (flat) b.corner.y = to_quanta(&sim->space, (sb_vec3){0}).y;
+    b.middle = sb_add(b.corner, b.half);
+    b.radius = sb_norm(b.half) + (double)sim->constant.support / sim->space.quantum;
+    return b;
+}
+
+size_t sb_mirrors_crowded(const sb_sim *sim, sb_vec3 *place)
+{
+    const sb_mirrors *m = &sim->walls.mirrors;
+    sb_near *near = sb_alloc(1, sizeof *near);
+    size_t count = 0;
+    for (size_t at = 0, end = 0; near && at < m->entries; at = end) {
+        while (end < m->entries && m->entry[end].block == m->entry[at].block) end++;
+        const box b = box_of(sim, m->entry[at].block);
+        near->count = near->edge_count = 0;
+        near->full = false;
+        for (size_t k = at; k < end; k++) consider(sim, &b, m->entry[k].mirror, near);
+        for (size_t k = 0; k < m->moving_count; k++) consider(sim, &b, m->moving[k], near);
+        if (near->full && count++ == 0) *place = sb_add(sim->space.origin, sb_scale(b.middle, sim->space.quantum));
+    }
+    sb_free(near);
+    return count;
+}

@@ -136,7 +136,7 @@ static int copy_set(sb_sim *sim, bool moving, sb_wall_set *set)
     return 0;
 }
 
-static sb_status create_paddles(sb_sim *sim, sb_error *error)
+sb_status sb_paddles_create(sb_sim *sim, sb_error *error)
 {
     const sb_model *model = sim->model;
     sim->walls.moving_of_body = sb_alloc(model->body_count, sizeof *sim->walls.moving_of_body);
@@ -157,7 +157,7 @@ static sb_status create_paddles(sb_sim *sim, sb_error *error)
 
 sb_status sb_walls_create(sb_sim *sim, sb_error *error)
 {
-    sb_status status = create_paddles(sim, error);
+    sb_status status = sb_paddles_create(sim, error);
     if (status != SB_OK) return status;
     if (sim->model->wall_count >= (size_t)1 << SB_INDEX_BITS)
         return sb_fail(error, SB_BAD_INPUT, "%zu boundary particles: expected fewer than %d", sim->model->wall_count,

@@ -4,6 +4,8 @@
 
 #include "sim/simulation.h"
 
+/* The moving bodies alone: a part of sb_walls_create. */
+sb_status sb_paddles_create(sb_sim *sim, sb_error *error);
 sb_status sb_walls_create(sb_sim *sim, sb_error *error);
 void sb_walls_destroy(sb_sim *sim);
 /* sim/walls/volumes.c: psi_b = gamma rho_0 / sum_k W_bk over the boundary particles k of `set` within h, b included

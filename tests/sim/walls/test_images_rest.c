@@ -89,6 +89,9 @@ static void a_bed_of_too_fine_facets_is_refused(void **state)
     basin_fill(&b, 3, "0.1", "[1, 1, 0.8]", "{level: 0.5, seed: [0.5, 0.5, 0.3]}", bodies, "completed");
     remove(path);
     sb_error error = {0};
+    sb_crowding found;
+    assert_int_equal(sb_sim_find_crowding(&b.scene, &b.model, &found, &error), SB_OK);
+    assert_true(found.places > 0 && found.first.z < 0.6); /* known before the run */
     assert_int_equal(sb_sim_step(b.sim, &error), SB_FAILED);
     printf("%s\n", error.text);
     assert_non_null(strstr(error.text, "too many facets of walls"));
