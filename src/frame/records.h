@@ -70,10 +70,10 @@ typedef struct sb_body_record {
     double peak, peak_time;  /* N, s: greatest |F| among interval means, and that interval's end */
     sb_vec3 impulse, moment; /* N s, N m s over the finished intervals: rows of force times interval */
     sb_vec3 force, torque;   /* N, Nm: means of the last finished interval */
-    double layers;           /* greatest flow depth at its faces in spacings; NaN: not assessed */
+    double layers;           /* depth of the flow towards its faces in spacings; NaN: not assessed */
 } sb_body_record;
 
-/* Flow depth at a body in spacings below which its force is flagged as unreliable. */
+/* Depth of the flow towards a body in spacings below which its force is flagged as unreliable. */
 #define SB_LAYERS_TRUSTED 4.0
 
 /* Greatest values on a horizontal grid, row 0 at y_min. NaN: never wet (arrival: never arrived). */

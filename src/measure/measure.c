@@ -126,12 +126,12 @@ static sb_status record_energy(sb_measure *measure, const sb_sim *sim, sb_error 
 static sb_status record_layers(sb_measure *measure, const sb_measure_view *view, sb_error *error)
 {
     for (size_t b = 0; b < measure->model->body_count; b++) {
-        if (!measure->states[b].faces) continue;
-        double layers;
+        body_state *state = &measure->states[b];
+        if (!state->faces) continue;
         sb_status status =
-            sb_face_layers(view, &measure->states[b].footprint, sb_sim_body_displacement(view->sim, b), &layers, error);
+            sb_face_approach(view, &state->footprint, sb_sim_body_displacement(view->sim, b), &state->approach, error);
         if (status != SB_OK) return status;
-        if (layers > measure->bodies[b].layers) measure->bodies[b].layers = layers;
+        if (state->approach.weight > 0) measure->bodies[b].layers = state->approach.layers / state->approach.weight;
     }
     return SB_OK;
 }

@@ -73,8 +73,12 @@ typedef struct sb_footprint {
     sb_vec3 min, max;
 } sb_footprint;
 sb_footprint sb_footprint_of(const sb_model *model, size_t body);
-/* Greatest flow depth along the rectangle's sides, in spacings. displacement: of the body since t = 0 (m). */
-sb_status sb_face_layers(const sb_measure_view *view, const sb_footprint *footprint, sb_vec3 displacement,
-                         double *layers, sb_error *error);
+/* Sums over columns of water before a body's faces: weights, and weights times depths in spacings. */
+typedef struct sb_approach {
+    double weight, layers;
+} sb_approach;
+/* Adds the columns before the rectangle's sides at this instant. displacement: of the body since t = 0 (m). */
+sb_status sb_face_approach(const sb_measure_view *view, const sb_footprint *footprint, sb_vec3 displacement,
+                           sb_approach *sum, sb_error *error);
 
 #endif

@@ -22,6 +22,8 @@ static void put_bodies(const sb_measure *measure, sb_archive_out *out)
         sb_put_vector(out, body->force);
         sb_put_vector(out, body->torque);
         sb_put_real(out, body->layers);
+        sb_put_real(out, state->approach.weight);
+        sb_put_real(out, state->approach.layers);
     }
 }
 
@@ -43,6 +45,8 @@ static void take_bodies(sb_measure *measure, sb_archive_in *in)
         body->force = sb_take_vector(in);
         body->torque = sb_take_vector(in);
         body->layers = sb_take_real(in);
+        state->approach.weight = sb_take_real(in);
+        state->approach.layers = sb_take_real(in);
     }
 }
 

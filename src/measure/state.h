@@ -17,7 +17,8 @@ enum { FORCES, GAUGES, PROBES, FLOWS, RUNUPS, ENERGIES, LISTS };
 typedef struct body_state {
     sb_body_impulse start, boundary, last;
     sb_footprint footprint;
-    bool faces; /* whether flow depth at the body is measured */
+    bool faces; /* whether the depth of the flow towards the body is measured */
+    sb_approach approach;
 } body_state;
 
 typedef struct plane_state {

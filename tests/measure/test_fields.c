@@ -194,25 +194,56 @@ static void map_contains_arrival_times(void **state)
     fake_world_free(&world);
 }
 
-static void flow_depth_at_faces(void **state)
+/* Returns the depth of the flow towards a body's faces in spacings, and adds it to *sum. */
+static double approach(fake_world *world, const sb_footprint *body, sb_vec3 displacement, sb_approach *sum)
+{
+    sb_measure_view view = fake_view(world);
+    sb_approach now = {0}, *to = sum ? sum : &now;
+    assert_int_equal(sb_face_approach(&view, body, displacement, to, NULL), SB_OK);
+    return to->weight > 0 ? to->layers / to->weight : 0;
+}
+
+static void depth_of_still_water_at_faces(void **state)
 {
     (void)state;
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
         fake_world world;
         fake_world_make(&world, dimensions, 0.5, sb_vec(0, 0, 0), sb_vec(20, 20, 10));
         fake_fill(&world, sb_vec(0, 0, 0), sb_vec(8, 20, 3), 0, 0, 0, 1); /* 6 layers */
-        sb_measure_view view = fake_view(&world);
-        double layers;
         /* A building whose seaward face is at x = 8: its particles lie half a spacing inside. */
         const sb_footprint building = {{8.25, 5.25, 0}, {14.75, 14.75, 8}};
-        assert_int_equal(sb_face_layers(&view, &building, sb_vec(0, 0, 0), &layers, NULL), SB_OK);
-        assert_true(fabs(layers - 6) < 0.7);
-        assert_int_equal(sb_face_layers(&view, &building, sb_vec(5, 0, 0), &layers, NULL), SB_OK);
-        assert_true(layers == 0);
+        assert_true(fabs(approach(&world, &building, sb_vec(0, 0, 0), NULL) - 6) < 0.7);
+        assert_true(approach(&world, &building, sb_vec(5, 0, 0), NULL) == 0);
         /* The tank around the water has the water inside. */
         const sb_footprint tank = {{-0.25, -0.25, -0.25}, {20.25, 20.25, 9}};
-        assert_int_equal(sb_face_layers(&view, &tank, sb_vec(0, 0, 0), &layers, NULL), SB_OK);
-        assert_true(fabs(layers - 6) < 0.7);
+        assert_true(fabs(approach(&world, &tank, sb_vec(0, 0, 0), NULL) - 6) < 0.7);
+        fake_world_free(&world);
+    }
+}
+
+/* Two layers flow towards a wall, where water splashes ten layers high. Later a pool of six layers is thrown back. */
+static void flow_depth_is_that_of_the_approaching_water(void **state)
+{
+    (void)state;
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        fake_world world;
+        sb_approach sum = {0};
+        const sb_footprint wall = {{8.25, -1, 0}, {20, 21, 8}};
+        fake_world_make(&world, dimensions, 0.5, sb_vec(0, 0, 0), sb_vec(20, 20, 10));
+        fake_fill(&world, sb_vec(0, 0, 0), sb_vec(7.5, 20, 1), 0, 0, 0, 1);
+        for (size_t i = 0; i < world.sim.report.fluid_count; i++) world.sim.samples[i].velocity = sb_vec(4, 0, 0);
+        fake_fill(&world, sb_vec(7.5, 0, 0), sb_vec(8, 20, 5), 0, 0, 0, 2);
+        assert_true(fabs(approach(&world, &wall, sb_vec(0, 0, 0), &sum) - 2) < 0.3);
+        world.sim.report.fluid_count = 0;
+        fake_fill(&world, sb_vec(0, 0, 0), sb_vec(8, 20, 3), 0, 0, 0, 1);
+        for (size_t i = 0; i < world.sim.report.fluid_count; i++)
+            world.sim.samples[i].velocity = sb_vec(i % 2 ? 0.3 : -0.4, 0, 0);
+        for (int rows = 0; rows < 10; rows++) approach(&world, &wall, sb_vec(0, 0, 0), &sum);
+        assert_true(fabs(sum.layers / sum.weight - 2) < 0.3);
+        /* A deeper flow that follows counts by its momentum. */
+        for (size_t i = 0; i < world.sim.report.fluid_count; i++) world.sim.samples[i].velocity = sb_vec(4, 0, 0);
+        for (int rows = 0; rows < 3; rows++) approach(&world, &wall, sb_vec(0, 0, 0), &sum);
+        assert_true(sum.layers / sum.weight > 5);
         fake_world_free(&world);
     }
 }
@@ -228,7 +259,8 @@ int main(void)
         cmocka_unit_test(front_follows_a_thin_film),
         cmocka_unit_test(map_conserves_volume),
         cmocka_unit_test(map_contains_arrival_times),
-        cmocka_unit_test(flow_depth_at_faces),
+        cmocka_unit_test(depth_of_still_water_at_faces),
+        cmocka_unit_test(flow_depth_is_that_of_the_approaching_water),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

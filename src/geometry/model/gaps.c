@@ -45,12 +45,12 @@ typedef struct search {
     const sb_scene *scene;
     const sb_model_space *space;
     sb_model *model;
-    double limit; /* m */
+    double limit;       /* m */
     sb_vec3 *min, *max; /* m, extent of each body's surface */
     other *near;
     size_t near_count;
-    hit *hits; /* per boundary particle of the present body */
-    pair *pairs; /* bodies x bodies: gaps that rays of the first body found */
+    hit *hits;      /* per boundary particle of the present body */
+    pair *pairs;    /* bodies x bodies: gaps that rays of the first body found */
     size_t *totals; /* FACES per body */
 } search;
 
@@ -78,8 +78,7 @@ static bool is_open(const search *s, sb_vec3 at)
         (model->dimensions == 3 && !into_domain(&at.y, model->min.y, model->max.y, sb_scene_repeats(s->scene, 1))))
         return false;
     for (size_t b = 0; b < s->space->count; b++)
-        if (s->space->solid[b] && model->bodies[b].mesh.triangle_count > 0 &&
-            sb_solid_contains(s->space->solid[b], at))
+        if (s->space->solid[b] && model->bodies[b].mesh.triangle_count > 0 && sb_solid_contains(s->space->solid[b], at))
             return false;
     return true;
 }
@@ -173,13 +172,13 @@ static sb_status warn(const search *s, size_t a, size_t b, const pair *p, sb_err
         snprintf(between, sizeof between, "body \"%s\": two of its surfaces face each other", bodies[a].name);
     else
         snprintf(between, sizeof between, "bodies \"%s\" and \"%s\" face each other", bodies[a].name, bodies[b].name);
-    return sb_model_warn(s->model, error,
-                         "%s across a gap of about %.2g m near (%.4g, %.4g, %.4g), and walls resolve gaps of %.3g m (%g "
-                         "spacings) or more: %s unreliable; expected a closed or a wider gap, or a resolution of %.2g m "
-                         "or less",
-                         between, p->width, p->place.x, p->place.y, p->place.z, s->limit,
-                         s->limit / s->model->spacing, a == b ? "the force on it is" : "the forces on both are",
-                         p->width * s->model->spacing / s->limit);
+    return sb_model_warn(
+        s->model, error,
+        "%s across a gap of about %.2g m near (%.4g, %.4g, %.4g), and walls resolve gaps of %.3g m (%g "
+        "spacings) or more: %s unreliable; expected a closed or a wider gap, or a resolution of %.2g m "
+        "or less",
+        between, p->width, p->place.x, p->place.y, p->place.z, s->limit, s->limit / s->model->spacing,
+        a == b ? "the force on it is" : "the forces on both are", p->width * s->model->spacing / s->limit);
 }
 
 static sb_status report(search *s, sb_error *error)
@@ -199,8 +198,9 @@ static sb_status report(search *s, sb_error *error)
             if (reported++ < WARNINGS_MAX) status = warn(s, a, b, p, error);
         }
     if (reported > WARNINGS_MAX && status == SB_OK)
-        status = sb_model_warn(s->model, error, "%zu more pairs of bodies face each other across gaps of less than %.3g m",
-                               reported - WARNINGS_MAX, s->limit);
+        status =
+            sb_model_warn(s->model, error, "%zu more pairs of bodies face each other across gaps of less than %.3g m",
+                          reported - WARNINGS_MAX, s->limit);
     return status;
 }
 

@@ -89,9 +89,9 @@ static void a_slot_of_one_body_is_named(void **state)
             fprintf(file, "v %g 2 %d\nv %g 2 %d\nv %g 4 %d\nv %g 4 %d\n", x[2 * arm], 6 * z - 1, x[2 * arm + 1],
                     6 * z - 1, x[2 * arm + 1], 6 * z - 1, x[2 * arm], 6 * z - 1);
         const int v = 8 * arm;
-        fprintf(file, "f %d %d %d %d\nf %d %d %d %d\nf %d %d %d %d\nf %d %d %d %d\nf %d %d %d %d\nf %d %d %d %d\n", v + 4,
-                v + 3, v + 2, v + 1, v + 5, v + 6, v + 7, v + 8, v + 1, v + 2, v + 6, v + 5, v + 2, v + 3, v + 7, v + 6,
-                v + 3, v + 4, v + 8, v + 7, v + 4, v + 1, v + 5, v + 8);
+        fprintf(file, "f %d %d %d %d\nf %d %d %d %d\nf %d %d %d %d\nf %d %d %d %d\nf %d %d %d %d\nf %d %d %d %d\n",
+                v + 4, v + 3, v + 2, v + 1, v + 5, v + 6, v + 7, v + 8, v + 1, v + 2, v + 6, v + 5, v + 2, v + 3, v + 7,
+                v + 6, v + 3, v + 4, v + 8, v + 7, v + 4, v + 1, v + 5, v + 8);
     }
     fclose(file);
     add_file("fork", path);
