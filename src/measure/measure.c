@@ -68,8 +68,24 @@ static sb_status record_flows(sb_measure *measure, double time, double fraction,
     return SB_OK;
 }
 
-/* Records gauges, probes and run-up lines at one instant. */
-static sb_status record_instants(sb_measure *measure, const sb_measure_view *view, double time, sb_error *error)
+static sb_status record_probe(sb_measure *measure, const sb_measure_view *view, size_t probe, double time,
+                              double fraction, sb_error *error)
+{
+    sb_probe_record *record = append(measure, PROBES);
+    if (!record) return sb_fail_memory(error, "probe records");
+    record->probe = probe;
+    record->time = time;
+    /* At the creation there is no interval yet. */
+    const bool mean = fraction >= 0 && sb_patch_on_wall(measure->patches[probe]);
+    record->pressure = mean ? sb_wall_probe_mean(measure, probe, fraction) : (double)NAN;
+    return sb_probe_read(view, &measure->scene->measure.probes[probe], measure->patches[probe], &record->velocity,
+                         &record->pressure, error);
+}
+
+/* Records gauges, probes and run-up lines at one instant: a fraction of the last step, or, if negative, the creation.
+ */
+static sb_status record_instants(sb_measure *measure, const sb_measure_view *view, double time, double fraction,
+                                 sb_error *error)
 {
     const sb_measure_settings *settings = &measure->scene->measure;
     const sb_sea *sea = &measure->scene->sea;
@@ -89,14 +105,8 @@ static sb_status record_instants(sb_measure *measure, const sb_measure_view *vie
         else
             state->had_value = true;
     }
-    for (size_t i = 0; status == SB_OK && i < settings->probe_count; i++) {
-        sb_probe_record *record = append(measure, PROBES);
-        if (!record) return sb_fail_memory(error, "probe records");
-        record->probe = i;
-        record->time = time;
-        status =
-            sb_probe_read(view, &settings->probes[i], measure->patches[i], &record->velocity, &record->pressure, error);
-    }
+    for (size_t i = 0; status == SB_OK && i < settings->probe_count; i++)
+        status = record_probe(measure, view, i, time, fraction, error);
     for (size_t i = 0; status == SB_OK && i < settings->runup_count; i++) {
         sb_runup_record *record = append(measure, RUNUPS);
         if (!record) return sb_fail_memory(error, "run-up records");
@@ -210,7 +220,8 @@ static sb_status prepare_fields(sb_measure *measure, const sb_measure_view *view
                                 &measure->floors[i], error);
     if (settings->probe_count) {
         measure->patches = sb_alloc(settings->probe_count, sizeof(sb_patch *));
-        if (!measure->patches) return sb_fail_memory(error, "measure.probes");
+        measure->probes = sb_alloc(settings->probe_count, sizeof *measure->probes);
+        if (!measure->patches || !measure->probes) return sb_fail_memory(error, "measure.probes");
     }
     for (size_t i = 0; status == SB_OK && i < settings->probe_count; i++)
         status = sb_patch_create(measure->scene, measure->model, &settings->probes[i], &measure->patches[i], error);
@@ -220,7 +231,7 @@ static sb_status prepare_fields(sb_measure *measure, const sb_measure_view *view
     return status;
 }
 
-sb_status sb_measure_create(const sb_scene *scene, const sb_model *model, const sb_sim *sim, sb_measure **measure,
+sb_status sb_measure_create(const sb_scene *scene, const sb_model *model, sb_sim *sim, sb_measure **measure,
                             sb_error *error)
 {
     sb_measure *made = sb_alloc(1, sizeof *made);
@@ -233,7 +244,8 @@ sb_status sb_measure_create(const sb_scene *scene, const sb_model *model, const 
     sb_measure_view view = view_of(made, sim, 0);
     sb_status status = prepare_bodies(made, sim, error);
     if (status == SB_OK) status = prepare_fields(made, &view, error);
-    if (status == SB_OK) status = record_instants(made, &view, made->time, error);
+    if (status == SB_OK) status = sb_wall_probes_start(made, sim, error);
+    if (status == SB_OK) status = record_instants(made, &view, made->time, -1, error);
     if (status == SB_OK) status = record_flows(made, made->time, 0, error);
     if (status == SB_OK) status = record_layers(made, &view, error);
     if (status == SB_OK) status = record_energy(made, sim, error);
@@ -260,6 +272,7 @@ void sb_measure_destroy(sb_measure *measure)
     sb_free(measure->floors);
     sb_free(measure->gauges);
     sb_free(measure->patches);
+    sb_free(measure->probes);
     sb_free(measure->counters);
     sb_free(measure->planes);
     sb_free(measure->states);
@@ -278,7 +291,7 @@ static sb_status record_boundary(sb_measure *measure, const sb_sim *sim, double 
     sb_measure_view view = view_of(measure, sim, (1 - fraction) * taken);
     sb_status status = record_forces(measure, sim, time, fraction, error);
     if (status == SB_OK) status = record_flows(measure, time, fraction, error);
-    if (status == SB_OK) status = record_instants(measure, &view, time, error);
+    if (status == SB_OK) status = record_instants(measure, &view, time, fraction, error);
     return status;
 }
 
@@ -297,6 +310,7 @@ static void advance(sb_measure *measure, const sb_sim *sim)
         measure->bodies[b].moment = sb_sub(finished->moment, state->start.moment);
     }
     for (size_t i = 0; i < measure->scene->measure.plane_count; i++) measure->planes[i].last = measure->planes[i].now;
+    for (size_t i = 0; i < measure->scene->measure.probe_count; i++) measure->probes[i].last = measure->probes[i].now;
 }
 
 static bool due(const sb_measure *measure, const sb_sim *sim)
@@ -316,6 +330,7 @@ sb_status sb_measure_step(sb_measure *measure, const sb_sim *sim, sb_error *erro
     sb_measure_view view = view_of(measure, sim, 0);
     for (size_t i = 0; status == SB_OK && i < measure->scene->measure.plane_count; i++)
         status = sb_plane_counter_step(measure->counters[i], &view, &measure->planes[i].now, error);
+    sb_wall_probes_step(measure, sim, sb_sim_report(sim)->time - measure->time);
     if (measure->map) sb_map_step(measure->map, sim);
     measure->momentum_imbalance = fmax(measure->momentum_imbalance, sb_sim_report(sim)->momentum_imbalance);
     const bool any = due(measure, sim);
@@ -370,6 +385,6 @@ size_t sb_measure_bytes(const sb_measure *measure)
     for (size_t i = 0; i < measure->scene->measure.plane_count; i++)
         bytes += sizeof *measure->planes + sb_plane_counter_bytes(measure->counters[i]);
     for (size_t i = 0; i < measure->scene->measure.probe_count; i++)
-        bytes += sizeof(sb_patch *) + sb_patch_bytes(measure->patches[i]);
+        bytes += sizeof(sb_patch *) + sizeof *measure->probes + sb_patch_bytes(measure->patches[i]);
     return bytes + (measure->map ? sb_map_bytes(measure->map) : 0);
 }

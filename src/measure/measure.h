@@ -10,7 +10,7 @@ typedef struct sb_measurements sb_measure; /* scene.h already has a struct with 
 
 /* Call after settling. Impulses are summed from this time on. The instant records of this time (gauges, probes, run-up,
    planes, energy) are ready in sb_measure_latest. scene and model must outlive *measure. */
-sb_status sb_measure_create(const sb_scene *scene, const sb_model *model, const sb_sim *sim, sb_measure **measure,
+sb_status sb_measure_create(const sb_scene *scene, const sb_model *model, sb_sim *sim, sb_measure **measure,
                             sb_error *error);
 void sb_measure_destroy(sb_measure *measure);
 

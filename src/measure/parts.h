@@ -34,8 +34,8 @@ sb_status sb_gauge_read(const sb_measure_view *view, double x, double y, const s
 /* The part of a wall around a probe: see patch.h. */
 typedef struct sb_patch sb_patch;
 
-/* Velocity (m/s) and pressure (Pa) at a point, NaN when dry. probe->radius in m; 0: the support radius. On a wall the
-   pressure is the force on the patch divided by the patch's area. */
+/* Velocity (m/s) and pressure (Pa) at a point, NaN when dry. probe->radius in m; 0: the support radius. *pressure: on
+   entry the mean pressure on a wall, which stays if it is not 0 or water is there; NaN: from the water around. */
 sb_status sb_probe_read(const sb_measure_view *view, const sb_probe *probe, const sb_patch *patch, sb_vec3 *velocity,
                         double *pressure, sb_error *error);
 

@@ -17,9 +17,12 @@ bool sb_patch_on_wall(const sb_patch *patch);
    from walls that cross the patch. */
 sb_vec3 sb_patch_wetness_point(const sb_patch *patch);
 
-/* Mean pressure over the patch in Pa: the force of the last step on it, by the simulation's own formula, divided by its
-   area [A12, eq. 10]. Overwrites the view's cloud. */
-sb_status sb_patch_pressure(const sb_patch *patch, const sb_measure_view *view, double *pressure, sb_error *error);
+/* Where the simulation must record forces for the patch. Returns their number; 0: the probe is not on a wall. */
+enum { SB_PATCH_PLACES = 4 };
+size_t sb_patch_places(const sb_patch *patch, sb_push_place places[SB_PATCH_PLACES]);
+
+/* What a force adds to the pressure on the patch, Pa. */
+double sb_patch_share(const sb_patch *patch, const sb_wall_push *push);
 
 /* Whether the position is in the fluid layer next to the wall. The stress of that layer is larger along the wall than
    across it, and its pressure is some per cent too high. */

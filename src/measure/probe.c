@@ -161,12 +161,15 @@ sb_status sb_probe_read(const sb_measure_view *view, const sb_probe *probe, cons
                         double *pressure, sb_error *error)
 {
     const sb_scene *scene = view->scene;
+    const double mean = *pressure;
     double radius = probe->radius > 0 ? probe->radius : scene->numerics.support * scene->resolution;
     *velocity = sb_vec((double)NAN, (double)NAN, (double)NAN);
     *pressure = (double)NAN;
     sb_status status = query_around(view, probe->at, radius, error);
-    if (status != SB_OK || !weigh(view, probe, patch, radius)) return status;
-    *velocity = velocity_at(view, probe->at, radius);
-    if (sb_patch_on_wall(patch)) return sb_patch_pressure(patch, view, pressure, error);
-    return read_pressure(view, probe, patch, radius, pressure, error);
+    if (status != SB_OK) return status;
+    const bool wet = weigh(view, probe, patch, radius), pressed = mean != 0 && !isnan(mean);
+    if (!wet && !pressed) return SB_OK;
+    if (view->cloud->count > 0) *velocity = velocity_at(view, probe->at, radius);
+    *pressure = mean;
+    return isnan(mean) ? read_pressure(view, probe, patch, radius, pressure, error) : SB_OK;
 }

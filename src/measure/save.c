@@ -67,6 +67,11 @@ void sb_measure_save(const sb_measure *measure, sb_archive_out *out)
         sb_put_flag(out, measure->gauges[i].had_value);
         sb_put_real(out, measure->gauges[i].deepest);
     }
+    sb_put_count(out, measure->scene->measure.probe_count);
+    for (size_t i = 0; i < measure->scene->measure.probe_count; i++) {
+        sb_put_real(out, measure->probes[i].boundary);
+        sb_put_real(out, measure->probes[i].last);
+    }
     sb_put_flag(out, measure->map != NULL);
     if (measure->map) sb_map_save(measure->map, out);
 }
@@ -95,6 +100,17 @@ static void take_gauges(sb_measure *measure, sb_archive_in *in)
     }
 }
 
+static void take_probes(sb_measure *measure, sb_archive_in *in)
+{
+    const size_t count = measure->scene->measure.probe_count;
+    if (sb_take_count(in, SIZE_MAX) != count)
+        sb_archive_refuse(in, "a different number of probes, expected %zu", count);
+    for (size_t i = 0; i < count; i++) {
+        measure->probes[i].boundary = sb_take_real(in);
+        measure->probes[i].last = measure->probes[i].now = sb_take_real(in);
+    }
+}
+
 static void forget_latest(sb_measure *measure)
 {
     for (int k = 0; k < LISTS; k++) measure->lists[k].count = 0;
@@ -118,6 +134,7 @@ sb_status sb_measure_load(sb_measure *measure, sb_archive_in *in, sb_error *erro
     status = take_planes(measure, in, error);
     if (status != SB_OK) return status;
     take_gauges(measure, in);
+    take_probes(measure, in);
     if (sb_take_flag(in) != (measure->map != NULL))
         sb_archive_refuse(in, measure->map ? "no map, expected one" : "a map, expected none");
     if (measure->map) sb_map_load(measure->map, in);

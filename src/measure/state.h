@@ -25,6 +25,11 @@ typedef struct plane_state {
     double boundary, last, now;
 } plane_state; /* m^3 passed so far */
 
+/* Pa s since the creation, at the last multiple of the interval, at the last step's end and after this step. */
+typedef struct probe_state {
+    double boundary, last, now;
+} probe_state;
+
 /* A gauge over all rows: whether it ever had a value, and the greatest depth while it had none, m. */
 typedef struct gauge_state {
     bool had_value;
@@ -46,11 +51,19 @@ struct sb_measurements {
     sb_floors *floors; /* one per gauge */
     gauge_state *gauges;
     sb_patch **patches; /* one per probe */
+    probe_state *probes;
     sb_map_field *map;
     sb_cloud cloud;
     list lists[LISTS];
     sb_measure_records latest;
     sb_skipped skipped[MAX_SKIPPED + 1];
 };
+
+/* wall_probes.c: makes the simulation record the forces on the patches. */
+sb_status sb_wall_probes_start(const sb_measure *measure, sb_sim *sim, sb_error *error);
+/* Adds the forces of the last step, which took `taken` s. */
+void sb_wall_probes_step(sb_measure *measure, const sb_sim *sim, double taken);
+/* Returns the mean pressure of the interval that ends at this fraction of the last step, and begins the next one. */
+double sb_wall_probe_mean(sb_measure *measure, size_t probe, double fraction);
 
 #endif

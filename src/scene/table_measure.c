@@ -42,7 +42,7 @@ static const sb_key probe_keys[] = {
      .flags = SB_KEY_REQUIRED, .doc = "Position, inside the domain."},
     {.name = "radius", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_probe, radius), .unit = "m",
      SB_KEY_NOT_NEGATIVE, .fallback = "0",
-     .doc = "Radius within which particles are used; 0: the support radius."},
+     .doc = "Radius within which particles are used; 0: the support radius, and two spacings for the pressure on a wall."},
 };
 /* clang-format on */
 
@@ -215,7 +215,7 @@ static const sb_key measure_keys[] = {
             "absolute."},
     {.name = "probes", .type = SB_KEY_LIST,
      SB_KEY_ITEMS(sb_measure_settings, probes, probe_count), .table = &probe_table,
-     .doc = "Probes of velocity and pressure at a point."},
+     .doc = "Probes of velocity and pressure at a point. On a wall the pressure is a mean over the interval."},
     {.name = "planes", .type = SB_KEY_LIST,
      SB_KEY_ITEMS(sb_measure_settings, planes, plane_count), .table = &plane_table,
      .doc = "Vertical planes through which volumes are measured, for example overtopping."},

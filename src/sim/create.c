@@ -9,6 +9,7 @@
 #include "sim/step/stages.h"
 #include "sim/terms/density_correction.h"
 #include "sim/walls/mirrors.h"
+#include "sim/walls/pushes.h"
 #include "sim/walls/walls.h"
 
 #include <math.h>
@@ -160,6 +161,7 @@ void sb_sim_destroy(sb_sim *sim)
     sb_cells_free(&sim->cells);
     sb_ghosts_destroy(sim);
     sb_walls_destroy(sim);
+    sb_pushes_destroy(sim->pushes);
     sb_free(sim);
 }
 

@@ -108,9 +108,27 @@ typedef struct sb_fluid_sample {
     sb_vec3 position, velocity;
     double pressure, density; /* Pa, as for sb_sim_find_virial_pressures; kg/m^3 */
     uint32_t id;
-    double push; /* q = p/rho^2 of the solve: psi grad W times this is the acceleration by a boundary particle */
 } sb_fluid_sample;
 size_t sb_sim_query(const sb_sim *sim, sb_vec3 min, sb_vec3 max, sb_fluid_sample *samples, size_t capacity);
+
+/* A force of the water on a body, as it enters the body's impulse: the sum of them all is the body's pressure force. */
+typedef struct sb_wall_push {
+    size_t body;
+    sb_vec3 at, force; /* m, the fluid particle, moved to the original where it meets an image of the body; N */
+    sb_vec3 normal;    /* unit, of a facet, if the force is along it; 0 0 0: it is not */
+    sb_vec3 from;      /* m, the boundary particle; with facets the same as `at` */
+} sb_wall_push;
+/* A ball in which the forces on one body are recorded. */
+typedef struct sb_push_place {
+    size_t body;
+    sb_vec3 at;   /* m */
+    double range; /* m */
+} sb_push_place;
+/* From the next step on, each step records the forces near these places. Replaces the places given before. The state
+   does not change. */
+sb_status sb_sim_record_pushes(sb_sim *sim, const sb_push_place *places, size_t count, sb_error *error);
+/* Those of the last step, in no fixed order. */
+const sb_wall_push *sb_sim_pushes(const sb_sim *sim, size_t *count);
 
 /* Particle i < sb_sim_report()->fluid_count in storage order; i is another particle after each step. */
 sb_fluid_sample sb_sim_particle(const sb_sim *sim, size_t i);

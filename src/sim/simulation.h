@@ -21,6 +21,7 @@ enum {
 };
 
 struct sb_passes;   /* sim/passes/passes.h */
+struct sb_pushes;   /* sim/walls/pushes.h */
 struct sb_exchange; /* sim/exchange/exchange.h */
 
 struct sb_sim {
@@ -44,6 +45,7 @@ struct sb_sim {
     sb_groups groups;
 
     /* output only */
+    struct sb_pushes *pushes; /* sim/walls/pushes.h; NULL: none are recorded */
     sb_step_report report;
     sb_stage_time stage[SB_STAGES_MAX];
     size_t stage_count;

@@ -31,6 +31,20 @@ const sb_ledger *sb_sim_ledger(const sb_sim *sim)
     return &sim->ledger;
 }
 
+sb_status sb_sim_record_pushes(sb_sim *sim, const sb_push_place *places, size_t count, sb_error *error)
+{
+    (void)places;
+    (void)error;
+    sim->place_count = count;
+    return SB_OK;
+}
+
+const sb_wall_push *sb_sim_pushes(const sb_sim *sim, size_t *count)
+{
+    *count = sim->push_count;
+    return sim->pushes;
+}
+
 sb_fluid_sample sb_sim_particle(const sb_sim *sim, size_t i)
 {
     return sim->samples[i];
@@ -79,7 +93,7 @@ void fake_add(sb_sim *sim, sb_vec3 position, sb_vec3 velocity, double pressure)
     int failed = sb_grow((void **)&sim->samples, &sim->capacity, n + 1, sizeof *sim->samples);
     assert(!failed);
     (void)failed;
-    sim->samples[n] = (sb_fluid_sample){position, velocity, pressure, 1000, (uint32_t)n, pressure / 1e6};
+    sim->samples[n] = (sb_fluid_sample){position, velocity, pressure, 1000, (uint32_t)n};
     sim->report.fluid_count = n + 1;
     double speed = sb_norm(velocity);
     if (speed > sim->report.max_speed) sim->report.max_speed = speed;

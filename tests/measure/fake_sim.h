@@ -15,6 +15,9 @@ struct sb_sim {
     sb_vec3 displacements[FAKE_BODIES];
     sb_energy energy;
     sb_ledger ledger;
+    size_t place_count; /* that were asked for */
+    size_t push_count;
+    const sb_wall_push *pushes; /* of the last step */
 };
 
 /* A scene and model of one unit spacing (or `spacing`) with a domain [min, max] and no bodies. */

@@ -1,5 +1,5 @@
-/* The flow depth at a body, by which its force is flagged, is that of a bore of known depth that strikes a wall, and not
-   that of the splash. 2D; the spacing is 5 cm. */
+/* The flow depth at a body, by which its force is flagged, is that of a bore of known depth that strikes a wall, and
+   not that of the splash. 2D; the spacing is 5 cm. */
 #include "geometry/model/model.h"
 #include "measure/measure.h"
 
@@ -22,12 +22,13 @@ static void read_scene(const char *walls, int layers, sb_scene *scene)
     sb_error error = {0};
     int file = mkstemp(path);
     assert_true(file >= 0);
-    assert_true(dprintf(file,
-                        "dimensions: 2\nresolution: 0.05\nduration: 0.8\nnumerics: {walls: %s}\nmeasure: {interval: 0.01}\n"
-                        "domain: {min: [0, 0], max: [4, 3]}\n"
-                        "water: {boxes: [{min: [0, 0], max: [2, %g], velocity: [3, 0]}]}\n"
-                        "bodies: [{name: wall, shape: box, min: [3, -0.2], max: [3.5, 3]}]\n",
-                        walls, 0.05 * layers) > 0);
+    assert_true(
+        dprintf(file,
+                "dimensions: 2\nresolution: 0.05\nduration: 0.8\nnumerics: {walls: %s}\nmeasure: {interval: 0.01}\n"
+                "domain: {min: [0, 0], max: [4, 3]}\n"
+                "water: {boxes: [{min: [0, 0], max: [2, %g], velocity: [3, 0]}]}\n"
+                "bodies: [{name: wall, shape: box, min: [3, -0.2], max: [3.5, 3]}]\n",
+                walls, 0.05 * layers) > 0);
     close(file);
     sb_status status = sb_scene_read(path, NULL, NULL, 0, scene, &error);
     unlink(path);

@@ -68,7 +68,6 @@ static sb_fluid_sample sample_at(const sb_sim *sim, size_t i, sb_vec3 position)
         .velocity = sb_vec((double)v[0], (double)v[1], (double)v[2]),
         .pressure = (double)p.pressure,
         .density = density,
-        .push = (double)v[3] / (density * density),
         .id = p.id,
     };
 }

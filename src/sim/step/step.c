@@ -6,6 +6,7 @@
 #include "sim/terms/density_correction.h"
 #include "sim/terms/stress_correction.h"
 #include "sim/terms/turbulence.h"
+#include "sim/walls/pushes.h"
 
 typedef struct stage {
     const char *name;
@@ -92,6 +93,7 @@ static sb_status run_stages(sb_sim *sim, sb_error *error)
 sb_status sb_sim_step(sb_sim *sim, sb_error *error)
 {
     sim->work.lists_current = sim->work.virial_known = false;
+    sb_pushes_clear(sim->pushes);
     const sb_status status = run_stages(sim, error);
     sim->work.lists_current = status == SB_OK;
     sb_report_update(sim);

@@ -8,6 +8,7 @@
 #include "sim/step/ledger.h"
 #include "sim/walls/contact.h"
 #include "sim/walls/mirrors.h"
+#include "sim/walls/pushes.h"
 
 enum { WORKS = 3 };
 
@@ -62,11 +63,38 @@ static void turn_to(tally *t, const sb_wall_set *set, uint32_t wall)
     t->shift = shift;
 }
 
+/* Records a force between particle i and a boundary particle. */
+SB_APART void record_push(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 force)
+{
+    const sb_record of = sb_wall_set_of(sim, wall)->record[sb_wall_particle(wall)];
+    const sb_vec3 shift = sim->space.repeats ? to_original(&sim->space, of) : (sb_vec3){0};
+    sb_pushes_add(sim->pushes,
+                  &(sb_wall_push){.body = sb_wall_body(sim, wall),
+                                  .at = sb_add(sb_space_position(&sim->space, sim->state.position[i]), shift),
+                                  .force = force,
+                                  .from = sb_add(sb_space_position(&sim->space, of), shift)});
+}
+
+/* The same for the pressure between particle i and all boundary particles of its list. */
+static void record_pairs(const sb_sim *sim, size_t i)
+{
+    const size_t begin = sim->work.wall_pairs.first[i], end = begin + sim->work.wall_pairs.count[i];
+    const double press = (double)sim->constant.mass * (double)sim->work.unknown[i];
+    for (size_t k = begin; k < end; k++) {
+        const uint32_t wall = sim->work.wall_pairs.index[k];
+        const float slope = sim->work.wall_pairs.slope[k];
+        if (slope == 0) continue;
+        const sb_record of = sb_wall_set_of(sim, wall)->record[sb_wall_particle(wall)];
+        record_push(sim, i, wall, vector(sb_offset(sim->state.position[i], of) * sb_splat(slope), press));
+    }
+}
+
 static void add_push(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 push, forces *to)
 {
     const sb_record record = sb_wall_set_of(sim, wall)->record[sb_wall_particle(wall)];
     sb_vec3 at = sb_space_position(&sim->space, sim->state.position[i]);
     if (sim->space.repeats) at = sb_add(at, to_original(&sim->space, record));
+    if (sim->pushes) record_push(sim, i, wall, push);
     add(sim, to, sb_wall_body(sim, wall), at, push, (sb_vec3){0});
 }
 
@@ -105,9 +133,8 @@ SB_APART void contact_facets(sb_sim *sim, const sb_group *group, size_t i, force
         const sb_group_plane *p = &sim->groups.plane[group->plane + c.plane];
         const sb_f4 change = p->plane * (sb_f4){1, 1, 1, 0} * sb_splat(c.push / to_quanta);
         const sb_f4 body = sb_mirror_velocity(sim, p->mirror);
-        const sb_vec3 at =
-            sb_add(sb_space_position(&sim->space, sim->state.position[i]), sb_mirror_shift(sim, p->mirror));
-        add(sim, to, sb_mirror_body(sim, p->mirror), at, vector(change, scale), (sb_vec3){0});
+        sb_body_forces_along(sim, &to->on, p, sb_space_position(&sim->space, sim->state.position[i]),
+                             vector(change, scale));
         works[2] += sb_ledger_work((sb_f4){0}, change, body, body);
         velocity += change;
     }
@@ -155,8 +182,8 @@ static void react_images(const sb_sim *sim, const sb_group *group, uint32_t reco
     for (uint32_t k = 0; k < sim->work.edge_pairs.count[i]; k++) {
         const sb_edge_pair *e = &sim->work.edge_pairs.pair[sim->work.edge_pairs.first[i] + k];
         const double q = (double)own + (double)sim->work.unknown[sb_entry_owner(sim, e->entry)];
-        add(sim, to, sb_mirror_body(sim, e->mirror), sb_add(at, sb_mirror_shift(sim, e->mirror)),
-            vector(e->own, (double)sim->constant.mass * q), (sb_vec3){0});
+        sb_body_forces_of_facet(sim, &to->on, e->mirror, at, vector(e->own, (double)sim->constant.mass * q),
+                                (sb_vec3){0});
     }
 }
 
@@ -214,6 +241,7 @@ static void do_group(sb_sim *sim, const sb_group *group, const sb_wall_drag *law
         if (group->planes > 0) contact_facets(sim, group, i, to, works);
         if (sim->work.wall_pairs.count[i] == 0) continue;
         const sb_f4 drag = react(sim, i, law->on ? law : NULL, to);
+        if (sim->pushes && !sim->needs.images) record_pairs(sim, i);
         if (!sim->needs.images) contact(sim, i, to, works);
         if (law->on) works[0] += sb_ledger_work((sb_f4){0}, drag, velocity[i], sim->work.end_velocity[i]);
     }

@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "sim/walls/mirrors.h"
+#include "sim/walls/pushes.h"
 
 #include <string.h>
 
@@ -44,6 +45,21 @@ void sb_body_forces_add(const sb_sim *sim, sb_body_forces *to, uint32_t body, sb
     add_to(value + 6, sb_cross(sb_sub(at, sim->model->bodies[body].moment_point), sb_add(pressure, drag)));
 }
 
+void sb_body_forces_of_facet(const sb_sim *sim, sb_body_forces *to, uint32_t mirror, sb_vec3 at, sb_vec3 force,
+                             sb_vec3 normal)
+{
+    const uint32_t body = sb_mirror_body(sim, mirror);
+    const sb_vec3 place = sb_add(at, sb_mirror_shift(sim, mirror));
+    if (sim->pushes) sb_pushes_add(sim->pushes, &(sb_wall_push){body, place, force, normal, place});
+    sb_body_forces_add(sim, to, body, place, force, (sb_vec3){0});
+}
+
+void sb_body_forces_along(const sb_sim *sim, sb_body_forces *to, const sb_group_plane *plane, sb_vec3 at, sb_vec3 force)
+{
+    const sb_f4 n = plane->plane;
+    sb_body_forces_of_facet(sim, to, plane->mirror, at, force, sb_vec((double)n[0], (double)n[1], (double)n[2]));
+}
+
 void sb_body_forces_close(sb_body_forces *f)
 {
     for (size_t b = 0; b < f->count; b++) {
@@ -62,12 +78,10 @@ void sb_reactions_close(const sb_sim *sim, const sb_group_plane *planes, sb_vec3
     const double mass = (double)sim->constant.mass;
     for (uint32_t k = 0; k < r->count; k++) {
         const uint32_t plane = r->plane[k];
-        const sb_group_plane *p = &planes[plane];
         const double along = mass * (double)r->along[plane];
-        const sb_vec3 push =
-            sb_vec(along * (double)p->plane[0], along * (double)p->plane[1], along * (double)p->plane[2]);
-        sb_body_forces_add(sim, to, sb_mirror_body(sim, p->mirror), sb_add(at, sb_mirror_shift(sim, p->mirror)), push,
-                           (sb_vec3){0});
+        const sb_f4 normal = planes[plane].plane;
+        sb_body_forces_along(sim, to, &planes[plane], at,
+                             sb_vec(along * (double)normal[0], along * (double)normal[1], along * (double)normal[2]));
         r->known[plane] = false;
         r->along[plane] = 0;
     }

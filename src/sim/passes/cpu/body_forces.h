@@ -20,6 +20,12 @@ void sb_body_forces_free(sb_body_forces *f);
 /* Adds a force on a body. pressure, drag: N; at: m, the point of application. */
 void sb_body_forces_add(const sb_sim *sim, sb_body_forces *to, uint32_t body, sb_vec3 at, sb_vec3 pressure,
                         sb_vec3 drag);
+/* Adds a pressure force (N) on a facet. normal: 0 0 0 if the force is not along the facet's. */
+void sb_body_forces_of_facet(const sb_sim *sim, sb_body_forces *to, uint32_t mirror, sb_vec3 at, sb_vec3 force,
+                             sb_vec3 normal);
+/* The same, along the normal of a group's plane. */
+void sb_body_forces_along(const sb_sim *sim, sb_body_forces *to, const sb_group_plane *plane, sb_vec3 at,
+                          sb_vec3 force);
 /* Ends a group. */
 void sb_body_forces_close(sb_body_forces *f);
 

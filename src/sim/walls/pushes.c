@@ -1,0 +1,81 @@
+#include "sim/walls/pushes.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+
+static double component_along(double way, double period)
+{
+    return period > 0 ? way - period * round(way / period) : way;
+}
+
+static bool is_near(const sb_pushes *pushes, size_t body, sb_vec3 at)
+{
+    for (size_t p = 0; p < pushes->place_count; p++) {
+        const sb_push_place *place = &pushes->places[p];
+        sb_vec3 way = sb_sub(at, place->at);
+        way.x = component_along(way.x, pushes->period.x);
+        way.y = component_along(way.y, pushes->period.y);
+        if (place->body == body && sb_dot(way, way) < place->range * place->range) return true;
+    }
+    return false;
+}
+
+void sb_pushes_add(sb_pushes *pushes, const sb_wall_push *push)
+{
+    if (!pushes->wanted[push->body] || sb_dot(push->force, push->force) == 0 || !is_near(pushes, push->body, push->at))
+        return;
+#pragma omp critical(sb_pushes)
+    {
+        if (sb_grow((void **)&pushes->list, &pushes->capacity, pushes->count + 1, sizeof *pushes->list) != 0)
+            pushes->failed = true;
+        else
+            pushes->list[pushes->count++] = *push;
+    }
+}
+
+void sb_pushes_clear(sb_pushes *pushes)
+{
+    if (!pushes) return;
+    pushes->count = 0;
+    pushes->failed = false;
+}
+
+void sb_pushes_destroy(sb_pushes *pushes)
+{
+    if (!pushes) return;
+    sb_free(pushes->places);
+    sb_free(pushes->wanted);
+    sb_free(pushes->list);
+    sb_free(pushes);
+}
+
+sb_status sb_sim_record_pushes(sb_sim *sim, const sb_push_place *places, size_t count, sb_error *error)
+{
+    sb_pushes_destroy(sim->pushes);
+    sim->pushes = NULL;
+    if (count == 0) return SB_OK;
+    sb_pushes *made = sb_alloc(1, sizeof *made);
+    if (!made) return sb_fail_memory(error, "forces on walls");
+    made->places = sb_alloc(count, sizeof *made->places);
+    made->wanted = sb_alloc(sim->model->body_count, sizeof *made->wanted);
+    if (!made->places || !made->wanted) {
+        sb_pushes_destroy(made);
+        return sb_fail_memory(error, "forces on walls");
+    }
+    made->place_count = count;
+    for (size_t p = 0; p < count; p++) {
+        made->places[p] = places[p];
+        made->wanted[places[p].body] = true;
+    }
+    made->period = sb_vec((double)sim->space.period[0] * sim->space.quantum,
+                          (double)sim->space.period[1] * sim->space.quantum, 0);
+    sim->pushes = made;
+    return SB_OK;
+}
+
+const sb_wall_push *sb_sim_pushes(const sb_sim *sim, size_t *count)
+{
+    *count = sim->pushes ? sim->pushes->count : 0;
+    return sim->pushes ? sim->pushes->list : NULL;
+}

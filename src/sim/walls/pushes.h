@@ -1,0 +1,24 @@
+/* Records the forces of the water on walls near given places, for probes. Output only: nothing of the simulation reads
+   them. */
+#ifndef SB_SIM_PUSHES_H
+#define SB_SIM_PUSHES_H
+
+#include "sim/simulation.h"
+
+typedef struct sb_pushes {
+    size_t place_count;
+    sb_push_place *places;
+    bool *wanted;     /* per body */
+    sb_vec3 period;   /* m; 0: the domain does not repeat */
+    size_t count, capacity;
+    sb_wall_push *list; /* of the last step, in an order that depends on timing */
+    bool failed;        /* no memory */
+} sb_pushes;
+
+/* Adds a force on a body if it is near a place. Any thread may call it. */
+void sb_pushes_add(sb_pushes *pushes, const sb_wall_push *push);
+/* Forgets the pushes of the last step. */
+void sb_pushes_clear(sb_pushes *pushes);
+void sb_pushes_destroy(sb_pushes *pushes);
+
+#endif
