@@ -5,7 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Points per radius; steps of the iteration, each of which halves the error or better; parts of a cell at the border. */
+/* Points per radius; steps of the iteration, each of which halves the error or better; parts of a cell at the border.
+ */
 enum { PER_RADIUS = 8, ITERATIONS = 14, PARTS = 4 };
 
 /* w(r) as a function of the squared distance in radii. */
@@ -42,7 +43,8 @@ static double share_of(const sb_patch_region *r, const face *f, int i, int j)
     int inside = 0;
     bool same = true;
     for (int corner = 0; corner < 4 && same; corner++)
-        same = middle == f->on(f->context, point(r, i + (corner % 2 ? 0.5 : -0.5), flat ? 0 : j + (corner / 2 ? 0.5 : -0.5)));
+        same = middle ==
+               f->on(f->context, point(r, i + (corner % 2 ? 0.5 : -0.5), flat ? 0 : j + (corner / 2 ? 0.5 : -0.5)));
     if (same) return middle;
     for (int b = 0; b < rows; b++)
         for (int a = 0; a < PARTS; a++)
@@ -58,7 +60,8 @@ static double integral(const sb_patch_region *r, int i, int j, double endless)
     double sum = 0;
     for (int y = j - reach; y <= j + reach; y++)
         for (int x = i - PER_RADIUS; x <= i + PER_RADIUS; x++) {
-            const double dx = (double)(x - i) / PER_RADIUS, dy = (double)(y - j) / PER_RADIUS, w = bell(dx * dx + dy * dy);
+            const double dx = (double)(x - i) / PER_RADIUS, dy = (double)(y - j) / PER_RADIUS,
+                         w = bell(dx * dx + dy * dy);
             const bool known = abs(x) <= r->half && abs(y) <= r->rows;
             if (w > 0) sum += known ? w * r->share[index_of(r, x, y)] / r->norm[index_of(r, x, y)] : w / endless;
         }
@@ -72,7 +75,8 @@ static void balance(sb_patch_region *r, double *next)
     const int reach = r->rows > 0 ? PER_RADIUS : 0;
     for (int y = -reach; y <= reach; y++)
         for (int x = -PER_RADIUS; x <= PER_RADIUS; x++)
-            endless += bell((double)(x * x + y * y) / (PER_RADIUS * PER_RADIUS)) * (r->rows > 0 ? r->cell * r->cell : r->cell);
+            endless +=
+                bell((double)(x * x + y * y) / (PER_RADIUS * PER_RADIUS)) * (r->rows > 0 ? r->cell * r->cell : r->cell);
     endless = sqrt(endless);
     const size_t count = width_of(r) * (size_t)(2 * r->rows + 1);
     for (size_t k = 0; k < count; k++) r->norm[k] = endless;

@@ -13,14 +13,14 @@
 
 /* A square lattice in the plane of the disk, in 2D a line. */
 typedef struct sb_patch_region {
-    int half, rows;    /* points at i = -half..half along u, j = -rows..rows along v */
-    double cell;       /* m */
-    double radius;     /* m */
+    int half, rows; /* points at i = -half..half along u, j = -rows..rows along v */
+    double cell;    /* m */
+    double radius;  /* m */
     sb_vec3 center, u, v;
-    double off;        /* m, from the center to the face; INFINITY: the face is not in the square */
-    double *share;     /* per point: part of its cell that is on the face */
-    double *norm;      /* a at each point */
-    double at_center;  /* a(c) */
+    double off;       /* m, from the center to the face; INFINITY: the face is not in the square */
+    double *share;    /* per point: part of its cell that is on the face */
+    double *norm;     /* a at each point */
+    double at_center; /* a(c) */
 } sb_patch_region;
 
 /* Whether a point of the disk's plane is on the face. */
@@ -30,8 +30,8 @@ sb_status sb_patch_region_make(sb_patch_region *region, sb_vec3 center, sb_vec3 
                                sb_on_face *on_face, const void *context, sb_error *error);
 void sb_patch_region_free(sb_patch_region *region);
 
-/* Returns the weight W of a point in the plane, 1/m^2 (1/m in 2D). A point beside the face has that of the nearest point on
-   it. */
+/* Returns the weight W of a point in the plane, 1/m^2 (1/m in 2D). A point beside the face has that of the nearest
+   point on it. */
 double sb_patch_region_weight(const sb_patch_region *region, sb_vec3 at);
 
 #endif

@@ -1,5 +1,5 @@
-/* Pressures of probes on walls: means over the interval, like forces. A single step's forces on so small a part of a wall
-   are noise, and in a full flow the part may be bare for a step. */
+/* Pressures of probes on walls: means over the interval, like forces. A single step's forces on so small a part of a
+   wall are noise, and in a full flow the part may be bare for a step. */
 #include "base/exact.h"
 #include "base/memory.h"
 #include "measure/patch.h"

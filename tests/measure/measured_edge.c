@@ -1,5 +1,5 @@
-/* The pressures of probes all over a face sum to the force on the body, row by row, while a bore strikes and overtops it;
-   and no probe that water stands at is blank. 2D; the spacing is 4 cm. */
+/* The pressures of probes all over a face sum to the force on the body, row by row, while a bore strikes and overtops
+   it; and no probe that water stands at is blank. 2D; the spacing is 4 cm. */
 #include "geometry/model/model.h"
 #include "measure/measure.h"
 
@@ -27,8 +27,8 @@ static void read_scene(const char *walls, sb_scene *scene)
     char path[] = "/tmp/shorebreak-edge-XXXXXX", probes[1024] = "";
     sb_error error = {0};
     for (int k = 0; k < PROBES; k++)
-        snprintf(probes + strlen(probes), sizeof probes - strlen(probes), "%s{name: p%d, at: [2, %g]}", k ? ", " : "", k,
-                 (k + 0.5) * SPACING);
+        snprintf(probes + strlen(probes), sizeof probes - strlen(probes), "%s{name: p%d, at: [2, %g]}", k ? ", " : "",
+                 k, (k + 0.5) * SPACING);
     int file = mkstemp(path);
     assert_true(file >= 0);
     assert_true(dprintf(file,

@@ -68,8 +68,8 @@ sb_status sb_sim_record_pushes(sb_sim *sim, const sb_push_place *places, size_t 
         made->places[p] = places[p];
         made->wanted[places[p].body] = true;
     }
-    made->period = sb_vec((double)sim->space.period[0] * sim->space.quantum,
-                          (double)sim->space.period[1] * sim->space.quantum, 0);
+    made->period =
+        sb_vec((double)sim->space.period[0] * sim->space.quantum, (double)sim->space.period[1] * sim->space.quantum, 0);
     sim->pushes = made;
     return SB_OK;
 }

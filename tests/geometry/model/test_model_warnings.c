@@ -166,7 +166,7 @@ static void thin_bodies_that_are_not_named_are_counted(void **state)
     for (int i = 0; i < count; i++) {
         char name[SB_NAME_MAX];
         snprintf(name, sizeof name, "a-name-that-leaves-no-room-for-many-others-in-a-line-%d", i);
-        add_box(name, sb_vec(3, 0.37 * i, 0), sb_vec(9, 0.37 * i + 0.3, 4));
+        add_box(name, sb_vec(3, 0.3 * i, 0), sb_vec(9, 0.3 * (i + 1), 4)); /* no gaps between them */
     }
     build();
     assert_int_equal(model.warning_count, 1);
