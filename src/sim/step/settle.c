@@ -5,6 +5,7 @@
 #include "base/stop.h"
 #include "physics/wave_theory.h"
 #include "sim/exchange/exchange.h"
+#include "sim/exchange/sums.h"
 #include "sim/report/report.h"
 #include "sim/simulation.h"
 
@@ -131,12 +132,27 @@ static void begin(sb_sim *sim)
     sb_report_update(sim);
 }
 
-/* Ends settling if further damped steps would change little. */
+/* Kinetic energy of a group's mean motion, in units of a particle's mass. */
+static double flow_of(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_MAX])
+{
+    sb_f4 sum = {0};
+    for (size_t i = group->first; i < group->end; i++) sum += sim->state.velocity[i];
+    terms[0] = 0.5 * (double)sb_sum3(sum * sum) / (double)(group->end - group->first);
+    return 0;
+}
+
+/* Ends settling if further damped steps would change little. With images the flow between basins counts, and not the
+   motion of single particles about it, which does not cease. */
 static void judge_trial(sb_sim *sim)
 {
     sb_settle *settle = &sim->state.settle;
     if ((settle->done - CREEP_FIRST) % TRIAL_STEPS != 0) return;
-    const double kinetic = sb_sim_energy(sim).kinetic;
+    double kinetic;
+    if (sim->needs.images) {
+        sb_sum_groups(sim, 1, flow_of, &kinetic);
+        kinetic *= (double)sim->constant.mass;
+    } else
+        kinetic = sb_sim_energy(sim).kinetic;
     if (kinetic > STILL_FALLING * settle->kinetic) settle->most = settle->done;
     settle->kinetic = kinetic;
 }
