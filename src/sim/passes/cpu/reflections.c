@@ -63,6 +63,13 @@ static void add_edge(const sb_sim *sim, sb_searcher *w, sb_list_builder *lists, 
     lists->edge[lists->edges++] = (sb_edge_pair){own, other, source, f->mirror};
 }
 
+/* Forgets the pairs at edges of the last particle. */
+static void clear_edges(sb_searcher *w)
+{
+    w->edge_own = SIZE_MAX;
+    for (size_t k = 0; k < w->hits.count; k++) w->edge_of[k] = SIZE_MAX;
+}
+
 /* Completes the pairs at edges of a particle, and sums them. */
 static void close_edges(const sb_sim *sim, sb_searcher *w, sb_list_builder *lists, uint32_t self, sb_reflections *r)
 {
@@ -84,7 +91,7 @@ static void close_edges(const sb_sim *sim, sb_searcher *w, sb_list_builder *list
 }
 
 /* Adds the pairs at edges of those weights [from, to) that belong to these hits. */
-static void add_edges(const sb_sim *sim, sb_searcher *w, sb_list_builder *lists, uint32_t self, size_t from,
+static void add_edges(const sb_sim *sim, sb_searcher *w, sb_list_builder *lists, uint32_t self, size_t from, size_t to,
                       const sb_hits *h, sb_reflections *r)
 {
     const float scale = sim->constant.mass * w->value_scale / (float)sim->space.quantum;
@@ -92,7 +99,7 @@ static void add_edges(const sb_sim *sim, sb_searcher *w, sb_list_builder *lists,
         w->full |= SB_FULL_FACETS;
         return;
     }
-    for (size_t k = from; k < w->images.slopes; k++) {
+    for (size_t k = from; k < to; k++) {
         const sb_weight_slope *s = &w->images.slope[k];
         if (h->root[s->hit] == 0) continue;
         const uint32_t candidate = h->candidate[s->hit];
@@ -211,8 +218,16 @@ static void note_direct(sb_searcher *w, sb_f4 self, float unit)
     const sb_hits *h = &w->hits;
     for (size_t k = 0; k < h->count; k++) {
         w->hit_of[h->candidate[k]] = (uint32_t)k;
-        w->edge_of[k] = SIZE_MAX;
         w->force[k] = (self - w->vicinity.place[h->candidate[k]]) * sb_splat(-unit * h->slope[k] * h->root[k]);
+    }
+}
+
+/* Walls that hide nothing leave all weights at 1. */
+static void weigh_direct(sb_hits *h)
+{
+    for (size_t k = 0; k < h->count; k++) {
+        h->value[k] *= h->root[k];
+        h->slope[k] *= h->root[k];
     }
 }
 
@@ -225,27 +240,26 @@ sb_reflections sb_search_images(const sb_sim *sim, sb_searcher *w, sb_list_build
     sb_hits *h = &w->hits, *r = &w->reflected;
     sb_reflections sums = {0};
     w->edges = lists->edges;
-    w->edge_own = SIZE_MAX;
     note_direct(w, self, sim->constant.mass * w->slope_scale);
-    add_edges(sim, w, lists, candidate, 0, h, &sums);
     const size_t direct = w->images.slopes;
     sb_search_hits(w, r, &(sb_candidates){v->x, v->y, v->z, v->place}, range, ranges, self, UINT32_MAX, candidate);
     w->batch(w->kernel, r->q2, r->padded, r->value, r->slope);
     const bool own = require_originals(w, candidate);
     sb_images_weigh(sim, v, &w->images, self, r);
-    if (own) repel(sim, w, lists, candidate, &sums);
-    add_edges(sim, w, lists, candidate, direct, r, &sums);
-    close_edges(sim, w, lists, candidate, &sums);
+    if (own || w->images.slopes > 0) {
+        clear_edges(w);
+        add_edges(sim, w, lists, candidate, 0, direct, h, &sums);
+        repel(sim, w, lists, candidate, &sums);
+        add_edges(sim, w, lists, candidate, direct, w->images.slopes, r, &sums);
+        close_edges(sim, w, lists, candidate, &sums);
+    }
     sums.density = sim->constant.mass * w->value_scale * take_weights(r, candidate);
     if (r->count >= SB_LIST_MAX) w->full |= SB_FULL_LIST;
     sb_round_slopes(r->slope, r->root, r->padded, w->to_units);
     reflected_sums(sim, w, self, candidate, &sums);
     float squares = 0;
-    for (size_t k = 0; k < h->count; k++) {
-        squares += sb_sum3(w->force[k] * w->force[k]);
-        h->value[k] *= h->root[k];
-        h->slope[k] *= h->root[k];
-    }
+    for (size_t k = 0; k < h->count; k++) squares += sb_sum3(w->force[k] * w->force[k]);
+    if (!w->images.near.simple) weigh_direct(h);
     sums.squares = squares;
     return sums;
 }
