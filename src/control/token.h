@@ -21,7 +21,7 @@ typedef struct sb_token {
 sb_status sb_token_make(const char *path, sb_token *token, sb_error *error);
 
 /* Reads a token. SB_BAD_INPUT if the file is not a regular one, others than its owner may read it, or it has no token.
-   */
+ */
 sb_status sb_token_read(const char *path, sb_token *token, sb_error *error);
 
 /* Whether the text is the token in hexadecimal digits. The time does not depend on where they differ. */

@@ -65,8 +65,7 @@ sb_status sb_command_from_words(int count, char *const words[], int64_t id, char
     const bool fits = add_members(root, count, words);
     const size_t size = json_dumpb(root, text, SB_COMMAND_JSON_MAX - 1, JSON_COMPACT);
     json_decref(root);
-    if (size >= SB_COMMAND_JSON_MAX)
-        return sb_fail(error, SB_BAD_INPUT, "%.40s: its values are too long", words[0]);
+    if (size >= SB_COMMAND_JSON_MAX) return sb_fail(error, SB_BAD_INPUT, "%.40s: its values are too long", words[0]);
     text[size] = 0;
     const sb_status status = sb_command_from_json(text, size, &command, error);
     if (fits || (status != SB_OK && strncmp(error ? error->text : "", "do:", 3) == 0)) return status;

@@ -7,10 +7,10 @@
 #include "shorebreak_frame_t.h"
 #include "shorebreak_gauges_t.h"
 #include "shorebreak_parity_t.h"
+#include "shorebreak_reply_t.h"
 #include "shorebreak_scene_piece_t.h"
 #include "shorebreak_status_t.h"
 
-#include <stdbool.h>
 #include <string.h>
 
 const char *sb_run_state_name(sb_run_state state)
@@ -197,6 +197,24 @@ sb_status sb_stream_decode_parity(const void *buffer, size_t size, sb_parity_mes
         sb_reader_refuse(&in, "its frame, group or number of bytes is outside of its range");
     m.data = sb_reader_bytes(&in, in.problem ? 0 : (size_t)m.count);
     const sb_status status = sb_reader_end(&in, "parity", size, error);
+    if (status == SB_OK) *out = m;
+    return status;
+}
+
+sb_status sb_stream_decode_reply(const void *buffer, size_t size, sb_reply_message *out, sb_error *error)
+{
+    sb_message_reader in = sb_reader_begin(buffer, size, SB_STREAM_MESSAGE_MAX, __shorebreak_reply_t_get_hash());
+    sb_reply_message m = {.head = sb_reader_head(&in)};
+    m.id = sb_reader_int64(&in);
+    m.counter = sb_reader_int64(&in);
+    const int8_t result = sb_reader_int8(&in);
+    m.step = sb_reader_int64(&in);
+    m.time = sb_reader_double(&in);
+    sb_reader_text(&in, m.text, sizeof m.text);
+    if (m.id < 0 || m.counter < 0 || m.step < 0 || (result != 0 && result != 1))
+        sb_reader_refuse(&in, "its id, counter, step or result is outside of its range");
+    m.refused = result != 0;
+    const sb_status status = sb_reader_end(&in, "reply", size, error);
     if (status == SB_OK) *out = m;
     return status;
 }

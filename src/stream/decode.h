@@ -4,6 +4,7 @@
 
 #include "base/status.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -99,6 +100,17 @@ typedef struct sb_parity_message {
     const unsigned char *data; /* within the decoded buffer */
 } sb_parity_message;
 
+enum { SB_STREAM_TEXT = 256 }; /* bytes of the text of a reply with its terminating zero */
+
+typedef struct sb_reply_message {
+    sb_message_head head;
+    int64_t id, counter; /* of the command */
+    bool refused;
+    int64_t step;
+    double time; /* s, simulated */
+    char text[SB_STREAM_TEXT];
+} sb_reply_message;
+
 typedef struct sb_scene_piece_message {
     sb_message_head head;
     int64_t scene_id, total;
@@ -116,6 +128,7 @@ sb_status sb_stream_decode_forces(const void *buffer, size_t size, sb_forces_mes
 sb_status sb_stream_decode_gauges(const void *buffer, size_t size, sb_gauges_message *out, sb_error *error);
 sb_status sb_stream_decode_frame(const void *buffer, size_t size, sb_frame_message *out, sb_error *error);
 sb_status sb_stream_decode_parity(const void *buffer, size_t size, sb_parity_message *out, sb_error *error);
+sb_status sb_stream_decode_reply(const void *buffer, size_t size, sb_reply_message *out, sb_error *error);
 sb_status sb_stream_decode_piece(const void *buffer, size_t size, sb_scene_piece_message *out, sb_error *error);
 
 #endif

@@ -9,6 +9,7 @@
 #include <errno.h>
 #include <poll.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Enough for the parts of a frame of 5 M particles. LCM's default queue of 30 messages silently drops the rest. */
 enum { QUEUE_MESSAGES = 1000 };
@@ -16,14 +17,15 @@ enum { QUEUE_MESSAGES = 1000 };
 struct sb_listener {
     lcm_t *lcm;
     sb_listener_calls calls;
-    sb_channel channels[SB_CHANNELS];
+    sb_channel channels[SB_CHANNELS], command;
     bool ended;
 };
 
 static void on_message(const lcm_recv_buf_t *received, const char *channel, void *user)
 {
     const sb_listener *listener = user;
-    const sb_channel_kind kind = sb_channel_find(channel, listener->channels);
+    const sb_channel_kind kind =
+        strcmp(channel, listener->command) == 0 ? SB_CHANNEL_COMMAND : sb_channel_find(channel, listener->channels);
     listener->calls.message(listener->calls.user, kind, received->data, received->data_size,
                             1e-6 * (double)received->recv_utime);
 }
@@ -43,18 +45,20 @@ static sb_status subscribe(sb_listener *listener, sb_error *error)
     /* The first subscription starts LCM's receiver and its test of the route, which print to stderr. */
     char reason[160];
     sb_stderr_catch hold = sb_stderr_hold();
-    int subscribed = 0;
-    for (; subscribed < SB_CHANNELS; subscribed++) {
+    const char *refused = NULL;
+    for (int k = 0; !refused && k < SB_CHANNELS + listener->calls.commands; k++) {
         char pattern[2 * sizeof(sb_channel)];
-        escape(listener->channels[subscribed], pattern);
+        const char *name = k < SB_CHANNELS ? listener->channels[k] : listener->command;
+        escape(name, pattern);
         lcm_subscription_t *made = lcm_subscribe(listener->lcm, pattern, on_message, listener);
-        if (!made) break;
-        lcm_subscription_set_queue_capacity(made, QUEUE_MESSAGES);
+        if (made)
+            lcm_subscription_set_queue_capacity(made, QUEUE_MESSAGES);
+        else
+            refused = name;
     }
     sb_stderr_release(&hold, reason, sizeof reason);
-    if (subscribed == SB_CHANNELS) return SB_OK;
-    return sb_fail(error, SB_FAILED, "LCM cannot subscribe to %s (%s)", listener->channels[subscribed],
-                   *reason ? reason : "no reason given");
+    if (!refused) return SB_OK;
+    return sb_fail(error, SB_FAILED, "LCM cannot subscribe to %s (%s)", refused, *reason ? reason : "no reason given");
 }
 
 sb_status sb_listener_create(const char *url, const char *prefix, const sb_listener_calls *calls,
@@ -67,6 +71,7 @@ sb_status sb_listener_create(const char *url, const char *prefix, const sb_liste
     if (!made) return sb_fail_memory(error, "the listener");
     made->calls = *calls;
     sb_status status = sb_channels_name(prefix, made->channels, error);
+    if (status == SB_OK) status = sb_channel_name_command(prefix, made->command, error);
     if (status == SB_OK) status = sb_provider_open(url, &made->lcm, error);
     if (status == SB_OK) status = subscribe(made, error);
     if (status != SB_OK) {

@@ -24,6 +24,7 @@ struct sb_live {
         sb_frame_message part;
         sb_parity_message parity;
         sb_scene_piece_message piece;
+        sb_reply_message reply;
     } message;
 };
 
@@ -133,7 +134,10 @@ static sb_status decode(sb_live *live, sb_channel_kind kind, const void *data, s
         return sb_stream_decode_parity(data, size, &live->message.parity, NULL);
     case SB_CHANNEL_SCENE:
         return sb_stream_decode_piece(data, size, &live->message.piece, NULL);
+    case SB_CHANNEL_REPLY:
+        return sb_stream_decode_reply(data, size, &live->message.reply, NULL);
     case SB_CHANNELS:
+    case SB_CHANNEL_COMMAND:
         break;
     }
     return SB_BAD_INPUT;
@@ -158,7 +162,11 @@ static sb_status use(sb_live *live, sb_channel_kind kind)
         break;
     case SB_CHANNEL_SCENE:
         return take_piece(live);
+    case SB_CHANNEL_REPLY:
+        if (live->calls.reply) live->calls.reply(live->calls.user, &live->message.reply);
+        break;
     case SB_CHANNELS:
+    case SB_CHANNEL_COMMAND:
         break;
     }
     return SB_OK;

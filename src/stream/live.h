@@ -22,6 +22,7 @@ typedef struct sb_live_calls {
     void (*gauges)(void *user, const sb_gauges_message *message);
     void (*part)(void *user, const sb_frame_message *message); /* of any frame, also of one that stays incomplete */
     void (*frame)(void *user, const sb_live_frame *frame);
+    void (*reply)(void *user, const sb_reply_message *message); /* to a command */
 } sb_live_calls;
 
 /* NULL without memory. */

@@ -87,9 +87,15 @@ void sb_reader_int32s(sb_message_reader *in, int32_t *out, size_t count)
 
 void sb_reader_name(sb_message_reader *in, char name[SB_STREAM_NAME])
 {
+    sb_reader_text(in, name, SB_STREAM_NAME);
+}
+
+void sb_reader_text(sb_message_reader *in, char *name, size_t size)
+{
     const int32_t length = sb_reader_int32(in); /* with the terminating zero */
-    if (length < 1 || length > SB_STREAM_NAME) {
-        sb_reader_refuse(in, "the length of a name is not 0 to 63 bytes");
+    if (length < 1 || (size_t)length > size) {
+        sb_reader_refuse(in, size == SB_STREAM_NAME ? "the length of a name is not 0 to 63 bytes"
+                                                    : "the length of a text is not 0 to 255 bytes");
         return;
     }
     const unsigned char *at = sb_reader_bytes(in, (size_t)length);

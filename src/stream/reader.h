@@ -31,6 +31,8 @@ void sb_reader_floats(sb_message_reader *in, float *out, size_t count);
 void sb_reader_int32s(sb_message_reader *in, int32_t *out, size_t count);
 /* A name of at most 63 bytes. Bytes that are not printable ASCII become '?': names are printed on terminals. */
 void sb_reader_name(sb_message_reader *in, char name[SB_STREAM_NAME]);
+/* The same for a text of at most size - 1 bytes. */
+void sb_reader_text(sb_message_reader *in, char *text, size_t size);
 /* A count from 0 to most. */
 int32_t sb_reader_count(sb_message_reader *in, int32_t most, const char *problem);
 /* A count that must equal `expected`. */

@@ -262,6 +262,7 @@ static void send_pieces(sb_stream *stream, double now)
 double sb_stream_serve(sb_stream *stream)
 {
     const double now = sb_clock();
+    sb_stream_send_replies(stream);
     sb_stream_send_rows(stream);
     if (stream->status_time < 0 || now >= stream->status_time + STATUS_SECONDS) send_status(stream);
     send_pieces(stream, now);
@@ -270,6 +271,7 @@ double sb_stream_serve(sb_stream *stream)
 
 void sb_stream_publish(sb_stream *stream, const sb_frame *frame)
 {
+    sb_stream_send_replies(stream);
     send_status(stream);
     sb_stream_send_rows(stream);
     sb_stream_send_frame(stream, frame);
@@ -279,6 +281,7 @@ void sb_stream_publish(sb_stream *stream, const sb_frame *frame)
 void sb_stream_finish(sb_stream *stream)
 {
     sb_stream_set_state(stream, SB_RUN_DONE);
+    sb_stream_send_replies(stream);
     sb_stream_send_rows(stream);
     send_status(stream);
 }

@@ -58,6 +58,11 @@ void sb_stream_set_state(sb_stream *stream, sb_run_state state);
 enum { SB_STREAM_ROWS_WAITING = 1 << 20 };
 void sb_stream_measure(sb_stream *stream, const sb_measure_records *records);
 
+/* Adds a reply to those that wait to be sent; run and sequence number are the stream's. When SB_STREAM_REPLIES_WAITING
+   replies wait, it is dropped and counted as an error. */
+enum { SB_STREAM_REPLIES_WAITING = 64 };
+void sb_stream_reply(sb_stream *stream, const sb_reply_message *reply);
+
 /* How much is sent. */
 typedef struct sb_stream_limits {
     double rate;             /* frames per second of wall time, at most; 0: no limit */
@@ -85,8 +90,8 @@ sb_stream_counters sb_stream_count(const sb_stream *stream);
    and all that sb_stream_serve sends. Some providers block when a subscriber is stopped. */
 void sb_stream_publish(sb_stream *stream, const sb_frame *frame);
 
-/* Sends what is due: waiting rows, the status, the next pieces of the scene. Returns the seconds after which it is to
-   be called again, at most SB_STREAM_SERVE. */
+/* Sends what is due: waiting replies and rows, the status, the next pieces of the scene. Returns the seconds after
+   which it is to be called again, at most SB_STREAM_SERVE. */
 #define SB_STREAM_SERVE 0.1
 double sb_stream_serve(sb_stream *stream);
 

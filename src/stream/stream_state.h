@@ -28,6 +28,8 @@ struct sb_stream {
     sb_run_state state;
     sb_stream_rows waiting;
     sb_stream_limits limits;
+    size_t reply_count;
+    sb_reply_message replies[SB_STREAM_REPLIES_WAITING];
 
     /* Of the stream's thread. */
     sb_stream_rows sending;
@@ -45,11 +47,13 @@ struct sb_stream {
     sb_points points;
     unsigned char buffer[SB_STREAM_MESSAGE_MAX], parity[SB_STREAM_POINT * SB_STREAM_POINTS];
 
-    _Atomic uint64_t row_errors;
+    _Atomic uint64_t row_errors; /* rows and replies that were dropped */
 };
 
 /* stream_rows.c: sends the waiting rows. */
 void sb_stream_send_rows(sb_stream *stream);
+/* stream_reply.c: sends the waiting replies. */
+void sb_stream_send_replies(sb_stream *stream);
 /* stream_frame.c: sends the particles of a frame. */
 void sb_stream_send_frame(sb_stream *stream, const sb_frame *frame);
 /* Writes the vector's components. */

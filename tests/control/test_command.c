@@ -163,7 +163,9 @@ static void test_words(void **state)
         {{"rate", "0.5"}, 2, "{\"do\":\"rate\",\"id\":5,\"rate\":0.5}"},
         {{"region", "off"}, 2, "{\"do\":\"region\",\"id\":5,\"off\":true}"},
         {{"region", "0", "0", "0", "1", "1", "1"}, 7, "{\"do\":\"region\",\"id\":5,\"min\":[0,0,0],\"max\":[1,1,1]}"},
-        {{"picture", "0", "0", "9", "1", "1", "1"}, 7, "{\"do\":\"picture\",\"id\":5,\"eye\":[0,0,9],\"target\":[1,1,1]}"},
+        {{"picture", "0", "0", "9", "1", "1", "1"},
+         7,
+         "{\"do\":\"picture\",\"id\":5,\"eye\":[0,0,9],\"target\":[1,1,1]}"},
         {{"picture", "12"}, 2, "{\"do\":\"picture\",\"id\":5,\"camera\":\"12\"}"},
         {{"trigger", "paddle"}, 2, "{\"do\":\"trigger\",\"id\":5,\"wavemaker\":\"paddle\"}"},
         {{"step", "ten"}, 2, "steps: \"ten\", expected a whole number"},
@@ -182,7 +184,8 @@ static void test_words(void **state)
         memcpy(words, lines[i].words, sizeof words);
         const sb_status status = sb_command_from_words(lines[i].count, words, 5, text, &error);
         const char *got = status == SB_OK ? text : error.text;
-        const bool same = status == SB_OK ? strcmp(got, lines[i].expected) == 0 : strstr(got, lines[i].expected) != NULL;
+        const bool same =
+            status == SB_OK ? strcmp(got, lines[i].expected) == 0 : strstr(got, lines[i].expected) != NULL;
         if (!same) fail_msg("%s: \"%s\", expected \"%s\"", words[0], got, lines[i].expected);
     }
 }

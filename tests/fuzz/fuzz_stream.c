@@ -48,6 +48,12 @@ static void on_gauges(void *user, const sb_gauges_message *m)
     }
 }
 
+static void on_reply(void *user, const sb_reply_message *m)
+{
+    (void)user;
+    FUZZ_CHECK(m->id >= 0 && m->counter >= 0 && isfinite(m->time) && memchr(m->text, 0, sizeof m->text));
+}
+
 /* Reads all of a complete frame, so that a sanitizer sees what no part brought. */
 static void on_frame(void *user, const sb_live_frame *frame)
 {
@@ -99,6 +105,7 @@ static void try_errors(const uint8_t *bytes, size_t size)
         sb_frame_message part;
         sb_parity_message parity;
         sb_scene_piece_message piece;
+        sb_reply_message reply;
     } m;
     sb_error errors[SB_CHANNELS] = {0};
     const sb_status statuses[SB_CHANNELS] = {
@@ -108,6 +115,7 @@ static void try_errors(const uint8_t *bytes, size_t size)
         sb_stream_decode_frame(bytes, size, &m.part, &errors[3]),
         sb_stream_decode_parity(bytes, size, &m.parity, &errors[4]),
         sb_stream_decode_piece(bytes, size, &m.piece, &errors[5]),
+        sb_stream_decode_reply(bytes, size, &m.reply, &errors[6]),
     };
     for (int i = 0; i < SB_CHANNELS; ++i)
         if (statuses[i] != SB_OK) fuzz_check_refusal(statuses[i], &errors[i]);
@@ -122,7 +130,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                                  .forces = on_forces,
                                  .gauges = on_gauges,
                                  .frame = on_frame,
-                                 .scene = on_scene};
+                                 .scene = on_scene,
+                                 .reply = on_reply};
     sb_live *live = sb_live_create(&calls);
     FUZZ_CHECK(live);
     for (; size > 2; time += 0.7) {

@@ -11,7 +11,7 @@ typedef struct message {
 } message;
 
 enum { TYPES = SB_CHANNELS, STATUS = SB_CHANNEL_STATUS, FORCES = SB_CHANNEL_FORCES, FRAME = SB_CHANNEL_FRAME };
-enum { GAUGES = SB_CHANNEL_GAUGES, PARITY = SB_CHANNEL_PARITY, SCENE = SB_CHANNEL_SCENE };
+enum { GAUGES = SB_CHANNEL_GAUGES, PARITY = SB_CHANNEL_PARITY, SCENE = SB_CHANNEL_SCENE, REPLY = SB_CHANNEL_REPLY };
 static message good[TYPES];
 static message scene; /* the encoded scene, which fits into one piece */
 /* Offsets of the counts and names in the messages of good[]: after fingerprint, version, run id and sequence. */
@@ -20,6 +20,7 @@ enum { STATUS_RUN = BODY, FORCES_TOTAL = BODY + 8, FORCES_N = BODY + 16, FORCES_
 enum { GAUGES_N = BODY + 16 };
 enum { FRAME_PART = BODY + 24, FRAME_TOTAL = BODY + 32, FRAME_FIRST = BODY + 40, FRAME_MOVED = BODY + 108 };
 enum { FRAME_COUNT = FRAME_MOVED + 8 + 28 }; /* one body has moved */
+enum { REPLY_ID = BODY, REPLY_RESULT = BODY + 16, REPLY_TIME = BODY + 25, REPLY_TEXT = BODY + 33 };
 enum { PARITY_PARTS = BODY + 8, PARITY_GROUP = BODY + 12, PARITY_COUNT = BODY + 20 };
 enum { PIECE_TOTAL = BODY + 8, PIECE_PIECE = BODY + 16, PIECE_OFFSET = BODY + 24, PIECE_COUNT = BODY + 32 };
 
@@ -42,6 +43,8 @@ static int capture_all(void **state)
     sb_measure_records rows = fixture_rows(&f, 4.5);
     sb_stream_measure(stream, &rows);
     fixture_rows_free(&rows);
+    const sb_reply_message reply = {.id = 7, .counter = 8, .step = 9, .time = 4.5, .text = "paused"};
+    sb_stream_reply(stream, &reply);
     sb_frame *frame = fixture_frame(3, 4.5, 50, 4);
     fixture_publish(stream, frame);
     sb_frame_release(frame);
@@ -87,6 +90,7 @@ static sb_status decode(int type, const unsigned char *bytes, size_t size, sb_er
         sb_frame_message frame;
         sb_parity_message parity;
         sb_scene_piece_message piece;
+        sb_reply_message reply;
     } out;
     unsigned char *exact = exact_copy(bytes, size);
     sb_status status = SB_BAD_INPUT;
@@ -110,6 +114,9 @@ static sb_status decode(int type, const unsigned char *bytes, size_t size, sb_er
     } else if (type == PARITY) {
         status = sb_stream_decode_parity(exact, size, &out.parity, error);
         if (status == SB_OK) assert_true(out.parity.data + out.parity.count <= exact + size);
+    } else if (type == REPLY) {
+        status = sb_stream_decode_reply(exact, size, &out.reply, error);
+        if (status == SB_OK) assert_true(isfinite(out.reply.time) && strlen(out.reply.text) < SB_STREAM_TEXT);
     } else {
         status = sb_stream_decode_piece(exact, size, &out.piece, error);
         if (status == SB_OK) assert_true(out.piece.data >= exact && out.piece.data + out.piece.count <= exact + size);
@@ -196,7 +203,7 @@ static void hostile_counts(void **state)
                   {FRAME, FRAME_PART + 4, 0},  {FRAME, FRAME_TOTAL, 0},     {FRAME, FRAME_FIRST + 4, 0},
                   {SCENE, PIECE_TOTAL, 0},     {SCENE, PIECE_TOTAL + 4, 0}, {SCENE, PIECE_PIECE, 0},
                   {SCENE, PIECE_PIECE + 4, 0}, {SCENE, PIECE_OFFSET, 0},    {SCENE, PIECE_OFFSET + 4, 0},
-                  {SCENE, PIECE_COUNT, 0},     {PARITY, PARITY_COUNT, 0}};
+                  {SCENE, PIECE_COUNT, 0},     {PARITY, PARITY_COUNT, 0},   {REPLY, REPLY_TEXT, 0}};
     for (size_t p = 0; p < sizeof places / sizeof *places; p++)
         for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
             message bad = good[places[p].type];
@@ -231,6 +238,16 @@ static void invalid_contents(void **state)
     bad = good[FRAME];
     put32(&bad, FRAME_MOVED + 8, 0xffffffff);
     refused(FRAME, &bad, "the index of a body is negative");
+
+    bad = good[REPLY];
+    bad.bytes[REPLY_RESULT] = 2;
+    refused(REPLY, &bad, "its id, counter, step or result");
+    bad = good[REPLY];
+    put32(&bad, REPLY_ID, 0x80000000);
+    refused(REPLY, &bad, "its id, counter, step or result");
+    bad = good[REPLY];
+    put32(&bad, REPLY_TIME, 0x7ff80000);
+    refused(REPLY, &bad, "not finite");
 
     sb_status_message out;
     bad = good[STATUS];
