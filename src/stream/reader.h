@@ -1,6 +1,6 @@
 /* Reads LCM's encoding from untrusted bytes. LCM's own decoders allocate and copy by counts that they do not check, so
    messages are read here, field by field, without access beyond their end. The first problem is kept; reads after it
-   return 0. Internal to src/stream. */
+   return 0. Internal to src/stream and src/control. */
 #ifndef SB_STREAM_READER_H
 #define SB_STREAM_READER_H
 
