@@ -6,6 +6,8 @@
 #include "control/command.h"
 #include "control/token.h"
 
+#include <stdbool.h>
+
 typedef struct sb_receiver sb_receiver;
 
 /* Messages and requests so far. */
@@ -20,10 +22,11 @@ typedef struct sb_received {
 /* Commands that are passed per second, in the mean; at once, SB_RECEIVER_BURST. */
 enum { SB_RECEIVER_RATE = 20, SB_RECEIVER_BURST = 40 };
 
-/* Creates a receiver of the run with this id. pipe: the writing end, which is set to nonblocking and is not closed.
-   counter: commands up to this counter are replayed ones. The receiver's state is shared with child processes that are
-   made later by fork(): a child that replaces another one (stream/guard.h) continues with the same counters, and may
-   be killed at any time. SB_FAILED without memory. */
+/* Creates a receiver of the run with this id. token: NULL if commands are not allowed; no message is then obeyed, and
+   the caller must not call sb_receiver_take_json. SIGPIPE must be ignored. pipe: the writing end, which is set to
+   nonblocking and is not closed. counter: commands up to this counter are replayed ones. The receiver's state is shared
+   with child processes that are made later by fork(): a child that replaces another one (stream/guard.h) continues with
+   the same counters, and may be killed at any time. SB_FAILED without memory. */
 sb_status sb_receiver_create(const sb_token *token, int64_t run_id, int64_t counter, int pipe, sb_receiver **receiver,
                              sb_error *error);
 void sb_receiver_destroy(sb_receiver *receiver);

@@ -46,7 +46,10 @@ static sb_status subscribe(sb_listener *listener, sb_error *error)
     char reason[160];
     sb_stderr_catch hold = sb_stderr_hold();
     const char *refused = NULL;
-    for (int k = 0; !refused && k < SB_CHANNELS + listener->calls.commands; k++) {
+    const sb_listener_calls *calls = &listener->calls;
+    const int first = calls->only_commands ? SB_CHANNELS : 0;
+    const int end = SB_CHANNELS + (calls->commands || calls->only_commands);
+    for (int k = first; !refused && k < end; k++) {
         char pattern[2 * sizeof(sb_channel)];
         const char *name = k < SB_CHANNELS ? listener->channels[k] : listener->command;
         escape(name, pattern);

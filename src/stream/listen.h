@@ -16,7 +16,8 @@ typedef struct sb_listener sb_listener;
 typedef struct sb_listener_calls {
     void *user;
     void (*message)(void *user, sb_channel_kind kind, const void *data, size_t size, double time);
-    bool commands; /* the channel of commands is received as well */
+    bool commands;      /* the channel of commands is received as well */
+    bool only_commands; /* no other channel is received */
 } sb_listener_calls;
 
 /* Creates a listener. url NULL or empty: LCM_DEFAULT_URL if it is set, else the publisher's default multicast address
