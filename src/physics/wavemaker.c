@@ -46,9 +46,8 @@ sb_status sb_wavemaker_check(const sb_wavemaker_parameters *parameters, sb_error
                            keys[i].value, keys[i].unit);
     if (needs & SB_WM_FILE && !(parameters->file && *parameters->file))
         return sb_fail(error, SB_BAD_INPUT, "wave maker %s: no file, expected a time-displacement table", law);
-    if (!isfinite(parameters->start))
-        return sb_fail(error, SB_BAD_INPUT, "wave maker %s: start is %g s, expected a finite number", law,
-                       parameters->start);
+    if (!(parameters->start > -HUGE_VAL))
+        return sb_fail(error, SB_BAD_INPUT, "wave maker %s: start is %g s, expected a number", law, parameters->start);
     if (parameters->after == SB_AFTER_RETURN && !(parameters->return_time > 0 && isfinite(parameters->return_time)))
         return sb_fail(error, SB_BAD_INPUT, "wave maker %s: return_time is %g s, expected more than 0", law,
                        parameters->return_time);

@@ -14,7 +14,7 @@ typedef enum sb_after_stroke { SB_AFTER_STAY, SB_AFTER_RETURN } sb_after_stroke;
 /* Values from the scene. Each law states which of them it needs. */
 typedef struct sb_wavemaker_parameters {
     const sb_wavemaker *kind;
-    double start;   /* s, when the motion begins */
+    double start;   /* s, when the motion begins; infinity: when sb_sim_trigger is called */
     double height;  /* m, wave height H */
     double depth;   /* m, still depth h at the paddle */
     double stroke;  /* m, full travel */
@@ -47,7 +47,7 @@ extern const sb_wavemaker *const sb_wavemakers[];
 const sb_wavemaker *sb_wavemaker_find(const char *name);
 
 /* Checks the parameters. SB_BAD_INPUT unless every value that the law needs is finite and above 0 (a file: its name is
-   given), the start is finite, and return_time is above 0 where it is used. sb_paddle_create calls this first. */
+   given), the start is a number, and return_time is above 0 where it is used. sb_paddle_create calls this first. */
 sb_status sb_wavemaker_check(const sb_wavemaker_parameters *parameters, sb_error *error);
 
 /* A paddle that moves by a law, with the start of its motion and what it does after the stroke. */

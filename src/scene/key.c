@@ -117,6 +117,7 @@ static void add_number(text_buffer *text, const sb_key *key)
         add(text, "%s", key->flags & (SB_KEY_ABOVE | SB_KEY_BELOW) || key->max == HUGE_VAL ? " " : " from ");
         add_range(text, key);
     }
+    if (key->words) add(text, ", or %s", key->words[0]);
 }
 
 void sb_key_expectation(const sb_key *key, int dimensions, char *out, size_t size)
@@ -183,6 +184,7 @@ void sb_key_range(const sb_key *key, char *out, size_t size)
         else
             add_range(&text, key);
         if (key->flags & SB_KEY_UNIT) add(&text, ", not all 0");
+        if (key->words) add(&text, ", or %s", key->words[0]);
         break;
     case SB_KEY_SEED:
         add(&text, "0 to 2^64 - 1");

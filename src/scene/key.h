@@ -7,7 +7,7 @@
 #include "scene/yaml.h"
 
 typedef enum sb_key_type {
-    SB_KEY_NUMBER,  /* double */
+    SB_KEY_NUMBER,  /* double; with `words`, the first of them stands for infinity */
     SB_KEY_INTEGER, /* int */
     SB_KEY_SEED,    /* uint64_t */
     SB_KEY_SWITCH,  /* bool */
@@ -83,7 +83,7 @@ struct sb_table {
 /* The table of the whole scene, and those of its blocks that are in other files. */
 extern const sb_table sb_scene_table;
 extern const sb_table sb_numerics_table, sb_water_table, sb_body_table, sb_wavemaker_table;
-extern const sb_table sb_measure_table, sb_render_table, sb_stream_table, sb_output_table;
+extern const sb_table sb_measure_table, sb_render_table, sb_stream_table, sb_control_table, sb_output_table;
 
 /* Bits of the rows that apply to this item; all bits if the table has only one variant. */
 unsigned sb_table_variant(const sb_table *table, const void *item, const sb_yaml *map);

@@ -239,6 +239,10 @@ typedef struct sb_stream_settings {
     int decimation;           /* every n-th particle */
 } sb_stream_settings;
 
+typedef struct sb_control_settings {
+    bool enabled; /* commands are allowed */
+} sb_control_settings;
+
 /* When the state is saved for --resume. Both 0: never. */
 typedef struct sb_checkpoint_settings {
     double minutes; /* wall time between two checkpoints; 0: by steps only */
@@ -272,6 +276,7 @@ typedef struct sb_scene {
     sb_measure_settings measure;
     sb_render_settings render;
     sb_stream_settings stream;
+    sb_control_settings control;
     sb_output_settings output;
 } sb_scene;
 

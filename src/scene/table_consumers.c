@@ -144,6 +144,17 @@ const sb_table sb_stream_table = {SB_KEY_ROWS(stream_keys), .size = sizeof(sb_st
                                   .finish = finish_stream};
 
 /* clang-format off */
+static const sb_key control_keys[] = {
+    {.name = "enabled", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_control_settings, enabled),
+     .fallback = "false",
+     .doc = "Whether the run obeys commands that are signed with its token; this also enables the "
+            "stream."},
+};
+/* clang-format on */
+
+const sb_table sb_control_table = {SB_KEY_ROWS(control_keys)};
+
+/* clang-format off */
 static const sb_key checkpoint_keys[] = {
     {.name = "minutes", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_checkpoint_settings, minutes),
      .unit = "min", .min = 0, .max = 525600, .fallback = "10",

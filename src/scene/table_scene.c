@@ -136,6 +136,8 @@ static const sb_key scene_keys[] = {
      .table = &sb_render_table, .doc = "Pictures and films."},
     {.name = "stream", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, stream),
      .table = &sb_stream_table, .flags = SB_KEY_FREE, .doc = "Live stream over LCM."},
+    {.name = "control", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, control),
+     .table = &sb_control_table, .flags = SB_KEY_FREE, .doc = "Commands to the run while it runs."},
     {.name = "output", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, output),
      .table = &sb_output_table, .doc = "Other files that a run writes."},
 };
@@ -143,7 +145,8 @@ static const sb_key scene_keys[] = {
 
 static sb_status finish_scene(sb_reader *reader, const sb_yaml *map, void *item)
 {
-    const sb_scene *scene = item;
+    sb_scene *scene = item;
+    if (scene->control.enabled) scene->stream.enabled = true; /* it has the run's id and sends the replies */
     sb_vec3 size = sb_sub(scene->domain.max, scene->domain.min);
     double least = size.x < size.z ? size.x : size.z;
     if (scene->dimensions == 3 && size.y < least) least = size.y;

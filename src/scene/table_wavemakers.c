@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+static const char *const start_names[] = {"command", NULL};
 static const char *const after_names[] = {"stay", "return", NULL};
 
 enum { RETURNS = 1 << 16 };
@@ -33,7 +34,8 @@ static const sb_key keys[] = {
      SB_KEY_ANY, .flags = SB_KEY_UNIT, .fallback = "[1, 0, 0]",
      .doc = "Direction of the motion, of any length."},
     {.name = "start", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wavemaker_use, law.start), .unit = "s",
-     SB_KEY_NOT_NEGATIVE, .fallback = "0", .doc = "Time at which the motion begins."},
+     SB_KEY_NOT_NEGATIVE, .words = start_names, .fallback = "0",
+     .doc = "Time at which the motion begins; `command`: when the command `trigger` is given."},
     LAW_NUMBER(height, "m", SB_WM_HEIGHT, "laws that need a wave height", "Wave height H."),
     LAW_NUMBER(depth, "m", SB_WM_DEPTH, "laws that need a depth",
            "Still-water depth at the paddle."),

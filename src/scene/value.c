@@ -55,6 +55,10 @@ static sb_status read_number(sb_reader *reader, const sb_yaml *node, const sb_ke
     sb_status status = require_scalar(reader, node, key);
     if (status != SB_OK) return status;
     if (node->quoted) return refuse_text(reader, node, key, "is quoted text, not a number");
+    if (key->type == SB_KEY_NUMBER && key->words && strcmp(node->text, key->words[0]) == 0) {
+        *value = HUGE_VAL;
+        return SB_OK;
+    }
     if (is_not_finite(node->text)) return refuse_text(reader, node, key, "is not finite");
     char *end;
     double number = strtod(node->text, &end);

@@ -120,7 +120,10 @@ static void put_value(writer *out, const sb_key *key, const void *field)
     unsigned choice;
     switch (key->type) {
     case SB_KEY_NUMBER:
-        put_number(stream, *(const double *)field);
+        if (key->words && isinf(*(const double *)field))
+            fputs(key->words[0], stream);
+        else
+            put_number(stream, *(const double *)field);
         break;
     case SB_KEY_INTEGER:
         fprintf(stream, "%d", *(const int *)field);

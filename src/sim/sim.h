@@ -71,6 +71,10 @@ bool sb_sim_settling(const sb_sim *sim, int *done);
 /* Advances one step. SB_FAILED if the run has diverged: *error has step, position and reason; the state is readable. */
 sb_status sb_sim_step(sb_sim *sim, sb_error *error);
 
+/* Starts a wave maker of the scene (an index) that waits for a command: its motion begins at the time of the report, as
+   if its `start` were that time, with the same bits. SB_BAD_INPUT if it does not wait, or during settling. */
+sb_status sb_sim_trigger(sb_sim *sim, size_t wavemaker, sb_error *error);
+
 const sb_step_report *sb_sim_report(const sb_sim *sim);
 /* body: index into the model's bodies. */
 const sb_body_impulse *sb_sim_impulse(const sb_sim *sim, size_t body);

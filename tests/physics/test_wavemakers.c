@@ -387,6 +387,12 @@ static void paddle_waits_for_its_start(void **state)
     assert_near(sb_paddle_displacement(&paddle, 2.5), 0.4, 1e-15);
     assert_near(sb_paddle_displacement(&paddle, 100), 1.2, 1e-15);
     sb_paddle_destroy(&paddle);
+    parameters.start = HUGE_VAL; /* waits for a command */
+    paddle = make_paddle(&parameters);
+    assert_true(sb_paddle_displacement(&paddle, 1e9) == 0);
+    sb_paddle_destroy(&paddle);
+    parameters.start = -HUGE_VAL;
+    assert_int_equal(sb_paddle_create(&parameters, &paddle, NULL), SB_BAD_INPUT);
 }
 
 static void paddle_returns_slowly_and_smoothly(void **state)

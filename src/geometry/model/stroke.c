@@ -24,6 +24,7 @@ static sb_status measure(const sb_scene *scene, const sb_wavemaker_use *maker, s
     sb_paddle paddle;
     sb_status status = sb_paddle_create(&maker->law, &paddle, error);
     if (status != SB_OK) return status;
+    if (isinf(paddle.start)) paddle.start = 0; /* a command may start it at any time */
     const double end = paddle.duration + (paddle.after == SB_AFTER_RETURN ? paddle.return_time : 0);
     const double step = fmin(end, fmax(scene->duration - paddle.start, 0)) / TIMES;
     double before = 0;

@@ -99,6 +99,7 @@ void sb_sim_save(const sb_sim *sim, sb_archive_out *out)
         sb_put_real(out, sim->walls.moving[m].displacement);
         sb_put_real(out, sim->walls.moving[m].next_displacement);
         sb_put_vector(out, sim->walls.moving[m].velocity);
+        if (sim->walls.moving[m].commanded) sb_put_real(out, sim->walls.moving[m].paddle.start);
     }
     sb_put_count(out, sb_sim_hash(sim));
 }
@@ -136,6 +137,17 @@ static void take_particles(sb_sim *sim, sb_archive_in *in)
 /* In quanta: the largest displacement of a body, far outside of any domain. */
 static const double FARTHEST = 1e15;
 
+/* The start of a motion by command: a time that has passed, or infinity. */
+static void take_start(const sb_sim *sim, sb_moving_body *moving, sb_archive_in *in)
+{
+    const double start = sb_take_real(in);
+    const bool passed = start >= 0 && start <= sim->state.time;
+    if (!passed && !(isinf(start) && start > 0))
+        sb_archive_refuse(in, "a wave maker was started at t = %g s, expected 0 to %g s or never", start,
+                          sim->state.time);
+    moving->paddle.start = start;
+}
+
 static void take_moving(sb_sim *sim, sb_archive_in *in)
 {
     if (sb_take_count(in, SIZE_MAX) != sim->walls.moving_count)
@@ -145,6 +157,7 @@ static void take_moving(sb_sim *sim, sb_archive_in *in)
         moving->displacement = sb_take_real(in);
         moving->next_displacement = sb_take_real(in);
         moving->velocity = sb_take_vector(in);
+        if (moving->commanded) take_start(sim, moving, in);
         const double farthest = fmax(fabs(moving->displacement), fabs(moving->next_displacement));
         if (farthest < FARTHEST * sim->space.quantum && !isnan(moving->displacement) &&
             !isnan(moving->next_displacement) && sb_isfinite(moving->velocity))

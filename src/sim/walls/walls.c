@@ -148,6 +148,7 @@ sb_status sb_paddles_create(sb_sim *sim, sb_error *error)
         const sb_wavemaker_use *use = &sim->scene->wavemakers[model->bodies[b].wavemaker];
         sb_moving_body *moving = &sim->walls.moving[sim->walls.moving_count];
         moving->direction = use->direction;
+        moving->commanded = isinf(use->law.start);
         sb_status status = sb_paddle_create(&use->law, &moving->paddle, error);
         if (status != SB_OK) return status;
         sim->walls.moving_of_body[b] = (uint32_t)sim->walls.moving_count++;
@@ -242,6 +243,25 @@ sb_status sb_stage_walls(sb_sim *sim, sb_error *error)
         moving->velocity = sb_scale(moving->direction, (there - here) / dt);
     }
     return moved ? sb_walls_restore(sim, error) : SB_OK;
+}
+
+sb_status sb_sim_trigger(sb_sim *sim, size_t wavemaker, sb_error *error)
+{
+    const char *name = sim->scene->wavemakers[wavemaker].name;
+    if (sim->state.settle.under_way)
+        return sb_fail(error, SB_BAD_INPUT, "wave maker \"%s\": the water settles, expected a command after that",
+                       name);
+    bool found = false;
+    for (size_t b = 0; b < sim->model->body_count; b++) {
+        if (sim->model->bodies[b].wavemaker != (int)wavemaker) continue;
+        sb_paddle *paddle = &sim->walls.moving[sim->walls.moving_of_body[b]].paddle;
+        if (isfinite(paddle->start))
+            return sb_fail(error, SB_BAD_INPUT, "wave maker \"%s\": its motion began or begins at t = %.17g s", name,
+                           paddle->start);
+        paddle->start = sim->state.time;
+        found = true;
+    }
+    return found ? SB_OK : sb_fail(error, SB_BAD_INPUT, "wave maker \"%s\": moves no body", name);
 }
 
 sb_status sb_walls_restore(sb_sim *sim, sb_error *error)
