@@ -3,6 +3,7 @@
 #include "physics/wavemaker.h"
 #include "sim/sim.h"
 
+#include <math.h>
 #include <stdio.h>
 
 void sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context)
@@ -10,6 +11,13 @@ void sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *con
     char text[256];
     for (size_t w = 0; w < scene->wavemaker_count; w++) {
         const sb_wavemaker_parameters *law = &scene->wavemakers[w].law;
+        if (isinf(law->start) && !scene->control.enabled) {
+            snprintf(text, sizeof text,
+                     "wave maker %s: its start waits for a command, and commands are off: it never moves; expected "
+                     "control.enabled: true, or --control",
+                     scene->wavemakers[w].name);
+            visit(context, text);
+        }
         const char *warning = law->kind->warning ? law->kind->warning(law) : NULL;
         if (!warning) continue;
         snprintf(text, sizeof text, "wave maker %s: %s", scene->wavemakers[w].name, warning);

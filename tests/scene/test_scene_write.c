@@ -28,7 +28,7 @@ static const char everything[] =
     "wavemakers:\n"
     "  - {name: w, body: b-1, kind: stroke, stroke: 1, speed: 0.1, direction: [1, 1, 1],\n"
     "     start: 0.1, after: return, return_time: 3}\n"
-    "  - {name: v, body: c.d, kind: goring, height: 0.1, depth: 0.3}\n"
+    "  - {name: v, body: c.d, kind: goring, height: 0.1, depth: 0.3, start: command}\n"
     "measure:\n  interval: 0.001\n  gauges: [{name: g, x: 1, y: 0.5}]\n"
     "  probes: [{name: p, at: [1, 0.5, 0.1], radius: 0.1}]\n"
     "  planes: [{name: q, from: [1, 0], to: [1, 1], z_min: 0.1, z_max: 0.9}]\n"
@@ -39,6 +39,7 @@ static const char everything[] =
     "    - {name: b, path: [{time: 0.1, eye: [0, 0, 1], target: [1, 1, 1]},\n"
     "                       {time: 0.2, eye: [0, 0, 2], target: [1, 1, 1], fov: 20}]}\n"
     "stream: {enabled: true, url: \"memq://\", prefix: A.B, interval: 0.3, decimation: 4}\n"
+    "control: {enabled: true}\n"
     "output: {particle_interval: 0.25, plots: false}\n";
 
 #define SAME_ITEMS(a, b, items, count)                                                                                 \
@@ -109,6 +110,7 @@ static void same_scene(sb_scene *a, sb_scene *b)
     SAME_ITEMS(&a->measure, &b->measure, runups, runup_count);
     assert_memory_equal(&a->measure.map, &b->measure.map, sizeof a->measure.map);
     same_render(&a->render, &b->render);
+    assert_int_equal(a->control.enabled, b->control.enabled);
     assert_int_equal(a->stream.enabled, b->stream.enabled);
     same_text(&a->stream.url, &b->stream.url);
     assert_string_equal(a->stream.prefix, b->stream.prefix);
