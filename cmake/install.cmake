@@ -2,7 +2,7 @@
 include(GNUInstallDirs)
 set(share ${CMAKE_INSTALL_DATADIR}/shorebreak)
 
-foreach(program shorebreak shorebreak-live shorebreak-make-plant shorebreak-monitor)
+foreach(program shorebreak shorebreak-live shorebreak-make-plant shorebreak-monitor shorebreak-control)
     if(TARGET ${program})
         install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
     endif()

@@ -22,6 +22,8 @@ static const char help[] =
     "  --resume             continue from the newest checkpoint in DIR, with the same bits as an uninterrupted run;\n"
     "                       without a checkpoint, start from the beginning\n"
     "  --other-build        with --resume: also accept a checkpoint of another build; the bits may then differ\n"
+    "  --control            obey commands that are signed with DIR/control.token (tools/control sends them);\n"
+    "                       this also streams the run over LCM\n"
     "  --quiet              print no progress\n"
     "  --profile            at the end, print the time that each stage took\n";
 
@@ -48,7 +50,7 @@ int sb_command_run(int count, char **arguments)
     sb_scene scene = {0};
     bool thread_remains = false;
     unsigned accepted = SB_OPT_OUT | SB_OPT_UNTIL | SB_OPT_THREADS | SB_OPT_PRESET | SB_OPT_SET | SB_OPT_QUIET |
-                        SB_OPT_PROFILE | SB_OPT_RESUME | SB_OPT_OVERWRITE | SB_OPT_OTHER_BUILD;
+                        SB_OPT_PROFILE | SB_OPT_RESUME | SB_OPT_OVERWRITE | SB_OPT_OTHER_BUILD | SB_OPT_CONTROL;
     sb_status status = sb_options_parse(count, arguments, accepted, "scene", &options, &error);
     if (status == SB_OK && options.help) {
         fputs(help, stdout);

@@ -179,6 +179,14 @@ void sb_consumer_feed(sb_consumer *consumer, const sb_frame *frame)
     consumer->next = consumer->interval * (floor(frame->status.time / consumer->interval + ROUNDING) + 1);
 }
 
+bool sb_consumer_is_idle(sb_consumer *consumer)
+{
+    pthread_mutex_lock(&consumer->lock);
+    const bool idle = consumer->done == consumer->fed;
+    pthread_mutex_unlock(&consumer->lock);
+    return idle;
+}
+
 void sb_consumer_drain(sb_consumer *consumer)
 {
     watch w = {0};

@@ -62,6 +62,9 @@ sb_status sb_consumer_start(sb_consumer *consumer, const sb_consumer_work *work,
 /* Whether a frame at this time is due. */
 bool sb_consumer_due(const sb_consumer *consumer, double time);
 
+/* Whether the consumer has finished all frames that it was given. */
+bool sb_consumer_is_idle(sb_consumer *consumer);
+
 /* Adds the frame to the queue and sets the time of the next one. Waits while the queue is full, unless the queue drops
    frames. The frame is missed when the consumer is abandoned during the wait or was abandoned before. */
 void sb_consumer_feed(sb_consumer *consumer, const sb_frame *frame);

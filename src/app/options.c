@@ -31,6 +31,7 @@ static const flag flags[] = {
     {"--url", SB_OPT_URL, true},
     {"--prefix", SB_OPT_PREFIX, true},
     {"--speed", SB_OPT_SPEED, true},
+    {"--control", SB_OPT_CONTROL, false},
 };
 
 static sb_status add_override(sb_options *options, const char *text, sb_error *error)
@@ -89,6 +90,8 @@ static sb_status take(sb_options *options, unsigned bit, const char *value, sb_e
     case SB_OPT_JSON:
         options->json = true;
         break;
+    case SB_OPT_CONTROL:
+        return add_override(options, "control.enabled=true", error);
     case SB_OPT_SET:
         return add_override(options, value, error);
     case SB_OPT_UNTIL: {

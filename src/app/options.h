@@ -40,7 +40,8 @@ enum {
     SB_OPT_OVERWRITE = 2048,
     SB_OPT_URL = 4096,
     SB_OPT_PREFIX = 8192,
-    SB_OPT_SPEED = 16384
+    SB_OPT_SPEED = 16384,
+    SB_OPT_CONTROL = 32768
 };
 
 /* Parses the arguments after the command's name. what: the name of the positional argument in messages. */

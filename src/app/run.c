@@ -2,7 +2,9 @@
 
 #include "app/checkpoint.h"
 #include "app/missed.h"
+#include "app/picture_now.h"
 #include "app/run_parts.h"
+#include "app/steering.h"
 #include "base/stop.h"
 #include "output/profile.h"
 
@@ -86,8 +88,10 @@ static sb_status advance(run *r, sb_error *error)
     sb_status status = feed(r, error);
     report_departures(r);
     while (status == SB_OK && sb_sim_report(r->sim)->time < r->scene->duration * (1 - 1e-12)) {
+        sb_steering_take(r);
         if (sb_stop_signal())
-            return sb_fail(error, SB_INTERRUPTED, "stopped by a signal at t = %g s", sb_sim_report(r->sim)->time);
+            return sb_fail(error, SB_INTERRUPTED, "stopped by a %s at t = %g s", sb_stop_cause(),
+                           sb_sim_report(r->sim)->time);
         if (sb_sim_report(r->sim)->fluid_count == 0)
             return sb_fail(error, SB_FAILED, "t = %g s: all water has left the domain", sb_sim_report(r->sim)->time);
         status = one_step(r, error);
@@ -132,11 +136,13 @@ static void save_at_end(run *r, sb_status status, sb_error *error)
 /* Frees what the threads of consumers use, unless one of them still exists. */
 static void release_shared(run *r, bool *thread_remains)
 {
-    for (int c = 0; c < CONSUMERS; c++) {
-        if (!sb_consumer_thread_remains(&r->consumers[c])) continue;
+    bool remains = sb_consumer_thread_remains(&r->requested.consumer);
+    for (int c = 0; c < CONSUMERS; c++) remains |= sb_consumer_thread_remains(&r->consumers[c]);
+    if (remains) {
         if (thread_remains) *thread_remains = true;
         return;
     }
+    sb_picture_now_free(r);
     sb_particle_list_free(&r->recorder.list); /* of a run that was not resumed: no thread has used it */
     sb_model_free(&r->model);
 }

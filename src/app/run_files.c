@@ -15,12 +15,13 @@
 
 #define PNG "\x89PNG"
 
-typedef enum place { CHECKPOINTS, PARTICLES, MAPS, PLOTS, CAMERA, TOP } place;
+typedef enum place { CHECKPOINTS, PARTICLES, MAPS, PLOTS, REQUESTED, CAMERA, TOP } place;
 
 static const char *const folders[] = {[CHECKPOINTS] = "checkpoints",
                                       [PARTICLES] = SB_PARTICLE_FOLDER,
                                       [MAPS] = "maps",
                                       [PLOTS] = "plots",
+                                      [REQUESTED] = "pictures",
                                       [CAMERA] = "frames"};
 enum { FOLDERS = sizeof folders / sizeof *folders };
 
@@ -41,6 +42,7 @@ static const struct {
     {TOP, "run", NULL, ".jsonl", SB_RUN_LOG_START, KEPT | GROWS},
     {TOP, "scene", NULL, ".yaml", SB_SCENE_WRITTEN, KEPT},
     {TOP, "summary", NULL, ".json", "{", 0},
+    {TOP, "control", NULL, ".token", "", 0},
     {TOP, NULL, sb_csv_name, ".csv", "time_s,", GROWS},
     {CHECKPOINTS, SB_CHECKPOINT_SETTLING, NULL, SB_CHECKPOINT_SUFFIX, SB_CHECKPOINT_KIND, 0},
     {MAPS, NULL, sb_map_name, ".asc", "ncols", 0},
@@ -151,6 +153,15 @@ static kind kind_of_picture(const finder *f, const char *camera, const char *pat
     return (kind){.named = own || wanted, .own = own};
 }
 
+/* pictures/<camera>-<step>.png, which commands requested. */
+static kind kind_of_requested(const char *path, const char *name)
+{
+    const size_t length = strlen(name);
+    const bool temporary = length > 8 && strcmp(name + length - 8, ".png.tmp") == 0;
+    const bool own = temporary || (length > 4 && strcmp(name + length - 4, ".png") == 0 && is_marked(path));
+    return (kind){.named = own, .own = own};
+}
+
 /* ---- entries ---- */
 
 /* Whether the first `length` characters of `name` are stem + ending. */
@@ -193,6 +204,7 @@ static kind kind_of(const finder *f, place in, const char *camera, const char *p
     const bool temporary = whole > 4 && strcmp(name + whole - 4, ".tmp") == 0;
     const size_t length = whole - (temporary ? 4 : 0);
     if (in == CAMERA) return kind_of_picture(f, camera, path, name);
+    if (in == REQUESTED) return kind_of_requested(path, name);
     kind found = kind_of_particles(in, name, length);
     if (!found.named) found = kind_of_known(in, name, length);
     if (!found.named) return in == TOP ? kind_of_film(f, name) : found;

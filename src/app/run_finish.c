@@ -2,6 +2,7 @@
 #include "app/missed.h"
 #include "app/run_parts.h"
 #include "app/spent.h"
+#include "app/steering.h"
 #include "base/memory.h"
 #include "base/stop.h"
 #include "output/maps.h"
@@ -223,6 +224,7 @@ void sb_run_finish(run *r, sb_status *status, sb_error *error)
     sb_error reason = {0};
     sb_run_ensure_log(r);
     if (r->sim && *status == SB_FAILED) write_last_state(r);
+    sb_steering_end(r);
     stop_consumers(r, status, error);
     if (r->sim) keep_first(status, error, count_inside(r, &reason), &reason);
     if (r->csv) keep_first(status, error, sb_csv_close(r->csv, &reason), &reason);

@@ -6,6 +6,7 @@
 #include "app/run.h"
 #include "app/run_parts.h"
 #include "app/spent.h"
+#include "app/steering.h"
 #include "app/team.h"
 #include "app/warnings.h"
 #include "output/summary.h"
@@ -144,6 +145,7 @@ static sb_status start_consumers(run *r, sb_error *error)
     sb_status status = SB_OK;
     note_off(r);
     if (scene->stream.enabled) status = start_streamer(r, error);
+    if (status == SB_OK) sb_steering_start(r);
     if (status == SB_OK && scene->output.particle_interval > 0) {
         sb_consumer_work work = sb_recorder_work(&r->recorder);
         status = sb_consumer_start(&r->consumers[RECORDER], &work, scene->output.particle_interval, waiting,
@@ -225,6 +227,7 @@ static void watch_settling(void *context, int done, int most, double speed)
     run *r = context;
     sb_progress_settling(&r->progress, done, most, speed);
     sb_run_inform_stream(r);
+    sb_steering_take(r);
     if (sb_checkpoint_due(r, (uint64_t)done)) sb_checkpoint_write_settling(r);
 }
 

@@ -4,6 +4,7 @@
 
 #include "app/build.h"
 #include "app/consumers.h"
+#include "app/helper.h"
 #include "app/run_files.h"
 #include "measure/measure.h"
 #include "output/csv.h"
@@ -34,6 +35,32 @@ typedef struct sb_missed {
     char reason[sizeof((sb_error *)0)->text]; /* of the first one */
 } sb_missed;
 
+enum { SB_STEERING_COUNTS = 5 }; /* as in sb_received: obeyed, malformed, foreign, replayed, flooded */
+
+/* Commands to the run. */
+typedef struct sb_steering {
+    sb_helper helper;
+    bool allowed; /* the token exists */
+    char token_file[SB_PATH_MAX];
+    bool paused;
+    uint64_t steps; /* so many steps, then the run is paused; 0: no limit */
+    double counts[SB_STEERING_COUNTS], counts_before[SB_STEERING_COUNTS]; /* of this helper; of those before it */
+    double refused_logged, counts_logged; /* the sum of refused commands, and sb_clock(), when it was logged last */
+} sb_steering;
+
+/* Pictures that commands request. */
+typedef struct sb_requested {
+    sb_consumer consumer;
+    sb_scene scene; /* the run's, with one more camera; without cameras: no picture was requested yet */
+    sb_camera_key view;
+    sb_renderer *renderer;
+    sb_image image;
+    /* Of the picture that is being drawn: */
+    sb_command command;
+    size_t camera;
+    uint64_t step;
+} sb_requested;
+
 typedef struct run {
     sb_scene resolved;     /* a shallow copy of the caller's scene, with values that depend on the model */
     const sb_scene *scene; /* points to resolved */
@@ -53,6 +80,8 @@ typedef struct run {
     double due[CONSUMERS];            /* simulated time of their first frames, s */
     sb_missed missed[CONSUMERS];      /* frames missed in earlier processes of this run */
     uint64_t reported[CONSUMERS];     /* changes of their trouble that were reported */
+    sb_steering steering;
+    sb_requested requested;
     sb_checkpoints checkpoints;
     sb_csv_marks tables; /* lengths and hashes of the tables that a resumed run continues */
     sb_energy first_energy;

@@ -3,10 +3,12 @@
 
 #include <signal.h>
 #include <stdatomic.h>
+#include <stdbool.h>
 #include <stddef.h>
 
 /* Atomic: a signal handler needs a lock-free variable, and all threads read it. */
 static atomic_int noted;
+static atomic_bool requested;
 
 static void note(int number)
 {
@@ -34,6 +36,18 @@ void sb_stop_watch(void)
     signal(SIGPIPE, SIG_IGN);
 }
 
+void sb_stop_request(void)
+{
+    if (sb_stop_signal()) return;
+    atomic_store(&requested, true);
+    note(SIGINT);
+}
+
+const char *sb_stop_cause(void)
+{
+    return atomic_load(&requested) ? "command" : "signal";
+}
+
 int sb_stop_signal(void)
 {
     return atomic_load_explicit(&noted, memory_order_relaxed);
@@ -41,5 +55,5 @@ int sb_stop_signal(void)
 
 sb_status(sb_stop_fail)(sb_error *error, const char *during)
 {
-    return sb_fail(error, SB_INTERRUPTED, "stopped by a signal %s", during);
+    return sb_fail(error, SB_INTERRUPTED, "stopped by a %s %s", sb_stop_cause(), during);
 }

@@ -9,11 +9,17 @@
    stays ignored if it was ignored before, as by nohup. Writing to a closed pipe fails and does not end the process. */
 void sb_stop_watch(void);
 
+/* Notes SIGINT, as Ctrl-C would, for a command. */
+void sb_stop_request(void);
+
+/* Returns "signal" or "command". */
+const char *sb_stop_cause(void);
+
 /* Returns the noted signal, or 0. Once a signal is noted, the result stays nonzero. Any thread may call this; it costs
    one atomic load. */
 int sb_stop_signal(void);
 
-/* Fails with SB_INTERRUPTED, "stopped by a signal" and what was interrupted. */
+/* Fails with SB_INTERRUPTED, "stopped by a signal" or "by a command", and what was interrupted. */
 sb_status sb_stop_fail(sb_error *error, const char *during);
 
 /* For clang's analyzer, as in status.h. */

@@ -72,6 +72,18 @@ static void end_line(sb_progress *progress)
     fflush(progress->stream);
 }
 
+void sb_progress_break(sb_progress *progress)
+{
+    if (progress->stream) end_line(progress);
+}
+
+void sb_progress_paused(sb_progress *progress, double seconds)
+{
+    progress->mark_wall[0] += seconds;
+    progress->mark_wall[1] += seconds;
+    progress->settling_begun += seconds;
+}
+
 void sb_progress_plan(sb_progress *progress, int settling, int done, double steps)
 {
     progress->settling_begun = sb_clock();
@@ -106,7 +118,7 @@ void sb_progress_settling(void *context, int done, int most, double speed)
 
 void sb_progress_settled(sb_progress *progress)
 {
-    if (progress->stream) end_line(progress);
+    sb_progress_break(progress);
 }
 
 static void print(sb_progress *progress, const sb_step_report *report)

@@ -38,6 +38,12 @@ void sb_progress_settled(sb_progress *progress);
 /* Call after each step; prints if a line is due. */
 void sb_progress_update(sb_progress *progress, const sb_step_report *report);
 
+/* The run was paused for so many seconds: the estimate leaves them out. */
+void sb_progress_paused(sb_progress *progress, double seconds);
+
+/* Ends an unfinished line, before another message is printed. */
+void sb_progress_break(sb_progress *progress);
+
 /* Seconds of wall time since the start, and estimated to the end (negative: unknown). */
 double sb_progress_wall(const sb_progress *progress);
 double sb_progress_eta(const sb_progress *progress);

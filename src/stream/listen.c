@@ -91,6 +91,12 @@ void sb_listener_destroy(sb_listener *listener)
     sb_free(listener);
 }
 
+sb_status sb_listener_send_command(sb_listener *listener, const void *message, size_t size, sb_error *error)
+{
+    if (lcm_publish(listener->lcm, listener->command, message, (unsigned)size) == 0) return SB_OK;
+    return sb_fail(error, SB_FAILED, "LCM cannot send on %s", listener->command);
+}
+
 sb_status sb_listener_poll(sb_listener *listener, double seconds)
 {
     double end = sb_clock() + seconds;

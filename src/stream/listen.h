@@ -27,6 +27,9 @@ sb_status sb_listener_create(const char *url, const char *prefix, const sb_liste
                              sb_listener **listener, sb_error *error);
 void sb_listener_destroy(sb_listener *listener);
 
+/* Sends a message on the channel of commands. SB_FAILED if LCM refuses it. */
+sb_status sb_listener_send_command(sb_listener *listener, const void *message, size_t size, sb_error *error);
+
 /* Handles the messages that arrive within `seconds`; a signal ends the wait earlier. SB_INTERRUPTED if the source has
    ended (the end of a log, a lost server), SB_OK otherwise, also if no message arrived. */
 sb_status sb_listener_poll(sb_listener *listener, double seconds);

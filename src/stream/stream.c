@@ -43,6 +43,7 @@ sb_status sb_stream_create(const sb_stream_settings *settings, const char *run_n
     pthread_mutex_init(&made->lock, NULL);
     made->interval = settings->interval;
     made->run_id = draw_run_id();
+    made->url = sb_provider_url(settings->url);
     made->last_interval = -1;
     made->spread = 0.05;
     made->frame_time = made->status_time = made->cycle_begin = -1;
@@ -93,6 +94,11 @@ sb_status sb_stream_set_scene(sb_stream *stream, const sb_scene *scene, const sb
         sb_scene_encode(scene, model, stream->run_id, stream->run, &stream->encoded, &stream->encoded_size, error);
     if (status == SB_OK) stream->scene_id = (int64_t)sb_hash(0, stream->encoded, stream->encoded_size);
     return status;
+}
+
+const char *sb_stream_url(const sb_stream *stream)
+{
+    return stream->url;
 }
 
 int64_t sb_stream_run_id(const sb_stream *stream)

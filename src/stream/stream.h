@@ -18,10 +18,10 @@
 
 typedef struct sb_stream sb_stream;
 
-/* Opens the provider of settings->url (empty: LCM_DEFAULT_URL if it is set, else LCM's default). run_name is copied and
-   truncated to 63 bytes. SB_FAILED, with the remedy, if the provider cannot be opened: the caller warns and continues.
-   LCM writes its messages to stderr; they are captured and become part of the error, so the stream must be created
-   before other threads print. */
+/* Opens the provider of settings->url (empty: LCM_DEFAULT_URL if it is set, else LCM's default), which must outlive the
+   stream. run_name is copied and truncated to 63 bytes. SB_FAILED, with the remedy, if the provider cannot be opened:
+   the caller warns and continues. LCM writes its messages to stderr; they are captured and become part of the error, so
+   the stream must be created before other threads print. */
 sb_status sb_stream_create(const sb_stream_settings *settings, const char *run_name, sb_stream **stream,
                            sb_error *error);
 void sb_stream_destroy(sb_stream *stream);
@@ -36,6 +36,8 @@ sb_status sb_stream_set_scene(sb_stream *stream, const sb_scene *scene, const sb
 
 /* The id with which all messages of this stream begin: 0 to 2^53 - 1, drawn at the creation. */
 int64_t sb_stream_run_id(const sb_stream *stream);
+/* The URL of its provider. */
+const char *sb_stream_url(const sb_stream *stream);
 
 /* ---- from any thread ---- */
 

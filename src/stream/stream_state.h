@@ -19,6 +19,7 @@ struct sb_stream {
     sb_sender sender;
     char run[SB_STREAM_NAME];
     int64_t run_id;
+    const char *url;
     double interval;
     const sb_scene *scene; /* NULL: no scene was set; then rows are not kept */
     const sb_model *model;

@@ -1,0 +1,129 @@
+#include "app/picture_now.h"
+
+#include "app/run_parts.h"
+#include "base/memory.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#define FOLDER "pictures"
+
+enum { NICENESS = 10 };                 /* of the thread, as of that of pictures.c */
+static const double FIELD_OF_VIEW = 45; /* degrees, of a picture from eye to target */
+
+static sb_status make_renderer(const run *r, sb_requested *p, sb_error *error)
+{
+    if (p->renderer) return SB_OK;
+    setpriority(PRIO_PROCESS, 0, NICENESS); /* if refused, the niceness stays as it is */
+    return sb_renderer_create(&p->scene, &r->model, &p->renderer, error);
+}
+
+/* Finds a name that no file has: a picture of the same camera and step may exist. */
+static sb_status name_file(const run *r, const sb_requested *p, char name[SB_STREAM_TEXT], char path[SB_PATH_MAX],
+                           sb_error *error)
+{
+    enum { MOST = 10000 };
+    char folder[SB_PATH_MAX];
+    const char *camera = p->scene.render.cameras[p->camera].name;
+    sb_status status = sb_make_folder(folder, r->directory, FOLDER, error);
+    for (int k = 1; status == SB_OK && k < MOST; k++) {
+        char more[16] = "";
+        if (k > 1) snprintf(more, sizeof more, "-%d", k);
+        snprintf(name, SB_STREAM_TEXT, FOLDER "/%s-%06llu%s.png", camera, (unsigned long long)p->step, more);
+        status = sb_run_path(r, name, path, error);
+        if (status == SB_OK && access(path, F_OK) != 0) return SB_OK;
+    }
+    return status == SB_OK ? sb_fail(error, SB_FAILED, "%.100s: exists", name) : status;
+}
+
+static sb_status draw(void *state, const sb_frame *frame, sb_error *error)
+{
+    run *r = state;
+    sb_requested *p = &r->requested;
+    char name[SB_STREAM_TEXT] = "", path[SB_PATH_MAX];
+    sb_status status = make_renderer(r, p, error);
+    if (status == SB_OK) status = sb_renderer_draw(p->renderer, frame, p->camera, &p->image, error);
+    if (status == SB_OK) status = name_file(r, p, name, path, error);
+    if (status == SB_OK) status = sb_png_write(path, &p->image, error);
+    sb_steering_reply(r, &p->command, p->step, frame->status.time, status != SB_OK,
+                      status == SB_OK ? name : error->text);
+    return status;
+}
+
+static void close_renderer(void *state)
+{
+    run *r = state;
+    sb_renderer_destroy(r->requested.renderer);
+    sb_image_free(&r->requested.image);
+    r->requested.renderer = NULL;
+}
+
+/* The cameras of the scene and one more, the view that a command gives. */
+static sb_status begin(run *r, sb_error *error)
+{
+    sb_requested *p = &r->requested;
+    const size_t count = r->scene->render.camera_count;
+    const sb_consumer_work work = {.name = "requested pictures", .state = r, .handle = draw, .close = close_renderer};
+    if (p->scene.render.cameras) return SB_OK;
+    sb_camera *cameras = sb_alloc(count + 1, sizeof *cameras);
+    if (!cameras) return sb_fail_memory(error, "a picture");
+    if (count > 0) memcpy(cameras, r->scene->render.cameras, count * sizeof *cameras);
+    cameras[count] = (sb_camera){.name = "view", .key_count = 1, .keys = &p->view};
+    p->scene = *r->scene;
+    p->scene.render.cameras = cameras;
+    p->scene.render.camera_count = count + 1;
+    const sb_status status = sb_consumer_start(&p->consumer, &work, 1, 1, SB_QUEUE_WAIT, error);
+    if (status == SB_OK) return SB_OK;
+    sb_free(cameras);
+    p->scene.render.cameras = NULL;
+    return status;
+}
+
+static sb_status choose_camera(run *r, const sb_command *command, sb_error *error)
+{
+    sb_requested *p = &r->requested;
+    const double *at = command->number;
+    const size_t count = r->scene->render.camera_count;
+    size_t c = 0;
+    while (c < count && strcmp(r->scene->render.cameras[c].name, command->name) != 0) c++;
+    if (*command->name && c == count)
+        return sb_fail(error, SB_BAD_INPUT, "camera \"%s\": there is none of this name", command->name);
+    if (!*command->name) c = count;
+    p->view = (sb_camera_key){
+        .eye = sb_vec(at[0], at[1], at[2]), .target = sb_vec(at[3], at[4], at[5]), .fov = FIELD_OF_VIEW};
+    p->camera = c;
+    return SB_OK;
+}
+
+sb_status sb_picture_now(run *r, const sb_command *command, sb_error *error)
+{
+    sb_requested *p = &r->requested;
+    if (p->consumer.given_up) return sb_fail(error, SB_FAILED, "the thread that draws makes no progress");
+    if (p->consumer.started && !sb_consumer_is_idle(&p->consumer))
+        return sb_fail(error, SB_BAD_INPUT, "the picture before is being drawn, expected a command after that");
+    sb_status status = begin(r, error);
+    if (status == SB_OK) status = choose_camera(r, command, error); /* the thread is idle */
+    if (status != SB_OK) return status;
+    p->command = *command;
+    p->step = sb_sim_report(r->sim)->step;
+    sb_sim_find_virial_pressures(r->sim);
+    sb_frame *frame = sb_sim_snapshot(r->sim);
+    if (!frame) return sb_fail_memory(error, "a frame");
+    frame->index = r->frames;
+    sb_measure_fill_frame(r->measure, frame);
+    sb_consumer_feed(&p->consumer, frame);
+    sb_frame_release(frame);
+    return SB_OK;
+}
+
+void sb_picture_now_end(run *r)
+{
+    sb_consumer_stop(&r->requested.consumer);
+}
+
+void sb_picture_now_free(run *r)
+{
+    sb_free(r->requested.scene.render.cameras);
+}

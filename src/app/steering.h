@@ -1,0 +1,19 @@
+/* Commands to a run: they are read between steps from the pipe of the helper process, and obeyed in the run's thread.
+   Private to src/app. */
+#ifndef SB_APP_STEERING_H
+#define SB_APP_STEERING_H
+
+#include "app/run_state.h"
+
+/* Makes the token and starts the helper, if the scene allows commands and there is a stream. A failure gives a warning,
+   and the run goes on without commands. */
+void sb_steering_start(run *r);
+
+/* Obeys the commands that have arrived. While the run is paused, it waits here, until it is resumed, may make a step or
+   is stopped. Call it before each step, and during settling. */
+void sb_steering_take(run *r);
+
+/* Ends the helper, removes the token and logs how many commands were refused. Call it before the stream ends. */
+void sb_steering_end(run *r);
+
+#endif
