@@ -54,7 +54,7 @@ static sb_status act_resume(run *r, const sb_command *command, char done[SB_STRE
 
 static sb_status act_step(run *r, const sb_command *command, char done[SB_STREAM_TEXT], sb_error *error)
 {
-    if (settles(r)) return sb_fail(error, SB_BAD_INPUT, "the water settles, expected a command after that");
+    (void)error;
     r->steering.steps = (uint64_t)command->count;
     set_paused(r, false);
     snprintf(done, SB_STREAM_TEXT, "%" PRId64 " %s, then paused", command->count,
@@ -299,6 +299,7 @@ void sb_steering_start(run *r)
         status = sb_target_write(setup.run_id, setup.prefix, sb_stream_url(r->streamer.stream), where, &reason);
     if (status == SB_OK) status = sb_helper_start(&s->helper, &setup, &reason);
     if (status == SB_OK) sb_runlog_event(r->log, SB_TARGET_EVENT, "%s", where);
+    if (status == SB_OK && r->scene->control.paused) set_paused(r, true);
     if (status != SB_OK) sb_run_warn(r, "the run takes no commands: %.900s", reason.text);
 }
 

@@ -11,7 +11,7 @@
 typedef enum sb_command_kind {
     SB_COMMAND_PAUSE,
     SB_COMMAND_RESUME,
-    SB_COMMAND_STEP,       /* count: steps, after which the run is paused */
+    SB_COMMAND_STEP,       /* count: steps, those of settling included, after which the run is paused */
     SB_COMMAND_STOP,       /* as SIGINT does */
     SB_COMMAND_CHECKPOINT, /* now */
     SB_COMMAND_RATE,       /* number[0]: frames per second of wall time in the stream, at most; 0: no limit */

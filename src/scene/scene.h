@@ -241,6 +241,7 @@ typedef struct sb_stream_settings {
 
 typedef struct sb_control_settings {
     bool enabled; /* commands are allowed */
+    bool paused;  /* the run begins paused */
 } sb_control_settings;
 
 /* When the state is saved for --resume. Both 0: never. */

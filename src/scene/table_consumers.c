@@ -149,6 +149,9 @@ static const sb_key control_keys[] = {
      .fallback = "false",
      .doc = "Whether the run obeys commands that are signed with its token; this also enables the "
             "stream."},
+    {.name = "paused", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_control_settings, paused),
+     .fallback = "false",
+     .doc = "Whether a run that obeys commands begins paused, until the command `resume`."},
 };
 /* clang-format on */
 

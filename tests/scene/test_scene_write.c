@@ -39,7 +39,7 @@ static const char everything[] =
     "    - {name: b, path: [{time: 0.1, eye: [0, 0, 1], target: [1, 1, 1]},\n"
     "                       {time: 0.2, eye: [0, 0, 2], target: [1, 1, 1], fov: 20}]}\n"
     "stream: {enabled: true, url: \"memq://\", prefix: A.B, interval: 0.3, decimation: 4}\n"
-    "control: {enabled: true}\n"
+    "control: {enabled: true, paused: true}\n"
     "output: {particle_interval: 0.25, plots: false}\n";
 
 #define SAME_ITEMS(a, b, items, count)                                                                                 \
@@ -111,6 +111,7 @@ static void same_scene(sb_scene *a, sb_scene *b)
     assert_memory_equal(&a->measure.map, &b->measure.map, sizeof a->measure.map);
     same_render(&a->render, &b->render);
     assert_int_equal(a->control.enabled, b->control.enabled);
+    assert_int_equal(a->control.paused, b->control.paused);
     assert_int_equal(a->stream.enabled, b->stream.enabled);
     same_text(&a->stream.url, &b->stream.url);
     assert_string_equal(a->stream.prefix, b->stream.prefix);

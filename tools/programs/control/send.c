@@ -6,8 +6,9 @@
 
 #include <math.h>
 
-/* A command that is lost on its way is sent again; the run obeys it once. */
-static const double AGAIN_SECONDS = 3;
+/* A command that is lost on its way is sent again, after this time, twice this time and so on; the run obeys it once.
+ */
+static const double AGAIN_SECONDS = 0.5;
 
 typedef struct waiting {
     int64_t run_id, counter;
@@ -40,9 +41,11 @@ sb_status sb_control_send(const sb_target *target, int count, char *const words[
         status = sb_command_encode(&target->token, target->run_id, w.counter, text, message, &size, error);
     if (status == SB_OK) status = sb_listener_create(target->url, target->prefix, &calls, &listener, error);
     const double end = sb_clock() + seconds;
+    double pause = AGAIN_SECONDS;
     for (double left = seconds; status == SB_OK && !w.replied && left > 0; left = end - sb_clock()) {
         status = sb_listener_send_command(listener, message, size, error);
-        const double again = sb_clock() + fmin(left, AGAIN_SECONDS);
+        const double again = sb_clock() + fmin(left, pause);
+        pause *= 2;
         while (status == SB_OK && !w.replied && sb_clock() < again)
             if (sb_listener_poll(listener, 0.02) != SB_OK)
                 status = sb_fail(error, SB_FAILED, "%.200s: the stream has ended", target->url);
