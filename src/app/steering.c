@@ -152,6 +152,9 @@ static sb_status act_trigger(run *r, const sb_command *command, char done[SB_STR
     const sb_step_report *report = sb_sim_report(r->sim);
     sb_runlog_event(r->log, "trigger", "wave maker \"%s\" begins before step %" PRIu64 ": start: %.17g", command->name,
                     report->step + 1, report->time);
+    /* A run that is killed and resumed repeats the start. A checkpoint of this step that exists does not have it. */
+    r->checkpoints.current = false;
+    sb_checkpoint_write(r);
     snprintf(done, SB_STREAM_TEXT, "wave maker \"%s\" begins at t = %.17g s", command->name, report->time);
     return SB_OK;
 }

@@ -21,6 +21,20 @@ static const char scene[] = "dimensions: 2\n"
                             "numerics: {settle_steps: 0}\n"
                             "output: {plots: false, checkpoint: {keep: 10}}\n";
 
+enum { TEXT = 64 };
+
+/* The setting that gives the logged time. */
+static void start_of(const char *directory, char setting[TEXT])
+{
+    size_t count;
+    char *event = event_of(directory, "trigger", &count);
+    assert_int_equal(count, 1);
+    const char *at = strstr(event, "start: ");
+    assert_non_null(at);
+    snprintf(setting, TEXT, "wavemakers.piston.start=%.*s", (int)strspn(at + 7, "0123456789.e-+"), at + 7);
+    sb_free(event);
+}
+
 static void same_table(const char *one, const char *other)
 {
     char *texts[2] = {text_of(one), text_of(other)};
@@ -32,10 +46,8 @@ static void same_table(const char *one, const char *other)
 static void a_commanded_start_can_be_repeated(void **state)
 {
     (void)state;
-    size_t count;
-    char start[64] = "";
-    write_text("wave.yaml", scene);
-    pid_t run = commander_start("wave.yaml", "wave", (const char *const[]){NULL});
+    char start[TEXT];
+    const pid_t run = commander_start("wave.yaml", "wave", (const char *const[]){NULL});
     commander_send(0, "wave", "step 7");
     commander_send(0, "wave", "pause"); /* the steps may not be made yet: in either case the time is logged */
     assert_contains(commander_send(0, "wave", "trigger piston"), "wave maker \"piston\" begins at t = ");
@@ -46,12 +58,7 @@ static void a_commanded_start_can_be_repeated(void **state)
     outcome o = program_finish(run);
     assert_int_equal(o.status, 128 + SIGINT);
     outcome_free(&o);
-    char *event = event_of("wave", "trigger", &count);
-    assert_int_equal(count, 1);
-    const char *at = strstr(event, "start: ");
-    assert_non_null(at);
-    snprintf(start, sizeof start, "wavemakers.piston.start=%.*s", (int)strspn(at + 7, "0123456789.e-+"), at + 7);
-    sb_free(event);
+    start_of("wave", start);
     RUN_AND_FORGET(0, "run", "wave/scene.yaml", "--out", "wave", "--resume", "--quiet", "--set",
                    "control.paused=false");
 
@@ -69,8 +76,37 @@ static void a_commanded_start_can_be_repeated(void **state)
     sb_free(still);
 }
 
+/* A run that is killed right after the command has it in its checkpoint, although that step had one before. */
+static void a_commanded_start_survives_a_kill(void **state)
+{
+    (void)state;
+    char start[TEXT];
+    const pid_t run = commander_start("wave.yaml", "killed", (const char *const[]){NULL});
+    commander_send(0, "killed", "step 5");
+    commander_send(0, "killed", "pause");
+    commander_send(0, "killed", "checkpoint");
+    commander_send(0, "killed", "trigger piston");
+    kill(run, SIGKILL);
+    outcome o = program_finish(run);
+    outcome_free(&o);
+    start_of("killed", start);
+    RUN_AND_FORGET(0, "run", "killed/scene.yaml", "--out", "killed", "--resume", "--quiet", "--set",
+                   "control.paused=false");
+    RUN_AND_FORGET(0, "run", "wave.yaml", "--out", "same", "--quiet", "--set", start);
+    assert_same_hash("killed", "same");
+    same_table("killed/forces.csv", "same/forces.csv");
+}
+
+static int setup(void **state)
+{
+    if (program_setup(state) != 0) return -1;
+    write_text("wave.yaml", scene);
+    return 0;
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_commanded_start_can_be_repeated)};
-    return cmocka_run_group_tests(tests, program_setup, program_teardown);
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_commanded_start_can_be_repeated),
+                                       cmocka_unit_test(a_commanded_start_survives_a_kill)};
+    return cmocka_run_group_tests(tests, setup, program_teardown);
 }
