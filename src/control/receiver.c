@@ -90,10 +90,16 @@ static sb_status pass(sb_receiver *r, const sb_command *command, sb_error *error
         r->allowance--;
         return SB_OK;
     }
-    r->counts.flooded++;
     if (r->ended) return sb_fail(error, SB_FAILED, "the run has ended");
     return sb_fail(error, SB_FAILED, "more than %d commands per second, or the run does not read them",
                    SB_RECEIVER_RATE);
+}
+
+static sb_status pass_counted(sb_receiver *r, const sb_command *command, sb_error *error)
+{
+    const sb_status status = pass(r, command, error);
+    *(status == SB_OK ? &r->counts.obeyed : &r->counts.flooded) += 1;
+    return status;
 }
 
 /* ---- messages ---- */
@@ -126,9 +132,7 @@ static sb_status take_signed(sb_receiver *r, const sb_command_message *message, 
     if (sb_command_from_json(message->text, message->text_size, &command, &fault) != SB_OK)
         return pass_fault(r, message->counter, &fault, error);
     command.counter = message->counter;
-    const sb_status status = pass(r, &command, error);
-    r->counts.obeyed += status == SB_OK;
-    return status == SB_OK ? SB_OK : SB_BAD_INPUT;
+    return pass_counted(r, &command, error) == SB_OK ? SB_OK : SB_BAD_INPUT;
 }
 
 sb_status sb_receiver_take_message(sb_receiver *r, const void *bytes, size_t size, sb_error *error)
@@ -173,8 +177,7 @@ sb_status sb_receiver_take_json(sb_receiver *r, const char *text, size_t size, i
         r->counts.malformed++;
     } else {
         *id = command.id;
-        status = pass(r, &command, error);
-        r->counts.obeyed += status == SB_OK;
+        status = pass_counted(r, &command, error);
     }
     unlock(r);
     return status;

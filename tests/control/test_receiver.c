@@ -281,6 +281,13 @@ static void a_flood_is_cut(void **state)
     assert_int_equal(counts.obeyed, passed);
     assert_int_equal(counts.flooded, 10000 - passed);
     empty_pipe();
+    for (int64_t i = 1; i <= 100; i++) { /* a fault is counted once, also in a flood */
+        const message m = made(&token, RUN, 10000 + i, "{}");
+        give(&m, NULL);
+    }
+    assert_int_equal(sb_receiver_count(receiver).malformed, 100);
+    assert_int_equal(sb_receiver_count(receiver).flooded, counts.flooded);
+    empty_pipe();
     refused(made(&token, RUN, 9999, "{\"do\":\"checkpoint\"}"), "counter"); /* one that was cut */
 }
 
