@@ -6,9 +6,8 @@
 
 #include <math.h>
 
-/* A command that is lost on its way is sent again, after this time, twice this time and so on; the run obeys it once.
- */
-static const double AGAIN_SECONDS = 0.5;
+/* A command that is lost on its way is sent again after the first time, then less often; the run obeys it once. */
+static const double AGAIN_SECONDS = 0.5, AGAIN_MOST = 4;
 
 typedef struct waiting {
     int64_t run_id, counter;
@@ -45,7 +44,7 @@ sb_status sb_control_send(const sb_target *target, int count, char *const words[
     for (double left = seconds; status == SB_OK && !w.replied && left > 0; left = end - sb_clock()) {
         status = sb_listener_send_command(listener, message, size, error);
         const double again = sb_clock() + fmin(left, pause);
-        pause *= 2;
+        pause = fmin(2 * pause, AGAIN_MOST);
         while (status == SB_OK && !w.replied && sb_clock() < again)
             if (sb_listener_poll(listener, 0.02) != SB_OK)
                 status = sb_fail(error, SB_FAILED, "%.200s: the stream has ended", target->url);
