@@ -11,10 +11,13 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 #include <unistd.h>
 
 static const double WAIT_SECONDS = 0.2; /* of a paused run, at most, between two looks for signals and the helper */
 static const double LOG_SECONDS = 10;   /* between two lines of the log with the counts of refused commands */
+
+enum { RECORDS_MOST = 300 }; /* before a step: those that fit into a pipe */
 
 static bool settles(const run *r)
 {
@@ -260,8 +263,14 @@ static void watch_helper(run *r)
 static void take_all(run *r)
 {
     sb_command command;
-    while (sb_helper_next(&r->steering.helper, &command)) take_record(r, &command);
-    watch_helper(r);
+    /* The helper writes fewer. One that a forged packet controls does not keep the run from its steps. */
+    for (int k = 0; k < RECORDS_MOST; k++) {
+        if (!sb_helper_next(&r->steering.helper, &command)) {
+            watch_helper(r);
+            return;
+        }
+        take_record(r, &command);
+    }
 }
 
 void sb_steering_take(run *r)
@@ -291,6 +300,10 @@ void sb_steering_start(run *r)
     sb_token token;
     char where[SB_TARGET_TEXT];
     if (!r->scene->control.enabled || !r->streamer.stream) return;
+    if (strncasecmp(sb_stream_url(r->streamer.stream), "file:", 5) == 0) { /* the helper would open it, too */
+        sb_run_warn(r, "the run takes no commands: its stream goes to a file");
+        return;
+    }
     sb_status status = sb_run_path(r, SB_TOKEN_FILE, s->token_file, &reason);
     if (status == SB_OK) status = sb_token_make(s->token_file, &token, &reason);
     s->allowed = status == SB_OK;

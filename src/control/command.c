@@ -54,7 +54,7 @@ static const struct {
 
 const char *sb_command_name(int32_t kind)
 {
-    static const char *const internal[] = {"loss", "bad", "counts"};
+    static const char *const internal[] = {"loss", "faulty command", "counts"};
     if (kind >= 0 && kind < SB_COMMANDS) return kinds[kind].name;
     return kind >= SB_COMMANDS && kind < SB_COMMAND_KINDS ? internal[kind - SB_COMMANDS] : "unknown";
 }

@@ -10,6 +10,7 @@
 
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 typedef struct view {
@@ -117,10 +118,25 @@ static void without_permission_there_is_no_helper(void **state)
     outcome_free(&o);
 }
 
+/* The helper would overwrite the log. */
+static void a_stream_to_a_file_takes_no_commands(void **state)
+{
+    (void)state;
+    char url[1024];
+    snprintf(url, sizeof url, "file://%s?mode=w", in_folder("recorded.log"));
+    setenv("LCM_DEFAULT_URL", url, 1);
+    outcome o = RUN(0, "run", "tank2.yaml", "--out", "recorded", "--control", "--set", "control.paused=true");
+    unsetenv("LCM_DEFAULT_URL");
+    assert_contains(o.err, "the run takes no commands: its stream goes to a file");
+    outcome_free(&o);
+    assert_true(exists("recorded.log"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_paused_run_sends_its_status_and_sleeps),
                                        cmocka_unit_test(a_signal_ends_a_paused_run),
-                                       cmocka_unit_test(without_permission_there_is_no_helper)};
+                                       cmocka_unit_test(without_permission_there_is_no_helper),
+                                       cmocka_unit_test(a_stream_to_a_file_takes_no_commands)};
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
 }
