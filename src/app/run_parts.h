@@ -25,7 +25,7 @@ void sb_run_finish(run *r, sb_status *status, sb_error *error);
 /* run_stream.c: gives the stream, if there is one, the progress of the run and the rows of the last step. */
 void sb_run_inform_stream(run *r);
 
-/* steering.c: replies to a command and logs it. Any thread may call it. */
+/* steering_acts.c: replies to a command and logs it. Any thread may call it. */
 void sb_steering_reply(run *r, const sb_command *command, uint64_t step, double time, bool refused, const char *text);
 
 /* ---- run_report.c ---- */

@@ -13,6 +13,11 @@ void sb_steering_start(run *r);
    is stopped. Call it before each step, and during settling. */
 void sb_steering_take(run *r);
 
+/* steering_acts.c: obeys one command and replies. */
+void sb_steering_obey(run *r, const sb_command *command);
+/* steering_acts.c: pauses or resumes the run, also in its status. */
+void sb_steering_set_paused(run *r, bool paused);
+
 /* Ends the helper, removes the token and logs how many commands were refused. Call it before the stream ends. */
 void sb_steering_end(run *r);
 
