@@ -173,7 +173,7 @@ static sb_status connect(monitor *self, sb_listener **listener, sb_error *error)
                                  .frame = on_frame};
     self->live = sb_live_create(&calls);
     if (!self->live) return sb_fail_memory(error, "the monitor");
-    const sb_listener_calls messages = {self, on_message};
+    const sb_listener_calls messages = {.user = self, .message = on_message};
     return sb_listener_create(self->options.url, self->options.prefix, &messages, listener, error);
 }
 
