@@ -85,7 +85,7 @@ static void a_paused_run_sends_its_status_and_sleeps(void **state)
     outcome_free(&o);
     size_t count;
     char *counts = event_of("paused", "commands", &count);
-    assert_int_equal(count, 1);
+    assert_in_range(count, 1, 2); /* when they change, and at the end */
     assert_contains(counts, "2 malformed, 3 foreign, 0 replayed, 0 flooded");
     sb_free(counts);
 }
