@@ -56,15 +56,26 @@ pid_t commander_start(const char *scene, const char *directory, const char *cons
     return process;
 }
 
+static bool is_helper(long process)
+{
+    char path[64], name[32] = "";
+    snprintf(path, sizeof path, "/proc/%ld/comm", process);
+    FILE *file = fopen(path, "r");
+    if (file && fscanf(file, "%31s", name) != 1) *name = 0;
+    if (file) fclose(file);
+    return strcmp(name, "shorebreak-live") == 0;
+}
+
 pid_t child_of(pid_t process)
 {
     char path[80];
     long child = 0;
     snprintf(path, sizeof path, "/proc/%ld/task/%ld/children", (long)process, (long)process);
     FILE *file = fopen(path, "r");
-    if (file && fscanf(file, "%ld", &child) != 1) child = 0;
+    bool found = false;
+    while (file && !found && fscanf(file, "%ld", &child) == 1) found = is_helper(child);
     if (file) fclose(file);
-    return (pid_t)child;
+    return found ? (pid_t)child : 0;
 }
 
 char *event_of(const char *directory, const char *event, size_t *count)

@@ -12,7 +12,7 @@ const char *commander_send(int status, const char *directory, const char *comman
    pauses it. Skips the test without a multicast route. */
 pid_t commander_start(const char *scene, const char *directory, const char *const *options);
 
-/* The first child process of a process; 0: none. */
+/* The first child process that is a shorebreak-live; 0: none. */
 pid_t child_of(pid_t process);
 
 /* The text of the last event of this kind in the log of a run, and the number of such events. Free it with sb_free;
