@@ -30,7 +30,7 @@ static sb_status find_program(const char *name, char path[SB_PATH_MAX], sb_error
         slash = strrchr(path, '/');
     }
     if (!slash) return sb_fail(error, SB_FAILED, "%s: this program's folder is not known", name);
-    strcpy(slash + 1, name);
+    snprintf(slash + 1, (size_t)(path + SB_PATH_MAX - slash - 1), "%s", name);
     return access(path, X_OK) == 0 ? SB_OK
                                    : sb_fail(error, SB_FAILED, "%.500s: cannot be run: %s", path, strerror(errno));
 }
@@ -80,7 +80,7 @@ static sb_status start(sb_helper *helper, sb_error *error)
     if (status != SB_OK) return status;
     if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0)
         return sb_fail(error, SB_FAILED, "no pipe to shorebreak-live: %s", strerror(errno));
-    const int refused = spawn(path, (char *const *)(uintptr_t)arguments, ends[1], &helper->process);
+    const int refused = spawn(path, (char *const *)arguments, ends[1], &helper->process);
     close(ends[1]);
     if (refused) {
         close(ends[0]);

@@ -12,7 +12,7 @@ sb_status sb_command_encode(const sb_token *token, int64_t run_id, int64_t count
     shorebreak_command_t plain = {.version = SB_STREAM_VERSION,
                                   .run_id = run_id,
                                   .counter = counter,
-                                  .command = (char *)(uintptr_t)text}; /* the encoder does not write through it */
+                                  .command = (char *)text}; /* the encoder does not write through it */
     const int encoded = shorebreak_command_t_encode(message, 0, SB_COMMAND_MESSAGE_MAX, &plain);
     if (encoded < SB_SIGNATURE_BYTES)
         return sb_fail(error, SB_BAD_INPUT, "the command has %zu bytes, expected at most %d", strlen(text),

@@ -233,7 +233,7 @@ bool sb_receiver_serve(sb_receiver *r, bool last)
 
 sb_received sb_receiver_count(const sb_receiver *receiver)
 {
-    sb_receiver *r = (sb_receiver *)(uintptr_t)receiver;
+    sb_receiver *r = (sb_receiver *)receiver;
     lock(r);
     const sb_received counts = r->counts;
     unlock(r);

@@ -36,7 +36,7 @@ void sb_stream_send_replies(sb_stream *stream)
                                       .run_id = stream->run_id,
                                       .id = reply.id,
                                       .counter = reply.counter,
-                                      .result = reply.refused,
+                                      .result = reply.refused ? 1 : 0,
                                       .step = reply.step,
                                       .time = reply.time,
                                       .text = reply.text};
