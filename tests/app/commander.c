@@ -78,6 +78,28 @@ pid_t child_of(pid_t process)
     return found ? (pid_t)child : 0;
 }
 
+bool is_there(pid_t process)
+{
+    char path[64], state = 'X';
+    snprintf(path, sizeof path, "/proc/%ld/stat", (long)process);
+    FILE *file = fopen(path, "r");
+    if (!file) return false;
+    if (fscanf(file, "%*d %*[^)]) %c", &state) != 1) state = 'X';
+    fclose(file);
+    return state != 'X' && state != 'Z';
+}
+
+pid_t next_helper(pid_t run, pid_t before)
+{
+    const double end = sb_clock() + TIMEOUT;
+    pid_t helper = child_of(run);
+    while ((helper == 0 || helper == before) && is_there(run) && sb_clock() < end) {
+        usleep(10000);
+        helper = child_of(run);
+    }
+    return helper == before ? 0 : helper;
+}
+
 char *event_of(const char *directory, const char *event, size_t *count)
 {
     char name[80], start[80];

@@ -15,6 +15,12 @@ pid_t commander_start(const char *scene, const char *directory, const char *cons
 /* The first child process that is a shorebreak-live; 0: none. */
 pid_t child_of(pid_t process);
 
+/* Whether the process exists and is no zombie. */
+bool is_there(pid_t process);
+
+/* Waits for a helper of the run that is not this one; 0: the run has ended without one. */
+pid_t next_helper(pid_t run, pid_t before);
+
 /* The text of the last event of this kind in the log of a run, and the number of such events. Free it with sb_free;
    NULL: none. */
 char *event_of(const char *directory, const char *event, size_t *count);
