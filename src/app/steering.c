@@ -102,7 +102,8 @@ void sb_steering_take(run *r)
     take_all(r);
     if (s->paused && !sb_stop_signal()) {
         sb_progress_break(&r->progress);
-        sb_run_report(r, "paused by a command at t = %.9g s", sb_sim_report(r->sim)->time);
+        sb_run_report(r, "paused at t = %.9g s; to continue: tools/control %s resume", sb_sim_report(r->sim)->time,
+                      r->directory);
         while (s->paused && !sb_stop_signal()) {
             sb_helper_wait(&s->helper, WAIT_SECONDS);
             take_all(r);
