@@ -1,7 +1,7 @@
-/* Receives a run's stream over LCM and shows it as a live table. */
+/* Receives a run's stream over LCM and shows it: on a terminal as a live screen, else as lines. */
+#include "layout.h"
 #include "options.h"
-#include "state.h"
-#include "table.h"
+#include "screen.h"
 
 #include "base/clock.h"
 #include "base/memory.h"
@@ -17,29 +17,32 @@
 #include <unistd.h>
 
 #define REDRAW_SECONDS 0.2
+#define KEY_SECONDS 0.05
 #define LINE_SECONDS 1.0
 #define SILENCE_SECONDS 5.0
 /* The status comes every half second; forces and parts of a frame come with the next interval. */
 #define ONCE_SECONDS 0.25
 
-#define ENTER_SCREEN "\x1b[?1049h\x1b[?25l\x1b[2J"
-#define LEAVE_SCREEN "\x1b[0m\x1b[?25h\x1b[?1049l"
-
 typedef struct monitor {
     sb_monitor_options options;
     sb_monitor_state state;
     sb_live *live;
-    sb_table_style style;
-    bool screen;            /* the table takes the whole terminal */
+    sb_view view;
+    sb_cells cells;
+    bool screen; /* the program has the whole terminal */
+    bool quit;
     double begun;           /* sb_clock() at the start, for --duration */
-    double line_time;       /* sb_clock() at the last plain line */
+    double drawn;           /* at the last drawing */
+    double line_time;       /* at the last plain line */
     uint64_t line_statuses; /* number of statuses at that time */
+    uint64_t line_restarts; /* number of restarts at that time */
     bool silence_reported;
     double first_status; /* sb_clock(), 0: none yet */
     bool once_complete;  /* --once: the second status arrived; it and all later messages are ignored */
 } monitor;
 
 static volatile sig_atomic_t stopped;
+static unsigned crashes; /* of earlier child processes */
 
 static void stop(int signal_number)
 {
@@ -56,29 +59,19 @@ static void on_status(void *user, const sb_status_message *message)
     sb_monitor_on_status(&self->state, message);
 }
 
-static void on_forces(void *user, const sb_forces_message *message)
-{
-    monitor *self = user;
-    if (!self->once_complete) sb_monitor_on_forces(&self->state, message);
-}
-
-static void on_part(void *user, const sb_frame_message *message)
-{
-    monitor *self = user;
-    if (!self->once_complete) sb_monitor_on_part(&self->state, message);
-}
-
-static void on_frame(void *user, const sb_live_frame *frame)
-{
-    monitor *self = user;
-    if (!self->once_complete) sb_monitor_on_frame(&self->state, frame);
-}
-
-static void on_restart(void *user, int64_t run_id)
-{
-    monitor *self = user;
-    if (!self->once_complete) sb_monitor_on_restart(&self->state, run_id);
-}
+/* A callback of sb_live that passes its argument to the state. */
+#define PASS(NAME, TYPE)                                                                                               \
+    static void on_##NAME(void *user, TYPE message)                                                                    \
+    {                                                                                                                  \
+        monitor *self = user;                                                                                          \
+        if (!self->once_complete) sb_monitor_on_##NAME(&self->state, message);                                         \
+    }
+PASS(forces, const sb_forces_message *)
+PASS(gauges, const sb_gauges_message *)
+PASS(part, const sb_frame_message *)
+PASS(frame, const sb_live_frame *)
+PASS(scene, const sb_live_scene *)
+PASS(restart, int64_t)
 
 static void on_message(void *user, sb_channel_kind kind, const void *data, size_t size, double time)
 {
@@ -86,36 +79,62 @@ static void on_message(void *user, sb_channel_kind kind, const void *data, size_
     if (!self->once_complete) sb_live_take(self->live, kind, data, size, time);
 }
 
-static void measure_terminal(sb_table_style *style)
+static sb_status connect(monitor *self, sb_listener **listener, sb_error *error)
 {
-    struct winsize size;
-    bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-    style->width = known ? size.ws_col : 100;
-    style->height = known ? size.ws_row : 0;
+    const sb_live_calls calls = {.user = self,
+                                 .restarted = on_restart,
+                                 .scene = on_scene,
+                                 .status = on_status,
+                                 .forces = on_forces,
+                                 .gauges = on_gauges,
+                                 .part = on_part,
+                                 .frame = on_frame};
+    self->live = sb_live_create(&calls);
+    if (!self->live) return sb_fail_memory(error, "the monitor");
+    const sb_listener_calls messages = {.user = self, .message = on_message};
+    return sb_listener_create(self->options.url, self->options.prefix, &messages, listener, error);
 }
 
-/* Writes the whole screen at once, so that the terminal never shows a partial table. */
-static void redraw(monitor *self, double now)
+/* ---- the live screen ---- */
+
+static void draw(monitor *self, double now)
 {
-    char *text = NULL;
-    size_t length = 0;
-    FILE *page = open_memstream(&text, &length);
-    if (!page) return;
-    measure_terminal(&self->style);
-    fputs("\x1b[?7l\x1b[H", page); /* long lines are cut, not wrapped */
-    sb_table_draw(page, &self->state, &self->style, now);
-    fputs("\x1b[J\x1b[?7h", page);
-    if (fclose(page) == 0) {
-        fwrite(text, 1, length, stdout);
-        fflush(stdout);
-    }
-    free(text);
+    int width, height;
+    sb_screen_size(&width, &height);
+    if (width != self->cells.width || height != self->cells.height)
+        if (sb_cells_resize(&self->cells, width, height) != SB_OK) return;
+    sb_layout_draw(&self->cells, &self->state, &self->view, now);
+    sb_screen_show(&self->cells);
+    self->drawn = now;
 }
+
+static void take_keys(monitor *self, double now)
+{
+    bool pressed = false;
+    for (int key = sb_screen_key(); key >= 0; key = sb_screen_key()) {
+        pressed = true;
+        switch (sb_view_key(&self->view, key)) {
+        case SB_ACTION_QUIT:
+            self->quit = true;
+            break;
+        case SB_ACTION_PAUSE:
+        case SB_ACTION_RESUME:
+        case SB_ACTION_STEP:
+            sb_view_note(&self->view, now, "%c needs the token of the run: start with --run RUN_DIR", key);
+            break;
+        case SB_ACTION_NONE:
+            break;
+        }
+    }
+    if (pressed) draw(self, now);
+}
+
+/* ---- plain lines ---- */
 
 static void print_lines(monitor *self, double now)
 {
     sb_monitor_state *state = &self->state;
-    double silent = now - state->last_data;
+    const double silent = now - state->last_data;
     if (silent < SILENCE_SECONDS)
         self->silence_reported = false;
     else if (!self->silence_reported) {
@@ -123,58 +142,60 @@ static void print_lines(monitor *self, double now)
         self->silence_reported = true;
     }
     if (state->has_status && state->statuses != self->line_statuses && now - self->line_time >= LINE_SECONDS) {
-        sb_table_line(stdout, state);
+        if (state->count.restarts != self->line_restarts)
+            printf("messages of another process follow: the run was resumed, or another one began\n");
+        sb_layout_line(stdout, state);
+        self->line_restarts = state->count.restarts;
         self->line_statuses = state->statuses;
         self->line_time = now;
     }
     fflush(stdout);
 }
 
+/* ---- */
+
 static bool finished(const monitor *self, double now)
 {
     const sb_monitor_options *options = &self->options;
-    return stopped || self->once_complete || (options->duration > 0 && now - self->begun >= options->duration) ||
+    return stopped || self->quit || self->once_complete ||
+           (options->duration > 0 && now - self->begun >= options->duration) ||
            (options->once && self->first_status > 0 && now - self->first_status >= ONCE_SECONDS);
 }
 
 static void watch(monitor *self, sb_listener *listener)
 {
+    const bool quick = self->options.once || self->screen;
     bool ended = false;
     for (double now = sb_clock(); !ended && !finished(self, now); now = sb_clock()) {
-        ended = sb_listener_poll(listener, self->options.once ? 0.05 : REDRAW_SECONDS) != SB_OK;
+        ended = sb_listener_poll(listener, quick ? KEY_SECONDS : REDRAW_SECONDS) != SB_OK;
         now = sb_clock();
         sb_monitor_state_sample(&self->state, sb_live_count(self->live), now);
-        if (self->screen)
-            redraw(self, now);
-        else if (!self->options.once)
-            print_lines(self, now);
+        if (!self->screen) {
+            if (!self->options.once) print_lines(self, now);
+            continue;
+        }
+        take_keys(self, now);
+        if (now >= self->drawn + REDRAW_SECONDS) draw(self, now);
     }
 }
 
-static void choose_style(monitor *self)
+static bool wants_screen(const sb_monitor_options *options)
 {
     const char *terminal = getenv("TERM");
-    bool live = !self->options.plain && isatty(STDOUT_FILENO) && terminal && strcmp(terminal, "dumb") != 0;
-    const char *no_colour = getenv("NO_COLOR");
-    self->screen = live && !self->options.once;
-    self->style.colour = live && !(no_colour && *no_colour);
-    self->style.utf8 = live && strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
-    self->style.line_end = self->screen ? "\x1b[K" : "";
-    measure_terminal(&self->style);
+    return !options->plain && !options->once && isatty(STDOUT_FILENO) && terminal && strcmp(terminal, "dumb") != 0;
 }
 
-static sb_status connect(monitor *self, sb_listener **listener, sb_error *error)
+static void open_screen(monitor *self)
 {
-    const sb_live_calls calls = {.user = self,
-                                 .restarted = on_restart,
-                                 .status = on_status,
-                                 .forces = on_forces,
-                                 .part = on_part,
-                                 .frame = on_frame};
-    self->live = sb_live_create(&calls);
-    if (!self->live) return sb_fail_memory(error, "the monitor");
-    const sb_listener_calls messages = {.user = self, .message = on_message};
-    return sb_listener_create(self->options.url, self->options.prefix, &messages, listener, error);
+    const char *no_colour = getenv("NO_COLOR");
+    self->cells.utf8 = strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
+    self->screen = wants_screen(&self->options) && sb_screen_open(!(no_colour && *no_colour));
+}
+
+static int terminal_width(void)
+{
+    struct winsize size;
+    return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 100;
 }
 
 static int run(void *argument)
@@ -192,16 +213,16 @@ static int run(void *argument)
     sigaction(SIGTERM, &action, NULL);
     sigaction(SIGHUP, &action, NULL);
     sb_monitor_state_start(&self->state, sb_clock());
-    choose_style(self);
-    if (self->screen) fputs(ENTER_SCREEN, stdout);
+    self->state.receiver_restarts = crashes;
+    open_screen(self);
     watch(self, listener);
-    if (self->screen) fputs(LEAVE_SCREEN, stdout);
-    /* Print the last table so that it remains visible. */
-    self->style.line_end = "";
-    self->style.height = 0;
-    if (self->state.has_status) sb_table_draw(stdout, &self->state, &self->style, sb_clock());
+    if (self->screen) sb_screen_close();
+    /* Print what was seen last so that it remains visible. */
+    if (self->state.has_status)
+        sb_layout_print(stdout, &self->state, terminal_width(), self->screen && self->cells.utf8, sb_clock());
     sb_listener_destroy(listener);
     sb_live_destroy(self->live);
+    sb_cells_free(&self->cells);
     if (self->options.once && !(self->first_status > 0)) {
         fprintf(stderr, "shorebreak-monitor: no status message received\n");
         return 1;
@@ -212,8 +233,8 @@ static int run(void *argument)
 /* Restores the terminal, which the crashed child could not do. */
 static void report_crash(void)
 {
-    if (isatty(STDOUT_FILENO)) fputs(LEAVE_SCREEN, stdout);
-    fflush(stdout);
+    crashes++;
+    sb_screen_restore();
     fputs("shorebreak-monitor: a message from the network crashed LCM's receiver; restarting it\n", stderr);
 }
 
@@ -240,7 +261,9 @@ int main(int count, char **arguments)
     }
     self->options = options;
     self->begun = sb_clock();
-    int code = sb_guard(run, self, report_crash);
+    if (wants_screen(&options)) sb_screen_remember();
+    const int code = sb_guard(run, self, report_crash);
+    if (code >= 128) sb_screen_restore(); /* the child was killed */
     sb_free(self);
     return fflush(stdout) == 0 ? code : 1;
 }

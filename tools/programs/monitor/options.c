@@ -6,20 +6,27 @@
 #include <string.h>
 
 const char sb_monitor_help[] =
-    "Usage: shorebreak-monitor [--url URL] [--prefix NAME] [--once] [--duration S] [--plain]\n"
+    "Usage: shorebreak-monitor [--url URL] [--prefix NAME] [--run DIR | --token-file FILE]\n"
+    "                          [--once] [--duration S] [--plain]\n"
     "\n"
-    "Shows a run while it computes: progress, forces on bodies, and the losses of its stream.\n"
+    "Shows a run while it computes: progress, stage times, convergence, forces on bodies, gauges, and the health of "
+    "its\n"
+    "stream. Keys: q quit, p pause the run, r resume it, s do one step, Tab next panel, arrows and PgUp/PgDn scroll,\n"
+    "? help.\n"
     "\n"
     "  --url URL       LCM provider, as stream.url of the scene (default: LCM_DEFAULT_URL, else\n"
     "                  udpm://239.255.76.67:7667); file://LOG replays a log of lcm-logger\n"
     "  --prefix NAME   prefix of the channels, as stream.prefix of the scene (default: shorebreak)\n"
+    "  --run DIR       the run's folder: the keys p, r and s send commands that are signed with its control.token\n"
+    "  --token-file F  the same with a copy of the token, as on another machine\n"
     "  --once          show the first status with its forces and particle counts, then exit\n"
     "  --duration S    exit after S seconds\n"
-    "  --plain         print lines instead of a live table (the default when not on a terminal)\n"
+    "  --plain         print a line per second instead of a live screen (the default when not on a terminal)\n"
     "  --help          print this text\n"
     "  --version       print the version\n"
     "\n"
-    "Ctrl-C ends the program. Exit code 0: done; 1: bad option, no provider, or no status with --once.\n";
+    "NO_COLOR in the environment switches colours off. Exit code 0: done; 1: bad option, no provider, or no status "
+    "with --once.\n";
 
 static bool read_duration(const char *text, double *seconds)
 {
@@ -36,6 +43,7 @@ bool sb_monitor_options_read(int count, char **arguments, sb_monitor_options *op
         const char *name, **value;
         bool *flag;
     } known[] = {{"--url", &options->url, NULL},        {"--prefix", &options->prefix, NULL},
+                 {"--run", &options->run, NULL},        {"--token-file", &options->token_file, NULL},
                  {"--duration", &duration, NULL},       {"--once", NULL, &options->once},
                  {"--plain", NULL, &options->plain},    {"--help", NULL, &options->help},
                  {"--version", NULL, &options->version}};
@@ -55,6 +63,10 @@ bool sb_monitor_options_read(int count, char **arguments, sb_monitor_options *op
             snprintf(problem, 256, "%s: a value is missing", known[k].name);
             return false;
         }
+    }
+    if (options->run && options->token_file) {
+        snprintf(problem, 256, "--run and --token-file: only one of them can be given");
+        return false;
     }
     if (duration && !read_duration(duration, &options->duration)) {
         snprintf(problem, 256, "--duration: \"%.100s\" is not a number of seconds above 0", duration);

@@ -6,6 +6,8 @@
 
 typedef struct sb_monitor_options {
     const char *url, *prefix; /* NULL: the default */
+    const char *run;          /* folder of the run, whose token allows commands; NULL: none */
+    const char *token_file;   /* the token itself; NULL: none */
     double duration;          /* s, 0: until Ctrl-C */
     bool once, plain;
     bool help, version;

@@ -57,14 +57,22 @@ void sb_text_bar(char *out, int cells, double share, double mark, bool utf8)
     }
 }
 
-void sb_text_signed_bar(char *out, int half, double share, bool utf8)
+/* The level from 0 to 7 of a value. */
+static int level(double value, double low, double high)
 {
-    int filled = (int)lround(clamped(fabs(share)) * half);
-    if (filled == 0 && fabs(share) * half > 0.05) filled = 1; /* one cell shows the sign of a small force */
+    return high > low ? (int)lround(7 * clamped((value - low) / (high - low))) : 0;
+}
+
+void sb_text_spark(char *out, int cells, const double *values, int count, double low, double high, bool utf8)
+{
+    static const char *const blocks[] = {"▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
+    static const char *const letters[] = {"_", ".", "-", "=", "+", "*", "#", "@"};
+    const int columns = count < cells ? count : cells;
     *out = 0;
-    for (int i = -half; i <= half; i++) {
-        bool on = share < 0 ? i < 0 && i >= -filled : i > 0 && i <= filled;
-        const char *cell = i == 0 ? (utf8 ? "│" : "|") : on ? (utf8 ? "█" : "#") : (utf8 ? "·" : ".");
-        out = stpcpy(out, cell);
+    for (int c = 0; c < columns; c++) {
+        int at = c * count / columns;
+        for (int i = at + 1; i < (c + 1) * count / columns; i++)
+            if (fabs(values[i]) > fabs(values[at])) at = i;
+        out = stpcpy(out, (utf8 ? blocks : letters)[level(values[at], low, high)]);
     }
 }

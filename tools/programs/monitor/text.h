@@ -23,7 +23,8 @@ void sb_text_number(char *out, size_t size, double value, bool sign);
    drawn in eighths of a column, else with '#' and '.'. out must have room for 4 cells + 1 bytes. */
 void sb_text_bar(char *out, int cells, double share, double mark, bool utf8);
 
-/* Draws a bar that grows from the middle of 2 half + 1 columns: to the left end for -1, to the right end for 1. */
-void sb_text_signed_bar(char *out, int half, double share, bool utf8);
+/* Draws the course of a value in at most `cells` columns, in eight levels from `low` to `high`. If there are more
+   values than columns, each column shows the value of largest magnitude. out must have room for 3 cells + 1 bytes. */
+void sb_text_spark(char *out, int cells, const double *values, int count, double low, double high, bool utf8);
 
 #endif
