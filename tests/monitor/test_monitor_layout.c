@@ -72,14 +72,18 @@ static void shows_all_panels_on_a_large_screen(void **unused)
     (void)unused;
     fixture_run(30);
     fixture_draw(200, 60);
-    fixture_shows("iterations 17 @@@  density error 0.04 of 0.1 % @@@  max speed 21.25 m/s  largest error 1.25 %  capped");
+    fixture_shows(
+        "iterations 17 @@@  density error 0.04 of 0.1 % @@@  max speed 21.25 m/s  largest error 1.25 %  capped");
     fixture_shows(
         "building-29          _-@+             60.00     120.00      44.00     +36.00     +48.00    +348.00   ");
-    fixture_shows("   offshore             _-@+                                   +1.00      11.00      +0.00      +2.00");
-    fixture_shows("   quay                                                          dry          -          -          -");
+    fixture_shows(
+        "   offshore             _-@+                                   +1.00      11.00      +0.00      +2.00");
+    fixture_shows(
+        "   quay                                                          dry          -          -          -");
     fixture_shows("   pressure                  75.0       4.5         3 ##############################..........");
     fixture_shows("   density error %         0.04      0.04 @@@");
-    fixture_shows("   Solver                                                             tolerance 0.1 %, 5 steps capped");
+    fixture_shows(
+        "   Solver                                                             tolerance 0.1 %, 5 steps capped");
     fixture_shows("   messages lost      5, 5.1 %");
     fixture_shows("   receiver restarts  0");
 }
@@ -244,6 +248,20 @@ static void keeps_columns_with_extreme_numbers(void **unused)
     fixture_shows("building-0 ");
 }
 
+static void a_long_message_takes_several_rows(void **unused)
+{
+    (void)unused;
+    fixture_run(30);
+    sb_view_note(&view, state.last_data, "a command needs the token of the run: start the run with --control");
+    fixture_draw(40, 12);
+    assert_string_equal(fixture_row(9), "building-4  _-@+        10.00      20.00");
+    assert_string_equal(fixture_row(10), "a command needs the token of the run:");
+    assert_string_equal(fixture_row(11), "start the run with --control");
+    sb_layout_draw(&cells, &state, &view, state.last_data + 60);
+    assert_string_equal(fixture_row(11), "q quit  ? help  Tab panel  p pause");
+    for (int width = 1; width < 90; width++) fixture_draw(width, 3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -255,6 +273,7 @@ int main(void)
         cmocka_unit_test_teardown(says_in_words_what_the_run_does, end),
         cmocka_unit_test_teardown(draws_bars_in_unicode_only_where_it_is_allowed, end),
         cmocka_unit_test_teardown(shows_no_control_characters, end),
+        cmocka_unit_test_teardown(a_long_message_takes_several_rows, end),
         cmocka_unit_test_teardown(keeps_columns_with_extreme_numbers, end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

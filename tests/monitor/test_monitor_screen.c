@@ -151,7 +151,7 @@ static void a_resized_terminal_shows_a_fitting_screen(void **unused)
     tmux("send-keys -t monitor BTab");
     shows("[Stream]");
     tmux("send-keys -t monitor p");
-    shows("p needs the token of the run");
+    shows("a command needs the token of the run");
     tmux("send-keys -t monitor q");
     shows("it ended with 0"); /* after the last values, as text */
     assert_non_null(strstr(screen, "building-29 "));

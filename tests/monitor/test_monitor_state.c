@@ -89,9 +89,9 @@ static void knows_the_share_of_lost_messages(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(keeps_peaks_and_their_times),      cmocka_unit_test(keeps_the_elevations_of_wet_gauges),
+        cmocka_unit_test(keeps_peaks_and_their_times),       cmocka_unit_test(keeps_the_elevations_of_wet_gauges),
         cmocka_unit_test(rows_of_a_lost_message_stay_empty), cmocka_unit_test(joins_intervals_of_a_long_course),
-        cmocka_unit_test(knows_the_time_that_a_step_takes), cmocka_unit_test(knows_the_share_of_lost_messages),
+        cmocka_unit_test(knows_the_time_that_a_step_takes),  cmocka_unit_test(knows_the_share_of_lost_messages),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

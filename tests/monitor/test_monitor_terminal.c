@@ -78,8 +78,8 @@ static void ends(const session *in, int code)
 {
     int status = 0;
     struct termios after;
-    assert_int_equal(tcgetattr(in->terminal, &after), 0);
     assert_int_equal(waitpid(in->process, &status, 0), in->process);
+    assert_int_equal(tcgetattr(in->terminal, &after), 0);
     close(in->terminal);
     assert_true(WIFEXITED(status));
     assert_int_equal(WEXITSTATUS(status), code);
@@ -117,7 +117,7 @@ static void keys_work_and_q_restores_the_terminal(void **unused)
     type(&in, "?");
     shows(&in, "scroll by a page");
     type(&in, "?p");
-    shows(&in, "--run RUN_DIR");
+    shows(&in, "a command needs the token");
     type(&in, "\t");
     shows(&in, "[Gauges]");
     struct winsize size = {.ws_row = 40, .ws_col = 160};

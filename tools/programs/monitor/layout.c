@@ -117,21 +117,47 @@ static void draw_help(const area *in)
         "PgUp PgDn   scroll by a page; Home and End: to the first and the last row",
         "?           this text; any key closes it",
         "",
-        "p, r and s need the token of the run: start with --run RUN_DIR.",
+        "p, r and s need the token of the run: start the run with --control,",
+        "and the monitor with --run RUN_DIR.",
     };
     for (int i = 0; i < (int)(sizeof lines / sizeof *lines) && i < in->height; i++)
         sb_cells_put(in->cells, in->top + i, in->left, SB_STYLE_PLAIN, lines[i]);
+}
+
+/* Draws the message in as many rows as it needs, the last of which is the last one of the screen. */
+static void draw_note(sb_cells *cells, const char *note)
+{
+    enum { ROWS_MAX = 5 };
+    int begin[ROWS_MAX], length[ROWS_MAX], rows = 0;
+    for (int at = 0; note[at] && rows < ROWS_MAX; rows++) {
+        int end = at, width = 0;
+        while (note[at + width] && width < cells->width) {
+            width++;
+            if (note[at + width] == ' ' || !note[at + width]) end = at + width;
+        }
+        if (end == at) end = at + width; /* a word that is longer than a row */
+        begin[rows] = at;
+        length[rows] = end - at;
+        for (at = end; note[at] == ' '; at++) {
+        }
+    }
+    const int top = cells->height - rows;
+    for (int i = 0; i < rows; i++) {
+        for (int column = 0; column < cells->width; column++) sb_cells_put(cells, top + i, column, SB_STYLE_PLAIN, " ");
+        sb_cells_print(cells, top + i, 0, SB_STYLE_BOLD, "%.*s", length[i], note + begin[i]);
+    }
 }
 
 static void draw_keys(sb_cells *cells, const sb_view *view, double now)
 {
     const int row = cells->height - 1;
     if (*view->note && now < view->note_until) {
-        sb_cells_put(cells, row, 0, SB_STYLE_BOLD, view->note);
+        draw_note(cells, view->note);
         return;
     }
     sb_line line = sb_line_begin(cells, row, 1);
-    static const char *const keys[] = {"q quit", "? help", "Tab panel", "p pause", "r resume", "s step", "Up/Down/PgUp/PgDn scroll"};
+    static const char *const keys[] = {
+        "q quit", "? help", "Tab panel", "p pause", "r resume", "s step", "Up/Down/PgUp/PgDn scroll"};
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) sb_line_add(&line, SB_STYLE_DIM, "%s", keys[i]);
 }
 

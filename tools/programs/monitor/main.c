@@ -2,9 +2,11 @@
 #include "layout.h"
 #include "options.h"
 #include "screen.h"
+#include "steer.h"
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "control/target.h"
 #include "stream/guard.h"
 #include "stream/listen.h"
 
@@ -29,7 +31,9 @@ typedef struct monitor {
     sb_live *live;
     sb_view view;
     sb_cells cells;
-    bool screen; /* the program has the whole terminal */
+    sb_steer steer;
+    sb_target target; /* of --run */
+    bool screen;      /* the program has the whole terminal */
     bool quit;
     double begun;           /* sb_clock() at the start, for --duration */
     double drawn;           /* at the last drawing */
@@ -73,10 +77,31 @@ PASS(frame, const sb_live_frame *)
 PASS(scene, const sb_live_scene *)
 PASS(restart, int64_t)
 
+static void on_reply(void *user, const sb_reply_message *reply)
+{
+    monitor *self = user;
+    if (sb_steer_reply(&self->steer, reply))
+        sb_view_note(&self->view, sb_clock(), "%sstep %lld: %s", reply->refused ? "refused: " : "",
+                     (long long)reply->step, reply->text);
+}
+
 static void on_message(void *user, sb_channel_kind kind, const void *data, size_t size, double time)
 {
     const monitor *self = user;
     if (!self->once_complete) sb_live_take(self->live, kind, data, size, time);
+}
+
+/* With --run, the folder of the run names URL and prefix. */
+static sb_status find_run(monitor *self, sb_error *error)
+{
+    sb_monitor_options *options = &self->options;
+    self->steer.run = options->run;
+    self->steer.token_file = options->token_file;
+    if (!options->run) return SB_OK;
+    const sb_status status = sb_target_read(options->run, &self->target, error);
+    if (!options->url) options->url = self->target.url;
+    if (!options->prefix) options->prefix = self->target.prefix;
+    return status;
 }
 
 static sb_status connect(monitor *self, sb_listener **listener, sb_error *error)
@@ -88,9 +113,12 @@ static sb_status connect(monitor *self, sb_listener **listener, sb_error *error)
                                  .forces = on_forces,
                                  .gauges = on_gauges,
                                  .part = on_part,
-                                 .frame = on_frame};
+                                 .frame = on_frame,
+                                 .reply = on_reply};
     self->live = sb_live_create(&calls);
     if (!self->live) return sb_fail_memory(error, "the monitor");
+    const sb_status status = find_run(self, error);
+    if (status != SB_OK) return status;
     const sb_listener_calls messages = {.user = self, .message = on_message};
     return sb_listener_create(self->options.url, self->options.prefix, &messages, listener, error);
 }
@@ -108,24 +136,29 @@ static void draw(monitor *self, double now)
     self->drawn = now;
 }
 
-static void take_keys(monitor *self, double now)
+static void steer(monitor *self, sb_listener *listener, sb_action action, double now)
+{
+    sb_error error = {0};
+    const int64_t followed = self->state.has_status ? self->state.status.head.run_id : -1;
+    if (sb_steer_send(&self->steer, listener, action, followed, now, &error) == SB_OK)
+        sb_view_note(&self->view, now, "sent; the run replies after its present step");
+    else
+        sb_view_note(&self->view, now, "%s", error.text);
+}
+
+static void take_keys(monitor *self, sb_listener *listener, double now)
 {
     bool pressed = false;
     for (int key = sb_screen_key(); key >= 0; key = sb_screen_key()) {
         pressed = true;
-        switch (sb_view_key(&self->view, key)) {
-        case SB_ACTION_QUIT:
+        const sb_action action = sb_view_key(&self->view, key);
+        if (action == SB_ACTION_QUIT)
             self->quit = true;
-            break;
-        case SB_ACTION_PAUSE:
-        case SB_ACTION_RESUME:
-        case SB_ACTION_STEP:
-            sb_view_note(&self->view, now, "%c needs the token of the run: start with --run RUN_DIR", key);
-            break;
-        case SB_ACTION_NONE:
-            break;
-        }
+        else if (action != SB_ACTION_NONE)
+            steer(self, listener, action, now);
     }
+    sb_error error = {0};
+    if (sb_steer_serve(&self->steer, listener, now, &error) != SB_OK) sb_view_note(&self->view, now, "%s", error.text);
     if (pressed) draw(self, now);
 }
 
@@ -174,7 +207,7 @@ static void watch(monitor *self, sb_listener *listener)
             if (!self->options.once) print_lines(self, now);
             continue;
         }
-        take_keys(self, now);
+        take_keys(self, listener, now);
         if (now >= self->drawn + REDRAW_SECONDS) draw(self, now);
     }
 }

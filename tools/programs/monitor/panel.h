@@ -15,7 +15,7 @@ typedef struct sb_strip {
 /* Each function draws into the strip only. */
 typedef struct sb_panel {
     const char *name;
-    size_t (*count)(const sb_monitor_state *state);              /* rows */
+    size_t (*count)(const sb_monitor_state *state);                /* rows */
     void (*header)(sb_strip strip, const sb_monitor_state *state); /* the heads of the columns */
     void (*row)(sb_strip strip, const sb_monitor_state *state, size_t index);
     /* What the title adds: the rows that are not kept, the time since which peaks are known. May be NULL. */
@@ -28,8 +28,8 @@ extern const sb_panel sb_panel_forces, sb_panel_gauges, sb_panel_stages, sb_pane
 /* By sb_panel_kind. */
 const sb_panel *sb_panel_find(sb_panel_kind kind);
 
-/* Write text at the strip's left end, or right-aligned in `width` columns, and move that end beyond it and `gap` blanks.
-   Text that does not fit is cut. */
+/* Write text at the strip's left end, or right-aligned in `width` columns, and move that end beyond it and `gap`
+   blanks. Text that does not fit is cut. */
 void sb_strip_left(sb_strip *strip, sb_style style, int width, int gap, const char *text);
 void sb_strip_right(sb_strip *strip, sb_style style, int width, int gap, const char *text);
 

@@ -73,7 +73,7 @@ static const struct {
     const char *name, *unit;
     double scale;
 } quantities[SB_QUANTITIES] = {
-    [SB_QUANTITY_ITERATIONS] = {"iterations", "", 1},     [SB_QUANTITY_ERROR] = {"density error", "%", 100},
+    [SB_QUANTITY_ITERATIONS] = {"iterations", "", 1},      [SB_QUANTITY_ERROR] = {"density error", "%", 100},
     [SB_QUANTITY_ERROR_MAX] = {"largest error", "%", 100}, [SB_QUANTITY_TIME_STEP] = {"time step", "ms", 1e3},
     [SB_QUANTITY_SPEED] = {"max speed", "m/s", 1},
 };

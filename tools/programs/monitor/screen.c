@@ -78,8 +78,8 @@ int sb_screen_key(void)
     static const struct {
         int code, key;
     } known[] = {
-        {KEY_UP, SB_KEY_UP},          {KEY_DOWN, SB_KEY_DOWN}, {KEY_PPAGE, SB_KEY_PAGE_UP}, {KEY_NPAGE, SB_KEY_PAGE_DOWN},
-        {KEY_HOME, SB_KEY_HOME},      {KEY_END, SB_KEY_END},   {KEY_BTAB, SB_KEY_BACK_TAB}, {KEY_RESIZE, SB_KEY_RESIZE},
+        {KEY_UP, SB_KEY_UP},     {KEY_DOWN, SB_KEY_DOWN}, {KEY_PPAGE, SB_KEY_PAGE_UP}, {KEY_NPAGE, SB_KEY_PAGE_DOWN},
+        {KEY_HOME, SB_KEY_HOME}, {KEY_END, SB_KEY_END},   {KEY_BTAB, SB_KEY_BACK_TAB}, {KEY_RESIZE, SB_KEY_RESIZE},
     };
     const int code = getch();
     if (code == ERR) return -1;

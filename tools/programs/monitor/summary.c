@@ -43,8 +43,7 @@ static void draw_title(sb_cells *cells, const sb_monitor_state *state, double no
     int column = wide ? sb_cells_put(cells, 0, 0, SB_STYLE_BOLD, "shorebreak") + 2 : 0;
     if (state->has_status) {
         const int room = width - column - columns - 2;
-        if (room > 0)
-            column = sb_cells_print(cells, 0, column, SB_STYLE_ACCENT, "%.*s", room, state->status.run) + 2;
+        if (room > 0) column = sb_cells_print(cells, 0, column, SB_STYLE_ACCENT, "%.*s", room, state->status.run) + 2;
     }
     sb_cells_put(cells, 0, column, style, text);
 }
@@ -55,8 +54,11 @@ static int draw_progress(sb_cells *cells, const sb_monitor_state *state)
     char bar[4 * BAR_MAX + 1], eta[40], wall[40], time[40], end[40];
     const int third = cells->width / 3;
     sb_line line = sb_line_begin(cells, 1, 2);
-    sb_text_bar(bar, third > BAR_MAX ? BAR_MAX : third < BAR_MIN ? BAR_MIN : third, sb_monitor_state_progress(state),
-                -1, cells->utf8);
+    sb_text_bar(bar,
+                third > BAR_MAX   ? BAR_MAX
+                : third < BAR_MIN ? BAR_MIN
+                                  : third,
+                sb_monitor_state_progress(state), -1, cells->utf8);
     sb_text_duration(eta, sizeof eta, status->eta_seconds);
     sb_text_duration(wall, sizeof wall, status->wall_seconds);
     sb_text_number(time, sizeof time, status->time, false);

@@ -34,7 +34,7 @@ typedef struct sb_view {
     size_t scroll[SB_PANELS]; /* the first row shown; drawing limits it to the rows that exist */
     size_t page;              /* rows of the chosen panel that were drawn last */
     bool help;
-    char note[160];    /* a message to the user; empty: none */
+    char note[400];    /* a message to the user; empty: none */
     double note_until; /* s, sb_clock() */
 } sb_view;
 
