@@ -82,7 +82,8 @@ static void commands_are_signed_and_repeated_until_the_reply(void **unused)
         sb_listener_poll(listener, 0.02);
         assert_int_equal(received, 1);
         is_signed(&steer, rows[i].text, 77);
-        for (double now = 100; now < 103; now += 0.1) assert_int_equal(sb_steer_serve(&steer, listener, now, NULL), SB_OK);
+        for (double now = 100; now < 103; now += 0.1)
+            assert_int_equal(sb_steer_serve(&steer, listener, now, NULL), SB_OK);
         sb_listener_poll(listener, 0.02);
         assert_int_equal(received, 3); /* again after 0.5 s and after 1.5 s, with the same counter */
         is_signed(&steer, rows[i].text, 77);

@@ -21,7 +21,6 @@
 #define REDRAW_SECONDS 0.2
 #define KEY_SECONDS 0.05
 #define LINE_SECONDS 1.0
-#define SILENCE_SECONDS 5.0
 /* The status comes every half second; forces and parts of a frame come with the next interval. */
 #define ONCE_SECONDS 0.25
 
@@ -168,7 +167,7 @@ static void print_lines(monitor *self, double now)
 {
     sb_monitor_state *state = &self->state;
     const double silent = now - state->last_data;
-    if (silent < SILENCE_SECONDS)
+    if (silent < SB_MONITOR_SILENCE)
         self->silence_reported = false;
     else if (!self->silence_reported) {
         printf("no data for %.0f s\n", silent);

@@ -6,6 +6,8 @@
 
 #include "stream/live.h"
 
+#define SB_MONITOR_SILENCE 3.0 /* s without data after which the user is informed; the run sends twice per second */
+
 enum { SB_MONITOR_ROWS = 512, SB_MONITOR_SAMPLES = 16 };
 
 typedef struct sb_monitor_body {

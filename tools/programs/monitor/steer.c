@@ -4,7 +4,8 @@
 
 #include <stdio.h>
 
-/* A command that is lost on its way is sent again after half a second, a second later and so on; the run obeys it once. */
+/* A command that is lost on its way is sent again after half a second, a second later and so on; the run obeys it once.
+ */
 static const double AGAIN_SECONDS = 0.5, GIVE_UP_SECONDS = 15;
 
 static const char *const words[] = {
@@ -34,8 +35,7 @@ sb_status sb_steer_send(sb_steer *steer, sb_listener *listener, sb_action action
     sb_status status = find_target(steer, followed, &target, error);
     if (status == SB_OK) status = sb_command_from_words(1, list, counter, text, error);
     if (status == SB_OK)
-        status =
-            sb_command_encode(&target.token, target.run_id, counter, text, steer->message, &steer->size, error);
+        status = sb_command_encode(&target.token, target.run_id, counter, text, steer->message, &steer->size, error);
     if (status == SB_OK) status = sb_listener_send_command(listener, steer->message, steer->size, error);
     if (status != SB_OK) return status;
     steer->waiting = true;

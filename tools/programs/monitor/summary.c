@@ -7,8 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#define STALE_SECONDS 3
-
 enum { BAR_MAX = 60, BAR_MIN = 10, SPARK = 16 };
 
 sb_style sb_summary_state(char *out, size_t size, const sb_monitor_state *state, double now)
@@ -20,7 +18,7 @@ sb_style sb_summary_state(char *out, size_t size, const sb_monitor_state *state,
         snprintf(out, size, "%s", complete ? "done" : "done: ended before its duration");
         return complete ? SB_STYLE_GOOD : SB_STYLE_BAD;
     }
-    if (silent >= STALE_SECONDS) {
+    if (silent >= SB_MONITOR_SILENCE) {
         snprintf(out, size, "no data for %.0f s%s", floor(silent),
                  state->has_status ? "" : ": is a run streaming to this URL and prefix?");
         return SB_STYLE_BAD;
