@@ -45,6 +45,7 @@ typedef struct sb_steering {
     bool paused;
     uint64_t steps; /* so many steps, then the run is paused; 0: no limit */
     double counts[SB_STEERING_COUNTS], counts_before[SB_STEERING_COUNTS]; /* of this helper; of those before it */
+    double pace_logged;                   /* bytes per second within a frame, when they were logged last; 0: never */
     double refused_logged, counts_logged; /* the sum of refused commands, and sb_clock(), when it was logged last */
 } sb_steering;
 

@@ -39,16 +39,29 @@ static void log_counts(run *r, bool last)
                     sum[2], sum[3], sum[4]);
 }
 
+/* A subscriber or the helper has lost a share of the stream: changes the speed within a frame. Logs it when it has
+   doubled or halved. */
+static void adapt(run *r, double lost)
+{
+    sb_steering *s = &r->steering;
+    const sb_stream_limits limits = sb_stream_adapt(sb_stream_get_limits(r->streamer.stream), lost);
+    const double pace = limits.bytes_per_second;
+    sb_stream_set_limits(r->streamer.stream, &limits);
+    if (!(s->pace_logged > 0)) s->pace_logged = SB_STREAM_BYTES_MAX;
+    if (pace > s->pace_logged / 2 && pace < s->pace_logged * 2) return;
+    s->pace_logged = pace;
+    sb_runlog_event(r->log, "stream pace", "%.3g MB/s within a frame, since subscribers lost %.2g %% of the messages",
+                    1e-6 * pace, 100 * lost);
+}
+
 static void take_record(run *r, const sb_command *command)
 {
     const sb_step_report *report = sb_sim_report(r->sim);
     sb_steering *s = &r->steering;
     switch (command->kind) {
-    case SB_COMMAND_LOSS: {
-        const sb_stream_limits limits = sb_stream_adapt(sb_stream_get_limits(r->streamer.stream), command->number[0]);
-        sb_stream_set_limits(r->streamer.stream, &limits);
+    case SB_COMMAND_LOSS:
+        adapt(r, command->number[0]);
         break;
-    }
     case SB_COMMAND_COUNTS:
         memcpy(s->counts, command->number, sizeof s->counts);
         log_counts(r, false);

@@ -153,6 +153,7 @@ static sb_status act_trigger(run *r, const sb_command *command, char done[SB_STR
     return SB_OK;
 }
 
+/* All but SB_COMMAND_LOSS, which has no reply. */
 static act *const acts[SB_COMMANDS] = {
     [SB_COMMAND_PAUSE] = act_pause,
     [SB_COMMAND_RESUME] = act_resume,

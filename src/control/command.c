@@ -50,11 +50,12 @@ static const struct {
                              {"eye", POINT, false, 0, 0, FIRST_POINT},
                              {"target", POINT, false, 0, 0, SECOND_POINT}}},
     [SB_COMMAND_TRIGGER] = {"trigger", {{"wavemaker", NAME, true, 0, 0, offsetof(sb_command, name)}}},
+    [SB_COMMAND_LOSS] = {"loss", {{"lost", NUMBER, true, 0, 1, FIRST_POINT}}},
 };
 
 const char *sb_command_name(int32_t kind)
 {
-    static const char *const internal[] = {"loss", "faulty command", "counts"};
+    static const char *const internal[] = {"faulty command", "counts"};
     if (kind >= 0 && kind < SB_COMMANDS) return kinds[kind].name;
     return kind >= SB_COMMANDS && kind < SB_COMMAND_KINDS ? internal[kind - SB_COMMANDS] : "unknown";
 }

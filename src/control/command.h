@@ -19,10 +19,10 @@ typedef enum sb_command_kind {
     SB_COMMAND_REGION,     /* off: all particles; else those between number[0..2] and number[3..5], m */
     SB_COMMAND_PICTURE,    /* name: the camera; if it is empty, eye number[0..2] and target number[3..5], m */
     SB_COMMAND_TRIGGER,    /* name: the wave maker */
-    SB_COMMANDS,           /* the number of kinds that a user can send; the helper process makes those that follow: */
-    SB_COMMAND_LOSS = SB_COMMANDS, /* number[0]: share of the stream that subscribers lost lately, 0 to 1 */
-    SB_COMMAND_BAD,                /* a signed command with a fault; name: the reason, for the reply */
-    SB_COMMAND_COUNTS,             /* number[0..4]: the counts of sb_received, for the log */
+    SB_COMMAND_LOSS,       /* number[0]: share of the stream that a subscriber lost lately, 0 to 1; there is no reply */
+    SB_COMMANDS,           /* the number of kinds that are sent to a run; the helper process makes those that follow: */
+    SB_COMMAND_BAD = SB_COMMANDS, /* a signed command with a fault; name: the reason, for the reply */
+    SB_COMMAND_COUNTS,            /* number[0..4]: the counts of sb_received, for the log */
     SB_COMMAND_KINDS
 } sb_command_kind;
 

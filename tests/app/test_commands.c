@@ -2,11 +2,16 @@
 #include "commander.h"
 
 #include "base/memory.h"
+#include "control/message.h"
+#include "control/target.h"
 #include "output/particle_format.h"
+#include "stream/listen.h"
 
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 /* Longer than the tank's 0.3 s, so that the run lasts until it is paused. */
 #define LONGER                                                                                                         \
@@ -94,8 +99,49 @@ static void commands_change_no_bit(void **state)
     assert_false(exists("commanded/pictures"));
 }
 
+static void ignore(void *user, sb_channel_kind kind, const void *data, size_t size, double time)
+{
+    (void)user;
+    (void)kind;
+    (void)data;
+    (void)size;
+    (void)time;
+}
+
+/* A subscriber reports that it lost half of the messages: the speed within a frame is halved after two reports. */
+static void reported_losses_slow_the_stream(void **state)
+{
+    (void)state;
+    static const char loss[] = "{\"do\":\"loss\",\"lost\":0.5}";
+    const sb_listener_calls calls = {.message = ignore};
+    const pid_t run = commander_start("tank3.yaml", "slowed", (const char *const[]){LONGER, NULL});
+    sb_target target;
+    sb_listener *listener;
+    assert_int_equal(sb_target_read(in_folder("%s", "slowed"), &target, NULL), SB_OK);
+    assert_int_equal(sb_listener_create(target.url, target.prefix, &calls, &listener, NULL), SB_OK);
+    for (int i = 0; i < 3; i++) {
+        unsigned char message[SB_COMMAND_MESSAGE_MAX];
+        size_t size;
+        assert_int_equal(
+            sb_command_encode(&target.token, target.run_id, sb_target_counter(), loss, message, &size, NULL), SB_OK);
+        assert_int_equal(sb_listener_send_command(listener, message, size, NULL), SB_OK);
+        usleep(20000);
+    }
+    sb_listener_destroy(listener);
+    assert_contains(commander_send(0, "slowed", "stop"), "the run stops");
+    outcome o = program_finish(run);
+    outcome_free(&o);
+    size_t count;
+    char *text = event_of("slowed", "stream pace", &count);
+    assert_non_null(text);
+    assert_int_equal(count, 1);
+    assert_contains(text, "73.5 MB/s within a frame, since subscribers lost 50 % of the messages");
+    sb_free(text);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(commands_change_no_bit)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(commands_change_no_bit),
+                                       cmocka_unit_test(reported_losses_slow_the_stream)};
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
 }

@@ -44,6 +44,7 @@ static void test_valid(void **state)
     assert_string_equal(picture.name, "");
     assert_near(picture.number[3], 4, 0);
     assert_string_equal(good("{\"do\":\"trigger\",\"wavemaker\":\"paddle\"}").name, "paddle");
+    assert_near(good("{\"do\":\"loss\",\"lost\":0.125}").number[0], 0.125, 0);
 }
 
 static void test_faults(void **state)
@@ -64,7 +65,9 @@ static void test_faults(void **state)
         {"{\"do\":7}", "do: is missing"},
         {"{\"do\":\"jump\"}", "do: \"jump\", expected"},
         {"{\"do\":\"puase\"}", "did you mean pause?"},
-        {"{\"do\":\"loss\"}", "do: \"loss\", expected"},
+        {"{\"do\":\"counts\"}", "do: \"counts\", expected"},
+        {"{\"do\":\"loss\"}", "lost: is missing"},
+        {"{\"do\":\"loss\",\"lost\":1.5}", "lost: 1.5, expected a number from 0 to 1"},
         {"{\"do\":\"pause\",\"steps\":3}", "steps: is not a member of the command pause"},
         {"{\"do\":\"step\",\"steps\":0}", "steps: 0, expected a whole number from 1 to 1000000000"},
         {"{\"do\":\"step\",\"steps\":1.5}", "steps: 1.5, expected a whole number"},

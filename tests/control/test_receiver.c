@@ -331,6 +331,21 @@ static void counts_are_reported(void **state)
     assert_false(sb_receiver_serve(receiver, false));
 }
 
+/* Subscribers that have the token report what they lost. */
+static void a_signed_loss_is_passed(void **state)
+{
+    (void)state;
+    sb_token other = token;
+    other.bytes[0] ^= 1;
+    const message loss = made(&token, RUN, 10, "{\"do\":\"loss\",\"lost\":0.125}"),
+                  forged = made(&other, RUN, 11, "{\"do\":\"loss\",\"lost\":1}");
+    assert_int_equal(give(&loss, NULL), SB_OK);
+    const sb_command command = next();
+    assert_int_equal(command.kind, SB_COMMAND_LOSS);
+    assert_near(command.number[0], 0.125, 0);
+    refused(forged, "signature");
+}
+
 /* A child that is killed, even within the receiver, leaves its counter to the one that replaces it. */
 static void a_child_continues_with_the_counter(void **state)
 {
@@ -366,6 +381,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_flood_is_cut, begin, end),
         cmocka_unit_test_setup_teardown(a_full_pipe_does_not_block, begin, end),
         cmocka_unit_test_setup_teardown(counts_are_reported, begin, end),
+        cmocka_unit_test_setup_teardown(a_signed_loss_is_passed, begin, end),
         cmocka_unit_test_setup_teardown(a_child_continues_with_the_counter, begin, end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

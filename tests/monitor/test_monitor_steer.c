@@ -110,6 +110,44 @@ static void a_command_without_a_reply_is_given_up(void **unused)
     sb_listener_poll(listener, 0.02);
 }
 
+static void losses_are_reported_every_two_seconds(void **unused)
+{
+    (void)unused;
+    sb_steer steer = {.token_file = path}, none = {0};
+    sb_live_counts count = {.messages = 1000, .refused = 7, .foreign = 3, .lost = 500};
+    received = 0;
+    sb_steer_report(&steer, listener, 77, &count, 100); /* what was lost before is not counted */
+    count.messages += 100;
+    count.refused += 5;
+    count.foreign += 20; /* 75 of the run's */
+    count.lost += 25;
+    sb_steer_report(&steer, listener, 77, &count, 101.9);
+    sb_listener_poll(listener, 0.02);
+    assert_int_equal(received, 0);
+    sb_steer_report(&steer, listener, 77, &count, 102.1);
+    sb_listener_poll(listener, 0.02);
+    assert_int_equal(received, 1);
+    sb_command_message got;
+    assert_int_equal(sb_command_decode(message, message_size, &got, NULL), SB_OK);
+    steer.counter = got.counter;
+    is_signed(&steer, "{\"do\":\"loss\",\"lost\":0.250000}", 77);
+    sb_steer_report(&steer, listener, 77, &count, 105); /* nothing came */
+    count.restarts++;
+    count.messages += 10;
+    sb_steer_report(&steer, listener, 78, &count, 108); /* another run */
+    sb_steer_report(&none, listener, 77, &count, 100);
+    count.messages += 10;
+    sb_steer_report(&none, listener, 77, &count, 110);
+    sb_listener_poll(listener, 0.02);
+    assert_int_equal(received, 1);
+    sb_steer_report(&steer, listener, 78, &count, 111);
+    sb_listener_poll(listener, 0.02);
+    assert_int_equal(received, 2);
+    assert_int_equal(sb_command_decode(message, message_size, &got, NULL), SB_OK);
+    steer.counter = got.counter;
+    is_signed(&steer, "\"lost\":0.000000", 78);
+}
+
 static void what_is_missing_is_named(void **unused)
 {
     (void)unused;
@@ -135,6 +173,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(commands_are_signed_and_repeated_until_the_reply),
         cmocka_unit_test(a_command_without_a_reply_is_given_up),
+        cmocka_unit_test(losses_are_reported_every_two_seconds),
         cmocka_unit_test(what_is_missing_is_named),
     };
     return cmocka_run_group_tests(tests, begin, end);

@@ -6,7 +6,6 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "control/target.h"
 #include "stream/guard.h"
 #include "stream/listen.h"
 
@@ -135,11 +134,16 @@ static void draw(monitor *self, double now)
     self->drawn = now;
 }
 
+/* The id of the run that is watched, -1: none. */
+static int64_t followed(const monitor *self)
+{
+    return self->state.has_status ? self->state.status.head.run_id : -1;
+}
+
 static void steer(monitor *self, sb_listener *listener, sb_action action, double now)
 {
     sb_error error = {0};
-    const int64_t followed = self->state.has_status ? self->state.status.head.run_id : -1;
-    if (sb_steer_send(&self->steer, listener, action, followed, now, &error) == SB_OK)
+    if (sb_steer_send(&self->steer, listener, action, followed(self), now, &error) == SB_OK)
         sb_view_note(&self->view, now, "sent; the run replies after its present step");
     else
         sb_view_note(&self->view, now, "%s", error.text);
@@ -202,6 +206,7 @@ static void watch(monitor *self, sb_listener *listener)
         ended = sb_listener_poll(listener, quick ? KEY_SECONDS : REDRAW_SECONDS) != SB_OK;
         now = sb_clock();
         sb_monitor_state_sample(&self->state, sb_live_count(self->live), now);
+        sb_steer_report(&self->steer, listener, followed(self), &self->state.count, now);
         if (!self->screen) {
             if (!self->options.once) print_lines(self, now);
             continue;

@@ -1,12 +1,10 @@
 #include "steer.h"
 
-#include "control/target.h"
-
 #include <stdio.h>
 
 /* A command that is lost on its way is sent again after half a second, a second later and so on; the run obeys it once.
  */
-static const double AGAIN_SECONDS = 0.5, GIVE_UP_SECONDS = 15;
+static const double AGAIN_SECONDS = 0.5, GIVE_UP_SECONDS = 15, REPORT_SECONDS = 2;
 
 static const char *const words[] = {
     [SB_ACTION_PAUSE] = "pause", [SB_ACTION_RESUME] = "resume", [SB_ACTION_STEP] = "step"};
@@ -58,6 +56,35 @@ sb_status sb_steer_serve(sb_steer *steer, sb_listener *listener, double now, sb_
     steer->pause *= 2;
     steer->next = now + steer->pause;
     return sb_listener_send_command(listener, steer->message, steer->size, error);
+}
+
+static double newly(uint64_t now, uint64_t before)
+{
+    return now > before ? (double)(now - before) : 0;
+}
+
+void sb_steer_report(sb_steer *steer, sb_listener *listener, int64_t followed, const sb_live_counts *count, double now)
+{
+    if ((!steer->run && !steer->token_file) || followed < 0 || now < steer->reported + REPORT_SECONDS) return;
+    const sb_live_counts before = steer->counted;
+    const bool restarted = count->restarts != before.restarts || !(steer->reported > 0);
+    const double lost = newly(count->lost, before.lost),
+                 received = newly(count->messages - count->refused - count->foreign,
+                                  before.messages - before.refused - before.foreign);
+    steer->reported = now;
+    steer->counted = *count;
+    if (restarted || !(lost + received > 0)) return;
+    if (steer->target.run_id != followed) {
+        sb_target target = {0};
+        if (find_target(steer, followed, &target, NULL) != SB_OK || target.run_id != followed) return;
+        steer->target = target;
+    }
+    char text[80];
+    unsigned char message[SB_COMMAND_MESSAGE_MAX];
+    size_t size = 0;
+    snprintf(text, sizeof text, "{\"do\":\"loss\",\"lost\":%.6f}", lost / (lost + received));
+    if (sb_command_encode(&steer->target.token, followed, sb_target_counter(), text, message, &size, NULL) == SB_OK)
+        (void)sb_listener_send_command(listener, message, size, NULL);
 }
 
 bool sb_steer_reply(sb_steer *steer, const sb_reply_message *reply)
