@@ -300,7 +300,7 @@ int main(int count, char **arguments)
     self->begun = sb_clock();
     if (wants_screen(&options)) sb_screen_remember();
     const int code = sb_guard(run, self, report_crash);
-    if (code >= 128) sb_screen_restore(); /* the child was killed */
+    sb_screen_restore(); /* the child was killed, or has ended in LCM */
     sb_free(self);
     return fflush(stdout) == 0 ? code : 1;
 }

@@ -7,11 +7,14 @@
 #include <locale.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <term.h>
 #include <termios.h>
 #include <unistd.h>
 
 static SCREEN *screen;
+/* Shared with the process that watches: whether the terminal is taken. NULL: nobody watches. */
+static volatile bool *taken;
 static attr_t attributes[SB_STYLES];
 static short pairs[SB_STYLES];
 
@@ -34,6 +37,7 @@ bool sb_screen_open(bool colour)
 {
     screen = newterm(NULL, stdout, stdin);
     if (!screen) return false;
+    if (taken) *taken = true;
     cbreak();
     noecho();
     nodelay(stdscr, TRUE);
@@ -51,6 +55,7 @@ void sb_screen_close(void)
     endwin();
     delscreen(screen);
     screen = NULL;
+    if (taken) *taken = false;
 }
 
 void sb_screen_size(int *width, int *height)
@@ -91,24 +96,27 @@ int sb_screen_key(void)
 /* ---- after a crash ---- */
 
 static struct termios settings;
-static bool remembered, settings_known;
+static bool settings_known;
 
 void sb_screen_remember(void)
 {
-    remembered = true;
+    void *shared = mmap(NULL, sizeof *taken, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    taken = shared == MAP_FAILED ? NULL : shared;
     settings_known = tcgetattr(STDIN_FILENO, &settings) == 0;
 }
 
 void sb_screen_restore(void)
 {
     int result = 0;
-    if (!remembered) return;
+    if (!taken || !*taken) return;
+    *taken = false;
     if (settings_known) tcsetattr(STDIN_FILENO, TCSANOW, &settings);
-    if (!isatty(STDOUT_FILENO) || setupterm(NULL, STDOUT_FILENO, &result) == ERR) return;
+    if (setupterm(NULL, STDOUT_FILENO, &result) == ERR) return;
     const char *const names[] = {"sgr0", "rmkx", "cnorm", "rmcup"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         const char *text = tigetstr(names[i]);
         if (text && text != (const char *)(intptr_t)-1) putp(text); /* NOLINT: terminfo's sign of an error */
     }
+    del_curterm(cur_term);
     fflush(stdout);
 }

@@ -15,9 +15,9 @@ void sb_screen_show(const sb_cells *cells);
 /* The next key (view.h), or -1: none has been pressed. */
 int sb_screen_key(void);
 
-/* For the process that watches the one that takes the terminal: remembers the terminal's settings, and restores them
-   after the other process has ended without sb_screen_close. Without sb_screen_remember, sb_screen_restore does
-   nothing. */
+/* For the process that watches the one that takes the terminal. sb_screen_remember, before the other process begins,
+   remembers the terminal's settings; sb_screen_restore restores them if the other process has ended without
+   sb_screen_close. */
 void sb_screen_remember(void);
 void sb_screen_restore(void);
 
