@@ -66,8 +66,9 @@ static int record_log(void **state)
             forces[i].force =
                 i == 0 ? sb_vec(-3e6 * (double)(3 - index), 4e6 * (double)(3 - index), 7e6) : sb_vec(1e6, 0, 0);
         }
-        const sb_gauge_record gauges[2] = {{.gauge = 0, .time = frame->status.time, .eta = NAN, .z = NAN},
-                                           {.gauge = 1, .time = frame->status.time, .eta = (double)index}};
+        const sb_gauge_record gauges[2] = {
+            {.gauge = 0, .time = frame->status.time, .eta = (double)NAN, .z = (double)NAN},
+            {.gauge = 1, .time = frame->status.time, .eta = (double)index}};
         const sb_measure_records rows = {.force_count = 4, .forces = forces, .gauge_count = 2, .gauges = gauges};
         sb_stream_measure(stream, &rows);
         fixture_publish(stream, frame);
