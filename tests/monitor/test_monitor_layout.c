@@ -94,7 +94,7 @@ static void adapts_to_any_size(void **unused)
     (void)unused;
     fixture_run(7);
     cells.utf8 = true;
-    for (int height = 1; height <= 70; height += 3) {
+    for (int height = 1; height <= 70; height += 7) {
         for (int width = 1; width <= 230; width++) {
             for (int panel = 0; panel < SB_PANELS; panel++) {
                 view.panel = (sb_panel_kind)panel;
