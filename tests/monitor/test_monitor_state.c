@@ -76,6 +76,20 @@ static void knows_the_time_that_a_step_takes(void **unused)
     assert_true(state.stage_step[1] < 0 && fabs(state.stage_step[0] - 0.001) < 1e-12);
 }
 
+/* A paused run repeats its status: the course does not grow, and the highest value is never below the present one. */
+static void a_pause_adds_nothing_to_courses(void **unused)
+{
+    (void)unused;
+    fixture_run(1);
+    const int before = state.course[SB_QUANTITY_SPEED].count;
+    sb_status_message m = fixture_status(1501);
+    m.state = SB_RUN_PAUSED;
+    m.max_speed = 30;
+    for (int i = 0; i < 5; i++) sb_monitor_on_status(&state, &m);
+    assert_int_equal(state.course[SB_QUANTITY_SPEED].count, before);
+    assert_true(state.highest[SB_QUANTITY_SPEED] == 30 && state.value[SB_QUANTITY_SPEED] == 30);
+}
+
 static void knows_the_share_of_lost_messages(void **unused)
 {
     (void)unused;
@@ -91,7 +105,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(keeps_peaks_and_their_times),       cmocka_unit_test(keeps_the_elevations_of_wet_gauges),
         cmocka_unit_test(rows_of_a_lost_message_stay_empty), cmocka_unit_test(joins_intervals_of_a_long_course),
-        cmocka_unit_test(knows_the_time_that_a_step_takes),  cmocka_unit_test(knows_the_share_of_lost_messages),
+        cmocka_unit_test(knows_the_time_that_a_step_takes),  cmocka_unit_test(a_pause_adds_nothing_to_courses),
+        cmocka_unit_test(knows_the_share_of_lost_messages),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -55,10 +55,9 @@ static void note_quantities(sb_monitor_state *state, const sb_status_message *me
     const double value[SB_QUANTITIES] = {message->iterations, message->density_error, message->density_error_max,
                                          message->time_step, message->max_speed};
     memcpy(state->value, value, sizeof value);
-    if (message->state != SB_RUN_RUNNING) return; /* a paused run repeats its values */
     for (int i = 0; i < SB_QUANTITIES; i++) {
         state->highest[i] = fmax(state->highest[i], value[i]);
-        sb_history_add(&state->course[i], value[i]);
+        if (message->state == SB_RUN_RUNNING) sb_history_add(&state->course[i], value[i]); /* a pause repeats values */
     }
 }
 
