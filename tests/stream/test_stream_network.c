@@ -1,4 +1,5 @@
-/* Subscribers in processes of their own receive all messages over UDP, with the system's receive buffer. */
+/* Subscribers in processes of their own receive all frames over UDP, with the system's receive buffer: what a busy
+   machine loses is repaired. */
 #include "stream_fixture.h"
 
 #include <stdlib.h>
@@ -18,7 +19,7 @@ static int bench(const char *arguments)
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-static void three_subscribers_lose_nothing(void **state)
+static void three_subscribers_have_all_frames(void **state)
 {
     (void)state;
     enum { ATTEMPTS = 3 }; /* another process may keep a receiver from running for longer than its buffer lasts */
@@ -27,15 +28,17 @@ static void three_subscribers_lose_nothing(void **state)
     if (strstr(output, "multicast route")) skip();
     if (status != 0) fail_msg("%s", output);
     for (int i = 1; i <= 3; i++) {
-        char line[120];
-        snprintf(line, sizeof line,
-                 "subscriber %d: 10 of 10 frames, 0 messages lost, 0 parts repaired, 0 refused, scene after ", i);
-        if (!strstr(output, line)) fail_msg("\"%s\" is not in:\n%s", line, output);
+        char begin[60];
+        snprintf(begin, sizeof begin, "subscriber %d: 10 of 10 frames, ", i);
+        const char *line = strstr(output, begin), *end = line ? strchr(line, '\n') : NULL;
+        const char *refused = line ? strstr(line, " 0 refused, scene after ") : NULL;
+        if (!refused || (end && refused > end))
+            fail_msg("\"%s... 0 refused, scene after\" is not in:\n%s", begin, output);
     }
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(three_subscribers_lose_nothing)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(three_subscribers_have_all_frames)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
