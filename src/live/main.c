@@ -1,9 +1,10 @@
-/* shorebreak-live: the process of a run that receives from the network. The run starts it, watches it and ends it; it
-   checks commands and passes them to the run through a pipe. */
+/* shorebreak-live: the process that receives from the network and shows a run to browsers. A run starts it, watches it
+   and ends it; it checks commands and passes them to the run through a pipe. It also works without a run, for a replay.
+ */
 #include "control/receiver.h"
+#include "live/intake.h"
 #include "live/options.h"
-#include "stream/guard.h"
-#include "stream/listen.h"
+#include "live/serve.h"
 
 #include <signal.h>
 #include <stdio.h>
@@ -12,12 +13,18 @@
 
 static const char help[] =
     "usage: shorebreak-live [OPTIONS]\n"
-    "Receives the stream of a run and commands to it. `shorebreak run SCENE --control` starts it beside the run, with\n"
-    "all options that it needs.\n\n"
-    "  --url URL            LCM provider (default: LCM_DEFAULT_URL, else LCM's default)\n"
+    "Shows a run, or a replay, in a web browser. `shorebreak run SCENE --live` starts it beside the run.\n\n"
+    "  --port N             port of the page (default: 8080, or the next free one)\n"
+    "  --bind ADDRESS       address of this machine, in numbers, on which to listen (default: 127.0.0.1). Beyond "
+    "loopback\n"
+    "                       every reader needs the token\n"
+    "  --host NAME          a name of this machine that browsers may use\n"
+    "  --url URL            LCM provider (default: LCM_DEFAULT_URL, else LCM's default); file://LOG shows a log\n"
     "  --prefix NAME        prefix of the stream's channels (default: shorebreak)\n"
+    "  --token-file FILE    a run's control.token\n"
+    "  --help               this text\n\n"
+    "Given by the run that starts it:\n"
     "  --no-http            serve no page\n"
-    "  --token-file FILE    the run's control.token: commands that are signed with it are passed to the run\n"
     "  --command-fd N       descriptor of a pipe to the run\n"
     "  --run-id N           id of the run\n"
     "  --counter N          refuse commands whose counter is not above N\n";
@@ -26,48 +33,19 @@ enum { NICENESS = 19 };
 
 typedef struct live {
     sb_live_options options;
+    bool has_token;
+    sb_token token;
     sb_receiver *receiver; /* NULL: no run has started this process */
 } live;
-
-static void on_message(void *user, sb_channel_kind kind, const void *data, size_t size, double time)
-{
-    const live *l = user;
-    (void)time;
-    if (kind == SB_CHANNEL_COMMAND && l->receiver) (void)sb_receiver_take_message(l->receiver, data, size, NULL);
-}
-
-/* Works in a child process, which a forged packet may crash. */
-static int work(void *argument)
-{
-    live *l = argument;
-    sb_listener *listener = NULL;
-    sb_error error = {0};
-    const sb_listener_calls calls = {
-        .user = l, .message = on_message, .commands = true, .only_commands = l->options.no_http};
-    if (sb_listener_create(l->options.url, l->options.prefix, &calls, &listener, &error) != SB_OK) {
-        fprintf(stderr, "shorebreak-live: %s\n", error.text);
-        return 2;
-    }
-    while (sb_listener_poll(listener, 0.25) == SB_OK)
-        if (l->receiver && !sb_receiver_serve(l->receiver, false)) break;
-    sb_listener_destroy(listener);
-    return 0;
-}
-
-static void after_crash(void)
-{
-    fputs("shorebreak-live: a packet crashed the receiver, which is started again\n", stderr);
-}
 
 static sb_status open_receiver(live *l, sb_error *error)
 {
     const sb_live_options *options = &l->options;
-    sb_token token;
+    if (options->token_file && sb_token_read(options->token_file, &l->token, error) != SB_OK) return error->status;
+    l->has_token = options->token_file;
     if (options->command_fd < 0) return SB_OK;
-    sb_status status = options->token_file ? sb_token_read(options->token_file, &token, error) : SB_OK;
-    return status == SB_OK ? sb_receiver_create(options->token_file ? &token : NULL, options->run_id, options->counter,
-                                                (int)options->command_fd, &l->receiver, error)
-                           : status;
+    return sb_receiver_create(l->has_token ? &l->token : NULL, options->run_id, options->counter,
+                              (int)options->command_fd, &l->receiver, error);
 }
 
 int main(int count, char **arguments)
@@ -89,7 +67,8 @@ int main(int count, char **arguments)
         fprintf(stderr, "shorebreak-live: %s\n", error.text);
         return (int)status;
     }
-    const int result = sb_guard(work, &l, after_crash);
+    const int result = l.options.no_http ? sb_intake_work(&l.options, l.receiver, -1)
+                                         : sb_live_serve(&l.options, l.has_token ? &l.token : NULL, l.receiver);
     if (l.receiver) sb_receiver_serve(l.receiver, true);
     sb_receiver_destroy(l.receiver);
     return result;

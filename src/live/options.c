@@ -28,6 +28,9 @@ static sb_status take(const char *name, const char *value, sb_live_options *opti
     } known[] = {{"--url", &options->url, NULL, 0},
                  {"--prefix", &options->prefix, NULL, 0},
                  {"--token-file", &options->token_file, NULL, 0},
+                 {"--bind", &options->bind, NULL, 0},
+                 {"--host", &options->host, NULL, 0},
+                 {"--port", NULL, &options->port, UINT16_MAX},
                  {"--command-fd", NULL, &options->command_fd, 1 << 20},
                  {"--run-id", NULL, &options->run_id, SB_COMMAND_ID_MAX},
                  {"--counter", NULL, &options->counter, SB_COMMAND_ID_MAX}};
@@ -43,7 +46,7 @@ static sb_status take(const char *name, const char *value, sb_live_options *opti
 
 sb_status sb_live_options_parse(int count, char **arguments, sb_live_options *options, sb_error *error)
 {
-    *options = (sb_live_options){.command_fd = -1, .run_id = -1};
+    *options = (sb_live_options){.command_fd = -1, .run_id = -1, .port = SB_LIVE_PORT};
     for (int i = 0; i < count; i++) {
         if (strcmp(arguments[i], "--help") == 0 || strcmp(arguments[i], "-h") == 0) {
             options->help = true;
@@ -55,11 +58,10 @@ sb_status sb_live_options_parse(int count, char **arguments, sb_live_options *op
         }
         const sb_status status = take(arguments[i], i + 1 < count ? arguments[i + 1] : NULL, options, error);
         if (status != SB_OK) return status;
+        options->fixed_port |= strcmp(arguments[i], "--port") == 0;
         i++;
     }
-    if (options->token_file && (options->command_fd < 0 || options->run_id < 0))
-        return sb_fail(error, SB_BAD_INPUT,
-                       "--token-file: expected together with --command-fd and --run-id, which the "
-                       "run that starts this program gives");
+    if (options->command_fd >= 0 && options->run_id < 0)
+        return sb_fail(error, SB_BAD_INPUT, "--command-fd: expected together with --run-id, as a run gives them");
     return SB_OK;
 }

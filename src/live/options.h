@@ -7,13 +7,18 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+enum { SB_LIVE_PORT = 8080 }; /* unless --port is given */
+
 typedef struct sb_live_options {
     const char *url, *prefix; /* of the stream; NULL: not given */
-    const char *token_file;   /* NULL: no commands are allowed */
+    const char *token_file;   /* the token of commands, and of readers beyond loopback; NULL: no commands */
     int64_t command_fd;       /* the writing end of the pipe to the run that started this process; -1: none did */
     int64_t run_id;           /* of that run; -1: not given */
     int64_t counter;          /* commands up to this counter are replayed ones */
-    bool no_http, help;
+    const char *bind;         /* address of the web server; NULL: 127.0.0.1 */
+    const char *host;         /* a name of this machine that browsers may use; NULL: none */
+    int64_t port;             /* of the web server: this one, or the next free one unless fixed_port */
+    bool fixed_port, no_http, help;
 } sb_live_options;
 
 /* Parses the arguments after the program's name. SB_BAD_INPUT names the first one that is wrong. */
