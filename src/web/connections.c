@@ -5,6 +5,7 @@
 #include "base/memory.h"
 
 #include <errno.h>
+#include <linux/tcp.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <string.h>
@@ -96,8 +97,19 @@ static sb_web_client *begin(sb_web_server *server, struct MHD_Connection *connec
     return client;
 }
 
+/* Whether a connection has sent something that libmicrohttpd refused: it does not report it. */
+static bool was_malformed(const sb_web_client *client)
+{
+    struct tcp_info info = {0};
+    socklen_t size = sizeof info;
+    if (client->understood || client->late) return false;
+    /* The end of the connection counts as one byte. */
+    return getsockopt(client->socket, IPPROTO_TCP, TCP_INFO, &info, &size) == 0 && info.tcpi_bytes_received > 1;
+}
+
 static void end(sb_web_server *server, sb_web_client *client)
 {
+    server->counts.malformed += was_malformed(client);
     if (client->next) client->next->previous = client->previous;
     if (client->previous)
         client->previous->next = client->next;

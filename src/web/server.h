@@ -55,5 +55,7 @@ typedef struct sb_web_counts {
     size_t clients, streams; /* now */
 } sb_web_counts;
 sb_web_counts sb_web_server_count(const sb_web_server *server);
+/* Requests that were refused so far. */
+uint64_t sb_web_server_refused(const sb_web_server *server);
 
 #endif

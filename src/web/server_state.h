@@ -1,4 +1,4 @@
-/* The server's parts: requests (server.c, answer.c), connections (connections.c), streams of frames (frames.c). */
+/* The server's parts: requests (request.c, answer.c), connections (connections.c), streams of frames (frames.c). */
 #ifndef SB_WEB_SERVER_STATE_H
 #define SB_WEB_SERVER_STATE_H
 
@@ -24,10 +24,10 @@ typedef struct sb_web_client {
     sb_web_server *server;
     struct MHD_Connection *connection;
     int socket;
-    double begun; /* s, of sb_clock */
-    bool answered, streams, late;
-    char address[SB_WEB_ADDRESS]; /* of this machine, to which the client has connected */
-    char *body;                   /* SB_WEB_COMMAND_MAX + 1 bytes; NULL: none yet */
+    double begun;                             /* s, of sb_clock */
+    bool understood, answered, streams, late; /* understood: libmicrohttpd has read its line and headers */
+    char address[SB_WEB_ADDRESS];             /* of this machine, to which the client has connected */
+    char *body;                               /* SB_WEB_COMMAND_MAX + 1 bytes; NULL: none yet */
     size_t body_size;
     /* Of a stream of frames: */
     bool suspended;
@@ -52,9 +52,6 @@ struct sb_web_server {
     uint64_t reported;      /* refused requests in the log */
 };
 
-/* Requests that were refused so far. */
-uint64_t sb_web_server_refused(const sb_web_server *server);
-
 /* connections.c: opens the listening socket; -1 with the error. */
 int sb_web_listen(sb_web_server *server, sb_error *error);
 /* Called by libmicrohttpd for each connection that begins or ends. */
@@ -63,6 +60,10 @@ void sb_web_on_connection(void *user, struct MHD_Connection *connection, void **
 sb_web_client *sb_web_client_of(struct MHD_Connection *connection);
 /* Ends the connections whose time is over. */
 void sb_web_check_deadlines(sb_web_server *server, double now);
+
+/* request.c: called by libmicrohttpd when a request has been read. */
+enum MHD_Result sb_web_on_request(void *user, struct MHD_Connection *connection, const char *url, const char *method,
+                                  const char *version, const char *body, size_t *body_size, void **request);
 
 /* answer.c: queue an answer. */
 enum MHD_Result sb_web_refuse(sb_web_client *client, unsigned status, uint64_t *count, const char *reason);
