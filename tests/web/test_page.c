@@ -278,7 +278,7 @@ static void started_again(void **state)
     pid_t run = start_source(port, 5000);
     chromium *browser = open_page(port);
     stop_source(run);
-    chromium_await(browser, "document.getElementById('notice').textContent.includes('does not answer')", 10);
+    chromium_await(browser, "document.getElementById('notice').textContent.includes('is lost')", 10);
     screenshot(browser, "lost");
     run = start_source(port, 5000);
     chromium_await(browser, "document.getElementById('notice').textContent.includes('started again')", 10);

@@ -92,24 +92,23 @@ export class Controls {
 
   reason() {
     const { status } = this;
+    if (this.refused) return 'The server did not accept the token. It is in the file control.token of the run folder.';
     if (!status) return 'No run to steer yet.';
-    if (!status.commands) return 'This run takes no commands: start it with --control, or with control.enabled in the scene.';
-    if (!hasToken()) return 'To steer the run, enter its token above. It is in the file control.token of the run folder.';
+    if (!status.commands)
+      return 'This run takes no commands: start it with --control, or with control.enabled in the scene.';
     if (status.state === 'done') return 'The run has ended.';
+    if (!hasToken()) return 'To steer the run, enter its token. It is in the file control.token of the run folder.';
     return '';
   }
 
   show() {
     const reason = this.reason(), { status } = this;
-    const reading = this.refused && !(status && status.commands);
     BUTTONS.forEach((button, k) => {
       this.buttons[k].disabled = reason !== '' || !button.when(status);
       this.buttons[k].title = reason;
     });
     element('why').textContent = reason || this.message;
-    element('login').hidden = hasToken() || !(this.refused || (status && status.commands && status.state !== 'done'));
-    element('login-reason').textContent = this.refused
-      ? `The server ${reading ? 'shows this run only to those who have' : 'did not accept'} its token (control.token in the run folder).`
-      : 'To steer the run, enter its token (control.token in the run folder).';
+    const useful = this.refused || (status && status.commands && status.state !== 'done');
+    element('login').hidden = hasToken() || !useful;
   }
 }

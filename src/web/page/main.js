@@ -48,7 +48,7 @@ function facts(s) {
     ['Density error', percent(s.density_error), s.density_error > 2 * s.tolerance],
     ['Particles', s.fluid_particles.toLocaleString('en')],
     ['Lost', s.lost_particles.toLocaleString('en'), s.lost_particles > 0.01 * s.fluid_particles],
-    ['Largest speed', `${Number(s.max_speed.toPrecision(3))} m/s`],
+    ['Max. speed', `${Number(s.max_speed.toPrecision(3))} m/s`],
     ['Stream loss', percent(s.loss), s.loss > 0.01],
   ];
 }
@@ -79,7 +79,7 @@ function show(s) {
     notice(`No message from the run for ${seconds(s.silent_s)}.`, true);
   } else {
     showState(s.state);
-    if (element('notice').textContent.startsWith('No ') || element('notice').textContent.startsWith('The server'))
+    if (element('notice').textContent.startsWith('No ') || element('notice').textContent.startsWith('The connection'))
       notice('');
     if (s.state === 'done' && !(status && status.state === 'done')) notice('The run has ended.', true);
   }
@@ -105,6 +105,7 @@ async function update() {
 function explain(problem) {
   if (problem.status === 401) {
     showState('lost', 'token needed');
+    notice('The server shows this run only to those who have its token. Enter it below the buttons.', true);
     controls.needToken();
   } else if (problem.status === 503) {
     showState('waiting');
@@ -114,7 +115,7 @@ function explain(problem) {
     notice('The run has ended, and so has its server. This page shows its end.', true);
   } else {
     showState('lost', 'no connection');
-    notice(`The server does not answer (${problem.message}). Trying again.`, true);
+    notice(`The connection to the server is lost (${problem.message}). Trying again.`, true);
   }
 }
 
