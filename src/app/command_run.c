@@ -24,6 +24,10 @@ static const char help[] =
     "  --other-build        with --resume: also accept a checkpoint of another build; the bits may then differ\n"
     "  --control            obey commands that are signed with DIR/control.token (tools/control sends them);\n"
     "                       this also streams the run over LCM\n"
+    "  --live[=[ADDRESS:]PORT]  show the run in a web browser, and print the address of its page (default: port 8080 "
+    "of\n"
+    "                       this machine, or the next free one; beyond this machine only with --control);\n"
+    "                       this also streams the run over LCM\n"
     "  --quiet              print no progress\n"
     "  --profile            at the end, print the time that each stage took\n";
 
@@ -50,7 +54,8 @@ int sb_command_run(int count, char **arguments)
     sb_scene scene = {0};
     bool thread_remains = false;
     unsigned accepted = SB_OPT_OUT | SB_OPT_UNTIL | SB_OPT_THREADS | SB_OPT_PRESET | SB_OPT_SET | SB_OPT_QUIET |
-                        SB_OPT_PROFILE | SB_OPT_RESUME | SB_OPT_OVERWRITE | SB_OPT_OTHER_BUILD | SB_OPT_CONTROL;
+                        SB_OPT_PROFILE | SB_OPT_RESUME | SB_OPT_OVERWRITE | SB_OPT_OTHER_BUILD | SB_OPT_CONTROL |
+                        SB_OPT_LIVE;
     sb_status status = sb_options_parse(count, arguments, accepted, "scene", &options, &error);
     if (status == SB_OK && options.help) {
         fputs(help, stdout);
@@ -73,6 +78,8 @@ int sb_command_run(int count, char **arguments)
                                             .other_build = options.other_build,
                                             .quiet = options.quiet,
                                             .profile = options.profile,
+                                            .live_port = options.live_port,
+                                            .live_address = options.live_address,
                                             .thread_remains = &thread_remains};
         status = sb_run(&scene, out, &run_options, &error);
     }

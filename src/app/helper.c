@@ -18,7 +18,7 @@ extern char **environ;
 
 static const double RESTART_SECONDS = 1; /* at least, between two starts */
 
-enum { CHILD_PIPE = 3, ARGUMENTS = 16 };
+enum { CHILD_PIPE = 3, ARGUMENTS = 20 };
 
 /* The path of a program that is beside this one. */
 static sb_status find_program(const char *name, char path[SB_PATH_MAX], sb_error *error)
@@ -61,16 +61,21 @@ static int spawn(const char *path, char *const arguments[], int writing, pid_t *
 static sb_status start(sb_helper *helper, sb_error *error)
 {
     const sb_helper_setup *setup = &helper->setup;
-    char path[SB_PATH_MAX], descriptor[16], run[24], counter[24];
-    const char *arguments[ARGUMENTS] = {"shorebreak-live", "--no-http", "--command-fd", descriptor,
-                                        "--run-id",        run,         "--counter",    counter};
-    size_t count = 8;
+    char path[SB_PATH_MAX], descriptor[16], run[24], counter[24], port[16];
+    const char *arguments[ARGUMENTS] = {"shorebreak-live", "--command-fd", descriptor, "--run-id", run,
+                                        "--counter",       counter};
+    size_t count = 7;
     int ends[2];
     snprintf(descriptor, sizeof descriptor, "%d", CHILD_PIPE);
     snprintf(run, sizeof run, "%" PRId64, setup->run_id);
     snprintf(counter, sizeof counter, "%" PRId64, helper->counter);
-    const char *const optional[][2] = {
-        {"--url", setup->url}, {"--prefix", setup->prefix}, {"--token-file", setup->token_file}};
+    snprintf(port, sizeof port, "%d", setup->port);
+    if (setup->port == 0) arguments[count++] = "--no-http";
+    const char *const optional[][2] = {{"--port", setup->port > 0 ? port : NULL},
+                                       {"--bind", setup->address},
+                                       {"--url", setup->url},
+                                       {"--prefix", setup->prefix},
+                                       {"--token-file", setup->token_file}};
     for (size_t k = 0; k < sizeof optional / sizeof *optional; k++) {
         if (!optional[k][1] || !*optional[k][1]) continue;
         arguments[count++] = optional[k][0];

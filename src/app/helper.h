@@ -17,6 +17,8 @@ typedef struct sb_helper_setup {
     const char *url, *prefix; /* of the stream */
     const char *token_file;   /* NULL: no commands are allowed */
     int64_t run_id;
+    int port;            /* of the page for browsers; 0: none */
+    const char *address; /* on which it is; NULL or empty: loopback */
 } sb_helper_setup;
 
 /* A zero-initialised struct has no helper. */

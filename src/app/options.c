@@ -12,26 +12,29 @@
 typedef struct flag {
     const char *name;
     unsigned bit;
-    bool takes_value;
+    enum { NO_VALUE, VALUE, MAYBE_VALUE } takes; /* MAYBE_VALUE: only behind "=" */
 } flag;
 
+enum { DEFAULT_PORT = 8080 }; /* of --live */
+
 static const flag flags[] = {
-    {"--out", SB_OPT_OUT, true},
-    {"--until", SB_OPT_UNTIL, true},
-    {"--threads", SB_OPT_THREADS, true},
-    {"--preset", SB_OPT_PRESET, true},
-    {"--set", SB_OPT_SET, true},
-    {"--quiet", SB_OPT_QUIET, false},
-    {"--json", SB_OPT_JSON, false},
-    {"--camera", SB_OPT_CAMERA, true},
-    {"--profile", SB_OPT_PROFILE, false},
-    {"--resume", SB_OPT_RESUME, false},
-    {"--overwrite", SB_OPT_OVERWRITE, false},
-    {"--other-build", SB_OPT_OTHER_BUILD, false},
-    {"--url", SB_OPT_URL, true},
-    {"--prefix", SB_OPT_PREFIX, true},
-    {"--speed", SB_OPT_SPEED, true},
-    {"--control", SB_OPT_CONTROL, false},
+    {"--out", SB_OPT_OUT, VALUE},
+    {"--until", SB_OPT_UNTIL, VALUE},
+    {"--threads", SB_OPT_THREADS, VALUE},
+    {"--preset", SB_OPT_PRESET, VALUE},
+    {"--set", SB_OPT_SET, VALUE},
+    {"--quiet", SB_OPT_QUIET, NO_VALUE},
+    {"--json", SB_OPT_JSON, NO_VALUE},
+    {"--camera", SB_OPT_CAMERA, VALUE},
+    {"--profile", SB_OPT_PROFILE, NO_VALUE},
+    {"--resume", SB_OPT_RESUME, NO_VALUE},
+    {"--overwrite", SB_OPT_OVERWRITE, NO_VALUE},
+    {"--other-build", SB_OPT_OTHER_BUILD, NO_VALUE},
+    {"--url", SB_OPT_URL, VALUE},
+    {"--prefix", SB_OPT_PREFIX, VALUE},
+    {"--speed", SB_OPT_SPEED, VALUE},
+    {"--control", SB_OPT_CONTROL, NO_VALUE},
+    {"--live", SB_OPT_LIVE, MAYBE_VALUE},
 };
 
 static sb_status add_override(sb_options *options, const char *text, sb_error *error)
@@ -46,6 +49,22 @@ static sb_status add_override(sb_options *options, const char *text, sb_error *e
     options->texts[options->override_count] = copy;
     options->overrides[options->override_count++] = (sb_override){.key = copy, .value = copy + (equals - text) + 1};
     return SB_OK;
+}
+
+/* "", "8080" or "10.0.0.5:8080"; an address with colons is in brackets. */
+static sb_status take_live(sb_options *options, const char *value, sb_error *error)
+{
+    const char *colon = strrchr(value, ':'), *digits = colon ? colon + 1 : value;
+    char *end = NULL;
+    const long port = *digits ? strtol(digits, &end, 10) : DEFAULT_PORT;
+    size_t length = colon ? (size_t)(colon - value) : 0;
+    const bool brackets = length > 2 && value[0] == '[' && value[length - 1] == ']';
+    if (brackets) length -= 2;
+    if ((end && *end) || port < 1 || port > 65535 || length >= sizeof options->live_address)
+        return sb_fail(error, SB_BAD_INPUT, "--live=%.100s: expected PORT from 1 to 65535, or ADDRESS:PORT", value);
+    options->live_port = (int)port;
+    snprintf(options->live_address, sizeof options->live_address, "%.*s", (int)length, value + brackets);
+    return add_override(options, "stream.enabled=true", error);
 }
 
 static sb_status take(sb_options *options, unsigned bit, const char *value, sb_error *error)
@@ -92,6 +111,8 @@ static sb_status take(sb_options *options, unsigned bit, const char *value, sb_e
         break;
     case SB_OPT_CONTROL:
         return add_override(options, "control.enabled=true", error);
+    case SB_OPT_LIVE:
+        return take_live(options, value, error);
     case SB_OPT_SET:
         return add_override(options, value, error);
     case SB_OPT_UNTIL: {
@@ -155,8 +176,8 @@ sb_status sb_options_parse(int count, char **arguments, unsigned accepted, const
         const flag *found = find_flag(argument, accepted);
         if (!found) return refuse_flag(argument, accepted, error);
         const char *equals = strchr(argument, '='), *value = equals ? equals + 1 : "";
-        if (!found->takes_value && equals) return sb_fail(error, SB_BAD_INPUT, "%.200s: takes no value", argument);
-        if (found->takes_value && !equals) {
+        if (found->takes == NO_VALUE && equals) return sb_fail(error, SB_BAD_INPUT, "%.200s: takes no value", argument);
+        if (found->takes == VALUE && !equals) {
             if (i + 1 == count) return sb_fail(error, SB_BAD_INPUT, "%.200s: needs a value", argument);
             value = arguments[++i];
         }

@@ -17,6 +17,8 @@ typedef struct sb_options {
     const char *url;        /* --url */
     const char *prefix;     /* --prefix */
     double speed;           /* --speed; 1 if it is not given */
+    int live_port;          /* --live; 0: not given */
+    char live_address[64];  /* --live=ADDRESS:PORT; empty: loopback */
     int threads;            /* --threads; 0: OMP_NUM_THREADS, or one per core */
     bool quiet, json, profile, resume, overwrite, other_build, help;
     size_t override_count;
@@ -41,7 +43,8 @@ enum {
     SB_OPT_URL = 4096,
     SB_OPT_PREFIX = 8192,
     SB_OPT_SPEED = 16384,
-    SB_OPT_CONTROL = 32768
+    SB_OPT_CONTROL = 32768,
+    SB_OPT_LIVE = 65536
 };
 
 /* Parses the arguments after the command's name. what: the name of the positional argument in messages. */

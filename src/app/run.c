@@ -152,6 +152,8 @@ sb_status sb_run(const sb_scene *scene, const char *directory, const sb_run_opti
     run r = {.resolved = *scene, .directory = directory, .lock = -1};
     r.scene = &r.resolved;
     r.checkpoints.any_build = options->other_build;
+    r.steering.live_port = options->live_port;
+    r.steering.live_address = options->live_address;
     sb_error local = {0};
     sb_progress_begin(&r.progress, options->quiet ? NULL : stdout, scene->duration);
     sb_stop_watch();

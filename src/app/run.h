@@ -9,11 +9,13 @@
 
 /* How a run begins, and what it prints on stdout. */
 typedef struct sb_run_options {
-    bool resume;          /* continues from the directory's newest checkpoint; without one, starts from the beginning */
-    bool overwrite;       /* replaces the run in the directory; cannot be combined with resume */
-    bool other_build;     /* accepts a checkpoint of another build, with a warning */
-    bool quiet;           /* prints no progress */
-    bool profile;         /* prints the times of the stages at the end */
+    bool resume;      /* continues from the directory's newest checkpoint; without one, starts from the beginning */
+    bool overwrite;   /* replaces the run in the directory; cannot be combined with resume */
+    bool other_build; /* accepts a checkpoint of another build, with a warning */
+    bool quiet;       /* prints no progress */
+    bool profile;     /* prints the times of the stages at the end */
+    int live_port;    /* of the page for browsers; 0: none */
+    const char *live_address; /* on which it is; empty: loopback */
     bool *thread_remains; /* set when a thread without progress still exists at the end: end the process by _exit, and
                    free nothing that the run was given; may be NULL */
 } sb_run_options;

@@ -40,6 +40,8 @@ enum { SB_STEERING_COUNTS = 5 }; /* as in sb_received: obeyed, malformed, foreig
 /* Commands to the run. */
 typedef struct sb_steering {
     sb_helper helper;
+    int live_port; /* of the page for browsers; 0: none */
+    const char *live_address;
     bool allowed; /* the token exists */
     char token_file[SB_PATH_MAX];
     bool paused;

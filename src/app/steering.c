@@ -87,8 +87,9 @@ static void watch_helper(run *r)
         sb_run_warn(r, "shorebreak-live has ended; it was started again");
         return;
     }
-    sb_run_warn(r, "shorebreak-live has ended %d times and is not started again: the run takes no more commands%s",
-                SB_HELPER_RESTARTS + 1, s->paused ? ", and is resumed" : "");
+    sb_run_warn(r, "shorebreak-live has ended %d times and is not started again: the run %s%s", SB_HELPER_RESTARTS + 1,
+                s->allowed ? "takes no more commands" : "is not shown to browsers any more",
+                s->paused ? ", and is resumed" : "");
     s->steps = 0;
     if (s->paused) sb_steering_set_paused(r, false);
 }
@@ -127,30 +128,44 @@ void sb_steering_take(run *r)
 
 /* ---- begin and end ---- */
 
+/* Makes the token, and the text by which tools/control finds the run. */
+static sb_status allow(run *r, char where[SB_TARGET_TEXT], sb_error *error)
+{
+    sb_steering *s = &r->steering;
+    sb_token token;
+    sb_status status = sb_run_path(r, SB_TOKEN_FILE, s->token_file, error);
+    if (status == SB_OK) status = sb_token_make(s->token_file, &token, error);
+    s->allowed = status == SB_OK;
+    const sb_stream *stream = r->streamer.stream;
+    return status == SB_OK
+               ? sb_target_write(sb_stream_run_id(stream), r->scene->stream.prefix, sb_stream_url(stream), where, error)
+               : status;
+}
+
 void sb_steering_start(run *r)
 {
     sb_steering *s = &r->steering;
     sb_error reason = {0};
-    sb_token token;
     char where[SB_TARGET_TEXT];
-    if (!r->scene->control.enabled || !r->streamer.stream) return;
+    const bool commands = r->scene->control.enabled;
+    if (!(commands || s->live_port > 0) || !r->streamer.stream) return;
+    const char *refused = commands ? "takes no commands" : "is not shown to browsers";
     if (strncasecmp(sb_stream_url(r->streamer.stream), "file:", 5) == 0) { /* the helper would open it, too */
-        sb_run_warn(r, "the run takes no commands: its stream goes to a file");
+        sb_run_warn(r, "the run %s: its stream goes to a file", refused);
         return;
     }
-    sb_status status = sb_run_path(r, SB_TOKEN_FILE, s->token_file, &reason);
-    if (status == SB_OK) status = sb_token_make(s->token_file, &token, &reason);
-    s->allowed = status == SB_OK;
+    sb_status status = commands ? allow(r, where, &reason) : SB_OK;
     const sb_helper_setup setup = {.url = r->scene->stream.url,
                                    .prefix = r->scene->stream.prefix,
-                                   .token_file = s->token_file,
-                                   .run_id = sb_stream_run_id(r->streamer.stream)};
-    if (status == SB_OK)
-        status = sb_target_write(setup.run_id, setup.prefix, sb_stream_url(r->streamer.stream), where, &reason);
+                                   .token_file = s->allowed ? s->token_file : NULL,
+                                   .run_id = sb_stream_run_id(r->streamer.stream),
+                                   .port = s->live_port,
+                                   .address = s->live_address};
     if (status == SB_OK) status = sb_helper_start(&s->helper, &setup, &reason);
-    if (status == SB_OK) sb_runlog_event(r->log, SB_TARGET_EVENT, "%s", where);
-    if (status == SB_OK && r->scene->control.paused) sb_steering_set_paused(r, true);
-    if (status != SB_OK) sb_run_warn(r, "the run takes no commands: %.900s", reason.text);
+    if (status == SB_OK && commands) sb_runlog_event(r->log, SB_TARGET_EVENT, "%s", where);
+    if (status == SB_OK && commands && r->scene->control.paused) sb_steering_set_paused(r, true);
+    if (status != SB_OK)
+        sb_run_warn(r, "the run %s: %.900s", refused, reason.text);
 }
 
 void sb_steering_end(run *r)

@@ -5,8 +5,8 @@
 
 #include "app/run_state.h"
 
-/* Makes the token and starts the helper, if the scene allows commands and there is a stream. A failure gives a warning,
-   and the run goes on without commands. */
+/* Starts the helper, if there is a stream and the scene allows commands, for which it makes the token, or the run is
+   shown to browsers. A failure gives a warning, and the run goes on. */
 void sb_steering_start(run *r);
 
 /* Obeys the commands that have arrived. While the run is paused, it waits here, until it is resumed, may make a step or

@@ -14,7 +14,7 @@
 static const char help[] =
     "usage: shorebreak-live [OPTIONS]\n"
     "Shows a run, or a replay, in a web browser. `shorebreak run SCENE --live` starts it beside the run.\n\n"
-    "  --port N             port of the page (default: 8080, or the next free one)\n"
+    "  --port N             port of the page, or the next free one (default: 8080)\n"
     "  --bind ADDRESS       address of this machine, in numbers, on which to listen (default: 127.0.0.1). Beyond "
     "loopback\n"
     "                       every reader needs the token\n"

@@ -58,7 +58,6 @@ sb_status sb_live_options_parse(int count, char **arguments, sb_live_options *op
         }
         const sb_status status = take(arguments[i], i + 1 < count ? arguments[i + 1] : NULL, options, error);
         if (status != SB_OK) return status;
-        options->fixed_port |= strcmp(arguments[i], "--port") == 0;
         i++;
     }
     if (options->command_fd >= 0 && options->run_id < 0)

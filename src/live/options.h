@@ -17,8 +17,8 @@ typedef struct sb_live_options {
     int64_t counter;          /* commands up to this counter are replayed ones */
     const char *bind;         /* address of the web server; NULL: 127.0.0.1 */
     const char *host;         /* a name of this machine that browsers may use; NULL: none */
-    int64_t port;             /* of the web server: this one, or the next free one unless fixed_port */
-    bool fixed_port, no_http, help;
+    int64_t port;             /* of the web server: this one, or the next free one */
+    bool no_http, help;
 } sb_live_options;
 
 /* Parses the arguments after the program's name. SB_BAD_INPUT names the first one that is wrong. */

@@ -55,7 +55,7 @@ static sb_status open_site(site *s, const sb_token *token, sb_error *error)
     const bool commands = token && s->receiver;
     const sb_web_settings settings = {.address = s->options->bind,
                                       .port = (int)s->options->port,
-                                      .next_port = !s->options->fixed_port,
+                                      .next_port = true,
                                       .name = s->options->host,
                                       .token = digits,
                                       .user = s,
