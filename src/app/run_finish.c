@@ -244,6 +244,7 @@ void sb_run_finish(run *r, sb_status *status, sb_error *error)
         write_summary(r, status, error);
     if (r->measure && r->scene->output.plots) sb_plots_write(r->directory, r->scene, r->log);
     keep_first(status, error, make_films(r, *status, &reason), &reason);
+    sb_steering_close(r);
     if (!leaked) report_lost(r); /* otherwise the failure's reason is the last line */
     sb_runlog_end(r->log, *status, *status == SB_OK ? NULL : error->text);
     keep_first(status, error, sb_runlog_close(r->log, &reason), &reason);

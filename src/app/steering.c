@@ -164,15 +164,21 @@ void sb_steering_start(run *r)
     if (status == SB_OK) status = sb_helper_start(&s->helper, &setup, &reason);
     if (status == SB_OK && commands) sb_runlog_event(r->log, SB_TARGET_EVENT, "%s", where);
     if (status == SB_OK && commands && r->scene->control.paused) sb_steering_set_paused(r, true);
-    if (status != SB_OK)
-        sb_run_warn(r, "the run %s: %.900s", refused, reason.text);
+    if (status != SB_OK) sb_run_warn(r, "the run %s: %.900s", refused, reason.text);
 }
 
 void sb_steering_end(run *r)
 {
     sb_steering *s = &r->steering;
-    sb_command command;
     sb_picture_now_end(r);
+    if (s->live_port == 0) sb_steering_close(r);
+    if (s->allowed) (void)unlink(s->token_file);
+}
+
+void sb_steering_close(run *r)
+{
+    sb_steering *s = &r->steering;
+    sb_command command;
     if (s->helper.on) {
         sb_helper_end(&s->helper);
         while (sb_helper_next(&s->helper, &command))
@@ -180,5 +186,4 @@ void sb_steering_end(run *r)
         sb_helper_close(&s->helper);
     }
     log_counts(r, true);
-    if (s->allowed) (void)unlink(s->token_file);
 }

@@ -18,7 +18,11 @@ void sb_steering_obey(run *r, const sb_command *command);
 /* steering_acts.c: pauses or resumes the run, also in its status. */
 void sb_steering_set_paused(run *r, bool paused);
 
-/* Ends the helper, removes the token and logs how many commands were refused. Call it before the stream ends. */
+/* Removes the token: no more commands are obeyed. Call it before the stream ends. */
 void sb_steering_end(run *r);
+
+/* Ends the helper and logs how many commands were refused. A run that is shown to browsers calls it last, so that they
+   see its end. May be called twice. */
+void sb_steering_close(run *r);
 
 #endif

@@ -11,6 +11,7 @@
 
 enum { AT_ONCE = 64 }; /* messages between two turns of the web server */
 #define REPORT_SECONDS 1.0
+#define LEAVE_SECONDS 0.7
 
 typedef struct site {
     const sb_live_options *options;
@@ -97,10 +98,22 @@ static bool report(site *s)
     return sb_receiver_serve(s->receiver, false);
 }
 
+/* Whether to go on: the run ends this process when it has ended itself, and pages look every half second for it. */
+static bool goes_on(const site *s, double *end)
+{
+    if (!stopped) return true;
+    const sb_status_message *status = sb_live_get_status(sb_web_view_live(s->view));
+    if (!s->receiver || !status || status->state != SB_RUN_DONE || sb_web_server_count(s->server).streams == 0)
+        return false;
+    if (!(*end > 0)) *end = sb_clock() + LEAVE_SECONDS;
+    return sb_clock() < *end;
+}
+
 static int serve(site *s)
 {
     int code = 0;
-    while (!stopped && report(s)) {
+    double end = 0;
+    while (goes_on(s, &end) && report(s)) {
         const double wait = sb_web_server_run(s->server);
         struct pollfd ready[2] = {{.fd = sb_web_server_descriptor(s->server), .events = POLLIN},
                                   {.fd = s->intake.socket, .events = POLLIN}};

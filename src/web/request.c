@@ -158,8 +158,7 @@ static enum MHD_Result answer_command(sb_web_client *client)
     const char *text = client->body ? client->body : "";
     int64_t id = 0;
     const sb_status status = server->settings.command(server->settings.user, text, client->body_size, &id, &error);
-    if (status == SB_BAD_INPUT)
-        return sb_web_refuse(client, MHD_HTTP_BAD_REQUEST, &server->counts.malformed, error.text);
+    if (status == SB_BAD_INPUT) return sb_web_refuse(client, MHD_HTTP_BAD_REQUEST, &server->counts.wrong, error.text);
     if (status != SB_OK) return sb_web_refuse(client, MHD_HTTP_SERVICE_UNAVAILABLE, NULL, error.text);
     server->counts.commands++;
     char *accepted = NULL;

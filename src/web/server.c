@@ -25,7 +25,7 @@ static size_t keep_escapes(void *user, struct MHD_Connection *connection, char *
 uint64_t sb_web_server_refused(const sb_web_server *server)
 {
     const sb_web_counts *c = &server->counts;
-    return c->foreign + c->no_token + c->unknown + c->malformed + c->late + c->unavailable;
+    return c->foreign + c->no_token + c->unknown + c->malformed + c->wrong + c->late + c->unavailable;
 }
 
 static sb_status check(const sb_web_server *server, sb_error *error)
@@ -132,13 +132,13 @@ static void report(sb_web_server *server, double now)
         (server->logged > 0 && now < server->logged + LOG_SECONDS))
         return;
     const sb_web_counts *c = &server->counts;
-    char line[320];
+    char line[400];
     snprintf(line, sizeof line,
              "refused %llu requests so far: %llu of another host or site, %llu without token, %llu for no resource, "
-             "%llu malformed, %llu too slow, %llu above the limit of clients",
+             "%llu malformed, %llu of wrong commands, %llu too slow, %llu above the limit of clients",
              (unsigned long long)refused, (unsigned long long)c->foreign, (unsigned long long)c->no_token,
-             (unsigned long long)c->unknown, (unsigned long long)c->malformed, (unsigned long long)c->late,
-             (unsigned long long)c->unavailable);
+             (unsigned long long)c->unknown, (unsigned long long)c->malformed, (unsigned long long)c->wrong,
+             (unsigned long long)c->late, (unsigned long long)c->unavailable);
     server->settings.log(server->settings.user, line);
     server->reported = refused;
     server->logged = now;

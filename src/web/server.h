@@ -48,7 +48,8 @@ typedef struct sb_web_counts {
     uint64_t foreign;     /* another Host or Origin */
     uint64_t no_token;    /* a token was missing or wrong */
     uint64_t unknown;     /* a resource or method that there is not */
-    uint64_t malformed;   /* not HTTP, too large, or a command that is not valid */
+    uint64_t malformed;   /* not HTTP, or too large */
+    uint64_t wrong;       /* commands that are not valid */
     uint64_t late;        /* requests that did not end in time */
     uint64_t unavailable; /* too many clients */
     uint64_t frames, bytes;

@@ -6,6 +6,8 @@
 
 #include <string.h>
 
+enum { REPLIES = 8 };
+
 struct sb_web_view {
     sb_live *live;
     sb_web_blob *frame, *scene;
@@ -16,6 +18,8 @@ struct sb_web_view {
     char run[SB_STREAM_NAME];
     bool has_status; /* also after a restart, until the new process has sent its own */
     sb_status_message status;
+    sb_reply_message replies[REPLIES]; /* the last ones, in turns */
+    uint64_t reply_count;
     double heard; /* s, of sb_clock, of the last valid message of the run */
 };
 
@@ -53,6 +57,12 @@ static void on_status(void *user, const sb_status_message *message)
     view->run_id = message->head.run_id;
     view->status = *message;
     view->has_status = true;
+}
+
+static void on_reply(void *user, const sb_reply_message *message)
+{
+    sb_web_view *view = user;
+    view->replies[view->reply_count++ % REPLIES] = *message;
 }
 
 static void on_forces(void *user, const sb_forces_message *m)
@@ -100,6 +110,7 @@ sb_web_view *sb_web_view_create(void)
                                  .status = on_status,
                                  .forces = on_forces,
                                  .gauges = on_gauges,
+                                 .reply = on_reply,
                                  .frame = on_frame};
     view->live = sb_live_create(&calls);
     if (view->live) return view;
@@ -211,6 +222,22 @@ static void write_stream(sb_json *json, const sb_web_view *view, double now)
     write_table(json, "gauges", &view->gauges);
 }
 
+static void write_replies(sb_json *json, const sb_web_view *view)
+{
+    sb_json_open(json, "replies", '[');
+    for (uint64_t i = view->reply_count > REPLIES ? view->reply_count - REPLIES : 0; i < view->reply_count; i++) {
+        const sb_reply_message *reply = &view->replies[i % REPLIES];
+        sb_json_open(json, NULL, '{');
+        sb_json_count(json, "id", (uint64_t)reply->id);
+        sb_json_bool(json, "refused", reply->refused);
+        sb_json_count(json, "step", (uint64_t)reply->step);
+        sb_json_number(json, "time_s", reply->time);
+        sb_json_text(json, "text", reply->text);
+        sb_json_close(json);
+    }
+    sb_json_close(json);
+}
+
 void sb_web_view_write_status(const sb_web_view *view, const sb_web_extra *extra, double now, FILE *stream)
 {
     const sb_status_message *s = &view->status;
@@ -227,6 +254,7 @@ void sb_web_view_write_status(const sb_web_view *view, const sb_web_extra *extra
     sb_json_number(&json, "loss", sent > 0 ? (double)counts.lost / sent : 0);
     write_run(&json, s);
     write_stream(&json, view, now);
+    write_replies(&json, view);
     sb_json_bool(&json, "commands", extra->commands);
     sb_json_bool(&json, "plots", extra->plots);
     sb_json_count(&json, "clients", extra->clients);

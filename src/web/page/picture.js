@@ -3,7 +3,7 @@ import { colourTable } from './colours.js';
 import { makePrograms } from './shaders.js';
 
 const POINT = 8; // bytes of a particle
-export const STRIDE_MAX = 31; // particles: WebGL allows a stride of 255 bytes
+export const STRIDE_MAX = 8; // particles: fewer would not show the shape of the water
 const SHOWN = 0.62; // radius of a drawn particle in particle spacings: without holes between neighbours
 const SKY = [0.875, 0.906, 0.933];
 const PLAIN = [0.74, 0.72, 0.68], GROUND = [0.70, 0.66, 0.57];
