@@ -41,6 +41,11 @@ static void default_out(char out[SB_PATH_MAX], const char *scene)
     snprintf(out, SB_PATH_MAX, "runs/%.*s", (int)(is_scene ? (size_t)(ending - name) : strlen(name)), name);
 }
 
+static bool is_loopback(const char *address)
+{
+    return strncmp(address, "127.", 4) == 0 || strcmp(address, "::1") == 0;
+}
+
 static int exit_status(sb_status status)
 {
     if (status == SB_INTERRUPTED) return 128 + sb_stop_signal();
@@ -68,6 +73,12 @@ int sb_command_run(int count, char **arguments)
         status =
             sb_fail(&error, SB_BAD_INPUT, "--overwrite: cannot be used together with --resume, which keeps the run");
     if (status == SB_OK) status = sb_options_scene(&options, options.positional, &scene, &error);
+    if (status == SB_OK && *options.live_address && !scene.control.enabled && !is_loopback(options.live_address))
+        status =
+            sb_fail(&error, SB_BAD_INPUT,
+                    "--live: %s is beyond this machine, expected together with --control, whose token every reader "
+                    "then needs",
+                    options.live_address);
     if (status == SB_OK) {
         if (options.out)
             snprintf(out, sizeof out, "%s", options.out);

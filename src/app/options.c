@@ -56,7 +56,7 @@ static sb_status take_live(sb_options *options, const char *value, sb_error *err
 {
     const char *colon = strrchr(value, ':'), *digits = colon ? colon + 1 : value;
     char *end = NULL;
-    const long port = *digits ? strtol(digits, &end, 10) : DEFAULT_PORT;
+    const long port = *digits ? strtol(digits, &end, 10) : colon ? 0 : DEFAULT_PORT;
     size_t length = colon ? (size_t)(colon - value) : 0;
     const bool brackets = length > 2 && value[0] == '[' && value[length - 1] == ']';
     if (brackets) length -= 2;

@@ -30,13 +30,25 @@ static void pass(int socket, sb_channel_kind kind, const void *data, size_t size
     }
 }
 
+/* Whether a message is of this run: every message has the run's id behind its fingerprint and version (docs/live.md).
+   Other runs may use the same channels. */
+static bool is_of_run(const unsigned char *data, size_t size, int64_t run_id)
+{
+    enum { BEFORE = 12, BYTES = 8 };
+    uint64_t id = 0;
+    if (run_id < 0) return true;
+    if (size < BEFORE + BYTES) return false;
+    for (int k = 0; k < BYTES; k++) id = id << 8 | data[BEFORE + k];
+    return id == (uint64_t)run_id;
+}
+
 static void on_message(void *user, sb_channel_kind kind, const void *data, size_t size, double time)
 {
     const work *w = user;
     (void)time;
     if (kind == SB_CHANNEL_COMMAND) {
         if (w->receiver) (void)sb_receiver_take_message(w->receiver, data, size, NULL);
-    } else if (w->socket >= 0 && size <= SB_STREAM_MESSAGE_MAX)
+    } else if (w->socket >= 0 && size <= SB_STREAM_MESSAGE_MAX && is_of_run(data, size, w->options->run_id))
         pass(w->socket, kind, data, size);
 }
 

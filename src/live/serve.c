@@ -98,13 +98,12 @@ static bool report(site *s)
     return sb_receiver_serve(s->receiver, false);
 }
 
-/* Whether to go on: the run ends this process when it has ended itself, and pages look every half second for it. */
+/* Whether to go on: the run ends this process when it has ended itself, and pages look every half second for its state.
+   The stream's last message may be on its way yet. */
 static bool goes_on(const site *s, double *end)
 {
     if (!stopped) return true;
-    const sb_status_message *status = sb_live_get_status(sb_web_view_live(s->view));
-    if (!s->receiver || !status || status->state != SB_RUN_DONE || sb_web_server_count(s->server).streams == 0)
-        return false;
+    if (!s->receiver || sb_web_server_count(s->server).streams == 0) return false;
     if (!(*end > 0)) *end = sb_clock() + LEAVE_SECONDS;
     return sb_clock() < *end;
 }
