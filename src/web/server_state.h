@@ -9,7 +9,7 @@
 
 enum {
     SB_WEB_HEAD_MAX = 32 << 10,   /* bytes of a connection's buffers, and so of a request's line and headers */
-    SB_WEB_COMMAND_MAX = 4 << 10, /* bytes of a command */
+    SB_WEB_COMMAND_MAX = 1 << 10, /* bytes of a command */
     SB_WEB_ROWS_MAX = 512 << 10,  /* about so many bytes of each table in an answer */
     SB_WEB_BACKLOG = 16,
     SB_WEB_ADDRESS = 64

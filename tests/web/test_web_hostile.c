@@ -177,7 +177,7 @@ static void sizes_are_limited(void **state)
     assert_null(strstr(answer, "200 OK"));
     free(answer);
     /* Bodies. */
-    assert_int_equal(site_status(&s, "POST /command", HOST "X-Token: " TOKEN "\r\nContent-Length: 4097\r\n", "x"), 413);
+    assert_int_equal(site_status(&s, "POST /command", HOST "X-Token: " TOKEN "\r\nContent-Length: 1025\r\n", "x"), 413);
     assert_int_equal(site_status(&s, "GET /status", HOST "Content-Length: 5\r\n", "12345"), 413);
     assert_int_equal(site_status(&s, "GET /status", HOST "Transfer-Encoding: chunked\r\n", "0\r\n\r\n"), 400);
     at = (size_t)snprintf(request, sizeof request,

@@ -99,12 +99,22 @@ class Plot {
   }
 }
 
+// Forces are in kN, or in MN when one is above 10 MN.
+let newton = 1e-3;
+
+function chooseUnit(rows) {
+  let largest = 0;
+  for (const row of rows) for (let k = 1; k < row.length; k++) largest = Math.max(largest, Math.abs(row[k]));
+  newton = largest > 1e7 ? 1e-6 : 1e-3;
+  element('forces-title').textContent = newton === 1e-6 ? 'Forces, MN' : 'Forces, kN';
+}
+
 function components(row, count) {
   const which = element('component').value, values = new Array(count);
   for (let k = 0; k < count; k++) {
     const [x, y, z] = [row[3 * k + 1], row[3 * k + 2], row[3 * k + 3]];
     const value = which === 'horizontal' ? (x === null || y === null ? null : Math.hypot(x, y)) : { x, y, z }[which];
-    values[k] = value === null ? null : 1e-3 * value;
+    values[k] = value === null ? null : newton * value;
   }
   return values;
 }
@@ -156,6 +166,7 @@ export class Plots {
   }
 
   update(names) {
+    if (names.includes('forces')) chooseUnit(this.tables.forces.rows);
     for (const name of names) this.plots[name].update(this.tables[name]);
   }
 }

@@ -131,7 +131,7 @@ export class View {
     this.scene = scene;
     this.picture.setScene(scene);
     this.camera.size = Math.hypot(...scene.domain_max.map((value, k) => value - scene.domain_min[k]));
-    const presets = [{ name: 'overview', keys: null }, ...scene.cameras];
+    const presets = [{ name: 'whole domain', keys: null }, ...scene.cameras];
     element('cameras').replaceChildren(...presets.map((preset) => {
       const button = document.createElement('button');
       button.type = 'button';
