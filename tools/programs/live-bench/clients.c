@@ -20,10 +20,10 @@ typedef enum role { STOPPED, SLOWLY, WELL } role;
 
 typedef struct client {
     role role;
-    bool leaves;
-    int socket;     /* -1: not connected */
-    double change;  /* s, of sb_clock: when it joins or leaves next */
-    double allowed; /* bytes that the slow one may read */
+    bool leaves, joined; /* joined: no frame yet; the first one is as old as it is */
+    int socket;          /* -1: not connected */
+    double change;       /* s, of sb_clock: when it joins or leaves next */
+    double allowed;      /* bytes that the slow one may read */
     /* The answer: headers, then chunks, each a line with its size in hexadecimal digits, its bytes and an empty line.
      */
     unsigned newlines; /* consecutive ones at the end of the headers */
@@ -68,6 +68,7 @@ static void join(sb_bench_clients *c, client *k)
         return;
     }
     fcntl(k->socket, F_SETFL, O_NONBLOCK);
+    k->joined = true;
     k->newlines = 0;
     k->in_body = k->in_size = false;
     k->filled = k->size = 0;
@@ -107,16 +108,17 @@ void sb_bench_clients_destroy(sb_bench_clients *clients)
 }
 
 /* A record is complete. */
-static void end_record(sb_bench_clients *c, const client *k, const sb_bench_arrivals *arrivals)
+static void end_record(sb_bench_clients *c, client *k, const sb_bench_arrivals *arrivals)
 {
     double number;
     memcpy(&number, k->head + 24, sizeof number);
     if (memcmp(k->head, "SBF1", 4) != 0) return;
     c->result.frames++;
+    const bool first = k->joined;
+    k->joined = false;
     const int64_t frame = (int64_t)number;
     const double there = arrivals->time[frame % SB_BENCH_FRAMES];
-    /* The frame that a client gets when it joins is as old as it is. */
-    if (frame > arrivals->newest || frame + 1 < arrivals->newest - SB_BENCH_FRAMES || !(there > 0)) return;
+    if (first || frame > arrivals->newest || frame + 1 < arrivals->newest - SB_BENCH_FRAMES || !(there > 0)) return;
     const double delay = sb_clock() - there;
     if (delay > c->result.latest) c->result.latest = delay;
     c->result.late += delay > c->interval;

@@ -126,7 +126,7 @@ static sb_status start(state *s, sb_error *error)
     const sb_live_calls calls = {.user = s, .status = on_status, .frame = on_frame};
     const sb_listener_calls messages = {.user = s, .message = on_message};
     char prefix[64];
-    const char *const settings[] = {prefix, "render.interval=1e6", "output.particle_interval=1e6"};
+    const char *const settings[] = {prefix, "render.interval=0", "output.particle_interval=0"};
     snprintf(s->prefix, sizeof s->prefix, "live-bench-%ld", (long)getpid());
     snprintf(prefix, sizeof prefix, "stream.prefix=%s", s->prefix);
     s->live = sb_live_create(&calls);
