@@ -215,6 +215,40 @@ static void rows_continue(void **state)
     site_close(&s);
 }
 
+/* Takes nine of ten messages. */
+static void take_most(const lcm_recv_buf_t *received, const char *channel, void *user)
+{
+    static unsigned count;
+    if (++count % 10 != 0) site_take(received, channel, user);
+}
+
+/* One message in ten is lost: the status says so, and newer frames come. */
+static void losses_are_reported(void **state)
+{
+    (void)state;
+    site s;
+    site_open(&s, NULL);
+    sb_stream *stream = fixture_stream("memq://", 0, 1);
+    lcm_subscription_set_queue_capacity(lcm_subscribe(sb_stream_provider(stream), "test_.*", take_most, s.view),
+                                        100000);
+    for (uint64_t i = 1; i <= 60; i++) {
+        sb_frame *frame = fixture_frame(i, (double)i, 9000, 1); /* two parts */
+        fixture_publish(stream, frame);
+        fixture_drain(stream);
+        sb_frame_release(frame);
+    }
+    char *answer = get(&s, "/status");
+    const double loss = number_at(json_of(answer), "loss");
+    print_message("loss %g, %g frames complete, %g not\n", loss, number_at(answer, "frames"),
+                  number_at(answer, "frames_incomplete"));
+    assert_true(loss > 0.05 && loss < 0.15);
+    assert_true(number_at(answer, "frames") > 20 && number_at(answer, "frames_incomplete") > 3);
+    assert_true(number_at(answer, "frames") < 60);
+    free(answer);
+    sb_stream_destroy(stream);
+    site_close(&s);
+}
+
 static void dygraphs_is_optional(void **state)
 {
     (void)state;
@@ -237,7 +271,7 @@ int main(void)
         cmocka_unit_test(page_and_headers),          cmocka_unit_test(nothing_yet),
         cmocka_unit_test(status_has_the_members),    cmocka_unit_test(scene_has_meshes),
         cmocka_unit_test(frames_have_the_particles), cmocka_unit_test(rows_continue),
-        cmocka_unit_test(dygraphs_is_optional),
+        cmocka_unit_test(losses_are_reported),       cmocka_unit_test(dygraphs_is_optional),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
