@@ -33,7 +33,7 @@ export class Camera {
     this.elevation = 0.5;
     this.fov = 40;
     this.target = middle;
-    this.distance = 0.75 * Math.hypot(...size) / Math.tan(this.fov * Math.PI / 360);
+    this.distance = 0.55 * Math.hypot(...size) / Math.tan(this.fov * Math.PI / 360);
   }
 
   direction() {

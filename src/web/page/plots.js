@@ -94,7 +94,8 @@ class Plot {
     const values = this.data ? this.data[row] : null;
     this.outputs.forEach((output, k) => {
       const value = values ? values[k + 1] : null;
-      output.textContent = value === null || value === undefined ? '' : Number(value.toPrecision(3)).toString();
+      const small = Math.abs(value) < 1e-3 ? 0 : Number(value?.toPrecision(3));
+      output.textContent = value === null || value === undefined ? '' : String(small);
     });
   }
 }
