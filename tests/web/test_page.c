@@ -1,12 +1,40 @@
-/* The page in Chromium: its water moves, its plots grow, the picture turns. Prints what its work costs. */
+/* The page in Chromium: its water moves, its plots grow, the picture turns. Prints what its work costs.
+   SB_JUDGE_TIMES=1 judges these times; without it, they may be those of a busy machine. */
 #include "page_fixture.h"
+
+/* The run and the page of the first two tests. */
+static pid_t shared_run;
+static chromium *shared_browser;
+
+static int open_shared(void **state)
+{
+    (void)state;
+    if (!chromium_is_there()) return 0;
+    const int port = free_port();
+    shared_run = start_source(port, PARTICLES);
+    shared_browser = open_page(port);
+    return 0;
+}
+
+static int close_shared(void **state)
+{
+    (void)state;
+    if (!shared_browser) return 0;
+    chromium_stop(shared_browser);
+    stop_source(shared_run);
+    return 0;
+}
+
+static bool times_are_judged(void)
+{
+    const char *judge = getenv("SB_JUDGE_TIMES");
+    return judge && strcmp(judge, "1") == 0;
+}
 
 static void water_and_plots(void **state)
 {
     SKIP_WITHOUT_CHROMIUM();
-    const int port = free_port();
-    const pid_t run = start_source(port, PARTICLES);
-    chromium *browser = open_page(port);
+    chromium *browser = shared_browser;
     assert_true(picture_of(browser, 1) > 0.1); /* there is water */
     const double first = picture_of(browser, 0), frames = chromium_number(browser, "shorebreak.times.frames");
     chromium_await(browser, "document.querySelectorAll('#forces canvas').length > 0", 10);
@@ -29,8 +57,8 @@ static void water_and_plots(void **state)
     usleep(300000);
     screenshot(browser, "phone-below");
     assert_string_equal(chromium_errors(browser), "");
-    chromium_stop(browser);
-    stop_source(run);
+    chromium_true(browser, "scrollTo(0, 0)");
+    chromium_resize(browser, 1280, 800, false);
 }
 
 /* Turns the picture by dragging; prints and returns the medians of the times of the events. */
@@ -63,9 +91,8 @@ static void turn(chromium *browser, double *to_draw, double *to_picture)
 static void orbit(void **state)
 {
     SKIP_WITHOUT_CHROMIUM();
-    const int port = free_port();
-    const pid_t run = start_source(port, PARTICLES);
-    chromium *browser = open_page(port);
+    chromium *browser = shared_browser;
+    usleep(500000); /* after the change of its size */
     double to_draw, to_picture;
     const double azimuth = chromium_number(browser, "shorebreak.view.camera.azimuth");
     turn(browser, &to_draw, &to_picture);
@@ -79,10 +106,8 @@ static void orbit(void **state)
     assert_true(chromium_number(browser, "shorebreak.view.camera.distance") < 0.9 * distance);
     screenshot(browser, "turned");
     assert_string_equal(chromium_errors(browser), "");
-    /* Loose: the machine may be busy. tools/live-bench --page judges the figures. */
-    assert_true(to_draw < 100 && to_picture < 1000);
-    chromium_stop(browser);
-    stop_source(run);
+    assert_true(to_draw > 0 && to_picture > 0);
+    if (times_are_judged()) assert_true(to_draw <= 16 && to_picture <= 100);
 }
 
 static void many_particles(void **state)
@@ -98,7 +123,7 @@ static void many_particles(void **state)
         upload += chromium_number(browser, "shorebreak.times.upload") / 10;
     }
     print_message("%d particles: parse %.2f ms and upload %.2f ms per frame\n", MANY, parse, upload);
-    assert_true(parse + upload < 100);
+    if (times_are_judged()) assert_true(parse + upload <= 15);
     assert_string_equal(chromium_errors(browser), "");
     chromium_stop(browser);
     stop_source(run);
@@ -111,5 +136,5 @@ int main(void)
         cmocka_unit_test(orbit),
         cmocka_unit_test(many_particles),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, open_shared, close_shared);
 }

@@ -4,7 +4,7 @@ import { makePrograms } from './shaders.js';
 
 const POINT = 8; // bytes of a particle
 export const STRIDE_MAX = 8; // particles: fewer would not show the shape of the water
-const SHOWN = 0.62; // radius of a drawn particle in particle spacings: without holes between neighbours
+const SHOWN = 0.68; // radius of a drawn particle in particle spacings: without holes between neighbours
 const SKY = [0.875, 0.906, 0.933];
 const PLAIN = [0.74, 0.72, 0.68], GROUND = [0.70, 0.66, 0.57];
 

@@ -19,6 +19,7 @@ export class View {
     this.moving = false;
     this.every = 1; // one particle in so many is drawn while the camera moves
     this.fence = null;
+    this.next = null;
     this.automatic = { speed: 0, pressure: 0 }; // tops of the scale if the scene gives none
     try {
       this.picture = new Picture(this.canvas);
@@ -219,7 +220,10 @@ export class View {
 
   // Measures when the graphics processor has finished the picture.
   watch(begin, every, moved) {
-    if (this.fence) return;
+    if (this.fence) {
+      if (moved > 0) this.next ??= [begin, every, moved]; // it is measured when this one is finished
+      return;
+    }
     const { gl } = this.picture;
     this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     gl.flush();
@@ -233,6 +237,9 @@ export class View {
       if (moved > 0) this.times.orbitToPicture = performance.now() - moved;
       if (taken > SLOW) this.every = Math.min(STRIDE_MAX, Math.max(this.every, 1.3 * every, every * taken / SLOW / 2));
       else if (taken < FAST) this.every = Math.max(1, this.every / 1.2);
+      const { next } = this;
+      this.next = null;
+      if (next) this.watch(...next);
     };
     setTimeout(look, 1);
   }
