@@ -8,6 +8,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -22,11 +23,10 @@ typedef struct work {
 /* The socket keeps messages whole: one that a crash cuts off does not arrive. The kind is the first byte. */
 static void pass(int socket, sb_channel_kind kind, const void *data, size_t size)
 {
-    unsigned char first = (unsigned char)kind;
-    struct iovec parts[2] = {{.iov_base = &first, .iov_len = 1},
-                             {.iov_base = (void *)(uintptr_t)data, .iov_len = size}};
-    const struct msghdr message = {.msg_iov = parts, .msg_iovlen = 2};
-    while (sendmsg(socket, &message, MSG_NOSIGNAL) < 0 && errno == EINTR) {
+    unsigned char message[1 + SB_STREAM_MESSAGE_MAX];
+    message[0] = (unsigned char)kind;
+    memcpy(message + 1, data, size);
+    while (send(socket, message, 1 + size, MSG_NOSIGNAL) < 0 && errno == EINTR) {
     }
 }
 

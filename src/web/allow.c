@@ -56,8 +56,8 @@ bool sb_web_allow_token(const char *given, const char *expected)
     const size_t length = strlen(expected), given_length = strlen(given);
     volatile unsigned char difference = length != given_length;
     for (size_t i = 0; i < length; i++) {
-        const char byte = i < given_length ? given[i] : '\0';
-        difference = (unsigned char)(difference | (unsigned char)(byte ^ expected[i]));
+        const unsigned char byte = i < given_length ? (unsigned char)given[i] : 0;
+        difference = (unsigned char)(difference | (byte ^ (unsigned char)expected[i]));
     }
     return difference == 0;
 }

@@ -64,9 +64,12 @@ enum MHD_Result sb_web_refuse(sb_web_client *client, unsigned status, uint64_t *
 enum MHD_Result sb_web_answer_file(sb_web_client *client, const sb_web_file *file)
 {
     /* libmicrohttpd takes the bytes as not constant but does not write to them. */
-    return sb_web_queue(
-        client, MHD_HTTP_OK, file->type,
-        MHD_create_response_from_buffer(file->size, (void *)(uintptr_t)file->bytes, MHD_RESPMEM_PERSISTENT));
+    const union {
+        const unsigned char *constant;
+        void *bytes;
+    } content = {.constant = file->bytes};
+    return sb_web_queue(client, MHD_HTTP_OK, file->type,
+                        MHD_create_response_from_buffer(file->size, content.bytes, MHD_RESPMEM_PERSISTENT));
 }
 
 static ssize_t read_blob(void *user, uint64_t position, char *buffer, size_t size)

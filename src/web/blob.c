@@ -33,6 +33,12 @@ static unsigned char *put(unsigned char *at, uint64_t bits, int bytes)
     return at;
 }
 
+unsigned char *sb_web_put_name(unsigned char *at, const char name[5])
+{
+    for (int i = 0; i < 4; i++) *at++ = (unsigned char)name[i];
+    return at;
+}
+
 unsigned char *sb_web_put_u32(unsigned char *at, uint32_t value)
 {
     return put(at, value, 4);

@@ -16,7 +16,8 @@ sb_web_blob *sb_web_blob_keep(sb_web_blob *blob);
 /* NULL has no effect. */
 void sb_web_blob_release(sb_web_blob *blob);
 
-/* Write a number, low byte first, and return the place behind it. */
+/* Write the four letters of a record's name, or a number, low byte first, and return the place behind. */
+unsigned char *sb_web_put_name(unsigned char *at, const char name[5]);
 unsigned char *sb_web_put_u32(unsigned char *at, uint32_t value);
 unsigned char *sb_web_put_f32(unsigned char *at, float value);
 unsigned char *sb_web_put_f64(unsigned char *at, double value);

@@ -27,9 +27,8 @@ sb_web_blob *sb_web_record_frame(const sb_live_frame *frame, int64_t run_id)
     if (size > UINT32_MAX) return NULL;
     sb_web_blob *blob = sb_web_blob_create(size);
     if (!blob) return NULL;
-    unsigned char *at = blob->bytes;
-    memcpy(at, "SBF1", 4);
-    at = sb_web_put_u32(at + 4, (uint32_t)size);
+    unsigned char *at = sb_web_put_name(blob->bytes, "SBF1");
+    at = sb_web_put_u32(at, (uint32_t)size);
     at = sb_web_put_f64(at, frame->time);
     at = sb_web_put_f64(at, (double)frame->step);
     at = sb_web_put_f64(at, (double)frame->frame);
@@ -53,7 +52,6 @@ sb_web_blob *sb_web_record_alive(double seconds)
 {
     sb_web_blob *blob = sb_web_blob_create(SB_WEB_RECORD_ALIVE);
     if (!blob) return NULL;
-    memcpy(blob->bytes, "SBA1", 4);
-    sb_web_put_f64(sb_web_put_u32(blob->bytes + 4, SB_WEB_RECORD_ALIVE), seconds);
+    sb_web_put_f64(sb_web_put_u32(sb_web_put_name(blob->bytes, "SBA1"), SB_WEB_RECORD_ALIVE), seconds);
     return blob;
 }

@@ -121,8 +121,7 @@ sb_web_blob *sb_web_record_scene(const sb_live_scene *scene)
     if (size > UINT32_MAX) goto done;
     blob = sb_web_blob_create(size);
     if (!blob) goto done;
-    memcpy(blob->bytes, "SBS1", 4);
-    unsigned char *at = sb_web_put_u32(blob->bytes + 4, (uint32_t)length);
+    unsigned char *at = sb_web_put_u32(sb_web_put_name(blob->bytes, "SBS1"), (uint32_t)length);
     memcpy(at, text, length);
     at += length;
     for (size_t b = 0; b < scene->body_count; b++) at = put_mesh(at, &scene->bodies[b]);

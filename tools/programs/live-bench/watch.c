@@ -137,7 +137,7 @@ static sb_status start(state *s, sb_error *error)
     snprintf(s->process.output, sizeof s->process.output, "%s", w->output);
     sb_process_shorebreak(&s->process, w->program, w->scene, w->out);
     sb_process_set(&s->process, settings, sizeof settings / sizeof *settings);
-    sb_process_add(&s->process, "--overwrite", "--live", NULL);
+    sb_process_add(&s->process, "--overwrite", "--live", (const char *)NULL);
     return sb_process_start(&s->process, error);
 }
 
