@@ -53,8 +53,13 @@ static void watched_and_commanded(void **state)
 static void receiver_crashes(void **state)
 {
     (void)state;
-    const pid_t run = shown_start("crashed", "resolution=0.1", "1000"), server = child_of(run),
-                guard = child_of(server), receiver = child_of(guard);
+    const pid_t run = shown_start("crashed", "resolution=0.1", "1000");
+    pid_t server = 0, guard = 0, receiver = 0;
+    for (const double end = sb_clock() + 10; receiver == 0 && sb_clock() < end; usleep(20000)) {
+        server = child_of(run);
+        guard = server ? child_of(server) : 0;
+        receiver = guard ? child_of(guard) : 0;
+    }
     assert_true(server > 0 && guard > 0 && receiver > 0);
     const int reader = shown_connect();
     static const char frames[] = "GET /frames HTTP/1.1\r\nHost: localhost\r\n\r\n";

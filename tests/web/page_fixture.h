@@ -150,7 +150,24 @@ static inline void stop_source(pid_t process)
 
 /* ---- the page ---- */
 
-static inline void screenshot(chromium *browser, const char *name)
+/* The browser of all tests of a program; NULL: Chromium is not there. */
+static chromium *browser;
+
+static int start_browser(void **state)
+{
+    (void)state;
+    if (chromium_is_there()) browser = chromium_start(1280, 800);
+    return 0;
+}
+
+static int stop_browser(void **state)
+{
+    (void)state;
+    if (browser) chromium_stop(browser);
+    return 0;
+}
+
+static inline void screenshot(const char *name)
 {
     const char *folder = getenv("SB_SCREENSHOTS");
     char path[512];
@@ -158,17 +175,15 @@ static inline void screenshot(chromium *browser, const char *name)
     if (folder) chromium_screenshot(browser, path);
 }
 
-static inline chromium *open_page(int port)
+static inline void open_page(int port)
 {
     char url[64];
     snprintf(url, sizeof url, "http://127.0.0.1:%d/", port);
-    chromium *browser = chromium_start(1280, 800);
     chromium_open(browser, url);
     chromium_await(browser,
                    "window.shorebreak !== undefined && shorebreak.times.frames > 2 && "
                    "shorebreak.view.scene !== undefined && shorebreak.times.pictures > 2",
                    30);
-    return browser;
 }
 
 /* Draws the newest frame and returns a number that depends on all pixels, and the share of them that are blue. */
@@ -179,7 +194,7 @@ static const char pixels[] =
     " for (let i = 0; i < b.length; i += 4) { hash = (hash * 31 + b[i] + 3 * b[i + 1] + 7 * b[i + 2]) >>> 0;"
     " if (b[i + 2] > b[i] + 40) blue++; } return [hash, blue / (w * h)]; })()";
 
-static inline double picture_of(chromium *browser, int which)
+static inline double picture_of(int which)
 {
     char expression[1024];
     snprintf(expression, sizeof expression, "%s[%d]", pixels, which);
@@ -199,7 +214,7 @@ static inline int skip_without_chromium(void)
         if (skip_without_chromium()) skip();                                                                           \
     } while (0)
 
-static inline void click(chromium *browser, const char *id)
+static inline void click(const char *id)
 {
     char expression[128];
     snprintf(expression, sizeof expression, "document.getElementById('%s').click()", id);

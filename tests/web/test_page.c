@@ -2,27 +2,23 @@
    SB_JUDGE_TIMES=1 judges these times; without it, they may be those of a busy machine. */
 #include "page_fixture.h"
 
-/* The run and the page of the first two tests. */
+/* The run of the first two tests. */
 static pid_t shared_run;
-static chromium *shared_browser;
 
-static int open_shared(void **state)
+static int start_all(void **state)
 {
-    (void)state;
-    if (!chromium_is_there()) return 0;
+    start_browser(state);
+    if (!browser) return 0;
     const int port = free_port();
     shared_run = start_source(port, PARTICLES);
-    shared_browser = open_page(port);
+    open_page(port);
     return 0;
 }
 
-static int close_shared(void **state)
+static int stop_all(void **state)
 {
-    (void)state;
-    if (!shared_browser) return 0;
-    chromium_stop(shared_browser);
-    stop_source(shared_run);
-    return 0;
+    if (shared_run) stop_source(shared_run);
+    return stop_browser(state);
 }
 
 static bool times_are_judged(void)
@@ -34,35 +30,34 @@ static bool times_are_judged(void)
 static void water_and_plots(void **state)
 {
     SKIP_WITHOUT_CHROMIUM();
-    chromium *browser = shared_browser;
-    assert_true(picture_of(browser, 1) > 0.1); /* there is water */
-    const double first = picture_of(browser, 0), frames = chromium_number(browser, "shorebreak.times.frames");
+    assert_true(picture_of(1) > 0.1); /* there is water */
+    const double first = picture_of(0), frames = chromium_number(browser, "shorebreak.times.frames");
     chromium_await(browser, "document.querySelectorAll('#forces canvas').length > 0", 10);
     const double rows = chromium_number(browser, "shorebreak.plots.plots.forces.graph.numRows()");
     usleep(1500000);
     assert_true(chromium_number(browser, "shorebreak.times.frames") > frames + 3);
-    assert_true(picture_of(browser, 0) != first); /* it moves */
+    assert_true(picture_of(0) != first); /* it moves */
     assert_true(chromium_number(browser, "shorebreak.plots.plots.forces.graph.numRows()") > rows + 3);
     assert_true(chromium_number(browser, "shorebreak.plots.plots.gauges.graph.numRows()") > 0);
     /* Names are text, whatever is in them. */
     assert_true(
         chromium_true(browser, "document.getElementById('forces-legend').innerText.includes('<b>reactor</b>')"));
     assert_true(chromium_true(browser, "document.querySelectorAll('b').length === 0"));
-    screenshot(browser, "desktop");
+    screenshot("desktop");
     chromium_resize(browser, 390, 844, true);
     usleep(1500000);
     assert_true(chromium_true(browser, "document.documentElement.scrollWidth <= innerWidth"));
-    screenshot(browser, "phone");
+    screenshot("phone");
     chromium_true(browser, "scrollTo(0, 1e4)");
     usleep(300000);
-    screenshot(browser, "phone-below");
+    screenshot("phone-below");
     assert_string_equal(chromium_errors(browser), "");
     chromium_true(browser, "scrollTo(0, 0)");
     chromium_resize(browser, 1280, 800, false);
 }
 
 /* Turns the picture by dragging; prints and returns the medians of the times of the events. */
-static void turn(chromium *browser, double *to_draw, double *to_picture)
+static void turn(double *to_draw, double *to_picture)
 {
     double draws[15], pictures[15];
     chromium_mouse(browser, "mousePressed", 400, 400);
@@ -91,11 +86,10 @@ static void turn(chromium *browser, double *to_draw, double *to_picture)
 static void orbit(void **state)
 {
     SKIP_WITHOUT_CHROMIUM();
-    chromium *browser = shared_browser;
     usleep(500000); /* after the change of its size */
     double to_draw, to_picture;
     const double azimuth = chromium_number(browser, "shorebreak.view.camera.azimuth");
-    turn(browser, &to_draw, &to_picture);
+    turn(&to_draw, &to_picture);
     assert_true(fabs(chromium_number(browser, "shorebreak.view.camera.azimuth") - azimuth) > 0.5);
     print_message("%d particles: orbit to draw call %.1f ms, to the new picture %.1f ms (one particle in %g drawn)\n",
                   PARTICLES, to_draw, to_picture, chromium_number(browser, "shorebreak.times.every"));
@@ -104,7 +98,7 @@ static void orbit(void **state)
     chromium_await(browser, "shorebreak.times.pictures > 0", 1);
     usleep(300000);
     assert_true(chromium_number(browser, "shorebreak.view.camera.distance") < 0.9 * distance);
-    screenshot(browser, "turned");
+    screenshot("turned");
     assert_string_equal(chromium_errors(browser), "");
     assert_true(to_draw > 0 && to_picture > 0);
     if (times_are_judged()) assert_true(to_draw <= 16 && to_picture <= 100);
@@ -113,9 +107,11 @@ static void orbit(void **state)
 static void many_particles(void **state)
 {
     SKIP_WITHOUT_CHROMIUM();
+    chromium_open(browser, "about:blank");
+    stop_source(shared_run);
     const int port = free_port();
-    const pid_t run = start_source(port, MANY);
-    chromium *browser = open_page(port);
+    shared_run = start_source(port, MANY);
+    open_page(port);
     double parse = 0, upload = 0;
     for (int i = 0; i < 10; i++) {
         usleep(150000);
@@ -125,8 +121,6 @@ static void many_particles(void **state)
     print_message("%d particles: parse %.2f ms and upload %.2f ms per frame\n", MANY, parse, upload);
     if (times_are_judged()) assert_true(parse + upload <= 15);
     assert_string_equal(chromium_errors(browser), "");
-    chromium_stop(browser);
-    stop_source(run);
 }
 
 int main(void)
@@ -136,5 +130,5 @@ int main(void)
         cmocka_unit_test(orbit),
         cmocka_unit_test(many_particles),
     };
-    return cmocka_run_group_tests(tests, open_shared, close_shared);
+    return cmocka_run_group_tests(tests, start_all, stop_all);
 }

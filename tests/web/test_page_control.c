@@ -6,32 +6,31 @@ static void pause_and_resume(void **state)
     SKIP_WITHOUT_CHROMIUM();
     const int port = free_port();
     const pid_t run = start_source(port, 5000);
-    chromium *browser = open_page(port);
+    open_page(port);
     chromium_await(browser, "document.getElementById('why').textContent.includes('token')", 5);
     assert_true(chromium_true(browser, "document.getElementById('command-pause').disabled"));
     chromium_true(browser, "(document.getElementById('token').value = '" TOKEN "',"
                            " document.querySelector('#login button').click())");
     chromium_await(browser, "!document.getElementById('command-pause').disabled", 5);
-    click(browser, "command-pause");
+    click("command-pause");
     chromium_await(browser, "document.getElementById('state').textContent === 'paused'", 5);
     usleep(300000);
     const double time = chromium_number(browser, "shorebreak.times.time");
-    const double picture = picture_of(browser, 0);
+    const double picture = picture_of(0);
     usleep(1000000);
     assert_near(chromium_number(browser, "shorebreak.times.time"), time, 0);
-    assert_near(picture_of(browser, 0), picture, 0);
-    screenshot(browser, "paused");
-    click(browser, "command-resume");
+    assert_near(picture_of(0), picture, 0);
+    screenshot("paused");
+    click("command-resume");
     chromium_await(browser, "document.getElementById('state').textContent === 'running'", 5);
     usleep(500000);
     assert_true(chromium_number(browser, "shorebreak.times.time") > time);
     /* A command that the run refuses is reported. */
-    click(browser, "command-checkpoint");
+    click("command-checkpoint");
     chromium_await(browser, "document.getElementById('why').textContent.includes('no such command')", 5);
     /* The refusal is the only message on the console. */
     const char *errors = chromium_errors(browser);
     assert_true(strstr(errors, "400") && !strchr(strchr(errors, '\n') + 1, '\n'));
-    chromium_stop(browser);
     stop_source(run);
 }
 
@@ -40,21 +39,20 @@ static void started_again(void **state)
     SKIP_WITHOUT_CHROMIUM();
     const int port = free_port();
     pid_t run = start_source(port, 5000);
-    chromium *browser = open_page(port);
+    open_page(port);
     stop_source(run);
     chromium_await(browser, "document.getElementById('notice').textContent.includes('is lost')", 10);
-    screenshot(browser, "lost");
+    screenshot("lost");
     run = start_source(port, 5000);
     chromium_await(browser, "document.getElementById('notice').textContent.includes('started again')", 10);
     const double frames = chromium_number(browser, "shorebreak.times.frames");
     usleep(1500000);
     assert_true(chromium_number(browser, "shorebreak.times.frames") > frames + 3);
-    chromium_stop(browser);
     stop_source(run);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(pause_and_resume), cmocka_unit_test(started_again)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, start_browser, stop_browser);
 }
