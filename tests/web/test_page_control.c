@@ -20,6 +20,18 @@ static void pause_and_resume(void **state)
     usleep(1000000);
     assert_near(chromium_number(browser, "shorebreak.times.time"), time, 0);
     assert_near(picture_of(0), picture, 0);
+    /* The same frame coloured by pressure; 10 m of still water have 100 kPa at the bottom. */
+    static const char recolour[] = "(() => { const c = document.getElementById('colour'); c.value = '%s';"
+                                   " c.dispatchEvent(new Event('change')); return true; })()";
+    char expression[256];
+    snprintf(expression, sizeof expression, recolour, "pressure");
+    assert_true(chromium_true(browser, expression));
+    assert_true(picture_of(0) != picture);
+    chromium_await(browser, "document.getElementById('ticks').lastChild.textContent === '100'", 2);
+    screenshot("pressure");
+    snprintf(expression, sizeof expression, recolour, "speed");
+    assert_true(chromium_true(browser, expression));
+    assert_near(picture_of(0), picture, 0);
     screenshot("paused");
     click("command-resume");
     chromium_await(browser, "document.getElementById('state').textContent === 'running'", 5);
