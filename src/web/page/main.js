@@ -35,7 +35,8 @@ function showState(name, label = name) {
 
 // ---- facts ----
 
-const seconds = (s) => (s < 90 ? `${s.toFixed(0)} s` : s < 5400 ? `${(s / 60).toFixed(0)} min` : `${(s / 3600).toFixed(1)} h`);
+const seconds = (s) =>
+  (s < 90 ? `${s.toFixed(0)} s` : s < 5400 ? `${(s / 60).toFixed(0)} min` : `${(s / 3600).toFixed(1)} h`);
 const percent = (part) => `${Number((100 * part).toPrecision(2))} %`;
 
 function facts(s) {
@@ -73,7 +74,8 @@ function showFacts(s) {
 function show(s) {
   element('run').textContent = s.run;
   document.title = `${s.run} – shorebreak`;
-  if (status && status.run_id !== s.run_id) notice(`The run was started again at ${s.time_s.toFixed(2)} s; this page follows it.`);
+  if (status && status.run_id !== s.run_id)
+    notice(`The run was started again at ${s.time_s.toFixed(2)} s; this page follows it.`);
   if (s.state !== 'done' && s.silent_s > SILENT) {
     showState('lost', 'silent');
     notice(`No message from the run for ${seconds(s.silent_s)}.`, true);

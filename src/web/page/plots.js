@@ -57,7 +57,8 @@ class Plot {
       colors: names.map((name, k) => lineColour(k)),
       visibility: names.map((name) => !this.hidden.has(name)),
       legend: 'never', xlabel: 't, s', strokeWidth: 1.4, gridLineColor: '#e6ebf0', axisLineColor: '#c5ced7',
-      axisLabelFontSize: 11, xLabelHeight: 14, axes: { x: { pixelsPerLabel: 45 }, y: { pixelsPerLabel: 28 } }, connectSeparatedPoints: false, animatedZooms: false,
+      axisLabelFontSize: 11, xLabelHeight: 14, axes: { x: { pixelsPerLabel: 45 }, y: { pixelsPerLabel: 28 } },
+      connectSeparatedPoints: false, animatedZooms: false,
       highlightCallback: (event, x, points, row) => this.show(row),
       unhighlightCallback: () => this.show(this.data.length - 1),
     });

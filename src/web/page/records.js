@@ -3,8 +3,8 @@ const HEAD = 8, FRAME_HEAD = 96, PART = 32, MOVED = 32, LARGEST = 1 << 30;
 
 const name = (bytes, at) => String.fromCharCode(...bytes.subarray(at, at + 4));
 
-// Collects the records of GET /frames from pieces of any length. Two buffers are used in turns: a frame stays valid until
-// the one after the next is complete.
+// Collects the records of GET /frames from pieces of any length. Two buffers are used in turns: a frame stays valid
+// until the one after the next is complete.
 export class RecordReader {
   constructor(onFrame) {
     this.onFrame = onFrame;

@@ -3,7 +3,8 @@ import { Camera, cameraAt } from './camera.js';
 import { Picture, STRIDE_MAX } from './picture.js';
 
 const TURN = 0.006; // radians per pixel
-const SLOW = 50, FAST = 25; // ms: while the camera moves, fewer particles are drawn if a picture takes longer, more if less
+// ms: while the camera moves, fewer particles are drawn if a picture takes longer, and more if it takes less.
+const SLOW = 50, FAST = 25;
 const element = (id) => document.getElementById(id);
 
 export class View {
