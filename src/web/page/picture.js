@@ -112,8 +112,9 @@ export class Picture {
     this.colouring = { chosen: name === 'speed' ? [1, 0] : [0, 1], name, top };
   }
 
-  resize() {
-    const ratio = Math.min(window.devicePixelRatio || 1, 2), { canvas } = this;
+  // scale: pixels of the picture per pixel of the screen, along a side.
+  resize(scale) {
+    const ratio = scale * Math.min(window.devicePixelRatio || 1, 2), { canvas } = this;
     const width = Math.max(1, Math.round(canvas.clientWidth * ratio));
     const height = Math.max(1, Math.round(canvas.clientHeight * ratio));
     if (canvas.width !== width || canvas.height !== height) {

@@ -4,7 +4,8 @@ import { Picture, STRIDE_MAX } from './picture.js';
 
 const TURN = 0.006; // radians per pixel
 // ms: while the camera moves, fewer particles are drawn if a picture takes longer, and more if it takes less.
-const SLOW = 50, FAST = 25;
+const SLOW = 40, FAST = 15;
+const COARSE = 2; // above so many, the picture has half as many pixels along a side as well
 const element = (id) => document.getElementById(id);
 
 export class View {
@@ -205,7 +206,7 @@ export class View {
       this.times.upload = performance.now() - begin;
     }
     if (this.preset && this.preset.keys && this.preset.keys.length > 1) this.place(this.preset, this.time || 0);
-    this.picture.resize();
+    this.picture.resize(this.moving && this.every > COARSE ? 0.5 : 1);
     this.picture.setColouring(element('colour').value, this.top());
     const every = this.moving ? Math.round(this.every) : 1;
     this.picture.draw(this.camera, every);
