@@ -23,6 +23,11 @@ static const double CALM = 0.002; /* highest speed of calm water, over sqrt(g D)
 enum { TRIAL_STEPS = 60 };
 static const double STILL_FALLING = 0.7;
 
+/* With images: highest mean speed of a group of cells with at least FLOW_PARTICLES particles in water at rest, over
+   sqrt(g D). */
+enum { FLOW_PARTICLES = 16 };
+static const double FLOW = 0.003;
+
 bool sb_sim_settles(const sb_scene *scene)
 {
     return scene->numerics.settle_steps > 0;
@@ -132,28 +137,26 @@ static void begin(sb_sim *sim)
     sb_report_update(sim);
 }
 
-/* Kinetic energy of a group's mean motion, in units of a particle's mass. */
+/* Speed of a group's mean motion, m/s; 0 for a group of few particles, whose mean is that of their own motion. */
 static double flow_of(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_MAX])
 {
+    (void)terms;
+    const size_t n = group->end - group->first;
     sb_f4 sum = {0};
     for (size_t i = group->first; i < group->end; i++) sum += sim->state.velocity[i];
-    terms[0] = 0.5 * (double)sb_sum3(sum * sum) / (double)(group->end - group->first);
-    return 0;
+    return n < FLOW_PARTICLES ? 0 : sqrt((double)sb_sum3(sum * sum)) / (double)n;
 }
 
-/* Ends settling if further damped steps would change little. With images the flow between basins counts, and not the
-   motion of single particles about it, which does not cease. */
+/* Ends settling if further damped steps would change little. With images the flow between basins must have ceased as
+   well: its energy is small beside that of the motion of single particles. */
 static void judge_trial(sb_sim *sim)
 {
     sb_settle *settle = &sim->state.settle;
     if ((settle->done - CREEP_FIRST) % TRIAL_STEPS != 0) return;
-    double kinetic;
-    if (sim->needs.images) {
-        sb_sum_groups(sim, 1, flow_of, &kinetic);
-        kinetic *= (double)sim->constant.mass;
-    } else
-        kinetic = sb_sim_energy(sim).kinetic;
-    if (kinetic > STILL_FALLING * settle->kinetic) settle->most = settle->done;
+    const double kinetic = sb_sim_energy(sim).kinetic;
+    const double flow = sim->needs.images ? sb_sum_groups(sim, 0, flow_of, NULL) : 0;
+    const bool flows = flow > FLOW * (double)sim->constant.wave_speed;
+    if (kinetic > STILL_FALLING * settle->kinetic && !flows) settle->most = settle->done;
     settle->kinetic = kinetic;
 }
 
