@@ -38,10 +38,11 @@ typedef struct sb_live_scene {
     bool has_level;
     double level, still_depth, speed_max, pressure_max, measure_interval, frame_interval;
     int32_t width, height;
-    size_t body_count, camera_count, gauge_count;
+    size_t body_count, camera_count, gauge_count, wavemaker_count;
     sb_live_body *bodies;
     sb_live_camera *cameras;
     sb_live_gauge *gauges;
+    char (*wavemakers)[SB_STREAM_NAME]; /* names of those that wait for a command to start */
 } sb_live_scene;
 
 /* Decodes an encoded scene from untrusted bytes. SB_BAD_INPUT as in decode.h, and if a triangle names a vertex that

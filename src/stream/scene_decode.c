@@ -10,7 +10,15 @@
 
 /* The fewest bytes that each of these takes in the encoding. A count is checked by them before memory is reserved. */
 enum { SIDE_MAX = 16384 }; /* px */
-enum { BODY_BYTES = 61, CAMERA_BYTES = 77, KEY_BYTES = 64, GAUGE_BYTES = 21, VERTEX_BYTES = 12, TRIANGLE_BYTES = 12 };
+enum {
+    BODY_BYTES = 61,
+    CAMERA_BYTES = 77,
+    KEY_BYTES = 64,
+    GAUGE_BYTES = 21,
+    WAVEMAKER_BYTES = 5,
+    VERTEX_BYTES = 12,
+    TRIANGLE_BYTES = 12
+};
 
 /* Reads a count of items that take at least `bytes` each. */
 static size_t take_items(sb_message_reader *in, size_t bytes)
@@ -115,6 +123,9 @@ static void take_lists(sb_message_reader *in, sb_live_scene *scene, bool *no_mem
         scene->gauges[i].x = sb_reader_double(in);
         scene->gauges[i].y = sb_reader_double(in);
     }
+    scene->wavemaker_count = take_items(in, WAVEMAKER_BYTES);
+    scene->wavemakers = make(in, scene->wavemaker_count, sizeof *scene->wavemakers, no_memory);
+    for (size_t i = 0; i < scene->wavemaker_count && !in->problem; i++) sb_reader_name(in, scene->wavemakers[i]);
 }
 
 sb_status sb_live_scene_decode(const void *buffer, size_t size, sb_live_scene *out, sb_error *error)
@@ -148,5 +159,6 @@ void sb_live_scene_free(sb_live_scene *scene)
     sb_free(scene->bodies);
     sb_free(scene->cameras);
     sb_free(scene->gauges);
+    sb_free(scene->wavemakers);
     *scene = (sb_live_scene){0};
 }

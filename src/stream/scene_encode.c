@@ -73,7 +73,8 @@ static bool set_lists(shorebreak_scene_t *to, const sb_scene *scene, const sb_mo
     to->bodies = sb_alloc(model->body_count, sizeof *to->bodies);
     to->cameras = sb_alloc(scene->render.camera_count, sizeof *to->cameras);
     to->gauges = sb_alloc(measure->gauge_count, sizeof *to->gauges);
-    if (!to->bodies || !to->cameras || !to->gauges) return false;
+    to->wavemaker_names = sb_alloc(scene->wavemaker_count, sizeof *to->wavemaker_names);
+    if (!to->bodies || !to->cameras || !to->gauges || !to->wavemaker_names) return false;
     for (; (size_t)to->body_count < model->body_count; to->body_count++)
         if (!set_body(&to->bodies[to->body_count], &model->bodies[to->body_count], scene->domain.min)) return false;
     for (; (size_t)to->camera_count < scene->render.camera_count; to->camera_count++)
@@ -82,6 +83,9 @@ static bool set_lists(shorebreak_scene_t *to, const sb_scene *scene, const sb_mo
         const sb_gauge *gauge = &measure->gauges[to->gauge_count];
         to->gauges[to->gauge_count] = (shorebreak_gauge_t){.name = text(gauge->name), .x = gauge->x, .y = gauge->y};
     }
+    for (size_t w = 0; w < scene->wavemaker_count; w++)
+        if (isinf(scene->wavemakers[w].law.start))
+            to->wavemaker_names[to->wavemaker_count++] = text(scene->wavemakers[w].name);
     return true;
 }
 
@@ -101,6 +105,7 @@ static void free_lists(shorebreak_scene_t *to, const sb_scene *scene, const sb_m
     sb_free(to->bodies);
     sb_free(to->cameras);
     sb_free(to->gauges);
+    sb_free(to->wavemaker_names);
 }
 
 static double meshes_size(const sb_model *model)

@@ -68,6 +68,13 @@ static void put_gauges(sb_json *json, const sb_live_scene *scene)
     sb_json_close(json);
 }
 
+static void put_wavemakers(sb_json *json, const sb_live_scene *scene)
+{
+    sb_json_open(json, "wavemakers", '[');
+    for (size_t w = 0; w < scene->wavemaker_count; w++) sb_json_text(json, NULL, scene->wavemakers[w]);
+    sb_json_close(json);
+}
+
 static void describe(FILE *stream, const sb_live_scene *scene)
 {
     sb_json json;
@@ -91,6 +98,7 @@ static void describe(FILE *stream, const sb_live_scene *scene)
     sb_json_number(&json, "frame_interval", scene->frame_interval);
     put_cameras(&json, scene);
     put_gauges(&json, scene);
+    put_wavemakers(&json, scene);
     put_bodies(&json, scene);
     sb_json_close(&json);
 }

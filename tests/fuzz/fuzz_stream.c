@@ -80,6 +80,7 @@ static void on_scene(void *user, const sb_live_scene *scene)
     }
     for (size_t c = 0; c < scene->camera_count; ++c) FUZZ_CHECK(scene->cameras[c].key_count > 0);
     for (size_t g = 0; g < scene->gauge_count; ++g) check_name(scene->gauges[g].name);
+    for (size_t w = 0; w < scene->wavemaker_count; ++w) check_name(scene->wavemakers[w]);
 }
 
 static void try_scene(const uint8_t *bytes, size_t size)

@@ -94,13 +94,14 @@ static inline void fixture_publish(sb_stream *stream, const sb_frame *frame)
     sb_stream_publish(stream, frame);
 }
 
-/* A scene with `bodies` bodies, each a tetrahedron but the last, which has no mesh; two cameras; `gauges` gauges. Free
-   with fixture_scene_free. */
+/* A scene with `bodies` bodies, each a tetrahedron but the last, which has no mesh; two cameras; `gauges` gauges;
+   three wave makers, of which the first and the last wait for a command. Free with fixture_scene_free. */
 typedef struct fixture_scene {
     sb_scene scene;
     sb_model model;
     sb_camera cameras[2];
     sb_camera_key keys[4];
+    sb_wavemaker_use wavemakers[3];
 } fixture_scene;
 
 static inline void fixture_scene_make(fixture_scene *f, size_t bodies, size_t gauges)
@@ -128,6 +129,11 @@ static inline void fixture_scene_make(fixture_scene *f, size_t bodies, size_t ga
                                      .fov = 40 + (double)k};
     f->cameras[0] = (sb_camera){.name = "shore", .key_count = 1, .keys = f->keys};
     f->cameras[1] = (sb_camera){.name = "flight", .key_count = 3, .keys = f->keys + 1};
+    f->wavemakers[0] = (sb_wavemaker_use){.name = "piston", .law.start = (double)INFINITY};
+    f->wavemakers[1] = (sb_wavemaker_use){.name = "flap", .law.start = 3};
+    f->wavemakers[2] = (sb_wavemaker_use){.name = "slide", .law.start = (double)INFINITY};
+    f->scene.wavemaker_count = 3;
+    f->scene.wavemakers = f->wavemakers;
     f->scene.stream.interval = 0.5;
     f->model = (sb_model){.spacing = 0.75, .still_depth = 10, .fluid_count = 777, .body_count = bodies};
     f->model.bodies = sb_alloc(bodies, sizeof *f->model.bodies);

@@ -278,7 +278,17 @@ static void damaged_scenes(void **state)
             refusals += decode_scene(&bad, NULL) != SB_OK;
         }
     assert_true(refusals > scene.size / 4);
-    for (long n = 1; n <= 12; n++) {
+    /* The count of wave makers stands before their names, "piston" and "slide", at the end. */
+    const size_t count_at = scene.size - 4 - (4 + 7) - (4 + 6);
+    static const uint32_t counts[] = {1, 3, 4, 5, 0x10000000, 0xffffffff};
+    message few = scene;
+    put32(&few, count_at, 2);
+    assert_memory_equal(few.bytes, scene.bytes, scene.size);
+    for (size_t w = 0; w < sizeof counts / sizeof *counts; w++) {
+        put32(&few, count_at, counts[w]);
+        assert_int_equal(decode_scene(&few, NULL), SB_BAD_INPUT);
+    }
+    for (long n = 1; n <= 13; n++) {
         sb_memory_fail_at(n);
         assert_int_equal(decode_scene(&scene, &error), SB_FAILED);
         sb_memory_fail_at(0);

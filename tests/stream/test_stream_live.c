@@ -77,6 +77,9 @@ static void same_scene(const sb_live_scene *got, const fixture_scene *f, int64_t
             assert_int_equal(body->corners[c], sent->mesh.triangles[c / 3][c % 3]);
     }
     assert_int_equal(got->camera_count, 2);
+    assert_int_equal(got->wavemaker_count, 2);
+    assert_string_equal(got->wavemakers[0], "piston");
+    assert_string_equal(got->wavemakers[1], "slide");
     assert_string_equal(got->cameras[1].name, "flight");
     assert_int_equal(got->cameras[1].key_count, 3);
     for (size_t k = 0; k < 3; k++) {

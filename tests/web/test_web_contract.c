@@ -125,6 +125,7 @@ static void scene_has_meshes(void **state)
     must_have(json, "\"name\":\"building-0\"");
     must_have(json, "\"name\":\"flight\"");
     must_have(json, "\"name\":\"gauge-1\"");
+    must_have(json, "\"wavemakers\":[\"piston\",\"slide\"]");
     /* Two tetrahedra of four vertices and four triangles; the third body has no mesh. */
     assert_int_equal(r.size - (size_t)(body - r.bytes), 8 + length + 2 * 12 * (4 + 4));
     float vertex;
