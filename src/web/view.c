@@ -200,6 +200,8 @@ static void write_run(sb_json *json, const sb_status_message *s)
     sb_json_count(json, "lost_particles", (uint64_t)s->lost_particles);
     sb_json_number(json, "rate", s->rate);
     sb_json_count(json, "decimation", (uint64_t)s->decimation);
+    sb_json_vector(json, "region_min", sb_vec(s->region_min[0], s->region_min[1], s->region_min[2]));
+    sb_json_vector(json, "region_max", sb_vec(s->region_max[0], s->region_max[1], s->region_max[2]));
 }
 
 static void write_stream(sb_json *json, const sb_web_view *view, double now)

@@ -6,6 +6,8 @@
 #include "chromium.h"
 #include "web_fixture.h"
 
+#include "control/command.h"
+
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -20,6 +22,7 @@ typedef struct source {
     fixture_scene scene;
     bool paused;
     int steps; /* to do although it is paused */
+    int64_t commands;
 } source;
 
 static source here;
@@ -27,16 +30,23 @@ static source here;
 static inline sb_status obey(void *user, const char *json, size_t size, int64_t *id, sb_error *error)
 {
     (void)user;
-    (void)size;
-    *id = 1;
+    sb_command command;
+    const sb_status status = sb_command_from_json(json, size, &command, error);
+    if (status != SB_OK) return status;
+    *id = ++here.commands;
     if (strstr(json, "\"pause\""))
         here.paused = true;
     else if (strstr(json, "\"resume\""))
         here.paused = false;
     else if (strstr(json, "\"step\""))
         here.steps = 1;
-    else
+    else if (strstr(json, "\"checkpoint\""))
         return sb_fail(error, SB_BAD_INPUT, "no such command");
+    else { /* the reply is the command; one wave maker is refused */
+        sb_reply_message answer = {.id = *id, .refused = strstr(json, "slide")};
+        snprintf(answer.text, sizeof answer.text, "%s", json);
+        sb_stream_reply(here.site.stream, &answer);
+    }
     sb_stream_set_state(here.site.stream, here.paused ? SB_RUN_PAUSED : SB_RUN_RUNNING);
     return SB_OK;
 }

@@ -1,4 +1,4 @@
-/* The page in Chromium: its buttons work, and it goes on when the run is started again. */
+/* The page in Chromium: its buttons and fields work, and it goes on when the run is started again. */
 #include "page_fixture.h"
 
 static void pause_and_resume(void **state)
@@ -46,6 +46,95 @@ static void pause_and_resume(void **state)
     stop_source(run);
 }
 
+/* Waits for the run's reply to a command, which is the command itself. */
+static void await_reply(const char *text)
+{
+    char expression[512];
+    snprintf(expression, sizeof expression, "document.getElementById('why').textContent === '%s'", text);
+    chromium_await(browser, expression, 5);
+}
+
+static bool is_disabled(const char *id)
+{
+    char expression[128];
+    snprintf(expression, sizeof expression, "document.getElementById('%s').disabled", id);
+    return chromium_true(browser, expression);
+}
+
+/* Fills fields of the page as a user does. */
+static void enter(const char *id, const char *value)
+{
+    char expression[256];
+    snprintf(expression, sizeof expression,
+             "(() => { const f = document.getElementById('%s'); f.value = '%s';"
+             " return f.dispatchEvent(new Event('input', {bubbles: true})); })()",
+             id, value);
+    assert_true(chromium_true(browser, expression));
+}
+
+static void submit(const char *form)
+{
+    char expression[128];
+    snprintf(expression, sizeof expression, "document.querySelector('#%s [type=submit]').click()", form);
+    chromium_true(browser, expression);
+}
+
+static void wave_makers_and_the_stream(void **state)
+{
+    SKIP_WITHOUT_CHROMIUM();
+    const int port = free_port();
+    const pid_t run = start_source(port, 5000);
+    open_page(port);
+    const size_t errors = strlen(chromium_errors(browser)); /* of pages before this one */
+    assert_true(chromium_number(browser, "document.querySelectorAll('#starts button').length") == 2);
+    chromium_await(browser, "document.getElementById('why').textContent.includes('token')", 5);
+    assert_true(is_disabled("start-0") &&
+                chromium_true(browser, "document.querySelector('#stream-rate button').disabled"));
+    chromium_true(browser, "(document.getElementById('token').value = '" TOKEN "',"
+                           " document.querySelector('#login button').click())");
+    chromium_await(browser, "!document.getElementById('start-0').disabled", 5);
+    /* The first click asks. */
+    click("start-0");
+    chromium_await(browser, "document.getElementById('start-0').textContent === 'Start piston?'", 1);
+    assert_true(chromium_true(browser, "document.getElementById('why').textContent === ''"));
+    click("start-0");
+    await_reply("Start piston: {\"do\":\"trigger\",\"wavemaker\":\"piston\"}");
+    assert_true(is_disabled("start-0"));
+    click("start-1");
+    click("start-1");
+    await_reply("Start slide: refused: {\"do\":\"trigger\",\"wavemaker\":\"slide\"}");
+    assert_false(is_disabled("start-1"));
+    chromium_true(browser, "document.getElementById('stream').open = true");
+    /* The fields show what the run sends: all of the domain. */
+    chromium_await(browser, "document.getElementById('region-x-to').value === '400'", 2);
+    screenshot("stream");
+    chromium_resize(browser, 390, 844, true);
+    assert_true(chromium_true(browser, "document.documentElement.scrollWidth <= innerWidth"));
+    chromium_true(browser, "scrollTo(0, 500)");
+    usleep(300000);
+    screenshot("stream-phone");
+    chromium_resize(browser, 1280, 800, false);
+    enter("rate", "2.5");
+    submit("stream-rate");
+    await_reply("Frames per second: {\"do\":\"rate\",\"rate\":2.5}");
+    enter("decimation", "4");
+    submit("stream-decimation");
+    await_reply("One particle in: {\"do\":\"decimation\",\"decimation\":4}");
+    enter("region-x-from", "-50.5");
+    enter("region-z-to", "30");
+    submit("stream-region");
+    await_reply("Region: {\"do\":\"region\",\"min\":[-50.5,0,0],\"max\":[400,300,30]}");
+    click("stream-whole");
+    await_reply("Region: {\"do\":\"region\",\"off\":true}");
+    /* Numbers out of range are not sent. */
+    enter("decimation", "0");
+    submit("stream-decimation");
+    usleep(700000);
+    await_reply("Region: {\"do\":\"region\",\"off\":true}");
+    assert_int_equal(strlen(chromium_errors(browser)), errors);
+    stop_source(run);
+}
+
 static void started_again(void **state)
 {
     SKIP_WITHOUT_CHROMIUM();
@@ -65,6 +154,7 @@ static void started_again(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(pause_and_resume), cmocka_unit_test(started_again)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(pause_and_resume), cmocka_unit_test(wave_makers_and_the_stream),
+                                       cmocka_unit_test(started_again)};
     return cmocka_run_group_tests(tests, start_browser, stop_browser);
 }

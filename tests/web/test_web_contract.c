@@ -85,6 +85,7 @@ static void status_has_the_members(void **state)
     assert_near(number_at(json, "lost_particles"), 3, 0);
     assert_near(number_at(json, "density_error"), 4e-4, 0);
     assert_near(number_at(json, "fluid_particles"), 500, 0);
+    must_have(json, "\"rate\":0,\"decimation\":1,\"region_min\":[0, 0, 0],\"region_max\":[0, 0, 0]");
     must_have(json, "\"commands\":false");
     free(answer);
     sb_stream_set_state(s.stream, SB_RUN_PAUSED);

@@ -20,16 +20,12 @@ export class Controls {
     this.changed = changed;
     this.refused = false; // the server did not accept the token
     this.message = '';
-    this.buttons = BUTTONS.map((button) => {
-      const made = document.createElement('button');
-      made.type = 'button';
-      made.id = `command-${button.name}`;
-      made.textContent = button.label;
-      made.disabled = true;
-      made.addEventListener('click', () => this.press(button, made, eye));
-      return made;
-    });
-    element('commands').append(...this.buttons);
+    this.expected = new Map(); // what is waited for, by the id of the command
+    this.buttons = BUTTONS.map((button) => this.make({
+      ...button, id: `command-${button.name}`, words: button.words || (() => ({ do: 'picture', ...eye() })),
+    }));
+    this.starts = []; // of wave makers
+    element('commands').append(...this.buttons.map(({ made }) => made));
     element('login').addEventListener('submit', (event) => {
       event.preventDefault();
       this.refused = false;
@@ -40,28 +36,56 @@ export class Controls {
     });
   }
 
-  // A button that ends the run is pressed twice.
-  press(button, made, eye) {
+  make(button) {
+    const made = document.createElement('button');
+    made.type = 'button';
+    made.id = button.id;
+    made.textContent = button.label;
+    made.disabled = true;
+    button.made = made;
+    made.addEventListener('click', () => this.press(button));
+    return button;
+  }
+
+  // Each wave maker that waits for a command has a button. It is of no use once the run has obeyed.
+  setScene(scene) {
+    this.starts = scene.wavemakers.map((name, k) => {
+      const button = {
+        id: `start-${k}`, label: `Start ${name}`, sure: true, started: false,
+        words: () => ({ do: 'trigger', wavemaker: name }),
+        when: () => !button.started,
+        replied: (reply) => { button.started = button.started || !reply.refused; },
+      };
+      return this.make(button);
+    });
+    element('starts').replaceChildren(...this.starts.map(({ made }) => made));
+    this.show();
+  }
+
+  // A button that ends the run or starts a wave is pressed twice.
+  press(button) {
+    const { made } = button;
     if (button.sure && !made.classList.contains('sure')) {
       made.classList.add('sure');
       made.textContent = `${button.label}?`;
-      setTimeout(() => this.calm(button, made), 1e3 * SURE_SECONDS);
+      setTimeout(() => this.calm(button), 1e3 * SURE_SECONDS);
       return;
     }
-    this.calm(button, made);
-    this.send(button.label, button.words ? button.words() : { do: 'picture', ...eye() });
+    this.calm(button);
+    this.send(button.label, button.words(), button.replied);
   }
 
-  calm(button, made) {
+  calm({ made, label }) {
     made.classList.remove('sure');
-    made.textContent = button.label;
+    made.textContent = label;
   }
 
-  async send(label, words) {
+  // replied: called with the reply of the run.
+  async send(label, words, replied = () => {}) {
     this.say(`${label}: sent`);
     try {
       const { id } = await command(words);
-      this.expected = { id, label };
+      this.expected.set(id, { label, replied });
     } catch (problem) {
       this.say(`${label}: ${problem.message}`);
       if (problem.status === 401) this.needToken();
@@ -81,11 +105,14 @@ export class Controls {
   }
 
   setStatus(status) {
+    if (this.status && this.status.run_id !== status.run_id) this.expected.clear();
     this.status = status;
-    const reply = this.expected && (status.replies || []).find(({ id }) => id === this.expected.id);
-    if (reply) {
-      this.message = `${this.expected.label}: ${reply.refused ? 'refused: ' : ''}${reply.text || 'done'}`;
-      this.expected = null;
+    for (const reply of status.replies || []) {
+      const expected = this.expected.get(reply.id);
+      if (!expected) continue;
+      this.message = `${expected.label}: ${reply.refused ? 'refused: ' : ''}${reply.text || 'done'}`;
+      this.expected.delete(reply.id);
+      expected.replied(reply);
     }
     this.show();
   }
@@ -103,10 +130,10 @@ export class Controls {
 
   show() {
     const reason = this.reason(), { status } = this;
-    BUTTONS.forEach((button, k) => {
-      this.buttons[k].disabled = reason !== '' || !button.when(status);
-      this.buttons[k].title = reason;
-    });
+    for (const button of [...this.buttons, ...this.starts]) {
+      button.made.disabled = reason !== '' || !button.when(status);
+      button.made.title = reason || (button.started ? 'It has been started.' : '');
+    }
     element('why').textContent = reason || this.message;
     const useful = this.refused || (status && status.commands && status.state !== 'done');
     element('login').hidden = hasToken() || !useful;

@@ -3,6 +3,7 @@ import { ask } from './api.js';
 import { Controls } from './controls.js';
 import { Plots } from './plots.js';
 import { readScene, RecordReader } from './records.js';
+import { StreamLimits } from './stream.js';
 import { View } from './view.js';
 
 const POLL = 500, RETRY = 1000, SILENT = 3, NOTICE = 15000; // ms, ms, s, ms
@@ -13,6 +14,7 @@ const times = { frames: 0, parse: 0, upload: 0, pictures: 0, orbits: 0, orbitToD
 const view = new View(times);
 const plots = new Plots();
 const controls = new Controls(() => ({ eye: view.eye(), target: view.target() }), () => poll());
+const limits = new StreamLimits(controls);
 let status = null, sceneNumber = 0, timer = 0, polling = false;
 window.shorebreak = { times, view, plots };
 
@@ -88,6 +90,7 @@ function show(s) {
   status = s;
   showFacts(s);
   controls.setStatus(s);
+  limits.setStatus(s);
 }
 
 // ---- status, scene and rows ----
@@ -100,6 +103,7 @@ async function update() {
     const scene = readScene(await (await ask('/scene')).arrayBuffer());
     sceneNumber = s.scene;
     view.setScene(scene);
+    controls.setScene(scene);
   }
   for (let more = plots.lags(s); more;) more = plots.add(await (await ask(plots.query)).json());
 }
