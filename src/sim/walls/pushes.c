@@ -9,13 +9,34 @@ static double component_along(double way, double period)
     return period > 0 ? way - period * round(way / period) : way;
 }
 
+/* From a place to a position, the short way round a domain that repeats. */
+static sb_vec3 way_from(const sb_pushes *pushes, const sb_push_place *place, sb_vec3 at)
+{
+    sb_vec3 way = sb_sub(at, place->at);
+    way.x = component_along(way.x, pushes->period.x);
+    way.y = component_along(way.y, pushes->period.y);
+    return way;
+}
+
+bool sb_pushes_near(const sb_sim *sim, const sb_group *group)
+{
+    if (!sim->pushes) return false;
+    const double half = 2 * sim->space.quantum * (double)((uint64_t)1 << sim->space.shift);
+    const sb_vec3 middle = sb_add(sb_space_position(&sim->space, group->corner), sb_vec(half, half, half));
+    for (size_t p = 0; p < sim->pushes->place_count; p++) {
+        const sb_push_place *place = &sim->pushes->places[p];
+        const sb_vec3 way = way_from(sim->pushes, place, middle);
+        const double most = half + place->range;
+        if (fabs(way.x) < most && fabs(way.y) < most && fabs(way.z) < most) return true;
+    }
+    return false;
+}
+
 static bool is_near(const sb_pushes *pushes, size_t body, sb_vec3 at)
 {
     for (size_t p = 0; p < pushes->place_count; p++) {
         const sb_push_place *place = &pushes->places[p];
-        sb_vec3 way = sb_sub(at, place->at);
-        way.x = component_along(way.x, pushes->period.x);
-        way.y = component_along(way.y, pushes->period.y);
+        const sb_vec3 way = way_from(pushes, place, at);
         if (place->body == body && sb_dot(way, way) < place->range * place->range) return true;
     }
     return false;

@@ -15,6 +15,8 @@ typedef struct sb_pushes {
     bool failed;        /* no memory */
 } sb_pushes;
 
+/* Whether forces on particles of the group can be near a place. */
+bool sb_pushes_near(const sb_sim *sim, const sb_group *group);
 /* Adds a force on a body if it is near a place. Any thread may call it. */
 void sb_pushes_add(sb_pushes *pushes, const sb_wall_push *push);
 /* Forgets the pushes of the last step. */

@@ -230,6 +230,7 @@ static void do_group(sb_sim *sim, const sb_group *group, const sb_wall_drag *law
     const sb_f4 *velocity = sim->state.velocity; /* at the step's start */
     double works[WORKS] = {0};
     const uint32_t records = sb_around_count(sim, group);
+    const bool recorded = !sim->needs.images && sb_pushes_near(sim, group);
     sb_reactions reactions = {0};
     bool beside_wall = false;
     for (size_t i = group->first; i < group->end; i++) {
@@ -241,7 +242,7 @@ static void do_group(sb_sim *sim, const sb_group *group, const sb_wall_drag *law
         if (group->planes > 0) contact_facets(sim, group, i, to, works);
         if (sim->work.wall_pairs.count[i] == 0) continue;
         const sb_f4 drag = react(sim, i, law->on ? law : NULL, to);
-        if (sim->pushes && !sim->needs.images) record_pairs(sim, i);
+        if (recorded) record_pairs(sim, i);
         if (!sim->needs.images) contact(sim, i, to, works);
         if (law->on) works[0] += sb_ledger_work((sb_f4){0}, drag, velocity[i], sim->work.end_velocity[i]);
     }
