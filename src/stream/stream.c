@@ -179,7 +179,7 @@ static void send_status(sb_stream *stream)
     pthread_mutex_lock(&stream->lock);
     const sb_stream_progress progress = stream->progress;
     const sb_stream_limits limits = stream->limits;
-    const sb_run_state state = stream->state;
+    const sb_run_state state = stream->sent_state = stream->state;
     pthread_mutex_unlock(&stream->lock);
     const sb_frame_status *status = &progress.status;
     const sb_stream_counters count = sb_stream_count(stream);
@@ -265,12 +265,22 @@ static void send_pieces(sb_stream *stream, double now)
 
 /* ---- */
 
+/* Whether the state is another one than the last status had. */
+static bool state_changed(sb_stream *stream)
+{
+    pthread_mutex_lock(&stream->lock);
+    const bool changed = stream->state != stream->sent_state;
+    pthread_mutex_unlock(&stream->lock);
+    return changed;
+}
+
 double sb_stream_serve(sb_stream *stream)
 {
     const double now = sb_clock();
+    const bool late = stream->status_time < 0 || now >= stream->status_time + STATUS_SECONDS;
+    if (late || state_changed(stream)) send_status(stream); /* a reply to a command comes after the state it caused */
     sb_stream_send_replies(stream);
     sb_stream_send_rows(stream);
-    if (stream->status_time < 0 || now >= stream->status_time + STATUS_SECONDS) send_status(stream);
     send_pieces(stream, now);
     return SB_STREAM_SERVE;
 }

@@ -26,7 +26,7 @@ struct sb_stream {
 
     pthread_mutex_t lock; /* protects the members below up to the next comment; never held while LCM is called */
     sb_stream_progress progress;
-    sb_run_state state;
+    sb_run_state state, sent_state; /* sent_state: of the last status */
     sb_stream_rows waiting;
     sb_stream_limits limits;
     size_t reply_count;
