@@ -51,8 +51,8 @@ void sb_facet_warnings(const sb_scene *scene, const sb_model *model, sb_warning_
     if (found.places > 1) snprintf(more, sizeof more, " and in %zu other places", found.places - 1);
     snprintf(
         text, sizeof text,
-        "numerics.walls: near (%.4g, %.4g, %.4g)%s there are more than %d facets of walls, or %d edges, around %.3g "
-        "m: the run ends when water comes there; expected coarser meshes, or numerics.walls: particles",
+        "numerics.walls: near (%.4g, %.4g, %.4g)%s there are more than %d facets of walls, or %d edges, within %.3g "
+        "m: the run ends when water comes there; expected smoother meshes, or numerics.walls: particles",
         found.first.x, found.first.y, found.first.z, more, found.facets, found.edges, found.width);
     visit(context, text);
 }

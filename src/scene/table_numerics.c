@@ -74,7 +74,7 @@ static const sb_key keys[] = {
            "Coefficient sigma of the artificial wall friction; 0 leaves the term out."),
     CHOICE(walls, wall_names,
            "What the pressure meets at walls. `particles`: boundary particles [A12]. `images`: images of the "
-           "water, reflected at the walls' facets."),
+           "water, reflected at the walls' facets; surfaces have no detail finer than 0.1 spacings then."),
     CHOICE(wall_shear, shear_names,
            "`smooth`: walls exert shear by the law of the smooth wall, with the fluid's "
            "viscosity. `none`: free slip."),

@@ -133,7 +133,7 @@ sb_status sb_sim_find_crowding(const sb_scene *scene, const sb_model *model, sb_
     if (status == SB_OK) status = sb_paddles_create(sim, error);
     if (status == SB_OK) status = sb_mirrors_create(sim, error);
     if (status == SB_OK) {
-        found->width = 2 * sim->space.cell;
+        found->width = (double)sim->constant.support;
         found->places = sb_mirrors_crowded(sim, &found->first);
     }
     sb_walls_destroy(sim);

@@ -34,7 +34,7 @@ double sb_sim_longest_step(const sb_scene *scene, const sb_model *model, double 
 typedef struct sb_crowding {
     size_t places;
     sb_vec3 first;     /* m */
-    double width;      /* m, of a place */
+    double width;      /* m, within which they are */
     int facets, edges; /* the limits */
 } sb_crowding;
 sb_status sb_sim_find_crowding(const sb_scene *scene, const sb_model *model, sb_crowding *found, sb_error *error);

@@ -28,6 +28,7 @@ typedef struct sb_model_body {
 typedef struct sb_model {
     sb_vec3 min, max; /* m, the domain; min is the origin of stored positions */
     int dimensions;
+    bool images;        /* walls reflect water */
     double spacing;     /* m */
     double still_depth; /* m, D: the largest still depth of water */
     size_t fluid_count;

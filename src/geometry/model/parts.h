@@ -6,12 +6,13 @@
 #include "geometry/model/model.h"
 #include "geometry/solid/solid.h"
 
-/* Meshes for spatial queries (in 2D their section with y = 0) and their solids, one per body of the model including
-   the domain's. In 2D a body that the plane y = 0 does not cut has no solid. */
+/* Meshes of the surfaces that water meets (in 2D their section with y = 0) and their solids, one per body of the model
+   including the domain's. In 2D a body that the plane y = 0 does not cut has no solid. */
 typedef struct sb_model_space {
     size_t count;
     sb_mesh *section;     /* owned, in 2D and for the domain; else empty */
-    const sb_mesh **mesh; /* the section or the body's own */
+    sb_mesh *simple;      /* owned: with less detail than the body's own, if walls reflect water; else empty */
+    const sb_mesh **mesh; /* the section, the simple one or the body's own */
     sb_solid **solid;
 } sb_model_space;
 

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "geometry/sampling/sample.h"
+#include "geometry/solid/simplify.h"
 
 #include <string.h>
 
@@ -41,7 +42,21 @@ static double strip_width(const sb_model *model)
     return 1e3 * (model->max.x - model->min.x + model->max.z - model->min.z);
 }
 
-/* Sets the mesh for queries (the body's own or its section) and creates its solid. */
+/* In spacings: how far the surface that water meets may be from a body's mesh, if walls reflect water. */
+static const double SIMPLER = 0.1;
+
+/* The mesh of a body that water meets, in space->simple if it is not the body's own. */
+static sb_status choose_mesh(const sb_model *model, size_t index, sb_model_space *space, sb_error *error)
+{
+    const sb_model_body *body = model->bodies + index;
+    sb_mesh *simple = space->simple + index;
+    sb_status status = SB_OK;
+    if (model->images) status = sb_mesh_simplify(&body->mesh, body->role, SIMPLER * model->spacing, simple, error);
+    space->mesh[index] = simple->triangle_count > 0 ? simple : &body->mesh;
+    return status;
+}
+
+/* Sets the mesh for queries (the body's own, a simpler one, or its section) and creates its solid. */
 static sb_status add_solid(const sb_model *model, const sb_scene *scene, size_t index, sb_model_space *space,
                            sb_error *error)
 {
@@ -49,9 +64,9 @@ static sb_status add_solid(const sb_model *model, const sb_scene *scene, size_t 
     sb_mesh walls = {.open_surface = true};
     bool is_domain = body->mesh.triangle_count == 0;
     if (is_domain && !scene) return SB_OK;
-    sb_status status = is_domain ? domain_mesh(scene, &walls, error) : SB_OK;
+    sb_status status = is_domain ? domain_mesh(scene, &walls, error) : choose_mesh(model, index, space, error);
     if (status != SB_OK) return status;
-    const sb_mesh *mesh = is_domain ? &walls : &body->mesh;
+    const sb_mesh *mesh = is_domain ? &walls : space->mesh[index];
     if (model->dimensions == 2) {
         status = sb_section_mesh(mesh, strip_width(model), space->section + index, error);
         sb_mesh_free(&walls);
@@ -59,8 +74,6 @@ static sb_status add_solid(const sb_model *model, const sb_scene *scene, size_t 
     } else if (is_domain) {
         space->section[index] = walls;
         space->mesh[index] = space->section + index;
-    } else {
-        space->mesh[index] = mesh;
     }
     if (status == SB_OK && space->mesh[index]->triangle_count > 0)
         status = sb_solid_create(space->mesh[index], body->role, space->solid + index, error);
@@ -72,9 +85,10 @@ sb_status sb_model_space_create(const sb_model *model, const sb_scene *domain_of
 {
     sb_model_space made = {.count = model->body_count};
     made.section = sb_alloc(made.count, sizeof *made.section);
+    made.simple = sb_alloc(made.count, sizeof *made.simple);
     made.mesh = sb_alloc(made.count, sizeof(void *));
     made.solid = sb_alloc(made.count, sizeof(void *));
-    if (!made.section || !made.mesh || !made.solid) {
+    if (!made.section || !made.simple || !made.mesh || !made.solid) {
         sb_model_space_free(&made);
         return sb_fail_memory(error, "search trees");
     }
@@ -93,8 +107,10 @@ void sb_model_space_free(sb_model_space *space)
     for (size_t i = 0; i < space->count; ++i) {
         if (space->solid) sb_solid_destroy(space->solid[i]);
         if (space->section) sb_mesh_free(space->section + i);
+        if (space->simple) sb_mesh_free(space->simple + i);
     }
     sb_free(space->section);
+    sb_free(space->simple);
     sb_free(space->mesh);
     sb_free(space->solid);
     *space = (sb_model_space){0};

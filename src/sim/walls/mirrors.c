@@ -335,6 +335,37 @@ static box box_of(const sb_sim *sim, uint64_t code)
     return b;
 }
 
+/* Whether there are too many facets near a box. found: the entries [at, end) of its block. */
+static bool is_full(const sb_sim *sim, const box *b, size_t at, size_t end, sb_near *near)
+{
+    const sb_mirrors *m = &sim->walls.mirrors;
+    near->count = near->edge_count = 0;
+    near->full = false;
+    for (size_t k = at; k < end; k++) consider(sim, b, m->entry[k].mirror, near);
+    for (size_t k = 0; k < m->moving_count; k++) consider(sim, b, m->moving[k], near);
+    return near->full;
+}
+
+/* Whether there are too many near some single place in a block, so that dividing a group does not help. *place: it. */
+static bool is_crowded(const sb_sim *sim, const box *b, size_t at, size_t end, sb_near *near, sb_vec3 *place)
+{
+    enum { PLACES = 4 }; /* along one axis */
+    if (!is_full(sim, b, at, end, near)) return false;
+    const int layers = sim->constant.dimension == 2 ? 1 : PLACES;
+    const sb_vec3 step = sb_scale(b->half, 2.0 / PLACES);
+    for (int k = 0; k < PLACES * PLACES * layers; k++) {
+        box one = {.corner = b->corner, .radius = (double)sim->constant.support / sim->space.quantum};
+        one.middle = sb_sub(b->middle, b->half);
+        one.middle.x += (k % PLACES + 0.5) * step.x;
+        one.middle.y += (k / PLACES / PLACES + 0.5) * step.y;
+        one.middle.z += (k / PLACES % PLACES + 0.5) * step.z;
+        if (!is_full(sim, &one, at, end, near)) continue;
+        *place = one.middle;
+        return true;
+    }
+    return false;
+}
+
 size_t sb_mirrors_crowded(const sb_sim *sim, sb_vec3 *place)
 {
     const sb_mirrors *m = &sim->walls.mirrors;
@@ -343,11 +374,9 @@ size_t sb_mirrors_crowded(const sb_sim *sim, sb_vec3 *place)
     for (size_t at = 0, end = 0; near && at < m->entries; at = end) {
         while (end < m->entries && m->entry[end].block == m->entry[at].block) end++;
         const box b = box_of(sim, m->entry[at].block);
-        near->count = near->edge_count = 0;
-        near->full = false;
-        for (size_t k = at; k < end; k++) consider(sim, &b, m->entry[k].mirror, near);
-        for (size_t k = 0; k < m->moving_count; k++) consider(sim, &b, m->moving[k], near);
-        if (near->full && count++ == 0) *place = sb_add(sim->space.origin, sb_scale(b.middle, sim->space.quantum));
+        sb_vec3 found;
+        if (is_crowded(sim, &b, at, end, near, &found) && count++ == 0)
+            *place = sb_add(sim->space.origin, sb_scale(found, sim->space.quantum));
     }
     sb_free(near);
     return count;

@@ -27,7 +27,7 @@ typedef struct sb_mirror_entry {
 } sb_mirror_entry;
 
 /* The facets near a group of particles, relative to the group's corner. */
-enum { SB_NEAR_MAX = 200, SB_NEAR_EDGES_MAX = 1024 };
+enum { SB_NEAR_MAX = 254, SB_NEAR_EDGES_MAX = 1024 };
 
 typedef struct sb_near_edge {
     sb_f4 inward; /* unit, in the facet's plane; last lane: inward . x on the edge */
@@ -63,8 +63,8 @@ size_t sb_mirrors_bytes(const sb_sim *sim);
 /* Finds the facets within a support radius of a group. low, high: the box of its particles, from the corner. */
 void sb_mirrors_near(const sb_sim *sim, const sb_group *group, sb_f4 low, sb_f4 high, sb_near *near);
 
-/* Returns the number of blocks near which there are more facets or edges than sb_near holds, if water fills them;
-   moving bodies as they are placed. *place: the middle of the first, m. 0 also without memory. */
+/* Returns the number of blocks in which there are more facets or edges near a single place than sb_near holds; moving
+   bodies as they are placed. *place: the first such place, m. 0 also without memory. */
 size_t sb_mirrors_crowded(const sb_sim *sim, sb_vec3 *place);
 
 /* A contact of particle i with the facet of a plane of its group. */

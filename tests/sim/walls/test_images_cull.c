@@ -1,6 +1,6 @@
 /* Tests which images are left out before they are candidates: for facets, groups of particles and sources at random, a
-   reflection that is left out has no weight for any particle of the group, and one that is known as whole has the
-   weight 1. */
+   path by one or several reflections that is left out has no weight for any particle of the group, and one that is
+   known as whole has the weight 1. */
 #include "base/random.h"
 #include "check.h"
 #include "sim/passes/cpu/path_weights.h"
@@ -112,8 +112,86 @@ static void what_is_left_out_has_no_weight(void **state)
     assert_true(whole > weighed / 10);
 }
 
+/* ---- several reflections ---- */
+
+enum { FACETS_MAX = 4, PLACES = 30 };
+
+/* A facet with four edges about a place near the group. */
+static void add_facet(void)
+{
+    const sb_f4 level = {0, 0, 1, 0}, any = {draw(-1, 1), draw(-1, 1), draw(-1, 1), 0};
+    const sb_f4 n = draws % 3 == 0 ? level : unit(any), u = unit(across(n, (sb_f4){0.3f, 0.8f, 0.5f, 0}));
+    const sb_f4 v = across(n, u), at = {draw(0, 4 * EDGE), draw(0, 4 * EDGE), draw(0, 4 * EDGE), 0};
+    const sb_f4 inward[4] = {u, v, -u, -v};
+    sb_near_facet *f = &near.facet[near.count++];
+    *f = (sb_near_facet){.plane = n, .edge = (uint32_t)near.edge_count, .edges = 4, .both = draw(0, 1) < 0.3f};
+    f->plane[3] = sb_sum3(n * at);
+    for (size_t k = 0; k < 4; k++) {
+        sb_near_edge *e = &near.edges[near.edge_count++];
+        *e = (sb_near_edge){inward[k], draw(0, 1) < 0.2f ? SB_BEND_CONCAVE : SB_BEND_CONVEX};
+        e->inward[3] = sb_sum3(inward[k] * at) - draw(0, 3 * SPACING);
+    }
+}
+
+/* The weight of a path to this particle. */
+static float weight_of(const size_t *by, int count, sb_f4 self, sb_f4 source, sb_f4 image)
+{
+    const sb_weigher w = {&near, self, SB_TRANSITION * SPACING, 1e-3f * SPACING, &standing};
+    sb_weight_parts all;
+    for (size_t a = 0; a < near.count; a++) {
+        const sb_near_facet *f = &near.facet[a];
+        standing.above[a] = sb_before_facet(f, self);
+        standing.edge[a] = sb_about_edges(&near, f, self, standing.above[a], standing.angle + f->edge);
+    }
+    sb_path_weight(&w, by, count, source, image, &all);
+    return all.value;
+}
+
+static void paths_that_are_left_out_have_no_weight(void **state)
+{
+    (void)state;
+    static sb_sim sim;
+    sim.constant.spacing = SPACING;
+    sim.constant.support = SUPPORT;
+    sim.space.quantum = 1;
+    size_t pairs = 0, weighed = 0, missed = 0;
+    for (int trial = 0; trial < 20 * TRIALS; trial++) {
+        near.count = near.edge_count = 0;
+        near.simple = true;
+        for (int k = 0; k < FACETS_MAX; k++) add_facet();
+        const sb_f4 low = {EDGE + draw(0, EDGE), EDGE + draw(0, EDGE), EDGE + draw(0, EDGE), 0};
+        const sb_f4 high = low + (sb_f4){draw(0, EDGE), draw(0, EDGE), draw(0, EDGE), 0};
+        sb_cull_begin(&sim, &near, low, high, &cull);
+        const sb_f4 source = particle(low - sb_splat(EDGE), high + sb_splat(EDGE));
+        const int count = 2 + (int)draw(0, 2.99f);
+        size_t by[FACETS_MAX];
+        uint32_t path = 0;
+        sb_f4 image = source;
+        for (int k = 0; k < count; k++) {
+            do by[k] = (size_t)draw(0, FACETS_MAX - 0.01f);
+            while (k > 0 && by[k] == by[k - 1]);
+            path |= (uint32_t)(by[k] + 1) << (SB_REFLECTION_BITS * k);
+            image = sb_reflect(near.facet[by[k]].plane, image);
+        }
+        const bool meets = sb_cull_meets(&near, &cull, path, image);
+        for (int p = 0; p < PLACES; p++) {
+            const sb_f4 self = particle(low, high), way = self - image;
+            if (sb_sum3(way * way) >= 4 * SUPPORT * SUPPORT) continue;
+            const float value = weight_of(by, count, self, source, image);
+            pairs++;
+            weighed += value > 0;
+            missed += !meets;
+            if (!meets) assert_true(value == 0);
+        }
+    }
+    printf("%zu pairs: %zu have weight, %zu were left out\n", pairs, weighed, missed);
+    assert_true(weighed > 100);
+    assert_true(missed > (pairs - weighed) / 4);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_left_out_has_no_weight)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_left_out_has_no_weight),
+                                       cmocka_unit_test(paths_that_are_left_out_have_no_weight)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
 /* Walls that reflect water: loads of still water on blocks, and a bed that is too fine. */
+#include "base/random.h"
 #include "check.h"
 #include "sim/walls/basin.h"
 
@@ -66,32 +67,61 @@ static void a_pier_hides_the_recess_behind_it(void **state)
     assert_true(recess < 2 * alone);
 }
 
-/* A bed of facets much finer than the particles is refused in one line that names the remedy. */
-static void a_bed_of_too_fine_facets_is_refused(void **state)
+/* A bed of 40 x 40 squares of 0.3 spacings, whose corners are `high` (m) higher or at random up to that. Returns the
+   key "bodies". */
+static const char *fine_bed(double high, bool random, char path[256], char bodies[512])
 {
-    (void)state;
     enum { COLUMNS = 40 };
-    char path[256], bodies[512];
-    snprintf(path, sizeof path, "%s/images-fine-%d.obj", SB_BINARY_DIR, (int)getpid());
+    snprintf(path, 256, "%s/images-fine-%d.obj", SB_BINARY_DIR, (int)getpid());
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     for (int y = 0; y <= COLUMNS; y++)
-        for (int x = 0; x <= COLUMNS; x++)
-            fprintf(file, "v %g %g %g\n", -0.1 + 0.03 * x, -0.1 + 0.03 * y, 0.1 + 0.01 * ((x + y) % 2));
+        for (int x = 0; x <= COLUMNS; x++) {
+            const double share = random ? sb_random(3, (uint64_t)(100 * x + y)) : (x + y) % 2;
+            fprintf(file, "v %g %g %g\n", -0.1 + 0.03 * x, -0.1 + 0.03 * y, 0.1 + high * share);
+        }
     for (int y = 0; y < COLUMNS; y++)
         for (int x = 0; x < COLUMNS; x++) {
             const int at = y * (COLUMNS + 1) + x + 1, above = at + COLUMNS + 1;
             fprintf(file, "f %d %d %d\nf %d %d %d\n", at, at + 1, above, at + 1, above + 1, above);
         }
     assert_int_equal(fclose(file), 0);
-    snprintf(bodies, sizeof bodies, "[{name: bed, shape: mesh, role: terrain, file: %s}]", path);
+    snprintf(bodies, 512, "[{name: bed, shape: mesh, role: terrain, file: %s}]", path);
+    return bodies;
+}
+
+/* A bed whose facets are finer than the particles, but less than 0.1 spacings high, is simplified. */
+static void a_bed_of_fine_facets_is_simplified(void **state)
+{
+    (void)state;
+    char path[256], bodies[512];
     basin b;
-    basin_fill(&b, 3, "0.1", "[1, 1, 0.8]", "{level: 0.5, seed: [0.5, 0.5, 0.3]}", bodies, "completed");
+    sb_crowding found;
+    sb_error error = {0};
+    basin_fill(&b, 3, "0.1", "[1, 1, 0.8]", "{level: 0.5, seed: [0.5, 0.5, 0.3]}", fine_bed(0.008, true, path, bodies),
+               "completed");
+    remove(path);
+    printf("%zu facets of 3200 triangles\n", b.model.facets.count);
+    assert_true(b.model.facets.count < 600);
+    assert_int_equal(sb_sim_find_crowding(&b.scene, &b.model, &found, &error), SB_OK);
+    assert_int_equal(found.places, 0);
+    assert_int_equal(tank_steps(b.sim, 1), 0);
+    basin_free(&b);
+}
+
+/* A bed that is finer and rougher than the particles can see is refused in one line that names the remedy. */
+static void a_bed_of_too_fine_facets_is_refused(void **state)
+{
+    (void)state;
+    char path[256], bodies[512];
+    basin b;
+    basin_fill(&b, 3, "0.2", "[1, 1, 0.8]", "{level: 0.5, seed: [0.5, 0.5, 0.35]}", fine_bed(0.1, false, path, bodies),
+               "completed");
     remove(path);
     sb_error error = {0};
     sb_crowding found;
     assert_int_equal(sb_sim_find_crowding(&b.scene, &b.model, &found, &error), SB_OK);
-    assert_true(found.places > 0 && found.first.z < 0.6); /* known before the run */
+    assert_true(found.places > 0 && found.first.z < 0.8); /* known before the run */
     assert_int_equal(sb_sim_step(b.sim, &error), SB_FAILED);
     printf("%s\n", error.text);
     assert_non_null(strstr(error.text, "too many facets of walls"));
@@ -104,6 +134,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(still_water_exerts_no_force_on_blocks),
         cmocka_unit_test(a_pier_hides_the_recess_behind_it),
+        cmocka_unit_test(a_bed_of_fine_facets_is_simplified),
         cmocka_unit_test(a_bed_of_too_fine_facets_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -31,6 +31,7 @@ void sb_cull_begin(const sb_sim *sim, const sb_near *near, sb_f4 low, sb_f4 high
     cull->support = sim->constant.support / quantum;
     cull->eps = NEARLY * cull->support;
     cull->end = (1 + MARGIN) * 0.5f * SB_TRANSITION_ENDS * SB_TRANSITION * sim->constant.spacing / quantum;
+    cull->share_ends = (1 + MARGIN) * SB_SHARE_ENDS * SB_TRANSITION * sim->constant.spacing / quantum;
     for (int axis = 0; axis < 3; axis++) cull->box.low[axis] = low[axis], cull->box.high[axis] = high[axis];
     for (size_t a = 0; a < near->count; a++) {
         const sb_near_facet *f = &near->facet[a];
@@ -202,4 +203,66 @@ bool sb_cull_sources(const sb_near *near, const sb_cull *cull, sb_sources *of)
         find_none(of, a, near->skew);
     }
     return any;
+}
+
+/* ---- paths by several reflections ---- */
+
+/* Planes that a path meets, seen from its end, before the facet in question. */
+typedef struct sb_met {
+    const sb_near *near;
+    size_t of[SB_REFLECTIONS_MAX];
+    int first, count; /* of[first] to of[count - 1] */
+} sb_met;
+
+/* The range over the box of n . x - d at the box reflected by these planes. */
+static void reflected_range(const sb_cull *cull, const sb_met *met, sb_f4 n, float range[2])
+{
+    for (int m = met->first; m < met->count; m++) {
+        const sb_f4 plane = met->near->facet[met->of[m]].plane;
+        n -= plane * sb_splat(2 * sb_sum3(n * plane));
+    }
+    range_over(cull, n, range);
+}
+
+/* Whether straight lines from places of the reflected box to `image` may cross a facet, or pass it within the
+   transition beyond its edges. The distance of the crossing within an edge lies between those of both ends. It grows
+   with that of the place, and as the place's distance from the plane grows it only rises or only falls. */
+static bool crosses(const sb_cull *cull, const sb_met *met, const sb_near_facet *f, sb_f4 image)
+{
+    float h[2];
+    const float behind = sb_before_facet(f, image);
+    if (fabsf(behind) <= cull->eps) return true;
+    reflected_range(cull, met, f->plane, h);
+    const float least = behind < 0 ? fmaxf(h[0], 0) : fmaxf(-h[1], 0), most = behind < 0 ? h[1] : -h[0];
+    if (most <= 0) return false;
+    const float first = least / (least + fabsf(behind)), last = most / (most + fabsf(behind));
+    for (uint32_t k = f->edge; k < f->edge + f->edges; k++) {
+        float o[2];
+        const sb_near_edge *e = &met->near->edges[k];
+        reflected_range(cull, met, e->inward, o);
+        const float turn = sb_within_edge(e, image) + cull->eps - o[1];
+        const float within = fmaxf(o[1] + first * turn, o[1] + last * turn);
+        if (within < (e->bend == SB_BEND_CONCAVE ? 0 : -cull->share_ends)) return false;
+    }
+    return true;
+}
+
+bool sb_cull_meets(const sb_near *near, const sb_cull *cull, uint32_t path, sb_f4 image)
+{
+    size_t of[SB_REFLECTIONS_MAX];
+    int count = 0;
+    for (; path; path >>= SB_REFLECTION_BITS) of[count++] = (path & SB_REFLECTION_MASK) - 1;
+    sb_met met = {.near = near};
+    for (int k = 0; k < count; k++) {
+        bool square = true;
+        for (int m = 0; m < count; m++) square &= m == k || sb_facets_square(near, of[k], of[m]);
+        if (!square) met.of[met.count++] = of[k];
+    }
+    for (met.first = met.count; met.first > 0;) {
+        const sb_near_facet *f = &near->facet[met.of[met.first - 1]];
+        if (!crosses(cull, &met, f, image)) return false;
+        image = sb_reflect(f->plane, image);
+        met.first--;
+    }
+    return true;
 }

@@ -23,6 +23,7 @@ typedef struct sb_box {
 typedef struct sb_cull {
     sb_box box;
     float support, end, eps;  /* end: |C C - S S| at which a transition ends */
+    float share_ends;         /* how far beyond an edge a place still has a share of an ordered reflection */
     bool behind[SB_NEAR_MAX]; /* no particle is before the facet */
     sb_edge_bounds edge[SB_NEAR_EDGES_MAX];
 } sb_cull;
@@ -46,5 +47,9 @@ typedef struct sb_sources {
 void sb_cull_begin(const sb_sim *sim, const sb_near *near, sb_f4 low, sb_f4 high, sb_cull *cull);
 /* Returns false if there is no image at all. */
 bool sb_cull_sources(const sb_near *near, const sb_cull *cull, sb_sources *of);
+/* Whether a path by several reflections, with this image of its source, may meet each facet that does not stand at
+   right angles to all others of the path: seen from some place in the box, within the transition beyond the facet's
+   edges. */
+bool sb_cull_meets(const sb_near *near, const sb_cull *cull, uint32_t path, sb_f4 image);
 
 #endif

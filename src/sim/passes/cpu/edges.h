@@ -13,6 +13,10 @@ static const float SB_TRANSITION = 0.35f;
 /* In widths: where the transition has ended. */
 static const float SB_TRANSITION_ENDS = 3.5f;
 
+/* In widths: how far from an edge a place in which a path meets a facet has all or nothing of it, where facets stand at
+   other than right angles. */
+static const float SB_SHARE_ENDS = 3;
+
 /* Distance before a facet's plane, within the line of one of its edges; quanta. */
 SB_INLINE float sb_before_facet(const sb_near_facet *f, sb_f4 at)
 {
@@ -22,6 +26,12 @@ SB_INLINE float sb_before_facet(const sb_near_facet *f, sb_f4 at)
 SB_INLINE float sb_within_edge(const sb_near_edge *e, sb_f4 at)
 {
     return sb_sum3(e->inward * at) - e->inward[3];
+}
+
+/* Whether two facets stand at right angles. */
+SB_INLINE bool sb_facets_square(const sb_near *near, size_t a, size_t b)
+{
+    return fabsf(sb_sum3(near->facet[a].plane * near->facet[b].plane)) < 1e-3f;
 }
 
 /* A position about an edge: o in the facet's plane from the edge's line, h from the plane, rho from the line. C + iS =

@@ -8,8 +8,8 @@
 #include <stddef.h>
 
 enum {
-    SB_LIST_MAX = 1024, /* neighbours of one particle: 80 are normal */
-    SB_HITS_MAX = 4096, /* the same with images that walls hide */
+    SB_LIST_MAX = 1024,  /* neighbours of one particle: 80 are normal */
+    SB_HITS_MAX = 16352, /* the same with images that walls hide */
     SB_HIT_LANES = 8,
     SB_HIT_SPARE = 96, /* vector loads and stores may pass the end by 31 entries; 96 by measurement (0029) */
     SB_CANDIDATES_MAX = 16383,

@@ -95,7 +95,8 @@ static void reflect_all(gatherer *g, uint32_t source, size_t s, const route *fro
                           .beyond = from->beyond || of->beyond[a][s]};
         /* Further reflections take an image farther away. */
         if (!within(&g->cull->box, g->cull->support, to.at)) continue;
-        if (!(to.square && to.beyond) && !add_image(g, source, &to, from->depth == 0 && of->whole[a][s])) {
+        const bool misses = to.square ? to.beyond : !sb_cull_meets(near, g->cull, to.path, to.at);
+        if (!misses && !add_image(g, source, &to, from->depth == 0 && of->whole[a][s])) {
             g->full = true;
             return;
         }

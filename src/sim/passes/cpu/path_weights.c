@@ -179,7 +179,8 @@ static bool leg_blocked(const sb_weigher *w, size_t a, sb_f4 from, sb_f4 to)
 {
     for (size_t k = 0; k < w->near->count; k++) {
         const sb_near_facet *g = &w->near->facet[k];
-        if (k == a || (sb_facets_square(w->near, a, k) && (g->parts || !w->near->meets[a][k]))) continue;
+        const bool past = g->parts && keeps(w->near, a, g); /* sb_past_facets has it */
+        if (k == a || (sb_facets_square(w->near, a, k) && (past || !w->near->meets[a][k]))) continue;
         const float s = sb_before_facet(g, from), t = sb_before_facet(g, to);
         if (!((s > w->eps && t < -w->eps) || (s < -w->eps && t > w->eps))) continue;
         if (inside(w->near, g, from + (to - from) * sb_splat(s / (s - t)))) return true;
@@ -224,7 +225,7 @@ static float share_of(const sb_weigher *w, const sb_near_facet *f, sb_f4 at)
         const float y = sb_within_edge(&w->near->edges[k], at) / w->transition;
         if (w->near->edges[k].bend == SB_BEND_CONCAVE && y < 0) return 0;
         if (w->near->edges[k].bend == SB_BEND_CONCAVE) continue;
-        share *= y > 3 ? 1 : y < -3 ? 0 : 0.5f + 0.5f * erff(y);
+        share *= y > SB_SHARE_ENDS ? 1 : y < -SB_SHARE_ENDS ? 0 : 0.5f + 0.5f * erff(y);
     }
     return share < SB_WEIGHT_LEAST ? 0 : share;
 }

@@ -11,12 +11,6 @@ static const float SB_WEIGHT_LEAST = 1e-4f;
 
 enum { SB_SIDE_BITS = 64 }; /* facets whose sides are known as bits */
 
-/* Whether two facets stand at right angles. */
-SB_INLINE bool sb_facets_square(const sb_near *near, size_t a, size_t b)
-{
-    return fabsf(sb_sum3(near->facet[a].plane * near->facet[b].plane)) < 1e-3f;
-}
-
 /* The positions about the edges of facet f of a particle at the distance `above` before it. Returns the edge that it is
    farthest beyond, or nearest to. */
 uint32_t sb_about_edges(const sb_near *near, const sb_near_facet *f, sb_f4 at, float above, sb_half_angle *angle);

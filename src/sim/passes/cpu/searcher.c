@@ -189,7 +189,7 @@ static void search_group(sb_sim *sim, sb_searcher *w, sb_list_builder *lists, sb
         if (code != last) {
             const sb_record here = sim->state.position[i];
             cell = (sb_record){here[0] >> shift << shift, here[1] >> shift << shift, here[2] >> shift << shift, 0};
-            candidate = sb_vicinity_cell(sim, &w->vicinity, i);
+            candidate = sb_vicinity_candidate(sim, &w->vicinity, i);
             gather_walls(sim, w, i, cell);
         }
         last = code;
@@ -203,7 +203,8 @@ unsigned sb_search_group(sb_sim *sim, void *of, sb_list_builder *lists, sb_group
     w->full = 0;
     sb_vicinity_gather(sim, group, &w->vicinity);
     if (w->vicinity.count > SB_AROUND_MAX) return SB_FULL_AROUND;
-    if (sim->needs.images && !sb_images_gather(sim, group, &w->vicinity, &w->images)) return SB_FULL_FACETS;
+    if (sim->needs.images && !sb_images_gather(sim, group, &w->vicinity, &w->images))
+        return SB_FULL_FACETS | SB_CROWDED;
     sb_list_runs(lists, &w->vicinity, group);
     search_group(sim, w, lists, group);
     sb_list_images(sim, lists, &w->vicinity, &w->images, group);

@@ -116,9 +116,12 @@ size_t sb_vicinity_candidates(const sb_sim *sim, const sb_vicinity *v, size_t pa
     return ranges;
 }
 
-uint32_t sb_vicinity_cell(const sb_sim *sim, const sb_vicinity *v, size_t i)
+uint32_t sb_vicinity_candidate(const sb_sim *sim, const sb_vicinity *v, size_t i)
 {
-    uint32_t cell[3];
-    for (int axis = 0; axis < 3; axis++) cell[axis] = (sim->state.position[i][axis] >> sim->space.shift) - v->low[axis];
-    return v->start[0][index_of(v, cell)];
+    const int shift = sim->space.shift;
+    const uint64_t code = sb_cell_code(sim->state.position[i], shift);
+    uint32_t cell[3], before = 0;
+    for (int axis = 0; axis < 3; axis++) cell[axis] = (sim->state.position[i][axis] >> shift) - v->low[axis];
+    while (before < i && sb_cell_code(sim->state.position[i - before - 1], shift) == code) before++;
+    return v->start[0][index_of(v, cell)] + before;
 }

@@ -35,7 +35,7 @@ void sb_vicinity_gather(const sb_sim *sim, sb_group *group, sb_vicinity *v);
 size_t sb_vicinity_candidates(const sb_sim *sim, const sb_vicinity *v, size_t part, size_t end, sb_f4 self,
                               sb_candidate_range range[SB_VICINITY_ROWS]);
 
-/* The first candidate of the cell that particle i of the group is in. */
-uint32_t sb_vicinity_cell(const sb_sim *sim, const sb_vicinity *v, size_t i);
+/* The candidate that particle i of the group is. A group may begin within a cell. */
+uint32_t sb_vicinity_candidate(const sb_sim *sim, const sb_vicinity *v, size_t i);
 
 #endif
