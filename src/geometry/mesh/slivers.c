@@ -1,8 +1,8 @@
 /* Triangles that are nearly a line, as simplification leaves them along straight edges: they have no normal, and hide
    from each other the triangles on both of their sides. */
+#include "geometry/mesh/slivers.h"
 #include "base/memory.h"
 #include "geometry/mesh/edges.h"
-#include "geometry/mesh/slivers.h"
 
 #include <math.h>
 #include <string.h>

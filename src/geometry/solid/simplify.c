@@ -8,9 +8,9 @@
 #include <meshoptimizer.h>
 #include <string.h>
 
-/* The library bounds the mean distance of a vertex from the planes of the triangles that were there. The tolerance is for
-   the largest distance of surfaces, which can be less or more. FIRST: the first bound that is tried, over the tolerance;
-   then half of it, and so on. */
+/* The library bounds the mean distance of a vertex from the planes of the triangles that were there. The tolerance is
+   for the largest distance of surfaces, which can be less or more. FIRST: the first bound that is tried, over the
+   tolerance; then half of it, and so on. */
 static const double FIRST = 2, NEXT = 0.7;
 /* Over the tolerance: lower triangles are removed. */
 static const double SLIVER = 1e-3;
@@ -80,10 +80,9 @@ static sb_status attempt(const sb_mesh *mesh, sb_role role, const float *at, dou
     unsigned *corner = sb_alloc_untouched(corners, sizeof *corner);
     if (!corner) return sb_fail_memory(error, "a mesh");
     const float scale = meshopt_simplifyScale(at, mesh->vertex_count, 3 * sizeof *at);
-    const size_t left = scale > 0
-                            ? meshopt_simplify(corner, mesh->triangles[0], corners, at, mesh->vertex_count, 3 * sizeof *at,
-                                               0, (float)bound / scale, options, NULL)
-                            : corners;
+    const size_t left = scale > 0 ? meshopt_simplify(corner, mesh->triangles[0], corners, at, mesh->vertex_count,
+                                                     3 * sizeof *at, 0, (float)bound / scale, options, NULL)
+                                  : corners;
     sb_status status = SB_OK;
     *near = true;
     if (left > 0 && left < corners) {
@@ -125,8 +124,8 @@ sb_status sb_mesh_simplify(const sb_mesh *mesh, sb_role role, double tolerance, 
     if (status == SB_OK && (mesh->open_surface || role == SB_ROLE_TERRAIN)) {
         sb_mesh other;
         status = simplify(mesh, role, at, 0, tolerance, &other, error);
-        const bool better = other.triangle_count > 0 &&
-                            (simple->triangle_count == 0 || other.triangle_count < simple->triangle_count);
+        const bool better =
+            other.triangle_count > 0 && (simple->triangle_count == 0 || other.triangle_count < simple->triangle_count);
         sb_mesh_free(better ? simple : &other);
         if (better) *simple = other;
     }

@@ -27,7 +27,7 @@ typedef struct sb_mirror_entry {
 } sb_mirror_entry;
 
 /* The facets near a group of particles, relative to the group's corner. */
-enum { SB_NEAR_MAX = 254, SB_NEAR_EDGES_MAX = 1024 };
+enum { SB_NEAR_MAX = 200, SB_NEAR_EDGES_MAX = 1024 };
 
 typedef struct sb_near_edge {
     sb_f4 inward; /* unit, in the facet's plane; last lane: inward . x on the edge */

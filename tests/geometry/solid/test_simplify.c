@@ -39,7 +39,8 @@ static sb_mesh sphere(double radius, uint32_t rings)
 {
     const uint32_t around = 2 * rings;
     sb_mesh m;
-    assert_int_equal(sb_mesh_alloc(&m, 2 + (size_t)(rings - 1) * around, 2 * (size_t)(rings - 1) * around, &error), SB_OK);
+    assert_int_equal(sb_mesh_alloc(&m, 2 + (size_t)(rings - 1) * around, 2 * (size_t)(rings - 1) * around, &error),
+                     SB_OK);
     size_t v = 0, t = 0;
     m.vertices[v++] = sb_vec(0, 0, radius);
     for (uint32_t i = 1; i < rings; i++)
@@ -79,7 +80,8 @@ static void a_sphere_stays_closed(void **state)
            simple.triangle_count, out, in, before.volume, after.volume);
     assert_true(before.watertight && after.watertight);
     assert_true(simple.triangle_count < m.triangle_count / 6);
-    assert_true(out < 1.2 * tolerance && in < 1.2 * tolerance); /* between vertices and middles it may be a little more */
+    assert_true(out < 1.2 * tolerance &&
+                in < 1.2 * tolerance); /* between vertices and middles it may be a little more */
     assert_true(after.volume > 0.95 * before.volume && after.volume < 1.01 * before.volume);
     sb_mesh_free(&m);
     sb_mesh_free(&simple);

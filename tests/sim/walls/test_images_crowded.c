@@ -84,7 +84,8 @@ static void division_changes_no_sum(void **state)
     double most = 0;
     for (size_t i = 0; i < n; i++) {
         most = fmax(most, fabs((double)(b.sim->work.density[i] / density[i] - 1)));
-        most = fmax(most, fabs((double)(b.sim->work.diagonal[i] - diagonal[i])) / (double)b.sim->constant.full_diagonal);
+        most =
+            fmax(most, fabs((double)(b.sim->work.diagonal[i] - diagonal[i])) / (double)b.sim->constant.full_diagonal);
         for (int axis = 0; axis < 3; axis++)
             most = fmax(most, fabs((double)(b.sim->work.image_push[i][axis] - push[i][axis])) / 9.81);
     }
