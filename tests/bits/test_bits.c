@@ -24,8 +24,8 @@ static const struct {
     const char *name, *file, *resolution;
     uint64_t fused, plain;
 } scenes[] = {
-    {"column", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "resolution=0.035", 0xb3f5747787866dac,
-     0xfaae8c554ecbe164},
+    {"column", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "resolution=0.035", 0xd0746e5b98135877,
+     0x17ce6208693a91a4},
     {"plant", SB_SOURCE_DIR "/assets/scenes/plant.yaml", "resolution=20", 0x1d7ec40a843c4bb0, 0x79bf3f9ede59c087},
 };
 

@@ -33,8 +33,6 @@ typedef struct sb_passes {
     sb_status (*neighbours)(sb_sim *sim, sb_error *error);
     /* strain_xx and strain: E_i = c (1 - M_i/t_i) of sim/terms/stress_correction.h. */
     void (*strain)(sb_sim *sim);
-    /* stress_xx and stress: S_i = q_i <E>_i. Records carry strain_xx. */
-    void (*stress)(sb_sim *sim);
     /* corrected: the velocity after the correction, and with images stress_force. Records carry stress_xx. Returns 0,
        or -1 without memory. */
     int (*correct)(sb_sim *sim);

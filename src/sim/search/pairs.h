@@ -51,9 +51,8 @@ typedef struct sb_four_pairs {
     uint16_t place[4], slope[4];
 } sb_four_pairs;
 
-/* Largest stored root, and its square: the slope of a coincident particle in units of sb_lists.unit. */
+/* Largest stored root: its square is the slope of a coincident particle in units of sb_lists.unit. */
 enum { SB_ROOT_MAX = 32767 };
-static const float SB_SLOPE_OWN = (float)SB_ROOT_MAX * (float)SB_ROOT_MAX;
 
 /* Fluid neighbours of particle i: groups of four [first[i], first[i] + count[i]). The last group is padded with the
    particle itself at slope 0. */

@@ -31,6 +31,8 @@ const sb_work_view sb_work_views[] = {
     {WORK(diagonal), FROM(NEIGHBOURS, AFTER), .unit = "kg^2 s^2/m^8", .needed = SB_ALWAYS},
     {WORK(strain_xx), FROM(STRAIN, STRESS), .unit = "1", .needed = SB_NEEDS(stress_correction)},
     {WORK(strain), FROM(STRAIN, STRESS), .unit = "1", .ghosts = true, .needed = SB_NEEDS(stress_correction)},
+    {WORK(cell_rest), FROM(STRESS, STRESS), .unit = "1", .ghosts = true, .needed = SB_NEEDS(stress_correction)},
+    {WORK(cell_more), FROM(STRESS, STRESS), .unit = "1", .ghosts = true, .needed = SB_NEEDS(stress_correction)},
     {WORK(stress_xx), FROM(STRESS, CORRECTED), .unit = "Pa m^6/kg^2", .needed = SB_NEEDS(stress_correction)},
     {WORK(stress), FROM(STRESS, CORRECTED), .unit = "Pa m^6/kg^2", .ghosts = true,
      .needed = SB_NEEDS(stress_correction)},

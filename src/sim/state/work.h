@@ -73,7 +73,8 @@ typedef struct sb_work {
 
     float *strain_xx, *stress_xx;
     sb_f4 *strain, *stress;
-    sb_f4 *corrected; /* m/s, velocity after the stress correction */
+    sb_f4 *cell_rest, *cell_more; /* by cell, then by cell of the ghosts: sums of strains; of xx, and number */
+    sb_f4 *corrected;             /* m/s, velocity after the stress correction */
 
     float *eddy;      /* m^2/s, nu_t at the step's start; NULL without a turbulence model */
     sb_f4 *wall_drag; /* m/s^2, by friction and shear of walls, for particles beside walls; NULL without drag */

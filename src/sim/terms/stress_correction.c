@@ -6,8 +6,9 @@
 #include "sim/pressure/pressure.h"
 #include "sim/step/ledger.h"
 #include "sim/step/stages.h"
+#include "sim/terms/cell_mean.h"
 
-enum { SUMS = 4 };
+enum { SUMS = 4, MEANS = 2 /* one after the other: see docs/decisions/0044 */ };
 
 /* Sums one group's changes of velocity: work (per unit of mass), momentum. Returns less the number of the first
    particle that is too fast afterwards, -INFINITY if none is. */
@@ -25,13 +26,32 @@ static double sum_changes(sb_sim *sim, const sb_group *group, double terms[SB_SU
     return -fast;
 }
 
+/* S_i = q_i <E>_i. Ghosts and records have E. */
+static void find_stress(sb_sim *sim)
+{
+    sb_work *w = &sim->work;
+    for (int mean = 1; mean < MEANS; mean++) {
+        sb_cell_mean(sim, w->strain_xx, w->strain);
+        sb_refresh(sim, w->strain);
+        sb_pressure_load(sim, w->strain_xx);
+    }
+    sb_cell_mean(sim, w->strain_xx, w->strain);
+    const size_t n = sim->state.n;
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < n; i++) {
+        const float q = sim->state.velocity[i][3] / (w->density[i] * w->density[i]);
+        w->stress_xx[i] = q * w->strain_xx[i];
+        w->stress[i] = sb_splat(q) * w->strain[i];
+    }
+}
+
 sb_status sb_stage_stress_correction(sb_sim *sim, sb_error *error)
 {
     sim->passes->strain(sim);
     sb_refresh(sim, sim->work.strain);
     sb_pressure_load(sim, sim->work.strain_xx);
     sb_work_enter(&sim->work, SB_PHASE_STRESS);
-    sim->passes->stress(sim);
+    find_stress(sim);
     sb_refresh(sim, sim->work.stress);
     sb_pressure_load(sim, sim->work.stress_xx);
     sb_work_enter(&sim->work, SB_PHASE_CORRECTED);

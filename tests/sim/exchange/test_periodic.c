@@ -272,6 +272,7 @@ static void make_rolled(tank *t, sb_preset preset, int dimensions, bool x, bool 
     tank_use(t, preset);
     if (x) tank_repeat(t, 0);
     if (y) tank_repeat(t, 1);
+    t->scene.numerics.stress_correction = 0; /* its means depend on the place of the cells */
 }
 
 /* The position of periodic sides is arbitrary: the shifted scene has the same densities, pressures, velocities and

@@ -116,6 +116,7 @@ static void make_slab(tank *t, sb_preset preset, sb_vec3 size)
     tank_use(t, preset);
     tank_repeat(t, 0);
     tank_repeat(t, 1);
+    t->scene.numerics.stress_correction = 0; /* its means depend on the place of the cells */
 }
 
 /* The moment of a force on a body beside a periodic side, from water beyond that side. */

@@ -64,7 +64,7 @@ static void a_pier_hides_the_recess_behind_it(void **state)
     const double recess =
         motion_before_pier(", {name: back, shape: box, min: [0.75, 0.675, -0.2], max: [0.9, 1.3, 0.8]}");
     printf("speed: %.2g of sqrt(gD), with a recess behind the pier %.2g\n", sqrt(alone), sqrt(recess));
-    assert_true(recess < 2 * alone);
+    assert_true(sqrt(alone) < 0.01 && sqrt(recess) < 0.01);
 }
 
 /* A bed of 40 x 40 squares of 0.3 spacings, whose corners are at random heights up to `high` (m). Returns the

@@ -1,4 +1,4 @@
-/* The three passes of the deviatoric stress correction (sim/terms/stress_correction.h). */
+/* The two passes of the deviatoric stress correction (sim/terms/stress_correction.h). */
 #include "sim/exchange/exchange.h"
 #include "sim/passes/cpu/body_forces.h"
 #include "sim/passes/cpu/cpu.h"
@@ -63,42 +63,6 @@ SB_INLINE bool any_around(const sb_sim *sim, const sb_group *group, const sb_f4 
     return (bits[0] | bits[1] | bits[2] | bits[3]) != 0;
 }
 
-/* S_i, in the same form. The weights of the mean are the slopes; the weight of the particle's
-   own E_i is the slope of a coincident particle. */
-SB_MULTIVERSION
-static void find_stress(sb_sim *sim, const sb_group *group, const void *arguments)
-{
-    (void)arguments;
-    _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
-    sb_f4 *stress = sim->work.stress;
-    sb_around_tensors(sim, group, sim->work.strain, around);
-    const bool any = any_around(sim, group, around);
-    for (size_t i = group->first; i < group->end; i++) {
-        stress[i] = (sb_f4){0};
-        sim->work.stress_xx[i] = 0;
-        if (!any) continue;
-        const sb_four_pairs *four = sim->work.pairs.four + sim->work.pairs.first[i],
-                            *end = four + sim->work.pairs.count[i];
-        const sb_f4 own = {0, 0, 0, sim->work.strain_xx[i]};
-        sb_f8 even = sb_join(own, sim->work.strain[i]) * sb_splat8(SB_SLOPE_OWN), odd = {0};
-        sb_f4 weights = {SB_SLOPE_OWN};
-        for (; four < end; four++) {
-            const sb_f4 slope = sb_slopes(four);
-            sb_prefetch(four);
-            even += *sb_both_at(around, four->place[0]) * sb_splat8(slope[0]);
-            odd += *sb_both_at(around, four->place[1]) * sb_splat8(slope[1]);
-            even += *sb_both_at(around, four->place[2]) * sb_splat8(slope[2]);
-            odd += *sb_both_at(around, four->place[3]) * sb_splat8(slope[3]);
-            weights += slope;
-        }
-        const sb_f8 sum = even + odd;
-        const float density = sim->work.density[i], q = sim->state.velocity[i][3] / (density * density);
-        const float factor = q / (sb_sum3(weights) + weights[3]);
-        stress[i] = __builtin_shufflevector(sum, sum, 4, 5, 6, 7) * sb_splat(factor);
-        sim->work.stress_xx[i] = sum[3] * factor;
-    }
-}
-
 /* The velocity after the correction. The pressure in its last lane does not change. */
 SB_MULTIVERSION
 static void correct(sb_sim *sim, const sb_group *group, const void *arguments)
@@ -144,11 +108,6 @@ static void correct(sb_sim *sim, const sb_group *group, const void *arguments)
 void sb_cpu_strain(sb_sim *sim)
 {
     sb_each_group(sim, find_strain, NULL);
-}
-
-void sb_cpu_stress(sb_sim *sim)
-{
-    sb_each_group(sim, find_stress, NULL);
 }
 
 /* Adds the reactions of walls to the correction of a group's particles by images. */

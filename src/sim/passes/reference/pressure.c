@@ -109,7 +109,6 @@ const sb_passes sb_passes_reference = {
     .name = "reference",
     .neighbours = sb_plain_neighbours,
     .strain = sb_plain_strain,
-    .stress = sb_plain_stress,
     .correct = sb_plain_correct,
     .strain_rate = sb_plain_strain_rate,
     .forces = sb_plain_forces,

@@ -74,33 +74,6 @@ static void add(const sb_sim *sim, const sb_indices *around, const sb_f4 *rest, 
     sum[YZ] += weight * t[1][2];
 }
 
-static void stress_group(sb_sim *sim, const sb_group *group, const void *arguments)
-{
-    (void)arguments;
-    sb_indices around;
-    sb_indices_of(sim, group, &around);
-    for (size_t i = group->first; i < group->end; i++) {
-        double sum[PARTS] = {0}, weights = (double)SB_SLOPE_OWN * (double)sim->work.pairs.unit;
-        const double density = (double)sim->work.density[i],
-                     q = (double)sim->state.velocity[i][3] / (density * density);
-        add(sim, &around, sim->work.strain, (uint32_t)i, 0, weights, sum);
-        for (size_t k = 0; k < sb_pair_count(sim, i); k++) {
-            const sb_one_pair p = sb_pair_at(sim, &around, i, k);
-            add(sim, &around, sim->work.strain, p.other, p.path, p.slope, sum);
-            weights += p.slope;
-        }
-        const double factor = q / weights;
-        sim->work.stress_xx[i] = (float)(factor * sum[XX]);
-        sim->work.stress[i] = (sb_f4){(float)(factor * sum[YY]), (float)(factor * sum[XY]), (float)(factor * sum[XZ]),
-                                      (float)(factor * sum[YZ])};
-    }
-}
-
-void sb_plain_stress(sb_sim *sim)
-{
-    sb_each_group(sim, stress_group, NULL);
-}
-
 /* -m (S_i + S_j) grad W of one pair. */
 static sb_vec3 correction(const sb_sim *sim, const sb_indices *around, size_t i, const sb_one_pair *p)
 {

@@ -1,0 +1,96 @@
+#include "sim/terms/cell_mean.h"
+
+enum { AROUND = 27 }; /* a cell and its neighbours */
+
+/* The sums of one cell. */
+typedef struct cell_sum {
+    sb_f4 rest;
+    sb_f4 more; /* xx, number of particles */
+} cell_sum;
+
+SB_INLINE cell_sum plus(cell_sum a, cell_sum b)
+{
+    return (cell_sum){a.rest + b.rest, a.more + b.more};
+}
+
+/* base: the entry of the first particle of these cells; first: the entry of the sums of the first cell. */
+static void sum_cells(sb_sim *sim, const sb_cells *cells, const sb_f4 *rest, size_t base, size_t first)
+{
+#pragma omp parallel for schedule(static)
+    for (size_t c = 0; c < cells->count; c++) {
+        cell_sum all = {{0}, {0}};
+        for (size_t k = base + cells->begin[c]; k < base + cells->begin[c + 1]; k++)
+            all = plus(all, (cell_sum){rest[k], {sb_carried_value(sim->state.position[k]), 1, 0, 0}});
+        sim->work.cell_rest[first + c] = all.rest;
+        sim->work.cell_more[first + c] = all.more;
+    }
+}
+
+static cell_sum sum_of(const sb_sim *sim, const sb_cells *cells, uint64_t code, size_t first)
+{
+    const int64_t cell = sb_cells_find(cells, code);
+    if (cell < 0) return (cell_sum){{0}, {0}};
+    return (cell_sum){sim->work.cell_rest[first + (size_t)cell], sim->work.cell_more[first + (size_t)cell]};
+}
+
+/* The sums around cell c. Returns whether any tensor among them is not 0: beside walls and in shallow water all are. */
+static bool gather(const sb_sim *sim, size_t c, cell_sum around[AROUND])
+{
+    const int layers = sim->constant.dimension == 2 ? 0 : 1;
+    sb_i4 bits = {0};
+    for (int k = 0; k < AROUND; k++) {
+        const int dx = k % 3 - 1, dy = k / 3 % 3 - 1, dz = k / 9 - 1;
+        around[k] = (cell_sum){{0}, {0}};
+        if (dy < -layers || dy > layers) continue;
+        const uint64_t code = sim->cells.code[c] + sb_cell_step(dx, dy, dz);
+        around[k] = sum_of(sim, &sim->cells, code, 0);
+        if (sim->ghosts.count > 0)
+            around[k] = plus(around[k], sum_of(sim, &sim->ghosts.cells, code, sim->cells.count));
+        bits |= (sb_i4)around[k].rest | ((sb_i4)around[k].more & (sb_i4){-1, 0, 0, 0});
+    }
+    return (bits[0] | bits[1] | bits[2] | bits[3]) != 0;
+}
+
+/* Weights of the cells before, at and after a place, which is at u from 0 to 1 in its own. */
+SB_INLINE void spline(float u, float weight[3])
+{
+    weight[0] = 0.5f * (1 - u) * (1 - u);
+    weight[2] = 0.5f * u * u;
+    weight[1] = 1 - weight[0] - weight[2];
+}
+
+SB_MULTIVERSION
+static void mean_in_cell(sb_sim *sim, size_t c, float *xx, sb_f4 *rest)
+{
+    cell_sum around[AROUND];
+    const uint32_t begin = sim->cells.begin[c], end = sim->cells.begin[c + 1];
+    const bool any = gather(sim, c, around), flat = sim->constant.dimension == 2;
+    const uint32_t inside = ((uint32_t)1 << sim->space.shift) - 1;
+    const float per_edge = 1 / ((float)inside + 1);
+    for (uint32_t i = begin; i < end; i++) {
+        float weight[3][3];
+        cell_sum sum = {{0}, {0}};
+        if (any) {
+            for (int axis = 0; axis < 3; axis++)
+                spline((float)(sim->state.position[i][axis] & inside) * per_edge, weight[axis]);
+            if (flat) weight[1][0] = weight[1][2] = 0, weight[1][1] = 1;
+            for (int k = 0; k < AROUND; k++) {
+                const sb_f4 w = sb_splat(weight[0][k % 3] * weight[1][k / 3 % 3] * weight[2][k / 9]);
+                sum = plus(sum, (cell_sum){around[k].rest * w, around[k].more * w});
+            }
+            sum.rest /= sb_splat(sum.more[1]);
+            sum.more[0] /= sum.more[1];
+        }
+        rest[i] = sum.rest;
+        xx[i] = sum.more[0];
+    }
+}
+
+void sb_cell_mean(sb_sim *sim, float *xx, sb_f4 *rest)
+{
+    sum_cells(sim, &sim->cells, rest, 0, 0);
+    sum_cells(sim, &sim->ghosts.cells, rest, sim->state.n, sim->cells.count);
+    const size_t cells = sim->cells.count;
+#pragma omp parallel for schedule(dynamic, 64)
+    for (size_t c = 0; c < cells; c++) mean_in_cell(sim, c, xx, rest);
+}
