@@ -58,7 +58,7 @@ static bool square_to_all(const sb_near *near, uint32_t path, size_t a)
 }
 
 /* Notes an image. Returns false if there are too many. */
-static bool add_image(const gatherer *g, uint32_t source, const route *to, bool whole)
+static bool add_image(const gatherer *g, uint32_t source, const route *to, bool whole, float above)
 {
     sb_vicinity *v = g->v;
     const size_t k = v->images, c = v->count + k;
@@ -68,6 +68,7 @@ static bool add_image(const gatherer *g, uint32_t source, const route *to, bool 
     g->images->source[k] = source;
     g->images->path[k] = to->path;
     g->images->whole[k] = whole;
+    g->images->above[k] = above;
     g->images->angles[k] = SB_ANGLES_UNKNOWN;
     v->images++;
     return true;
@@ -95,7 +96,7 @@ static void reflect_all(gatherer *g, uint32_t source, size_t s, const route *fro
                           .beyond = from->beyond || of->beyond[a][s]};
         /* Further reflections take an image farther away. */
         if (!within(&g->cull->box, g->cull->support, to.at)) continue;
-        if (!(to.square && to.beyond) && !add_image(g, source, &to, from->depth == 0 && of->whole[a][s])) {
+        if (!(to.square && to.beyond) && !add_image(g, source, &to, from->depth == 0 && of->whole[a][s], above)) {
             g->full = true;
             return;
         }
@@ -171,6 +172,7 @@ static void drop_edges(const sb_sim *sim, const sb_vicinity *v, const sb_box *bo
     near->edge_count = kept;
 }
 
+SB_MULTIVERSION
 bool sb_images_gather(const sb_sim *sim, const sb_group *group, sb_vicinity *v, sb_images_around *images)
 {
     sb_f4 low, high;
@@ -238,6 +240,7 @@ static uint32_t number_images(const sb_sim *sim, const sb_group *group, const sb
     return used;
 }
 
+SB_MULTIVERSION
 void sb_list_images(const sb_sim *sim, sb_list_builder *lists, const sb_vicinity *v, sb_images_around *images,
                     sb_group *group)
 {
@@ -259,7 +262,9 @@ void sb_list_images(const sb_sim *sim, sb_list_builder *lists, const sb_vicinity
         const uint32_t source = images->source[k];
         if (source < before) run = before = 0;
         while (source >= before + v->run[run].count) before += v->run[run++].count;
-        lists->image[lists->images++] = (sb_image){v->run[run].begin + source - before, images->path[k]};
+        const sb_f4 at = v->place[v->count + k];
+        lists->image[lists->images++] =
+            (sb_image){{at[0], at[1], at[2]}, v->run[run].begin + source - before, images->path[k]};
     }
     for (size_t p = 0; p < planes; p++)
         lists->plane[lists->planes++] = (sb_group_plane){images->near.facet[p].plane, images->near.facet[p].mirror};

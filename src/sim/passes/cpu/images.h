@@ -35,8 +35,8 @@ typedef struct sb_images_around {
     uint32_t source[SB_AROUND_MAX + SB_HIT_SPARE];
     uint32_t path[SB_AROUND_MAX + SB_HIT_SPARE];
     bool whole[SB_AROUND_MAX + SB_HIT_SPARE]; /* one reflection, with no edge near its paths */
-    /* Of an image by one reflection: the original's distance before the facet, the edge of the facet that it is
-       farthest beyond or nearest to, and where its positions about the facet's edges begin; known when needed. */
+    /* Of an image by one reflection: the original's distance before the facet; and, known when needed, the edge of the
+       facet that it is farthest beyond or nearest to, and where its positions about the facet's edges begin. */
     float above[SB_AROUND_MAX + SB_HIT_SPARE];
     uint32_t edge[SB_AROUND_MAX + SB_HIT_SPARE], angles[SB_AROUND_MAX + SB_HIT_SPARE];
     size_t angle_count;

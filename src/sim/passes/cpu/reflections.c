@@ -20,25 +20,25 @@ static uint32_t entry_of(const sb_vicinity *v, uint32_t candidate)
     return v->run[run].begin + candidate - before;
 }
 
-/* Whether a candidate is a hit of the present particle. */
-static bool is_hit(const sb_searcher *w, uint32_t candidate)
-{
-    const uint32_t hit = w->hit_of[candidate];
-    return hit < w->hits.count && w->hits.candidate[hit] == candidate;
-}
-
-/* Gives the weight 0 to images whose originals are not within the support radius: paths round an edge, with one end
-   behind the facet, can be shorter than the straight line. Returns whether the particle has images of itself. */
-static bool require_originals(sb_searcher *w, uint32_t self)
+/* Finds the hits of the originals, and gives the weight 0 to images whose originals are not within the support radius:
+   paths round an edge, with one end behind the facet, can be shorter than the straight line. The particle itself counts
+   as the hit after the last. Returns whether it has images of itself. */
+SB_INLINE bool find_originals(sb_searcher *w, uint32_t self)
 {
     sb_hits *h = &w->reflected;
-    bool own = false;
+    const uint32_t count = (uint32_t)w->hits.count, records = (uint32_t)w->vicinity.count;
+    const uint32_t *source = w->images.source, *hit_of = w->hit_of, *candidate = w->hits.candidate;
+    uint32_t *original = w->original;
+    uint32_t own = 0;
     for (size_t k = 0; k < h->count; k++) {
-        const uint32_t source = w->images.source[h->candidate[k] - w->vicinity.count];
-        own |= source == self;
-        h->root[k] = source == self || is_hit(w, source) ? 1 : 0;
+        const uint32_t from = source[h->candidate[k] - records], noted = hit_of[from];
+        const uint32_t hit = noted < count ? noted : 0;
+        const bool is_own = from == self;
+        original[k] = is_own ? count : hit;
+        h->root[k] = is_own || (noted < count && candidate[hit] == from) ? 1 : 0;
+        own |= is_own;
     }
-    return own;
+    return own != 0;
 }
 
 /* Adds a pair at an edge: vectors in kg/m^4. Pairs with the same particle by facets of the same body are one: where
@@ -70,6 +70,14 @@ static void clear_edges(sb_searcher *w)
     for (size_t k = 0; k < w->hits.count; k++) w->edge_of[k] = SIZE_MAX;
 }
 
+/* Adds to the force on a hit by the pressure of the present particle. */
+SB_INLINE void add_force(sb_searcher *w, uint32_t hit, sb_f4 force)
+{
+    w->force_x[hit] += force[0];
+    w->force_y[hit] += force[1];
+    w->force_z[hit] += force[2];
+}
+
 /* Completes the pairs at edges of a particle, and sums them. */
 static void close_edges(const sb_sim *sim, sb_searcher *w, sb_list_builder *lists, uint32_t self, sb_reflections *r)
 {
@@ -83,7 +91,7 @@ static void close_edges(const sb_sim *sim, sb_searcher *w, sb_list_builder *list
         if (e.entry == self)
             r->doubled += e.other;
         else
-            w->force[hit] += e.other;
+            add_force(w, hit, e.other);
         e.entry = entry_of(&w->vicinity, e.entry);
         lists->edge[kept++] = e;
     }
@@ -155,14 +163,17 @@ SB_INLINE sb_f4 normal_part(const sb_near *near, uint32_t path, sb_f4 a)
 }
 
 /* Removes the hits whose paths have no weight, and weighs the others. Returns the sum of their values. */
-static float take_weights(sb_hits *h, uint32_t pad)
+SB_INLINE float take_weights(sb_searcher *w, uint32_t pad)
 {
+    sb_hits *h = &w->reflected;
+    uint32_t *original = w->original;
     size_t kept = 0;
     float value = 0;
     for (size_t k = 0; k < h->count; k++) {
         const float weight = h->root[k];
         h->x[kept] = h->x[k], h->y[kept] = h->y[k], h->z[kept] = h->z[k];
         h->candidate[kept] = h->candidate[k];
+        original[kept] = original[k];
         h->slope[kept] = h->slope[k] * weight;
         value += h->value[k] * weight;
         kept += weight != 0;
@@ -177,9 +188,8 @@ static float take_weights(sb_hits *h, uint32_t pad)
 }
 
 /* A vector at an image, reflected back to its original. */
-SB_INLINE sb_f4 reflect_back(const sb_near *near, uint32_t path, sb_f4 v)
+static sb_f4 reflect_back(const sb_near *near, uint32_t path, sb_f4 v)
 {
-    if (path <= SB_REFLECTION_MASK) return sb_reflect_vector(near->facet[path - 1].plane, v);
     for (int n = SB_REFLECTIONS_MAX; n-- > 0;) {
         const uint32_t plane = path >> (SB_REFLECTION_BITS * n) & SB_REFLECTION_MASK;
         if (plane) v = sb_reflect_vector(near->facet[plane - 1].plane, v);
@@ -187,39 +197,102 @@ SB_INLINE sb_f4 reflect_back(const sb_near *near, uint32_t path, sb_f4 v)
     return v;
 }
 
-/* Adds the hits of images. The forces on neighbours by the pressure of i are summed by neighbour. */
-static void reflected_sums(const sb_sim *sim, sb_searcher *w, sb_f4 self_place, uint32_t self, sb_reflections *r)
+/* Where the particle's own images by one reflection are. */
+SB_INLINE void reflect_self(sb_searcher *w, sb_f4 self)
+{
+    const sb_near *near = &w->images.near;
+    for (size_t a = 0; a < near->count; a++) w->own[a] = (sb_own_image){sb_reflect(near->facet[a].plane, self), 0, 0};
+}
+
+/* Adds a hit by several reflections. Returns the force on the original by the pressure of the particle. */
+static sb_f4 several_reflections(const sb_sim *sim, const sb_searcher *w, uint32_t image, float fall, sb_f4 gradient,
+                                 sb_reflections *r)
+{
+    const uint32_t path = w->images.path[image];
+    if (fall != 0) r->push -= normal_part(&w->images.near, path, gradient * sb_splat(sb_hydrostatic(sim) * fall));
+    return reflect_back(&w->images.near, path, -gradient);
+}
+
+/* Adds the hits of images. The forces on neighbours by the pressure of i are summed by neighbour. By one reflection at
+   a plane with the normal n, at distances h before it, n . (x_i - x_image) is h_i + h_j, the image is 2 n_z h_j lower
+   than its original, and the vector to x_i reflected back to the original is R x_i - x_j. */
+SB_INLINE void reflected_sums(const sb_sim *sim, sb_searcher *w, sb_f4 self_place, sb_reflections *r)
 {
     const sb_hits *h = &w->reflected;
     const sb_near *near = &w->images.near;
-    const float unit = sim->work.pairs.unit, hydrostatic = sb_hydrostatic(sim);
-    sb_f4 sum = r->gradient, push = r->push;
+    const sb_f4 *place = w->vicinity.place;
+    const float unit = sim->work.pairs.unit;
+    const uint32_t self = (uint32_t)w->hits.count;
+    sb_f4 sum = r->gradient, doubled = r->doubled;
+    reflect_self(w, self_place);
     for (size_t k = 0; k < h->count; k++) {
-        const uint32_t image = h->candidate[k] - (uint32_t)w->vicinity.count;
+        const uint32_t image = h->candidate[k] - (uint32_t)w->vicinity.count, hit = w->original[k];
         const uint32_t source = w->images.source[image], path = w->images.path[image];
-        const sb_f4 offset = self_place - w->vicinity.place[h->candidate[k]];
-        const sb_f4 gradient = offset * sb_splat(h->slope[k] * unit);
+        const float slope = h->slope[k] * unit;
+        const sb_f4 gradient = (self_place - place[h->candidate[k]]) * sb_splat(slope);
+        sb_f4 force;
         sum += gradient;
-        if (source == self)
-            r->doubled += gradient;
+        if (path <= SB_REFLECTION_MASK) {
+            sb_own_image *own = &w->own[path - 1];
+            const float above = w->images.above[image], part = slope * above;
+            own->once += part;
+            own->twice += part * above;
+            force = (place[source] - own->place) * sb_splat(slope);
+        } else
+            force = several_reflections(sim, w, image, place[source][2] - place[h->candidate[k]][2], gradient, r);
+        if (hit == self)
+            doubled += gradient;
         else
-            w->force[w->hit_of[source]] += reflect_back(near, path, -gradient);
-        const float head = w->vicinity.place[source][2] - (self_place[2] - offset[2]);
-        if (head != 0) push -= normal_part(near, path, gradient * sb_splat(hydrostatic * head));
-        if (near->moves) r->flux += sb_sum3(gradient * image_velocity(near, path));
+            add_force(w, hit, force);
+    }
+    for (size_t a = 0; a < near->count; a++) {
+        const sb_f4 plane = near->facet[a].plane;
+        const float above = sb_before_facet(&near->facet[a], self_place);
+        const float along = 2 * plane[2] * sb_hydrostatic(sim) * (above * w->own[a].once + w->own[a].twice);
+        r->push -= plane * (sb_f4){along, along, along, 0};
     }
     r->gradient = sum;
-    r->push = push;
+    r->doubled = doubled;
 }
 
-/* Notes the hits of particles, and the force on each by the pressure of the present particle. */
-static void note_direct(sb_searcher *w, sb_f4 self, float unit)
+/* The density that walls in motion push into the particle, by images. */
+static float moving_flux(const sb_sim *sim, const sb_searcher *w, sb_f4 self)
+{
+    const sb_hits *h = &w->reflected;
+    float flux = 0;
+    for (size_t k = 0; k < h->count; k++) {
+        const sb_f4 gradient = (self - w->vicinity.place[h->candidate[k]]) * sb_splat(h->slope[k]);
+        const uint32_t path = w->images.path[h->candidate[k] - w->vicinity.count];
+        flux += sb_sum3(gradient * image_velocity(&w->images.near, path));
+    }
+    return flux * sim->work.pairs.unit;
+}
+
+/* Notes the hits of particles, and the force on each by the pressure of the present particle. Lanes beyond the last hit
+   have no force. */
+SB_INLINE void note_direct(sb_searcher *w, float unit)
 {
     const sb_hits *h = &w->hits;
-    for (size_t k = 0; k < h->count; k++) {
-        w->hit_of[h->candidate[k]] = (uint32_t)k;
-        w->force[k] = (self - w->vicinity.place[h->candidate[k]]) * sb_splat(-unit * h->slope[k] * h->root[k]);
+    for (size_t k = 0; k < h->count; k++) w->hit_of[h->candidate[k]] = (uint32_t)k;
+#pragma omp simd
+    for (size_t k = 0; k < h->padded; k++) {
+        const float slope = -unit * h->slope[k] * h->root[k];
+        w->force_x[k] = slope * h->x[k];
+        w->force_y[k] = slope * h->y[k];
+        w->force_z[k] = slope * h->z[k];
     }
+}
+
+/* Sum of the squares of the forces on hits. */
+SB_INLINE float square_forces(const sb_searcher *w)
+{
+    sb_f8 sum = {0};
+    for (size_t k = 0; k < w->hits.padded; k += SB_HIT_LANES) {
+        const sb_f8 x = *(const sb_f8 *)(w->force_x + k), y = *(const sb_f8 *)(w->force_y + k);
+        const sb_f8 z = *(const sb_f8 *)(w->force_z + k);
+        sum += x * x + y * y + z * z;
+    }
+    return sb_sum8(&sum);
 }
 
 /* Walls that hide nothing leave all weights at 1. */
@@ -231,6 +304,7 @@ static void weigh_direct(sb_hits *h)
     }
 }
 
+SB_MULTIVERSION
 sb_reflections sb_search_images(const sb_sim *sim, sb_searcher *w, sb_list_builder *lists, sb_f4 self,
                                 uint32_t candidate)
 {
@@ -240,11 +314,11 @@ sb_reflections sb_search_images(const sb_sim *sim, sb_searcher *w, sb_list_build
     sb_hits *h = &w->hits, *r = &w->reflected;
     sb_reflections sums = {0};
     w->edges = lists->edges;
-    note_direct(w, self, sim->constant.mass * w->slope_scale);
+    note_direct(w, sim->constant.mass * w->slope_scale);
     const size_t direct = w->images.slopes;
     sb_search_hits(w, r, &(sb_candidates){v->x, v->y, v->z, v->place}, range, ranges, self, UINT32_MAX, candidate);
     w->batch(w->kernel, r->q2, r->padded, r->value, r->slope);
-    const bool own = require_originals(w, candidate);
+    const bool own = find_originals(w, candidate);
     sb_images_weigh(sim, v, &w->images, self, r);
     if (own || w->images.slopes > 0) {
         clear_edges(w);
@@ -253,13 +327,12 @@ sb_reflections sb_search_images(const sb_sim *sim, sb_searcher *w, sb_list_build
         add_edges(sim, w, lists, candidate, direct, w->images.slopes, r, &sums);
         close_edges(sim, w, lists, candidate, &sums);
     }
-    sums.density = sim->constant.mass * w->value_scale * take_weights(r, candidate);
+    sums.density = sim->constant.mass * w->value_scale * take_weights(w, candidate);
     if (r->count >= SB_LIST_MAX) w->full |= SB_FULL_LIST;
     sb_round_slopes(r->slope, r->root, r->padded, w->to_units);
-    reflected_sums(sim, w, self, candidate, &sums);
-    float squares = 0;
-    for (size_t k = 0; k < h->count; k++) squares += sb_sum3(w->force[k] * w->force[k]);
+    reflected_sums(sim, w, self, &sums);
+    if (w->images.near.moves) sums.flux += moving_flux(sim, w, self);
+    sums.squares = square_forces(w);
     if (!w->images.near.simple) weigh_direct(h);
-    sums.squares = squares;
     return sums;
 }

@@ -18,12 +18,22 @@ typedef struct sb_surroundings {
     uint32_t index[SB_WALLS_AROUND_MAX];
 } sb_surroundings;
 
+/* The present particle's image by one reflection at a facet, and sums over its hits of such images: of the slopes times
+   the originals' distances before the facet, and times their squares. */
+typedef struct sb_own_image {
+    sb_f4 place;
+    float once, twice;
+} sb_own_image;
+
 typedef struct sb_searcher {
     sb_vicinity vicinity;
     sb_surroundings wall;
     sb_hits hits, reflected;
     sb_images_around images;
-    sb_f4 force[SB_HITS_MAX]; /* on each hit, by the pressure of the present particle */
+    /* On each hit, by the pressure of the present particle; aligned like the hits. */
+    float force_x[SB_HITS_MAX + SB_HIT_SPARE], force_y[SB_HITS_MAX + SB_HIT_SPARE], force_z[SB_HITS_MAX + SB_HIT_SPARE];
+    uint32_t original[SB_HITS_MAX + SB_HIT_SPARE];               /* of each hit of images: the hit of the original */
+    sb_own_image own[SB_NEAR_MAX];                               /* by facet */
     size_t edges, edge_own, edge_of[SB_HITS_MAX + SB_HIT_SPARE]; /* pairs at edges of the present particle: the first,
                                                                     and those with itself and with each hit */
     uint32_t hit_of[SB_AROUND_MAX]; /* candidate -> its hit; valid where that hit is this candidate */

@@ -76,7 +76,6 @@ SB_INLINE sb_other_end other_end(sb_images_around *of, size_t image, size_t a, s
     if (of->angles[image] == SB_ANGLES_UNKNOWN) {
         if (of->angle_count + f->edges > SB_HALF_ANGLES_MAX) of->angle_count = forget_angles(of);
         of->angles[image] = (uint32_t)of->angle_count;
-        of->above[image] = sb_before_facet(f, source);
         of->edge[image] = sb_about_edges(near, f, source, of->above[image], of->angle + of->angle_count);
         of->angle_count += f->edges;
     }
@@ -101,6 +100,7 @@ static void weigh_single(sb_images_around *images, const sb_weigher *w, uint32_t
     set_weight(images, &all, hits, k, false);
 }
 
+SB_MULTIVERSION
 void sb_images_weigh(const sb_sim *sim, const sb_vicinity *v, sb_images_around *images, sb_f4 self, sb_hits *hits)
 {
     const sb_near *near = &images->near;
@@ -125,11 +125,12 @@ void sb_images_weigh(const sb_sim *sim, const sb_vicinity *v, sb_images_around *
     }
 }
 
+SB_MULTIVERSION
 void sb_images_weigh_direct(const sb_sim *sim, sb_images_around *images, sb_f4 self, sb_hits *hits)
 {
     const sb_near *near = &images->near;
     images->slopes = 0;
-    for (size_t k = 0; k < hits->count; k++) hits->root[k] = 1;
+    for (size_t k = 0; k < hits->padded; k++) hits->root[k] = 1;
     if (near->simple && near->edge_count == 0) return;
     const sb_weigher w = weigher_of(sim, images, self);
     stand(&w);
