@@ -91,7 +91,7 @@ static void what_is_left_out_has_no_weight(void **state)
         const bool any = sb_cull_sources(&near, &cull, &sources);
         for (size_t s = 0; s < sources.count; s++) {
             const sb_f4 source = {x[s], y[s], z[s], 0};
-            const bool none = !any || sources.none[s];
+            const bool none = !any || sources.apart[0][s] || sources.beyond[0][s];
             for (int p = 0; p < PARTICLES; p++) {
                 const sb_f4 self = particle(low, high);
                 const sb_f4 path = self - sb_reflect(near.facet[0].plane, source), way = self - source;

@@ -128,7 +128,6 @@ static bool find_near(const sb_cull *cull, sb_sources *of)
         const sb_f8 far2 = from_box2(&cull->box, eight_of(of->x + s), eight_of(of->y + s), eight_of(of->z + s));
         const sb_i8 near = (far2 < support2) & (lanes < (int32_t)(of->count - s));
         *(sb_i8 *)(of->near + s) = near;
-        *(sb_i8 *)(of->none + s) = ~(sb_i8){0};
         any |= near;
     }
     int32_t all = 0;
@@ -170,14 +169,6 @@ static void at_facet(const sb_near_facet *f, const sb_cull *cull, size_t facet, 
     widen(of, facet, lowest, highest);
 }
 
-SB_MULTIVERSION
-static void find_none(sb_sources *of, size_t facet, bool always)
-{
-    const sb_i8 counts = {-!always, -!always, -!always, -!always, -!always, -!always, -!always, -!always};
-    for (size_t s = 0; s < padded(of); s += SB_SOURCE_LANES)
-        *(sb_i8 *)(of->none + s) &= *(sb_i8 *)(of->apart[facet] + s) | (*(sb_i8 *)(of->beyond[facet] + s) & counts);
-}
-
 /* Whether all of a cell is farther from the facet's plane than the support radius; then no image is near. */
 static bool far_from(const sb_near_facet *f, const sb_cull *cull, size_t facet, sb_sources *of)
 {
@@ -199,7 +190,6 @@ bool sb_cull_sources(const sb_near *near, const sb_cull *cull, sb_sources *of)
         any = true;
         at_facet(&near->facet[a], cull, a, of);
         if (near->facet[a].edges > 0) at_edges(near, cull, a, of);
-        find_none(of, a, near->skew);
     }
     return any;
 }

@@ -124,9 +124,9 @@ static void repel(const sb_sim *sim, sb_searcher *w, sb_list_builder *lists, uin
     const float end = sim->constant.spacing / sim->constant.support;
     const float top = REPULSION * (float)w->kernel->shape(0);
     for (size_t k = 0; k < h->count; k++) {
-        const uint32_t image = h->candidate[k] - (uint32_t)w->vicinity.count, path = w->images.path[image];
-        if (w->images.source[image] != self || h->q2[k] >= end * end || path > SB_REFLECTION_MASK || h->root[k] == 0)
-            continue;
+        if (w->original[k] != w->hits.count || h->q2[k] >= end * end || h->root[k] == 0) continue;
+        const uint32_t path = w->images.path[h->candidate[k] - w->vicinity.count];
+        if (path > SB_REFLECTION_MASK) continue;
         const float q = sqrtf(h->q2[k]) + 1e-6f, left = 1 - q / end;
         const float slope = -top * left / (end * q) * sim->constant.mass * w->slope_scale * h->root[k];
         const sb_f4 push = (sb_f4){h->x[k], h->y[k], h->z[k], 0} * sb_splat(slope);
@@ -323,7 +323,7 @@ sb_reflections sb_search_images(const sb_sim *sim, sb_searcher *w, sb_list_build
     if (own || w->images.slopes > 0) {
         clear_edges(w);
         add_edges(sim, w, lists, candidate, 0, direct, h, &sums);
-        repel(sim, w, lists, candidate, &sums);
+        if (own) repel(sim, w, lists, candidate, &sums);
         add_edges(sim, w, lists, candidate, direct, w->images.slopes, r, &sums);
         close_edges(sim, w, lists, candidate, &sums);
     }
@@ -334,5 +334,6 @@ sb_reflections sb_search_images(const sb_sim *sim, sb_searcher *w, sb_list_build
     if (w->images.near.moves) sums.flux += moving_flux(sim, w, self);
     sums.squares = square_forces(w);
     if (!w->images.near.simple) weigh_direct(h);
+    sb_images_number(v, &w->images, r);
     return sums;
 }

@@ -206,7 +206,7 @@ unsigned sb_search_group(sb_sim *sim, void *of, sb_list_builder *lists, sb_group
     if (sim->needs.images && !sb_images_gather(sim, group, &w->vicinity, &w->images)) return SB_FULL_FACETS;
     sb_list_runs(lists, &w->vicinity, group);
     search_group(sim, w, lists, group);
-    sb_list_images(sim, lists, &w->vicinity, &w->images, group);
+    sb_list_images(lists, &w->vicinity, &w->images, group);
     return w->full;
 }
 
