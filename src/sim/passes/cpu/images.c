@@ -136,16 +136,17 @@ static void find_box(const sb_sim *sim, const sb_group *group, sb_f4 *low, sb_f4
     }
 }
 
-/* The images of candidates [begin, end), which are in one cell. */
-static void reflect_cell(gatherer *g, uint32_t begin, uint32_t end)
+/* The images of all candidates. */
+static void reflect_candidates(gatherer *g)
 {
     const sb_vicinity *v = g->v;
     sb_sources *of = g->sources;
-    for (; begin < end; begin += (uint32_t)of->count) {
-        of->count = end - begin < SB_SOURCES_MAX ? end - begin : SB_SOURCES_MAX;
+    for (size_t begin = 0; begin < v->count; begin += of->count) {
+        of->count = v->count - begin < SB_SOURCES_MAX ? v->count - begin : SB_SOURCES_MAX;
         of->x = v->x + begin, of->y = v->y + begin, of->z = v->z + begin;
         if (!sb_cull_sources(g->near, g->cull, of)) continue;
-        for (size_t a = 0; a < g->near->count; a++) reflect_at(g, begin, a);
+        for (size_t a = 0; a < g->near->count; a++)
+            if (of->any[a]) reflect_at(g, (uint32_t)begin, a);
     }
 }
 
@@ -209,18 +210,7 @@ bool sb_images_gather(const sb_sim *sim, const sb_group *group, sb_vicinity *v, 
     gatherer g = {v, near, images, &images->cull, &images->sources, false};
     sb_cull_begin(sim, near, low, high, g.cull);
     for (size_t a = 0; a < near->count; a++) g.sources->lowest[a] = INFINITY, g.sources->highest[a] = -INFINITY;
-    uint32_t *start = v->start[SB_VICINITY_IMAGES];
-    const size_t cells = (size_t)v->cells[0] * v->cells[1] * v->cells[2];
-    const float edge = (float)((int32_t)1 << sim->space.shift);
-    g.sources->half = 0.5f * edge;
-    for (size_t cell = 0; cell < cells; cell++) {
-        const float x = (float)(cell % v->cells[0]), y = (float)(cell / v->cells[0] % v->cells[1]);
-        const float z = (float)(cell / v->cells[0] / v->cells[1]);
-        g.sources->middle = ((sb_f4){x, y, z, 0} + sb_splat(0.5f)) * sb_splat(edge);
-        start[cell] = (uint32_t)(v->count + v->images);
-        for (size_t part = 0; part < v->parts; part++) reflect_cell(&g, v->start[part][cell], v->start[part][cell + 1]);
-    }
-    start[cells] = (uint32_t)(v->count + v->images);
+    reflect_candidates(&g);
     find_parts(&g, margin);
     return !g.full;
 }
@@ -241,8 +231,7 @@ void sb_images_number(const sb_vicinity *v, sb_images_around *images, sb_hits *h
 }
 
 SB_MULTIVERSION
-void sb_list_images(sb_list_builder *lists, const sb_vicinity *v, sb_images_around *images,
-                    sb_group *group)
+void sb_list_images(sb_list_builder *lists, const sb_vicinity *v, sb_images_around *images, sb_group *group)
 {
     group->image = (uint32_t)lists->images;
     group->plane = (uint32_t)lists->planes;

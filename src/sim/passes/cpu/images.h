@@ -45,8 +45,8 @@ typedef struct sb_images_around {
     uint64_t parts;                                /* the facets with water on both sides */
     /* The images that lists refer to, in the order of their first use, and the number of each; UINT32_MAX: none. */
     uint32_t used, listed[SB_AROUND_MAX + SB_HIT_SPARE], number[SB_AROUND_MAX + SB_HIT_SPARE];
-    sb_standing standing;                          /* of the present particle */
-    size_t slopes;                                 /* of the present particle; above SB_WEIGHT_SLOPES_MAX: too many */
+    sb_standing standing; /* of the present particle */
+    size_t slopes;        /* of the present particle; above SB_WEIGHT_SLOPES_MAX: too many */
     sb_weight_slope slope[SB_WEIGHT_SLOPES_MAX];
 } sb_images_around;
 
@@ -63,7 +63,6 @@ void sb_images_weigh_direct(const sb_sim *sim, sb_images_around *images, sb_f4 s
 void sb_images_number(const sb_vicinity *v, sb_images_around *images, sb_hits *hits);
 
 /* Appends those images that the lists of the group refer to, and their planes. */
-void sb_list_images(sb_list_builder *lists, const sb_vicinity *v, sb_images_around *images,
-                    sb_group *group);
+void sb_list_images(sb_list_builder *lists, const sb_vicinity *v, sb_images_around *images, sb_group *group);
 
 #endif

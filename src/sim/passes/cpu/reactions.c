@@ -30,8 +30,8 @@ static void react_several(const sb_sim *sim, const sb_group *group, const sb_ima
     sb_reactions_normal(reactions, planes, image->path, pull * sb_splat(sb_hydrostatic(sim) * (from[2] - place[2])));
 }
 
-/* The force of a pair with an image by one reflection is along the plane's normal the sum of both ends' distances before
-   the plane, times a factor. */
+/* The force of a pair with an image by one reflection is along the plane's normal the sum of both ends' distances
+   before the plane, times a factor. */
 static void react_reflected(const sb_sim *sim, const sb_group *group, uint32_t records, const sb_pull *pulls, size_t i,
                             sb_reactions *reactions)
 {
@@ -66,8 +66,8 @@ void sb_react_images(const sb_sim *sim, const sb_group *group, uint32_t records,
     for (uint32_t k = 0; k < sim->work.edge_pairs.count[i]; k++) {
         const sb_edge_pair *e = &sim->work.edge_pairs.pair[sim->work.edge_pairs.first[i] + k];
         const double q = (double)sim->work.unknown[i] + (double)sim->work.unknown[sb_entry_owner(sim, e->entry)];
-        const sb_vec3 force = sb_vec(mass * q * (double)e->own[0], mass * q * (double)e->own[1],
-                                     mass * q * (double)e->own[2]);
+        const sb_vec3 force =
+            sb_vec(mass * q * (double)e->own[0], mass * q * (double)e->own[1], mass * q * (double)e->own[2]);
         sb_body_forces_of_facet(sim, to, e->mirror, at, force, (sb_vec3){0});
     }
 }

@@ -309,14 +309,13 @@ sb_reflections sb_search_images(const sb_sim *sim, sb_searcher *w, sb_list_build
                                 uint32_t candidate)
 {
     const sb_vicinity *v = &w->vicinity;
-    sb_candidate_range range[SB_VICINITY_ROWS];
-    const size_t ranges = sb_vicinity_candidates(sim, v, SB_VICINITY_IMAGES, SB_VICINITY_IMAGES + 1, self, range);
+    const sb_candidate_range all = {(uint32_t)v->count, (uint32_t)(v->count + v->images)};
     sb_hits *h = &w->hits, *r = &w->reflected;
     sb_reflections sums = {0};
     w->edges = lists->edges;
     note_direct(w, sim->constant.mass * w->slope_scale);
     const size_t direct = w->images.slopes;
-    sb_search_hits(w, r, &(sb_candidates){v->x, v->y, v->z, v->place}, range, ranges, self, UINT32_MAX, candidate);
+    sb_search_hits(w, r, &(sb_candidates){v->x, v->y, v->z, v->place}, &all, 1, self, UINT32_MAX, candidate);
     w->batch(w->kernel, r->q2, r->padded, r->value, r->slope);
     const bool own = find_originals(w, candidate);
     sb_images_weigh(sim, v, &w->images, self, r);

@@ -1,5 +1,5 @@
-/* Edges at which the weights of paths are in transition, many at a time: those of one particle's paths by one reflection
-   that have a single such edge, which are most. */
+/* Edges at which the weights of paths are in transition, many at a time: those of one particle's paths by one
+   reflection that have a single such edge, which are most. */
 #ifndef SB_SIM_CPU_SOFT_EDGES_H
 #define SB_SIM_CPU_SOFT_EDGES_H
 

@@ -63,8 +63,8 @@ SB_INLINE sb_other_end other_end(sb_images_around *of, size_t image, size_t a, s
     return (sb_other_end){of->above[image], of->edge[image], of->angle + of->angles[image]};
 }
 
-/* Whether the weight of a reflection at facet a between two ends before it is plainly 0 or 1, or that of one edge, which
-   is then noted: most are. apart: no facet hides the path; else only 0 is plain. */
+/* Whether the weight of a reflection at facet a between two ends before it is plainly 0 or 1, or that of one edge,
+   which is then noted: most are. apart: no facet hides the path; else only 0 is plain. */
 SB_INLINE bool plain(const sb_weigher *w, size_t a, const sb_half_angle *other, bool apart, sb_hits *hits, size_t k,
                      sb_soft_edges *soft)
 {
