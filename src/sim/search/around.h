@@ -134,10 +134,15 @@ SB_INLINE void sb_around_vectors(const sb_sim *sim, const sb_group *group, const
     }
 }
 
-/* The same for tensors in the form of sb_reflect_tensor. */
-SB_INLINE void sb_around_tensors(const sb_sim *sim, const sb_group *group, const sb_f4 *field, sb_f4 *out)
+/* The same for tensors in the form of sb_reflect_tensor. Returns false, without images, if all tensors are 0, as in
+   shallow water. */
+SB_INLINE bool sb_around_tensors(const sb_sim *sim, const sb_group *group, const sb_f4 *field, sb_f4 *out)
 {
+    const sb_f4 *record = out;
+    sb_i4 bits = {0};
     out = sb_around_with(sim, group, field, out);
+    for (; record < out; record += 2) bits |= ((sb_i4)record[0] & (sb_i4){0, 0, 0, -1}) | (sb_i4)record[1];
+    if ((bits[0] | bits[1] | bits[2] | bits[3]) == 0) return false;
     const sb_image *image = sim->groups.image + group->image;
     const sb_group_plane *planes = sim->groups.plane + group->plane;
     for (uint32_t k = 0; k < group->images; k++, out += 2) {
@@ -146,6 +151,7 @@ SB_INLINE void sb_around_tensors(const sb_sim *sim, const sb_group *group, const
         for (uint32_t path = image[k].path; path; path >>= SB_REFLECTION_BITS)
             sb_reflect_tensor(sb_path_plane(planes, path), &out[0], &out[1]);
     }
+    return true;
 }
 
 /* Puts another field's values into the last lanes of the values that sb_around_with copied. */

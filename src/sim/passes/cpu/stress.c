@@ -54,16 +54,6 @@ static void find_strain(sb_sim *sim, const sb_group *group, const void *argument
     }
 }
 
-/* Whether any of the tensors that sb_around_with copied is not 0. In shallow water and beside walls all are 0. */
-SB_INLINE bool any_around(const sb_sim *sim, const sb_group *group, const sb_f4 *around)
-{
-    const uint32_t count = sb_around_count(sim, group);
-    sb_i4 bits = {0};
-    for (uint32_t k = 0; k < count; k++)
-        bits |= ((sb_i4)around[2 * k] & (sb_i4){0, 0, 0, -1}) | (sb_i4)around[2 * k + 1];
-    return (bits[0] | bits[1] | bits[2] | bits[3]) != 0;
-}
-
 /* S_i, in the same form. The weights of the mean are the slopes; the weight of the particle's
    own E_i is the slope of a coincident particle. */
 SB_MULTIVERSION
@@ -72,8 +62,7 @@ static void find_stress(sb_sim *sim, const sb_group *group, const void *argument
     (void)arguments;
     _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
     sb_f4 *stress = sim->work.stress;
-    sb_around_tensors(sim, group, sim->work.strain, around);
-    const bool any = any_around(sim, group, around);
+    const bool any = sb_around_tensors(sim, group, sim->work.strain, around);
     for (size_t i = group->first; i < group->end; i++) {
         stress[i] = (sb_f4){0};
         sim->work.stress_xx[i] = 0;
@@ -142,8 +131,8 @@ static void correct(sb_sim *sim, const sb_group *group, const void *arguments)
 {
     (void)arguments;
     _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
-    sb_around_tensors(sim, group, sim->work.stress, around);
-    correct_with(sim, group, around, any_around(sim, group, around));
+    const bool any = sb_around_tensors(sim, group, sim->work.stress, around);
+    correct_with(sim, group, around, any);
 }
 
 void sb_cpu_strain(sb_sim *sim)
@@ -196,8 +185,7 @@ SB_MULTIVERSION
 static void correct_reflected(sb_sim *sim, const sb_group *group, sb_body_forces *to)
 {
     _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
-    sb_around_tensors(sim, group, sim->work.stress, around);
-    const bool any = any_around(sim, group, around);
+    const bool any = sb_around_tensors(sim, group, sim->work.stress, around);
     correct_with(sim, group, around, any);
     if (any && group->images > 0) push_walls(sim, group, around, to);
 }
